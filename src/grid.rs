@@ -1,0 +1,103 @@
+//! The grid: points, sizes, wavevectors, and the order in which fields are stored.
+//!
+//! A field is row-major with shape `[ny, nx]`: point (ix, iy) is element `iy * nx + ix`, lies at
+//! `x = ix dx`, `y = iy dy`, and stands for the pixel around it. A half-plane spectrum keeps the
+//! wavevectors `kx = 0 ..= nx/2` and all of `ky`; the forward transform is unscaled and the
+//! inverse divides by the number of points.
+
+use std::f64::consts::PI;
+
+/// A regular grid of `nx` by `ny` points over `lx` by `ly` metres.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Grid {
+    /// Points along x.
+    pub nx: usize,
+    /// Points along y.
+    pub ny: usize,
+    /// Length along x, m.
+    pub lx: f64,
+    /// Length along y, m.
+    pub ly: f64,
+}
+
+impl Grid {
+    /// A grid of `points` = (nx, ny) over `size` = (lx, ly) in metres.
+    pub fn new(points: [usize; 2], size: [f64; 2]) -> Self {
+        Grid {
+            nx: points[0],
+            ny: points[1],
+            lx: size[0],
+            ly: size[1],
+        }
+    }
+
+    /// Number of points, nx times ny.
+    pub fn len(&self) -> usize {
+        self.nx * self.ny
+    }
+
+    /// Whether the grid has no points.
+    pub fn is_empty(&self) -> bool {
+        self.len() == 0
+    }
+
+    /// Pixel length along x, m.
+    pub fn dx(&self) -> f64 {
+        self.lx / self.nx as f64
+    }
+
+    /// Pixel length along y, m.
+    pub fn dy(&self) -> f64 {
+        self.ly / self.ny as f64
+    }
+
+    /// Area of one pixel, m^2.
+    pub fn pixel_area(&self) -> f64 {
+        self.dx() * self.dy()
+    }
+
+    /// Nominal area, m^2.
+    pub fn area(&self) -> f64 {
+        self.lx * self.ly
+    }
+
+    /// Signed wave number along x of column `kx` of a full spectrum, 1/m.
+    pub fn wavenumber_x(&self, kx: usize) -> f64 {
+        2.0 * PI / self.lx * signed_index(kx, self.nx) as f64
+    }
+
+    /// Signed wave number along y of row `ky` of a spectrum, 1/m.
+    pub fn wavenumber_y(&self, ky: usize) -> f64 {
+        2.0 * PI / self.ly * signed_index(ky, self.ny) as f64
+    }
+
+    /// Length of the wavevector (kx, ky), 1/m.
+    pub fn wavenumber(&self, kx: usize, ky: usize) -> f64 {
+        self.wavenumber_x(kx).hypot(self.wavenumber_y(ky))
+    }
+}
+
+/// Index of a discrete frequency with its sign: `k` for `k <= n/2`, `k - n` above.
+pub fn signed_index(k: usize, n: usize) -> i64 {
+    if k <= n / 2 {
+        k as i64
+    } else {
+        k as i64 - n as i64
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn wavenumbers_are_signed_and_scaled() {
+        let grid = Grid::new([8, 5], [2.0, 1.0]);
+        assert_eq!(grid.dx(), 0.25);
+        assert_eq!(grid.wavenumber_x(4), 4.0 * PI);
+        assert_eq!(grid.wavenumber_x(7), -PI);
+        assert_eq!(grid.wavenumber_y(2), 4.0 * PI);
+        assert_eq!(grid.wavenumber_y(3), -4.0 * PI);
+        assert_eq!(grid.wavenumber(7, 0), PI);
+    }
+}

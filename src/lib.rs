@@ -1,0 +1,11 @@
+//! tabor solves adhesive contact of rough surfaces as a full field: how much really touches, with
+//! what pressure where, and what force pulls the surfaces apart.
+#![warn(missing_docs)]
+
+pub mod grid;
+pub mod output;
+pub mod scene;
+pub mod study;
+pub mod surface;
+pub mod theory;
+pub mod units;

@@ -1,0 +1,5 @@
+//! Scenes: TOML in, a checked [`Scene`] out.
+
+mod types;
+
+pub use types::*;

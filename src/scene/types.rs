@@ -1,0 +1,313 @@
+//! What a scene says, in SI units, checked in itself but not yet against its surface.
+
+use std::path::PathBuf;
+
+/// A scene as its author wrote it: every value in SI units, defaults filled in.
+///
+/// An effect that the scene does not name is `None`; nothing further down the line allocates,
+/// builds or runs anything for it.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Scene {
+    /// Title, for pictures and reports.
+    pub title: Option<String>,
+    /// `[grid]`.
+    pub grid: GridScene,
+    /// `[solid]`.
+    pub solid: SolidScene,
+    /// `[[surface]]`: the heights are the sum of these parts; never empty.
+    pub surfaces: Vec<SurfacePart>,
+    /// `[adhesion]`, an effect.
+    pub adhesion: Option<AdhesionScene>,
+    /// `[loading]`.
+    pub loading: LoadingScene,
+    /// `[solver]`.
+    pub solver: SolverScene,
+    /// `[output]`.
+    pub output: OutputScene,
+    /// Folder of the scene file, against which paths in it are resolved.
+    pub folder: PathBuf,
+}
+
+/// `[grid]`: points and size may be left out where a height file carries them.
+#[derive(Clone, Debug, PartialEq)]
+pub struct GridScene {
+    /// Points along x and y.
+    pub points: Option<[usize; 2]>,
+    /// Size along x and y, m.
+    pub size: Option<[f64; 2]>,
+    /// What lies beyond the edge.
+    pub boundary: Boundary,
+}
+
+/// What lies beyond the edge of the grid.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Boundary {
+    /// The cell repeats.
+    Periodic,
+    /// One isolated contact on an unbounded half-space (an effect).
+    Free,
+}
+
+/// `[solid]`: the elastic half-space.
+#[derive(Clone, Debug, PartialEq)]
+pub struct SolidScene {
+    /// Contact modulus E*, Pa, with the counter-face's share where one is given.
+    pub contact_modulus: f64,
+    /// Poisson ratio of the solid, if the scene gives one.
+    pub poisson_ratio: Option<f64>,
+}
+
+/// One `[[surface]]` part.
+#[derive(Clone, Debug, PartialEq)]
+pub enum SurfacePart {
+    /// Self-affine roughness with a roll-off and a cut-off.
+    SelfAffine(SelfAffineScene),
+    /// Paraboloid `-r^2/(2 radius)`.
+    Sphere {
+        /// Radius of curvature, m.
+        radius: f64,
+        /// Apex (x, y), m; `None` is the middle of the grid.
+        centre: Option<[f64; 2]>,
+    },
+    /// Cone `-r / tan(half_angle)`.
+    Cone {
+        /// Angle between axis and flank, rad.
+        half_angle: f64,
+        /// Apex (x, y), m; `None` is the middle of the grid.
+        centre: Option<[f64; 2]>,
+    },
+    /// `amplitude cos(2 pi x / wavelength_x) cos(2 pi y / wavelength_y)`; an infinite wavelength gives 1.
+    Wavy {
+        /// Amplitude, m.
+        amplitude: f64,
+        /// Wavelengths along x and y, m; `f64::INFINITY` for none.
+        wavelength: [f64; 2],
+    },
+    /// Nothing at all.
+    Flat,
+    /// Heights read from a file.
+    File(HeightFileScene),
+}
+
+/// Self-affine roughness: spectrum flat from `longest` to `rolloff`, then falling as `q^(-2 hurst - 2)` to `shortest`.
+#[derive(Clone, Debug, PartialEq)]
+pub struct SelfAffineScene {
+    /// Hurst exponent, between 0 and 1.
+    pub hurst: f64,
+    /// What fixes the amplitude.
+    pub roughness: Roughness,
+    /// Longest wavelength, m.
+    pub longest: f64,
+    /// Roll-off wavelength, m.
+    pub rolloff: f64,
+    /// Shortest wavelength, m.
+    pub shortest: f64,
+    /// Seed of the phases.
+    pub seed: u64,
+}
+
+/// The moment that fixes a self-affine amplitude.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Roughness {
+    /// Root mean square height, m.
+    RmsHeight(f64),
+    /// Root mean square slope.
+    RmsSlope(f64),
+}
+
+/// A height map from a file.
+#[derive(Clone, Debug, PartialEq)]
+pub struct HeightFileScene {
+    /// Path, already resolved against the scene's folder.
+    pub path: PathBuf,
+    /// Metres per unit of the file's numbers.
+    pub unit: f64,
+    /// Further factor on the heights.
+    pub scale: f64,
+    /// What to take off the heights.
+    pub detrend: Detrend,
+    /// What to do with missing pixels.
+    pub fill: Fill,
+}
+
+/// What to take off a measured height map.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Detrend {
+    /// Nothing.
+    None,
+    /// The mean.
+    Mean,
+    /// The least-squares plane.
+    Plane,
+    /// The least-squares quadratic surface.
+    Quadratic,
+}
+
+/// What to do with missing (NaN) pixels.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Fill {
+    /// Refuse, counting them.
+    None,
+    /// Interpolate from the neighbours.
+    Interpolate,
+}
+
+/// `[adhesion]`.
+#[derive(Clone, Debug, PartialEq)]
+pub struct AdhesionScene {
+    /// Which cohesive law.
+    pub law: LawName,
+    /// Work of adhesion w, J/m^2.
+    pub work_of_adhesion: f64,
+    /// Range of the law, m (Maugis-Dugdale h0, Lennard-Jones epsilon, exponential rho).
+    pub range: Range,
+    /// Taper of Maugis-Dugdale; `None` is `auto`, `Some(0.0)` sharp.
+    pub taper: Option<f64>,
+    /// How the attraction is found.
+    pub treatment: Treatment,
+}
+
+/// The range of a cohesive law: a length, or the shortest that the grid resolves.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Range {
+    /// A length, m.
+    Length(f64),
+    /// The shortest that the grid resolves at this work of adhesion.
+    Auto,
+}
+
+/// The names of the cohesive laws.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum LawName {
+    /// Constant tension up to a range.
+    MaugisDugdale,
+    /// The 9-3 surface law with its own repulsion.
+    LennardJones,
+    /// Tension falling exponentially.
+    Exponential,
+}
+
+/// How the attraction is found.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Treatment {
+    /// Solved together with the contact.
+    Full,
+    /// Summed over the gap of the solution without adhesion (DMT force approach).
+    Dmt,
+}
+
+/// `[loading]`.
+#[derive(Clone, Debug, PartialEq)]
+pub struct LoadingScene {
+    /// Which quantity the path prescribes.
+    pub control: Control,
+    /// The prescribed values in SI units, one a step; never empty.
+    pub path: Vec<f64>,
+    /// Spring between the prescribed approach and the body, N/m (an effect).
+    pub spring: Option<f64>,
+}
+
+/// Which quantity a loading path prescribes.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Control {
+    /// Mean pressure, Pa.
+    Pressure,
+    /// Total force, N.
+    Force,
+    /// Approach, m.
+    Approach,
+    /// Mean gap, m.
+    MeanGap,
+}
+
+/// `[solver]`.
+#[derive(Clone, Debug, PartialEq)]
+pub struct SolverScene {
+    /// Largest accepted residual.
+    pub tolerance: f64,
+    /// Most iterations in a step.
+    pub max_iterations: usize,
+    /// Arithmetic.
+    pub precision: Precision,
+    /// Where the arithmetic runs.
+    pub backend: BackendName,
+}
+
+/// Arithmetic of a solve.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Precision {
+    /// Picked by tabor.
+    Auto,
+    /// 32 bit.
+    Single,
+    /// 32-bit iterations corrected in 64 bit.
+    Mixed,
+    /// 64 bit.
+    Double,
+}
+
+/// Where the arithmetic of a solve runs.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum BackendName {
+    /// Picked by tabor.
+    Auto,
+    /// Threads of this machine's processor.
+    Cpu,
+    /// A graphics processor.
+    Gpu,
+}
+
+/// `[output]`.
+#[derive(Clone, Debug, PartialEq)]
+pub struct OutputScene {
+    /// Fields written as PNG.
+    pub images: Vec<FieldName>,
+    /// Fields written as .npy.
+    pub fields: Vec<FieldName>,
+    /// The steps whose images and fields are written.
+    pub steps: StepChoice,
+}
+
+/// A field that can be written.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+pub enum FieldName {
+    /// Net normal traction, Pa, positive in compression.
+    Pressure,
+    /// Gap, m.
+    Gap,
+    /// Normal surface displacement, m, positive into the solid.
+    Displacement,
+    /// Heights, m.
+    Heights,
+}
+
+impl FieldName {
+    /// The name used in scenes and file names.
+    pub fn name(self) -> &'static str {
+        match self {
+            FieldName::Pressure => "pressure",
+            FieldName::Gap => "gap",
+            FieldName::Displacement => "displacement",
+            FieldName::Heights => "heights",
+        }
+    }
+
+    /// The SI unit of its values.
+    pub fn unit(self) -> &'static str {
+        match self {
+            FieldName::Pressure => "Pa",
+            _ => "m",
+        }
+    }
+}
+
+/// The steps whose images and fields are written.
+#[derive(Clone, Debug, PartialEq)]
+pub enum StepChoice {
+    /// The last one.
+    Last,
+    /// Every one.
+    All,
+    /// These, numbered from 1.
+    List(Vec<usize>),
+}

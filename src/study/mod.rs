@@ -1,0 +1,5 @@
+//! Many solves: the steps of a loading path.
+
+mod row;
+
+pub use row::{State, StepRow};

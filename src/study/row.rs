@@ -1,0 +1,60 @@
+//! One finished step, as it is written to `curve.csv`.
+
+/// Contact state of a step.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum State {
+    /// Something touches.
+    Contact,
+    /// Nothing touches, but the surfaces attract.
+    Attracted,
+    /// Nothing touches and nothing attracts, or no equilibrium carries the load.
+    Separated,
+}
+
+impl State {
+    /// The word written to files.
+    pub fn name(self) -> &'static str {
+        match self {
+            State::Contact => "contact",
+            State::Attracted => "attracted",
+            State::Separated => "separated",
+        }
+    }
+}
+
+/// One row of `curve.csv`, SI units; `None` is written as an empty cell.
+#[derive(Clone, Debug, PartialEq)]
+pub struct StepRow {
+    /// Number of the step, from 1.
+    pub step: usize,
+    /// Time at the end of the step, s, where the path has durations.
+    pub time: Option<f64>,
+    /// Rigid displacement towards the solid since first touch, m.
+    pub approach: Option<f64>,
+    /// Mean of the gap over the grid, m.
+    pub mean_gap: Option<f64>,
+    /// Net force, N, positive in compression.
+    pub force: f64,
+    /// Force over nominal area, Pa.
+    pub mean_pressure: f64,
+    /// Share of the nominal area in contact.
+    pub contact_area_fraction: f64,
+    /// Share of the nominal area not in contact with a gap below the range.
+    pub attractive_area_fraction: f64,
+    /// Elastic energy, J.
+    pub elastic_energy: f64,
+    /// Energy of adhesion, J (not positive).
+    pub adhesive_energy: f64,
+    /// Iterations of the solver.
+    pub iterations: usize,
+    /// The stopping measure, evaluated afresh at the end.
+    pub residual: f64,
+    /// Whether the residual meets the tolerance.
+    pub converged: bool,
+    /// Wall-clock seconds of the step.
+    pub seconds: f64,
+    /// Contact share with the pixel staircase of its perimeter taken off; `None` for Lennard-Jones.
+    pub contact_area_fraction_corrected: Option<f64>,
+    /// Contact state.
+    pub state: State,
+}

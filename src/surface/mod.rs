@@ -1,0 +1,1 @@
+//! Heights: the sum of a scene's surface parts on its grid.

@@ -1,0 +1,1 @@
+//! Closed forms and asperity models that the full field is judged by.

@@ -1,0 +1,1 @@
+//! Dimensional values with units.
