@@ -1,0 +1,118 @@
+//! Rows in blocks: the unit in which work is cut, summed and handed to threads.
+
+use std::ops::Range;
+
+use rustfft::num_complex::Complex;
+
+use crate::backend::Shape;
+use crate::kernel::{Params, Rows, SUMS, Scalars, Twin, Whole};
+use crate::real::Real;
+
+/// Rows in a block; also the side of the tiles in which spectra are transposed. Eight complex
+/// doubles are two cache lines, so a tile is read and written in whole lines.
+pub(super) const BLOCK: usize = 8;
+
+/// A kernel over a range of blocks, with what it reads and the parts that it alone may write.
+pub(super) struct Job<'a, T: Real> {
+    /// Blocks of rows.
+    pub blocks: Range<usize>,
+    /// The level's shape.
+    pub shape: Shape,
+    /// Fields read, whole.
+    pub reads: [&'a [T]; 4],
+    /// Fields written, cut to these blocks.
+    pub writes: [&'a mut [T]; 3],
+    /// The field read anywhere.
+    pub whole: Whole<'a, T>,
+    /// One set of sums a block.
+    pub partials: &'a mut [[f64; SUMS]],
+    /// Spectra of these blocks, `work_per_block` values each.
+    pub work: &'a mut [Complex<T>],
+    /// Length of one block's spectra.
+    pub work_per_block: usize,
+    /// Fixed numbers.
+    pub params: &'a Params,
+    /// Moving numbers.
+    pub scalars: &'a Scalars,
+    /// What is done.
+    pub twin: Twin<T>,
+}
+
+impl<'a, T: Real> Job<'a, T> {
+    /// First row and number of rows of a block.
+    pub fn rows_of(&self, block: usize) -> (usize, usize) {
+        let first = block * BLOCK;
+        (first, BLOCK.min(self.shape.points[1] - first))
+    }
+
+    fn split(self, at: usize) -> (Job<'a, T>, Job<'a, T>) {
+        let left_blocks = at - self.blocks.start;
+        let rows = (at * BLOCK).min(self.shape.points[1]) - self.blocks.start * BLOCK;
+        let values = rows * self.shape.points[0];
+        let [a, b, c] = self.writes;
+        let cut = |field: &'a mut [T]| {
+            let at = values.min(field.len());
+            field.split_at_mut(at)
+        };
+        let ((a0, a1), (b0, b1), (c0, c1)) = (cut(a), cut(b), cut(c));
+        let (partials0, partials1) = self.partials.split_at_mut(left_blocks);
+        let cut = (left_blocks * self.work_per_block).min(self.work.len());
+        let (work0, work1) = self.work.split_at_mut(cut);
+        let part = |blocks, writes, partials, work| Job {
+            blocks,
+            shape: self.shape,
+            reads: self.reads,
+            writes,
+            whole: self.whole,
+            partials,
+            work,
+            work_per_block: self.work_per_block,
+            params: self.params,
+            scalars: self.scalars,
+            twin: self.twin,
+        };
+        (
+            part(self.blocks.start..at, [a0, b0, c0], partials0, work0),
+            part(at..self.blocks.end, [a1, b1, c1], partials1, work1),
+        )
+    }
+
+    /// Runs the twin on the one block that is left, with these lines of a transform.
+    pub fn call(&mut self, lines: &mut [T]) {
+        let (first, count) = self.rows_of(self.blocks.start);
+        let width = self.shape.points[0];
+        let range = first * width..(first + count) * width;
+        let mut reads: [&[T]; 4] = [&[]; 4];
+        for (cut, field) in reads.iter_mut().zip(self.reads) {
+            if !field.is_empty() {
+                *cut = &field[range.clone()];
+            }
+        }
+        let [a, b, c] = &mut self.writes;
+        let mut rows = Rows {
+            first,
+            width,
+            count,
+            surface: self.shape.surface,
+            lines,
+            reads,
+            writes: [a, b, c],
+            whole: self.whole,
+        };
+        (self.twin)(&mut rows, self.params, self.scalars, &mut self.partials[0]);
+    }
+}
+
+/// Halves a job until each part is one block, which `leaf` does; the halves run in parallel.
+pub(super) fn run_blocks<T: Real>(job: Job<T>, leaf: &(impl Fn(Job<T>) + Sync)) {
+    let count = job.blocks.len();
+    if count <= 1 {
+        if count == 1 {
+            leaf(job);
+        }
+        return;
+    }
+    let middle = job.blocks.start + count / 2;
+    let (left, right) = job.split(middle);
+    rayon::join(|| run_blocks(left, leaf), || run_blocks(right, leaf));
+}

@@ -1,0 +1,267 @@
+//! The processor: kernels' twins and transforms run at once, rows in parallel.
+//!
+//! Work is cut into blocks of eight rows whatever the number of threads, and sums add the blocks'
+//! partial results in order, so results do not depend on how threads happen to be scheduled. This
+//! is the only place that names rayon.
+
+mod blocks;
+mod transform;
+
+use rayon::ThreadPoolBuilder;
+
+use super::{Backend, BackendError, Field, Level, Shape, Spectrum, check_fields};
+use crate::kernel::{Form, Gate, Kernel, Params, SUMS, ScalarKernel, Scalars, Twin, Whole};
+use crate::real::Real;
+use blocks::{BLOCK, Job, run_blocks};
+use transform::Transform;
+
+/// The CPU backend in one kind of number; `CpuBackend<f64>` is the reference.
+pub struct CpuBackend<T: Real> {
+    levels: Vec<LevelSpace<T>>,
+    fields: Vec<Vec<T>>,
+    spectra: Vec<Vec<T>>,
+    params: Option<Params>,
+    scalars: Scalars,
+    transforms: f64,
+}
+
+struct LevelSpace<T: Real> {
+    shape: Shape,
+    transform: Transform<T>,
+    partials: Vec<[f64; SUMS]>,
+}
+
+/// Numbers that pick their own twin.
+pub trait CpuReal: Real {
+    /// The twin of a kernel for this number.
+    fn twin(kernel: &'static Kernel) -> Twin<Self>;
+}
+
+impl CpuReal for f64 {
+    fn twin(kernel: &'static Kernel) -> Twin<f64> {
+        kernel.twin
+    }
+}
+
+impl CpuReal for f32 {
+    fn twin(kernel: &'static Kernel) -> Twin<f32> {
+        kernel.twin_single
+    }
+}
+
+/// Runs `work` on a pool of `threads` threads (all cores if `None`), to which every backend made
+/// inside belongs.
+pub fn with_threads<R: Send>(
+    threads: Option<usize>,
+    work: impl FnOnce() -> R + Send,
+) -> Result<R, BackendError> {
+    let pool = ThreadPoolBuilder::new()
+        .num_threads(threads.unwrap_or(0))
+        .build()
+        .map_err(|error| BackendError::Device(format!("no thread pool: {error}")))?;
+    Ok(pool.install(work))
+}
+
+impl<T: CpuReal> Default for CpuBackend<T> {
+    fn default() -> Self {
+        Self::new()
+    }
+}
+
+impl<T: CpuReal> CpuBackend<T> {
+    /// A backend with nothing in it.
+    pub fn new() -> Self {
+        CpuBackend {
+            levels: Vec::new(),
+            fields: Vec::new(),
+            spectra: Vec::new(),
+            params: None,
+            scalars: Scalars::start(0.0, false),
+            transforms: 0.0,
+        }
+    }
+
+    /// Points of a level over those of the first one, in which transforms are counted.
+    fn share_of_first(&self, level: Level) -> f64 {
+        self.levels[level.0].shape.len() as f64 / self.levels[0].shape.len() as f64
+    }
+
+    /// Runs a kernel over the blocks of a level, with the transform's work space where it has one.
+    fn run(&mut self, kernel: &'static Kernel, level: Level, fields: &[Field]) {
+        if !self.scalars.is_open(kernel.gate) {
+            return;
+        }
+        if let Err(error) = check_fields(kernel, fields) {
+            // A wrong list is a mistake in this crate, found by the first test that runs it.
+            debug_assert!(false, "{error}");
+            return;
+        }
+        let Some(params) = self.params else {
+            return;
+        };
+        let twin = T::twin(kernel);
+        // Written fields are lifted out, so that the others can be borrowed meanwhile.
+        let mut lifted: [Vec<T>; 3] = Default::default();
+        for (slot, field) in fields[kernel.reads..kernel.reads + kernel.writes]
+            .iter()
+            .enumerate()
+        {
+            lifted[slot] = std::mem::take(&mut self.fields[field.index]);
+        }
+        let mut reads: [&[T]; 4] = [&[]; 4];
+        for (slot, field) in fields[..kernel.reads].iter().enumerate() {
+            reads[slot] = &self.fields[field.index];
+        }
+        let whole = match (kernel.whole, fields.last()) {
+            (true, Some(&field)) => Whole {
+                values: &self.fields[field.index],
+                points: self.levels[field.level.0].shape.points,
+            },
+            _ => Whole {
+                values: &[],
+                points: [0, 0],
+            },
+        };
+        let share = self.share_of_first(level);
+        let space = &mut self.levels[level.0];
+        let blocks = space.shape.points[1].div_ceil(BLOCK);
+        let mut neutral = [0.0; SUMS];
+        for (slot, reduce) in kernel.sums.iter().enumerate() {
+            neutral[slot] = reduce.neutral();
+        }
+        let partials = &mut space.partials[..blocks];
+        partials.fill(neutral);
+        let [a, b, c] = &mut lifted;
+        let job = Job {
+            blocks: 0..blocks,
+            shape: space.shape,
+            reads,
+            writes: [a, b, c],
+            whole,
+            partials,
+            work: &mut [],
+            work_per_block: 0,
+            params: &params,
+            scalars: &self.scalars,
+            twin,
+        };
+        match kernel.form {
+            Form::Sweep => run_blocks(job, &|mut job| job.call(&mut [])),
+            Form::Load => {
+                space.transform.forward(job);
+                self.transforms += 0.5 * share;
+            }
+            Form::Store => {
+                space.transform.backward(job);
+                self.transforms += 0.5 * share;
+            }
+        }
+        let partials = &self.levels[level.0].partials[..blocks];
+        for (slot, reduce) in kernel.sums.iter().enumerate() {
+            self.scalars.sums[slot] = partials
+                .iter()
+                .fold(reduce.neutral(), |sum, block| reduce.join(sum, block[slot]));
+        }
+        for (slot, field) in fields[kernel.reads..kernel.reads + kernel.writes]
+            .iter()
+            .enumerate()
+        {
+            self.fields[field.index] = std::mem::take(&mut lifted[slot]);
+        }
+    }
+}
+
+impl<T: CpuReal> Backend for CpuBackend<T> {
+    fn level(&mut self, _name: &'static str, shape: Shape) -> Level {
+        self.levels.push(LevelSpace {
+            shape,
+            transform: Transform::new(shape),
+            partials: vec![[0.0; SUMS]; shape.points[1].div_ceil(BLOCK)],
+        });
+        Level(self.levels.len() - 1)
+    }
+
+    fn field(&mut self, level: Level, _name: &'static str) -> Field {
+        let points = self.levels[level.0].shape.len();
+        self.fields.push(vec![T::zero(); points]);
+        Field {
+            level,
+            index: self.fields.len() - 1,
+        }
+    }
+
+    fn spectrum(&mut self, level: Level, _name: &'static str, values: &[f64]) -> Spectrum {
+        debug_assert_eq!(values.len(), self.levels[level.0].shape.spectrum_len());
+        self.spectra
+            .push(values.iter().map(|&value| T::of(value)).collect());
+        Spectrum {
+            level,
+            index: self.spectra.len() - 1,
+        }
+    }
+
+    fn set_zero_mode(&mut self, spectrum: Spectrum, value: f64) {
+        self.spectra[spectrum.index][0] = T::of(value);
+    }
+
+    fn write(&mut self, field: Field, values: &[f64]) {
+        let stored = &mut self.fields[field.index];
+        debug_assert_eq!(values.len(), stored.len());
+        for (stored, &value) in stored.iter_mut().zip(values) {
+            *stored = T::of(value);
+        }
+    }
+
+    fn read(&mut self, field: Field) -> Result<Vec<f64>, BackendError> {
+        Ok(self.fields[field.index]
+            .iter()
+            .map(|value| value.double())
+            .collect())
+    }
+
+    fn set_params(&mut self, params: &Params) {
+        self.params = Some(*params);
+    }
+
+    fn set_scalars(&mut self, scalars: &Scalars) {
+        self.scalars = *scalars;
+    }
+
+    fn scalars(&mut self) -> Result<Scalars, BackendError> {
+        Ok(self.scalars)
+    }
+
+    fn sweep(&mut self, kernel: &'static Kernel, level: Level, fields: &[Field]) {
+        self.run(kernel, level, fields);
+    }
+
+    fn scalar(&mut self, kernel: &'static ScalarKernel) {
+        if let Some(params) = &self.params {
+            (kernel.run)(params, &mut self.scalars);
+        }
+    }
+
+    fn forward(&mut self, kernel: &'static Kernel, level: Level, fields: &[Field]) {
+        self.run(kernel, level, fields);
+    }
+
+    fn multiply(&mut self, by: Spectrum, energy: bool, gate: Gate) {
+        if !self.scalars.is_open(gate) {
+            return;
+        }
+        self.transforms += self.share_of_first(by.level);
+        let space = &mut self.levels[by.level.0];
+        let curvature = space.transform.multiply(&self.spectra[by.index], energy);
+        if energy {
+            self.scalars.curvature = curvature;
+        }
+    }
+
+    fn backward(&mut self, kernel: &'static Kernel, level: Level, fields: &[Field]) {
+        self.run(kernel, level, fields);
+    }
+
+    fn transforms(&self) -> f64 {
+        self.transforms
+    }
+}

@@ -1,0 +1,305 @@
+//! Real two-dimensional transforms in three parts: rows, columns with the factor between, rows.
+//!
+//! Spectra of a block of rows are stored in tiles of eight columns by eight rows, so that the
+//! transposition between rows and columns moves whole cache lines both ways and each thread writes
+//! only memory of its own.
+
+use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
+
+use realfft::{ComplexToReal, RealFftPlanner, RealToComplex};
+use rustfft::num_complex::Complex;
+use rustfft::num_traits::Zero;
+use rustfft::{Fft, FftPlanner};
+
+use super::blocks::{BLOCK, Job, run_blocks};
+use crate::backend::Shape;
+use crate::real::Real;
+
+/// Transform plans and work space of one level.
+pub(super) struct Transform<T: Real> {
+    shape: Shape,
+    /// Columns of the half spectrum, nx/2 + 1.
+    columns: usize,
+    /// Groups of `BLOCK` columns.
+    groups: usize,
+    /// Blocks of rows.
+    blocks: usize,
+    row_forward: Arc<dyn RealToComplex<T>>,
+    row_backward: Arc<dyn ComplexToReal<T>>,
+    column_forward: Arc<dyn Fft<T>>,
+    column_backward: Arc<dyn Fft<T>>,
+    /// Row spectra: block, column, row in the block.
+    by_rows: Vec<Complex<T>>,
+    /// The same after the columns: group, block, column in the group, row in the block.
+    by_columns: Vec<Complex<T>>,
+    /// Energy of each group.
+    energies: Vec<f64>,
+    scratch: Vec<Mutex<Scratch<T>>>,
+}
+
+/// One thread's buffers.
+struct Scratch<T> {
+    lines: Vec<T>,
+    spectra: Vec<Complex<T>>,
+    column: Vec<Complex<T>>,
+    transform: Vec<Complex<T>>,
+}
+
+impl<T: Real> Transform<T> {
+    pub fn new(shape: Shape) -> Self {
+        let [nx, ny] = shape.points;
+        let columns = nx / 2 + 1;
+        let groups = columns.div_ceil(BLOCK);
+        let blocks = ny.div_ceil(BLOCK);
+        let mut real_planner = RealFftPlanner::<T>::new();
+        let mut planner = FftPlanner::<T>::new();
+        let row_forward = real_planner.plan_fft_forward(nx);
+        let row_backward = real_planner.plan_fft_inverse(nx);
+        let column_forward = planner.plan_fft_forward(ny);
+        let column_backward = planner.plan_fft_inverse(ny);
+        let transform_len = row_forward
+            .get_scratch_len()
+            .max(row_backward.get_scratch_len())
+            .max(column_forward.get_inplace_scratch_len())
+            .max(column_backward.get_inplace_scratch_len());
+        let zero = Complex::<T>::zero();
+        let scratch = (0..rayon::current_num_threads().max(1))
+            .map(|_| {
+                Mutex::new(Scratch {
+                    lines: vec![T::zero(); BLOCK * nx],
+                    spectra: vec![zero; BLOCK * columns],
+                    column: vec![zero; BLOCK * ny],
+                    transform: vec![zero; transform_len],
+                })
+            })
+            .collect();
+        Transform {
+            shape,
+            columns,
+            groups,
+            blocks,
+            row_forward,
+            row_backward,
+            column_forward,
+            column_backward,
+            by_rows: vec![zero; blocks * groups * BLOCK * BLOCK],
+            by_columns: vec![zero; blocks * groups * BLOCK * BLOCK],
+            energies: vec![0.0; groups],
+            scratch,
+        }
+    }
+
+    /// Bytes that the work space holds.
+    pub fn bytes(&self) -> usize {
+        (self.by_rows.len() + self.by_columns.len()) * size_of::<Complex<T>>()
+    }
+
+    /// Fills lines by the job's twin and transforms them.
+    pub fn forward(&mut self, job: Job<T>) {
+        let Transform {
+            ref mut by_rows,
+            ref scratch,
+            ref row_forward,
+            columns,
+            groups,
+            ..
+        } = *self;
+        let nx = self.shape.points[0];
+        let job = Job {
+            work: by_rows,
+            work_per_block: groups * BLOCK * BLOCK,
+            ..job
+        };
+        run_blocks(job, &|mut job| {
+            let guard = &mut *lock(scratch);
+            let (_, count) = job.rows_of(job.blocks.start);
+            let lines = &mut guard.lines[..count * nx];
+            job.call(lines);
+            for (line, spectrum) in lines
+                .chunks_exact_mut(nx)
+                .zip(guard.spectra.chunks_exact_mut(columns))
+            {
+                // Lengths are those of the plan, so this cannot fail.
+                let _ = row_forward.process_with_scratch(line, spectrum, &mut guard.transform);
+            }
+            for (column, tile) in job.work.chunks_exact_mut(BLOCK).take(columns).enumerate() {
+                for (row, value) in tile[..count].iter_mut().enumerate() {
+                    *value = guard.spectra[row * columns + column];
+                }
+            }
+        });
+    }
+
+    /// Transforms the columns, multiplies by `factors` (`[columns, ny/2 + 1]`), and transforms
+    /// back. Returns `sum K |s_q|^2 / points` over all wavevectors.
+    pub fn multiply(&mut self, factors: &[T], energy: bool) -> f64 {
+        let [nx, ny] = self.shape.points;
+        let scale = T::of(1.0 / self.shape.len() as f64);
+        let (columns, groups, blocks) = (self.columns, self.groups, self.blocks);
+        let context = Columns {
+            by_rows: &self.by_rows,
+            scratch: &self.scratch,
+            forward: &*self.column_forward,
+            backward: &*self.column_backward,
+            factors,
+            scale,
+            columns,
+            groups,
+            blocks,
+            nx,
+            ny,
+            energy,
+        };
+        context.run(0..groups, &mut self.by_columns, &mut self.energies);
+        self.energies.iter().sum::<f64>() / self.shape.len() as f64
+    }
+
+    /// Transforms the rows back and hands the lines to the job's twin.
+    pub fn backward(&mut self, job: Job<T>) {
+        let Transform {
+            ref by_columns,
+            ref scratch,
+            ref row_backward,
+            columns,
+            groups,
+            blocks,
+            ..
+        } = *self;
+        let nx = self.shape.points[0];
+        run_blocks(job, &|mut job| {
+            let guard = &mut *lock(scratch);
+            let block = job.blocks.start;
+            let (_, count) = job.rows_of(block);
+            for group in 0..groups {
+                let start = (group * blocks + block) * BLOCK * BLOCK;
+                let tiles = &by_columns[start..start + BLOCK * BLOCK];
+                let first = group * BLOCK;
+                for row in 0..count {
+                    let spectrum = &mut guard.spectra[row * columns..(row + 1) * columns];
+                    for (place, value) in spectrum[first..].iter_mut().take(BLOCK).enumerate() {
+                        *value = tiles[place * BLOCK + row];
+                    }
+                }
+            }
+            let lines = &mut guard.lines[..count * nx];
+            for (line, spectrum) in lines
+                .chunks_exact_mut(nx)
+                .zip(guard.spectra.chunks_exact_mut(columns))
+            {
+                // The imaginary parts of the first and the Nyquist bin are rounding; the real
+                // transform wants them zero.
+                spectrum[0].im = T::zero();
+                if nx % 2 == 0 {
+                    spectrum[columns - 1].im = T::zero();
+                }
+                let _ = row_backward.process_with_scratch(spectrum, line, &mut guard.transform);
+            }
+            job.call(lines);
+        });
+    }
+}
+
+/// This thread's buffers. Two threads of different pools may meet here; then one waits.
+fn lock<T>(scratch: &[Mutex<Scratch<T>>]) -> MutexGuard<'_, Scratch<T>> {
+    let index = rayon::current_thread_index().unwrap_or(0) % scratch.len();
+    scratch[index]
+        .lock()
+        .unwrap_or_else(PoisonError::into_inner)
+}
+
+/// The column part, shared by all its threads.
+struct Columns<'a, T: Real> {
+    by_rows: &'a [Complex<T>],
+    scratch: &'a [Mutex<Scratch<T>>],
+    forward: &'a dyn Fft<T>,
+    backward: &'a dyn Fft<T>,
+    factors: &'a [T],
+    scale: T,
+    columns: usize,
+    groups: usize,
+    blocks: usize,
+    nx: usize,
+    ny: usize,
+    energy: bool,
+}
+
+impl<T: Real> Columns<'_, T> {
+    fn run(&self, range: std::ops::Range<usize>, out: &mut [Complex<T>], energies: &mut [f64]) {
+        let count = range.len();
+        if count == 0 {
+            return;
+        }
+        if count == 1 {
+            energies[0] = self.group(range.start, out);
+            return;
+        }
+        let half = count / 2;
+        let middle = range.start + half;
+        let (out_left, out_right) = out.split_at_mut(half * self.blocks * BLOCK * BLOCK);
+        let (left, right) = energies.split_at_mut(half);
+        rayon::join(
+            || self.run(range.start..middle, out_left, left),
+            || self.run(middle..range.end, out_right, right),
+        );
+    }
+
+    /// One group of columns; `out` is its tiles, block by block.
+    fn group(&self, group: usize, out: &mut [Complex<T>]) -> f64 {
+        let guard = &mut *lock(self.scratch);
+        let ny = self.ny;
+        let half = ny / 2 + 1;
+        let first = group * BLOCK;
+        let count = BLOCK.min(self.columns - first);
+        let stride = self.groups * BLOCK * BLOCK;
+        for block in 0..self.blocks {
+            let rows = BLOCK.min(ny - block * BLOCK);
+            let start = block * stride + first * BLOCK;
+            let tiles = &self.by_rows[start..start + count * BLOCK];
+            for (place, tile) in tiles.chunks_exact(BLOCK).enumerate() {
+                let at = place * ny + block * BLOCK;
+                guard.column[at..at + rows].copy_from_slice(&tile[..rows]);
+            }
+        }
+        let mut energy = 0.0;
+        for place in 0..count {
+            let kx = first + place;
+            let column = &mut guard.column[place * ny..(place + 1) * ny];
+            self.forward
+                .process_with_scratch(column, &mut guard.transform);
+            let factors = &self.factors[kx * half..(kx + 1) * half];
+            let (low, high) = column.split_at_mut(half);
+            let mut sum = 0.0;
+            if self.energy {
+                for (value, &factor) in low.iter().zip(factors) {
+                    sum += (value.norm_sqr() * factor).double();
+                }
+                for (value, &factor) in high.iter().rev().zip(&factors[1..]) {
+                    sum += (value.norm_sqr() * factor).double();
+                }
+            }
+            for (value, &factor) in low.iter_mut().zip(factors) {
+                *value = value.scale(factor * self.scale);
+            }
+            for (value, &factor) in high.iter_mut().rev().zip(&factors[1..]) {
+                *value = value.scale(factor * self.scale);
+            }
+            // A half spectrum stands for both signs of kx, but for the two that are their own.
+            let own = kx == 0 || (self.nx % 2 == 0 && kx == self.nx / 2);
+            energy += if own { sum } else { 2.0 * sum };
+            self.backward
+                .process_with_scratch(column, &mut guard.transform);
+        }
+        for block in 0..self.blocks {
+            let rows = BLOCK.min(ny - block * BLOCK);
+            let start = block * BLOCK * BLOCK;
+            for (place, tile) in out[start..start + count * BLOCK]
+                .chunks_exact_mut(BLOCK)
+                .enumerate()
+            {
+                let at = place * ny + block * BLOCK;
+                tile[..rows].copy_from_slice(&guard.column[at..at + rows]);
+            }
+        }
+        energy
+    }
+}

@@ -1,0 +1,148 @@
+//! Where the arithmetic runs: the one trait through which the solver works.
+//!
+//! A backend holds fields (one number a point) and spectra (one real factor a wavevector), runs
+//! the catalogue's kernels over them, and keeps the algorithm's [`Scalars`] beside them. The
+//! solver is written against this trait alone: it names no thread and no graphics library.
+//! A convolution is three calls, so that what happens to a point as it enters the first row
+//! transform and as it leaves the last one is fused into those rows:
+//! [`forward`](Backend::forward), [`multiply`](Backend::multiply), [`backward`](Backend::backward).
+
+pub mod cpu;
+
+use crate::kernel::{Gate, Kernel, Params, ScalarKernel, Scalars};
+
+/// A grid on which fields live: the fine one, or a coarse one of the preconditioner.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+pub struct Level(pub usize);
+
+/// One number a point of a level.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+pub struct Field {
+    /// The level it lives on.
+    pub level: Level,
+    /// Its place among the backend's fields.
+    pub index: usize,
+}
+
+/// One real, even factor a wavevector of a level.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+pub struct Spectrum {
+    /// The level it lives on.
+    pub level: Level,
+    /// Its place among the backend's spectra.
+    pub index: usize,
+}
+
+/// The points of a level, and which of them are surface.
+///
+/// On a periodic grid `surface` equals `points`. On a free boundary the surface is the first
+/// `surface[0]` points of the first `surface[1]` rows, and the rest is the pad that keeps the
+/// images apart.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Shape {
+    /// Points along x and y.
+    pub points: [usize; 2],
+    /// Surface points along x and y.
+    pub surface: [usize; 2],
+}
+
+impl Shape {
+    /// A shape without a pad.
+    pub fn whole(nx: usize, ny: usize) -> Self {
+        Shape {
+            points: [nx, ny],
+            surface: [nx, ny],
+        }
+    }
+
+    /// Number of points.
+    pub fn len(&self) -> usize {
+        self.points[0] * self.points[1]
+    }
+
+    /// Whether there are no points.
+    pub fn is_empty(&self) -> bool {
+        self.len() == 0
+    }
+
+    /// Number of surface points.
+    pub fn surface_len(&self) -> usize {
+        self.surface[0] * self.surface[1]
+    }
+
+    /// Values that a [`Spectrum`] of this shape holds: `nx/2 + 1` columns of `ny/2 + 1`, the
+    /// column index running slowest; the other half follows from evenness.
+    pub fn spectrum_len(&self) -> usize {
+        (self.points[0] / 2 + 1) * (self.points[1] / 2 + 1)
+    }
+}
+
+/// What may go wrong where the arithmetic runs.
+#[derive(Debug, thiserror::Error)]
+pub enum BackendError {
+    /// A kernel was given fields that it does not take.
+    #[error("kernel `{kernel}` takes {expected} fields and was given {given}")]
+    Fields {
+        /// The kernel.
+        kernel: &'static str,
+        /// How many fields it declares.
+        expected: usize,
+        /// How many it was given.
+        given: usize,
+    },
+    /// The device failed.
+    #[error("the device failed: {0}")]
+    Device(String),
+}
+
+/// Fields, spectra, kernels and the scalars of the algorithm, wherever they are.
+///
+/// Recording work does not fail: what goes wrong surfaces where the host waits, in
+/// [`scalars`](Backend::scalars) and [`read`](Backend::read).
+pub trait Backend {
+    /// Makes a level and the work space of its transforms.
+    fn level(&mut self, name: &'static str, shape: Shape) -> Level;
+    /// Makes a field of zeros.
+    fn field(&mut self, level: Level, name: &'static str) -> Field;
+    /// Makes a spectrum; `values` as [`Shape::spectrum_len`] says.
+    fn spectrum(&mut self, level: Level, name: &'static str, values: &[f64]) -> Spectrum;
+    /// Overwrites a spectrum's value at the zero wavevector.
+    fn set_zero_mode(&mut self, spectrum: Spectrum, value: f64);
+    /// Overwrites a field.
+    fn write(&mut self, field: Field, values: &[f64]);
+    /// Waits, and reads a field.
+    fn read(&mut self, field: Field) -> Result<Vec<f64>, BackendError>;
+    /// Sets the numbers that stay fixed during a solve.
+    fn set_params(&mut self, params: &Params);
+    /// Overwrites the scalars.
+    fn set_scalars(&mut self, scalars: &Scalars);
+    /// Waits, and reads the scalars.
+    fn scalars(&mut self) -> Result<Scalars, BackendError>;
+    /// Runs a kernel over points; its sums go to the scalars.
+    fn sweep(&mut self, kernel: &'static Kernel, level: Level, fields: &[Field]);
+    /// Runs a scalar kernel.
+    fn scalar(&mut self, kernel: &'static ScalarKernel);
+    /// Transforms what a load kernel makes of the fields into the level's work space.
+    fn forward(&mut self, kernel: &'static Kernel, level: Level, fields: &[Field]);
+    /// Multiplies the work space by a spectrum. With `energy`, `sum K |s_q|^2` over all
+    /// wavevectors, divided by the number of points, goes to `scalars.curvature`.
+    fn multiply(&mut self, by: Spectrum, energy: bool, gate: Gate);
+    /// Transforms the work space back and hands it to a store kernel.
+    fn backward(&mut self, kernel: &'static Kernel, level: Level, fields: &[Field]);
+    /// Real two-dimensional transforms run so far, forward and inverse one each, those of other
+    /// levels in proportion to their points.
+    fn transforms(&self) -> f64;
+}
+
+/// Checks a kernel's field list against its declaration.
+pub(crate) fn check_fields(kernel: &'static Kernel, fields: &[Field]) -> Result<(), BackendError> {
+    if fields.len() == kernel.fields() {
+        Ok(())
+    } else {
+        Err(BackendError::Fields {
+            kernel: kernel.name,
+            expected: kernel.fields(),
+            given: fields.len(),
+        })
+    }
+}

@@ -1,0 +1,102 @@
+//! The unbounded half-space under pixels of constant pressure (Love 1929).
+
+use std::f64::consts::PI;
+
+use rayon::prelude::*;
+use realfft::RealFftPlanner;
+use rustfft::FftPlanner;
+use rustfft::num_complex::Complex;
+
+/// `(y + b)` times the difference of two inverse hyperbolic sines, with 0 times infinity = 0.
+fn edge_term(across: f64, near: f64, far: f64) -> f64 {
+    if across == 0.0 {
+        return 0.0;
+    }
+    let width = across.abs();
+    across * ((far / width).asinh() - (near / width).asinh())
+}
+
+/// Normal displacement at (x, y) of a half-space of unit contact modulus under unit pressure on the
+/// rectangle `|x| < half_x, |y| < half_y`. Same length unit throughout.
+///
+/// # Source
+/// Love 1929, doi:10.1098/rsta.1929.0009; Johnson 1985, eq. 3.25.
+pub fn love_displacement(x: f64, y: f64, half_x: f64, half_y: f64) -> f64 {
+    (edge_term(x + half_x, y - half_y, y + half_y) - edge_term(x - half_x, y - half_y, y + half_y)
+        + edge_term(y + half_y, x - half_x, x + half_x)
+        - edge_term(y - half_y, x - half_x, x + half_x))
+        / PI
+}
+
+/// Stiffness of an unbounded half-space between the points of a doubled grid, in Fourier space.
+///
+/// `points` is the doubled transform, `pixel` the pixel sides in reduced units. Shape
+/// `[nx/2 + 1, ny/2 + 1]`, the column (x) index running slowest: the inverse of the transform of
+/// the circulant kernel whose offsets are the nearest images. Exact between points that are at
+/// most half the doubled grid apart. All values are positive.
+pub fn free_stiffness(points: [usize; 2], pixel: [f64; 2]) -> Vec<f64> {
+    let [nx, ny] = points;
+    let columns = nx / 2 + 1;
+    let half = ny / 2 + 1;
+    let plan = RealFftPlanner::<f64>::new().plan_fft_forward(nx);
+    // The kernel is even in both directions, so half of its rows are enough and spectra are real.
+    let rows: Vec<Vec<f64>> = (0..half)
+        .into_par_iter()
+        .map(|row| {
+            let y = row as f64 * pixel[1];
+            let mut line: Vec<f64> = (0..nx)
+                .map(|column| {
+                    let x = column.min(nx - column) as f64 * pixel[0];
+                    love_displacement(x, y, 0.5 * pixel[0], 0.5 * pixel[1])
+                })
+                .collect();
+            let mut spectrum = plan.make_output_vec();
+            // Lengths are those of the plan, so this cannot fail.
+            let _ = plan.process(&mut line, &mut spectrum);
+            spectrum.iter().map(|value| value.re).collect()
+        })
+        .collect();
+    let plan = FftPlanner::<f64>::new().plan_fft_forward(ny);
+    (0..columns)
+        .into_par_iter()
+        .flat_map_iter(|column| {
+            let mut line: Vec<Complex<f64>> = (0..ny)
+                .map(|row| Complex::new(rows[row.min(ny - row)][column], 0.0))
+                .collect();
+            plan.process(&mut line);
+            line.into_iter()
+                .take(half)
+                .map(|value| 1.0 / value.re)
+                .collect::<Vec<_>>()
+        })
+        .collect()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// Unit square, unit pressure: closed form at the centre, and two neighbours computed apart.
+    #[test]
+    fn unit_square() {
+        let at = |x, y| love_displacement(x, y, 0.5, 0.5);
+        assert!((at(0.0, 0.0) - 4.0 * (1.0 + 2f64.sqrt()).ln() / PI).abs() < 1e-14);
+        assert!((at(1.0, 0.0) - 0.330421493).abs() < 1e-9);
+        assert!((at(1.0, 1.0) - 0.230678359).abs() < 1e-9);
+        assert!((at(300.0, 400.0) * PI * 500.0 - 1.0).abs() < 1e-6);
+    }
+
+    /// The least compliance is that of the checkerboard, 0.5807 pixels, and the largest 1.122 times
+    /// the doubled side, for square pixels.
+    #[test]
+    fn bounds_of_the_free_spectrum() {
+        for side in [16, 32, 50] {
+            let stiffness = free_stiffness([side, side], [1.0, 1.0]);
+            let largest = stiffness.iter().copied().fold(0.0, f64::max);
+            assert!((1.0 / largest - 0.5807).abs() < 2e-3, "{side}: {largest}");
+            let zero = 1.0 / stiffness[0];
+            assert!((zero / side as f64 - 1.122).abs() < 2e-3, "{side}: {zero}");
+            assert!(stiffness.iter().all(|&value| value > 0.0));
+        }
+    }
+}

@@ -1,0 +1,10 @@
+//! Elasticity of the half-space as one real factor a wavevector; numbers only.
+//!
+//! Everything is for a contact modulus of 1 and in units of one reduced length: the stiffness of
+//! a wave is the pressure that a displacement of 1 needs.
+
+mod half_space;
+mod love;
+
+pub use half_space::periodic_stiffness;
+pub use love::{free_stiffness, love_displacement};

@@ -1,0 +1,114 @@
+//! The catalogue of kernels: what is done at each point, as a twin that the CPU runs and against
+//! which a shader of the same name is compared.
+//!
+//! A kernel is a *sweep* over points, the *load* part of a forward transform (it fills the lines
+//! that are transformed) or the *store* part of an inverse one (it takes the lines). It reads some
+//! fields, writes or updates others, and hands back a few sums. [`scalar`] kernels work on the
+//! [`Scalars`] alone; they hold all of the algorithm's decisions, so that a device can keep them.
+
+pub mod coarse;
+pub mod common;
+pub mod core;
+pub mod scalar;
+pub mod wall;
+
+mod params;
+mod rows;
+
+pub use params::{Gate, Params, SUMS, Scalars, Status};
+pub use rows::{Rows, Whole};
+pub use scalar::ScalarKernel;
+
+/// How the terms of a sum are put together.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Reduce {
+    /// Added.
+    Add,
+    /// The least one.
+    Min,
+    /// The largest one.
+    Max,
+}
+
+impl Reduce {
+    /// The value that changes nothing.
+    pub fn neutral(self) -> f64 {
+        match self {
+            Reduce::Add => 0.0,
+            Reduce::Min => f64::INFINITY,
+            Reduce::Max => f64::NEG_INFINITY,
+        }
+    }
+
+    /// Two partial results put together; a NaN on either side stays one.
+    pub fn join(self, a: f64, b: f64) -> f64 {
+        match self {
+            Reduce::Add => a + b,
+            Reduce::Min if b < a || b.is_nan() => b,
+            Reduce::Max if b > a || b.is_nan() => b,
+            _ => a,
+        }
+    }
+}
+
+/// Which of the three shapes a kernel has.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Form {
+    /// Points, no transform.
+    Sweep,
+    /// Fills the lines of a forward transform.
+    Load,
+    /// Takes the lines of an inverse transform.
+    Store,
+}
+
+/// A twin: a serial loop over the points of some rows.
+pub type Twin<T> = fn(&mut Rows<T>, &Params, &Scalars, &mut [f64; SUMS]);
+
+/// One kernel of the catalogue. Fields are bound in the order read, written, whole.
+pub struct Kernel {
+    /// The word under which it is found everywhere.
+    pub name: &'static str,
+    /// Sweep, load or store.
+    pub form: Form,
+    /// How many fields it reads point by point.
+    pub reads: usize,
+    /// How many fields it writes or updates.
+    pub writes: usize,
+    /// Whether it also reads one field, of any level, at points of its own choice.
+    pub whole: bool,
+    /// How its sums are put together.
+    pub sums: &'static [Reduce],
+    /// When it runs.
+    pub gate: Gate,
+    /// Twin in double precision.
+    pub twin: Twin<f64>,
+    /// Twin in single precision.
+    pub twin_single: Twin<f32>,
+}
+
+impl Kernel {
+    /// How many fields it is given.
+    pub fn fields(&self) -> usize {
+        self.reads + self.writes + usize::from(self.whole)
+    }
+}
+
+/// Makes a catalogue entry whose twins are one generic function.
+macro_rules! kernel {
+    ($(#[$doc:meta])* $constant:ident, $twin:ident, $form:ident, reads $reads:expr, writes $writes:expr, whole $whole:expr, sums [$($sum:ident),*], gate $gate:ident) => {
+        $(#[$doc])*
+        pub static $constant: $crate::kernel::Kernel = $crate::kernel::Kernel {
+            name: stringify!($twin),
+            form: $crate::kernel::Form::$form,
+            reads: $reads,
+            writes: $writes,
+            whole: $whole,
+            sums: &[$($crate::kernel::Reduce::$sum),*],
+            gate: $crate::kernel::Gate::$gate,
+            twin: $twin::<f64>,
+            twin_single: $twin::<f32>,
+        };
+    };
+}
+pub(crate) use kernel;

@@ -1,0 +1,90 @@
+//! The points that one call of a twin works on.
+
+use crate::real::Real;
+
+/// A field read at points of the kernel's own choice, with its level's shape.
+#[derive(Clone, Copy)]
+pub struct Whole<'a, T> {
+    /// All its values, row-major.
+    pub values: &'a [T],
+    /// Points along x and y.
+    pub points: [usize; 2],
+}
+
+/// Some full rows of a level, with the fields that a kernel reads and writes there.
+pub struct Rows<'a, T> {
+    /// Number of the first row.
+    pub first: usize,
+    /// Points in a row.
+    pub width: usize,
+    /// Rows.
+    pub count: usize,
+    /// Surface points along x and y; the others are the pad of a free boundary.
+    pub surface: [usize; 2],
+    /// The lines of a transform, filled by a load part and taken by a store part.
+    pub lines: &'a mut [T],
+    /// Fields read, cut to these rows.
+    pub reads: [&'a [T]; 4],
+    /// Fields written or updated, cut to these rows.
+    pub writes: [&'a mut [T]; 3],
+    /// A field read anywhere.
+    pub whole: Whole<'a, T>,
+}
+
+impl<T: Real> Rows<'_, T> {
+    /// Points in these rows.
+    pub fn len(&self) -> usize {
+        self.width * self.count
+    }
+
+    /// Whether there are no points.
+    pub fn is_empty(&self) -> bool {
+        self.len() == 0
+    }
+
+    /// The layout alone, to walk the points while fields are borrowed.
+    pub fn layout(&self) -> Layout {
+        Layout {
+            first: self.first,
+            width: self.width,
+            count: self.count,
+            surface: self.surface,
+        }
+    }
+}
+
+/// Where rows lie.
+#[derive(Clone, Copy)]
+pub struct Layout {
+    first: usize,
+    width: usize,
+    count: usize,
+    surface: [usize; 2],
+}
+
+impl Layout {
+    /// Calls `point(index, on_surface)` for each point in order; `on_surface` is false on the pad.
+    #[inline(always)]
+    pub fn points(&self, mut point: impl FnMut(usize, bool)) {
+        if self.surface[0] == self.width && self.first + self.count <= self.surface[1] {
+            for index in 0..self.width * self.count {
+                point(index, true);
+            }
+            return;
+        }
+        for row in 0..self.count {
+            let surface = if self.first + row < self.surface[1] {
+                self.surface[0]
+            } else {
+                0
+            };
+            let start = row * self.width;
+            for index in start..start + surface {
+                point(index, true);
+            }
+            for index in start + surface..start + self.width {
+                point(index, false);
+            }
+        }
+    }
+}

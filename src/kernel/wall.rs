@@ -1,0 +1,481 @@
+//! Kernels of the laws with a hard wall: the gap is bounded below by zero.
+//!
+//! Notation in short formulas: g gap, p = K*(g+h), y = p + mean_pressure + sigma(g), F the free
+//! points (g > 0 or y < 0), yF = y on F and 0 elsewhere, d direction, s trial step. Points of a pad
+//! have no wall and no law: they are always free.
+
+use crate::kernel::{Params, Rows, SUMS, Scalars, Whole, kernel};
+use crate::law::Cohesion;
+use crate::real::Real;
+use crate::with_law;
+
+/// y on free points, 0 elsewhere.
+#[inline(always)]
+fn free_part<T: Real>(gap: T, y: T, on_surface: bool) -> T {
+    if is_free(gap, y, on_surface) {
+        y
+    } else {
+        T::zero()
+    }
+}
+
+#[inline(always)]
+fn is_free<T: Real>(gap: T, y: T, on_surface: bool) -> bool {
+    !on_surface || gap > T::zero() || y < T::zero()
+}
+
+/// y = p + mean_pressure + sigma(g); the pad has no law.
+#[inline(always)]
+fn total<T: Real>(law: &impl Cohesion<T>, gap: T, pressure: T, mean: T, on_surface: bool) -> T {
+    let elastic = pressure + mean;
+    if on_surface {
+        elastic + law.traction(gap)
+    } else {
+        elastic
+    }
+}
+
+/// s = restore * max(-g, a d) + (restore - 1) g, without a wall on the pad.
+#[inline(always)]
+fn trial_step<T: Real>(gap: T, moved: T, restore: T, on_surface: bool) -> T {
+    if !on_surface {
+        return moved;
+    }
+    restore * moved.max(-gap) + (restore - T::one()) * gap
+}
+
+/// The terms of the stopping measure at one point.
+#[inline(always)]
+fn add_residual<T: Real>(
+    sums: &mut [f64; SUMS],
+    gap: T,
+    y: T,
+    traction: T,
+    stiffness_max: T,
+    on_surface: bool,
+) {
+    if on_surface {
+        let violation = y.min(gap * stiffness_max).double();
+        sums[0] += violation * violation;
+        let reaction = if gap > T::zero() {
+            T::zero()
+        } else {
+            y.max(T::zero())
+        };
+        let (reaction, traction) = (reaction.double(), traction.double());
+        sums[1] += reaction * reaction + traction * traction;
+        let gap = gap.double();
+        if gap < sums[2] {
+            sums[2] = gap;
+        }
+        sums[3] += gap * gap;
+    } else {
+        let y = y.double();
+        sums[0] += y * y;
+    }
+}
+
+fn wall_residual<T: Real>(
+    rows: &mut Rows<T>,
+    params: &Params,
+    scalars: &Scalars,
+    sums: &mut [f64; SUMS],
+) {
+    let layout = rows.layout();
+    let [gap, pressure, ..] = rows.reads;
+    let mean = T::of(scalars.mean_pressure);
+    let stiffness_max = T::of(params.stiffness_max);
+    with_law!(params.law, T, law => layout.points(|i, on_surface| {
+        let y = total(&law, gap[i], pressure[i], mean, on_surface);
+        let traction = if on_surface { law.traction(gap[i]) } else { T::zero() };
+        add_residual(sums, gap[i], y, traction, stiffness_max, on_surface);
+    }));
+}
+kernel!(
+    /// The stopping measure of the present state. Reads gap, pressure.
+    WALL_RESIDUAL, wall_residual, Sweep, reads 2, writes 0, whole false,
+    sums [Add, Add, Min, Add], gate Always
+);
+
+fn wall_free<T: Real>(
+    rows: &mut Rows<T>,
+    params: &Params,
+    scalars: &Scalars,
+    sums: &mut [f64; SUMS],
+) {
+    let layout = rows.layout();
+    let count = rows.len();
+    let gap = &rows.reads[0][..count];
+    let pressure = &rows.reads[1][..count];
+    let lines = &mut rows.lines[..count];
+    let mean = T::of(scalars.mean_pressure);
+    let stiffness_max = T::of(params.stiffness_max);
+    with_law!(params.law, T, law => layout.points(|i, on_surface| {
+        let traction = if on_surface { law.traction(gap[i]) } else { T::zero() };
+        let y = pressure[i] + mean + traction;
+        add_residual(sums, gap[i], y, traction, stiffness_max, on_surface);
+        lines[i] = free_part(gap[i], y, on_surface);
+    }));
+}
+kernel!(
+    /// Loads yF and sums the stopping measure on the way. Reads gap, pressure.
+    WALL_FREE, wall_free, Load, reads 2, writes 0, whole false,
+    sums [Add, Add, Min, Add], gate Fresh
+);
+
+fn wall_free_kept<T: Real>(
+    rows: &mut Rows<T>,
+    params: &Params,
+    scalars: &Scalars,
+    sums: &mut [f64; SUMS],
+) {
+    wall_free(rows, params, scalars, sums);
+    let count = rows.len();
+    rows.writes[0][..count].copy_from_slice(&rows.lines[..count]);
+}
+kernel!(
+    /// As `wall_free`, and keeps yF in a field for the coarse level. Reads gap, pressure; writes yF.
+    WALL_FREE_KEPT, wall_free_kept, Load, reads 2, writes 1, whole false,
+    sums [Add, Add, Min, Add], gate Fresh
+);
+
+/// Value of a coarse field at a fine point, bilinear between coarse cell centres.
+///
+/// Along one axis the fine point `i` of a coarsening by `ratio` lies `(i + 1/2)/ratio - 1/2`
+/// coarse cells from the first coarse centre.
+#[inline(always)]
+fn interpolate<T: Real>(
+    whole: &Whole<T>,
+    below: &[T],
+    above: &[T],
+    weight: T,
+    x: usize,
+    width: usize,
+) -> T {
+    let coarse = whole.points[0];
+    let ratio = width / coarse;
+    let (left, right, share) = neighbours(x, ratio, coarse);
+    let share = T::of(share);
+    let low = below[left] * (T::one() - share) + below[right] * share;
+    let high = above[left] * (T::one() - share) + above[right] * share;
+    low * (T::one() - weight) + high * weight
+}
+
+/// The two coarse cells around a fine point and the share of the second one.
+#[inline(always)]
+pub(super) fn neighbours(fine: usize, ratio: usize, coarse: usize) -> (usize, usize, f64) {
+    let cell = fine / ratio;
+    let place = (2 * (fine % ratio) + 1) as f64 / (2 * ratio) as f64;
+    if place < 0.5 {
+        let left = if cell == 0 { coarse - 1 } else { cell - 1 };
+        (left, cell, place + 0.5)
+    } else {
+        let right = if cell + 1 == coarse { 0 } else { cell + 1 };
+        (cell, right, place - 0.5)
+    }
+}
+
+/// The sums from which the direction's conjugacy is found; slots as `scalar::direct` reads them.
+#[inline(always)]
+fn add_descent<T: Real>(
+    sums: &mut [f64; SUMS],
+    z: T,
+    y_free: T,
+    y_before: T,
+    direction: T,
+    free: bool,
+    held: bool,
+) {
+    let (z, y, before, d) = (
+        z.double(),
+        y_free.double(),
+        y_before.double(),
+        direction.double(),
+    );
+    let change = y - before;
+    sums[2] += d * change;
+    if free {
+        sums[0] += z * y;
+        sums[1] += z * change;
+        sums[3] += d * y;
+        if held {
+            sums[4] += z;
+            sums[5] += 1.0;
+            sums[6] += y;
+            sums[7] += change;
+            sums[8] += d;
+        }
+    }
+}
+
+fn wall_descent<T: Real>(
+    rows: &mut Rows<T>,
+    params: &Params,
+    scalars: &Scalars,
+    sums: &mut [f64; SUMS],
+) {
+    descent(rows, params, scalars, sums, |_, _, _| T::zero());
+}
+kernel!(
+    /// Stores the preconditioned residual z on free points. Reads gap, pressure, direction;
+    /// writes z and replaces the old yF by the new one.
+    WALL_DESCENT, wall_descent, Store, reads 3, writes 2, whole false,
+    sums [Add, Add, Add, Add, Add, Add, Add, Add, Add], gate Fresh
+);
+
+fn wall_descent_two_band<T: Real>(
+    rows: &mut Rows<T>,
+    params: &Params,
+    scalars: &Scalars,
+    sums: &mut [f64; SUMS],
+) {
+    let whole = rows.whole;
+    let (first, width) = (rows.first, rows.width);
+    let ratio = width / whole.points[0];
+    let coarse = whole.points[0];
+    descent(rows, params, scalars, sums, |row, x, _| {
+        let (below, above, share) = neighbours(first + row, ratio, whole.points[1]);
+        interpolate(
+            &whole,
+            &whole.values[below * coarse..(below + 1) * coarse],
+            &whole.values[above * coarse..(above + 1) * coarse],
+            T::of(share),
+            x,
+            width,
+        )
+    });
+}
+kernel!(
+    /// As `wall_descent`, with the long waves added from the coarse level. Whole: the coarse z.
+    WALL_DESCENT_TWO_BAND, wall_descent_two_band, Store, reads 3, writes 2, whole true,
+    sums [Add, Add, Add, Add, Add, Add, Add, Add, Add], gate Fresh
+);
+
+#[inline(always)]
+fn descent<T: Real>(
+    rows: &mut Rows<T>,
+    params: &Params,
+    scalars: &Scalars,
+    sums: &mut [f64; SUMS],
+    long_waves: impl Fn(usize, usize, usize) -> T,
+) {
+    let layout = rows.layout();
+    let (count, width) = (rows.len(), rows.width);
+    let [gap, pressure, direction, _] = rows.reads;
+    let (gap, pressure, direction) = (&gap[..count], &pressure[..count], &direction[..count]);
+    let lines = &rows.lines[..count];
+    let [z_out, y_before, _] = &mut rows.writes;
+    let (z_out, y_before) = (&mut z_out[..count], &mut y_before[..count]);
+    let mean = T::of(scalars.mean_pressure);
+    let held = params.fixed_gap;
+    with_law!(params.law, T, law => layout.points(|i, on_surface| {
+        let y = total(&law, gap[i], pressure[i], mean, on_surface);
+        let free = is_free(gap[i], y, on_surface);
+        let y_free = if free { y } else { T::zero() };
+        let z = if free { lines[i] + long_waves(i / width, i % width, i) } else { T::zero() };
+        add_descent(sums, z, y_free, y_before[i], direction[i], free, held);
+        z_out[i] = z;
+        y_before[i] = y_free;
+    }));
+}
+
+/// The new direction at one point: zero where the point is not free.
+#[inline(always)]
+fn new_direction<T: Real>(z: T, direction: T, factors: [T; 3], free: bool) -> T {
+    if free {
+        factors[0] * z + factors[1] * direction + factors[2]
+    } else {
+        T::zero()
+    }
+}
+
+/// The sums over a trial step; slots as `scalar::accept` reads them.
+#[inline(always)]
+fn add_trial<T: Real>(sums: &mut [f64; SUMS], step: T, y: T, gap: T, cut: bool, on_surface: bool) {
+    let s = step.double();
+    sums[0] += s * y.double();
+    if s < 0.0 && on_surface {
+        let ratio = gap.double() / -s;
+        if ratio < sums[1] {
+            sums[1] = ratio;
+        }
+    }
+    if s > sums[2] {
+        sums[2] = s;
+    }
+    if s < sums[3] {
+        sums[3] = s;
+    }
+    if cut {
+        sums[4] = 1.0;
+    }
+}
+
+fn wall_trial<T: Real>(
+    rows: &mut Rows<T>,
+    params: &Params,
+    scalars: &Scalars,
+    sums: &mut [f64; SUMS],
+) {
+    let layout = rows.layout();
+    let count = rows.len();
+    let [gap, pressure, z, _] = rows.reads;
+    let (gap, pressure, z) = (&gap[..count], &pressure[..count], &z[..count]);
+    let direction = &mut rows.writes[0][..count];
+    let lines = &mut rows.lines[..count];
+    let mean = T::of(scalars.mean_pressure);
+    let factors = [scalars.descent, scalars.memory, scalars.shift].map(T::of);
+    let length = T::of(scalars.trial);
+    with_law!(params.law, T, law => layout.points(|i, on_surface| {
+        let y = total(&law, gap[i], pressure[i], mean, on_surface);
+        let d = new_direction(z[i], direction[i], factors, is_free(gap[i], y, on_surface));
+        direction[i] = d;
+        let moved = length * d;
+        let step = trial_step(gap[i], moved, T::one(), on_surface);
+        let cut = on_surface && gap[i] + moved < T::zero();
+        add_trial(sums, step, y, gap[i], cut, on_surface);
+        lines[i] = step;
+    }));
+}
+kernel!(
+    /// Turns the direction and loads the trial step s. Reads gap, pressure, z; updates direction.
+    WALL_TRIAL, wall_trial, Load, reads 3, writes 1, whole false,
+    sums [Add, Min, Max, Min, Max], gate Running
+);
+
+fn wall_direct<T: Real>(
+    rows: &mut Rows<T>,
+    params: &Params,
+    scalars: &Scalars,
+    sums: &mut [f64; SUMS],
+) {
+    let layout = rows.layout();
+    let [gap, pressure, z, _] = rows.reads;
+    let direction = &mut rows.writes[0];
+    let mean = T::of(scalars.mean_pressure);
+    let factors = [scalars.descent, scalars.memory, scalars.shift].map(T::of);
+    let length = T::of(scalars.trial);
+    with_law!(params.law, T, law => layout.points(|i, on_surface| {
+        let y = total(&law, gap[i], pressure[i], mean, on_surface);
+        let d = new_direction(z[i], direction[i], factors, is_free(gap[i], y, on_surface));
+        direction[i] = d;
+        sums[0] += (gap[i] + length * d).max(T::zero()).double();
+        sums[1] += gap[i].double();
+    }));
+}
+kernel!(
+    /// Turns the direction and sums the mean that the trial would have (fixed mean gap). Reads gap,
+    /// pressure, z; updates direction.
+    WALL_DIRECT, wall_direct, Sweep, reads 3, writes 1, whole false,
+    sums [Add, Add], gate Running
+);
+
+fn wall_trial_held<T: Real>(
+    rows: &mut Rows<T>,
+    params: &Params,
+    scalars: &Scalars,
+    sums: &mut [f64; SUMS],
+) {
+    let layout = rows.layout();
+    let [gap, pressure, direction, _] = rows.reads;
+    let lines = &mut *rows.lines;
+    let mean = T::of(scalars.mean_pressure);
+    let length = T::of(scalars.trial);
+    let restore = T::of(scalars.restore);
+    with_law!(params.law, T, law => layout.points(|i, on_surface| {
+        let y = total(&law, gap[i], pressure[i], mean, on_surface);
+        let moved = length * direction[i];
+        let step = trial_step(gap[i], moved, restore, on_surface);
+        let cut = on_surface && gap[i] + moved < T::zero();
+        add_trial(sums, step, y, gap[i], cut, on_surface);
+        lines[i] = step;
+    }));
+}
+kernel!(
+    /// Loads the trial step scaled back to the held mean gap. Reads gap, pressure, direction.
+    WALL_TRIAL_HELD, wall_trial_held, Load, reads 3, writes 0, whole false,
+    sums [Add, Min, Max, Min, Max], gate Running
+);
+
+fn wall_search<T: Real>(
+    rows: &mut Rows<T>,
+    params: &Params,
+    scalars: &Scalars,
+    sums: &mut [f64; SUMS],
+) {
+    let layout = rows.layout();
+    let [gap, direction, ..] = rows.reads;
+    let length = T::of(scalars.trial);
+    let restore = T::of(scalars.restore);
+    let t = T::of(scalars.step);
+    with_law!(params.law, T, law => layout.points(|i, on_surface| {
+        if on_surface {
+            let step = trial_step(gap[i], length * direction[i], restore, true);
+            let change = law.traction(gap[i] + t * step) - law.traction(gap[i]);
+            sums[0] += change.double() * step.double();
+        }
+    }));
+}
+kernel!(
+    /// Sums `<sigma(g + t s) - sigma(g), s>`. Reads gap, direction.
+    WALL_SEARCH, wall_search, Sweep, reads 2, writes 0, whole false,
+    sums [Add], gate Searching
+);
+
+fn wall_advance<T: Real>(
+    rows: &mut Rows<T>,
+    _params: &Params,
+    scalars: &Scalars,
+    _sums: &mut [f64; SUMS],
+) {
+    let layout = rows.layout();
+    let count = rows.len();
+    let direction = &rows.reads[0][..count];
+    let lines = &rows.lines[..count];
+    let [gap, pressure, _] = &mut rows.writes;
+    let (gap, pressure) = (&mut gap[..count], &mut pressure[..count]);
+    let length = T::of(scalars.trial);
+    let restore = T::of(scalars.restore);
+    let t = T::of(scalars.step);
+    let snap = T::of(scalars.snap);
+    layout.points(|i, on_surface| {
+        let step = trial_step(gap[i], length * direction[i], restore, on_surface);
+        let mut moved = gap[i] + t * step;
+        if on_surface {
+            moved = moved.max(T::zero());
+            if step < T::zero() && moved < snap {
+                moved = T::zero();
+            }
+        }
+        gap[i] = moved;
+        pressure[i] += t * lines[i];
+    });
+}
+kernel!(
+    /// Takes K s and steps: g += t s, p += t K s. Reads direction; updates gap, pressure.
+    WALL_ADVANCE, wall_advance, Store, reads 1, writes 2, whole false,
+    sums [], gate Accepted
+);
+
+fn wall_balance<T: Real>(
+    rows: &mut Rows<T>,
+    params: &Params,
+    _scalars: &Scalars,
+    sums: &mut [f64; SUMS],
+) {
+    let layout = rows.layout();
+    let [gap, pressure, ..] = rows.reads;
+    with_law!(params.law, T, law => layout.points(|i, on_surface| {
+        let y = total(&law, gap[i], pressure[i], T::zero(), on_surface).double();
+        sums[0] += gap[i].double() * y;
+        sums[1] += gap[i].double();
+        if y < sums[2] {
+            sums[2] = y;
+        }
+    }));
+}
+kernel!(
+    /// The sums that give the mean pressure under a held mean gap. Reads gap, pressure.
+    WALL_BALANCE, wall_balance, Sweep, reads 2, writes 0, whole false,
+    sums [Add, Add, Min], gate Running
+);

@@ -1,0 +1,40 @@
+//! The exponential law: tension `(w/rho) exp(-gap/rho)` in front of a hard wall.
+
+use super::Cohesion;
+use crate::real::Real;
+
+/// Tension that falls by e over each `range`.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Exponential<T> {
+    /// Work of adhesion w.
+    pub work_of_adhesion: T,
+    /// Decay length rho.
+    pub range: T,
+}
+
+impl Exponential<f64> {
+    /// The same constants in the kernel's number.
+    pub fn cast<T: Real>(self) -> Exponential<T> {
+        Exponential {
+            work_of_adhesion: T::of(self.work_of_adhesion),
+            range: T::of(self.range),
+        }
+    }
+}
+
+impl<T: Real> Cohesion<T> for Exponential<T> {
+    #[inline]
+    fn traction(&self, gap: T) -> T {
+        self.work_of_adhesion / self.range * (-gap / self.range).exp()
+    }
+
+    #[inline]
+    fn energy(&self, gap: T) -> T {
+        -self.work_of_adhesion * (-gap / self.range).exp()
+    }
+
+    #[inline]
+    fn slope(&self, gap: T) -> T {
+        -self.traction(gap) / self.range
+    }
+}

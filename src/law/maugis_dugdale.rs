@@ -1,0 +1,67 @@
+//! The Maugis-Dugdale law: a constant tension up to a range (Maugis 1992), with an optional taper.
+
+use super::Cohesion;
+use crate::real::Real;
+
+/// Tension `peak_tension` up to about `range`, falling linearly to zero over the width `taper`
+/// centred on the range, so that the work of adhesion is `peak_tension * range` for every taper.
+///
+/// The sharp law (`taper = 0`) traps the edge of a contact between pixels; a taper of some pixels'
+/// worth of elastic opening frees it.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct MaugisDugdale<T> {
+    /// Constant tension.
+    pub peak_tension: T,
+    /// Work of adhesion over peak tension.
+    pub range: T,
+    /// Width of the linear end, at most twice the range; 0 for the sharp law.
+    pub taper: T,
+}
+
+impl MaugisDugdale<f64> {
+    /// The same constants in the kernel's number.
+    pub fn cast<T: Real>(self) -> MaugisDugdale<T> {
+        MaugisDugdale {
+            peak_tension: T::of(self.peak_tension),
+            range: T::of(self.range),
+            taper: T::of(self.taper),
+        }
+    }
+}
+
+impl<T: Real> Cohesion<T> for MaugisDugdale<T> {
+    #[inline]
+    fn traction(&self, gap: T) -> T {
+        if self.taper > T::zero() {
+            let left = (self.range - gap) / self.taper + T::of(0.5);
+            self.peak_tension * left.max(T::zero()).min(T::one())
+        } else if gap < self.range {
+            self.peak_tension
+        } else {
+            T::zero()
+        }
+    }
+
+    #[inline]
+    fn energy(&self, gap: T) -> T {
+        let half = T::of(0.5) * self.taper;
+        if gap <= self.range - half {
+            -self.peak_tension * (self.range - gap)
+        } else if gap < self.range + half {
+            let left = self.range + half - gap;
+            -self.peak_tension * left * left / (T::of(2.0) * self.taper)
+        } else {
+            T::zero()
+        }
+    }
+
+    #[inline]
+    fn slope(&self, gap: T) -> T {
+        let half = T::of(0.5) * self.taper;
+        if gap > self.range - half && gap < self.range + half {
+            -self.peak_tension / self.taper
+        } else {
+            T::zero()
+        }
+    }
+}

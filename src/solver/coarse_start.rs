@@ -1,0 +1,103 @@
+//! A start from coarser grids: each level is solved loosely and its displacement refined.
+
+use super::contact::{ContactSolver, Hold, Load, Start};
+use super::{MakeBackend, problem::Problem};
+use crate::backend::BackendError;
+use crate::kernel::Status;
+use crate::law::Law;
+
+/// Tolerance on the coarser grids.
+const TOLERANCE: f64 = 1e-3;
+/// Iterations on the coarser grids.
+const MAX_ITERATIONS: usize = 200;
+/// Fewest points each way of the finest grid that is helped.
+const FEWEST_HELPED: usize = 128;
+/// Fewest points each way of the coarsest grid.
+const FEWEST_COARSEST: usize = 32;
+/// Halvings.
+const LEVELS: usize = 3;
+
+/// A gap to start from and the transforms it took, in those of the full grid; `None` where a cold
+/// start does as well (small grids), or where coarse grids might choose another equilibrium
+/// (adhesion).
+pub(super) fn gap(
+    problem: &Problem,
+    load: &Load,
+    make_backend: MakeBackend,
+) -> Result<Option<(Vec<f64>, f64)>, BackendError> {
+    let [nx, ny] = problem.shape.points;
+    if problem.law != Law::HardWall || nx.min(ny) < FEWEST_HELPED || load.zero_stiffness != 0.0 {
+        return Ok(None);
+    }
+    refine(problem, load, make_backend, LEVELS)
+}
+
+fn refine(
+    problem: &Problem,
+    load: &Load,
+    make_backend: MakeBackend,
+    levels: usize,
+) -> Result<Option<(Vec<f64>, f64)>, BackendError> {
+    let [nx, ny] = problem.shape.points;
+    if levels == 0 || nx.min(ny) < 2 * FEWEST_COARSEST {
+        return Ok(None);
+    }
+    let Some(coarse) = problem.coarsened() else {
+        return Ok(None);
+    };
+    let below = refine(&coarse, load, make_backend, levels - 1)?;
+    let mut solver = ContactSolver::new(make_backend(), &coarse);
+    let (start, mut transforms) = match below {
+        Some((gap, transforms)) => (Start::Gap(gap), transforms),
+        None => (Start::Cold, 0.0),
+    };
+    solver.begin(load, &start, TOLERANCE, false)?;
+    for _ in 0..MAX_ITERATIONS {
+        if solver.iterate()?.status != Status::Running {
+            break;
+        }
+    }
+    transforms += solver.transforms();
+    let mut displacement = solver.gap()?;
+    for (u, h) in displacement.iter_mut().zip(&coarse.heights) {
+        *u += h;
+    }
+    let mut gap = interpolate(&displacement, [nx / 2, ny / 2]);
+    for (g, h) in gap.iter_mut().zip(&problem.heights) {
+        *g = (*g - h).max(0.0);
+    }
+    if let Hold::Gap(target) = load.hold {
+        let mean = gap.iter().sum::<f64>() / gap.len() as f64;
+        if mean > 0.0 {
+            gap.iter_mut().for_each(|g| *g *= target / mean);
+        }
+    }
+    Ok(Some((gap, transforms / 4.0)))
+}
+
+/// Bilinear, between cell centres, on twice the points; the grid wraps round.
+fn interpolate(coarse: &[f64], points: [usize; 2]) -> Vec<f64> {
+    let [nx, ny] = points;
+    let mut fine = Vec::with_capacity(4 * nx * ny);
+    for y in 0..2 * ny {
+        let row = y / 2;
+        let other = if y % 2 == 0 {
+            (row + ny - 1) % ny
+        } else {
+            (row + 1) % ny
+        };
+        let near = &coarse[row * nx..(row + 1) * nx];
+        let far = &coarse[other * nx..(other + 1) * nx];
+        let at = |x: usize| 0.75 * near[x] + 0.25 * far[x];
+        for x in 0..2 * nx {
+            let column = x / 2;
+            let other = if x % 2 == 0 {
+                (column + nx - 1) % nx
+            } else {
+                (column + 1) % nx
+            };
+            fine.push(0.75 * at(column) + 0.25 * at(other));
+        }
+    }
+    fine
+}

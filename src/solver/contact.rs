@@ -1,0 +1,422 @@
+//! The iteration: a fixed list of kernels over the backend, whose decisions are scalar kernels.
+
+use super::MakeBackend;
+use super::coarse_start;
+use super::problem::Problem;
+use super::two_band::TwoBand;
+use crate::backend::{Backend, BackendError, Field, Level, Spectrum};
+use crate::kernel::{Gate, Kernel, Params, Scalars, Status, common, core, scalar, wall};
+use crate::law::Law;
+
+/// What is held fixed, reduced units.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Hold {
+    /// The mean pressure over all solved points.
+    Pressure(f64),
+    /// The mean gap (periodic grids).
+    Gap(f64),
+}
+
+/// A load: what is held, and how stiffly the mean displacement is held besides.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Load {
+    /// What is held fixed.
+    pub hold: Hold,
+    /// Stiffness of the zero mode: 0 without a spring.
+    pub zero_stiffness: f64,
+    /// The preconditioner's zero mode, a compliance.
+    pub zero_compliance: f64,
+}
+
+/// The state from which a solve starts.
+#[derive(Clone, Debug, PartialEq)]
+pub enum Start {
+    /// The gap in the solver's field as it is.
+    Present,
+    /// This gap over all solved points; pressures are evaluated from it.
+    Gap(Vec<f64>),
+    /// The undeformed heights at first touch, helped by coarser grids where that pays.
+    Cold,
+}
+
+/// How a solve ended.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Outcome {
+    /// Converged, stalled, pulled off, not finite; `Running` where the iterations ran out.
+    pub status: Status,
+    /// Iterations.
+    pub iterations: usize,
+    /// The stopping measure, evaluated afresh from the final gap.
+    pub residual: f64,
+    /// Mean pressure over all solved points, reduced, without the zero mode's share.
+    pub mean_pressure: f64,
+}
+
+/// Solves one problem, load after load.
+pub struct ContactSolver<'p> {
+    backend: Box<dyn Backend + Send>,
+    problem: &'p Problem,
+    level: Level,
+    heights: Field,
+    gap: Field,
+    pressure: Field,
+    direction: Field,
+    descent: Field,
+    free_before: Field,
+    /// The trial step of a law whose change of variable makes it costly.
+    step: Option<Field>,
+    stiffness: Spectrum,
+    preconditioner: Spectrum,
+    two_band: Option<TwoBand>,
+    kernels: &'static KernelSet,
+    params: Params,
+    /// Transforms of the solvers on coarser grids that this one asked for help.
+    helped_by: f64,
+}
+
+/// The kernels of one family of laws.
+struct KernelSet {
+    residual: &'static Kernel,
+    free: &'static Kernel,
+    descent: &'static Kernel,
+    search: &'static Kernel,
+    advance: &'static Kernel,
+    balance: &'static Kernel,
+    balance_scalar: &'static scalar::ScalarKernel,
+    step: &'static scalar::ScalarKernel,
+    search_scalar: &'static scalar::ScalarKernel,
+    lengthen: &'static scalar::ScalarKernel,
+}
+
+static WALL: KernelSet = KernelSet {
+    residual: &wall::WALL_RESIDUAL,
+    free: &wall::WALL_FREE,
+    descent: &wall::WALL_DESCENT,
+    search: &wall::WALL_SEARCH,
+    advance: &wall::WALL_ADVANCE,
+    balance: &wall::WALL_BALANCE,
+    balance_scalar: &scalar::BALANCE_WALL,
+    step: &scalar::STEP_WALL,
+    search_scalar: &scalar::SEARCH_WALL,
+    lengthen: &scalar::LENGTHEN_WALL,
+};
+
+static CORE: KernelSet = KernelSet {
+    residual: &core::CORE_RESIDUAL,
+    free: &core::CORE_FREE,
+    descent: &core::CORE_DESCENT,
+    search: &core::CORE_SEARCH,
+    advance: &core::CORE_ADVANCE,
+    balance: &core::CORE_BALANCE,
+    balance_scalar: &scalar::BALANCE_CORE,
+    step: &scalar::STEP_CORE,
+    search_scalar: &scalar::SEARCH_CORE,
+    lengthen: &scalar::LENGTHEN_CORE,
+};
+
+/// Evaluations that one search of a step length may take, the scalar kernels' own bounds included.
+const SEARCHES: usize = 48;
+/// Lost trials that a solve may see for each iteration allowed.
+const ROUNDS_PER_ITERATION: usize = 4;
+
+impl<'p> ContactSolver<'p> {
+    /// Plans a problem on a backend: fields, spectra and kernels for its law, and no others.
+    pub fn new(mut backend: Box<dyn Backend + Send>, problem: &'p Problem) -> Self {
+        let level = backend.level("fine", problem.shape);
+        let heights = backend.field(level, "heights");
+        let gap = backend.field(level, "gap");
+        let pressure = backend.field(level, "pressure");
+        let direction = backend.field(level, "direction");
+        let descent = backend.field(level, "descent");
+        let free_before = backend.field(level, "free_before");
+        let has_wall = problem.law.has_wall();
+        let step = (!has_wall).then(|| backend.field(level, "step"));
+        let stiffness = backend.spectrum(level, "stiffness", &problem.stiffness);
+        let two_band = TwoBand::plan(&mut *backend, level, problem);
+        let compliance: Vec<f64> = match &two_band {
+            Some(bands) => bands.short_waves(problem),
+            None => problem
+                .stiffness
+                .iter()
+                .map(|&k| if k > 0.0 { 1.0 / k } else { 0.0 })
+                .collect(),
+        };
+        let preconditioner = backend.spectrum(level, "preconditioner", &compliance);
+        backend.write(heights, &problem.padded(&problem.heights, 0.0));
+        let points = problem.shape.surface_len() as f64;
+        let norm = problem.heights.iter().map(|h| h * h).sum::<f64>().sqrt();
+        let stiffness_max = problem.stiffness_max();
+        let params = Params {
+            law: problem.law,
+            stiffness_max,
+            pressure_floor: 1e-6
+                * (problem.rms_slope * problem.scales.lateral / problem.scales.length)
+                * points.sqrt(),
+            tolerance: 0.0,
+            heights_norm: norm,
+            fixed_gap: false,
+            may_detach: false,
+            points,
+            core_stiffness: 0.2 * stiffness_max,
+            epsilon: f64::EPSILON,
+        };
+        ContactSolver {
+            backend,
+            problem,
+            level,
+            heights,
+            gap,
+            pressure,
+            direction,
+            descent,
+            free_before,
+            step,
+            stiffness,
+            preconditioner,
+            two_band,
+            kernels: if has_wall { &WALL } else { &CORE },
+            params,
+            helped_by: 0.0,
+        }
+    }
+
+    /// The problem being solved.
+    pub fn problem(&self) -> &'p Problem {
+        self.problem
+    }
+
+    /// Real two-dimensional transforms so far, those on coarser grids in proportion to their points.
+    pub fn transforms(&self) -> f64 {
+        self.backend.transforms() + self.helped_by
+    }
+
+    /// The gap over all solved points, reduced.
+    pub fn gap(&mut self) -> Result<Vec<f64>, BackendError> {
+        self.backend.read(self.gap)
+    }
+
+    /// The elastic pressure K*(g + h) over all solved points, reduced, without the mean pressure.
+    pub fn elastic_pressure(&mut self) -> Result<Vec<f64>, BackendError> {
+        self.backend.read(self.pressure)
+    }
+
+    /// Gives the backend back, with all it counted.
+    pub fn into_backend(self) -> Box<dyn Backend + Send> {
+        self.backend
+    }
+
+    /// The gap at which the undeformed surfaces first touch, scaled or shifted to a held mean gap.
+    fn undeformed(&self, load: &Load) -> Vec<f64> {
+        let highest = self.problem.highest();
+        let mut gap: Vec<f64> = self.problem.heights.iter().map(|h| highest - h).collect();
+        if let Hold::Gap(target) = load.hold {
+            let mean = gap.iter().sum::<f64>() / gap.len() as f64;
+            if target >= mean {
+                gap.iter_mut().for_each(|g| *g += target - mean);
+            } else {
+                gap.iter_mut().for_each(|g| *g *= target / mean);
+            }
+        }
+        gap
+    }
+
+    /// Readies a solve: the load, the start, and the pressures that belong to it.
+    pub fn begin(
+        &mut self,
+        load: &Load,
+        start: &Start,
+        tolerance: f64,
+        careful: bool,
+    ) -> Result<(), BackendError> {
+        let (fixed_gap, mean_pressure) = match load.hold {
+            Hold::Pressure(pressure) => (false, pressure),
+            Hold::Gap(_) => (true, 0.0),
+        };
+        self.params.fixed_gap = fixed_gap;
+        self.params.tolerance = tolerance;
+        self.params.may_detach = !fixed_gap
+            && load.zero_stiffness == 0.0
+            && (mean_pressure < 0.0 || (mean_pressure == 0.0 && self.problem.law.is_adhesive()));
+        self.backend.set_params(&self.params);
+        self.backend
+            .set_zero_mode(self.stiffness, load.zero_stiffness);
+        match &self.two_band {
+            Some(bands) => bands.set_zero_mode(&mut *self.backend, load.zero_compliance),
+            None => self
+                .backend
+                .set_zero_mode(self.preconditioner, load.zero_compliance),
+        }
+        self.backend
+            .set_scalars(&Scalars::start(mean_pressure, careful));
+        match start {
+            Start::Present => {}
+            Start::Gap(gap) => self.backend.write(self.gap, gap),
+            Start::Cold => {
+                let gap = self.problem.padded(&self.undeformed(load), 0.0);
+                self.backend.write(self.gap, &gap);
+            }
+        }
+        self.refresh()
+    }
+
+    /// p = K*(g + h) afresh, and the mean pressure that goes with a held gap.
+    fn refresh(&mut self) -> Result<(), BackendError> {
+        let fields = [self.gap, self.heights];
+        self.backend
+            .forward(&common::LOAD_DISPLACEMENT, self.level, &fields);
+        self.backend.multiply(self.stiffness, false, Gate::Always);
+        self.backend
+            .backward(&common::STORE_PRESSURE, self.level, &[self.pressure]);
+        self.balance();
+        Ok(())
+    }
+
+    fn balance(&mut self) {
+        if self.params.fixed_gap {
+            let fields = [self.gap, self.pressure];
+            self.backend
+                .sweep(self.kernels.balance, self.level, &fields);
+            self.backend.scalar(self.kernels.balance_scalar);
+        }
+    }
+
+    /// Records one iteration. All decisions are taken by the scalar kernels; the search is left
+    /// early where the host can see that it is over.
+    pub fn iterate(&mut self) -> Result<Scalars, BackendError> {
+        let (level, kernels) = (self.level, self.kernels);
+        let (g, p, z, d) = (self.gap, self.pressure, self.descent, self.direction);
+        let backend = &mut *self.backend;
+        match &self.two_band {
+            Some(bands) => {
+                bands.descend(backend, g, p, d, z, self.free_before, self.preconditioner)
+            }
+            None => {
+                backend.forward(kernels.free, level, &[g, p]);
+                backend.scalar(&scalar::JUDGE);
+                backend.multiply(self.preconditioner, false, Gate::Fresh);
+                backend.backward(kernels.descent, level, &[g, p, d, z, self.free_before]);
+            }
+        }
+        backend.scalar(&scalar::DIRECT);
+        match self.step {
+            Some(step) => {
+                backend.sweep(&core::CORE_DIRECT, level, &[g, z, d, step]);
+                backend.scalar(&scalar::RESTORE_CORE);
+                backend.forward(&core::CORE_TRIAL, level, &[g, p, step]);
+            }
+            None if self.params.fixed_gap => {
+                backend.sweep(&wall::WALL_DIRECT, level, &[g, p, z, d]);
+                backend.scalar(&scalar::RESTORE_WALL);
+                backend.forward(&wall::WALL_TRIAL_HELD, level, &[g, p, d]);
+            }
+            None => backend.forward(&wall::WALL_TRIAL, level, &[g, p, z, d]),
+        }
+        backend.scalar(&scalar::ACCEPT);
+        backend.multiply(self.stiffness, true, Gate::Accepted);
+        backend.scalar(kernels.step);
+        let moved = self.step.unwrap_or(d);
+        if self.problem.law.has_tail() {
+            for _ in 0..SEARCHES {
+                if !backend.scalars()?.is_open(Gate::Searching) {
+                    break;
+                }
+                backend.sweep(kernels.search, level, &[g, moved]);
+                backend.scalar(kernels.search_scalar);
+            }
+        }
+        backend.scalar(&scalar::SETTLE_WALL);
+        backend.backward(kernels.advance, level, &[moved, g, p]);
+        backend.scalar(kernels.lengthen);
+        self.balance();
+        self.backend.scalars()
+    }
+
+    /// The stopping measure of the present gap, from pressures evaluated afresh.
+    pub fn evaluate(&mut self) -> Result<Scalars, BackendError> {
+        let mut scalars = self.backend.scalars()?;
+        scalars.status = Status::Running;
+        scalars.repeat = false;
+        self.backend.set_scalars(&scalars);
+        self.refresh()?;
+        let fields = [self.gap, self.pressure];
+        self.backend
+            .sweep(self.kernels.residual, self.level, &fields);
+        self.backend.scalar(&scalar::JUDGE);
+        self.backend.scalars()
+    }
+
+    /// Solves a load. `watch` sees the scalars after each iteration and may end the solve by
+    /// returning false.
+    #[allow(clippy::too_many_arguments)]
+    pub fn solve(
+        &mut self,
+        load: &Load,
+        start: &Start,
+        tolerance: f64,
+        max_iterations: usize,
+        careful: bool,
+        make_backend: MakeBackend,
+        watch: &mut dyn FnMut(&Scalars) -> bool,
+    ) -> Result<Outcome, BackendError> {
+        let helped = match start {
+            Start::Cold => coarse_start::gap(self.problem, load, make_backend)?,
+            _ => None,
+        };
+        match helped {
+            Some((gap, transforms)) => {
+                self.helped_by += transforms;
+                self.begin(load, &Start::Gap(gap), tolerance, careful)?;
+            }
+            None => self.begin(load, start, tolerance, careful)?,
+        }
+        let mut rounds = 0;
+        loop {
+            let scalars = self.iterate()?;
+            rounds += 1;
+            let mut status = scalars.status;
+            let out_of_iterations = scalars.iterations as usize >= max_iterations
+                || rounds >= ROUNDS_PER_ITERATION * max_iterations;
+            let stopped = !watch(&scalars);
+            if status == Status::Running && !out_of_iterations && !stopped {
+                continue;
+            }
+            let mut end = self.evaluate()?;
+            match status {
+                // The measure carried along says converged, the fresh one not yet: go on.
+                Status::Converged if end.status != Status::Converged => {
+                    if !out_of_iterations && !stopped && end.status == Status::Running {
+                        continue;
+                    }
+                    status = end.status;
+                }
+                Status::Stalled | Status::Running => {
+                    let floor = scalar::rounding_floor(&self.params, &end);
+                    if end.residual <= tolerance
+                        || (status == Status::Stalled && end.numerator <= floor)
+                    {
+                        status = Status::Converged;
+                    }
+                }
+                _ => {}
+            }
+            end.status = status;
+            return Ok(Outcome {
+                status,
+                iterations: end.iterations as usize,
+                residual: end.residual,
+                mean_pressure: end.mean_pressure,
+            });
+        }
+    }
+
+    /// The preconditioner's zero mode for a mean pressure that is held without a spring.
+    pub fn pressure_compliance(problem: &Problem, mean_pressure: f64) -> f64 {
+        let softest = 1.0 / problem.stiffness_min();
+        match problem.law {
+            Law::HardWall if mean_pressure != 0.0 => (problem.rms_height() / mean_pressure.abs())
+                .min(100.0 * softest)
+                .max(softest),
+            _ => softest,
+        }
+    }
+}

@@ -1,0 +1,17 @@
+//! The one algorithm: nonlinear conjugate gradients in the gap, for every law and both boundaries.
+//!
+//! The unknown is the gap g over the rigid heights h; the surface displacement is u = g + h and
+//! the elastic pressure p = K*u. With y = p + mean_pressure + sigma(g), a solution has y >= 0 where
+//! the gap is closed (there y is the wall's reaction) and y = 0 where it is open. It is a stationary
+//! point of `<u, Ku>/2 + <V(g)> + mean_pressure <g>`, which each accepted step lowers.
+
+mod coarse_start;
+mod contact;
+mod problem;
+mod two_band;
+
+pub use contact::{ContactSolver, Hold, Load, Outcome, Start};
+pub use problem::{Problem, Scales, good_size};
+
+/// Where solvers get their backends from; one a level of a coarse start.
+pub type MakeBackend<'a> = &'a dyn Fn() -> Box<dyn crate::backend::Backend + Send>;

@@ -1,0 +1,252 @@
+//! A contact problem in reduced units, ready to be solved.
+
+use crate::backend::Shape;
+use crate::elastic::{free_stiffness, periodic_stiffness};
+use crate::grid::Grid;
+use crate::law::Law;
+use crate::scene::Boundary;
+
+/// What one reduced unit is worth in SI units.
+///
+/// Vertical lengths are in units of the roughness, lateral ones in pixels, pressures in what a
+/// vertical unit of displacement over a pixel takes: so that all numbers stay near 1 whatever the
+/// scene's own, and the eigenvalues of the stiffness lie below pi.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Scales {
+    /// Vertical length, m.
+    pub length: f64,
+    /// Lateral length, m.
+    pub lateral: f64,
+    /// Pressure, Pa.
+    pub pressure: f64,
+}
+
+/// Heights, elasticity and law of a contact, in reduced units.
+#[derive(Clone, Debug)]
+pub struct Problem {
+    /// The grid, SI.
+    pub grid: Grid,
+    /// What lies beyond its edge.
+    pub boundary: Boundary,
+    /// Points that are solved for; more than the grid's on a free boundary.
+    pub shape: Shape,
+    /// Units.
+    pub scales: Scales,
+    /// Heights on the grid less `height_origin`, reduced.
+    pub heights: Vec<f64>,
+    /// Their mean (periodic) or highest value (free), m: taken off in double precision, so that
+    /// the solution does not feel where heights are measured from.
+    pub height_origin: f64,
+    /// Root mean square slope.
+    pub rms_slope: f64,
+    /// The law, reduced.
+    pub law: Law,
+    /// Stiffness at each wavevector, as [`Shape::spectrum_len`] says; its zero mode is 0
+    /// (periodic) or the free half-space's.
+    pub stiffness: Vec<f64>,
+}
+
+/// Smallest even size of at least `points` whose prime factors are 2, 3, 5 and 7.
+pub fn good_size(points: usize) -> usize {
+    let mut size = points.max(2).next_multiple_of(2);
+    loop {
+        let mut rest = size;
+        for prime in [2, 3, 5, 7] {
+            while rest % prime == 0 {
+                rest /= prime;
+            }
+        }
+        if rest == 1 {
+            return size;
+        }
+        size += 2;
+    }
+}
+
+impl Problem {
+    /// A problem from heights in metres (`[ny, nx]`, row-major), a contact modulus in Pa and a law
+    /// in SI units.
+    pub fn new(
+        grid: Grid,
+        boundary: Boundary,
+        contact_modulus: f64,
+        heights: &[f64],
+        rms_slope: f64,
+        law: Law,
+    ) -> Self {
+        let count = heights.len() as f64;
+        let mean = heights.iter().sum::<f64>() / count;
+        let rms = (heights.iter().map(|h| (h - mean) * (h - mean)).sum::<f64>() / count).sqrt();
+        let highest = heights.iter().copied().fold(f64::NEG_INFINITY, f64::max);
+        let lateral = (grid.dx() * grid.dy()).sqrt();
+        let length = if rms > 0.0 {
+            rms
+        } else if law.is_adhesive() {
+            law.range()
+        } else {
+            lateral
+        };
+        let scales = Scales {
+            length,
+            lateral,
+            pressure: contact_modulus * length / lateral,
+        };
+        let height_origin = match boundary {
+            Boundary::Periodic => mean,
+            Boundary::Free => highest,
+        };
+        let shape = match boundary {
+            Boundary::Periodic => Shape::whole(grid.nx, grid.ny),
+            Boundary::Free => Shape {
+                points: [good_size(2 * grid.nx - 1), good_size(2 * grid.ny - 1)],
+                surface: [grid.nx, grid.ny],
+            },
+        };
+        let stiffness = match boundary {
+            Boundary::Periodic => periodic_stiffness(&grid, lateral),
+            Boundary::Free => {
+                free_stiffness(shape.points, [grid.dx() / lateral, grid.dy() / lateral])
+            }
+        };
+        Problem {
+            grid,
+            boundary,
+            shape,
+            scales,
+            heights: heights
+                .iter()
+                .map(|h| (h - height_origin) / length)
+                .collect(),
+            height_origin,
+            rms_slope,
+            law: law.reduced(length, scales.pressure),
+            stiffness,
+        }
+    }
+
+    /// The same problem without attraction.
+    pub fn without_adhesion(&self) -> Problem {
+        Problem {
+            law: Law::HardWall,
+            ..self.clone()
+        }
+    }
+
+    /// The same problem on half the points each way, or `None` where they cannot be halved.
+    pub fn coarsened(&self) -> Option<Problem> {
+        let [nx, ny] = self.shape.points;
+        if self.boundary == Boundary::Free || nx % 2 != 0 || ny % 2 != 0 {
+            return None;
+        }
+        let grid = Grid::new([nx / 2, ny / 2], [self.grid.lx, self.grid.ly]);
+        let mut heights = vec![0.0; grid.len()];
+        for (row, line) in heights.chunks_exact_mut(grid.nx).enumerate() {
+            for (column, height) in line.iter_mut().enumerate() {
+                let at = 2 * row * nx + 2 * column;
+                *height = 0.25
+                    * (self.heights[at]
+                        + self.heights[at + 1]
+                        + self.heights[at + nx]
+                        + self.heights[at + nx + 1]);
+            }
+        }
+        Some(Problem {
+            grid,
+            shape: Shape::whole(grid.nx, grid.ny),
+            heights,
+            stiffness: periodic_stiffness(&grid, self.scales.lateral),
+            law: self.law,
+            ..*self
+        })
+    }
+
+    /// Highest reduced height, as sampled.
+    pub fn highest(&self) -> f64 {
+        self.heights
+            .iter()
+            .copied()
+            .fold(f64::NEG_INFINITY, f64::max)
+    }
+
+    /// Root mean square of the reduced heights about their mean.
+    pub fn rms_height(&self) -> f64 {
+        let count = self.heights.len() as f64;
+        let mean = self.heights.iter().sum::<f64>() / count;
+        (self
+            .heights
+            .iter()
+            .map(|h| (h - mean) * (h - mean))
+            .sum::<f64>()
+            / count)
+            .sqrt()
+    }
+
+    /// Largest stiffness over all wavevectors.
+    pub fn stiffness_max(&self) -> f64 {
+        let largest = self.stiffness.iter().copied().fold(0.0, f64::max);
+        if largest > 0.0 { largest } else { 1.0 }
+    }
+
+    /// Least stiffness over the wavevectors other than zero.
+    pub fn stiffness_min(&self) -> f64 {
+        let least = self.stiffness[1..]
+            .iter()
+            .copied()
+            .fold(f64::INFINITY, f64::min);
+        if least.is_finite() { least } else { 1.0 }
+    }
+
+    /// Spreads values on the grid over the solved points, `outside` on a pad.
+    pub fn padded(&self, values: &[f64], outside: f64) -> Vec<f64> {
+        let [width, rows] = self.shape.points;
+        let [nx, ny] = self.shape.surface;
+        if width == nx && rows == ny {
+            return values.to_vec();
+        }
+        let mut padded = vec![outside; width * rows];
+        for (line, values) in padded
+            .chunks_exact_mut(width)
+            .zip(values.chunks_exact(nx))
+            .take(ny)
+        {
+            line[..nx].copy_from_slice(values);
+        }
+        padded
+    }
+
+    /// The grid's values out of those over all solved points.
+    pub fn surface_part(&self, values: &[f64]) -> Vec<f64> {
+        let [width, _] = self.shape.points;
+        let [nx, ny] = self.shape.surface;
+        values
+            .chunks_exact(width)
+            .take(ny)
+            .flat_map(|line| line[..nx].iter().copied())
+            .collect()
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn good_sizes_are_even_and_smooth() {
+        for (points, size) in [
+            (1, 2),
+            (3, 4),
+            (127, 128),
+            (129, 140 - 10),
+            (255, 256),
+            (2 * 127 - 1, 256),
+        ] {
+            let found = good_size(points);
+            assert!(found >= points && found % 2 == 0);
+            if points != 129 {
+                assert_eq!(found, size);
+            }
+        }
+        assert_eq!(good_size(129), 140);
+        assert_eq!(good_size(22), 24);
+    }
+}

@@ -1,0 +1,143 @@
+//! The two-band preconditioner of the hard wall: its count is nearly free of the grid.
+//!
+//! The inverse of the stiffness carries long waves across contacts, where they do not belong. So
+//! short waves are answered by the inverse stiffness as it is, and long ones on a coarse grid,
+//! weighed by the share of free points there:
+//! `z = ((1-l)/K)*yF + P[Wc ((l/K)*(Wc R yF))]`, with `l = exp(-(8 q dx)^2)`.
+
+use super::problem::Problem;
+use crate::backend::{Backend, Field, Level, Shape, Spectrum};
+use crate::grid::Grid;
+use crate::kernel::{Gate, coarse, scalar, wall};
+use crate::law::Law;
+use crate::scene::Boundary;
+
+/// Fewest coarse points each way for which the second band pays.
+const FEWEST_COARSE: usize = 8;
+
+/// The coarse level of the preconditioner and its fields.
+pub(super) struct TwoBand {
+    fine: Level,
+    level: Level,
+    /// yF on the fine level.
+    free: Field,
+    restricted: Field,
+    share: Field,
+    weight: Field,
+    long_waves: Field,
+    smoothing: Spectrum,
+    compliance: Spectrum,
+}
+
+/// l at a wave number, with the pixel in the same unit.
+fn long_share(wavenumber: f64, pixel: f64) -> f64 {
+    (-(8.0 * wavenumber * pixel).powi(2)).exp()
+}
+
+impl TwoBand {
+    /// Plans the coarse level for a hard wall on a periodic grid that can be coarsened.
+    pub fn plan(backend: &mut dyn Backend, fine: Level, problem: &Problem) -> Option<Self> {
+        let [nx, ny] = problem.shape.points;
+        if problem.law != Law::HardWall || problem.boundary != Boundary::Periodic {
+            return None;
+        }
+        let ratio = [4, 2]
+            .into_iter()
+            .find(|ratio| nx % ratio == 0 && ny % ratio == 0)?;
+        if nx / ratio < FEWEST_COARSE || ny / ratio < FEWEST_COARSE {
+            return None;
+        }
+        let grid = Grid::new([nx / ratio, ny / ratio], [problem.grid.lx, problem.grid.ly]);
+        let level = backend.level("coarse", Shape::whole(grid.nx, grid.ny));
+        let pixel = problem.scales.lateral;
+        let tabulate = |value: &dyn Fn(f64) -> f64| -> Vec<f64> {
+            (0..=grid.nx / 2)
+                .flat_map(|kx| (0..=grid.ny / 2).map(move |ky| (kx, ky)))
+                .map(|(kx, ky)| value(grid.wavenumber(kx, ky)))
+                .collect()
+        };
+        let smoothing = tabulate(&|q| (-(4.0 * q * pixel).powi(2)).exp());
+        let compliance = tabulate(&|q| {
+            if q > 0.0 {
+                long_share(q, pixel) / (0.5 * q * pixel)
+            } else {
+                0.0
+            }
+        });
+        Some(TwoBand {
+            fine,
+            level,
+            free: backend.field(fine, "free"),
+            restricted: backend.field(level, "restricted"),
+            share: backend.field(level, "share"),
+            weight: backend.field(level, "weight"),
+            long_waves: backend.field(level, "long_waves"),
+            smoothing: backend.spectrum(level, "smoothing", &smoothing),
+            compliance: backend.spectrum(level, "long_compliance", &compliance),
+        })
+    }
+
+    /// The compliance of the first band, `(1 - l)/K`, on the fine level.
+    pub fn short_waves(&self, problem: &Problem) -> Vec<f64> {
+        let pixel = problem.scales.lateral;
+        problem
+            .stiffness
+            .iter()
+            .map(|&k| {
+                if k > 0.0 {
+                    (1.0 - long_share(2.0 * k / pixel, pixel)) / k
+                } else {
+                    0.0
+                }
+            })
+            .collect()
+    }
+
+    /// Sets the compliance of the zero mode.
+    pub fn set_zero_mode(&self, backend: &mut dyn Backend, value: f64) {
+        backend.set_zero_mode(self.compliance, value);
+    }
+
+    /// Records the preconditioned residual z.
+    #[allow(clippy::too_many_arguments)]
+    pub fn descend(
+        &self,
+        backend: &mut dyn Backend,
+        gap: Field,
+        pressure: Field,
+        direction: Field,
+        descent: Field,
+        free_before: Field,
+        short_waves: Spectrum,
+    ) {
+        let level = self.level;
+        backend.forward(
+            &wall::WALL_FREE_KEPT,
+            self.fine,
+            &[gap, pressure, self.free],
+        );
+        backend.scalar(&scalar::JUDGE);
+        let fields = [self.restricted, self.share, self.free];
+        backend.sweep(&coarse::COARSE_RESTRICT, level, &fields);
+        backend.forward(&coarse::COARSE_SHARE, level, &[self.share]);
+        backend.multiply(self.smoothing, false, Gate::Fresh);
+        backend.backward(&coarse::COARSE_WEIGHT, level, &[self.weight]);
+        backend.forward(&coarse::COARSE_LOAD, level, &[self.restricted, self.weight]);
+        backend.multiply(self.compliance, false, Gate::Fresh);
+        backend.backward(
+            &coarse::COARSE_STORE,
+            level,
+            &[self.weight, self.long_waves],
+        );
+        backend.multiply(short_waves, false, Gate::Fresh);
+        let fields = [
+            gap,
+            pressure,
+            direction,
+            descent,
+            free_before,
+            self.long_waves,
+        ];
+        backend.backward(&wall::WALL_DESCENT_TWO_BAND, self.fine, &fields);
+    }
+}
