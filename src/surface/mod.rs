@@ -15,6 +15,7 @@ mod fourier;
 pub mod self_affine;
 pub mod shapes;
 pub mod spectrum;
+pub mod statistics;
 
 pub use error::{FileError, PartError, SurfaceError};
 
