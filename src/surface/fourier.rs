@@ -1,0 +1,92 @@
+//! Two-dimensional real Fourier transforms of a whole surface.
+//!
+//! A half spectrum is stored by columns: element `kx * ny + ky` for `kx = 0 .. columns`, all `ky`.
+//! Columns beyond those stored are zero, so that a band-limited surface needs no full spectrum.
+
+use num_complex::Complex;
+use rayon::prelude::*;
+use realfft::RealFftPlanner;
+use rustfft::FftPlanner;
+
+use crate::grid::Grid;
+
+/// Rows handled together, so that a cache line of a column serves several of them.
+const ROWS_TOGETHER: usize = 8;
+
+/// Heights `h(x) = sum H exp(i q x)` from the coefficients H of the columns `kx = 0 ..` that are given.
+///
+/// `columns` has length `stored * ny` with `stored <= nx/2 + 1`; the missing half follows from
+/// `H(-q) = conj H(q)`. Returns shape `[ny, nx]`. No factor is applied: the coefficients are those of
+/// the sum, not of an unscaled transform.
+pub fn synthesise(grid: &Grid, mut columns: Vec<Complex<f64>>) -> Vec<f64> {
+    let (nx, ny) = (grid.nx, grid.ny);
+    debug_assert!(columns.len().is_multiple_of(ny) && columns.len() / ny <= nx / 2 + 1);
+    let along_y = FftPlanner::new().plan_fft_inverse(ny);
+    columns.par_chunks_mut(ny).for_each_init(
+        || vec![Complex::default(); along_y.get_inplace_scratch_len()],
+        |scratch, column| along_y.process_with_scratch(column, scratch),
+    );
+
+    let along_x = RealFftPlanner::new().plan_fft_inverse(nx);
+    let mut heights = vec![0.0; nx * ny];
+    heights
+        .par_chunks_mut(nx * ROWS_TOGETHER)
+        .enumerate()
+        .for_each_init(
+            || (along_x.make_input_vec(), along_x.make_scratch_vec()),
+            |(row_spectrum, scratch), (chunk, rows)| {
+                for (offset, row) in rows.chunks_mut(nx).enumerate() {
+                    let iy = chunk * ROWS_TOGETHER + offset;
+                    // The transform uses its input as scratch: every column anew, also the zero ones.
+                    row_spectrum.fill(Complex::default());
+                    for (value, column) in row_spectrum.iter_mut().zip(columns.chunks(ny)) {
+                        *value = column[iy];
+                    }
+                    // Real by symmetry up to rounding, which the transform would refuse.
+                    row_spectrum[0].im = 0.0;
+                    if nx.is_multiple_of(2) {
+                        row_spectrum[nx / 2].im = 0.0;
+                    }
+                    along_x
+                        .process_with_scratch(row_spectrum, row, scratch)
+                        .expect("all lengths come from the plan and the ends are real");
+                }
+            },
+        );
+    heights
+}
+
+/// Coefficients `H = sum h exp(-i q x) / (nx ny)` of all columns `kx = 0 ..= nx/2`.
+///
+/// The inverse of [`synthesise`]; needs as much memory as the heights.
+pub fn analyse(grid: &Grid, heights: &[f64]) -> Vec<Complex<f64>> {
+    let (nx, ny) = (grid.nx, grid.ny);
+    let stored = nx / 2 + 1;
+    let along_x = RealFftPlanner::new().plan_fft_forward(nx);
+    let mut rows = vec![Complex::default(); stored * ny];
+    rows.par_chunks_mut(stored)
+        .zip(heights.par_chunks(nx))
+        .for_each_init(
+            || (along_x.make_input_vec(), along_x.make_scratch_vec()),
+            |(input, scratch), (row_spectrum, row)| {
+                input.copy_from_slice(row);
+                along_x
+                    .process_with_scratch(input, row_spectrum, scratch)
+                    .expect("all lengths come from the plan");
+            },
+        );
+
+    let along_y = FftPlanner::new().plan_fft_forward(ny);
+    let factor = 1.0 / grid.len() as f64;
+    let mut columns = vec![Complex::default(); stored * ny];
+    columns.par_chunks_mut(ny).enumerate().for_each_init(
+        || vec![Complex::default(); along_y.get_inplace_scratch_len()],
+        |scratch, (kx, column)| {
+            for (value, row_spectrum) in column.iter_mut().zip(rows.chunks(stored)) {
+                *value = row_spectrum[kx] * factor;
+            }
+            along_y.process_with_scratch(column, scratch);
+        },
+    );
+    columns
+}

@@ -1,0 +1,394 @@
+//! Statistics of a height map: root mean squares, spectral moments, radial power spectrum.
+
+use std::f64::consts::PI;
+
+use rayon::prelude::*;
+
+use super::fourier;
+use super::spectrum::SpectralMoments;
+use crate::grid::Grid;
+use crate::scene::Boundary;
+
+/// Rings of the radial spectrum in a decade of wave numbers.
+const RINGS_A_DECADE: f64 = 20.0;
+
+/// What a height map is like.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Statistics {
+    /// Mean height, m.
+    pub mean: f64,
+    /// Lowest point, m.
+    pub lowest: f64,
+    /// Highest point, m.
+    pub highest: f64,
+    /// Moments, from which follow rms height (about the mean), slope, curvature, Nayak parameter and
+    /// summit density.
+    pub moments: SpectralMoments,
+}
+
+impl Statistics {
+    /// Statistics of `heights`, m, shape `[ny, nx]`.
+    ///
+    /// On a periodic grid slope and curvature are those of the waves themselves (sums of `q^2 |H|^2`
+    /// and `q^4 |H|^2`). On a free grid the edges do not match and the waves would see a step: there
+    /// they are root mean squares of forward differences and of the five-point Laplacian, which are
+    /// low for waves of a few pixels (5 % of the curvature at eight pixels).
+    ///
+    /// A periodic map takes one Fourier transform and twice its own memory. The grid has points.
+    pub fn of(grid: &Grid, heights: &[f64], boundary: Boundary) -> Self {
+        debug_assert!(!grid.is_empty() && heights.len() == grid.len());
+        let count = grid.len() as f64;
+        let mean = sum_over_rows(grid, heights, |_, row| row.iter().sum()) / count;
+        let height = sum_over_rows(grid, heights, |_, row| {
+            row.iter().map(|h| (h - mean) * (h - mean)).sum()
+        }) / count;
+        let [slope, curvature] = match boundary {
+            Boundary::Periodic => spectral_mean_squares(grid, heights),
+            Boundary::Free => difference_mean_squares(grid, heights),
+        };
+        Statistics {
+            mean,
+            lowest: heights.iter().copied().fold(f64::INFINITY, f64::min),
+            highest: heights.iter().copied().fold(f64::NEG_INFINITY, f64::max),
+            moments: SpectralMoments::from_isotropic([height, slope, curvature]),
+        }
+    }
+}
+
+/// One ring of a radial power spectrum.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct SpectrumRing {
+    /// Mean wave number of its modes, 1/m.
+    pub wavenumber: f64,
+    /// Mean power spectral density C of its modes, m^4.
+    pub density: f64,
+    /// Number of modes, both half planes.
+    pub modes: usize,
+}
+
+/// Power spectral density averaged over rings of equal ratio, from long waves to short.
+///
+/// Normalised so that `<h^2>` is the integral of C over the plane of wavevectors. The heights of a free
+/// grid are multiplied by a Hann window of mean square 1, for without it the mismatch of opposite
+/// edges hides the short waves. Rings without modes are left out.
+pub fn radial_spectrum(grid: &Grid, heights: &[f64], boundary: Boundary) -> Vec<SpectrumRing> {
+    let spectrum = match boundary {
+        Boundary::Periodic => fourier::analyse(grid, heights),
+        Boundary::Free => fourier::analyse(grid, &windowed(grid, heights)),
+    };
+    let first = (2.0 * PI / grid.lx).min(2.0 * PI / grid.ly);
+    let area = grid.area() / (4.0 * PI * PI);
+    let mut rings: Vec<SpectrumRing> = Vec::new();
+    for (kx, column) in spectrum.chunks(grid.ny).enumerate() {
+        for (ky, coefficient) in column.iter().enumerate() {
+            if kx == 0 && ky == 0 {
+                continue;
+            }
+            let wavenumber = grid.wavenumber(kx, ky);
+            // Rounded to the nearest ring, so that the first one is centred on the first mode.
+            let ring = ((wavenumber / first).log10() * RINGS_A_DECADE).round() as usize;
+            if rings.len() <= ring {
+                let empty = SpectrumRing {
+                    wavenumber: 0.0,
+                    density: 0.0,
+                    modes: 0,
+                };
+                rings.resize(ring + 1, empty);
+            }
+            let images = images(grid, kx);
+            rings[ring].modes += images;
+            rings[ring].wavenumber += images as f64 * wavenumber;
+            rings[ring].density += images as f64 * area * coefficient.norm_sqr();
+        }
+    }
+    rings.retain(|ring| ring.modes > 0);
+    for ring in &mut rings {
+        ring.wavenumber /= ring.modes as f64;
+        ring.density /= ring.modes as f64;
+    }
+    rings
+}
+
+/// How often a stored column stands in the full spectrum.
+fn images(grid: &Grid, kx: usize) -> usize {
+    if kx == 0 || 2 * kx == grid.nx { 1 } else { 2 }
+}
+
+/// Mean square slope and Laplacian of the sum of waves.
+fn spectral_mean_squares(grid: &Grid, heights: &[f64]) -> [f64; 2] {
+    let spectrum = fourier::analyse(grid, heights);
+    let columns: Vec<[f64; 2]> = spectrum
+        .par_chunks(grid.ny)
+        .enumerate()
+        .map(|(kx, column)| {
+            let images = images(grid, kx) as f64;
+            let mut sums = [0.0; 2];
+            for (ky, coefficient) in column.iter().enumerate() {
+                let square = grid.wavenumber(kx, ky).powi(2);
+                let power = images * coefficient.norm_sqr();
+                sums[0] += square * power;
+                sums[1] += square * square * power;
+            }
+            sums
+        })
+        .collect();
+    columns
+        .iter()
+        .fold([0.0; 2], |sum, one| [sum[0] + one[0], sum[1] + one[1]])
+}
+
+/// Mean square forward difference and five-point Laplacian of points that have the neighbours.
+fn difference_mean_squares(grid: &Grid, heights: &[f64]) -> [f64; 2] {
+    let (nx, ny, dx, dy) = (grid.nx, grid.ny, grid.dx(), grid.dy());
+    let along_x = sum_over_rows(grid, heights, |_, row| {
+        row.windows(2)
+            .map(|pair| ((pair[1] - pair[0]) / dx).powi(2))
+            .sum()
+    });
+    let along_y = sum_over_rows(grid, heights, |iy, row| {
+        let next = heights.get((iy + 1) * nx..(iy + 2) * nx).unwrap_or(&[]);
+        row.iter()
+            .zip(next)
+            .map(|(here, next)| ((next - here) / dy).powi(2))
+            .sum()
+    });
+    let laplacian = sum_over_rows(grid, heights, |iy, row| {
+        if iy == 0 || iy + 1 == ny {
+            return 0.0;
+        }
+        let below = &heights[(iy - 1) * nx..iy * nx];
+        let above = &heights[(iy + 1) * nx..(iy + 2) * nx];
+        (1..nx.saturating_sub(1))
+            .map(|ix| {
+                let along_x = (row[ix - 1] - 2.0 * row[ix] + row[ix + 1]) / (dx * dx);
+                let along_y = (below[ix] - 2.0 * row[ix] + above[ix]) / (dy * dy);
+                (along_x + along_y).powi(2)
+            })
+            .sum()
+    });
+    // A grid one point wide has no slope that way, not an undefined one.
+    let mean = |sum: f64, count: usize| if count == 0 { 0.0 } else { sum / count as f64 };
+    [
+        mean(along_x, (nx - 1) * ny) + mean(along_y, nx * (ny - 1)),
+        mean(laplacian, nx.saturating_sub(2) * ny.saturating_sub(2)),
+    ]
+}
+
+/// Heights about their mean times a Hann window of mean square 1.
+fn windowed(grid: &Grid, heights: &[f64]) -> Vec<f64> {
+    let mean = heights.iter().sum::<f64>() / grid.len() as f64;
+    let window = |points: usize| -> Vec<f64> {
+        (0..points)
+            .map(|i| {
+                let phase = 2.0 * PI * (i as f64 + 0.5) / points as f64;
+                (1.0 - phase.cos()) / 1.5_f64.sqrt()
+            })
+            .collect()
+    };
+    let (along_x, along_y) = (window(grid.nx), window(grid.ny));
+    let rows = heights.chunks(grid.nx).zip(&along_y);
+    rows.flat_map(|(row, factor)| {
+        row.iter()
+            .zip(&along_x)
+            .map(move |(height, window)| (height - mean) * window * factor)
+    })
+    .collect()
+}
+
+/// Sum of a number for each row, added in order, so that it does not depend on threads.
+fn sum_over_rows(
+    grid: &Grid,
+    heights: &[f64],
+    of_row: impl Fn(usize, &[f64]) -> f64 + Sync,
+) -> f64 {
+    let rows: Vec<f64> = heights
+        .par_chunks(grid.nx)
+        .enumerate()
+        .map(|(iy, row)| of_row(iy, row))
+        .collect();
+    rows.iter().sum()
+}
+
+/// Root mean square jump between opposite edges, and between neighbours, along x and along y.
+///
+/// On a map that repeats the two are alike. Along an axis of one point both are 0.
+pub fn edge_jumps(grid: &Grid, heights: &[f64]) -> [(f64, f64); 2] {
+    let (nx, ny) = (grid.nx, grid.ny);
+    let root = |sum: f64, count: usize| (sum / count.max(1) as f64).sqrt();
+    let across_x = sum_over_rows(grid, heights, |_, row| (row[0] - row[nx - 1]).powi(2));
+    let steps_x = sum_over_rows(grid, heights, |_, row| {
+        row.windows(2).map(|pair| (pair[1] - pair[0]).powi(2)).sum()
+    });
+    let difference = |one: &[f64], other: &[f64]| -> f64 {
+        one.iter().zip(other).map(|(a, b)| (a - b) * (a - b)).sum()
+    };
+    let across_y = difference(&heights[..nx], &heights[(ny - 1) * nx..]);
+    let steps_y = sum_over_rows(grid, heights, |iy, row| {
+        difference(
+            row,
+            heights.get((iy + 1) * nx..(iy + 2) * nx).unwrap_or(&[]),
+        )
+    });
+    [
+        (root(across_x, ny), root(steps_x, (nx - 1) * ny)),
+        (root(across_y, nx), root(steps_y, nx * (ny - 1))),
+    ]
+}
+
+/// Index of the signed mode (k, l) in a half spectrum stored by columns, for `k >= 0`.
+#[cfg(test)]
+fn mode_index(grid: &Grid, k: usize, l: i64) -> usize {
+    let ky = l.rem_euclid(grid.ny as i64) as usize;
+    assert_eq!(crate::grid::signed_index(ky, grid.ny), l);
+    k * grid.ny + ky
+}
+
+#[cfg(test)]
+mod tests {
+    use super::super::self_affine;
+    use super::super::spectrum::SelfAffineSpectrum;
+    use super::*;
+    use approx::assert_relative_eq;
+
+    #[test]
+    fn coefficients_are_those_of_the_waves() {
+        for points in [[12, 10], [9, 7], [8, 1], [1, 6]] {
+            let grid = Grid::new(points, [3.0, 2.0]);
+            let (k, l) = ((points[0] - 1) / 4, (points[1] as i64 - 1) / 4);
+            let heights: Vec<f64> = (0..grid.len())
+                .map(|i| {
+                    let (x, y) = (
+                        (i % grid.nx) as f64 / grid.nx as f64,
+                        (i / grid.nx) as f64 / grid.ny as f64,
+                    );
+                    5.0 + (2.0 * PI * (k as f64 * x - l as f64 * y) + 0.3).cos()
+                })
+                .collect();
+            let spectrum = fourier::analyse(&grid, &heights);
+            if k > 0 {
+                let found = spectrum[mode_index(&grid, k, -l)];
+                assert_relative_eq!(found.re, 0.5 * 0.3_f64.cos(), max_relative = 1e-12);
+                assert_relative_eq!(found.im, 0.5 * 0.3_f64.sin(), max_relative = 1e-12);
+            }
+            let back = fourier::synthesise(&grid, spectrum);
+            for (found, expected) in back.iter().zip(&heights) {
+                assert_relative_eq!(found, expected, max_relative = 1e-12);
+            }
+        }
+    }
+
+    #[test]
+    fn moments_of_a_self_affine_surface_are_the_sums_over_its_band() {
+        let spectrum = SelfAffineSpectrum {
+            hurst: 0.6,
+            long: 1.0,
+            rolloff: 3.0,
+            short: 20.0,
+            plateau: 1.0,
+        };
+        let grid = Grid::new([64, 81], [2.0 * PI, 3.0 * PI]);
+        let sums = self_affine::band_sums(&spectrum, [grid.lx, grid.ly]);
+        let heights = self_affine::heights(&spectrum, &grid, 9);
+        let moments = Statistics::of(&grid, &heights, Boundary::Periodic).moments;
+        assert_relative_eq!(moments.m0, sums.height, max_relative = 1e-12);
+        assert_relative_eq!(moments.rms_slope(), sums.slope.sqrt(), max_relative = 1e-12);
+        assert_relative_eq!(
+            moments.rms_curvature(),
+            sums.curvature.sqrt(),
+            max_relative = 1e-12
+        );
+        assert!(moments.nayak().unwrap() > 1.5);
+    }
+
+    #[test]
+    fn moments_of_an_egg_box() {
+        // h = cos x cos y: <h^2> = 1/4, <|grad h|^2> = 1/2, lap h = -2 h.
+        let grid = Grid::new([16, 16], [2.0 * PI, 2.0 * PI]);
+        let heights: Vec<f64> = (0..256)
+            .map(|i| {
+                let at = |i: usize| (2.0 * PI * i as f64 / 16.0).cos();
+                7.0 + at(i % 16) * at(i / 16)
+            })
+            .collect();
+        let statistics = Statistics::of(&grid, &heights, Boundary::Periodic);
+        assert_relative_eq!(statistics.mean, 7.0, max_relative = 1e-14);
+        assert_eq!((statistics.lowest, statistics.highest), (6.0, 8.0));
+        assert_relative_eq!(statistics.moments.rms_height(), 0.5, max_relative = 1e-13);
+        assert_relative_eq!(
+            statistics.moments.rms_slope(),
+            0.5_f64.sqrt(),
+            max_relative = 1e-12
+        );
+        assert_relative_eq!(
+            statistics.moments.rms_curvature(),
+            1.0,
+            max_relative = 1e-12
+        );
+    }
+
+    #[test]
+    fn differences_of_a_quadratic_are_exact() {
+        // h = x^2 + 3 y: Laplacian 2; forward differences 2 x + dx along x, 3 along y.
+        let grid = Grid::new([4, 3], [4.0, 6.0]);
+        let heights: Vec<f64> = (0..12)
+            .map(|i| ((i % 4) as f64).powi(2) + 6.0 * (i / 4) as f64)
+            .collect();
+        let moments = Statistics::of(&grid, &heights, Boundary::Free).moments;
+        assert_relative_eq!(moments.rms_curvature(), 2.0, max_relative = 1e-14);
+        assert_relative_eq!(
+            2.0 * moments.m2,
+            (1.0 + 9.0 + 25.0) / 3.0 + 9.0,
+            max_relative = 1e-14
+        );
+        let line = Grid::new([3, 1], [3.0, 1.0]);
+        let moments = Statistics::of(&line, &[0.0, 1.0, 2.0], Boundary::Free).moments;
+        assert_eq!((2.0 * moments.m2, moments.m4), (1.0, 0.0));
+    }
+
+    #[test]
+    fn the_radial_spectrum_follows_the_density() {
+        let spectrum = SelfAffineSpectrum {
+            hurst: 0.8,
+            long: 1.0,
+            rolloff: 4.0,
+            short: 30.0,
+            plateau: 2.0,
+        };
+        let grid = Grid::new([80, 80], [2.0 * PI, 2.0 * PI]);
+        let heights = self_affine::heights(&spectrum, &grid, 3);
+        let rings = radial_spectrum(&grid, &heights, Boundary::Periodic);
+        assert_relative_eq!(rings[0].wavenumber, 1.0, max_relative = 1e-12);
+        assert_eq!(rings[0].modes, 4);
+        assert_eq!(
+            rings.iter().map(|ring| ring.modes).sum::<usize>(),
+            80 * 80 - 1
+        );
+        for ring in rings.iter().filter(|ring| ring.wavenumber < 26.0) {
+            // A ring is 12 % wide, over which C falls by a third: its mean lies near its middle.
+            let expected = spectrum.density(ring.wavenumber);
+            assert_relative_eq!(ring.density, expected, max_relative = 0.02);
+        }
+        // The window keeps the mean square of a surface that does not repeat.
+        let free = radial_spectrum(&grid, &heights, Boundary::Free);
+        let total = |rings: &[SpectrumRing]| -> f64 {
+            rings
+                .iter()
+                .map(|ring| ring.density * ring.modes as f64)
+                .sum()
+        };
+        assert_relative_eq!(total(&free), total(&rings), max_relative = 0.4);
+    }
+
+    #[test]
+    fn edges_of_a_map_that_repeats_are_like_its_steps() {
+        let grid = Grid::new([32, 16], [1.0, 1.0]);
+        let waves: Vec<f64> = (0..512)
+            .map(|i| (2.0 * PI * (i % 32) as f64 / 32.0).sin())
+            .collect();
+        let [along_x, along_y] = edge_jumps(&grid, &waves);
+        assert!(along_x.0 < 2.0 * along_x.1, "{along_x:?}");
+        assert_eq!(along_y, (0.0, 0.0));
+        let tilted: Vec<f64> = (0..512).map(|i| (i / 32) as f64).collect();
+        assert_eq!(edge_jumps(&grid, &tilted)[1], (15.0, 1.0));
+    }
+}
