@@ -1,5 +1,15 @@
 //! Many solves: the steps of a loading path.
 
+pub mod control;
+mod dmt;
+mod evaluation;
+mod jumps;
 mod row;
+mod setup;
+mod walk;
 
+pub use evaluation::{Evaluation, PointState, Solved};
+pub use jumps::{Jump, dissipation};
 pub use row::{State, StepRow};
+pub use setup::{Regime, Setup, resolve_law};
+pub use walk::{FinishedStep, Observer, WalkEnd, WalkError, walk};

@@ -1,0 +1,305 @@
+//! A loading path, step after step, each from the state of the one before.
+
+use std::time::Instant;
+
+use super::control::Controller;
+use super::dmt;
+use super::evaluation::{Evaluation, Solved};
+use super::jumps::{Jump, Jumps};
+use super::row::{State, StepRow};
+use super::setup::Setup;
+use crate::backend::BackendError;
+use crate::kernel::{Scalars, Status};
+use crate::law::Law;
+use crate::scene::{Boundary, Control};
+use crate::solver::{ContactSolver, Hold, Load, MakeBackend, Outcome, Start};
+
+/// A finished step, handed to whoever keeps it.
+pub struct FinishedStep<'a> {
+    /// The row of the table.
+    pub row: &'a StepRow,
+    /// The fields; `None` where the surfaces are apart and no field belongs to the load.
+    pub evaluation: Option<&'a Evaluation>,
+    /// The jump that the step made, if it made one.
+    pub jump: Option<Jump>,
+}
+
+/// What keeps the steps and watches the solver.
+pub trait Observer {
+    /// What may go wrong in keeping a step.
+    type Error;
+    /// Keeps a finished step.
+    fn step(&mut self, step: &FinishedStep) -> Result<(), Self::Error>;
+    /// Sees each iteration; returns whether to go on.
+    fn iteration(&mut self, step: usize, scalars: &Scalars) -> bool;
+}
+
+/// Why a path ended early.
+#[derive(Debug, thiserror::Error)]
+pub enum WalkError<E> {
+    /// The device failed.
+    #[error(transparent)]
+    Backend(#[from] BackendError),
+    /// A step could not be kept.
+    #[error("a step could not be kept")]
+    Observer(E),
+}
+
+/// How a path ended.
+#[derive(Clone, Debug, Default)]
+pub struct WalkEnd {
+    /// Rows of all steps done.
+    pub rows: Vec<StepRow>,
+    /// Steps that jumped into contact.
+    pub jump_in_steps: Vec<usize>,
+    /// Steps that jumped off.
+    pub jump_off_steps: Vec<usize>,
+    /// Energy that a closed loop dissipates, J.
+    pub hysteresis_energy: Option<f64>,
+    /// Whether the observer ended it.
+    pub interrupted: bool,
+    /// Real two-dimensional transforms.
+    pub transforms: f64,
+}
+
+/// Walks a path from its first step. Ends at the first step that does not converge, which is handed
+/// on like any other.
+pub fn walk<O: Observer>(
+    setup: &Setup,
+    make_backend: MakeBackend,
+    observer: &mut O,
+) -> Result<WalkEnd, WalkError<O::Error>> {
+    let problem = &setup.problem;
+    let controller = Controller::new(setup, problem);
+    let mut solver = ContactSolver::new(make_backend(), problem);
+    let mut state = PathState {
+        setup,
+        controller,
+        loaded: false,
+        interrupted: false,
+    };
+    let mut end = WalkEnd::default();
+    let mut jumps = Jumps::new(setup);
+    for (index, &value) in setup.scene.loading.path.iter().enumerate() {
+        let clock = Instant::now();
+        let step = index + 1;
+        let solved = state.step(&mut solver, value, make_backend, &mut |scalars| {
+            observer.iteration(step, scalars)
+        })?;
+        if state.interrupted {
+            end.interrupted = true;
+            break;
+        }
+        let row = state.row(step, value, &solved, clock.elapsed().as_secs_f64());
+        let jump = jumps.step(&row, solved.evaluation.as_ref());
+        match jump {
+            Some(Jump::In) => end.jump_in_steps.push(step),
+            Some(Jump::Off) => end.jump_off_steps.push(step),
+            None => {}
+        }
+        let finished = FinishedStep {
+            row: &row,
+            evaluation: solved.evaluation.as_ref(),
+            jump,
+        };
+        observer.step(&finished).map_err(WalkError::Observer)?;
+        let converged = row.converged;
+        end.rows.push(row);
+        if !converged {
+            break;
+        }
+    }
+    end.hysteresis_energy = jumps.hysteresis(&end.rows);
+    end.transforms = solver.transforms();
+    Ok(end)
+}
+
+/// A step as solved.
+pub(super) struct SolvedStep {
+    /// Fields and sums; `None` where no equilibrium carries the load.
+    pub evaluation: Option<Evaluation>,
+    /// Whether the residual meets the tolerance.
+    pub converged: bool,
+    /// Iterations of all its solves.
+    pub iterations: usize,
+    /// The stopping measure.
+    pub residual: f64,
+}
+
+/// What one step hands to the next.
+struct PathState<'s> {
+    setup: &'s Setup,
+    controller: Controller<'s>,
+    /// Whether the solver's gap belongs to a solved step.
+    loaded: bool,
+    interrupted: bool,
+}
+
+impl PathState<'_> {
+    fn step(
+        &mut self,
+        solver: &mut ContactSolver,
+        value: f64,
+        make_backend: MakeBackend,
+        watch: &mut dyn FnMut(&Scalars) -> bool,
+    ) -> Result<SolvedStep, BackendError> {
+        let setup = self.setup;
+        let mut going = true;
+        let mut watch = |scalars: &Scalars| {
+            going = watch(scalars);
+            going
+        };
+        let is_load = self.controller.is_load();
+        let solved = if setup.dmt && is_load {
+            dmt::step(setup, &self.controller, solver, value, self.loaded, make_backend, &mut watch)?
+        } else if is_load && setup.problem.law == Law::HardWall && value <= 0.0 {
+            // A wall alone carries no tension, and at zero load it only touches.
+            separated()
+        } else if self.controller.is_beyond_closure(value) {
+            SolvedStep {
+                converged: false,
+                residual: f64::INFINITY,
+                ..separated()
+            }
+        } else {
+            let load = self.controller.load(value);
+            let start = self.start(solver, &load, value)?;
+            let outcome = solve(setup, solver, &load, &start, make_backend, &mut watch)?;
+            finish(setup, &self.controller, solver, &load, &outcome)?
+        };
+        self.interrupted = !going;
+        self.loaded = solved.evaluation.is_some();
+        Ok(solved)
+    }
+
+    /// The last gap, moved to a new mean gap where one is held; the undeformed gap at the beginning.
+    fn start(
+        &self,
+        solver: &mut ContactSolver,
+        load: &Load,
+        value: f64,
+    ) -> Result<Start, BackendError> {
+        let problem = &self.setup.problem;
+        let spring = self.setup.scene.loading.spring.is_some();
+        if !self.loaded {
+            return Ok(if problem.boundary == Boundary::Free || spring {
+                Start::Gap(self.controller.undeformed_gap(value))
+            } else {
+                Start::Cold
+            });
+        }
+        let Hold::Gap(target) = load.hold else {
+            return Ok(Start::Present);
+        };
+        let mut gap = solver.gap()?;
+        let mean = gap.iter().sum::<f64>() / gap.len() as f64;
+        let least = gap.iter().copied().fold(f64::INFINITY, f64::min);
+        // Open surfaces move rigidly; a wall in contact stays where it is and the rest scales.
+        if !problem.law.has_wall() || (least > 0.0 && least + target - mean >= 0.0) {
+            gap.iter_mut().for_each(|g| *g += target - mean);
+        } else if mean > 0.0 {
+            gap.iter_mut().for_each(|g| *g *= target / mean);
+        } else {
+            return Ok(Start::Cold);
+        }
+        Ok(Start::Gap(gap))
+    }
+
+    fn row(&self, step: usize, value: f64, solved: &SolvedStep, seconds: f64) -> StepRow {
+        let area = self.setup.surface.grid.area();
+        let control = self.setup.scene.loading.control;
+        let evaluation = solved.evaluation.as_ref();
+        let force = match (control, evaluation) {
+            (_, None) => 0.0,
+            // The residual was met at the asked load, so the asked load it is.
+            (Control::Force, Some(_)) => value,
+            (Control::Pressure, Some(_)) => value * area,
+            (_, Some(evaluation)) => evaluation.force,
+        };
+        StepRow {
+            step,
+            time: None,
+            approach: evaluation.map(|e| e.position.approach),
+            mean_gap: evaluation.map(|e| e.position.mean_gap),
+            force,
+            mean_pressure: force / area,
+            contact_area_fraction: evaluation.map_or(0.0, |e| e.contact),
+            attractive_area_fraction: evaluation.map_or(0.0, |e| e.attracted),
+            elastic_energy: evaluation.map_or(0.0, |e| e.elastic_energy),
+            adhesive_energy: evaluation.map_or(0.0, |e| e.adhesive_energy),
+            iterations: solved.iterations,
+            residual: solved.residual,
+            converged: solved.converged,
+            seconds,
+            contact_area_fraction_corrected: match evaluation {
+                Some(evaluation) => evaluation.contact_corrected,
+                None => self.setup.law.has_wall().then_some(0.0),
+            },
+            state: evaluation.map_or(State::Separated, |e| e.state),
+        }
+    }
+}
+
+/// A load that the surfaces do not carry.
+pub(super) fn separated() -> SolvedStep {
+    SolvedStep {
+        evaluation: None,
+        converged: true,
+        iterations: 0,
+        residual: 0.0,
+    }
+}
+
+/// Solves with the scene's own settings. A sharp law is walked in careful steps first, from a state
+/// that is a branch's.
+pub(super) fn solve(
+    setup: &Setup,
+    solver: &mut ContactSolver,
+    load: &Load,
+    start: &Start,
+    make_backend: MakeBackend,
+    watch: &mut dyn FnMut(&Scalars) -> bool,
+) -> Result<Outcome, BackendError> {
+    let sharp = matches!(solver.problem().law, Law::MaugisDugdale(law) if law.taper == 0.0);
+    let careful = sharp && *start != Start::Cold;
+    let settings = &setup.scene.solver;
+    solver.solve(
+        load,
+        start,
+        settings.tolerance,
+        settings.max_iterations,
+        careful,
+        make_backend,
+        watch,
+    )
+}
+
+/// Reads the solved fields and evaluates them.
+pub(super) fn finish(
+    setup: &Setup,
+    controller: &Controller,
+    solver: &mut ContactSolver,
+    load: &Load,
+    outcome: &Outcome,
+) -> Result<SolvedStep, BackendError> {
+    if outcome.status == Status::PulledOff {
+        return Ok(SolvedStep {
+            iterations: outcome.iterations,
+            ..separated()
+        });
+    }
+    let gap = solver.gap()?;
+    let elastic = solver.elastic_pressure()?;
+    let solved = Solved {
+        gap: &gap,
+        elastic: &elastic,
+        held: outcome.mean_pressure,
+        load: *load,
+    };
+    Ok(SolvedStep {
+        evaluation: Some(Evaluation::of(setup, solver.problem(), controller, &solved)),
+        converged: outcome.status == Status::Converged,
+        iterations: outcome.iterations,
+        residual: outcome.residual,
+    })
+}
