@@ -54,12 +54,12 @@ pub enum SurfaceError {
     },
     /// A sum of parts past the range of numbers.
     #[error(
-        "the heights are not finite at row {row}, column {column} (counted from 0): a length of a [[surface]] is too large"
+        "the heights are not finite at row {row}, column {column} (counted from 1): a length of a [[surface]] is too large"
     )]
     NotFinite {
-        /// Row (y), from 0.
+        /// Row (y), from 1.
         row: usize,
-        /// Column (x), from 0.
+        /// Column (x), from 1.
         column: usize,
     },
 }
@@ -184,7 +184,7 @@ pub enum PartError {
     },
 }
 
-/// What is wrong with a height file.
+/// What is wrong with a height file. Lines, rows and columns count from 1.
 #[derive(Debug, Error)]
 pub enum FileError {
     /// A kind of file that this version does not read.
@@ -195,5 +195,179 @@ pub enum FileError {
     NotInThisVersion {
         /// The extension, lower case.
         extension: String,
+    },
+    /// A name that does not tell the kind of file.
+    #[error(
+        "the name has no extension; name it .npy, or .txt for a text matrix, so that its kind is known"
+    )]
+    NoExtension,
+    /// No such file.
+    #[error("there is no such file; a path in a scene is relative to the folder of the scene file")]
+    NotFound,
+    /// A folder in place of a file.
+    #[error("this is a folder; path must name one height file")]
+    Folder,
+    /// A device, pipe or socket in place of a file.
+    #[error("this is no regular file; copy the heights into one")]
+    NotRegular,
+    /// A file that cannot be read.
+    #[error("cannot be read: {0}")]
+    Read(#[source] std::io::Error),
+    /// Nothing in it.
+    #[error("the file is empty (0 bytes)")]
+    Empty,
+    /// A file that is not what its name says.
+    #[error("the name says .{extension}, but the file holds {found}; give it the right extension")]
+    OtherContent {
+        /// The extension, lower case.
+        extension: String,
+        /// What its first bytes say.
+        found: &'static str,
+    },
+    /// Text with bytes that no text has.
+    #[error("the file is no text: byte {offset} is 0")]
+    Binary {
+        /// Offset of the first such byte, from 0.
+        offset: usize,
+    },
+    /// Text in an encoding of two bytes a character.
+    #[error("the text is in UTF-16; save it as UTF-8")]
+    Utf16,
+    /// A text file too long to take in.
+    #[error("{bytes} bytes of text are too many; save the heights as .npy")]
+    TextTooLong {
+        /// Length of the file.
+        bytes: u64,
+    },
+    /// A .npy file that is broken.
+    #[error("broken .npy file: {what}")]
+    BrokenNpy {
+        /// What is wrong.
+        what: String,
+    },
+    /// An array with other than two dimensions.
+    #[error("the array has shape {shape:?}; heights need two dimensions, [rows (y), columns (x)]")]
+    Dimensions {
+        /// The shape in the file.
+        shape: Vec<u64>,
+    },
+    /// An array of something else than real numbers.
+    #[error(
+        "elements of type {found} are not heights; save them as float32, float64 or an integer type"
+    )]
+    ElementType {
+        /// The type in the file.
+        found: String,
+    },
+    /// Fewer bytes than the shape asks for.
+    #[error(
+        "the file is cut short: {rows} rows of {columns} columns need {expected} bytes, there are {found}"
+    )]
+    Truncated {
+        /// Rows of the array.
+        rows: usize,
+        /// Columns of the array.
+        columns: usize,
+        /// Bytes that the array needs.
+        expected: u64,
+        /// Bytes after the header.
+        found: u64,
+    },
+    /// More points than a grid may have.
+    #[error("{points} points are too many; at most {} can be taken", MOST_POINTS)]
+    TooManyPoints {
+        /// Points in the file, or those counted so far.
+        points: u64,
+    },
+    /// Nothing but comments, or an array of no elements.
+    #[error("the file holds no numbers")]
+    NoNumbers,
+    /// Rows of different length.
+    #[error(
+        "line {line} (row {row}) has {found} values where the rows above have {expected}; \
+         every row must have as many"
+    )]
+    Ragged {
+        /// Line of the file.
+        line: usize,
+        /// Row of numbers.
+        row: usize,
+        /// Its values.
+        found: usize,
+        /// Values of the first row.
+        expected: usize,
+    },
+    /// Something that is no number.
+    #[error("line {line} (row {row}), column {column}: \"{text}\" is not a number")]
+    NotANumber {
+        /// Line of the file.
+        line: usize,
+        /// Row of numbers.
+        row: usize,
+        /// Column.
+        column: usize,
+        /// What stands there, cut to 40 characters.
+        text: String,
+    },
+    /// Missing pixels that nobody asked to fill.
+    #[error(
+        "{count} of {points} pixels are missing ({infinite} of them infinite), the first at row {row}, \
+         column {column}; write fill = \"interpolate\" to fill them from their neighbours"
+    )]
+    Missing {
+        /// Pixels that are not finite.
+        count: usize,
+        /// All pixels.
+        points: usize,
+        /// Those of them that are infinite.
+        infinite: usize,
+        /// Row of the first.
+        row: usize,
+        /// Column of the first.
+        column: usize,
+    },
+    /// No pixel to fill from.
+    #[error("all {points} pixels are missing: there is nothing to interpolate from")]
+    AllMissing {
+        /// All pixels.
+        points: usize,
+    },
+    /// A factor that is no number.
+    #[error("{name} = {value} must be a finite number other than 0")]
+    Factor {
+        /// The key.
+        name: &'static str,
+        /// Its value.
+        value: f64,
+    },
+    /// Another number of points than the grid.
+    #[error(
+        "the map has {columns} x {rows} points (x, y), but {against} has {} x {}{hint}",
+        points[0], points[1]
+    )]
+    OtherPoints {
+        /// Columns of the map.
+        columns: usize,
+        /// Rows of the map.
+        rows: usize,
+        /// What it disagrees with.
+        against: &'static str,
+        /// Points of that, x and y.
+        points: [usize; 2],
+        /// What to do.
+        hint: &'static str,
+    },
+    /// Another size than the grid.
+    #[error(
+        "the map says it is {:e} x {:e} m (x, y), but {against} says {:e} x {:e} m; leave size out or correct one",
+        found[0], found[1], size[0], size[1]
+    )]
+    OtherSize {
+        /// Size in the file, m.
+        found: [f64; 2],
+        /// What it disagrees with.
+        against: &'static str,
+        /// Size of that, m.
+        size: [f64; 2],
     },
 }

@@ -10,18 +10,26 @@
 //! assert_eq!(heights.len(), 64 * 64);
 //! ```
 
+mod detrend;
 mod error;
+mod file;
+mod fill;
 mod fourier;
+mod matrix;
+mod npy;
 pub mod self_affine;
 pub mod shapes;
 pub mod spectrum;
 pub mod statistics;
+mod text;
 
 pub use error::{FileError, PartError, SurfaceError};
 
 use crate::grid::Grid;
-use crate::scene::{Boundary, Scene, SurfacePart};
+use crate::scene::{Boundary, GridScene, Scene, SurfacePart};
+use file::HeightMap;
 use shapes::Place;
+use statistics::Statistics;
 
 /// Most points of a grid: 8 GiB of heights.
 pub const MOST_POINTS: usize = 1 << 30;
@@ -48,34 +56,44 @@ impl Surface {
     /// # Errors
     /// See [`SurfaceError`]; an error of a part names it by its number, from 1.
     pub fn build(scene: &Scene) -> Result<Surface, SurfaceError> {
-        if scene.surfaces.is_empty() {
+        Surface::from_parts(&scene.grid, &scene.surfaces)
+    }
+
+    /// Builds the heights of `parts` on the grid of `scene`, or on that of a height file among them.
+    ///
+    /// # Errors
+    /// As [`Surface::build`].
+    pub fn from_parts(scene: &GridScene, parts: &[SurfacePart]) -> Result<Surface, SurfaceError> {
+        if parts.is_empty() {
             return Err(SurfaceError::Empty);
         }
-        let grid = resolve_grid(scene)?;
+        // Before a file is read or memory asked for: the scene's own numbers.
+        check_grid(scene.points, scene.size)?;
+        let mut maps = read_maps(scene, parts)?;
+        let grid = resolve_grid(scene, &maps)?;
         let mut heights = zeros(&grid)?;
         let mut warnings = Vec::new();
-        for (index, part) in scene.surfaces.iter().enumerate() {
+        for (index, part) in parts.iter().enumerate() {
             let mut found = Vec::new();
-            add_part(&mut heights, part, &grid, scene.grid.boundary, &mut found).map_err(
-                |problem| SurfaceError::Part {
-                    part: index + 1,
-                    problem: Box::new(problem),
-                },
-            )?;
-            warnings.extend(
-                found
-                    .into_iter()
-                    .map(|warning| format!("[[surface]] {}: {warning}", index + 1)),
-            );
+            match maps[index].take() {
+                Some(map) => {
+                    add(&mut heights, &map.heights);
+                    found = map.warnings;
+                }
+                None => add_part(&mut heights, part, &grid, scene.boundary, &mut found)
+                    .map_err(|problem| of_part(index, problem))?,
+            }
+            let named = |warning| format!("[[surface]] {}: {warning}", index + 1);
+            warnings.extend(found.into_iter().map(named));
         }
         if let Some(index) = heights.iter().position(|height| !height.is_finite()) {
             return Err(SurfaceError::NotFinite {
-                row: index / grid.nx,
-                column: index % grid.nx,
+                row: index / grid.nx + 1,
+                column: index % grid.nx + 1,
             });
         }
         let sampled = heights.iter().copied().fold(f64::NEG_INFINITY, f64::max);
-        let single = single_part(&scene.surfaces);
+        let single = single_part(parts);
         Ok(Surface {
             grid,
             heights,
@@ -90,6 +108,19 @@ impl Surface {
             warnings,
         })
     }
+
+    /// Root mean squares, moments and extremes of the heights; see [`Statistics::of`].
+    pub fn statistics(&self, boundary: Boundary) -> Statistics {
+        Statistics::of(&self.grid, &self.heights, boundary)
+    }
+}
+
+/// An error of the part at `index`.
+fn of_part(index: usize, problem: PartError) -> SurfaceError {
+    SurfaceError::Part {
+        part: index + 1,
+        problem: Box::new(problem),
+    }
 }
 
 /// The one part that is not flat, if there is exactly one.
@@ -101,17 +132,65 @@ fn single_part(parts: &[SurfacePart]) -> Option<&SurfacePart> {
     if shaped.next().is_some() { None } else { first }
 }
 
-/// The grid of a scene, checked.
-fn resolve_grid(scene: &Scene) -> Result<Grid, SurfaceError> {
-    let points = scene.grid.points.ok_or(SurfaceError::PointsMissing)?;
-    let size = scene.grid.size.ok_or(SurfaceError::SizeMissing)?;
-    let count = points[0].checked_mul(points[1]);
-    if !count.is_some_and(|count| (1..=MOST_POINTS).contains(&count)) {
-        return Err(SurfaceError::Points { points });
+/// Refuses points and sizes, where they are given, that no grid can have.
+fn check_grid(points: Option<[usize; 2]>, size: Option<[f64; 2]>) -> Result<(), SurfaceError> {
+    if let Some(points) = points {
+        let count = points[0].checked_mul(points[1]);
+        if !count.is_some_and(|count| (1..=MOST_POINTS).contains(&count)) {
+            return Err(SurfaceError::Points { points });
+        }
     }
-    if !size.iter().all(|side| side.is_finite() && *side > 0.0) {
+    if let Some(size) = size
+        && !size.iter().all(|side| side.is_finite() && *side > 0.0)
+    {
         return Err(SurfaceError::Size { size });
     }
+    Ok(())
+}
+
+/// The height maps of the parts that are files; `None` for the others.
+///
+/// Each is compared with the scene's grid as soon as it is read, so that the first wrong one ends it.
+fn read_maps(
+    scene: &GridScene,
+    parts: &[SurfacePart],
+) -> Result<Vec<Option<HeightMap>>, SurfaceError> {
+    let mut maps = Vec::with_capacity(parts.len());
+    let mut points = scene.points.map(|points| (points, "[grid] points"));
+    let mut size = scene.size.map(|size| (size, "[grid] size"));
+    for (index, part) in parts.iter().enumerate() {
+        let SurfacePart::File(file) = part else {
+            maps.push(None);
+            continue;
+        };
+        let of_file = |problem| {
+            let path = file.path.clone();
+            of_part(index, PartError::File { path, problem })
+        };
+        let map = file::read(file, scene.boundary).map_err(of_file)?;
+        if let Some((points, against)) = points {
+            map.compare_points(points, against).map_err(of_file)?;
+        }
+        if let Some((size, against)) = size {
+            map.compare_size(size, against).map_err(of_file)?;
+        }
+        points = points.or(Some((map.points, "an earlier height file")));
+        size = size.or(map.size.map(|size| (size, "an earlier height file")));
+        maps.push(Some(map));
+    }
+    Ok(maps)
+}
+
+/// The grid of a scene, or of its height files, which agree with it.
+fn resolve_grid(scene: &GridScene, maps: &[Option<HeightMap>]) -> Result<Grid, SurfaceError> {
+    let mut maps_read = maps.iter().flatten();
+    let points = scene
+        .points
+        .or(maps_read.clone().next().map(|map| map.points));
+    let size = scene.size.or(maps_read.find_map(|map| map.size));
+    let points = points.ok_or(SurfaceError::PointsMissing)?;
+    let size = size.ok_or(SurfaceError::SizeMissing)?;
+    check_grid(Some(points), Some(size))?;
     Ok(Grid::new(points, size))
 }
 
@@ -139,9 +218,11 @@ fn add_part(
     match part {
         SurfacePart::Flat => Ok(()),
         SurfacePart::Sphere { radius, centre } => {
+            warnings.extend(place(*centre).warning(grid));
             shapes::add_sphere(heights, grid, *radius, place(*centre))
         }
         SurfacePart::Cone { half_angle, centre } => {
+            warnings.extend(place(*centre).warning(grid));
             shapes::add_cone(heights, grid, *half_angle, place(*centre))
         }
         SurfacePart::Wavy {
@@ -153,12 +234,8 @@ fn add_part(
             add(heights, &rough);
             Ok(())
         }
-        SurfacePart::File(scene) => Err(PartError::File {
-            path: scene.path.clone(),
-            problem: FileError::NotInThisVersion {
-                extension: String::new(),
-            },
-        }),
+        // Read and added before.
+        SurfacePart::File(_) => Ok(()),
     }
 }
 

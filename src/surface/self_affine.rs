@@ -17,7 +17,7 @@ use crate::scene::{Roughness, SelfAffineScene};
 /// Relative margin within which a mode at the end of the band belongs to it.
 const BAND_MARGIN: f64 = 1e-9;
 
-/// Most waves along one axis in a band: `size / shortest`. Summing over a longer band takes minutes.
+/// Most waves along one axis in a band: `size / shortest`. A longer band takes minutes to sum.
 pub const MOST_WAVES: f64 = 32768.0;
 
 /// The finaliser of the splitmix64 generator: a bijection of 64-bit words that mixes them well.
@@ -76,7 +76,8 @@ impl BandSums {
 
 /// Sums over all modes of the band in a cell of `size` (m), whatever a grid can hold.
 ///
-/// Costs one power per mode of a quarter plane; independent of grid, seed and number of threads.
+/// Costs one power per mode of a quarter plane (15 s on two cores at [`MOST_WAVES`], 0.2 s at a tenth of
+/// it); independent of grid, seed and number of threads.
 pub fn band_sums(spectrum: &SelfAffineSpectrum, size: [f64; 2]) -> BandSums {
     sums_within(spectrum, size, [i64::MAX; 2])
 }

@@ -32,6 +32,20 @@ impl Place {
             (grid.ny as f64 - 1.0) * grid.dy() / 2.0,
         ])
     }
+
+    /// What the author should know: an apex beyond a free grid is touched by nothing.
+    pub fn warning(&self, grid: &Grid) -> Option<String> {
+        let [x, y] = self.centre_on(grid);
+        // The grid ends with the pixels around its first and last points.
+        let beside =
+            |at: f64, size: f64, pixel: f64| !(-pixel / 2.0..=size - pixel / 2.0).contains(&at);
+        let outside = beside(x, grid.lx, grid.dx()) || beside(y, grid.ly, grid.dy());
+        (self.boundary == Boundary::Free && outside).then(|| {
+            format!(
+                "the centre ({x:e}, {y:e}) m lies outside of the free grid, where the surfaces would touch first"
+            )
+        })
+    }
 }
 
 /// Adds the paraboloid `-r^2 / (2 radius)` with its apex at height 0.
@@ -238,6 +252,18 @@ mod tests {
         let mut free = vec![0.0; 32];
         add_sphere(&mut free, &grid, 1.0, at([0.0, 0.0], Boundary::Free)).unwrap();
         assert_eq!(free[7], -24.5);
+    }
+
+    #[test]
+    fn an_apex_outside_is_told_on_a_free_grid() {
+        let grid = Grid::new([8, 4], [8.0, 4.0]);
+        assert_eq!(at([-0.5, 3.5], Boundary::Free).warning(&grid), None);
+        assert_eq!(at([9.0, 1.0], Boundary::Periodic).warning(&grid), None);
+        let warning = at([9.0, 1.0], Boundary::Free).warning(&grid).unwrap();
+        assert!(
+            warning.contains("the centre (9e0, 1e0) m lies outside"),
+            "{warning}"
+        );
     }
 
     #[test]

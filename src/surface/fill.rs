@@ -1,0 +1,156 @@
+//! Missing pixels, interpolated from their neighbours.
+
+/// Most iterations of the membrane; a hole of a few thousand pixels across takes as many.
+const MOST_ITERATIONS: usize = 20_000;
+
+/// Residual, relative to that of a start from the mean, at which the membrane is at rest.
+const TOLERANCE: f64 = 1e-10;
+
+/// Replaces what is not finite by a membrane spanned over the rest, and returns how many were replaced.
+///
+/// Shape `[rows, columns]`, row-major. Each replaced pixel is the mean of its neighbours (up to 4; on a
+/// periodic map always, across the edges): the discrete Laplace equation, with pixels taken as
+/// square. Solved by conjugate gradients; iterations grow with the diameter of the largest hole. Without
+/// any finite pixel nothing is replaced.
+pub(super) fn interpolate(
+    values: &mut [f64],
+    rows: usize,
+    columns: usize,
+    periodic: bool,
+) -> usize {
+    let missing: Vec<usize> = (0..values.len())
+        .filter(|index| !values[*index].is_finite())
+        .collect();
+    if missing.is_empty() || missing.len() == values.len() {
+        return 0;
+    }
+    let known = (values.len() - missing.len()) as f64;
+    let finite = values.iter().filter(|value| value.is_finite());
+    let mean = finite.map(|value| value / known).sum::<f64>();
+
+    // Slot of a missing pixel in the list, `missing.len()` for a known one.
+    let none = missing.len();
+    let mut slot = vec![none; values.len()];
+    for (index, pixel) in missing.iter().enumerate() {
+        slot[*pixel] = index;
+    }
+    // The equations: degree * unknown - sum of unknown neighbours = sum of known neighbours.
+    let mut neighbours = Vec::with_capacity(none);
+    let mut degrees = Vec::with_capacity(none);
+    let mut residual = Vec::with_capacity(none);
+    for pixel in &missing {
+        let mut slots = [none; 4];
+        let (mut degree, mut load) = (0.0, 0.0);
+        let around = around(*pixel, rows, columns, periodic);
+        for (place, neighbour) in slots.iter_mut().zip(around.into_iter().flatten()) {
+            *place = slot[neighbour];
+            degree += 1.0;
+            if slot[neighbour] == none {
+                load += values[neighbour] - mean;
+            }
+        }
+        neighbours.push(slots);
+        degrees.push(degree);
+        residual.push(load);
+    }
+    drop(slot);
+    let unknown = relax(&neighbours, &degrees, residual);
+    for (pixel, height) in missing.iter().zip(&unknown) {
+        values[*pixel] = mean + height;
+    }
+    none
+}
+
+/// Conjugate gradients for the membrane from a start of 0; `residual` is the load.
+fn relax(neighbours: &[[usize; 4]], degrees: &[f64], mut residual: Vec<f64>) -> Vec<f64> {
+    let count = degrees.len();
+    let mut unknown = vec![0.0; count];
+    let mut direction = residual.clone();
+    let mut image = vec![0.0; count];
+    let mut square = dot(&residual, &residual);
+    let target = square * TOLERANCE * TOLERANCE;
+    for _ in 0..MOST_ITERATIONS {
+        if square <= target || !square.is_finite() {
+            break;
+        }
+        for (index, slots) in neighbours.iter().enumerate() {
+            let around: f64 = slots.iter().filter_map(|slot| direction.get(*slot)).sum();
+            image[index] = degrees[index] * direction[index] - around;
+        }
+        let step = square / dot(&direction, &image);
+        for index in 0..count {
+            unknown[index] += step * direction[index];
+            residual[index] -= step * image[index];
+        }
+        let next = dot(&residual, &residual);
+        let turn = next / square;
+        for (direction, residual) in direction.iter_mut().zip(&residual) {
+            *direction = residual + turn * *direction;
+        }
+        square = next;
+    }
+    unknown
+}
+
+/// Sum of products.
+fn dot(one: &[f64], other: &[f64]) -> f64 {
+    one.iter().zip(other).map(|(a, b)| a * b).sum()
+}
+
+/// The neighbours of a pixel that there are.
+fn around(pixel: usize, rows: usize, columns: usize, periodic: bool) -> [Option<usize>; 4] {
+    let (row, column) = (pixel / columns, pixel % columns);
+    let step = |at: usize, count: usize, forward: bool| -> Option<usize> {
+        let next = if forward { at + 1 } else { at + count - 1 };
+        let inside = if forward { next < count } else { at > 0 };
+        // A pixel is no neighbour of itself on an axis of one.
+        (count > 1 && (inside || periodic)).then_some(next % count)
+    };
+    [
+        step(column, columns, false).map(|column| row * columns + column),
+        step(column, columns, true).map(|column| row * columns + column),
+        step(row, rows, false).map(|row| row * columns + column),
+        step(row, rows, true).map(|row| row * columns + column),
+    ]
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use approx::assert_relative_eq;
+
+    #[test]
+    fn a_plane_is_filled_exactly() {
+        // A plane solves the Laplace equation; the hole keeps off the edges.
+        let plane = |i: usize| 3.0 + 0.5 * (i % 12) as f64 - 2.0 * (i / 12) as f64;
+        let mut values: Vec<f64> = (0..120).map(plane).collect();
+        for row in 2..7 {
+            for column in 3..9 {
+                values[row * 12 + column] = f64::NAN;
+            }
+        }
+        values[8 * 12 + 1] = f64::INFINITY;
+        assert_eq!(interpolate(&mut values, 10, 12, false), 31);
+        for (index, value) in values.iter().enumerate() {
+            assert_relative_eq!(*value, plane(index), max_relative = 1e-8, epsilon = 1e-8);
+        }
+    }
+
+    #[test]
+    fn a_hole_at_the_edge_sees_across_a_periodic_one() {
+        let row = [f64::NAN, 1.0, 2.0, 7.0];
+        let mut free = row;
+        interpolate(&mut free, 1, 4, false);
+        assert_relative_eq!(free[0], 1.0, max_relative = 1e-12);
+        let mut periodic = row;
+        interpolate(&mut periodic, 1, 4, true);
+        assert_relative_eq!(periodic[0], 4.0, max_relative = 1e-12);
+    }
+
+    #[test]
+    fn with_nothing_known_nothing_is_filled() {
+        let mut values = [f64::NAN; 4];
+        assert_eq!(interpolate(&mut values, 2, 2, true), 0);
+        assert_eq!(interpolate(&mut [1.0; 4], 2, 2, true), 0);
+    }
+}

@@ -1,0 +1,312 @@
+//! Height maps as text: a matrix of numbers, one line a row.
+//!
+//! Numbers are separated by semicolons, tabs, blanks or commas; the file as a whole decides which. With
+//! any of the first three a comma may be the decimal mark. `#`, `%` and `//` begin comments, one first
+//! line of words is a header, blank lines do not count. Numbers left out and `nan`, `na`, `n/a` are
+//! missing pixels.
+
+use super::MOST_POINTS;
+use super::error::FileError;
+use super::matrix::Matrix;
+
+/// What stands between the numbers of a line.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+enum Separator {
+    Semicolon,
+    Comma,
+    /// Tabs alone, so that an empty field is a missing pixel.
+    Tab,
+    /// Any run of blanks and tabs.
+    Blanks,
+}
+
+/// A line with numbers.
+struct Line<'a> {
+    /// Its number in the file, from 1.
+    number: usize,
+    /// Its text without comment, blanks around it and line end.
+    text: &'a str,
+}
+
+/// Reads a matrix from the bytes of a text file.
+///
+/// # Errors
+/// What is no text, no number, or no matrix, with line, row and column from 1.
+pub(super) fn read(bytes: &[u8]) -> Result<Matrix, FileError> {
+    let bytes = bytes.strip_prefix(b"\xEF\xBB\xBF").unwrap_or(bytes);
+    if bytes.starts_with(b"\xFF\xFE") || bytes.starts_with(b"\xFE\xFF") {
+        return Err(FileError::Utf16);
+    }
+    if let Some(offset) = bytes.iter().position(|byte| *byte == 0) {
+        return Err(FileError::Binary { offset });
+    }
+    // Comments may be in another encoding (a Latin-1 micro sign); numbers cannot.
+    let text = String::from_utf8_lossy(bytes);
+    let body = Body::new(&text);
+    let separator = separator(&body);
+    let margins = margins(&body, separator);
+    let count_fields =
+        |line: &Line| fields(line.text, separator).count() - margins.before - margins.after;
+
+    let (mut rows, mut columns) = (0, 0);
+    let mut values = Vec::new();
+    for line in body.lines() {
+        rows += 1;
+        let found = count_fields(&line);
+        if rows == 1 {
+            columns = found;
+        }
+        if found != columns {
+            return Err(FileError::Ragged {
+                line: line.number,
+                row: rows,
+                found,
+                expected: columns,
+            });
+        }
+        if values.len() + columns > MOST_POINTS {
+            return Err(FileError::TooManyPoints {
+                points: (values.len() + columns) as u64,
+            });
+        }
+        let fields = fields(line.text, separator)
+            .skip(margins.before)
+            .take(columns);
+        for (column, field) in fields.enumerate() {
+            let value = number(field, separator).ok_or_else(|| FileError::NotANumber {
+                line: line.number,
+                row: rows,
+                column: column + 1,
+                text: field.trim().chars().take(40).collect(),
+            })?;
+            values.push(value);
+        }
+    }
+    if values.is_empty() {
+        return Err(FileError::NoNumbers);
+    }
+    let remarks = Remarks::of(&body);
+    Ok(Matrix {
+        values,
+        rows,
+        columns,
+        size: remarks.width.zip(remarks.height).map(|(x, y)| [x, y]),
+        unit: remarks.unit,
+        warnings: Vec::new(),
+    })
+}
+
+/// The text of a file, line by line. Lines are found anew in each pass, so that they need no memory.
+struct Body<'a> {
+    text: &'a str,
+    line_end: char,
+    /// Number of the header line; 0 for none.
+    header: usize,
+}
+
+impl<'a> Body<'a> {
+    fn new(text: &'a str) -> Self {
+        let mut body = Body {
+            text,
+            line_end: if text.contains('\n') { '\n' } else { '\r' },
+            header: 0,
+        };
+        let first = body.lines().next();
+        if let Some(line) = first.filter(|line| is_words(line.text)) {
+            body.header = line.number;
+        }
+        body
+    }
+
+    /// The lines that hold something besides comment.
+    fn lines(&self) -> impl Iterator<Item = Line<'a>> {
+        let header = self.header;
+        let lines = self.text.split(self.line_end).enumerate();
+        lines.filter_map(move |(index, line)| {
+            let number = index + 1;
+            // Tabs stay: they may separate numbers that are missing.
+            let text = split_comment(line).0.trim_matches([' ', '\r', '\u{c}']);
+            let holds_numbers = number != header && !text.trim().is_empty();
+            holds_numbers.then_some(Line { number, text })
+        })
+    }
+}
+
+/// A line's content and its comment.
+fn split_comment(line: &str) -> (&str, &str) {
+    let start = [line.find('#'), line.find('%'), line.find("//")];
+    match start.into_iter().flatten().min() {
+        Some(start) => line.split_at(start),
+        None => (line, ""),
+    }
+}
+
+/// Whether a line consists of words: nothing in it is a number.
+fn is_words(line: &str) -> bool {
+    line.split([' ', '\t', ',', ';'])
+        .filter(|word| !word.is_empty())
+        .all(|word| number(word, Separator::Blanks).is_none())
+}
+
+/// The separator of the file: the first of semicolon, comma, tab, blanks that it uses as one.
+fn separator(body: &Body) -> Separator {
+    let (mut semicolons, mut commas, mut tabs, mut blanks) = (false, false, false, false);
+    let (mut several, mut decimal_commas) = (false, true);
+    for line in body.lines() {
+        let comma = line.text.contains(',');
+        semicolons |= line.text.contains(';');
+        commas |= comma;
+        tabs |= line.text.contains('\t');
+        blanks |= line.text.contains(' ');
+        several |= line.text.split_whitespace().nth(1).is_some();
+        decimal_commas &= !comma || line.text.split_whitespace().all(has_decimal_comma);
+    }
+    if semicolons {
+        Separator::Semicolon
+    } else if commas && !(several && decimal_commas) {
+        // A lone `1,5` on each line, too, is taken as two numbers.
+        Separator::Comma
+    } else if tabs && !blanks {
+        Separator::Tab
+    } else {
+        Separator::Blanks
+    }
+}
+
+/// Whether a word has no comma, or one between digits as the only decimal mark.
+fn has_decimal_comma(word: &str) -> bool {
+    word.split_once(',').is_none_or(|(whole, fraction)| {
+        whole.ends_with(|c: char| c.is_ascii_digit())
+            && fraction.starts_with(|c: char| c.is_ascii_digit())
+            && !fraction.contains([',', '.'])
+            && !whole.contains('.')
+    })
+}
+
+/// The fields of a line.
+fn fields(text: &str, separator: Separator) -> Box<dyn Iterator<Item = &str> + '_> {
+    match separator {
+        Separator::Semicolon => Box::new(text.split(';')),
+        Separator::Comma => Box::new(text.split(',')),
+        Separator::Tab => Box::new(text.split('\t')),
+        Separator::Blanks => Box::new(text.split_ascii_whitespace()),
+    }
+}
+
+/// Empty fields that every line has at its ends: marks at the ends of lines, not missing pixels.
+struct Margins {
+    before: usize,
+    after: usize,
+}
+
+/// Finds the marks that every line begins or ends with.
+fn margins(body: &Body, separator: Separator) -> Margins {
+    let empty = |field: Option<&str>| field.is_some_and(|field| field.trim().is_empty());
+    let (mut before, mut after, mut fewest) = (true, true, usize::MAX);
+    for line in body.lines() {
+        before &= empty(fields(line.text, separator).next());
+        after &= empty(fields(line.text, separator).last());
+        fewest = fewest.min(fields(line.text, separator).count());
+        if !before && !after {
+            break;
+        }
+    }
+    // A field at least is left to every line.
+    let after = after && fewest > 1;
+    Margins {
+        before: usize::from(before && fewest > 1 + usize::from(after)),
+        after: usize::from(after),
+    }
+}
+
+/// The number in a field; NaN where it is missing, nothing where it is none.
+fn number(field: &str, separator: Separator) -> Option<f64> {
+    let field = field.trim();
+    let field = field
+        .strip_prefix('"')
+        .and_then(|field| field.strip_suffix('"'))
+        .unwrap_or(field)
+        .trim();
+    if let Ok(value) = field.parse() {
+        return Some(value);
+    }
+    if field.is_empty()
+        || ["na", "n/a"]
+            .iter()
+            .any(|mark| field.eq_ignore_ascii_case(mark))
+    {
+        return Some(f64::NAN);
+    }
+    // A decimal comma, where commas do not separate; Fortran's exponent mark.
+    let mut other: String = field
+        .chars()
+        .map(|c| if matches!(c, 'd' | 'D') { 'e' } else { c })
+        .collect();
+    if separator != Separator::Comma && !other.contains('.') {
+        other = other.replacen(',', ".", 1);
+    }
+    other.parse().ok()
+}
+
+/// What the comments say about lengths, in the form in which Gwyddion exports text matrices.
+#[derive(Default)]
+struct Remarks {
+    width: Option<f64>,
+    height: Option<f64>,
+    unit: Option<f64>,
+}
+
+impl Remarks {
+    /// All comments of a file.
+    fn of(body: &Body) -> Self {
+        let mut remarks = Remarks::default();
+        for line in body.text.split(body.line_end) {
+            remarks.take(split_comment(line).1);
+        }
+        remarks
+    }
+
+    /// Takes `# Width: 5.0 um`, `# Height: 5.0 um`, `# Value units: m` out of a comment.
+    fn take(&mut self, comment: &str) {
+        let Some((name, value)) = comment
+            .trim_start_matches(['#', '%', '/', ' '])
+            .split_once(':')
+        else {
+            return;
+        };
+        match name.trim().to_ascii_lowercase().as_str() {
+            "width" => self.width = length(value),
+            "height" => self.height = length(value),
+            "value units" => self.unit = unit(value.trim()),
+            _ => {}
+        }
+    }
+}
+
+/// A positive length with its unit, m.
+fn length(text: &str) -> Option<f64> {
+    let text = text.trim();
+    let end = text.find(|c: char| !(c.is_ascii_digit() || "+-.eE ".contains(c)))?;
+    let (number, name) = text.split_at(end);
+    let value: f64 = number.trim().parse().ok()?;
+    let metres = value * unit(name.trim())?;
+    (metres.is_finite() && metres > 0.0).then_some(metres)
+}
+
+/// Metres in a unit of length.
+fn unit(name: &str) -> Option<f64> {
+    match name {
+        "m" => Some(1.0),
+        "mm" => Some(1e-3),
+        // Both micro signs, and what is left of a Latin-1 one.
+        "um" | "\u{b5}m" | "\u{3bc}m" | "\u{fffd}m" => Some(1e-6),
+        "nm" => Some(1e-9),
+        "pm" => Some(1e-12),
+        "\u{c5}" | "\u{212b}" | "Angstrom" => Some(1e-10),
+        _ => None,
+    }
+}
+
+#[cfg(test)]
+#[path = "text_tests.rs"]
+mod tests;

@@ -1,0 +1,150 @@
+//! Forms in which a matrix is written, and what is refused with its place.
+
+use super::*;
+
+fn numbers(text: &str) -> (usize, usize, Vec<f64>) {
+    let matrix = read(text.as_bytes()).unwrap_or_else(|error| panic!("{text:?}: {error}"));
+    (matrix.rows, matrix.columns, matrix.values)
+}
+
+#[test]
+fn the_same_matrix_in_every_form() {
+    let expected = (2, 3, vec![1.0, -2.5, 3.0, 4.0, 5e-9, 6.25]);
+    for text in [
+        "1 -2.5 3\n4 5e-9 6.25\n",
+        "1 -2.5 3\n4 5e-9 6.25",
+        "  1\t-2.5   3 \r\n\r\n 4 5E-9\t6.25\r\n",
+        "1 -2.5 3\r4 5e-9 6.25\r",
+        "1,-2.5,3\n4,5e-9,6.25",
+        "1, -2.5, 3\n4, 5e-9, 6.25",
+        "1 , -2.5 , 3\n4 , 5e-9 , 6.25",
+        "1,-2.5,3,\n4,5e-9,6.25,\n",
+        "1;-2.5;3\n4;5e-9;6.25",
+        "1;-2,5;3\n4;5e-9;6,25",
+        "1; -2,5; 3;\n4; 5e-9; 6,25;",
+        "1 -2,5 3\n4 5e-9 6,25",
+        "1\t-2,5\t3\n4\t5e-9\t6,25",
+        "1,\t-2.5,\t3\n4,\t5e-9,\t6.25",
+        "\t1\t-2.5\t3\n\t4\t5e-9\t6.25\n",
+        "\u{feff}# heights\n1 -2.5 3 % first\n4 5e-9 6.25 // second\n",
+        "a b c\n1 -2.5 3\n4 5e-9 6.25",
+        "\n# a comment\nheight (nm)\n1,-2.5,3\n4,5e-9,6.25",
+        "\"1\",\"-2.5\",\"3\"\n4,5D-9,6.25",
+        "+1 -2.50 3. \n4. 5d-9 +6.25",
+    ] {
+        assert_eq!(numbers(text), expected, "{text:?}");
+    }
+}
+
+#[test]
+fn missing_pixels_are_not_numbers() {
+    for text in [
+        "1;;3\n4;5;6",
+        "1,,3\n4,5,6",
+        "1\t\t3\n4\t5\t6",
+        "1 nan 3\n4 5 6",
+        "1 N/A 3\n4 5 6",
+        "1,NaN,3\n4,5,6",
+    ] {
+        let (rows, columns, values) = numbers(text);
+        assert_eq!((rows, columns), (2, 3), "{text:?}");
+        assert!(
+            values[1].is_nan() && values[0] == 1.0 && values[5] == 6.0,
+            "{text:?}"
+        );
+    }
+    // Only a mark that ends every line is no missing pixel.
+    let (_, columns, values) = numbers("1,2,\n3,4,5\n");
+    assert!(columns == 3 && values[2].is_nan());
+}
+
+#[test]
+fn one_row_one_column_one_number() {
+    assert_eq!(numbers("1 2 3"), (1, 3, vec![1.0, 2.0, 3.0]));
+    assert_eq!(numbers("1\n2\n"), (2, 1, vec![1.0, 2.0]));
+    assert_eq!(numbers("7"), (1, 1, vec![7.0]));
+    assert_eq!(numbers("1;\n2;\n"), (2, 1, vec![1.0, 2.0]));
+    assert_eq!(numbers(";1;\n;2;\n"), (2, 1, vec![1.0, 2.0]));
+}
+
+#[test]
+fn marks_alone_are_missing_pixels_and_no_trouble() {
+    for text in [";", ";\n;;\n", "\t\n;", ",,,", ",\n,", ";;\n;;"] {
+        match read(text.as_bytes()) {
+            Ok(matrix) => assert!(matrix.values.iter().all(|value| value.is_nan())),
+            Err(error) => assert!(!error.to_string().is_empty()),
+        }
+    }
+}
+
+#[test]
+fn comments_may_say_the_size() {
+    for micro in ["um", "\u{b5}m", "\u{3bc}m"] {
+        let text = format!(
+            "# Channel: Z\n# Width: 5.00 {micro}\n# Height: 2.5 {micro}\n# Value units: nm\n1 2\n"
+        );
+        let matrix = read(text.as_bytes()).unwrap();
+        assert_eq!(matrix.size, Some([5.0 * 1e-6, 2.5 * 1e-6]));
+        assert_eq!(matrix.unit, Some(1e-9));
+    }
+    // In Latin-1 the micro sign is a byte that UTF-8 does not have.
+    let matrix = read(b"# Width: 1e1 \xB5m\n# Height: 1e1 \xB5m\n1 2\n").unwrap();
+    assert_eq!(matrix.size, Some([1e1 * 1e-6; 2]));
+    let matrix = read(b"# Width: 5 px\n# Height: -5 um\n1 2\n").unwrap();
+    assert_eq!((matrix.size, matrix.unit), (None, None));
+}
+
+#[test]
+fn what_is_wrong_is_said_with_its_place() {
+    for (text, fragment) in [
+        (
+            "1 2\n3\n",
+            "line 2 (row 2) has 1 values where the rows above have 2",
+        ),
+        (
+            "# c\n\n1,2\n3,4,5\n",
+            "line 4 (row 2) has 3 values where the rows above have 2",
+        ),
+        (
+            "1 2\n3 x4\n",
+            "line 2 (row 2), column 2: \"x4\" is not a number",
+        ),
+        (
+            "1,2,3\n4,5 6,7\n",
+            "line 2 (row 2), column 2: \"5 6\" is not a number",
+        ),
+        ("1.5,2 3\n", "\"2 3\" is not a number"),
+        ("1;2.5,5\n", "\"2.5,5\" is not a number"),
+        ("1;1,2,3\n", "\"1,2,3\" is not a number"),
+        ("words only\n", "holds no numbers"),
+        (
+            "words\nmore words\n1 2\n",
+            "line 2 (row 1), column 1: \"more\" is not a number",
+        ),
+        ("# nothing\n\n", "holds no numbers"),
+        ("0x10 1\n", "\"0x10\" is not a number"),
+        ("1 2\0\n", "byte 3 is 0"),
+        ("1 \u{fffd}2\n", "is not a number"),
+    ] {
+        let message = read(text.as_bytes()).unwrap_err().to_string();
+        assert!(message.contains(fragment), "{text:?}: {message}");
+    }
+    let utf16 = read(b"\xFF\xFE1\0").unwrap_err().to_string();
+    assert!(utf16.contains("UTF-16"), "{utf16}");
+}
+
+proptest::proptest! {
+    /// Whatever the bytes, an answer.
+    #[test]
+    fn no_bytes_are_trouble(bytes in proptest::collection::vec(proptest::prelude::any::<u8>(), 0..200)) {
+        let _ = read(&bytes);
+    }
+
+    /// The same with the characters that matter.
+    #[test]
+    fn no_text_is_trouble(text in "[0-9a-e,;.\t\r\n #%/nax+-]{0,60}") {
+        if let Ok(matrix) = read(text.as_bytes()) {
+            assert_eq!(matrix.values.len(), matrix.rows * matrix.columns);
+        }
+    }
+}
