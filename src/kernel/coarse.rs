@@ -1,46 +1,105 @@
 //! Kernels of the two-band preconditioner: long waves are corrected on a coarse grid, where the
 //! share of free points weighs them, so that they do not reach across contacts.
 
-use super::wall::neighbours;
 use crate::kernel::{Params, Rows, SUMS, Scalars, kernel};
 use crate::real::Real;
 
-/// The transpose of the bilinear interpolation, over the number of fine points in a coarse cell.
+/// Largest number of fine points in a coarse cell along one axis.
+const LARGEST_RATIO: usize = 4;
+
+/// Share of the neighbouring cell in the value at place `place` of a cell of `ratio` points:
+/// bilinear between cell centres. The neighbour is the cell before for the first half of the
+/// places, the cell after for the second half.
+fn neighbour_share(place: usize, ratio: usize) -> f64 {
+    let from_centre = ((2 * place + 1) as f64 / (2 * ratio) as f64 - 0.5).abs();
+    debug_assert!(from_centre < 0.5);
+    from_centre
+}
+
+/// The cell before or after `cell` on a ring, for a place in the first or second half of `cell`.
+fn neighbour(cell: usize, place: usize, ratio: usize, cells: usize) -> usize {
+    if place < ratio / 2 {
+        if cell == 0 { cells - 1 } else { cell - 1 }
+    } else if cell + 1 == cells {
+        0
+    } else {
+        cell + 1
+    }
+}
+
+/// `neighbour_share` of each place.
+fn shares<T: Real>(ratio: usize) -> [T; LARGEST_RATIO] {
+    let mut shares = [T::zero(); LARGEST_RATIO];
+    for (place, share) in shares.iter_mut().enumerate().take(ratio) {
+        *share = T::of(neighbour_share(place, ratio));
+    }
+    shares
+}
+
+/// Adds the whole (coarse) field, interpolated, to the lines.
+pub(super) fn add_interpolated<T: Real>(rows: &mut Rows<T>) {
+    let whole = rows.whole;
+    let [cells, cell_rows] = whole.points;
+    let (first, width) = (rows.first, rows.width);
+    let ratio = width / cells;
+    let shares = shares::<T>(ratio);
+    for (row, line) in rows.lines.chunks_exact_mut(width).take(rows.count).enumerate() {
+        let fine = first + row;
+        let (cell, place) = (fine / ratio, fine % ratio);
+        let other = neighbour(cell, place, ratio, cell_rows);
+        let far = shares[place];
+        let near = T::one() - far;
+        let here = &whole.values[cell * cells..(cell + 1) * cells];
+        let there = &whole.values[other * cells..(other + 1) * cells];
+        let blend = |x: usize| near * here[x] + far * there[x];
+        let mut before = blend(cells - 1);
+        let mut present = blend(0);
+        for (x, chunk) in line.chunks_exact_mut(ratio).enumerate() {
+            let after = blend(if x + 1 == cells { 0 } else { x + 1 });
+            let (left, right) = chunk.split_at_mut(ratio / 2);
+            for (value, share) in left.iter_mut().zip(shares) {
+                *value += present + share * (before - present);
+            }
+            for (value, &share) in right.iter_mut().zip(&shares[ratio / 2..]) {
+                *value += present + share * (after - present);
+            }
+            before = present;
+            present = after;
+        }
+    }
+}
+
+/// The transpose of the interpolation, over the number of fine points in a coarse cell.
 fn coarse_restrict<T: Real>(rows: &mut Rows<T>, _: &Params, _: &Scalars, _: &mut [f64; SUMS]) {
     let whole = rows.whole;
     let [fine_x, fine_y] = whole.points;
     let (width, first, count) = (rows.width, rows.first, rows.count);
     let ratio = fine_x / width;
-    let coarse_rows = fine_y / ratio;
+    let half = ratio / 2;
+    let shares = shares::<T>(ratio);
+    let scale = T::one() / T::of((ratio * ratio) as f64);
     let (restricted, rest) = rows.writes.split_at_mut(1);
     let (restricted, share) = (&mut *restricted[0], &mut *rest[0]);
-    let scale = T::one() / T::of((ratio * ratio) as f64);
     for row in 0..count {
         let out = &mut restricted[row * width..(row + 1) * width];
         let free = &mut share[row * width..(row + 1) * width];
         out.fill(T::zero());
         free.fill(T::zero());
-        let cell = first + row;
-        // The fine rows of this cell and the nearer halves of its neighbours touch it.
-        let half = ratio / 2;
+        // This cell's own rows, and the nearer halves of the cells before and after.
+        let start = (first + row) * ratio + fine_y - half;
         for offset in 0..2 * ratio {
-            let fine = (cell * ratio + fine_y + offset - half) % fine_y;
-            let (below, above, part) = neighbours(fine, ratio, coarse_rows);
-            let weight = if below == cell {
-                1.0 - part
-            } else if above == cell {
-                part
-            } else {
-                0.0
-            };
-            let weight = T::of(weight);
-            let inside = offset >= half && offset < half + ratio;
+            let fine = (start + offset) % fine_y;
             let line = &whole.values[fine * fine_x..(fine + 1) * fine_x];
-            gather(out, line, ratio, weight * scale);
-            if inside {
-                for (x, &value) in line.iter().enumerate() {
-                    if value != T::zero() {
-                        free[x / ratio] += scale;
+            let far = shares[fine % ratio];
+            let own = offset >= half && offset < half + ratio;
+            let weight = scale * if own { T::one() - far } else { far };
+            gather(out, line, &shares[..ratio], weight);
+            if own {
+                for (free, chunk) in free.iter_mut().zip(line.chunks_exact(ratio)) {
+                    for &value in chunk {
+                        if value != T::zero() {
+                            *free += scale;
+                        }
                     }
                 }
             }
@@ -54,33 +113,26 @@ kernel!(
 
 /// Adds `weight` times the horizontal restriction of a fine line.
 #[inline(always)]
-fn gather<T: Real>(out: &mut [T], line: &[T], ratio: usize, weight: T) {
-    if weight == T::zero() {
-        return;
-    }
-    let coarse = out.len();
-    for place in 0..ratio {
-        let (_, _, share) = neighbours(place, ratio, coarse);
-        let before = place < ratio / 2;
-        let (near, far) = if before {
-            (share, 1.0 - share)
-        } else {
-            (1.0 - share, share)
-        };
-        let (near, far) = (T::of(near) * weight, T::of(far) * weight);
-        for (cell, chunk) in line.chunks_exact(ratio).enumerate() {
-            let value = chunk[place];
-            out[cell] += near * value;
-            let other = if before {
-                if cell == 0 { coarse - 1 } else { cell - 1 }
-            } else if cell + 1 == coarse {
-                0
+fn gather<T: Real>(out: &mut [T], line: &[T], shares: &[T], weight: T) {
+    let ratio = shares.len();
+    let cells = out.len();
+    let mut carried = T::zero();
+    for (x, chunk) in line.chunks_exact(ratio).enumerate() {
+        let (mut before, mut here, mut after) = (T::zero(), T::zero(), T::zero());
+        for (place, (&value, &share)) in chunk.iter().zip(shares).enumerate() {
+            let far = share * value;
+            here += value - far;
+            if place < ratio / 2 {
+                before += far;
             } else {
-                cell + 1
-            };
-            out[other] += far * value;
+                after += far;
+            }
         }
+        out[if x == 0 { cells - 1 } else { x - 1 }] += weight * before;
+        out[x] += weight * (here + carried);
+        carried = after;
     }
+    out[0] += weight * carried;
 }
 
 fn coarse_weight<T: Real>(rows: &mut Rows<T>, _: &Params, _: &Scalars, _: &mut [f64; SUMS]) {

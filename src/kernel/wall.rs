@@ -4,7 +4,8 @@
 //! points (g > 0 or y < 0), yF = y on F and 0 elsewhere, d direction, s trial step. Points of a pad
 //! have no wall and no law: they are always free.
 
-use crate::kernel::{Params, Rows, SUMS, Scalars, Whole, kernel};
+use super::coarse;
+use crate::kernel::{Params, Rows, SUMS, Scalars, kernel};
 use crate::law::Cohesion;
 use crate::real::Real;
 use crate::with_law;
@@ -139,42 +140,6 @@ kernel!(
     sums [Add, Add, Min, Add], gate Fresh
 );
 
-/// Value of a coarse field at a fine point, bilinear between coarse cell centres.
-///
-/// Along one axis the fine point `i` of a coarsening by `ratio` lies `(i + 1/2)/ratio - 1/2`
-/// coarse cells from the first coarse centre.
-#[inline(always)]
-fn interpolate<T: Real>(
-    whole: &Whole<T>,
-    below: &[T],
-    above: &[T],
-    weight: T,
-    x: usize,
-    width: usize,
-) -> T {
-    let coarse = whole.points[0];
-    let ratio = width / coarse;
-    let (left, right, share) = neighbours(x, ratio, coarse);
-    let share = T::of(share);
-    let low = below[left] * (T::one() - share) + below[right] * share;
-    let high = above[left] * (T::one() - share) + above[right] * share;
-    low * (T::one() - weight) + high * weight
-}
-
-/// The two coarse cells around a fine point and the share of the second one.
-#[inline(always)]
-pub(super) fn neighbours(fine: usize, ratio: usize, coarse: usize) -> (usize, usize, f64) {
-    let cell = fine / ratio;
-    let place = (2 * (fine % ratio) + 1) as f64 / (2 * ratio) as f64;
-    if place < 0.5 {
-        let left = if cell == 0 { coarse - 1 } else { cell - 1 };
-        (left, cell, place + 0.5)
-    } else {
-        let right = if cell + 1 == coarse { 0 } else { cell + 1 };
-        (cell, right, place - 0.5)
-    }
-}
-
 /// The sums from which the direction's conjugacy is found; slots as `scalar::direct` reads them.
 #[inline(always)]
 fn add_descent<T: Real>(
@@ -214,7 +179,24 @@ fn wall_descent<T: Real>(
     scalars: &Scalars,
     sums: &mut [f64; SUMS],
 ) {
-    descent(rows, params, scalars, sums, |_, _, _| T::zero());
+    let layout = rows.layout();
+    let count = rows.len();
+    let [gap, pressure, direction, _] = rows.reads;
+    let (gap, pressure, direction) = (&gap[..count], &pressure[..count], &direction[..count]);
+    let lines = &rows.lines[..count];
+    let [z_out, y_before, _] = &mut rows.writes;
+    let (z_out, y_before) = (&mut z_out[..count], &mut y_before[..count]);
+    let mean = T::of(scalars.mean_pressure);
+    let held = params.fixed_gap;
+    with_law!(params.law, T, law => layout.points(|i, on_surface| {
+        let y = total(&law, gap[i], pressure[i], mean, on_surface);
+        let free = is_free(gap[i], y, on_surface);
+        let y_free = if free { y } else { T::zero() };
+        let z = if free { lines[i] } else { T::zero() };
+        add_descent(sums, z, y_free, y_before[i], direction[i], free, held);
+        z_out[i] = z;
+        y_before[i] = y_free;
+    }));
 }
 kernel!(
     /// Stores the preconditioned residual z on free points. Reads gap, pressure, direction;
@@ -229,55 +211,14 @@ fn wall_descent_two_band<T: Real>(
     scalars: &Scalars,
     sums: &mut [f64; SUMS],
 ) {
-    let whole = rows.whole;
-    let (first, width) = (rows.first, rows.width);
-    let ratio = width / whole.points[0];
-    let coarse = whole.points[0];
-    descent(rows, params, scalars, sums, |row, x, _| {
-        let (below, above, share) = neighbours(first + row, ratio, whole.points[1]);
-        interpolate(
-            &whole,
-            &whole.values[below * coarse..(below + 1) * coarse],
-            &whole.values[above * coarse..(above + 1) * coarse],
-            T::of(share),
-            x,
-            width,
-        )
-    });
+    coarse::add_interpolated(rows);
+    wall_descent(rows, params, scalars, sums);
 }
 kernel!(
     /// As `wall_descent`, with the long waves added from the coarse level. Whole: the coarse z.
     WALL_DESCENT_TWO_BAND, wall_descent_two_band, Store, reads 3, writes 2, whole true,
     sums [Add, Add, Add, Add, Add, Add, Add, Add, Add], gate Fresh
 );
-
-#[inline(always)]
-fn descent<T: Real>(
-    rows: &mut Rows<T>,
-    params: &Params,
-    scalars: &Scalars,
-    sums: &mut [f64; SUMS],
-    long_waves: impl Fn(usize, usize, usize) -> T,
-) {
-    let layout = rows.layout();
-    let (count, width) = (rows.len(), rows.width);
-    let [gap, pressure, direction, _] = rows.reads;
-    let (gap, pressure, direction) = (&gap[..count], &pressure[..count], &direction[..count]);
-    let lines = &rows.lines[..count];
-    let [z_out, y_before, _] = &mut rows.writes;
-    let (z_out, y_before) = (&mut z_out[..count], &mut y_before[..count]);
-    let mean = T::of(scalars.mean_pressure);
-    let held = params.fixed_gap;
-    with_law!(params.law, T, law => layout.points(|i, on_surface| {
-        let y = total(&law, gap[i], pressure[i], mean, on_surface);
-        let free = is_free(gap[i], y, on_surface);
-        let y_free = if free { y } else { T::zero() };
-        let z = if free { lines[i] + long_waves(i / width, i % width, i) } else { T::zero() };
-        add_descent(sums, z, y_free, y_before[i], direction[i], free, held);
-        z_out[i] = z;
-        y_before[i] = y_free;
-    }));
-}
 
 /// The new direction at one point: zero where the point is not free.
 #[inline(always)]

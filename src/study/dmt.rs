@@ -10,9 +10,12 @@ use crate::scene::Boundary;
 use crate::solver::{ContactSolver, MakeBackend, Start};
 
 /// Most hard-wall solves in one step.
-const MOST_SOLVES: usize = 80;
+const MOST_SOLVES: usize = 120;
 /// Repulsive loads below this share of the law's peak are a first touch.
 const TOUCH: f64 = 1e-9;
+
+/// Width of a bracket, over the largest repulsive load, at which the net load is taken to jump.
+const JUMP_WIDTH: f64 = 1e-10;
 
 /// One repulsive load and what is left of it.
 struct Balance {
@@ -65,18 +68,25 @@ pub(super) fn step(
     let mut upper = balance((asked + peak * covered).max(TOUCH * peak))?;
     let scale = upper.repulsive;
     let mut lower: Option<Balance> = None;
+    let mut width = f64::INFINITY;
     for _ in 0..MOST_SOLVES {
         let done = |excess: f64| excess.abs() <= tolerance * (asked.abs() + scale * 1e-3);
-        if !upper.solved.converged || done(upper.excess) {
+        // A law with tension at zero gap makes the net load jump as a point leaves the contact;
+        // where the asked load lies within such a jump, the two sides of it are one state.
+        let at_a_jump = width <= JUMP_WIDTH * scale;
+        if !upper.solved.converged || done(upper.excess) || at_a_jump {
             upper.solved.iterations = iterations;
             return Ok(upper.solved);
         }
         let next = match &lower {
             None => upper.repulsive - upper.excess,
             Some(low) => {
-                // Regula falsi, kept away from the ends.
+                let span = upper.repulsive - low.repulsive;
+                // Regula falsi where it works, halves where it does not.
                 let share = upper.excess / (upper.excess - low.excess);
-                upper.repulsive - share.clamp(0.05, 0.95) * (upper.repulsive - low.repulsive)
+                let share = if span > 0.5 * width { 0.5 } else { share.clamp(0.05, 0.95) };
+                width = span;
+                upper.repulsive - share * span
             }
         };
         if lower.is_none() && next <= TOUCH * peak {
