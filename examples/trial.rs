@@ -25,7 +25,7 @@ fn main() {
     with_threads(Some(threads), || {
         let make = || -> Box<dyn Backend + Send> { Box::new(CpuBackend::<f64>::new()) };
         let clock = std::time::Instant::now();
-        let mut solver = ContactSolver::new(make(), &problem);
+        let mut b = make(); let mut solver = ContactSolver::new(&mut *b, &problem);
         println!("plan {:?}", clock.elapsed());
         let p = level / problem.scales.pressure;
         let load = Load { hold: Hold::Pressure(p), zero_stiffness: 0.0, zero_compliance: ContactSolver::pressure_compliance(&problem, p) };

@@ -5,7 +5,7 @@ use tabor::study::*;
 struct Print { q: bool }
 impl Observer for Print {
     type Error = ();
-    fn step(&mut self, s: &FinishedStep) -> Result<(), ()> {
+    fn step(&mut self, s: FinishedStep) -> Result<(), ()> {
         let r = s.row;
         println!("{:3} app {:9.4} gap {:9.4} F {:10.5} A {:.4} att {:.4} it {:4} res {:.1e} {} {} {:?} {:.2}s", r.step, r.approach.unwrap_or(f64::NAN), r.mean_gap.unwrap_or(f64::NAN), r.force / (2.0*std::f64::consts::PI), r.contact_area_fraction, r.attractive_area_fraction, r.iterations, r.residual, r.converged, r.state.name(), s.jump, r.seconds);
         Ok(())

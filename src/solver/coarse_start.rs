@@ -46,7 +46,8 @@ fn refine(
         return Ok(None);
     };
     let below = refine(&coarse, load, make_backend, levels - 1)?;
-    let mut solver = ContactSolver::new(make_backend(), &coarse);
+    let mut backend = make_backend();
+    let mut solver = ContactSolver::new(&mut *backend, &coarse);
     let (start, mut transforms) = match below {
         Some((gap, transforms)) => (Start::Gap(gap), transforms),
         None => (Start::Cold, 0.0),

@@ -53,9 +53,9 @@ pub struct Outcome {
 }
 
 /// Solves one problem, load after load.
-pub struct ContactSolver<'p> {
-    backend: Box<dyn Backend + Send>,
-    problem: &'p Problem,
+pub struct ContactSolver<'a> {
+    backend: &'a mut dyn Backend,
+    problem: &'a Problem,
     level: Level,
     heights: Field,
     gap: Field,
@@ -119,9 +119,9 @@ const SEARCHES: usize = 48;
 /// Lost trials that a solve may see for each iteration allowed.
 const ROUNDS_PER_ITERATION: usize = 4;
 
-impl<'p> ContactSolver<'p> {
+impl<'a> ContactSolver<'a> {
     /// Plans a problem on a backend: fields, spectra and kernels for its law, and no others.
-    pub fn new(mut backend: Box<dyn Backend + Send>, problem: &'p Problem) -> Self {
+    pub fn new(backend: &'a mut dyn Backend, problem: &'a Problem) -> Self {
         let level = backend.level("fine", problem.shape);
         let heights = backend.field(level, "heights");
         let gap = backend.field(level, "gap");
@@ -132,7 +132,7 @@ impl<'p> ContactSolver<'p> {
         let has_wall = problem.law.has_wall();
         let step = (!has_wall).then(|| backend.field(level, "step"));
         let stiffness = backend.spectrum(level, "stiffness", &problem.stiffness);
-        let two_band = TwoBand::plan(&mut *backend, level, problem);
+        let two_band = TwoBand::plan(backend, level, problem);
         let compliance: Vec<f64> = match &two_band {
             Some(bands) => bands.short_waves(problem),
             None => problem
@@ -181,7 +181,7 @@ impl<'p> ContactSolver<'p> {
     }
 
     /// The problem being solved.
-    pub fn problem(&self) -> &'p Problem {
+    pub fn problem(&self) -> &'a Problem {
         self.problem
     }
 
@@ -198,11 +198,6 @@ impl<'p> ContactSolver<'p> {
     /// The elastic pressure K*(g + h) over all solved points, reduced, without the mean pressure.
     pub fn elastic_pressure(&mut self) -> Result<Vec<f64>, BackendError> {
         self.backend.read(self.pressure)
-    }
-
-    /// Gives the backend back, with all it counted.
-    pub fn into_backend(self) -> Box<dyn Backend + Send> {
-        self.backend
     }
 
     /// The gap at which the undeformed surfaces first touch, scaled or shifted to a held mean gap.
@@ -241,7 +236,7 @@ impl<'p> ContactSolver<'p> {
         self.backend
             .set_zero_mode(self.stiffness, load.zero_stiffness);
         match &self.two_band {
-            Some(bands) => bands.set_zero_mode(&mut *self.backend, load.zero_compliance),
+            Some(bands) => bands.set_zero_mode(self.backend, load.zero_compliance),
             None => self
                 .backend
                 .set_zero_mode(self.preconditioner, load.zero_compliance),

@@ -1,6 +1,7 @@
 //! Many solves: the steps of a loading path.
 
 pub mod control;
+mod cost;
 mod dmt;
 mod evaluation;
 mod jumps;
@@ -8,6 +9,7 @@ mod row;
 mod setup;
 mod walk;
 
+pub use cost::Cost;
 pub use evaluation::{Evaluation, PointState, Solved};
 pub use jumps::{Jump, dissipation};
 pub use row::{State, StepRow};

@@ -19,7 +19,7 @@ pub struct FinishedStep<'a> {
     /// The row of the table.
     pub row: &'a StepRow,
     /// The fields; `None` where the surfaces are apart and no field belongs to the load.
-    pub evaluation: Option<&'a Evaluation>,
+    pub evaluation: Option<Evaluation>,
     /// The jump that the step made, if it made one.
     pub jump: Option<Jump>,
 }
@@ -29,7 +29,7 @@ pub trait Observer {
     /// What may go wrong in keeping a step.
     type Error;
     /// Keeps a finished step.
-    fn step(&mut self, step: &FinishedStep) -> Result<(), Self::Error>;
+    fn step(&mut self, step: FinishedStep) -> Result<(), Self::Error>;
     /// Sees each iteration; returns whether to go on.
     fn iteration(&mut self, step: usize, scalars: &Scalars) -> bool;
 }
@@ -71,7 +71,8 @@ pub fn walk<O: Observer>(
 ) -> Result<WalkEnd, WalkError<O::Error>> {
     let problem = &setup.problem;
     let controller = Controller::new(setup, problem);
-    let mut solver = ContactSolver::new(make_backend(), problem);
+    let mut backend = make_backend();
+    let mut solver = ContactSolver::new(&mut *backend, problem);
     let mut state = PathState {
         setup,
         controller,
@@ -99,10 +100,10 @@ pub fn walk<O: Observer>(
         }
         let finished = FinishedStep {
             row: &row,
-            evaluation: solved.evaluation.as_ref(),
+            evaluation: solved.evaluation,
             jump,
         };
-        observer.step(&finished).map_err(WalkError::Observer)?;
+        observer.step(finished).map_err(WalkError::Observer)?;
         let converged = row.converged;
         end.rows.push(row);
         if !converged {

@@ -1,0 +1,163 @@
+//! Runs nothing and counts everything: what a scene costs before anything is allocated.
+
+use super::{Backend, BackendError, Field, Level, Shape, Spectrum, check_fields};
+use crate::kernel::{Gate, Kernel, Params, ScalarKernel, Scalars};
+
+/// One thing that would be held in memory.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Held {
+    /// Its name.
+    pub name: &'static str,
+    /// The level it lives on.
+    pub level: Level,
+    /// Bytes in double precision.
+    pub bytes: usize,
+}
+
+/// Counts what a solver asks of a backend.
+#[derive(Debug)]
+pub struct Tally {
+    /// Levels and their shapes.
+    pub levels: Vec<Shape>,
+    /// Fields, in the order in which they were made.
+    pub fields: Vec<Held>,
+    /// Spectra.
+    pub spectra: Vec<Held>,
+    /// Work space of transforms, one entry a level.
+    pub work: Vec<Held>,
+    /// Names of the passes, in order: kernels, `multiply` for the columns of a convolution.
+    pub passes: Vec<&'static str>,
+    /// The first mistake in a field list.
+    pub mistake: Option<BackendError>,
+    scalars: Scalars,
+    transforms: f64,
+}
+
+/// Side of the tiles in which the CPU stores spectra.
+const TILE: usize = 8;
+
+impl Default for Tally {
+    fn default() -> Self {
+        Self::new()
+    }
+}
+
+impl Tally {
+    /// A tally of nothing yet.
+    pub fn new() -> Self {
+        Tally {
+            levels: Vec::new(),
+            fields: Vec::new(),
+            spectra: Vec::new(),
+            work: Vec::new(),
+            passes: Vec::new(),
+            mistake: None,
+            scalars: Scalars::start(0.0, false),
+            transforms: 0.0,
+        }
+    }
+
+    /// Bytes of everything held.
+    pub fn bytes(&self) -> usize {
+        [&self.fields, &self.spectra, &self.work]
+            .into_iter()
+            .flatten()
+            .map(|held| held.bytes)
+            .sum()
+    }
+
+    fn pass(&mut self, kernel: &'static Kernel, fields: &[Field]) {
+        if self.mistake.is_none() {
+            self.mistake = check_fields(kernel, fields).err();
+        }
+        self.passes.push(kernel.name);
+        // One search of a step length is one pass here, whatever the numbers would say.
+        if kernel.gate == Gate::Searching {
+            self.scalars.searching = false;
+        }
+    }
+
+    fn share_of_first(&self, level: Level) -> f64 {
+        self.levels[level.0].len() as f64 / self.levels[0].len() as f64
+    }
+}
+
+impl Backend for Tally {
+    fn level(&mut self, name: &'static str, shape: Shape) -> Level {
+        let level = Level(self.levels.len());
+        let [nx, ny] = shape.points;
+        let tiles = (nx / 2 + 1).div_ceil(TILE) * ny.div_ceil(TILE);
+        self.levels.push(shape);
+        self.work.push(Held {
+            name,
+            level,
+            bytes: 2 * tiles * TILE * TILE * 2 * size_of::<f64>(),
+        });
+        level
+    }
+
+    fn field(&mut self, level: Level, name: &'static str) -> Field {
+        let bytes = self.levels[level.0].len() * size_of::<f64>();
+        self.fields.push(Held { name, level, bytes });
+        Field {
+            level,
+            index: self.fields.len() - 1,
+        }
+    }
+
+    fn spectrum(&mut self, level: Level, name: &'static str, _values: &[f64]) -> Spectrum {
+        let bytes = self.levels[level.0].spectrum_len() * size_of::<f64>();
+        self.spectra.push(Held { name, level, bytes });
+        Spectrum {
+            level,
+            index: self.spectra.len() - 1,
+        }
+    }
+
+    fn set_zero_mode(&mut self, _spectrum: Spectrum, _value: f64) {}
+
+    fn write(&mut self, _field: Field, _values: &[f64]) {}
+
+    fn read(&mut self, field: Field) -> Result<Vec<f64>, BackendError> {
+        Ok(vec![0.0; self.levels[field.level.0].len()])
+    }
+
+    fn set_params(&mut self, _params: &Params) {}
+
+    fn set_scalars(&mut self, scalars: &Scalars) {
+        self.scalars = *scalars;
+    }
+
+    fn scalars(&mut self) -> Result<Scalars, BackendError> {
+        Ok(self.scalars)
+    }
+
+    fn sweep(&mut self, kernel: &'static Kernel, _level: Level, fields: &[Field]) {
+        self.pass(kernel, fields);
+    }
+
+    fn scalar(&mut self, kernel: &'static ScalarKernel) {
+        if matches!(kernel.name, "step_wall" | "step_core") {
+            self.scalars.searching = true;
+        }
+    }
+
+    fn forward(&mut self, kernel: &'static Kernel, level: Level, fields: &[Field]) {
+        self.pass(kernel, fields);
+        self.transforms += 0.5 * self.share_of_first(level);
+    }
+
+    fn multiply(&mut self, by: Spectrum, _energy: bool, _gate: Gate) {
+        self.passes.push("multiply");
+        self.transforms += self.share_of_first(by.level);
+    }
+
+    fn backward(&mut self, kernel: &'static Kernel, level: Level, fields: &[Field]) {
+        self.pass(kernel, fields);
+        self.transforms += 0.5 * self.share_of_first(level);
+    }
+
+    fn transforms(&self) -> f64 {
+        self.transforms
+    }
+}
