@@ -1,1 +1,646 @@
-//! Dimensional values with units.
+//! Dimensional values: text with a unit in, SI out, and back for people to read.
+//!
+//! This is the one place that knows unit names. A scene gives `25e-6` or `"25 um"`; a curve's head
+//! gives `[nN]`; messages and pictures say `25 µm`.
+//!
+//! ```
+//! use tabor::units::{Dimension, format_si, parse_quantity};
+//!
+//! assert_eq!(parse_quantity("25 um", Dimension::Length), Ok(25e-6));
+//! assert_eq!(format_si(1.33e12, "Pa"), "1.33 TPa");
+//! assert!(parse_quantity("25 nN", Dimension::Length).is_err());
+//! ```
+
+use std::fmt;
+
+use thiserror::Error;
+
+/// What a value measures, and with it the units that may be written.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+pub enum Dimension {
+    /// A pure number, without a unit.
+    Dimensionless,
+    /// m.
+    Length,
+    /// Pa.
+    Pressure,
+    /// N.
+    Force,
+    /// J.
+    Energy,
+    /// J/m^2, which is N/m: the same dimension as [`Dimension::ForcePerLength`].
+    EnergyPerArea,
+    /// N/m, which is J/m^2: the same dimension as [`Dimension::EnergyPerArea`].
+    ForcePerLength,
+    /// s, or min.
+    Time,
+    /// Hz.
+    Frequency,
+    /// K.
+    Temperature,
+    /// m^3/mol.
+    MolarVolume,
+    /// m/s.
+    Speed,
+    /// rad or deg; the SI value is in radians, but see [`parse_angle`] and [`angle_from_number`].
+    Angle,
+}
+
+impl Dimension {
+    /// The SI unit, as it is written in messages; empty for a pure number.
+    pub fn unit(self) -> &'static str {
+        match self {
+            Dimension::Dimensionless => "",
+            Dimension::Length => "m",
+            Dimension::Pressure => "Pa",
+            Dimension::Force => "N",
+            Dimension::Energy => "J",
+            Dimension::EnergyPerArea => "J/m^2",
+            Dimension::ForcePerLength => "N/m",
+            Dimension::Time => "s",
+            Dimension::Frequency => "Hz",
+            Dimension::Temperature => "K",
+            Dimension::MolarVolume => "m^3/mol",
+            Dimension::Speed => "m/s",
+            Dimension::Angle => "rad",
+        }
+    }
+
+    /// What a value of this dimension is, with its units: `a length in m`.
+    pub fn words(self) -> &'static str {
+        match self {
+            Dimension::Dimensionless => "a number without a unit",
+            Dimension::Length => "a length in m",
+            Dimension::Pressure => "a pressure in Pa",
+            Dimension::Force => "a force in N",
+            Dimension::Energy => "an energy in J",
+            Dimension::EnergyPerArea => "an energy per area in J/m^2 or N/m",
+            Dimension::ForcePerLength => "a force per length in N/m or J/m^2",
+            Dimension::Time => "a time in s or min",
+            Dimension::Frequency => "a frequency in Hz",
+            Dimension::Temperature => "a temperature in K",
+            Dimension::MolarVolume => "a molar volume in m^3/mol",
+            Dimension::Speed => "a speed in m/s",
+            Dimension::Angle => "an angle in deg or rad",
+        }
+    }
+
+    /// A value as it may be written, for messages.
+    pub fn example(self) -> &'static str {
+        match self {
+            Dimension::Dimensionless => "0.5",
+            Dimension::Length => "\"25 um\"",
+            Dimension::Pressure => "\"1.5 GPa\"",
+            Dimension::Force => "\"20 nN\"",
+            Dimension::Energy => "\"1 fJ\"",
+            Dimension::EnergyPerArea => "\"50 mJ/m^2\"",
+            Dimension::ForcePerLength => "\"0.2 N/m\"",
+            Dimension::Time => "\"10 ms\"",
+            Dimension::Frequency => "\"5 kHz\"",
+            Dimension::Temperature => "\"298.15 K\"",
+            Dimension::MolarVolume => "\"18e-6 m^3/mol\"",
+            Dimension::Speed => "\"1 um/s\"",
+            Dimension::Angle => "\"70 deg\"",
+        }
+    }
+
+    /// Whether values of the two dimensions may stand for each other.
+    pub fn is_same_as(self, other: Dimension) -> bool {
+        let canonical = |dimension| match dimension {
+            Dimension::ForcePerLength => Dimension::EnergyPerArea,
+            _ => dimension,
+        };
+        canonical(self) == canonical(other)
+    }
+}
+
+impl fmt::Display for Dimension {
+    fn fmt(&self, formatter: &mut fmt::Formatter<'_>) -> fmt::Result {
+        formatter.write_str(self.words())
+    }
+}
+
+/// Why a text is not a value of the dimension asked for.
+#[derive(Clone, Debug, PartialEq, Error)]
+pub enum UnitError {
+    /// The text does not begin with a number.
+    #[error("{text} does not begin with a number; give {expected}, such as {}", expected.example())]
+    NoNumber {
+        /// The text, quoted.
+        text: String,
+        /// What was expected.
+        expected: Dimension,
+    },
+    /// A decimal comma.
+    #[error("{text} has a decimal comma; write a point, as in {}", expected.example())]
+    DecimalComma {
+        /// The text, quoted.
+        text: String,
+        /// What was expected.
+        expected: Dimension,
+    },
+    /// A number without its unit.
+    #[error(
+        "{text} has no unit; give {expected}, such as {}, or a bare number in {}",
+        expected.example(),
+        bare_unit(*expected)
+    )]
+    NoUnit {
+        /// The text, quoted.
+        text: String,
+        /// What was expected.
+        expected: Dimension,
+    },
+    /// A unit that does not exist here.
+    #[error("{unit} is not a unit that is known here; give {expected}, such as {}", expected.example())]
+    UnknownUnit {
+        /// The unit, quoted.
+        unit: String,
+        /// What was expected.
+        expected: Dimension,
+    },
+    /// A unit of another dimension.
+    #[error("{unit} is {found}; give {expected}, such as {}", expected.example())]
+    WrongUnit {
+        /// The unit, quoted.
+        unit: String,
+        /// What the unit measures.
+        found: Dimension,
+        /// What was expected.
+        expected: Dimension,
+    },
+    /// A value too large for a 64-bit number.
+    #[error("{text} is too large; give {expected}, such as {}", expected.example())]
+    NotFinite {
+        /// The text, quoted.
+        text: String,
+        /// What was expected.
+        expected: Dimension,
+    },
+}
+
+/// The unit of a number that is written without one.
+fn bare_unit(dimension: Dimension) -> &'static str {
+    match dimension {
+        Dimension::Angle => "degrees",
+        _ => dimension.unit(),
+    }
+}
+
+/// Text in quotes for a message: one line, cut where it would flood it.
+pub(crate) fn quoted(text: &str) -> String {
+    const LONGEST: usize = 60;
+    if text.chars().count() > LONGEST {
+        let start: String = text.chars().take(LONGEST).collect();
+        format!("{:?}...", start)
+    } else {
+        format!("{text:?}")
+    }
+}
+
+/// How a unit relates to SI: a power of ten, kept apart so that `25 um` is exactly `25e-6`, and a
+/// factor for the few units that are no power of ten.
+#[derive(Clone, Copy, Debug, PartialEq)]
+struct Unit {
+    power: i32,
+    factor: f64,
+    dimension: Dimension,
+}
+
+/// Units that take a prefix on their first letter.
+const PREFIXED: &[(&str, Dimension)] = &[
+    ("m", Dimension::Length),
+    ("Pa", Dimension::Pressure),
+    ("N", Dimension::Force),
+    ("J", Dimension::Energy),
+    ("s", Dimension::Time),
+    ("Hz", Dimension::Frequency),
+    ("N/m", Dimension::ForcePerLength),
+    ("J/m^2", Dimension::EnergyPerArea),
+    ("J/m²", Dimension::EnergyPerArea),
+    ("m/s", Dimension::Speed),
+];
+
+/// Units that stand alone, with their size in SI.
+const PLAIN: &[(&str, Dimension, f64)] = &[
+    ("min", Dimension::Time, 60.0),
+    ("K", Dimension::Temperature, 1.0),
+    ("m^3/mol", Dimension::MolarVolume, 1.0),
+    ("m³/mol", Dimension::MolarVolume, 1.0),
+    ("deg", Dimension::Angle, std::f64::consts::PI / 180.0),
+    ("°", Dimension::Angle, std::f64::consts::PI / 180.0),
+    ("rad", Dimension::Angle, 1.0),
+];
+
+/// Prefixes with their power of ten; both code points of the Greek letter are in use.
+const PREFIXES: &[(char, i32)] = &[
+    ('f', -15),
+    ('p', -12),
+    ('n', -9),
+    ('u', -6),
+    ('\u{b5}', -6),
+    ('\u{3bc}', -6),
+    ('m', -3),
+    ('k', 3),
+    ('M', 6),
+    ('G', 9),
+    ('T', 12),
+];
+
+fn find_unit(name: &str) -> Option<Unit> {
+    if let Some(&(_, dimension, factor)) = PLAIN.iter().find(|(plain, ..)| *plain == name) {
+        return Some(Unit {
+            power: 0,
+            factor,
+            dimension,
+        });
+    }
+    let prefixed = |name: &str, power| {
+        PREFIXED
+            .iter()
+            .find(|(unit, _)| *unit == name)
+            .map(|&(_, dimension)| Unit {
+                power,
+                factor: 1.0,
+                dimension,
+            })
+    };
+    prefixed(name, 0).or_else(|| {
+        let first = name.chars().next()?;
+        let &(_, power) = PREFIXES.iter().find(|(prefix, _)| *prefix == first)?;
+        prefixed(&name[first.len_utf8()..], power)
+    })
+}
+
+fn expect_unit(name: &str, expected: Dimension) -> Result<Unit, UnitError> {
+    // "J / m^2" is the same unit; a space elsewhere is not, or "m m" would be a millimetre.
+    let tight = name.split('/').map(str::trim).collect::<Vec<_>>().join("/");
+    let unit = find_unit(&tight).ok_or_else(|| UnitError::UnknownUnit {
+        unit: quoted(name),
+        expected,
+    })?;
+    if unit.dimension.is_same_as(expected) {
+        Ok(unit)
+    } else {
+        Err(UnitError::WrongUnit {
+            unit: quoted(name),
+            found: unit.dimension,
+            expected,
+        })
+    }
+}
+
+/// SI value of one `name`, such as 1e-9 for `nN`: for units that stand apart from their numbers.
+///
+/// # Errors
+/// [`UnitError::UnknownUnit`] or [`UnitError::WrongUnit`] if `name` is not a unit of `expected`.
+pub fn unit_factor(name: &str, expected: Dimension) -> Result<f64, UnitError> {
+    let unit = expect_unit(name.trim(), expected)?;
+    Ok(scale("1", 0, unit))
+}
+
+/// SI value of a text such as `25 um` or `0.2J/m²`; the space before the unit is optional.
+///
+/// The value is the double nearest to the decimal meant: `25 um` is `25e-6` to the last bit. A
+/// pure number must stand without a unit, every other dimension needs one. Angles come in radians.
+///
+/// # Errors
+/// [`UnitError`] naming the unit that was expected: without a number or a unit, with an unknown
+/// unit or one of another dimension, or with a number beyond the largest double.
+pub fn parse_quantity(text: &str, expected: Dimension) -> Result<f64, UnitError> {
+    let trimmed = text.trim();
+    let quoted_text = || quoted(text);
+    let Some((digits, exponent, rest)) = split_number(trimmed) else {
+        return Err(UnitError::NoNumber {
+            text: quoted_text(),
+            expected,
+        });
+    };
+    if rest.starts_with(',') {
+        return Err(UnitError::DecimalComma {
+            text: quoted_text(),
+            expected,
+        });
+    }
+    let name = rest.trim_start();
+    let unit = match (name.is_empty(), expected) {
+        (true, Dimension::Dimensionless) => Unit {
+            power: 0,
+            factor: 1.0,
+            dimension: expected,
+        },
+        (true, _) => {
+            return Err(UnitError::NoUnit {
+                text: quoted_text(),
+                expected,
+            });
+        }
+        (false, _) => expect_unit(name, expected)?,
+    };
+    let value = scale(digits, exponent, unit);
+    if value.is_finite() {
+        Ok(value)
+    } else {
+        Err(UnitError::NotFinite {
+            text: quoted_text(),
+            expected,
+        })
+    }
+}
+
+/// Angle in radians of a text with `deg` or `rad`.
+///
+/// # Errors
+/// Those of [`parse_quantity`]; a number in a text needs its unit, see [`angle_from_number`].
+pub fn parse_angle(text: &str) -> Result<f64, UnitError> {
+    parse_quantity(text, Dimension::Angle)
+}
+
+/// Angle in radians of a bare number, which is in degrees.
+pub fn angle_from_number(degrees: f64) -> f64 {
+    degrees.to_radians()
+}
+
+/// `digits * 10^exponent` in `unit`, rounded once; infinite if it is too large.
+fn scale(digits: &str, exponent: i32, unit: Unit) -> f64 {
+    let power = exponent.saturating_add(unit.power);
+    // The digits were checked by `split_number`, so this parse cannot fail.
+    let number: f64 = format!("{digits}e{power}").parse().unwrap_or(f64::NAN);
+    if unit.factor == 1.0 {
+        number
+    } else {
+        number * unit.factor
+    }
+}
+
+/// Digits with sign and point, power of ten, and what follows, or `None` without a number in front.
+fn split_number(text: &str) -> Option<(&str, i32, &str)> {
+    let bytes = text.as_bytes();
+    let digits_from = |mut at: usize| {
+        let start = at;
+        while bytes.get(at).is_some_and(u8::is_ascii_digit) {
+            at += 1;
+        }
+        (at, at - start)
+    };
+    let sign = usize::from(matches!(bytes.first(), Some(b'+' | b'-')));
+    let (mut end, mut count) = digits_from(sign);
+    if bytes.get(end) == Some(&b'.') {
+        let (after, more) = digits_from(end + 1);
+        end = after;
+        count += more;
+    }
+    if count == 0 {
+        return None;
+    }
+    let digits = &text[..end];
+    let mut exponent = 0;
+    if matches!(bytes.get(end), Some(b'e' | b'E')) {
+        let signed = usize::from(matches!(bytes.get(end + 1), Some(b'+' | b'-')));
+        let (after, count) = digits_from(end + 1 + signed);
+        if count > 0 {
+            let written = &text[end + 1..after];
+            // An exponent past i32 is as good as the largest one: infinite or zero.
+            let limit = if written.starts_with('-') {
+                i32::MIN / 2
+            } else {
+                i32::MAX / 2
+            };
+            exponent = written.parse().unwrap_or(limit);
+            end = after;
+        }
+    }
+    Some((digits, exponent, &text[end..]))
+}
+
+/// A value with an engineering prefix, at most four digits: `25 µm`, `1.33 TPa`, `200 mJ/m^2`.
+///
+/// `unit` is an SI unit without a prefix; one that cannot take a prefix, such as `m^2` or `K`, and
+/// values beyond f and T are written with a power of ten. An empty unit gives a bare number.
+pub fn format_si(value: f64, unit: &str) -> String {
+    let with_unit = |number: String, prefix: &str| {
+        if unit.is_empty() {
+            number
+        } else {
+            format!("{number} {prefix}{unit}")
+        }
+    };
+    if value == 0.0 || !value.is_finite() {
+        return with_unit(
+            if value == 0.0 {
+                "0".into()
+            } else {
+                value.to_string()
+            },
+            "",
+        );
+    }
+    // Rounding to four digits comes first, so that 999.96 becomes 1 k and not 1000.
+    let rounded = format!("{value:.3e}");
+    let (mantissa, exponent) = rounded.split_once('e').unwrap_or((&rounded, "0"));
+    let exponent: i32 = exponent.parse().unwrap_or(0);
+    let group = exponent.div_euclid(3) * 3;
+    let prefix = match group {
+        -15 => "f",
+        -12 => "p",
+        -9 => "n",
+        -6 => "µ",
+        -3 => "m",
+        0 => "",
+        3 => "k",
+        6 => "M",
+        9 => "G",
+        12 => "T",
+        _ => return with_unit(format!("{}e{exponent}", trim_zeros(mantissa)), ""),
+    };
+    if takes_prefix(unit) {
+        with_unit(plain_number(mantissa, exponent - group), prefix)
+    } else if (-3..4).contains(&exponent) {
+        with_unit(plain_number(mantissa, exponent), "")
+    } else {
+        with_unit(format!("{}e{exponent}", trim_zeros(mantissa)), "")
+    }
+}
+
+/// Whether a prefix may stand before a unit: not before a power, where it would be squared too.
+fn takes_prefix(unit: &str) -> bool {
+    PREFIXED.iter().any(|(known, _)| *known == unit)
+}
+
+/// `mantissa * 10^exponent` of a four-digit mantissa, without an exponent or trailing zeros.
+fn plain_number(mantissa: &str, exponent: i32) -> String {
+    // The mantissa was written by `format!("{:e}")`, so this parse cannot fail.
+    let number: f64 = format!("{mantissa}e{exponent}").parse().unwrap_or(f64::NAN);
+    let decimals = usize::try_from(3 - exponent).unwrap_or(0);
+    trim_zeros(&format!("{number:.decimals$}")).to_string()
+}
+
+fn trim_zeros(number: &str) -> &str {
+    if number.contains('.') {
+        number.trim_end_matches('0').trim_end_matches('.')
+    } else {
+        number
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::Dimension::*;
+    use super::*;
+
+    #[test]
+    fn quantities_are_the_nearest_double() {
+        for (text, dimension, value) in [
+            ("25 um", Length, 25e-6),
+            ("25um", Length, 25e-6),
+            ("25 µm", Length, 25e-6),
+            ("25 μm", Length, 25e-6),
+            ("  2.5e1  um ", Length, 25e-6),
+            ("+.5 nm", Length, 0.5e-9),
+            ("5. m", Length, 5.0),
+            ("-1.5 fm", Length, -1.5e-15),
+            ("1 mm", Length, 1e-3),
+            ("1 km", Length, 1e3),
+            ("1.33 TPa", Pressure, 1.33e12),
+            ("10 MPa", Pressure, 1e7),
+            ("-3 GPa", Pressure, -3e9),
+            ("3 pPa", Pressure, 3e-12),
+            ("20 nN", Force, 20e-9),
+            ("7 mN", Force, 7e-3),
+            ("0.3 fJ", Energy, 0.3e-15),
+            ("0.2 J/m^2", EnergyPerArea, 0.2),
+            ("0.2J/m²", EnergyPerArea, 0.2),
+            ("50 mJ / m^2", EnergyPerArea, 0.05),
+            ("50 mN/m", EnergyPerArea, 0.05),
+            ("0.2 N/m", ForcePerLength, 0.2),
+            ("0.2 J/m^2", ForcePerLength, 0.2),
+            ("10 ms", Time, 0.01),
+            ("1.5 min", Time, 90.0),
+            ("5 kHz", Frequency, 5e3),
+            ("298.15 K", Temperature, 298.15),
+            ("18e-6 m^3/mol", MolarVolume, 18e-6),
+            ("18e-6 m³/mol", MolarVolume, 18e-6),
+            ("3 um/s", Speed, 3e-6),
+            ("3 m/s", Speed, 3.0),
+            ("0.5", Dimensionless, 0.5),
+            ("180 deg", Angle, std::f64::consts::PI),
+            ("1.5 rad", Angle, 1.5),
+            ("1e-99999999999 m", Length, 0.0),
+        ] {
+            assert_eq!(parse_quantity(text, dimension), Ok(value), "{text}");
+        }
+    }
+
+    #[test]
+    fn wrong_units_say_which_was_expected() {
+        for (text, dimension, message) in [
+            (
+                "25",
+                Length,
+                "\"25\" has no unit; give a length in m, such as \"25 um\", or a bare number in m",
+            ),
+            (
+                "25 nN",
+                Length,
+                "\"nN\" is a force in N; give a length in m, such as \"25 um\"",
+            ),
+            (
+                "25 furlong",
+                Length,
+                "\"furlong\" is not a unit that is known here; give a length in m",
+            ),
+            ("25 Km", Length, "\"Km\" is not a unit"),
+            ("25 m m", Length, "\"m m\" is not a unit"),
+            ("25 mmin", Time, "\"mmin\" is not a unit"),
+            ("25 mK", Temperature, "\"mK\" is not a unit"),
+            ("25 um^2", Length, "\"um^2\" is not a unit"),
+            (
+                "2,5 um",
+                Length,
+                "\"2,5 um\" has a decimal comma; write a point",
+            ),
+            ("wide", Length, "\"wide\" does not begin with a number"),
+            ("", Length, "\"\" does not begin with a number"),
+            ("inf m", Length, "\"inf m\" does not begin with a number"),
+            ("nan m", Length, "\"nan m\" does not begin with a number"),
+            ("- 5 m", Length, "\"- 5 m\" does not begin with a number"),
+            (". m", Length, "\". m\" does not begin with a number"),
+            ("1e999 m", Length, "\"1e999 m\" is too large"),
+            ("1e99999999999 m", Length, "is too large"),
+            ("5e m", Length, "\"e m\" is not a unit"),
+            (
+                "5 J",
+                EnergyPerArea,
+                "\"J\" is an energy in J; give an energy per area in J/m^2 or N/m",
+            ),
+            (
+                "5 Pa",
+                Dimensionless,
+                "\"Pa\" is a pressure in Pa; give a number without a unit",
+            ),
+            (
+                "30",
+                Angle,
+                "\"30\" has no unit; give an angle in deg or rad, such as \"70 deg\", or a bare number in degrees",
+            ),
+        ] {
+            let error = parse_quantity(text, dimension).expect_err(text).to_string();
+            assert!(error.contains(message), "{text}: {error}");
+        }
+    }
+
+    #[test]
+    fn units_stand_alone_too() {
+        assert_eq!(unit_factor("nN", Force), Ok(1e-9));
+        assert_eq!(unit_factor(" µm ", Length), Ok(1e-6));
+        assert_eq!(unit_factor("min", Time), Ok(60.0));
+        assert!(unit_factor("", Length).is_err());
+        assert!(unit_factor("nm", Force).is_err());
+    }
+
+    #[test]
+    fn angles_are_degrees_unless_they_say_otherwise() {
+        assert_eq!(angle_from_number(180.0), std::f64::consts::PI);
+        assert_eq!(parse_angle("1 rad"), Ok(1.0));
+        assert_eq!(parse_angle("90°"), parse_angle("90 deg"));
+        assert!(parse_angle("90 m").is_err());
+    }
+
+    #[test]
+    fn numbers_for_people_have_a_prefix_and_four_digits() {
+        for (value, unit, text) in [
+            (25e-6, "m", "25 µm"),
+            (1.33e12, "Pa", "1.33 TPa"),
+            (0.2, "J/m^2", "200 mJ/m^2"),
+            (0.0, "N", "0 N"),
+            (-3.14159e-9, "N", "-3.142 nN"),
+            (999.96, "m", "1 km"),
+            (999.94, "m", "999.9 m"),
+            (123456.0, "Pa", "123.5 kPa"),
+            (1.0, "m", "1 m"),
+            (0.001, "s", "1 ms"),
+            (9.9999e-10, "m", "1 nm"),
+            (1e-15, "m", "1 fm"),
+            (1.5e-16, "m", "1.5e-16 m"),
+            (2e15, "Pa", "2e15 Pa"),
+            (6.25e-10, "m^2", "6.25e-10 m^2"),
+            (0.25, "m^2", "0.25 m^2"),
+            (298.15, "K", "298.1 K"),
+            (0.1234567, "", "0.1235"),
+            (1e-6, "", "1e-6"),
+            (f64::INFINITY, "m", "inf m"),
+        ] {
+            assert_eq!(format_si(value, unit), text, "{value} {unit}");
+        }
+    }
+
+    #[test]
+    fn what_is_written_can_be_read_back() {
+        for exponent in -15..15 {
+            let value = 1.234 * 10f64.powi(exponent);
+            let text = format_si(value, "Pa");
+            let back = parse_quantity(&text, Pressure).expect("own text");
+            assert!((back / value - 1.0).abs() < 1e-12, "{value}: {text}");
+        }
+    }
+}
