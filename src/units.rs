@@ -274,11 +274,7 @@ fn find_unit(name: &str) -> Option<Unit> {
 
 fn expect_unit(name: &str, expected: Dimension) -> Result<Unit, UnitError> {
     // "J / m^2" is the same unit; a space elsewhere is not, or "m m" would be a millimetre.
-    let tight = name
-        .split('/')
-        .map(str::trim)
-        .collect::<Vec<_>>()
-        .join("/");
+    let tight = name.split('/').map(str::trim).collect::<Vec<_>>().join("/");
     let unit = find_unit(&tight).ok_or_else(|| UnitError::UnknownUnit {
         unit: quoted(name),
         expected,
@@ -430,7 +426,14 @@ pub fn format_si(value: f64, unit: &str) -> String {
         }
     };
     if value == 0.0 || !value.is_finite() {
-        return with_unit(if value == 0.0 { "0".into() } else { value.to_string() }, "");
+        return with_unit(
+            if value == 0.0 {
+                "0".into()
+            } else {
+                value.to_string()
+            },
+            "",
+        );
     }
     // Rounding to four digits comes first, so that 999.96 becomes 1 k and not 1000.
     let rounded = format!("{value:.3e}");
@@ -451,9 +454,9 @@ pub fn format_si(value: f64, unit: &str) -> String {
         _ => return with_unit(format!("{}e{exponent}", trim_zeros(mantissa)), ""),
     };
     if takes_prefix(unit) {
-        with_unit(plain_number(&rounded, (3 - (exponent - group)) as usize), prefix)
+        with_unit(plain_number(mantissa, exponent - group), prefix)
     } else if (-3..4).contains(&exponent) {
-        with_unit(plain_number(&rounded, (3 - exponent) as usize), "")
+        with_unit(plain_number(mantissa, exponent), "")
     } else {
         with_unit(format!("{}e{exponent}", trim_zeros(mantissa)), "")
     }
@@ -464,10 +467,11 @@ fn takes_prefix(unit: &str) -> bool {
     PREFIXED.iter().any(|(known, _)| *known == unit)
 }
 
-/// A rounded number with at most so many decimals, without trailing zeros.
-fn plain_number(rounded: &str, decimals: usize) -> String {
-    // `rounded` was written by `format!("{:e}")`, so this parse cannot fail.
-    let number: f64 = rounded.parse().unwrap_or(f64::NAN);
+/// `mantissa * 10^exponent` of a four-digit mantissa, without an exponent or trailing zeros.
+fn plain_number(mantissa: &str, exponent: i32) -> String {
+    // The mantissa was written by `format!("{:e}")`, so this parse cannot fail.
+    let number: f64 = format!("{mantissa}e{exponent}").parse().unwrap_or(f64::NAN);
+    let decimals = usize::try_from(3 - exponent).unwrap_or(0);
     trim_zeros(&format!("{number:.decimals$}")).to_string()
 }
 
@@ -530,15 +534,31 @@ mod tests {
     #[test]
     fn wrong_units_say_which_was_expected() {
         for (text, dimension, message) in [
-            ("25", Length, "\"25\" has no unit; give a length in m, such as \"25 um\", or a bare number in m"),
-            ("25 nN", Length, "\"nN\" is a force in N; give a length in m, such as \"25 um\""),
-            ("25 furlong", Length, "\"furlong\" is not a unit that is known here; give a length in m"),
+            (
+                "25",
+                Length,
+                "\"25\" has no unit; give a length in m, such as \"25 um\", or a bare number in m",
+            ),
+            (
+                "25 nN",
+                Length,
+                "\"nN\" is a force in N; give a length in m, such as \"25 um\"",
+            ),
+            (
+                "25 furlong",
+                Length,
+                "\"furlong\" is not a unit that is known here; give a length in m",
+            ),
             ("25 Km", Length, "\"Km\" is not a unit"),
             ("25 m m", Length, "\"m m\" is not a unit"),
             ("25 mmin", Time, "\"mmin\" is not a unit"),
             ("25 mK", Temperature, "\"mK\" is not a unit"),
             ("25 um^2", Length, "\"um^2\" is not a unit"),
-            ("2,5 um", Length, "\"2,5 um\" has a decimal comma; write a point"),
+            (
+                "2,5 um",
+                Length,
+                "\"2,5 um\" has a decimal comma; write a point",
+            ),
             ("wide", Length, "\"wide\" does not begin with a number"),
             ("", Length, "\"\" does not begin with a number"),
             ("inf m", Length, "\"inf m\" does not begin with a number"),
@@ -548,9 +568,21 @@ mod tests {
             ("1e999 m", Length, "\"1e999 m\" is too large"),
             ("1e99999999999 m", Length, "is too large"),
             ("5e m", Length, "\"e m\" is not a unit"),
-            ("5 J", EnergyPerArea, "\"J\" is an energy in J; give an energy per area in J/m^2 or N/m"),
-            ("5 Pa", Dimensionless, "\"Pa\" is a pressure in Pa; give a number without a unit"),
-            ("30", Angle, "\"30\" has no unit; give an angle in deg or rad, such as \"70 deg\", or a bare number in degrees"),
+            (
+                "5 J",
+                EnergyPerArea,
+                "\"J\" is an energy in J; give an energy per area in J/m^2 or N/m",
+            ),
+            (
+                "5 Pa",
+                Dimensionless,
+                "\"Pa\" is a pressure in Pa; give a number without a unit",
+            ),
+            (
+                "30",
+                Angle,
+                "\"30\" has no unit; give an angle in deg or rad, such as \"70 deg\", or a bare number in degrees",
+            ),
         ] {
             let error = parse_quantity(text, dimension).expect_err(text).to_string();
             assert!(error.contains(message), "{text}: {error}");

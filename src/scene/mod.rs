@@ -1,5 +1,112 @@
-//! Scenes: TOML in, a checked [`Scene`] out.
+//! Scenes: TOML in, a checked [`Scene`] out, or every mistake of it at once.
+//!
+//! A scene goes through three hands: `document` turns the text into a tree that knows its lines,
+//! `overrides` applies `--set`, and one file for each table reads the tree with a `reader` that
+//! notes what is wrong and goes on. What can be refused without looking at a height file or the
+//! machine is refused here; later code may assume it.
 
+mod adhesion;
+mod document;
+mod grid;
+mod keys;
+mod loading;
+mod mistake;
+mod output;
+mod overrides;
+mod reader;
+mod resolved;
+mod solid;
+mod solver;
+mod surface;
 mod types;
 
+use std::path::{Path, PathBuf};
+
+pub use mistake::{Mistake, SceneError, SceneErrors};
 pub use types::*;
+
+use document::{Place, Table};
+use reader::{Log, Reader};
+
+impl Scene {
+    /// Reads a scene file, with `overrides` as `--set KEY=VALUE` gives them.
+    ///
+    /// # Errors
+    /// Every mistake of the scene, or that the file cannot be read.
+    pub fn read(path: &Path, overrides: &[(String, String)]) -> Result<Scene, SceneErrors> {
+        let file_name = path.display().to_string();
+        let text = std::fs::read(path)
+            .map_err(|error| error.to_string())
+            .and_then(|bytes| {
+                String::from_utf8(bytes).map_err(|_| "it is not UTF-8 text".to_string())
+            })
+            .map_err(|reason| {
+                let log = Log::new(&file_name);
+                log.add(Place::Nowhere, "", SceneError::Unreadable { reason });
+                log.into_errors()
+            })?;
+        let folder = match path.parent() {
+            Some(parent) if !parent.as_os_str().is_empty() => parent.to_path_buf(),
+            _ => PathBuf::from("."),
+        };
+        Scene::parse(&text, &file_name, &folder, overrides)
+    }
+
+    /// Reads the text of a scene; `file_name` is what messages call it, and `folder` is where the
+    /// paths in it begin.
+    ///
+    /// # Errors
+    /// Every mistake of the scene. Text that is no TOML gives its first one alone.
+    pub fn parse(
+        text: &str,
+        file_name: &str,
+        folder: &Path,
+        overrides: &[(String, String)],
+    ) -> Result<Scene, SceneErrors> {
+        let log = Log::new(file_name);
+        let scene = match document::parse(text) {
+            Ok(mut root) => {
+                overrides::apply(&mut root, overrides, &log);
+                read_tables(&root, folder, &log)
+            }
+            Err((line, error)) => {
+                log.add(line.map_or(Place::Nowhere, Place::Line), "", error);
+                None
+            }
+        };
+        match scene {
+            Some(scene) if log.is_empty() => Ok(scene),
+            _ => Err(log.into_errors()),
+        }
+    }
+}
+
+/// Reads every table before any is given up, so that all mistakes are noted.
+fn read_tables(root: &Table, folder: &Path, log: &Log) -> Option<Scene> {
+    let scene = Reader::open(root, Place::Nowhere, "", &keys::SCENE, log);
+    let title = match scene.has("title") {
+        true => scene.text("title").map(|title| Some(title.to_string())),
+        false => Some(None),
+    };
+    let grid = grid::read(&scene, grid::has_height_file(root));
+    let solid = solid::read(&scene);
+    let surfaces = surface::read(&scene, grid.as_ref(), folder);
+    let adhesion = adhesion::read(&scene);
+    let boundary = grid.as_ref().map(|grid| grid.boundary);
+    let law = adhesion.as_ref().and_then(Option::as_ref);
+    let loading = loading::read(&scene, boundary, law);
+    let solver = solver::read(&scene);
+    let path_length = loading.as_ref().map(|loading| loading.path.len());
+    let output = output::read(&scene, path_length);
+    Some(Scene {
+        title: title?,
+        grid: grid?,
+        solid: solid?,
+        surfaces: surfaces?,
+        adhesion: adhesion?,
+        loading: loading?,
+        solver: solver?,
+        output: output?,
+        folder: folder.to_path_buf(),
+    })
+}

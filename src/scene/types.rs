@@ -48,6 +48,19 @@ pub enum Boundary {
     Free,
 }
 
+impl Boundary {
+    /// Every one of them.
+    pub const ALL: &[Boundary] = &[Boundary::Periodic, Boundary::Free];
+
+    /// The word used in scenes.
+    pub fn name(self) -> &'static str {
+        match self {
+            Boundary::Periodic => "periodic",
+            Boundary::Free => "free",
+        }
+    }
+}
+
 /// `[solid]`: the elastic half-space.
 #[derive(Clone, Debug, PartialEq)]
 pub struct SolidScene {
@@ -143,6 +156,26 @@ pub enum Detrend {
     Quadratic,
 }
 
+impl Detrend {
+    /// Every one of them.
+    pub const ALL: &[Detrend] = &[
+        Detrend::None,
+        Detrend::Mean,
+        Detrend::Plane,
+        Detrend::Quadratic,
+    ];
+
+    /// The word used in scenes.
+    pub fn name(self) -> &'static str {
+        match self {
+            Detrend::None => "none",
+            Detrend::Mean => "mean",
+            Detrend::Plane => "plane",
+            Detrend::Quadratic => "quadratic",
+        }
+    }
+}
+
 /// What to do with missing (NaN) pixels.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Fill {
@@ -150,6 +183,19 @@ pub enum Fill {
     None,
     /// Interpolate from the neighbours.
     Interpolate,
+}
+
+impl Fill {
+    /// Every one of them.
+    pub const ALL: &[Fill] = &[Fill::None, Fill::Interpolate];
+
+    /// The word used in scenes.
+    pub fn name(self) -> &'static str {
+        match self {
+            Fill::None => "none",
+            Fill::Interpolate => "interpolate",
+        }
+    }
 }
 
 /// `[adhesion]`.
@@ -187,6 +233,24 @@ pub enum LawName {
     Exponential,
 }
 
+impl LawName {
+    /// Every one of them.
+    pub const ALL: &[LawName] = &[
+        LawName::MaugisDugdale,
+        LawName::LennardJones,
+        LawName::Exponential,
+    ];
+
+    /// The word used in scenes.
+    pub fn name(self) -> &'static str {
+        match self {
+            LawName::MaugisDugdale => "maugis-dugdale",
+            LawName::LennardJones => "lennard-jones",
+            LawName::Exponential => "exponential",
+        }
+    }
+}
+
 /// How the attraction is found.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Treatment {
@@ -194,6 +258,19 @@ pub enum Treatment {
     Full,
     /// Summed over the gap of the solution without adhesion (DMT force approach).
     Dmt,
+}
+
+impl Treatment {
+    /// Every one of them.
+    pub const ALL: &[Treatment] = &[Treatment::Full, Treatment::Dmt];
+
+    /// The word used in scenes.
+    pub fn name(self) -> &'static str {
+        match self {
+            Treatment::Full => "full",
+            Treatment::Dmt => "dmt",
+        }
+    }
 }
 
 /// `[loading]`.
@@ -218,6 +295,26 @@ pub enum Control {
     Approach,
     /// Mean gap, m.
     MeanGap,
+}
+
+impl Control {
+    /// Every one of them.
+    pub const ALL: &[Control] = &[
+        Control::Pressure,
+        Control::Force,
+        Control::Approach,
+        Control::MeanGap,
+    ];
+
+    /// The word used in scenes.
+    pub fn name(self) -> &'static str {
+        match self {
+            Control::Pressure => "pressure",
+            Control::Force => "force",
+            Control::Approach => "approach",
+            Control::MeanGap => "mean-gap",
+        }
+    }
 }
 
 /// `[solver]`.
@@ -246,6 +343,26 @@ pub enum Precision {
     Double,
 }
 
+impl Precision {
+    /// Every one of them.
+    pub const ALL: &[Precision] = &[
+        Precision::Auto,
+        Precision::Single,
+        Precision::Mixed,
+        Precision::Double,
+    ];
+
+    /// The word used in scenes.
+    pub fn name(self) -> &'static str {
+        match self {
+            Precision::Auto => "auto",
+            Precision::Single => "single",
+            Precision::Mixed => "mixed",
+            Precision::Double => "double",
+        }
+    }
+}
+
 /// Where the arithmetic of a solve runs.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum BackendName {
@@ -255,6 +372,20 @@ pub enum BackendName {
     Cpu,
     /// A graphics processor.
     Gpu,
+}
+
+impl BackendName {
+    /// Every one of them.
+    pub const ALL: &[BackendName] = &[BackendName::Auto, BackendName::Cpu, BackendName::Gpu];
+
+    /// The word used in scenes.
+    pub fn name(self) -> &'static str {
+        match self {
+            BackendName::Auto => "auto",
+            BackendName::Cpu => "cpu",
+            BackendName::Gpu => "gpu",
+        }
+    }
 }
 
 /// `[output]`.
@@ -282,6 +413,14 @@ pub enum FieldName {
 }
 
 impl FieldName {
+    /// Every one of them.
+    pub const ALL: &[FieldName] = &[
+        FieldName::Pressure,
+        FieldName::Gap,
+        FieldName::Displacement,
+        FieldName::Heights,
+    ];
+
     /// The name used in scenes and file names.
     pub fn name(self) -> &'static str {
         match self {

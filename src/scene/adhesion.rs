@@ -1,0 +1,143 @@
+//! `[adhesion]`: a law from two of its three numbers.
+
+use super::document::Value;
+use super::keys;
+use super::reader::{Allowed, Reader};
+use super::types::{AdhesionScene, LawName, Range, Treatment};
+use crate::units::{self, Dimension};
+
+/// Reads `[adhesion]`: `Some(None)` where the scene has none.
+pub(super) fn read(scene: &Reader) -> Option<Option<AdhesionScene>> {
+    if !scene.has("adhesion") {
+        return Some(None);
+    }
+    let adhesion = scene.table("adhesion", &keys::ADHESION)?;
+    adhesion.require(&["law"]);
+    let law = adhesion.choice("law", LawName::ALL, LawName::name);
+    let numbers = numbers(&adhesion, law);
+    let taper = taper(&adhesion, law, numbers.as_ref().map(|(_, range)| *range));
+    let treatment = if adhesion.has("treatment") {
+        adhesion.choice("treatment", Treatment::ALL, Treatment::name)
+    } else {
+        Some(Treatment::Full)
+    };
+    let (work_of_adhesion, range) = numbers?;
+    Some(Some(AdhesionScene {
+        law: law?,
+        work_of_adhesion,
+        range,
+        taper: taper?,
+        treatment: treatment?,
+    }))
+}
+
+fn is_auto(adhesion: &Reader, key: &str) -> bool {
+    matches!(adhesion.node(key), Some(node) if matches!(&node.value, Value::Text(text) if text == "auto"))
+}
+
+/// Work of adhesion and range from exactly two of the three numbers.
+fn numbers(adhesion: &Reader, law: Option<LawName>) -> Option<(f64, Range)> {
+    let work = adhesion.quantity(
+        "work_of_adhesion",
+        Dimension::EnergyPerArea,
+        Allowed::POSITIVE,
+    );
+    let auto = is_auto(adhesion, "range");
+    let range = if auto {
+        Some(Range::Auto)
+    } else {
+        adhesion
+            .quantity("range", Dimension::Length, Allowed::POSITIVE)
+            .map(Range::Length)
+    };
+    let peak = adhesion.quantity("peak_tension", Dimension::Pressure, Allowed::POSITIVE);
+    let given = ["work_of_adhesion", "range", "peak_tension"].map(|key| adhesion.has(key));
+    match given {
+        [_, true, true] if auto => {
+            adhesion.conflict(
+                "peak_tension",
+                "range = \"auto\" follows from the grid and work_of_adhesion; leave peak_tension out, or give a range in m",
+            );
+            None
+        }
+        [false, ..] if auto => {
+            adhesion.require(&["work_of_adhesion"]);
+            None
+        }
+        [true, true, true] => {
+            adhesion.conflict(
+                "peak_tension",
+                "work_of_adhesion, range and peak_tension are all given; give exactly two, the third follows",
+            );
+            None
+        }
+        [true, true, false] => Some((work?, range?)),
+        [true, false, true] => {
+            let (work, peak) = (work?, peak?);
+            Some((work, Range::Length(work * shape(law?) / peak)))
+        }
+        [false, true, true] => match range? {
+            Range::Length(range) => Some((peak? * range / shape(law?), Range::Length(range))),
+            Range::Auto => None,
+        },
+        [true, false, false] => {
+            adhesion.require_as("range", "range = \"1 nm\"` or `peak_tension = \"50 MPa\"");
+            None
+        }
+        [false, _, _] => {
+            adhesion.require(&["work_of_adhesion"]);
+            if given == [false; 3] {
+                adhesion.require_as("range", "range = \"1 nm\"` or `peak_tension = \"50 MPa\"");
+            }
+            None
+        }
+    }
+}
+
+/// `peak_tension * range / work_of_adhesion` of a law.
+///
+/// Lennard-Jones: the traction `(8 w / 3 eps)(s^3 - s^9)` is largest at `s^6 = 1/3`.
+pub(super) fn shape(law: LawName) -> f64 {
+    match law {
+        LawName::MaugisDugdale | LawName::Exponential => 1.0,
+        LawName::LennardJones => 16.0 / (9.0 * 3f64.sqrt()),
+    }
+}
+
+/// The taper: `Some(None)` is `auto`, also for the laws that have none.
+fn taper(adhesion: &Reader, law: Option<LawName>, range: Option<Range>) -> Option<Option<f64>> {
+    if !adhesion.has("taper") {
+        return Some(None);
+    }
+    if let Some(law) = law
+        && law != LawName::MaugisDugdale
+    {
+        adhesion.conflict(
+            "taper",
+            format!(
+                "law = \"{}\" has no taper; leave it out, or take law = \"maugis-dugdale\"",
+                law.name()
+            ),
+        );
+        return None;
+    }
+    if is_auto(adhesion, "taper") {
+        return Some(None);
+    }
+    let taper = adhesion.quantity("taper", Dimension::Length, Allowed::NOT_NEGATIVE)?;
+    // The tension falls over the taper about the range: a longer one would begin inside the contact.
+    if let Some(Range::Length(range)) = range
+        && taper > 2.0 * range
+    {
+        adhesion.conflict(
+            "taper",
+            format!(
+                "{} is more than twice the range of {}; take at most that, or \"auto\"",
+                units::format_si(taper, "m"),
+                units::format_si(range, "m")
+            ),
+        );
+        return None;
+    }
+    Some(Some(taper))
+}

@@ -1,0 +1,227 @@
+//! A scene's text as a tree in which every value knows where it was written.
+//!
+//! `[[surface]]`, `surface = [{ ... }]` and dotted keys all come out alike, and a `--set` can
+//! replace any part of the tree before it is read.
+
+use toml_edit as toml;
+
+use super::mistake::SceneError;
+use crate::units::quoted;
+
+/// Where a value was written.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum Place {
+    /// This line of the file, from 1.
+    Line(usize),
+    /// A `--set` of the command line.
+    Set,
+    /// Nowhere: the file does not have it.
+    Nowhere,
+}
+
+/// A value with its place.
+#[derive(Clone, Debug)]
+pub(super) struct Node {
+    pub value: Value,
+    pub place: Place,
+}
+
+/// A TOML value.
+#[derive(Clone, Debug)]
+pub(super) enum Value {
+    Text(String),
+    Integer(i64),
+    Float(f64),
+    Boolean(bool),
+    Date(String),
+    List(Vec<Node>),
+    Table(Table),
+}
+
+/// A table: its entries in the order of the file.
+#[derive(Clone, Debug, Default)]
+pub(super) struct Table {
+    pub entries: Vec<Entry>,
+}
+
+/// A key with its value.
+#[derive(Clone, Debug)]
+pub(super) struct Entry {
+    pub name: String,
+    /// Where the key stands; its value may begin on a later line.
+    pub place: Place,
+    pub node: Node,
+}
+
+impl Node {
+    /// The value as it is shown in a message.
+    pub fn shown(&self) -> String {
+        match &self.value {
+            Value::Text(text) => quoted(text),
+            Value::Integer(number) => number.to_string(),
+            Value::Float(number) => format!("{number:?}").replace("NaN", "nan"),
+            Value::Boolean(truth) => truth.to_string(),
+            Value::Date(date) => date.clone(),
+            Value::List(_) => "a list".into(),
+            Value::Table(_) => "a table".into(),
+        }
+    }
+
+    /// The value with its kind, as it is shown where another kind was expected.
+    pub fn described(&self) -> String {
+        match &self.value {
+            Value::Text(_) => format!("the text {}", self.shown()),
+            Value::Integer(_) | Value::Float(_) => format!("the number {}", self.shown()),
+            Value::Boolean(_) => format!("the truth value {}", self.shown()),
+            Value::Date(_) => format!("the date {}", self.shown()),
+            Value::List(list) => format!("a list of {}", list.len()),
+            Value::Table(_) => "a table".into(),
+        }
+    }
+}
+
+impl Table {
+    /// The entry of a key.
+    pub fn get(&self, name: &str) -> Option<&Entry> {
+        self.entries.iter().find(|entry| entry.name == name)
+    }
+
+    /// The entry of a key, to be changed.
+    pub fn get_mut(&mut self, name: &str) -> Option<&mut Entry> {
+        self.entries.iter_mut().find(|entry| entry.name == name)
+    }
+
+    /// Replaces or adds an entry.
+    pub fn set(&mut self, name: &str, node: Node) {
+        let place = node.place;
+        match self.get_mut(name) {
+            Some(entry) => {
+                entry.place = place;
+                entry.node = node;
+            }
+            None => self.entries.push(Entry {
+                name: name.into(),
+                place,
+                node,
+            }),
+        }
+    }
+}
+
+/// Parses the text of a scene.
+///
+/// # Errors
+/// The first place where the text is no TOML, with its line.
+pub(super) fn parse(text: &str) -> Result<Table, (Option<usize>, SceneError)> {
+    let lines = Lines::of(text);
+    let document = toml::Document::parse(text).map_err(|error| {
+        (
+            error.span().map(|span| lines.line(span.start)),
+            syntax(&error),
+        )
+    })?;
+    Ok(table(document.as_table(), &|offset| {
+        Place::Line(lines.line(offset))
+    }))
+}
+
+/// Parses one value given on the command line: TOML, or else a bare word as it stands.
+///
+/// # Errors
+/// Text that opens a list, a table or a quotation and does not end it properly.
+pub(super) fn parse_set(text: &str) -> Result<Node, SceneError> {
+    match text.trim().parse::<toml::Value>() {
+        Ok(found) => Ok(value(&found, Place::Set, &|_| Place::Set)),
+        Err(error) if text.trim_start().starts_with(['[', '{', '"', '\'']) => Err(syntax(&error)),
+        Err(_) => Ok(Node {
+            value: Value::Text(text.trim().into()),
+            place: Place::Set,
+        }),
+    }
+}
+
+fn syntax(error: &toml::TomlError) -> SceneError {
+    SceneError::Syntax {
+        reason: error
+            .message()
+            .lines()
+            .map(str::trim)
+            .collect::<Vec<_>>()
+            .join("; "),
+    }
+}
+
+/// Offsets at which the lines of a text begin.
+struct Lines {
+    starts: Vec<usize>,
+}
+
+impl Lines {
+    fn of(text: &str) -> Self {
+        let after_breaks = text.match_indices('\n').map(|(at, _)| at + 1);
+        Lines {
+            starts: std::iter::once(0).chain(after_breaks).collect(),
+        }
+    }
+
+    /// Number of the line that holds a byte, from 1.
+    fn line(&self, offset: usize) -> usize {
+        self.starts.partition_point(|start| *start <= offset)
+    }
+}
+
+/// A TOML table; `at` turns an offset into a place. The parser bounds the depth, so recursion is safe.
+fn table(from: &dyn toml::TableLike, at: &dyn Fn(usize) -> Place) -> Table {
+    let entries = from
+        .iter()
+        .filter_map(|(name, item)| {
+            let key_span = from.get_key_value(name).and_then(|(key, _)| key.span());
+            let span = key_span.or_else(|| item.span());
+            let place = span.map_or(Place::Nowhere, |span| at(span.start));
+            Some(Entry {
+                name: name.into(),
+                place,
+                node: item_node(item, place, at)?,
+            })
+        })
+        .collect();
+    Table { entries }
+}
+
+fn item_node(item: &toml::Item, parent: Place, at: &dyn Fn(usize) -> Place) -> Option<Node> {
+    let place = item.span().map_or(parent, |span| at(span.start));
+    match item {
+        toml::Item::None => None,
+        toml::Item::Value(found) => Some(value(found, parent, at)),
+        toml::Item::Table(found) => Some(Node {
+            value: Value::Table(table(found, at)),
+            place,
+        }),
+        toml::Item::ArrayOfTables(found) => {
+            let parts = found.iter().map(|part| Node {
+                value: Value::Table(table(part, at)),
+                place: part.span().map_or(place, |span| at(span.start)),
+            });
+            Some(Node {
+                value: Value::List(parts.collect()),
+                place,
+            })
+        }
+    }
+}
+
+fn value(from: &toml::Value, parent: Place, at: &dyn Fn(usize) -> Place) -> Node {
+    let place = from.span().map_or(parent, |span| at(span.start));
+    let value = match from {
+        toml::Value::String(text) => Value::Text(text.value().clone()),
+        toml::Value::Integer(number) => Value::Integer(*number.value()),
+        toml::Value::Float(number) => Value::Float(*number.value()),
+        toml::Value::Boolean(truth) => Value::Boolean(*truth.value()),
+        toml::Value::Datetime(date) => Value::Date(date.value().to_string()),
+        toml::Value::Array(list) => {
+            Value::List(list.iter().map(|entry| value(entry, place, at)).collect())
+        }
+        toml::Value::InlineTable(found) => Value::Table(table(found, at)),
+    };
+    Node { value, place }
+}

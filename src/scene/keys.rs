@@ -1,0 +1,220 @@
+//! The keys of each table, with a line that would do: the one list behind every message.
+
+/// A table of a scene, or one kind of `[[surface]]`.
+pub(super) struct Section {
+    /// The table as messages name it.
+    pub title: &'static str,
+    /// Keys, each with a line that sets it, in the order of the contract.
+    pub keys: &'static [(&'static str, &'static str)],
+    /// Keys of effects that this version lacks, each with what it stands for.
+    pub later: &'static [(&'static str, &'static str)],
+}
+
+impl Section {
+    /// A line that sets a key, for messages.
+    pub fn example(&self, key: &str) -> String {
+        self.keys
+            .iter()
+            .find(|(name, _)| *name == key)
+            .map_or_else(|| format!("{key} = ..."), |(_, line)| (*line).to_string())
+    }
+
+    /// Whether the table takes a key, now or in a later version.
+    pub fn names(&self) -> impl Iterator<Item = &'static str> {
+        self.keys.iter().chain(self.later).map(|(name, _)| *name)
+    }
+}
+
+pub(super) const SCENE: Section = Section {
+    title: "the scene itself",
+    keys: &[
+        ("title", "title = \"Sphere on a flat\""),
+        ("grid", "[grid]"),
+        ("solid", "[solid]"),
+        ("surface", "[[surface]]"),
+        ("adhesion", "[adhesion]"),
+        ("loading", "[loading]"),
+        ("solver", "[solver]"),
+        ("output", "[output]"),
+    ],
+    later: &[
+        ("capillary", "a liquid meniscus"),
+        ("friction", "friction"),
+        ("plastic", "plasticity"),
+        ("conductance", "contact conductance"),
+    ],
+};
+
+pub(super) const GRID: Section = Section {
+    title: "[grid]",
+    keys: &[
+        ("points", "points = 1024"),
+        ("size", "size = \"25 um\""),
+        ("boundary", "boundary = \"periodic\""),
+    ],
+    later: &[],
+};
+
+pub(super) const SOLID: Section = Section {
+    title: "[solid]",
+    keys: &[
+        ("contact_modulus", "contact_modulus = \"1.33 TPa\""),
+        ("young_modulus", "young_modulus = \"70 GPa\""),
+        ("poisson_ratio", "poisson_ratio = 0.3"),
+        (
+            "counter_young_modulus",
+            "counter_young_modulus = \"210 GPa\"",
+        ),
+        ("counter_poisson_ratio", "counter_poisson_ratio = 0.3"),
+    ],
+    later: &[
+        ("thickness", "an elastic layer on a rigid base"),
+        ("base", "an elastic layer on a rigid base"),
+        ("hardness", "ideal plasticity"),
+        ("relaxation", "viscoelasticity"),
+    ],
+};
+
+const KIND: (&str, &str) = ("kind", "kind = \"sphere\"");
+const CENTRE: (&str, &str) = ("centre", "centre = [\"1 um\", \"1 um\"]");
+
+/// Keys of a `[[surface]]` whose kind cannot be told: those of every kind.
+pub(super) const SURFACE: Section = Section {
+    title: "[[surface]]",
+    keys: &[KIND],
+    later: &[],
+};
+
+pub(super) const SELF_AFFINE: Section = Section {
+    title: "a self-affine [[surface]]",
+    keys: &[
+        KIND,
+        ("hurst", "hurst = 0.8"),
+        ("rms_height", "rms_height = \"0.52 nm\""),
+        ("rms_slope", "rms_slope = 0.1"),
+        ("longest", "longest = \"25 um\""),
+        ("rolloff", "rolloff = \"6.25 um\""),
+        ("shortest", "shortest = \"195 nm\""),
+        ("seed", "seed = 1"),
+    ],
+    later: &[],
+};
+
+pub(super) const SPHERE: Section = Section {
+    title: "a sphere [[surface]]",
+    keys: &[KIND, ("radius", "radius = \"1 um\""), CENTRE],
+    later: &[],
+};
+
+pub(super) const CONE: Section = Section {
+    title: "a cone [[surface]]",
+    keys: &[KIND, ("half_angle", "half_angle = \"70 deg\""), CENTRE],
+    later: &[],
+};
+
+pub(super) const WAVY: Section = Section {
+    title: "a wavy [[surface]]",
+    keys: &[
+        KIND,
+        ("amplitude", "amplitude = \"1 nm\""),
+        ("wavelength", "wavelength = \"1 um\""),
+    ],
+    later: &[],
+};
+
+pub(super) const FLAT: Section = Section {
+    title: "a flat [[surface]]",
+    keys: &[KIND],
+    later: &[],
+};
+
+pub(super) const FILE: Section = Section {
+    title: "a file [[surface]]",
+    keys: &[
+        KIND,
+        ("path", "path = \"heights.npy\""),
+        ("unit", "unit = \"nm\""),
+        ("scale", "scale = 1.0"),
+        ("detrend", "detrend = \"plane\""),
+        ("fill", "fill = \"interpolate\""),
+    ],
+    later: &[
+        ("black", "heights from a grey image"),
+        ("white", "heights from a grey image"),
+    ],
+};
+
+pub(super) const ADHESION: Section = Section {
+    title: "[adhesion]",
+    keys: &[
+        ("law", "law = \"maugis-dugdale\""),
+        ("work_of_adhesion", "work_of_adhesion = \"50 mJ/m^2\""),
+        ("range", "range = \"1 nm\""),
+        ("peak_tension", "peak_tension = \"50 MPa\""),
+        ("taper", "taper = \"auto\""),
+        ("treatment", "treatment = \"full\""),
+    ],
+    later: &[("map", "a map of the adhesion")],
+};
+
+pub(super) const LOADING: Section = Section {
+    title: "[loading]",
+    keys: &[
+        ("control", "control = \"pressure\""),
+        ("path", "path = [\"1 MPa\", \"10 MPa\"]"),
+        ("start", "start = \"1 MPa\""),
+        ("ramp", "[[loading.ramp]]"),
+        ("spring", "spring = \"0.2 N/m\""),
+    ],
+    later: &[
+        ("duration", "a load that takes time"),
+        ("hold", "a load that takes time"),
+    ],
+};
+
+pub(super) const RAMP: Section = Section {
+    title: "[[loading.ramp]]",
+    keys: &[("to", "to = \"10 MPa\""), ("steps", "steps = 10")],
+    later: &[
+        ("duration", "a load that takes time"),
+        ("hold", "a load that takes time"),
+    ],
+};
+
+pub(super) const SOLVER: Section = Section {
+    title: "[solver]",
+    keys: &[
+        ("tolerance", "tolerance = 1e-6"),
+        ("max_iterations", "max_iterations = 5000"),
+        ("precision", "precision = \"auto\""),
+        ("backend", "backend = \"auto\""),
+    ],
+    later: &[],
+};
+
+pub(super) const OUTPUT: Section = Section {
+    title: "[output]",
+    keys: &[
+        ("images", "images = [\"pressure\"]"),
+        ("fields", "fields = [\"gap\"]"),
+        ("steps", "steps = \"last\""),
+    ],
+    later: &[],
+};
+
+/// Every section, to tell where a misplaced key belongs.
+pub(super) const ALL: &[&Section] = &[
+    &SCENE,
+    &GRID,
+    &SOLID,
+    &SELF_AFFINE,
+    &SPHERE,
+    &CONE,
+    &WAVY,
+    &FILE,
+    &ADHESION,
+    &LOADING,
+    &RAMP,
+    &SOLVER,
+    &OUTPUT,
+];

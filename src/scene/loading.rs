@@ -1,0 +1,198 @@
+//! `[loading]`: the path, written out step by step.
+
+use super::document::Value;
+use super::keys;
+use super::reader::{Allowed, Reader};
+use super::types::{AdhesionScene, Boundary, Control, LawName, LoadingScene, Range, Treatment};
+use crate::units::Dimension;
+
+/// Most steps of a path, so that a slip of the finger cannot fill the memory.
+const MOST_STEPS: usize = 1_000_000;
+
+/// Reads `[loading]`; `boundary` and `adhesion` are there to check against, if they could be read.
+pub(super) fn read(
+    scene: &Reader,
+    boundary: Option<Boundary>,
+    adhesion: Option<&AdhesionScene>,
+) -> Option<LoadingScene> {
+    scene.require_as(
+        "loading",
+        "[loading] with control = \"pressure\" and path = [\"1 MPa\"]",
+    );
+    let loading = scene.table("loading", &keys::LOADING)?;
+    loading.require(&["control"]);
+    let control = loading.choice("control", Control::ALL, Control::name);
+    if boundary == Some(Boundary::Free)
+        && matches!(control, Some(Control::Pressure | Control::MeanGap))
+    {
+        loading.conflict(
+            "control",
+            "a free boundary has no nominal area to average over; take \"force\" or \"approach\", or boundary = \"periodic\"",
+        );
+    }
+    let spring = if loading.has("spring") {
+        if control.is_some_and(|control| control != Control::Approach) {
+            loading.conflict(
+                "spring",
+                "a spring is held at its far end; take control = \"approach\", or leave the spring out",
+            );
+        }
+        loading
+            .quantity("spring", Dimension::ForcePerLength, Allowed::POSITIVE)
+            .map(Some)
+    } else {
+        Some(None)
+    };
+    let path = path(&loading, control, adhesion);
+    Some(LoadingScene {
+        control: control?,
+        path: path?,
+        spring: spring?,
+    })
+}
+
+/// The value of a path, in the unit and within the limits of its control.
+struct PathValue {
+    dimension: Dimension,
+    allowed: Allowed,
+}
+
+impl PathValue {
+    fn of(control: Control, adhesion: Option<&AdhesionScene>) -> Self {
+        let dimension = match control {
+            Control::Pressure => Dimension::Pressure,
+            Control::Force => Dimension::Force,
+            Control::Approach | Control::MeanGap => Dimension::Length,
+        };
+        // The Lennard-Jones gap is measured from its zero-force distance and may be negative.
+        let overlaps = adhesion.is_some_and(|adhesion| {
+            adhesion.law == LawName::LennardJones && adhesion.treatment == Treatment::Full
+        });
+        let allowed = if control == Control::MeanGap && !overlaps {
+            Allowed::NOT_NEGATIVE
+        } else {
+            Allowed::FINITE
+        };
+        PathValue { dimension, allowed }
+    }
+}
+
+fn path(
+    loading: &Reader,
+    control: Option<Control>,
+    adhesion: Option<&AdhesionScene>,
+) -> Option<Vec<f64>> {
+    let value = control.map(|control| PathValue::of(control, adhesion));
+    let has_ramps = loading.has("start") || loading.has("ramp");
+    if loading.has("path") && has_ramps {
+        loading.conflict(
+            "path",
+            "stands beside start and [[loading.ramp]]; give either the path or the ramps",
+        );
+        return None;
+    }
+    let path = if has_ramps {
+        ramps(loading, value.as_ref())?
+    } else {
+        loading.require_as(
+            "path",
+            "path = [\"1 MPa\", \"10 MPa\"]` or `start` with `[[loading.ramp]]",
+        );
+        let list = loading.list("path", "a list of values")?;
+        if list.is_empty() {
+            loading.conflict("path", "is empty; give at least one value");
+            return None;
+        }
+        if list.len() > MOST_STEPS {
+            loading.conflict("path", format!("is longer than {MOST_STEPS} steps"));
+            return None;
+        }
+        // Without a control the unit of the values is unknown; that mistake has been noted.
+        let value = value?;
+        let values: Vec<Option<f64>> = list
+            .iter()
+            .map(|(name, node)| {
+                loading.quantity_in(node, "path", name, value.dimension, value.allowed)
+            })
+            .collect();
+        values.into_iter().collect::<Option<Vec<f64>>>()?
+    };
+    check_least_gap(loading, control, adhesion, &path)?;
+    Some(path)
+}
+
+/// Steps from `start` over every ramp.
+fn ramps(loading: &Reader, value: Option<&PathValue>) -> Option<Vec<f64>> {
+    loading.require_as("start", "start = \"1 MPa\"");
+    loading.require_as("ramp", "[[loading.ramp]]` with `to` and `steps");
+    let start = value.and_then(|value| loading.quantity("start", value.dimension, value.allowed));
+    let readers = loading.tables("ramp", |_| &keys::RAMP)?;
+    if matches!(loading.node("ramp"), Some(node) if matches!(&node.value, Value::List(list) if list.is_empty()))
+    {
+        loading.conflict(
+            "ramp",
+            "is empty; give at least one ramp with `to` and `steps`",
+        );
+        return None;
+    }
+    let mut ramps = Vec::with_capacity(readers.len());
+    let mut total = 1;
+    for ramp in &readers {
+        // `hold` stands in place of `to`; it has been noted, and `to` is not missing.
+        if !ramp.has("hold") {
+            ramp.require(&["to"]);
+        }
+        ramp.require(&["steps"]);
+        let steps = ramp
+            .whole_number("steps", 1, MOST_STEPS as i64)
+            .and_then(|steps| usize::try_from(steps).ok());
+        let to = value.and_then(|value| ramp.quantity("to", value.dimension, value.allowed));
+        total += steps.unwrap_or(0);
+        ramps.push(to.zip(steps));
+    }
+    if total > MOST_STEPS {
+        loading.conflict(
+            "ramp",
+            format!("the ramps add up to more than {MOST_STEPS} steps"),
+        );
+        return None;
+    }
+    let mut path = vec![start?];
+    let mut from = start?;
+    for ramp in ramps {
+        let (to, steps) = ramp?;
+        path.extend((1..steps).map(|step| {
+            let share = step as f64 / steps as f64;
+            from * (1.0 - share) + to * share
+        }));
+        path.push(to);
+        from = to;
+    }
+    Some(path)
+}
+
+/// A Lennard-Jones surface repels without limit at a gap of minus its range.
+fn check_least_gap(
+    loading: &Reader,
+    control: Option<Control>,
+    adhesion: Option<&AdhesionScene>,
+    path: &[f64],
+) -> Option<()> {
+    if let Some(Control::MeanGap) = control
+        && let Some(AdhesionScene {
+            range: Range::Length(range),
+            ..
+        }) = adhesion
+        && path.iter().any(|gap| *gap <= -range)
+    {
+        loading.conflict(
+            "control",
+            format!(
+                "a mean gap must stay above {}, where the law repels without limit",
+                crate::units::format_si(-range, "m")
+            ),
+        );
+        return None;
+    }
+    Some(())
+}

@@ -1,0 +1,472 @@
+//! A cursor over one table of a scene that collects mistakes and goes on.
+//!
+//! Every getter returns `None` both for a key that is absent and for one that is wrong, after
+//! noting the mistake; [`Reader::has`] tells the two apart where it matters.
+
+use std::cell::RefCell;
+
+use super::document::{Entry, Node, Place, Table, Value};
+use super::keys::{self, Section};
+use super::mistake::{Mistake, SceneError, SceneErrors};
+use crate::units::{self, Dimension, UnitError};
+
+/// The mistakes found so far in one scene.
+pub(super) struct Log {
+    file: String,
+    mistakes: RefCell<Vec<Mistake>>,
+}
+
+impl Log {
+    pub fn new(file: &str) -> Self {
+        Log {
+            file: file.into(),
+            mistakes: RefCell::new(Vec::new()),
+        }
+    }
+
+    /// Notes a mistake.
+    pub fn add(&self, place: Place, key: &str, error: SceneError) {
+        self.mistakes.borrow_mut().push(Mistake {
+            file: self.file.clone(),
+            line: match place {
+                Place::Line(line) => Some(line),
+                Place::Set | Place::Nowhere => None,
+            },
+            key: key.into(),
+            from_set: place == Place::Set,
+            error,
+        });
+    }
+
+    pub fn is_empty(&self) -> bool {
+        self.mistakes.borrow().is_empty()
+    }
+
+    /// The mistakes by line; those without one come last.
+    pub fn into_errors(self) -> SceneErrors {
+        let mut mistakes = self.mistakes.into_inner();
+        mistakes.sort_by_key(|mistake| mistake.line.unwrap_or(usize::MAX));
+        SceneErrors(mistakes)
+    }
+}
+
+/// The numbers that a key takes.
+#[derive(Clone, Copy)]
+pub(super) struct Allowed {
+    test: fn(f64) -> bool,
+    words: &'static str,
+}
+
+impl Allowed {
+    /// Numbers that pass `test`; `words` completes "it must be ...".
+    pub const fn new(test: fn(f64) -> bool, words: &'static str) -> Self {
+        Allowed { test, words }
+    }
+
+    /// Every finite number.
+    pub const FINITE: Allowed = Allowed::new(|_| true, "finite");
+    /// Every finite number above zero.
+    pub const POSITIVE: Allowed = Allowed::new(|value| value > 0.0, "finite and above 0");
+    /// Every finite number but the negative ones.
+    pub const NOT_NEGATIVE: Allowed = Allowed::new(|value| value >= 0.0, "finite and at least 0");
+}
+
+/// How a bare number becomes SI, and a text with a unit.
+fn quantity_of(node: &Node, dimension: Dimension) -> Option<Result<f64, UnitError>> {
+    let number = |value| match dimension {
+        Dimension::Angle => units::angle_from_number(value),
+        _ => value,
+    };
+    match &node.value {
+        Value::Integer(value) => Some(Ok(number(*value as f64))),
+        Value::Float(value) => Some(Ok(number(*value))),
+        // A pure number in quotes is a slip of the author, not a unit.
+        Value::Text(text) if dimension != Dimension::Dimensionless => {
+            Some(units::parse_quantity(text, dimension))
+        }
+        _ => None,
+    }
+}
+
+/// A cursor over one table.
+pub(super) struct Reader<'a> {
+    table: &'a Table,
+    place: Place,
+    path: String,
+    section: &'static Section,
+    log: &'a Log,
+    /// Known keys that an unknown one was probably meant to be.
+    misspelled: Vec<&'static str>,
+}
+
+impl<'a> Reader<'a> {
+    /// Opens a table and notes each key that `section` does not have. `path` is its dotted name.
+    pub fn open(
+        table: &'a Table,
+        place: Place,
+        path: &str,
+        section: &'static Section,
+        log: &'a Log,
+    ) -> Self {
+        let mut reader = Reader {
+            table,
+            place,
+            path: path.into(),
+            section,
+            log,
+            misspelled: Vec::new(),
+        };
+        for entry in &table.entries {
+            reader.check_key(entry);
+        }
+        reader
+    }
+
+    fn check_key(&mut self, entry: &Entry) {
+        let name = entry.name.as_str();
+        if self.section.keys.iter().any(|(known, _)| *known == name) {
+            return;
+        }
+        if let Some((_, what)) = self.section.later.iter().find(|(later, _)| *later == name) {
+            let error = SceneError::NotInThisVersion {
+                what: (*what).into(),
+                instead: "take it out of the scene".into(),
+            };
+            self.report_at(entry.place, name, error);
+            return;
+        }
+        let (nearest, likeness) = nearest(name, self.section.names());
+        if likeness > 0.6 {
+            self.misspelled.push(nearest);
+        }
+        let elsewhere = keys::ALL
+            .iter()
+            .filter(|section| section.names().any(|known| known == name))
+            .map(|section| section.title.to_string());
+        let error = SceneError::UnknownKey {
+            section: self.section.title.into(),
+            nearest: nearest.into(),
+            known: self
+                .section
+                .keys
+                .iter()
+                .map(|(known, _)| (*known).into())
+                .collect(),
+            elsewhere: elsewhere.collect(),
+        };
+        self.report_at(entry.place, name, error);
+    }
+
+    /// Whether the key is there, right or wrong.
+    pub fn has(&self, key: &str) -> bool {
+        self.table.get(key).is_some()
+    }
+
+    /// The value of a key as it stands.
+    pub fn node(&self, key: &str) -> Option<&'a Node> {
+        self.table.get(key).map(|entry| &entry.node)
+    }
+
+    /// The dotted name of a key of this table.
+    pub fn dotted(&self, key: &str) -> String {
+        match (self.path.is_empty(), key.is_empty()) {
+            (true, _) => shown_key(key),
+            (false, true) => self.path.clone(),
+            (false, false) => format!("{}.{}", self.path, shown_key(key)),
+        }
+    }
+
+    /// Notes a mistake at a key, or at the table's head if the key is absent.
+    pub fn report(&self, key: &str, error: SceneError) {
+        let place = self.table.get(key).map_or(self.place, |entry| entry.place);
+        self.report_at(place, key, error);
+    }
+
+    /// Notes a mistake of a key at a place of its own.
+    pub fn report_at(&self, place: Place, key: &str, error: SceneError) {
+        self.log.add(place, &self.dotted(key), error);
+    }
+
+    /// Notes that a key cannot stand with others.
+    pub fn conflict(&self, key: &str, reason: impl Into<String>) {
+        self.report(
+            key,
+            SceneError::Conflict {
+                reason: reason.into(),
+            },
+        );
+    }
+
+    /// Notes each of these keys that is absent.
+    pub fn require(&self, required: &[&str]) {
+        for key in required {
+            self.require_as(key, &self.section.example(key));
+        }
+    }
+
+    /// Notes that a key is absent, with a line that would do.
+    pub fn require_as(&self, key: &str, example: &str) {
+        // A misspelled key has been noted already, and is not missing.
+        if !self.has(key) && !self.misspelled.contains(&key) {
+            self.report(
+                key,
+                SceneError::Missing {
+                    example: example.into(),
+                },
+            );
+        }
+    }
+
+    fn wrong_type(&self, node: &Node, key: &str, name: &str, expected: &str) {
+        self.report_at(
+            node.place,
+            name,
+            SceneError::WrongType {
+                found: node.described(),
+                expected: expected.into(),
+                example: self.section.example(key),
+            },
+        );
+    }
+
+    fn out_of_range(&self, node: &Node, name: &str, allowed: &str) {
+        self.report_at(
+            node.place,
+            name,
+            SceneError::OutOfRange {
+                found: node.shown(),
+                allowed: allowed.into(),
+            },
+        );
+    }
+
+    /// A dimensional value in SI units; a pure number if the dimension is none.
+    pub fn quantity(&self, key: &str, dimension: Dimension, allowed: Allowed) -> Option<f64> {
+        self.quantity_in(self.node(key)?, key, key, dimension, allowed)
+    }
+
+    /// A dimensional value somewhere inside the value of `key`; `name` says where.
+    pub fn quantity_in(
+        &self,
+        node: &Node,
+        key: &str,
+        name: &str,
+        dimension: Dimension,
+        allowed: Allowed,
+    ) -> Option<f64> {
+        match quantity_of(node, dimension) {
+            Some(Ok(value)) if value.is_finite() && (allowed.test)(value) => Some(value),
+            Some(Ok(_)) => {
+                self.out_of_range(node, name, allowed.words);
+                None
+            }
+            Some(Err(error)) => {
+                self.report_at(node.place, name, error.into());
+                None
+            }
+            None => {
+                self.wrong_type(node, key, name, dimension.words());
+                None
+            }
+        }
+    }
+
+    /// A whole number within limits, both included.
+    pub fn whole_number(&self, key: &str, least: i64, most: i64) -> Option<i64> {
+        self.whole_number_in(self.node(key)?, key, key, least, most)
+    }
+
+    /// A whole number somewhere inside the value of `key`; `name` says where.
+    pub fn whole_number_in(
+        &self,
+        node: &Node,
+        key: &str,
+        name: &str,
+        least: i64,
+        most: i64,
+    ) -> Option<i64> {
+        match node.value {
+            Value::Integer(number) if (least..=most).contains(&number) => Some(number),
+            Value::Integer(_) => {
+                let words = if most == i64::MAX {
+                    format!("a whole number of at least {least}")
+                } else {
+                    format!("a whole number from {least} to {most}")
+                };
+                self.out_of_range(node, name, &words);
+                None
+            }
+            _ => {
+                self.wrong_type(node, key, name, "a whole number");
+                None
+            }
+        }
+    }
+
+    /// A text.
+    pub fn text(&self, key: &str) -> Option<&'a str> {
+        let node = self.node(key)?;
+        match &node.value {
+            Value::Text(text) => Some(text),
+            _ => {
+                self.wrong_type(node, key, key, "a text in quotes");
+                None
+            }
+        }
+    }
+
+    /// One of a few words.
+    pub fn choice<T: Copy>(
+        &self,
+        key: &str,
+        choices: &[T],
+        name: fn(T) -> &'static str,
+    ) -> Option<T> {
+        self.choice_in(self.node(key)?, key, key, choices, name)
+    }
+
+    /// One of a few words somewhere inside the value of `key`; `at` says where.
+    pub fn choice_in<T: Copy>(
+        &self,
+        node: &Node,
+        key: &str,
+        at: &str,
+        choices: &[T],
+        name: fn(T) -> &'static str,
+    ) -> Option<T> {
+        let Value::Text(text) = &node.value else {
+            self.wrong_type(node, key, at, "a word in quotes");
+            return None;
+        };
+        let found = choices.iter().find(|choice| name(**choice) == text);
+        if found.is_none() {
+            let allowed = choices.iter().map(|choice| name(*choice));
+            let error = SceneError::UnknownWord {
+                found: units::quoted(text),
+                nearest: nearest(text, allowed.clone()).0.into(),
+                allowed: allowed.map(str::to_string).collect(),
+            };
+            self.report_at(node.place, at, error);
+        }
+        found.copied()
+    }
+
+    /// The entries of a list, each with its dotted name within this table.
+    pub fn list(&self, key: &str, expected: &str) -> Option<Vec<(String, &'a Node)>> {
+        let node = self.node(key)?;
+        match &node.value {
+            Value::List(list) => Some(numbered(key, list)),
+            _ => {
+                self.wrong_type(node, key, key, expected);
+                None
+            }
+        }
+    }
+
+    /// One value for both axes, or a list of two: x, y.
+    pub fn one_or_two<T: Copy>(
+        &self,
+        key: &str,
+        read: impl Fn(&Node, &str) -> Option<T>,
+    ) -> Option<[T; 2]> {
+        let node = self.node(key)?;
+        match &node.value {
+            Value::List(_) => self.two(key, read),
+            _ => read(node, key).map(|value| [value, value]),
+        }
+    }
+
+    /// A list of two values: x, y.
+    pub fn two<T>(&self, key: &str, read: impl Fn(&Node, &str) -> Option<T>) -> Option<[T; 2]> {
+        let node = self.node(key)?;
+        match &node.value {
+            Value::List(list) if list.len() == 2 => {
+                // Both are read before either is given up, so that both mistakes are seen.
+                let x = read(&list[0], &format!("{key}.0"));
+                let y = read(&list[1], &format!("{key}.1"));
+                Some([x?, y?])
+            }
+            _ => {
+                self.wrong_type(node, key, key, "a list of two values, x and y");
+                None
+            }
+        }
+    }
+
+    /// A table inside this one.
+    pub fn table(&self, key: &str, section: &'static Section) -> Option<Reader<'a>> {
+        let node = self.node(key)?;
+        match &node.value {
+            Value::Table(table) => {
+                let path = self.dotted(key);
+                Some(Reader::open(table, node.place, &path, section, self.log))
+            }
+            _ => {
+                self.wrong_type(node, key, key, "a table");
+                None
+            }
+        }
+    }
+
+    /// The tables of an array of tables inside this one; `section` picks the keys of each.
+    pub fn tables(
+        &self,
+        key: &str,
+        section: impl Fn(&Table) -> &'static Section,
+    ) -> Option<Vec<Reader<'a>>> {
+        let list = self.list(key, "an array of tables")?;
+        let mut readers = Vec::with_capacity(list.len());
+        for (name, node) in list {
+            match &node.value {
+                Value::Table(table) => readers.push(Reader::open(
+                    table,
+                    node.place,
+                    &self.dotted(&name),
+                    section(table),
+                    self.log,
+                )),
+                _ => self.wrong_type(node, key, &name, "a table"),
+            }
+        }
+        Some(readers)
+    }
+}
+
+fn numbered<'a>(key: &str, list: &'a [Node]) -> Vec<(String, &'a Node)> {
+    list.iter()
+        .enumerate()
+        .map(|(index, node)| (format!("{key}.{index}"), node))
+        .collect()
+}
+
+/// The candidate spelled most alike, with its likeness from 0 to 1.
+pub(super) fn nearest(
+    word: &str,
+    candidates: impl Iterator<Item = &'static str>,
+) -> (&'static str, f64) {
+    candidates
+        .map(|candidate| (candidate, likeness(word, candidate)))
+        .fold(
+            ("", -1.0),
+            |best, next| if next.1 > best.1 { next } else { best },
+        )
+}
+
+fn likeness(word: &str, candidate: &str) -> f64 {
+    // Edit distance finds slips of the finger, the common beginning words cut short.
+    const LONGEST: usize = 64;
+    let word: String = word.to_lowercase().chars().take(LONGEST).collect();
+    let edits = strsim::normalized_damerau_levenshtein(&word, candidate);
+    let beginning = strsim::jaro_winkler(&word, candidate);
+    0.5 * (edits + beginning)
+}
+
+/// A key as TOML would show it: in quotes where it is no bare word.
+pub(super) fn shown_key(key: &str) -> String {
+    let bare = |letter: char| letter.is_ascii_alphanumeric() || "-_.".contains(letter);
+    if key.chars().all(bare) && key.len() <= 60 {
+        key.into()
+    } else {
+        units::quoted(key)
+    }
+}

@@ -1,0 +1,192 @@
+//! The scene as it was understood, for `summary.json`: the keys of a scene file, SI values.
+
+use serde_json::{Map, Value, json};
+
+use super::types::*;
+
+impl Scene {
+    /// The scene as resolved: every default filled in, every value in SI units (angles, which a
+    /// scene counts in degrees, in degrees).
+    ///
+    /// Keys are those of the scene file, so that written as TOML it is a scene again, and the same
+    /// one. What is off or left to tabor's choice by absence (an effect, a centre) is absent; a path
+    /// that is not UTF-8 has its odd bytes replaced.
+    pub fn resolved_json(&self) -> Value {
+        let mut scene = Map::new();
+        if let Some(title) = &self.title {
+            scene.insert("title".into(), json!(title));
+        }
+        scene.insert("grid".into(), self.grid.resolved());
+        scene.insert("solid".into(), self.solid.resolved());
+        let surfaces: Vec<Value> = self.surfaces.iter().map(SurfacePart::resolved).collect();
+        scene.insert("surface".into(), json!(surfaces));
+        if let Some(adhesion) = &self.adhesion {
+            scene.insert("adhesion".into(), adhesion.resolved());
+        }
+        scene.insert("loading".into(), self.loading.resolved());
+        scene.insert("solver".into(), self.solver.resolved());
+        scene.insert("output".into(), self.output.resolved());
+        Value::Object(scene)
+    }
+}
+
+/// Adds a key where it has a value.
+fn with(mut table: Value, key: &str, value: Option<Value>) -> Value {
+    if let (Some(table), Some(value)) = (table.as_object_mut(), value) {
+        table.insert(key.into(), value);
+    }
+    table
+}
+
+impl GridScene {
+    fn resolved(&self) -> Value {
+        let table = json!({ "boundary": self.boundary.name() });
+        let table = with(table, "points", self.points.map(|points| json!(points)));
+        with(table, "size", self.size.map(|size| json!(size)))
+    }
+}
+
+impl SolidScene {
+    fn resolved(&self) -> Value {
+        let table = json!({ "contact_modulus": self.contact_modulus });
+        with(
+            table,
+            "poisson_ratio",
+            self.poisson_ratio.map(|ratio| json!(ratio)),
+        )
+    }
+}
+
+impl SurfacePart {
+    /// The word after `kind =` in a scene.
+    pub fn kind(&self) -> &'static str {
+        match self {
+            SurfacePart::SelfAffine(_) => "self-affine",
+            SurfacePart::Sphere { .. } => "sphere",
+            SurfacePart::Cone { .. } => "cone",
+            SurfacePart::Wavy { .. } => "wavy",
+            SurfacePart::Flat => "flat",
+            SurfacePart::File(_) => "file",
+        }
+    }
+
+    fn resolved(&self) -> Value {
+        let kind = self.kind();
+        match self {
+            SurfacePart::SelfAffine(part) => {
+                let table = json!({ "kind": kind, "hurst": part.hurst });
+                let table = match part.roughness {
+                    Roughness::RmsHeight(height) => with(table, "rms_height", Some(json!(height))),
+                    Roughness::RmsSlope(slope) => with(table, "rms_slope", Some(json!(slope))),
+                };
+                let table = with(table, "longest", Some(json!(part.longest)));
+                let table = with(table, "rolloff", Some(json!(part.rolloff)));
+                let table = with(table, "shortest", Some(json!(part.shortest)));
+                with(table, "seed", Some(json!(part.seed)))
+            }
+            SurfacePart::Sphere { radius, centre } => {
+                let table = json!({ "kind": kind, "radius": radius });
+                with(table, "centre", centre.map(|centre| json!(centre)))
+            }
+            SurfacePart::Cone { half_angle, centre } => {
+                let table = json!({ "kind": kind, "half_angle": degrees(*half_angle) });
+                with(table, "centre", centre.map(|centre| json!(centre)))
+            }
+            SurfacePart::Wavy {
+                amplitude,
+                wavelength,
+            } => {
+                // JSON has no infinity; the scene's word for it stands instead.
+                let wavelength = wavelength.map(|length| {
+                    if length.is_infinite() {
+                        json!("inf")
+                    } else {
+                        json!(length)
+                    }
+                });
+                json!({ "kind": kind, "amplitude": amplitude, "wavelength": wavelength })
+            }
+            SurfacePart::Flat => json!({ "kind": kind }),
+            SurfacePart::File(part) => json!({
+                "kind": kind,
+                "path": part.path.to_string_lossy(),
+                "unit": part.unit,
+                "scale": part.scale,
+                "detrend": part.detrend.name(),
+                "fill": part.fill.name(),
+            }),
+        }
+    }
+}
+
+/// Degrees of an angle, without the dust of the conversion where a round number means the same.
+fn degrees(radians: f64) -> f64 {
+    let degrees = radians.to_degrees();
+    let round = (degrees * 1e9).round() / 1e9;
+    if round.to_radians() == radians {
+        round
+    } else {
+        degrees
+    }
+}
+
+impl AdhesionScene {
+    fn resolved(&self) -> Value {
+        let range = match self.range {
+            Range::Length(length) => json!(length),
+            Range::Auto => json!("auto"),
+        };
+        let table = json!({
+            "law": self.law.name(),
+            "work_of_adhesion": self.work_of_adhesion,
+            "range": range,
+        });
+        let taper = match self.taper {
+            Some(length) => json!(length),
+            None => json!("auto"),
+        };
+        let has_taper = self.law == LawName::MaugisDugdale;
+        let table = with(table, "taper", has_taper.then_some(taper));
+        with(table, "treatment", Some(json!(self.treatment.name())))
+    }
+}
+
+impl LoadingScene {
+    fn resolved(&self) -> Value {
+        let table = json!({ "control": self.control.name(), "path": self.path });
+        with(
+            table,
+            "spring",
+            self.spring.map(|stiffness| json!(stiffness)),
+        )
+    }
+}
+
+impl SolverScene {
+    fn resolved(&self) -> Value {
+        json!({
+            "tolerance": self.tolerance,
+            "max_iterations": self.max_iterations,
+            "precision": self.precision.name(),
+            "backend": self.backend.name(),
+        })
+    }
+}
+
+impl OutputScene {
+    fn resolved(&self) -> Value {
+        let names = |fields: &[FieldName]| -> Vec<&'static str> {
+            fields.iter().map(|field| field.name()).collect()
+        };
+        let steps = match &self.steps {
+            StepChoice::Last => json!("last"),
+            StepChoice::All => json!("all"),
+            StepChoice::List(steps) => json!(steps),
+        };
+        json!({
+            "images": names(&self.images),
+            "fields": names(&self.fields),
+            "steps": steps,
+        })
+    }
+}

@@ -1,0 +1,289 @@
+//! `[[surface]]`: the parts whose sum the heights are.
+
+use std::path::Path;
+
+use super::document::{Node, Table, Value};
+use super::keys::{self, Section};
+use super::reader::{Allowed, Reader};
+use super::types::{
+    Boundary, Detrend, Fill, GridScene, HeightFileScene, Roughness, SelfAffineScene, SurfacePart,
+};
+use crate::units::{self, Dimension};
+
+/// The kinds of surface, with the keys of each.
+const KINDS: &[(&str, &Section)] = &[
+    ("self-affine", &keys::SELF_AFFINE),
+    ("sphere", &keys::SPHERE),
+    ("cone", &keys::CONE),
+    ("wavy", &keys::WAVY),
+    ("flat", &keys::FLAT),
+    ("file", &keys::FILE),
+];
+
+/// Relative tolerance on what counts as a whole number of waves, as for the band of self-affine
+/// surfaces.
+const WHOLE_WAVES: f64 = 1e-9;
+
+/// Reads every `[[surface]]`; `grid` is there to check wavelengths against, if it could be read.
+pub(super) fn read(
+    scene: &Reader,
+    grid: Option<&GridScene>,
+    folder: &Path,
+) -> Option<Vec<SurfacePart>> {
+    const EXAMPLE: &str = "[[surface]] with kind = \"sphere\" and radius = \"1 um\"";
+    scene.require_as("surface", EXAMPLE);
+    let readers = scene.tables("surface", section_of)?;
+    if readers.is_empty()
+        && matches!(scene.node("surface"), Some(node) if matches!(&node.value, Value::List(list) if list.is_empty()))
+    {
+        scene.conflict("surface", format!("is empty; add for example {EXAMPLE}"));
+    }
+    let parts: Vec<Option<SurfacePart>> = readers
+        .iter()
+        .map(|part| read_part(part, grid, folder))
+        .collect();
+    parts.into_iter().collect()
+}
+
+/// The keys of a part, by its kind; those of every kind together where it has none that is known.
+fn section_of(table: &Table) -> &'static Section {
+    let kind = table.get("kind").map(|entry| &entry.node.value);
+    KINDS
+        .iter()
+        .find(|(name, _)| matches!(kind, Some(Value::Text(text)) if text == name))
+        .map_or(&keys::SURFACE, |(_, section)| section)
+}
+
+fn read_part(part: &Reader, grid: Option<&GridScene>, folder: &Path) -> Option<SurfacePart> {
+    part.require(&["kind"]);
+    let (kind, _) = part.choice("kind", KINDS, |(name, _)| name)?;
+    match kind {
+        "self-affine" => self_affine(part),
+        "sphere" => {
+            part.require(&["radius"]);
+            let radius = length(part, "radius");
+            let centre = centre(part);
+            Some(SurfacePart::Sphere {
+                radius: radius?,
+                centre: centre?,
+            })
+        }
+        "cone" => {
+            const ANGLE: Allowed = Allowed::new(
+                |angle| angle > 0.0 && angle < std::f64::consts::FRAC_PI_2,
+                "above 0 and below 90 degrees",
+            );
+            part.require(&["half_angle"]);
+            let half_angle = part.quantity("half_angle", Dimension::Angle, ANGLE);
+            let centre = centre(part);
+            Some(SurfacePart::Cone {
+                half_angle: half_angle?,
+                centre: centre?,
+            })
+        }
+        "wavy" => wavy(part, grid),
+        "file" => file(part, folder),
+        _ => Some(SurfacePart::Flat),
+    }
+}
+
+fn length(part: &Reader, key: &str) -> Option<f64> {
+    part.quantity(key, Dimension::Length, Allowed::POSITIVE)
+}
+
+/// The apex: `Some(None)` where it is left to the middle of the grid.
+fn centre(part: &Reader) -> Option<Option<[f64; 2]>> {
+    if !part.has("centre") {
+        return Some(None);
+    }
+    let centre = part.two("centre", |node, name| {
+        part.quantity_in(node, "centre", name, Dimension::Length, Allowed::FINITE)
+    });
+    centre.map(Some)
+}
+
+fn self_affine(part: &Reader) -> Option<SurfacePart> {
+    const HURST: Allowed = Allowed::new(|hurst| hurst > 0.0 && hurst < 1.0, "above 0 and below 1");
+    part.require(&["hurst"]);
+    let hurst = part.quantity("hurst", Dimension::Dimensionless, HURST);
+    let rms_height = length(part, "rms_height").map(Roughness::RmsHeight);
+    let rms_slope = part
+        .quantity("rms_slope", Dimension::Dimensionless, Allowed::POSITIVE)
+        .map(Roughness::RmsSlope);
+    let roughness = match (part.has("rms_height"), part.has("rms_slope")) {
+        (true, true) => {
+            part.conflict(
+                "rms_slope",
+                "rms_height is given too; give one of the two, each fixes the amplitude",
+            );
+            None
+        }
+        (false, false) => {
+            part.require_as(
+                "rms_height",
+                "rms_height = \"0.52 nm\"` or `rms_slope = 0.1",
+            );
+            None
+        }
+        _ => rms_height.or(rms_slope),
+    };
+    part.require(&["longest", "rolloff", "shortest"]);
+    let [longest, rolloff, shortest] =
+        ["longest", "rolloff", "shortest"].map(|key| length(part, key));
+    if let (Some(longest), Some(rolloff)) = (longest, rolloff)
+        && rolloff > longest
+    {
+        part.conflict(
+            "rolloff",
+            format!(
+                "{} is longer than longest = {}; wavelengths must be ordered shortest < rolloff <= longest",
+                metres(rolloff),
+                metres(longest)
+            ),
+        );
+    }
+    if let (Some(shortest), Some(rolloff)) = (shortest, rolloff)
+        && shortest >= rolloff
+    {
+        part.conflict(
+            "shortest",
+            format!(
+                "{} is not shorter than rolloff = {}; wavelengths must be ordered shortest < rolloff <= longest",
+                metres(shortest),
+                metres(rolloff)
+            ),
+        );
+    }
+    let seed = if part.has("seed") {
+        part.whole_number("seed", 0, i64::MAX)
+            .and_then(|seed| u64::try_from(seed).ok())
+    } else {
+        Some(1)
+    };
+    Some(SurfacePart::SelfAffine(SelfAffineScene {
+        hurst: hurst?,
+        roughness: roughness?,
+        longest: longest?,
+        rolloff: rolloff?,
+        shortest: shortest?,
+        seed: seed?,
+    }))
+}
+
+fn metres(length: f64) -> String {
+    units::format_si(length, "m")
+}
+
+fn wavy(part: &Reader, grid: Option<&GridScene>) -> Option<SurfacePart> {
+    part.require(&["amplitude", "wavelength"]);
+    let amplitude = length(part, "amplitude");
+    let one = |node: &Node, name: &str| {
+        let none = match &node.value {
+            Value::Text(text) => text == "inf",
+            Value::Float(value) => *value == f64::INFINITY,
+            _ => false,
+        };
+        if none {
+            Some(f64::INFINITY)
+        } else {
+            part.quantity_in(node, "wavelength", name, Dimension::Length, WAVELENGTH)
+        }
+    };
+    const WAVELENGTH: Allowed = Allowed::new(|value| value > 0.0, "above 0, or \"inf\"");
+    let node = part.node("wavelength")?;
+    let wavelength = match node.value {
+        Value::List(_) => part.two("wavelength", one)?,
+        // One number is waves along x alone.
+        _ => [one(node, "wavelength")?, f64::INFINITY],
+    };
+    if wavelength == [f64::INFINITY; 2] {
+        part.conflict(
+            "wavelength",
+            "infinite along both axes is no wave; give a finite one, or take kind = \"flat\"",
+        );
+    }
+    check_whole_waves(part, wavelength, grid);
+    Some(SurfacePart::Wavy {
+        amplitude: amplitude?,
+        wavelength,
+    })
+}
+
+/// Notes each wavelength that does not divide a periodic cell, with the nearest one that does.
+fn check_whole_waves(part: &Reader, wavelength: [f64; 2], grid: Option<&GridScene>) {
+    let Some(GridScene {
+        size: Some(size),
+        boundary: Boundary::Periodic,
+        ..
+    }) = grid
+    else {
+        return;
+    };
+    for (axis, (size, wavelength)) in ["x", "y"].iter().zip(size.iter().zip(wavelength)) {
+        if wavelength.is_infinite() {
+            continue;
+        }
+        let waves = size / wavelength;
+        let whole = waves.round().max(1.0);
+        if (waves - whole).abs() > WHOLE_WAVES * whole {
+            part.conflict(
+                "wavelength",
+                format!(
+                    "{} along {axis} does not divide the periodic size {}; the nearest that does is {}",
+                    metres(wavelength),
+                    metres(*size),
+                    metres(size / whole)
+                ),
+            );
+        }
+    }
+}
+
+fn file(part: &Reader, folder: &Path) -> Option<SurfacePart> {
+    const SCALE: Allowed = Allowed::new(|scale| scale != 0.0, "finite and not 0");
+    part.require(&["path"]);
+    let path = part.text("path").filter(|path| {
+        if path.is_empty() {
+            part.conflict("path", "is empty; name a file, relative to the scene file");
+        }
+        !path.is_empty()
+    });
+    let unit = match part.node("unit").map(|node| &node.value) {
+        None => Some(1.0),
+        // The unit alone, as in "nm"; a length, as in "0.5 nm" or 5e-10, does too.
+        Some(Value::Text(text)) if !starts_like_a_number(text) => {
+            let factor = units::unit_factor(text, Dimension::Length);
+            factor
+                .map_err(|error| part.report("unit", error.into()))
+                .ok()
+        }
+        Some(_) => length(part, "unit"),
+    };
+    let scale = if part.has("scale") {
+        part.quantity("scale", Dimension::Dimensionless, SCALE)
+    } else {
+        Some(1.0)
+    };
+    let detrend = if part.has("detrend") {
+        part.choice("detrend", Detrend::ALL, Detrend::name)
+    } else {
+        Some(Detrend::None)
+    };
+    let fill = if part.has("fill") {
+        part.choice("fill", Fill::ALL, Fill::name)
+    } else {
+        Some(Fill::None)
+    };
+    Some(SurfacePart::File(HeightFileScene {
+        path: folder.join(path?),
+        unit: unit?,
+        scale: scale?,
+        detrend: detrend?,
+        fill: fill?,
+    }))
+}
+
+fn starts_like_a_number(text: &str) -> bool {
+    text.trim_start()
+        .starts_with(|first: char| first.is_ascii_digit() || "+-.".contains(first))
+}
