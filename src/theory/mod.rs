@@ -24,11 +24,21 @@ pub mod special;
 pub mod laws;
 pub mod tabor_map;
 
+pub mod bam;
+pub mod bradley;
 pub mod cone_punch;
+pub mod derjaguin;
+pub mod dmt;
+pub mod fuller_tabor;
+pub mod gw;
+pub mod gw_m;
 pub mod hertz;
 pub mod jkr;
 pub mod love;
 pub mod maugis_dugdale;
+pub mod pastewka_robbins;
+pub mod persson;
+pub mod persson_gap;
 pub mod spectrum;
 pub mod westergaard;
 

@@ -2,9 +2,10 @@
 
 use crate::inputs::{Answer, Inputs};
 use serde_json::json;
+use tabor::theory::dmt::{self, Method};
 use tabor::theory::maugis_dugdale::{self, MaugisDugdale};
 use tabor::theory::tabor_map::{self, Sphere};
-use tabor::theory::{Law, cone_punch, hertz, jkr};
+use tabor::theory::{Law, bradley, cone_punch, derjaguin, hertz, jkr};
 
 pub fn evaluate(function: &str, inputs: &Inputs) -> Option<Answer> {
     let compute: fn(&Inputs) -> Answer = match function {
@@ -59,6 +60,53 @@ pub fn evaluate(function: &str, inputs: &Inputs) -> Option<Answer> {
                 "gap_R_over_a2": hertz::gap(&sphere, a, r * a) / (a * a),
                 "uz_R_over_a2": hertz::displacement(&sphere, a, r * a) / (a * a),
             }))
+        },
+        "bradley_lj" => |i| {
+            let gap = i.number("gap_over_eps");
+            let force = bradley::force(
+                &Sphere::new(2.0, 1.0, 3.0)?,
+                Law::LennardJones,
+                0.1,
+                0.1 * gap,
+            )?;
+            Ok(json!(-force / (2.0 * std::f64::consts::PI * 6.0)))
+        },
+        "dmtf_lj" => |i| attraction(Method::Force, Law::LennardJones, i),
+        "dmtf_cubic" => |i| attraction(Method::Force, Law::Cubic, i),
+        "dmtt_cubic" => |i| attraction(Method::Thermodynamic, Law::Cubic, i),
+        "idmtt_lj" => |i| attraction(Method::Thermodynamic, Law::LennardJones, i),
+        "dmt_energy_lj" => |i| {
+            let gain = dmt::energy_gain(Law::LennardJones, i.number("a_over_sqrtReps"))?;
+            Ok(json!(gain))
+        },
+        "dmtf_validity" => |_| {
+            Ok(json!({
+                "i0": dmt::POINT_CONTACT_INTEGRAL,
+                "mu_c": tabor_map::FORCE_DMT_LIMIT,
+            }))
+        },
+        "dmtf_asymptotes" => |_| {
+            Ok(json!({
+                "large_coef": dmt::force_method_large_radius(),
+                "small_coef": dmt::force_method_small_radius(),
+            }))
+        },
+        "fig2_models" => |i| {
+            let [approach, mu] = i.numbers(["delta_over_eps", "mu"]);
+            let force = |method, law| dmt::force(method, law, approach, mu);
+            Ok(json!({
+                "derjaguin": derjaguin::reduced_force(approach, mu)?,
+                "dmtt_cubic": force(Method::Thermodynamic, Law::Cubic)?,
+                "idmtt": force(Method::Thermodynamic, Law::LennardJones)?,
+                "dmtm": force(Method::Constant, Law::LennardJones)?,
+                "dmtf": force(Method::Force, Law::LennardJones)?,
+            }))
+        },
+        "fig2_jkr" => |i| {
+            let [approach, mu] = i.numbers(["delta_over_eps", "mu"]);
+            let approach = tabor_map::maugis_from_lj_approach(approach, mu);
+            let radius = jkr::reduced_radius_at_approach(approach)?;
+            Ok(json!(0.5 * jkr::reduced_force(radius)))
         },
         "jkr_reduced" => |i| {
             let a = i.number("A");
@@ -151,6 +199,11 @@ fn sphere(inputs: &Inputs) -> Result<Sphere, tabor::theory::TheoryError> {
 
 fn maugis(inputs: &Inputs) -> Result<MaugisDugdale, tabor::theory::TheoryError> {
     MaugisDugdale::new(inputs.number("lam"))
+}
+
+fn attraction(method: Method, law: Law, inputs: &Inputs) -> Answer {
+    let radius = inputs.number("a_over_sqrtReps");
+    Ok(json!(dmt::attraction(method, law, radius)?))
 }
 
 fn law(law: Law, inputs: &Inputs) -> Answer {

@@ -2,7 +2,7 @@
 
 use std::path::Path;
 use tabor::theory::maugis_dugdale::{FOLD_LAMBDA, MaugisDugdale};
-use tabor::theory::{Sphere, hertz, jkr, westergaard};
+use tabor::theory::{Law, Sphere, dmt, hertz, jkr, tabor_map, westergaard};
 
 /// A CSV file: the names of its columns and its rows, comments left out.
 struct Table {
@@ -86,6 +86,10 @@ fn hertz_curve() {
         let a = row.number("a_bar");
         row.check("F_bar_hertz", hertz::force(&sphere, a), 1e-11, 1e-15);
         row.check("delta_bar", hertz::approach(&sphere, a), 1e-11, 1e-15);
+        // Any Tabor parameter will do, since Maugis' constant has no range.
+        let approach = tabor_map::lj_from_maugis_approach(a * a, 0.3);
+        let force = dmt::force(dmt::Method::Constant, Law::LennardJones, approach, 0.3);
+        row.check("F_over_2piwR_dmt", force.expect("a force"), 1e-11, 1e-11);
     }
 }
 
