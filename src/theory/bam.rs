@@ -1,0 +1,48 @@
+//! Bearing-area model: Ciavarella 2018, for a Dugdale law.
+//!
+//! Repulsion is Persson's exponential with the constants 3/8 and 2 of Persson 2007 (H = 0.8), kept
+//! as constants of the model; attraction acts where the undeformed surfaces are within the range,
+//! by the Gaussian bearing area. Slope and curvature of the roughness do not enter.
+
+use super::error::{TheoryError, positive};
+use super::roots::minimum;
+use super::special::erfc;
+use std::f64::consts::SQRT_2;
+
+/// A rough surface in the two numbers of the model.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct BearingArea {
+    height_over_range: f64,
+    stiffness: f64,
+}
+
+impl BearingArea {
+    /// `height_over_range` is `h_rms/h0` with `h0 = w/sigma0`; `stiffness` is
+    /// `q0 h_rms E*/sigma0` with the smallest self-affine wave number q0.
+    pub fn new(height_over_range: f64, stiffness: f64) -> Result<Self, TheoryError> {
+        Ok(BearingArea {
+            height_over_range: positive("height_over_range", height_over_range)?,
+            stiffness: positive("stiffness", stiffness)?,
+        })
+    }
+
+    /// Net mean pressure at a `mean_gap` in `h_rms`, in sigma0.
+    pub fn pressure(&self, mean_gap: f64) -> f64 {
+        let reach = 1.0 / self.height_over_range;
+        let repulsion = 0.375 * self.stiffness * (-2.0 * mean_gap).exp();
+        let within = erfc((mean_gap - reach) / SQRT_2) - erfc(mean_gap / SQRT_2);
+        repulsion - 0.5 * within
+    }
+
+    /// Mean gap (in `h_rms`) and magnitude (in sigma0) of the greatest tension.
+    pub fn pull_off(&self) -> Result<(f64, f64), TheoryError> {
+        let high = 10.0 + 1.0 / self.height_over_range;
+        let scan = 200;
+        let place = |i: usize| high * i as f64 / scan as f64;
+        let best = (1..scan)
+            .min_by(|&i, &j| self.pressure(place(i)).total_cmp(&self.pressure(place(j))))
+            .unwrap_or(1);
+        let (gap, least) = minimum(|u| self.pressure(u), place(best - 1), place(best + 1));
+        Ok((gap, positive("pull-off", -least)?))
+    }
+}

@@ -1,0 +1,163 @@
+//! Summits of one radius and Gaussian heights, each a Hertz contact by itself: Greenwood &
+//! Williamson 1966. Good for small contact areas only.
+
+use super::error::{TheoryError, positive, within};
+use super::hertz;
+use super::special::{erfc, normal_density};
+use super::spectrum::Spectrum;
+use super::tabor_map::Sphere;
+use std::f64::consts::{PI, SQRT_2};
+
+/// Summits of a rough surface against a flat.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Summits {
+    summit: Sphere,
+    density: f64,
+    rms_height: f64,
+}
+
+impl Summits {
+    /// `density` summits per area (1/m^2), each a `summit`, their heights of standard deviation
+    /// `rms_height` (m).
+    pub fn new(summit: Sphere, density: f64, rms_height: f64) -> Result<Self, TheoryError> {
+        Ok(Summits {
+            summit,
+            density: positive("density", density)?,
+            rms_height: positive("rms_height", rms_height)?,
+        })
+    }
+
+    /// Summits of a spectrum by its moments: radius `(3/8) sqrt(pi/m4)`, height variance
+    /// `(1 - 0.8968/alpha) m0`, Nayak's density. McCool 1986.
+    pub fn of_spectrum(
+        spectrum: &Spectrum,
+        contact_modulus: f64,
+        work_of_adhesion: f64,
+    ) -> Result<Self, TheoryError> {
+        let (m0, _, m4) = spectrum.profile_moments();
+        let radius = 0.375 * (PI / m4).sqrt();
+        let variance = (1.0 - 0.8968 / spectrum.nayak_parameter()) * m0;
+        Summits::new(
+            Sphere::new(radius, contact_modulus, work_of_adhesion)?,
+            spectrum.summit_density(),
+            variance.sqrt(),
+        )
+    }
+
+    /// One summit.
+    pub fn summit(&self) -> &Sphere {
+        &self.summit
+    }
+
+    /// Summits per area, 1/m^2.
+    pub fn density(&self) -> f64 {
+        self.density
+    }
+
+    /// Standard deviation of the summit heights, m.
+    pub fn rms_height(&self) -> f64 {
+        self.rms_height
+    }
+
+    /// Nominal pressure with the flat `separation` standard deviations above the mean summit, Pa.
+    pub fn pressure(&self, separation: f64) -> Result<f64, TheoryError> {
+        let one = self.summit.radius() * self.rms_height;
+        Ok(self.density * hertz::force(&self.summit, one.sqrt()) * tail_three_halves(separation)?)
+    }
+
+    /// Contact area per nominal area; the model lets it exceed 1.
+    pub fn contact_area_fraction(&self, separation: f64) -> f64 {
+        PI * self.density * self.summit.radius() * self.rms_height * tail_one(separation)
+    }
+
+    /// Contacts per area, 1/m^2.
+    pub fn contact_density(&self, separation: f64) -> f64 {
+        self.density * tail_zero(separation)
+    }
+
+    /// Adhesion parameter `theta = E* sigma^(3/2)/(w sqrt R)` of Fuller & Tabor 1975; large is
+    /// rough.
+    pub fn adhesion_parameter(&self) -> Result<f64, TheoryError> {
+        let work = positive("work_of_adhesion", self.summit.work_of_adhesion())?;
+        let ratio = self.rms_height / self.summit.radius();
+        Ok(self.summit.contact_modulus() * self.rms_height * ratio.sqrt() / work)
+    }
+}
+
+/// `F_0(t) = int_t^inf phi(z) dz`, phi the normal density.
+pub fn tail_zero(t: f64) -> f64 {
+    0.5 * erfc(t / SQRT_2)
+}
+
+/// `F_1(t) = int_t^inf (z-t) phi(z) dz`.
+pub fn tail_one(t: f64) -> f64 {
+    if t < 3.0 {
+        normal_density(t) - t * tail_zero(t)
+    } else {
+        // The difference would cancel.
+        normal_density(t) * scaled_tail_by_logarithm(1.0, t)
+    }
+}
+
+/// `F_(3/2)(t) = int_t^inf (z-t)^(3/2) phi(z) dz`, for t of -30 or more.
+pub fn tail_three_halves(t: f64) -> Result<f64, TheoryError> {
+    Ok(normal_density(t) * scaled_tail(4, t)?)
+}
+
+/// `int_0^inf y^((n-1)/2) exp(-t y - y^2/2) dy` for even n, the tail over the density.
+///
+/// With `y = s^2` the integrand is even and entire in s, so that the trapezoid rule over the whole
+/// line converges faster than any power of its step.
+pub(crate) fn scaled_tail(n: i32, t: f64) -> Result<f64, TheoryError> {
+    within(
+        "separation",
+        t,
+        t >= -30.0,
+        "-30 standard deviations or more",
+    )?;
+    let exponent = |s: f64| -s * s * (t + 0.5 * s * s);
+    let step = 0.1 / (1.0 + t.abs()).sqrt();
+    let end = (-t + (t * t + 100.0).sqrt()).sqrt() + 2.0 * step;
+    let mut sum = 0.0;
+    let mut s = step;
+    while s < end {
+        sum += s.powi(n) * exponent(s).exp();
+        s += step;
+    }
+    Ok(2.0 * step * sum)
+}
+
+/// `int_0^inf y^k exp(-t y - y^2/2) dy` for t > 0, by the trapezoid rule in log y.
+fn scaled_tail_by_logarithm(k: f64, t: f64) -> f64 {
+    let step = 0.05;
+    let mut sum = 0.0;
+    let mut log = -(40.0 + t.ln());
+    while log < 3.0 {
+        let y = f64::exp(log);
+        sum += ((k + 1.0) * log - y * (t + 0.5 * y)).exp();
+        log += step;
+    }
+    step * sum
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::theory::quadrature::integrate_to_infinity;
+
+    #[test]
+    fn tails_are_their_integrals() {
+        for t in [-3.0, 0.0, 0.7, 2.9, 3.1, 8.0] {
+            let density = |y: f64| normal_density(t + y);
+            let sum = |k: f64| {
+                integrate_to_infinity(|y| y.powf(k) * density(y), 0.0, 1.0, 1e-12, 0.0).unwrap()
+            };
+            assert!((tail_one(t) / sum(1.0) - 1.0).abs() < 1e-11, "{t}");
+            assert!(
+                (tail_three_halves(t).unwrap() / sum(1.5) - 1.0).abs() < 1e-10,
+                "{t}"
+            );
+        }
+        assert!(tail_three_halves(f64::NAN).is_err());
+    }
+}

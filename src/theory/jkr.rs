@@ -1,0 +1,216 @@
+//! Soft sphere with adhesion of no range: Johnson, Kendall & Roberts 1971.
+//!
+//! The first functions are reduced (Maugis units, see [`super::tabor_map`]); those that take a
+//! [`Sphere`] are SI. The theory holds for Tabor parameters above about 5.
+
+use super::error::{TheoryError, finite, positive, within};
+use super::hertz;
+use super::roots::root;
+use super::tabor_map::Sphere;
+use std::f64::consts::PI;
+
+/// Reduced load at which the sphere comes off under load control.
+pub const PULL_OFF_FORCE: f64 = -1.5;
+
+/// Reduced force at a reduced contact radius: `A^3 - sqrt(6 A^3)`.
+pub fn reduced_force(radius: f64) -> f64 {
+    let cube = radius.powi(3);
+    cube - (6.0 * cube).sqrt()
+}
+
+/// Reduced approach at a reduced contact radius: `A^2 - (2/3) sqrt(6 A)`.
+pub fn reduced_approach(radius: f64) -> f64 {
+    radius * radius - 2.0 / 3.0 * (6.0 * radius).sqrt()
+}
+
+/// Reduced slope of force by approach along the equilibria, in `K a*`.
+///
+/// `(9/2) A (1-x)/(3-x)` with `x = (A_c/A)^(3/2)`: 0 at [`pull_off`], infinite at [`grip`].
+pub fn reduced_stiffness(radius: f64) -> f64 {
+    let x = (1.5 / radius.powi(3)).sqrt();
+    4.5 * radius * (1.0 - x) / (3.0 - x)
+}
+
+/// Reduced contact radius of the lesser tension, where load control lets go: `1.5^(1/3)`.
+pub fn pull_off() -> f64 {
+    1.5_f64.cbrt()
+}
+
+/// Reduced contact radius at the least approach, where a held approach lets go: `6^(-1/3)`.
+pub fn grip() -> f64 {
+    6.0_f64.cbrt().recip()
+}
+
+/// Reduced contact radius at zero load: `6^(1/3)`.
+pub fn zero_load() -> f64 {
+    6.0_f64.cbrt()
+}
+
+/// Reduced contact radius at zero approach: `(8/3)^(1/3)`.
+pub fn zero_approach() -> f64 {
+    (8.0_f64 / 3.0).cbrt()
+}
+
+/// Stable reduced contact radius at a reduced approach, at or above that of [`grip`].
+pub fn reduced_radius_at_approach(approach: f64) -> Result<f64, TheoryError> {
+    let least = reduced_approach(grip());
+    within(
+        "approach",
+        approach,
+        approach >= least && approach.is_finite(),
+        "no less than that of the grip limit, -0.9086 in Maugis units",
+    )?;
+    // A^2 = delta + (2/3) sqrt(6 A) and A < 3 + sqrt(delta) bound the root from above.
+    let above = 3.0 + approach.max(0.0).sqrt();
+    if approach == least {
+        return Ok(grip());
+    }
+    root(
+        "a JKR contact at this approach",
+        |a| reduced_approach(a) - approach,
+        grip(),
+        above,
+        1e-15,
+    )
+}
+
+/// Contact radius under `force` (N), at or above the pull-off force, m; the stable one.
+pub fn contact_radius(sphere: &Sphere, force: f64) -> Result<f64, TheoryError> {
+    let tension = PI * sphere.work_of_adhesion() * sphere.radius();
+    within(
+        "force",
+        force,
+        force.is_finite() && force >= -1.5 * tension * (1.0 + 1e-14),
+        "no less than the pull-off force, -1.5 pi w R",
+    )?;
+    // (sqrt(F + 1.5 pi w R) + sqrt(1.5 pi w R))^2: no difference of large numbers.
+    let sum = (force + 1.5 * tension).max(0.0).sqrt() + (1.5 * tension).sqrt();
+    Ok((0.75 * sphere.radius() / sphere.contact_modulus() * sum * sum).cbrt())
+}
+
+/// Stable contact radius at `approach` (m), m.
+pub fn contact_radius_at_approach(sphere: &Sphere, approach: f64) -> Result<f64, TheoryError> {
+    if sphere.work_of_adhesion() == 0.0 {
+        return hertz::contact_radius_at_approach(sphere, approach);
+    }
+    let scales = sphere.maugis_scales()?;
+    Ok(scales.radius * reduced_radius_at_approach(approach / scales.approach)?)
+}
+
+/// Approach of the equilibrium with a contact radius, m: `a^2/R - sqrt(2 pi a w/E*)`.
+pub fn approach(sphere: &Sphere, contact_radius: f64) -> f64 {
+    hertz::approach(sphere, contact_radius) - opening(sphere, contact_radius)
+}
+
+/// Force of the equilibrium with a contact radius, N: `F_Hertz - sqrt(8 pi a^3 w E*)`.
+pub fn force(sphere: &Sphere, contact_radius: f64) -> f64 {
+    hertz::force(sphere, contact_radius)
+        - hertz::stiffness(sphere, contact_radius) * opening(sphere, contact_radius)
+}
+
+/// Force at any `contact_radius` and `approach` (m), in equilibrium or not, N:
+/// `2 E* (a delta - a^3/(3R))`.
+pub fn force_held(sphere: &Sphere, contact_radius: f64, approach: f64) -> f64 {
+    let a = contact_radius;
+    2.0 * sphere.contact_modulus() * (a * approach - a.powi(3) / (3.0 * sphere.radius()))
+}
+
+/// Energy released per area as the edge recedes, `G = E* (a^2/R - delta)^2/(2 pi a)`, J/m^2;
+/// equal to w at equilibrium.
+pub fn energy_release_rate(sphere: &Sphere, contact_radius: f64, approach: f64) -> f64 {
+    let opening = hertz::approach(sphere, contact_radius) - approach;
+    sphere.contact_modulus() * opening * opening / (2.0 * PI * contact_radius)
+}
+
+/// How far a flat punch of the contact radius is drawn back at equilibrium, m.
+fn opening(sphere: &Sphere, contact_radius: f64) -> f64 {
+    (2.0 * PI * contact_radius * sphere.work_of_adhesion() / sphere.contact_modulus()).sqrt()
+}
+
+/// Pressure at distance `r` from the axis, Pa: a Hertz contact less a flat punch; minus infinity
+/// at the edge, 0 outside.
+pub fn pressure(sphere: &Sphere, contact_radius: f64, r: f64) -> f64 {
+    let a = contact_radius;
+    let inside = (a - r) * (a + r) / (a * a);
+    if inside < 0.0 {
+        return 0.0;
+    }
+    let edge = (2.0 * sphere.work_of_adhesion() * sphere.contact_modulus() / (PI * a)).sqrt();
+    hertz::pressure(sphere, a, r) - edge / inside.sqrt()
+}
+
+/// Gap outside the contact, m: the Hertz gap and `(2/pi) sqrt(2 pi a w/E*) acos(a/r)`.
+pub fn gap(sphere: &Sphere, contact_radius: f64, r: f64) -> f64 {
+    let edge = (contact_radius / r.abs()).min(1.0).acos();
+    hertz::gap(sphere, contact_radius, r) + 2.0 / PI * opening(sphere, contact_radius) * edge
+}
+
+/// Stiffness along the equilibria, N/m; for a contact that does not follow (fast oscillation)
+/// take [`hertz::stiffness`].
+pub fn stiffness(sphere: &Sphere, contact_radius: f64) -> f64 {
+    let radius = sphere.radius();
+    let critical =
+        9.0 * PI / 8.0 * sphere.work_of_adhesion() * radius * radius / sphere.contact_modulus();
+    let x = (critical / contact_radius.powi(3)).sqrt();
+    6.0 * sphere.contact_modulus() * contact_radius * (1.0 - x) / (3.0 - x)
+}
+
+/// Force at pull-off under load control, N (negative): `-1.5 pi w R`.
+pub fn pull_off_force(sphere: &Sphere) -> f64 {
+    PULL_OFF_FORCE * PI * sphere.work_of_adhesion() * sphere.radius()
+}
+
+/// Work of adhesion (J/m^2) and contact modulus (Pa) of a sphere of `radius` (m), from the
+/// magnitude `pull_off` (N) of its pull-off force and the slope `stiffness` (N/m) of force by
+/// approach, measured along equilibria at `force` (N).
+///
+/// Derived from the equations above. If the contact did not follow the oscillation, the stiffness
+/// is `2 E* a` and this inversion is the wrong one.
+pub fn from_measurement(
+    radius: f64,
+    pull_off: f64,
+    force: f64,
+    stiffness: f64,
+) -> Result<Sphere, TheoryError> {
+    let radius = positive("radius", radius)?;
+    let pull_off = positive("pull_off", pull_off)?;
+    let stiffness = positive("stiffness", stiffness)?;
+    within(
+        "force",
+        finite("force", force)?,
+        force > -pull_off,
+        "more than minus the pull-off force",
+    )?;
+    let s = (1.0 + force / pull_off).sqrt();
+    // a^3 E* follows from force and pull-off alone; the stiffness then tells E* from a.
+    let cube_times_modulus = 0.75 * radius * pull_off * (1.0 + s) * (1.0 + s);
+    let root = stiffness * (3.0 * s + 2.0) / (6.0 * s);
+    Sphere::new(
+        radius,
+        root.powf(1.5) / cube_times_modulus.sqrt(),
+        2.0 * pull_off / (3.0 * PI * radius),
+    )
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn equilibrium_releases_the_work_of_adhesion() {
+        let sphere = Sphere::new(1e-3, 1e6, 0.05).unwrap();
+        for load in [-2e-4, 0.0, 3e-4] {
+            let a = contact_radius(&sphere, load).unwrap();
+            let delta = approach(&sphere, a);
+            assert!((energy_release_rate(&sphere, a, delta) / 0.05 - 1.0).abs() < 1e-12);
+            assert!((force_held(&sphere, a, delta) - load).abs() < 1e-17);
+            assert!((force(&sphere, a) - load).abs() < 1e-17);
+            assert!((contact_radius_at_approach(&sphere, delta).unwrap() / a - 1.0).abs() < 1e-13);
+            let step = 1e-6 * a;
+            let slope = (force(&sphere, a + step) - force(&sphere, a - step))
+                / (approach(&sphere, a + step) - approach(&sphere, a - step));
+            assert!((stiffness(&sphere, a) / slope - 1.0).abs() < 1e-7);
+        }
+        assert!(contact_radius(&sphere, -2.4e-4).is_err());
+    }
+}

@@ -1,0 +1,324 @@
+//! Gaps of a rough contact by its spectrum, and the adhesion they carry: Yang & Persson 2008,
+//! Almqvist et al. 2011, Afferrante et al. 2018, Persson & Scaraggi 2014.
+//!
+//! The attraction is summed over the gaps of the hard-wall contact (the force method of DMT), so
+//! it holds for asperities of small Tabor parameter, and shows no hysteresis.
+
+use super::error::{TheoryError, not_negative, positive, within};
+use super::laws::Law;
+use super::persson::Persson;
+use super::quadrature::integrate;
+use super::roots::{minimum, root};
+use super::spectrum::Spectrum;
+use std::f64::consts::PI;
+
+/// A rough surface on a half-space.
+#[derive(Clone, Debug)]
+pub struct RoughContact {
+    theory: Persson,
+    spectrum: Spectrum,
+    contact_modulus: f64,
+    cells: usize,
+}
+
+/// Part of the surface that leaves contact between two magnifications.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct GapCell {
+    /// Its share of the nominal area.
+    pub weight: f64,
+    /// Its mean gap, m.
+    pub mean: f64,
+    /// Standard deviation of the normal distribution that is folded at zero gap, m.
+    pub width: f64,
+}
+
+/// A law between the surfaces.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Adhesion {
+    /// How it fades.
+    pub law: Law,
+    /// Work of adhesion, J/m^2.
+    pub work_of_adhesion: f64,
+    /// Range, m.
+    pub range: f64,
+}
+
+/// The state of greatest tension.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct PullOff {
+    /// Greatest net tension, Pa, positive.
+    pub tension: f64,
+    /// Repulsive pressure there, Pa.
+    pub pressure: f64,
+}
+
+impl RoughContact {
+    /// A surface of `spectrum` on a half-space of `contact_modulus` (Pa).
+    pub fn new(
+        theory: Persson,
+        spectrum: Spectrum,
+        contact_modulus: f64,
+    ) -> Result<Self, TheoryError> {
+        Ok(RoughContact {
+            theory,
+            spectrum,
+            contact_modulus: positive("contact_modulus", contact_modulus)?,
+            cells: 240,
+        })
+    }
+
+    /// The spectrum.
+    pub fn spectrum(&self) -> &Spectrum {
+        &self.spectrum
+    }
+
+    /// Contact area fraction at a nominal `pressure` (Pa).
+    pub fn area_fraction(&self, pressure: f64) -> Result<f64, TheoryError> {
+        self.theory
+            .area_fraction(pressure / (self.contact_modulus * self.spectrum.rms_slope()))
+    }
+
+    /// Mean gap at a nominal `pressure` (Pa, positive), m.
+    pub fn mean_gap(&self, pressure: f64) -> Result<f64, TheoryError> {
+        let pressure = positive("pressure", pressure)?;
+        self.mean_gap_beyond(self.spectrum.smallest_wavenumber(), pressure, 0.0)
+    }
+
+    /// Mean gap, m, where the contact looks complete at wave numbers below `wavenumber`, under the
+    /// `pressure` that such a place carries.
+    fn mean_gap_beyond(
+        &self,
+        wavenumber: f64,
+        pressure: f64,
+        absolute: f64,
+    ) -> Result<f64, TheoryError> {
+        self.integrate_waves(wavenumber, absolute, |q, w| {
+            let load = w * pressure / self.contact_modulus;
+            PI.sqrt() * q * q * self.spectrum.density(q) * w * self.theory.gap_integral_at(load)
+        })
+    }
+
+    /// Normal stiffness per area `-dp/d(mean gap)` at a nominal `pressure` (Pa), Pa/m; times the
+    /// conductivity over the modulus it is the thermal contact conductance.
+    pub fn stiffness(&self, pressure: f64) -> Result<f64, TheoryError> {
+        let pressure = positive("pressure", pressure)?;
+        let gamma = self.theory.gamma();
+        let smallest = self.spectrum.smallest_wavenumber();
+        let compliance = self.integrate_waves(smallest, 0.0, |q, w| {
+            let load = w * pressure / self.contact_modulus;
+            let touching = super::special::erf(load);
+            let factor = gamma + 3.0 * (1.0 - gamma) * touching * touching;
+            PI.sqrt() * q * q * self.spectrum.density(q) * w * factor * (-load * load).exp()
+        })?;
+        Ok(pressure / compliance)
+    }
+
+    /// Integral over the wave numbers from `wavenumber` up of `value(q, w(q))`, where
+    /// `w = (pi int_wavenumber^q q^3 C)^(-1/2)`.
+    fn integrate_waves(
+        &self,
+        wavenumber: f64,
+        absolute: f64,
+        value: impl Fn(f64, f64) -> f64,
+    ) -> Result<f64, TheoryError> {
+        // w is infinite at the lower end; q = wavenumber exp(t^2) makes the integrand smooth.
+        let integrand = |t: f64| {
+            let q = wavenumber * (t * t).exp();
+            let slopes = self.spectrum.moment_between(2, wavenumber, q);
+            if slopes <= 0.0 {
+                return 0.0;
+            }
+            2.0 * t * q * value(q, (2.0 / slopes).sqrt())
+        };
+        let place = |q: f64| (q / wavenumber).ln().max(0.0).sqrt();
+        let kink = place(self.spectrum.rolloff_wavenumber());
+        let end = place(self.spectrum.largest_wavenumber());
+        let mut sum = integrate(integrand, kink, end, 1e-9, absolute)?;
+        if kink > 0.0 {
+            sum += integrate(integrand, 0.0, kink, 1e-9, absolute)?;
+        }
+        Ok(sum)
+    }
+
+    /// The surface out of contact at a nominal `pressure` (Pa), by magnification.
+    ///
+    /// The weights and the contact area add up to 1, the weighted means to the mean gap: both are
+    /// differences of what is still in contact, so that no derivative is needed. The width joins
+    /// the roughness not yet seen with the mean (Afferrante et al. 2018).
+    pub fn gap_cells(&self, pressure: f64) -> Result<Vec<GapCell>, TheoryError> {
+        let pressure = positive("pressure", pressure)?;
+        let (first, last) = (
+            self.spectrum.smallest_wavenumber(),
+            self.spectrum.largest_wavenumber(),
+        );
+        let step = (last / first).ln() / self.cells as f64;
+        let scale = 1e-10 * self.spectrum.rms_height();
+        let edge = |i: usize| first * (step * i as f64).exp();
+        let state = |i: usize| -> Result<(f64, f64), TheoryError> {
+            if i == 0 {
+                return Ok((1.0, self.mean_gap(pressure)?));
+            }
+            let slopes = self.spectrum.moment_between(2, first, edge(i));
+            let area = self
+                .theory
+                .area_at_variance(slopes * (self.contact_modulus / pressure).powi(2));
+            if i == self.cells {
+                return Ok((area, 0.0));
+            }
+            Ok((area, self.mean_gap_beyond(edge(i), pressure / area, scale)?))
+        };
+        let mut cells = Vec::with_capacity(self.cells);
+        let (mut area, mut gap) = state(0)?;
+        for i in 0..self.cells {
+            let (next_area, next_gap) = state(i + 1)?;
+            let weight = area - next_area;
+            // At the first magnifications hardly anything leaves contact; it goes with the next.
+            if weight <= 1e-14 {
+                continue;
+            }
+            let mean = ((area * gap - next_area * next_gap) / weight).max(0.0);
+            let middle = edge(i) * (0.5 * step).exp();
+            let unseen = self.spectrum.moment_between(0, middle, last).sqrt();
+            cells.push(GapCell {
+                weight,
+                mean,
+                width: unseen * mean / unseen.hypot(mean),
+            });
+            (area, gap) = (next_area, next_gap);
+        }
+        Ok(cells)
+    }
+
+    /// Share of the nominal area per gap, 1/m, at a `gap` of zero or more (m), without the contact
+    /// itself.
+    pub fn gap_density(cells: &[GapCell], gap: f64) -> f64 {
+        cells
+            .iter()
+            .filter(|cell| cell.width > 0.0)
+            .map(|cell| {
+                let normal = |u: f64| super::special::normal_density(u / cell.width) / cell.width;
+                cell.weight * (normal(gap - cell.mean) + normal(gap + cell.mean))
+            })
+            .sum()
+    }
+
+    /// Attraction over the gaps at a repulsive nominal `pressure` (Pa), Pa, positive.
+    pub fn attraction(&self, adhesion: &Adhesion, pressure: f64) -> Result<f64, TheoryError> {
+        let range = positive("range", adhesion.range)?;
+        let unit = not_negative("work_of_adhesion", adhesion.work_of_adhesion)? / range;
+        let mut sum = 0.0;
+        for cell in self.gap_cells(pressure)? {
+            sum += cell.weight * mean_traction(adhesion.law, &cell, range)?;
+        }
+        Ok(unit * sum)
+    }
+
+    /// Net nominal pressure `pressure - attraction` at a repulsive `pressure` (Pa), Pa.
+    pub fn net_pressure(&self, adhesion: &Adhesion, pressure: f64) -> Result<f64, TheoryError> {
+        Ok(pressure - self.attraction(adhesion, pressure)?)
+    }
+
+    /// The greatest net tension; the repulsive pressure is sought between 1e-5 and 1 of
+    /// `E* h'_rms`.
+    pub fn pull_off(&self, adhesion: &Adhesion) -> Result<PullOff, TheoryError> {
+        let unit = self.contact_modulus * self.spectrum.rms_slope();
+        let net = |log: f64| {
+            self.net_pressure(adhesion, unit * log.exp())
+                .unwrap_or(f64::NAN)
+        };
+        let scan = 14;
+        let place = |i: usize| 1e-5_f64.ln() * (1.0 - i as f64 / scan as f64);
+        let mut best = (0, f64::INFINITY);
+        for i in 0..=scan {
+            let value = net(place(i));
+            if value < best.1 {
+                best = (i, value);
+            }
+        }
+        within(
+            "repulsive pressure at pull-off",
+            place(best.0).exp(),
+            best.1 < 0.0 && best.0 > 0 && best.0 < scan,
+            "between 1e-5 and 1 of E* h'_rms",
+        )?;
+        let (log, least) = minimum(net, place(best.0 - 1), place(best.0 + 1));
+        Ok(PullOff {
+            tension: -least,
+            pressure: unit * log.exp(),
+        })
+    }
+
+    /// Repulsive pressure that leaves `net_pressure` (Pa), on the closer side of `pull_off`, Pa.
+    pub fn repulsive_pressure(
+        &self,
+        adhesion: &Adhesion,
+        pull_off: &PullOff,
+        net_pressure: f64,
+    ) -> Result<f64, TheoryError> {
+        let unit = self.contact_modulus * self.spectrum.rms_slope();
+        let excess = |log: f64| {
+            self.net_pressure(adhesion, log.exp())
+                .map_or(f64::NAN, |p| p - net_pressure)
+        };
+        let high = 4.0 * (unit + net_pressure.abs() + adhesion.work_of_adhesion / adhesion.range);
+        root(
+            "an equilibrium",
+            excess,
+            pull_off.pressure.ln(),
+            high.ln(),
+            1e-9,
+        )
+        .map(f64::exp)
+    }
+}
+
+/// Mean of the law's traction (in w/range) over a cell's folded distribution.
+fn mean_traction(law: Law, cell: &GapCell, range: f64) -> Result<f64, TheoryError> {
+    let (mean, width) = (cell.mean / range, cell.width / range);
+    if width < 1e-9 {
+        return Ok(law.traction(mean));
+    }
+    let integrand = |u: f64| {
+        let z = (u - mean) / width;
+        law.traction(u.abs()) * super::special::normal_density(z) / width
+    };
+    // The folded law has a corner at 0, and Dugdale's a step at the range.
+    let (low, high) = (mean - 8.0 * width, mean + 8.0 * width);
+    let mut marks = vec![low];
+    let corners = if law == Law::Dugdale {
+        vec![-1.0, 0.0, 1.0]
+    } else {
+        vec![0.0]
+    };
+    marks.extend(corners.into_iter().filter(|c| (low..high).contains(c)));
+    marks.push(high);
+    let mut sum = 0.0;
+    for pair in marks.windows(2) {
+        sum += integrate(integrand, pair[0], pair[1], 1e-9, 1e-10)?;
+    }
+    Ok(sum)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn cells_keep_area_and_mean_gap_and_the_stiffness_is_the_slope() {
+        let spectrum = Spectrum::new([1.0, 4.0, 128.0], 0.8, 1.0).unwrap();
+        let contact = RoughContact::new(Persson::new(0.5).unwrap(), spectrum, 1.0).unwrap();
+        let pressure = 0.05 * spectrum.rms_slope();
+        let cells = contact.gap_cells(pressure).unwrap();
+        let area: f64 = cells.iter().map(|cell| cell.weight).sum();
+        let touching = contact.area_fraction(pressure).unwrap();
+        assert!((area + touching - 1.0).abs() < 1e-9);
+        let mean: f64 = cells.iter().map(|cell| cell.weight * cell.mean).sum();
+        let gap = contact.mean_gap(pressure).unwrap();
+        assert!((mean / gap - 1.0).abs() < 1e-8);
+        let step = 1e-4;
+        let change = contact.mean_gap(pressure * (1.0 - step)).unwrap()
+            - contact.mean_gap(pressure * (1.0 + step)).unwrap();
+        let slope = 2.0 * step * pressure / change;
+        assert!((slope / contact.stiffness(pressure).unwrap() - 1.0).abs() < 1e-6);
+    }
+}
