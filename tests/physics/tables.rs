@@ -1,0 +1,67 @@
+//! Reference tables: CSV with `#` comments and a head.
+
+use std::collections::HashMap;
+use std::path::PathBuf;
+
+/// A table by column; text cells are NaN.
+pub struct Table {
+    head: HashMap<String, usize>,
+    rows: Vec<Vec<String>>,
+}
+
+impl Table {
+    pub fn len(&self) -> usize {
+        self.rows.len()
+    }
+
+    pub fn number(&self, row: usize, column: &str) -> f64 {
+        self.text(row, column).parse().unwrap_or(f64::NAN)
+    }
+
+    pub fn text(&self, row: usize, column: &str) -> &str {
+        &self.rows[row][self.head[column]]
+    }
+
+    pub fn column(&self, column: &str) -> Vec<f64> {
+        (0..self.len()).map(|row| self.number(row, column)).collect()
+    }
+}
+
+/// The folder of tables: the repository's, or the one that `TABOR_REFERENCE` names.
+pub fn folder() -> PathBuf {
+    match std::env::var_os("TABOR_REFERENCE") {
+        Some(folder) => PathBuf::from(folder),
+        None => PathBuf::from(env!("CARGO_MANIFEST_DIR")).join("tests/reference"),
+    }
+}
+
+/// Reads a table; absent files are named and give `None`.
+pub fn table(name: &str) -> Option<Table> {
+    let path = folder().join(name);
+    let Ok(text) = std::fs::read_to_string(&path) else {
+        println!("skipped: no table {name}");
+        return None;
+    };
+    let mut lines = text.lines().filter(|line| !line.starts_with('#') && !line.trim().is_empty());
+    let head = lines.next()?.split(',').enumerate().map(|(i, name)| (name.trim().to_string(), i)).collect();
+    let rows = lines.map(|line| line.split(',').map(|cell| cell.trim().to_string()).collect()).collect();
+    Some(Table { head, rows })
+}
+
+/// The numbers in the names `prefixNUMBER.csv` of the folder, in order.
+pub fn parameters(prefix: &str) -> Vec<(f64, String)> {
+    let mut found: Vec<(f64, String)> = std::fs::read_dir(folder())
+        .map(|entries| {
+            entries
+                .flatten()
+                .filter_map(|entry| {
+                    let name = entry.file_name().into_string().ok()?;
+                    let number = name.strip_prefix(prefix)?.strip_suffix(".csv")?.parse().ok()?;
+                    Some((number, name))
+                })
+                .collect()
+        })
+        .unwrap_or_default();
+    found.sort_by(|a, b| a.0.total_cmp(&b.0));
+    found
+}
