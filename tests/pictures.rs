@@ -52,6 +52,7 @@ fn drawn() -> Drawn {
     let path = folder.image_path(3, FieldName::Pressure);
     assert!(path.ends_with("images/step_0003_pressure.png"));
     write_picture(&path, &picture).unwrap();
+    // To look at it: TABOR_KEEP_PICTURE=picture.png cargo test --test pictures
     if let Some(kept) = std::env::var_os("TABOR_KEEP_PICTURE") {
         std::fs::copy(&path, kept).unwrap();
     }

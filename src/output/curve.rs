@@ -2,7 +2,7 @@
 
 use std::fmt::Write as _;
 use std::fs::{self, File, OpenOptions};
-use std::io::Write as _;
+use std::io::{self, Write as _};
 use std::path::{Path, PathBuf};
 
 use super::error::OutputError;
@@ -30,7 +30,18 @@ impl CurveWriter {
     ///
     /// Refused where the file is not a curve of this version or has fewer whole rows.
     pub fn resume(path: &Path, rows: usize) -> Result<CurveWriter, OutputError> {
-        let text = fs::read_to_string(path).map_err(OutputError::write("read", path))?;
+        let bytes = match fs::read(path) {
+            // A run that ended before its first step may not have come to its curve.
+            Err(error) if error.kind() == io::ErrorKind::NotFound && rows == 0 => {
+                return CurveWriter::create(path);
+            }
+            Err(error) if error.kind() == io::ErrorKind::NotFound => {
+                let reason = format!("is missing, where {rows} steps are finished");
+                return Err(OutputError::refused(path, reason));
+            }
+            bytes => bytes.map_err(OutputError::write("read", path))?,
+        };
+        let text = String::from_utf8_lossy(&bytes);
         let mut lines = text
             .split_inclusive('\n')
             .filter(|line| line.ends_with('\n'));
@@ -167,6 +178,18 @@ mod tests {
         writer.append(&row(3, 3.0)).unwrap();
         let resumed = fs::read_to_string(&path).unwrap();
         assert_eq!(format!("{resumed}4,,0.5"), whole);
+    }
+
+    #[test]
+    fn a_missing_curve_is_started_only_where_no_step_is_finished() {
+        let place = tempfile::tempdir().unwrap();
+        let path = place.path().join("curve.csv");
+        assert!(matches!(
+            CurveWriter::resume(&path, 1),
+            Err(OutputError::Refused { .. })
+        ));
+        CurveWriter::resume(&path, 0).unwrap();
+        assert_eq!(fs::read_to_string(&path).unwrap(), format!("{HEADER}\n"));
     }
 
     #[test]

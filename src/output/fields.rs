@@ -10,7 +10,7 @@ use crate::grid::Grid;
 
 /// Writes a field as a float64 array of shape `[ny, nx]`, row-major, in SI units.
 ///
-/// Refused where `values` does not have one value a point of `grid`.
+/// `values` has one value a point of `grid`.
 pub fn write_field(path: &Path, grid: &Grid, values: &[f64]) -> Result<(), OutputError> {
     write_array(path, grid, values)
 }

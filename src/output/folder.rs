@@ -42,9 +42,7 @@ impl RunFolder {
     /// A folder with files in it is taken only if tabor wrote it for the scene of this
     /// `fingerprint`; then the files of that run are removed and no others.
     pub fn open(path: &Path, fingerprint: &str) -> Result<RunFolder, OutputError> {
-        let folder = RunFolder {
-            path: path.to_path_buf(),
-        };
+        let folder = RunFolder::at(path);
         if !folder.is_empty()? {
             folder.expect_marker(fingerprint)?;
             folder.remove_own_files()?;
@@ -57,9 +55,7 @@ impl RunFolder {
     ///
     /// A folder that is missing, empty or of another scene is refused.
     pub fn resume(path: &Path, fingerprint: &str) -> Result<RunFolder, OutputError> {
-        let folder = RunFolder {
-            path: path.to_path_buf(),
-        };
+        let folder = RunFolder::at(path);
         if folder.is_empty()? {
             return Err(OutputError::refused(
                 path,
@@ -68,6 +64,14 @@ impl RunFolder {
         }
         folder.expect_marker(fingerprint)?;
         Ok(folder)
+    }
+
+    fn at(path: &Path) -> RunFolder {
+        // An empty path joins like the current folder but cannot be listed like it.
+        let here = path.as_os_str().is_empty();
+        RunFolder {
+            path: if here { Path::new(".") } else { path }.to_path_buf(),
+        }
     }
 
     /// The folder itself.

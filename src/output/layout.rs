@@ -20,7 +20,7 @@ const TICK: u32 = 6;
 /// Least height of the colour bar's block, for fields that are low and wide.
 const LEAST_HEIGHT: u32 = 220;
 /// Longer side of a field from which on texts are larger, pixels.
-const LARGE: u32 = 1100;
+const LARGE: u32 = 900;
 /// Most lines of a title; the rest is cut.
 const TITLE_LINES: usize = 2;
 

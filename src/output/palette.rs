@@ -54,22 +54,26 @@ struct Colour {
     hue: f64,
 }
 
+/// The arm of compression. Chroma sets in steeply in both arms, so that a light pressure stands out
+/// from none at all.
 fn warm(fraction: f64) -> Colour {
     Colour {
         lightness: LIGHT + (DARK - LIGHT) * fraction,
-        chroma: 32.0 * fraction + 200.0 * fraction * (1.0 - fraction),
+        chroma: 30.0 * fraction + 160.0 * fraction.powf(0.7) * (1.0 - fraction),
         hue: 92.0 - 74.0 * fraction,
     }
 }
 
+/// The arm of tension.
 fn cool(fraction: f64) -> Colour {
     Colour {
         lightness: LIGHT + (DARK - LIGHT) * fraction,
-        chroma: 34.0 * fraction + 66.0 * fraction * (1.0 - fraction),
+        chroma: 34.0 * fraction + 60.0 * fraction.powf(0.65) * (1.0 - fraction),
         hue: 215.0 + 75.0 * fraction,
     }
 }
 
+/// The map of heights.
 fn dark_to_light(fraction: f64) -> Colour {
     Colour {
         lightness: DARK + (LIGHT - DARK) * fraction,
