@@ -1,0 +1,153 @@
+//! A white page with rectangles and text.
+
+use image::RgbImage;
+use noto_sans_mono_bitmap::{FontWeight, RasterHeight, get_raster, get_raster_width};
+
+use super::layout::Rect;
+use super::palette::Rgb;
+
+/// The page.
+pub(super) const WHITE: Rgb = [255, 255, 255];
+/// Text, ticks and the scale bar.
+pub(super) const INK: Rgb = [28, 28, 30];
+/// Text that stands back.
+pub(super) const QUIET_INK: Rgb = [100, 100, 104];
+/// Frames.
+pub(super) const FRAME: Rgb = [150, 150, 154];
+
+/// A size and weight of the one typeface, whose glyphs all have the same width.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Font {
+    /// Regular or bold.
+    pub weight: FontWeight,
+    /// Height of a line of glyphs.
+    pub size: RasterHeight,
+}
+
+impl Font {
+    /// Width of one glyph, pixels.
+    pub fn advance(self) -> u32 {
+        get_raster_width(self.weight, self.size) as u32
+    }
+
+    /// Height of one glyph, pixels.
+    pub fn height(self) -> u32 {
+        self.size.val() as u32
+    }
+
+    /// Width of `text`, pixels.
+    pub fn width(self, text: &str) -> u32 {
+        text.chars().count() as u32 * self.advance()
+    }
+}
+
+/// A line of text and where it stands.
+#[derive(Clone, Debug, PartialEq)]
+pub struct TextLine {
+    /// What it says, in characters that the typeface has.
+    pub text: String,
+    /// How it is set.
+    pub font: Font,
+    /// Left edge of the first glyph, pixels.
+    pub x: u32,
+    /// Top edge of the glyphs, pixels.
+    pub y: u32,
+}
+
+impl TextLine {
+    /// One past the last pixel column.
+    pub fn right(&self) -> u32 {
+        self.x + self.font.width(&self.text)
+    }
+}
+
+/// `text` in characters that the typeface has (Latin-1); others become a near one or `?`.
+pub(super) fn printable(text: &str) -> String {
+    text.chars()
+        .map(|character| match character {
+            '\u{2010}'..='\u{2015}' | '\u{2212}' => '-',
+            '\u{2018}' | '\u{2019}' => '\'',
+            '\u{201c}' | '\u{201d}' => '"',
+            '\u{3bc}' => 'µ',
+            character if character.is_whitespace() => ' ',
+            character => {
+                let known = get_raster(character, FontWeight::Regular, RasterHeight::Size16);
+                if known.is_some() { character } else { '?' }
+            }
+        })
+        .collect()
+}
+
+/// Fills a rectangle, as far as it lies on the page.
+pub(super) fn fill(page: &mut RgbImage, rect: Rect, colour: Rgb) {
+    for y in rect.y..rect.bottom().min(page.height()) {
+        for x in rect.x..rect.right().min(page.width()) {
+            page.put_pixel(x, y, image::Rgb(colour));
+        }
+    }
+}
+
+/// Draws a line one pixel wide around a rectangle, just outside it.
+pub(super) fn frame(page: &mut RgbImage, rect: Rect, colour: Rgb) {
+    let outer = Rect {
+        x: rect.x.saturating_sub(1),
+        y: rect.y.saturating_sub(1),
+        width: rect.width + 2,
+        height: rect.height + 2,
+    };
+    let side = |x, y, width, height| Rect {
+        x,
+        y,
+        width,
+        height,
+    };
+    fill(page, side(outer.x, outer.y, outer.width, 1), colour);
+    fill(page, side(outer.x, rect.bottom(), outer.width, 1), colour);
+    fill(page, side(outer.x, outer.y, 1, outer.height), colour);
+    fill(page, side(rect.right(), outer.y, 1, outer.height), colour);
+}
+
+/// Draws a line of text in `ink` on the page.
+pub(super) fn write(page: &mut RgbImage, line: &TextLine, ink: Rgb) {
+    let advance = line.font.advance();
+    for (index, character) in line.text.chars().enumerate() {
+        let Some(glyph) = get_raster(character, line.font.weight, line.font.size) else {
+            continue;
+        };
+        let left = line.x + index as u32 * advance;
+        for (row, coverages) in glyph.rows().enumerate() {
+            for (column, &coverage) in coverages.iter().enumerate() {
+                let (x, y) = (left + column as u32, line.y + row as u32);
+                if coverage > 0 && x < page.width() && y < page.height() {
+                    page.put_pixel(x, y, image::Rgb(blend(ink, coverage)));
+                }
+            }
+        }
+    }
+}
+
+/// Ink on the white page at a coverage of 0 to 255.
+fn blend(ink: Rgb, coverage: u8) -> Rgb {
+    let coverage = u32::from(coverage);
+    std::array::from_fn(|channel| {
+        let mixed =
+            u32::from(ink[channel]) * coverage + u32::from(WHITE[channel]) * (255 - coverage);
+        ((mixed + 127) / 255) as u8
+    })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn unknown_characters_are_replaced() {
+        assert_eq!(printable("E* − µ\tµ² \u{3bc} “λ”"), "E* - µ µ² µ \"?\"");
+    }
+
+    #[test]
+    fn full_coverage_is_ink_and_none_is_page() {
+        assert_eq!(blend(INK, 255), INK);
+        assert_eq!(blend(INK, 0), WHITE);
+    }
+}

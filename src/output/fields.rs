@@ -1,0 +1,70 @@
+//! Fields as `.npy`, for notebooks.
+
+use std::path::Path;
+
+use npyz::WriterBuilder;
+
+use super::error::OutputError;
+use super::folder::write_atomically;
+use crate::grid::Grid;
+
+/// Writes a field as a float64 array of shape `[ny, nx]`, row-major, in SI units.
+///
+/// `values` has one value a point of `grid`.
+pub fn write_field(path: &Path, grid: &Grid, values: &[f64]) -> Result<(), OutputError> {
+    write_array(path, grid, values)
+}
+
+/// The same in float32, which is what a run in single precision knows.
+pub fn write_field_single(path: &Path, grid: &Grid, values: &[f64]) -> Result<(), OutputError> {
+    let values: Vec<f32> = values.iter().map(|value| *value as f32).collect();
+    write_array(path, grid, &values)
+}
+
+fn write_array<T>(path: &Path, grid: &Grid, values: &[T]) -> Result<(), OutputError>
+where
+    T: npyz::AutoSerialize + Copy,
+{
+    debug_assert_eq!(values.len(), grid.len(), "one value a point");
+    let mut bytes = Vec::with_capacity(size_of_val(values) + 128);
+    encode(&mut bytes, grid, values).map_err(OutputError::write("write", path))?;
+    write_atomically(path, &bytes)
+}
+
+/// The bytes of the file; fails where the number of values is not that of the points.
+fn encode<T>(bytes: &mut Vec<u8>, grid: &Grid, values: &[T]) -> std::io::Result<()>
+where
+    T: npyz::AutoSerialize + Copy,
+{
+    let mut writer = npyz::WriteOptions::new()
+        .default_dtype()
+        .shape(&[grid.ny as u64, grid.nx as u64])
+        .writer(bytes)
+        .begin_nd()?;
+    writer.extend(values.iter().copied())?;
+    writer.finish()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn fields_read_back_with_rows_along_y() {
+        let place = tempfile::tempdir().unwrap();
+        let grid = Grid::new([3, 2], [1.0, 1.0]);
+        let values = [0.0, -1.5, 2e-9, f64::MIN_POSITIVE, 4.0, 5.1];
+        let path = place.path().join("fields/step_0001_gap.npy");
+        write_field(&path, &grid, &values).unwrap();
+        let bytes = std::fs::read(&path).unwrap();
+        let file = npyz::NpyFile::new(&bytes[..]).unwrap();
+        assert_eq!(file.shape(), [2, 3]);
+        assert_eq!(file.order(), npyz::Order::C);
+        assert_eq!(file.into_vec::<f64>().unwrap(), values);
+
+        write_field_single(&path, &grid, &values).unwrap();
+        let bytes = std::fs::read(&path).unwrap();
+        let file = npyz::NpyFile::new(&bytes[..]).unwrap();
+        assert_eq!(file.into_vec::<f32>().unwrap()[5], 5.1f32);
+    }
+}

@@ -1,0 +1,348 @@
+//! The folder of a run: who may write where, and files that appear whole or not at all.
+
+use std::fs::{self, File};
+use std::io::{self, Write};
+use std::path::{Path, PathBuf};
+
+use serde::{Deserialize, Serialize};
+
+use super::error::OutputError;
+use crate::scene::FieldName;
+
+/// End of the names under which files are written before they are renamed.
+const UNFINISHED: &str = ".tabor-unfinished";
+
+/// Files that a run writes at the top of its folder.
+const TOP_FILES: [&str; 3] = ["curve.csv", "summary.json", "report.html"];
+
+/// Start of the names of the files that one step hands to the next.
+const STATE_PREFIX: &str = "last_";
+
+/// The file that says that tabor wrote this folder, and for which scene.
+const MARKER: &str = "scene.json";
+
+/// Content of `state/scene.json`.
+#[derive(Debug, Serialize, Deserialize)]
+struct Marker {
+    /// Version of tabor that opened the folder.
+    tabor: String,
+    /// What identifies the scene, as the caller made it.
+    fingerprint: String,
+}
+
+/// The folder that one run of one scene writes.
+#[derive(Clone, Debug)]
+pub struct RunFolder {
+    path: PathBuf,
+}
+
+impl RunFolder {
+    /// Opens `path` for a run from its first step, creating it where it is missing.
+    ///
+    /// A folder with files in it is taken only if tabor wrote it for the scene of this
+    /// `fingerprint`; then the files of that run are removed and no others.
+    pub fn open(path: &Path, fingerprint: &str) -> Result<RunFolder, OutputError> {
+        let folder = RunFolder::at(path);
+        if !folder.is_empty()? {
+            folder.expect_marker(fingerprint)?;
+            folder.remove_own_files()?;
+        }
+        folder.write_marker(fingerprint)?;
+        Ok(folder)
+    }
+
+    /// Opens `path` to go on with the run that it holds, and removes nothing.
+    ///
+    /// A folder that is missing, empty or of another scene is refused.
+    pub fn resume(path: &Path, fingerprint: &str) -> Result<RunFolder, OutputError> {
+        let folder = RunFolder::at(path);
+        if folder.is_empty()? {
+            return Err(OutputError::refused(
+                path,
+                "there is no run here to resume; leave out --resume to start one",
+            ));
+        }
+        folder.expect_marker(fingerprint)?;
+        Ok(folder)
+    }
+
+    fn at(path: &Path) -> RunFolder {
+        // An empty path joins like the current folder but cannot be listed like it.
+        let here = path.as_os_str().is_empty();
+        RunFolder {
+            path: if here { Path::new(".") } else { path }.to_path_buf(),
+        }
+    }
+
+    /// The folder itself.
+    pub fn path(&self) -> &Path {
+        &self.path
+    }
+
+    /// `curve.csv`.
+    pub fn curve_path(&self) -> PathBuf {
+        self.path.join("curve.csv")
+    }
+
+    /// `summary.json`.
+    pub fn summary_path(&self) -> PathBuf {
+        self.path.join("summary.json")
+    }
+
+    /// `report.html`.
+    pub fn report_path(&self) -> PathBuf {
+        self.path.join("report.html")
+    }
+
+    /// The picture of a field at a step, such as `images/step_0003_pressure.png`.
+    pub fn image_path(&self, step: usize, field: FieldName) -> PathBuf {
+        self.path
+            .join("images")
+            .join(format!("step_{step:04}_{}.png", field.name()))
+    }
+
+    /// The values of a field at a step, such as `fields/step_0003_pressure.npy`.
+    pub fn field_path(&self, step: usize, field: FieldName) -> PathBuf {
+        self.path
+            .join("fields")
+            .join(format!("step_{step:04}_{}.npy", field.name()))
+    }
+
+    /// A file that one step hands to the next: `state/last_NAME`.
+    ///
+    /// The prefix marks it as tabor's own, to be removed when the run starts afresh.
+    pub fn state_path(&self, name: &str) -> PathBuf {
+        self.path
+            .join("state")
+            .join(format!("{STATE_PREFIX}{name}"))
+    }
+
+    fn marker_path(&self) -> PathBuf {
+        self.path.join("state").join(MARKER)
+    }
+
+    /// Whether there is nothing in the folder, or no folder.
+    fn is_empty(&self) -> Result<bool, OutputError> {
+        match fs::read_dir(&self.path) {
+            Ok(mut entries) => Ok(entries.next().is_none()),
+            Err(error) if error.kind() == io::ErrorKind::NotFound => Ok(true),
+            Err(error) if error.kind() == io::ErrorKind::NotADirectory => Err(
+                OutputError::refused(&self.path, "is a file; name a folder with --out"),
+            ),
+            Err(error) => Err(OutputError::write("read the folder", &self.path)(error)),
+        }
+    }
+
+    fn expect_marker(&self, fingerprint: &str) -> Result<(), OutputError> {
+        let marker = match fs::read(self.marker_path()) {
+            Ok(bytes) => serde_json::from_slice::<Marker>(&bytes).ok(),
+            Err(error) if error.kind() == io::ErrorKind::PermissionDenied => {
+                return Err(OutputError::write("read", &self.marker_path())(error));
+            }
+            Err(_) => None,
+        };
+        match marker {
+            None => Err(OutputError::refused(
+                &self.path,
+                "holds files that tabor did not write; name an empty or new folder with --out",
+            )),
+            Some(marker) if marker.fingerprint != fingerprint => Err(OutputError::refused(
+                &self.path,
+                "holds the results of another scene; name another folder with --out, or remove it",
+            )),
+            Some(_) => Ok(()),
+        }
+    }
+
+    fn write_marker(&self, fingerprint: &str) -> Result<(), OutputError> {
+        let marker = Marker {
+            tabor: env!("CARGO_PKG_VERSION").to_owned(),
+            fingerprint: fingerprint.to_owned(),
+        };
+        let mut text = serde_json::to_string_pretty(&marker)
+            .expect("two strings can always be written as JSON");
+        text.push('\n');
+        let written = write_atomically(&self.marker_path(), text.as_bytes());
+        if written.is_err() {
+            // A folder left with an empty `state` and no marker would be refused the next time.
+            let _ = fs::remove_dir(self.path.join("state"));
+        }
+        written
+    }
+
+    /// Removes what a run writes: known names only, so that a note left beside them stays.
+    fn remove_own_files(&self) -> Result<(), OutputError> {
+        remove_files(&self.path, |name| TOP_FILES.contains(&name))?;
+        remove_files(&self.path.join("images"), |name| is_step_file(name, "png"))?;
+        remove_files(&self.path.join("fields"), |name| is_step_file(name, "npy"))?;
+        // The marker stays until it is replaced: a run that ends in between is still recognised.
+        remove_files(&self.path.join("state"), |name| {
+            name.starts_with(STATE_PREFIX)
+        })
+    }
+}
+
+/// Whether `name` reads `step_DIGITS_FIELD.extension`.
+fn is_step_file(name: &str, extension: &str) -> bool {
+    let fields = [
+        FieldName::Pressure,
+        FieldName::Gap,
+        FieldName::Displacement,
+        FieldName::Heights,
+    ];
+    name.strip_prefix("step_")
+        .and_then(|rest| rest.strip_suffix(extension)?.strip_suffix('.'))
+        .and_then(|rest| rest.split_once('_'))
+        .is_some_and(|(digits, field)| {
+            digits.len() >= 4
+                && digits.bytes().all(|byte| byte.is_ascii_digit())
+                && fields.iter().any(|known| known.name() == field)
+        })
+}
+
+/// Removes the files of `folder` whose name is `own`, finished or not.
+fn remove_files(folder: &Path, own: impl Fn(&str) -> bool) -> Result<(), OutputError> {
+    let entries = match fs::read_dir(folder) {
+        Ok(entries) => entries,
+        Err(error) if error.kind() == io::ErrorKind::NotFound => return Ok(()),
+        Err(error) => return Err(OutputError::write("read the folder", folder)(error)),
+    };
+    for entry in entries {
+        let entry = entry.map_err(OutputError::write("read the folder", folder))?;
+        let name = entry.file_name();
+        let Some(name) = name.to_str() else { continue };
+        let finished = name
+            .strip_suffix(UNFINISHED)
+            .and_then(|name| name.strip_prefix('.'))
+            .unwrap_or(name);
+        let is_folder = entry.file_type().is_ok_and(|kind| kind.is_dir());
+        if own(finished) && !is_folder {
+            let path = entry.path();
+            fs::remove_file(&path).map_err(OutputError::write("remove", &path))?;
+        }
+    }
+    Ok(())
+}
+
+/// Writes `bytes` to `path` so that a reader finds the old file or the new one, never half of it.
+///
+/// Folders on the way are created. The bytes go to a hidden file beside it, are synced to the
+/// disk, and take the name last.
+pub fn write_atomically(path: &Path, bytes: &[u8]) -> Result<(), OutputError> {
+    let folder = path.parent().unwrap_or(Path::new(""));
+    if !folder.as_os_str().is_empty() {
+        fs::create_dir_all(folder).map_err(OutputError::write("create the folder", folder))?;
+    }
+    let mut hidden_name = std::ffi::OsString::from(".");
+    hidden_name.push(path.file_name().unwrap_or_default());
+    hidden_name.push(UNFINISHED);
+    let hidden = folder.join(hidden_name);
+    let written = File::create(&hidden)
+        .and_then(|mut file| {
+            file.write_all(bytes)?;
+            file.sync_all()
+        })
+        .and_then(|()| fs::rename(&hidden, path));
+    if written.is_err() {
+        // Best effort: the failure to report is the first one.
+        let _ = fs::remove_file(&hidden);
+    }
+    written.map_err(OutputError::write("write", path))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn touch(path: &Path) {
+        fs::create_dir_all(path.parent().unwrap()).unwrap();
+        fs::write(path, "x").unwrap();
+    }
+
+    #[test]
+    fn a_new_folder_is_marked_and_an_empty_one_is_taken() {
+        let place = tempfile::tempdir().unwrap();
+        let path = place.path().join("a/b");
+        RunFolder::open(&path, "one").unwrap();
+        let marker: serde_json::Value =
+            serde_json::from_slice(&fs::read(path.join("state/scene.json")).unwrap()).unwrap();
+        assert_eq!(marker["fingerprint"], "one");
+        assert_eq!(marker["tabor"], env!("CARGO_PKG_VERSION"));
+        RunFolder::open(place.path().join("a/b").as_path(), "one").unwrap();
+    }
+
+    #[test]
+    fn foreign_folders_other_scenes_and_files_are_refused_untouched() {
+        let place = tempfile::tempdir().unwrap();
+        let foreign = place.path().join("thesis");
+        touch(&foreign.join("summary.json"));
+        touch(&foreign.join("state/scene.json"));
+        let refused = |path: &Path, fingerprint: &str| {
+            matches!(
+                RunFolder::open(path, fingerprint),
+                Err(OutputError::Refused { .. })
+            )
+        };
+        assert!(refused(&foreign, "one"));
+        assert_eq!(fs::read(foreign.join("summary.json")).unwrap(), b"x");
+        assert!(refused(&foreign.join("summary.json"), "one"));
+
+        let other = place.path().join("other");
+        let folder = RunFolder::open(&other, "one").unwrap();
+        touch(&folder.curve_path());
+        assert!(refused(&other, "two"));
+        assert!(folder.curve_path().exists());
+    }
+
+    #[test]
+    fn the_same_scene_replaces_its_own_files_and_no_others() {
+        let place = tempfile::tempdir().unwrap();
+        let folder = RunFolder::open(place.path(), "one").unwrap();
+        let own = [
+            folder.curve_path(),
+            folder.summary_path(),
+            folder.report_path(),
+            folder.image_path(3, FieldName::Pressure),
+            folder.field_path(12345, FieldName::Gap),
+            folder.state_path("step.json"),
+            place
+                .path()
+                .join("fields/.step_0001_gap.npy.tabor-unfinished"),
+        ];
+        let others = [
+            place.path().join("notes.txt"),
+            place.path().join("images/step_0003_annotated.png"),
+            place.path().join("images/step_3_gap.png"),
+            place.path().join("fields/step_0003_gap.npz"),
+            place.path().join("state/mine.npy"),
+        ];
+        for path in own.iter().chain(&others) {
+            touch(path);
+        }
+        RunFolder::resume(place.path(), "one").unwrap();
+        assert!(own.iter().all(|path| path.exists()));
+        RunFolder::open(place.path(), "one").unwrap();
+        assert!(own.iter().all(|path| !path.exists()));
+        assert!(others.iter().all(|path| path.exists()));
+    }
+
+    #[test]
+    fn resuming_needs_a_run() {
+        let place = tempfile::tempdir().unwrap();
+        for path in [place.path().to_path_buf(), place.path().join("none")] {
+            let outcome = RunFolder::resume(&path, "one");
+            assert!(matches!(outcome, Err(OutputError::Refused { .. })));
+        }
+    }
+
+    #[test]
+    fn a_failed_write_leaves_no_trace() {
+        let place = tempfile::tempdir().unwrap();
+        let path = place.path().join("taken");
+        touch(&path.join("inside"));
+        // A folder that is not empty cannot be replaced by a file.
+        let outcome = write_atomically(&path, b"new");
+        assert!(matches!(outcome, Err(OutputError::Write { .. })));
+        assert_eq!(fs::read_dir(place.path()).unwrap().count(), 1);
+    }
+}

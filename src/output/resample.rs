@@ -1,0 +1,109 @@
+//! A field at the resolution of a picture.
+
+use crate::grid::Grid;
+
+/// Shortest longer side of a drawn field, pixels: smaller grids are enlarged by a whole factor.
+const ENLARGED: f64 = 512.0;
+
+/// Pixels along x and y for a field, its longer side at most `limit`; square on the surface.
+///
+/// Where dx = dy a point becomes a whole number of pixels, or a pixel a whole number of points
+/// (but for a remainder that is spread evenly).
+pub(super) fn drawn_size(grid: &Grid, limit: u32) -> [u32; 2] {
+    let finest = grid.dx().min(grid.dy());
+    let points = grid.lx.max(grid.ly) / finest;
+    let pixel = if points <= f64::from(limit) {
+        // Enlarging must not pass the limit either, for a grid just short of half of it.
+        let factor = (ENLARGED / points).ceil().max(1.0);
+        let fitting = (f64::from(limit) / points).floor().max(1.0);
+        finest / factor.min(fitting)
+    } else {
+        finest * (points / f64::from(limit)).ceil()
+    };
+    let pixels = |length: f64| ((length / pixel).round() as u32).clamp(1, limit);
+    [pixels(grid.lx), pixels(grid.ly)]
+}
+
+/// `values` of shape `[ny, nx]` at `size` pixels, row 0 first.
+///
+/// Along an axis with more pixels than points the nearest point is taken, along one with fewer the
+/// mean over the pixel, in which a point counts by its share of it.
+pub(super) fn resample(grid: &Grid, values: &[f64], size: [u32; 2]) -> Vec<f64> {
+    let columns = weights(grid.nx, size[0] as usize);
+    let rows = weights(grid.ny, size[1] as usize);
+    let mut pixels = Vec::with_capacity(columns.len() * rows.len());
+    let mut line = vec![0.0; grid.nx];
+    for row in &rows {
+        line.fill(0.0);
+        for &(iy, weight) in row {
+            let source = &values[iy * grid.nx..(iy + 1) * grid.nx];
+            for (sum, value) in line.iter_mut().zip(source) {
+                *sum += weight * value;
+            }
+        }
+        pixels.extend(columns.iter().map(|column| {
+            let terms = column.iter().map(|&(ix, weight)| weight * line[ix]);
+            terms.sum::<f64>()
+        }));
+    }
+    pixels
+}
+
+/// For each of `pixels` along an axis of `points`: the points it shows and their weights, which add up to 1.
+fn weights(points: usize, pixels: usize) -> Vec<Vec<(usize, f64)>> {
+    let ratio = points as f64 / pixels as f64;
+    (0..pixels)
+        .map(|pixel| {
+            if pixels >= points {
+                // In whole numbers, so that a whole factor gives blocks of exactly that size.
+                return vec![((2 * pixel + 1) * points / (2 * pixels), 1.0)];
+            }
+            let (start, end) = (pixel as f64 * ratio, (pixel + 1) as f64 * ratio);
+            let last = (end.ceil() as usize).min(points);
+            (start.floor() as usize..last)
+                .map(|point| {
+                    let overlap = end.min((point + 1) as f64) - start.max(point as f64);
+                    (point, overlap / ratio)
+                })
+                .filter(|(_, weight)| *weight > 1e-12)
+                .collect()
+        })
+        .collect()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn size(points: [usize; 2], size: [f64; 2]) -> [u32; 2] {
+        drawn_size(&Grid::new(points, size), 1800)
+    }
+
+    #[test]
+    fn sizes_keep_the_shape_of_the_surface() {
+        assert_eq!(size([8, 8], [1.0, 1.0]), [512, 512]);
+        assert_eq!(size([300, 150], [2.0, 1.0]), [600, 300]);
+        assert_eq!(size([1024, 1024], [1.0, 1.0]), [1024, 1024]);
+        assert_eq!(size([2048, 2048], [1.0, 1.0]), [1024, 1024]);
+        assert_eq!(size([4096, 2048], [2.0, 1.0]), [1365, 683]);
+        assert_eq!(size([512, 512], [2.0, 1.0]), [1024, 512]);
+        assert_eq!(size([1024, 1], [1.0, 1.0 / 1024.0]), [1024, 1]);
+        assert_eq!(size([1, 1], [1.0, 1.0]), [512, 512]);
+        assert_eq!(size([1000, 2], [1.0, 1.0]), [1000, 1000]);
+    }
+
+    #[test]
+    fn enlarging_repeats_points_and_shrinking_keeps_the_mean() {
+        let grid = Grid::new([2, 2], [1.0, 1.0]);
+        let values = [1.0, 2.0, 3.0, 4.0];
+        assert_eq!(
+            resample(&grid, &values, [4, 2]),
+            [1.0, 1.0, 2.0, 2.0, 3.0, 3.0, 4.0, 4.0]
+        );
+        let grid = Grid::new([7, 5], [1.0, 1.0]);
+        let values: Vec<f64> = (0..35).map(|point| (point * point) as f64).collect();
+        let shrunk = resample(&grid, &values, [3, 2]);
+        let mean = |values: &[f64]| values.iter().sum::<f64>() / values.len() as f64;
+        assert!((mean(&shrunk) / mean(&values) - 1.0).abs() < 1e-12);
+    }
+}
