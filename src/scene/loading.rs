@@ -163,10 +163,17 @@ fn ramps(loading: &Reader, value: Option<&PathValue>) -> Option<Vec<f64>> {
         let (to, steps) = ramp?;
         path.extend((1..steps).map(|step| {
             let share = step as f64 / steps as f64;
-            from * (1.0 - share) + to * share
+            from + (to - from) * share
         }));
         path.push(to);
         from = to;
+    }
+    if path.iter().any(|value| !value.is_finite()) {
+        loading.conflict(
+            "ramp",
+            "spans more than a number can hold; check the powers of ten",
+        );
+        return None;
     }
     Some(path)
 }

@@ -458,7 +458,14 @@ fn likeness(word: &str, candidate: &str) -> f64 {
     let word: String = word.to_lowercase().chars().take(LONGEST).collect();
     let edits = strsim::normalized_damerau_levenshtein(&word, candidate);
     let beginning = strsim::jaro_winkler(&word, candidate);
-    0.5 * (edits + beginning)
+    let share = 0.5 * (edits + beginning);
+    // `pressure_tolerance` means `tolerance`, and `modulus` means `contact_modulus`.
+    let holds = |outer: &str, inner: &str| inner.len() > 3 && outer.contains(inner);
+    if holds(&word, candidate) || holds(candidate, &word) {
+        0.5 * (1.0 + share)
+    } else {
+        share
+    }
 }
 
 /// A key as TOML would show it: in quotes where it is no bare word.
