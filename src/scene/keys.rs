@@ -19,7 +19,7 @@ impl Section {
             .map_or_else(|| format!("{key} = ..."), |(_, line)| (*line).to_string())
     }
 
-    /// Whether the table takes a key, now or in a later version.
+    /// The keys of the table, those of later versions last.
     pub fn names(&self) -> impl Iterator<Item = &'static str> {
         self.keys.iter().chain(self.later).map(|(name, _)| *name)
     }

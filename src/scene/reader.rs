@@ -351,6 +351,11 @@ impl<'a> Reader<'a> {
         found.copied()
     }
 
+    /// Whether the key is a list without entries.
+    pub fn is_empty_list(&self, key: &str) -> bool {
+        matches!(self.node(key).map(|node| &node.value), Some(Value::List(list)) if list.is_empty())
+    }
+
     /// The entries of a list, each with its dotted name within this table.
     pub fn list(&self, key: &str, expected: &str) -> Option<Vec<(String, &'a Node)>> {
         let node = self.node(key)?;
