@@ -73,11 +73,14 @@ fn numbers(adhesion: &Reader, law: Option<LawName>) -> Option<(f64, Range)> {
         }
         [true, true, false] => Some((work?, range?)),
         [true, false, true] => {
-            let (work, peak) = (work?, peak?);
-            Some((work, Range::Length(work * shape(law?) / peak)))
+            let range = work? * shape(law?) / peak?;
+            is_normal(adhesion, range).then_some((work?, Range::Length(range)))
         }
         [false, true, true] => match range? {
-            Range::Length(range) => Some((peak? * range / shape(law?), Range::Length(range))),
+            Range::Length(length) => {
+                let work = peak? * length / shape(law?);
+                is_normal(adhesion, work).then_some((work, Range::Length(length)))
+            }
             Range::Auto => None,
         },
         [true, false, false] => {
@@ -92,6 +95,17 @@ fn numbers(adhesion: &Reader, law: Option<LawName>) -> Option<(f64, Range)> {
             None
         }
     }
+}
+
+/// Whether the number that follows from two others is one to compute with.
+fn is_normal(adhesion: &Reader, derived: f64) -> bool {
+    if !derived.is_normal() {
+        adhesion.conflict(
+            "peak_tension",
+            format!("makes the third number of the law {derived:e}; check the powers of ten"),
+        );
+    }
+    derived.is_normal()
 }
 
 /// `peak_tension * range / work_of_adhesion` of a law.
@@ -140,4 +154,20 @@ fn taper(adhesion: &Reader, law: Option<LawName>, range: Option<Range>) -> Optio
         return None;
     }
     Some(Some(taper))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_shape_of_lennard_jones_is_the_largest_traction() {
+        // In units of w/range at the gap u = 1/s - 1; the step limits the maximum to about 1e-9.
+        let traction = |s: f64| 8.0 / 3.0 * (s.powi(3) - s.powi(9));
+        let largest = (0..=100_000)
+            .map(|step| traction(f64::from(step) * 1e-5))
+            .fold(0.0, f64::max);
+        let shape = shape(LawName::LennardJones);
+        assert!((largest / shape - 1.0).abs() < 2e-9, "{largest} {shape}");
+    }
 }

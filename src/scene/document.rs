@@ -225,3 +225,49 @@ fn value(from: &toml::Value, parent: Place, at: &dyn Fn(usize) -> Place) -> Node
     };
     Node { value, place }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn every_value_knows_its_line() {
+        let root = parse("a = 1\n\n[b]\nc = [\n  2,\n  3]\n[[d]]\n[[d]]\ne.f = 4\n").expect("TOML");
+        let place = |name: &str| root.get(name).map(|entry| entry.place);
+        assert_eq!(place("a"), Some(Place::Line(1)));
+        assert_eq!(place("b"), Some(Place::Line(3)));
+        let Some(Value::Table(b)) = root.get("b").map(|entry| &entry.node.value) else {
+            panic!("no table");
+        };
+        let Some(Value::List(c)) = b.get("c").map(|entry| &entry.node.value) else {
+            panic!("no list");
+        };
+        assert_eq!(c[0].place, Place::Line(5));
+        assert_eq!(c[1].place, Place::Line(6));
+        let Some(Value::List(d)) = root.get("d").map(|entry| &entry.node.value) else {
+            panic!("no array of tables");
+        };
+        assert_eq!(d[0].place, Place::Line(7));
+        assert_eq!(d[1].place, Place::Line(8));
+        let Value::Table(last) = &d[1].value else {
+            panic!("no table");
+        };
+        assert_eq!(last.get("e").map(|entry| entry.place), Some(Place::Line(9)));
+    }
+
+    #[test]
+    fn bare_words_of_the_command_line_are_text() {
+        let text = |word: &str| match parse_set(word).map(|node| node.value) {
+            Ok(Value::Text(text)) => text,
+            other => panic!("{word}: {other:?}"),
+        };
+        assert_eq!(text("25 um"), "25 um");
+        assert_eq!(text("'25 um'"), "25 um");
+        assert_eq!(text("1\nb = 2"), "1\nb = 2");
+        assert!(matches!(
+            parse_set("1e3").map(|node| node.value),
+            Ok(Value::Float(_))
+        ));
+        assert!(parse_set("[1, 2").is_err());
+    }
+}

@@ -19,7 +19,7 @@ impl Section {
             .map_or_else(|| format!("{key} = ..."), |(_, line)| (*line).to_string())
     }
 
-    /// Whether the table takes a key, now or in a later version.
+    /// The keys of the table, those of later versions last.
     pub fn names(&self) -> impl Iterator<Item = &'static str> {
         self.keys.iter().chain(self.later).map(|(name, _)| *name)
     }
@@ -77,48 +77,60 @@ pub(super) const SOLID: Section = Section {
 
 const KIND: (&str, &str) = ("kind", "kind = \"sphere\"");
 const CENTRE: (&str, &str) = ("centre", "centre = [\"1 um\", \"1 um\"]");
+const HURST: (&str, &str) = ("hurst", "hurst = 0.8");
+const RMS_HEIGHT: (&str, &str) = ("rms_height", "rms_height = \"0.52 nm\"");
+const RMS_SLOPE: (&str, &str) = ("rms_slope", "rms_slope = 0.1");
+const LONGEST: (&str, &str) = ("longest", "longest = \"25 um\"");
+const ROLLOFF: (&str, &str) = ("rolloff", "rolloff = \"6.25 um\"");
+const SHORTEST: (&str, &str) = ("shortest", "shortest = \"195 nm\"");
+const SEED: (&str, &str) = ("seed", "seed = 1");
+const RADIUS: (&str, &str) = ("radius", "radius = \"1 um\"");
+const HALF_ANGLE: (&str, &str) = ("half_angle", "half_angle = \"70 deg\"");
+const AMPLITUDE: (&str, &str) = ("amplitude", "amplitude = \"1 nm\"");
+const WAVELENGTH: (&str, &str) = ("wavelength", "wavelength = \"1 um\"");
+const PATH: (&str, &str) = ("path", "path = \"heights.npy\"");
+const UNIT: (&str, &str) = ("unit", "unit = \"nm\"");
+const SCALE: (&str, &str) = ("scale", "scale = 1.0");
+const DETREND: (&str, &str) = ("detrend", "detrend = \"plane\"");
+const FILL: (&str, &str) = ("fill", "fill = \"interpolate\"");
+const GREY_IMAGE: &[(&str, &str)] = &[
+    ("black", "heights from a grey image"),
+    ("white", "heights from a grey image"),
+];
 
-/// Keys of a `[[surface]]` whose kind cannot be told: those of every kind.
+/// A `[[surface]]` whose kind cannot be told: the keys of every kind.
 pub(super) const SURFACE: Section = Section {
     title: "[[surface]]",
-    keys: &[KIND],
-    later: &[],
+    keys: &[
+        KIND, HURST, RMS_HEIGHT, RMS_SLOPE, LONGEST, ROLLOFF, SHORTEST, SEED, RADIUS, HALF_ANGLE,
+        CENTRE, AMPLITUDE, WAVELENGTH, PATH, UNIT, SCALE, DETREND, FILL,
+    ],
+    later: GREY_IMAGE,
 };
 
 pub(super) const SELF_AFFINE: Section = Section {
     title: "a self-affine [[surface]]",
     keys: &[
-        KIND,
-        ("hurst", "hurst = 0.8"),
-        ("rms_height", "rms_height = \"0.52 nm\""),
-        ("rms_slope", "rms_slope = 0.1"),
-        ("longest", "longest = \"25 um\""),
-        ("rolloff", "rolloff = \"6.25 um\""),
-        ("shortest", "shortest = \"195 nm\""),
-        ("seed", "seed = 1"),
+        KIND, HURST, RMS_HEIGHT, RMS_SLOPE, LONGEST, ROLLOFF, SHORTEST, SEED,
     ],
     later: &[],
 };
 
 pub(super) const SPHERE: Section = Section {
     title: "a sphere [[surface]]",
-    keys: &[KIND, ("radius", "radius = \"1 um\""), CENTRE],
+    keys: &[KIND, RADIUS, CENTRE],
     later: &[],
 };
 
 pub(super) const CONE: Section = Section {
     title: "a cone [[surface]]",
-    keys: &[KIND, ("half_angle", "half_angle = \"70 deg\""), CENTRE],
+    keys: &[KIND, HALF_ANGLE, CENTRE],
     later: &[],
 };
 
 pub(super) const WAVY: Section = Section {
     title: "a wavy [[surface]]",
-    keys: &[
-        KIND,
-        ("amplitude", "amplitude = \"1 nm\""),
-        ("wavelength", "wavelength = \"1 um\""),
-    ],
+    keys: &[KIND, AMPLITUDE, WAVELENGTH],
     later: &[],
 };
 
@@ -130,18 +142,8 @@ pub(super) const FLAT: Section = Section {
 
 pub(super) const FILE: Section = Section {
     title: "a file [[surface]]",
-    keys: &[
-        KIND,
-        ("path", "path = \"heights.npy\""),
-        ("unit", "unit = \"nm\""),
-        ("scale", "scale = 1.0"),
-        ("detrend", "detrend = \"plane\""),
-        ("fill", "fill = \"interpolate\""),
-    ],
-    later: &[
-        ("black", "heights from a grey image"),
-        ("white", "heights from a grey image"),
-    ],
+    keys: &[KIND, PATH, UNIT, SCALE, DETREND, FILL],
+    later: GREY_IMAGE,
 };
 
 pub(super) const ADHESION: Section = Section {

@@ -1,10 +1,9 @@
 //! `[loading]`: the path, written out step by step.
 
-use super::document::Value;
 use super::keys;
 use super::reader::{Allowed, Reader};
 use super::types::{AdhesionScene, Boundary, Control, LawName, LoadingScene, Range, Treatment};
-use crate::units::Dimension;
+use crate::units::{self, Dimension};
 
 /// Most steps of a path, so that a slip of the finger cannot fill the memory.
 const MOST_STEPS: usize = 1_000_000;
@@ -127,8 +126,7 @@ fn ramps(loading: &Reader, value: Option<&PathValue>) -> Option<Vec<f64>> {
     loading.require_as("ramp", "[[loading.ramp]]` with `to` and `steps");
     let start = value.and_then(|value| loading.quantity("start", value.dimension, value.allowed));
     let readers = loading.tables("ramp", |_| &keys::RAMP)?;
-    if matches!(loading.node("ramp"), Some(node) if matches!(&node.value, Value::List(list) if list.is_empty()))
-    {
+    if loading.is_empty_list("ramp") {
         loading.conflict(
             "ramp",
             "is empty; give at least one ramp with `to` and `steps`",
@@ -163,10 +161,17 @@ fn ramps(loading: &Reader, value: Option<&PathValue>) -> Option<Vec<f64>> {
         let (to, steps) = ramp?;
         path.extend((1..steps).map(|step| {
             let share = step as f64 / steps as f64;
-            from * (1.0 - share) + to * share
+            from + (to - from) * share
         }));
         path.push(to);
         from = to;
+    }
+    if path.iter().any(|value| !value.is_finite()) {
+        loading.conflict(
+            "ramp",
+            "spans more than a number can hold; check the powers of ten",
+        );
+        return None;
     }
     Some(path)
 }
@@ -189,7 +194,7 @@ fn check_least_gap(
             "control",
             format!(
                 "a mean gap must stay above {}, where the law repels without limit",
-                crate::units::format_si(-range, "m")
+                units::format_si(-range, "m")
             ),
         );
         return None;

@@ -351,6 +351,11 @@ impl<'a> Reader<'a> {
         found.copied()
     }
 
+    /// Whether the key is a list without entries.
+    pub fn is_empty_list(&self, key: &str) -> bool {
+        matches!(self.node(key).map(|node| &node.value), Some(Value::List(list)) if list.is_empty())
+    }
+
     /// The entries of a list, each with its dotted name within this table.
     pub fn list(&self, key: &str, expected: &str) -> Option<Vec<(String, &'a Node)>> {
         let node = self.node(key)?;
@@ -458,7 +463,14 @@ fn likeness(word: &str, candidate: &str) -> f64 {
     let word: String = word.to_lowercase().chars().take(LONGEST).collect();
     let edits = strsim::normalized_damerau_levenshtein(&word, candidate);
     let beginning = strsim::jaro_winkler(&word, candidate);
-    0.5 * (edits + beginning)
+    let share = 0.5 * (edits + beginning);
+    // `pressure_tolerance` means `tolerance`, and `modulus` means `contact_modulus`.
+    let holds = |outer: &str, inner: &str| inner.len() > 3 && outer.contains(inner);
+    if holds(&word, candidate) || holds(candidate, &word) {
+        0.5 * (1.0 + share)
+    } else {
+        share
+    }
 }
 
 /// A key as TOML would show it: in quotes where it is no bare word.

@@ -9,7 +9,7 @@ impl Scene {
     /// scene counts in degrees, in degrees).
     ///
     /// Keys are those of the scene file, so that written as TOML it is a scene again, and the same
-    /// one. What is off or left to tabor's choice by absence (an effect, a centre) is absent; a path
+    /// one but for the last bit of an angle given in rad. What is off or left to tabor's choice by absence (an effect, a centre) is absent; a path
     /// that is not UTF-8 has its odd bytes replaced.
     pub fn resolved_json(&self) -> Value {
         let mut scene = Map::new();

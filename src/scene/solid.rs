@@ -64,8 +64,16 @@ pub(super) fn read(scene: &Reader) -> Option<SolidScene> {
     if has_counter {
         compliance += plane_compliance(counter?, counter_ratio?);
     }
+    let contact_modulus = 1.0 / compliance;
+    if !contact_modulus.is_normal() {
+        solid.conflict(
+            "young_modulus",
+            format!("makes the contact modulus {contact_modulus:e} Pa; check the powers of ten"),
+        );
+        return None;
+    }
     Some(SolidScene {
-        contact_modulus: 1.0 / compliance,
+        contact_modulus,
         poisson_ratio: ratio,
     })
 }
@@ -73,4 +81,16 @@ pub(super) fn read(scene: &Reader) -> Option<SolidScene> {
 /// A body's share of `1/E*`: `(1 - nu^2)/E`, 1/Pa.
 fn plane_compliance(young_modulus: f64, poisson_ratio: f64) -> f64 {
     (1.0 - poisson_ratio * poisson_ratio) / young_modulus
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn compliances_of_plane_strain_add_up() {
+        // Steel on glass: 1/E* = 0.91/210 GPa + 0.9375/64 GPa = 1/(52.6821 GPa).
+        let compliance = plane_compliance(210e9, 0.3) + plane_compliance(64e9, 0.25);
+        assert!((1.0 / compliance / 52.6821e9 - 1.0).abs() < 1e-5);
+    }
 }

@@ -33,9 +33,7 @@ pub(super) fn read(
     const EXAMPLE: &str = "[[surface]] with kind = \"sphere\" and radius = \"1 um\"";
     scene.require_as("surface", EXAMPLE);
     let readers = scene.tables("surface", section_of)?;
-    if readers.is_empty()
-        && matches!(scene.node("surface"), Some(node) if matches!(&node.value, Value::List(list) if list.is_empty()))
-    {
+    if scene.is_empty_list("surface") {
         scene.conflict("surface", format!("is empty; add for example {EXAMPLE}"));
     }
     let parts: Vec<Option<SurfacePart>> = readers

@@ -1,0 +1,1183 @@
+//! Scenes from outside: what is refused, in which words and at which line, and what is read.
+
+use std::path::{Path, PathBuf};
+
+use proptest::prelude::*;
+use tabor::scene::*;
+
+/// A scene that is right, without blank lines so that lines are easy to count.
+const GOOD: &str = r#"title = "good"
+[grid]
+points = 64
+size = "1 um"
+[solid]
+contact_modulus = "1 GPa"
+[[surface]]
+kind = "sphere"
+radius = "1 um"
+[adhesion]
+law = "maugis-dugdale"
+work_of_adhesion = "50 mJ/m^2"
+range = "1 nm"
+[loading]
+control = "pressure"
+path = ["1 MPa", "2 MPa"]
+[solver]
+tolerance = 1e-6
+[output]
+images = []
+"#;
+
+/// `text` with one passage replaced, which must be there once.
+fn edited(text: &str, from: &str, to: &str) -> String {
+    assert_eq!(text.matches(from).count(), 1, "{from:?} is not there once");
+    text.replace(from, to)
+}
+
+fn with_surface(part: &str) -> String {
+    edited(GOOD, "kind = \"sphere\"\nradius = \"1 um\"", part)
+}
+
+fn with_loading(loading: &str) -> String {
+    edited(
+        GOOD,
+        "control = \"pressure\"\npath = [\"1 MPa\", \"2 MPa\"]",
+        loading,
+    )
+}
+
+fn self_affine() -> String {
+    with_surface(
+        r#"kind = "self-affine"
+hurst = 0.8
+rms_height = "1 nm"
+longest = "1 um"
+rolloff = "500 nm"
+shortest = "40 nm""#,
+    )
+}
+
+fn cone() -> String {
+    with_surface("kind = \"cone\"\nhalf_angle = \"70 deg\"")
+}
+
+fn wavy() -> String {
+    with_surface("kind = \"wavy\"\namplitude = \"1 nm\"\nwavelength = \"1 um\"")
+}
+
+fn height_file() -> String {
+    with_surface("kind = \"file\"\npath = \"h.npy\"")
+}
+
+fn ramps() -> String {
+    with_loading(
+        r#"control = "pressure"
+start = "1 MPa"
+[[loading.ramp]]
+to = "2 MPa"
+steps = 4"#,
+    )
+}
+
+fn spring() -> String {
+    with_loading("control = \"approach\"\npath = [\"1 nm\"]\nspring = \"1 N/m\"")
+}
+
+fn young() -> String {
+    edited(
+        GOOD,
+        "contact_modulus = \"1 GPa\"",
+        "young_modulus = \"1 GPa\"\npoisson_ratio = 0.3",
+    )
+}
+
+fn parse(text: &str) -> Result<Scene, SceneErrors> {
+    parse_set(text, &[])
+}
+
+fn parse_set(text: &str, set: &[(&str, &str)]) -> Result<Scene, SceneErrors> {
+    let set: Vec<(String, String)> = set
+        .iter()
+        .map(|(key, value)| (key.to_string(), value.to_string()))
+        .collect();
+    Scene::parse(text, "s.toml", Path::new("/scenes"), &set)
+}
+
+fn accepted(text: &str) -> Scene {
+    parse(text).unwrap_or_else(|errors| panic!("{text}\n{errors}"))
+}
+
+/// The messages of a scene that must be refused.
+fn refused(text: &str, set: &[(&str, &str)]) -> Vec<String> {
+    match parse_set(text, set) {
+        Ok(scene) => panic!("accepted with {set:?}:\n{text}\n{scene:#?}"),
+        Err(errors) => errors.to_string().lines().map(str::to_string).collect(),
+    }
+}
+
+/// Edits of a scene (from, to), each with the one message that must follow: how it begins (file,
+/// line, key, what is wrong) and a part of what it says would be right.
+fn check_refusals(base: &str, cases: &[(&str, &str, &str, &str)]) {
+    accepted(base);
+    for (from, to, beginning, remedy) in cases {
+        let text = edited(base, from, to);
+        let messages = refused(&text, &[]);
+        assert_eq!(messages.len(), 1, "{to:?} gave {messages:#?}");
+        assert!(
+            messages[0].starts_with(beginning) && messages[0].contains(remedy),
+            "{to:?} gave\n  {}\nand not\n  {beginning} ... {remedy}",
+            messages[0]
+        );
+    }
+}
+
+#[test]
+#[rustfmt::skip] // one case a line
+fn mistakes_in_grid() {
+    check_refusals(GOOD, &[
+        ("points = 64\n", "", "s.toml:2: grid.points: missing", "add for example `points = 1024`"),
+        ("size = \"1 um\"\n", "", "s.toml:2: grid.size: missing", r#"`size = "25 um"`"#),
+        ("points = 64", "points = 0", "s.toml:3: grid.points: 0 is out of range", "a whole number from 1 to 65536"),
+        ("points = 64", "points = 65537", "s.toml:3: grid.points: 65537 is out of range", "from 1 to 65536"),
+        ("points = 64", "points = -4", "s.toml:3: grid.points: -4 is out of range", "from 1 to 65536"),
+        ("points = 64", "points = 64.0", "s.toml:3: grid.points: the number 64.0 where a whole number is expected", "write for example `points = 1024`"),
+        ("points = 64", r#"points = "many""#, r#"s.toml:3: grid.points: the text "many" where a whole number is expected"#, "`points = 1024`"),
+        ("points = 64", "points = [64, 64, 64]", "s.toml:3: grid.points: a list of 3 where a list of two values, x and y is expected", "`points = 1024`"),
+        ("points = 64", "points = [64,\n 0]", "s.toml:4: grid.points.1: 0 is out of range", "from 1 to 65536"),
+        (r#"size = "1 um""#, "size = 0", "s.toml:4: grid.size: 0 is out of range", "must be finite and above 0"),
+        (r#"size = "1 um""#, r#"size = "-1 um""#, r#"s.toml:4: grid.size: "-1 um" is out of range"#, "must be finite and above 0"),
+        (r#"size = "1 um""#, "size = nan", "s.toml:4: grid.size: nan is out of range", "must be finite and above 0"),
+        (r#"size = "1 um""#, "size = inf", "s.toml:4: grid.size: inf is out of range", "must be finite and above 0"),
+        (r#"size = "1 um""#, "size = true", "s.toml:4: grid.size: the truth value true where a length in m is expected", r#"`size = "25 um"`"#),
+        (r#"size = "1 um""#, "size = 1979-05-27", "s.toml:4: grid.size: the date 1979-05-27 where a length in m is expected", r#"`size = "25 um"`"#),
+        (r#"size = "1 um""#, r#"size = "1""#, r#"s.toml:4: grid.size: "1" has no unit"#, r#"give a length in m, such as "25 um""#),
+        (r#"size = "1 um""#, r#"size = "1 uN""#, r#"s.toml:4: grid.size: "uN" is a force in N"#, "give a length in m"),
+        (r#"size = "1 um""#, r#"size = ["1 um", "1 mile"]"#, r#"s.toml:4: grid.size.1: "mile" is not a unit"#, "give a length in m"),
+        (r#"size = "1 um""#, "size = \"1 um\"\nboundary = \"open\"", r#"s.toml:5: grid.boundary: "open" is none of "periodic", "free""#, "did you mean"),
+        (r#"size = "1 um""#, "size = \"1 um\"\nboundary = \"Free\"", r#"s.toml:5: grid.boundary: "Free" is none of "periodic", "free""#, r#"did you mean "free"?"#),
+        (r#"size = "1 um""#, r#"sise = "1 um""#, "s.toml:4: grid.sise: unknown key in [grid]", "did you mean `size`? It takes points, size, boundary"),
+        (r#"size = "1 um""#, "size = \"1 um\"\nseed = 1", "s.toml:5: grid.seed: unknown key in [grid]", "a key of this name belongs in a self-affine [[surface]]"),
+        ("[grid]\npoints = 64\nsize = \"1 um\"", "grid = 3", "s.toml:2: grid: the number 3 where a table is expected", "[grid]"),
+        ("[grid]\npoints = 64\nsize = \"1 um\"\n", "", "s.toml: grid: missing", r#"[grid] with points = 1024 and size = "25 um""#),
+    ]);
+}
+
+#[test]
+#[rustfmt::skip] // one case a line
+fn mistakes_in_solid() {
+    check_refusals(GOOD, &[
+        ("[solid]\ncontact_modulus = \"1 GPa\"\n", "", "s.toml: solid: missing", r#"[solid] with contact_modulus = "1.33 TPa""#),
+        ("contact_modulus = \"1 GPa\"\n", "", "s.toml:5: solid.contact_modulus: missing", r#"`contact_modulus = "1.33 TPa"`"#),
+        (r#"contact_modulus = "1 GPa""#, "contact_modulus = 0.0", "s.toml:6: solid.contact_modulus: 0.0 is out of range", "finite and above 0"),
+        (r#"contact_modulus = "1 GPa""#, "contact_modulus = \"1 GPa\"\ncounter_young_modulus = \"2 GPa\"", "s.toml:7: solid.counter_young_modulus: contact_modulus already holds", "give young_modulus with poisson_ratio instead"),
+        (r#"contact_modulus = "1 GPa""#, "young_modulus = 1e9\npoisson_ratio = 0.51", "s.toml:7: solid.poisson_ratio: 0.51 is out of range", "above -1 and at most 0.5"),
+        (r#"contact_modulus = "1 GPa""#, "young_modulus = 1e9\npoisson_ratio = -1", "s.toml:7: solid.poisson_ratio: -1 is out of range", "above -1 and at most 0.5"),
+        (r#"contact_modulus = "1 GPa""#, "young_modulus = 1e9\npoisson_ratio = \"0.3\"", r#"s.toml:7: solid.poisson_ratio: the text "0.3" where a number without a unit is expected"#, "`poisson_ratio = 0.3`"),
+        (r#"contact_modulus = "1 GPa""#, "young_modulus = 1e9\npoisson_ratio = 0.3\ncounter_young_modulus = 1e9", "s.toml:5: solid.counter_poisson_ratio: missing", "`counter_poisson_ratio = 0.3`"),
+        (r#"contact_modulus = "1 GPa""#, "young_modulus = 1e9\npoisson_ratio = 0.3\ncounter_poisson_ratio = 0.3", "s.toml:5: solid.counter_young_modulus: missing", r#"`counter_young_modulus = "210 GPa"`"#),
+        (r#"contact_modulus = "1 GPa""#, "contact_modulus = \"1 GPa\"\nthickness = \"5 um\"", "s.toml:7: solid.thickness: an elastic layer on a rigid base is not in this version", "take it out of the scene"),
+        (r#"contact_modulus = "1 GPa""#, "contact_modulus = \"1 GPa\"\nhardness = \"10 GPa\"", "s.toml:7: solid.hardness: ideal plasticity is not in this version", "take it out"),
+        (r#"contact_modulus = "1 GPa""#, "contact_modulus = \"1 GPa\"\n[[solid.relaxation]]\nmodulus = \"1 MPa\"\ntime = \"10 ms\"", "s.toml:7: solid.relaxation: viscoelasticity is not in this version", "take it out"),
+        (r#"contact_modulus = "1 GPa""#, r#"contact_modulus = "1 GN""#, r#"s.toml:6: solid.contact_modulus: "GN" is a force in N"#, r#"give a pressure in Pa, such as "1.5 GPa""#),
+        ("contact_modulus", "contact_modulous", "s.toml:6: solid.contact_modulous: unknown key in [solid]", "did you mean `contact_modulus`?"),
+    ]);
+    check_refusals(&young(), &[
+        (r#"young_modulus = "1 GPa""#, "contact_modulus = \"1 GPa\"\nyoung_modulus = \"2 GPa\"", "s.toml:7: solid.young_modulus: contact_modulus is given too", "give one of the two"),
+        ("poisson_ratio = 0.3\n", "", "s.toml:5: solid.poisson_ratio: missing", "`poisson_ratio = 0.3`"),
+        ("young_modulus = \"1 GPa\"\n", "", "s.toml:5: solid.young_modulus: missing", r#"or instead of it `contact_modulus = "80 GPa"`"#),
+    ]);
+}
+
+#[test]
+#[rustfmt::skip] // one case a line
+fn mistakes_in_surface() {
+    check_refusals(&height_file(), &[
+        ("[[surface]]\nkind = \"file\"\npath = \"h.npy\"\n", "", "s.toml: surface: missing", r#"[[surface]] with kind = "sphere""#),
+        ("kind = \"file\"\npath = \"h.npy\"", "seed = 1", "s.toml:7: surface.0.kind: missing", r#"`kind = "sphere"`"#),
+        ("kind = \"file\"\npath = \"h.npy\"", "kind = \"flat\"\nradius = 1", "s.toml:9: surface.0.radius: unknown key in a flat [[surface]]", "belongs in a sphere [[surface]]"),
+        ("path = \"h.npy\"\n", "", "s.toml:7: surface.0.path: missing", r#"`path = "heights.npy"`"#),
+        (r#"path = "h.npy""#, r#"path = """#, "s.toml:9: surface.0.path: is empty", "name a file, relative to the scene file"),
+        (r#"path = "h.npy""#, "path = 7", "s.toml:9: surface.0.path: the number 7 where a text in quotes is expected", r#"`path = "heights.npy"`"#),
+        (r#"path = "h.npy""#, "path = \"h.npy\"\nunit = \"nN\"", r#"s.toml:10: surface.0.unit: "nN" is a force in N"#, "give a length in m"),
+        (r#"path = "h.npy""#, "path = \"h.npy\"\nunit = \"0 nm\"", r#"s.toml:10: surface.0.unit: "0 nm" is out of range"#, "finite and above 0"),
+        (r#"path = "h.npy""#, "path = \"h.npy\"\nscale = 0", "s.toml:10: surface.0.scale: 0 is out of range", "finite and not 0"),
+        (r#"path = "h.npy""#, "path = \"h.npy\"\ndetrend = \"linear\"", r#"s.toml:10: surface.0.detrend: "linear" is none of "none", "mean", "plane", "quadratic""#, "did you mean"),
+        (r#"path = "h.npy""#, "path = \"h.npy\"\nfill = \"interpolated\"", r#"s.toml:10: surface.0.fill: "interpolated" is none of"#, r#"did you mean "interpolate"?"#),
+        (r#"path = "h.npy""#, "path = \"h.npy\"\nblack = 0", "s.toml:10: surface.0.black: heights from a grey image is not in this version", "take it out"),
+        (r#"path = "h.npy""#, "path = \"h.npy\"\nwhite = 1e-6", "s.toml:10: surface.0.white: heights from a grey image is not in this version", "take it out"),
+    ]);
+    check_refusals(GOOD, &[
+        ("[[surface]]", "[surface]", "s.toml:7: surface: a table where an array of tables is expected", "`[[surface]]`"),
+        (r#"kind = "sphere""#, r#"kind = "spere""#, r#"s.toml:8: surface.0.kind: "spere" is none of "self-affine", "sphere", "cone", "wavy", "flat", "file""#, r#"did you mean "sphere"?"#),
+        ("radius = \"1 um\"\n", "", "s.toml:7: surface.0.radius: missing", r#"`radius = "1 um"`"#),
+        (r#"radius = "1 um""#, r#"radius = "0 um""#, r#"s.toml:9: surface.0.radius: "0 um" is out of range"#, "finite and above 0"),
+        (r#"radius = "1 um""#, "radius = \"1 um\"\ncentre = \"1 um\"", r#"s.toml:10: surface.0.centre: the text "1 um" where a list of two values, x and y is expected"#, r#"`centre = ["1 um", "1 um"]`"#),
+        (r#"radius = "1 um""#, "radius = \"1 um\"\ncentre = [1e-6, nan]", "s.toml:10: surface.0.centre.1: nan is out of range", "must be finite"),
+        (r#"radius = "1 um""#, "radius = \"1 um\"\nhurst = 0.5", "s.toml:10: surface.0.hurst: unknown key in a sphere [[surface]]", "a key of this name belongs in a self-affine [[surface]]"),
+        (r#"radius = "1 um""#, "radius = \"1 um\"\n[[surface]]\nkind = \"sphere\"\nradius = \"1 Pa\"", r#"s.toml:12: surface.1.radius: "Pa" is a pressure in Pa"#, "give a length in m"),
+    ]);
+    check_refusals(&cone(), &[
+        ("half_angle = \"70 deg\"\n", "", "s.toml:7: surface.0.half_angle: missing", r#"`half_angle = "70 deg"`"#),
+        (r#"half_angle = "70 deg""#, "half_angle = 90", "s.toml:9: surface.0.half_angle: 90 is out of range", "above 0 and below 90 degrees"),
+        (r#"half_angle = "70 deg""#, "half_angle = 0", "s.toml:9: surface.0.half_angle: 0 is out of range", "above 0 and below 90 degrees"),
+        (r#"half_angle = "70 deg""#, r#"half_angle = "1.6 rad""#, r#"s.toml:9: surface.0.half_angle: "1.6 rad" is out of range"#, "above 0 and below 90 degrees"),
+        (r#"half_angle = "70 deg""#, r#"half_angle = "70""#, r#"s.toml:9: surface.0.half_angle: "70" has no unit"#, "give an angle in deg or rad"),
+    ]);
+    check_refusals(&wavy(), &[
+        ("amplitude = \"1 nm\"\n", "", "s.toml:7: surface.0.amplitude: missing", r#"`amplitude = "1 nm"`"#),
+        (r#"amplitude = "1 nm""#, r#"amplitude = "-1 nm""#, r#"s.toml:9: surface.0.amplitude: "-1 nm" is out of range"#, "finite and above 0"),
+        (r#"wavelength = "1 um""#, r#"wavelength = "300 nm""#, "s.toml:10: surface.0.wavelength: 300 nm along x does not divide the periodic size 1 µm", "the nearest that does is 333.3 nm"),
+        (r#"wavelength = "1 um""#, r#"wavelength = ["inf", "2 um"]"#, "s.toml:10: surface.0.wavelength: 2 µm along y does not divide the periodic size 1 µm", "the nearest that does is 1 µm"),
+        (r#"wavelength = "1 um""#, r#"wavelength = "inf""#, "s.toml:10: surface.0.wavelength: infinite along both axes", r#"take kind = "flat""#),
+        (r#"wavelength = "1 um""#, "wavelength = 0", "s.toml:10: surface.0.wavelength: 0 is out of range", r#"above 0, or "inf""#),
+        (r#"wavelength = "1 um""#, r#"wavelength = "none""#, r#"s.toml:10: surface.0.wavelength: "none" does not begin with a number"#, "give a length in m"),
+    ]);
+    check_refusals(&self_affine(), &[
+        ("hurst = 0.8", "hurst = 1.2", "s.toml:9: surface.0.hurst: 1.2 is out of range", "above 0 and below 1"),
+        ("hurst = 0.8", "hurst = 0", "s.toml:9: surface.0.hurst: 0 is out of range", "above 0 and below 1"),
+        ("hurst = 0.8", "hurst = 1", "s.toml:9: surface.0.hurst: 1 is out of range", "above 0 and below 1"),
+        ("hurst = 0.8", "hurts = 0.8", "s.toml:9: surface.0.hurts: unknown key in a self-affine [[surface]]", "did you mean `hurst`?"),
+        ("rms_height = \"1 nm\"\n", "", "s.toml:7: surface.0.rms_height: missing", r#"`rms_height = "0.52 nm"` or `rms_slope = 0.1`"#),
+        (r#"rms_height = "1 nm""#, "rms_height = \"1 nm\"\nrms_slope = 0.1", "s.toml:11: surface.0.rms_slope: rms_height is given too", "give one of the two"),
+        (r#"rms_height = "1 nm""#, r#"rms_slope = "0.1""#, r#"s.toml:10: surface.0.rms_slope: the text "0.1" where a number without a unit is expected"#, "`rms_slope = 0.1`"),
+        (r#"rolloff = "500 nm""#, r#"rolloff = "2 um""#, "s.toml:12: surface.0.rolloff: 2 µm is longer than longest = 1 µm", "shortest < rolloff <= longest"),
+        (r#"shortest = "40 nm""#, r#"shortest = "500 nm""#, "s.toml:13: surface.0.shortest: 500 nm is not shorter than rolloff = 500 nm", "shortest < rolloff <= longest"),
+        ("rolloff = \"500 nm\"\n", "", "s.toml:7: surface.0.rolloff: missing", r#"`rolloff = "6.25 um"`"#),
+        (r#"shortest = "40 nm""#, "shortest = \"40 nm\"\nseed = -1", "s.toml:14: surface.0.seed: -1 is out of range", "a whole number of at least 0"),
+        (r#"shortest = "40 nm""#, "shortest = \"40 nm\"\nseed = 1.5", "s.toml:14: surface.0.seed: the number 1.5 where a whole number is expected", "`seed = 1`"),
+    ]);
+}
+
+#[test]
+#[rustfmt::skip] // one case a line
+fn mistakes_in_adhesion() {
+    check_refusals(GOOD, &[
+        ("law = \"maugis-dugdale\"\n", "", "s.toml:10: adhesion.law: missing", r#"`law = "maugis-dugdale"`"#),
+        (r#"law = "maugis-dugdale""#, r#"law = "lennard jones""#, r#"s.toml:11: adhesion.law: "lennard jones" is none of "maugis-dugdale", "lennard-jones", "exponential""#, r#"did you mean "lennard-jones"?"#),
+        ("range = \"1 nm\"\n", "", "s.toml:10: adhesion.range: missing", r#"`range = "1 nm"` or `peak_tension = "50 MPa"`"#),
+        ("work_of_adhesion = \"50 mJ/m^2\"\n", "", "s.toml:10: adhesion.work_of_adhesion: missing", r#"`work_of_adhesion = "50 mJ/m^2"`"#),
+        (r#"range = "1 nm""#, "range = \"1 nm\"\npeak_tension = \"50 MPa\"", "s.toml:14: adhesion.peak_tension: work_of_adhesion, range and peak_tension are all given", "give exactly two"),
+        (r#"range = "1 nm""#, "range = \"auto\"\npeak_tension = \"50 MPa\"", r#"s.toml:14: adhesion.peak_tension: range = "auto" follows from the grid"#, "leave peak_tension out"),
+        ("work_of_adhesion = \"50 mJ/m^2\"\nrange = \"1 nm\"", r#"range = "auto""#, "s.toml:10: adhesion.work_of_adhesion: missing", r#"`work_of_adhesion = "50 mJ/m^2"`"#),
+        (r#"range = "1 nm""#, r#"range = "Auto""#, r#"s.toml:13: adhesion.range: "Auto" does not begin with a number"#, "give a length in m"),
+        (r#"range = "1 nm""#, "range = 0", "s.toml:13: adhesion.range: 0 is out of range", "finite and above 0"),
+        (r#"work_of_adhesion = "50 mJ/m^2""#, "work_of_adhesion = 0", "s.toml:12: adhesion.work_of_adhesion: 0 is out of range", "finite and above 0"),
+        (r#"work_of_adhesion = "50 mJ/m^2""#, r#"work_of_adhesion = "50 mJ""#, r#"s.toml:12: adhesion.work_of_adhesion: "mJ" is an energy in J"#, "an energy per area in J/m^2 or N/m"),
+        (r#"range = "1 nm""#, "range = \"1 nm\"\ntaper = \"-1 nm\"", r#"s.toml:14: adhesion.taper: "-1 nm" is out of range"#, "finite and at least 0"),
+        (r#"range = "1 nm""#, "range = \"1 nm\"\ntaper = \"3 nm\"", "s.toml:14: adhesion.taper: 3 nm is more than twice the range of 1 nm", r#"or "auto""#),
+        ("law = \"maugis-dugdale\"\nwork_of_adhesion = \"50 mJ/m^2\"\nrange = \"1 nm\"", "law = \"lennard-jones\"\nwork_of_adhesion = \"50 mJ/m^2\"\nrange = \"1 nm\"\ntaper = \"auto\"", r#"s.toml:14: adhesion.taper: law = "lennard-jones" has no taper"#, r#"take law = "maugis-dugdale""#),
+        ("law = \"maugis-dugdale\"\nwork_of_adhesion = \"50 mJ/m^2\"\nrange = \"1 nm\"", "law = \"exponential\"\nwork_of_adhesion = \"50 mJ/m^2\"\nrange = \"1 nm\"\ntaper = 0", r#"s.toml:14: adhesion.taper: law = "exponential" has no taper"#, "leave it out"),
+        (r#"range = "1 nm""#, "range = \"1 nm\"\ntreatment = \"jkr\"", r#"s.toml:14: adhesion.treatment: "jkr" is none of "full", "dmt""#, "did you mean"),
+        (r#"range = "1 nm""#, "range = \"1 nm\"\nmap = \"w.npy\"", "s.toml:14: adhesion.map: a map of the adhesion is not in this version", "take it out"),
+        (r#"range = "1 nm""#, "range = \"1 nm\"\nmap = { pattern = \"checker\", period = \"1 um\", low = 0, high = 1 }", "s.toml:14: adhesion.map: a map of the adhesion is not in this version", "take it out"),
+        (r#"range = "1 nm""#, "range = \"1 nm\"\nenabled = false", "s.toml:14: adhesion.enabled: unknown key in [adhesion]", "It takes law, work_of_adhesion, range, peak_tension, taper, treatment"),
+    ]);
+}
+
+#[test]
+#[rustfmt::skip] // one case a line
+fn mistakes_in_loading() {
+    check_refusals(GOOD, &[
+        ("[loading]\ncontrol = \"pressure\"\npath = [\"1 MPa\", \"2 MPa\"]\n", "", "s.toml: loading: missing", r#"[loading] with control = "pressure""#),
+        ("control = \"pressure\"\n", "", "s.toml:14: loading.control: missing", r#"`control = "pressure"`"#),
+        (r#"control = "pressure""#, r#"control = "gap""#, r#"s.toml:15: loading.control: "gap" is none of "pressure", "force", "approach", "mean-gap""#, "did you mean"),
+        (r#"path = ["1 MPa", "2 MPa"]"#, "", "s.toml:14: loading.path: missing", "or `start` with `[[loading.ramp]]`"),
+        (r#"path = ["1 MPa", "2 MPa"]"#, "path = []", "s.toml:16: loading.path: is empty", "give at least one value"),
+        (r#"path = ["1 MPa", "2 MPa"]"#, r#"path = "1 MPa""#, r#"s.toml:16: loading.path: the text "1 MPa" where a list of values is expected"#, r#"`path = ["1 MPa", "10 MPa"]`"#),
+        (r#"path = ["1 MPa", "2 MPa"]"#, "path = [\"1 MPa\",\n  \"2 nN\"]", r#"s.toml:17: loading.path.1: "nN" is a force in N"#, "give a pressure in Pa"),
+        (r#"path = ["1 MPa", "2 MPa"]"#, "path = [1e6, inf]", "s.toml:16: loading.path.1: inf is out of range", "must be finite"),
+        (r#"path = ["1 MPa", "2 MPa"]"#, "path = [1e6, [2e6]]", "s.toml:16: loading.path.1: a list of 1 where a pressure in Pa is expected", r#"`path = ["1 MPa", "10 MPa"]`"#),
+        ("control = \"pressure\"\npath = [\"1 MPa\", \"2 MPa\"]", "control = \"force\"\npath = [\"1 MPa\"]", r#"s.toml:16: loading.path.0: "MPa" is a pressure in Pa"#, r#"give a force in N, such as "20 nN""#),
+        ("control = \"pressure\"\npath = [\"1 MPa\", \"2 MPa\"]", "control = \"mean-gap\"\npath = [\"-1 nm\"]", r#"s.toml:16: loading.path.0: "-1 nm" is out of range"#, "finite and at least 0"),
+        (r#"size = "1 um""#, "size = \"1 um\"\nboundary = \"free\"", "s.toml:16: loading.control: a free boundary has no nominal area", r#"take "force" or "approach""#),
+        (r#"path = ["1 MPa", "2 MPa"]"#, "path = [1e6]\nspring = \"1 N/m\"", "s.toml:17: loading.spring: a spring is held at its far end", r#"take control = "approach""#),
+        (r#"path = ["1 MPa", "2 MPa"]"#, "path = [1e6]\nstart = 1e6", "s.toml:16: loading.path: stands beside start and [[loading.ramp]]", "give either the path or the ramps"),
+        (r#"path = ["1 MPa", "2 MPa"]"#, "start = 1e6", "s.toml:14: loading.ramp: missing", "`[[loading.ramp]]` with `to` and `steps`"),
+        (r#"path = ["1 MPa", "2 MPa"]"#, "start = 1e6\nramp = []", "s.toml:17: loading.ramp: is empty", "give at least one ramp"),
+    ]);
+    check_refusals(&spring(), &[
+        ("path = [\"1 nm\"]\nspring = \"1 N/m\"", r#"path = ["1 MPa"]"#, r#"s.toml:16: loading.path.0: "MPa" is a pressure in Pa"#, "give a length in m"),
+        (r#"spring = "1 N/m""#, "spring = 0", "s.toml:17: loading.spring: 0 is out of range", "finite and above 0"),
+        (r#"spring = "1 N/m""#, r#"spring = "1 N""#, r#"s.toml:17: loading.spring: "N" is a force in N"#, "a force per length in N/m"),
+    ]);
+    check_refusals(&ramps(), &[
+        ("start = \"1 MPa\"\n", "", "s.toml:14: loading.start: missing", r#"`start = "1 MPa"`"#),
+        ("to = \"2 MPa\"\n", "", "s.toml:17: loading.ramp.0.to: missing", r#"`to = "10 MPa"`"#),
+        ("steps = 4\n", "", "s.toml:17: loading.ramp.0.steps: missing", "`steps = 10`"),
+        ("steps = 4", "steps = 0", "s.toml:19: loading.ramp.0.steps: 0 is out of range", "a whole number from 1 to 1000000"),
+        ("steps = 4", "steps = 9000000000000000000", "s.toml:19: loading.ramp.0.steps: 9000000000000000000 is out of range", "a whole number from 1 to 1000000"),
+        ("steps = 4", "steps = 1000000", "s.toml:17: loading.ramp: the ramps add up to more than 1000000 steps", "1000000"),
+        ("steps = 4", "steps = 4\nduration = \"1 s\"", "s.toml:20: loading.ramp.0.duration: a load that takes time is not in this version", "take it out"),
+        (r#"to = "2 MPa""#, r#"hold = "1 s""#, "s.toml:18: loading.ramp.0.hold: a load that takes time is not in this version", "take it out"),
+        ("steps = 4", "steps = 4\nstep = 3", "s.toml:20: loading.ramp.0.step: unknown key in [[loading.ramp]]", "did you mean `steps`?"),
+    ]);
+}
+
+#[test]
+#[rustfmt::skip] // one case a line
+fn mistakes_in_solver_and_output() {
+    check_refusals(GOOD, &[
+        ("tolerance = 1e-6", "tolerance = 0", "s.toml:18: solver.tolerance: 0 is out of range", "above 0 and at most 0.1"),
+        ("tolerance = 1e-6", "tolerance = 0.2", "s.toml:18: solver.tolerance: 0.2 is out of range", "above 0 and at most 0.1"),
+        ("tolerance = 1e-6", r#"tolerance = "1e-6""#, r#"s.toml:18: solver.tolerance: the text "1e-6" where a number without a unit is expected"#, "`tolerance = 1e-6`"),
+        ("tolerance = 1e-6", "max_iterations = 0", "s.toml:18: solver.max_iterations: 0 is out of range", "a whole number of at least 1"),
+        ("tolerance = 1e-6", r#"precision = "single""#, r#"s.toml:18: solver.precision: precision = "single" is not in this version"#, r#"take "auto" or "double""#),
+        ("tolerance = 1e-6", r#"precision = "mixed""#, r#"s.toml:18: solver.precision: precision = "mixed" is not in this version"#, r#"take "auto" or "double""#),
+        ("tolerance = 1e-6", r#"precision = "f64""#, r#"s.toml:18: solver.precision: "f64" is none of "auto", "single", "mixed", "double""#, "did you mean"),
+        ("tolerance = 1e-6", r#"backend = "gpu""#, r#"s.toml:18: solver.backend: backend = "gpu" is not in this version"#, r#"take "auto" or "cpu""#),
+        ("tolerance = 1e-6", r#"backend = "cuda""#, r#"s.toml:18: solver.backend: "cuda" is none of "auto", "cpu", "gpu""#, r#"did you mean "cpu"?"#),
+        ("tolerance = 1e-6", "pressure_tolerance = 1e-6", "s.toml:18: solver.pressure_tolerance: unknown key in [solver]", "did you mean `tolerance`?"),
+        ("images = []", r#"images = "pressure""#, r#"s.toml:20: output.images: the text "pressure" where a list of names is expected"#, r#"`images = ["pressure"]`"#),
+        ("images = []", r#"images = ["presure"]"#, r#"s.toml:20: output.images.0: "presure" is none of "pressure", "gap", "displacement", "heights""#, r#"did you mean "pressure"?"#),
+        ("images = []", r#"fields = ["gap", 3]"#, "s.toml:20: output.fields.1: the number 3 where a word in quotes is expected", r#"`fields = ["gap"]`"#),
+        ("images = []", r#"fields = ["gap", "gap"]"#, r#"s.toml:20: output.fields: names "gap" twice"#, "once is enough"),
+        ("images = []", r#"steps = "first""#, r#"s.toml:20: output.steps: "first" is none of "last", "all""#, r#"did you mean "last"?"#),
+        ("images = []", "steps = 2", r#"s.toml:20: output.steps: the number 2 where "last", "all" or a list of step numbers is expected"#, "`steps = [1, 5]`"),
+        ("images = []", "steps = [1, 3]", "s.toml:20: output.steps.1: 3 is out of range", "a step of the path, 1 to 2"),
+        ("images = []", "steps = [0]", "s.toml:20: output.steps.0: 0 is out of range", "a whole number of at least 1"),
+        ("images = []", r#"steps = ["1"]"#, r#"s.toml:20: output.steps.0: the text "1" where a whole number is expected"#, "steps = "),
+    ]);
+}
+
+#[test]
+#[rustfmt::skip] // one case a line
+fn mistakes_in_the_scene_itself() {
+    check_refusals(GOOD, &[
+        (r#"title = "good""#, "title = 3", "s.toml:1: title: the number 3 where a text in quotes is expected", r#"title = "Sphere on a flat""#),
+        (r#"title = "good""#, r#"titel = "good""#, "s.toml:1: titel: unknown key in the scene itself", "did you mean `title`?"),
+        ("[solver]", "[solvr]", "s.toml:17: solvr: unknown key in the scene itself", "did you mean `solver`?"),
+        (r#"title = "good""#, r#""tit\nle" = 1"#, r#"s.toml:1: "tit\nle": unknown key in the scene itself"#, "did you mean `title`?"),
+        ("images = []", "images = []\n[capillary]\nhumidity = 0.5", "s.toml:21: capillary: a liquid meniscus is not in this version", "take it out"),
+        ("images = []", "images = []\n[friction]", "s.toml:21: friction: friction is not in this version", "take it out"),
+        ("images = []", "images = []\n[conductance]", "s.toml:21: conductance: contact conductance is not in this version", "take it out"),
+        ("points = 64", "points = 64\npoints = 65", "s.toml:4: not valid TOML: duplicate key", "duplicate key"),
+        ("points = 64", "points = ", "s.toml:3: not valid TOML:", "expected"),
+        ("[solid]", "[solid", "s.toml:5: not valid TOML:", "expected `]`"),
+    ]);
+}
+
+#[test]
+fn all_mistakes_come_at_once_in_the_order_of_lines() {
+    let text = r#"titel = "bad"
+[grid]
+points = 0
+size = "1 nN"
+[solid]
+contact_modulus = -1
+[[surface]]
+kind = "sphere"
+radius = "1 um"
+[[surface]]
+kind = "self-affine"
+hurst = 2
+rms_height = "1 nm"
+rms_slope = 0.1
+longest = "1 um"
+rolloff = "2 um"
+shortest = "3 um"
+[adhesion]
+law = "jkr"
+range = "1 nm"
+[loading]
+control = "force"
+path = ["1 nN", "2 MPa", nan]
+[solver]
+tolerance = 0
+backend = "gpu"
+[output]
+steps = [4]
+"#;
+    let expected = [
+        "s.toml:1: titel: unknown key",
+        "s.toml:3: grid.points: 0 is out of range",
+        "s.toml:4: grid.size: \"nN\" is a force",
+        "s.toml:6: solid.contact_modulus: -1 is out of range",
+        "s.toml:12: surface.1.hurst: 2 is out of range",
+        "s.toml:14: surface.1.rms_slope: rms_height is given too",
+        "s.toml:16: surface.1.rolloff: 2 µm is longer than longest = 1 µm",
+        "s.toml:17: surface.1.shortest: 3 µm is not shorter than rolloff = 2 µm",
+        "s.toml:18: adhesion.work_of_adhesion: missing",
+        "s.toml:19: adhesion.law: \"jkr\" is none of",
+        "s.toml:23: loading.path.1: \"MPa\" is a pressure",
+        "s.toml:23: loading.path.2: nan is out of range",
+        "s.toml:25: solver.tolerance: 0 is out of range",
+        "s.toml:26: solver.backend: backend = \"gpu\" is not in this version",
+    ];
+    let messages = refused(text, &[]);
+    assert_eq!(messages.len(), expected.len(), "{messages:#?}");
+    for (message, beginning) in messages.iter().zip(expected) {
+        assert!(message.starts_with(beginning), "{message}\n{beginning}");
+    }
+}
+
+#[test]
+fn an_empty_scene_names_every_table_it_needs() {
+    let messages = refused("", &[]).join("\n");
+    for table in ["grid", "solid", "surface", "loading"] {
+        assert!(
+            messages.contains(&format!("s.toml: {table}: missing; add for example `[")),
+            "{table}: {messages}"
+        );
+    }
+}
+
+#[test]
+fn mistakes_are_typed() {
+    let errors = parse(&edited(GOOD, "points = 64", "points = 0")).expect_err("no points");
+    assert_eq!(
+        errors.0,
+        [Mistake {
+            file: "s.toml".into(),
+            line: Some(3),
+            key: "grid.points".into(),
+            from_set: false,
+            error: SceneError::OutOfRange {
+                found: "0".into(),
+                allowed: "a whole number from 1 to 65536".into(),
+            },
+        }]
+    );
+}
+
+#[test]
+fn overrides_change_what_they_name() {
+    let set = |key, value| parse_set(GOOD, &[(key, value)]).expect("a right override");
+    assert_eq!(set("grid.points", "128").grid.points, Some([128, 128]));
+    assert_eq!(set("grid.points", "[8, 4]").grid.points, Some([8, 4]));
+    assert_eq!(set("grid.size", "2 um").grid.size, Some([2e-6, 2e-6]));
+    assert_eq!(set("grid.size", "\"2 um\"").grid.size, Some([2e-6, 2e-6]));
+    assert_eq!(
+        set("adhesion.law", "exponential")
+            .adhesion
+            .map(|found| found.law),
+        Some(LawName::Exponential)
+    );
+    assert_eq!(
+        set("surface.0.radius", "2e-6").surfaces,
+        [SurfacePart::Sphere {
+            radius: 2e-6,
+            centre: None
+        }]
+    );
+    assert_eq!(set("loading.path.1", "3 MPa").loading.path, [1e6, 3e6]);
+    assert_eq!(
+        set("title", "two words").title.as_deref(),
+        Some("two words")
+    );
+    // Tables that every scene has need not be written.
+    let bare = GOOD.replace("[solver]\ntolerance = 1e-6\n", "");
+    let scene = parse_set(&bare, &[("solver.tolerance", "1e-8")]).expect("a solver");
+    assert_eq!(scene.solver.tolerance, 1e-8);
+    // An effect may be set as a whole.
+    let hard = hard();
+    let law = "{ law = 'exponential', work_of_adhesion = 0.1, range = '1 nm' }";
+    let scene = parse_set(&hard, &[("adhesion", law)]).expect("an effect");
+    assert_eq!(
+        scene.adhesion.map(|found| found.range),
+        Some(Range::Length(1e-9))
+    );
+    // The last one counts.
+    let twice = [("grid.points", "8"), ("grid.points", "16")];
+    let scene = parse_set(GOOD, &twice).expect("two overrides");
+    assert_eq!(scene.grid.points, Some([16, 16]));
+}
+
+/// [`GOOD`] without adhesion.
+fn hard() -> String {
+    edited(
+        GOOD,
+        "[adhesion]\nlaw = \"maugis-dugdale\"\nwork_of_adhesion = \"50 mJ/m^2\"\nrange = \"1 nm\"\n",
+        "",
+    )
+}
+
+#[test]
+fn overrides_that_are_wrong_say_where_they_came_from() {
+    let hard = hard();
+    for (text, key, value, message) in [
+        (
+            GOOD,
+            "grid.points",
+            "0",
+            "s.toml, from --set: grid.points: 0 is out of range; it must be a whole number from 1 to 65536",
+        ),
+        (
+            GOOD,
+            "surface.0.radius",
+            "2 MPa",
+            "s.toml, from --set: surface.0.radius: \"MPa\" is a pressure in Pa; give a length in m",
+        ),
+        (
+            GOOD,
+            "surface.0.hurst",
+            "0.4",
+            "s.toml, from --set: surface.0.hurst: unknown key in a sphere [[surface]]",
+        ),
+        (
+            GOOD,
+            "surface.1.radius",
+            "0.4",
+            "s.toml, from --set: surface.1.radius: there is no surface.1: surface has one entry, surface.0",
+        ),
+        (
+            GOOD,
+            "loading.path.2",
+            "0.4",
+            "s.toml, from --set: loading.path.2: there is no loading.path.2: loading.path has 2 entries, numbered 0 to 1",
+        ),
+        (
+            GOOD,
+            "surface.first.radius",
+            "1",
+            "surface is a list, so a number from 0 must follow it, as in surface.0, and not first",
+        ),
+        (
+            GOOD,
+            "surface.-1.radius",
+            "1",
+            "surface is a list, so a number from 0 must follow it, as in surface.0, and not -1",
+        ),
+        (
+            GOOD,
+            "grid.points.0.x",
+            "1",
+            "grid.points is a single value, so 0 cannot follow it",
+        ),
+        (
+            GOOD,
+            "grid.points.0",
+            "1",
+            "grid.points is a single value, so 0 cannot follow it",
+        ),
+        (
+            GOOD,
+            "loading.ramps.steps",
+            "1",
+            "s.toml, from --set: loading.ramps.steps: loading has no table ramps in this scene",
+        ),
+        (
+            hard.as_str(),
+            "adhesion.range",
+            "1 nm",
+            "s.toml, from --set: adhesion.range: the scene has no [adhesion]; add the table to the file first, or set all of it with --set 'adhesion={ ... }'",
+        ),
+        (
+            GOOD,
+            "adhesive.range",
+            "1 nm",
+            "the scene has no [adhesive]; add the table to the file first",
+        ),
+        (
+            GOOD,
+            "grid..points",
+            "1",
+            "s.toml, from --set: grid..points: not a key; write it with points between the names, such as --set surface.0.hurst=0.4",
+        ),
+        (GOOD, "", "1", "s.toml, from --set: not a key; write it"),
+        (
+            GOOD,
+            "grid.points",
+            "[64, 64",
+            "s.toml, from --set: grid.points: not valid TOML: unclosed array",
+        ),
+        (
+            GOOD,
+            "grid.points",
+            "",
+            "s.toml, from --set: grid.points: the text \"\" where a whole number is expected",
+        ),
+        (
+            GOOD,
+            "grid",
+            "1",
+            "s.toml, from --set: grid: the number 1 where a table is expected",
+        ),
+        (
+            GOOD,
+            "solver.precision",
+            "single",
+            "s.toml, from --set: solver.precision: precision = \"single\" is not in this version; take \"auto\" or \"double\"",
+        ),
+        (
+            GOOD,
+            "solid.thickness",
+            "1 um",
+            "s.toml, from --set: solid.thickness: an elastic layer on a rigid base is not in this version",
+        ),
+        (
+            GOOD,
+            "solid.young_modulus",
+            "1 GPa",
+            "s.toml, from --set: solid.young_modulus: contact_modulus is given too",
+        ),
+    ] {
+        let messages = refused(text, &[(key, value)]);
+        assert!(
+            messages.len() == 1 && messages[0].contains(message),
+            "{key}={value} gave {messages:#?} and not {message}"
+        );
+    }
+}
+
+#[test]
+fn the_scene_of_the_manual_is_read() {
+    let text = r#"
+title = "Self-affine surface with Maugis-Dugdale adhesion"
+
+[grid]
+points   = 1024          # or [1024, 512]: x, y
+size     = "25 um"       # or ["25 um", "12.5 um"]: x, y
+boundary = "periodic"    # or "free"
+
+[solid]
+contact_modulus = "1.33 TPa"
+# thickness = "5 um"
+# hardness  = "10 GPa"
+
+[[surface]]
+kind = "self-affine"
+hurst = 0.8
+rms_height = "0.52 nm"
+longest = "25 um"
+rolloff = "6.25 um"
+shortest = "195 nm"
+seed = 1
+
+[adhesion]
+law = "maugis-dugdale"
+work_of_adhesion = "0.2 J/m^2"
+range = "1 nm"
+# taper = "auto"
+treatment = "full"
+
+[loading]
+control = "pressure"
+path = ["1 MPa", "10 MPa", "100 MPa", "10 MPa", "1 MPa"]
+
+[solver]
+tolerance = 1e-6
+max_iterations = 5000
+precision = "auto"
+backend = "auto"
+
+[output]
+images = ["pressure"]
+fields = []
+steps  = "last"
+"#;
+    let scene = accepted(text);
+    let expected = Scene {
+        title: Some("Self-affine surface with Maugis-Dugdale adhesion".into()),
+        grid: GridScene {
+            points: Some([1024, 1024]),
+            size: Some([25e-6, 25e-6]),
+            boundary: Boundary::Periodic,
+        },
+        solid: SolidScene {
+            contact_modulus: 1.33e12,
+            poisson_ratio: None,
+        },
+        surfaces: vec![SurfacePart::SelfAffine(SelfAffineScene {
+            hurst: 0.8,
+            roughness: Roughness::RmsHeight(0.52e-9),
+            longest: 25e-6,
+            rolloff: 6.25e-6,
+            shortest: 195e-9,
+            seed: 1,
+        })],
+        adhesion: Some(AdhesionScene {
+            law: LawName::MaugisDugdale,
+            work_of_adhesion: 0.2,
+            range: Range::Length(1e-9),
+            taper: None,
+            treatment: Treatment::Full,
+        }),
+        loading: LoadingScene {
+            control: Control::Pressure,
+            path: vec![1e6, 1e7, 1e8, 1e7, 1e6],
+            spring: None,
+        },
+        solver: SolverScene::default(),
+        output: OutputScene::default(),
+        folder: PathBuf::from("/scenes"),
+    };
+    assert_eq!(scene, expected);
+
+    // What the manual shows for boundary, seed, taper, treatment, solver and output is the default.
+    let (head, _) = text.split_once("[solver]").expect("a solver");
+    let bare = head
+        .replace("boundary =", "# ")
+        .replace("seed =", "# ")
+        .replace("treatment =", "# ");
+    assert_eq!(accepted(&bare), expected);
+}
+
+#[test]
+fn the_contact_modulus_follows_from_young_and_poisson() {
+    let one = accepted(&young()).solid;
+    assert_eq!(one.poisson_ratio, Some(0.3));
+    assert!((one.contact_modulus * 0.91e-9 - 1.0).abs() < 1e-15);
+    let two = accepted(&edited(
+        &young(),
+        "poisson_ratio = 0.3",
+        "poisson_ratio = 0.3\ncounter_young_modulus = \"3 GPa\"\ncounter_poisson_ratio = 0.5",
+    ));
+    // 1/E* = 0.91/1 GPa + 0.75/3 GPa = 1.16/GPa
+    assert!((two.solid.contact_modulus * 1.16e-9 - 1.0).abs() < 1e-15);
+    let both = edited(GOOD, "\"1 GPa\"", "\"1 GPa\"\npoisson_ratio = 0.3");
+    assert_eq!(accepted(&both).solid.poisson_ratio, Some(0.3));
+}
+
+fn adhesion(text: &str) -> AdhesionScene {
+    let with = edited(
+        GOOD,
+        "law = \"maugis-dugdale\"\nwork_of_adhesion = \"50 mJ/m^2\"\nrange = \"1 nm\"",
+        text,
+    );
+    accepted(&with).adhesion.expect("adhesion is on")
+}
+
+#[test]
+fn two_numbers_of_a_law_give_the_third() {
+    let close = |one: f64, other: f64| (one / other - 1.0).abs() < 1e-14;
+    let lennard_jones = 16.0 / (9.0 * 3f64.sqrt());
+    for (law, shape) in [
+        ("maugis-dugdale", 1.0),
+        ("exponential", 1.0),
+        ("lennard-jones", lennard_jones),
+    ] {
+        let head = format!("law = \"{law}\"\n");
+        let found = adhesion(&format!(
+            "{head}work_of_adhesion = 0.05\npeak_tension = \"100 MPa\""
+        ));
+        let Range::Length(range) = found.range else {
+            panic!("{law}: no range");
+        };
+        assert!(close(range, 0.05 * shape / 1e8), "{law}: {range}");
+        let back = adhesion(&format!("{head}range = {range}\npeak_tension = 1e8"));
+        assert!(close(back.work_of_adhesion, 0.05), "{law}");
+    }
+    let auto = adhesion("law = \"exponential\"\nwork_of_adhesion = 0.05\nrange = \"auto\"");
+    assert_eq!(auto.range, Range::Auto);
+}
+
+#[test]
+fn tapers_and_treatments_are_read() {
+    let head = "law = \"maugis-dugdale\"\nwork_of_adhesion = 0.05\nrange = \"1 nm\"\n";
+    let taper = |text: &str| adhesion(&format!("{head}{text}")).taper;
+    assert_eq!(taper(""), None);
+    assert_eq!(taper("taper = \"auto\""), None);
+    assert_eq!(taper("taper = 0"), Some(0.0));
+    assert_eq!(taper("taper = \"2 nm\""), Some(2e-9));
+    for law in LawName::ALL {
+        let text = format!(
+            "law = \"{}\"\nwork_of_adhesion = \"50 mN/m\"\nrange = \"1 nm\"\ntreatment = \"dmt\"",
+            law.name()
+        );
+        assert_eq!(adhesion(&text).treatment, Treatment::Dmt);
+    }
+    assert_eq!(accepted(&hard()).adhesion, None);
+}
+
+#[test]
+fn every_kind_of_surface_is_read() {
+    let first = |text: &str| accepted(text).surfaces.remove(0);
+    assert_eq!(
+        first(&with_surface(
+            "kind = \"sphere\"\nradius = 1e-6\ncentre = [0, \"-1 nm\"]"
+        )),
+        SurfacePart::Sphere {
+            radius: 1e-6,
+            centre: Some([0.0, -1e-9])
+        }
+    );
+    assert_eq!(
+        first(&cone()),
+        SurfacePart::Cone {
+            half_angle: 70f64.to_radians(),
+            centre: None
+        }
+    );
+    let cone_at = |angle: &str| match first(&edited(&cone(), "\"70 deg\"", angle)) {
+        SurfacePart::Cone { half_angle, .. } => half_angle,
+        other => panic!("{other:?}"),
+    };
+    assert_eq!(cone_at("30"), 30f64.to_radians());
+    assert_eq!(cone_at("\"0.5 rad\""), 0.5);
+    let wavelength = |text: &str| match first(&edited(&wavy(), "th = \"1 um\"", text)) {
+        SurfacePart::Wavy { wavelength, .. } => wavelength,
+        other => panic!("{other:?}"),
+    };
+    assert_eq!(wavelength("th = \"500 nm\""), [500e-9, f64::INFINITY]);
+    assert_eq!(wavelength("th = [\"1 um\", 2e-7]"), [1e-6, 2e-7]);
+    assert_eq!(
+        wavelength("th = [\"inf\", \"1 um\"]"),
+        [f64::INFINITY, 1e-6]
+    );
+    assert_eq!(wavelength("th = [inf, 1e-6]"), [f64::INFINITY, 1e-6]);
+    assert_eq!(first(&with_surface("kind = \"flat\"")), SurfacePart::Flat);
+    let slope = edited(
+        &self_affine(),
+        "rms_height = \"1 nm\"",
+        "rms_slope = 0.1\nseed = 7",
+    );
+    match first(&slope) {
+        SurfacePart::SelfAffine(part) => {
+            assert_eq!(part.roughness, Roughness::RmsSlope(0.1));
+            assert_eq!(part.seed, 7);
+        }
+        other => panic!("{other:?}"),
+    }
+    // The band may begin at the roll-off.
+    accepted(&edited(&self_affine(), "\"500 nm\"", "\"1 um\""));
+    let sum = accepted(&edited(
+        GOOD,
+        "[adhesion]",
+        "[[surface]]\nkind = \"flat\"\n[adhesion]",
+    ));
+    assert_eq!(sum.surfaces.len(), 2);
+}
+
+#[test]
+fn a_height_file_may_carry_the_grid() {
+    let without_grid = height_file().replace("[grid]\npoints = 64\nsize = \"1 um\"\n", "");
+    let scene = accepted(&without_grid);
+    assert_eq!(scene.grid.points, None);
+    assert_eq!(scene.grid.size, None);
+    assert_eq!(
+        scene.surfaces,
+        [SurfacePart::File(HeightFileScene {
+            path: PathBuf::from("/scenes/h.npy"),
+            unit: 1.0,
+            scale: 1.0,
+            detrend: Detrend::None,
+            fill: Fill::None,
+        })]
+    );
+    assert_eq!(
+        accepted(&height_file().replace("points = 64\n", ""))
+            .grid
+            .points,
+        None
+    );
+    let all = edited(
+        &height_file(),
+        "path = \"h.npy\"",
+        "path = \"/data/h.npy\"\nunit = \"nm\"\nscale = -2\ndetrend = \"quadratic\"\nfill = \"interpolate\"",
+    );
+    assert_eq!(
+        accepted(&all).surfaces,
+        [SurfacePart::File(HeightFileScene {
+            path: PathBuf::from("/data/h.npy"),
+            unit: 1e-9,
+            scale: -2.0,
+            detrend: Detrend::Quadratic,
+            fill: Fill::Interpolate,
+        })]
+    );
+}
+
+#[test]
+fn free_boundaries_take_any_wavelength_and_force_or_approach() {
+    let free = |text: &str| {
+        edited(
+            text,
+            "size = \"1 um\"",
+            "size = \"1 um\"\nboundary = \"free\"",
+        )
+    };
+    let odd = edited(&wavy(), "th = \"1 um\"", "th = \"300 nm\"");
+    for control in [
+        "control = \"force\"\npath = [\"-1 nN\"]",
+        "control = \"approach\"\npath = [-1e-9]",
+    ] {
+        let text = edited(
+            &free(&odd),
+            "control = \"pressure\"\npath = [\"1 MPa\", \"2 MPa\"]",
+            control,
+        );
+        assert_eq!(accepted(&text).grid.boundary, Boundary::Free);
+        assert_eq!(accepted(&text).loading.path, [-1e-9]);
+    }
+}
+
+#[test]
+fn ramps_end_where_they_say() {
+    assert_eq!(
+        accepted(&ramps()).loading.path,
+        [1e6, 1.25e6, 1.5e6, 1.75e6, 2e6]
+    );
+    let back = edited(
+        &ramps(),
+        "steps = 4",
+        "steps = 2\n[[loading.ramp]]\nto = 0\nsteps = 1",
+    );
+    assert_eq!(accepted(&back).loading.path, [1e6, 1.5e6, 2e6, 0.0]);
+    assert_eq!(accepted(&spring()).loading.spring, Some(1.0));
+}
+
+#[test]
+fn a_mean_gap_below_zero_is_for_lennard_jones() {
+    let gap = with_loading("control = \"mean-gap\"\npath = [\"0 nm\", \"-0.5 nm\"]");
+    let lennard_jones = edited(&gap, "maugis-dugdale", "lennard-jones");
+    assert_eq!(accepted(&lennard_jones).loading.path, [0.0, -0.5e-9]);
+    for text in [
+        gap.clone(),
+        edited(
+            &lennard_jones,
+            "range = \"1 nm\"",
+            "range = \"1 nm\"\ntreatment = \"dmt\"",
+        ),
+    ] {
+        let messages = refused(&text, &[]);
+        assert!(
+            messages[0].contains("loading.path.1: \"-0.5 nm\" is out of range"),
+            "{messages:?}"
+        );
+    }
+    let beyond = refused(&edited(&lennard_jones, "-0.5 nm", "-1 nm"), &[]);
+    assert!(
+        beyond[0].contains("a mean gap must stay above -1 nm"),
+        "{beyond:?}"
+    );
+}
+
+#[test]
+fn outputs_are_read() {
+    let output = |text: &str| accepted(&edited(GOOD, "images = []", text)).output;
+    let found =
+        output("images = [\"gap\", \"heights\"]\nfields = [\"displacement\"]\nsteps = [2, 1]");
+    assert_eq!(found.images, [FieldName::Gap, FieldName::Heights]);
+    assert_eq!(found.fields, [FieldName::Displacement]);
+    assert_eq!(found.steps, StepChoice::List(vec![2, 1]));
+    assert_eq!(output("steps = \"all\"").steps, StepChoice::All);
+    assert_eq!(output("steps = \"last\""), OutputScene::default());
+}
+
+#[test]
+fn inline_tables_and_dotted_keys_do_as_well() {
+    let scene = accepted(
+        r#"grid = { points = 64, size = "1 um" }
+solid.contact_modulus = "1 GPa"
+surface = [{ kind = "sphere", radius = "1 um" }, { kind = "flat" }]
+loading.control = "approach"
+loading.start = 0
+loading.ramp = [{ to = "1 nm", steps = 1 }]
+"#,
+    );
+    assert_eq!(scene.surfaces.len(), 2);
+    assert_eq!(scene.loading.path, [0.0, 1e-9]);
+    let messages = refused("solid.contact_modulus = 0", &[]).join("\n");
+    assert!(
+        messages.contains("s.toml:1: solid.contact_modulus: 0 is out of range"),
+        "{messages}"
+    );
+    let messages = refused("surface = []", &[]).join("\n");
+    assert!(
+        messages.contains("s.toml:1: surface: is empty; add for example [[surface]]"),
+        "{messages}"
+    );
+}
+
+#[test]
+fn a_resolved_scene_is_the_same_scene() {
+    let every_part = edited(
+        GOOD,
+        "[adhesion]",
+        "centre = [1e-7, 2e-7]\n[[surface]]\nkind = \"cone\"\nhalf_angle = 30\n[[surface]]\nkind = \"flat\"\n[[surface]]\nkind = \"wavy\"\namplitude = 1e-9\nwavelength = [\"inf\", 1e-6]\n[adhesion]",
+    );
+    for text in [
+        GOOD.to_string(),
+        every_part,
+        hard(),
+        young(),
+        self_affine(),
+        wavy(),
+        height_file().replace("[grid]\npoints = 64\nsize = \"1 um\"\n", ""),
+        ramps(),
+        spring(),
+        edited(
+            GOOD,
+            "range = \"1 nm\"",
+            "range = \"auto\"\ntaper = \"0.1 nm\"",
+        ),
+        edited(GOOD, "maugis-dugdale", "lennard-jones"),
+        edited(GOOD, "images = []", "images = [\"gap\"]\nsteps = [1]"),
+    ] {
+        let scene = accepted(&text);
+        let resolved = toml::to_string(&scene.resolved_json()).expect("a scene as TOML");
+        assert_eq!(accepted(&resolved), scene, "{resolved}");
+    }
+    let json = accepted(&edited(&cone(), "70 deg", "30 deg")).resolved_json();
+    assert_eq!(json["surface"][0]["half_angle"], 30.0);
+    assert_eq!(json["grid"]["points"], serde_json::json!([64, 64]));
+    assert_eq!(json["adhesion"]["taper"], "auto");
+    assert!(accepted(&hard()).resolved_json().get("adhesion").is_none());
+}
+
+#[test]
+fn files_are_read_and_their_folder_is_kept() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let path = folder.path().join("scene.toml");
+    std::fs::write(&path, height_file()).expect("a file");
+    let scene = Scene::read(&path, &[]).expect("a right scene");
+    assert_eq!(scene.folder, folder.path());
+    let SurfacePart::File(part) = &scene.surfaces[0] else {
+        panic!("{scene:?}");
+    };
+    assert_eq!(part.path, folder.path().join("h.npy"));
+
+    let missing = Scene::read(&folder.path().join("no.toml"), &[]).expect_err("no file");
+    let text = missing.to_string();
+    assert!(text.contains("no.toml: cannot be read: "), "{text}");
+    assert!(Scene::read(folder.path(), &[]).is_err());
+    std::fs::write(&path, [0xff, 0xfe, 0x00]).expect("a file");
+    let text = Scene::read(&path, &[]).expect_err("no text").to_string();
+    assert!(
+        text.contains("cannot be read: it is not UTF-8 text"),
+        "{text}"
+    );
+}
+
+#[test]
+fn windows_line_ends_and_marks_are_harmless() {
+    let text = format!("\u{feff}{}", GOOD.replace('\n', "\r\n"));
+    assert_eq!(accepted(&text), accepted(GOOD));
+    let messages = refused(&edited(&text, "points = 64", "points = 0"), &[]);
+    assert!(
+        messages[0].starts_with("s.toml:3: grid.points"),
+        "{messages:?}"
+    );
+}
+
+#[test]
+fn deep_and_long_text_is_refused_in_short() {
+    for text in [
+        "a.".repeat(100_000) + "a = 1",
+        format!("a = {}", "[".repeat(100_000)),
+        format!("a = {}", "{a=".repeat(100_000)),
+        format!("[{}a]", "a.".repeat(100_000)),
+        format!("title = 1\n{} = 1", "k".repeat(100_000)),
+        edited(GOOD, "maugis-dugdale", &"x".repeat(100_000)),
+    ] {
+        let messages = refused(&text, &[]);
+        assert!(messages.iter().all(|message| message.len() < 1000));
+    }
+    let key = "a.".repeat(100_000) + "a";
+    assert!(refused(GOOD, &[(&key, "1")])[0].len() < 1000);
+    let value = "[".repeat(100_000);
+    assert!(refused(GOOD, &[("grid.points", &value)])[0].len() < 1000);
+}
+
+#[test]
+fn powers_of_ten_that_run_out_are_refused() {
+    for (from, to, beginning) in [
+        (
+            "work_of_adhesion = \"50 mJ/m^2\"",
+            "peak_tension = 1e-320",
+            "s.toml:12: adhesion.peak_tension: makes the third number of the law 0e0",
+        ),
+        (
+            "range = \"1 nm\"",
+            "peak_tension = 1e-320",
+            "s.toml:13: adhesion.peak_tension: makes the third number of the law inf",
+        ),
+        (
+            "contact_modulus = \"1 GPa\"",
+            "young_modulus = 1e-320\npoisson_ratio = 0.3",
+            "s.toml:6: solid.young_modulus: makes the contact modulus 0e0 Pa",
+        ),
+        (
+            "path = [\"1 MPa\", \"2 MPa\"]",
+            "start = 1e308\nramp = [{ to = -1e308, steps = 2 }]",
+            "s.toml:17: loading.ramp: spans more than a number can hold",
+        ),
+    ] {
+        let messages = refused(&edited(GOOD, from, to), &[]);
+        assert!(
+            messages.len() == 1 && messages[0].starts_with(beginning),
+            "{messages:#?}"
+        );
+    }
+}
+
+/// Fragments that scenes are made of, to be thrown together.
+fn fragment() -> impl Strategy<Value = String> {
+    prop_oneof![
+        prop::sample::select(vec![
+            "[grid]",
+            "[[surface]]",
+            "[adhesion]",
+            "[loading]",
+            "[[loading.ramp]]",
+            "[solver]",
+            "[output]",
+            "points",
+            "size",
+            "kind",
+            "path",
+            "steps",
+            "range",
+            "to",
+            "start",
+            "wavelength",
+            "= ",
+            "\n",
+            "\"",
+            "[",
+            "]",
+            "{",
+            "}",
+            ",",
+            "\"1 um\"",
+            "\"inf\"",
+            "nan",
+            "-inf",
+            "1e308",
+            "9223372036854775807",
+            "-9223372036854775808",
+            "\"auto\"",
+            "0",
+            "true",
+            "1979-05-27",
+            "\"self-affine\"",
+            "\"wavy\"",
+            "\"file\"",
+            ".",
+            "#",
+            "µ",
+        ])
+        .prop_map(str::to_string),
+        ".{0,8}",
+    ]
+}
+
+proptest! {
+    #[test]
+    fn no_text_makes_the_reader_panic(
+        from in 0usize..400,
+        to in 0usize..400,
+        pieces in prop::collection::vec(fragment(), 0..6),
+        base in 0usize..6,
+        key in "[a-z0-9.]{0,24}",
+        value in fragment(),
+    ) {
+        let bases = [GOOD.to_string(), self_affine(), wavy(), height_file(), ramps(), spring()];
+        let letters: Vec<char> = bases[base].chars().collect();
+        let from = from.min(letters.len());
+        let to = to.clamp(from, (from + 40).min(letters.len()).max(from));
+        let text: String = letters[..from].iter().collect::<String>()
+            + &pieces.concat()
+            + &letters[to..].iter().collect::<String>();
+        if let Err(errors) = parse(&text) {
+            prop_assert!(!errors.0.is_empty());
+            prop_assert_eq!(errors.to_string().lines().count(), errors.0.len());
+        }
+        let keys = ["grid.points", "surface.0.kind", "loading.path.0", "adhesion", &key];
+        for key in keys {
+            if let Err(errors) = parse_set(&bases[base], &[(key, &value)]) {
+                prop_assert!(!errors.0.is_empty());
+            }
+        }
+    }
+}
