@@ -3,6 +3,8 @@
 #![warn(missing_docs)]
 
 pub mod backend;
+pub mod cli;
+pub mod effect;
 pub mod elastic;
 pub mod grid;
 pub mod kernel;

@@ -1,2 +1,7 @@
 //! The command line of tabor.
-fn main() {}
+
+use std::process::ExitCode;
+
+fn main() -> ExitCode {
+    tabor::cli::main()
+}

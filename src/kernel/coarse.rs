@@ -43,7 +43,12 @@ pub(super) fn add_interpolated<T: Real>(rows: &mut Rows<T>) {
     let (first, width) = (rows.first, rows.width);
     let ratio = width / cells;
     let shares = shares::<T>(ratio);
-    for (row, line) in rows.lines.chunks_exact_mut(width).take(rows.count).enumerate() {
+    for (row, line) in rows
+        .lines
+        .chunks_exact_mut(width)
+        .take(rows.count)
+        .enumerate()
+    {
         let fine = first + row;
         let (cell, place) = (fine / ratio, fine % ratio);
         let other = neighbour(cell, place, ratio, cell_rows);

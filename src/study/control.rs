@@ -151,13 +151,23 @@ impl<'s> Controller<'s> {
             Control::Approach => (self.highest - value) / problem.scales.length,
         };
         // With a spring or on a free boundary an overlap is left to the solver to push out.
-        let gap: Vec<f64> = problem.heights.iter().map(|h| (level - h).max(0.0)).collect();
+        let gap: Vec<f64> = problem
+            .heights
+            .iter()
+            .map(|h| (level - h).max(0.0))
+            .collect();
         problem.padded(&gap, 0.0)
     }
 
     /// Position and load of a solved state, from the mean pressure that is held (reduced), the mean
     /// of g + h over all solved points and the mean gap over the grid (reduced).
-    pub fn position(&self, load: &Load, held: f64, mean_displacement: f64, mean_gap: f64) -> Position {
+    pub fn position(
+        &self,
+        load: &Load,
+        held: f64,
+        mean_displacement: f64,
+        mean_gap: f64,
+    ) -> Position {
         let scales = self.problem.scales;
         let mean_pressure = held + load.zero_stiffness * mean_displacement;
         let approach = match self.problem.boundary {

@@ -84,7 +84,11 @@ pub(super) fn step(
                 let span = upper.repulsive - low.repulsive;
                 // Regula falsi where it works, halves where it does not.
                 let share = upper.excess / (upper.excess - low.excess);
-                let share = if span > 0.5 * width { 0.5 } else { share.clamp(0.05, 0.95) };
+                let share = if span > 0.5 * width {
+                    0.5
+                } else {
+                    share.clamp(0.05, 0.95)
+                };
                 width = span;
                 upper.repulsive - share * span
             }

@@ -74,8 +74,13 @@ impl Evaluation {
         let summed_after = setup.dmt;
         let padded = problem.padded(&problem.heights, 0.0);
         let count_all = problem.shape.len() as f64;
-        let mean_displacement =
-            solved.gap.iter().zip(&padded).map(|(g, h)| g + h).sum::<f64>() / count_all;
+        let mean_displacement = solved
+            .gap
+            .iter()
+            .zip(&padded)
+            .map(|(g, h)| g + h)
+            .sum::<f64>()
+            / count_all;
         let gap = problem.surface_part(solved.gap);
         let elastic = problem.surface_part(solved.elastic);
         let count = gap.len() as f64;
@@ -90,7 +95,11 @@ impl Evaluation {
         let negative_is_contact = matches!(problem.law, Law::LennardJones(_));
         for i in 0..gap.len() {
             let g = gap[i];
-            let closed = if negative_is_contact { g < 0.0 } else { g <= 0.0 };
+            let closed = if negative_is_contact {
+                g < 0.0
+            } else {
+                g <= 0.0
+            };
             let traction = law.traction(g);
             let y = elastic[i] + solved.held;
             net[i] = if negative_is_contact {
@@ -131,7 +140,11 @@ impl Evaluation {
                 .map(|((g, h), p)| (p - spring + elastic_part) * (g + h + shift))
                 .sum::<f64>();
         let contact = points.iter().filter(|&&p| p == PointState::Contact).count() as f64 / count;
-        let attracted = points.iter().filter(|&&p| p == PointState::Attracted).count() as f64 / count;
+        let attracted = points
+            .iter()
+            .filter(|&&p| p == PointState::Attracted)
+            .count() as f64
+            / count;
         let state = if contact > 0.0 {
             State::Contact
         } else if strongest > NEGLIGIBLE * law.peak_tension() {

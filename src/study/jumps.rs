@@ -91,7 +91,10 @@ impl Jumps {
         let places = places?;
         let span = places.iter().copied().fold(f64::NEG_INFINITY, f64::max)
             - places.iter().copied().fold(f64::INFINITY, f64::min);
-        if rows.len() < 3 || !rows.iter().all(|row| row.converged) || (last - first).abs() > CLOSED * span {
+        if rows.len() < 3
+            || !rows.iter().all(|row| row.converged)
+            || (last - first).abs() > CLOSED * span
+        {
             return None;
         }
         Some(
@@ -107,8 +110,7 @@ impl Jumps {
 pub fn dissipation(before: &StepRow, row: &StepRow) -> Option<f64> {
     let moved = row.approach? - before.approach?;
     let work = 0.5 * (before.force + row.force) * moved;
-    let stored = row.elastic_energy + row.adhesive_energy
-        - before.elastic_energy
-        - before.adhesive_energy;
+    let stored =
+        row.elastic_energy + row.adhesive_energy - before.elastic_energy - before.adhesive_energy;
     Some(work - stored)
 }

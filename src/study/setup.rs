@@ -1,7 +1,7 @@
 //! From a scene and its surface to the problem that is solved: law, regime, warnings.
 
 use crate::law::{Exponential, Law, LennardJones, MaugisDugdale};
-use crate::scene::{AdhesionScene, LawName, Range, Scene, Treatment};
+use crate::scene::{AdhesionScene, Boundary, LawName, Range, Scene, Treatment};
 use crate::solver::Problem;
 use crate::surface::{Surface, statistics::Statistics};
 use crate::units::format_si;
@@ -28,6 +28,8 @@ pub struct Setup {
     pub regime: Option<Regime>,
     /// What the user should know.
     pub warnings: Vec<String>,
+    /// Real two-dimensional transforms that the statistics took.
+    pub transforms: f64,
 }
 
 /// Where a scene's adhesion stands between DMT and JKR, and on its grid.
@@ -118,6 +120,10 @@ impl Setup {
                 zone_pixels: std::f64::consts::FRAC_PI_4 * modulus * work / (peak * peak) / pixel,
             }
         });
+        let transforms = match scene.grid.boundary {
+            Boundary::Periodic => 1.0,
+            Boundary::Free => 0.0,
+        };
         let problem = Problem::new(
             grid,
             scene.grid.boundary,
@@ -135,6 +141,7 @@ impl Setup {
             problem,
             dmt,
             regime,
+            transforms,
         };
         setup.warn_of_pixels();
         setup.warn_of_waves();
@@ -164,7 +171,13 @@ impl Setup {
         let text = match self.law {
             Law::MaugisDugdale(law) if law.taper == 0.0 && chi > 0.02 => Some(format!(
                 "{measured}: the sharp law traps the contact edge, pull-off {} too high; leave taper at \"auto\", or {remedy}",
-                if chi > 0.1 { "10 % or more" } else if chi >= 0.04 { "3 to 10 %" } else { "about 2 %" }
+                if chi > 0.1 {
+                    "10 % or more"
+                } else if chi >= 0.04 {
+                    "3 to 10 %"
+                } else {
+                    "about 2 %"
+                }
             )),
             Law::MaugisDugdale(law) if law.taper > 0.0 && chi > 1.3 => Some(format!(
                 "{measured}: beyond 1.3 the taper cannot free the contact edge, pull-off may be tens of per cent too high; {remedy}"

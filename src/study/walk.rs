@@ -152,7 +152,15 @@ impl PathState<'_> {
         };
         let is_load = self.controller.is_load();
         let solved = if setup.dmt && is_load {
-            dmt::step(setup, &self.controller, solver, value, self.loaded, make_backend, &mut watch)?
+            dmt::step(
+                setup,
+                &self.controller,
+                solver,
+                value,
+                self.loaded,
+                make_backend,
+                &mut watch,
+            )?
         } else if is_load && setup.problem.law == Law::HardWall && value <= 0.0 {
             // A wall alone carries no tension, and at zero load it only touches.
             separated()

@@ -127,8 +127,15 @@ fn curves() {
             let every = rows.len().div_ceil(12);
             rows = rows.into_iter().rev().step_by(every).collect();
         }
-        rows.sort_by(|&a, &b| curve.number(b, "delta_bar").total_cmp(&curve.number(a, "delta_bar")));
-        let largest = rows.iter().map(|&i| curve.number(i, "c_bar")).fold(0.0, f64::max);
+        rows.sort_by(|&a, &b| {
+            curve
+                .number(b, "delta_bar")
+                .total_cmp(&curve.number(a, "delta_bar"))
+        });
+        let largest = rows
+            .iter()
+            .map(|&i| curve.number(i, "c_bar"))
+            .fold(0.0, f64::max);
         let Some(sphere) = Sphere::resolved(lambda, largest, &name) else {
             continue;
         };
@@ -141,12 +148,25 @@ fn curves() {
             let pixel = sphere.side / sphere.points as f64;
             let area = sphere.side * sphere.side;
             let contact = (step.row.contact_area_fraction_corrected.unwrap() * area / PI).sqrt();
-            let cohesive = ((step.row.contact_area_fraction + step.row.attractive_area_fraction) * area / PI).sqrt();
+            let cohesive =
+                ((step.row.contact_area_fraction + step.row.attractive_area_fraction) * area / PI)
+                    .sqrt();
             // A radius from counted pixels, and from the middle of a taper, is good to a pixel.
-            assert!((contact - curve.number(i, "a_bar")).abs() < pixel, "{name} row {i}: a");
-            assert!((cohesive - curve.number(i, "c_bar")).abs() < 1.5 * pixel, "{name} row {i}: c {cohesive} {}", curve.number(i, "c_bar"));
+            assert!(
+                (contact - curve.number(i, "a_bar")).abs() < pixel,
+                "{name} row {i}: a"
+            );
+            assert!(
+                (cohesive - curve.number(i, "c_bar")).abs() < 1.5 * pixel,
+                "{name} row {i}: c {cohesive} {}",
+                curve.number(i, "c_bar")
+            );
         }
-        println!("{name}: {} points, {} rows, force within {worst:.1e} of 2 pi w R", sphere.points, rows.len());
+        println!(
+            "{name}: {} points, {} rows, force within {worst:.1e} of 2 pi w R",
+            sphere.points,
+            rows.len()
+        );
         // Window 2.3 cohesive radii, 256 points: 1.1e-3, 2.1e-3, 3.4e-3 were measured apart from
         // this code at lambda 0.2, 1 and 5; twice that, as these grids are up to half as fine.
         let bound = 4e-3 + 2e-3 * lambda;
@@ -170,11 +190,21 @@ fn pull_off() {
         };
         let expected = 2.0 * special.number(row, "pull_F_over_2piwR");
         let accuracy = 2.0 * (4e-3 + 2e-3 * lambda);
-        let path = [0.0, -0.6 * expected, -0.9 * expected, -(expected - accuracy), -(expected + accuracy)];
+        let path = [
+            0.0,
+            -0.6 * expected,
+            -0.9 * expected,
+            -(expected - accuracy),
+            -(expected + accuracy),
+        ];
         let solved = sphere.solve("force", &path);
         let states: Vec<State> = solved.rows().map(|row| row.state).collect();
         assert_eq!(states[3], State::Contact, "{name}: parted below {expected}");
-        assert_eq!(states[4], State::Separated, "{name}: held beyond {expected}");
+        assert_eq!(
+            states[4],
+            State::Separated,
+            "{name}: held beyond {expected}"
+        );
         assert_eq!(solved.end.jump_off_steps, [5]);
         // Each row stands at its own load, nothing is interpolated.
         for (row, load) in solved.rows().zip(path).take(4) {
@@ -196,7 +226,11 @@ fn jumps() {
     for row in 0..special.len() {
         let lambda = special.number(row, "lambda");
         let name = format!("jumps at lambda {lambda}");
-        let Some(sphere) = Sphere::resolved(lambda, 1.3 * special.number(row, "ji_land_c_bar").max(1.0), &name) else {
+        let Some(sphere) = Sphere::resolved(
+            lambda,
+            1.3 * special.number(row, "ji_land_c_bar").max(1.0),
+            &name,
+        ) else {
             continue;
         };
         let range = sphere.range();
@@ -212,9 +246,15 @@ fn jumps() {
         let start = first - 5.5 * step;
         let path: Vec<f64> = (0..12).map(|i| start + step * f64::from(i)).collect();
         let solved = sphere.solve("approach", &path);
-        let met = solved.rows().find(|row| row.state != State::Separated).expect("they meet");
+        let met = solved
+            .rows()
+            .find(|row| row.state != State::Separated)
+            .expect("they meet");
         let at = met.approach.unwrap();
-        assert!((at - first).abs() <= step + 0.02 * first.abs(), "{name}: in at {at}, {first}");
+        assert!(
+            (at - first).abs() <= step + 0.02 * first.abs(),
+            "{name}: in at {at}, {first}"
+        );
         // Off: from contact outwards past the fold.
         let mut path = vec![0.0, 0.5 * off, off + 8.5 * step];
         path.extend((0..18).map(|i| off + step * (7.5 - f64::from(i))));
@@ -225,7 +265,10 @@ fn jumps() {
             .zip(&path)
             .find(|(step, _)| step.jump == Some(Jump::Off))
             .unwrap_or_else(|| panic!("{name}: no jump off"));
-        assert!((last - off).abs() <= step + 0.02 * off.abs(), "{name}: off at {last}, {off}");
+        assert!(
+            (last - off).abs() <= step + 0.02 * off.abs(),
+            "{name}: off at {last}, {off}"
+        );
         let parted = solved.rows().last().expect("rows");
         assert_eq!(parted.state, State::Separated, "{name}");
         assert_eq!(parted.force, 0.0);
@@ -235,14 +278,21 @@ fn jumps() {
 /// A soft, long-ranged contact opens and closes along one curve.
 fn no_jump(sphere: &Sphere, first: f64, step: f64) {
     let count = 14;
-    let mut path: Vec<f64> = (0..=count).map(|i| first + step * (f64::from(i) - 5.5)).collect();
+    let mut path: Vec<f64> = (0..=count)
+        .map(|i| first + step * (f64::from(i) - 5.5))
+        .collect();
     let back: Vec<f64> = path.iter().rev().skip(1).copied().collect();
     path.extend(back);
     let solved = sphere.solve("approach", &path);
     let forces: Vec<f64> = solved.rows().map(|row| 0.5 * row.force).collect();
     for i in 0..forces.len() {
         let there = forces[forces.len() - 1 - i];
-        assert!((forces[i] - there).abs() < 0.01, "{} {there} at {}", forces[i], path[i]);
+        assert!(
+            (forces[i] - there).abs() < 0.01,
+            "{} {there} at {}",
+            forces[i],
+            path[i]
+        );
     }
 }
 
@@ -262,6 +312,9 @@ fn limits() {
         let solved = sphere.solve("force", &path);
         let pull_off = solved.rows().map(|row| -row.force).fold(0.0, f64::max);
         println!("lambda {lambda}: {pull_off} {} points", sphere.points);
-        assert!((pull_off / limit - 1.0).abs() <= within, "lambda {lambda}: {pull_off}");
+        assert!(
+            (pull_off / limit - 1.0).abs() <= within,
+            "lambda {lambda}: {pull_off}"
+        );
     }
 }

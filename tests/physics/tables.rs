@@ -23,7 +23,9 @@ impl Table {
     }
 
     pub fn column(&self, column: &str) -> Vec<f64> {
-        (0..self.len()).map(|row| self.number(row, column)).collect()
+        (0..self.len())
+            .map(|row| self.number(row, column))
+            .collect()
     }
 }
 
@@ -42,9 +44,22 @@ pub fn table(name: &str) -> Option<Table> {
         println!("skipped: no table {name}");
         return None;
     };
-    let mut lines = text.lines().filter(|line| !line.starts_with('#') && !line.trim().is_empty());
-    let head = lines.next()?.split(',').enumerate().map(|(i, name)| (name.trim().to_string(), i)).collect();
-    let rows = lines.map(|line| line.split(',').map(|cell| cell.trim().to_string()).collect()).collect();
+    let mut lines = text
+        .lines()
+        .filter(|line| !line.starts_with('#') && !line.trim().is_empty());
+    let head = lines
+        .next()?
+        .split(',')
+        .enumerate()
+        .map(|(i, name)| (name.trim().to_string(), i))
+        .collect();
+    let rows = lines
+        .map(|line| {
+            line.split(',')
+                .map(|cell| cell.trim().to_string())
+                .collect()
+        })
+        .collect();
     Some(Table { head, rows })
 }
 
@@ -56,7 +71,11 @@ pub fn parameters(prefix: &str) -> Vec<(f64, String)> {
                 .flatten()
                 .filter_map(|entry| {
                     let name = entry.file_name().into_string().ok()?;
-                    let number = name.strip_prefix(prefix)?.strip_suffix(".csv")?.parse().ok()?;
+                    let number = name
+                        .strip_prefix(prefix)?
+                        .strip_suffix(".csv")?
+                        .parse()
+                        .ok()?;
                     Some((number, name))
                 })
                 .collect()

@@ -89,11 +89,6 @@ impl<T: Real> Transform<T> {
         }
     }
 
-    /// Bytes that the work space holds.
-    pub fn bytes(&self) -> usize {
-        (self.by_rows.len() + self.by_columns.len()) * size_of::<Complex<T>>()
-    }
-
     /// Fills lines by the job's twin and transforms them.
     pub fn forward(&mut self, job: Job<T>) {
         let Transform {

@@ -1,0 +1,194 @@
+//! The command line: arguments, messages, exit statuses.
+
+mod check;
+mod run;
+
+use std::path::PathBuf;
+use std::process::ExitCode;
+
+use clap::{Args, Parser, Subcommand, ValueEnum};
+
+use crate::backend::BackendError;
+use crate::output::OutputError;
+use crate::scene::{Scene, SceneErrors};
+use crate::surface::SurfaceError;
+
+/// Adhesive contact of rough surfaces, solved as a full field.
+#[derive(Debug, Parser)]
+#[command(name = "tabor", version, about, propagate_version = true)]
+#[command(
+    after_help = "Example:\n  tabor run examples/scenes/rough.toml --out rough\n  tabor check examples/scenes/rough.toml"
+)]
+struct Arguments {
+    #[command(subcommand)]
+    command: Command,
+}
+
+#[derive(Debug, Subcommand)]
+enum Command {
+    /// Solve every step of a scene and write its results
+    #[command(
+        after_help = "Example:\n  tabor run examples/scenes/sphere_pull_off.toml --out pull_off --set grid.points=256"
+    )]
+    Run(RunArguments),
+    /// Read a scene and say what it would do and cost, without solving it
+    #[command(after_help = "Example:\n  tabor check examples/scenes/rough.toml")]
+    Check(CheckArguments),
+    /// Statistics of a surface (not in this version)
+    Surface(Later),
+    /// Tabulate an analytic model (not in this version)
+    Theory(Later),
+    /// The same surface through several models (not in this version)
+    Compare(Later),
+    /// Error against seconds (not in this version)
+    Accuracy(Later),
+    /// Work of adhesion and modulus from a force curve (not in this version)
+    Fit(Later),
+    /// Adapters found (not in this version)
+    Devices(Later),
+}
+
+#[derive(Debug, Args)]
+struct RunArguments {
+    /// The scene, a TOML file
+    scene: PathBuf,
+    /// Folder for the results [default: the scene's name, in the current folder]
+    #[arg(long, value_name = "DIR")]
+    out: Option<PathBuf>,
+    /// Where the arithmetic runs
+    #[arg(long, value_enum)]
+    backend: Option<BackendChoice>,
+    /// Arithmetic
+    #[arg(long, value_enum)]
+    precision: Option<PrecisionChoice>,
+    /// Threads [default: one a core]
+    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u16).range(1..=1024))]
+    threads: Option<u16>,
+    /// Go on after the last finished step (not in this version)
+    #[arg(long)]
+    resume: bool,
+    /// No progress; warnings and errors are still said
+    #[arg(long)]
+    quiet: bool,
+    /// Override a key of the scene, as in surface.0.hurst=0.4; may be repeated
+    #[arg(long, value_name = "KEY=VALUE", value_parser = key_and_value)]
+    set: Vec<(String, String)>,
+}
+
+#[derive(Debug, Args)]
+struct CheckArguments {
+    /// The scene, a TOML file
+    scene: PathBuf,
+    /// Override a key of the scene, as in surface.0.hurst=0.4; may be repeated
+    #[arg(long, value_name = "KEY=VALUE", value_parser = key_and_value)]
+    set: Vec<(String, String)>,
+}
+
+#[derive(Debug, Args)]
+struct Later {
+    /// Whatever the command will take
+    #[arg(trailing_var_arg = true, allow_hyphen_values = true, hide = true)]
+    rest: Vec<String>,
+}
+
+#[derive(Clone, Copy, Debug, ValueEnum)]
+enum BackendChoice {
+    Auto,
+    Cpu,
+    Gpu,
+}
+
+#[derive(Clone, Copy, Debug, ValueEnum)]
+enum PrecisionChoice {
+    Auto,
+    Single,
+    Mixed,
+    Double,
+}
+
+fn key_and_value(text: &str) -> Result<(String, String), String> {
+    match text.split_once('=') {
+        Some((key, value)) if !key.trim().is_empty() => {
+            Ok((key.trim().to_owned(), value.trim().to_owned()))
+        }
+        _ => Err("write KEY=VALUE, as in --set grid.points=256".to_owned()),
+    }
+}
+
+/// Why a command did not end well.
+#[derive(Debug, thiserror::Error)]
+enum Failure {
+    #[error("{0}")]
+    Scene(#[from] SceneErrors),
+    #[error("{path}: {error}", path = path.display())]
+    Surface { path: PathBuf, error: SurfaceError },
+    #[error(transparent)]
+    Output(#[from] OutputError),
+    #[error(transparent)]
+    Backend(#[from] BackendError),
+    #[error("{0}")]
+    Usage(String),
+    #[error(
+        "step {step} did not converge: residual {residual:.1e} after {iterations} iterations, asked {tolerance:.1e}; its row is written and marked; {remedy}"
+    )]
+    NotConverged {
+        step: usize,
+        residual: f64,
+        iterations: usize,
+        tolerance: f64,
+        remedy: &'static str,
+    },
+    #[error("interrupted; finished steps are kept")]
+    Interrupted,
+    #[error("cannot print: {0}")]
+    Print(std::io::Error),
+}
+
+impl Failure {
+    fn status(&self) -> u8 {
+        match self {
+            Failure::Output(OutputError::Refused { .. }) => 2,
+            Failure::Output(_) | Failure::Print(_) => 1,
+            Failure::Scene(_) | Failure::Surface { .. } | Failure::Usage(_) => 2,
+            Failure::NotConverged { .. } => 3,
+            Failure::Backend(_) => 4,
+            Failure::Interrupted => 130,
+        }
+    }
+}
+
+/// Runs the command line and says how it ended.
+pub fn main() -> ExitCode {
+    // clap prints its own messages and exits with 2 where the call is wrong.
+    let arguments = Arguments::parse();
+    let done = match arguments.command {
+        Command::Run(arguments) => run::run(&arguments),
+        Command::Check(arguments) => check::check(&arguments),
+        Command::Surface(later) => not_in_this_version("surface", &later),
+        Command::Theory(later) => not_in_this_version("theory", &later),
+        Command::Compare(later) => not_in_this_version("compare", &later),
+        Command::Accuracy(later) => not_in_this_version("accuracy", &later),
+        Command::Fit(later) => not_in_this_version("fit", &later),
+        Command::Devices(later) => not_in_this_version("devices", &later),
+    };
+    match done {
+        Ok(()) => ExitCode::SUCCESS,
+        Err(failure) => {
+            for line in failure.to_string().lines() {
+                eprintln!("error: {line}");
+            }
+            ExitCode::from(failure.status())
+        }
+    }
+}
+
+fn not_in_this_version(command: &str, _: &Later) -> Result<(), Failure> {
+    Err(Failure::Usage(format!(
+        "tabor {command} is not in this version; this one has run and check"
+    )))
+}
+
+/// Reads a scene with its overrides.
+fn read_scene(path: &std::path::Path, set: &[(String, String)]) -> Result<Scene, Failure> {
+    Ok(Scene::read(path, set)?)
+}
