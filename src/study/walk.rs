@@ -218,12 +218,12 @@ impl PathState<'_> {
         let area = self.setup.surface.grid.area();
         let control = self.setup.scene.loading.control;
         let evaluation = solved.evaluation.as_ref();
-        let force = match (control, evaluation) {
-            (_, None) => 0.0,
-            // The residual was met at the asked load, so the asked load it is.
-            (Control::Force, Some(_)) => value,
-            (Control::Pressure, Some(_)) => value * area,
-            (_, Some(evaluation)) => evaluation.force,
+        // Where a load was asked the residual was met at that load, so that load it is.
+        let (force, mean_pressure) = match (control, evaluation) {
+            (_, None) => (0.0, 0.0),
+            (Control::Force, Some(_)) => (value, value / area),
+            (Control::Pressure, Some(_)) => (value * area, value),
+            (_, Some(evaluation)) => (evaluation.force, evaluation.force / area),
         };
         StepRow {
             step,
@@ -231,7 +231,7 @@ impl PathState<'_> {
             approach: evaluation.map(|e| e.position.approach),
             mean_gap: evaluation.map(|e| e.position.mean_gap),
             force,
-            mean_pressure: force / area,
+            mean_pressure,
             contact_area_fraction: evaluation.map_or(0.0, |e| e.contact),
             attractive_area_fraction: evaluation.map_or(0.0, |e| e.attracted),
             elastic_energy: evaluation.map_or(0.0, |e| e.elastic_energy),
