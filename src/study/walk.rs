@@ -115,6 +115,9 @@ pub fn walk<O: Observer>(
     Ok(end)
 }
 
+/// Share of the mean gap below which a point moved by it is closed: the rounding of that mean.
+const CLOSED: f64 = 1e-13;
+
 /// A step as solved.
 pub(super) struct SolvedStep {
     /// Fields and sums; `None` where no equilibrium carries the load.
@@ -205,7 +208,15 @@ impl PathState<'_> {
         let least = gap.iter().copied().fold(f64::INFINITY, f64::min);
         // Open surfaces move rigidly; a wall in contact stays where it is and the rest scales.
         if !problem.law.has_wall() || (least > 0.0 && least + target - mean >= 0.0) {
-            gap.iter_mut().for_each(|g| *g += target - mean);
+            let moved = target - mean;
+            // Surfaces that meet in this very step meet everywhere they should.
+            let rounding = CLOSED * mean.abs();
+            for g in &mut gap {
+                *g += moved;
+                if problem.law.has_wall() && *g <= rounding {
+                    *g = 0.0;
+                }
+            }
         } else if mean > 0.0 {
             gap.iter_mut().for_each(|g| *g *= target / mean);
         } else {
