@@ -16,8 +16,10 @@
 //! | a rough surface by its summits | [`gw`], [`gw_m`], [`fuller_tabor`], [`icha`] |
 //! | a rough surface by its spectrum | [`spectrum`], [`persson`], [`persson_gap`], [`bam`], [`pastewka_robbins`] |
 
+mod block_solve;
 pub mod error;
 pub mod quadrature;
+mod ring;
 pub mod roots;
 pub mod special;
 
@@ -34,6 +36,8 @@ pub mod gw;
 pub mod gw_m;
 pub mod hertz;
 pub mod jkr;
+mod lennard_jones_curve;
+pub mod lennard_jones_sphere;
 pub mod love;
 pub mod maugis_dugdale;
 pub mod pastewka_robbins;

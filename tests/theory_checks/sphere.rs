@@ -3,6 +3,7 @@
 use crate::inputs::{Answer, Inputs};
 use serde_json::json;
 use tabor::theory::dmt::{self, Method};
+use tabor::theory::lennard_jones_sphere::LennardJonesSphere;
 use tabor::theory::maugis_dugdale::{self, MaugisDugdale};
 use tabor::theory::tabor_map::{self, Sphere};
 use tabor::theory::{Law, bradley, cone_punch, derjaguin, hertz, jkr};
@@ -107,6 +108,15 @@ pub fn evaluate(function: &str, inputs: &Inputs) -> Option<Answer> {
             let approach = tabor_map::maugis_from_lj_approach(approach, mu);
             let radius = jkr::reduced_radius_at_approach(approach)?;
             Ok(json!(0.5 * jkr::reduced_force(radius)))
+        },
+        "fig2_numeric_lj" => |i| {
+            let [approach, mu] = i.numbers(["delta_over_eps", "mu"]);
+            let sphere = LennardJonesSphere::new(mu, approach.max(0.0))?;
+            Ok(json!(sphere.at_approach(approach)?.force))
+        },
+        "pulloff_lj_sphere" => |i| {
+            let sphere = LennardJonesSphere::new(i.number("mu"), 0.0)?;
+            Ok(json!(sphere.pull_off()?.force))
         },
         "jkr_reduced" => |i| {
             let a = i.number("A");
