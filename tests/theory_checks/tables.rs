@@ -3,6 +3,7 @@
 use std::path::Path;
 use tabor::theory::lennard_jones_sphere::{self, LennardJonesSphere};
 use tabor::theory::maugis_dugdale::{FOLD_LAMBDA, MaugisDugdale};
+use tabor::theory::viscoelastic::Solid;
 use tabor::theory::{Law, Sphere, dmt, hertz, jkr, tabor_map, westergaard};
 
 /// A CSV file: the names of its columns and its rows, comments left out.
@@ -270,5 +271,23 @@ fn lennard_jones_profiles() {
         let x = row.number("x");
         row.check("u", 1.0 + sphere.gap(state, x), 1e-7, 1e-7);
         row.check("p", sphere.pressure(state, x), 1e-6, 1e-6);
+    }
+}
+
+#[test]
+fn step_load_on_a_viscoelastic_sphere() {
+    // Moduli in E_0, times in the relaxation time, lengths such that a_0 = 1 and R = 1.
+    let solid = Solid::new(0.1, 0.9, 1.0).expect("a solid");
+    let (radius, force) = (1.0, 4.0 / 3.0);
+    let unit = 3.0 * force / (2.0 * std::f64::consts::PI);
+    for row in Table::read("lee_radok_step_ratio0.1.csv").rows() {
+        let time = row.number("t_over_tau_r");
+        row.check("E0_J", solid.creep(time), 1e-10, 0.0);
+        let contact = solid.sphere_contact_radius(radius, force, time);
+        row.check("a_over_a0", contact.expect("a radius"), 1e-10, 0.0);
+        for (column, r) in [("p_r0", 0.0), ("p_r0.5a0", 0.5), ("p_r0.9a0", 0.9)] {
+            let pressure = solid.sphere_pressure(radius, force, time, r);
+            row.check(column, pressure.expect("a pressure") / unit, 1e-7, 1e-9);
+        }
     }
 }
