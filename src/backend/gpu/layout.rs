@@ -39,6 +39,7 @@ type Member = (&'static str, usize);
 const SCALARS: &[Member] = &[
     ("sums", SUMS),
     ("mean_pressure", 1),
+    ("offset", 1),
     ("descent", 1),
     ("memory", 1),
     ("shift", 1),
@@ -226,6 +227,7 @@ pub fn scalars_bytes(scalars: &Scalars, wide: Wide) -> Vec<u8> {
     let s = scalars;
     let single = [
         s.mean_pressure,
+        s.offset,
         s.descent,
         s.memory,
         s.shift,
@@ -323,6 +325,7 @@ pub fn scalars_of(bytes: &[u8], wide: Wide) -> Scalars {
     Scalars {
         sums: r.numbers(),
         mean_pressure: r.number(),
+        offset: r.number(),
         descent: r.number(),
         memory: r.number(),
         shift: r.number(),
