@@ -253,7 +253,7 @@ impl PathState<'_> {
             seconds,
             contact_area_fraction_corrected: match evaluation {
                 Some(evaluation) => evaluation.contact_corrected,
-                None => self.setup.law.has_wall().then_some(0.0),
+                None => self.setup.problem.law.has_wall().then_some(0.0),
             },
             state: evaluation.map_or(State::Separated, |e| e.state),
         }
