@@ -64,9 +64,9 @@ impl LennardJonesSphere {
     /// The state of greatest tension: pull-off under load control.
     pub fn pull_off(&self) -> Result<State, TheoryError> {
         let states = self.curve(|states| match states {
-            // Far away the force falls too, and rises by rounding at most.
+            // Pull-off is beyond -0.75 for all; a soft sphere has a lesser minimum before it touches.
             [.., before, middle, last] => {
-                middle.force < -0.3 && middle.force <= before.force && last.force > middle.force
+                middle.force < -0.6 && middle.force <= before.force && last.force > middle.force
             }
             _ => false,
         })?;

@@ -67,7 +67,7 @@ pub fn reduced_pull_off(speed: f64, exponent: f64) -> Result<f64, TheoryError> {
     let mut step = 1e-4;
     for _ in 0..2_000_000 {
         let (next, error) = runge_kutta(rate, y, radius, step);
-        if !(error <= 1e-10) {
+        if error.is_nan() || error > 1e-10 {
             step *= 0.5;
             if step < 1e-14 {
                 break;
