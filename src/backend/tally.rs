@@ -57,15 +57,6 @@ impl Tally {
         }
     }
 
-    /// Bytes of everything held.
-    pub fn bytes(&self) -> usize {
-        [&self.fields, &self.spectra, &self.work]
-            .into_iter()
-            .flatten()
-            .map(|held| held.bytes)
-            .sum()
-    }
-
     fn pass(&mut self, kernel: &'static Kernel, fields: &[Field]) {
         if self.mistake.is_none() {
             self.mistake = check_fields(kernel, fields).err();

@@ -4,7 +4,8 @@ use noto_sans_mono_bitmap::{FontWeight, RasterHeight};
 
 use super::canvas::{Font, TextLine, printable};
 use super::colour_scale::{ColourScale, round_down};
-use super::si::{format_si, scaled_unit};
+use super::si::scaled_unit;
+use crate::units::format_si;
 
 /// Longest side of a picture, pixels.
 pub const LONGEST_SIDE: u32 = 2048;

@@ -12,9 +12,9 @@ use super::folder::write_atomically;
 use super::layout::{Contents, LONGEST_FIELD, Layout, Rect, tick_mark};
 use super::png_text::with_texts;
 use super::resample::{drawn_size, resample};
-use super::si::format_si;
 use crate::grid::Grid;
 use crate::scene::{Control, FieldName};
+use crate::units::format_si;
 
 /// The load of a step, as a picture names it.
 #[derive(Clone, Copy, Debug, PartialEq)]
