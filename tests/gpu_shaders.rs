@@ -4,8 +4,11 @@ use naga::valid::{Capabilities, ModuleInfo, ValidationFlags, Validator};
 use tabor::backend::Shape;
 use tabor::backend::gpu::source::{self, LevelPlan, Results};
 use tabor::backend::gpu::{GroupLimits, LawPart, Wide};
-use tabor::kernel::common::{LOAD_DISPLACEMENT, LOAD_FIELD, STORE_PRESSURE};
-use tabor::kernel::{Gate, Kernel, Reduce};
+use tabor::kernel::common::{LOAD_FIELD, STORE_PRESSURE};
+use tabor::kernel::{Gate, Reduce};
+
+mod gpu_catalogue;
+use gpu_catalogue::{KERNELS, SCALAR_KERNELS};
 
 const LIMITS: GroupLimits = GroupLimits {
     threads: 1024,
@@ -25,10 +28,6 @@ const GATES: [Gate; 5] = [
     Gate::Accepted,
     Gate::Searching,
 ];
-
-fn catalogue() -> Vec<&'static Kernel> {
-    vec![&LOAD_DISPLACEMENT, &LOAD_FIELD, &STORE_PRESSURE]
-}
 
 /// Parses and validates with only the capabilities in use: with all of them a feature that a
 /// device lacks would go unseen.
@@ -74,7 +73,7 @@ fn kernels_are_valid_and_bind_what_the_catalogue_declares() {
         surface: [30, 20],
     };
     let padded = LevelPlan::new(padded, LIMITS).expect("a smooth size");
-    for kernel in catalogue() {
+    for kernel in KERNELS {
         for law in LAWS {
             for wide in NUMBERS {
                 for plan in [&plan(48, 64), &padded] {
@@ -132,6 +131,16 @@ fn reductions_are_valid() {
             ] {
                 validate("reduce", &source::reduce(results, 7, gate, wide), wide);
             }
+        }
+    }
+}
+
+#[test]
+fn scalar_kernels_are_valid() {
+    for wide in NUMBERS {
+        for kernel in SCALAR_KERNELS {
+            let text = source::scalar(kernel, wide).unwrap_or_else(|error| panic!("{error}"));
+            validate(kernel.name, &text, wide);
         }
     }
 }

@@ -38,7 +38,47 @@ const SHADERS: &[Shader] = shaders! {
     "load_displacement" false [];
     "load_field" false [];
     "store_pressure" false [];
+    "wall_residual" true ["wall"];
+    "wall_free" true ["wall"];
+    "wall_free_kept" true ["wall"];
+    "wall_descent" true ["wall", "wall_descend"];
+    "wall_descent_two_band" true ["wall", "wall_descend", "neighbours"];
+    "wall_trial" true ["wall"];
+    "wall_direct" true ["wall"];
+    "wall_trial_held" true ["wall"];
+    "wall_search" true ["wall"];
+    "wall_advance" true ["wall"];
+    "wall_balance" true ["wall"];
+    "core_residual" true ["core"];
+    "core_free" true ["core"];
+    "core_descent" true ["core"];
+    "core_direct" true ["core"];
+    "core_trial" true ["core"];
+    "core_search" true ["core"];
+    "core_advance" false [];
+    "core_balance" true ["core"];
+    "coarse_restrict" false [];
+    "coarse_share" false [];
+    "coarse_weight" false [];
+    "coarse_load" false [];
+    "coarse_store" false [];
 };
+
+/// Parts of the scalar kernels: those of every law, of a wall, of the Lennard-Jones core.
+const SCALAR_PARTS: [&str; 3] = [part!("scalar"), part!("scalar_wall"), part!("scalar_core")];
+
+/// The parts from which a scalar kernel is called, if one of them defines it.
+pub fn scalar(name: &str) -> Option<Vec<&'static str>> {
+    let definition = format!("\nfn {name}() {{");
+    let found = SCALAR_PARTS
+        .iter()
+        .position(|part| part.contains(&definition))?;
+    let mut parts = vec![SCALAR_PARTS[0]];
+    if found > 0 {
+        parts.push(SCALAR_PARTS[found]);
+    }
+    Some(parts)
+}
 
 /// The shader of a kernel, if it has one.
 pub fn shader(name: &str) -> Option<&'static Shader> {
@@ -71,6 +111,11 @@ impl LawPart {
 
     /// Its WGSL: `law_traction`, `law_energy` and `law_slope` of a gap.
     pub fn source(self) -> &'static str {
-        ""
+        match self {
+            LawPart::HardWall => part!("law_hard_wall"),
+            LawPart::MaugisDugdale => part!("law_maugis_dugdale"),
+            LawPart::Exponential => part!("law_exponential"),
+            LawPart::LennardJones => part!("law_lennard_jones"),
+        }
     }
 }

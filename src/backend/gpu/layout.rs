@@ -91,6 +91,7 @@ const PARAMS: &[Member] = &[
     ("core_stiffness", 1),
     ("epsilon", 1),
     ("infinity", 1),
+    ("snap_share", 1),
     ("law_has_tail", 0),
     ("fixed_gap", 0),
     ("may_detach", 0),
@@ -163,6 +164,11 @@ impl Writer {
     }
 }
 
+/// Gaps below this share of the largest step are closed after a step to first contact.
+const LEAST_SNAP: f64 = 1e-12;
+/// The same in relative rounding errors of the fields, where these are larger.
+const SNAP_ROUNDINGS: f64 = 8.0;
+
 /// The params as bytes. `epsilon` is that of the fields on the device, whatever the caller's.
 pub fn params_bytes(params: &Params, epsilon: f64, wide: Wide) -> Vec<u8> {
     let (taper, peak_gap) = match params.law {
@@ -187,6 +193,8 @@ pub fn params_bytes(params: &Params, epsilon: f64, wide: Wide) -> Vec<u8> {
         params.core_stiffness,
         epsilon,
         f64::INFINITY,
+        // Of the largest step: gaps below it after a step to first contact are rounding.
+        LEAST_SNAP.max(SNAP_ROUNDINGS * epsilon),
     ] {
         writer.number(value);
     }

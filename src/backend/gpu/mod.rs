@@ -476,7 +476,7 @@ impl Backend for GpuBackend {
                 let text = source::scalar(kernel, backend.wide)?;
                 let space = backend.level_space(Level(0))?;
                 let shared = [&backend.params, &backend.scalars, &space.partials];
-                backend.prepare(kernel.name, text, &[(DECIDING, &shared)], 1)
+                backend.prepare("decide", text, &[(DECIDING, &shared)], 1)
             })
         });
     }

@@ -46,7 +46,7 @@ pub struct LinePlan {
 
 /// Radices of an even length whose prime factors are 2, 3, 5 and 7, powers of two first.
 pub fn radices(length: usize) -> Option<Vec<usize>> {
-    if length < 2 || length % 2 != 0 {
+    if length < 2 || !length.is_multiple_of(2) {
         return None;
     }
     let mut twos = length.trailing_zeros();
@@ -63,7 +63,7 @@ pub fn radices(length: usize) -> Option<Vec<usize>> {
         twos -= step;
     }
     for prime in [7, 5, 3] {
-        while rest % prime == 0 {
+        while rest.is_multiple_of(prime) {
             found.push(prime);
             rest /= prime;
         }
@@ -163,7 +163,7 @@ mod tests {
         for length in (2..=4096).step_by(2) {
             let mut rest = length;
             for prime in [2, 3, 5, 7] {
-                while rest % prime == 0 {
+                while rest.is_multiple_of(prime) {
                     rest /= prime;
                 }
             }

@@ -44,7 +44,7 @@ impl LevelPlan {
             ny,
             largest: LinePlan::longest(limits),
         };
-        if nx % 2 != 0 || ny % 2 != 0 {
+        if !nx.is_multiple_of(2) || !ny.is_multiple_of(2) {
             return Err(refused());
         }
         Ok(LevelPlan {
@@ -139,14 +139,12 @@ fn preamble(source: &mut String, wide: Wide, access: &str, threads: usize, sums:
 
 /// Private sums, their start, and how a workgroup hands them in.
 fn sums(source: &mut String, reduces: &[Reduce], groups: usize) {
+    // Parts shared between kernels name sums that not all of them have.
+    let _ = writeln!(source, "var<private> sums: array<wide, {SUMS}>;");
     if reduces.is_empty() {
         return;
     }
-    let _ = writeln!(
-        source,
-        "var<private> sums: array<wide, {}>;\nfn start_sums() {{",
-        reduces.len()
-    );
+    source.push_str("fn start_sums() {\n");
     for (slot, &reduce) in reduces.iter().enumerate() {
         let _ = writeln!(source, "sums[{slot}] = {};", neutral(reduce));
     }
@@ -507,7 +505,18 @@ pub fn reduce(results: Results, groups: usize, gate: Gate, wide: Wide) -> String
     source
 }
 
-/// The shader of a scalar kernel, or an error where it has none.
-pub fn scalar(kernel: &ScalarKernel, _wide: Wide) -> Result<String, GpuError> {
-    Err(GpuError::NoShader(kernel.name))
+/// The shader of a scalar kernel, or an error where it has none. Its entry point is `decide`.
+pub fn scalar(kernel: &ScalarKernel, wide: Wide) -> Result<String, GpuError> {
+    let parts = catalogue::scalar(kernel.name).ok_or(GpuError::NoShader(kernel.name))?;
+    let mut source = String::new();
+    preamble(&mut source, wide, "read_write", 1, false);
+    for part in parts {
+        source.push_str(part);
+    }
+    let _ = writeln!(
+        source,
+        "@compute @workgroup_size(1)\nfn decide() {{ {}(); }}",
+        kernel.name
+    );
+    Ok(source)
 }

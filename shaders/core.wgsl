@@ -1,0 +1,70 @@
+// What the kernels of the Lennard-Jones law share: its steep core takes the place of the wall.
+// Below the gap of largest tension the iteration works in v = g - (sigma_max - sigma(g))/k, in which
+// the core is no stiffer than k. With D = max(sigma'(g), 0): dg = S2 dv, S2 = k/(k + D).
+const NEWTON_STEPS: u32 = 25u;
+
+fn attraction(g: f32, on_surface: bool) -> f32 {
+    if (on_surface) {
+        return law_traction(g);
+    }
+    return 0.0;
+}
+
+// D; 0 on a pad.
+fn hardening(g: f32, on_surface: bool) -> f32 {
+    if (on_surface) {
+        return max(law_slope(g), 0.0);
+    }
+    return 0.0;
+}
+
+// S2; 1 on a pad.
+fn share_of(g: f32, on_surface: bool) -> f32 {
+    let stiffness = f32(params.core_stiffness);
+    return stiffness / (stiffness + hardening(g, on_surface));
+}
+
+// v.
+fn variable(g: f32) -> f32 {
+    if (g < f32(params.law_peak_gap)) {
+        return g - (f32(params.law_peak) - law_traction(g)) / f32(params.core_stiffness);
+    }
+    return g;
+}
+
+// The gap at a value of v, by Newton's method from the tangent at `g`.
+fn gap_at(goal: f32, g: f32) -> f32 {
+    let peak_gap = f32(params.law_peak_gap);
+    if (goal >= peak_gap) {
+        return goal;
+    }
+    // v is concave here: from the left every step stays on the left of the root, so only the start
+    // needs a bound, which the repulsive power alone gives.
+    let range = f32(params.law_range);
+    let load = max((f32(params.core_stiffness) * (peak_gap - goal) - f32(params.law_peak)) * 0.375 * range / f32(params.law_work), 0.0);
+    let bound = range * (pow(1.3 * load + 2.5, -1.0 / 9.0) - 1.0);
+    let nearness = f32(wide(2.0) * params.epsilon) * range;
+    var x = min(max(g + (goal - variable(g)) * share_of(g, true), bound), peak_gap);
+    for (var count = 0u; count < NEWTON_STEPS; count = count + 1u) {
+        let error = variable(x) - goal;
+        let next = min(max(x - error * share_of(x, true), bound), peak_gap);
+        let moved = abs(next - x);
+        x = next;
+        if (moved <= nearness) {
+            break;
+        }
+    }
+    return x;
+}
+
+// The terms of the stopping measure.
+fn add_residual(g: f32, y: f32, traction: f32, on_surface: bool) {
+    sums[0] = sums[0] + wide(y) * wide(y);
+    if (on_surface) {
+        sums[1] = sums[1] + wide(traction) * wide(traction);
+        if (wide(g) < sums[2]) {
+            sums[2] = wide(g);
+        }
+        sums[3] = sums[3] + wide(g) * wide(g);
+    }
+}

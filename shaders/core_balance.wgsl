@@ -1,0 +1,10 @@
+// The sums that give the mean pressure under a held mean gap.
+@group(1) @binding(0) var<storage, read> gap: array<f32>;
+@group(1) @binding(1) var<storage, read> pressure: array<f32>;
+
+fn point(index: u32, on_surface: bool) {
+    let g = gap[index];
+    let s2 = share_of(g, on_surface);
+    sums[0] = sums[0] + wide(s2 * (pressure[index] + attraction(g, on_surface)));
+    sums[1] = sums[1] + wide(s2);
+}

@@ -1,0 +1,30 @@
+// Stores the preconditioned residual in v and replaces the old S2 y by the new one.
+@group(1) @binding(0) var<storage, read> gap: array<f32>;
+@group(1) @binding(1) var<storage, read> pressure: array<f32>;
+@group(1) @binding(2) var<storage, read> direction: array<f32>;
+@group(1) @binding(3) var<storage, read_write> descent: array<f32>;
+@group(1) @binding(4) var<storage, read_write> free_before: array<f32>;
+
+fn store_point(index: u32, on_surface: bool, line_value: f32) {
+    let g = gap[index];
+    let y_here = pressure[index] + f32(scalars.mean_pressure) + attraction(g, on_surface);
+    let hard = hardening(g, on_surface);
+    let stiffness = f32(params.core_stiffness);
+    let s2 = stiffness / (stiffness + hard);
+    // z / S2: the long-range part, and the local part that the core's own stiffness answers.
+    let z = line_value + hard / stiffness * y_here / (hard + stiffness);
+    let y = s2 * y_here;
+    let d = wide(direction[index]);
+    let change = wide(y) - wide(free_before[index]);
+    sums[0] = sums[0] + wide(z) * wide(y);
+    sums[1] = sums[1] + wide(z) * change;
+    sums[2] = sums[2] + d * change;
+    sums[3] = sums[3] + d * wide(y);
+    sums[4] = sums[4] + wide(s2) * wide(z);
+    sums[5] = sums[5] + wide(s2);
+    sums[6] = sums[6] + wide(y);
+    sums[7] = sums[7] + change;
+    sums[8] = sums[8] + wide(s2) * d;
+    descent[index] = z;
+    free_before[index] = y;
+}

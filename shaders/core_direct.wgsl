@@ -1,0 +1,18 @@
+// Turns the direction and finds the trial step by inverting v.
+@group(1) @binding(0) var<storage, read> gap: array<f32>;
+@group(1) @binding(1) var<storage, read> descent: array<f32>;
+@group(1) @binding(2) var<storage, read_write> direction: array<f32>;
+@group(1) @binding(3) var<storage, read_write> trial_of: array<f32>;
+
+fn point(index: u32, on_surface: bool) {
+    let g = gap[index];
+    let d = f32(scalars.descent) * descent[index] + f32(scalars.memory) * direction[index] + f32(scalars.shift);
+    direction[index] = d;
+    var s = f32(scalars.trial) * d;
+    if (on_surface) {
+        s = gap_at(variable(g) + s, g) - g;
+    }
+    trial_of[index] = s;
+    sums[0] = sums[0] + wide(s);
+    sums[1] = sums[1] + wide(share_of(g + s, on_surface));
+}

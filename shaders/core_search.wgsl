@@ -1,0 +1,15 @@
+// Sums <sigma(g + t s) - sigma(g), s>, the change of the energy of adhesion and its size.
+@group(1) @binding(0) var<storage, read> gap: array<f32>;
+@group(1) @binding(1) var<storage, read> trial_of: array<f32>;
+
+fn point(index: u32, on_surface: bool) {
+    if (on_surface) {
+        let g = gap[index];
+        let s = trial_of[index];
+        let moved = g + f32(scalars.step) * s;
+        let energy = law_energy(g);
+        sums[0] = sums[0] + wide(law_traction(moved) - law_traction(g)) * wide(s);
+        sums[1] = sums[1] + wide(law_energy(moved) - energy);
+        sums[2] = sums[2] + abs(wide(energy));
+    }
+}

@@ -1,0 +1,26 @@
+// Loads the trial step, with its mean taken off in proportion to the local compliance where the
+// mean gap is held.
+@group(1) @binding(0) var<storage, read> gap: array<f32>;
+@group(1) @binding(1) var<storage, read> pressure: array<f32>;
+@group(1) @binding(2) var<storage, read_write> trial_of: array<f32>;
+
+fn load_point(index: u32, on_surface: bool) -> f32 {
+    let g = gap[index];
+    let restore = f32(scalars.restore);
+    var s = trial_of[index];
+    if (restore != 0.0) {
+        s = s - restore * share_of(g + s, on_surface);
+    }
+    trial_of[index] = s;
+    let elastic = pressure[index] + f32(scalars.mean_pressure);
+    let step = wide(s);
+    sums[0] = sums[0] + step * wide(elastic + attraction(g, on_surface));
+    if (step > sums[2]) {
+        sums[2] = step;
+    }
+    if (step < sums[3]) {
+        sums[3] = step;
+    }
+    sums[5] = sums[5] + step * wide(elastic);
+    return s;
+}

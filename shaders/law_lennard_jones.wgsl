@@ -1,0 +1,31 @@
+// The 9-3 law: sigma = (8 w / 3 eps) (r^3 - r^9) with r = eps / (gap + eps).
+
+// Nearer than this share of the range r^9 would overflow what any load can balance.
+const LAW_NEAREST: f32 = 0.02;
+
+fn law_ratio(gap_here: f32) -> f32 {
+    let range = f32(params.law_range);
+    return range / max(gap_here + range, LAW_NEAREST * range);
+}
+
+fn law_traction(gap_here: f32) -> f32 {
+    let r = law_ratio(gap_here);
+    let cube = r * r * r;
+    let scale = 8.0 / 3.0 * f32(params.law_work) / f32(params.law_range);
+    return scale * (cube - cube * cube * cube);
+}
+
+fn law_energy(gap_here: f32) -> f32 {
+    let r = law_ratio(gap_here);
+    let square = r * r;
+    let eighth = square * square * square * square;
+    return -f32(params.law_work) * (4.0 / 3.0 * square - 1.0 / 3.0 * eighth);
+}
+
+fn law_slope(gap_here: f32) -> f32 {
+    let range = f32(params.law_range);
+    let r = law_ratio(gap_here);
+    let fourth = r * r * r * r;
+    let tenth = fourth * fourth * r * r;
+    return 8.0 / 3.0 * f32(params.law_work) / (range * range) * (9.0 * tenth - 3.0 * fourth);
+}

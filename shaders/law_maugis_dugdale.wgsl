@@ -1,0 +1,35 @@
+// Constant tension up to about the range, then linear to zero over the width `taper` centred on it.
+fn law_traction(gap_here: f32) -> f32 {
+    let peak = f32(params.law_peak);
+    let range = f32(params.law_range);
+    let taper = f32(params.law_taper);
+    if (taper > 0.0) {
+        return peak * clamp((range - gap_here) / taper + 0.5, 0.0, 1.0);
+    }
+    return select(0.0, peak, gap_here < range);
+}
+
+fn law_energy(gap_here: f32) -> f32 {
+    let peak = f32(params.law_peak);
+    let range = f32(params.law_range);
+    let taper = f32(params.law_taper);
+    let half = 0.5 * taper;
+    if (gap_here <= range - half) {
+        return -peak * (range - gap_here);
+    }
+    if (gap_here < range + half) {
+        let left = range + half - gap_here;
+        return -peak * left * left / (2.0 * taper);
+    }
+    return 0.0;
+}
+
+fn law_slope(gap_here: f32) -> f32 {
+    let range = f32(params.law_range);
+    let taper = f32(params.law_taper);
+    let half = 0.5 * taper;
+    if (gap_here > range - half && gap_here < range + half) {
+        return -f32(params.law_peak) / taper;
+    }
+    return 0.0;
+}

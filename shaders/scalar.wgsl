@@ -1,0 +1,178 @@
+// Every decision of the algorithm, on the scalars alone. Twins: kernel::scalar.
+// Slots of `sums` are those that the kernels before fill.
+
+// Trials that may be lost in a row before the direction is given up.
+const LOST_TRIALS: u32 = 25u;
+// Lost trials after which the plain descent takes the direction's place.
+const LOST_BEFORE_DESCENT: u32 = 5u;
+// Factor on the trial length after a lost trial.
+const SHORTEN: wide = 0.3;
+// Stalls without progress that end a solve.
+const STALLS: u32 = 4u;
+// Iterations at the floor of rounding that end a solve.
+const AT_FLOOR: u32 = 20u;
+// A direction whose slope is above this share of the descent's is given up.
+const SLOPE_SHARE: wide = 1e-6;
+// Curvature over slope below which a step is a rigid motion.
+const RIGID: wide = 1e-30;
+// Ranges beyond which surfaces under tension have left each other.
+const DETACHED_RANGES: wide = 60.0;
+// The rounding floor of the numerator over epsilon K_max norm(h or g).
+const FLOOR_FACTOR: wide = 0.25;
+// Step along the plain descent in careful mode.
+const CAREFUL_LENGTH: wide = 0.25;
+// Residual at which careful mode ends.
+const CAREFUL_UNTIL: wide = 1e-3;
+// Share of the first slope at which a search ends.
+const SEARCH_SHARE: wide = 0.1;
+// Extrapolations that one search may make.
+const EXTRAPOLATIONS: u32 = 6u;
+// Evaluations that one Lennard-Jones search may make.
+const EVALUATIONS: u32 = 40u;
+
+const ZERO: wide = 0.0;
+const ONE: wide = 1.0;
+
+// The quotient with 0/0 = 0 and x/0 infinite.
+fn quotient(numerator: wide, denominator: wide) -> wide {
+    if (numerator == ZERO) {
+        return ZERO;
+    }
+    return numerator / denominator;
+}
+
+fn give_up_direction() {
+    scalars.memory = ZERO;
+    scalars.trial = ONE;
+    scalars.lost = 0u;
+    scalars.repeat = 0u;
+    scalars.restart = 1u;
+}
+
+fn stall() {
+    give_up_direction();
+    if (scalars.residual < wide(0.5) * scalars.residual_at_stall) {
+        scalars.stalls = 0u;
+    }
+    scalars.residual_at_stall = scalars.residual;
+    scalars.stalls = scalars.stalls + 1u;
+    if (scalars.stalls >= STALLS) {
+        scalars.status = STALLED;
+    }
+}
+
+// The stopping measure from its sums, and what follows from it.
+fn judge() {
+    if (scalars.status != RUNNING || scalars.repeat != 0u) {
+        return;
+    }
+    let violation = scalars.sums[0];
+    let pressures = scalars.sums[1];
+    let least_gap = scalars.sums[2];
+    let gaps = scalars.sums[3];
+    scalars.numerator = sqrt(violation);
+    scalars.residual = quotient(scalars.numerator, max(sqrt(pressures), params.pressure_floor));
+    scalars.least_gap = least_gap;
+    scalars.gap_norm = sqrt(gaps);
+    let floor_of_rounding = FLOOR_FACTOR * params.epsilon * params.stiffness_max * max(params.heights_norm, scalars.gap_norm);
+    if (!is_finite(violation) || !is_finite(pressures) || !is_finite(gaps)) {
+        scalars.status = NOT_FINITE;
+    } else if (scalars.residual <= params.tolerance) {
+        scalars.status = CONVERGED;
+    } else if (params.may_detach != 0u && least_gap > DETACHED_RANGES * params.law_range) {
+        scalars.status = PULLED_OFF;
+    } else if (scalars.numerator <= floor_of_rounding) {
+        scalars.at_floor = scalars.at_floor + 1u;
+        if (scalars.at_floor >= AT_FLOOR) {
+            scalars.status = STALLED;
+        }
+    } else {
+        scalars.at_floor = 0u;
+    }
+    if (scalars.careful != 0u && scalars.residual < CAREFUL_UNTIL) {
+        scalars.careful = 0u;
+        give_up_direction();
+    }
+}
+
+// The conjugacy of the new direction (Polak-Ribiere, never negative).
+fn direct() {
+    if (scalars.status != RUNNING || scalars.repeat != 0u) {
+        return;
+    }
+    let d_change = scalars.sums[2];
+    let y_sum = scalars.sums[6];
+    // Under a held mean gap z and d carry no mean over the free points (in the measure of the local
+    // compliance, for Lennard-Jones).
+    var z_mean = ZERO;
+    var d_mean = ZERO;
+    if (params.fixed_gap != 0u) {
+        z_mean = quotient(scalars.sums[4], scalars.sums[5]);
+        d_mean = quotient(scalars.sums[8], scalars.sums[5]);
+    }
+    let zy = scalars.sums[0] - z_mean * y_sum;
+    let z_change = scalars.sums[1] - z_mean * scalars.sums[7];
+    var memory = ZERO;
+    if (d_change > ZERO) {
+        memory = max(z_change / d_change, ZERO);
+    }
+    if (scalars.restart != 0u || scalars.careful != 0u || !is_finite(memory)) {
+        memory = ZERO;
+    }
+    scalars.restart = 0u;
+    let slope = -zy + memory * (scalars.sums[3] - d_mean * y_sum);
+    if (slope >= -SLOPE_SHARE * zy) {
+        memory = ZERO;
+    }
+    scalars.descent = -ONE;
+    scalars.memory = memory;
+    scalars.shift = z_mean - memory * d_mean;
+    scalars.plain_shift = z_mean;
+    if (scalars.careful != 0u) {
+        scalars.trial = CAREFUL_LENGTH;
+    }
+}
+
+// Takes a trial that descends; otherwise shortens it and has it repeated.
+fn accept() {
+    scalars.accepted = 0u;
+    scalars.searching = 0u;
+    if (scalars.status != RUNNING) {
+        return;
+    }
+    let slope = scalars.sums[0];
+    if (!is_finite(slope)) {
+        scalars.status = NOT_FINITE;
+        return;
+    }
+    scalars.slope = slope;
+    scalars.elastic_slope = scalars.sums[5];
+    scalars.step_first = max(scalars.sums[1], ONE);
+    scalars.up = scalars.sums[2];
+    scalars.down = scalars.sums[3];
+    scalars.largest = max(scalars.up, -scalars.down);
+    scalars.truncated = u32(scalars.sums[4] > ZERO);
+    if (slope < ZERO || (scalars.careful != 0u && scalars.largest > ZERO)) {
+        scalars.accepted = 1u;
+        scalars.repeat = 0u;
+        scalars.lost = 0u;
+        scalars.iterations = scalars.iterations + 1u;
+        return;
+    }
+    scalars.lost = scalars.lost + 1u;
+    if (scalars.lost >= LOST_TRIALS || scalars.largest == ZERO) {
+        stall();
+        return;
+    }
+    scalars.repeat = 1u;
+    scalars.trial = scalars.trial * SHORTEN;
+    if (scalars.lost == LOST_BEFORE_DESCENT) {
+        scalars.descent = -ONE;
+        scalars.memory = ZERO;
+        scalars.shift = scalars.plain_shift;
+    } else {
+        scalars.descent = ZERO;
+        scalars.memory = ONE;
+        scalars.shift = ZERO;
+    }
+}

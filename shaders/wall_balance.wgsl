@@ -1,0 +1,13 @@
+// The sums that give the mean pressure under a held mean gap.
+@group(1) @binding(0) var<storage, read> gap: array<f32>;
+@group(1) @binding(1) var<storage, read> pressure: array<f32>;
+
+fn point(index: u32, on_surface: bool) {
+    let g = gap[index];
+    let y = wide(pressure[index] + attraction(g, on_surface));
+    sums[0] = sums[0] + wide(g) * y;
+    sums[1] = sums[1] + wide(g);
+    if (y < sums[2]) {
+        sums[2] = y;
+    }
+}

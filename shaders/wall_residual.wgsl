@@ -1,0 +1,7 @@
+// The stopping measure of the present state.
+@group(1) @binding(0) var<storage, read> gap: array<f32>;
+@group(1) @binding(1) var<storage, read> pressure: array<f32>;
+
+fn point(index: u32, on_surface: bool) {
+    let unused = free_line(gap[index], pressure[index], on_surface);
+}

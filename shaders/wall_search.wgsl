@@ -1,0 +1,12 @@
+// Sums <sigma(g + t s) - sigma(g), s>.
+@group(1) @binding(0) var<storage, read> gap: array<f32>;
+@group(1) @binding(1) var<storage, read> direction: array<f32>;
+
+fn point(index: u32, on_surface: bool) {
+    if (on_surface) {
+        let g = gap[index];
+        let s = trial_step(g, f32(scalars.trial) * direction[index], f32(scalars.restore), true);
+        let change = law_traction(g + f32(scalars.step) * s) - law_traction(g);
+        sums[0] = sums[0] + wide(change) * wide(s);
+    }
+}

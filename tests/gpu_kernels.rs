@@ -1,0 +1,386 @@
+//! Each kernel of the catalogue against its single-precision twin, and each scalar kernel against
+//! its own, on seeded data.
+
+mod gpu_catalogue;
+mod gpu_shared;
+
+use gpu_catalogue::{KERNELS, SCALAR_KERNELS};
+use gpu_shared::{Numbers, backend, device};
+use tabor::backend::cpu::CpuBackend;
+use tabor::backend::gpu::Wide;
+use tabor::backend::{Backend, Field, Level, Shape};
+use tabor::kernel::common::{LOAD_FIELD, STORE_PRESSURE};
+use tabor::kernel::{Form, Gate, Kernel, Params, Scalars, Status};
+use tabor::law::{Exponential, Law, LennardJones, MaugisDugdale};
+
+/// Fine and coarse points of the tests; neither is a power of two both ways.
+const FINE: [usize; 2] = [48, 64];
+const COARSE: [usize; 2] = [12, 16];
+/// Difference at a point, of numbers up to some units: the transforms around a load or store part
+/// cost 4e-7 of their root mean square, the law's steepest slope (16) multiplies it.
+const POINT_BOUND: f64 = 2e-5;
+/// Difference of a sum over its number of points.
+const SUM_BOUND: f64 = 2e-6;
+
+fn laws() -> [(&'static str, Law); 5] {
+    let dugdale = |taper| {
+        Law::MaugisDugdale(MaugisDugdale {
+            peak_tension: 0.4,
+            range: 0.2,
+            taper,
+        })
+    };
+    [
+        ("hard wall", Law::HardWall),
+        ("sharp Maugis-Dugdale", dugdale(0.0)),
+        ("tapered Maugis-Dugdale", dugdale(0.1)),
+        (
+            "exponential",
+            Law::Exponential(Exponential {
+                work_of_adhesion: 0.1,
+                range: 0.3,
+            }),
+        ),
+        (
+            "Lennard-Jones",
+            Law::LennardJones(LennardJones {
+                work_of_adhesion: 0.1,
+                range: 0.5,
+            }),
+        ),
+    ]
+}
+
+fn params(law: Law, fixed_gap: bool) -> Params {
+    Params {
+        law,
+        stiffness_max: 2.0,
+        pressure_floor: 1e-3,
+        tolerance: 1e-4,
+        heights_norm: 3.0,
+        fixed_gap,
+        may_detach: !fixed_gap,
+        points: 1.0,
+        core_stiffness: 0.4,
+        epsilon: f64::from(f32::EPSILON),
+    }
+}
+
+/// A state in which every gate is open and every factor counts.
+fn open() -> Scalars {
+    Scalars {
+        mean_pressure: 0.1,
+        descent: -1.0,
+        memory: 0.3,
+        shift: 0.05,
+        trial: 0.7,
+        restore: 1.1,
+        step: 0.6,
+        snap: 1e-3,
+        accepted: true,
+        searching: true,
+        status: Status::Running,
+        ..Scalars::start(0.1, false)
+    }
+}
+
+/// What a kernel leaves behind: its written fields, its lines and its sums.
+struct Trace {
+    fields: Vec<Vec<f64>>,
+    sums: Vec<f64>,
+}
+
+fn gap_like(numbers: &mut Numbers, count: usize, law: &Law) -> Vec<f64> {
+    let least = if law.has_wall() { 0.0 } else { -0.05 };
+    numbers.field(count).iter().map(|x| x.max(least)).collect()
+}
+
+/// Runs a kernel on a fresh level with seeded fields; `poison` fills its written fields with NaN.
+fn run(
+    backend: &mut dyn Backend,
+    kernel: &'static Kernel,
+    params: &Params,
+    shape: Shape,
+    poison: bool,
+) -> Trace {
+    // The whole field lies on the other level: coarse for a fine kernel, fine for a coarse one.
+    let coarse_kernel = kernel.name.starts_with("coarse");
+    let [own, other] = if coarse_kernel {
+        [Shape::whole(COARSE[0], COARSE[1]), shape]
+    } else {
+        [shape, Shape::whole(COARSE[0], COARSE[1])]
+    };
+    let mut numbers = Numbers(kernel.name.len() as u64 * 7919);
+    let level = backend.level("own", own);
+    let second = backend.level("other", other);
+    let make = |backend: &mut dyn Backend, level: Level, values: &[f64]| -> Field {
+        let field = backend.field(level, "field");
+        backend.write(field, values);
+        field
+    };
+    let mut fields = Vec::new();
+    for place in 0..kernel.reads + kernel.writes {
+        let written = place >= kernel.reads;
+        // Gaps are read first, or updated first.
+        let values = if place == 0 || place == kernel.reads {
+            gap_like(&mut numbers, own.len(), &params.law)
+        } else {
+            numbers.field(own.len())
+        };
+        let values = match written && poison {
+            true => vec![f64::NAN; own.len()],
+            false => values,
+        };
+        fields.push(make(backend, level, &values));
+    }
+    if kernel.whole {
+        let values = gap_like(&mut numbers, other.len(), &Law::HardWall);
+        fields.push(make(backend, second, &values));
+    }
+    let lines = make(backend, level, &numbers.field(own.len()));
+    let ones = backend.spectrum(level, "ones", &vec![1.0; own.spectrum_len()]);
+    backend.set_params(params);
+    backend.set_scalars(&open());
+    match kernel.form {
+        Form::Sweep => backend.sweep(kernel, level, &fields),
+        Form::Load => {
+            backend.forward(kernel, level, &fields);
+            backend.multiply(ones, false, Gate::Always);
+            backend.backward(&STORE_PRESSURE, level, &[lines]);
+        }
+        Form::Store => {
+            backend.forward(&LOAD_FIELD, level, &[lines]);
+            backend.multiply(ones, false, Gate::Always);
+            backend.backward(kernel, level, &fields);
+        }
+    }
+    let scalars = backend
+        .scalars()
+        .unwrap_or_else(|error| panic!("{}: {error}", kernel.name));
+    let written = fields[kernel.reads..kernel.reads + kernel.writes].to_vec();
+    let mut read = |field| {
+        backend
+            .read(field)
+            .unwrap_or_else(|error| panic!("{error}"))
+    };
+    let mut traces: Vec<_> = written.into_iter().map(&mut read).collect();
+    if kernel.form == Form::Load {
+        traces.push(read(lines));
+    }
+    Trace {
+        fields: traces,
+        sums: scalars.sums[..kernel.sums.len()].to_vec(),
+    }
+}
+
+/// Whether there is no NaN; the least of nothing is infinite.
+fn is_number(trace: &Trace) -> bool {
+    trace
+        .fields
+        .iter()
+        .flatten()
+        .chain(&trace.sums)
+        .all(|x| !x.is_nan())
+}
+
+#[test]
+fn kernels_agree_with_their_twins() {
+    let Some(device) = device() else { return };
+    let padded = Shape {
+        points: FINE,
+        surface: [30, 40],
+    };
+    let mut worst = [0.0f64; 2];
+    for &kernel in KERNELS {
+        for (law_name, law) in laws() {
+            let of_core = kernel.name.starts_with("core");
+            let of_wall = kernel.name.starts_with("wall");
+            let fits = match law {
+                Law::LennardJones(_) => of_core,
+                Law::HardWall => !of_core,
+                _ => of_wall,
+            };
+            if !fits {
+                continue;
+            }
+            for (shape, fixed_gap) in [(Shape::whole(FINE[0], FINE[1]), true), (padded, false)] {
+                if kernel.whole && shape == padded {
+                    continue;
+                }
+                let params = params(law, fixed_gap);
+                let cpu = || CpuBackend::<f32>::new();
+                // Fields that are only written are poisoned, so that what is left out shows.
+                let poison = is_number(&run(&mut cpu(), kernel, &params, shape, true));
+                let twin = run(&mut cpu(), kernel, &params, shape, poison);
+                assert!(is_number(&twin), "{} {law_name}", kernel.name);
+                let ours = run(&mut backend(device), kernel, &params, shape, poison);
+                let name = format!("{}, {law_name}, surface {:?}", kernel.name, shape.surface);
+                for (slot, (a, b)) in ours.sums.iter().zip(&twin.sums).enumerate() {
+                    // The least of nothing is infinite on both.
+                    let difference = if a == b { 0.0 } else { (a - b).abs() };
+                    let error = difference / (shape.len() as f64).max(b.abs());
+                    assert!(error < SUM_BOUND, "{name}: sum {slot}: {a} against {b}");
+                    worst[1] = worst[1].max(error);
+                }
+                for (slot, (ours, twin)) in ours.fields.iter().zip(&twin.fields).enumerate() {
+                    for (index, (a, b)) in ours.iter().zip(twin).enumerate() {
+                        let error = (a - b).abs();
+                        assert!(
+                            error < POINT_BOUND,
+                            "{name}: output {slot} at {index}: {a} against {b}"
+                        );
+                        worst[0] = worst[0].max(error);
+                    }
+                }
+            }
+        }
+    }
+    println!(
+        "largest differences: at a point {:e}, in a sum {:e} a point",
+        worst[0], worst[1]
+    );
+}
+
+/// All numbers of the scalars, flags and status included.
+fn numbers(s: &Scalars) -> Vec<(&'static str, f64)> {
+    let flag = |value: bool| f64::from(u8::from(value));
+    let mut all: Vec<_> = s.sums.iter().map(|&x| ("sums", x)).collect();
+    all.extend(s.low.iter().map(|&x| ("low", x)));
+    all.extend(s.high.iter().map(|&x| ("high", x)));
+    all.extend([
+        ("mean_pressure", s.mean_pressure),
+        ("descent", s.descent),
+        ("memory", s.memory),
+        ("shift", s.shift),
+        ("trial", s.trial),
+        ("restore", s.restore),
+        ("slope", s.slope),
+        ("curvature", s.curvature),
+        ("elastic_slope", s.elastic_slope),
+        ("plain_shift", s.plain_shift),
+        ("up", s.up),
+        ("down", s.down),
+        ("step", s.step),
+        ("length", s.length),
+        ("step_first", s.step_first),
+        ("largest", s.largest),
+        ("snap", s.snap),
+        ("slope_at_one", s.slope_at_one),
+        ("residual", s.residual),
+        ("numerator", s.numerator),
+        ("residual_at_stall", s.residual_at_stall),
+        ("least_gap", s.least_gap),
+        ("gap_norm", s.gap_norm),
+        ("status", s.status as u32 as f64),
+        ("repeat", flag(s.repeat)),
+        ("restart", flag(s.restart)),
+        ("accepted", flag(s.accepted)),
+        ("truncated", flag(s.truncated)),
+        ("searching", flag(s.searching)),
+        ("careful", flag(s.careful)),
+        ("evaluations", f64::from(s.evaluations)),
+        ("lost", f64::from(s.lost)),
+        ("stalls", f64::from(s.stalls)),
+        ("at_floor", f64::from(s.at_floor)),
+        ("iterations", f64::from(s.iterations)),
+    ]);
+    all
+}
+
+/// A state drawn at random; some of its numbers are the special ones on which decisions turn.
+fn drawn(random: &mut Numbers) -> Scalars {
+    let mut number = |special: &[f64]| {
+        let pick = ((random.next() + 0.5) * 12.0) as usize;
+        special
+            .get(pick)
+            .copied()
+            .unwrap_or(f64::from(2.0 * random.next() as f32))
+    };
+    let infinite = f64::INFINITY;
+    let mut scalars = Scalars::start(number(&[]), false);
+    for sum in &mut scalars.sums {
+        *sum = number(&[0.0, infinite, f64::NAN, 1e-9]);
+    }
+    scalars.sums[1] = scalars.sums[1].abs();
+    for value in [
+        &mut scalars.memory,
+        &mut scalars.shift,
+        &mut scalars.trial,
+        &mut scalars.plain_shift,
+        &mut scalars.slope,
+        &mut scalars.curvature,
+        &mut scalars.elastic_slope,
+        &mut scalars.up,
+        &mut scalars.down,
+        &mut scalars.slope_at_one,
+        &mut scalars.residual_at_stall,
+    ] {
+        *value = number(&[0.0, 1e-6]);
+    }
+    scalars.residual = number(&[1e-5]).abs();
+    scalars.step = number(&[1.0, 2.0]).abs();
+    scalars.length = number(&[1.0]).abs();
+    scalars.step_first = number(&[infinite, 1.0]).abs().max(scalars.step);
+    scalars.largest = number(&[0.0]).abs();
+    scalars.low = [number(&[0.0]).abs(), -number(&[]).abs(), number(&[])];
+    scalars.high = [number(&[infinite, infinite]).abs() + 1.0, number(&[]).abs()];
+    let mut flag = |share: f64| random.next() + 0.5 < share;
+    scalars.repeat = flag(0.2);
+    scalars.restart = flag(0.2);
+    scalars.accepted = flag(0.8);
+    scalars.truncated = flag(0.5);
+    scalars.searching = flag(0.8);
+    scalars.careful = flag(0.2);
+    scalars.status = if flag(0.1) {
+        Status::Converged
+    } else {
+        Status::Running
+    };
+    let mut count = |most: f64| ((random.next() + 0.5) * most) as u32;
+    scalars.evaluations = [count(8.0), 39][(count(8.0) == 0) as usize];
+    scalars.lost = [4, 24, count(5.0)][count(3.0) as usize];
+    scalars.stalls = count(5.0);
+    scalars.at_floor = [19, count(5.0)][count(2.0) as usize];
+    scalars.iterations = 1 + count(100.0);
+    scalars
+}
+
+#[test]
+fn scalar_kernels_agree_with_their_twins() {
+    let Some(device) = device() else { return };
+    let bound = match device.wide() {
+        Wide::Double => 1e-13,
+        Wide::Single => 1e-5,
+    };
+    let mut backend = backend(device);
+    backend.level("fine", Shape::whole(4, 4));
+    for &kernel in SCALAR_KERNELS {
+        let mut random = Numbers(kernel.name.len() as u64);
+        for round in 0..60 {
+            let (_, law) = laws()[round % 5];
+            let params = params(law, round % 2 == 0);
+            let mut twin = drawn(&mut random);
+            backend.set_params(&params);
+            backend.set_scalars(&twin);
+            backend.scalar(kernel);
+            let ours = backend.scalars().unwrap_or_else(|error| panic!("{error}"));
+            let before = twin;
+            (kernel.run)(&params, &mut twin);
+            for ((name, a), (_, b)) in numbers(&ours).into_iter().zip(numbers(&twin)) {
+                // Rounding of single fields closes more gaps than that of double ones.
+                if name == "snap" && b != 0.0 && kernel.name == "settle_wall" {
+                    assert!(a >= b && a < 1e-6 * twin.largest, "{a} {b}");
+                    continue;
+                }
+                // A slope not known yet is a NaN in the twin, and infinite on the device.
+                let unknown = !a.is_finite() && !b.is_finite();
+                let same = a == b || unknown || (a - b).abs() <= bound * b.abs().max(1.0);
+                assert!(
+                    same,
+                    "{}, round {round}: {name} is {a}, twin {b}\n{before:?}\n{params:?}",
+                    kernel.name
+                );
+            }
+        }
+    }
+}
