@@ -29,7 +29,8 @@ fn solve(
     tolerance: f64,
     make: &dyn Fn() -> Box<dyn Backend + Send>,
 ) -> Solution {
-    let mut solver = ContactSolver::new(make(), problem);
+    let mut backend = make();
+    let mut solver = ContactSolver::new(&mut *backend, problem);
     let outcome = solver
         .solve(load, start, tolerance, 2000, false, make, &mut |_| true)
         .unwrap_or_else(|error| panic!("{error}"));
