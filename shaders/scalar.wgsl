@@ -89,7 +89,9 @@ fn judge() {
     } else {
         scalars.at_floor = 0u;
     }
-    if (scalars.careful != 0u && scalars.residual < CAREFUL_UNTIL) {
+    // Beyond the range of a sharp law nothing sticks: under tension there is no way back.
+    let apart = params.may_detach != 0u && least_gap > params.law_range;
+    if (scalars.careful != 0u && (apart || scalars.residual < CAREFUL_UNTIL)) {
         scalars.careful = 0u;
         give_up_direction();
     }
