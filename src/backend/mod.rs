@@ -8,6 +8,7 @@
 //! [`forward`](Backend::forward), [`multiply`](Backend::multiply), [`backward`](Backend::backward).
 
 pub mod cpu;
+pub mod gpu;
 pub mod tally;
 
 use crate::kernel::{Gate, Kernel, Params, ScalarKernel, Scalars};

@@ -3,15 +3,21 @@
 use crate::kernel::{Params, Rows, SUMS, Scalars, kernel};
 use crate::real::Real;
 
-fn load_displacement<T: Real>(rows: &mut Rows<T>, _: &Params, _: &Scalars, _: &mut [f64; SUMS]) {
+fn load_displacement<T: Real>(
+    rows: &mut Rows<T>,
+    _: &Params,
+    scalars: &Scalars,
+    _: &mut [f64; SUMS],
+) {
     let count = rows.len();
     let (gap, heights) = (&rows.reads[0][..count], &rows.reads[1][..count]);
+    let offset = T::of(scalars.offset);
     for (i, line) in rows.lines[..count].iter_mut().enumerate() {
-        *line = gap[i] + heights[i];
+        *line = (gap[i] - offset) + heights[i];
     }
 }
 kernel!(
-    /// Loads g + h. Reads gap, heights.
+    /// Loads g + h less the offset. Reads gap, heights.
     LOAD_DISPLACEMENT, load_displacement, Load, reads 2, writes 0, whole false, sums [], gate Always
 );
 

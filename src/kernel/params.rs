@@ -67,6 +67,9 @@ pub struct Scalars {
     pub sums: [f64; SUMS],
     /// Mean pressure; under a fixed mean gap its present estimate.
     pub mean_pressure: f64,
+    /// Taken off the displacement before it is transformed: a held mean gap may be large beside the
+    /// roughness, and its rounding need not be.
+    pub offset: f64,
     /// Factor of the new descent in the direction: -1, or 0 where a trial is repeated.
     pub descent: f64,
     /// Factor of the old direction.
@@ -148,6 +151,7 @@ impl Scalars {
         Scalars {
             sums: [0.0; SUMS],
             mean_pressure,
+            offset: 0.0,
             descent: -1.0,
             memory: 0.0,
             shift: 0.0,

@@ -108,7 +108,9 @@ fn judge(params: &Params, scalars: &mut Scalars) {
     } else {
         scalars.at_floor = 0;
     }
-    if scalars.careful && scalars.residual < CAREFUL_UNTIL {
+    // Beyond the range of a sharp law nothing sticks: under tension there is no way back.
+    let apart = params.may_detach && least_gap > params.law.range();
+    if scalars.careful && (apart || scalars.residual < CAREFUL_UNTIL) {
         scalars.careful = false;
         give_up_direction(scalars);
     }

@@ -1,6 +1,7 @@
 //! `[loading]`: the path, written out step by step.
 
 use super::keys;
+use super::mistake::SceneError;
 use super::reader::{Allowed, Reader};
 use super::types::{AdhesionScene, Boundary, Control, LawName, LoadingScene, Range, Treatment};
 use crate::units::{self, Dimension};
@@ -34,6 +35,16 @@ pub(super) fn read(
             loading.conflict(
                 "spring",
                 "a spring is held at its far end; take control = \"approach\", or leave the spring out",
+            );
+        }
+        if adhesion.is_some_and(|adhesion| adhesion.treatment == Treatment::Dmt) {
+            // The spring would have to balance a load that the solver does not see.
+            loading.report(
+                "spring",
+                SceneError::NotInThisVersion {
+                    what: "a spring with treatment = \"dmt\"".to_string(),
+                    instead: "take treatment = \"full\", or leave the spring out".to_string(),
+                },
             );
         }
         loading

@@ -241,8 +241,11 @@ impl<'a> ContactSolver<'a> {
                 .backend
                 .set_zero_mode(self.preconditioner, load.zero_compliance),
         }
-        self.backend
-            .set_scalars(&Scalars::start(mean_pressure, careful));
+        let mut scalars = Scalars::start(mean_pressure, careful);
+        if let Hold::Gap(target) = load.hold {
+            scalars.offset = target;
+        }
+        self.backend.set_scalars(&scalars);
         match start {
             Start::Present => {}
             Start::Gap(gap) => self.backend.write(self.gap, gap),

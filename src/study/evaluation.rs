@@ -102,14 +102,15 @@ impl Evaluation {
             };
             let traction = law.traction(g);
             let y = elastic[i] + solved.held;
+            // 0 - x, for the negative of zero prints as -0.
             net[i] = if negative_is_contact {
-                -traction
+                0.0 - traction
             } else if closed && summed_after {
                 y.max(0.0)
             } else if closed {
                 (y + traction).max(0.0) - traction
             } else {
-                -traction
+                0.0 - traction
             };
             if closed {
                 points[i] = PointState::Contact;
@@ -147,7 +148,7 @@ impl Evaluation {
             / count;
         let state = if contact > 0.0 {
             State::Contact
-        } else if strongest > NEGLIGIBLE * law.peak_tension() {
+        } else if attracted > 0.0 || strongest > NEGLIGIBLE * law.peak_tension() {
             State::Attracted
         } else {
             State::Separated
@@ -159,7 +160,7 @@ impl Evaluation {
         for pressure in &mut net {
             *pressure *= scales.pressure;
         }
-        let force = net.iter().sum::<f64>() * problem.grid.pixel_area();
+        let force = net.iter().fold(0.0, |sum, p| sum + p) * problem.grid.pixel_area();
         Evaluation {
             gap: gap.iter().map(|g| g * scales.length).collect(),
             pressure: net,

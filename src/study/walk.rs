@@ -115,6 +115,9 @@ pub fn walk<O: Observer>(
     Ok(end)
 }
 
+/// Share of the mean gap below which a point moved by it is closed: the rounding of that mean.
+const CLOSED: f64 = 1e-13;
+
 /// A step as solved.
 pub(super) struct SolvedStep {
     /// Fields and sums; `None` where no equilibrium carries the load.
@@ -205,7 +208,15 @@ impl PathState<'_> {
         let least = gap.iter().copied().fold(f64::INFINITY, f64::min);
         // Open surfaces move rigidly; a wall in contact stays where it is and the rest scales.
         if !problem.law.has_wall() || (least > 0.0 && least + target - mean >= 0.0) {
-            gap.iter_mut().for_each(|g| *g += target - mean);
+            let moved = target - mean;
+            // Surfaces that meet in this very step meet everywhere they should.
+            let rounding = CLOSED * mean.abs();
+            for g in &mut gap {
+                *g += moved;
+                if problem.law.has_wall() && *g <= rounding {
+                    *g = 0.0;
+                }
+            }
         } else if mean > 0.0 {
             gap.iter_mut().for_each(|g| *g *= target / mean);
         } else {
@@ -218,12 +229,12 @@ impl PathState<'_> {
         let area = self.setup.surface.grid.area();
         let control = self.setup.scene.loading.control;
         let evaluation = solved.evaluation.as_ref();
-        let force = match (control, evaluation) {
-            (_, None) => 0.0,
-            // The residual was met at the asked load, so the asked load it is.
-            (Control::Force, Some(_)) => value,
-            (Control::Pressure, Some(_)) => value * area,
-            (_, Some(evaluation)) => evaluation.force,
+        // Where a load was asked the residual was met at that load, so that load it is.
+        let (force, mean_pressure) = match (control, evaluation) {
+            (_, None) => (0.0, 0.0),
+            (Control::Force, Some(_)) => (value, value / area),
+            (Control::Pressure, Some(_)) => (value * area, value),
+            (_, Some(evaluation)) => (evaluation.force, evaluation.force / area),
         };
         StepRow {
             step,
@@ -231,7 +242,7 @@ impl PathState<'_> {
             approach: evaluation.map(|e| e.position.approach),
             mean_gap: evaluation.map(|e| e.position.mean_gap),
             force,
-            mean_pressure: force / area,
+            mean_pressure,
             contact_area_fraction: evaluation.map_or(0.0, |e| e.contact),
             attractive_area_fraction: evaluation.map_or(0.0, |e| e.attracted),
             elastic_energy: evaluation.map_or(0.0, |e| e.elastic_energy),
@@ -242,7 +253,7 @@ impl PathState<'_> {
             seconds,
             contact_area_fraction_corrected: match evaluation {
                 Some(evaluation) => evaluation.contact_corrected,
-                None => self.setup.law.has_wall().then_some(0.0),
+                None => self.setup.problem.law.has_wall().then_some(0.0),
             },
             state: evaluation.map_or(State::Separated, |e| e.state),
         }

@@ -52,7 +52,7 @@ pub fn reduced_pull_off(theta: f64) -> Result<(f64, f64), TheoryError> {
     let at = |h: f64| reduced_pressure(theta, h, Path::Unloading).unwrap_or(f64::NAN);
     // The summit at mean height lets go 0.91 delta* above it; a rough surface is held by its
     // highest summits.
-    let (low, high) = (-4.0, 8.0 + unit);
+    let (low, high) = (-4.0, 8.0 + unit + 0.5 * theta.cbrt().powi(2));
     let scan = 60;
     let place = |i: usize| low + (high - low) * i as f64 / scan as f64;
     let mut best = (1, f64::INFINITY);

@@ -15,9 +15,12 @@
 //! | a wave | [`westergaard`] |
 //! | a rough surface by its summits | [`gw`], [`gw_m`], [`fuller_tabor`], [`icha`] |
 //! | a rough surface by its spectrum | [`spectrum`], [`persson`], [`persson_gap`], [`bam`], [`pastewka_robbins`] |
+//! | the elastic body itself | [`love`], [`kernel_eigenvalue`], [`layer`] |
 
+mod block_solve;
 pub mod error;
 pub mod quadrature;
+mod ring;
 pub mod roots;
 pub mod special;
 
@@ -26,20 +29,30 @@ pub mod tabor_map;
 
 pub mod bam;
 pub mod bradley;
+pub mod capillary;
+pub mod conductance;
 pub mod cone_punch;
 pub mod derjaguin;
 pub mod dmt;
+pub mod friction;
 pub mod fuller_tabor;
 pub mod gw;
 pub mod gw_m;
 pub mod hertz;
+pub mod icha;
 pub mod jkr;
+pub mod kernel_eigenvalue;
+pub mod layer;
+mod lennard_jones_curve;
+pub mod lennard_jones_sphere;
 pub mod love;
 pub mod maugis_dugdale;
 pub mod pastewka_robbins;
 pub mod persson;
 pub mod persson_gap;
+pub mod rate;
 pub mod spectrum;
+pub mod viscoelastic;
 pub mod westergaard;
 
 pub use error::TheoryError;

@@ -81,7 +81,7 @@ impl RoughContact {
     /// Mean gap at a nominal `pressure` (Pa, positive), m.
     pub fn mean_gap(&self, pressure: f64) -> Result<f64, TheoryError> {
         let pressure = positive("pressure", pressure)?;
-        self.mean_gap_beyond(self.spectrum.smallest_wavenumber(), pressure, 0.0)
+        self.mean_gap_beyond(self.spectrum.smallest_wavenumber(), pressure, 1e-9)
     }
 
     /// Mean gap, m, where the contact looks complete at wave numbers below `wavenumber`, under the
@@ -90,9 +90,9 @@ impl RoughContact {
         &self,
         wavenumber: f64,
         pressure: f64,
-        absolute: f64,
+        relative: f64,
     ) -> Result<f64, TheoryError> {
-        self.integrate_waves(wavenumber, absolute, |q, w| {
+        self.integrate_waves(wavenumber, relative, |q, w| {
             let load = w * pressure / self.contact_modulus;
             PI.sqrt() * q * q * self.spectrum.density(q) * w * self.theory.gap_integral_at(load)
         })
@@ -104,7 +104,7 @@ impl RoughContact {
         let pressure = positive("pressure", pressure)?;
         let gamma = self.theory.gamma();
         let smallest = self.spectrum.smallest_wavenumber();
-        let compliance = self.integrate_waves(smallest, 0.0, |q, w| {
+        let compliance = self.integrate_waves(smallest, 1e-9, |q, w| {
             let load = w * pressure / self.contact_modulus;
             let touching = super::special::erf(load);
             let factor = gamma + 3.0 * (1.0 - gamma) * touching * touching;
@@ -118,7 +118,7 @@ impl RoughContact {
     fn integrate_waves(
         &self,
         wavenumber: f64,
-        absolute: f64,
+        relative: f64,
         value: impl Fn(f64, f64) -> f64,
     ) -> Result<f64, TheoryError> {
         // w is infinite at the lower end; q = wavenumber exp(t^2) makes the integrand smooth.
@@ -133,9 +133,10 @@ impl RoughContact {
         let place = |q: f64| (q / wavenumber).ln().max(0.0).sqrt();
         let kink = place(self.spectrum.rolloff_wavenumber());
         let end = place(self.spectrum.largest_wavenumber());
-        let mut sum = integrate(integrand, kink, end, 1e-9, absolute)?;
+        let scale = 1e-14 * self.spectrum.rms_height();
+        let mut sum = integrate(integrand, kink, end, relative, scale)?;
         if kink > 0.0 {
-            sum += integrate(integrand, 0.0, kink, 1e-9, absolute)?;
+            sum += integrate(integrand, 0.0, kink, relative, scale)?;
         }
         Ok(sum)
     }
@@ -152,7 +153,6 @@ impl RoughContact {
             self.spectrum.largest_wavenumber(),
         );
         let step = (last / first).ln() / self.cells as f64;
-        let scale = 1e-10 * self.spectrum.rms_height();
         let edge = |i: usize| first * (step * i as f64).exp();
         let state = |i: usize| -> Result<(f64, f64), TheoryError> {
             if i == 0 {
@@ -165,7 +165,7 @@ impl RoughContact {
             if i == self.cells {
                 return Ok((area, 0.0));
             }
-            Ok((area, self.mean_gap_beyond(edge(i), pressure / area, scale)?))
+            Ok((area, self.mean_gap_beyond(edge(i), pressure / area, 1e-6)?))
         };
         let mut cells = Vec::with_capacity(self.cells);
         let (mut area, mut gap) = state(0)?;

@@ -2,7 +2,8 @@
 
 use crate::inputs::{Answer, Inputs};
 use serde_json::json;
-use tabor::theory::{love, westergaard};
+use tabor::theory::viscoelastic::{Scheme, Solid};
+use tabor::theory::{kernel_eigenvalue, layer, love, westergaard};
 
 pub fn evaluate(function: &str, inputs: &Inputs) -> Option<Answer> {
     let compute: fn(&Inputs) -> Answer = match function {
@@ -11,6 +12,33 @@ pub fn evaluate(function: &str, inputs: &Inputs) -> Option<Answer> {
             Ok(json!(love::rectangle(x, y, (a, b))?))
         },
         "disc_load" => |i| Ok(json!(love::disc(i.number("r_over_c"), 1.0)?)),
+        "kernel_eig" => |i| {
+            let [k, l, n] = i.numbers(["k", "l", "n"]);
+            let value = kernel_eigenvalue::eigenvalue(k as i64, l as i64, n as usize)?;
+            Ok(json!({
+                "spectral": value.spectral,
+                "pixel_centre": value.pixel_centre,
+                "pixel_mean": value.pixel_mean,
+            }))
+        },
+        "layer_M" => |i| {
+            let [k, nu] = i.numbers(["k", "nu"]);
+            Ok(json!({ "bonded": layer::bonded(k, nu)?, "slip": layer::sliding(k)? }))
+        },
+        "sls_creep_step" => |i| {
+            let [relaxed, branch, time] = i.numbers(["Einf", "E1", "tau"]);
+            let [step, steps, q, p] = i.numbers(["dt", "steps", "q", "p"]);
+            let scheme = match i.text("scheme") {
+                "backward_euler" => Scheme::BackwardEuler,
+                "exponential" => Scheme::Exponential,
+                other => return Err(format!("no scheme {other}").into()),
+            };
+            let solid = Solid::new(relaxed, branch, time)?;
+            Ok(json!({
+                "u_numeric": solid.stepped_creep(q, p, step, steps as usize, scheme)?,
+                "u_exact": 2.0 * p / q * solid.creep(step * steps),
+            }))
+        },
         "westergaard" => |i| {
             let a = i.number("a_over_lam");
             Ok(json!({

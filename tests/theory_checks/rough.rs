@@ -4,6 +4,7 @@ use crate::inputs::{Answer, Inputs};
 use serde_json::json;
 use tabor::theory::bam::BearingArea;
 use tabor::theory::fuller_tabor::{self, Path};
+use tabor::theory::icha::{self, Asperity, Contact, MergeRule};
 use tabor::theory::pastewka_robbins::{self, Edge};
 use tabor::theory::persson::{self, Persson};
 use tabor::theory::persson_gap::{Adhesion, RoughContact};
@@ -98,6 +99,30 @@ pub fn evaluate(function: &str, inputs: &Inputs) -> Option<Answer> {
             let (contact, pressure) = unit_contact(i)?;
             Ok(json!(contact.stiffness(pressure)?))
         },
+        "icha_two" => |i| {
+            let contacts = icha::contacts(&asperities(i), i.number("d"))?;
+            let sum = |of: fn(&Contact) -> f64| contacts.iter().map(of).sum::<f64>();
+            let indentations: Vec<f64> = contacts.iter().map(Contact::indentation).collect();
+            Ok(json!({
+                "delta": indentations,
+                "load": sum(Contact::load_over_modulus),
+                "area": sum(Contact::area),
+            }))
+        },
+        "icha_merge" => |i| {
+            let merged = icha::merged_contacts(&asperities(i), i.number("d"), MergeRule::Volume)?;
+            let [one] = merged[..] else {
+                return Err("not one contact".into());
+            };
+            Ok(json!({
+                "a": one.contact_radius,
+                "x": one.asperity.position[0],
+                "z": one.asperity.height,
+                "R": one.asperity.radius,
+                "load": one.load_over_modulus(),
+                "area": one.area(),
+            }))
+        },
         "study_persson_point" => |i| {
             let contact = study(i)?;
             let slope = contact.spectrum().rms_slope();
@@ -119,6 +144,16 @@ pub fn evaluate(function: &str, inputs: &Inputs) -> Option<Answer> {
         _ => return None,
     };
     Some(compute(inputs))
+}
+
+/// Asperities of the rows (x, y, z, R) of `xyzR`.
+fn asperities(inputs: &Inputs) -> Vec<Asperity> {
+    let row = |row: &Vec<f64>| Asperity {
+        position: [row[0], row[1]],
+        height: row[2],
+        radius: row[3],
+    };
+    inputs.rows("xyzR").iter().map(row).collect()
 }
 
 /// The spectrum of inputs `H` and `N`, four roll-off waves wide.

@@ -2,10 +2,13 @@
 
 use crate::inputs::{Answer, Inputs};
 use serde_json::json;
+use tabor::theory::capillary::Meniscus;
 use tabor::theory::dmt::{self, Method};
+use tabor::theory::lennard_jones_sphere::LennardJonesSphere;
 use tabor::theory::maugis_dugdale::{self, MaugisDugdale};
 use tabor::theory::tabor_map::{self, Sphere};
-use tabor::theory::{Law, bradley, cone_punch, derjaguin, hertz, jkr};
+use tabor::theory::viscoelastic::Solid;
+use tabor::theory::{Law, bradley, conductance, cone_punch, derjaguin, friction, hertz, jkr, rate};
 
 pub fn evaluate(function: &str, inputs: &Inputs) -> Option<Answer> {
     let compute: fn(&Inputs) -> Answer = match function {
@@ -108,6 +111,15 @@ pub fn evaluate(function: &str, inputs: &Inputs) -> Option<Answer> {
             let radius = jkr::reduced_radius_at_approach(approach)?;
             Ok(json!(0.5 * jkr::reduced_force(radius)))
         },
+        "fig2_numeric_lj" => |i| {
+            let [approach, mu] = i.numbers(["delta_over_eps", "mu"]);
+            let sphere = LennardJonesSphere::new(mu, approach.max(0.0))?;
+            Ok(json!(sphere.at_approach(approach)?.force))
+        },
+        "pulloff_lj_sphere" => |i| {
+            let sphere = LennardJonesSphere::new(i.number("mu"), 0.0)?;
+            Ok(json!(sphere.pull_off()?.force))
+        },
         "jkr_reduced" => |i| {
             let a = i.number("A");
             Ok(json!({
@@ -180,6 +192,51 @@ pub fn evaluate(function: &str, inputs: &Inputs) -> Option<Answer> {
                 "a0_bar": fit.zero_load_radius,
                 "F_bar": fit.pull_off_force,
             }))
+        },
+        "gamma_rate" => |i| {
+            let [work, speed, reference, exponent] = i.numbers(["w", "v", "vstar", "n"]);
+            Ok(json!(rate::power_law(work, speed, reference, exponent)?))
+        },
+        "gamma_log" => |i| {
+            let [work, slope, speed, reference] = i.numbers(["W0", "alpha", "v", "v0"]);
+            Ok(json!(rate::logarithmic_law(work, slope, speed, reference)?))
+        },
+        "rate_jkr_pulloff" => |i| {
+            let [speed, exponent] = i.numbers(["V_bar", "n"]);
+            Ok(json!(rate::reduced_pull_off(speed, exponent)?))
+        },
+        "capillary" => |i| {
+            let [tension, volume, temperature, humidity] = i.numbers(["gamma", "Vm", "T", "RH"]);
+            let angle = i.number("theta_deg").to_radians();
+            let meniscus = Meniscus::new(tension, volume, temperature, humidity, angle)?;
+            let [radius, gap] = i.numbers(["R", "D"]);
+            Ok(json!({
+                "r_kelvin": meniscus.kelvin_radius(),
+                "sigma0": meniscus.peak_tension(),
+                "h0": meniscus.range(),
+                "w_cap": meniscus.work_of_adhesion(),
+                "F_contact": meniscus.rigid_force(radius, 0.0)?,
+                "F_gap": meniscus.rigid_force(radius, gap)?,
+            }))
+        },
+        "friction_jkr" => |i| {
+            let [strength, force] = i.numbers(["tau", "F"]);
+            Ok(json!(friction::jkr_force(&sphere(i)?, strength, force)?))
+        },
+        "constriction_circle" => |i| {
+            let [radius, first, second, modulus] = i.numbers(["a", "k1", "k2", "Es"]);
+            let conductivity = conductance::combined_conductivity(first, second)?;
+            let stiffness = cone_punch::punch_force(radius, modulus, 1.0)?;
+            Ok(json!({
+                "C": conductance::circle(conductivity, radius)?,
+                "C_from_stiffness": conductance::from_stiffness(conductivity, modulus, stiffness)?,
+            }))
+        },
+        "lee_radok" => |i| {
+            let [relaxed, branch, time] = i.numbers(["Einf", "E1", "tau"]);
+            let [radius, force, t] = i.numbers(["R", "F", "t"]);
+            let solid = Solid::new(relaxed, branch, time)?;
+            Ok(json!(solid.sphere_contact_radius(radius, force, t)?))
         },
         "cone" => |i| {
             let cone = cone_punch::Cone::new(i.number("b_deg").to_radians(), i.number("Es"))?;

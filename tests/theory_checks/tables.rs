@@ -1,7 +1,9 @@
 //! The tables of `tests/reference` against the closed forms.
 
 use std::path::Path;
+use tabor::theory::lennard_jones_sphere::{self, LennardJonesSphere};
 use tabor::theory::maugis_dugdale::{FOLD_LAMBDA, MaugisDugdale};
+use tabor::theory::viscoelastic::Solid;
 use tabor::theory::{Law, Sphere, dmt, hertz, jkr, tabor_map, westergaard};
 
 /// A CSV file: the names of its columns and its rows, comments left out.
@@ -178,5 +180,114 @@ fn westergaard_tables() {
         row.check("p_over_pstar", pressure, 1e-10, 5e-8);
         let gap = westergaard::gap(a, x).expect("a gap");
         row.check("gap_over_Delta", gap, 1e-10, 1e-11);
+    }
+}
+
+/// The equilibrium on a traced curve at an approach, nearest to a force where the curve folds.
+fn nearest(
+    sphere: &LennardJonesSphere,
+    curve: &[lennard_jones_sphere::State],
+    approach: f64,
+    force: f64,
+) -> Option<lennard_jones_sphere::State> {
+    let miss = |pair: &&[lennard_jones_sphere::State]| {
+        let share = (approach - pair[0].approach) / (pair[1].approach - pair[0].approach);
+        let guess = pair[0].force + share * (pair[1].force - pair[0].force);
+        ((0.0..=1.0).contains(&share)).then_some((guess - force).abs())
+    };
+    let pair = curve
+        .windows(2)
+        .filter(|pair| miss(pair).is_some())
+        .min_by(|a, b| miss(a).partial_cmp(&miss(b)).expect("finite misses"))?;
+    sphere.between(pair, approach).ok()
+}
+
+#[test]
+fn lennard_jones_curves() {
+    for (name, mu, every) in [("0.1", 0.1, 2), ("0.5", 0.5, 4), ("2", 2.0, 12)] {
+        let deepest = 1.5;
+        let sphere = LennardJonesSphere::new(mu, deepest).expect("a sphere");
+        let curve = sphere
+            .curve(|states| states.last().is_some_and(|last| last.approach > deepest))
+            .expect("a curve");
+        let mut compared = 0;
+        for row in Table::read(&format!("lj_curve_mu{name}.csv"))
+            .rows()
+            .step_by(every)
+        {
+            let (approach, force) = (row.number("A"), row.number("F_over_2piwR"));
+            if approach < curve[0].approach || approach > deepest {
+                continue;
+            }
+            // Right beside a fold there may be no pair of neighbours around the row; the special
+            // points stand for those.
+            let Some(state) = nearest(&sphere, &curve, approach, force) else {
+                continue;
+            };
+            compared += 1;
+            row.check("F_over_2piwR", state.force, 1e-7, 1e-7);
+            row.check("u0", 1.0 + sphere.gap(&state, 0.0), 1e-7, 1e-7);
+            for (column, gap) in [("r_eq", 0.0), ("r_pk", Law::LennardJones.peak_gap())] {
+                if row.number(column) > 0.0 {
+                    let radius = sphere.radius_of_gap(&state, gap).expect("a radius");
+                    row.check(column, radius, 1e-6, 1e-6);
+                }
+            }
+        }
+        assert!(compared > 12, "only {compared} rows of {name}");
+    }
+}
+
+#[test]
+fn lennard_jones_special_points() {
+    for row in Table::read("lj_special_points.csv").rows() {
+        let mu = row.number("mu");
+        let sphere = LennardJonesSphere::new(mu, 0.0).expect("a sphere");
+        let pull = sphere.pull_off().expect("a pull-off");
+        row.check("pull_F_over_2piwR", -pull.force, 1e-7, 0.0);
+        // The place of a minimum is known to the square root of rounding, at best.
+        row.check("pull_A", pull.approach, 0.0, 1e-4);
+        let folds = sphere.folds().expect("a curve");
+        assert_eq!(folds.is_some(), row.number("n_folds_in") > 0.0);
+        if let Some((jump_in, jump_off)) = folds {
+            row.check("jump_in_A", jump_in.approach, 1e-7, 0.0);
+            row.check("jump_in_F_over_2piwR_abs", -jump_in.force, 1e-4, 0.0);
+            row.check("jump_off_A", jump_off.approach, 1e-7, 0.0);
+            row.check("jump_off_F_over_2piwR_abs", -jump_off.force, 1e-4, 0.0);
+        }
+    }
+}
+
+#[test]
+fn lennard_jones_profiles() {
+    let sphere = LennardJonesSphere::new(0.5, 2.0).expect("a sphere");
+    let mut state: Option<lennard_jones_sphere::State> = None;
+    for row in Table::read("lj_profile_mu0.5.csv").rows().step_by(5) {
+        let approach = row.number("A");
+        if state.as_ref().is_none_or(|s| s.approach != approach) {
+            state = Some(sphere.at_approach(approach).expect("a state"));
+        }
+        let state = state.as_ref().expect("a state");
+        let x = row.number("x");
+        row.check("u", 1.0 + sphere.gap(state, x), 1e-7, 1e-7);
+        row.check("p", sphere.pressure(state, x), 1e-6, 1e-6);
+    }
+}
+
+#[test]
+fn step_load_on_a_viscoelastic_sphere() {
+    // Moduli in E_0, times in the relaxation time, lengths such that a_0 = 1 and R = 1.
+    let solid = Solid::new(0.1, 0.9, 1.0).expect("a solid");
+    let (radius, force) = (1.0, 4.0 / 3.0);
+    let unit = 3.0 * force / (2.0 * std::f64::consts::PI);
+    for row in Table::read("lee_radok_step_ratio0.1.csv").rows() {
+        let time = row.number("t_over_tau_r");
+        row.check("E0_J", solid.creep(time), 1e-10, 0.0);
+        let contact = solid.sphere_contact_radius(radius, force, time);
+        row.check("a_over_a0", contact.expect("a radius"), 1e-10, 0.0);
+        for (column, r) in [("p_r0", 0.0), ("p_r0.5a0", 0.5), ("p_r0.9a0", 0.9)] {
+            let pressure = solid.sphere_pressure(radius, force, time, r);
+            row.check(column, pressure.expect("a pressure") / unit, 1e-7, 1e-9);
+        }
     }
 }

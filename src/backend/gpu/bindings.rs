@@ -1,0 +1,77 @@
+//! Layouts of what is bound to a kernel, written out: automatic ones drop what a kernel happens
+//! not to use, and then differ between kernels.
+
+/// What a binding is to its kernel.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Access {
+    /// The fixed numbers.
+    Uniform,
+    /// A buffer that is read.
+    Read,
+    /// A buffer that is written or updated.
+    Write,
+}
+
+/// Group 0 of the kernels that work on points: params, scalars, partial sums.
+pub const WORKING: &[Access] = &[Access::Uniform, Access::Read, Access::Write];
+/// Group 0 of the kernels that change the scalars.
+pub const DECIDING: &[Access] = &[Access::Uniform, Access::Write, Access::Write];
+/// Group 2 of the row transforms: roots of unity, work space.
+pub const ROWS: &[Access] = &[Access::Read, Access::Write];
+/// Group 1 of the columns: roots of unity, work space, factors.
+pub const COLUMNS: &[Access] = &[Access::Read, Access::Write, Access::Read];
+
+/// Group 1 of a kernel of the catalogue: its fields in declared order.
+pub fn fields(reads: usize, writes: usize, whole: bool) -> Vec<Access> {
+    let mut accesses = vec![Access::Read; reads];
+    accesses.extend(vec![Access::Write; writes]);
+    accesses.extend(whole.then_some(Access::Read));
+    accesses
+}
+
+/// Makes the layout of a group.
+pub fn layout(device: &wgpu::Device, accesses: &[Access]) -> wgpu::BindGroupLayout {
+    let entries: Vec<_> = accesses
+        .iter()
+        .zip(0..)
+        .map(|(access, binding)| wgpu::BindGroupLayoutEntry {
+            binding,
+            visibility: wgpu::ShaderStages::COMPUTE,
+            ty: wgpu::BindingType::Buffer {
+                ty: match access {
+                    Access::Uniform => wgpu::BufferBindingType::Uniform,
+                    Access::Read => wgpu::BufferBindingType::Storage { read_only: true },
+                    Access::Write => wgpu::BufferBindingType::Storage { read_only: false },
+                },
+                has_dynamic_offset: false,
+                min_binding_size: None,
+            },
+            count: None,
+        })
+        .collect();
+    device.create_bind_group_layout(&wgpu::BindGroupLayoutDescriptor {
+        label: None,
+        entries: &entries,
+    })
+}
+
+/// Binds buffers to a layout.
+pub fn group(
+    device: &wgpu::Device,
+    layout: &wgpu::BindGroupLayout,
+    buffers: &[&wgpu::Buffer],
+) -> wgpu::BindGroup {
+    let entries: Vec<_> = buffers
+        .iter()
+        .zip(0..)
+        .map(|(buffer, binding)| wgpu::BindGroupEntry {
+            binding,
+            resource: buffer.as_entire_binding(),
+        })
+        .collect();
+    device.create_bind_group(&wgpu::BindGroupDescriptor {
+        label: None,
+        layout,
+        entries: &entries,
+    })
+}

@@ -1,0 +1,325 @@
+//! Adapters and devices: which one is taken, what it allows, and how its failures are caught.
+
+use std::collections::HashMap;
+use std::sync::{Arc, Mutex, OnceLock, PoisonError};
+
+use super::error::GpuError;
+use super::layout::Wide;
+use super::plan::GroupLimits;
+
+/// Which adapter to take.
+#[derive(Clone, Debug, Default, PartialEq, Eq)]
+pub struct AdapterChoice {
+    /// Part of its name, in any case; also from the environment variable `WGPU_ADAPTER_NAME`.
+    pub name: Option<String>,
+    /// Whether a driver that computes on the processor will do. It is slower there than this
+    /// program's own CPU backend, so only tests and explicit wishes want it.
+    pub software: bool,
+}
+
+/// An adapter in words.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct AdapterDescription {
+    /// Its name.
+    pub name: String,
+    /// The interface through which it is reached, as `Vulkan`.
+    pub interface: String,
+    /// Whether it computes on the processor.
+    pub software: bool,
+    /// Whether it has double precision.
+    pub double: bool,
+    /// Bytes that it binds at a time.
+    pub binding_limit: u64,
+}
+
+/// A graphics processor, ready to compute. Copies share the device and its compiled kernels.
+#[derive(Clone)]
+pub struct GpuDevice {
+    inner: Arc<Inner>,
+}
+
+struct Inner {
+    device: wgpu::Device,
+    queue: wgpu::Queue,
+    description: AdapterDescription,
+    pipelines: Mutex<HashMap<String, wgpu::ComputePipeline>>,
+    lost: Arc<OnceLock<String>>,
+}
+
+fn instance() -> wgpu::Instance {
+    wgpu::Instance::new(wgpu::InstanceDescriptor::new_without_display_handle_from_env())
+}
+
+fn describe(adapter: &wgpu::Adapter) -> AdapterDescription {
+    let info = adapter.get_info();
+    AdapterDescription {
+        interface: format!("{:?}", info.backend),
+        software: info.device_type == wgpu::DeviceType::Cpu,
+        double: adapter.features().contains(wgpu::Features::SHADER_F64),
+        binding_limit: adapter.limits().max_storage_buffer_binding_size,
+        name: info.name,
+    }
+}
+
+/// All adapters that drivers offer here.
+pub fn adapters() -> Vec<AdapterDescription> {
+    enumerate(&instance()).iter().map(describe).collect()
+}
+
+fn enumerate(instance: &wgpu::Instance) -> Vec<wgpu::Adapter> {
+    pollster::block_on(instance.enumerate_adapters(wgpu::Backends::all()))
+}
+
+/// The place of the adapter to take among those there are.
+fn choose(
+    found: &[AdapterDescription],
+    kinds: &[wgpu::DeviceType],
+    choice: &AdapterChoice,
+) -> Result<usize, GpuError> {
+    if let Some(wanted) = &choice.name {
+        let lower = wanted.to_lowercase();
+        return found
+            .iter()
+            .position(|adapter| adapter.name.to_lowercase().contains(&lower))
+            .ok_or_else(|| GpuError::NoSuchAdapter {
+                wanted: wanted.clone(),
+                found: match found {
+                    [] => "none".to_string(),
+                    _ => found
+                        .iter()
+                        .map(|adapter| format!("`{}`", adapter.name))
+                        .collect::<Vec<_>>()
+                        .join(", "),
+                },
+            });
+    }
+    let rank = |kind: &wgpu::DeviceType| match kind {
+        wgpu::DeviceType::DiscreteGpu => Some(0),
+        wgpu::DeviceType::IntegratedGpu => Some(1),
+        wgpu::DeviceType::VirtualGpu => Some(2),
+        wgpu::DeviceType::Other => Some(3),
+        wgpu::DeviceType::Cpu => choice.software.then_some(4),
+    };
+    kinds
+        .iter()
+        .enumerate()
+        .filter_map(|(place, kind)| rank(kind).map(|rank| (rank, place)))
+        .min()
+        .map(|(_, place)| place)
+        .ok_or_else(|| {
+            GpuError::NoAdapter(match found {
+                [] => String::new(),
+                _ => format!(" but {}, which computes on the processor", found[0].name),
+            })
+        })
+}
+
+impl GpuDevice {
+    /// Takes an adapter and readies its device.
+    pub fn new(choice: &AdapterChoice) -> Result<Self, GpuError> {
+        let mut choice = choice.clone();
+        if choice.name.is_none() {
+            choice.name = std::env::var("WGPU_ADAPTER_NAME")
+                .ok()
+                .filter(|name| !name.is_empty());
+        }
+        let found = enumerate(&instance());
+        let descriptions: Vec<_> = found.iter().map(describe).collect();
+        let kinds: Vec<_> = found
+            .iter()
+            .map(|adapter| adapter.get_info().device_type)
+            .collect();
+        let place = choose(&descriptions, &kinds, &choice)?;
+        let adapter = &found[place];
+        let description = descriptions[place].clone();
+        let required_features = adapter.features() & wgpu::Features::SHADER_F64;
+        let (device, queue) = pollster::block_on(adapter.request_device(&wgpu::DeviceDescriptor {
+            label: Some("tabor"),
+            required_features,
+            required_limits: adapter.limits(),
+            ..Default::default()
+        }))
+        .map_err(|error| GpuError::NoDevice {
+            adapter: description.name.clone(),
+            reason: error.to_string(),
+        })?;
+        let lost = Arc::new(OnceLock::new());
+        let first = Arc::clone(&lost);
+        device.set_device_lost_callback(move |reason, message| {
+            let _ = first.set(format!("the device was lost ({reason:?}): {message}"));
+        });
+        // Without a handler an error outside of every scope would end the program.
+        let first = Arc::clone(&lost);
+        device.on_uncaptured_error(Arc::new(move |error: wgpu::Error| {
+            let _ = first.set(error.to_string());
+        }));
+        Ok(GpuDevice {
+            inner: Arc::new(Inner {
+                device,
+                queue,
+                description,
+                pipelines: Mutex::new(HashMap::new()),
+                lost,
+            }),
+        })
+    }
+
+    /// The adapter in words.
+    pub fn description(&self) -> &AdapterDescription {
+        &self.inner.description
+    }
+
+    /// The number in which sums are kept here.
+    pub fn wide(&self) -> Wide {
+        if self.inner.description.double {
+            Wide::Double
+        } else {
+            Wide::Single
+        }
+    }
+
+    /// What a workgroup may hold.
+    pub fn group_limits(&self) -> GroupLimits {
+        let limits = self.inner.device.limits();
+        let threads = limits
+            .max_compute_invocations_per_workgroup
+            .min(limits.max_compute_workgroup_size_x)
+            .min(limits.max_compute_workgroup_size_y);
+        GroupLimits {
+            threads: threads as usize,
+            memory: limits.max_compute_workgroup_storage_size as usize,
+        }
+    }
+
+    /// Bytes that may be bound at a time.
+    pub fn binding_limit(&self) -> u64 {
+        let limits = self.inner.device.limits();
+        limits
+            .max_storage_buffer_binding_size
+            .min(limits.max_buffer_size)
+    }
+
+    pub(super) fn queue(&self) -> &wgpu::Queue {
+        &self.inner.queue
+    }
+
+    /// What ended the device, if it is no more.
+    pub(super) fn loss(&self) -> Option<GpuError> {
+        self.inner
+            .lost
+            .get()
+            .map(|reason| GpuError::Device(reason.clone()))
+    }
+
+    /// Does something with the device and catches what it has to say against it.
+    pub(super) fn guarded<R>(&self, work: impl FnOnce(&wgpu::Device) -> R) -> Result<R, GpuError> {
+        let device = &self.inner.device;
+        let memory = device.push_error_scope(wgpu::ErrorFilter::OutOfMemory);
+        let internal = device.push_error_scope(wgpu::ErrorFilter::Internal);
+        let validation = device.push_error_scope(wgpu::ErrorFilter::Validation);
+        let result = work(device);
+        let errors = [
+            pollster::block_on(validation.pop()),
+            pollster::block_on(internal.pop()),
+            pollster::block_on(memory.pop()),
+        ];
+        if let Some(error) = errors.into_iter().flatten().next() {
+            return Err(GpuError::Device(match error {
+                wgpu::Error::OutOfMemory { .. } => {
+                    "out of memory on the graphics processor".to_string()
+                }
+                other => other.to_string(),
+            }));
+        }
+        match self.loss() {
+            Some(error) => Err(error),
+            None => Ok(result),
+        }
+    }
+
+    /// Compiles a shader, or finds it among those compiled before.
+    pub(super) fn pipeline(
+        &self,
+        name: &str,
+        source: String,
+        layouts: &[&wgpu::BindGroupLayout],
+    ) -> Result<wgpu::ComputePipeline, GpuError> {
+        let mut pipelines = self
+            .inner
+            .pipelines
+            .lock()
+            .unwrap_or_else(PoisonError::into_inner);
+        if let Some(pipeline) = pipelines.get(&source) {
+            return Ok(pipeline.clone());
+        }
+        let pipeline = self.guarded(|device| {
+            let module = device.create_shader_module(wgpu::ShaderModuleDescriptor {
+                label: Some(name),
+                source: wgpu::ShaderSource::Wgsl(source.as_str().into()),
+            });
+            let layouts: Vec<_> = layouts.iter().map(|&layout| Some(layout)).collect();
+            let layout = device.create_pipeline_layout(&wgpu::PipelineLayoutDescriptor {
+                label: Some(name),
+                bind_group_layouts: &layouts,
+                immediate_size: 0,
+            });
+            device.create_compute_pipeline(&wgpu::ComputePipelineDescriptor {
+                label: Some(name),
+                layout: Some(&layout),
+                module: &module,
+                entry_point: Some(name),
+                compilation_options: wgpu::PipelineCompilationOptions {
+                    // Every kernel writes its workgroup memory before it reads it.
+                    zero_initialize_workgroup_memory: false,
+                    ..Default::default()
+                },
+                cache: None,
+            })
+        })?;
+        pipelines.insert(source, pipeline.clone());
+        Ok(pipeline)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn adapter(name: &str, software: bool) -> AdapterDescription {
+        AdapterDescription {
+            name: name.to_string(),
+            interface: "Vulkan".to_string(),
+            software,
+            double: true,
+            binding_limit: 1 << 27,
+        }
+    }
+
+    #[test]
+    fn a_software_adapter_is_taken_only_where_it_will_do() {
+        use wgpu::DeviceType::{Cpu, DiscreteGpu, IntegratedGpu};
+        let found = [
+            adapter("software", true),
+            adapter("small", false),
+            adapter("Large One", false),
+        ];
+        let kinds = [Cpu, IntegratedGpu, DiscreteGpu];
+        let mut choice = AdapterChoice::default();
+        assert_eq!(choose(&found, &kinds, &choice), Ok(2));
+        assert_eq!(choose(&found[..2], &kinds[..2], &choice), Ok(1));
+        let refused = choose(&found[..1], &kinds[..1], &choice);
+        assert!(matches!(refused, Err(GpuError::NoAdapter(_))));
+        choice.software = true;
+        assert_eq!(choose(&found[..1], &kinds[..1], &choice), Ok(0));
+        assert_eq!(choose(&found, &kinds, &choice), Ok(2));
+        choice.name = Some("SMALL".to_string());
+        assert_eq!(choose(&found, &kinds, &choice), Ok(1));
+        choice.name = Some("other".to_string());
+        let refused = choose(&found, &kinds, &choice).map_err(|error| error.to_string());
+        assert_eq!(
+            refused,
+            Err("no graphics adapter has `other` in its name; there are: `software`, `small`, `Large One`".to_string())
+        );
+        assert!(choose(&[], &[], &AdapterChoice::default()).is_err());
+    }
+}

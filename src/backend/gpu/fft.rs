@@ -1,0 +1,184 @@
+//! The transform of a line by a workgroup, written out in WGSL for one length.
+//!
+//! Stockham's self-sorting scheme: at each stage a thread takes the values `j + k n/r` of its
+//! butterflies `j`, turns them by the roots of unity, transforms them over `k` and hands them to
+//! the places where the next stage looks for them. Everything whose number is known is unrolled
+//! into named variables, since an array with a computed index would leave the registers.
+//!
+//! The code refers to `thread` and `line` (this thread's place in its line, and the line's place in
+//! the workgroup), `exchange` (workgroup memory) and `roots` (`exp(-2 pi i m / n)`, a table).
+
+use std::fmt::Write;
+
+use super::butterfly::{Direction, butterfly};
+use super::plan::{Exchange, LinePlan};
+
+/// Writes the transforms of one line length.
+pub struct LineWriter<'a> {
+    plan: &'a LinePlan,
+    /// Whether neighbouring threads belong to neighbouring lines, not to the same one.
+    interleaved: bool,
+    /// Whether workgroup memory still holds values that another thread may read.
+    occupied: bool,
+    /// The WGSL written so far.
+    pub source: String,
+}
+
+/// A thread's butterfly at one stage.
+pub struct Butterfly {
+    /// Which of the thread's butterflies.
+    round: usize,
+    /// Values in it.
+    pub radix: usize,
+    /// Distance of its values in the line.
+    pub stride: usize,
+}
+
+impl Butterfly {
+    /// The variable of leg `k`.
+    pub fn name(&self, leg: usize) -> String {
+        format!("v{}", self.round * self.radix + leg)
+    }
+
+    /// Where leg `k` lies in the line before the first stage and after the last one.
+    pub fn position(&self, leg: usize) -> String {
+        format!("(j + {}u)", leg * self.stride)
+    }
+}
+
+impl<'a> LineWriter<'a> {
+    /// A writer that has declared its variables.
+    pub fn new(plan: &'a LinePlan, interleaved: bool) -> Self {
+        let mut source = String::new();
+        for value in 0..plan.values() {
+            let _ = writeln!(source, "var v{value} = vec2<f32>(0.0, 0.0);");
+        }
+        LineWriter {
+            plan,
+            interleaved,
+            occupied: false,
+            source,
+        }
+    }
+
+    /// Declares the memory through which the threads of a workgroup exchange values.
+    pub fn declarations(plan: &LinePlan) -> String {
+        let kind = match plan.exchange {
+            Exchange::Whole => "vec2<f32>",
+            Exchange::Split => "f32",
+        };
+        format!(
+            "var<workgroup> exchange: array<{kind}, {}>;\nconst LINES: u32 = {}u;\n",
+            plan.length * plan.lines,
+            plan.lines,
+        )
+    }
+
+    /// The workgroup's size along x and y.
+    pub fn workgroup_size(plan: &LinePlan, interleaved: bool) -> [usize; 2] {
+        if interleaved {
+            [plan.lines, plan.threads]
+        } else {
+            [plan.threads, plan.lines]
+        }
+    }
+
+    /// Calls `body` for each butterfly that a thread has at a stage; `j` is its number.
+    pub fn butterflies(&mut self, radix: usize, mut body: impl FnMut(&mut String, &Butterfly)) {
+        let stride = self.plan.length / radix;
+        let threads = self.plan.threads;
+        for round in 0..stride.div_ceil(threads) {
+            let _ = writeln!(self.source, "{{ let j = thread + {}u;", round * threads);
+            let partly_idle = (round + 1) * threads > stride;
+            if partly_idle {
+                let _ = writeln!(self.source, "if (j < {stride}u) {{");
+            }
+            body(
+                &mut self.source,
+                &Butterfly {
+                    round,
+                    radix,
+                    stride,
+                },
+            );
+            self.source
+                .push_str(if partly_idle { "}\n}\n" } else { "}\n" });
+        }
+    }
+
+    /// Transforms the line that the variables hold, first stage's places to last stage's places.
+    pub fn transform(&mut self, direction: Direction) {
+        let mut radices = self.plan.radices.clone();
+        if direction == Direction::Inverse {
+            radices.reverse();
+        }
+        let mut before = 1;
+        for (stage, &radix) in radices.iter().enumerate() {
+            self.stage(direction, radix, before);
+            if let Some(&next) = radices.get(stage + 1) {
+                match self.plan.exchange {
+                    Exchange::Whole => self.pass(radix, before, next, ""),
+                    Exchange::Split => {
+                        self.pass(radix, before, next, ".x");
+                        self.pass(radix, before, next, ".y");
+                    }
+                }
+            }
+            before *= radix;
+        }
+    }
+
+    /// The butterflies of a stage; `before` is the product of the radices before it.
+    fn stage(&mut self, direction: Direction, radix: usize, before: usize) {
+        let turn = match direction {
+            Direction::Forward => "turn",
+            Direction::Inverse => "turn_back",
+        };
+        let fold = self.plan.length / (before * radix);
+        self.butterflies(radix, |source, each| {
+            if before > 1 {
+                let _ = writeln!(source, "let root = (j % {before}u) * {fold}u;");
+                for leg in 1..radix {
+                    let name = each.name(leg);
+                    let _ = writeln!(source, "{name} = {turn}({name}, roots[root * {leg}u]);");
+                }
+            }
+            let names: Vec<String> = (0..radix).map(|leg| each.name(leg)).collect();
+            butterfly(source, direction, &names);
+        });
+    }
+
+    /// Hands one part of the values from their places after a stage to those before the next.
+    fn pass(&mut self, radix: usize, before: usize, next: usize, part: &str) {
+        let (length, lines, interleaved) = (self.plan.length, self.plan.lines, self.interleaved);
+        let address = move |place: &str| {
+            if interleaved {
+                format!("exchange[({place}) * {lines}u + line]")
+            } else {
+                format!("exchange[line * {length}u + {place}]")
+            }
+        };
+        if self.occupied {
+            self.source.push_str("workgroupBarrier();\n");
+        }
+        self.butterflies(radix, |source, each| {
+            let _ = writeln!(
+                source,
+                "let start = (j / {before}u) * {}u + j % {before}u;",
+                before * radix
+            );
+            for leg in 0..radix {
+                let place = address(&format!("start + {}u", leg * before));
+                let _ = writeln!(source, "{place} = {}{part};", each.name(leg));
+            }
+        });
+        self.source.push_str("workgroupBarrier();\n");
+        self.butterflies(next, |source, each| {
+            for leg in 0..next {
+                let place = address(&each.position(leg));
+                let _ = writeln!(source, "{}{part} = {place};", each.name(leg));
+            }
+        });
+        self.occupied = true;
+    }
+}

@@ -1,0 +1,500 @@
+//! A graphics processor through wgpu: fields in single precision, kernels as WGSL.
+//!
+//! A convolution is three dispatches: rows, columns with the factors, rows back. The work space of
+//! a level holds the transforms along x of its pairs of rows (y with y + ny/2, one complex row),
+//! transposed, so it takes no more than a field does. Scalars stay on the device, where the scalar
+//! kernels change them; a kernel whose gate is shut returns at once. This is the only place that
+//! names wgpu.
+
+mod bindings;
+mod butterfly;
+mod catalogue;
+mod device;
+mod error;
+mod fft;
+mod layout;
+mod plan;
+mod recorder;
+pub mod source;
+mod space;
+
+use std::collections::HashMap;
+use std::f64::consts::TAU;
+
+use super::{Backend, BackendError, Field, Level, Shape, Spectrum};
+use crate::kernel::{Form, Gate, Kernel, Params, ScalarKernel, Scalars};
+use bindings::{COLUMNS, DECIDING, ROWS, WORKING};
+use recorder::{Part, Prepared, Recorder};
+use source::{LevelPlan, ROW_TRANSFORMS_PER_TRANSFORM, Results};
+use space::{FieldSpace, LevelSpace, SpectrumSpace};
+
+pub use catalogue::LawPart;
+pub use device::{AdapterChoice, AdapterDescription, GpuDevice, adapters};
+pub use error::GpuError;
+pub use layout::Wide;
+pub use plan::{Exchange, GroupLimits, LinePlan};
+
+/// What a prepared dispatch is found by.
+#[derive(Clone, PartialEq, Eq, Hash)]
+enum Key {
+    Kernel(&'static str, usize, Vec<usize>),
+    Sums(&'static str, usize),
+    Multiply(usize, bool, &'static str),
+    Curvature(usize, &'static str),
+    Scalar(&'static str),
+}
+
+/// The GPU backend, in single precision.
+pub struct GpuBackend {
+    device: GpuDevice,
+    wide: Wide,
+    recorder: Recorder,
+    params: wgpu::Buffer,
+    scalars: wgpu::Buffer,
+    levels: Vec<Option<LevelSpace>>,
+    fields: Vec<Option<FieldSpace>>,
+    spectra: Vec<Option<SpectrumSpace>>,
+    roots: HashMap<usize, wgpu::Buffer>,
+    prepared: HashMap<Key, Prepared>,
+    law: LawPart,
+    /// The first thing that went wrong; told where the host waits.
+    failure: Option<GpuError>,
+    transforms: f64,
+}
+
+impl GpuBackend {
+    /// A backend with nothing in it.
+    pub fn new(device: &GpuDevice) -> Result<Self, GpuError> {
+        let wide = device.wide();
+        let (params, scalars) = device.guarded(|device| {
+            let params = space::buffer(
+                device,
+                "params",
+                layout::params_length(wide),
+                wgpu::BufferUsages::UNIFORM,
+            );
+            let scalars = space::buffer(
+                device,
+                "scalars",
+                layout::scalars_length(wide),
+                wgpu::BufferUsages::STORAGE,
+            );
+            (params, scalars)
+        })?;
+        let mut backend = GpuBackend {
+            device: device.clone(),
+            wide,
+            recorder: Recorder::new(device.clone()),
+            params,
+            scalars,
+            levels: Vec::new(),
+            fields: Vec::new(),
+            spectra: Vec::new(),
+            roots: HashMap::new(),
+            prepared: HashMap::new(),
+            law: LawPart::HardWall,
+            failure: None,
+            transforms: 0.0,
+        };
+        backend.set_scalars(&Scalars::start(0.0, false));
+        backend.checked()?;
+        Ok(backend)
+    }
+
+    /// The device it computes on.
+    pub fn device(&self) -> &GpuDevice {
+        &self.device
+    }
+
+    /// The first failure, if there was one.
+    fn checked(&self) -> Result<(), GpuError> {
+        match &self.failure {
+            Some(error) => Err(error.clone()),
+            None => Ok(()),
+        }
+    }
+
+    /// Does something unless something has failed before, and remembers its failure.
+    fn attempt<R>(&mut self, work: impl FnOnce(&mut Self) -> Result<R, GpuError>) -> Option<R> {
+        if self.failure.is_some() {
+            return None;
+        }
+        match work(self) {
+            Ok(result) => Some(result),
+            Err(error) => {
+                self.failure = Some(error);
+                None
+            }
+        }
+    }
+
+    /// A table of the roots of unity `exp(-2 pi i m / n)`, computed in double precision.
+    fn roots(&mut self, length: usize) -> Result<wgpu::Buffer, GpuError> {
+        if let Some(buffer) = self.roots.get(&length) {
+            return Ok(buffer.clone());
+        }
+        let buffer = self.storage("roots", 8 * length)?;
+        let values = (0..length).flat_map(|m| {
+            let angle = TAU * m as f64 / length as f64;
+            [angle.cos() as f32, -angle.sin() as f32]
+        });
+        self.recorder
+            .write(&buffer, values.flat_map(f32::to_le_bytes))?;
+        self.roots.insert(length, buffer.clone());
+        Ok(buffer)
+    }
+
+    /// A storage buffer of zeros, if the adapter can bind it.
+    fn storage(&self, name: &str, bytes: usize) -> Result<wgpu::Buffer, GpuError> {
+        let limit = self.device.binding_limit();
+        if bytes as u64 > limit {
+            return Err(GpuError::TooLarge {
+                name: name.to_string(),
+                bytes: bytes as u64,
+                limit,
+            });
+        }
+        self.device
+            .guarded(|device| space::buffer(device, name, bytes, wgpu::BufferUsages::STORAGE))
+    }
+
+    fn level_space(&self, level: Level) -> Result<&LevelSpace, GpuError> {
+        self.levels
+            .get(level.0)
+            .and_then(Option::as_ref)
+            .ok_or_else(|| GpuError::Device("a level that was not made".to_string()))
+    }
+
+    fn field_space(&self, field: Field) -> Result<&FieldSpace, GpuError> {
+        self.fields
+            .get(field.index)
+            .and_then(Option::as_ref)
+            .ok_or_else(|| GpuError::Device("a field that was not made".to_string()))
+    }
+
+    fn spectrum_space(&self, spectrum: Spectrum) -> Result<&SpectrumSpace, GpuError> {
+        self.spectra
+            .get(spectrum.index)
+            .and_then(Option::as_ref)
+            .ok_or_else(|| GpuError::Device("a spectrum that was not made".to_string()))
+    }
+
+    /// Compiles a shader and binds its buffers, group by group.
+    fn prepare(
+        &self,
+        name: &str,
+        source: String,
+        groups: &[(&[bindings::Access], &[&wgpu::Buffer])],
+        workgroups: usize,
+    ) -> Result<Prepared, GpuError> {
+        let (layouts, groups) = self.device.guarded(|device| {
+            groups
+                .iter()
+                .map(|(accesses, buffers)| {
+                    let layout = bindings::layout(device, accesses);
+                    let group = bindings::group(device, &layout, buffers);
+                    (layout, group)
+                })
+                .collect::<(Vec<_>, Vec<_>)>()
+        })?;
+        let layouts: Vec<_> = layouts.iter().collect();
+        let pipeline = self.device.pipeline(name, source, &layouts)?;
+        Ok(Prepared {
+            pipeline,
+            groups,
+            // Plans keep it far below the 65535 that every adapter takes.
+            workgroups: workgroups as u32,
+        })
+    }
+
+    /// Finds a prepared dispatch or prepares it, and records it.
+    fn record(
+        &mut self,
+        key: Key,
+        prepare: impl FnOnce(&Self) -> Result<Prepared, GpuError>,
+    ) -> Result<(), GpuError> {
+        let prepared = match self.prepared.get(&key) {
+            Some(prepared) => prepared.clone(),
+            None => {
+                let prepared = prepare(self)?;
+                self.prepared.insert(key, prepared.clone());
+                prepared
+            }
+        };
+        self.recorder.dispatch(prepared)
+    }
+
+    /// Records a kernel of the catalogue and the reduction of its sums.
+    fn run(
+        &mut self,
+        kernel: &'static Kernel,
+        level: Level,
+        fields: &[Field],
+    ) -> Result<(), GpuError> {
+        if fields.len() != kernel.fields() {
+            return Err(GpuError::Fields {
+                kernel: kernel.name,
+                expected: kernel.fields(),
+                given: fields.len(),
+            });
+        }
+        let indices = fields.iter().map(|field| field.index).collect();
+        let key = Key::Kernel(kernel.name, level.0, indices);
+        self.record(key, |backend| backend.kernel(kernel, level, fields))?;
+        if kernel.sums.is_empty() {
+            return Ok(());
+        }
+        self.record(Key::Sums(kernel.name, level.0), |backend| {
+            let space = backend.level_space(level)?;
+            let groups = space.plan.groups(kernel.form);
+            let results = Results::Sums(kernel.sums);
+            let text = source::reduce(results, groups, kernel.gate, backend.wide);
+            backend.reduction(space, text)
+        })
+    }
+
+    fn kernel(
+        &self,
+        kernel: &'static Kernel,
+        level: Level,
+        fields: &[Field],
+    ) -> Result<Prepared, GpuError> {
+        let space = self.level_space(level)?;
+        let mut buffers = Vec::new();
+        for &field in fields {
+            buffers.push(&self.field_space(field)?.buffer);
+        }
+        let whole = match (kernel.whole, fields.last()) {
+            (true, Some(field)) => self.level_space(field.level)?.plan.shape,
+            _ => [0, 0],
+        };
+        let text = source::kernel(kernel, &space.plan, whole, self.law, self.wide)?;
+        let accesses = bindings::fields(kernel.reads, kernel.writes, kernel.whole);
+        let shared = [&self.params, &self.scalars, &space.partials];
+        let transform = [&space.row_roots, &space.work];
+        let mut groups: Vec<(&[bindings::Access], &[&wgpu::Buffer])> =
+            vec![(WORKING, &shared), (&accesses, &buffers)];
+        if kernel.form != Form::Sweep {
+            groups.push((ROWS, &transform));
+        }
+        self.prepare(kernel.name, text, &groups, space.plan.groups(kernel.form))
+    }
+
+    fn reduction(&self, space: &LevelSpace, text: String) -> Result<Prepared, GpuError> {
+        let shared = [&self.params, &self.scalars, &space.partials];
+        self.prepare("reduce", text, &[(DECIDING, &shared)], 1)
+    }
+
+    fn columns(&mut self, by: Spectrum, energy: bool, gate: Gate) -> Result<(), GpuError> {
+        let word = source::gate_name(gate);
+        self.record(Key::Multiply(by.index, energy, word), |backend| {
+            let space = backend.level_space(by.level)?;
+            let text = source::multiply(&space.plan, energy, gate, backend.wide);
+            let shared = [&backend.params, &backend.scalars, &space.partials];
+            let factors = &backend.spectrum_space(by)?.buffer;
+            let buffers = [&space.column_roots, &space.work, factors];
+            let groups = space.plan.column_groups();
+            backend.prepare(
+                "multiply",
+                text,
+                &[(WORKING, &shared), (COLUMNS, &buffers)],
+                groups,
+            )
+        })?;
+        if !energy {
+            return Ok(());
+        }
+        self.record(Key::Curvature(by.level.0, word), |backend| {
+            let space = backend.level_space(by.level)?;
+            let results = Results::Curvature(space.plan.points());
+            let groups = space.plan.column_groups();
+            backend.reduction(space, source::reduce(results, groups, gate, backend.wide))
+        })
+    }
+
+    /// Waits, and reads the scalars and what was counted.
+    fn look(&mut self) -> Result<Scalars, GpuError> {
+        self.checked()?;
+        let length = layout::scalars_length(self.wide);
+        let mut parts = vec![Part {
+            buffer: &self.scalars,
+            start: 0,
+            length,
+        }];
+        let spaces = || self.levels.iter().flatten();
+        parts.extend(spaces().map(|space| Part {
+            buffer: &space.partials,
+            start: 0,
+            length: 4,
+        }));
+        let bytes = self.recorder.read(&parts)?;
+        let first = spaces().next().map_or(1, |space| space.plan.points());
+        let mut transforms = 0.0;
+        for (count, space) in bytes[length..].chunks_exact(4).zip(spaces()) {
+            let rows = count.try_into().map_or(0, u32::from_le_bytes);
+            let share = space.plan.points() as f64 / first as f64;
+            transforms += f64::from(rows) * share / ROW_TRANSFORMS_PER_TRANSFORM;
+        }
+        self.transforms = transforms;
+        Ok(layout::scalars_of(&bytes[..length], self.wide))
+    }
+
+    fn fetch(&mut self, field: Field) -> Result<Vec<f64>, GpuError> {
+        self.checked()?;
+        let space = self
+            .fields
+            .get(field.index)
+            .and_then(Option::as_ref)
+            .ok_or_else(|| GpuError::Device("a field that was not made".to_string()))?;
+        let bytes = self.recorder.read(&[Part {
+            buffer: &space.buffer,
+            start: 0,
+            length: 4 * space.points,
+        }])?;
+        Ok(bytes
+            .chunks_exact(4)
+            .map(|value| {
+                value
+                    .try_into()
+                    .map_or(f64::NAN, |b| f64::from(f32::from_le_bytes(b)))
+            })
+            .collect())
+    }
+}
+
+/// Doubles as the bytes of the device's numbers.
+fn single_bytes(values: &[f64]) -> impl Iterator<Item = u8> {
+    values
+        .iter()
+        .flat_map(|&value| (value as f32).to_le_bytes())
+}
+
+impl Backend for GpuBackend {
+    fn level(&mut self, name: &'static str, shape: Shape) -> Level {
+        let space = self.attempt(|backend| {
+            let plan = LevelPlan::new(shape, backend.device.group_limits())?;
+            // Half as many complex numbers as points.
+            let work = backend.storage(name, 4 * plan.points())?;
+            let partials = 8 + plan.partials() * backend.wide.bytes();
+            Ok(LevelSpace {
+                row_roots: backend.roots(plan.shape[0])?,
+                column_roots: backend.roots(plan.shape[1])?,
+                partials: backend.storage(name, partials)?,
+                work,
+                plan,
+            })
+        });
+        self.levels.push(space);
+        Level(self.levels.len() - 1)
+    }
+
+    fn field(&mut self, level: Level, name: &'static str) -> Field {
+        let space = self.attempt(|backend| {
+            let points = backend.level_space(level)?.plan.points();
+            let buffer = backend.storage(name, 4 * points)?;
+            Ok(FieldSpace { buffer, points })
+        });
+        self.fields.push(space);
+        Field {
+            level,
+            index: self.fields.len() - 1,
+        }
+    }
+
+    fn spectrum(&mut self, level: Level, name: &'static str, values: &[f64]) -> Spectrum {
+        let space = self.attempt(|backend| {
+            let buffer = backend.storage(name, 4 * values.len())?;
+            backend.recorder.write(&buffer, single_bytes(values))?;
+            Ok(SpectrumSpace { buffer })
+        });
+        self.spectra.push(space);
+        Spectrum {
+            level,
+            index: self.spectra.len() - 1,
+        }
+    }
+
+    fn set_zero_mode(&mut self, spectrum: Spectrum, value: f64) {
+        self.attempt(|backend| {
+            let buffer = backend.spectrum_space(spectrum)?.buffer.clone();
+            backend.recorder.write(&buffer, single_bytes(&[value]))
+        });
+    }
+
+    fn write(&mut self, field: Field, values: &[f64]) {
+        self.attempt(|backend| {
+            let buffer = backend.field_space(field)?.buffer.clone();
+            backend.recorder.write(&buffer, single_bytes(values))
+        });
+    }
+
+    fn read(&mut self, field: Field) -> Result<Vec<f64>, BackendError> {
+        let result = self.fetch(field);
+        if let Err(error) = &result {
+            self.failure.get_or_insert_with(|| error.clone());
+        }
+        Ok(result?)
+    }
+
+    fn set_params(&mut self, params: &Params) {
+        let law = LawPart::of(&params.law);
+        if law != self.law {
+            // Kernels of another law are others under the same name.
+            self.prepared.clear();
+            self.law = law;
+        }
+        let bytes = layout::params_bytes(params, f64::from(f32::EPSILON), self.wide);
+        self.attempt(|backend| {
+            let buffer = backend.params.clone();
+            backend.recorder.write(&buffer, bytes.into_iter())
+        });
+    }
+
+    fn set_scalars(&mut self, scalars: &Scalars) {
+        let bytes = layout::scalars_bytes(scalars, self.wide);
+        self.attempt(|backend| {
+            let buffer = backend.scalars.clone();
+            backend.recorder.write(&buffer, bytes.into_iter())
+        });
+    }
+
+    fn scalars(&mut self) -> Result<Scalars, BackendError> {
+        let result = self.look();
+        if let Err(error) = &result {
+            self.failure.get_or_insert_with(|| error.clone());
+        }
+        Ok(result?)
+    }
+
+    fn sweep(&mut self, kernel: &'static Kernel, level: Level, fields: &[Field]) {
+        self.attempt(|backend| backend.run(kernel, level, fields));
+    }
+
+    fn scalar(&mut self, kernel: &'static ScalarKernel) {
+        self.attempt(|backend| {
+            backend.record(Key::Scalar(kernel.name), |backend| {
+                let text = source::scalar(kernel, backend.wide)?;
+                let space = backend.level_space(Level(0))?;
+                let shared = [&backend.params, &backend.scalars, &space.partials];
+                backend.prepare(kernel.name, text, &[(DECIDING, &shared)], 1)
+            })
+        });
+    }
+
+    fn forward(&mut self, kernel: &'static Kernel, level: Level, fields: &[Field]) {
+        self.attempt(|backend| backend.run(kernel, level, fields));
+    }
+
+    fn multiply(&mut self, by: Spectrum, energy: bool, gate: Gate) {
+        self.attempt(|backend| backend.columns(by, energy, gate));
+    }
+
+    fn backward(&mut self, kernel: &'static Kernel, level: Level, fields: &[Field]) {
+        self.attempt(|backend| backend.run(kernel, level, fields));
+    }
+
+    /// As counted on the device when the host last waited.
+    fn transforms(&self) -> f64 {
+        self.transforms
+    }
+}

@@ -1,0 +1,206 @@
+//! How a line is transformed by a workgroup: radices, threads, lines side by side, and how values
+//! pass between the threads.
+
+/// What the adapter allows a workgroup.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+pub struct GroupLimits {
+    /// Threads in a workgroup.
+    pub threads: usize,
+    /// Bytes of workgroup memory.
+    pub memory: usize,
+}
+
+/// Values that one thread may hold at a time; more of them would spill out of its registers.
+const MOST_VALUES: usize = 16;
+/// Threads at which a workgroup is full enough, so that no further line is set beside the first.
+const ENOUGH_THREADS: usize = 128;
+/// Lines side by side in a workgroup: four complex numbers are one sector of memory.
+const MOST_LINES: usize = 4;
+/// Bytes of workgroup memory that one thread's share of a sum takes.
+const SUM_BYTES: usize = 8;
+
+/// How values pass from one butterfly to the next through workgroup memory.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+pub enum Exchange {
+    /// Complex numbers as they are: 8 bytes a point.
+    Whole,
+    /// Real parts first, then imaginary parts: 4 bytes a point.
+    Split,
+}
+
+/// The plan of one line length.
+#[derive(Clone, Debug, PartialEq, Eq, Hash)]
+pub struct LinePlan {
+    /// Points in a line.
+    pub length: usize,
+    /// Radices in the order of the forward transform; the first one is even. The inverse takes
+    /// them in reverse, so that its first butterfly uses the values its thread already holds.
+    pub radices: Vec<usize>,
+    /// Threads on one line.
+    pub threads: usize,
+    /// Lines in a workgroup.
+    pub lines: usize,
+    /// How values pass between threads.
+    pub exchange: Exchange,
+}
+
+/// Radices of an even length whose prime factors are 2, 3, 5 and 7, powers of two first.
+pub fn radices(length: usize) -> Option<Vec<usize>> {
+    if length < 2 || length % 2 != 0 {
+        return None;
+    }
+    let mut twos = length.trailing_zeros();
+    let mut rest = length >> twos;
+    let mut found = Vec::new();
+    while twos > 0 {
+        // Eights while what is left is not better shared out as two fours.
+        let step = match twos {
+            1 | 2 => twos,
+            4 => 2,
+            _ => 3,
+        };
+        found.push(1 << step);
+        twos -= step;
+    }
+    for prime in [7, 5, 3] {
+        while rest % prime == 0 {
+            found.push(prime);
+            rest /= prime;
+        }
+    }
+    (rest == 1).then_some(found)
+}
+
+impl LinePlan {
+    /// The plan of `count` lines of a length, or `None` where the length has another prime factor,
+    /// is odd, or does not fit the adapter's workgroups.
+    pub fn new(length: usize, count: usize, limits: GroupLimits) -> Option<Self> {
+        let radices = radices(length)?;
+        let rounds = |threads: usize, radix: usize| (length / radix).div_ceil(threads);
+        // The least work counted in idle threads too; of equals, the most threads.
+        let threads = (1..=limits.threads.min(length / 2))
+            .filter(|&threads| {
+                radices
+                    .iter()
+                    .all(|&radix| rounds(threads, radix) * radix <= MOST_VALUES)
+            })
+            .min_by_key(|&threads| {
+                let work: usize = radices.iter().map(|&radix| rounds(threads, radix)).sum();
+                (threads * work, std::cmp::Reverse(threads))
+            })?;
+        let fits = |lines: usize, bytes: usize| {
+            lines * (threads * SUM_BYTES + length * bytes) <= limits.memory
+                && lines * threads <= limits.threads
+        };
+        let most = MOST_LINES.max(ENOUGH_THREADS / threads.next_power_of_two());
+        let wanted = std::iter::successors(Some(1), |lines| Some(2 * lines))
+            .take_while(|&lines| lines <= most && lines < 2 * count)
+            .last()
+            .unwrap_or(1);
+        let mut lines = wanted;
+        // One line at a time is the last resort: neighbours share what memory hands out at once.
+        let exchange = loop {
+            if fits(lines, 8) {
+                break Exchange::Whole;
+            }
+            if lines <= 2 && fits(lines, 4) {
+                break Exchange::Split;
+            }
+            if lines == 1 {
+                return None;
+            }
+            lines /= 2;
+        };
+        Some(LinePlan {
+            length,
+            radices,
+            threads,
+            lines,
+            exchange,
+        })
+    }
+
+    /// Longest line that has a plan: a power of two, since these fill workgroups best.
+    pub fn longest(limits: GroupLimits) -> usize {
+        (1..=20)
+            .map(|power| 1usize << power)
+            .take_while(|&length| LinePlan::new(length, 1, limits).is_some())
+            .last()
+            .unwrap_or(0)
+    }
+
+    /// Threads in a workgroup.
+    pub fn group_threads(&self) -> usize {
+        self.threads * self.lines
+    }
+
+    /// Workgroups for a number of lines.
+    pub fn groups(&self, count: usize) -> usize {
+        count.div_ceil(self.lines)
+    }
+
+    /// Complex numbers that a thread holds at most.
+    pub fn values(&self) -> usize {
+        self.radices
+            .iter()
+            .map(|radix| (self.length / radix).div_ceil(self.threads) * radix)
+            .max()
+            .unwrap_or(0)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    const COMMON: GroupLimits = GroupLimits {
+        threads: 1024,
+        memory: 32768,
+    };
+
+    #[test]
+    fn radices_multiply_to_the_length_and_start_even() {
+        for length in (2..=4096).step_by(2) {
+            let mut rest = length;
+            for prime in [2, 3, 5, 7] {
+                while rest % prime == 0 {
+                    rest /= prime;
+                }
+            }
+            match radices(length) {
+                Some(found) => {
+                    assert_eq!(found.iter().product::<usize>(), length);
+                    assert_eq!(found[0] % 2, 0, "{length}");
+                    assert_eq!(rest, 1);
+                }
+                None => assert_ne!(rest, 1, "{length}"),
+            }
+        }
+        assert_eq!(radices(9), None);
+        assert_eq!(radices(22), None);
+    }
+
+    #[test]
+    fn plans_keep_the_limits() {
+        let least = GroupLimits {
+            threads: 256,
+            memory: 16384,
+        };
+        for limits in [COMMON, least] {
+            for length in (2..=LinePlan::longest(limits)).step_by(2) {
+                let Some(plan) = LinePlan::new(length, length, limits) else {
+                    continue;
+                };
+                let bytes = match plan.exchange {
+                    Exchange::Whole => 8,
+                    Exchange::Split => 4,
+                };
+                assert!(plan.group_threads() <= limits.threads, "{plan:?}");
+                assert!(plan.values() <= MOST_VALUES, "{plan:?}");
+                let memory = plan.lines * (length * bytes + plan.threads * SUM_BYTES);
+                assert!(memory <= limits.memory, "{plan:?}");
+            }
+        }
+        assert!(LinePlan::longest(COMMON) >= 4096);
+    }
+}

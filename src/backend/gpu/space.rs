@@ -1,0 +1,47 @@
+//! What the backend keeps on the device.
+
+use super::source::LevelPlan;
+
+/// A level: its plan, its partial sums and the work space of its transforms.
+pub struct LevelSpace {
+    /// How it is cut into workgroups.
+    pub plan: LevelPlan,
+    /// A count of transforms, then partial sums.
+    pub partials: wgpu::Buffer,
+    /// Transforms of pairs of rows, `[nx, ny/2]` complex numbers.
+    pub work: wgpu::Buffer,
+    /// Roots of unity of nx.
+    pub row_roots: wgpu::Buffer,
+    /// Roots of unity of ny.
+    pub column_roots: wgpu::Buffer,
+}
+
+/// One number a point.
+pub struct FieldSpace {
+    /// Its numbers, f32.
+    pub buffer: wgpu::Buffer,
+    /// How many.
+    pub points: usize,
+}
+
+/// One factor a wavevector.
+pub struct SpectrumSpace {
+    /// Its factors, f32.
+    pub buffer: wgpu::Buffer,
+}
+
+/// A buffer of zeros that can also be written to and read from.
+pub fn buffer(
+    device: &wgpu::Device,
+    name: &str,
+    bytes: usize,
+    usage: wgpu::BufferUsages,
+) -> wgpu::Buffer {
+    device.create_buffer(&wgpu::BufferDescriptor {
+        label: Some(name),
+        // Copies count in fours.
+        size: (bytes as u64).next_multiple_of(4),
+        usage: usage | wgpu::BufferUsages::COPY_DST | wgpu::BufferUsages::COPY_SRC,
+        mapped_at_creation: false,
+    })
+}

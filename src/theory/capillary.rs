@@ -1,0 +1,90 @@
+//! Liquid bridge between a sphere and a flat, and the Dugdale law that stands for it.
+//! Israelachvili 2011; the small meniscus, at the vapour's humidity.
+
+use super::error::{TheoryError, not_negative, positive, within};
+use std::f64::consts::{FRAC_PI_2, PI};
+
+/// Gas constant, J/(mol K).
+pub const GAS_CONSTANT: f64 = 8.314_462_618_153_24;
+
+/// Least Kelvin radius at which a meniscus is still a liquid surface, m.
+pub const LEAST_KELVIN_RADIUS: f64 = 0.3e-9;
+
+/// A liquid in its vapour between two surfaces of one contact angle.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Meniscus {
+    surface_tension: f64,
+    contact_angle: f64,
+    kelvin_radius: f64,
+}
+
+impl Meniscus {
+    /// A liquid of `surface_tension` (N/m) and `molar_volume` (m^3/mol) at `temperature` (K) and
+    /// `relative_humidity` (0 to 1), with `contact_angle` (radian, below pi/2).
+    ///
+    /// Refused below the humidity at which the Kelvin radius is [`LEAST_KELVIN_RADIUS`].
+    pub fn new(
+        surface_tension: f64,
+        molar_volume: f64,
+        temperature: f64,
+        relative_humidity: f64,
+        contact_angle: f64,
+    ) -> Result<Self, TheoryError> {
+        let surface_tension = positive("surface_tension", surface_tension)?;
+        within(
+            "relative_humidity",
+            relative_humidity,
+            relative_humidity > 0.0 && relative_humidity < 1.0,
+            "between 0 and 1",
+        )?;
+        within(
+            "contact_angle",
+            contact_angle,
+            (0.0..FRAC_PI_2).contains(&contact_angle),
+            "between 0 and pi/2",
+        )?;
+        let energy = GAS_CONSTANT * positive("temperature", temperature)?;
+        let length = surface_tension * positive("molar_volume", molar_volume)? / energy;
+        let kelvin_radius = -length / relative_humidity.ln();
+        within(
+            "relative_humidity",
+            relative_humidity,
+            kelvin_radius >= LEAST_KELVIN_RADIUS,
+            "high enough for a Kelvin radius of 0.3 nm",
+        )?;
+        Ok(Meniscus {
+            surface_tension,
+            contact_angle,
+            kelvin_radius,
+        })
+    }
+
+    /// Kelvin radius `-gamma V/(R T log RH)`, m.
+    pub fn kelvin_radius(&self) -> f64 {
+        self.kelvin_radius
+    }
+
+    /// Suction in the liquid, the Dugdale tension `gamma/r_K`, Pa.
+    pub fn peak_tension(&self) -> f64 {
+        self.surface_tension / self.kelvin_radius
+    }
+
+    /// Height of the meniscus, the Dugdale range `2 r_K cos(theta)`, m.
+    pub fn range(&self) -> f64 {
+        2.0 * self.kelvin_radius * self.contact_angle.cos()
+    }
+
+    /// Work of adhesion `2 gamma cos(theta)`, J/m^2.
+    pub fn work_of_adhesion(&self) -> f64 {
+        2.0 * self.surface_tension * self.contact_angle.cos()
+    }
+
+    /// Attraction of a rigid sphere of `radius` (m) at a least `gap` (m), N, positive:
+    /// `4 pi R gamma cos(theta) (1 - gap/range)`, 0 beyond the range.
+    ///
+    /// A soft sphere gives three quarters of it at most; its Tabor parameter decides.
+    pub fn rigid_force(&self, radius: f64, gap: f64) -> Result<f64, TheoryError> {
+        let fade = (1.0 - not_negative("gap", gap)? / self.range()).max(0.0);
+        Ok(2.0 * PI * positive("radius", radius)? * self.work_of_adhesion() * fade)
+    }
+}

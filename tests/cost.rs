@@ -1,0 +1,231 @@
+//! What a scene costs, derived from its effects and compared with what the solver plans on a
+//! counting backend: an effect that is not named costs nothing.
+
+use std::fs;
+use std::path::Path;
+
+use tabor::effect::Effect;
+use tabor::law::Law;
+use tabor::scene::{Boundary, Control, Scene, Treatment};
+use tabor::solver::good_size;
+use tabor::study::{Cost, Setup};
+use tabor::surface::Surface;
+
+fn setup(scene: Scene) -> Setup {
+    let surface = Surface::build(&scene).unwrap_or_else(|error| panic!("{error}"));
+    Setup::new(scene, surface)
+}
+
+fn shipped_scenes() -> Vec<(String, Scene)> {
+    let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("examples/scenes");
+    let mut scenes: Vec<(String, Scene)> = fs::read_dir(&folder)
+        .expect("the folder of scenes is there")
+        .flatten()
+        .map(|entry| entry.path())
+        .filter(|path| {
+            path.extension()
+                .is_some_and(|extension| extension == "toml")
+        })
+        .map(|path| {
+            let scene = Scene::read(&path, &[]).unwrap_or_else(|errors| panic!("{errors}"));
+            (path.display().to_string(), scene)
+        })
+        .collect();
+    scenes.sort_by(|a, b| a.0.cmp(&b.0));
+    assert!(scenes.len() >= 2);
+    scenes
+}
+
+/// What the solver is told by the scene alone.
+struct Expected {
+    fields: Vec<&'static str>,
+    passes: Vec<&'static str>,
+    points: [usize; 2],
+}
+
+fn expected(scene: &Scene, grid: [usize; 2]) -> Expected {
+    let free = scene.grid.boundary == Boundary::Free;
+    let points = if free {
+        grid.map(|n| good_size(2 * n - 1))
+    } else {
+        grid
+    };
+    // The DMT treatment solves the contact without the law.
+    let solved_law = scene
+        .adhesion
+        .as_ref()
+        .filter(|adhesion| adhesion.treatment == Treatment::Full)
+        .map(|adhesion| adhesion.law.name());
+    let core = solved_law == Some("lennard-jones");
+    let tail = match solved_law {
+        None => false,
+        Some("maugis-dugdale") => scene
+            .adhesion
+            .as_ref()
+            .is_some_and(|a| a.taper != Some(0.0)),
+        Some(_) => true,
+    };
+    let held = !free
+        && scene.loading.spring.is_none()
+        && matches!(scene.loading.control, Control::Approach | Control::MeanGap);
+    let two_band = solved_law.is_none() && !free && coarse(points).is_some();
+
+    let mut fields = vec![
+        "heights",
+        "gap",
+        "pressure",
+        "direction",
+        "descent",
+        "free_before",
+    ];
+    if core {
+        fields.push("step");
+    }
+    if two_band {
+        fields.extend(["free", "restricted", "share", "weight", "long_waves"]);
+    }
+    let mut passes: Vec<&'static str> = Vec::new();
+    match (core, two_band) {
+        (true, _) => passes.extend(["core_free", "multiply", "core_descent"]),
+        (false, false) => passes.extend(["wall_free", "multiply", "wall_descent"]),
+        (false, true) => passes.extend([
+            "wall_free_kept",
+            "coarse_restrict",
+            "coarse_share",
+            "multiply",
+            "coarse_weight",
+            "coarse_load",
+            "multiply",
+            "coarse_store",
+            "multiply",
+            "wall_descent_two_band",
+        ]),
+    }
+    match (core, held) {
+        (true, _) => passes.extend(["core_direct", "core_trial"]),
+        (false, true) => passes.extend(["wall_direct", "wall_trial_held"]),
+        (false, false) => passes.push("wall_trial"),
+    }
+    passes.push("multiply");
+    if tail {
+        passes.push(if core { "core_search" } else { "wall_search" });
+    }
+    passes.push(if core { "core_advance" } else { "wall_advance" });
+    if held {
+        passes.push(if core { "core_balance" } else { "wall_balance" });
+    }
+    Expected {
+        fields,
+        passes,
+        points,
+    }
+}
+
+/// Points of the preconditioner's coarse level.
+fn coarse(points: [usize; 2]) -> Option<[usize; 2]> {
+    let ratio = [4, 2]
+        .into_iter()
+        .find(|r| points.iter().all(|n| n % r == 0))?;
+    let coarse = points.map(|n| n / ratio);
+    coarse.iter().all(|&n| n >= 8).then_some(coarse)
+}
+
+fn check(name: &str, scene: &Scene) {
+    let setup = setup(scene.clone());
+    let cost = Cost::of(&setup).unwrap_or_else(|error| panic!("{name}: {error}"));
+    let grid = setup.surface.grid;
+    let expected = expected(scene, [grid.nx, grid.ny]);
+    assert_eq!(cost.points, expected.points, "{name}");
+    assert_eq!(cost.passes, expected.passes, "{name}");
+    let mut names: Vec<&str> = cost.fields.iter().map(|field| field.name).collect();
+    let mut wanted = expected.fields.clone();
+    names.sort_unstable();
+    wanted.sort_unstable();
+    assert_eq!(names, wanted, "{name}");
+    let fine = expected.points[0] * expected.points[1] * 8;
+    let small = coarse(expected.points).map_or(0, |points| points[0] * points[1] * 8);
+    for field in &cost.fields {
+        let on_coarse = ["restricted", "share", "weight", "long_waves"].contains(&field.name);
+        assert_eq!(
+            field.bytes,
+            if on_coarse { small } else { fine },
+            "{name}: {}",
+            field.name
+        );
+    }
+}
+
+#[test]
+fn every_shipped_scene_costs_what_its_effects_say() {
+    for (name, scene) in shipped_scenes() {
+        check(&name, &scene);
+        for effect in Effect::ALL {
+            if effect.is_on(&scene) {
+                check(
+                    &format!("{name} without {}", effect.name()),
+                    &effect.taken_from(&scene),
+                );
+            }
+        }
+    }
+}
+
+/// Every law, both boundaries and every control, whether a shipped scene has them or not.
+#[test]
+fn every_combination_of_effects() {
+    let mut count = 0;
+    for boundary in ["periodic", "free"] {
+        for adhesion in [
+            "",
+            "law = \"maugis-dugdale\"\nrange = 0.1",
+            "law = \"maugis-dugdale\"\nrange = 0.1\ntaper = 0",
+            "law = \"exponential\"\nrange = 0.1",
+            "law = \"lennard-jones\"\nrange = 0.1",
+            "law = \"lennard-jones\"\nrange = 0.1\ntreatment = \"dmt\"",
+        ] {
+            for control in [
+                "control = \"pressure\"\npath = [1e-3]",
+                "control = \"force\"\npath = [1e-3]",
+                "control = \"approach\"\npath = [1e-3]",
+                "control = \"approach\"\npath = [1e-3]\nspring = 1.0",
+                "control = \"mean-gap\"\npath = [1.0]",
+            ] {
+                let free_refuses = control.contains("pressure") || control.contains("mean-gap");
+                if boundary == "free" && free_refuses {
+                    continue;
+                }
+                let adhesion = if adhesion.is_empty() {
+                    String::new()
+                } else {
+                    format!("[adhesion]\nwork_of_adhesion = 0.01\n{adhesion}\n")
+                };
+                let text = format!(
+                    "[grid]\npoints = [40, 36]\nsize = [4.0, 3.6]\nboundary = \"{boundary}\"\n[solid]\ncontact_modulus = 1.0\n[[surface]]\nkind = \"sphere\"\nradius = 10.0\n{adhesion}[loading]\n{control}\n"
+                );
+                let scene = Scene::parse(&text, "test.toml", Path::new("."), &[]);
+                // What this version refuses, it refuses by name.
+                match scene {
+                    Ok(scene) => {
+                        check(&text, &scene);
+                        count += 1;
+                    }
+                    Err(errors) => assert!(
+                        errors.to_string().contains("not in this version"),
+                        "{errors}"
+                    ),
+                }
+            }
+        }
+    }
+    assert!(count >= 36, "{count}");
+}
+
+/// The law of a scene without adhesion is the hard wall, not a law of zero strength.
+#[test]
+fn no_adhesion_is_no_law() {
+    for (_, scene) in shipped_scenes() {
+        let setup = setup(Effect::Adhesion.taken_from(&scene));
+        assert_eq!(setup.law, Law::HardWall);
+        assert!(setup.regime.is_none());
+    }
+}

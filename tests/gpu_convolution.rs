@@ -1,0 +1,184 @@
+//! One convolution through the backend's trait, against the CPU in double precision.
+
+mod gpu_shared;
+
+use gpu_shared::{Numbers, backend, device, relative_difference};
+use tabor::backend::cpu::CpuBackend;
+use tabor::backend::gpu::GpuError;
+use tabor::backend::{Backend, BackendError, Shape};
+use tabor::elastic::periodic_stiffness;
+use tabor::grid::Grid;
+use tabor::kernel::common::{LOAD_DISPLACEMENT, LOAD_FIELD, STORE_PRESSURE};
+use tabor::kernel::{Gate, Params, Scalars, Status, scalar};
+use tabor::law::Law;
+
+/// Relative L2 error of a single-precision convolution: some ten roundings of 6e-8 in the root
+/// mean square (two transforms of at most twelve stages, and the inputs' own rounding).
+const BOUND: f64 = 5e-7;
+
+const SIZES: [[usize; 2]; 11] = [
+    [64, 64],
+    [96, 128],
+    [120, 84],
+    [84, 120],
+    [256, 256],
+    [2, 2],
+    [8, 2],
+    [2, 8],
+    [14, 250],
+    [1024, 6],
+    [6, 4096],
+];
+
+fn params() -> Params {
+    Params {
+        law: Law::HardWall,
+        stiffness_max: 1.0,
+        pressure_floor: 1.0,
+        tolerance: 1e-4,
+        heights_norm: 1.0,
+        fixed_gap: false,
+        may_detach: false,
+        points: 1.0,
+        core_stiffness: 1.0,
+        epsilon: f64::EPSILON,
+    }
+}
+
+/// What one convolution gives: of one field, of a sum of two, and the energy of the first.
+fn convolve(
+    backend: &mut dyn Backend,
+    [nx, ny]: [usize; 2],
+    fields: &[Vec<f64>; 2],
+) -> Result<(Vec<f64>, Vec<f64>, Scalars), BackendError> {
+    let level = backend.level("fine", Shape::whole(nx, ny));
+    let field = backend.field(level, "field");
+    let heights = backend.field(level, "heights");
+    let result = backend.field(level, "result");
+    let sum = backend.field(level, "sum");
+    let mut stiffness = periodic_stiffness(&Grid::new([nx, ny], [1.0, 1.0]), 1.0 / nx as f64);
+    // A number that is not even in its two indices' roles finds transpositions.
+    for (index, value) in stiffness.iter_mut().enumerate() {
+        *value += 0.3 * (index % (ny / 2 + 1)) as f64 / ny as f64;
+    }
+    let spectrum = backend.spectrum(level, "stiffness", &stiffness);
+    backend.set_params(&params());
+    backend.set_zero_mode(spectrum, 0.75);
+    backend.write(field, &fields[0]);
+    backend.write(heights, &fields[1]);
+    // Whatever is not written shows.
+    backend.write(result, &vec![f64::NAN; nx * ny]);
+    backend.write(sum, &vec![f64::NAN; nx * ny]);
+    backend.forward(&LOAD_FIELD, level, &[field]);
+    backend.multiply(spectrum, true, Gate::Always);
+    backend.backward(&STORE_PRESSURE, level, &[result]);
+    backend.forward(&LOAD_DISPLACEMENT, level, &[field, heights]);
+    backend.multiply(spectrum, false, Gate::Always);
+    backend.backward(&STORE_PRESSURE, level, &[sum]);
+    let scalars = backend.scalars()?;
+    assert_eq!(backend.transforms(), 4.0, "{nx} x {ny}");
+    Ok((backend.read(result)?, backend.read(sum)?, scalars))
+}
+
+#[test]
+fn convolution_agrees_with_the_processor() {
+    let Some(device) = device() else { return };
+    for size in SIZES {
+        let mut numbers = Numbers(size[0] as u64 * 4096 + size[1] as u64);
+        let count = size[0] * size[1];
+        let fields = [numbers.field(count), numbers.field(count)];
+        let mut cpu = CpuBackend::<f64>::new();
+        let (result, sum, scalars) = convolve(&mut cpu, size, &fields).expect("the CPU computes");
+        let mut gpu = backend(device);
+        let mut again = backend(device);
+        let ours = convolve(&mut gpu, size, &fields).unwrap_or_else(|e| panic!("{size:?}: {e}"));
+        let errors = [
+            relative_difference(&ours.0, &result),
+            relative_difference(&ours.1, &sum),
+            (ours.2.curvature / scalars.curvature - 1.0).abs(),
+        ];
+        println!("{size:?}: {errors:?}");
+        // Written so that a NaN fails.
+        assert!(errors.iter().all(|&e| e < BOUND), "{size:?}: {errors:?}");
+        let twice = convolve(&mut again, size, &fields).expect("it did before");
+        assert!(
+            ours.0 == twice.0 && ours.1 == twice.1,
+            "{size:?}: bits differ"
+        );
+        assert_eq!(ours.2.curvature, twice.2.curvature, "{size:?}");
+    }
+}
+
+#[test]
+fn a_shut_gate_leaves_everything_as_it_was() {
+    let Some(device) = device() else { return };
+    let mut backend = backend(device);
+    let level = backend.level("fine", Shape::whole(16, 16));
+    let field = backend.field(level, "field");
+    let spectrum = backend.spectrum(level, "stiffness", &[2.0; 81]);
+    let mut scalars = Scalars::start(0.0, false);
+    scalars.status = Status::Converged;
+    scalars.curvature = 7.0;
+    backend.set_params(&params());
+    backend.set_scalars(&scalars);
+    let values = Numbers(1).field(256);
+    backend.write(field, &values);
+    backend.forward(&LOAD_FIELD, level, &[field]);
+    backend.multiply(spectrum, true, Gate::Running);
+    backend.multiply(spectrum, true, Gate::Fresh);
+    backend.multiply(spectrum, true, Gate::Accepted);
+    backend.multiply(spectrum, true, Gate::Searching);
+    let seen = backend.scalars().expect("nothing has failed");
+    assert_eq!(format!("{seen:?}"), format!("{scalars:?}"));
+    assert_eq!(backend.transforms(), 0.5);
+    assert_eq!(backend.read(field).expect("nothing has failed"), values);
+}
+
+#[test]
+fn what_cannot_be_done_is_an_error_where_the_host_waits() {
+    let Some(device) = device() else { return };
+    let text = |error: BackendError| error.to_string();
+    for size in [[22, 16], [16, 26], [15, 16], [16, 9]] {
+        let mut backend = backend(device);
+        let level = backend.level("fine", Shape::whole(size[0], size[1]));
+        let field = backend.field(level, "field");
+        backend.write(field, &[0.0; 4]);
+        backend.forward(&LOAD_FIELD, level, &[field]);
+        let error = text(backend.scalars().expect_err("a size without a transform"));
+        assert!(error.contains("no prime factor above 7"), "{error}");
+        assert_eq!(text(backend.read(field).expect_err("the same")), error);
+    }
+    let mut backend = backend(device);
+    let level = backend.level("fine", Shape::whole(16, 16));
+    let field = backend.field(level, "field");
+    backend.forward(&LOAD_DISPLACEMENT, level, &[field]);
+    let error = backend.scalars().expect_err("a field too few");
+    assert!(
+        matches!(
+            error,
+            BackendError::Fields {
+                expected: 2,
+                given: 1,
+                ..
+            }
+        ),
+        "{error}"
+    );
+}
+
+#[test]
+fn a_kernel_without_a_shader_is_an_error_where_the_host_waits() {
+    let Some(device) = device() else { return };
+    let mut backend = backend(device);
+    backend.level("fine", Shape::whole(16, 16));
+    static ODD: scalar::ScalarKernel = scalar::ScalarKernel {
+        name: "unheard_of",
+        run: |_, _| {},
+    };
+    backend.scalar(&ODD);
+    let error = backend.scalars().expect_err("no such shader");
+    assert_eq!(
+        error.to_string(),
+        BackendError::from(GpuError::NoShader("unheard_of")).to_string()
+    );
+}

@@ -1,0 +1,137 @@
+//! Every shader that the program writes, parsed and validated without an adapter.
+
+use naga::valid::{Capabilities, ModuleInfo, ValidationFlags, Validator};
+use tabor::backend::Shape;
+use tabor::backend::gpu::source::{self, LevelPlan, Results};
+use tabor::backend::gpu::{GroupLimits, LawPart, Wide};
+use tabor::kernel::common::{LOAD_DISPLACEMENT, LOAD_FIELD, STORE_PRESSURE};
+use tabor::kernel::{Gate, Kernel, Reduce};
+
+const LIMITS: GroupLimits = GroupLimits {
+    threads: 1024,
+    memory: 32768,
+};
+const LAWS: [LawPart; 4] = [
+    LawPart::HardWall,
+    LawPart::MaugisDugdale,
+    LawPart::Exponential,
+    LawPart::LennardJones,
+];
+const NUMBERS: [Wide; 2] = [Wide::Single, Wide::Double];
+const GATES: [Gate; 5] = [
+    Gate::Always,
+    Gate::Running,
+    Gate::Fresh,
+    Gate::Accepted,
+    Gate::Searching,
+];
+
+fn catalogue() -> Vec<&'static Kernel> {
+    vec![&LOAD_DISPLACEMENT, &LOAD_FIELD, &STORE_PRESSURE]
+}
+
+/// Parses and validates with only the capabilities in use: with all of them a feature that a
+/// device lacks would go unseen.
+fn validate(name: &str, text: &str, wide: Wide) -> (naga::Module, ModuleInfo) {
+    let module = naga::front::wgsl::parse_str(text)
+        .unwrap_or_else(|error| panic!("{name}: {}\n{text}", error.emit_to_string(text)));
+    let capabilities = match wide {
+        Wide::Single => Capabilities::empty(),
+        Wide::Double => Capabilities::FLOAT64,
+    };
+    let info = Validator::new(ValidationFlags::all(), capabilities)
+        .validate(&module)
+        .unwrap_or_else(|error| panic!("{name}: {}", error.emit_to_string(text)));
+    (module, info)
+}
+
+/// Access and name of the fields that a shader binds, by binding.
+fn fields(module: &naga::Module) -> Vec<(u32, bool)> {
+    let mut found: Vec<_> = module
+        .global_variables
+        .iter()
+        .filter_map(|(_, variable)| {
+            let binding = variable.binding?;
+            let naga::AddressSpace::Storage { access } = variable.space else {
+                return None;
+            };
+            (binding.group == 1)
+                .then(|| (binding.binding, access.contains(naga::StorageAccess::STORE)))
+        })
+        .collect();
+    found.sort();
+    found
+}
+
+fn plan(nx: usize, ny: usize) -> LevelPlan {
+    LevelPlan::new(Shape::whole(nx, ny), LIMITS).expect("a smooth size")
+}
+
+#[test]
+fn kernels_are_valid_and_bind_what_the_catalogue_declares() {
+    let padded = Shape {
+        points: [64, 48],
+        surface: [30, 20],
+    };
+    let padded = LevelPlan::new(padded, LIMITS).expect("a smooth size");
+    for kernel in catalogue() {
+        for law in LAWS {
+            for wide in NUMBERS {
+                for plan in [&plan(48, 64), &padded] {
+                    let text = source::kernel(kernel, plan, [12, 16], law, wide)
+                        .unwrap_or_else(|error| panic!("{error}"));
+                    let (module, _) = validate(kernel.name, &text, wide);
+                    let declared: Vec<_> = (0..kernel.fields() as u32)
+                        .map(|binding| {
+                            let place = binding as usize;
+                            let written = kernel.reads..kernel.reads + kernel.writes;
+                            (binding, written.contains(&place))
+                        })
+                        .collect();
+                    assert_eq!(fields(&module), declared, "{}", kernel.name);
+                    assert_eq!(module.entry_points[0].name, kernel.name);
+                }
+            }
+        }
+    }
+}
+
+#[test]
+fn transforms_of_many_lengths_are_valid() {
+    for [nx, ny] in [
+        [2, 2],
+        [256, 384],
+        [640, 720],
+        [1000, 84],
+        [4096, 6],
+        [16, 4096],
+        [4096, 4096],
+    ] {
+        let plan = plan(nx, ny);
+        for wide in NUMBERS {
+            for kernel in [&LOAD_FIELD, &STORE_PRESSURE] {
+                let text = source::kernel(kernel, &plan, [0, 0], LawPart::HardWall, wide)
+                    .unwrap_or_else(|error| panic!("{error}"));
+                validate(&format!("{} {nx} x {ny}", kernel.name), &text, wide);
+            }
+            for energy in [false, true] {
+                let text = source::multiply(&plan, energy, Gate::Accepted, wide);
+                validate(&format!("multiply {nx} x {ny}"), &text, wide);
+            }
+        }
+    }
+}
+
+#[test]
+fn reductions_are_valid() {
+    for wide in NUMBERS {
+        for gate in GATES {
+            for results in [
+                Results::Curvature(4096),
+                Results::Sums(&[Reduce::Add, Reduce::Min, Reduce::Max]),
+            ] {
+                validate("reduce", &source::reduce(results, 7, gate, wide), wide);
+            }
+        }
+    }
+}

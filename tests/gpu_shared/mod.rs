@@ -1,0 +1,67 @@
+//! The one device that all tests of a binary share, and seeded numbers.
+#![allow(dead_code)]
+
+use std::sync::OnceLock;
+
+use tabor::backend::gpu::{AdapterChoice, GpuBackend, GpuDevice};
+
+/// A device, software drivers included. Without one the test that asks is skipped with a word,
+/// or fails where `TABOR_REQUIRE_GPU=1` says that there must be one: a missing driver on a test
+/// machine would pass unseen.
+pub fn device() -> Option<&'static GpuDevice> {
+    static DEVICE: OnceLock<Option<GpuDevice>> = OnceLock::new();
+    DEVICE
+        .get_or_init(|| {
+            let choice = AdapterChoice {
+                name: None,
+                software: true,
+            };
+            match GpuDevice::new(&choice) {
+                Ok(device) => Some(device),
+                Err(error) => {
+                    let required = std::env::var("TABOR_REQUIRE_GPU").is_ok_and(|v| v == "1");
+                    assert!(!required, "TABOR_REQUIRE_GPU is set, but: {error}");
+                    eprintln!("skipped: no adapter ({error})");
+                    None
+                }
+            }
+        })
+        .as_ref()
+}
+
+/// A backend on the shared device.
+pub fn backend(device: &GpuDevice) -> GpuBackend {
+    GpuBackend::new(device).expect("two small buffers fit any device")
+}
+
+/// Numbers in [-0.5, 0.5) from a seed.
+pub struct Numbers(pub u64);
+
+impl Numbers {
+    /// The next number (splitmix64).
+    pub fn next(&mut self) -> f64 {
+        self.0 = self.0.wrapping_add(0x9e37_79b9_7f4a_7c15);
+        let mut z = self.0;
+        z = (z ^ (z >> 30)).wrapping_mul(0xbf58_476d_1ce4_e5b9);
+        z = (z ^ (z >> 27)).wrapping_mul(0x94d0_49bb_1331_11eb);
+        ((z ^ (z >> 31)) >> 11) as f64 / (1u64 << 53) as f64 - 0.5
+    }
+
+    /// So many of them, rounded to what a field on the device holds.
+    pub fn field(&mut self, count: usize) -> Vec<f64> {
+        (0..count).map(|_| f64::from(self.next() as f32)).collect()
+    }
+}
+
+/// Norm of the difference over the norm of the reference; NaN if either holds one.
+pub fn relative_difference(values: &[f64], reference: &[f64]) -> f64 {
+    assert_eq!(values.len(), reference.len());
+    let square = |sum: f64, x: f64| sum + x * x;
+    let difference = values
+        .iter()
+        .zip(reference)
+        .map(|(a, b)| a - b)
+        .fold(0.0, square);
+    let norm = reference.iter().copied().fold(0.0, square);
+    (difference / norm).sqrt()
+}

@@ -1,0 +1,98 @@
+//! The map of the house is true: a module uses only modules above it.
+
+use std::fs;
+use std::path::{Path, PathBuf};
+
+/// From the ground up, as the crate page lists them.
+const ORDER: [&str; 16] = [
+    "units", "grid", "real", "law", "elastic", "kernel", "backend", "scene", "surface", "solver",
+    "study", "effect", "output", "theory", "cli", "lib",
+];
+
+fn rust_files(folder: &Path, found: &mut Vec<PathBuf>) {
+    for entry in fs::read_dir(folder)
+        .expect("the folder is readable")
+        .flatten()
+    {
+        let path = entry.path();
+        if path.is_dir() {
+            rust_files(&path, found);
+        } else if path.extension().is_some_and(|extension| extension == "rs") {
+            found.push(path);
+        }
+    }
+}
+
+/// Modules that a file names through `crate::`, outside comments.
+fn used_modules(text: &str) -> Vec<String> {
+    let mut found = Vec::new();
+    for line in text
+        .lines()
+        .map(str::trim_start)
+        .filter(|line| !line.starts_with("//"))
+    {
+        let mut rest = line;
+        while let Some(at) = rest.find("crate::") {
+            rest = &rest[at + "crate::".len()..];
+            let name: String = rest
+                .chars()
+                .take_while(|c| c.is_ascii_alphanumeric() || *c == '_')
+                .collect();
+            found.push(name);
+        }
+    }
+    found
+}
+
+#[test]
+fn modules_look_up_only() {
+    let source = Path::new(env!("CARGO_MANIFEST_DIR")).join("src");
+    let mut files = Vec::new();
+    rust_files(&source, &mut files);
+    assert!(files.len() > 20, "too few files: {}", files.len());
+    let place = |name: &str| ORDER.iter().position(|module| *module == name);
+    let mut wrong = Vec::new();
+    for file in files {
+        let relative = file.strip_prefix(&source).expect("it lies below src");
+        let first = relative
+            .iter()
+            .next()
+            .and_then(|part| part.to_str())
+            .expect("a name");
+        let module = first.trim_end_matches(".rs");
+        if module == "main" || module == "lib" {
+            continue;
+        }
+        let Some(here) = place(module) else {
+            wrong.push(format!("{module} is not on the map"));
+            continue;
+        };
+        let text = fs::read_to_string(&file).expect("the file is readable");
+        for used in used_modules(&text) {
+            // Macros live at the root whatever their module.
+            if used == "with_law" {
+                continue;
+            }
+            match place(&used) {
+                Some(there) if there <= here => {}
+                _ => wrong.push(format!("{} uses {used}", relative.display())),
+            }
+        }
+    }
+    assert!(wrong.is_empty(), "{}", wrong.join("\n"));
+}
+
+#[test]
+fn the_solver_names_neither_threads_nor_graphics() {
+    let source = Path::new(env!("CARGO_MANIFEST_DIR")).join("src");
+    for folder in ["solver", "study", "kernel"] {
+        let mut files = Vec::new();
+        rust_files(&source.join(folder), &mut files);
+        for file in files {
+            let text = fs::read_to_string(&file).expect("the file is readable");
+            for name in ["rayon", "wgpu"] {
+                assert!(!text.contains(name), "{} names {name}", file.display());
+            }
+        }
+    }
+}
