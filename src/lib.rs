@@ -1,5 +1,71 @@
-//! tabor solves adhesive contact of rough surfaces as a full field: how much really touches, with
-//! what pressure where, and what force pulls the surfaces apart.
+//! Two rough bodies are pushed together and they attract: where do they touch, with what pressure,
+//! and what force pulls them apart?
+//!
+//! tabor answers with the whole pressure field. The counter-face is rigid and carries the composite
+//! roughness, the solid is an elastic half-space of contact modulus E*, and a cohesive law acts
+//! across the gap, in contact and out of it. A scene says what is there:
+//!
+//! ```
+//! use tabor::backend::{Backend, cpu::CpuBackend};
+//! use tabor::study::{FinishedStep, Observer, Setup, walk};
+//! use tabor::{kernel::Scalars, scene::Scene, surface::Surface};
+//!
+//! struct Print;
+//! impl Observer for Print {
+//!     type Error = std::convert::Infallible;
+//!     fn step(&mut self, step: FinishedStep) -> Result<(), Self::Error> {
+//!         println!("{:.2e} Pa: {:.4} in contact", step.row.mean_pressure, step.row.contact_area_fraction);
+//!         Ok(()) // step.evaluation has the fields
+//!     }
+//!     fn iteration(&mut self, _step: usize, _scalars: &Scalars) -> bool { true }
+//! }
+//!
+//! # fn main() -> Result<(), Box<dyn std::error::Error>> {
+//! let smaller = [("grid.points".to_owned(), "128".to_owned())]; // as --set on the command line
+//! let scene = Scene::read("examples/scenes/rough.toml".as_ref(), &smaller)?;
+//! let surface = Surface::build(&scene)?;
+//! let setup = Setup::new(scene, surface);
+//! let cpu = || -> Box<dyn Backend + Send> { Box::new(CpuBackend::<f64>::new()) };
+//! let end = walk(&setup, &cpu, &mut Print)?;
+//! println!("{} steps, jumps off at {:?}", end.rows.len(), end.jump_off_steps);
+//! # assert!(end.rows.iter().all(|row| row.converged));
+//! # assert!(end.rows[3].contact_area_fraction > end.rows[0].contact_area_fraction);
+//! # Ok(())
+//! # }
+//! ```
+//!
+//! # The map
+//!
+//! A module uses only modules that stand above it in this list; a test keeps that true.
+//!
+//! | module | what it holds |
+//! |---|---|
+//! | [`units`] | text with units to SI and back; the one place that knows unit names |
+//! | [`grid`] | points, sizes, wavevectors, the order of a field, what the transforms are scaled by |
+//! | [`real`] | the two kinds of number that kernels run in |
+//! | [`law`] | how strongly surfaces attract across a gap, one file a law |
+//! | [`elastic`] | stiffness of the half-space at each wavevector, periodic or free |
+//! | [`kernel`] | the catalogue of passes over points, and the numbers of the algorithm |
+//! | [`backend`] | where the arithmetic runs: the trait, the processor, the tally that only counts |
+//! | [`scene`] | TOML to a checked scene, or every mistake of it with line, key and remedy |
+//! | [`surface`] | heights: self-affine, shapes, files; their statistics |
+//! | [`solver`] | the one algorithm, for every law and both boundaries |
+//! | [`study`] | loading paths: what is held, jumps, energies, the rows of `curve.csv` |
+//! | [`effect`] | what a scene may ask for besides, and what each costs |
+//! | [`output`] | the folder of a run: curve, summary, fields, pictures |
+//! | [`theory`] | closed forms and models to compare with: Hertz, JKR, Maugis, Persson and others |
+//! | [`cli`] | the command line |
+//!
+//! # What an iteration does
+//!
+//! The unknown is the gap. Without adhesion, under a mean pressure, an iteration takes the residual on
+//! the points that may move, smooths it with the half-space's compliance (two transforms, and about
+//! a quarter of one on a coarse grid for the long waves), makes it a conjugate direction, cuts it
+//! where a gap would close, and asks what pressure the step takes (two transforms); then gap and
+//! pressure move. The work on points rides in the rows of those transforms, so a field is read while
+//! it is in cache. With adhesion the coarse grid goes and a search for the step length comes, point by
+//! point, without transforms. An effect that the scene does not name has no field and no pass;
+//! `tabor check` lists both. The residual that ends a solve is defined in `docs/solver.md`.
 #![warn(missing_docs)]
 
 pub mod backend;
@@ -17,3 +83,8 @@ pub mod study;
 pub mod surface;
 pub mod theory;
 pub mod units;
+
+/// The README's program is compiled and run like the one above.
+#[cfg(doctest)]
+#[doc = include_str!("../README.md")]
+pub struct Readme;

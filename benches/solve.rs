@@ -1,0 +1,97 @@
+//! Whole solves of rough surfaces, from cold: `solve_hard` without adhesion, `solve_adhesive` with.
+//!
+//! `cargo bench --bench solve`. Ids are `what/backend/points`; the throughput counts points. The
+//! surface: Hurst exponent 0.8, roll-off at a quarter of the side, 8 pixels across the shortest wave,
+//! rms slope 1, seed 1; mean pressure 0.05 E* times the rms slope, tolerance 1e-6.
+
+use std::convert::Infallible;
+use std::path::Path;
+use std::time::Duration;
+
+use criterion::{BenchmarkId, Criterion, Throughput, criterion_group, criterion_main};
+use tabor::backend::{Backend, cpu::CpuBackend};
+use tabor::kernel::Scalars;
+use tabor::scene::Scene;
+use tabor::study::{FinishedStep, Observer, Setup, walk};
+use tabor::surface::Surface;
+
+struct Quiet;
+
+impl Observer for Quiet {
+    type Error = Infallible;
+
+    fn step(&mut self, _: FinishedStep) -> Result<(), Infallible> {
+        Ok(())
+    }
+
+    fn iteration(&mut self, _: usize, _: &Scalars) -> bool {
+        true
+    }
+}
+
+/// Tabor number about 1, a pixel 0.1 of the cohesive zone at 512 points.
+const ADHESION: &str = r#"
+    [adhesion]
+    law = "maugis-dugdale"
+    work_of_adhesion = 2e-4
+    range = 2e-3
+"#;
+
+fn setup(points: usize, adhesion: &str) -> Setup {
+    let text = format!(
+        r#"
+        [grid]
+        points = {points}
+        size = 1.0
+        [solid]
+        contact_modulus = 1.0
+        [[surface]]
+        kind = "self-affine"
+        hurst = 0.8
+        rms_slope = 1.0
+        longest = 1.0
+        rolloff = 0.25
+        shortest = {:e}
+        {adhesion}
+        [loading]
+        control = "pressure"
+        path = [0.05]
+        "#,
+        8.0 / points as f64
+    );
+    let scene = Scene::parse(&text, "bench", Path::new("."), &[]).expect("a right scene");
+    let surface = Surface::build(&scene).expect("a surface of the scene");
+    Setup::new(scene, surface)
+}
+
+fn solve(criterion: &mut Criterion, name: &str, sizes: &[usize], adhesion: &str) {
+    let make_backend = || -> Box<dyn Backend + Send> { Box::new(CpuBackend::<f64>::new()) };
+    let mut group = criterion.benchmark_group(name);
+    group
+        .sample_size(10)
+        .warm_up_time(Duration::from_millis(1))
+        .measurement_time(Duration::from_secs(5));
+    for &points in sizes {
+        let setup = setup(points, adhesion);
+        group.throughput(Throughput::Elements((points * points) as u64));
+        group.bench_function(BenchmarkId::new("cpu", points), |bencher| {
+            bencher.iter(|| {
+                let end = walk(&setup, &make_backend, &mut Quiet).expect("a solve");
+                assert!(end.rows[0].converged);
+                end.transforms
+            });
+        });
+    }
+    group.finish();
+}
+
+fn hard(criterion: &mut Criterion) {
+    solve(criterion, "solve_hard", &[512, 1024, 2048], "");
+}
+
+fn adhesive(criterion: &mut Criterion) {
+    solve(criterion, "solve_adhesive", &[512], ADHESION);
+}
+
+criterion_group!(benches, hard, adhesive);
+criterion_main!(benches);
