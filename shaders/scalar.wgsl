@@ -18,7 +18,7 @@ const RIGID: wide = 1e-30;
 // Ranges beyond which surfaces under tension have left each other.
 const DETACHED_RANGES: wide = 60.0;
 // The rounding floor of the numerator over epsilon K_max norm(h or g).
-const FLOOR_FACTOR: wide = 0.25;
+const FLOOR_FACTOR: wide = 1.0;
 // Step along the plain descent in careful mode.
 const CAREFUL_LENGTH: wide = 0.25;
 // Residual at which careful mode ends.

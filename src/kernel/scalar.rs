@@ -35,8 +35,9 @@ const SLOPE_SHARE: f64 = 1e-6;
 const RIGID: f64 = 1e-30;
 /// Ranges beyond which surfaces under tension have left each other.
 const DETACHED_RANGES: f64 = 60.0;
-/// The rounding floor of the numerator over `epsilon K_max norm(h or g)`.
-const FLOOR_FACTOR: f64 = 0.25;
+/// The rounding floor of the numerator over `epsilon K_max norm(h or g)`: a gap rounded once leaves
+/// 0.15 of it, one rounded in each of some twenty steps up to 0.7.
+const FLOOR_FACTOR: f64 = 1.0;
 /// Step along the plain descent in careful mode.
 const CAREFUL_LENGTH: f64 = 0.25;
 /// Residual at which careful mode ends.

@@ -379,19 +379,18 @@ impl<'a> ContactSolver<'a> {
                 continue;
             }
             let mut end = self.evaluate()?;
+            let at_floor = end.numerator <= scalar::rounding_floor(&self.params, &end);
             match status {
-                // The measure carried along says converged, the fresh one not yet: go on.
-                Status::Converged if end.status != Status::Converged => {
+                // The measure carried along says converged, the fresh one not yet: go on, unless
+                // rounding of the gap, which only the fresh one sees, is all that is left.
+                Status::Converged if end.status != Status::Converged && !at_floor => {
                     if !out_of_iterations && !stopped && end.status == Status::Running {
                         continue;
                     }
                     status = end.status;
                 }
                 Status::Stalled | Status::Running => {
-                    let floor = scalar::rounding_floor(&self.params, &end);
-                    if end.residual <= tolerance
-                        || (status == Status::Stalled && end.numerator <= floor)
-                    {
+                    if end.residual <= tolerance || (status == Status::Stalled && at_floor) {
                         status = Status::Converged;
                     }
                 }

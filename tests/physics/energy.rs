@@ -1,0 +1,300 @@
+//! Energy: solves only lower it, and paths lose it only in jumps.
+
+use tabor::backend::cpu::CpuBackend;
+use tabor::kernel::Status;
+use tabor::solver::{ContactSolver, Hold, Load, Start};
+use tabor::study::{PointState, dissipation};
+
+use crate::bench::{Solved, setup, solve};
+
+/// A rough cell of side 1 and modulus 1; `adhesion` and `loading` are the lines of those tables.
+fn rough(points: usize, adhesion: &str, loading: &str) -> String {
+    format!(
+        r#"
+        [grid]
+        points = {points}
+        size = 1.0
+        [solid]
+        contact_modulus = 1.0
+        [[surface]]
+        kind = "self-affine"
+        hurst = 0.8
+        rms_height = {RMS_HEIGHT}
+        longest = 1.0
+        rolloff = 0.5
+        shortest = 0.125
+        seed = 5
+        {adhesion}
+        [loading]
+        {loading}
+        [solver]
+        tolerance = 1e-9
+        "#
+    )
+}
+
+const RMS_HEIGHT: f64 = 0.01;
+
+/// The adhesive laws; of one work of adhesion and range unless a test says otherwise.
+fn laws(work: f64, range: f64) -> [(&'static str, String); 4] {
+    [
+        ("sharp", "maugis-dugdale", "taper = 0.0"),
+        ("tapered", "maugis-dugdale", ""),
+        ("exponential", "exponential", ""),
+        ("Lennard-Jones", "lennard-jones", ""),
+    ]
+    .map(|(name, law, more)| {
+        let table = format!(
+            "[adhesion]\nlaw = \"{law}\"\nwork_of_adhesion = {work:e}\nrange = {range:e}\n{more}"
+        );
+        (name, table)
+    })
+}
+
+/// `<u,Ku>/2 + <V(g)>` never rises from one iteration to the next at a held mean gap, for any law,
+/// from nearly apart to nearly closed.
+#[test]
+fn a_solve_only_lowers_the_energy() {
+    let mut cases = vec![("hard wall", String::new())];
+    // chi = w dx/range^2 = 0.3: a cohesive zone of a few pixels.
+    cases.extend(laws(1.7e-4, 3e-3));
+    for (name, adhesion) in cases {
+        let setup = setup(&rough(
+            64,
+            &adhesion,
+            "control = \"mean-gap\"\npath = [0.01]",
+        ));
+        let problem = &setup.problem;
+        for share in [2.5, 1.0, 0.2] {
+            let load = Load {
+                hold: Hold::Gap(share * RMS_HEIGHT / problem.scales.length),
+                zero_stiffness: 0.0,
+                zero_compliance: 1.0 / problem.stiffness_min(),
+            };
+            let mut backend = CpuBackend::<f64>::new();
+            let mut solver = ContactSolver::new(&mut backend, problem);
+            solver.begin(&load, &Start::Cold, 1e-9, false).expect("cpu");
+            let mut before = f64::INFINITY;
+            let mut iterations = 0;
+            loop {
+                let (gap, elastic) = (
+                    solver.gap().expect("cpu"),
+                    solver.elastic_pressure().expect("cpu"),
+                );
+                let (mut energy, mut square) = (0.0, 0.0);
+                for ((g, h), p) in gap.iter().zip(&problem.heights).zip(&elastic) {
+                    energy += 0.5 * p * (g + h) + problem.law.energy(*g);
+                    square += (g + h) * (g + h);
+                }
+                // K u is carried along, with rounding of K_max |u| an iteration.
+                let rounding = 1e-15 * problem.stiffness_max() * square * f64::from(iterations + 4);
+                assert!(
+                    energy <= before + rounding,
+                    "{name}, gap {share}: rises by {:.1e} (rounding {rounding:.1e}) in iteration {iterations}",
+                    energy - before
+                );
+                before = energy;
+                let scalars = solver.iterate().expect("cpu");
+                iterations += 1;
+                if scalars.status != Status::Running {
+                    assert_eq!(scalars.status, Status::Converged, "{name}, gap {share}");
+                    break;
+                }
+                assert!(
+                    iterations < 5000,
+                    "{name}, gap {share}: {:.1e}",
+                    scalars.residual
+                );
+            }
+            println!("{name}, gap {share}: {iterations} iterations");
+        }
+    }
+}
+
+/// What a path lost.
+struct Losses {
+    /// Largest loss of a step without a jump, over w times the area that changed state (one pixel
+    /// at least).
+    largest_share: f64,
+    /// Sum of the absolute losses of these steps, J.
+    smooth: f64,
+    /// Sum of the losses of the steps that jumped, J.
+    jumps: f64,
+    /// w times the area that changed state on the whole path, J.
+    changed: f64,
+    /// Area of the loop in force over approach, J.
+    hysteresis: f64,
+    count_in: usize,
+    count_off: usize,
+}
+
+fn losses(solved: &Solved) -> Losses {
+    let work = solved.setup.law.work_of_adhesion() * solved.setup.surface.grid.pixel_area();
+    let mut losses = Losses {
+        largest_share: 0.0,
+        smooth: 0.0,
+        jumps: 0.0,
+        changed: 0.0,
+        hysteresis: solved.end.hysteresis_energy.expect("a closed path"),
+        count_in: solved.end.jump_in_steps.len(),
+        count_off: solved.end.jump_off_steps.len(),
+    };
+    let points = |i: usize| -> &[PointState] { &solved.fields(i).points };
+    for (i, pair) in solved.steps.windows(2).enumerate() {
+        let lost = dissipation(&pair[0].row, &pair[1].row).expect("held");
+        let changed = points(i)
+            .iter()
+            .zip(points(i + 1))
+            .filter(|(a, b)| a != b)
+            .count();
+        let changed = work * changed.max(1) as f64;
+        losses.changed += changed;
+        if pair[1].jump.is_some() {
+            losses.jumps += lost;
+        } else {
+            losses.smooth += lost.abs();
+            losses.largest_share = losses.largest_share.max(lost.abs() / changed);
+        }
+    }
+    losses
+}
+
+/// There and back between two places in equal steps.
+fn loop_path(from: f64, to: f64, steps: usize) -> Vec<f64> {
+    let mut path: Vec<f64> = (0..=steps)
+        .map(|i| from + (to - from) * i as f64 / steps as f64)
+        .collect();
+    path.extend_from_within(..steps);
+    path[steps + 1..].reverse();
+    path
+}
+
+/// A Lennard-Jones sphere in the units of its tables on a window of 16 pixels or so a cohesive
+/// length's worth.
+fn sphere(mu: f64, side: f64, path: &[f64]) -> Solved {
+    solve(&format!(
+        r#"
+        [grid]
+        points = 64
+        size = {side}
+        boundary = "free"
+        [solid]
+        contact_modulus = {:e}
+        [[surface]]
+        kind = "sphere"
+        radius = 1.0
+        [adhesion]
+        law = "lennard-jones"
+        work_of_adhesion = 1.0
+        range = 1.0
+        [loading]
+        control = "approach"
+        path = {path:?}
+        [solver]
+        tolerance = 1e-9
+        "#,
+        mu.powf(-1.5),
+    ))
+}
+
+/// Checks a loop walked in steps and in half steps.
+fn check(name: &str, coarse: &Losses, fine: &Losses) {
+    for (steps, losses) in [("steps", coarse), ("half steps", fine)] {
+        println!(
+            "{name}, {steps}: share {:.1e}, smooth {:.2e}, jumps {:.4e} ({} in, {} off), loop {:.4e}",
+            losses.largest_share,
+            losses.smooth,
+            losses.jumps,
+            losses.count_in,
+            losses.count_off,
+            losses.hysteresis
+        );
+        assert!(
+            losses.largest_share < 0.01,
+            "{name}, {steps}: a step without a jump loses energy"
+        );
+        // What is stored adds up to nothing over a loop, so its area is the sum of the losses.
+        let rest = (losses.hysteresis - losses.jumps).abs();
+        assert!(
+            rest <= losses.smooth * (1.0 + 1e-9) + 1e-9 * losses.changed,
+            "{name}, {steps}"
+        );
+        assert!(
+            rest < 0.01 * losses.changed,
+            "{name}, {steps}: the loop is not the jumps' sum"
+        );
+    }
+}
+
+/// A step's work is a trapezium, wrong by the cube of its length, over an area that changes with
+/// its length: halved steps must lose four times less, here at least three.
+#[test]
+fn smooth_paths_lose_nothing() {
+    let [coarse, fine] =
+        [30, 60].map(|steps| losses(&sphere(0.5, 16.0, &loop_path(-3.0, 0.6, steps))));
+    check("sphere, mu 0.5", &coarse, &fine);
+    assert_eq!(
+        coarse.count_in + coarse.count_off + fine.count_in + fine.count_off,
+        0
+    );
+    assert!(
+        fine.smooth < coarse.smooth / 3.0,
+        "{:e} {:e}",
+        coarse.smooth,
+        fine.smooth
+    );
+}
+
+/// With folds the whole loop is the jump in and the jump off.
+#[test]
+fn a_loop_is_the_sum_of_its_jumps() {
+    let [coarse, fine] =
+        [60, 120].map(|steps| losses(&sphere(2.0, 8.0, &loop_path(-4.0, -1.0, steps))));
+    check("sphere, mu 2", &coarse, &fine);
+    for losses in [&coarse, &fine] {
+        assert_eq!((losses.count_in, losses.count_off), (1, 1));
+        assert!(losses.jumps > 0.1 * losses.changed);
+    }
+    assert!(
+        fine.smooth < coarse.smooth / 3.0,
+        "{:e} {:e}",
+        coarse.smooth,
+        fine.smooth
+    );
+}
+
+/// The same on a rough surface with a law whose zone the grid resolves, in mean gap.
+#[test]
+fn rough_loops() {
+    for (name, adhesion) in &laws(2e-5, 3e-3)[1..] {
+        let [coarse, fine] = [40, 80].map(|steps| {
+            let path = loop_path(4.5 * RMS_HEIGHT, 0.5 * RMS_HEIGHT, steps);
+            losses(&solve(&rough(
+                64,
+                adhesion,
+                &format!("control = \"mean-gap\"\npath = {path:?}"),
+            )))
+        });
+        check(name, &coarse, &fine);
+    }
+}
+
+/// Without adhesion loading and unloading are one curve.
+#[test]
+fn no_adhesion_no_loop() {
+    let path = loop_path(3.0 * RMS_HEIGHT, 0.5 * RMS_HEIGHT, 12);
+    let solved = solve(&rough(
+        64,
+        "",
+        &format!("control = \"mean-gap\"\npath = {path:?}"),
+    ));
+    let enclosed = solved.end.hysteresis_energy.expect("a closed path");
+    let work: f64 = solved
+        .steps
+        .windows(2)
+        .map(|pair| 0.5 * (pair[0].row.force + pair[1].row.force) * 2.5 * RMS_HEIGHT / 12.0)
+        .sum();
+    // Each force is solved to a residual of 1e-9.
+    assert!(enclosed.abs() < 1e-7 * work, "{enclosed:e} of {work:e}");
+    assert!(solved.end.jump_in_steps.is_empty() && solved.end.jump_off_steps.is_empty());
+}

@@ -1,7 +1,10 @@
 //! The full field against closed forms and independent tables.
 
 mod bench;
+mod controls;
+mod energy;
 mod hertz;
+mod lennard_jones;
 mod maugis_dugdale;
 mod rough;
 mod tables;

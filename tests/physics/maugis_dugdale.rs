@@ -9,7 +9,7 @@ use std::f64::consts::PI;
 use tabor::study::{Jump, State};
 
 use crate::bench::{Solved, solve_table};
-use crate::tables::{Table, parameters, table};
+use crate::tables::{Table, parameters, slope, table, thinned};
 
 const MODULUS: f64 = 0.75;
 /// The window over the largest cohesive diameter on the path.
@@ -113,21 +113,6 @@ fn stable_rows(curve: &Table, special: &Table, row: usize) -> Vec<usize> {
         .collect()
 }
 
-/// |dF/d(approach)| of the table at a row, in 2 pi w R.
-fn slope(curve: &Table, row: usize) -> f64 {
-    let (before, after) = (row.saturating_sub(1), (row + 1).min(curve.len() - 1));
-    let change = |column: &str| curve.number(after, column) - curve.number(before, column);
-    (change("F_over_2piwR") / change("delta_bar")).abs()
-}
-
-fn special_row(special: &Table, lambda: f64) -> Option<usize> {
-    (0..special.len()).find(|&i| (special.number(i, "lambda") - lambda).abs() < 1e-9 * lambda)
-}
-
-fn is_long() -> bool {
-    std::env::var_os("TABOR_LONG").is_some()
-}
-
 /// Force, contact radius and cohesive radius at tabulated approaches, on the way out.
 #[test]
 fn curves() {
@@ -135,7 +120,7 @@ fn curves() {
         return;
     };
     for (lambda, name) in parameters("md_curve_lambda") {
-        let (Some(curve), Some(row)) = (table(&name), special_row(&special, lambda)) else {
+        let (Some(curve), Some(row)) = (table(&name), special.find("lambda", lambda)) else {
             println!("skipped: no special points for {name}");
             continue;
         };
@@ -154,16 +139,6 @@ fn curves() {
             );
         }
     }
-}
-
-/// Every value under TABOR_LONG=1, else about `count` of them.
-fn thinned(rows: Vec<usize>, count: usize) -> Vec<usize> {
-    let every = if is_long() {
-        1
-    } else {
-        rows.len().div_ceil(count).max(1)
-    };
-    rows.into_iter().step_by(every).collect()
 }
 
 /// Walks outwards over rows of a curve and compares each.
@@ -190,7 +165,7 @@ fn follow(curve: &Table, lambda: f64, name: &str, rows: &[usize], accuracy: f64)
         let what = format!("{name} at {}", curve.number(i, "delta_bar"));
         let force = (0.5 * step.row.force - curve.number(i, "F_over_2piwR")).abs();
         // Near the fold the force is a square root of the approach, whose own error counts.
-        let allowed = accuracy * slope(curve, i).max(1.0);
+        let allowed = accuracy * slope(curve, i, "delta_bar").max(1.0);
         assert!(
             force < allowed,
             "{what}: force off by {force:.2e}, {allowed:.2e} allowed"

@@ -2,16 +2,19 @@
 
 use crate::bench::{setup, solve, solve_table};
 
-const MODULUS: f64 = 1.33e12;
+pub const MODULUS: f64 = 1.33e12;
 
-struct Surface {
-    ratio: usize,
-    points: usize,
-    seed: u64,
-    load: f64,
+/// A surface of the study: 0.52 nm rough, rolled off at a quarter of the cell.
+pub struct Surface {
+    pub hurst: f64,
+    /// Roll-off over the shortest wavelength.
+    pub ratio: usize,
+    pub points: usize,
+    pub seed: u64,
 }
 
-fn scene(surface: &Surface, path: &[f64], tolerance: f64) -> String {
+/// Its scene; `adhesion` is that table or nothing.
+pub fn scene(surface: &Surface, adhesion: &str, path: &[f64], tolerance: f64) -> String {
     let longest = 2.0 * std::f64::consts::PI / 2.5e5;
     format!(
         r#"
@@ -22,12 +25,13 @@ fn scene(surface: &Surface, path: &[f64], tolerance: f64) -> String {
         contact_modulus = {MODULUS:e}
         [[surface]]
         kind = "self-affine"
-        hurst = 0.8
+        hurst = {}
         rms_height = "0.52 nm"
         longest = {longest:e}
         rolloff = {:e}
         shortest = {:e}
         seed = {}
+        {adhesion}
         [loading]
         control = "pressure"
         path = {path:?}
@@ -35,6 +39,7 @@ fn scene(surface: &Surface, path: &[f64], tolerance: f64) -> String {
         tolerance = {tolerance:e}
         "#,
         surface.points,
+        surface.hurst,
         longest / 4.0,
         longest / (4 * surface.ratio) as f64,
         surface.seed,
@@ -52,16 +57,16 @@ fn contact_pixels_of_four_surfaces() {
         (16, 256, 7, 0.02, 3011, 1.263595452272796),
     ] {
         let surface = Surface {
+            hurst: 0.8,
             ratio,
             points,
             seed,
-            load,
         };
-        let slope = setup(&scene(&surface, &[1.0], 1e-6))
+        let slope = setup(&scene(&surface, "", &[1.0], 1e-6))
             .statistics
             .moments
             .rms_slope();
-        let solved = solve_table(&scene(&surface, &[surface.load * MODULUS * slope], 1e-9));
+        let solved = solve_table(&scene(&surface, "", &[load * MODULUS * slope], 1e-9));
         let row = &solved.steps[0].row;
         let counted = row.contact_area_fraction * (points * points) as f64;
         assert_eq!(
@@ -78,17 +83,17 @@ fn contact_pixels_of_four_surfaces() {
 #[test]
 fn full_contact_at_a_large_load() {
     let surface = Surface {
+        hurst: 0.8,
         ratio: 8,
         points: 128,
         seed: 3,
-        load: 0.0,
     };
-    let slope = setup(&scene(&surface, &[1.0], 1e-6))
+    let slope = setup(&scene(&surface, "", &[1.0], 1e-6))
         .statistics
         .moments
         .rms_slope();
     let mean = 10.0 * MODULUS * slope;
-    let solved = solve(&scene(&surface, &[mean], 1e-9));
+    let solved = solve(&scene(&surface, "", &[mean], 1e-9));
     assert_eq!(solved.steps[0].row.contact_area_fraction, 1.0);
     let pressure = &solved.fields(0).pressure;
     let squares: f64 = pressure.iter().map(|p| (p - mean).powi(2)).sum();

@@ -22,6 +22,11 @@ impl Table {
         &self.rows[row][self.head[column]]
     }
 
+    /// The row whose cell of a column is this number.
+    pub fn find(&self, column: &str, value: f64) -> Option<usize> {
+        (0..self.len()).find(|&row| (self.number(row, column) - value).abs() < 1e-9 * value)
+    }
+
     pub fn column(&self, column: &str) -> Vec<f64> {
         (0..self.len())
             .map(|row| self.number(row, column))
@@ -83,4 +88,22 @@ pub fn parameters(prefix: &str) -> Vec<(f64, String)> {
         .unwrap_or_default();
     found.sort_by(|a, b| a.0.total_cmp(&b.0));
     found
+}
+
+/// |dF/d(approach)| of a curve at a row, in 2 pi w R; `approach` names its column.
+pub fn slope(curve: &Table, row: usize, approach: &str) -> f64 {
+    let (before, after) = (row.saturating_sub(1), (row + 1).min(curve.len() - 1));
+    let change = |column: &str| curve.number(after, column) - curve.number(before, column);
+    (change("F_over_2piwR") / change(approach)).abs()
+}
+
+/// All rows under TABOR_LONG=1, else about `count` of them.
+pub fn thinned(rows: Vec<usize>, count: usize) -> Vec<usize> {
+    let long = std::env::var_os("TABOR_LONG").is_some();
+    let every = if long {
+        1
+    } else {
+        rows.len().div_ceil(count).max(1)
+    };
+    rows.into_iter().step_by(every).collect()
 }
