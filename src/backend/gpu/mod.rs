@@ -13,6 +13,7 @@ mod device;
 mod error;
 mod fft;
 mod layout;
+mod level;
 mod plan;
 mod recorder;
 pub mod source;
@@ -24,8 +25,9 @@ use std::f64::consts::TAU;
 use super::{Backend, BackendError, Field, Level, Shape, Spectrum};
 use crate::kernel::{Form, Gate, Kernel, Params, ScalarKernel, Scalars};
 use bindings::{COLUMNS, DECIDING, ROWS, WORKING};
+use level::{LevelPlan, ROW_TRANSFORMS_PER_TRANSFORM};
 use recorder::{Part, Prepared, Recorder};
-use source::{LevelPlan, ROW_TRANSFORMS_PER_TRANSFORM, Results};
+use source::Results;
 use space::{FieldSpace, LevelSpace, SpectrumSpace};
 
 pub use catalogue::LawPart;

@@ -1,6 +1,8 @@
 //! How a line is transformed by a workgroup: radices, threads, lines side by side, and how values
 //! pass between the threads.
 
+use crate::kernel::SUMS;
+
 /// What the adapter allows a workgroup.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub struct GroupLimits {
@@ -28,6 +30,16 @@ pub enum Exchange {
     Split,
 }
 
+impl Exchange {
+    /// Bytes of workgroup memory that a point takes.
+    pub fn bytes(self) -> usize {
+        match self {
+            Exchange::Whole => 8,
+            Exchange::Split => 4,
+        }
+    }
+}
+
 /// The plan of one line length.
 #[derive(Clone, Debug, PartialEq, Eq, Hash)]
 pub struct LinePlan {
@@ -42,6 +54,8 @@ pub struct LinePlan {
     pub lines: usize,
     /// How values pass between threads.
     pub exchange: Exchange,
+    /// Sums that the workgroup reduces together, in the memory that is left.
+    pub sums_at_once: usize,
 }
 
 /// Radices of an even length whose prime factors are 2, 3, 5 and 7, powers of two first.
@@ -62,7 +76,7 @@ pub fn radices(length: usize) -> Option<Vec<usize>> {
         found.push(1 << step);
         twos -= step;
     }
-    for prime in [7, 5, 3] {
+    for prime in [7usize, 5, 3] {
         while rest.is_multiple_of(prime) {
             found.push(prime);
             rest /= prime;
@@ -111,7 +125,10 @@ impl LinePlan {
             }
             lines /= 2;
         };
+        let used = lines * length * exchange.bytes();
+        let left = (limits.memory - used) / (lines * threads * SUM_BYTES);
         Some(LinePlan {
+            sums_at_once: left.min(SUMS),
             length,
             radices,
             threads,
@@ -161,8 +178,8 @@ mod tests {
     #[test]
     fn radices_multiply_to_the_length_and_start_even() {
         for length in (2..=4096).step_by(2) {
-            let mut rest = length;
-            for prime in [2, 3, 5, 7] {
+            let mut rest: usize = length;
+            for prime in [2usize, 3, 5, 7] {
                 while rest.is_multiple_of(prime) {
                     rest /= prime;
                 }
@@ -191,13 +208,11 @@ mod tests {
                 let Some(plan) = LinePlan::new(length, length, limits) else {
                     continue;
                 };
-                let bytes = match plan.exchange {
-                    Exchange::Whole => 8,
-                    Exchange::Split => 4,
-                };
                 assert!(plan.group_threads() <= limits.threads, "{plan:?}");
                 assert!(plan.values() <= MOST_VALUES, "{plan:?}");
-                let memory = plan.lines * (length * bytes + plan.threads * SUM_BYTES);
+                let sums = plan.sums_at_once * plan.threads * SUM_BYTES;
+                let memory = plan.lines * (length * plan.exchange.bytes() + sums);
+                assert!(plan.sums_at_once > 0, "{plan:?}");
                 assert!(memory <= limits.memory, "{plan:?}");
             }
         }
