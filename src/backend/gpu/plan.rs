@@ -28,15 +28,26 @@ pub enum Exchange {
     Whole,
     /// Real parts first, then imaginary parts: 4 bytes a point.
     Split,
+    /// The same, each in so many rounds, for a part of the line at a time.
+    Rounds(usize),
 }
 
 impl Exchange {
-    /// Bytes of workgroup memory that a point takes.
-    pub fn bytes(self) -> usize {
+    /// Numbers of a line that are in workgroup memory at a time.
+    pub fn places(self, length: usize) -> usize {
         match self {
-            Exchange::Whole => 8,
-            Exchange::Split => 4,
+            Exchange::Whole | Exchange::Split => length,
+            Exchange::Rounds(rounds) => length.div_ceil(rounds),
         }
+    }
+
+    /// Bytes of workgroup memory that a line takes.
+    pub fn memory(self, length: usize) -> usize {
+        let bytes = match self {
+            Exchange::Whole => 8,
+            Exchange::Split | Exchange::Rounds(_) => 4,
+        };
+        bytes * self.places(length)
     }
 }
 
@@ -102,8 +113,8 @@ impl LinePlan {
                 let work: usize = radices.iter().map(|&radix| rounds(threads, radix)).sum();
                 (threads * work, std::cmp::Reverse(threads))
             })?;
-        let fits = |lines: usize, bytes: usize| {
-            lines * (threads * SUM_BYTES + length * bytes) <= limits.memory
+        let fits = |lines: usize, exchange: Exchange| {
+            lines * (threads * SUM_BYTES + exchange.memory(length)) <= limits.memory
                 && lines * threads <= limits.threads
         };
         let most = MOST_LINES.max(ENOUGH_THREADS / threads.next_power_of_two());
@@ -112,20 +123,28 @@ impl LinePlan {
             .last()
             .unwrap_or(1);
         let mut lines = wanted;
-        // One line at a time is the last resort: neighbours share what memory hands out at once.
+        // Rounds cost barriers; one line at a time wastes half of what memory hands out at once.
+        let ways: &[Exchange] = &[
+            Exchange::Whole,
+            Exchange::Split,
+            Exchange::Rounds(2),
+            Exchange::Rounds(4),
+        ];
         let exchange = loop {
-            if fits(lines, 8) {
-                break Exchange::Whole;
-            }
-            if lines <= 2 && fits(lines, 4) {
-                break Exchange::Split;
+            let ways = match lines {
+                1 => ways,
+                2 => &ways[..2],
+                _ => &ways[..1],
+            };
+            if let Some(&exchange) = ways.iter().find(|&&exchange| fits(lines, exchange)) {
+                break exchange;
             }
             if lines == 1 {
                 return None;
             }
             lines /= 2;
         };
-        let used = lines * length * exchange.bytes();
+        let used = lines * exchange.memory(length);
         let left = (limits.memory - used) / (lines * threads * SUM_BYTES);
         Some(LinePlan {
             sums_at_once: left.min(SUMS),
@@ -211,11 +230,11 @@ mod tests {
                 assert!(plan.group_threads() <= limits.threads, "{plan:?}");
                 assert!(plan.values() <= MOST_VALUES, "{plan:?}");
                 let sums = plan.sums_at_once * plan.threads * SUM_BYTES;
-                let memory = plan.lines * (length * plan.exchange.bytes() + sums);
+                let memory = plan.lines * (plan.exchange.memory(length) + sums);
                 assert!(plan.sums_at_once > 0, "{plan:?}");
                 assert!(memory <= limits.memory, "{plan:?}");
             }
         }
-        assert!(LinePlan::longest(COMMON) >= 4096);
+        assert_eq!(LinePlan::longest(COMMON), 16384);
     }
 }
