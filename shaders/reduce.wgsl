@@ -1,6 +1,7 @@
-// Sums over a workgroup of GROUP_THREADS threads, halved in a fixed order; GROUP_HALF is the
-// largest power of two below GROUP_THREADS. Every thread must come here.
-var<workgroup> group_values: array<wide, GROUP_THREADS>;
+// Sums over a workgroup of GROUP_THREADS threads, halved in a fixed order, SUMS_AT_ONCE of
+// SUM_COUNT together, so that barriers are few. GROUP_HALF is the largest power of two below
+// GROUP_THREADS; `join_slot` puts two values of a sum together. Every thread must come here.
+var<workgroup> group_values: array<wide, GROUP_VALUES>;
 
 fn join_add(a: wide, b: wide) -> wide {
     return a + b;
@@ -14,41 +15,22 @@ fn join_max(a: wide, b: wide) -> wide {
     return select(a, b, b > a || is_nan(b));
 }
 
-fn gather_add(value: wide, thread: u32) -> wide {
+// Leaves the results of the sums from `first` on at group_values[0], [GROUP_THREADS], and so on.
+fn gather(values: array<wide, SUM_COUNT>, first: u32, thread: u32) {
+    var each = values;
+    let count = min(SUMS_AT_ONCE, SUM_COUNT - first);
     workgroupBarrier();
-    group_values[thread] = value;
+    for (var slot = 0u; slot < count; slot = slot + 1u) {
+        group_values[slot * GROUP_THREADS + thread] = each[first + slot];
+    }
     workgroupBarrier();
     for (var half = GROUP_HALF; half > 0u; half = half >> 1u) {
         if (thread < half && thread + half < GROUP_THREADS) {
-            group_values[thread] = join_add(group_values[thread], group_values[thread + half]);
+            for (var slot = 0u; slot < count; slot = slot + 1u) {
+                let place = slot * GROUP_THREADS + thread;
+                group_values[place] = join_slot(first + slot, group_values[place], group_values[place + half]);
+            }
         }
         workgroupBarrier();
     }
-    return group_values[0];
-}
-
-fn gather_min(value: wide, thread: u32) -> wide {
-    workgroupBarrier();
-    group_values[thread] = value;
-    workgroupBarrier();
-    for (var half = GROUP_HALF; half > 0u; half = half >> 1u) {
-        if (thread < half && thread + half < GROUP_THREADS) {
-            group_values[thread] = join_min(group_values[thread], group_values[thread + half]);
-        }
-        workgroupBarrier();
-    }
-    return group_values[0];
-}
-
-fn gather_max(value: wide, thread: u32) -> wide {
-    workgroupBarrier();
-    group_values[thread] = value;
-    workgroupBarrier();
-    for (var half = GROUP_HALF; half > 0u; half = half >> 1u) {
-        if (thread < half && thread + half < GROUP_THREADS) {
-            group_values[thread] = join_max(group_values[thread], group_values[thread + half]);
-        }
-        workgroupBarrier();
-    }
-    return group_values[0];
 }

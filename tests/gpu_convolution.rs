@@ -82,8 +82,19 @@ fn convolve(
 
 #[test]
 fn convolution_agrees_with_the_processor() {
+    agrees_with_the_processor(&SIZES);
+}
+
+/// Lines that pass through workgroup memory in two and in four rounds.
+#[test]
+#[ignore = "a software driver takes a minute to compile these kernels"]
+fn convolution_of_long_lines_agrees_with_the_processor() {
+    agrees_with_the_processor(&[[16384, 2], [2, 8192]]);
+}
+
+fn agrees_with_the_processor(sizes: &[[usize; 2]]) {
     let Some(device) = device() else { return };
-    for size in SIZES {
+    for &size in sizes {
         let mut numbers = Numbers(size[0] as u64 * 4096 + size[1] as u64);
         let count = size[0] * size[1];
         let fields = [numbers.field(count), numbers.field(count)];

@@ -3,7 +3,7 @@
 use naga::valid::{Capabilities, ModuleInfo, ValidationFlags, Validator};
 use tabor::backend::Shape;
 use tabor::backend::gpu::source::{self, LevelPlan, Results};
-use tabor::backend::gpu::{GroupLimits, LawPart, Wide};
+use tabor::backend::gpu::{Exchange, GroupLimits, LawPart, Wide};
 use tabor::kernel::common::{LOAD_FIELD, STORE_PRESSURE};
 use tabor::kernel::{Gate, Reduce};
 
@@ -104,7 +104,7 @@ fn transforms_of_many_lengths_are_valid() {
         [1000, 84],
         [4096, 6],
         [16, 4096],
-        [4096, 4096],
+        [8192, 16384],
     ] {
         let plan = plan(nx, ny);
         for wide in NUMBERS {
@@ -118,6 +118,26 @@ fn transforms_of_many_lengths_are_valid() {
                 validate(&format!("multiply {nx} x {ny}"), &text, wide);
             }
         }
+    }
+}
+
+/// The least that a device offers takes longer lines in rounds.
+#[test]
+fn rounds_are_valid() {
+    let least = GroupLimits {
+        threads: 256,
+        memory: 16384,
+    };
+    let plan = LevelPlan::new(Shape::whole(4096, 3000), least).expect("lines that fit in rounds");
+    assert_eq!(plan.rows.exchange, Exchange::Rounds(2));
+    for wide in NUMBERS {
+        for kernel in [&LOAD_FIELD, &STORE_PRESSURE] {
+            let text = source::kernel(kernel, &plan, [0, 0], LawPart::HardWall, wide)
+                .unwrap_or_else(|error| panic!("{error}"));
+            validate(kernel.name, &text, wide);
+        }
+        let text = source::multiply(&plan, true, Gate::Accepted, wide);
+        validate("multiply", &text, wide);
     }
 }
 

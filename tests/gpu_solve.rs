@@ -4,10 +4,10 @@ mod gpu_shared;
 
 use std::path::PathBuf;
 
-use gpu_shared::{backend, device, relative_difference};
+use gpu_shared::{backend, device, device_with_single_sums, relative_difference};
 use tabor::backend::Backend;
 use tabor::backend::cpu::CpuBackend;
-use tabor::backend::gpu::GpuDevice;
+use tabor::backend::gpu::{GpuDevice, Wide};
 use tabor::grid::Grid;
 use tabor::kernel::Status;
 use tabor::law::{Law, LennardJones, MaugisDugdale};
@@ -45,7 +45,7 @@ fn solve(
 }
 
 /// Solves on both; `bound` is for gaps and elastic pressures, relative L2.
-fn compare(device: &'static GpuDevice, name: &str, problem: &Problem, load: &Load, bound: f64) {
+fn compare(device: &GpuDevice, name: &str, problem: &Problem, load: &Load, bound: f64) {
     let cpu = || -> Box<dyn Backend + Send> { Box::new(CpuBackend::<f64>::new()) };
     let gpu = || -> Box<dyn Backend + Send> { Box::new(backend(device)) };
     let clock = std::time::Instant::now();
@@ -177,6 +177,26 @@ fn rough_hard_wall() {
     );
     let load = at_pressure(&problem, 0.05);
     compare(device, "rough hard wall at pressure", &problem, &load, 1e-3);
+}
+
+/// Sums in single precision, halved in order, do as well at this tolerance.
+#[test]
+fn rough_hard_wall_without_double_precision() {
+    let Some(device) = device_with_single_sums() else {
+        return;
+    };
+    assert_eq!(device.wide(), Wide::Single);
+    let surface = rough(64);
+    let problem = Problem::new(
+        surface.grid,
+        Boundary::Periodic,
+        1.0,
+        &surface.heights,
+        1.0,
+        Law::HardWall,
+    );
+    let load = at_pressure(&problem, 0.05);
+    compare(&device, "single sums", &problem, &load, 1e-3);
 }
 
 #[test]

@@ -10,23 +10,29 @@ use tabor::backend::gpu::{AdapterChoice, GpuBackend, GpuDevice};
 /// machine would pass unseen.
 pub fn device() -> Option<&'static GpuDevice> {
     static DEVICE: OnceLock<Option<GpuDevice>> = OnceLock::new();
-    DEVICE
-        .get_or_init(|| {
-            let choice = AdapterChoice {
-                name: None,
-                software: true,
-            };
-            match GpuDevice::new(&choice) {
-                Ok(device) => Some(device),
-                Err(error) => {
-                    let required = std::env::var("TABOR_REQUIRE_GPU").is_ok_and(|v| v == "1");
-                    assert!(!required, "TABOR_REQUIRE_GPU is set, but: {error}");
-                    eprintln!("skipped: no adapter ({error})");
-                    None
-                }
-            }
-        })
-        .as_ref()
+    DEVICE.get_or_init(|| ready(false)).as_ref()
+}
+
+/// A device that keeps its sums in single precision, as those without double precision must.
+pub fn device_with_single_sums() -> Option<GpuDevice> {
+    ready(true)
+}
+
+fn ready(single_sums: bool) -> Option<GpuDevice> {
+    let choice = AdapterChoice {
+        name: None,
+        software: true,
+        single_sums,
+    };
+    match GpuDevice::new(&choice) {
+        Ok(device) => Some(device),
+        Err(error) => {
+            let required = std::env::var("TABOR_REQUIRE_GPU").is_ok_and(|v| v == "1");
+            assert!(!required, "TABOR_REQUIRE_GPU is set, but: {error}");
+            eprintln!("skipped: no adapter ({error})");
+            None
+        }
+    }
 }
 
 /// A backend on the shared device.

@@ -15,6 +15,9 @@ pub struct AdapterChoice {
     /// Whether a driver that computes on the processor will do. It is slower there than this
     /// program's own CPU backend, so only tests and explicit wishes want it.
     pub software: bool,
+    /// Whether sums are kept in single precision even where the device has double: for tests of
+    /// what other devices do.
+    pub single_sums: bool,
 }
 
 /// An adapter in words.
@@ -132,7 +135,10 @@ impl GpuDevice {
         let place = choose(&descriptions, &kinds, &choice)?;
         let adapter = &found[place];
         let description = descriptions[place].clone();
-        let required_features = adapter.features() & wgpu::Features::SHADER_F64;
+        let required_features = match choice.single_sums {
+            true => wgpu::Features::empty(),
+            false => adapter.features() & wgpu::Features::SHADER_F64,
+        };
         let (device, queue) = pollster::block_on(adapter.request_device(&wgpu::DeviceDescriptor {
             label: Some("tabor"),
             required_features,
@@ -171,7 +177,8 @@ impl GpuDevice {
 
     /// The number in which sums are kept here.
     pub fn wide(&self) -> Wide {
-        if self.inner.description.double {
+        let features = self.inner.device.features();
+        if features.contains(wgpu::Features::SHADER_F64) {
             Wide::Double
         } else {
             Wide::Single

@@ -35,9 +35,14 @@ pub struct Butterfly {
 }
 
 impl Butterfly {
+    /// The number of the variable of leg `k`.
+    fn value(&self, leg: usize) -> usize {
+        self.round * self.radix + leg
+    }
+
     /// The variable of leg `k`.
     pub fn name(&self, leg: usize) -> String {
-        format!("v{}", self.round * self.radix + leg)
+        format!("v{}", self.value(leg))
     }
 
     /// Where leg `k` lies in the line before the first stage and after the last one.
@@ -53,6 +58,11 @@ impl<'a> LineWriter<'a> {
         for value in 0..plan.values() {
             let _ = writeln!(source, "var v{value} = vec2<f32>(0.0, 0.0);");
         }
+        if let Exchange::Rounds(_) = plan.exchange {
+            for value in 0..plan.values() {
+                let _ = writeln!(source, "var w{value} = 0.0;");
+            }
+        }
         LineWriter {
             plan,
             interleaved,
@@ -65,11 +75,11 @@ impl<'a> LineWriter<'a> {
     pub fn declarations(plan: &LinePlan) -> String {
         let kind = match plan.exchange {
             Exchange::Whole => "vec2<f32>",
-            Exchange::Split => "f32",
+            Exchange::Split | Exchange::Rounds(_) => "f32",
         };
         format!(
             "var<workgroup> exchange: array<{kind}, {}>;\nconst LINES: u32 = {}u;\n",
-            plan.length * plan.lines,
+            plan.exchange.places(plan.length) * plan.lines,
             plan.lines,
         )
     }
@@ -121,6 +131,10 @@ impl<'a> LineWriter<'a> {
                     Exchange::Split => {
                         self.pass(radix, before, next, ".x");
                         self.pass(radix, before, next, ".y");
+                    }
+                    Exchange::Rounds(rounds) => {
+                        self.pass_in_rounds(radix, before, next, ".x", rounds);
+                        self.pass_in_rounds(radix, before, next, ".y", rounds);
                     }
                 }
             }
@@ -180,5 +194,56 @@ impl<'a> LineWriter<'a> {
             }
         });
         self.occupied = true;
+    }
+
+    /// As `pass`, for a part of the line at a time, which is all that workgroup memory holds. What
+    /// arrives waits in variables of its own, since values of later rounds have yet to leave.
+    fn pass_in_rounds(
+        &mut self,
+        radix: usize,
+        before: usize,
+        next: usize,
+        part: &str,
+        rounds: usize,
+    ) {
+        let places = self.plan.exchange.places(self.plan.length);
+        for round in 0..rounds {
+            if self.occupied {
+                self.source.push_str("workgroupBarrier();\n");
+            }
+            self.butterflies(radix, |source, each| {
+                let _ = writeln!(
+                    source,
+                    "let start = (j / {before}u) * {}u + j % {before}u;",
+                    before * radix
+                );
+                for leg in 0..radix {
+                    let _ = writeln!(
+                        source,
+                        "{{ let place = start + {}u; if (place / {places}u == {round}u) {{ exchange[place % {places}u] = {}{part}; }} }}",
+                        leg * before,
+                        each.name(leg)
+                    );
+                }
+            });
+            self.source.push_str("workgroupBarrier();\n");
+            self.butterflies(next, |source, each| {
+                for leg in 0..next {
+                    let _ = writeln!(
+                        source,
+                        "{{ let place = {}; if (place / {places}u == {round}u) {{ w{} = exchange[place % {places}u]; }} }}",
+                        each.position(leg),
+                        each.value(leg)
+                    );
+                }
+            });
+            self.occupied = true;
+        }
+        self.butterflies(next, |source, each| {
+            for leg in 0..next {
+                let value = each.value(leg);
+                let _ = writeln!(source, "v{value}{part} = w{value};");
+            }
+        });
     }
 }

@@ -13,6 +13,7 @@ mod device;
 mod error;
 mod fft;
 mod layout;
+mod level;
 mod plan;
 mod recorder;
 pub mod source;
@@ -24,25 +25,16 @@ use std::f64::consts::TAU;
 use super::{Backend, BackendError, Field, Level, Shape, Spectrum};
 use crate::kernel::{Form, Gate, Kernel, Params, ScalarKernel, Scalars};
 use bindings::{COLUMNS, DECIDING, ROWS, WORKING};
+use level::{LevelPlan, ROW_TRANSFORMS_PER_TRANSFORM};
 use recorder::{Part, Prepared, Recorder};
-use source::{LevelPlan, ROW_TRANSFORMS_PER_TRANSFORM, Results};
-use space::{FieldSpace, LevelSpace, SpectrumSpace};
+use source::Results;
+use space::{FieldSpace, Key, LevelSpace, SpectrumSpace, single_bytes};
 
 pub use catalogue::LawPart;
 pub use device::{AdapterChoice, AdapterDescription, GpuDevice, adapters};
 pub use error::GpuError;
 pub use layout::Wide;
 pub use plan::{Exchange, GroupLimits, LinePlan};
-
-/// What a prepared dispatch is found by.
-#[derive(Clone, PartialEq, Eq, Hash)]
-enum Key {
-    Kernel(&'static str, usize, Vec<usize>),
-    Sums(&'static str, usize),
-    Multiply(usize, bool, &'static str),
-    Curvature(usize, &'static str),
-    Scalar(&'static str),
-}
 
 /// The GPU backend, in single precision.
 pub struct GpuBackend {
@@ -360,13 +352,6 @@ impl GpuBackend {
             })
             .collect())
     }
-}
-
-/// Doubles as the bytes of the device's numbers.
-fn single_bytes(values: &[f64]) -> impl Iterator<Item = u8> {
-    values
-        .iter()
-        .flat_map(|&value| (value as f32).to_le_bytes())
 }
 
 impl Backend for GpuBackend {

@@ -1,6 +1,8 @@
 //! How a line is transformed by a workgroup: radices, threads, lines side by side, and how values
 //! pass between the threads.
 
+use crate::kernel::SUMS;
+
 /// What the adapter allows a workgroup.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub struct GroupLimits {
@@ -26,6 +28,27 @@ pub enum Exchange {
     Whole,
     /// Real parts first, then imaginary parts: 4 bytes a point.
     Split,
+    /// The same, each in so many rounds, for a part of the line at a time.
+    Rounds(usize),
+}
+
+impl Exchange {
+    /// Numbers of a line that are in workgroup memory at a time.
+    pub fn places(self, length: usize) -> usize {
+        match self {
+            Exchange::Whole | Exchange::Split => length,
+            Exchange::Rounds(rounds) => length.div_ceil(rounds),
+        }
+    }
+
+    /// Bytes of workgroup memory that a line takes.
+    pub fn memory(self, length: usize) -> usize {
+        let bytes = match self {
+            Exchange::Whole => 8,
+            Exchange::Split | Exchange::Rounds(_) => 4,
+        };
+        bytes * self.places(length)
+    }
 }
 
 /// The plan of one line length.
@@ -42,6 +65,8 @@ pub struct LinePlan {
     pub lines: usize,
     /// How values pass between threads.
     pub exchange: Exchange,
+    /// Sums that the workgroup reduces together, in the memory that is left.
+    pub sums_at_once: usize,
 }
 
 /// Radices of an even length whose prime factors are 2, 3, 5 and 7, powers of two first.
@@ -62,7 +87,7 @@ pub fn radices(length: usize) -> Option<Vec<usize>> {
         found.push(1 << step);
         twos -= step;
     }
-    for prime in [7, 5, 3] {
+    for prime in [7usize, 5, 3] {
         while rest.is_multiple_of(prime) {
             found.push(prime);
             rest /= prime;
@@ -88,8 +113,8 @@ impl LinePlan {
                 let work: usize = radices.iter().map(|&radix| rounds(threads, radix)).sum();
                 (threads * work, std::cmp::Reverse(threads))
             })?;
-        let fits = |lines: usize, bytes: usize| {
-            lines * (threads * SUM_BYTES + length * bytes) <= limits.memory
+        let fits = |lines: usize, exchange: Exchange| {
+            lines * (threads * SUM_BYTES + exchange.memory(length)) <= limits.memory
                 && lines * threads <= limits.threads
         };
         let most = MOST_LINES.max(ENOUGH_THREADS / threads.next_power_of_two());
@@ -98,20 +123,31 @@ impl LinePlan {
             .last()
             .unwrap_or(1);
         let mut lines = wanted;
-        // One line at a time is the last resort: neighbours share what memory hands out at once.
+        // Rounds cost barriers; one line at a time wastes half of what memory hands out at once.
+        let ways: &[Exchange] = &[
+            Exchange::Whole,
+            Exchange::Split,
+            Exchange::Rounds(2),
+            Exchange::Rounds(4),
+        ];
         let exchange = loop {
-            if fits(lines, 8) {
-                break Exchange::Whole;
-            }
-            if lines <= 2 && fits(lines, 4) {
-                break Exchange::Split;
+            let ways = match lines {
+                1 => ways,
+                2 => &ways[..2],
+                _ => &ways[..1],
+            };
+            if let Some(&exchange) = ways.iter().find(|&&exchange| fits(lines, exchange)) {
+                break exchange;
             }
             if lines == 1 {
                 return None;
             }
             lines /= 2;
         };
+        let used = lines * exchange.memory(length);
+        let left = (limits.memory - used) / (lines * threads * SUM_BYTES);
         Some(LinePlan {
+            sums_at_once: left.min(SUMS),
             length,
             radices,
             threads,
@@ -161,8 +197,8 @@ mod tests {
     #[test]
     fn radices_multiply_to_the_length_and_start_even() {
         for length in (2..=4096).step_by(2) {
-            let mut rest = length;
-            for prime in [2, 3, 5, 7] {
+            let mut rest: usize = length;
+            for prime in [2usize, 3, 5, 7] {
                 while rest.is_multiple_of(prime) {
                     rest /= prime;
                 }
@@ -191,16 +227,14 @@ mod tests {
                 let Some(plan) = LinePlan::new(length, length, limits) else {
                     continue;
                 };
-                let bytes = match plan.exchange {
-                    Exchange::Whole => 8,
-                    Exchange::Split => 4,
-                };
                 assert!(plan.group_threads() <= limits.threads, "{plan:?}");
                 assert!(plan.values() <= MOST_VALUES, "{plan:?}");
-                let memory = plan.lines * (length * bytes + plan.threads * SUM_BYTES);
+                let sums = plan.sums_at_once * plan.threads * SUM_BYTES;
+                let memory = plan.lines * (plan.exchange.memory(length) + sums);
+                assert!(plan.sums_at_once > 0, "{plan:?}");
                 assert!(memory <= limits.memory, "{plan:?}");
             }
         }
-        assert!(LinePlan::longest(COMMON) >= 4096);
+        assert_eq!(LinePlan::longest(COMMON), 16384);
     }
 }

@@ -11,84 +11,10 @@ use super::catalogue::{self, LawPart, Shader};
 use super::error::GpuError;
 use super::fft::LineWriter;
 use super::layout::{self, Wide};
-use super::plan::{GroupLimits, LinePlan};
-use crate::backend::Shape;
+pub use super::level::LevelPlan;
+use super::level::{SWEEP_SUMS_AT_ONCE, SWEEP_THREADS};
+use super::plan::LinePlan;
 use crate::kernel::{Form, Gate, Kernel, Reduce, SUMS, ScalarKernel};
-
-/// Threads in a workgroup of a sweep and of a reduction.
-const SWEEP_THREADS: usize = 256;
-/// Most workgroups of a sweep; each of its threads takes several points beyond.
-const SWEEP_GROUPS: usize = 1024;
-/// Work done in a level's transforms is counted in these: transforms of all its rows.
-pub const ROW_TRANSFORMS_PER_TRANSFORM: f64 = 2.0;
-
-/// How a level is cut into workgroups.
-#[derive(Clone, Debug, PartialEq, Eq, Hash)]
-pub struct LevelPlan {
-    /// Its points.
-    pub shape: [usize; 2],
-    /// Those of them that are surface.
-    pub surface: [usize; 2],
-    /// Transforms along x of ny/2 pairs of rows.
-    pub rows: LinePlan,
-    /// Transforms along y of nx/2 + 1 columns.
-    pub columns: LinePlan,
-}
-
-impl LevelPlan {
-    /// The plan of a shape, if its numbers are even, smooth and not too large.
-    pub fn new(shape: Shape, limits: GroupLimits) -> Result<Self, GpuError> {
-        let [nx, ny] = shape.points;
-        let refused = || GpuError::Size {
-            nx,
-            ny,
-            largest: LinePlan::longest(limits),
-        };
-        if !nx.is_multiple_of(2) || !ny.is_multiple_of(2) {
-            return Err(refused());
-        }
-        Ok(LevelPlan {
-            shape: shape.points,
-            surface: shape.surface,
-            rows: LinePlan::new(nx, ny / 2, limits).ok_or_else(refused)?,
-            columns: LinePlan::new(ny, nx / 2 + 1, limits).ok_or_else(refused)?,
-        })
-    }
-
-    /// Number of points.
-    pub fn points(&self) -> usize {
-        self.shape[0] * self.shape[1]
-    }
-
-    /// Pairs of rows, transformed as one complex row each: row y with row y + ny/2.
-    pub fn pairs(&self) -> usize {
-        self.shape[1] / 2
-    }
-
-    /// Columns transformed; each stands for itself and its mirror image.
-    pub fn column_count(&self) -> usize {
-        self.shape[0] / 2 + 1
-    }
-
-    /// Workgroups of a kernel on this level.
-    pub fn groups(&self, form: Form) -> usize {
-        match form {
-            Form::Sweep => self.points().div_ceil(SWEEP_THREADS).min(SWEEP_GROUPS),
-            Form::Load | Form::Store => self.rows.groups(self.pairs()),
-        }
-    }
-
-    /// Workgroups of the columns.
-    pub fn column_groups(&self) -> usize {
-        self.columns.groups(self.column_count())
-    }
-
-    /// Partial sums that the kernels of this level write at most.
-    pub fn partials(&self) -> usize {
-        let kernels = self.groups(Form::Sweep).max(self.groups(Form::Load)) * SUMS;
-        kernels.max(self.column_groups())
-    }
-}
 
 /// The WGSL function of a gate.
 pub fn gate_name(gate: Gate) -> &'static str {
@@ -117,48 +43,59 @@ fn neutral(reduce: Reduce) -> &'static str {
     }
 }
 
-/// The parts before a kernel: numbers, gates, and what reduces its sums in a workgroup.
-fn preamble(source: &mut String, wide: Wide, access: &str, threads: usize, sums: bool) {
+/// The parts before a kernel: numbers and gates.
+fn preamble(source: &mut String, wide: Wide, access: &str) {
     source.push_str(&layout::declarations(wide));
     source.push_str(catalogue::COMMON);
     let _ = writeln!(
         source,
-        "@group(0) @binding(1) var<storage, {access}> scalars: Scalars;"
+        "@group(0) @binding(1) var<storage, {access}> scalars: Scalars;\n\
+         const SUM_COUNT: u32 = {SUMS}u;\n\
+         // Parts shared between kernels name sums that not all of them have.\n\
+         var<private> sums: array<wide, SUM_COUNT>;"
     );
     source.push_str(catalogue::GATE);
-    if sums {
-        // The largest power of two below the number of threads.
-        let half = threads.next_power_of_two() / 2;
-        let _ = writeln!(
-            source,
-            "const GROUP_THREADS: u32 = {threads}u;\nconst GROUP_HALF: u32 = {half}u;"
-        );
-        source.push_str(catalogue::REDUCE);
-    }
 }
 
-/// Private sums, their start, and how a workgroup hands them in.
-fn sums(source: &mut String, reduces: &[Reduce], groups: usize) {
-    // Parts shared between kernels name sums that not all of them have.
-    let _ = writeln!(source, "var<private> sums: array<wide, {SUMS}>;");
-    if reduces.is_empty() {
-        return;
+/// What starts a kernel's sums and reduces them over a workgroup; `at_once` of them together.
+fn reduction(source: &mut String, reduces: &[Reduce], threads: usize, at_once: usize) {
+    // The largest power of two below the number of threads.
+    let half = threads.next_power_of_two() / 2;
+    let _ = writeln!(
+        source,
+        "const GROUP_THREADS: u32 = {threads}u;\n\
+         const GROUP_HALF: u32 = {half}u;\n\
+         const SUMS_AT_ONCE: u32 = {at_once}u;\n\
+         const GROUP_VALUES: u32 = {}u;",
+        threads * at_once
+    );
+    source.push_str(catalogue::REDUCE);
+    source.push_str("fn join_slot(slot: u32, a: wide, b: wide) -> wide {\nswitch slot {\n");
+    for (slot, &reduce) in reduces.iter().enumerate() {
+        if reduce != Reduce::Add {
+            let name = reduce_name(reduce);
+            let _ = writeln!(source, "case {slot}u: {{ return join_{name}(a, b); }}");
+        }
     }
-    source.push_str("fn start_sums() {\n");
+    source.push_str("default: { return join_add(a, b); }\n}\n}\nfn start_sums() {\n");
     for (slot, &reduce) in reduces.iter().enumerate() {
         let _ = writeln!(source, "sums[{slot}] = {};", neutral(reduce));
     }
-    source.push_str("}\nfn hand_in(group: u32, thread: u32) {\nvar total: wide;\n");
-    for (slot, &reduce) in reduces.iter().enumerate() {
-        let _ = writeln!(
-            source,
-            "total = gather_{}(sums[{slot}], thread);\n\
-             if (thread == 0u) {{ partials.values[{}u + group] = total; }}",
-            reduce_name(reduce),
-            slot * groups
-        );
-    }
     source.push_str("}\n");
+}
+
+/// How a workgroup hands in its sums, after `reduction`.
+fn hand_in(source: &mut String, reduces: &[Reduce], groups: usize) {
+    let count = reduces.len();
+    let _ = write!(
+        source,
+        "fn hand_in(group: u32, thread: u32) {{\n\
+         for (var first = 0u; first < {count}u; first = first + SUMS_AT_ONCE) {{\n\
+         gather(sums, first, thread);\n\
+         if (thread < SUMS_AT_ONCE && first + thread < {count}u) {{\n\
+         partials.values[(first + thread) * {groups}u + group] = group_values[thread * GROUP_THREADS];\n\
+         }}\n}}\n}}\n"
+    );
 }
 
 fn on_surface(source: &mut String, plan: &LevelPlan) {
@@ -184,13 +121,17 @@ pub fn kernel(
     wide: Wide,
 ) -> Result<String, GpuError> {
     let shader = catalogue::shader(kernel.name).ok_or(GpuError::NoShader(kernel.name))?;
-    let threads = match kernel.form {
-        Form::Sweep => SWEEP_THREADS,
-        Form::Load | Form::Store => plan.rows.group_threads(),
-    };
     let mut source = String::new();
-    preamble(&mut source, wide, "read", threads, !kernel.sums.is_empty());
-    sums(&mut source, kernel.sums, plan.groups(kernel.form));
+    preamble(&mut source, wide, "read");
+    if !kernel.sums.is_empty() {
+        let (threads, at_once) = match kernel.form {
+            Form::Sweep => (SWEEP_THREADS, SWEEP_SUMS_AT_ONCE),
+            Form::Load | Form::Store => (plan.rows.group_threads(), plan.rows.sums_at_once),
+        };
+        let at_once = at_once.min(kernel.sums.len());
+        reduction(&mut source, kernel.sums, threads, at_once);
+        hand_in(&mut source, kernel.sums, plan.groups(kernel.form));
+    }
     on_surface(&mut source, plan);
     let [width, height] = plan.shape;
     let _ = writeln!(
@@ -361,9 +302,11 @@ pub fn multiply(plan: &LevelPlan, energy: bool, gate: Gate, wide: Wide) -> Strin
     let [width, height] = plan.shape;
     let pairs = plan.pairs();
     let mut source = String::new();
-    preamble(&mut source, wide, "read", columns.group_threads(), energy);
-    let reduces: &[Reduce] = if energy { &[Reduce::Add] } else { &[] };
-    sums(&mut source, reduces, plan.column_groups());
+    preamble(&mut source, wide, "read");
+    if energy {
+        reduction(&mut source, &[Reduce::Add], columns.group_threads(), 1);
+        hand_in(&mut source, &[Reduce::Add], plan.column_groups());
+    }
     source.push_str(&LineWriter::declarations(columns));
     source.push_str(catalogue::FFT);
     let [x, y] = LineWriter::workgroup_size(columns, false);
@@ -468,40 +411,39 @@ pub enum Results {
 /// Puts the partial sums of `groups` workgroups together in a fixed order, if the gate of the
 /// kernel that wrote them was open.
 pub fn reduce(results: Results, groups: usize, gate: Gate, wide: Wide) -> String {
+    let (reduces, target) = match results {
+        Results::Sums(reduces) => (reduces, "scalars.sums[first + thread] = total".to_string()),
+        Results::Curvature(points) => (
+            &[Reduce::Add] as &[Reduce],
+            format!("scalars.curvature = total / wide({points}.0)"),
+        ),
+    };
+    let count = reduces.len();
     let mut source = String::new();
-    preamble(&mut source, wide, "read_write", SWEEP_THREADS, true);
+    preamble(&mut source, wide, "read_write");
+    let at_once = SWEEP_SUMS_AT_ONCE.min(count);
+    reduction(&mut source, reduces, SWEEP_THREADS, at_once);
     let _ = write!(
         source,
         "@compute @workgroup_size({SWEEP_THREADS})\n\
          fn reduce(@builtin(local_invocation_index) thread: u32) {{\n\
-         var total: wide;\n"
+         start_sums();\n\
+         var each = sums;\n\
+         for (var slot = 0u; slot < {count}u; slot = slot + 1u) {{\n\
+         var total = each[slot];\n\
+         for (var group = thread; group < {groups}u; group = group + {SWEEP_THREADS}u) {{\n\
+         total = join_slot(slot, total, partials.values[slot * {groups}u + group]);\n\
+         }}\n\
+         each[slot] = total;\n\
+         }}\n\
+         for (var first = 0u; first < {count}u; first = first + SUMS_AT_ONCE) {{\n\
+         gather(each, first, thread);\n\
+         if (thread < SUMS_AT_ONCE && first + thread < {count}u && {gate}()) {{\n\
+         let total = group_values[thread * GROUP_THREADS];\n\
+         {target};\n\
+         }}\n}}\n}}\n",
+        gate = gate_name(gate),
     );
-    let reduces: &[Reduce] = match results {
-        Results::Sums(reduces) => reduces,
-        Results::Curvature(_) => &[Reduce::Add],
-    };
-    for (slot, &reduce) in reduces.iter().enumerate() {
-        let name = reduce_name(reduce);
-        let target = match results {
-            Results::Sums(_) => format!("scalars.sums[{slot}] = total"),
-            Results::Curvature(points) => {
-                format!("scalars.curvature = total / wide({points}.0)")
-            }
-        };
-        let _ = write!(
-            source,
-            "total = {neutral};\n\
-             for (var group = thread; group < {groups}u; group = group + {SWEEP_THREADS}u) {{\n\
-             total = join_{name}(total, partials.values[{start}u + group]);\n\
-             }}\n\
-             total = gather_{name}(total, thread);\n\
-             if (thread == 0u && {gate}()) {{ {target}; }}\n",
-            neutral = neutral(reduce),
-            start = slot * groups,
-            gate = gate_name(gate),
-        );
-    }
-    source.push_str("}\n");
     source
 }
 
@@ -509,7 +451,7 @@ pub fn reduce(results: Results, groups: usize, gate: Gate, wide: Wide) -> String
 pub fn scalar(kernel: &ScalarKernel, wide: Wide) -> Result<String, GpuError> {
     let parts = catalogue::scalar(kernel.name).ok_or(GpuError::NoShader(kernel.name))?;
     let mut source = String::new();
-    preamble(&mut source, wide, "read_write", 1, false);
+    preamble(&mut source, wide, "read_write");
     for part in parts {
         source.push_str(part);
     }

@@ -45,3 +45,25 @@ pub fn buffer(
         mapped_at_creation: false,
     })
 }
+
+/// What a prepared dispatch is found by.
+#[derive(Clone, PartialEq, Eq, Hash)]
+pub enum Key {
+    /// A kernel of the catalogue, its level and its fields.
+    Kernel(&'static str, usize, Vec<usize>),
+    /// The reduction of a kernel's sums on a level.
+    Sums(&'static str, usize),
+    /// The columns with a spectrum, with or without the energy, behind a gate.
+    Multiply(usize, bool, &'static str),
+    /// The reduction of that energy on a level.
+    Curvature(usize, &'static str),
+    /// A scalar kernel.
+    Scalar(&'static str),
+}
+
+/// Doubles as the bytes of the device's numbers.
+pub fn single_bytes(values: &[f64]) -> impl Iterator<Item = u8> {
+    values
+        .iter()
+        .flat_map(|&value| (value as f32).to_le_bytes())
+}

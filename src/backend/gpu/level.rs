@@ -1,0 +1,84 @@
+//! How the work on a level is cut into workgroups.
+
+use super::error::GpuError;
+use super::plan::{GroupLimits, LinePlan};
+use crate::backend::Shape;
+use crate::kernel::{Form, SUMS};
+
+/// Threads in a workgroup of a sweep and of a reduction.
+pub const SWEEP_THREADS: usize = 256;
+/// Most workgroups of a sweep; each of its threads takes several points beyond.
+const SWEEP_GROUPS: usize = 1024;
+/// Sums that a sweep's workgroup reduces together; their memory is below the least that adapters
+/// have.
+pub const SWEEP_SUMS_AT_ONCE: usize = 5;
+/// Work done in a level's transforms is counted in these: transforms of all its rows.
+pub const ROW_TRANSFORMS_PER_TRANSFORM: f64 = 2.0;
+
+/// How a level is cut into workgroups.
+#[derive(Clone, Debug, PartialEq, Eq, Hash)]
+pub struct LevelPlan {
+    /// Its points.
+    pub shape: [usize; 2],
+    /// Those of them that are surface.
+    pub surface: [usize; 2],
+    /// Transforms along x of ny/2 pairs of rows.
+    pub rows: LinePlan,
+    /// Transforms along y of nx/2 + 1 columns.
+    pub columns: LinePlan,
+}
+
+impl LevelPlan {
+    /// The plan of a shape, if its numbers are even, smooth and not too large.
+    pub fn new(shape: Shape, limits: GroupLimits) -> Result<Self, GpuError> {
+        let [nx, ny] = shape.points;
+        let refused = || GpuError::Size {
+            nx,
+            ny,
+            largest: LinePlan::longest(limits),
+        };
+        if !nx.is_multiple_of(2) || !ny.is_multiple_of(2) {
+            return Err(refused());
+        }
+        Ok(LevelPlan {
+            shape: shape.points,
+            surface: shape.surface,
+            rows: LinePlan::new(nx, ny / 2, limits).ok_or_else(refused)?,
+            columns: LinePlan::new(ny, nx / 2 + 1, limits).ok_or_else(refused)?,
+        })
+    }
+
+    /// Number of points.
+    pub fn points(&self) -> usize {
+        self.shape[0] * self.shape[1]
+    }
+
+    /// Pairs of rows, transformed as one complex row each: row y with row y + ny/2.
+    pub fn pairs(&self) -> usize {
+        self.shape[1] / 2
+    }
+
+    /// Columns transformed; each stands for itself and its mirror image.
+    pub fn column_count(&self) -> usize {
+        self.shape[0] / 2 + 1
+    }
+
+    /// Workgroups of a kernel on this level.
+    pub fn groups(&self, form: Form) -> usize {
+        match form {
+            Form::Sweep => self.points().div_ceil(SWEEP_THREADS).min(SWEEP_GROUPS),
+            Form::Load | Form::Store => self.rows.groups(self.pairs()),
+        }
+    }
+
+    /// Workgroups of the columns.
+    pub fn column_groups(&self) -> usize {
+        self.columns.groups(self.column_count())
+    }
+
+    /// Partial sums that the kernels of this level write at most.
+    pub fn partials(&self) -> usize {
+        let kernels = self.groups(Form::Sweep).max(self.groups(Form::Load)) * SUMS;
+        kernels.max(self.column_groups())
+    }
+}
