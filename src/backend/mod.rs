@@ -131,6 +131,8 @@ pub trait Backend {
     fn multiply(&mut self, by: Spectrum, energy: bool, gate: Gate);
     /// Transforms the work space back and hands it to a store kernel.
     fn backward(&mut self, kernel: &'static Kernel, level: Level, fields: &[Field]);
+    /// Relative rounding error of the fields' numbers.
+    fn epsilon(&self) -> f64;
     /// Real two-dimensional transforms run so far, forward and inverse one each, those of other
     /// levels in proportion to their points.
     fn transforms(&self) -> f64;

@@ -148,6 +148,10 @@ impl Backend for Tally {
         self.transforms += 0.5 * self.share_of_first(level);
     }
 
+    fn epsilon(&self) -> f64 {
+        f64::EPSILON
+    }
+
     fn transforms(&self) -> f64 {
         self.transforms
     }

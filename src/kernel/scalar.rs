@@ -38,6 +38,10 @@ const DETACHED_RANGES: f64 = 60.0;
 /// The rounding floor of the numerator over `epsilon K_max norm(h or g)`: a gap rounded once leaves
 /// 0.15 of it, one rounded in each of some twenty steps up to 0.7.
 const FLOOR_FACTOR: f64 = 1.0;
+/// Gaps below this share of the largest step are closed by a step to first contact.
+pub const LEAST_SNAP: f64 = 1e-12;
+/// The same in relative rounding errors of the fields, where these are larger.
+pub const SNAP_ROUNDINGS: f64 = 8.0;
 /// Step along the plain descent in careful mode.
 const CAREFUL_LENGTH: f64 = 0.25;
 /// Residual at which careful mode ends.
@@ -338,12 +342,12 @@ scalar_kernel!(
     SEARCH_WALL, search_wall
 );
 
-fn settle_wall(_: &Params, scalars: &mut Scalars) {
+fn settle_wall(params: &Params, scalars: &mut Scalars) {
     if scalars.status != Status::Running || !scalars.accepted || scalars.careful {
         return;
     }
     scalars.snap = if scalars.step == scalars.step_first {
-        1e-12 * scalars.largest
+        LEAST_SNAP.max(SNAP_ROUNDINGS * params.epsilon) * scalars.largest
     } else {
         0.0
     };
@@ -377,7 +381,7 @@ fn step_core(_: &Params, scalars: &mut Scalars) {
     scalars.evaluations = 0;
     scalars.low = [0.0, scalars.slope, 0.0];
     scalars.high = [f64::INFINITY; 2];
-    scalars.slope_at_one = f64::NAN;
+    scalars.slope_at_one = f64::INFINITY;
 }
 scalar_kernel!(
     /// Starts the search along s at step 1.

@@ -158,7 +158,7 @@ impl<'a> ContactSolver<'a> {
             may_detach: false,
             points,
             core_stiffness: 0.2 * stiffness_max,
-            epsilon: f64::EPSILON,
+            epsilon: backend.epsilon(),
         };
         ContactSolver {
             backend,

@@ -261,6 +261,10 @@ impl<T: CpuReal> Backend for CpuBackend<T> {
         self.run(kernel, level, fields);
     }
 
+    fn epsilon(&self) -> f64 {
+        T::EPSILON
+    }
+
     fn transforms(&self) -> f64 {
         self.transforms
     }

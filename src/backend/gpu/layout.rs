@@ -3,7 +3,7 @@
 //!
 //! `wide` is the number in which sums and scalars are kept: f64 where the device has it, else f32.
 
-use crate::kernel::{Params, SUMS, Scalars, Status};
+use crate::kernel::{Params, SUMS, Scalars, Status, scalar};
 use crate::law::Law;
 
 /// The kind of number that sums and scalars are kept in.
@@ -164,11 +164,6 @@ impl Writer {
     }
 }
 
-/// Gaps below this share of the largest step are closed after a step to first contact.
-const LEAST_SNAP: f64 = 1e-12;
-/// The same in relative rounding errors of the fields, where these are larger.
-const SNAP_ROUNDINGS: f64 = 8.0;
-
 /// The params as bytes. `epsilon` is that of the fields on the device, whatever the caller's.
 pub fn params_bytes(params: &Params, epsilon: f64, wide: Wide) -> Vec<u8> {
     let (taper, peak_gap) = match params.law {
@@ -194,7 +189,7 @@ pub fn params_bytes(params: &Params, epsilon: f64, wide: Wide) -> Vec<u8> {
         epsilon,
         f64::INFINITY,
         // Of the largest step: gaps below it after a step to first contact are rounding.
-        LEAST_SNAP.max(SNAP_ROUNDINGS * epsilon),
+        scalar::LEAST_SNAP.max(scalar::SNAP_ROUNDINGS * epsilon),
     ] {
         writer.number(value);
     }

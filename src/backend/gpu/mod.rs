@@ -479,6 +479,10 @@ impl Backend for GpuBackend {
     }
 
     /// As counted on the device when the host last waited.
+    fn epsilon(&self) -> f64 {
+        f64::from(f32::EPSILON)
+    }
+
     fn transforms(&self) -> f64 {
         self.transforms
     }
