@@ -28,7 +28,7 @@ impl Observer for Report {
     }
 
     fn iteration(&mut self, _: usize, scalars: &Scalars) -> bool {
-        if scalars.iterations as usize % 10 == 0 {
+        if (scalars.iterations as usize).is_multiple_of(10) {
             eprintln!(
                 "iteration {:>3}, residual {:.1e}",
                 scalars.iterations, scalars.residual
