@@ -309,7 +309,9 @@ fn search_wall(_: &Params, scalars: &mut Scalars) {
     let slope = scalars.slope + t * scalars.curvature + scalars.sums[0];
     scalars.evaluations += 1;
     let [before, slope_before, _] = scalars.low;
-    if scalars.evaluations > 1 && !(slope <= SEARCH_SHARE * scalars.slope.abs()) {
+    // A slope that is no number is too far as well.
+    let too_far = slope.is_nan() || slope > SEARCH_SHARE * scalars.slope.abs();
+    if scalars.evaluations > 1 && too_far {
         // Too far: the last step stands.
         scalars.step = before;
         scalars.length = before;
@@ -463,7 +465,7 @@ fn lengthen_core(_: &Params, scalars: &mut Scalars) {
     if t < 1.0 {
         scalars.trial *= t.clamp(0.3, 1.0);
     } else if scalars.slope_at_one < SEARCH_SHARE * scalars.slope {
-        scalars.trial *= t.min(2.0).max(1.5);
+        scalars.trial *= t.clamp(1.5, 2.0);
     }
 }
 scalar_kernel!(

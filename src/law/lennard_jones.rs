@@ -85,13 +85,13 @@ mod tests {
             range: 1.0,
         };
         for (gap, energy, traction, slope) in [
-            (0.0, -1.0, 0.0, 16.0),
+            (0.0_f64, -1.0_f64, 0.0_f64, 16.0_f64),
             (0.5, -0.579586445, 0.720757337, -1.1640502),
             (2.0, -0.148097343, 0.0986299514, -0.09835899),
         ] {
-            assert!((law.energy(gap) - energy as f64).abs() < 1e-9);
-            assert!((law.traction(gap) - traction as f64).abs() < 1e-9);
-            assert!((law.slope(gap) - slope as f64).abs() < 1e-7);
+            assert!((law.energy(gap) - energy).abs() < 1e-9);
+            assert!((law.traction(gap) - traction).abs() < 1e-9);
+            assert!((law.slope(gap) - slope).abs() < 1e-7);
         }
         assert!((law.peak_tension() - 1.02640048).abs() < 1e-8);
         assert!((law.peak_gap() - 0.200936955).abs() < 1e-9);

@@ -52,7 +52,7 @@ pub fn good_size(points: usize) -> usize {
     loop {
         let mut rest = size;
         for prime in [2, 3, 5, 7] {
-            while rest % prime == 0 {
+            while rest.is_multiple_of(prime) {
                 rest /= prime;
             }
         }
@@ -241,7 +241,7 @@ mod tests {
             (2 * 127 - 1, 256),
         ] {
             let found = good_size(points);
-            assert!(found >= points && found % 2 == 0);
+            assert!(found >= points && found.is_multiple_of(2));
             if points != 129 {
                 assert_eq!(found, size);
             }

@@ -184,7 +184,7 @@ impl<T: Real> Transform<T> {
                 // The imaginary parts of the first and the Nyquist bin are rounding; the real
                 // transform wants them zero.
                 spectrum[0].im = T::zero();
-                if nx % 2 == 0 {
+                if nx.is_multiple_of(2) {
                     spectrum[columns - 1].im = T::zero();
                 }
                 let _ = row_backward.process_with_scratch(spectrum, line, &mut guard.transform);
@@ -279,7 +279,7 @@ impl<T: Real> Columns<'_, T> {
                 *value = value.scale(factor * self.scale);
             }
             // A half spectrum stands for both signs of kx, but for the two that are their own.
-            let own = kx == 0 || (self.nx % 2 == 0 && kx == self.nx / 2);
+            let own = kx == 0 || (self.nx.is_multiple_of(2) && kx == self.nx / 2);
             energy += if own { sum } else { 2.0 * sum };
             self.backward
                 .process_with_scratch(column, &mut guard.transform);

@@ -164,8 +164,8 @@ impl Writer {
     }
 }
 
-/// The params as bytes. `epsilon` is that of the fields on the device, whatever the caller's.
-pub fn params_bytes(params: &Params, epsilon: f64, wide: Wide) -> Vec<u8> {
+/// The params as bytes.
+pub fn params_bytes(params: &Params, wide: Wide) -> Vec<u8> {
     let (taper, peak_gap) = match params.law {
         Law::MaugisDugdale(law) => (law.taper, 0.0),
         Law::LennardJones(law) => (0.0, law.peak_gap()),
@@ -186,10 +186,10 @@ pub fn params_bytes(params: &Params, epsilon: f64, wide: Wide) -> Vec<u8> {
         params.tolerance,
         params.heights_norm,
         params.core_stiffness,
-        epsilon,
+        params.epsilon,
         f64::INFINITY,
         // Of the largest step: gaps below it after a step to first contact are rounding.
-        scalar::LEAST_SNAP.max(scalar::SNAP_ROUNDINGS * epsilon),
+        scalar::LEAST_SNAP.max(scalar::SNAP_ROUNDINGS * params.epsilon),
     ] {
         writer.number(value);
     }

@@ -428,7 +428,7 @@ impl Backend for GpuBackend {
             self.prepared.clear();
             self.law = law;
         }
-        let bytes = layout::params_bytes(params, f64::from(f32::EPSILON), self.wide);
+        let bytes = layout::params_bytes(params, self.wide);
         self.attempt(|backend| {
             let buffer = backend.params.clone();
             backend.recorder.write(&buffer, bytes.into_iter())
