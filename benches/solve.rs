@@ -4,30 +4,14 @@
 //! surface: Hurst exponent 0.8, roll-off at a quarter of the side, 8 pixels across the shortest wave,
 //! rms slope 1, seed 1; mean pressure 0.05 E* times the rms slope, tolerance 1e-6.
 
-use std::convert::Infallible;
 use std::path::Path;
 use std::time::Duration;
 
 use criterion::{BenchmarkId, Criterion, Throughput, criterion_group, criterion_main};
 use tabor::backend::{Backend, cpu::CpuBackend};
-use tabor::kernel::Scalars;
 use tabor::scene::Scene;
-use tabor::study::{FinishedStep, Observer, Setup, walk};
+use tabor::study::{Setup, walk};
 use tabor::surface::Surface;
-
-struct Quiet;
-
-impl Observer for Quiet {
-    type Error = Infallible;
-
-    fn step(&mut self, _: FinishedStep) -> Result<(), Infallible> {
-        Ok(())
-    }
-
-    fn iteration(&mut self, _: usize, _: &Scalars) -> bool {
-        true
-    }
-}
 
 /// Tabor number about 1, a pixel 0.1 of the cohesive zone at 512 points.
 const ADHESION: &str = r#"
@@ -76,7 +60,7 @@ fn solve(criterion: &mut Criterion, name: &str, sizes: &[usize], adhesion: &str)
         group.throughput(Throughput::Elements((points * points) as u64));
         group.bench_function(BenchmarkId::new("cpu", points), |bencher| {
             bencher.iter(|| {
-                let end = walk(&setup, &make_backend, &mut Quiet).expect("a solve");
+                let end = walk(&setup, &make_backend, &mut ()).expect("a solve");
                 assert!(end.rows[0].converged);
                 end.transforms
             });

@@ -4,31 +4,15 @@
 //! `examples/scenes/rough.toml`, up to 1 MPa, on 256, 512 and 1024 points to 1e-4, 1e-6 and 1e-8, and
 //! compares them with POINTS (default 2048) points at 1e-8.
 
-use std::convert::Infallible;
 use std::error::Error;
 use std::path::Path;
 use std::time::Instant;
 
 use tabor::backend::Backend;
 use tabor::backend::cpu::CpuBackend;
-use tabor::kernel::Scalars;
 use tabor::scene::Scene;
-use tabor::study::{FinishedStep, Observer, Setup, walk};
+use tabor::study::{Setup, walk};
 use tabor::surface::Surface;
-
-struct Quiet;
-
-impl Observer for Quiet {
-    type Error = Infallible;
-
-    fn step(&mut self, _: FinishedStep) -> Result<(), Infallible> {
-        Ok(())
-    }
-
-    fn iteration(&mut self, _: usize, _: &Scalars) -> bool {
-        true
-    }
-}
 
 struct Answer {
     contact: f64,
@@ -52,7 +36,7 @@ fn solve(points: usize, tolerance: f64) -> Result<Answer, Box<dyn Error>> {
     let setup = Setup::new(scene, surface);
     let make_backend = || -> Box<dyn Backend + Send> { Box::new(CpuBackend::<f64>::new()) };
     let clock = Instant::now();
-    let end = walk(&setup, &make_backend, &mut Quiet)?;
+    let end = walk(&setup, &make_backend, &mut ())?;
     let row = end.rows.last().ok_or("the path has two steps")?;
     Ok(Answer {
         contact: row.contact_area_fraction,

@@ -7,27 +7,18 @@
 //!
 //! ```
 //! use tabor::backend::{Backend, cpu::CpuBackend};
-//! use tabor::study::{FinishedStep, Observer, Setup, walk};
-//! use tabor::{kernel::Scalars, scene::Scene, surface::Surface};
-//!
-//! struct Print;
-//! impl Observer for Print {
-//!     type Error = std::convert::Infallible;
-//!     fn step(&mut self, step: FinishedStep) -> Result<(), Self::Error> {
-//!         println!("{:.2e} Pa: {:.4} in contact", step.row.mean_pressure, step.row.contact_area_fraction);
-//!         Ok(()) // step.evaluation has the fields
-//!     }
-//!     fn iteration(&mut self, _step: usize, _scalars: &Scalars) -> bool { true }
-//! }
+//! use tabor::study::{Setup, walk};
+//! use tabor::{scene::Scene, surface::Surface};
 //!
 //! # fn main() -> Result<(), Box<dyn std::error::Error>> {
 //! let smaller = [("grid.points".to_owned(), "128".to_owned())]; // as --set on the command line
 //! let scene = Scene::read("examples/scenes/rough.toml".as_ref(), &smaller)?;
-//! let surface = Surface::build(&scene)?;
-//! let setup = Setup::new(scene, surface);
+//! let setup = Setup::new(scene.clone(), Surface::build(&scene)?);
 //! let cpu = || -> Box<dyn Backend + Send> { Box::new(CpuBackend::<f64>::new()) };
-//! let end = walk(&setup, &cpu, &mut Print)?;
-//! println!("{} steps, jumps off at {:?}", end.rows.len(), end.jump_off_steps);
+//! let end = walk(&setup, &cpu, &mut ())?; // an `Observer` in place of `()` gets the fields
+//! for row in &end.rows {
+//!     println!("{:.2e} Pa: {:.4} in contact", row.mean_pressure, row.contact_area_fraction);
+//! }
 //! # assert!(end.rows.iter().all(|row| row.converged));
 //! # assert!(end.rows[3].contact_area_fraction > end.rows[0].contact_area_fraction);
 //! # Ok(())

@@ -34,6 +34,19 @@ pub trait Observer {
     fn iteration(&mut self, step: usize, scalars: &Scalars) -> bool;
 }
 
+/// Keeps nothing but the rows, which [`walk`] hands back, and never ends a path.
+impl Observer for () {
+    type Error = std::convert::Infallible;
+
+    fn step(&mut self, _: FinishedStep) -> Result<(), Self::Error> {
+        Ok(())
+    }
+
+    fn iteration(&mut self, _: usize, _: &Scalars) -> bool {
+        true
+    }
+}
+
 /// Why a path ended early.
 #[derive(Debug, thiserror::Error)]
 pub enum WalkError<E> {
