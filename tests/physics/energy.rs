@@ -169,8 +169,8 @@ fn loop_path(from: f64, to: f64, steps: usize) -> Vec<f64> {
     path
 }
 
-/// A Lennard-Jones sphere in the units of its tables on a window of 16 pixels or so a cohesive
-/// length's worth.
+/// A Lennard-Jones sphere in the units of its tables; the windows taken leave the cohesive length
+/// two pixels or more.
 fn sphere(mu: f64, side: f64, path: &[f64]) -> Solved {
     solve(&format!(
         r#"
@@ -230,8 +230,7 @@ fn check(name: &str, coarse: &Losses, fine: &Losses) {
 /// its length: halved steps must lose four times less, here at least three.
 #[test]
 fn smooth_paths_lose_nothing() {
-    let [coarse, fine] =
-        [30, 60].map(|steps| losses(&sphere(0.5, 16.0, &loop_path(-3.0, 0.6, steps))));
+    let [coarse, fine] = [60, 120].map(|steps| losses(&sphere(0.5, 16.0, &loop_path(-3.0, 0.6, steps))));
     check("sphere, mu 0.5", &coarse, &fine);
     assert_eq!(
         coarse.count_in + coarse.count_off + fine.count_in + fine.count_off,
@@ -245,37 +244,34 @@ fn smooth_paths_lose_nothing() {
     );
 }
 
-/// With folds the whole loop is the jump in and the jump off.
+/// With folds the whole loop is the jump in and the jump off. (The order is asked of the path without
+/// folds: next to one the force is a square root of the approach, and what a step seems to lose
+/// depends on where the fold falls in it.)
 #[test]
 fn a_loop_is_the_sum_of_its_jumps() {
-    let [coarse, fine] =
-        [60, 120].map(|steps| losses(&sphere(2.0, 8.0, &loop_path(-4.0, -1.0, steps))));
+    let [coarse, fine] = [100, 200].map(|steps| losses(&sphere(2.0, 8.0, &loop_path(-3.8, -1.8, steps))));
     check("sphere, mu 2", &coarse, &fine);
     for losses in [&coarse, &fine] {
         assert_eq!((losses.count_in, losses.count_off), (1, 1));
-        assert!(losses.jumps > 0.1 * losses.changed);
+        assert!((losses.hysteresis / losses.jumps - 1.0).abs() < 0.01);
     }
-    assert!(
-        fine.smooth < coarse.smooth / 3.0,
-        "{:e} {:e}",
-        coarse.smooth,
-        fine.smooth
-    );
 }
 
-/// The same on a rough surface with a law whose zone the grid resolves, in mean gap.
+/// The same on a rough surface, in mean gap: a range so long and an attraction so weak that no
+/// asperity snaps, and a taper as wide as the range, for a step that crosses the whole of a narrow
+/// one sees its tension vanish within it.
 #[test]
 fn rough_loops() {
-    for (name, adhesion) in &laws(2e-5, 3e-3)[1..] {
-        let [coarse, fine] = [40, 80].map(|steps| {
-            let path = loop_path(4.5 * RMS_HEIGHT, 0.5 * RMS_HEIGHT, steps);
-            losses(&solve(&rough(
-                64,
-                adhesion,
-                &format!("control = \"mean-gap\"\npath = {path:?}"),
-            )))
+    for (name, adhesion) in &mut laws(2e-5, 3e-3)[1..] {
+        if *name == "tapered" {
+            adhesion.push_str("taper = 3e-3");
+        }
+        let [coarse, fine] = [100, 200].map(|steps| {
+            let path = loop_path(3.5 * RMS_HEIGHT, 1.5 * RMS_HEIGHT, steps);
+            losses(&solve(&rough(64, adhesion, &format!("control = \"mean-gap\"\npath = {path:?}"))))
         });
         check(name, &coarse, &fine);
+        assert!(fine.smooth < coarse.smooth / 3.0, "{name}: {:e} {:e}", coarse.smooth, fine.smooth);
     }
 }
 
