@@ -230,7 +230,8 @@ fn check(name: &str, coarse: &Losses, fine: &Losses) {
 /// its length: halved steps must lose four times less, here at least three.
 #[test]
 fn smooth_paths_lose_nothing() {
-    let [coarse, fine] = [60, 120].map(|steps| losses(&sphere(0.5, 16.0, &loop_path(-3.0, 0.6, steps))));
+    let [coarse, fine] =
+        [60, 120].map(|steps| losses(&sphere(0.5, 16.0, &loop_path(-3.0, 0.6, steps))));
     check("sphere, mu 0.5", &coarse, &fine);
     assert_eq!(
         coarse.count_in + coarse.count_off + fine.count_in + fine.count_off,
@@ -249,7 +250,8 @@ fn smooth_paths_lose_nothing() {
 /// depends on where the fold falls in it.)
 #[test]
 fn a_loop_is_the_sum_of_its_jumps() {
-    let [coarse, fine] = [100, 200].map(|steps| losses(&sphere(2.0, 8.0, &loop_path(-3.8, -1.8, steps))));
+    let [coarse, fine] =
+        [100, 200].map(|steps| losses(&sphere(2.0, 8.0, &loop_path(-3.8, -1.8, steps))));
     check("sphere, mu 2", &coarse, &fine);
     for losses in [&coarse, &fine] {
         assert_eq!((losses.count_in, losses.count_off), (1, 1));
@@ -268,10 +270,19 @@ fn rough_loops() {
         }
         let [coarse, fine] = [100, 200].map(|steps| {
             let path = loop_path(3.5 * RMS_HEIGHT, 1.5 * RMS_HEIGHT, steps);
-            losses(&solve(&rough(64, adhesion, &format!("control = \"mean-gap\"\npath = {path:?}"))))
+            losses(&solve(&rough(
+                64,
+                adhesion,
+                &format!("control = \"mean-gap\"\npath = {path:?}"),
+            )))
         });
         check(name, &coarse, &fine);
-        assert!(fine.smooth < coarse.smooth / 3.0, "{name}: {:e} {:e}", coarse.smooth, fine.smooth);
+        assert!(
+            fine.smooth < coarse.smooth / 3.0,
+            "{name}: {:e} {:e}",
+            coarse.smooth,
+            fine.smooth
+        );
     }
 }
 

@@ -165,8 +165,12 @@ fn follow(curve: &Table, lambda: f64, name: &str, rows: &[usize], accuracy: &dyn
         let what = format!("{name} at {}", curve.number(i, "delta_bar"));
         let force = (0.5 * step.row.force - curve.number(i, "F_over_2piwR")).abs();
         // Near the fold the force is a square root of the approach, whose own error counts.
-        let allowed = accuracy(curve.number(i, "delta_bar")) * slope(curve, i, "delta_bar").max(1.0);
-        assert!(force < allowed, "{what}: force off by {force:.2e}, {allowed:.2e} allowed");
+        let allowed =
+            accuracy(curve.number(i, "delta_bar")) * slope(curve, i, "delta_bar").max(1.0);
+        assert!(
+            force < allowed,
+            "{what}: force off by {force:.2e}, {allowed:.2e} allowed"
+        );
         // A radius from counted pixels, and one from the middle of a taper, is good to a pixel.
         let contact = step.row.contact_area_fraction_corrected.expect("a wall");
         let contact = (radius(contact) - curve.number(i, "a_bar")).abs();
@@ -277,12 +281,16 @@ fn jumps() {
             .find(|row| row.state != State::Separated)
             .unwrap_or_else(|| panic!("{name}: the surfaces do not meet"));
         let at = met.approach.expect("held");
-        assert!((at - first).abs() <= step + FOLD_ERROR * first.abs(), "{name}: in at {at}, {first}");
+        assert!(
+            (at - first).abs() <= step + FOLD_ERROR * first.abs(),
+            "{name}: in at {at}, {first}"
+        );
         // It lands on the tabulated state, but for the approach by which this step is beyond it: a
         // cohesive disc stiffens to 2/range there, a contact to less than 1.
         let touches = special.number(row, "ji_land_a_bar") > 0.0;
         let stiffness = if touches { 1.0 } else { 2.0 / sphere.range() };
-        let allowed = accuracy(lambda) + stiffness * (at - special.number(row, "ji_delta_bar")).abs();
+        let allowed =
+            accuracy(lambda) + stiffness * (at - special.number(row, "ji_delta_bar")).abs();
         let landed = -0.5 * met.force;
         assert!(
             met.step > 1 && (landed - landing).abs() < allowed,
