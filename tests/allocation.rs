@@ -46,9 +46,8 @@ fn setup(boundary: &str, adhesion: &str, loading: &str) -> Setup {
 /// nothing else runs beside it: the count is that of the whole process, threads of the pool included.
 #[test]
 fn twenty_iterations_allocate_nothing() {
-    let adhesion = |law: &str| {
-        format!("[adhesion]\nlaw = \"{law}\"\nwork_of_adhesion = 8e-5\nrange = 3e-3")
-    };
+    let adhesion =
+        |law: &str| format!("[adhesion]\nlaw = \"{law}\"\nwork_of_adhesion = 8e-5\nrange = 3e-3");
     let laws = [
         ("hard wall", String::new()),
         ("tapered", adhesion("maugis-dugdale")),
@@ -67,7 +66,10 @@ fn twenty_iterations_allocate_nothing() {
             for (boundary, loading, value) in controls {
                 let setup = setup(boundary, adhesion, loading);
                 let found = iterate(&setup, value);
-                assert_eq!(found, [0; 3], "{law}, {boundary}, {loading}: allocations, reallocations, frees");
+                assert_eq!(
+                    found, [0; 3],
+                    "{law}, {boundary}, {loading}: allocations, reallocations, frees"
+                );
             }
         }
     })
@@ -100,7 +102,11 @@ fn iterate(setup: &Setup, value: f64) -> [usize; 3] {
             }
             let change = region.change();
             assert_eq!(status, Status::Running);
-            [change.allocations, change.reallocations, change.deallocations]
+            [
+                change.allocations,
+                change.reallocations,
+                change.deallocations,
+            ]
         })
         .min_by_key(|counts| counts.iter().sum::<usize>())
         .expect("three counts")

@@ -33,7 +33,10 @@ fn params() -> Params {
 fn apply<T: CpuReal>(points: [usize; 2], spectrum: &[f64], field: &[f64]) -> (Vec<f64>, f64) {
     let mut backend = CpuBackend::<T>::new();
     let level = backend.level("fine", Shape::whole(points[0], points[1]));
-    let (source, result) = (backend.field(level, "source"), backend.field(level, "result"));
+    let (source, result) = (
+        backend.field(level, "source"),
+        backend.field(level, "result"),
+    );
     let spectrum = backend.spectrum(level, "stiffness", spectrum);
     backend.set_params(&params());
     backend.write(source, field);
@@ -141,16 +144,25 @@ fn equals_a_plain_transform() {
         [24, 20],
     ] {
         let count = points[0] * points[1];
-        let any: Vec<f64> = values((points[0] / 2 + 1) * (points[1] / 2 + 1), 7).iter().map(|v| v + 1.5).collect();
+        let any: Vec<f64> = values((points[0] / 2 + 1) * (points[1] / 2 + 1), 7)
+            .iter()
+            .map(|v| v + 1.5)
+            .collect();
         for spectrum in [stiffness(points), any] {
             let field = values(count, 3);
             let (found, energy) = apply::<f64>(points, &spectrum, &field);
             let expected = plain(points, &spectrum, &field);
             let scale = largest(&spectrum) * norm(&field);
             let error = difference(&found, &expected);
-            assert!(error <= ROUNDING * scale, "{points:?}: off by {error:e} of {scale:e}");
+            assert!(
+                error <= ROUNDING * scale,
+                "{points:?}: off by {error:e} of {scale:e}"
+            );
             let exact = dot(&field, &expected);
-            assert!((energy - exact).abs() <= ROUNDING * scale * norm(&field), "{points:?}: {energy} {exact}");
+            assert!(
+                (energy - exact).abs() <= ROUNDING * scale * norm(&field),
+                "{points:?}: {energy} {exact}"
+            );
         }
     }
 }
@@ -170,7 +182,10 @@ fn waves_are_eigenvectors() {
         let eigenvalue = 0.5 * 2.0 * PI * (kx as f64).hypot(ky as f64 / 1.3);
         let (found, _) = apply::<f64>([nx, ny], &periodic_stiffness(&grid, 1.0), &field);
         let expected: Vec<f64> = field.iter().map(|value| eigenvalue * value).collect();
-        assert!(difference(&found, &expected) <= ROUNDING * 200.0 * norm(&field), "{kx}, {ky}");
+        assert!(
+            difference(&found, &expected) <= ROUNDING * 200.0 * norm(&field),
+            "{kx}, {ky}"
+        );
     }
 }
 
@@ -226,7 +241,12 @@ proptest! {
 /// On the doubled grid the inverse operator is Love's sum over loaded pixels, pixel by pixel.
 #[test]
 fn the_free_boundary_is_loves_sum() {
-    for (surface, pixel) in [([6, 5], [1.0, 1.0]), ([4, 8], [0.5, 2.0]), ([1, 7], [1.0, 1.5]), ([2, 2], [1.0, 1.0])] {
+    for (surface, pixel) in [
+        ([6, 5], [1.0, 1.0]),
+        ([4, 8], [0.5, 2.0]),
+        ([1, 7], [1.0, 1.5]),
+        ([2, 2], [1.0, 1.0]),
+    ] {
         let [nx, ny] = surface;
         let doubled = [2 * nx, 2 * ny];
         let stiffness = free_stiffness(doubled, pixel);
@@ -246,12 +266,18 @@ fn the_free_boundary_is_loves_sum() {
                 expected += load * love_displacement(x, y, 0.5 * pixel[0], 0.5 * pixel[1]);
             }
             let found = displacement[i / nx * 2 * nx + i % nx];
-            assert!((found - expected).abs() <= ROUNDING * scale, "{surface:?} at {i}: {found} {expected}");
+            assert!(
+                (found - expected).abs() <= ROUNDING * scale,
+                "{surface:?} at {i}: {found} {expected}"
+            );
         }
         // The stiffness undoes it.
         let (back, energy) = apply::<f64>(doubled, &stiffness, &displacement);
         let condition = largest(&stiffness) * scale;
-        assert!(difference(&back, &padded) <= ROUNDING * condition, "{surface:?}");
+        assert!(
+            difference(&back, &padded) <= ROUNDING * condition,
+            "{surface:?}"
+        );
         assert!(energy > 0.0);
     }
 }
@@ -262,10 +288,19 @@ fn bitwise_the_same_on_any_number_of_threads() {
     for points in [[64, 64], [50, 77], [9, 130]] {
         let spectrum = stiffness(points);
         let field = values(points[0] * points[1], 5);
-        let on = |threads| with_threads(Some(threads), || apply::<f64>(points, &spectrum, &field)).expect("threads");
+        let on = |threads| {
+            with_threads(Some(threads), || apply::<f64>(points, &spectrum, &field))
+                .expect("threads")
+        };
         let (one, two, five) = (on(1), on(2), on(5));
         for other in [two, five] {
-            assert!(one.0.iter().zip(&other.0).all(|(a, b)| a.to_bits() == b.to_bits()), "{points:?}");
+            assert!(
+                one.0
+                    .iter()
+                    .zip(&other.0)
+                    .all(|(a, b)| a.to_bits() == b.to_bits()),
+                "{points:?}"
+            );
             assert_eq!(one.1.to_bits(), other.1.to_bits(), "{points:?}");
         }
     }
@@ -279,8 +314,20 @@ fn a_solve_is_bitwise_the_same_on_any_number_of_threads() {
     for (boundary, law) in [
         (Boundary::Periodic, Law::HardWall),
         (Boundary::Free, Law::HardWall),
-        (Boundary::Periodic, Law::LennardJones(LennardJones { work_of_adhesion: 0.1, range: 0.5 })),
-        (Boundary::Free, Law::Exponential(Exponential { work_of_adhesion: 0.1, range: 0.5 })),
+        (
+            Boundary::Periodic,
+            Law::LennardJones(LennardJones {
+                work_of_adhesion: 0.1,
+                range: 0.5,
+            }),
+        ),
+        (
+            Boundary::Free,
+            Law::Exponential(Exponential {
+                work_of_adhesion: 0.1,
+                range: 0.5,
+            }),
+        ),
     ] {
         let problem = Problem::new(grid, boundary, 1.0, &heights, 50.0, law);
         let load = Load {
@@ -292,7 +339,9 @@ fn a_solve_is_bitwise_the_same_on_any_number_of_threads() {
             with_threads(Some(threads), || {
                 let mut backend = CpuBackend::<f64>::new();
                 let mut solver = ContactSolver::new(&mut backend, &problem);
-                solver.begin(&load, &Start::Cold, 1e-12, false).expect("cpu");
+                solver
+                    .begin(&load, &Start::Cold, 1e-12, false)
+                    .expect("cpu");
                 for _ in 0..25 {
                     solver.iterate().expect("cpu");
                 }
@@ -301,7 +350,12 @@ fn a_solve_is_bitwise_the_same_on_any_number_of_threads() {
             .expect("threads")
         };
         let (one, two) = (on(1), on(2));
-        assert!(one.iter().zip(&two).all(|(a, b)| a.to_bits() == b.to_bits()), "{boundary:?} {law:?}");
+        assert!(
+            one.iter()
+                .zip(&two)
+                .all(|(a, b)| a.to_bits() == b.to_bits()),
+            "{boundary:?} {law:?}"
+        );
         assert!(one.iter().any(|gap| *gap != one[0]));
     }
 }

@@ -53,7 +53,10 @@ impl Solved {
 
     /// The fields of a step.
     pub fn fields(&self, index: usize) -> &Evaluation {
-        self.steps[index].evaluation.as_ref().expect("the step has fields")
+        self.steps[index]
+            .evaluation
+            .as_ref()
+            .expect("the step has fields")
     }
 }
 
@@ -86,13 +89,19 @@ fn run(text: &str, fields: bool) -> Solved {
 /// Solves a scene and keeps every step's fields.
 pub fn solve(text: &str) -> Solved {
     let solved = run(text, true);
-    assert!(solved.rows().all(|row| row.converged), "a step did not converge");
+    assert!(
+        solved.rows().all(|row| row.converged),
+        "a step did not converge"
+    );
     solved
 }
 
 /// Solves a scene and keeps its table.
 pub fn solve_table(text: &str) -> Solved {
     let solved = run(text, false);
-    assert!(solved.rows().all(|row| row.converged), "a step did not converge");
+    assert!(
+        solved.rows().all(|row| row.converged),
+        "a step did not converge"
+    );
     solved
 }

@@ -67,14 +67,33 @@ fn close(a: f64, b: f64, scale: f64) -> bool {
 }
 
 /// The scene solved at one value of a control, reached from a heavier load.
-fn held(text: &dyn Fn(&str, &str) -> String, table: &str, control: &str, values: [f64; 2], spring: Option<f64>) -> Solved {
-    let spring = spring.map(|k| format!("spring = {k:e}")).unwrap_or_default();
-    let path = format!("control = \"{control}\"\npath = [{:e}, {:e}]\n{spring}", values[0], values[1]);
+fn held(
+    text: &dyn Fn(&str, &str) -> String,
+    table: &str,
+    control: &str,
+    values: [f64; 2],
+    spring: Option<f64>,
+) -> Solved {
+    let spring = spring
+        .map(|k| format!("spring = {k:e}"))
+        .unwrap_or_default();
+    let path = format!(
+        "control = \"{control}\"\npath = [{:e}, {:e}]\n{spring}",
+        values[0], values[1]
+    );
     solve(&text(table, &path))
 }
 
 /// Solves by one control, then asks every other for what it found.
-fn agree(name: &str, text: &dyn Fn(&str, &str) -> String, table: &str, first: (&str, [f64; 2]), others: &[&str], area: f64, length: f64) {
+fn agree(
+    name: &str,
+    text: &dyn Fn(&str, &str) -> String,
+    table: &str,
+    first: (&str, [f64; 2]),
+    others: &[&str],
+    area: f64,
+    length: f64,
+) {
     let found = held(text, table, first.0, first.1, None);
     let rows: Vec<_> = found.rows().cloned().collect();
     let force = rows[0].force.abs().max(rows[1].force.abs());
@@ -88,13 +107,37 @@ fn agree(name: &str, text: &dyn Fn(&str, &str) -> String, table: &str, first: (&
         let solved = held(text, table, control, [ask(0), ask(1)], None);
         for (row, expected) in solved.rows().zip(&rows) {
             let what = format!("{name}: {control} against {}, step {}", first.0, row.step);
-            assert!(close(row.force, expected.force, force), "{what}: force {} {}", row.force, expected.force);
+            assert!(
+                close(row.force, expected.force, force),
+                "{what}: force {} {}",
+                row.force,
+                expected.force
+            );
             assert!(close(row.mean_pressure * area, row.force, force), "{what}");
-            assert!(close(row.approach.unwrap(), expected.approach.unwrap(), length), "{what}: approach");
-            assert!(close(row.mean_gap.unwrap(), expected.mean_gap.unwrap(), length), "{what}: mean gap");
-            assert_eq!(row.contact_area_fraction, expected.contact_area_fraction, "{what}: contact");
-            assert!(close(row.elastic_energy, expected.elastic_energy, force * length), "{what}: energy");
-            assert!(close(row.adhesive_energy, expected.adhesive_energy, force * length), "{what}: energy");
+            assert!(
+                close(row.approach.unwrap(), expected.approach.unwrap(), length),
+                "{what}: approach"
+            );
+            assert!(
+                close(row.mean_gap.unwrap(), expected.mean_gap.unwrap(), length),
+                "{what}: mean gap"
+            );
+            assert_eq!(
+                row.contact_area_fraction, expected.contact_area_fraction,
+                "{what}: contact"
+            );
+            assert!(
+                close(row.elastic_energy, expected.elastic_energy, force * length),
+                "{what}: energy"
+            );
+            assert!(
+                close(
+                    row.adhesive_energy,
+                    expected.adhesive_energy,
+                    force * length
+                ),
+                "{what}: energy"
+            );
         }
     }
     // A spring as stiff as the contact: force = k (far end - approach).
@@ -104,10 +147,25 @@ fn agree(name: &str, text: &dyn Fn(&str, &str) -> String, table: &str, first: (&
     for (i, (row, expected)) in solved.rows().zip(&rows).enumerate() {
         let what = format!("{name}: spring, step {}", row.step);
         let stretched = stiffness * (far(i) - row.approach.unwrap());
-        assert!(close(row.force, stretched, force), "{what}: {} {stretched}", row.force);
-        assert!(close(row.force, expected.force, force), "{what}: {} {}", row.force, expected.force);
-        assert!(close(row.approach.unwrap(), expected.approach.unwrap(), length), "{what}");
-        assert!(close(row.elastic_energy, expected.elastic_energy, force * length), "{what}: energy");
+        assert!(
+            close(row.force, stretched, force),
+            "{what}: {} {stretched}",
+            row.force
+        );
+        assert!(
+            close(row.force, expected.force, force),
+            "{what}: {} {}",
+            row.force,
+            expected.force
+        );
+        assert!(
+            close(row.approach.unwrap(), expected.approach.unwrap(), length),
+            "{what}"
+        );
+        assert!(
+            close(row.elastic_energy, expected.elastic_energy, force * length),
+            "{what}: energy"
+        );
     }
 }
 
@@ -124,15 +182,39 @@ fn all_controls_agree_on_a_periodic_cell() {
             0.01,
         );
     }
-    agree("hard wall", &rough, "", ("mean-gap", [0.008, 0.012]), &["approach", "pressure", "force"], 0.75, 0.01);
+    agree(
+        "hard wall",
+        &rough,
+        "",
+        ("mean-gap", [0.008, 0.012]),
+        &["approach", "pressure", "force"],
+        0.75,
+        0.01,
+    );
 }
 
 #[test]
 fn all_controls_agree_on_a_free_boundary() {
     for law in LAWS {
-        agree(law, &sphere, &adhesion(law, 0.2, 0.5), ("approach", [1.0, 0.2]), &["approach", "force"], 48.0, 1.0);
+        agree(
+            law,
+            &sphere,
+            &adhesion(law, 0.2, 0.5),
+            ("approach", [1.0, 0.2]),
+            &["approach", "force"],
+            48.0,
+            1.0,
+        );
     }
-    agree("hard wall", &sphere, "", ("approach", [1.0, 0.2]), &["force"], 48.0, 1.0);
+    agree(
+        "hard wall",
+        &sphere,
+        "",
+        ("approach", [1.0, 0.2]),
+        &["force"],
+        48.0,
+        1.0,
+    );
 }
 
 /// Through a spring softer than the contact's fold a sphere jumps in and off, and force and stretch
@@ -149,11 +231,22 @@ fn a_soft_spring_through_both_jumps() {
         ));
         for (row, far) in solved.rows().zip(&path) {
             let stretched = stiffness * (far - row.approach.expect("held"));
-            assert!(close(row.force, stretched, 1.0), "{law} at {far}: {} {stretched}", row.force);
+            assert!(
+                close(row.force, stretched, 1.0),
+                "{law} at {far}: {} {stretched}",
+                row.force
+            );
         }
         let pull_off = solved.rows().map(|row| -row.force).fold(0.0, f64::max);
         assert!(pull_off > 0.5, "{law}: {pull_off}");
-        assert_eq!((solved.end.jump_in_steps.len(), solved.end.jump_off_steps.len()), (1, 1), "{law}");
+        assert_eq!(
+            (
+                solved.end.jump_in_steps.len(),
+                solved.end.jump_off_steps.len()
+            ),
+            (1, 1),
+            "{law}"
+        );
         let last = solved.steps.last().expect("rows");
         assert_ne!(last.row.state, State::Contact, "{law}");
     }
@@ -165,23 +258,50 @@ fn a_soft_spring_through_both_jumps() {
 fn beyond_pull_off_and_back() {
     for law in LAWS {
         let cases = [
-            ("periodic", solve_table(&rough(&adhesion(law, 2e-5, 3e-3), "control = \"pressure\"\npath = [1e-2, -1.0, -1e-2, 0.02, 1e-2]")), 1e-2 * 0.75),
-            ("free", solve_table(&sphere(&adhesion(law, 0.2, 0.5), "control = \"force\"\npath = [1.0, -10.0, -1.5, 2.0, 1.0]")), 1.0),
+            (
+                "periodic",
+                solve_table(&rough(
+                    &adhesion(law, 2e-5, 3e-3),
+                    "control = \"pressure\"\npath = [1e-2, -1.0, -1e-2, 0.02, 1e-2]",
+                )),
+                1e-2 * 0.75,
+            ),
+            (
+                "free",
+                solve_table(&sphere(
+                    &adhesion(law, 0.2, 0.5),
+                    "control = \"force\"\npath = [1.0, -10.0, -1.5, 2.0, 1.0]",
+                )),
+                1.0,
+            ),
         ];
         for (boundary, solved, force) in cases {
             let rows: Vec<_> = solved.rows().collect();
             for row in &rows[1..3] {
-                assert_eq!(row.state, State::Separated, "{law}, {boundary}: step {}", row.step);
+                assert_eq!(
+                    row.state,
+                    State::Separated,
+                    "{law}, {boundary}: step {}",
+                    row.step
+                );
                 assert_eq!((row.force, row.approach, row.mean_gap), (0.0, None, None));
                 assert!(row.converged);
             }
             for row in &rows[3..] {
-                assert_eq!(row.state, State::Contact, "{law}, {boundary}: step {}", row.step);
+                assert_eq!(
+                    row.state,
+                    State::Contact,
+                    "{law}, {boundary}: step {}",
+                    row.step
+                );
             }
             assert!(close(rows[4].force, force, force));
             // These ranges are long enough that a load has one equilibrium, however it is reached.
             let (first, again) = (rows[0].approach.unwrap(), rows[4].approach.unwrap());
-            assert!((first - again).abs() < 1e-4 * first.abs().max(0.01), "{law}, {boundary}: {first} {again}");
+            assert!(
+                (first - again).abs() < 1e-4 * first.abs().max(0.01),
+                "{law}, {boundary}: {first} {again}"
+            );
             assert_eq!(solved.end.jump_off_steps, [2], "{law}, {boundary}");
             assert_eq!(solved.end.jump_in_steps, [4], "{law}, {boundary}");
         }
@@ -191,17 +311,34 @@ fn beyond_pull_off_and_back() {
 /// A wall alone carries no tension, and at zero load it only touches.
 #[test]
 fn a_hard_wall_without_load_is_separated() {
-    let periodic = solve_table(&rough("", "control = \"pressure\"\npath = [1e-3, 0.0, -1e-3, 1e-3]"));
-    let free = solve_table(&sphere("", "control = \"force\"\npath = [1e-3, 0.0, -1e-3, 1e-3]"));
+    let periodic = solve_table(&rough(
+        "",
+        "control = \"pressure\"\npath = [1e-3, 0.0, -1e-3, 1e-3]",
+    ));
+    let free = solve_table(&sphere(
+        "",
+        "control = \"force\"\npath = [1e-3, 0.0, -1e-3, 1e-3]",
+    ));
     for solved in [periodic, free] {
         let rows: Vec<_> = solved.rows().collect();
         let states: Vec<State> = rows.iter().map(|row| row.state).collect();
-        assert_eq!(states, [State::Contact, State::Separated, State::Separated, State::Contact]);
+        assert_eq!(
+            states,
+            [
+                State::Contact,
+                State::Separated,
+                State::Separated,
+                State::Contact
+            ]
+        );
         assert_eq!(rows[1].force, 0.0);
         assert_eq!(rows[0].contact_area_fraction, rows[3].contact_area_fraction);
     }
     // Apart by a held position: nothing touches, nothing pulls.
-    let apart = solve_table(&sphere("", "control = \"approach\"\npath = [-0.1, 0.1, -0.1]"));
+    let apart = solve_table(&sphere(
+        "",
+        "control = \"approach\"\npath = [-0.1, 0.1, -0.1]",
+    ));
     let states: Vec<State> = apart.rows().map(|row| row.state).collect();
     assert_eq!(states, [State::Separated, State::Contact, State::Separated]);
     assert_eq!(apart.steps[2].row.force, 0.0);
@@ -229,19 +366,39 @@ fn dmt_is_a_hard_wall_under_a_larger_load() {
                 .sum::<f64>()
                 / fields.pressure.len() as f64;
             // The bracketed search ends at the solver's tolerance of the loads involved.
-            assert!((fields.force / area - net).abs() < 1e-7 * carried, "{law}: {} {net}", fields.force / area);
+            assert!(
+                (fields.force / area - net).abs() < 1e-7 * carried,
+                "{law}: {} {net}",
+                fields.force / area
+            );
             assert!(carried > net, "{law}");
-            let wall = solve_table(&rough("", &format!("control = \"pressure\"\npath = [{carried:e}]")));
+            let wall = solve_table(&rough(
+                "",
+                &format!("control = \"pressure\"\npath = [{carried:e}]"),
+            ));
             let wall = &wall.steps[0].row;
-            assert_eq!(row.contact_area_fraction, wall.contact_area_fraction, "{law} at {net}");
-            assert!(close(row.mean_gap.unwrap(), wall.mean_gap.unwrap(), 0.01), "{law} at {net}");
+            assert_eq!(
+                row.contact_area_fraction, wall.contact_area_fraction,
+                "{law} at {net}"
+            );
+            assert!(
+                close(row.mean_gap.unwrap(), wall.mean_gap.unwrap(), 0.01),
+                "{law} at {net}"
+            );
         }
         // No hysteresis by construction.
         assert!(solved.end.jump_in_steps.is_empty() && solved.end.jump_off_steps.is_empty());
         // Far beyond the largest attraction there is no balance.
-        let apart = solve_table(&rough(&table, "control = \"pressure\"\npath = [0.0, -1.0, 1e-3]"));
+        let apart = solve_table(&rough(
+            &table,
+            "control = \"pressure\"\npath = [0.0, -1.0, 1e-3]",
+        ));
         let states: Vec<State> = apart.rows().map(|row| row.state).collect();
-        assert_eq!(states, [State::Contact, State::Separated, State::Contact], "{law}");
+        assert_eq!(
+            states,
+            [State::Contact, State::Separated, State::Contact],
+            "{law}"
+        );
     }
 }
 
@@ -250,7 +407,13 @@ fn dmt_is_a_hard_wall_under_a_larger_load() {
 #[test]
 fn attraction_summed_over_other_codes_gaps() {
     let file = std::env::var_os("TABOR_THEORY_CHECKS").map_or_else(
-        || concat!(env!("CARGO_MANIFEST_DIR"), "/tests/reference/theory_checks.json").into(),
+        || {
+            concat!(
+                env!("CARGO_MANIFEST_DIR"),
+                "/tests/reference/theory_checks.json"
+            )
+            .into()
+        },
         std::path::PathBuf::from,
     );
     let text = std::fs::read_to_string(file).expect("the checks");
@@ -270,7 +433,10 @@ fn attraction_summed_over_other_codes_gaps() {
             points: input("n") as usize,
             seed: input("seed") as u64,
         };
-        let slope = setup(&scene(&surface, "", &[1.0], 1e-6)).statistics.moments.rms_slope();
+        let slope = setup(&scene(&surface, "", &[1.0], 1e-6))
+            .statistics
+            .moments
+            .rms_slope();
         let unit = MODULUS * slope;
         let solved = solve(&scene(&surface, "", &[input("x") * unit], 1e-9));
         let (row, fields) = (&solved.steps[0].row, solved.fields(0));
@@ -286,7 +452,10 @@ fn attraction_summed_over_other_codes_gaps() {
         let largest = fields.pressure.iter().copied().fold(0.0, f64::max);
         for (name, found) in [
             ("A", row.contact_area_fraction),
-            ("A_corr", row.contact_area_fraction_corrected.expect("a wall")),
+            (
+                "A_corr",
+                row.contact_area_fraction_corrected.expect("a wall"),
+            ),
             ("ubar_over_h", row.mean_gap.expect("a gap") / 0.52e-9),
             ("pad_over_Ehp", attraction / unit),
             ("pmax_over_Ehp", largest / unit),
@@ -296,14 +465,20 @@ fn attraction_summed_over_other_codes_gaps() {
             };
             let error = (found / expected - 1.0).abs();
             println!("{key} {name}: {found} {expected} ({error:.1e})");
-            assert!(error <= check["rtol"].as_f64().expect("a tolerance"), "{key} {name}: {found} {expected}");
+            assert!(
+                error <= check["rtol"].as_f64().expect("a tolerance"),
+                "{key} {name}: {found} {expected}"
+            );
         }
         // The walk's own sum, asked for the net load that leaves the same repulsive one.
         if surface.points <= 256 {
             let net = input("x") * unit - attraction;
             let table = "[adhesion]\nlaw = \"lennard-jones\"\nwork_of_adhesion = 0.2\nrange = 1e-9\ntreatment = \"dmt\"";
             let summed = solve_table(&scene(&surface, table, &[net], 1e-9));
-            assert_eq!(summed.steps[0].row.contact_area_fraction, row.contact_area_fraction, "{key}");
+            assert_eq!(
+                summed.steps[0].row.contact_area_fraction, row.contact_area_fraction,
+                "{key}"
+            );
         }
     }
 }

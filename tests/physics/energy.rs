@@ -59,7 +59,11 @@ fn a_solve_only_lowers_the_energy() {
     // chi = w dx/range^2 = 0.3: a cohesive zone of a few pixels.
     cases.extend(laws(1.7e-4, 3e-3));
     for (name, adhesion) in cases {
-        let setup = setup(&rough(64, &adhesion, "control = \"mean-gap\"\npath = [0.01]"));
+        let setup = setup(&rough(
+            64,
+            &adhesion,
+            "control = \"mean-gap\"\npath = [0.01]",
+        ));
         let problem = &setup.problem;
         for share in [2.5, 1.0, 0.2] {
             let load = Load {
@@ -73,7 +77,10 @@ fn a_solve_only_lowers_the_energy() {
             let mut before = f64::INFINITY;
             let mut iterations = 0;
             loop {
-                let (gap, elastic) = (solver.gap().expect("cpu"), solver.elastic_pressure().expect("cpu"));
+                let (gap, elastic) = (
+                    solver.gap().expect("cpu"),
+                    solver.elastic_pressure().expect("cpu"),
+                );
                 let (mut energy, mut square) = (0.0, 0.0);
                 for ((g, h), p) in gap.iter().zip(&problem.heights).zip(&elastic) {
                     energy += 0.5 * p * (g + h) + problem.law.energy(*g);
@@ -93,7 +100,11 @@ fn a_solve_only_lowers_the_energy() {
                     assert_eq!(scalars.status, Status::Converged, "{name}, gap {share}");
                     break;
                 }
-                assert!(iterations < 5000, "{name}, gap {share}: {:.1e}", scalars.residual);
+                assert!(
+                    iterations < 5000,
+                    "{name}, gap {share}: {:.1e}",
+                    scalars.residual
+                );
             }
             println!("{name}, gap {share}: {iterations} iterations");
         }
@@ -131,7 +142,11 @@ fn losses(solved: &Solved) -> Losses {
     let points = |i: usize| -> &[PointState] { &solved.fields(i).points };
     for (i, pair) in solved.steps.windows(2).enumerate() {
         let lost = dissipation(&pair[0].row, &pair[1].row).expect("held");
-        let changed = points(i).iter().zip(points(i + 1)).filter(|(a, b)| a != b).count();
+        let changed = points(i)
+            .iter()
+            .zip(points(i + 1))
+            .filter(|(a, b)| a != b)
+            .count();
         let changed = work * changed.max(1) as f64;
         losses.changed += changed;
         if pair[1].jump.is_some() {
@@ -146,8 +161,9 @@ fn losses(solved: &Solved) -> Losses {
 
 /// There and back between two places in equal steps.
 fn loop_path(from: f64, to: f64, steps: usize) -> Vec<f64> {
-    let mut path: Vec<f64> =
-        (0..=steps).map(|i| from + (to - from) * i as f64 / steps as f64).collect();
+    let mut path: Vec<f64> = (0..=steps)
+        .map(|i| from + (to - from) * i as f64 / steps as f64)
+        .collect();
     path.extend_from_within(..steps);
     path[steps + 1..].reverse();
     path
@@ -193,11 +209,20 @@ fn check(name: &str, coarse: &Losses, fine: &Losses) {
             losses.count_off,
             losses.hysteresis
         );
-        assert!(losses.largest_share < 0.01, "{name}, {steps}: a step without a jump loses energy");
+        assert!(
+            losses.largest_share < 0.01,
+            "{name}, {steps}: a step without a jump loses energy"
+        );
         // What is stored adds up to nothing over a loop, so its area is the sum of the losses.
         let rest = (losses.hysteresis - losses.jumps).abs();
-        assert!(rest <= losses.smooth * (1.0 + 1e-9) + 1e-9 * losses.changed, "{name}, {steps}");
-        assert!(rest < 0.01 * losses.changed, "{name}, {steps}: the loop is not the jumps' sum");
+        assert!(
+            rest <= losses.smooth * (1.0 + 1e-9) + 1e-9 * losses.changed,
+            "{name}, {steps}"
+        );
+        assert!(
+            rest < 0.01 * losses.changed,
+            "{name}, {steps}: the loop is not the jumps' sum"
+        );
     }
 }
 
@@ -205,10 +230,19 @@ fn check(name: &str, coarse: &Losses, fine: &Losses) {
 /// its length: halved steps must lose four times less, here at least three.
 #[test]
 fn smooth_paths_lose_nothing() {
-    let [coarse, fine] = [60, 120].map(|steps| losses(&sphere(0.5, 16.0, &loop_path(-3.0, 0.6, steps))));
+    let [coarse, fine] =
+        [60, 120].map(|steps| losses(&sphere(0.5, 16.0, &loop_path(-3.0, 0.6, steps))));
     check("sphere, mu 0.5", &coarse, &fine);
-    assert_eq!(coarse.count_in + coarse.count_off + fine.count_in + fine.count_off, 0);
-    assert!(fine.smooth < coarse.smooth / 3.0, "{:e} {:e}", coarse.smooth, fine.smooth);
+    assert_eq!(
+        coarse.count_in + coarse.count_off + fine.count_in + fine.count_off,
+        0
+    );
+    assert!(
+        fine.smooth < coarse.smooth / 3.0,
+        "{:e} {:e}",
+        coarse.smooth,
+        fine.smooth
+    );
 }
 
 /// With folds the whole loop is the jump in and the jump off. (The order is asked of the path without
@@ -216,7 +250,8 @@ fn smooth_paths_lose_nothing() {
 /// depends on where the fold falls in it.)
 #[test]
 fn a_loop_is_the_sum_of_its_jumps() {
-    let [coarse, fine] = [100, 200].map(|steps| losses(&sphere(2.0, 8.0, &loop_path(-3.8, -1.8, steps))));
+    let [coarse, fine] =
+        [100, 200].map(|steps| losses(&sphere(2.0, 8.0, &loop_path(-3.8, -1.8, steps))));
     check("sphere, mu 2", &coarse, &fine);
     for losses in [&coarse, &fine] {
         assert_eq!((losses.count_in, losses.count_off), (1, 1));
@@ -235,10 +270,19 @@ fn rough_loops() {
         }
         let [coarse, fine] = [100, 200].map(|steps| {
             let path = loop_path(3.5 * RMS_HEIGHT, 1.5 * RMS_HEIGHT, steps);
-            losses(&solve(&rough(64, adhesion, &format!("control = \"mean-gap\"\npath = {path:?}"))))
+            losses(&solve(&rough(
+                64,
+                adhesion,
+                &format!("control = \"mean-gap\"\npath = {path:?}"),
+            )))
         });
         check(name, &coarse, &fine);
-        assert!(fine.smooth < coarse.smooth / 3.0, "{name}: {:e} {:e}", coarse.smooth, fine.smooth);
+        assert!(
+            fine.smooth < coarse.smooth / 3.0,
+            "{name}: {:e} {:e}",
+            coarse.smooth,
+            fine.smooth
+        );
     }
 }
 
@@ -246,7 +290,11 @@ fn rough_loops() {
 #[test]
 fn no_adhesion_no_loop() {
     let path = loop_path(3.0 * RMS_HEIGHT, 0.5 * RMS_HEIGHT, 12);
-    let solved = solve(&rough(64, "", &format!("control = \"mean-gap\"\npath = {path:?}")));
+    let solved = solve(&rough(
+        64,
+        "",
+        &format!("control = \"mean-gap\"\npath = {path:?}"),
+    ));
     let enclosed = solved.end.hysteresis_energy.expect("a closed path");
     let work: f64 = solved
         .steps

@@ -62,7 +62,10 @@ fn approach_and_radius_at_a_force() {
         let row = &solved.steps[0].row;
         assert_eq!(row.force, force());
         let error = (row.approach.unwrap() / indentation() - 1.0).abs();
-        assert!(error < bound, "{points} points: approach off by {error:.2e}");
+        assert!(
+            error < bound,
+            "{points} points: approach off by {error:.2e}"
+        );
         // The area is counted in pixels: the corrected count is good to a fraction of the
         // perimeter's pixels, 2 pi a/dx, here 10 % of them.
         let grid = solved.setup.surface.grid;

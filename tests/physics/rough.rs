@@ -62,11 +62,18 @@ fn contact_pixels_of_four_surfaces() {
             points,
             seed,
         };
-        let slope = setup(&scene(&surface, "", &[1.0], 1e-6)).statistics.moments.rms_slope();
+        let slope = setup(&scene(&surface, "", &[1.0], 1e-6))
+            .statistics
+            .moments
+            .rms_slope();
         let solved = solve_table(&scene(&surface, "", &[load * MODULUS * slope], 1e-9));
         let row = &solved.steps[0].row;
         let counted = row.contact_area_fraction * (points * points) as f64;
-        assert_eq!(counted.round() as usize, pixels, "n = {points}, seed {seed}, load {load}");
+        assert_eq!(
+            counted.round() as usize,
+            pixels,
+            "n = {points}, seed {seed}, load {load}"
+        );
         let gap = row.mean_gap.unwrap() / 0.52e-9;
         assert!((gap / mean_gap - 1.0).abs() < 1e-6, "{gap} {mean_gap}");
     }
@@ -81,7 +88,10 @@ fn full_contact_at_a_large_load() {
         points: 128,
         seed: 3,
     };
-    let slope = setup(&scene(&surface, "", &[1.0], 1e-6)).statistics.moments.rms_slope();
+    let slope = setup(&scene(&surface, "", &[1.0], 1e-6))
+        .statistics
+        .moments
+        .rms_slope();
     let mean = 10.0 * MODULUS * slope;
     let solved = solve(&scene(&surface, "", &[mean], 1e-9));
     assert_eq!(solved.steps[0].row.contact_area_fraction, 1.0);

@@ -28,7 +28,9 @@ impl Table {
     }
 
     pub fn column(&self, column: &str) -> Vec<f64> {
-        (0..self.len()).map(|row| self.number(row, column)).collect()
+        (0..self.len())
+            .map(|row| self.number(row, column))
+            .collect()
     }
 }
 
@@ -47,9 +49,22 @@ pub fn table(name: &str) -> Option<Table> {
         println!("skipped: no table {name}");
         return None;
     };
-    let mut lines = text.lines().filter(|line| !line.starts_with('#') && !line.trim().is_empty());
-    let head = lines.next()?.split(',').enumerate().map(|(i, name)| (name.trim().to_string(), i)).collect();
-    let rows = lines.map(|line| line.split(',').map(|cell| cell.trim().to_string()).collect()).collect();
+    let mut lines = text
+        .lines()
+        .filter(|line| !line.starts_with('#') && !line.trim().is_empty());
+    let head = lines
+        .next()?
+        .split(',')
+        .enumerate()
+        .map(|(i, name)| (name.trim().to_string(), i))
+        .collect();
+    let rows = lines
+        .map(|line| {
+            line.split(',')
+                .map(|cell| cell.trim().to_string())
+                .collect()
+        })
+        .collect();
     Some(Table { head, rows })
 }
 
@@ -61,7 +76,11 @@ pub fn parameters(prefix: &str) -> Vec<(f64, String)> {
                 .flatten()
                 .filter_map(|entry| {
                     let name = entry.file_name().into_string().ok()?;
-                    let number = name.strip_prefix(prefix)?.strip_suffix(".csv")?.parse().ok()?;
+                    let number = name
+                        .strip_prefix(prefix)?
+                        .strip_suffix(".csv")?
+                        .parse()
+                        .ok()?;
                     Some((number, name))
                 })
                 .collect()
@@ -71,16 +90,20 @@ pub fn parameters(prefix: &str) -> Vec<(f64, String)> {
     found
 }
 
-/// |dF/d(approach)| of a curve at a row, in 2 pi w R; `approach` names its column.
-pub fn slope(curve: &Table, row: usize, approach: &str) -> f64 {
+/// |d(of)/d(approach)| of a curve at a row; `approach` names its column.
+pub fn slope(curve: &Table, row: usize, of: &str, approach: &str) -> f64 {
     let (before, after) = (row.saturating_sub(1), (row + 1).min(curve.len() - 1));
     let change = |column: &str| curve.number(after, column) - curve.number(before, column);
-    (change("F_over_2piwR") / change(approach)).abs()
+    (change(of) / change(approach)).abs()
 }
 
 /// All rows under TABOR_LONG=1, else about `count` of them.
 pub fn thinned(rows: Vec<usize>, count: usize) -> Vec<usize> {
     let long = std::env::var_os("TABOR_LONG").is_some();
-    let every = if long { 1 } else { rows.len().div_ceil(count).max(1) };
+    let every = if long {
+        1
+    } else {
+        rows.len().div_ceil(count).max(1)
+    };
     rows.into_iter().step_by(every).collect()
 }

@@ -35,8 +35,17 @@ fn westergaard() {
         return;
     };
     let full = PI * 0.01;
-    let path: Vec<f64> = table.column("pbar_over_pstar").iter().map(|p| p * full).collect();
-    let solved = solve_table(&wave(&format!("[{POINTS}, 1]"), "[1.0, 1.0]", "[1.0, \"inf\"]", &path));
+    let path: Vec<f64> = table
+        .column("pbar_over_pstar")
+        .iter()
+        .map(|p| p * full)
+        .collect();
+    let solved = solve_table(&wave(
+        &format!("[{POINTS}, 1]"),
+        "[1.0, 1.0]",
+        "[1.0, \"inf\"]",
+        &path,
+    ));
     for (i, row) in solved.rows().enumerate() {
         let fraction = table.number(i, "contact_fraction");
         // Each of the two edges lies somewhere within a pixel.
@@ -50,7 +59,10 @@ fn westergaard() {
         // pixel times what the edge carries, largest in the middle of the curve.
         let gap = row.mean_gap.unwrap() / 0.01;
         let expected = table.number(i, "mean_gap_over_Delta");
-        assert!((gap - expected).abs() < 2e-4, "load {i}: gap {gap} {expected}");
+        assert!(
+            (gap - expected).abs() < 2e-4,
+            "load {i}: gap {gap} {expected}"
+        );
     }
     // Beyond full contact the mean gap is nothing at all.
     let closed = solve_table(&wave(
@@ -69,7 +81,12 @@ fn westergaard() {
 fn westergaard_pressure_profile() {
     let share: f64 = 0.3;
     let mean = PI * 0.01 * (0.5 * PI * share).sin().powi(2);
-    let solved = solve(&wave(&format!("[{POINTS}, 1]"), "[1.0, 1.0]", "[1.0, \"inf\"]", &[mean]));
+    let solved = solve(&wave(
+        &format!("[{POINTS}, 1]"),
+        "[1.0, 1.0]",
+        "[1.0, \"inf\"]",
+        &[mean],
+    ));
     let edge = (0.5 * PI * share).sin();
     let mut squares = 0.0;
     for (i, pressure) in solved.fields(0).pressure.iter().enumerate() {
