@@ -386,10 +386,10 @@ impl<'a> ContactSolver<'a> {
                     }
                     status = end.status;
                 }
-                Status::Stalled | Status::Running => {
-                    if end.residual <= tolerance || (status == Status::Stalled && at_floor) {
-                        status = Status::Converged;
-                    }
+                Status::Stalled | Status::Running
+                    if end.residual <= tolerance || (status == Status::Stalled && at_floor) =>
+                {
+                    status = Status::Converged;
                 }
                 _ => {}
             }
