@@ -142,7 +142,7 @@ fn curves() {
                 assert!((step.approach.expect("held") - at).abs() < 1e-9);
                 let error = (sphere.force(step.force, at) - expected).abs();
                 // Near a fold and under compression the error of the approach counts too.
-                let allowed = accuracy(mu) * slope(&curve, i, "A").max(1.0);
+                let allowed = accuracy(mu) * slope(&curve, i, "F_over_2piwR", "A").max(1.0);
                 assert!(
                     error < allowed,
                     "{name} at {at}: off by {error:.2e}, {allowed:.2e} allowed"

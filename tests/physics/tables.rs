@@ -90,11 +90,11 @@ pub fn parameters(prefix: &str) -> Vec<(f64, String)> {
     found
 }
 
-/// |dF/d(approach)| of a curve at a row, in 2 pi w R; `approach` names its column.
-pub fn slope(curve: &Table, row: usize, approach: &str) -> f64 {
+/// |d(of)/d(approach)| of a curve at a row; `approach` names its column.
+pub fn slope(curve: &Table, row: usize, of: &str, approach: &str) -> f64 {
     let (before, after) = (row.saturating_sub(1), (row + 1).min(curve.len() - 1));
     let change = |column: &str| curve.number(after, column) - curve.number(before, column);
-    (change("F_over_2piwR") / change(approach)).abs()
+    (change(of) / change(approach)).abs()
 }
 
 /// All rows under TABOR_LONG=1, else about `count` of them.
