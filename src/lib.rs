@@ -37,7 +37,7 @@
 //! | [`law`] | how strongly surfaces attract across a gap, one file a law |
 //! | [`elastic`] | stiffness of the half-space at each wavevector, periodic or free |
 //! | [`kernel`] | the catalogue of passes over points, and the numbers of the algorithm |
-//! | [`backend`] | where the arithmetic runs: the trait, the processor, the tally that only counts |
+//! | [`backend`] | where the arithmetic runs: the trait, the processor, shaders through wgpu, the tally that only counts |
 //! | [`scene`] | TOML to a checked scene, or every mistake of it with line, key and remedy |
 //! | [`surface`] | heights: self-affine, shapes, files; their statistics |
 //! | [`solver`] | the one algorithm, for every law and both boundaries |
