@@ -42,6 +42,10 @@ pub enum Dimension {
     MolarVolume,
     /// m/s.
     Speed,
+    /// 1/m: a curvature, a wave number.
+    PerLength,
+    /// 1/m^2: a count per area.
+    PerArea,
     /// rad or deg; the SI value is in radians, but see [`parse_angle`] and [`angle_from_number`].
     Angle,
 }
@@ -62,6 +66,8 @@ impl Dimension {
             Dimension::Temperature => "K",
             Dimension::MolarVolume => "m^3/mol",
             Dimension::Speed => "m/s",
+            Dimension::PerLength => "1/m",
+            Dimension::PerArea => "1/m^2",
             Dimension::Angle => "rad",
         }
     }
@@ -81,6 +87,8 @@ impl Dimension {
             Dimension::Temperature => "a temperature in K",
             Dimension::MolarVolume => "a molar volume in m^3/mol",
             Dimension::Speed => "a speed in m/s",
+            Dimension::PerLength => "a reciprocal length in 1/m",
+            Dimension::PerArea => "a count per area in 1/m^2",
             Dimension::Angle => "an angle in deg or rad",
         }
     }
@@ -100,6 +108,8 @@ impl Dimension {
             Dimension::Temperature => "\"298.15 K\"",
             Dimension::MolarVolume => "\"18e-6 m^3/mol\"",
             Dimension::Speed => "\"1 um/s\"",
+            Dimension::PerLength => "\"0.1 1/um\"",
+            Dimension::PerArea => "\"10 1/um^2\"",
             Dimension::Angle => "\"70 deg\"",
         }
     }
@@ -265,10 +275,28 @@ fn find_unit(name: &str) -> Option<Unit> {
                 dimension,
             })
     };
-    prefixed(name, 0).or_else(|| {
-        let first = name.chars().next()?;
-        let &(_, power) = PREFIXES.iter().find(|(prefix, _)| *prefix == first)?;
-        prefixed(&name[first.len_utf8()..], power)
+    let whole = |name: &str| {
+        prefixed(name, 0).or_else(|| {
+            let first = name.chars().next()?;
+            let &(_, power) = PREFIXES.iter().find(|(prefix, _)| *prefix == first)?;
+            prefixed(&name[first.len_utf8()..], power)
+        })
+    };
+    whole(name).or_else(|| {
+        // "1/um", or "/um" right behind the number, and their squares.
+        let below = name.strip_prefix("1/").or_else(|| name.strip_prefix('/'))?;
+        let square = below.strip_suffix("^2").or_else(|| below.strip_suffix('²'));
+        let length =
+            whole(square.unwrap_or(below)).filter(|unit| unit.dimension == Dimension::Length)?;
+        let (times, dimension) = match square {
+            Some(_) => (2, Dimension::PerArea),
+            None => (1, Dimension::PerLength),
+        };
+        Some(Unit {
+            power: -times * length.power,
+            factor: 1.0,
+            dimension,
+        })
     })
 }
 
@@ -522,6 +550,10 @@ mod tests {
             ("18e-6 m³/mol", MolarVolume, 18e-6),
             ("3 um/s", Speed, 3e-6),
             ("3 m/s", Speed, 3.0),
+            ("0.1 1/um", PerLength, 1e5),
+            ("9e3/m", PerLength, 9e3),
+            ("10 1/um^2", PerArea, 1e13),
+            ("2 / mm²", PerArea, 2e6),
             ("0.5", Dimensionless, 0.5),
             ("180 deg", Angle, std::f64::consts::PI),
             ("1.5 rad", Angle, 1.5),
@@ -573,6 +605,12 @@ mod tests {
                 EnergyPerArea,
                 "\"J\" is an energy in J; give an energy per area in J/m^2 or N/m",
             ),
+            (
+                "5 1/um",
+                PerArea,
+                "\"1/um\" is a reciprocal length in 1/m; give a count per area in 1/m^2",
+            ),
+            ("5 1/s", PerLength, "\"1/s\" is not a unit"),
             (
                 "5 Pa",
                 Dimensionless,

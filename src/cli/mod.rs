@@ -2,6 +2,7 @@
 
 mod check;
 mod run;
+mod theory;
 
 use std::path::PathBuf;
 use std::process::ExitCode;
@@ -12,6 +13,7 @@ use crate::backend::BackendError;
 use crate::output::OutputError;
 use crate::scene::{Scene, SceneErrors};
 use crate::surface::SurfaceError;
+use crate::theory::TheoryError;
 
 /// Adhesive contact of rough surfaces, solved as a full field.
 #[derive(Debug, Parser)]
@@ -36,8 +38,13 @@ enum Command {
     Check(CheckArguments),
     /// Statistics of a surface (not in this version)
     Surface(Later),
-    /// Tabulate an analytic model (not in this version)
-    Theory(Later),
+    /// Tabulate an analytic model as CSV; alone, list the models with their parameters
+    #[command(
+        disable_help_flag = true,
+        override_usage = "tabor theory [NAME [--KEY VALUE ...]]",
+        after_help = "Values are in SI, or text with a unit: --radius \"1 um\".\n`tabor theory` lists the models, `tabor theory NAME --help` explains one.\n\nExample:\n  tabor theory jkr --radius \"1 um\" --contact_modulus \"1 MPa\" --work_of_adhesion \"50 mJ/m^2\" > jkr.csv"
+    )]
+    Theory(TheoryArguments),
     /// The same surface through several models (not in this version)
     Compare(Later),
     /// Error against seconds (not in this version)
@@ -82,6 +89,18 @@ struct CheckArguments {
     /// Override a key of the scene, as in surface.0.hurst=0.4; may be repeated
     #[arg(long, value_name = "KEY=VALUE", value_parser = key_and_value)]
     set: Vec<(String, String)>,
+}
+
+#[derive(Debug, Args)]
+struct TheoryArguments {
+    /// The model, and its parameters as --KEY VALUE
+    // Which parameters there are depends on the model, so clap leaves them to `theory`.
+    #[arg(
+        trailing_var_arg = true,
+        allow_hyphen_values = true,
+        value_name = "NAME"
+    )]
+    words: Vec<String>,
 }
 
 #[derive(Debug, Args)]
@@ -140,6 +159,8 @@ enum Failure {
     },
     #[error("interrupted; finished steps are kept")]
     Interrupted,
+    #[error(transparent)]
+    Theory(#[from] TheoryError),
     #[error("cannot print: {0}")]
     Print(std::io::Error),
 }
@@ -150,7 +171,8 @@ impl Failure {
             Failure::Output(OutputError::Refused { .. }) => 2,
             Failure::Output(_) | Failure::Print(_) => 1,
             Failure::Scene(_) | Failure::Surface { .. } | Failure::Usage(_) => 2,
-            Failure::NotConverged { .. } => 3,
+            Failure::NotConverged { .. } | Failure::Theory(TheoryError::NotConverged { .. }) => 3,
+            Failure::Theory(_) => 2,
             Failure::Backend(_) => 4,
             Failure::Interrupted => 130,
         }
@@ -165,7 +187,7 @@ pub fn main() -> ExitCode {
         Command::Run(arguments) => run::run(&arguments),
         Command::Check(arguments) => check::check(&arguments),
         Command::Surface(later) => not_in_this_version("surface", &later),
-        Command::Theory(later) => not_in_this_version("theory", &later),
+        Command::Theory(arguments) => theory::theory(&arguments),
         Command::Compare(later) => not_in_this_version("compare", &later),
         Command::Accuracy(later) => not_in_this_version("accuracy", &later),
         Command::Fit(later) => not_in_this_version("fit", &later),
@@ -184,7 +206,7 @@ pub fn main() -> ExitCode {
 
 fn not_in_this_version(command: &str, _: &Later) -> Result<(), Failure> {
     Err(Failure::Usage(format!(
-        "tabor {command} is not in this version; this one has run and check"
+        "tabor {command} is not in this version; this one has run, check and theory"
     )))
 }
 

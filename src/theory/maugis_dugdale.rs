@@ -160,7 +160,8 @@ impl MaugisDugdale {
         self.states_where(|state| state.approach - approach, turn, reach)
     }
 
-    /// Open discs at `approach`, the smaller first (that one is stable if the approach is held).
+    /// Open discs at `approach`, the smaller first; the one at or above the radius of the fold,
+    /// `8 lambda/(3 pi)`, is stable if the approach is held.
     pub fn open_states_at_approach(&self, approach: f64) -> Result<Vec<State>, TheoryError> {
         let centre = 8.0 / (3.0 * PI) * self.lambda;
         let square = centre * centre + 2.0 * (self.range() + approach);
