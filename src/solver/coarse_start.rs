@@ -45,8 +45,11 @@ fn refine(
     let Some(coarse) = problem.coarsened() else {
         return Ok(None);
     };
-    let below = refine(&coarse, load, make_backend, levels - 1)?;
     let mut backend = make_backend();
+    if !backend.suits(coarse.shape) {
+        return Ok(None);
+    }
+    let below = refine(&coarse, load, make_backend, levels - 1)?;
     let mut solver = ContactSolver::new(&mut *backend, &coarse);
     let (start, mut transforms) = match below {
         Some((gap, transforms)) => (Start::Gap(gap), transforms),

@@ -185,6 +185,11 @@ impl<'a> ContactSolver<'a> {
         self.problem
     }
 
+    /// Relative rounding error of the fields' numbers.
+    pub fn epsilon(&self) -> f64 {
+        self.params.epsilon
+    }
+
     /// Real two-dimensional transforms so far, those on coarser grids in proportion to their points.
     pub fn transforms(&self) -> f64 {
         self.backend.transforms() + self.helped_by
