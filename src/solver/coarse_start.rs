@@ -56,10 +56,13 @@ fn refine(
         None => (Start::Cold, 0.0),
     };
     solver.begin(load, &start, TOLERANCE, false)?;
-    for _ in 0..MAX_ITERATIONS {
-        if solver.iterate()?.status != Status::Running {
+    let mut left = MAX_ITERATIONS;
+    while left > 0 {
+        let (rounds, scalars) = solver.advance(left)?;
+        if scalars.status != Status::Running {
             break;
         }
+        left -= rounds.min(left);
     }
     transforms += solver.transforms();
     let mut displacement = solver.gap()?;

@@ -52,6 +52,7 @@ pub struct GpuBackend {
     /// The first thing that went wrong; told where the host waits.
     failure: Option<GpuError>,
     transforms: f64,
+    look_every: usize,
 }
 
 impl GpuBackend {
@@ -94,9 +95,22 @@ impl GpuBackend {
             law: LawPart::HardWall,
             failure,
             transforms: 0.0,
+            // Software idles through shut gates slower than it waits.
+            look_every: match device.description().software() {
+                true => 1,
+                false => LOOK_EVERY,
+            },
         };
         backend.set_scalars(&Scalars::start(0.0, false));
         backend
+    }
+
+    /// The same, looking after so many rounds.
+    pub fn looking_every(self, rounds: usize) -> Self {
+        GpuBackend {
+            look_every: rounds.max(1),
+            ..self
+        }
     }
 
     /// The device it computes on.
@@ -360,7 +374,14 @@ impl GpuBackend {
     }
 }
 
+/// Rounds recorded before the host waits: a wait costs about as much as these cost to record.
+const LOOK_EVERY: usize = 8;
+
 impl Backend for GpuBackend {
+    fn look_every(&self) -> usize {
+        self.look_every
+    }
+
     fn suits(&self, shape: Shape) -> bool {
         LevelPlan::new(shape, self.device.group_limits()).is_ok()
     }
