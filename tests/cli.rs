@@ -295,9 +295,23 @@ fn mistakes_are_named_all_at_once_with_their_lines() {
 fn what_this_version_lacks_is_refused_by_name() {
     let (folder, _) = scene(ROUGH);
     for arguments in [
-        vec!["run", "scene.toml", "--backend", "gpu"],
-        vec!["run", "scene.toml", "--precision", "single"],
         vec!["run", "scene.toml", "--precision", "mixed"],
+        vec![
+            "run",
+            "scene.toml",
+            "--backend",
+            "gpu",
+            "--precision",
+            "mixed",
+        ],
+        vec![
+            "run",
+            "scene.toml",
+            "--backend",
+            "gpu",
+            "--precision",
+            "double",
+        ],
         vec!["run", "scene.toml", "--resume"],
         vec!["surface", "scene.toml"],
         vec!["compare", "scene.toml"],
@@ -378,4 +392,85 @@ fn overrides_reach_the_scene() {
     );
     assert_eq!(status(&output), 2);
     assert!(errors(&output).contains("--set"), "{}", errors(&output));
+}
+
+#[test]
+fn single_precision_has_its_floor_and_its_fields() {
+    let (folder, path) = scene(ROUGH);
+    for tolerance in ["1e-5", "9.9e-5"] {
+        let set = format!("solver.tolerance={tolerance}");
+        let call = [
+            "run",
+            "scene.toml",
+            "--precision",
+            "single",
+            "--set",
+            set.as_str(),
+        ];
+        let output = tabor(folder.path(), &call);
+        assert_eq!(status(&output), 2);
+        let message = errors(&output);
+        assert!(
+            message.contains("solver.tolerance") && message.contains("1e-4"),
+            "{message}"
+        );
+        assert!(!folder.path().join("scene").exists());
+    }
+    for precision in ["double", "single"] {
+        let call = [
+            "run",
+            "scene.toml",
+            "--backend",
+            "cpu",
+            "--precision",
+            precision,
+            "--out",
+            precision,
+        ];
+        let output = tabor(folder.path(), &call);
+        assert_eq!(status(&output), 0, "{}", errors(&output));
+    }
+    let single = folder.path().join("single");
+    let summary: Value =
+        serde_json::from_slice(&fs::read(single.join("summary.json")).expect("a summary"))
+            .expect("JSON");
+    assert_eq!(summary["precision"], "single");
+    assert_eq!(summary["backend"], "cpu");
+    assert_eq!(summary["scene"]["solver"]["tolerance"], 1e-4);
+    let bytes = fs::read(single.join("fields/step_0002_gap.npy")).expect("a field");
+    let file = npyz::NpyFile::new(&bytes[..]).expect("an npy file");
+    assert!(file.into_vec::<f32>().is_ok(), "fields are float32");
+    // The same physics: states alike, and areas and gaps within what the looser tolerance leaves.
+    let (one, two) = (rows(&single), rows(&folder.path().join("double")));
+    assert_eq!(one.len(), two.len());
+    for (one, two) in one.iter().zip(&two) {
+        assert_eq!(one[column("state")], two[column("state")]);
+        assert_eq!(one[column("converged")], "true");
+        assert_eq!(one[column("force")], two[column("force")]);
+        for (name, bound) in [("mean_gap", 1e-3), ("contact_area_fraction", 2e-2)] {
+            let (Ok(a), Ok(b)) = (
+                one[column(name)].parse::<f64>(),
+                two[column(name)].parse::<f64>(),
+            ) else {
+                assert_eq!(one[column(name)], two[column(name)]);
+                continue;
+            };
+            assert!((a - b).abs() <= bound * b.abs(), "{name}: {a} and {b}");
+        }
+    }
+
+    // The scene may say it too, and the call beats the scene.
+    let text = format!("{ROUGH}\n[solver]\nprecision = \"single\"\n");
+    fs::write(&path, text).expect("the scene is changed");
+    let output = tabor(folder.path(), &["check", "scene.toml"]);
+    assert_eq!(status(&output), 0, "{}", errors(&output));
+    let call = [
+        "run",
+        "scene.toml",
+        "--precision",
+        "double",
+        "--out",
+        "double",
+    ];
+    assert_eq!(status(&tabor(folder.path(), &call)), 0);
 }

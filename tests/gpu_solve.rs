@@ -253,3 +253,33 @@ fn rough_wall_with_tail_at_a_held_gap() {
     let load = at_gap(&problem, 0.03);
     compare(device, "rough, Maugis-Dugdale", &problem, &load, 2e-3);
 }
+
+#[test]
+fn looking_less_often_changes_no_bit() {
+    let Some(device) = device() else { return };
+    let (grid, heights) = sphere(32);
+    let attraction = Law::MaugisDugdale(MaugisDugdale {
+        peak_tension: 0.05,
+        range: 0.01,
+        taper: 0.005,
+    });
+    for law in [Law::HardWall, attraction] {
+        let problem = Problem::new(grid, Boundary::Periodic, 1.0, &heights, 0.3, law);
+        let load = Load {
+            hold: Hold::Pressure(0.05),
+            zero_stiffness: 0.0,
+            zero_compliance: ContactSolver::pressure_compliance(&problem, 0.05),
+        };
+        let with = |rounds: usize| {
+            let gpu =
+                || -> Box<dyn Backend + Send> { Box::new(backend(device).looking_every(rounds)) };
+            solve(&problem, &load, &Start::Cold, 1e-4, &gpu)
+        };
+        let (one, eight) = (with(1), with(8));
+        assert_eq!(one.outcome.status, Status::Converged);
+        assert_eq!(one.outcome, eight.outcome);
+        assert_eq!(one.gap, eight.gap);
+        assert_eq!(one.pressure, eight.pressure);
+        assert_eq!(one.transforms, eight.transforms);
+    }
+}

@@ -321,10 +321,12 @@ fn mistakes_in_solver_and_output() {
         ("tolerance = 1e-6", "tolerance = 0.2", "s.toml:18: solver.tolerance: 0.2 is out of range", "above 0 and at most 0.1"),
         ("tolerance = 1e-6", r#"tolerance = "1e-6""#, r#"s.toml:18: solver.tolerance: the text "1e-6" where a number without a unit is expected"#, "`tolerance = 1e-6`"),
         ("tolerance = 1e-6", "max_iterations = 0", "s.toml:18: solver.max_iterations: 0 is out of range", "a whole number of at least 1"),
-        ("tolerance = 1e-6", r#"precision = "single""#, r#"s.toml:18: solver.precision: precision = "single" is not in this version"#, r#"take "auto" or "double""#),
-        ("tolerance = 1e-6", r#"precision = "mixed""#, r#"s.toml:18: solver.precision: precision = "mixed" is not in this version"#, r#"take "auto" or "double""#),
+        ("tolerance = 1e-6", r#"precision = "mixed""#, r#"s.toml:18: solver.precision: precision = "mixed" is not in this version"#, r#"take "auto", "single" or "double""#),
+        ("tolerance = 1e-6", "tolerance = 1e-6\nprecision = \"single\"", "s.toml:18: solver.tolerance: 1e-6 is out of range", "at least 1e-4"),
+        ("tolerance = 1e-6", "tolerance = 1e-6\nbackend = \"gpu\"", "s.toml:18: solver.tolerance: 1e-6 is out of range", "at least 1e-4"),
+        ("tolerance = 1e-6", "backend = \"gpu\"\nprecision = \"double\"", r#"s.toml:19: solver.precision: precision = "double" on the GPU is not in this version"#, r#"take "single""#),
+        ("tolerance = 1e-6", "backend = \"gpu\"\nprecision = \"mixed\"", r#"s.toml:19: solver.precision: precision = "mixed" on the GPU is not in this version"#, r#"take "single""#),
         ("tolerance = 1e-6", r#"precision = "f64""#, r#"s.toml:18: solver.precision: "f64" is none of "auto", "single", "mixed", "double""#, "did you mean"),
-        ("tolerance = 1e-6", r#"backend = "gpu""#, r#"s.toml:18: solver.backend: backend = "gpu" is not in this version"#, r#"take "auto" or "cpu""#),
         ("tolerance = 1e-6", r#"backend = "cuda""#, r#"s.toml:18: solver.backend: "cuda" is none of "auto", "cpu", "gpu""#, r#"did you mean "cpu"?"#),
         ("tolerance = 1e-6", "pressure_tolerance = 1e-6", "s.toml:18: solver.pressure_tolerance: unknown key in [solver]", "did you mean `tolerance`?"),
         ("images = []", r#"images = "pressure""#, r#"s.toml:20: output.images: the text "pressure" where a list of names is expected"#, r#"`images = ["pressure"]`"#),
@@ -383,7 +385,7 @@ control = "force"
 path = ["1 nN", "2 MPa", nan]
 [solver]
 tolerance = 0
-backend = "gpu"
+backend = "cuda"
 [output]
 steps = [4]
 "#;
@@ -401,7 +403,7 @@ steps = [4]
         "s.toml:23: loading.path.1: \"MPa\" is a pressure",
         "s.toml:23: loading.path.2: nan is out of range",
         "s.toml:25: solver.tolerance: 0 is out of range",
-        "s.toml:26: solver.backend: backend = \"gpu\" is not in this version",
+        "s.toml:26: solver.backend: \"cuda\" is none of",
     ];
     let messages = refused(text, &[]);
     assert_eq!(messages.len(), expected.len(), "{messages:#?}");
@@ -468,6 +470,14 @@ fn overrides_change_what_they_name() {
     let bare = GOOD.replace("[solver]\ntolerance = 1e-6\n", "");
     let scene = parse_set(&bare, &[("solver.tolerance", "1e-8")]).expect("a solver");
     assert_eq!(scene.solver.tolerance, 1e-8);
+    // Single precision has a default of its own, and so has the GPU, which has no other.
+    for (key, word) in [("solver.precision", "single"), ("solver.backend", "gpu")] {
+        let scene = parse_set(&bare, &[(key, word)]).expect("a solver");
+        assert_eq!(scene.solver.tolerance, Precision::SINGLE_FLOOR);
+        assert_eq!(scene.solver.arithmetic(), Precision::Single);
+        let set = [(key, word), ("solver.tolerance", "1e-4")];
+        assert_eq!(parse_set(&bare, &set).expect("at the floor"), scene);
+    }
     // An effect may be set as a whole.
     let hard = hard();
     let law = "{ law = 'exponential', work_of_adhesion = 0.1, range = '1 nm' }";
@@ -595,8 +605,8 @@ fn overrides_that_are_wrong_say_where_they_came_from() {
         (
             GOOD,
             "solver.precision",
-            "single",
-            "s.toml, from --set: solver.precision: precision = \"single\" is not in this version; take \"auto\" or \"double\"",
+            "mixed",
+            "s.toml, from --set: solver.precision: precision = \"mixed\" is not in this version; take \"auto\", \"single\" or \"double\"",
         ),
         (
             GOOD,

@@ -102,6 +102,15 @@ pub enum BackendError {
 /// Recording work does not fail: what goes wrong surfaces where the host waits, in
 /// [`scalars`](Backend::scalars) and [`read`](Backend::read).
 pub trait Backend {
+    /// Whether it has transforms for a level of this shape.
+    fn suits(&self, _shape: Shape) -> bool {
+        true
+    }
+    /// Rounds to record before looking at the scalars. The gates idle those that turn out to be
+    /// too many, so a result does not depend on it; only looking, where it is dear, happens less.
+    fn look_every(&self) -> usize {
+        1
+    }
     /// Makes a level and the work space of its transforms.
     fn level(&mut self, name: &'static str, shape: Shape) -> Level;
     /// Makes a field of zeros.

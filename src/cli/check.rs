@@ -2,8 +2,10 @@
 
 use std::io::Write;
 
+use super::machine::refuse_size;
 use super::{CheckArguments, Failure, read_scene};
 use crate::effect::Effect;
+use crate::scene::BackendName;
 use crate::study::{Cost, Setup};
 use crate::surface::Surface;
 use crate::units::format_si;
@@ -16,6 +18,9 @@ pub(super) fn check(arguments: &CheckArguments) -> Result<(), Failure> {
         error,
     })?;
     let setup = Setup::new(scene, surface);
+    if setup.scene.solver.backend == BackendName::Gpu {
+        refuse_size(&setup)?;
+    }
     let text = describe(&setup)?;
     let mut out = std::io::stdout().lock();
     out.write_all(text.as_bytes())

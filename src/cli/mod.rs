@@ -1,6 +1,8 @@
 //! The command line: arguments, messages, exit statuses.
 
 mod check;
+mod devices;
+mod machine;
 mod run;
 mod theory;
 
@@ -10,8 +12,9 @@ use std::process::ExitCode;
 use clap::{Args, Parser, Subcommand, ValueEnum};
 
 use crate::backend::BackendError;
+use crate::backend::gpu::GpuError;
 use crate::output::OutputError;
-use crate::scene::{Scene, SceneErrors};
+use crate::scene::{BackendName, Precision, Scene, SceneErrors};
 use crate::surface::SurfaceError;
 use crate::theory::TheoryError;
 
@@ -51,8 +54,9 @@ enum Command {
     Accuracy(Later),
     /// Work of adhesion and modulus from a force curve (not in this version)
     Fit(Later),
-    /// Adapters found (not in this version)
-    Devices(Later),
+    /// Adapters found, what each can do, and which one `auto` takes
+    #[command(after_help = "Example:\n  tabor devices")]
+    Devices,
 }
 
 #[derive(Debug, Args)]
@@ -125,6 +129,45 @@ enum PrecisionChoice {
     Double,
 }
 
+impl BackendChoice {
+    fn name(self) -> &'static str {
+        match self {
+            BackendChoice::Auto => BackendName::Auto,
+            BackendChoice::Cpu => BackendName::Cpu,
+            BackendChoice::Gpu => BackendName::Gpu,
+        }
+        .name()
+    }
+}
+
+impl PrecisionChoice {
+    fn name(self) -> &'static str {
+        match self {
+            PrecisionChoice::Auto => Precision::Auto,
+            PrecisionChoice::Single => Precision::Single,
+            PrecisionChoice::Mixed => Precision::Mixed,
+            PrecisionChoice::Double => Precision::Double,
+        }
+        .name()
+    }
+}
+
+impl RunArguments {
+    /// All that the call changes in the scene.
+    fn overrides(&self) -> Vec<(String, String)> {
+        let mut set = self.set.clone();
+        let mut add = |key: &str, word: Option<&str>| {
+            set.extend(word.map(|word| (key.to_owned(), format!("\"{word}\""))));
+        };
+        add("solver.backend", self.backend.map(BackendChoice::name));
+        add(
+            "solver.precision",
+            self.precision.map(PrecisionChoice::name),
+        );
+        set
+    }
+}
+
 fn key_and_value(text: &str) -> Result<(String, String), String> {
     match text.split_once('=') {
         Some((key, value)) if !key.trim().is_empty() => {
@@ -145,6 +188,8 @@ enum Failure {
     Output(#[from] OutputError),
     #[error(transparent)]
     Backend(#[from] BackendError),
+    #[error("the GPU cannot be used: {0}; --backend cpu does without")]
+    Gpu(GpuError),
     #[error("{0}")]
     Usage(String),
     #[error(
@@ -173,7 +218,7 @@ impl Failure {
             Failure::Scene(_) | Failure::Surface { .. } | Failure::Usage(_) => 2,
             Failure::NotConverged { .. } | Failure::Theory(TheoryError::NotConverged { .. }) => 3,
             Failure::Theory(_) => 2,
-            Failure::Backend(_) => 4,
+            Failure::Backend(_) | Failure::Gpu(_) => 4,
             Failure::Interrupted => 130,
         }
     }
@@ -191,7 +236,7 @@ pub fn main() -> ExitCode {
         Command::Compare(later) => not_in_this_version("compare", &later),
         Command::Accuracy(later) => not_in_this_version("accuracy", &later),
         Command::Fit(later) => not_in_this_version("fit", &later),
-        Command::Devices(later) => not_in_this_version("devices", &later),
+        Command::Devices => devices::devices(),
     };
     match done {
         Ok(()) => ExitCode::SUCCESS,
@@ -206,7 +251,7 @@ pub fn main() -> ExitCode {
 
 fn not_in_this_version(command: &str, _: &Later) -> Result<(), Failure> {
     Err(Failure::Usage(format!(
-        "tabor {command} is not in this version; this one has run, check and theory"
+        "tabor {command} is not in this version; this one has run, check, theory and devices"
     )))
 }
 

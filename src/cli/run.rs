@@ -5,26 +5,30 @@ use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, Ordering};
 use std::time::Instant;
 
-use super::{BackendChoice, Failure, PrecisionChoice, RunArguments, read_scene};
-use crate::backend::Backend;
-use crate::backend::cpu::{CpuBackend, with_threads};
+use super::machine::Machine;
+use super::{Failure, RunArguments, read_scene};
+use crate::backend::cpu::with_threads;
 use crate::effect::Effect;
 use crate::kernel::Scalars;
 use crate::output::{
     CurveWriter, Effects, Load, OutputError, Picture, Progress, RunFolder, Seconds, Summary,
-    peak_memory_bytes, write_field, write_picture,
+    peak_memory_bytes, write_field, write_field_single, write_picture,
 };
-use crate::scene::{FieldName, Scene, StepChoice};
+use crate::scene::{FieldName, Precision, Scene, StepChoice};
 use crate::study::{Evaluation, FinishedStep, Observer, Setup, StepRow, WalkEnd, WalkError, walk};
 use crate::surface::Surface;
 use crate::units::format_si;
 
 /// Solves a scene and writes its folder.
 pub(super) fn run(arguments: &RunArguments) -> Result<(), Failure> {
-    refuse_later(arguments)?;
+    if arguments.resume {
+        return Err(Failure::Usage(
+            "--resume is not in this version; run again without it".to_owned(),
+        ));
+    }
     let mut seconds = Seconds::default();
     let clock = Instant::now();
-    let scene = read_scene(&arguments.scene, &arguments.set)?;
+    let scene = read_scene(&arguments.scene, &arguments.overrides())?;
     seconds.add("scene", clock.elapsed().as_secs_f64());
     let clock = Instant::now();
     let surface = Surface::build(&scene).map_err(|error| Failure::Surface {
@@ -33,6 +37,9 @@ pub(super) fn run(arguments: &RunArguments) -> Result<(), Failure> {
     })?;
     let setup = Setup::new(scene, surface);
     seconds.add("surface", clock.elapsed().as_secs_f64());
+    let clock = Instant::now();
+    let machine = Machine::of(&setup)?;
+    seconds.add("device", clock.elapsed().as_secs_f64());
     let interrupted = watch_for_interrupts();
     let path = arguments
         .out
@@ -40,12 +47,16 @@ pub(super) fn run(arguments: &RunArguments) -> Result<(), Failure> {
         .unwrap_or_else(|| default_folder(&arguments.scene));
     let folder = RunFolder::open(&path, &fingerprint(&setup.scene))?;
     let curve = CurveWriter::create(&folder.curve_path())?;
+    if let Some(remark) = &machine.remark {
+        eprintln!("note: {remark}");
+    }
     for warning in &setup.warnings {
         eprintln!("warning: {warning}");
     }
     let progress = Progress::new(setup.scene.loading.path.len(), arguments.quiet);
     let mut keeper = Keeper {
         setup: &setup,
+        single: machine.precision() == Precision::Single,
         folder: &folder,
         curve,
         progress,
@@ -55,7 +66,7 @@ pub(super) fn run(arguments: &RunArguments) -> Result<(), Failure> {
         output_seconds: 0.0,
     };
     let clock = Instant::now();
-    let make_backend = || -> Box<dyn Backend + Send> { Box::new(CpuBackend::<f64>::new()) };
+    let make_backend = || machine.backend();
     let threads = arguments.threads.map(usize::from);
     let walked = with_threads(threads, || walk(&setup, &make_backend, &mut keeper))?;
     let solved = clock.elapsed().as_secs_f64();
@@ -68,37 +79,12 @@ pub(super) fn run(arguments: &RunArguments) -> Result<(), Failure> {
     seconds.add("solve", solved - keeper.output_seconds);
     seconds.add("output", keeper.output_seconds);
     let warnings = std::mem::take(&mut keeper.warnings);
-    summarise(&setup, &end, seconds, warnings).write(&folder.summary_path())?;
+    summarise(&setup, &machine, &end, seconds, warnings).write(&folder.summary_path())?;
     drop(keeper);
     if !arguments.quiet {
         print_table(&end.rows);
     }
     judge(&setup, &end)
-}
-
-/// What the contract names and this version lacks.
-fn refuse_later(arguments: &RunArguments) -> Result<(), Failure> {
-    let later = |what: &str, instead: &str| {
-        Err(Failure::Usage(format!(
-            "{what} is not in this version; {instead}"
-        )))
-    };
-    if matches!(arguments.backend, Some(BackendChoice::Gpu)) {
-        return later("--backend gpu", "use --backend cpu");
-    }
-    match arguments.precision {
-        Some(PrecisionChoice::Single) => {
-            return later("--precision single", "use --precision double");
-        }
-        Some(PrecisionChoice::Mixed) => {
-            return later("--precision mixed", "use --precision double");
-        }
-        _ => {}
-    }
-    if arguments.resume {
-        return later("--resume", "run again without it");
-    }
-    Ok(())
 }
 
 /// The scene's name without `.toml`, in the current folder.
@@ -129,6 +115,8 @@ fn watch_for_interrupts() -> Arc<AtomicBool> {
 /// Keeps each step as it ends.
 struct Keeper<'a> {
     setup: &'a Setup,
+    /// Whether fields are known in single precision only.
+    single: bool,
     folder: &'a RunFolder,
     curve: CurveWriter,
     progress: Progress,
@@ -204,7 +192,11 @@ impl Keeper<'_> {
         let grid = setup.surface.grid;
         let values = |name: FieldName| evaluation.field(name, &setup.surface.heights);
         for &field in &setup.scene.output.fields {
-            write_field(&self.folder.field_path(step, field), &grid, &values(field))?;
+            let path = self.folder.field_path(step, field);
+            match self.single {
+                true => write_field_single(&path, &grid, &values(field))?,
+                false => write_field(&path, &grid, &values(field))?,
+            }
         }
         let loading = &setup.scene.loading;
         for &field in &setup.scene.output.images {
@@ -230,7 +222,13 @@ impl Keeper<'_> {
     }
 }
 
-fn summarise(setup: &Setup, end: &WalkEnd, seconds: Seconds, warnings: Vec<String>) -> Summary {
+fn summarise(
+    setup: &Setup,
+    machine: &Machine,
+    end: &WalkEnd,
+    seconds: Seconds,
+    warnings: Vec<String>,
+) -> Summary {
     let names = |on: bool| -> Vec<String> {
         Effect::ALL
             .iter()
@@ -250,9 +248,9 @@ fn summarise(setup: &Setup, end: &WalkEnd, seconds: Seconds, warnings: Vec<Strin
             on: names(true),
             off: names(false),
         },
-        backend: "cpu".to_owned(),
-        adapter: None,
-        precision: "double".to_owned(),
+        backend: machine.name().to_owned(),
+        adapter: machine.adapter(),
+        precision: machine.precision().name().to_owned(),
         seconds,
         transforms: end.transforms + setup.transforms,
         peak_memory_bytes: peak_memory_bytes(),

@@ -22,7 +22,7 @@ pub mod summary;
 pub use canvas::{Font, TextLine};
 pub use curve::CurveWriter;
 pub use error::OutputError;
-pub use fields::write_field;
+pub use fields::{write_field, write_field_single};
 pub use folder::{RunFolder, write_atomically};
 pub use picture::{Load, Picture, Snapshot, write_picture};
 pub use progress::Progress;

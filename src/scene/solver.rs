@@ -6,14 +6,13 @@ use super::reader::{Allowed, Reader};
 use super::types::{BackendName, Precision, SolverScene};
 use crate::units::Dimension;
 
-/// What this version can do; the other words of the contract are refused by name.
-const PRECISIONS: &[Precision] = &[Precision::Auto, Precision::Double];
-const BACKENDS: &[BackendName] = &[BackendName::Auto, BackendName::Cpu];
+/// Default tolerance of double precision; single precision takes its floor.
+const TOLERANCE: f64 = 1e-6;
 
 impl Default for SolverScene {
     fn default() -> Self {
         SolverScene {
-            tolerance: 1e-6,
+            tolerance: TOLERANCE,
             max_iterations: 5000,
             precision: Precision::Auto,
             backend: BackendName::Auto,
@@ -21,9 +20,20 @@ impl Default for SolverScene {
     }
 }
 
+impl SolverScene {
+    /// The arithmetic of a solve: what `auto` stands for on this backend.
+    pub fn arithmetic(&self) -> Precision {
+        match (self.precision, self.backend) {
+            (Precision::Auto, BackendName::Gpu) => Precision::Single,
+            (Precision::Auto, _) => Precision::Double,
+            (other, _) => other,
+        }
+    }
+}
+
 /// Reads `[solver]`; what it leaves out has its default.
 pub(super) fn read(scene: &Reader) -> Option<SolverScene> {
-    const TOLERANCE: Allowed = Allowed::new(
+    const ALLOWED: Allowed = Allowed::new(
         |tolerance| tolerance > 0.0 && tolerance <= 0.1,
         "above 0 and at most 0.1",
     );
@@ -33,9 +43,11 @@ pub(super) fn read(scene: &Reader) -> Option<SolverScene> {
     }
     let solver = scene.table("solver", &keys::SOLVER)?;
     let tolerance = if solver.has("tolerance") {
-        solver.quantity("tolerance", Dimension::Dimensionless, TOLERANCE)
+        solver
+            .quantity("tolerance", Dimension::Dimensionless, ALLOWED)
+            .map(Some)
     } else {
-        Some(default.tolerance)
+        Some(None)
     };
     let max_iterations = if solver.has("max_iterations") {
         solver
@@ -44,54 +56,78 @@ pub(super) fn read(scene: &Reader) -> Option<SolverScene> {
     } else {
         Some(default.max_iterations)
     };
-    let precision = available(
-        &solver,
-        "precision",
-        Precision::ALL,
-        Precision::name,
-        |one| PRECISIONS.contains(&one),
-    );
-    let backend = available(
-        &solver,
-        "backend",
-        BackendName::ALL,
-        BackendName::name,
-        |one| BACKENDS.contains(&one),
-    );
-    Some(SolverScene {
-        tolerance: tolerance?,
+    let precision = if solver.has("precision") {
+        solver.choice("precision", Precision::ALL, Precision::name)
+    } else {
+        Some(default.precision)
+    };
+    let backend = if solver.has("backend") {
+        solver.choice("backend", BackendName::ALL, BackendName::name)
+    } else {
+        Some(default.backend)
+    };
+    let here = match (precision, backend) {
+        (Some(precision), Some(backend)) => is_here(&solver, precision, backend),
+        _ => None,
+    };
+    let mut settings = SolverScene {
+        tolerance: TOLERANCE,
         max_iterations: max_iterations?,
-        precision: precision?.unwrap_or(default.precision),
-        backend: backend?.unwrap_or(default.backend),
-    })
+        precision: precision?,
+        backend: backend?,
+    };
+    here?;
+    let arithmetic = settings.arithmetic();
+    settings.tolerance = match tolerance? {
+        Some(asked) if arithmetic == Precision::Single && asked < Precision::SINGLE_FLOOR => {
+            solver.report("tolerance", below_the_floor(asked, &settings));
+            return None;
+        }
+        Some(asked) => asked,
+        None if arithmetic == Precision::Single => Precision::SINGLE_FLOOR,
+        None => TOLERANCE,
+    };
+    Some(settings)
 }
 
-/// A choice that this version has: `Some(None)` where the key is absent.
-fn available<T: Copy>(
-    solver: &Reader,
-    key: &str,
-    choices: &[T],
-    name: fn(T) -> &'static str,
-    is_available: fn(T) -> bool,
-) -> Option<Option<T>> {
-    if !solver.has(key) {
-        return Some(None);
-    }
-    let choice = solver.choice(key, choices, name)?;
-    if is_available(choice) {
-        return Some(Some(choice));
-    }
-    let others: Vec<String> = choices
-        .iter()
-        .filter(|other| is_available(**other))
-        .map(|other| format!("\"{}\"", name(*other)))
-        .collect();
+/// Whether this version has the arithmetic where it is asked for.
+fn is_here(solver: &Reader, precision: Precision, backend: BackendName) -> Option<()> {
+    let instead = match (precision, backend) {
+        (Precision::Mixed, BackendName::Gpu) => "take \"single\", or backend = \"cpu\"",
+        (Precision::Mixed, _) => "take \"auto\", \"single\" or \"double\"",
+        (Precision::Double, BackendName::Gpu) => {
+            "take \"single\", or backend = \"cpu\" for double precision"
+        }
+        _ => return Some(()),
+    };
+    let on_the_gpu = match backend {
+        BackendName::Gpu => " on the GPU",
+        _ => "",
+    };
     solver.report(
-        key,
+        "precision",
         SceneError::NotInThisVersion {
-            what: format!("{key} = \"{}\"", name(choice)),
-            instead: format!("take {}", others.join(" or ")),
+            what: format!("precision = \"{}\"{on_the_gpu}", precision.name()),
+            instead: instead.to_owned(),
         },
     );
     None
+}
+
+/// A tolerance that single precision does not reach.
+fn below_the_floor(asked: f64, settings: &SolverScene) -> SceneError {
+    let (who, way_out) = match settings.backend {
+        BackendName::Gpu => (
+            "backend = \"gpu\", in single precision,",
+            "backend = \"cpu\"",
+        ),
+        _ => ("precision = \"single\"", "precision = \"double\""),
+    };
+    SceneError::OutOfRange {
+        found: format!("{asked:e}"),
+        allowed: format!(
+            "at least {:e}, the floor of 32-bit numbers, for {who} or go with {way_out}",
+            Precision::SINGLE_FLOOR
+        ),
+    }
 }

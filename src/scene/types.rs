@@ -344,6 +344,9 @@ pub enum Precision {
 }
 
 impl Precision {
+    /// Least tolerance that single precision reaches on every scene.
+    pub const SINGLE_FLOOR: f64 = 1e-4;
+
     /// Every one of them.
     pub const ALL: &[Precision] = &[
         Precision::Auto,

@@ -45,18 +45,24 @@ fn refine(
     let Some(coarse) = problem.coarsened() else {
         return Ok(None);
     };
-    let below = refine(&coarse, load, make_backend, levels - 1)?;
     let mut backend = make_backend();
+    if !backend.suits(coarse.shape) {
+        return Ok(None);
+    }
+    let below = refine(&coarse, load, make_backend, levels - 1)?;
     let mut solver = ContactSolver::new(&mut *backend, &coarse);
     let (start, mut transforms) = match below {
         Some((gap, transforms)) => (Start::Gap(gap), transforms),
         None => (Start::Cold, 0.0),
     };
     solver.begin(load, &start, TOLERANCE, false)?;
-    for _ in 0..MAX_ITERATIONS {
-        if solver.iterate()?.status != Status::Running {
+    let mut left = MAX_ITERATIONS;
+    while left > 0 {
+        let (rounds, scalars) = solver.advance(left)?;
+        if scalars.status != Status::Running {
             break;
         }
+        left -= rounds.min(left);
     }
     transforms += solver.transforms();
     let mut displacement = solver.gap()?;

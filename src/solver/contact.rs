@@ -116,6 +116,8 @@ static CORE: KernelSet = KernelSet {
 
 /// Evaluations that one search of a step length may take, the scalar kernels' own bounds included.
 const SEARCHES: usize = 48;
+/// Evaluations recorded before a look at whether the search is over, at most.
+const SEARCHES_AT_ONCE: usize = 4;
 /// Lost trials that a solve may see for each iteration allowed.
 const ROUNDS_PER_ITERATION: usize = 4;
 
@@ -183,6 +185,11 @@ impl<'a> ContactSolver<'a> {
     /// The problem being solved.
     pub fn problem(&self) -> &'a Problem {
         self.problem
+    }
+
+    /// Relative rounding error of the fields' numbers.
+    pub fn epsilon(&self) -> f64 {
+        self.params.epsilon
     }
 
     /// Real two-dimensional transforms so far, those on coarser grids in proportion to their points.
@@ -278,9 +285,29 @@ impl<'a> ContactSolver<'a> {
         }
     }
 
+    /// One iteration.
+    pub fn iterate(&mut self) -> Result<Scalars, BackendError> {
+        self.record()?;
+        self.backend.scalars()
+    }
+
+    /// Up to `most` iterations, as many as the backend records before it looks; says how many,
+    /// those that idled after the end included.
+    pub(super) fn advance(&mut self, most: usize) -> Result<(usize, Scalars), BackendError> {
+        // A law with a tail looks during its search anyhow.
+        let rounds = match self.problem.law.has_tail() {
+            true => 1,
+            false => self.backend.look_every().min(most).max(1),
+        };
+        for _ in 0..rounds {
+            self.record()?;
+        }
+        Ok((rounds, self.backend.scalars()?))
+    }
+
     /// Records one iteration. All decisions are taken by the scalar kernels; the search is left
     /// early where the host can see that it is over.
-    pub fn iterate(&mut self) -> Result<Scalars, BackendError> {
+    fn record(&mut self) -> Result<(), BackendError> {
         let (level, kernels) = (self.level, self.kernels);
         let (g, p, z, d) = (self.gap, self.pressure, self.descent, self.direction);
         let backend = &mut *self.backend;
@@ -314,19 +341,24 @@ impl<'a> ContactSolver<'a> {
         backend.scalar(kernels.step);
         let moved = self.step.unwrap_or(d);
         if self.problem.law.has_tail() {
-            for _ in 0..SEARCHES {
-                if !backend.scalars()?.is_open(Gate::Searching) {
-                    break;
+            let at_once = SEARCHES_AT_ONCE.min(backend.look_every());
+            let mut left = SEARCHES;
+            // Where looking is free the first look may already end it.
+            let mut over = at_once == 1 && !backend.scalars()?.is_open(Gate::Searching);
+            while left > 0 && !over {
+                for _ in 0..at_once.min(left) {
+                    backend.sweep(kernels.search, level, &[g, moved]);
+                    backend.scalar(kernels.search_scalar);
                 }
-                backend.sweep(kernels.search, level, &[g, moved]);
-                backend.scalar(kernels.search_scalar);
+                left -= at_once.min(left);
+                over = !backend.scalars()?.is_open(Gate::Searching);
             }
         }
         backend.scalar(&scalar::SETTLE_WALL);
         backend.backward(kernels.advance, level, &[moved, g, p]);
         backend.scalar(kernels.lengthen);
         self.balance();
-        self.backend.scalars()
+        Ok(())
     }
 
     /// The stopping measure of the present gap, from pressures evaluated afresh.
@@ -343,7 +375,7 @@ impl<'a> ContactSolver<'a> {
         self.backend.scalars()
     }
 
-    /// Solves a load. `watch` sees the scalars after each iteration and may end the solve by
+    /// Solves a load. `watch` sees the scalars whenever the host looks and may end the solve by
     /// returning false.
     #[allow(clippy::too_many_arguments)]
     pub fn solve(
@@ -367,13 +399,14 @@ impl<'a> ContactSolver<'a> {
             }
             None => self.begin(load, start, tolerance, careful)?,
         }
-        let mut rounds = 0;
+        let (mut rounds, mut iterations) = (0, 0);
         loop {
-            let scalars = self.iterate()?;
-            rounds += 1;
+            let (recorded, scalars) = self.advance(max_iterations.saturating_sub(iterations))?;
+            rounds += recorded;
+            iterations = scalars.iterations as usize;
             let mut status = scalars.status;
-            let out_of_iterations = scalars.iterations as usize >= max_iterations
-                || rounds >= ROUNDS_PER_ITERATION * max_iterations;
+            let out_of_iterations =
+                iterations >= max_iterations || rounds >= ROUNDS_PER_ITERATION * max_iterations;
             let stopped = !watch(&scalars);
             if status == Status::Running && !out_of_iterations && !stopped {
                 continue;

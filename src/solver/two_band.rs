@@ -41,9 +41,11 @@ impl TwoBand {
         if problem.law != Law::HardWall || problem.boundary != Boundary::Periodic {
             return None;
         }
-        let ratio = [4, 2]
-            .into_iter()
-            .find(|ratio| nx % ratio == 0 && ny % ratio == 0)?;
+        let ratio = [4, 2].into_iter().find(|ratio| {
+            nx % ratio == 0
+                && ny % ratio == 0
+                && backend.suits(Shape::whole(nx / ratio, ny / ratio))
+        })?;
         if nx / ratio < FEWEST_COARSE || ny / ratio < FEWEST_COARSE {
             return None;
         }

@@ -128,7 +128,8 @@ pub fn walk<O: Observer>(
     Ok(end)
 }
 
-/// Share of the mean gap below which a point moved by it is closed: the rounding of that mean.
+/// Share of the mean gap below which a point moved by it is closed: the rounding of that mean in
+/// double precision.
 const CLOSED: f64 = 1e-13;
 
 /// A step as solved.
@@ -223,7 +224,7 @@ impl PathState<'_> {
         if !problem.law.has_wall() || (least > 0.0 && least + target - mean >= 0.0) {
             let moved = target - mean;
             // Surfaces that meet in this very step meet everywhere they should.
-            let rounding = CLOSED * mean.abs();
+            let rounding = CLOSED.max(8.0 * solver.epsilon()) * mean.abs();
             for g in &mut gap {
                 *g += moved;
                 if problem.law.has_wall() && *g <= rounding {

@@ -5,7 +5,7 @@ use std::sync::{Arc, Mutex, OnceLock, PoisonError};
 
 use super::error::GpuError;
 use super::layout::Wide;
-use super::plan::GroupLimits;
+use super::plan::{GroupLimits, LinePlan};
 
 /// Which adapter to take.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
@@ -27,12 +27,78 @@ pub struct AdapterDescription {
     pub name: String,
     /// The interface through which it is reached, as `Vulkan`.
     pub interface: String,
-    /// Whether it computes on the processor.
-    pub software: bool,
+    /// The driver and its version, as it says.
+    pub driver: String,
+    /// What computes behind it.
+    pub kind: AdapterKind,
     /// Whether it has double precision.
     pub double: bool,
     /// Bytes that it binds at a time.
     pub binding_limit: u64,
+    /// What a workgroup may hold.
+    pub group_limits: GroupLimits,
+}
+
+/// What computes behind an adapter, best first.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
+pub enum AdapterKind {
+    /// A graphics card of its own memory.
+    Discrete,
+    /// A graphics processor that shares the memory.
+    Integrated,
+    /// One lent by a host.
+    Virtual,
+    /// Something else.
+    Other,
+    /// The processor itself.
+    Software,
+}
+
+impl AdapterKind {
+    /// The kind in words.
+    pub fn name(self) -> &'static str {
+        match self {
+            AdapterKind::Discrete => "discrete GPU",
+            AdapterKind::Integrated => "integrated GPU",
+            AdapterKind::Virtual => "virtual GPU",
+            AdapterKind::Other => "device of another kind",
+            AdapterKind::Software => "software, computes on the processor",
+        }
+    }
+}
+
+impl AdapterDescription {
+    /// Whether it computes on the processor.
+    pub fn software(&self) -> bool {
+        self.kind == AdapterKind::Software
+    }
+
+    /// Points along the side of the largest square grid that its transforms and bindings take.
+    pub fn largest_side(&self) -> usize {
+        // A field in single precision is the largest thing that is bound.
+        let mut side = LinePlan::longest(self.group_limits);
+        while side > 1 && 4 * (side as u64).pow(2) > self.binding_limit {
+            side /= 2;
+        }
+        side
+    }
+}
+
+fn group_limits(limits: &wgpu::Limits) -> GroupLimits {
+    let threads = limits
+        .max_compute_invocations_per_workgroup
+        .min(limits.max_compute_workgroup_size_x)
+        .min(limits.max_compute_workgroup_size_y);
+    GroupLimits {
+        threads: threads as usize,
+        memory: limits.max_compute_workgroup_storage_size as usize,
+    }
+}
+
+fn binding_limit(limits: &wgpu::Limits) -> u64 {
+    limits
+        .max_storage_buffer_binding_size
+        .min(limits.max_buffer_size)
 }
 
 /// A graphics processor, ready to compute. Copies share the device and its compiled kernels.
@@ -55,11 +121,20 @@ fn instance() -> wgpu::Instance {
 
 fn describe(adapter: &wgpu::Adapter) -> AdapterDescription {
     let info = adapter.get_info();
+    let limits = adapter.limits();
     AdapterDescription {
         interface: format!("{:?}", info.backend),
-        software: info.device_type == wgpu::DeviceType::Cpu,
+        driver: [info.driver, info.driver_info].join(" ").trim().to_string(),
+        kind: match info.device_type {
+            wgpu::DeviceType::DiscreteGpu => AdapterKind::Discrete,
+            wgpu::DeviceType::IntegratedGpu => AdapterKind::Integrated,
+            wgpu::DeviceType::VirtualGpu => AdapterKind::Virtual,
+            wgpu::DeviceType::Other => AdapterKind::Other,
+            wgpu::DeviceType::Cpu => AdapterKind::Software,
+        },
         double: adapter.features().contains(wgpu::Features::SHADER_F64),
-        binding_limit: adapter.limits().max_storage_buffer_binding_size,
+        binding_limit: binding_limit(&limits),
+        group_limits: group_limits(&limits),
         name: info.name,
     }
 }
@@ -74,11 +149,7 @@ fn enumerate(instance: &wgpu::Instance) -> Vec<wgpu::Adapter> {
 }
 
 /// The place of the adapter to take among those there are.
-fn choose(
-    found: &[AdapterDescription],
-    kinds: &[wgpu::DeviceType],
-    choice: &AdapterChoice,
-) -> Result<usize, GpuError> {
+fn choose(found: &[AdapterDescription], choice: &AdapterChoice) -> Result<usize, GpuError> {
     if let Some(wanted) = &choice.name {
         let lower = wanted.to_lowercase();
         return found
@@ -96,17 +167,11 @@ fn choose(
                 },
             });
     }
-    let rank = |kind: &wgpu::DeviceType| match kind {
-        wgpu::DeviceType::DiscreteGpu => Some(0),
-        wgpu::DeviceType::IntegratedGpu => Some(1),
-        wgpu::DeviceType::VirtualGpu => Some(2),
-        wgpu::DeviceType::Other => Some(3),
-        wgpu::DeviceType::Cpu => choice.software.then_some(4),
-    };
-    kinds
+    found
         .iter()
         .enumerate()
-        .filter_map(|(place, kind)| rank(kind).map(|rank| (rank, place)))
+        .filter(|(_, adapter)| choice.software || !adapter.software())
+        .map(|(place, adapter)| (adapter.kind, place))
         .min()
         .map(|(_, place)| place)
         .ok_or_else(|| {
@@ -128,11 +193,7 @@ impl GpuDevice {
         }
         let found = enumerate(&instance());
         let descriptions: Vec<_> = found.iter().map(describe).collect();
-        let kinds: Vec<_> = found
-            .iter()
-            .map(|adapter| adapter.get_info().device_type)
-            .collect();
-        let place = choose(&descriptions, &kinds, &choice)?;
+        let place = choose(&descriptions, &choice)?;
         let adapter = &found[place];
         let description = descriptions[place].clone();
         let required_features = match choice.single_sums {
@@ -187,23 +248,12 @@ impl GpuDevice {
 
     /// What a workgroup may hold.
     pub fn group_limits(&self) -> GroupLimits {
-        let limits = self.inner.device.limits();
-        let threads = limits
-            .max_compute_invocations_per_workgroup
-            .min(limits.max_compute_workgroup_size_x)
-            .min(limits.max_compute_workgroup_size_y);
-        GroupLimits {
-            threads: threads as usize,
-            memory: limits.max_compute_workgroup_storage_size as usize,
-        }
+        group_limits(&self.inner.device.limits())
     }
 
     /// Bytes that may be bound at a time.
     pub fn binding_limit(&self) -> u64 {
-        let limits = self.inner.device.limits();
-        limits
-            .max_storage_buffer_binding_size
-            .min(limits.max_buffer_size)
+        binding_limit(&self.inner.device.limits())
     }
 
     pub(super) fn queue(&self) -> &wgpu::Queue {
@@ -220,6 +270,17 @@ impl GpuDevice {
 
     /// Does something with the device and catches what it has to say against it.
     pub(super) fn guarded<R>(&self, work: impl FnOnce(&wgpu::Device) -> R) -> Result<R, GpuError> {
+        match self.watched(work) {
+            (_, Some(error)) => Err(error),
+            (result, None) => Ok(result),
+        }
+    }
+
+    /// The same, with what came of it; handles to what could not be made are not to be used.
+    pub(super) fn watched<R>(
+        &self,
+        work: impl FnOnce(&wgpu::Device) -> R,
+    ) -> (R, Option<GpuError>) {
         let device = &self.inner.device;
         let memory = device.push_error_scope(wgpu::ErrorFilter::OutOfMemory);
         let internal = device.push_error_scope(wgpu::ErrorFilter::Internal);
@@ -230,18 +291,15 @@ impl GpuDevice {
             pollster::block_on(internal.pop()),
             pollster::block_on(memory.pop()),
         ];
-        if let Some(error) = errors.into_iter().flatten().next() {
-            return Err(GpuError::Device(match error {
+        let failure = errors.into_iter().flatten().next().map(|error| {
+            GpuError::Device(match error {
                 wgpu::Error::OutOfMemory { .. } => {
                     "out of memory on the graphics processor".to_string()
                 }
                 other => other.to_string(),
-            }));
-        }
-        match self.loss() {
-            Some(error) => Err(error),
-            None => Ok(result),
-        }
+            })
+        });
+        (result, failure.or_else(|| self.loss()))
     }
 
     /// Compiles a shader, or finds it among those compiled before.
@@ -292,41 +350,54 @@ impl GpuDevice {
 mod tests {
     use super::*;
 
-    fn adapter(name: &str, software: bool) -> AdapterDescription {
+    fn adapter(name: &str, kind: AdapterKind) -> AdapterDescription {
         AdapterDescription {
             name: name.to_string(),
             interface: "Vulkan".to_string(),
-            software,
+            driver: String::new(),
+            kind,
             double: true,
             binding_limit: 1 << 27,
+            group_limits: GroupLimits {
+                threads: 1024,
+                memory: 32768,
+            },
         }
     }
 
     #[test]
     fn a_software_adapter_is_taken_only_where_it_will_do() {
-        use wgpu::DeviceType::{Cpu, DiscreteGpu, IntegratedGpu};
         let found = [
-            adapter("software", true),
-            adapter("small", false),
-            adapter("Large One", false),
+            adapter("software", AdapterKind::Software),
+            adapter("small", AdapterKind::Integrated),
+            adapter("Large One", AdapterKind::Discrete),
         ];
-        let kinds = [Cpu, IntegratedGpu, DiscreteGpu];
         let mut choice = AdapterChoice::default();
-        assert_eq!(choose(&found, &kinds, &choice), Ok(2));
-        assert_eq!(choose(&found[..2], &kinds[..2], &choice), Ok(1));
-        let refused = choose(&found[..1], &kinds[..1], &choice);
+        assert_eq!(choose(&found, &choice), Ok(2));
+        assert_eq!(choose(&found[..2], &choice), Ok(1));
+        let refused = choose(&found[..1], &choice);
         assert!(matches!(refused, Err(GpuError::NoAdapter(_))));
         choice.software = true;
-        assert_eq!(choose(&found[..1], &kinds[..1], &choice), Ok(0));
-        assert_eq!(choose(&found, &kinds, &choice), Ok(2));
+        assert_eq!(choose(&found[..1], &choice), Ok(0));
+        assert_eq!(choose(&found, &choice), Ok(2));
         choice.name = Some("SMALL".to_string());
-        assert_eq!(choose(&found, &kinds, &choice), Ok(1));
+        assert_eq!(choose(&found, &choice), Ok(1));
         choice.name = Some("other".to_string());
-        let refused = choose(&found, &kinds, &choice).map_err(|error| error.to_string());
+        let refused = choose(&found, &choice).map_err(|error| error.to_string());
         assert_eq!(
             refused,
             Err("no graphics adapter has `other` in its name; there are: `software`, `small`, `Large One`".to_string())
         );
-        assert!(choose(&[], &[], &AdapterChoice::default()).is_err());
+        assert!(choose(&[], &AdapterChoice::default()).is_err());
+    }
+
+    #[test]
+    fn the_largest_grid_keeps_both_limits() {
+        let mut found = adapter("one", AdapterKind::Discrete);
+        assert_eq!(found.largest_side(), 4096);
+        found.binding_limit = (1 << 31) - 1;
+        assert_eq!(found.largest_side(), 16384);
+        found.binding_limit = 1 << 20;
+        assert_eq!(found.largest_side(), 512);
     }
 }

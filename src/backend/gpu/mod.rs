@@ -31,10 +31,10 @@ use source::Results;
 use space::{FieldSpace, Key, LevelSpace, SpectrumSpace, single_bytes};
 
 pub use catalogue::LawPart;
-pub use device::{AdapterChoice, AdapterDescription, GpuDevice, adapters};
+pub use device::{AdapterChoice, AdapterDescription, AdapterKind, GpuDevice, adapters};
 pub use error::GpuError;
 pub use layout::Wide;
-pub use plan::{Exchange, GroupLimits, LinePlan};
+pub use plan::{Exchange, GroupLimits, LinePlan, radices};
 
 /// The GPU backend, in single precision.
 pub struct GpuBackend {
@@ -52,13 +52,21 @@ pub struct GpuBackend {
     /// The first thing that went wrong; told where the host waits.
     failure: Option<GpuError>,
     transforms: f64,
+    look_every: usize,
 }
 
 impl GpuBackend {
     /// A backend with nothing in it.
     pub fn new(device: &GpuDevice) -> Result<Self, GpuError> {
+        let backend = Self::on(device);
+        backend.checked()?;
+        Ok(backend)
+    }
+
+    /// The same for where nothing may fail yet: what goes wrong is told where the host waits.
+    pub fn on(device: &GpuDevice) -> Self {
         let wide = device.wide();
-        let (params, scalars) = device.guarded(|device| {
+        let ((params, scalars), failure) = device.watched(|device| {
             let params = space::buffer(
                 device,
                 "params",
@@ -72,7 +80,7 @@ impl GpuBackend {
                 wgpu::BufferUsages::STORAGE,
             );
             (params, scalars)
-        })?;
+        });
         let mut backend = GpuBackend {
             device: device.clone(),
             wide,
@@ -85,12 +93,24 @@ impl GpuBackend {
             roots: HashMap::new(),
             prepared: HashMap::new(),
             law: LawPart::HardWall,
-            failure: None,
+            failure,
             transforms: 0.0,
+            // Software idles through shut gates slower than it waits.
+            look_every: match device.description().software() {
+                true => 1,
+                false => LOOK_EVERY,
+            },
         };
         backend.set_scalars(&Scalars::start(0.0, false));
-        backend.checked()?;
-        Ok(backend)
+        backend
+    }
+
+    /// The same, looking after so many rounds.
+    pub fn looking_every(self, rounds: usize) -> Self {
+        GpuBackend {
+            look_every: rounds.max(1),
+            ..self
+        }
     }
 
     /// The device it computes on.
@@ -354,7 +374,18 @@ impl GpuBackend {
     }
 }
 
+/// Rounds recorded before the host waits: a wait costs about as much as these cost to record.
+const LOOK_EVERY: usize = 8;
+
 impl Backend for GpuBackend {
+    fn look_every(&self) -> usize {
+        self.look_every
+    }
+
+    fn suits(&self, shape: Shape) -> bool {
+        LevelPlan::new(shape, self.device.group_limits()).is_ok()
+    }
+
     fn level(&mut self, name: &'static str, shape: Shape) -> Level {
         let space = self.attempt(|backend| {
             let plan = LevelPlan::new(shape, backend.device.group_limits())?;
@@ -478,11 +509,11 @@ impl Backend for GpuBackend {
         self.attempt(|backend| backend.run(kernel, level, fields));
     }
 
-    /// As counted on the device when the host last waited.
     fn epsilon(&self) -> f64 {
         f64::from(f32::EPSILON)
     }
 
+    /// As counted on the device when the host last waited.
     fn transforms(&self) -> f64 {
         self.transforms
     }

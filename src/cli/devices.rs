@@ -1,0 +1,61 @@
+//! `tabor devices`: adapters found and what each can do.
+
+use std::io::Write;
+use std::num::NonZero;
+
+use super::Failure;
+use super::machine::best;
+use crate::backend::gpu::{AdapterDescription, adapters};
+use crate::scene::Precision;
+
+/// Prints the adapters and which one `auto` takes.
+pub(super) fn devices() -> Result<(), Failure> {
+    let text = describe(&adapters());
+    let mut out = std::io::stdout().lock();
+    out.write_all(text.as_bytes())
+        .and_then(|()| out.flush())
+        .map_err(Failure::Print)
+}
+
+fn describe(found: &[AdapterDescription]) -> String {
+    let threads = std::thread::available_parallelism().map_or(1, NonZero::get);
+    let mut lines = vec![format!(
+        "processor     {threads} threads\n\
+         \x20 precision   single, double\n\
+         \x20 largest     any grid that the memory holds"
+    )];
+    for (index, adapter) in found.iter().enumerate() {
+        let side = adapter.largest_side();
+        lines.push(format!(
+            "adapter {}     {}\n\
+             \x20 type        {}\n\
+             \x20 driver      {} {}\n\
+             \x20 precision   single{}\n\
+             \x20 largest     {side} x {side} points, {half} x {half} with a free boundary",
+            index + 1,
+            adapter.name,
+            adapter.kind.name(),
+            adapter.interface,
+            adapter.driver,
+            match adapter.double {
+                true => "; double on the device, for sums only in this version",
+                false => "; no double on the device",
+            },
+            half = side / 2,
+        ));
+    }
+    if found.is_empty() {
+        lines.push("adapter       none found: no Vulkan, Metal or Direct3D 12 driver".to_owned());
+    }
+    lines.push(match (best(found), found) {
+        (Some(adapter), _) => format!(
+            "auto          {} for precision = \"single\"; the processor for double precision and tolerances below {:e}, which the GPU lacks in this version",
+            adapter.name,
+            Precision::SINGLE_FLOOR
+        ),
+        (None, []) => "auto          the processor: there is no adapter".to_owned(),
+        (None, _) => "auto          the processor: no adapter is more than software on it".to_owned(),
+    });
+    lines.push(String::new());
+    lines.join("\n")
+}

@@ -1,0 +1,188 @@
+//! Where a run computes: the processor or a graphics processor, and in which arithmetic.
+
+use super::Failure;
+use crate::backend::Backend;
+use crate::backend::cpu::CpuBackend;
+use crate::backend::gpu::{
+    AdapterChoice, AdapterDescription, GpuBackend, GpuDevice, adapters, radices,
+};
+use crate::scene::{BackendName, Precision};
+use crate::study::Setup;
+
+/// What a run computes on.
+pub(super) struct Machine {
+    place: Place,
+    precision: Precision,
+    /// What the user should know about the choice.
+    pub remark: Option<String>,
+}
+
+enum Place {
+    Processor,
+    Gpu(GpuDevice),
+}
+
+impl Machine {
+    /// Takes what a scene asks for.
+    pub fn of(setup: &Setup) -> Result<Machine, Failure> {
+        let settings = &setup.scene.solver;
+        let precision = settings.arithmetic();
+        let (place, remark) = match settings.backend {
+            BackendName::Cpu => (Place::Processor, None),
+            BackendName::Gpu => {
+                refuse_size(setup)?;
+                let device = GpuDevice::new(&AdapterChoice {
+                    software: true,
+                    ..AdapterChoice::default()
+                })
+                .map_err(Failure::Gpu)?;
+                let found = device.description();
+                let remark = found.software().then(|| {
+                    format!(
+                        "on {}, which is software on the processor: --backend cpu is faster",
+                        found.name
+                    )
+                });
+                (Place::Gpu(device), remark)
+            }
+            BackendName::Auto => auto(setup, precision),
+        };
+        Ok(Machine {
+            place,
+            precision,
+            remark,
+        })
+    }
+
+    /// A backend on it.
+    pub fn backend(&self) -> Box<dyn Backend + Send> {
+        match (&self.place, self.precision) {
+            (Place::Gpu(device), _) => Box::new(GpuBackend::on(device)),
+            (Place::Processor, Precision::Single) => Box::new(CpuBackend::<f32>::new()),
+            (Place::Processor, _) => Box::new(CpuBackend::<f64>::new()),
+        }
+    }
+
+    /// `cpu` or `gpu`.
+    pub fn name(&self) -> &'static str {
+        match self.place {
+            Place::Processor => BackendName::Cpu.name(),
+            Place::Gpu(_) => BackendName::Gpu.name(),
+        }
+    }
+
+    /// Name of the adapter, on a graphics processor.
+    pub fn adapter(&self) -> Option<String> {
+        match &self.place {
+            Place::Processor => None,
+            Place::Gpu(device) => Some(device.description().name.clone()),
+        }
+    }
+
+    /// Its arithmetic.
+    pub fn precision(&self) -> Precision {
+        self.precision
+    }
+}
+
+/// A graphics processor that is one, where it can do what is asked; else the processor. Says why
+/// only where there is a choice.
+fn auto(setup: &Setup, precision: Precision) -> (Place, Option<String>) {
+    let found = adapters();
+    let Some(best) = best(&found) else {
+        return (Place::Processor, None);
+    };
+    let stays = |why: String| {
+        let remark = format!("on the processor, not on {}: {why}", best.name);
+        (Place::Processor, Some(remark))
+    };
+    if precision != Precision::Single {
+        let floor = Precision::SINGLE_FLOOR;
+        return stays(match setup.scene.solver.tolerance < floor {
+            true => format!(
+                "the tolerance is below {floor:e}, the floor of single precision, which is what the GPU has in this version"
+            ),
+            false => "double precision; --precision single would take it".to_owned(),
+        });
+    }
+    if let Err(error) = refuse_size(setup) {
+        return stays(error.to_string());
+    }
+    match GpuDevice::new(&AdapterChoice::default()) {
+        Ok(device) if device.description().software() => {
+            stays("WGPU_ADAPTER_NAME names one that computes on the processor".to_owned())
+        }
+        Ok(device) => {
+            let remark = format!("on {}, in single precision", device.description().name);
+            (Place::Gpu(device), Some(remark))
+        }
+        Err(error) => stays(error.to_string()),
+    }
+}
+
+/// The adapter that `auto` takes where it can: the best one that is no software.
+pub(super) fn best(found: &[AdapterDescription]) -> Option<&AdapterDescription> {
+    found
+        .iter()
+        .filter(|adapter| !adapter.software())
+        .min_by_key(|adapter| adapter.kind)
+}
+
+/// Refuses grids that have no transform on a graphics processor.
+pub(super) fn refuse_size(setup: &Setup) -> Result<(), Failure> {
+    let points = setup.problem.shape.points;
+    let is_good = |points: usize| radices(points).is_some();
+    if points.into_iter().all(is_good) {
+        return Ok(());
+    }
+    let near = |points: usize| -> String {
+        if is_good(points) {
+            return points.to_string();
+        }
+        let below = (2..points).rev().find(|&size| is_good(size));
+        let above = crate::solver::good_size(points);
+        match below {
+            Some(below) => format!("{below} or {above}"),
+            None => above.to_string(),
+        }
+    };
+    let [nx, ny] = points;
+    let instead = if nx == ny {
+        near(nx)
+    } else {
+        format!("{} along x, {} along y", near(nx), near(ny))
+    };
+    Err(Failure::Usage(format!(
+        "grid.points: {nx} x {ny} points have no transform on the GPU, which takes even numbers without a prime factor above 7: take {instead}, or --backend cpu"
+    )))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::backend::gpu::{AdapterKind, GroupLimits};
+
+    #[test]
+    fn auto_never_takes_software() {
+        let adapter = |name: &str, kind| AdapterDescription {
+            name: name.to_owned(),
+            interface: "Vulkan".to_owned(),
+            driver: String::new(),
+            kind,
+            double: true,
+            binding_limit: 1 << 27,
+            group_limits: GroupLimits {
+                threads: 1024,
+                memory: 32768,
+            },
+        };
+        let found = [
+            adapter("software", AdapterKind::Software),
+            adapter("small", AdapterKind::Integrated),
+            adapter("large", AdapterKind::Discrete),
+        ];
+        assert_eq!(best(&found[..1]), None);
+        assert_eq!(best(&found[..2]), Some(&found[1]));
+        assert_eq!(best(&found), Some(&found[2]));
+    }
+}
