@@ -14,6 +14,8 @@ pub enum Effect {
     Adhesion,
     /// `treatment = "dmt"`: attraction is summed over the gap of the solution without it.
     Dmt,
+    /// `thickness`: an elastic layer on a rigid base in place of the half-space.
+    Layer,
     /// `boundary = "free"`: one isolated contact on an unbounded half-space.
     FreeBoundary,
     /// `spring`: the approach acts through a cantilever.
@@ -37,9 +39,10 @@ pub struct EffectCost {
 
 impl Effect {
     /// Every effect of this version.
-    pub const ALL: [Effect; 4] = [
+    pub const ALL: [Effect; 5] = [
         Effect::Adhesion,
         Effect::Dmt,
+        Effect::Layer,
         Effect::FreeBoundary,
         Effect::Spring,
     ];
@@ -49,6 +52,7 @@ impl Effect {
         match self {
             Effect::Adhesion => "adhesion",
             Effect::Dmt => "dmt treatment",
+            Effect::Layer => "layer",
             Effect::FreeBoundary => "free boundary",
             Effect::Spring => "spring",
         }
@@ -60,6 +64,9 @@ impl Effect {
             Effect::Adhesion => "the surfaces attract across the gap by a cohesive law",
             Effect::Dmt => {
                 "attraction is summed over the gap of the contact without it, which it does not deform"
+            }
+            Effect::Layer => {
+                "the solid is a layer on a rigid base, stiffer than the half-space to waves longer than its thickness"
             }
             Effect::FreeBoundary => {
                 "one isolated contact on an unbounded half-space, on twice the points each way"
@@ -78,8 +85,51 @@ impl Effect {
                 .adhesion
                 .as_ref()
                 .is_some_and(|adhesion| adhesion.treatment == Treatment::Dmt),
+            Effect::Layer => scene.solid.layer.is_some(),
             Effect::FreeBoundary => scene.grid.boundary == Boundary::Free,
             Effect::Spring => scene.loading.spring.is_some(),
+        }
+    }
+
+    /// When it matters, with the number of a scene that asks for it.
+    pub fn matters(self, setup: &Setup) -> String {
+        let scene = &setup.scene;
+        let tabor = setup.regime.map_or(0.0, |regime| regime.tabor);
+        match self {
+            Effect::Adhesion => {
+                // |q| h^2 summed over waves is at most the product of the two root mean squares.
+                let flattening = 0.25
+                    * scene.solid.contact_modulus
+                    * setup.statistics.moments.rms_slope()
+                    * setup.statistics.moments.rms_height();
+                format!(
+                    "matters where the work of adhesion is not far below the energy that flattens the roughness (at most E* rms slope rms height/4): here it is {:.2e} of it",
+                    setup.law.work_of_adhesion() / flattening
+                )
+            }
+            Effect::Dmt => {
+                format!("holds at Tabor numbers well below 1: here {tabor:.3}")
+            }
+            Effect::Layer => {
+                let longest = setup.surface.grid.lx.max(setup.surface.grid.ly);
+                let stiffer = scene.solid.layer.map_or(1.0, |layer| {
+                    1.0 / layer.compliance(2.0 * std::f64::consts::PI / longest)
+                });
+                format!(
+                    "matters where contacts are as wide as it is thick: here the longest wave of the cell meets {stiffer:.3} times the half-space's stiffness"
+                )
+            }
+            Effect::FreeBoundary => {
+                "matters where the contact is more than about a fifth of the cell: its images would press on it".to_owned()
+            }
+            Effect::Spring => {
+                let stiffness = scene.loading.spring.unwrap_or(0.0);
+                let contact = 2.0 * scene.solid.contact_modulus * setup.surface.grid.area().sqrt();
+                format!(
+                    "snaps where the spring is softer than the attraction's gradient: here it has {:.2e} of the stiffness of a punch as wide as the grid",
+                    stiffness / contact
+                )
+            }
         }
     }
 
@@ -93,6 +143,7 @@ impl Effect {
                     adhesion.treatment = Treatment::Full;
                 }
             }
+            Effect::Layer => scene.solid.layer = None,
             Effect::FreeBoundary => scene.grid.boundary = Boundary::Periodic,
             Effect::Spring => scene.loading.spring = None,
         }

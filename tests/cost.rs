@@ -66,8 +66,18 @@ fn expected(scene: &Scene, grid: [usize; 2]) -> Expected {
         Some(_) => true,
     };
     let held = !free
-        && scene.loading.spring.is_none()
-        && matches!(scene.loading.control, Control::Approach | Control::MeanGap);
+        && match scene.loading.control {
+            Control::MeanGap => true,
+            // What yields in series with the surfaces turns an approach into a load.
+            Control::Approach => {
+                scene.loading.spring.is_none()
+                    && scene
+                        .solid
+                        .layer
+                        .is_none_or(|layer| layer.poisson_ratio == 0.5)
+            }
+            _ => false,
+        };
     let two_band = solved_law.is_none() && !free && coarse(points).is_some();
 
     let mut fields = vec![

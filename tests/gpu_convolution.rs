@@ -56,7 +56,7 @@ fn convolve(
     let heights = backend.field(level, "heights");
     let result = backend.field(level, "result");
     let sum = backend.field(level, "sum");
-    let mut stiffness = periodic_stiffness(&Grid::new([nx, ny], [1.0, 1.0]), 1.0 / nx as f64);
+    let mut stiffness = periodic_stiffness(&Grid::new([nx, ny], [1.0, 1.0]), 1.0 / nx as f64, None);
     // A number that is not even in its two indices' roles finds transpositions.
     for (index, value) in stiffness.iter_mut().enumerate() {
         *value += 0.3 * (index % (ny / 2 + 1)) as f64 / ny as f64;

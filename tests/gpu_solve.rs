@@ -98,6 +98,7 @@ fn rough(points: usize) -> Surface {
         solid: SolidScene {
             contact_modulus: 1.0,
             poisson_ratio: None,
+            layer: None,
         },
         surfaces: vec![SurfacePart::SelfAffine(SelfAffineScene {
             hurst: 0.8,

@@ -61,7 +61,7 @@ fn values(count: usize, seed: u64) -> Vec<f64> {
 }
 
 fn stiffness(points: [usize; 2]) -> Vec<f64> {
-    periodic_stiffness(&Grid::new(points, [1.0, 1.3]), 1.0)
+    periodic_stiffness(&Grid::new(points, [1.0, 1.3]), 1.0, None)
 }
 
 /// The value of a half-plane spectrum (columns slowest) at any wavevector, by evenness.
@@ -180,7 +180,7 @@ fn waves_are_eigenvectors() {
             })
             .collect();
         let eigenvalue = 0.5 * 2.0 * PI * (kx as f64).hypot(ky as f64 / 1.3);
-        let (found, _) = apply::<f64>([nx, ny], &periodic_stiffness(&grid, 1.0), &field);
+        let (found, _) = apply::<f64>([nx, ny], &periodic_stiffness(&grid, 1.0, None), &field);
         let expected: Vec<f64> = field.iter().map(|value| eigenvalue * value).collect();
         assert!(
             difference(&found, &expected) <= ROUNDING * 200.0 * norm(&field),

@@ -686,6 +686,7 @@ steps  = "last"
         solid: SolidScene {
             contact_modulus: 1.33e12,
             poisson_ratio: None,
+            layer: None,
         },
         surfaces: vec![SurfacePart::SelfAffine(SelfAffineScene {
             hurst: 0.8,

@@ -131,6 +131,7 @@ fn describe(setup: &Setup) -> Result<String, Failure> {
             effect.name(),
             effect.purpose()
         ));
+        lines.push(format!("              {}", effect.matters(setup)));
         let found = effect.cost(setup)?;
         lines.push(format!(
             "              fields {}; passes {}; {}{}",

@@ -1,10 +1,12 @@
-//! Elasticity of the half-space as one real factor a wavevector; numbers only.
+//! Elasticity of the half-space or of a layer as one real factor a wavevector; numbers only.
 //!
 //! Everything is for a contact modulus of 1 and in units of one reduced length: the stiffness of
 //! a wave is the pressure that a displacement of 1 needs.
 
 mod half_space;
+mod layer;
 mod love;
 
-pub use half_space::periodic_stiffness;
+pub use half_space::{periodic_stiffness, wave_stiffness};
+pub use layer::{Base, Layer, bonded_compliance, frictionless_compliance};
 pub use love::{free_stiffness, love_displacement};

@@ -66,10 +66,10 @@ pub(super) const SOLID: Section = Section {
             "counter_young_modulus = \"210 GPa\"",
         ),
         ("counter_poisson_ratio", "counter_poisson_ratio = 0.3"),
+        ("thickness", "thickness = \"5 um\""),
+        ("base", "base = \"bonded\""),
     ],
     later: &[
-        ("thickness", "an elastic layer on a rigid base"),
-        ("base", "an elastic layer on a rigid base"),
         ("hardness", "ideal plasticity"),
         ("relaxation", "viscoelasticity"),
     ],

@@ -89,10 +89,10 @@ fn read_tables(root: &Table, folder: &Path, log: &Log) -> Option<Scene> {
         false => Some(None),
     };
     let grid = grid::read(&scene, grid::has_height_file(root));
-    let solid = solid::read(&scene);
+    let boundary = grid.as_ref().map(|grid| grid.boundary);
+    let solid = solid::read(&scene, boundary);
     let surfaces = surface::read(&scene, grid.as_ref(), folder);
     let adhesion = adhesion::read(&scene);
-    let boundary = grid.as_ref().map(|grid| grid.boundary);
     let law = adhesion.as_ref().and_then(Option::as_ref);
     let loading = loading::read(&scene, boundary, law);
     let solver = solver::read(&scene);

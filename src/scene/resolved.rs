@@ -49,10 +49,17 @@ impl GridScene {
 impl SolidScene {
     fn resolved(&self) -> Value {
         let table = json!({ "contact_modulus": self.contact_modulus });
-        with(
+        let table = with(
             table,
             "poisson_ratio",
             self.poisson_ratio.map(|ratio| json!(ratio)),
+        );
+        let thickness = self.layer.map(|layer| json!(layer.thickness));
+        let table = with(table, "thickness", thickness);
+        with(
+            table,
+            "base",
+            self.layer.map(|layer| json!(layer.base.name())),
         )
     }
 }

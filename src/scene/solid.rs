@@ -1,8 +1,9 @@
-//! `[solid]`: one way or another to the contact modulus.
+//! `[solid]`: one way or another to the contact modulus, and a layer in place of the half-space.
 
 use super::keys;
 use super::reader::{Allowed, Reader};
-use super::types::SolidScene;
+use super::types::{Boundary, SolidScene};
+use crate::elastic::{Base, Layer};
 use crate::units::Dimension;
 
 /// Poisson ratios of a stable isotropic solid.
@@ -12,7 +13,7 @@ const POISSON: Allowed = Allowed::new(
 );
 
 /// Reads `[solid]`.
-pub(super) fn read(scene: &Reader) -> Option<SolidScene> {
+pub(super) fn read(scene: &Reader, boundary: Option<Boundary>) -> Option<SolidScene> {
     scene.require_as("solid", "[solid] with contact_modulus = \"1.33 TPa\"");
     let solid = scene.table("solid", &keys::SOLID)?;
     let modulus = |key| solid.quantity(key, Dimension::Pressure, Allowed::POSITIVE);
@@ -23,6 +24,7 @@ pub(super) fn read(scene: &Reader) -> Option<SolidScene> {
         modulus("counter_young_modulus"),
     ];
     let [ratio, counter_ratio] = [poisson("poisson_ratio"), poisson("counter_poisson_ratio")];
+    let layer = read_layer(&solid, ratio, boundary);
     let has_counter = solid.has("counter_young_modulus") || solid.has("counter_poisson_ratio");
 
     if solid.has("contact_modulus") {
@@ -43,6 +45,7 @@ pub(super) fn read(scene: &Reader) -> Option<SolidScene> {
         return Some(SolidScene {
             contact_modulus: direct?,
             poisson_ratio: ratio,
+            layer: layer?,
         });
     }
     if !solid.has("young_modulus") {
@@ -75,7 +78,53 @@ pub(super) fn read(scene: &Reader) -> Option<SolidScene> {
     Some(SolidScene {
         contact_modulus,
         poisson_ratio: ratio,
+        layer: layer?,
     })
+}
+
+/// Reads the layer: `Some(None)` where the scene names none, `None` after a mistake.
+fn read_layer(
+    solid: &Reader,
+    poisson_ratio: Option<f64>,
+    boundary: Option<Boundary>,
+) -> Option<Option<Layer>> {
+    let thickness = solid.quantity("thickness", Dimension::Length, Allowed::POSITIVE);
+    let base = solid.choice("base", Base::ALL, Base::name);
+    if !solid.has("thickness") {
+        if solid.has("base") {
+            solid.require(&["thickness"]);
+            return None;
+        }
+        return Some(None);
+    }
+    // Beside young_modulus it is asked for anyhow.
+    if !solid.has("young_modulus") {
+        solid.require(&["poisson_ratio"]);
+    }
+    for key in ["counter_young_modulus", "counter_poisson_ratio"] {
+        if solid.has(key) {
+            solid.conflict(
+                key,
+                "a layer presses on a rigid counter-face; leave the counter-face's elasticity out, or the thickness",
+            );
+        }
+    }
+    if boundary == Some(Boundary::Free) {
+        solid.conflict(
+            "thickness",
+            "a layer needs boundary = \"periodic\"; take a cell several times as wide as the contact, or leave the thickness out",
+        );
+        return None;
+    }
+    let base = match base {
+        None if solid.has("base") => return None,
+        base => base.unwrap_or(Base::Bonded),
+    };
+    Some(Some(Layer {
+        thickness: thickness?,
+        poisson_ratio: poisson_ratio?,
+        base,
+    }))
 }
 
 /// A body's share of `1/E*`: `(1 - nu^2)/E`, 1/Pa.

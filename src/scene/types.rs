@@ -2,6 +2,8 @@
 
 use std::path::PathBuf;
 
+use crate::elastic::Layer;
+
 /// A scene as its author wrote it: every value in SI units, defaults filled in.
 ///
 /// An effect that the scene does not name is `None`; nothing further down the line allocates,
@@ -68,6 +70,8 @@ pub struct SolidScene {
     pub contact_modulus: f64,
     /// Poisson ratio of the solid, if the scene gives one.
     pub poisson_ratio: Option<f64>,
+    /// A layer of this thickness on a rigid base in place of the half-space (an effect).
+    pub layer: Option<Layer>,
 }
 
 /// One `[[surface]]` part.

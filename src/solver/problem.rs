@@ -1,7 +1,7 @@
 //! A contact problem in reduced units, ready to be solved.
 
 use crate::backend::Shape;
-use crate::elastic::{free_stiffness, periodic_stiffness};
+use crate::elastic::{Layer, free_stiffness, periodic_stiffness};
 use crate::grid::Grid;
 use crate::law::Law;
 use crate::scene::Boundary;
@@ -41,6 +41,8 @@ pub struct Problem {
     pub rms_slope: f64,
     /// The law, reduced.
     pub law: Law,
+    /// The layer in place of the half-space (periodic grids), SI.
+    pub layer: Option<Layer>,
     /// Stiffness at each wavevector, as [`Shape::spectrum_len`] says; its zero mode is 0
     /// (periodic) or the free half-space's.
     pub stiffness: Vec<f64>,
@@ -103,7 +105,7 @@ impl Problem {
             },
         };
         let stiffness = match boundary {
-            Boundary::Periodic => periodic_stiffness(&grid, lateral),
+            Boundary::Periodic => periodic_stiffness(&grid, lateral, None),
             Boundary::Free => {
                 free_stiffness(shape.points, [grid.dx() / lateral, grid.dy() / lateral])
             }
@@ -121,6 +123,16 @@ impl Problem {
             rms_slope,
             law: law.reduced(length, scales.pressure),
             stiffness,
+            layer: None,
+        }
+    }
+
+    /// The same problem on a layer in place of the half-space (periodic grids).
+    pub fn on_layer(self, layer: Layer) -> Problem {
+        Problem {
+            stiffness: periodic_stiffness(&self.grid, self.scales.lateral, Some(&layer)),
+            layer: Some(layer),
+            ..self
         }
     }
 
@@ -154,7 +166,7 @@ impl Problem {
             grid,
             shape: Shape::whole(grid.nx, grid.ny),
             heights,
-            stiffness: periodic_stiffness(&grid, self.scales.lateral),
+            stiffness: periodic_stiffness(&grid, self.scales.lateral, self.layer.as_ref()),
             law: self.law,
             ..*self
         })
@@ -194,6 +206,14 @@ impl Problem {
             .copied()
             .fold(f64::INFINITY, f64::min);
         if least.is_finite() { least } else { 1.0 }
+    }
+
+    /// Displacement of a uniform unit pressure on a layer, reduced; 0 on the half-space, whose
+    /// periodic cell leaves it open.
+    pub fn uniform_compliance(&self) -> f64 {
+        self.layer.map_or(0.0, |layer| {
+            layer.uniform_compliance() / self.scales.lateral
+        })
     }
 
     /// Spreads values on the grid over the solved points, `outside` on a pad.

@@ -7,6 +7,7 @@
 
 use super::problem::Problem;
 use crate::backend::{Backend, Field, Level, Shape, Spectrum};
+use crate::elastic::wave_stiffness;
 use crate::grid::Grid;
 use crate::kernel::{Gate, coarse, scalar, wall};
 use crate::law::Law;
@@ -61,7 +62,7 @@ impl TwoBand {
         let smoothing = tabulate(&|q| (-(4.0 * q * pixel).powi(2)).exp());
         let compliance = tabulate(&|q| {
             if q > 0.0 {
-                long_share(q, pixel) / (0.5 * q * pixel)
+                long_share(q, pixel) / (wave_stiffness(q, problem.layer.as_ref()) * pixel)
             } else {
                 0.0
             }
@@ -81,13 +82,13 @@ impl TwoBand {
 
     /// The compliance of the first band, `(1 - l)/K`, on the fine level.
     pub fn short_waves(&self, problem: &Problem) -> Vec<f64> {
-        let pixel = problem.scales.lateral;
-        problem
-            .stiffness
-            .iter()
-            .map(|&k| {
-                if k > 0.0 {
-                    (1.0 - long_share(2.0 * k / pixel, pixel)) / k
+        let (grid, pixel) = (&problem.grid, problem.scales.lateral);
+        (0..=grid.nx / 2)
+            .flat_map(|kx| (0..=grid.ny / 2).map(move |ky| (kx, ky)))
+            .zip(&problem.stiffness)
+            .map(|((kx, ky), &stiffness)| {
+                if stiffness > 0.0 {
+                    (1.0 - long_share(grid.wavenumber(kx, ky), pixel)) / stiffness
                 } else {
                     0.0
                 }

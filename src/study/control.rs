@@ -66,16 +66,30 @@ impl<'s> Controller<'s> {
         1.0 / self.problem.stiffness[0]
     }
 
-    /// Stiffness with which the spring holds the mean displacement, reduced; `None` without one.
-    fn spring_stiffness(&self) -> Option<f64> {
+    /// Stiffness with which a prescribed approach holds the mean displacement, reduced: that of all
+    /// that yields between the mean and where the approach is prescribed. `None` where nothing does.
+    fn approach_stiffness(&self) -> Option<f64> {
         let scales = self.problem.scales;
-        self.spring.map(|spring| {
-            let compliance = self.solved_area() / spring * scales.pressure / scales.length;
-            match self.problem.boundary {
-                Boundary::Periodic => 1.0 / compliance,
-                Boundary::Free => 1.0 / (self.free_compliance() + compliance),
-            }
-        })
+        let spring = self.spring.map_or(0.0, |spring| {
+            self.solved_area() / spring * scales.pressure / scales.length
+        });
+        let compliance = spring + self.mean_compliance();
+        (compliance > 0.0).then(|| 1.0 / compliance)
+    }
+
+    /// Mean displacement under a unit mean pressure, reduced: that of the free half-space or of the
+    /// layer; on a periodic half-space the mean displacement is 0.
+    fn mean_compliance(&self) -> f64 {
+        match self.problem.boundary {
+            Boundary::Periodic => self.problem.uniform_compliance(),
+            Boundary::Free => self.free_compliance(),
+        }
+    }
+
+    /// Whether something yields between the mean displacement and a prescribed approach, so that
+    /// any approach can be reached.
+    pub fn is_sprung(&self) -> bool {
+        self.control == Control::Approach && self.approach_stiffness().is_some()
     }
 
     /// Mean gap of a periodic cell at an approach, m.
@@ -115,10 +129,8 @@ impl<'s> Controller<'s> {
 
     fn approach_load(&self, approach: f64) -> Load {
         let length = self.problem.scales.length;
-        let zero_stiffness = match (self.problem.boundary, self.spring_stiffness()) {
-            (Boundary::Periodic, None) => return self.gap_load(self.gap_at(approach)),
-            (_, Some(stiffness)) => stiffness,
-            (Boundary::Free, None) => self.problem.stiffness[0],
+        let Some(zero_stiffness) = self.approach_stiffness() else {
+            return self.gap_load(self.gap_at(approach));
         };
         // u = g + h + offset: the spring pulls on the mean of g + h from this far end.
         let offset = (approach - self.highest) / length;
@@ -132,7 +144,7 @@ impl<'s> Controller<'s> {
     /// Whether a prescribed approach lies beyond what a periodic cell can be closed by.
     pub fn is_beyond_closure(&self, value: f64) -> bool {
         self.problem.boundary == Boundary::Periodic
-            && self.spring.is_none()
+            && !self.is_sprung()
             && self.problem.law.has_wall()
             && match self.control {
                 Control::Approach => self.gap_at(value) < 0.0,
@@ -150,7 +162,7 @@ impl<'s> Controller<'s> {
             Control::MeanGap => value / problem.scales.length,
             Control::Approach => (self.highest - value) / problem.scales.length,
         };
-        // With a spring or on a free boundary an overlap is left to the solver to push out.
+        // With a spring, a layer or on a free boundary an overlap is left to the solver to push out.
         let gap: Vec<f64> = problem
             .heights
             .iter()
@@ -170,12 +182,11 @@ impl<'s> Controller<'s> {
     ) -> Position {
         let scales = self.problem.scales;
         let mean_pressure = held + load.zero_stiffness * mean_displacement;
+        let yielded = self.mean_compliance() * mean_pressure;
         let approach = match self.problem.boundary {
-            Boundary::Periodic => self.highest - mean_gap * scales.length,
-            Boundary::Free => {
-                let offset = self.free_compliance() * mean_pressure - mean_displacement;
-                self.highest + offset * scales.length
-            }
+            // The mean of the heights is the origin: mean gap and mean displacement are one.
+            Boundary::Periodic => self.highest + (yielded - mean_gap) * scales.length,
+            Boundary::Free => self.highest + (yielded - mean_displacement) * scales.length,
         };
         Position {
             approach,
@@ -184,11 +195,14 @@ impl<'s> Controller<'s> {
         }
     }
 
-    /// u - g - h of a state, reduced: 0 mean displacement on a periodic grid, the rigid offset on a
-    /// free one.
+    /// u - g - h of a state, reduced: on a periodic grid what the mean displacement leaves, the rigid
+    /// offset on a free one.
     pub fn offset(&self, position: &Position, mean_displacement: f64) -> f64 {
         match self.problem.boundary {
-            Boundary::Periodic => -mean_displacement,
+            Boundary::Periodic => {
+                let mean_pressure = position.mean_pressure / self.problem.scales.pressure;
+                self.mean_compliance() * mean_pressure - mean_displacement
+            }
             Boundary::Free => (position.approach - self.highest) / self.problem.scales.length,
         }
     }

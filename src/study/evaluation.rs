@@ -128,8 +128,9 @@ impl Evaluation {
             Boundary::Periodic => solved.load.zero_stiffness * mean_displacement,
             Boundary::Free => 0.0,
         };
+        // On a periodic grid the mean pressure works on the layer's mean displacement alone.
         let (elastic_part, shift) = match problem.boundary {
-            Boundary::Periodic => (0.0, -mean_displacement),
+            Boundary::Periodic => (position.mean_pressure / scales.pressure, offset),
             Boundary::Free => (solved.held, offset),
         };
         let elastic_energy = 0.5

@@ -132,6 +132,10 @@ impl Setup {
             statistics.moments.rms_slope(),
             if dmt { Law::HardWall } else { law },
         );
+        let problem = match scene.solid.layer {
+            Some(layer) => problem.on_layer(layer),
+            None => problem,
+        };
         let mut setup = Setup {
             warnings: surface.warnings.clone(),
             scene,

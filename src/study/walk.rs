@@ -206,13 +206,14 @@ impl PathState<'_> {
         value: f64,
     ) -> Result<Start, BackendError> {
         let problem = &self.setup.problem;
-        let spring = self.setup.scene.loading.spring.is_some();
         if !self.loaded {
-            return Ok(if problem.boundary == Boundary::Free || spring {
-                Start::Gap(self.controller.undeformed_gap(value))
-            } else {
-                Start::Cold
-            });
+            return Ok(
+                if problem.boundary == Boundary::Free || self.controller.is_sprung() {
+                    Start::Gap(self.controller.undeformed_gap(value))
+                } else {
+                    Start::Cold
+                },
+            );
         }
         let Hold::Gap(target) = load.hold else {
             return Ok(Start::Present);

@@ -10,9 +10,9 @@ use crate::rough::{MODULUS, Surface, scene};
 /// some thousandth of the largest, by which a residual turns into an error of position.
 const AGREE: f64 = 1e-5;
 
-const LAWS: [&str; 3] = ["maugis-dugdale", "exponential", "lennard-jones"];
+pub const LAWS: [&str; 3] = ["maugis-dugdale", "exponential", "lennard-jones"];
 
-fn rough(adhesion: &str, loading: &str) -> String {
+pub fn rough(adhesion: &str, loading: &str) -> String {
     format!(
         r#"
         [grid]
@@ -58,7 +58,7 @@ fn sphere(adhesion: &str, loading: &str) -> String {
     )
 }
 
-fn adhesion(law: &str, work: f64, range: f64) -> String {
+pub fn adhesion(law: &str, work: f64, range: f64) -> String {
     format!("[adhesion]\nlaw = \"{law}\"\nwork_of_adhesion = {work:e}\nrange = {range:e}")
 }
 
@@ -85,7 +85,7 @@ fn held(
 }
 
 /// Solves by one control, then asks every other for what it found.
-fn agree(
+pub fn agree(
     name: &str,
     text: &dyn Fn(&str, &str) -> String,
     table: &str,

@@ -4,6 +4,7 @@ mod bench;
 mod controls;
 mod energy;
 mod hertz;
+mod layer;
 mod lennard_jones;
 mod maugis_dugdale;
 mod rough;
