@@ -6,6 +6,7 @@
 use crate::backend::BackendError;
 use crate::scene::{Boundary, Scene, Treatment};
 use crate::study::{Cost, Setup};
+use crate::units::format_si;
 
 /// An effect of this version.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -14,6 +15,8 @@ pub enum Effect {
     Adhesion,
     /// `treatment = "dmt"`: attraction is summed over the gap of the solution without it.
     Dmt,
+    /// `[capillary]`: a liquid that condenses between the surfaces pulls them together.
+    Capillary,
     /// `thickness`: an elastic layer on a rigid base in place of the half-space.
     Layer,
     /// `boundary = "free"`: one isolated contact on an unbounded half-space.
@@ -39,9 +42,10 @@ pub struct EffectCost {
 
 impl Effect {
     /// Every effect of this version.
-    pub const ALL: [Effect; 5] = [
+    pub const ALL: [Effect; 6] = [
         Effect::Adhesion,
         Effect::Dmt,
+        Effect::Capillary,
         Effect::Layer,
         Effect::FreeBoundary,
         Effect::Spring,
@@ -52,6 +56,7 @@ impl Effect {
         match self {
             Effect::Adhesion => "adhesion",
             Effect::Dmt => "dmt treatment",
+            Effect::Capillary => "capillary",
             Effect::Layer => "layer",
             Effect::FreeBoundary => "free boundary",
             Effect::Spring => "spring",
@@ -64,6 +69,9 @@ impl Effect {
             Effect::Adhesion => "the surfaces attract across the gap by a cohesive law",
             Effect::Dmt => {
                 "attraction is summed over the gap of the contact without it, which it does not deform"
+            }
+            Effect::Capillary => {
+                "liquid from damp air bridges narrow gaps: a constant suction up to the height of its meniscus"
             }
             Effect::Layer => {
                 "the solid is a layer on a rigid base, stiffer than the half-space to waves longer than its thickness"
@@ -80,11 +88,12 @@ impl Effect {
     /// Whether a scene asks for it.
     pub fn is_on(self, scene: &Scene) -> bool {
         match self {
-            Effect::Adhesion => scene.adhesion.is_some(),
+            Effect::Adhesion => scene.adhesion.is_some() && scene.capillary.is_none(),
             Effect::Dmt => scene
                 .adhesion
                 .as_ref()
                 .is_some_and(|adhesion| adhesion.treatment == Treatment::Dmt),
+            Effect::Capillary => scene.capillary.is_some(),
             Effect::Layer => scene.solid.layer.is_some(),
             Effect::FreeBoundary => scene.grid.boundary == Boundary::Free,
             Effect::Spring => scene.loading.spring.is_some(),
@@ -109,6 +118,15 @@ impl Effect {
             }
             Effect::Dmt => {
                 format!("holds at Tabor numbers well below 1: here {tabor:.3}")
+            }
+            Effect::Capillary => {
+                let capillary = scene.capillary.as_ref();
+                let radius = capillary.map_or(0.0, |liquid| liquid.meniscus().kelvin_radius);
+                format!(
+                    "matters where much of the gap is narrower than the meniscus, twice the Kelvin radius: here that radius is {}, {:.3} of the rms height",
+                    format_si(radius, "m"),
+                    radius / setup.statistics.moments.rms_height()
+                )
             }
             Effect::Layer => {
                 let longest = setup.surface.grid.lx.max(setup.surface.grid.ly);
@@ -142,6 +160,10 @@ impl Effect {
                 if let Some(adhesion) = &mut scene.adhesion {
                     adhesion.treatment = Treatment::Full;
                 }
+            }
+            Effect::Capillary => {
+                scene.capillary = None;
+                scene.adhesion = None;
             }
             Effect::Layer => scene.solid.layer = None,
             Effect::FreeBoundary => scene.grid.boundary = Boundary::Periodic,

@@ -326,7 +326,10 @@ fn what_this_version_lacks_is_refused_by_name() {
             errors(&output)
         );
     }
-    for (key, value) in [("solid.hardness", "1e9"), ("capillary.humidity", "0.5")] {
+    for (key, value) in [
+        ("solid.hardness", "1e9"),
+        ("friction.shear_strength", "1e6"),
+    ] {
         let set = format!("{key}={value}");
         let output = tabor(folder.path(), &["check", "scene.toml", "--set", &set]);
         assert_eq!(status(&output), 2, "{set}: {}", errors(&output));

@@ -184,7 +184,12 @@ fn every_shipped_scene_costs_what_its_effects_say() {
 #[test]
 fn every_combination_of_effects() {
     let mut count = 0;
-    for boundary in ["periodic", "free"] {
+    for (boundary, layer) in [
+        ("periodic", ""),
+        ("periodic", "poisson_ratio = 0.3\nthickness = 1.0\n"),
+        ("periodic", "poisson_ratio = 0.5\nthickness = 1.0\n"),
+        ("free", ""),
+    ] {
         for adhesion in [
             "",
             "law = \"maugis-dugdale\"\nrange = 0.1",
@@ -210,7 +215,7 @@ fn every_combination_of_effects() {
                     format!("[adhesion]\nwork_of_adhesion = 0.01\n{adhesion}\n")
                 };
                 let text = format!(
-                    "[grid]\npoints = [40, 36]\nsize = [4.0, 3.6]\nboundary = \"{boundary}\"\n[solid]\ncontact_modulus = 1.0\n[[surface]]\nkind = \"sphere\"\nradius = 10.0\n{adhesion}[loading]\n{control}\n"
+                    "[grid]\npoints = [40, 36]\nsize = [4.0, 3.6]\nboundary = \"{boundary}\"\n[solid]\ncontact_modulus = 1.0\n{layer}[[surface]]\nkind = \"sphere\"\nradius = 10.0\n{adhesion}[loading]\n{control}\n"
                 );
                 let scene = Scene::parse(&text, "test.toml", Path::new("."), &[]);
                 // What this version refuses, it refuses by name.
@@ -227,7 +232,7 @@ fn every_combination_of_effects() {
             }
         }
     }
-    assert!(count >= 36, "{count}");
+    assert!(count >= 90, "{count}");
 }
 
 /// The law of a scene without adhesion is the hard wall, not a law of zero strength.

@@ -99,6 +99,7 @@ fn rough(points: usize) -> Surface {
             contact_modulus: 1.0,
             poisson_ratio: None,
             layer: None,
+            relaxation: Vec::new(),
         },
         surfaces: vec![SurfacePart::SelfAffine(SelfAffineScene {
             hurst: 0.8,
@@ -108,9 +109,11 @@ fn rough(points: usize) -> Surface {
             shortest: 8.0 / points as f64,
             seed: 1,
         })],
+        capillary: None,
         adhesion: None,
         loading: LoadingScene {
             control: Control::Pressure,
+            durations: None,
             path: vec![0.05],
             spring: None,
         },

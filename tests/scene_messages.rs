@@ -175,9 +175,15 @@ fn mistakes_in_solid() {
         (r#"contact_modulus = "1 GPa""#, "young_modulus = 1e9\npoisson_ratio = \"0.3\"", r#"s.toml:7: solid.poisson_ratio: the text "0.3" where a number without a unit is expected"#, "`poisson_ratio = 0.3`"),
         (r#"contact_modulus = "1 GPa""#, "young_modulus = 1e9\npoisson_ratio = 0.3\ncounter_young_modulus = 1e9", "s.toml:5: solid.counter_poisson_ratio: missing", "`counter_poisson_ratio = 0.3`"),
         (r#"contact_modulus = "1 GPa""#, "young_modulus = 1e9\npoisson_ratio = 0.3\ncounter_poisson_ratio = 0.3", "s.toml:5: solid.counter_young_modulus: missing", r#"`counter_young_modulus = "210 GPa"`"#),
-        (r#"contact_modulus = "1 GPa""#, "contact_modulus = \"1 GPa\"\nthickness = \"5 um\"", "s.toml:7: solid.thickness: an elastic layer on a rigid base is not in this version", "take it out of the scene"),
+        (r#"contact_modulus = "1 GPa""#, "contact_modulus = \"1 GPa\"\nthickness = \"5 um\"", "s.toml:5: solid.poisson_ratio: missing", "`poisson_ratio = 0.3`"),
+        (r#"contact_modulus = "1 GPa""#, "contact_modulus = \"1 GPa\"\npoisson_ratio = 0.3\nbase = \"bonded\"", "s.toml:5: solid.thickness: missing", "`thickness = \"5 um\"`"),
+        (r#"contact_modulus = "1 GPa""#, "contact_modulus = \"1 GPa\"\npoisson_ratio = 0.3\nthickness = 0", "s.toml:8: solid.thickness: 0 is out of range", "finite and above 0"),
+        (r#"contact_modulus = "1 GPa""#, "contact_modulus = \"1 GPa\"\npoisson_ratio = 0.3\nthickness = 1\nbase = \"glued\"", "s.toml:9: solid.base", "did you mean"),
+        (r#"contact_modulus = "1 GPa""#, "young_modulus = 1e9\npoisson_ratio = 0.3\ncounter_young_modulus = 1e9\ncounter_poisson_ratio = 0.3\nthickness = 1", "s.toml:8: solid.counter_young_modulus: a layer presses on a rigid counter-face", "leave the counter-face's elasticity out"),
         (r#"contact_modulus = "1 GPa""#, "contact_modulus = \"1 GPa\"\nhardness = \"10 GPa\"", "s.toml:7: solid.hardness: ideal plasticity is not in this version", "take it out"),
-        (r#"contact_modulus = "1 GPa""#, "contact_modulus = \"1 GPa\"\n[[solid.relaxation]]\nmodulus = \"1 MPa\"\ntime = \"10 ms\"", "s.toml:7: solid.relaxation: viscoelasticity is not in this version", "take it out"),
+        (r#"contact_modulus = "1 GPa""#, "contact_modulus = \"1 GPa\"\n[[solid.relaxation]]\nmodulus = \"1 MPa\"\ntime = \"10 ms\"", "s.toml:18: loading.path: a solid that relaxes must know how long the load takes", "duration = \"1 s\""),
+        (r#"contact_modulus = "1 GPa""#, "contact_modulus = \"1 GPa\"\nrelaxation = []", "s.toml:7: solid.relaxation: is empty", "at least one branch"),
+        (r#"contact_modulus = "1 GPa""#, "contact_modulus = \"1 GPa\"\nrelaxation = 3", "s.toml:7: solid.relaxation: the number 3 where an array of tables is expected", "[[solid.relaxation]]"),
         (r#"contact_modulus = "1 GPa""#, r#"contact_modulus = "1 GN""#, r#"s.toml:6: solid.contact_modulus: "GN" is a force in N"#, r#"give a pressure in Pa, such as "1.5 GPa""#),
         ("contact_modulus", "contact_modulous", "s.toml:6: solid.contact_modulous: unknown key in [solid]", "did you mean `contact_modulus`?"),
     ]);
@@ -307,8 +313,11 @@ fn mistakes_in_loading() {
         ("steps = 4", "steps = 0", "s.toml:19: loading.ramp.0.steps: 0 is out of range", "a whole number from 1 to 1000000"),
         ("steps = 4", "steps = 9000000000000000000", "s.toml:19: loading.ramp.0.steps: 9000000000000000000 is out of range", "a whole number from 1 to 1000000"),
         ("steps = 4", "steps = 1000000", "s.toml:17: loading.ramp: the ramps add up to more than 1000000 steps", "1000000"),
-        ("steps = 4", "steps = 4\nduration = \"1 s\"", "s.toml:20: loading.ramp.0.duration: a load that takes time is not in this version", "take it out"),
-        (r#"to = "2 MPa""#, r#"hold = "1 s""#, "s.toml:18: loading.ramp.0.hold: a load that takes time is not in this version", "take it out"),
+        ("steps = 4", "steps = 4\nduration = \"-1 s\"", "s.toml:20: loading.ramp.0.duration: \"-1 s\" is out of range", "finite and at least 0"),
+        ("steps = 4", "steps = 4\nduration = \"1 m\"", "s.toml:20: loading.ramp.0.duration: \"m\" is a length in m", "s"),
+        ("steps = 4", "steps = 4\nhold = \"1 s\"", "s.toml:18: loading.ramp.0.to: hold = \"1 s\" keeps the load", "leave this out"),
+        (r#"to = "2 MPa""#, "hold = \"1 s\"\nduration = 1", "s.toml:19: loading.ramp.0.duration: hold = \"1 s\" keeps the load", "leave this out"),
+        ("steps = 4", "steps = 4\nduration = 1\n[[loading.ramp]]\nto = 1\nsteps = 1", "s.toml:21: loading.ramp.1.duration: missing", "`duration = \"1 s\"`"),
         ("steps = 4", "steps = 4\nstep = 3", "s.toml:20: loading.ramp.0.step: unknown key in [[loading.ramp]]", "did you mean `steps`?"),
     ]);
 }
@@ -341,6 +350,35 @@ fn mistakes_in_solver_and_output() {
     ]);
 }
 
+fn damp() -> String {
+    let start = GOOD.find("[adhesion]").expect("a table");
+    let end = GOOD.find("[loading]").expect("a table");
+    format!(
+        "{}[capillary]\nhumidity = 0.5\n{}",
+        &GOOD[..start],
+        &GOOD[end..]
+    )
+}
+
+#[test]
+#[rustfmt::skip] // one case a line
+fn mistakes_in_capillary() {
+    check_refusals(&damp(), &[
+        ("humidity = 0.5\n", "", "s.toml:10: capillary.humidity: missing", "`humidity = 0.5`"),
+        ("humidity = 0.5", "humidity = 1", "s.toml:11: capillary.humidity: 1 is out of range", "from 0 to below 1"),
+        ("humidity = 0.5", "humidity = -0.1", "s.toml:11: capillary.humidity: -0.1 is out of range", "from 0 to below 1"),
+        ("humidity = 0.5", "humidity = 50", "s.toml:11: capillary.humidity: 50 is out of range", "a relative humidity"),
+        ("humidity = 0.5", "humidity = 0.5\ncontact_angle = 90", "s.toml:12: capillary.contact_angle: 90 is out of range", "only a liquid that wets pulls"),
+        ("humidity = 0.5", "humidity = 0.5\ntemperature = \"25 C\"", "s.toml:12: capillary.temperature:", "K"),
+        ("humidity = 0.5", "humidity = 0.5\nmolar_volume = 0", "s.toml:12: capillary.molar_volume: 0 is out of range", "finite and above 0"),
+        ("humidity = 0.5", "humidity = 0.5\nsurface_tension = \"72 mPa\"", "s.toml:12: capillary.surface_tension:", "N/m"),
+        ("humidity = 0.5", "humidity = 0.5\nsurface_tension = 1e300\nmolar_volume = 1e300", "s.toml:11: capillary.humidity: makes a meniscus", "check the powers of ten"),
+        ("humidity = 0.5", "humidty = 0.5", "s.toml:11: capillary.humidty: unknown key in [capillary]", "did you mean `humidity`?"),
+    ]);
+    let dry = accepted(&edited(&damp(), "humidity = 0.5", "humidity = 0"));
+    assert!(dry.adhesion.is_none() && dry.capillary.is_some());
+}
+
 #[test]
 #[rustfmt::skip] // one case a line
 fn mistakes_in_the_scene_itself() {
@@ -349,7 +387,7 @@ fn mistakes_in_the_scene_itself() {
         (r#"title = "good""#, r#"titel = "good""#, "s.toml:1: titel: unknown key in the scene itself", "did you mean `title`?"),
         ("[solver]", "[solvr]", "s.toml:17: solvr: unknown key in the scene itself", "did you mean `solver`?"),
         (r#"title = "good""#, r#""tit\nle" = 1"#, r#"s.toml:1: "tit\nle": unknown key in the scene itself"#, "did you mean `title`?"),
-        ("images = []", "images = []\n[capillary]\nhumidity = 0.5", "s.toml:21: capillary: a liquid meniscus is not in this version", "take it out"),
+        ("images = []", "images = []\n[capillary]\nhumidity = 0.5", "s.toml:21: capillary: the liquid is the adhesion", "give one of the two"),
         ("images = []", "images = []\n[friction]", "s.toml:21: friction: friction is not in this version", "take it out"),
         ("images = []", "images = []\n[conductance]", "s.toml:21: conductance: contact conductance is not in this version", "take it out"),
         ("points = 64", "points = 64\npoints = 65", "s.toml:4: not valid TOML: duplicate key", "duplicate key"),
@@ -610,9 +648,9 @@ fn overrides_that_are_wrong_say_where_they_came_from() {
         ),
         (
             GOOD,
-            "solid.thickness",
-            "1 um",
-            "s.toml, from --set: solid.thickness: an elastic layer on a rigid base is not in this version",
+            "solid.hardness",
+            "1 GPa",
+            "s.toml, from --set: solid.hardness: ideal plasticity is not in this version",
         ),
         (
             GOOD,
@@ -687,6 +725,7 @@ steps  = "last"
             contact_modulus: 1.33e12,
             poisson_ratio: None,
             layer: None,
+            relaxation: Vec::new(),
         },
         surfaces: vec![SurfacePart::SelfAffine(SelfAffineScene {
             hurst: 0.8,
@@ -696,6 +735,7 @@ steps  = "last"
             shortest: 195e-9,
             seed: 1,
         })],
+        capillary: None,
         adhesion: Some(AdhesionScene {
             law: LawName::MaugisDugdale,
             work_of_adhesion: 0.2,
@@ -705,6 +745,7 @@ steps  = "last"
         }),
         loading: LoadingScene {
             control: Control::Pressure,
+            durations: None,
             path: vec![1e6, 1e7, 1e8, 1e7, 1e6],
             spring: None,
         },

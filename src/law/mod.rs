@@ -7,10 +7,12 @@
 mod exponential;
 mod lennard_jones;
 mod maugis_dugdale;
+mod meniscus;
 
 pub use exponential::Exponential;
 pub use lennard_jones::LennardJones;
 pub use maugis_dugdale::MaugisDugdale;
+pub use meniscus::{GAS_CONSTANT, LEAST_KELVIN_RADIUS, Meniscus, least_humidity};
 
 use crate::real::Real;
 

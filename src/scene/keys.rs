@@ -33,12 +33,12 @@ pub(super) const SCENE: Section = Section {
         ("solid", "[solid]"),
         ("surface", "[[surface]]"),
         ("adhesion", "[adhesion]"),
+        ("capillary", "[capillary]"),
         ("loading", "[loading]"),
         ("solver", "[solver]"),
         ("output", "[output]"),
     ],
     later: &[
-        ("capillary", "a liquid meniscus"),
         ("friction", "friction"),
         ("plastic", "plasticity"),
         ("conductance", "contact conductance"),
@@ -68,11 +68,18 @@ pub(super) const SOLID: Section = Section {
         ("counter_poisson_ratio", "counter_poisson_ratio = 0.3"),
         ("thickness", "thickness = \"5 um\""),
         ("base", "base = \"bonded\""),
+        ("relaxation", "[[solid.relaxation]]"),
     ],
-    later: &[
-        ("hardness", "ideal plasticity"),
-        ("relaxation", "viscoelasticity"),
+    later: &[("hardness", "ideal plasticity")],
+};
+
+pub(super) const RELAXATION: Section = Section {
+    title: "[[solid.relaxation]]",
+    keys: &[
+        ("modulus", "modulus = \"1 MPa\""),
+        ("time", "time = \"10 ms\""),
     ],
+    later: &[],
 };
 
 const KIND: (&str, &str) = ("kind", "kind = \"sphere\"");
@@ -159,6 +166,18 @@ pub(super) const ADHESION: Section = Section {
     later: &[("map", "a map of the adhesion")],
 };
 
+pub(super) const CAPILLARY: Section = Section {
+    title: "[capillary]",
+    keys: &[
+        ("humidity", "humidity = 0.5"),
+        ("surface_tension", "surface_tension = \"72 mN/m\""),
+        ("molar_volume", "molar_volume = \"1.8e-5 m^3/mol\""),
+        ("temperature", "temperature = \"298 K\""),
+        ("contact_angle", "contact_angle = \"20 deg\""),
+    ],
+    later: &[],
+};
+
 pub(super) const LOADING: Section = Section {
     title: "[loading]",
     keys: &[
@@ -168,19 +187,18 @@ pub(super) const LOADING: Section = Section {
         ("ramp", "[[loading.ramp]]"),
         ("spring", "spring = \"0.2 N/m\""),
     ],
-    later: &[
-        ("duration", "a load that takes time"),
-        ("hold", "a load that takes time"),
-    ],
+    later: &[],
 };
 
 pub(super) const RAMP: Section = Section {
     title: "[[loading.ramp]]",
-    keys: &[("to", "to = \"10 MPa\""), ("steps", "steps = 10")],
-    later: &[
-        ("duration", "a load that takes time"),
-        ("hold", "a load that takes time"),
+    keys: &[
+        ("to", "to = \"10 MPa\""),
+        ("steps", "steps = 10"),
+        ("duration", "duration = \"1 s\""),
+        ("hold", "hold = \"1 s\""),
     ],
+    later: &[],
 };
 
 pub(super) const SOLVER: Section = Section {
@@ -209,12 +227,14 @@ pub(super) const ALL: &[&Section] = &[
     &SCENE,
     &GRID,
     &SOLID,
+    &RELAXATION,
     &SELF_AFFINE,
     &SPHERE,
     &CONE,
     &WAVY,
     &FILE,
     &ADHESION,
+    &CAPILLARY,
     &LOADING,
     &RAMP,
     &SOLVER,

@@ -9,11 +9,19 @@ use crate::units::{self, Dimension};
 /// Most steps of a path, so that a slip of the finger cannot fill the memory.
 const MOST_STEPS: usize = 1_000_000;
 
-/// Reads `[loading]`; `boundary` and `adhesion` are there to check against, if they could be read.
+/// A path with the time that each step takes, where it says.
+struct TimedPath {
+    path: Vec<f64>,
+    durations: Option<Vec<f64>>,
+}
+
+/// Reads `[loading]`; `boundary`, `adhesion` and whether the solid relaxes are there to check
+/// against, if they could be read.
 pub(super) fn read(
     scene: &Reader,
     boundary: Option<Boundary>,
     adhesion: Option<&AdhesionScene>,
+    relaxes: bool,
 ) -> Option<LoadingScene> {
     scene.require_as(
         "loading",
@@ -53,10 +61,22 @@ pub(super) fn read(
     } else {
         Some(None)
     };
-    let path = path(&loading, control, adhesion);
+    let timed = path(&loading, control, adhesion);
+    if let Some(timed) = &timed
+        && relaxes
+        && timed.durations.is_none()
+    {
+        loading.conflict(
+            if loading.has("path") { "path" } else { "ramp" },
+            "a solid that relaxes must know how long the load takes; give start and [[loading.ramp]] with duration = \"1 s\" (or hold = \"1 s\")",
+        );
+        return None;
+    }
+    let timed = timed?;
     Some(LoadingScene {
         control: control?,
-        path: path?,
+        path: timed.path,
+        durations: timed.durations,
         spring: spring?,
     })
 }
@@ -91,7 +111,7 @@ fn path(
     loading: &Reader,
     control: Option<Control>,
     adhesion: Option<&AdhesionScene>,
-) -> Option<Vec<f64>> {
+) -> Option<TimedPath> {
     let value = control.map(|control| PathValue::of(control, adhesion));
     let has_ramps = loading.has("start") || loading.has("ramp");
     if loading.has("path") && has_ramps {
@@ -101,7 +121,7 @@ fn path(
         );
         return None;
     }
-    let path = if has_ramps {
+    let timed = if has_ramps {
         ramps(loading, value.as_ref())?
     } else {
         loading.require_as(
@@ -125,14 +145,58 @@ fn path(
                 loading.quantity_in(node, "path", name, value.dimension, value.allowed)
             })
             .collect();
-        values.into_iter().collect::<Option<Vec<f64>>>()?
+        TimedPath {
+            path: values.into_iter().collect::<Option<Vec<f64>>>()?,
+            durations: None,
+        }
     };
-    check_least_gap(loading, control, adhesion, &path)?;
-    Some(path)
+    check_least_gap(loading, control, adhesion, &timed.path)?;
+    Some(timed)
+}
+
+/// One `[[loading.ramp]]`.
+struct Ramp {
+    /// Where it goes; `None` holds the load.
+    to: Option<f64>,
+    steps: usize,
+    /// How long it takes, s.
+    duration: Option<f64>,
+}
+
+/// Reads a ramp, without its place among the others.
+fn ramp(ramp: &Reader, value: Option<&PathValue>) -> Option<Ramp> {
+    let holds = ramp.has("hold");
+    if !holds {
+        ramp.require(&["to"]);
+    }
+    for key in ["to", "duration"] {
+        if holds && ramp.has(key) {
+            ramp.conflict(
+                key,
+                "hold = \"1 s\" keeps the load for that long; leave this out, or give to and duration in its place",
+            );
+            return None;
+        }
+    }
+    ramp.require(&["steps"]);
+    let steps = ramp
+        .whole_number("steps", 1, MOST_STEPS as i64)
+        .and_then(|steps| usize::try_from(steps).ok());
+    let to = value.and_then(|value| ramp.quantity("to", value.dimension, value.allowed));
+    let key = if holds { "hold" } else { "duration" };
+    let duration = ramp.quantity(key, Dimension::Time, Allowed::NOT_NEGATIVE);
+    if (ramp.has(key) && duration.is_none()) || (!holds && to.is_none()) {
+        return None;
+    }
+    Some(Ramp {
+        to,
+        steps: steps?,
+        duration,
+    })
 }
 
 /// Steps from `start` over every ramp.
-fn ramps(loading: &Reader, value: Option<&PathValue>) -> Option<Vec<f64>> {
+fn ramps(loading: &Reader, value: Option<&PathValue>) -> Option<TimedPath> {
     loading.require_as("start", "start = \"1 MPa\"");
     loading.require_as("ramp", "[[loading.ramp]]` with `to` and `steps");
     let start = value.and_then(|value| loading.quantity("start", value.dimension, value.allowed));
@@ -144,37 +208,36 @@ fn ramps(loading: &Reader, value: Option<&PathValue>) -> Option<Vec<f64>> {
         );
         return None;
     }
-    let mut ramps = Vec::with_capacity(readers.len());
-    let mut total = 1;
-    for ramp in &readers {
-        // `hold` stands in place of `to`; it has been noted, and `to` is not missing.
-        if !ramp.has("hold") {
-            ramp.require(&["to"]);
-        }
-        ramp.require(&["steps"]);
-        let steps = ramp
-            .whole_number("steps", 1, MOST_STEPS as i64)
-            .and_then(|steps| usize::try_from(steps).ok());
-        let to = value.and_then(|value| ramp.quantity("to", value.dimension, value.allowed));
-        total += steps.unwrap_or(0);
-        ramps.push(to.zip(steps));
-    }
-    if total > MOST_STEPS {
+    let ramps: Vec<Option<Ramp>> = readers.iter().map(|reader| ramp(reader, value)).collect();
+    let steps = |ramp: &Option<Ramp>| ramp.as_ref().map_or(0, |ramp| ramp.steps);
+    if ramps.iter().map(steps).sum::<usize>() >= MOST_STEPS {
         loading.conflict(
             "ramp",
             format!("the ramps add up to more than {MOST_STEPS} steps"),
         );
         return None;
     }
+    let takes_time = |ramp: &Reader| ramp.has("hold") || ramp.has("duration");
+    if readers.iter().any(takes_time) {
+        for reader in readers.iter().filter(|ramp| !takes_time(ramp)) {
+            reader.require_as("duration", "duration = \"1 s\"");
+        }
+    }
     let mut path = vec![start?];
+    let mut durations = vec![0.0];
+    let mut timed = true;
     let mut from = start?;
     for ramp in ramps {
-        let (to, steps) = ramp?;
+        let ramp = ramp?;
+        let (to, steps) = (ramp.to.unwrap_or(from), ramp.steps);
         path.extend((1..steps).map(|step| {
             let share = step as f64 / steps as f64;
             from + (to - from) * share
         }));
         path.push(to);
+        timed &= ramp.duration.is_some();
+        let duration = ramp.duration.unwrap_or(0.0) / steps as f64;
+        durations.resize(path.len(), duration);
         from = to;
     }
     if path.iter().any(|value| !value.is_finite()) {
@@ -184,7 +247,10 @@ fn ramps(loading: &Reader, value: Option<&PathValue>) -> Option<Vec<f64>> {
         );
         return None;
     }
-    Some(path)
+    Some(TimedPath {
+        path,
+        durations: timed.then_some(durations),
+    })
 }
 
 /// A Lennard-Jones surface repels without limit at a gap of minus its range.

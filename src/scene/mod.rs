@@ -6,6 +6,7 @@
 //! machine is refused here; later code may assume it.
 
 mod adhesion;
+mod capillary;
 mod document;
 mod grid;
 mod keys;
@@ -93,8 +94,16 @@ fn read_tables(root: &Table, folder: &Path, log: &Log) -> Option<Scene> {
     let solid = solid::read(&scene, boundary);
     let surfaces = surface::read(&scene, grid.as_ref(), folder);
     let adhesion = adhesion::read(&scene);
+    let capillary = capillary::read(&scene);
+    let adhesion = match &capillary {
+        Some(Some(liquid)) => adhesion.map(|_| liquid.adhesion()),
+        _ => adhesion,
+    };
     let law = adhesion.as_ref().and_then(Option::as_ref);
-    let loading = loading::read(&scene, boundary, law);
+    let relaxes = solid
+        .as_ref()
+        .is_some_and(|solid| !solid.relaxation.is_empty());
+    let loading = loading::read(&scene, boundary, law, relaxes);
     let solver = solver::read(&scene);
     let path_length = loading.as_ref().map(|loading| loading.path.len());
     let output = output::read(&scene, path_length);
@@ -104,6 +113,7 @@ fn read_tables(root: &Table, folder: &Path, log: &Log) -> Option<Scene> {
         solid: solid?,
         surfaces: surfaces?,
         adhesion: adhesion?,
+        capillary: capillary?,
         loading: loading?,
         solver: solver?,
         output: output?,

@@ -20,7 +20,9 @@ impl Scene {
         scene.insert("solid".into(), self.solid.resolved());
         let surfaces: Vec<Value> = self.surfaces.iter().map(SurfacePart::resolved).collect();
         scene.insert("surface".into(), json!(surfaces));
-        if let Some(adhesion) = &self.adhesion {
+        if let Some(capillary) = &self.capillary {
+            scene.insert("capillary".into(), capillary.resolved());
+        } else if let Some(adhesion) = &self.adhesion {
             scene.insert("adhesion".into(), adhesion.resolved());
         }
         scene.insert("loading".into(), self.loading.resolved());
@@ -56,11 +58,15 @@ impl SolidScene {
         );
         let thickness = self.layer.map(|layer| json!(layer.thickness));
         let table = with(table, "thickness", thickness);
-        with(
-            table,
-            "base",
-            self.layer.map(|layer| json!(layer.base.name())),
-        )
+        let base = self.layer.map(|layer| json!(layer.base.name()));
+        let table = with(table, "base", base);
+        let branches: Vec<Value> = self
+            .relaxation
+            .iter()
+            .map(|branch| json!({ "modulus": branch.modulus, "time": branch.time }))
+            .collect();
+        let relaxation = (!branches.is_empty()).then(|| json!(branches));
+        with(table, "relaxation", relaxation)
     }
 }
 
@@ -158,9 +164,35 @@ impl AdhesionScene {
     }
 }
 
+impl CapillaryScene {
+    fn resolved(&self) -> Value {
+        json!({
+            "humidity": self.humidity,
+            "surface_tension": self.surface_tension,
+            "molar_volume": self.molar_volume,
+            "temperature": self.temperature,
+            "contact_angle": degrees(self.contact_angle),
+        })
+    }
+}
+
 impl LoadingScene {
     fn resolved(&self) -> Value {
-        let table = json!({ "control": self.control.name(), "path": self.path });
+        let control = self.control.name();
+        let table = match &self.durations {
+            None => json!({ "control": control, "path": self.path }),
+            // A ramp a step says the same times again, to the last bit.
+            Some(durations) => {
+                let ramps: Vec<Value> = self
+                    .path
+                    .iter()
+                    .zip(durations)
+                    .skip(1)
+                    .map(|(to, duration)| json!({ "to": to, "steps": 1, "duration": duration }))
+                    .collect();
+                json!({ "control": control, "start": self.path.first(), "ramp": ramps })
+            }
+        };
         with(
             table,
             "spring",

@@ -1,8 +1,9 @@
 //! `[solid]`: one way or another to the contact modulus, and a layer in place of the half-space.
 
 use super::keys;
+use super::mistake::SceneError;
 use super::reader::{Allowed, Reader};
-use super::types::{Boundary, SolidScene};
+use super::types::{Boundary, RelaxationScene, SolidScene};
 use crate::elastic::{Base, Layer};
 use crate::units::Dimension;
 
@@ -25,6 +26,7 @@ pub(super) fn read(scene: &Reader, boundary: Option<Boundary>) -> Option<SolidSc
     ];
     let [ratio, counter_ratio] = [poisson("poisson_ratio"), poisson("counter_poisson_ratio")];
     let layer = read_layer(&solid, ratio, boundary);
+    let relaxation = read_relaxation(&solid, layer.flatten());
     let has_counter = solid.has("counter_young_modulus") || solid.has("counter_poisson_ratio");
 
     if solid.has("contact_modulus") {
@@ -46,6 +48,7 @@ pub(super) fn read(scene: &Reader, boundary: Option<Boundary>) -> Option<SolidSc
             contact_modulus: direct?,
             poisson_ratio: ratio,
             layer: layer?,
+            relaxation: relaxation?,
         });
     }
     if !solid.has("young_modulus") {
@@ -79,6 +82,7 @@ pub(super) fn read(scene: &Reader, boundary: Option<Boundary>) -> Option<SolidSc
         contact_modulus,
         poisson_ratio: ratio,
         layer: layer?,
+        relaxation: relaxation?,
     })
 }
 
@@ -101,13 +105,14 @@ fn read_layer(
     if !solid.has("young_modulus") {
         solid.require(&["poisson_ratio"]);
     }
-    for key in ["counter_young_modulus", "counter_poisson_ratio"] {
-        if solid.has(key) {
-            solid.conflict(
-                key,
-                "a layer presses on a rigid counter-face; leave the counter-face's elasticity out, or the thickness",
-            );
-        }
+    if let Some(key) = ["counter_young_modulus", "counter_poisson_ratio"]
+        .into_iter()
+        .find(|key| solid.has(key))
+    {
+        solid.conflict(
+            key,
+            "a layer presses on a rigid counter-face; leave the counter-face's elasticity out, or the thickness",
+        );
     }
     if boundary == Some(Boundary::Free) {
         solid.conflict(
@@ -125,6 +130,43 @@ fn read_layer(
         poisson_ratio: poisson_ratio?,
         base,
     }))
+}
+
+/// Reads the Maxwell branches; none where the scene names none, `None` after a mistake.
+fn read_relaxation(solid: &Reader, layer: Option<Layer>) -> Option<Vec<RelaxationScene>> {
+    if !solid.has("relaxation") {
+        return Some(Vec::new());
+    }
+    let tables = solid.tables("relaxation", |_| &keys::RELAXATION)?;
+    if solid.is_empty_list("relaxation") {
+        solid.conflict(
+            "relaxation",
+            "is empty; give at least one branch with `modulus` and `time`, or leave it out",
+        );
+        return None;
+    }
+    if layer.is_some_and(|layer| layer.uniform_compliance() > 0.0) {
+        solid.report(
+            "relaxation",
+            SceneError::NotInThisVersion {
+                what: "relaxation of a compressible layer".into(),
+                instead: "take poisson_ratio = 0.5, or leave the thickness out".into(),
+            },
+        );
+    }
+    let branches: Vec<Option<RelaxationScene>> = tables
+        .iter()
+        .map(|branch| {
+            branch.require(&["modulus", "time"]);
+            let modulus = branch.quantity("modulus", Dimension::Pressure, Allowed::POSITIVE);
+            let time = branch.quantity("time", Dimension::Time, Allowed::POSITIVE);
+            Some(RelaxationScene {
+                modulus: modulus?,
+                time: time?,
+            })
+        })
+        .collect();
+    branches.into_iter().collect()
 }
 
 /// A body's share of `1/E*`: `(1 - nu^2)/E`, 1/Pa.

@@ -18,8 +18,10 @@ pub struct Scene {
     pub solid: SolidScene,
     /// `[[surface]]`: the heights are the sum of these parts; never empty.
     pub surfaces: Vec<SurfacePart>,
-    /// `[adhesion]`, an effect.
+    /// `[adhesion]`, an effect; or the law that stands for `[capillary]`.
     pub adhesion: Option<AdhesionScene>,
+    /// `[capillary]`, an effect.
+    pub capillary: Option<CapillaryScene>,
     /// `[loading]`.
     pub loading: LoadingScene,
     /// `[solver]`.
@@ -72,6 +74,18 @@ pub struct SolidScene {
     pub poisson_ratio: Option<f64>,
     /// A layer of this thickness on a rigid base in place of the half-space (an effect).
     pub layer: Option<Layer>,
+    /// Maxwell branches beside the contact modulus, which is then the relaxed one (an effect);
+    /// empty for an elastic solid.
+    pub relaxation: Vec<RelaxationScene>,
+}
+
+/// One Maxwell branch of `[[solid.relaxation]]`.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct RelaxationScene {
+    /// Contact modulus of the branch, Pa.
+    pub modulus: f64,
+    /// Time in which its stress falls to 1/e, s.
+    pub time: f64,
 }
 
 /// One `[[surface]]` part.
@@ -217,6 +231,21 @@ pub struct AdhesionScene {
     pub treatment: Treatment,
 }
 
+/// `[capillary]`: a liquid that condenses between the surfaces.
+#[derive(Clone, Debug, PartialEq)]
+pub struct CapillaryScene {
+    /// Relative humidity, from 0 to below 1.
+    pub humidity: f64,
+    /// Surface tension of the liquid, N/m.
+    pub surface_tension: f64,
+    /// Molar volume of the liquid, m^3/mol.
+    pub molar_volume: f64,
+    /// Temperature, K.
+    pub temperature: f64,
+    /// Contact angle on both surfaces, rad.
+    pub contact_angle: f64,
+}
+
 /// The range of a cohesive law: a length, or the shortest that the grid resolves.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Range {
@@ -284,6 +313,9 @@ pub struct LoadingScene {
     pub control: Control,
     /// The prescribed values in SI units, one a step; never empty.
     pub path: Vec<f64>,
+    /// Time from the step before to each step, s, as long as the path; `None` where the path has
+    /// no durations. The first is 0.
+    pub durations: Option<Vec<f64>>,
     /// Spring between the prescribed approach and the body, N/m (an effect).
     pub spring: Option<f64>,
 }

@@ -207,6 +207,31 @@ impl<'a> ContactSolver<'a> {
         self.backend.read(self.pressure)
     }
 
+    /// Moves the rigid heights by what a relaxing solid's past adds to its displacement (reduced, all
+    /// solved points).
+    pub fn set_offset(&mut self, offset: &[f64]) {
+        let mut moved = self.problem.padded(&self.problem.heights, 0.0);
+        for (height, offset) in moved.iter_mut().zip(offset) {
+            *height += offset;
+        }
+        self.backend.write(self.heights, &moved);
+    }
+
+    /// `K*values` over all solved points, reduced, without the mean's share; between solves, since it
+    /// takes their directions for work space.
+    pub fn stiffness_times(&mut self, values: &[f64]) -> Result<Vec<f64>, BackendError> {
+        let (work, zero, out) = (self.direction, self.free_before, self.descent);
+        self.backend.write(work, values);
+        self.backend.write(zero, &vec![0.0; values.len()]);
+        self.backend.set_zero_mode(self.stiffness, 0.0);
+        self.backend
+            .forward(&common::LOAD_DISPLACEMENT, self.level, &[work, zero]);
+        self.backend.multiply(self.stiffness, false, Gate::Always);
+        self.backend
+            .backward(&common::STORE_PRESSURE, self.level, &[out]);
+        self.backend.read(out)
+    }
+
     /// The gap at which the undeformed surfaces first touch, scaled or shifted to a held mean gap.
     fn undeformed(&self, load: &Load) -> Vec<f64> {
         let highest = self.problem.highest();

@@ -136,6 +136,19 @@ impl Problem {
         }
     }
 
+    /// The same problem on a solid of another contact modulus (Pa), with a law in SI units.
+    pub fn stiffened(&self, contact_modulus: f64, law: Law) -> Problem {
+        let scales = Scales {
+            pressure: contact_modulus * self.scales.length / self.scales.lateral,
+            ..self.scales
+        };
+        Problem {
+            scales,
+            law: law.reduced(scales.length, scales.pressure),
+            ..self.clone()
+        }
+    }
+
     /// The same problem without attraction.
     pub fn without_adhesion(&self) -> Problem {
         Problem {

@@ -147,6 +147,7 @@ impl Setup {
             regime,
             transforms,
         };
+        setup.warn_of_dry_air();
         setup.warn_of_pixels();
         setup.warn_of_waves();
         setup
@@ -198,6 +199,19 @@ impl Setup {
             _ => None,
         };
         self.warnings.extend(text);
+    }
+
+    fn warn_of_dry_air(&mut self) {
+        if let Some(capillary) = &self.scene.capillary
+            && !capillary.bridges()
+        {
+            self.warnings.push(format!(
+                "capillary.humidity {} is below {:.3}, where the Kelvin radius is {}: no liquid bridges the gap, and nothing attracts",
+                capillary.humidity,
+                capillary.least_humidity(),
+                format_si(crate::law::LEAST_KELVIN_RADIUS, "m"),
+            ));
+        }
     }
 
     fn warn_of_waves(&mut self) {

@@ -4,19 +4,11 @@
 use super::error::{TheoryError, not_negative, positive, within};
 use std::f64::consts::{FRAC_PI_2, PI};
 
-/// Gas constant, J/(mol K).
-pub const GAS_CONSTANT: f64 = 8.314_462_618_153_24;
+pub use crate::law::{GAS_CONSTANT, LEAST_KELVIN_RADIUS};
 
-/// Least Kelvin radius at which a meniscus is still a liquid surface, m.
-pub const LEAST_KELVIN_RADIUS: f64 = 0.3e-9;
-
-/// A liquid in its vapour between two surfaces of one contact angle.
+/// A liquid in its vapour between two surfaces of one contact angle, checked.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Meniscus {
-    surface_tension: f64,
-    contact_angle: f64,
-    kelvin_radius: f64,
-}
+pub struct Meniscus(crate::law::Meniscus);
 
 impl Meniscus {
     /// A liquid of `surface_tension` (N/m) and `molar_volume` (m^3/mol) at `temperature` (K) and
@@ -30,53 +22,50 @@ impl Meniscus {
         relative_humidity: f64,
         contact_angle: f64,
     ) -> Result<Self, TheoryError> {
-        let surface_tension = positive("surface_tension", surface_tension)?;
+        let meniscus = crate::law::Meniscus::at_humidity(
+            positive("surface_tension", surface_tension)?,
+            positive("molar_volume", molar_volume)?,
+            positive("temperature", temperature)?,
+            within(
+                "relative_humidity",
+                relative_humidity,
+                relative_humidity > 0.0 && relative_humidity < 1.0,
+                "between 0 and 1",
+            )?,
+            within(
+                "contact_angle",
+                contact_angle,
+                (0.0..FRAC_PI_2).contains(&contact_angle),
+                "between 0 and pi/2",
+            )?,
+        );
         within(
             "relative_humidity",
             relative_humidity,
-            relative_humidity > 0.0 && relative_humidity < 1.0,
-            "between 0 and 1",
-        )?;
-        within(
-            "contact_angle",
-            contact_angle,
-            (0.0..FRAC_PI_2).contains(&contact_angle),
-            "between 0 and pi/2",
-        )?;
-        let energy = GAS_CONSTANT * positive("temperature", temperature)?;
-        let length = surface_tension * positive("molar_volume", molar_volume)? / energy;
-        let kelvin_radius = -length / relative_humidity.ln();
-        within(
-            "relative_humidity",
-            relative_humidity,
-            kelvin_radius >= LEAST_KELVIN_RADIUS,
+            meniscus.bridges(),
             "high enough for a Kelvin radius of 0.3 nm",
         )?;
-        Ok(Meniscus {
-            surface_tension,
-            contact_angle,
-            kelvin_radius,
-        })
+        Ok(Meniscus(meniscus))
     }
 
     /// Kelvin radius `-gamma V/(R T log RH)`, m.
     pub fn kelvin_radius(&self) -> f64 {
-        self.kelvin_radius
+        self.0.kelvin_radius
     }
 
     /// Suction in the liquid, the Dugdale tension `gamma/r_K`, Pa.
     pub fn peak_tension(&self) -> f64 {
-        self.surface_tension / self.kelvin_radius
+        self.0.peak_tension()
     }
 
     /// Height of the meniscus, the Dugdale range `2 r_K cos(theta)`, m.
     pub fn range(&self) -> f64 {
-        2.0 * self.kelvin_radius * self.contact_angle.cos()
+        self.0.range()
     }
 
     /// Work of adhesion `2 gamma cos(theta)`, J/m^2.
     pub fn work_of_adhesion(&self) -> f64 {
-        2.0 * self.surface_tension * self.contact_angle.cos()
+        self.0.work_of_adhesion()
     }
 
     /// Attraction of a rigid sphere of `radius` (m) at a least `gap` (m), N, positive:

@@ -4,6 +4,7 @@
 
 use super::error::{TheoryError, not_negative, positive};
 use super::quadrature::integrate;
+use crate::study::branch_coefficients;
 
 /// A standard linear solid.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -29,7 +30,7 @@ impl Scheme {
     pub fn coefficients(self, ratio: f64) -> (f64, f64) {
         match self {
             Scheme::BackwardEuler => (1.0 / (1.0 + ratio), 1.0 / (1.0 + ratio)),
-            Scheme::Exponential => ((-ratio).exp(), -(-ratio).exp_m1() / ratio),
+            Scheme::Exponential => branch_coefficients(ratio),
         }
     }
 }

@@ -1,6 +1,7 @@
 //! The full field against closed forms and independent tables.
 
 mod bench;
+mod capillary;
 mod controls;
 mod energy;
 mod hertz;

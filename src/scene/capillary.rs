@@ -1,0 +1,119 @@
+//! `[capillary]`: a liquid that condenses between the surfaces.
+
+use std::f64::consts::FRAC_PI_2;
+
+use super::keys;
+use super::reader::{Allowed, Reader};
+use super::types::{AdhesionScene, CapillaryScene, LawName, Range, Treatment};
+use crate::law::{Meniscus, least_humidity};
+use crate::units::Dimension;
+
+/// Water at 298.15 K: surface tension (N/m) and molar volume (m^3/mol).
+///
+/// Source: IAPWS R1-76(2014); IAPWS-95 density 997.05 kg/m^3.
+const WATER: (f64, f64) = (0.07199, 1.8069e-5);
+/// Temperature where the scene gives none, K.
+const ROOM: f64 = 298.15;
+
+const HUMIDITY: Allowed = Allowed::new(
+    |humidity| (0.0..1.0).contains(&humidity),
+    "a relative humidity from 0 to below 1",
+);
+const ANGLE: Allowed = Allowed::new(
+    |angle| (0.0..FRAC_PI_2).contains(&angle),
+    "from 0 to below 90 degrees: only a liquid that wets pulls",
+);
+
+/// Reads `[capillary]`: `Some(None)` where the scene has none.
+pub(super) fn read(scene: &Reader) -> Option<Option<CapillaryScene>> {
+    if !scene.has("capillary") {
+        return Some(None);
+    }
+    let capillary = scene.table("capillary", &keys::CAPILLARY)?;
+    if scene.has("adhesion") {
+        scene.conflict(
+            "capillary",
+            "the liquid is the adhesion, and [adhesion] is given too; give one of the two",
+        );
+    }
+    capillary.require(&["humidity"]);
+    let humidity = capillary.quantity("humidity", Dimension::Dimensionless, HUMIDITY);
+    let or = |key: &str, dimension, default: f64, allowed| match capillary.has(key) {
+        true => capillary.quantity(key, dimension, allowed),
+        false => Some(default),
+    };
+    let surface_tension = or(
+        "surface_tension",
+        Dimension::ForcePerLength,
+        WATER.0,
+        Allowed::POSITIVE,
+    );
+    let molar_volume = or(
+        "molar_volume",
+        Dimension::MolarVolume,
+        WATER.1,
+        Allowed::POSITIVE,
+    );
+    let temperature = or(
+        "temperature",
+        Dimension::Temperature,
+        ROOM,
+        Allowed::POSITIVE,
+    );
+    let contact_angle = or("contact_angle", Dimension::Angle, 0.0, ANGLE);
+    let found = CapillaryScene {
+        humidity: humidity?,
+        surface_tension: surface_tension?,
+        molar_volume: molar_volume?,
+        temperature: temperature?,
+        contact_angle: contact_angle?,
+    };
+    let meniscus = found.meniscus();
+    let numbers = [meniscus.range(), meniscus.peak_tension()];
+    if found.bridges() && !numbers.iter().all(|number| number.is_normal()) {
+        capillary.conflict(
+            "humidity",
+            format!(
+                "makes a meniscus of {:e} m under a suction of {:e} Pa; check the powers of ten",
+                numbers[0], numbers[1]
+            ),
+        );
+        return None;
+    }
+    Some(Some(found))
+}
+
+impl CapillaryScene {
+    /// The meniscus at this humidity; meaningless where nothing [bridges](CapillaryScene::bridges).
+    pub fn meniscus(&self) -> Meniscus {
+        Meniscus::at_humidity(
+            self.surface_tension,
+            self.molar_volume,
+            self.temperature,
+            self.humidity,
+            self.contact_angle,
+        )
+    }
+
+    /// Humidity below which no liquid bridges the gap.
+    pub fn least_humidity(&self) -> f64 {
+        least_humidity(self.surface_tension, self.molar_volume, self.temperature)
+    }
+
+    /// Whether the air is damp enough for a liquid to bridge the gap.
+    pub fn bridges(&self) -> bool {
+        self.humidity > 0.0 && self.meniscus().bridges()
+    }
+
+    /// The law that stands for the liquid; `None` in air too dry for one.
+    pub fn adhesion(&self) -> Option<AdhesionScene> {
+        let meniscus = self.meniscus();
+        self.bridges().then(|| AdhesionScene {
+            law: LawName::MaugisDugdale,
+            work_of_adhesion: meniscus.work_of_adhesion(),
+            range: Range::Length(meniscus.range()),
+            taper: None,
+            treatment: Treatment::Full,
+        })
+    }
+}
