@@ -17,4 +17,6 @@ keep wave 0005_pressure wave
 keep lennard_jones_sphere 0041_pressure lennard_jones_sphere
 keep cantilever 0041_pressure cantilever
 keep dmt 0004_pressure dmt
+keep coating 0016_pressure coating
+keep humid_tip 0011_pressure humid_tip
 rm -r "$out"
