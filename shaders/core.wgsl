@@ -27,7 +27,7 @@ fn share_of(g: f32, on_surface: bool) -> f32 {
 // v.
 fn variable(g: f32) -> f32 {
     if (g < f32(params.law_peak_gap)) {
-        return g - (f32(params.law_peak) - law_traction(g)) / f32(params.core_stiffness);
+        return g - (law_factor * f32(params.law_peak) - law_traction(g)) / f32(params.core_stiffness);
     }
     return g;
 }
@@ -41,7 +41,7 @@ fn gap_at(goal: f32, g: f32) -> f32 {
     // v is concave here: from the left every step stays on the left of the root, so only the start
     // needs a bound, which the repulsive power alone gives.
     let range = f32(params.law_range);
-    let load = max((f32(params.core_stiffness) * (peak_gap - goal) - f32(params.law_peak)) * 0.375 * range / f32(params.law_work), 0.0);
+    let load = max((f32(params.core_stiffness) * (peak_gap - goal) - law_factor * f32(params.law_peak)) * 0.375 * range / (law_factor * f32(params.law_work)), 0.0);
     let bound = range * (pow(1.3 * load + 2.5, -1.0 / 9.0) - 1.0);
     let nearness = f32(wide(2.0) * params.epsilon) * range;
     var x = min(max(g + (goal - variable(g)) * share_of(g, true), bound), peak_gap);

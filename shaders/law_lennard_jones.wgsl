@@ -11,7 +11,7 @@ fn law_ratio(gap_here: f32) -> f32 {
 fn law_traction(gap_here: f32) -> f32 {
     let r = law_ratio(gap_here);
     let cube = r * r * r;
-    let scale = 8.0 / 3.0 * f32(params.law_work) / f32(params.law_range);
+    let scale = 8.0 / 3.0 * law_factor * f32(params.law_work) / f32(params.law_range);
     return scale * (cube - cube * cube * cube);
 }
 
@@ -19,7 +19,7 @@ fn law_energy(gap_here: f32) -> f32 {
     let r = law_ratio(gap_here);
     let square = r * r;
     let eighth = square * square * square * square;
-    return -f32(params.law_work) * (4.0 / 3.0 * square - 1.0 / 3.0 * eighth);
+    return -law_factor * f32(params.law_work) * (4.0 / 3.0 * square - 1.0 / 3.0 * eighth);
 }
 
 fn law_slope(gap_here: f32) -> f32 {
@@ -27,5 +27,5 @@ fn law_slope(gap_here: f32) -> f32 {
     let r = law_ratio(gap_here);
     let fourth = r * r * r * r;
     let tenth = fourth * fourth * r * r;
-    return 8.0 / 3.0 * f32(params.law_work) / (range * range) * (9.0 * tenth - 3.0 * fourth);
+    return 8.0 / 3.0 * law_factor * f32(params.law_work) / (range * range) * (9.0 * tenth - 3.0 * fourth);
 }

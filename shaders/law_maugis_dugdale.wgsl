@@ -1,6 +1,6 @@
 // Constant tension up to about the range, then linear to zero over the width `taper` centred on it.
 fn law_traction(gap_here: f32) -> f32 {
-    let peak = f32(params.law_peak);
+    let peak = law_factor * f32(params.law_peak);
     let range = f32(params.law_range);
     let taper = f32(params.law_taper);
     if (taper > 0.0) {
@@ -10,7 +10,7 @@ fn law_traction(gap_here: f32) -> f32 {
 }
 
 fn law_energy(gap_here: f32) -> f32 {
-    let peak = f32(params.law_peak);
+    let peak = law_factor * f32(params.law_peak);
     let range = f32(params.law_range);
     let taper = f32(params.law_taper);
     let half = 0.5 * taper;
@@ -29,7 +29,7 @@ fn law_slope(gap_here: f32) -> f32 {
     let taper = f32(params.law_taper);
     let half = 0.5 * taper;
     if (gap_here > range - half && gap_here < range + half) {
-        return -f32(params.law_peak) / taper;
+        return -law_factor * f32(params.law_peak) / taper;
     }
     return 0.0;
 }

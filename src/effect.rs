@@ -15,6 +15,8 @@ pub enum Effect {
     Adhesion,
     /// `treatment = "dmt"`: attraction is summed over the gap of the solution without it.
     Dmt,
+    /// `map`: the tension differs from point to point.
+    AdhesionMap,
     /// `[capillary]`: a liquid that condenses between the surfaces pulls them together.
     Capillary,
     /// `thickness`: an elastic layer on a rigid base in place of the half-space.
@@ -42,9 +44,10 @@ pub struct EffectCost {
 
 impl Effect {
     /// Every effect of this version.
-    pub const ALL: [Effect; 6] = [
+    pub const ALL: [Effect; 7] = [
         Effect::Adhesion,
         Effect::Dmt,
+        Effect::AdhesionMap,
         Effect::Capillary,
         Effect::Layer,
         Effect::FreeBoundary,
@@ -56,6 +59,7 @@ impl Effect {
         match self {
             Effect::Adhesion => "adhesion",
             Effect::Dmt => "dmt treatment",
+            Effect::AdhesionMap => "adhesion map",
             Effect::Capillary => "capillary",
             Effect::Layer => "layer",
             Effect::FreeBoundary => "free boundary",
@@ -70,6 +74,7 @@ impl Effect {
             Effect::Dmt => {
                 "attraction is summed over the gap of the contact without it, which it does not deform"
             }
+            Effect::AdhesionMap => "a factor of its own multiplies the tension at each point",
             Effect::Capillary => {
                 "liquid from damp air bridges narrow gaps: a constant suction up to the height of its meniscus"
             }
@@ -93,6 +98,10 @@ impl Effect {
                 .adhesion
                 .as_ref()
                 .is_some_and(|adhesion| adhesion.treatment == Treatment::Dmt),
+            Effect::AdhesionMap => scene
+                .adhesion
+                .as_ref()
+                .is_some_and(|adhesion| adhesion.map.is_some()),
             Effect::Capillary => scene.capillary.is_some(),
             Effect::Layer => scene.solid.layer.is_some(),
             Effect::FreeBoundary => scene.grid.boundary == Boundary::Free,
@@ -118,6 +127,17 @@ impl Effect {
             }
             Effect::Dmt => {
                 format!("holds at Tabor numbers well below 1: here {tabor:.3}")
+            }
+            Effect::AdhesionMap => {
+                let map = setup.surface.adhesion_map.as_deref().unwrap_or(&[]);
+                let count = map.len().max(1) as f64;
+                let mean = map.iter().sum::<f64>() / count;
+                let variance = map.iter().map(|f| (f - mean) * (f - mean)).sum::<f64>() / count;
+                format!(
+                    "matters where it varies over lengths of the contacts: here the factor is {:.3} on average, give or take {:.3}",
+                    mean,
+                    variance.sqrt()
+                )
             }
             Effect::Capillary => {
                 let capillary = scene.capillary.as_ref();
@@ -161,6 +181,11 @@ impl Effect {
                     adhesion.treatment = Treatment::Full;
                 }
             }
+            Effect::AdhesionMap => {
+                if let Some(adhesion) = &mut scene.adhesion {
+                    adhesion.map = None;
+                }
+            }
             Effect::Capillary => {
                 scene.capillary = None;
                 scene.adhesion = None;
@@ -175,7 +200,16 @@ impl Effect {
     /// What it costs in a scene that asks for it.
     pub fn cost(self, setup: &Setup) -> Result<EffectCost, BackendError> {
         let with = Cost::of(setup)?;
-        let without = Setup::new(self.taken_from(&setup.scene), setup.surface.clone());
+        let scene = self.taken_from(&setup.scene);
+        let mut surface = setup.surface.clone();
+        if scene
+            .adhesion
+            .as_ref()
+            .is_none_or(|adhesion| adhesion.map.is_none())
+        {
+            surface.adhesion_map = None;
+        }
+        let without = Setup::new(scene, surface);
         let without = Cost::of(&without)?;
         let names = |cost: &Cost| {
             cost.fields

@@ -102,6 +102,7 @@ fn run(
     params: &Params,
     shape: Shape,
     poison: bool,
+    patterned: bool,
 ) -> Trace {
     // The whole field lies on the other level: coarse for a fine kernel, fine for a coarse one.
     let coarse_kernel = kernel.name.starts_with("coarse");
@@ -139,6 +140,15 @@ fn run(
     }
     let lines = make(backend, level, &numbers.field(own.len()));
     let ones = backend.spectrum(level, "ones", &vec![1.0; own.spectrum_len()]);
+    if patterned {
+        let factors: Vec<f64> = numbers
+            .field(own.len())
+            .iter()
+            .map(|x| x.abs() + 0.1)
+            .collect();
+        let factors = make(backend, level, &factors);
+        backend.set_law_factor(factors);
+    }
     backend.set_params(params);
     backend.set_scalars(&open());
     match kernel.form {
@@ -203,18 +213,34 @@ fn kernels_agree_with_their_twins() {
             if !fits {
                 continue;
             }
-            for (shape, fixed_gap) in [(Shape::whole(FINE[0], FINE[1]), true), (padded, false)] {
-                if kernel.whole && shape == padded {
+            let fine = Shape::whole(FINE[0], FINE[1]);
+            for (shape, fixed_gap, patterned) in [
+                (fine, true, false),
+                (padded, false, false),
+                (fine, true, true),
+                (padded, false, true),
+            ] {
+                if (kernel.whole && shape == padded) || (patterned && law == Law::HardWall) {
                     continue;
                 }
                 let params = params(law, fixed_gap);
                 let cpu = || CpuBackend::<f32>::new();
                 // Fields that are only written are poisoned, so that what is left out shows.
-                let poison = is_number(&run(&mut cpu(), kernel, &params, shape, true));
-                let twin = run(&mut cpu(), kernel, &params, shape, poison);
+                let poison = is_number(&run(&mut cpu(), kernel, &params, shape, true, patterned));
+                let twin = run(&mut cpu(), kernel, &params, shape, poison, patterned);
                 assert!(is_number(&twin), "{} {law_name}", kernel.name);
-                let ours = run(&mut backend(device), kernel, &params, shape, poison);
-                let name = format!("{}, {law_name}, surface {:?}", kernel.name, shape.surface);
+                let ours = run(
+                    &mut backend(device),
+                    kernel,
+                    &params,
+                    shape,
+                    poison,
+                    patterned,
+                );
+                let name = format!(
+                    "{}, {law_name}, surface {:?}, patterned {patterned}",
+                    kernel.name, shape.surface
+                );
                 for (slot, (a, b)) in ours.sums.iter().zip(&twin.sums).enumerate() {
                     // The least of nothing is infinite on both.
                     let difference = if a == b { 0.0 } else { (a - b).abs() };

@@ -77,7 +77,7 @@ fn kernels_are_valid_and_bind_what_the_catalogue_declares() {
         for law in LAWS {
             for wide in NUMBERS {
                 for plan in [&plan(48, 64), &padded] {
-                    let text = source::kernel(kernel, plan, [12, 16], law, wide)
+                    let text = source::kernel(kernel, plan, [12, 16], law.uniform(), wide)
                         .unwrap_or_else(|error| panic!("{error}"));
                     let (module, _) = validate(kernel.name, &text, wide);
                     let declared: Vec<_> = (0..kernel.fields() as u32)
@@ -109,7 +109,7 @@ fn transforms_of_many_lengths_are_valid() {
         let plan = plan(nx, ny);
         for wide in NUMBERS {
             for kernel in [&LOAD_FIELD, &STORE_PRESSURE] {
-                let text = source::kernel(kernel, &plan, [0, 0], LawPart::HardWall, wide)
+                let text = source::kernel(kernel, &plan, [0, 0], LawPart::HardWall.uniform(), wide)
                     .unwrap_or_else(|error| panic!("{error}"));
                 validate(&format!("{} {nx} x {ny}", kernel.name), &text, wide);
             }
@@ -132,7 +132,7 @@ fn rounds_are_valid() {
     assert_eq!(plan.rows.exchange, Exchange::Rounds(2));
     for wide in NUMBERS {
         for kernel in [&LOAD_FIELD, &STORE_PRESSURE] {
-            let text = source::kernel(kernel, &plan, [0, 0], LawPart::HardWall, wide)
+            let text = source::kernel(kernel, &plan, [0, 0], LawPart::HardWall.uniform(), wide)
                 .unwrap_or_else(|error| panic!("{error}"));
             validate(kernel.name, &text, wide);
         }

@@ -274,8 +274,13 @@ fn mistakes_in_adhesion() {
         ("law = \"maugis-dugdale\"\nwork_of_adhesion = \"50 mJ/m^2\"\nrange = \"1 nm\"", "law = \"lennard-jones\"\nwork_of_adhesion = \"50 mJ/m^2\"\nrange = \"1 nm\"\ntaper = \"auto\"", r#"s.toml:14: adhesion.taper: law = "lennard-jones" has no taper"#, r#"take law = "maugis-dugdale""#),
         ("law = \"maugis-dugdale\"\nwork_of_adhesion = \"50 mJ/m^2\"\nrange = \"1 nm\"", "law = \"exponential\"\nwork_of_adhesion = \"50 mJ/m^2\"\nrange = \"1 nm\"\ntaper = 0", r#"s.toml:14: adhesion.taper: law = "exponential" has no taper"#, "leave it out"),
         (r#"range = "1 nm""#, "range = \"1 nm\"\ntreatment = \"jkr\"", r#"s.toml:14: adhesion.treatment: "jkr" is none of "full", "dmt""#, "did you mean"),
-        (r#"range = "1 nm""#, "range = \"1 nm\"\nmap = \"w.npy\"", "s.toml:14: adhesion.map: a map of the adhesion is not in this version", "take it out"),
-        (r#"range = "1 nm""#, "range = \"1 nm\"\nmap = { pattern = \"checker\", period = \"1 um\", low = 0, high = 1 }", "s.toml:14: adhesion.map: a map of the adhesion is not in this version", "take it out"),
+        (r#"range = "1 nm""#, "range = \"1 nm\"\nmap = \"\"", "s.toml:14: adhesion.map: is empty", "name a file"),
+        (r#"range = "1 nm""#, "range = \"1 nm\"\nmap = 3", "s.toml:14: adhesion.map: the number 3 where a text in quotes is expected", "`map = \"w.npy\"`"),
+        (r#"range = "1 nm""#, "range = \"1 nm\"\nmap = { pattern = \"checker\", period = \"0.3 um\", low = 0, high = 1 }", "s.toml:14: adhesion.map.period: does not divide the size", "a whole fraction"),
+        (r#"range = "1 nm""#, "range = \"1 nm\"\nmap = { pattern = \"checker\", period = \"1 um\", low = 0, high = 0 }", "s.toml:14: adhesion.map.high: is 0 like low", "a factor above 0"),
+        (r#"range = "1 nm""#, "range = \"1 nm\"\nmap = { pattern = \"dots\", period = \"1 um\", low = 0, high = 1 }", "s.toml:14: adhesion.map.pattern: \"dots\" is none of \"checker\", \"stripe\"", "did you mean"),
+        (r#"range = "1 nm""#, "range = \"1 nm\"\nmap = { pattern = \"stripe\", period = \"1 um\", low = -1, high = 1 }", "s.toml:14: adhesion.map.low: -1 is out of range", "at least 0"),
+        (r#"range = "1 nm""#, "range = \"1 nm\"\nmap = { pattern = \"stripe\", period = \"1 um\", low = 0.5 }", "s.toml:14: adhesion.map.high: missing", "`high = 1`"),
         (r#"range = "1 nm""#, "range = \"1 nm\"\nenabled = false", "s.toml:14: adhesion.enabled: unknown key in [adhesion]", "It takes law, work_of_adhesion, range, peak_tension, taper, treatment"),
     ]);
 }
@@ -742,6 +747,7 @@ steps  = "last"
             range: Range::Length(1e-9),
             taper: None,
             treatment: Treatment::Full,
+            map: None,
         }),
         loading: LoadingScene {
             control: Control::Pressure,

@@ -123,6 +123,9 @@ pub trait Backend {
     fn write(&mut self, field: Field, values: &[f64]);
     /// Waits, and reads a field.
     fn read(&mut self, field: Field) -> Result<Vec<f64>, BackendError>;
+    /// Multiplies the law's tension by this field, in every kernel of its level from now on. Without
+    /// a call the law is the same everywhere and nothing is read for it.
+    fn set_law_factor(&mut self, factor: Field);
     /// Sets the numbers that stay fixed during a solve.
     fn set_params(&mut self, params: &Params);
     /// Overwrites the scalars.

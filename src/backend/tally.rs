@@ -113,6 +113,8 @@ impl Backend for Tally {
         Ok(vec![0.0; self.levels[field.level.0].len()])
     }
 
+    fn set_law_factor(&mut self, _factor: Field) {}
+
     fn set_params(&mut self, _params: &Params) {}
 
     fn set_scalars(&mut self, scalars: &Scalars) {

@@ -26,6 +26,16 @@ struct Core<T> {
 }
 
 impl<T: Real> Core<T> {
+    /// The core at a point of a block with these factors on its tension, if there are any.
+    #[inline(always)]
+    fn at(mut self, factor: &[T], index: usize) -> Self {
+        if let Some(&factor) = factor.get(index) {
+            self.law.work_of_adhesion = factor * self.law.work_of_adhesion;
+            self.peak = factor * self.peak;
+        }
+        self
+    }
+
     fn new(params: &Params) -> Self {
         let law = match params.law {
             Law::LennardJones(law) => law,
@@ -122,9 +132,11 @@ fn core_residual<T: Real>(
 ) {
     let layout = rows.layout();
     let core = Core::<T>::new(params);
+    let factor = rows.factor;
     let [gap, pressure, ..] = rows.reads;
     let mean = T::of(scalars.mean_pressure);
     layout.points(|i, on_surface| {
+        let core = core.at(factor, i);
         let traction = if on_surface {
             core.law.traction(gap[i])
         } else {
@@ -153,10 +165,12 @@ fn core_free<T: Real>(
 ) {
     let layout = rows.layout();
     let core = Core::<T>::new(params);
+    let factor = rows.factor;
     let [gap, pressure, ..] = rows.reads;
     let lines = &mut *rows.lines;
     let mean = T::of(scalars.mean_pressure);
     layout.points(|i, on_surface| {
+        let core = core.at(factor, i);
         let traction = if on_surface {
             core.law.traction(gap[i])
         } else {
@@ -181,11 +195,13 @@ fn core_descent<T: Real>(
 ) {
     let layout = rows.layout();
     let core = Core::<T>::new(params);
+    let factor = rows.factor;
     let [gap, pressure, direction, _] = rows.reads;
     let lines = &*rows.lines;
     let [z_out, y_before, _] = &mut rows.writes;
     let mean = T::of(scalars.mean_pressure);
     layout.points(|i, on_surface| {
+        let core = core.at(factor, i);
         let (traction, hardening) = if on_surface {
             (core.law.traction(gap[i]), core.hardening(gap[i]))
         } else {
@@ -227,11 +243,13 @@ fn core_direct<T: Real>(
 ) {
     let layout = rows.layout();
     let core = Core::<T>::new(params);
+    let factor = rows.factor;
     let [gap, z, ..] = rows.reads;
     let [direction, step, _] = &mut rows.writes;
     let factors = [scalars.descent, scalars.memory, scalars.shift].map(T::of);
     let length = T::of(scalars.trial);
     layout.points(|i, on_surface| {
+        let core = core.at(factor, i);
         let d = factors[0] * z[i] + factors[1] * direction[i] + factors[2];
         direction[i] = d;
         let s = if on_surface {
@@ -259,12 +277,14 @@ fn core_trial<T: Real>(
 ) {
     let layout = rows.layout();
     let core = Core::<T>::new(params);
+    let factor = rows.factor;
     let [gap, pressure, ..] = rows.reads;
     let step = &mut *rows.writes[0];
     let lines = &mut *rows.lines;
     let mean = T::of(scalars.mean_pressure);
     let restore = T::of(scalars.restore);
     layout.points(|i, on_surface| {
+        let core = core.at(factor, i);
         let mut s = step[i];
         if restore != T::zero() {
             s -= restore * core.share(gap[i] + s, on_surface);
@@ -303,9 +323,11 @@ fn core_search<T: Real>(
 ) {
     let layout = rows.layout();
     let core = Core::<T>::new(params);
+    let factor = rows.factor;
     let [gap, step, ..] = rows.reads;
     let t = T::of(scalars.step);
     layout.points(|i, on_surface| {
+        let core = core.at(factor, i);
         if on_surface {
             let moved = gap[i] + t * step[i];
             let change = core.law.traction(moved) - core.law.traction(gap[i]);
@@ -343,8 +365,10 @@ kernel!(
 fn core_balance<T: Real>(rows: &mut Rows<T>, params: &Params, _: &Scalars, sums: &mut [f64; SUMS]) {
     let layout = rows.layout();
     let core = Core::<T>::new(params);
+    let factor = rows.factor;
     let [gap, pressure, ..] = rows.reads;
     layout.points(|i, on_surface| {
+        let core = core.at(factor, i);
         let share = core.share(gap[i], on_surface);
         let traction = if on_surface {
             core.law.traction(gap[i])

@@ -29,6 +29,8 @@ pub struct Rows<'a, T> {
     pub writes: [&'a mut [T]; 3],
     /// A field read anywhere.
     pub whole: Whole<'a, T>,
+    /// Factors on the law's tension, cut to these rows; empty where the law is the same everywhere.
+    pub factor: &'a [T],
 }
 
 impl<T: Real> Rows<'_, T> {

@@ -6,9 +6,9 @@
 
 use super::coarse;
 use crate::kernel::{Params, Rows, SUMS, Scalars, kernel};
-use crate::law::Cohesion;
+use crate::law::{Cohesion, LawField};
 use crate::real::Real;
-use crate::with_law;
+use crate::with_law_field;
 
 /// y on free points, 0 elsewhere.
 #[inline(always)]
@@ -86,7 +86,8 @@ fn wall_residual<T: Real>(
     let [gap, pressure, ..] = rows.reads;
     let mean = T::of(scalars.mean_pressure);
     let stiffness_max = T::of(params.stiffness_max);
-    with_law!(params.law, T, law => layout.points(|i, on_surface| {
+    with_law_field!(params.law, rows.factor, T, law => layout.points(|i, on_surface| {
+        let law = LawField::<T>::at(&law, i);
         let y = total(&law, gap[i], pressure[i], mean, on_surface);
         let traction = if on_surface { law.traction(gap[i]) } else { T::zero() };
         add_residual(sums, gap[i], y, traction, stiffness_max, on_surface);
@@ -111,7 +112,8 @@ fn wall_free<T: Real>(
     let lines = &mut rows.lines[..count];
     let mean = T::of(scalars.mean_pressure);
     let stiffness_max = T::of(params.stiffness_max);
-    with_law!(params.law, T, law => layout.points(|i, on_surface| {
+    with_law_field!(params.law, rows.factor, T, law => layout.points(|i, on_surface| {
+        let law = LawField::<T>::at(&law, i);
         let traction = if on_surface { law.traction(gap[i]) } else { T::zero() };
         let y = pressure[i] + mean + traction;
         add_residual(sums, gap[i], y, traction, stiffness_max, on_surface);
@@ -188,7 +190,8 @@ fn wall_descent<T: Real>(
     let (z_out, y_before) = (&mut z_out[..count], &mut y_before[..count]);
     let mean = T::of(scalars.mean_pressure);
     let held = params.fixed_gap;
-    with_law!(params.law, T, law => layout.points(|i, on_surface| {
+    with_law_field!(params.law, rows.factor, T, law => layout.points(|i, on_surface| {
+        let law = LawField::<T>::at(&law, i);
         let y = total(&law, gap[i], pressure[i], mean, on_surface);
         let free = is_free(gap[i], y, on_surface);
         let y_free = if free { y } else { T::zero() };
@@ -267,7 +270,8 @@ fn wall_trial<T: Real>(
     let mean = T::of(scalars.mean_pressure);
     let factors = [scalars.descent, scalars.memory, scalars.shift].map(T::of);
     let length = T::of(scalars.trial);
-    with_law!(params.law, T, law => layout.points(|i, on_surface| {
+    with_law_field!(params.law, rows.factor, T, law => layout.points(|i, on_surface| {
+        let law = LawField::<T>::at(&law, i);
         let y = total(&law, gap[i], pressure[i], mean, on_surface);
         let d = new_direction(z[i], direction[i], factors, is_free(gap[i], y, on_surface));
         direction[i] = d;
@@ -296,7 +300,8 @@ fn wall_direct<T: Real>(
     let mean = T::of(scalars.mean_pressure);
     let factors = [scalars.descent, scalars.memory, scalars.shift].map(T::of);
     let length = T::of(scalars.trial);
-    with_law!(params.law, T, law => layout.points(|i, on_surface| {
+    with_law_field!(params.law, rows.factor, T, law => layout.points(|i, on_surface| {
+        let law = LawField::<T>::at(&law, i);
         let y = total(&law, gap[i], pressure[i], mean, on_surface);
         let d = new_direction(z[i], direction[i], factors, is_free(gap[i], y, on_surface));
         direction[i] = d;
@@ -323,7 +328,8 @@ fn wall_trial_held<T: Real>(
     let mean = T::of(scalars.mean_pressure);
     let length = T::of(scalars.trial);
     let restore = T::of(scalars.restore);
-    with_law!(params.law, T, law => layout.points(|i, on_surface| {
+    with_law_field!(params.law, rows.factor, T, law => layout.points(|i, on_surface| {
+        let law = LawField::<T>::at(&law, i);
         let y = total(&law, gap[i], pressure[i], mean, on_surface);
         let moved = length * direction[i];
         let step = trial_step(gap[i], moved, restore, on_surface);
@@ -349,7 +355,8 @@ fn wall_search<T: Real>(
     let length = T::of(scalars.trial);
     let restore = T::of(scalars.restore);
     let t = T::of(scalars.step);
-    with_law!(params.law, T, law => layout.points(|i, on_surface| {
+    with_law_field!(params.law, rows.factor, T, law => layout.points(|i, on_surface| {
+        let law = LawField::<T>::at(&law, i);
         if on_surface {
             let step = trial_step(gap[i], length * direction[i], restore, true);
             let change = law.traction(gap[i] + t * step) - law.traction(gap[i]);
@@ -406,7 +413,8 @@ fn wall_balance<T: Real>(
 ) {
     let layout = rows.layout();
     let [gap, pressure, ..] = rows.reads;
-    with_law!(params.law, T, law => layout.points(|i, on_surface| {
+    with_law_field!(params.law, rows.factor, T, law => layout.points(|i, on_surface| {
+        let law = LawField::<T>::at(&law, i);
         let y = total(&law, gap[i], pressure[i], T::zero(), on_surface).double();
         sums[0] += gap[i].double() * y;
         sums[1] += gap[i].double();

@@ -8,11 +8,13 @@ mod exponential;
 mod lennard_jones;
 mod maugis_dugdale;
 mod meniscus;
+mod pattern;
 
 pub use exponential::Exponential;
 pub use lennard_jones::LennardJones;
 pub use maugis_dugdale::MaugisDugdale;
 pub use meniscus::{GAS_CONSTANT, LEAST_KELVIN_RADIUS, Meniscus, least_humidity};
+pub use pattern::{LawField, Patterned, Scaled, Uniform};
 
 use crate::real::Real;
 

@@ -1,13 +1,21 @@
 //! `[adhesion]`: a law from two of its three numbers.
 
+use std::path::Path;
+
 use super::document::Value;
 use super::keys;
 use super::reader::{Allowed, Reader};
-use super::types::{AdhesionScene, LawName, Range, Treatment};
+use super::types::{
+    AdhesionMap, AdhesionScene, Boundary, GridScene, LawName, PatternKind, Range, Treatment,
+};
 use crate::units::{self, Dimension};
 
-/// Reads `[adhesion]`: `Some(None)` where the scene has none.
-pub(super) fn read(scene: &Reader) -> Option<Option<AdhesionScene>> {
+/// Reads `[adhesion]`: `Some(None)` where the scene has none. Paths are taken from `folder`.
+pub(super) fn read(
+    scene: &Reader,
+    grid: Option<&GridScene>,
+    folder: &Path,
+) -> Option<Option<AdhesionScene>> {
     if !scene.has("adhesion") {
         return Some(None);
     }
@@ -21,6 +29,7 @@ pub(super) fn read(scene: &Reader) -> Option<Option<AdhesionScene>> {
     } else {
         Some(Treatment::Full)
     };
+    let map = map(&adhesion, law, grid, folder);
     let (work_of_adhesion, range) = numbers?;
     Some(Some(AdhesionScene {
         law: law?,
@@ -28,6 +37,80 @@ pub(super) fn read(scene: &Reader) -> Option<Option<AdhesionScene>> {
         range,
         taper: taper?,
         treatment: treatment?,
+        map: map?,
+    }))
+}
+
+/// Relative difference up to which a period divides a size.
+const DIVIDES: f64 = 1e-9;
+
+/// Reads the map: `Some(None)` where there is none.
+fn map(
+    adhesion: &Reader,
+    law: Option<LawName>,
+    grid: Option<&GridScene>,
+    folder: &Path,
+) -> Option<Option<AdhesionMap>> {
+    let Some(node) = adhesion.node("map") else {
+        return Some(None);
+    };
+    if let Value::Text(path) = &node.value {
+        if path.is_empty() {
+            adhesion.conflict("map", "is empty; name a file, relative to the scene file");
+            return None;
+        }
+        return Some(Some(AdhesionMap::File(folder.join(path))));
+    }
+    if !matches!(node.value, Value::Table(_)) {
+        // A table is what else it may be; what it is instead is said by the text's own error.
+        adhesion.text("map");
+        return None;
+    }
+    let pattern = adhesion.table("map", &keys::PATTERN)?;
+    pattern.require(&["pattern", "period", "low", "high"]);
+    let kind = pattern.choice("pattern", PatternKind::ALL, PatternKind::name);
+    let period = pattern.quantity("period", Dimension::Length, Allowed::POSITIVE);
+    let factors = ["low", "high"]
+        .map(|key| pattern.quantity(key, Dimension::Dimensionless, Allowed::NOT_NEGATIVE));
+    if let (Some(period), Some(kind), Some(grid)) = (period, kind, grid)
+        && let Some(size) = grid.size
+        && grid.boundary == Boundary::Periodic
+    {
+        let sides = match kind {
+            PatternKind::Checker => &size[..],
+            PatternKind::Stripe => &size[..1],
+        };
+        if sides.iter().any(|side| {
+            let periods = side / period;
+            periods.round() < 1.0 || (periods - periods.round()).abs() > DIVIDES * periods
+        }) {
+            pattern.conflict(
+                "period",
+                "does not divide the size of the periodic cell; take a whole fraction of it",
+            );
+            return None;
+        }
+    }
+    let [low, high] = [factors[0]?, factors[1]?];
+    if low == 0.0 && high == 0.0 {
+        pattern.conflict(
+            "high",
+            "is 0 like low: nothing attracts; leave [adhesion] out, or give a factor above 0",
+        );
+        return None;
+    }
+    if law == Some(LawName::LennardJones) && low.min(high) == 0.0 {
+        pattern.conflict(
+            if low == 0.0 { "low" } else { "high" },
+            "must be above 0: with law = \"lennard-jones\" the same factor repels; take another law, or a small factor",
+        );
+        return None;
+    }
+    Some(Some(AdhesionMap::Pattern {
+        kind: kind?,
+        period: period?,
+        low,
+        high,
     }))
 }
 

@@ -114,6 +114,7 @@ impl CapillaryScene {
             range: Range::Length(meniscus.range()),
             taper: None,
             treatment: Treatment::Full,
+            map: None,
         })
     }
 }

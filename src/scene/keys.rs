@@ -162,8 +162,20 @@ pub(super) const ADHESION: Section = Section {
         ("peak_tension", "peak_tension = \"50 MPa\""),
         ("taper", "taper = \"auto\""),
         ("treatment", "treatment = \"full\""),
+        ("map", "map = \"w.npy\""),
     ],
-    later: &[("map", "a map of the adhesion")],
+    later: &[],
+};
+
+pub(super) const PATTERN: Section = Section {
+    title: "the pattern of [adhesion] map",
+    keys: &[
+        ("pattern", "pattern = \"checker\""),
+        ("period", "period = \"1 um\""),
+        ("low", "low = 0"),
+        ("high", "high = 1"),
+    ],
+    later: &[],
 };
 
 pub(super) const CAPILLARY: Section = Section {
@@ -234,6 +246,7 @@ pub(super) const ALL: &[&Section] = &[
     &WAVY,
     &FILE,
     &ADHESION,
+    &PATTERN,
     &CAPILLARY,
     &LOADING,
     &RAMP,

@@ -93,7 +93,7 @@ fn read_tables(root: &Table, folder: &Path, log: &Log) -> Option<Scene> {
     let boundary = grid.as_ref().map(|grid| grid.boundary);
     let solid = solid::read(&scene, boundary);
     let surfaces = surface::read(&scene, grid.as_ref(), folder);
-    let adhesion = adhesion::read(&scene);
+    let adhesion = adhesion::read(&scene, grid.as_ref(), folder);
     let capillary = capillary::read(&scene);
     let adhesion = match &capillary {
         Some(Some(liquid)) => adhesion.map(|_| liquid.adhesion()),

@@ -160,7 +160,17 @@ impl AdhesionScene {
         };
         let has_taper = self.law == LawName::MaugisDugdale;
         let table = with(table, "taper", has_taper.then_some(taper));
-        with(table, "treatment", Some(json!(self.treatment.name())))
+        let table = with(table, "treatment", Some(json!(self.treatment.name())));
+        let map = self.map.as_ref().map(|map| match map {
+            AdhesionMap::File(path) => json!(path.to_string_lossy()),
+            AdhesionMap::Pattern {
+                kind,
+                period,
+                low,
+                high,
+            } => json!({ "pattern": kind.name(), "period": period, "low": low, "high": high }),
+        });
+        with(table, "map", map)
     }
 }
 

@@ -229,6 +229,48 @@ pub struct AdhesionScene {
     pub taper: Option<f64>,
     /// How the attraction is found.
     pub treatment: Treatment,
+    /// A factor on the tension point by point (an effect).
+    pub map: Option<AdhesionMap>,
+}
+
+/// Where the factors on a law's tension come from.
+#[derive(Clone, Debug, PartialEq)]
+pub enum AdhesionMap {
+    /// A file of one factor a point; the path is resolved against the scene's folder.
+    File(PathBuf),
+    /// Two factors in turn, each for half a period.
+    Pattern {
+        /// How they take turns.
+        kind: PatternKind,
+        /// Period, m.
+        period: f64,
+        /// One factor.
+        low: f64,
+        /// The other, which the first point has.
+        high: f64,
+    },
+}
+
+/// How two factors take turns.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum PatternKind {
+    /// Along x and y.
+    Checker,
+    /// Along x.
+    Stripe,
+}
+
+impl PatternKind {
+    /// Every one of them.
+    pub const ALL: &[PatternKind] = &[PatternKind::Checker, PatternKind::Stripe];
+
+    /// The word used in scenes.
+    pub fn name(self) -> &'static str {
+        match self {
+            PatternKind::Checker => "checker",
+            PatternKind::Stripe => "stripe",
+        }
+    }
 }
 
 /// `[capillary]`: a liquid that condenses between the surfaces.

@@ -133,6 +133,12 @@ impl<'a> ContactSolver<'a> {
         let free_before = backend.field(level, "free_before");
         let has_wall = problem.law.has_wall();
         let step = (!has_wall).then(|| backend.field(level, "step"));
+        if let Some(factor) = &problem.law_factor {
+            let field = backend.field(level, "adhesion_map");
+            // A pad has no law.
+            backend.write(field, &problem.padded(factor, 0.0));
+            backend.set_law_factor(field);
+        }
         let stiffness = backend.spectrum(level, "stiffness", &problem.stiffness);
         let two_band = TwoBand::plan(backend, level, problem);
         let compliance: Vec<f64> = match &two_band {

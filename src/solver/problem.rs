@@ -41,6 +41,8 @@ pub struct Problem {
     pub rms_slope: f64,
     /// The law, reduced.
     pub law: Law,
+    /// Factors on the law's tension, one a grid point; `None` where the law is the same everywhere.
+    pub law_factor: Option<Vec<f64>>,
     /// The layer in place of the half-space (periodic grids), SI.
     pub layer: Option<Layer>,
     /// Stiffness at each wavevector, as [`Shape::spectrum_len`] says; its zero mode is 0
@@ -123,6 +125,7 @@ impl Problem {
             rms_slope,
             law: law.reduced(length, scales.pressure),
             stiffness,
+            law_factor: None,
             layer: None,
         }
     }
@@ -132,6 +135,14 @@ impl Problem {
         Problem {
             stiffness: periodic_stiffness(&self.grid, self.scales.lateral, Some(&layer)),
             layer: Some(layer),
+            ..self
+        }
+    }
+
+    /// The same problem with the law's tension multiplied by a factor at each grid point.
+    pub fn patterned(self, factor: Vec<f64>) -> Problem {
+        Problem {
+            law_factor: Some(factor),
             ..self
         }
     }
@@ -153,6 +164,7 @@ impl Problem {
     pub fn without_adhesion(&self) -> Problem {
         Problem {
             law: Law::HardWall,
+            law_factor: None,
             ..self.clone()
         }
     }
@@ -181,6 +193,8 @@ impl Problem {
             heights,
             stiffness: periodic_stiffness(&grid, self.scales.lateral, self.layer.as_ref()),
             law: self.law,
+            // Only a wall without a law is helped by coarser grids.
+            law_factor: None,
             ..*self
         })
     }

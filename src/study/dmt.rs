@@ -37,7 +37,7 @@ pub(super) fn step(
     watch: &mut dyn FnMut(&Scalars) -> bool,
 ) -> Result<SolvedStep, BackendError> {
     let asked = controller.mean_pressure(value);
-    let peak = setup.law.peak_tension();
+    let peak = setup.law.peak_tension() * setup.largest_law_factor();
     let covered = setup.surface.grid.len() as f64 / setup.problem.shape.len() as f64;
     let tolerance = setup.scene.solver.tolerance;
     let mut iterations = 0;

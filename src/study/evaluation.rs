@@ -100,7 +100,8 @@ impl Evaluation {
             } else {
                 g <= 0.0
             };
-            let traction = law.traction(g);
+            let factor = setup.law_factor(i);
+            let traction = factor * law.traction(g);
             let y = elastic[i] + solved.held;
             // 0 - x, for the negative of zero prints as -0.
             net[i] = if negative_is_contact {
@@ -120,7 +121,7 @@ impl Evaluation {
                     points[i] = PointState::Attracted;
                 }
             }
-            adhesive += law.energy(g);
+            adhesive += factor * law.energy(g);
         }
         let energy_unit = scales.length * scales.pressure * problem.grid.pixel_area();
         // <u, Ku>/2 over all solved points; the zero mode of a spring is not elastic energy.

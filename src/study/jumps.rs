@@ -25,6 +25,8 @@ pub struct Jumps {
     work: Option<f64>,
     pixel_area: f64,
     control: Control,
+    /// Factors on the law's tension.
+    law_factor: Option<Vec<f64>>,
     before: Option<Before>,
 }
 
@@ -42,6 +44,7 @@ impl Jumps {
             work: adhesive.then(|| setup.law.work_of_adhesion()),
             pixel_area: setup.surface.grid.pixel_area(),
             control: setup.scene.loading.control,
+            law_factor: setup.surface.adhesion_map.clone(),
             before: None,
         }
     }
@@ -66,7 +69,15 @@ impl Jumps {
         };
         match (&before.points, &now.points) {
             (Some(old), Some(new)) => {
-                let changed = old.iter().zip(new).filter(|(a, b)| a != b).count() as f64;
+                // Points that changed, each by how strongly it sticks.
+                let sticks = |point: usize| self.law_factor.as_ref().map_or(1.0, |map| map[point]);
+                let changed = old
+                    .iter()
+                    .zip(new)
+                    .enumerate()
+                    .filter(|(_, (a, b))| a != b)
+                    .map(|(point, _)| sticks(point))
+                    .sum::<f64>();
                 let dissipated =
                     dissipation(&before.row, row)? - quadrature_error(&before.row, row)?;
                 let threshold = DISSIPATED_SHARE * work * changed * self.pixel_area;

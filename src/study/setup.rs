@@ -56,10 +56,16 @@ impl Regime {
     }
 }
 
-/// The law of a scene on pixels of side `pixel` (m), with what `auto` stands for.
-pub fn resolve_law(adhesion: &AdhesionScene, pixel: f64, contact_modulus: f64) -> Law {
+/// The law of a scene on pixels of side `pixel` (m), with what `auto` stands for where the map's
+/// largest factor on the tension is `strongest`.
+pub fn resolve_law(
+    adhesion: &AdhesionScene,
+    pixel: f64,
+    contact_modulus: f64,
+    strongest: f64,
+) -> Law {
     let work = adhesion.work_of_adhesion;
-    let resolved = (work * pixel / contact_modulus).sqrt();
+    let resolved = (strongest * work * pixel / contact_modulus).sqrt();
     let range = match (adhesion.range, adhesion.law) {
         (Range::Length(range), _) => range,
         // The shortest ranges at which pull-off is still within some per cent of JKR's.
@@ -72,7 +78,7 @@ pub fn resolve_law(adhesion: &AdhesionScene, pixel: f64, contact_modulus: f64) -
             let peak_tension = work / range;
             // Summed over a gap that does not feel it, the attraction traps nothing.
             let auto = match adhesion.treatment {
-                Treatment::Full => 2.0 * peak_tension * pixel / contact_modulus,
+                Treatment::Full => 2.0 * strongest * peak_tension * pixel / contact_modulus,
                 Treatment::Dmt => 0.0,
             };
             Law::MaugisDugdale(MaugisDugdale {
@@ -92,6 +98,11 @@ pub fn resolve_law(adhesion: &AdhesionScene, pixel: f64, contact_modulus: f64) -
     }
 }
 
+/// The largest factor of a map; 1 without one.
+fn strongest(map: Option<&[f64]>) -> f64 {
+    map.map_or(1.0, |map| map.iter().copied().fold(0.0, f64::max))
+}
+
 impl Setup {
     /// Puts a scene and its surface together.
     pub fn new(scene: Scene, surface: Surface) -> Self {
@@ -99,8 +110,9 @@ impl Setup {
         let statistics = Statistics::of(&grid, &surface.heights, scene.grid.boundary);
         let modulus = scene.solid.contact_modulus;
         let pixel = grid.dx().max(grid.dy());
+        let strongest = strongest(surface.adhesion_map.as_deref());
         let law = match &scene.adhesion {
-            Some(adhesion) => resolve_law(adhesion, pixel, modulus),
+            Some(adhesion) => resolve_law(adhesion, pixel, modulus, strongest),
             None => Law::HardWall,
         };
         let dmt = scene
@@ -110,8 +122,9 @@ impl Setup {
         let curvature = statistics.moments.rms_curvature();
         let regime = law.is_adhesive().then(|| {
             let radius = surface.sphere_radius.unwrap_or(2.0 / curvature);
-            let work = law.work_of_adhesion();
-            let peak = law.peak_tension();
+            // A map is judged where it attracts most.
+            let work = strongest * law.work_of_adhesion();
+            let peak = strongest * law.peak_tension();
             let distance = 1.0264 * work / peak;
             Regime {
                 radius,
@@ -132,6 +145,10 @@ impl Setup {
             statistics.moments.rms_slope(),
             if dmt { Law::HardWall } else { law },
         );
+        let problem = match &surface.adhesion_map {
+            Some(factor) if !dmt => problem.patterned(factor.clone()),
+            _ => problem,
+        };
         let problem = match scene.solid.layer {
             Some(layer) => problem.on_layer(layer),
             None => problem,
@@ -151,6 +168,20 @@ impl Setup {
         setup.warn_of_pixels();
         setup.warn_of_waves();
         setup
+    }
+
+    /// Factor on the law's tension at a grid point.
+    #[inline]
+    pub fn law_factor(&self, point: usize) -> f64 {
+        match &self.surface.adhesion_map {
+            Some(map) => map[point],
+            None => 1.0,
+        }
+    }
+
+    /// The largest factor on the law's tension.
+    pub fn largest_law_factor(&self) -> f64 {
+        strongest(self.surface.adhesion_map.as_deref())
     }
 
     /// Warns by chi, with the errors that were measured on spheres.

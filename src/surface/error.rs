@@ -4,7 +4,7 @@ use std::path::PathBuf;
 
 use thiserror::Error;
 
-use super::MOST_POINTS;
+use super::{MOST_POINTS, MapError};
 
 /// Why the heights of a scene cannot be built.
 #[derive(Debug, Error)]
@@ -51,6 +51,14 @@ pub enum SurfaceError {
         part: usize,
         /// What is wrong with it.
         problem: Box<PartError>,
+    },
+    /// The map of `[adhesion]` is wrong.
+    #[error("[adhesion] map {}: {problem}", path.display())]
+    AdhesionMap {
+        /// The file; empty for a pattern.
+        path: PathBuf,
+        /// What is wrong with it.
+        problem: Box<MapError>,
     },
     /// A sum of parts past the range of numbers.
     #[error(

@@ -10,6 +10,7 @@
 //! assert_eq!(heights.len(), 64 * 64);
 //! ```
 
+mod adhesion_map;
 mod detrend;
 mod error;
 mod file;
@@ -23,6 +24,7 @@ pub mod spectrum;
 pub mod statistics;
 mod text;
 
+pub use adhesion_map::MapError;
 pub use error::{FileError, PartError, SurfaceError};
 
 use crate::grid::Grid;
@@ -46,6 +48,8 @@ pub struct Surface {
     pub highest: f64,
     /// Radius, m, of a surface that is exactly one sphere.
     pub sphere_radius: Option<f64>,
+    /// Factors on the tension of the scene's law, shape `[ny, nx]`; `None` without a map.
+    pub adhesion_map: Option<Vec<f64>>,
     /// What the author should know, one sentence each, naming the part.
     pub warnings: Vec<String>,
 }
@@ -56,7 +60,11 @@ impl Surface {
     /// # Errors
     /// See [`SurfaceError`]; an error of a part names it by its number, from 1.
     pub fn build(scene: &Scene) -> Result<Surface, SurfaceError> {
-        Surface::from_parts(&scene.grid, &scene.surfaces)
+        let surface = Surface::from_parts(&scene.grid, &scene.surfaces)?;
+        Ok(Surface {
+            adhesion_map: adhesion_map::build(scene, &surface.grid)?,
+            ..surface
+        })
     }
 
     /// Builds the heights of `parts` on the grid of `scene`, or on that of a height file among them.
@@ -105,6 +113,7 @@ impl Surface {
                 Some(SurfacePart::Sphere { radius, .. }) => Some(*radius),
                 _ => None,
             },
+            adhesion_map: None,
             warnings,
         })
     }

@@ -24,6 +24,8 @@ pub(super) struct Job<'a, T: Real> {
     pub writes: [&'a mut [T]; 3],
     /// The field read anywhere.
     pub whole: Whole<'a, T>,
+    /// Factors on the law's tension, whole; empty without them.
+    pub factor: &'a [T],
     /// One set of sums a block.
     pub partials: &'a mut [[f64; SUMS]],
     /// Spectra of these blocks, `work_per_block` values each.
@@ -64,6 +66,7 @@ impl<'a, T: Real> Job<'a, T> {
             reads: self.reads,
             writes,
             whole: self.whole,
+            factor: self.factor,
             partials,
             work,
             work_per_block: self.work_per_block,
@@ -88,6 +91,11 @@ impl<'a, T: Real> Job<'a, T> {
                 *cut = &field[range.clone()];
             }
         }
+        let factor = if self.factor.is_empty() {
+            &[]
+        } else {
+            &self.factor[range]
+        };
         let [a, b, c] = &mut self.writes;
         let mut rows = Rows {
             first,
@@ -98,6 +106,7 @@ impl<'a, T: Real> Job<'a, T> {
             reads,
             writes: [a, b, c],
             whole: self.whole,
+            factor,
         };
         (self.twin)(&mut rows, self.params, self.scalars, &mut self.partials[0]);
     }

@@ -20,6 +20,8 @@ pub struct CpuBackend<T: Real> {
     levels: Vec<LevelSpace<T>>,
     fields: Vec<Vec<T>>,
     spectra: Vec<Vec<T>>,
+    /// The field of factors on the law's tension.
+    law_factor: Option<Field>,
     params: Option<Params>,
     scalars: Scalars,
     transforms: f64,
@@ -75,6 +77,7 @@ impl<T: CpuReal> CpuBackend<T> {
             levels: Vec::new(),
             fields: Vec::new(),
             spectra: Vec::new(),
+            law_factor: None,
             params: None,
             scalars: Scalars::start(0.0, false),
             transforms: 0.0,
@@ -122,6 +125,10 @@ impl<T: CpuReal> CpuBackend<T> {
                 points: [0, 0],
             },
         };
+        let factor: &[T] = match self.law_factor {
+            Some(field) if field.level == level => &self.fields[field.index],
+            _ => &[],
+        };
         let share = self.share_of_first(level);
         let space = &mut self.levels[level.0];
         let blocks = space.shape.points[1].div_ceil(BLOCK);
@@ -138,6 +145,7 @@ impl<T: CpuReal> CpuBackend<T> {
             reads,
             writes: [a, b, c],
             whole,
+            factor,
             partials,
             work: &mut [],
             work_per_block: 0,
@@ -217,6 +225,10 @@ impl<T: CpuReal> Backend for CpuBackend<T> {
             .iter()
             .map(|value| value.double())
             .collect())
+    }
+
+    fn set_law_factor(&mut self, factor: Field) {
+        self.law_factor = Some(factor);
     }
 
     fn set_params(&mut self, params: &Params) {

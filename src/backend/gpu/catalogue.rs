@@ -85,6 +85,11 @@ pub fn shader(name: &str) -> Option<&'static Shader> {
     SHADERS.iter().find(|shader| shader.name == name)
 }
 
+/// Whether a kernel asks for the cohesive law.
+pub fn asks_for_law(name: &str) -> bool {
+    shader(name).is_some_and(|shader| shader.law)
+}
+
 /// The laws as far as their WGSL differs.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub enum LawPart {

@@ -49,6 +49,8 @@ pub struct GpuBackend {
     roots: HashMap<usize, wgpu::Buffer>,
     prepared: HashMap<Key, Prepared>,
     law: LawPart,
+    /// The field of factors on the law's tension.
+    law_factor: Option<Field>,
     /// The first thing that went wrong; told where the host waits.
     failure: Option<GpuError>,
     transforms: f64,
@@ -93,6 +95,7 @@ impl GpuBackend {
             roots: HashMap::new(),
             prepared: HashMap::new(),
             law: LawPart::HardWall,
+            law_factor: None,
             failure,
             transforms: 0.0,
             // Software idles through shut gates slower than it waits.
@@ -280,8 +283,21 @@ impl GpuBackend {
             (true, Some(field)) => self.level_space(field.level)?.plan.shape,
             _ => [0, 0],
         };
-        let text = source::kernel(kernel, &space.plan, whole, self.law, self.wide)?;
-        let accesses = bindings::fields(kernel.reads, kernel.writes, kernel.whole);
+        let mut accesses = bindings::fields(kernel.reads, kernel.writes, kernel.whole);
+        // Bound behind the kernel's own fields.
+        let factor = match self.law_factor {
+            Some(field) if field.level == level && catalogue::asks_for_law(kernel.name) => {
+                buffers.push(&self.field_space(field)?.buffer);
+                accesses.push(bindings::Access::Read);
+                Some(kernel.fields())
+            }
+            _ => None,
+        };
+        let law = source::LawSource {
+            part: self.law,
+            factor,
+        };
+        let text = source::kernel(kernel, &space.plan, whole, law, self.wide)?;
         let shared = [&self.params, &self.scalars, &space.partials];
         let transform = [&space.row_roots, &space.work];
         let mut groups: Vec<(&[bindings::Access], &[&wgpu::Buffer])> =
@@ -450,6 +466,12 @@ impl Backend for GpuBackend {
             self.failure.get_or_insert_with(|| error.clone());
         }
         Ok(result?)
+    }
+
+    fn set_law_factor(&mut self, factor: Field) {
+        // Kernels with a factor bind one field more.
+        self.prepared.clear();
+        self.law_factor = Some(factor);
     }
 
     fn set_params(&mut self, params: &Params) {

@@ -16,6 +16,25 @@ use super::level::{SWEEP_SUMS_AT_ONCE, SWEEP_THREADS};
 use super::plan::LinePlan;
 use crate::kernel::{Form, Gate, Kernel, Reduce, SUMS, ScalarKernel};
 
+/// The law of a kernel: its part, and where the factors on its tension are bound.
+#[derive(Clone, Copy, Debug)]
+pub struct LawSource {
+    /// Which law.
+    pub part: LawPart,
+    /// Binding of the factors in group 1; `None` where the law is the same everywhere.
+    pub factor: Option<usize>,
+}
+
+impl LawPart {
+    /// This law, the same everywhere.
+    pub fn uniform(self) -> LawSource {
+        LawSource {
+            part: self,
+            factor: None,
+        }
+    }
+}
+
 /// The WGSL function of a gate.
 pub fn gate_name(gate: Gate) -> &'static str {
     match gate {
@@ -112,12 +131,30 @@ fn on_surface(source: &mut String, plan: &LevelPlan) {
     );
 }
 
+/// What happens as a thread comes to a point, before the kernel's own part.
+fn arrive(source: &mut String, law: LawSource) {
+    let (factor, take) = match law.factor {
+        Some(binding) => (
+            format!(
+                "@group(1) @binding({binding}) var<storage, read> law_factors: array<f32>;\n\
+                 var<private> law_factor: f32;\n"
+            ),
+            "law_factor = law_factors[index]; ",
+        ),
+        None => ("const law_factor: f32 = 1.0;\n".to_string(), ""),
+    };
+    let _ = writeln!(
+        source,
+        "{factor}fn arrive(index: u32) -> bool {{ {take}return on_surface(index); }}"
+    );
+}
+
 /// The shader of a kernel on a level. `whole` is the shape of the field it reads anywhere.
 pub fn kernel(
     kernel: &Kernel,
     plan: &LevelPlan,
     whole: [usize; 2],
-    law: LawPart,
+    law: LawSource,
     wide: Wide,
 ) -> Result<String, GpuError> {
     let shader = catalogue::shader(kernel.name).ok_or(GpuError::NoShader(kernel.name))?;
@@ -133,6 +170,7 @@ pub fn kernel(
         hand_in(&mut source, kernel.sums, plan.groups(kernel.form));
     }
     on_surface(&mut source, plan);
+    arrive(&mut source, law);
     let [width, height] = plan.shape;
     let _ = writeln!(
         source,
@@ -149,9 +187,9 @@ pub fn kernel(
     Ok(source)
 }
 
-fn join(source: &mut String, shader: &Shader, law: LawPart) {
+fn join(source: &mut String, shader: &Shader, law: LawSource) {
     if shader.law {
-        source.push_str(law.source());
+        source.push_str(law.part.source());
     }
     for part in shader.parts {
         source.push_str(part);
@@ -178,7 +216,7 @@ fn sweep_main(source: &mut String, kernel: &Kernel, plan: &LevelPlan) {
          fn {}(@builtin(workgroup_id) group: vec3<u32>, @builtin(local_invocation_index) index_in_group: u32) {{\n\
          {open}\
          for (var index = group.x * {SWEEP_THREADS}u + index_in_group; index < {points}u; index = index + {stride}u) {{\n\
-         point(index, on_surface(index));\n\
+         point(index, arrive(index));\n\
          }}\n\
          {close}}}\n",
         kernel.name,
@@ -220,7 +258,7 @@ fn load_main(source: &mut String, kernel: &Kernel, plan: &LevelPlan) {
             let _ = writeln!(
                 source,
                 "{{ let index = pair * {width}u + {};\n\
-                 {} = vec2<f32>(load_point(index, on_surface(index)), load_point(index + {half}u, on_surface(index + {half}u))); }}",
+                 {} = vec2<f32>(load_point(index, arrive(index)), load_point(index + {half}u, arrive(index + {half}u))); }}",
                 each.position(leg),
                 each.name(leg),
             );
@@ -271,8 +309,8 @@ fn store_main(source: &mut String, kernel: &Kernel, plan: &LevelPlan) {
             let _ = writeln!(
                 source,
                 "{{ let index = pair * {width}u + {};\n\
-                 store_point(index, on_surface(index), {name}.x);\n\
-                 store_point(index + {half}u, on_surface(index + {half}u), {name}.y); }}",
+                 store_point(index, arrive(index), {name}.x);\n\
+                 store_point(index + {half}u, arrive(index + {half}u), {name}.y); }}",
                 each.position(leg),
                 name = each.name(leg),
             );

@@ -1,0 +1,133 @@
+//! A factor on the law's tension at each point: a pattern, or a map from a file.
+
+use std::path::{Path, PathBuf};
+
+use super::error::{FileError, SurfaceError};
+use super::file;
+use crate::grid::Grid;
+use crate::scene::{
+    AdhesionMap, Boundary, Detrend, Fill, HeightFileScene, LawName, PatternKind, Scene,
+};
+
+/// Rounding of a point's place in a pattern, in half periods.
+const ROUNDING: f64 = 1e-9;
+
+/// What is wrong with an adhesion map.
+#[derive(Debug, thiserror::Error)]
+pub enum MapError {
+    /// The file cannot be read as a map.
+    #[error(transparent)]
+    File(#[from] FileError),
+    /// A factor that is not one.
+    #[error("row {row}, column {column}: a factor of {value:e}; {remedy}")]
+    Factor {
+        /// Row, from 1.
+        row: usize,
+        /// Column, from 1.
+        column: usize,
+        /// The number found.
+        value: f64,
+        /// What would do.
+        remedy: &'static str,
+    },
+    /// Nothing attracts.
+    #[error("every factor is 0; leave [adhesion] out, or take a map that attracts somewhere")]
+    Nothing,
+}
+
+/// The map of a scene on its grid, shape `[ny, nx]`; `None` where the scene names none.
+pub(super) fn build(scene: &Scene, grid: &Grid) -> Result<Option<Vec<f64>>, SurfaceError> {
+    let Some(adhesion) = &scene.adhesion else {
+        return Ok(None);
+    };
+    let Some(map) = &adhesion.map else {
+        return Ok(None);
+    };
+    let (path, factors) = match map {
+        AdhesionMap::File(path) => (path.clone(), read(path, grid)),
+        AdhesionMap::Pattern {
+            kind,
+            period,
+            low,
+            high,
+        } => (
+            PathBuf::new(),
+            Ok(pattern(*kind, *period, [*low, *high], grid)),
+        ),
+    };
+    factors
+        .and_then(|factors| check(factors, adhesion.law, grid))
+        .map(Some)
+        .map_err(|problem| SurfaceError::AdhesionMap {
+            path,
+            problem: Box::new(problem),
+        })
+}
+
+fn read(path: &Path, grid: &Grid) -> Result<Vec<f64>, MapError> {
+    let plain = HeightFileScene {
+        path: path.to_path_buf(),
+        unit: 1.0,
+        scale: 1.0,
+        detrend: Detrend::None,
+        fill: Fill::None,
+    };
+    // Whether opposite edges match is no matter of a map.
+    let map = file::read(&plain, Boundary::Free)?;
+    map.compare_points([grid.nx, grid.ny], "the grid")?;
+    map.compare_size([grid.lx, grid.ly], "the grid")?;
+    Ok(map.heights)
+}
+
+/// Points of low and high factors in turn, each for half a period; the first point is high.
+fn pattern(kind: PatternKind, period: f64, [low, high]: [f64; 2], grid: &Grid) -> Vec<f64> {
+    let half = |place: f64| (2.0 * place / period + ROUNDING).floor() as i64;
+    let mut factors = Vec::with_capacity(grid.len());
+    for row in 0..grid.ny {
+        for column in 0..grid.nx {
+            let across = match kind {
+                PatternKind::Checker => half(row as f64 * grid.dy()),
+                PatternKind::Stripe => 0,
+            };
+            let odd = (half(column as f64 * grid.dx()) + across) % 2 != 0;
+            factors.push(if odd { low } else { high });
+        }
+    }
+    factors
+}
+
+fn check(factors: Vec<f64>, law: LawName, grid: &Grid) -> Result<Vec<f64>, MapError> {
+    let core = law == LawName::LennardJones;
+    let wrong = |factor: f64| !factor.is_finite() || factor < 0.0 || (core && factor == 0.0);
+    if let Some(point) = factors.iter().position(|&factor| wrong(factor)) {
+        return Err(MapError::Factor {
+            row: point / grid.nx + 1,
+            column: point % grid.nx + 1,
+            value: factors[point],
+            remedy: if core {
+                "it must be above 0: with law = \"lennard-jones\" the same factor repels"
+            } else {
+                "it must be finite and at least 0"
+            },
+        });
+    }
+    if factors.iter().all(|&factor| factor == 0.0) {
+        return Err(MapError::Nothing);
+    }
+    Ok(factors)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn patterns_start_high_and_repeat() {
+        let grid = Grid::new([4, 4], [1.0, 1.0]);
+        let checker = pattern(PatternKind::Checker, 1.0, [0.0, 2.0], &grid);
+        assert_eq!(checker[..4], [2.0, 2.0, 0.0, 0.0]);
+        assert_eq!(checker[8..12], [0.0, 0.0, 2.0, 2.0]);
+        let stripe = pattern(PatternKind::Stripe, 0.5, [0.5, 1.0], &grid);
+        assert!(stripe.chunks(4).all(|row| row == [1.0, 0.5, 1.0, 0.5]));
+    }
+}
