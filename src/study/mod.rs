@@ -4,6 +4,7 @@ pub mod control;
 mod cost;
 mod dmt;
 mod evaluation;
+mod hand_over;
 mod jumps;
 mod relaxation;
 mod row;
@@ -12,8 +13,9 @@ mod walk;
 
 pub use cost::Cost;
 pub use evaluation::{Evaluation, PointState, Solved};
+pub use hand_over::{Earlier, HandOver, HandedField};
 pub use jumps::{Jump, dissipation};
 pub use relaxation::{History, branch_coefficients, effective_modulus};
 pub use row::{State, StepRow};
 pub use setup::{Regime, Setup, resolve_law};
-pub use walk::{FinishedStep, Observer, WalkEnd, WalkError, walk};
+pub use walk::{FinishedStep, Observer, WalkEnd, WalkError, walk, walk_on};
