@@ -21,6 +21,8 @@ pub enum Effect {
     Capillary,
     /// `thickness`: an elastic layer on a rigid base in place of the half-space.
     Layer,
+    /// `[[solid.relaxation]]`: the stress of a displacement fades in time.
+    Relaxation,
     /// `boundary = "free"`: one isolated contact on an unbounded half-space.
     FreeBoundary,
     /// `spring`: the approach acts through a cantilever.
@@ -44,12 +46,13 @@ pub struct EffectCost {
 
 impl Effect {
     /// Every effect of this version.
-    pub const ALL: [Effect; 7] = [
+    pub const ALL: [Effect; 8] = [
         Effect::Adhesion,
         Effect::Dmt,
         Effect::AdhesionMap,
         Effect::Capillary,
         Effect::Layer,
+        Effect::Relaxation,
         Effect::FreeBoundary,
         Effect::Spring,
     ];
@@ -62,6 +65,7 @@ impl Effect {
             Effect::AdhesionMap => "adhesion map",
             Effect::Capillary => "capillary",
             Effect::Layer => "layer",
+            Effect::Relaxation => "relaxation",
             Effect::FreeBoundary => "free boundary",
             Effect::Spring => "spring",
         }
@@ -80,6 +84,9 @@ impl Effect {
             }
             Effect::Layer => {
                 "the solid is a layer on a rigid base, stiffer than the half-space to waves longer than its thickness"
+            }
+            Effect::Relaxation => {
+                "the solid is viscoelastic: stiff to what is fast, soft to what is slow, and it dissipates"
             }
             Effect::FreeBoundary => {
                 "one isolated contact on an unbounded half-space, on twice the points each way"
@@ -104,6 +111,7 @@ impl Effect {
                 .is_some_and(|adhesion| adhesion.map.is_some()),
             Effect::Capillary => scene.capillary.is_some(),
             Effect::Layer => scene.solid.layer.is_some(),
+            Effect::Relaxation => !scene.solid.relaxation.is_empty(),
             Effect::FreeBoundary => scene.grid.boundary == Boundary::Free,
             Effect::Spring => scene.loading.spring.is_some(),
         }
@@ -157,6 +165,20 @@ impl Effect {
                     "matters where contacts are as wide as it is thick: here the longest wave of the cell meets {stiffer:.3} times the half-space's stiffness"
                 )
             }
+            Effect::Relaxation => {
+                let path: f64 = scene.loading.durations.iter().flatten().sum();
+                let deborah: Vec<String> = scene
+                    .solid
+                    .relaxation
+                    .iter()
+                    .map(|branch| format!("{:.2e}", branch.time / path))
+                    .collect();
+                format!(
+                    "matters where a branch relaxes neither much faster nor much slower than the load: here their times are {} of the path's {} (Deborah numbers)",
+                    deborah.join(", "),
+                    format_si(path, "s")
+                )
+            }
             Effect::FreeBoundary => {
                 "matters where the contact is more than about a fifth of the cell: its images would press on it".to_owned()
             }
@@ -191,6 +213,7 @@ impl Effect {
                 scene.adhesion = None;
             }
             Effect::Layer => scene.solid.layer = None,
+            Effect::Relaxation => scene.solid.relaxation.clear(),
             Effect::FreeBoundary => scene.grid.boundary = Boundary::Periodic,
             Effect::Spring => scene.loading.spring = None,
         }

@@ -183,7 +183,8 @@ impl<'a> Keeper<'a> {
             finished: step,
             curve: self.curve.checksum(),
             warnings: self.warnings.clone(),
-            single: self.single(),
+            // What a relaxing solid remembers is known in double precision.
+            single: self.single() && self.setup.scene.solid.relaxation.is_empty(),
             hand_over: state.clone(),
         }
         .write(&self.folder.state_path(STATE))?;

@@ -66,7 +66,7 @@ pub(super) fn open(
         finished: 0,
         curve: curve.checksum(),
         warnings: Vec::new(),
-        single: machine.precision() == Precision::Single,
+        single: machine.precision() == Precision::Single && setup.scene.solid.relaxation.is_empty(),
         hand_over: HandOver::default(),
     }
     .write(&folder.state_path(STATE))?;

@@ -4,17 +4,20 @@ use std::path::Path;
 
 use super::document::Value;
 use super::keys;
+use super::mistake::SceneError;
 use super::reader::{Allowed, Reader};
 use super::types::{
     AdhesionMap, AdhesionScene, Boundary, GridScene, LawName, PatternKind, Range, Treatment,
 };
 use crate::units::{self, Dimension};
 
-/// Reads `[adhesion]`: `Some(None)` where the scene has none. Paths are taken from `folder`.
+/// Reads `[adhesion]`: `Some(None)` where the scene has none. Paths are taken from `folder`;
+/// `relaxes` tells whether the solid does.
 pub(super) fn read(
     scene: &Reader,
     grid: Option<&GridScene>,
     folder: &Path,
+    relaxes: bool,
 ) -> Option<Option<AdhesionScene>> {
     if !scene.has("adhesion") {
         return Some(None);
@@ -29,6 +32,16 @@ pub(super) fn read(
     } else {
         Some(Treatment::Full)
     };
+    if relaxes && treatment == Some(Treatment::Dmt) {
+        // What relaxes would have to remember each load that the search for the net one tries.
+        adhesion.report(
+            "treatment",
+            SceneError::NotInThisVersion {
+                what: "treatment = \"dmt\" on a solid that relaxes".to_string(),
+                instead: "take treatment = \"full\", or leave [[solid.relaxation]] out".to_string(),
+            },
+        );
+    }
     let map = map(&adhesion, law, grid, folder);
     let (work_of_adhesion, range) = numbers?;
     Some(Some(AdhesionScene {

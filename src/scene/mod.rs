@@ -92,17 +92,17 @@ fn read_tables(root: &Table, folder: &Path, log: &Log) -> Option<Scene> {
     let grid = grid::read(&scene, grid::has_height_file(root));
     let boundary = grid.as_ref().map(|grid| grid.boundary);
     let solid = solid::read(&scene, boundary);
+    let relaxes = solid
+        .as_ref()
+        .is_some_and(|solid| !solid.relaxation.is_empty());
     let surfaces = surface::read(&scene, grid.as_ref(), folder);
-    let adhesion = adhesion::read(&scene, grid.as_ref(), folder);
+    let adhesion = adhesion::read(&scene, grid.as_ref(), folder, relaxes);
     let capillary = capillary::read(&scene);
     let adhesion = match &capillary {
         Some(Some(liquid)) => adhesion.map(|_| liquid.adhesion()),
         _ => adhesion,
     };
     let law = adhesion.as_ref().and_then(Option::as_ref);
-    let relaxes = solid
-        .as_ref()
-        .is_some_and(|solid| !solid.relaxation.is_empty());
     let loading = loading::read(&scene, boundary, law, relaxes);
     let solver = solver::read(&scene);
     let path_length = loading.as_ref().map(|loading| loading.path.len());

@@ -7,6 +7,7 @@ use super::two_band::TwoBand;
 use crate::backend::{Backend, BackendError, Field, Level, Spectrum};
 use crate::kernel::{Gate, Kernel, Params, Scalars, Status, common, core, scalar, wall};
 use crate::law::Law;
+use crate::scene::Boundary;
 
 /// What is held fixed, reduced units.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -72,6 +73,8 @@ pub struct ContactSolver<'a> {
     params: Params,
     /// Transforms of the solvers on coarser grids that this one asked for help.
     helped_by: f64,
+    /// Mean of what a relaxing solid's past adds to its displacement.
+    mean_offset: f64,
 }
 
 /// The kernels of one family of laws.
@@ -185,6 +188,7 @@ impl<'a> ContactSolver<'a> {
             kernels: if has_wall { &WALL } else { &CORE },
             params,
             helped_by: 0.0,
+            mean_offset: 0.0,
         }
     }
 
@@ -225,22 +229,38 @@ impl<'a> ContactSolver<'a> {
         for (height, offset) in moved.iter_mut().zip(offset) {
             *height += offset;
         }
+        self.mean_offset = offset.iter().sum::<f64>() / offset.len() as f64;
         self.backend.write(self.heights, &moved);
     }
 
-    /// `K*values` over all solved points, reduced, without the mean's share; between solves, since it
-    /// takes their directions for work space.
-    pub fn stiffness_times(&mut self, values: &[f64]) -> Result<Vec<f64>, BackendError> {
-        let (work, zero, out) = (self.direction, self.free_before, self.descent);
+    /// Mean over all solved points of that offset; 0 without one.
+    pub fn mean_offset(&self) -> f64 {
+        self.mean_offset
+    }
+
+    /// `<values, K*values>/2` over all solved points, reduced: the elastic energy of a displacement.
+    /// Between solves, since it takes their directions for work space.
+    pub fn energy_of(&mut self, values: &[f64]) -> Result<f64, BackendError> {
+        let (work, out) = (self.direction, self.descent);
         self.backend.write(work, values);
-        self.backend.write(zero, &vec![0.0; values.len()]);
-        self.backend.set_zero_mode(self.stiffness, 0.0);
+        // A free half-space's own zero mode; a load's is not elastic.
+        let own = match self.problem.boundary {
+            Boundary::Periodic => 0.0,
+            Boundary::Free => self.problem.stiffness[0],
+        };
+        self.backend.set_zero_mode(self.stiffness, own);
         self.backend
-            .forward(&common::LOAD_DISPLACEMENT, self.level, &[work, zero]);
+            .forward(&common::LOAD_FIELD, self.level, &[work]);
         self.backend.multiply(self.stiffness, false, Gate::Always);
         self.backend
             .backward(&common::STORE_PRESSURE, self.level, &[out]);
-        self.backend.read(out)
+        let pressure = self.backend.read(out)?;
+        Ok(0.5
+            * values
+                .iter()
+                .zip(&pressure)
+                .map(|(u, p)| u * p)
+                .sum::<f64>())
     }
 
     /// The gap at which the undeformed surfaces first touch, scaled or shifted to a held mean gap.

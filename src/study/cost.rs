@@ -3,12 +3,12 @@
 use super::control::Controller;
 use super::setup::Setup;
 use crate::backend::{
-    BackendError,
+    BackendError, Level,
     tally::{Held, Tally},
 };
 use crate::solver::{ContactSolver, Start};
 
-/// What a scene's solver holds and does.
+/// What a scene's solver holds and does, and what is kept between its steps.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Cost {
     /// Fields, one number a solved point each.
@@ -33,6 +33,16 @@ impl Cost {
         begin(setup, &mut iterated)?.iterate()?;
         if let Some(mistake) = iterated.mistake {
             return Err(mistake);
+        }
+        let branches = setup.scene.solid.relaxation.len();
+        if branches > 0 {
+            // The displacement and the spring of each branch, kept by the host.
+            let history = Held {
+                name: "history",
+                level: Level(0),
+                bytes: setup.problem.shape.len() * size_of::<f64>(),
+            };
+            iterated.fields.extend(vec![history; branches + 1]);
         }
         Ok(Cost {
             fields: iterated.fields,

@@ -59,6 +59,8 @@ pub struct Solved<'a> {
     pub gap: &'a [f64],
     /// K*(g + h).
     pub elastic: &'a [f64],
+    /// Mean over all solved points of what a relaxing solid's past adds to its displacement.
+    pub mean_offset: f64,
     /// Held mean pressure.
     pub held: f64,
     /// The load it was solved for.
@@ -80,7 +82,8 @@ impl Evaluation {
             .zip(&padded)
             .map(|(g, h)| g + h)
             .sum::<f64>()
-            / count_all;
+            / count_all
+            + solved.mean_offset;
         let gap = problem.surface_part(solved.gap);
         let elastic = problem.surface_part(solved.elastic);
         let count = gap.len() as f64;

@@ -39,7 +39,9 @@ impl Jumps {
     /// A watch for the steps of a setup. Without adhesion nothing jumps, and with attraction summed
     /// afterwards loading and unloading are the same curve.
     pub fn new(setup: &Setup) -> Self {
-        let adhesive = setup.law.is_adhesive() && !setup.dmt;
+        // Nor can a jump be told from what a relaxing solid dissipates in the same step.
+        let relaxes = !setup.scene.solid.relaxation.is_empty();
+        let adhesive = setup.law.is_adhesive() && !setup.dmt && !relaxes;
         Jumps {
             work: adhesive.then(|| setup.law.work_of_adhesion()),
             pixel_area: setup.surface.grid.pixel_area(),

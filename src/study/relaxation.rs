@@ -9,7 +9,38 @@
 //! # Source
 //! Taylor, Pister & Goudreau 1970; Simo & Hughes 1998, sec. 10.3.
 
-use crate::scene::{RelaxationScene, SolidScene};
+use std::ops::Range;
+
+use super::hand_over::{HandOver, HandedField};
+use super::setup::Setup;
+use crate::scene::{RelaxationScene, Scene, SolidScene};
+
+/// Name of the displacement among the fields that are handed on.
+const DISPLACEMENT: &str = "displacement";
+
+/// Name of a branch's spring among them; the branch counts from 1.
+fn spring_name(branch: usize) -> String {
+    format!("spring {branch}")
+}
+
+/// The steps after the first `done`, cut where the modulus that they meet changes: one stretch
+/// without relaxation, else one a duration.
+pub(super) fn stretches(scene: &Scene, done: usize) -> Vec<Range<usize>> {
+    let steps = done..scene.loading.path.len();
+    match &scene.loading.durations {
+        Some(durations) if !scene.solid.relaxation.is_empty() => {
+            let mut stretches: Vec<Range<usize>> = Vec::new();
+            for step in steps {
+                match stretches.last_mut() {
+                    Some(last) if durations[last.start] == durations[step] => last.end = step + 1,
+                    _ => stretches.push(step..step + 1),
+                }
+            }
+            stretches
+        }
+        _ => vec![steps],
+    }
+}
 
 /// `(alpha, beta)` of a branch over a step, for the step's share of its relaxation time.
 pub fn branch_coefficients(ratio: f64) -> (f64, f64) {
@@ -50,6 +81,40 @@ impl History {
             displacement: vec![0.0; points],
             springs: vec![vec![0.0; points]; solid.relaxation.len()],
         }
+    }
+
+    /// The state from which a path goes on, or that at rest; `None` for a solid that does not relax.
+    pub(super) fn of(setup: &Setup, hand_over: &HandOver) -> Option<History> {
+        let solid = &setup.scene.solid;
+        if solid.relaxation.is_empty() {
+            return None;
+        }
+        let mut history = History::at_rest(solid, setup.problem.shape.len());
+        if let Some(values) = hand_over.field(DISPLACEMENT) {
+            history.displacement.copy_from_slice(values);
+        }
+        for (branch, spring) in history.springs.iter_mut().enumerate() {
+            if let Some(values) = hand_over.field(&spring_name(branch + 1)) {
+                spring.copy_from_slice(values);
+            }
+        }
+        Some(history)
+    }
+
+    /// The fields from which a path goes on.
+    pub(super) fn handed_fields(&self) -> Vec<HandedField> {
+        let springs = self.springs.iter().enumerate();
+        let mut fields: Vec<HandedField> = springs
+            .map(|(branch, values)| HandedField {
+                name: spring_name(branch + 1),
+                values: values.clone(),
+            })
+            .collect();
+        fields.push(HandedField {
+            name: DISPLACEMENT.to_owned(),
+            values: self.displacement.clone(),
+        });
+        fields
     }
 
     /// What the past moves the surface by over a step of `duration` (s), reduced: the pressure is

@@ -170,6 +170,11 @@ impl Setup {
         setup
     }
 
+    /// The law that is solved for, SI; the hard wall where the attraction is summed afterwards.
+    pub fn solved_law(&self) -> Law {
+        if self.dmt { Law::HardWall } else { self.law }
+    }
+
     /// Factor on the law's tension at a grid point.
     #[inline]
     pub fn law_factor(&self, point: usize) -> f64 {

@@ -1,5 +1,7 @@
 //! A loading path, step after step, each from the state of the one before.
 
+use std::borrow::Cow;
+use std::ops::Range;
 use std::time::Instant;
 
 use super::control::Controller;
@@ -7,6 +9,7 @@ use super::dmt;
 use super::evaluation::{Evaluation, Solved};
 use super::hand_over::{Earlier, GAP, HandOver, HandedField};
 use super::jumps::{Jump, Jumps};
+use super::relaxation::{History, effective_modulus, stretches};
 use super::row::{State, StepRow};
 use super::setup::Setup;
 use crate::backend::BackendError;
@@ -102,76 +105,150 @@ pub fn walk_on<O: Observer>(
     observer: &mut O,
     earlier: Earlier,
 ) -> Result<WalkEnd, WalkError<O::Error>> {
-    let problem = &setup.problem;
-    let controller = Controller::new(setup, problem);
-    let mut backend = make_backend();
-    let mut solver = ContactSolver::new(&mut *backend, problem);
-    let mut state = PathState {
-        setup,
-        controller,
-        loaded: false,
-        interrupted: false,
-    };
     let Earlier { rows, hand_over } = earlier;
     let mut jumps = Jumps::new(setup);
     if let Some(row) = rows.last() {
         jumps.go_on(row, hand_over.points.clone());
     }
-    if let Some(gap) = hand_over.field(GAP) {
-        solver.set_gap(gap);
-        state.loaded = true;
-    }
-    let done = rows.len();
+    let mut gap = hand_over.field(GAP).map(<[f64]>::to_vec);
+    let mut history = History::of(setup, &hand_over);
     let mut end = WalkEnd {
-        rows,
         jump_in_steps: hand_over.jump_in_steps,
         jump_off_steps: hand_over.jump_off_steps,
+        transforms: hand_over.transforms,
         ..WalkEnd::default()
     };
-    let path = setup.scene.loading.path.iter().enumerate().skip(done);
-    for (index, &value) in path {
-        let clock = Instant::now();
-        let step = index + 1;
-        let solved = state.step(&mut solver, value, make_backend, &mut |scalars| {
-            observer.iteration(step, scalars)
-        })?;
-        if state.interrupted {
-            end.interrupted = true;
-            break;
-        }
-        let row = state.row(step, value, &solved, clock.elapsed().as_secs_f64());
-        let jump = jumps.step(&row, solved.evaluation.as_ref());
-        match jump {
-            Some(Jump::In) => end.jump_in_steps.push(step),
-            Some(Jump::Off) => end.jump_off_steps.push(step),
-            None => {}
-        }
-        let finished = FinishedStep {
-            row: &row,
-            evaluation: solved.evaluation,
-            jump,
+    let done = rows.len();
+    end.rows = rows;
+    for stretch in stretches(&setup.scene, done) {
+        let walking = Stretch {
+            setup,
+            make_backend,
+            steps: stretch,
         };
-        observer.step(finished).map_err(WalkError::Observer)?;
-        let converged = row.converged;
-        end.rows.push(row);
-        if !converged {
+        let goes_on = walking.walk(observer, &mut end, &mut jumps, &mut gap, &mut history)?;
+        if !goes_on {
             break;
-        }
-        if observer.wants_hand_over() {
-            let handed = HandOver {
-                fields: state.handed_fields(&mut solver)?,
-                points: jumps.points().map(<[_]>::to_vec),
-                jump_in_steps: end.jump_in_steps.clone(),
-                jump_off_steps: end.jump_off_steps.clone(),
-                transforms: hand_over.transforms + solver.transforms(),
-            };
-            let kept = observer.hand_over(step, &handed);
-            kept.map_err(WalkError::Observer)?;
         }
     }
     end.hysteresis_energy = jumps.hysteresis(&end.rows);
-    end.transforms = hand_over.transforms + solver.transforms();
     Ok(end)
+}
+
+/// Steps of a path that meet one modulus, so that one solver takes them.
+struct Stretch<'s> {
+    setup: &'s Setup,
+    make_backend: MakeBackend<'s>,
+    steps: Range<usize>,
+}
+
+impl Stretch<'_> {
+    /// Walks the steps from a gap (`None` where the surfaces are apart), which is left as the last
+    /// of them has it. Returns whether the path goes on.
+    fn walk<O: Observer>(
+        &self,
+        observer: &mut O,
+        end: &mut WalkEnd,
+        jumps: &mut Jumps,
+        gap: &mut Option<Vec<f64>>,
+        history: &mut Option<History>,
+    ) -> Result<bool, WalkError<O::Error>> {
+        let setup = self.setup;
+        let duration = self.duration(self.steps.start);
+        let problem = match history {
+            Some(_) => Cow::Owned(setup.problem.stiffened(
+                effective_modulus(&setup.scene.solid, duration),
+                setup.solved_law(),
+            )),
+            None => Cow::Borrowed(&setup.problem),
+        };
+        let mut backend = (self.make_backend)();
+        let mut solver = ContactSolver::new(&mut *backend, &problem);
+        let mut state = PathState {
+            setup,
+            controller: Controller::new(setup, &problem),
+            loaded: gap.is_some(),
+            interrupted: false,
+        };
+        if let Some(gap) = gap {
+            solver.set_gap(gap);
+        }
+        let before = end.transforms;
+        let mut goes_on = true;
+        for index in self.steps.clone() {
+            let clock = Instant::now();
+            let step = index + 1;
+            let value = setup.scene.loading.path[index];
+            let offset = history.as_ref().map(|history| {
+                let offset = history.offset(&setup.scene.solid, duration);
+                solver.set_offset(&offset);
+                offset
+            });
+            let mut solved = state.step(&mut solver, value, self.make_backend, &mut |scalars| {
+                observer.iteration(step, scalars)
+            })?;
+            if state.interrupted {
+                end.interrupted = true;
+                goes_on = false;
+                break;
+            }
+            if let (Some(history), Some(offset)) = (history.as_mut(), offset) {
+                state.relax(&mut solver, &mut solved, history, offset, duration)?;
+            }
+            let mut row = state.row(step, value, &solved, clock.elapsed().as_secs_f64());
+            row.time = self.time(index, end.rows.last());
+            let jump = jumps.step(&row, solved.evaluation.as_ref());
+            match jump {
+                Some(Jump::In) => end.jump_in_steps.push(step),
+                Some(Jump::Off) => end.jump_off_steps.push(step),
+                None => {}
+            }
+            let finished = FinishedStep {
+                row: &row,
+                evaluation: solved.evaluation,
+                jump,
+            };
+            observer.step(finished).map_err(WalkError::Observer)?;
+            let converged = row.converged;
+            end.rows.push(row);
+            end.transforms = before + solver.transforms();
+            if !converged {
+                goes_on = false;
+                break;
+            }
+            if observer.wants_hand_over() {
+                let handed = HandOver {
+                    fields: state.handed_fields(&mut solver, history.as_ref())?,
+                    points: jumps.points().map(<[_]>::to_vec),
+                    jump_in_steps: end.jump_in_steps.clone(),
+                    jump_off_steps: end.jump_off_steps.clone(),
+                    transforms: end.transforms,
+                };
+                let kept = observer.hand_over(step, &handed);
+                kept.map_err(WalkError::Observer)?;
+            }
+        }
+        // What an interrupted step took is counted too.
+        end.transforms = before + solver.transforms();
+        *gap = match state.loaded {
+            true => Some(solver.gap()?),
+            false => None,
+        };
+        Ok(goes_on)
+    }
+
+    /// How long a step takes, s; 0 where the path has no durations.
+    fn duration(&self, index: usize) -> f64 {
+        let durations = self.setup.scene.loading.durations.as_ref();
+        durations.map_or(0.0, |durations| durations[index])
+    }
+
+    /// Time at the end of a step, s, where the path has durations.
+    fn time(&self, index: usize, before: Option<&StepRow>) -> Option<f64> {
+        self.setup.scene.loading.durations.as_ref()?;
+        let before = before.and_then(|row| row.time).unwrap_or(0.0);
+        Some(before + self.duration(index))
+    }
 }
 
 /// Share of the mean gap below which a point moved by it is closed: the rounding of that mean in
@@ -245,14 +322,56 @@ impl PathState<'_> {
     }
 
     /// The fields from which the next step starts.
-    fn handed_fields(&self, solver: &mut ContactSolver) -> Result<Vec<HandedField>, BackendError> {
-        if !self.loaded {
-            return Ok(Vec::new());
+    fn handed_fields(
+        &self,
+        solver: &mut ContactSolver,
+        history: Option<&History>,
+    ) -> Result<Vec<HandedField>, BackendError> {
+        let mut fields = history.map_or_else(Vec::new, History::handed_fields);
+        if self.loaded {
+            fields.push(HandedField {
+                name: GAP.to_owned(),
+                values: solver.gap()?,
+            });
         }
-        Ok(vec![HandedField {
-            name: GAP.to_owned(),
-            values: solver.gap()?,
-        }])
+        Ok(fields)
+    }
+
+    /// Ends a step of a solid that relaxes: its displacement goes to the history, and what its
+    /// springs store to the step.
+    fn relax(
+        &self,
+        solver: &mut ContactSolver,
+        solved: &mut SolvedStep,
+        history: &mut History,
+        offset: Vec<f64>,
+        duration: f64,
+    ) -> Result<(), BackendError> {
+        let solid = &self.setup.scene.solid;
+        let Some(evaluation) = &mut solved.evaluation else {
+            // Free of pressure it recovers: the displacement is what undoes the past.
+            let displacement = offset.into_iter().map(|moved| -moved).collect();
+            history.advance(solid, duration, displacement);
+            return Ok(());
+        };
+        let problem = solver.problem();
+        let rigid =
+            (evaluation.displacement_offset + problem.height_origin) / problem.scales.length;
+        let mut displacement = solver.gap()?;
+        let heights = problem.padded(&problem.heights, 0.0);
+        for (u, h) in displacement.iter_mut().zip(heights) {
+            *u += h + rigid;
+        }
+        history.advance(solid, duration, displacement);
+        let mut energy = 0.0;
+        let modulus = effective_modulus(solid, duration);
+        energy += solid.contact_modulus / modulus * solver.energy_of(&history.displacement)?;
+        for (branch, spring) in history.branches(solid) {
+            energy += branch.modulus / modulus * solver.energy_of(spring)?;
+        }
+        let unit = problem.scales.length * problem.scales.pressure * problem.grid.pixel_area();
+        evaluation.elastic_energy = energy * unit;
+        Ok(())
     }
 
     /// The last gap, moved to a new mean gap where one is held; the undeformed gap at the beginning.
@@ -385,6 +504,7 @@ pub(super) fn finish(
     let solved = Solved {
         gap: &gap,
         elastic: &elastic,
+        mean_offset: solver.mean_offset(),
         held: outcome.mean_pressure,
         load: *load,
     };
