@@ -87,6 +87,23 @@ fn single_precision_and_the_last_step_alone() {
     kill_and_resume(&text, 4, &["--precision", "single", "--backend", "cpu"]);
 }
 
+/// A solid that relaxes remembers more than its gap; both stretches of unlike durations go on.
+#[test]
+fn a_relaxing_solid_goes_on_with_what_it_remembers() {
+    let text = ROUGH.replace(
+        "[[surface]]",
+        "[[solid.relaxation]]\nmodulus = 2e9\ntime = 1.0\n[[surface]]",
+    );
+    let loading = &text[text.find("[loading]").expect("a table")..];
+    let end = loading[1..].find("\n[").map_or(loading.len(), |at| at + 1);
+    let ramps = "[loading]\ncontrol = \"mean-gap\"\nstart = 2e-9\n[[loading.ramp]]\nto = 1.5e-9\nsteps = 4\nduration = 1\n[[loading.ramp]]\nto = 2e-9\nsteps = 4\nduration = 8\n";
+    let text = text.replace(&loading[..end], ramps);
+    assert!(text.contains("duration = 8"));
+    kill_and_resume(&text, 6, &["--backend", "cpu"]);
+    let single = ["--precision", "single", "--backend", "cpu"];
+    kill_and_resume(&text, 3, &single);
+}
+
 /// Starts a run and waits until `count` steps are in its curve.
 fn start(folder: &Path, out: &str, count: usize, extra: &[&str]) -> std::process::Child {
     let call = [&["run", "scene.toml", "--out", out], extra].concat();

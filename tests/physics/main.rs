@@ -9,6 +9,7 @@ mod layer;
 mod lennard_jones;
 mod maugis_dugdale;
 mod pattern;
+mod relaxation;
 mod rough;
 mod tables;
 mod waves;
