@@ -181,7 +181,7 @@ fn mistakes_in_solid() {
         (r#"contact_modulus = "1 GPa""#, "contact_modulus = \"1 GPa\"\npoisson_ratio = 0.3\nthickness = 1\nbase = \"glued\"", "s.toml:9: solid.base", "did you mean"),
         (r#"contact_modulus = "1 GPa""#, "young_modulus = 1e9\npoisson_ratio = 0.3\ncounter_young_modulus = 1e9\ncounter_poisson_ratio = 0.3\nthickness = 1", "s.toml:8: solid.counter_young_modulus: a layer presses on a rigid counter-face", "leave the counter-face's elasticity out"),
         (r#"contact_modulus = "1 GPa""#, "contact_modulus = \"1 GPa\"\nhardness = \"10 GPa\"", "s.toml:7: solid.hardness: ideal plasticity is not in this version", "take it out"),
-        (r#"contact_modulus = "1 GPa""#, "contact_modulus = \"1 GPa\"\n[[solid.relaxation]]\nmodulus = \"1 MPa\"\ntime = \"10 ms\"", "s.toml:18: loading.path: a solid that relaxes must know how long the load takes", "duration = \"1 s\""),
+        (r#"contact_modulus = "1 GPa""#, "contact_modulus = \"1 GPa\"\n[[solid.relaxation]]\nmodulus = \"1 MPa\"\ntime = \"10 ms\"", "s.toml:19: loading.path: a solid that relaxes must know how long the load takes", "duration = \"1 s\""),
         (r#"contact_modulus = "1 GPa""#, "contact_modulus = \"1 GPa\"\nrelaxation = []", "s.toml:7: solid.relaxation: is empty", "at least one branch"),
         (r#"contact_modulus = "1 GPa""#, "contact_modulus = \"1 GPa\"\nrelaxation = 3", "s.toml:7: solid.relaxation: the number 3 where an array of tables is expected", "[[solid.relaxation]]"),
         (r#"contact_modulus = "1 GPa""#, r#"contact_modulus = "1 GN""#, r#"s.toml:6: solid.contact_modulus: "GN" is a force in N"#, r#"give a pressure in Pa, such as "1.5 GPa""#),

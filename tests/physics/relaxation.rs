@@ -138,7 +138,7 @@ fn instant_and_relaxed_limits() {
             let text = rough(
                 &match law {
                     "" => String::new(),
-                    law => adhesion(law, 2e-5, 3e-3) + &taper(law, 1e-3),
+                    law => adhesion(law, 2e-6, 3e-3) + &taper(law, 1e-3),
                 },
                 loading,
             );
