@@ -4,8 +4,9 @@
 //! one costs is found by planning the scene with and without it.
 
 use crate::backend::BackendError;
+use crate::grid::Grid;
 use crate::scene::{Boundary, Scene, Treatment};
-use crate::study::{Cost, Setup};
+use crate::study::Cost;
 
 /// An effect of this version.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -99,11 +100,12 @@ impl Effect {
         scene
     }
 
-    /// What it costs in a scene that asks for it.
-    pub fn cost(self, setup: &Setup) -> Result<EffectCost, BackendError> {
-        let with = Cost::of(setup)?;
-        let without = Setup::new(self.taken_from(&setup.scene), setup.surface.clone());
-        let without = Cost::of(&without)?;
+    /// What it costs in a scene that asks for it, of which `with` is the cost on `grid`.
+    ///
+    /// # Errors
+    /// As [`Cost::of_scene`].
+    pub fn cost(self, scene: &Scene, with: &Cost, grid: Grid) -> Result<EffectCost, BackendError> {
+        let without = Cost::of_scene(&self.taken_from(scene), grid, with.place)?;
         let names = |cost: &Cost| {
             cost.fields
                 .iter()
@@ -111,8 +113,8 @@ impl Effect {
                 .collect::<Vec<_>>()
         };
         Ok(EffectCost {
-            fields_added: difference(&names(&with), &names(&without)),
-            fields_spared: difference(&names(&without), &names(&with)),
+            fields_added: difference(&names(with), &names(&without)),
+            fields_spared: difference(&names(&without), &names(with)),
             passes_added: difference(&with.passes, &without.passes),
             passes_spared: difference(&without.passes, &with.passes),
             bytes: with.bytes() as i128 - without.bytes() as i128,

@@ -3,9 +3,12 @@
 mod check;
 mod devices;
 mod machine;
+mod room;
 mod run;
+mod shell;
 mod theory;
 
+use std::io::Write;
 use std::path::PathBuf;
 use std::process::ExitCode;
 
@@ -57,6 +60,20 @@ enum Command {
     /// Adapters found, what each can do, and which one `auto` takes
     #[command(after_help = "Example:\n  tabor devices")]
     Devices,
+    /// Print the completions of a shell
+    #[command(
+        after_help = "Example:\n  tabor completions bash > ~/.local/share/bash-completion/completions/tabor"
+    )]
+    Completions {
+        /// The shell
+        shell: clap_complete::Shell,
+    },
+    /// Print the man page, or write one a command into a folder
+    #[command(after_help = "Example:\n  tabor man | man -l -\n  tabor man ~/.local/share/man/man1")]
+    Man {
+        /// Folder for the pages
+        folder: Option<PathBuf>,
+    },
 }
 
 #[derive(Debug, Args)]
@@ -190,6 +207,27 @@ enum Failure {
     Backend(#[from] BackendError),
     #[error("the GPU cannot be used: {0}; --backend cpu does without")]
     Gpu(GpuError),
+    #[error(
+        "grid.points: {} x {} points need {} of memory and there are {}; {}",
+        points[0], points[1], gibibytes(*needed), gibibytes(*available), smaller(*largest, *single, *available)
+    )]
+    Memory {
+        points: [usize; 2],
+        needed: u64,
+        available: u64,
+        /// The largest grid of this shape that fits.
+        largest: Option<[usize; 2]>,
+        /// Bytes in single precision, where the scene leaves the choice.
+        single: Option<u64>,
+    },
+    #[error(
+        "{}: {} of heights are more than the memory, {}; take a coarser map", path.display(), gibibytes(*length), gibibytes(*available)
+    )]
+    FileMemory {
+        path: PathBuf,
+        length: u64,
+        available: u64,
+    },
     #[error("{0}")]
     Usage(String),
     #[error(
@@ -210,12 +248,32 @@ enum Failure {
     Print(std::io::Error),
 }
 
+/// Bytes for people.
+fn gibibytes(bytes: u64) -> String {
+    format!("{:.2} GiB", bytes as f64 / f64::from(1 << 30))
+}
+
+/// The ways out of a grid that the memory does not hold.
+fn smaller(largest: Option<[usize; 2]>, single: Option<u64>, available: u64) -> String {
+    let fewer = match largest {
+        Some([nx, ny]) => format!("take at most {nx} x {ny} points"),
+        None => "no grid of this shape fits".to_owned(),
+    };
+    match single {
+        Some(needed) if needed <= available => {
+            format!("{fewer}, or --precision single ({})", gibibytes(needed))
+        }
+        _ => fewer,
+    }
+}
+
 impl Failure {
     fn status(&self) -> u8 {
         match self {
             Failure::Output(OutputError::Refused { .. }) => 2,
             Failure::Output(_) | Failure::Print(_) => 1,
             Failure::Scene(_) | Failure::Surface { .. } | Failure::Usage(_) => 2,
+            Failure::Memory { .. } | Failure::FileMemory { .. } => 2,
             Failure::NotConverged { .. } | Failure::Theory(TheoryError::NotConverged { .. }) => 3,
             Failure::Theory(_) => 2,
             Failure::Backend(_) | Failure::Gpu(_) => 4,
@@ -237,12 +295,16 @@ pub fn main() -> ExitCode {
         Command::Accuracy(later) => not_in_this_version("accuracy", &later),
         Command::Fit(later) => not_in_this_version("fit", &later),
         Command::Devices => devices::devices(),
+        Command::Completions { shell } => shell::completions(shell),
+        Command::Man { folder } => shell::man(folder.as_deref()),
     };
     match done {
         Ok(()) => ExitCode::SUCCESS,
         Err(failure) => {
+            // Red on a terminal; plain elsewhere, and with NO_COLOR.
+            let red = anstyle::AnsiColor::Red.on_default().bold();
             for line in failure.to_string().lines() {
-                eprintln!("error: {line}");
+                anstream::eprintln!("{red}error:{red:#} {line}");
             }
             ExitCode::from(failure.status())
         }
@@ -253,6 +315,14 @@ fn not_in_this_version(command: &str, _: &Later) -> Result<(), Failure> {
     Err(Failure::Usage(format!(
         "tabor {command} is not in this version; this one has run, check, theory and devices"
     )))
+}
+
+/// Writes to standard output.
+fn print(bytes: &[u8]) -> Result<(), Failure> {
+    let mut out = std::io::stdout().lock();
+    out.write_all(bytes)
+        .and_then(|()| out.flush())
+        .map_err(Failure::Print)
 }
 
 /// Reads a scene with its overrides.

@@ -6,7 +6,7 @@ use std::sync::atomic::{AtomicBool, Ordering};
 use std::time::Instant;
 
 use super::machine::Machine;
-use super::{Failure, RunArguments, read_scene};
+use super::{Failure, RunArguments, read_scene, room};
 use crate::backend::cpu::with_threads;
 use crate::effect::Effect;
 use crate::kernel::Scalars;
@@ -31,10 +31,13 @@ pub(super) fn run(arguments: &RunArguments) -> Result<(), Failure> {
     let scene = read_scene(&arguments.scene, &arguments.overrides())?;
     seconds.add("scene", clock.elapsed().as_secs_f64());
     let clock = Instant::now();
+    room::refuse_scene(&scene)?;
     let surface = Surface::build(&scene).map_err(|error| Failure::Surface {
         path: arguments.scene.clone(),
         error,
     })?;
+    // Of a grid that a height file carries.
+    room::refuse(&scene, surface.grid)?;
     let setup = Setup::new(scene, surface);
     seconds.add("surface", clock.elapsed().as_secs_f64());
     let clock = Instant::now();

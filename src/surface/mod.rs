@@ -10,6 +10,7 @@
 //! assert_eq!(heights.len(), 64 * 64);
 //! ```
 
+mod band_estimate;
 mod detrend;
 mod error;
 mod file;
@@ -17,6 +18,7 @@ mod fill;
 mod fourier;
 mod matrix;
 mod npy;
+mod outline;
 pub mod self_affine;
 pub mod shapes;
 pub mod spectrum;
@@ -24,6 +26,7 @@ pub mod statistics;
 mod text;
 
 pub use error::{FileError, PartError, SurfaceError};
+pub use outline::{Outline, Source};
 
 use crate::grid::Grid;
 use crate::scene::{Boundary, GridScene, Scene, SurfacePart};
