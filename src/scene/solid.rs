@@ -1,7 +1,7 @@
 //! `[solid]`: one way or another to the contact modulus.
 
 use super::keys;
-use super::reader::{Allowed, Reader};
+use super::reader::{Allowed, Reader, is_sane};
 use super::types::SolidScene;
 use crate::units::Dimension;
 
@@ -65,7 +65,7 @@ pub(super) fn read(scene: &Reader) -> Option<SolidScene> {
         compliance += plane_compliance(counter?, counter_ratio?);
     }
     let contact_modulus = 1.0 / compliance;
-    if !contact_modulus.is_normal() {
+    if !is_sane(contact_modulus) {
         solid.conflict(
             "young_modulus",
             format!("makes the contact modulus {contact_modulus:e} Pa; check the powers of ten"),

@@ -84,6 +84,10 @@ const CALLS: &[BadCall] = &[
     call(&["check", "good.toml", "--set", "grid.size=3 kg"], "UnitError::UnknownUnit", "\"kg\" is not a unit that is known here; give a length in m"),
     call(&["check", "good.toml", "--set", "loading.path.1=3 um"], "UnitError::WrongUnit", "\"um\" is a length in m; give a pressure in Pa"),
     call(&["check", "good.toml", "--set", "grid.points=9223372036854775807"], "SceneError::OutOfRange", "9223372036854775807 is out of range; it must be a whole number from 1 to 65536"),
+    call(&["check", "good.toml", "--set", "grid.size=1e300"], "SceneError::OutOfRange", "grid.size: 1e300 is out of range; it must be 0 or between 1e-30 and 1e30 in SI units; check the powers of ten"),
+    call(&["check", "good.toml", "--set", "surface.0.radius=1e-300"], "SceneError::OutOfRange", "surface.0.radius: 1e-300 is out of range; it must be 0 or between 1e-30 and 1e30"),
+    call(&["check", "good.toml", "--set", "loading.path.0='1e35 Pa'"], "SceneError::OutOfRange", "loading.path.0: \"1e35 Pa\" is out of range; it must be 0 or between"),
+    call(&["check", "good.toml", "--set", "adhesion={law='exponential', range=1e-25, peak_tension=1e-20}"], "SceneError::Conflict", "makes the third number of the law 1e-45; check the powers of ten"),
     call(&["check", "good.toml", "--set", "solid.young_modulus=1 GPa"], "SceneError::Conflict", "solid.young_modulus: contact_modulus is given too"),
     call(&["check", "good.toml", "--set", "grid.pionts=3"], "SceneError::UnknownKey", "grid.pionts: unknown key in [grid]; did you mean `points`?"),
     call(&["check", "good.toml", "--set", "friction={}"], "SceneError::NotInThisVersion", "friction: friction is not in this version"),
@@ -200,6 +204,7 @@ pub fn reached() -> Vec<Reached> {
         reached.push(full_disk(folder.path()));
         reached.push(interrupted(folder.path()));
         reached.extend(no_such_adapter(folder.path()));
+        reached.extend(past_the_adapter(folder.path()));
     }
     reached.extend(library());
     reached
@@ -238,7 +243,7 @@ fn interrupted(folder: &Path) -> Reached {
         ])
         .args([
             "--set",
-            "solver.tolerance=1e-300",
+            "solver.tolerance=1e-30",
             "--set",
             "solver.max_iterations=1000000",
         ])
@@ -283,6 +288,42 @@ fn no_such_adapter(folder: &Path) -> Vec<Reached> {
         variant: variant.to_owned(),
         message: one_line(&output, 4, "no graphics adapter"),
     }]
+}
+
+/// Grids that no adapter transforms: odd ones, and lines past all limits.
+fn past_the_adapter(folder: &Path) -> Vec<Reached> {
+    if tabor::backend::gpu::adapters().is_empty() {
+        println!("skipped: no adapter");
+        return Vec::new();
+    }
+    [
+        (
+            "grid.points=[65536, 2]",
+            "65536 x 2 points are past the limits of ",
+        ),
+        (
+            "grid.points=[16, 11]",
+            "16 x 11 points have no transform on the GPU",
+        ),
+    ]
+    .into_iter()
+    .map(|(set, expected)| {
+        let call = [
+            "run",
+            "good.toml",
+            "--backend",
+            "gpu",
+            "--out",
+            "far",
+            "--set",
+            set,
+        ];
+        Reached {
+            variant: "Failure::Usage".to_owned(),
+            message: one_line(&tabor(folder, &call, &[]), 2, expected),
+        }
+    })
+    .collect()
 }
 
 /// What only a program can ask of the library.

@@ -71,7 +71,7 @@ fn table() -> Vec<BadFile> {
         bad("inf.npy", &npy("<f8", "(1, 1)", &f64::INFINITY.to_le_bytes()), "FileError::Missing", "1 of 1 pixels are missing (1 of them infinite)"),
         BadFile { name: "all.txt", bytes: b"nan nan\n".to_vec(), more: "fill = \"interpolate\"", variant: "FileError::AllMissing", expected: "all 2 pixels are missing: there is nothing to interpolate from" },
         bad("sized.txt", b"# Width: 4 um\n# Height: 2 um\n1 2 3\n4 5 6\n", "FileError::OtherSize", "the map says it is 4e-6 x 2e-6 m (x, y), but [grid] size says 3e-6 x 2e-6 m; leave size out or correct one"),
-        good("scale = 1e308\nunit = 1e10", "SurfaceError::NotFinite", "the heights are not finite at row 1, column 1"),
+        BadFile { name: "far.txt", bytes: b"1e300 2\n3 4\n".to_vec(), more: "scale = 1e30", variant: "SurfaceError::NotFinite", expected: "the heights are not finite at row 1, column 1" },
         good("[[surface]]\nkind = \"file\"\npath = \"other.txt\"", "FileError::NotFound", "[[surface]] 2: FOLDER/other.txt: there is no such file"),
         good("[[surface]]\nkind = \"file\"\npath = \"wide.csv\"", "FileError::OtherPoints", "[[surface]] 2: FOLDER/wide.csv: the map has 4 x 2 points (x, y), but an earlier height file has 3 x 2; leave points out"),
     ]

@@ -37,7 +37,7 @@ const OUT_OF_REACH: &[(&str, &str)] = &[
     ),
     (
         "GpuError::TooLarge",
-        "the command line refuses the grid before; tests of the backend reach it",
+        "the command line refuses the grid before, in words of the scene: see calls::past_the_adapter",
     ),
     (
         "GpuError::NoShader",
@@ -50,7 +50,7 @@ const OUT_OF_REACH: &[(&str, &str)] = &[
     ("GpuError::Device", "the device fails amid a run"),
     (
         "GpuError::Size",
-        "the command line refuses the grid before, in words of the scene; tests of the backend reach it",
+        "the command line refuses the grid before, in words of the scene: see calls::past_the_adapter",
     ),
     (
         "SurfaceError::Memory",
