@@ -10,18 +10,19 @@
 //! assert_eq!(heights.len(), 64 * 64);
 //! ```
 
+pub mod correlation;
 mod detrend;
 mod error;
 mod file;
 mod fill;
+pub mod fit;
+mod formats;
 mod fourier;
 mod matrix;
-mod npy;
 pub mod self_affine;
 pub mod shapes;
 pub mod spectrum;
 pub mod statistics;
-mod text;
 
 pub use error::{FileError, PartError, SurfaceError};
 
