@@ -600,13 +600,13 @@ fn bad_calls_are_refused_in_a_sentence() {
 
 /// A small TIFF image that says it has 30000 x 30000 points.
 fn wide_tiff() -> Vec<u8> {
-    // Tags 256 and 257, big-endian: the type (3, 16 bits), the count (1), the value.
+    // Tags 256 and 257, big-endian: the type (4, 32 bits), the count (1), the value.
     let mut bytes = good("tifffile_16.tif");
     for tag in [0, 1] {
-        let entry = [1, tag, 0, 3, 0, 0, 0, 1];
+        let entry = [1, tag, 0, 4, 0, 0, 0, 1];
         let at = bytes.windows(8).position(|window| window == entry);
         let at = at.expect("the tag of a side") + entry.len();
-        bytes = patched(&bytes, at, &30_000_u16.to_be_bytes());
+        bytes = patched(&bytes, at, &30_000_u32.to_be_bytes());
     }
     bytes
 }

@@ -21,6 +21,12 @@ const MOST_WEIGHT: f64 = 100.0;
 const STEADY_MODES: usize = 16;
 /// A spectrum ends where it falls by this factor more than the steepest power law, within [`END_RINGS`].
 const END_FACTOR: f64 = 5.0;
+/// Waves to both sides of the end that tell where it is: a window smears it over two.
+const END_WAVES: f64 = 4.0;
+/// Share of the waves up to the end from which on rings tell how dense a filled one is.
+const LEVEL_FROM: f64 = 0.75;
+/// Rounds after which the end stands still.
+const END_ROUNDS: usize = 5;
 /// A fall by this factor is no scatter of however few modes.
 const NO_SCATTER: f64 = 1e6;
 /// Steepest power law of a self-affine surface: 2 (1 + hurst) at a Hurst exponent of 1.
@@ -123,10 +129,11 @@ pub fn fit(grid: &Grid, heights: &[f64], boundary: Boundary) -> Result<SelfAffin
         spectrum.rolloff = long;
     }
     if let Some(end) = end {
-        let from = compared[compared.len() - 1].wavenumber;
-        let to = rings[(end + END_RINGS).min(rings.len() - 1)].wavenumber;
+        // Of the rings within which it falls the first is full and the last is empty.
+        let last = rings[(end + END_RINGS).min(rings.len() - 1)].wavenumber;
+        let guess = (rings[end].wavenumber * last).sqrt();
         let fine = fine_spectrum(grid, heights, boundary);
-        spectrum.short = end_between(&spectrum, &fine, first, [from, to]).min(held);
+        spectrum.short = end_about(&spectrum, &fine, first, guess).min(held);
     }
     let squares: f64 = compared
         .iter()
@@ -169,24 +176,37 @@ fn end_of_band(rings: &[SpectrumRing]) -> Option<usize> {
     })
 }
 
-/// Where the spectrum ends within `[from, to]`: the rings there add up to as many as are filled.
-fn end_between(
+/// Where the spectrum ends, about `guess`: the rings there add up to as many as are filled.
+///
+/// Filled is a ring as dense as those shortly below, which the fit may leave a little above or below.
+fn end_about(
     spectrum: &SelfAffineSpectrum,
     fine: &[SpectrumRing],
     first: f64,
-    [from, to]: [f64; 2],
+    mut guess: f64,
 ) -> f64 {
-    let start = (from / first).floor();
-    let filled: f64 = fine
-        .iter()
-        .filter(|ring| {
-            let number = (ring.wavenumber / first).round();
-            number >= start && ring.wavenumber <= to
-        })
-        .map(|ring| (ring.density / spectrum.density(ring.wavenumber)).min(2.0))
-        .sum();
-    // A ring reaches half a wave number to both sides.
-    (start - 0.5 + filled) * first
+    let number = |ring: &SpectrumRing| (ring.wavenumber / first).round();
+    let share = |ring: &SpectrumRing| ring.density / spectrum.density(ring.wavenumber);
+    for _ in 0..END_ROUNDS {
+        let end = guess / first;
+        let start = (end - END_WAVES).floor();
+        let from = (LEVEL_FROM * end).min(start - END_WAVES);
+        let below = fine
+            .iter()
+            .filter(|ring| (from..start).contains(&number(ring)));
+        let (sum, count) = below.fold((0.0, 0.0), |(sum, count), ring| {
+            (sum + share(ring), count + 1.0)
+        });
+        let level = if count > 0.0 { sum / count } else { 1.0 };
+        let filled: f64 = fine
+            .iter()
+            .filter(|ring| (start..=end + END_WAVES).contains(&number(ring)))
+            .map(|ring| share(ring) / level)
+            .sum();
+        // A ring reaches half a wave number to both sides.
+        guess = (start - 0.5 + filled) * first;
+    }
+    guess
 }
 
 /// The most likely spectrum from `long` to `short` for the rings.

@@ -68,7 +68,8 @@ fn a_patch_of_a_larger_surface_gives_them_too() {
     // 2.25 of them are one independent one. Up to the roll-off of 4 waves there are 50 modes, so 11
     // independent pairs: the plateau is uncertain by 30 %, the roll-off by 30 % / 3.6, which at three
     // standard deviations is 25 %. The exponent rests on 20 rings of weight 100/2.25: 0.03 / 0.8 in
-    // twice the Hurst exponent, so 0.06 at three. The end is smeared by a wave or two of 60.
+    // twice the Hurst exponent, so 0.06 at three. The end
+    // scatters by 0.3 waves of 60 (thirty patches made and measured apart from this code), 1.5 % at three.
     for (hurst, seed) in [(0.4, 1), (0.6, 2), (0.8, 3), (0.8, 4)] {
         let asked = spectrum(hurst, 8.0, 120.0, 2e-6);
         let whole = Grid::new([512, 512], [2e-6, 2e-6]);
@@ -84,7 +85,7 @@ fn a_patch_of_a_larger_surface_gives_them_too() {
             relative(found.spectrum.rolloff, asked.rolloff) < 0.25,
             "{case}"
         );
-        assert!(relative(found.spectrum.short, asked.short) < 0.03, "{case}");
+        assert!(relative(found.spectrum.short, asked.short) < 0.02, "{case}");
         assert!(found.rolloff_seen && found.cutoff_seen, "{case}");
     }
 }

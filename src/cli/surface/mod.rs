@@ -44,11 +44,14 @@ struct FileArguments {
     /// Unit of the heights, where the file does not say it [default: m]
     #[arg(long, value_name = "U", value_parser = unit)]
     unit: Option<f64>,
+    /// Factor on the heights [default: 1]
+    #[arg(long, value_name = "F", allow_hyphen_values = true)]
+    scale: Option<f64>,
     /// Height of black in a grey image, as "0 nm"
-    #[arg(long, value_name = "H", value_parser = length)]
+    #[arg(long, value_name = "H", value_parser = length, allow_hyphen_values = true)]
     black: Option<f64>,
     /// Height of white in a grey image
-    #[arg(long, value_name = "H", value_parser = length)]
+    #[arg(long, value_name = "H", value_parser = length, allow_hyphen_values = true)]
     white: Option<f64>,
     /// What to take off: none, mean, plane or quadratic [default: none]
     #[arg(long, value_name = "KIND", value_parser = detrend)]
@@ -63,7 +66,7 @@ struct FileArguments {
 
 impl FileArguments {
     fn is_empty(&self) -> bool {
-        self.unit.or(self.black).or(self.white).is_none()
+        [self.unit, self.scale, self.black, self.white] == [None; 4]
             && self.detrend.is_none()
             && self.fill.is_none()
             && self.boundary.is_none()
@@ -158,7 +161,7 @@ pub(super) fn surface(arguments: &SurfaceArguments) -> Result<(), Failure> {
 fn of_scene(arguments: &SurfaceArguments) -> Result<(Surface, Boundary), Failure> {
     if !arguments.file.is_empty() {
         return Err(Failure::Usage(
-            "--unit, --black, --white, --detrend, --fill and --boundary are for files of heights; a scene says them itself (or --set surface.0.unit=...)"
+            "--unit, --scale, --black, --white, --detrend, --fill and --boundary are for files of heights; a scene says them itself (or --set surface.0.unit=...)"
                 .to_owned(),
         ));
     }
@@ -192,7 +195,7 @@ fn of_file(arguments: &SurfaceArguments) -> Result<(Surface, Boundary), Failure>
     let part = SurfacePart::File(HeightFileScene {
         path: arguments.source.clone(),
         unit: file.unit.unwrap_or(1.0),
-        scale: 1.0,
+        scale: file.scale.unwrap_or(1.0),
         black: file.black,
         white: file.white,
         detrend: file.detrend.unwrap_or(Detrend::None),

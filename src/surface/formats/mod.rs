@@ -226,6 +226,51 @@ fn find(start: &[u8], extension: Option<&str>) -> Result<&'static Format, FileEr
 #[cfg(test)]
 mod tests {
     use super::*;
+    use proptest::prelude::*;
+
+    /// A file of another program for each format that is read in whole.
+    const GOOD: [&[u8]; 14] = [
+        include_bytes!("../../../tests/files/pillow_16.png"),
+        include_bytes!("../../../tests/files/tifffile_16.tif"),
+        include_bytes!("../../../tests/files/tifffile_deflate.tif"),
+        include_bytes!("../../../tests/files/pillow_lzw.tif"),
+        include_bytes!("../../../tests/files/gwyddion.gsf"),
+        include_bytes!("../../../tests/files/gwyfile_mask.gwy"),
+        include_bytes!("../../../tests/files/gdal_text.grd"),
+        include_bytes!("../../../tests/files/gdal_6.grd"),
+        include_bytes!("../../../tests/files/gdal_7.grd"),
+        include_bytes!("../../../tests/files/surfalize_text.sdf"),
+        include_bytes!("../../../tests/files/surfalize_binary.sdf"),
+        include_bytes!("../../../tests/files/surfalize_holes.sur"),
+        include_bytes!("../../../tests/files/surfalize.al3d"),
+        include_bytes!("../../../tests/files/gdal.xyz"),
+    ];
+
+    proptest! {
+        #![proptest_config(ProptestConfig::with_cases(4000))]
+
+        /// Whatever bytes are wrong or missing: an answer, and a whole matrix if it is one.
+        #[test]
+        fn no_change_of_a_file_is_trouble(
+            which in 0..GOOD.len(),
+            changes in prop::collection::vec((0.0..1.0_f64, 0..3_u8, any::<u8>()), 0..5),
+            kept in prop_oneof![3 => Just(1.0), 1 => 0.0..1.0_f64],
+        ) {
+            let mut bytes = GOOD[which].to_vec();
+            let format = find(&bytes, Some("xyz").filter(|_| which + 1 == GOOD.len())).unwrap();
+            for (place, near_start, byte) in changes {
+                // Two of three within the header, where lengths and counts stand.
+                let reach = if near_start == 0 { bytes.len() } else { bytes.len().min(400) };
+                bytes[(place * reach as f64) as usize] = byte;
+            }
+            bytes.truncate((kept * bytes.len() as f64) as usize);
+            let Reader::Whole(read) = format.read else { unreachable!("all of these are read in whole") };
+            match read(&bytes) {
+                Ok(matrix) => prop_assert_eq!(matrix.values.len(), matrix.rows * matrix.columns),
+                Err(error) => prop_assert!(!error.to_string().contains('\n')),
+            }
+        }
+    }
 
     #[test]
     fn no_extension_and_no_first_bytes_have_two_formats() {
