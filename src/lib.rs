@@ -39,7 +39,7 @@
 //! | [`kernel`] | the catalogue of passes over points, and the numbers of the algorithm |
 //! | [`backend`] | where the arithmetic runs: the trait, the processor, shaders through wgpu, the tally that only counts |
 //! | [`scene`] | TOML to a checked scene, or every mistake of it with line, key and remedy |
-//! | [`surface`] | heights: self-affine, shapes, files; their statistics |
+//! | [`surface`] | heights: self-affine, shapes, files; their statistics and the spectrum that fits |
 //! | [`solver`] | the one algorithm, for every law and both boundaries |
 //! | [`study`] | loading paths: what is held, jumps, energies, the rows of `curve.csv` |
 //! | [`effect`] | what a scene may ask for besides, and what each costs |

@@ -6,6 +6,7 @@ mod machine;
 mod room;
 mod run;
 mod shell;
+mod surface;
 mod theory;
 
 use std::io::Write;
@@ -42,8 +43,11 @@ enum Command {
     /// Read a scene and say what it would do and cost, without solving it
     #[command(after_help = "Example:\n  tabor check examples/scenes/rough.toml")]
     Check(CheckArguments),
-    /// Statistics of a surface (not in this version)
-    Surface(Later),
+    /// Statistics of a scene's surface or of a height file, and the self-affine surface like it
+    #[command(
+        after_help = "Prints a table that is also the beginning of a scene, and writes heights.png, psd.png, psd.csv and scene.toml.\n\nExample:\n  tabor surface examples/scenes/ground.toml --out ground_surface\n  tabor surface map.gwy --detrend plane > scene.toml"
+    )]
+    Surface(surface::SurfaceArguments),
     /// Tabulate an analytic model as CSV; alone, list the models with their parameters
     #[command(
         disable_help_flag = true,
@@ -289,7 +293,7 @@ pub fn main() -> ExitCode {
     let done = match arguments.command {
         Command::Run(arguments) => run::run(&arguments),
         Command::Check(arguments) => check::check(&arguments),
-        Command::Surface(later) => not_in_this_version("surface", &later),
+        Command::Surface(arguments) => surface::surface(&arguments),
         Command::Theory(arguments) => theory::theory(&arguments),
         Command::Compare(later) => not_in_this_version("compare", &later),
         Command::Accuracy(later) => not_in_this_version("accuracy", &later),
@@ -313,7 +317,7 @@ pub fn main() -> ExitCode {
 
 fn not_in_this_version(command: &str, _: &Later) -> Result<(), Failure> {
     Err(Failure::Usage(format!(
-        "tabor {command} is not in this version; this one has run, check, theory and devices"
+        "tabor {command} is not in this version; this one has run, check, surface, theory and devices"
     )))
 }
 

@@ -17,6 +17,7 @@ mod png_text;
 pub mod progress;
 mod resample;
 mod si;
+pub mod spectrum_plot;
 pub mod summary;
 
 pub use canvas::{Font, TextLine};
@@ -26,4 +27,5 @@ pub use fields::{write_field, write_field_single};
 pub use folder::{RunFolder, write_atomically};
 pub use picture::{Load, Picture, Snapshot, write_picture};
 pub use progress::Progress;
+pub use spectrum_plot::SpectrumPlot;
 pub use summary::{Effects, Seconds, Summary, peak_memory_bytes};

@@ -11,19 +11,20 @@
 //! ```
 
 mod band_estimate;
+pub mod correlation;
 mod detrend;
 mod error;
 mod file;
 mod fill;
+pub mod fit;
+mod formats;
 mod fourier;
 mod matrix;
-mod npy;
 mod outline;
 pub mod self_affine;
 pub mod shapes;
 pub mod spectrum;
 pub mod statistics;
-mod text;
 
 pub use error::{FileError, PartError, SurfaceError};
 pub use outline::{Outline, Source};

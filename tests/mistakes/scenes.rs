@@ -230,8 +230,9 @@ fn mistakes_in_surface(tables: &mut Vec<Edits>) {
         (r#"path = "h.npy""#, "path = \"h.npy\"\nscale = 0", "s.toml:10: surface.0.scale: 0 is out of range", "finite and not 0"),
         (r#"path = "h.npy""#, "path = \"h.npy\"\ndetrend = \"linear\"", r#"s.toml:10: surface.0.detrend: "linear" is none of "none", "mean", "plane", "quadratic""#, "did you mean"),
         (r#"path = "h.npy""#, "path = \"h.npy\"\nfill = \"interpolated\"", r#"s.toml:10: surface.0.fill: "interpolated" is none of"#, r#"did you mean "interpolate"?"#),
-        (r#"path = "h.npy""#, "path = \"h.npy\"\nblack = 0", "s.toml:10: surface.0.black: heights from a grey image is not in this version", "take it out"),
-        (r#"path = "h.npy""#, "path = \"h.npy\"\nwhite = 1e-6", "s.toml:10: surface.0.white: heights from a grey image is not in this version", "take it out"),
+        (r#"path = "h.npy""#, "path = \"h.npy\"\nblack = 0", "s.toml:10: surface.0.black: stands without white", "a grey image needs the heights of both"),
+        (r#"path = "h.npy""#, "path = \"h.npy\"\nwhite = 1e-6", "s.toml:10: surface.0.white: stands without black", "a grey image needs the heights of both"),
+        (r#"path = "h.npy""#, "path = \"h.npy\"\nblack = 0.0\nwhite = \"1 Pa\"", r#"s.toml:11: surface.0.white: "Pa" is a pressure in Pa"#, "give a length in m"),
     ]});
     tables.push(Edits { base: GOOD.to_string(), cases: &[
         ("[[surface]]", "[surface]", "s.toml:7: surface: a table where an array of tables is expected", "`[[surface]]`"),
@@ -883,6 +884,8 @@ fn a_height_file_may_carry_the_grid() {
             path: PathBuf::from("/scenes/h.npy"),
             unit: 1.0,
             scale: 1.0,
+            black: None,
+            white: None,
             detrend: Detrend::None,
             fill: Fill::None,
         })]
@@ -904,6 +907,8 @@ fn a_height_file_may_carry_the_grid() {
             path: PathBuf::from("/data/h.npy"),
             unit: 1e-9,
             scale: -2.0,
+            black: None,
+            white: None,
             detrend: Detrend::Quadratic,
             fill: Fill::Interpolate,
         })]
