@@ -4,6 +4,7 @@
 
 mod gpu_shared;
 
+use std::borrow::Cow;
 use std::path::Path;
 
 use tabor::backend::{Backend, cpu::CpuBackend, gpu::GpuBackend};
@@ -92,13 +93,13 @@ impl Observer for Cutter {
             curve: 0,
             warnings: Vec::new(),
             single: self.single,
-            hand_over: state.clone(),
+            hand_over: Cow::Borrowed(state),
         };
         saved.write(&path).expect("it is written");
         let read = SavedState::read(&path)
             .expect("it is read")
             .expect("it is there");
-        self.states.push(read.hand_over);
+        self.states.push(read.hand_over.into_owned());
         Ok(())
     }
 }

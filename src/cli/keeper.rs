@@ -1,5 +1,6 @@
 //! Keeps each step of a run as it ends: row, fields, pictures, state, report.
 
+use std::borrow::Cow;
 use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, Ordering};
 use std::time::{Duration, Instant};
@@ -184,7 +185,7 @@ impl<'a> Keeper<'a> {
             curve: self.curve.checksum(),
             warnings: self.warnings.clone(),
             single: self.single(),
-            hand_over: state.clone(),
+            hand_over: Cow::Borrowed(state),
         }
         .write(&self.folder.state_path(STATE))?;
         self.committed = step;

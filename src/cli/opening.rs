@@ -1,5 +1,6 @@
 //! The folder of a run, opened at its first step or after the last finished one.
 
+use std::borrow::Cow;
 use std::path::Path;
 
 use super::Failure;
@@ -67,7 +68,7 @@ pub(super) fn open(
         curve: curve.checksum(),
         warnings: Vec::new(),
         single: machine.precision() == Precision::Single,
-        hand_over: HandOver::default(),
+        hand_over: Cow::Owned(HandOver::default()),
     }
     .write(&folder.state_path(STATE))?;
     let fresh = format!("{}: nothing to resume, starts at step 1", path.display());
@@ -155,7 +156,7 @@ fn go_on(
         curve,
         earlier: Earlier {
             rows,
-            hand_over: state.hand_over,
+            hand_over: state.hand_over.into_owned(),
         },
         warnings,
         remarks,
