@@ -46,7 +46,7 @@ const LOADINGS: [(&str, &str); 5] = [
     ),
     (
         "periodic",
-        "control = \"approach\"\npath = [\"-20 nm\", \"30 nm\", \"60 nm\", \"-20 nm\"]",
+        "control = \"approach\"\npath = [\"-20 nm\", \"10 nm\", \"30 nm\", \"-20 nm\"]",
     ),
     (
         "free",
