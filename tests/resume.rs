@@ -1,6 +1,7 @@
 //! Nothing is lost: runs that are killed, interrupted or run out of room go on where they were, and
 //! end with the same files.
 
+mod gpu_shared;
 mod resume_shared;
 
 use std::fs;
@@ -85,6 +86,13 @@ fn twenty_killed_runs_go_on_and_end_with_the_same_files() {
 fn single_precision_and_the_last_step_alone() {
     let text = ROUGH.replace("steps = [1, 2, 3, 4, 5, 6, 7, 8]", "steps = \"last\"");
     kill_and_resume(&text, 4, &["--precision", "single", "--backend", "cpu"]);
+}
+
+#[test]
+fn killed_runs_on_the_graphics_processor() {
+    if gpu_shared::device().is_some() {
+        kill_and_resume(ROUGH, 3, &["--backend", "gpu"]);
+    }
 }
 
 /// Starts a run and waits until `count` steps are in its curve.
@@ -215,7 +223,10 @@ fn other_scenes_and_damaged_states_are_refused_with_reasons() {
     for (set, named) in [
         ("surface.0.seed=2", "surface.0.seed"),
         ("solid.contact_modulus=51e6", "solid.contact_modulus"),
-        ("loading.path=[1e5]", "loading.path"),
+        (
+            "loading.path=[1e5,1e6,3e6,1e6,0,-5e6,2e5,9e5]",
+            "loading.path.0",
+        ),
         ("title=Other", "title"),
         ("output.steps=last", "output.steps"),
     ] {
