@@ -242,6 +242,12 @@ fn other_scenes_and_damaged_states_are_refused_with_reasons() {
     assert_eq!(code, 0, "{said}");
     assert!(said.contains("all 8 steps were finished"), "{said}");
     assert!(before == files(&folder.join("whole")));
+    // So is one that is told where to compute, if that is where it did.
+    let (code, said) = again(&["--set", "solver.backend=cpu"]);
+    assert_eq!(code, 0, "{said}");
+    let (code, said) = again(&["--set", "solver.precision=single"]);
+    assert_eq!(code, 2, "{said}");
+    assert!(said.contains("[solver]"), "{said}");
 
     let state = folder.join("whole/state/last_step.bin");
     let good = fs::read(&state).expect("a state");

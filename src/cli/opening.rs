@@ -126,7 +126,17 @@ fn go_on(
         .get(state.finished)
         .is_some_and(|row| !row.converged);
     let now = solver(&setup.scene);
-    if state.solver != now && state.finished > 0 && !failed {
+    // Other words for the same place and arithmetic change nothing.
+    let said = |solver: &serde_json::Value| {
+        let mut solver = solver.clone();
+        if let Some(table) = solver.as_object_mut()
+            && state.machine == machine.words()
+        {
+            table.retain(|key, _| key != "backend" && key != "precision");
+        }
+        solver
+    };
+    if said(&state.solver) != said(&now) && state.finished > 0 && !failed {
         return refuse(format!(
             "was solved with [solver] {}, and here it is {now}: it may change only where a step did not converge; put it back, or run without --resume to start afresh",
             state.solver
