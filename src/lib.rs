@@ -43,7 +43,7 @@
 //! | [`solver`] | the one algorithm, for every law and both boundaries |
 //! | [`study`] | loading paths: what is held, jumps, energies, the rows of `curve.csv` |
 //! | [`effect`] | what a scene may ask for besides, and what each costs |
-//! | [`output`] | the folder of a run: curve, summary, fields, pictures |
+//! | [`output`] | the folder of a run: curve, summary, fields, pictures, report, and the state to go on from |
 //! | [`theory`] | closed forms and models to compare with: Hertz, JKR, Maugis, Persson and others |
 //! | [`cli`] | the command line |
 //!

@@ -80,15 +80,31 @@ impl Machine {
         }
     }
 
+    /// Where it is and in which arithmetic, in words.
+    pub fn words(&self) -> String {
+        let adapter = self
+            .adapter()
+            .map_or_else(String::new, |name| format!(" ({name})"));
+        format!(
+            "{}{adapter}, {} precision",
+            self.name(),
+            self.precision.name()
+        )
+    }
+
     /// Its arithmetic.
     pub fn precision(&self) -> Precision {
         self.precision
     }
 }
 
-/// A graphics processor that is one, where it can do what is asked; else the processor. Says why
-/// only where there is a choice.
+/// A graphics processor that is one, where single precision is asked; else the processor. Double
+/// precision is the processor's alone in this version, so no adapter is asked then. Says why only
+/// where there is a choice.
 fn auto(setup: &Setup, precision: Precision) -> (Place, Option<String>) {
+    if precision != Precision::Single {
+        return (Place::Processor, None);
+    }
     let found = adapters();
     let Some(best) = best(&found) else {
         return (Place::Processor, None);
@@ -97,15 +113,6 @@ fn auto(setup: &Setup, precision: Precision) -> (Place, Option<String>) {
         let remark = format!("on the processor, not on {}: {why}", best.name);
         (Place::Processor, Some(remark))
     };
-    if precision != Precision::Single {
-        let floor = Precision::SINGLE_FLOOR;
-        return stays(match setup.scene.solver.tolerance < floor {
-            true => format!(
-                "the tolerance is below {floor:e}, the floor of single precision, which is what the GPU has in this version"
-            ),
-            false => "double precision; --precision single would take it".to_owned(),
-        });
-    }
     let fits = refuse_size(setup.problem.shape.points).and_then(|()| refuse_limits(setup, best));
     if let Err(error) = fits {
         return stays(error.to_string());

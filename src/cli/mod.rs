@@ -2,11 +2,14 @@
 
 mod check;
 mod devices;
+mod keeper;
 mod machine;
+mod opening;
 mod room;
 mod run;
 mod shell;
 mod surface;
+mod table;
 mod theory;
 
 use std::io::Write;
@@ -37,7 +40,7 @@ struct Arguments {
 enum Command {
     /// Solve every step of a scene and write its results
     #[command(
-        after_help = "Example:\n  tabor run examples/scenes/sphere_pull_off.toml --out pull_off --set grid.points=256"
+        after_help = "Example:\n  tabor run examples/scenes/sphere_pull_off.toml --out pull_off --set grid.points=256\n  tabor run examples/scenes/sphere_pull_off.toml --out pull_off --set grid.points=256 --resume"
     )]
     Run(RunArguments),
     /// Read a scene and say what it would do and cost, without solving it
@@ -96,7 +99,7 @@ struct RunArguments {
     /// Threads [default: one a core]
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u16).range(1..=1024))]
     threads: Option<u16>,
-    /// Go on after the last finished step (not in this version)
+    /// Go on after the last finished step of an earlier run in this folder
     #[arg(long)]
     resume: bool,
     /// No progress; warnings and errors are still said
@@ -244,8 +247,8 @@ enum Failure {
         tolerance: f64,
         remedy: &'static str,
     },
-    #[error("interrupted; finished steps are kept")]
-    Interrupted,
+    #[error("interrupted after {finished} of {steps} steps")]
+    Interrupted { finished: usize, steps: usize },
     #[error(transparent)]
     Theory(#[from] TheoryError),
     #[error("cannot print: {0}")]
@@ -281,7 +284,7 @@ impl Failure {
             Failure::NotConverged { .. } | Failure::Theory(TheoryError::NotConverged { .. }) => 3,
             Failure::Theory(_) => 2,
             Failure::Backend(_) | Failure::Gpu(_) => 4,
-            Failure::Interrupted => 130,
+            Failure::Interrupted { .. } => 130,
         }
     }
 }
@@ -308,11 +311,16 @@ pub fn main() -> ExitCode {
             // Red on a terminal; plain elsewhere, and with NO_COLOR.
             let red = anstyle::AnsiColor::Red.on_default().bold();
             for line in failure.to_string().lines() {
-                anstream::eprintln!("{red}error:{red:#} {line}");
+                say(&format!("{red}error:{red:#} {line}"));
             }
             ExitCode::from(failure.status())
         }
     }
+}
+
+/// Prints a line on standard error. Where that is closed nobody is there to be told.
+fn say(line: &str) {
+    let _ = writeln!(anstream::stderr(), "{line}");
 }
 
 fn not_in_this_version(command: &str, _: &Later) -> Result<(), Failure> {

@@ -7,38 +7,30 @@ use std::path::{Path, PathBuf};
 
 use super::error::OutputError;
 use super::folder::write_atomically;
-use crate::study::StepRow;
+use crate::study::{State, StepRow};
 
 /// First line of `curve.csv`.
 pub const HEADER: &str = "step,time,approach,mean_gap,force,mean_pressure,contact_area_fraction,attractive_area_fraction,elastic_energy,adhesive_energy,iterations,residual,converged,seconds,contact_area_fraction_corrected,state";
 
-/// Writes `curve.csv` row by row.
+/// A curve as it stands on the disk: its whole rows.
 #[derive(Debug)]
-pub struct CurveWriter {
+pub struct Curve {
     path: PathBuf,
-    file: File,
+    rows: Vec<StepRow>,
+    lines: Vec<String>,
 }
 
-impl CurveWriter {
-    /// Starts a curve at `path` with its head and no rows.
-    pub fn create(path: &Path) -> Result<CurveWriter, OutputError> {
-        write_atomically(path, format!("{HEADER}\n").as_bytes())?;
-        CurveWriter::append_to(path)
-    }
-
-    /// Goes on with the curve at `path` after its first `rows` rows; later ones are dropped.
-    ///
-    /// Refused where the file is not a curve of this version or has fewer whole rows.
-    pub fn resume(path: &Path, rows: usize) -> Result<CurveWriter, OutputError> {
+impl Curve {
+    /// Reads the curve at `path`; empty where there is none. A row without its line end was being
+    /// written when the run ended, and is left out.
+    pub fn read(path: &Path) -> Result<Curve, OutputError> {
+        let mut curve = Curve {
+            path: path.to_path_buf(),
+            rows: Vec::new(),
+            lines: Vec::new(),
+        };
         let bytes = match fs::read(path) {
-            // A run that ended before its first step may not have come to its curve.
-            Err(error) if error.kind() == io::ErrorKind::NotFound && rows == 0 => {
-                return CurveWriter::create(path);
-            }
-            Err(error) if error.kind() == io::ErrorKind::NotFound => {
-                let reason = format!("is missing, where {rows} steps are finished");
-                return Err(OutputError::refused(path, reason));
-            }
+            Err(error) if error.kind() == io::ErrorKind::NotFound => return Ok(curve),
             bytes => bytes.map_err(OutputError::write("read", path))?,
         };
         let text = String::from_utf8_lossy(&bytes);
@@ -51,22 +43,75 @@ impl CurveWriter {
                 "is not a curve that this version of tabor wrote",
             ));
         }
-        let kept: Vec<&str> = lines.take(rows).collect();
-        if kept.len() < rows {
-            return Err(OutputError::refused(
-                path,
-                format!(
-                    "has {} whole rows where {rows} steps are finished",
-                    kept.len()
-                ),
-            ));
+        for (index, line) in lines.enumerate() {
+            let row = parse_row(line).filter(|row| row.step == index + 1);
+            let row = row.ok_or_else(|| {
+                let reason = format!(
+                    "line {} is not row {} of a curve; run without --resume to start afresh",
+                    index + 2,
+                    index + 1
+                );
+                OutputError::refused(path, reason)
+            })?;
+            curve.rows.push(row);
+            curve.lines.push(line.to_owned());
         }
-        let text = format!("{HEADER}\n{}", kept.concat());
-        write_atomically(path, text.as_bytes())?;
-        CurveWriter::append_to(path)
+        Ok(curve)
     }
 
-    fn append_to(path: &Path) -> Result<CurveWriter, OutputError> {
+    /// All whole rows.
+    pub fn rows(&self) -> &[StepRow] {
+        &self.rows
+    }
+
+    /// Goes on after the first `finished` rows, whose checksum is known; later ones are dropped.
+    ///
+    /// Refused where there are fewer, or where they are not those that the checksum was made of.
+    pub fn go_on(
+        mut self,
+        finished: usize,
+        checksum: u32,
+    ) -> Result<(CurveWriter, Vec<StepRow>), OutputError> {
+        if self.rows.len() < finished {
+            let reason = format!(
+                "has {} whole rows where {finished} steps are finished; run without --resume to start afresh",
+                self.rows.len()
+            );
+            return Err(OutputError::refused(&self.path, reason));
+        }
+        self.rows.truncate(finished);
+        let mut found = crc32fast::Hasher::new();
+        self.rows.iter().for_each(|row| add_row(&mut found, row));
+        if found.clone().finalize() != checksum {
+            return Err(OutputError::refused(
+                &self.path,
+                "was changed since its steps were solved; run without --resume to start afresh",
+            ));
+        }
+        let text = format!("{HEADER}\n{}", self.lines[..finished].concat());
+        write_atomically(&self.path, text.as_bytes())?;
+        let writer = CurveWriter::append_to(&self.path, found)?;
+        Ok((writer, self.rows))
+    }
+}
+
+/// Writes `curve.csv` row by row.
+#[derive(Debug)]
+pub struct CurveWriter {
+    path: PathBuf,
+    file: File,
+    checksum: crc32fast::Hasher,
+}
+
+impl CurveWriter {
+    /// Starts a curve at `path` with its head and no rows.
+    pub fn create(path: &Path) -> Result<CurveWriter, OutputError> {
+        write_atomically(path, format!("{HEADER}\n").as_bytes())?;
+        CurveWriter::append_to(path, crc32fast::Hasher::new())
+    }
+
+    /// Goes on with the file at `path`, whose rows gave this checksum.
+    fn append_to(path: &Path, checksum: crc32fast::Hasher) -> Result<CurveWriter, OutputError> {
         let file = OpenOptions::new()
             .append(true)
             .open(path)
@@ -74,16 +119,26 @@ impl CurveWriter {
         Ok(CurveWriter {
             path: path.to_path_buf(),
             file,
+            checksum,
         })
     }
 
     /// Appends one row and waits until it is on the disk.
     pub fn append(&mut self, row: &StepRow) -> Result<(), OutputError> {
+        let line = format_row(row);
         // One write a row, so that a reader or a crash meets whole rows.
         self.file
-            .write_all(format_row(row).as_bytes())
+            .write_all(line.as_bytes())
             .and_then(|()| self.file.sync_data())
-            .map_err(OutputError::write("write", &self.path))
+            .map_err(OutputError::write("write", &self.path))?;
+        add_row(&mut self.checksum, row);
+        Ok(())
+    }
+
+    /// Checksum (CRC-32) of the rows so far but for their seconds, by which [`Curve::go_on`] knows
+    /// them again.
+    pub fn checksum(&self) -> u32 {
+        self.checksum.clone().finalize()
     }
 }
 
@@ -118,10 +173,68 @@ pub fn format_row(row: &StepRow) -> String {
     line
 }
 
+/// Adds a row to a checksum. Its seconds are left out, so that the same run has the same one.
+fn add_row(checksum: &mut crc32fast::Hasher, row: &StepRow) {
+    let row = StepRow {
+        seconds: 0.0,
+        ..row.clone()
+    };
+    checksum.update(format_row(&row).as_bytes());
+}
+
+/// The row of a line that [`format_row`] made.
+fn parse_row(line: &str) -> Option<StepRow> {
+    fn optional(cell: &str) -> Option<Option<f64>> {
+        match cell {
+            "" => Some(None),
+            number => number.parse().ok().map(Some),
+        }
+    }
+    let cells: Vec<&str> = line.trim_end().split(',').collect();
+    let [
+        step,
+        time,
+        approach,
+        mean_gap,
+        force,
+        mean_pressure,
+        contact,
+        attracted,
+        elastic,
+        adhesive,
+        iterations,
+        residual,
+        converged,
+        seconds,
+        corrected,
+        state,
+    ] = cells[..]
+    else {
+        return None;
+    };
+    Some(StepRow {
+        step: step.parse().ok()?,
+        time: optional(time)?,
+        approach: optional(approach)?,
+        mean_gap: optional(mean_gap)?,
+        force: force.parse().ok()?,
+        mean_pressure: mean_pressure.parse().ok()?,
+        contact_area_fraction: contact.parse().ok()?,
+        attractive_area_fraction: attracted.parse().ok()?,
+        elastic_energy: elastic.parse().ok()?,
+        adhesive_energy: adhesive.parse().ok()?,
+        iterations: iterations.parse().ok()?,
+        residual: residual.parse().ok()?,
+        converged: converged.parse().ok()?,
+        seconds: seconds.parse().ok()?,
+        contact_area_fraction_corrected: optional(corrected)?,
+        state: State::from_name(state)?,
+    })
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::study::State;
     use proptest::prelude::*;
 
     fn row(step: usize, value: f64) -> StepRow {
@@ -159,48 +272,66 @@ mod tests {
         );
     }
 
+    /// A curve of three rows and the start of a fourth, and the checksum after two.
+    fn torn(path: &Path) -> u32 {
+        let mut writer = CurveWriter::create(path).unwrap();
+        writer.append(&row(1, 1.0)).unwrap();
+        writer.append(&row(2, 2.0)).unwrap();
+        let checksum = writer.checksum();
+        writer.append(&row(3, 3.0)).unwrap();
+        writer.file.write_all(b"4,,0.5").unwrap();
+        checksum
+    }
+
     #[test]
-    fn resuming_keeps_the_finished_rows_only() {
+    fn going_on_keeps_the_finished_rows_only() {
         let place = tempfile::tempdir().unwrap();
         let path = place.path().join("curve.csv");
-        let mut writer = CurveWriter::create(&path).unwrap();
-        for step in 1..=3 {
-            writer.append(&row(step, step as f64)).unwrap();
-        }
-        // A row cut short by a crash does not count.
-        writer.file.write_all(b"4,,0.5").unwrap();
+        let checksum = torn(&path);
         let whole = fs::read_to_string(&path).unwrap();
-        assert!(matches!(
-            CurveWriter::resume(&path, 4),
-            Err(OutputError::Refused { .. })
-        ));
-        let mut writer = CurveWriter::resume(&path, 2).unwrap();
+        let curve = Curve::read(&path).unwrap();
+        assert_eq!(curve.rows(), [row(1, 1.0), row(2, 2.0), row(3, 3.0)]);
+        let (mut writer, rows) = curve.go_on(2, checksum).unwrap();
+        assert_eq!(rows, [row(1, 1.0), row(2, 2.0)]);
+        assert_eq!(writer.checksum(), checksum);
         writer.append(&row(3, 3.0)).unwrap();
         let resumed = fs::read_to_string(&path).unwrap();
         assert_eq!(format!("{resumed}4,,0.5"), whole);
     }
 
-    #[test]
-    fn a_missing_curve_is_started_only_where_no_step_is_finished() {
-        let place = tempfile::tempdir().unwrap();
-        let path = place.path().join("curve.csv");
-        assert!(matches!(
-            CurveWriter::resume(&path, 1),
-            Err(OutputError::Refused { .. })
-        ));
-        CurveWriter::resume(&path, 0).unwrap();
-        assert_eq!(fs::read_to_string(&path).unwrap(), format!("{HEADER}\n"));
+    fn refused<T>(outcome: Result<T, OutputError>) -> bool {
+        matches!(outcome, Err(OutputError::Refused { .. }))
     }
 
     #[test]
-    fn a_foreign_file_is_not_resumed() {
+    fn missing_and_changed_rows_are_refused() {
         let place = tempfile::tempdir().unwrap();
         let path = place.path().join("curve.csv");
-        fs::write(&path, "a,b\n1,2\n").unwrap();
-        assert!(matches!(
-            CurveWriter::resume(&path, 1),
-            Err(OutputError::Refused { .. })
-        ));
+        // No curve yet: fine where no step is finished.
+        assert!(refused(Curve::read(&path).unwrap().go_on(1, 0)));
+        assert!(!path.exists());
+        Curve::read(&path).unwrap().go_on(0, 0).unwrap();
+        assert_eq!(fs::read_to_string(&path).unwrap(), format!("{HEADER}\n"));
+
+        let checksum = torn(&path);
+        assert!(refused(Curve::read(&path).unwrap().go_on(4, checksum)));
+        let changed = fs::read_to_string(&path).unwrap().replace("2.0", "2.5");
+        fs::write(&path, changed).unwrap();
+        assert!(refused(Curve::read(&path).unwrap().go_on(2, checksum)));
+    }
+
+    #[test]
+    fn a_foreign_file_is_not_gone_on_with() {
+        let place = tempfile::tempdir().unwrap();
+        let path = place.path().join("curve.csv");
+        for text in [
+            "a,b\n1,2\n",
+            &format!("{HEADER}\n1,2\n"),
+            &format!("{HEADER}\n{}", format_row(&row(2, 1.0))),
+        ] {
+            fs::write(&path, text).unwrap();
+            assert!(refused(Curve::read(&path)), "{text}");
+        }
     }
 
     proptest! {
@@ -210,6 +341,9 @@ mod tests {
             let cells: Vec<&str> = line.trim_end().split(',').collect();
             prop_assert_eq!(cells.len(), HEADER.split(',').count());
             prop_assert_eq!(cells[4].parse::<f64>().unwrap().to_bits(), value.to_bits());
+            let read = parse_row(&line).unwrap();
+            prop_assert_eq!(read.mean_pressure.to_bits(), (-value).to_bits());
+            prop_assert_eq!(read, row(7, value));
         }
     }
 }

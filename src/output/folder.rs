@@ -6,6 +6,7 @@ use std::path::{Path, PathBuf};
 
 use serde::{Deserialize, Serialize};
 
+use super::difference::difference;
 use super::error::OutputError;
 use crate::scene::FieldName;
 
@@ -13,7 +14,7 @@ use crate::scene::FieldName;
 const UNFINISHED: &str = ".tabor-unfinished";
 
 /// Files that a run writes at the top of its folder.
-const TOP_FILES: [&str; 3] = ["curve.csv", "summary.json", "report.html"];
+const TOP_FILES: [&str; 4] = ["curve.csv", "curve.png", "summary.json", "report.html"];
 
 /// Start of the names of the files that one step hands to the next.
 const STATE_PREFIX: &str = "last_";
@@ -51,19 +52,71 @@ impl RunFolder {
         Ok(folder)
     }
 
-    /// Opens `path` to go on with the run that it holds, and removes nothing.
+    /// Opens `path` to go on with the run that it holds; says whether there is one. Results stay,
+    /// files that were being written when the run ended go.
     ///
-    /// A folder that is missing, empty or of another scene is refused.
-    pub fn resume(path: &Path, fingerprint: &str) -> Result<RunFolder, OutputError> {
+    /// A folder that is missing or empty is opened for a run from its first step; one that tabor
+    /// did not write for the scene of this `fingerprint` is refused.
+    pub fn resume(path: &Path, fingerprint: &str) -> Result<(RunFolder, bool), OutputError> {
         let folder = RunFolder::at(path);
         if folder.is_empty()? {
-            return Err(OutputError::refused(
-                path,
-                "there is no run here to resume; leave out --resume to start one",
-            ));
+            return Ok((RunFolder::open(path, fingerprint)?, false));
         }
         folder.expect_marker(fingerprint)?;
-        Ok(folder)
+        for part in ["", "images", "fields", "state"] {
+            remove_files(&folder.path.join(part), |name, unfinished| {
+                unfinished && !name.is_empty()
+            })?;
+        }
+        Ok((folder, true))
+    }
+
+    /// Fails where the folder is no longer there, so that nothing makes half of it anew.
+    pub fn expect_present(&self) -> Result<(), OutputError> {
+        match fs::metadata(self.marker_path()) {
+            Ok(_) => Ok(()),
+            Err(error) => Err(OutputError::write("find the folder", &self.path)(error)),
+        }
+    }
+
+    /// Removes the pictures and fields of the steps that `own` picks.
+    pub fn remove_steps(&self, own: impl Fn(usize) -> bool) -> Result<(), OutputError> {
+        for part in ["images", "fields"] {
+            remove_files(&self.path.join(part), |name, _| {
+                step_of(name).is_some_and(&own)
+            })?;
+        }
+        Ok(())
+    }
+
+    /// The pictures that there are: step, name of the field and file, in the order of steps.
+    pub fn pictures(&self) -> Vec<(usize, &'static str, PathBuf)> {
+        let mut found = Vec::new();
+        for entry in fs::read_dir(self.path.join("images"))
+            .into_iter()
+            .flatten()
+            .flatten()
+        {
+            let name = entry.file_name();
+            let Some(name) = name.to_str().filter(|name| name.ends_with(".png")) else {
+                continue;
+            };
+            let field = FieldName::ALL.iter().position(|field| {
+                name.strip_suffix(".png").is_some_and(|name| {
+                    name.split_once('_')
+                        .and_then(|(_, rest)| rest.split_once('_'))
+                        .is_some_and(|(_, word)| word == field.name())
+                })
+            });
+            if let (Some(step), Some(field)) = (step_of(name), field) {
+                found.push((step, field, entry.path()));
+            }
+        }
+        found.sort();
+        found
+            .into_iter()
+            .map(|(step, field, path)| (step, FieldName::ALL[field].name(), path))
+            .collect()
     }
 
     fn at(path: &Path) -> RunFolder {
@@ -108,6 +161,16 @@ impl RunFolder {
             .join(format!("step_{step:04}_{}.npy", field.name()))
     }
 
+    /// `curve.png`.
+    pub fn curve_picture_path(&self) -> PathBuf {
+        self.path.join("curve.png")
+    }
+
+    /// The fields of a step for ParaView, such as `fields/step_0003.vti`.
+    pub fn volume_path(&self, step: usize) -> PathBuf {
+        self.path.join("fields").join(format!("step_{step:04}.vti"))
+    }
+
     /// A file that one step hands to the next: `state/last_NAME`.
     ///
     /// The prefix marks it as tabor's own, to be removed when the run starts afresh.
@@ -121,10 +184,22 @@ impl RunFolder {
         self.path.join("state").join(MARKER)
     }
 
-    /// Whether there is nothing in the folder, or no folder.
+    /// Whether there is nothing in the folder, or no folder. One in which a run ended before it had
+    /// left its marker holds nothing either.
     fn is_empty(&self) -> Result<bool, OutputError> {
-        match fs::read_dir(&self.path) {
-            Ok(mut entries) => Ok(entries.next().is_none()),
+        let names = |folder: &Path| -> io::Result<Vec<std::ffi::OsString>> {
+            fs::read_dir(folder)?
+                .take(2)
+                .map(|entry| Ok(entry?.file_name()))
+                .collect()
+        };
+        match names(&self.path) {
+            Ok(found) if found == ["state"] => {
+                let unfinished = format!(".{MARKER}{UNFINISHED}");
+                let inside = names(&self.path.join("state")).unwrap_or_default();
+                Ok(inside.is_empty() || inside == [unfinished.as_str()])
+            }
+            Ok(found) => Ok(found.is_empty()),
             Err(error) if error.kind() == io::ErrorKind::NotFound => Ok(true),
             Err(error) if error.kind() == io::ErrorKind::NotADirectory => Err(
                 OutputError::refused(&self.path, "is a file; name a folder with --out"),
@@ -148,7 +223,10 @@ impl RunFolder {
             )),
             Some(marker) if marker.fingerprint != fingerprint => Err(OutputError::refused(
                 &self.path,
-                "holds the results of another scene; name another folder with --out, or remove it",
+                format!(
+                    "holds the results of another scene{}; name another folder with --out, or remove it",
+                    difference(&marker.fingerprint, fingerprint)
+                ),
             )),
             Some(_) => Ok(()),
         }
@@ -172,36 +250,34 @@ impl RunFolder {
 
     /// Removes what a run writes: known names only, so that a note left beside them stays.
     fn remove_own_files(&self) -> Result<(), OutputError> {
-        remove_files(&self.path, |name| TOP_FILES.contains(&name))?;
-        remove_files(&self.path.join("images"), |name| is_step_file(name, "png"))?;
-        remove_files(&self.path.join("fields"), |name| is_step_file(name, "npy"))?;
+        remove_files(&self.path, |name, _| TOP_FILES.contains(&name))?;
+        self.remove_steps(|_| true)?;
         // The marker stays until it is replaced: a run that ends in between is still recognised.
-        remove_files(&self.path.join("state"), |name| {
+        remove_files(&self.path.join("state"), |name, _| {
             name.starts_with(STATE_PREFIX)
         })
     }
 }
 
-/// Whether `name` reads `step_DIGITS_FIELD.extension`.
-fn is_step_file(name: &str, extension: &str) -> bool {
-    let fields = [
-        FieldName::Pressure,
-        FieldName::Gap,
-        FieldName::Displacement,
-        FieldName::Heights,
-    ];
-    name.strip_prefix("step_")
-        .and_then(|rest| rest.strip_suffix(extension)?.strip_suffix('.'))
-        .and_then(|rest| rest.split_once('_'))
-        .is_some_and(|(digits, field)| {
-            digits.len() >= 4
-                && digits.bytes().all(|byte| byte.is_ascii_digit())
-                && fields.iter().any(|known| known.name() == field)
-        })
+/// The step of `step_DIGITS_FIELD.png`, `step_DIGITS_FIELD.npy` or `step_DIGITS.vti`.
+fn step_of(name: &str) -> Option<usize> {
+    let rest = name.strip_prefix("step_")?;
+    let digits = match rest.strip_suffix(".vti") {
+        Some(digits) => digits,
+        None => {
+            let rest = rest.strip_suffix(".png").or(rest.strip_suffix(".npy"))?;
+            let (digits, field) = rest.split_once('_')?;
+            FieldName::ALL.iter().find(|known| known.name() == field)?;
+            digits
+        }
+    };
+    let is_number = digits.len() >= 4 && digits.bytes().all(|byte| byte.is_ascii_digit());
+    digits.parse().ok().filter(|_| is_number)
 }
 
-/// Removes the files of `folder` whose name is `own`, finished or not.
-fn remove_files(folder: &Path, own: impl Fn(&str) -> bool) -> Result<(), OutputError> {
+/// Removes the files of `folder` that `own` picks by their name and by whether they were being
+/// written when a run ended.
+fn remove_files(folder: &Path, own: impl Fn(&str, bool) -> bool) -> Result<(), OutputError> {
     let entries = match fs::read_dir(folder) {
         Ok(entries) => entries,
         Err(error) if error.kind() == io::ErrorKind::NotFound => return Ok(()),
@@ -211,12 +287,11 @@ fn remove_files(folder: &Path, own: impl Fn(&str) -> bool) -> Result<(), OutputE
         let entry = entry.map_err(OutputError::write("read the folder", folder))?;
         let name = entry.file_name();
         let Some(name) = name.to_str() else { continue };
-        let finished = name
+        let unfinished = name
             .strip_suffix(UNFINISHED)
-            .and_then(|name| name.strip_prefix('.'))
-            .unwrap_or(name);
+            .and_then(|name| name.strip_prefix('.'));
         let is_folder = entry.file_type().is_ok_and(|kind| kind.is_dir());
-        if own(finished) && !is_folder {
+        if own(unfinished.unwrap_or(name), unfinished.is_some()) && !is_folder {
             let path = entry.path();
             fs::remove_file(&path).map_err(OutputError::write("remove", &path))?;
         }
@@ -304,6 +379,8 @@ mod tests {
             folder.report_path(),
             folder.image_path(3, FieldName::Pressure),
             folder.field_path(12345, FieldName::Gap),
+            folder.volume_path(3),
+            folder.curve_picture_path(),
             folder.state_path("step.json"),
             place
                 .path()
@@ -319,19 +396,50 @@ mod tests {
         for path in own.iter().chain(&others) {
             touch(path);
         }
+        let (unfinished, whole) = own.split_last().unwrap();
         RunFolder::resume(place.path(), "one").unwrap();
-        assert!(own.iter().all(|path| path.exists()));
+        assert!(whole.iter().all(|path| path.exists()) && !unfinished.exists());
         RunFolder::open(place.path(), "one").unwrap();
         assert!(own.iter().all(|path| !path.exists()));
         assert!(others.iter().all(|path| path.exists()));
     }
 
     #[test]
-    fn resuming_needs_a_run() {
+    fn resuming_starts_a_run_where_there_is_none() {
         let place = tempfile::tempdir().unwrap();
-        for path in [place.path().to_path_buf(), place.path().join("none")] {
-            let outcome = RunFolder::resume(&path, "one");
-            assert!(matches!(outcome, Err(OutputError::Refused { .. })));
+        let cut_short = place.path().join("cut_short");
+        touch(&cut_short.join("state/.scene.json.tabor-unfinished"));
+        for path in [place.path().join("none"), cut_short] {
+            let (_, there) = RunFolder::resume(&path, "one").unwrap();
+            assert!(!there);
+            touch(&path.join("fields/.step_0001_gap.npy.tabor-unfinished"));
+            let (folder, there) = RunFolder::resume(&path, "one").unwrap();
+            assert!(there);
+            let left = fs::read_dir(path.join("fields")).unwrap().count();
+            assert_eq!(left, 0, "what was being written is gone");
+            folder.expect_present().unwrap();
+            fs::remove_dir_all(&path).unwrap();
+            assert!(folder.expect_present().is_err());
+        }
+        let foreign = place.path().join("foreign");
+        touch(&foreign.join("state/mine"));
+        let outcome = RunFolder::resume(&foreign, "one");
+        assert!(matches!(outcome, Err(OutputError::Refused { .. })));
+    }
+
+    #[test]
+    fn steps_are_known_by_their_names() {
+        let cases = [
+            ("step_0003_gap.png", Some(3)),
+            ("step_12345_pressure.npy", Some(12345)),
+            ("step_0003.vti", Some(3)),
+            ("step_3.vti", None),
+            ("step_0003_gap.vti", None),
+            ("step_0003_mine.png", None),
+            ("step_+003.vti", None),
+        ];
+        for (name, step) in cases {
+            assert_eq!(step_of(name), step, "{name}");
         }
     }
 

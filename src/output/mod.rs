@@ -5,8 +5,10 @@
 //! `curve.csv` alone grows, a row a step.
 
 mod canvas;
+pub mod chart;
 pub mod colour_scale;
 pub mod curve;
+mod difference;
 mod error;
 pub mod fields;
 pub mod folder;
@@ -15,17 +17,22 @@ pub mod palette;
 pub mod picture;
 mod png_text;
 pub mod progress;
+pub mod report;
 mod resample;
 mod si;
 pub mod spectrum_plot;
+pub mod state;
 pub mod summary;
+pub mod volume;
 
 pub use canvas::{Font, TextLine};
-pub use curve::CurveWriter;
+pub use curve::{Curve, CurveWriter};
 pub use error::OutputError;
 pub use fields::{write_field, write_field_single};
 pub use folder::{RunFolder, write_atomically};
 pub use picture::{Load, Picture, Snapshot, write_picture};
 pub use progress::Progress;
 pub use spectrum_plot::SpectrumPlot;
+pub use state::SavedState;
 pub use summary::{Effects, Seconds, Summary, peak_memory_bytes};
+pub use volume::write_volume;

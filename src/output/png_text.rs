@@ -35,20 +35,9 @@ fn chunk(kind: [u8; 4], content: &[u8]) -> Vec<u8> {
     let mut bytes = (content.len() as u32).to_be_bytes().to_vec();
     bytes.extend(kind);
     bytes.extend(content);
-    let checksum = checksum(&bytes[4..]);
+    let checksum = crc32fast::hash(&bytes[4..]);
     bytes.extend(checksum.to_be_bytes());
     bytes
-}
-
-/// The CRC-32 of a chunk's kind and content.
-fn checksum(bytes: &[u8]) -> u32 {
-    let remainder = bytes.iter().fold(u32::MAX, |remainder, byte| {
-        (0..8).fold(remainder ^ u32::from(*byte), |remainder, _| {
-            let carry = if remainder & 1 == 1 { 0xedb8_8320 } else { 0 };
-            carry ^ (remainder >> 1)
-        })
-    });
-    !remainder
 }
 
 #[cfg(test)]

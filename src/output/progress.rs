@@ -1,62 +1,153 @@
 //! How far a run has come, on standard error and only to a terminal.
 
-use std::io::{IsTerminal, stderr};
-use std::time::Duration;
+use std::cell::Cell;
+use std::io::{IsTerminal, Write, stderr};
+use std::time::{Duration, Instant};
 
 use indicatif::{ProgressBar, ProgressDrawTarget, ProgressStyle};
 
 /// A progress line, or nothing where nobody watches.
 #[derive(Debug)]
 pub struct Progress {
-    bar: Option<ProgressBar>,
+    line: Option<Line>,
+}
+
+#[derive(Debug)]
+struct Line {
+    bar: ProgressBar,
+    started: Instant,
+    /// Steps in all, done before this run, and done by now.
+    steps: usize,
+    earlier: usize,
+    finished: Cell<usize>,
+    tolerance: f64,
+    /// Residual of the first iteration of this step.
+    first: Cell<f64>,
 }
 
 impl Progress {
-    /// A line for `steps` steps; silent with `quiet` or where standard error is not a terminal.
-    pub fn new(steps: usize, quiet: bool) -> Progress {
+    /// A line for `steps` steps of which `finished` are done, each solved to `tolerance`; silent
+    /// with `quiet` or where standard error is not a terminal.
+    pub fn new(steps: usize, finished: usize, tolerance: f64, quiet: bool) -> Progress {
         if quiet || !stderr().is_terminal() {
-            return Progress { bar: None };
+            return Progress { line: None };
         }
-        let style =
-            ProgressStyle::with_template("{bar:24} step {pos}/{len}  {msg}  {elapsed_precise}")
-                .expect("the template is fixed and valid");
+        let style = ProgressStyle::with_template("{bar:24} step {prefix}/{len}  {wide_msg}")
+            .expect("the template is fixed and valid");
         let bar = ProgressBar::with_draw_target(
             Some(steps as u64),
             ProgressDrawTarget::stderr_with_hz(10),
         )
         .with_style(style);
+        bar.set_position(finished as u64);
+        bar.set_prefix((finished + 1).min(steps).to_string());
         bar.enable_steady_tick(Duration::from_millis(200));
-        Progress { bar: Some(bar) }
+        let line = Line {
+            bar,
+            started: Instant::now(),
+            steps,
+            earlier: finished,
+            finished: Cell::new(finished),
+            tolerance,
+            first: Cell::new(f64::NAN),
+        };
+        Progress { line: Some(line) }
     }
 
     /// Shows the solver at work: the iteration it has reached and its residual.
     pub fn iteration(&self, iteration: usize, residual: f64) {
-        if let Some(bar) = &self.bar {
-            bar.set_message(format!("iteration {iteration}  residual {residual:.1e}"));
+        let Some(line) = &self.line else { return };
+        if !line.first.get().is_finite() {
+            line.first.set(residual);
         }
+        let share = share_of_step(line.first.get(), residual, line.tolerance);
+        let done = (line.finished.get() - line.earlier) as f64 + share;
+        let left = (line.steps - line.earlier) as f64 - done;
+        line.bar.set_message(format!(
+            "iteration {iteration}  residual {residual:.1e}  {}",
+            time_left(line.started.elapsed().as_secs_f64(), done, left)
+        ));
     }
 
     /// Says that `finished` steps are done.
     pub fn finished_steps(&self, finished: usize) {
-        if let Some(bar) = &self.bar {
-            bar.set_position(finished as u64);
+        if let Some(line) = &self.line {
+            line.finished.set(finished);
+            line.first.set(f64::NAN);
+            line.bar.set_position(finished as u64);
+            let next = (finished + 1).min(line.steps);
+            line.bar.set_prefix(next.to_string());
         }
     }
 
     /// Prints a line to standard error, always, above the progress line where there is one.
-    pub fn say(&self, line: &str) {
-        match &self.bar {
-            Some(bar) => bar.suspend(|| eprintln!("{line}")),
-            None => eprintln!("{line}"),
+    pub fn say(&self, text: &str) {
+        // Where standard error is closed nobody is there to be told.
+        let write = || {
+            let _ = writeln!(stderr(), "{text}");
+        };
+        match &self.line {
+            Some(line) => line.bar.suspend(write),
+            None => write(),
         }
+    }
+}
+
+/// How much of a step is done, by the decades from its first residual down to the tolerance.
+fn share_of_step(first: f64, residual: f64, tolerance: f64) -> f64 {
+    let share = (first / residual).ln() / (first / tolerance).ln();
+    if share.is_finite() {
+        share.clamp(0.0, 1.0)
+    } else {
+        0.0
+    }
+}
+
+/// The time left in words, from the seconds that `done` steps took; only roughly known.
+fn time_left(seconds: f64, done: f64, left: f64) -> String {
+    let estimate = seconds * left / done;
+    if !estimate.is_finite() || done <= 0.0 || seconds < 1.0 {
+        return String::new();
+    }
+    let whole = estimate.max(0.0).round() as u64;
+    match whole {
+        0..60 => format!("about {whole} s left"),
+        60..3600 => format!("about {} min {:02} s left", whole / 60, whole % 60),
+        _ => format!("about {} h {:02} min left", whole / 3600, whole % 3600 / 60),
     }
 }
 
 impl Drop for Progress {
     /// Takes the line away, so that an error message does not land beside it.
     fn drop(&mut self) {
-        if let Some(bar) = &self.bar {
-            bar.finish_and_clear();
+        if let Some(line) = &self.line {
+            line.bar.finish_and_clear();
         }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_step_is_done_by_decades() {
+        assert!((share_of_step(1e-1, 1e-3, 1e-6) - 0.4).abs() < 1e-12);
+        assert_eq!(share_of_step(1e-1, 1e-9, 1e-6), 1.0);
+        assert_eq!(share_of_step(1e-1, 1.0, 1e-6), 0.0);
+        for odd in [f64::NAN, f64::INFINITY, 0.0] {
+            let share = share_of_step(odd, 1e-3, 1e-6);
+            assert!((0.0..=1.0).contains(&share));
+        }
+    }
+
+    #[test]
+    fn the_time_left_follows_the_time_taken() {
+        assert_eq!(time_left(10.0, 2.0, 3.0), "about 15 s left");
+        assert_eq!(time_left(100.0, 1.0, 3.0), "about 5 min 00 s left");
+        assert_eq!(time_left(3600.0, 0.5, 1.0), "about 2 h 00 min left");
+        // Nothing is known yet.
+        assert_eq!(time_left(0.3, 0.1, 4.0), "");
+        assert_eq!(time_left(5.0, 0.0, 4.0), "");
     }
 }

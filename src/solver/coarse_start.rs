@@ -3,7 +3,7 @@
 use super::contact::{ContactSolver, Hold, Load, Start};
 use super::{MakeBackend, problem::Problem};
 use crate::backend::BackendError;
-use crate::kernel::Status;
+use crate::kernel::{Scalars, Status};
 use crate::law::Law;
 
 /// Tolerance on the coarser grids.
@@ -19,23 +19,25 @@ const LEVELS: usize = 3;
 
 /// A gap to start from and the transforms it took, in those of the full grid; `None` where a cold
 /// start does as well (small grids), or where coarse grids might choose another equilibrium
-/// (adhesion).
+/// (adhesion). `watch` may end it early, as it may end the solve.
 pub(super) fn gap(
     problem: &Problem,
     load: &Load,
     make_backend: MakeBackend,
+    watch: &mut dyn FnMut(&Scalars) -> bool,
 ) -> Result<Option<(Vec<f64>, f64)>, BackendError> {
     let [nx, ny] = problem.shape.points;
     if problem.law != Law::HardWall || nx.min(ny) < FEWEST_HELPED || load.zero_stiffness != 0.0 {
         return Ok(None);
     }
-    refine(problem, load, make_backend, LEVELS)
+    refine(problem, load, make_backend, watch, LEVELS)
 }
 
 fn refine(
     problem: &Problem,
     load: &Load,
     make_backend: MakeBackend,
+    watch: &mut dyn FnMut(&Scalars) -> bool,
     levels: usize,
 ) -> Result<Option<(Vec<f64>, f64)>, BackendError> {
     let [nx, ny] = problem.shape.points;
@@ -49,7 +51,7 @@ fn refine(
     if !backend.suits(coarse.shape) {
         return Ok(None);
     }
-    let below = refine(&coarse, load, make_backend, levels - 1)?;
+    let below = refine(&coarse, load, make_backend, watch, levels - 1)?;
     let mut solver = ContactSolver::new(&mut *backend, &coarse);
     let (start, mut transforms) = match below {
         Some((gap, transforms)) => (Start::Gap(gap), transforms),
@@ -59,7 +61,7 @@ fn refine(
     let mut left = MAX_ITERATIONS;
     while left > 0 {
         let (rounds, scalars) = solver.advance(left)?;
-        if scalars.status != Status::Running {
+        if !watch(&scalars) || scalars.status != Status::Running {
             break;
         }
         left -= rounds.min(left);

@@ -202,6 +202,11 @@ impl<'a> ContactSolver<'a> {
         self.backend.read(self.gap)
     }
 
+    /// Sets the gap from which [`Start::Present`] starts, as [`ContactSolver::gap`] gave it.
+    pub fn set_gap(&mut self, gap: &[f64]) {
+        self.backend.write(self.gap, gap);
+    }
+
     /// The elastic pressure K*(g + h) over all solved points, reduced, without the mean pressure.
     pub fn elastic_pressure(&mut self) -> Result<Vec<f64>, BackendError> {
         self.backend.read(self.pressure)
@@ -389,7 +394,7 @@ impl<'a> ContactSolver<'a> {
         watch: &mut dyn FnMut(&Scalars) -> bool,
     ) -> Result<Outcome, BackendError> {
         let helped = match start {
-            Start::Cold => coarse_start::gap(self.problem, load, make_backend)?,
+            Start::Cold => coarse_start::gap(self.problem, load, make_backend, watch)?,
             _ => None,
         };
         match helped {

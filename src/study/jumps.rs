@@ -46,6 +46,21 @@ impl Jumps {
         }
     }
 
+    /// Takes the last of the steps that another process did.
+    pub fn go_on(&mut self, row: &StepRow, points: Option<Vec<PointState>>) {
+        if self.work.is_some() {
+            self.before = Some(Before {
+                row: row.clone(),
+                points,
+            });
+        }
+    }
+
+    /// What the points did in the last step, where it had fields.
+    pub fn points(&self) -> Option<&[PointState]> {
+        self.before.as_ref()?.points.as_deref()
+    }
+
     /// Takes the next step and says whether it jumped.
     pub fn step(&mut self, row: &StepRow, evaluation: Option<&Evaluation>) -> Option<Jump> {
         let work = self.work?;

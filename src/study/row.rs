@@ -20,6 +20,13 @@ impl State {
             State::Separated => "separated",
         }
     }
+
+    /// The state of a word that [`State::name`] gave.
+    pub fn from_name(name: &str) -> Option<State> {
+        [State::Contact, State::Attracted, State::Separated]
+            .into_iter()
+            .find(|state| state.name() == name)
+    }
 }
 
 /// One row of `curve.csv`, SI units; `None` is written as an empty cell.

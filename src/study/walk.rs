@@ -5,6 +5,7 @@ use std::time::Instant;
 use super::control::Controller;
 use super::dmt;
 use super::evaluation::{Evaluation, Solved};
+use super::hand_over::{Earlier, GAP, HandOver, HandedField};
 use super::jumps::{Jump, Jumps};
 use super::row::{State, StepRow};
 use super::setup::Setup;
@@ -32,6 +33,14 @@ pub trait Observer {
     fn step(&mut self, step: FinishedStep) -> Result<(), Self::Error>;
     /// Sees each iteration; returns whether to go on.
     fn iteration(&mut self, step: usize, scalars: &Scalars) -> bool;
+    /// Whether [`hand_over`](Observer::hand_over) is wanted: reading fields back is not free.
+    fn wants_hand_over(&self) -> bool {
+        false
+    }
+    /// Keeps what a converged step hands to the next, once the step itself is kept.
+    fn hand_over(&mut self, _step: usize, _state: &HandOver) -> Result<(), Self::Error> {
+        Ok(())
+    }
 }
 
 /// Keeps nothing but the rows, which [`walk`] hands back, and never ends a path.
@@ -82,6 +91,17 @@ pub fn walk<O: Observer>(
     make_backend: MakeBackend,
     observer: &mut O,
 ) -> Result<WalkEnd, WalkError<O::Error>> {
+    walk_on(setup, make_backend, observer, Earlier::default())
+}
+
+/// Walks a path from the step after those done earlier. The rows, jumps and transforms of all of
+/// them are in the end that it returns.
+pub fn walk_on<O: Observer>(
+    setup: &Setup,
+    make_backend: MakeBackend,
+    observer: &mut O,
+    earlier: Earlier,
+) -> Result<WalkEnd, WalkError<O::Error>> {
     let problem = &setup.problem;
     let controller = Controller::new(setup, problem);
     let mut backend = make_backend();
@@ -92,9 +112,24 @@ pub fn walk<O: Observer>(
         loaded: false,
         interrupted: false,
     };
-    let mut end = WalkEnd::default();
+    let Earlier { rows, hand_over } = earlier;
     let mut jumps = Jumps::new(setup);
-    for (index, &value) in setup.scene.loading.path.iter().enumerate() {
+    if let Some(row) = rows.last() {
+        jumps.go_on(row, hand_over.points.clone());
+    }
+    if let Some(gap) = hand_over.field(GAP) {
+        solver.set_gap(gap);
+        state.loaded = true;
+    }
+    let done = rows.len();
+    let mut end = WalkEnd {
+        rows,
+        jump_in_steps: hand_over.jump_in_steps,
+        jump_off_steps: hand_over.jump_off_steps,
+        ..WalkEnd::default()
+    };
+    let path = setup.scene.loading.path.iter().enumerate().skip(done);
+    for (index, &value) in path {
         let clock = Instant::now();
         let step = index + 1;
         let solved = state.step(&mut solver, value, make_backend, &mut |scalars| {
@@ -122,9 +157,20 @@ pub fn walk<O: Observer>(
         if !converged {
             break;
         }
+        if observer.wants_hand_over() {
+            let handed = HandOver {
+                fields: state.handed_fields(&mut solver)?,
+                points: jumps.points().map(<[_]>::to_vec),
+                jump_in_steps: end.jump_in_steps.clone(),
+                jump_off_steps: end.jump_off_steps.clone(),
+                transforms: hand_over.transforms + solver.transforms(),
+            };
+            let kept = observer.hand_over(step, &handed);
+            kept.map_err(WalkError::Observer)?;
+        }
     }
     end.hysteresis_energy = jumps.hysteresis(&end.rows);
-    end.transforms = solver.transforms();
+    end.transforms = hand_over.transforms + solver.transforms();
     Ok(end)
 }
 
@@ -196,6 +242,17 @@ impl PathState<'_> {
         self.interrupted = !going;
         self.loaded = solved.evaluation.is_some();
         Ok(solved)
+    }
+
+    /// The fields from which the next step starts.
+    fn handed_fields(&self, solver: &mut ContactSolver) -> Result<Vec<HandedField>, BackendError> {
+        if !self.loaded {
+            return Ok(Vec::new());
+        }
+        Ok(vec![HandedField {
+            name: GAP.to_owned(),
+            values: solver.gap()?,
+        }])
     }
 
     /// The last gap, moved to a new mean gap where one is held; the undeformed gap at the beginning.

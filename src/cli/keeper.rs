@@ -1,0 +1,328 @@
+//! Keeps each step of a run as it ends: row, fields, pictures, state, report.
+
+use std::borrow::Cow;
+use std::sync::Arc;
+use std::sync::atomic::{AtomicBool, Ordering};
+use std::time::{Duration, Instant};
+
+use super::machine::Machine;
+use super::opening::{STATE, fingerprint, solver};
+use crate::kernel::Scalars;
+use crate::output::{
+    CurveWriter, Load, OutputError, Picture, Progress, RunFolder, SavedState, Seconds, Summary,
+    chart, report::Report, write_atomically, write_field, write_field_single, write_picture,
+    write_volume,
+};
+use crate::scene::{FieldName, Precision, StepChoice};
+use crate::study::{
+    Earlier, Evaluation, FinishedStep, HandOver, Observer, Setup, StepRow, WalkEnd,
+};
+
+/// Least time between two refreshed reports.
+const REFRESH: Duration = Duration::from_secs(2);
+/// A report is refreshed only after so many times what the last one took.
+const REFRESH_COST: u32 = 20;
+
+/// Keeps the steps of one run.
+pub(super) struct Keeper<'a> {
+    setup: &'a Setup,
+    machine: &'a Machine,
+    folder: &'a RunFolder,
+    curve: CurveWriter,
+    progress: Progress,
+    interrupted: Arc<AtomicBool>,
+    /// The last step's fields, where only those are asked for.
+    last: Option<(usize, Evaluation)>,
+    rows: Vec<StepRow>,
+    /// What the run warned of, besides what its scene gives rise to.
+    warnings: Vec<String>,
+    /// Jumps and transforms up to the last finished step.
+    tallies: HandOver,
+    /// Steps whose state is on the disk.
+    committed: usize,
+    /// Whether pictures and fields of a run that ended early are still to be cleared away.
+    stale: bool,
+    seconds: Seconds,
+    started: Instant,
+    output_seconds: f64,
+    scene: String,
+    solver: serde_json::Value,
+    refreshed: Option<(Instant, Duration)>,
+}
+
+impl<'a> Keeper<'a> {
+    #[allow(clippy::too_many_arguments)]
+    pub fn new(
+        setup: &'a Setup,
+        machine: &'a Machine,
+        folder: &'a RunFolder,
+        curve: CurveWriter,
+        progress: Progress,
+        interrupted: Arc<AtomicBool>,
+        earlier: &Earlier,
+        warnings: Vec<String>,
+        seconds: Seconds,
+    ) -> Self {
+        Keeper {
+            setup,
+            machine,
+            folder,
+            curve,
+            progress,
+            interrupted,
+            last: None,
+            rows: earlier.rows.clone(),
+            warnings,
+            tallies: tallies(&earlier.hand_over),
+            committed: earlier.rows.len(),
+            stale: true,
+            seconds,
+            started: Instant::now(),
+            output_seconds: 0.0,
+            scene: fingerprint(setup),
+            solver: solver(&setup.scene),
+            refreshed: None,
+        }
+    }
+
+    fn single(&self) -> bool {
+        self.machine.precision() == Precision::Single
+    }
+
+    /// Seconds of earlier runs and of this one, by phase.
+    fn seconds_so_far(&self) -> Seconds {
+        let mut seconds = self.seconds.clone();
+        let solve = self.started.elapsed().as_secs_f64() - self.output_seconds;
+        seconds.add("solve", solve);
+        seconds.add("output", self.output_seconds);
+        seconds
+    }
+
+    /// What is known of a path that the device's failure cut short.
+    pub fn end_so_far(&self) -> WalkEnd {
+        WalkEnd {
+            rows: self.rows.clone(),
+            jump_in_steps: self.tallies.jump_in_steps.clone(),
+            jump_off_steps: self.tallies.jump_off_steps.clone(),
+            hysteresis_energy: None,
+            interrupted: true,
+            transforms: self.tallies.transforms,
+        }
+    }
+
+    /// What an early end leaves, in words.
+    pub fn kept(&self) -> String {
+        let place = self.folder.path().display();
+        match (self.folder.expect_present(), self.committed) {
+            (Err(_), _) => format!("note: {place} is gone, and the steps in it"),
+            (Ok(()), 0) => {
+                format!("note: no step was finished; --resume starts at step 1 in {place}")
+            }
+            (Ok(()), 1) => format!("note: step 1 is kept in {place}; --resume goes on after it"),
+            (Ok(()), steps) => {
+                format!("note: steps 1 to {steps} are kept in {place}; --resume goes on after them")
+            }
+        }
+    }
+
+    fn warn(&mut self, text: String) {
+        self.progress.say(&format!("warning: {text}"));
+        self.warnings.push(text);
+    }
+
+    fn no_fields(&mut self, step: usize) {
+        self.warn(format!(
+            "step {step} is separated: the load has no equilibrium, so there are no fields to write"
+        ));
+    }
+
+    /// Everything that is warned of.
+    fn all_warnings(&self) -> Vec<String> {
+        [self.setup.warnings.as_slice(), &self.warnings].concat()
+    }
+
+    fn keep_step(&mut self, step: FinishedStep) -> Result<(), OutputError> {
+        // A folder that was removed is not made anew with half of a run in it.
+        self.folder.expect_present()?;
+        let number = step.row.step;
+        let output = &self.setup.scene.output;
+        if std::mem::take(&mut self.stale) {
+            let only_last = output.steps == StepChoice::Last;
+            self.folder
+                .remove_steps(|step| only_last || step >= number)?;
+        }
+        let is_end = number == self.setup.scene.loading.path.len() || !step.row.converged;
+        let asked = !(output.images.is_empty() && output.fields.is_empty());
+        match (&output.steps, step.evaluation) {
+            (StepChoice::Last, None) if is_end && asked => self.no_fields(number),
+            (StepChoice::Last, Some(evaluation)) if is_end => {
+                self.last = None;
+                self.write_fields(number, &evaluation)?;
+            }
+            (StepChoice::Last, evaluation) => {
+                self.last = evaluation.map(|evaluation| (number, evaluation));
+            }
+            (StepChoice::All, Some(evaluation)) => self.write_fields(number, &evaluation)?,
+            (StepChoice::List(list), Some(evaluation)) if list.contains(&number) => {
+                self.write_fields(number, &evaluation)?;
+            }
+            (StepChoice::List(list), None) if list.contains(&number) => self.no_fields(number),
+            _ => {}
+        }
+        self.curve.append(step.row)?;
+        self.rows.push(step.row.clone());
+        self.progress.finished_steps(number);
+        Ok(())
+    }
+
+    fn commit(&mut self, step: usize, state: &HandOver) -> Result<(), OutputError> {
+        self.folder.expect_present()?;
+        SavedState {
+            scene: self.scene.clone(),
+            solver: self.solver.clone(),
+            machine: self.machine.words(),
+            finished: step,
+            curve: self.curve.checksum(),
+            warnings: self.warnings.clone(),
+            single: self.single(),
+            hand_over: Cow::Borrowed(state),
+        }
+        .write(&self.folder.state_path(STATE))?;
+        self.committed = step;
+        self.tallies = tallies(state);
+        let due = self
+            .refreshed
+            .is_none_or(|(when, cost)| when.elapsed() > REFRESH.max(REFRESH_COST * cost));
+        if due && step < self.setup.scene.loading.path.len() {
+            self.refresh(None)?;
+        }
+        Ok(())
+    }
+
+    /// Writes the report anew, and with the summary of an ended run the picture of the curve.
+    fn refresh(&mut self, summary: Option<&Summary>) -> Result<(), OutputError> {
+        let clock = Instant::now();
+        if summary.is_some() {
+            let bytes = chart::picture(&self.setup.scene, &self.rows).map_err(
+                OutputError::write("write", &self.folder.curve_picture_path()),
+            )?;
+            write_atomically(&self.folder.curve_picture_path(), &bytes)?;
+        }
+        let text = Report {
+            setup: self.setup,
+            machine: self.machine.words(),
+            rows: &self.rows,
+            tallies: &self.tallies,
+            warnings: &self.all_warnings(),
+            pictures: &self.folder.pictures(),
+            summary,
+        }
+        .html();
+        write_atomically(&self.folder.report_path(), text.as_bytes())?;
+        self.refreshed = Some((Instant::now(), clock.elapsed()));
+        Ok(())
+    }
+
+    /// Writes what belongs to the end of a run, whichever end it came to.
+    pub fn finish(
+        &mut self,
+        end: &WalkEnd,
+        summarise: impl FnOnce(Seconds, Vec<String>) -> Summary,
+    ) -> Result<(), OutputError> {
+        let clock = Instant::now();
+        self.folder.expect_present()?;
+        if let Some((step, evaluation)) = self.last.take() {
+            self.write_fields(step, &evaluation)?;
+        }
+        self.output_seconds += clock.elapsed().as_secs_f64();
+        self.tallies = HandOver {
+            jump_in_steps: end.jump_in_steps.clone(),
+            jump_off_steps: end.jump_off_steps.clone(),
+            transforms: end.transforms,
+            ..HandOver::default()
+        };
+        let summary = summarise(self.seconds_so_far(), self.all_warnings());
+        summary.write(&self.folder.summary_path())?;
+        self.refresh(Some(&summary))
+    }
+
+    fn write_fields(&mut self, step: usize, evaluation: &Evaluation) -> Result<(), OutputError> {
+        let setup = self.setup;
+        let grid = setup.surface.grid;
+        let output = &setup.scene.output;
+        let values = |name: FieldName| evaluation.field(name, &setup.surface.heights);
+        let mut named = Vec::new();
+        for &field in &output.fields {
+            let path = self.folder.field_path(step, field);
+            let values = values(field);
+            match self.single() {
+                true => write_field_single(&path, &grid, &values)?,
+                false => write_field(&path, &grid, &values)?,
+            }
+            named.push((field, values));
+        }
+        if !named.is_empty() {
+            write_volume(&self.folder.volume_path(step), &grid, &named, self.single())?;
+        }
+        let loading = &setup.scene.loading;
+        for &field in &output.images {
+            let values = values(field);
+            let picture = Picture {
+                title: setup.scene.title.as_deref(),
+                field,
+                step: Some(step),
+                load: loading
+                    .path
+                    .get(step - 1)
+                    .map(|&value| Load::new(loading.control, value)),
+                grid,
+                values: &values,
+            };
+            match write_picture(&self.folder.image_path(step, field), &picture) {
+                // A field that cannot be drawn is no reason to lose the rest.
+                Err(error @ OutputError::NotFinite { .. }) => self.warn(error.to_string()),
+                other => other?,
+            }
+        }
+        Ok(())
+    }
+}
+
+/// What a hand-over says besides its fields.
+fn tallies(state: &HandOver) -> HandOver {
+    HandOver {
+        fields: Vec::new(),
+        points: None,
+        jump_in_steps: state.jump_in_steps.clone(),
+        jump_off_steps: state.jump_off_steps.clone(),
+        transforms: state.transforms,
+    }
+}
+
+impl Observer for Keeper<'_> {
+    type Error = OutputError;
+
+    fn step(&mut self, step: FinishedStep) -> Result<(), OutputError> {
+        let clock = Instant::now();
+        let kept = self.keep_step(step);
+        self.output_seconds += clock.elapsed().as_secs_f64();
+        kept
+    }
+
+    fn iteration(&mut self, _step: usize, scalars: &Scalars) -> bool {
+        self.progress
+            .iteration(scalars.iterations as usize, scalars.residual);
+        !self.interrupted.load(Ordering::Relaxed)
+    }
+
+    fn wants_hand_over(&self) -> bool {
+        true
+    }
+
+    fn hand_over(&mut self, step: usize, state: &HandOver) -> Result<(), OutputError> {
+        let clock = Instant::now();
+        let kept = self.commit(step, state);
+        self.output_seconds += clock.elapsed().as_secs_f64();
+        kept
+    }
+}

@@ -1,0 +1,174 @@
+//! The folder of a run, opened at its first step or after the last finished one.
+
+use std::borrow::Cow;
+use std::path::Path;
+
+use super::Failure;
+use super::machine::Machine;
+use crate::output::{Curve, CurveWriter, OutputError, RunFolder, SavedState};
+use crate::scene::{Precision, Scene};
+use crate::study::{Earlier, HandOver, Setup};
+
+/// A folder ready to be written, and what is in it already.
+pub(super) struct Opening {
+    pub folder: RunFolder,
+    pub curve: CurveWriter,
+    /// Steps done already.
+    pub earlier: Earlier,
+    /// What the run warned of so far.
+    pub warnings: Vec<String>,
+    /// What the user should know.
+    pub remarks: Vec<String>,
+}
+
+/// What makes a scene the same scene: all but how it is solved, heights read from files included.
+pub(super) fn fingerprint(setup: &Setup) -> String {
+    let mut resolved = setup.scene.resolved_json();
+    if let Some(table) = resolved.as_object_mut() {
+        table.remove("solver");
+        let mut checksum = crc32fast::Hasher::new();
+        for height in &setup.surface.heights {
+            checksum.update(&height.to_le_bytes());
+        }
+        table.insert(
+            "checksum of the heights".to_owned(),
+            checksum.finalize().into(),
+        );
+    }
+    resolved.to_string()
+}
+
+/// `[solver]` as resolved.
+pub(super) fn solver(scene: &Scene) -> serde_json::Value {
+    scene.resolved_json()["solver"].take()
+}
+
+/// Opens the folder at `path`.
+pub(super) fn open(
+    path: &Path,
+    setup: &Setup,
+    machine: &Machine,
+    resume: bool,
+) -> Result<Opening, Failure> {
+    let scene = fingerprint(setup);
+    let (folder, there) = match resume {
+        true => RunFolder::resume(path, &scene)?,
+        false => (RunFolder::open(path, &scene)?, false),
+    };
+    if there && let Some(opening) = go_on(&folder, &scene, setup, machine)? {
+        return Ok(opening);
+    }
+    let curve = CurveWriter::create(&folder.curve_path())?;
+    // A state of no steps: from here on a missing one is a lost one.
+    SavedState {
+        scene,
+        solver: solver(&setup.scene),
+        machine: machine.words(),
+        finished: 0,
+        curve: curve.checksum(),
+        warnings: Vec::new(),
+        single: machine.precision() == Precision::Single,
+        hand_over: Cow::Owned(HandOver::default()),
+    }
+    .write(&folder.state_path(STATE))?;
+    let fresh = format!("{}: nothing to resume, starts at step 1", path.display());
+    Ok(Opening {
+        folder,
+        curve,
+        earlier: Earlier::default(),
+        warnings: Vec::new(),
+        remarks: if resume { vec![fresh] } else { Vec::new() },
+    })
+}
+
+/// The file that holds the state, after its prefix.
+pub(super) const STATE: &str = "step.bin";
+
+/// What is in a folder of this scene; `None` where the run ended before it came to its first step.
+fn go_on(
+    folder: &RunFolder,
+    scene: &str,
+    setup: &Setup,
+    machine: &Machine,
+) -> Result<Option<Opening>, Failure> {
+    let path = folder.state_path(STATE);
+    let curve = Curve::read(&folder.curve_path())?;
+    let refuse = |reason: String| {
+        Err(Failure::Output(OutputError::Refused {
+            path: path.clone(),
+            reason,
+        }))
+    };
+    let Some(state) = SavedState::read(&path)? else {
+        return match curve.rows().len() {
+            0 => Ok(None),
+            rows => refuse(format!(
+                "is missing, where curve.csv has {rows} steps; run without --resume to start afresh"
+            )),
+        };
+    };
+    if state.scene != scene {
+        return refuse("is of another scene; run without --resume to start afresh".to_owned());
+    }
+    let points = setup.problem.shape.len();
+    let handed = &state.hand_over;
+    if state.finished > setup.scene.loading.path.len()
+        || handed
+            .fields
+            .iter()
+            .any(|field| field.values.len() != points)
+        || (handed.points.as_ref()).is_some_and(|points| points.len() != setup.surface.grid.len())
+    {
+        return refuse("does not fit the scene; run without --resume to start afresh".to_owned());
+    }
+    let failed = curve
+        .rows()
+        .get(state.finished)
+        .is_some_and(|row| !row.converged);
+    let now = solver(&setup.scene);
+    // Other words for the same place and arithmetic change nothing.
+    let said = |solver: &serde_json::Value| {
+        let mut solver = solver.clone();
+        if let Some(table) = solver.as_object_mut()
+            && state.machine == machine.words()
+        {
+            table.retain(|key, _| key != "backend" && key != "precision");
+        }
+        solver
+    };
+    if said(&state.solver) != said(&now) && state.finished > 0 && !failed {
+        return refuse(format!(
+            "was solved with [solver] {}, and here it is {now}: it may change only where a step did not converge; put it back, or run without --resume to start afresh",
+            state.solver
+        ));
+    }
+    let mut remarks = Vec::new();
+    let mut warnings = state.warnings;
+    let total = setup.scene.loading.path.len();
+    remarks.push(match state.finished {
+        0 => "no step was finished, starts at step 1".to_owned(),
+        finished if finished == total => format!("all {total} steps were finished"),
+        finished => format!("{finished} of {total} steps were finished, goes on after them"),
+    });
+    if state.finished > 0 && state.machine != machine.words() {
+        let text = format!(
+            "steps 1 to {} were solved on {}, the others on {}",
+            state.finished,
+            state.machine,
+            machine.words()
+        );
+        remarks.push(text.clone());
+        warnings.push(text);
+    }
+    let (curve, rows) = curve.go_on(state.finished, state.curve)?;
+    Ok(Some(Opening {
+        folder: folder.clone(),
+        curve,
+        earlier: Earlier {
+            rows,
+            hand_over: state.hand_over.into_owned(),
+        },
+        warnings,
+        remarks,
+    }))
+}

@@ -1,0 +1,253 @@
+//! Charts as a PNG: lines and dots with smooth edges on the white page of the pictures.
+
+use std::io;
+
+use image::{ExtendedColorType, ImageEncoder, RgbImage, codecs::png::PngEncoder};
+use noto_sans_mono_bitmap::{FontWeight, RasterHeight};
+
+use super::super::canvas::{self, Font, TextLine, WHITE, printable};
+use super::super::palette::Rgb;
+use super::super::png_text::with_texts;
+use super::{Anchor, Chart, DASHES, Ink, Mark, Panel};
+
+/// Size of one chart, pixels.
+const SIZE: [u32; 2] = [960, 720];
+/// Height of the title's strip.
+const TITLE: u32 = 44;
+/// White space around everything.
+const MARGIN: u32 = 16;
+/// What is left of a dash below this is rounding, pixels: less would not move along a line.
+const ROUNDING: f64 = 1e-6;
+
+/// Charts side by side under a title.
+pub(super) fn png(title: Option<&str>, charts: &[Chart]) -> io::Result<Vec<u8>> {
+    let [width, height] = SIZE;
+    let strip = if title.is_some() { TITLE } else { 0 };
+    let page_width = 2 * MARGIN + width * charts.len() as u32;
+    let mut page = RgbImage::from_pixel(page_width, 2 * MARGIN + strip + height, image::Rgb(WHITE));
+    if let Some(title) = title {
+        let font = font(true, RasterHeight::Size24);
+        let room = ((page_width - 2 * MARGIN) / font.advance()) as usize;
+        let line = TextLine {
+            text: printable(title).chars().take(room).collect(),
+            font,
+            x: MARGIN + 5,
+            y: MARGIN,
+        };
+        canvas::write(&mut page, &line, canvas::INK);
+    }
+    let regular = font(false, RasterHeight::Size20);
+    let panel = Panel {
+        size: SIZE.map(f64::from),
+        advance: f64::from(regular.advance()),
+        line: f64::from(regular.height()) + 4.0,
+        stroke: 3.0,
+    };
+    for (index, chart) in charts.iter().enumerate() {
+        let corner = [
+            f64::from(MARGIN + index as u32 * width),
+            f64::from(MARGIN + strip),
+        ];
+        for mark in chart.marks(&panel) {
+            draw(&mut page, corner, &mark);
+        }
+    }
+    let mut bytes = Vec::new();
+    PngEncoder::new(&mut bytes)
+        .write_image(
+            page.as_raw(),
+            page.width(),
+            page.height(),
+            ExtendedColorType::Rgb8,
+        )
+        .map_err(io::Error::other)?;
+    let software = concat!("tabor ", env!("CARGO_PKG_VERSION")).to_owned();
+    Ok(with_texts(&bytes, &[("Software", software)]))
+}
+
+fn font(bold: bool, size: RasterHeight) -> Font {
+    Font {
+        weight: match bold {
+            true => FontWeight::Bold,
+            false => FontWeight::Regular,
+        },
+        size,
+    }
+}
+
+/// Dark for loading and light for unloading, so that grey keeps them apart as the dashes do.
+fn colour(ink: Ink) -> Rgb {
+    match ink {
+        Ink::Grid => [228, 228, 232],
+        Ink::Zero => [170, 170, 176],
+        Ink::Frame => [90, 90, 96],
+        Ink::Loading => [24, 66, 140],
+        Ink::Unloading => [216, 118, 24],
+    }
+}
+
+fn draw(page: &mut RgbImage, corner: [f64; 2], mark: &Mark) {
+    let moved = |at: &[f64; 2]| [at[0] + corner[0], at[1] + corner[1]];
+    match mark {
+        Mark::Line {
+            points,
+            ink,
+            width,
+            dashed,
+        } => {
+            let points: Vec<[f64; 2]> = points.iter().map(moved).collect();
+            let pieces = match dashed {
+                true => dashes(&points, DASHES.map(|length| length * width)),
+                false => points.windows(2).map(|pair| [pair[0], pair[1]]).collect(),
+            };
+            for [from, to] in pieces {
+                stroke(page, from, to, 0.5 * width, colour(*ink));
+            }
+        }
+        Mark::Dot {
+            at,
+            radius,
+            ink,
+            filled,
+        } => {
+            let at = moved(at);
+            stroke(page, at, at, *radius, colour(*ink));
+            if !filled {
+                stroke(page, at, at, 0.55 * radius, WHITE);
+            }
+        }
+        Mark::Text {
+            at,
+            text,
+            anchor,
+            bold,
+        } => {
+            let [x, y] = moved(at);
+            let font = font(*bold, RasterHeight::Size20);
+            let text = printable(text);
+            let width = f64::from(font.width(&text));
+            let left = match anchor {
+                Anchor::Start => x,
+                Anchor::Middle => x - 0.5 * width,
+                Anchor::End => x - width,
+            };
+            let line = TextLine {
+                text,
+                font,
+                x: left.round().max(0.0) as u32,
+                y: (y - 0.5 * f64::from(font.height())).round().max(0.0) as u32,
+            };
+            canvas::write(page, &line, canvas::INK);
+        }
+    }
+}
+
+/// A polyline in dashes, whose lengths run on around its corners.
+fn dashes(points: &[[f64; 2]], [dash, space]: [f64; 2]) -> Vec<[[f64; 2]; 2]> {
+    let mut pieces = Vec::new();
+    // Length left of the present dash or space.
+    let (mut drawing, mut left) = (true, dash);
+    for pair in points.windows(2) {
+        let [from, to] = [pair[0], pair[1]];
+        let length = (to[0] - from[0]).hypot(to[1] - from[1]);
+        let at = |way: f64| {
+            let share = way / length;
+            [
+                from[0] + share * (to[0] - from[0]),
+                from[1] + share * (to[1] - from[1]),
+            ]
+        };
+        let mut way = 0.0;
+        while way < length {
+            let next = (way + left).min(length);
+            if drawing {
+                pieces.push([at(way), at(next)]);
+            }
+            left -= next - way;
+            way = next;
+            if left <= ROUNDING {
+                drawing = !drawing;
+                left = if drawing { dash } else { space };
+            }
+        }
+    }
+    pieces
+}
+
+/// Draws a line with round ends; a dot is a line of no length.
+fn stroke(page: &mut RgbImage, from: [f64; 2], to: [f64; 2], radius: f64, colour: Rgb) {
+    let reach = radius + 1.0;
+    let range = |a: f64, b: f64, most: u32| {
+        let low = (a.min(b) - reach).floor().clamp(0.0, f64::from(most)) as u32;
+        let high = (a.max(b) + reach).ceil().clamp(0.0, f64::from(most)) as u32;
+        low..high
+    };
+    let along = [to[0] - from[0], to[1] - from[1]];
+    let square = along[0] * along[0] + along[1] * along[1];
+    for y in range(from[1], to[1], page.height()) {
+        for x in range(from[0], to[0], page.width()) {
+            let at = [f64::from(x) + 0.5 - from[0], f64::from(y) + 0.5 - from[1]];
+            let share = if square > 0.0 {
+                ((at[0] * along[0] + at[1] * along[1]) / square).clamp(0.0, 1.0)
+            } else {
+                0.0
+            };
+            let distance = (at[0] - share * along[0]).hypot(at[1] - share * along[1]);
+            let cover = (radius + 0.5 - distance).clamp(0.0, 1.0);
+            if cover > 0.0 {
+                let pixel = page.get_pixel_mut(x, y);
+                for (channel, ink) in pixel.0.iter_mut().zip(colour) {
+                    let mixed = f64::from(*channel) * (1.0 - cover) + f64::from(ink) * cover;
+                    *channel = mixed.round() as u8;
+                }
+            }
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn dashes_cover_their_share_and_turn_corners() {
+        let points = [[0.0, 0.0], [35.0, 0.0], [35.0, 35.0]];
+        let pieces = dashes(&points, [4.0, 3.0]);
+        let drawn: f64 = pieces
+            .iter()
+            .map(|[a, b]| (b[0] - a[0]).hypot(b[1] - a[1]))
+            .sum();
+        assert!((drawn - 40.0).abs() < 1e-9, "{drawn}");
+        // Lengths that leave rounding dust behind end as well: a long line of odd corners.
+        let points: Vec<[f64; 2]> = (0..3000)
+            .map(|k| [f64::from(k) * 0.1, f64::from(k * k % 97) * 0.1])
+            .collect();
+        let way: f64 = points
+            .windows(2)
+            .map(|pair| (pair[1][0] - pair[0][0]).hypot(pair[1][1] - pair[0][1]))
+            .sum();
+        let pieces = dashes(&points, [1.2, 0.9]);
+        // A dash in 2.1 of length, and at most one corner more each.
+        assert!((pieces.len() as f64) < way / 2.1 + 3001.0);
+    }
+
+    #[test]
+    fn lines_cover_their_area() {
+        // A level line of width 4 and length 20 between pixel corners covers 80 pixels and a disc's worth.
+        let mut page = RgbImage::from_pixel(60, 20, image::Rgb(WHITE));
+        stroke(&mut page, [20.0, 10.0], [40.0, 10.0], 2.0, [0, 0, 0]);
+        let covered: f64 = page.pixels().map(|p| 1.0 - f64::from(p.0[0]) / 255.0).sum();
+        let expected = 80.0 + std::f64::consts::PI * 4.0;
+        // The ends' edge is a linear ramp over curved pixels: off by less than a pixel a side.
+        assert!((covered - expected).abs() < 2.0, "{covered} {expected}");
+    }
+
+    #[test]
+    fn the_two_directions_differ_in_grey() {
+        let grey = |rgb: Rgb| {
+            0.299 * f64::from(rgb[0]) + 0.587 * f64::from(rgb[1]) + 0.114 * f64::from(rgb[2])
+        };
+        let difference = grey(colour(Ink::Unloading)) - grey(colour(Ink::Loading));
+        assert!(difference > 60.0, "{difference} of 255");
+    }
+}

@@ -1,0 +1,151 @@
+//! The scene on a page: a table to read, and the scene file that gives it again.
+
+use std::fmt::Write as _;
+
+use serde_json::Value;
+
+use super::escape;
+use crate::scene::Control;
+use crate::study::Setup;
+use crate::units::format_si;
+
+/// Values of a list that are all shown.
+const SHOWN_VALUES: usize = 16;
+/// Longest scene file that is put on a page, bytes.
+const LONGEST_FILE: usize = 200_000;
+
+/// The section of the scene.
+pub(super) fn html(setup: &Setup) -> String {
+    let scene = setup.scene.resolved_json();
+    let path_unit = match setup.scene.loading.control {
+        Control::Pressure => "Pa",
+        Control::Force => "N",
+        Control::Approach | Control::MeanGap => "m",
+    };
+    let mut rows = Vec::new();
+    if let Value::Object(tables) = &scene {
+        for (name, table) in tables {
+            // Where it was solved has its own table, and the title its own line.
+            if name != "title" && name != "solver" {
+                add_rows(&mut rows, name, table, path_unit);
+            }
+        }
+    }
+    let mut text =
+        String::from("<section>\n<h2>Scene</h2>\n<div class=\"scroll\"><table>\n<tbody>\n");
+    for (key, value) in rows {
+        let _ = writeln!(
+            text,
+            "<tr><th scope=\"row\">{}</th><td>{}</td></tr>",
+            escape(&key),
+            escape(&value)
+        );
+    }
+    text.push_str("</tbody>\n</table></div>\n");
+    if let Ok(file) = toml::to_string(&scene)
+        && file.len() <= LONGEST_FILE
+    {
+        let _ = writeln!(
+            text,
+            "<details><summary>As a scene file, defaults filled in, SI units</summary>\n<pre>{}</pre></details>",
+            escape(&file)
+        );
+    }
+    text.push_str("</section>\n");
+    text
+}
+
+/// Adds a line for each value below `key`.
+fn add_rows(rows: &mut Vec<(String, String)>, key: &str, value: &Value, path_unit: &str) {
+    match value {
+        Value::Object(table) => {
+            for (name, value) in table {
+                add_rows(rows, &format!("{key} {name}"), value, path_unit);
+            }
+        }
+        Value::Array(values) if values.iter().any(Value::is_object) => {
+            for (index, value) in values.iter().enumerate() {
+                let key = match values.len() {
+                    1 => key.to_owned(),
+                    _ => format!("{key} {}", index + 1),
+                };
+                add_rows(rows, &key, value, path_unit);
+            }
+        }
+        value => {
+            let leaf = key.rsplit(' ').next().unwrap_or(key);
+            rows.push((key.to_owned(), words(leaf, value, path_unit)));
+        }
+    }
+}
+
+/// A value as a person would write it.
+fn words(key: &str, value: &Value, path_unit: &str) -> String {
+    match value {
+        Value::String(text) => text.clone(),
+        Value::Number(number) => match (number.as_f64(), unit(key, path_unit)) {
+            (Some(angle), Some("°")) => format!("{angle}°"),
+            (Some(value), Some(unit)) => format_si(value, unit),
+            _ => number.to_string(),
+        },
+        Value::Array(values) => {
+            let shown = |values: &[Value]| -> Vec<String> {
+                values.iter().map(|v| words(key, v, path_unit)).collect()
+            };
+            match values.len() {
+                0 => "none".to_owned(),
+                2 if matches!(key, "points" | "size" | "wavelength") => shown(values).join(" × "),
+                count if count > SHOWN_VALUES => format!(
+                    "{count} values: {}, ..., {}",
+                    shown(&values[..4]).join(", "),
+                    shown(&values[count - 1..]).join("")
+                ),
+                _ => shown(values).join(", "),
+            }
+        }
+        other => other.to_string(),
+    }
+}
+
+/// The SI unit of a key; `None` for pure numbers and keys that are not known here.
+fn unit<'u>(key: &str, path_unit: &'u str) -> Option<&'u str> {
+    Some(match key {
+        "size" | "radius" | "centre" | "amplitude" | "wavelength" | "rms_height" | "longest"
+        | "rolloff" | "shortest" | "range" | "taper" | "thickness" | "period" => "m",
+        "contact_modulus" | "peak_tension" | "hardness" | "modulus" => "Pa",
+        "work_of_adhesion" => "J/m^2",
+        "surface_tension" | "spring" => "N/m",
+        "time" | "hold" | "duration" | "durations" => "s",
+        "half_angle" | "contact_angle" => "°",
+        "path" => path_unit,
+        _ => return None,
+    })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use serde_json::json;
+
+    #[test]
+    fn values_are_written_as_people_do() {
+        let cases = [
+            ("size", json!([25e-6, 12.5e-6]), "25 µm × 12.5 µm"),
+            ("points", json!([512, 256]), "512 × 256"),
+            ("wavelength", json!([1e-6, "inf"]), "1 µm × inf"),
+            ("contact_modulus", json!(1.33e12), "1.33 TPa"),
+            ("path", json!([1e-9, -2e-9]), "1 nm, -2 nm"),
+            ("hurst", json!(0.8), "0.8"),
+            ("images", json!([]), "none"),
+            ("half_angle", json!(70.5), "70.5°"),
+        ];
+        for (key, value, text) in cases {
+            assert_eq!(words(key, &value, "m"), text);
+        }
+        let long: Vec<f64> = (0..40).map(f64::from).collect();
+        assert_eq!(
+            words("path", &json!(long), "N"),
+            "40 values: 0 N, 1 N, 2 N, 3 N, ..., 39 N"
+        );
+    }
+}

@@ -1,0 +1,308 @@
+//! `state/last_step.bin`: what the last finished step hands to the next, on the disk.
+//!
+//! One file, so that one rename makes a step finished: a line that names the form, the length of a
+//! JSON head as eight bytes, the head, the numbers that it announces (little-endian), and a CRC-32
+//! of everything before it. The numbers are kept as the backend has them: in 32 bits where it
+//! computes in 32.
+
+use std::borrow::Cow;
+use std::fs;
+use std::io;
+use std::path::Path;
+
+use serde::{Deserialize, Serialize};
+use serde_json::Value;
+
+use super::error::OutputError;
+use super::folder::write_atomically;
+use crate::study::{HandOver, HandedField, PointState};
+
+/// First line of the file. A change of the form changes the number.
+const FORM: &[u8] = b"tabor state 1\n";
+/// Bytes of the head's length.
+const LENGTH_BYTES: usize = 8;
+/// Bytes of the checksum.
+const CHECKSUM_BYTES: usize = 4;
+
+/// A run as it stands after its last finished step.
+#[derive(Clone, Debug, PartialEq)]
+pub struct SavedState<'a> {
+    /// What identifies the scene.
+    pub scene: String,
+    /// `[solver]` of the scene, as resolved.
+    pub solver: Value,
+    /// Where the steps were solved: backend, adapter and precision.
+    pub machine: String,
+    /// Finished steps.
+    pub finished: usize,
+    /// Checksum of the rows up to the last finished step, as the curve's writer has it.
+    pub curve: u32,
+    /// What the run warned of so far, besides what its scene gives rise to.
+    pub warnings: Vec<String>,
+    /// Whether fields are known in single precision only.
+    pub single: bool,
+    /// What the next step starts from.
+    pub hand_over: Cow<'a, HandOver>,
+}
+
+/// The JSON head.
+#[derive(Debug, Serialize, Deserialize)]
+struct Head {
+    tabor: String,
+    scene: String,
+    solver: Value,
+    machine: String,
+    finished: usize,
+    curve: u32,
+    warnings: Vec<String>,
+    /// Text, because a number of JSON need not come back to the last bit.
+    transforms: String,
+    jump_in_steps: Vec<usize>,
+    jump_off_steps: Vec<usize>,
+    single: bool,
+    /// Names and lengths of the fields.
+    fields: Vec<(String, usize)>,
+    /// Points whose contact state follows the fields, one byte each.
+    points: Option<usize>,
+}
+
+impl SavedState<'_> {
+    /// Writes the state to `path`, whole or not at all.
+    pub fn write(&self, path: &Path) -> Result<(), OutputError> {
+        let bytes = self
+            .encode()
+            .map_err(|error| OutputError::write("write", path)(error.into()))?;
+        write_atomically(path, &bytes)
+    }
+
+    fn encode(&self) -> serde_json::Result<Vec<u8>> {
+        let state = &self.hand_over;
+        let head = serde_json::to_vec(&Head {
+            tabor: env!("CARGO_PKG_VERSION").to_owned(),
+            scene: self.scene.clone(),
+            solver: self.solver.clone(),
+            machine: self.machine.clone(),
+            finished: self.finished,
+            curve: self.curve,
+            warnings: self.warnings.clone(),
+            transforms: format!("{:?}", state.transforms),
+            jump_in_steps: state.jump_in_steps.clone(),
+            jump_off_steps: state.jump_off_steps.clone(),
+            single: self.single,
+            fields: state
+                .fields
+                .iter()
+                .map(|field| (field.name.clone(), field.values.len()))
+                .collect(),
+            points: state.points.as_ref().map(Vec::len),
+        })?;
+        let numbers: usize = state.fields.iter().map(|field| field.values.len()).sum();
+        let points = state.points.as_ref().map_or(0, Vec::len);
+        let mut bytes = Vec::with_capacity(
+            FORM.len() + LENGTH_BYTES + head.len() + 8 * numbers + points + CHECKSUM_BYTES,
+        );
+        bytes.extend(FORM);
+        bytes.extend((head.len() as u64).to_le_bytes());
+        bytes.extend(head);
+        for field in &state.fields {
+            if self.single {
+                let values = field.values.iter();
+                bytes.extend(values.flat_map(|value| (*value as f32).to_le_bytes()));
+            } else {
+                bytes.extend(field.values.iter().flat_map(|value| value.to_le_bytes()));
+            }
+        }
+        if let Some(points) = &state.points {
+            bytes.extend(points.iter().map(|point| *point as u8));
+        }
+        bytes.extend(crc32fast::hash(&bytes).to_le_bytes());
+        Ok(bytes)
+    }
+
+    /// Reads the state at `path`; `None` where there is none.
+    ///
+    /// # Errors
+    /// Refused where the file is damaged, or of another version of tabor.
+    pub fn read(path: &Path) -> Result<Option<SavedState<'static>>, OutputError> {
+        match fs::read(path) {
+            Ok(bytes) => decode(&bytes)
+                .map(Some)
+                .map_err(|reason| OutputError::refused(path, reason)),
+            Err(error) if error.kind() == io::ErrorKind::NotFound => Ok(None),
+            Err(error) => Err(OutputError::write("read", path)(error)),
+        }
+    }
+}
+
+/// The state in `bytes`, or why there is none in it and the way out.
+fn decode(bytes: &[u8]) -> Result<SavedState<'static>, String> {
+    const FRESH: &str = "run without --resume to start afresh";
+    let damaged = || format!("is damaged; {FRESH}");
+    let content = bytes.strip_prefix(FORM).ok_or_else(|| {
+        format!("is not a state of this version of tabor, or was cut short; {FRESH}")
+    })?;
+    let (checked, checksum) = bytes
+        .split_last_chunk::<CHECKSUM_BYTES>()
+        .ok_or_else(damaged)?;
+    if crc32fast::hash(checked) != u32::from_le_bytes(*checksum) {
+        return Err(damaged());
+    }
+    let content = &content[..content.len().saturating_sub(CHECKSUM_BYTES)];
+    let (length, content) = content
+        .split_first_chunk::<LENGTH_BYTES>()
+        .ok_or_else(damaged)?;
+    let length = usize::try_from(u64::from_le_bytes(*length)).map_err(|_| damaged())?;
+    let (head, mut content) = content.split_at_checked(length).ok_or_else(damaged)?;
+    let head: Head = serde_json::from_slice(head).map_err(|_| damaged())?;
+    if head.tabor != env!("CARGO_PKG_VERSION") {
+        return Err(format!(
+            "was written by tabor {}, and this is {}, which may round differently; {FRESH}",
+            head.tabor,
+            env!("CARGO_PKG_VERSION")
+        ));
+    }
+    let mut take = |bytes: usize| -> Result<&[u8], String> {
+        let (part, rest) = content.split_at_checked(bytes).ok_or_else(damaged)?;
+        content = rest;
+        Ok(part)
+    };
+    let width = if head.single { 4 } else { 8 };
+    let mut fields = Vec::new();
+    for (name, count) in head.fields {
+        let part = take(count.checked_mul(width).ok_or_else(damaged)?)?;
+        let values = match head.single {
+            true => numbers(part, |bytes| f64::from(f32::from_le_bytes(bytes))),
+            false => numbers(part, f64::from_le_bytes),
+        };
+        fields.push(HandedField { name, values });
+    }
+    let points = match head.points {
+        None => None,
+        Some(count) => {
+            let states = take(count)?.iter().map(|&byte| PointState::from_byte(byte));
+            Some(states.collect::<Option<Vec<_>>>().ok_or_else(damaged)?)
+        }
+    };
+    if !content.is_empty() {
+        return Err(damaged());
+    }
+    Ok(SavedState {
+        scene: head.scene,
+        solver: head.solver,
+        machine: head.machine,
+        finished: head.finished,
+        curve: head.curve,
+        warnings: head.warnings,
+        single: head.single,
+        hand_over: Cow::Owned(HandOver {
+            fields,
+            points,
+            jump_in_steps: head.jump_in_steps,
+            jump_off_steps: head.jump_off_steps,
+            transforms: head.transforms.parse().map_err(|_| damaged())?,
+        }),
+    })
+}
+
+/// The numbers of `N` bytes each in `bytes`.
+fn numbers<const N: usize>(bytes: &[u8], number: impl Fn([u8; N]) -> f64) -> Vec<f64> {
+    let (chunks, _) = bytes.as_chunks::<N>();
+    chunks.iter().map(|chunk| number(*chunk)).collect()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn state(single: bool) -> SavedState<'static> {
+        let values = vec![0.1, -0.0, f64::MIN_POSITIVE, 1e300, f64::INFINITY];
+        let values = match single {
+            true => values.iter().map(|v| f64::from(*v as f32)).collect(),
+            false => values,
+        };
+        SavedState {
+            scene: "a \"scene\"".into(),
+            solver: serde_json::json!({ "tolerance": 1e-6 }),
+            machine: "cpu, double".into(),
+            finished: 3,
+            curve: 0xdead_beef,
+            warnings: vec!["step 2 is separated".into()],
+            single,
+            hand_over: Cow::Owned(HandOver {
+                fields: vec![HandedField {
+                    name: "gap".into(),
+                    values,
+                }],
+                points: Some(vec![
+                    PointState::Contact,
+                    PointState::Apart,
+                    PointState::Attracted,
+                ]),
+                jump_in_steps: vec![2],
+                jump_off_steps: vec![],
+                transforms: 1234.5625,
+            }),
+        }
+    }
+
+    #[test]
+    fn states_come_back_bit_for_bit() {
+        let place = tempfile::tempdir().unwrap();
+        let path = place.path().join("state/last_step.bin");
+        assert_eq!(SavedState::read(&path).unwrap(), None);
+        for single in [false, true] {
+            let state = state(single);
+            state.write(&path).unwrap();
+            let read = SavedState::read(&path).unwrap().unwrap();
+            let bits = |state: &SavedState| -> Vec<u64> {
+                let values = state.hand_over.fields[0].values.iter();
+                values.map(|value| value.to_bits()).collect()
+            };
+            assert_eq!(bits(&read), bits(&state));
+            assert_eq!(read, state);
+        }
+    }
+
+    #[test]
+    fn every_cut_and_every_flipped_bit_is_noticed() {
+        let bytes = state(false).encode().unwrap();
+        assert!(decode(&bytes).is_ok());
+        for end in 0..bytes.len() {
+            assert!(decode(&bytes[..end]).is_err(), "cut at {end}");
+        }
+        for at in 0..bytes.len() {
+            let mut flipped = bytes.clone();
+            flipped[at] ^= 1 << (at % 8);
+            assert!(decode(&flipped).is_err(), "flipped at {at}");
+        }
+        let mut longer = bytes;
+        longer.push(0);
+        assert!(decode(&longer).is_err());
+    }
+
+    #[test]
+    fn a_state_of_another_version_says_so() {
+        let mut bytes = state(false).encode().unwrap();
+        bytes.truncate(bytes.len() - CHECKSUM_BYTES);
+        let version = format!("\"tabor\":\"{}\"", env!("CARGO_PKG_VERSION"));
+        let at = bytes
+            .windows(version.len())
+            .position(|window| window == version.as_bytes())
+            .unwrap();
+        bytes[at + 9] = b'7';
+        bytes.extend(crc32fast::hash(&bytes).to_le_bytes());
+        let reason = decode(&bytes).unwrap_err();
+        assert!(reason.contains("written by tabor 7"), "{reason}");
+        // Well formed, but announcing more than the file holds: no allocation of that size.
+        let mut huge = state(false).encode().unwrap();
+        huge.truncate(huge.len() - CHECKSUM_BYTES);
+        let text = b"[\"gap\",5]";
+        let at = huge.windows(text.len()).position(|w| w == text).unwrap();
+        huge.splice(at..at + text.len(), *b"[\"gap\",4611686018427387904]");
+        let grown = 18;
+        let length = u64::from_le_bytes(huge[FORM.len()..FORM.len() + 8].try_into().unwrap());
+        huge[FORM.len()..FORM.len() + 8].copy_from_slice(&(length + grown).to_le_bytes());
+        huge.extend(crc32fast::hash(&huge).to_le_bytes());
+        assert!(decode(&huge).unwrap_err().contains("damaged"));
+    }
+}

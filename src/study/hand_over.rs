@@ -1,0 +1,63 @@
+//! What one step hands to the next, so that a path can be gone on with by another process.
+
+use super::evaluation::PointState;
+use super::row::StepRow;
+
+/// The name of the gap among the fields that are handed on.
+pub(super) const GAP: &str = "gap";
+
+/// Values that the next step starts from.
+#[derive(Clone, Debug, PartialEq)]
+pub struct HandedField {
+    /// Which ones.
+    pub name: String,
+    /// Over all solved points, reduced, as precise as the backend holds them.
+    pub values: Vec<f64>,
+}
+
+/// What a converged step hands to the next, and what the end of the path has to know of the steps
+/// up to it besides their rows.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct HandOver {
+    /// Fields of the solver; none where the surfaces are apart and the next step starts afresh.
+    /// The solver's directions are forgotten between steps and need no keeping.
+    pub fields: Vec<HandedField>,
+    /// What each point of the grid does, where steps are watched for jumps.
+    pub points: Option<Vec<PointState>>,
+    /// Steps so far that jumped into contact.
+    pub jump_in_steps: Vec<usize>,
+    /// Steps so far that jumped off.
+    pub jump_off_steps: Vec<usize>,
+    /// Real two-dimensional transforms so far.
+    pub transforms: f64,
+}
+
+/// The steps of a path that are done already.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Earlier {
+    /// Their rows.
+    pub rows: Vec<StepRow>,
+    /// What the last of them hands on.
+    pub hand_over: HandOver,
+}
+
+impl HandOver {
+    /// The values of a field, if it was handed on.
+    pub fn field(&self, name: &str) -> Option<&[f64]> {
+        let found = self.fields.iter().find(|field| field.name == name);
+        found.map(|field| field.values.as_slice())
+    }
+}
+
+impl PointState {
+    /// The state of a number that `as u8` made.
+    pub fn from_byte(byte: u8) -> Option<PointState> {
+        [
+            PointState::Apart,
+            PointState::Attracted,
+            PointState::Contact,
+        ]
+        .into_iter()
+        .find(|state| *state as u8 == byte)
+    }
+}

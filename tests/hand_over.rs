@@ -1,0 +1,234 @@
+//! What a step hands on is enough: a path that is cut after any step, put through the file of its
+//! state and gone on with on a fresh backend, gives the same rows to the bit. For every control, law,
+//! treatment and boundary, in double and single precision, and on the graphics processor.
+
+mod gpu_shared;
+
+use std::borrow::Cow;
+use std::path::Path;
+
+use tabor::backend::{Backend, cpu::CpuBackend, gpu::GpuBackend};
+use tabor::kernel::Scalars;
+use tabor::output::SavedState;
+use tabor::scene::Scene;
+use tabor::study::{
+    Earlier, FinishedStep, HandOver, Observer, Setup, StepRow, WalkEnd, walk, walk_on,
+};
+use tabor::surface::Surface;
+
+const ROUGH: &str = "[[surface]]\nkind = \"self-affine\"\nhurst = 0.8\nrms_slope = 0.1\nlongest = \"2 um\"\nrolloff = \"1 um\"\nshortest = \"0.25 um\"\n";
+const SPHERE: &str = "[[surface]]\nkind = \"sphere\"\nradius = \"5 um\"\n";
+
+/// Laws by name, each with the table of its adhesion.
+fn adhesion(law: &str, treatment: &str) -> String {
+    format!(
+        "[adhesion]\nlaw = \"{law}\"\nwork_of_adhesion = \"10 mJ/m^2\"\nrange = \"10 nm\"\ntreatment = \"{treatment}\"\n"
+    )
+}
+
+fn scene(boundary: &str, surface: &str, adhesion: &str, loading: &str, single: bool) -> Scene {
+    let tolerance = if single { "precision = \"single\"" } else { "" };
+    let text = format!(
+        "[grid]\npoints = 32\nsize = \"2 um\"\nboundary = \"{boundary}\"\n[solid]\ncontact_modulus = \"50 MPa\"\n{surface}{adhesion}[loading]\n{loading}\n[solver]\n{tolerance}\n"
+    );
+    Scene::parse(&text, "scene.toml", Path::new("."), &[]).unwrap_or_else(|e| panic!("{e}\n{text}"))
+}
+
+/// Paths that press, turn, part (where a load can) and come back.
+const LOADINGS: [(&str, &str); 5] = [
+    (
+        "periodic",
+        "control = \"pressure\"\npath = [2e5, 1e6, 2e5, 0, -5e6, 2e5, 1e6]",
+    ),
+    (
+        "periodic",
+        "control = \"mean-gap\"\npath = [\"90 nm\", \"50 nm\", \"30 nm\", \"60 nm\", \"90 nm\"]",
+    ),
+    (
+        "periodic",
+        "control = \"approach\"\npath = [\"-20 nm\", \"10 nm\", \"30 nm\", \"-20 nm\"]",
+    ),
+    (
+        "free",
+        "control = \"force\"\npath = [1e-7, 1e-6, 0, -1e-4, 1e-7]",
+    ),
+    (
+        "free",
+        "control = \"approach\"\npath = [\"-15 nm\", \"-5 nm\", \"20 nm\", \"-10 nm\", \"-15 nm\"]",
+    ),
+];
+
+type Make<'a> = &'a dyn Fn() -> Box<dyn Backend + Send>;
+
+/// Keeps what each step hands on, as the file of it gives it back.
+#[derive(Default)]
+struct Cutter {
+    single: bool,
+    states: Vec<HandOver>,
+}
+
+impl Observer for Cutter {
+    type Error = std::convert::Infallible;
+
+    fn step(&mut self, _: FinishedStep) -> Result<(), Self::Error> {
+        Ok(())
+    }
+
+    fn iteration(&mut self, _: usize, _: &Scalars) -> bool {
+        true
+    }
+
+    fn wants_hand_over(&self) -> bool {
+        true
+    }
+
+    fn hand_over(&mut self, step: usize, state: &HandOver) -> Result<(), Self::Error> {
+        let place = tempfile::tempdir().expect("a temporary folder");
+        let path = place.path().join("state.bin");
+        let saved = SavedState {
+            scene: String::new(),
+            solver: serde_json::Value::Null,
+            machine: String::new(),
+            finished: step,
+            curve: 0,
+            warnings: Vec::new(),
+            single: self.single,
+            hand_over: Cow::Borrowed(state),
+        };
+        saved.write(&path).expect("it is written");
+        let read = SavedState::read(&path)
+            .expect("it is read")
+            .expect("it is there");
+        self.states.push(read.hand_over.into_owned());
+        Ok(())
+    }
+}
+
+/// Rows without their seconds, bit by bit.
+fn bits(rows: &[StepRow]) -> Vec<String> {
+    let plain = |row: &StepRow| StepRow {
+        seconds: 0.0,
+        ..row.clone()
+    };
+    // Debug prints numbers so that they read back to the same bits.
+    rows.iter().map(|row| format!("{:?}", plain(row))).collect()
+}
+
+fn expect_same(one: &WalkEnd, other: &WalkEnd, what: &str) {
+    assert_eq!(bits(&one.rows), bits(&other.rows), "{what}");
+    assert_eq!(one.jump_in_steps, other.jump_in_steps, "{what}");
+    assert_eq!(one.jump_off_steps, other.jump_off_steps, "{what}");
+    assert_eq!(one.transforms, other.transforms, "{what}");
+    assert_eq!(
+        one.hysteresis_energy.map(f64::to_bits),
+        other.hysteresis_energy.map(f64::to_bits),
+        "{what}"
+    );
+}
+
+/// Walks a scene whole and from each of its cuts, or every other one; returns the steps that parted
+/// or jumped.
+fn cut(scene: Scene, make: Make, single: bool, few: bool, what: &str) -> usize {
+    let surface = Surface::build(&scene).expect("a surface");
+    let setup = Setup::new(scene, surface);
+    let mut cutter = Cutter {
+        single,
+        ..Cutter::default()
+    };
+    let whole = walk(&setup, make, &mut ()).expect("it is solved");
+    let kept = walk_on(&setup, make, &mut cutter, Earlier::default()).expect("it is solved");
+    expect_same(&whole, &kept, what);
+    let converged = whole.rows.iter().filter(|row| row.converged).count();
+    assert_eq!(cutter.states.len(), converged, "{what}");
+    assert!(converged > 2, "{what}: only {converged} steps converge");
+    let stride = if few { 2 } else { 1 };
+    for (index, state) in cutter.states.into_iter().enumerate().step_by(stride) {
+        let earlier = Earlier {
+            rows: whole.rows[..=index].to_vec(),
+            hand_over: state,
+        };
+        let on = walk_on(&setup, make, &mut (), earlier).expect("it is solved");
+        expect_same(
+            &whole,
+            &on,
+            &format!("{what}, cut after step {}", index + 1),
+        );
+    }
+    let parted = whole
+        .rows
+        .iter()
+        .filter(|row| row.approach.is_none())
+        .count();
+    parted + whole.jump_in_steps.len() + whole.jump_off_steps.len()
+}
+
+/// All combinations that a scene may ask for; returns how many.
+fn all(make: Make, single: bool, few: bool) -> usize {
+    let laws = [
+        String::new(),
+        adhesion("maugis-dugdale", "full"),
+        adhesion("exponential", "full"),
+        adhesion("lennard-jones", "full"),
+        adhesion("maugis-dugdale", "dmt"),
+        adhesion("exponential", "dmt"),
+        adhesion("lennard-jones", "dmt"),
+    ];
+    let (mut events, mut count) = (0, 0);
+    for (index, (boundary, loading)) in LOADINGS.into_iter().enumerate() {
+        for (other, law) in laws.iter().enumerate() {
+            // A backend takes long to make on a slow device: each loading with one law.
+            if few && other != index {
+                continue;
+            }
+            let surface = if boundary == "free" { SPHERE } else { ROUGH };
+            let what = format!("{loading} {law}");
+            let scene = scene(boundary, surface, law, loading, single);
+            events += cut(scene, make, single, few, &what);
+            count += 1;
+        }
+    }
+    // A spring, which holds the mean displacement, on both boundaries.
+    let spring = "control = \"approach\"\nspring = \"2 N/m\"\npath = [\"-15 nm\", \"5 nm\", \"30 nm\", \"-15 nm\"]";
+    for (boundary, surface) in [("free", SPHERE), ("periodic", ROUGH)] {
+        let law = adhesion("maugis-dugdale", "full");
+        let scene = scene(boundary, surface, &law, spring, single);
+        events += cut(scene, make, single, few, &format!("spring, {boundary}"));
+        count += 1;
+    }
+    assert!(
+        events > if few { 1 } else { 5 },
+        "the paths part and jump, {events} times"
+    );
+    count
+}
+
+#[test]
+fn cut_and_gone_on_with_in_double_precision() {
+    let make = || -> Box<dyn Backend + Send> { Box::new(CpuBackend::<f64>::new()) };
+    assert_eq!(all(&make, false, false), 37);
+}
+
+#[test]
+fn cut_and_gone_on_with_in_single_precision() {
+    let make = || -> Box<dyn Backend + Send> { Box::new(CpuBackend::<f32>::new()) };
+    assert_eq!(all(&make, true, false), 37);
+}
+
+#[test]
+fn cut_and_gone_on_with_on_the_graphics_processor() {
+    let Some(device) = gpu_shared::device() else {
+        return;
+    };
+    let make = || -> Box<dyn Backend + Send> { Box::new(GpuBackend::on(device)) };
+    assert_eq!(all(&make, true, true), 7);
+}
+
+/// The cold start on coarser grids and the two-band preconditioner, which small grids do without.
+#[test]
+fn cut_and_gone_on_with_where_coarse_grids_help() {
+    let loading = "control = \"pressure\"\npath = [2e5, 1e6, 0, 2e5]";
+    let mut scene = scene("periodic", ROUGH, "", loading, false);
+    scene.grid.points = Some([128, 128]);
+    let make = || -> Box<dyn Backend + Send> { Box::new(CpuBackend::<f64>::new()) };
+    cut(scene, &make, false, false, "coarse start");
+}
