@@ -4,7 +4,7 @@
 //! compression. Files that are written whole appear under their name only when they are complete;
 //! `curve.csv` alone grows, a row a step.
 
-mod canvas;
+pub(crate) mod canvas;
 pub mod colour_scale;
 pub mod curve;
 mod error;
@@ -16,7 +16,7 @@ pub mod picture;
 mod png_text;
 pub mod progress;
 mod resample;
-mod si;
+pub(crate) mod si;
 pub mod summary;
 
 pub use canvas::{Font, TextLine};

@@ -314,18 +314,14 @@ fn two_states_between_shallow_folds() {
         "at {at}: {} of {together}, {} of {apart}",
         forces[3], forces[6]
     );
-    // The folds lie 0.012 away; an error of the approach of 0.3 %, as in `jumps`, moves the force
-    // of a state by its square root's share of what lies between the states, a third of it.
-    let between = together - apart;
-    assert!(between > 0.05, "{together} {apart}");
+    // The force rises by some 3 a range on either branch, this near to the folds.
+    let allowed = 3.0 * accuracy(sphere.mu);
+    assert!(together - apart > 20.0 * allowed, "{together} {apart}");
     assert!(
-        (forces[3] - together).abs() < between / 3.0,
+        (forces[3] - together).abs() < allowed,
         "{forces:?} {together}"
     );
-    assert!(
-        (forces[6] - apart).abs() < between / 3.0,
-        "{forces:?} {apart}"
-    );
+    assert!((forces[6] - apart).abs() < allowed, "{forces:?} {apart}");
 }
 
 /// The stiffer the solid, the nearer a rigid sphere: the force is 2 pi R times the energy per area
