@@ -26,6 +26,9 @@ pub const VAGUE: f64 = 0.3;
 /// Rounds of choosing a regime by the Tabor number that the last choice gave.
 const ROUNDS: usize = 4;
 
+/// A number of a fit with its standard deviation.
+type Number = fn(&ModelFit) -> (f64, Option<f64>);
+
 /// What a curve gave.
 #[derive(Clone, Debug)]
 pub struct FitResult {
@@ -38,8 +41,8 @@ pub struct FitResult {
     /// Tabor number that the taken model implies; `None` without adhesion, or where the range is
     /// not known.
     pub tabor_parameter: Option<f64>,
-    /// Standard deviation of the work of adhesion, with the differences between models that the
-    /// curve cannot tell apart, J/m^2.
+    /// Standard deviation of the work of adhesion, or what models that the curve cannot tell
+    /// apart leave open if that is more, J/m^2.
     pub work_uncertainty: Option<f64>,
     /// The same of the contact modulus, Pa.
     pub modulus_uncertainty: Option<f64>,
@@ -87,18 +90,26 @@ pub fn fit_curve(
         })?;
     doubts(&measured, &fits[chosen], &mut warnings);
     let best = &fits[chosen];
-    let with_models = |deviation: Option<f64>, of: fn(&ModelFit) -> f64| {
+    // Where another model suits as well, neither its numbers nor its doubts can be ruled out.
+    let with_models = |(value, deviation): (f64, Option<f64>), of: Number| {
         let alike = fits.iter().filter(|fit| not_told_apart(fit, best));
-        let apart = alike.fold(0.0_f64, |most, fit| most.max((of(fit) - of(best)).abs()));
-        deviation.map(|deviation| deviation.hypot(apart))
+        let others = alike.fold(0.0_f64, |most, fit| {
+            let (other, doubt) = of(fit);
+            most.max((other - value).abs()).max(doubt.unwrap_or(0.0))
+        });
+        deviation.map(|deviation| deviation.max(others))
+    };
+    let work: Number = |fit| {
+        let deviation = fit.uncertainties.work_of_adhesion;
+        (fit.parameters.work_of_adhesion, deviation)
+    };
+    let modulus: Number = |fit| {
+        let deviation = fit.uncertainties.contact_modulus;
+        (fit.parameters.contact_modulus, deviation)
     };
     Ok(FitResult {
-        work_uncertainty: with_models(best.uncertainties.work_of_adhesion, |fit| {
-            fit.parameters.work_of_adhesion
-        }),
-        modulus_uncertainty: with_models(best.uncertainties.contact_modulus, |fit| {
-            fit.parameters.contact_modulus
-        }),
+        work_uncertainty: with_models(work(best), work),
+        modulus_uncertainty: with_models(modulus(best), modulus),
         inversion: invert_curve(&measured, &fits[chosen]),
         measured,
         fits,

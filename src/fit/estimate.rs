@@ -17,9 +17,9 @@ const LADDER: [f64; 16] = [
 ];
 /// Rungs from which lambda is set free.
 const BEST_RUNGS: usize = 3;
-/// Rise of the sum of squares, in variances of the noise, up to which a value counts as within one
-/// standard deviation.
-const ONE_DEVIATION: f64 = 1.0;
+/// Rise of the sum of squares, in variances of the noise, up to which a rung tells of the
+/// uncertainty: three standard deviations.
+const MOST_RISE: f64 = 9.0;
 /// Share of the sum of squares that no fit is credited with going below: force span squared a
 /// point. Below it are rounding and the tables of the models.
 const FLOOR: f64 = 1e-14;
@@ -378,12 +378,15 @@ pub(super) fn fit_model(measured: &Measured, model: Model) -> Option<ModelFit> {
 fn widen(fit: &mut ModelFit, rungs: &[(f64, Parameters)], minimum: &Minimum) {
     let variance = minimum.sum() / fit.degrees_of_freedom as f64;
     for (sum, other) in rungs {
-        if sum - minimum.sum() > ONE_DEVIATION * variance {
+        let rise = (sum - minimum.sum()) / variance;
+        if rise > MOST_RISE {
             continue;
         }
+        // A parabola would rise by the square of the distance in standard deviations.
+        let deviations = rise.max(1.0).sqrt();
         let raise = |known: &mut Option<f64>, of: fn(&Parameters) -> f64| {
             if let Some(known) = known {
-                *known = known.max((of(other) - of(&fit.parameters)).abs());
+                *known = known.max((of(other) - of(&fit.parameters)).abs() / deviations);
             }
         };
         let deviations = &mut fit.uncertainties;
