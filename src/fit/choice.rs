@@ -199,12 +199,13 @@ fn choose(
     if !closed {
         taken = general;
     }
-    // A Tabor number that may as well lie beyond is no reason for a richer model.
-    if taken == general && measured.freedom.range.is_none() {
-        taken = simpler(fits, general).unwrap_or(general);
-    }
     // The limits are taken where the data do not resolve what they leave out.
-    if taken != general && fits[taken].aic - fits[general].aic > TELLS_APART {
+    let beyond = taken != general && fits[taken].aic - fits[general].aic > TELLS_APART;
+    // A Tabor number that may as well lie in a limit is no reason for a richer model.
+    let simpler = simpler(fits, general).filter(|_| measured.freedom.range.is_none());
+    if let Some(limit) = simpler.filter(|_| beyond || taken == general) {
+        taken = limit;
+    } else if beyond {
         warnings.push(format!(
             "the Tabor number {:.2} is in the range of {}, but the curve shows more than that model has (AIC {:+.1}); Maugis-Dugdale, which holds at any, is taken",
             number(taken).unwrap_or(f64::NAN),
@@ -246,7 +247,7 @@ fn choose(
     Some((taken, number(taken)))
 }
 
-/// The limit that fits no worse than the general model and lies within two standard deviations of
+/// The limit that cannot be told from the general model and lies within two standard deviations of
 /// its lambda.
 fn simpler(fits: &[ModelFit], general: usize) -> Option<usize> {
     let fit = &fits[general];
@@ -258,7 +259,7 @@ fn simpler(fits: &[ModelFit], general: usize) -> Option<usize> {
         Model::Hertz | Model::MaugisDugdale => false,
     };
     (0..fits.len())
-        .filter(|i| reaches(fits[*i].model) && fits[*i].aic <= fit.aic)
+        .filter(|i| reaches(fits[*i].model) && fits[*i].aic - fit.aic < TELLS_APART)
         .min_by(|a, b| fits[*a].aic.total_cmp(&fits[*b].aic))
 }
 
