@@ -4,8 +4,9 @@ use std::path::Path;
 
 use super::curve_file::ForceCurve;
 use super::error::FitError;
-use super::estimate::{Freedom, Measured, ModelFit, fit_model};
+use super::estimate::{ModelFit, fit_model};
 use super::inversion::{Inversion, invert_curve};
+use super::measured::{Freedom, Measured};
 use super::model::Model;
 use crate::theory::Law;
 use crate::theory::tabor_map::{

@@ -6,8 +6,10 @@ use nalgebra::{DMatrix, DVector};
 
 use super::curve_file::Sample;
 use super::least_squares::{Minimum, Problem, covariance, minimise};
-use super::model::{LAMBDAS, Model, Parameters, SphereModel, units};
-use super::ways::{Way, ways};
+use super::measured::Measured;
+use super::model::{LAMBDAS, Model, Parameters, SphereModel};
+use super::start::starts;
+use super::ways::Way;
 use crate::theory::tabor_map::{LAMBDA_PER_MU_MATCHED, Sphere, maugis_parameter};
 
 /// Maugis parameters at which all else is fitted before lambda is set free: the sum of squares has
@@ -23,81 +25,6 @@ const MOST_RISE: f64 = 9.0;
 /// Share of the sum of squares that no fit is credited with going below: force span squared a
 /// point. Below it are rounding and the tables of the models.
 const FLOOR: f64 = 1e-14;
-
-/// What is free besides the numbers of the model.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Freedom {
-    /// Where the undeformed surfaces first touch is not known.
-    pub approach_offset: bool,
-    /// The force where nothing acts is not known.
-    pub force_offset: bool,
-    /// Range of the attraction, m, where it is known: `w` over the tension, as in a scene.
-    pub range: Option<f64>,
-}
-
-/// A curve ready to be fitted.
-#[derive(Clone, Debug)]
-pub struct Measured {
-    /// Points in the order of the file.
-    pub samples: Vec<Sample>,
-    /// Ways together and apart.
-    pub ways: Vec<Way>,
-    /// R, m.
-    pub radius: f64,
-    /// What is free.
-    pub freedom: Freedom,
-    approaches: Vec<f64>,
-    /// Greatest less least force, N.
-    force_span: f64,
-    /// Greatest less least approach, m.
-    approach_span: f64,
-}
-
-impl Measured {
-    /// A curve of a sphere of `radius` (m).
-    pub fn new(samples: Vec<Sample>, radius: f64, freedom: Freedom) -> Self {
-        let span = |of: fn(&Sample) -> f64| {
-            let ends = samples
-                .iter()
-                .map(of)
-                .fold((f64::INFINITY, f64::NEG_INFINITY), |(low, high), value| {
-                    (low.min(value), high.max(value))
-                });
-            ends.1 - ends.0
-        };
-        Measured {
-            ways: ways(&samples),
-            radius,
-            freedom,
-            approaches: samples.iter().map(|sample| sample.approach).collect(),
-            force_span: span(|sample| sample.force),
-            approach_span: span(|sample| sample.approach),
-            samples,
-        }
-    }
-
-    /// Force where nothing acts, as far as it can be guessed: the median of the tenth of the
-    /// points that are farthest apart; 0 where it is known.
-    pub(super) fn baseline(&self) -> f64 {
-        if !self.freedom.force_offset {
-            return 0.0;
-        }
-        let mut far = self.samples.clone();
-        far.sort_by(|a, b| a.approach.total_cmp(&b.approach));
-        far.truncate((far.len() / 10).max(1));
-        far.sort_by(|a, b| a.force.total_cmp(&b.force));
-        far[far.len() / 2].force
-    }
-
-    /// The points of the least and the greatest force.
-    pub(super) fn extremes(&self) -> (Sample, Sample) {
-        let by_force = |a: &&Sample, b: &&Sample| a.force.total_cmp(&b.force);
-        let least = self.samples.iter().min_by(by_force);
-        let greatest = self.samples.iter().max_by(by_force);
-        let first = self.samples[0];
-        (*least.unwrap_or(&first), *greatest.unwrap_or(&first))
-    }
-}
 
 /// How well numbers are known: one standard deviation each, `None` where the curve does not tell.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
@@ -395,101 +322,6 @@ fn widen(fit: &mut ModelFit, rungs: &[(f64, Parameters)], minimum: &Minimum) {
         raise(&mut deviations.maugis_parameter, |p| p.maugis_parameter);
         raise(&mut deviations.approach_offset, |p| p.approach_offset);
     }
-}
-
-/// Parameters to start from: by the pull-off and the indentation, and by Hertz.
-fn starts(measured: &Measured, model: Model, lambda: f64) -> Vec<Parameters> {
-    let baseline = measured.baseline();
-    let (least, greatest) = measured.extremes();
-    let mut starts = Vec::new();
-    let hertz = hertz_start(measured, baseline, greatest);
-    let sphere = SphereModel::new(model, measured.radius);
-    if model.adheres()
-        && let Some(start) = pull_off_start(&sphere, lambda, baseline, (least, greatest))
-    {
-        starts.push(start);
-    }
-    let tension = (baseline - least.force).max(1e-3 * (greatest.force - baseline));
-    starts.push(Parameters {
-        work_of_adhesion: if model.adheres() {
-            tension / (1.75 * PI * measured.radius)
-        } else {
-            0.0
-        },
-        maugis_parameter: lambda,
-        ..hertz
-    });
-    if !measured.freedom.approach_offset {
-        for start in &mut starts {
-            start.approach_offset = 0.0;
-        }
-    }
-    starts
-}
-
-/// A straight line through the approach over the force to the power 2/3.
-fn hertz_start(measured: &Measured, baseline: f64, greatest: Sample) -> Parameters {
-    let least = 0.05 * (greatest.force - baseline);
-    let pressed = measured
-        .samples
-        .iter()
-        .filter(|sample| sample.force - baseline > least)
-        .map(|sample| ((sample.force - baseline).powf(2.0 / 3.0), sample.approach));
-    let (mut n, mut x, mut y, mut xx, mut xy) = (0.0, 0.0, 0.0, 0.0, 0.0);
-    for (force, approach) in pressed {
-        n += 1.0;
-        x += force;
-        y += approach;
-        xx += force * force;
-        xy += force * approach;
-    }
-    let spread = n * xx - x * x;
-    let mut slope = (n * xy - x * y) / spread;
-    if !slope.is_finite() || slope <= 0.0 {
-        slope = 0.5 * measured.approach_span / (greatest.force - baseline).powf(2.0 / 3.0);
-    }
-    Parameters {
-        contact_modulus: 0.75 * slope.powf(-1.5) / measured.radius.sqrt(),
-        work_of_adhesion: 0.0,
-        maugis_parameter: 1.0,
-        approach_offset: (y - slope * x) / n.max(1.0),
-        force_offset: baseline,
-    }
-}
-
-/// Pull-off gives w; the way from there to the greatest force gives the modulus.
-fn pull_off_start(
-    sphere: &SphereModel,
-    lambda: f64,
-    baseline: f64,
-    (least, greatest): (Sample, Sample),
-) -> Option<Parameters> {
-    let (place, force) = sphere.pull_off(lambda).ok()?;
-    let tension = baseline - least.force;
-    let unit = tension / -force;
-    let way = greatest.approach - least.approach;
-    if unit <= 0.0 || way <= 0.0 {
-        return None;
-    }
-    let deepest = sphere
-        .approach_at(lambda, (greatest.force - baseline) / unit)
-        .ok()?;
-    let approach_unit = way / (deepest - place);
-    let work_of_adhesion = unit / (PI * sphere.radius);
-    // The unit of approach is (pi^2 w^2 R/K^2)^(1/3).
-    let contact_modulus =
-        0.75 * PI * work_of_adhesion * (sphere.radius / approach_unit.powi(3)).sqrt();
-    debug_assert!(
-        (units(sphere.radius, contact_modulus, work_of_adhesion).1 / approach_unit - 1.0).abs()
-            < 1e-6
-    );
-    contact_modulus.is_finite().then_some(Parameters {
-        contact_modulus,
-        work_of_adhesion,
-        maugis_parameter: lambda,
-        approach_offset: least.approach - place * approach_unit,
-        force_offset: baseline,
-    })
 }
 
 /// Numbers and their uncertainties at a minimum.

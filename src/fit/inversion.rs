@@ -4,7 +4,8 @@
 //! [`crate::theory::jkr::from_measurement`].
 
 use super::curve_file::Sample;
-use super::estimate::{Measured, ModelFit};
+use super::estimate::ModelFit;
+use super::measured::Measured;
 use crate::theory::jkr;
 
 /// Share of the greatest load at which the stiffness is taken.

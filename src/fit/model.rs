@@ -69,6 +69,9 @@ pub struct Parameters {
     pub force_offset: f64,
 }
 
+/// A force at an approach.
+type ForceByApproach = Box<dyn Fn(f64) -> Result<f64, TheoryError>>;
+
 /// A model of a sphere of a given radius, with the tables it made last.
 #[derive(Clone, Debug)]
 pub struct SphereModel {
@@ -108,7 +111,7 @@ impl SphereModel {
             approach_offset,
             force_offset,
         } = *parameters;
-        let force: Box<dyn Fn(f64) -> Result<f64, TheoryError>> = if self.model == Model::Hertz {
+        let force: ForceByApproach = if self.model == Model::Hertz {
             let stiffness = 4.0 / 3.0 * contact_modulus * self.radius.sqrt();
             Box::new(move |place: f64| Ok(stiffness * place.max(0.0).powf(1.5)))
         } else {
@@ -126,11 +129,7 @@ impl SphereModel {
     }
 
     /// Force by approach in Maugis units, up to an approach.
-    fn reduced(
-        &self,
-        lambda: f64,
-        deepest: f64,
-    ) -> Result<Box<dyn Fn(f64) -> Result<f64, TheoryError>>, TheoryError> {
+    fn reduced(&self, lambda: f64, deepest: f64) -> Result<ForceByApproach, TheoryError> {
         Ok(match self.model {
             Model::Hertz => Box::new(|approach: f64| Ok(approach.max(0.0).powf(1.5))),
             Model::Dmt => Box::new(|approach: f64| Ok(approach.max(0.0).powf(1.5) - 2.0)),

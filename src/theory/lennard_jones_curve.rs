@@ -18,11 +18,13 @@ const LEAST_COSINE: f64 = 0.9;
 /// Error of the place of a turning point along the curve; that of the value is its square.
 const PLACE_TOLERANCE: f64 = 1e-9;
 
+/// Unit tangent in (approach/unit, force).
+type Direction = (f64, f64);
+
 /// A state with the direction in which the curve goes on.
 struct Node {
     state: State,
-    /// Unit tangent in (approach/unit, force).
-    tangent: (f64, f64),
+    tangent: Direction,
 }
 
 /// A piece of the curve between two of its states, by the place along their chord.
@@ -70,7 +72,7 @@ impl LennardJonesSphere {
     fn followed(
         &self,
         until: impl Fn(&[State]) -> bool,
-    ) -> Result<(Vec<State>, Vec<(f64, f64)>), TheoryError> {
+    ) -> Result<(Vec<State>, Vec<Direction>), TheoryError> {
         let unit = self.force_unit();
         let mut now = self.rigid_start(self.far())?;
         let mut states = vec![now.state.clone()];
