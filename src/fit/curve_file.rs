@@ -41,7 +41,7 @@ impl ForceCurve {
     /// Reads a file.
     ///
     /// # Errors
-    /// What cannot be read, with the line; fewer than [`LEAST_ROWS`] rows; columns that never
+    /// What cannot be read, with the line; fewer than ten rows; columns that never
     /// change.
     pub fn read(path: &Path) -> Result<Self, FitError> {
         let unreadable = |cause| FitError::Unreadable {
