@@ -45,6 +45,7 @@
 //! | [`effect`] | what a scene may ask for besides, and what each costs |
 //! | [`output`] | the folder of a run: curve, summary, fields, pictures, report, and the state to go on from |
 //! | [`theory`] | closed forms and models to compare with: Hertz, JKR, Maugis, Persson and others |
+//! | [`fit`] | work of adhesion and modulus from a measured force curve |
 //! | [`cli`] | the command line |
 //!
 //! # What an iteration does
@@ -63,6 +64,7 @@ pub mod backend;
 pub mod cli;
 pub mod effect;
 pub mod elastic;
+pub mod fit;
 pub mod grid;
 pub mod kernel;
 pub mod law;

@@ -2,6 +2,7 @@
 
 mod check;
 mod devices;
+mod fit;
 mod keeper;
 mod machine;
 mod opening;
@@ -20,6 +21,7 @@ use clap::{Args, Parser, Subcommand, ValueEnum};
 
 use crate::backend::BackendError;
 use crate::backend::gpu::GpuError;
+use crate::fit::FitError;
 use crate::output::OutputError;
 use crate::scene::{BackendName, Precision, Scene, SceneErrors};
 use crate::surface::SurfaceError;
@@ -62,8 +64,11 @@ enum Command {
     Compare(Later),
     /// Error against seconds (not in this version)
     Accuracy(Later),
-    /// Work of adhesion and modulus from a force curve (not in this version)
-    Fit(Later),
+    /// Work of adhesion and modulus from a force curve of a sphere
+    #[command(
+        after_help = "The curve has columns approach (positive closer) and force (positive in compression), in SI or\nwith the unit in the head: `approach [nm], force [nN]`. More in docs/fit.md.\n\nExamples:\n  tabor fit examples/force_curve.csv --radius \"10 um\" --out fit\n  tabor fit --radius \"10 um\" --pull-off \"2 uN\" --stiffness \"30 N/m\""
+    )]
+    Fit(fit::FitArguments),
     /// Adapters found, what each can do, and which one `auto` takes
     #[command(after_help = "Example:\n  tabor devices")]
     Devices,
@@ -250,6 +255,8 @@ enum Failure {
     #[error("interrupted after {finished} of {steps} steps")]
     Interrupted { finished: usize, steps: usize },
     #[error(transparent)]
+    Fit(#[from] FitError),
+    #[error(transparent)]
     Theory(#[from] TheoryError),
     #[error("cannot print: {0}")]
     Print(std::io::Error),
@@ -281,8 +288,10 @@ impl Failure {
             Failure::Output(_) | Failure::Print(_) => 1,
             Failure::Scene(_) | Failure::Surface { .. } | Failure::Usage(_) => 2,
             Failure::Memory { .. } | Failure::FileMemory { .. } => 2,
-            Failure::NotConverged { .. } | Failure::Theory(TheoryError::NotConverged { .. }) => 3,
-            Failure::Theory(_) => 2,
+            Failure::NotConverged { .. }
+            | Failure::Theory(TheoryError::NotConverged { .. })
+            | Failure::Fit(FitError::Theory(TheoryError::NotConverged { .. })) => 3,
+            Failure::Theory(_) | Failure::Fit(_) => 2,
             Failure::Backend(_) | Failure::Gpu(_) => 4,
             Failure::Interrupted { .. } => 130,
         }
@@ -300,7 +309,7 @@ pub fn main() -> ExitCode {
         Command::Theory(arguments) => theory::theory(&arguments),
         Command::Compare(later) => not_in_this_version("compare", &later),
         Command::Accuracy(later) => not_in_this_version("accuracy", &later),
-        Command::Fit(later) => not_in_this_version("fit", &later),
+        Command::Fit(arguments) => fit::fit(&arguments),
         Command::Devices => devices::devices(),
         Command::Completions { shell } => shell::completions(shell),
         Command::Man { folder } => shell::man(folder.as_deref()),
@@ -325,7 +334,7 @@ fn say(line: &str) {
 
 fn not_in_this_version(command: &str, _: &Later) -> Result<(), Failure> {
     Err(Failure::Usage(format!(
-        "tabor {command} is not in this version; this one has run, check, surface, theory and devices"
+        "tabor {command} is not in this version; this one has run, check, surface, theory, fit and devices"
     )))
 }
 

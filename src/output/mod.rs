@@ -4,7 +4,7 @@
 //! compression. Files that are written whole appear under their name only when they are complete;
 //! `curve.csv` alone grows, a row a step.
 
-mod canvas;
+pub(crate) mod canvas;
 pub mod chart;
 pub mod colour_scale;
 pub mod curve;
@@ -19,7 +19,7 @@ mod png_text;
 pub mod progress;
 pub mod report;
 mod resample;
-mod si;
+pub(crate) mod si;
 pub mod spectrum_plot;
 pub mod state;
 pub mod summary;
