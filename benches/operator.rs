@@ -19,7 +19,7 @@ fn operator(criterion: &mut Criterion) {
         let level = backend.level("fine", Shape::whole(points, points));
         let displacement = backend.field(level, "displacement");
         let pressure = backend.field(level, "pressure");
-        let stiffness = backend.spectrum(level, "stiffness", &periodic_stiffness(&grid, 1.0));
+        let stiffness = backend.spectrum(level, "stiffness", &periodic_stiffness(&grid, 1.0, None));
         let waves: Vec<f64> = (0..grid.len()).map(|i| (0.1 * i as f64).sin()).collect();
         backend.write(displacement, &waves);
         group.throughput(Throughput::Elements(grid.len() as u64));

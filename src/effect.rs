@@ -4,8 +4,9 @@
 //! one costs is found by planning the scene with and without it.
 
 use crate::backend::BackendError;
+use crate::grid::Grid;
 use crate::scene::{Boundary, Scene, Treatment};
-use crate::study::{Cost, Setup};
+use crate::study::{Cost, Plan};
 use crate::units::format_si;
 
 /// An effect of this version.
@@ -118,33 +119,31 @@ impl Effect {
     }
 
     /// When it matters, with the number of a scene that asks for it.
-    pub fn matters(self, setup: &Setup) -> String {
-        let scene = &setup.scene;
-        let tabor = setup.regime.map_or(0.0, |regime| regime.tabor);
+    pub fn matters(self, plan: &Plan) -> String {
+        let scene = &plan.scene;
+        let moments = &plan.outline.moments;
+        let grid = plan.outline.grid;
+        let tabor = plan.regime.map_or(0.0, |regime| regime.tabor);
         match self {
             Effect::Adhesion => {
                 // |q| h^2 summed over waves is at most the product of the two root mean squares.
                 let flattening = 0.25
                     * scene.solid.contact_modulus
-                    * setup.statistics.moments.rms_slope()
-                    * setup.statistics.moments.rms_height();
+                    * moments.rms_slope()
+                    * moments.rms_height();
                 format!(
                     "matters where the work of adhesion is not far below the energy that flattens the roughness (at most E* rms slope rms height/4): here it is {:.2e} of it",
-                    setup.law.work_of_adhesion() / flattening
+                    plan.law.work_of_adhesion() / flattening
                 )
             }
             Effect::Dmt => {
                 format!("holds at Tabor numbers well below 1: here {tabor:.3}")
             }
             Effect::AdhesionMap => {
-                let map = setup.surface.adhesion_map.as_deref().unwrap_or(&[]);
-                let count = map.len().max(1) as f64;
-                let mean = map.iter().sum::<f64>() / count;
-                let variance = map.iter().map(|f| (f - mean) * (f - mean)).sum::<f64>() / count;
+                let (mean, deviation) =
+                    plan.outline.map.map_or((1.0, 0.0), |map| (map.mean, map.deviation));
                 format!(
-                    "matters where it varies over lengths of the contacts: here the factor is {:.3} on average, give or take {:.3}",
-                    mean,
-                    variance.sqrt()
+                    "matters where it varies over lengths of the contacts: here the factor is {mean:.3} on average, give or take {deviation:.3}"
                 )
             }
             Effect::Capillary => {
@@ -153,11 +152,11 @@ impl Effect {
                 format!(
                     "matters where much of the gap is narrower than the meniscus, twice the Kelvin radius: here that radius is {}, {:.3} of the rms height",
                     format_si(radius, "m"),
-                    radius / setup.statistics.moments.rms_height()
+                    radius / moments.rms_height()
                 )
             }
             Effect::Layer => {
-                let longest = setup.surface.grid.lx.max(setup.surface.grid.ly);
+                let longest = grid.lx.max(grid.ly);
                 let stiffer = scene.solid.layer.map_or(1.0, |layer| {
                     1.0 / layer.compliance(2.0 * std::f64::consts::PI / longest)
                 });
@@ -184,7 +183,7 @@ impl Effect {
             }
             Effect::Spring => {
                 let stiffness = scene.loading.spring.unwrap_or(0.0);
-                let contact = 2.0 * scene.solid.contact_modulus * setup.surface.grid.area().sqrt();
+                let contact = 2.0 * scene.solid.contact_modulus * grid.area().sqrt();
                 format!(
                     "snaps where the spring is softer than the attraction's gradient: here it has {:.2e} of the stiffness of a punch as wide as the grid",
                     stiffness / contact
@@ -220,20 +219,12 @@ impl Effect {
         scene
     }
 
-    /// What it costs in a scene that asks for it.
-    pub fn cost(self, setup: &Setup) -> Result<EffectCost, BackendError> {
-        let with = Cost::of(setup)?;
-        let scene = self.taken_from(&setup.scene);
-        let mut surface = setup.surface.clone();
-        if scene
-            .adhesion
-            .as_ref()
-            .is_none_or(|adhesion| adhesion.map.is_none())
-        {
-            surface.adhesion_map = None;
-        }
-        let without = Setup::new(scene, surface);
-        let without = Cost::of(&without)?;
+    /// What it costs in a scene that asks for it, of which `with` is the cost on `grid`.
+    ///
+    /// # Errors
+    /// As [`Cost::of_scene`].
+    pub fn cost(self, scene: &Scene, with: &Cost, grid: Grid) -> Result<EffectCost, BackendError> {
+        let without = Cost::of_scene(&self.taken_from(scene), grid, with.place)?;
         let names = |cost: &Cost| {
             cost.fields
                 .iter()
@@ -241,8 +232,8 @@ impl Effect {
                 .collect::<Vec<_>>()
         };
         Ok(EffectCost {
-            fields_added: difference(&names(&with), &names(&without)),
-            fields_spared: difference(&names(&without), &names(&with)),
+            fields_added: difference(&names(with), &names(&without)),
+            fields_spared: difference(&names(&without), &names(with)),
             passes_added: difference(&with.passes, &without.passes),
             passes_spared: difference(&without.passes, &with.passes),
             bytes: with.bytes() as i128 - without.bytes() as i128,

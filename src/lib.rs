@@ -39,12 +39,13 @@
 //! | [`kernel`] | the catalogue of passes over points, and the numbers of the algorithm |
 //! | [`backend`] | where the arithmetic runs: the trait, the processor, shaders through wgpu, the tally that only counts |
 //! | [`scene`] | TOML to a checked scene, or every mistake of it with line, key and remedy |
-//! | [`surface`] | heights: self-affine, shapes, files; their statistics |
+//! | [`surface`] | heights: self-affine, shapes, files; their statistics and the spectrum that fits |
 //! | [`solver`] | the one algorithm, for every law and both boundaries |
 //! | [`study`] | loading paths: what is held, jumps, energies, the rows of `curve.csv` |
 //! | [`effect`] | what a scene may ask for besides, and what each costs |
 //! | [`output`] | the folder of a run: curve, summary, fields, pictures, report, and the state to go on from |
 //! | [`theory`] | closed forms and models to compare with: Hertz, JKR, Maugis, Persson and others |
+//! | [`fit`] | work of adhesion and modulus from a measured force curve |
 //! | [`cli`] | the command line |
 //!
 //! # What an iteration does
@@ -63,6 +64,7 @@ pub mod backend;
 pub mod cli;
 pub mod effect;
 pub mod elastic;
+pub mod fit;
 pub mod grid;
 pub mod kernel;
 pub mod law;

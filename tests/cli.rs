@@ -312,10 +312,8 @@ fn what_this_version_lacks_is_refused_by_name() {
             "--precision",
             "double",
         ],
-        vec!["surface", "scene.toml"],
         vec!["compare", "scene.toml"],
         vec!["accuracy", "scene.toml", "--budget", "5 min"],
-        vec!["fit", "curve.csv", "--radius", "1e-6"],
     ] {
         let output = tabor(folder.path(), &arguments);
         assert_eq!(status(&output), 2, "{arguments:?}");

@@ -4,6 +4,7 @@
 
 mod gpu_shared;
 
+use std::borrow::Cow;
 use std::path::Path;
 
 use tabor::backend::{Backend, cpu::CpuBackend, gpu::GpuBackend};
@@ -45,7 +46,7 @@ const LOADINGS: [(&str, &str); 5] = [
     ),
     (
         "periodic",
-        "control = \"approach\"\npath = [\"-20 nm\", \"30 nm\", \"60 nm\", \"-20 nm\"]",
+        "control = \"approach\"\npath = [\"-20 nm\", \"10 nm\", \"30 nm\", \"-20 nm\"]",
     ),
     (
         "free",
@@ -92,13 +93,13 @@ impl Observer for Cutter {
             curve: 0,
             warnings: Vec::new(),
             single: self.single,
-            hand_over: state.clone(),
+            hand_over: Cow::Borrowed(state),
         };
         saved.write(&path).expect("it is written");
         let read = SavedState::read(&path)
             .expect("it is read")
             .expect("it is there");
-        self.states.push(read.hand_over);
+        self.states.push(read.hand_over.into_owned());
         Ok(())
     }
 }
@@ -125,8 +126,9 @@ fn expect_same(one: &WalkEnd, other: &WalkEnd, what: &str) {
     );
 }
 
-/// Walks a scene whole and from each of its cuts; returns the steps that parted or jumped.
-fn cut_everywhere(scene: Scene, make: Make, single: bool, what: &str) -> usize {
+/// Walks a scene whole and from each of its cuts, or every other one; returns the steps that parted
+/// or jumped.
+fn cut(scene: Scene, make: Make, single: bool, few: bool, what: &str) -> usize {
     let surface = Surface::build(&scene).expect("a surface");
     let setup = Setup::new(scene, surface);
     let mut cutter = Cutter {
@@ -139,7 +141,8 @@ fn cut_everywhere(scene: Scene, make: Make, single: bool, what: &str) -> usize {
     let converged = whole.rows.iter().filter(|row| row.converged).count();
     assert_eq!(cutter.states.len(), converged, "{what}");
     assert!(converged > 2, "{what}: only {converged} steps converge");
-    for (index, state) in cutter.states.into_iter().enumerate() {
+    let stride = if few { 2 } else { 1 };
+    for (index, state) in cutter.states.into_iter().enumerate().step_by(stride) {
         let earlier = Earlier {
             rows: whole.rows[..=index].to_vec(),
             hand_over: state,
@@ -173,14 +176,14 @@ fn all(make: Make, single: bool, few: bool) -> usize {
     let (mut events, mut count) = (0, 0);
     for (index, (boundary, loading)) in LOADINGS.into_iter().enumerate() {
         for (other, law) in laws.iter().enumerate() {
-            // On a slow device every law and every loading once or more, but not all pairs.
-            if few && other % 5 != index && other != (index + 3) % 7 {
+            // A backend takes long to make on a slow device: each loading with one law.
+            if few && other != index {
                 continue;
             }
             let surface = if boundary == "free" { SPHERE } else { ROUGH };
             let what = format!("{loading} {law}");
             let scene = scene(boundary, surface, law, loading, single);
-            events += cut_everywhere(scene, make, single, &what);
+            events += cut(scene, make, single, few, &what);
             count += 1;
         }
     }
@@ -189,10 +192,13 @@ fn all(make: Make, single: bool, few: bool) -> usize {
     for (boundary, surface) in [("free", SPHERE), ("periodic", ROUGH)] {
         let law = adhesion("maugis-dugdale", "full");
         let scene = scene(boundary, surface, &law, spring, single);
-        events += cut_everywhere(scene, make, single, &format!("spring, {boundary}"));
+        events += cut(scene, make, single, few, &format!("spring, {boundary}"));
         count += 1;
     }
-    assert!(events > 5, "the paths part and jump, {events} times");
+    assert!(
+        events > if few { 1 } else { 5 },
+        "the paths part and jump, {events} times"
+    );
     count
 }
 
@@ -214,7 +220,7 @@ fn cut_and_gone_on_with_on_the_graphics_processor() {
         return;
     };
     let make = || -> Box<dyn Backend + Send> { Box::new(GpuBackend::on(device)) };
-    assert!(all(&make, true, true) >= 10);
+    assert_eq!(all(&make, true, true), 7);
 }
 
 /// The cold start on coarser grids and the two-band preconditioner, which small grids do without.
@@ -224,5 +230,5 @@ fn cut_and_gone_on_with_where_coarse_grids_help() {
     let mut scene = scene("periodic", ROUGH, "", loading, false);
     scene.grid.points = Some([128, 128]);
     let make = || -> Box<dyn Backend + Send> { Box::new(CpuBackend::<f64>::new()) };
-    cut_everywhere(scene, &make, false, "coarse start");
+    cut(scene, &make, false, false, "coarse start");
 }

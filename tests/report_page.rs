@@ -10,8 +10,7 @@ use std::io::Read;
 use std::net::TcpListener;
 use std::path::{Path, PathBuf};
 use std::process::{Command, Stdio};
-use std::sync::Arc;
-use std::sync::atomic::{AtomicUsize, Ordering};
+use std::sync::{Arc, Mutex};
 
 use resume_shared::{ROUGH, errors, status, tabor};
 use tempfile::TempDir;
@@ -39,30 +38,39 @@ fn browser() -> Option<&'static str> {
     found
 }
 
-/// What a script saw on the page, and what the browser complained of.
+/// What a script saw on the page, what the browser complained of, and whom it asked for something.
 struct Seen {
     facts: serde_json::Value,
     console: String,
-    requests: usize,
+    requests: Vec<String>,
 }
+
+/// Where a browser calls by itself, whatever page it shows.
+const BROWSERS_OWN: [&str; 3] = [".google.com", ".googleapis.com", ".gvt1.com"];
 
 /// Opens `page` in a window of this width and asks the page about itself.
 ///
 /// Only here a script runs on the page: a frame around it, the page itself unchanged in it, is
-/// measured from outside. Every request that leaves the machine's files would go through a proxy,
-/// which counts them and answers none.
+/// measured from outside. Every request that leaves the machine's files goes to a proxy, which notes
+/// the host and answers none.
 fn look(browser: &str, page: &Path, width: usize) -> Seen {
     let proxy = TcpListener::bind("127.0.0.1:0").expect("a port");
     let address = proxy.local_addr().expect("an address");
-    let requests = Arc::new(AtomicUsize::new(0));
-    let counted = Arc::clone(&requests);
+    let requests = Arc::new(Mutex::new(Vec::new()));
+    let noted = Arc::clone(&requests);
     // It ends with the test.
     std::thread::spawn(move || {
         for mut stream in proxy.incoming().flatten() {
             let mut first = [0u8; 256];
             let length = stream.read(&mut first).unwrap_or(0);
-            println!("request: {}", String::from_utf8_lossy(&first[..length]));
-            counted.fetch_add(1, Ordering::SeqCst);
+            let text = String::from_utf8_lossy(&first[..length]).into_owned();
+            // As in "GET http://host:80/path" or "CONNECT host:443".
+            let target = text.split_whitespace().nth(1).unwrap_or_default();
+            let target = target.split_once("://").map_or(target, |(_, rest)| rest);
+            let host = target.split(['/', ':']).next().unwrap_or_default();
+            if !BROWSERS_OWN.iter().any(|own| host.ends_with(own)) {
+                noted.lock().expect("no panic holds it").push(text);
+            }
         }
     });
     let place = tempfile::tempdir().expect("a temporary folder");
@@ -89,6 +97,8 @@ addEventListener('load', () => setTimeout(() => {{
     outside: [...inside.querySelectorAll('[src],[href]')].map(e => e.src || e.href)
       .filter(u => !u.startsWith('data:')),
     scripts: inside.scripts.length,
+    loaded: document.getElementById('page').contentWindow.performance.getEntriesByType('resource')
+      .map(e => e.name).filter(u => !u.startsWith('data:')),
   }};
   document.getElementById('facts').textContent = JSON.stringify(facts);
 }}, 100));
@@ -126,8 +136,17 @@ addEventListener('load', () => setTimeout(() => {{
     Seen {
         facts,
         console,
-        requests: requests.load(Ordering::SeqCst),
+        requests: requests.lock().expect("no panic holds it").clone(),
     }
+}
+
+/// Fails where the page complains, runs something, or asks anyone for anything.
+fn expect_alone(seen: &Seen) {
+    assert_eq!(seen.console, "", "the console is clean");
+    assert_eq!(seen.requests, Vec::<String>::new());
+    assert_eq!(seen.facts["loaded"], serde_json::json!([]));
+    assert_eq!(seen.facts["outside"], serde_json::json!([]));
+    assert_eq!(seen.facts["scripts"], 0);
 }
 
 fn arguments(profile: &Path, width: usize) -> Vec<String> {
@@ -172,10 +191,7 @@ fn a_browser_shows_the_whole_page_on_any_width_without_a_network() {
     for width in [400, 1200] {
         let seen = look(browser, &out.join("report.html"), width);
         let facts = &seen.facts;
-        assert_eq!(seen.console, "", "the console is clean");
-        assert_eq!(seen.requests, 0, "nothing is asked of a network");
-        assert_eq!(facts["outside"], serde_json::json!([]));
-        assert_eq!(facts["scripts"], 0);
+        expect_alone(&seen);
         let images = facts["images"].as_array().expect("a list");
         assert_eq!(images.len(), pictures);
         for image in images {
@@ -247,7 +263,7 @@ fn runs_that_ended_early_and_runs_of_one_step_have_a_page() {
     ];
     let (_folder, out) = run(ROUGH, &failed, 3);
     let seen = look(browser, &out.join("report.html"), 400);
-    assert_eq!((seen.console.as_str(), seen.requests), ("", 0));
+    expect_alone(&seen);
     let text = seen.facts["text"].as_str().expect("text").to_owned();
     assert!(text.contains("step 1 of 8 did not converge"), "{text}");
     // Nothing converged, so there is no curve, but the fields as they stood are shown.
@@ -257,9 +273,29 @@ fn runs_that_ended_early_and_runs_of_one_step_have_a_page() {
     let one = ["--set", "loading.path=[1e6]", "--set", "output.steps=last"];
     let (_folder, out) = run(ROUGH, &one, 0);
     let seen = look(browser, &out.join("report.html"), 400);
-    assert_eq!((seen.console.as_str(), seen.requests), ("", 0));
+    expect_alone(&seen);
     assert_eq!(seen.facts["curves"].as_array().map(Vec::len), Some(2));
     assert!(seen.facts["needed"].as_u64() <= Some(400));
+}
+
+#[test]
+fn a_page_that_asks_or_complains_would_be_seen() {
+    let Some(browser) = browser() else { return };
+    let place = tempfile::tempdir().expect("a temporary folder");
+    let page = place.path().join("page.html");
+    let html =
+        "<h1>x</h1><img src=\"http://pictures.invalid/x.png\"><script>console.error('no')</script>";
+    fs::write(&page, html).expect("it is written");
+    let seen = look(browser, &page, 400);
+    assert!(
+        seen.requests.iter().any(|r| r.contains("pictures.invalid")),
+        "{:?}",
+        seen.requests
+    );
+    assert!(seen.console.contains("no"));
+    assert_eq!(seen.facts["scripts"], 1);
+    assert_eq!(seen.facts["outside"].as_array().map(Vec::len), Some(1));
+    assert_eq!(seen.facts["images"][0][1], 0, "it has not loaded");
 }
 
 /// Share of the pixels of a picture that are darker than a grey.

@@ -52,3 +52,40 @@ fn every_shipped_scene_runs() {
     }
     assert!(count >= 2);
 }
+
+/// Every scene has its section in docs/scenes.md, with pictures that are there and small.
+#[test]
+fn every_shipped_scene_is_shown() {
+    let root = Path::new(env!("CARGO_MANIFEST_DIR"));
+    let page = fs::read_to_string(root.join("docs/scenes.md")).expect("the page is there");
+    let mut sections = page.split("\n## ");
+    sections.next();
+    let sections: Vec<(&str, &str)> = sections
+        .map(|section| section.split_once('\n').expect("a section has text"))
+        .collect();
+    for entry in fs::read_dir(root.join("examples/scenes"))
+        .expect("the scenes are there")
+        .flatten()
+    {
+        let path = entry.path();
+        if path.extension().is_none_or(|extension| extension != "toml") {
+            continue;
+        }
+        let name = path.file_stem().and_then(|name| name.to_str());
+        let section = sections.iter().find(|(title, _)| Some(*title) == name);
+        let (_, text) = section.unwrap_or_else(|| panic!("{name:?} is not in docs/scenes.md"));
+        let pictures: Vec<&str> = text
+            .split("](pictures/")
+            .skip(1)
+            .filter_map(|rest| rest.split(')').next())
+            .collect();
+        assert!(!pictures.is_empty(), "{name:?} has no picture");
+        for picture in pictures {
+            let path = root.join("docs/pictures").join(picture);
+            let bytes = fs::metadata(&path)
+                .unwrap_or_else(|error| panic!("{picture}: {error}"))
+                .len();
+            assert!(bytes < 150_000, "{picture} has {bytes} bytes");
+        }
+    }
+}

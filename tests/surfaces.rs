@@ -34,6 +34,8 @@ fn file_part(path: &Path) -> HeightFileScene {
         path: path.to_owned(),
         unit: 1.0,
         scale: 1.0,
+        black: None,
+        white: None,
         detrend: Detrend::None,
         fill: Fill::None,
     }
@@ -84,9 +86,10 @@ fn bad_files_are_refused_in_a_sentence() {
         ("hole.csv", b"1;2\n3;\n5;6\n".to_vec(), "1 of 6 pixels are missing (0 of them infinite), the first at row 2, column 2"),
         ("nul.txt", b"1 2\n3 \0\n".to_vec(), "the file is no text: byte 6 is 0"),
         ("wide.txt", b"\xFF\xFE1\0 \0".to_vec(), "the text is in UTF-16; save it as UTF-8"),
-        ("map.png", b"\x89PNG\r\n\x1a\n".to_vec(), "height files of kind .png are not in this version; save the heights as .npy or as a text matrix"),
-        ("map.gsf", b"Gwyddion Simple Field 1.0\n".to_vec(), "height files of kind .gsf are not in this version"),
-        ("map.TIF", b"II*\0".to_vec(), "height files of kind .tif are not in this version"),
+        ("map.png", b"\x89PNG\r\n\x1a\n".to_vec(), "broken PNG image: "),
+        ("map.gsf", b"Gwyddion Simple Field 1.0\n".to_vec(), "broken .gsf file at byte 26: no zero byte ends the header"),
+        ("map.vtk", b"# vtk\n".to_vec(), "height files of kind .vtk are not in this version; save the heights as .npy, as text"),
+        ("map.TIF", b"II*\0".to_vec(), "broken TIFF image: "),
         ("map", b"1 2\n".to_vec(), "the name has no extension"),
         ("image.txt", b"\x89PNG\r\n\x1a\n".to_vec(), "the name says .txt, but the file holds a PNG image"),
         ("array.csv", npy(&c_order("<f8", "(2, 3)"), &six()), "the name says .csv, but the file holds a NumPy array (.npy)"),
@@ -102,7 +105,7 @@ fn bad_files_are_refused_in_a_sentence() {
         ("scalar.npy", npy(&c_order("<f8", "()"), &six()), "the array has shape []"),
         ("nothing.npy", npy(&c_order("<f8", "(0, 3)"), &[]), "the file holds no numbers"),
         ("complex.npy", npy(&c_order("<c16", "(1, 3)"), &six()), "elements of type <c16 are not heights; save them as float32, float64 or an integer type"),
-        ("half.npy", npy(&c_order("<f2", "(2, 3)"), &six()), "elements of type <f2 are not heights"),
+        ("quadruple.npy", npy(&c_order("<f16", "(1, 3)"), &six()), "elements of type <f16 are not heights"),
         ("mask.npy", npy(&c_order("|b1", "(2, 3)"), &six()), "elements of type |b1 are not heights"),
         ("strings.npy", npy(&c_order("<U4", "(1, 3)"), &six()), "elements of type <U4 are not heights"),
         ("objects.npy", npy(&c_order("|O", "(1, 1)"), &six()), "elements of type |O are not heights"),
@@ -239,7 +242,16 @@ fn every_type_and_order_of_npy_gives_the_same_heights() {
                 .collect::<Vec<u8>>()
         };
     }
+    let half = |i: &u8| half::f16::from_f64(f64::from(*i));
     let kinds: Vec<(&str, Vec<u8>)> = vec![
+        (
+            "<f2",
+            stored.iter().flat_map(|i| half(i).to_le_bytes()).collect(),
+        ),
+        (
+            ">f2",
+            stored.iter().flat_map(|i| half(i).to_be_bytes()).collect(),
+        ),
         ("<f4", bytes!(f32, to_le_bytes)),
         (">f4", bytes!(f32, to_be_bytes)),
         ("<f8", bytes!(f64, to_le_bytes)),

@@ -5,8 +5,8 @@ set -e
 cargo build --release
 tabor=${CARGO_TARGET_DIR:-target}/release/tabor
 out=$(mktemp -d)
-keep() { # scene, step and field, name here
-    [ -d "$out/$1" ] || "$tabor" run "examples/scenes/$1.toml" --out "$out/$1" --quiet
+keep() { # scene, step and field, name here, more of the call
+    [ -d "$out/$1" ] || "$tabor" run "examples/scenes/$1.toml" --out "$out/$1" --quiet $4
     cp "$out/$1/images/step_$2.png" "docs/pictures/$3.png"
 }
 keep rough 0009_pressure rough_pressure
@@ -19,4 +19,7 @@ keep cantilever 0041_pressure cantilever
 keep dmt 0004_pressure dmt
 keep coating 0016_pressure coating
 keep humid_tip 0011_pressure humid_tip
+keep patterned_punch 0055_pressure patterned_punch
+# On fewer points than the scene has, for a small picture.
+keep contact_challenge 0001_pressure contact_challenge "--set grid.points=512"
 rm -r "$out"

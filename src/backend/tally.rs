@@ -10,13 +10,49 @@ pub struct Held {
     pub name: &'static str,
     /// The level it lives on.
     pub level: Level,
-    /// Bytes in double precision.
+    /// Bytes in the place that is counted for.
     pub bytes: usize,
+}
+
+/// The place that is counted for.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Place {
+    /// The processor in double precision.
+    Double,
+    /// The processor in single precision.
+    Single,
+    /// A graphics processor in single precision.
+    Gpu,
+}
+
+impl Place {
+    /// Bytes of a number of its fields.
+    pub fn number(self) -> usize {
+        match self {
+            Place::Double => size_of::<f64>(),
+            Place::Single | Place::Gpu => size_of::<f32>(),
+        }
+    }
+
+    /// Bytes of the work space of a level's transforms.
+    fn work(self, shape: Shape) -> usize {
+        let [nx, ny] = shape.points;
+        match self {
+            // Once by rows and once by columns, complex.
+            Place::Double | Place::Single => {
+                let tiles = (nx / 2 + 1).div_ceil(TILE) * ny.div_ceil(TILE);
+                2 * tiles * TILE * TILE * 2 * self.number()
+            }
+            // Half as many complex numbers as points.
+            Place::Gpu => shape.len() * self.number(),
+        }
+    }
 }
 
 /// Counts what a solver asks of a backend.
 #[derive(Debug)]
 pub struct Tally {
+    place: Place,
     /// Levels and their shapes.
     pub levels: Vec<Shape>,
     /// Fields, in the order in which they were made.
@@ -43,9 +79,15 @@ impl Default for Tally {
 }
 
 impl Tally {
-    /// A tally of nothing yet.
+    /// A tally of nothing yet, for the processor in double precision.
     pub fn new() -> Self {
+        Tally::on(Place::Double)
+    }
+
+    /// A tally of nothing yet, for this place.
+    pub fn on(place: Place) -> Self {
         Tally {
+            place,
             levels: Vec::new(),
             fields: Vec::new(),
             spectra: Vec::new(),
@@ -76,19 +118,17 @@ impl Tally {
 impl Backend for Tally {
     fn level(&mut self, name: &'static str, shape: Shape) -> Level {
         let level = Level(self.levels.len());
-        let [nx, ny] = shape.points;
-        let tiles = (nx / 2 + 1).div_ceil(TILE) * ny.div_ceil(TILE);
         self.levels.push(shape);
         self.work.push(Held {
             name,
             level,
-            bytes: 2 * tiles * TILE * TILE * 2 * size_of::<f64>(),
+            bytes: self.place.work(shape),
         });
         level
     }
 
     fn field(&mut self, level: Level, name: &'static str) -> Field {
-        let bytes = self.levels[level.0].len() * size_of::<f64>();
+        let bytes = self.levels[level.0].len() * self.place.number();
         self.fields.push(Held { name, level, bytes });
         Field {
             level,
@@ -97,7 +137,7 @@ impl Backend for Tally {
     }
 
     fn spectrum(&mut self, level: Level, name: &'static str, _values: &[f64]) -> Spectrum {
-        let bytes = self.levels[level.0].spectrum_len() * size_of::<f64>();
+        let bytes = self.levels[level.0].spectrum_len() * self.place.number();
         self.spectra.push(Held { name, level, bytes });
         Spectrum {
             level,

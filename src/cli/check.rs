@@ -1,47 +1,48 @@
 //! `tabor check`: what a scene would do and cost.
 
-use std::io::Write;
-
 use super::machine::refuse_size;
-use super::{CheckArguments, Failure, read_scene};
+use super::{CheckArguments, Failure, print, read_scene, room};
+use crate::backend::tally::Place;
 use crate::effect::Effect;
-use crate::scene::BackendName;
-use crate::study::{Cost, Setup};
-use crate::surface::Surface;
+use crate::study::{Cost, Memory, Plan};
+use crate::surface::Source;
 use crate::units::format_si;
 
 /// Reads and validates a scene and prints what it found.
 pub(super) fn check(arguments: &CheckArguments) -> Result<(), Failure> {
     let scene = read_scene(&arguments.scene, &arguments.set)?;
-    let surface = Surface::build(&scene).map_err(|error| Failure::Surface {
+    room::refuse_files(&scene)?;
+    let plan = Plan::of(scene).map_err(|error| Failure::Surface {
         path: arguments.scene.clone(),
         error,
     })?;
-    let setup = Setup::new(scene, surface);
-    if setup.scene.solver.backend == BackendName::Gpu {
-        refuse_size(&setup)?;
+    let place = Place::of(&plan.scene);
+    let cost = plan.cost(place)?;
+    if place == Place::Gpu {
+        refuse_size(cost.points)?;
     }
-    let text = describe(&setup)?;
-    let mut out = std::io::stdout().lock();
-    out.write_all(text.as_bytes())
-        .and_then(|()| out.flush())
-        .map_err(Failure::Print)?;
-    for warning in &setup.warnings {
+    let text = describe(&plan, &cost)?;
+    print(text.as_bytes())?;
+    for warning in &plan.warnings {
         eprintln!("warning: {warning}");
+    }
+    // A scene may be looked at here and run elsewhere.
+    if let Err(error) = room::refuse(&plan.scene, plan.outline.grid) {
+        eprintln!("warning: {error}");
     }
     Ok(())
 }
 
-fn mebibytes(bytes: f64) -> String {
-    format!("{:.1} MiB", bytes / f64::from(1 << 20))
+fn mebibytes(bytes: u64) -> String {
+    format!("{:.1} MiB", bytes as f64 / f64::from(1 << 20))
 }
 
 /// The report, line by line.
-fn describe(setup: &Setup) -> Result<String, Failure> {
-    let scene = &setup.scene;
-    let grid = setup.surface.grid;
-    let moments = setup.statistics.moments;
-    let cost = Cost::of(setup)?;
+fn describe(plan: &Plan, cost: &Cost) -> Result<String, Failure> {
+    let scene = &plan.scene;
+    let grid = plan.outline.grid;
+    let moments = plan.outline.moments;
+    let memory = Memory::of(scene, grid, cost);
     let mut lines = vec![
         format!(
             "grid          {} x {} points, {} x {}, {} boundary",
@@ -56,10 +57,15 @@ fn describe(setup: &Setup) -> Result<String, Failure> {
             format_si(scene.solid.contact_modulus, "Pa")
         ),
         format!(
-            "surface       rms height {}, rms slope {:.3e}, rms curvature {:.3e} 1/m",
+            "surface       rms height {}, rms slope {:.3e}, rms curvature {:.3e} 1/m ({})",
             format_si(moments.rms_height(), "m"),
             moments.rms_slope(),
-            moments.rms_curvature()
+            moments.rms_curvature(),
+            match plan.outline.source {
+                Source::Heights => "of the heights",
+                Source::Spectrum => "of the spectrum on this grid",
+                Source::Estimate => "estimated without the heights",
+            }
         ),
         format!(
             "loading       {}, {} steps",
@@ -67,22 +73,22 @@ fn describe(setup: &Setup) -> Result<String, Failure> {
             scene.loading.path.len()
         ),
     ];
-    if let Some(pixels) = setup.pixels_a_wave() {
+    if let Some(pixels) = plan.pixels_a_wave() {
         lines.push(format!(
             "waves         {pixels:.1} pixels across the shortest"
         ));
     }
-    if let Some(regime) = &setup.regime {
+    if let Some(regime) = &plan.regime {
         lines.push(format!(
             "law           {}: work of adhesion {}, range {}, peak tension {}{}",
             scene
                 .adhesion
                 .as_ref()
                 .map_or("", |adhesion| adhesion.law.name()),
-            format_si(setup.law.work_of_adhesion(), "J/m^2"),
-            format_si(setup.law.range(), "m"),
-            format_si(setup.law.peak_tension(), "Pa"),
-            match setup.law {
+            format_si(plan.law.work_of_adhesion(), "J/m^2"),
+            format_si(plan.law.range(), "m"),
+            format_si(plan.law.peak_tension(), "Pa"),
+            match plan.law {
                 crate::law::Law::MaugisDugdale(law) if law.taper > 0.0 =>
                     format!(", taper {}", format_si(law.taper, "m")),
                 _ => String::new(),
@@ -104,11 +110,24 @@ fn describe(setup: &Setup) -> Result<String, Failure> {
         ));
     }
     lines.push(format!(
-        "memory        {} in {} fields, {} tables and the transforms' work space; heights {}",
-        mebibytes(cost.bytes() as f64),
+        "memory        {} at most on this machine{}",
+        mebibytes(memory.machine),
+        if memory.adapter > 0 {
+            format!(", {} on the adapter", mebibytes(memory.adapter))
+        } else {
+            String::new()
+        }
+    ));
+    lines.push(format!(
+        "solver        {} in {} fields, {} tables and the transforms' work space, in {}",
+        mebibytes(memory.solver),
         cost.fields.len(),
         cost.spectra.len(),
-        mebibytes((grid.len() * size_of::<f64>()) as f64)
+        match cost.place {
+            Place::Double => "double precision",
+            Place::Single => "single precision",
+            Place::Gpu => "single precision on the GPU",
+        }
     ));
     lines.push(format!(
         "fields        {}",
@@ -131,14 +150,14 @@ fn describe(setup: &Setup) -> Result<String, Failure> {
             effect.name(),
             effect.purpose()
         ));
-        lines.push(format!("              {}", effect.matters(setup)));
-        let found = effect.cost(setup)?;
+        lines.push(format!("              {}", effect.matters(plan)));
+        let found = effect.cost(scene, cost, grid)?;
         lines.push(format!(
             "              fields {}; passes {}; {}{}",
             change(&found.fields_added, &found.fields_spared),
             change(&found.passes_added, &found.passes_spared),
             if found.bytes < 0 { "-" } else { "+" },
-            mebibytes(found.bytes.unsigned_abs() as f64)
+            mebibytes(u64::try_from(found.bytes.unsigned_abs()).unwrap_or(u64::MAX))
         ));
     }
     lines.push(String::new());

@@ -1,5 +1,6 @@
 //! Keeps each step of a run as it ends: row, fields, pictures, state, report.
 
+use std::borrow::Cow;
 use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, Ordering};
 use std::time::{Duration, Instant};
@@ -185,7 +186,7 @@ impl<'a> Keeper<'a> {
             warnings: self.warnings.clone(),
             // What a relaxing solid remembers is known in double precision.
             single: self.single() && self.setup.scene.solid.relaxation.is_empty(),
-            hand_over: state.clone(),
+            hand_over: Cow::Borrowed(state),
         }
         .write(&self.folder.state_path(STATE))?;
         self.committed = step;

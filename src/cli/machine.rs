@@ -6,7 +6,7 @@ use crate::backend::cpu::CpuBackend;
 use crate::backend::gpu::{
     AdapterChoice, AdapterDescription, GpuBackend, GpuDevice, adapters, radices,
 };
-use crate::scene::{BackendName, Precision};
+use crate::scene::{BackendName, Boundary, Precision};
 use crate::study::Setup;
 
 /// What a run computes on.
@@ -30,13 +30,14 @@ impl Machine {
         let (place, remark) = match settings.backend {
             BackendName::Cpu => (Place::Processor, None),
             BackendName::Gpu => {
-                refuse_size(setup)?;
+                refuse_size(setup.problem.shape.points)?;
                 let device = GpuDevice::new(&AdapterChoice {
                     software: true,
                     ..AdapterChoice::default()
                 })
                 .map_err(Failure::Gpu)?;
                 let found = device.description();
+                refuse_limits(setup, found)?;
                 let remark = found.software().then(|| {
                     format!(
                         "on {}, which is software on the processor: --backend cpu is faster",
@@ -112,7 +113,8 @@ fn auto(setup: &Setup, precision: Precision) -> (Place, Option<String>) {
         let remark = format!("on the processor, not on {}: {why}", best.name);
         (Place::Processor, Some(remark))
     };
-    if let Err(error) = refuse_size(setup) {
+    let fits = refuse_size(setup.problem.shape.points).and_then(|()| refuse_limits(setup, best));
+    if let Err(error) = fits {
         return stays(error.to_string());
     }
     match GpuDevice::new(&AdapterChoice::default()) {
@@ -135,9 +137,25 @@ pub(super) fn best(found: &[AdapterDescription]) -> Option<&AdapterDescription> 
         .min_by_key(|adapter| adapter.kind)
 }
 
-/// Refuses grids that have no transform on a graphics processor.
-pub(super) fn refuse_size(setup: &Setup) -> Result<(), Failure> {
-    let points = setup.problem.shape.points;
+/// Refuses grids that are past what an adapter transforms and binds.
+fn refuse_limits(setup: &Setup, adapter: &AdapterDescription) -> Result<(), Failure> {
+    let shape = setup.problem.shape;
+    let largest = adapter.largest_side();
+    if shape.points.into_iter().all(|points| points <= largest) {
+        return Ok(());
+    }
+    let side = match setup.scene.grid.boundary {
+        Boundary::Periodic => largest,
+        Boundary::Free => largest / 2,
+    };
+    Err(Failure::Usage(format!(
+        "grid.points: {} x {} points are past the limits of {}, which takes up to {side} x {side} here: take fewer points, or --backend cpu",
+        shape.surface[0], shape.surface[1], adapter.name
+    )))
+}
+
+/// Refuses solved points that have no transform on a graphics processor.
+pub(super) fn refuse_size(points: [usize; 2]) -> Result<(), Failure> {
     let is_good = |points: usize| radices(points).is_some();
     if points.into_iter().all(is_good) {
         return Ok(());

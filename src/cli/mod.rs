@@ -2,14 +2,18 @@
 
 mod check;
 mod devices;
+mod fit;
 mod keeper;
 mod machine;
 mod opening;
+mod room;
 mod run;
+mod shell;
+mod surface;
 mod table;
 mod theory;
 
-use std::io::{Write, stderr};
+use std::io::Write;
 use std::path::PathBuf;
 use std::process::ExitCode;
 
@@ -17,6 +21,7 @@ use clap::{Args, Parser, Subcommand, ValueEnum};
 
 use crate::backend::BackendError;
 use crate::backend::gpu::GpuError;
+use crate::fit::FitError;
 use crate::output::OutputError;
 use crate::scene::{BackendName, Precision, Scene, SceneErrors};
 use crate::surface::SurfaceError;
@@ -43,8 +48,11 @@ enum Command {
     /// Read a scene and say what it would do and cost, without solving it
     #[command(after_help = "Example:\n  tabor check examples/scenes/rough.toml")]
     Check(CheckArguments),
-    /// Statistics of a surface (not in this version)
-    Surface(Later),
+    /// Statistics of a scene's surface or of a height file, and the self-affine surface like it
+    #[command(
+        after_help = "Prints a table that is also the beginning of a scene, and writes heights.png, psd.png, psd.csv and scene.toml.\n\nExample:\n  tabor surface examples/scenes/ground.toml --out ground_surface\n  tabor surface map.gwy --detrend plane > scene.toml"
+    )]
+    Surface(surface::SurfaceArguments),
     /// Tabulate an analytic model as CSV; alone, list the models with their parameters
     #[command(
         disable_help_flag = true,
@@ -56,11 +64,28 @@ enum Command {
     Compare(Later),
     /// Error against seconds (not in this version)
     Accuracy(Later),
-    /// Work of adhesion and modulus from a force curve (not in this version)
-    Fit(Later),
+    /// Work of adhesion and modulus from a force curve of a sphere
+    #[command(
+        after_help = "The curve has columns approach (positive closer) and force (positive in compression), in SI or\nwith the unit in the head: `approach [nm], force [nN]`. More in docs/fit.md.\n\nExamples:\n  tabor fit examples/force_curve.csv --radius \"10 um\" --out fit\n  tabor fit --radius \"10 um\" --pull-off \"2 uN\" --stiffness \"30 N/m\""
+    )]
+    Fit(fit::FitArguments),
     /// Adapters found, what each can do, and which one `auto` takes
     #[command(after_help = "Example:\n  tabor devices")]
     Devices,
+    /// Print the completions of a shell
+    #[command(
+        after_help = "Example:\n  tabor completions bash > ~/.local/share/bash-completion/completions/tabor"
+    )]
+    Completions {
+        /// The shell
+        shell: clap_complete::Shell,
+    },
+    /// Print the man page, or write one a command into a folder
+    #[command(after_help = "Example:\n  tabor man | man -l -\n  tabor man ~/.local/share/man/man1")]
+    Man {
+        /// Folder for the pages
+        folder: Option<PathBuf>,
+    },
 }
 
 #[derive(Debug, Args)]
@@ -194,6 +219,27 @@ enum Failure {
     Backend(#[from] BackendError),
     #[error("the GPU cannot be used: {0}; --backend cpu does without")]
     Gpu(GpuError),
+    #[error(
+        "grid.points: {} x {} points need {} of memory and there are {}; {}",
+        points[0], points[1], gibibytes(*needed), gibibytes(*available), smaller(*largest, *single, *available)
+    )]
+    Memory {
+        points: [usize; 2],
+        needed: u64,
+        available: u64,
+        /// The largest grid of this shape that fits.
+        largest: Option<[usize; 2]>,
+        /// Bytes in single precision, where the scene leaves the choice.
+        single: Option<u64>,
+    },
+    #[error(
+        "{}: {} of heights are more than the memory, {}; take a coarser map", path.display(), gibibytes(*length), gibibytes(*available)
+    )]
+    FileMemory {
+        path: PathBuf,
+        length: u64,
+        available: u64,
+    },
     #[error("{0}")]
     Usage(String),
     #[error(
@@ -209,9 +255,30 @@ enum Failure {
     #[error("interrupted after {finished} of {steps} steps")]
     Interrupted { finished: usize, steps: usize },
     #[error(transparent)]
+    Fit(#[from] FitError),
+    #[error(transparent)]
     Theory(#[from] TheoryError),
     #[error("cannot print: {0}")]
     Print(std::io::Error),
+}
+
+/// Bytes for people.
+fn gibibytes(bytes: u64) -> String {
+    format!("{:.2} GiB", bytes as f64 / f64::from(1 << 30))
+}
+
+/// The ways out of a grid that the memory does not hold.
+fn smaller(largest: Option<[usize; 2]>, single: Option<u64>, available: u64) -> String {
+    let fewer = match largest {
+        Some([nx, ny]) => format!("take at most {nx} x {ny} points"),
+        None => "no grid of this shape fits".to_owned(),
+    };
+    match single {
+        Some(needed) if needed <= available => {
+            format!("{fewer}, or --precision single ({})", gibibytes(needed))
+        }
+        _ => fewer,
+    }
 }
 
 impl Failure {
@@ -220,8 +287,11 @@ impl Failure {
             Failure::Output(OutputError::Refused { .. }) => 2,
             Failure::Output(_) | Failure::Print(_) => 1,
             Failure::Scene(_) | Failure::Surface { .. } | Failure::Usage(_) => 2,
-            Failure::NotConverged { .. } | Failure::Theory(TheoryError::NotConverged { .. }) => 3,
-            Failure::Theory(_) => 2,
+            Failure::Memory { .. } | Failure::FileMemory { .. } => 2,
+            Failure::NotConverged { .. }
+            | Failure::Theory(TheoryError::NotConverged { .. })
+            | Failure::Fit(FitError::Theory(TheoryError::NotConverged { .. })) => 3,
+            Failure::Theory(_) | Failure::Fit(_) => 2,
             Failure::Backend(_) | Failure::Gpu(_) => 4,
             Failure::Interrupted { .. } => 130,
         }
@@ -235,18 +305,22 @@ pub fn main() -> ExitCode {
     let done = match arguments.command {
         Command::Run(arguments) => run::run(&arguments),
         Command::Check(arguments) => check::check(&arguments),
-        Command::Surface(later) => not_in_this_version("surface", &later),
+        Command::Surface(arguments) => surface::surface(&arguments),
         Command::Theory(arguments) => theory::theory(&arguments),
         Command::Compare(later) => not_in_this_version("compare", &later),
         Command::Accuracy(later) => not_in_this_version("accuracy", &later),
-        Command::Fit(later) => not_in_this_version("fit", &later),
+        Command::Fit(arguments) => fit::fit(&arguments),
         Command::Devices => devices::devices(),
+        Command::Completions { shell } => shell::completions(shell),
+        Command::Man { folder } => shell::man(folder.as_deref()),
     };
     match done {
         Ok(()) => ExitCode::SUCCESS,
         Err(failure) => {
+            // Red on a terminal; plain elsewhere, and with NO_COLOR.
+            let red = anstyle::AnsiColor::Red.on_default().bold();
             for line in failure.to_string().lines() {
-                say(&format!("error: {line}"));
+                say(&format!("{red}error:{red:#} {line}"));
             }
             ExitCode::from(failure.status())
         }
@@ -255,13 +329,21 @@ pub fn main() -> ExitCode {
 
 /// Prints a line on standard error. Where that is closed nobody is there to be told.
 fn say(line: &str) {
-    let _ = writeln!(stderr(), "{line}");
+    let _ = writeln!(anstream::stderr(), "{line}");
 }
 
 fn not_in_this_version(command: &str, _: &Later) -> Result<(), Failure> {
     Err(Failure::Usage(format!(
-        "tabor {command} is not in this version; this one has run, check, theory and devices"
+        "tabor {command} is not in this version; this one has run, check, surface, theory, fit and devices"
     )))
+}
+
+/// Writes to standard output.
+fn print(bytes: &[u8]) -> Result<(), Failure> {
+    let mut out = std::io::stdout().lock();
+    out.write_all(bytes)
+        .and_then(|()| out.flush())
+        .map_err(Failure::Print)
 }
 
 /// Reads a scene with its overrides.

@@ -1,5 +1,6 @@
 //! The folder of a run, opened at its first step or after the last finished one.
 
+use std::borrow::Cow;
 use std::path::Path;
 
 use super::Failure;
@@ -67,7 +68,7 @@ pub(super) fn open(
         curve: curve.checksum(),
         warnings: Vec::new(),
         single: machine.precision() == Precision::Single && setup.scene.solid.relaxation.is_empty(),
-        hand_over: HandOver::default(),
+        hand_over: Cow::Owned(HandOver::default()),
     }
     .write(&folder.state_path(STATE))?;
     let fresh = format!("{}: nothing to resume, starts at step 1", path.display());
@@ -125,7 +126,17 @@ fn go_on(
         .get(state.finished)
         .is_some_and(|row| !row.converged);
     let now = solver(&setup.scene);
-    if state.solver != now && state.finished > 0 && !failed {
+    // Other words for the same place and arithmetic change nothing.
+    let said = |solver: &serde_json::Value| {
+        let mut solver = solver.clone();
+        if let Some(table) = solver.as_object_mut()
+            && state.machine == machine.words()
+        {
+            table.retain(|key, _| key != "backend" && key != "precision");
+        }
+        solver
+    };
+    if said(&state.solver) != said(&now) && state.finished > 0 && !failed {
         return refuse(format!(
             "was solved with [solver] {}, and here it is {now}: it may change only where a step did not converge; put it back, or run without --resume to start afresh",
             state.solver
@@ -155,7 +166,7 @@ fn go_on(
         curve,
         earlier: Earlier {
             rows,
-            hand_over: state.hand_over,
+            hand_over: state.hand_over.into_owned(),
         },
         warnings,
         remarks,

@@ -8,7 +8,7 @@ use std::time::Instant;
 use super::keeper::Keeper;
 use super::machine::Machine;
 use super::opening::{Opening, open};
-use super::{Failure, RunArguments, read_scene, say, table};
+use super::{Failure, RunArguments, read_scene, room, say, table};
 use crate::backend::cpu::with_threads;
 use crate::effect::Effect;
 use crate::output::{Effects, Progress, Seconds, Summary, peak_memory_bytes};
@@ -22,10 +22,13 @@ pub(super) fn run(arguments: &RunArguments) -> Result<(), Failure> {
     let scene = read_scene(&arguments.scene, &arguments.overrides())?;
     seconds.add("scene", clock.elapsed().as_secs_f64());
     let clock = Instant::now();
+    room::refuse_scene(&scene)?;
     let surface = Surface::build(&scene).map_err(|error| Failure::Surface {
         path: arguments.scene.clone(),
         error,
     })?;
+    // Of a grid that a height file carries.
+    room::refuse(&scene, surface.grid)?;
     let setup = Setup::new(scene, surface);
     seconds.add("surface", clock.elapsed().as_secs_f64());
     let clock = Instant::now();

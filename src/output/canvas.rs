@@ -7,13 +7,13 @@ use super::layout::Rect;
 use super::palette::Rgb;
 
 /// The page.
-pub(super) const WHITE: Rgb = [255, 255, 255];
+pub(crate) const WHITE: Rgb = [255, 255, 255];
 /// Text, ticks and the scale bar.
-pub(super) const INK: Rgb = [28, 28, 30];
+pub(crate) const INK: Rgb = [28, 28, 30];
 /// Text that stands back.
-pub(super) const QUIET_INK: Rgb = [100, 100, 104];
+pub(crate) const QUIET_INK: Rgb = [100, 100, 104];
 /// Frames.
-pub(super) const FRAME: Rgb = [150, 150, 154];
+pub(crate) const FRAME: Rgb = [150, 150, 154];
 
 /// A size and weight of the one typeface, whose glyphs all have the same width.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -62,7 +62,7 @@ impl TextLine {
 }
 
 /// `text` in characters that the typeface has (Latin-1); others become a near one or `?`.
-pub(super) fn printable(text: &str) -> String {
+pub(crate) fn printable(text: &str) -> String {
     text.chars()
         .map(|character| match character {
             '\u{2010}'..='\u{2015}' | '\u{2212}' => '-',
@@ -79,7 +79,7 @@ pub(super) fn printable(text: &str) -> String {
 }
 
 /// Fills a rectangle, as far as it lies on the page.
-pub(super) fn fill(page: &mut RgbImage, rect: Rect, colour: Rgb) {
+pub(crate) fn fill(page: &mut RgbImage, rect: Rect, colour: Rgb) {
     for y in rect.y..rect.bottom().min(page.height()) {
         for x in rect.x..rect.right().min(page.width()) {
             page.put_pixel(x, y, image::Rgb(colour));
@@ -88,7 +88,7 @@ pub(super) fn fill(page: &mut RgbImage, rect: Rect, colour: Rgb) {
 }
 
 /// Draws a line one pixel wide around a rectangle, just outside it.
-pub(super) fn frame(page: &mut RgbImage, rect: Rect, colour: Rgb) {
+pub(crate) fn frame(page: &mut RgbImage, rect: Rect, colour: Rgb) {
     let outer = Rect {
         x: rect.x.saturating_sub(1),
         y: rect.y.saturating_sub(1),
@@ -108,7 +108,7 @@ pub(super) fn frame(page: &mut RgbImage, rect: Rect, colour: Rgb) {
 }
 
 /// Draws a line of text in `ink` on the page.
-pub(super) fn write(page: &mut RgbImage, line: &TextLine, ink: Rgb) {
+pub(crate) fn write(page: &mut RgbImage, line: &TextLine, ink: Rgb) {
     let advance = line.font.advance();
     for (index, character) in line.text.chars().enumerate() {
         let Some(glyph) = get_raster(character, line.font.weight, line.font.size) else {

@@ -137,7 +137,7 @@ fn end_label(value: f64, span: f64) -> String {
 }
 
 /// Multiples of a round step strictly between `low` and `high`, at most `most` of them, with labels.
-pub(super) fn round_values(low: f64, high: f64, most: usize) -> Vec<(f64, String)> {
+pub(crate) fn round_values(low: f64, high: f64, most: usize) -> Vec<(f64, String)> {
     let step = round_up((high - low) / (most + 1) as f64);
     let decimals = -decimal_exponent(step, 1);
     let first = (low / step).floor() as i64;

@@ -4,7 +4,7 @@
 //! compression. Files that are written whole appear under their name only when they are complete;
 //! `curve.csv` alone grows, a row a step.
 
-mod canvas;
+pub(crate) mod canvas;
 pub mod chart;
 pub mod colour_scale;
 pub mod curve;
@@ -19,7 +19,8 @@ mod png_text;
 pub mod progress;
 pub mod report;
 mod resample;
-mod si;
+pub(crate) mod si;
+pub mod spectrum_plot;
 pub mod state;
 pub mod summary;
 pub mod volume;
@@ -31,6 +32,7 @@ pub use fields::{write_field, write_field_single};
 pub use folder::{RunFolder, write_atomically};
 pub use picture::{Load, Picture, Snapshot, write_picture};
 pub use progress::Progress;
+pub use spectrum_plot::SpectrumPlot;
 pub use state::SavedState;
 pub use summary::{Effects, Seconds, Summary, peak_memory_bytes};
 pub use volume::write_volume;

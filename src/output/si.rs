@@ -16,7 +16,7 @@ const PREFIXES: [(i32, &str); 10] = [
 
 /// The factor and the name of a unit that suits a value, such as 1e-6 and "µm".
 #[derive(Clone, Debug, PartialEq)]
-pub(super) struct ScaledUnit {
+pub(crate) struct ScaledUnit {
     /// SI units in one of these.
     pub factor: f64,
     /// Prefix and unit.
@@ -24,7 +24,7 @@ pub(super) struct ScaledUnit {
 }
 
 /// The prefixed `unit` in which `value` lies between 1 and 1000, as far as prefixes reach.
-pub(super) fn scaled_unit(value: f64, unit: &str) -> ScaledUnit {
+pub(crate) fn scaled_unit(value: f64, unit: &str) -> ScaledUnit {
     let digits = if value == 0.0 || !value.is_finite() {
         0
     } else {

@@ -5,6 +5,7 @@
 //! of everything before it. The numbers are kept as the backend has them: in 32 bits where it
 //! computes in 32.
 
+use std::borrow::Cow;
 use std::fs;
 use std::io;
 use std::path::Path;
@@ -25,7 +26,7 @@ const CHECKSUM_BYTES: usize = 4;
 
 /// A run as it stands after its last finished step.
 #[derive(Clone, Debug, PartialEq)]
-pub struct SavedState {
+pub struct SavedState<'a> {
     /// What identifies the scene.
     pub scene: String,
     /// `[solver]` of the scene, as resolved.
@@ -41,7 +42,7 @@ pub struct SavedState {
     /// Whether fields are known in single precision only.
     pub single: bool,
     /// What the next step starts from.
-    pub hand_over: HandOver,
+    pub hand_over: Cow<'a, HandOver>,
 }
 
 /// The JSON head.
@@ -65,7 +66,7 @@ struct Head {
     points: Option<usize>,
 }
 
-impl SavedState {
+impl SavedState<'_> {
     /// Writes the state to `path`, whole or not at all.
     pub fn write(&self, path: &Path) -> Result<(), OutputError> {
         let bytes = self
@@ -122,7 +123,7 @@ impl SavedState {
     ///
     /// # Errors
     /// Refused where the file is damaged, or of another version of tabor.
-    pub fn read(path: &Path) -> Result<Option<SavedState>, OutputError> {
+    pub fn read(path: &Path) -> Result<Option<SavedState<'static>>, OutputError> {
         match fs::read(path) {
             Ok(bytes) => decode(&bytes)
                 .map(Some)
@@ -134,7 +135,7 @@ impl SavedState {
 }
 
 /// The state in `bytes`, or why there is none in it and the way out.
-fn decode(bytes: &[u8]) -> Result<SavedState, String> {
+fn decode(bytes: &[u8]) -> Result<SavedState<'static>, String> {
     const FRESH: &str = "run without --resume to start afresh";
     let damaged = || format!("is damaged; {FRESH}");
     let content = bytes.strip_prefix(FORM).ok_or_else(|| {
@@ -193,13 +194,13 @@ fn decode(bytes: &[u8]) -> Result<SavedState, String> {
         curve: head.curve,
         warnings: head.warnings,
         single: head.single,
-        hand_over: HandOver {
+        hand_over: Cow::Owned(HandOver {
             fields,
             points,
             jump_in_steps: head.jump_in_steps,
             jump_off_steps: head.jump_off_steps,
             transforms: head.transforms.parse().map_err(|_| damaged())?,
-        },
+        }),
     })
 }
 
@@ -213,7 +214,7 @@ fn numbers<const N: usize>(bytes: &[u8], number: impl Fn([u8; N]) -> f64) -> Vec
 mod tests {
     use super::*;
 
-    fn state(single: bool) -> SavedState {
+    fn state(single: bool) -> SavedState<'static> {
         let values = vec![0.1, -0.0, f64::MIN_POSITIVE, 1e300, f64::INFINITY];
         let values = match single {
             true => values.iter().map(|v| f64::from(*v as f32)).collect(),
@@ -227,7 +228,7 @@ mod tests {
             curve: 0xdead_beef,
             warnings: vec!["step 2 is separated".into()],
             single,
-            hand_over: HandOver {
+            hand_over: Cow::Owned(HandOver {
                 fields: vec![HandedField {
                     name: "gap".into(),
                     values,
@@ -240,7 +241,7 @@ mod tests {
                 jump_in_steps: vec![2],
                 jump_off_steps: vec![],
                 transforms: 1234.5625,
-            },
+            }),
         }
     }
 

@@ -5,7 +5,7 @@ use std::path::Path;
 use super::document::Value;
 use super::keys;
 use super::mistake::SceneError;
-use super::reader::{Allowed, Reader};
+use super::reader::{Allowed, Reader, is_sane};
 use super::types::{
     AdhesionMap, AdhesionScene, Boundary, GridScene, LawName, PatternKind, Range, Treatment,
 };
@@ -195,13 +195,14 @@ fn numbers(adhesion: &Reader, law: Option<LawName>) -> Option<(f64, Range)> {
 
 /// Whether the number that follows from two others is one to compute with.
 fn is_normal(adhesion: &Reader, derived: f64) -> bool {
-    if !derived.is_normal() {
+    let normal = derived > 0.0 && is_sane(derived);
+    if !normal {
         adhesion.conflict(
             "peak_tension",
             format!("makes the third number of the law {derived:e}; check the powers of ten"),
         );
     }
-    derived.is_normal()
+    normal
 }
 
 /// `peak_tension * range / work_of_adhesion` of a law.

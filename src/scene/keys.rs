@@ -100,19 +100,17 @@ const UNIT: (&str, &str) = ("unit", "unit = \"nm\"");
 const SCALE: (&str, &str) = ("scale", "scale = 1.0");
 const DETREND: (&str, &str) = ("detrend", "detrend = \"plane\"");
 const FILL: (&str, &str) = ("fill", "fill = \"interpolate\"");
-const GREY_IMAGE: &[(&str, &str)] = &[
-    ("black", "heights from a grey image"),
-    ("white", "heights from a grey image"),
-];
+const BLACK: (&str, &str) = ("black", "black = 0.0");
+const WHITE: (&str, &str) = ("white", "white = \"1 um\"");
 
 /// A `[[surface]]` whose kind cannot be told: the keys of every kind.
 pub(super) const SURFACE: Section = Section {
     title: "[[surface]]",
     keys: &[
         KIND, HURST, RMS_HEIGHT, RMS_SLOPE, LONGEST, ROLLOFF, SHORTEST, SEED, RADIUS, HALF_ANGLE,
-        CENTRE, AMPLITUDE, WAVELENGTH, PATH, UNIT, SCALE, DETREND, FILL,
+        CENTRE, AMPLITUDE, WAVELENGTH, PATH, UNIT, SCALE, BLACK, WHITE, DETREND, FILL,
     ],
-    later: GREY_IMAGE,
+    later: &[],
 };
 
 pub(super) const SELF_AFFINE: Section = Section {
@@ -149,8 +147,8 @@ pub(super) const FLAT: Section = Section {
 
 pub(super) const FILE: Section = Section {
     title: "a file [[surface]]",
-    keys: &[KIND, PATH, UNIT, SCALE, DETREND, FILL],
-    later: GREY_IMAGE,
+    keys: &[KIND, PATH, UNIT, SCALE, BLACK, WHITE, DETREND, FILL],
+    later: &[],
 };
 
 pub(super) const ADHESION: Section = Section {

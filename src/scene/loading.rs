@@ -240,13 +240,6 @@ fn ramps(loading: &Reader, value: Option<&PathValue>) -> Option<TimedPath> {
         durations.resize(path.len(), duration);
         from = to;
     }
-    if path.iter().any(|value| !value.is_finite()) {
-        loading.conflict(
-            "ramp",
-            "spans more than a number can hold; check the powers of ten",
-        );
-        return None;
-    }
     Some(TimedPath {
         path,
         durations: timed.then_some(durations),

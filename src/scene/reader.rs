@@ -71,6 +71,17 @@ impl Allowed {
     pub const NOT_NEGATIVE: Allowed = Allowed::new(|value| value >= 0.0, "finite and at least 0");
 }
 
+/// Least and largest magnitude of a number other than 0, in SI units: far beyond anything that two
+/// surfaces do, and such that products of several of them are numbers still.
+const SANE: [f64; 2] = [1e-30, 1e30];
+/// [`SANE`] in words.
+const SANE_WORDS: &str = "0 or between 1e-30 and 1e30 in SI units; check the powers of ten";
+
+/// Whether a number has a magnitude that one can compute with.
+pub(super) fn is_sane(value: f64) -> bool {
+    value == 0.0 || (SANE[0]..=SANE[1]).contains(&value.abs())
+}
+
 /// How a bare number becomes SI, and a text with a unit.
 fn quantity_of(node: &Node, dimension: Dimension) -> Option<Result<f64, UnitError>> {
     let number = |value| match dimension {
@@ -255,11 +266,15 @@ impl<'a> Reader<'a> {
         allowed: Allowed,
     ) -> Option<f64> {
         match quantity_of(node, dimension) {
-            Some(Ok(value)) if value.is_finite() && (allowed.test)(value) => Some(value),
-            Some(Ok(_)) => {
+            Some(Ok(value)) if !value.is_finite() || !(allowed.test)(value) => {
                 self.out_of_range(node, name, allowed.words);
                 None
             }
+            Some(Ok(value)) if !is_sane(value) => {
+                self.out_of_range(node, name, SANE_WORDS);
+                None
+            }
+            Some(Ok(value)) => Some(value),
             Some(Err(error)) => {
                 self.report_at(node.place, name, error.into());
                 None

@@ -120,14 +120,18 @@ impl SurfacePart {
                 json!({ "kind": kind, "amplitude": amplitude, "wavelength": wavelength })
             }
             SurfacePart::Flat => json!({ "kind": kind }),
-            SurfacePart::File(part) => json!({
-                "kind": kind,
-                "path": part.path.to_string_lossy(),
-                "unit": part.unit,
-                "scale": part.scale,
-                "detrend": part.detrend.name(),
-                "fill": part.fill.name(),
-            }),
+            SurfacePart::File(part) => {
+                let table = json!({
+                    "kind": kind,
+                    "path": part.path.to_string_lossy(),
+                    "unit": part.unit,
+                    "scale": part.scale,
+                    "detrend": part.detrend.name(),
+                    "fill": part.fill.name(),
+                });
+                let table = with(table, "black", part.black.map(|height| json!(height)));
+                with(table, "white", part.white.map(|height| json!(height)))
+            }
         }
     }
 }

@@ -2,7 +2,7 @@
 
 use super::keys;
 use super::mistake::SceneError;
-use super::reader::{Allowed, Reader};
+use super::reader::{Allowed, Reader, is_sane};
 use super::types::{Boundary, RelaxationScene, SolidScene};
 use crate::elastic::{Base, Layer};
 use crate::units::Dimension;
@@ -71,7 +71,7 @@ pub(super) fn read(scene: &Reader, boundary: Option<Boundary>) -> Option<SolidSc
         compliance += plane_compliance(counter?, counter_ratio?);
     }
     let contact_modulus = 1.0 / compliance;
-    if !contact_modulus.is_normal() {
+    if !is_sane(contact_modulus) {
         solid.conflict(
             "young_modulus",
             format!("makes the contact modulus {contact_modulus:e} Pa; check the powers of ten"),

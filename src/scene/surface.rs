@@ -262,6 +262,21 @@ fn file(part: &Reader, folder: &Path) -> Option<SurfacePart> {
     } else {
         Some(1.0)
     };
+    let grey_end = |key: &str| match part.has(key) {
+        true => part
+            .quantity(key, Dimension::Length, Allowed::FINITE)
+            .map(Some),
+        false => Some(None),
+    };
+    let (black, white) = (grey_end("black"), grey_end("white"));
+    for (given, other) in [("black", "white"), ("white", "black")] {
+        if part.has(given) && !part.has(other) {
+            part.conflict(
+                given,
+                format!("stands without {other}; a grey image needs the heights of both"),
+            );
+        }
+    }
     let detrend = if part.has("detrend") {
         part.choice("detrend", Detrend::ALL, Detrend::name)
     } else {
@@ -276,6 +291,8 @@ fn file(part: &Reader, folder: &Path) -> Option<SurfacePart> {
         path: folder.join(path?),
         unit: unit?,
         scale: scale?,
+        black: black?,
+        white: white?,
         detrend: detrend?,
         fill: fill?,
     }))

@@ -155,6 +155,10 @@ pub struct HeightFileScene {
     pub unit: f64,
     /// Further factor on the heights.
     pub scale: f64,
+    /// Height of black in a grey image, m.
+    pub black: Option<f64>,
+    /// Height of white in a grey image, m.
+    pub white: Option<f64>,
     /// What to take off the heights.
     pub detrend: Detrend,
     /// What to do with missing pixels.

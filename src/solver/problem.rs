@@ -67,6 +67,17 @@ pub fn good_size(points: usize) -> usize {
     }
 }
 
+/// The points that are solved for: on a free boundary with a pad that keeps the images apart.
+fn solved_shape(grid: &Grid, boundary: Boundary) -> Shape {
+    match boundary {
+        Boundary::Periodic => Shape::whole(grid.nx, grid.ny),
+        Boundary::Free => Shape {
+            points: [good_size(2 * grid.nx - 1), good_size(2 * grid.ny - 1)],
+            surface: [grid.nx, grid.ny],
+        },
+    }
+}
+
 impl Problem {
     /// A problem from heights in metres (`[ny, nx]`, row-major), a contact modulus in Pa and a law
     /// in SI units.
@@ -99,13 +110,7 @@ impl Problem {
             Boundary::Periodic => mean,
             Boundary::Free => highest,
         };
-        let shape = match boundary {
-            Boundary::Periodic => Shape::whole(grid.nx, grid.ny),
-            Boundary::Free => Shape {
-                points: [good_size(2 * grid.nx - 1), good_size(2 * grid.ny - 1)],
-                surface: [grid.nx, grid.ny],
-            },
-        };
+        let shape = solved_shape(&grid, boundary);
         let stiffness = match boundary {
             Boundary::Periodic => periodic_stiffness(&grid, lateral, None),
             Boundary::Free => {
@@ -158,6 +163,41 @@ impl Problem {
             law: law.reduced(scales.length, scales.pressure),
             ..self.clone()
         }
+    }
+
+    /// A problem that has its shape and the kind of its law and no values: no heights, and a
+    /// stiffness of 1. A solver planned on it says what the problem costs, and cannot solve it.
+    ///
+    /// `mapped` tells whether the law has a map of factors.
+    pub fn sketch(
+        grid: Grid,
+        boundary: Boundary,
+        law: Law,
+        mapped: bool,
+        layer: Option<Layer>,
+    ) -> Self {
+        Problem {
+            grid,
+            boundary,
+            shape: solved_shape(&grid, boundary),
+            scales: Scales {
+                length: 1.0,
+                lateral: 1.0,
+                pressure: 1.0,
+            },
+            heights: Vec::new(),
+            height_origin: 0.0,
+            rms_slope: 0.0,
+            law,
+            stiffness: vec![1.0],
+            law_factor: mapped.then(Vec::new),
+            layer,
+        }
+    }
+
+    /// Whether it was made by [`Problem::sketch`].
+    pub fn is_sketch(&self) -> bool {
+        self.heights.is_empty()
     }
 
     /// The same problem without attraction.
@@ -247,7 +287,7 @@ impl Problem {
     pub fn padded(&self, values: &[f64], outside: f64) -> Vec<f64> {
         let [width, rows] = self.shape.points;
         let [nx, ny] = self.shape.surface;
-        if width == nx && rows == ny {
+        if width == nx && rows == ny || values.is_empty() {
             return values.to_vec();
         }
         let mut padded = vec![outside; width * rows];

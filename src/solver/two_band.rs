@@ -54,6 +54,9 @@ impl TwoBand {
         let level = backend.level("coarse", Shape::whole(grid.nx, grid.ny));
         let pixel = problem.scales.lateral;
         let tabulate = |value: &dyn Fn(f64) -> f64| -> Vec<f64> {
+            if problem.is_sketch() {
+                return Vec::new();
+            }
             (0..=grid.nx / 2)
                 .flat_map(|kx| (0..=grid.ny / 2).map(move |ky| (kx, ky)))
                 .map(|(kx, ky)| value(grid.wavenumber(kx, ky)))

@@ -2,7 +2,7 @@
 //! what the solver holds.
 
 use super::setup::Setup;
-use crate::scene::{Boundary, Control};
+use crate::scene::{Boundary, Control, LoadingScene};
 use crate::solver::{ContactSolver, Hold, Load, Problem};
 
 /// Rigid positions and total load of a solved state, SI.
@@ -30,11 +30,18 @@ pub struct Controller<'s> {
 impl<'s> Controller<'s> {
     /// The controller of a scene for one of its problems (with or without its law).
     pub fn new(setup: &Setup, problem: &'s Problem) -> Self {
+        let highest = setup.surface.highest - problem.height_origin;
+        Controller::of(&setup.scene.loading, highest, problem)
+    }
+
+    /// The controller of a path whose approach counts from `highest` (m) over the origin of the
+    /// reduced heights.
+    pub(super) fn of(loading: &LoadingScene, highest: f64, problem: &'s Problem) -> Self {
         Controller {
             problem,
-            control: setup.scene.loading.control,
-            spring: setup.scene.loading.spring,
-            highest: setup.surface.highest - problem.height_origin,
+            control: loading.control,
+            spring: loading.spring,
+            highest,
         }
     }
 

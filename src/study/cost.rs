@@ -1,16 +1,21 @@
 //! What a scene costs: fields, bytes and passes, counted without running anything.
 
 use super::control::Controller;
-use super::setup::Setup;
+use super::setup::{Setup, resolve_law};
 use crate::backend::{
     BackendError, Level,
-    tally::{Held, Tally},
+    tally::{Held, Place, Tally},
 };
-use crate::solver::{ContactSolver, Start};
+use crate::grid::Grid;
+use crate::law::Law;
+use crate::scene::{BackendName, Precision, Scene, Treatment};
+use crate::solver::{ContactSolver, Problem, Start};
 
 /// What a scene's solver holds and does, and what is kept between its steps.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Cost {
+    /// Where it would run.
+    pub place: Place,
     /// Fields, one number a solved point each.
     pub fields: Vec<Held>,
     /// Factors a wavevector.
@@ -25,35 +30,40 @@ pub struct Cost {
 
 impl Cost {
     /// Plans a scene on a tally: its solver and one iteration of its first load.
+    ///
+    /// # Errors
+    /// A kernel that is given fields which it does not take: a mistake in this crate.
     pub fn of(setup: &Setup) -> Result<Cost, BackendError> {
-        let mut started = Tally::new();
-        begin(setup, &mut started)?;
-        let before = started.passes.len();
-        let mut iterated = Tally::new();
-        begin(setup, &mut iterated)?.iterate()?;
-        if let Some(mistake) = iterated.mistake {
-            return Err(mistake);
-        }
-        let branches = setup.scene.solid.relaxation.len();
-        if branches > 0 {
-            // The displacement and the spring of each branch, kept by the host.
-            let history = Held {
-                name: "history",
-                level: Level(0),
-                bytes: setup.problem.shape.len() * size_of::<f64>(),
-            };
-            iterated.fields.extend(vec![history; branches + 1]);
-        }
-        Ok(Cost {
-            fields: iterated.fields,
-            spectra: iterated.spectra,
-            work: iterated.work,
-            passes: iterated.passes.split_off(before),
-            points: setup.problem.shape.points,
-        })
+        let highest = setup.surface.highest - setup.problem.height_origin;
+        plan(
+            &setup.problem,
+            &setup.scene,
+            highest,
+            Place::of(&setup.scene),
+        )
     }
 
-    /// Bytes of all that is held on the device.
+    /// The same from the scene and its grid alone: without heights, and without memory for any.
+    ///
+    /// # Errors
+    /// As [`Cost::of`].
+    pub fn of_scene(scene: &Scene, grid: Grid, place: Place) -> Result<Cost, BackendError> {
+        let law = match &scene.adhesion {
+            Some(adhesion) if adhesion.treatment == Treatment::Full => {
+                let pixel = grid.dx().max(grid.dy());
+                // Which passes there are does not depend on how strong the law is.
+                resolve_law(adhesion, pixel, scene.solid.contact_modulus, 1.0)
+            }
+            _ => Law::HardWall,
+        };
+        let mapped = scene.adhesion.as_ref().is_some_and(|adhesion| {
+            adhesion.map.is_some() && adhesion.treatment == Treatment::Full
+        });
+        let problem = Problem::sketch(grid, scene.grid.boundary, law, mapped, scene.solid.layer);
+        plan(&problem, scene, 0.0, place)
+    }
+
+    /// Bytes of all that is held where the solver runs.
     pub fn bytes(&self) -> usize {
         [&self.fields, &self.spectra, &self.work]
             .into_iter()
@@ -63,11 +73,55 @@ impl Cost {
     }
 }
 
-fn begin<'a>(setup: &'a Setup, tally: &'a mut Tally) -> Result<ContactSolver<'a>, BackendError> {
-    let controller = Controller::new(setup, &setup.problem);
-    let value = setup.scene.loading.path.first().copied().unwrap_or(0.0);
+impl Place {
+    /// Where a scene runs; `auto` is the processor, since only a look at the machine says more.
+    pub fn of(scene: &Scene) -> Place {
+        match (scene.solver.backend, scene.solver.arithmetic()) {
+            (BackendName::Gpu, _) => Place::Gpu,
+            (_, Precision::Single) => Place::Single,
+            _ => Place::Double,
+        }
+    }
+}
+
+fn plan(
+    problem: &Problem,
+    scene: &Scene,
+    highest: f64,
+    place: Place,
+) -> Result<Cost, BackendError> {
+    let controller = Controller::of(&scene.loading, highest, problem);
+    let value = scene.loading.path.first().copied().unwrap_or(0.0);
     let load = controller.load(value);
-    let mut solver = ContactSolver::new(tally, &setup.problem);
-    solver.begin(&load, &Start::Present, setup.scene.solver.tolerance, false)?;
-    Ok(solver)
+    let begin = |tally: &mut Tally, iterations: usize| -> Result<(), BackendError> {
+        let mut solver = ContactSolver::new(tally, problem);
+        // What is counted does not depend on the tolerance.
+        solver.begin(&load, &Start::Present, 0.0, false)?;
+        (0..iterations).try_for_each(|_| solver.iterate().map(drop))
+    };
+    let mut started = Tally::on(place);
+    begin(&mut started, 0)?;
+    let mut iterated = Tally::on(place);
+    begin(&mut iterated, 1)?;
+    if let Some(mistake) = iterated.mistake {
+        return Err(mistake);
+    }
+    let branches = scene.solid.relaxation.len();
+    if branches > 0 {
+        // The displacement and the spring of each branch, kept by the host in double precision.
+        let history = Held {
+            name: "history",
+            level: Level(0),
+            bytes: problem.shape.len() * size_of::<f64>(),
+        };
+        iterated.fields.extend(vec![history; branches + 1]);
+    }
+    Ok(Cost {
+        place,
+        fields: iterated.fields,
+        spectra: iterated.spectra,
+        work: iterated.work,
+        passes: iterated.passes.split_off(started.passes.len()),
+        points: problem.shape.points,
+    })
 }

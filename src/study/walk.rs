@@ -508,9 +508,12 @@ pub(super) fn finish(
         held: outcome.mean_pressure,
         load: *load,
     };
+    let evaluation = Evaluation::of(setup, solver.problem(), controller, &solved);
+    // What is no number has not converged, whatever the residual makes of it.
+    let is_finite = evaluation.force.is_finite() && evaluation.position.mean_gap.is_finite();
     Ok(SolvedStep {
-        evaluation: Some(Evaluation::of(setup, solver.problem(), controller, &solved)),
-        converged: outcome.status == Status::Converged,
+        evaluation: Some(evaluation),
+        converged: is_finite && outcome.status == Status::Converged,
         iterations: outcome.iterations,
         residual: outcome.residual,
     })

@@ -71,9 +71,22 @@ fn read(path: &Path, grid: &Grid) -> Result<Vec<f64>, MapError> {
         scale: 1.0,
         detrend: Detrend::None,
         fill: Fill::None,
+        black: None,
+        white: None,
     };
     // Whether opposite edges match is no matter of a map.
-    let map = file::read(&plain, Boundary::Free)?;
+    let map = match file::read(&plain, Boundary::Free) {
+        // A grey image attracts not at all where it is black and by the law where it is white.
+        Err(FileError::GreyEndsMissing) => file::read(
+            &HeightFileScene {
+                black: Some(0.0),
+                white: Some(1.0),
+                ..plain
+            },
+            Boundary::Free,
+        ),
+        map => map,
+    }?;
     map.compare_points([grid.nx, grid.ny], "the grid")?;
     map.compare_size([grid.lx, grid.ly], "the grid")?;
     Ok(map.heights)

@@ -197,8 +197,8 @@ pub enum PartError {
 pub enum FileError {
     /// A kind of file that this version does not read.
     #[error(
-        "height files of kind .{extension} are not in this version; \
-         save the heights as .npy or as a text matrix (.txt, .csv, .tsv, .dat, .asc)"
+        "height files of kind .{extension} are not in this version; save the heights as .npy, as text \
+         (.txt, .csv, .xyz), or as .gsf, .gwy, .grd, .sdf, .sur, .al3d, grey .png or .tif"
     )]
     NotInThisVersion {
         /// The extension, lower case.
@@ -206,7 +206,8 @@ pub enum FileError {
     },
     /// A name that does not tell the kind of file.
     #[error(
-        "the name has no extension; name it .npy, or .txt for a text matrix, so that its kind is known"
+        "the name has no extension and the first bytes are those of no known kind; name it .txt if it is \
+         a text matrix, so that its kind is known"
     )]
     NoExtension,
     /// No such file.
@@ -230,7 +231,7 @@ pub enum FileError {
         /// The extension, lower case.
         extension: String,
         /// What its first bytes say.
-        found: &'static str,
+        found: String,
     },
     /// Text with bytes that no text has.
     #[error("the file is no text: byte {offset} is 0")]
@@ -241,11 +242,93 @@ pub enum FileError {
     /// Text in an encoding of two bytes a character.
     #[error("the text is in UTF-16; save it as UTF-8")]
     Utf16,
-    /// A text file too long to take in.
-    #[error("{bytes} bytes of text are too many; save the heights as .npy")]
-    TextTooLong {
+    /// A file too long to take in.
+    #[error("{bytes} bytes are too many to take in; save the heights as .npy")]
+    TooLong {
         /// Length of the file.
         bytes: u64,
+    },
+    /// The memory of this machine does not hold the numbers.
+    #[error("no memory for {bytes} bytes; take a smaller map")]
+    Memory {
+        /// Bytes asked for.
+        bytes: u64,
+    },
+    /// A binary file that is broken.
+    #[error("broken {format} file at byte {offset}: {what}")]
+    Broken {
+        /// The format, such as `.sur`.
+        format: &'static str,
+        /// Offset of the mistake, from 0.
+        offset: usize,
+        /// What is wrong.
+        what: String,
+    },
+    /// A text file of a known format that is broken.
+    #[error("broken {format} file, line {line}: {what}")]
+    BrokenText {
+        /// The format, such as `.sdf`.
+        format: &'static str,
+        /// Line of the mistake.
+        line: usize,
+        /// What is wrong.
+        what: String,
+    },
+    /// An image that is broken.
+    #[error("broken {format} image: {what}")]
+    BrokenImage {
+        /// PNG or TIFF.
+        format: &'static str,
+        /// What is wrong.
+        what: String,
+    },
+    /// A form of a known format that this version does not read.
+    #[error("{what} are not in this version; {instead}")]
+    NotSupported {
+        /// Which form.
+        what: &'static str,
+        /// What to do.
+        instead: &'static str,
+    },
+    /// Numbers of rows and columns that no grid has.
+    #[error("the file says it has {rows} rows of {columns} columns; both must be at least 1")]
+    Counts {
+        /// Rows in the file.
+        rows: i64,
+        /// Columns in the file.
+        columns: i64,
+    },
+    /// A quantity that is no length.
+    #[error(
+        "the file gives its {what} in {unit:?}, which is no length; save an image of heights, or the numbers as .npy"
+    )]
+    NotALength {
+        /// Heights, or x and y.
+        what: &'static str,
+        /// The unit in the file.
+        unit: String,
+    },
+    /// Points with coordinates that form no grid.
+    #[error("the points x, y, z form no grid: {what}")]
+    NotAGrid {
+        /// What is wrong.
+        what: String,
+    },
+    /// A grey image without the heights of its shades.
+    #[error(
+        "this is a grey image: write black and white, the heights of its ends (black = 0, white = \"1 um\")"
+    )]
+    GreyEndsMissing,
+    /// Heights of shades for a file that has none.
+    #[error("black and white are for grey images; this file holds heights, so leave both out")]
+    GreyEndsUnused,
+    /// Shades that make no difference.
+    #[error(
+        "black and white are both {value:e} m: an image of one height; write flat in its place"
+    )]
+    GreyEndsEqual {
+        /// Both heights, m.
+        value: f64,
     },
     /// A .npy file that is broken.
     #[error("broken .npy file: {what}")]

@@ -1,21 +1,11 @@
 //! Heights from a file: what kind it is, its numbers, and what the scene wants done with them.
 
-use std::fs::{self, File};
-use std::io::{BufRead, BufReader, ErrorKind, Read};
-use std::path::Path;
-
 use super::error::FileError;
-use super::matrix::Matrix;
+use super::matrix::{Matrix, Size};
 use super::statistics::edge_jumps;
-use super::{detrend, fill, npy, text};
+use super::{detrend, fill, formats};
 use crate::grid::Grid;
 use crate::scene::{Boundary, Fill, HeightFileScene};
-
-/// Extensions of text matrices.
-const TEXT: [&str; 5] = ["txt", "csv", "tsv", "dat", "asc"];
-
-/// Longest text file taken, 4 GiB: numbers of it take twice the memory besides.
-const LONGEST_TEXT: u64 = 1 << 32;
 
 /// Relative difference up to which two sizes agree: files write a few digits.
 const SIZE_MARGIN: f64 = 1e-3;
@@ -24,19 +14,6 @@ const SIZE_MARGIN: f64 = 1e-3;
 ///
 /// A single wave whose steepest flank lies on the edge reaches 1.4.
 const EDGE_JUMP: f64 = 3.0;
-
-/// First bytes of files that may come under a wrong name, with what they are.
-const SIGNATURES: [(&[u8], &str); 9] = [
-    (npy::MAGIC, "a NumPy array (.npy)"),
-    (b"PK\x03\x04", "a ZIP archive (.npz, .xlsx, .x3p)"),
-    (b"\x89PNG", "a PNG image"),
-    (b"\x89HDF", "HDF5 data"),
-    (b"\xFF\xD8\xFF", "a JPEG image"),
-    (b"II*\0", "a TIFF image"),
-    (b"MM\0*", "a TIFF image"),
-    (b"Gwyddion Simple Field", "a Gwyddion simple field (.gsf)"),
-    (b"\x1F\x8B", "gzip-compressed data"),
-];
 
 /// Heights read from a file, ready to be added.
 #[derive(Clone, Debug, PartialEq)]
@@ -104,8 +81,10 @@ pub(super) fn read(scene: &HeightFileScene, boundary: Boundary) -> Result<Height
             return Err(FileError::Factor { name, value });
         }
     }
-    let matrix = read_matrix(&scene.path)?;
+    let matrix = formats::read(&scene.path)?;
     let (rows, columns) = (matrix.rows, matrix.columns);
+    let unit = matrix.unit.unwrap_or(scene.unit);
+    let [factor, zero] = factor_and_zero(&matrix, scene, unit)?;
     let mut heights = matrix.values;
     let mut warnings = matrix.warnings;
     fill_missing(
@@ -117,15 +96,15 @@ pub(super) fn read(scene: &HeightFileScene, boundary: Boundary) -> Result<Height
         &mut warnings,
     )?;
 
-    let unit = matrix.unit.unwrap_or(scene.unit);
     if unit != scene.unit && scene.unit != 1.0 {
         warnings.push(format!(
             "the file says that its numbers are in units of {unit:e} m, which is used in place of unit = {:e} m",
             scene.unit
         ));
     }
-    let factor = unit * scene.scale;
-    heights.iter_mut().for_each(|height| *height *= factor);
+    for height in &mut heights {
+        *height = *height * factor + zero;
+    }
     detrend::detrend(&mut heights, rows, columns, scene.detrend);
     if boundary == Boundary::Periodic {
         warn_of_edges(&heights, [columns, rows], &mut warnings);
@@ -133,60 +112,28 @@ pub(super) fn read(scene: &HeightFileScene, boundary: Boundary) -> Result<Height
     Ok(HeightMap {
         heights,
         points: [columns, rows],
-        size: matrix.size,
+        size: matrix.size.map(|size| match size {
+            Size::Metres(size) => size,
+            Size::LikeHeights(size) => size.map(|side| side * unit.abs()),
+        }),
         warnings,
     })
 }
 
-/// The numbers of a file as they stand there.
-fn read_matrix(path: &Path) -> Result<Matrix, FileError> {
-    // What the path is comes before what its name says: a folder is no unknown kind of file.
-    let metadata = fs::metadata(path).map_err(|error| match error.kind() {
-        ErrorKind::NotFound => FileError::NotFound,
-        _ => FileError::Read(error),
-    })?;
-    if metadata.is_dir() {
-        return Err(FileError::Folder);
-    }
-    if !metadata.is_file() {
-        // Opening a pipe would wait for its writer.
-        return Err(FileError::NotRegular);
-    }
-    let extension = path
-        .extension()
-        .map(|extension| extension.to_string_lossy().to_ascii_lowercase())
-        .ok_or(FileError::NoExtension)?;
-    let is_text = TEXT.contains(&extension.as_str());
-    if !is_text && extension != "npy" {
-        return Err(FileError::NotInThisVersion { extension });
-    }
-    let length = metadata.len();
-    if length == 0 {
-        return Err(FileError::Empty);
-    }
-    let mut file = BufReader::new(File::open(path).map_err(FileError::Read)?);
-    let start = file.fill_buf().map_err(FileError::Read)?;
-    let signature = SIGNATURES
-        .iter()
-        .find(|(bytes, _)| start.starts_with(bytes));
-    match signature {
-        Some((bytes, _)) if !is_text && *bytes == npy::MAGIC => npy::read(file, length),
-        Some((_, found)) => Err(FileError::OtherContent { extension, found }),
-        None if is_text => {
-            if length > LONGEST_TEXT {
-                return Err(FileError::TextTooLong { bytes: length });
-            }
-            let mut bytes = Vec::new();
-            // A file that grows meanwhile is read as long as it was.
-            file.take(length)
-                .read_to_end(&mut bytes)
-                .map_err(FileError::Read)?;
-            text::read(&bytes)
+/// What turns the numbers of a file into heights: the factor, then the height of 0.
+fn factor_and_zero(
+    matrix: &Matrix,
+    scene: &HeightFileScene,
+    unit: f64,
+) -> Result<[f64; 2], FileError> {
+    match (matrix.grey, scene.black.zip(scene.white)) {
+        (false, None) if scene.black.or(scene.white).is_none() => Ok([unit * scene.scale, 0.0]),
+        (false, _) => Err(FileError::GreyEndsUnused),
+        (true, None) => Err(FileError::GreyEndsMissing),
+        (true, Some((black, white))) if black == white => {
+            Err(FileError::GreyEndsEqual { value: black })
         }
-        None => Err(FileError::OtherContent {
-            extension,
-            found: "no NumPy array",
-        }),
+        (true, Some((black, white))) => Ok([(white - black) * scene.scale, black * scene.scale]),
     }
 }
 

@@ -9,10 +9,21 @@ pub(super) struct Matrix {
     pub(super) rows: usize,
     /// Columns, along x.
     pub(super) columns: usize,
-    /// Size along x and y, m, where the file says it.
-    pub(super) size: Option<[f64; 2]>,
+    /// Size along x and y, where the file says it.
+    pub(super) size: Option<Size>,
     /// Metres per unit of the numbers, where the file says it.
     pub(super) unit: Option<f64>,
+    /// Whether the numbers are shades of grey, from 0 (black) to 1 (white).
+    pub(super) grey: bool,
     /// What the author should know.
     pub(super) warnings: Vec<String>,
+}
+
+/// Size of a map along x and y.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) enum Size {
+    /// In metres.
+    Metres([f64; 2]),
+    /// In the unit of the numbers: of points with coordinates x, y, z and no word on units.
+    LikeHeights([f64; 2]),
 }

@@ -11,21 +11,25 @@
 //! ```
 
 mod adhesion_map;
+mod band_estimate;
+pub mod correlation;
 mod detrend;
 mod error;
 mod file;
 mod fill;
+pub mod fit;
+mod formats;
 mod fourier;
 mod matrix;
-mod npy;
+mod outline;
 pub mod self_affine;
 pub mod shapes;
 pub mod spectrum;
 pub mod statistics;
-mod text;
 
 pub use adhesion_map::MapError;
 pub use error::{FileError, PartError, SurfaceError};
+pub use outline::{MapOutline, Outline, Source};
 
 use crate::grid::Grid;
 use crate::scene::{Boundary, GridScene, Scene, SurfacePart};

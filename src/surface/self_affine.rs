@@ -8,6 +8,7 @@ use std::f64::consts::PI;
 use num_complex::Complex;
 use rayon::prelude::*;
 
+use super::band_estimate;
 use super::error::PartError;
 use super::fourier;
 use super::spectrum::SelfAffineSpectrum;
@@ -83,7 +84,11 @@ pub fn band_sums(spectrum: &SelfAffineSpectrum, size: [f64; 2]) -> BandSums {
 }
 
 /// Sums over the modes of the band with `|k| <= most[0]` and `|l| <= most[1]`.
-fn sums_within(spectrum: &SelfAffineSpectrum, size: [f64; 2], most: [i64; 2]) -> BandSums {
+pub(super) fn sums_within(
+    spectrum: &SelfAffineSpectrum,
+    size: [f64; 2],
+    most: [i64; 2],
+) -> BandSums {
     let band = Band::new(spectrum, size);
     // Columns are summed apart and added in order, so that the sum does not depend on threads.
     let columns: Vec<BandSums> = (0..=band.last_k().min(most[0]))
@@ -194,6 +199,16 @@ fn most_held(grid: &Grid) -> [i64; 2] {
     [(grid.nx as i64 - 1) / 2, (grid.ny as i64 - 1) / 2]
 }
 
+/// What is known of a self-affine part on a grid before its heights are made.
+pub(super) struct Survey {
+    /// The spectrum, scaled to the asked rms height or slope.
+    spectrum: SelfAffineSpectrum,
+    /// Sums over the modes that the grid holds.
+    pub(super) held: BandSums,
+    /// Whether the sums were taken mode by mode.
+    pub(super) exact: bool,
+}
+
 /// Heights of a scene's self-affine part on the grid, with what the reader should know about them.
 ///
 /// # Errors
@@ -204,14 +219,42 @@ pub(super) fn build(
     grid: &Grid,
     warnings: &mut Vec<String>,
 ) -> Result<Vec<f64>, PartError> {
+    let found = look(scene, grid, warnings, &sums_within)?;
+    Ok(heights(&found.spectrum, grid, scene.seed))
+}
+
+/// The same without the heights; of a band with very many waves the short ones are counted by an
+/// integral, so that it takes no time.
+///
+/// # Errors
+/// As [`build`].
+pub(super) fn survey(
+    scene: &SelfAffineScene,
+    grid: &Grid,
+    warnings: &mut Vec<String>,
+) -> Result<Survey, PartError> {
+    let mut found = look(scene, grid, warnings, &band_estimate::sums_within)?;
+    found.exact = band_estimate::is_exact(&found.spectrum, [grid.lx, grid.ly]);
+    Ok(found)
+}
+
+/// A way to sum over the modes of a band with `|k| <= most[0]` and `|l| <= most[1]`.
+type Sum = dyn Fn(&SelfAffineSpectrum, [f64; 2], [i64; 2]) -> BandSums;
+
+fn look(
+    scene: &SelfAffineScene,
+    grid: &Grid,
+    warnings: &mut Vec<String>,
+    sum: &Sum,
+) -> Result<Survey, PartError> {
     let size = [grid.lx, grid.ly];
-    let (spectrum, all) = scaled_spectrum(scene, size)?;
+    let (spectrum, all) = scaled_by(scene, size, sum)?;
     let band = Band::new(&spectrum, size);
     let most = most_held(grid);
     let held = if band.last_k() <= most[0] && band.last_l() <= most[1] {
         all
     } else {
-        sums_within(&spectrum, size, most)
+        sum(&spectrum, size, most)
     };
     if held.modes == 0 {
         return Err(PartError::BandNotHeld {
@@ -220,6 +263,21 @@ pub(super) fn build(
             dy: grid.dy(),
         });
     }
+    warn(scene, grid, [held, all], warnings);
+    Ok(Survey {
+        spectrum,
+        held,
+        exact: true,
+    })
+}
+
+/// Warns of waves that the cell or the grid cannot hold; of the modes `held` among `all`.
+fn warn(
+    scene: &SelfAffineScene,
+    grid: &Grid,
+    [held, all]: [BandSums; 2],
+    warnings: &mut Vec<String>,
+) {
     let longest_held = grid.lx.max(grid.ly);
     if scene.longest > longest_held * (1.0 + BAND_MARGIN) {
         warnings.push(format!(
@@ -242,7 +300,6 @@ pub(super) fn build(
             2.0 * (grid.ly / scene.shortest * (1.0 + BAND_MARGIN)).floor(),
         ));
     }
-    Ok(heights(&spectrum, grid, scene.seed))
 }
 
 /// The spectrum of a scene's self-affine part in a cell of `size` (m), with the plateau that gives
@@ -253,6 +310,14 @@ pub(super) fn build(
 pub fn scaled_spectrum(
     scene: &SelfAffineScene,
     size: [f64; 2],
+) -> Result<(SelfAffineSpectrum, BandSums), PartError> {
+    scaled_by(scene, size, &sums_within)
+}
+
+fn scaled_by(
+    scene: &SelfAffineScene,
+    size: [f64; 2],
+    sum: &Sum,
 ) -> Result<(SelfAffineSpectrum, BandSums), PartError> {
     check(scene)?;
     let waves = size[0].max(size[1]) / scene.shortest;
@@ -271,7 +336,7 @@ pub fn scaled_spectrum(
         short: 2.0 * PI / scene.shortest,
         plateau: size[0] * size[1],
     };
-    let sums = band_sums(&spectrum, size);
+    let sums = sum(&spectrum, size, [i64::MAX; 2]);
     if sums.modes == 0 {
         return Err(PartError::BandEmpty {
             longest: scene.longest,

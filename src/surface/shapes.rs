@@ -102,6 +102,22 @@ pub fn add_waves(
     Ok(())
 }
 
+/// Refuses what [`add_waves`] refuses, without adding anything.
+///
+/// # Errors
+/// As [`add_waves`].
+pub fn check_waves(
+    grid: &Grid,
+    amplitude: f64,
+    wavelength: [f64; 2],
+    boundary: Boundary,
+) -> Result<(), PartError> {
+    finite("amplitude", amplitude)?;
+    wave("x", grid.nx, grid.lx, wavelength[0], boundary)?;
+    wave("y", grid.ny, grid.ly, wavelength[1], boundary)?;
+    Ok(())
+}
+
 /// Adds `profile(r^2)` around the apex.
 fn add_round(
     heights: &mut [f64],

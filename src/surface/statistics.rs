@@ -72,11 +72,37 @@ pub struct SpectrumRing {
 /// grid are multiplied by a Hann window of mean square 1, for without it the mismatch of opposite
 /// edges hides the short waves. Rings without modes are left out.
 pub fn radial_spectrum(grid: &Grid, heights: &[f64], boundary: Boundary) -> Vec<SpectrumRing> {
+    let first = first_wavenumber(grid);
+    // Rounded to the nearest ring, so that the first one is centred on the first mode.
+    rings(grid, heights, boundary, |wavenumber| {
+        ((wavenumber / first).log10() * RINGS_A_DECADE).round() as usize
+    })
+}
+
+/// As [`radial_spectrum`], over rings as wide as the first wave number, each around a multiple of it.
+pub fn fine_spectrum(grid: &Grid, heights: &[f64], boundary: Boundary) -> Vec<SpectrumRing> {
+    let first = first_wavenumber(grid);
+    rings(grid, heights, boundary, |wavenumber| {
+        (wavenumber / first).round() as usize
+    })
+}
+
+/// Wave number of the longest wave of a map, 1/m.
+pub fn first_wavenumber(grid: &Grid) -> f64 {
+    2.0 * PI / grid.lx.max(grid.ly)
+}
+
+/// Means over the modes for which `ring_of` gives the same number, by rising number.
+fn rings(
+    grid: &Grid,
+    heights: &[f64],
+    boundary: Boundary,
+    ring_of: impl Fn(f64) -> usize,
+) -> Vec<SpectrumRing> {
     let spectrum = match boundary {
         Boundary::Periodic => fourier::analyse(grid, heights),
         Boundary::Free => fourier::analyse(grid, &windowed(grid, heights)),
     };
-    let first = (2.0 * PI / grid.lx).min(2.0 * PI / grid.ly);
     let area = grid.area() / (4.0 * PI * PI);
     let mut rings: Vec<SpectrumRing> = Vec::new();
     for (kx, column) in spectrum.chunks(grid.ny).enumerate() {
@@ -85,8 +111,7 @@ pub fn radial_spectrum(grid: &Grid, heights: &[f64], boundary: Boundary) -> Vec<
                 continue;
             }
             let wavenumber = grid.wavenumber(kx, ky);
-            // Rounded to the nearest ring, so that the first one is centred on the first mode.
-            let ring = ((wavenumber / first).log10() * RINGS_A_DECADE).round() as usize;
+            let ring = ring_of(wavenumber);
             if rings.len() <= ring {
                 let empty = SpectrumRing {
                     wavenumber: 0.0,

@@ -1,7 +1,8 @@
 //! Heat through a contact, by its stiffness: Barber 2003.
 //!
 //! Steady conduction across a set of spots and the small indentation of the same spots, held
-//! fixed, are one harmonic problem. The conductance follows from the stiffness with the contact
+//! fixed, are one harmonic problem. An electric current is another name for it: with conductivities
+//! in S/m the conductance is in S. The conductance follows from the stiffness with the contact
 //! frozen, for spots of any number and shape. No heat flows through the gap.
 
 use super::error::{TheoryError, not_negative, positive};

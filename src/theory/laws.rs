@@ -45,8 +45,9 @@ impl Law {
     pub fn traction(self, gap: f64) -> f64 {
         match self {
             Law::LennardJones => {
-                let s3 = (1.0 + gap).powi(-3);
-                8.0 / 3.0 * s3 * (1.0 - s3 * s3)
+                // 1 - (1 + gap)^(-6), with all its digits beside the distance of no force.
+                let rest = -(-6.0 * gap.ln_1p()).exp_m1();
+                8.0 / 3.0 * (1.0 + gap).powi(-3) * rest
             }
             Law::Cubic => 2.0 * (1.0 + gap).powi(-3),
             Law::Exponential => (-gap).exp(),

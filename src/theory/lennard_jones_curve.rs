@@ -1,27 +1,88 @@
 //! The curve of equilibria of a [`LennardJonesSphere`], with its unstable parts and turning points.
+//!
+//! The curve is followed by its arc length in (approach, force), so that it may turn back in
+//! either. Places where the approach turns are found on the way and kept as states of the curve:
+//! between two neighbours the approach only rises or only falls.
 
 use super::error::TheoryError;
-use super::lennard_jones_sphere::{Held, LennardJonesSphere, State};
-use super::roots::root;
+use super::lennard_jones_sphere::{Held, LennardJonesSphere, Solved, State};
+use super::roots::{minimum, root};
 
-const MAX_CURVE: usize = 2000;
-const LONGEST_STEP: f64 = 0.25;
+const MAX_CURVE: usize = 4000;
+/// In units of force; the curve bends over some tenths at the least.
+const LONGEST_STEP: f64 = 0.1;
 const SHORTEST_STEP: f64 = 1e-6;
+/// Least cosine between the tangents at two neighbours. A step over a fold and back within it would
+/// have to turn more than that twice.
+const LEAST_COSINE: f64 = 0.9;
+/// Error of the place of a turning point along the curve; that of the value is its square.
+const PLACE_TOLERANCE: f64 = 1e-9;
+
+/// Unit tangent in (approach/unit, force).
+type Direction = (f64, f64);
+
+/// A state with the direction in which the curve goes on.
+struct Node {
+    state: State,
+    tangent: Direction,
+}
+
+/// A piece of the curve between two of its states, by the place along their chord.
+struct Piece<'a> {
+    ends: [&'a State; 2],
+    direction: (f64, f64),
+    places: [f64; 2],
+    unit: f64,
+}
+
+impl<'a> Piece<'a> {
+    fn new(first: &'a State, last: &'a State, unit: f64) -> Self {
+        let chord = (
+            (last.approach - first.approach) / unit,
+            last.force - first.force,
+        );
+        let length = chord.0.hypot(chord.1);
+        let direction = (chord.0 / length, chord.1 / length);
+        let place = |state: &State| direction.0 * state.approach / unit + direction.1 * state.force;
+        Piece {
+            ends: [first, last],
+            direction,
+            places: [place(first), place(last)],
+            unit,
+        }
+    }
+}
 
 impl LennardJonesSphere {
     /// Equilibria from far away inwards, along both stable and unstable parts, until `until` is
-    /// met; the state that meets it is the last. Neighbours are some 0.1 apart in force.
+    /// met; the state that meets it is the last. Neighbours are at most 0.1 apart in force, and
+    /// every fold of the approach is one of them.
     pub fn curve(&self, until: impl Fn(&[State]) -> bool) -> Result<Vec<State>, TheoryError> {
+        let (states, tangents) = self.followed(until)?;
+        let mut nodes: Vec<Node> = Vec::with_capacity(states.len() + 4);
+        for (state, tangent) in states.into_iter().zip(tangents) {
+            let node = Node { state, tangent };
+            self.add_folds(&mut nodes, &node)?;
+            nodes.push(node);
+        }
+        Ok(nodes.into_iter().map(|node| node.state).collect())
+    }
+
+    /// Equilibria at steps of the arc length, and the unit tangents there.
+    fn followed(
+        &self,
+        until: impl Fn(&[State]) -> bool,
+    ) -> Result<(Vec<State>, Vec<Direction>), TheoryError> {
         let unit = self.force_unit();
         let mut now = self.rigid_start(self.far())?;
         let mut states = vec![now.state.clone()];
-        // Unit tangent in (approach/unit, force).
-        let mut tangent = now.tangent(unit, (1.0, 0.0));
+        let mut tangents = vec![now.tangent(unit, (1.0, 0.0))];
         let mut step = LONGEST_STEP;
         while states.len() < MAX_CURVE {
             let last = &now.state;
+            let tangent = tangents[tangents.len() - 1];
             if until(&states) {
-                return Ok(states);
+                return Ok((states, tangents));
             }
             let held = Held {
                 approach_share: tangent.0 / unit,
@@ -39,7 +100,7 @@ impl LennardJonesSphere {
                 let new = next.tangent(unit, chord);
                 let near = chord.0.hypot(chord.1) < 1.5 * step;
                 let cosine = new.0 * tangent.0 + new.1 * tangent.1;
-                (next, new, near && cosine > 0.7)
+                (next, new, near && cosine > LEAST_COSINE)
             });
             match next {
                 // A long way or a sharp turn may be a jump to another part of the curve.
@@ -47,7 +108,7 @@ impl LennardJonesSphere {
                     if next.rounds <= 5 {
                         step = (1.5 * step).min(LONGEST_STEP);
                     }
-                    tangent = new;
+                    tangents.push(new);
                     states.push(next.state.clone());
                     now = next;
                 }
@@ -61,86 +122,135 @@ impl LennardJonesSphere {
         })
     }
 
+    /// Adds the folds of the approach that become known with `next`, the next state.
+    fn add_folds(&self, nodes: &mut Vec<Node>, next: &Node) -> Result<(), TheoryError> {
+        let Some(last) = nodes.last() else {
+            return Ok(());
+        };
+        let rate = |node: &Node| node.tangent.0;
+        if rate(last) * rate(next) < 0.0 {
+            let fold = self.turning_point(&last.state, &next.state, |tangent| tangent.0)?;
+            nodes.push(fold);
+            return Ok(());
+        }
+        // Two folds may lie within the last two steps: the approach goes slowest in between.
+        let [.., before, middle] = &nodes[..] else {
+            return Ok(());
+        };
+        let slows = rate(middle) < rate(before) && rate(middle) < rate(next);
+        if !(slows && rate(before) > 0.0 && rate(middle) > 0.0) {
+            return Ok(());
+        }
+        let piece = Piece::new(&before.state, &next.state, self.force_unit());
+        let slowest = |place: f64| self.rate_at(&piece, place, |tangent| tangent.0);
+        let (place, least) = minimum(slowest, piece.places[0], piece.places[1]);
+        if least >= 0.0 {
+            return Ok(());
+        }
+        let Some((between, _)) = self.at_place(&piece, place) else {
+            return Ok(());
+        };
+        let first = self.turning_point(&before.state, &between.state, |tangent| tangent.0)?;
+        let second = self.turning_point(&between.state, &next.state, |tangent| tangent.0)?;
+        // The middle state keeps its place among the three new ones.
+        let along = |state: &State| {
+            piece.direction.0 * state.approach / piece.unit + piece.direction.1 * state.force
+        };
+        let between = Node {
+            tangent: between.tangent(piece.unit, piece.direction),
+            state: between.state,
+        };
+        let middle = nodes.pop();
+        nodes.extend([first, between, second]);
+        nodes.extend(middle);
+        let from = nodes.len() - 4;
+        nodes[from..].sort_by(|a, b| along(&a.state).total_cmp(&along(&b.state)));
+        Ok(())
+    }
+
     /// The state of greatest tension: pull-off under load control.
     pub fn pull_off(&self) -> Result<State, TheoryError> {
-        let states = self.curve(|states| match states {
-            // Pull-off is beyond -0.75 for all; a soft sphere has a lesser minimum before it touches.
-            [.., before, middle, last] => {
-                middle.force < -0.6 && middle.force <= before.force && last.force > middle.force
-            }
+        // Pull-off is beyond -0.75 for all; a soft sphere has a lesser minimum before it touches.
+        const BEYOND_ATTRACTION: f64 = -0.6;
+        let (states, tangents) = self.followed(|states| match states {
+            [.., before, last] => before.force < BEYOND_ATTRACTION && last.force > before.force,
             _ => false,
         })?;
-        self.turning_point(&states[states.len() - 3..], |tangent| tangent.1)
+        // The least force may lie on either side of the last state but one.
+        let turn = |from: usize| tangents[from].1 < 0.0 && tangents[from + 1].1 >= 0.0;
+        let from = (0..states.len() - 1)
+            .rev()
+            .take(2)
+            .find(|from| turn(*from))
+            .ok_or(TheoryError::NotConverged {
+                what: "the greatest tension of a Lennard-Jones sphere",
+            })?;
+        self.turning_point(&states[from], &states[from + 1], |tangent| tangent.1)
+            .map(|node| node.state)
     }
 
     /// Folds of the approach, where a held approach jumps: in on the way together and off on the
-    /// way apart. None for small Tabor parameters, where the curve is single-valued.
+    /// way apart. None for small Tabor parameters (0.65 and less), where the curve is
+    /// single-valued.
     pub fn folds(&self) -> Result<Option<(State, State)>, TheoryError> {
-        let states = self.curve(|states| reaches(states, |state| state.force > 0.0))?;
-        let turn = |sign: f64| {
-            states.windows(3).find(|three| {
-                sign * (three[1].approach - three[0].approach) > 0.0
-                    && sign * (three[2].approach - three[1].approach) <= 0.0
-            })
-        };
-        match (turn(1.0), turn(-1.0)) {
-            (Some(jump_in), Some(jump_off)) => Ok(Some((
-                self.turning_point(jump_in, |tangent| tangent.0)?,
-                self.turning_point(jump_off, |tangent| tangent.0)?,
-            ))),
-            _ => Ok(None),
-        }
+        let states = self.curve(|states| states.last().is_some_and(|last| last.force > 0.0))?;
+        let rises = |pair: &[State]| pair[1].approach > pair[0].approach;
+        let mut turns = states
+            .windows(3)
+            .filter(|three| rises(&three[..2]) != rises(&three[1..]))
+            .map(|three| three[1].clone());
+        Ok(turns.next().zip(turns.next()))
     }
 
-    /// The state between three neighbours where a component of the curve's tangent, in
+    /// The state between two neighbours where a component of the curve's tangent, in
     /// (approach, force), changes sign.
     fn turning_point(
         &self,
-        three: &[State],
-        component: impl Fn((f64, f64)) -> f64,
-    ) -> Result<State, TheoryError> {
-        let failed = TheoryError::NotConverged {
-            what: "a turning point",
-        };
-        let [first, middle, last] = three else {
-            return Err(failed);
-        };
-        let unit = self.force_unit();
-        let chord = (
-            (last.approach - first.approach) / unit,
-            last.force - first.force,
-        );
-        let length = chord.0.hypot(chord.1);
-        let direction = (chord.0 / length, chord.1 / length);
-        let along = |state: &State| direction.0 * state.approach / unit + direction.1 * state.force;
-        // States by their place along the chord, from a parabola through the three.
-        let places = [first, middle, last].map(along);
-        let at = |place: f64| {
-            let weight = |i: usize, j: usize, k: usize| {
-                (place - places[j]) * (place - places[k])
-                    / ((places[i] - places[j]) * (places[i] - places[k]))
-            };
-            let (a, b, c) = (weight(0, 1, 2), weight(1, 2, 0), weight(2, 0, 1));
-            let guess = State {
-                approach: a * first.approach + b * middle.approach + c * last.approach,
-                force: a * first.force + b * middle.force + c * last.force,
-                gap: &first.gap * a + &middle.gap * b + &last.gap * c,
-            };
-            let held = Held {
-                approach_share: direction.0 / unit,
-                force_share: direction.1,
-                sum: place,
-            };
-            let solved = self.solve(guess, held).ok()?;
-            Some((component(solved.tangent(unit, direction)), solved.state))
-        };
-        let slope = |place: f64| at(place).map_or(f64::NAN, |(slope, _)| slope);
-        let place = root("a turning point", slope, places[0], places[2], 1e-8)?;
-        at(place).map(|(_, state)| state).ok_or(failed)
+        first: &State,
+        last: &State,
+        component: impl Fn((f64, f64)) -> f64 + Copy,
+    ) -> Result<Node, TheoryError> {
+        let piece = Piece::new(first, last, self.force_unit());
+        let place = root(
+            "a turning point",
+            |place| self.rate_at(&piece, place, component),
+            piece.places[0],
+            piece.places[1],
+            PLACE_TOLERANCE,
+        )?;
+        let (solved, tangent) = self
+            .at_place(&piece, place)
+            .ok_or(TheoryError::NotConverged {
+                what: "a turning point",
+            })?;
+        Ok(Node {
+            state: solved.state,
+            tangent,
+        })
     }
-}
 
-/// Whether the last of the states meets a condition.
-fn reaches(states: &[State], condition: impl Fn(&State) -> bool) -> bool {
-    states.last().is_some_and(condition)
+    /// A component of the tangent at a place of a piece; not a number where no state is found.
+    fn rate_at(&self, piece: &Piece, place: f64, component: impl Fn((f64, f64)) -> f64) -> f64 {
+        self.at_place(piece, place)
+            .map_or(f64::NAN, |(_, tangent)| component(tangent))
+    }
+
+    /// The state at a place of a piece, and the tangent there.
+    fn at_place(&self, piece: &Piece, place: f64) -> Option<(Solved, (f64, f64))> {
+        let share = (place - piece.places[0]) / (piece.places[1] - piece.places[0]);
+        let [first, last] = piece.ends;
+        let guess = State {
+            approach: first.approach + share * (last.approach - first.approach),
+            force: first.force + share * (last.force - first.force),
+            gap: &first.gap + (&last.gap - &first.gap) * share,
+        };
+        let held = Held {
+            approach_share: piece.direction.0 / piece.unit,
+            force_share: piece.direction.1,
+            sum: place,
+        };
+        let solved = self.solve(guess, held).ok()?;
+        let tangent = solved.tangent(piece.unit, piece.direction);
+        Some((solved, tangent))
+    }
 }

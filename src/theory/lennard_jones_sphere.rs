@@ -176,7 +176,9 @@ impl LennardJonesSphere {
         }
         let states =
             self.curve(|states| states.last().is_some_and(|last| last.approach >= approach))?;
-        self.between(&states[states.len() - 2..], approach)
+        let crosses = |pair: &&[State]| pair[0].approach < approach && approach <= pair[1].approach;
+        let first = states.windows(2).find(crosses);
+        self.between(first.unwrap_or(&states[..1]), approach)
     }
 
     /// The state at `approach` between two neighbours on the curve.
@@ -281,6 +283,20 @@ impl LennardJonesSphere {
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn finer_panels_leave_the_folds_in_place() {
+        let mu = 0.8;
+        let coarse = LennardJonesSphere::new(mu, 0.0).unwrap();
+        let fine = LennardJonesSphere::with_panels(mu, 0.15, 4.0);
+        let folds = |sphere: &LennardJonesSphere| sphere.folds().unwrap().unwrap();
+        let (first, second) = (folds(&coarse), folds(&fine));
+        for (one, other) in [(first.0, second.0), (first.1, second.1)] {
+            assert!((one.approach - other.approach).abs() < 1e-7);
+            // The place along the curve is known to 1e-9, but the panels move it by more.
+            assert!((one.force - other.force).abs() < 1e-5);
+        }
+    }
 
     #[test]
     fn finer_panels_change_nothing() {

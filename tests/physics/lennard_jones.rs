@@ -8,6 +8,7 @@ use std::f64::consts::PI;
 
 use tabor::law::{Cohesion, LennardJones};
 use tabor::study::State;
+use tabor::theory::lennard_jones_sphere::LennardJonesSphere;
 
 use crate::bench::{Solved, solve_table};
 use crate::tables::{parameters, slope, table, thinned};
@@ -283,6 +284,44 @@ fn no_jump(sphere: &Sphere) {
         );
     }
     assert!(solved.end.jump_in_steps.is_empty() && solved.end.jump_off_steps.is_empty());
+}
+
+/// Between two folds that are only 0.025 ranges apart a held approach has two states, one for each
+/// way there; the radial solution names both.
+#[test]
+fn two_states_between_shallow_folds() {
+    let sphere = Sphere::resolved(0.8, 0.0, "shallow folds").expect("a small mu");
+    let radial = LennardJonesSphere::new(sphere.mu, 0.0).expect("a sphere");
+    let curve = radial
+        .curve(|states| states.last().is_some_and(|last| last.force > 0.0))
+        .expect("a curve");
+    let at = -1.392;
+    let crosses = |pair: &&[tabor::theory::lennard_jones_sphere::State]| {
+        pair[0].approach < at && at <= pair[1].approach
+    };
+    let force = |pair: Option<&[tabor::theory::lennard_jones_sphere::State]>| {
+        let pair = pair.expect("the approach lies between the folds");
+        radial.between(pair, at).expect("a state").force
+    };
+    let together = force(curve.windows(2).find(crosses));
+    let apart = force(curve.windows(2).rfind(crosses));
+    let solved = sphere.solve("approach", &[-2.5, -1.5, -1.43, at, -1.0, -1.3, at]);
+    let forces: Vec<f64> = solved
+        .rows()
+        .map(|row| sphere.force(row.force, at))
+        .collect();
+    println!(
+        "at {at}: {} of {together}, {} of {apart}",
+        forces[3], forces[6]
+    );
+    // The force rises by some 3 a range on either branch, this near to the folds.
+    let allowed = 3.0 * accuracy(sphere.mu);
+    assert!(together - apart > 20.0 * allowed, "{together} {apart}");
+    assert!(
+        (forces[3] - together).abs() < allowed,
+        "{forces:?} {together}"
+    );
+    assert!((forces[6] - apart).abs() < allowed, "{forces:?} {apart}");
 }
 
 /// The stiffer the solid, the nearer a rigid sphere: the force is 2 pi R times the energy per area

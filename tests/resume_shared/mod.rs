@@ -9,7 +9,7 @@ use std::process::{Command, Output};
 
 use serde_json::Value;
 
-/// Adhesive, six steps up and down and off, every kind of output.
+/// Adhesive, eight steps up and down and off, every kind of output.
 pub const ROUGH: &str = r#"
 title = "Rough & <small>"
 [grid]
@@ -34,7 +34,7 @@ path = ["0.2 MPa", "1 MPa", "3 MPa", "1 MPa", 0, "-5 MPa", "0.2 MPa", "1 MPa"]
 [output]
 images = ["pressure", "gap"]
 fields = ["pressure", "gap"]
-steps = "all"
+steps = [1, 2, 3, 4, 5, 6, 7, 8]
 "#;
 
 /// A command on the binary, from `folder`.

@@ -84,12 +84,12 @@ fn comments_may_say_the_size() {
             "# Channel: Z\n# Width: 5.00 {micro}\n# Height: 2.5 {micro}\n# Value units: nm\n1 2\n"
         );
         let matrix = read(text.as_bytes()).unwrap();
-        assert_eq!(matrix.size, Some([5.0 * 1e-6, 2.5 * 1e-6]));
+        assert_eq!(matrix.size, Some(Size::Metres([5e-6, 2.5e-6])));
         assert_eq!(matrix.unit, Some(1e-9));
     }
     // In Latin-1 the micro sign is a byte that UTF-8 does not have.
     let matrix = read(b"# Width: 1e1 \xB5m\n# Height: 1e1 \xB5m\n1 2\n").unwrap();
-    assert_eq!(matrix.size, Some([1e1 * 1e-6; 2]));
+    assert_eq!(matrix.size, Some(Size::Metres([1e1 * 1e-6; 2])));
     let matrix = read(b"# Width: 5 px\n# Height: -5 um\n1 2\n").unwrap();
     assert_eq!((matrix.size, matrix.unit), (None, None));
 }

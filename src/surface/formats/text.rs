@@ -5,9 +5,12 @@
 //! line of words is a header, blank lines do not count. Numbers left out and `nan`, `na`, `n/a` are
 //! missing pixels.
 
-use super::MOST_POINTS;
-use super::error::FileError;
-use super::matrix::Matrix;
+use super::length::length_unit;
+use super::xyz;
+use crate::surface::MOST_POINTS;
+use crate::surface::error::FileError;
+use crate::surface::matrix::{Matrix, Size};
+use crate::units::{Dimension, parse_quantity};
 
 /// What stands between the numbers of a line.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -28,11 +31,26 @@ struct Line<'a> {
     text: &'a str,
 }
 
-/// Reads a matrix from the bytes of a text file.
+/// Reads a matrix from the bytes of a text file, or a map from three columns x, y, z that form one.
 ///
 /// # Errors
 /// What is no text, no number, or no matrix, with line, row and column from 1.
 pub(super) fn read(bytes: &[u8]) -> Result<Matrix, FileError> {
+    let (matrix, remarks) = read_columns(bytes)?;
+    // A size in the comments says that this is a matrix of heights.
+    if matrix.size.is_none()
+        && let Some(map) = xyz::as_grid(&matrix, remarks.lateral_unit)
+    {
+        return Ok(map);
+    }
+    Ok(matrix)
+}
+
+/// Reads the numbers of a text file line by line, and what its comments say.
+///
+/// # Errors
+/// As [`read`].
+pub(super) fn read_columns(bytes: &[u8]) -> Result<(Matrix, Remarks), FileError> {
     let bytes = bytes.strip_prefix(b"\xEF\xBB\xBF").unwrap_or(bytes);
     if bytes.starts_with(b"\xFF\xFE") || bytes.starts_with(b"\xFE\xFF") {
         return Err(FileError::Utf16);
@@ -86,14 +104,16 @@ pub(super) fn read(bytes: &[u8]) -> Result<Matrix, FileError> {
         return Err(FileError::NoNumbers);
     }
     let remarks = Remarks::of(&body);
-    Ok(Matrix {
+    let size = remarks.width.zip(remarks.height);
+    let matrix = Matrix {
         values,
         rows,
         columns,
-        size: remarks.width.zip(remarks.height).map(|(x, y)| [x, y]),
+        size: size.map(|(x, y)| Size::Metres([x, y])),
         unit: remarks.unit,
-        warnings: Vec::new(),
-    })
+        ..Matrix::default()
+    };
+    Ok((matrix, remarks))
 }
 
 /// The text of a file, line by line. Lines are found anew in each pass, so that they need no memory.
@@ -250,10 +270,12 @@ fn number(field: &str, separator: Separator) -> Option<f64> {
 
 /// What the comments say about lengths, in the form in which Gwyddion exports text matrices.
 #[derive(Default)]
-struct Remarks {
+pub(super) struct Remarks {
     width: Option<f64>,
     height: Option<f64>,
     unit: Option<f64>,
+    /// Metres per unit of x and y, of points with coordinates.
+    pub(super) lateral_unit: Option<f64>,
 }
 
 impl Remarks {
@@ -266,7 +288,7 @@ impl Remarks {
         remarks
     }
 
-    /// Takes `# Width: 5.0 um`, `# Height: 5.0 um`, `# Value units: m` out of a comment.
+    /// Takes `# Width: 5.0 um`, `# Height: 5.0 um`, `# Value units: m`, `# Lateral units: um` out of a comment.
     fn take(&mut self, comment: &str) {
         let Some((name, value)) = comment
             .trim_start_matches(['#', '%', '/', ' '])
@@ -277,7 +299,8 @@ impl Remarks {
         match name.trim().to_ascii_lowercase().as_str() {
             "width" => self.width = length(value),
             "height" => self.height = length(value),
-            "value units" => self.unit = unit(value.trim()),
+            "value units" => self.unit = length_unit(value),
+            "lateral units" => self.lateral_unit = length_unit(value),
             _ => {}
         }
     }
@@ -286,25 +309,15 @@ impl Remarks {
 /// A positive length with its unit, m.
 fn length(text: &str) -> Option<f64> {
     let text = text.trim();
+    // The nearest number to the digits where the unit is one of ours.
+    if let Ok(length) = parse_quantity(text, Dimension::Length) {
+        return (length > 0.0).then_some(length);
+    }
     let end = text.find(|c: char| !(c.is_ascii_digit() || "+-.eE ".contains(c)))?;
     let (number, name) = text.split_at(end);
     let value: f64 = number.trim().parse().ok()?;
-    let metres = value * unit(name.trim())?;
+    let metres = value * length_unit(name)?;
     (metres.is_finite() && metres > 0.0).then_some(metres)
-}
-
-/// Metres in a unit of length.
-fn unit(name: &str) -> Option<f64> {
-    match name {
-        "m" => Some(1.0),
-        "mm" => Some(1e-3),
-        // Both micro signs, and what is left of a Latin-1 one.
-        "um" | "\u{b5}m" | "\u{3bc}m" | "\u{fffd}m" => Some(1e-6),
-        "nm" => Some(1e-9),
-        "pm" => Some(1e-12),
-        "\u{c5}" | "\u{212b}" | "Angstrom" => Some(1e-10),
-        _ => None,
-    }
 }
 
 #[cfg(test)]

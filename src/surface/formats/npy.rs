@@ -6,9 +6,9 @@ use std::io::{BufRead, Cursor, Read};
 
 use npyz::{DType, Deserialize, NpyFile, Order, TypeChar};
 
-use super::MOST_POINTS;
-use super::error::FileError;
-use super::matrix::Matrix;
+use crate::surface::MOST_POINTS;
+use crate::surface::error::FileError;
+use crate::surface::matrix::Matrix;
 
 /// First bytes of a .npy file.
 pub(super) const MAGIC: &[u8] = b"\x93NUMPY";
@@ -71,6 +71,7 @@ pub(super) fn read(mut file: impl BufRead, length: u64) -> Result<Matrix, FileEr
 
     let order = npy.order();
     let values = match (element.type_char(), element.size_field()) {
+        (TypeChar::Float, 2) => numbers::<half::f16>(npy, f64::from),
         (TypeChar::Float, 4) => numbers::<f32>(npy, f64::from),
         (TypeChar::Float, 8) => numbers::<f64>(npy, |value| value),
         (TypeChar::Int, 1) => numbers::<i8>(npy, f64::from),

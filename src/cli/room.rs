@@ -1,0 +1,95 @@
+//! Whether this machine has the memory for a run, asked before any of it is taken.
+
+use super::Failure;
+use crate::backend::tally::Place;
+use crate::grid::Grid;
+use crate::scene::{Precision, Scene, SurfacePart};
+use crate::study::{Cost, Memory};
+
+/// Environment variable that sets the memory a run may take, in bytes.
+const LIMIT: &str = "TABOR_MEMORY";
+
+/// Bytes that a run may take: what the machine has left, within the limits of its container, or
+/// what `TABOR_MEMORY` says. `None` where the system does not tell.
+fn available() -> Result<Option<u64>, Failure> {
+    if let Ok(text) = std::env::var(LIMIT) {
+        return match text.trim().parse() {
+            Ok(bytes) => Ok(Some(bytes)),
+            Err(_) => Err(Failure::Usage(format!(
+                "{LIMIT}={text:?} is no number of bytes; write for example {LIMIT}=8000000000, or unset it"
+            ))),
+        };
+    }
+    let mut system = sysinfo::System::new();
+    system.refresh_memory();
+    let left = system.available_memory();
+    let limit = system
+        .cgroup_limits()
+        .map_or(u64::MAX, |limits| limits.total_memory);
+    Ok((left > 0).then_some(left.min(limit)))
+}
+
+/// Refuses a run on `grid` that needs more memory than there is, with the largest grid that fits.
+pub(super) fn refuse(scene: &Scene, grid: Grid) -> Result<(), Failure> {
+    let Some(available) = available()? else {
+        return Ok(());
+    };
+    let place = Place::of(scene);
+    let need = |place: Place| -> Result<u64, Failure> {
+        let cost = Cost::of_scene(scene, grid, place)?;
+        Ok(Memory::of(scene, grid, &cost).machine)
+    };
+    let needed = need(place)?;
+    if needed <= available {
+        return Ok(());
+    }
+    Err(Failure::Memory {
+        points: [grid.nx, grid.ny],
+        needed,
+        available,
+        largest: Memory::largest_grid(scene, grid, place, available)?,
+        single: match place {
+            Place::Double if scene.solver.precision != Precision::Double => {
+                Some(need(Place::Single)?)
+            }
+            _ => None,
+        },
+    })
+}
+
+/// As [`refuse`], for a grid that the scene gives itself; one that a height file carries is checked
+/// once the file is read.
+pub(super) fn refuse_scene(scene: &Scene) -> Result<(), Failure> {
+    refuse_files(scene)?;
+    match (scene.grid.points, scene.grid.size) {
+        // Counts past all grids are the surface's to refuse.
+        (Some(points), Some(size))
+            if points[0].saturating_mul(points[1]) <= crate::surface::MOST_POINTS =>
+        {
+            refuse(scene, Grid::new(points, size))
+        }
+        _ => Ok(()),
+    }
+}
+
+/// Refuses height files that are longer than the memory.
+pub(super) fn refuse_files(scene: &Scene) -> Result<(), Failure> {
+    let files = scene.surfaces.iter().filter_map(|part| match part {
+        SurfacePart::File(file) => Some(&file.path),
+        _ => None,
+    });
+    for path in files {
+        // What cannot be asked for its length is the surface's to refuse.
+        let length = std::fs::metadata(path).map_or(0, |metadata| metadata.len());
+        if let Some(available) = available()?
+            && length > available
+        {
+            return Err(Failure::FileMemory {
+                path: path.clone(),
+                length,
+                available,
+            });
+        }
+    }
+    Ok(())
+}

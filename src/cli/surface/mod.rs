@@ -1,0 +1,258 @@
+//! `tabor surface`: what a surface is like, and the self-affine scene that is like it.
+
+mod report;
+
+use std::io::Write;
+use std::path::{Path, PathBuf};
+
+use super::{Failure, key_and_value, read_scene};
+use crate::output::{
+    OutputError, Picture, RunFolder, SpectrumPlot, write_atomically, write_picture,
+};
+use crate::scene::{Boundary, Detrend, FieldName, Fill, GridScene, HeightFileScene, SurfacePart};
+use crate::surface::correlation::correlation_length;
+use crate::surface::fit::fit;
+use crate::surface::statistics::radial_spectrum;
+use crate::surface::{Surface, SurfaceError};
+use crate::units::{Dimension, parse_quantity};
+use report::Report;
+
+/// Extension of scenes; every other file holds heights.
+const SCENE: &str = "toml";
+
+#[derive(Debug, clap::Args)]
+pub(super) struct SurfaceArguments {
+    /// A scene (.toml), or a file of heights
+    source: PathBuf,
+    /// Size of the map, as "25 um" or "25 um, 12.5 um" (x, y)
+    #[arg(long, value_name = "S", value_parser = size)]
+    size: Option<[f64; 2]>,
+    /// Folder for the pictures [default: the file's name with _surface, in the current folder]
+    #[arg(long, value_name = "DIR")]
+    out: Option<PathBuf>,
+    /// Override a key of the scene, as in surface.0.hurst=0.4; may be repeated
+    #[arg(long, value_name = "KEY=VALUE", value_parser = key_and_value)]
+    set: Vec<(String, String)>,
+    #[command(flatten)]
+    file: FileArguments,
+}
+
+/// What a scene would say of a height file.
+#[derive(Debug, Default, clap::Args)]
+#[command(next_help_heading = "For a file of heights")]
+struct FileArguments {
+    /// Unit of the heights, where the file does not say it [default: m]
+    #[arg(long, value_name = "U", value_parser = unit)]
+    unit: Option<f64>,
+    /// Factor on the heights [default: 1]
+    #[arg(long, value_name = "F", allow_hyphen_values = true)]
+    scale: Option<f64>,
+    /// Height of black in a grey image, as "0 nm"
+    #[arg(long, value_name = "H", value_parser = length, allow_hyphen_values = true)]
+    black: Option<f64>,
+    /// Height of white in a grey image
+    #[arg(long, value_name = "H", value_parser = length, allow_hyphen_values = true)]
+    white: Option<f64>,
+    /// What to take off: none, mean, plane or quadratic [default: none]
+    #[arg(long, value_name = "KIND", value_parser = detrend)]
+    detrend: Option<Detrend>,
+    /// Missing pixels: none or interpolate [default: none]
+    #[arg(long, value_name = "HOW", value_parser = fill)]
+    fill: Option<Fill>,
+    /// Edges: free for a patch, periodic for a map that repeats [default: free]
+    #[arg(long, value_name = "KIND", value_parser = boundary)]
+    boundary: Option<Boundary>,
+}
+
+impl FileArguments {
+    fn is_empty(&self) -> bool {
+        [self.unit, self.scale, self.black, self.white] == [None; 4]
+            && self.detrend.is_none()
+            && self.fill.is_none()
+            && self.boundary.is_none()
+    }
+}
+
+fn length(text: &str) -> Result<f64, String> {
+    text.parse()
+        .or_else(|_| parse_quantity(text, Dimension::Length))
+        .map_err(|error| error.to_string())
+}
+
+/// A unit alone, as in `nm`, or a length, as in `0.5 nm`.
+fn unit(text: &str) -> Result<f64, String> {
+    crate::units::unit_factor(text, Dimension::Length).or_else(|_| length(text))
+}
+
+fn size(text: &str) -> Result<[f64; 2], String> {
+    let sides: Vec<f64> = text
+        .split(',')
+        .map(|side| length(side.trim()))
+        .collect::<Result<_, _>>()?;
+    match sides[..] {
+        [side] => Ok([side; 2]),
+        [x, y] => Ok([x, y]),
+        _ => Err("give one length, or two: \"25 um, 12.5 um\"".to_owned()),
+    }
+}
+
+/// One of some words.
+fn word<T: Copy>(text: &str, all: &[T], name: impl Fn(T) -> &'static str) -> Result<T, String> {
+    all.iter()
+        .copied()
+        .find(|one| name(*one) == text)
+        .ok_or_else(|| {
+            let names: Vec<&str> = all.iter().copied().map(name).collect();
+            format!("write {}", names.join(", "))
+        })
+}
+
+fn detrend(text: &str) -> Result<Detrend, String> {
+    word(text, Detrend::ALL, Detrend::name)
+}
+
+fn fill(text: &str) -> Result<Fill, String> {
+    word(text, Fill::ALL, Fill::name)
+}
+
+fn boundary(text: &str) -> Result<Boundary, String> {
+    word(text, Boundary::ALL, Boundary::name)
+}
+
+/// Prints the report and writes the pictures.
+pub(super) fn surface(arguments: &SurfaceArguments) -> Result<(), Failure> {
+    let source = &arguments.source;
+    let is_scene = source
+        .extension()
+        .is_some_and(|extension| extension == SCENE);
+    let (surface, boundary) = if is_scene {
+        of_scene(arguments)?
+    } else {
+        of_file(arguments)?
+    };
+    let path = match &arguments.out {
+        Some(path) => path.clone(),
+        None => default_folder(source),
+    };
+    let folder = RunFolder::open(&path, &format!("surface of {}", source.display()))?;
+    for warning in &surface.warnings {
+        eprintln!("warning: {}", plain(warning, is_scene));
+    }
+    let rings = radial_spectrum(&surface.grid, &surface.heights, boundary);
+    let report = Report {
+        source,
+        surface: &surface,
+        boundary,
+        statistics: surface.statistics(boundary),
+        correlation_length: correlation_length(&surface.grid, &surface.heights, boundary),
+        rings: &rings,
+        fit: fit(&surface.grid, &surface.heights, boundary),
+    };
+    // The table first: it stands even where no picture can be written.
+    let mut out = std::io::stdout().lock();
+    out.write_all(report.text().as_bytes())
+        .and_then(|()| out.flush())
+        .map_err(Failure::Print)?;
+    write_pictures(&folder, &report)?;
+    Ok(())
+}
+
+/// The surface of a scene, with its own boundary.
+fn of_scene(arguments: &SurfaceArguments) -> Result<(Surface, Boundary), Failure> {
+    if !arguments.file.is_empty() {
+        return Err(Failure::Usage(
+            "--unit, --scale, --black, --white, --detrend, --fill and --boundary are for files of heights; a scene says them itself (or --set surface.0.unit=...)"
+                .to_owned(),
+        ));
+    }
+    let mut set = arguments.set.clone();
+    if let Some([x, y]) = arguments.size {
+        set.push(("grid.size".to_owned(), format!("[{x:e}, {y:e}]")));
+    }
+    let scene = read_scene(&arguments.source, &set)?;
+    let surface = Surface::build(&scene).map_err(|error| Failure::Surface {
+        path: arguments.source.clone(),
+        error,
+    })?;
+    Ok((surface, scene.grid.boundary))
+}
+
+/// The surface of a file, as a patch with free edges unless the call says otherwise.
+fn of_file(arguments: &SurfaceArguments) -> Result<(Surface, Boundary), Failure> {
+    if !arguments.set.is_empty() {
+        return Err(Failure::Usage(
+            "--set overrides keys of a scene, and this is a file of heights; it has options of its own, see --help"
+                .to_owned(),
+        ));
+    }
+    let file = &arguments.file;
+    let boundary = file.boundary.unwrap_or(Boundary::Free);
+    let grid = GridScene {
+        points: None,
+        size: arguments.size,
+        boundary,
+    };
+    let part = SurfacePart::File(HeightFileScene {
+        path: arguments.source.clone(),
+        unit: file.unit.unwrap_or(1.0),
+        scale: file.scale.unwrap_or(1.0),
+        black: file.black,
+        white: file.white,
+        detrend: file.detrend.unwrap_or(Detrend::None),
+        fill: file.fill.unwrap_or(Fill::None),
+    });
+    let surface = Surface::from_parts(&grid, &[part]).map_err(|error| {
+        Failure::Usage(match error {
+            // There are no parts to count here.
+            SurfaceError::Part { problem, .. } => problem.to_string(),
+            SurfaceError::SizeMissing => format!(
+                "{}: the file does not say its size; give --size \"10 um\"",
+                arguments.source.display()
+            ),
+            other => format!("{}: {other}", arguments.source.display()),
+        })
+    })?;
+    Ok((surface, boundary))
+}
+
+/// A warning without the number of the one part that a file is.
+fn plain(warning: &str, is_scene: bool) -> &str {
+    match warning.split_once(": ") {
+        Some((_, rest)) if !is_scene => rest,
+        _ => warning,
+    }
+}
+
+/// `heights.png`, `psd.png`, `psd.csv` and `scene.toml`.
+fn write_pictures(folder: &RunFolder, report: &Report) -> Result<(), OutputError> {
+    let title = report.title();
+    write_picture(
+        &folder.path().join("heights.png"),
+        &Picture {
+            title: Some(&title),
+            field: FieldName::Heights,
+            step: None,
+            load: None,
+            grid: report.surface.grid,
+            values: &report.surface.heights,
+        },
+    )?;
+    let plot = SpectrumPlot {
+        title: &title,
+        points: &report.points(),
+        line: &report.line(),
+    };
+    plot.write(&folder.path().join("psd.png"))?;
+    write_atomically(&folder.path().join("psd.csv"), report.table().as_bytes())?;
+    if let Some(scene) = report.scene() {
+        write_atomically(&folder.path().join("scene.toml"), scene.as_bytes())?;
+    }
+    Ok(())
+}
+
+/// The file's name with `_surface` for its extension, in the current folder.
+fn default_folder(source: &Path) -> PathBuf {
+    let mut name = source.file_stem().unwrap_or(source.as_os_str()).to_owned();
+    name.push("_surface");
+    PathBuf::from(name)
+}

@@ -1,0 +1,302 @@
+//! The report of `tabor surface`: a scene's beginning in TOML, with the statistics as comments above it.
+
+use std::fmt::Write;
+use std::path::Path;
+
+use crate::scene::Boundary;
+use crate::surface::Surface;
+use crate::surface::fit::{FitError, SelfAffineFit};
+use crate::surface::statistics::{SpectrumRing, Statistics};
+
+/// Points of the line that stands for the fit in the plot.
+const LINE_POINTS: usize = 200;
+
+/// What is known of a surface.
+pub(super) struct Report<'a> {
+    pub source: &'a Path,
+    pub surface: &'a Surface,
+    pub boundary: Boundary,
+    pub statistics: Statistics,
+    pub correlation_length: Option<f64>,
+    pub rings: &'a [SpectrumRing],
+    pub fit: Result<SelfAffineFit, FitError>,
+}
+
+impl Report<'_> {
+    /// Everything, for standard output.
+    pub fn text(&self) -> String {
+        let mut text = String::new();
+        let mut line = |words: String| {
+            // Nothing that a text cannot take.
+            let _ = writeln!(text, "{}", format!("# {words}").trim_end());
+        };
+        line(self.title());
+        line(String::new());
+        line(row("quantity", "value", "unit", "what it is"));
+        for (name, value, unit, what) in self.quantities() {
+            line(row(name, &value, unit, what));
+        }
+        line(String::new());
+        line(format!(
+            "power spectral density C, averaged over directions; <h^2> is its integral over all wavevectors{}",
+            match self.boundary {
+                Boundary::Periodic => "",
+                Boundary::Free => "; under a Hann window",
+            }
+        ));
+        line(row("wavenumber [1/m]", "C [m^4]", "modes", "fit [m^4]"));
+        for ring in self.rings {
+            let fitted = self.fitted(ring.wavenumber).map(number);
+            line(row(
+                &number(ring.wavenumber),
+                &number(ring.density),
+                &ring.modes.to_string(),
+                &fitted.unwrap_or_default(),
+            ));
+        }
+        line(String::new());
+        for words in self.verdict() {
+            line(words);
+        }
+        text.push_str(&self.tables().unwrap_or_default());
+        text
+    }
+
+    /// What the pictures are headed with.
+    pub fn title(&self) -> String {
+        let name = self.source.file_name().unwrap_or(self.source.as_os_str());
+        // A name may hold a line end, which would end the comment.
+        let name: String = name
+            .to_string_lossy()
+            .chars()
+            .map(|c| if c.is_control() { ' ' } else { c })
+            .collect();
+        format!("Surface of {name}")
+    }
+
+    /// Name, value, unit and meaning of each number.
+    fn quantities(&self) -> Vec<(&'static str, String, &'static str, &'static str)> {
+        let grid = &self.surface.grid;
+        let found = &self.statistics;
+        let moments = &found.moments;
+        let or_none = |value: Option<f64>| value.map_or_else(|| "-".to_owned(), number);
+        vec![
+            ("points_x", grid.nx.to_string(), "", "points along x"),
+            ("points_y", grid.ny.to_string(), "", "points along y"),
+            ("size_x", number(grid.lx), "m", "size along x"),
+            ("size_y", number(grid.ly), "m", "size along y"),
+            (
+                "pixel_x",
+                number(grid.dx()),
+                "m",
+                "distance of points along x",
+            ),
+            (
+                "pixel_y",
+                number(grid.dy()),
+                "m",
+                "distance of points along y",
+            ),
+            (
+                "mean_height",
+                number(found.mean),
+                "m",
+                "mean of the heights",
+            ),
+            ("lowest", number(found.lowest), "m", "lowest point"),
+            ("highest", number(found.highest), "m", "highest point"),
+            (
+                "rms_height",
+                number(moments.rms_height()),
+                "m",
+                "about the mean",
+            ),
+            (
+                "rms_slope",
+                number(moments.rms_slope()),
+                "",
+                "of the gradient",
+            ),
+            (
+                "rms_curvature",
+                number(moments.rms_curvature()),
+                "1/m",
+                "of the Laplacian",
+            ),
+            (
+                "m0",
+                number(moments.m0),
+                "m^2",
+                "spectral moment: mean square height",
+            ),
+            (
+                "m2",
+                number(moments.m2),
+                "",
+                "spectral moment: mean square slope of a profile",
+            ),
+            (
+                "m4",
+                number(moments.m4),
+                "1/m^2",
+                "spectral moment: mean square curvature of a profile",
+            ),
+            (
+                "nayak",
+                or_none(moments.nayak()),
+                "",
+                "Nayak number m0 m4 / m2^2",
+            ),
+            (
+                "summit_density",
+                or_none(moments.summit_density()),
+                "1/m^2",
+                "of a Gaussian surface with these moments",
+            ),
+            (
+                "summit_radius",
+                or_none(moments.mean_radius()),
+                "m",
+                "2 / rms_curvature",
+            ),
+            (
+                "correlation_length",
+                or_none(self.correlation_length),
+                "m",
+                "where the autocorrelation falls to 1/e",
+            ),
+        ]
+    }
+
+    /// What the fit found, or why there is none.
+    fn verdict(&self) -> Vec<String> {
+        let fit = match &self.fit {
+            Ok(fit) => fit,
+            Err(error) => return vec![format!("no self-affine fit: {error}")],
+        };
+        let mut lines = vec![format!(
+            "self-affine fit: its density lies within {:.0} % of the rings' (rms)",
+            100.0 * (10_f64.powf(fit.scatter) - 1.0)
+        )];
+        if !fit.rolloff_seen {
+            lines.push("no roll-off is seen: rolloff is the longest wave".to_owned());
+        }
+        if !fit.cutoff_seen {
+            lines.push(
+                "no cut-off is seen: shortest is the shortest wave that the pixels hold".to_owned(),
+            );
+        }
+        if !fit.hurst_inside {
+            lines.push("the Hurst exponent lies at the end of its range: the spectrum is no self-affine one".to_owned());
+        }
+        lines.push(String::new());
+        lines
+    }
+
+    /// `[grid]` and `[[surface]]` of a scene with a surface like this.
+    fn tables(&self) -> Option<String> {
+        let fit = self.fit.as_ref().ok()?;
+        let grid = &self.surface.grid;
+        let spectrum = &fit.spectrum;
+        let wavelength = |wavenumber: f64| 2.0 * std::f64::consts::PI / wavenumber;
+        // Exactly the size where it is, or the scene would ask for a wave longer than the grid.
+        let side = grid.lx.max(grid.ly);
+        let exact = |length: f64| {
+            if (length / side - 1.0).abs() < 1e-9 {
+                side
+            } else {
+                rounded(length)
+            }
+        };
+        Some(format!(
+            "[grid]\npoints = [{}, {}]\nsize = [{:e}, {:e}]\nboundary = \"periodic\"\n\n\
+             [[surface]]\nkind = \"self-affine\"\nhurst = {}\nrms_height = {:e}\nlongest = {:e}\n\
+             rolloff = {:e}\nshortest = {:e}\nseed = 1\n",
+            grid.nx,
+            grid.ny,
+            grid.lx,
+            grid.ly,
+            (spectrum.hurst * 1e4).round() / 1e4,
+            rounded(fit.sums.height.sqrt()),
+            exact(wavelength(spectrum.long)),
+            exact(wavelength(spectrum.rolloff)),
+            rounded(wavelength(spectrum.short)),
+        ))
+    }
+
+    /// The whole of a scene: the tables, with a solid and a load to be replaced.
+    pub fn scene(&self) -> Option<String> {
+        Some(format!(
+            "# A self-affine surface like that of {}: `tabor check` takes it as it is,\n\
+             # but solid and load are stand-ins. Put yours in their place.\n\n{}\n\
+             [solid]\ncontact_modulus = \"1 GPa\"\n\n\
+             [loading]\ncontrol = \"pressure\"\npath = [\"1 MPa\", \"10 MPa\"]\n",
+            self.title().trim_start_matches("Surface of "),
+            self.tables()?
+        ))
+    }
+
+    /// The radial spectrum as CSV.
+    pub fn table(&self) -> String {
+        let mut text = "wavenumber [1/m],density [m^4],modes,fit [m^4]\n".to_owned();
+        for ring in self.rings {
+            let fitted = self.fitted(ring.wavenumber);
+            let fitted = fitted.map(|density| format!("{density:e}"));
+            let _ = writeln!(
+                text,
+                "{:e},{:e},{},{}",
+                ring.wavenumber,
+                ring.density,
+                ring.modes,
+                fitted.unwrap_or_default()
+            );
+        }
+        text
+    }
+
+    /// Density of the fit, within its band.
+    fn fitted(&self, wavenumber: f64) -> Option<f64> {
+        let spectrum = &self.fit.as_ref().ok()?.spectrum;
+        let band = spectrum.long * (1.0 - 1e-9)..=spectrum.short * (1.0 + 1e-9);
+        band.contains(&wavenumber)
+            .then(|| spectrum.density(wavenumber))
+    }
+
+    /// The rings that have power, for the plot.
+    pub fn points(&self) -> Vec<[f64; 2]> {
+        let points = self
+            .rings
+            .iter()
+            .map(|ring| [ring.wavenumber, ring.density]);
+        points.filter(|[_, density]| *density > 0.0).collect()
+    }
+
+    /// The fit, for the plot.
+    pub fn line(&self) -> Vec<[f64; 2]> {
+        let Ok(fit) = &self.fit else {
+            return Vec::new();
+        };
+        let spectrum = &fit.spectrum;
+        let ratio = spectrum.short / spectrum.long;
+        (0..=LINE_POINTS)
+            .map(|step| spectrum.long * ratio.powf(step as f64 / LINE_POINTS as f64))
+            .map(|wavenumber| [wavenumber, spectrum.density(wavenumber)])
+            .collect()
+    }
+}
+
+/// A row of a table of four columns.
+fn row(name: &str, value: &str, unit: &str, what: &str) -> String {
+    format!("{name:<20} {value:<14} {unit:<6} {what}")
+}
+
+/// A number with six digits.
+fn number(value: f64) -> String {
+    format!("{value:.5e}")
+}
+
+/// The nearest number with six digits.
+fn rounded(value: f64) -> f64 {
+    // The digits of a finite number are a number.
+    format!("{value:.5e}").parse().unwrap_or(value)
+}

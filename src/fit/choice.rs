@@ -1,0 +1,327 @@
+//! Which model a curve belongs to.
+
+use std::path::Path;
+
+use super::curve_file::ForceCurve;
+use super::error::FitError;
+use super::estimate::{ModelFit, fit_model};
+use super::inversion::{Inversion, invert_curve};
+use super::measured::{Freedom, Measured};
+use super::model::Model;
+use crate::theory::Law;
+use crate::theory::tabor_map::{
+    FORCE_DMT_LIMIT, JKR_LIMIT, LAMBDA_PER_MU_MATCHED, Regime, Sphere, regime, tabor_parameter,
+};
+use crate::units::format_si;
+
+/// Difference of Akaike's criterion from which two models count as told apart: the better one is
+/// then `exp(6/2) = 20` times as likely.
+pub const TELLS_APART: f64 = 6.0;
+/// Correlation of neighbouring residuals from which a model misses the curve, beyond the
+/// 3/sqrt(points) that chance may give.
+pub const MISSES: f64 = 0.3;
+/// Correlation of work of adhesion and modulus beyond which neither is known by itself.
+pub const ENTANGLED: f64 = 0.95;
+/// Relative standard deviation from which a number is hardly one.
+pub const VAGUE: f64 = 0.3;
+/// Rounds of choosing a regime by the Tabor number that the last choice gave.
+const ROUNDS: usize = 4;
+
+/// A number of a fit with its standard deviation.
+type Number = fn(&ModelFit) -> (f64, Option<f64>);
+
+/// What a curve gave.
+#[derive(Clone, Debug)]
+pub struct FitResult {
+    /// The curve with its ways.
+    pub measured: Measured,
+    /// Every model that could be fitted, from the simplest.
+    pub fits: Vec<ModelFit>,
+    /// Which of them is taken.
+    pub chosen: usize,
+    /// Tabor number that the taken model implies; `None` without adhesion, or where the range is
+    /// not known.
+    pub tabor_parameter: Option<f64>,
+    /// Standard deviation of the work of adhesion, or what models that the curve cannot tell
+    /// apart leave open if that is more, J/m^2.
+    pub work_uncertainty: Option<f64>,
+    /// The same of the contact modulus, Pa.
+    pub modulus_uncertainty: Option<f64>,
+    /// Work and modulus from pull-off and one stiffness alone, by JKR.
+    pub inversion: Option<Inversion>,
+    /// What the reader should know.
+    pub warnings: Vec<String>,
+}
+
+impl FitResult {
+    /// The model that is taken.
+    pub fn best(&self) -> &ModelFit {
+        &self.fits[self.chosen]
+    }
+
+    /// The fit of a model.
+    pub fn of(&self, model: Model) -> Option<&ModelFit> {
+        self.fits.iter().find(|fit| fit.model == model)
+    }
+}
+
+/// Fits all models to a curve of a sphere of `radius` (m) and takes one; `path` is for messages.
+///
+/// # Errors
+/// A curve that shows no compression or is the wrong way round, and one that no model is brought
+/// to.
+pub fn fit_curve(
+    curve: &ForceCurve,
+    path: &Path,
+    radius: f64,
+    freedom: Freedom,
+) -> Result<FitResult, FitError> {
+    // Refuses a radius that is none.
+    Sphere::new(radius, 1.0, 0.0)?;
+    let measured = Measured::new(curve.samples.clone(), radius, freedom);
+    check(&measured, path)?;
+    let fits: Vec<ModelFit> = Model::ALL
+        .into_iter()
+        .filter_map(|model| fit_model(&measured, model))
+        .collect();
+    let mut warnings = left_out(curve);
+    let (chosen, tabor_parameter) =
+        choose(&measured, &fits, &mut warnings).ok_or_else(|| FitError::NoFit {
+            path: path.to_path_buf(),
+        })?;
+    doubts(&measured, &fits[chosen], &mut warnings);
+    let best = &fits[chosen];
+    // Where another model suits as well, neither its numbers nor its doubts can be ruled out.
+    let with_models = |(value, deviation): (f64, Option<f64>), of: Number| {
+        let alike = fits.iter().filter(|fit| not_told_apart(fit, best));
+        let others = alike.fold(0.0_f64, |most, fit| {
+            let (other, doubt) = of(fit);
+            most.max((other - value).abs()).max(doubt.unwrap_or(0.0))
+        });
+        deviation.map(|deviation| deviation.max(others))
+    };
+    let work: Number = |fit| {
+        let deviation = fit.uncertainties.work_of_adhesion;
+        (fit.parameters.work_of_adhesion, deviation)
+    };
+    let modulus: Number = |fit| {
+        let deviation = fit.uncertainties.contact_modulus;
+        (fit.parameters.contact_modulus, deviation)
+    };
+    Ok(FitResult {
+        work_uncertainty: with_models(work(best), work),
+        modulus_uncertainty: with_models(modulus(best), modulus),
+        inversion: invert_curve(&measured, &fits[chosen]),
+        measured,
+        fits,
+        chosen,
+        tabor_parameter,
+        warnings,
+    })
+}
+
+/// Whether two adhesive models suit a curve so nearly alike that it cannot tell them apart.
+fn not_told_apart(one: &ModelFit, other: &ModelFit) -> bool {
+    let both = one.model.adheres() && other.model.adheres();
+    both && one.model != other.model && (one.aic - other.aic).abs() < TELLS_APART
+}
+
+fn check(measured: &Measured, path: &Path) -> Result<(), FitError> {
+    let path = || path.to_path_buf();
+    let (least, greatest) = measured.extremes();
+    if greatest.force <= measured.baseline() {
+        return Err(FitError::NoCompression { path: path() });
+    }
+    // The hardest pressed point lies among the closest, wherever the tension is.
+    let (mut low, mut high) = (f64::INFINITY, f64::NEG_INFINITY);
+    for sample in &measured.samples {
+        low = low.min(sample.approach);
+        high = high.max(sample.approach);
+    }
+    if greatest.approach - low < high - greatest.approach && greatest.approach < least.approach {
+        return Err(FitError::WrongWay { path: path() });
+    }
+    Ok(())
+}
+
+fn left_out(curve: &ForceCurve) -> Vec<String> {
+    let mut warnings = Vec::new();
+    for (lines, why) in [
+        (&curve.incomplete, "miss the approach or the force"),
+        (&curve.unconverged, "are marked as not converged"),
+    ] {
+        if let Some(first) = lines.first() {
+            warnings.push(format!(
+                "{} rows {why} and are left out, the first in line {first}",
+                lines.len()
+            ));
+        }
+    }
+    warnings
+}
+
+/// The model to take and the Tabor number it implies.
+fn choose(
+    measured: &Measured,
+    fits: &[ModelFit],
+    warnings: &mut Vec<String>,
+) -> Option<(usize, Option<f64>)> {
+    let place = |model: Model| fits.iter().position(|fit| fit.model == model);
+    let best = fits.iter().map(|fit| fit.aic).fold(f64::INFINITY, f64::min);
+    if let Some(hertz) = place(Model::Hertz)
+        && fits[hertz].aic - best < TELLS_APART
+    {
+        return Some((hertz, None));
+    }
+    let Some(general) = place(Model::MaugisDugdale) else {
+        let least = |a: &usize, b: &usize| fits[*a].aic.total_cmp(&fits[*b].aic);
+        return (0..fits.len()).min_by(least).map(|taken| (taken, None));
+    };
+    let range = fits[general].range(measured.radius);
+    let number = |taken: usize| tabor_of(measured.radius, &fits[taken], range);
+    let mut taken = general;
+    let mut closed = false;
+    for _ in 0..ROUNDS {
+        let next = number(taken).and_then(|mu| regime(mu).ok());
+        let next = next.and_then(|regime| {
+            place(match regime {
+                Regime::ForceDmt => Model::Dmt,
+                Regime::Intermediate => Model::MaugisDugdale,
+                Regime::Jkr => Model::Jkr,
+            })
+        });
+        let next = next.unwrap_or(general);
+        closed = next == taken;
+        taken = next;
+        if closed {
+            break;
+        }
+    }
+    if !closed {
+        taken = general;
+    }
+    // The limits are taken where the data do not resolve what they leave out.
+    let beyond = taken != general && fits[taken].aic - fits[general].aic > TELLS_APART;
+    // A Tabor number that may as well lie in a limit is no reason for a richer model.
+    let simpler = simpler(fits, general).filter(|_| measured.freedom.range.is_none());
+    if let Some(limit) = simpler.filter(|_| beyond || taken == general) {
+        taken = limit;
+    } else if beyond {
+        warnings.push(format!(
+            "the Tabor number {:.2} is in the range of {}, but the curve shows more than that model has (AIC {:+.1}); Maugis-Dugdale, which holds at any, is taken",
+            number(taken).unwrap_or(f64::NAN),
+            fits[taken].model.title(),
+            fits[taken].aic - fits[general].aic,
+        ));
+        taken = general;
+    }
+    for other in fits.iter().filter(|fit| fit.model != fits[taken].model) {
+        let difference = other.aic - fits[taken].aic;
+        if difference.abs() < TELLS_APART {
+            warnings.push(format!(
+                "the curve cannot tell {} from {} (AIC differ by {:.1}, {TELLS_APART} would): {} gives w = {}, E* = {}",
+                fits[taken].model.title(),
+                other.model.title(),
+                difference.abs(),
+                other.model.title(),
+                format_si(other.parameters.work_of_adhesion, "J/m^2"),
+                format_si(other.parameters.contact_modulus, "Pa"),
+            ));
+        } else if difference < 0.0 {
+            warnings.push(format!(
+                "{} describes the curve better than {} (AIC {difference:+.1}), though the Tabor number speaks against it",
+                other.model.title(),
+                fits[taken].model.title(),
+            ));
+        }
+    }
+    if fits[general].at_bound() && measured.freedom.range.is_none() {
+        let side = if fits[general].parameters.maugis_parameter > 1.0 {
+            "only that it is short"
+        } else {
+            "only that it is long"
+        };
+        warnings.push(format!(
+            "the curve does not tell the range of the attraction, {side}; the Tabor number is a bound"
+        ));
+    }
+    Some((taken, number(taken)))
+}
+
+/// The limit that cannot be told from the general model and lies within two standard deviations of
+/// its lambda.
+fn simpler(fits: &[ModelFit], general: usize) -> Option<usize> {
+    let fit = &fits[general];
+    let number = fit.tabor_parameter()?;
+    let spread = fit.uncertainties.maugis_parameter.unwrap_or(0.0) / LAMBDA_PER_MU_MATCHED;
+    let reaches = |model: Model| match model {
+        Model::Dmt => number - 2.0 * spread < FORCE_DMT_LIMIT,
+        Model::Jkr => number + 2.0 * spread > JKR_LIMIT,
+        Model::Hertz | Model::MaugisDugdale => false,
+    };
+    (0..fits.len())
+        .filter(|i| reaches(fits[*i].model) && fits[*i].aic - fit.aic < TELLS_APART)
+        .min_by(|a, b| fits[*a].aic.total_cmp(&fits[*b].aic))
+}
+
+/// Tabor number of a fit with a Dugdale `range` (m) that stands for a Lennard-Jones law of the same
+/// work and peak tension.
+fn tabor_of(radius: f64, fit: &ModelFit, range: Option<f64>) -> Option<f64> {
+    let parameters = fit.parameters;
+    let sphere = Sphere::new(
+        radius,
+        parameters.contact_modulus,
+        parameters.work_of_adhesion,
+    );
+    let range = range? * Law::LennardJones.peak_tension();
+    tabor_parameter(&sphere.ok()?, range).ok()
+}
+
+/// What speaks against the numbers of a fit.
+fn doubts(measured: &Measured, fit: &ModelFit, warnings: &mut Vec<String>) {
+    if !fit.converged {
+        warnings.push(format!(
+            "the search for {} did not settle; its numbers are the best found",
+            fit.model.title()
+        ));
+    }
+    let chance = 3.0 / (measured.samples.len() as f64).sqrt();
+    if fit.autocorrelation > MISSES + chance {
+        warnings.push(format!(
+            "the residuals of {} follow one another (correlation {:.2}): the model misses the curve by {}, and the uncertainties are no more than an order of magnitude",
+            fit.model.title(),
+            fit.autocorrelation,
+            format_si(fit.noise, "N"),
+        ));
+    }
+    for (first, second, correlation) in &fit.correlations {
+        if (*first, *second) == ("contact_modulus", "work_of_adhesion")
+            && correlation.abs() > ENTANGLED
+        {
+            warnings.push(format!(
+                "w and E* are known together but hardly apart (correlation {correlation:.3})"
+            ));
+        }
+    }
+    for (name, value, deviation) in [
+        (
+            "work of adhesion",
+            fit.parameters.work_of_adhesion,
+            fit.uncertainties.work_of_adhesion,
+        ),
+        (
+            "contact modulus",
+            fit.parameters.contact_modulus,
+            fit.uncertainties.contact_modulus,
+        ),
+    ] {
+        if let Some(deviation) = deviation
+            && deviation > VAGUE * value
+        {
+            warnings.push(format!(
+                "the {name} is known to {:.0} % only",
+                100.0 * deviation / value
+            ));
+        }
+    }
+}

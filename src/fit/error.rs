@@ -1,0 +1,174 @@
+//! What can be wrong with a force curve.
+
+use std::io;
+use std::path::PathBuf;
+
+use super::curve_file::{LEAST_ROWS, MOST_BYTES};
+use crate::theory::TheoryError;
+use crate::units::UnitError;
+
+/// Why a force curve gives no work of adhesion and no modulus.
+#[derive(Debug, thiserror::Error)]
+pub enum FitError {
+    /// The file cannot be read.
+    #[error("cannot read {path}: {cause}", path = path.display())]
+    Unreadable {
+        /// The file.
+        path: PathBuf,
+        /// What the system says.
+        cause: io::Error,
+    },
+    /// The file is larger than any force curve.
+    #[error(
+        "{path} has {bytes} bytes; a force curve may have {MOST_BYTES}, so thin its rows out",
+        path = path.display()
+    )]
+    TooLarge {
+        /// The file.
+        path: PathBuf,
+        /// Its size.
+        bytes: u64,
+    },
+    /// The file is no text.
+    #[error(
+        "{path} is not text in UTF-8; save it as CSV with the columns approach and force",
+        path = path.display()
+    )]
+    NotText {
+        /// The file.
+        path: PathBuf,
+    },
+    /// There are no names of columns.
+    #[error(
+        "{path} has no head; its first line must name the columns, as in `approach [nm], force [nN]`",
+        path = path.display()
+    )]
+    NoHead {
+        /// The file.
+        path: PathBuf,
+    },
+    /// A column is missing.
+    #[error(
+        "{path}, line {line}: no column `{column}` among {found}; name it `{column}` (SI) or with its unit, `{column} {example}`",
+        path = path.display()
+    )]
+    NoColumn {
+        /// The file.
+        path: PathBuf,
+        /// The line of the head, from 1.
+        line: usize,
+        /// The column looked for.
+        column: &'static str,
+        /// A unit it may have.
+        example: &'static str,
+        /// The columns that are there.
+        found: String,
+    },
+    /// A column stands there twice.
+    #[error(
+        "{path}, line {line}: there are two columns `{column}`; leave one, or name the other differently",
+        path = path.display()
+    )]
+    TwoColumns {
+        /// The file.
+        path: PathBuf,
+        /// The line of the head, from 1.
+        line: usize,
+        /// The column.
+        column: &'static str,
+    },
+    /// A unit in the head is none, or one of something else.
+    #[error("{path}, line {line}, column `{column}`: {cause}", path = path.display())]
+    Unit {
+        /// The file.
+        path: PathBuf,
+        /// The line of the head, from 1.
+        line: usize,
+        /// The column.
+        column: &'static str,
+        /// What is wrong with it.
+        cause: UnitError,
+    },
+    /// A row has another number of values than the head has names.
+    #[error(
+        "{path}, line {line}: {found} values where the head names {expected} columns; decimal commas need semicolons or tabs between the columns",
+        path = path.display()
+    )]
+    Ragged {
+        /// The file.
+        path: PathBuf,
+        /// The line, from 1.
+        line: usize,
+        /// Values found.
+        found: usize,
+        /// Names in the head.
+        expected: usize,
+    },
+    /// A value is no number.
+    #[error(
+        "{path}, line {line}, column `{column}`: {text} is not a number; leave the cell empty where the value is missing",
+        path = path.display()
+    )]
+    NotANumber {
+        /// The file.
+        path: PathBuf,
+        /// The line, from 1.
+        line: usize,
+        /// The column.
+        column: &'static str,
+        /// What stands there, quoted.
+        text: String,
+    },
+    /// Not enough rows with both numbers.
+    #[error(
+        "{path}: {rows} rows with an approach and a force, of {LEAST_ROWS} that a fit needs",
+        path = path.display()
+    )]
+    TooFewRows {
+        /// The file.
+        path: PathBuf,
+        /// Rows found.
+        rows: usize,
+    },
+    /// The approach or the force never changes.
+    #[error(
+        "{path}: the {column} is the same in every row, so there is no curve to fit",
+        path = path.display()
+    )]
+    Constant {
+        /// The file.
+        path: PathBuf,
+        /// The column.
+        column: &'static str,
+    },
+    /// No row shows the sphere pressed on.
+    #[error(
+        "{path}: no row is in compression (force > 0), so nothing tells the modulus; force must be positive in compression, tension negative",
+        path = path.display()
+    )]
+    NoCompression {
+        /// The file.
+        path: PathBuf,
+    },
+    /// The greatest force lies on the far side.
+    #[error(
+        "{path}: the force grows as the surfaces go apart; approach must be positive closer (turn its sign, or that of the force)",
+        path = path.display()
+    )]
+    WrongWay {
+        /// The file.
+        path: PathBuf,
+    },
+    /// No model could be brought to the data.
+    #[error(
+        "no model of a sphere could be fitted to {path}: check units, signs and the radius",
+        path = path.display()
+    )]
+    NoFit {
+        /// The file.
+        path: PathBuf,
+    },
+    /// A model refuses the values.
+    #[error(transparent)]
+    Theory(#[from] TheoryError),
+}

@@ -1,0 +1,459 @@
+//! One model brought to a curve: its numbers and how well they are known.
+
+use std::f64::consts::PI;
+
+use nalgebra::{DMatrix, DVector};
+
+use super::curve_file::Sample;
+use super::least_squares::{Minimum, Problem, covariance, minimise};
+use super::measured::Measured;
+use super::model::{LAMBDAS, Model, Parameters, SphereModel};
+use super::start::starts;
+use super::ways::Way;
+use crate::theory::tabor_map::{LAMBDA_PER_MU_MATCHED, Sphere, maugis_parameter};
+
+/// Maugis parameters at which all else is fitted before lambda is set free: the sum of squares has
+/// more than one valley along it.
+const LADDER: [f64; 16] = [
+    0.01, 0.03, 0.06, 0.1, 0.16, 0.25, 0.4, 0.6, 0.85, 1.2, 1.7, 2.5, 4.0, 6.5, 11.0, 20.0,
+];
+/// Rungs from which lambda is set free.
+const BEST_RUNGS: usize = 3;
+/// Rise of the sum of squares, in variances of the noise, up to which a rung tells of the
+/// uncertainty: three standard deviations.
+const MOST_RISE: f64 = 9.0;
+/// Share of the sum of squares that no fit is credited with going below: force span squared a
+/// point. Below it are rounding and the tables of the models.
+const FLOOR: f64 = 1e-14;
+
+/// How well numbers are known: one standard deviation each, `None` where the curve does not tell.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Uncertainties {
+    /// Of E*, Pa.
+    pub contact_modulus: Option<f64>,
+    /// Of w, J/m^2.
+    pub work_of_adhesion: Option<f64>,
+    /// Of lambda.
+    pub maugis_parameter: Option<f64>,
+    /// Of w over the tension, m.
+    pub range: Option<f64>,
+    /// Of the tension of the cohesive zone, Pa.
+    pub peak_tension: Option<f64>,
+    /// Of the approach at first touch, m.
+    pub approach_offset: Option<f64>,
+    /// Of the force where nothing acts, N.
+    pub force_offset: Option<f64>,
+}
+
+/// A model with the numbers that suit a curve best.
+#[derive(Clone, Debug)]
+pub struct ModelFit {
+    /// Which model.
+    pub model: Model,
+    /// Its numbers.
+    pub parameters: Parameters,
+    /// Their standard deviations.
+    pub uncertainties: Uncertainties,
+    /// Correlations of pairs of free numbers.
+    pub correlations: Vec<(&'static str, &'static str, f64)>,
+    /// Whether the search ended at a minimum.
+    pub converged: bool,
+    /// Sum of squares of the residuals, N^2.
+    pub sum_of_squares: f64,
+    /// Points less free numbers.
+    pub degrees_of_freedom: usize,
+    /// Free numbers.
+    pub free: usize,
+    /// Akaike's criterion for noise of unknown size; of two models the one with less is better.
+    pub aic: f64,
+    /// Standard deviation of the residuals, N.
+    pub noise: f64,
+    /// Correlation of a residual with the next: about 0 for noise, near 1 for a model that misses.
+    pub autocorrelation: f64,
+    /// Force of the model at each point, N.
+    pub fitted: Vec<f64>,
+    /// Whether each point is held by the attraction or pressed; else the sphere is free.
+    pub held: Vec<bool>,
+}
+
+impl ModelFit {
+    /// Range of the attraction, m; `None` but for Maugis-Dugdale.
+    pub fn range(&self, radius: f64) -> Option<f64> {
+        Some(self.parameters.work_of_adhesion / self.peak_tension(radius)?)
+    }
+
+    /// Tension of the cohesive zone, Pa; `None` but for Maugis-Dugdale.
+    pub fn peak_tension(&self, radius: f64) -> Option<f64> {
+        (self.model == Model::MaugisDugdale).then(|| {
+            let Parameters {
+                contact_modulus,
+                work_of_adhesion,
+                maugis_parameter,
+                ..
+            } = self.parameters;
+            let modulus = 4.0 * contact_modulus / 3.0;
+            0.5 * maugis_parameter * (PI * work_of_adhesion * modulus * modulus / radius).cbrt()
+        })
+    }
+
+    /// Whether lambda ended where it may not go on, so that there is only a bound on it.
+    pub fn at_bound(&self) -> bool {
+        let lambda = self.parameters.maugis_parameter;
+        self.model == Model::MaugisDugdale
+            && !(1.01 * LAMBDAS.0..=0.99 * LAMBDAS.1).contains(&lambda)
+    }
+
+    /// Tabor number of a range law of the same work and peak tension.
+    pub fn tabor_parameter(&self) -> Option<f64> {
+        let known = self.model == Model::MaugisDugdale;
+        known.then_some(self.parameters.maugis_parameter / LAMBDA_PER_MU_MATCHED)
+    }
+}
+
+/// A free number.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+enum Variable {
+    ContactModulus,
+    WorkOfAdhesion,
+    MaugisParameter,
+    ApproachOffset,
+    ForceOffset,
+}
+
+impl Variable {
+    fn name(self) -> &'static str {
+        match self {
+            Variable::ContactModulus => "contact_modulus",
+            Variable::WorkOfAdhesion => "work_of_adhesion",
+            Variable::MaugisParameter => "maugis_parameter",
+            Variable::ApproachOffset => "approach_offset",
+            Variable::ForceOffset => "force_offset",
+        }
+    }
+}
+
+/// A model against a curve: variables are logarithms of what is positive, and offsets in shares of
+/// the spans.
+struct Search<'a> {
+    measured: &'a Measured,
+    sphere: SphereModel,
+    variables: Vec<Variable>,
+    start: Parameters,
+}
+
+impl Search<'_> {
+    fn parameters(&self, values: &DVector<f64>) -> Parameters {
+        let mut found = self.start;
+        for (variable, value) in self.variables.iter().zip(values.iter()) {
+            match variable {
+                Variable::ContactModulus => found.contact_modulus *= value.exp(),
+                Variable::WorkOfAdhesion => found.work_of_adhesion *= value.exp(),
+                Variable::MaugisParameter => {
+                    let lambda = found.maugis_parameter * value.exp();
+                    found.maugis_parameter = lambda.clamp(LAMBDAS.0, LAMBDAS.1);
+                }
+                Variable::ApproachOffset => {
+                    found.approach_offset += value * self.unit(*variable);
+                }
+                Variable::ForceOffset => found.force_offset += value * self.unit(*variable),
+            }
+        }
+        if let Some(range) = self.measured.freedom.range {
+            found.maugis_parameter = lambda_of(&found, self.sphere.radius, range);
+        }
+        found
+    }
+
+    /// What a variable of 1 is, of those that are not logarithms.
+    fn unit(&self, variable: Variable) -> f64 {
+        match variable {
+            Variable::ApproachOffset => 0.1 * self.measured.approach_span,
+            Variable::ForceOffset => 0.1 * self.measured.force_span,
+            _ => 1.0,
+        }
+    }
+
+    fn held(&self, values: &DVector<f64>) -> Option<(Vec<f64>, f64)> {
+        let parameters = self.parameters(values);
+        let forces = self.sphere.forces(&parameters, &self.measured.approaches);
+        let forces = forces.ok()?;
+        let finite = forces.iter().all(|force| force.is_finite());
+        finite.then_some((forces, parameters.force_offset))
+    }
+
+    fn residual(&self, sample: &Sample, force: f64) -> f64 {
+        (force - sample.force) / self.measured.force_span
+    }
+}
+
+impl Problem for Search<'_> {
+    /// Whether each point is held by the attraction or pressed; else the sphere is free.
+    type Choice = Vec<bool>;
+
+    /// On a way together the sphere is free first and held then, on a way apart the reverse; where
+    /// it jumps is what suits the forces best.
+    fn choose(&self, values: &DVector<f64>) -> Option<(Vec<bool>, DVector<f64>)> {
+        let held = self.held(values)?;
+        let samples = &self.measured.samples;
+        let mut choice = vec![true; samples.len()];
+        for way in &self.measured.ways {
+            let cost = |i: usize, force: f64| self.residual(&samples[i], force).powi(2);
+            // What is gained by setting a point free.
+            let gain = |i: usize| cost(i, held.0[i]) - cost(i, held.1);
+            let mut order: Vec<usize> = way.points.clone().collect();
+            if !way.together {
+                order.reverse();
+            }
+            let (mut best, mut until, mut sum) = (0.0, 0, 0.0);
+            for (count, i) in order.iter().enumerate() {
+                sum += gain(*i);
+                if sum > best {
+                    (best, until) = (sum, count + 1);
+                }
+            }
+            for i in &order[..until] {
+                choice[*i] = false;
+            }
+        }
+        let residuals = self.pick(&held, &choice);
+        Some((choice, residuals))
+    }
+
+    fn residuals(&self, values: &DVector<f64>, choice: &Vec<bool>) -> Option<DVector<f64>> {
+        Some(self.pick(&self.held(values)?, choice))
+    }
+}
+
+impl Search<'_> {
+    fn pick(&self, (held, free): &(Vec<f64>, f64), choice: &[bool]) -> DVector<f64> {
+        let samples = &self.measured.samples;
+        let each = (0..samples.len()).map(|i| {
+            let force = if choice[i] { held[i] } else { *free };
+            self.residual(&samples[i], force)
+        });
+        DVector::from_iterator(samples.len(), each)
+    }
+}
+
+/// Maugis' lambda of a range; 0 where the numbers are out of all bounds.
+fn lambda_of(parameters: &Parameters, radius: f64, range: f64) -> f64 {
+    Sphere::new(
+        radius,
+        parameters.contact_modulus,
+        parameters.work_of_adhesion,
+    )
+    .and_then(|sphere| maugis_parameter(&sphere, parameters.work_of_adhesion / range))
+    .unwrap_or(0.0)
+}
+
+/// The best fit of a model, from several starts; `None` where no start leads anywhere.
+pub(super) fn fit_model(measured: &Measured, model: Model) -> Option<ModelFit> {
+    let freedom = measured.freedom;
+    let mut variables = vec![Variable::ContactModulus];
+    if model.adheres() {
+        variables.push(Variable::WorkOfAdhesion);
+    }
+    if model == Model::MaugisDugdale && freedom.range.is_none() {
+        variables.push(Variable::MaugisParameter);
+    }
+    if freedom.approach_offset {
+        variables.push(Variable::ApproachOffset);
+    }
+    if freedom.force_offset {
+        variables.push(Variable::ForceOffset);
+    }
+    let search_from = |start: Parameters, variables: &[Variable]| {
+        let search = Search {
+            measured,
+            sphere: SphereModel::new(model, measured.radius),
+            variables: variables.to_vec(),
+            start,
+        };
+        let found = minimise(&search, DVector::zeros(variables.len()))?;
+        found.sum().is_finite().then_some((found, search))
+    };
+    let best_of = |starts: Vec<Parameters>, variables: &[Variable]| {
+        starts
+            .into_iter()
+            .filter_map(|start| search_from(start, variables))
+            .min_by(|a, b| a.0.sum().total_cmp(&b.0.sum()))
+    };
+    if !variables.contains(&Variable::MaugisParameter) {
+        let (minimum, search) = best_of(starts(measured, model, 1.0), &variables)?;
+        return Some(judged(&search, &minimum));
+    }
+    let held: Vec<Variable> = variables
+        .iter()
+        .copied()
+        .filter(|variable| *variable != Variable::MaugisParameter)
+        .collect();
+    let mut rungs: Vec<(f64, Parameters)> = LADDER
+        .into_iter()
+        .filter_map(|lambda| best_of(starts(measured, model, lambda), &held))
+        .map(|(minimum, search)| (minimum.sum(), search.parameters(&minimum.variables)))
+        .collect();
+    rungs.sort_by(|a, b| a.0.total_cmp(&b.0));
+    let first = rungs.iter().take(BEST_RUNGS).map(|(_, start)| *start);
+    let (minimum, search) = best_of(first.collect(), &variables)?;
+    let mut fit = judged(&search, &minimum);
+    widen(&mut fit, &rungs, &minimum);
+    Some(fit)
+}
+
+/// Takes the uncertainties from the rungs of the ladder that suit the curve as well, where lambda
+/// is so little known that a parabola around the minimum says nothing.
+fn widen(fit: &mut ModelFit, rungs: &[(f64, Parameters)], minimum: &Minimum) {
+    let variance = minimum.sum() / fit.degrees_of_freedom as f64;
+    for (sum, other) in rungs {
+        let rise = (sum - minimum.sum()) / variance;
+        if rise > MOST_RISE {
+            continue;
+        }
+        // A parabola would rise by the square of the distance in standard deviations.
+        let deviations = rise.max(1.0).sqrt();
+        let raise = |known: &mut Option<f64>, of: fn(&Parameters) -> f64| {
+            if let Some(known) = known {
+                *known = known.max((of(other) - of(&fit.parameters)).abs() / deviations);
+            }
+        };
+        let deviations = &mut fit.uncertainties;
+        raise(&mut deviations.work_of_adhesion, |p| p.work_of_adhesion);
+        raise(&mut deviations.contact_modulus, |p| p.contact_modulus);
+        raise(&mut deviations.maugis_parameter, |p| p.maugis_parameter);
+        raise(&mut deviations.approach_offset, |p| p.approach_offset);
+    }
+}
+
+/// Numbers and their uncertainties at a minimum.
+fn judged(search: &Search, minimum: &Minimum) -> ModelFit {
+    let measured = search.measured;
+    let parameters = search.parameters(&minimum.variables);
+    let points = measured.samples.len();
+    let free = search.variables.len();
+    let degrees = points.saturating_sub(free).max(1);
+    let sum = minimum.sum();
+    let autocorrelation = autocorrelation(&minimum.residuals, &measured.ways);
+    // Residuals that follow one another count for fewer: n (1 - r)/(1 + r) of them are independent.
+    let noticed = autocorrelation > 2.0 / (points as f64).sqrt();
+    let repeated = if noticed {
+        ((1.0 + autocorrelation) / (1.0 - autocorrelation)).min(0.1 * points as f64)
+    } else {
+        1.0
+    };
+    let variance = sum / degrees as f64 * repeated.max(1.0);
+    let covariance = covariance(&minimum.jacobian, variance);
+    let span = measured.force_span;
+    let held = search
+        .choose(&minimum.variables)
+        .map_or_else(Vec::new, |(choice, _)| choice);
+    let fitted = measured
+        .samples
+        .iter()
+        .zip(minimum.residuals.iter())
+        .map(|(sample, residual)| sample.force + residual * span)
+        .collect();
+    let floor = sum.max(FLOOR * points as f64);
+    ModelFit {
+        model: search.sphere.model,
+        parameters,
+        uncertainties: uncertainties(search, &parameters, &covariance),
+        correlations: correlations(&search.variables, &covariance),
+        converged: minimum.converged,
+        sum_of_squares: sum * span * span,
+        degrees_of_freedom: degrees,
+        free,
+        // The noise is a number that is fitted too.
+        aic: points as f64 * (floor / points as f64).ln() + 2.0 * (free + 1) as f64,
+        noise: (sum / degrees as f64).sqrt() * span,
+        autocorrelation,
+        fitted,
+        held,
+    }
+}
+
+fn uncertainties(
+    search: &Search,
+    parameters: &Parameters,
+    covariance: &DMatrix<f64>,
+) -> Uncertainties {
+    let place = |variable: Variable| search.variables.iter().position(|v| *v == variable);
+    let known = |variance: f64| (variance.is_finite()).then(|| variance.max(0.0).sqrt());
+    // Standard deviation of a sum of variables with these weights.
+    let of = |weights: &[(Variable, f64)]| -> Option<f64> {
+        let mut variance = 0.0;
+        for (first, a) in weights {
+            for (second, b) in weights {
+                let (i, j) = (place(*first)?, place(*second)?);
+                variance += a * b * covariance[(i, j)];
+            }
+        }
+        known(variance)
+    };
+    let alone = |variable| of(&[(variable, 1.0)]);
+    let scaled = |deviation: Option<f64>, by: Option<f64>| Some(deviation? * by?);
+    let model = search.sphere.model;
+    // ln tension = ln lambda + (1/3) ln w + (2/3) ln E*, and the range is w over it.
+    use Variable::{ApproachOffset, ContactModulus, ForceOffset, MaugisParameter, WorkOfAdhesion};
+    let third = 1.0 / 3.0;
+    let lambda = parameters.maugis_parameter;
+    let bounded = lambda <= LAMBDAS.0 || lambda >= LAMBDAS.1;
+    let within = |deviation: Option<f64>| deviation.filter(|_| !bounded);
+    let tension = of(&[
+        (MaugisParameter, 1.0),
+        (WorkOfAdhesion, third),
+        (ContactModulus, 2.0 * third),
+    ]);
+    let range = of(&[
+        (MaugisParameter, -1.0),
+        (WorkOfAdhesion, 2.0 * third),
+        (ContactModulus, -2.0 * third),
+    ]);
+    let adhesive = model == Model::MaugisDugdale;
+    let peak = adhesive.then(|| {
+        let modulus = 4.0 * parameters.contact_modulus / 3.0;
+        let cube = PI * parameters.work_of_adhesion * modulus * modulus / search.sphere.radius;
+        0.5 * parameters.maugis_parameter * cube.cbrt()
+    });
+    let reach = peak.map(|peak| parameters.work_of_adhesion / peak);
+    Uncertainties {
+        contact_modulus: scaled(alone(ContactModulus), Some(parameters.contact_modulus)),
+        work_of_adhesion: scaled(alone(WorkOfAdhesion), Some(parameters.work_of_adhesion)),
+        maugis_parameter: scaled(within(alone(MaugisParameter)), Some(lambda)),
+        range: scaled(within(range), reach),
+        peak_tension: scaled(within(tension), peak),
+        approach_offset: scaled(alone(ApproachOffset), Some(search.unit(ApproachOffset))),
+        force_offset: scaled(alone(ForceOffset), Some(search.unit(ForceOffset))),
+    }
+}
+
+fn correlations(
+    variables: &[Variable],
+    covariance: &DMatrix<f64>,
+) -> Vec<(&'static str, &'static str, f64)> {
+    let mut pairs = Vec::new();
+    for i in 0..variables.len() {
+        for j in i + 1..variables.len() {
+            let product = covariance[(i, i)] * covariance[(j, j)];
+            let correlation = covariance[(i, j)] / product.sqrt();
+            if correlation.is_finite() {
+                pairs.push((variables[i].name(), variables[j].name(), correlation));
+            }
+        }
+    }
+    pairs
+}
+
+/// Correlation of each residual with the next of the same way.
+fn autocorrelation(residuals: &DVector<f64>, ways: &[Way]) -> f64 {
+    let square = residuals.norm_squared();
+    let products: f64 = ways
+        .iter()
+        .flat_map(|way| way.points.clone().skip(1))
+        .map(|i| residuals[i] * residuals[i - 1])
+        .sum();
+    if square > 0.0 {
+        (products / square).clamp(-0.99, 0.99)
+    } else {
+        0.0
+    }
+}

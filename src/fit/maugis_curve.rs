@@ -1,0 +1,120 @@
+//! Force by approach of a Maugis-Dugdale sphere, tabulated once for a lambda.
+//!
+//! Maugis units (see [`crate::theory::tabor_map`]).
+
+use std::f64::consts::{FRAC_PI_2, PI};
+
+use crate::theory::TheoryError;
+use crate::theory::maugis_dugdale::{FOLD_LAMBDA, MaugisDugdale};
+
+/// States of the table; an interpolated force is good to 1e-7 of the pull-off.
+const NODES: usize = 320;
+/// Contact radius up to which the nodes are even; beyond it they spread.
+const EVEN: f64 = 0.8;
+/// Contact radius that stands for the first touch.
+const TOUCH: f64 = 1e-6;
+
+/// The curve of one lambda.
+#[derive(Clone, Debug)]
+pub(super) struct MaugisCurve {
+    model: MaugisDugdale,
+    /// Root of the approach beyond the first node: the force is smooth in it, also at a fold.
+    roots: Vec<f64>,
+    forces: Vec<f64>,
+    /// Approach of the first node: the fold, or the first touch.
+    first: f64,
+    /// Greatest tension.
+    pub(super) pull_off: (f64, f64),
+}
+
+impl MaugisCurve {
+    /// The curve at `lambda`, up to the approach `deepest`.
+    pub(super) fn new(lambda: f64, deepest: f64) -> Result<Self, TheoryError> {
+        let model = MaugisDugdale::new(lambda)?;
+        let grip = model.grip()?;
+        let folded = lambda > FOLD_LAMBDA;
+        let begin = if folded { grip.contact_radius } else { TOUCH };
+        // A^2 = approach + (4/3) lambda A t, and the tension draws no sphere in by more than JKR.
+        let end = 4.0 + deepest.max(0.0).sqrt();
+        let stretch = ((end - begin) / EVEN).asinh();
+        let mut roots = Vec::with_capacity(NODES);
+        let mut forces = Vec::with_capacity(NODES);
+        let mut first = f64::NAN;
+        for i in 0..NODES {
+            let share = i as f64 / (NODES - 1) as f64;
+            let state = model.state(begin + EVEN * (share * stretch).sinh())?;
+            if i == 0 {
+                first = state.approach;
+            }
+            let root = (state.approach - first).max(0.0).sqrt();
+            // Rounding beside the fold.
+            if roots.last().is_none_or(|last| root > *last) {
+                roots.push(root);
+                forces.push(state.force);
+            }
+        }
+        let pull_off = model.pull_off()?;
+        Ok(MaugisCurve {
+            model,
+            roots,
+            forces,
+            first,
+            pull_off: (pull_off.approach, pull_off.force),
+        })
+    }
+
+    /// Force on the one curve from the open disc to the contact; beyond its fold that of the fold.
+    pub(super) fn force(&self, approach: f64) -> f64 {
+        if approach >= self.first {
+            return self.interpolated((approach - self.first).sqrt());
+        }
+        if self.model.lambda() > FOLD_LAMBDA {
+            return self.forces[0];
+        }
+        // The stable one of the open discs.
+        let centre = 8.0 / (3.0 * PI) * self.model.lambda();
+        let square = centre * centre + 2.0 * (self.model.range() + approach);
+        let radius = (centre + square.max(0.0).sqrt()).min(self.model.touching_radius());
+        -FRAC_PI_2 * self.model.lambda() * radius * radius
+    }
+
+    /// The cubic through the four nodes around a place.
+    fn interpolated(&self, root: f64) -> f64 {
+        let after = self.roots.partition_point(|node| *node <= root);
+        let from = after.saturating_sub(2).min(self.roots.len() - 4);
+        let (x, y) = (&self.roots[from..from + 4], &self.forces[from..from + 4]);
+        (0..4)
+            .map(|i| {
+                let weight: f64 = (0..4)
+                    .filter(|j| *j != i)
+                    .map(|j| (root - x[j]) / (x[i] - x[j]))
+                    .product();
+                weight * y[i]
+            })
+            .sum()
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_table_is_the_curve() {
+        for lambda in [0.02, 0.3, 0.9, 0.95, 2.0, 15.0] {
+            let curve = MaugisCurve::new(lambda, 50.0).unwrap();
+            let model = MaugisDugdale::new(lambda).unwrap();
+            for approach in [-0.9, -0.6, -0.3, 0.0, 1.0, 7.0, 49.0] {
+                let Some(state) = model.states_at_approach(approach).unwrap().pop() else {
+                    continue;
+                };
+                let got = curve.force(approach);
+                assert!(
+                    (got - state.force).abs() < 1e-6 * (1.0 + state.force.abs()),
+                    "{lambda} {approach}: {got} {}",
+                    state.force
+                );
+            }
+        }
+    }
+}

@@ -1,0 +1,34 @@
+//! Work of adhesion and contact modulus from a measured force curve of a sphere.
+//!
+//! A [`ForceCurve`] is read from a file, cut into [`ways`] together and apart, and held against four
+//! models of a sphere ([`model`]): Hertz, DMT, JKR and Maugis-Dugdale. Which of them is right depends
+//! on the Tabor number, which only the fit can tell; [`fit_curve`] goes round that circle until it
+//! closes. Every model's numbers come with it, so that the choice can be judged.
+//!
+//! Signs are those of the results everywhere: a force is positive in compression, an approach is
+//! positive closer. Everything is in SI. How it works, with its limits, is told in `docs/fit.md`.
+
+mod choice;
+mod curve_file;
+mod error;
+mod estimate;
+mod inversion;
+mod least_squares;
+mod maugis_curve;
+mod measured;
+pub mod model;
+mod picture;
+mod report;
+mod start;
+mod ways;
+
+pub use choice::{FitResult, fit_curve};
+pub use curve_file::{ForceCurve, Sample};
+pub use error::FitError;
+pub use estimate::{ModelFit, Uncertainties};
+pub use inversion::{Inversion, invert_curve};
+pub use measured::{Freedom, Measured};
+pub use model::Model;
+pub use picture::draw;
+pub use report::report;
+pub use ways::{Way, ways};

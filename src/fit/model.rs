@@ -1,0 +1,191 @@
+//! The models of a sphere that a curve is held against.
+
+use std::cell::RefCell;
+use std::f64::consts::PI;
+use std::rc::Rc;
+
+use super::maugis_curve::MaugisCurve;
+use crate::theory::{TheoryError, jkr};
+
+/// Least and greatest Maugis parameter that are tried: beyond, force curves are those of DMT and
+/// JKR to a thousandth.
+pub const LAMBDAS: (f64, f64) = (0.01, 20.0);
+
+/// A model of a sphere on a half-space.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Model {
+    /// No adhesion. [`crate::theory::hertz`].
+    Hertz,
+    /// Hertz less `2 pi w R` in contact, nothing out of it: stiff and small. Maugis 1992.
+    Dmt,
+    /// Attraction of no range: soft and large. [`crate::theory::jkr`].
+    Jkr,
+    /// Attraction of any range. [`crate::theory::maugis_dugdale`].
+    MaugisDugdale,
+}
+
+impl Model {
+    /// All of them, from the fewest numbers to the most.
+    pub const ALL: [Model; 4] = [Model::Hertz, Model::Dmt, Model::Jkr, Model::MaugisDugdale];
+
+    /// As in `fit.json`.
+    pub fn name(self) -> &'static str {
+        match self {
+            Model::Hertz => "hertz",
+            Model::Dmt => "dmt",
+            Model::Jkr => "jkr",
+            Model::MaugisDugdale => "maugis-dugdale",
+        }
+    }
+
+    /// For people.
+    pub fn title(self) -> &'static str {
+        match self {
+            Model::Hertz => "Hertz",
+            Model::Dmt => "DMT",
+            Model::Jkr => "JKR",
+            Model::MaugisDugdale => "Maugis-Dugdale",
+        }
+    }
+
+    /// Whether it attracts.
+    pub fn adheres(self) -> bool {
+        self != Model::Hertz
+    }
+}
+
+/// What a model needs to know, SI.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Parameters {
+    /// E*, Pa.
+    pub contact_modulus: f64,
+    /// w, J/m^2; 0 for Hertz.
+    pub work_of_adhesion: f64,
+    /// Maugis' lambda; of no meaning but for Maugis-Dugdale.
+    pub maugis_parameter: f64,
+    /// Approach at which the undeformed surfaces first touch, m.
+    pub approach_offset: f64,
+    /// Force where nothing acts, N.
+    pub force_offset: f64,
+}
+
+/// A force at an approach.
+type ForceByApproach = Box<dyn Fn(f64) -> Result<f64, TheoryError>>;
+
+/// A model of a sphere of a given radius, with the tables it made last.
+#[derive(Clone, Debug)]
+pub struct SphereModel {
+    /// Which.
+    pub model: Model,
+    /// R, m.
+    pub radius: f64,
+    tables: RefCell<Vec<(f64, f64, Rc<MaugisCurve>)>>,
+}
+
+/// Tables kept: the state, and two beside it for a derivative.
+const TABLES: usize = 4;
+
+impl SphereModel {
+    /// A model of a sphere of `radius` (m).
+    pub fn new(model: Model, radius: f64) -> Self {
+        SphereModel {
+            model,
+            radius,
+            tables: RefCell::new(Vec::new()),
+        }
+    }
+
+    /// Force of a sphere that the attraction holds, at each of `approaches` (m, as measured), N.
+    ///
+    /// Beyond the fold where a held approach lets go it is that of the fold: the model has no
+    /// state there, and the sphere is free.
+    pub fn forces(
+        &self,
+        parameters: &Parameters,
+        approaches: &[f64],
+    ) -> Result<Vec<f64>, TheoryError> {
+        let Parameters {
+            contact_modulus,
+            work_of_adhesion,
+            maugis_parameter,
+            approach_offset,
+            force_offset,
+        } = *parameters;
+        let force: ForceByApproach = if self.model == Model::Hertz {
+            let stiffness = 4.0 / 3.0 * contact_modulus * self.radius.sqrt();
+            Box::new(move |place: f64| Ok(stiffness * place.max(0.0).powf(1.5)))
+        } else {
+            let (force_unit, approach_unit) = units(self.radius, contact_modulus, work_of_adhesion);
+            let deepest = approaches.iter().fold(0.0_f64, |most, approach| {
+                most.max((approach - approach_offset) / approach_unit)
+            });
+            let reduced = self.reduced(maugis_parameter, deepest)?;
+            Box::new(move |place: f64| Ok(force_unit * reduced(place / approach_unit)?))
+        };
+        approaches
+            .iter()
+            .map(|approach| Ok(force_offset + force(approach - approach_offset)?))
+            .collect()
+    }
+
+    /// Force by approach in Maugis units, up to an approach.
+    fn reduced(&self, lambda: f64, deepest: f64) -> Result<ForceByApproach, TheoryError> {
+        Ok(match self.model {
+            Model::Hertz => Box::new(|approach: f64| Ok(approach.max(0.0).powf(1.5))),
+            Model::Dmt => Box::new(|approach: f64| Ok(approach.max(0.0).powf(1.5) - 2.0)),
+            Model::Jkr => Box::new(|approach: f64| {
+                let least = jkr::reduced_approach(jkr::grip());
+                let radius = jkr::reduced_radius_at_approach(approach.max(least))?;
+                Ok(jkr::reduced_force(radius))
+            }),
+            Model::MaugisDugdale => {
+                let table = self.table(lambda, deepest)?;
+                Box::new(move |approach: f64| Ok(table.force(approach)))
+            }
+        })
+    }
+
+    /// Approach and force of the greatest tension, in Maugis units.
+    pub(super) fn pull_off(&self, lambda: f64) -> Result<(f64, f64), TheoryError> {
+        Ok(match self.model {
+            Model::Hertz | Model::Dmt => (0.0, -2.0),
+            Model::Jkr => (jkr::reduced_approach(jkr::pull_off()), jkr::PULL_OFF_FORCE),
+            Model::MaugisDugdale => self.table(lambda, 0.0)?.pull_off,
+        })
+    }
+
+    /// Approach in contact at a force, beyond pull-off, in Maugis units.
+    pub(super) fn approach_at(&self, lambda: f64, force: f64) -> Result<f64, TheoryError> {
+        let (low, _) = self.pull_off(lambda)?;
+        // The attraction is less than 2.2 in these units, whatever the model.
+        let high = 4.0 + (force.max(0.0) + 2.2).powf(2.0 / 3.0);
+        let reduced = self.reduced(lambda, high)?;
+        let excess = |approach: f64| reduced(approach).map_or(f64::NAN, |at| at - force);
+        crate::theory::roots::root("a contact at this force", excess, low, high, 1e-9)
+    }
+
+    fn table(&self, lambda: f64, deepest: f64) -> Result<Rc<MaugisCurve>, TheoryError> {
+        let lambda = lambda.clamp(LAMBDAS.0, LAMBDAS.1);
+        let mut tables = self.tables.borrow_mut();
+        let known = tables
+            .iter()
+            .find(|(of, to, _)| *of == lambda && *to >= deepest && *to <= 16.0 * (deepest + 1.0));
+        if let Some((_, _, table)) = known {
+            return Ok(Rc::clone(table));
+        }
+        // Some room, so that the next step of a fit finds it still good.
+        let to = 2.0 * (deepest + 1.0);
+        let table = Rc::new(MaugisCurve::new(lambda, to)?);
+        tables.truncate(TABLES - 1);
+        tables.insert(0, (lambda, to, Rc::clone(&table)));
+        Ok(table)
+    }
+}
+
+/// Maugis' units of force, N, and approach, m.
+pub(super) fn units(radius: f64, contact_modulus: f64, work_of_adhesion: f64) -> (f64, f64) {
+    let force = PI * work_of_adhesion * radius;
+    let modulus = 4.0 * contact_modulus / 3.0;
+    let contact = (force * radius / modulus).cbrt();
+    (force, contact * contact / radius)
+}

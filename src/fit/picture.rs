@@ -1,0 +1,249 @@
+//! `fit.png`: the curve with the model through it, and what is left between them.
+
+use std::io;
+
+use image::{ExtendedColorType, ImageEncoder, RgbImage, codecs::png::PngEncoder};
+use noto_sans_mono_bitmap::{FontWeight, RasterHeight};
+
+use super::choice::FitResult;
+use crate::output::canvas::{self, FRAME, INK, QUIET_INK, WHITE, printable};
+use crate::output::colour_scale::round_values;
+use crate::output::layout::Rect;
+use crate::output::palette::Rgb;
+use crate::output::si::{ScaledUnit, scaled_unit};
+use crate::output::{Font, TextLine};
+use crate::units::format_si;
+
+const PAGE: [u32; 2] = [1100, 900];
+const TEXT: Font = Font {
+    weight: FontWeight::Regular,
+    size: RasterHeight::Size16,
+};
+const HEADING: Font = Font {
+    weight: FontWeight::Bold,
+    size: RasterHeight::Size20,
+};
+/// The panel of the curve.
+const CURVE: Rect = Rect {
+    x: 120,
+    y: 90,
+    width: 940,
+    height: 500,
+};
+/// The panel of the residuals.
+const RESIDUALS: Rect = Rect {
+    x: 120,
+    y: 650,
+    width: 940,
+    height: 170,
+};
+/// Points on the way together, and on the way apart.
+const TOGETHER: Rgb = [216, 132, 44];
+const APART: Rgb = [40, 96, 168];
+/// Most ticks of an axis.
+const TICKS: usize = 8;
+/// Pixels of a tick mark.
+const MARK: u32 = 6;
+/// Share of an axis left free at its ends.
+const MARGIN: f64 = 0.04;
+
+/// One axis: the values at its ends and the pixels they lie on.
+struct Axis {
+    low: f64,
+    high: f64,
+    from: f64,
+    to: f64,
+    unit: ScaledUnit,
+}
+
+impl Axis {
+    fn over(values: impl Iterator<Item = f64>, (from, to): (u32, u32), unit: &str) -> Axis {
+        let (mut low, mut high) = values
+            .fold((f64::INFINITY, f64::NEG_INFINITY), |(low, high), value| {
+                (low.min(value), high.max(value))
+            });
+        // A constant still needs a width.
+        let room = (MARGIN * (high - low))
+            .max(1e-6 * high.abs())
+            .max(f64::MIN_POSITIVE);
+        (low, high) = (low - room, high + room);
+        Axis {
+            low,
+            high,
+            from: f64::from(from),
+            to: f64::from(to),
+            unit: scaled_unit(low.abs().max(high.abs()), unit),
+        }
+    }
+
+    fn pixel(&self, value: f64) -> f64 {
+        let share = (value - self.low) / (self.high - self.low);
+        self.from + share * (self.to - self.from)
+    }
+
+    fn ticks(&self) -> Vec<(f64, String)> {
+        let factor = self.unit.factor;
+        round_values(self.low / factor, self.high / factor, TICKS)
+            .into_iter()
+            .map(|(value, label)| (value * factor, label))
+            .collect()
+    }
+}
+
+/// The picture as a PNG file.
+pub fn draw(result: &FitResult, title: &str) -> io::Result<Vec<u8>> {
+    let mut page = RgbImage::from_pixel(PAGE[0], PAGE[1], image::Rgb(WHITE));
+    let fit = result.best();
+    let samples = &result.measured.samples;
+    let approach = Axis::over(
+        samples.iter().map(|sample| sample.approach),
+        (CURVE.x, CURVE.right() - 1),
+        "m",
+    );
+    let forces = samples.iter().map(|sample| sample.force);
+    let force = Axis::over(
+        forces.chain(fit.fitted.iter().copied()),
+        (CURVE.bottom() - 1, CURVE.y),
+        "N",
+    );
+    let rest = |i: usize| samples[i].force - fit.fitted[i];
+    let residual = Axis::over(
+        (0..samples.len()).map(rest).chain([0.0]),
+        (RESIDUALS.bottom() - 1, RESIDUALS.y),
+        "N",
+    );
+    heading(&mut page, result, title);
+    panel(&mut page, CURVE, &approach, &force, "force");
+    panel(&mut page, RESIDUALS, &approach, &residual, "data - model");
+    for way in &result.measured.ways {
+        let colour = if way.together { TOGETHER } else { APART };
+        for i in way.points.clone() {
+            let x = approach.pixel(samples[i].approach);
+            dot(&mut page, (x, force.pixel(samples[i].force)), colour);
+            dot(&mut page, (x, residual.pixel(rest(i))), colour);
+        }
+    }
+    for way in &result.measured.ways {
+        let mut before: Option<(f64, f64)> = None;
+        for i in way.points.clone() {
+            let here = (
+                approach.pixel(samples[i].approach),
+                force.pixel(fit.fitted[i]),
+            );
+            line(&mut page, before.unwrap_or(here), here, INK);
+            before = Some(here);
+        }
+    }
+    let zero = residual.pixel(0.0);
+    let ends = (f64::from(RESIDUALS.x), f64::from(RESIDUALS.right() - 1));
+    line(&mut page, (ends.0, zero), (ends.1, zero), INK);
+    let mut png = Vec::new();
+    PngEncoder::new(&mut png)
+        .write_image(
+            page.as_raw(),
+            page.width(),
+            page.height(),
+            ExtendedColorType::Rgb8,
+        )
+        .map_err(io::Error::other)?;
+    Ok(png)
+}
+
+fn heading(page: &mut RgbImage, result: &FitResult, title: &str) {
+    let fit = result.best();
+    let mut says = format!("{}: ", fit.model.title());
+    if fit.model.adheres() {
+        says += &format!(
+            "w = {}, ",
+            format_si(fit.parameters.work_of_adhesion, "J/m^2")
+        );
+    }
+    says += &format!("E* = {}", format_si(fit.parameters.contact_modulus, "Pa"));
+    if let Some(mu) = result.tabor_parameter {
+        says += &format!(", Tabor number {mu:.2}");
+    }
+    let longest = (CURVE.width / HEADING.advance()) as usize;
+    let cut: String = printable(title).chars().take(longest).collect();
+    put(page, cut, HEADING, (CURVE.x, 22), INK);
+    put(page, printable(&says), TEXT, (CURVE.x, 54), INK);
+    let keys = [("together", TOGETHER), ("apart", APART), ("model", INK)];
+    let mut x = CURVE.right() - 330;
+    for (name, colour) in keys {
+        dot(page, (f64::from(x), 62.0), colour);
+        put(page, name.to_owned(), TEXT, (x + 10, 54), QUIET_INK);
+        x += 30 + TEXT.width(name);
+    }
+}
+
+fn panel(page: &mut RgbImage, place: Rect, across: &Axis, up: &Axis, name: &str) {
+    canvas::frame(page, place, FRAME);
+    for (value, label) in across.ticks() {
+        let x = across.pixel(value).round() as u32;
+        let mark = Rect {
+            x,
+            y: place.bottom(),
+            width: 1,
+            height: MARK,
+        };
+        canvas::fill(page, mark, INK);
+        let left = x.saturating_sub(TEXT.width(&label) / 2);
+        put(page, label, TEXT, (left, place.bottom() + MARK + 2), INK);
+    }
+    for (value, label) in up.ticks() {
+        let y = up.pixel(value).round() as u32;
+        let mark = Rect {
+            x: place.x - MARK,
+            y,
+            width: MARK,
+            height: 1,
+        };
+        canvas::fill(page, mark, INK);
+        let left = (place.x - MARK - 4).saturating_sub(TEXT.width(&label));
+        put(page, label, TEXT, (left, y.saturating_sub(8)), INK);
+    }
+    let above = (place.x, place.y - TEXT.height() - 2);
+    put(
+        page,
+        format!("{name} [{}]", up.unit.name),
+        TEXT,
+        above,
+        QUIET_INK,
+    );
+    let says = format!("approach [{}]", across.unit.name);
+    let left = place.right() - TEXT.width(&says);
+    put(page, says, TEXT, (left, place.bottom() + 26), QUIET_INK);
+}
+
+fn put(page: &mut RgbImage, text: String, font: Font, (x, y): (u32, u32), ink: Rgb) {
+    canvas::write(page, &TextLine { text, font, x, y }, ink);
+}
+
+/// A square of three pixels.
+fn dot(page: &mut RgbImage, (x, y): (f64, f64), colour: Rgb) {
+    let place = Rect {
+        x: (x.round() as u32).saturating_sub(1),
+        y: (y.round() as u32).saturating_sub(1),
+        width: 3,
+        height: 3,
+    };
+    canvas::fill(page, place, colour);
+}
+
+/// A straight line one pixel wide.
+fn line(page: &mut RgbImage, from: (f64, f64), to: (f64, f64), colour: Rgb) {
+    let steps = (to.0 - from.0)
+        .abs()
+        .max((to.1 - from.1).abs())
+        .ceil()
+        .max(1.0) as u32;
+    for step in 0..=steps {
+        let share = f64::from(step) / f64::from(steps);
+        let place = Rect {
+            x: (from.0 + share * (to.0 - from.0)).round() as u32,
+            y: (from.1 + share * (to.1 - from.1)).round() as u32,
+            width: 1,
+            height: 1,
+        };
+        canvas::fill(page, place, colour);
+    }
+}

@@ -1,0 +1,129 @@
+//! `fit.json`. Its keys are told in `docs/fit.md`.
+
+use std::path::Path;
+
+use serde_json::{Map, Value, json};
+
+use super::choice::FitResult;
+use super::estimate::ModelFit;
+
+/// What a fit found, SI; a number that the curve does not tell is null.
+pub fn report(result: &FitResult, path: &Path) -> Value {
+    let best = result.best();
+    let measured = &result.measured;
+    let radius = measured.radius;
+    let mut report = Map::new();
+    let mut put = |key: &str, value: Value| {
+        report.insert(key.to_owned(), value);
+    };
+    put("version", json!(env!("CARGO_PKG_VERSION")));
+    put("curve", json!(path.display().to_string()));
+    put("radius", json!(radius));
+    put("points", json!(measured.samples.len()));
+    put("model", json!(best.model.name()));
+    for (key, value) in numbers(best, radius) {
+        put(&key, value);
+    }
+    // As the whole comparison leaves them, beside what the one model says of itself below.
+    if best.model.adheres() {
+        put(
+            "work_of_adhesion",
+            measurement(best.parameters.work_of_adhesion, result.work_uncertainty),
+        );
+    }
+    put(
+        "contact_modulus",
+        measurement(best.parameters.contact_modulus, result.modulus_uncertainty),
+    );
+    put("tabor_parameter", json!(result.tabor_parameter));
+    put("correlations", correlations(best));
+    put("noise", json!(best.noise));
+    put(
+        "jkr_inversion",
+        result.inversion.map_or(Value::Null, |found| {
+            json!({
+                "pull_off_force": found.pull_off_force,
+                "load": found.load,
+                "stiffness": found.stiffness,
+                "work_of_adhesion": measurement(found.work_of_adhesion, Some(found.work_uncertainty)),
+                "contact_modulus": measurement(found.contact_modulus, Some(found.modulus_uncertainty)),
+            })
+        }),
+    );
+    put(
+        "models",
+        result.fits.iter().map(|fit| model(fit, radius)).collect(),
+    );
+    put("warnings", json!(result.warnings));
+    Value::Object(report)
+}
+
+fn model(fit: &ModelFit, radius: f64) -> Value {
+    let mut entry = Map::new();
+    entry.insert("model".to_owned(), json!(fit.model.name()));
+    entry.extend(numbers(fit, radius));
+    entry.extend([
+        ("converged".to_owned(), json!(fit.converged)),
+        ("chi_squared".to_owned(), json!(fit.sum_of_squares)),
+        (
+            "degrees_of_freedom".to_owned(),
+            json!(fit.degrees_of_freedom),
+        ),
+        ("aic".to_owned(), json!(fit.aic)),
+        ("noise".to_owned(), json!(fit.noise)),
+        ("autocorrelation".to_owned(), json!(fit.autocorrelation)),
+        ("correlations".to_owned(), correlations(fit)),
+    ]);
+    Value::Object(entry)
+}
+
+/// The numbers of a model under their names.
+fn numbers(fit: &ModelFit, radius: f64) -> Vec<(String, Value)> {
+    let (values, deviations) = (&fit.parameters, &fit.uncertainties);
+    let adhesive = fit.model.adheres().then_some(values.work_of_adhesion);
+    let lambda = fit.tabor_parameter().map(|_| values.maugis_parameter);
+    let named = [
+        ("work_of_adhesion", adhesive, deviations.work_of_adhesion),
+        (
+            "contact_modulus",
+            Some(values.contact_modulus),
+            deviations.contact_modulus,
+        ),
+        ("maugis_parameter", lambda, deviations.maugis_parameter),
+        ("range", fit.range(radius), deviations.range),
+        (
+            "peak_tension",
+            fit.peak_tension(radius),
+            deviations.peak_tension,
+        ),
+        (
+            "approach_offset",
+            Some(values.approach_offset),
+            deviations.approach_offset,
+        ),
+        (
+            "force_offset",
+            Some(values.force_offset),
+            deviations.force_offset,
+        ),
+    ];
+    named
+        .into_iter()
+        .map(|(name, value, deviation)| {
+            let shown = value.map_or(Value::Null, |value| measurement(value, deviation));
+            (name.to_owned(), shown)
+        })
+        .collect()
+}
+
+fn measurement(value: f64, uncertainty: Option<f64>) -> Value {
+    json!({ "value": value, "uncertainty": uncertainty })
+}
+
+fn correlations(fit: &ModelFit) -> Value {
+    let entries = fit
+        .correlations
+        .iter()
+        .map(|(first, second, value)| (format!("{first},{second}"), json!(value)));
+    Value::Object(entries.collect())
+}

@@ -1,0 +1,94 @@
+//! Ways together and apart.
+
+use std::ops::Range;
+
+use super::curve_file::Sample;
+
+/// Share of the whole approach that a turn must cover: less is noise of the approach.
+const LEAST_TURN: f64 = 0.02;
+
+/// Consecutive points over which the surfaces come together, or go apart.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Way {
+    /// Which points.
+    pub points: Range<usize>,
+    /// Whether they come together.
+    pub together: bool,
+}
+
+/// Cuts a curve where its approach turns.
+pub fn ways(samples: &[Sample]) -> Vec<Way> {
+    let Some(first) = samples.first() else {
+        return Vec::new();
+    };
+    let (low, high) = samples
+        .iter()
+        .fold((first.approach, first.approach), |(low, high), sample| {
+            (low.min(sample.approach), high.max(sample.approach))
+        });
+    let turn = LEAST_TURN * (high - low);
+    let mut ways = Vec::new();
+    let mut begin = 0;
+    // The furthest point of the way so far, in its direction; no direction before the first turn.
+    let mut direction: Option<bool> = None;
+    let mut furthest = 0;
+    let mut lowest = 0;
+    for (i, sample) in samples.iter().enumerate() {
+        let beyond = |other: usize| sample.approach - samples[other].approach;
+        match direction {
+            None => {
+                if beyond(furthest) > 0.0 {
+                    furthest = i;
+                }
+                if beyond(lowest) < 0.0 {
+                    lowest = i;
+                }
+                if beyond(lowest) > turn {
+                    (direction, furthest) = (Some(true), i);
+                } else if beyond(furthest) < -turn {
+                    (direction, furthest) = (Some(false), i);
+                }
+            }
+            Some(together) => {
+                let sign = if together { 1.0 } else { -1.0 };
+                if sign * beyond(furthest) >= 0.0 {
+                    furthest = i;
+                } else if sign * beyond(furthest) < -turn {
+                    ways.push(Way {
+                        points: begin..furthest + 1,
+                        together,
+                    });
+                    begin = furthest + 1;
+                    (direction, furthest) = (Some(!together), i);
+                }
+            }
+        }
+    }
+    ways.push(Way {
+        points: begin..samples.len(),
+        together: direction.unwrap_or(true),
+    });
+    ways
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_loop_has_two_ways_and_noise_none() {
+        let noise = [0.0, 0.004, -0.006, 0.005, -0.003];
+        let loop_of = |i: usize| if i < 100 { i } else { 200 - i } as f64 / 100.0;
+        let samples: Vec<Sample> = (0..=200)
+            .map(|i| Sample {
+                approach: loop_of(i) + noise[i % 5],
+                force: 0.0,
+            })
+            .collect();
+        let found = ways(&samples);
+        assert_eq!(found.len(), 2, "{found:?}");
+        assert!(found[0].together && !found[1].together);
+        assert!(found[0].points.end.abs_diff(100) <= 2);
+        assert_eq!(found[1].points, found[0].points.end..201);
+    }
+}

@@ -1,0 +1,289 @@
+//! Kinds of height file: one table, told apart by their first bytes, then by their extension.
+//!
+//! Whatever a file claims about its shape is compared with its own length before memory is asked for.
+
+mod al3d;
+mod bytes;
+mod gsf;
+mod gwy;
+mod length;
+mod npy;
+mod png;
+mod sdf;
+mod sur;
+mod surfer;
+mod text;
+mod tiff;
+mod xyz;
+
+use std::fs::{self, File};
+use std::io::{BufRead, BufReader, ErrorKind, Read};
+use std::path::Path;
+
+use super::error::FileError;
+use super::matrix::Matrix;
+
+/// Longest file that is taken in whole, 16 GiB: the most points of a grid in doubles, twice.
+const LONGEST: u64 = 1 << 34;
+
+/// Longest text file taken, 4 GiB: numbers of it take twice the memory besides.
+const LONGEST_TEXT: u64 = 1 << 32;
+
+/// A kind of height file.
+struct Format {
+    /// What it is called in messages, without article.
+    name: &'static str,
+    /// Extensions, lower case.
+    extensions: &'static [&'static str],
+    /// First bytes, any of them; none for text, which begins with anything.
+    magic: &'static [&'static [u8]],
+    /// Longest file taken.
+    longest: u64,
+    /// Reads the numbers.
+    read: Reader,
+}
+
+/// How a kind is read: as it streams, or from all its bytes.
+enum Reader {
+    Stream(fn(BufReader<File>, u64) -> Result<Matrix, FileError>),
+    Whole(fn(&[u8]) -> Result<Matrix, FileError>),
+}
+
+/// Every kind of file that is read.
+const FORMATS: &[Format] = &[
+    Format {
+        name: "NumPy array (.npy)",
+        extensions: &["npy"],
+        magic: &[npy::MAGIC],
+        longest: u64::MAX,
+        read: Reader::Stream(npy::read),
+    },
+    Format {
+        name: "PNG image",
+        extensions: &["png"],
+        magic: &[png::MAGIC],
+        longest: LONGEST,
+        read: Reader::Whole(png::read),
+    },
+    Format {
+        name: "TIFF image",
+        extensions: &["tif", "tiff"],
+        magic: &tiff::MAGIC,
+        longest: LONGEST,
+        read: Reader::Whole(tiff::read),
+    },
+    Format {
+        name: "Gwyddion simple field (.gsf)",
+        extensions: &["gsf"],
+        magic: &[gsf::MAGIC],
+        longest: LONGEST,
+        read: Reader::Whole(gsf::read),
+    },
+    Format {
+        name: "Gwyddion file (.gwy)",
+        extensions: &["gwy"],
+        magic: &[gwy::MAGIC],
+        longest: LONGEST,
+        read: Reader::Whole(gwy::read),
+    },
+    Format {
+        name: "Surfer grid (.grd)",
+        extensions: &["grd"],
+        magic: &[surfer::TEXT, surfer::BINARY, surfer::BINARY_7],
+        longest: LONGEST,
+        read: Reader::Whole(surfer::read),
+    },
+    Format {
+        name: "surface data file (.sdf)",
+        extensions: &["sdf"],
+        magic: &sdf::MAGIC,
+        longest: LONGEST,
+        read: Reader::Whole(sdf::read),
+    },
+    Format {
+        name: "Digital Surf surface (.sur)",
+        extensions: &["sur"],
+        magic: &[sur::MAGIC, sur::COMPRESSED],
+        longest: LONGEST,
+        read: Reader::Whole(sur::read),
+    },
+    Format {
+        name: "Alicona height map (.al3d)",
+        extensions: &["al3d"],
+        magic: &[al3d::MAGIC],
+        longest: LONGEST,
+        read: Reader::Whole(al3d::read),
+    },
+    Format {
+        name: "columns x y z (.xyz)",
+        extensions: &["xyz"],
+        magic: &[],
+        longest: LONGEST_TEXT,
+        read: Reader::Whole(xyz::read),
+    },
+    Format {
+        name: "text",
+        extensions: &["txt", "csv", "tsv", "dat", "asc"],
+        magic: &[],
+        longest: LONGEST_TEXT,
+        read: Reader::Whole(text::read),
+    },
+];
+
+/// First bytes of other files that may come under a wrong name, with what they are.
+const STRANGERS: [(&[u8], &str); 4] = [
+    (b"PK\x03\x04", "ZIP archive (.npz, .xlsx, .x3p)"),
+    (b"\x89HDF", "HDF5 file"),
+    (b"\xFF\xD8\xFF", "JPEG image"),
+    (b"\x1F\x8B", "gzip-compressed file"),
+];
+
+/// The numbers of a file as they stand there.
+///
+/// # Errors
+/// See [`FileError`].
+pub(super) fn read(path: &Path) -> Result<Matrix, FileError> {
+    // What the path is comes before what its name says: a folder is no unknown kind of file.
+    let metadata = fs::metadata(path).map_err(|error| match error.kind() {
+        ErrorKind::NotFound => FileError::NotFound,
+        _ => FileError::Read(error),
+    })?;
+    if metadata.is_dir() {
+        return Err(FileError::Folder);
+    }
+    if !metadata.is_file() {
+        // Opening a pipe would wait for its writer.
+        return Err(FileError::NotRegular);
+    }
+    let length = metadata.len();
+    let mut file = BufReader::new(File::open(path).map_err(FileError::Read)?);
+    let start = file.fill_buf().map_err(FileError::Read)?;
+    let extension = path
+        .extension()
+        .map(|extension| extension.to_string_lossy().to_ascii_lowercase());
+    let format = find(start, extension.as_deref())?;
+    if length == 0 {
+        return Err(FileError::Empty);
+    }
+    if length > format.longest {
+        return Err(FileError::TooLong { bytes: length });
+    }
+    match format.read {
+        Reader::Stream(read) => read(file, length),
+        Reader::Whole(read) => {
+            let mut bytes = Vec::new();
+            bytes
+                .try_reserve_exact(length as usize)
+                .map_err(|_| FileError::Memory { bytes: length })?;
+            // A file that grows meanwhile is read as long as it was.
+            file.take(length)
+                .read_to_end(&mut bytes)
+                .map_err(FileError::Read)?;
+            read(&bytes)
+        }
+    }
+}
+
+/// The format of a file that begins with `start`: what its first bytes say, and its name must agree.
+///
+/// A name without a known extension is no contradiction where the first bytes are clear.
+fn find(start: &[u8], extension: Option<&str>) -> Result<&'static Format, FileError> {
+    let begins = |magic: &&[u8]| start.starts_with(magic);
+    let by_content = FORMATS
+        .iter()
+        .find(|format| format.magic.iter().any(begins));
+    let by_name = extension.and_then(|extension| {
+        FORMATS
+            .iter()
+            .find(|format| format.extensions.contains(&extension))
+    });
+    let other = |found: String| FileError::OtherContent {
+        extension: extension.unwrap_or_default().to_owned(),
+        found,
+    };
+    match (by_content, by_name) {
+        (Some(found), Some(said)) if !std::ptr::eq(found, said) => {
+            Err(other(format!("a {}", found.name)))
+        }
+        (Some(found), _) => Ok(found),
+        (None, Some(said)) => {
+            let stranger = STRANGERS.iter().find(|(magic, _)| begins(magic));
+            match stranger {
+                Some((_, name)) => Err(other(format!("a {name}"))),
+                None if said.magic.is_empty() || start.is_empty() => Ok(said),
+                None => Err(other(format!("no {}", said.name))),
+            }
+        }
+        (None, None) => Err(match extension {
+            Some(extension) => FileError::NotInThisVersion {
+                extension: extension.to_owned(),
+            },
+            None => FileError::NoExtension,
+        }),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use proptest::prelude::*;
+
+    /// A file of another program for each format that is read in whole.
+    const GOOD: [&[u8]; 14] = [
+        include_bytes!("../../../tests/files/pillow_16.png"),
+        include_bytes!("../../../tests/files/tifffile_16.tif"),
+        include_bytes!("../../../tests/files/tifffile_deflate.tif"),
+        include_bytes!("../../../tests/files/pillow_lzw.tif"),
+        include_bytes!("../../../tests/files/gwyddion.gsf"),
+        include_bytes!("../../../tests/files/gwyfile_mask.gwy"),
+        include_bytes!("../../../tests/files/gdal_text.grd"),
+        include_bytes!("../../../tests/files/gdal_6.grd"),
+        include_bytes!("../../../tests/files/gdal_7.grd"),
+        include_bytes!("../../../tests/files/surfalize_text.sdf"),
+        include_bytes!("../../../tests/files/surfalize_binary.sdf"),
+        include_bytes!("../../../tests/files/surfalize_holes.sur"),
+        include_bytes!("../../../tests/files/surfalize.al3d"),
+        include_bytes!("../../../tests/files/gdal.xyz"),
+    ];
+
+    proptest! {
+        #![proptest_config(ProptestConfig::with_cases(4000))]
+
+        /// Whatever bytes are wrong or missing: an answer, and a whole matrix if it is one.
+        #[test]
+        fn no_change_of_a_file_is_trouble(
+            which in 0..GOOD.len(),
+            changes in prop::collection::vec((0.0..1.0_f64, 0..3_u8, any::<u8>()), 0..5),
+            kept in prop_oneof![3 => Just(1.0), 1 => 0.0..1.0_f64],
+        ) {
+            let mut bytes = GOOD[which].to_vec();
+            let format = find(&bytes, Some("xyz").filter(|_| which + 1 == GOOD.len())).unwrap();
+            for (place, near_start, byte) in changes {
+                // Two of three within the header, where lengths and counts stand.
+                let reach = if near_start == 0 { bytes.len() } else { bytes.len().min(400) };
+                bytes[(place * reach as f64) as usize] = byte;
+            }
+            bytes.truncate((kept * bytes.len() as f64) as usize);
+            let Reader::Whole(read) = format.read else { unreachable!("all of these are read in whole") };
+            match read(&bytes) {
+                Ok(matrix) => prop_assert_eq!(matrix.values.len(), matrix.rows * matrix.columns),
+                Err(error) => prop_assert!(!error.to_string().contains('\n')),
+            }
+        }
+    }
+
+    #[test]
+    fn no_extension_and_no_first_bytes_have_two_formats() {
+        for (index, format) in FORMATS.iter().enumerate() {
+            for other in &FORMATS[index + 1..] {
+                let shared = |extension| other.extensions.contains(extension);
+                assert!(!format.extensions.iter().any(shared), "{}", format.name);
+                for magic in format.magic {
+                    let clash =
+                        |other: &&[u8]| magic.starts_with(other) || other.starts_with(magic);
+                    assert!(!other.magic.iter().any(clash), "{}", format.name);
+                }
+            }
+        }
+    }
+}

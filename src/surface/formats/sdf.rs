@@ -1,0 +1,252 @@
+//! Surface data files (.sdf), the exchange format of profilers: text and binary.
+//!
+//! Lengths are in metres. The forms of the years before the standard (BCR, NPL) differ in their magic
+//! words only; version 2 has wider counts.
+//!
+//! # Source
+//! ISO 25178-71:2017, clause 5; its forerunner in Stout et al. 1993, report EUR 15178 EN.
+
+use super::bytes::{Bytes, checked_shape, latin_1, room};
+use crate::surface::error::FileError;
+use crate::surface::matrix::{Matrix, Size};
+
+/// First bytes of a file: `a` for text or `b` for binary, then who defined the version that follows.
+pub(super) const MAGIC: [&[u8]; 5] = [b"aISO-", b"aBCR-", b"aNPL-", b"bISO-", b"bBCR-"];
+
+/// What a file calls its format in messages.
+const FORMAT: &str = ".sdf";
+
+/// The word for a missing point in text.
+const MISSING: &str = "BAD";
+
+/// Reads a surface of either form.
+pub(super) fn read(bytes: &[u8]) -> Result<Matrix, FileError> {
+    if bytes.starts_with(b"b") {
+        read_binary(bytes)
+    } else {
+        read_text(bytes)
+    }
+}
+
+/// What both headers say that is needed.
+struct Header {
+    columns: i64,
+    rows: i64,
+    scales: [f64; 3],
+    compression: i64,
+    data_type: i64,
+}
+
+impl Header {
+    /// Rows and columns of a header that can be read.
+    fn shape(&self) -> Result<[usize; 2], FileError> {
+        if self.compression != 0 {
+            return Err(FileError::NotSupported {
+                what: "compressed .sdf files",
+                instead: "save it without compression",
+            });
+        }
+        checked_shape(self.rows, self.columns)
+    }
+
+    /// What is wrong with the scales, if anything is.
+    fn complaint(&self) -> Option<String> {
+        let [x, y, z] = self.scales;
+        // A single profile has no scale along y.
+        let y_stands = (y.is_finite() && y > 0.0) || self.rows == 1;
+        let stands = x.is_finite() && x > 0.0 && y_stands && z.is_finite() && z != 0.0;
+        (!stands).then(|| format!("Xscale = {x}, Yscale = {y}, Zscale = {z} are no lengths"))
+    }
+
+    fn matrix(&self, values: Vec<f64>, [rows, columns]: [usize; 2]) -> Matrix {
+        let [x, y, z] = self.scales;
+        let y = if rows == 1 { x } else { y };
+        Matrix {
+            values,
+            rows,
+            columns,
+            size: Some(Size::Metres([x * columns as f64, y * rows as f64])),
+            unit: Some(z),
+            ..Matrix::default()
+        }
+    }
+}
+
+fn read_binary(bytes: &[u8]) -> Result<Matrix, FileError> {
+    let mut file = Bytes::new(FORMAT, bytes);
+    let magic = file.take(8, "the magic word")?;
+    file.take(10 + 12 + 12, "the maker and the dates")?;
+    let (columns, rows) = if magic.ends_with(b"2.0") {
+        (
+            file.u32("the number of points")?.into(),
+            file.u32("the number of profiles")?.into(),
+        )
+    } else {
+        (
+            file.u16("the number of points")?.into(),
+            file.u16("the number of profiles")?.into(),
+        )
+    };
+    let place = file.offset();
+    let mut numbers = [0.0; 4];
+    for number in &mut numbers {
+        *number = file.f64("the scales")?;
+    }
+    let header = Header {
+        columns,
+        rows,
+        scales: [numbers[0], numbers[1], numbers[2]],
+        compression: file.u8("the compression")?.into(),
+        data_type: file.u8("the type of the data")?.into(),
+    };
+    if let Some(complaint) = header.complaint() {
+        return Err(file.broken(place, complaint));
+    }
+    file.take(1, "the checksum's type")?;
+    let shape = header.shape()?;
+    let unless = |missing: bool, value: f64| if missing { f64::NAN } else { value };
+    let values = match header.data_type {
+        0 => file.packed(shape, |[byte]| f64::from(byte)),
+        1 => file.packed(shape, |element| {
+            let value = u16::from_le_bytes(element);
+            unless(value == u16::MAX, value.into())
+        }),
+        2 => file.packed(shape, |element| {
+            let value = u32::from_le_bytes(element);
+            unless(value == u32::MAX, value.into())
+        }),
+        3 => file.packed(shape, |element| {
+            let value = f32::from_le_bytes(element);
+            unless(value == f32::MIN, value.into())
+        }),
+        4 => file.packed(shape, |[byte]| {
+            let value = byte.cast_signed();
+            unless(value == i8::MIN, value.into())
+        }),
+        5 => file.packed(shape, |element| {
+            let value = i16::from_le_bytes(element);
+            unless(value == i16::MIN, value.into())
+        }),
+        6 => file.packed(shape, |element| {
+            let value = i32::from_le_bytes(element);
+            unless(value == i32::MIN, value.into())
+        }),
+        7 => file.packed(shape, |element| {
+            let value = f64::from_le_bytes(element);
+            unless(value == f64::MIN, value)
+        }),
+        other => {
+            return Err(file.broken(place + 33, format!("type {other} of data is not known")));
+        }
+    }?;
+    Ok(header.matrix(values, shape))
+}
+
+fn read_text(bytes: &[u8]) -> Result<Matrix, FileError> {
+    let text = latin_1(bytes);
+    let wrong = |line: usize, what: String| FileError::BrokenText {
+        format: FORMAT,
+        line,
+        what,
+    };
+    let mut lines = text.lines().zip(1..).skip(1);
+    let mut found: Vec<(String, f64)> = Vec::new();
+    let mut end = None;
+    for (line, number) in lines.by_ref() {
+        if line.trim_start().starts_with('*') {
+            end = Some(number);
+            break;
+        }
+        let Some((name, value)) = line.split_once('=') else {
+            continue;
+        };
+        let name = name.trim().to_ascii_lowercase();
+        // Maker and dates are no numbers and not needed.
+        if let Ok(value) = value.trim().parse() {
+            found.push((name, value));
+        } else if NUMBERS
+            .iter()
+            .any(|known| known.eq_ignore_ascii_case(&name))
+        {
+            let value: String = value.trim().chars().take(40).collect();
+            return Err(wrong(number, format!("{name} = {value:?} is not a number")));
+        }
+    }
+    let Some(end) = end else {
+        return Err(wrong(
+            1,
+            "no line with an asterisk ends the header".to_owned(),
+        ));
+    };
+    let number = |name: &str| -> Result<f64, FileError> {
+        let entry = found
+            .iter()
+            .find(|(other, _)| other.eq_ignore_ascii_case(name));
+        let (_, value) = entry.ok_or_else(|| wrong(end, format!("its header has no {name}")))?;
+        Ok(*value)
+    };
+    let header = Header {
+        columns: number("NumPoints")? as i64,
+        rows: number("NumProfiles")? as i64,
+        scales: [number("Xscale")?, number("Yscale")?, number("Zscale")?],
+        compression: number("Compression").unwrap_or(0.0) as i64,
+        data_type: number("DataType").unwrap_or(7.0) as i64,
+    };
+    if let Some(complaint) = header.complaint() {
+        return Err(wrong(end, complaint));
+    }
+    let shape = header.shape()?;
+    let points = shape[0] * shape[1];
+    // Each number takes a digit and a blank at least.
+    if points > bytes.len() / 2 + 1 {
+        return Err(FileError::Truncated {
+            rows: shape[0],
+            columns: shape[1],
+            expected: 2 * points as u64 - 1,
+            found: bytes.len() as u64,
+        });
+    }
+    let mut values = room(shape)?;
+    let mut last = end;
+    'lines: for (line, number) in lines {
+        last = number;
+        for word in line.split_ascii_whitespace() {
+            if word.starts_with('*') || values.len() == points {
+                break 'lines;
+            }
+            let value = if word.eq_ignore_ascii_case(MISSING) {
+                Some(f64::NAN)
+            } else {
+                word.parse().ok()
+            };
+            values.push(value.ok_or_else(|| FileError::NotANumber {
+                line: number,
+                row: values.len() / shape[1] + 1,
+                column: values.len() % shape[1] + 1,
+                text: word.chars().take(40).collect(),
+            })?);
+        }
+    }
+    if values.len() < points {
+        return Err(wrong(
+            last,
+            format!(
+                "the heights end after {} of {points}, in row {}",
+                values.len(),
+                values.len() / shape[1] + 1
+            ),
+        ));
+    }
+    Ok(header.matrix(values, shape))
+}
+
+/// Entries of a text header that are numbers.
+const NUMBERS: [&str; 7] = [
+    "NumPoints",
+    "NumProfiles",
+    "Xscale",
+    "Yscale",
+    "Zscale",
+    "Compression",
+    "DataType",
+];

@@ -1,0 +1,178 @@
+//! Digital Surf's surfaces (.sur), as MountainsMap and many profilers write them: not compressed.
+//!
+//! A header of 512 bytes, a comment, a private zone, then 16- or 32-bit integers, row by row.
+//!
+//! # Source
+//! Digital Surf, "SURF file format", version 1; ISO 25178-71 names it among the formats in use.
+
+use super::bytes::{Bytes, checked_shape};
+use super::length::said_unit;
+use crate::surface::error::FileError;
+use crate::surface::matrix::{Matrix, Size};
+
+/// First bytes of a file, and of one whose heights are compressed.
+pub(super) const MAGIC: &[u8] = b"DIGITAL SURF";
+pub(super) const COMPRESSED: &[u8] = b"DSCOMPRESSED";
+
+/// What a file calls its format in messages.
+const FORMAT: &str = ".sur";
+
+/// Length of the header.
+const HEADER: usize = 512;
+
+/// Values of the field "inverted": which way up the heights are stored.
+const INVERTED_Z: u16 = 1;
+const FLIPPED: u16 = 2;
+const FLOPPED: u16 = 3;
+
+/// A missing point is this far below the least value.
+const MISSING_BELOW: i64 = 2;
+
+/// Reads a surface.
+pub(super) fn read(bytes: &[u8]) -> Result<Matrix, FileError> {
+    if bytes.starts_with(COMPRESSED) {
+        return Err(FileError::NotSupported {
+            what: "compressed .sur files",
+            instead: "save it without compression, or as .sdf",
+        });
+    }
+    let mut file = Bytes::new(FORMAT, bytes);
+    file.take(HEADER, "the header")?;
+    file.seek(0, "the header")?;
+    let header = Header::of(&mut file)?;
+    let start = HEADER + header.comment + header.private;
+    file.seek(start, "the heights")?;
+    let mut values = match header.bits {
+        16 => file.packed(header.shape, |element| {
+            header.height(i16::from_le_bytes(element).into())
+        })?,
+        _ => file.packed(header.shape, |element| {
+            header.height(i32::from_le_bytes(element).into())
+        })?,
+    };
+    turn(&mut values, header.shape, header.inversion);
+    let [rows, columns] = header.shape;
+    let [dx, dy] = header.pixel;
+    Ok(Matrix {
+        values,
+        rows,
+        columns,
+        size: Some(Size::Metres([dx * columns as f64, dy * rows as f64])),
+        unit: header.unit,
+        ..Matrix::default()
+    })
+}
+
+/// What the header says that is needed.
+struct Header {
+    shape: [usize; 2],
+    bits: u16,
+    /// Value of a missing point, if there are any.
+    missing: Option<i64>,
+    /// Pixel lengths along x and y, m.
+    pixel: [f64; 2],
+    /// Height of one step of the integers, and of their zero, in units of the heights.
+    step: f64,
+    offset: f64,
+    /// Metres per unit of the heights.
+    unit: Option<f64>,
+    inversion: u16,
+    comment: usize,
+    private: usize,
+}
+
+impl Header {
+    /// Field by field, in the order of the format.
+    fn of(file: &mut Bytes) -> Result<Header, FileError> {
+        file.take(12, "the magic words")?;
+        // Order of bytes (0 is that of a PC), objects, version, kind of object.
+        if file.u16("the order of bytes")? != 0 {
+            return Err(FileError::NotSupported {
+                what: ".sur files with the bytes in Motorola's order",
+                instead: "save it in the format of a PC",
+            });
+        }
+        file.take(2 + 2 + 2 + 30 + 30 + 2 + 2 + 2, "the names")?;
+        let has_missing = file.u16("the mark for missing points")? == 1;
+        file.take(2 + 4 + 4, "the resolution of the gauge")?;
+        let place = file.offset();
+        let bits = file.u16("the bits of a point")?;
+        if bits != 16 && bits != 32 {
+            return Err(file.broken(place, format!("points of {bits} bits; 16 or 32 are known")));
+        }
+        let least = file.i32("the least value")?;
+        file.take(4, "the greatest value")?;
+        let columns = file.i32("the number of columns")?;
+        let rows = file.i32("the number of rows")?;
+        let shape = checked_shape(rows.into(), columns.into())?;
+        file.take(4, "the number of points")?;
+        let place = file.offset();
+        let mut steps = [0.0; 3];
+        for step in &mut steps {
+            *step = f64::from(file.f32("the steps along x, y and z")?);
+        }
+        let [dx, dy, step] = steps;
+        if !([dx, dy].iter().all(|step| step.is_finite() && *step > 0.0) && step.is_finite()) {
+            return Err(file.broken(
+                place,
+                format!("steps of {dx} and {dy} along x and y, {step} of the heights"),
+            ));
+        }
+        file.take(3 * 16, "the names of the axes")?;
+        let place = file.offset();
+        let mut units = [const { String::new() }; 3];
+        for unit in &mut units {
+            *unit = file.text(16, "the units")?;
+        }
+        let mut pixel = [dx, dy];
+        for (side, name) in pixel.iter_mut().zip(&units) {
+            let unit = said_unit(name, "x and y")?;
+            *side *= unit.ok_or_else(|| file.broken(place, "x and y have no unit"))?;
+        }
+        file.take(3 * 16 + 3 * 4 + 2, "the units that are shown")?;
+        let inversion = file.u16("the inversion")?;
+        file.take(2 + 12 + 14 + 4 + 4 + 6, "the time of the measurement")?;
+        let comment = file.u16("the length of the comment")?.into();
+        let private = file.u16("the length of the private zone")?.into();
+        file.take(128 + 4 + 4, "the client's zone")?;
+        let offset = f64::from(file.f32("the height of zero")?);
+        Ok(Header {
+            shape,
+            bits,
+            missing: has_missing.then_some(i64::from(least) - MISSING_BELOW),
+            pixel,
+            step,
+            offset: if offset.is_finite() { offset } else { 0.0 },
+            unit: said_unit(&units[2], "heights")?,
+            inversion,
+            comment,
+            private,
+        })
+    }
+
+    /// The height that an integer stands for; NaN where it is missing.
+    fn height(&self, value: i64) -> f64 {
+        if self.missing == Some(value) {
+            return f64::NAN;
+        }
+        let height = value as f64 * self.step + self.offset;
+        match self.inversion {
+            INVERTED_Z | FLIPPED | FLOPPED => -height,
+            _ => height,
+        }
+    }
+}
+
+/// Puts rows and columns in the order in which they lie on the sample.
+fn turn(values: &mut [f64], [rows, columns]: [usize; 2], inversion: u16) {
+    match inversion {
+        FLIPPED => values.chunks_mut(columns).for_each(<[f64]>::reverse),
+        FLOPPED => {
+            for row in 0..rows / 2 {
+                let (above, below) = values.split_at_mut((rows - 1 - row) * columns);
+                above[row * columns..(row + 1) * columns].swap_with_slice(&mut below[..columns]);
+            }
+        }
+        _ => {}
+    }
+}

@@ -1,0 +1,165 @@
+//! The memory that `tabor check` announces is what a run takes, by precision, boundary and effect,
+//! and a run that cannot have it is refused with a grid that fits.
+
+use std::fs;
+use std::path::Path;
+use std::process::{Command, Output};
+
+use serde_json::Value;
+use tabor::backend::tally::Place;
+use tabor::scene::Scene;
+use tabor::solver::good_size;
+use tabor::study::{Memory, Plan};
+
+const ROUGH: &str = r#"[grid]
+points = 768
+size = "10 um"
+boundary = "BOUNDARY"
+[solid]
+contact_modulus = "50 MPa"
+[[surface]]
+kind = "self-affine"
+hurst = 0.8
+rms_slope = 0.1
+longest = "10 um"
+rolloff = "5 um"
+shortest = "0.2 um"
+[loading]
+control = "force"
+path = ["10 uN", "20 uN"]
+[solver]
+max_iterations = 2
+[output]
+fields = ["pressure"]
+"#;
+
+const ADHESION: &str =
+    "[adhesion]\nlaw = \"exponential\"\nwork_of_adhesion = \"10 mJ/m^2\"\nrange = \"10 nm\"\n";
+
+fn tabor(folder: &Path, arguments: &[&str], memory: Option<u64>) -> Output {
+    let mut command = Command::new(env!("CARGO_BIN_EXE_tabor"));
+    command
+        .current_dir(folder)
+        .args(arguments)
+        .env_remove("TABOR_MEMORY");
+    if let Some(bytes) = memory {
+        command.env("TABOR_MEMORY", bytes.to_string());
+    }
+    command.output().expect("the binary runs")
+}
+
+fn plan(text: &str) -> Plan {
+    let scene = Scene::parse(text, "scene.toml", Path::new("."), &[])
+        .unwrap_or_else(|errors| panic!("{errors}"));
+    Plan::of(scene).unwrap_or_else(|error| panic!("{error}"))
+}
+
+/// Peak of the process against the count. It must not be above the count by more than the
+/// allocator's own slack (a twentieth), and not below half of it, or grids would be refused in vain.
+#[test]
+#[cfg(target_os = "linux")]
+fn a_run_takes_what_was_counted() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let dmt = format!("{ADHESION}treatment = \"dmt\"\n");
+    let single = "precision = \"single\"\n";
+    for (boundary, adhesion, solver) in [
+        ("periodic", "", ""),
+        ("periodic", "", single),
+        ("periodic", ADHESION, ""),
+        ("periodic", ADHESION, single),
+        ("periodic", dmt.as_str(), ""),
+        ("free", "", ""),
+        ("free", ADHESION, single),
+    ] {
+        let text = ROUGH
+            .replace("BOUNDARY", boundary)
+            .replace("[loading]", &format!("{adhesion}[loading]"))
+            .replace(
+                "max_iterations = 2\n",
+                &format!("max_iterations = 2\n{solver}"),
+            );
+        let name = format!("{boundary} {adhesion} {solver}");
+        fs::write(folder.path().join("scene.toml"), &text).expect("a scene");
+        let _ = fs::remove_dir_all(folder.path().join("scene"));
+        // Two iterations do not converge; all memory has been taken by then.
+        let output = tabor(folder.path(), &["run", "scene.toml", "--quiet"], None);
+        let message = String::from_utf8_lossy(&output.stderr).into_owned();
+        assert_eq!(output.status.code(), Some(3), "{name}: {message}");
+        let summary = fs::read(folder.path().join("scene/summary.json")).expect("a summary");
+        let summary: Value = serde_json::from_slice(&summary).expect("JSON");
+        let peak = summary["peak_memory_bytes"].as_f64().expect("a peak");
+        let plan = plan(&text);
+        let counted = plan
+            .memory(Place::of(&plan.scene))
+            .expect("a count")
+            .machine as f64;
+        let share = peak / counted;
+        println!(
+            "{share:.3} of {:.0} MiB: {name}",
+            counted / f64::from(1 << 20)
+        );
+        assert!((0.5..1.05).contains(&share), "{share} of the count: {name}");
+    }
+}
+
+#[test]
+fn what_does_not_fit_is_refused_with_the_largest_grid_that_does() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let text = ROUGH.replace("BOUNDARY", "periodic");
+    fs::write(folder.path().join("scene.toml"), &text).expect("a scene");
+    let available = 400 << 20;
+    let set = [
+        "--set",
+        "grid.points=[3000, 1500]",
+        "--set",
+        "grid.size=[2e-5, 1e-5]",
+    ];
+    let call = |command: &'static str| [&[command, "scene.toml"][..], &set].concat();
+    let output = tabor(folder.path(), &call("run"), Some(available));
+    let message = String::from_utf8_lossy(&output.stderr).into_owned();
+    assert_eq!(output.status.code(), Some(2), "{message}");
+    assert!(!folder.path().join("scene").exists(), "nothing is written");
+    assert!(
+        message.contains("3000 x 1500 points need ") && message.contains("there are 0.39 GiB"),
+        "{message}"
+    );
+    let (_, rest) = message.split_once("take at most ").expect("a remedy");
+    let points: Vec<usize> = rest
+        .split([' ', ',', '\n'])
+        .filter_map(|word| word.parse().ok())
+        .take(2)
+        .collect();
+    assert!(
+        points[0].abs_diff(2 * points[1]) <= 4,
+        "the same shape: {message}"
+    );
+    // That grid fits, and the next that transforms as well does not.
+    let fits = |nx: usize| {
+        let ny = nx.div_ceil(8) * 4;
+        let set = text.replace("points = 768", &format!("points = [{nx}, {ny}]"));
+        let set = set.replace("size = \"10 um\"", "size = [\"20 um\", \"10 um\"]");
+        let memory = plan(&set).memory(Place::Double).expect("a count");
+        memory.machine <= available
+    };
+    let next = (points[0] + 4..)
+        .step_by(4)
+        .find(|&size| good_size(size) == size)
+        .expect("there is always one more");
+    assert!(fits(points[0]) && !fits(next), "{message} and not {next}");
+    // A check answers, and warns of the same; single precision takes less.
+    let output = tabor(folder.path(), &call("check"), Some(available));
+    let warning = String::from_utf8_lossy(&output.stderr).into_owned();
+    assert_eq!(output.status.code(), Some(0), "{warning}");
+    assert!(
+        warning.contains("warning: grid.points: 3000 x 1500 points need "),
+        "{warning}"
+    );
+    let needs = |place: Place| {
+        let plan = plan(&text);
+        let memory: Memory = plan.memory(place).expect("a count");
+        (memory.machine, memory.adapter)
+    };
+    let [double, single, gpu] = [Place::Double, Place::Single, Place::Gpu].map(needs);
+    assert!(single.0 < double.0 && gpu.0 < single.0);
+    assert!(double.1 == 0 && single.1 == 0 && gpu.1 > 0);
+}
