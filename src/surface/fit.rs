@@ -3,7 +3,7 @@
 //! Rings of the radial spectrum are compared with [`SelfAffineSpectrum`] in the likelihood of a random
 //! surface, whose periodogram scatters about its density like a sum of squares: `ln C + P/C` for each
 //! independent mode (Whittle 1953, doi:10.1007/BF02590998). Rings of very many modes count no more than
-//! those of [`MOST_WEIGHT`], so that the shortest waves do not outvote all others.
+//! those of a few hundred, so that the shortest waves do not outvote all others.
 
 use thiserror::Error;
 

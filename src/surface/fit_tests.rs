@@ -64,12 +64,10 @@ fn a_generated_surface_gives_its_parameters_back() {
 
 #[test]
 fn a_patch_of_a_larger_surface_gives_them_too() {
-    // A quarter of the cell under a Hann window: its modes scatter like squares of Gaussian numbers,
-    // 2.25 of them are one independent one. Up to the roll-off of 4 waves there are 50 modes, so 11
-    // independent pairs: the plateau is uncertain by 30 %, the roll-off by 30 % / 3.6, which at three
-    // standard deviations is 25 %. The exponent rests on 20 rings of weight 100/2.25: 0.03 / 0.8 in
-    // twice the Hurst exponent, so 0.06 at three. The end
-    // scatters by 0.3 waves of 60 (thirty patches made and measured apart from this code), 1.5 % at three.
+    // A quarter of the cell under a Hann window: its few long modes scatter like squares of Gaussian
+    // numbers. The same estimate written apart from this code, over thirty patches each of Hurst exponent
+    // 0.4 and 0.8, scatters by 0.034 in the exponent (mean off by 0.01) and by 12 to 16 % in the roll-off
+    // (off by 5 %); the end scatters by 0.3 waves of 60. Three standard deviations of each.
     for (hurst, seed) in [(0.4, 1), (0.6, 2), (0.8, 3), (0.8, 4)] {
         let asked = spectrum(hurst, 8.0, 120.0, 2e-6);
         let whole = Grid::new([512, 512], [2e-6, 2e-6]);
@@ -80,9 +78,9 @@ fn a_patch_of_a_larger_surface_gives_them_too() {
         let grid = Grid::new([256, 256], [1e-6, 1e-6]);
         let found = fit(&grid, &patch, Boundary::Free).unwrap();
         let case = format!("{asked:?} {found:?}");
-        assert!((found.spectrum.hurst - hurst).abs() < 0.06, "{case}");
+        assert!((found.spectrum.hurst - hurst).abs() < 0.11, "{case}");
         assert!(
-            relative(found.spectrum.rolloff, asked.rolloff) < 0.25,
+            relative(found.spectrum.rolloff, asked.rolloff) < 0.5,
             "{case}"
         );
         assert!(relative(found.spectrum.short, asked.short) < 0.02, "{case}");
