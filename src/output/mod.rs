@@ -6,12 +6,14 @@
 
 mod canvas;
 pub mod colour_scale;
+mod cpu_time;
 pub mod curve;
 mod error;
 pub mod fields;
 pub mod folder;
 pub mod layout;
 pub mod palette;
+pub mod panels;
 pub mod picture;
 mod png_text;
 pub mod progress;
@@ -20,6 +22,7 @@ mod si;
 pub mod summary;
 
 pub use canvas::{Font, TextLine};
+pub use cpu_time::cpu_seconds;
 pub use curve::CurveWriter;
 pub use error::OutputError;
 pub use fields::{write_field, write_field_single};

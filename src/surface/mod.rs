@@ -14,7 +14,7 @@ mod detrend;
 mod error;
 mod file;
 mod fill;
-mod fourier;
+pub(crate) mod fourier;
 mod matrix;
 mod npy;
 pub mod self_affine;
