@@ -249,10 +249,21 @@ fn the_table_of_n_16_is_computed_again() {
     for (hurst, seed) in [(0.8, 1), (0.6, 2), (0.4, 3)] {
         let case = case(hurst, 16, seed);
         let sample = Sample::new(case).expect("a surface");
+        let slope = Sample::slope(hurst, 16).expect("a slope");
+        assert!((sample.unit / (MODULUS * slope) - 1.0).abs() < 1e-9);
         let mut fresh = rows::field_rows(case, &sample).expect("rows");
         fresh.extend(rows::icha_rows(case, &sample).expect("rows"));
-        for model in ["field", "icha"] {
-            let kept = of(&table, model, case);
+        fresh.extend(rows::theory_rows(hurst, 16).expect("rows"));
+        // To the digits that the table keeps.
+        let text = format!("{}\n{}", rows::HEADER, rows::lines(&fresh));
+        let fresh = rows::read(&text).expect("rows");
+        for model in ["field", "icha", "persson", "gw-m"] {
+            let seed = if matches!(model, "field" | "icha") {
+                seed
+            } else {
+                0
+            };
+            let kept = of(&table, model, Case { seed, ..case });
             let fresh: Vec<&Row> = fresh.iter().filter(|row| row.model == model).collect();
             assert_eq!(kept.len(), fresh.len(), "{case:?} {model}");
             for (kept, fresh) in kept.iter().zip(fresh) {
@@ -293,6 +304,10 @@ fn misses_of_the_models_stay_within_the_stated_bounds() {
             ("gw-m", theory, GW_AREA, GW_PULL_OFF),
         ] {
             let rows = of(&table, model, of_case);
+            // Asperities may be left out of the larger surfaces; of N = 16 they are all there.
+            if rows.is_empty() && model == "icha" && case.ratio > 16 {
+                continue;
+            }
             let off = rows::pull_off(&rows) / judge - 1.0;
             assert!(
                 (pull_off[0]..=pull_off[1]).contains(&off),

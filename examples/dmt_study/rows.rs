@@ -260,18 +260,6 @@ pub fn pull_off(rows: &[&Row]) -> f64 {
     middle - (right - left).powi(2) / (8.0 * bend)
 }
 
-/// Area at a net pressure (in E* h'), on the closer side of pull-off, by straight lines between rows.
-pub fn area_at_net(rows: &[&Row], net: f64) -> Option<f64> {
-    let net_of = |row: &Row| row.repulsive - row.attraction;
-    rows.windows(2).rev().find_map(|pair| {
-        let (low, high) = (net_of(pair[0]), net_of(pair[1]));
-        (low <= net && net <= high).then(|| {
-            let share = (net - low) / (high - low);
-            pair[0].area + share * (pair[1].area - pair[0].area)
-        })
-    })
-}
-
 /// First line of the table.
 pub const HEADER: &str =
     "hurst,ratio,seed,model,repulsive_pressure,contact_area_fraction,mean_gap,adhesive_pressure";

@@ -39,16 +39,22 @@ impl BearingArea {
         0.5 * (erfc((mean_gap - reach) / SQRT_2) - erfc(mean_gap / SQRT_2))
     }
 
-    /// Mean gap (in `h_rms`) at a net `pressure` (in sigma0), on the closer side of pull-off.
+    /// Mean gap (in `h_rms`) at a net `pressure` (in sigma0), on the closer side of pull-off where
+    /// there is any tension.
     pub fn mean_gap(&self, pressure: f64) -> Result<f64, TheoryError> {
-        let (far, _) = self.pull_off()?;
+        let far = self.pull_off().map_or(self.farthest(), |(gap, _)| gap);
         let excess = |gap: f64| self.pressure(gap) - pressure;
         root("an equilibrium", excess, 0.0, far, 1e-12)
     }
 
+    /// A mean gap, in `h_rms`, beyond which nothing is left of either part.
+    fn farthest(&self) -> f64 {
+        10.0 + 1.0 / self.height_over_range
+    }
+
     /// Mean gap (in `h_rms`) and magnitude (in sigma0) of the greatest tension.
     pub fn pull_off(&self) -> Result<(f64, f64), TheoryError> {
-        let high = 10.0 + 1.0 / self.height_over_range;
+        let high = self.farthest();
         let scan = 200;
         let place = |i: usize| high * i as f64 / scan as f64;
         let best = (1..scan)

@@ -205,9 +205,8 @@ pub(super) fn dmt(
         let area = state.contact_area_fraction.unwrap_or(f64::NAN);
         let gap = state.mean_gap.unwrap_or(f64::NAN);
         ladder.add(state.mean_pressure, area, gap, attraction);
-        // Beyond pull-off the net load only grows.
-        let deepest = ladder.pull_off().map_or(0.0, |state| state.mean_pressure);
-        Ok(ladder.last() <= 0.5 * deepest || deepest == 0.0)
+        // Beyond pull-off the net load only grows, and is past doubt once it presses.
+        Ok(ladder.last() < 0.0 || ladder.pull_off().is_none())
     };
     let path = rungs(unit, 0.0, comparison.tension);
     walked(comparison, machine, Control::Pressure, path, None, climb)?;

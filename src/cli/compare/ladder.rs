@@ -4,20 +4,26 @@ use super::State;
 
 /// Factor between two repulsive pressures of a ladder.
 const RUNG: f64 = 1.15;
-/// First rung, in E* times the rms slope: where some summits touch.
-const FIRST: f64 = 2e-3;
+/// The same for its light end, where a weak attraction has its pull-off at the first few summits.
+const LIGHT_RUNG: f64 = 1.5;
+/// First rung and the end of the light ones, in E* times the rms slope.
+const FIRST: f64 = 1e-6;
+const LIGHT: f64 = 2e-3;
 
-/// Repulsive pressures, in units of `unit`, from first touch to what leaves `largest` net under an
-/// attraction of at most `tension` (Pa).
+/// Repulsive pressures, in units of `unit`, from the first summit to what leaves `largest` net under
+/// an attraction of at most `tension` (Pa).
 pub(super) fn rungs(unit: f64, largest: f64, tension: f64) -> Vec<f64> {
-    let first = FIRST * unit;
-    // Tension is the law's scale; real attractions are a fraction of it, and beyond rms slope times
+    // Tension is the law's scale, real attractions are a fraction of it, and beyond rms slope times
     // modulus hardly a gap is left.
-    let last = (largest.max(0.0) + tension)
-        .min(largest.max(0.0) + unit)
-        .max(2.0 * first);
-    let count = ((last / first).ln() / RUNG.ln()).ceil() as i32;
-    (0..=count).map(|i| first * RUNG.powi(i)).collect()
+    let net = largest.max(0.0);
+    let last = (net + tension).min(net + unit).max(2.0 * LIGHT * unit);
+    let mut rungs = vec![FIRST * unit];
+    let mut at = FIRST * unit;
+    while at < last {
+        at *= if at < LIGHT * unit { LIGHT_RUNG } else { RUNG };
+        rungs.push(at);
+    }
+    rungs
 }
 
 /// States under rising repulsive pressures.

@@ -9,12 +9,14 @@ use crate::scene::SurfacePart;
 use crate::surface::spectrum::SpectralMoments;
 use crate::theory::bam::BearingArea;
 use crate::theory::persson::Persson;
-use crate::theory::persson_gap::{Adhesion, RoughContact};
+use crate::theory::persson_gap::{Adhesion, PullOff, RoughContact};
 use crate::theory::roots::root;
 use crate::theory::{Law as Reduced, Spectrum, TheoryError};
 
 /// Energy factor of Persson's theory.
 const GAMMA: f64 = 0.5;
+/// Least repulsive pressure of the theory, in E* times the rms slope.
+const NO_TENSION: f64 = 1e-5;
 /// Hurst exponents about 0.8 for which the constants of BAM stand.
 const BAM_HURST: [f64; 2] = [0.65, 0.95];
 
@@ -114,9 +116,20 @@ pub(super) fn persson(comparison: &Comparison, table: &mut Table) -> Result<(), 
         }
         return Ok(());
     };
-    let pull_off = contact.pull_off(&adhesion)?;
+    let pull_off = match contact.pull_off(&adhesion) {
+        Ok(found) => {
+            let at = state(found.pressure, -found.tension)?;
+            table.add(at, Some(found.tension), limit)?;
+            found
+        }
+        // So little attraction that the theory finds no tension at any load it is good for.
+        Err(TheoryError::OutOfRange { .. }) => PullOff {
+            tension: 0.0,
+            pressure: NO_TENSION * modulus * found.spectrum.rms_slope(),
+        },
+        Err(error) => return Err(error.into()),
+    };
     let tension = pull_off.tension;
-    table.add(state(pull_off.pressure, -tension)?, Some(tension), limit)?;
     for load in comparison.carried(tension) {
         let repulsive = contact.repulsive_pressure(&adhesion, &pull_off, load)?;
         table.add(state(repulsive, load)?, Some(tension), limit)?;
@@ -148,9 +161,14 @@ pub(super) fn bam(comparison: &Comparison, table: &mut Table) -> Result<(), Left
         mean_gap: Some(gap * rms_height),
         adhesive_pressure: Some(model.attraction(gap) * peak),
     };
-    let (gap, tension) = model.pull_off()?;
-    let tension = tension * peak;
-    table.add(state(gap, -tension), Some(tension), limit)?;
+    let tension = match model.pull_off() {
+        Ok((gap, tension)) => {
+            let tension = tension * peak;
+            table.add(state(gap, -tension), Some(tension), limit)?;
+            tension
+        }
+        Err(_) => 0.0,
+    };
     for load in comparison.carried(tension) {
         // At full closure it carries no more than a finite load.
         let Ok(gap) = model.mean_gap(load / peak) else {

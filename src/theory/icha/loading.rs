@@ -9,7 +9,8 @@ use crate::theory::TheoryError;
 use crate::theory::error::{positive, within};
 
 /// Factor between two loads of the way up. What merges depends on it a little: the contact area
-/// changes by less than 1 % with steps of 1.05 in its place.
+/// changes by about 1 % up to 0.05 E* times the rms slope with steps of 1.1 or 1.3 in its place, by 5 %
+/// at 0.1.
 const LOAD_STEP: f64 = 1.2;
 /// Share of the first load asked at which the way up begins.
 const FIRST_LOAD: f64 = 1e-3;
@@ -96,7 +97,7 @@ impl Loading<'_> {
     /// Presses to a mean pressure over the contact modulus, not below the one before.
     ///
     /// # Errors
-    /// A load that falls, and asperities that do not settle.
+    /// A load that falls, asperities that do not settle, and contacts that merge over all of the cell.
     pub fn press(&mut self, pressure_over_modulus: f64) -> Result<Pressed, TheoryError> {
         let target = positive("pressure over modulus", pressure_over_modulus)?;
         within(
@@ -135,11 +136,18 @@ impl Loading<'_> {
         })?;
         let mut contacts = state.contacts(&self.asperities);
         contacts.retain(|contact| contact.contact_radius > 0.0);
-        Ok(Pressed {
+        let pressed = Pressed {
             plane: state.plane,
             contacts,
             nominal_area: self.surface.grid.area(),
-        })
+        };
+        // All merged into one that covers more than there is: the model has nothing to say.
+        if pressed.contact_area_fraction() >= 1.0 {
+            return Err(TheoryError::NoSolution {
+                what: "a contact of less than the nominal area",
+            });
+        }
+        Ok(pressed)
     }
 
     fn press_at_once(&mut self, pressure: f64, care: Care) -> Result<(), TheoryError> {
