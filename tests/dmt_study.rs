@@ -6,6 +6,7 @@ mod rows;
 
 use rows::{Case, MODULUS, RANGE, Row, Sample, WORK};
 use tabor::theory::dmt::{self, Method};
+use tabor::theory::lennard_jones_sphere::LennardJonesSphere;
 use tabor::theory::pastewka_robbins::{Edge, stickiness_ratio};
 use tabor::theory::persson::Persson;
 use tabor::theory::{Law, bradley, derjaguin, gw_m, jkr};
@@ -73,9 +74,34 @@ fn t2_force_of_one_sphere() {
     }
     // Largest tension of JKR: 3/4 of 2 pi w R.
     assert!((0.5 * jkr::reduced_force(jkr::pull_off()) + 0.75).abs() < 1e-12);
-    // The self-consistent sphere at a gap of one range, computed apart: -0.350613.
-    let rigid = bradley::reduced_force(Law::LennardJones, 1.0);
-    assert!((rigid / -0.350613 - 0.95).abs() < 0.01, "{rigid}");
+    let whole = LennardJonesSphere::new(mu, 2.0).expect("a sphere");
+    let force = |approach| whole.at_approach(approach).expect("a state").force;
+    // The energy methods overestimate the force, the constant is nearest to it.
+    for approach in [0.5, 1.0, 2.0] {
+        let miss = |method, law| {
+            dmt::force(method, law, approach, mu).expect("a number") - force(approach)
+        };
+        let constant = miss(Method::Constant, Law::LennardJones).abs();
+        assert!(
+            (0.0065..0.205).contains(&constant),
+            "{approach}: {constant}"
+        );
+        for law in [Law::Cubic, Law::LennardJones] {
+            let energy = miss(Method::Thermodynamic, law);
+            assert!(
+                energy > constant && (0.2..0.6).contains(&energy),
+                "{approach}: {energy}"
+            );
+        }
+    }
+    // Its pull-off lies between JKR's and 2 pi w R, before contact; the rigid sphere pulls less.
+    let pull_off = whole.pull_off().expect("a state");
+    assert!(pull_off.approach < 0.0 && (-1.0..-0.75).contains(&pull_off.force));
+    for (approach, less) in [(-0.25, 0.14), (-0.5, 0.14), (-1.0, 0.05), (-2.0, 0.01)] {
+        let rigid = bradley::reduced_force(Law::LennardJones, -approach);
+        let found = 1.0 - rigid / force(approach);
+        assert!((found - less).abs() < 0.006, "{approach}: {found}");
+    }
 }
 
 /// T3: H = 0.8, N = 32 by the theories; without adhesion, and with it.

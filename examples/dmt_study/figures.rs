@@ -7,6 +7,7 @@ use std::path::Path;
 
 use tabor::output::panels::{Axis, Figure, Panel, PlotPoint, Series};
 use tabor::theory::dmt::{self, Method};
+use tabor::theory::lennard_jones_sphere::LennardJonesSphere;
 use tabor::theory::{Law, bradley, derjaguin, jkr};
 
 use crate::rows::{self, RANGE, Row, WORK};
@@ -120,7 +121,9 @@ pub fn draw(table: &[Row], folder: &Path) -> Result<(), Box<dyn Error>> {
 fn area_load(table: &[Row]) -> Figure {
     let largest = table.iter().map(|row| row.case.ratio).max().unwrap_or(16);
     let mut panels = Vec::new();
-    for (hurst, ratio) in [(0.8, 16), (0.8, largest), (0.4, largest)] {
+    let mut shown = vec![(0.8, 16), (0.8, largest), (0.4, largest)];
+    shown.dedup();
+    for (hurst, ratio) in shown {
         for sticky in [false, true] {
             let curve = |(name, model): (usize, &&str)| Series {
                 name,
@@ -203,6 +206,7 @@ fn spheres() -> Result<Figure, Box<dyn Error>> {
         "DMT-F",
         "JKR",
         "Bradley",
+        "self-consistent",
     ];
     let series = |name: usize, points: Vec<PlotPoint>| Series {
         name,
@@ -245,6 +249,12 @@ fn spheres() -> Result<Figure, Box<dyn Error>> {
         let gap = 3.0 - 0.05 * f64::from(i);
         force[6].push(point(-gap, bradley::reduced_force(Law::LennardJones, gap)));
     }
+    let whole = LennardJonesSphere::new(TABOR, 2.5)?;
+    let states = whole.curve(|states| states.last().is_some_and(|last| last.approach >= 2.5))?;
+    let shown = states
+        .iter()
+        .filter(|state| (-3.0..=2.5).contains(&state.approach));
+    force[7].extend(shown.map(|state| point(state.approach, state.force)));
     let curves = |all: Vec<Vec<PlotPoint>>| {
         let numbered = all.into_iter().enumerate();
         numbered

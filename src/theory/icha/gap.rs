@@ -254,8 +254,9 @@ mod tests {
             let sum: f64 = contacts.iter().map(|c| pushed_by(c, at, &lattice).0).sum();
             worst = worst.max((gap - 1.0 - sum).abs());
         }
-        // The table of images is the coarsest part: 1e-4 of load/(E* L), here 1e-4 * 0.036/3.
-        assert!(worst < 1e-4 * deepest, "{:e}", worst / deepest);
+        // The sum takes images for point loads, the field does not: a^2 load/(5 R E* A) everywhere and
+        // half of that again where an image is nearest, R = 1.5 its distance: 7e-4 of the deepest.
+        assert!(worst < 1e-3 * deepest, "{:e}", worst / deepest);
         let area = field.in_contact.iter().filter(|c| **c).count() as f64 * grid.pixel_area();
         let circles: f64 = contacts.iter().map(Contact::area).sum();
         assert!((area / circles - 1.0).abs() < 0.02);
