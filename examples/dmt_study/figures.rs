@@ -78,8 +78,7 @@ pub fn misses(table: &[Row]) -> String {
                 Err(_) => continue,
             };
             let scale = rows::MODULUS * slope * RANGE / WORK;
-            let pull =
-                |model: &str| over_seeds(table, model, hurst, ratio, |rows| rows::pull_off(rows));
+            let pull = |model: &str| over_seeds(table, model, hurst, ratio, rows::pull_off);
             let Some(judge) = pull("field") else { continue };
             let _ = write!(text, "| {hurst} | {ratio} | {:.4} |", judge * scale);
             for model in &MODELS[1..] {
