@@ -314,7 +314,6 @@ fn what_this_version_lacks_is_refused_by_name() {
         ],
         vec!["run", "scene.toml", "--resume"],
         vec!["surface", "scene.toml"],
-        vec!["compare", "scene.toml"],
         vec!["accuracy", "scene.toml", "--budget", "5 min"],
         vec!["fit", "curve.csv", "--radius", "1e-6"],
     ] {

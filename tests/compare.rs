@@ -84,7 +84,9 @@ fn every_model_answers_at_every_load() {
             assert_eq!(row.len(), 9);
             assert!((number(row, "mean_pressure").unwrap() / load - 1.0).abs() < 1e-9);
             assert_eq!(number(row, "pull_off_pressure"), Some(pull_off));
-            assert!(number(row, "mean_gap").unwrap() > 0.0);
+            // GW-M pressed below its mean plane has none, and says that it is out of range.
+            let gap = number(row, "mean_gap");
+            assert!(gap.is_some_and(|gap| gap > 0.0) || model == "GW-M" && row[7] == "false");
             assert!(number(row, "adhesive_pressure").unwrap() > 0.0);
             assert!(number(row, "seconds").unwrap() >= 0.0);
             assert_eq!(row[7] == "true", row[8].is_empty());

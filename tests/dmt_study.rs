@@ -134,6 +134,56 @@ fn t3_area_and_load() {
     assert!((small - 3.5).abs() < 0.05, "{small}");
 }
 
+/// T3 on the surfaces of the table: asperities against Persson without adhesion.
+#[test]
+fn t3_asperities_and_persson() {
+    let table = table();
+    let (mut sum, mut count) = (0.0, 0.0);
+    for row in table.iter().filter(|row| row.model == "icha") {
+        let theory = of(
+            &table,
+            "persson",
+            Case {
+                seed: 0,
+                ..row.case
+            },
+        );
+        let judge = theory.iter().find(|other| other.repulsive == row.repulsive);
+        let miss = (row.area / judge.expect("the same loads").area - 1.0).abs();
+        assert!(row.area < 0.3 && miss < 0.25, "{row:?}: {miss}");
+        // Claimed up to 2.35; single surfaces at single loads reach 2.40.
+        assert!((1.65..2.45).contains(&(row.area / row.repulsive)), "{row:?}");
+        (sum, count) = (sum + miss, count + 1.0);
+    }
+    assert!(count >= 9.0 * 15.0 && sum / count < 0.1, "{}", sum / count);
+}
+
+/// T6 on the surfaces of the table: the study has finite boxes 10 to 25 % above Persson's pull-off.
+/// The full field here, means over three seeds, lies 12 to 28 % above: more than claimed at H = 0.4,
+/// N = 32 alone.
+#[test]
+fn t6_finite_boxes() {
+    let table = table();
+    for ratio in [16, 32] {
+        for hurst in [0.8, 0.6, 0.4] {
+            let pull_off =
+                |model, seed| rows::pull_off(&of(&table, model, case(hurst, ratio, seed)));
+            let field = [1, 2, 3]
+                .map(|seed| pull_off("field", seed))
+                .iter()
+                .sum::<f64>()
+                / 3.0;
+            let above = field / pull_off("persson", 0) - 1.0;
+            let most = if (hurst, ratio) == (0.4, 32) {
+                0.28
+            } else {
+                0.25
+            };
+            assert!((0.12..most).contains(&above), "{hurst} {ratio}: {above}");
+        }
+    }
+}
+
 /// Persson's area at a net load of 0.02 E* h', with adhesion.
 fn area_at_two_hundredths(hurst: f64, ratio: usize) -> f64 {
     let contact = rows::persson(hurst, ratio).expect("a contact");
@@ -352,11 +402,10 @@ fn misses_of_the_models_stay_within_the_stated_bounds() {
     }
 }
 
-/// Least and greatest misses over all surfaces and loads up to 0.05 E* h', with a little room for the
-/// digits stated.
-const ICHA_AREA: [f64; 2] = [-0.2, 0.3];
-const ICHA_PULL_OFF: [f64; 2] = [-0.2, 0.2];
-const PERSSON_AREA: [f64; 2] = [-0.3, 0.3];
-const PERSSON_PULL_OFF: [f64; 2] = [-0.4, 0.1];
-const GW_AREA: [f64; 2] = [-0.7, 0.1];
-const GW_PULL_OFF: [f64; 2] = [-1.0, -0.3];
+/// Least and greatest misses over all surfaces, seeds and loads up to 0.05 E* h', rounded outwards.
+const ICHA_AREA: [f64; 2] = [-0.15, 0.16];
+const ICHA_PULL_OFF: [f64; 2] = [0.0, 0.04];
+const PERSSON_AREA: [f64; 2] = [-0.05, 0.12];
+const PERSSON_PULL_OFF: [f64; 2] = [-0.23, -0.08];
+const GW_AREA: [f64; 2] = [-0.25, 0.14];
+const GW_PULL_OFF: [f64; 2] = [-0.99, -0.53];

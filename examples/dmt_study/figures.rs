@@ -82,8 +82,10 @@ pub fn misses(table: &[Row]) -> String {
             let Some(judge) = pull("field") else { continue };
             let _ = write!(text, "| {hurst} | {ratio} | {:.4} |", judge * scale);
             for model in &MODELS[1..] {
-                let miss = pull(model).map_or(f64::NAN, |p| 100.0 * (p / judge - 1.0));
-                let _ = write!(text, " {miss:+.1} % |");
+                let _ = match pull(model) {
+                    Some(found) => write!(text, " {:+.1} % |", 100.0 * (found / judge - 1.0)),
+                    None => write!(text, " - |"),
+                };
             }
             for model in &MODELS[1..] {
                 let (mut least, mut most) = (f64::INFINITY, f64::NEG_INFINITY);
@@ -100,7 +102,10 @@ pub fn misses(table: &[Row]) -> String {
                         most = most.max(found / judge - 1.0);
                     }
                 }
-                let _ = write!(text, " {:+.0} to {:+.0} % |", 100.0 * least, 100.0 * most);
+                let _ = match least <= most {
+                    true => write!(text, " {:+.0} to {:+.0} % |", 100.0 * least, 100.0 * most),
+                    false => write!(text, " - |"),
+                };
             }
             text.push('\n');
         }

@@ -75,7 +75,8 @@ pub(super) fn gw_m(comparison: &Comparison, table: &mut Table) -> Result<(), Lef
         Ok(State {
             mean_pressure: net,
             contact_area_fraction: Some(summits.contact_area_fraction(separation)),
-            mean_gap: Some(separation * rms_height + mean_summit),
+            // Below the mean plane its flat has no gap to speak of.
+            mean_gap: Some(separation * rms_height + mean_summit).filter(|gap| *gap > 0.0),
             adhesive_pressure: Some(summits.pressure(separation)? - net),
         })
     };
