@@ -312,7 +312,6 @@ fn what_this_version_lacks_is_refused_by_name() {
             "--precision",
             "double",
         ],
-        vec!["compare", "scene.toml"],
         vec!["accuracy", "scene.toml", "--budget", "5 min"],
     ] {
         let output = tabor(folder.path(), &arguments);

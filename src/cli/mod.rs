@@ -1,6 +1,7 @@
 //! The command line: arguments, messages, exit statuses.
 
 mod check;
+mod compare;
 mod devices;
 mod fit;
 mod keeper;
@@ -60,8 +61,9 @@ enum Command {
         after_help = "Values are in SI, or text with a unit: --radius \"1 um\".\n`tabor theory` lists the models, `tabor theory NAME --help` explains one.\n\nExample:\n  tabor theory jkr --radius \"1 um\" --contact_modulus \"1 MPa\" --work_of_adhesion \"50 mJ/m^2\" > jkr.csv"
     )]
     Theory(TheoryArguments),
-    /// The same surface through several models (not in this version)
-    Compare(Later),
+    /// The same surface through full field, DMT, ICHA, Persson, GW-M and BAM
+    #[command(after_help = "Example:\n  tabor compare examples/scenes/dmt.toml --out compared")]
+    Compare(CompareArguments),
     /// Error against seconds (not in this version)
     Accuracy(Later),
     /// Work of adhesion and modulus from a force curve of a sphere
@@ -119,6 +121,18 @@ struct RunArguments {
 struct CheckArguments {
     /// The scene, a TOML file
     scene: PathBuf,
+    /// Override a key of the scene, as in surface.0.hurst=0.4; may be repeated
+    #[arg(long, value_name = "KEY=VALUE", value_parser = key_and_value)]
+    set: Vec<(String, String)>,
+}
+
+#[derive(Debug, Args)]
+struct CompareArguments {
+    /// The scene, a TOML file
+    scene: PathBuf,
+    /// Folder for compare.csv and compare.png [default: the scene's name with _compare]
+    #[arg(long, value_name = "DIR")]
+    out: Option<PathBuf>,
     /// Override a key of the scene, as in surface.0.hurst=0.4; may be repeated
     #[arg(long, value_name = "KEY=VALUE", value_parser = key_and_value)]
     set: Vec<(String, String)>,
@@ -307,7 +321,7 @@ pub fn main() -> ExitCode {
         Command::Check(arguments) => check::check(&arguments),
         Command::Surface(arguments) => surface::surface(&arguments),
         Command::Theory(arguments) => theory::theory(&arguments),
-        Command::Compare(later) => not_in_this_version("compare", &later),
+        Command::Compare(arguments) => compare::compare(&arguments),
         Command::Accuracy(later) => not_in_this_version("accuracy", &later),
         Command::Fit(arguments) => fit::fit(&arguments),
         Command::Devices => devices::devices(),
@@ -334,7 +348,7 @@ fn say(line: &str) {
 
 fn not_in_this_version(command: &str, _: &Later) -> Result<(), Failure> {
     Err(Failure::Usage(format!(
-        "tabor {command} is not in this version; this one has run, check, surface, theory, fit and devices"
+        "tabor {command} is not in this version; this one has run, check, surface, theory, compare, fit and devices"
     )))
 }
 

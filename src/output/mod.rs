@@ -7,6 +7,7 @@
 pub(crate) mod canvas;
 pub mod chart;
 pub mod colour_scale;
+mod cpu_time;
 pub mod curve;
 mod difference;
 mod error;
@@ -14,6 +15,7 @@ pub mod fields;
 pub mod folder;
 pub mod layout;
 pub mod palette;
+pub mod panels;
 pub mod picture;
 mod png_text;
 pub mod progress;
@@ -26,6 +28,7 @@ pub mod summary;
 pub mod volume;
 
 pub use canvas::{Font, TextLine};
+pub use cpu_time::cpu_seconds;
 pub use curve::{Curve, CurveWriter};
 pub use error::OutputError;
 pub use fields::{write_field, write_field_single};

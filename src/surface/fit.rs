@@ -63,7 +63,7 @@ pub struct SelfAffineFit {
 
 /// Why a map has no self-affine fit.
 #[derive(Clone, Copy, Debug, PartialEq, Error)]
-pub enum FitError {
+pub enum BandFitError {
     /// A map without roughness.
     #[error("the surface is flat")]
     Flat,
@@ -81,7 +81,7 @@ pub enum FitError {
 ///
 /// # Errors
 /// A map that is flat or has too few waves.
-pub fn fit(grid: &Grid, heights: &[f64], boundary: Boundary) -> Result<SelfAffineFit, FitError> {
+pub fn fit(grid: &Grid, heights: &[f64], boundary: Boundary) -> Result<SelfAffineFit, BandFitError> {
     let (least, greatest) = heights
         .iter()
         .fold((f64::INFINITY, f64::NEG_INFINITY), |ends, h| {
@@ -89,7 +89,7 @@ pub fn fit(grid: &Grid, heights: &[f64], boundary: Boundary) -> Result<SelfAffin
         });
     // Rounding of a constant is no roughness.
     if greatest - least <= 1e-12 * greatest.abs().max(least.abs()) {
-        return Err(FitError::Flat);
+        return Err(BandFitError::Flat);
     }
     let first = first_wavenumber(grid);
     // Beyond the wave of two pixels along the coarser axis rings are cut by the corners of the plane.
@@ -116,7 +116,7 @@ pub fn fit(grid: &Grid, heights: &[f64], boundary: Boundary) -> Result<SelfAffin
     let end = end_of_band(&rings);
     let compared = &rings[..end.unwrap_or(rings.len())];
     if compared.len() < FEWEST_RINGS {
-        return Err(FitError::TooFewRings {
+        return Err(BandFitError::TooFewRings {
             rings: compared.len(),
         });
     }

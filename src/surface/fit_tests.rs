@@ -107,13 +107,13 @@ fn what_has_no_spectrum_is_refused() {
     let grid = Grid::new([64, 64], [1.0, 1.0]);
     assert_eq!(
         fit(&grid, &vec![2.0; 4096], Boundary::Periodic),
-        Err(FitError::Flat)
+        Err(BandFitError::Flat)
     );
     let grid = Grid::new([4, 4], [1.0, 1.0]);
     let heights: Vec<f64> = (0..16).map(|i| f64::from((i * 7) % 5)).collect();
     let refused = fit(&grid, &heights, Boundary::Free);
     assert!(
-        matches!(refused, Err(FitError::TooFewRings { .. })),
+        matches!(refused, Err(BandFitError::TooFewRings { .. })),
         "{refused:?}"
     );
 }

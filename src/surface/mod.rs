@@ -19,7 +19,7 @@ mod file;
 mod fill;
 pub mod fit;
 mod formats;
-mod fourier;
+pub(crate) mod fourier;
 mod matrix;
 mod outline;
 pub mod self_affine;

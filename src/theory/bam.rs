@@ -5,7 +5,7 @@
 //! by the Gaussian bearing area. Slope and curvature of the roughness do not enter.
 
 use super::error::{TheoryError, positive};
-use super::roots::minimum;
+use super::roots::{minimum, root};
 use super::special::erfc;
 use std::f64::consts::SQRT_2;
 
@@ -28,15 +28,33 @@ impl BearingArea {
 
     /// Net mean pressure at a `mean_gap` in `h_rms`, in sigma0.
     pub fn pressure(&self, mean_gap: f64) -> f64 {
-        let reach = 1.0 / self.height_over_range;
         let repulsion = 0.375 * self.stiffness * (-2.0 * mean_gap).exp();
-        let within = erfc((mean_gap - reach) / SQRT_2) - erfc(mean_gap / SQRT_2);
-        repulsion - 0.5 * within
+        repulsion - self.attraction(mean_gap)
+    }
+
+    /// Attraction at a `mean_gap` in `h_rms`, in sigma0, positive: the share of the area whose
+    /// undeformed gap is within the range.
+    pub fn attraction(&self, mean_gap: f64) -> f64 {
+        let reach = 1.0 / self.height_over_range;
+        0.5 * (erfc((mean_gap - reach) / SQRT_2) - erfc(mean_gap / SQRT_2))
+    }
+
+    /// Mean gap (in `h_rms`) at a net `pressure` (in sigma0), on the closer side of pull-off where
+    /// there is any tension.
+    pub fn mean_gap(&self, pressure: f64) -> Result<f64, TheoryError> {
+        let far = self.pull_off().map_or(self.farthest(), |(gap, _)| gap);
+        let excess = |gap: f64| self.pressure(gap) - pressure;
+        root("an equilibrium", excess, 0.0, far, 1e-12)
+    }
+
+    /// A mean gap, in `h_rms`, beyond which nothing is left of either part.
+    fn farthest(&self) -> f64 {
+        10.0 + 1.0 / self.height_over_range
     }
 
     /// Mean gap (in `h_rms`) and magnitude (in sigma0) of the greatest tension.
     pub fn pull_off(&self) -> Result<(f64, f64), TheoryError> {
-        let high = 10.0 + 1.0 / self.height_over_range;
+        let high = self.farthest();
         let scan = 200;
         let place = |i: usize| high * i as f64 / scan as f64;
         let best = (1..scan)

@@ -1,12 +1,13 @@
 //! Every mistake that a user can make, with the message it must give: one line a mistake, which
 //! names the file, where in it, what is wrong and what would be right.
 //!
-//! Three tables hold them: edits of scenes (`scenes`), height files (`files`), and calls of the
-//! binary and of the library (`calls`). Together they reach every variant of every error enum of the
+//! Four tables hold them: edits of scenes (`scenes`), height files (`files`), force curves
+//! (`curves`), and calls of the binary and of the library (`calls`). Together they reach every variant of every error enum of the
 //! crate. `variants` reads those from the source, so a new variant fails the test below until a
 //! table reaches it.
 
 mod calls;
+mod curves;
 mod files;
 mod scenes;
 mod variants;
@@ -69,6 +70,19 @@ const OUT_OF_REACH: &[(&str, &str)] = &[
         "root finding and quadrature reach their tolerance within the range of their inputs, which is checked before",
     ),
     ("Failure::Backend", "passes the device's failure on"),
+    (
+        "FileError::Memory",
+        "the system promises memory and then refuses it: the count before it refuses first",
+    ),
+    (
+        "FileError::TooLong",
+        "a text of more than 4 GiB: the count of memory refuses it first on most machines",
+    ),
+    ("Failure::Fit", "passes a mistake in a curve on"),
+    ("MapError::File", "passes a mistake in a height file on"),
+    ("Left::Out", "a model of compare ends; a note says why"),
+    ("Left::Theory", "passes a theory's own range on"),
+    ("Left::Output", "passes an output's failure on"),
 ];
 
 /// The fewest bad scenes, files and calls that are held here.
@@ -92,11 +106,12 @@ fn every_variant_of_every_error_is_reached() {
             });
         }
     }
-    let (files, calls) = (files::reached(), calls::reached());
-    let count = scenes::count() + files.len() + calls.len();
+    let (files, calls, curves) = (files::reached(), calls::reached(), curves::reached());
+    let count = scenes::count() + files.len() + calls.len() + curves.len();
     assert!(count >= FEWEST, "only {count} mistakes");
     reached.extend(files);
     reached.extend(calls);
+    reached.extend(curves);
 
     let variants = variants::all();
     assert!(

@@ -5,7 +5,7 @@ use std::path::Path;
 
 use crate::scene::Boundary;
 use crate::surface::Surface;
-use crate::surface::fit::{FitError, SelfAffineFit};
+use crate::surface::fit::{BandFitError, SelfAffineFit};
 use crate::surface::statistics::{SpectrumRing, Statistics};
 
 /// Points of the line that stands for the fit in the plot.
@@ -19,7 +19,7 @@ pub(super) struct Report<'a> {
     pub statistics: Statistics,
     pub correlation_length: Option<f64>,
     pub rings: &'a [SpectrumRing],
-    pub fit: Result<SelfAffineFit, FitError>,
+    pub fit: Result<SelfAffineFit, BandFitError>,
 }
 
 impl Report<'_> {

@@ -1,0 +1,102 @@
+//! The models of summits: interacting asperities of the height map, and GW-M.
+
+use super::ladder::{Ladder, rungs};
+use super::table::Table;
+use super::{Comparison, Left, State};
+use crate::theory::gw::Summits;
+use crate::theory::icha::{Icha, MergeRule};
+use crate::theory::{Sphere, gw_m};
+
+/// Contact area up to which interacting asperities are near full fields; beyond it most have merged.
+const ICHA_AREA: f64 = 0.3;
+/// Contact area up to which summits that do not feel each other are a model.
+const GW_AREA: f64 = 0.05;
+
+/// Interacting asperities, the law's traction summed over their gap field.
+pub(super) fn icha(comparison: &Comparison, table: &mut Table) -> Result<(), Left> {
+    let setup = &comparison.setup;
+    let modulus = setup.scene.solid.contact_modulus;
+    let unit = modulus * setup.statistics.moments.rms_slope();
+    let surface = Icha::new(setup.surface.grid, &setup.surface.heights)?;
+    let mut loading = surface.loading(MergeRule::Volume);
+    let mut ladder = Ladder::default();
+    let largest = comparison.loads.last().copied().unwrap_or(0.0);
+    let mut ended = None;
+    for repulsive in rungs(unit, largest, comparison.tension) {
+        let pressed = match loading.press(repulsive / modulus) {
+            Ok(pressed) => pressed,
+            // What it reached stands.
+            Err(error) => {
+                ended = Some(error);
+                break;
+            }
+        };
+        let gap = pressed.gap(&surface);
+        let attraction = gap.mean_outside(|gap| setup.law.traction(gap));
+        let area = pressed.contact_area_fraction();
+        ladder.add(repulsive, area, gap.mean(), attraction);
+        if ladder.last() > largest {
+            break;
+        }
+    }
+    let limit = |state: &State| {
+        let crowded = state.contact_area_fraction > Some(ICHA_AREA);
+        let crowded = crowded.then_some("contact area above 30 %");
+        crowded.or(comparison.beyond_dmt())
+    };
+    let pull_off = ladder.pull_off();
+    let tension = pull_off.map_or(0.0, |state| -state.mean_pressure);
+    if let Some(state) = pull_off {
+        table.add(state, Some(tension), limit(&state))?;
+    }
+    for load in comparison.carried(tension) {
+        if let Some(state) = ladder.at(load) {
+            table.add(state, Some(tension), limit(&state))?;
+        }
+    }
+    ended.map_or(Ok(()), |error| Err(error.into()))
+}
+
+/// Greenwood & Williamson's summits with Maugis' constant: radius 2/h'', heights and number of the
+/// spectrum's moments.
+pub(super) fn gw_m(comparison: &Comparison, table: &mut Table) -> Result<(), Left> {
+    let setup = &comparison.setup;
+    let moments = setup.statistics.moments;
+    let missing = || Left::Out("the surface has no summit statistics".to_owned());
+    let radius = moments.mean_radius().ok_or_else(missing)?;
+    let density = moments.summit_density().ok_or_else(missing)?;
+    let mean_summit = moments.mean_summit_height().ok_or_else(missing)?;
+    let work = setup.law.work_of_adhesion();
+    let sphere = Sphere::new(radius, setup.scene.solid.contact_modulus, work)?;
+    let rms_height = moments.rms_height();
+    let summits = Summits::new(sphere, density, rms_height)?;
+    let state = |separation: f64| -> Result<State, Left> {
+        let net = gw_m::pressure(&summits, separation)?;
+        Ok(State {
+            mean_pressure: net,
+            contact_area_fraction: Some(summits.contact_area_fraction(separation)),
+            // Below the mean plane its flat has no gap to speak of.
+            mean_gap: Some(separation * rms_height + mean_summit).filter(|gap| *gap > 0.0),
+            adhesive_pressure: Some(summits.pressure(separation)? - net),
+        })
+    };
+    let limit = |state: &State| {
+        let crowded = state.contact_area_fraction > Some(GW_AREA);
+        let crowded = crowded.then_some("contact area above 5 %");
+        crowded.or(comparison.beyond_dmt())
+    };
+    let mut tension = 0.0;
+    if work > 0.0 {
+        let theta = summits.adhesion_parameter()?;
+        let reduced = gw_m::reduced_pull_off(theta)?;
+        let at = state(reduced.0)?;
+        tension = gw_m::pull_off(&summits)?;
+        table.add(at, Some(tension), limit(&at))?;
+    }
+    for load in comparison.carried(tension) {
+        let mut at = state(gw_m::separation(&summits, load)?)?;
+        at.mean_pressure = load;
+        table.add(at, Some(tension), limit(&at))?;
+    }
+    Ok(())
+}

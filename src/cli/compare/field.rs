@@ -1,0 +1,236 @@
+//! The full field, and the field without adhesion whose attraction is summed afterwards.
+
+use super::ladder::{Ladder, rungs};
+use super::table::Table;
+use super::{Comparison, State};
+use crate::cli::Failure;
+use crate::cli::machine::Machine;
+use crate::kernel::Scalars;
+use crate::law::Law;
+use crate::output::OutputError;
+use crate::scene::{AdhesionScene, Control, Scene, Treatment};
+use crate::study::{Evaluation, FinishedStep, Observer, PointState, Setup, WalkError, walk};
+
+/// Mean gaps at which pull-off is looked for on the way out, and around the greatest tension found.
+const WAY_OUT: usize = 32;
+const CLOSER: usize = 8;
+/// Tension over the greatest one below which the way out ends.
+const OVER: f64 = 0.3;
+
+/// Sees the state of each step; may end the path.
+struct Watch<F: FnMut(State, &Evaluation, bool) -> Result<bool, OutputError>>(F);
+
+/// Why a watched path ended.
+enum End {
+    Enough,
+    Output(OutputError),
+}
+
+impl<F: FnMut(State, &Evaluation, bool) -> Result<bool, OutputError>> Observer for Watch<F> {
+    type Error = End;
+
+    fn step(&mut self, step: FinishedStep) -> Result<(), End> {
+        let Some(fields) = step.evaluation else {
+            return Ok(());
+        };
+        let state = State {
+            mean_pressure: step.row.mean_pressure,
+            contact_area_fraction: Some(
+                step.row
+                    .contact_area_fraction_corrected
+                    .unwrap_or(step.row.contact_area_fraction),
+            ),
+            mean_gap: step.row.mean_gap,
+            adhesive_pressure: Some(tension(&fields)),
+        };
+        match (self.0)(state, &fields, step.row.converged) {
+            Ok(true) => Ok(()),
+            Ok(false) => Err(End::Enough),
+            Err(error) => Err(End::Output(error)),
+        }
+    }
+
+    fn iteration(&mut self, _: usize, _: &Scalars) -> bool {
+        true
+    }
+}
+
+/// Mean over the cell of the tension, Pa.
+fn tension(fields: &Evaluation) -> f64 {
+    let sum: f64 = fields.pressure.iter().map(|p| (-p).max(0.0)).sum();
+    sum / fields.pressure.len() as f64
+}
+
+/// Walks another path over the same surface.
+fn walked<F: FnMut(State, &Evaluation, bool) -> Result<bool, OutputError>>(
+    comparison: &Comparison,
+    machine: &Machine,
+    control: Control,
+    path: Vec<f64>,
+    adhesion: Option<AdhesionScene>,
+    watch: F,
+) -> Result<(), Failure> {
+    if path.is_empty() {
+        return Ok(());
+    }
+    let mut scene: Scene = comparison.setup.scene.clone();
+    scene.loading.control = control;
+    scene.loading.path = path;
+    scene.adhesion = adhesion;
+    let setup = Setup::new(scene, comparison.setup.surface.clone());
+    let make = || machine.backend();
+    match walk(&setup, &make, &mut Watch(watch)) {
+        Ok(_) | Err(WalkError::Observer(End::Enough)) => Ok(()),
+        Err(WalkError::Backend(error)) => Err(error.into()),
+        Err(WalkError::Observer(End::Output(error))) => Err(error.into()),
+    }
+}
+
+fn unconverged(converged: bool) -> Option<&'static str> {
+    (!converged).then_some("not converged")
+}
+
+/// The scene as it is: pull-off from its largest load, then its path step by step, which also finds
+/// the loads of the other models.
+pub(super) fn full(
+    comparison: &mut Comparison,
+    machine: &Machine,
+    table: &mut Table,
+) -> Result<(), Failure> {
+    let scene = comparison.setup.scene.clone();
+    let full = scene.adhesion.clone().map(|adhesion| AdhesionScene {
+        treatment: Treatment::Full,
+        ..adhesion
+    });
+    let mut pull_off = full.is_none().then_some(0.0);
+    if full.is_some() {
+        let best = way_out(comparison, machine, full.clone())?;
+        pull_off = best.map(|state| -state.mean_pressure);
+        if let Some(state) = best {
+            table.add(state, pull_off, None)?;
+        }
+    }
+    let mut loads = Vec::new();
+    let path = scene.loading.path.clone();
+    let control = scene.loading.control;
+    let keep = |state: State, _: &Evaluation, converged: bool| {
+        loads.push(state.mean_pressure);
+        table.add(state, pull_off, unconverged(converged))?;
+        Ok(true)
+    };
+    walked(comparison, machine, control, path, full, keep)?;
+    loads.sort_by(f64::total_cmp);
+    loads.dedup();
+    comparison.loads = loads;
+    Ok(())
+}
+
+/// The state of greatest tension on the way out from the closest step of the scene's path.
+fn way_out(
+    comparison: &Comparison,
+    machine: &Machine,
+    adhesion: Option<AdhesionScene>,
+) -> Result<Option<State>, Failure> {
+    let loading = &comparison.setup.scene.loading;
+    let closest = match loading.control {
+        Control::MeanGap => loading.path.iter().copied().reduce(f64::min),
+        _ => loading.path.iter().copied().reduce(f64::max),
+    };
+    let Some(closest) = closest else {
+        return Ok(None);
+    };
+    let mut nearest = None;
+    let see = |state: State, _: &Evaluation, _: bool| {
+        nearest = state.mean_gap;
+        Ok(true)
+    };
+    walked(
+        comparison,
+        machine,
+        loading.control,
+        vec![closest],
+        adhesion.clone(),
+        see,
+    )?;
+    let Some(nearest) = nearest else {
+        return Ok(None);
+    };
+    // Apart by more than the highest summit and some ranges nothing is left.
+    let statistics = comparison.setup.statistics;
+    let far = statistics.highest - statistics.mean + 3.0 * comparison.setup.law.range();
+    let mut low = nearest.max(1e-3 * far);
+    let mut high = far.max(2.0 * low);
+    let mut best: Option<State> = None;
+    for count in [WAY_OUT, CLOSER] {
+        let step = (high - low) / count as f64;
+        let path = (0..=count).map(|i| low + step * i as f64).collect();
+        let see = |state: State, _: &Evaluation, converged: bool| {
+            let least = best.map_or(0.0, |best| best.mean_pressure);
+            if converged && state.mean_pressure < least {
+                best = Some(state);
+            }
+            Ok(state.mean_pressure <= OVER * least || least == 0.0)
+        };
+        walked(
+            comparison,
+            machine,
+            Control::MeanGap,
+            path,
+            adhesion.clone(),
+            see,
+        )?;
+        let Some(gap) = best.and_then(|state| state.mean_gap) else {
+            return Ok(None);
+        };
+        (low, high) = ((gap - step).max(low), gap + step);
+    }
+    Ok(best)
+}
+
+/// The treatment of DMT: a ladder of contacts without adhesion for pull-off, then each load by itself.
+pub(super) fn dmt(
+    comparison: &Comparison,
+    machine: &Machine,
+    table: &mut Table,
+) -> Result<(), Failure> {
+    let setup = &comparison.setup;
+    let law: Law = setup.law;
+    let unit = setup.scene.solid.contact_modulus * setup.statistics.moments.rms_slope();
+    let mut ladder = Ladder::default();
+    let climb = |state: State, fields: &Evaluation, _: bool| {
+        let open = fields.gap.iter().zip(&fields.points);
+        let open = open.filter(|(_, point)| **point != PointState::Contact);
+        let attraction =
+            open.map(|(gap, _)| law.traction(*gap)).sum::<f64>() / fields.gap.len() as f64;
+        let area = state.contact_area_fraction.unwrap_or(f64::NAN);
+        let gap = state.mean_gap.unwrap_or(f64::NAN);
+        ladder.add(state.mean_pressure, area, gap, attraction);
+        // Beyond pull-off the net load only grows, and is past doubt once it presses.
+        Ok(ladder.last() < 0.0 || ladder.pull_off().is_none())
+    };
+    let path = rungs(unit, 0.0, comparison.tension);
+    walked(comparison, machine, Control::Pressure, path, None, climb)?;
+    let limit = comparison.beyond_dmt();
+    let pull_off = ladder.pull_off();
+    let tension = pull_off.map_or(0.0, |state| -state.mean_pressure);
+    if let Some(state) = pull_off {
+        table.add(state, Some(tension), limit)?;
+    }
+    let adhesion = setup.scene.adhesion.clone().map(|adhesion| AdhesionScene {
+        treatment: Treatment::Dmt,
+        ..adhesion
+    });
+    let loads: Vec<f64> = comparison.carried(tension).collect();
+    let keep = |state: State, _: &Evaluation, converged: bool| {
+        table.add(state, Some(tension), unconverged(converged).or(limit))?;
+        Ok(true)
+    };
+    walked(
+        comparison,
+        machine,
+        Control::Pressure,
+        loads,
+        adhesion,
+        keep,
+    )
+}

@@ -1,0 +1,201 @@
+//! The models of the spectrum: Persson's theory and the bearing-area model.
+
+use std::f64::consts::PI;
+
+use super::table::Table;
+use super::{Comparison, Left, State};
+use crate::law::Law;
+use crate::scene::SurfacePart;
+use crate::surface::spectrum::SpectralMoments;
+use crate::theory::bam::BearingArea;
+use crate::theory::persson::Persson;
+use crate::theory::persson_gap::{Adhesion, PullOff, RoughContact};
+use crate::theory::roots::root;
+use crate::theory::{Law as Reduced, Spectrum, TheoryError};
+
+/// Energy factor of Persson's theory.
+const GAMMA: f64 = 0.5;
+/// Least repulsive pressure of the theory, in E* times the rms slope.
+const NO_TENSION: f64 = 1e-5;
+/// Hurst exponents about 0.8 for which the constants of BAM stand.
+const BAM_HURST: [f64; 2] = [0.65, 0.95];
+
+/// A spectrum, and what is not exact about it.
+struct Found {
+    spectrum: Spectrum,
+    limit: Option<&'static str>,
+}
+
+/// The scene's own spectrum where the surface is one self-affine part, else the self-affine one from
+/// the longest wave of the cell that has the map's rms height, slope and curvature.
+fn spectrum_of(comparison: &Comparison) -> Result<Found, Left> {
+    let setup = &comparison.setup;
+    let moments = setup.statistics.moments;
+    let grid = setup.surface.grid;
+    let shaped = |part: &&SurfacePart| !matches!(part, SurfacePart::Flat);
+    let mut parts = setup.scene.surfaces.iter().filter(shaped);
+    if let (Some(SurfacePart::SelfAffine(rough)), None) = (parts.next(), parts.next()) {
+        let longest = rough.longest.min(grid.lx.max(grid.ly));
+        let rolloff = rough.rolloff.min(longest);
+        let wavenumbers = [longest, rolloff, rough.shortest].map(|length| 2.0 * PI / length);
+        if let Ok(spectrum) = Spectrum::new(wavenumbers, rough.hurst, moments.rms_height()) {
+            return Ok(Found {
+                spectrum,
+                limit: None,
+            });
+        }
+    }
+    let smallest = 2.0 * PI / grid.lx.max(grid.ly);
+    match matched(&moments, smallest) {
+        Some(spectrum) => Ok(Found {
+            spectrum,
+            limit: Some("self-affine spectrum matched to the map"),
+        }),
+        None => Err(Left::Out(
+            "no self-affine spectrum has the surface's rms height, slope and curvature".to_owned(),
+        )),
+    }
+}
+
+/// The self-affine spectrum without roll-off that begins at `smallest` (1/m) and has these moments.
+fn matched(moments: &SpectralMoments, smallest: f64) -> Option<Spectrum> {
+    let slope = moments.rms_slope();
+    // For each Hurst exponent the largest wave number gives the slope, the exponent the curvature.
+    let with_slope = |hurst: f64| -> Option<Spectrum> {
+        let build = |log: f64| {
+            let wavenumbers = [smallest, smallest, smallest * log.exp()];
+            Spectrum::new(wavenumbers, hurst, moments.rms_height())
+        };
+        let miss = |log: f64| build(log).map_or(f64::NAN, |s| (s.rms_slope() / slope).ln());
+        let log = root("a largest wave number", miss, 1e-3, 16.0, 1e-10).ok()?;
+        build(log).ok()
+    };
+    let miss = |hurst: f64| {
+        with_slope(hurst).map_or(f64::NAN, |s| {
+            (s.rms_curvature() / moments.rms_curvature()).ln()
+        })
+    };
+    // Exponents for which no band has the slope make gaps: ends are sought from the middle.
+    let places: Vec<f64> = (1..100).map(|i| 0.01 * f64::from(i)).collect();
+    let pair = places
+        .windows(2)
+        .find(|pair| miss(pair[0]) * miss(pair[1]) <= 0.0)?;
+    let hurst = root("a Hurst exponent", miss, pair[0], pair[1], 1e-10).ok()?;
+    with_slope(hurst)
+}
+
+/// Persson's theory; attraction over its distribution of gaps.
+pub(super) fn persson(comparison: &Comparison, table: &mut Table) -> Result<(), Left> {
+    let setup = &comparison.setup;
+    let found = spectrum_of(comparison)?;
+    let modulus = setup.scene.solid.contact_modulus;
+    let contact = RoughContact::new(Persson::new(GAMMA)?, found.spectrum, modulus)?;
+    let adhesion = match setup.law {
+        Law::HardWall => None,
+        Law::LennardJones(_) => Some(Reduced::LennardJones),
+        Law::Exponential(_) => Some(Reduced::Exponential),
+        Law::MaugisDugdale(_) => Some(Reduced::Dugdale),
+    }
+    .map(|law| Adhesion {
+        law,
+        work_of_adhesion: setup.law.work_of_adhesion(),
+        range: setup.law.range(),
+    });
+    let state = |repulsive: f64, net: f64| -> Result<State, TheoryError> {
+        Ok(State {
+            mean_pressure: net,
+            contact_area_fraction: Some(contact.area_fraction(repulsive)?),
+            mean_gap: Some(contact.mean_gap(repulsive)?),
+            adhesive_pressure: Some(repulsive - net),
+        })
+    };
+    let limit = found.limit.or(comparison.beyond_dmt());
+    let Some(adhesion) = adhesion else {
+        for load in comparison.carried(0.0) {
+            table.add(state(load, load)?, Some(0.0), found.limit)?;
+        }
+        return Ok(());
+    };
+    let pull_off = match contact.pull_off(&adhesion) {
+        Ok(found) => {
+            let at = state(found.pressure, -found.tension)?;
+            table.add(at, Some(found.tension), limit)?;
+            found
+        }
+        // So little attraction that the theory finds no tension at any load it is good for.
+        Err(TheoryError::OutOfRange { .. }) => PullOff {
+            tension: 0.0,
+            pressure: NO_TENSION * modulus * found.spectrum.rms_slope(),
+        },
+        Err(error) => return Err(error.into()),
+    };
+    let tension = pull_off.tension;
+    for load in comparison.carried(tension) {
+        let repulsive = contact.repulsive_pressure(&adhesion, &pull_off, load)?;
+        table.add(state(repulsive, load)?, Some(tension), limit)?;
+    }
+    Ok(())
+}
+
+/// The bearing-area model, with the Dugdale law of the same work of adhesion and peak tension.
+pub(super) fn bam(comparison: &Comparison, table: &mut Table) -> Result<(), Left> {
+    let setup = &comparison.setup;
+    if !setup.law.is_adhesive() {
+        return Err(Left::Out("without [adhesion] it has no law".to_owned()));
+    }
+    let found = spectrum_of(comparison)?;
+    let peak = setup.law.peak_tension();
+    let rms_height = setup.statistics.moments.rms_height();
+    let range = setup.law.work_of_adhesion() / peak;
+    let stiffness =
+        found.spectrum.rolloff_wavenumber() * rms_height * setup.scene.solid.contact_modulus / peak;
+    let model = BearingArea::new(rms_height / range, stiffness)?;
+    let hurst = found.spectrum.hurst_exponent();
+    let unusual = !(BAM_HURST[0]..=BAM_HURST[1]).contains(&hurst);
+    let limit = unusual
+        .then_some("Hurst exponent far from 0.8")
+        .or(found.limit);
+    let state = |gap: f64, net: f64| State {
+        mean_pressure: net,
+        contact_area_fraction: None,
+        mean_gap: Some(gap * rms_height),
+        adhesive_pressure: Some(model.attraction(gap) * peak),
+    };
+    let tension = match model.pull_off() {
+        Ok((gap, tension)) => {
+            let tension = tension * peak;
+            table.add(state(gap, -tension), Some(tension), limit)?;
+            tension
+        }
+        Err(_) => 0.0,
+    };
+    for load in comparison.carried(tension) {
+        // At full closure it carries no more than a finite load.
+        let Ok(gap) = model.mean_gap(load / peak) else {
+            return Err(Left::Out(format!("beyond {load:e} Pa its mean gap is 0")));
+        };
+        table.add(state(gap, load), Some(tension), limit)?;
+    }
+    Ok(())
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_spectrum_is_found_again_by_its_moments() {
+        let known = Spectrum::new([2.0, 2.0, 60.0], 0.7, 0.3).unwrap();
+        let (m0, m2, m4) = known.profile_moments();
+        let found = matched(&SpectralMoments { m0, m2, m4 }, 2.0).expect("a spectrum");
+        assert!((found.hurst_exponent() - 0.7).abs() < 1e-6);
+        assert!((found.largest_wavenumber() / 60.0 - 1.0).abs() < 1e-6);
+        // A single wave has a Nayak parameter below that of any band.
+        let wave = SpectralMoments {
+            m0: 1.0,
+            m2: 2.0,
+            m4: 6.0,
+        };
+        assert!(matched(&wave, 2.0).is_none());
+    }
+}

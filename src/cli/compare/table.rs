@@ -1,0 +1,149 @@
+//! `compare.csv`, on the disk row by row, and the table on standard error.
+
+use std::fs::{self, File, OpenOptions};
+use std::io::Write;
+use std::path::{Path, PathBuf};
+use std::time::Instant;
+
+use super::State;
+use crate::output::OutputError;
+use crate::output::write_atomically;
+use crate::units::format_si;
+
+/// First line of `compare.csv`.
+const HEADER: &str = "model,mean_pressure,contact_area_fraction,mean_gap,adhesive_pressure,pull_off_pressure,seconds,within_range,limit";
+
+/// A row of the comparison.
+pub(super) struct Row {
+    pub model: &'static str,
+    pub state: State,
+    /// Greatest tension that the model carries, Pa, positive.
+    pub pull_off: Option<f64>,
+    /// Time since the model's row before.
+    pub seconds: f64,
+    /// Why the model is out of its range here.
+    pub limit: Option<&'static str>,
+}
+
+/// The comparison as it grows.
+pub(super) struct Table {
+    path: PathBuf,
+    file: File,
+    rows: Vec<Row>,
+    model: &'static str,
+    clock: Instant,
+}
+
+impl Table {
+    /// Starts `compare.csv` in a folder, in place of an earlier one.
+    pub fn create(folder: &Path) -> Result<Table, OutputError> {
+        let path = folder.join("compare.csv");
+        let refused = |reason: &str| OutputError::Refused {
+            path: path.clone(),
+            reason: reason.to_owned(),
+        };
+        if folder.is_file() {
+            return Err(refused("its folder is a file; name a folder with --out"));
+        }
+        if fs::read(&path).is_ok_and(|old| !old.starts_with(HEADER.as_bytes())) {
+            return Err(refused(
+                "is not a table that tabor wrote; name another folder with --out",
+            ));
+        }
+        write_atomically(&path, format!("{HEADER}\n").as_bytes())?;
+        let failed = |cause| OutputError::Write {
+            action: "open",
+            path: path.clone(),
+            cause,
+        };
+        let file = OpenOptions::new()
+            .append(true)
+            .open(&path)
+            .map_err(failed)?;
+        Ok(Table {
+            path,
+            file,
+            rows: Vec::new(),
+            model: "",
+            clock: Instant::now(),
+        })
+    }
+
+    /// The rows that follow are this model's.
+    pub fn begin(&mut self, model: &'static str) {
+        self.model = model;
+        self.clock = Instant::now();
+    }
+
+    /// Adds a row of the present model and waits until it is on the disk.
+    pub fn add(
+        &mut self,
+        state: State,
+        pull_off: Option<f64>,
+        limit: Option<&'static str>,
+    ) -> Result<(), OutputError> {
+        let row = Row {
+            model: self.model,
+            state,
+            pull_off,
+            seconds: self.clock.elapsed().as_secs_f64(),
+            limit,
+        };
+        self.clock = Instant::now();
+        let cell = |value: Option<f64>| value.map_or(String::new(), |value| format!("{value:e}"));
+        let line = format!(
+            "{},{:e},{},{},{},{},{:.6},{},{}\n",
+            row.model,
+            state.mean_pressure,
+            cell(state.contact_area_fraction),
+            cell(state.mean_gap),
+            cell(state.adhesive_pressure),
+            cell(pull_off),
+            row.seconds,
+            limit.is_none(),
+            limit.unwrap_or_default()
+        );
+        let written = self
+            .file
+            .write_all(line.as_bytes())
+            .and_then(|()| self.file.sync_data());
+        written.map_err(|cause| OutputError::Write {
+            action: "write",
+            path: self.path.clone(),
+            cause,
+        })?;
+        self.rows.push(row);
+        Ok(())
+    }
+
+    /// All rows so far.
+    pub fn rows(&self) -> &[Row] {
+        &self.rows
+    }
+
+    /// The table on standard error.
+    pub fn print(&self) {
+        eprintln!(
+            "{:<10} {:>12} {:>9} {:>11} {:>12} {:>12} {:>8}  out of range",
+            "model", "pressure", "contact", "mean gap", "attraction", "pull-off", "seconds"
+        );
+        let si = |value: Option<f64>, unit: &str| {
+            value.map_or_else(|| "-".to_owned(), |value| format_si(value, unit))
+        };
+        for row in &self.rows {
+            eprintln!(
+                "{:<10} {:>12} {:>9} {:>11} {:>12} {:>12} {:>8.2}  {}",
+                row.model,
+                format_si(row.state.mean_pressure, "Pa"),
+                row.state
+                    .contact_area_fraction
+                    .map_or_else(|| "-".to_owned(), |share| format!("{:.3}%", 100.0 * share)),
+                si(row.state.mean_gap, "m"),
+                si(row.state.adhesive_pressure, "Pa"),
+                si(row.pull_off, "Pa"),
+                row.seconds,
+                row.limit.unwrap_or_default()
+            );
+        }
+    }
+}

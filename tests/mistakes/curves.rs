@@ -1,0 +1,154 @@
+//! Bad force curves, as `tabor fit` reads them.
+
+use std::fs;
+
+use tabor::fit::{FitError, ForceCurve, Freedom, fit_curve};
+
+use super::Reached;
+
+const FREE: Freedom = Freedom {
+    approach_offset: true,
+    force_offset: false,
+    range: None,
+};
+
+fn rows(head: &str, count: usize, row: impl Fn(usize) -> String) -> String {
+    let rows: String = (0..count).map(|i| row(i) + "\n").collect();
+    format!("{head}\n{rows}")
+}
+
+/// Every way in which a curve can be wrong, with what is said about it.
+pub fn reached() -> Vec<Reached> {
+    let mut reached = Vec::new();
+    let mut reach = |variant: &str, error: &FitError| {
+        reached.push(Reached {
+            variant: format!("FitError::{variant}"),
+            message: error.to_string(),
+        });
+    };
+    let good = |i: usize| format!("{i}e-9,{}e-9", i as f64 - 5.0);
+    let with = |line: usize, text: &str| {
+        let text = text.to_owned();
+        move |i: usize| if i == line { text.clone() } else { good(i) }
+    };
+    let head = "approach,force";
+    let cases: Vec<(&str, String, &str)> = vec![
+        (
+            "NoHead",
+            rows("1,2", 20, good),
+            "has no head; its first line must name the columns",
+        ),
+        ("NoHead", "# only a comment\n".to_owned(), "has no head"),
+        (
+            "NoColumn",
+            rows("depth,force", 20, good),
+            "line 1: no column `approach` among \"depth, force\"; name it `approach` (SI) or with its unit, `approach [nm]`",
+        ),
+        (
+            "NoColumn",
+            rows("approach,load", 20, good),
+            "no column `force` among",
+        ),
+        (
+            "TwoColumns",
+            rows("force,Force [nN]", 20, good),
+            "no column `approach`",
+        ),
+        (
+            "TwoColumns",
+            rows("approach,force,Force [nN]", 20, |i| format!("{i},1,1")),
+            "two columns `force`",
+        ),
+        (
+            "Unit",
+            rows("approach [nN],force", 20, good),
+            "line 1, column `approach`:",
+        ),
+        (
+            "Unit",
+            rows("approach [furlong],force", 20, good),
+            "is not a unit",
+        ),
+        (
+            "Ragged",
+            rows(head, 20, with(4, "1,2,3")),
+            "line 6: 3 values where the head names 2 columns",
+        ),
+        (
+            "NotANumber",
+            rows(head, 20, with(4, "1,much")),
+            "line 6, column `force`: \"much\" is not a number",
+        ),
+        (
+            "NotANumber",
+            rows(head, 20, with(0, "1e999,2")),
+            "line 2, column `approach`:",
+        ),
+        (
+            "TooFewRows",
+            rows(head, 9, good),
+            "9 rows with an approach and a force, of 10 that a fit needs",
+        ),
+        ("TooFewRows", rows(head, 20, |_| ",".to_owned()), "0 rows"),
+        (
+            "Constant",
+            rows(head, 20, |i| format!("1,{i}")),
+            "the approach is the same in every row",
+        ),
+        (
+            "Constant",
+            rows(head, 20, |i| format!("{i},1")),
+            "the force is the same in every row",
+        ),
+        (
+            "NoCompression",
+            rows(head, 20, |i| format!("{i},-{}", i + 1)),
+            "no row is in compression",
+        ),
+        (
+            "WrongWay",
+            rows(head, 20, |i| format!("{i},{}", 100.0 - 10.0 * i as f64)),
+            "the force grows as the surfaces go apart",
+        ),
+    ];
+    let folder = tempfile::tempdir().expect("a folder");
+    let path = folder.path().join("curve.csv");
+    for (variant, text, expected) in &cases {
+        fs::write(&path, text).expect("written");
+        let result = ForceCurve::read(&path)
+            .and_then(|curve| fit_curve(&curve, &path, 1e-6, FREE).map(|_| ()));
+        let error = result.expect_err(variant);
+        let message = error.to_string();
+        assert!(message.contains(expected), "{variant}: {message}");
+        assert!(message.contains("curve.csv"), "{variant}: {message}");
+        reach(variant, &error);
+    }
+    for bytes in [&b"approach,force\n1,\xff\n"[..], b"approach,force\n1,2\0\n"] {
+        fs::write(&path, bytes).expect("written");
+        let error = ForceCurve::read(&path).expect_err("no text");
+        assert!(matches!(error, FitError::NotText { .. }), "{error}");
+        reach("NotText", &error);
+    }
+    let error = ForceCurve::read(&folder.path().join("none.csv")).expect_err("no file");
+    assert!(matches!(error, FitError::Unreadable { .. }), "{error}");
+    reach("Unreadable", &error);
+    // A file of that size in name only: its bytes are never written.
+    let file = fs::File::create(&path).expect("created");
+    file.set_len((256 << 20) + 1).expect("sparse");
+    let error = ForceCurve::read(&path).expect_err("too large");
+    assert!(error.to_string().contains("268435457 bytes"), "{error}");
+    reach("TooLarge", &error);
+    fs::write(&path, rows(head, 20, good)).expect("written");
+    let curve = ForceCurve::read(&path).expect("a curve");
+    let error = fit_curve(&curve, &path, -1.0, FREE).expect_err("no radius");
+    assert!(matches!(error, FitError::Theory(_)), "{error}");
+    reach("Theory", &error);
+    // Forces so large that no modulus is a number.
+    let absurd = |i: usize| format!("{i}e-300,{}e300", i as f64 - 5.0);
+    fs::write(&path, rows(head, 20, absurd)).expect("written");
+    let curve = ForceCurve::read(&path).expect("a curve");
+    let error = fit_curve(&curve, &path, 1e-6, FREE).expect_err("no fit");
+    assert!(matches!(error, FitError::NoFit { .. }), "{error}");
+    reach("NoFit", &error);
+    reached
+}
