@@ -81,7 +81,11 @@ pub enum BandFitError {
 ///
 /// # Errors
 /// A map that is flat or has too few waves.
-pub fn fit(grid: &Grid, heights: &[f64], boundary: Boundary) -> Result<SelfAffineFit, BandFitError> {
+pub fn fit(
+    grid: &Grid,
+    heights: &[f64],
+    boundary: Boundary,
+) -> Result<SelfAffineFit, BandFitError> {
     let (least, greatest) = heights
         .iter()
         .fold((f64::INFINITY, f64::NEG_INFINITY), |ends, h| {

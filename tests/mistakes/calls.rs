@@ -11,7 +11,7 @@ use tabor::scene::{
     Boundary, Control, Detrend, FieldName, Fill, GridScene, HeightFileScene, Roughness, Scene,
     SelfAffineScene, SurfacePart,
 };
-use tabor::surface::Surface;
+use tabor::surface::{Surface, fit::fit};
 use tabor::theory::roots::root;
 
 use super::Reached;
@@ -100,7 +100,7 @@ const CALLS: &[BadCall] = &[
     call(&["check", "sizeless.toml"], "SurfaceError::SizeMissing", "[grid] size is missing, and no height file of this scene carries it; write size = \"10 um\""),
     call(&["run", "good.toml", "--out", "good.toml"], "OutputError::Refused", "good.toml"),
     call(&["run", "good.toml", "--out", "foreign"], "OutputError::Refused", "foreign"),
-    call(&["fit", "good.toml"], "Failure::Usage", "tabor fit is not in this version; this one has run, check, theory and devices"),
+    call(&["accuracy", "good.toml"], "Failure::Usage", "tabor accuracy is not in this version; this one has run, check, surface, theory, compare, fit and devices"),
     call(&["theory", "hertz", "--contact_modulus", "1 GPa", "--radius", "3 Pa"], "Failure::Usage", "--radius: \"Pa\" is a pressure in Pa; give a length in m"),
     call(&["theory", "herz"], "Failure::Usage", "there is no model \"herz\"; did you mean hertz?"),
     call(&["theory", "maugis-dugdale", "--radius", "1e-6", "--contact_modulus", "1e6", "--work_of_adhesion", "0.05", "--range", "1e-300"], "Failure::Theory", "is out of range: it must be between 1e-6 and 1e6"),
@@ -363,10 +363,22 @@ fn library() -> Vec<Reached> {
         reached("PartError::BandOrder", rough(&|scene| scene.rolloff = 2.0), "needed is longest >= rolloff >= shortest"),
         reached("PartError::File", of_part(file(1.0)), "[[surface]] 1: map.txt: there is no such file"),
         reached("FileError::Factor", of_part(file(0.0)), "scale = 0 must be a finite number other than 0"),
-        reached("FileError::TextTooLong", long_text(), "bytes of text are too many; save the heights as .npy"),
+        reached("FileError::TooLong", long_text(), "bytes are too many to take in; save the heights as .npy"),
+        reached("BandFitError::Flat", fit_band(4, 0.0), "the surface is flat"),
+        reached("BandFitError::TooFewRings", fit_band(4, 1.0), "rings of the spectrum are too few"),
         reached("OutputError::NotFinite", write_picture(&nowhere, &picture).expect_err("no picture").to_string(), "cannot draw the gap: 64 of 64 points are not finite numbers"),
         reached("TheoryError::NoSolution", root("a zero", |x| x * x + 1.0, -1.0, 1.0, 1e-12).expect_err("no zero").to_string(), "a zero does not exist for these values"),
     ]
+}
+
+/// Why a map of a few points has no self-affine fit.
+fn fit_band(points: usize, last: f64) -> String {
+    let mut heights = vec![0.0; points * points];
+    heights[points] = last;
+    let grid = Grid::new([points; 2], [1.0; 2]);
+    fit(&grid, &heights, Boundary::Periodic)
+        .expect_err("no fit")
+        .to_string()
 }
 
 /// A text file longer than any that is taken: a hole of 4 GiB, which takes no room on the disk.

@@ -24,6 +24,9 @@ pub fn scene(name: &str, more: &str) -> String {
     )
 }
 
+/// A grey image that is right.
+const GREY: &[u8] = include_bytes!("../files/pillow_16.png");
+
 struct BadFile {
     name: &'static str,
     bytes: Vec<u8>,
@@ -40,7 +43,7 @@ fn table() -> Vec<BadFile> {
     let good = |more, variant, expected| BadFile { name: "map.txt", bytes: b"1 2 3\n4 5 6\n".to_vec(), more, variant, expected };
     vec![
         bad("map.stl", b"solid", "FileError::NotInThisVersion", "height files of kind .stl are not in this version; save the heights as"),
-        bad("map", b"1 2\n", "FileError::NoExtension", "the name has no extension; name it .npy, or .txt"),
+        bad("map", b"1 2\n", "FileError::NoExtension", "the name has no extension and the first bytes are those of no known kind; name it .txt"),
         bad("empty.npy", b"", "FileError::Empty", "the file is empty (0 bytes)"),
         bad("empty.txt", b"", "FileError::Empty", "the file is empty (0 bytes)"),
         bad("image.txt", b"\x89PNG\r\n\x1a\n", "FileError::OtherContent", "the name says .txt, but the file holds a PNG image; give it the right extension"),
@@ -72,6 +75,16 @@ fn table() -> Vec<BadFile> {
         BadFile { name: "all.txt", bytes: b"nan nan\n".to_vec(), more: "fill = \"interpolate\"", variant: "FileError::AllMissing", expected: "all 2 pixels are missing: there is nothing to interpolate from" },
         bad("sized.txt", b"# Width: 4 um\n# Height: 2 um\n1 2 3\n4 5 6\n", "FileError::OtherSize", "the map says it is 4e-6 x 2e-6 m (x, y), but [grid] size says 3e-6 x 2e-6 m; leave size out or correct one"),
         BadFile { name: "far.txt", bytes: b"1e300 2\n3 4\n".to_vec(), more: "scale = 1e30", variant: "SurfaceError::NotFinite", expected: "the heights are not finite at row 1, column 1" },
+        bad("magic.gwy", b"GWYP", "FileError::Broken", "broken .gwy file at byte 4: the file ends within the name of an object"),
+        bad("word.grd", b"DSAA\n2 2\n0 1\n0 1\n0 1\n1 2\n3 x\n", "FileError::BrokenText", "broken .grd file, line 7: \"x\" is not a number"),
+        bad("nothing.grd", b"DSAA\n2.5 2\n", "FileError::Counts", "the file says it has 2 rows of 0 columns; both must be at least 1"),
+        bad("cut.png", b"\x89PNG\r\n\x1a\n", "FileError::BrokenImage", "broken PNG image: "),
+        bad("packed.sur", &[&b"DSCOMPRESSED"[..], &[0; 600]].concat(), "FileError::NotSupported", "compressed .sur files are not in this version; save it without compression"),
+        bad("volts.gsf", b"Gwyddion Simple Field 1.0\nXRes = 1\nYRes = 1\nZUnits = V\n\0\0\0\0\0", "FileError::NotALength", "the file gives its heights in \"V\", which is no length"),
+        bad("pairs.xyz", b"1 2\n3 4\n", "FileError::NotAGrid", "the points x, y, z form no grid: its lines have 2 numbers"),
+        bad("grey.png", GREY, "FileError::GreyEndsMissing", "this is a grey image: write black and white, the heights of its ends"),
+        BadFile { name: "even.png", bytes: GREY.to_vec(), more: "black = 1\nwhite = 1", variant: "FileError::GreyEndsEqual", expected: "black and white are both 1e0 m: an image of one height" },
+        good("black = 0\nwhite = 1", "FileError::GreyEndsUnused", "black and white are for grey images; this file holds heights"),
         good("[[surface]]\nkind = \"file\"\npath = \"other.txt\"", "FileError::NotFound", "[[surface]] 2: FOLDER/other.txt: there is no such file"),
         good("[adhesion]\nlaw = \"exponential\"\nwork_of_adhesion = 1e-2\nrange = 1e-8\nmap = \"wide.csv\"", "SurfaceError::AdhesionMap", "[adhesion] map FOLDER/wide.csv: the map has 4 x 2 points (x, y), but the grid has 3 x 2"),
         good("[adhesion]\nlaw = \"lennard-jones\"\nwork_of_adhesion = 1e-2\nrange = 1e-8\nmap = \"zeros.txt\"", "MapError::Factor", "[adhesion] map FOLDER/zeros.txt: row 1, column 1: a factor of 0e0; it must be above 0"),

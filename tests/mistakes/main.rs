@@ -74,10 +74,6 @@ const OUT_OF_REACH: &[(&str, &str)] = &[
         "FileError::Memory",
         "the system promises memory and then refuses it: the count before it refuses first",
     ),
-    (
-        "FileError::TooLong",
-        "a text of more than 4 GiB: the count of memory refuses it first on most machines",
-    ),
     ("Failure::Fit", "passes a mistake in a curve on"),
     ("MapError::File", "passes a mistake in a height file on"),
     ("Left::Out", "a model of compare ends; a note says why"),
