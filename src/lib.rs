@@ -35,7 +35,7 @@
 //! | [`grid`] | points, sizes, wavevectors, the order of a field, what the transforms are scaled by |
 //! | [`real`] | the two kinds of number that kernels run in |
 //! | [`law`] | how strongly surfaces attract across a gap, one file a law |
-//! | [`elastic`] | stiffness of the half-space at each wavevector, periodic or free |
+//! | [`elastic`] | stiffness of the half-space or of a layer at each wavevector, periodic or free |
 //! | [`kernel`] | the catalogue of passes over points, and the numbers of the algorithm |
 //! | [`backend`] | where the arithmetic runs: the trait, the processor, shaders through wgpu, the tally that only counts |
 //! | [`scene`] | TOML to a checked scene, or every mistake of it with line, key and remedy |

@@ -18,6 +18,8 @@ keep lennard_jones_sphere 0041_pressure lennard_jones_sphere
 keep cantilever 0041_pressure cantilever
 keep dmt 0004_pressure dmt
 keep coating 0016_pressure coating
+keep striped 0015_pressure striped
+keep viscoelastic 0026_pressure viscoelastic
 keep humid_tip 0011_pressure humid_tip
 keep patterned_punch 0055_pressure patterned_punch
 # On fewer points than the scene has, for a small picture.
