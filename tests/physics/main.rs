@@ -8,6 +8,7 @@ mod hertz;
 mod layer;
 mod lennard_jones;
 mod maugis_dugdale;
+mod pairs;
 mod pattern;
 mod relaxation;
 mod rough;

@@ -1,0 +1,104 @@
+//! Any two effects together: they work, and each changes what the other does alone, or the scene is
+//! refused with the reason.
+
+use std::path::Path;
+
+use tabor::effect::Effect;
+use tabor::scene::Scene;
+
+use crate::bench::solve_table;
+
+/// A scene of bumps on a small grid, pressed on and drawn back, with some effects.
+fn scene(effects: &[Effect]) -> String {
+    let on = |effect| effects.contains(&effect);
+    let mut solid = String::new();
+    if on(Effect::Layer) {
+        solid += "poisson_ratio = 0.3\nthickness = 0.2\n";
+    }
+    if on(Effect::Relaxation) {
+        solid += "[[solid.relaxation]]\nmodulus = 1.0\ntime = 1.0\n";
+    }
+    let mut tables = String::new();
+    if on(Effect::Adhesion) || on(Effect::Dmt) || on(Effect::AdhesionMap) {
+        tables += "[adhesion]\nlaw = \"exponential\"\nwork_of_adhesion = 1e-4\nrange = 0.02\n";
+    }
+    if on(Effect::Dmt) {
+        tables += "treatment = \"dmt\"\n";
+    }
+    if on(Effect::AdhesionMap) {
+        tables += "map = { pattern = \"checker\", period = 0.5, low = 0.2, high = 1.5 }\n";
+    }
+    if on(Effect::Capillary) {
+        // A liquid of these units: a meniscus 0.02 high.
+        tables += "[capillary]\nhumidity = 0.5\nsurface_tension = 1e-4\nmolar_volume = 171742\ntemperature = 298\n";
+    }
+    let boundary = match on(Effect::FreeBoundary) {
+        true => "boundary = \"free\"\n",
+        false => "",
+    };
+    let spring = match on(Effect::Spring) {
+        true => "spring = 1.0\n",
+        false => "",
+    };
+    format!(
+        "[grid]\npoints = 32\nsize = 1.0\n{boundary}[solid]\ncontact_modulus = 1.0\n{solid}[[surface]]\nkind = \"wavy\"\namplitude = 0.02\nwavelength = 0.5\n{tables}[loading]\ncontrol = \"approach\"\n{spring}start = 0.005\n[[loading.ramp]]\nto = 0.012\nsteps = 2\nduration = 1\n[[loading.ramp]]\nto = 0.004\nsteps = 2\nduration = 1\n[solver]\ntolerance = 1e-8\n"
+    )
+}
+
+/// Why a pair cannot be, as the scene's message says it.
+fn refusal(pair: [Effect; 2]) -> Option<&'static str> {
+    use Effect::{Adhesion, AdhesionMap, Capillary, Dmt, FreeBoundary, Layer, Relaxation, Spring};
+    match pair {
+        [Adhesion | Dmt | AdhesionMap, Capillary] => Some("the liquid is the adhesion"),
+        [Layer, Relaxation] => Some("relaxation of a compressible layer"),
+        [Layer, FreeBoundary] => Some("a layer needs boundary = \"periodic\""),
+        [Dmt, Relaxation] => Some("on a solid that relaxes"),
+        [Dmt, Spring] => Some("a spring with treatment = \"dmt\""),
+        _ => None,
+    }
+}
+
+#[test]
+fn any_two_effects() {
+    let forces = |effects: &[Effect]| -> Vec<f64> {
+        let solved = solve_table(&scene(effects));
+        solved.rows().map(|row| row.force).collect()
+    };
+    let alone: Vec<Vec<f64>> = Effect::ALL
+        .iter()
+        .map(|effect| forces(&[*effect]))
+        .collect();
+    let mut pairs = 0;
+    for (i, one) in Effect::ALL.into_iter().enumerate() {
+        for (j, other) in Effect::ALL.into_iter().enumerate().skip(i + 1) {
+            let what = format!("{} with {}", one.name(), other.name());
+            if let Some(reason) = refusal([one, other]) {
+                let text = scene(&[one, other]);
+                let errors = Scene::parse(&text, "pair.toml", Path::new("."), &[])
+                    .expect_err(&what)
+                    .to_string();
+                assert!(errors.contains(reason), "{what}: {errors}");
+                continue;
+            }
+            let both = forces(&[one, other]);
+            pairs += 1;
+            // A treatment or a map of the adhesion has it on; alone they are the pair.
+            let same = |effect: Effect, other: Effect| {
+                effect == Effect::Adhesion && matches!(other, Effect::Dmt | Effect::AdhesionMap)
+            };
+            let differs = |a: &[f64]| {
+                a.iter()
+                    .zip(&both)
+                    .any(|(a, b)| (a - b).abs() > 1e-6 * b.abs())
+            };
+            assert!(differs(&alone[i]), "{what}: {} does nothing", other.name());
+            assert!(
+                differs(&alone[j]) || same(one, other),
+                "{what}: {} does nothing",
+                one.name()
+            );
+        }
+    }
+    // Of 28 pairs 7 are refused.
+    assert_eq!(pairs, 21);
+}
