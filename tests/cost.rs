@@ -91,8 +91,16 @@ fn expected(scene: &Scene, grid: [usize; 2]) -> Expected {
     if core {
         fields.push("step");
     }
+    if solved_law.is_some() && scene.adhesion.as_ref().is_some_and(|a| a.map.is_some()) {
+        fields.push("adhesion_map");
+    }
     if two_band {
         fields.extend(["free", "restricted", "share", "weight", "long_waves"]);
+    }
+    // What a relaxing solid remembers: its displacement and the spring of each branch.
+    let branches = scene.solid.relaxation.len();
+    if branches > 0 {
+        fields.extend(vec!["history"; branches + 1]);
     }
     let mut passes: Vec<&'static str> = Vec::new();
     match (core, two_band) {
@@ -197,6 +205,7 @@ fn every_combination_of_effects() {
             "law = \"exponential\"\nrange = 0.1",
             "law = \"lennard-jones\"\nrange = 0.1",
             "law = \"lennard-jones\"\nrange = 0.1\ntreatment = \"dmt\"",
+            "law = \"exponential\"\nrange = 0.1\nmap = { pattern = \"stripe\", period = 1.0, low = 0.5, high = 1.0 }",
         ] {
             for control in [
                 "control = \"pressure\"\npath = [1e-3]",

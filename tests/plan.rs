@@ -9,7 +9,7 @@ use approx::assert_relative_eq;
 use stats_alloc::{INSTRUMENTED_SYSTEM, Region, StatsAlloc};
 use tabor::backend::tally::Place;
 use tabor::effect::Effect;
-use tabor::scene::{Scene, SurfacePart};
+use tabor::scene::{Boundary, Scene, SurfacePart};
 use tabor::study::{Cost, Memory, Plan, Setup};
 use tabor::surface::{Source, Surface};
 
@@ -111,11 +111,18 @@ fn a_check_takes_no_field_and_says_what_the_heights_say() {
             Source::Heights | Source::Spectrum => 1e-9,
             Source::Estimate => 0.05,
         };
-        for (found, exact) in [
-            (found.rms_height(), exact.rms_height()),
-            (found.rms_slope(), exact.rms_slope()),
-            (found.rms_curvature(), exact.rms_curvature()),
-        ] {
+        assert_relative_eq!(
+            found.rms_height(),
+            exact.rms_height(),
+            max_relative = margin
+        );
+        assert_relative_eq!(found.rms_slope(), exact.rms_slope(), max_relative = margin);
+        // A shape that does not repeat is folded at the cell's edges, and the folds' curvature is that
+        // of the pixels: the estimate leaves it out.
+        let folded = plan.outline.source == Source::Estimate
+            && plan.scene.grid.boundary == Boundary::Periodic;
+        if !folded {
+            let (found, exact) = (found.rms_curvature(), exact.rms_curvature());
             assert_relative_eq!(found, exact, max_relative = margin);
         }
     }

@@ -3,7 +3,7 @@
 use std::f64::consts::FRAC_PI_2;
 
 use super::keys;
-use super::reader::{Allowed, Reader};
+use super::reader::{Allowed, Reader, is_sane};
 use super::types::{AdhesionScene, CapillaryScene, LawName, Range, Treatment};
 use crate::law::{Meniscus, least_humidity};
 use crate::units::Dimension;
@@ -70,7 +70,7 @@ pub(super) fn read(scene: &Reader) -> Option<Option<CapillaryScene>> {
     };
     let meniscus = found.meniscus();
     let numbers = [meniscus.range(), meniscus.peak_tension()];
-    if found.bridges() && !numbers.iter().all(|number| number.is_normal()) {
+    if found.bridges() && !numbers.iter().all(|&number| is_sane(number)) {
         capillary.conflict(
             "humidity",
             format!(
