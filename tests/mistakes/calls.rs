@@ -267,7 +267,7 @@ fn interrupted(folder: &Path) -> Reached {
     let output = run.wait_with_output().expect("the run ends");
     Reached {
         variant: "Failure::Interrupted".to_owned(),
-        message: one_line(&output, 130, "interrupted; finished steps are kept"),
+        message: one_line(&output, 130, "interrupted after 0 of 2 steps"),
     }
 }
 

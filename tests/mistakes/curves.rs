@@ -50,7 +50,7 @@ pub fn reached() -> Vec<Reached> {
             "no column `force` among",
         ),
         (
-            "TwoColumns",
+            "NoColumn",
             rows("force,Force [nN]", 20, good),
             "no column `approach`",
         ),
