@@ -8,7 +8,7 @@ use std::process::{Command, Output};
 use serde_json::Value;
 use tabor::backend::{Backend, cpu::CpuBackend};
 use tabor::fit::model::{Parameters, SphereModel};
-use tabor::fit::{FitError, FitResult, ForceCurve, Freedom, Model, Sample, fit_curve};
+use tabor::fit::{FitResult, ForceCurve, Freedom, Model, Sample, fit_curve};
 use tabor::scene::Scene;
 use tabor::study::{Setup, walk};
 use tabor::surface::Surface;

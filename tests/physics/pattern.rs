@@ -71,7 +71,13 @@ fn stripes_lift_a_flat_surface() {
         ));
         let fields = solved.fields(0);
         let gap = fields.field(FieldName::Gap, &[]);
-        let stripe = |x: usize| if (x / 16) % 2 == 0 { 1.5 } else { 0.25 };
+        let stripe = |x: usize| {
+            if (x / 16).is_multiple_of(2) {
+                1.5
+            } else {
+                0.25
+            }
+        };
         let mut lifted = [0.0; 2];
         for (i, pressure) in fields.pressure.iter().enumerate() {
             let expected = -1e-2 * stripe(i % 64);
