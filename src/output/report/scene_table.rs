@@ -2,7 +2,7 @@
 
 use std::fmt::Write as _;
 
-use serde_json::Value;
+use serde_json::{Value, json};
 
 use super::escape;
 use crate::scene::Control;
@@ -17,13 +17,24 @@ const LONGEST_FILE: usize = 200_000;
 /// The section of the scene.
 pub(super) fn html(setup: &Setup) -> String {
     let scene = setup.scene.resolved_json();
+    let mut shown = scene.clone();
+    if let (Some(durations), Some(loading)) = (
+        &setup.scene.loading.durations,
+        shown.get_mut("loading").and_then(Value::as_object_mut),
+    ) {
+        // A ramp a step is for machines; people read the path and how long its steps take.
+        loading.remove("start");
+        loading.remove("ramp");
+        loading.insert("path".into(), json!(setup.scene.loading.path));
+        loading.insert("durations".into(), json!(durations));
+    }
     let path_unit = match setup.scene.loading.control {
         Control::Pressure => "Pa",
         Control::Force => "N",
         Control::Approach | Control::MeanGap => "m",
     };
     let mut rows = Vec::new();
-    if let Value::Object(tables) = &scene {
+    if let Value::Object(tables) = &shown {
         for (name, table) in tables {
             // Where it was solved has its own table, and the title its own line.
             if name != "title" && name != "solver" {
@@ -116,6 +127,7 @@ fn unit<'u>(key: &str, path_unit: &'u str) -> Option<&'u str> {
         "work_of_adhesion" => "J/m^2",
         "surface_tension" | "spring" => "N/m",
         "time" | "hold" | "duration" | "durations" => "s",
+        "temperature" => "K",
         "half_angle" | "contact_angle" => "°",
         "path" => path_unit,
         _ => return None,
@@ -125,7 +137,6 @@ fn unit<'u>(key: &str, path_unit: &'u str) -> Option<&'u str> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use serde_json::json;
 
     #[test]
     fn values_are_written_as_people_do() {
