@@ -26,6 +26,8 @@ pub enum Effect {
     Relaxation,
     /// `boundary = "free"`: one isolated contact on an unbounded half-space.
     FreeBoundary,
+    /// `[friction]`: what it takes to slide the area in contact.
+    Friction,
     /// `spring`: the approach acts through a cantilever.
     Spring,
 }
@@ -47,7 +49,7 @@ pub struct EffectCost {
 
 impl Effect {
     /// Every effect of this version.
-    pub const ALL: [Effect; 8] = [
+    pub const ALL: [Effect; 9] = [
         Effect::Adhesion,
         Effect::Dmt,
         Effect::AdhesionMap,
@@ -56,6 +58,7 @@ impl Effect {
         Effect::Relaxation,
         Effect::FreeBoundary,
         Effect::Spring,
+        Effect::Friction,
     ];
 
     /// Its name in summaries.
@@ -69,6 +72,7 @@ impl Effect {
             Effect::Relaxation => "relaxation",
             Effect::FreeBoundary => "free boundary",
             Effect::Spring => "spring",
+            Effect::Friction => "friction",
         }
     }
 
@@ -91,6 +95,9 @@ impl Effect {
             }
             Effect::FreeBoundary => {
                 "one isolated contact on an unbounded half-space, on twice the points each way"
+            }
+            Effect::Friction => {
+                "a shear strength times the area in contact, in a column of its own; it changes nothing else"
             }
             Effect::Spring => {
                 "the approach is prescribed at the far end of a spring, so contacts snap in and off"
@@ -115,6 +122,7 @@ impl Effect {
             Effect::Relaxation => !scene.solid.relaxation.is_empty(),
             Effect::FreeBoundary => scene.grid.boundary == Boundary::Free,
             Effect::Spring => scene.loading.spring.is_some(),
+            Effect::Friction => scene.friction.is_some(),
         }
     }
 
@@ -181,6 +189,13 @@ impl Effect {
             Effect::FreeBoundary => {
                 "matters where the contact is more than about a fifth of the cell: its images would press on it".to_owned()
             }
+            Effect::Friction => {
+                let strength = scene.friction.map_or(0.0, |friction| friction.shear_strength);
+                format!(
+                    "holds while sliding does not peel the contact: a shear strength well below the contact modulus, here {:.2e} of it",
+                    strength / scene.solid.contact_modulus
+                )
+            }
             Effect::Spring => {
                 let stiffness = scene.loading.spring.unwrap_or(0.0);
                 let contact = 2.0 * scene.solid.contact_modulus * grid.area().sqrt();
@@ -215,6 +230,7 @@ impl Effect {
             Effect::Relaxation => scene.solid.relaxation.clear(),
             Effect::FreeBoundary => scene.grid.boundary = Boundary::Periodic,
             Effect::Spring => scene.loading.spring = None,
+            Effect::Friction => scene.friction = None,
         }
         scene
     }

@@ -110,6 +110,7 @@ fn rough(points: usize) -> Surface {
             seed: 1,
         })],
         capillary: None,
+        friction: None,
         adhesion: None,
         loading: LoadingScene {
             control: Control::Pressure,

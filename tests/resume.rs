@@ -88,12 +88,13 @@ fn single_precision_and_the_last_step_alone() {
     kill_and_resume(&text, 4, &["--precision", "single", "--backend", "cpu"]);
 }
 
-/// A solid that relaxes remembers more than its gap; both stretches of unlike durations go on.
+/// A solid that relaxes remembers more than its gap; both stretches of unlike durations go on, and so
+/// does the column of an effect.
 #[test]
 fn a_relaxing_solid_goes_on_with_what_it_remembers() {
     let text = ROUGH.replace(
         "[[surface]]",
-        "[[solid.relaxation]]\nmodulus = 2e9\ntime = 1.0\n[[surface]]",
+        "[[solid.relaxation]]\nmodulus = 2e9\ntime = 1.0\n[friction]\nshear_strength = 1e7\n[[surface]]",
     );
     let loading = &text[text.find("[loading]").expect("a table")..];
     let end = loading[1..].find("\n[").map_or(loading.len(), |at| at + 1);

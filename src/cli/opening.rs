@@ -7,7 +7,7 @@ use super::Failure;
 use super::machine::Machine;
 use crate::output::{Curve, CurveWriter, OutputError, RunFolder, SavedState};
 use crate::scene::{Precision, Scene};
-use crate::study::{Earlier, HandOver, Setup};
+use crate::study::{Column, Earlier, HandOver, Setup};
 
 /// A folder ready to be written, and what is in it already.
 pub(super) struct Opening {
@@ -58,7 +58,7 @@ pub(super) fn open(
     if there && let Some(opening) = go_on(&folder, &scene, setup, machine)? {
         return Ok(opening);
     }
-    let curve = CurveWriter::create(&folder.curve_path())?;
+    let curve = CurveWriter::create(&folder.curve_path(), Column::of(&setup.scene))?;
     // A state of no steps: from here on a missing one is a lost one.
     SavedState {
         scene,
@@ -92,7 +92,7 @@ fn go_on(
     machine: &Machine,
 ) -> Result<Option<Opening>, Failure> {
     let path = folder.state_path(STATE);
-    let curve = Curve::read(&folder.curve_path())?;
+    let curve = Curve::read(&folder.curve_path(), Column::of(&setup.scene))?;
     let refuse = |reason: String| {
         Err(Failure::Output(OutputError::Refused {
             path: path.clone(),

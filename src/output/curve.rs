@@ -7,25 +7,33 @@ use std::path::{Path, PathBuf};
 
 use super::error::OutputError;
 use super::folder::write_atomically;
-use crate::study::{State, StepRow};
+use crate::study::{Column, State, StepRow};
 
-/// First line of `curve.csv`.
+/// First line of `curve.csv` where no effect adds a column.
 pub const HEADER: &str = "step,time,approach,mean_gap,force,mean_pressure,contact_area_fraction,attractive_area_fraction,elastic_energy,adhesive_energy,iterations,residual,converged,seconds,contact_area_fraction_corrected,state";
+
+/// First line of `curve.csv` with the columns that effects add.
+fn header(columns: &[Column]) -> String {
+    let names = columns.iter().map(|column| format!(",{}", column.name()));
+    names.fold(HEADER.to_owned(), |line, name| line + &name)
+}
 
 /// A curve as it stands on the disk: its whole rows.
 #[derive(Debug)]
 pub struct Curve {
     path: PathBuf,
+    columns: Vec<Column>,
     rows: Vec<StepRow>,
     lines: Vec<String>,
 }
 
 impl Curve {
-    /// Reads the curve at `path`; empty where there is none. A row without its line end was being
+    /// Reads the curve at `path`, with these columns behind the others; empty where there is none. A row without its line end was being
     /// written when the run ended, and is left out.
-    pub fn read(path: &Path) -> Result<Curve, OutputError> {
+    pub fn read(path: &Path, columns: Vec<Column>) -> Result<Curve, OutputError> {
         let mut curve = Curve {
             path: path.to_path_buf(),
+            columns,
             rows: Vec::new(),
             lines: Vec::new(),
         };
@@ -37,14 +45,14 @@ impl Curve {
         let mut lines = text
             .split_inclusive('\n')
             .filter(|line| line.ends_with('\n'));
-        if lines.next().map(str::trim_end) != Some(HEADER) {
+        if lines.next().map(str::trim_end) != Some(header(&curve.columns).as_str()) {
             return Err(OutputError::refused(
                 path,
                 "is not a curve that this version of tabor wrote",
             ));
         }
         for (index, line) in lines.enumerate() {
-            let row = parse_row(line).filter(|row| row.step == index + 1);
+            let row = parse_row(line, &curve.columns).filter(|row| row.step == index + 1);
             let row = row.ok_or_else(|| {
                 let reason = format!(
                     "line {} is not row {} of a curve; run without --resume to start afresh",
@@ -81,16 +89,22 @@ impl Curve {
         }
         self.rows.truncate(finished);
         let mut found = crc32fast::Hasher::new();
-        self.rows.iter().for_each(|row| add_row(&mut found, row));
+        for row in &self.rows {
+            add_row(&mut found, row, &self.columns);
+        }
         if found.clone().finalize() != checksum {
             return Err(OutputError::refused(
                 &self.path,
                 "was changed since its steps were solved; run without --resume to start afresh",
             ));
         }
-        let text = format!("{HEADER}\n{}", self.lines[..finished].concat());
+        let text = format!(
+            "{}\n{}",
+            header(&self.columns),
+            self.lines[..finished].concat()
+        );
         write_atomically(&self.path, text.as_bytes())?;
-        let writer = CurveWriter::append_to(&self.path, found)?;
+        let writer = CurveWriter::append_to(&self.path, self.columns, found)?;
         Ok((writer, self.rows))
     }
 }
@@ -99,25 +113,31 @@ impl Curve {
 #[derive(Debug)]
 pub struct CurveWriter {
     path: PathBuf,
+    columns: Vec<Column>,
     file: File,
     checksum: crc32fast::Hasher,
 }
 
 impl CurveWriter {
-    /// Starts a curve at `path` with its head and no rows.
-    pub fn create(path: &Path) -> Result<CurveWriter, OutputError> {
-        write_atomically(path, format!("{HEADER}\n").as_bytes())?;
-        CurveWriter::append_to(path, crc32fast::Hasher::new())
+    /// Starts a curve at `path` with its head, these columns behind the others, and no rows.
+    pub fn create(path: &Path, columns: Vec<Column>) -> Result<CurveWriter, OutputError> {
+        write_atomically(path, format!("{}\n", header(&columns)).as_bytes())?;
+        CurveWriter::append_to(path, columns, crc32fast::Hasher::new())
     }
 
     /// Goes on with the file at `path`, whose rows gave this checksum.
-    fn append_to(path: &Path, checksum: crc32fast::Hasher) -> Result<CurveWriter, OutputError> {
+    fn append_to(
+        path: &Path,
+        columns: Vec<Column>,
+        checksum: crc32fast::Hasher,
+    ) -> Result<CurveWriter, OutputError> {
         let file = OpenOptions::new()
             .append(true)
             .open(path)
             .map_err(OutputError::write("open", path))?;
         Ok(CurveWriter {
             path: path.to_path_buf(),
+            columns,
             file,
             checksum,
         })
@@ -125,13 +145,13 @@ impl CurveWriter {
 
     /// Appends one row and waits until it is on the disk.
     pub fn append(&mut self, row: &StepRow) -> Result<(), OutputError> {
-        let line = format_row(row);
+        let line = format_row(row, &self.columns);
         // One write a row, so that a reader or a crash meets whole rows.
         self.file
             .write_all(line.as_bytes())
             .and_then(|()| self.file.sync_data())
             .map_err(OutputError::write("write", &self.path))?;
-        add_row(&mut self.checksum, row);
+        add_row(&mut self.checksum, row, &self.columns);
         Ok(())
     }
 
@@ -145,7 +165,7 @@ impl CurveWriter {
 /// One line of `curve.csv`, with its line end.
 ///
 /// Numbers are the shortest that read back to the same bits; what is not defined is empty.
-pub fn format_row(row: &StepRow) -> String {
+pub fn format_row(row: &StepRow, columns: &[Column]) -> String {
     let optional = |value: Option<f64>| value.map(|value| format!("{value:?}")).unwrap_or_default();
     let mut line = String::new();
     write!(
@@ -169,21 +189,25 @@ pub fn format_row(row: &StepRow) -> String {
         row.state.name(),
     )
     .expect("writing to a string cannot fail");
+    for column in columns {
+        line.push(',');
+        line.push_str(&optional(column.value(row)));
+    }
     line.push('\n');
     line
 }
 
 /// Adds a row to a checksum. Its seconds are left out, so that the same run has the same one.
-fn add_row(checksum: &mut crc32fast::Hasher, row: &StepRow) {
+fn add_row(checksum: &mut crc32fast::Hasher, row: &StepRow, columns: &[Column]) {
     let row = StepRow {
         seconds: 0.0,
         ..row.clone()
     };
-    checksum.update(format_row(&row).as_bytes());
+    checksum.update(format_row(&row, columns).as_bytes());
 }
 
 /// The row of a line that [`format_row`] made.
-fn parse_row(line: &str) -> Option<StepRow> {
+fn parse_row(line: &str, columns: &[Column]) -> Option<StepRow> {
     fn optional(cell: &str) -> Option<Option<f64>> {
         match cell {
             "" => Some(None),
@@ -191,6 +215,8 @@ fn parse_row(line: &str) -> Option<StepRow> {
         }
     }
     let cells: Vec<&str> = line.trim_end().split(',').collect();
+    let behind = cells.len().checked_sub(columns.len())?;
+    let (cells, more) = cells.split_at(behind);
     let [
         step,
         time,
@@ -208,11 +234,11 @@ fn parse_row(line: &str) -> Option<StepRow> {
         seconds,
         corrected,
         state,
-    ] = cells[..]
+    ] = *cells
     else {
         return None;
     };
-    Some(StepRow {
+    let mut row = StepRow {
         step: step.parse().ok()?,
         time: optional(time)?,
         approach: optional(approach)?,
@@ -229,7 +255,12 @@ fn parse_row(line: &str) -> Option<StepRow> {
         seconds: seconds.parse().ok()?,
         contact_area_fraction_corrected: optional(corrected)?,
         state: State::from_name(state)?,
-    })
+        friction_force: None,
+    };
+    for (column, cell) in columns.iter().zip(more) {
+        column.set(&mut row, optional(cell)?);
+    }
+    Some(row)
 }
 
 #[cfg(test)]
@@ -255,6 +286,7 @@ mod tests {
             seconds: 0.125,
             contact_area_fraction_corrected: None,
             state: State::Attracted,
+            friction_force: None,
         }
     }
 
@@ -262,7 +294,7 @@ mod tests {
     fn rows_are_on_the_disk_when_append_returns() {
         let place = tempfile::tempdir().unwrap();
         let path = place.path().join("curve.csv");
-        let mut writer = CurveWriter::create(&path).unwrap();
+        let mut writer = CurveWriter::create(&path, Vec::new()).unwrap();
         writer.append(&row(1, 1e-9)).unwrap();
         assert_eq!(
             fs::read_to_string(&path).unwrap(),
@@ -274,7 +306,7 @@ mod tests {
 
     /// A curve of three rows and the start of a fourth, and the checksum after two.
     fn torn(path: &Path) -> u32 {
-        let mut writer = CurveWriter::create(path).unwrap();
+        let mut writer = CurveWriter::create(path, Vec::new()).unwrap();
         writer.append(&row(1, 1.0)).unwrap();
         writer.append(&row(2, 2.0)).unwrap();
         let checksum = writer.checksum();
@@ -289,7 +321,7 @@ mod tests {
         let path = place.path().join("curve.csv");
         let checksum = torn(&path);
         let whole = fs::read_to_string(&path).unwrap();
-        let curve = Curve::read(&path).unwrap();
+        let curve = Curve::read(&path, Vec::new()).unwrap();
         assert_eq!(curve.rows(), [row(1, 1.0), row(2, 2.0), row(3, 3.0)]);
         let (mut writer, rows) = curve.go_on(2, checksum).unwrap();
         assert_eq!(rows, [row(1, 1.0), row(2, 2.0)]);
@@ -308,16 +340,20 @@ mod tests {
         let place = tempfile::tempdir().unwrap();
         let path = place.path().join("curve.csv");
         // No curve yet: fine where no step is finished.
-        assert!(refused(Curve::read(&path).unwrap().go_on(1, 0)));
+        assert!(refused(Curve::read(&path, Vec::new()).unwrap().go_on(1, 0)));
         assert!(!path.exists());
-        Curve::read(&path).unwrap().go_on(0, 0).unwrap();
+        Curve::read(&path, Vec::new()).unwrap().go_on(0, 0).unwrap();
         assert_eq!(fs::read_to_string(&path).unwrap(), format!("{HEADER}\n"));
 
         let checksum = torn(&path);
-        assert!(refused(Curve::read(&path).unwrap().go_on(4, checksum)));
+        assert!(refused(
+            Curve::read(&path, Vec::new()).unwrap().go_on(4, checksum)
+        ));
         let changed = fs::read_to_string(&path).unwrap().replace("2.0", "2.5");
         fs::write(&path, changed).unwrap();
-        assert!(refused(Curve::read(&path).unwrap().go_on(2, checksum)));
+        assert!(refused(
+            Curve::read(&path, Vec::new()).unwrap().go_on(2, checksum)
+        ));
     }
 
     #[test]
@@ -327,21 +363,21 @@ mod tests {
         for text in [
             "a,b\n1,2\n",
             &format!("{HEADER}\n1,2\n"),
-            &format!("{HEADER}\n{}", format_row(&row(2, 1.0))),
+            &format!("{HEADER}\n{}", format_row(&row(2, 1.0), &[])),
         ] {
             fs::write(&path, text).unwrap();
-            assert!(refused(Curve::read(&path)), "{text}");
+            assert!(refused(Curve::read(&path, Vec::new())), "{text}");
         }
     }
 
     proptest! {
         #[test]
         fn numbers_read_back_bit_for_bit(value in proptest::num::f64::NORMAL | proptest::num::f64::SUBNORMAL | proptest::num::f64::ZERO) {
-            let line = format_row(&row(7, value));
+            let line = format_row(&row(7, value), &[]);
             let cells: Vec<&str> = line.trim_end().split(',').collect();
             prop_assert_eq!(cells.len(), HEADER.split(',').count());
             prop_assert_eq!(cells[4].parse::<f64>().unwrap().to_bits(), value.to_bits());
-            let read = parse_row(&line).unwrap();
+            let read = parse_row(&line, &[]).unwrap();
             prop_assert_eq!(read.mean_pressure.to_bits(), (-value).to_bits());
             prop_assert_eq!(read, row(7, value));
         }

@@ -34,12 +34,12 @@ pub(super) const SCENE: Section = Section {
         ("surface", "[[surface]]"),
         ("adhesion", "[adhesion]"),
         ("capillary", "[capillary]"),
+        ("friction", "[friction]"),
         ("loading", "[loading]"),
         ("solver", "[solver]"),
         ("output", "[output]"),
     ],
     later: &[
-        ("friction", "friction"),
         ("plastic", "plasticity"),
         ("conductance", "contact conductance"),
     ],
@@ -188,6 +188,12 @@ pub(super) const CAPILLARY: Section = Section {
     later: &[],
 };
 
+pub(super) const FRICTION: Section = Section {
+    title: "[friction]",
+    keys: &[("shear_strength", "shear_strength = \"10 MPa\"")],
+    later: &[],
+};
+
 pub(super) const LOADING: Section = Section {
     title: "[loading]",
     keys: &[
@@ -246,6 +252,7 @@ pub(super) const ALL: &[&Section] = &[
     &ADHESION,
     &PATTERN,
     &CAPILLARY,
+    &FRICTION,
     &LOADING,
     &RAMP,
     &SOLVER,

@@ -8,6 +8,7 @@
 mod adhesion;
 mod capillary;
 mod document;
+mod friction;
 mod grid;
 mod keys;
 mod loading;
@@ -104,6 +105,7 @@ fn read_tables(root: &Table, folder: &Path, log: &Log) -> Option<Scene> {
     };
     let law = adhesion.as_ref().and_then(Option::as_ref);
     let loading = loading::read(&scene, boundary, law, relaxes);
+    let friction = friction::read(&scene);
     let solver = solver::read(&scene);
     let path_length = loading.as_ref().map(|loading| loading.path.len());
     let output = output::read(&scene, path_length);
@@ -114,6 +116,7 @@ fn read_tables(root: &Table, folder: &Path, log: &Log) -> Option<Scene> {
         surfaces: surfaces?,
         adhesion: adhesion?,
         capillary: capillary?,
+        friction: friction?,
         loading: loading?,
         solver: solver?,
         output: output?,

@@ -25,6 +25,10 @@ impl Scene {
         } else if let Some(adhesion) = &self.adhesion {
             scene.insert("adhesion".into(), adhesion.resolved());
         }
+        if let Some(friction) = &self.friction {
+            let table = json!({ "shear_strength": friction.shear_strength });
+            scene.insert("friction".into(), table);
+        }
         scene.insert("loading".into(), self.loading.resolved());
         scene.insert("solver".into(), self.solver.resolved());
         scene.insert("output".into(), self.output.resolved());

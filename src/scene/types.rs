@@ -22,6 +22,8 @@ pub struct Scene {
     pub adhesion: Option<AdhesionScene>,
     /// `[capillary]`, an effect.
     pub capillary: Option<CapillaryScene>,
+    /// `[friction]`, an effect.
+    pub friction: Option<FrictionScene>,
     /// `[loading]`.
     pub loading: LoadingScene,
     /// `[solver]`.
@@ -275,6 +277,13 @@ impl PatternKind {
             PatternKind::Stripe => "stripe",
         }
     }
+}
+
+/// `[friction]`: what it takes to slide.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct FrictionScene {
+    /// Shear strength of the area in contact, Pa.
+    pub shear_strength: f64,
 }
 
 /// `[capillary]`: a liquid that condenses between the surfaces.

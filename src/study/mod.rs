@@ -20,6 +20,6 @@ pub use jumps::{Jump, dissipation};
 pub use memory::Memory;
 pub use plan::{Plan, Regime};
 pub use relaxation::{History, branch_coefficients, effective_modulus};
-pub use row::{State, StepRow};
+pub use row::{Column, State, StepRow};
 pub use setup::{Setup, resolve_law};
 pub use walk::{FinishedStep, Observer, WalkEnd, WalkError, walk, walk_on};

@@ -1,5 +1,7 @@
 //! One finished step, as it is written to `curve.csv`.
 
+use crate::scene::Scene;
+
 /// Contact state of a step.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum State {
@@ -64,4 +66,45 @@ pub struct StepRow {
     pub contact_area_fraction_corrected: Option<f64>,
     /// Contact state.
     pub state: State,
+    /// Friction force of the shear strength over the area in contact, N; `None` without friction.
+    pub friction_force: Option<f64>,
+}
+
+/// A column that `curve.csv` has behind the others where an effect asks for it.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Column {
+    /// Friction force.
+    FrictionForce,
+}
+
+impl Column {
+    /// Those that a scene asks for, in their order.
+    pub fn of(scene: &Scene) -> Vec<Column> {
+        let mut columns = Vec::new();
+        if scene.friction.is_some() {
+            columns.push(Column::FrictionForce);
+        }
+        columns
+    }
+
+    /// Its name in the head.
+    pub fn name(self) -> &'static str {
+        match self {
+            Column::FrictionForce => "friction_force",
+        }
+    }
+
+    /// Its value in a row.
+    pub fn value(self, row: &StepRow) -> Option<f64> {
+        match self {
+            Column::FrictionForce => row.friction_force,
+        }
+    }
+
+    /// Sets its value in a row.
+    pub fn set(self, row: &mut StepRow, value: Option<f64>) {
+        match self {
+            Column::FrictionForce => row.friction_force = value,
+        }
+    }
 }

@@ -447,6 +447,9 @@ impl PathState<'_> {
                 None => self.setup.problem.law.has_wall().then_some(0.0),
             },
             state: evaluation.map_or(State::Separated, |e| e.state),
+            friction_force: self.setup.scene.friction.map(|friction| {
+                friction.shear_strength * evaluation.map_or(0.0, |e| e.contact) * area
+            }),
         }
     }
 }

@@ -90,7 +90,7 @@ const CALLS: &[BadCall] = &[
     call(&["check", "good.toml", "--set", "adhesion={law='exponential', range=1e-25, peak_tension=1e-20}"], "SceneError::Conflict", "makes the third number of the law 1e-45; check the powers of ten"),
     call(&["check", "good.toml", "--set", "solid.young_modulus=1 GPa"], "SceneError::Conflict", "solid.young_modulus: contact_modulus is given too"),
     call(&["check", "good.toml", "--set", "grid.pionts=3"], "SceneError::UnknownKey", "grid.pionts: unknown key in [grid]; did you mean `points`?"),
-    call(&["check", "good.toml", "--set", "friction={}"], "SceneError::NotInThisVersion", "friction: friction is not in this version"),
+    call(&["check", "good.toml", "--set", "plastic={}"], "SceneError::NotInThisVersion", "plastic: plasticity is not in this version"),
     call(&["check", "good.toml", "--set", "grid.points=65536"], "SurfaceError::Points", "[grid] points = [65536, 65536] is not possible: both must be at least 1 and their product at most 1073741824"),
     call(&["run", "good.toml", "--set", "grid.points=65536"], "SurfaceError::Points", "[grid] points = [65536, 65536] is not possible"),
     call(&["check", "short_waves.toml"], "PartError::WavesTooShort", "wavelength = 1e-7 m along x is shorter than two pixels of 6.25e-8 m; take more points"),

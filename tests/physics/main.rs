@@ -4,6 +4,7 @@ mod bench;
 mod capillary;
 mod controls;
 mod energy;
+mod friction;
 mod hertz;
 mod layer;
 mod lennard_jones;

@@ -5,6 +5,7 @@ use std::path::Path;
 
 use tabor::effect::Effect;
 use tabor::scene::Scene;
+use tabor::study::StepRow;
 
 use crate::bench::solve_table;
 
@@ -31,6 +32,9 @@ fn scene(effects: &[Effect]) -> String {
     if on(Effect::Capillary) {
         // A liquid of these units: a meniscus 0.02 high.
         tables += "[capillary]\nhumidity = 0.5\nsurface_tension = 1e-4\nmolar_volume = 171742\ntemperature = 298\n";
+    }
+    if on(Effect::Friction) {
+        tables += "[friction]\nshear_strength = 0.1\n";
     }
     let boundary = match on(Effect::FreeBoundary) {
         true => "boundary = \"free\"\n",
@@ -60,9 +64,11 @@ fn refusal(pair: [Effect; 2]) -> Option<&'static str> {
 
 #[test]
 fn any_two_effects() {
+    // Both forces of each step; without friction the second is 0.
     let forces = |effects: &[Effect]| -> Vec<f64> {
         let solved = solve_table(&scene(effects));
-        solved.rows().map(|row| row.force).collect()
+        let both = |row: &StepRow| [row.force, row.friction_force.unwrap_or(0.0)];
+        solved.rows().flat_map(both).collect()
     };
     let alone: Vec<Vec<f64>> = Effect::ALL
         .iter()
@@ -99,6 +105,6 @@ fn any_two_effects() {
             );
         }
     }
-    // Of 28 pairs 7 are refused.
-    assert_eq!(pairs, 21);
+    // Of 36 pairs 7 are refused.
+    assert_eq!(pairs, 29);
 }

@@ -146,6 +146,7 @@ mod tests {
             seconds: 0.0,
             contact_area_fraction_corrected: None,
             state: State::Contact,
+            friction_force: None,
         }
     }
 

@@ -123,7 +123,7 @@ fn unit<'u>(key: &str, path_unit: &'u str) -> Option<&'u str> {
     Some(match key {
         "size" | "radius" | "centre" | "amplitude" | "wavelength" | "rms_height" | "longest"
         | "rolloff" | "shortest" | "range" | "taper" | "thickness" | "period" => "m",
-        "contact_modulus" | "peak_tension" | "hardness" | "modulus" => "Pa",
+        "contact_modulus" | "peak_tension" | "shear_strength" | "hardness" | "modulus" => "Pa",
         "work_of_adhesion" => "J/m^2",
         "surface_tension" | "spring" => "N/m",
         "time" | "hold" | "duration" | "durations" => "s",

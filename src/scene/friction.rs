@@ -1,0 +1,18 @@
+//! `[friction]`: a shear strength of the area in contact.
+
+use super::keys;
+use super::reader::{Allowed, Reader};
+use super::types::FrictionScene;
+use crate::units::Dimension;
+
+/// Reads `[friction]`: `Some(None)` where the scene has none.
+pub(super) fn read(scene: &Reader) -> Option<Option<FrictionScene>> {
+    if !scene.has("friction") {
+        return Some(None);
+    }
+    let friction = scene.table("friction", &keys::FRICTION)?;
+    friction.require(&["shear_strength"]);
+    let shear_strength =
+        friction.quantity("shear_strength", Dimension::Pressure, Allowed::POSITIVE)?;
+    Some(Some(FrictionScene { shear_strength }))
+}
