@@ -139,7 +139,9 @@ fn t3_area_and_load() {
 fn t3_asperities_and_persson() {
     let table = table();
     let (mut sum, mut count) = (0.0, 0.0);
-    for row in table.iter().filter(|row| row.model == "icha") {
+    // The claim is of less than 30 % in contact.
+    let claimed = |row: &&Row| row.model == "icha" && row.area < 0.3;
+    for row in table.iter().filter(claimed) {
         let theory = of(
             &table,
             "persson",
@@ -150,10 +152,14 @@ fn t3_asperities_and_persson() {
         );
         let judge = theory.iter().find(|other| other.repulsive == row.repulsive);
         let miss = (row.area / judge.expect("the same loads").area - 1.0).abs();
-        assert!(row.area < 0.3 && miss < 0.25, "{row:?}: {miss}");
-        // Claimed up to 2.35; single surfaces at single loads reach 2.40.
+        // Claimed within 25 % below 30 % contact, and kappa up to 2.35. Beyond a load of 0.05 the
+        // asperities of H = 0.8, N = 32 merge without end and miss by up to 40 %; up to there single
+        // surfaces reach a kappa of 2.63.
+        let merging = (row.case.hurst, row.case.ratio) == (0.8, 32) && row.repulsive > 0.051;
+        let (most, kappa) = if merging { (0.41, 3.5) } else { (0.25, 2.65) };
+        assert!(miss < most, "{row:?}: {miss}");
         assert!(
-            (1.65..2.45).contains(&(row.area / row.repulsive)),
+            (1.65..kappa).contains(&(row.area / row.repulsive)),
             "{row:?}"
         );
         (sum, count) = (sum + miss, count + 1.0);
@@ -162,12 +168,12 @@ fn t3_asperities_and_persson() {
 }
 
 /// T6 on the surfaces of the table: the study has finite boxes 10 to 25 % above Persson's pull-off.
-/// The full field here, means over three seeds, lies 12 to 28 % above: more than claimed at H = 0.4,
-/// N = 32 alone.
+/// The full field here, means over three seeds, lies 12 to 34 % above: more than claimed at H = 0.4 for
+/// N = 32 and 64.
 #[test]
 fn t6_finite_boxes() {
     let table = table();
-    for ratio in [16, 32] {
+    for ratio in [16, 32, 64] {
         for hurst in [0.8, 0.6, 0.4] {
             let pull_off =
                 |model, seed| rows::pull_off(&of(&table, model, case(hurst, ratio, seed)));
@@ -177,10 +183,10 @@ fn t6_finite_boxes() {
                 .sum::<f64>()
                 / 3.0;
             let above = field / pull_off("persson", 0) - 1.0;
-            let most = if (hurst, ratio) == (0.4, 32) {
-                0.28
-            } else {
-                0.25
+            let most = match (hurst, ratio) {
+                (0.4, 32) => 0.28,
+                (0.4, 64) => 0.34,
+                _ => 0.25,
             };
             assert!((0.12..most).contains(&above), "{hurst} {ratio}: {above}");
         }
@@ -369,7 +375,7 @@ fn misses_of_the_models_stay_within_the_stated_bounds() {
         .filter(|case| case.seed > 0)
         .collect();
     cases.dedup();
-    assert!(cases.len() >= 9, "{}", cases.len());
+    assert!(cases.len() >= 27, "{}", cases.len());
     for case in cases {
         let theory = Case { seed: 0, ..case };
         let field = of(&table, "field", case);
@@ -406,9 +412,10 @@ fn misses_of_the_models_stay_within_the_stated_bounds() {
 }
 
 /// Least and greatest misses over all surfaces, seeds and loads up to 0.05 E* h', rounded outwards.
-const ICHA_AREA: [f64; 2] = [-0.15, 0.16];
-const ICHA_PULL_OFF: [f64; 2] = [0.0, 0.04];
-const PERSSON_AREA: [f64; 2] = [-0.05, 0.12];
-const PERSSON_PULL_OFF: [f64; 2] = [-0.23, -0.08];
-const GW_AREA: [f64; 2] = [-0.25, 0.14];
-const GW_PULL_OFF: [f64; 2] = [-0.99, -0.53];
+const ICHA_AREA: [f64; 2] = [-0.15, 0.22];
+const ICHA_PULL_OFF: [f64; 2] = [0.0, 0.05];
+const PERSSON_AREA: [f64; 2] = [-0.05, 0.13];
+const PERSSON_PULL_OFF: [f64; 2] = [-0.27, -0.08];
+const GW_AREA: [f64; 2] = [-0.37, 0.14];
+// Below -1: none of the table's loads leaves a tension.
+const GW_PULL_OFF: [f64; 2] = [-1.13, -0.53];
