@@ -8,6 +8,15 @@ fn restore_wall() {
     }
 }
 
+// The same where gaps may be below zero, which are scaled the other way.
+fn restore_yield() {
+    scalars.restore = ONE;
+    let size = scalars.sums[2];
+    if (size > ZERO) {
+        scalars.restore = (scalars.sums[1] + (size - scalars.sums[0])) / size;
+    }
+}
+
 // Whether the accepted step is a rigid motion; then says what becomes of it.
 fn rigid_motion() -> bool {
     if (scalars.curvature > RIGID * abs(scalars.slope)) {

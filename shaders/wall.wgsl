@@ -15,8 +15,9 @@ fn is_free(g: f32, y: f32, on_surface: bool) -> bool {
     return !on_surface || g > 0.0 || y < 0.0;
 }
 
-// s = restore max(-g, moved) + (restore - 1) g, without a wall on the pad.
-fn trial_step(g: f32, moved: f32, restore: f32, on_surface: bool) -> f32 {
+// s = restore max(-g, moved) + (restore - 1) g, without a wall on the pad. Where a floor flows, y
+// tells to which side a closed point may move.
+fn trial_step(g: f32, y: f32, moved: f32, restore: f32, on_surface: bool) -> f32 {
     if (!on_surface) {
         return moved;
     }

@@ -6,7 +6,7 @@
 fn store_point(index: u32, on_surface: bool, line_value: f32) {
     let g = gap[index];
     let t = f32(scalars.step);
-    let s = trial_step(g, f32(scalars.trial) * direction[index], f32(scalars.restore), on_surface);
+    let s = trial_step(g, 0.0, f32(scalars.trial) * direction[index], f32(scalars.restore), on_surface);
     var moved = g + t * s;
     if (on_surface) {
         moved = max(moved, 0.0);

@@ -5,7 +5,7 @@
 fn point(index: u32, on_surface: bool) {
     if (on_surface) {
         let g = gap[index];
-        let s = trial_step(g, f32(scalars.trial) * direction[index], f32(scalars.restore), true);
+        let s = trial_step(g, 0.0, f32(scalars.trial) * direction[index], f32(scalars.restore), true);
         let change = law_traction(g + f32(scalars.step) * s) - law_traction(g);
         sums[0] = sums[0] + wide(change) * wide(s);
     }

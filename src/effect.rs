@@ -5,7 +5,7 @@
 
 use crate::backend::BackendError;
 use crate::grid::Grid;
-use crate::scene::{Boundary, Scene, Treatment};
+use crate::scene::{Boundary, Control, Scene, Treatment};
 use crate::study::{Cost, Plan};
 use crate::units::format_si;
 
@@ -22,6 +22,8 @@ pub enum Effect {
     Capillary,
     /// `thickness`: an elastic layer on a rigid base in place of the half-space.
     Layer,
+    /// `hardness`: the pressure saturates, and what flows then stays.
+    Hardness,
     /// `[[solid.relaxation]]`: the stress of a displacement fades in time.
     Relaxation,
     /// `boundary = "free"`: one isolated contact on an unbounded half-space.
@@ -49,12 +51,13 @@ pub struct EffectCost {
 
 impl Effect {
     /// Every effect of this version.
-    pub const ALL: [Effect; 9] = [
+    pub const ALL: [Effect; 10] = [
         Effect::Adhesion,
         Effect::Dmt,
         Effect::AdhesionMap,
         Effect::Capillary,
         Effect::Layer,
+        Effect::Hardness,
         Effect::Relaxation,
         Effect::FreeBoundary,
         Effect::Spring,
@@ -69,6 +72,7 @@ impl Effect {
             Effect::AdhesionMap => "adhesion map",
             Effect::Capillary => "capillary",
             Effect::Layer => "layer",
+            Effect::Hardness => "hardness",
             Effect::Relaxation => "relaxation",
             Effect::FreeBoundary => "free boundary",
             Effect::Spring => "spring",
@@ -89,6 +93,9 @@ impl Effect {
             }
             Effect::Layer => {
                 "the solid is a layer on a rigid base, stiffer than the half-space to waves longer than its thickness"
+            }
+            Effect::Hardness => {
+                "the pressure saturates at the hardness; what flows there lowers the heights for good"
             }
             Effect::Relaxation => {
                 "the solid is viscoelastic: stiff to what is fast, soft to what is slow, and it dissipates"
@@ -119,6 +126,7 @@ impl Effect {
                 .is_some_and(|adhesion| adhesion.map.is_some()),
             Effect::Capillary => scene.capillary.is_some(),
             Effect::Layer => scene.solid.layer.is_some(),
+            Effect::Hardness => scene.solid.hardness.is_some(),
             Effect::Relaxation => !scene.solid.relaxation.is_empty(),
             Effect::FreeBoundary => scene.grid.boundary == Boundary::Free,
             Effect::Spring => scene.loading.spring.is_some(),
@@ -170,6 +178,23 @@ impl Effect {
                 });
                 format!(
                     "matters where contacts are as wide as it is thick: here the longest wave of the cell meets {stiffer:.3} times the half-space's stiffness"
+                )
+            }
+            Effect::Hardness => {
+                let hardness = scene.solid.hardness.unwrap_or(f64::INFINITY);
+                let flattening = 0.5 * scene.solid.contact_modulus * moments.rms_slope();
+                let largest = scene.loading.path.iter().copied().fold(0.0, f64::max);
+                let mean = match scene.loading.control {
+                    Control::Pressure => Some(largest),
+                    Control::Force => Some(largest / grid.area()),
+                    Control::Approach | Control::MeanGap => None,
+                };
+                let path = mean.map_or(String::new(), |mean| {
+                    format!(", and the largest mean pressure of the path {:.2e}", mean / hardness)
+                });
+                format!(
+                    "matters where pressures reach it: here what flattens the roughness (E* rms slope/2) is {:.2e} of it{path}",
+                    flattening / hardness
                 )
             }
             Effect::Relaxation => {
@@ -227,6 +252,7 @@ impl Effect {
                 scene.adhesion = None;
             }
             Effect::Layer => scene.solid.layer = None,
+            Effect::Hardness => scene.solid.hardness = None,
             Effect::Relaxation => scene.solid.relaxation.clear(),
             Effect::FreeBoundary => scene.grid.boundary = Boundary::Periodic,
             Effect::Spring => scene.loading.spring = None,

@@ -99,6 +99,7 @@ fn rough(points: usize) -> Surface {
             contact_modulus: 1.0,
             poisson_ratio: None,
             layer: None,
+            hardness: None,
             relaxation: Vec::new(),
         },
         surfaces: vec![SurfacePart::SelfAffine(SelfAffineScene {

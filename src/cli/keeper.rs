@@ -184,8 +184,7 @@ impl<'a> Keeper<'a> {
             finished: step,
             curve: self.curve.checksum(),
             warnings: self.warnings.clone(),
-            // What a relaxing solid remembers is known in double precision.
-            single: self.single() && self.setup.scene.solid.relaxation.is_empty(),
+            single: self.single() && !self.setup.scene.solid.remembers(),
             hand_over: Cow::Borrowed(state),
         }
         .write(&self.folder.state_path(STATE))?;

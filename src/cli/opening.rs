@@ -67,7 +67,7 @@ pub(super) fn open(
         finished: 0,
         curve: curve.checksum(),
         warnings: Vec::new(),
-        single: machine.precision() == Precision::Single && setup.scene.solid.relaxation.is_empty(),
+        single: machine.precision() == Precision::Single && !setup.scene.solid.remembers(),
         hand_over: Cow::Owned(HandOver::default()),
     }
     .write(&folder.state_path(STATE))?;

@@ -9,8 +9,10 @@
 pub mod coarse;
 pub mod common;
 pub mod core;
+pub mod floor;
 pub mod scalar;
 pub mod wall;
+pub mod yielding;
 
 mod params;
 mod rows;

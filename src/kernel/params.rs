@@ -26,6 +26,8 @@ pub struct Params {
     pub points: f64,
     /// Stiffness that the Lennard-Jones change of variable works with.
     pub core_stiffness: f64,
+    /// Largest net pressure that the solid bears before it flows; infinite for an elastic one.
+    pub hardness: f64,
     /// Relative rounding error of the fields.
     pub epsilon: f64,
 }

@@ -190,6 +190,19 @@ scalar_kernel!(
     RESTORE_WALL, restore_wall
 );
 
+fn restore_yield(_: &Params, scalars: &mut Scalars) {
+    let [trial, present, size, ..] = scalars.sums;
+    scalars.restore = if size > 0.0 {
+        (present + (size - trial)) / size
+    } else {
+        1.0
+    };
+}
+scalar_kernel!(
+    /// The same where gaps may be below zero, which are scaled the other way.
+    RESTORE_YIELD, restore_yield
+);
+
 fn restore_core(params: &Params, scalars: &mut Scalars) {
     let [step, share, ..] = scalars.sums;
     scalars.restore = if params.fixed_gap {

@@ -5,64 +5,69 @@
 //! have no wall and no law: they are always free.
 
 use super::coarse;
+use super::floor::{Balance, Floor, Rigid, Violation, trial_step};
 use crate::kernel::{Params, Rows, SUMS, Scalars, kernel};
 use crate::law::{Cohesion, LawField};
 use crate::real::Real;
 use crate::with_law_field;
 
-/// y on free points, 0 elsewhere.
+/// The balance of a point; those of the pad are free and have no law.
 #[inline(always)]
-fn free_part<T: Real>(gap: T, y: T, on_surface: bool) -> T {
-    if is_free(gap, y, on_surface) {
-        y
-    } else {
-        T::zero()
-    }
-}
-
-#[inline(always)]
-fn is_free<T: Real>(gap: T, y: T, on_surface: bool) -> bool {
-    !on_surface || gap > T::zero() || y < T::zero()
-}
-
-/// y = p + mean_pressure + sigma(g); the pad has no law.
-#[inline(always)]
-fn total<T: Real>(law: &impl Cohesion<T>, gap: T, pressure: T, mean: T, on_surface: bool) -> T {
-    let elastic = pressure + mean;
+pub(super) fn balance<T: Real>(
+    floor: &impl Floor<T>,
+    law: &impl Cohesion<T>,
+    gap: T,
+    elastic: T,
+    on_surface: bool,
+) -> Balance<T> {
     if on_surface {
-        elastic + law.traction(gap)
+        floor.balance(law, gap, elastic)
     } else {
-        elastic
+        Balance {
+            y: elastic,
+            free: true,
+        }
     }
 }
 
-/// s = restore * max(-g, a d) + (restore - 1) g, without a wall on the pad.
+/// The trial step of a point, of its gap, y, way and scale, and whether it was cut at zero; the pad
+/// has no floor.
 #[inline(always)]
-fn trial_step<T: Real>(gap: T, moved: T, restore: T, on_surface: bool) -> T {
+pub(super) fn step_of<T: Real>(
+    floor: &impl Floor<T>,
+    [gap, y, moved, restore]: [T; 4],
+    on_surface: bool,
+) -> (T, bool) {
     if !on_surface {
-        return moved;
+        return (moved, false);
     }
-    restore * moved.max(-gap) + (restore - T::one()) * gap
+    let down = floor.goes_down(gap, y);
+    let cut = if down {
+        gap + moved > T::zero()
+    } else {
+        gap + moved < T::zero()
+    };
+    (trial_step(gap, moved, restore, down), cut)
 }
 
-/// The terms of the stopping measure at one point.
+/// The terms of the stopping measure at one point, of its gap, p + mean_pressure and the largest
+/// stiffness.
 #[inline(always)]
 fn add_residual<T: Real>(
     sums: &mut [f64; SUMS],
-    gap: T,
-    y: T,
-    traction: T,
-    stiffness_max: T,
+    floor: &impl Floor<T>,
+    law: &impl Cohesion<T>,
+    [gap, elastic, stiffness_max]: [T; 3],
     on_surface: bool,
 ) {
     if on_surface {
-        let violation = y.min(gap * stiffness_max).double();
+        let Violation {
+            violation,
+            reaction,
+            traction,
+        } = floor.violation(law, gap, elastic, stiffness_max);
+        let violation = violation.double();
         sums[0] += violation * violation;
-        let reaction = if gap > T::zero() {
-            T::zero()
-        } else {
-            y.max(T::zero())
-        };
         let (reaction, traction) = (reaction.double(), traction.double());
         sums[1] += reaction * reaction + traction * traction;
         let gap = gap.double();
@@ -71,12 +76,13 @@ fn add_residual<T: Real>(
         }
         sums[3] += gap * gap;
     } else {
-        let y = y.double();
+        let y = elastic.double();
         sums[0] += y * y;
     }
 }
 
-fn wall_residual<T: Real>(
+/// The twin of `wall_residual` over a floor.
+pub(super) fn residual<T: Real, F: Floor<T>>(
     rows: &mut Rows<T>,
     params: &Params,
     scalars: &Scalars,
@@ -86,12 +92,21 @@ fn wall_residual<T: Real>(
     let [gap, pressure, ..] = rows.reads;
     let mean = T::of(scalars.mean_pressure);
     let stiffness_max = T::of(params.stiffness_max);
+    let floor = F::of(params);
     with_law_field!(params.law, rows.factor, T, law => layout.points(|i, on_surface| {
         let law = LawField::<T>::at(&law, i);
-        let y = total(&law, gap[i], pressure[i], mean, on_surface);
-        let traction = if on_surface { law.traction(gap[i]) } else { T::zero() };
-        add_residual(sums, gap[i], y, traction, stiffness_max, on_surface);
+        let here = [gap[i], pressure[i] + mean, stiffness_max];
+        add_residual(sums, &floor, &law, here, on_surface);
     }));
+}
+
+fn wall_residual<T: Real>(
+    rows: &mut Rows<T>,
+    params: &Params,
+    scalars: &Scalars,
+    sums: &mut [f64; SUMS],
+) {
+    residual::<T, Rigid>(rows, params, scalars, sums);
 }
 kernel!(
     /// The stopping measure of the present state. Reads gap, pressure.
@@ -99,7 +114,8 @@ kernel!(
     sums [Add, Add, Min, Add], gate Always
 );
 
-fn wall_free<T: Real>(
+/// The twin of `wall_free` over a floor.
+pub(super) fn free<T: Real, F: Floor<T>>(
     rows: &mut Rows<T>,
     params: &Params,
     scalars: &Scalars,
@@ -112,19 +128,35 @@ fn wall_free<T: Real>(
     let lines = &mut rows.lines[..count];
     let mean = T::of(scalars.mean_pressure);
     let stiffness_max = T::of(params.stiffness_max);
+    let floor = F::of(params);
     with_law_field!(params.law, rows.factor, T, law => layout.points(|i, on_surface| {
         let law = LawField::<T>::at(&law, i);
-        let traction = if on_surface { law.traction(gap[i]) } else { T::zero() };
-        let y = pressure[i] + mean + traction;
-        add_residual(sums, gap[i], y, traction, stiffness_max, on_surface);
-        lines[i] = free_part(gap[i], y, on_surface);
+        let elastic = pressure[i] + mean;
+        add_residual(sums, &floor, &law, [gap[i], elastic, stiffness_max], on_surface);
+        let here = balance(&floor, &law, gap[i], elastic, on_surface);
+        lines[i] = if here.free { here.y } else { T::zero() };
     }));
+}
+
+fn wall_free<T: Real>(
+    rows: &mut Rows<T>,
+    params: &Params,
+    scalars: &Scalars,
+    sums: &mut [f64; SUMS],
+) {
+    free::<T, Rigid>(rows, params, scalars, sums);
 }
 kernel!(
     /// Loads yF and sums the stopping measure on the way. Reads gap, pressure.
     WALL_FREE, wall_free, Load, reads 2, writes 0, whole false,
     sums [Add, Add, Min, Add], gate Fresh
 );
+
+/// Keeps the lines in the first written field.
+pub(super) fn keep_lines<T: Real>(rows: &mut Rows<T>) {
+    let count = rows.len();
+    rows.writes[0][..count].copy_from_slice(&rows.lines[..count]);
+}
 
 fn wall_free_kept<T: Real>(
     rows: &mut Rows<T>,
@@ -133,8 +165,7 @@ fn wall_free_kept<T: Real>(
     sums: &mut [f64; SUMS],
 ) {
     wall_free(rows, params, scalars, sums);
-    let count = rows.len();
-    rows.writes[0][..count].copy_from_slice(&rows.lines[..count]);
+    keep_lines(rows);
 }
 kernel!(
     /// As `wall_free`, and keeps yF in a field for the coarse level. Reads gap, pressure; writes yF.
@@ -175,7 +206,8 @@ fn add_descent<T: Real>(
     }
 }
 
-fn wall_descent<T: Real>(
+/// The twin of `wall_descent` over a floor.
+pub(super) fn descent<T: Real, F: Floor<T>>(
     rows: &mut Rows<T>,
     params: &Params,
     scalars: &Scalars,
@@ -190,16 +222,25 @@ fn wall_descent<T: Real>(
     let (z_out, y_before) = (&mut z_out[..count], &mut y_before[..count]);
     let mean = T::of(scalars.mean_pressure);
     let held = params.fixed_gap;
+    let floor = F::of(params);
     with_law_field!(params.law, rows.factor, T, law => layout.points(|i, on_surface| {
         let law = LawField::<T>::at(&law, i);
-        let y = total(&law, gap[i], pressure[i], mean, on_surface);
-        let free = is_free(gap[i], y, on_surface);
+        let Balance { y, free } = balance(&floor, &law, gap[i], pressure[i] + mean, on_surface);
         let y_free = if free { y } else { T::zero() };
         let z = if free { lines[i] } else { T::zero() };
         add_descent(sums, z, y_free, y_before[i], direction[i], free, held);
         z_out[i] = z;
         y_before[i] = y_free;
     }));
+}
+
+fn wall_descent<T: Real>(
+    rows: &mut Rows<T>,
+    params: &Params,
+    scalars: &Scalars,
+    sums: &mut [f64; SUMS],
+) {
+    descent::<T, Rigid>(rows, params, scalars, sums);
 }
 kernel!(
     /// Stores the preconditioned residual z on free points. Reads gap, pressure, direction;
@@ -225,7 +266,7 @@ kernel!(
 
 /// The new direction at one point: zero where the point is not free.
 #[inline(always)]
-fn new_direction<T: Real>(z: T, direction: T, factors: [T; 3], free: bool) -> T {
+pub(super) fn new_direction<T: Real>(z: T, direction: T, factors: [T; 3], free: bool) -> T {
     if free {
         factors[0] * z + factors[1] * direction + factors[2]
     } else {
@@ -235,10 +276,16 @@ fn new_direction<T: Real>(z: T, direction: T, factors: [T; 3], free: bool) -> T 
 
 /// The sums over a trial step; slots as `scalar::accept` reads them.
 #[inline(always)]
-fn add_trial<T: Real>(sums: &mut [f64; SUMS], step: T, y: T, gap: T, cut: bool, on_surface: bool) {
+pub(super) fn add_trial<T: Real>(
+    sums: &mut [f64; SUMS],
+    [step, y, gap]: [T; 3],
+    cut: bool,
+    on_surface: bool,
+) {
     let s = step.double();
     sums[0] += s * y.double();
-    if s < 0.0 && on_surface {
+    let closes = (gap > T::zero() && s < 0.0) || (gap < T::zero() && s > 0.0);
+    if closes && on_surface {
         let ratio = gap.double() / -s;
         if ratio < sums[1] {
             sums[1] = ratio;
@@ -255,7 +302,8 @@ fn add_trial<T: Real>(sums: &mut [f64; SUMS], step: T, y: T, gap: T, cut: bool, 
     }
 }
 
-fn wall_trial<T: Real>(
+/// The twin of `wall_trial` over a floor.
+pub(super) fn trial<T: Real, F: Floor<T>>(
     rows: &mut Rows<T>,
     params: &Params,
     scalars: &Scalars,
@@ -270,17 +318,25 @@ fn wall_trial<T: Real>(
     let mean = T::of(scalars.mean_pressure);
     let factors = [scalars.descent, scalars.memory, scalars.shift].map(T::of);
     let length = T::of(scalars.trial);
+    let floor = F::of(params);
     with_law_field!(params.law, rows.factor, T, law => layout.points(|i, on_surface| {
         let law = LawField::<T>::at(&law, i);
-        let y = total(&law, gap[i], pressure[i], mean, on_surface);
-        let d = new_direction(z[i], direction[i], factors, is_free(gap[i], y, on_surface));
+        let Balance { y, free } = balance(&floor, &law, gap[i], pressure[i] + mean, on_surface);
+        let d = new_direction(z[i], direction[i], factors, free);
         direction[i] = d;
-        let moved = length * d;
-        let step = trial_step(gap[i], moved, T::one(), on_surface);
-        let cut = on_surface && gap[i] + moved < T::zero();
-        add_trial(sums, step, y, gap[i], cut, on_surface);
+        let (step, cut) = step_of(&floor, [gap[i], y, length * d, T::one()], on_surface);
+        add_trial(sums, [step, y, gap[i]], cut, on_surface);
         lines[i] = step;
     }));
+}
+
+fn wall_trial<T: Real>(
+    rows: &mut Rows<T>,
+    params: &Params,
+    scalars: &Scalars,
+    sums: &mut [f64; SUMS],
+) {
+    trial::<T, Rigid>(rows, params, scalars, sums);
 }
 kernel!(
     /// Turns the direction and loads the trial step s. Reads gap, pressure, z; updates direction.
@@ -302,8 +358,8 @@ fn wall_direct<T: Real>(
     let length = T::of(scalars.trial);
     with_law_field!(params.law, rows.factor, T, law => layout.points(|i, on_surface| {
         let law = LawField::<T>::at(&law, i);
-        let y = total(&law, gap[i], pressure[i], mean, on_surface);
-        let d = new_direction(z[i], direction[i], factors, is_free(gap[i], y, on_surface));
+        let here = balance(&Rigid, &law, gap[i], pressure[i] + mean, on_surface);
+        let d = new_direction(z[i], direction[i], factors, here.free);
         direction[i] = d;
         sums[0] += (gap[i] + length * d).max(T::zero()).double();
         sums[1] += gap[i].double();
@@ -330,11 +386,9 @@ fn wall_trial_held<T: Real>(
     let restore = T::of(scalars.restore);
     with_law_field!(params.law, rows.factor, T, law => layout.points(|i, on_surface| {
         let law = LawField::<T>::at(&law, i);
-        let y = total(&law, gap[i], pressure[i], mean, on_surface);
-        let moved = length * direction[i];
-        let step = trial_step(gap[i], moved, restore, on_surface);
-        let cut = on_surface && gap[i] + moved < T::zero();
-        add_trial(sums, step, y, gap[i], cut, on_surface);
+        let y = balance(&Rigid, &law, gap[i], pressure[i] + mean, on_surface).y;
+        let (step, cut) = step_of(&Rigid, [gap[i], y, length * direction[i], restore], on_surface);
+        add_trial(sums, [step, y, gap[i]], cut, on_surface);
         lines[i] = step;
     }));
 }
@@ -358,7 +412,7 @@ fn wall_search<T: Real>(
     with_law_field!(params.law, rows.factor, T, law => layout.points(|i, on_surface| {
         let law = LawField::<T>::at(&law, i);
         if on_surface {
-            let step = trial_step(gap[i], length * direction[i], restore, true);
+            let step = trial_step(gap[i], length * direction[i], restore, false);
             let change = law.traction(gap[i] + t * step) - law.traction(gap[i]);
             sums[0] += change.double() * step.double();
         }
@@ -387,7 +441,12 @@ fn wall_advance<T: Real>(
     let t = T::of(scalars.step);
     let snap = T::of(scalars.snap);
     layout.points(|i, on_surface| {
-        let step = trial_step(gap[i], length * direction[i], restore, on_surface);
+        let moved = length * direction[i];
+        let step = if on_surface {
+            trial_step(gap[i], moved, restore, false)
+        } else {
+            moved
+        };
         let mut moved = gap[i] + t * step;
         if on_surface {
             moved = moved.max(T::zero());
@@ -415,7 +474,7 @@ fn wall_balance<T: Real>(
     let [gap, pressure, ..] = rows.reads;
     with_law_field!(params.law, rows.factor, T, law => layout.points(|i, on_surface| {
         let law = LawField::<T>::at(&law, i);
-        let y = total(&law, gap[i], pressure[i], T::zero(), on_surface).double();
+        let y = balance(&Rigid, &law, gap[i], pressure[i], on_surface).y.double();
         sums[0] += gap[i].double() * y;
         sums[1] += gap[i].double();
         if y < sums[2] {

@@ -68,9 +68,10 @@ pub(super) const SOLID: Section = Section {
         ("counter_poisson_ratio", "counter_poisson_ratio = 0.3"),
         ("thickness", "thickness = \"5 um\""),
         ("base", "base = \"bonded\""),
+        ("hardness", "hardness = \"10 GPa\""),
         ("relaxation", "[[solid.relaxation]]"),
     ],
-    later: &[("hardness", "ideal plasticity")],
+    later: &[],
 };
 
 pub(super) const RELAXATION: Section = Section {

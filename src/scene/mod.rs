@@ -10,6 +10,7 @@ mod capillary;
 mod document;
 mod friction;
 mod grid;
+mod hardness;
 mod keys;
 mod loading;
 mod mistake;
@@ -105,6 +106,9 @@ fn read_tables(root: &Table, folder: &Path, log: &Log) -> Option<Scene> {
     };
     let law = adhesion.as_ref().and_then(Option::as_ref);
     let loading = loading::read(&scene, boundary, law, relaxes);
+    if let Some(solid) = &solid {
+        hardness::check(&scene, solid, law, loading.as_ref(), grid.as_ref());
+    }
     let friction = friction::read(&scene);
     let solver = solver::read(&scene);
     let path_length = loading.as_ref().map(|loading| loading.path.len());

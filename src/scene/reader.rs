@@ -428,6 +428,22 @@ impl<'a> Reader<'a> {
         }
     }
 
+    /// A table that has been read, to note what goes wrong between it and others.
+    pub fn table_again(&self, key: &str, section: &'static Section) -> Option<Reader<'a>> {
+        let node = self.node(key)?;
+        let Value::Table(table) = &node.value else {
+            return None;
+        };
+        Some(Reader {
+            table,
+            place: node.place,
+            path: self.dotted(key),
+            section,
+            log: self.log,
+            misspelled: Vec::new(),
+        })
+    }
+
     /// The tables of an array of tables inside this one; `section` picks the keys of each.
     pub fn tables(
         &self,

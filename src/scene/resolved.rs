@@ -64,6 +64,11 @@ impl SolidScene {
         let table = with(table, "thickness", thickness);
         let base = self.layer.map(|layer| json!(layer.base.name()));
         let table = with(table, "base", base);
+        let table = with(
+            table,
+            "hardness",
+            self.hardness.map(|hardness| json!(hardness)),
+        );
         let branches: Vec<Value> = self
             .relaxation
             .iter()

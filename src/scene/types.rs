@@ -76,9 +76,19 @@ pub struct SolidScene {
     pub poisson_ratio: Option<f64>,
     /// A layer of this thickness on a rigid base in place of the half-space (an effect).
     pub layer: Option<Layer>,
+    /// Largest net pressure that the solid bears before it flows, Pa (an effect).
+    pub hardness: Option<f64>,
     /// Maxwell branches beside the contact modulus, which is then the relaxed one (an effect);
     /// empty for an elastic solid.
     pub relaxation: Vec<RelaxationScene>,
+}
+
+impl SolidScene {
+    /// Whether a path carries more than its gap from step to step, which is known in double precision
+    /// also where the gap is not.
+    pub fn remembers(&self) -> bool {
+        !self.relaxation.is_empty() || self.hardness.is_some()
+    }
 }
 
 /// One Maxwell branch of `[[solid.relaxation]]`.

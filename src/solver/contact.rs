@@ -2,10 +2,11 @@
 
 use super::MakeBackend;
 use super::coarse_start;
+use super::kernel_set::{CORE, KernelSet, WALL, YIELD};
 use super::problem::Problem;
 use super::two_band::TwoBand;
 use crate::backend::{Backend, BackendError, Field, Level, Spectrum};
-use crate::kernel::{Gate, Kernel, Params, Scalars, Status, common, core, scalar, wall};
+use crate::kernel::{Gate, Params, Scalars, Status, common, scalar};
 use crate::law::Law;
 use crate::scene::Boundary;
 
@@ -73,49 +74,14 @@ pub struct ContactSolver<'a> {
     params: Params,
     /// Transforms of the solvers on coarser grids that this one asked for help.
     helped_by: f64,
-    /// Mean of what a relaxing solid's past adds to its displacement.
+    /// What a relaxing solid's past adds to its displacement, over all solved points; empty where the
+    /// solid has none.
+    offset: Vec<f64>,
+    /// Mean of it.
     mean_offset: f64,
+    /// Depths by which flow has lowered the heights, over all solved points; empty where it has not.
+    flowed: Vec<f64>,
 }
-
-/// The kernels of one family of laws.
-struct KernelSet {
-    residual: &'static Kernel,
-    free: &'static Kernel,
-    descent: &'static Kernel,
-    search: &'static Kernel,
-    advance: &'static Kernel,
-    balance: &'static Kernel,
-    balance_scalar: &'static scalar::ScalarKernel,
-    step: &'static scalar::ScalarKernel,
-    search_scalar: &'static scalar::ScalarKernel,
-    lengthen: &'static scalar::ScalarKernel,
-}
-
-static WALL: KernelSet = KernelSet {
-    residual: &wall::WALL_RESIDUAL,
-    free: &wall::WALL_FREE,
-    descent: &wall::WALL_DESCENT,
-    search: &wall::WALL_SEARCH,
-    advance: &wall::WALL_ADVANCE,
-    balance: &wall::WALL_BALANCE,
-    balance_scalar: &scalar::BALANCE_WALL,
-    step: &scalar::STEP_WALL,
-    search_scalar: &scalar::SEARCH_WALL,
-    lengthen: &scalar::LENGTHEN_WALL,
-};
-
-static CORE: KernelSet = KernelSet {
-    residual: &core::CORE_RESIDUAL,
-    free: &core::CORE_FREE,
-    descent: &core::CORE_DESCENT,
-    search: &core::CORE_SEARCH,
-    advance: &core::CORE_ADVANCE,
-    balance: &core::CORE_BALANCE,
-    balance_scalar: &scalar::BALANCE_CORE,
-    step: &scalar::STEP_CORE,
-    search_scalar: &scalar::SEARCH_CORE,
-    lengthen: &scalar::LENGTHEN_CORE,
-};
 
 /// Evaluations that one search of a step length may take, the scalar kernels' own bounds included.
 const SEARCHES: usize = 48;
@@ -169,6 +135,7 @@ impl<'a> ContactSolver<'a> {
             may_detach: false,
             points,
             core_stiffness: 0.2 * stiffness_max,
+            hardness: problem.hardness.unwrap_or(f64::INFINITY),
             epsilon: backend.epsilon(),
         };
         ContactSolver {
@@ -185,10 +152,16 @@ impl<'a> ContactSolver<'a> {
             stiffness,
             preconditioner,
             two_band,
-            kernels: if has_wall { &WALL } else { &CORE },
+            kernels: match problem.hardness {
+                _ if !has_wall => &CORE,
+                Some(_) => &YIELD,
+                None => &WALL,
+            },
             params,
             helped_by: 0.0,
+            offset: Vec::new(),
             mean_offset: 0.0,
+            flowed: Vec::new(),
         }
     }
 
@@ -225,11 +198,30 @@ impl<'a> ContactSolver<'a> {
     /// Moves the rigid heights by what a relaxing solid's past adds to its displacement (reduced, all
     /// solved points).
     pub fn set_offset(&mut self, offset: &[f64]) {
+        self.mean_offset = offset.iter().sum::<f64>() / offset.len() as f64;
+        self.offset = offset.to_vec();
+        self.write_heights();
+    }
+
+    /// Lowers the rigid heights by the depths that have flowed (reduced, all solved points).
+    pub fn set_flowed(&mut self, depths: &[f64]) {
+        self.flowed = depths.to_vec();
+        self.write_heights();
+    }
+
+    /// Depths by which flow has lowered the heights, over all solved points; empty where it has not.
+    pub fn flowed(&self) -> &[f64] {
+        &self.flowed
+    }
+
+    fn write_heights(&mut self) {
         let mut moved = self.problem.padded(&self.problem.heights, 0.0);
-        for (height, offset) in moved.iter_mut().zip(offset) {
+        for (height, depth) in moved.iter_mut().zip(&self.flowed) {
+            *height -= depth;
+        }
+        for (height, offset) in moved.iter_mut().zip(&self.offset) {
             *height += offset;
         }
-        self.mean_offset = offset.iter().sum::<f64>() / offset.len() as f64;
         self.backend.write(self.heights, &moved);
     }
 
@@ -265,12 +257,23 @@ impl<'a> ContactSolver<'a> {
 
     /// The gap at which the undeformed surfaces first touch, scaled or shifted to a held mean gap.
     fn undeformed(&self, load: &Load) -> Vec<f64> {
-        let highest = self.problem.highest();
-        let mut gap: Vec<f64> = self.problem.heights.iter().map(|h| highest - h).collect();
+        let mut heights = self.problem.heights.clone();
+        if !self.flowed.is_empty() {
+            let depths = self.problem.surface_part(&self.flowed);
+            heights
+                .iter_mut()
+                .zip(depths)
+                .for_each(|(h, depth)| *h -= depth);
+        }
+        let highest = heights.iter().copied().fold(f64::NEG_INFINITY, f64::max);
+        let mut gap: Vec<f64> = heights.iter().map(|h| highest - h).collect();
         if let Hold::Gap(target) = load.hold {
             let mean = gap.iter().sum::<f64>() / gap.len() as f64;
             if target >= mean {
                 gap.iter_mut().for_each(|g| *g += target - mean);
+            } else if target <= 0.0 && self.problem.hardness.is_some() {
+                // Pressed in beyond closure: the solid flows all over.
+                gap.fill(target);
             } else {
                 gap.iter_mut().for_each(|g| *g *= target / mean);
             }
@@ -381,21 +384,24 @@ impl<'a> ContactSolver<'a> {
         backend.scalar(&scalar::DIRECT);
         match self.step {
             Some(step) => {
-                backend.sweep(&core::CORE_DIRECT, level, &[g, z, d, step]);
-                backend.scalar(&scalar::RESTORE_CORE);
-                backend.forward(&core::CORE_TRIAL, level, &[g, p, step]);
+                backend.sweep(kernels.direct, level, &[g, z, d, step]);
+                backend.scalar(kernels.restore);
+                backend.forward(kernels.trial, level, &[g, p, step]);
             }
             None if self.params.fixed_gap => {
-                backend.sweep(&wall::WALL_DIRECT, level, &[g, p, z, d]);
-                backend.scalar(&scalar::RESTORE_WALL);
-                backend.forward(&wall::WALL_TRIAL_HELD, level, &[g, p, d]);
+                backend.sweep(kernels.direct, level, &[g, p, z, d]);
+                backend.scalar(kernels.restore);
+                backend.forward(kernels.trial_held, level, &[g, p, d]);
             }
-            None => backend.forward(&wall::WALL_TRIAL, level, &[g, p, z, d]),
+            None => backend.forward(kernels.trial, level, &[g, p, z, d]),
         }
         backend.scalar(&scalar::ACCEPT);
         backend.multiply(self.stiffness, true, Gate::Accepted);
         backend.scalar(kernels.step);
         let moved = self.step.unwrap_or(d);
+        // To which side a closed point may move is told by its pressure.
+        let searched = [g, moved, p];
+        let searched = &searched[..kernels.search.fields()];
         if self.problem.law.has_tail() {
             let at_once = SEARCHES_AT_ONCE.min(backend.look_every());
             let mut left = SEARCHES;
@@ -403,7 +409,7 @@ impl<'a> ContactSolver<'a> {
             let mut over = at_once == 1 && !backend.scalars()?.is_open(Gate::Searching);
             while left > 0 && !over {
                 for _ in 0..at_once.min(left) {
-                    backend.sweep(kernels.search, level, &[g, moved]);
+                    backend.sweep(kernels.search, level, searched);
                     backend.scalar(kernels.search_scalar);
                 }
                 left -= at_once.min(left);
@@ -445,7 +451,10 @@ impl<'a> ContactSolver<'a> {
         watch: &mut dyn FnMut(&Scalars) -> bool,
     ) -> Result<Outcome, BackendError> {
         let helped = match start {
-            Start::Cold => coarse_start::gap(self.problem, load, make_backend, watch)?,
+            // Coarse grids know nothing of what has flowed.
+            Start::Cold if self.flowed.is_empty() => {
+                coarse_start::gap(self.problem, load, make_backend, watch)?
+            }
             _ => None,
         };
         match helped {

@@ -7,6 +7,7 @@
 
 mod coarse_start;
 mod contact;
+mod kernel_set;
 mod problem;
 mod two_band;
 

@@ -43,6 +43,8 @@ pub struct Problem {
     pub law: Law,
     /// Factors on the law's tension, one a grid point; `None` where the law is the same everywhere.
     pub law_factor: Option<Vec<f64>>,
+    /// Largest net pressure before the solid flows, reduced; `None` for an elastic one.
+    pub hardness: Option<f64>,
     /// The layer in place of the half-space (periodic grids), SI.
     pub layer: Option<Layer>,
     /// Stiffness at each wavevector, as [`Shape::spectrum_len`] says; its zero mode is 0
@@ -131,7 +133,16 @@ impl Problem {
             law: law.reduced(length, scales.pressure),
             stiffness,
             law_factor: None,
+            hardness: None,
             layer: None,
+        }
+    }
+
+    /// The same problem on a solid that flows at a hardness (Pa).
+    pub fn yielding(self, hardness: f64) -> Problem {
+        Problem {
+            hardness: Some(hardness / self.scales.pressure),
+            ..self
         }
     }
 
@@ -161,6 +172,9 @@ impl Problem {
         Problem {
             scales,
             law: law.reduced(scales.length, scales.pressure),
+            hardness: self
+                .hardness
+                .map(|hardness| hardness * (self.scales.pressure / scales.pressure)),
             ..self.clone()
         }
     }
@@ -191,6 +205,7 @@ impl Problem {
             law,
             stiffness: vec![1.0],
             law_factor: mapped.then(Vec::new),
+            hardness: None,
             layer,
         }
     }
@@ -235,6 +250,8 @@ impl Problem {
             law: self.law,
             // Only a wall without a law is helped by coarser grids.
             law_factor: None,
+            // Where it would flow is found on the full grid.
+            hardness: None,
             ..*self
         })
     }

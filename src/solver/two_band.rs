@@ -9,7 +9,7 @@ use super::problem::Problem;
 use crate::backend::{Backend, Field, Level, Shape, Spectrum};
 use crate::elastic::wave_stiffness;
 use crate::grid::Grid;
-use crate::kernel::{Gate, coarse, scalar, wall};
+use crate::kernel::{Gate, Kernel, coarse, scalar, wall, yielding};
 use crate::law::Law;
 use crate::scene::Boundary;
 
@@ -28,6 +28,8 @@ pub(super) struct TwoBand {
     long_waves: Field,
     smoothing: Spectrum,
     compliance: Spectrum,
+    load_free: &'static Kernel,
+    store_descent: &'static Kernel,
 }
 
 /// l at a wave number, with the pixel in the same unit.
@@ -70,7 +72,16 @@ impl TwoBand {
                 0.0
             }
         });
+        let (load_free, store_descent) = match problem.hardness {
+            Some(_) => (
+                &yielding::YIELD_FREE_KEPT,
+                &yielding::YIELD_DESCENT_TWO_BAND,
+            ),
+            None => (&wall::WALL_FREE_KEPT, &wall::WALL_DESCENT_TWO_BAND),
+        };
         Some(TwoBand {
+            load_free,
+            store_descent,
             fine,
             level,
             free: backend.field(fine, "free"),
@@ -117,11 +128,7 @@ impl TwoBand {
         short_waves: Spectrum,
     ) {
         let level = self.level;
-        backend.forward(
-            &wall::WALL_FREE_KEPT,
-            self.fine,
-            &[gap, pressure, self.free],
-        );
+        backend.forward(self.load_free, self.fine, &[gap, pressure, self.free]);
         backend.scalar(&scalar::JUDGE);
         let fields = [self.restricted, self.share, self.free];
         backend.sweep(&coarse::COARSE_RESTRICT, level, &fields);
@@ -144,6 +151,6 @@ impl TwoBand {
             free_before,
             self.long_waves,
         ];
-        backend.backward(&wall::WALL_DESCENT_TWO_BAND, self.fine, &fields);
+        backend.backward(self.store_descent, self.fine, &fields);
     }
 }

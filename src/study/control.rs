@@ -104,6 +104,16 @@ impl<'s> Controller<'s> {
         self.highest - approach
     }
 
+    /// Whether a prescribed load exceeds what the solid bears anywhere.
+    pub fn is_beyond_hardness(&self, value: f64) -> bool {
+        let shape = self.problem.shape;
+        let on_surface =
+            self.mean_pressure(value) * shape.len() as f64 / shape.surface_len() as f64;
+        let pressure = on_surface / self.problem.scales.pressure;
+        let hardness = self.problem.hardness;
+        self.is_load() && hardness.is_some_and(|hardness| pressure >= hardness)
+    }
+
     /// The load of a prescribed value.
     pub fn load(&self, value: f64) -> Load {
         match self.control {
@@ -153,6 +163,7 @@ impl<'s> Controller<'s> {
         self.problem.boundary == Boundary::Periodic
             && !self.is_sprung()
             && self.problem.law.has_wall()
+            && self.problem.hardness.is_none()
             && match self.control {
                 Control::Approach => self.gap_at(value) < 0.0,
                 Control::MeanGap => value < 0.0,
@@ -161,38 +172,46 @@ impl<'s> Controller<'s> {
     }
 
     /// The undeformed gap over all solved points at a prescribed value, reduced: at first touch
-    /// where a load is prescribed, cut at zero where the bodies would overlap.
-    pub fn undeformed_gap(&self, value: f64) -> Vec<f64> {
+    /// where a load is prescribed, cut at zero where the bodies would overlap. The heights are lowered
+    /// by depths over all solved points, none where nothing has flowed.
+    pub fn undeformed_gap(&self, value: f64, flowed: &[f64]) -> Vec<f64> {
         let problem = self.problem;
+        let mut heights = problem.heights.clone();
+        if !flowed.is_empty() {
+            let depths = problem.surface_part(flowed);
+            heights
+                .iter_mut()
+                .zip(depths)
+                .for_each(|(h, depth)| *h -= depth);
+        }
         let level = match self.control {
-            Control::Pressure | Control::Force => problem.highest(),
+            Control::Pressure | Control::Force => {
+                heights.iter().copied().fold(f64::NEG_INFINITY, f64::max)
+            }
             Control::MeanGap => value / problem.scales.length,
             Control::Approach => (self.highest - value) / problem.scales.length,
         };
         // With a spring, a layer or on a free boundary an overlap is left to the solver to push out.
-        let gap: Vec<f64> = problem
-            .heights
-            .iter()
-            .map(|h| (level - h).max(0.0))
-            .collect();
+        let gap: Vec<f64> = heights.iter().map(|h| (level - h).max(0.0)).collect();
         problem.padded(&gap, 0.0)
     }
 
     /// Position and load of a solved state, from the mean pressure that is held (reduced), the mean
-    /// of g + h over all solved points and the mean gap over the grid (reduced).
+    /// of g + h over all solved points, and the mean gap over the grid with the mean depth that has
+    /// flowed (reduced).
     pub fn position(
         &self,
         load: &Load,
         held: f64,
         mean_displacement: f64,
-        mean_gap: f64,
+        [mean_gap, sunk]: [f64; 2],
     ) -> Position {
         let scales = self.problem.scales;
         let mean_pressure = held + load.zero_stiffness * mean_displacement;
         let yielded = self.mean_compliance() * mean_pressure;
         let approach = match self.problem.boundary {
             // The mean of the heights is the origin: mean gap and mean displacement are one.
-            Boundary::Periodic => self.highest + (yielded - mean_gap) * scales.length,
+            Boundary::Periodic => self.highest + (yielded - (mean_gap - sunk)) * scales.length,
             Boundary::Free => self.highest + (yielded - mean_displacement) * scales.length,
         };
         Position {

@@ -59,7 +59,9 @@ impl Cost {
         let mapped = scene.adhesion.as_ref().is_some_and(|adhesion| {
             adhesion.map.is_some() && adhesion.treatment == Treatment::Full
         });
-        let problem = Problem::sketch(grid, scene.grid.boundary, law, mapped, scene.solid.layer);
+        let mut problem =
+            Problem::sketch(grid, scene.grid.boundary, law, mapped, scene.solid.layer);
+        problem.hardness = scene.solid.hardness;
         plan(&problem, scene, 0.0, place)
     }
 
@@ -115,6 +117,15 @@ fn plan(
             bytes: problem.shape.len() * size_of::<f64>(),
         };
         iterated.fields.extend(vec![history; branches + 1]);
+    }
+    if scene.solid.hardness.is_some() {
+        // The depths that have flowed, kept by the host and by the solver in double precision.
+        let flowed = Held {
+            name: "flowed",
+            level: Level(0),
+            bytes: problem.shape.len() * size_of::<f64>(),
+        };
+        iterated.fields.extend([flowed, flowed]);
     }
     Ok(Cost {
         place,

@@ -47,7 +47,7 @@ pub(super) fn step(
         let start = match (loaded, setup.problem.boundary) {
             (true, _) => Start::Present,
             (false, Boundary::Periodic) => Start::Cold,
-            (false, Boundary::Free) => Start::Gap(controller.undeformed_gap(0.0)),
+            (false, Boundary::Free) => Start::Gap(controller.undeformed_gap(0.0, &[])),
         };
         let outcome = solve(setup, solver, &load, &start, make_backend, watch)?;
         loaded = true;

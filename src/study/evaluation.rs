@@ -51,16 +51,22 @@ pub struct Evaluation {
     pub adhesive_energy: f64,
     /// Contact state.
     pub state: State,
+    /// Depths by which flow has lowered the heights, this step included, m, shape `[ny, nx]`; empty
+    /// where nothing can flow.
+    pub flowed: Vec<f64>,
 }
 
 /// Solved fields over all solved points, reduced, and the mean pressure that is held.
 pub struct Solved<'a> {
-    /// Gap.
+    /// Gap; below zero it is the depth that flows in this step.
     pub gap: &'a [f64],
     /// K*(g + h).
     pub elastic: &'a [f64],
     /// Mean over all solved points of what a relaxing solid's past adds to its displacement.
     pub mean_offset: f64,
+    /// Depths by which flow had lowered the heights before, over all solved points; empty where
+    /// nothing can flow.
+    pub flowed: &'a [f64],
     /// Held mean pressure.
     pub held: f64,
     /// The load it was solved for.
@@ -74,7 +80,10 @@ impl Evaluation {
         let scales = problem.scales;
         let law = setup.law.reduced(scales.length, scales.pressure);
         let summed_after = setup.dmt;
-        let padded = problem.padded(&problem.heights, 0.0);
+        let mut padded = problem.padded(&problem.heights, 0.0);
+        for (height, depth) in padded.iter_mut().zip(solved.flowed) {
+            *height -= depth;
+        }
         let count_all = problem.shape.len() as f64;
         let mean_displacement = solved
             .gap
@@ -84,11 +93,33 @@ impl Evaluation {
             .sum::<f64>()
             / count_all
             + solved.mean_offset;
-        let gap = problem.surface_part(solved.gap);
+        let mut gap = problem.surface_part(solved.gap);
         let elastic = problem.surface_part(solved.elastic);
         let count = gap.len() as f64;
-        let mean_gap = gap.iter().sum::<f64>() / count;
-        let position = controller.position(&solved.load, solved.held, mean_displacement, mean_gap);
+        let mut mean_gap = gap.iter().sum::<f64>() / count;
+        // What flows moves the bodies together and leaves no gap.
+        let mut sunk = 0.0;
+        let mut flowed = Vec::new();
+        let mut flows = Vec::new();
+        if problem.hardness.is_some() {
+            flowed = match solved.flowed {
+                [] => vec![0.0; gap.len()],
+                before => problem.surface_part(before),
+            };
+            flows = gap.iter().map(|g| *g < 0.0).collect();
+            for (depth, g) in flowed.iter_mut().zip(&mut gap) {
+                *depth -= g.min(0.0);
+                *g = g.max(0.0);
+            }
+            mean_gap = gap.iter().sum::<f64>() / count;
+            sunk = flowed.iter().sum::<f64>() / count;
+        }
+        let position = controller.position(
+            &solved.load,
+            solved.held,
+            mean_displacement,
+            [mean_gap, sunk],
+        );
         let offset = controller.offset(&position, mean_displacement);
 
         let mut net = vec![0.0; gap.len()];
@@ -162,6 +193,14 @@ impl Evaluation {
             let edges = perimeter_edges(&points, problem.shape.surface, problem.boundary);
             contact - (PI - 1.0 + LN_2) / 24.0 * edges as f64 / count
         });
+        if let Some(hardness) = problem.hardness {
+            for (pressure, flows) in net.iter_mut().zip(&flows) {
+                *pressure = match flows {
+                    true => hardness,
+                    false => pressure.min(hardness),
+                };
+            }
+        }
         for pressure in &mut net {
             *pressure *= scales.pressure;
         }
@@ -179,22 +218,32 @@ impl Evaluation {
             elastic_energy: elastic_energy * energy_unit,
             adhesive_energy: adhesive * energy_unit,
             state,
+            flowed: flowed.iter().map(|depth| depth * scales.length).collect(),
         }
     }
 
-    /// Values of a field in SI units, shape `[ny, nx]`.
+    /// Values of a field in SI units, shape `[ny, nx]`, of a surface that began with these heights.
     pub fn field(&self, name: FieldName, heights: &[f64]) -> Vec<f64> {
         match name {
             FieldName::Pressure => self.pressure.clone(),
             FieldName::Gap => self.gap.clone(),
-            FieldName::Heights => heights.to_vec(),
+            FieldName::Heights => self.heights(heights),
             FieldName::Displacement => self
                 .gap
                 .iter()
-                .zip(heights)
+                .zip(self.heights(heights))
                 .map(|(g, h)| g + h + self.displacement_offset)
                 .collect(),
         }
+    }
+
+    /// The heights as flow has left them, m, of a surface that began with these.
+    fn heights(&self, heights: &[f64]) -> Vec<f64> {
+        let mut heights = heights.to_vec();
+        for (height, depth) in heights.iter_mut().zip(&self.flowed) {
+            *height -= depth;
+        }
+        heights
     }
 }
 

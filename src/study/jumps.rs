@@ -145,11 +145,13 @@ fn quadrature_error(before: &StepRow, row: &StepRow) -> Option<f64> {
     Some(((row.force - before.force) * moved).abs() / 6.0)
 }
 
-/// Work done on the surfaces in a step less what they store, J.
+/// Work done on the surfaces in a step less what they store and what flows, J.
 pub fn dissipation(before: &StepRow, row: &StepRow) -> Option<f64> {
     let moved = row.approach? - before.approach?;
     let work = 0.5 * (before.force + row.force) * moved;
     let stored =
         row.elastic_energy + row.adhesive_energy - before.elastic_energy - before.adhesive_energy;
-    Some(work - stored)
+    // What has flowed has cost its own share, which no jump took.
+    let flowed = row.plastic_energy.unwrap_or(0.0) - before.plastic_energy.unwrap_or(0.0);
+    Some(work - stored - flowed)
 }

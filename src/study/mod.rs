@@ -4,6 +4,7 @@ pub mod control;
 mod cost;
 mod dmt;
 mod evaluation;
+mod flow;
 mod hand_over;
 mod jumps;
 mod memory;

@@ -162,6 +162,7 @@ mod tests {
             contact_modulus: 1.0,
             poisson_ratio: None,
             layer: None,
+            hardness: None,
             relaxation: vec![RelaxationScene {
                 modulus: 9.0,
                 time: 0.1,

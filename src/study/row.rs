@@ -68,6 +68,8 @@ pub struct StepRow {
     pub state: State,
     /// Friction force of the shear strength over the area in contact, N; `None` without friction.
     pub friction_force: Option<f64>,
+    /// Energy that plastic flow has dissipated since the path began, J; `None` without a hardness.
+    pub plastic_energy: Option<f64>,
 }
 
 /// A column that `curve.csv` has behind the others where an effect asks for it.
@@ -75,6 +77,8 @@ pub struct StepRow {
 pub enum Column {
     /// Friction force.
     FrictionForce,
+    /// Energy that plastic flow has dissipated.
+    PlasticEnergy,
 }
 
 impl Column {
@@ -84,6 +88,9 @@ impl Column {
         if scene.friction.is_some() {
             columns.push(Column::FrictionForce);
         }
+        if scene.solid.hardness.is_some() {
+            columns.push(Column::PlasticEnergy);
+        }
         columns
     }
 
@@ -91,6 +98,7 @@ impl Column {
     pub fn name(self) -> &'static str {
         match self {
             Column::FrictionForce => "friction_force",
+            Column::PlasticEnergy => "plastic_energy",
         }
     }
 
@@ -98,6 +106,7 @@ impl Column {
     pub fn value(self, row: &StepRow) -> Option<f64> {
         match self {
             Column::FrictionForce => row.friction_force,
+            Column::PlasticEnergy => row.plastic_energy,
         }
     }
 
@@ -105,6 +114,7 @@ impl Column {
     pub fn set(self, row: &mut StepRow, value: Option<f64>) {
         match self {
             Column::FrictionForce => row.friction_force = value,
+            Column::PlasticEnergy => row.plastic_energy = value,
         }
     }
 }

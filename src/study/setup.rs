@@ -112,6 +112,10 @@ impl Setup {
             Some(layer) => problem.on_layer(layer),
             None => problem,
         };
+        let problem = match scene.solid.hardness {
+            Some(hardness) => problem.yielding(hardness),
+            None => problem,
+        };
         Setup {
             warnings,
             scene,

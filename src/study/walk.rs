@@ -7,6 +7,7 @@ use std::time::Instant;
 use super::control::Controller;
 use super::dmt;
 use super::evaluation::{Evaluation, Solved};
+use super::flow::{Flow, load_on};
 use super::hand_over::{Earlier, GAP, HandOver, HandedField};
 use super::jumps::{Jump, Jumps};
 use super::relaxation::{History, effective_modulus, stretches};
@@ -112,6 +113,7 @@ pub fn walk_on<O: Observer>(
     }
     let mut gap = hand_over.field(GAP).map(<[f64]>::to_vec);
     let mut history = History::of(setup, &hand_over);
+    let mut flow = Flow::of(setup, &hand_over);
     let mut end = WalkEnd {
         jump_in_steps: hand_over.jump_in_steps,
         jump_off_steps: hand_over.jump_off_steps,
@@ -126,13 +128,28 @@ pub fn walk_on<O: Observer>(
             make_backend,
             steps: stretch,
         };
-        let goes_on = walking.walk(observer, &mut end, &mut jumps, &mut gap, &mut history)?;
+        let path = Path {
+            gap: &mut gap,
+            history: &mut history,
+            flow: &mut flow,
+        };
+        let goes_on = walking.walk(observer, &mut end, &mut jumps, path)?;
         if !goes_on {
             break;
         }
     }
     end.hysteresis_energy = jumps.hysteresis(&end.rows);
     Ok(end)
+}
+
+/// What a path carries from step to step.
+struct Path<'a> {
+    /// `None` where the surfaces are apart.
+    gap: &'a mut Option<Vec<f64>>,
+    /// `None` for a solid that does not relax.
+    history: &'a mut Option<History>,
+    /// `None` for a solid that cannot flow.
+    flow: &'a mut Option<Flow>,
 }
 
 /// Steps of a path that meet one modulus, so that one solver takes them.
@@ -143,15 +160,14 @@ struct Stretch<'s> {
 }
 
 impl Stretch<'_> {
-    /// Walks the steps from a gap (`None` where the surfaces are apart), which is left as the last
-    /// of them has it. Returns whether the path goes on.
+    /// Walks the steps from what the path carries, which is left as the last of them has it. Returns
+    /// whether the path goes on.
     fn walk<O: Observer>(
         &self,
         observer: &mut O,
         end: &mut WalkEnd,
         jumps: &mut Jumps,
-        gap: &mut Option<Vec<f64>>,
-        history: &mut Option<History>,
+        Path { gap, history, flow }: Path,
     ) -> Result<bool, WalkError<O::Error>> {
         let setup = self.setup;
         let duration = self.duration(self.steps.start);
@@ -172,6 +188,9 @@ impl Stretch<'_> {
         };
         if let Some(gap) = gap {
             solver.set_gap(gap);
+        }
+        if let Some(flow) = flow {
+            flow.lower(&mut solver);
         }
         let before = end.transforms;
         let mut goes_on = true;
@@ -195,8 +214,12 @@ impl Stretch<'_> {
             if let (Some(history), Some(offset)) = (history.as_mut(), offset) {
                 state.relax(&mut solver, &mut solved, history, offset, duration)?;
             }
+            if let Some(flow) = flow.as_mut().filter(|_| solved.converged && state.loaded) {
+                flow.settle(&mut solver)?;
+            }
             let mut row = state.row(step, value, &solved, clock.elapsed().as_secs_f64());
             row.time = self.time(index, end.rows.last());
+            row.plastic_energy = flow.as_ref().map(Flow::energy);
             let jump = jumps.step(&row, solved.evaluation.as_ref());
             match jump {
                 Some(Jump::In) => end.jump_in_steps.push(step),
@@ -218,7 +241,7 @@ impl Stretch<'_> {
             }
             if observer.wants_hand_over() {
                 let handed = HandOver {
-                    fields: state.handed_fields(&mut solver, history.as_ref())?,
+                    fields: state.handed_fields(&mut solver, history.as_ref(), flow.as_ref())?,
                     points: jumps.points().map(<[_]>::to_vec),
                     jump_in_steps: end.jump_in_steps.clone(),
                     jump_off_steps: end.jump_off_steps.clone(),
@@ -304,14 +327,16 @@ impl PathState<'_> {
         } else if is_load && setup.problem.law == Law::HardWall && value <= 0.0 {
             // A wall alone carries no tension, and at zero load it only touches.
             separated()
-        } else if self.controller.is_beyond_closure(value) {
+        } else if self.controller.is_beyond_closure(value)
+            || self.controller.is_beyond_hardness(value)
+        {
             SolvedStep {
                 converged: false,
                 residual: f64::INFINITY,
                 ..separated()
             }
         } else {
-            let load = self.controller.load(value);
+            let load = load_on(solver, self.controller.load(value));
             let start = self.start(solver, &load, value)?;
             let outcome = solve(setup, solver, &load, &start, make_backend, &mut watch)?;
             finish(setup, &self.controller, solver, &load, &outcome)?
@@ -326,8 +351,10 @@ impl PathState<'_> {
         &self,
         solver: &mut ContactSolver,
         history: Option<&History>,
+        flow: Option<&Flow>,
     ) -> Result<Vec<HandedField>, BackendError> {
         let mut fields = history.map_or_else(Vec::new, History::handed_fields);
+        fields.extend(flow.and_then(Flow::handed_field));
         if self.loaded {
             fields.push(HandedField {
                 name: GAP.to_owned(),
@@ -362,6 +389,9 @@ impl PathState<'_> {
         for (u, h) in displacement.iter_mut().zip(heights) {
             *u += h + rigid;
         }
+        for (u, depth) in displacement.iter_mut().zip(solver.flowed()) {
+            *u -= depth;
+        }
         history.advance(solid, duration, displacement);
         let mut energy = 0.0;
         let modulus = effective_modulus(solid, duration);
@@ -385,7 +415,7 @@ impl PathState<'_> {
         if !self.loaded {
             return Ok(
                 if problem.boundary == Boundary::Free || self.controller.is_sprung() {
-                    Start::Gap(self.controller.undeformed_gap(value))
+                    Start::Gap(self.controller.undeformed_gap(value, solver.flowed()))
                 } else {
                     Start::Cold
                 },
@@ -408,6 +438,9 @@ impl PathState<'_> {
                     *g = 0.0;
                 }
             }
+        } else if target <= 0.0 && problem.hardness.is_some() {
+            // Pressed in beyond closure: the solid flows all over.
+            gap.fill(target);
         } else if mean > 0.0 {
             gap.iter_mut().for_each(|g| *g *= target / mean);
         } else {
@@ -450,6 +483,7 @@ impl PathState<'_> {
             friction_force: self.setup.scene.friction.map(|friction| {
                 friction.shear_strength * evaluation.map_or(0.0, |e| e.contact) * area
             }),
+            plastic_energy: None,
         }
     }
 }
@@ -508,6 +542,7 @@ pub(super) fn finish(
         gap: &gap,
         elastic: &elastic,
         mean_offset: solver.mean_offset(),
+        flowed: solver.flowed(),
         held: outcome.mean_pressure,
         load: *load,
     };

@@ -1,7 +1,7 @@
 //! The whole catalogue, for the tests that go through it in a loop.
 #![allow(dead_code)]
 
-use tabor::kernel::{Kernel, ScalarKernel, coarse, common, core, scalar, wall};
+use tabor::kernel::{Kernel, ScalarKernel, coarse, common, core, scalar, wall, yielding};
 
 /// Every kernel over points.
 pub static KERNELS: &[&Kernel] = &[
@@ -19,6 +19,17 @@ pub static KERNELS: &[&Kernel] = &[
     &wall::WALL_SEARCH,
     &wall::WALL_ADVANCE,
     &wall::WALL_BALANCE,
+    &yielding::YIELD_RESIDUAL,
+    &yielding::YIELD_FREE,
+    &yielding::YIELD_FREE_KEPT,
+    &yielding::YIELD_DESCENT,
+    &yielding::YIELD_DESCENT_TWO_BAND,
+    &yielding::YIELD_TRIAL,
+    &yielding::YIELD_DIRECT,
+    &yielding::YIELD_TRIAL_HELD,
+    &yielding::YIELD_SEARCH,
+    &yielding::YIELD_ADVANCE,
+    &yielding::YIELD_BALANCE,
     &core::CORE_RESIDUAL,
     &core::CORE_FREE,
     &core::CORE_DESCENT,
@@ -39,6 +50,7 @@ pub static SCALAR_KERNELS: &[&ScalarKernel] = &[
     &scalar::JUDGE,
     &scalar::DIRECT,
     &scalar::RESTORE_WALL,
+    &scalar::RESTORE_YIELD,
     &scalar::RESTORE_CORE,
     &scalar::ACCEPT,
     &scalar::STEP_WALL,

@@ -57,6 +57,15 @@ shortest = "40 nm""#,
     )
 }
 
+/// A solid that flows.
+fn soft() -> String {
+    edited(
+        GOOD,
+        "contact_modulus = \"1 GPa\"",
+        "contact_modulus = \"1 GPa\"\nhardness = \"10 MPa\"",
+    )
+}
+
 fn cone() -> String {
     with_surface("kind = \"cone\"\nhalf_angle = \"70 deg\"")
 }
@@ -209,12 +218,19 @@ fn mistakes_in_solid(tables: &mut Vec<Edits>) {
         (r#"contact_modulus = "1 GPa""#, "contact_modulus = \"1 GPa\"\npoisson_ratio = 0.3\nthickness = 0", "s.toml:8: solid.thickness: 0 is out of range", "finite and above 0"),
         (r#"contact_modulus = "1 GPa""#, "contact_modulus = \"1 GPa\"\npoisson_ratio = 0.3\nthickness = 1\nbase = \"glued\"", "s.toml:9: solid.base", "did you mean"),
         (r#"contact_modulus = "1 GPa""#, "young_modulus = 1e9\npoisson_ratio = 0.3\ncounter_young_modulus = 1e9\ncounter_poisson_ratio = 0.3\nthickness = 1", "s.toml:8: solid.counter_young_modulus: a layer presses on a rigid counter-face", "leave the counter-face's elasticity out"),
-        (r#"contact_modulus = "1 GPa""#, "contact_modulus = \"1 GPa\"\nhardness = \"10 GPa\"", "s.toml:7: solid.hardness: ideal plasticity is not in this version", "take it out"),
+        (r#"contact_modulus = "1 GPa""#, "contact_modulus = \"1 GPa\"\nhardness = 0", "s.toml:7: solid.hardness: 0 is out of range", "finite and above 0"),
+        (r#"contact_modulus = "1 GPa""#, "contact_modulus = \"1 GPa\"\nhardness = \"2 MPa\"", "s.toml:7: solid.hardness: the path asks for a mean pressure of 2 MPa, which no contact of this hardness bears", "stay below it"),
         (r#"contact_modulus = "1 GPa""#, "contact_modulus = \"1 GPa\"\n[[solid.relaxation]]\nmodulus = \"1 MPa\"\ntime = \"10 ms\"", "s.toml:19: loading.path: a solid that relaxes must know how long the load takes", "duration = \"1 s\""),
         (r#"contact_modulus = "1 GPa""#, "contact_modulus = \"1 GPa\"\nrelaxation = []", "s.toml:7: solid.relaxation: is empty", "at least one branch"),
         (r#"contact_modulus = "1 GPa""#, "contact_modulus = \"1 GPa\"\nrelaxation = 3", "s.toml:7: solid.relaxation: the number 3 where an array of tables is expected", "[[solid.relaxation]]"),
         (r#"contact_modulus = "1 GPa""#, r#"contact_modulus = "1 GN""#, r#"s.toml:6: solid.contact_modulus: "GN" is a force in N"#, r#"give a pressure in Pa, such as "1.5 GPa""#),
         ("contact_modulus", "contact_modulous", "s.toml:6: solid.contact_modulous: unknown key in [solid]", "did you mean `contact_modulus`?"),
+    ]});
+    tables.push(Edits { base: soft(), cases: &[
+        (r#"law = "maugis-dugdale""#, r#"law = "lennard-jones""#, "s.toml:7: solid.hardness: a hardness with the Lennard-Jones law is not in this version", "leave the hardness out"),
+        (r#"range = "1 nm""#, "range = \"1 nm\"\ntreatment = \"dmt\"", "s.toml:7: solid.hardness: a hardness with treatment = \"dmt\" is not in this version", "take treatment = \"full\""),
+        ("control = \"pressure\"\npath = [\"1 MPa\", \"2 MPa\"]", "control = \"mean-gap\"\npath = [\"1 nm\"]", "s.toml:7: solid.hardness: control = \"mean-gap\" does not fix how deep", "take control = \"approach\""),
+        ("control = \"pressure\"\npath = [\"1 MPa\", \"2 MPa\"]", "control = \"force\"\npath = [1e-3]", "s.toml:7: solid.hardness: the path asks for a mean pressure of 1 GPa", "stay below it"),
     ]});
     tables.push(Edits { base: young(), cases: &[
         (r#"young_modulus = "1 GPa""#, "contact_modulus = \"1 GPa\"\nyoung_modulus = \"2 GPa\"", "s.toml:7: solid.young_modulus: contact_modulus is given too", "give one of the two"),
@@ -685,8 +701,8 @@ fn overrides_that_are_wrong_say_where_they_came_from() {
         (
             GOOD,
             "solid.hardness",
-            "1 GPa",
-            "s.toml, from --set: solid.hardness: ideal plasticity is not in this version",
+            "1 GN",
+            "s.toml, from --set: solid.hardness: \"GN\" is a force in N",
         ),
         (
             GOOD,
@@ -761,6 +777,7 @@ steps  = "last"
             contact_modulus: 1.33e12,
             poisson_ratio: None,
             layer: None,
+            hardness: None,
             relaxation: Vec::new(),
         },
         surfaces: vec![SurfacePart::SelfAffine(SelfAffineScene {

@@ -5,6 +5,7 @@ mod capillary;
 mod controls;
 mod energy;
 mod friction;
+mod hardness;
 mod hertz;
 mod layer;
 mod lennard_jones;

@@ -25,6 +25,13 @@ macro_rules! shaders {
     };
 }
 
+/// Kernels of a solid that flows, which are those of the wall with another part around them.
+macro_rules! over_flow {
+    ($($name:literal of $wall:literal [$($part:literal),*];)*) => {
+        &[$(Shader { name: $name, parts: &[part!("yielding"), $(part!($part),)* part!($wall)], law: true }),*]
+    };
+}
+
 /// What every kernel sees.
 pub const COMMON: &str = part!("common");
 /// Sums over a workgroup.
@@ -49,6 +56,11 @@ const SHADERS: &[Shader] = shaders! {
     "wall_search" true ["wall"];
     "wall_advance" true ["wall"];
     "wall_balance" true ["wall"];
+    "yield_direct" true ["yielding"];
+    "yield_trial_held" true ["yielding"];
+    "yield_search" true ["yielding"];
+    "yield_advance" true ["yielding"];
+    "yield_balance" true ["yielding"];
     "core_residual" true ["core"];
     "core_free" true ["core"];
     "core_descent" true ["core"];
@@ -62,6 +74,15 @@ const SHADERS: &[Shader] = shaders! {
     "coarse_weight" false [];
     "coarse_load" false [];
     "coarse_store" false [];
+};
+
+const OVER_FLOW: &[Shader] = over_flow! {
+    "yield_residual" of "wall_residual" [];
+    "yield_free" of "wall_free" [];
+    "yield_free_kept" of "wall_free_kept" [];
+    "yield_descent" of "wall_descent" ["wall_descend"];
+    "yield_descent_two_band" of "wall_descent_two_band" ["wall_descend", "neighbours"];
+    "yield_trial" of "wall_trial" [];
 };
 
 /// Parts of the scalar kernels: those of every law, of a wall, of the Lennard-Jones core.
@@ -82,7 +103,10 @@ pub fn scalar(name: &str) -> Option<Vec<&'static str>> {
 
 /// The shader of a kernel, if it has one.
 pub fn shader(name: &str) -> Option<&'static Shader> {
-    SHADERS.iter().find(|shader| shader.name == name)
+    SHADERS
+        .iter()
+        .chain(OVER_FLOW)
+        .find(|shader| shader.name == name)
 }
 
 /// Whether a kernel asks for the cohesive law.

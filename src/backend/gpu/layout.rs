@@ -89,6 +89,7 @@ const PARAMS: &[Member] = &[
     ("tolerance", 1),
     ("heights_norm", 1),
     ("core_stiffness", 1),
+    ("hardness", 1),
     ("epsilon", 1),
     ("infinity", 1),
     ("snap_share", 1),
@@ -186,6 +187,7 @@ pub fn params_bytes(params: &Params, wide: Wide) -> Vec<u8> {
         params.tolerance,
         params.heights_norm,
         params.core_stiffness,
+        params.hardness,
         params.epsilon,
         f64::INFINITY,
         // Of the largest step: gaps below it after a step to first contact are rounding.

@@ -162,6 +162,7 @@ fn refuse(scene: &Scene) -> Result<(), Failure> {
     let mapped = scene.adhesion.as_ref().is_some_and(|law| law.map.is_some());
     for (named, what) in [
         (scene.solid.layer.is_some(), "[solid] thickness"),
+        (scene.solid.hardness.is_some(), "[solid] hardness"),
         (!scene.solid.relaxation.is_empty(), "[[solid.relaxation]]"),
         (mapped, "[adhesion] map"),
     ] {

@@ -1,0 +1,16 @@
+// The sums that give the mean pressure under a held mean gap.
+@group(1) @binding(0) var<storage, read> gap: array<f32>;
+@group(1) @binding(1) var<storage, read> pressure: array<f32>;
+
+fn point(index: u32, on_surface: bool) {
+    let g = gap[index];
+    let below = on_surface && g < 0.0;
+    let pull = select(attraction(g, on_surface), -f32(params.hardness), below);
+    let y = wide(pressure[index] + pull);
+    let weight = wide(abs(g));
+    sums[0] = sums[0] + weight * y;
+    sums[1] = sums[1] + weight;
+    if (y < sums[2]) {
+        sums[2] = y;
+    }
+}

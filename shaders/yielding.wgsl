@@ -1,0 +1,98 @@
+// What the kernels of a solid that flows at its hardness share; the same words as in `wall`. Below
+// zero a gap is a depth that has flowed, and y = p + mean_pressure - hardness. A closed point that
+// rests has y = 0; one that may move has the y of the side to which it may.
+fn attraction(g: f32, on_surface: bool) -> f32 {
+    if (on_surface) {
+        return law_traction(max(g, 0.0));
+    }
+    return 0.0;
+}
+
+fn total(g: f32, p: f32, on_surface: bool) -> f32 {
+    let elastic = p + f32(scalars.mean_pressure);
+    if (!on_surface) {
+        return elastic;
+    }
+    let flow = elastic - f32(params.hardness);
+    if (g < 0.0) {
+        return flow;
+    }
+    let y = elastic + law_traction(g);
+    if (g > 0.0 || y < 0.0) {
+        return y;
+    }
+    return max(flow, 0.0);
+}
+
+fn is_free(g: f32, y: f32, on_surface: bool) -> bool {
+    return !on_surface || g != 0.0 || y != 0.0;
+}
+
+// Whether a point is below zero or may only go there.
+fn goes_down(g: f32, y: f32) -> bool {
+    return g < 0.0 || (g == 0.0 && y > 0.0);
+}
+
+// s = x - g of the trial x = clip(g + moved), scaled by restore above zero and by 2 - restore below.
+fn trial_step(g: f32, y: f32, moved: f32, restore: f32, on_surface: bool) -> f32 {
+    if (!on_surface) {
+        return moved;
+    }
+    if (goes_down(g, y)) {
+        let shrink = 2.0 - restore;
+        return shrink * min(moved, -g) + (shrink - 1.0) * g;
+    }
+    return restore * max(moved, -g) + (restore - 1.0) * g;
+}
+
+// The terms of the stopping measure, and y on free points, 0 elsewhere.
+fn free_line(g: f32, p: f32, on_surface: bool) -> f32 {
+    let elastic = p + f32(scalars.mean_pressure);
+    if (!on_surface) {
+        sums[0] = sums[0] + wide(elastic) * wide(elastic);
+        return elastic;
+    }
+    let traction = attraction(g, true);
+    let y = elastic + traction;
+    let middle = max(min(y, g * f32(params.stiffness_max)), elastic - f32(params.hardness));
+    let violation = wide(middle);
+    sums[0] = sums[0] + violation * violation;
+    let reaction = wide(select(max(y, 0.0), 0.0, g > 0.0));
+    sums[1] = sums[1] + (reaction * reaction + wide(traction) * wide(traction));
+    if (wide(g) < sums[2]) {
+        sums[2] = wide(g);
+    }
+    sums[3] = sums[3] + wide(g) * wide(g);
+    return total(g, p, true);
+}
+
+// The new direction: zero where the point is not free.
+fn new_direction(z: f32, d: f32, free: bool) -> f32 {
+    if (!free) {
+        return 0.0;
+    }
+    return f32(scalars.descent) * z + f32(scalars.memory) * d + f32(scalars.shift);
+}
+
+// The sums over a trial step; slots as `accept` reads them.
+fn add_trial(s: f32, y: f32, g: f32, moved: f32, on_surface: bool) {
+    let step = wide(s);
+    sums[0] = sums[0] + step * wide(y);
+    let closes = (g > 0.0 && s < 0.0) || (g < 0.0 && s > 0.0);
+    if (closes && on_surface) {
+        let ratio = wide(g) / -step;
+        if (ratio < sums[1]) {
+            sums[1] = ratio;
+        }
+    }
+    if (step > sums[2]) {
+        sums[2] = step;
+    }
+    if (step < sums[3]) {
+        sums[3] = step;
+    }
+    let x = g + moved;
+    if (on_surface && select(x < 0.0, x > 0.0, goes_down(g, y))) {
+        sums[4] = wide(1.0);
+    }
+}

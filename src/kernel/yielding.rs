@@ -1,0 +1,275 @@
+//! Kernels of a solid whose pressure saturates: those of the wall over a floor that flows, see
+//! [`floor`](super::floor). A gap below zero is the depth that has flowed in this solve.
+
+use super::coarse;
+use super::floor::{Balance, Floor, Yielding, trial_step};
+use super::wall;
+use crate::kernel::{Params, Rows, SUMS, Scalars, kernel};
+use crate::law::{Cohesion, LawField};
+use crate::real::Real;
+use crate::with_law_field;
+
+fn yield_residual<T: Real>(
+    rows: &mut Rows<T>,
+    params: &Params,
+    scalars: &Scalars,
+    sums: &mut [f64; SUMS],
+) {
+    wall::residual::<T, Yielding<T>>(rows, params, scalars, sums);
+}
+kernel!(
+    /// The stopping measure of the present state. Reads gap, pressure.
+    YIELD_RESIDUAL, yield_residual, Sweep, reads 2, writes 0, whole false,
+    sums [Add, Add, Min, Add], gate Always
+);
+
+fn yield_free<T: Real>(
+    rows: &mut Rows<T>,
+    params: &Params,
+    scalars: &Scalars,
+    sums: &mut [f64; SUMS],
+) {
+    wall::free::<T, Yielding<T>>(rows, params, scalars, sums);
+}
+kernel!(
+    /// Loads yF and sums the stopping measure on the way. Reads gap, pressure.
+    YIELD_FREE, yield_free, Load, reads 2, writes 0, whole false,
+    sums [Add, Add, Min, Add], gate Fresh
+);
+
+fn yield_free_kept<T: Real>(
+    rows: &mut Rows<T>,
+    params: &Params,
+    scalars: &Scalars,
+    sums: &mut [f64; SUMS],
+) {
+    yield_free(rows, params, scalars, sums);
+    wall::keep_lines(rows);
+}
+kernel!(
+    /// As `yield_free`, and keeps yF in a field for the coarse level. Reads gap, pressure; writes yF.
+    YIELD_FREE_KEPT, yield_free_kept, Load, reads 2, writes 1, whole false,
+    sums [Add, Add, Min, Add], gate Fresh
+);
+
+fn yield_descent<T: Real>(
+    rows: &mut Rows<T>,
+    params: &Params,
+    scalars: &Scalars,
+    sums: &mut [f64; SUMS],
+) {
+    wall::descent::<T, Yielding<T>>(rows, params, scalars, sums);
+}
+kernel!(
+    /// Stores the preconditioned residual z on free points. Reads gap, pressure, direction;
+    /// writes z and replaces the old yF by the new one.
+    YIELD_DESCENT, yield_descent, Store, reads 3, writes 2, whole false,
+    sums [Add, Add, Add, Add, Add, Add, Add, Add, Add], gate Fresh
+);
+
+fn yield_descent_two_band<T: Real>(
+    rows: &mut Rows<T>,
+    params: &Params,
+    scalars: &Scalars,
+    sums: &mut [f64; SUMS],
+) {
+    coarse::add_interpolated(rows);
+    yield_descent(rows, params, scalars, sums);
+}
+kernel!(
+    /// As `yield_descent`, with the long waves added from the coarse level. Whole: the coarse z.
+    YIELD_DESCENT_TWO_BAND, yield_descent_two_band, Store, reads 3, writes 2, whole true,
+    sums [Add, Add, Add, Add, Add, Add, Add, Add, Add], gate Fresh
+);
+
+fn yield_trial<T: Real>(
+    rows: &mut Rows<T>,
+    params: &Params,
+    scalars: &Scalars,
+    sums: &mut [f64; SUMS],
+) {
+    wall::trial::<T, Yielding<T>>(rows, params, scalars, sums);
+}
+kernel!(
+    /// Turns the direction and loads the trial step s. Reads gap, pressure, z; updates direction.
+    YIELD_TRIAL, yield_trial, Load, reads 3, writes 1, whole false,
+    sums [Add, Min, Max, Min, Max], gate Running
+);
+
+fn yield_direct<T: Real>(
+    rows: &mut Rows<T>,
+    params: &Params,
+    scalars: &Scalars,
+    sums: &mut [f64; SUMS],
+) {
+    let layout = rows.layout();
+    let [gap, pressure, z, _] = rows.reads;
+    let direction = &mut rows.writes[0];
+    let mean = T::of(scalars.mean_pressure);
+    let factors = [scalars.descent, scalars.memory, scalars.shift].map(T::of);
+    let length = T::of(scalars.trial);
+    let floor = Yielding::of(params);
+    with_law_field!(params.law, rows.factor, T, law => layout.points(|i, on_surface| {
+        let law = LawField::<T>::at(&law, i);
+        let Balance { y, free } =
+            wall::balance(&floor, &law, gap[i], pressure[i] + mean, on_surface);
+        let d = wall::new_direction(z[i], direction[i], factors, free);
+        direction[i] = d;
+        let moved = gap[i] + length * d;
+        let moved = if floor.goes_down(gap[i], y) {
+            moved.min(T::zero())
+        } else {
+            moved.max(T::zero())
+        };
+        sums[0] += moved.double();
+        sums[1] += gap[i].double();
+        sums[2] += moved.abs().double();
+    }));
+}
+kernel!(
+    /// Turns the direction and sums the mean that the trial would have and its absolute value (fixed
+    /// mean gap). Reads gap, pressure, z; updates direction.
+    YIELD_DIRECT, yield_direct, Sweep, reads 3, writes 1, whole false,
+    sums [Add, Add, Add], gate Running
+);
+
+fn yield_trial_held<T: Real>(
+    rows: &mut Rows<T>,
+    params: &Params,
+    scalars: &Scalars,
+    sums: &mut [f64; SUMS],
+) {
+    let layout = rows.layout();
+    let [gap, pressure, direction, _] = rows.reads;
+    let lines = &mut *rows.lines;
+    let mean = T::of(scalars.mean_pressure);
+    let length = T::of(scalars.trial);
+    let restore = T::of(scalars.restore);
+    let floor = Yielding::of(params);
+    // A trial that no scaling brings back is lost: one that moves and does not descend.
+    let lost = !(restore > T::zero() && restore < T::of(2.0));
+    if lost {
+        sums[2] = 1.0;
+    }
+    with_law_field!(params.law, rows.factor, T, law => layout.points(|i, on_surface| {
+        let law = LawField::<T>::at(&law, i);
+        if lost {
+            lines[i] = T::zero();
+            return;
+        }
+        let y = wall::balance(&floor, &law, gap[i], pressure[i] + mean, on_surface).y;
+        let here = [gap[i], y, length * direction[i], restore];
+        let (step, cut) = wall::step_of(&floor, here, on_surface);
+        wall::add_trial(sums, [step, y, gap[i]], cut, on_surface);
+        lines[i] = step;
+    }));
+}
+kernel!(
+    /// Loads the trial step scaled back to the held mean gap. Reads gap, pressure, direction.
+    YIELD_TRIAL_HELD, yield_trial_held, Load, reads 3, writes 0, whole false,
+    sums [Add, Min, Max, Min, Max], gate Running
+);
+
+fn yield_search<T: Real>(
+    rows: &mut Rows<T>,
+    params: &Params,
+    scalars: &Scalars,
+    sums: &mut [f64; SUMS],
+) {
+    let layout = rows.layout();
+    let [gap, direction, pressure, _] = rows.reads;
+    let mean = T::of(scalars.mean_pressure);
+    let length = T::of(scalars.trial);
+    let restore = T::of(scalars.restore);
+    let t = T::of(scalars.step);
+    let floor = Yielding::of(params);
+    with_law_field!(params.law, rows.factor, T, law => layout.points(|i, on_surface| {
+        let law = LawField::<T>::at(&law, i);
+        if on_surface {
+            let y = floor.balance(&law, gap[i], pressure[i] + mean).y;
+            // Below zero the pressure does not change.
+            if !floor.goes_down(gap[i], y) {
+                let step = trial_step(gap[i], length * direction[i], restore, false);
+                let change = law.traction(gap[i] + t * step) - law.traction(gap[i]);
+                sums[0] += change.double() * step.double();
+            }
+        }
+    }));
+}
+kernel!(
+    /// Sums `<sigma(g + t s) - sigma(g), s>`. Reads gap, direction, pressure.
+    YIELD_SEARCH, yield_search, Sweep, reads 3, writes 0, whole false,
+    sums [Add], gate Searching
+);
+
+fn yield_advance<T: Real>(
+    rows: &mut Rows<T>,
+    params: &Params,
+    scalars: &Scalars,
+    _sums: &mut [f64; SUMS],
+) {
+    let layout = rows.layout();
+    let direction = rows.reads[0];
+    let lines = &*rows.lines;
+    let [gap, pressure, _] = &mut rows.writes;
+    let mean = T::of(scalars.mean_pressure);
+    let length = T::of(scalars.trial);
+    let restore = T::of(scalars.restore);
+    let t = T::of(scalars.step);
+    let snap = T::of(scalars.snap);
+    let floor = Yielding::of(params);
+    with_law_field!(params.law, rows.factor, T, law => layout.points(|i, on_surface| {
+        let law = LawField::<T>::at(&law, i);
+        let y = wall::balance(&floor, &law, gap[i], pressure[i] + mean, on_surface).y;
+        let here = [gap[i], y, length * direction[i], restore];
+        let (step, _) = wall::step_of(&floor, here, on_surface);
+        let mut moved = gap[i] + t * step;
+        if on_surface {
+            if floor.goes_down(gap[i], y) {
+                moved = moved.min(T::zero());
+                if step > T::zero() && moved > -snap {
+                    moved = T::zero();
+                }
+            } else {
+                moved = moved.max(T::zero());
+                if step < T::zero() && moved < snap {
+                    moved = T::zero();
+                }
+            }
+        }
+        gap[i] = moved;
+        pressure[i] += t * lines[i];
+    }));
+}
+kernel!(
+    /// Takes K s and steps: g += t s, p += t K s. Reads direction; updates gap, pressure.
+    YIELD_ADVANCE, yield_advance, Store, reads 1, writes 2, whole false,
+    sums [], gate Accepted
+);
+
+fn yield_balance<T: Real>(
+    rows: &mut Rows<T>,
+    params: &Params,
+    _scalars: &Scalars,
+    sums: &mut [f64; SUMS],
+) {
+    let layout = rows.layout();
+    let [gap, pressure, ..] = rows.reads;
+    let floor = Yielding::of(params);
+    with_law_field!(params.law, rows.factor, T, law => layout.points(|i, on_surface| {
+        let law = LawField::<T>::at(&law, i);
+        let traction = if on_surface { floor.traction(&law, gap[i]) } else { T::zero() };
+        let y = (pressure[i] + traction).double();
+        let weight = gap[i].double().abs();
+        sums[0] += weight * y;
+        sums[1] += weight;
+        if y < sums[2] {
+            sums[2] = y;
+        }
+    }));
+}
+kernel!(
+    /// The sums that give the mean pressure under a held mean gap. Reads gap, pressure.
+    YIELD_BALANCE, yield_balance, Sweep, reads 2, writes 0, whole false,
+    sums [Add, Add, Min], gate Running
+);

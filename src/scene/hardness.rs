@@ -1,0 +1,79 @@
+//! `hardness` of `[solid]`: the largest pressure that the solid bears, and what it goes with.
+
+use super::keys;
+use super::mistake::SceneError;
+use super::reader::Reader;
+use super::types::{
+    AdhesionScene, Control, GridScene, LawName, LoadingScene, SolidScene, Treatment,
+};
+use crate::units::format_si;
+
+/// Notes what cannot stand with a hardness. The tables have been read before.
+pub(super) fn check(
+    scene: &Reader,
+    solid: &SolidScene,
+    adhesion: Option<&AdhesionScene>,
+    loading: Option<&LoadingScene>,
+    grid: Option<&GridScene>,
+) {
+    let Some(hardness) = solid.hardness else {
+        return;
+    };
+    let Some(solid) = scene.table_again("solid", &keys::SOLID) else {
+        return;
+    };
+    let not_yet = |what: &str, instead: &str| {
+        solid.report(
+            "hardness",
+            SceneError::NotInThisVersion {
+                what: what.to_string(),
+                instead: instead.to_string(),
+            },
+        );
+    };
+    match adhesion {
+        Some(adhesion) if adhesion.treatment == Treatment::Dmt => {
+            // The search for the net load tries larger ones, at which the solid would flow.
+            not_yet(
+                "a hardness with treatment = \"dmt\"",
+                "take treatment = \"full\", or leave the hardness out",
+            );
+        }
+        Some(adhesion) if adhesion.law == LawName::LennardJones => {
+            // Its repulsion has no contact at which a pressure could saturate.
+            not_yet(
+                "a hardness with the Lennard-Jones law",
+                "take law = \"maugis-dugdale\" or \"exponential\", or leave the hardness out",
+            );
+        }
+        _ => {}
+    }
+    let Some(loading) = loading else {
+        return;
+    };
+    let area = grid
+        .and_then(|grid| grid.size)
+        .map(|[width, height]| width * height);
+    let pressures: Vec<f64> = match (loading.control, area) {
+        (Control::MeanGap, _) => {
+            solid.conflict(
+                "hardness",
+                "control = \"mean-gap\" does not fix how deep the solid flows where the gap is closed; take control = \"approach\", or leave the hardness out",
+            );
+            return;
+        }
+        (Control::Pressure, _) => loading.path.clone(),
+        (Control::Force, Some(area)) => loading.path.iter().map(|force| force / area).collect(),
+        _ => return,
+    };
+    let largest = pressures.into_iter().fold(0.0, f64::max);
+    if largest >= hardness {
+        solid.conflict(
+            "hardness",
+            format!(
+                "the path asks for a mean pressure of {}, which no contact of this hardness bears; stay below it",
+                format_si(largest, "Pa")
+            ),
+        );
+    }
+}
