@@ -1,10 +1,11 @@
 // The decisions that belong to laws with a hard wall.
 
-// The factor that brings a trial back to the held mean gap.
+// The share of a trial gap that brings it back to the held mean.
 fn restore_wall() {
-    scalars.restore = ONE;
-    if (scalars.sums[0] > ZERO) {
-        scalars.restore = scalars.sums[1] / scalars.sums[0];
+    let trial = scalars.sums[1] + scalars.sums[0];
+    scalars.restore = ZERO;
+    if (trial > ZERO) {
+        scalars.restore = -scalars.sums[0] / trial;
     }
 }
 

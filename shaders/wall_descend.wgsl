@@ -8,7 +8,7 @@
 fn descend(index: u32, on_surface: bool, candidate: f32) {
     let g = gap[index];
     let y_here = total(g, pressure[index], on_surface);
-    let free = is_free(g, y_here, on_surface);
+    let free = is_free(open_gap(g), y_here, on_surface);
     let z = select(0.0, candidate, free);
     let y = select(0.0, y_here, free);
     let d = wide(direction[index]);

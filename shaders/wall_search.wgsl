@@ -5,8 +5,8 @@
 fn point(index: u32, on_surface: bool) {
     if (on_surface) {
         let g = gap[index];
-        let s = trial_step(g, f32(scalars.trial) * direction[index], f32(scalars.restore), true);
-        let change = law_traction(g + f32(scalars.step) * s) - law_traction(g);
+        let s = trial_step(open_gap(g), f32(scalars.trial) * direction[index], f32(scalars.restore), true);
+        let change = traction_change(g, f32(scalars.step) * s);
         sums[0] = sums[0] + wide(change) * wide(s);
     }
 }

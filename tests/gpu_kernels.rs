@@ -74,7 +74,7 @@ fn open() -> Scalars {
         memory: 0.3,
         shift: 0.05,
         trial: 0.7,
-        restore: 1.1,
+        restore: 0.1,
         step: 0.6,
         snap: 1e-3,
         accepted: true,

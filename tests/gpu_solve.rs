@@ -1,4 +1,5 @@
-//! Whole solves on the graphics processor in single precision, against the CPU in double.
+//! Whole solves on the graphics processor in single and mixed precision, and in mixed on the
+//! processor, against the CPU in double.
 
 mod gpu_shared;
 
@@ -10,7 +11,7 @@ use tabor::backend::cpu::CpuBackend;
 use tabor::backend::gpu::{GpuDevice, Wide};
 use tabor::grid::Grid;
 use tabor::kernel::Status;
-use tabor::law::{Law, LennardJones, MaugisDugdale};
+use tabor::law::{Exponential, Law, LennardJones, MaugisDugdale};
 use tabor::scene::*;
 use tabor::solver::{ContactSolver, Hold, Load, Outcome, Problem, Start};
 use tabor::surface::Surface;
@@ -287,4 +288,138 @@ fn looking_less_often_changes_no_bit() {
         assert_eq!(one.pressure, eight.pressure);
         assert_eq!(one.transforms, eight.transforms);
     }
+}
+
+/// What mixed precision is to reach on every law, boundary and control.
+const TIGHT: f64 = 1e-9;
+
+/// The laws in the units of the test surfaces, whose contact modulus and cell are 1.
+fn laws() -> [(&'static str, Law); 5] {
+    let dugdale = |taper| {
+        Law::MaugisDugdale(MaugisDugdale {
+            peak_tension: 0.05,
+            range: 5e-3,
+            taper,
+        })
+    };
+    [
+        ("hard wall", Law::HardWall),
+        ("sharp Maugis-Dugdale", dugdale(0.0)),
+        ("tapered Maugis-Dugdale", dugdale(5e-3)),
+        (
+            "exponential",
+            Law::Exponential(Exponential {
+                work_of_adhesion: 2.5e-4,
+                range: 5e-3,
+            }),
+        ),
+        (
+            "Lennard-Jones",
+            Law::LennardJones(LennardJones {
+                work_of_adhesion: 2.5e-4,
+                range: 5e-3,
+            }),
+        ),
+    ]
+}
+
+/// A spring of the softest wave's own stiffness, stretched to where it presses this much.
+fn with_spring(problem: &Problem, pressure: f64) -> Load {
+    let stiffness = problem.stiffness_min();
+    Load {
+        hold: Hold::Pressure(pressure / problem.scales.pressure + stiffness * problem.highest()),
+        zero_stiffness: stiffness,
+        zero_compliance: 1.0 / stiffness,
+    }
+}
+
+/// Every law under every control that a boundary has.
+fn contacts(points: usize) -> Vec<(String, Problem, Load)> {
+    let surface = rough(points);
+    let (grid, heights) = sphere(points / 2);
+    let mut found = Vec::new();
+    for (name, law) in laws() {
+        let periodic = Problem::new(
+            surface.grid,
+            Boundary::Periodic,
+            1.0,
+            &surface.heights,
+            1.0,
+            law,
+        );
+        let free = Problem::new(grid, Boundary::Free, 1.0, &heights, 0.4, law);
+        for (control, load) in [
+            ("pressure", at_pressure(&periodic, 0.05)),
+            ("gap", at_gap(&periodic, 0.03)),
+            ("spring", with_spring(&periodic, 0.05)),
+        ] {
+            found.push((format!("{name}, {control}"), periodic.clone(), load));
+        }
+        let approach = Load {
+            hold: Hold::Pressure(0.01 / free.scales.length * free.stiffness[0]),
+            zero_stiffness: free.stiffness[0],
+            zero_compliance: 1.0 / free.stiffness[0],
+        };
+        let force = at_pressure(&free, 0.002);
+        found.push((format!("{name}, free, force"), free.clone(), force));
+        found.push((format!("{name}, free, approach"), free, approach));
+    }
+    found
+}
+
+/// The stopping measure of a gap, by the processor in double precision alone.
+fn true_residual(problem: &Problem, load: &Load, gap: &[f64]) -> f64 {
+    let mut backend = CpuBackend::<f64>::new();
+    let mut solver = ContactSolver::new(&mut backend, problem);
+    solver
+        .begin(load, &Start::Gap(gap.to_vec()), TIGHT, false)
+        .and_then(|()| solver.evaluate())
+        .unwrap_or_else(|error| panic!("{error}"))
+        .residual
+}
+
+/// Solves to `TIGHT` in mixed precision and checks it in double; returns the worst residual.
+fn tight(name: &str, problem: &Problem, load: &Load, make: &dyn Fn() -> Box<dyn Backend + Send>) -> f64 {
+    let double = || -> Box<dyn Backend + Send> { Box::new(CpuBackend::<f64>::new()) };
+    let reference = solve(problem, load, &Start::Cold, TIGHT, &double);
+    let clock = std::time::Instant::now();
+    let mixed = solve(problem, load, &Start::Cold, TIGHT, make);
+    let took = clock.elapsed();
+    let residual = true_residual(problem, load, &mixed.gap);
+    let apart = relative_difference(&mixed.gap, &reference.gap);
+    println!(
+        "{name}: {:?} {} iterations ({} in double), residual {:.1e}, again {residual:.1e}, gap apart {apart:.1e}, {took:.1?}",
+        mixed.outcome.status,
+        mixed.outcome.iterations,
+        reference.outcome.iterations,
+        mixed.outcome.residual,
+    );
+    assert_eq!(mixed.outcome.status, reference.outcome.status, "{name}");
+    if mixed.outcome.status != Status::Converged {
+        return 0.0;
+    }
+    assert!(residual <= TIGHT, "{name}: {residual:e}");
+    residual
+}
+
+#[test]
+fn mixed_precision_on_the_processor_reaches_the_tolerance_of_double() {
+    let mixed =
+        || -> Box<dyn Backend + Send> { Box::new(CpuBackend::<f32>::new().corrected()) };
+    let mut worst = 0.0f64;
+    for (name, problem, load) in contacts(64) {
+        worst = worst.max(tight(&name, &problem, &load, &mixed));
+    }
+    println!("worst residual {worst:.1e}");
+}
+
+#[test]
+fn mixed_precision_on_the_device_reaches_the_tolerance_of_double() {
+    let Some(device) = device() else { return };
+    let mixed = || -> Box<dyn Backend + Send> { Box::new(backend(device).corrected()) };
+    let mut worst = 0.0f64;
+    for (name, problem, load) in contacts(32) {
+        worst = worst.max(tight(&name, &problem, &load, &mixed));
+    }
+    println!("worst residual {worst:.1e}");
 }

@@ -4,7 +4,7 @@ use super::Failure;
 use crate::backend::Backend;
 use crate::backend::cpu::CpuBackend;
 use crate::backend::gpu::{
-    AdapterChoice, AdapterDescription, GpuBackend, GpuDevice, adapters, radices,
+    AdapterChoice, AdapterDescription, GpuBackend, GpuDevice, GpuError, adapters, radices,
 };
 use crate::scene::{BackendName, Boundary, Precision};
 use crate::study::Setup;
@@ -26,7 +26,6 @@ impl Machine {
     /// Takes what a scene asks for.
     pub fn of(setup: &Setup) -> Result<Machine, Failure> {
         let settings = &setup.scene.solver;
-        let precision = settings.arithmetic();
         let (place, remark) = match settings.backend {
             BackendName::Cpu => (Place::Processor, None),
             BackendName::Gpu => {
@@ -37,6 +36,9 @@ impl Machine {
                 })
                 .map_err(Failure::Gpu)?;
                 let found = device.description();
+                if settings.precision == Precision::Double {
+                    return Err(Failure::Gpu(GpuError::Precision(found.name.clone())));
+                }
                 refuse_limits(setup, found)?;
                 let remark = found.software().then(|| {
                     format!(
@@ -46,8 +48,9 @@ impl Machine {
                 });
                 (Place::Gpu(device), remark)
             }
-            BackendName::Auto => auto(setup, precision),
+            BackendName::Auto => auto(setup),
         };
+        let precision = settings.arithmetic_on(matches!(place, Place::Gpu(_)));
         Ok(Machine {
             place,
             precision,
@@ -58,8 +61,14 @@ impl Machine {
     /// A backend on it.
     pub fn backend(&self) -> Box<dyn Backend + Send> {
         match (&self.place, self.precision) {
+            (Place::Gpu(device), Precision::Mixed) => {
+                Box::new(GpuBackend::on(device).corrected())
+            }
             (Place::Gpu(device), _) => Box::new(GpuBackend::on(device)),
             (Place::Processor, Precision::Single) => Box::new(CpuBackend::<f32>::new()),
+            (Place::Processor, Precision::Mixed) => {
+                Box::new(CpuBackend::<f32>::new().corrected())
+            }
             (Place::Processor, _) => Box::new(CpuBackend::<f64>::new()),
         }
     }
@@ -98,11 +107,17 @@ impl Machine {
     }
 }
 
-/// A graphics processor that is one, where single precision is asked; else the processor. Double
-/// precision is the processor's alone in this version, so no adapter is asked then. Says why only
-/// where there is a choice.
-fn auto(setup: &Setup, precision: Precision) -> (Place, Option<String>) {
-    if precision != Precision::Single {
+/// Solved points from which `auto` looks for an adapter: fewer fill none, and are done before one is
+/// ready.
+const FEWEST_POINTS: usize = 256 * 256;
+
+/// A graphics processor that is one, where the grid is worth it; else the processor. Double precision
+/// is the processor's alone in this version, so no adapter is asked then. Says why only where there
+/// is a choice.
+fn auto(setup: &Setup) -> (Place, Option<String>) {
+    let settings = &setup.scene.solver;
+    let worth_it = setup.problem.shape.len() >= FEWEST_POINTS;
+    if settings.precision == Precision::Double || !worth_it {
         return (Place::Processor, None);
     }
     let found = adapters();
@@ -122,7 +137,16 @@ fn auto(setup: &Setup, precision: Precision) -> (Place, Option<String>) {
             stays("WGPU_ADAPTER_NAME names one that computes on the processor".to_owned())
         }
         Ok(device) => {
-            let remark = format!("on {}, in single precision", device.description().name);
+            let why = match (settings.precision, settings.arithmetic_on(true)) {
+                (Precision::Auto, Precision::Mixed) => ", for the tolerance is below its floor in single",
+                (Precision::Auto, _) => ", which the tolerance allows",
+                _ => "",
+            };
+            let remark = format!(
+                "on {}, in {} precision{why}",
+                device.description().name,
+                settings.arithmetic_on(true).name()
+            );
             (Place::Gpu(device), Some(remark))
         }
         Err(error) => stays(error.to_string()),

@@ -12,8 +12,8 @@ use crate::with_law_field;
 
 /// y on free points, 0 elsewhere.
 #[inline(always)]
-fn free_part<T: Real>(gap: T, y: T, on_surface: bool) -> T {
-    if is_free(gap, y, on_surface) {
+fn free_part<T: Real>(open: T, y: T, on_surface: bool) -> T {
+    if is_free(open, y, on_surface) {
         y
     } else {
         T::zero()
@@ -21,34 +21,42 @@ fn free_part<T: Real>(gap: T, y: T, on_surface: bool) -> T {
 }
 
 #[inline(always)]
-fn is_free<T: Real>(gap: T, y: T, on_surface: bool) -> bool {
-    !on_surface || gap > T::zero() || y < T::zero()
+fn is_free<T: Real>(open: T, y: T, on_surface: bool) -> bool {
+    !on_surface || open > T::zero() || y < T::zero()
 }
 
 /// y = p + mean_pressure + sigma(g); the pad has no law.
 #[inline(always)]
 fn total<T: Real>(law: &impl Cohesion<T>, gap: T, pressure: T, mean: T, on_surface: bool) -> T {
-    let elastic = pressure + mean;
+    pressure + mean + attraction(law, gap, on_surface)
+}
+
+/// sigma(g), or what stands in its place on the pad.
+#[inline(always)]
+fn attraction<T: Real>(law: &impl Cohesion<T>, gap: T, on_surface: bool) -> T {
     if on_surface {
-        elastic + law.traction(gap)
+        law.traction(gap)
     } else {
-        elastic
+        law.beyond()
     }
 }
 
-/// s = restore * max(-g, a d) + (restore - 1) g, without a wall on the pad.
+/// s = s0 + restore (g + s0) with s0 = max(-g, a d), without a wall on the pad. `restore` is small
+/// and kept as itself, not as a factor near one, which would cost it its digits.
 #[inline(always)]
-fn trial_step<T: Real>(gap: T, moved: T, restore: T, on_surface: bool) -> T {
+fn trial_step<T: Real>(open: T, moved: T, restore: T, on_surface: bool) -> T {
     if !on_surface {
         return moved;
     }
-    restore * moved.max(-gap) + (restore - T::one()) * gap
+    let step = moved.max(-open);
+    step + restore * (open + step)
 }
 
 /// The terms of the stopping measure at one point.
 #[inline(always)]
 fn add_residual<T: Real>(
     sums: &mut [f64; SUMS],
+    law: &impl Cohesion<T>,
     gap: T,
     y: T,
     traction: T,
@@ -56,19 +64,21 @@ fn add_residual<T: Real>(
     on_surface: bool,
 ) {
     if on_surface {
-        let violation = y.min(gap * stiffness_max).double();
+        let open = law.open(gap);
+        let violation = y.min(open * stiffness_max).double();
         sums[0] += violation * violation;
-        let reaction = if gap > T::zero() {
+        let reaction = if open > T::zero() {
             T::zero()
         } else {
-            y.max(T::zero())
+            law.weighed(y.max(T::zero()))
         };
-        let (reaction, traction) = (reaction.double(), traction.double());
+        let (reaction, traction) = (reaction.double(), law.weighed(traction).double());
         sums[1] += reaction * reaction + traction * traction;
-        let gap = gap.double();
-        if gap < sums[2] {
-            sums[2] = gap;
+        let open = open.double();
+        if open < sums[2] {
+            sums[2] = open;
         }
+        let gap = gap.double();
         sums[3] += gap * gap;
     } else {
         let y = y.double();
@@ -86,11 +96,11 @@ fn wall_residual<T: Real>(
     let [gap, pressure, ..] = rows.reads;
     let mean = T::of(scalars.mean_pressure);
     let stiffness_max = T::of(params.stiffness_max);
-    with_law_field!(params.law, rows.factor, T, law => layout.points(|i, on_surface| {
+    with_law_field!(params.law, rows.factor, rows.base, T, law => layout.points(|i, on_surface| {
         let law = LawField::<T>::at(&law, i);
         let y = total(&law, gap[i], pressure[i], mean, on_surface);
-        let traction = if on_surface { law.traction(gap[i]) } else { T::zero() };
-        add_residual(sums, gap[i], y, traction, stiffness_max, on_surface);
+        let traction = attraction(&law, gap[i], on_surface);
+        add_residual(sums, &law, gap[i], y, traction, stiffness_max, on_surface);
     }));
 }
 kernel!(
@@ -112,12 +122,12 @@ fn wall_free<T: Real>(
     let lines = &mut rows.lines[..count];
     let mean = T::of(scalars.mean_pressure);
     let stiffness_max = T::of(params.stiffness_max);
-    with_law_field!(params.law, rows.factor, T, law => layout.points(|i, on_surface| {
+    with_law_field!(params.law, rows.factor, rows.base, T, law => layout.points(|i, on_surface| {
         let law = LawField::<T>::at(&law, i);
-        let traction = if on_surface { law.traction(gap[i]) } else { T::zero() };
+        let traction = attraction(&law, gap[i], on_surface);
         let y = pressure[i] + mean + traction;
-        add_residual(sums, gap[i], y, traction, stiffness_max, on_surface);
-        lines[i] = free_part(gap[i], y, on_surface);
+        add_residual(sums, &law, gap[i], y, traction, stiffness_max, on_surface);
+        lines[i] = free_part(law.open(gap[i]), y, on_surface);
     }));
 }
 kernel!(
@@ -190,10 +200,10 @@ fn wall_descent<T: Real>(
     let (z_out, y_before) = (&mut z_out[..count], &mut y_before[..count]);
     let mean = T::of(scalars.mean_pressure);
     let held = params.fixed_gap;
-    with_law_field!(params.law, rows.factor, T, law => layout.points(|i, on_surface| {
+    with_law_field!(params.law, rows.factor, rows.base, T, law => layout.points(|i, on_surface| {
         let law = LawField::<T>::at(&law, i);
         let y = total(&law, gap[i], pressure[i], mean, on_surface);
-        let free = is_free(gap[i], y, on_surface);
+        let free = is_free(law.open(gap[i]), y, on_surface);
         let y_free = if free { y } else { T::zero() };
         let z = if free { lines[i] } else { T::zero() };
         add_descent(sums, z, y_free, y_before[i], direction[i], free, held);
@@ -270,15 +280,16 @@ fn wall_trial<T: Real>(
     let mean = T::of(scalars.mean_pressure);
     let factors = [scalars.descent, scalars.memory, scalars.shift].map(T::of);
     let length = T::of(scalars.trial);
-    with_law_field!(params.law, rows.factor, T, law => layout.points(|i, on_surface| {
+    with_law_field!(params.law, rows.factor, rows.base, T, law => layout.points(|i, on_surface| {
         let law = LawField::<T>::at(&law, i);
         let y = total(&law, gap[i], pressure[i], mean, on_surface);
-        let d = new_direction(z[i], direction[i], factors, is_free(gap[i], y, on_surface));
+        let open = law.open(gap[i]);
+        let d = new_direction(z[i], direction[i], factors, is_free(open, y, on_surface));
         direction[i] = d;
         let moved = length * d;
-        let step = trial_step(gap[i], moved, T::one(), on_surface);
-        let cut = on_surface && gap[i] + moved < T::zero();
-        add_trial(sums, step, y, gap[i], cut, on_surface);
+        let step = trial_step(open, moved, T::zero(), on_surface);
+        let cut = on_surface && open + moved < T::zero();
+        add_trial(sums, step, y, open, cut, on_surface);
         lines[i] = step;
     }));
 }
@@ -300,17 +311,18 @@ fn wall_direct<T: Real>(
     let mean = T::of(scalars.mean_pressure);
     let factors = [scalars.descent, scalars.memory, scalars.shift].map(T::of);
     let length = T::of(scalars.trial);
-    with_law_field!(params.law, rows.factor, T, law => layout.points(|i, on_surface| {
+    with_law_field!(params.law, rows.factor, rows.base, T, law => layout.points(|i, on_surface| {
         let law = LawField::<T>::at(&law, i);
         let y = total(&law, gap[i], pressure[i], mean, on_surface);
-        let d = new_direction(z[i], direction[i], factors, is_free(gap[i], y, on_surface));
+        let open = law.open(gap[i]);
+        let d = new_direction(z[i], direction[i], factors, is_free(open, y, on_surface));
         direction[i] = d;
-        sums[0] += (gap[i] + length * d).max(T::zero()).double();
-        sums[1] += gap[i].double();
+        sums[0] += (length * d).max(-open).double();
+        sums[1] += open.double();
     }));
 }
 kernel!(
-    /// Turns the direction and sums the mean that the trial would have (fixed mean gap). Reads gap,
+    /// Turns the direction and sums the trial step and the gap (fixed mean gap). Reads gap,
     /// pressure, z; updates direction.
     WALL_DIRECT, wall_direct, Sweep, reads 3, writes 1, whole false,
     sums [Add, Add], gate Running
@@ -328,13 +340,14 @@ fn wall_trial_held<T: Real>(
     let mean = T::of(scalars.mean_pressure);
     let length = T::of(scalars.trial);
     let restore = T::of(scalars.restore);
-    with_law_field!(params.law, rows.factor, T, law => layout.points(|i, on_surface| {
+    with_law_field!(params.law, rows.factor, rows.base, T, law => layout.points(|i, on_surface| {
         let law = LawField::<T>::at(&law, i);
         let y = total(&law, gap[i], pressure[i], mean, on_surface);
         let moved = length * direction[i];
-        let step = trial_step(gap[i], moved, restore, on_surface);
-        let cut = on_surface && gap[i] + moved < T::zero();
-        add_trial(sums, step, y, gap[i], cut, on_surface);
+        let open = law.open(gap[i]);
+        let step = trial_step(open, moved, restore, on_surface);
+        let cut = on_surface && open + moved < T::zero();
+        add_trial(sums, step, y, open, cut, on_surface);
         lines[i] = step;
     }));
 }
@@ -355,11 +368,11 @@ fn wall_search<T: Real>(
     let length = T::of(scalars.trial);
     let restore = T::of(scalars.restore);
     let t = T::of(scalars.step);
-    with_law_field!(params.law, rows.factor, T, law => layout.points(|i, on_surface| {
+    with_law_field!(params.law, rows.factor, rows.base, T, law => layout.points(|i, on_surface| {
         let law = LawField::<T>::at(&law, i);
         if on_surface {
-            let step = trial_step(gap[i], length * direction[i], restore, true);
-            let change = law.traction(gap[i] + t * step) - law.traction(gap[i]);
+            let step = trial_step(law.open(gap[i]), length * direction[i], restore, true);
+            let change = law.change(gap[i], t * step);
             sums[0] += change.double() * step.double();
         }
     }));
@@ -386,18 +399,23 @@ fn wall_advance<T: Real>(
     let restore = T::of(scalars.restore);
     let t = T::of(scalars.step);
     let snap = T::of(scalars.snap);
-    layout.points(|i, on_surface| {
-        let step = trial_step(gap[i], length * direction[i], restore, on_surface);
-        let mut moved = gap[i] + t * step;
-        if on_surface {
-            moved = moved.max(T::zero());
-            if step < T::zero() && moved < snap {
-                moved = T::zero();
-            }
-        }
-        gap[i] = moved;
+    let base = rows.base[0];
+    let mut point = |i: usize, floor: T, on_surface: bool| {
+        let open = gap[i] - floor;
+        let step = trial_step(open, length * direction[i], restore, on_surface);
+        let moved = gap[i] + t * step;
+        let left = open + t * step;
+        // By what is left of the gap, which a cut makes exactly zero.
+        let closed =
+            on_surface && (left <= T::zero() || (step < T::zero() && left < snap));
+        gap[i] = if closed { floor } else { moved };
         pressure[i] += t * lines[i];
-    });
+    };
+    if base.is_empty() {
+        layout.points(|i, on_surface| point(i, T::zero(), on_surface));
+    } else {
+        layout.points(|i, on_surface| point(i, -base[i], on_surface));
+    }
 }
 kernel!(
     /// Takes K s and steps: g += t s, p += t K s. Reads direction; updates gap, pressure.
@@ -413,11 +431,12 @@ fn wall_balance<T: Real>(
 ) {
     let layout = rows.layout();
     let [gap, pressure, ..] = rows.reads;
-    with_law_field!(params.law, rows.factor, T, law => layout.points(|i, on_surface| {
+    with_law_field!(params.law, rows.factor, rows.base, T, law => layout.points(|i, on_surface| {
         let law = LawField::<T>::at(&law, i);
         let y = total(&law, gap[i], pressure[i], T::zero(), on_surface).double();
-        sums[0] += gap[i].double() * y;
-        sums[1] += gap[i].double();
+        let open = law.open(gap[i]).double();
+        sums[0] += open * y;
+        sums[1] += open;
         if y < sums[2] {
             sums[2] = y;
         }

@@ -3,6 +3,8 @@
 use super::MakeBackend;
 use super::coarse_start;
 use super::problem::Problem;
+use super::correction::FIRST_TOLERANCE;
+use super::reference::Reference;
 use super::two_band::TwoBand;
 use crate::backend::{Backend, BackendError, Field, Level, Spectrum};
 use crate::kernel::{Gate, Kernel, Params, Scalars, Status, common, core, scalar, wall};
@@ -55,22 +57,25 @@ pub struct Outcome {
 
 /// Solves one problem, load after load.
 pub struct ContactSolver<'a> {
-    backend: &'a mut dyn Backend,
-    problem: &'a Problem,
-    level: Level,
+    pub(super) backend: &'a mut dyn Backend,
+    pub(super) problem: &'a Problem,
+    pub(super) level: Level,
     heights: Field,
-    gap: Field,
-    pressure: Field,
-    direction: Field,
+    pub(super) gap: Field,
+    pub(super) pressure: Field,
+    pub(super) direction: Field,
     descent: Field,
-    free_before: Field,
+    pub(super) free_before: Field,
     /// The trial step of a law whose change of variable makes it costly.
     step: Option<Field>,
     stiffness: Spectrum,
     preconditioner: Spectrum,
     two_band: Option<TwoBand>,
     kernels: &'static KernelSet,
-    params: Params,
+    pub(super) params: Params,
+    /// The state in double precision, where iterations here are to be corrected by it; made when it
+    /// is first asked for.
+    pub(super) reference: Option<Reference>,
     /// Transforms of the solvers on coarser grids that this one asked for help.
     helped_by: f64,
     /// Mean of what a relaxing solid's past adds to its displacement.
@@ -78,14 +83,14 @@ pub struct ContactSolver<'a> {
 }
 
 /// The kernels of one family of laws.
-struct KernelSet {
-    residual: &'static Kernel,
+pub(super) struct KernelSet {
+    pub(super) residual: &'static Kernel,
     free: &'static Kernel,
     descent: &'static Kernel,
     search: &'static Kernel,
     advance: &'static Kernel,
-    balance: &'static Kernel,
-    balance_scalar: &'static scalar::ScalarKernel,
+    pub(super) balance: &'static Kernel,
+    pub(super) balance_scalar: &'static scalar::ScalarKernel,
     step: &'static scalar::ScalarKernel,
     search_scalar: &'static scalar::ScalarKernel,
     lengthen: &'static scalar::ScalarKernel,
@@ -116,6 +121,33 @@ static CORE: KernelSet = KernelSet {
     search_scalar: &scalar::SEARCH_CORE,
     lengthen: &scalar::LENGTHEN_CORE,
 };
+
+impl KernelSet {
+    /// Those of a law.
+    pub(super) fn of(law: &Law) -> &'static KernelSet {
+        if law.has_wall() { &WALL } else { &CORE }
+    }
+}
+
+/// The numbers of a problem that stay fixed whatever the load.
+pub(super) fn fixed_params(problem: &Problem, epsilon: f64) -> Params {
+    let points = problem.shape.surface_len() as f64;
+    let stiffness_max = problem.stiffness_max();
+    Params {
+        law: problem.law,
+        stiffness_max,
+        pressure_floor: 1e-6
+            * (problem.rms_slope * problem.scales.lateral / problem.scales.length)
+            * points.sqrt(),
+        tolerance: 0.0,
+        heights_norm: problem.heights.iter().map(|h| h * h).sum::<f64>().sqrt(),
+        fixed_gap: false,
+        may_detach: false,
+        points,
+        core_stiffness: 0.2 * stiffness_max,
+        epsilon,
+    }
+}
 
 /// Evaluations that one search of a step length may take, the scalar kernels' own bounds included.
 const SEARCHES: usize = 48;
@@ -154,23 +186,7 @@ impl<'a> ContactSolver<'a> {
         };
         let preconditioner = backend.spectrum(level, "preconditioner", &compliance);
         backend.write(heights, &problem.padded(&problem.heights, 0.0));
-        let points = problem.shape.surface_len() as f64;
-        let norm = problem.heights.iter().map(|h| h * h).sum::<f64>().sqrt();
-        let stiffness_max = problem.stiffness_max();
-        let params = Params {
-            law: problem.law,
-            stiffness_max,
-            pressure_floor: 1e-6
-                * (problem.rms_slope * problem.scales.lateral / problem.scales.length)
-                * points.sqrt(),
-            tolerance: 0.0,
-            heights_norm: norm,
-            fixed_gap: false,
-            may_detach: false,
-            points,
-            core_stiffness: 0.2 * stiffness_max,
-            epsilon: backend.epsilon(),
-        };
+        let params = fixed_params(problem, backend.epsilon());
         ContactSolver {
             backend,
             problem,
@@ -185,8 +201,9 @@ impl<'a> ContactSolver<'a> {
             stiffness,
             preconditioner,
             two_band,
-            kernels: if has_wall { &WALL } else { &CORE },
+            kernels: KernelSet::of(&problem.law),
             params,
+            reference: None,
             helped_by: 0.0,
             mean_offset: 0.0,
         }
@@ -204,22 +221,32 @@ impl<'a> ContactSolver<'a> {
 
     /// Real two-dimensional transforms so far, those on coarser grids in proportion to their points.
     pub fn transforms(&self) -> f64 {
-        self.backend.transforms() + self.helped_by
+        let reference = self.reference.as_ref().map_or(0.0, Reference::transforms);
+        self.backend.transforms() + self.helped_by + reference
     }
 
     /// The gap over all solved points, reduced.
     pub fn gap(&mut self) -> Result<Vec<f64>, BackendError> {
-        self.backend.read(self.gap)
+        match &mut self.reference {
+            Some(reference) => reference.gap(),
+            None => self.backend.read(self.gap),
+        }
     }
 
     /// Sets the gap from which [`Start::Present`] starts, as [`ContactSolver::gap`] gave it.
     pub fn set_gap(&mut self, gap: &[f64]) {
+        if let Some(reference) = self.reference() {
+            reference.set_gap(gap);
+        }
         self.backend.write(self.gap, gap);
     }
 
     /// The elastic pressure K*(g + h) over all solved points, reduced, without the mean pressure.
     pub fn elastic_pressure(&mut self) -> Result<Vec<f64>, BackendError> {
-        self.backend.read(self.pressure)
+        match &mut self.reference {
+            Some(reference) => reference.pressure(),
+            None => self.backend.read(self.pressure),
+        }
     }
 
     /// Moves the rigid heights by what a relaxing solid's past adds to its displacement (reduced, all
@@ -231,6 +258,9 @@ impl<'a> ContactSolver<'a> {
         }
         self.mean_offset = offset.iter().sum::<f64>() / offset.len() as f64;
         self.backend.write(self.heights, &moved);
+        if let Some(reference) = self.reference() {
+            reference.set_heights(&moved);
+        }
     }
 
     /// Mean over all solved points of that offset; 0 without one.
@@ -241,13 +271,16 @@ impl<'a> ContactSolver<'a> {
     /// `<values, K*values>/2` over all solved points, reduced: the elastic energy of a displacement.
     /// Between solves, since it takes their directions for work space.
     pub fn energy_of(&mut self, values: &[f64]) -> Result<f64, BackendError> {
-        let (work, out) = (self.direction, self.descent);
-        self.backend.write(work, values);
         // A free half-space's own zero mode; a load's is not elastic.
         let own = match self.problem.boundary {
             Boundary::Periodic => 0.0,
             Boundary::Free => self.problem.stiffness[0],
         };
+        if let Some(reference) = &mut self.reference {
+            return reference.energy_of(values, own);
+        }
+        let (work, out) = (self.direction, self.descent);
+        self.backend.write(work, values);
         self.backend.set_zero_mode(self.stiffness, own);
         self.backend
             .forward(&common::LOAD_FIELD, self.level, &[work]);
@@ -279,6 +312,8 @@ impl<'a> ContactSolver<'a> {
     }
 
     /// Readies a solve: the load, the start, and the pressures that belong to it.
+    ///
+    /// Around a reference the present gap is the reference's, which the caller hands in.
     pub fn begin(
         &mut self,
         load: &Load,
@@ -290,6 +325,7 @@ impl<'a> ContactSolver<'a> {
             Hold::Pressure(pressure) => (false, pressure),
             Hold::Gap(_) => (true, 0.0),
         };
+        self.backend.set_base(None);
         self.params.fixed_gap = fixed_gap;
         self.params.tolerance = tolerance;
         self.params.may_detach = !fixed_gap
@@ -444,6 +480,16 @@ impl<'a> ContactSolver<'a> {
         make_backend: MakeBackend,
         watch: &mut dyn FnMut(&Scalars) -> bool,
     ) -> Result<Outcome, BackendError> {
+        let present = match (start, &mut self.reference) {
+            (Start::Present, Some(reference)) => Some(Start::Gap(reference.gap()?)),
+            _ => None,
+        };
+        let start = present.as_ref().unwrap_or(start);
+        let corrected = self.reference().is_some();
+        let first = match corrected {
+            true => tolerance.max(FIRST_TOLERANCE),
+            false => tolerance,
+        };
         let helped = match start {
             Start::Cold => coarse_start::gap(self.problem, load, make_backend, watch)?,
             _ => None,
@@ -451,9 +497,12 @@ impl<'a> ContactSolver<'a> {
         match helped {
             Some((gap, transforms)) => {
                 self.helped_by += transforms;
-                self.begin(load, &Start::Gap(gap), tolerance, careful)?;
+                self.begin(load, &Start::Gap(gap), first, careful)?;
             }
-            None => self.begin(load, start, tolerance, careful)?,
+            None => self.begin(load, start, first, careful)?,
+        }
+        if corrected {
+            return self.solve_in_rounds(load, tolerance, max_iterations, watch);
         }
         let (mut rounds, mut iterations) = (0, 0);
         loop {

@@ -7,10 +7,13 @@
 
 mod coarse_start;
 mod contact;
+mod correction;
 mod problem;
+mod reference;
 mod two_band;
 
 pub use contact::{ContactSolver, Hold, Load, Outcome, Start};
+pub use reference::plan_reference;
 pub use problem::{Problem, Scales, good_size};
 
 /// Where solvers get their backends from; one a level of a coarse start.

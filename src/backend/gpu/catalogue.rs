@@ -31,6 +31,10 @@ pub const COMMON: &str = part!("common");
 pub const REDUCE: &str = part!("reduce");
 /// One function a gate.
 pub const GATE: &str = part!("gate");
+/// How kernels see a law where the unknown is the gap.
+pub const WHOLE_GAP: &str = part!("whole_gap");
+/// How they see it where the unknown is a correction of a base gap.
+pub const CORRECTION: &str = part!("correction");
 /// Products of complex numbers.
 pub const FFT: &str = part!("fft");
 

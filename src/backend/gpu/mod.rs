@@ -22,6 +22,7 @@ mod space;
 use std::collections::HashMap;
 use std::f64::consts::TAU;
 
+use super::cpu::CpuBackend;
 use super::{Backend, BackendError, Field, Level, Shape, Spectrum};
 use crate::kernel::{Form, Gate, Kernel, Params, ScalarKernel, Scalars};
 use bindings::{COLUMNS, DECIDING, ROWS, WORKING};
@@ -51,6 +52,10 @@ pub struct GpuBackend {
     law: LawPart,
     /// The field of factors on the law's tension.
     law_factor: Option<Field>,
+    /// Gap and residual of the base that is corrected.
+    base: Option<[Field; 2]>,
+    /// Whether a state in double precision stands beside the fields.
+    corrected: bool,
     /// The first thing that went wrong; told where the host waits.
     failure: Option<GpuError>,
     transforms: f64,
@@ -96,6 +101,8 @@ impl GpuBackend {
             prepared: HashMap::new(),
             law: LawPart::HardWall,
             law_factor: None,
+            base: None,
+            corrected: false,
             failure,
             transforms: 0.0,
             // Software idles through shut gates slower than it waits.
@@ -112,6 +119,14 @@ impl GpuBackend {
     pub fn looking_every(self, rounds: usize) -> Self {
         GpuBackend {
             look_every: rounds.max(1),
+            ..self
+        }
+    }
+
+    /// The same for iterations that correct a state kept in double precision.
+    pub fn corrected(self) -> Self {
+        GpuBackend {
+            corrected: true,
             ..self
         }
     }
@@ -254,7 +269,7 @@ impl GpuBackend {
             });
         }
         let indices = fields.iter().map(|field| field.index).collect();
-        let key = Key::Kernel(kernel.name, level.0, indices);
+        let key = Key::Kernel(kernel.name, level.0, self.base.is_some(), indices);
         self.record(key, |backend| backend.kernel(kernel, level, fields))?;
         if kernel.sums.is_empty() {
             return Ok(());
@@ -293,9 +308,21 @@ impl GpuBackend {
             }
             _ => None,
         };
+        let base = match self.base {
+            Some(base) if base[0].level == level && catalogue::asks_for_law(kernel.name) => {
+                let first = buffers.len();
+                for field in base {
+                    buffers.push(&self.field_space(field)?.buffer);
+                    accesses.push(bindings::Access::Read);
+                }
+                Some(first)
+            }
+            _ => None,
+        };
         let law = source::LawSource {
             part: self.law,
             factor,
+            base,
         };
         let text = source::kernel(kernel, &space.plan, whole, law, self.wide)?;
         let shared = [&self.params, &self.scalars, &space.partials];
@@ -472,6 +499,22 @@ impl Backend for GpuBackend {
         // Kernels with a factor bind one field more.
         self.prepared.clear();
         self.law_factor = Some(factor);
+    }
+
+    fn set_base(&mut self, base: Option<[Field; 2]>) {
+        self.base = base;
+    }
+
+    fn clear(&mut self, field: Field) {
+        self.attempt(|backend| {
+            let buffer = backend.field_space(field)?.buffer.clone();
+            backend.recorder.clear(&buffer)
+        });
+    }
+
+    fn in_double(&self) -> Option<Box<dyn Backend + Send>> {
+        self.corrected
+            .then(|| Box::new(CpuBackend::<f64>::new()) as Box<dyn Backend + Send>)
     }
 
     fn set_params(&mut self, params: &Params) {

@@ -23,6 +23,9 @@ pub struct LawSource {
     pub part: LawPart,
     /// Binding of the factors in group 1; `None` where the law is the same everywhere.
     pub factor: Option<usize>,
+    /// Binding of the base's gap in group 1, its residual in the next; `None` where the unknown is the
+    /// gap itself.
+    pub base: Option<usize>,
 }
 
 impl LawPart {
@@ -31,6 +34,7 @@ impl LawPart {
         LawSource {
             part: self,
             factor: None,
+            base: None,
         }
     }
 }
@@ -143,9 +147,22 @@ fn arrive(source: &mut String, law: LawSource) {
         ),
         None => ("const law_factor: f32 = 1.0;\n".to_string(), ""),
     };
+    let (base, base_here) = match law.base {
+        Some(gap) => (
+            format!(
+                "@group(1) @binding({gap}) var<storage, read> base_gaps: array<f32>;\n\
+                 @group(1) @binding({residual}) var<storage, read> base_residuals: array<f32>;\n\
+                 var<private> base_gap: f32;\n\
+                 var<private> base_residual: f32;\n",
+                residual = gap + 1
+            ),
+            "base_gap = base_gaps[index]; base_residual = base_residuals[index]; ",
+        ),
+        None => (String::new(), ""),
+    };
     let _ = writeln!(
         source,
-        "{factor}fn arrive(index: u32) -> bool {{ {take}return on_surface(index); }}"
+        "{factor}{base}fn arrive(index: u32) -> bool {{ {take}{base_here}return on_surface(index); }}"
     );
 }
 
@@ -190,6 +207,10 @@ pub fn kernel(
 fn join(source: &mut String, shader: &Shader, law: LawSource) {
     if shader.law {
         source.push_str(law.part.source());
+        source.push_str(match law.base {
+            Some(_) => catalogue::CORRECTION,
+            None => catalogue::WHOLE_GAP,
+        });
     }
     for part in shader.parts {
         source.push_str(part);

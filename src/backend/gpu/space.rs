@@ -49,8 +49,8 @@ pub fn buffer(
 /// What a prepared dispatch is found by.
 #[derive(Clone, PartialEq, Eq, Hash)]
 pub enum Key {
-    /// A kernel of the catalogue, its level and its fields.
-    Kernel(&'static str, usize, Vec<usize>),
+    /// A kernel of the catalogue, its level, whether it works on corrections, and its fields.
+    Kernel(&'static str, usize, bool, Vec<usize>),
     /// The reduction of a kernel's sums on a level.
     Sums(&'static str, usize),
     /// The columns with a spectrum, with or without the energy, behind a gate.
