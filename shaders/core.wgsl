@@ -52,14 +52,14 @@ fn gap_at(goal: f32, g: f32) -> f32 {
 
 // The terms of the stopping measure.
 fn add_residual(g: f32, y: f32, traction: f32, on_surface: bool) {
-    sums[0] = sums[0] + wide(y) * wide(y);
+    add_sum(0u, wide(y) * wide(y));
     if (on_surface) {
         let pull = wide(weighed(traction));
         let open = wide(open_gap(g));
-        sums[1] = sums[1] + pull * pull;
+        add_sum(1u, pull * pull);
         if (open < sums[2]) {
             sums[2] = open;
         }
-        sums[3] = sums[3] + wide(g) * wide(g);
+        add_sum(3u, wide(g) * wide(g));
     }
 }

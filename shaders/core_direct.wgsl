@@ -16,6 +16,6 @@ fn point(index: u32, on_surface: bool) {
         s = gap_at(variable(g) + s, g) - g;
     }
     trial_of[index] = s;
-    sums[0] = sums[0] + wide(s);
-    sums[1] = sums[1] + wide(share_of(g + s, on_surface));
+    add_sum(0u, wide(s));
+    add_sum(1u, wide(share_of(g + s, on_surface)));
 }

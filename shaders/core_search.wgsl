@@ -8,8 +8,8 @@ fn point(index: u32, on_surface: bool) {
         let s = trial_of[index];
         let step = f32(scalars.step) * s;
         let energy = energy_change(g, step);
-        sums[0] = sums[0] + wide(traction_change(g, step)) * wide(s);
-        sums[1] = sums[1] + wide(energy.x);
-        sums[2] = sums[2] + wide(energy.y);
+        add_sum(0u, wide(traction_change(g, step)) * wide(s));
+        add_sum(1u, wide(energy.x));
+        add_sum(2u, wide(energy.y));
     }
 }

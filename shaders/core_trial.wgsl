@@ -15,7 +15,7 @@ fn load_point(index: u32, on_surface: bool) -> f32 {
     let elastic = pressure[index] + f32(scalars.mean_pressure);
     let step = wide(s);
     let all = elastic + attraction(g, on_surface);
-    sums[0] = sums[0] + step * wide(all);
+    add_sum(0u, step * wide(all));
     if (step > sums[2]) {
         sums[2] = step;
     }
@@ -23,6 +23,6 @@ fn load_point(index: u32, on_surface: bool) -> f32 {
         sums[3] = step;
     }
     // On a pad a base's residual is no law's: the search will not count it.
-    sums[5] = sums[5] + step * wide(select(all, elastic, on_surface));
+    add_sum(5u, step * wide(select(all, elastic, on_surface)));
     return s;
 }

@@ -20,19 +20,19 @@ fn trial_step(open: f32, moved: f32, restore: f32, on_surface: bool) -> f32 {
 // The terms of the stopping measure.
 fn add_residual(g: f32, y: f32, traction: f32, on_surface: bool) {
     if (!on_surface) {
-        sums[0] = sums[0] + wide(y) * wide(y);
+        add_sum(0u, wide(y) * wide(y));
         return;
     }
     let open = open_gap(g);
     let violation = wide(min(y, open * f32(params.stiffness_max)));
-    sums[0] = sums[0] + violation * violation;
+    add_sum(0u, violation * violation);
     let reaction = wide(weighed(select(max(y, 0.0), 0.0, open > 0.0)));
     let pull = wide(weighed(traction));
-    sums[1] = sums[1] + (reaction * reaction + pull * pull);
+    add_sum(1u, (reaction * reaction + pull * pull));
     if (wide(open) < sums[2]) {
         sums[2] = wide(open);
     }
-    sums[3] = sums[3] + wide(g) * wide(g);
+    add_sum(3u, wide(g) * wide(g));
 }
 
 // y on free points, 0 elsewhere, with the stopping measure summed on the way.
@@ -54,7 +54,7 @@ fn new_direction(z: f32, d: f32, free: bool) -> f32 {
 // The sums over a trial step; slots as `accept` reads them.
 fn add_trial(s: f32, y: f32, open: f32, moved: f32, on_surface: bool) {
     let step = wide(s);
-    sums[0] = sums[0] + step * wide(y);
+    add_sum(0u, step * wide(y));
     if (s < 0.0 && on_surface) {
         let ratio = wide(open) / -step;
         if (ratio < sums[1]) {

@@ -10,6 +10,6 @@ fn point(index: u32, on_surface: bool) {
     let y = total(g, pressure[index], on_surface);
     let d = new_direction(descent[index], direction[index], is_free(open, y, on_surface));
     direction[index] = d;
-    sums[0] = sums[0] + wide(max(f32(scalars.trial) * d, -open));
-    sums[1] = sums[1] + wide(open);
+    add_sum(0u, wide(max(f32(scalars.trial) * d, -open)));
+    add_sum(1u, wide(open));
 }

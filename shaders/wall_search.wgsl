@@ -7,6 +7,6 @@ fn point(index: u32, on_surface: bool) {
         let g = gap[index];
         let s = trial_step(open_gap(g), f32(scalars.trial) * direction[index], f32(scalars.restore), true);
         let change = traction_change(g, f32(scalars.step) * s);
-        sums[0] = sums[0] + wide(change) * wide(s);
+        add_sum(0u, wide(change) * wide(s));
     }
 }

@@ -29,6 +29,10 @@ macro_rules! shaders {
 pub const COMMON: &str = part!("common");
 /// Sums over a workgroup.
 pub const REDUCE: &str = part!("reduce");
+/// Sums as they are.
+pub const SUMS: &str = part!("sums");
+/// Sums with what rounding takes from them.
+pub const SUMS_COMPENSATED: &str = part!("sums_compensated");
 /// One function a gate.
 pub const GATE: &str = part!("gate");
 /// How kernels see a law where the unknown is the gap.

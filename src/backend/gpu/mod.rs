@@ -18,6 +18,8 @@ mod plan;
 mod recorder;
 pub mod source;
 mod space;
+mod sums;
+mod traffic;
 
 use std::collections::HashMap;
 use std::f64::consts::TAU;
@@ -28,13 +30,14 @@ use crate::kernel::{Form, Gate, Kernel, Params, ScalarKernel, Scalars};
 use bindings::{COLUMNS, DECIDING, ROWS, WORKING};
 use level::{LevelPlan, ROW_TRANSFORMS_PER_TRANSFORM};
 use recorder::{Part, Prepared, Recorder};
-use source::Results;
+use source::{Reduction, Results};
 use space::{FieldSpace, Key, LevelSpace, SpectrumSpace, single_bytes};
 
 pub use catalogue::LawPart;
 pub use device::{AdapterChoice, AdapterDescription, AdapterKind, GpuDevice, adapters};
 pub use error::GpuError;
 pub use layout::Wide;
+pub use traffic::Traffic;
 pub use plan::{Exchange, GroupLimits, LinePlan, radices};
 
 /// The GPU backend, in single precision.
@@ -49,6 +52,9 @@ pub struct GpuBackend {
     spectra: Vec<Option<SpectrumSpace>>,
     roots: HashMap<usize, wgpu::Buffer>,
     prepared: HashMap<Key, Prepared>,
+    /// What is decided after the last kernel over points, in one dispatch.
+    deciding: Deciding,
+    traffic: Traffic,
     law: LawPart,
     /// The field of factors on the law's tension.
     law_factor: Option<Field>,
@@ -99,6 +105,8 @@ impl GpuBackend {
             spectra: Vec::new(),
             roots: HashMap::new(),
             prepared: HashMap::new(),
+            deciding: Deciding::default(),
+            traffic: Traffic::default(),
             law: LawPart::HardWall,
             law_factor: None,
             base: None,
@@ -129,6 +137,11 @@ impl GpuBackend {
             corrected: true,
             ..self
         }
+    }
+
+    /// What went over the bus and to the device so far.
+    pub fn traffic(&self) -> Traffic {
+        self.traffic
     }
 
     /// The device it computes on.
@@ -237,8 +250,18 @@ impl GpuBackend {
         })
     }
 
-    /// Finds a prepared dispatch or prepares it, and records it.
+    /// Records a dispatch over points, after what waits to be decided.
     fn record(
+        &mut self,
+        key: Key,
+        prepare: impl FnOnce(&Self) -> Result<Prepared, GpuError>,
+    ) -> Result<(), GpuError> {
+        self.settle()?;
+        self.dispatch(key, prepare)
+    }
+
+    /// Finds a prepared dispatch or prepares it, and records it.
+    fn dispatch(
         &mut self,
         key: Key,
         prepare: impl FnOnce(&Self) -> Result<Prepared, GpuError>,
@@ -251,6 +274,8 @@ impl GpuBackend {
                 prepared
             }
         };
+        self.traffic.dispatches += 1;
+        self.device.count_dispatch();
         self.recorder.dispatch(prepared)
     }
 
@@ -274,13 +299,47 @@ impl GpuBackend {
         if kernel.sums.is_empty() {
             return Ok(());
         }
-        self.record(Key::Sums(kernel.name, level.0), |backend| {
+        let groups = self.level_space(level)?.plan.groups(kernel.form);
+        self.deciding.reduction = Some(Decided {
+            name: kernel.name,
+            level,
+            reduction: Reduction {
+                results: Results::Sums(kernel.sums),
+                groups,
+                gate: kernel.gate,
+            },
+        });
+        Ok(())
+    }
+
+    /// Records what waits to be decided.
+    fn settle(&mut self) -> Result<(), GpuError> {
+        if self.deciding.reduction.is_none() && self.deciding.kernels.is_empty() {
+            return Ok(());
+        }
+        let Deciding { reduction, kernels } = std::mem::take(&mut self.deciding);
+        let key = Key::Decide(
+            reduction.as_ref().map(|sums| (sums.name, sums.level.0)),
+            kernels.iter().map(|kernel| kernel.name).collect(),
+        );
+        self.dispatch(key, |backend| {
+            let level = reduction.as_ref().map_or(Level(0), |sums| sums.level);
+            let first = reduction.as_ref().map(|sums| sums.reduction);
+            let text = source::decide(first, &kernels, backend.wide)?;
             let space = backend.level_space(level)?;
-            let groups = space.plan.groups(kernel.form);
-            let results = Results::Sums(kernel.sums);
-            let text = source::reduce(results, groups, kernel.gate, backend.wide);
-            backend.reduction(space, text)
+            let shared = [&backend.params, &backend.scalars, &space.partials];
+            backend.prepare("decide", text, &[(DECIDING, &shared)], 1)
         })
+    }
+
+    /// Hands over what waits, then overwrites the beginning of a buffer.
+    fn overwrite(
+        &mut self,
+        buffer: &wgpu::Buffer,
+        bytes: impl Iterator<Item = u8>,
+    ) -> Result<(), GpuError> {
+        self.settle()?;
+        self.recorder.write(buffer, bytes)
     }
 
     fn kernel(
@@ -335,11 +394,6 @@ impl GpuBackend {
         self.prepare(kernel.name, text, &groups, space.plan.groups(kernel.form))
     }
 
-    fn reduction(&self, space: &LevelSpace, text: String) -> Result<Prepared, GpuError> {
-        let shared = [&self.params, &self.scalars, &space.partials];
-        self.prepare("reduce", text, &[(DECIDING, &shared)], 1)
-    }
-
     fn columns(&mut self, by: Spectrum, energy: bool, gate: Gate) -> Result<(), GpuError> {
         let word = source::gate_name(gate);
         self.record(Key::Multiply(by.index, energy, word), |backend| {
@@ -359,17 +413,25 @@ impl GpuBackend {
         if !energy {
             return Ok(());
         }
-        self.record(Key::Curvature(by.level.0, word), |backend| {
-            let space = backend.level_space(by.level)?;
-            let results = Results::Curvature(space.plan.points());
-            let groups = space.plan.column_groups();
-            backend.reduction(space, source::reduce(results, groups, gate, backend.wide))
-        })
+        let plan = &self.level_space(by.level)?.plan;
+        let reduction = Reduction {
+            results: Results::Curvature(plan.points()),
+            groups: plan.column_groups(),
+            gate,
+        };
+        self.deciding.reduction = Some(Decided {
+            name: word,
+            level: by.level,
+            reduction,
+        });
+        Ok(())
     }
 
     /// Waits, and reads the scalars and what was counted.
     fn look(&mut self) -> Result<Scalars, GpuError> {
         self.checked()?;
+        self.settle()?;
+        self.traffic.looks += 1;
         let length = layout::scalars_length(self.wide);
         let mut parts = vec![Part {
             buffer: &self.scalars,
@@ -396,6 +458,8 @@ impl GpuBackend {
 
     fn fetch(&mut self, field: Field) -> Result<Vec<f64>, GpuError> {
         self.checked()?;
+        self.settle()?;
+        self.traffic.fields_down += 1;
         let space = self
             .fields
             .get(field.index)
@@ -420,6 +484,21 @@ impl GpuBackend {
 /// Rounds recorded before the host waits: a wait costs about as much as these cost to record.
 const LOOK_EVERY: usize = 8;
 
+/// What is decided together: the sums of the last kernel over points, then scalar kernels.
+#[derive(Default)]
+struct Deciding {
+    reduction: Option<Decided>,
+    kernels: Vec<&'static ScalarKernel>,
+}
+
+/// Sums to be put together.
+struct Decided {
+    /// What they are known by on their level.
+    name: &'static str,
+    level: Level,
+    reduction: Reduction,
+}
+
 impl Backend for GpuBackend {
     fn look_every(&self) -> usize {
         self.look_every
@@ -434,7 +513,7 @@ impl Backend for GpuBackend {
             let plan = LevelPlan::new(shape, backend.device.group_limits())?;
             // Half as many complex numbers as points.
             let work = backend.storage(name, 4 * plan.points())?;
-            let partials = 8 + plan.partials() * backend.wide.bytes();
+            let partials = 8 + plan.partials() * backend.wide.part_bytes();
             Ok(LevelSpace {
                 row_roots: backend.roots(plan.shape[0])?,
                 column_roots: backend.roots(plan.shape[1])?,
@@ -463,7 +542,7 @@ impl Backend for GpuBackend {
     fn spectrum(&mut self, level: Level, name: &'static str, values: &[f64]) -> Spectrum {
         let space = self.attempt(|backend| {
             let buffer = backend.storage(name, 4 * values.len())?;
-            backend.recorder.write(&buffer, single_bytes(values))?;
+            backend.overwrite(&buffer, single_bytes(values))?;
             Ok(SpectrumSpace { buffer })
         });
         self.spectra.push(space);
@@ -476,14 +555,15 @@ impl Backend for GpuBackend {
     fn set_zero_mode(&mut self, spectrum: Spectrum, value: f64) {
         self.attempt(|backend| {
             let buffer = backend.spectrum_space(spectrum)?.buffer.clone();
-            backend.recorder.write(&buffer, single_bytes(&[value]))
+            backend.overwrite(&buffer, single_bytes(&[value]))
         });
     }
 
     fn write(&mut self, field: Field, values: &[f64]) {
         self.attempt(|backend| {
             let buffer = backend.field_space(field)?.buffer.clone();
-            backend.recorder.write(&buffer, single_bytes(values))
+            backend.traffic.fields_up += 1;
+            backend.overwrite(&buffer, single_bytes(values))
         });
     }
 
@@ -508,6 +588,7 @@ impl Backend for GpuBackend {
     fn clear(&mut self, field: Field) {
         self.attempt(|backend| {
             let buffer = backend.field_space(field)?.buffer.clone();
+            backend.settle()?;
             backend.recorder.clear(&buffer)
         });
     }
@@ -527,7 +608,7 @@ impl Backend for GpuBackend {
         let bytes = layout::params_bytes(params, self.wide);
         self.attempt(|backend| {
             let buffer = backend.params.clone();
-            backend.recorder.write(&buffer, bytes.into_iter())
+            backend.overwrite(&buffer, bytes.into_iter())
         });
     }
 
@@ -535,7 +616,7 @@ impl Backend for GpuBackend {
         let bytes = layout::scalars_bytes(scalars, self.wide);
         self.attempt(|backend| {
             let buffer = backend.scalars.clone();
-            backend.recorder.write(&buffer, bytes.into_iter())
+            backend.overwrite(&buffer, bytes.into_iter())
         });
     }
 
@@ -552,14 +633,7 @@ impl Backend for GpuBackend {
     }
 
     fn scalar(&mut self, kernel: &'static ScalarKernel) {
-        self.attempt(|backend| {
-            backend.record(Key::Scalar(kernel.name), |backend| {
-                let text = source::scalar(kernel, backend.wide)?;
-                let space = backend.level_space(Level(0))?;
-                let shared = [&backend.params, &backend.scalars, &space.partials];
-                backend.prepare("decide", text, &[(DECIDING, &shared)], 1)
-            })
-        });
+        self.deciding.kernels.push(kernel);
     }
 
     fn forward(&mut self, kernel: &'static Kernel, level: Level, fields: &[Field]) {

@@ -78,6 +78,10 @@ fn preamble(source: &mut String, wide: Wide, access: &str) {
          var<private> sums: array<wide, SUM_COUNT>;"
     );
     source.push_str(catalogue::GATE);
+    source.push_str(match wide {
+        Wide::Compensated => catalogue::SUMS_COMPENSATED,
+        Wide::Single | Wide::Double => catalogue::SUMS,
+    });
 }
 
 /// What starts a kernel's sums and reduces them over a workgroup; `at_once` of them together.
@@ -93,7 +97,7 @@ fn reduction(source: &mut String, reduces: &[Reduce], threads: usize, at_once: u
         threads * at_once
     );
     source.push_str(catalogue::REDUCE);
-    source.push_str("fn join_slot(slot: u32, a: wide, b: wide) -> wide {\nswitch slot {\n");
+    source.push_str("fn join_slot(slot: u32, a: part, b: part) -> part {\nswitch slot {\n");
     for (slot, &reduce) in reduces.iter().enumerate() {
         if reduce != Reduce::Add {
             let name = reduce_name(reduce);
@@ -114,7 +118,7 @@ fn hand_in(source: &mut String, reduces: &[Reduce], groups: usize) {
         source,
         "fn hand_in(group: u32, thread: u32) {{\n\
          for (var first = 0u; first < {count}u; first = first + SUMS_AT_ONCE) {{\n\
-         gather(sums, first, thread);\n\
+         gather(first, thread);\n\
          if (thread < SUMS_AT_ONCE && first + thread < {count}u) {{\n\
          partials.values[(first + thread) * {groups}u + group] = group_values[thread * GROUP_THREADS];\n\
          }}\n}}\n}}\n"
@@ -429,7 +433,7 @@ pub fn multiply(plan: &LevelPlan, energy: bool, gate: Gate, wide: Wide) -> Strin
             if energy {
                 let _ = writeln!(
                     source,
-                    "sums[0] = sums[0] + wide(weight * factor * dot({name}, {name}));"
+                    "add_sum(0u, wide(weight * factor * dot({name}, {name})));"
                 );
             }
             let _ = writeln!(source, "{name} = ({scale} * factor) * {name}; }}");
@@ -467,57 +471,108 @@ pub enum Results {
     Curvature(usize),
 }
 
-/// Puts the partial sums of `groups` workgroups together in a fixed order, if the gate of the
-/// kernel that wrote them was open.
-pub fn reduce(results: Results, groups: usize, gate: Gate, wide: Wide) -> String {
-    let (reduces, target) = match results {
+/// A reduction: what it puts together, of how many workgroups, behind which gate.
+#[derive(Clone, Copy, Debug)]
+pub struct Reduction {
+    /// Where its results go.
+    pub results: Results,
+    /// Workgroups that handed in partial sums.
+    pub groups: usize,
+    /// The gate of the kernel that wrote them.
+    pub gate: Gate,
+}
+
+/// One dispatch that decides: puts partial sums together in a fixed order, if the gate of the kernel
+/// that wrote them was open, then runs scalar kernels one after another. An error where one of them
+/// has no shader. Its entry point is `decide`.
+pub fn decide(
+    reduction_first: Option<Reduction>,
+    kernels: &[&ScalarKernel],
+    wide: Wide,
+) -> Result<String, GpuError> {
+    let mut source = String::new();
+    preamble(&mut source, wide, "read_write");
+    let mut parts: Vec<&str> = Vec::new();
+    for kernel in kernels {
+        let found = catalogue::scalar(kernel.name).ok_or(GpuError::NoShader(kernel.name))?;
+        for part in found {
+            if !parts.contains(&part) {
+                parts.push(part);
+            }
+        }
+    }
+    parts.iter().for_each(|part| source.push_str(part));
+    let threads = match reduction_first {
+        Some(first) => {
+            put_together(&mut source, first);
+            SWEEP_THREADS
+        }
+        None => 1,
+    };
+    let _ = writeln!(
+        source,
+        "@compute @workgroup_size({threads})\n\
+         fn decide(@builtin(local_invocation_index) thread: u32) {{"
+    );
+    if reduction_first.is_some() {
+        source.push_str("put_together(thread);\nstorageBarrier();\n");
+    }
+    source.push_str("if (thread == 0u) {\n");
+    for kernel in kernels {
+        let _ = writeln!(source, "{}();", kernel.name);
+    }
+    source.push_str("}\n}\n");
+    Ok(source)
+}
+
+/// Writes the function that puts partial sums together.
+fn put_together(source: &mut String, what: Reduction) {
+    let (reduces, target) = match what.results {
         Results::Sums(reduces) => (reduces, "scalars.sums[first + thread] = total".to_string()),
         Results::Curvature(points) => (
             &[Reduce::Add] as &[Reduce],
             format!("scalars.curvature = total / wide({points}.0)"),
         ),
     };
-    let count = reduces.len();
-    let mut source = String::new();
-    preamble(&mut source, wide, "read_write");
+    let (groups, count) = (what.groups, reduces.len());
     let at_once = SWEEP_SUMS_AT_ONCE.min(count);
-    reduction(&mut source, reduces, SWEEP_THREADS, at_once);
+    reduction(source, reduces, SWEEP_THREADS, at_once);
     let _ = write!(
         source,
-        "@compute @workgroup_size({SWEEP_THREADS})\n\
-         fn reduce(@builtin(local_invocation_index) thread: u32) {{\n\
+        "fn put_together(thread: u32) {{\n\
          start_sums();\n\
-         var each = sums;\n\
          for (var slot = 0u; slot < {count}u; slot = slot + 1u) {{\n\
-         var total = each[slot];\n\
+         var total = part_of(slot);\n\
          for (var group = thread; group < {groups}u; group = group + {SWEEP_THREADS}u) {{\n\
          total = join_slot(slot, total, partials.values[slot * {groups}u + group]);\n\
          }}\n\
-         each[slot] = total;\n\
+         set_part(slot, total);\n\
          }}\n\
          for (var first = 0u; first < {count}u; first = first + SUMS_AT_ONCE) {{\n\
-         gather(each, first, thread);\n\
+         gather(first, thread);\n\
          if (thread < SUMS_AT_ONCE && first + thread < {count}u && {gate}()) {{\n\
-         let total = group_values[thread * GROUP_THREADS];\n\
+         let total = part_value(group_values[thread * GROUP_THREADS]);\n\
          {target};\n\
          }}\n}}\n}}\n",
-        gate = gate_name(gate),
+        gate = gate_name(what.gate),
+    );
+}
+
+/// Sums of 64 pairs with what rounding took from them, to see whether that survives a compiler. Its
+/// entry point is `check`.
+pub fn two_sums() -> String {
+    let mut source = String::new();
+    preamble(&mut source, Wide::Compensated, "read");
+    let _ = writeln!(
+        source,
+        "@group(1) @binding(0) var<storage, read> pairs: array<vec2<f32>>;\n\
+         @compute @workgroup_size({PAIRS})\n\
+         fn check(@builtin(local_invocation_index) thread: u32) {{\n\
+         partials.values[thread] = two_sum(pairs[thread].x, pairs[thread].y);\n\
+         }}"
     );
     source
 }
 
-/// The shader of a scalar kernel, or an error where it has none. Its entry point is `decide`.
-pub fn scalar(kernel: &ScalarKernel, wide: Wide) -> Result<String, GpuError> {
-    let parts = catalogue::scalar(kernel.name).ok_or(GpuError::NoShader(kernel.name))?;
-    let mut source = String::new();
-    preamble(&mut source, wide, "read_write");
-    for part in parts {
-        source.push_str(part);
-    }
-    let _ = writeln!(
-        source,
-        "@compute @workgroup_size(1)\nfn decide() {{ {}(); }}",
-        kernel.name
-    );
-    Ok(source)
-}
+/// Pairs of [`two_sums`].
+pub const PAIRS: usize = 64;
