@@ -248,15 +248,7 @@ fn kernels_agree_with_their_twins() {
                     patterned,
                     based,
                 ));
-                let twin = run(
-                    &mut cpu(),
-                    kernel,
-                    &params,
-                    shape,
-                    poison,
-                    patterned,
-                    based,
-                );
+                let twin = run(&mut cpu(), kernel, &params, shape, poison, patterned, based);
                 assert!(is_number(&twin), "{} {law_name}", kernel.name);
                 let ours = run(
                     &mut backend(device),
@@ -451,7 +443,12 @@ fn sums_without_double_precision_are_compensated() {
     let values: Vec<f64> = large
         .iter()
         .map(|x| 4096.0 * x)
-        .chain(large.iter().rev().map(|x| f64::from((1e-3 - 4096.0 * x) as f32)))
+        .chain(
+            large
+                .iter()
+                .rev()
+                .map(|x| f64::from((1e-3 - 4096.0 * x) as f32)),
+        )
         .collect();
     let mut backend = backend(&device);
     let level = backend.level("fine", shape);
@@ -461,10 +458,20 @@ fn sums_without_double_precision_are_compensated() {
     backend.set_params(&params(Law::HardWall, true));
     backend.set_scalars(&open());
     backend.sweep(&tabor::kernel::wall::WALL_BALANCE, level, &[gap, pressure]);
-    let sums = backend.scalars().unwrap_or_else(|error| panic!("{error}")).sums;
+    let sums = backend
+        .scalars()
+        .unwrap_or_else(|error| panic!("{error}"))
+        .sums;
     let exact: f64 = values.iter().sum();
     let plain = values.iter().fold(0.0f32, |sum, &x| sum + x as f32);
     println!("{exact}: compensated {}, plain {plain}", sums[1]);
-    assert!((sums[1] - exact).abs() <= 1e-6 * exact.abs(), "{} {exact}", sums[1]);
-    assert!((f64::from(plain) - exact).abs() > 1e-5 * exact.abs(), "the test has teeth");
+    assert!(
+        (sums[1] - exact).abs() <= 1e-6 * exact.abs(),
+        "{} {exact}",
+        sums[1]
+    );
+    assert!(
+        (f64::from(plain) - exact).abs() > 1e-5 * exact.abs(),
+        "the test has teeth"
+    );
 }

@@ -297,7 +297,10 @@ fn a_grid_past_the_limits_is_refused_with_the_largest_and_auto_stays() {
     assert!(message.contains("on the processor, not on"), "{message}");
     assert!(message.contains("takes up to 32 x 32 here"), "{message}");
     let said = summary(&folder.path().join("auto"));
-    assert_eq!((&said["backend"], &said["precision"]), (&"cpu".into(), &"double".into()));
+    assert_eq!(
+        (&said["backend"], &said["precision"]),
+        (&"cpu".into(), &"double".into())
+    );
 }
 
 /// The device is given up amid the second step: what is solved is kept. Where the scene leaves the
@@ -333,7 +336,10 @@ fn a_lost_device_keeps_what_is_solved_and_auto_goes_on() {
     let said = summary(&folder.path().join("auto"));
     assert_eq!(said["backend"], "cpu");
     let warnings = said["warnings"].to_string();
-    assert!(warnings.contains("steps 1 to 1 were solved on gpu"), "{warnings}");
+    assert!(
+        warnings.contains("steps 1 to 1 were solved on gpu"),
+        "{warnings}"
+    );
     let found = rows(&folder.path().join("auto"));
     assert_eq!(found.len(), all.len());
     for (found, all) in found.iter().zip(&all) {

@@ -382,7 +382,12 @@ fn true_residual(problem: &Problem, load: &Load, gap: &[f64]) -> f64 {
 }
 
 /// Solves to `TIGHT` in mixed precision and checks it in double; returns the worst residual.
-fn tight(name: &str, problem: &Problem, load: &Load, make: &dyn Fn() -> Box<dyn Backend + Send>) -> f64 {
+fn tight(
+    name: &str,
+    problem: &Problem,
+    load: &Load,
+    make: &dyn Fn() -> Box<dyn Backend + Send>,
+) -> f64 {
     let double = || -> Box<dyn Backend + Send> { Box::new(CpuBackend::<f64>::new()) };
     let reference = solve(problem, load, &Start::Cold, TIGHT, &double);
     let clock = std::time::Instant::now();
@@ -407,8 +412,7 @@ fn tight(name: &str, problem: &Problem, load: &Load, make: &dyn Fn() -> Box<dyn 
 
 #[test]
 fn mixed_precision_on_the_processor_reaches_the_tolerance_of_double() {
-    let mixed =
-        || -> Box<dyn Backend + Send> { Box::new(CpuBackend::<f32>::new().corrected()) };
+    let mixed = || -> Box<dyn Backend + Send> { Box::new(CpuBackend::<f32>::new().corrected()) };
     let mut worst = 0.0f64;
     for (name, problem, load) in contacts(64) {
         worst = worst.max(tight(&name, &problem, &load, &mixed));
@@ -464,7 +468,11 @@ fn fields_moved(passes: &[&'static str]) -> f64 {
             .iter()
             .find(|kernel| kernel.name == name)
             .unwrap_or_else(|| panic!("{name} is in no catalogue"));
-        let own = if name.starts_with("coarse") { coarse } else { fine };
+        let own = if name.starts_with("coarse") {
+            coarse
+        } else {
+            fine
+        };
         let only = ONLY_WRITTEN.iter().find(|(of, _)| *of == name);
         let written = 2 * kernel.writes - only.map_or(0, |(_, count)| *count);
         moved += own * (kernel.reads + written) as f64;
@@ -574,18 +582,37 @@ fn nothing_but_corrections_crosses_the_bus() {
         let tolerance = if corrected { TIGHT } else { 1e-4 };
         let mut solver = ContactSolver::new(&mut watching, &problem);
         let outcome = solver
-            .solve(&load, &Start::Cold, tolerance, 500, false, &nobody, &mut |_| true)
+            .solve(
+                &load,
+                &Start::Cold,
+                tolerance,
+                500,
+                false,
+                &nobody,
+                &mut |_| true,
+            )
             .unwrap_or_else(|error| panic!("{error}"));
         assert_eq!(outcome.status, Status::Converged);
         let traffic = watching.inner.traffic();
         let double = watching.double.lock().expect("nobody panics here").clone();
-        let evaluations = double.iter().filter(|&&name| name == "load_displacement").count();
+        let evaluations = double
+            .iter()
+            .filter(|&&name| name == "load_displacement")
+            .count();
         println!("{outcome:?} {traffic:?}, {evaluations} evaluations");
         // As the crate page has it, an iteration of this law takes 11.
         assert!(traffic.dispatches >= 11 * outcome.iterations as u64);
-        let residual = ["load_displacement", "multiply", "store_pressure", "wall_residual"];
+        let residual = [
+            "load_displacement",
+            "multiply",
+            "store_pressure",
+            "wall_residual",
+        ];
         assert_eq!(double.len(), evaluations * residual.len());
-        assert!(double.iter().all(|name| residual.contains(name)), "{double:?}");
+        assert!(
+            double.iter().all(|name| residual.contains(name)),
+            "{double:?}"
+        );
         // Heights and start go up; without corrections nothing comes down.
         let rounds = evaluations.saturating_sub(1) as u64;
         assert_eq!(traffic.fields_up, 2 + 2 * rounds);
@@ -614,7 +641,8 @@ fn the_same_problem_twice_gives_the_same_bits() {
                 }
             };
             let tolerance = if corrected { TIGHT } else { 1e-4 };
-            let [one, two] = [(); 2].map(|()| solve(&problem, &load, &Start::Cold, tolerance, &gpu));
+            let [one, two] =
+                [(); 2].map(|()| solve(&problem, &load, &Start::Cold, tolerance, &gpu));
             assert_eq!(one.outcome.status, Status::Converged);
             assert_eq!(one.outcome, two.outcome);
             assert!(one.gap == two.gap && one.pressure == two.pressure);

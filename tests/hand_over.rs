@@ -257,7 +257,10 @@ fn mixed_precision_walks_the_path_of_double() {
         .expect("the scenes are there")
         .flatten()
         .map(|entry| entry.path())
-        .filter(|path| path.extension().is_some_and(|extension| extension == "toml"))
+        .filter(|path| {
+            path.extension()
+                .is_some_and(|extension| extension == "toml")
+        })
         .collect();
     paths.sort();
     for path in paths {
@@ -285,8 +288,8 @@ fn mixed_precision_walks_the_path_of_double() {
         ];
         let mut worst = [0.0f64; 4];
         for (one, other) in one.rows.iter().zip(&other.rows) {
-            assert_eq!(one.converged, other.converged, "{name}, step {}", one.step);
-            assert_eq!(one.state, other.state, "{name}, step {}", one.step);
+            let both = [one, other].map(|row| (row.converged, row.state));
+            assert_eq!(both[0], both[1], "{name}: {one:?} and in double {other:?}");
             for ((_, of), worst) in columns.iter().zip(&mut worst) {
                 *worst = worst.max((of(one) - of(other)).abs() / largest(*of));
             }

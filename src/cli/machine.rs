@@ -4,8 +4,7 @@ use super::Failure;
 use crate::backend::Backend;
 use crate::backend::cpu::CpuBackend;
 use crate::backend::gpu::{
-    AdapterChoice, AdapterDescription, GpuBackend, GpuDevice, GpuError, Wide, adapters,
-    radices,
+    AdapterChoice, AdapterDescription, GpuBackend, GpuDevice, GpuError, Wide, adapters, radices,
 };
 use crate::scene::{BackendName, Boundary, Precision};
 use crate::study::Setup;
@@ -78,14 +77,10 @@ impl Machine {
     /// A backend on it.
     pub fn backend(&self) -> Box<dyn Backend + Send> {
         match (&self.place, self.precision) {
-            (Place::Gpu(device), Precision::Mixed) => {
-                Box::new(GpuBackend::on(device).corrected())
-            }
+            (Place::Gpu(device), Precision::Mixed) => Box::new(GpuBackend::on(device).corrected()),
             (Place::Gpu(device), _) => Box::new(GpuBackend::on(device)),
             (Place::Processor, Precision::Single) => Box::new(CpuBackend::<f32>::new()),
-            (Place::Processor, Precision::Mixed) => {
-                Box::new(CpuBackend::<f32>::new().corrected())
-            }
+            (Place::Processor, Precision::Mixed) => Box::new(CpuBackend::<f32>::new().corrected()),
             (Place::Processor, _) => Box::new(CpuBackend::<f64>::new()),
         }
     }
@@ -193,7 +188,9 @@ fn auto(setup: &Setup) -> (Place, Option<String>) {
         }
         Ok(device) => {
             let why = match (settings.precision, settings.arithmetic_on(true)) {
-                (Precision::Auto, Precision::Mixed) => ", for the tolerance is below its floor in single",
+                (Precision::Auto, Precision::Mixed) => {
+                    ", for the tolerance is below its floor in single"
+                }
                 (Precision::Auto, _) => ", which the tolerance allows",
                 _ => "",
             };

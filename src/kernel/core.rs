@@ -109,7 +109,10 @@ impl<T: Real, const BASE: bool> Core<T, BASE> {
             };
             (here.change(gap, step), here.energy_change(gap, step))
         } else {
-            (self.law.change(gap, step), self.law.energy_change(gap, step))
+            (
+                self.law.change(gap, step),
+                self.law.energy_change(gap, step),
+            )
         }
     }
 

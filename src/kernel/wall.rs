@@ -406,8 +406,7 @@ fn wall_advance<T: Real>(
         let moved = gap[i] + t * step;
         let left = open + t * step;
         // By what is left of the gap, which a cut makes exactly zero.
-        let closed =
-            on_surface && (left <= T::zero() || (step < T::zero() && left < snap));
+        let closed = on_surface && (left <= T::zero() || (step < T::zero() && left < snap));
         gap[i] = if closed { floor } else { moved };
         pressure[i] += t * lines[i];
     };

@@ -161,7 +161,10 @@ mod tests {
         for gap in [0.5, 0.74, 0.76, 1.0, 1.24, 1.26, 1.5] {
             for step in [-1.0, -0.3, -0.02, 0.02, 0.3, 1.0] {
                 let exact: f64 = law.traction(gap + step) - law.traction(gap);
-                assert!((law.difference(gap, step) - exact).abs() < 1e-14, "{gap} {step}");
+                assert!(
+                    (law.difference(gap, step) - exact).abs() < 1e-14,
+                    "{gap} {step}"
+                );
             }
         }
     }

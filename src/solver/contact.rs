@@ -2,12 +2,13 @@
 
 use super::MakeBackend;
 use super::coarse_start;
-use super::problem::Problem;
 use super::correction::FIRST_TOLERANCE;
+use super::kernel_set::{KernelSet, fixed_params};
+use super::problem::Problem;
 use super::reference::Reference;
 use super::two_band::TwoBand;
 use crate::backend::{Backend, BackendError, Field, Level, Spectrum};
-use crate::kernel::{Gate, Kernel, Params, Scalars, Status, common, core, scalar, wall};
+use crate::kernel::{Gate, Params, Scalars, Status, common, core, scalar, wall};
 use crate::law::Law;
 use crate::scene::Boundary;
 
@@ -80,73 +81,6 @@ pub struct ContactSolver<'a> {
     helped_by: f64,
     /// Mean of what a relaxing solid's past adds to its displacement.
     mean_offset: f64,
-}
-
-/// The kernels of one family of laws.
-pub(super) struct KernelSet {
-    pub(super) residual: &'static Kernel,
-    free: &'static Kernel,
-    descent: &'static Kernel,
-    search: &'static Kernel,
-    advance: &'static Kernel,
-    pub(super) balance: &'static Kernel,
-    pub(super) balance_scalar: &'static scalar::ScalarKernel,
-    step: &'static scalar::ScalarKernel,
-    search_scalar: &'static scalar::ScalarKernel,
-    lengthen: &'static scalar::ScalarKernel,
-}
-
-static WALL: KernelSet = KernelSet {
-    residual: &wall::WALL_RESIDUAL,
-    free: &wall::WALL_FREE,
-    descent: &wall::WALL_DESCENT,
-    search: &wall::WALL_SEARCH,
-    advance: &wall::WALL_ADVANCE,
-    balance: &wall::WALL_BALANCE,
-    balance_scalar: &scalar::BALANCE_WALL,
-    step: &scalar::STEP_WALL,
-    search_scalar: &scalar::SEARCH_WALL,
-    lengthen: &scalar::LENGTHEN_WALL,
-};
-
-static CORE: KernelSet = KernelSet {
-    residual: &core::CORE_RESIDUAL,
-    free: &core::CORE_FREE,
-    descent: &core::CORE_DESCENT,
-    search: &core::CORE_SEARCH,
-    advance: &core::CORE_ADVANCE,
-    balance: &core::CORE_BALANCE,
-    balance_scalar: &scalar::BALANCE_CORE,
-    step: &scalar::STEP_CORE,
-    search_scalar: &scalar::SEARCH_CORE,
-    lengthen: &scalar::LENGTHEN_CORE,
-};
-
-impl KernelSet {
-    /// Those of a law.
-    pub(super) fn of(law: &Law) -> &'static KernelSet {
-        if law.has_wall() { &WALL } else { &CORE }
-    }
-}
-
-/// The numbers of a problem that stay fixed whatever the load.
-pub(super) fn fixed_params(problem: &Problem, epsilon: f64) -> Params {
-    let points = problem.shape.surface_len() as f64;
-    let stiffness_max = problem.stiffness_max();
-    Params {
-        law: problem.law,
-        stiffness_max,
-        pressure_floor: 1e-6
-            * (problem.rms_slope * problem.scales.lateral / problem.scales.length)
-            * points.sqrt(),
-        tolerance: 0.0,
-        heights_norm: problem.heights.iter().map(|h| h * h).sum::<f64>().sqrt(),
-        fixed_gap: false,
-        may_detach: false,
-        points,
-        core_stiffness: 0.2 * stiffness_max,
-        epsilon,
-    }
 }
 
 /// Evaluations that one search of a step length may take, the scalar kernels' own bounds included.

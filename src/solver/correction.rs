@@ -24,8 +24,8 @@ const ROUND_ITERATIONS: usize = 100;
 const NO_GAIN: f64 = 0.5;
 /// Rounds without gain, in a row, that end a solve.
 const LOST_ROUNDS: usize = 4;
-/// Rounds of one iteration each that a solve may take for each iteration allowed.
-const LOOKS_PER_ITERATION: usize = 4;
+/// Trials, lost ones included, that may be made for each iteration allowed.
+const TRIALS_PER_ITERATION: usize = 4;
 
 impl ContactSolver<'_> {
     /// The state in double precision, made when it is first asked for; `None` where the backend's own
@@ -43,21 +43,22 @@ impl ContactSolver<'_> {
         self.reference.as_mut()
     }
 
-    /// Iterates until the end that the scalars say, until `most` iterations are done, or until
-    /// `watch` has enough. Returns the last scalars and whether `watch` had enough.
+    /// Iterates until the end that the scalars say, for at most so many iterations after those
+    /// `before`, or until `watch` has enough. Returns the last scalars and whether `watch` had enough.
     fn run_out(
         &mut self,
+        before: usize,
         most: usize,
         watch: &mut dyn FnMut(&Scalars) -> bool,
     ) -> Result<(Scalars, bool), BackendError> {
-        let mut looks = 0;
+        let mut tried = 0;
         let mut done = 0;
         loop {
             let (recorded, scalars) = self.advance(most.saturating_sub(done).max(1))?;
-            looks += recorded;
-            done = scalars.iterations as usize;
+            tried += recorded;
+            done = (scalars.iterations as usize).saturating_sub(before);
             let goes_on = watch(&scalars);
-            let over = done >= most || looks >= LOOKS_PER_ITERATION * most.max(1);
+            let over = done >= most || tried >= TRIALS_PER_ITERATION * most.max(1);
             if scalars.status != Status::Running || over || !goes_on {
                 return Ok((scalars, !goes_on));
             }
@@ -73,7 +74,7 @@ impl ContactSolver<'_> {
         watch: &mut dyn FnMut(&Scalars) -> bool,
     ) -> Result<Outcome, BackendError> {
         let may_detach = self.params.may_detach;
-        let (first, mut stopped) = self.run_out(max_iterations, watch)?;
+        let (first, mut stopped) = self.run_out(0, max_iterations, watch)?;
         let mut iterations = first.iterations as usize;
         let mut status = first.status;
         let mut gap = self.backend.read(self.gap)?;
@@ -105,10 +106,21 @@ impl ContactSolver<'_> {
                 };
                 break;
             }
+            if std::env::var("TABOR_DBG").is_ok() && lost > 0 {
+                eprintln!(
+                    "round: {:e} num {:e} floor {:e} status {:?} it {} lost {}",
+                    end.residual,
+                    end.numerator,
+                    self.rounding_floor(&end),
+                    status,
+                    iterations,
+                    lost
+                );
+            }
             let before = end.residual;
             let most = ROUND_ITERATIONS.min(max_iterations - iterations);
             let round = self.correct(&mut gap, load, &end, tolerance, most, iterations, watch)?;
-            iterations += round.0.iterations as usize - iterations;
+            iterations = round.0.iterations as usize;
             status = round.0.status;
             stopped = round.1;
             if let Some(reference) = self.reference() {
@@ -128,10 +140,15 @@ impl ContactSolver<'_> {
         })
     }
 
+    /// The numerator that rounding in double precision leaves, of a pad's points too, which have no
+    /// gap of their own to be measured by.
     fn rounding_floor(&self, end: &Scalars) -> f64 {
+        let shape = self.problem.shape;
+        let padded = shape.len() as f64 / shape.surface_len() as f64;
         self.reference
             .as_ref()
             .map_or(0.0, |reference| reference.rounding_floor(end))
+            * padded.sqrt()
     }
 
     /// One round: looks for the correction of a gap whose evaluation is `end`, and adds it.
@@ -167,7 +184,7 @@ impl ContactSolver<'_> {
         let mut scalars = Scalars::start(0.0, false);
         scalars.iterations = iterations as u32;
         self.backend.set_scalars(&scalars);
-        let round = self.run_out(iterations + most, watch)?;
+        let round = self.run_out(iterations, most, watch)?;
         let correction = self.backend.read(self.gap)?;
         self.backend.set_base(None);
         add(problem, gap, &correction);
@@ -182,7 +199,9 @@ fn add(problem: &Problem, gap: &mut [f64], correction: &[f64]) {
     let [width, _] = problem.shape.points;
     let [nx, ny] = problem.shape.surface;
     let wall = problem.law.has_wall();
-    let rows = gap.chunks_exact_mut(width).zip(correction.chunks_exact(width));
+    let rows = gap
+        .chunks_exact_mut(width)
+        .zip(correction.chunks_exact(width));
     for (row, (gap, correction)) in rows.enumerate() {
         for (column, (g, &c)) in gap.iter_mut().zip(correction).enumerate() {
             let bounded = wall && row < ny && column < nx;

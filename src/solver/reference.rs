@@ -1,6 +1,7 @@
 //! The state of a contact in double precision, beside a solver whose iterations run in single.
 
-use super::contact::{Hold, KernelSet, Load, fixed_params};
+use super::contact::{Hold, Load};
+use super::kernel_set::{KernelSet, fixed_params};
 use super::problem::Problem;
 use crate::backend::{Backend, BackendError, Field, Level, Spectrum};
 use crate::kernel::{Gate, Params, Scalars, Status, common, scalar};
@@ -27,11 +28,7 @@ struct Places {
 
 /// Plans what mixed precision holds besides: on `double` the state, beside the `iterating` fields of a
 /// solver that is planned there the base of its corrections. To count it.
-pub fn plan_reference(
-    double: &mut dyn Backend,
-    iterating: &mut dyn Backend,
-    problem: &Problem,
-) {
+pub fn plan_reference(double: &mut dyn Backend, iterating: &mut dyn Backend, problem: &Problem) {
     Places::plan(double, iterating, Level(0), problem);
 }
 
@@ -134,7 +131,11 @@ impl Reference {
         let fields = [self.places.gap, self.places.heights];
         backend.forward(&common::LOAD_DISPLACEMENT, self.places.level, &fields);
         backend.multiply(self.places.stiffness, false, Gate::Always);
-        backend.backward(&common::STORE_PRESSURE, self.places.level, &[self.places.pressure]);
+        backend.backward(
+            &common::STORE_PRESSURE,
+            self.places.level,
+            &[self.places.pressure],
+        );
         let fields = [self.places.gap, self.places.pressure];
         if self.params.fixed_gap {
             backend.sweep(self.kernels.balance, self.places.level, &fields);
@@ -164,7 +165,9 @@ impl Reference {
         }
         let [width, _] = problem.shape.points;
         let [nx, ny] = problem.shape.surface;
-        let rows = residual.chunks_exact_mut(width).zip(gap.chunks_exact(width));
+        let rows = residual
+            .chunks_exact_mut(width)
+            .zip(gap.chunks_exact(width));
         for (row, (residual, gap)) in rows.take(ny).enumerate() {
             for (column, (y, &g)) in residual.iter_mut().zip(gap).take(nx).enumerate() {
                 let factor = problem
@@ -186,7 +189,11 @@ impl Reference {
         backend.write(self.places.gap, values);
         backend.forward(&common::LOAD_FIELD, self.places.level, &[self.places.gap]);
         backend.multiply(self.places.stiffness, false, Gate::Always);
-        backend.backward(&common::STORE_PRESSURE, self.places.level, &[self.places.pressure]);
+        backend.backward(
+            &common::STORE_PRESSURE,
+            self.places.level,
+            &[self.places.pressure],
+        );
         let answer = backend.read(self.places.pressure)?;
         backend.write(self.places.gap, &gap);
         backend.write(self.places.pressure, &pressure);

@@ -52,7 +52,6 @@ impl Beside {
         None
     }
 
-
     fn note(&self, name: &'static str) {
         self.here.lock().expect("nobody panics here").push(name);
     }

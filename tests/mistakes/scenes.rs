@@ -555,7 +555,10 @@ fn overrides_change_what_they_name() {
     let scene = parse_set(&bare, &[gpu, at_the_floor]).expect("a solver");
     assert_eq!(scene.solver.arithmetic(), Precision::Single);
     let scene = parse_set(&bare, &[("solver.precision", "mixed")]).expect("a solver");
-    assert_eq!((scene.solver.tolerance, scene.solver.arithmetic()), (1e-6, Precision::Mixed));
+    assert_eq!(
+        (scene.solver.tolerance, scene.solver.arithmetic()),
+        (1e-6, Precision::Mixed)
+    );
     // An effect may be set as a whole.
     let hard = hard();
     let law = "{ law = 'exponential', work_of_adhesion = 0.1, range = '1 nm' }";

@@ -9,12 +9,14 @@
 mod bindings;
 mod butterfly;
 mod catalogue;
+mod deciding;
 mod device;
 mod error;
 mod fft;
 mod layout;
 mod level;
 mod plan;
+mod reading;
 mod recorder;
 pub mod source;
 mod space;
@@ -27,9 +29,10 @@ use std::f64::consts::TAU;
 use super::cpu::CpuBackend;
 use super::{Backend, BackendError, Field, Level, Shape, Spectrum};
 use crate::kernel::{Form, Gate, Kernel, Params, ScalarKernel, Scalars};
-use bindings::{COLUMNS, DECIDING, ROWS, WORKING};
-use level::{LevelPlan, ROW_TRANSFORMS_PER_TRANSFORM};
-use recorder::{Part, Prepared, Recorder};
+use bindings::{COLUMNS, ROWS, WORKING};
+use deciding::{Decided, Deciding};
+use level::LevelPlan;
+use recorder::{Prepared, Recorder};
 use source::{Reduction, Results};
 use space::{FieldSpace, Key, LevelSpace, SpectrumSpace, single_bytes};
 
@@ -37,8 +40,8 @@ pub use catalogue::LawPart;
 pub use device::{AdapterChoice, AdapterDescription, AdapterKind, GpuDevice, adapters};
 pub use error::GpuError;
 pub use layout::Wide;
-pub use traffic::Traffic;
 pub use plan::{Exchange, GroupLimits, LinePlan, radices};
+pub use traffic::Traffic;
 
 /// The GPU backend, in single precision.
 pub struct GpuBackend {
@@ -312,26 +315,6 @@ impl GpuBackend {
         Ok(())
     }
 
-    /// Records what waits to be decided.
-    fn settle(&mut self) -> Result<(), GpuError> {
-        if self.deciding.reduction.is_none() && self.deciding.kernels.is_empty() {
-            return Ok(());
-        }
-        let Deciding { reduction, kernels } = std::mem::take(&mut self.deciding);
-        let key = Key::Decide(
-            reduction.as_ref().map(|sums| (sums.name, sums.level.0)),
-            kernels.iter().map(|kernel| kernel.name).collect(),
-        );
-        self.dispatch(key, |backend| {
-            let level = reduction.as_ref().map_or(Level(0), |sums| sums.level);
-            let first = reduction.as_ref().map(|sums| sums.reduction);
-            let text = source::decide(first, &kernels, backend.wide)?;
-            let space = backend.level_space(level)?;
-            let shared = [&backend.params, &backend.scalars, &space.partials];
-            backend.prepare("decide", text, &[(DECIDING, &shared)], 1)
-        })
-    }
-
     /// Hands over what waits, then overwrites the beginning of a buffer.
     fn overwrite(
         &mut self,
@@ -426,78 +409,10 @@ impl GpuBackend {
         });
         Ok(())
     }
-
-    /// Waits, and reads the scalars and what was counted.
-    fn look(&mut self) -> Result<Scalars, GpuError> {
-        self.checked()?;
-        self.settle()?;
-        self.traffic.looks += 1;
-        let length = layout::scalars_length(self.wide);
-        let mut parts = vec![Part {
-            buffer: &self.scalars,
-            start: 0,
-            length,
-        }];
-        let spaces = || self.levels.iter().flatten();
-        parts.extend(spaces().map(|space| Part {
-            buffer: &space.partials,
-            start: 0,
-            length: 4,
-        }));
-        let bytes = self.recorder.read(&parts)?;
-        let first = spaces().next().map_or(1, |space| space.plan.points());
-        let mut transforms = 0.0;
-        for (count, space) in bytes[length..].chunks_exact(4).zip(spaces()) {
-            let rows = count.try_into().map_or(0, u32::from_le_bytes);
-            let share = space.plan.points() as f64 / first as f64;
-            transforms += f64::from(rows) * share / ROW_TRANSFORMS_PER_TRANSFORM;
-        }
-        self.transforms = transforms;
-        Ok(layout::scalars_of(&bytes[..length], self.wide))
-    }
-
-    fn fetch(&mut self, field: Field) -> Result<Vec<f64>, GpuError> {
-        self.checked()?;
-        self.settle()?;
-        self.traffic.fields_down += 1;
-        let space = self
-            .fields
-            .get(field.index)
-            .and_then(Option::as_ref)
-            .ok_or_else(|| GpuError::Device("a field that was not made".to_string()))?;
-        let bytes = self.recorder.read(&[Part {
-            buffer: &space.buffer,
-            start: 0,
-            length: 4 * space.points,
-        }])?;
-        Ok(bytes
-            .chunks_exact(4)
-            .map(|value| {
-                value
-                    .try_into()
-                    .map_or(f64::NAN, |b| f64::from(f32::from_le_bytes(b)))
-            })
-            .collect())
-    }
 }
 
 /// Rounds recorded before the host waits: a wait costs about as much as these cost to record.
 const LOOK_EVERY: usize = 8;
-
-/// What is decided together: the sums of the last kernel over points, then scalar kernels.
-#[derive(Default)]
-struct Deciding {
-    reduction: Option<Decided>,
-    kernels: Vec<&'static ScalarKernel>,
-}
-
-/// Sums to be put together.
-struct Decided {
-    /// What they are known by on their level.
-    name: &'static str,
-    level: Level,
-    reduction: Reduction,
-}
 
 impl Backend for GpuBackend {
     fn look_every(&self) -> usize {
