@@ -4,7 +4,7 @@ struct Partials {
     // Transforms of rows run on this level, forward and back one each, a multiplication two.
     transforms: u32,
     // One value a workgroup, sum after sum.
-    values: array<wide>,
+    values: array<part>,
 }
 @group(0) @binding(0) var<uniform> params: Params;
 @group(0) @binding(2) var<storage, read_write> partials: Partials;

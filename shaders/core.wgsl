@@ -3,17 +3,10 @@
 // the core is no stiffer than k. With D = max(sigma'(g), 0): dg = S2 dv, S2 = k/(k + D).
 const NEWTON_STEPS: u32 = 25u;
 
-fn attraction(g: f32, on_surface: bool) -> f32 {
-    if (on_surface) {
-        return law_traction(g);
-    }
-    return 0.0;
-}
-
 // D; 0 on a pad.
 fn hardening(g: f32, on_surface: bool) -> f32 {
     if (on_surface) {
-        return max(law_slope(g), 0.0);
+        return max(law_slope(open_gap(g)), 0.0);
     }
     return 0.0;
 }
@@ -59,12 +52,14 @@ fn gap_at(goal: f32, g: f32) -> f32 {
 
 // The terms of the stopping measure.
 fn add_residual(g: f32, y: f32, traction: f32, on_surface: bool) {
-    sums[0] = sums[0] + wide(y) * wide(y);
+    add_sum(0u, wide(y) * wide(y));
     if (on_surface) {
-        sums[1] = sums[1] + wide(traction) * wide(traction);
-        if (wide(g) < sums[2]) {
-            sums[2] = wide(g);
+        let pull = wide(weighed(traction));
+        let open = wide(open_gap(g));
+        add_sum(1u, pull * pull);
+        if (open < sums[2]) {
+            sums[2] = open;
         }
-        sums[3] = sums[3] + wide(g) * wide(g);
+        add_sum(3u, wide(g) * wide(g));
     }
 }

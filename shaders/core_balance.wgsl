@@ -5,6 +5,6 @@
 fn point(index: u32, on_surface: bool) {
     let g = gap[index];
     let s2 = share_of(g, on_surface);
-    sums[0] = sums[0] + wide(s2 * (pressure[index] + attraction(g, on_surface)));
-    sums[1] = sums[1] + wide(s2);
+    add_sum(0u, wide(s2 * (pressure[index] + attraction(g, on_surface))));
+    add_sum(1u, wide(s2));
 }

@@ -16,15 +16,15 @@ fn store_point(index: u32, on_surface: bool, line_value: f32) {
     let y = s2 * y_here;
     let d = wide(direction[index]);
     let change = wide(y) - wide(free_before[index]);
-    sums[0] = sums[0] + wide(z) * wide(y);
-    sums[1] = sums[1] + wide(z) * change;
-    sums[2] = sums[2] + d * change;
-    sums[3] = sums[3] + d * wide(y);
-    sums[4] = sums[4] + wide(s2) * wide(z);
-    sums[5] = sums[5] + wide(s2);
-    sums[6] = sums[6] + wide(y);
-    sums[7] = sums[7] + change;
-    sums[8] = sums[8] + wide(s2) * d;
+    add_sum(0u, wide(z) * wide(y));
+    add_sum(1u, wide(z) * change);
+    add_sum(2u, d * change);
+    add_sum(3u, d * wide(y));
+    add_sum(4u, wide(s2) * wide(z));
+    add_sum(5u, wide(s2));
+    add_sum(6u, wide(y));
+    add_sum(7u, change);
+    add_sum(8u, wide(s2) * d);
     descent[index] = z;
     free_before[index] = y;
 }

@@ -9,10 +9,13 @@ fn point(index: u32, on_surface: bool) {
     let d = f32(scalars.descent) * descent[index] + f32(scalars.memory) * direction[index] + f32(scalars.shift);
     direction[index] = d;
     var s = f32(scalars.trial) * d;
-    if (on_surface) {
+    if (on_surface && CORRECTS) {
+        // A correction is short: v follows its slope.
+        s = share_of(g, true) * s;
+    } else if (on_surface) {
         s = gap_at(variable(g) + s, g) - g;
     }
     trial_of[index] = s;
-    sums[0] = sums[0] + wide(s);
-    sums[1] = sums[1] + wide(share_of(g + s, on_surface));
+    add_sum(0u, wide(s));
+    add_sum(1u, wide(share_of(g + s, on_surface)));
 }

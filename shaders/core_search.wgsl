@@ -6,10 +6,10 @@ fn point(index: u32, on_surface: bool) {
     if (on_surface) {
         let g = gap[index];
         let s = trial_of[index];
-        let moved = g + f32(scalars.step) * s;
-        let energy = law_energy(g);
-        sums[0] = sums[0] + wide(law_traction(moved) - law_traction(g)) * wide(s);
-        sums[1] = sums[1] + wide(law_energy(moved) - energy);
-        sums[2] = sums[2] + abs(wide(energy));
+        let step = f32(scalars.step) * s;
+        let energy = energy_change(g, step);
+        add_sum(0u, wide(traction_change(g, step)) * wide(s));
+        add_sum(1u, wide(energy.x));
+        add_sum(2u, wide(energy.y));
     }
 }

@@ -14,13 +14,15 @@ fn load_point(index: u32, on_surface: bool) -> f32 {
     trial_of[index] = s;
     let elastic = pressure[index] + f32(scalars.mean_pressure);
     let step = wide(s);
-    sums[0] = sums[0] + step * wide(elastic + attraction(g, on_surface));
+    let all = elastic + attraction(g, on_surface);
+    add_sum(0u, step * wide(all));
     if (step > sums[2]) {
         sums[2] = step;
     }
     if (step < sums[3]) {
         sums[3] = step;
     }
-    sums[5] = sums[5] + step * wide(elastic);
+    // On a pad a base's residual is no law's: the search will not count it.
+    add_sum(5u, step * wide(select(all, elastic, on_surface)));
     return s;
 }

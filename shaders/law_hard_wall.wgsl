@@ -10,3 +10,8 @@ fn law_energy(gap_here: f32) -> f32 {
 fn law_slope(gap_here: f32) -> f32 {
     return 0.0;
 }
+
+// The gain of the traction over a step, to the rounding of the gain itself.
+fn law_difference(gap_here: f32, step: f32) -> f32 {
+    return 0.0;
+}

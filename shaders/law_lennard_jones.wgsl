@@ -29,3 +29,21 @@ fn law_slope(gap_here: f32) -> f32 {
     let tenth = fourth * fourth * r * r;
     return 8.0 / 3.0 * law_factor * f32(params.law_work) / (range * range) * (9.0 * tenth - 3.0 * fourth);
 }
+
+// The gain of the traction over a step, to the rounding of the gain itself: by how much r^3 and r^9
+// grow, as shares of themselves.
+fn law_difference(gap_here: f32, step: f32) -> f32 {
+    let range = f32(params.law_range);
+    let distance_here = gap_here + range;
+    let nearest = LAW_NEAREST * range;
+    if (distance_here <= nearest || distance_here + step <= nearest) {
+        return law_traction(gap_here + step) - law_traction(gap_here);
+    }
+    let x = step / distance_here;
+    let third = -x * (3.0 + x * (3.0 + x)) / ((1.0 + x) * (1.0 + x) * (1.0 + x));
+    let ninth = third * (3.0 + third * (3.0 + third));
+    let r = law_ratio(gap_here);
+    let cube = r * r * r;
+    let scale = 8.0 / 3.0 * law_factor * f32(params.law_work) / range;
+    return scale * (cube * third - cube * cube * cube * ninth);
+}

@@ -33,3 +33,21 @@ fn law_slope(gap_here: f32) -> f32 {
     }
     return 0.0;
 }
+
+// The gain of the traction over a step, to the rounding of the gain itself: only the part of the way
+// that lies on the taper counts.
+fn law_difference(gap_here: f32, step: f32) -> f32 {
+    let taper = f32(params.law_taper);
+    if (taper <= 0.0) {
+        return law_traction(gap_here + step) - law_traction(gap_here);
+    }
+    let left = (f32(params.law_range) - gap_here) / taper + 0.5;
+    let moved = step / taper;
+    var lost = min(max(moved, left - 1.0), left);
+    if (left > 1.0) {
+        lost = clamp(moved - (left - 1.0), 0.0, 1.0);
+    } else if (left < 0.0) {
+        lost = -clamp(left - moved, 0.0, 1.0);
+    }
+    return -law_factor * f32(params.law_peak) * lost;
+}

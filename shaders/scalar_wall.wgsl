@@ -1,19 +1,20 @@
 // The decisions that belong to laws with a hard wall.
 
-// The factor that brings a trial back to the held mean gap.
+// The share of a trial gap that brings it back to the held mean.
 fn restore_wall() {
-    scalars.restore = ONE;
-    if (scalars.sums[0] > ZERO) {
-        scalars.restore = scalars.sums[1] / scalars.sums[0];
+    let trial = scalars.sums[1] + scalars.sums[0];
+    scalars.restore = ZERO;
+    if (trial > ZERO) {
+        scalars.restore = -scalars.sums[0] / trial;
     }
 }
 
 // The same where gaps may be below zero, which are scaled the other way.
 fn restore_yield() {
-    scalars.restore = ONE;
+    scalars.restore = ZERO;
     let size = scalars.sums[2];
     if (size > ZERO) {
-        scalars.restore = (scalars.sums[1] + (size - scalars.sums[0])) / size;
+        scalars.restore = -scalars.sums[0] / size;
     }
 }
 

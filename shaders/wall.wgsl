@@ -1,43 +1,39 @@
 // What the kernels of the laws with a hard wall share. g gap, p elastic pressure,
 // y = p + mean_pressure + sigma(g); points of a pad have no wall and no law: they are always free.
-fn attraction(g: f32, on_surface: bool) -> f32 {
-    if (on_surface) {
-        return law_traction(g);
-    }
-    return 0.0;
-}
-
 fn total(g: f32, p: f32, on_surface: bool) -> f32 {
     return p + f32(scalars.mean_pressure) + attraction(g, on_surface);
 }
 
-fn is_free(g: f32, y: f32, on_surface: bool) -> bool {
-    return !on_surface || g > 0.0 || y < 0.0;
+fn is_free(open: f32, y: f32, on_surface: bool) -> bool {
+    return !on_surface || open > 0.0 || y < 0.0;
 }
 
-// s = restore max(-g, moved) + (restore - 1) g, without a wall on the pad. Where a floor flows, y
-// tells to which side a closed point may move.
-fn trial_step(g: f32, y: f32, moved: f32, restore: f32, on_surface: bool) -> f32 {
+// s = s0 + restore (g + s0) with s0 = max(-g, moved), without a wall on the pad. Where a floor flows,
+// y tells to which side a closed point may move.
+fn trial_step(open: f32, y: f32, moved: f32, restore: f32, on_surface: bool) -> f32 {
     if (!on_surface) {
         return moved;
     }
-    return restore * max(moved, -g) + (restore - 1.0) * g;
+    let s = max(moved, -open);
+    return s + restore * (open + s);
 }
 
 // The terms of the stopping measure.
 fn add_residual(g: f32, y: f32, traction: f32, on_surface: bool) {
     if (!on_surface) {
-        sums[0] = sums[0] + wide(y) * wide(y);
+        add_sum(0u, wide(y) * wide(y));
         return;
     }
-    let violation = wide(min(y, g * f32(params.stiffness_max)));
-    sums[0] = sums[0] + violation * violation;
-    let reaction = wide(select(max(y, 0.0), 0.0, g > 0.0));
-    sums[1] = sums[1] + (reaction * reaction + wide(traction) * wide(traction));
-    if (wide(g) < sums[2]) {
-        sums[2] = wide(g);
+    let open = open_gap(g);
+    let violation = wide(min(y, open * f32(params.stiffness_max)));
+    add_sum(0u, violation * violation);
+    let reaction = wide(weighed(select(max(y, 0.0), 0.0, open > 0.0)));
+    let pull = wide(weighed(traction));
+    add_sum(1u, (reaction * reaction + pull * pull));
+    if (wide(open) < sums[2]) {
+        sums[2] = wide(open);
     }
-    sums[3] = sums[3] + wide(g) * wide(g);
+    add_sum(3u, wide(g) * wide(g));
 }
 
 // y on free points, 0 elsewhere, with the stopping measure summed on the way.
@@ -45,7 +41,7 @@ fn free_line(g: f32, p: f32, on_surface: bool) -> f32 {
     let traction = attraction(g, on_surface);
     let y = p + f32(scalars.mean_pressure) + traction;
     add_residual(g, y, traction, on_surface);
-    return select(0.0, y, is_free(g, y, on_surface));
+    return select(0.0, y, is_free(open_gap(g), y, on_surface));
 }
 
 // The new direction: zero where the point is not free.
@@ -57,11 +53,11 @@ fn new_direction(z: f32, d: f32, free: bool) -> f32 {
 }
 
 // The sums over a trial step; slots as `accept` reads them.
-fn add_trial(s: f32, y: f32, g: f32, moved: f32, on_surface: bool) {
+fn add_trial(s: f32, y: f32, open: f32, moved: f32, on_surface: bool) {
     let step = wide(s);
-    sums[0] = sums[0] + step * wide(y);
+    add_sum(0u, step * wide(y));
     if (s < 0.0 && on_surface) {
-        let ratio = wide(g) / -step;
+        let ratio = wide(open) / -step;
         if (ratio < sums[1]) {
             sums[1] = ratio;
         }
@@ -72,7 +68,7 @@ fn add_trial(s: f32, y: f32, g: f32, moved: f32, on_surface: bool) {
     if (step < sums[3]) {
         sums[3] = step;
     }
-    if (on_surface && g + moved < 0.0) {
+    if (on_surface && open + moved < 0.0) {
         sums[4] = wide(1.0);
     }
 }

@@ -6,14 +6,11 @@
 fn store_point(index: u32, on_surface: bool, line_value: f32) {
     let g = gap[index];
     let t = f32(scalars.step);
-    let s = trial_step(g, 0.0, f32(scalars.trial) * direction[index], f32(scalars.restore), on_surface);
-    var moved = g + t * s;
-    if (on_surface) {
-        moved = max(moved, 0.0);
-        if (s < 0.0 && moved < f32(scalars.snap)) {
-            moved = 0.0;
-        }
-    }
-    gap[index] = moved;
+    let open = open_gap(g);
+    let s = trial_step(open, 0.0, f32(scalars.trial) * direction[index], f32(scalars.restore), on_surface);
+    // By what is left of the gap, which a cut makes exactly zero.
+    let left = open + t * s;
+    let closed = on_surface && (left <= 0.0 || (s < 0.0 && left < f32(scalars.snap)));
+    gap[index] = select(g + t * s, closed_at(), closed);
     pressure[index] = pressure[index] + t * line_value;
 }

@@ -5,8 +5,9 @@
 fn point(index: u32, on_surface: bool) {
     let g = gap[index];
     let y = wide(pressure[index] + attraction(g, on_surface));
-    sums[0] = sums[0] + wide(g) * y;
-    sums[1] = sums[1] + wide(g);
+    let open = wide(open_gap(g));
+    add_sum(0u, open * y);
+    add_sum(1u, open);
     if (y < sums[2]) {
         sums[2] = y;
     }

@@ -8,22 +8,22 @@
 fn descend(index: u32, on_surface: bool, candidate: f32) {
     let g = gap[index];
     let y_here = total(g, pressure[index], on_surface);
-    let free = is_free(g, y_here, on_surface);
+    let free = is_free(open_gap(g), y_here, on_surface);
     let z = select(0.0, candidate, free);
     let y = select(0.0, y_here, free);
     let d = wide(direction[index]);
     let change = wide(y) - wide(free_before[index]);
-    sums[2] = sums[2] + d * change;
+    add_sum(2u, d * change);
     if (free) {
-        sums[0] = sums[0] + wide(z) * wide(y);
-        sums[1] = sums[1] + wide(z) * change;
-        sums[3] = sums[3] + d * wide(y);
+        add_sum(0u, wide(z) * wide(y));
+        add_sum(1u, wide(z) * change);
+        add_sum(3u, d * wide(y));
         if (params.fixed_gap != 0u) {
-            sums[4] = sums[4] + wide(z);
-            sums[5] = sums[5] + wide(1.0);
-            sums[6] = sums[6] + wide(y);
-            sums[7] = sums[7] + change;
-            sums[8] = sums[8] + d;
+            add_sum(4u, wide(z));
+            add_sum(5u, wide(1.0));
+            add_sum(6u, wide(y));
+            add_sum(7u, change);
+            add_sum(8u, d);
         }
     }
     descent[index] = z;

@@ -1,4 +1,4 @@
-// Turns the direction and sums the mean that the trial would have (fixed mean gap).
+// Turns the direction and sums the trial step and the gap (fixed mean gap).
 @group(1) @binding(0) var<storage, read> gap: array<f32>;
 @group(1) @binding(1) var<storage, read> pressure: array<f32>;
 @group(1) @binding(2) var<storage, read> descent: array<f32>;
@@ -6,9 +6,10 @@
 
 fn point(index: u32, on_surface: bool) {
     let g = gap[index];
+    let open = open_gap(g);
     let y = total(g, pressure[index], on_surface);
-    let d = new_direction(descent[index], direction[index], is_free(g, y, on_surface));
+    let d = new_direction(descent[index], direction[index], is_free(open, y, on_surface));
     direction[index] = d;
-    sums[0] = sums[0] + wide(max(g + f32(scalars.trial) * d, 0.0));
-    sums[1] = sums[1] + wide(g);
+    add_sum(0u, wide(max(f32(scalars.trial) * d, -open)));
+    add_sum(1u, wide(open));
 }

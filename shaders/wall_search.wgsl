@@ -5,8 +5,8 @@
 fn point(index: u32, on_surface: bool) {
     if (on_surface) {
         let g = gap[index];
-        let s = trial_step(g, 0.0, f32(scalars.trial) * direction[index], f32(scalars.restore), true);
-        let change = law_traction(g + f32(scalars.step) * s) - law_traction(g);
-        sums[0] = sums[0] + wide(change) * wide(s);
+        let s = trial_step(open_gap(g), 0.0, f32(scalars.trial) * direction[index], f32(scalars.restore), true);
+        let change = traction_change(g, f32(scalars.step) * s);
+        add_sum(0u, wide(change) * wide(s));
     }
 }

@@ -6,11 +6,12 @@
 
 fn load_point(index: u32, on_surface: bool) -> f32 {
     let g = gap[index];
+    let open = open_gap(g);
     let y = total(g, pressure[index], on_surface);
-    let d = new_direction(descent[index], direction[index], is_free(g, y, on_surface));
+    let d = new_direction(descent[index], direction[index], is_free(open, y, on_surface));
     direction[index] = d;
     let moved = f32(scalars.trial) * d;
-    let s = trial_step(g, y, moved, 1.0, on_surface);
-    add_trial(s, y, g, moved, on_surface);
+    let s = trial_step(open, y, moved, 0.0, on_surface);
+    add_trial(s, y, open, moved, on_surface);
     return s;
 }

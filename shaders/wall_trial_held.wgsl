@@ -6,8 +6,9 @@
 fn load_point(index: u32, on_surface: bool) -> f32 {
     let g = gap[index];
     let y = total(g, pressure[index], on_surface);
+    let open = open_gap(g);
     let moved = f32(scalars.trial) * direction[index];
-    let s = trial_step(g, y, moved, f32(scalars.restore), on_surface);
-    add_trial(s, y, g, moved, on_surface);
+    let s = trial_step(open, y, moved, f32(scalars.restore), on_surface);
+    add_trial(s, y, open, moved, on_surface);
     return s;
 }

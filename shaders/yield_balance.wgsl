@@ -5,11 +5,11 @@
 fn point(index: u32, on_surface: bool) {
     let g = gap[index];
     let below = on_surface && g < 0.0;
-    let pull = select(attraction(g, on_surface), -f32(params.hardness), below);
+    let pull = select(attraction(max(g, 0.0), on_surface), -f32(params.hardness), below);
     let y = wide(pressure[index] + pull);
     let weight = wide(abs(g));
-    sums[0] = sums[0] + weight * y;
-    sums[1] = sums[1] + weight;
+    add_sum(0u, weight * y);
+    add_sum(1u, weight);
     if (y < sums[2]) {
         sums[2] = y;
     }

@@ -8,7 +8,7 @@ fn point(index: u32, on_surface: bool) {
     let y = total(g, pressure[index], on_surface);
     if (on_surface && !goes_down(g, y)) {
         let s = trial_step(g, y, f32(scalars.trial) * direction[index], f32(scalars.restore), true);
-        let change = law_traction(g + f32(scalars.step) * s) - law_traction(g);
-        sums[0] = sums[0] + wide(change) * wide(s);
+        let change = traction_change(g, f32(scalars.step) * s);
+        add_sum(0u, wide(change) * wide(s));
     }
 }

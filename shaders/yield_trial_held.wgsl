@@ -6,7 +6,7 @@
 fn load_point(index: u32, on_surface: bool) -> f32 {
     let restore = f32(scalars.restore);
     // A trial that no scaling brings back is lost: one that moves and does not descend.
-    if (!(restore > 0.0 && restore < 2.0)) {
+    if (!(restore > -1.0 && restore < 1.0)) {
         sums[2] = wide(1.0);
         return 0.0;
     }

@@ -1,13 +1,6 @@
 // What the kernels of a solid that flows at its hardness share; the same words as in `wall`. Below
 // zero a gap is a depth that has flowed, and y = p + mean_pressure - hardness. A closed point that
 // rests has y = 0; one that may move has the y of the side to which it may.
-fn attraction(g: f32, on_surface: bool) -> f32 {
-    if (on_surface) {
-        return law_traction(max(g, 0.0));
-    }
-    return 0.0;
-}
-
 fn total(g: f32, p: f32, on_surface: bool) -> f32 {
     let elastic = p + f32(scalars.mean_pressure);
     if (!on_surface) {
@@ -33,36 +26,38 @@ fn goes_down(g: f32, y: f32) -> bool {
     return g < 0.0 || (g == 0.0 && y > 0.0);
 }
 
-// s = x - g of the trial x = clip(g + moved), scaled by restore above zero and by 2 - restore below.
+// s = s0 + restore (g + s0) with s0 the way to clip(g + moved); below zero with the opposite sign of
+// restore, so that a held mean is kept on either side.
 fn trial_step(g: f32, y: f32, moved: f32, restore: f32, on_surface: bool) -> f32 {
     if (!on_surface) {
         return moved;
     }
     if (goes_down(g, y)) {
-        let shrink = 2.0 - restore;
-        return shrink * min(moved, -g) + (shrink - 1.0) * g;
+        let down = min(moved, -g);
+        return down - restore * (g + down);
     }
-    return restore * max(moved, -g) + (restore - 1.0) * g;
+    let up = max(moved, -g);
+    return up + restore * (g + up);
 }
 
 // The terms of the stopping measure, and y on free points, 0 elsewhere.
 fn free_line(g: f32, p: f32, on_surface: bool) -> f32 {
     let elastic = p + f32(scalars.mean_pressure);
     if (!on_surface) {
-        sums[0] = sums[0] + wide(elastic) * wide(elastic);
+        add_sum(0u, wide(elastic) * wide(elastic));
         return elastic;
     }
-    let traction = attraction(g, true);
+    let traction = attraction(max(g, 0.0), true);
     let y = elastic + traction;
     let middle = max(min(y, g * f32(params.stiffness_max)), elastic - f32(params.hardness));
     let violation = wide(middle);
-    sums[0] = sums[0] + violation * violation;
+    add_sum(0u, violation * violation);
     let reaction = wide(select(max(y, 0.0), 0.0, g > 0.0));
-    sums[1] = sums[1] + (reaction * reaction + wide(traction) * wide(traction));
+    add_sum(1u, (reaction * reaction + wide(traction) * wide(traction)));
     if (wide(g) < sums[2]) {
         sums[2] = wide(g);
     }
-    sums[3] = sums[3] + wide(g) * wide(g);
+    add_sum(3u, wide(g) * wide(g));
     return total(g, p, true);
 }
 
@@ -77,8 +72,8 @@ fn new_direction(z: f32, d: f32, free: bool) -> f32 {
 // The sums over a trial step; slots as `accept` reads them.
 fn add_trial(s: f32, y: f32, g: f32, moved: f32, on_surface: bool) {
     let step = wide(s);
-    sums[0] = sums[0] + step * wide(y);
-    let closes = (g > 0.0 && s < 0.0) || (g < 0.0 && s > 0.0);
+    add_sum(0u, step * wide(y));
+    let closes = (g >= 0.0 && s < 0.0) || (g < 0.0 && s > 0.0);
     if (closes && on_surface) {
         let ratio = wide(g) / -step;
         if (ratio < sums[1]) {

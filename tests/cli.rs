@@ -294,26 +294,7 @@ fn mistakes_are_named_all_at_once_with_their_lines() {
 #[test]
 fn what_this_version_lacks_is_refused_by_name() {
     let (folder, _) = scene(ROUGH);
-    for arguments in [
-        vec!["run", "scene.toml", "--precision", "mixed"],
-        vec![
-            "run",
-            "scene.toml",
-            "--backend",
-            "gpu",
-            "--precision",
-            "mixed",
-        ],
-        vec![
-            "run",
-            "scene.toml",
-            "--backend",
-            "gpu",
-            "--precision",
-            "double",
-        ],
-        vec!["accuracy", "scene.toml", "--budget", "5 min"],
-    ] {
+    for arguments in [vec!["accuracy", "scene.toml", "--budget", "5 min"]] {
         let output = tabor(folder.path(), &arguments);
         assert_eq!(status(&output), 2, "{arguments:?}");
         assert!(

@@ -2,7 +2,7 @@
 
 use naga::valid::{Capabilities, ModuleInfo, ValidationFlags, Validator};
 use tabor::backend::Shape;
-use tabor::backend::gpu::source::{self, LevelPlan, Results};
+use tabor::backend::gpu::source::{self, LawSource, LevelPlan, Reduction, Results};
 use tabor::backend::gpu::{Exchange, GroupLimits, LawPart, Wide};
 use tabor::kernel::common::{LOAD_FIELD, STORE_PRESSURE};
 use tabor::kernel::{Gate, Reduce};
@@ -20,7 +20,7 @@ const LAWS: [LawPart; 4] = [
     LawPart::Exponential,
     LawPart::LennardJones,
 ];
-const NUMBERS: [Wide; 2] = [Wide::Single, Wide::Double];
+const NUMBERS: [Wide; 3] = [Wide::Single, Wide::Compensated, Wide::Double];
 const GATES: [Gate; 5] = [
     Gate::Always,
     Gate::Running,
@@ -35,7 +35,7 @@ fn validate(name: &str, text: &str, wide: Wide) -> (naga::Module, ModuleInfo) {
     let module = naga::front::wgsl::parse_str(text)
         .unwrap_or_else(|error| panic!("{name}: {}\n{text}", error.emit_to_string(text)));
     let capabilities = match wide {
-        Wide::Single => Capabilities::empty(),
+        Wide::Single | Wide::Compensated => Capabilities::empty(),
         Wide::Double => Capabilities::FLOAT64,
     };
     let info = Validator::new(ValidationFlags::all(), capabilities)
@@ -89,6 +89,14 @@ fn kernels_are_valid_and_bind_what_the_catalogue_declares() {
                         .collect();
                     assert_eq!(fields(&module), declared, "{}", kernel.name);
                     assert_eq!(module.entry_points[0].name, kernel.name);
+                    // The same on corrections of a base.
+                    let corrected = LawSource {
+                        base: Some(kernel.fields()),
+                        ..law.uniform()
+                    };
+                    let text = source::kernel(kernel, plan, [12, 16], corrected, wide)
+                        .unwrap_or_else(|error| panic!("{error}"));
+                    validate(kernel.name, &text, wide);
                 }
             }
         }
@@ -142,6 +150,11 @@ fn rounds_are_valid() {
 }
 
 #[test]
+fn the_check_of_sums_is_valid() {
+    validate("check", &source::two_sums(), Wide::Compensated);
+}
+
+#[test]
 fn reductions_are_valid() {
     for wide in NUMBERS {
         for gate in GATES {
@@ -149,7 +162,14 @@ fn reductions_are_valid() {
                 Results::Curvature(4096),
                 Results::Sums(&[Reduce::Add, Reduce::Min, Reduce::Max]),
             ] {
-                validate("reduce", &source::reduce(results, 7, gate, wide), wide);
+                let reduction = Reduction {
+                    results,
+                    groups: 7,
+                    gate,
+                };
+                let text = source::decide(Some(reduction), &[], wide)
+                    .unwrap_or_else(|error| panic!("{error}"));
+                validate("decide", &text, wide);
             }
         }
     }
@@ -159,7 +179,8 @@ fn reductions_are_valid() {
 fn scalar_kernels_are_valid() {
     for wide in NUMBERS {
         for kernel in SCALAR_KERNELS {
-            let text = source::scalar(kernel, wide).unwrap_or_else(|error| panic!("{error}"));
+            let text =
+                source::decide(None, &[kernel], wide).unwrap_or_else(|error| panic!("{error}"));
             validate(kernel.name, &text, wide);
         }
     }

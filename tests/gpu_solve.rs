@@ -1,16 +1,20 @@
-//! Whole solves on the graphics processor in single precision, against the CPU in double.
+//! Whole solves on the graphics processor in single and mixed precision, and in mixed on the
+//! processor, against the CPU in double.
 
+mod gpu_catalogue;
 mod gpu_shared;
 
 use std::path::PathBuf;
 
+use gpu_catalogue::KERNELS;
+use gpu_shared::watching::Watching;
 use gpu_shared::{backend, device, device_with_single_sums, relative_difference};
 use tabor::backend::Backend;
 use tabor::backend::cpu::CpuBackend;
-use tabor::backend::gpu::{GpuDevice, Wide};
+use tabor::backend::gpu::{GpuBackend, GpuDevice, Traffic, Wide};
 use tabor::grid::Grid;
-use tabor::kernel::Status;
-use tabor::law::{Law, LennardJones, MaugisDugdale};
+use tabor::kernel::{Form, Status};
+use tabor::law::{Exponential, Law, LennardJones, MaugisDugdale};
 use tabor::scene::*;
 use tabor::solver::{ContactSolver, Hold, Load, Outcome, Problem, Start};
 use tabor::surface::Surface;
@@ -191,7 +195,7 @@ fn rough_hard_wall_without_double_precision() {
     let Some(device) = device_with_single_sums() else {
         return;
     };
-    assert_eq!(device.wide(), Wide::Single);
+    assert_eq!(device.wide(), Wide::Compensated);
     let surface = rough(64);
     let problem = Problem::new(
         surface.grid,
@@ -287,5 +291,362 @@ fn looking_less_often_changes_no_bit() {
         assert_eq!(one.gap, eight.gap);
         assert_eq!(one.pressure, eight.pressure);
         assert_eq!(one.transforms, eight.transforms);
+    }
+}
+
+/// What mixed precision is to reach on every law, boundary and control.
+const TIGHT: f64 = 1e-9;
+
+/// The laws in the units of the test surfaces, whose contact modulus and cell are 1.
+fn laws() -> [(&'static str, Law); 5] {
+    let dugdale = |taper| {
+        Law::MaugisDugdale(MaugisDugdale {
+            peak_tension: 0.05,
+            range: 5e-3,
+            taper,
+        })
+    };
+    [
+        ("hard wall", Law::HardWall),
+        ("sharp Maugis-Dugdale", dugdale(0.0)),
+        ("tapered Maugis-Dugdale", dugdale(5e-3)),
+        (
+            "exponential",
+            Law::Exponential(Exponential {
+                work_of_adhesion: 2.5e-4,
+                range: 5e-3,
+            }),
+        ),
+        (
+            "Lennard-Jones",
+            Law::LennardJones(LennardJones {
+                work_of_adhesion: 2.5e-4,
+                range: 5e-3,
+            }),
+        ),
+    ]
+}
+
+/// A spring of the softest wave's own stiffness, stretched to where it presses this much.
+fn with_spring(problem: &Problem, pressure: f64) -> Load {
+    let stiffness = problem.stiffness_min();
+    Load {
+        hold: Hold::Pressure(pressure / problem.scales.pressure + stiffness * problem.highest()),
+        zero_stiffness: stiffness,
+        zero_compliance: 1.0 / stiffness,
+    }
+}
+
+/// Every law under every control that a boundary has.
+fn contacts(points: usize) -> Vec<(String, Problem, Load)> {
+    let surface = rough(points);
+    let (grid, heights) = sphere(points / 2);
+    let mut found = Vec::new();
+    for (name, law) in laws() {
+        let periodic = Problem::new(
+            surface.grid,
+            Boundary::Periodic,
+            1.0,
+            &surface.heights,
+            1.0,
+            law,
+        );
+        let free = Problem::new(grid, Boundary::Free, 1.0, &heights, 0.4, law);
+        for (control, load) in [
+            ("pressure", at_pressure(&periodic, 0.05)),
+            ("gap", at_gap(&periodic, 0.03)),
+            ("spring", with_spring(&periodic, 0.05)),
+        ] {
+            found.push((format!("{name}, {control}"), periodic.clone(), load));
+        }
+        let approach = Load {
+            hold: Hold::Pressure(0.01 / free.scales.length * free.stiffness[0]),
+            zero_stiffness: free.stiffness[0],
+            zero_compliance: 1.0 / free.stiffness[0],
+        };
+        let force = at_pressure(&free, 0.002);
+        found.push((format!("{name}, free, force"), free.clone(), force));
+        found.push((format!("{name}, free, approach"), free, approach));
+    }
+    found
+}
+
+/// The stopping measure of a gap, by the processor in double precision alone.
+fn true_residual(problem: &Problem, load: &Load, gap: &[f64]) -> f64 {
+    let mut backend = CpuBackend::<f64>::new();
+    let mut solver = ContactSolver::new(&mut backend, problem);
+    solver
+        .begin(load, &Start::Gap(gap.to_vec()), TIGHT, false)
+        .and_then(|()| solver.evaluate())
+        .unwrap_or_else(|error| panic!("{error}"))
+        .residual
+}
+
+/// Solves to `TIGHT` in mixed precision and checks it in double; returns the worst residual.
+fn tight(
+    name: &str,
+    problem: &Problem,
+    load: &Load,
+    make: &dyn Fn() -> Box<dyn Backend + Send>,
+) -> f64 {
+    let double = || -> Box<dyn Backend + Send> { Box::new(CpuBackend::<f64>::new()) };
+    let reference = solve(problem, load, &Start::Cold, TIGHT, &double);
+    let clock = std::time::Instant::now();
+    let mixed = solve(problem, load, &Start::Cold, TIGHT, make);
+    let took = clock.elapsed();
+    let residual = true_residual(problem, load, &mixed.gap);
+    let apart = relative_difference(&mixed.gap, &reference.gap);
+    println!(
+        "{name}: {:?} {} iterations ({} in double), residual {:.1e}, again {residual:.1e}, gap apart {apart:.1e}, {took:.1?}",
+        mixed.outcome.status,
+        mixed.outcome.iterations,
+        reference.outcome.iterations,
+        mixed.outcome.residual,
+    );
+    assert_eq!(mixed.outcome.status, reference.outcome.status, "{name}");
+    if mixed.outcome.status != Status::Converged {
+        return 0.0;
+    }
+    assert!(residual <= TIGHT, "{name}: {residual:e}");
+    residual
+}
+
+#[test]
+fn mixed_precision_on_the_processor_reaches_the_tolerance_of_double() {
+    let mixed = || -> Box<dyn Backend + Send> { Box::new(CpuBackend::<f32>::new().corrected()) };
+    let mut worst = 0.0f64;
+    for (name, problem, load) in contacts(64) {
+        worst = worst.max(tight(&name, &problem, &load, &mixed));
+    }
+    println!("worst residual {worst:.1e}");
+}
+
+#[test]
+fn mixed_precision_on_the_device_reaches_the_tolerance_of_double() {
+    let Some(device) = device() else { return };
+    let mixed = || -> Box<dyn Backend + Send> { Box::new(backend(device).corrected()) };
+    let mut worst = 0.0f64;
+    // Every pair of a law and a boundary is a shader of its own, which software compiles slowly: all
+    // laws on one boundary, and on the other those whose pad differs most.
+    let few = contacts(32).into_iter().filter(|(name, ..)| {
+        let free = name.contains("free");
+        !free || name.starts_with("exponential") || name.starts_with("Lennard-Jones")
+    });
+    for (name, problem, load) in few {
+        worst = worst.max(tight(&name, &problem, &load, &mixed));
+    }
+    println!("worst residual {worst:.1e}");
+}
+
+/// Fields that a kernel writes without reading what was there; all others that it writes it updates.
+const ONLY_WRITTEN: [(&str, usize); 10] = [
+    ("wall_free_kept", 1),
+    ("wall_descent", 1),
+    ("wall_descent_two_band", 1),
+    ("core_descent", 1),
+    ("core_direct", 1),
+    ("coarse_restrict", 2),
+    ("coarse_weight", 1),
+    ("coarse_store", 1),
+    ("store_pressure", 1),
+    ("wall_residual", 0),
+];
+
+/// Fields that passes move, in numbers a point of the fine grid: those bound, twice where they are
+/// updated, and the work space, which a multiplication updates beside its table.
+fn fields_moved(passes: &[&'static str]) -> f64 {
+    let mut moved = 0.0;
+    // A quarter of the points each way.
+    let (fine, coarse) = (1.0, 1.0 / 16.0);
+    let mut level = fine;
+    for &name in passes {
+        if name == "multiply" {
+            moved += 2.25 * level;
+            // The fine columns wait for the coarse ones, which come in two turns.
+            continue;
+        }
+        let kernel = KERNELS
+            .iter()
+            .find(|kernel| kernel.name == name)
+            .unwrap_or_else(|| panic!("{name} is in no catalogue"));
+        let own = if name.starts_with("coarse") {
+            coarse
+        } else {
+            fine
+        };
+        let only = ONLY_WRITTEN.iter().find(|(of, _)| *of == name);
+        let written = 2 * kernel.writes - only.map_or(0, |(_, count)| *count);
+        moved += own * (kernel.reads + written) as f64;
+        if kernel.whole {
+            moved += if own == coarse { fine } else { coarse };
+        }
+        if kernel.form != Form::Sweep {
+            moved += own;
+        }
+        // The last store on the coarse level hands over to the fine columns.
+        level = if name == "coarse_store" { fine } else { own };
+    }
+    moved
+}
+
+/// Dispatches and passes of so many iterations from cold, with what readies them.
+fn iterations(
+    device: &GpuDevice,
+    problem: &Problem,
+    load: &Load,
+    count: usize,
+) -> (Traffic, Vec<&'static str>) {
+    let mut watching = Watching::over(backend(device));
+    let mut solver = ContactSolver::new(&mut watching, problem);
+    solver
+        .begin(load, &Start::Cold, 0.0, false)
+        .unwrap_or_else(|error| panic!("{error}"));
+    for _ in 0..count {
+        solver.iterate().unwrap_or_else(|error| panic!("{error}"));
+    }
+    let passes = watching.here.lock().expect("nobody panics here").clone();
+    (watching.inner.traffic(), passes)
+}
+
+/// The table on the crate page: dispatches and fields moved by an iteration, each search of a step
+/// length apart.
+#[test]
+fn an_iteration_costs_what_the_crate_page_says() {
+    let Some(device) = device() else { return };
+    let page = include_str!("../src/lib.rs");
+    let mut missing = Vec::new();
+    let surface = rough(64);
+    for (title, law, held) in [
+        ("no adhesion, a pressure", laws()[0].1, false),
+        ("sharp Maugis-Dugdale, a pressure", laws()[1].1, false),
+        ("sharp Maugis-Dugdale, a mean gap", laws()[1].1, true),
+        ("exponential, a pressure", laws()[3].1, false),
+        ("Lennard-Jones, a pressure", laws()[4].1, false),
+        ("Lennard-Jones, a mean gap", laws()[4].1, true),
+    ] {
+        let problem = Problem::new(
+            surface.grid,
+            Boundary::Periodic,
+            1.0,
+            &surface.heights,
+            1.0,
+            law,
+        );
+        let load = match held {
+            true => at_gap(&problem, 0.03),
+            false => at_pressure(&problem, 0.05),
+        };
+        let (before, passes_before) = iterations(device, &problem, &load, 1);
+        let (after, passes) = iterations(device, &problem, &load, 2);
+        let passes = &passes[passes_before.len()..];
+        let is_search = |name: &&&str| name.ends_with("_search");
+        let searches = passes.iter().filter(is_search).count() as u64;
+        // A search is its kernel and the decision after it; what would be decided before the first
+        // one joins that of the last.
+        let dispatches = after.dispatches - before.dispatches - 2 * searches;
+        let rest: Vec<_> = passes
+            .iter()
+            .filter(|name| !name.ends_with("_search"))
+            .copied()
+            .collect();
+        let row = format!("| {title} | {dispatches} | {:.1} |", fields_moved(&rest));
+        println!("{row} {searches} searches, {passes:?}");
+        if !page.contains(&format!("//! {row}")) {
+            missing.push(row);
+        }
+    }
+    assert!(missing.is_empty(), "not on the crate page: {missing:?}");
+}
+
+/// A whole solve in mixed precision: every iteration is on the device, the processor evaluates the
+/// residual of each round and nothing else, and fields cross the bus for the corrections alone.
+#[test]
+fn nothing_but_corrections_crosses_the_bus() {
+    let Some(device) = device() else { return };
+    let surface = rough(64);
+    for (law, corrected) in [(laws()[1].1, true), (laws()[1].1, false)] {
+        let problem = Problem::new(
+            surface.grid,
+            Boundary::Periodic,
+            1.0,
+            &surface.heights,
+            1.0,
+            law,
+        );
+        let load = at_pressure(&problem, 0.05);
+        let nobody = || -> Box<dyn Backend + Send> { panic!("no coarse start on this grid") };
+        let gpu: GpuBackend = match corrected {
+            true => backend(device).corrected(),
+            false => backend(device),
+        };
+        let mut watching = Watching::over(gpu);
+        let tolerance = if corrected { TIGHT } else { 1e-4 };
+        let mut solver = ContactSolver::new(&mut watching, &problem);
+        let outcome = solver
+            .solve(
+                &load,
+                &Start::Cold,
+                tolerance,
+                500,
+                false,
+                &nobody,
+                &mut |_| true,
+            )
+            .unwrap_or_else(|error| panic!("{error}"));
+        assert_eq!(outcome.status, Status::Converged);
+        let traffic = watching.inner.traffic();
+        let double = watching.double.lock().expect("nobody panics here").clone();
+        let evaluations = double
+            .iter()
+            .filter(|&&name| name == "load_displacement")
+            .count();
+        println!("{outcome:?} {traffic:?}, {evaluations} evaluations");
+        // As the crate page has it, an iteration of this law takes 11.
+        assert!(traffic.dispatches >= 11 * outcome.iterations as u64);
+        let residual = [
+            "load_displacement",
+            "multiply",
+            "store_pressure",
+            "wall_residual",
+        ];
+        assert_eq!(double.len(), evaluations * residual.len());
+        assert!(
+            double.iter().all(|name| residual.contains(name)),
+            "{double:?}"
+        );
+        // Heights and start go up; without corrections nothing comes down.
+        let rounds = evaluations.saturating_sub(1) as u64;
+        assert_eq!(traffic.fields_up, 2 + 2 * rounds);
+        assert_eq!(traffic.fields_down, if corrected { 1 + rounds } else { 0 });
+        assert_eq!(corrected, rounds > 0);
+        assert!(rounds <= 4, "{rounds} rounds");
+    }
+}
+
+/// The same problem twice, sums in double or compensated in single, in both precisions.
+#[test]
+fn the_same_problem_twice_gives_the_same_bits() {
+    let Some(device) = device() else { return };
+    let Some(single_sums) = device_with_single_sums() else {
+        return;
+    };
+    let (grid, heights) = sphere(32);
+    let problem = Problem::new(grid, Boundary::Periodic, 1.0, &heights, 0.3, laws()[2].1);
+    let load = at_gap(&problem, 0.05);
+    for device in [device, &single_sums] {
+        for corrected in [false, true] {
+            let gpu = || -> Box<dyn Backend + Send> {
+                match corrected {
+                    true => Box::new(backend(device).corrected()),
+                    false => Box::new(backend(device)),
+                }
+            };
+            let tolerance = if corrected { TIGHT } else { 1e-4 };
+            let [one, two] =
+                [(); 2].map(|()| solve(&problem, &load, &Start::Cold, tolerance, &gpu));
+            assert_eq!(one.outcome.status, Status::Converged);
+            assert_eq!(one.outcome, two.outcome);
+            assert!(one.gap == two.gap && one.pressure == two.pressure);
+        }
     }
 }

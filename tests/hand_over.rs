@@ -235,6 +235,17 @@ fn cut_and_gone_on_with_in_single_precision() {
     assert_eq!(all(&make, true, false), 45);
 }
 
+/// The state is kept in double precision, and iterations in single start from it.
+#[test]
+fn cut_and_gone_on_with_in_mixed_precision() {
+    let make = mixed();
+    assert_eq!(all(&make, false, false), 37);
+}
+
+fn mixed() -> impl Fn() -> Box<dyn Backend + Send> {
+    || -> Box<dyn Backend + Send> { Box::new(CpuBackend::<f32>::new().corrected()) }
+}
+
 #[test]
 fn cut_and_gone_on_with_on_the_graphics_processor() {
     let Some(device) = gpu_shared::device() else {
@@ -252,4 +263,69 @@ fn cut_and_gone_on_with_where_coarse_grids_help() {
     scene.grid.points = Some([128, 128]);
     let make = || -> Box<dyn Backend + Send> { Box::new(CpuBackend::<f64>::new()) };
     cut(scene, &make, false, false, "coarse start");
+}
+
+/// Every shipped scene, and with them every effect: mixed precision walks the path that double does.
+/// Both stop at a residual of 1e-9, so what they find differs by some 1e-9 of the largest on the path
+/// where a state is stable; near a jump the softest mode may be a thousand times as soft.
+#[test]
+fn mixed_precision_walks_the_path_of_double() {
+    let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("examples/scenes");
+    let double = || -> Box<dyn Backend + Send> { Box::new(CpuBackend::<f64>::new()) };
+    let mixed = mixed();
+    let mut count = 0;
+    let mut paths: Vec<_> = std::fs::read_dir(folder)
+        .expect("the scenes are there")
+        .flatten()
+        .map(|entry| entry.path())
+        .filter(|path| {
+            path.extension()
+                .is_some_and(|extension| extension == "toml")
+        })
+        .collect();
+    paths.sort();
+    for path in paths {
+        let text = std::fs::read_to_string(&path).expect("a scene");
+        let mut set = vec![("solver.tolerance".to_owned(), "1e-9".to_owned())];
+        if !text.contains("kind = \"file\"") {
+            set.push(("grid.points".to_owned(), "48".to_owned()));
+        }
+        let scene = Scene::read(&path, &set).unwrap_or_else(|errors| panic!("{errors}"));
+        let surface = Surface::build(&scene).expect("a surface");
+        let setup = Setup::new(scene, surface);
+        let one = walk(&setup, &mixed, &mut ()).expect("it is solved");
+        let other = walk(&setup, &double, &mut ()).expect("it is solved");
+        let name = path.display();
+        assert_eq!(one.rows.len(), other.rows.len(), "{name}");
+        let largest = |of: fn(&StepRow) -> f64| {
+            let sizes = other.rows.iter().map(|row| of(row).abs());
+            sizes.fold(f64::MIN_POSITIVE, f64::max)
+        };
+        let columns: [(&str, fn(&StepRow) -> f64); 4] = [
+            ("force", |row| row.force),
+            ("mean gap", |row| row.mean_gap.unwrap_or(0.0)),
+            ("elastic energy", |row| row.elastic_energy),
+            ("contact", |row| row.contact_area_fraction),
+        ];
+        let mut worst = [0.0f64; 4];
+        for (one, other) in one.rows.iter().zip(&other.rows) {
+            let both = [one, other].map(|row| (row.converged, row.state));
+            assert_eq!(both[0], both[1], "{name}: {one:?} and in double {other:?}");
+            for ((_, of), worst) in columns.iter().zip(&mut worst) {
+                *worst = worst.max((of(one) - of(other)).abs() / largest(*of));
+            }
+        }
+        let iterations = |end: &WalkEnd| end.rows.iter().map(|row| row.iterations).sum::<usize>();
+        println!(
+            "{name}: {}, iterations {} ({} in double)",
+            worst.map(|error| format!("{error:.1e}")).join(" "),
+            iterations(&one),
+            iterations(&other)
+        );
+        for ((column, _), worst) in columns.iter().zip(worst) {
+            assert!(worst < 1e-6, "{name}: {column} off by {worst:e}");
+        }
+        count += 1;
+    }
+    assert!(count >= 2);
 }

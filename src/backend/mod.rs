@@ -126,6 +126,16 @@ pub trait Backend {
     /// Multiplies the law's tension by this field, in every kernel of its level from now on. Without
     /// a call the law is the same everywhere and nothing is read for it.
     fn set_law_factor(&mut self, factor: Field);
+    /// From now on the unknown of every kernel of the laws is the correction of a base gap, whose
+    /// residual is known: gap and residual of the base. Without a base it is the gap itself.
+    fn set_base(&mut self, base: Option<[Field; 2]>);
+    /// Sets a field to zero where it is.
+    fn clear(&mut self, field: Field);
+    /// An empty backend in double precision, where the solver is asked to keep its state in double
+    /// precision and to iterate here on corrections of it. `None` where this one's numbers will do.
+    fn in_double(&self) -> Option<Box<dyn Backend + Send>> {
+        None
+    }
     /// Sets the numbers that stay fixed during a solve.
     fn set_params(&mut self, params: &Params);
     /// Overwrites the scalars.

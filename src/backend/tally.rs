@@ -155,6 +155,10 @@ impl Backend for Tally {
 
     fn set_law_factor(&mut self, _factor: Field) {}
 
+    fn set_base(&mut self, _base: Option<[Field; 2]>) {}
+
+    fn clear(&mut self, _field: Field) {}
+
     fn set_params(&mut self, _params: &Params) {}
 
     fn set_scalars(&mut self, scalars: &Scalars) {

@@ -129,6 +129,12 @@ fn describe(plan: &Plan, cost: &Cost) -> Result<String, Failure> {
             Place::Gpu => "single precision on the GPU",
         }
     ));
+    if !cost.reference.is_empty() {
+        lines.push(format!(
+            "corrections   {} of state in double precision on the processor",
+            mebibytes(cost.reference_bytes() as u64)
+        ));
+    }
     lines.push(format!(
         "fields        {}",
         join(cost.fields.iter().map(|field| field.name))

@@ -21,7 +21,7 @@ fn describe(found: &[AdapterDescription]) -> String {
     let threads = std::thread::available_parallelism().map_or(1, NonZero::get);
     let mut lines = vec![format!(
         "processor     {threads} threads\n\
-         \x20 precision   single, double\n\
+         \x20 precision   single, mixed, double\n\
          \x20 largest     any grid that the memory holds"
     )];
     for (index, adapter) in found.iter().enumerate() {
@@ -30,16 +30,16 @@ fn describe(found: &[AdapterDescription]) -> String {
             "adapter {}     {}\n\
              \x20 type        {}\n\
              \x20 driver      {} {}\n\
-             \x20 precision   single{}\n\
-             \x20 largest     {side} x {side} points, {half} x {half} with a free boundary",
+             \x20 precision   single, mixed{}\n\
+             \x20 largest     {side} x {side} points in single and mixed, {half} x {half} with a free boundary",
             index + 1,
             adapter.name,
             adapter.kind.name(),
             adapter.interface,
             adapter.driver,
             match adapter.double {
-                true => "; double on the device, for sums only in this version",
-                false => "; no double on the device",
+                true => "; double on the device for sums, not for fields in this version",
+                false => "; no double on the device, so sums are compensated",
             },
             half = side / 2,
         ));
@@ -49,7 +49,7 @@ fn describe(found: &[AdapterDescription]) -> String {
     }
     lines.push(match (best(found), found) {
         (Some(adapter), _) => format!(
-            "auto          {} for precision = \"single\"; the processor for double precision and tolerances below {:e}, which the GPU lacks in this version",
+            "auto          {}, from 256 x 256 solved points on: in single precision for tolerances from {:e}, in mixed below; the processor for smaller grids and for precision = \"double\"",
             adapter.name,
             Precision::SINGLE_FLOOR
         ),

@@ -4,7 +4,7 @@ use super::Failure;
 use crate::backend::Backend;
 use crate::backend::cpu::CpuBackend;
 use crate::backend::gpu::{
-    AdapterChoice, AdapterDescription, GpuBackend, GpuDevice, adapters, radices,
+    AdapterChoice, AdapterDescription, GpuBackend, GpuDevice, GpuError, Wide, adapters, radices,
 };
 use crate::scene::{BackendName, Boundary, Precision};
 use crate::study::Setup;
@@ -26,17 +26,19 @@ impl Machine {
     /// Takes what a scene asks for.
     pub fn of(setup: &Setup) -> Result<Machine, Failure> {
         let settings = &setup.scene.solver;
-        let precision = settings.arithmetic();
         let (place, remark) = match settings.backend {
             BackendName::Cpu => (Place::Processor, None),
             BackendName::Gpu => {
                 refuse_size(setup.problem.shape.points)?;
                 let device = GpuDevice::new(&AdapterChoice {
                     software: true,
-                    ..AdapterChoice::default()
+                    ..choice()
                 })
                 .map_err(Failure::Gpu)?;
                 let found = device.description();
+                if settings.precision == Precision::Double {
+                    return Err(Failure::Gpu(GpuError::Precision(found.name.clone())));
+                }
                 refuse_limits(setup, found)?;
                 let remark = found.software().then(|| {
                     format!(
@@ -46,20 +48,39 @@ impl Machine {
                 });
                 (Place::Gpu(device), remark)
             }
-            BackendName::Auto => auto(setup, precision),
+            BackendName::Auto => auto(setup),
         };
+        let precision = settings.arithmetic_on(matches!(place, Place::Gpu(_)));
+        let sums = match &place {
+            Place::Gpu(device) => plain_sums(device),
+            Place::Processor => None,
+        };
+        let remarks: Vec<String> = remark.into_iter().chain(sums).collect();
         Ok(Machine {
             place,
             precision,
-            remark,
+            remark: (!remarks.is_empty()).then(|| remarks.join("; ")),
+        })
+    }
+
+    /// The processor, where the scene leaves the choice and the graphics processor has failed.
+    pub fn instead(&self, setup: &Setup) -> Option<Machine> {
+        let settings = &setup.scene.solver;
+        let may = settings.backend == BackendName::Auto && matches!(self.place, Place::Gpu(_));
+        may.then(|| Machine {
+            place: Place::Processor,
+            precision: settings.arithmetic_on(false),
+            remark: None,
         })
     }
 
     /// A backend on it.
     pub fn backend(&self) -> Box<dyn Backend + Send> {
         match (&self.place, self.precision) {
+            (Place::Gpu(device), Precision::Mixed) => Box::new(GpuBackend::on(device).corrected()),
             (Place::Gpu(device), _) => Box::new(GpuBackend::on(device)),
             (Place::Processor, Precision::Single) => Box::new(CpuBackend::<f32>::new()),
+            (Place::Processor, Precision::Mixed) => Box::new(CpuBackend::<f32>::new().corrected()),
             (Place::Processor, _) => Box::new(CpuBackend::<f64>::new()),
         }
     }
@@ -98,15 +119,59 @@ impl Machine {
     }
 }
 
-/// A graphics processor that is one, where single precision is asked; else the processor. Double
-/// precision is the processor's alone in this version, so no adapter is asked then. Says why only
-/// where there is a choice.
-fn auto(setup: &Setup, precision: Precision) -> (Place, Option<String>) {
-    if precision != Precision::Single {
+/// What the environment asks of the adapter: `TABOR_TEST_GPU`, for tests of what no sound adapter
+/// does, is a list of `software` (`auto` takes it for a graphics processor), `binding=BYTES` (it binds
+/// no more) and `lost=DISPATCHES` (it is lost after so many).
+fn choice() -> AdapterChoice {
+    let asked = std::env::var("TABOR_TEST_GPU").unwrap_or_default();
+    let number = |key: &str| -> Option<u64> {
+        asked
+            .split(',')
+            .find_map(|word| word.strip_prefix(key)?.strip_prefix('='))
+            .and_then(|value| value.parse().ok())
+    };
+    AdapterChoice {
+        software: asked.split(',').any(|word| word == "software"),
+        binding_limit: number("binding"),
+        lost_after: number("lost"),
+        ..AdapterChoice::default()
+    }
+}
+
+/// What is to be said of a device whose compiler undoes compensated sums.
+fn plain_sums(device: &GpuDevice) -> Option<String> {
+    (device.wide() == Wide::Single).then(|| {
+        format!(
+            "{} adds in plain single precision: it has no double, and its driver undoes the compensation of sums",
+            device.description().name
+        )
+    })
+}
+
+/// Solved points from which `auto` looks for an adapter: fewer fill none, and are done before one is
+/// ready.
+const FEWEST_POINTS: usize = 256 * 256;
+
+/// A graphics processor that is one, where the grid is worth it; else the processor. Double precision
+/// is the processor's alone in this version, so no adapter is asked then. Says why only where there
+/// is a choice.
+fn auto(setup: &Setup) -> (Place, Option<String>) {
+    let settings = &setup.scene.solver;
+    let choice = choice();
+    let worth_it = choice.software || setup.problem.shape.len() >= FEWEST_POINTS;
+    if settings.precision == Precision::Double || !worth_it {
         return (Place::Processor, None);
     }
-    let found = adapters();
-    let Some(best) = best(&found) else {
+    let mut found = adapters();
+    for adapter in &mut found {
+        let limit = choice.binding_limit.unwrap_or(u64::MAX);
+        adapter.binding_limit = adapter.binding_limit.min(limit);
+    }
+    let chosen = match choice.software {
+        true => found.first(),
+        false => best(&found),
+    };
+    let Some(best) = chosen else {
         return (Place::Processor, None);
     };
     let stays = |why: String| {
@@ -117,12 +182,26 @@ fn auto(setup: &Setup, precision: Precision) -> (Place, Option<String>) {
     if let Err(error) = fits {
         return stays(error.to_string());
     }
-    match GpuDevice::new(&AdapterChoice::default()) {
-        Ok(device) if device.description().software() => {
+    if setup.scene.solid.hardness.is_some() && settings.arithmetic_on(true) == Precision::Mixed {
+        return stays("a hardness is not solved in mixed precision".to_owned());
+    }
+    match GpuDevice::new(&choice) {
+        Ok(device) if device.description().software() && !choice.software => {
             stays("WGPU_ADAPTER_NAME names one that computes on the processor".to_owned())
         }
         Ok(device) => {
-            let remark = format!("on {}, in single precision", device.description().name);
+            let why = match (settings.precision, settings.arithmetic_on(true)) {
+                (Precision::Auto, Precision::Mixed) => {
+                    ", for the tolerance is below its floor in single"
+                }
+                (Precision::Auto, _) => ", which the tolerance allows",
+                _ => "",
+            };
+            let remark = format!(
+                "on {}, in {} precision{why}",
+                device.description().name,
+                settings.arithmetic_on(true).name()
+            );
             (Place::Gpu(device), Some(remark))
         }
         Err(error) => stays(error.to_string()),
@@ -140,10 +219,10 @@ pub(super) fn best(found: &[AdapterDescription]) -> Option<&AdapterDescription> 
 /// Refuses grids that are past what an adapter transforms and binds.
 fn refuse_limits(setup: &Setup, adapter: &AdapterDescription) -> Result<(), Failure> {
     let shape = setup.problem.shape;
-    let largest = adapter.largest_side();
-    if shape.points.into_iter().all(|points| points <= largest) {
+    if adapter.takes(shape.points) {
         return Ok(());
     }
+    let largest = adapter.largest_side();
     let side = match setup.scene.grid.boundary {
         Boundary::Periodic => largest,
         Boundary::Free => largest / 2,

@@ -90,7 +90,7 @@ enum Command {
     },
 }
 
-#[derive(Debug, Args)]
+#[derive(Clone, Debug, Args)]
 struct RunArguments {
     /// The scene, a TOML file
     scene: PathBuf,

@@ -49,7 +49,7 @@ pub(super) fn refuse(scene: &Scene, grid: Grid) -> Result<(), Failure> {
         available,
         largest: Memory::largest_grid(scene, grid, place, available)?,
         single: match place {
-            Place::Double if scene.solver.precision != Precision::Double => {
+            Place::Double if scene.solver.precision == Precision::Auto => {
                 Some(need(Place::Single)?)
             }
             _ => None,

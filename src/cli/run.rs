@@ -9,6 +9,7 @@ use super::keeper::Keeper;
 use super::machine::Machine;
 use super::opening::{Opening, open};
 use super::{Failure, RunArguments, read_scene, room, say, table};
+use crate::backend::BackendError;
 use crate::backend::cpu::with_threads;
 use crate::effect::Effect;
 use crate::output::{Effects, Progress, Seconds, Summary, peak_memory_bytes};
@@ -35,6 +36,31 @@ pub(super) fn run(arguments: &RunArguments) -> Result<(), Failure> {
     let machine = Machine::of(&setup)?;
     seconds.add("device", clock.elapsed().as_secs_f64());
     let interrupted = watch_for_interrupts();
+    match walk(arguments, &setup, &machine, &interrupted, seconds.clone())? {
+        None => Ok(()),
+        // The device failed and another may go on: what is solved is kept, as for `--resume`.
+        Some((error, instead)) => {
+            say(&format!(
+                "warning: {error}; the processor goes on after the last finished step"
+            ));
+            let again = RunArguments {
+                resume: true,
+                ..arguments.clone()
+            };
+            walk(&again, &setup, &instead, &interrupted, seconds).map(drop)
+        }
+    }
+}
+
+/// Walks the path and writes its folder. Where the device fails and the scene leaves the choice,
+/// returns what happened and what may go on.
+fn walk(
+    arguments: &RunArguments,
+    setup: &Setup,
+    machine: &Machine,
+    interrupted: &Arc<AtomicBool>,
+    mut seconds: Seconds,
+) -> Result<Option<(BackendError, Machine)>, Failure> {
     let path = arguments
         .out
         .clone()
@@ -45,7 +71,7 @@ pub(super) fn run(arguments: &RunArguments) -> Result<(), Failure> {
         earlier,
         warnings,
         remarks,
-    } = open(&path, &setup, &machine, arguments.resume)?;
+    } = open(&path, setup, machine, arguments.resume)?;
     for remark in machine.remark.iter().chain(&remarks) {
         say(&format!("note: {remark}"));
     }
@@ -60,12 +86,12 @@ pub(super) fn run(arguments: &RunArguments) -> Result<(), Failure> {
         arguments.quiet,
     );
     let mut keeper = Keeper::new(
-        &setup,
-        &machine,
+        setup,
+        machine,
         &folder,
         curve,
         progress,
-        interrupted,
+        Arc::clone(interrupted),
         &earlier,
         warnings,
         seconds,
@@ -73,10 +99,13 @@ pub(super) fn run(arguments: &RunArguments) -> Result<(), Failure> {
     let make_backend = || machine.backend();
     let threads = arguments.threads.map(usize::from);
     let walked = with_threads(threads, || {
-        walk_on(&setup, &make_backend, &mut keeper, earlier)
+        walk_on(setup, &make_backend, &mut keeper, earlier)
     })?;
     let (end, failure) = match walked {
         Ok(end) => (end, None),
+        Err(WalkError::Backend(error)) if let Some(instead) = machine.instead(setup) => {
+            return Ok(Some((error, instead)));
+        }
         // What is solved stands: it is summed up like any other end.
         Err(WalkError::Backend(error)) => (keeper.end_so_far(), Some(Failure::from(error))),
         Err(WalkError::Observer(error)) => {
@@ -87,7 +116,7 @@ pub(super) fn run(arguments: &RunArguments) -> Result<(), Failure> {
     let steps = setup.scene.loading.path.len();
     let ended_early = failure.is_some() || end.interrupted;
     let written = keeper.finish(&end, |seconds, warnings| {
-        summarise(&setup, &machine, &end, seconds, warnings)
+        summarise(setup, machine, &end, seconds, warnings)
     });
     if ended_early || written.is_err() {
         say(&keeper.kept());
@@ -100,7 +129,7 @@ pub(super) fn run(arguments: &RunArguments) -> Result<(), Failure> {
     if !arguments.quiet {
         table::print(&end.rows);
     }
-    judge(&setup, &end, steps)
+    judge(setup, &end, steps).map(|()| None)
 }
 
 /// The scene's name without `.toml`, in the current folder.

@@ -5,15 +5,16 @@
 //! dg = S2 dv, S2 = k/(k + D). Points of a pad have no law: S2 = 1.
 
 use crate::kernel::{Params, Rows, SUMS, Scalars, kernel};
-use crate::law::{Cohesion, Law, LennardJones};
+use crate::law::{Cohesion, Correction, Law, LennardJones};
 use crate::real::Real;
 
 /// Largest number of Newton steps in the inversion of v(g).
 const NEWTON_STEPS: usize = 25;
 
-/// The law, its variable and their constants in the kernel's number.
+/// The law, its variable and their constants in the kernel's number. With `BASE` the unknown is the
+/// correction of a known gap (see [`crate::law::Correction`]).
 #[derive(Clone, Copy)]
-struct Core<T> {
+struct Core<T, const BASE: bool> {
     law: LennardJones<T>,
     /// k.
     stiffness: T,
@@ -23,12 +24,36 @@ struct Core<T> {
     peak_gap: T,
     /// Where the inversion stops.
     precision: T,
+    /// Gap and residual of the base at the point.
+    base: [T; 2],
 }
 
-impl<T: Real> Core<T> {
-    /// The core at a point of a block with these factors on its tension, if there are any.
+/// Gives a twin the kind of core that its rows ask for.
+macro_rules! with_or_without_base {
+    ($twin:ident, $inner:ident) => {
+        fn $twin<T: Real>(
+            rows: &mut Rows<T>,
+            params: &Params,
+            scalars: &Scalars,
+            sums: &mut [f64; SUMS],
+        ) {
+            if rows.base[0].is_empty() {
+                $inner::<T, false>(rows, params, scalars, sums);
+            } else {
+                $inner::<T, true>(rows, params, scalars, sums);
+            }
+        }
+    };
+}
+
+impl<T: Real, const BASE: bool> Core<T, BASE> {
+    /// The core at a point of a block with these factors on its tension and this base, if there are
+    /// any.
     #[inline(always)]
-    fn at(mut self, factor: &[T], index: usize) -> Self {
+    fn at(mut self, factor: &[T], base: [&[T]; 2], index: usize) -> Self {
+        if BASE {
+            self.base = [base[0][index], base[1][index]];
+        }
         if let Some(&factor) = factor.get(index) {
             self.law.work_of_adhesion = factor * self.law.work_of_adhesion;
             self.peak = factor * self.peak;
@@ -51,13 +76,50 @@ impl<T: Real> Core<T> {
             peak: T::of(law.peak_tension()),
             peak_gap: T::of(law.peak_gap()),
             precision: T::of(2.0 * params.epsilon * law.range),
+            base: [T::zero(); 2],
+        }
+    }
+
+    /// The gap itself.
+    #[inline(always)]
+    fn open(&self, gap: T) -> T {
+        if BASE { self.base[0] + gap } else { gap }
+    }
+
+    /// sigma at a gap; around a base all of y that does not come from the correction's own pressure.
+    #[inline(always)]
+    fn attraction(&self, gap: T, on_surface: bool) -> T {
+        match (BASE, on_surface) {
+            (false, false) => T::zero(),
+            (false, true) => self.law.traction(gap),
+            (true, false) => self.base[1],
+            (true, true) => self.base[1] + self.law.difference(self.base[0], gap),
+        }
+    }
+
+    /// What a step changes: the traction, and the energy with its size.
+    #[inline(always)]
+    fn changes(&self, gap: T, step: T) -> (T, [T; 2]) {
+        if BASE {
+            let here = Correction {
+                law: self.law,
+                factor: T::one(),
+                gap: self.base[0],
+                residual: self.base[1],
+            };
+            (here.change(gap, step), here.energy_change(gap, step))
+        } else {
+            (
+                self.law.change(gap, step),
+                self.law.energy_change(gap, step),
+            )
         }
     }
 
     /// D at a gap.
     #[inline(always)]
     fn hardening(&self, gap: T) -> T {
-        self.law.slope(gap).max(T::zero())
+        self.law.slope(self.open(gap)).max(T::zero())
     }
 
     /// S2 at a gap; 1 on a pad.
@@ -110,40 +172,50 @@ impl<T: Real> Core<T> {
     }
 }
 
-fn add_core_residual<T: Real>(sums: &mut [f64; SUMS], gap: T, y: T, traction: T, on_surface: bool) {
+/// The terms of the stopping measure at one point. Around a base its scale is the base's.
+fn add_residual<T: Real, const BASE: bool>(
+    sums: &mut [f64; SUMS],
+    core: &Core<T, BASE>,
+    gap: T,
+    y: T,
+    traction: T,
+    on_surface: bool,
+) {
     let y = y.double();
     sums[0] += y * y;
     if on_surface {
-        let traction = traction.double();
-        sums[1] += traction * traction;
-        let gap = gap.double();
-        if gap < sums[2] {
-            sums[2] = gap;
+        if !BASE {
+            let traction = traction.double();
+            sums[1] += traction * traction;
         }
+        let open = core.open(gap).double();
+        if open < sums[2] {
+            sums[2] = open;
+        }
+        let gap = gap.double();
         sums[3] += gap * gap;
     }
 }
 
-fn core_residual<T: Real>(
+with_or_without_base!(core_residual, residual);
+
+fn residual<T: Real, const BASE: bool>(
     rows: &mut Rows<T>,
     params: &Params,
     scalars: &Scalars,
     sums: &mut [f64; SUMS],
 ) {
     let layout = rows.layout();
-    let core = Core::<T>::new(params);
-    let factor = rows.factor;
+    let core = Core::<T, BASE>::new(params);
+    let (factor, base) = (rows.factor, rows.base);
     let [gap, pressure, ..] = rows.reads;
     let mean = T::of(scalars.mean_pressure);
     layout.points(|i, on_surface| {
-        let core = core.at(factor, i);
-        let traction = if on_surface {
-            core.law.traction(gap[i])
-        } else {
-            T::zero()
-        };
-        add_core_residual(
+        let core = core.at(factor, base, i);
+        let traction = core.attraction(gap[i], on_surface);
+        add_residual(
             sums,
+            &core,
             gap[i],
             pressure[i] + mean + traction,
             traction,
@@ -157,27 +229,25 @@ kernel!(
     sums [Add, Add, Min, Add], gate Always
 );
 
-fn core_free<T: Real>(
+with_or_without_base!(core_free, free);
+
+fn free<T: Real, const BASE: bool>(
     rows: &mut Rows<T>,
     params: &Params,
     scalars: &Scalars,
     sums: &mut [f64; SUMS],
 ) {
     let layout = rows.layout();
-    let core = Core::<T>::new(params);
-    let factor = rows.factor;
+    let core = Core::<T, BASE>::new(params);
+    let (factor, base) = (rows.factor, rows.base);
     let [gap, pressure, ..] = rows.reads;
     let lines = &mut *rows.lines;
     let mean = T::of(scalars.mean_pressure);
     layout.points(|i, on_surface| {
-        let core = core.at(factor, i);
-        let traction = if on_surface {
-            core.law.traction(gap[i])
-        } else {
-            T::zero()
-        };
+        let core = core.at(factor, base, i);
+        let traction = core.attraction(gap[i], on_surface);
         let y = pressure[i] + mean + traction;
-        add_core_residual(sums, gap[i], y, traction, on_surface);
+        add_residual(sums, &core, gap[i], y, traction, on_surface);
         lines[i] = core.share(gap[i], on_surface) * y;
     });
 }
@@ -187,25 +257,28 @@ kernel!(
     sums [Add, Add, Min, Add], gate Fresh
 );
 
-fn core_descent<T: Real>(
+with_or_without_base!(core_descent, descent);
+
+fn descent<T: Real, const BASE: bool>(
     rows: &mut Rows<T>,
     params: &Params,
     scalars: &Scalars,
     sums: &mut [f64; SUMS],
 ) {
     let layout = rows.layout();
-    let core = Core::<T>::new(params);
-    let factor = rows.factor;
+    let core = Core::<T, BASE>::new(params);
+    let (factor, base) = (rows.factor, rows.base);
     let [gap, pressure, direction, _] = rows.reads;
     let lines = &*rows.lines;
     let [z_out, y_before, _] = &mut rows.writes;
     let mean = T::of(scalars.mean_pressure);
     layout.points(|i, on_surface| {
-        let core = core.at(factor, i);
-        let (traction, hardening) = if on_surface {
-            (core.law.traction(gap[i]), core.hardening(gap[i]))
+        let core = core.at(factor, base, i);
+        let traction = core.attraction(gap[i], on_surface);
+        let hardening = if on_surface {
+            core.hardening(gap[i])
         } else {
-            (T::zero(), T::zero())
+            T::zero()
         };
         let y = pressure[i] + mean + traction;
         let share = core.stiffness / (core.stiffness + hardening);
@@ -235,27 +308,32 @@ kernel!(
     sums [Add, Add, Add, Add, Add, Add, Add, Add, Add], gate Fresh
 );
 
-fn core_direct<T: Real>(
+with_or_without_base!(core_direct, direct);
+
+fn direct<T: Real, const BASE: bool>(
     rows: &mut Rows<T>,
     params: &Params,
     scalars: &Scalars,
     sums: &mut [f64; SUMS],
 ) {
     let layout = rows.layout();
-    let core = Core::<T>::new(params);
-    let factor = rows.factor;
+    let core = Core::<T, BASE>::new(params);
+    let (factor, base) = (rows.factor, rows.base);
     let [gap, z, ..] = rows.reads;
     let [direction, step, _] = &mut rows.writes;
     let factors = [scalars.descent, scalars.memory, scalars.shift].map(T::of);
     let length = T::of(scalars.trial);
     layout.points(|i, on_surface| {
-        let core = core.at(factor, i);
+        let core = core.at(factor, base, i);
         let d = factors[0] * z[i] + factors[1] * direction[i] + factors[2];
         direction[i] = d;
-        let s = if on_surface {
-            core.gap_at(core.variable(gap[i]) + length * d, gap[i]) - gap[i]
-        } else {
+        let s = if !on_surface {
             length * d
+        } else if BASE {
+            // A correction is short: v follows its slope.
+            core.share(gap[i], true) * length * d
+        } else {
+            core.gap_at(core.variable(gap[i]) + length * d, gap[i]) - gap[i]
         };
         step[i] = s;
         sums[0] += s.double();
@@ -269,22 +347,24 @@ kernel!(
     sums [Add, Add], gate Running
 );
 
-fn core_trial<T: Real>(
+with_or_without_base!(core_trial, trial);
+
+fn trial<T: Real, const BASE: bool>(
     rows: &mut Rows<T>,
     params: &Params,
     scalars: &Scalars,
     sums: &mut [f64; SUMS],
 ) {
     let layout = rows.layout();
-    let core = Core::<T>::new(params);
-    let factor = rows.factor;
+    let core = Core::<T, BASE>::new(params);
+    let (factor, base) = (rows.factor, rows.base);
     let [gap, pressure, ..] = rows.reads;
     let step = &mut *rows.writes[0];
     let lines = &mut *rows.lines;
     let mean = T::of(scalars.mean_pressure);
     let restore = T::of(scalars.restore);
     layout.points(|i, on_surface| {
-        let core = core.at(factor, i);
+        let core = core.at(factor, base, i);
         let mut s = step[i];
         if restore != T::zero() {
             s -= restore * core.share(gap[i] + s, on_surface);
@@ -292,11 +372,7 @@ fn core_trial<T: Real>(
         step[i] = s;
         lines[i] = s;
         let elastic = pressure[i] + mean;
-        let traction = if on_surface {
-            core.law.traction(gap[i])
-        } else {
-            T::zero()
-        };
+        let traction = core.attraction(gap[i], on_surface);
         let s = s.double();
         sums[0] += s * (elastic + traction).double();
         if s > sums[2] {
@@ -305,7 +381,12 @@ fn core_trial<T: Real>(
         if s < sums[3] {
             sums[3] = s;
         }
-        sums[5] += s * elastic.double();
+        // On a pad a base's residual is no law's: the search will not count it.
+        sums[5] += if on_surface {
+            s * elastic.double()
+        } else {
+            s * (elastic + traction).double()
+        };
     });
 }
 kernel!(
@@ -315,26 +396,26 @@ kernel!(
     sums [Add, Min, Max, Min, Max, Add], gate Running
 );
 
-fn core_search<T: Real>(
+with_or_without_base!(core_search, search);
+
+fn search<T: Real, const BASE: bool>(
     rows: &mut Rows<T>,
     params: &Params,
     scalars: &Scalars,
     sums: &mut [f64; SUMS],
 ) {
     let layout = rows.layout();
-    let core = Core::<T>::new(params);
-    let factor = rows.factor;
+    let core = Core::<T, BASE>::new(params);
+    let (factor, base) = (rows.factor, rows.base);
     let [gap, step, ..] = rows.reads;
     let t = T::of(scalars.step);
     layout.points(|i, on_surface| {
-        let core = core.at(factor, i);
+        let core = core.at(factor, base, i);
         if on_surface {
-            let moved = gap[i] + t * step[i];
-            let change = core.law.traction(moved) - core.law.traction(gap[i]);
-            let energy = core.law.energy(gap[i]);
+            let (change, [energy, size]) = core.changes(gap[i], t * step[i]);
             sums[0] += change.double() * step[i].double();
-            sums[1] += (core.law.energy(moved) - energy).double();
-            sums[2] += energy.double().abs();
+            sums[1] += energy.double();
+            sums[2] += size.double();
         }
     });
 }
@@ -362,19 +443,22 @@ kernel!(
     sums [], gate Accepted
 );
 
-fn core_balance<T: Real>(rows: &mut Rows<T>, params: &Params, _: &Scalars, sums: &mut [f64; SUMS]) {
+with_or_without_base!(core_balance, balance);
+
+fn balance<T: Real, const BASE: bool>(
+    rows: &mut Rows<T>,
+    params: &Params,
+    _: &Scalars,
+    sums: &mut [f64; SUMS],
+) {
     let layout = rows.layout();
-    let core = Core::<T>::new(params);
-    let factor = rows.factor;
+    let core = Core::<T, BASE>::new(params);
+    let (factor, base) = (rows.factor, rows.base);
     let [gap, pressure, ..] = rows.reads;
     layout.points(|i, on_surface| {
-        let core = core.at(factor, i);
+        let core = core.at(factor, base, i);
         let share = core.share(gap[i], on_surface);
-        let traction = if on_surface {
-            core.law.traction(gap[i])
-        } else {
-            T::zero()
-        };
+        let traction = core.attraction(gap[i], on_surface);
         sums[0] += (share * (pressure[i] + traction)).double();
         sums[1] += share.double();
     });

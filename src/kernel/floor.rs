@@ -66,7 +66,7 @@ impl<T: Real> Floor<T> for Rigid {
         let y = elastic + law.traction(gap);
         Balance {
             y,
-            free: gap > T::zero() || y < T::zero(),
+            free: law.open(gap) > T::zero() || y < T::zero(),
         }
     }
 
@@ -80,10 +80,11 @@ impl<T: Real> Floor<T> for Rigid {
     ) -> Violation<T> {
         let traction = law.traction(gap);
         let y = elastic + traction;
+        let open = law.open(gap);
         Violation {
-            violation: y.min(gap * stiffness_max),
-            reaction: reaction(gap, y),
-            traction,
+            violation: y.min(open * stiffness_max),
+            reaction: law.weighed(reaction(open, y)),
+            traction: law.weighed(traction),
         }
     }
 
@@ -98,7 +99,7 @@ impl<T: Real> Floor<T> for Rigid {
     }
 }
 
-/// A solid whose pressure saturates.
+/// A solid whose pressure saturates. Its unknown is the gap itself, never a part of it.
 #[derive(Clone, Copy)]
 pub struct Yielding<T> {
     /// The largest net pressure, reduced.
@@ -180,14 +181,16 @@ fn reaction<T: Real>(gap: T, y: T) -> T {
     }
 }
 
-/// s = x - g of the trial x = clip(g + moved), with what is above zero scaled by `restore` and what
-/// is below it by `2 - restore`, so that a held mean is kept on either side.
+/// s = s0 + restore (g + s0) with s0 the way to clip(g + moved); below zero with the opposite sign of
+/// `restore`, so that a held mean is kept on either side. `restore` is small and kept as itself, not
+/// as a factor near one, which would cost it its digits.
 #[inline(always)]
-pub fn trial_step<T: Real>(gap: T, moved: T, restore: T, down: bool) -> T {
+pub fn trial_step<T: Real>(open: T, moved: T, restore: T, down: bool) -> T {
     if down {
-        let shrink = T::of(2.0) - restore;
-        shrink * moved.min(-gap) + (shrink - T::one()) * gap
+        let step = moved.min(-open);
+        step - restore * (open + step)
     } else {
-        restore * moved.max(-gap) + (restore - T::one()) * gap
+        let step = moved.max(-open);
+        step + restore * (open + step)
     }
 }

@@ -80,8 +80,8 @@ pub struct Scalars {
     pub shift: f64,
     /// Trial length a.
     pub trial: f64,
-    /// Factor that brings a trial back to the held mean gap; for Lennard-Jones the multiple of the
-    /// local compliance that is taken off.
+    /// Share of a trial gap that is added to bring it back to the held mean; for Lennard-Jones the
+    /// multiple of the local compliance that is taken off.
     pub restore: f64,
     /// <s, y>, negative for a descent.
     pub slope: f64,
@@ -158,7 +158,7 @@ impl Scalars {
             memory: 0.0,
             shift: 0.0,
             trial: 1.0,
-            restore: 1.0,
+            restore: 0.0,
             slope: 0.0,
             curvature: 0.0,
             elastic_slope: 0.0,

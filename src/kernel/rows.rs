@@ -31,6 +31,9 @@ pub struct Rows<'a, T> {
     pub whole: Whole<'a, T>,
     /// Factors on the law's tension, cut to these rows; empty where the law is the same everywhere.
     pub factor: &'a [T],
+    /// Gap and residual of the base that is corrected, cut to these rows; empty where the unknown is
+    /// the gap itself.
+    pub base: [&'a [T]; 2],
 }
 
 impl<T: Real> Rows<'_, T> {

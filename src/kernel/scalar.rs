@@ -182,21 +182,18 @@ scalar_kernel!(
 );
 
 fn restore_wall(_: &Params, scalars: &mut Scalars) {
-    let [trial, present, ..] = scalars.sums;
-    scalars.restore = if trial > 0.0 { present / trial } else { 1.0 };
+    let [step, present, ..] = scalars.sums;
+    let trial = present + step;
+    scalars.restore = if trial > 0.0 { -step / trial } else { 0.0 };
 }
 scalar_kernel!(
-    /// The factor that brings a trial back to the held mean gap.
+    /// The share of a trial gap that brings it back to the held mean.
     RESTORE_WALL, restore_wall
 );
 
 fn restore_yield(_: &Params, scalars: &mut Scalars) {
-    let [trial, present, size, ..] = scalars.sums;
-    scalars.restore = if size > 0.0 {
-        (present + (size - trial)) / size
-    } else {
-        1.0
-    };
+    let [step, _, size, ..] = scalars.sums;
+    scalars.restore = if size > 0.0 { -step / size } else { 0.0 };
 }
 scalar_kernel!(
     /// The same where gaps may be below zero, which are scaled the other way.

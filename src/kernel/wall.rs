@@ -24,30 +24,30 @@ pub(super) fn balance<T: Real>(
         floor.balance(law, gap, elastic)
     } else {
         Balance {
-            y: elastic,
+            y: elastic + law.beyond(),
             free: true,
         }
     }
 }
 
-/// The trial step of a point, of its gap, y, way and scale, and whether it was cut at zero; the pad
+/// The trial step of a point, of its open gap, y, way and share to restore, and whether it was cut at zero; the pad
 /// has no floor.
 #[inline(always)]
 pub(super) fn step_of<T: Real>(
     floor: &impl Floor<T>,
-    [gap, y, moved, restore]: [T; 4],
+    [open, y, moved, restore]: [T; 4],
     on_surface: bool,
 ) -> (T, bool) {
     if !on_surface {
         return (moved, false);
     }
-    let down = floor.goes_down(gap, y);
+    let down = floor.goes_down(open, y);
     let cut = if down {
-        gap + moved > T::zero()
+        open + moved > T::zero()
     } else {
-        gap + moved < T::zero()
+        open + moved < T::zero()
     };
-    (trial_step(gap, moved, restore, down), cut)
+    (trial_step(open, moved, restore, down), cut)
 }
 
 /// The terms of the stopping measure at one point, of its gap, p + mean_pressure and the largest
@@ -70,13 +70,14 @@ fn add_residual<T: Real>(
         sums[0] += violation * violation;
         let (reaction, traction) = (reaction.double(), traction.double());
         sums[1] += reaction * reaction + traction * traction;
-        let gap = gap.double();
-        if gap < sums[2] {
-            sums[2] = gap;
+        let open = law.open(gap).double();
+        if open < sums[2] {
+            sums[2] = open;
         }
+        let gap = gap.double();
         sums[3] += gap * gap;
     } else {
-        let y = elastic.double();
+        let y = (elastic + law.beyond()).double();
         sums[0] += y * y;
     }
 }
@@ -93,7 +94,7 @@ pub(super) fn residual<T: Real, F: Floor<T>>(
     let mean = T::of(scalars.mean_pressure);
     let stiffness_max = T::of(params.stiffness_max);
     let floor = F::of(params);
-    with_law_field!(params.law, rows.factor, T, law => layout.points(|i, on_surface| {
+    with_law_field!(params.law, rows.factor, rows.base, T, law => layout.points(|i, on_surface| {
         let law = LawField::<T>::at(&law, i);
         let here = [gap[i], pressure[i] + mean, stiffness_max];
         add_residual(sums, &floor, &law, here, on_surface);
@@ -129,7 +130,7 @@ pub(super) fn free<T: Real, F: Floor<T>>(
     let mean = T::of(scalars.mean_pressure);
     let stiffness_max = T::of(params.stiffness_max);
     let floor = F::of(params);
-    with_law_field!(params.law, rows.factor, T, law => layout.points(|i, on_surface| {
+    with_law_field!(params.law, rows.factor, rows.base, T, law => layout.points(|i, on_surface| {
         let law = LawField::<T>::at(&law, i);
         let elastic = pressure[i] + mean;
         add_residual(sums, &floor, &law, [gap[i], elastic, stiffness_max], on_surface);
@@ -223,7 +224,7 @@ pub(super) fn descent<T: Real, F: Floor<T>>(
     let mean = T::of(scalars.mean_pressure);
     let held = params.fixed_gap;
     let floor = F::of(params);
-    with_law_field!(params.law, rows.factor, T, law => layout.points(|i, on_surface| {
+    with_law_field!(params.law, rows.factor, rows.base, T, law => layout.points(|i, on_surface| {
         let law = LawField::<T>::at(&law, i);
         let Balance { y, free } = balance(&floor, &law, gap[i], pressure[i] + mean, on_surface);
         let y_free = if free { y } else { T::zero() };
@@ -278,15 +279,15 @@ pub(super) fn new_direction<T: Real>(z: T, direction: T, factors: [T; 3], free: 
 #[inline(always)]
 pub(super) fn add_trial<T: Real>(
     sums: &mut [f64; SUMS],
-    [step, y, gap]: [T; 3],
+    [step, y, open]: [T; 3],
     cut: bool,
     on_surface: bool,
 ) {
     let s = step.double();
     sums[0] += s * y.double();
-    let closes = (gap > T::zero() && s < 0.0) || (gap < T::zero() && s > 0.0);
+    let closes = (open >= T::zero() && s < 0.0) || (open < T::zero() && s > 0.0);
     if closes && on_surface {
-        let ratio = gap.double() / -s;
+        let ratio = open.double() / -s;
         if ratio < sums[1] {
             sums[1] = ratio;
         }
@@ -319,13 +320,14 @@ pub(super) fn trial<T: Real, F: Floor<T>>(
     let factors = [scalars.descent, scalars.memory, scalars.shift].map(T::of);
     let length = T::of(scalars.trial);
     let floor = F::of(params);
-    with_law_field!(params.law, rows.factor, T, law => layout.points(|i, on_surface| {
+    with_law_field!(params.law, rows.factor, rows.base, T, law => layout.points(|i, on_surface| {
         let law = LawField::<T>::at(&law, i);
         let Balance { y, free } = balance(&floor, &law, gap[i], pressure[i] + mean, on_surface);
         let d = new_direction(z[i], direction[i], factors, free);
         direction[i] = d;
-        let (step, cut) = step_of(&floor, [gap[i], y, length * d, T::one()], on_surface);
-        add_trial(sums, [step, y, gap[i]], cut, on_surface);
+        let open = law.open(gap[i]);
+        let (step, cut) = step_of(&floor, [open, y, length * d, T::zero()], on_surface);
+        add_trial(sums, [step, y, open], cut, on_surface);
         lines[i] = step;
     }));
 }
@@ -356,17 +358,18 @@ fn wall_direct<T: Real>(
     let mean = T::of(scalars.mean_pressure);
     let factors = [scalars.descent, scalars.memory, scalars.shift].map(T::of);
     let length = T::of(scalars.trial);
-    with_law_field!(params.law, rows.factor, T, law => layout.points(|i, on_surface| {
+    with_law_field!(params.law, rows.factor, rows.base, T, law => layout.points(|i, on_surface| {
         let law = LawField::<T>::at(&law, i);
         let here = balance(&Rigid, &law, gap[i], pressure[i] + mean, on_surface);
         let d = new_direction(z[i], direction[i], factors, here.free);
         direction[i] = d;
-        sums[0] += (gap[i] + length * d).max(T::zero()).double();
-        sums[1] += gap[i].double();
+        let open = law.open(gap[i]);
+        sums[0] += (length * d).max(-open).double();
+        sums[1] += open.double();
     }));
 }
 kernel!(
-    /// Turns the direction and sums the mean that the trial would have (fixed mean gap). Reads gap,
+    /// Turns the direction and sums the trial step and the gap (fixed mean gap). Reads gap,
     /// pressure, z; updates direction.
     WALL_DIRECT, wall_direct, Sweep, reads 3, writes 1, whole false,
     sums [Add, Add], gate Running
@@ -384,11 +387,12 @@ fn wall_trial_held<T: Real>(
     let mean = T::of(scalars.mean_pressure);
     let length = T::of(scalars.trial);
     let restore = T::of(scalars.restore);
-    with_law_field!(params.law, rows.factor, T, law => layout.points(|i, on_surface| {
+    with_law_field!(params.law, rows.factor, rows.base, T, law => layout.points(|i, on_surface| {
         let law = LawField::<T>::at(&law, i);
         let y = balance(&Rigid, &law, gap[i], pressure[i] + mean, on_surface).y;
-        let (step, cut) = step_of(&Rigid, [gap[i], y, length * direction[i], restore], on_surface);
-        add_trial(sums, [step, y, gap[i]], cut, on_surface);
+        let open = law.open(gap[i]);
+        let (step, cut) = step_of(&Rigid, [open, y, length * direction[i], restore], on_surface);
+        add_trial(sums, [step, y, open], cut, on_surface);
         lines[i] = step;
     }));
 }
@@ -409,11 +413,11 @@ fn wall_search<T: Real>(
     let length = T::of(scalars.trial);
     let restore = T::of(scalars.restore);
     let t = T::of(scalars.step);
-    with_law_field!(params.law, rows.factor, T, law => layout.points(|i, on_surface| {
+    with_law_field!(params.law, rows.factor, rows.base, T, law => layout.points(|i, on_surface| {
         let law = LawField::<T>::at(&law, i);
         if on_surface {
-            let step = trial_step(gap[i], length * direction[i], restore, false);
-            let change = law.traction(gap[i] + t * step) - law.traction(gap[i]);
+            let step = trial_step(law.open(gap[i]), length * direction[i], restore, false);
+            let change = law.change(gap[i], t * step);
             sums[0] += change.double() * step.double();
         }
     }));
@@ -440,23 +444,27 @@ fn wall_advance<T: Real>(
     let restore = T::of(scalars.restore);
     let t = T::of(scalars.step);
     let snap = T::of(scalars.snap);
-    layout.points(|i, on_surface| {
+    let base = rows.base[0];
+    let mut point = |i: usize, floor: T, on_surface: bool| {
+        let open = gap[i] - floor;
         let moved = length * direction[i];
         let step = if on_surface {
-            trial_step(gap[i], moved, restore, false)
+            trial_step(open, moved, restore, false)
         } else {
             moved
         };
-        let mut moved = gap[i] + t * step;
-        if on_surface {
-            moved = moved.max(T::zero());
-            if step < T::zero() && moved < snap {
-                moved = T::zero();
-            }
-        }
-        gap[i] = moved;
+        let moved = gap[i] + t * step;
+        let left = open + t * step;
+        // By what is left of the gap, which a cut makes exactly zero.
+        let closed = on_surface && (left <= T::zero() || (step < T::zero() && left < snap));
+        gap[i] = if closed { floor } else { moved };
         pressure[i] += t * lines[i];
-    });
+    };
+    if base.is_empty() {
+        layout.points(|i, on_surface| point(i, T::zero(), on_surface));
+    } else {
+        layout.points(|i, on_surface| point(i, -base[i], on_surface));
+    }
 }
 kernel!(
     /// Takes K s and steps: g += t s, p += t K s. Reads direction; updates gap, pressure.
@@ -472,11 +480,12 @@ fn wall_balance<T: Real>(
 ) {
     let layout = rows.layout();
     let [gap, pressure, ..] = rows.reads;
-    with_law_field!(params.law, rows.factor, T, law => layout.points(|i, on_surface| {
+    with_law_field!(params.law, rows.factor, rows.base, T, law => layout.points(|i, on_surface| {
         let law = LawField::<T>::at(&law, i);
         let y = balance(&Rigid, &law, gap[i], pressure[i], on_surface).y.double();
-        sums[0] += gap[i].double() * y;
-        sums[1] += gap[i].double();
+        let open = law.open(gap[i]).double();
+        sums[0] += open * y;
+        sums[1] += open;
         if y < sums[2] {
             sums[2] = y;
         }

@@ -109,26 +109,21 @@ fn yield_direct<T: Real>(
     let factors = [scalars.descent, scalars.memory, scalars.shift].map(T::of);
     let length = T::of(scalars.trial);
     let floor = Yielding::of(params);
-    with_law_field!(params.law, rows.factor, T, law => layout.points(|i, on_surface| {
+    with_law_field!(params.law, rows.factor, rows.base, T, law => layout.points(|i, on_surface| {
         let law = LawField::<T>::at(&law, i);
         let Balance { y, free } =
             wall::balance(&floor, &law, gap[i], pressure[i] + mean, on_surface);
         let d = wall::new_direction(z[i], direction[i], factors, free);
         direction[i] = d;
-        let moved = gap[i] + length * d;
-        let moved = if floor.goes_down(gap[i], y) {
-            moved.min(T::zero())
-        } else {
-            moved.max(T::zero())
-        };
-        sums[0] += moved.double();
+        let step = trial_step(gap[i], length * d, T::zero(), floor.goes_down(gap[i], y));
+        sums[0] += step.double();
         sums[1] += gap[i].double();
-        sums[2] += moved.abs().double();
+        sums[2] += (gap[i] + step).abs().double();
     }));
 }
 kernel!(
-    /// Turns the direction and sums the mean that the trial would have and its absolute value (fixed
-    /// mean gap). Reads gap, pressure, z; updates direction.
+    /// Turns the direction and sums the trial step, the gap, and the size of the trial (fixed mean
+    /// gap). Reads gap, pressure, z; updates direction.
     YIELD_DIRECT, yield_direct, Sweep, reads 3, writes 1, whole false,
     sums [Add, Add, Add], gate Running
 );
@@ -147,11 +142,11 @@ fn yield_trial_held<T: Real>(
     let restore = T::of(scalars.restore);
     let floor = Yielding::of(params);
     // A trial that no scaling brings back is lost: one that moves and does not descend.
-    let lost = !(restore > T::zero() && restore < T::of(2.0));
+    let lost = !(restore > -T::one() && restore < T::one());
     if lost {
         sums[2] = 1.0;
     }
-    with_law_field!(params.law, rows.factor, T, law => layout.points(|i, on_surface| {
+    with_law_field!(params.law, rows.factor, rows.base, T, law => layout.points(|i, on_surface| {
         let law = LawField::<T>::at(&law, i);
         if lost {
             lines[i] = T::zero();
@@ -183,14 +178,14 @@ fn yield_search<T: Real>(
     let restore = T::of(scalars.restore);
     let t = T::of(scalars.step);
     let floor = Yielding::of(params);
-    with_law_field!(params.law, rows.factor, T, law => layout.points(|i, on_surface| {
+    with_law_field!(params.law, rows.factor, rows.base, T, law => layout.points(|i, on_surface| {
         let law = LawField::<T>::at(&law, i);
         if on_surface {
             let y = floor.balance(&law, gap[i], pressure[i] + mean).y;
             // Below zero the pressure does not change.
             if !floor.goes_down(gap[i], y) {
                 let step = trial_step(gap[i], length * direction[i], restore, false);
-                let change = law.traction(gap[i] + t * step) - law.traction(gap[i]);
+                let change = law.change(gap[i], t * step);
                 sums[0] += change.double() * step.double();
             }
         }
@@ -218,7 +213,7 @@ fn yield_advance<T: Real>(
     let t = T::of(scalars.step);
     let snap = T::of(scalars.snap);
     let floor = Yielding::of(params);
-    with_law_field!(params.law, rows.factor, T, law => layout.points(|i, on_surface| {
+    with_law_field!(params.law, rows.factor, rows.base, T, law => layout.points(|i, on_surface| {
         let law = LawField::<T>::at(&law, i);
         let y = wall::balance(&floor, &law, gap[i], pressure[i] + mean, on_surface).y;
         let here = [gap[i], y, length * direction[i], restore];
@@ -256,7 +251,7 @@ fn yield_balance<T: Real>(
     let layout = rows.layout();
     let [gap, pressure, ..] = rows.reads;
     let floor = Yielding::of(params);
-    with_law_field!(params.law, rows.factor, T, law => layout.points(|i, on_surface| {
+    with_law_field!(params.law, rows.factor, rows.base, T, law => layout.points(|i, on_surface| {
         let law = LawField::<T>::at(&law, i);
         let traction = if on_surface { floor.traction(&law, gap[i]) } else { T::zero() };
         let y = (pressure[i] + traction).double();

@@ -29,6 +29,11 @@ impl<T: Real> Cohesion<T> for Exponential<T> {
     }
 
     #[inline]
+    fn difference(&self, gap: T, step: T) -> T {
+        self.traction(gap) * (-step / self.range).exp_m1()
+    }
+
+    #[inline]
     fn energy(&self, gap: T) -> T {
         -self.work_of_adhesion * (-gap / self.range).exp()
     }

@@ -56,6 +56,25 @@ impl<T: Real> Cohesion<T> for LennardJones<T> {
     }
 
     #[inline]
+    fn difference(&self, gap: T, step: T) -> T {
+        let distance = gap + self.range;
+        let nearest = T::of(NEAREST) * self.range;
+        if distance <= nearest || distance + step <= nearest {
+            return self.traction(gap + step) - self.traction(gap);
+        }
+        // By how much r^3 and r^9 grow, as shares of themselves.
+        let x = step / distance;
+        let (one, three) = (T::one(), T::of(3.0));
+        let cubes = (one + x) * (one + x) * (one + x);
+        let third = -x * (three + x * (three + x)) / cubes;
+        let ninth = third * (three + third * (three + third));
+        let r = self.ratio(gap);
+        let cube = r * r * r;
+        T::of(8.0 / 3.0) * self.work_of_adhesion / self.range
+            * (cube * third - cube * cube * cube * ninth)
+    }
+
+    #[inline]
     fn energy(&self, gap: T) -> T {
         let r = self.ratio(gap);
         let square = r * r;

@@ -43,6 +43,25 @@ impl<T: Real> Cohesion<T> for MaugisDugdale<T> {
     }
 
     #[inline]
+    fn difference(&self, gap: T, step: T) -> T {
+        if self.taper <= T::zero() {
+            return self.traction(gap + step) - self.traction(gap);
+        }
+        let (zero, one) = (T::zero(), T::one());
+        let left = (self.range - gap) / self.taper + T::of(0.5);
+        let moved = step / self.taper;
+        // Only the part of the way that lies on the taper counts.
+        let lost = if left > one {
+            (moved - (left - one)).max(zero).min(one)
+        } else if left < zero {
+            -(-moved + left).max(zero).min(one)
+        } else {
+            moved.max(left - one).min(left)
+        };
+        -self.peak_tension * lost
+    }
+
+    #[inline]
     fn energy(&self, gap: T) -> T {
         let half = T::of(0.5) * self.taper;
         if gap <= self.range - half {

@@ -4,12 +4,14 @@
 //! that is `-work_of_adhesion` at zero gap and vanishes far away. The net pressure carries the
 //! traction with a minus sign. All numbers are in the caller's units; the solver uses reduced ones.
 
+mod correction;
 mod exponential;
 mod lennard_jones;
 mod maugis_dugdale;
 mod meniscus;
 mod pattern;
 
+pub use correction::{CorrectedField, Correction};
 pub use exponential::Exponential;
 pub use lennard_jones::LennardJones;
 pub use maugis_dugdale::MaugisDugdale;
@@ -26,6 +28,41 @@ pub trait Cohesion<T: Real>: Copy {
     fn energy(&self, gap: T) -> T;
     /// Slope of the traction.
     fn slope(&self, gap: T) -> T;
+    /// What the traction gains where the gap grows by `step`, to the rounding of the gain itself,
+    /// however small that is beside the traction.
+    fn difference(&self, gap: T, step: T) -> T;
+
+    /// The same as kernels want it: by subtraction where the traction itself is kept.
+    #[inline(always)]
+    fn change(&self, gap: T, step: T) -> T {
+        self.traction(gap + step) - self.traction(gap)
+    }
+    /// What the energy gains where the gap grows by `step`, and the size of what it was taken from.
+    #[inline(always)]
+    fn energy_change(&self, gap: T, step: T) -> [T; 2] {
+        let energy = self.energy(gap);
+        [self.energy(gap + step) - energy, energy.abs()]
+    }
+    /// The gap itself, where the unknown is only a part of it.
+    #[inline(always)]
+    fn open(&self, gap: T) -> T {
+        gap
+    }
+    /// The value of the unknown at which the surfaces touch.
+    #[inline(always)]
+    fn floor(&self) -> T {
+        T::zero()
+    }
+    /// What stands in the traction's place on a pad, which has no law.
+    #[inline(always)]
+    fn beyond(&self) -> T {
+        T::zero()
+    }
+    /// What of a pressure enters the scale of the stopping measure.
+    #[inline(always)]
+    fn weighed(&self, pressure: T) -> T {
+        pressure
+    }
 }
 
 /// No attraction at all.
@@ -34,6 +71,9 @@ pub struct HardWall;
 
 impl<T: Real> Cohesion<T> for HardWall {
     fn traction(&self, _gap: T) -> T {
+        T::zero()
+    }
+    fn difference(&self, _gap: T, _step: T) -> T {
         T::zero()
     }
     fn energy(&self, _gap: T) -> T {

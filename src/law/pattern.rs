@@ -63,17 +63,26 @@ impl<T: Real, L: Cohesion<T>> Cohesion<T> for Scaled<L, T> {
     fn slope(&self, gap: T) -> T {
         self.factor * self.law.slope(gap)
     }
+    #[inline(always)]
+    fn difference(&self, gap: T, step: T) -> T {
+        self.factor * self.law.difference(gap, step)
+    }
 }
 
 /// Runs an expression with the law of the scene, as a [`LawField`] of the kernel's number:
-/// [`Uniform`] where `factor` is empty.
+/// [`Uniform`] where `factor` is empty, [`CorrectedField`](super::CorrectedField) where there is a
+/// base (its gap and residual; both empty without one).
 #[macro_export]
 #[doc(hidden)]
 macro_rules! with_law_field {
-    ($law:expr, $factor:expr, $T:ty, $name:ident => $body:expr) => {
+    ($law:expr, $factor:expr, $base:expr, $T:ty, $name:ident => $body:expr) => {
         $crate::with_law!($law, $T, law => {
             let factor: &[$T] = $factor;
-            if factor.is_empty() {
+            let base: [&[$T]; 2] = $base;
+            if !base[0].is_empty() {
+                let $name = $crate::law::CorrectedField { law, factor, base };
+                $body
+            } else if factor.is_empty() {
                 let $name = $crate::law::Uniform(law);
                 $body
             } else {

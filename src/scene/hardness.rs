@@ -4,9 +4,29 @@ use super::keys;
 use super::mistake::SceneError;
 use super::reader::Reader;
 use super::types::{
-    AdhesionScene, Control, GridScene, LawName, LoadingScene, SolidScene, Treatment,
+    AdhesionScene, Control, GridScene, LawName, LoadingScene, Precision, SolidScene, SolverScene,
+    Treatment,
 };
 use crate::units::format_si;
+
+/// Notes an arithmetic that knows no flow: the corrections of mixed precision are those of a wall.
+pub(super) fn check_precision(scene: &Reader, solid: &SolidScene, solver: Option<&SolverScene>) {
+    let mixed = solver.is_some_and(|solver| solver.arithmetic() == Precision::Mixed);
+    if solid.hardness.is_none() || !mixed {
+        return;
+    }
+    if let Some(solid) = scene.table_again("solid", &keys::SOLID) {
+        solid.report(
+            "hardness",
+            SceneError::NotInThisVersion {
+                what: "a hardness in mixed precision".to_string(),
+                instead:
+                    "take precision = \"single\", or backend = \"cpu\" with precision = \"double\""
+                        .to_string(),
+            },
+        );
+    }
+}
 
 /// Notes what cannot stand with a hardness. The tables have been read before.
 pub(super) fn check(

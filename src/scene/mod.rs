@@ -106,11 +106,12 @@ fn read_tables(root: &Table, folder: &Path, log: &Log) -> Option<Scene> {
     };
     let law = adhesion.as_ref().and_then(Option::as_ref);
     let loading = loading::read(&scene, boundary, law, relaxes);
+    let solver = solver::read(&scene);
     if let Some(solid) = &solid {
         hardness::check(&scene, solid, law, loading.as_ref(), grid.as_ref());
+        hardness::check_precision(&scene, solid, solver.as_ref());
     }
     let friction = friction::read(&scene);
-    let solver = solver::read(&scene);
     let path_length = loading.as_ref().map(|loading| loading.path.len());
     let output = output::read(&scene, path_length);
     Some(Scene {

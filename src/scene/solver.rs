@@ -21,13 +21,22 @@ impl Default for SolverScene {
 }
 
 impl SolverScene {
-    /// The arithmetic of a solve: what `auto` stands for on this backend.
-    pub fn arithmetic(&self) -> Precision {
-        match (self.precision, self.backend) {
-            (Precision::Auto, BackendName::Gpu) => Precision::Single,
-            (Precision::Auto, _) => Precision::Double,
+    /// The arithmetic of a solve: what `auto` stands for on a graphics processor, where it goes by
+    /// the tolerance, or on the processor.
+    pub fn arithmetic_on(&self, gpu: bool) -> Precision {
+        match (self.precision, gpu) {
+            (Precision::Auto, true) if self.tolerance >= Precision::SINGLE_FLOOR => {
+                Precision::Single
+            }
+            (Precision::Auto, true) => Precision::Mixed,
+            (Precision::Auto, false) => Precision::Double,
             (other, _) => other,
         }
+    }
+
+    /// The same on the backend that the scene names; `auto` is the processor here.
+    pub fn arithmetic(&self) -> Precision {
+        self.arithmetic_on(self.backend == BackendName::Gpu)
     }
 }
 
@@ -66,67 +75,31 @@ pub(super) fn read(scene: &Reader) -> Option<SolverScene> {
     } else {
         Some(default.backend)
     };
-    let here = match (precision, backend) {
-        (Some(precision), Some(backend)) => is_here(&solver, precision, backend),
-        _ => None,
-    };
     let mut settings = SolverScene {
         tolerance: TOLERANCE,
         max_iterations: max_iterations?,
         precision: precision?,
         backend: backend?,
     };
-    here?;
-    let arithmetic = settings.arithmetic();
+    let single = settings.precision == Precision::Single;
     settings.tolerance = match tolerance? {
-        Some(asked) if arithmetic == Precision::Single && asked < Precision::SINGLE_FLOOR => {
-            solver.report("tolerance", below_the_floor(asked, &settings));
+        Some(asked) if single && asked < Precision::SINGLE_FLOOR => {
+            solver.report("tolerance", below_the_floor(asked));
             return None;
         }
         Some(asked) => asked,
-        None if arithmetic == Precision::Single => Precision::SINGLE_FLOOR,
+        None if single => Precision::SINGLE_FLOOR,
         None => TOLERANCE,
     };
     Some(settings)
 }
 
-/// Whether this version has the arithmetic where it is asked for.
-fn is_here(solver: &Reader, precision: Precision, backend: BackendName) -> Option<()> {
-    let instead = match (precision, backend) {
-        (Precision::Mixed, BackendName::Gpu) => "take \"single\", or backend = \"cpu\"",
-        (Precision::Mixed, _) => "take \"auto\", \"single\" or \"double\"",
-        (Precision::Double, BackendName::Gpu) => {
-            "take \"single\", or backend = \"cpu\" for double precision"
-        }
-        _ => return Some(()),
-    };
-    let on_the_gpu = match backend {
-        BackendName::Gpu => " on the GPU",
-        _ => "",
-    };
-    solver.report(
-        "precision",
-        SceneError::NotInThisVersion {
-            what: format!("precision = \"{}\"{on_the_gpu}", precision.name()),
-            instead: instead.to_owned(),
-        },
-    );
-    None
-}
-
 /// A tolerance that single precision does not reach.
-fn below_the_floor(asked: f64, settings: &SolverScene) -> SceneError {
-    let (who, way_out) = match settings.backend {
-        BackendName::Gpu => (
-            "backend = \"gpu\", in single precision,",
-            "backend = \"cpu\"",
-        ),
-        _ => ("precision = \"single\"", "precision = \"double\""),
-    };
+fn below_the_floor(asked: f64) -> SceneError {
     SceneError::OutOfRange {
         found: format!("{asked:e}"),
         allowed: format!(
-            "at least {:e}, the floor of 32-bit numbers, for {who} or go with {way_out}",
+            "at least {:e}, the floor of 32-bit numbers, for precision = \"single\"; \"mixed\" and \"double\" go below",
             Precision::SINGLE_FLOOR
         ),
     }

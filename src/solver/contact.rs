@@ -2,8 +2,10 @@
 
 use super::MakeBackend;
 use super::coarse_start;
-use super::kernel_set::{CORE, KernelSet, WALL, YIELD};
+use super::correction::FIRST_TOLERANCE;
+use super::kernel_set::{KernelSet, fixed_params};
 use super::problem::Problem;
+use super::reference::Reference;
 use super::two_band::TwoBand;
 use crate::backend::{Backend, BackendError, Field, Level, Spectrum};
 use crate::kernel::{Gate, Params, Scalars, Status, common, scalar};
@@ -56,22 +58,25 @@ pub struct Outcome {
 
 /// Solves one problem, load after load.
 pub struct ContactSolver<'a> {
-    backend: &'a mut dyn Backend,
-    problem: &'a Problem,
-    level: Level,
+    pub(super) backend: &'a mut dyn Backend,
+    pub(super) problem: &'a Problem,
+    pub(super) level: Level,
     heights: Field,
-    gap: Field,
-    pressure: Field,
-    direction: Field,
+    pub(super) gap: Field,
+    pub(super) pressure: Field,
+    pub(super) direction: Field,
     descent: Field,
-    free_before: Field,
+    pub(super) free_before: Field,
     /// The trial step of a law whose change of variable makes it costly.
     step: Option<Field>,
     stiffness: Spectrum,
     preconditioner: Spectrum,
     two_band: Option<TwoBand>,
     kernels: &'static KernelSet,
-    params: Params,
+    pub(super) params: Params,
+    /// The state in double precision, where iterations here are to be corrected by it; made when it
+    /// is first asked for.
+    pub(super) reference: Option<Reference>,
     /// Transforms of the solvers on coarser grids that this one asked for help.
     helped_by: f64,
     /// What a relaxing solid's past adds to its displacement, over all solved points; empty where the
@@ -120,24 +125,7 @@ impl<'a> ContactSolver<'a> {
         };
         let preconditioner = backend.spectrum(level, "preconditioner", &compliance);
         backend.write(heights, &problem.padded(&problem.heights, 0.0));
-        let points = problem.shape.surface_len() as f64;
-        let norm = problem.heights.iter().map(|h| h * h).sum::<f64>().sqrt();
-        let stiffness_max = problem.stiffness_max();
-        let params = Params {
-            law: problem.law,
-            stiffness_max,
-            pressure_floor: 1e-6
-                * (problem.rms_slope * problem.scales.lateral / problem.scales.length)
-                * points.sqrt(),
-            tolerance: 0.0,
-            heights_norm: norm,
-            fixed_gap: false,
-            may_detach: false,
-            points,
-            core_stiffness: 0.2 * stiffness_max,
-            hardness: problem.hardness.unwrap_or(f64::INFINITY),
-            epsilon: backend.epsilon(),
-        };
+        let params = fixed_params(problem, backend.epsilon());
         ContactSolver {
             backend,
             problem,
@@ -152,12 +140,9 @@ impl<'a> ContactSolver<'a> {
             stiffness,
             preconditioner,
             two_band,
-            kernels: match problem.hardness {
-                _ if !has_wall => &CORE,
-                Some(_) => &YIELD,
-                None => &WALL,
-            },
+            kernels: KernelSet::of(problem),
             params,
+            reference: None,
             helped_by: 0.0,
             offset: Vec::new(),
             mean_offset: 0.0,
@@ -177,22 +162,32 @@ impl<'a> ContactSolver<'a> {
 
     /// Real two-dimensional transforms so far, those on coarser grids in proportion to their points.
     pub fn transforms(&self) -> f64 {
-        self.backend.transforms() + self.helped_by
+        let reference = self.reference.as_ref().map_or(0.0, Reference::transforms);
+        self.backend.transforms() + self.helped_by + reference
     }
 
     /// The gap over all solved points, reduced.
     pub fn gap(&mut self) -> Result<Vec<f64>, BackendError> {
-        self.backend.read(self.gap)
+        match &mut self.reference {
+            Some(reference) => reference.gap(),
+            None => self.backend.read(self.gap),
+        }
     }
 
     /// Sets the gap from which [`Start::Present`] starts, as [`ContactSolver::gap`] gave it.
     pub fn set_gap(&mut self, gap: &[f64]) {
+        if let Some(reference) = self.reference() {
+            reference.set_gap(gap);
+        }
         self.backend.write(self.gap, gap);
     }
 
     /// The elastic pressure K*(g + h) over all solved points, reduced, without the mean pressure.
     pub fn elastic_pressure(&mut self) -> Result<Vec<f64>, BackendError> {
-        self.backend.read(self.pressure)
+        match &mut self.reference {
+            Some(reference) => reference.pressure(),
+            None => self.backend.read(self.pressure),
+        }
     }
 
     /// Moves the rigid heights by what a relaxing solid's past adds to its displacement (reduced, all
@@ -223,6 +218,9 @@ impl<'a> ContactSolver<'a> {
             *height += offset;
         }
         self.backend.write(self.heights, &moved);
+        if let Some(reference) = self.reference() {
+            reference.set_heights(&moved);
+        }
     }
 
     /// Mean over all solved points of that offset; 0 without one.
@@ -233,13 +231,16 @@ impl<'a> ContactSolver<'a> {
     /// `<values, K*values>/2` over all solved points, reduced: the elastic energy of a displacement.
     /// Between solves, since it takes their directions for work space.
     pub fn energy_of(&mut self, values: &[f64]) -> Result<f64, BackendError> {
-        let (work, out) = (self.direction, self.descent);
-        self.backend.write(work, values);
         // A free half-space's own zero mode; a load's is not elastic.
         let own = match self.problem.boundary {
             Boundary::Periodic => 0.0,
             Boundary::Free => self.problem.stiffness[0],
         };
+        if let Some(reference) = &mut self.reference {
+            return reference.energy_of(values, own);
+        }
+        let (work, out) = (self.direction, self.descent);
+        self.backend.write(work, values);
         self.backend.set_zero_mode(self.stiffness, own);
         self.backend
             .forward(&common::LOAD_FIELD, self.level, &[work]);
@@ -282,6 +283,8 @@ impl<'a> ContactSolver<'a> {
     }
 
     /// Readies a solve: the load, the start, and the pressures that belong to it.
+    ///
+    /// Around a reference the present gap is the reference's, which the caller hands in.
     pub fn begin(
         &mut self,
         load: &Load,
@@ -293,6 +296,7 @@ impl<'a> ContactSolver<'a> {
             Hold::Pressure(pressure) => (false, pressure),
             Hold::Gap(_) => (true, 0.0),
         };
+        self.backend.set_base(None);
         self.params.fixed_gap = fixed_gap;
         self.params.tolerance = tolerance;
         self.params.may_detach = !fixed_gap
@@ -450,6 +454,16 @@ impl<'a> ContactSolver<'a> {
         make_backend: MakeBackend,
         watch: &mut dyn FnMut(&Scalars) -> bool,
     ) -> Result<Outcome, BackendError> {
+        let present = match (start, &mut self.reference) {
+            (Start::Present, Some(reference)) => Some(Start::Gap(reference.gap()?)),
+            _ => None,
+        };
+        let start = present.as_ref().unwrap_or(start);
+        let corrected = self.reference().is_some();
+        let first = match corrected {
+            true => tolerance.max(FIRST_TOLERANCE),
+            false => tolerance,
+        };
         let helped = match start {
             // Coarse grids know nothing of what has flowed.
             Start::Cold if self.flowed.is_empty() => {
@@ -460,9 +474,12 @@ impl<'a> ContactSolver<'a> {
         match helped {
             Some((gap, transforms)) => {
                 self.helped_by += transforms;
-                self.begin(load, &Start::Gap(gap), tolerance, careful)?;
+                self.begin(load, &Start::Gap(gap), first, careful)?;
             }
-            None => self.begin(load, start, tolerance, careful)?,
+            None => self.begin(load, start, first, careful)?,
+        }
+        if corrected {
+            return self.solve_in_rounds(load, tolerance, max_iterations, watch);
         }
         let (mut rounds, mut iterations) = (0, 0);
         loop {

@@ -1,7 +1,8 @@
-//! Which kernels take the steps of an iteration: those of a wall, of a solid that flows, of the
-//! Lennard-Jones core.
+//! What a problem asks of the solver: its kernels, those of a wall, of a solid that flows or of the
+//! Lennard-Jones core, and the numbers that stay fixed.
 
-use crate::kernel::{Kernel, core, scalar, wall, yielding};
+use super::problem::Problem;
+use crate::kernel::{Kernel, Params, core, scalar, wall, yielding};
 
 /// The kernels of one family of laws.
 pub(super) struct KernelSet {
@@ -23,7 +24,7 @@ pub(super) struct KernelSet {
     pub lengthen: &'static scalar::ScalarKernel,
 }
 
-pub(super) static WALL: KernelSet = KernelSet {
+static WALL: KernelSet = KernelSet {
     residual: &wall::WALL_RESIDUAL,
     free: &wall::WALL_FREE,
     descent: &wall::WALL_DESCENT,
@@ -40,7 +41,7 @@ pub(super) static WALL: KernelSet = KernelSet {
     lengthen: &scalar::LENGTHEN_WALL,
 };
 
-pub(super) static YIELD: KernelSet = KernelSet {
+static YIELD: KernelSet = KernelSet {
     residual: &yielding::YIELD_RESIDUAL,
     free: &yielding::YIELD_FREE,
     descent: &yielding::YIELD_DESCENT,
@@ -57,7 +58,7 @@ pub(super) static YIELD: KernelSet = KernelSet {
     lengthen: &scalar::LENGTHEN_WALL,
 };
 
-pub(super) static CORE: KernelSet = KernelSet {
+static CORE: KernelSet = KernelSet {
     residual: &core::CORE_RESIDUAL,
     free: &core::CORE_FREE,
     descent: &core::CORE_DESCENT,
@@ -73,3 +74,35 @@ pub(super) static CORE: KernelSet = KernelSet {
     search_scalar: &scalar::SEARCH_CORE,
     lengthen: &scalar::LENGTHEN_CORE,
 };
+
+impl KernelSet {
+    /// Those of a problem.
+    pub(super) fn of(problem: &Problem) -> &'static KernelSet {
+        match problem.hardness {
+            _ if !problem.law.has_wall() => &CORE,
+            Some(_) => &YIELD,
+            None => &WALL,
+        }
+    }
+}
+
+/// The numbers of a problem that stay fixed whatever the load.
+pub(super) fn fixed_params(problem: &Problem, epsilon: f64) -> Params {
+    let points = problem.shape.surface_len() as f64;
+    let stiffness_max = problem.stiffness_max();
+    Params {
+        law: problem.law,
+        stiffness_max,
+        pressure_floor: 1e-6
+            * (problem.rms_slope * problem.scales.lateral / problem.scales.length)
+            * points.sqrt(),
+        tolerance: 0.0,
+        heights_norm: problem.heights.iter().map(|h| h * h).sum::<f64>().sqrt(),
+        fixed_gap: false,
+        may_detach: false,
+        points,
+        core_stiffness: 0.2 * stiffness_max,
+        hardness: problem.hardness.unwrap_or(f64::INFINITY),
+        epsilon,
+    }
+}

@@ -7,12 +7,15 @@
 
 mod coarse_start;
 mod contact;
+mod correction;
 mod kernel_set;
 mod problem;
+mod reference;
 mod two_band;
 
 pub use contact::{ContactSolver, Hold, Load, Outcome, Start};
 pub use problem::{Problem, Scales, good_size};
+pub use reference::plan_reference;
 
 /// Where solvers get their backends from; one a level of a coarse start.
 pub type MakeBackend<'a> = &'a dyn Fn() -> Box<dyn crate::backend::Backend + Send>;

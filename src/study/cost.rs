@@ -9,7 +9,7 @@ use crate::backend::{
 use crate::grid::Grid;
 use crate::law::Law;
 use crate::scene::{BackendName, Precision, Scene, Treatment};
-use crate::solver::{ContactSolver, Problem, Start};
+use crate::solver::{ContactSolver, Problem, Start, plan_reference};
 
 /// What a scene's solver holds and does, and what is kept between its steps.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -22,6 +22,8 @@ pub struct Cost {
     pub spectra: Vec<Held>,
     /// Work space of the transforms.
     pub work: Vec<Held>,
+    /// The state in double precision beside iterations in single (mixed precision), on the processor.
+    pub reference: Vec<Held>,
     /// Passes of one iteration, in order; `multiply` stands for the columns of a convolution.
     pub passes: Vec<&'static str>,
     /// Solved points of the finest level.
@@ -65,6 +67,11 @@ impl Cost {
         plan(&problem, scene, 0.0, place)
     }
 
+    /// Bytes of the state in double precision.
+    pub fn reference_bytes(&self) -> usize {
+        self.reference.iter().map(|held| held.bytes).sum()
+    }
+
     /// Bytes of all that is held where the solver runs.
     pub fn bytes(&self) -> usize {
         [&self.fields, &self.spectra, &self.work]
@@ -80,7 +87,7 @@ impl Place {
     pub fn of(scene: &Scene) -> Place {
         match (scene.solver.backend, scene.solver.arithmetic()) {
             (BackendName::Gpu, _) => Place::Gpu,
-            (_, Precision::Single) => Place::Single,
+            (_, Precision::Single | Precision::Mixed) => Place::Single,
             _ => Place::Double,
         }
     }
@@ -108,6 +115,14 @@ fn plan(
     if let Some(mistake) = iterated.mistake {
         return Err(mistake);
     }
+    let mut reference = Vec::new();
+    if scene.solver.arithmetic_on(place == Place::Gpu) == Precision::Mixed {
+        let mut double = Tally::on(Place::Double);
+        plan_reference(&mut double, &mut iterated, problem);
+        for held in [double.fields, double.spectra, double.work] {
+            reference.extend(held);
+        }
+    }
     let branches = scene.solid.relaxation.len();
     if branches > 0 {
         // The displacement and the spring of each branch, kept by the host in double precision.
@@ -132,6 +147,7 @@ fn plan(
         fields: iterated.fields,
         spectra: iterated.spectra,
         work: iterated.work,
+        reference,
         passes: iterated.passes.split_off(started.passes.len()),
         points: problem.shape.points,
     })

@@ -53,14 +53,23 @@ impl Memory {
         let planning = table + DOUBLE * solved;
         // Gap and elastic pressure as read, padded heights, their parts on the grid, the results.
         let evaluating = 3 * DOUBLE * solved + (3 * DOUBLE + EVALUATION) * points;
+        // In mixed precision the state in double, and a round's gap, pressure, residual, correction.
+        let reference = cost.reference_bytes() as u64;
+        let correcting = if reference > 0 {
+            4 * DOUBLE * solved
+        } else {
+            0
+        };
         let evaluating = evaluating + EVALUATION * points * kept_steps(scene);
         // Values of a field on their way to a file or a picture.
         let writing = (2 * EVALUATION + DOUBLE) * points;
         let solving = kept
             + solver_here
+            + reference
             + planning
                 .max(cold_start(scene, points, solver_here, table))
                 .max(evaluating)
+                .max(correcting)
                 .max(writing);
         Memory {
             solver,

@@ -1,6 +1,8 @@
 //! The one device that all tests of a binary share, and seeded numbers.
 #![allow(dead_code)]
 
+pub mod watching;
+
 use std::sync::OnceLock;
 
 use tabor::backend::gpu::{AdapterChoice, GpuBackend, GpuDevice};
@@ -23,6 +25,7 @@ fn ready(single_sums: bool) -> Option<GpuDevice> {
         name: None,
         software: true,
         single_sums,
+        ..AdapterChoice::default()
     };
     match GpuDevice::new(&choice) {
         Ok(device) => Some(device),

@@ -48,6 +48,10 @@ const OUT_OF_REACH: &[(&str, &str)] = &[
         "GpuError::Fields",
         "a kernel of this crate with a wrong list of fields",
     ),
+    (
+        "GpuError::Precision",
+        "needs an adapter: tests/gpu_run.rs asks for it",
+    ),
     ("GpuError::Device", "the device fails amid a run"),
     (
         "GpuError::Size",

@@ -229,6 +229,7 @@ fn mistakes_in_solid(tables: &mut Vec<Edits>) {
     tables.push(Edits { base: soft(), cases: &[
         (r#"law = "maugis-dugdale""#, r#"law = "lennard-jones""#, "s.toml:7: solid.hardness: a hardness with the Lennard-Jones law is not in this version", "leave the hardness out"),
         (r#"range = "1 nm""#, "range = \"1 nm\"\ntreatment = \"dmt\"", "s.toml:7: solid.hardness: a hardness with treatment = \"dmt\" is not in this version", "take treatment = \"full\""),
+        ("[grid]", "[solver]\nprecision = \"mixed\"\n[grid]", "s.toml:9: solid.hardness: a hardness in mixed precision is not in this version", "take precision = \"single\""),
         ("control = \"pressure\"\npath = [\"1 MPa\", \"2 MPa\"]", "control = \"mean-gap\"\npath = [\"1 nm\"]", "s.toml:7: solid.hardness: control = \"mean-gap\" does not fix how deep", "take control = \"approach\""),
         ("control = \"pressure\"\npath = [\"1 MPa\", \"2 MPa\"]", "control = \"force\"\npath = [1e-3]", "s.toml:7: solid.hardness: the path asks for a mean pressure of 1 GPa", "stay below it"),
     ]});
@@ -377,11 +378,7 @@ fn mistakes_in_solver_and_output(tables: &mut Vec<Edits>) {
         ("tolerance = 1e-6", "tolerance = 0.2", "s.toml:18: solver.tolerance: 0.2 is out of range", "above 0 and at most 0.1"),
         ("tolerance = 1e-6", r#"tolerance = "1e-6""#, r#"s.toml:18: solver.tolerance: the text "1e-6" where a number without a unit is expected"#, "`tolerance = 1e-6`"),
         ("tolerance = 1e-6", "max_iterations = 0", "s.toml:18: solver.max_iterations: 0 is out of range", "a whole number of at least 1"),
-        ("tolerance = 1e-6", r#"precision = "mixed""#, r#"s.toml:18: solver.precision: precision = "mixed" is not in this version"#, r#"take "auto", "single" or "double""#),
         ("tolerance = 1e-6", "tolerance = 1e-6\nprecision = \"single\"", "s.toml:18: solver.tolerance: 1e-6 is out of range", "at least 1e-4"),
-        ("tolerance = 1e-6", "tolerance = 1e-6\nbackend = \"gpu\"", "s.toml:18: solver.tolerance: 1e-6 is out of range", "at least 1e-4"),
-        ("tolerance = 1e-6", "backend = \"gpu\"\nprecision = \"double\"", r#"s.toml:19: solver.precision: precision = "double" on the GPU is not in this version"#, r#"take "single""#),
-        ("tolerance = 1e-6", "backend = \"gpu\"\nprecision = \"mixed\"", r#"s.toml:19: solver.precision: precision = "mixed" on the GPU is not in this version"#, r#"take "single""#),
         ("tolerance = 1e-6", r#"precision = "f64""#, r#"s.toml:18: solver.precision: "f64" is none of "auto", "single", "mixed", "double""#, "did you mean"),
         ("tolerance = 1e-6", r#"backend = "cuda""#, r#"s.toml:18: solver.backend: "cuda" is none of "auto", "cpu", "gpu""#, r#"did you mean "cpu"?"#),
         ("tolerance = 1e-6", "pressure_tolerance = 1e-6", "s.toml:18: solver.pressure_tolerance: unknown key in [solver]", "did you mean `tolerance`?"),
@@ -560,14 +557,25 @@ fn overrides_change_what_they_name() {
     let bare = GOOD.replace("[solver]\ntolerance = 1e-6\n", "");
     let scene = parse_set(&bare, &[("solver.tolerance", "1e-8")]).expect("a solver");
     assert_eq!(scene.solver.tolerance, 1e-8);
-    // Single precision has a default of its own, and so has the GPU, which has no other.
-    for (key, word) in [("solver.precision", "single"), ("solver.backend", "gpu")] {
-        let scene = parse_set(&bare, &[(key, word)]).expect("a solver");
-        assert_eq!(scene.solver.tolerance, Precision::SINGLE_FLOOR);
-        assert_eq!(scene.solver.arithmetic(), Precision::Single);
-        let set = [(key, word), ("solver.tolerance", "1e-4")];
-        assert_eq!(parse_set(&bare, &set).expect("at the floor"), scene);
-    }
+    // Single precision has a default of its own; on the GPU `auto` goes by the tolerance.
+    let single = ("solver.precision", "single");
+    let scene = parse_set(&bare, &[single]).expect("a solver");
+    assert_eq!(scene.solver.tolerance, Precision::SINGLE_FLOOR);
+    assert_eq!(scene.solver.arithmetic(), Precision::Single);
+    let at_the_floor = ("solver.tolerance", "1e-4");
+    let set = [single, at_the_floor];
+    assert_eq!(parse_set(&bare, &set).expect("at the floor"), scene);
+    let gpu = ("solver.backend", "gpu");
+    let scene = parse_set(&bare, &[gpu]).expect("a solver");
+    assert_eq!(scene.solver.tolerance, 1e-6);
+    assert_eq!(scene.solver.arithmetic(), Precision::Mixed);
+    let scene = parse_set(&bare, &[gpu, at_the_floor]).expect("a solver");
+    assert_eq!(scene.solver.arithmetic(), Precision::Single);
+    let scene = parse_set(&bare, &[("solver.precision", "mixed")]).expect("a solver");
+    assert_eq!(
+        (scene.solver.tolerance, scene.solver.arithmetic()),
+        (1e-6, Precision::Mixed)
+    );
     // An effect may be set as a whole.
     let hard = hard();
     let law = "{ law = 'exponential', work_of_adhesion = 0.1, range = '1 nm' }";
@@ -691,12 +699,6 @@ fn overrides_that_are_wrong_say_where_they_came_from() {
             "grid",
             "1",
             "s.toml, from --set: grid: the number 1 where a table is expected",
-        ),
-        (
-            GOOD,
-            "solver.precision",
-            "mixed",
-            "s.toml, from --set: solver.precision: precision = \"mixed\" is not in this version; take \"auto\", \"single\" or \"double\"",
         ),
         (
             GOOD,

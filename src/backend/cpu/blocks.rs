@@ -26,6 +26,8 @@ pub(super) struct Job<'a, T: Real> {
     pub whole: Whole<'a, T>,
     /// Factors on the law's tension, whole; empty without them.
     pub factor: &'a [T],
+    /// Gap and residual of the base that is corrected, whole; empty without one.
+    pub base: [&'a [T]; 2],
     /// One set of sums a block.
     pub partials: &'a mut [[f64; SUMS]],
     /// Spectra of these blocks, `work_per_block` values each.
@@ -67,6 +69,7 @@ impl<'a, T: Real> Job<'a, T> {
             writes,
             whole: self.whole,
             factor: self.factor,
+            base: self.base,
             partials,
             work,
             work_per_block: self.work_per_block,
@@ -91,11 +94,14 @@ impl<'a, T: Real> Job<'a, T> {
                 *cut = &field[range.clone()];
             }
         }
-        let factor = if self.factor.is_empty() {
-            &[]
-        } else {
-            &self.factor[range]
+        let cut = |field: &'a [T]| -> &'a [T] {
+            if field.is_empty() {
+                &[]
+            } else {
+                &field[range.clone()]
+            }
         };
+        let (factor, base) = (cut(self.factor), self.base.map(cut));
         let [a, b, c] = &mut self.writes;
         let mut rows = Rows {
             first,
@@ -107,6 +113,7 @@ impl<'a, T: Real> Job<'a, T> {
             writes: [a, b, c],
             whole: self.whole,
             factor,
+            base,
         };
         (self.twin)(&mut rows, self.params, self.scalars, &mut self.partials[0]);
     }

@@ -22,6 +22,10 @@ pub struct CpuBackend<T: Real> {
     spectra: Vec<Vec<T>>,
     /// The field of factors on the law's tension.
     law_factor: Option<Field>,
+    /// Gap and residual of the base that is corrected.
+    base: Option<[Field; 2]>,
+    /// Whether a state in double precision stands beside the fields.
+    corrected: bool,
     params: Option<Params>,
     scalars: Scalars,
     transforms: f64,
@@ -78,9 +82,19 @@ impl<T: CpuReal> CpuBackend<T> {
             fields: Vec::new(),
             spectra: Vec::new(),
             law_factor: None,
+            base: None,
+            corrected: false,
             params: None,
             scalars: Scalars::start(0.0, false),
             transforms: 0.0,
+        }
+    }
+
+    /// The same for iterations that correct a state kept in double precision.
+    pub fn corrected(self) -> Self {
+        CpuBackend {
+            corrected: true,
+            ..self
         }
     }
 
@@ -129,6 +143,10 @@ impl<T: CpuReal> CpuBackend<T> {
             Some(field) if field.level == level => &self.fields[field.index],
             _ => &[],
         };
+        let base: [&[T]; 2] = match self.base {
+            Some(base) if base[0].level == level => base.map(|field| &self.fields[field.index][..]),
+            _ => [&[]; 2],
+        };
         let share = self.share_of_first(level);
         let space = &mut self.levels[level.0];
         let blocks = space.shape.points[1].div_ceil(BLOCK);
@@ -146,6 +164,7 @@ impl<T: CpuReal> CpuBackend<T> {
             writes: [a, b, c],
             whole,
             factor,
+            base,
             partials,
             work: &mut [],
             work_per_block: 0,
@@ -229,6 +248,19 @@ impl<T: CpuReal> Backend for CpuBackend<T> {
 
     fn set_law_factor(&mut self, factor: Field) {
         self.law_factor = Some(factor);
+    }
+
+    fn set_base(&mut self, base: Option<[Field; 2]>) {
+        self.base = base;
+    }
+
+    fn clear(&mut self, field: Field) {
+        self.fields[field.index].fill(T::zero());
+    }
+
+    fn in_double(&self) -> Option<Box<dyn Backend + Send>> {
+        self.corrected
+            .then(|| Box::new(CpuBackend::<f64>::new()) as Box<dyn Backend + Send>)
     }
 
     fn set_params(&mut self, params: &Params) {

@@ -36,8 +36,16 @@ macro_rules! over_flow {
 pub const COMMON: &str = part!("common");
 /// Sums over a workgroup.
 pub const REDUCE: &str = part!("reduce");
+/// Sums as they are.
+pub const SUMS: &str = part!("sums");
+/// Sums with what rounding takes from them.
+pub const SUMS_COMPENSATED: &str = part!("sums_compensated");
 /// One function a gate.
 pub const GATE: &str = part!("gate");
+/// How kernels see a law where the unknown is the gap.
+pub const WHOLE_GAP: &str = part!("whole_gap");
+/// How they see it where the unknown is a correction of a base gap.
+pub const CORRECTION: &str = part!("correction");
 /// Products of complex numbers.
 pub const FFT: &str = part!("fft");
 

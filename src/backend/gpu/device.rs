@@ -1,8 +1,10 @@
 //! Adapters and devices: which one is taken, what it allows, and how its failures are caught.
 
 use std::collections::HashMap;
+use std::sync::atomic::{AtomicU64, Ordering};
 use std::sync::{Arc, Mutex, OnceLock, PoisonError};
 
+use super::GpuBackend;
 use super::error::GpuError;
 use super::layout::Wide;
 use super::plan::{GroupLimits, LinePlan};
@@ -18,6 +20,11 @@ pub struct AdapterChoice {
     /// Whether sums are kept in single precision even where the device has double: for tests of
     /// what other devices do.
     pub single_sums: bool,
+    /// Bytes that may be bound at a time, where that is to be less than the adapter takes: for tests of
+    /// grids past the limits.
+    pub binding_limit: Option<u64>,
+    /// Dispatches after which the device is given up: for tests of its loss.
+    pub lost_after: Option<u64>,
 }
 
 /// An adapter in words.
@@ -73,6 +80,13 @@ impl AdapterDescription {
         self.kind == AdapterKind::Software
     }
 
+    /// Whether its transforms and bindings take a grid of so many points each way.
+    pub fn takes(&self, points: [usize; 2]) -> bool {
+        let longest = LinePlan::longest(self.group_limits);
+        let bytes = 4 * points[0] as u64 * points[1] as u64;
+        points.into_iter().all(|side| side <= longest) && bytes <= self.binding_limit
+    }
+
     /// Points along the side of the largest square grid that its transforms and bindings take.
     pub fn largest_side(&self) -> usize {
         // A field in single precision is the largest thing that is bound.
@@ -113,6 +127,10 @@ struct Inner {
     description: AdapterDescription,
     pipelines: Mutex<HashMap<String, wgpu::ComputePipeline>>,
     lost: Arc<OnceLock<String>>,
+    /// Whether the compiler undoes compensated sums.
+    plain_sums: OnceLock<bool>,
+    /// Dispatches left before the device is given up, where it is to be.
+    left: Option<AtomicU64>,
 }
 
 fn instance() -> wgpu::Instance {
@@ -195,7 +213,10 @@ impl GpuDevice {
         let descriptions: Vec<_> = found.iter().map(describe).collect();
         let place = choose(&descriptions, &choice)?;
         let adapter = &found[place];
-        let description = descriptions[place].clone();
+        let mut description = descriptions[place].clone();
+        if let Some(limit) = choice.binding_limit {
+            description.binding_limit = description.binding_limit.min(limit);
+        }
         let required_features = match choice.single_sums {
             true => wgpu::Features::empty(),
             false => adapter.features() & wgpu::Features::SHADER_F64,
@@ -220,15 +241,22 @@ impl GpuDevice {
         device.on_uncaptured_error(Arc::new(move |error: wgpu::Error| {
             let _ = first.set(error.to_string());
         }));
-        Ok(GpuDevice {
+        let device = GpuDevice {
             inner: Arc::new(Inner {
                 device,
                 queue,
                 description,
                 pipelines: Mutex::new(HashMap::new()),
                 lost,
+                plain_sums: OnceLock::new(),
+                left: choice.lost_after.map(AtomicU64::new),
             }),
-        })
+        };
+        if device.wide() == Wide::Compensated {
+            let survive = GpuBackend::new(&device)?.sums_survive()?;
+            let _ = device.inner.plain_sums.set(!survive);
+        }
+        Ok(device)
     }
 
     /// The adapter in words.
@@ -241,8 +269,10 @@ impl GpuDevice {
         let features = self.inner.device.features();
         if features.contains(wgpu::Features::SHADER_F64) {
             Wide::Double
-        } else {
+        } else if self.inner.plain_sums.get() == Some(&true) {
             Wide::Single
+        } else {
+            Wide::Compensated
         }
     }
 
@@ -253,7 +283,16 @@ impl GpuDevice {
 
     /// Bytes that may be bound at a time.
     pub fn binding_limit(&self) -> u64 {
-        binding_limit(&self.inner.device.limits())
+        self.inner.description.binding_limit
+    }
+
+    /// Counts a dispatch, and gives the device up where it is to be lost.
+    pub(super) fn count_dispatch(&self) {
+        if let Some(left) = &self.inner.left
+            && left.fetch_sub(1, Ordering::Relaxed) == 1
+        {
+            self.inner.device.destroy();
+        }
     }
 
     pub(super) fn queue(&self) -> &wgpu::Queue {
@@ -399,5 +438,8 @@ mod tests {
         assert_eq!(found.largest_side(), 16384);
         found.binding_limit = 1 << 20;
         assert_eq!(found.largest_side(), 512);
+        // It is the points that count, not the longer side.
+        assert!(found.takes([2048, 128]) && !found.takes([2048, 130]));
+        assert!(!found.takes([32768, 2]));
     }
 }

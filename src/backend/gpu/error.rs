@@ -46,6 +46,11 @@ pub enum GpuError {
         /// The adapter's limit.
         limit: u64,
     },
+    /// Fields in a precision that the adapter, or this version on it, does not have.
+    #[error(
+        "{0} keeps fields in single precision only; precision = \"mixed\" reaches the tolerances of double"
+    )]
+    Precision(String),
     /// A kernel that has no shader.
     #[error("kernel `{0}` has no shader")]
     NoShader(&'static str),

@@ -9,8 +9,10 @@ use crate::law::Law;
 /// The kind of number that sums and scalars are kept in.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub enum Wide {
-    /// Single precision, where the device has no other.
+    /// Single precision, sums plain: where the device undoes compensation.
     Single,
+    /// Single precision, sums with what rounding takes from them: where the device has no other.
+    Compensated,
     /// Double precision.
     Double,
 }
@@ -19,7 +21,7 @@ impl Wide {
     /// Its name in WGSL.
     pub fn name(self) -> &'static str {
         match self {
-            Wide::Single => "f32",
+            Wide::Single | Wide::Compensated => "f32",
             Wide::Double => "f64",
         }
     }
@@ -27,8 +29,16 @@ impl Wide {
     /// Bytes of one number.
     pub fn bytes(self) -> usize {
         match self {
-            Wide::Single => 4,
+            Wide::Single | Wide::Compensated => 4,
             Wide::Double => 8,
+        }
+    }
+
+    /// Bytes of what passes between threads of a sum.
+    pub fn part_bytes(self) -> usize {
+        match self {
+            Wide::Single => 4,
+            Wide::Compensated | Wide::Double => 8,
         }
     }
 }
@@ -96,6 +106,8 @@ const PARAMS: &[Member] = &[
     ("law_has_tail", 0),
     ("fixed_gap", 0),
     ("may_detach", 0),
+    // Zero, which no compiler knows.
+    ("zero", 0),
 ];
 
 fn declaration(name: &str, members: &[Member]) -> String {
@@ -149,7 +161,7 @@ struct Writer {
 impl Writer {
     fn number(&mut self, value: f64) {
         match self.wide {
-            Wide::Single => self.bytes.extend((value as f32).to_le_bytes()),
+            Wide::Single | Wide::Compensated => self.bytes.extend((value as f32).to_le_bytes()),
             Wide::Double => self.bytes.extend(value.to_le_bytes()),
         }
     }
@@ -198,6 +210,7 @@ pub fn params_bytes(params: &Params, wide: Wide) -> Vec<u8> {
     for value in [params.law.has_tail(), params.fixed_gap, params.may_detach] {
         writer.count(u32::from(value));
     }
+    writer.count(0);
     writer.finish(params_length(wide))
 }
 
@@ -304,7 +317,7 @@ impl Reader<'_> {
 
     fn number(&mut self) -> f64 {
         match self.wide {
-            Wide::Single => f64::from(f32::from_le_bytes(self.take())),
+            Wide::Single | Wide::Compensated => f64::from(f32::from_le_bytes(self.take())),
             Wide::Double => f64::from_le_bytes(self.take()),
         }
     }
@@ -383,7 +396,7 @@ mod tests {
         scalars.status = Status::PulledOff;
         scalars.iterations = 17;
         scalars.at_floor = 3;
-        for wide in [Wide::Single, Wide::Double] {
+        for wide in [Wide::Single, Wide::Compensated, Wide::Double] {
             let bytes = scalars_bytes(&scalars, wide);
             assert_eq!(bytes.len(), scalars_length(wide));
             let back = scalars_of(&bytes, wide);

@@ -9,25 +9,31 @@
 mod bindings;
 mod butterfly;
 mod catalogue;
+mod deciding;
 mod device;
 mod error;
 mod fft;
 mod layout;
 mod level;
 mod plan;
+mod reading;
 mod recorder;
 pub mod source;
 mod space;
+mod sums;
+mod traffic;
 
 use std::collections::HashMap;
 use std::f64::consts::TAU;
 
+use super::cpu::CpuBackend;
 use super::{Backend, BackendError, Field, Level, Shape, Spectrum};
 use crate::kernel::{Form, Gate, Kernel, Params, ScalarKernel, Scalars};
-use bindings::{COLUMNS, DECIDING, ROWS, WORKING};
-use level::{LevelPlan, ROW_TRANSFORMS_PER_TRANSFORM};
-use recorder::{Part, Prepared, Recorder};
-use source::Results;
+use bindings::{COLUMNS, ROWS, WORKING};
+use deciding::{Decided, Deciding};
+use level::LevelPlan;
+use recorder::{Prepared, Recorder};
+use source::{Reduction, Results};
 use space::{FieldSpace, Key, LevelSpace, SpectrumSpace, single_bytes};
 
 pub use catalogue::LawPart;
@@ -35,6 +41,7 @@ pub use device::{AdapterChoice, AdapterDescription, AdapterKind, GpuDevice, adap
 pub use error::GpuError;
 pub use layout::Wide;
 pub use plan::{Exchange, GroupLimits, LinePlan, radices};
+pub use traffic::Traffic;
 
 /// The GPU backend, in single precision.
 pub struct GpuBackend {
@@ -48,9 +55,16 @@ pub struct GpuBackend {
     spectra: Vec<Option<SpectrumSpace>>,
     roots: HashMap<usize, wgpu::Buffer>,
     prepared: HashMap<Key, Prepared>,
+    /// What is decided after the last kernel over points, in one dispatch.
+    deciding: Deciding,
+    traffic: Traffic,
     law: LawPart,
     /// The field of factors on the law's tension.
     law_factor: Option<Field>,
+    /// Gap and residual of the base that is corrected.
+    base: Option<[Field; 2]>,
+    /// Whether a state in double precision stands beside the fields.
+    corrected: bool,
     /// The first thing that went wrong; told where the host waits.
     failure: Option<GpuError>,
     transforms: f64,
@@ -94,8 +108,12 @@ impl GpuBackend {
             spectra: Vec::new(),
             roots: HashMap::new(),
             prepared: HashMap::new(),
+            deciding: Deciding::default(),
+            traffic: Traffic::default(),
             law: LawPart::HardWall,
             law_factor: None,
+            base: None,
+            corrected: false,
             failure,
             transforms: 0.0,
             // Software idles through shut gates slower than it waits.
@@ -114,6 +132,19 @@ impl GpuBackend {
             look_every: rounds.max(1),
             ..self
         }
+    }
+
+    /// The same for iterations that correct a state kept in double precision.
+    pub fn corrected(self) -> Self {
+        GpuBackend {
+            corrected: true,
+            ..self
+        }
+    }
+
+    /// What went over the bus and to the device so far.
+    pub fn traffic(&self) -> Traffic {
+        self.traffic
     }
 
     /// The device it computes on.
@@ -222,8 +253,18 @@ impl GpuBackend {
         })
     }
 
-    /// Finds a prepared dispatch or prepares it, and records it.
+    /// Records a dispatch over points, after what waits to be decided.
     fn record(
+        &mut self,
+        key: Key,
+        prepare: impl FnOnce(&Self) -> Result<Prepared, GpuError>,
+    ) -> Result<(), GpuError> {
+        self.settle()?;
+        self.dispatch(key, prepare)
+    }
+
+    /// Finds a prepared dispatch or prepares it, and records it.
+    fn dispatch(
         &mut self,
         key: Key,
         prepare: impl FnOnce(&Self) -> Result<Prepared, GpuError>,
@@ -236,6 +277,8 @@ impl GpuBackend {
                 prepared
             }
         };
+        self.traffic.dispatches += 1;
+        self.device.count_dispatch();
         self.recorder.dispatch(prepared)
     }
 
@@ -254,18 +297,32 @@ impl GpuBackend {
             });
         }
         let indices = fields.iter().map(|field| field.index).collect();
-        let key = Key::Kernel(kernel.name, level.0, indices);
+        let key = Key::Kernel(kernel.name, level.0, self.base.is_some(), indices);
         self.record(key, |backend| backend.kernel(kernel, level, fields))?;
         if kernel.sums.is_empty() {
             return Ok(());
         }
-        self.record(Key::Sums(kernel.name, level.0), |backend| {
-            let space = backend.level_space(level)?;
-            let groups = space.plan.groups(kernel.form);
-            let results = Results::Sums(kernel.sums);
-            let text = source::reduce(results, groups, kernel.gate, backend.wide);
-            backend.reduction(space, text)
-        })
+        let groups = self.level_space(level)?.plan.groups(kernel.form);
+        self.deciding.reduction = Some(Decided {
+            name: kernel.name,
+            level,
+            reduction: Reduction {
+                results: Results::Sums(kernel.sums),
+                groups,
+                gate: kernel.gate,
+            },
+        });
+        Ok(())
+    }
+
+    /// Hands over what waits, then overwrites the beginning of a buffer.
+    fn overwrite(
+        &mut self,
+        buffer: &wgpu::Buffer,
+        bytes: impl Iterator<Item = u8>,
+    ) -> Result<(), GpuError> {
+        self.settle()?;
+        self.recorder.write(buffer, bytes)
     }
 
     fn kernel(
@@ -293,9 +350,21 @@ impl GpuBackend {
             }
             _ => None,
         };
+        let base = match self.base {
+            Some(base) if base[0].level == level && catalogue::asks_for_law(kernel.name) => {
+                let first = buffers.len();
+                for field in base {
+                    buffers.push(&self.field_space(field)?.buffer);
+                    accesses.push(bindings::Access::Read);
+                }
+                Some(first)
+            }
+            _ => None,
+        };
         let law = source::LawSource {
             part: self.law,
             factor,
+            base,
         };
         let text = source::kernel(kernel, &space.plan, whole, law, self.wide)?;
         let shared = [&self.params, &self.scalars, &space.partials];
@@ -306,11 +375,6 @@ impl GpuBackend {
             groups.push((ROWS, &transform));
         }
         self.prepare(kernel.name, text, &groups, space.plan.groups(kernel.form))
-    }
-
-    fn reduction(&self, space: &LevelSpace, text: String) -> Result<Prepared, GpuError> {
-        let shared = [&self.params, &self.scalars, &space.partials];
-        self.prepare("reduce", text, &[(DECIDING, &shared)], 1)
     }
 
     fn columns(&mut self, by: Spectrum, energy: bool, gate: Gate) -> Result<(), GpuError> {
@@ -332,61 +396,18 @@ impl GpuBackend {
         if !energy {
             return Ok(());
         }
-        self.record(Key::Curvature(by.level.0, word), |backend| {
-            let space = backend.level_space(by.level)?;
-            let results = Results::Curvature(space.plan.points());
-            let groups = space.plan.column_groups();
-            backend.reduction(space, source::reduce(results, groups, gate, backend.wide))
-        })
-    }
-
-    /// Waits, and reads the scalars and what was counted.
-    fn look(&mut self) -> Result<Scalars, GpuError> {
-        self.checked()?;
-        let length = layout::scalars_length(self.wide);
-        let mut parts = vec![Part {
-            buffer: &self.scalars,
-            start: 0,
-            length,
-        }];
-        let spaces = || self.levels.iter().flatten();
-        parts.extend(spaces().map(|space| Part {
-            buffer: &space.partials,
-            start: 0,
-            length: 4,
-        }));
-        let bytes = self.recorder.read(&parts)?;
-        let first = spaces().next().map_or(1, |space| space.plan.points());
-        let mut transforms = 0.0;
-        for (count, space) in bytes[length..].chunks_exact(4).zip(spaces()) {
-            let rows = count.try_into().map_or(0, u32::from_le_bytes);
-            let share = space.plan.points() as f64 / first as f64;
-            transforms += f64::from(rows) * share / ROW_TRANSFORMS_PER_TRANSFORM;
-        }
-        self.transforms = transforms;
-        Ok(layout::scalars_of(&bytes[..length], self.wide))
-    }
-
-    fn fetch(&mut self, field: Field) -> Result<Vec<f64>, GpuError> {
-        self.checked()?;
-        let space = self
-            .fields
-            .get(field.index)
-            .and_then(Option::as_ref)
-            .ok_or_else(|| GpuError::Device("a field that was not made".to_string()))?;
-        let bytes = self.recorder.read(&[Part {
-            buffer: &space.buffer,
-            start: 0,
-            length: 4 * space.points,
-        }])?;
-        Ok(bytes
-            .chunks_exact(4)
-            .map(|value| {
-                value
-                    .try_into()
-                    .map_or(f64::NAN, |b| f64::from(f32::from_le_bytes(b)))
-            })
-            .collect())
+        let plan = &self.level_space(by.level)?.plan;
+        let reduction = Reduction {
+            results: Results::Curvature(plan.points()),
+            groups: plan.column_groups(),
+            gate,
+        };
+        self.deciding.reduction = Some(Decided {
+            name: word,
+            level: by.level,
+            reduction,
+        });
+        Ok(())
     }
 }
 
@@ -407,7 +428,7 @@ impl Backend for GpuBackend {
             let plan = LevelPlan::new(shape, backend.device.group_limits())?;
             // Half as many complex numbers as points.
             let work = backend.storage(name, 4 * plan.points())?;
-            let partials = 8 + plan.partials() * backend.wide.bytes();
+            let partials = 8 + plan.partials() * backend.wide.part_bytes();
             Ok(LevelSpace {
                 row_roots: backend.roots(plan.shape[0])?,
                 column_roots: backend.roots(plan.shape[1])?,
@@ -436,7 +457,7 @@ impl Backend for GpuBackend {
     fn spectrum(&mut self, level: Level, name: &'static str, values: &[f64]) -> Spectrum {
         let space = self.attempt(|backend| {
             let buffer = backend.storage(name, 4 * values.len())?;
-            backend.recorder.write(&buffer, single_bytes(values))?;
+            backend.overwrite(&buffer, single_bytes(values))?;
             Ok(SpectrumSpace { buffer })
         });
         self.spectra.push(space);
@@ -449,14 +470,15 @@ impl Backend for GpuBackend {
     fn set_zero_mode(&mut self, spectrum: Spectrum, value: f64) {
         self.attempt(|backend| {
             let buffer = backend.spectrum_space(spectrum)?.buffer.clone();
-            backend.recorder.write(&buffer, single_bytes(&[value]))
+            backend.overwrite(&buffer, single_bytes(&[value]))
         });
     }
 
     fn write(&mut self, field: Field, values: &[f64]) {
         self.attempt(|backend| {
             let buffer = backend.field_space(field)?.buffer.clone();
-            backend.recorder.write(&buffer, single_bytes(values))
+            backend.traffic.fields_up += 1;
+            backend.overwrite(&buffer, single_bytes(values))
         });
     }
 
@@ -474,6 +496,23 @@ impl Backend for GpuBackend {
         self.law_factor = Some(factor);
     }
 
+    fn set_base(&mut self, base: Option<[Field; 2]>) {
+        self.base = base;
+    }
+
+    fn clear(&mut self, field: Field) {
+        self.attempt(|backend| {
+            let buffer = backend.field_space(field)?.buffer.clone();
+            backend.settle()?;
+            backend.recorder.clear(&buffer)
+        });
+    }
+
+    fn in_double(&self) -> Option<Box<dyn Backend + Send>> {
+        self.corrected
+            .then(|| Box::new(CpuBackend::<f64>::new()) as Box<dyn Backend + Send>)
+    }
+
     fn set_params(&mut self, params: &Params) {
         let law = LawPart::of(&params.law);
         if law != self.law {
@@ -484,7 +523,7 @@ impl Backend for GpuBackend {
         let bytes = layout::params_bytes(params, self.wide);
         self.attempt(|backend| {
             let buffer = backend.params.clone();
-            backend.recorder.write(&buffer, bytes.into_iter())
+            backend.overwrite(&buffer, bytes.into_iter())
         });
     }
 
@@ -492,7 +531,7 @@ impl Backend for GpuBackend {
         let bytes = layout::scalars_bytes(scalars, self.wide);
         self.attempt(|backend| {
             let buffer = backend.scalars.clone();
-            backend.recorder.write(&buffer, bytes.into_iter())
+            backend.overwrite(&buffer, bytes.into_iter())
         });
     }
 
@@ -509,14 +548,7 @@ impl Backend for GpuBackend {
     }
 
     fn scalar(&mut self, kernel: &'static ScalarKernel) {
-        self.attempt(|backend| {
-            backend.record(Key::Scalar(kernel.name), |backend| {
-                let text = source::scalar(kernel, backend.wide)?;
-                let space = backend.level_space(Level(0))?;
-                let shared = [&backend.params, &backend.scalars, &space.partials];
-                backend.prepare("decide", text, &[(DECIDING, &shared)], 1)
-            })
-        });
+        self.deciding.kernels.push(kernel);
     }
 
     fn forward(&mut self, kernel: &'static Kernel, level: Level, fields: &[Field]) {

@@ -115,6 +115,17 @@ impl Recorder {
         Ok(())
     }
 
+    /// Sets a buffer to zero after all work recorded so far.
+    pub fn clear(&mut self, buffer: &wgpu::Buffer) -> Result<(), GpuError> {
+        self.submit(&[])?;
+        let queue = self.device.queue();
+        self.device.guarded(|device| {
+            let mut encoder = device.create_command_encoder(&Default::default());
+            encoder.clear_buffer(buffer, 0, None);
+            queue.submit([encoder.finish()]);
+        })
+    }
+
     /// Waits for all work and reads some parts, one after another.
     pub fn read(&mut self, parts: &[Part]) -> Result<Vec<u8>, GpuError> {
         let length: usize = parts.iter().map(|part| part.length).sum();

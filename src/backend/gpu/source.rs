@@ -4,6 +4,8 @@
 //! in declared order; group 2 the roots of unity and the work space of a transform. Each of them is
 //! bound whether a kernel uses it or not.
 
+mod deciding;
+
 use std::fmt::Write;
 
 use super::butterfly::{Direction, literal};
@@ -14,7 +16,8 @@ use super::layout::{self, Wide};
 pub use super::level::LevelPlan;
 use super::level::{SWEEP_SUMS_AT_ONCE, SWEEP_THREADS};
 use super::plan::LinePlan;
-use crate::kernel::{Form, Gate, Kernel, Reduce, SUMS, ScalarKernel};
+use crate::kernel::{Form, Gate, Kernel, Reduce, SUMS};
+pub use deciding::{PAIRS, Reduction, Results, decide, two_sums};
 
 /// The law of a kernel: its part, and where the factors on its tension are bound.
 #[derive(Clone, Copy, Debug)]
@@ -23,6 +26,9 @@ pub struct LawSource {
     pub part: LawPart,
     /// Binding of the factors in group 1; `None` where the law is the same everywhere.
     pub factor: Option<usize>,
+    /// Binding of the base's gap in group 1, its residual in the next; `None` where the unknown is the
+    /// gap itself.
+    pub base: Option<usize>,
 }
 
 impl LawPart {
@@ -31,6 +37,7 @@ impl LawPart {
         LawSource {
             part: self,
             factor: None,
+            base: None,
         }
     }
 }
@@ -74,6 +81,10 @@ fn preamble(source: &mut String, wide: Wide, access: &str) {
          var<private> sums: array<wide, SUM_COUNT>;"
     );
     source.push_str(catalogue::GATE);
+    source.push_str(match wide {
+        Wide::Compensated => catalogue::SUMS_COMPENSATED,
+        Wide::Single | Wide::Double => catalogue::SUMS,
+    });
 }
 
 /// What starts a kernel's sums and reduces them over a workgroup; `at_once` of them together.
@@ -89,7 +100,7 @@ fn reduction(source: &mut String, reduces: &[Reduce], threads: usize, at_once: u
         threads * at_once
     );
     source.push_str(catalogue::REDUCE);
-    source.push_str("fn join_slot(slot: u32, a: wide, b: wide) -> wide {\nswitch slot {\n");
+    source.push_str("fn join_slot(slot: u32, a: part, b: part) -> part {\nswitch slot {\n");
     for (slot, &reduce) in reduces.iter().enumerate() {
         if reduce != Reduce::Add {
             let name = reduce_name(reduce);
@@ -110,7 +121,7 @@ fn hand_in(source: &mut String, reduces: &[Reduce], groups: usize) {
         source,
         "fn hand_in(group: u32, thread: u32) {{\n\
          for (var first = 0u; first < {count}u; first = first + SUMS_AT_ONCE) {{\n\
-         gather(sums, first, thread);\n\
+         gather(first, thread);\n\
          if (thread < SUMS_AT_ONCE && first + thread < {count}u) {{\n\
          partials.values[(first + thread) * {groups}u + group] = group_values[thread * GROUP_THREADS];\n\
          }}\n}}\n}}\n"
@@ -143,9 +154,22 @@ fn arrive(source: &mut String, law: LawSource) {
         ),
         None => ("const law_factor: f32 = 1.0;\n".to_string(), ""),
     };
+    let (base, base_here) = match law.base {
+        Some(gap) => (
+            format!(
+                "@group(1) @binding({gap}) var<storage, read> base_gaps: array<f32>;\n\
+                 @group(1) @binding({residual}) var<storage, read> base_residuals: array<f32>;\n\
+                 var<private> base_gap: f32;\n\
+                 var<private> base_residual: f32;\n",
+                residual = gap + 1
+            ),
+            "base_gap = base_gaps[index]; base_residual = base_residuals[index]; ",
+        ),
+        None => (String::new(), ""),
+    };
     let _ = writeln!(
         source,
-        "{factor}fn arrive(index: u32) -> bool {{ {take}return on_surface(index); }}"
+        "{factor}{base}fn arrive(index: u32) -> bool {{ {take}{base_here}return on_surface(index); }}"
     );
 }
 
@@ -190,6 +214,10 @@ pub fn kernel(
 fn join(source: &mut String, shader: &Shader, law: LawSource) {
     if shader.law {
         source.push_str(law.part.source());
+        source.push_str(match law.base {
+            Some(_) => catalogue::CORRECTION,
+            None => catalogue::WHOLE_GAP,
+        });
     }
     for part in shader.parts {
         source.push_str(part);
@@ -408,7 +436,7 @@ pub fn multiply(plan: &LevelPlan, energy: bool, gate: Gate, wide: Wide) -> Strin
             if energy {
                 let _ = writeln!(
                     source,
-                    "sums[0] = sums[0] + wide(weight * factor * dot({name}, {name}));"
+                    "add_sum(0u, wide(weight * factor * dot({name}, {name})));"
                 );
             }
             let _ = writeln!(source, "{name} = ({scale} * factor) * {name}; }}");
@@ -435,68 +463,4 @@ pub fn multiply(plan: &LevelPlan, energy: bool, gate: Gate, wide: Wide) -> Strin
     }
     source.push_str("}\n");
     source
-}
-
-/// Where a reduction's results go.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub enum Results {
-    /// The scalars' sums, put together as the kernel says.
-    Sums(&'static [Reduce]),
-    /// The curvature, over so many points.
-    Curvature(usize),
-}
-
-/// Puts the partial sums of `groups` workgroups together in a fixed order, if the gate of the
-/// kernel that wrote them was open.
-pub fn reduce(results: Results, groups: usize, gate: Gate, wide: Wide) -> String {
-    let (reduces, target) = match results {
-        Results::Sums(reduces) => (reduces, "scalars.sums[first + thread] = total".to_string()),
-        Results::Curvature(points) => (
-            &[Reduce::Add] as &[Reduce],
-            format!("scalars.curvature = total / wide({points}.0)"),
-        ),
-    };
-    let count = reduces.len();
-    let mut source = String::new();
-    preamble(&mut source, wide, "read_write");
-    let at_once = SWEEP_SUMS_AT_ONCE.min(count);
-    reduction(&mut source, reduces, SWEEP_THREADS, at_once);
-    let _ = write!(
-        source,
-        "@compute @workgroup_size({SWEEP_THREADS})\n\
-         fn reduce(@builtin(local_invocation_index) thread: u32) {{\n\
-         start_sums();\n\
-         var each = sums;\n\
-         for (var slot = 0u; slot < {count}u; slot = slot + 1u) {{\n\
-         var total = each[slot];\n\
-         for (var group = thread; group < {groups}u; group = group + {SWEEP_THREADS}u) {{\n\
-         total = join_slot(slot, total, partials.values[slot * {groups}u + group]);\n\
-         }}\n\
-         each[slot] = total;\n\
-         }}\n\
-         for (var first = 0u; first < {count}u; first = first + SUMS_AT_ONCE) {{\n\
-         gather(each, first, thread);\n\
-         if (thread < SUMS_AT_ONCE && first + thread < {count}u && {gate}()) {{\n\
-         let total = group_values[thread * GROUP_THREADS];\n\
-         {target};\n\
-         }}\n}}\n}}\n",
-        gate = gate_name(gate),
-    );
-    source
-}
-
-/// The shader of a scalar kernel, or an error where it has none. Its entry point is `decide`.
-pub fn scalar(kernel: &ScalarKernel, wide: Wide) -> Result<String, GpuError> {
-    let parts = catalogue::scalar(kernel.name).ok_or(GpuError::NoShader(kernel.name))?;
-    let mut source = String::new();
-    preamble(&mut source, wide, "read_write");
-    for part in parts {
-        source.push_str(part);
-    }
-    let _ = writeln!(
-        source,
-        "@compute @workgroup_size(1)\nfn decide() {{ {}(); }}",
-        kernel.name
-    );
-    Ok(source)
 }

@@ -49,16 +49,17 @@ pub fn buffer(
 /// What a prepared dispatch is found by.
 #[derive(Clone, PartialEq, Eq, Hash)]
 pub enum Key {
-    /// A kernel of the catalogue, its level and its fields.
-    Kernel(&'static str, usize, Vec<usize>),
-    /// The reduction of a kernel's sums on a level.
-    Sums(&'static str, usize),
+    /// A kernel of the catalogue, its level, whether it works on corrections, and its fields.
+    Kernel(&'static str, usize, bool, Vec<usize>),
     /// The columns with a spectrum, with or without the energy, behind a gate.
     Multiply(usize, bool, &'static str),
-    /// The reduction of that energy on a level.
-    Curvature(usize, &'static str),
-    /// A scalar kernel.
-    Scalar(&'static str),
+    /// Sums by their name and level, then scalar kernels.
+    Decide(Option<(&'static str, usize)>, Vec<&'static str>),
+}
+
+/// The number that four bytes from the device are.
+pub fn single_of(bytes: &[u8]) -> f32 {
+    bytes.try_into().map_or(f32::NAN, f32::from_le_bytes)
 }
 
 /// Doubles as the bytes of the device's numbers.

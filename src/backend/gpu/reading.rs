@@ -1,0 +1,62 @@
+//! Where the host waits: scalars and fields read back.
+
+use super::level::ROW_TRANSFORMS_PER_TRANSFORM;
+use super::recorder::Part;
+use super::{GpuBackend, GpuError, layout};
+use crate::backend::Field;
+use crate::kernel::Scalars;
+
+impl GpuBackend {
+    /// Waits, and reads the scalars and what was counted.
+    pub(super) fn look(&mut self) -> Result<Scalars, GpuError> {
+        self.checked()?;
+        self.settle()?;
+        self.traffic.looks += 1;
+        let length = layout::scalars_length(self.wide);
+        let mut parts = vec![Part {
+            buffer: &self.scalars,
+            start: 0,
+            length,
+        }];
+        let spaces = || self.levels.iter().flatten();
+        parts.extend(spaces().map(|space| Part {
+            buffer: &space.partials,
+            start: 0,
+            length: 4,
+        }));
+        let bytes = self.recorder.read(&parts)?;
+        let first = spaces().next().map_or(1, |space| space.plan.points());
+        let mut transforms = 0.0;
+        for (count, space) in bytes[length..].chunks_exact(4).zip(spaces()) {
+            let rows = count.try_into().map_or(0, u32::from_le_bytes);
+            let share = space.plan.points() as f64 / first as f64;
+            transforms += f64::from(rows) * share / ROW_TRANSFORMS_PER_TRANSFORM;
+        }
+        self.transforms = transforms;
+        Ok(layout::scalars_of(&bytes[..length], self.wide))
+    }
+
+    pub(super) fn fetch(&mut self, field: Field) -> Result<Vec<f64>, GpuError> {
+        self.checked()?;
+        self.settle()?;
+        self.traffic.fields_down += 1;
+        let space = self
+            .fields
+            .get(field.index)
+            .and_then(Option::as_ref)
+            .ok_or_else(|| GpuError::Device("a field that was not made".to_string()))?;
+        let bytes = self.recorder.read(&[Part {
+            buffer: &space.buffer,
+            start: 0,
+            length: 4 * space.points,
+        }])?;
+        Ok(bytes
+            .chunks_exact(4)
+            .map(|value| {
+                value
+                    .try_into()
+                    .map_or(f64::NAN, |b| f64::from(f32::from_le_bytes(b)))
+            })
+            .collect())
+    }
+}

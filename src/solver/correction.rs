@@ -1,0 +1,253 @@
+//! Mixed precision: iterations in single, the state and its residual in double.
+//!
+//! A first solve in single precision brings the residual near what its rounding allows. Then come
+//! rounds: the residual y of the gap g is taken in double precision, and the same iteration, in
+//! single, looks for the correction c that removes it, with c >= -g at a wall. All that it works
+//! with is relative to c, so each round gains some digits, whatever the law.
+
+use super::contact::{ContactSolver, Hold, Load, Outcome};
+use super::problem::Problem;
+use super::reference::Reference;
+use crate::backend::BackendError;
+use crate::kernel::{Scalars, Status};
+use crate::law::Law;
+
+/// Tolerance of the first solve: what single precision reaches on every scene.
+pub(super) const FIRST_TOLERANCE: f64 = 1e-4;
+/// Share of a round's first residual at which it ends: what single precision gains in one.
+const GAIN: f64 = 3e-4;
+/// Share of the tolerance that a round aims at, for what its rounding leaves besides.
+const AIM: f64 = 0.5;
+/// Iterations of a round.
+const ROUND_ITERATIONS: usize = 100;
+/// A round that leaves more than this share of the residual has gained nothing.
+const NO_GAIN: f64 = 0.5;
+/// Rounds without gain, in a row, that end a solve.
+const LOST_ROUNDS: usize = 4;
+/// Trials, lost ones included, that may be made for each iteration allowed.
+const TRIALS_PER_ITERATION: usize = 4;
+
+impl ContactSolver<'_> {
+    /// The state in double precision, made when it is first asked for; `None` where the backend's own
+    /// numbers will do.
+    pub(super) fn reference(&mut self) -> Option<&mut Reference> {
+        if self.reference.is_none() {
+            let double = self.backend.in_double()?;
+            self.reference = Some(Reference::new(
+                double,
+                self.backend,
+                self.level,
+                self.problem,
+            ));
+        }
+        self.reference.as_mut()
+    }
+
+    /// Iterates until the end that the scalars say, for at most so many iterations after those
+    /// `before`, or until `watch` has enough. Returns the last scalars and whether `watch` had enough.
+    fn run_out(
+        &mut self,
+        before: usize,
+        most: usize,
+        watch: &mut dyn FnMut(&Scalars) -> bool,
+    ) -> Result<(Scalars, bool), BackendError> {
+        let mut tried = 0;
+        let mut done = 0;
+        loop {
+            let (recorded, scalars) = self.advance(most.saturating_sub(done).max(1))?;
+            tried += recorded;
+            done = (scalars.iterations as usize).saturating_sub(before);
+            let goes_on = watch(&scalars);
+            let over = done >= most || tried >= TRIALS_PER_ITERATION * most.max(1);
+            if scalars.status != Status::Running || over || !goes_on {
+                return Ok((scalars, !goes_on));
+            }
+        }
+    }
+
+    /// Solves a load that has begun: in single precision first, then in rounds of corrections.
+    pub(super) fn solve_in_rounds(
+        &mut self,
+        load: &Load,
+        tolerance: f64,
+        max_iterations: usize,
+        watch: &mut dyn FnMut(&Scalars) -> bool,
+    ) -> Result<Outcome, BackendError> {
+        let may_detach = self.params.may_detach;
+        let (first, mut stopped) = self.run_out(0, max_iterations, watch)?;
+        let mut iterations = first.iterations as usize;
+        let mut status = first.status;
+        let mut gap = self.backend.read(self.gap)?;
+        hold_mean(self.problem, load, &mut gap);
+        let Some(reference) = self.reference() else {
+            // Only solvers with one come here.
+            return Err(BackendError::Device("no state in double precision".into()));
+        };
+        reference.begin(load, tolerance, may_detach);
+        reference.set_gap(&gap);
+        let mut end = reference.evaluate()?;
+        let mut lost = 0;
+        loop {
+            let at_floor = end.numerator <= self.rounding_floor(&end);
+            let over = stopped || iterations >= max_iterations;
+            if status == Status::PulledOff || end.status != Status::Running {
+                // What the surfaces did in single precision they did; all else is judged in double.
+                status = match status {
+                    Status::PulledOff => status,
+                    _ => end.status,
+                };
+                break;
+            }
+            if at_floor || lost >= LOST_ROUNDS || over {
+                status = match (at_floor, over) {
+                    (true, _) => Status::Converged,
+                    (false, true) => Status::Running,
+                    (false, false) => Status::Stalled,
+                };
+                break;
+            }
+            if std::env::var("TABOR_DBG").is_ok() && lost > 0 {
+                eprintln!(
+                    "round: {:e} num {:e} floor {:e} status {:?} it {} lost {}",
+                    end.residual,
+                    end.numerator,
+                    self.rounding_floor(&end),
+                    status,
+                    iterations,
+                    lost
+                );
+            }
+            let before = end.residual;
+            let most = ROUND_ITERATIONS.min(max_iterations - iterations);
+            let round = self.correct(&mut gap, load, &end, tolerance, most, iterations, watch)?;
+            iterations = round.0.iterations as usize;
+            status = round.0.status;
+            stopped = round.1;
+            if let Some(reference) = self.reference() {
+                reference.set_gap(&gap);
+                end = reference.evaluate()?;
+            }
+            lost = match end.residual <= NO_GAIN * before {
+                true => 0,
+                false => lost + 1,
+            };
+        }
+        Ok(Outcome {
+            status,
+            iterations,
+            residual: end.residual,
+            mean_pressure: end.mean_pressure,
+        })
+    }
+
+    /// The numerator that rounding in double precision leaves, of a pad's points too, which have no
+    /// gap of their own to be measured by.
+    fn rounding_floor(&self, end: &Scalars) -> f64 {
+        let shape = self.problem.shape;
+        let padded = shape.len() as f64 / shape.surface_len() as f64;
+        self.reference
+            .as_ref()
+            .map_or(0.0, |reference| reference.rounding_floor(end))
+            * padded.sqrt()
+    }
+
+    /// One round: looks for the correction of a gap whose evaluation is `end`, and adds it.
+    #[allow(clippy::too_many_arguments)]
+    fn correct(
+        &mut self,
+        gap: &mut [f64],
+        load: &Load,
+        end: &Scalars,
+        tolerance: f64,
+        most: usize,
+        iterations: usize,
+        watch: &mut dyn FnMut(&Scalars) -> bool,
+    ) -> Result<(Scalars, bool), BackendError> {
+        let problem = self.problem;
+        let Some(reference) = self.reference() else {
+            return Ok((*end, true));
+        };
+        let residual = reference.residual(problem, gap, end.mean_pressure)?;
+        let base = reference.base();
+        self.backend.write(base[0], gap);
+        self.backend.write(base[1], &residual);
+        drop(residual);
+        for field in [self.gap, self.pressure, self.direction, self.free_before] {
+            self.backend.clear(field);
+        }
+        self.backend.set_base(Some(base));
+        let mut params = self.params;
+        params.tolerance = (AIM * tolerance).max(GAIN * end.residual);
+        params.heights_norm = 0.0;
+        params.pressure_floor = end.numerator / end.residual;
+        self.backend.set_params(&params);
+        let mut scalars = Scalars::start(0.0, false);
+        scalars.iterations = iterations as u32;
+        self.backend.set_scalars(&scalars);
+        let round = self.run_out(iterations, most, watch)?;
+        let correction = self.backend.read(self.gap)?;
+        self.backend.set_base(None);
+        add(problem, gap, &correction);
+        hold_mean(problem, load, gap);
+        Ok(round)
+    }
+}
+
+/// Adds a correction that was found in single precision. At a wall the points that it closes are
+/// those where it undoes the base as single precision has it.
+fn add(problem: &Problem, gap: &mut [f64], correction: &[f64]) {
+    let [width, _] = problem.shape.points;
+    let [nx, ny] = problem.shape.surface;
+    let wall = problem.law.has_wall();
+    let rows = gap
+        .chunks_exact_mut(width)
+        .zip(correction.chunks_exact(width));
+    for (row, (gap, correction)) in rows.enumerate() {
+        for (column, (g, &c)) in gap.iter_mut().zip(correction).enumerate() {
+            let bounded = wall && row < ny && column < nx;
+            if bounded && c <= -f64::from(*g as f32) {
+                *g = 0.0;
+            } else {
+                *g += c;
+                if bounded && *g < 0.0 {
+                    *g = 0.0;
+                }
+            }
+        }
+    }
+}
+
+/// Brings a gap that single precision has moved back to the mean that is held: open points in
+/// proportion to their gap, at a steep core in proportion to its compliance.
+fn hold_mean(problem: &Problem, load: &Load, gap: &mut [f64]) {
+    let Hold::Gap(target) = load.hold else {
+        return;
+    };
+    let count = gap.len() as f64;
+    let excess = gap.iter().map(|g| g - target).sum::<f64>() / count;
+    match problem.law {
+        Law::LennardJones(_) => {
+            let stiffness = 0.2 * problem.stiffness_max();
+            let factor = problem.law_factor.as_deref();
+            let share = |index: usize, gap: f64| {
+                let factor = factor.map_or(1.0, |factor| factor[index]);
+                stiffness / (stiffness + (factor * problem.law.slope(gap)).max(0.0))
+            };
+            let mean = gap
+                .iter()
+                .enumerate()
+                .map(|(index, &g)| share(index, g))
+                .sum::<f64>()
+                / count;
+            for (index, g) in gap.iter_mut().enumerate() {
+                *g -= excess / mean * share(index, *g);
+            }
+        }
+        _ => {
+            let mean = excess + target;
+            if mean > 0.0 {
+                gap.iter_mut().for_each(|g| *g -= excess / mean * *g);
+            }
+        }
+    }
+}

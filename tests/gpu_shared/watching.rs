@@ -1,0 +1,142 @@
+//! A backend that notes which kernels ran in it, and in the one of double precision beside it.
+
+use std::sync::{Arc, Mutex};
+
+use tabor::backend::{Backend, BackendError, Field, Level, Shape, Spectrum};
+use tabor::kernel::{Gate, Kernel, Params, ScalarKernel, Scalars};
+
+/// Names of kernels in the order in which they were asked for.
+pub type Seen = Arc<Mutex<Vec<&'static str>>>;
+
+/// Passes everything on, and notes the kernels.
+pub struct Watching<B> {
+    /// Who does the work.
+    pub inner: B,
+    /// What ran here.
+    pub here: Seen,
+    /// What ran beside it in double precision.
+    pub double: Seen,
+}
+
+/// The backend beside, which has none beside itself.
+struct Beside {
+    inner: Box<dyn Backend + Send>,
+    here: Seen,
+}
+
+impl<B> Watching<B> {
+    /// A watch that has seen nothing.
+    pub fn over(inner: B) -> Self {
+        Watching {
+            inner,
+            here: Seen::default(),
+            double: Seen::default(),
+        }
+    }
+
+    fn note(&self, name: &'static str) {
+        self.here.lock().expect("nobody panics here").push(name);
+    }
+}
+
+impl<B: Backend> Watching<B> {
+    fn beside(&self) -> Option<Box<dyn Backend + Send>> {
+        let inner = self.inner.in_double()?;
+        let here = Arc::clone(&self.double);
+        Some(Box::new(Beside { inner, here }))
+    }
+}
+
+impl Beside {
+    fn beside(&self) -> Option<Box<dyn Backend + Send>> {
+        None
+    }
+
+    fn note(&self, name: &'static str) {
+        self.here.lock().expect("nobody panics here").push(name);
+    }
+}
+
+/// Everything passed on.
+macro_rules! passed_on {
+    () => {
+        fn suits(&self, shape: Shape) -> bool {
+            self.inner.suits(shape)
+        }
+        fn look_every(&self) -> usize {
+            self.inner.look_every()
+        }
+        fn level(&mut self, name: &'static str, shape: Shape) -> Level {
+            self.inner.level(name, shape)
+        }
+        fn field(&mut self, level: Level, name: &'static str) -> Field {
+            self.inner.field(level, name)
+        }
+        fn spectrum(&mut self, level: Level, name: &'static str, values: &[f64]) -> Spectrum {
+            self.inner.spectrum(level, name, values)
+        }
+        fn set_zero_mode(&mut self, spectrum: Spectrum, value: f64) {
+            self.inner.set_zero_mode(spectrum, value);
+        }
+        fn write(&mut self, field: Field, values: &[f64]) {
+            self.inner.write(field, values);
+        }
+        fn read(&mut self, field: Field) -> Result<Vec<f64>, BackendError> {
+            self.inner.read(field)
+        }
+        fn set_law_factor(&mut self, factor: Field) {
+            self.inner.set_law_factor(factor);
+        }
+        fn set_base(&mut self, base: Option<[Field; 2]>) {
+            self.inner.set_base(base);
+        }
+        fn clear(&mut self, field: Field) {
+            self.inner.clear(field);
+        }
+        fn in_double(&self) -> Option<Box<dyn Backend + Send>> {
+            self.beside()
+        }
+        fn set_params(&mut self, params: &Params) {
+            self.inner.set_params(params);
+        }
+        fn set_scalars(&mut self, scalars: &Scalars) {
+            self.inner.set_scalars(scalars);
+        }
+        fn scalars(&mut self) -> Result<Scalars, BackendError> {
+            self.inner.scalars()
+        }
+        fn sweep(&mut self, kernel: &'static Kernel, level: Level, fields: &[Field]) {
+            self.note(kernel.name);
+            self.inner.sweep(kernel, level, fields);
+        }
+        fn scalar(&mut self, kernel: &'static ScalarKernel) {
+            self.inner.scalar(kernel);
+        }
+        fn forward(&mut self, kernel: &'static Kernel, level: Level, fields: &[Field]) {
+            self.note(kernel.name);
+            self.inner.forward(kernel, level, fields);
+        }
+        fn multiply(&mut self, by: Spectrum, energy: bool, gate: Gate) {
+            self.note("multiply");
+            self.inner.multiply(by, energy, gate);
+        }
+        fn backward(&mut self, kernel: &'static Kernel, level: Level, fields: &[Field]) {
+            self.note(kernel.name);
+            self.inner.backward(kernel, level, fields);
+        }
+        fn epsilon(&self) -> f64 {
+            self.inner.epsilon()
+        }
+        fn transforms(&self) -> f64 {
+            self.inner.transforms()
+        }
+    };
+}
+
+impl<B: Backend> Backend for Watching<B> {
+    passed_on!();
+}
+
+impl Backend for Beside {
+    passed_on!();
+}
