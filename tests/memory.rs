@@ -62,14 +62,17 @@ fn a_run_takes_what_was_counted() {
     let folder = tempfile::tempdir().expect("a folder");
     let dmt = format!("{ADHESION}treatment = \"dmt\"\n");
     let single = "precision = \"single\"\n";
+    let mixed = "precision = \"mixed\"\n";
     for (boundary, adhesion, solver) in [
         ("periodic", "", ""),
         ("periodic", "", single),
         ("periodic", ADHESION, ""),
         ("periodic", ADHESION, single),
+        ("periodic", ADHESION, mixed),
         ("periodic", dmt.as_str(), ""),
         ("free", "", ""),
         ("free", ADHESION, single),
+        ("free", "", mixed),
     ] {
         let text = ROUGH
             .replace("BOUNDARY", boundary)
