@@ -244,6 +244,11 @@ fn cut_and_gone_on_with_where_coarse_grids_help() {
     cut(scene, &make, false, false, "coarse start");
 }
 
+/// A number of a step.
+type Of = fn(&StepRow) -> f64;
+/// The same with its name.
+type Column = (&'static str, Of);
+
 /// Every shipped scene, and with them every effect: mixed precision walks the path that double does.
 /// Both stop at a residual of 1e-9, so what they find differs by some 1e-9 of the largest on the path
 /// where a state is stable; near a jump the softest mode may be a thousand times as soft.
@@ -281,11 +286,11 @@ fn mixed_precision_walks_the_path_of_double() {
             .as_ref()
             .is_none_or(|regime| regime.chi <= 0.65);
         assert_eq!(one.rows.len(), other.rows.len(), "{name}");
-        let largest = |of: fn(&StepRow) -> f64| {
+        let largest = |of: Of| {
             let sizes = other.rows.iter().map(|row| of(row).abs());
             sizes.fold(f64::MIN_POSITIVE, f64::max)
         };
-        let columns: [(&str, fn(&StepRow) -> f64); 4] = [
+        let columns: [Column; 4] = [
             ("force", |row| row.force),
             ("mean gap", |row| row.mean_gap.unwrap_or(0.0)),
             ("elastic energy", |row| row.elastic_energy),
