@@ -164,6 +164,9 @@ fn what_does_not_fit_is_refused_with_the_largest_grid_that_does() {
     };
     let [double, single, gpu] = [Place::Double, Place::Single, Place::Gpu].map(needs);
     // By default a GPU has the processor keep the state in double precision.
-    assert!(single.0 < double.0 && gpu.0 < double.0, "{gpu:?} {double:?}");
+    assert!(
+        single.0 < double.0 && gpu.0 < double.0,
+        "{gpu:?} {double:?}"
+    );
     assert!(double.1 == 0 && single.1 == 0 && gpu.1 > 0);
 }
