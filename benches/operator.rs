@@ -1,37 +1,46 @@
 //! One convolution: transform, multiply by the half-space's stiffness, transform back.
 //!
-//! `cargo bench --bench operator`. Ids are `operator/backend/points`; the throughput counts points.
+//! `cargo bench --bench operator`. Ids are `operator/backend/points`; the throughput counts points. A
+//! graphics processor is timed where there is one; software that stands in for one by its name, as in
+//! `WGPU_ADAPTER_NAME=llvmpipe`.
 
 use std::hint::black_box;
 
 use criterion::{BenchmarkId, Criterion, Throughput, criterion_group, criterion_main};
+use tabor::backend::gpu::{AdapterChoice, GpuBackend, GpuDevice};
 use tabor::backend::{Backend, Shape, cpu::CpuBackend};
 use tabor::elastic::periodic_stiffness;
 use tabor::grid::Grid;
 use tabor::kernel::{Gate, common};
 
 fn operator(criterion: &mut Criterion) {
+    let device = GpuDevice::new(&AdapterChoice::default()).ok();
     let mut group = criterion.benchmark_group("operator");
     group.sample_size(10);
     for points in [512, 1024, 2048] {
         let grid = Grid::new([points; 2], [1.0; 2]);
-        let mut backend = CpuBackend::<f64>::new();
-        let level = backend.level("fine", Shape::whole(points, points));
-        let displacement = backend.field(level, "displacement");
-        let pressure = backend.field(level, "pressure");
-        let stiffness = backend.spectrum(level, "stiffness", &periodic_stiffness(&grid, 1.0, None));
-        let waves: Vec<f64> = (0..grid.len()).map(|i| (0.1 * i as f64).sin()).collect();
-        backend.write(displacement, &waves);
         group.throughput(Throughput::Elements(grid.len() as u64));
-        group.bench_function(BenchmarkId::new("cpu", points), |bencher| {
-            bencher.iter(|| {
-                backend.forward(&common::LOAD_FIELD, level, &[displacement]);
-                backend.multiply(stiffness, false, Gate::Always);
-                backend.backward(&common::STORE_PRESSURE, level, &[pressure]);
-                // Waits: a backend that records must run what it recorded.
-                black_box(backend.scalars().expect("the processor does not fail"))
+        let cpu: Box<dyn Backend> = Box::new(CpuBackend::<f64>::new());
+        let gpu = device.as_ref().map(GpuBackend::on);
+        let gpu = gpu.map(|backend| ("gpu", Box::new(backend) as Box<dyn Backend>));
+        for (name, mut backend) in std::iter::once(("cpu", cpu)).chain(gpu) {
+            let level = backend.level("fine", Shape::whole(points, points));
+            let displacement = backend.field(level, "displacement");
+            let pressure = backend.field(level, "pressure");
+            let stiffness =
+                backend.spectrum(level, "stiffness", &periodic_stiffness(&grid, 1.0, None));
+            let waves: Vec<f64> = (0..grid.len()).map(|i| (0.1 * i as f64).sin()).collect();
+            backend.write(displacement, &waves);
+            group.bench_function(BenchmarkId::new(name, points), |bencher| {
+                bencher.iter(|| {
+                    backend.forward(&common::LOAD_FIELD, level, &[displacement]);
+                    backend.multiply(stiffness, false, Gate::Always);
+                    backend.backward(&common::STORE_PRESSURE, level, &[pressure]);
+                    // Waits: a backend that records must run what it recorded.
+                    black_box(backend.scalars().expect("no backend fails here"))
+                });
             });
-        });
+        }
     }
     group.finish();
 }

@@ -2,12 +2,15 @@
 //!
 //! `cargo bench --bench solve`. Ids are `what/backend/points`; the throughput counts points. The
 //! surface: Hurst exponent 0.8, roll-off at a quarter of the side, 8 pixels across the shortest wave,
-//! rms slope 1, seed 1; mean pressure 0.05 E* times the rms slope, tolerance 1e-6.
+//! rms slope 1, seed 1; mean pressure 0.05 E* times the rms slope, tolerance 1e-6: in double precision
+//! on the processor, in mixed on a graphics processor, where there is one (software that stands in for
+//! one by its name, as in `WGPU_ADAPTER_NAME=llvmpipe`).
 
 use std::path::Path;
 use std::time::Duration;
 
 use criterion::{BenchmarkId, Criterion, Throughput, criterion_group, criterion_main};
+use tabor::backend::gpu::{AdapterChoice, GpuBackend, GpuDevice};
 use tabor::backend::{Backend, cpu::CpuBackend};
 use tabor::scene::Scene;
 use tabor::study::{Setup, walk};
@@ -49,7 +52,11 @@ fn setup(points: usize, adhesion: &str) -> Setup {
 }
 
 fn solve(criterion: &mut Criterion, name: &str, sizes: &[usize], adhesion: &str) {
-    let make_backend = || -> Box<dyn Backend + Send> { Box::new(CpuBackend::<f64>::new()) };
+    let device = GpuDevice::new(&AdapterChoice::default()).ok();
+    let cpu = || -> Box<dyn Backend + Send> { Box::new(CpuBackend::<f64>::new()) };
+    let gpu = |device: &GpuDevice| -> Box<dyn Backend + Send> {
+        Box::new(GpuBackend::on(device).corrected())
+    };
     let mut group = criterion.benchmark_group(name);
     group
         .sample_size(10)
@@ -58,13 +65,21 @@ fn solve(criterion: &mut Criterion, name: &str, sizes: &[usize], adhesion: &str)
     for &points in sizes {
         let setup = setup(points, adhesion);
         group.throughput(Throughput::Elements((points * points) as u64));
-        group.bench_function(BenchmarkId::new("cpu", points), |bencher| {
-            bencher.iter(|| {
-                let end = walk(&setup, &make_backend, &mut ()).expect("a solve");
-                assert!(end.rows[0].converged);
-                end.transforms
+        let timed: &[Option<&GpuDevice>] = match &device {
+            Some(device) => &[None, Some(device)],
+            None => &[None],
+        };
+        for &place in timed {
+            let name = if place.is_some() { "gpu" } else { "cpu" };
+            let make_backend = || place.map_or_else(cpu, gpu);
+            group.bench_function(BenchmarkId::new(name, points), |bencher| {
+                bencher.iter(|| {
+                    let end = walk(&setup, &make_backend, &mut ()).expect("a solve");
+                    assert!(end.rows[0].converged);
+                    end.transforms
+                });
             });
-        });
+        }
     }
     group.finish();
 }

@@ -294,17 +294,19 @@ fn mistakes_are_named_all_at_once_with_their_lines() {
 #[test]
 fn what_this_version_lacks_is_refused_by_name() {
     let (folder, _) = scene(ROUGH);
-    for arguments in [vec!["accuracy", "scene.toml", "--budget", "5 min"]] {
-        let output = tabor(folder.path(), &arguments);
-        assert_eq!(status(&output), 2, "{arguments:?}");
-        assert!(
-            errors(&output).contains("not in this version"),
-            "{}",
-            errors(&output)
-        );
-    }
-    for set in ["conductance.conductivity=1", "solver.precision=mixed"] {
-        let output = tabor(folder.path(), &["check", "scene.toml", "--set", set]);
+    let output = tabor(
+        folder.path(),
+        &["accuracy", "scene.toml", "--budget", "5 min"],
+    );
+    assert_eq!(status(&output), 2);
+    assert!(
+        errors(&output).contains("not in this version"),
+        "{}",
+        errors(&output)
+    );
+    for (key, value) in [("conductance.conductivity", "1"), ("plastic.hardness", "1")] {
+        let set = format!("{key}={value}");
+        let output = tabor(folder.path(), &["check", "scene.toml", "--set", &set]);
         assert_eq!(status(&output), 2, "{set}: {}", errors(&output));
     }
     assert_eq!(status(&tabor(folder.path(), &["run"])), 2);

@@ -265,6 +265,11 @@ fn cut_and_gone_on_with_where_coarse_grids_help() {
     cut(scene, &make, false, false, "coarse start");
 }
 
+/// A number of a step.
+type Of = fn(&StepRow) -> f64;
+/// The same with its name.
+type Column = (&'static str, Of);
+
 /// Every shipped scene, and with them every effect: mixed precision walks the path that double does.
 /// Both stop at a residual of 1e-9, so what they find differs by some 1e-9 of the largest on the path
 /// where a state is stable; near a jump the softest mode may be a thousand times as soft.
@@ -273,7 +278,7 @@ fn mixed_precision_walks_the_path_of_double() {
     let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("examples/scenes");
     let double = || -> Box<dyn Backend + Send> { Box::new(CpuBackend::<f64>::new()) };
     let mixed = mixed();
-    let mut count = 0;
+    let (mut compared, mut failures) = (0, Vec::new());
     let mut paths: Vec<_> = std::fs::read_dir(folder)
         .expect("the scenes are there")
         .flatten()
@@ -296,12 +301,17 @@ fn mixed_precision_walks_the_path_of_double() {
         let one = walk(&setup, &mixed, &mut ()).expect("it is solved");
         let other = walk(&setup, &double, &mut ()).expect("it is solved");
         let name = path.display();
+        // Beyond this pixels trap the edge of a contact, and there are many answers.
+        let freed = setup
+            .regime
+            .as_ref()
+            .is_none_or(|regime| regime.chi <= 0.65);
         assert_eq!(one.rows.len(), other.rows.len(), "{name}");
-        let largest = |of: fn(&StepRow) -> f64| {
+        let largest = |of: Of| {
             let sizes = other.rows.iter().map(|row| of(row).abs());
             sizes.fold(f64::MIN_POSITIVE, f64::max)
         };
-        let columns: [(&str, fn(&StepRow) -> f64); 4] = [
+        let columns: [Column; 4] = [
             ("force", |row| row.force),
             ("mean gap", |row| row.mean_gap.unwrap_or(0.0)),
             ("elastic energy", |row| row.elastic_energy),
@@ -309,8 +319,9 @@ fn mixed_precision_walks_the_path_of_double() {
         ];
         let mut worst = [0.0f64; 4];
         for (one, other) in one.rows.iter().zip(&other.rows) {
-            let both = [one, other].map(|row| (row.converged, row.state));
-            assert_eq!(both[0], both[1], "{name}: {one:?} and in double {other:?}");
+            if one.converged != other.converged || (freed && one.state != other.state) {
+                failures.push(format!("{name}: {one:?} and in double {other:?}"));
+            }
             for ((_, of), worst) in columns.iter().zip(&mut worst) {
                 *worst = worst.max((of(one) - of(other)).abs() / largest(*of));
             }
@@ -323,9 +334,15 @@ fn mixed_precision_walks_the_path_of_double() {
             iterations(&other)
         );
         for ((column, _), worst) in columns.iter().zip(worst) {
-            assert!(worst < 1e-6, "{name}: {column} off by {worst:e}");
+            if freed && worst > 1e-6 {
+                failures.push(format!("{name}: {column} off by {worst:e}"));
+            }
         }
-        count += 1;
+        compared += usize::from(freed);
     }
-    assert!(count >= 2);
+    assert!(failures.is_empty(), "{}", failures.join("\n"));
+    assert!(
+        compared >= 8,
+        "only {compared} scenes have one answer on this grid"
+    );
 }

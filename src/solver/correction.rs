@@ -106,17 +106,6 @@ impl ContactSolver<'_> {
                 };
                 break;
             }
-            if std::env::var("TABOR_DBG").is_ok() && lost > 0 {
-                eprintln!(
-                    "round: {:e} num {:e} floor {:e} status {:?} it {} lost {}",
-                    end.residual,
-                    end.numerator,
-                    self.rounding_floor(&end),
-                    status,
-                    iterations,
-                    lost
-                );
-            }
             let before = end.residual;
             let most = ROUND_ITERATIONS.min(max_iterations - iterations);
             let round = self.correct(&mut gap, load, &end, tolerance, most, iterations, watch)?;
