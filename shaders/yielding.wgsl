@@ -87,7 +87,7 @@ fn add_trial(s: f32, y: f32, g: f32, moved: f32, on_surface: bool) {
         sums[3] = step;
     }
     let x = g + moved;
-    if (on_surface && select(x < 0.0, x > 0.0, goes_down(g, y))) {
+    if (on_surface && select((x < 0.0), (x > 0.0), goes_down(g, y))) {
         sums[4] = wide(1.0);
     }
 }

@@ -264,6 +264,28 @@ fn rough_wall_with_tail_at_a_held_gap() {
     compare(device, "rough, Maugis-Dugdale", &problem, &load, 2e-3);
 }
 
+/// A solid that flows, alone under a pressure and sticking at a held gap; depths and gaps alike are
+/// bounded as gaps are above.
+#[test]
+fn rough_solid_that_flows() {
+    let Some(device) = device() else { return };
+    let surface = rough(64);
+    let problem = |law| {
+        let (grid, heights) = (surface.grid, &surface.heights);
+        Problem::new(grid, Boundary::Periodic, 1.0, heights, 1.0, law).yielding(0.3)
+    };
+    let wall = problem(Law::HardWall);
+    let load = at_pressure(&wall, 0.1);
+    compare(device, "hardness at pressure", &wall, &load, 1e-3);
+    let sticky = problem(Law::MaugisDugdale(MaugisDugdale {
+        peak_tension: 0.05,
+        range: 5e-3,
+        taper: 5e-3,
+    }));
+    let load = at_gap(&sticky, 0.02);
+    compare(device, "hardness at a held gap", &sticky, &load, 2e-3);
+}
+
 #[test]
 fn looking_less_often_changes_no_bit() {
     let Some(device) = device() else { return };

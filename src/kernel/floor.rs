@@ -13,8 +13,8 @@ use crate::real::Real;
 /// The balance of one point.
 #[derive(Clone, Copy)]
 pub struct Balance<T> {
-    /// y: the slope of the energy to the side on which the point is or to which it may move; of one
-    /// that rests it says nothing.
+    /// y: the slope of the energy to the side on which the point is or to which it may move. Of one
+    /// that rests on a floor that flows it is 0.
     pub y: T,
     /// Whether it may move.
     pub free: bool,
@@ -132,7 +132,10 @@ impl<T: Real> Floor<T> for Yielding<T> {
                 free: true,
             }
         } else {
-            Balance { y, free: false }
+            Balance {
+                y: T::zero(),
+                free: false,
+            }
         }
     }
 
