@@ -1,20 +1,14 @@
 //! What keeps a scene from being judged.
 
-use crate::backend::BackendError;
 use crate::output::OutputError;
 use crate::surface::SurfaceError;
 
 /// Why accuracy cannot be measured.
 #[derive(Debug, thiserror::Error)]
 pub enum AccuracyError {
-    /// The surface of some grid cannot be built.
-    #[error("on {} x {} points: {cause}", points[0], points[1])]
-    Surface {
-        /// Points of the grid, x first.
-        points: [usize; 2],
-        /// What the surface says.
-        cause: SurfaceError,
-    },
+    /// The surface cannot be built.
+    #[error(transparent)]
+    Surface(#[from] SurfaceError),
     /// The scene has no finer and no coarser grid of the same surface.
     #[error("{what} belongs to one grid; accuracy needs the same surface on several: {remedy}")]
     OneGrid {
@@ -45,7 +39,4 @@ pub enum AccuracyError {
     /// A table or a picture cannot be written.
     #[error(transparent)]
     Output(#[from] OutputError),
-    /// The processor's backend failed.
-    #[error(transparent)]
-    Backend(#[from] BackendError),
 }

@@ -3,7 +3,7 @@
 use std::time::Instant;
 
 use super::cells;
-use super::steps::Walk;
+use super::steps::{Steps, Walk};
 use crate::backend::BackendError;
 use crate::kernel::Scalars;
 use crate::scene::{Boundary, Control, Scene};
@@ -23,10 +23,12 @@ pub struct Point {
 /// What a run of a setting gave.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Measured {
-    /// At each step of the scene; `None` for steps that the path leaves out.
+    /// At each step of the scene; `None` for those that are not compared.
     pub steps: Vec<Option<Point>>,
     /// Greatest tension of the path, N, positive; `None` where the path shows none.
     pub pull_off: Option<f64>,
+    /// How much more tension was asked next, N, and not carried; 0 where a position is held.
+    pub pull_off_step: f64,
     /// Mean pressure, Pa, over the cells of the coarsest grid at the step of [`deepest`].
     pub profile: Option<Vec<f64>>,
     /// Wall-clock seconds of the steps.
@@ -72,7 +74,8 @@ pub fn is_load(control: Control) -> bool {
 }
 
 /// Runs a setting whose scene is in `setup`, along `path`; `watch` sees the step and the iteration
-/// and says whether to go on.
+/// and says whether to go on. Only the steps that half of the path has as well are compared, so that
+/// no setting is judged by fewer than another.
 pub fn measure(
     setup: &Setup,
     path: &Walk,
@@ -100,15 +103,18 @@ pub fn measure(
     if end.interrupted {
         return Err(Unfinished::Stopped);
     }
+    let compared = compared(scene);
     let mut steps = vec![None; scene.loading.path.len()];
     for (row, own) in end.rows.iter().zip(&path.scene_step) {
-        if let Some(own) = own {
-            steps[*own] = Some(point(row, scene));
+        if let Some(own) = own.filter(|own| compared[*own]) {
+            steps[own] = Some(point(row, scene));
         }
     }
+    let (pull_off, pull_off_step) = pull_off(&end.rows, &path.loading.path, scene).unzip();
     Ok(Measured {
         steps,
-        pull_off: pull_off(&end.rows, scene),
+        pull_off,
+        pull_off_step: pull_off_step.unwrap_or(0.0),
         profile,
         seconds,
         iterations: end.rows.iter().map(|row| row.iterations).sum(),
@@ -132,20 +138,36 @@ fn point(row: &StepRow, scene: &Scene) -> Point {
     }
 }
 
+/// Which steps of a scene are compared: those of the halved path.
+pub fn compared(scene: &Scene) -> Vec<bool> {
+    let mut compared = vec![false; scene.loading.path.len()];
+    for own in Steps::Halved
+        .of(&scene.loading)
+        .scene_step
+        .into_iter()
+        .flatten()
+    {
+        compared[own] = true;
+    }
+    compared
+}
+
 /// The greatest tension, where the path shows that there is no greater one: a held position has a
-/// step beyond it, a load has let go.
-fn pull_off(rows: &[StepRow], scene: &Scene) -> Option<f64> {
-    let greatest = rows
+/// step beyond it, a load has let go. With how much more was asked then.
+fn pull_off(rows: &[StepRow], path: &[f64], scene: &Scene) -> Option<(f64, f64)> {
+    let (at, greatest) = rows
         .iter()
         .enumerate()
         .filter(|(_, row)| row.force < 0.0)
         .min_by(|a, b| a.1.force.total_cmp(&b.1.force))?;
-    let after = &rows[greatest.0 + 1..];
-    let shown = match is_load(scene.loading.control) {
-        true => after.iter().any(|row| row.state == State::Separated),
-        false => !after.is_empty(),
-    };
-    shown.then_some(-greatest.1.force)
+    let carried = -greatest.force;
+    if !is_load(scene.loading.control) {
+        return (at + 1 < rows.len()).then_some((carried, 0.0));
+    }
+    let parted = (at + 1..rows.len()).find(|step| rows[*step].state == State::Separated)?;
+    // Pressure or force, in the ratio of the two at the carried load.
+    let asked = -path[parted] * carried / -path[at];
+    Some((carried, (asked - carried).max(0.0)))
 }
 
 /// Keeps the pressure of one step.

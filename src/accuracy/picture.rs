@@ -1,6 +1,5 @@
 //! `accuracy.png`: error against seconds, both logarithmic, a panel a quantity.
 
-use super::front::pareto;
 use super::judge::Errors;
 use super::setting::Varied;
 use super::study::{Report, Row};
@@ -52,7 +51,7 @@ fn panel(report: &Report, title: &str, of: fn(&Errors) -> Option<f64>) -> Panel 
             hollow: false,
         })
     };
-    let front = pareto(&report.costs(of));
+    let front = report.front(of);
     let mut series = vec![Series {
         name: 0,
         points: front

@@ -11,7 +11,7 @@ use super::error::AccuracyError;
 use crate::grid::{Grid, signed_index};
 use crate::scene::{AdhesionMap, Boundary, GridScene, Scene, SurfacePart};
 use crate::surface::shapes::Place;
-use crate::surface::{Surface, fourier};
+use crate::surface::{Surface, SurfaceError, fourier};
 
 /// A scene whose surface is the same on every grid.
 #[derive(Clone, Debug)]
@@ -50,10 +50,6 @@ impl SameSurface {
                 remedy: "give it as a pattern, or leave it out",
             });
         }
-        let failed = |cause| AccuracyError::Surface {
-            points: scene.grid.points.unwrap_or_default(),
-            cause,
-        };
         let mut files = None;
         let mut sampled = Vec::new();
         let mut warnings = Vec::new();
@@ -64,16 +60,14 @@ impl SameSurface {
                 .filter(|p| is_file(p))
                 .cloned()
                 .collect();
-            let read = Surface::from_parts(&scene.grid, &parts).map_err(failed)?;
+            let read = Surface::from_parts(&scene.grid, &parts)?;
             files = Some(fourier::analyse(&read.grid, &read.heights));
             sampled = read.heights;
             warnings = read.warnings;
             read.grid
         } else {
             // Flat and checked: the scene's own numbers.
-            Surface::from_parts(&scene.grid, &[SurfacePart::Flat])
-                .map_err(failed)?
-                .grid
+            Surface::from_parts(&scene.grid, &[SurfacePart::Flat])?.grid
         };
         let mut scene = scene.clone();
         scene.grid = GridScene {
@@ -108,11 +102,8 @@ impl SameSurface {
     ///
     /// # Errors
     /// What the surface's own parts refuse on this grid, such as waves below two pixels.
-    pub fn on(&self, scene: &Scene) -> Result<Surface, AccuracyError> {
-        let mut surface = Surface::build(scene).map_err(|cause| AccuracyError::Surface {
-            points: scene.grid.points.unwrap_or_default(),
-            cause,
-        })?;
+    pub fn on(&self, scene: &Scene) -> Result<Surface, SurfaceError> {
+        let mut surface = Surface::build(scene)?;
         let Some(series) = &self.files else {
             return Ok(surface);
         };

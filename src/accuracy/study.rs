@@ -7,7 +7,7 @@ use super::error::AccuracyError;
 use super::forecast::{Forecast, Work};
 use super::front;
 use super::judge::{Errors, change, judge};
-use super::measure::{Measured, Unfinished, measure};
+use super::measure::{Measured, Unfinished, compared, measure};
 use super::reference::Reference;
 use super::same_surface::SameSurface;
 use super::setting::{Setting, Varied, others};
@@ -129,9 +129,9 @@ impl Report {
             .unwrap_or(0.0)
     }
 
-    /// Rows on the front of the largest error against seconds.
-    pub fn front(&self) -> Vec<usize> {
-        front::pareto(&self.costs(Errors::largest))
+    /// Rows on the front of an error against seconds; what is all wrong is no answer at any price.
+    pub fn front(&self, of: impl Fn(&Errors) -> Option<f64>) -> Vec<usize> {
+        front::pareto(&self.costs(|errors| of(errors).filter(|error| *error < 1.0)))
     }
 
     /// The order with which an error of the scene's own way falls with the grid: the slope of
@@ -166,6 +166,8 @@ pub struct Study<'a> {
     cells: [usize; 2],
     grids: Vec<[usize; 2]>,
     forecast: Forecast,
+    /// Whether an adapter has built its shaders.
+    warm: bool,
     report: Report,
 }
 
@@ -216,9 +218,15 @@ impl<'a> Study<'a> {
         }
         let grids = ladder([same.grid.nx, same.grid.ny])?;
         let cells = grids[0];
+        let mut reference = closed(&same.scene, cells);
+        if let Some(reference) = &mut reference {
+            for (step, compared) in reference.steps.iter_mut().zip(compared(&same.scene)) {
+                *step = step.filter(|_| compared);
+            }
+        }
         let report = Report {
             scene: same.scene.clone(),
-            reference: closed(&same.scene, cells),
+            reference,
             rows: Vec::new(),
             left_out: Vec::new(),
             interrupted: false,
@@ -231,6 +239,7 @@ impl<'a> Study<'a> {
             cells,
             grids,
             forecast: Forecast::default(),
+            warm: false,
             report,
         })
     }
@@ -240,6 +249,8 @@ impl<'a> Study<'a> {
     /// # Errors
     /// No reference within the budget; what the listener cannot keep.
     pub fn run(mut self, listener: &mut dyn Listener) -> Result<Report, AccuracyError> {
+        // What cannot be kept is better known before minutes of work than after.
+        listener.row(&self.report)?;
         for warning in std::mem::take(&mut self.same.warnings) {
             listener.note(&warning);
         }
@@ -469,14 +480,16 @@ impl<'a> Study<'a> {
             interrupted = !listener.goes_on(step, scalars.iterations as usize, scalars.residual);
             !interrupted && Instant::now() < until
         };
-        let end = measure(
-            &setup,
-            &path,
-            &self.report.scene,
-            self.cells,
-            &*bench.make,
-            &mut watch,
-        );
+        let mut run = || {
+            let own = &self.report.scene;
+            measure(&setup, &path, own, self.cells, &*bench.make, &mut watch)
+        };
+        let mut end = run();
+        if setting.backend == BackendName::Gpu && !self.warm && end.is_ok() {
+            // The first run builds shaders, which later ones find: it is no measure of any.
+            end = run();
+        }
+        self.warm |= setting.backend == BackendName::Gpu;
         match end {
             Ok(measured) => {
                 self.forecast.learn(&work, measured.seconds);
@@ -556,6 +569,8 @@ impl Missed {
 /// Seconds in two digits.
 pub fn duration(seconds: f64) -> String {
     match seconds {
+        s if s < 0.01 => format!("{:.1} ms", 1e3 * s),
+        s if s < 1.0 => format!("{:.0} ms", 1e3 * s),
         s if s < 10.0 => format!("{s:.1} s"),
         s if s < 120.0 => format!("{s:.0} s"),
         s => format!("{:.0} min", s / 60.0),

@@ -30,7 +30,7 @@ const QUANTITIES: [(&str, Quantity); 5] = [
 /// The table of all rows so far as CSV. What is not known is empty.
 pub fn csv(report: &Report) -> String {
     let mut text = format!("{HEADER}\n");
-    let front = report.front();
+    let front = report.front(Errors::largest);
     let cell = |value: Option<f64>| value.map_or(String::new(), |value| format!("{value:e}"));
     let uncertainty = report.reference.as_ref().map(|found| found.uncertainty);
     for (index, row) in report.rows.iter().enumerate() {
@@ -66,11 +66,17 @@ pub fn csv(report: &Report) -> String {
 /// # Errors
 /// A file of that name that is no such table; what the system refuses.
 pub fn write_csv(path: &Path, report: &Report) -> Result<(), OutputError> {
+    let refused = |reason: &str| OutputError::Refused {
+        path: path.to_path_buf(),
+        reason: reason.to_owned(),
+    };
+    if path.parent().is_some_and(Path::is_file) {
+        return Err(refused("its folder is a file; name a folder with --out"));
+    }
     if fs::read(path).is_ok_and(|old| !old.starts_with(HEADER.as_bytes())) {
-        return Err(OutputError::Refused {
-            path: path.to_path_buf(),
-            reason: "is not a table that tabor wrote; name another folder with --out".to_owned(),
-        });
+        return Err(refused(
+            "is not a table that tabor wrote; name another folder with --out",
+        ));
     }
     write_atomically(path, csv(report).as_bytes())
 }
@@ -88,10 +94,12 @@ fn percent(value: Option<f64>) -> String {
     match value.map(|value| 100.0 * value) {
         None => "-".to_owned(),
         Some(value) if !value.is_finite() => "?".to_owned(),
-        Some(value) if value >= 10.0 => format!("{value:.0} %"),
-        Some(value) if value >= 1.0 => format!("{value:.1} %"),
-        Some(value) if value >= 0.01 => format!("{value:.3} %"),
-        Some(value) => format!("{value:.0e} %"),
+        Some(0.0) => "0 %".to_owned(),
+        Some(value) if value < 1e-4 => format!("{value:.0e} %"),
+        Some(value) => {
+            let decimals = (1.0 - value.log10().floor()).max(0.0) as usize;
+            format!("{value:.decimals$} %")
+        }
     }
 }
 
@@ -109,7 +117,7 @@ pub fn screen(report: &Report) -> String {
         "  {:<58} {:>8} {:>9} {:>9} {:>9} {:>9}",
         "setting", "seconds", "area", "force", "pressure", "pull-off"
     ));
-    let front = report.front();
+    let front = report.front(Errors::largest);
     let mut order: Vec<usize> = (0..report.rows.len()).collect();
     order.sort_by_key(|index| {
         let row = &report.rows[*index];
@@ -200,4 +208,31 @@ fn cheapest(report: &Report, of: Quantity, level: f64) -> Option<String> {
             percent(Some(best))
         ),
     })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn shares_have_two_digits() {
+        let cases = [
+            (0.123, "12 %"),
+            (1.78, "178 %"),
+            (0.0123, "1.2 %"),
+            (0.001, "0.10 %"),
+            (0.000_123, "0.012 %"),
+            (1e-7, "1e-5 %"),
+            (0.0, "0 %"),
+            (f64::INFINITY, "?"),
+        ];
+        for (value, words) in cases {
+            assert_eq!(percent(Some(value)), words);
+        }
+        assert_eq!(percent(None), "-");
+        assert_eq!(
+            LEVELS.map(|level| (100.0 * level).to_string()),
+            ["10", "1", "0.1"]
+        );
+    }
 }

@@ -72,7 +72,13 @@ pub(super) fn accuracy(arguments: &AccuracyArguments) -> Result<(), Failure> {
         say("note: adhesion.treatment = \"dmt\" is judged by the full law, as one of the settings");
     }
     let shop = Shop::of(arguments);
-    let study = Study::new(&scene, &shop, arguments.budget)?;
+    let study = match Study::new(&scene, &shop, arguments.budget) {
+        Err(AccuracyError::Surface(error)) => {
+            let path = arguments.scene.clone();
+            return Err(Failure::Surface { path, error });
+        }
+        study => study?,
+    };
     let mut keeper = Keeper {
         folder: folder.clone(),
         bar: bar(arguments.quiet, arguments.budget),

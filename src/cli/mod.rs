@@ -313,7 +313,6 @@ impl Failure {
             Failure::Backend(_) | Failure::Gpu(_) => 4,
             Failure::Accuracy(AccuracyError::Output(OutputError::Refused { .. })) => 2,
             Failure::Accuracy(AccuracyError::Output(_)) => 1,
-            Failure::Accuracy(AccuracyError::Backend(_)) => 4,
             Failure::Accuracy(_) => 2,
             Failure::Interrupted { .. } | Failure::InterruptedStudy { .. } => 130,
         }
