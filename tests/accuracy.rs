@@ -1,6 +1,9 @@
 //! `tabor accuracy` from outside: its files, what it names, its budget, and an interrupt; and what it
 //! says of a range that the grid has to stretch, and of cohesive zones near a pixel.
 
+#[path = "../examples/accuracy_study/tables.rs"]
+mod tables;
+
 use std::collections::HashMap;
 use std::fs;
 use std::path::Path;
@@ -226,7 +229,7 @@ fn what_there_is_no_time_for_is_left_out_and_listed() {
 #[test]
 fn a_rough_surface_is_judged_by_finer_grids_and_an_interrupt_keeps_the_rows() {
     let folder = scene(ROUGH);
-    let mut child = command(folder.path(), &["--budget", "10 min"])
+    let child = command(folder.path(), &["--budget", "10 min"])
         .spawn()
         .expect("it starts");
     let table = folder.path().join("out/accuracy.csv");
@@ -417,5 +420,29 @@ fn soft_spheres_are_right_or_warned_of() {
             );
             assert!(tapered > 0.1, "a needless warning: {tapered}");
         }
+    }
+}
+
+/// The tables of the page are those of the committed measurements.
+#[test]
+fn the_page_shows_what_was_measured() {
+    let root = Path::new(env!("CARGO_MANIFEST_DIR"));
+    let page = fs::read_to_string(root.join("docs/accuracy.md")).expect("there is a page");
+    for study in tables::STUDIES {
+        let path = root.join(format!("docs/accuracy_{}.csv", study.name));
+        let table = fs::read_to_string(path).expect("it was measured");
+        let shown = tables::tables(&table).expect("the table is whole");
+        assert!(
+            page.contains(&shown),
+            "{}: run the example accuracy_study",
+            study.name
+        );
+        let picture = root.join(format!("docs/pictures/accuracy_{}.png", study.name));
+        let bytes = fs::metadata(picture).expect("there is a picture").len();
+        assert!(
+            (1_000..150_000).contains(&bytes),
+            "{}: {bytes} bytes",
+            study.name
+        );
     }
 }

@@ -25,6 +25,8 @@ const GRIDS: u32 = 4;
 pub const LEAST_POINTS: usize = 16;
 /// Share of the time that the reference may take.
 const REFERENCE_SHARE: f64 = 0.6;
+/// Share of what is then left that one more grid may take.
+const OWN_SHARE: f64 = 0.3;
 /// How much tighter the reference is solved than the scene asks.
 const TIGHTER: f64 = 0.1;
 
@@ -360,7 +362,9 @@ impl<'a> Study<'a> {
         let mut run = Vec::new();
         for points in judged.iter() {
             let setting = Setting::own(&self.report.scene, *points);
-            match self.attempt(&setting, self.left(), listener) {
+            // What is varied on the coarser grids needs its time too; the first grid needs its own.
+            let share = if run.is_empty() { 1.0 } else { OWN_SHARE };
+            match self.attempt(&setting, share * self.left(), listener) {
                 Ok(done) => {
                     run.push(*points);
                     self.keep(setting, done, listener)?;
