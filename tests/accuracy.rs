@@ -209,10 +209,7 @@ fn what_there_is_no_time_for_is_left_out_and_listed() {
         .split("left out, ")
         .nth(1)
         .expect("a list of what was left out");
-    assert!(
-        list.contains("1024 x 1024") && list.contains("2048 x 2048"),
-        "{list}"
-    );
+    assert!(list.contains("1024 x 1024: every setting"), "{list}");
     assert!(
         list.contains("would take about") || list.contains("not done after"),
         "{list}"
@@ -357,13 +354,20 @@ steps = 48
     )
 }
 
-/// Tabor numbers at which a cohesive zone near a pixel spoils a sharp law without a word elsewhere: the
-/// taper keeps pull-off to 3 % (2.1 % was measured at most, on periodic spheres, up to chi 1.3; 1 % is
-/// left for the free boundary and the steps), and what the taper does not mend is warned of, with the
-/// number.
+/// Tabor numbers at which a cohesive zone near a pixel spoils a sharp law without a word elsewhere.
+///
+/// With the taper pull-off is right to 3 % at chi 0.65 (2.1 % was measured at most, on periodic spheres; 1 %
+/// is left for the free boundary and the steps). At 1.3 the contact itself is 10 to 25 pixels wide, whose
+/// edge counts too: 10 %, and that is warned of. What the taper does not mend at 2.6 is warned of as such.
 #[test]
 fn soft_spheres_are_right_or_warned_of() {
-    for (tabor, chi) in [(2.0, 0.65), (2.0, 1.3), (3.0, 1.3), (2.0, 2.6), (3.0, 2.6)] {
+    for (tabor, chi) in [
+        (2.0, 0.64),
+        (2.0, 1.29),
+        (3.0, 1.29),
+        (2.0, 2.6),
+        (3.0, 2.6),
+    ] {
         let folder = scene(&soft_sphere(tabor, chi));
         // On these points alone: fewer would be coarser still.
         let output = command(
@@ -409,17 +413,39 @@ fn soft_spheres_are_right_or_warned_of() {
         let share = format!("a pixel is {chi:.2} of the cohesive zone");
         assert!(message.contains(&share), "{message}");
         let message = warned("adhesion.taper=\"auto\"");
-        if chi <= 1.3 {
+        if chi <= 0.65 {
             assert!(tapered < 0.03, "Tabor {tabor}, chi {chi}: {tapered}");
+            continue;
+        }
+        let message = message.expect("past its limit the taper is warned of");
+        assert!(message.contains(&share), "{message}");
+        if chi <= 1.3 {
+            assert!(message.contains("beyond 0.65"), "{message}");
+            assert!(tapered < 0.1, "Tabor {tabor}, chi {chi}: {tapered}");
         } else {
-            let message = message.expect("past its limit the taper is warned of");
             assert!(message.contains("10 % cannot be reached"), "{message}");
-            assert!(
-                message.contains(&share) && message.contains("beyond 1.3"),
-                "{message}"
-            );
+            assert!(message.contains("beyond 1.3"), "{message}");
             assert!(tapered > 0.1, "a needless warning: {tapered}");
         }
+    }
+}
+
+/// A zone of three pixels does not help a contact that is five pixels wide itself, and that is said too.
+#[test]
+fn a_contact_of_few_pixels_is_warned_of() {
+    for (chi, strength) in [
+        (0.6, "10 % cannot be reached"),
+        (0.33, "the contact at pull-off"),
+    ] {
+        let folder = scene(&soft_sphere(1.0, chi));
+        let output = Command::new(env!("CARGO_BIN_EXE_tabor"))
+            .current_dir(folder.path())
+            .args(["check", "scene.toml"])
+            .output()
+            .expect("it runs");
+        let text = said(&output);
+        let line = text.lines().find(|line| line.contains("pixels wide"));
+        assert!(line.is_some_and(|line| line.contains(strength)), "{text}");
     }
 }
 
@@ -428,21 +454,17 @@ fn soft_spheres_are_right_or_warned_of() {
 fn the_page_shows_what_was_measured() {
     let root = Path::new(env!("CARGO_MANIFEST_DIR"));
     let page = fs::read_to_string(root.join("docs/accuracy.md")).expect("there is a page");
-    for study in tables::STUDIES {
-        let path = root.join(format!("docs/accuracy_{}.csv", study.name));
+    for name in tables::STUDIES {
+        let path = root.join(format!("docs/accuracy_{}.csv", name));
         let table = fs::read_to_string(path).expect("it was measured");
         let shown = tables::tables(&table).expect("the table is whole");
         assert!(
             page.contains(&shown),
             "{}: run the example accuracy_study",
-            study.name
+            name
         );
-        let picture = root.join(format!("docs/pictures/accuracy_{}.png", study.name));
+        let picture = root.join(format!("docs/pictures/accuracy_{}.png", name));
         let bytes = fs::metadata(picture).expect("there is a picture").len();
-        assert!(
-            (1_000..150_000).contains(&bytes),
-            "{}: {bytes} bytes",
-            study.name
-        );
+        assert!((1_000..150_000).contains(&bytes), "{}: {bytes} bytes", name);
     }
 }

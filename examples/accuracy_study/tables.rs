@@ -3,29 +3,8 @@
 use std::collections::BTreeMap;
 use std::fmt::Write;
 
-/// A study and how long it may take.
-pub struct Study {
-    /// Name of its scene, table, picture and part of the page.
-    pub name: &'static str,
-    /// For `--budget`.
-    pub budget: &'static str,
-}
-
-/// The studies of the page.
-pub const STUDIES: [Study; 3] = [
-    Study {
-        name: "sphere",
-        budget: "150 s",
-    },
-    Study {
-        name: "rough",
-        budget: "90 s",
-    },
-    Study {
-        name: "sticky",
-        budget: "180 s",
-    },
-];
+/// The studies of the page: names of their scenes, tables, pictures and parts of the page.
+pub const STUDIES: [&str; 3] = ["sphere", "rough", "sticky"];
 
 /// A row by the names of its columns.
 type Row = BTreeMap<String, String>;
@@ -63,6 +42,7 @@ fn number(row: &Row, name: &str) -> Option<f64> {
 fn percent(value: Option<f64>) -> String {
     match value.map(|value| 100.0 * value) {
         None => "-".to_owned(),
+        Some(0.0) => "0 %".to_owned(),
         Some(value) if value < 1e-4 => format!("{value:.0e} %"),
         Some(value) => {
             let decimals = (1.0 - value.log10().floor()).max(0.0) as usize;
@@ -169,7 +149,13 @@ pub fn tables(table: &str) -> Result<String, String> {
             uncertain.join(", ")
         );
     }
-    let tapers = of("taper");
+    let mut tapers = of("taper");
+    tapers.sort_by_key(|row| {
+        (
+            row["points"].parse::<usize>().unwrap_or(0),
+            row["taper"].len(),
+        )
+    });
     if !tapers.is_empty() {
         text.push_str("\nThe same without the taper, and with twice as long a one:\n\n");
         let lines: Vec<Vec<String>> = tapers
@@ -194,13 +180,14 @@ pub fn tables(table: &str) -> Result<String, String> {
         ];
         text.push_str(&markdown(&head(&first, &errors), &lines));
     }
-    text.push_str("\nPrecision and tolerance, by the largest change from double precision at the scene's own tolerance on the same grid:\n\n");
+    text.push_str("\nPrecision and tolerance, by the change from double precision at the scene's own tolerance on the same grid (the largest of all errors):\n\n");
     let floors: Vec<Vec<String>> = floors(&rows);
     let first = [
         "precision",
         "backend",
         "tolerance",
         "largest change",
+        "on the finest grid",
         "on grids",
     ]
     .map(str::to_owned);
@@ -265,37 +252,34 @@ fn finest<'a>(rows: &[&'a Row]) -> Vec<&'a Row> {
     found
 }
 
-/// Each arithmetic and tolerance, with its largest change over the grids.
+/// Each arithmetic and tolerance, with its largest change over the grids and that on the finest.
 fn floors(rows: &[Row]) -> Vec<Vec<String>> {
-    let mut groups: BTreeMap<(String, String, String), (f64, Vec<f64>)> = BTreeMap::new();
-    for row in rows
-        .iter()
-        .filter(|row| ["precision", "tolerance"].contains(&row["varied"].as_str()))
-    {
-        let key = (
-            row["precision"].clone(),
-            row["backend"].clone(),
-            row["tolerance"].clone(),
-        );
-        let (Some(change), Some(points)) = (number(row, "change"), number(row, "points")) else {
+    let mut groups: BTreeMap<[String; 3], Vec<(f64, f64)>> = BTreeMap::new();
+    for row in rows {
+        if !["precision", "tolerance"].contains(&row["varied"].as_str()) {
+            continue;
+        }
+        let key = ["precision", "backend", "tolerance"].map(|name| row[name].clone());
+        if let (Some(points), Some(change)) = (number(row, "points"), number(row, "change")) {
+            groups.entry(key).or_default().push((points, change));
+        }
+    }
+    let mut lines = Vec::new();
+    for (key, mut changes) in groups {
+        changes.sort_by(|a, b| a.0.total_cmp(&b.0));
+        let (Some(first), Some(last)) = (changes.first(), changes.last()) else {
             continue;
         };
-        let group = groups.entry(key).or_insert((0.0, Vec::new()));
-        group.0 = group.0.max(change);
-        group.1.push(points);
+        let grids = match first.0 == last.0 {
+            true => first.0.to_string(),
+            false => format!("{} to {}", first.0, last.0),
+        };
+        let largest = changes.iter().map(|change| change.1).fold(0.0, f64::max);
+        let mut line = key.to_vec();
+        line.extend([percent(Some(largest)), percent(Some(last.1)), grids]);
+        lines.push(line);
     }
-    groups
-        .into_iter()
-        .map(|((precision, backend, tolerance), (change, mut grids))| {
-            grids.sort_by(f64::total_cmp);
-            let range = match (grids.first(), grids.last()) {
-                (Some(first), Some(last)) if first != last => format!("{first} to {last}"),
-                (Some(only), _) => only.to_string(),
-                _ => String::new(),
-            };
-            vec![precision, backend, tolerance, percent(Some(change)), range]
-        })
-        .collect()
+    lines
 }
 
 /// Slope of the logarithms of error and pixel over all grids, by least squares.
@@ -316,29 +300,4 @@ fn order(own: &[&Row], column: &str) -> Option<f64> {
     let across: f64 = points.iter().map(|p| (p.0 - x) * (p.1 - y)).sum();
     let along: f64 = points.iter().map(|p| (p.0 - x).powi(2)).sum();
     Some(-across / along)
-}
-
-/// What the command itself names: the reference, the cheapest settings and what it left out.
-pub fn named(said: &str) -> Result<String, String> {
-    let reference = said.lines().find(|line| line.starts_with("reference: "));
-    let reference = reference.ok_or("no reference is named")?;
-    let mut text = format!("What the command names:\n\n```text\n{reference}\n");
-    let from = said
-        .lines()
-        .skip_while(|line| !line.starts_with("cheapest for"));
-    for line in from.filter(|line| !line.starts_with("order of")) {
-        text.push_str(line);
-        text.push('\n');
-    }
-    text.push_str("```\n");
-    Ok(text)
-}
-
-/// The page with another part in place of a study's.
-pub fn replaced(page: &str, name: &str, part: &str) -> Result<String, String> {
-    let (begin, end) = (format!("<!-- {name} -->\n"), format!("<!-- /{name} -->"));
-    let missing = || format!("docs/accuracy.md has no {begin}");
-    let (before, rest) = page.split_once(&begin).ok_or_else(missing)?;
-    let (_, after) = rest.split_once(&end).ok_or_else(missing)?;
-    Ok(format!("{before}{begin}\n{part}\n{end}{after}"))
 }
