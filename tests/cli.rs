@@ -312,7 +312,6 @@ fn what_this_version_lacks_is_refused_by_name() {
             "--precision",
             "double",
         ],
-        vec!["accuracy", "scene.toml", "--budget", "5 min"],
     ] {
         let output = tabor(folder.path(), &arguments);
         assert_eq!(status(&output), 2, "{arguments:?}");

@@ -29,7 +29,7 @@ pub struct Measured {
     pub pull_off: Option<f64>,
     /// How much more tension was asked next, N, and not carried; 0 where a position is held.
     pub pull_off_step: f64,
-    /// Mean pressure, Pa, over the cells of the coarsest grid at the step of [`deepest`].
+    /// Mean pressure, Pa, over the cells of the coarsest grid at the step that presses hardest.
     pub profile: Option<Vec<f64>>,
     /// Wall-clock seconds of the steps.
     pub seconds: f64,

@@ -233,6 +233,9 @@ impl Setting {
     }
 }
 
+/// Relative difference up to which two ranges are one.
+const SAME_RANGE: f64 = 1e-9;
+
 /// Whether the grid asks for a longer range than the scene gives.
 fn is_longer(scene: &Scene, adhesion: &AdhesionScene, points: [usize; 2]) -> bool {
     let (Range::Length(given), Some(size)) = (adhesion.range, scene.grid.size) else {
@@ -245,7 +248,8 @@ fn is_longer(scene: &Scene, adhesion: &AdhesionScene, points: [usize; 2]) -> boo
         ..adhesion.clone()
     };
     let pixel = grid.dx().max(grid.dy());
-    resolve_law(&auto, pixel, scene.solid.contact_modulus, 1.0).range() > given
+    let asked = resolve_law(&auto, pixel, scene.solid.contact_modulus, 1.0).range();
+    asked > given * (1.0 + SAME_RANGE)
 }
 
 /// Tolerances that are tried beside the scene's own.
