@@ -46,6 +46,7 @@
 //! | [`output`] | the folder of a run: curve, summary, fields, pictures, report, and the state to go on from |
 //! | [`theory`] | closed forms and models to compare with: Hertz, JKR, Maugis, Persson and others |
 //! | [`fit`] | work of adhesion and modulus from a measured force curve |
+//! | [`accuracy`] | error against seconds: a scene over grids, precisions, steps and models |
 //! | [`cli`] | the command line |
 //!
 //! # What an iteration does
@@ -76,6 +77,7 @@
 //! mixed precision every kernel of a law reads two fields more.
 #![warn(missing_docs)]
 
+pub mod accuracy;
 pub mod backend;
 pub mod cli;
 pub mod effect;

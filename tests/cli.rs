@@ -294,16 +294,6 @@ fn mistakes_are_named_all_at_once_with_their_lines() {
 #[test]
 fn what_this_version_lacks_is_refused_by_name() {
     let (folder, _) = scene(ROUGH);
-    let output = tabor(
-        folder.path(),
-        &["accuracy", "scene.toml", "--budget", "5 min"],
-    );
-    assert_eq!(status(&output), 2);
-    assert!(
-        errors(&output).contains("not in this version"),
-        "{}",
-        errors(&output)
-    );
     for (key, value) in [("conductance.conductivity", "1"), ("plastic.hardness", "1")] {
         let set = format!("{key}={value}");
         let output = tabor(folder.path(), &["check", "scene.toml", "--set", &set]);

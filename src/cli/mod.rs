@@ -1,5 +1,6 @@
 //! The command line: arguments, messages, exit statuses.
 
+mod accuracy;
 mod check;
 mod compare;
 mod devices;
@@ -20,6 +21,7 @@ use std::process::ExitCode;
 
 use clap::{Args, Parser, Subcommand, ValueEnum};
 
+use crate::accuracy::AccuracyError;
 use crate::backend::BackendError;
 use crate::backend::gpu::GpuError;
 use crate::fit::FitError;
@@ -64,8 +66,11 @@ enum Command {
     /// The same surface through full field, DMT, ICHA, Persson, GW-M and BAM
     #[command(after_help = "Example:\n  tabor compare examples/scenes/dmt.toml --out compared")]
     Compare(CompareArguments),
-    /// Error against seconds (not in this version)
-    Accuracy(Later),
+    /// What accuracy costs: a scene over grids, tolerances, precisions, steps and models
+    #[command(
+        after_help = "Writes accuracy.csv and accuracy.png, and names the cheapest setting for 10 %, 1 % and 0.1 %. More in docs/accuracy.md.\n\nExample:\n  tabor accuracy examples/scenes/rough.toml --budget \"5 min\" --set grid.points=256"
+    )]
+    Accuracy(accuracy::AccuracyArguments),
     /// Work of adhesion and modulus from a force curve of a sphere
     #[command(
         after_help = "The curve has columns approach (positive closer) and force (positive in compression), in SI or\nwith the unit in the head: `approach [nm], force [nN]`. More in docs/fit.md.\n\nExamples:\n  tabor fit examples/force_curve.csv --radius \"10 um\" --out fit\n  tabor fit --radius \"10 um\" --pull-off \"2 uN\" --stiffness \"30 N/m\""
@@ -148,13 +153,6 @@ struct TheoryArguments {
         value_name = "NAME"
     )]
     words: Vec<String>,
-}
-
-#[derive(Debug, Args)]
-struct Later {
-    /// Whatever the command will take
-    #[arg(trailing_var_arg = true, allow_hyphen_values = true, hide = true)]
-    rest: Vec<String>,
 }
 
 #[derive(Clone, Copy, Debug, ValueEnum)]
@@ -268,6 +266,12 @@ enum Failure {
     },
     #[error("interrupted after {finished} of {steps} steps")]
     Interrupted { finished: usize, steps: usize },
+    #[error(
+        "interrupted after {rows} settings, which are kept in {}", folder.display()
+    )]
+    InterruptedStudy { rows: usize, folder: PathBuf },
+    #[error(transparent)]
+    Accuracy(#[from] AccuracyError),
     #[error(transparent)]
     Fit(#[from] FitError),
     #[error(transparent)]
@@ -307,7 +311,10 @@ impl Failure {
             | Failure::Fit(FitError::Theory(TheoryError::NotConverged { .. })) => 3,
             Failure::Theory(_) | Failure::Fit(_) => 2,
             Failure::Backend(_) | Failure::Gpu(_) => 4,
-            Failure::Interrupted { .. } => 130,
+            Failure::Accuracy(AccuracyError::Output(OutputError::Refused { .. })) => 2,
+            Failure::Accuracy(AccuracyError::Output(_)) => 1,
+            Failure::Accuracy(_) => 2,
+            Failure::Interrupted { .. } | Failure::InterruptedStudy { .. } => 130,
         }
     }
 }
@@ -322,7 +329,7 @@ pub fn main() -> ExitCode {
         Command::Surface(arguments) => surface::surface(&arguments),
         Command::Theory(arguments) => theory::theory(&arguments),
         Command::Compare(arguments) => compare::compare(&arguments),
-        Command::Accuracy(later) => not_in_this_version("accuracy", &later),
+        Command::Accuracy(arguments) => accuracy::accuracy(&arguments),
         Command::Fit(arguments) => fit::fit(&arguments),
         Command::Devices => devices::devices(),
         Command::Completions { shell } => shell::completions(shell),
@@ -344,12 +351,6 @@ pub fn main() -> ExitCode {
 /// Prints a line on standard error. Where that is closed nobody is there to be told.
 fn say(line: &str) {
     let _ = writeln!(anstream::stderr(), "{line}");
-}
-
-fn not_in_this_version(command: &str, _: &Later) -> Result<(), Failure> {
-    Err(Failure::Usage(format!(
-        "tabor {command} is not in this version; this one has run, check, surface, theory, compare, fit and devices"
-    )))
 }
 
 /// Writes to standard output.

@@ -138,7 +138,7 @@ fn default_folder(scene: &Path) -> PathBuf {
 }
 
 /// Ctrl-C asks the run to end after the current iteration.
-fn watch_for_interrupts() -> Arc<AtomicBool> {
+pub(super) fn watch_for_interrupts() -> Arc<AtomicBool> {
     let flag = Arc::new(AtomicBool::new(false));
     let raised = Arc::clone(&flag);
     // A second handler in one process is refused; then the first one's default stands.

@@ -12,6 +12,23 @@ use crate::units::format_si;
 /// Pixels that the shortest wave of a surface should have.
 const PIXELS_A_WAVE: f64 = 8.0;
 
+/// Values of chi beyond which the contact edge feels the pixels: of the sharp Maugis-Dugdale law, of the
+/// tapered one, and of Lennard-Jones.
+const SHARP_LIMIT: f64 = 0.02;
+const TAPERED_LIMIT: f64 = 0.65;
+const CORE_LIMIT: f64 = 0.64;
+/// Values beyond which pull-off is off by 10 % and more: of the sharp law, and of every other.
+const SHARP_LOST: f64 = 0.1;
+const LOST: f64 = 1.3;
+
+/// Radius of a contact that lets go, in Maugis' unit `(pi w R^2/K)^(1/3)`: JKR's `1.5^(1/3)`.
+const PULL_OFF_RADIUS: f64 = 1.145;
+/// Its width in pixels below which the pixels of its edge are 5 % and 10 % of pull-off, measured at Tabor number 1.
+const FEW_PIXELS: f64 = 10.0;
+const LOST_PIXELS: f64 = 6.0;
+/// Tabor number below which a contact closes to a point before it lets go, so that it has no width.
+const LEAST_TABOR: f64 = 0.8;
+
 /// Where a scene's adhesion stands between DMT and JKR, and on its grid.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Regime {
@@ -141,32 +158,62 @@ impl Plan {
             regime.zone_pixels
         );
         let remedy = "take more points or a longer range (range = \"auto\" finds the shortest that the grid resolves)";
+        let beyond = "10 % cannot be reached on this grid";
         let text = match self.law {
-            Law::MaugisDugdale(law) if law.taper == 0.0 && chi > 0.02 => Some(format!(
-                "{measured}: the sharp law traps the contact edge, pull-off {} too high; leave taper at \"auto\", or {remedy}",
-                if chi > 0.1 {
-                    "10 % or more"
-                } else if chi >= 0.04 {
+            Law::MaugisDugdale(law) if law.taper == 0.0 && chi > SHARP_LOST => Some(format!(
+                "{beyond}: {measured}: the sharp law traps the contact edge, pull-off comes out about 14 % too high at 0.16 and 44 % at 0.65; leave taper at \"auto\", or {remedy}"
+            )),
+            Law::MaugisDugdale(law) if law.taper == 0.0 && chi > SHARP_LIMIT => Some(format!(
+                "{measured}: beyond {SHARP_LIMIT} the sharp law traps the contact edge, pull-off {} too high; leave taper at \"auto\", or {remedy}",
+                if chi >= 0.04 {
                     "3 to 10 %"
                 } else {
                     "about 2 %"
                 }
             )),
-            Law::MaugisDugdale(law) if law.taper > 0.0 && chi > 1.3 => Some(format!(
-                "{measured}: beyond 1.3 the taper no longer frees the contact edge, pull-off is about 30 % too high at 2.6 and 160 % at 5; {remedy}"
+            Law::MaugisDugdale(law) if law.taper > 0.0 && chi > LOST => Some(format!(
+                "{beyond}: {measured}: beyond {LOST} the taper no longer frees the contact edge, pull-off is about 30 % too high at 2.6 where the contact is wide, and 50 to 90 % where it is 10 pixels; {remedy}"
             )),
-            Law::MaugisDugdale(law) if law.taper > 0.0 && chi > 0.65 => Some(format!(
-                "{measured}: expect pull-off within 2 %, the energy of a loop up to 40 % low; {remedy}"
+            Law::MaugisDugdale(law) if law.taper > 0.0 && chi > TAPERED_LIMIT => Some(format!(
+                "{measured}: beyond {TAPERED_LIMIT} expect pull-off within 2 % where the contact is wide and within 7 % where it is 10 pixels, the energy of a loop up to 40 % low; {remedy}"
             )),
-            Law::Exponential(_) if chi > 1.3 => Some(format!(
-                "{measured}: beyond 1.3 the contact edge is trapped between pixels, pull-off is about 40 % too high at 2.6 and 160 % at 5; {remedy}"
+            Law::Exponential(_) if chi > LOST => Some(format!(
+                "{beyond}: {measured}: beyond {LOST} the contact edge is trapped between pixels, pull-off is about 40 % too high at 2.6 and 160 % at 5; {remedy}"
             )),
-            Law::LennardJones(_) if chi > 0.64 => Some(format!(
-                "{measured}: beyond 0.64 the contact edge is trapped between pixels and pull-off comes out too high, by more than 4 %; {remedy}"
+            Law::LennardJones(_) if chi > LOST => Some(format!(
+                "{beyond}: {measured}: beyond {LOST} the contact edge is trapped between pixels, pull-off is about 40 % too high at 2.5; {remedy}"
+            )),
+            Law::LennardJones(_) if chi > CORE_LIMIT => Some(format!(
+                "{measured}: beyond {CORE_LIMIT} the contact edge is trapped between pixels and pull-off comes out too high, by more than 4 %; {remedy}"
             )),
             _ => None,
         };
         self.warnings.extend(text);
+        self.warn_of_small_contact(regime);
+    }
+
+    /// Warns of a sphere whose contact is only a few pixels wide when it lets go, whatever its zone.
+    fn warn_of_small_contact(&mut self, regime: Regime) {
+        let Some(radius) = self.outline.sphere_radius else {
+            return;
+        };
+        let pixel = self.outline.grid.dx().max(self.outline.grid.dy());
+        let stiffness = 4.0 / 3.0 * self.scene.solid.contact_modulus;
+        // Maugis' unit of radius, in which a contact parts at 1.14 (JKR) to 0 (DMT).
+        let unit = (std::f64::consts::PI * self.law.work_of_adhesion() * radius * radius
+            / stiffness)
+            .cbrt();
+        let pixels = 2.0 * PULL_OFF_RADIUS * unit / pixel;
+        if pixels >= FEW_PIXELS || regime.tabor < LEAST_TABOR {
+            return;
+        }
+        let strength = match pixels < LOST_PIXELS {
+            true => "10 % cannot be reached on this grid: ",
+            false => "",
+        };
+        self.warnings.push(format!(
+            "{strength}the contact at pull-off is about {pixels:.1} pixels wide: pull-off is about 5 % off at 10 pixels and 12 % at 5; take more points"
+        ));
     }
 
     fn warn_of_dry_air(&mut self) {

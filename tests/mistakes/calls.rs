@@ -100,7 +100,13 @@ const CALLS: &[BadCall] = &[
     call(&["check", "sizeless.toml"], "SurfaceError::SizeMissing", "[grid] size is missing, and no height file of this scene carries it; write size = \"10 um\""),
     call(&["run", "good.toml", "--out", "good.toml"], "OutputError::Refused", "good.toml"),
     call(&["run", "good.toml", "--out", "foreign"], "OutputError::Refused", "foreign"),
-    call(&["accuracy", "good.toml"], "Failure::Usage", "tabor accuracy is not in this version; this one has run, check, surface, theory, compare, fit and devices"),
+    call(&["accuracy", "good.toml", "--set", "grid.points=8"], "AccuracyError::TooCoarse", "grid.points: 8 x 8 points leave no coarser grid to compare with; take at least 16 a side"),
+    call(&["accuracy", "good.toml", "--set", "grid.points=8"], "Failure::Accuracy", "grid.points: 8 x 8 points"),
+    call(&["accuracy", "good.toml", "--out", "hasty", "--budget", "1 us"], "AccuracyError::NoReference", "no reference was solved: would take about "),
+    call(&["accuracy", "good.toml", "--out", "good.toml"], "AccuracyError::Output", "good.toml/accuracy.csv: its folder is a file; name a folder with --out"),
+    call(&["accuracy", "map.toml", "--set", "grid.boundary=free", "--set", "loading.control=force", "--set", "loading.path=[1e-6]"], "AccuracyError::OneGrid", "a height file on a free boundary belongs to one grid; accuracy needs the same surface on several: give the surface as shapes"),
+    call(&["accuracy", "good.toml", "--set", "adhesion={law='exponential', work_of_adhesion=0.05, range='1 nm', map='w.npy'}"], "AccuracyError::OneGrid", "adhesion.map from a file belongs to one grid"),
+    call(&["accuracy", "sizeless.toml"], "Failure::Surface", "sizeless.toml: [grid] size is missing"),
     call(&["theory", "hertz", "--contact_modulus", "1 GPa", "--radius", "3 Pa"], "Failure::Usage", "--radius: \"Pa\" is a pressure in Pa; give a length in m"),
     call(&["theory", "herz"], "Failure::Usage", "there is no model \"herz\"; did you mean hertz?"),
     call(&["theory", "maugis-dugdale", "--radius", "1e-6", "--contact_modulus", "1e6", "--work_of_adhesion", "0.05", "--range", "1e-300"], "Failure::Theory", "is out of range: it must be between 1e-6 and 1e6"),
@@ -203,6 +209,7 @@ pub fn reached() -> Vec<Reached> {
     if cfg!(target_os = "linux") {
         reached.push(full_disk(folder.path()));
         reached.push(interrupted(folder.path()));
+        reached.push(interrupted_study(folder.path()));
         reached.extend(no_such_adapter(folder.path()));
         reached.extend(past_the_adapter(folder.path()));
     }
@@ -268,6 +275,44 @@ fn interrupted(folder: &Path) -> Reached {
     Reached {
         variant: "Failure::Interrupted".to_owned(),
         message: one_line(&output, 130, "interrupted after 0 of 2 steps"),
+    }
+}
+
+/// Ctrl-C amid the reference of a study: exit status 130, and its table is there, without rows.
+fn interrupted_study(folder: &Path) -> Reached {
+    let study = Command::new(env!("CARGO_BIN_EXE_tabor"))
+        .current_dir(folder)
+        .args([
+            "accuracy",
+            "good.toml",
+            "--out",
+            "study",
+            "--set",
+            "grid.points=512",
+        ])
+        .args([
+            "--set",
+            "solver.tolerance=1e-30",
+            "--set",
+            "solver.max_iterations=1000000",
+        ])
+        .stdout(Stdio::piped())
+        .stderr(Stdio::piped())
+        .spawn()
+        .expect("the binary runs");
+    // The table is there once the study watches for the signal.
+    while !folder.join("study/accuracy.csv").exists() {
+        std::thread::sleep(std::time::Duration::from_millis(20));
+    }
+    let killed = Command::new("kill")
+        .args(["-INT", &study.id().to_string()])
+        .status()
+        .expect("a signal");
+    assert!(killed.success());
+    let output = study.wait_with_output().expect("the study ends");
+    Reached {
+        variant: "Failure::InterruptedStudy".to_owned(),
+        message: one_line(&output, 130, " settings, which are kept in study"),
     }
 }
 

@@ -80,6 +80,10 @@ const OUT_OF_REACH: &[(&str, &str)] = &[
     ),
     ("Failure::Fit", "passes a mistake in a curve on"),
     ("MapError::File", "passes a mistake in a height file on"),
+    (
+        "AccuracyError::Surface",
+        "passes a surface's mistake on; the command line shows it with its scene",
+    ),
     ("Left::Out", "a model of compare ends; a note says why"),
     ("Left::Theory", "passes a theory's own range on"),
     ("Left::Output", "passes an output's failure on"),

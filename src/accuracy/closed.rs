@@ -1,0 +1,391 @@
+//! Scenes that have a closed form, and what it says at each step of their path.
+
+use std::f64::consts::PI;
+
+use super::judge::Errors;
+use super::measure::{Point, deepest};
+use super::reference::Reference;
+use crate::grid::Grid;
+use crate::scene::{Boundary, Control, LawName, Range, Scene, SurfacePart};
+use crate::theory::maugis_dugdale::{FOLD_LAMBDA, MaugisDugdale};
+use crate::theory::tabor_map::{MaugisScales, maugis_parameter};
+use crate::theory::{Sphere, TheoryError, hertz, jkr, westergaard};
+
+/// Samples along a side of a cell over which a closed pressure is averaged.
+const SAMPLES: usize = 64;
+
+/// The closed form of a scene whose grid and centres are given, where it has one: a sphere on a
+/// free boundary (Hertz, Maugis, and JKR where `range = "auto"` stands for it), and a line wave
+/// under a load without adhesion (Westergaard).
+pub fn closed(scene: &Scene, cells: [usize; 2]) -> Option<Reference> {
+    let solid = &scene.solid;
+    let plain =
+        solid.layer.is_none() && solid.relaxation.is_empty() && scene.loading.spring.is_none();
+    let mapped = scene.adhesion.as_ref().is_some_and(|law| law.map.is_some());
+    let mut shaped = scene
+        .surfaces
+        .iter()
+        .filter(|part| !matches!(part, SurfacePart::Flat));
+    let (part, None) = (shaped.next()?, shaped.next()) else {
+        return None;
+    };
+    if !plain || mapped {
+        return None;
+    }
+    let size = scene.grid.size?;
+    let found = match part {
+        SurfacePart::Sphere { radius, centre } if scene.grid.boundary == Boundary::Free => {
+            sphere(scene, *radius, (*centre)?, size, cells)
+        }
+        SurfacePart::Wavy {
+            amplitude,
+            wavelength,
+        } if scene.grid.boundary == Boundary::Periodic && scene.adhesion.is_none() => {
+            wave(scene, *amplitude, *wavelength, size, cells)
+        }
+        _ => return None,
+    };
+    // A theory out of its range is no reference; the solve on finer grids is.
+    found.ok().flatten()
+}
+
+fn reference(
+    words: &str,
+    steps: Vec<Option<Point>>,
+    pull_off: Option<f64>,
+    profile: Option<Vec<f64>>,
+) -> Reference {
+    let known = |quantity: bool| quantity.then_some(0.0);
+    Reference {
+        uncertainty: Errors {
+            area: Some(0.0),
+            force: Some(0.0),
+            pressure: known(profile.is_some()),
+            pull_off: known(pull_off.is_some()),
+        },
+        steps,
+        pull_off,
+        profile,
+        orders: [None; 4],
+        words: format!("the closed form of {words}"),
+        points: None,
+    }
+}
+
+/// An equilibrium of a sphere, SI.
+#[derive(Clone, Copy, Debug)]
+struct Held {
+    contact_radius: f64,
+    cohesive_radius: f64,
+    force: f64,
+    approach: f64,
+}
+
+/// A theory of the sphere, in the branches that a path meets.
+enum Theory {
+    Hertz(Sphere),
+    Jkr(Sphere),
+    Maugis(MaugisDugdale, MaugisScales),
+}
+
+fn sphere(
+    scene: &Scene,
+    radius: f64,
+    centre: [f64; 2],
+    size: [f64; 2],
+    cells: [usize; 2],
+) -> Result<Option<Reference>, TheoryError> {
+    let modulus = scene.solid.contact_modulus;
+    let (words, theory) = match &scene.adhesion {
+        None => ("Hertz", Theory::Hertz(Sphere::new(radius, modulus, 0.0)?)),
+        Some(law) => {
+            let sphere = Sphere::new(radius, modulus, law.work_of_adhesion)?;
+            match (law.range, law.law, law.taper) {
+                (Range::Auto, ..) => ("JKR", Theory::Jkr(sphere)),
+                (Range::Length(range), LawName::MaugisDugdale, None | Some(0.0)) => {
+                    let lambda = maugis_parameter(&sphere, law.work_of_adhesion / range)?;
+                    let maugis = MaugisDugdale::new(lambda)?;
+                    ("Maugis", Theory::Maugis(maugis, sphere.maugis_scales()?))
+                }
+                // Another law, or one whose end is drawn out: no closed form.
+                _ => return Ok(None),
+            }
+        }
+    };
+    let by_force = match scene.loading.control {
+        Control::Approach => false,
+        Control::Force => true,
+        Control::Pressure | Control::MeanGap => return Ok(None),
+    };
+    let area = size[0] * size[1];
+    let deepest = deepest(scene);
+    let mut branch = Branch::Apart;
+    let mut steps = Vec::with_capacity(scene.loading.path.len());
+    let mut profile = None;
+    let mut touched = false;
+    let mut passed = false;
+    let greatest = theory.pull_off()?;
+    for (step, value) in scene.loading.path.iter().copied().enumerate() {
+        let (next, held) = theory.follow(branch, value, by_force)?;
+        touched |= branch == Branch::Touching;
+        branch = next;
+        // Pull-off is on the way only to what was in touch and is farther out than its greatest
+        // tension.
+        if let Some(greatest) = &greatest {
+            let beyond = match by_force {
+                true => value < greatest.force,
+                false => value < greatest.approach,
+            };
+            passed |= touched && beyond;
+        }
+        let point = match held {
+            Some(held) => Point {
+                area: PI * held.contact_radius * held.contact_radius / area,
+                answer: Some(if by_force { held.approach } else { held.force }),
+            },
+            None => Point {
+                area: 0.0,
+                answer: (!by_force).then_some(0.0),
+            },
+        };
+        steps.push(Some(point));
+        if step == deepest
+            && let Some(held) = held
+        {
+            let grid = Grid::new(cells, size);
+            profile = Some(averaged(&grid, |x, y| {
+                let r = (x - centre[0]).hypot(y - centre[1]);
+                if r < held.cohesive_radius {
+                    theory.pressure(&held, r)
+                } else {
+                    0.0
+                }
+            }));
+        }
+    }
+    let pull_off = greatest.filter(|_| passed).map(|held| -held.force);
+    Ok(Some(reference(words, steps, pull_off, profile)))
+}
+
+/// Which equilibrium the sphere is in.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+enum Branch {
+    Apart,
+    /// Attracted without touching.
+    Open,
+    Touching,
+}
+
+impl Theory {
+    /// The state of greatest tension; none without adhesion.
+    fn pull_off(&self) -> Result<Option<Held>, TheoryError> {
+        Ok(match self {
+            Theory::Hertz(_) => None,
+            Theory::Jkr(sphere) => {
+                let scales = sphere.maugis_scales()?;
+                Some(jkr_at(sphere, scales.radius * jkr::pull_off()))
+            }
+            Theory::Maugis(theory, scales) => Some(scaled(&theory.pull_off()?, scales)),
+        })
+    }
+
+    /// Goes on to the next value of a path from a branch: what was in touch stays so while it can.
+    fn follow(
+        &self,
+        from: Branch,
+        value: f64,
+        by_force: bool,
+    ) -> Result<(Branch, Option<Held>), TheoryError> {
+        let touching = self.touching(value, by_force)?;
+        let apart = Ok((Branch::Apart, None));
+        let (theory, scales) = match self {
+            Theory::Hertz(_) | Theory::Jkr(_) => {
+                // Without a range nothing is felt before the surfaces meet.
+                let meets = from == Branch::Touching || value >= 0.0;
+                return match touching.filter(|_| meets) {
+                    Some(held) => Ok((Branch::Touching, Some(held))),
+                    None => apart,
+                };
+            }
+            Theory::Maugis(theory, scales) => (theory, scales),
+        };
+        if by_force {
+            // Under a load that only presses, what is apart meets; under tension it stays apart.
+            let meets = from == Branch::Touching || value > 0.0;
+            return match touching.filter(|_| meets) {
+                Some(held) => Ok((Branch::Touching, Some(held))),
+                None => apart,
+            };
+        }
+        let approach = value / scales.approach;
+        if from == Branch::Apart && approach < -theory.range() {
+            return apart;
+        }
+        let fold = 8.0 / (3.0 * PI) * theory.lambda();
+        let open = theory
+            .open_states_at_approach(approach)?
+            .into_iter()
+            .rev()
+            .find(|state| state.cohesive_radius >= fold * (1.0 - 1e-12))
+            .map(|state| (Branch::Open, Some(scaled(&state, scales))));
+        let touching = touching.map(|held| (Branch::Touching, Some(held)));
+        let found = match from {
+            Branch::Touching => touching.or(open),
+            Branch::Open | Branch::Apart => open.or(touching),
+        };
+        found.map_or(apart, Ok)
+    }
+
+    /// The stable touching state at an approach or under a force.
+    fn touching(&self, value: f64, by_force: bool) -> Result<Option<Held>, TheoryError> {
+        Ok(match self {
+            Theory::Hertz(sphere) => {
+                if value <= 0.0 {
+                    return Ok(None);
+                }
+                let radius = match by_force {
+                    true => hertz::contact_radius(sphere, value)?,
+                    false => hertz::contact_radius_at_approach(sphere, value)?,
+                };
+                Some(Held {
+                    contact_radius: radius,
+                    cohesive_radius: radius,
+                    force: hertz::force(sphere, radius),
+                    approach: hertz::approach(sphere, radius),
+                })
+            }
+            Theory::Jkr(sphere) => {
+                // Beyond the fold there is none.
+                let radius = match by_force {
+                    true => jkr::contact_radius(sphere, value),
+                    false => jkr::contact_radius_at_approach(sphere, value),
+                };
+                radius.ok().map(|radius| jkr_at(sphere, radius))
+            }
+            Theory::Maugis(theory, scales) => {
+                let states = match by_force {
+                    true => theory.states_at_force(value / scales.force)?,
+                    false => theory.states_at_approach(value / scales.approach)?,
+                };
+                // Below the fold's lambda the contact closes to a point first.
+                let least = if theory.lambda() > FOLD_LAMBDA || by_force {
+                    0.0
+                } else {
+                    1e-8
+                };
+                let last = states.last().filter(|state| state.contact_radius > least);
+                last.map(|state| scaled(state, scales))
+            }
+        })
+    }
+
+    /// Net pressure, Pa.
+    fn pressure(&self, held: &Held, r: f64) -> f64 {
+        match self {
+            Theory::Hertz(sphere) => hertz::pressure(sphere, held.contact_radius, r),
+            Theory::Jkr(sphere) => jkr::pressure(sphere, held.contact_radius, r),
+            Theory::Maugis(theory, scales) => {
+                let state = crate::theory::maugis_dugdale::State {
+                    contact_radius: held.contact_radius / scales.radius,
+                    cohesive_radius: held.cohesive_radius / scales.radius,
+                    force: 0.0,
+                    approach: 0.0,
+                    central_gap: 0.0,
+                };
+                let unit = scales.force / (scales.radius * scales.radius);
+                unit * theory.pressure(&state, r / scales.radius)
+            }
+        }
+    }
+}
+
+fn jkr_at(sphere: &Sphere, radius: f64) -> Held {
+    Held {
+        contact_radius: radius,
+        cohesive_radius: radius,
+        force: jkr::force(sphere, radius),
+        approach: jkr::approach(sphere, radius),
+    }
+}
+
+fn scaled(state: &crate::theory::maugis_dugdale::State, scales: &MaugisScales) -> Held {
+    Held {
+        contact_radius: state.contact_radius * scales.radius,
+        cohesive_radius: state.cohesive_radius * scales.radius,
+        force: state.force * scales.force,
+        approach: state.approach * scales.approach,
+    }
+}
+
+/// Means of `pressure(x, y)` over the cells of a grid, shape `[ny, nx]`.
+fn averaged(grid: &Grid, pressure: impl Fn(f64, f64) -> f64) -> Vec<f64> {
+    let offset = |sample: usize, pixel: f64| ((sample as f64 + 0.5) / SAMPLES as f64 - 0.5) * pixel;
+    let mut means = Vec::with_capacity(grid.len());
+    for iy in 0..grid.ny {
+        for ix in 0..grid.nx {
+            let mut sum = 0.0;
+            for sy in 0..SAMPLES {
+                let y = iy as f64 * grid.dy() + offset(sy, grid.dy());
+                for sx in 0..SAMPLES {
+                    let here = pressure(ix as f64 * grid.dx() + offset(sx, grid.dx()), y);
+                    // On the very edge of a crack there is no pressure to speak of.
+                    sum += if here.is_finite() { here } else { 0.0 };
+                }
+            }
+            means.push(sum / (SAMPLES * SAMPLES) as f64);
+        }
+    }
+    means
+}
+
+fn wave(
+    scene: &Scene,
+    amplitude: f64,
+    wavelength: [f64; 2],
+    size: [f64; 2],
+    cells: [usize; 2],
+) -> Result<Option<Reference>, TheoryError> {
+    let (length, across) = match wavelength.map(f64::is_finite) {
+        [true, false] => (wavelength[0], 0),
+        [false, true] => (wavelength[1], 1),
+        _ => return Ok(None),
+    };
+    let by_pressure = match scene.loading.control {
+        Control::Pressure => 1.0,
+        Control::Force => 1.0 / (size[0] * size[1]),
+        Control::Approach | Control::MeanGap => return Ok(None),
+    };
+    let unit =
+        westergaard::full_contact_pressure(scene.solid.contact_modulus, amplitude.abs(), length)?;
+    // A negative amplitude has its crests half a wave on.
+    let shift = if amplitude < 0.0 { 0.5 } else { 0.0 };
+    let deepest = deepest(scene);
+    let mut profile = None;
+    let mut steps = Vec::new();
+    for (step, value) in scene.loading.path.iter().enumerate() {
+        let mean = value * by_pressure / unit;
+        if mean <= 0.0 {
+            steps.push(Some(Point {
+                area: 0.0,
+                answer: None,
+            }));
+            continue;
+        }
+        let (held, beyond) = (mean.min(1.0), (mean - 1.0).max(0.0));
+        let half_width = westergaard::half_width(held)?;
+        steps.push(Some(Point {
+            area: 2.0 * half_width,
+            answer: Some(amplitude.abs() * westergaard::mean_gap(held)?),
+        }));
+        if step == deepest {
+            let grid = Grid::new(cells, size);
+            profile = Some(averaged(&grid, |x, y| {
+                let place = [x, y][across] / length + shift;
+                let from_crest = place - place.round();
+                let pressure = westergaard::pressure(half_width, from_crest);
+                unit * (pressure.unwrap_or(0.0) + beyond)
+            }));
+        }
+    }
+    Ok(Some(reference("Westergaard", steps, None, profile)))
+}

@@ -1,0 +1,170 @@
+//! How far a run is from the reference.
+
+use super::measure::{Measured, Point};
+use super::reference::Reference;
+
+/// Relative errors; `None` where there is nothing to compare.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Errors {
+    /// Of contact area: the area between the two curves over the steps, over that below the
+    /// reference's.
+    pub area: Option<f64>,
+    /// The same of the force, of the mean gap or of the approach: what answers the path.
+    pub force: Option<f64>,
+    /// Root mean square of the pressure over the cells, over that of the reference.
+    pub pressure: Option<f64>,
+    /// Of the greatest tension.
+    pub pull_off: Option<f64>,
+}
+
+impl Errors {
+    /// Their names in tables, in the order of [`Errors::all`].
+    pub const NAMES: [&str; 4] = ["area", "force", "pressure", "pull_off"];
+
+    /// All four.
+    pub fn all(&self) -> [Option<f64>; 4] {
+        [self.area, self.force, self.pressure, self.pull_off]
+    }
+
+    /// The largest of those that are known.
+    pub fn largest(&self) -> Option<f64> {
+        self.all().into_iter().flatten().reduce(f64::max)
+    }
+}
+
+/// Errors of a run; none where a step did not converge.
+pub fn judge(found: &Measured, reference: &Reference) -> Errors {
+    if !found.converged {
+        return Errors::default();
+    }
+    let difference = distance(
+        [&found.steps, &reference.steps],
+        [found.pull_off, reference.pull_off],
+        [found.profile.as_deref(), reference.profile.as_deref()],
+    );
+    Errors {
+        // What the reference itself does not have is not judged.
+        pull_off: reference.pull_off.and(difference.pull_off),
+        ..difference
+    }
+}
+
+/// How far a run is from another one of the same steps.
+pub fn change(found: &Measured, base: &Measured) -> Errors {
+    let steps: Vec<Option<Point>> = base.steps.clone();
+    distance(
+        [&found.steps, &steps],
+        [found.pull_off, base.pull_off],
+        [found.profile.as_deref(), base.profile.as_deref()],
+    )
+}
+
+fn distance(
+    steps: [&[Option<Point>]; 2],
+    pull_off: [Option<f64>; 2],
+    profile: [Option<&[f64]>; 2],
+) -> Errors {
+    let both = || {
+        let pairs = steps[0].iter().zip(steps[1]);
+        pairs.filter_map(|(found, there)| Some(((*found)?, (*there)?)))
+    };
+    let area = between(both().map(|(found, there)| (Some(found.area), Some(there.area))));
+    let force = between(both().map(|(found, there)| (found.answer, there.answer)));
+    let pull_off = match pull_off {
+        [found, Some(there)] => Some((found.unwrap_or(0.0) - there).abs() / there),
+        [_, None] => None,
+    };
+    let pressure = match profile {
+        [Some(found), Some(there)] => {
+            let square = |values: &mut dyn Iterator<Item = f64>| values.map(|v| v * v).sum::<f64>();
+            let whole = square(&mut there.iter().copied());
+            let off = square(&mut found.iter().zip(there).map(|(a, b)| a - b));
+            (whole > 0.0).then(|| (off / whole).sqrt())
+        }
+        _ => None,
+    };
+    Errors {
+        area,
+        force,
+        pressure,
+        pull_off,
+    }
+}
+
+/// The area between two curves over that below the second one, a step a unit. A step at which one of
+/// them has no value is all wrong.
+fn between(pairs: impl Iterator<Item = (Option<f64>, Option<f64>)>) -> Option<f64> {
+    let (mut off, mut whole) = (0.0, 0.0);
+    for (found, there) in pairs {
+        off += match (found, there) {
+            (Some(found), Some(there)) => (found - there).abs(),
+            (found, there) => found.or(there).unwrap_or(0.0).abs(),
+        };
+        whole += there.unwrap_or(0.0).abs();
+    }
+    (whole > 0.0).then(|| off / whole)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn measured(values: &[(f64, Option<f64>)], profile: &[f64]) -> Measured {
+        Measured {
+            steps: values
+                .iter()
+                .map(|(area, answer)| {
+                    Some(Point {
+                        area: *area,
+                        answer: *answer,
+                    })
+                })
+                .collect(),
+            pull_off: None,
+            pull_off_step: 0.0,
+            profile: Some(profile.to_vec()),
+            seconds: 1.0,
+            iterations: 1,
+            transforms: 1.0,
+            walked: values.len(),
+            converged: true,
+        }
+    }
+
+    #[test]
+    fn errors_are_the_areas_between_curves() {
+        let base = measured(
+            &[(0.1, Some(1.0)), (0.4, Some(-4.0)), (0.0, None)],
+            &[3.0, 4.0],
+        );
+        let mut found = measured(
+            &[(0.12, Some(1.5)), (0.4, Some(-4.0)), (0.0, None)],
+            &[3.0, 4.5],
+        );
+        let errors = change(&found, &base);
+        assert!((errors.area.expect("areas") - 0.04).abs() < 1e-12);
+        assert!((errors.force.expect("answers") - 0.1).abs() < 1e-12);
+        assert!((errors.pressure.expect("a profile") - 0.1).abs() < 1e-12);
+        assert_eq!(errors.pull_off, None);
+        assert!(errors.largest() >= errors.force);
+        // A step that was left out is not compared; one that let go is all wrong.
+        found.steps[0] = None;
+        found.steps[1] = Some(Point {
+            area: 0.0,
+            answer: None,
+        });
+        let errors = change(&found, &base);
+        assert_eq!((errors.area, errors.force), (Some(1.0), Some(1.0)));
+    }
+
+    #[test]
+    fn pull_off_that_does_not_come_is_all_wrong() {
+        let mut base = measured(&[(0.1, Some(1.0))], &[1.0]);
+        base.pull_off = Some(2.0);
+        let mut found = base.clone();
+        found.pull_off = Some(2.5);
+        assert_eq!(change(&found, &base).pull_off, Some(0.25));
+        found.pull_off = None;
+        assert_eq!(change(&found, &base).pull_off, Some(1.0));
+    }
+}

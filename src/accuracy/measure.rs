@@ -1,0 +1,202 @@
+//! One setting, run and measured.
+
+use std::time::Instant;
+
+use super::cells;
+use super::steps::{Steps, Walk};
+use crate::backend::BackendError;
+use crate::kernel::Scalars;
+use crate::scene::{Boundary, Control, Scene};
+use crate::solver::MakeBackend;
+use crate::study::{FinishedStep, Observer, Setup, State, StepRow, WalkError, walk};
+
+/// What is compared at a step of the scene.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Point {
+    /// Share of the nominal area in contact, less the pixel staircase where there is a wall.
+    pub area: f64,
+    /// What answers the path: force, N; under a load the mean gap, m, on a free boundary the
+    /// approach. `None` where the surfaces are apart and have no place.
+    pub answer: Option<f64>,
+}
+
+/// What a run of a setting gave.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Measured {
+    /// At each step of the scene; `None` for those that are not compared.
+    pub steps: Vec<Option<Point>>,
+    /// Greatest tension of the path, N, positive; `None` where the path shows none.
+    pub pull_off: Option<f64>,
+    /// How much more tension was asked next, N, and not carried; 0 where a position is held.
+    pub pull_off_step: f64,
+    /// Mean pressure, Pa, over the cells of the coarsest grid at the step that presses hardest.
+    pub profile: Option<Vec<f64>>,
+    /// Wall-clock seconds of the steps.
+    pub seconds: f64,
+    /// Iterations of all steps.
+    pub iterations: usize,
+    /// Real two-dimensional transforms.
+    pub transforms: f64,
+    /// Steps walked.
+    pub walked: usize,
+    /// Whether every step converged.
+    pub converged: bool,
+}
+
+/// Why a run has no end.
+#[derive(Debug)]
+pub enum Unfinished {
+    /// The watch ended it.
+    Stopped,
+    /// The device failed.
+    Backend(BackendError),
+}
+
+/// The step of a path that presses hardest, from 0.
+pub fn deepest(scene: &Scene) -> usize {
+    let path = &scene.loading.path;
+    let closer = |a: f64, b: f64| match scene.loading.control {
+        Control::MeanGap => a < b,
+        _ => a > b,
+    };
+    (1..path.len()).fold(0, |best, step| {
+        if closer(path[step], path[best]) {
+            step
+        } else {
+            best
+        }
+    })
+}
+
+/// Whether the path prescribes a load.
+pub fn is_load(control: Control) -> bool {
+    matches!(control, Control::Pressure | Control::Force)
+}
+
+/// Runs a setting whose scene is in `setup`, along `path`; `watch` sees the step and the iteration
+/// and says whether to go on. Only the steps that half of the path has as well are compared, so that
+/// no setting is judged by fewer than another.
+pub fn measure(
+    setup: &Setup,
+    path: &Walk,
+    scene: &Scene,
+    cells: [usize; 2],
+    make_backend: MakeBackend,
+    watch: &mut dyn FnMut(usize, &Scalars) -> bool,
+) -> Result<Measured, Unfinished> {
+    let deepest = deepest(scene);
+    let mut observer = Watch {
+        setup,
+        profiled: path.scene_step.iter().position(|own| *own == Some(deepest)),
+        cells,
+        profile: None,
+        watch,
+    };
+    let clock = Instant::now();
+    let end = match walk(setup, make_backend, &mut observer) {
+        Ok(end) => end,
+        Err(WalkError::Backend(error)) => return Err(Unfinished::Backend(error)),
+        Err(WalkError::Observer(never)) => match never {},
+    };
+    let seconds = clock.elapsed().as_secs_f64();
+    let profile = observer.profile;
+    if end.interrupted {
+        return Err(Unfinished::Stopped);
+    }
+    let compared = compared(scene);
+    let mut steps = vec![None; scene.loading.path.len()];
+    for (row, own) in end.rows.iter().zip(&path.scene_step) {
+        if let Some(own) = own.filter(|own| compared[*own]) {
+            steps[own] = Some(point(row, scene));
+        }
+    }
+    let (pull_off, pull_off_step) = pull_off(&end.rows, &path.loading.path, scene).unzip();
+    Ok(Measured {
+        steps,
+        pull_off,
+        pull_off_step: pull_off_step.unwrap_or(0.0),
+        profile,
+        seconds,
+        iterations: end.rows.iter().map(|row| row.iterations).sum(),
+        transforms: end.transforms,
+        walked: end.rows.len(),
+        converged: end.rows.iter().all(|row| row.converged),
+    })
+}
+
+fn point(row: &StepRow, scene: &Scene) -> Point {
+    let answer = match (is_load(scene.loading.control), scene.grid.boundary) {
+        (true, Boundary::Periodic) => row.mean_gap,
+        (true, Boundary::Free) => row.approach,
+        (false, _) => Some(row.force),
+    };
+    Point {
+        area: row
+            .contact_area_fraction_corrected
+            .unwrap_or(row.contact_area_fraction),
+        answer,
+    }
+}
+
+/// Which steps of a scene are compared: those of the halved path.
+pub fn compared(scene: &Scene) -> Vec<bool> {
+    let mut compared = vec![false; scene.loading.path.len()];
+    for own in Steps::Halved
+        .of(&scene.loading)
+        .scene_step
+        .into_iter()
+        .flatten()
+    {
+        compared[own] = true;
+    }
+    compared
+}
+
+/// The greatest tension, where the path shows that there is no greater one: a held position has a
+/// step beyond it, a load has let go. With how much more was asked then.
+fn pull_off(rows: &[StepRow], path: &[f64], scene: &Scene) -> Option<(f64, f64)> {
+    let (at, greatest) = rows
+        .iter()
+        .enumerate()
+        .filter(|(_, row)| row.force < 0.0)
+        .min_by(|a, b| a.1.force.total_cmp(&b.1.force))?;
+    let carried = -greatest.force;
+    if !is_load(scene.loading.control) {
+        return (at + 1 < rows.len()).then_some((carried, 0.0));
+    }
+    let parted = (at + 1..rows.len()).find(|step| rows[*step].state == State::Separated)?;
+    // Pressure or force, in the ratio of the two at the carried load.
+    let asked = -path[parted] * carried / -path[at];
+    Some((carried, (asked - carried).max(0.0)))
+}
+
+/// Keeps the pressure of one step.
+struct Watch<'a> {
+    setup: &'a Setup,
+    /// Which step of the path, from 0.
+    profiled: Option<usize>,
+    cells: [usize; 2],
+    profile: Option<Vec<f64>>,
+    watch: &'a mut dyn FnMut(usize, &Scalars) -> bool,
+}
+
+impl Observer for Watch<'_> {
+    type Error = std::convert::Infallible;
+
+    fn step(&mut self, step: FinishedStep) -> Result<(), Self::Error> {
+        if self.profiled == Some(step.row.step - 1) {
+            let grid = &self.setup.surface.grid;
+            let boundary = self.setup.scene.grid.boundary;
+            self.profile = Some(match &step.evaluation {
+                Some(fields) => cells::means(&fields.pressure, grid, self.cells, boundary),
+                // Apart there is no pressure.
+                None => vec![0.0; self.cells[0] * self.cells[1]],
+            });
+        }
+        Ok(())
+    }
+
+    fn iteration(&mut self, step: usize, scalars: &Scalars) -> bool {
+        (self.watch)(step, scalars)
+    }
+}

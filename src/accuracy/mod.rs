@@ -1,0 +1,43 @@
+//! What accuracy costs: a scene over grids, tolerances, precisions, tapers, step counts, backends
+//! and models, each with its error and its seconds.
+//!
+//! | question | file |
+//! |---|---|
+//! | what is tried | `setting`, `steps` |
+//! | is it the same surface on every grid | `same_surface` |
+//! | what is compared | `measure`, `cells`, `judge` |
+//! | with what | `reference`: `closed`, or `richardson` on finer grids |
+//! | what there is time for | `study`, `forecast` |
+//! | what is worth its seconds | `front` |
+//! | how it is shown | `table`, `picture` |
+
+mod cells;
+mod closed;
+mod error;
+mod forecast;
+mod front;
+mod judge;
+mod measure;
+mod picture;
+mod reference;
+mod richardson;
+mod same_surface;
+mod setting;
+mod steps;
+mod study;
+mod table;
+
+pub use cells::means;
+pub use closed::closed;
+pub use error::AccuracyError;
+pub use front::{cheapest, pareto};
+pub use judge::Errors;
+pub use measure::{Measured, Point};
+pub use picture::picture;
+pub use reference::Reference;
+pub use richardson::{Extrapolated, extrapolate};
+pub use same_surface::SameSurface;
+pub use setting::{Model, Setting, Taper, Varied, others};
+pub use steps::{Steps, Walk};
+pub use study::{Bench, LEAST_POINTS, LeftOut, Listener, Report, Row, Study, Workplace, duration};
+pub use table::{LEVELS, csv, screen, write_csv};

@@ -1,0 +1,213 @@
+//! What settings are judged by: a closed form, or the same scene in double precision on finer grids.
+
+use super::judge::{Errors, change};
+use super::measure::{Measured, Point};
+use super::richardson::{Extrapolated, extrapolate};
+
+/// How much finer each grid is than the one before.
+const RATIO: f64 = 2.0;
+
+/// The answer that errors are taken from.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Reference {
+    /// At each step of the scene; `None` where it says nothing.
+    pub steps: Vec<Option<Point>>,
+    /// Greatest tension, N, positive.
+    pub pull_off: Option<f64>,
+    /// Mean pressure over the cells of the coarsest grid, Pa.
+    pub profile: Option<Vec<f64>>,
+    /// How far it may itself be off, relative, as errors are.
+    pub uncertainty: Errors,
+    /// The orders of convergence that its grids show, as in [`Errors::all`].
+    pub orders: [Option<f64>; 4],
+    /// What it is, in words.
+    pub words: String,
+    /// Its finest grid; `None` for a closed form.
+    pub points: Option<[usize; 2]>,
+}
+
+impl Reference {
+    /// Extrapolates from runs of the same path on grids each twice as fine as the one before, the
+    /// coarsest first. Needs one; the uncertainty of one alone is infinite.
+    pub fn numeric(levels: &[Measured], points: [usize; 2]) -> Option<Reference> {
+        let fine = levels.last()?;
+        let areas = Curve::of(levels, |point| Some(point.area));
+        let answers = Curve::of(levels, |point| point.answer);
+        let steps = fine.steps.iter().enumerate().map(|(step, own)| {
+            (*own).map(|own| Point {
+                area: areas.values[step].unwrap_or(own.area),
+                answer: answers.values[step],
+            })
+        });
+        let profiles: Option<Vec<Vec<f64>>> =
+            levels.iter().map(|level| level.profile.clone()).collect();
+        let profile = profiles.map(|profiles| extrapolate(&profiles, RATIO));
+        let tensions: Option<Vec<Vec<f64>>> = levels
+            .iter()
+            .map(|level| level.pull_off.map(|force| vec![force]))
+            .collect();
+        let tension = tensions.map(|tensions| extrapolate(&tensions, RATIO));
+        let relative = |found: &Extrapolated, more: f64| {
+            let size =
+                |values: &[f64]| values.iter().map(|value| value * value).sum::<f64>().sqrt();
+            let scale = size(&found.values);
+            (scale > 0.0).then(|| (size(&found.uncertainty) + more) / scale)
+        };
+        let pull_off = tension.as_ref().map(|found| found.values[0]);
+        Some(Reference {
+            steps: steps.collect(),
+            pull_off: pull_off.or(fine.pull_off),
+            profile: profile.as_ref().map(|found| found.values.clone()),
+            uncertainty: Errors {
+                area: areas.uncertainty(),
+                force: answers.uncertainty(),
+                pressure: profile.as_ref().and_then(|found| relative(found, 0.0)),
+                pull_off: match &tension {
+                    Some(found) => relative(found, fine.pull_off_step),
+                    // Some grid did not let go at all.
+                    None => fine.pull_off.map(|_| f64::INFINITY),
+                },
+            },
+            orders: [
+                areas.order,
+                answers.order,
+                profile.and_then(|found| found.order),
+                tension.and_then(|found| found.order),
+            ],
+            words: format!(
+                "double precision on {} x {} points with twice the steps, extrapolated from {} grids",
+                points[0],
+                points[1],
+                levels.len().min(3)
+            ),
+            points: Some(points),
+        })
+    }
+
+    /// Adds what walking the path in twice the steps changed on one grid: what a still finer path
+    /// would change is no more.
+    pub fn add_steps(&mut self, own: &Measured, doubled: &Measured) {
+        let change = change(own, doubled);
+        let add =
+            |known: Option<f64>, more: Option<f64>| known.map(|known| known + more.unwrap_or(0.0));
+        self.uncertainty = Errors {
+            area: add(self.uncertainty.area, change.area),
+            force: add(self.uncertainty.force, change.force),
+            pressure: add(self.uncertainty.pressure, change.pressure),
+            pull_off: add(self.uncertainty.pull_off, change.pull_off),
+        };
+    }
+}
+
+/// A value at each step of the scene, extrapolated over grids.
+struct Curve {
+    values: Vec<Option<f64>>,
+    /// How far each may be off.
+    off: Vec<f64>,
+    order: Option<f64>,
+}
+
+impl Curve {
+    fn of(levels: &[Measured], of: impl Fn(&Point) -> Option<f64>) -> Curve {
+        let value = |level: &Measured, step: usize| level.steps[step].as_ref().and_then(&of);
+        let count = levels.last().map_or(0, |fine| fine.steps.len());
+        // The last three say it; one of them that has let go says nothing of how it goes on.
+        let last = &levels[levels.len().saturating_sub(3)..];
+        let common: Vec<usize> = (0..count)
+            .filter(|step| last.iter().all(|level| value(level, *step).is_some()))
+            .collect();
+        let grids: Vec<Vec<f64>> = last
+            .iter()
+            .map(|level| {
+                common
+                    .iter()
+                    .filter_map(|step| value(level, *step))
+                    .collect()
+            })
+            .collect();
+        let found = extrapolate(&grids, RATIO);
+        let mut values: Vec<Option<f64>> = (0..count)
+            .map(|step| last.last().and_then(|fine| value(fine, step)))
+            .collect();
+        // Where grids disagree on whether there is a value, all of it is in doubt.
+        let mut off: Vec<f64> = (0..count)
+            .map(|step| {
+                let known = last.iter().filter_map(|level| value(level, step));
+                known.map(f64::abs).fold(0.0, f64::max)
+            })
+            .collect();
+        for (index, step) in common.into_iter().enumerate() {
+            values[step] = Some(found.values[index]);
+            off[step] = found.uncertainty[index];
+        }
+        Curve {
+            values,
+            off,
+            order: found.order,
+        }
+    }
+
+    /// As errors are: the area between over the area below.
+    fn uncertainty(&self) -> Option<f64> {
+        let below: f64 = self.values.iter().flatten().map(|value| value.abs()).sum();
+        (below > 0.0).then(|| self.off.iter().sum::<f64>() / below)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// Areas `0.2 + h`, gaps `1 - 2 h` of which one grid has none, and a pull-off of `3 + h`.
+    fn level(h: f64, parted: bool) -> Measured {
+        let point = |area: f64, answer: Option<f64>| Some(Point { area, answer });
+        Measured {
+            steps: vec![
+                point(0.2 + h, Some(1.0 - 2.0 * h)),
+                None,
+                point(0.0, (!parted).then_some(4.0)),
+            ],
+            pull_off: Some(3.0 + h),
+            pull_off_step: 0.0,
+            profile: Some(vec![5.0 + h, 0.0]),
+            seconds: 1.0,
+            iterations: 1,
+            transforms: 1.0,
+            walked: 3,
+            converged: true,
+        }
+    }
+
+    #[test]
+    fn three_grids_of_first_order_give_the_limit() {
+        let levels = [level(0.04, false), level(0.02, false), level(0.01, false)];
+        let found = Reference::numeric(&levels, [64, 64]).expect("three grids");
+        let first = found.steps[0].expect("compared");
+        assert!((first.area - 0.2).abs() < 1e-12, "{}", first.area);
+        assert!((first.answer.expect("held") - 1.0).abs() < 1e-12);
+        assert_eq!(found.steps[1], None);
+        assert!((found.pull_off.expect("a tension") - 3.0).abs() < 1e-12);
+        assert!((found.profile.expect("a field")[0] - 5.0).abs() < 1e-12);
+        // What is left on the finest grid: 0.01 of 0.2, 0.02 of 1 + 4, 0.01 of 5, 0.01 of 3.
+        let expected = [0.05, 0.004, 0.002, 0.01 / 3.0];
+        for (found, expected) in found.uncertainty.all().into_iter().zip(expected) {
+            assert!((found.expect("known") - expected).abs() < 1e-9);
+        }
+        for order in found.orders {
+            assert!((order.expect("an order") - 1.0).abs() < 1e-9);
+        }
+    }
+
+    #[test]
+    fn what_grids_disagree_on_is_in_doubt() {
+        let mut levels = [level(0.04, false), level(0.02, true), level(0.01, false)];
+        levels[2].pull_off_step = 0.3;
+        let found = Reference::numeric(&levels, [64, 64]).expect("three grids");
+        let last = found.steps[2].expect("compared");
+        assert_eq!(last.answer, Some(4.0));
+        // All of the 4 of 5, and 0.02.
+        assert!((found.uncertainty.force.expect("known") - 4.02 / 5.0).abs() < 1e-9);
+        // A load was asked that is 0.3 of 3 more.
+        assert!((found.uncertainty.pull_off.expect("known") - 0.31 / 3.0).abs() < 1e-9);
+    }
+}

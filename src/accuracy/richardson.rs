@@ -1,0 +1,118 @@
+//! Richardson's extrapolation from three grids, with the order that they show.
+//!
+//! Richardson 1911, doi:10.1098/rsta.1911.0009; the uncertainty is the whole of the correction,
+//! as Roache 1994 (doi:10.1115/1.2910291) advises to within his safety factor.
+
+/// Orders outside of these are no convergence to build on.
+const LEAST_ORDER: f64 = 0.3;
+/// The method is of second order at most; a higher one is luck, and would make the rest look small.
+const MOST_ORDER: f64 = 2.0;
+
+/// A value for no pixel at all, and what is known of it.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Extrapolated {
+    /// The extrapolated values; those of the finest grid where the grids show no order.
+    pub values: Vec<f64>,
+    /// How far each may be off.
+    pub uncertainty: Vec<f64>,
+    /// The order that the grids show, before it is limited.
+    pub order: Option<f64>,
+}
+
+/// Extrapolates the same values on grids, the coarsest first, each `ratio` times as fine as the one
+/// before. Needs the last three; with two the difference is the uncertainty, with one it is unknown
+/// and infinite.
+pub fn extrapolate(grids: &[Vec<f64>], ratio: f64) -> Extrapolated {
+    let Some(fine) = grids.last() else {
+        return Extrapolated {
+            values: Vec::new(),
+            uncertainty: Vec::new(),
+            order: None,
+        };
+    };
+    let count = grids.len();
+    let change = |to: usize| -> Vec<f64> {
+        let pairs = grids[to].iter().zip(&grids[to - 1]);
+        pairs.map(|(to, from)| to - from).collect()
+    };
+    if count == 1 {
+        return Extrapolated {
+            values: fine.clone(),
+            uncertainty: vec![f64::INFINITY; fine.len()],
+            order: None,
+        };
+    }
+    let last = change(count - 1);
+    let order = (count > 2)
+        .then(|| order(&change(count - 2), &last, ratio))
+        .flatten();
+    match order {
+        Some(order) if order >= LEAST_ORDER => {
+            let shrink = ratio.powf(order.min(MOST_ORDER)) - 1.0;
+            Extrapolated {
+                values: fine
+                    .iter()
+                    .zip(&last)
+                    .map(|(v, d)| v + d / shrink)
+                    .collect(),
+                uncertainty: last.iter().map(|d| (d / shrink).abs()).collect(),
+                order: Some(order),
+            }
+        }
+        _ => Extrapolated {
+            values: fine.clone(),
+            uncertainty: last.iter().map(|d| d.abs()).collect(),
+            order,
+        },
+    }
+}
+
+/// The order by which changes shrink from one grid to the next; `None` where one of them is 0 or no
+/// number.
+pub fn order(before: &[f64], after: &[f64], ratio: f64) -> Option<f64> {
+    let size = |change: &[f64]| change.iter().map(|d| d * d).sum::<f64>().sqrt();
+    let order = (size(before) / size(after)).ln() / ratio.ln();
+    order.is_finite().then_some(order)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// `1 + 0.5 h^order` and `-2 + 3 h^order` at h = 1/4, 1/8, 1/16.
+    fn grids(order: f64) -> Vec<Vec<f64>> {
+        [0.25_f64, 0.125, 0.0625]
+            .iter()
+            .map(|h| vec![1.0 + 0.5 * h.powf(order), -2.0 + 3.0 * h.powf(order)])
+            .collect()
+    }
+
+    #[test]
+    fn a_power_of_the_pixel_is_extrapolated_exactly() {
+        for order in [0.5, 1.0, 1.5, 2.0] {
+            let found = extrapolate(&grids(order), 2.0);
+            assert!((found.order.expect("an order") - order).abs() < 1e-9);
+            for (value, limit) in found.values.iter().zip([1.0, -2.0]) {
+                assert!((value - limit).abs() < 1e-12, "{order}: {value}");
+            }
+            // The uncertainty is what is left of the finest grid.
+            let left = 0.5 * 0.0625_f64.powf(order);
+            assert!((found.uncertainty[0] - left).abs() < 1e-12);
+        }
+        // Fourth order is taken as second: less is corrected, and the rest is within what is said.
+        let found = extrapolate(&grids(4.0), 2.0);
+        assert!((found.values[0] - 1.0).abs() <= found.uncertainty[0]);
+    }
+
+    #[test]
+    fn what_does_not_converge_is_not_extrapolated() {
+        let found = extrapolate(&[vec![1.0], vec![1.1], vec![1.3]], 2.0);
+        assert_eq!(found.values, [1.3]);
+        assert!((found.uncertainty[0] - 0.2).abs() < 1e-12);
+        let two = extrapolate(&[vec![1.0], vec![1.1]], 2.0);
+        assert!((two.uncertainty[0] - 0.1).abs() < 1e-12 && two.order.is_none());
+        assert_eq!(extrapolate(&[vec![1.0]], 2.0).uncertainty, [f64::INFINITY]);
+        let same = extrapolate(&[vec![1.0], vec![1.0], vec![1.0]], 2.0);
+        assert_eq!((same.values[0], same.uncertainty[0]), (1.0, 0.0));
+    }
+}

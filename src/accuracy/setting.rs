@@ -1,0 +1,323 @@
+//! A way to solve a scene: grid, arithmetic, tolerance, taper, steps, and which model.
+
+use super::steps::{Steps, Walk};
+use crate::grid::Grid;
+use crate::scene::{AdhesionScene, BackendName, LawName, Precision, Range, Scene, Treatment};
+use crate::study::resolve_law;
+
+/// What of the adhesion is solved.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Model {
+    /// All of it, together with the contact; without adhesion the hard wall.
+    Full,
+    /// The shortest range that the grid resolves, at the same work of adhesion.
+    AutoRange,
+    /// Attraction summed over the gap of the solution without it.
+    Dmt,
+    /// None of it.
+    NoAdhesion,
+}
+
+/// The taper of Maugis-Dugdale.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Taper {
+    /// As the scene has it.
+    AsGiven,
+    /// The law ends at once.
+    Sharp,
+    /// Twice as long as `auto`.
+    Twice,
+}
+
+/// What differs from the scene's own way on the same grid; the colours of the picture.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Varied {
+    /// Nothing.
+    Nothing,
+    /// The tolerance.
+    Tolerance,
+    /// Precision or backend.
+    Precision,
+    /// The taper.
+    Taper,
+    /// The number of steps.
+    Steps,
+    /// The range of the law.
+    Range,
+    /// The treatment of the attraction.
+    Dmt,
+    /// Whether there is any.
+    NoAdhesion,
+}
+
+impl Varied {
+    /// Every one of them.
+    pub const ALL: [Varied; 8] = [
+        Varied::Nothing,
+        Varied::Tolerance,
+        Varied::Precision,
+        Varied::Taper,
+        Varied::Steps,
+        Varied::Range,
+        Varied::Dmt,
+        Varied::NoAdhesion,
+    ];
+
+    /// The word in tables and legends.
+    pub fn name(self) -> &'static str {
+        match self {
+            Varied::Nothing => "grid",
+            Varied::Tolerance => "tolerance",
+            Varied::Precision => "precision",
+            Varied::Taper => "taper",
+            Varied::Steps => "steps",
+            Varied::Range => "range",
+            Varied::Dmt => "dmt",
+            Varied::NoAdhesion => "no adhesion",
+        }
+    }
+}
+
+/// A way to solve a scene.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Setting {
+    /// Points along x and y.
+    pub points: [usize; 2],
+    /// Where.
+    pub backend: BackendName,
+    /// In which arithmetic.
+    pub precision: Precision,
+    /// Largest accepted residual.
+    pub tolerance: f64,
+    /// How finely the path is walked.
+    pub steps: Steps,
+    /// What of the adhesion is solved.
+    pub model: Model,
+    /// How the law of Maugis and Dugdale ends.
+    pub taper: Taper,
+}
+
+impl Setting {
+    /// The scene's own way in double precision on a grid.
+    pub fn own(scene: &Scene, points: [usize; 2]) -> Setting {
+        Setting {
+            points,
+            backend: BackendName::Cpu,
+            precision: Precision::Double,
+            tolerance: scene.solver.tolerance,
+            steps: Steps::AsGiven,
+            model: Model::Full,
+            taper: Taper::AsGiven,
+        }
+    }
+
+    /// What differs from [`Setting::own`] on the same grid.
+    pub fn varied(&self, scene: &Scene) -> Varied {
+        match self {
+            Setting {
+                model: Model::NoAdhesion,
+                ..
+            } => Varied::NoAdhesion,
+            Setting {
+                model: Model::Dmt, ..
+            } => Varied::Dmt,
+            Setting {
+                model: Model::AutoRange,
+                ..
+            } => Varied::Range,
+            Setting {
+                taper: Taper::Sharp | Taper::Twice,
+                ..
+            } => Varied::Taper,
+            Setting {
+                steps: Steps::Halved | Steps::Doubled,
+                ..
+            } => Varied::Steps,
+            _ if self.backend != BackendName::Cpu || self.precision != Precision::Double => {
+                Varied::Precision
+            }
+            _ if self.tolerance != scene.solver.tolerance => Varied::Tolerance,
+            _ => Varied::Nothing,
+        }
+    }
+
+    /// The scene solved this way, but for its heights, and its path.
+    pub fn apply(&self, scene: &Scene) -> (Scene, Walk) {
+        let walk = self.steps.of(&scene.loading);
+        let mut changed = scene.clone();
+        changed.grid.points = Some(self.points);
+        changed.solver.backend = self.backend;
+        changed.solver.precision = self.precision;
+        changed.solver.tolerance = self.tolerance;
+        changed.loading = walk.loading.clone();
+        changed.adhesion = match self.model {
+            Model::NoAdhesion => None,
+            _ => scene.adhesion.clone().map(|law| self.law(law, &changed)),
+        };
+        if changed.adhesion.is_none() {
+            // The liquid is the law.
+            changed.capillary = None;
+        }
+        (changed, walk)
+    }
+
+    fn law(&self, law: AdhesionScene, scene: &Scene) -> AdhesionScene {
+        let range = match self.model {
+            Model::AutoRange => Range::Auto,
+            _ => law.range,
+        };
+        let taper = match (self.taper, range) {
+            (Taper::AsGiven, Range::Auto) => None,
+            (Taper::AsGiven, Range::Length(_)) => law.taper,
+            (Taper::Sharp, _) => Some(0.0),
+            (Taper::Twice, Range::Length(range)) => {
+                let pixel = scene.grid.size.map_or(0.0, |size| {
+                    let grid = Grid::new(self.points, size);
+                    grid.dx().max(grid.dy())
+                });
+                // `auto` is 2 sigma0 dx/E*.
+                let auto = 2.0 * law.work_of_adhesion / range * pixel / scene.solid.contact_modulus;
+                Some((2.0 * auto).min(2.0 * range))
+            }
+            (Taper::Twice, Range::Auto) => None,
+        };
+        AdhesionScene {
+            range,
+            taper,
+            treatment: match self.model {
+                Model::Dmt => Treatment::Dmt,
+                _ => Treatment::Full,
+            },
+            ..law
+        }
+    }
+
+    /// The word in the column `treatment`.
+    pub fn treatment(&self, scene: &Scene) -> &'static str {
+        match (self.model, &scene.adhesion) {
+            (Model::NoAdhesion, _) | (_, None) => "none",
+            (Model::Dmt, _) => Treatment::Dmt.name(),
+            _ => Treatment::Full.name(),
+        }
+    }
+
+    /// As in `256 x 256, double, 1e-6, sharp`.
+    pub fn words(&self, scene: &Scene) -> String {
+        let mut words = format!("{} x {}", self.points[0], self.points[1]);
+        if self.backend != BackendName::Cpu {
+            words.push_str(&format!(", {}", self.backend.name()));
+        }
+        words.push_str(&format!(
+            ", {}, {:e}",
+            self.precision.name(),
+            self.tolerance
+        ));
+        words.push_str(match self.steps {
+            Steps::AsGiven => "",
+            Steps::Halved => ", half the steps",
+            Steps::Doubled => ", twice the steps",
+        });
+        words.push_str(match self.taper {
+            Taper::AsGiven => "",
+            Taper::Sharp => ", no taper",
+            Taper::Twice => ", twice the taper",
+        });
+        words.push_str(match self.model {
+            Model::Full => "",
+            Model::AutoRange => ", range auto",
+            Model::Dmt => ", dmt",
+            Model::NoAdhesion if scene.adhesion.is_some() => ", no adhesion",
+            Model::NoAdhesion => "",
+        });
+        words
+    }
+}
+
+/// Relative difference up to which two ranges are one.
+const SAME_RANGE: f64 = 1e-9;
+
+/// Whether the grid asks for a longer range than the scene gives.
+fn is_longer(scene: &Scene, adhesion: &AdhesionScene, points: [usize; 2]) -> bool {
+    let (Range::Length(given), Some(size)) = (adhesion.range, scene.grid.size) else {
+        return false;
+    };
+    let grid = Grid::new(points, size);
+    let auto = AdhesionScene {
+        range: Range::Auto,
+        taper: None,
+        ..adhesion.clone()
+    };
+    let pixel = grid.dx().max(grid.dy());
+    let asked = resolve_law(&auto, pixel, scene.solid.contact_modulus, 1.0).range();
+    asked > given * (1.0 + SAME_RANGE)
+}
+
+/// Tolerances that are tried beside the scene's own.
+const TOLERANCES: [f64; 3] = [1e-2, 1e-4, 1e-8];
+
+/// Every way to solve a scene on a grid but its own: `arithmetics` are those at hand.
+pub fn others(
+    scene: &Scene,
+    points: [usize; 2],
+    arithmetics: &[(BackendName, Precision)],
+) -> Vec<Setting> {
+    let own = Setting::own(scene, points);
+    let mut found: Vec<Setting> = TOLERANCES
+        .iter()
+        .filter(|tolerance| **tolerance != own.tolerance)
+        .map(|tolerance| Setting {
+            tolerance: *tolerance,
+            ..own
+        })
+        .collect();
+    for (backend, precision) in arithmetics {
+        if (*backend, *precision) == (own.backend, own.precision) {
+            continue;
+        }
+        let tolerance = match precision {
+            Precision::Single => own.tolerance.max(Precision::SINGLE_FLOOR),
+            _ => own.tolerance,
+        };
+        found.push(Setting {
+            backend: *backend,
+            precision: *precision,
+            tolerance,
+            ..own
+        });
+    }
+    let path = &scene.loading.path;
+    if path.len() > 1 {
+        found.push(Setting {
+            steps: Steps::Doubled,
+            ..own
+        });
+    }
+    if Steps::Halved.of(&scene.loading).loading.path.len() < path.len() {
+        found.push(Setting {
+            steps: Steps::Halved,
+            ..own
+        });
+    }
+    let Some(adhesion) = &scene.adhesion else {
+        return found;
+    };
+    let tapers: &[Taper] = match (adhesion.law, adhesion.range, adhesion.taper) {
+        (LawName::MaugisDugdale, Range::Length(_), None) => &[Taper::Sharp, Taper::Twice],
+        (LawName::MaugisDugdale, _, None) => &[Taper::Sharp],
+        _ => &[],
+    };
+    found.extend(tapers.iter().map(|taper| Setting {
+        taper: *taper,
+        ..own
+    }));
+    let mut models = vec![Model::NoAdhesion];
+    // A solid that relaxes takes no summed attraction, and what a map cannot scale stays out.
+    if scene.solid.relaxation.is_empty() {
+        models.push(Model::Dmt);
+    }
+    if is_longer(scene, adhesion, points) {
+        models.push(Model::AutoRange);
+    }
+    found.extend(models.into_iter().map(|model| Setting { model, ..own }));
+    found
+}

@@ -1,0 +1,238 @@
+//! `accuracy.csv`, and the table on the screen.
+
+use std::fmt::Write;
+use std::fs;
+use std::path::Path;
+
+use super::front;
+use super::judge::Errors;
+use super::study::{Report, Row, duration};
+use crate::output::{OutputError, write_atomically};
+
+/// First line of `accuracy.csv`.
+const HEADER: &str = "points,backend,precision,tolerance,steps,treatment,taper,seconds,error_area,error_force,error_pressure,error_pull_off,reference_uncertainty,pareto,error_largest,varied,range,chi,zone_pixels,change,iterations,transforms,converged,uncertainty_area,uncertainty_force,uncertainty_pressure,uncertainty_pull_off";
+
+/// Errors for which the cheapest setting is named.
+pub const LEVELS: [f64; 3] = [0.1, 0.01, 0.001];
+
+/// A quantity of [`Errors`].
+type Quantity = fn(&Errors) -> Option<f64>;
+
+/// What is judged apart, and all of it together.
+const QUANTITIES: [(&str, Quantity); 5] = [
+    ("contact area", |errors| errors.area),
+    ("force or gap", |errors| errors.force),
+    ("pressure", |errors| errors.pressure),
+    ("pull-off", |errors| errors.pull_off),
+    ("all of them", Errors::largest),
+];
+
+/// The table of all rows so far as CSV. What is not known is empty.
+pub fn csv(report: &Report) -> String {
+    let mut text = format!("{HEADER}\n");
+    let front = report.front(Errors::largest);
+    let cell = |value: Option<f64>| value.map_or(String::new(), |value| format!("{value:e}"));
+    let uncertainty = report.reference.as_ref().map(|found| found.uncertainty);
+    for (index, row) in report.rows.iter().enumerate() {
+        let setting = &row.setting;
+        let mut cells = vec![
+            points(setting.points),
+            setting.backend.name().to_owned(),
+            setting.precision.name().to_owned(),
+            format!("{:e}", setting.tolerance),
+            row.measured.walked.to_string(),
+            setting.treatment(&report.scene).to_owned(),
+            cell(row.taper),
+            format!("{:.6}", row.measured.seconds),
+        ];
+        cells.extend(row.errors.all().map(cell));
+        cells.push(cell(uncertainty.and_then(|known| known.largest())));
+        cells.push(front.contains(&index).to_string());
+        cells.push(cell(row.errors.largest()));
+        cells.push(row.varied.name().to_owned());
+        cells.extend([row.range, row.chi, row.zone_pixels, row.change].map(cell));
+        cells.push(row.measured.iterations.to_string());
+        cells.push(format!("{:e}", row.measured.transforms));
+        cells.push(row.measured.converged.to_string());
+        cells.extend(uncertainty.unwrap_or_default().all().map(cell));
+        text.push_str(&cells.join(","));
+        text.push('\n');
+    }
+    text
+}
+
+/// Writes `accuracy.csv`, whole or not at all.
+///
+/// # Errors
+/// A file of that name that is no such table; what the system refuses.
+pub fn write_csv(path: &Path, report: &Report) -> Result<(), OutputError> {
+    let refused = |reason: &str| OutputError::Refused {
+        path: path.to_path_buf(),
+        reason: reason.to_owned(),
+    };
+    if path.parent().is_some_and(Path::is_file) {
+        return Err(refused("its folder is a file; name a folder with --out"));
+    }
+    if fs::read(path).is_ok_and(|old| !old.starts_with(HEADER.as_bytes())) {
+        return Err(refused(
+            "is not a table that tabor wrote; name another folder with --out",
+        ));
+    }
+    write_atomically(path, csv(report).as_bytes())
+}
+
+/// As in `256`, or `256x128`.
+fn points([nx, ny]: [usize; 2]) -> String {
+    match nx == ny {
+        true => nx.to_string(),
+        false => format!("{nx}x{ny}"),
+    }
+}
+
+/// In two digits.
+fn percent(value: Option<f64>) -> String {
+    match value.map(|value| 100.0 * value) {
+        None => "-".to_owned(),
+        Some(value) if !value.is_finite() => "?".to_owned(),
+        Some(0.0) => "0 %".to_owned(),
+        Some(value) if value < 1e-4 => format!("{value:.0e} %"),
+        Some(value) => {
+            let decimals = (1.0 - value.log10().floor()).max(0.0) as usize;
+            format!("{value:.decimals$} %")
+        }
+    }
+}
+
+/// The report for people.
+pub fn screen(report: &Report) -> String {
+    let mut text = String::new();
+    // Writing to a string cannot fail.
+    let mut line = |words: String| {
+        let _ = writeln!(text, "{words}");
+    };
+    if let Some(reference) = &report.reference {
+        line(format!("reference: {}", reference.words));
+    }
+    line(format!(
+        "  {:<58} {:>8} {:>9} {:>9} {:>9} {:>9}",
+        "setting", "seconds", "area", "force", "pressure", "pull-off"
+    ));
+    let front = report.front(Errors::largest);
+    let mut order: Vec<usize> = (0..report.rows.len()).collect();
+    order.sort_by_key(|index| {
+        let row = &report.rows[*index];
+        (row.varied as usize, row.setting.points)
+    });
+    for index in order {
+        let row = &report.rows[index];
+        line(format!(
+            "{} {}{}",
+            if front.contains(&index) { "*" } else { " " },
+            cells(
+                &row.setting.words(&report.scene),
+                &duration(row.measured.seconds),
+                &row.errors
+            ),
+            if row.measured.converged {
+                ""
+            } else {
+                "  not converged"
+            }
+        ));
+    }
+    if let Some(reference) = &report.reference {
+        line(format!(
+            "  {}",
+            cells("uncertainty of the reference", "", &reference.uncertainty)
+        ));
+        line(
+            "* on the front: nothing is both cheaper and better, by the largest of the errors"
+                .to_owned(),
+        );
+    }
+    for level in LEVELS {
+        line(format!(
+            "cheapest for {}:",
+            percent(Some(level)).replace(".0", "")
+        ));
+        for (name, of) in QUANTITIES {
+            if let Some(words) = cheapest(report, of, level) {
+                line(format!("  {name:<13} {words}"));
+            }
+        }
+    }
+    let orders: Vec<String> = QUANTITIES
+        .iter()
+        .filter_map(|(name, of)| Some(format!("{name} {:.1}", report.order(of)?)))
+        .collect();
+    if !orders.is_empty() {
+        line(format!(
+            "order of convergence with the grid: {}",
+            orders.join(", ")
+        ));
+    }
+    if !report.left_out.is_empty() {
+        line(format!("left out, {} settings:", report.left_out.len()));
+        for left in &report.left_out {
+            line(format!("  {}: {}", left.words, left.reason));
+        }
+    }
+    text
+}
+
+fn cells(words: &str, seconds: &str, errors: &Errors) -> String {
+    let [area, force, pressure, pull_off] = errors.all().map(percent);
+    format!("{words:<58} {seconds:>8} {area:>9} {force:>9} {pressure:>9} {pull_off:>9}")
+}
+
+/// The cheapest setting for a level, or that none reached it; `None` where nothing is judged.
+fn cheapest(report: &Report, of: Quantity, level: f64) -> Option<String> {
+    let costs = report.costs(of);
+    let best = costs.iter().filter_map(|cost| cost.1).reduce(f64::min)?;
+    let uncertainty = report.uncertainty(of);
+    Some(match front::cheapest(&costs, uncertainty, level) {
+        Some(index) => {
+            let row: &Row = &report.rows[index];
+            format!(
+                "{} ({})",
+                row.setting.words(&report.scene),
+                duration(row.measured.seconds)
+            )
+        }
+        None if uncertainty > level => format!(
+            "not known: the reference itself is sure to {} only; a longer --budget gives a better one",
+            percent(Some(uncertainty))
+        ),
+        None => format!(
+            "none reached it; the least error is {}",
+            percent(Some(best))
+        ),
+    })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn shares_have_two_digits() {
+        let cases = [
+            (0.123, "12 %"),
+            (1.78, "178 %"),
+            (0.0123, "1.2 %"),
+            (0.001, "0.10 %"),
+            (0.000_123, "0.012 %"),
+            (1e-7, "1e-5 %"),
+            (0.0, "0 %"),
+            (f64::INFINITY, "?"),
+        ];
+        for (value, words) in cases {
+            assert_eq!(percent(Some(value)), words);
+        }
+        assert_eq!(percent(None), "-");
+        assert_eq!(
+            LEVELS.map(|level| (100.0 * level).to_string()),
+            ["10", "1", "0.1"]
+        );
+    }
+}

@@ -1,0 +1,224 @@
+//! `tabor accuracy`: error against seconds.
+
+use std::io::{IsTerminal, stderr};
+use std::path::PathBuf;
+use std::sync::Arc;
+use std::sync::atomic::{AtomicBool, Ordering};
+use std::time::{Duration, Instant};
+
+use clap::Args;
+use indicatif::{ProgressBar, ProgressDrawTarget, ProgressStyle};
+
+use super::machine::Machine;
+use super::run::watch_for_interrupts;
+use super::{Failure, key_and_value, read_scene, room, say};
+use crate::accuracy::{
+    AccuracyError, Bench, Listener, Report, Study, Workplace, duration, picture, screen, write_csv,
+};
+use crate::backend::cpu::with_threads;
+use crate::backend::gpu::adapters;
+use crate::grid::Grid;
+use crate::scene::{BackendName, Precision, Scene};
+use crate::study::Setup;
+use crate::units::{Dimension, parse_quantity};
+
+#[derive(Debug, Args)]
+pub(super) struct AccuracyArguments {
+    /// The scene, a TOML file
+    scene: PathBuf,
+    /// How long it may take, as in "90 s"; what there is no time for is left out and listed
+    #[arg(long, value_name = "TIME", default_value = "5 min", value_parser = time)]
+    budget: f64,
+    /// Folder for accuracy.csv and accuracy.png [default: the scene's name with _accuracy]
+    #[arg(long, value_name = "DIR")]
+    out: Option<PathBuf>,
+    /// Threads [default: one a core]
+    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u16).range(1..=1024))]
+    threads: Option<u16>,
+    /// No progress and no table; warnings and errors are still said
+    #[arg(long)]
+    quiet: bool,
+    /// Override a key of the scene, as in surface.0.hurst=0.4; may be repeated
+    #[arg(long, value_name = "KEY=VALUE", value_parser = key_and_value)]
+    set: Vec<(String, String)>,
+}
+
+/// A positive time: with a unit, or in seconds.
+fn time(text: &str) -> Result<f64, String> {
+    let seconds = match text.trim().parse::<f64>() {
+        Ok(seconds) => seconds,
+        Err(_) => parse_quantity(text, Dimension::Time).map_err(|error| error.to_string())?,
+    };
+    match seconds > 0.0 && seconds < 1e9 {
+        true => Ok(seconds),
+        false => Err("give a time above 0, such as \"5 min\"".to_owned()),
+    }
+}
+
+/// Runs the study and writes `accuracy.csv` and `accuracy.png`.
+pub(super) fn accuracy(arguments: &AccuracyArguments) -> Result<(), Failure> {
+    let scene = read_scene(&arguments.scene, &arguments.set)?;
+    room::refuse_scene(&scene)?;
+    let folder = match &arguments.out {
+        Some(folder) => folder.clone(),
+        None => {
+            let stem = arguments.scene.file_stem().unwrap_or_default();
+            PathBuf::from(format!("{}_accuracy", stem.to_string_lossy()))
+        }
+    };
+    if let Some(adhesion) = &scene.adhesion
+        && adhesion.treatment == crate::scene::Treatment::Dmt
+    {
+        say("note: adhesion.treatment = \"dmt\" is judged by the full law, as one of the settings");
+    }
+    let shop = Shop::of(arguments);
+    let study = match Study::new(&scene, &shop, arguments.budget) {
+        Err(AccuracyError::Surface(error)) => {
+            let path = arguments.scene.clone();
+            return Err(Failure::Surface { path, error });
+        }
+        study => study?,
+    };
+    let mut keeper = Keeper {
+        folder: folder.clone(),
+        bar: bar(arguments.quiet, arguments.budget),
+        began: Instant::now(),
+        running: String::new(),
+        said: Vec::new(),
+        interrupted: watch_for_interrupts(),
+    };
+    let threads = arguments.threads.map(usize::from);
+    let report = with_threads(threads, || study.run(&mut keeper))??;
+    drop(keeper);
+    picture(&report).write(&folder.join("accuracy.png"))?;
+    if !arguments.quiet {
+        for line in screen(&report).lines() {
+            say(line);
+        }
+    }
+    if report.interrupted {
+        return Err(Failure::InterruptedStudy {
+            rows: report.rows.len(),
+            folder,
+        });
+    }
+    Ok(())
+}
+
+/// The backends and precisions at hand here.
+struct Shop {
+    arithmetics: Vec<(BackendName, Precision)>,
+}
+
+impl Shop {
+    /// Asks the scene's own reader which of them are in this version, and the machine for an adapter.
+    fn of(arguments: &AccuracyArguments) -> Shop {
+        let mut backends = vec![BackendName::Cpu];
+        if !adapters().is_empty() {
+            backends.push(BackendName::Gpu);
+        }
+        let precisions = [Precision::Double, Precision::Single, Precision::Mixed];
+        let is_here = |backend: BackendName, precision: Precision| {
+            let word = |name: &str| format!("\"{name}\"");
+            let mut set = arguments.set.clone();
+            set.extend([
+                ("solver.backend".to_owned(), word(backend.name())),
+                ("solver.precision".to_owned(), word(precision.name())),
+                (
+                    "solver.tolerance".to_owned(),
+                    Precision::SINGLE_FLOOR.to_string(),
+                ),
+            ]);
+            Scene::read(&arguments.scene, &set).is_ok()
+        };
+        let arithmetics = backends
+            .into_iter()
+            .flat_map(|backend| precisions.map(|precision| (backend, precision)))
+            .filter(|(backend, precision)| is_here(*backend, *precision))
+            .collect();
+        Shop { arithmetics }
+    }
+}
+
+impl Workplace for Shop {
+    fn arithmetics(&self) -> &[(BackendName, Precision)] {
+        &self.arithmetics
+    }
+
+    fn fits(&self, scene: &Scene, grid: Grid) -> Result<(), String> {
+        room::refuse(scene, grid).map_err(|error| error.to_string())
+    }
+
+    fn bench(&self, setup: &Setup) -> Result<Bench, String> {
+        let machine = Machine::of(setup).map_err(|error| error.to_string())?;
+        Ok(Bench {
+            remark: machine.remark.clone(),
+            make: Box::new(move || machine.backend()),
+        })
+    }
+}
+
+/// Seconds of the budget, where somebody watches.
+fn bar(quiet: bool, budget: f64) -> Option<ProgressBar> {
+    if quiet || !stderr().is_terminal() {
+        return None;
+    }
+    let style = ProgressStyle::with_template("{bar:24} {pos}/{len} s  {wide_msg}")
+        .expect("the template is fixed and valid");
+    let target = ProgressDrawTarget::stderr_with_hz(10);
+    let bar = ProgressBar::with_draw_target(Some(budget.ceil() as u64), target).with_style(style);
+    bar.enable_steady_tick(Duration::from_millis(200));
+    Some(bar)
+}
+
+/// Keeps the rows, shows how far the study is, and ends it where the user wants.
+struct Keeper {
+    folder: PathBuf,
+    bar: Option<ProgressBar>,
+    began: Instant,
+    running: String,
+    said: Vec<String>,
+    interrupted: Arc<AtomicBool>,
+}
+
+impl Listener for Keeper {
+    fn begins(&mut self, words: &str, seconds: f64) {
+        self.running = format!("{words}, about {}", duration(seconds));
+    }
+
+    fn goes_on(&mut self, step: usize, iteration: usize, residual: f64) -> bool {
+        if let Some(bar) = &self.bar {
+            bar.set_position(self.began.elapsed().as_secs());
+            bar.set_message(format!(
+                "{}: step {step}, iteration {iteration}, residual {residual:.1e}",
+                self.running
+            ));
+        }
+        !self.interrupted.load(Ordering::Relaxed)
+    }
+
+    fn note(&mut self, text: &str) {
+        // Once is enough: each run on the same adapter has the same remark.
+        if self.said.iter().any(|said| said == text) {
+            return;
+        }
+        self.said.push(text.to_owned());
+        let line = format!("note: {text}");
+        match &self.bar {
+            Some(bar) => bar.suspend(|| say(&line)),
+            None => say(&line),
+        }
+    }
+
+    fn row(&mut self, report: &Report) -> Result<(), AccuracyError> {
+        Ok(write_csv(&self.folder.join("accuracy.csv"), report)?)
+    }
+}
+
+impl Drop for Keeper {
+    fn drop(&mut self) {
+        if let Some(bar) = &self.bar {
+            bar.finish_and_clear();
+        }
+    }
+}
