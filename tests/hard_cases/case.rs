@@ -7,9 +7,19 @@ use crate::run::Run;
 #[derive(Clone, Copy, Debug)]
 pub enum Law {
     Wall,
-    MaugisDugdale { work: f64, range: f64, taper: Option<f64> },
-    Exponential { work: f64, range: f64 },
-    LennardJones { work: f64, range: f64 },
+    MaugisDugdale {
+        work: f64,
+        range: f64,
+        taper: Option<f64>,
+    },
+    Exponential {
+        work: f64,
+        range: f64,
+    },
+    LennardJones {
+        work: f64,
+        range: f64,
+    },
 }
 
 /// A contact of a surface with a half-space.
@@ -44,6 +54,10 @@ pub struct Case {
     /// that rounding picks one.
     pub compared: bool,
     pub truth: Option<Truth>,
+    /// What a refusal must say, on the paths that must refuse it; all others must not.
+    pub refused: fn(&Case, &Path) -> Option<Vec<String>>,
+    /// A line of the scene, and what is written in its place.
+    pub reworded: Option<(String, String)>,
 }
 
 impl Case {
@@ -60,6 +74,12 @@ impl Case {
             every_step: true,
             compared: true,
             truth: None,
+            refused: |case, path| {
+                let below =
+                    path.is_single() && case.tolerance.is_some_and(|asked| asked < path.tolerance);
+                below.then(|| vec!["at least 1e-4".to_owned()])
+            },
+            reworded: None,
         }
     }
 
@@ -98,6 +118,11 @@ impl Case {
         self
     }
 
+    pub fn reworded(mut self, line: String, instead: &str) -> Self {
+        self.reworded = Some((line, instead.to_owned()));
+        self
+    }
+
     /// The tolerance asked on a path.
     pub fn tolerance(&self, path: &Path) -> f64 {
         self.tolerance.unwrap_or(path.tolerance)
@@ -105,8 +130,14 @@ impl Case {
 
     /// The scene file.
     pub fn scene(&self, path: &Path) -> String {
-        let Contact { points: [nx, ny], size: [lx, ly], free, modulus, law } = &self.contact;
-        format!(
+        let Contact {
+            points: [nx, ny],
+            size: [lx, ly],
+            free,
+            modulus,
+            law,
+        } = &self.contact;
+        let text = format!(
             "[grid]\npoints = [{nx}, {ny}]\nsize = [{lx:e}, {ly:e}]\nboundary = \"{}\"\n\
              [solid]\ncontact_modulus = {modulus:e}\n{}\n{}\n\
              [loading]\ncontrol = \"{}\"\npath = [{}]\n\
@@ -116,11 +147,22 @@ impl Case {
             self.surface,
             law.table(),
             self.control,
-            self.path.iter().map(|value| format!("{value:e}")).collect::<Vec<_>>().join(", "),
+            self.path
+                .iter()
+                .map(|value| format!("{value:e}"))
+                .collect::<Vec<_>>()
+                .join(", "),
             self.tolerance(path),
             self.max_iterations,
             if self.every_step { "all" } else { "last" },
-        )
+        );
+        match &self.reworded {
+            None => text,
+            Some((line, instead)) => {
+                assert!(text.contains(line), "{line} is not in {text}");
+                text.replace(line, instead)
+            }
+        }
     }
 }
 
@@ -174,12 +216,24 @@ impl Law {
 impl Contact {
     /// A periodic square cell of side 1 and modulus 1.
     pub fn cell(points: usize, law: Law) -> Contact {
-        Contact { points: [points; 2], size: [1.0; 2], free: false, modulus: 1.0, law }
+        Contact {
+            points: [points; 2],
+            size: [1.0; 2],
+            free: false,
+            modulus: 1.0,
+            law,
+        }
     }
 
     /// A window of a free half-space.
     pub fn window(points: usize, side: f64, modulus: f64, law: Law) -> Contact {
-        Contact { points: [points; 2], size: [side; 2], free: true, modulus, law }
+        Contact {
+            points: [points; 2],
+            size: [side; 2],
+            free: true,
+            modulus,
+            law,
+        }
     }
 
     pub fn pixel(&self) -> [f64; 2] {

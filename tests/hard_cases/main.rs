@@ -3,14 +3,22 @@
 //! Every case runs through the binary on every path that the build has. What comes out is asked of
 //! the files: an equilibrium, in double precision, by transforms and laws of the test's own; a closed form where
 //! there is one; and the numbers of the processor in double precision for the other paths. The table
-//! in docs/hard_cases.md is written by this test (`TABOR_HARD_CASES=write`) and compared by it.
+//! in docs/hard_cases.md is written by this test (`TABOR_HARD_CASES=write`) and compared by it;
+//! `TABOR_HARD_CASES_ONLY=word` tries the cases with that word in their name.
 
 mod case;
+mod extremes;
+mod flats;
 #[path = "../gpu_shared/mod.rs"]
 mod gpu_shared;
+mod grids;
+mod jumps;
 mod paths;
 mod run;
+mod spheres;
+mod table;
 mod truth;
+mod units;
 mod walls;
 
 use std::sync::Mutex;
@@ -19,22 +27,15 @@ use std::sync::atomic::{AtomicUsize, Ordering};
 use case::Case;
 use paths::{PATHS, Path};
 use run::Run;
+use table::Entry;
 use truth::Fields;
 
 /// Runs at a time: each takes one thread.
 const WORKERS: usize = 2;
 
-/// What came of a case on a path.
-struct Entry {
-    case: String,
-    path: &'static str,
-    outcome: String,
-    iterations: usize,
-}
-
 fn outcome(run: &Run) -> String {
     match run.status {
-        2 => "refused".to_owned(),
+        2 => "refused, with a remedy".to_owned(),
         3 => format!("not converged in step {}, and says so", run.rows.len()),
         _ => {
             let states = run.states();
@@ -67,13 +68,19 @@ fn try_case(case: &Case, paths: &[&'static Path]) -> Vec<Entry> {
         };
         for (index, row) in run.rows.iter().enumerate() {
             let what = format!("{} on {}, step {}", case.name, path.name, index + 1);
-            let Some(fields) = Fields::of(run, index + 1) else { continue };
+            let Some(fields) = Fields::of(run, index + 1) else {
+                continue;
+            };
             if !row.converged {
                 continue;
             }
             let heights = heights.as_ref().expect("the judge wrote heights");
             truth::check(case, path, row, &fields, heights, &what);
-            if let Some(judged) = judge.rows.get(index).filter(|_| run.status == 0 && case.compared) {
+            if let Some(judged) = judge
+                .rows
+                .get(index)
+                .filter(|_| run.status == 0 && case.compared)
+            {
                 assert_eq!(row.state, judged.state, "{what}");
                 let judge_fields = Fields::of(&judge, index + 1).expect("the judge's fields");
                 truth::compare(case, path, [row, judged], [&fields, &judge_fields], &what);
@@ -85,7 +92,7 @@ fn try_case(case: &Case, paths: &[&'static Path]) -> Vec<Entry> {
         }
         entries.push(Entry {
             case: case.name.clone(),
-            path: path.name,
+            path: path.name.to_owned(),
             outcome: outcome(run),
             iterations: run.rows.iter().map(|row| row.iterations).sum(),
         });
@@ -95,11 +102,21 @@ fn try_case(case: &Case, paths: &[&'static Path]) -> Vec<Entry> {
 
 #[test]
 fn every_case_is_right_or_says_that_it_is_not() {
+    let only = std::env::var("TABOR_HARD_CASES_ONLY").ok();
+    let some_only = only.is_some();
     let mut cases = walls::cases();
-    if let Ok(only) = std::env::var("TABOR_HARD_CASES_ONLY") {
+    cases.extend(spheres::cases());
+    cases.extend(jumps::cases());
+    cases.extend(flats::cases());
+    cases.extend(grids::cases());
+    cases.extend(units::cases());
+    if let Some(only) = only {
         cases.retain(|case| case.name.contains(&only));
     }
-    let paths: Vec<&'static Path> = PATHS.iter().filter(|path| path.is_built() && path.is_here()).collect();
+    let paths: Vec<&'static Path> = PATHS
+        .iter()
+        .filter(|path| path.is_built() && path.is_here())
+        .collect();
     let next = AtomicUsize::new(0);
     let failures = Mutex::new(Vec::new());
     let results: Mutex<Vec<(usize, Vec<Entry>)>> = Mutex::new(Vec::new());
@@ -109,7 +126,9 @@ fn every_case_is_right_or_says_that_it_is_not() {
                 loop {
                     let index = next.fetch_add(1, Ordering::Relaxed);
                     let Some(case) = cases.get(index) else { break };
-                    let tried = std::panic::catch_unwind(std::panic::AssertUnwindSafe(|| try_case(case, &paths)));
+                    let tried = std::panic::catch_unwind(std::panic::AssertUnwindSafe(|| {
+                        try_case(case, &paths)
+                    }));
                     match tried {
                         Ok(entries) => results.lock().expect("whole").push((index, entries)),
                         Err(_) => failures.lock().expect("whole").push(case.name.clone()),
@@ -118,11 +137,18 @@ fn every_case_is_right_or_says_that_it_is_not() {
             });
         }
     });
-    let mut results = results.into_inner().expect("whole");
-    results.sort_by_key(|(index, _)| *index);
-    for entry in results.iter().flat_map(|(_, entries)| entries) {
-        println!("| {} | {} | {} | {} |", entry.case, entry.path, entry.outcome, entry.iterations);
-    }
     let failures = failures.into_inner().expect("whole");
     assert!(failures.is_empty(), "{failures:#?}");
+    let mut results = results.into_inner().expect("whole");
+    results.sort_by_key(|(index, _)| *index);
+    let entries: Vec<Entry> = results
+        .into_iter()
+        .flat_map(|(_, entries)| entries)
+        .collect();
+    for entry in &entries {
+        println!("{}", entry.line());
+    }
+    if !some_only {
+        table::keep(&entries, &paths);
+    }
 }

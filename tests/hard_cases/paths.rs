@@ -36,7 +36,11 @@ const fn path(name: &'static str, backend: &'static str, precision: &'static str
         name,
         backend,
         precision,
-        epsilon: if single { f32::EPSILON as f64 } else { f64::EPSILON },
+        epsilon: if single {
+            f32::EPSILON as f64
+        } else {
+            f64::EPSILON
+        },
         tolerance: if single { 1e-4 } else { 1e-8 },
     }
 }
