@@ -6,6 +6,7 @@ mod controls;
 mod energy;
 mod friction;
 mod hertz;
+mod invariants;
 mod layer;
 mod lennard_jones;
 mod maugis_dugdale;
