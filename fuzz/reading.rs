@@ -28,7 +28,10 @@ pub fn scene(bytes: &[u8], folder: &Path) {
             assert!(!errors.0.is_empty());
             let lines = text.split('\n').count();
             for mistake in &errors.0 {
-                assert!((1..=lines).contains(&mistake.line.unwrap_or(1)), "{mistake}");
+                assert!(
+                    (1..=lines).contains(&mistake.line.unwrap_or(1)),
+                    "{mistake}"
+                );
             }
             return;
         }
@@ -69,7 +72,11 @@ pub fn heights(bytes: &[u8], folder: &Path) {
     fs::write(&path, file).expect("a scratch file");
     let bit = |place: u8| options >> place & 1 == 1;
     let ends = |height: f64| bit(3).then_some(height);
-    let boundary = if bit(0) { Boundary::Free } else { Boundary::Periodic };
+    let boundary = if bit(0) {
+        Boundary::Free
+    } else {
+        Boundary::Periodic
+    };
     let part = SurfacePart::File(HeightFileScene {
         path: path.clone(),
         unit: if bit(6) { 1e-9 } else { 1.0 },
@@ -77,7 +84,11 @@ pub fn heights(bytes: &[u8], folder: &Path) {
         black: ends(-1e-6),
         white: ends(1e-6),
         detrend: Detrend::ALL[usize::from(options >> 4 & 3)],
-        fill: if bit(1) { Fill::Interpolate } else { Fill::None },
+        fill: if bit(1) {
+            Fill::Interpolate
+        } else {
+            Fill::None
+        },
     });
     let grid = GridScene {
         points: None,
@@ -94,7 +105,11 @@ pub fn heights(bytes: &[u8], folder: &Path) {
         }
         Err(error) => {
             let message = error.to_string();
-            assert!(message.len() < LONGEST_MESSAGE + path.as_os_str().len(), "{message}");
+            assert!(!message.contains('\n'), "{message}");
+            assert!(
+                message.len() < LONGEST_MESSAGE + path.as_os_str().len(),
+                "{message}"
+            );
         }
     }
     fs::remove_file(&path).expect("the scratch file");

@@ -5,6 +5,7 @@ use std::path::PathBuf;
 use thiserror::Error;
 
 use super::{MOST_POINTS, MapError};
+use crate::units::quoted;
 
 /// Why the heights of a scene cannot be built.
 #[derive(Debug, Error)]
@@ -300,7 +301,8 @@ pub enum FileError {
     },
     /// A quantity that is no length.
     #[error(
-        "the file gives its {what} in {unit:?}, which is no length; save an image of heights, or the numbers as .npy"
+        "the file gives its {what} in {}, which is no length; save an image of heights, or the numbers as .npy",
+        quoted(unit)
     )]
     NotALength {
         /// Heights, or x and y.

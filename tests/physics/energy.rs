@@ -8,7 +8,7 @@ use tabor::study::{PointState, dissipation};
 use crate::bench::{Solved, setup, solve};
 
 /// A rough cell of side 1 and modulus 1; `adhesion` and `loading` are the lines of those tables.
-fn rough(points: usize, adhesion: &str, loading: &str) -> String {
+pub fn rough(points: usize, adhesion: &str, loading: &str) -> String {
     format!(
         r#"
         [grid]
@@ -33,10 +33,10 @@ fn rough(points: usize, adhesion: &str, loading: &str) -> String {
     )
 }
 
-const RMS_HEIGHT: f64 = 0.01;
+pub const RMS_HEIGHT: f64 = 0.01;
 
 /// The adhesive laws; of one work of adhesion and range unless a test says otherwise.
-fn laws(work: f64, range: f64) -> [(&'static str, String); 4] {
+pub fn laws(work: f64, range: f64) -> [(&'static str, String); 4] {
     [
         ("sharp", "maugis-dugdale", "taper = 0.0"),
         ("tapered", "maugis-dugdale", ""),
@@ -163,7 +163,7 @@ fn losses(solved: &Solved) -> Losses {
 }
 
 /// There and back between two places in equal steps.
-fn loop_path(from: f64, to: f64, steps: usize) -> Vec<f64> {
+pub fn loop_path(from: f64, to: f64, steps: usize) -> Vec<f64> {
     let mut path: Vec<f64> = (0..=steps)
         .map(|i| from + (to - from) * i as f64 / steps as f64)
         .collect();
@@ -174,7 +174,7 @@ fn loop_path(from: f64, to: f64, steps: usize) -> Vec<f64> {
 
 /// A Lennard-Jones sphere in the units of its tables; the windows taken leave the cohesive length
 /// two pixels or more.
-fn sphere(mu: f64, side: f64, path: &[f64]) -> Solved {
+pub fn sphere(mu: f64, side: f64, path: &[f64]) -> Solved {
     solve(&format!(
         r#"
         [grid]

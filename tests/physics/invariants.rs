@@ -351,7 +351,7 @@ fn units() {
     );
 }
 
-/// Twice the points: contact changes by no more than the points along its edge on the coarse grid, the
+/// Twice the points: contact changes by no more than the points along its edge, the
 /// mean gap or the pressure by a pixel over the shortest wave.
 #[test]
 fn refinement() {
@@ -367,19 +367,24 @@ fn refinement() {
             let count = solution.gap.len();
             (0..count).filter(|i| touches(solution, *i)).count() as f64 / count as f64
         };
-        let edge = (0..24 * 24)
-            .filter(|&i| {
-                let [x, y] = [i % 24, i / 24];
-                let neighbours = [y * 24 + (x + 1) % 24, (y + 1) % 24 * 24 + x];
+        // Share of the points with a neighbour, to the right or above, that does otherwise.
+        let edge = |solution: &Solution, side: usize| {
+            let count = side * side;
+            let differs = |i: &usize| {
+                let [x, y] = [i % side, i / side];
+                let neighbours = [y * side + (x + 1) % side, (y + 1) % side * side + x];
                 neighbours
                     .into_iter()
-                    .any(|other| touches(&coarse, i) != touches(&coarse, other))
-            })
-            .count() as f64;
+                    .any(|other| touches(solution, *i) != touches(solution, other))
+            };
+            (0..count).filter(differs).count() as f64 / count as f64
+        };
         let off = (share(&coarse) - share(&fine)).abs();
+        // A crest that one grid just misses is an edge on the other alone.
+        let allowed = edge(&coarse, 24).max(edge(&fine, 48)) + 1.0 / 576.0;
         prop_assert!(
-            off <= (edge + 1.0) / 576.0,
-            "contact differs by {off}, {edge} points of edge"
+            off <= allowed,
+            "contact differs by {off}, {allowed} allowed"
         );
         let mean = |solution: &Solution| match contact.pressed {
             true => solution.gap.iter().sum::<f64>() / solution.gap.len() as f64 / contact.height(),

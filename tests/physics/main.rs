@@ -5,6 +5,7 @@ mod capillary;
 mod controls;
 mod energy;
 mod friction;
+mod halving;
 mod hertz;
 mod invariants;
 mod layer;
