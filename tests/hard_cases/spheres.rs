@@ -160,6 +160,29 @@ fn lennard_jones(
     })
 }
 
+/// A cohesive zone that the grid does not hold, of the law without a wall.
+fn unresolved_core(tabor: f64) -> Case {
+    let law = Law::LennardJones {
+        work: 1.0,
+        range: 1.0,
+    };
+    let side = 14.0_f64;
+    let contact = Contact::window(64, side, tabor.powf(-1.5), law);
+    // The law's peak is 1.03 w/range; pull-off of any sphere at least 1.5 pi w R.
+    let beyond = 2.0 * side * side;
+    let name = format!("sphere, Lennard-Jones, Tabor number {tabor}: zone below a pixel");
+    Case::new(name, contact, SPHERE)
+        .under("force", [0.0, -0.6 * 1.5 * PI, -beyond, 0.0])
+        .not_compared()
+        .so_that(|run, _| {
+            assert_eq!(run.states(), ["contact", "contact", "separated", "contact"]);
+            let said = ["warning: a pixel is", "range = \"auto\""]
+                .iter()
+                .all(|word| run.messages.contains(word));
+            assert!(said, "{}", run.messages);
+        })
+}
+
 /// Nearly rigid: 2 pi w R for every law, from below.
 fn exponential() -> Case {
     let law = Law::Exponential {
@@ -212,6 +235,7 @@ pub fn cases() -> Vec<Case> {
         -1.658_075_097_8,
         0.05,
     ));
+    cases.extend([unresolved_core(5.0), unresolved_core(10.0)]);
     cases.extend([exponential(), torn()]);
     cases
 }
