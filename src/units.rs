@@ -208,6 +208,15 @@ pub(crate) fn quoted(text: &str) -> String {
     }
 }
 
+/// A sentence from elsewhere for a message, cut where it would flood it.
+pub(crate) fn cut(text: &str) -> String {
+    const LONGEST: usize = 200;
+    match text.char_indices().nth(LONGEST) {
+        Some((end, _)) => format!("{}...", &text[..end]),
+        None => text.to_owned(),
+    }
+}
+
 /// How a unit relates to SI: a power of ten, kept apart so that `25 um` is exactly `25e-6`, and a
 /// factor for the few units that are no power of ten.
 #[derive(Clone, Copy, Debug, PartialEq)]

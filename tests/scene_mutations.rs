@@ -1,7 +1,12 @@
 //! Shipped scenes, spoiled at random: reading them and planning the run gives a scene or messages
 //! whose lines are in the file; it never panics, never hangs, and never takes memory to speak of.
 //!
+//! The same of what a fuzzer found to reach something new (fuzz/README.md).
+//!
 //! `TABOR_MUTATIONS=20000 cargo test --release --test scene_mutations` tries more than the usual few.
+
+#[path = "../fuzz/reading.rs"]
+mod reading;
 
 use std::alloc::System;
 use std::fs;
@@ -336,4 +341,29 @@ fn no_spoiled_scene_is_trouble() {
     }
     // Every end is reached, or the test shows nothing.
     assert!(refused > 0 && no_surface > 0 && planned > 0 && built > 0);
+}
+
+#[test]
+fn the_corpus_of_the_fuzzer() {
+    let package = Path::new(env!("CARGO_MANIFEST_DIR"));
+    let files = package.join("tests/files");
+    let scratch = tempfile::tempdir().expect("a folder");
+    type Reading = fn(&[u8], &Path);
+    let targets: [(&str, Reading, &Path); 2] = [
+        ("scene", reading::scene, &files),
+        ("heights", reading::heights, scratch.path()),
+    ];
+    for (target, read, folder) in targets {
+        let corpus = fs::read_dir(package.join("fuzz/corpus").join(target));
+        let mut count = 0;
+        for entry in corpus.expect("a corpus").flatten() {
+            let bytes = fs::read(entry.path()).expect("an input");
+            println!("{}", entry.path().display());
+            let clock = Instant::now();
+            read(&bytes, folder);
+            assert!(clock.elapsed() < MOST_TIME, "{:?}", clock.elapsed());
+            count += 1;
+        }
+        assert!(count > 100, "{target}: {count} inputs");
+    }
 }

@@ -94,16 +94,14 @@ fn read(path: &Path, grid: &Grid) -> Result<Vec<f64>, MapError> {
 
 /// Points of low and high factors in turn, each for half a period; the first point is high.
 fn pattern(kind: PatternKind, period: f64, [low, high]: [f64; 2], grid: &Grid) -> Vec<f64> {
-    let half = |place: f64| (2.0 * place / period + ROUNDING).floor() as i64;
+    // Told by the number itself: of periods far below a pixel no integer holds the count.
+    let odd = |place: f64| (2.0 * (place / period) + ROUNDING).floor() % 2.0 != 0.0;
     let mut factors = Vec::with_capacity(grid.len());
     for row in 0..grid.ny {
+        let odd_row = kind == PatternKind::Checker && odd(row as f64 * grid.dy());
         for column in 0..grid.nx {
-            let across = match kind {
-                PatternKind::Checker => half(row as f64 * grid.dy()),
-                PatternKind::Stripe => 0,
-            };
-            let odd = (half(column as f64 * grid.dx()) + across) % 2 != 0;
-            factors.push(if odd { low } else { high });
+            let low_here = odd(column as f64 * grid.dx()) != odd_row;
+            factors.push(if low_here { low } else { high });
         }
     }
     factors
@@ -142,5 +140,16 @@ mod tests {
         assert_eq!(checker[8..12], [0.0, 0.0, 2.0, 2.0]);
         let stripe = pattern(PatternKind::Stripe, 0.5, [0.5, 1.0], &grid);
         assert!(stripe.chunks(4).all(|row| row == [1.0, 0.5, 1.0, 0.5]));
+    }
+
+    /// More half periods to a pixel than any integer counts: a factor each, and no panic.
+    #[test]
+    fn periods_far_below_a_pixel() {
+        let grid = Grid::new([4, 4], [1.0, 1.0]);
+        for period in [1e-40, f64::MIN_POSITIVE] {
+            let checker = pattern(PatternKind::Checker, period, [0.0, 2.0], &grid);
+            assert_eq!(checker[0], 2.0);
+            assert!(checker.iter().all(|factor| [0.0, 2.0].contains(factor)));
+        }
     }
 }

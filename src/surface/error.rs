@@ -5,6 +5,7 @@ use std::path::PathBuf;
 use thiserror::Error;
 
 use super::{MOST_POINTS, MapError};
+use crate::units::{cut, quoted};
 
 /// Why the heights of a scene cannot be built.
 #[derive(Debug, Error)]
@@ -275,7 +276,7 @@ pub enum FileError {
         what: String,
     },
     /// An image that is broken.
-    #[error("broken {format} image: {what}")]
+    #[error("broken {format} image: {}", cut(what))]
     BrokenImage {
         /// PNG or TIFF.
         format: &'static str,
@@ -300,7 +301,8 @@ pub enum FileError {
     },
     /// A quantity that is no length.
     #[error(
-        "the file gives its {what} in {unit:?}, which is no length; save an image of heights, or the numbers as .npy"
+        "the file gives its {what} in {}, which is no length; save an image of heights, or the numbers as .npy",
+        quoted(unit)
     )]
     NotALength {
         /// Heights, or x and y.
@@ -331,20 +333,24 @@ pub enum FileError {
         value: f64,
     },
     /// A .npy file that is broken.
-    #[error("broken .npy file: {what}")]
+    #[error("broken .npy file: {}", cut(what))]
     BrokenNpy {
         /// What is wrong.
         what: String,
     },
     /// An array with other than two dimensions.
-    #[error("the array has shape {shape:?}; heights need two dimensions, [rows (y), columns (x)]")]
+    #[error(
+        "the array has shape {}; heights need two dimensions, [rows (y), columns (x)]",
+        cut(&format!("{shape:?}"))
+    )]
     Dimensions {
         /// The shape in the file.
         shape: Vec<u64>,
     },
     /// An array of something else than real numbers.
     #[error(
-        "elements of type {found} are not heights; save them as float32, float64 or an integer type"
+        "elements of type {} are not heights; save them as float32, float64 or an integer type",
+        cut(found)
     )]
     ElementType {
         /// The type in the file.

@@ -2,13 +2,13 @@
 
 use tabor::backend::cpu::CpuBackend;
 use tabor::kernel::Status;
-use tabor::solver::{ContactSolver, Hold, Load, Start};
+use tabor::solver::{ContactSolver, Hold, Load, Problem, Start};
 use tabor::study::{PointState, dissipation};
 
 use crate::bench::{Solved, setup, solve};
 
 /// A rough cell of side 1 and modulus 1; `adhesion` and `loading` are the lines of those tables.
-fn rough(points: usize, adhesion: &str, loading: &str) -> String {
+pub fn rough(points: usize, adhesion: &str, loading: &str) -> String {
     format!(
         r#"
         [grid]
@@ -33,10 +33,10 @@ fn rough(points: usize, adhesion: &str, loading: &str) -> String {
     )
 }
 
-const RMS_HEIGHT: f64 = 0.01;
+pub const RMS_HEIGHT: f64 = 0.01;
 
 /// The adhesive laws; of one work of adhesion and range unless a test says otherwise.
-fn laws(work: f64, range: f64) -> [(&'static str, String); 4] {
+pub fn laws(work: f64, range: f64) -> [(&'static str, String); 4] {
     [
         ("sharp", "maugis-dugdale", "taper = 0.0"),
         ("tapered", "maugis-dugdale", ""),
@@ -71,44 +71,47 @@ fn a_solve_only_lowers_the_energy() {
                 zero_stiffness: 0.0,
                 zero_compliance: 1.0 / problem.stiffness_min(),
             };
-            let mut backend = CpuBackend::<f64>::new();
-            let mut solver = ContactSolver::new(&mut backend, problem);
-            solver.begin(&load, &Start::Cold, 1e-9, false).expect("cpu");
-            let mut before = f64::INFINITY;
-            let mut iterations = 0;
-            loop {
-                let (gap, elastic) = (
-                    solver.gap().expect("cpu"),
-                    solver.elastic_pressure().expect("cpu"),
-                );
-                let (mut energy, mut square) = (0.0, 0.0);
-                for ((g, h), p) in gap.iter().zip(&problem.heights).zip(&elastic) {
-                    energy += 0.5 * p * (g + h) + problem.law.energy(*g);
-                    square += (g + h) * (g + h);
-                }
-                // K u is carried along, with rounding of K_max |u| an iteration.
-                let rounding = 1e-15 * problem.stiffness_max() * square * f64::from(iterations + 4);
-                assert!(
-                    energy <= before + rounding,
-                    "{name}, gap {share}: rises by {:.1e} (rounding {rounding:.1e}) in iteration {iterations}",
-                    energy - before
-                );
-                before = energy;
-                let scalars = solver.iterate().expect("cpu");
-                iterations += 1;
-                if scalars.status != Status::Running {
-                    assert_eq!(scalars.status, Status::Converged, "{name}, gap {share}");
-                    break;
-                }
-                assert!(
-                    iterations < 5000,
-                    "{name}, gap {share}: {:.1e}",
-                    scalars.residual
-                );
-            }
-            println!("{name}, gap {share}: {iterations} iterations");
+            falls(&format!("{name}, gap {share}"), problem, &load, 1e-9);
         }
     }
+}
+
+/// Solves a held mean gap and sees that the energy falls in each iteration.
+pub fn falls(name: &str, problem: &Problem, load: &Load, tolerance: f64) {
+    let mut backend = CpuBackend::<f64>::new();
+    let mut solver = ContactSolver::new(&mut backend, problem);
+    solver
+        .begin(load, &Start::Cold, tolerance, false)
+        .expect("cpu");
+    let mut before = f64::INFINITY;
+    let mut iterations = 0;
+    loop {
+        let (gap, elastic) = (
+            solver.gap().expect("cpu"),
+            solver.elastic_pressure().expect("cpu"),
+        );
+        let (mut energy, mut square) = (0.0, 0.0);
+        for ((g, h), p) in gap.iter().zip(&problem.heights).zip(&elastic) {
+            energy += 0.5 * p * (g + h) + problem.law.energy(*g);
+            square += (g + h) * (g + h);
+        }
+        // K u is carried along, with rounding of K_max |u| an iteration.
+        let rounding = 1e-15 * problem.stiffness_max() * square * f64::from(iterations + 4);
+        assert!(
+            energy <= before + rounding,
+            "{name}: rises by {:.1e} (rounding {rounding:.1e}) in iteration {iterations}",
+            energy - before
+        );
+        before = energy;
+        let scalars = solver.iterate().expect("cpu");
+        iterations += 1;
+        if scalars.status != Status::Running {
+            assert_eq!(scalars.status, Status::Converged, "{name}");
+            break;
+        }
+        assert!(iterations < 5000, "{name}: {:.1e}", scalars.residual);
+    }
+    println!("{name}: {iterations} iterations");
 }
 
 /// What a path lost.
@@ -160,7 +163,7 @@ fn losses(solved: &Solved) -> Losses {
 }
 
 /// There and back between two places in equal steps.
-fn loop_path(from: f64, to: f64, steps: usize) -> Vec<f64> {
+pub fn loop_path(from: f64, to: f64, steps: usize) -> Vec<f64> {
     let mut path: Vec<f64> = (0..=steps)
         .map(|i| from + (to - from) * i as f64 / steps as f64)
         .collect();
@@ -171,7 +174,7 @@ fn loop_path(from: f64, to: f64, steps: usize) -> Vec<f64> {
 
 /// A Lennard-Jones sphere in the units of its tables; the windows taken leave the cohesive length
 /// two pixels or more.
-fn sphere(mu: f64, side: f64, path: &[f64]) -> Solved {
+pub fn sphere(mu: f64, side: f64, path: &[f64]) -> Solved {
     solve(&format!(
         r#"
         [grid]

@@ -10,6 +10,7 @@ use super::bytes::{Bytes, checked_shape};
 use super::length::length_unit;
 use crate::surface::error::FileError;
 use crate::surface::matrix::{Matrix, Size};
+use crate::units::quoted;
 
 /// First bytes of a file.
 pub(super) const MAGIC: &[u8] = b"GWYP";
@@ -181,7 +182,8 @@ fn object(file: &mut Bytes, depth: usize) -> Result<Object, FileError> {
         return Err(file.broken(
             place,
             format!(
-                "the object {name:?} has {length} bytes, but {} are left",
+                "the object {} has {length} bytes, but {} are left",
+                quoted(&name),
                 file.left()
             ),
         ));
@@ -193,7 +195,8 @@ fn object(file: &mut Bytes, depth: usize) -> Result<Object, FileError> {
         pieces.push((name, piece(file, depth)?));
     }
     if file.offset() > end {
-        return Err(file.broken(place, format!("the object {name:?} runs over its end")));
+        let what = format!("the object {} runs over its end", quoted(&name));
+        return Err(file.broken(place, what));
     }
     Ok(Object {
         name,
