@@ -322,7 +322,7 @@ fn what_this_version_lacks_is_refused_by_name() {
             errors(&output)
         );
     }
-    for (key, value) in [("solid.hardness", "1e9"), ("conductance.conductivity", "1")] {
+    for (key, value) in [("solid.hardness", "1e9"), ("plastic.hardness", "1")] {
         let set = format!("{key}={value}");
         let output = tabor(folder.path(), &["check", "scene.toml", "--set", &set]);
         assert_eq!(status(&output), 2, "{set}: {}", errors(&output));

@@ -70,6 +70,7 @@ mod tests {
             contact_area_fraction_corrected: None,
             state: State::Contact,
             friction_force: None,
+            conductance: None,
         };
         let text = table(&(1..=30).map(row).collect::<Vec<_>>());
         let lines: Vec<&str> = text.lines().collect();

@@ -256,6 +256,7 @@ fn parse_row(line: &str, columns: &[Column]) -> Option<StepRow> {
         contact_area_fraction_corrected: optional(corrected)?,
         state: State::from_name(state)?,
         friction_force: None,
+        conductance: None,
     };
     for (column, cell) in columns.iter().zip(more) {
         column.set(&mut row, optional(cell)?);
@@ -287,6 +288,7 @@ mod tests {
             contact_area_fraction_corrected: None,
             state: State::Attracted,
             friction_force: None,
+            conductance: None,
         }
     }
 

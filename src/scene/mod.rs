@@ -7,6 +7,7 @@
 
 mod adhesion;
 mod capillary;
+mod conductance;
 mod document;
 mod friction;
 mod grid;
@@ -15,6 +16,7 @@ mod loading;
 mod mistake;
 mod output;
 mod overrides;
+mod rate;
 mod reader;
 mod resolved;
 mod solid;
@@ -106,6 +108,8 @@ fn read_tables(root: &Table, folder: &Path, log: &Log) -> Option<Scene> {
     let law = adhesion.as_ref().and_then(Option::as_ref);
     let loading = loading::read(&scene, boundary, law, relaxes);
     let friction = friction::read(&scene);
+    let layered = solid.as_ref().is_some_and(|solid| solid.layer.is_some());
+    let conductance = conductance::read(&scene, layered);
     let solver = solver::read(&scene);
     let path_length = loading.as_ref().map(|loading| loading.path.len());
     let output = output::read(&scene, path_length);
@@ -117,6 +121,7 @@ fn read_tables(root: &Table, folder: &Path, log: &Log) -> Option<Scene> {
         adhesion: adhesion?,
         capillary: capillary?,
         friction: friction?,
+        conductance: conductance?,
         loading: loading?,
         solver: solver?,
         output: output?,

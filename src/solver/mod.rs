@@ -7,6 +7,8 @@
 
 mod coarse_start;
 mod contact;
+mod elasticity;
+mod frozen;
 mod problem;
 mod two_band;
 

@@ -18,6 +18,8 @@ pub struct Cost {
     pub place: Place,
     /// Fields, one number a solved point each.
     pub fields: Vec<Held>,
+    /// What the host keeps between the steps, in double precision.
+    pub history: Vec<Held>,
     /// Factors a wavevector.
     pub spectra: Vec<Held>,
     /// Work space of the transforms.
@@ -57,10 +59,20 @@ impl Cost {
             _ => Law::HardWall,
         };
         let mapped = scene.adhesion.as_ref().is_some_and(|adhesion| {
-            adhesion.map.is_some() && adhesion.treatment == Treatment::Full
+            (adhesion.map.is_some() || adhesion.rate.is_some())
+                && adhesion.treatment == Treatment::Full
         });
         let problem = Problem::sketch(grid, scene.grid.boundary, law, mapped, scene.solid.layer);
+        let problem = match scene.conductance {
+            Some(_) => problem.conducting(),
+            None => problem,
+        };
         plan(&problem, scene, 0.0, place)
+    }
+
+    /// Bytes that the host keeps between the steps.
+    pub fn history_bytes(&self) -> usize {
+        self.history.iter().map(|held| held.bytes).sum()
     }
 
     /// Bytes of all that is held where the solver runs.
@@ -107,18 +119,20 @@ fn plan(
         return Err(mistake);
     }
     let branches = scene.solid.relaxation.len();
-    if branches > 0 {
-        // The displacement and the spring of each branch, kept by the host in double precision.
-        let history = Held {
-            name: "history",
-            level: Level(0),
-            bytes: problem.shape.len() * size_of::<f64>(),
-        };
-        iterated.fields.extend(vec![history; branches + 1]);
-    }
+    let remembered = Held {
+        name: "history",
+        level: Level(0),
+        bytes: problem.shape.len() * size_of::<f64>(),
+    };
+    // The displacement and the spring of each branch.
+    let history = match branches {
+        0 => Vec::new(),
+        _ => vec![remembered; branches + 1],
+    };
     Ok(Cost {
         place,
         fields: iterated.fields,
+        history,
         spectra: iterated.spectra,
         work: iterated.work,
         passes: iterated.passes.split_off(started.passes.len()),

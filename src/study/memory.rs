@@ -54,13 +54,30 @@ impl Memory {
         // Gap and elastic pressure as read, padded heights, their parts on the grid, the results.
         let evaluating = 3 * DOUBLE * solved + (3 * DOUBLE + EVALUATION) * points;
         let evaluating = evaluating + EVALUATION * points * kept_steps(scene);
+        // A relaxing solid's history, what the past moves the surface by, and a problem of its own.
+        let (remembered, relaxing) = match cost.history_bytes() as u64 {
+            0 => (0, 0),
+            history => (
+                history + DOUBLE * (solved + points) + table,
+                // The displacement, padded heights, and a pressure of a spring as it is read.
+                3 * DOUBLE * solved + EVALUATION * points,
+            ),
+        };
+        // Pressure, residual, direction, two products and the contact, beside the results.
+        let conducting = match scene.conductance {
+            Some(_) => 6 * DOUBLE * solved + (DOUBLE + EVALUATION) * points,
+            None => 0,
+        };
         // Values of a field on their way to a file or a picture.
         let writing = (2 * EVALUATION + DOUBLE) * points;
         let solving = kept
+            + remembered
             + solver_here
             + planning
                 .max(cold_start(scene, points, solver_here, table))
                 .max(evaluating)
+                .max(relaxing)
+                .max(conducting)
                 .max(writing);
         Memory {
             solver,

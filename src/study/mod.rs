@@ -1,13 +1,16 @@
 //! Many solves: the steps of a loading path.
 
+mod conductance;
 pub mod control;
 mod cost;
 mod dmt;
+mod edge;
 mod evaluation;
 mod hand_over;
 mod jumps;
 mod memory;
 mod plan;
+mod rate;
 mod relaxation;
 mod row;
 mod setup;

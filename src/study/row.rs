@@ -68,6 +68,9 @@ pub struct StepRow {
     pub state: State,
     /// Friction force of the shear strength over the area in contact, N; `None` without friction.
     pub friction_force: Option<f64>,
+    /// What the contact conducts, W/K; `None` without conductance, where the surfaces are closed
+    /// everywhere, or where the step did not converge.
+    pub conductance: Option<f64>,
 }
 
 /// A column that `curve.csv` has behind the others where an effect asks for it.
@@ -75,6 +78,8 @@ pub struct StepRow {
 pub enum Column {
     /// Friction force.
     FrictionForce,
+    /// Conductance.
+    Conductance,
 }
 
 impl Column {
@@ -84,6 +89,9 @@ impl Column {
         if scene.friction.is_some() {
             columns.push(Column::FrictionForce);
         }
+        if scene.conductance.is_some() {
+            columns.push(Column::Conductance);
+        }
         columns
     }
 
@@ -91,6 +99,7 @@ impl Column {
     pub fn name(self) -> &'static str {
         match self {
             Column::FrictionForce => "friction_force",
+            Column::Conductance => "conductance",
         }
     }
 
@@ -98,6 +107,7 @@ impl Column {
     pub fn value(self, row: &StepRow) -> Option<f64> {
         match self {
             Column::FrictionForce => row.friction_force,
+            Column::Conductance => row.conductance,
         }
     }
 
@@ -105,6 +115,7 @@ impl Column {
     pub fn set(self, row: &mut StepRow, value: Option<f64>) {
         match self {
             Column::FrictionForce => row.friction_force = value,
+            Column::Conductance => row.conductance = value,
         }
     }
 }

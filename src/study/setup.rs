@@ -104,12 +104,19 @@ impl Setup {
             statistics.moments.rms_slope(),
             if dmt { Law::HardWall } else { law },
         );
+        let rated = scene.adhesion.as_ref().is_some_and(|a| a.rate.is_some());
         let problem = match &surface.adhesion_map {
             Some(factor) if !dmt => problem.patterned(factor.clone()),
+            // Where an edge recedes there will be a factor.
+            None if rated => problem.patterned(vec![1.0; grid.len()]),
             _ => problem,
         };
         let problem = match scene.solid.layer {
             Some(layer) => problem.on_layer(layer),
+            None => problem,
+        };
+        let problem = match scene.conductance {
+            Some(_) => problem.conducting(),
             None => problem,
         };
         Setup {

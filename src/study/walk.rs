@@ -4,11 +4,13 @@ use std::borrow::Cow;
 use std::ops::Range;
 use std::time::Instant;
 
+use super::conductance;
 use super::control::Controller;
 use super::dmt;
 use super::evaluation::{Evaluation, Solved};
 use super::hand_over::{Earlier, GAP, HandOver, HandedField};
 use super::jumps::{Jump, Jumps};
+use super::rate::RatedStep;
 use super::relaxation::{History, effective_modulus, stretches};
 use super::row::{State, StepRow};
 use super::setup::Setup;
@@ -184,7 +186,12 @@ impl Stretch<'_> {
                 solver.set_offset(&offset);
                 offset
             });
-            let mut solved = state.step(&mut solver, value, self.make_backend, &mut |scalars| {
+            let asked = Asked {
+                value,
+                duration: self.duration(index),
+                make_backend: self.make_backend,
+            };
+            let mut solved = state.step(&mut solver, &asked, &mut |scalars| {
                 observer.iteration(step, scalars)
             })?;
             if state.interrupted {
@@ -195,7 +202,15 @@ impl Stretch<'_> {
             if let (Some(history), Some(offset)) = (history.as_mut(), offset) {
                 state.relax(&mut solver, &mut solved, history, offset, duration)?;
             }
+            let conductance = match solved.converged {
+                true => conductance::of(setup, &mut solver, solved.evaluation.as_ref())?,
+                false => None,
+            };
+            if setup.scene.conductance.is_some() && conductance.is_none() {
+                solved.converged = false;
+            }
             let mut row = state.row(step, value, &solved, clock.elapsed().as_secs_f64());
+            row.conductance = conductance.filter(|conductance| conductance.is_finite());
             row.time = self.time(index, end.rows.last());
             let jump = jumps.step(&row, solved.evaluation.as_ref());
             match jump {
@@ -267,6 +282,14 @@ pub(super) struct SolvedStep {
     pub residual: f64,
 }
 
+/// What is asked of a step.
+struct Asked<'s> {
+    value: f64,
+    /// How long it takes, s.
+    duration: f64,
+    make_backend: MakeBackend<'s>,
+}
+
 /// What one step hands to the next.
 struct PathState<'s> {
     setup: &'s Setup,
@@ -280,11 +303,15 @@ impl PathState<'_> {
     fn step(
         &mut self,
         solver: &mut ContactSolver,
-        value: f64,
-        make_backend: MakeBackend,
+        asked: &Asked,
         watch: &mut dyn FnMut(&Scalars) -> bool,
     ) -> Result<SolvedStep, BackendError> {
         let setup = self.setup;
+        let &Asked {
+            value,
+            duration,
+            make_backend,
+        } = asked;
         let mut going = true;
         let mut watch = |scalars: &Scalars| {
             going = watch(scalars);
@@ -313,8 +340,23 @@ impl PathState<'_> {
         } else {
             let load = self.controller.load(value);
             let start = self.start(solver, &load, value)?;
-            let outcome = solve(setup, solver, &load, &start, make_backend, &mut watch)?;
-            finish(setup, &self.controller, solver, &load, &outcome)?
+            match setup.scene.adhesion.as_ref().and_then(|a| a.rate) {
+                Some(rate) => {
+                    let rated = RatedStep {
+                        setup,
+                        controller: &self.controller,
+                        rate,
+                        duration,
+                        loaded: self.loaded,
+                        make_backend,
+                    };
+                    rated.solve(solver, &load, start, &mut watch)?
+                }
+                None => {
+                    let outcome = solve(setup, solver, &load, &start, make_backend, &mut watch)?;
+                    finish(setup, &self.controller, solver, &load, &outcome)?
+                }
+            }
         };
         self.interrupted = !going;
         self.loaded = solved.evaluation.is_some();
@@ -450,6 +492,7 @@ impl PathState<'_> {
             friction_force: self.setup.scene.friction.map(|friction| {
                 friction.shear_strength * evaluation.map_or(0.0, |e| e.contact) * area
             }),
+            conductance: None,
         }
     }
 }
@@ -510,6 +553,7 @@ pub(super) fn finish(
         mean_offset: solver.mean_offset(),
         held: outcome.mean_pressure,
         load: *load,
+        law_factor: solver.law_factor(),
     };
     let evaluation = Evaluation::of(setup, solver.problem(), controller, &solved);
     // What is no number has not converged, whatever the residual makes of it.

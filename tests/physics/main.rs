@@ -2,6 +2,7 @@
 
 mod bench;
 mod capillary;
+mod conductance;
 mod controls;
 mod energy;
 mod friction;
@@ -11,7 +12,9 @@ mod lennard_jones;
 mod maugis_dugdale;
 mod pairs;
 mod pattern;
+mod rate;
 mod relaxation;
 mod rough;
+mod spring;
 mod tables;
 mod waves;

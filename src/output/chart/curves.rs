@@ -147,6 +147,7 @@ mod tests {
             contact_area_fraction_corrected: None,
             state: State::Contact,
             friction_force: None,
+            conductance: None,
         }
     }
 
