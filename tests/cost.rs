@@ -212,7 +212,6 @@ fn every_combination_of_effects() {
             "law = \"exponential\"\nrange = 0.1",
             "law = \"lennard-jones\"\nrange = 0.1",
             "law = \"lennard-jones\"\nrange = 0.1\ntreatment = \"dmt\"",
-            "law = \"exponential\"\nrange = 0.1\nrate = { reference_speed = 1.0, exponent = 0.5 }",
             "law = \"exponential\"\nrange = 0.1\nmap = { pattern = \"stripe\", period = 1.0, low = 0.5, high = 1.0 }",
         ] {
             for control in [

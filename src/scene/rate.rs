@@ -27,6 +27,7 @@ pub(super) fn read(
             "rate",
             "raises the law of a receding edge, and with law = \"lennard-jones\" the same factor repels; take another law",
         );
+        return None;
     }
     if treatment == Some(Treatment::Dmt) {
         // The search for the net load and that for the speed would have to be one.
@@ -37,6 +38,7 @@ pub(super) fn read(
                 instead: "take treatment = \"full\", or leave the rate out".to_string(),
             },
         );
+        return None;
     }
     rate.require(&["reference_speed", "exponent"]);
     let reference_speed = rate.quantity("reference_speed", Dimension::Speed, Allowed::POSITIVE);
