@@ -255,7 +255,10 @@ impl Stretch<'_> {
     /// How long a step takes, s; 0 where the path has no durations.
     fn duration(&self, index: usize) -> f64 {
         let durations = self.setup.scene.loading.durations.as_ref();
-        durations.map_or(0.0, |durations| durations[index])
+        // A path that is gone on with at its end has no step there.
+        durations
+            .and_then(|durations| durations.get(index).copied())
+            .unwrap_or(0.0)
     }
 
     /// Time at the end of a step, s, where the path has durations.

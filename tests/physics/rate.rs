@@ -47,7 +47,12 @@ fn pull_off_at_a_speed() {
         // the speed of its own edge says. Raised by f, that law has lambda f^(2/3), and his scales of
         // radius, approach and force are f^(1/3), f^(2/3) and f times theirs.
         let mut compared = 0;
-        for pair in solved.steps.windows(2) {
+        // Up to pull-off: towards the fold beyond it any error of approach changes the state at will.
+        let until = solved
+            .rows()
+            .position(|row| -row.force == found)
+            .expect("a pull-off");
+        for pair in solved.steps[..=until].windows(2) {
             let (before, now) = (&pair[0].row, &pair[1].row);
             let radius = |row: &StepRow| (row.contact_area_fraction * SIDE * SIDE / PI).sqrt();
             let passed = now.time.expect("a time") - before.time.expect("a time");
@@ -74,7 +79,7 @@ fn pull_off_at_a_speed() {
             );
             compared += 1;
             assert!(
-                (now.force - expected).abs() < 0.05 * found,
+                (now.force - expected).abs() < 0.03 * found,
                 "{} {expected}",
                 now.force
             );
