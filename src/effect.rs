@@ -5,7 +5,7 @@
 
 use crate::backend::BackendError;
 use crate::grid::Grid;
-use crate::scene::{Boundary, Control, Scene, Treatment};
+use crate::scene::{Boundary, Control, RateScene, Scene, Treatment};
 use crate::study::{Cost, Plan};
 use crate::units::format_si;
 
@@ -18,6 +18,8 @@ pub enum Effect {
     Dmt,
     /// `map`: the tension differs from point to point.
     AdhesionMap,
+    /// `rate`: a receding edge costs more the faster it recedes.
+    Rate,
     /// `[capillary]`: a liquid that condenses between the surfaces pulls them together.
     Capillary,
     /// `thickness`: an elastic layer on a rigid base in place of the half-space.
@@ -30,6 +32,8 @@ pub enum Effect {
     FreeBoundary,
     /// `[friction]`: what it takes to slide the area in contact.
     Friction,
+    /// `[conductance]`: what flows through the area in contact.
+    Conductance,
     /// `spring`: the approach acts through a cantilever.
     Spring,
 }
@@ -51,10 +55,11 @@ pub struct EffectCost {
 
 impl Effect {
     /// Every effect of this version.
-    pub const ALL: [Effect; 10] = [
+    pub const ALL: [Effect; 12] = [
         Effect::Adhesion,
         Effect::Dmt,
         Effect::AdhesionMap,
+        Effect::Rate,
         Effect::Capillary,
         Effect::Layer,
         Effect::Hardness,
@@ -62,6 +67,7 @@ impl Effect {
         Effect::FreeBoundary,
         Effect::Spring,
         Effect::Friction,
+        Effect::Conductance,
     ];
 
     /// Its name in summaries.
@@ -70,6 +76,7 @@ impl Effect {
             Effect::Adhesion => "adhesion",
             Effect::Dmt => "dmt treatment",
             Effect::AdhesionMap => "adhesion map",
+            Effect::Rate => "rate",
             Effect::Capillary => "capillary",
             Effect::Layer => "layer",
             Effect::Hardness => "hardness",
@@ -77,6 +84,7 @@ impl Effect {
             Effect::FreeBoundary => "free boundary",
             Effect::Spring => "spring",
             Effect::Friction => "friction",
+            Effect::Conductance => "conductance",
         }
     }
 
@@ -88,6 +96,9 @@ impl Effect {
                 "attraction is summed over the gap of the contact without it, which it does not deform"
             }
             Effect::AdhesionMap => "a factor of its own multiplies the tension at each point",
+            Effect::Rate => {
+                "the work of adhesion grows with the speed at which the contact recedes, found in several solves a step"
+            }
             Effect::Capillary => {
                 "liquid from damp air bridges narrow gaps: a constant suction up to the height of its meniscus"
             }
@@ -105,6 +116,9 @@ impl Effect {
             }
             Effect::Friction => {
                 "a shear strength times the area in contact, in a column of its own; it changes nothing else"
+            }
+            Effect::Conductance => {
+                "what the area in contact conducts, in a column of its own, by conjugate gradients after each step"
             }
             Effect::Spring => {
                 "the approach is prescribed at the far end of a spring, so contacts snap in and off"
@@ -124,6 +138,7 @@ impl Effect {
                 .adhesion
                 .as_ref()
                 .is_some_and(|adhesion| adhesion.map.is_some()),
+            Effect::Rate => rate_of(scene).is_some(),
             Effect::Capillary => scene.capillary.is_some(),
             Effect::Layer => scene.solid.layer.is_some(),
             Effect::Hardness => scene.solid.hardness.is_some(),
@@ -131,6 +146,7 @@ impl Effect {
             Effect::FreeBoundary => scene.grid.boundary == Boundary::Free,
             Effect::Spring => scene.loading.spring.is_some(),
             Effect::Friction => scene.friction.is_some(),
+            Effect::Conductance => scene.conductance.is_some(),
         }
     }
 
@@ -160,6 +176,15 @@ impl Effect {
                     plan.outline.map.map_or((1.0, 0.0), |map| (map.mean, map.deviation));
                 format!(
                     "matters where it varies over lengths of the contacts: here the factor is {mean:.3} on average, give or take {deviation:.3}"
+                )
+            }
+            Effect::Rate => {
+                let path: f64 = scene.loading.durations.iter().flatten().sum();
+                let reference = rate_of(scene).map_or(0.0, |rate| rate.reference_speed);
+                format!(
+                    "matters where contacts recede at speeds not far below the reference: half the cell within the path's {} would be {:.2e} of it; one speed stands for the whole edge",
+                    format_si(path, "s"),
+                    0.5 * grid.lx.min(grid.ly) / path / reference
                 )
             }
             Effect::Capillary => {
@@ -221,6 +246,13 @@ impl Effect {
                     strength / scene.solid.contact_modulus
                 )
             }
+            Effect::Conductance => {
+                let combined = scene.conductance.map_or(0.0, |bodies| bodies.combined());
+                format!(
+                    "matters where spots are few: closed everywhere they resist no more than the bodies do; here a spot as wide as a pixel conducts {}",
+                    format_si(combined * grid.pixel_area().sqrt(), "W/K")
+                )
+            }
             Effect::Spring => {
                 let stiffness = scene.loading.spring.unwrap_or(0.0);
                 let contact = 2.0 * scene.solid.contact_modulus * grid.area().sqrt();
@@ -247,6 +279,11 @@ impl Effect {
                     adhesion.map = None;
                 }
             }
+            Effect::Rate => {
+                if let Some(adhesion) = &mut scene.adhesion {
+                    adhesion.rate = None;
+                }
+            }
             Effect::Capillary => {
                 scene.capillary = None;
                 scene.adhesion = None;
@@ -257,6 +294,7 @@ impl Effect {
             Effect::FreeBoundary => scene.grid.boundary = Boundary::Periodic,
             Effect::Spring => scene.loading.spring = None,
             Effect::Friction => scene.friction = None,
+            Effect::Conductance => scene.conductance = None,
         }
         scene
     }
@@ -270,17 +308,24 @@ impl Effect {
         let names = |cost: &Cost| {
             cost.fields
                 .iter()
+                .chain(&cost.history)
                 .map(|field| field.name)
                 .collect::<Vec<_>>()
         };
+        let bytes = |cost: &Cost| (cost.bytes() + cost.history_bytes()) as i128;
         Ok(EffectCost {
             fields_added: difference(&names(with), &names(&without)),
             fields_spared: difference(&names(&without), &names(with)),
             passes_added: difference(&with.passes, &without.passes),
             passes_spared: difference(&without.passes, &with.passes),
-            bytes: with.bytes() as i128 - without.bytes() as i128,
+            bytes: bytes(with) - bytes(&without),
         })
     }
+}
+
+/// The rate of a scene's adhesion.
+fn rate_of(scene: &Scene) -> Option<RateScene> {
+    scene.adhesion.as_ref().and_then(|adhesion| adhesion.rate)
 }
 
 /// What is in `left` more often than in `right`.

@@ -42,6 +42,8 @@ pub enum Dimension {
     MolarVolume,
     /// m/s.
     Speed,
+    /// W/(m K); of an electric one only the number is read, in S/m.
+    Conductivity,
     /// 1/m: a curvature, a wave number.
     PerLength,
     /// 1/m^2: a count per area.
@@ -66,6 +68,7 @@ impl Dimension {
             Dimension::Temperature => "K",
             Dimension::MolarVolume => "m^3/mol",
             Dimension::Speed => "m/s",
+            Dimension::Conductivity => "W/(m K)",
             Dimension::PerLength => "1/m",
             Dimension::PerArea => "1/m^2",
             Dimension::Angle => "rad",
@@ -87,6 +90,7 @@ impl Dimension {
             Dimension::Temperature => "a temperature in K",
             Dimension::MolarVolume => "a molar volume in m^3/mol",
             Dimension::Speed => "a speed in m/s",
+            Dimension::Conductivity => "a conductivity in W/(m K)",
             Dimension::PerLength => "a reciprocal length in 1/m",
             Dimension::PerArea => "a count per area in 1/m^2",
             Dimension::Angle => "an angle in deg or rad",
@@ -108,6 +112,7 @@ impl Dimension {
             Dimension::Temperature => "\"298.15 K\"",
             Dimension::MolarVolume => "\"18e-6 m^3/mol\"",
             Dimension::Speed => "\"1 um/s\"",
+            Dimension::Conductivity => "\"400 W/(m K)\"",
             Dimension::PerLength => "\"0.1 1/um\"",
             Dimension::PerArea => "\"10 1/um^2\"",
             Dimension::Angle => "\"70 deg\"",
@@ -238,6 +243,8 @@ const PREFIXED: &[(&str, Dimension)] = &[
     ("J/m^2", Dimension::EnergyPerArea),
     ("J/m²", Dimension::EnergyPerArea),
     ("m/s", Dimension::Speed),
+    ("W/(m K)", Dimension::Conductivity),
+    ("W/m/K", Dimension::Conductivity),
 ];
 
 /// Units that stand alone, with their size in SI.
@@ -559,6 +566,8 @@ mod tests {
             ("18e-6 m³/mol", MolarVolume, 18e-6),
             ("3 um/s", Speed, 3e-6),
             ("3 m/s", Speed, 3.0),
+            ("3 mW/(m K)", Conductivity, 3e-3),
+            ("3 W/m/K", Conductivity, 3.0),
             ("0.1 1/um", PerLength, 1e5),
             ("9e3/m", PerLength, 9e3),
             ("10 1/um^2", PerArea, 1e13),

@@ -294,7 +294,7 @@ fn mistakes_are_named_all_at_once_with_their_lines() {
 #[test]
 fn what_this_version_lacks_is_refused_by_name() {
     let (folder, _) = scene(ROUGH);
-    for (key, value) in [("conductance.conductivity", "1"), ("plastic.hardness", "1")] {
+    for (key, value) in [("solver.backend", "cuda"), ("plastic.hardness", "1")] {
         let set = format!("{key}={value}");
         let output = tabor(folder.path(), &["check", "scene.toml", "--set", &set]);
         assert_eq!(status(&output), 2, "{set}: {}", errors(&output));

@@ -6,7 +6,7 @@ use std::path::Path;
 
 use tabor::effect::Effect;
 use tabor::law::Law;
-use tabor::scene::{Boundary, Control, Scene, Treatment};
+use tabor::scene::{AdhesionScene, Boundary, Control, Scene, Treatment};
 use tabor::solver::good_size;
 use tabor::study::{Cost, Setup};
 use tabor::surface::Surface;
@@ -39,6 +39,8 @@ fn shipped_scenes() -> Vec<(String, Scene)> {
 /// What the solver is told by the scene alone.
 struct Expected {
     fields: Vec<&'static str>,
+    /// Fields that the host keeps between the steps.
+    history: usize,
     passes: Vec<&'static str>,
     points: [usize; 2],
 }
@@ -91,22 +93,18 @@ fn expected(scene: &Scene, grid: [usize; 2]) -> Expected {
     if core {
         fields.push("step");
     }
-    if solved_law.is_some() && scene.adhesion.as_ref().is_some_and(|a| a.map.is_some()) {
-        fields.push("adhesion_map");
+    let factored = |a: &AdhesionScene| a.map.is_some() || a.rate.is_some();
+    if solved_law.is_some() && scene.adhesion.as_ref().is_some_and(factored) {
+        fields.push("law_factor");
     }
     if two_band {
         fields.extend(["free", "restricted", "share", "weight", "long_waves"]);
     }
     // What a relaxing solid remembers: its displacement and the spring of each branch.
     let branches = scene.solid.relaxation.len();
-    if branches > 0 {
-        fields.extend(vec!["history"; branches + 1]);
-    }
     // What has flowed, as the path keeps it and as the solver does.
     let hard = scene.solid.hardness.is_some();
-    if hard {
-        fields.extend(["flowed", "flowed"]);
-    }
+    let history = if branches > 0 { branches + 1 } else { 0 } + if hard { 2 } else { 0 };
     let mut passes: Vec<&'static str> = Vec::new();
     match (core, two_band) {
         (true, _) => passes.extend(["core_free", "multiply", "core_descent"]),
@@ -142,6 +140,7 @@ fn expected(scene: &Scene, grid: [usize; 2]) -> Expected {
     }
     Expected {
         fields,
+        history,
         passes,
         points,
     }
@@ -180,6 +179,11 @@ fn check(name: &str, scene: &Scene) {
     let expected = expected(scene, [grid.nx, grid.ny]);
     assert_eq!(cost.points, expected.points, "{name}");
     assert_eq!(cost.passes, expected.passes, "{name}");
+    let history = expected.history * expected.points[0] * expected.points[1] * 8;
+    assert_eq!(cost.history_bytes(), history, "{name}");
+    // The compliance of all waves is tabulated where a conductance is asked, and nowhere else.
+    let tabulated = cost.spectra.iter().any(|held| held.name == "compliance");
+    assert_eq!(tabulated, scene.conductance.is_some(), "{name}");
     let mut names: Vec<&str> = cost.fields.iter().map(|field| field.name).collect();
     let mut wanted = expected.fields.clone();
     names.sort_unstable();

@@ -116,6 +116,7 @@ fn rough(points: usize) -> Surface {
         })],
         capillary: None,
         friction: None,
+        conductance: None,
         adhesion: None,
         loading: LoadingScene {
             control: Control::Pressure,

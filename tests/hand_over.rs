@@ -346,3 +346,17 @@ fn mixed_precision_walks_the_path_of_double() {
         "only {compared} scenes have one answer on this grid"
     );
 }
+
+/// An edge that costs more at speed, found from the state before each step; and what its contact
+/// conducts.
+#[test]
+fn cut_and_gone_on_with_where_an_edge_costs_more_at_speed() {
+    let law = format!(
+        "{}rate = {{ reference_speed = \"1 um/s\", exponent = 0.5 }}\n[conductance]\nconductivity = 1\ncounter_conductivity = 2\n",
+        adhesion("maugis-dugdale", "full")
+    );
+    let loading = "control = \"approach\"\nstart = \"20 nm\"\n[[loading.ramp]]\nto = \"-20 nm\"\nsteps = 5\nduration = 0.1\n[[loading.ramp]]\nto = \"10 nm\"\nsteps = 2\nduration = 1";
+    let make = || -> Box<dyn Backend + Send> { Box::new(CpuBackend::<f64>::new()) };
+    let scene = scene("free", SPHERE, &law, loading, false);
+    cut(scene, &make, false, false, "rate");
+}

@@ -21,6 +21,8 @@ keep coating 0016_pressure coating
 keep striped 0015_pressure striped
 keep viscoelastic 0026_pressure viscoelastic
 keep yielding 0003_pressure yielding
+keep joint 0004_pressure joint
+keep fast_pull_off 0018_pressure fast_pull_off
 keep humid_tip 0011_pressure humid_tip
 keep patterned_punch 0055_pressure patterned_punch
 # On fewer points than the scene has, for a small picture.

@@ -71,6 +71,7 @@ mod tests {
             state: State::Contact,
             friction_force: None,
             plastic_energy: None,
+            conductance: None,
         };
         let text = table(&(1..=30).map(row).collect::<Vec<_>>());
         let lines: Vec<&str> = text.lines().collect();

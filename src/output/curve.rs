@@ -257,6 +257,7 @@ fn parse_row(line: &str, columns: &[Column]) -> Option<StepRow> {
         state: State::from_name(state)?,
         friction_force: None,
         plastic_energy: None,
+        conductance: None,
     };
     for (column, cell) in columns.iter().zip(more) {
         column.set(&mut row, optional(cell)?);
@@ -289,6 +290,7 @@ mod tests {
             state: State::Attracted,
             friction_force: None,
             plastic_energy: None,
+            conductance: None,
         }
     }
 

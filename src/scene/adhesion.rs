@@ -5,6 +5,7 @@ use std::path::Path;
 use super::document::Value;
 use super::keys;
 use super::mistake::SceneError;
+use super::rate;
 use super::reader::{Allowed, Reader, is_sane};
 use super::types::{
     AdhesionMap, AdhesionScene, Boundary, GridScene, LawName, PatternKind, Range, Treatment,
@@ -43,6 +44,7 @@ pub(super) fn read(
         );
     }
     let map = map(&adhesion, law, grid, folder);
+    let rate = rate::read(&adhesion, law, treatment);
     let (work_of_adhesion, range) = numbers?;
     Some(Some(AdhesionScene {
         law: law?,
@@ -51,6 +53,7 @@ pub(super) fn read(
         taper: taper?,
         treatment: treatment?,
         map: map?,
+        rate: rate?,
     }))
 }
 

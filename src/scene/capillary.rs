@@ -115,6 +115,7 @@ impl CapillaryScene {
             taper: None,
             treatment: Treatment::Full,
             map: None,
+            rate: None,
         })
     }
 }

@@ -35,14 +35,12 @@ pub(super) const SCENE: Section = Section {
         ("adhesion", "[adhesion]"),
         ("capillary", "[capillary]"),
         ("friction", "[friction]"),
+        ("conductance", "[conductance]"),
         ("loading", "[loading]"),
         ("solver", "[solver]"),
         ("output", "[output]"),
     ],
-    later: &[
-        ("plastic", "plasticity"),
-        ("conductance", "contact conductance"),
-    ],
+    later: &[("plastic", "plasticity")],
 };
 
 pub(super) const GRID: Section = Section {
@@ -162,6 +160,19 @@ pub(super) const ADHESION: Section = Section {
         ("taper", "taper = \"auto\""),
         ("treatment", "treatment = \"full\""),
         ("map", "map = \"w.npy\""),
+        (
+            "rate",
+            "rate = { reference_speed = \"1 um/s\", exponent = 0.5 }",
+        ),
+    ],
+    later: &[],
+};
+
+pub(super) const RATE: Section = Section {
+    title: "the rate of [adhesion]",
+    keys: &[
+        ("reference_speed", "reference_speed = \"1 um/s\""),
+        ("exponent", "exponent = 0.5"),
     ],
     later: &[],
 };
@@ -192,6 +203,18 @@ pub(super) const CAPILLARY: Section = Section {
 pub(super) const FRICTION: Section = Section {
     title: "[friction]",
     keys: &[("shear_strength", "shear_strength = \"10 MPa\"")],
+    later: &[],
+};
+
+pub(super) const CONDUCTANCE: Section = Section {
+    title: "[conductance]",
+    keys: &[
+        ("conductivity", "conductivity = \"400 W/(m K)\""),
+        (
+            "counter_conductivity",
+            "counter_conductivity = \"1.4 W/(m K)\"",
+        ),
+    ],
     later: &[],
 };
 
@@ -252,8 +275,10 @@ pub(super) const ALL: &[&Section] = &[
     &FILE,
     &ADHESION,
     &PATTERN,
+    &RATE,
     &CAPILLARY,
     &FRICTION,
+    &CONDUCTANCE,
     &LOADING,
     &RAMP,
     &SOLVER,

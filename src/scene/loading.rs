@@ -73,6 +73,18 @@ pub(super) fn read(
         return None;
     }
     let timed = timed?;
+    if adhesion.is_some_and(|adhesion| adhesion.rate.is_some())
+        && timed
+            .durations
+            .as_ref()
+            .is_none_or(|durations| durations[1..].contains(&0.0))
+    {
+        loading.conflict(
+            if loading.has("path") { "path" } else { "ramp" },
+            "an edge that recedes at a rate must know how long the load takes; give start and [[loading.ramp]] with a duration above 0, such as duration = \"1 s\"",
+        );
+        return None;
+    }
     Some(LoadingScene {
         control: control?,
         path: timed.path,

@@ -7,6 +7,7 @@
 
 mod adhesion;
 mod capillary;
+mod conductance;
 mod document;
 mod friction;
 mod grid;
@@ -16,6 +17,7 @@ mod loading;
 mod mistake;
 mod output;
 mod overrides;
+mod rate;
 mod reader;
 mod resolved;
 mod solid;
@@ -112,6 +114,8 @@ fn read_tables(root: &Table, folder: &Path, log: &Log) -> Option<Scene> {
         hardness::check_precision(&scene, solid, solver.as_ref());
     }
     let friction = friction::read(&scene);
+    let layered = solid.as_ref().is_some_and(|solid| solid.layer.is_some());
+    let conductance = conductance::read(&scene, layered);
     let path_length = loading.as_ref().map(|loading| loading.path.len());
     let output = output::read(&scene, path_length);
     Some(Scene {
@@ -122,6 +126,7 @@ fn read_tables(root: &Table, folder: &Path, log: &Log) -> Option<Scene> {
         adhesion: adhesion?,
         capillary: capillary?,
         friction: friction?,
+        conductance: conductance?,
         loading: loading?,
         solver: solver?,
         output: output?,

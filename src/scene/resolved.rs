@@ -29,6 +29,13 @@ impl Scene {
             let table = json!({ "shear_strength": friction.shear_strength });
             scene.insert("friction".into(), table);
         }
+        if let Some(conductance) = &self.conductance {
+            let table = json!({
+                "conductivity": conductance.conductivity,
+                "counter_conductivity": conductance.counter_conductivity,
+            });
+            scene.insert("conductance".into(), table);
+        }
         scene.insert("loading".into(), self.loading.resolved());
         scene.insert("solver".into(), self.solver.resolved());
         scene.insert("output".into(), self.output.resolved());
@@ -183,7 +190,11 @@ impl AdhesionScene {
                 high,
             } => json!({ "pattern": kind.name(), "period": period, "low": low, "high": high }),
         });
-        with(table, "map", map)
+        let table = with(table, "map", map);
+        let rate = self.rate.map(
+            |rate| json!({ "reference_speed": rate.reference_speed, "exponent": rate.exponent }),
+        );
+        with(table, "rate", rate)
     }
 }
 

@@ -24,6 +24,8 @@ pub struct Scene {
     pub capillary: Option<CapillaryScene>,
     /// `[friction]`, an effect.
     pub friction: Option<FrictionScene>,
+    /// `[conductance]`, an effect.
+    pub conductance: Option<ConductanceScene>,
     /// `[loading]`.
     pub loading: LoadingScene,
     /// `[solver]`.
@@ -247,6 +249,17 @@ pub struct AdhesionScene {
     pub treatment: Treatment,
     /// A factor on the tension point by point (an effect).
     pub map: Option<AdhesionMap>,
+    /// How the work of adhesion grows with the speed of a receding edge (an effect).
+    pub rate: Option<RateScene>,
+}
+
+/// Work of adhesion of an edge that recedes at a speed v: `w (1 + (v/v*)^n)`.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct RateScene {
+    /// Speed v* at which it doubles, m/s.
+    pub reference_speed: f64,
+    /// Exponent n.
+    pub exponent: f64,
 }
 
 /// Where the factors on a law's tension come from.
@@ -294,6 +307,15 @@ impl PatternKind {
 pub struct FrictionScene {
     /// Shear strength of the area in contact, Pa.
     pub shear_strength: f64,
+}
+
+/// `[conductance]`: what the bodies conduct; heat, or a current with S/m in place of W/(m K).
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct ConductanceScene {
+    /// Conductivity of the solid, W/(m K).
+    pub conductivity: f64,
+    /// Conductivity of the counter-face, W/(m K).
+    pub counter_conductivity: f64,
 }
 
 /// `[capillary]`: a liquid that condenses between the surfaces.

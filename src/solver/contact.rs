@@ -10,7 +10,6 @@ use super::two_band::TwoBand;
 use crate::backend::{Backend, BackendError, Field, Level, Spectrum};
 use crate::kernel::{Gate, Params, Scalars, Status, common, scalar};
 use crate::law::Law;
-use crate::scene::Boundary;
 
 /// What is held fixed, reduced units.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -65,12 +64,18 @@ pub struct ContactSolver<'a> {
     pub(super) gap: Field,
     pub(super) pressure: Field,
     pub(super) direction: Field,
-    descent: Field,
+    pub(super) descent: Field,
     pub(super) free_before: Field,
+    /// Factors on the law's tension, where it is not the same everywhere and always.
+    law_factor: Option<Field>,
+    /// Those factors over the grid, where they are not the problem's own.
+    present_factor: Option<Vec<f64>>,
     /// The trial step of a law whose change of variable makes it costly.
     step: Option<Field>,
-    stiffness: Spectrum,
+    pub(super) stiffness: Spectrum,
     preconditioner: Spectrum,
+    /// The compliance of all waves, where the contact's conductance is asked.
+    pub(super) compliance: Option<Spectrum>,
     two_band: Option<TwoBand>,
     kernels: &'static KernelSet,
     pub(super) params: Params,
@@ -107,23 +112,23 @@ impl<'a> ContactSolver<'a> {
         let free_before = backend.field(level, "free_before");
         let has_wall = problem.law.has_wall();
         let step = (!has_wall).then(|| backend.field(level, "step"));
-        if let Some(factor) = &problem.law_factor {
-            let field = backend.field(level, "adhesion_map");
+        let law_factor = problem.law_factor.as_ref().map(|factor| {
+            let field = backend.field(level, "law_factor");
             // A pad has no law.
             backend.write(field, &problem.padded(factor, 0.0));
             backend.set_law_factor(field);
-        }
+            field
+        });
         let stiffness = backend.spectrum(level, "stiffness", &problem.stiffness);
         let two_band = TwoBand::plan(backend, level, problem);
         let compliance: Vec<f64> = match &two_band {
             Some(bands) => bands.short_waves(problem),
-            None => problem
-                .stiffness
-                .iter()
-                .map(|&k| if k > 0.0 { 1.0 / k } else { 0.0 })
-                .collect(),
+            None => problem.compliance(),
         };
         let preconditioner = backend.spectrum(level, "preconditioner", &compliance);
+        let compliance = problem
+            .conducts
+            .then(|| backend.spectrum(level, "compliance", &problem.compliance()));
         backend.write(heights, &problem.padded(&problem.heights, 0.0));
         let params = fixed_params(problem, backend.epsilon());
         ContactSolver {
@@ -136,9 +141,12 @@ impl<'a> ContactSolver<'a> {
             direction,
             descent,
             free_before,
+            law_factor,
+            present_factor: None,
             step,
             stiffness,
             preconditioner,
+            compliance,
             two_band,
             kernels: KernelSet::of(problem),
             params,
@@ -223,37 +231,30 @@ impl<'a> ContactSolver<'a> {
         }
     }
 
+    /// Sets the factors on the law's tension, one a grid point; the problem must have some. `None` sets
+    /// the problem's own.
+    pub fn set_law_factor(&mut self, factor: Option<Vec<f64>>) {
+        if let (Some(field), Some(own)) = (self.law_factor, &self.problem.law_factor) {
+            let values = factor.as_ref().unwrap_or(own);
+            self.backend.write(field, &self.problem.padded(values, 0.0));
+            if self.reference().is_some() {
+                let values = values.clone();
+                if let Some(reference) = &mut self.reference {
+                    reference.set_law_factor(self.problem, values);
+                }
+            }
+            self.present_factor = factor;
+        }
+    }
+
+    /// The factors set, where they are not the problem's own.
+    pub fn law_factor(&self) -> Option<&[f64]> {
+        self.present_factor.as_deref()
+    }
+
     /// Mean over all solved points of that offset; 0 without one.
     pub fn mean_offset(&self) -> f64 {
         self.mean_offset
-    }
-
-    /// `<values, K*values>/2` over all solved points, reduced: the elastic energy of a displacement.
-    /// Between solves, since it takes their directions for work space.
-    pub fn energy_of(&mut self, values: &[f64]) -> Result<f64, BackendError> {
-        // A free half-space's own zero mode; a load's is not elastic.
-        let own = match self.problem.boundary {
-            Boundary::Periodic => 0.0,
-            Boundary::Free => self.problem.stiffness[0],
-        };
-        if let Some(reference) = &mut self.reference {
-            return reference.energy_of(values, own);
-        }
-        let (work, out) = (self.direction, self.descent);
-        self.backend.write(work, values);
-        self.backend.set_zero_mode(self.stiffness, own);
-        self.backend
-            .forward(&common::LOAD_FIELD, self.level, &[work]);
-        self.backend.multiply(self.stiffness, false, Gate::Always);
-        self.backend
-            .backward(&common::STORE_PRESSURE, self.level, &[out]);
-        let pressure = self.backend.read(out)?;
-        Ok(0.5
-            * values
-                .iter()
-                .zip(&pressure)
-                .map(|(u, p)| u * p)
-                .sum::<f64>())
     }
 
     /// The gap at which the undeformed surfaces first touch, scaled or shifted to a held mean gap.

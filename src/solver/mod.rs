@@ -8,6 +8,8 @@
 mod coarse_start;
 mod contact;
 mod correction;
+mod elasticity;
+mod frozen;
 mod kernel_set;
 mod problem;
 mod reference;

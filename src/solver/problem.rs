@@ -50,6 +50,8 @@ pub struct Problem {
     /// Stiffness at each wavevector, as [`Shape::spectrum_len`] says; its zero mode is 0
     /// (periodic) or the free half-space's.
     pub stiffness: Vec<f64>,
+    /// Whether the conductance of its contacts is asked.
+    pub conducts: bool,
 }
 
 /// Smallest even size of at least `points` whose prime factors are 2, 3, 5 and 7.
@@ -135,6 +137,7 @@ impl Problem {
             law_factor: None,
             hardness: None,
             layer: None,
+            conducts: false,
         }
     }
 
@@ -151,6 +154,14 @@ impl Problem {
         Problem {
             stiffness: periodic_stiffness(&self.grid, self.scales.lateral, Some(&layer)),
             layer: Some(layer),
+            ..self
+        }
+    }
+
+    /// The same problem with the conductance of its contacts asked.
+    pub fn conducting(self) -> Problem {
+        Problem {
+            conducts: true,
             ..self
         }
     }
@@ -207,6 +218,7 @@ impl Problem {
             law_factor: mapped.then(Vec::new),
             hardness: None,
             layer,
+            conducts: false,
         }
     }
 
@@ -252,6 +264,7 @@ impl Problem {
             law_factor: None,
             // Where it would flow is found on the full grid.
             hardness: None,
+            conducts: false,
             ..*self
         })
     }
@@ -290,6 +303,15 @@ impl Problem {
             .copied()
             .fold(f64::INFINITY, f64::min);
         if least.is_finite() { least } else { 1.0 }
+    }
+
+    /// Inverse of the stiffness at each wavevector; 0 where that is 0.
+    pub fn compliance(&self) -> Vec<f64> {
+        let inverse = |&stiffness: &f64| match stiffness > 0.0 {
+            true => 1.0 / stiffness,
+            false => 0.0,
+        };
+        self.stiffness.iter().map(inverse).collect()
     }
 
     /// Displacement of a uniform unit pressure on a layer, reduced; 0 on the half-space, whose

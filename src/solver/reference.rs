@@ -13,11 +13,14 @@ pub(super) struct Reference {
     places: Places,
     kernels: &'static KernelSet,
     params: Params,
+    /// Factors on the law's tension over the grid, where it is not the same everywhere.
+    law_factor: Option<Vec<f64>>,
 }
 
 /// What is held for it.
 struct Places {
     level: Level,
+    law_factor: Option<Field>,
     heights: Field,
     gap: Field,
     pressure: Field,
@@ -40,13 +43,15 @@ impl Places {
         problem: &Problem,
     ) -> Self {
         let level = backend.level("fine", problem.shape);
-        if let Some(factor) = &problem.law_factor {
-            let field = backend.field(level, "adhesion_map");
+        let law_factor = problem.law_factor.as_ref().map(|factor| {
+            let field = backend.field(level, "law_factor");
             backend.write(field, &problem.padded(factor, 0.0));
             backend.set_law_factor(field);
-        }
+            field
+        });
         Places {
             level,
+            law_factor,
             heights: backend.field(level, "heights"),
             gap: backend.field(level, "gap"),
             pressure: backend.field(level, "pressure"),
@@ -74,6 +79,7 @@ impl Reference {
             places,
             kernels: KernelSet::of(problem),
             params: fixed_params(problem, backend.epsilon()),
+            law_factor: problem.law_factor.clone(),
             backend,
         }
     }
@@ -89,6 +95,14 @@ impl Reference {
 
     pub fn set_heights(&mut self, heights: &[f64]) {
         self.backend.write(self.places.heights, heights);
+    }
+
+    /// Sets the factors on the law's tension, one a grid point.
+    pub fn set_law_factor(&mut self, problem: &Problem, factor: Vec<f64>) {
+        if let Some(field) = self.places.law_factor {
+            self.backend.write(field, &problem.padded(&factor, 0.0));
+            self.law_factor = Some(factor);
+        }
     }
 
     pub fn set_gap(&mut self, gap: &[f64]) {
@@ -170,7 +184,7 @@ impl Reference {
             .zip(gap.chunks_exact(width));
         for (row, (residual, gap)) in rows.take(ny).enumerate() {
             for (column, (y, &g)) in residual.iter_mut().zip(gap).take(nx).enumerate() {
-                let factor = problem
+                let factor = self
                     .law_factor
                     .as_ref()
                     .map_or(1.0, |factor| factor[row * nx + column]);

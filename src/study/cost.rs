@@ -18,6 +18,8 @@ pub struct Cost {
     pub place: Place,
     /// Fields, one number a solved point each.
     pub fields: Vec<Held>,
+    /// What the host keeps between the steps, in double precision.
+    pub history: Vec<Held>,
     /// Factors a wavevector.
     pub spectra: Vec<Held>,
     /// Work space of the transforms.
@@ -59,12 +61,22 @@ impl Cost {
             _ => Law::HardWall,
         };
         let mapped = scene.adhesion.as_ref().is_some_and(|adhesion| {
-            adhesion.map.is_some() && adhesion.treatment == Treatment::Full
+            (adhesion.map.is_some() || adhesion.rate.is_some())
+                && adhesion.treatment == Treatment::Full
         });
         let mut problem =
             Problem::sketch(grid, scene.grid.boundary, law, mapped, scene.solid.layer);
         problem.hardness = scene.solid.hardness;
+        let problem = match scene.conductance {
+            Some(_) => problem.conducting(),
+            None => problem,
+        };
         plan(&problem, scene, 0.0, place)
+    }
+
+    /// Bytes that the host keeps between the steps.
+    pub fn history_bytes(&self) -> usize {
+        self.history.iter().map(|held| held.bytes).sum()
     }
 
     /// Bytes of the state in double precision.
@@ -124,27 +136,24 @@ fn plan(
         }
     }
     let branches = scene.solid.relaxation.len();
-    if branches > 0 {
-        // The displacement and the spring of each branch, kept by the host in double precision.
-        let history = Held {
-            name: "history",
-            level: Level(0),
-            bytes: problem.shape.len() * size_of::<f64>(),
-        };
-        iterated.fields.extend(vec![history; branches + 1]);
-    }
+    let remembered = |name| Held {
+        name,
+        level: Level(0),
+        bytes: problem.shape.len() * size_of::<f64>(),
+    };
+    // The displacement and the spring of each branch.
+    let mut history = match branches {
+        0 => Vec::new(),
+        _ => vec![remembered("history"); branches + 1],
+    };
     if scene.solid.hardness.is_some() {
-        // The depths that have flowed, kept by the host and by the solver in double precision.
-        let flowed = Held {
-            name: "flowed",
-            level: Level(0),
-            bytes: problem.shape.len() * size_of::<f64>(),
-        };
-        iterated.fields.extend([flowed, flowed]);
+        // The depths that have flowed, kept for the path and for the solver.
+        history.extend([remembered("flowed"); 2]);
     }
     Ok(Cost {
         place,
         fields: iterated.fields,
+        history,
         spectra: iterated.spectra,
         work: iterated.work,
         reference,

@@ -71,6 +71,9 @@ pub struct Solved<'a> {
     pub held: f64,
     /// The load it was solved for.
     pub load: Load,
+    /// Factors on the law's tension where they are not the setup's own, one a grid point. The energy of
+    /// adhesion goes by the setup's own: what a receding edge costs more is lost, not stored.
+    pub law_factor: Option<&'a [f64]>,
 }
 
 impl Evaluation {
@@ -135,7 +138,8 @@ impl Evaluation {
                 g <= 0.0
             };
             let factor = setup.law_factor(i);
-            let traction = factor * law.traction(g);
+            let pulling = solved.law_factor.map_or(factor, |factors| factors[i]);
+            let traction = pulling * law.traction(g);
             let y = elastic[i] + solved.held;
             // 0 - x, for the negative of zero prints as -0.
             net[i] = if negative_is_contact {

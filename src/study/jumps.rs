@@ -41,7 +41,10 @@ impl Jumps {
     pub fn new(setup: &Setup) -> Self {
         // Nor can a jump be told from what a relaxing solid dissipates in the same step.
         let relaxes = !setup.scene.solid.relaxation.is_empty();
-        let adhesive = setup.law.is_adhesive() && !setup.dmt && !relaxes;
+        // Or an edge that recedes at a rate.
+        let adhesion = setup.scene.adhesion.as_ref();
+        let rated = adhesion.is_some_and(|adhesion| adhesion.rate.is_some());
+        let adhesive = setup.law.is_adhesive() && !setup.dmt && !relaxes && !rated;
         Jumps {
             work: adhesive.then(|| setup.law.work_of_adhesion()),
             pixel_area: setup.surface.grid.pixel_area(),

@@ -61,15 +61,33 @@ impl Memory {
             0
         };
         let evaluating = evaluating + EVALUATION * points * kept_steps(scene);
+        // A relaxing solid's history, what the past moves the surface by, and a problem of its own.
+        let history = cost.history_bytes() as u64;
+        let (remembered, relaxing) = match scene.solid.relaxation.is_empty() {
+            true => (history, 0),
+            false => (
+                history + DOUBLE * (solved + points) + table,
+                // The displacement, padded heights, and a pressure of a spring as it is read.
+                3 * DOUBLE * solved + EVALUATION * points,
+            ),
+        };
+        // Pressure, residual, direction, two products and the contact, beside the results.
+        let conducting = match scene.conductance {
+            Some(_) => 6 * DOUBLE * solved + (DOUBLE + EVALUATION) * points,
+            None => 0,
+        };
         // Values of a field on their way to a file or a picture.
         let writing = (2 * EVALUATION + DOUBLE) * points;
         let solving = kept
+            + remembered
             + solver_here
             + reference
             + planning
                 .max(cold_start(scene, points, solver_here, table))
                 .max(evaluating)
                 .max(correcting)
+                .max(relaxing)
+                .max(conducting)
                 .max(writing);
         Memory {
             solver,

@@ -1,14 +1,17 @@
 //! Many solves: the steps of a loading path.
 
+mod conductance;
 pub mod control;
 mod cost;
 mod dmt;
+mod edge;
 mod evaluation;
 mod flow;
 mod hand_over;
 mod jumps;
 mod memory;
 mod plan;
+mod rate;
 mod relaxation;
 mod row;
 mod setup;

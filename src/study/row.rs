@@ -70,6 +70,9 @@ pub struct StepRow {
     pub friction_force: Option<f64>,
     /// Energy that plastic flow has dissipated since the path began, J; `None` without a hardness.
     pub plastic_energy: Option<f64>,
+    /// What the contact conducts, W/K; `None` without conductance, where the surfaces are closed
+    /// everywhere, or where the step did not converge.
+    pub conductance: Option<f64>,
 }
 
 /// A column that `curve.csv` has behind the others where an effect asks for it.
@@ -79,6 +82,8 @@ pub enum Column {
     FrictionForce,
     /// Energy that plastic flow has dissipated.
     PlasticEnergy,
+    /// Conductance.
+    Conductance,
 }
 
 impl Column {
@@ -91,6 +96,9 @@ impl Column {
         if scene.solid.hardness.is_some() {
             columns.push(Column::PlasticEnergy);
         }
+        if scene.conductance.is_some() {
+            columns.push(Column::Conductance);
+        }
         columns
     }
 
@@ -99,6 +107,7 @@ impl Column {
         match self {
             Column::FrictionForce => "friction_force",
             Column::PlasticEnergy => "plastic_energy",
+            Column::Conductance => "conductance",
         }
     }
 
@@ -107,6 +116,7 @@ impl Column {
         match self {
             Column::FrictionForce => row.friction_force,
             Column::PlasticEnergy => row.plastic_energy,
+            Column::Conductance => row.conductance,
         }
     }
 
@@ -115,6 +125,7 @@ impl Column {
         match self {
             Column::FrictionForce => row.friction_force = value,
             Column::PlasticEnergy => row.plastic_energy = value,
+            Column::Conductance => row.conductance = value,
         }
     }
 }

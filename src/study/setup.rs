@@ -104,8 +104,11 @@ impl Setup {
             statistics.moments.rms_slope(),
             if dmt { Law::HardWall } else { law },
         );
+        let rated = scene.adhesion.as_ref().is_some_and(|a| a.rate.is_some());
         let problem = match &surface.adhesion_map {
             Some(factor) if !dmt => problem.patterned(factor.clone()),
+            // Where an edge recedes there will be a factor.
+            None if rated => problem.patterned(vec![1.0; grid.len()]),
             _ => problem,
         };
         let problem = match scene.solid.layer {
@@ -114,6 +117,10 @@ impl Setup {
         };
         let problem = match scene.solid.hardness {
             Some(hardness) => problem.yielding(hardness),
+            None => problem,
+        };
+        let problem = match scene.conductance {
+            Some(_) => problem.conducting(),
             None => problem,
         };
         Setup {

@@ -4,12 +4,14 @@ use std::borrow::Cow;
 use std::ops::Range;
 use std::time::Instant;
 
+use super::conductance;
 use super::control::Controller;
 use super::dmt;
 use super::evaluation::{Evaluation, Solved};
 use super::flow::{Flow, load_on};
 use super::hand_over::{Earlier, GAP, HandOver, HandedField};
 use super::jumps::{Jump, Jumps};
+use super::rate::RatedStep;
 use super::relaxation::{History, effective_modulus, stretches};
 use super::row::{State, StepRow};
 use super::setup::Setup;
@@ -203,7 +205,12 @@ impl Stretch<'_> {
                 solver.set_offset(&offset);
                 offset
             });
-            let mut solved = state.step(&mut solver, value, self.make_backend, &mut |scalars| {
+            let asked = Asked {
+                value,
+                duration: self.duration(index),
+                make_backend: self.make_backend,
+            };
+            let mut solved = state.step(&mut solver, &asked, &mut |scalars| {
                 observer.iteration(step, scalars)
             })?;
             if state.interrupted {
@@ -214,10 +221,18 @@ impl Stretch<'_> {
             if let (Some(history), Some(offset)) = (history.as_mut(), offset) {
                 state.relax(&mut solver, &mut solved, history, offset, duration)?;
             }
+            let conductance = match solved.converged {
+                true => conductance::of(setup, &mut solver, solved.evaluation.as_ref())?,
+                false => None,
+            };
+            if setup.scene.conductance.is_some() && conductance.is_none() {
+                solved.converged = false;
+            }
             if let Some(flow) = flow.as_mut().filter(|_| solved.converged && state.loaded) {
                 flow.settle(&mut solver)?;
             }
             let mut row = state.row(step, value, &solved, clock.elapsed().as_secs_f64());
+            row.conductance = conductance.filter(|conductance| conductance.is_finite());
             row.time = self.time(index, end.rows.last());
             row.plastic_energy = flow.as_ref().map(Flow::energy);
             let jump = jumps.step(&row, solved.evaluation.as_ref());
@@ -263,7 +278,10 @@ impl Stretch<'_> {
     /// How long a step takes, s; 0 where the path has no durations.
     fn duration(&self, index: usize) -> f64 {
         let durations = self.setup.scene.loading.durations.as_ref();
-        durations.map_or(0.0, |durations| durations[index])
+        // A path that is gone on with at its end has no step there.
+        durations
+            .and_then(|durations| durations.get(index).copied())
+            .unwrap_or(0.0)
     }
 
     /// Time at the end of a step, s, where the path has durations.
@@ -290,6 +308,14 @@ pub(super) struct SolvedStep {
     pub residual: f64,
 }
 
+/// What is asked of a step.
+struct Asked<'s> {
+    value: f64,
+    /// How long it takes, s.
+    duration: f64,
+    make_backend: MakeBackend<'s>,
+}
+
 /// What one step hands to the next.
 struct PathState<'s> {
     setup: &'s Setup,
@@ -303,11 +329,15 @@ impl PathState<'_> {
     fn step(
         &mut self,
         solver: &mut ContactSolver,
-        value: f64,
-        make_backend: MakeBackend,
+        asked: &Asked,
         watch: &mut dyn FnMut(&Scalars) -> bool,
     ) -> Result<SolvedStep, BackendError> {
         let setup = self.setup;
+        let &Asked {
+            value,
+            duration,
+            make_backend,
+        } = asked;
         let mut going = true;
         let mut watch = |scalars: &Scalars| {
             going = watch(scalars);
@@ -338,8 +368,23 @@ impl PathState<'_> {
         } else {
             let load = load_on(solver, self.controller.load(value));
             let start = self.start(solver, &load, value)?;
-            let outcome = solve(setup, solver, &load, &start, make_backend, &mut watch)?;
-            finish(setup, &self.controller, solver, &load, &outcome)?
+            match setup.scene.adhesion.as_ref().and_then(|a| a.rate) {
+                Some(rate) => {
+                    let rated = RatedStep {
+                        setup,
+                        controller: &self.controller,
+                        rate,
+                        duration,
+                        loaded: self.loaded,
+                        make_backend,
+                    };
+                    rated.solve(solver, &load, start, &mut watch)?
+                }
+                None => {
+                    let outcome = solve(setup, solver, &load, &start, make_backend, &mut watch)?;
+                    finish(setup, &self.controller, solver, &load, &outcome)?
+                }
+            }
         };
         self.interrupted = !going;
         self.loaded = solved.evaluation.is_some();
@@ -484,6 +529,7 @@ impl PathState<'_> {
                 friction.shear_strength * evaluation.map_or(0.0, |e| e.contact) * area
             }),
             plastic_energy: None,
+            conductance: None,
         }
     }
 }
@@ -545,6 +591,7 @@ pub(super) fn finish(
         flowed: solver.flowed(),
         held: outcome.mean_pressure,
         load: *load,
+        law_factor: solver.law_factor(),
     };
     let evaluation = Evaluation::of(setup, solver.problem(), controller, &solved);
     // What is no number has not converged, whatever the residual makes of it.

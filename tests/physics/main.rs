@@ -2,11 +2,12 @@
 
 mod bench;
 mod capillary;
+mod conductance;
 mod controls;
 mod energy;
 mod friction;
-mod hardness;
 mod halving;
+mod hardness;
 mod hertz;
 mod invariants;
 mod layer;
@@ -14,7 +15,9 @@ mod lennard_jones;
 mod maugis_dugdale;
 mod pairs;
 mod pattern;
+mod rate;
 mod relaxation;
 mod rough;
+mod spring;
 mod tables;
 mod waves;

@@ -23,7 +23,15 @@ fn scene(effects: &[Effect]) -> String {
         solid = format!("hardness = 0.05\n{solid}");
     }
     let mut tables = String::new();
-    if on(Effect::Adhesion) || on(Effect::Dmt) || on(Effect::AdhesionMap) {
+    if [
+        Effect::Adhesion,
+        Effect::Dmt,
+        Effect::AdhesionMap,
+        Effect::Rate,
+    ]
+    .map(on)
+    .contains(&true)
+    {
         tables += "[adhesion]\nlaw = \"exponential\"\nwork_of_adhesion = 1e-4\nrange = 0.02\n";
     }
     if on(Effect::Dmt) {
@@ -32,12 +40,18 @@ fn scene(effects: &[Effect]) -> String {
     if on(Effect::AdhesionMap) {
         tables += "map = { pattern = \"checker\", period = 0.5, low = 0.2, high = 1.5 }\n";
     }
+    if on(Effect::Rate) {
+        tables += "rate = { reference_speed = 0.05, exponent = 0.5 }\n";
+    }
     if on(Effect::Capillary) {
         // A liquid of these units: a meniscus 0.02 high.
         tables += "[capillary]\nhumidity = 0.5\nsurface_tension = 1e-4\nmolar_volume = 171742\ntemperature = 298\n";
     }
     if on(Effect::Friction) {
         tables += "[friction]\nshear_strength = 0.1\n";
+    }
+    if on(Effect::Conductance) {
+        tables += "[conductance]\nconductivity = 1.0\ncounter_conductivity = 3.0\n";
     }
     let boundary = match on(Effect::FreeBoundary) {
         true => "boundary = \"free\"\n",
@@ -55,14 +69,17 @@ fn scene(effects: &[Effect]) -> String {
 /// Why a pair cannot be, as the scene's message says it.
 fn refusal(pair: [Effect; 2]) -> Option<&'static str> {
     use Effect::{
-        Adhesion, AdhesionMap, Capillary, Dmt, FreeBoundary, Hardness, Layer, Relaxation, Spring,
+        Adhesion, AdhesionMap, Capillary, Conductance, Dmt, FreeBoundary, Hardness, Layer, Rate,
+        Relaxation, Spring,
     };
     match pair {
-        [Adhesion | Dmt | AdhesionMap, Capillary] => Some("the liquid is the adhesion"),
+        [Adhesion | Dmt | AdhesionMap | Rate, Capillary] => Some("the liquid is the adhesion"),
         [Layer, Relaxation] => Some("relaxation of a compressible layer"),
         [Layer, FreeBoundary] => Some("a layer needs boundary = \"periodic\""),
         [Dmt, Hardness] => Some("a hardness with treatment = \"dmt\""),
         [Dmt, Relaxation] => Some("on a solid that relaxes"),
+        [Layer, Conductance] => Some("the conductance of a layer"),
+        [Dmt, Rate] => Some("a rate with treatment = \"dmt\""),
         [Dmt, Spring] => Some("a spring with treatment = \"dmt\""),
         _ => None,
     }
@@ -70,10 +87,13 @@ fn refusal(pair: [Effect; 2]) -> Option<&'static str> {
 
 #[test]
 fn any_two_effects() {
-    // Both forces of each step; without friction the second is 0.
+    // Both forces of each step and what it conducts; without the effects the others are 0.
     let forces = |effects: &[Effect]| -> Vec<f64> {
         let solved = solve_table(&scene(effects));
-        let both = |row: &StepRow| [row.force, row.friction_force.unwrap_or(0.0)];
+        let both = |row: &StepRow| {
+            let others = [row.friction_force, row.conductance];
+            [Some(row.force), others[0], others[1]].map(|value| value.unwrap_or(0.0))
+        };
         solved.rows().flat_map(both).collect()
     };
     let alone: Vec<Vec<f64>> = Effect::ALL
@@ -96,7 +116,8 @@ fn any_two_effects() {
             pairs += 1;
             // A treatment or a map of the adhesion has it on; alone they are the pair.
             let same = |effect: Effect, other: Effect| {
-                effect == Effect::Adhesion && matches!(other, Effect::Dmt | Effect::AdhesionMap)
+                effect == Effect::Adhesion
+                    && matches!(other, Effect::Dmt | Effect::AdhesionMap | Effect::Rate)
             };
             let differs = |a: &[f64]| {
                 a.iter()
@@ -111,6 +132,6 @@ fn any_two_effects() {
             );
         }
     }
-    // Of 45 pairs 8 are refused.
-    assert_eq!(pairs, 37);
+    // Of 66 pairs 11 are refused.
+    assert_eq!(pairs, 55);
 }

@@ -44,7 +44,7 @@ fn held(duration: f64, steps: usize) -> String {
 }
 
 /// Lee & Radok 1960: under a constant force the approach grows as `(J E_0)^(2/3)`. The pixels make
-/// up to 1e-3 of the approach (10 pixels across the radius), steps of a twentieth of the branch's
+/// some 5e-4 of the approach (10 pixels across the radius), steps of a twentieth of the branch's
 /// time a tenth of that.
 #[test]
 fn a_sphere_creeps() {
@@ -56,7 +56,7 @@ fn a_sphere_creeps() {
         let expected = (0.75 * FORCE * theory.creep(time)).powf(2.0 / 3.0);
         let error = row.approach.expect("an approach") / expected - 1.0;
         worst = worst.max(error.abs());
-        assert!(error.abs() < 1.2e-3, "at {time}: {error:e}");
+        assert!(error.abs() < 6e-4, "at {time}: {error:e}");
     }
     let last = solved.rows().last().expect("rows");
     assert!((last.time.expect("a time") - 3.0).abs() < 1e-12);

@@ -160,11 +160,16 @@ fn refuse(scene: &Scene) -> Result<(), Failure> {
         );
     }
     let mapped = scene.adhesion.as_ref().is_some_and(|law| law.map.is_some());
+    let rated = scene
+        .adhesion
+        .as_ref()
+        .is_some_and(|law| law.rate.is_some());
     for (named, what) in [
         (scene.solid.layer.is_some(), "[solid] thickness"),
         (scene.solid.hardness.is_some(), "[solid] hardness"),
         (!scene.solid.relaxation.is_empty(), "[[solid.relaxation]]"),
         (mapped, "[adhesion] map"),
+        (rated, "[adhesion] rate"),
     ] {
         if named {
             return Err(Failure::Usage(format!(

@@ -148,6 +148,7 @@ mod tests {
             state: State::Contact,
             friction_force: None,
             plastic_energy: None,
+            conductance: None,
         }
     }
 

@@ -128,6 +128,8 @@ fn unit<'u>(key: &str, path_unit: &'u str) -> Option<&'u str> {
         "surface_tension" | "spring" => "N/m",
         "time" | "hold" | "duration" | "durations" => "s",
         "temperature" => "K",
+        "reference_speed" => "m/s",
+        "conductivity" | "counter_conductivity" => "W/(m K)",
         "half_angle" | "contact_angle" => "°",
         "path" => path_unit,
         _ => return None,

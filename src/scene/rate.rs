@@ -1,0 +1,59 @@
+//! `rate` in `[adhesion]`: a work of adhesion that grows with the speed of a receding edge.
+
+use super::keys;
+use super::mistake::SceneError;
+use super::reader::{Allowed, Reader};
+use super::types::{LawName, RateScene, Treatment};
+use crate::units::Dimension;
+
+/// Exponents for which the growth is one that has been measured, with room on both sides.
+const EXPONENT: Allowed = Allowed::new(
+    |exponent| (0.05..=2.0).contains(&exponent),
+    "an exponent from 0.05 to 2",
+);
+
+/// Reads the rate: `Some(None)` where there is none.
+pub(super) fn read(
+    adhesion: &Reader,
+    law: Option<LawName>,
+    treatment: Option<Treatment>,
+) -> Option<Option<RateScene>> {
+    if !adhesion.has("rate") {
+        return Some(None);
+    }
+    let rate = adhesion.table("rate", &keys::RATE)?;
+    if law == Some(LawName::LennardJones) {
+        adhesion.conflict(
+            "rate",
+            "raises the law of a receding edge, and with law = \"lennard-jones\" the same factor repels; take another law",
+        );
+        return None;
+    }
+    if treatment == Some(Treatment::Dmt) {
+        // The search for the net load and that for the speed would have to be one.
+        adhesion.report(
+            "rate",
+            SceneError::NotInThisVersion {
+                what: "a rate with treatment = \"dmt\"".to_string(),
+                instead: "take treatment = \"full\", or leave the rate out".to_string(),
+            },
+        );
+        return None;
+    }
+    rate.require(&["reference_speed", "exponent"]);
+    let reference_speed = rate.quantity("reference_speed", Dimension::Speed, Allowed::POSITIVE);
+    let exponent = rate.quantity("exponent", Dimension::Dimensionless, EXPONENT);
+    Some(Some(RateScene {
+        reference_speed: reference_speed?,
+        exponent: exponent?,
+    }))
+}
+
+impl RateScene {
+    /// Factor on the work of adhesion of an edge that recedes at `speed` (m/s); 1 at rest.
+    ///
+    /// Gent & Schultz 1972, doi:10.1080/00218467208072219; Maugis & Barquins 1978.
+    pub fn factor(&self, speed: f64) -> f64 {
+        1.0 + (speed.max(0.0) / self.reference_speed).powf(self.exponent)
+    }
+}

@@ -1,0 +1,59 @@
+//! The elastic operator on values of the host, between solves.
+
+use super::contact::ContactSolver;
+use crate::backend::{BackendError, Spectrum};
+use crate::kernel::{Gate, common};
+use crate::scene::Boundary;
+
+impl ContactSolver<'_> {
+    /// `<values, K*values>/2` over all solved points, reduced: the elastic energy of a displacement.
+    /// Between solves, since it takes their directions for work space.
+    pub fn energy_of(&mut self, values: &[f64]) -> Result<f64, BackendError> {
+        let own = self.own_zero_mode();
+        if let Some(reference) = &mut self.reference {
+            return reference.energy_of(values, own);
+        }
+        let pressure = self.stiffness_times(values)?;
+        Ok(0.5
+            * values
+                .iter()
+                .zip(&pressure)
+                .map(|(u, p)| u * p)
+                .sum::<f64>())
+    }
+
+    /// A free half-space's own zero mode; a load's is not elastic.
+    fn own_zero_mode(&self) -> f64 {
+        match self.problem.boundary {
+            Boundary::Periodic => 0.0,
+            Boundary::Free => self.problem.stiffness[0],
+        }
+    }
+
+    /// `K*values` over all solved points, reduced, with the half-space's own zero mode. Between
+    /// solves, since it takes their directions for work space.
+    pub(super) fn stiffness_times(&mut self, values: &[f64]) -> Result<Vec<f64>, BackendError> {
+        let own = self.own_zero_mode();
+        self.backend.set_zero_mode(self.stiffness, own);
+        self.convolve(self.stiffness, values)
+    }
+
+    /// `S*values`, S the inverse of that stiffness; 0 where the problem does not conduct.
+    pub(super) fn compliance_times(&mut self, values: &[f64]) -> Result<Vec<f64>, BackendError> {
+        match self.compliance {
+            Some(compliance) => self.convolve(compliance, values),
+            None => Ok(vec![0.0; values.len()]),
+        }
+    }
+
+    fn convolve(&mut self, by: Spectrum, values: &[f64]) -> Result<Vec<f64>, BackendError> {
+        let (work, out) = (self.direction, self.descent);
+        self.backend.write(work, values);
+        self.backend
+            .forward(&common::LOAD_FIELD, self.level, &[work]);
+        self.backend.multiply(by, false, Gate::Always);
+        self.backend
+            .backward(&common::STORE_PRESSURE, self.level, &[out]);
+        self.backend.read(out)
+    }
+}

@@ -1,0 +1,105 @@
+//! An edge that costs more the faster it recedes.
+//!
+//! Units of Maugis: K = 4E*/3 = 1, R = 1, w = 1/pi, so that forces are in pi w R and lengths in his; with
+//! v* = 1 a speed of approach is in v* delta*/a*.
+
+use std::f64::consts::PI;
+
+use tabor::study::StepRow;
+use tabor::theory::maugis_dugdale::MaugisDugdale;
+use tabor::theory::rate::reduced_pull_off;
+
+use crate::bench::{Solved, solve_table};
+
+const LAMBDA: f64 = 2.0;
+const EXPONENT: f64 = 0.5;
+const SIDE: f64 = 4.4;
+const POINTS: usize = 72;
+
+/// A sphere at JKR's zero load is drawn off at a speed, in `steps` of equal length. Its axis is off the
+/// pixels' symmetry, so that they let go one or two at a time and not eight.
+fn drawn_off(speed: f64, to: f64, steps: usize) -> Solved {
+    let from = 1.1;
+    solve_table(&format!(
+        "[grid]\npoints = {POINTS}\nsize = {SIDE}\nboundary = \"free\"\n[solid]\ncontact_modulus = 0.75\n[[surface]]\nkind = \"sphere\"\nradius = 1.0\ncentre = [2.213, 2.187]\n[adhesion]\nlaw = \"maugis-dugdale\"\npeak_tension = {}\nrange = {}\nrate = {{ reference_speed = 1.0, exponent = {EXPONENT} }}\n[loading]\ncontrol = \"approach\"\nstart = {from}\n[[loading.ramp]]\nto = {to}\nsteps = {steps}\nduration = {}\n[solver]\ntolerance = 1e-5\n",
+        0.5 * LAMBDA,
+        2.0 / (PI * LAMBDA),
+        (from - to) / speed,
+    ))
+}
+
+/// Pull-off at a speed against the motion of JKR's edge, `dA/dt = -v* (G/w - 1)^(1/n)`, integrated apart
+/// (`theory::rate`). JKR's own pull-off is 1.5, Maugis' at this lambda 1.535 (2.3 % more, and less as the
+/// raised law draws nearer to JKR's); steps of the path are implicit Euler's, 2 % at these.
+#[test]
+fn pull_off_at_a_speed() {
+    let still = MaugisDugdale::new(LAMBDA).and_then(|sphere| sphere.pull_off());
+    let still = -still.expect("a pull-off").force;
+    for (speed, to, steps) in [(0.1, -0.75, 25), (1.0, -1.5, 26)] {
+        let solved = drawn_off(speed, to, steps);
+        let found = solved.rows().map(|row| -row.force).fold(0.0, f64::max);
+        let expected = reduced_pull_off(speed, EXPONENT).expect("a pull-off");
+        println!("speed {speed}: {found:.4}, JKR {expected:.4}, at rest {still:.4}");
+        assert!((found / expected - 1.0).abs() < 0.05, "{found} {expected}");
+        assert!(found > 1.1 * still);
+        assert!(solved.end.jump_off_steps.is_empty(), "loss is no jump");
+        // Each step by itself: the force at its approach is that of Maugis' sphere whose law is raised as
+        // the speed of its own edge says. Raised by f, that law has lambda f^(2/3), and his scales of
+        // radius, approach and force are f^(1/3), f^(2/3) and f times theirs.
+        let mut compared = 0;
+        // Up to pull-off: towards the fold beyond it any error of approach changes the state at will.
+        let until = solved
+            .rows()
+            .position(|row| -row.force == found)
+            .expect("a pull-off");
+        for pair in solved.steps[..=until].windows(2) {
+            let (before, now) = (&pair[0].row, &pair[1].row);
+            let radius = |row: &StepRow| (row.contact_area_fraction * SIDE * SIDE / PI).sqrt();
+            let passed = now.time.expect("a time") - before.time.expect("a time");
+            let receding = (radius(before) - radius(now)) / passed;
+            let raised = 1.0 + receding.max(0.0).powf(EXPONENT);
+            // Down to ten pixels of radius, whose steps still say how fast the edge is. What is
+            // left is the pixels: raised 1.8 times, a pixel is as wide as the cohesive zone.
+            if radius(now) < 0.6 || radius(before) - radius(now) < 0.02 {
+                continue;
+            }
+            let approach = now.approach.expect("held") / raised.powf(2.0 / 3.0);
+            let states = MaugisDugdale::new(LAMBDA * raised.powf(2.0 / 3.0))
+                .and_then(|sphere| sphere.states_at_approach(approach))
+                .expect("states");
+            let widest = states
+                .iter()
+                .max_by(|a, b| a.contact_radius.total_cmp(&b.contact_radius))
+                .expect("a contact");
+            let (expected, wide) = (widest.force * raised, widest.contact_radius * raised.cbrt());
+            println!(
+                "  v {receding:.4}: force {:.4} {expected:.4}, radius {:.3} {wide:.3}",
+                now.force,
+                radius(now)
+            );
+            compared += 1;
+            assert!(
+                (now.force - expected).abs() < 0.03 * found,
+                "{} {expected}",
+                now.force
+            );
+            assert!((radius(now) - wide).abs() < SIDE / POINTS as f64, "{wide}");
+        }
+        assert!(compared > 5, "{compared}");
+    }
+}
+
+/// An edge that advances has the plain law, to the bit.
+#[test]
+fn an_advancing_edge_has_the_plain_law() {
+    let pressed = |rate: &str| {
+        solve_table(&format!(
+            "[grid]\npoints = 32\nsize = {SIDE}\nboundary = \"free\"\n[solid]\ncontact_modulus = 0.75\n[[surface]]\nkind = \"sphere\"\nradius = 1.0\n[adhesion]\nlaw = \"exponential\"\nwork_of_adhesion = 0.3\nrange = 0.3\n{rate}[loading]\ncontrol = \"approach\"\nstart = 0.1\n[[loading.ramp]]\nto = 0.9\nsteps = 4\nduration = 1\n"
+        ))
+    };
+    let plain = pressed("");
+    let rated = pressed("rate = { reference_speed = 1e-3, exponent = 0.3 }\n");
+    for (a, b) in plain.rows().zip(rated.rows()) {
+        assert_eq!((a.force, a.adhesive_energy), (b.force, b.adhesive_energy));
+    }
+}

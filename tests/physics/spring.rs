@@ -1,0 +1,88 @@
+//! A sphere on a cantilever: it snaps in and off where a line of the spring's slope touches the curve
+//! of force against approach.
+//!
+//! Units of the Lennard-Jones tables: range, radius and work of adhesion 1, forces in 2 pi w R.
+
+use std::f64::consts::PI;
+
+use tabor::study::Jump;
+
+use crate::bench::solve_table;
+use crate::tables::table;
+
+/// Tabor number: without a spring this sphere follows its whole curve.
+const MU: f64 = 0.5;
+/// Side of the window in sqrt(R eps).
+const SIDE: f64 = 20.0;
+/// Steps from the one snap to the other.
+const WAY_BACK: u32 = 12;
+/// Error of a force, in 2 pi w R, of this grid (as for the table's own test, to which the attraction outside the
+/// window adds 4e-4).
+const FORCE_ERROR: f64 = 1.9e-3;
+
+/// The far end of a spring is at `A + F/k`. Along the curve of equilibria it first rises, falls from
+/// where the line touches the curve to where it touches it again, and rises: a spring's far end that
+/// comes in snaps at the maximum, one that leaves at the minimum. Both are found to the error of a
+/// force over the stiffness and a step.
+#[test]
+fn snaps_where_the_line_touches_the_curve() {
+    let Some(curve) = table("lj_curve_mu0.5.csv") else {
+        return;
+    };
+    for stiffness in [0.15, 0.3] {
+        let far_end =
+            |row: usize| curve.number(row, "A") + curve.number(row, "F_over_2piwR") / stiffness;
+        let ends: Vec<f64> = (0..curve.len()).map(far_end).collect();
+        // The folds of the far end, each between two others: a parabola through the three rows.
+        let folds: Vec<f64> = ends
+            .windows(3)
+            .filter(|three| (three[1] - three[0]) * (three[2] - three[1]) < 0.0)
+            .map(|three| {
+                let (rise, bend) = (three[2] - three[0], three[2] - 2.0 * three[1] + three[0]);
+                three[1] - rise * rise / (8.0 * bend)
+            })
+            .collect();
+        assert_eq!(folds.len(), 2, "{folds:?}");
+        let (inwards, outwards) = (folds[0], folds[1]);
+        let step = 0.02;
+        let error = FORCE_ERROR / stiffness;
+        let sweep = |from: f64, to: f64| {
+            let count = ((to - from).abs() / step).round() as usize;
+            (0..=count)
+                .map(move |i| from + (to - from) * i as f64 / count as f64)
+                .collect::<Vec<f64>>()
+        };
+        let span = 8.0 * step;
+        let mut path = vec![inwards - 1.0];
+        path.extend(sweep(inwards - span, inwards + span));
+        // Back from there in steps that a contact can follow.
+        let (turn, away) = (inwards + span, outwards + span);
+        path.extend(
+            (1..WAY_BACK).map(|i| turn + (away - turn) * f64::from(i) / f64::from(WAY_BACK)),
+        );
+        path.extend(sweep(outwards + span, outwards - span));
+        let solved = solve_table(&format!(
+            "[grid]\npoints = 256\nsize = {SIDE}\nboundary = \"free\"\n[solid]\ncontact_modulus = {:e}\n[[surface]]\nkind = \"sphere\"\nradius = 1.0\n[adhesion]\nlaw = \"lennard-jones\"\nwork_of_adhesion = 1.0\nrange = 1.0\n[loading]\ncontrol = \"approach\"\nspring = {:e}\npath = {path:?}\n",
+            MU.powf(-1.5),
+            stiffness * 2.0 * PI,
+        ));
+        let jumps: Vec<(Jump, f64)> = solved
+            .steps
+            .iter()
+            .zip(&path)
+            .filter_map(|(solved, far)| solved.jump.map(|jump| (jump, *far)))
+            .collect();
+        println!("k {stiffness}: snap-in {inwards:.4}, snap-off {outwards:.4}, found {jumps:?}");
+        let [(Jump::In, found_in), (Jump::Off, found_off)] = jumps[..] else {
+            panic!("{jumps:?}");
+        };
+        assert!(
+            found_in > inwards - error && found_in < inwards + step + error,
+            "in at {found_in}, expected {inwards}"
+        );
+        assert!(
+            found_off < outwards + error && found_off > outwards - step - error,
+            "off at {found_off}, expected {outwards}"
+        );
+    }
+}
