@@ -81,15 +81,19 @@ mod tests {
             assert!((mean - whole).abs() < 1e-12 * whole, "{cells:?}");
         }
         assert_eq!(means(&field, &grid, [12, 10], Boundary::Periodic), field);
-        // The mean of a cosine over a cell of width D is itself times sin(q D/2)/(q D/2), from
-        // pixels that are means themselves; 512 points sample it to 1e-5.
+        // The mean of a cosine over a cell of width D is itself times sin(q D/2)/(q D/2). Whole
+        // pixels and half ones at the ends are the trapezium rule, which is (2 pi/512)^2/12 off: 1.3e-5.
         let fine = Grid::new([512, 1], [1.0, 1.0]);
         let wave: Vec<f64> = (0..512)
             .map(|i| (std::f64::consts::TAU * f64::from(i) / 512.0).cos())
             .collect();
         let found = means(&wave, &fine, [8, 1], Boundary::Periodic);
         let half = std::f64::consts::PI / 8.0;
-        assert!((found[0] - half.sin() / half).abs() < 1e-5, "{}", found[0]);
+        assert!(
+            (found[0] - half.sin() / half).abs() < 1.5e-5,
+            "{}",
+            found[0]
+        );
         assert!(found[2].abs() < 1e-12);
     }
 }
