@@ -9,9 +9,8 @@ use crate::grid::Grid;
 use crate::theory::TheoryError;
 use crate::theory::error::{positive, within};
 
-/// Factor between two loads of the way up. What merges depends on it a little: the contact area
-/// changes by about 1 % up to 0.05 E* times the rms slope with steps of 1.1 or 1.3 in its place, by 5 %
-/// at 0.1.
+/// Factor between two loads of the way up. What merges depends on it, and on the misfit at which
+/// circles are merged, by some per cent of the contact area.
 const LOAD_STEP: f64 = 1.2;
 /// Share of the first load asked at which the way up begins.
 const FIRST_LOAD: f64 = 1e-3;
