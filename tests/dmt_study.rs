@@ -140,7 +140,7 @@ fn t3_asperities_and_persson() {
     let table = table();
     let (mut sum, mut count) = (0.0, 0.0);
     // The claim is of less than 30 % in contact.
-    let claimed = |row: &&Row| row.model == "icha" && row.area < 0.3;
+    let claimed = |row: &&Row| row.model.starts_with("icha") && row.area < 0.3;
     for row in table.iter().filter(claimed) {
         let theory = of(
             &table,
@@ -152,19 +152,28 @@ fn t3_asperities_and_persson() {
         );
         let judge = theory.iter().find(|other| other.repulsive == row.repulsive);
         let miss = (row.area / judge.expect("the same loads").area - 1.0).abs();
-        // Claimed within 25 % below 30 % contact, and kappa up to 2.35. Beyond a load of 0.05 the
-        // asperities of H = 0.8, N = 32 merge without end and miss by up to 40 %; up to there single
-        // surfaces reach a kappa of 2.63.
-        let merging = (row.case.hurst, row.case.ratio) == (0.8, 32) && row.repulsive > 0.051;
-        let (most, kappa) = if merging { (0.41, 3.5) } else { (0.25, 2.65) };
+        // Claimed within 25 %, and a kappa of 1.65 to 2.35; single surfaces pass that a little.
+        let (most, kappa) = if row.model == "icha-displaced" {
+            // Steadily low, also where Persson lies above the field: no claim holds for its mean.
+            (0.28, 1.55..2.1)
+        } else if merges_without_end(row.case) {
+            (0.55, 1.65..3.3)
+        } else {
+            (0.25, 1.65..2.45)
+        };
         assert!(miss < most, "{row:?}: {miss}");
-        assert!(
-            (1.65..kappa).contains(&(row.area / row.repulsive)),
-            "{row:?}"
-        );
-        (sum, count) = (sum + miss, count + 1.0);
+        assert!(kappa.contains(&(row.area / row.repulsive)), "{row:?}");
+        if row.model == "icha" && row.case.ratio <= 32 {
+            (sum, count) = (sum + miss, count + 1.0);
+        }
     }
     assert!(count >= 9.0 * 15.0 && sum / count < 0.1, "{}", sum / count);
+}
+
+/// Where keeping the volume of the caps drops so much load at each merge that the area runs away: the
+/// smoothest spectrum with the widest bands, `docs/dmt_study.md`.
+fn merges_without_end(case: Case) -> bool {
+    case.hurst == 0.8 && case.ratio > 16
 }
 
 /// T6 on the surfaces of the table: the study has finite boxes 10 to 25 % above Persson's pull-off.
@@ -339,8 +348,8 @@ fn the_table_of_n_16_is_computed_again() {
         // To the digits that the table keeps.
         let text = format!("{}\n{}", rows::HEADER, rows::lines(&fresh));
         let fresh = rows::read(&text).expect("rows");
-        for model in ["field", "icha", "persson", "gw-m"] {
-            let seed = if matches!(model, "field" | "icha") {
+        for model in ["field", "icha", "icha-displaced", "persson", "gw-m"] {
+            let seed = if matches!(model, "field" | "icha" | "icha-displaced") {
                 seed
             } else {
                 0
@@ -381,13 +390,14 @@ fn misses_of_the_models_stay_within_the_stated_bounds() {
         let field = of(&table, "field", case);
         let judge = rows::pull_off(&field);
         for (model, of_case, area, pull_off) in [
-            ("icha", case, ICHA_AREA, ICHA_PULL_OFF),
+            ("icha", case, icha_area(case), ICHA_PULL_OFF),
+            ("icha-displaced", case, DISPLACED_AREA, DISPLACED_PULL_OFF),
             ("persson", theory, PERSSON_AREA, PERSSON_PULL_OFF),
             ("gw-m", theory, GW_AREA, GW_PULL_OFF),
         ] {
             let rows = of(&table, model, of_case);
-            // Asperities may be left out of the larger surfaces; of N = 16 they are all there.
-            if rows.is_empty() && model == "icha" && case.ratio > 16 {
+            // Asperities may be left out of the largest surfaces.
+            if rows.is_empty() && model.starts_with("icha") && case.ratio > 32 {
                 continue;
             }
             let off = rows::pull_off(&rows) / judge - 1.0;
@@ -412,8 +422,16 @@ fn misses_of_the_models_stay_within_the_stated_bounds() {
 }
 
 /// Least and greatest misses over all surfaces, seeds and loads up to 0.05 E* h', rounded outwards.
-const ICHA_AREA: [f64; 2] = [-0.15, 0.22];
-const ICHA_PULL_OFF: [f64; 2] = [0.0, 0.05];
+fn icha_area(case: Case) -> [f64; 2] {
+    if merges_without_end(case) {
+        [-0.02, 0.27]
+    } else {
+        [-0.15, 0.15]
+    }
+}
+const ICHA_PULL_OFF: [f64; 2] = [0.0, 0.06];
+const DISPLACED_AREA: [f64; 2] = [-0.2, 0.0];
+const DISPLACED_PULL_OFF: [f64; 2] = [0.0, 0.04];
 const PERSSON_AREA: [f64; 2] = [-0.05, 0.13];
 const PERSSON_PULL_OFF: [f64; 2] = [-0.27, -0.08];
 const GW_AREA: [f64; 2] = [-0.37, 0.14];

@@ -14,7 +14,7 @@ use crate::rows::{self, RANGE, Row, WORK};
 
 /// Tabor number of the sphere in the right figure.
 const TABOR: f64 = 0.2;
-const MODELS: [&str; 4] = ["field", "icha", "persson", "gw-m"];
+const MODELS: [&str; 5] = ["field", "icha", "icha-displaced", "persson", "gw-m"];
 
 /// Rows of one model on one surface, by rising load.
 pub fn of<'a>(table: &'a [Row], model: &str, hurst: f64, ratio: usize, seed: u64) -> Vec<&'a Row> {
@@ -51,7 +51,7 @@ fn over_seeds(
     ratio: usize,
     of_rows: impl Fn(&[&Row]) -> f64,
 ) -> Option<f64> {
-    let seeds: Vec<u64> = if matches!(model, "field" | "icha") {
+    let seeds: Vec<u64> = if matches!(model, "field" | "icha" | "icha-displaced") {
         vec![1, 2, 3]
     } else {
         vec![0]
@@ -69,7 +69,7 @@ fn over_seeds(
 /// to 0.05 E* h'), and pull-off, means over seeds.
 pub fn misses(table: &[Row]) -> String {
     let mut text = String::from(
-        "| H | N | field pull-off eps/w | ICHA | Persson | GW-M | ICHA area | Persson area | GW-M area |\n|---|---|---|---|---|---|---|---|---|\n",
+        "| H | N | field pull-off eps/w | ICHA | ICHA displaced | Persson | GW-M | ICHA area | ICHA displaced area | Persson area | GW-M area |\n|---|---|---|---|---|---|---|---|---|---|---|\n",
     );
     for hurst in [0.8, 0.6, 0.4] {
         for ratio in [16, 32, 64] {
@@ -131,7 +131,7 @@ fn area_load(table: &[Row]) -> Figure {
         for sticky in [false, true] {
             let curve = |(name, model): (usize, &&str)| Series {
                 name,
-                points: of(table, model, hurst, ratio, u64::from(name < 2))
+                points: of(table, model, hurst, ratio, u64::from(name < 3))
                     .iter()
                     .map(|row| {
                         let attraction = if sticky { row.attraction } else { 0.0 };

@@ -1,16 +1,16 @@
 //! The DMT study of rough contacts: full field, interacting asperities, Persson, GW-M.
 //!
-//! `cargo run --release --example dmt_study [LARGEST [LARGEST_ICHA]]` runs the surfaces of Hurst exponent
-//! 0.4, 0.6, 0.8 and N = 16, 32, 64 (up to LARGEST, default 64) with three seeds each, writes
-//! `docs/dmt_study.csv` row by row, then the pictures `docs/pictures/dmt_study_*.png` and a table of misses
-//! on standard output. Interacting asperities, which take by far the longest, are left out beyond N of
-//! LARGEST_ICHA. `dmt_study draw` only draws from the table that is there.
+//! `cargo run --release --example dmt_study [LARGEST]` runs the surfaces of Hurst exponent 0.4, 0.6, 0.8 and
+//! N = 16, 32, 64 (up to LARGEST, default 64) with three seeds each, writes `docs/dmt_study.csv` row by row,
+//! then the pictures `docs/pictures/dmt_study_*.png` and a table of misses on standard output.
+//! `dmt_study asperities` computes the rows of the interacting asperities again and keeps the others of
+//! the table that is there; `dmt_study draw` only draws from it.
 
 mod figures;
 mod rows;
 
 use std::error::Error;
-use std::fs::OpenOptions;
+use std::fs::File;
 use std::io::Write;
 use std::path::Path;
 use std::process::Command;
@@ -32,40 +32,22 @@ fn commit() -> String {
     }
 }
 
-fn run(largest: usize, largest_icha: usize) -> Result<(), Box<dyn Error>> {
-    let mut file = OpenOptions::new()
-        .create(true)
-        .write(true)
-        .truncate(true)
-        .open(TABLE)?;
-    let command = format!("cargo run --release --example dmt_study {largest} {largest_icha}");
-    writeln!(file, "# {command} (commit {})", commit())?;
-    writeln!(
-        file,
-        "# pressures in E* h', mean gap in rms heights; seed 0: the model does not know it"
-    )?;
-    writeln!(file, "{}", rows::HEADER)?;
-    let mut keep = |rows: &[Row]| -> std::io::Result<()> {
-        file.write_all(rows::lines(rows).as_bytes())?;
-        file.flush()
-    };
+fn run(largest: usize) -> Result<(), Box<dyn Error>> {
+    let head = format!(
+        "# cargo run --release --example dmt_study {largest} (commit {})",
+        commit()
+    );
+    let mut file = begin(&[head.as_str(), UNITS])?;
     for ratio in [16, 32, 64].into_iter().filter(|ratio| *ratio <= largest) {
         for hurst in [0.8, 0.6, 0.4] {
-            keep(&rows::theory_rows(hurst, ratio)?)?;
+            keep(&mut file, &rows::theory_rows(hurst, ratio)?)?;
             for seed in 1..=3 {
                 let case = Case { hurst, ratio, seed };
                 let clock = Instant::now();
                 let sample = Sample::new(case)?;
-                keep(&rows::field_rows(case, &sample)?)?;
+                keep(&mut file, &rows::field_rows(case, &sample)?)?;
                 let field = clock.elapsed().as_secs_f64();
-                if ratio > largest_icha {
-                    eprintln!("{case:?}: field {field:.1} s");
-                    continue;
-                }
-                match rows::icha_rows(case, &sample) {
-                    Ok(rows) => keep(&rows)?,
-                    Err(error) => eprintln!("{case:?}: no ICHA: {error}"),
-                }
+                keep(&mut file, &rows::icha_rows(case, &sample)?)?;
                 let both = clock.elapsed().as_secs_f64();
                 eprintln!("{case:?}: field {field:.1} s, ICHA {:.1} s", both - field);
             }
@@ -74,18 +56,55 @@ fn run(largest: usize, largest_icha: usize) -> Result<(), Box<dyn Error>> {
     Ok(())
 }
 
+/// The rows of asperities anew, after those of the field of the same surface; all others as they are.
+fn run_asperities() -> Result<(), Box<dyn Error>> {
+    let text = std::fs::read_to_string(TABLE)?;
+    let kept: Vec<Row> = rows::read(&text)?
+        .into_iter()
+        .filter(|row| !rows::ICHA.iter().any(|(model, _)| *model == row.model))
+        .collect();
+    let head = text.lines().next().unwrap_or_default();
+    let asperities = format!(
+        "# icha rows: cargo run --release --example dmt_study asperities (commit {})",
+        commit()
+    );
+    let mut file = begin(&[head, asperities.as_str(), UNITS])?;
+    for group in kept.chunk_by(|one, next| one.case == next.case) {
+        keep(&mut file, group)?;
+        let case = group[0].case;
+        if case.seed > 0 {
+            let clock = Instant::now();
+            keep(&mut file, &rows::icha_rows(case, &Sample::new(case)?)?)?;
+            eprintln!("{case:?}: {:.1} s", clock.elapsed().as_secs_f64());
+        }
+    }
+    Ok(())
+}
+
+const UNITS: &str =
+    "# pressures in E* h', mean gap in rms heights; seed 0: the model does not know it";
+
+fn begin(head: &[&str]) -> std::io::Result<File> {
+    let mut file = File::create(TABLE)?;
+    for line in head {
+        writeln!(file, "{line}")?;
+    }
+    writeln!(file, "{}", rows::HEADER)?;
+    Ok(file)
+}
+
+fn keep(file: &mut File, rows: &[Row]) -> std::io::Result<()> {
+    file.write_all(rows::lines(rows).as_bytes())?;
+    file.flush()
+}
+
 fn main() -> Result<(), Box<dyn Error>> {
     let argument = std::env::args().nth(1);
     match argument.as_deref() {
         Some("draw") => {}
-        Some(largest) => {
-            let largest = largest.parse()?;
-            let icha = std::env::args()
-                .nth(2)
-                .map_or(Ok(largest), |text| text.parse())?;
-            run(largest, icha)?;
-        }
-        None => run(64, 64)?,
+        Some("asperities") => run_asperities()?,
+        Some(largest) => run(largest.parse()?)?,
+        None => run(64)?,
     }
     let table = rows::read(&std::fs::read_to_string(TABLE)?)?;
     print!("{}", figures::misses(&table));

@@ -55,7 +55,8 @@ pub struct Case {
 pub struct Row {
     /// The surface.
     pub case: Case,
-    /// `field`, `icha`, `persson` or `gw-m`; the last two do not know the seed, and say 0.
+    /// `field`, `icha`, `icha-displaced`, `persson` or `gw-m`; the last two do not know the seed, and
+    /// say 0.
     pub model: String,
     /// Repulsive mean pressure, in E* h'.
     pub repulsive: f64,
@@ -159,23 +160,37 @@ pub fn field_rows(case: Case, sample: &Sample) -> Result<Vec<Row>, Box<dyn Error
     Ok(rows.collect())
 }
 
-/// Interacting asperities on the same heights.
+/// What interacting asperities keep as they merge, and the name of the model in the table.
+pub const ICHA: [(&str, MergeRule); 2] = [
+    ("icha", MergeRule::Volume),
+    ("icha-displaced", MergeRule::DisplacedVolume),
+];
+
+/// Interacting asperities on the same heights, up to the first load that they do not carry.
 pub fn icha_rows(case: Case, sample: &Sample) -> Result<Vec<Row>, Box<dyn Error>> {
     let surface = Icha::new(sample.setup.surface.grid, &sample.setup.surface.heights)?;
-    let mut loading = surface.loading(MergeRule::Volume);
     let law = law();
     let mut rows = Vec::new();
-    for load in loads() {
-        let pressed = loading.press(load * sample.unit / MODULUS)?;
-        let gap = pressed.gap(&surface);
-        rows.push(Row {
-            case,
-            model: "icha".into(),
-            repulsive: load,
-            area: pressed.contact_area_fraction(),
-            gap: gap.mean() / RMS_HEIGHT,
-            attraction: gap.mean_outside(|gap| law.traction(gap)) / sample.unit,
-        });
+    for (model, rule) in ICHA {
+        let mut loading = surface.loading(rule);
+        for load in loads() {
+            let pressed = match loading.press(load * sample.unit / MODULUS) {
+                Ok(pressed) => pressed,
+                Err(error) => {
+                    eprintln!("{case:?}: {model} ends at {load:.4}: {error}");
+                    break;
+                }
+            };
+            let gap = pressed.gap(&surface);
+            rows.push(Row {
+                case,
+                model: model.into(),
+                repulsive: load,
+                area: pressed.contact_area_fraction(),
+                gap: gap.mean() / RMS_HEIGHT,
+                attraction: gap.mean_outside(|gap| law.traction(gap)) / sample.unit,
+            });
+        }
     }
     Ok(rows)
 }

@@ -6,6 +6,7 @@
 
 use std::f64::consts::PI;
 
+use super::mesh::Mesh;
 use crate::theory::special::erfc;
 
 /// Intervals of the table along each half side; its linear interpolation is good to 1e-4 of 1/L.
@@ -23,6 +24,8 @@ pub(super) struct Lattice {
     rest: Vec<f64>,
     /// Least displacement times modulus over load anywhere in the cell, 1/m, not positive.
     pub least: f64,
+    /// For sums over many loads; `None` where all pairs are taken.
+    pub mesh: Option<Mesh>,
 }
 
 impl Lattice {
@@ -32,6 +35,7 @@ impl Lattice {
             size: None,
             rest: Vec::new(),
             least: 0.0,
+            mesh: None,
         }
     }
 
@@ -55,7 +59,19 @@ impl Lattice {
             size: Some(size),
             rest,
             least,
+            mesh: None,
         }
+    }
+
+    /// With a mesh for a number of loads.
+    pub fn with_mesh(mut self, loads: usize) -> Self {
+        self.mesh = self.size.map(|size| Mesh::new(size, loads));
+        self
+    }
+
+    /// Sides of the cell, m; without end on an infinite half-space.
+    pub fn size(&self) -> [f64; 2] {
+        self.size.unwrap_or([f64::INFINITY; 2])
     }
 
     /// Whether it repeats.

@@ -1,7 +1,10 @@
 //! How overlapping contacts become one.
 
+use std::collections::BTreeMap;
+
 use super::lattice::Lattice;
 use super::newton::{Care, Equilibrium, Hold, pushed_by, settle};
+use super::set::{Set, keep};
 use super::{Asperity, Contact, check};
 use crate::theory::TheoryError;
 use crate::theory::error::positive;
@@ -11,6 +14,8 @@ use crate::theory::error::positive;
 pub enum MergeRule {
     /// The volume of their caps.
     Volume,
+    /// The volume that they displace under their circles, what they do to each other included.
+    DisplacedVolume,
     /// Their load.
     Load,
 }
@@ -18,7 +23,7 @@ pub enum MergeRule {
 /// One contact in place of several: their area, and their cap volume or load, at the centroid of
 /// the caps; `others` (m) is the displacement there by contacts that are not merged.
 ///
-/// The sources fix area and centroid only; of the two rules the volume is nearer to full fields.
+/// The sources fix area and centroid only; `docs/dmt_study.md` says what the volumes come to.
 pub fn merged(
     cluster: &[Contact],
     plane: f64,
@@ -27,15 +32,20 @@ pub fn merged(
 ) -> Result<Contact, TheoryError> {
     let square: f64 = cluster.iter().map(|c| c.contact_radius.powi(2)).sum();
     let power = match rule {
-        MergeRule::Volume => 4,
+        MergeRule::Volume | MergeRule::DisplacedVolume => 4,
         MergeRule::Load => 3,
     };
     let kept: f64 = cluster
         .iter()
         .map(|c| c.contact_radius.powi(power) / c.asperity.radius)
         .sum();
+    let lift = if rule == MergeRule::DisplacedVolume {
+        lift(cluster)
+    } else {
+        0.0
+    };
     let contact_radius = positive("contact radius of the cluster", square.sqrt())?;
-    let radius = contact_radius.powi(power) / kept;
+    let radius = contact_radius.powi(power) / (kept + lift);
     let volume: f64 = cluster.iter().map(Contact::volume).sum();
     let centroid = [0, 1].map(|axis| {
         let sum: f64 = cluster
@@ -54,40 +64,67 @@ pub fn merged(
     })
 }
 
+/// What members do to each other, as `a^4/R`, m^3: under its circle a contact displaces
+/// `3/4 pi a^4/R`, and each of the others U more over its area.
+fn lift(cluster: &[Contact]) -> f64 {
+    let mut sum = 0.0;
+    for (i, one) in cluster.iter().enumerate() {
+        for (j, other) in cluster.iter().enumerate() {
+            if i != j {
+                let pushed = pushed_by(other, one.asperity.position, &Lattice::infinite()).0;
+                sum += 4.0 / 3.0 * one.contact_radius.powi(2) * pushed;
+            }
+        }
+    }
+    sum
+}
+
 /// Clusters of contacts whose circles overlap, as lists of places in `contacts`, those of a
 /// single contact left out.
 pub fn clusters(contacts: &[Contact]) -> Vec<Vec<usize>> {
-    clusters_within(contacts, &Lattice::infinite())
+    connected(contacts.len(), &overlapping(contacts))
 }
 
-pub(super) fn clusters_within(contacts: &[Contact], lattice: &Lattice) -> Vec<Vec<usize>> {
-    let mut open: Vec<usize> = (0..contacts.len())
-        .filter(|&i| contacts[i].contact_radius > 0.0)
-        .collect();
-    let mut clusters = Vec::new();
-    while let Some(first) = open.first().copied() {
-        open.remove(0);
-        let mut cluster = vec![first];
-        let mut next = 0;
-        while let Some(&i) = cluster.get(next) {
-            next += 1;
-            let here = &contacts[i];
-            open.retain(|&j| {
-                let other = &contacts[j];
-                let reach = here.contact_radius + other.contact_radius;
-                let offset = lattice.offset(here.asperity.position, other.asperity.position);
-                let overlaps = offset[0] * offset[0] + offset[1] * offset[1] < reach * reach;
-                if overlaps {
-                    cluster.push(j);
-                }
-                !overlaps
-            });
-        }
-        if cluster.len() > 1 {
-            clusters.push(cluster);
+fn overlapping(contacts: &[Contact]) -> Vec<[usize; 2]> {
+    let mut pairs = Vec::new();
+    for (i, one) in contacts.iter().enumerate() {
+        for (j, other) in contacts[..i].iter().enumerate() {
+            let touch = one.contact_radius > 0.0 && other.contact_radius > 0.0;
+            let [x, y] =
+                [0, 1].map(|axis| one.asperity.position[axis] - other.asperity.position[axis]);
+            if touch && x.hypot(y) < one.contact_radius + other.contact_radius {
+                pairs.push([j, i]);
+            }
         }
     }
-    clusters
+    pairs
+}
+
+/// The connected parts of `count` things joined two and two, those of a single one left out.
+fn connected(count: usize, pairs: &[[usize; 2]]) -> Vec<Vec<usize>> {
+    fn root(parents: &mut [usize], mut i: usize) -> usize {
+        while parents[i] != i {
+            parents[i] = parents[parents[i]];
+            i = parents[i];
+        }
+        i
+    }
+    let mut parents: Vec<usize> = (0..count).collect();
+    for &[i, j] in pairs {
+        let (one, other) = (root(&mut parents, i), root(&mut parents, j));
+        parents[one.max(other)] = one.min(other);
+    }
+    let mut members: Vec<usize> = pairs.iter().flatten().copied().collect();
+    members.sort_unstable();
+    members.dedup();
+    let mut parts: BTreeMap<usize, Vec<usize>> = BTreeMap::new();
+    for member in members {
+        parts
+            .entry(root(&mut parents, member))
+            .or_default()
+            .push(member);
+    }
+    parts.into_values().collect()
 }
 
 /// Contacts with a plane, merged until no two circles overlap. Summits inside a merged circle
@@ -98,38 +135,33 @@ pub fn merged_contacts(
     rule: MergeRule,
 ) -> Result<Vec<Contact>, TheoryError> {
     check(asperities, plane)?;
+    let lattice = Lattice::infinite();
+    let set = Set::new(asperities.to_vec(), &lattice);
     let start = Equilibrium::undeformed(asperities, plane);
-    let (asperities, settled) = settle_merged(
-        asperities.to_vec(),
-        &Lattice::infinite(),
-        Hold::Plane,
-        start,
-        rule,
-        Care::FULL,
-    )?;
-    Ok(settled.contacts(&asperities))
+    let (set, settled) = settle_merged(set, &lattice, Hold::Plane, start, rule, Care::FULL)?;
+    Ok(settled.contacts(&set.asperities))
 }
 
 /// Settles and merges in turn until no two circles overlap; also says which asperities are left.
 pub(super) fn settle_merged(
-    mut asperities: Vec<Asperity>,
+    mut set: Set,
     lattice: &Lattice,
     hold: Hold,
     mut state: Equilibrium,
     rule: MergeRule,
     care: Care,
-) -> Result<(Vec<Asperity>, Equilibrium), TheoryError> {
+) -> Result<(Set, Equilibrium), TheoryError> {
     loop {
-        state = settle(&asperities, lattice, hold, state, care)?;
-        let contacts = state.contacts(&asperities);
-        let clusters = clusters_within(&contacts, lattice);
-        if clusters.is_empty() {
-            return Ok((asperities, state));
+        let settled = settle(&set, lattice, hold, state, care)?;
+        state = settled.state;
+        if settled.overlapping.is_empty() {
+            return Ok((set, state));
         }
+        let contacts = state.contacts(&set.asperities);
         let mut gone = vec![false; contacts.len()];
         let mut fresh = Vec::new();
-        for cluster in &clusters {
-            let one = merged_cluster(&contacts, cluster, state.plane, lattice, rule)?;
+        for cluster in connected(contacts.len(), &settled.overlapping) {
+            let one = merged_cluster(&contacts, &cluster, state.plane, lattice, rule)?;
             let centre = one.asperity.position;
             let square = one.contact_radius * one.contact_radius;
             for (i, contact) in contacts.iter().enumerate() {
@@ -139,12 +171,17 @@ pub(super) fn settle_merged(
                 }
             }
             cluster.iter().for_each(|&i| gone[i] = true);
-            fresh.push(one);
+            let lowered: f64 = cluster.iter().map(|&i| state.lowered[i]).sum();
+            fresh.push((one, lowered / cluster.len() as f64));
         }
-        let kept = contacts.iter().zip(&gone).filter(|(_, gone)| !**gone);
-        let contacts: Vec<Contact> = kept.map(|(contact, _)| *contact).chain(fresh).collect();
-        asperities = contacts.iter().map(|contact| contact.asperity).collect();
-        state.indentations = contacts.iter().map(Contact::indentation).collect();
+        set.drop_those(&gone);
+        keep(&mut state.indentations, &gone);
+        keep(&mut state.lowered, &gone);
+        for (one, lowered) in fresh {
+            state.indentations.push(one.indentation());
+            state.lowered.push(lowered);
+            set.push(one.asperity, lattice);
+        }
     }
 }
 

@@ -10,8 +10,11 @@ mod gmres;
 mod lattice;
 mod loading;
 mod merge;
+mod mesh;
+mod near;
 mod newton;
 mod pair;
+mod set;
 mod summits;
 
 pub use gap::GapField;
@@ -22,6 +25,7 @@ pub use summits::find_summits;
 use super::error::{TheoryError, finite, positive};
 use lattice::Lattice;
 use newton::{Care, Equilibrium, Hold, settle};
+use set::Set;
 use std::f64::consts::PI;
 
 /// A paraboloid of the rough surface.
@@ -70,15 +74,11 @@ impl Contact {
 /// `delta_i + sum_j U(r_ij; a_j, R_j) = z_i - plane` where in contact.
 pub fn contacts(asperities: &[Asperity], plane: f64) -> Result<Vec<Contact>, TheoryError> {
     check(asperities, plane)?;
+    let lattice = Lattice::infinite();
+    let set = Set::new(asperities.to_vec(), &lattice);
     let start = Equilibrium::undeformed(asperities, plane);
-    let settled = settle(
-        asperities,
-        &Lattice::infinite(),
-        Hold::Plane,
-        start,
-        Care::FULL,
-    )?;
-    Ok(settled.contacts(asperities))
+    let settled = settle(&set, &lattice, Hold::Plane, start, Care::FULL)?;
+    Ok(settled.state.contacts(asperities))
 }
 
 fn check(asperities: &[Asperity], plane: f64) -> Result<(), TheoryError> {
@@ -120,5 +120,30 @@ mod tests {
         assert!((one.area() / sum(Contact::area) - 1.0).abs() < 1e-13);
         let load = sum(Contact::load_over_modulus);
         assert!((one.load_over_modulus() / load - 1.0).abs() < 1e-13);
+    }
+
+    #[test]
+    fn merging_keeps_the_displaced_volume_if_told_so() {
+        // Twins whose circles touch: U = 0.2180 a^2/R of one at the other's summit (asin 1/2 = pi/6).
+        let (a, radius) = (0.1, 1.0);
+        let at = |x| Contact {
+            asperity: at(x, 0.0, radius),
+            contact_radius: a,
+        };
+        let one = merged(
+            &[at(0.0), at(0.2)],
+            0.0,
+            |_| 0.0,
+            MergeRule::DisplacedVolume,
+        )
+        .unwrap();
+        let felt = (3f64.sqrt() - PI / 3.0) / PI;
+        // 3/4 pi a^4/R and pi a^2 U of each, in place of both; the load follows.
+        let twins = 2.0 * PI * a.powi(4) / radius * (0.75 + felt);
+        let displaced = 0.75 * PI * one.contact_radius.powi(4) / one.asperity.radius;
+        assert!((displaced / twins - 1.0).abs() < 1e-13);
+        assert!((one.area() / (2.0 * PI * a * a) - 1.0).abs() < 1e-13);
+        let load = one.load_over_modulus() / (2.0 * at(0.0).load_over_modulus());
+        assert!((load - 0.5f64.sqrt() * (1.0 + 4.0 / 3.0 * felt)).abs() < 1e-13);
     }
 }

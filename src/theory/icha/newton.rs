@@ -2,22 +2,19 @@
 //! and enter. The sum over the neighbours can exceed the diagonal, so that single passes over them
 //! would not settle.
 
-use nalgebra::{DMatrix, DVector};
-use rayon::prelude::*;
+use nalgebra::DVector;
 
 use super::gmres;
 use super::lattice::Lattice;
+use super::near::Field;
 use super::pair::pair;
+use super::set::Set;
 use super::{Asperity, Contact};
 use crate::theory::TheoryError;
 
-const MAX_ROUNDS: usize = 40;
+const MAX_ROUNDS: usize = 60;
 /// Rounds after which steps are halved, should the contacts that enter and leave alternate.
-const PATIENCE: usize = 20;
-/// Most slope of one asperity's displacement by another's indentation. Two circles that cover each
-/// other's summits press on the same place, and slopes of 1 would leave open which of them carries
-/// how much; less than 1 lets the lower one leave.
-const STEEPEST: f64 = 0.9;
+const PATIENCE: usize = 30;
 /// Misfit over the largest indentation at which circles that cover each other may be handed back to
 /// be merged: two such contacts are in balance for no share of the load, or for any.
 const NEAR: f64 = 0.05;
@@ -25,8 +22,9 @@ const NEAR: f64 = 0.05;
 const ASTRAY: f64 = 4.0;
 /// Misfit of the total load over the load asked, in misfits of an indentation over the largest one.
 const LOAD_TOLERANCE: f64 = 10.0;
-/// Residual of a Newton system over its right side; the next round makes good for it.
-const LINEAR_TOLERANCE: f64 = 1e-4;
+/// Residual of the system of what a lowered plane does; it moves little, and the next round makes good
+/// for it.
+const LOWERED_TOLERANCE: f64 = 3e-2;
 
 /// What is held while the asperities settle.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -42,6 +40,10 @@ pub(super) enum Hold {
 pub(super) struct Care {
     /// Misfit of an indentation over the largest one.
     pub tolerance: f64,
+    /// The same at which overlapping circles are handed back to be merged.
+    pub merging: f64,
+    /// Residual of a Newton system over its right side; the next round makes good for it.
+    pub linear: f64,
     /// Rounds after which circles that cover each other are handed back to be merged, as they are.
     pub rounds_before_merging: usize,
 }
@@ -50,16 +52,22 @@ impl Care {
     /// To the last digit.
     pub const FULL: Care = Care {
         tolerance: 1e-11,
+        merging: 1e-11,
+        linear: 1e-4,
         rounds_before_merging: 7,
     };
     /// At a load that is asked for.
     pub const FINAL: Care = Care {
-        tolerance: 1e-7,
+        tolerance: 1e-6,
+        merging: 2e-2,
+        linear: 3e-2,
         rounds_before_merging: 4,
     };
     /// On the way to a load, where more merging and pressing follows.
     pub const PASSING: Care = Care {
-        tolerance: 1e-3,
+        tolerance: 1e-2,
+        merging: 2e-2,
+        linear: 3e-2,
         rounds_before_merging: 3,
     };
 }
@@ -71,6 +79,8 @@ pub(super) struct Equilibrium {
     pub plane: f64,
     /// Hertz indentation of each asperity, m; 0 out of contact.
     pub indentations: Vec<f64>,
+    /// How much each of them grows as the plane goes down by 1; a guess.
+    pub lowered: Vec<f64>,
 }
 
 impl Equilibrium {
@@ -80,6 +90,7 @@ impl Equilibrium {
         Equilibrium {
             plane,
             indentations: asperities.iter().map(half).collect(),
+            lowered: vec![0.0; asperities.len()],
         }
     }
 
@@ -97,13 +108,12 @@ impl Equilibrium {
     }
 }
 
-/// An asperity that may be in contact: its misfit, and how it feels each contact if it is.
-struct Row {
-    index: usize,
-    /// Indentation and displacement by the others less the overlap, m.
-    misfit: f64,
-    /// Slope of that displacement by each contact's indentation; `None` out of contact.
-    slopes: Option<Vec<f64>>,
+/// An equilibrium, or one near enough to merge the circles that overlap.
+pub(super) struct Settled {
+    /// The state.
+    pub state: Equilibrium,
+    /// Asperities whose circles overlap, two and two.
+    pub overlapping: Vec<[usize; 2]>,
 }
 
 /// Displacement at `position` by one contact, its images included, and its slope.
@@ -121,163 +131,125 @@ pub(super) fn pushed_by(contact: &Contact, position: [f64; 2], lattice: &Lattice
     )
 }
 
-/// Whether some circle reaches over another one's summit.
-fn any_covered(contacts: &[Contact], touching: &[usize], lattice: &Lattice) -> bool {
-    touching.iter().enumerate().any(|(place, &i)| {
-        touching[..place].iter().any(|&j| {
-            let (one, other) = (&contacts[i], &contacts[j]);
-            let [x, y] = lattice.offset(one.asperity.position, other.asperity.position);
-            let reach = one.contact_radius.max(other.contact_radius);
-            x * x + y * y < reach * reach
-        })
-    })
-}
-
-/// Brings a start to equilibrium. Where circles cover each other's summits, so that it cannot
-/// settle, it may be handed back as it is: such circles are to be merged.
+/// Brings a start to equilibrium, or so near to it that what overlaps can be merged. Where circles
+/// cover each other's summits, so that it cannot settle, it may be handed back as it is: such circles
+/// are to be merged.
 pub(super) fn settle(
-    asperities: &[Asperity],
+    set: &Set,
     lattice: &Lattice,
     hold: Hold,
     start: Equilibrium,
     care: Care,
-) -> Result<Equilibrium, TheoryError> {
+) -> Result<Settled, TheoryError> {
     let failed = TheoryError::NotConverged {
         what: "the set of asperities",
     };
-    let own_images = lattice.rest([0.0, 0.0]);
+    let asperities = &set.asperities;
     let mut state = start;
     for round in 0..MAX_ROUNDS {
         let contacts = state.contacts(asperities);
-        let touching: Vec<usize> = (0..contacts.len())
-            .filter(|&i| contacts[i].contact_radius > 0.0)
-            .collect();
-        let load: f64 = touching
-            .iter()
-            .map(|&i| contacts[i].load_over_modulus())
-            .sum();
+        let load: f64 = contacts.iter().map(Contact::load_over_modulus).sum();
+        if matches!(hold, Hold::Load(asked) if load > ASTRAY * asked) {
+            return Err(failed);
+        }
         // No lower summit can touch: nowhere is the surface lifted by more.
         let floor = state.plane + load * lattice.least;
-        let rows: Vec<Row> = (0..asperities.len())
-            .into_par_iter()
+        let rows: Vec<usize> = (0..asperities.len())
             .filter(|&i| asperities[i].height > floor || state.indentations[i] > 0.0)
-            .map(|i| {
-                let mut pushed = 0.0;
-                let mut slopes = Vec::with_capacity(touching.len());
-                for &j in &touching {
-                    let contact = &contacts[j];
-                    let (u, slope) = if i == j {
-                        let load = contact.load_over_modulus();
-                        (own_images * load, own_images * 2.0 * contact.contact_radius)
-                    } else {
-                        pushed_by(contact, asperities[i].position, lattice)
-                    };
-                    pushed += u;
-                    slopes.push(slope.min(STEEPEST));
-                }
-                let overlap = asperities[i].height - state.plane;
-                let misfit = state.indentations[i] + pushed - overlap;
-                Row {
-                    index: i,
-                    misfit,
-                    slopes: (state.indentations[i] > misfit).then_some(slopes),
-                }
+            .collect();
+        let field = Field::new(&contacts, &rows, lattice, &set.stencils);
+        let pushed = field.displacement(|_| true);
+        let misfits: Vec<f64> = rows
+            .iter()
+            .zip(&pushed)
+            .map(|(&i, pushed)| {
+                state.indentations[i] + pushed - (asperities[i].height - state.plane)
             })
             .collect();
         let deepest = state
             .indentations
             .iter()
             .fold(0.0_f64, |most, &d| most.max(d));
-        let tolerance = care.tolerance * deepest;
-        let settled = rows.iter().all(|row| {
-            row.misfit.abs() <= tolerance
-                || state.indentations[row.index] == 0.0 && row.misfit > 0.0
-        });
-        let load_met = match hold {
-            Hold::Plane => true,
-            Hold::Load(asked) => (load - asked).abs() <= LOAD_TOLERANCE * care.tolerance * asked,
-        };
-        if settled && load_met {
-            return Ok(state);
-        }
-        if matches!(hold, Hold::Load(asked) if load > ASTRAY * asked) {
-            return Err(failed);
-        }
-        let near = rows.iter().all(|row| {
-            row.misfit.abs() <= NEAR * deepest
-                || state.indentations[row.index] == 0.0 && row.misfit > 0.0
-        });
-        let patient = round < care.rounds_before_merging;
-        if !patient && near && any_covered(&contacts, &touching, lattice) {
-            return Ok(state);
-        }
-        let active: Vec<&Row> = rows.iter().filter(|row| row.slopes.is_some()).collect();
-        let is_active = |i: usize| active.binary_search_by_key(&i, |row| row.index).ok();
-        // Those that leave take their displacement with them at once.
-        let leaving: Vec<usize> = touching
+        let worst = rows
             .iter()
-            .copied()
-            .filter(|&i| is_active(i).is_none())
-            .collect();
-        let right = DVector::from_iterator(
-            active.len(),
-            active.iter().map(|row| {
-                let position = asperities[row.index].position;
-                let freed: f64 = leaving
-                    .iter()
-                    .map(|&j| pushed_by(&contacts[j], position, lattice).0)
-                    .sum();
-                freed - row.misfit
-            }),
-        );
-        // One column an active row, so that a product walks along memory.
-        let place: Vec<Option<usize>> = touching.iter().map(|&j| is_active(j)).collect();
-        let slopes = DMatrix::from_iterator(
-            touching.len(),
-            active.len(),
-            active
-                .iter()
-                .flat_map(|row| row.slopes.iter().flatten().copied()),
-        );
-        let apply = |x: &DVector<f64>| {
-            let felt = DVector::from_iterator(
-                touching.len(),
-                place.iter().map(|place| place.map_or(0.0, |row| x[row])),
-            );
-            x + slopes.tr_mul(&felt)
+            .zip(&misfits)
+            .filter(|(i, misfit)| state.indentations[**i] > 0.0 || **misfit < 0.0)
+            .fold(0.0_f64, |most, (_, misfit)| most.max(misfit.abs()));
+        let off = match hold {
+            Hold::Plane => 0.0,
+            Hold::Load(asked) => (load / asked - 1.0).abs() / LOAD_TOLERANCE,
         };
-        let own = gmres::solve(apply, &right, LINEAR_TOLERANCE).ok_or(failed.clone())?;
+        let settles = |tolerance: f64| worst <= tolerance * deepest && off <= tolerance;
+        let overlaps = !field.overlapping.is_empty();
+        let impatient = round >= care.rounds_before_merging;
+        if settles(care.tolerance)
+            || overlaps && round > 0 && settles(care.merging)
+            || field.covered && impatient && worst <= NEAR * deepest
+        {
+            return Ok(Settled {
+                overlapping: field.overlapping,
+                state,
+            });
+        }
+        let active: Vec<usize> = (0..rows.len())
+            .filter(|&row| state.indentations[rows[row]] > misfits[row])
+            .collect();
+        let mut stays = vec![false; asperities.len()];
+        active.iter().for_each(|&row| stays[rows[row]] = true);
+        // Those that leave take their displacement with them at once.
+        let leaves = |i: usize| !stays[i];
+        let mut right =
+            DVector::from_iterator(active.len(), active.iter().map(|&row| -misfits[row]));
+        if (0..asperities.len()).any(|i| leaves(i) && state.indentations[i] > 0.0) {
+            let freed = field.displacement(leaves);
+            for (value, &row) in right.iter_mut().zip(&active) {
+                *value += freed[row];
+            }
+        }
+        let slopes = field.slopes(&active, &contacts);
+        let apply = |x: &DVector<f64>| {
+            let mut sums = x.clone();
+            slopes.add(x.as_slice(), sums.as_mut_slice());
+            sums
+        };
+        let own = gmres::solve(apply, &right, care.linear).ok_or(failed.clone())?;
         let (steps, moved) = match hold {
             Hold::Plane => (own, 0.0),
             Hold::Load(asked) => {
-                let ones = DVector::from_element(active.len(), 1.0);
-                let lifted = gmres::solve(apply, &ones, LINEAR_TOLERANCE).ok_or(failed.clone())?;
-                let stiffness = DVector::from_iterator(
+                let guess = DVector::from_iterator(
                     active.len(),
-                    active
-                        .iter()
-                        .map(|row| 2.0 * contacts[row.index].contact_radius),
+                    active.iter().map(|&row| state.lowered[rows[row]]),
                 );
-                let stays: f64 = active
+                let right = DVector::from_element(active.len(), 1.0) - apply(&guess);
+                let bound = LOWERED_TOLERANCE * (active.len() as f64).sqrt() / right.norm();
+                let lowered = if bound < 1.0 {
+                    guess + gmres::solve(apply, &right, bound).ok_or(failed.clone())?
+                } else {
+                    guess
+                };
+                for (&row, &lowered) in active.iter().zip(lowered.iter()) {
+                    state.lowered[rows[row]] = lowered;
+                }
+                let stiffness = DVector::from_column_slice(&slopes.stiffness);
+                let held: f64 = active
                     .iter()
-                    .map(|row| contacts[row.index].load_over_modulus())
+                    .map(|&row| contacts[rows[row]].load_over_modulus())
                     .sum();
-                let moved = (stiffness.dot(&own) - (asked - stays)) / stiffness.dot(&lifted);
+                let moved = (stiffness.dot(&own) - (asked - held)) / stiffness.dot(&lowered);
                 if !moved.is_finite() {
                     return Err(failed);
                 }
-                (own - lifted * moved, moved)
+                (own - lowered * moved, moved)
             }
         };
         let share = if round < PATIENCE { 1.0 } else { 0.5 };
         let mut next = vec![0.0; asperities.len()];
-        for (row, step) in active.iter().zip(steps.iter()) {
-            next[row.index] = (state.indentations[row.index] + share * step).max(0.0);
+        for (&row, step) in active.iter().zip(steps.iter()) {
+            let i = rows[row];
+            next[i] = (state.indentations[i] + share * step).max(0.0);
         }
-        state = Equilibrium {
-            plane: state.plane + share * moved,
-            indentations: next,
-        };
+        state.plane += share * moved;
+        state.indentations = next;
     }
     Err(failed)
 }

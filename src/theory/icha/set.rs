@@ -1,0 +1,50 @@
+//! The asperities that are left, each with its place on the mesh.
+
+use super::Asperity;
+use super::lattice::Lattice;
+use super::mesh::Stencil;
+
+/// Asperities on an infinite half-space or in a cell.
+#[derive(Clone, Debug)]
+pub(super) struct Set {
+    /// The asperities.
+    pub asperities: Vec<Asperity>,
+    /// Their places on the cell's mesh; none without one.
+    pub stencils: Vec<Stencil>,
+}
+
+impl Set {
+    /// Places them.
+    pub fn new(asperities: Vec<Asperity>, lattice: &Lattice) -> Self {
+        let mut set = Set {
+            asperities: Vec::with_capacity(asperities.len()),
+            stencils: Vec::new(),
+        };
+        asperities
+            .into_iter()
+            .for_each(|one| set.push(one, lattice));
+        set
+    }
+
+    /// Adds one.
+    pub fn push(&mut self, asperity: Asperity, lattice: &Lattice) {
+        let place = lattice
+            .mesh
+            .as_ref()
+            .map(|mesh| mesh.stencil(asperity.position));
+        self.stencils.extend(place);
+        self.asperities.push(asperity);
+    }
+
+    /// Takes those out that are gone.
+    pub fn drop_those(&mut self, gone: &[bool]) {
+        keep(&mut self.asperities, gone);
+        keep(&mut self.stencils, gone);
+    }
+}
+
+/// Takes the values out whose place is marked; values without a mark stay.
+pub(super) fn keep<T>(values: &mut Vec<T>, gone: &[bool]) {
+    let mut marks = gone.iter();
+    values.retain(|_| !marks.next().is_some_and(|gone| *gone));
+}
