@@ -140,7 +140,17 @@ fn read_header(file: &mut impl Read) -> Result<Vec<u8>, FileError> {
     let plain =
         |byte: &u8| byte.is_ascii_alphanumeric() || b"_'\"{}()[],:<>|=- \t\r\n".contains(byte);
     let brackets = text.iter().filter(|byte| b"([{".contains(byte)).count();
-    if !text.iter().all(plain) || brackets > 16 {
+    // Nested deeper than any type of elements, a header takes its parser seconds, doubled by each bracket.
+    let depths = text.iter().scan(0_usize, |depth, byte| {
+        match byte {
+            b'(' | b'[' | b'{' => *depth += 1,
+            b')' | b']' | b'}' => *depth = depth.saturating_sub(1),
+            _ => {}
+        }
+        Some(*depth)
+    });
+    let deepest = depths.max().unwrap_or(0);
+    if !text.iter().all(plain) || brackets > 16 || deepest > 4 {
         return Err(broken(
             "its header is no description of a plain array".to_owned(),
         ));
