@@ -246,3 +246,16 @@ fn cut_and_gone_on_with_where_an_edge_costs_more_at_speed() {
     let scene = scene("free", SPHERE, &law, loading, false);
     cut(scene, &make, false, false, "rate");
 }
+
+/// A solid that relaxes, over steps that grow with the time from each kink of the path.
+#[test]
+fn cut_and_gone_on_with_where_steps_grow() {
+    let relaxes = "[[solid.relaxation]]\nmodulus = \"200 MPa\"\ntime = 1\n[[solid.relaxation]]\nmodulus = \"50 MPa\"\ntime = 0.05\n";
+    let loading = "control = \"force\"\nstart = 1e-7\ntime_tolerance = 0.03\n[[loading.ramp]]\nto = 1e-6\nsteps = \"auto\"\nduration = 0.5\n[[loading.ramp]]\nhold = 5\nsteps = \"auto\"";
+    let make = || -> Box<dyn Backend + Send> { Box::new(CpuBackend::<f64>::new()) };
+    let scene = scene("free", &format!("{relaxes}{SPHERE}"), "", loading, false);
+    let durations = scene.loading.durations.clone().expect("it is timed");
+    let longest = durations.iter().copied().fold(0.0, f64::max);
+    assert!(longest > 8.0 * durations[1], "they grow: {durations:?}");
+    cut(scene, &make, false, false, "growing steps");
+}

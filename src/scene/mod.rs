@@ -22,6 +22,7 @@ mod resolved;
 mod solid;
 mod solver;
 mod surface;
+mod time_steps;
 mod types;
 
 use std::path::{Path, PathBuf};
@@ -106,7 +107,7 @@ fn read_tables(root: &Table, folder: &Path, log: &Log) -> Option<Scene> {
         _ => adhesion,
     };
     let law = adhesion.as_ref().and_then(Option::as_ref);
-    let loading = loading::read(&scene, boundary, law, relaxes);
+    let loading = loading::read(&scene, boundary, law, solid.as_ref());
     let friction = friction::read(&scene);
     let layered = solid.as_ref().is_some_and(|solid| solid.layer.is_some());
     let conductance = conductance::read(&scene, layered);
