@@ -365,7 +365,7 @@ fn mistakes_in_loading(tables: &mut Vec<Edits>) {
     tables.push(Edits { base: creeping(), cases: &[
         ("duration = 1\n", "", "s.toml:23: loading.ramp.0.steps: \"auto\" goes by how long the ramp takes", "give duration = \"1 s\""),
         ("time_tolerance = 1e-3", "time_tolerance = 0", "s.toml:20: loading.time_tolerance: 0 is out of range", "from 1e-6 to 0.1"),
-        ("time_tolerance = 1e-3", "time_tolerance = \"1 s\"", "s.toml:20: loading.time_tolerance:", ""),
+        ("time_tolerance = 1e-3", "time_tolerance = \"1 s\"", "s.toml:20: loading.time_tolerance: the text \"1 s\" where a number without a unit is expected", "`time_tolerance = 1e-3`"),
         ("time = 1", "time = 1e-20\n[[solid.relaxation]]\nmodulus = 1e30\ntime = 1e10", "s.toml:24: loading.ramp: the ramps add up to more than 1000000 steps", "1000000"),
     ]});
     tables.push(Edits { base: ramps(), cases: &[
