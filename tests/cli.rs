@@ -296,7 +296,7 @@ fn what_this_version_lacks_is_refused_by_name() {
     let (folder, _) = scene(ROUGH);
     let output = tabor(
         folder.path(),
-        &["check", "scene.toml", "--set", "plastic.hardness=1"],
+        &["check", "scene.toml", "--set", "plastic={ hardness = 1 }"],
     );
     assert_eq!(status(&output), 2, "{}", errors(&output));
     assert!(

@@ -197,9 +197,10 @@ fn all(make: Make, single: bool, few: bool) -> usize {
         events += cut(scene, make, single, few, &format!("spring, {boundary}"));
         count += 1;
     }
-    // A solid that flows, whose heights are handed on.
+    // A solid that flows, whose heights are handed on; mixed precision does not know it.
+    let corrects = make().in_double().is_some();
     for (index, (boundary, loading)) in LOADINGS.into_iter().enumerate() {
-        if loading.contains("mean-gap") || (few && index != 0) {
+        if corrects || loading.contains("mean-gap") || (few && index != 0) {
             continue;
         }
         let surface = if boundary == "free" { SPHERE } else { ROUGH };
@@ -296,6 +297,13 @@ fn mixed_precision_walks_the_path_of_double() {
             set.push(("grid.points".to_owned(), "48".to_owned()));
         }
         let scene = Scene::read(&path, &set).unwrap_or_else(|errors| panic!("{errors}"));
+        if scene.solid.hardness.is_some() {
+            // Refused in mixed precision.
+            continue;
+        }
+        // Speed and law agree to 2e-3, so where in that a step ends is a matter of rounding.
+        let rated = scene.adhesion.as_ref().is_some_and(|a| a.rate.is_some());
+        let allowed = if rated { 2e-3 } else { 1e-6 };
         let surface = Surface::build(&scene).expect("a surface");
         let setup = Setup::new(scene, surface);
         let one = walk(&setup, &mixed, &mut ()).expect("it is solved");
@@ -334,7 +342,7 @@ fn mixed_precision_walks_the_path_of_double() {
             iterations(&other)
         );
         for ((column, _), worst) in columns.iter().zip(worst) {
-            if freed && worst > 1e-6 {
+            if freed && worst > allowed {
                 failures.push(format!("{name}: {column} off by {worst:e}"));
             }
         }
@@ -359,4 +367,17 @@ fn cut_and_gone_on_with_where_an_edge_costs_more_at_speed() {
     let make = || -> Box<dyn Backend + Send> { Box::new(CpuBackend::<f64>::new()) };
     let scene = scene("free", SPHERE, &law, loading, false);
     cut(scene, &make, false, false, "rate");
+}
+
+/// A solid that relaxes, over steps that grow with the time from each kink of the path.
+#[test]
+fn cut_and_gone_on_with_where_steps_grow() {
+    let relaxes = "[[solid.relaxation]]\nmodulus = \"200 MPa\"\ntime = 1\n[[solid.relaxation]]\nmodulus = \"50 MPa\"\ntime = 0.05\n";
+    let loading = "control = \"force\"\nstart = 1e-7\ntime_tolerance = 0.03\n[[loading.ramp]]\nto = 1e-6\nsteps = \"auto\"\nduration = 0.5\n[[loading.ramp]]\nhold = 5\nsteps = \"auto\"";
+    let make = || -> Box<dyn Backend + Send> { Box::new(CpuBackend::<f64>::new()) };
+    let scene = scene("free", &format!("{relaxes}{SPHERE}"), "", loading, false);
+    let durations = scene.loading.durations.clone().expect("it is timed");
+    let longest = durations.iter().copied().fold(0.0, f64::max);
+    assert!(longest > 8.0 * durations[1], "they grow: {durations:?}");
+    cut(scene, &make, false, false, "growing steps");
 }

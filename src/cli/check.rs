@@ -68,9 +68,10 @@ fn describe(plan: &Plan, cost: &Cost) -> Result<String, Failure> {
             }
         ),
         format!(
-            "loading       {}, {} steps",
+            "loading       {}, {} steps{}",
             scene.loading.control.name(),
-            scene.loading.path.len()
+            scene.loading.path.len(),
+            step_times(scene.loading.durations.as_deref())
         ),
     ];
     if let Some(pixels) = plan.pixels_a_wave() {
@@ -187,5 +188,22 @@ fn change(added: &[&'static str], spared: &[&'static str]) -> String {
         "the same".to_owned()
     } else {
         parts.join(", ")
+    }
+}
+
+/// The shortest and the longest step of a path that says how long they take.
+fn step_times(durations: Option<&[f64]>) -> String {
+    let taking = durations.unwrap_or(&[]).iter().copied();
+    let mut taking = taking.filter(|duration| *duration > 0.0);
+    let Some(first) = taking.next() else {
+        return String::new();
+    };
+    let (least, most) = taking.fold((first, first), |(least, most), duration| {
+        (least.min(duration), most.max(duration))
+    });
+    if least == most {
+        format!(" of {}", format_si(least, "s"))
+    } else {
+        format!(" of {} to {}", format_si(least, "s"), format_si(most, "s"))
     }
 }

@@ -226,6 +226,7 @@ pub(super) const LOADING: Section = Section {
         ("start", "start = \"1 MPa\""),
         ("ramp", "[[loading.ramp]]"),
         ("spring", "spring = \"0.2 N/m\""),
+        ("time_tolerance", "time_tolerance = 1e-3"),
     ],
     later: &[],
 };

@@ -1,13 +1,27 @@
 //! `[loading]`: the path, written out step by step.
 
+use super::document::Value;
 use super::keys;
 use super::mistake::SceneError;
 use super::reader::{Allowed, Reader};
-use super::types::{AdhesionScene, Boundary, Control, LawName, LoadingScene, Range, Treatment};
+use super::time_steps::{Cutter, DEFAULT_TOLERANCE, Leg};
+use super::types::{
+    AdhesionScene, Boundary, Control, LawName, LoadingScene, Range, SolidScene, Treatment,
+};
 use crate::units::{self, Dimension};
 
 /// Most steps of a path, so that a slip of the finger cannot fill the memory.
 const MOST_STEPS: usize = 1_000_000;
+
+/// What `steps` of a ramp is in place of a number.
+const AUTO: &str = "auto";
+
+/// Errors of a path in time that may be asked for: beyond, the pixels or the solver's tolerance
+/// decide, or the steps are no longer steps of a path.
+const TIME_TOLERANCE: Allowed = Allowed::new(
+    |tolerance| (1e-6..=0.1).contains(&tolerance),
+    "from 1e-6 to 0.1",
+);
 
 /// A path with the time that each step takes, where it says.
 struct TimedPath {
@@ -15,13 +29,13 @@ struct TimedPath {
     durations: Option<Vec<f64>>,
 }
 
-/// Reads `[loading]`; `boundary`, `adhesion` and whether the solid relaxes are there to check
-/// against, if they could be read.
+/// Reads `[loading]`; `boundary`, `adhesion` and `solid` are there to check against, if they could be
+/// read.
 pub(super) fn read(
     scene: &Reader,
     boundary: Option<Boundary>,
     adhesion: Option<&AdhesionScene>,
-    relaxes: bool,
+    solid: Option<&SolidScene>,
 ) -> Option<LoadingScene> {
     scene.require_as(
         "loading",
@@ -61,7 +75,8 @@ pub(super) fn read(
     } else {
         Some(None)
     };
-    let timed = path(&loading, control, adhesion);
+    let relaxes = solid.is_some_and(|solid| !solid.relaxation.is_empty());
+    let timed = path(&loading, control, adhesion, solid);
     if let Some(timed) = &timed
         && relaxes
         && timed.durations.is_none()
@@ -123,6 +138,7 @@ fn path(
     loading: &Reader,
     control: Option<Control>,
     adhesion: Option<&AdhesionScene>,
+    solid: Option<&SolidScene>,
 ) -> Option<TimedPath> {
     let value = control.map(|control| PathValue::of(control, adhesion));
     let has_ramps = loading.has("start") || loading.has("ramp");
@@ -134,8 +150,9 @@ fn path(
         return None;
     }
     let timed = if has_ramps {
-        ramps(loading, value.as_ref())?
+        ramps(loading, value.as_ref(), control, adhesion.is_some(), solid)?
     } else {
+        no_auto_ramp(loading, &[])?;
         loading.require_as(
             "path",
             "path = [\"1 MPa\", \"10 MPa\"]` or `start` with `[[loading.ramp]]",
@@ -170,13 +187,14 @@ fn path(
 struct Ramp {
     /// Where it goes; `None` holds the load.
     to: Option<f64>,
-    steps: usize,
+    /// How many steps; `None` as many as its tolerance in time takes.
+    steps: Option<usize>,
     /// How long it takes, s.
     duration: Option<f64>,
 }
 
 /// Reads a ramp, without its place among the others.
-fn ramp(ramp: &Reader, value: Option<&PathValue>) -> Option<Ramp> {
+fn ramp(ramp: &Reader, value: Option<&PathValue>, solid: Option<&SolidScene>) -> Option<Ramp> {
     let holds = ramp.has("hold");
     if !holds {
         ramp.require(&["to"]);
@@ -191,9 +209,10 @@ fn ramp(ramp: &Reader, value: Option<&PathValue>) -> Option<Ramp> {
         }
     }
     ramp.require(&["steps"]);
-    let steps = ramp
-        .whole_number("steps", 1, MOST_STEPS as i64)
-        .and_then(|steps| usize::try_from(steps).ok());
+    let steps = match is_auto(ramp) {
+        true => may_be_auto(ramp, solid).map(|()| None),
+        false => whole_steps(ramp).map(Some),
+    };
     let to = value.and_then(|value| ramp.quantity("to", value.dimension, value.allowed));
     let key = if holds { "hold" } else { "duration" };
     let duration = ramp.quantity(key, Dimension::Time, Allowed::NOT_NEGATIVE);
@@ -207,8 +226,62 @@ fn ramp(ramp: &Reader, value: Option<&PathValue>) -> Option<Ramp> {
     })
 }
 
+/// Whether a ramp finds its steps by itself.
+fn is_auto(ramp: &Reader) -> bool {
+    matches!(ramp.node("steps"), Some(node) if matches!(&node.value, Value::Text(text) if text == AUTO))
+}
+
+/// The steps of a ramp that says how many.
+fn whole_steps(ramp: &Reader) -> Option<usize> {
+    if let Some(node) = ramp.node("steps")
+        && matches!(node.value, Value::Text(_))
+    {
+        ramp.choice_in(node, "steps", "steps", &[AUTO], |word| word);
+        return None;
+    }
+    let steps = ramp.whole_number("steps", 1, MOST_STEPS as i64)?;
+    usize::try_from(steps).ok()
+}
+
+/// Notes what a ramp lacks to find its steps by itself.
+fn may_be_auto(ramp: &Reader, solid: Option<&SolidScene>) -> Option<()> {
+    if solid.is_some_and(|solid| solid.relaxation.is_empty()) {
+        ramp.conflict(
+            "steps",
+            "\"auto\" goes by how fast the solid relaxes, and this one does not; give a number of steps, or [[solid.relaxation]]",
+        );
+        return None;
+    }
+    if !ramp.has("hold") && !ramp.has("duration") {
+        ramp.conflict(
+            "steps",
+            "\"auto\" goes by how long the ramp takes; give duration = \"1 s\", or a number of steps",
+        );
+        return None;
+    }
+    Some(())
+}
+
+/// Notes a tolerance in time that no ramp goes by.
+fn no_auto_ramp(loading: &Reader, ramps: &[Reader]) -> Option<()> {
+    if loading.has("time_tolerance") && !ramps.iter().any(is_auto) {
+        loading.conflict(
+            "time_tolerance",
+            "is for ramps with steps = \"auto\", and there is none; take \"auto\", or leave the tolerance out",
+        );
+        return None;
+    }
+    Some(())
+}
+
 /// Steps from `start` over every ramp.
-fn ramps(loading: &Reader, value: Option<&PathValue>) -> Option<TimedPath> {
+fn ramps(
+    loading: &Reader,
+    value: Option<&PathValue>,
+    control: Option<Control>,
+    attracts: bool,
+    solid: Option<&SolidScene>,
+) -> Option<TimedPath> {
     loading.require_as("start", "start = \"1 MPa\"");
     loading.require_as("ramp", "[[loading.ramp]]` with `to` and `steps");
     let start = value.and_then(|value| loading.quantity("start", value.dimension, value.allowed));
@@ -220,28 +293,74 @@ fn ramps(loading: &Reader, value: Option<&PathValue>) -> Option<TimedPath> {
         );
         return None;
     }
-    let ramps: Vec<Option<Ramp>> = readers.iter().map(|reader| ramp(reader, value)).collect();
-    let steps = |ramp: &Option<Ramp>| ramp.as_ref().map_or(0, |ramp| ramp.steps);
-    if ramps.iter().map(steps).sum::<usize>() >= MOST_STEPS {
+    let ramps: Vec<Option<Ramp>> = readers
+        .iter()
+        .map(|reader| ramp(reader, value, solid))
+        .collect();
+    let steps = |ramp: &Option<Ramp>| ramp.as_ref().and_then(|ramp| ramp.steps).unwrap_or(0);
+    let too_many = || {
         loading.conflict(
             "ramp",
             format!("the ramps add up to more than {MOST_STEPS} steps"),
         );
+    };
+    if ramps.iter().map(steps).sum::<usize>() >= MOST_STEPS {
+        too_many();
         return None;
     }
+    no_auto_ramp(loading, &readers)?;
+    let tolerance = match loading.has("time_tolerance") {
+        true => loading.quantity("time_tolerance", Dimension::Dimensionless, TIME_TOLERANCE)?,
+        false => DEFAULT_TOLERANCE,
+    };
     let takes_time = |ramp: &Reader| ramp.has("hold") || ramp.has("duration");
     if readers.iter().any(takes_time) {
         for reader in readers.iter().filter(|ramp| !takes_time(ramp)) {
             reader.require_as("duration", "duration = \"1 s\"");
         }
     }
-    let mut path = vec![start?];
+    let ramps = ramps.into_iter().collect::<Option<Vec<Ramp>>>()?;
+    let start = start?;
+    let mut path = vec![start];
     let mut durations = vec![0.0];
     let mut timed = true;
-    let mut from = start?;
-    for ramp in ramps {
-        let ramp = ramp?;
-        let (to, steps) = (ramp.to.unwrap_or(from), ramp.steps);
+    let mut from = start;
+    let mut cutter = match readers.iter().any(is_auto) {
+        true => Some(Cutter::new(
+            solid?,
+            control?,
+            attracts || loading.has("spring"),
+            start,
+            &legs(start, &ramps),
+            tolerance,
+        )),
+        false => None,
+    };
+    for (ramp, leg) in ramps.iter().zip(legs(start, &ramps)) {
+        let to = leg.to;
+        let Some(steps) = ramp.steps else {
+            let room = MOST_STEPS.saturating_sub(path.len());
+            let Some(shares) = cutter.as_mut()?.cut(&leg, room) else {
+                too_many();
+                return None;
+            };
+            let mut end = 0.0;
+            for share in shares {
+                end += share;
+                // Halves add up to 1 without rounding.
+                path.push(if end < 1.0 {
+                    from + (to - from) * end
+                } else {
+                    to
+                });
+                durations.push(leg.duration * share);
+            }
+            from = to;
+            continue;
+        };
+        if let Some(cutter) = &mut cutter {
+            cutter.go(&leg);
+        }
         path.extend((1..steps).map(|step| {
             let share = step as f64 / steps as f64;
             from + (to - from) * share
@@ -256,6 +375,19 @@ fn ramps(loading: &Reader, value: Option<&PathValue>) -> Option<TimedPath> {
         path,
         durations: timed.then_some(durations),
     })
+}
+
+/// Ramps by their ends and times; one without a time takes none.
+fn legs(start: f64, ramps: &[Ramp]) -> Vec<Leg> {
+    let mut from = start;
+    let leg = |ramp: &Ramp| {
+        from = ramp.to.unwrap_or(from);
+        Leg {
+            to: from,
+            duration: ramp.duration.unwrap_or(0.0),
+        }
+    };
+    ramps.iter().map(leg).collect()
 }
 
 /// A Lennard-Jones surface repels without limit at a gap of minus its range.

@@ -23,6 +23,7 @@ mod resolved;
 mod solid;
 mod solver;
 mod surface;
+mod time_steps;
 mod types;
 
 use std::path::{Path, PathBuf};
@@ -107,7 +108,7 @@ fn read_tables(root: &Table, folder: &Path, log: &Log) -> Option<Scene> {
         _ => adhesion,
     };
     let law = adhesion.as_ref().and_then(Option::as_ref);
-    let loading = loading::read(&scene, boundary, law, relaxes);
+    let loading = loading::read(&scene, boundary, law, solid.as_ref());
     let solver = solver::read(&scene);
     if let Some(solid) = &solid {
         hardness::check(&scene, solid, law, loading.as_ref(), grid.as_ref());

@@ -31,7 +31,8 @@ impl ContactSolver<'_> {
     /// The state in double precision, made when it is first asked for; `None` where the backend's own
     /// numbers will do.
     pub(super) fn reference(&mut self) -> Option<&mut Reference> {
-        if self.reference.is_none() {
+        // The corrections are those of a wall; what flows is left to the backend's own numbers.
+        if self.reference.is_none() && self.problem.hardness.is_none() {
             let double = self.backend.in_double()?;
             self.reference = Some(Reference::new(
                 double,

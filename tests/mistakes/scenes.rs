@@ -88,6 +88,24 @@ steps = 4"#,
     )
 }
 
+/// A solid that relaxes under a ramp that finds its steps by itself.
+fn creeping() -> String {
+    let relaxes = edited(
+        &ramps(),
+        "contact_modulus = \"1 GPa\"",
+        "contact_modulus = \"1 GPa\"\n[[solid.relaxation]]\nmodulus = 1e9\ntime = 1",
+    );
+    edited(
+        &edited(
+            &relaxes,
+            "start = \"1 MPa\"",
+            "start = \"1 MPa\"\ntime_tolerance = 1e-3",
+        ),
+        "steps = 4",
+        "duration = 1\nsteps = \"auto\"",
+    )
+}
+
 fn spring() -> String {
     with_loading("control = \"approach\"\npath = [\"1 nm\"]\nspring = \"1 N/m\"")
 }
@@ -361,6 +379,12 @@ fn mistakes_in_loading(tables: &mut Vec<Edits>) {
         (r#"spring = "1 N/m""#, "spring = 0", "s.toml:17: loading.spring: 0 is out of range", "finite and above 0"),
         (r#"spring = "1 N/m""#, r#"spring = "1 N""#, r#"s.toml:17: loading.spring: "N" is a force in N"#, "a force per length in N/m"),
     ]});
+    tables.push(Edits { base: creeping(), cases: &[
+        ("duration = 1\n", "", "s.toml:23: loading.ramp.0.steps: \"auto\" goes by how long the ramp takes", "give duration = \"1 s\""),
+        ("time_tolerance = 1e-3", "time_tolerance = 0", "s.toml:20: loading.time_tolerance: 0 is out of range", "from 1e-6 to 0.1"),
+        ("time_tolerance = 1e-3", "time_tolerance = \"1 s\"", "s.toml:20: loading.time_tolerance: the text \"1 s\" where a number without a unit is expected", "`time_tolerance = 1e-3`"),
+        ("time = 1", "time = 1e-20\n[[solid.relaxation]]\nmodulus = 1e30\ntime = 1e10", "s.toml:24: loading.ramp: the ramps add up to more than 1000000 steps", "1000000"),
+    ]});
     tables.push(Edits { base: ramps(), cases: &[
         ("start = \"1 MPa\"\n", "", "s.toml:14: loading.start: missing", r#"`start = "1 MPa"`"#),
         ("to = \"2 MPa\"\n", "", "s.toml:17: loading.ramp.0.to: missing", r#"`to = "10 MPa"`"#),
@@ -373,6 +397,9 @@ fn mistakes_in_loading(tables: &mut Vec<Edits>) {
         ("steps = 4", "steps = 4\nhold = \"1 s\"", "s.toml:18: loading.ramp.0.to: hold = \"1 s\" keeps the load", "leave this out"),
         (r#"to = "2 MPa""#, "hold = \"1 s\"\nduration = 1", "s.toml:19: loading.ramp.0.duration: hold = \"1 s\" keeps the load", "leave this out"),
         ("steps = 4", "steps = 4\nduration = 1\n[[loading.ramp]]\nto = 1\nsteps = 1", "s.toml:21: loading.ramp.1.duration: missing", "`duration = \"1 s\"`"),
+        ("steps = 4", "steps = \"auto\"\nduration = 1", "s.toml:19: loading.ramp.0.steps: \"auto\" goes by how fast the solid relaxes", "or [[solid.relaxation]]"),
+        ("steps = 4", "steps = \"atuo\"", "s.toml:19: loading.ramp.0.steps", "did you mean"),
+        ("[[loading.ramp]]", "time_tolerance = 1e-3\n[[loading.ramp]]", "s.toml:17: loading.time_tolerance: is for ramps with steps = \"auto\", and there is none", "leave the tolerance out"),
         ("steps = 4", "steps = 4\nstep = 3", "s.toml:20: loading.ramp.0.step: unknown key in [[loading.ramp]]", "did you mean `steps`?"),
     ]});
 }

@@ -20,4 +20,5 @@ mod relaxation;
 mod rough;
 mod spring;
 mod tables;
+mod time_steps;
 mod waves;
