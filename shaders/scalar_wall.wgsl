@@ -12,7 +12,7 @@ fn restore_wall() {
 // The same where gaps may be below zero, which are scaled the other way.
 fn restore_yield() {
     scalars.restore = ZERO;
-    let size = scalars.sums[2];
+    let size = scalars.sums[1] + scalars.sums[0] + (scalars.sums[2] + scalars.sums[2]);
     if (size > ZERO) {
         scalars.restore = -scalars.sums[0] / size;
     }

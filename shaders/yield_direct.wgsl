@@ -1,4 +1,4 @@
-// Turns the direction and sums the trial step, the gap, and the size of the trial (fixed mean gap).
+// Turns the direction and sums the trial step, the gap, and the depth of the trial (fixed mean gap).
 @group(1) @binding(0) var<storage, read> gap: array<f32>;
 @group(1) @binding(1) var<storage, read> pressure: array<f32>;
 @group(1) @binding(2) var<storage, read> descent: array<f32>;
@@ -13,5 +13,5 @@ fn point(index: u32, on_surface: bool) {
     let s = select(max(moved, -g), min(moved, -g), goes_down(g, y));
     add_sum(0u, wide(s));
     add_sum(1u, wide(g));
-    add_sum(2u, wide(abs(g + s)));
+    add_sum(2u, wide(max(-(g + s), 0.0)));
 }

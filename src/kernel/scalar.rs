@@ -192,7 +192,8 @@ scalar_kernel!(
 );
 
 fn restore_yield(_: &Params, scalars: &mut Scalars) {
-    let [step, _, size, ..] = scalars.sums;
+    let [step, present, depth, ..] = scalars.sums;
+    let size = present + step + 2.0 * depth;
     scalars.restore = if size > 0.0 { -step / size } else { 0.0 };
 }
 scalar_kernel!(

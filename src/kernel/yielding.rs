@@ -118,11 +118,11 @@ fn yield_direct<T: Real>(
         let step = trial_step(gap[i], length * d, T::zero(), floor.goes_down(gap[i], y));
         sums[0] += step.double();
         sums[1] += gap[i].double();
-        sums[2] += (gap[i] + step).abs().double();
+        sums[2] += (-(gap[i] + step)).max(T::zero()).double();
     }));
 }
 kernel!(
-    /// Turns the direction and sums the trial step, the gap, and the size of the trial (fixed mean
+    /// Turns the direction and sums the trial step, the gap, and the depth of the trial (fixed mean
     /// gap). Reads gap, pressure, z; updates direction.
     YIELD_DIRECT, yield_direct, Sweep, reads 3, writes 1, whole false,
     sums [Add, Add, Add], gate Running

@@ -43,7 +43,7 @@ fn outcome(case: &Case, run: &Run) -> String {
         2 => "refused, with a remedy".to_owned(),
         3 => format!("not converged in step {}, and says so", run.rows.len()),
         _ => {
-            let warned = run.messages.contains("warning: a pixel is");
+            let warned = run.messages.contains(": a pixel is");
             assert!(case.compared || warned, "{}: {}", case.name, run.messages);
             let states = run.states();
             let apart = states.iter().filter(|state| **state == "separated").count();

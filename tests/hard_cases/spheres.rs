@@ -97,7 +97,7 @@ fn unresolved(tabor: f64, taper: Option<f64>) -> Case {
     .not_compared()
     .so_that(move |run, _| {
         assert_eq!(run.states(), ["contact", "contact", "separated", "contact"]);
-        let said = ["warning: a pixel is", "range = \"auto\""]
+        let said = [": a pixel is", "range = \"auto\""]
             .iter()
             .all(|word| run.messages.contains(word));
         assert!(said, "{}", run.messages);
@@ -176,7 +176,7 @@ fn unresolved_core(tabor: f64) -> Case {
         .not_compared()
         .so_that(|run, _| {
             assert_eq!(run.states(), ["contact", "contact", "separated", "contact"]);
-            let said = ["warning: a pixel is", "range = \"auto\""]
+            let said = [": a pixel is", "range = \"auto\""]
                 .iter()
                 .all(|word| run.messages.contains(word));
             assert!(said, "{}", run.messages);
