@@ -24,6 +24,7 @@ mod solid;
 mod solver;
 mod surface;
 mod types;
+mod wear;
 
 use std::path::{Path, PathBuf};
 
@@ -116,6 +117,7 @@ fn read_tables(root: &Table, folder: &Path, log: &Log) -> Option<Scene> {
     let friction = friction::read(&scene);
     let layered = solid.as_ref().is_some_and(|solid| solid.layer.is_some());
     let conductance = conductance::read(&scene, layered);
+    let wear = wear::read(&scene);
     let path_length = loading.as_ref().map(|loading| loading.path.len());
     let output = output::read(&scene, path_length);
     Some(Scene {
@@ -127,6 +129,7 @@ fn read_tables(root: &Table, folder: &Path, log: &Log) -> Option<Scene> {
         capillary: capillary?,
         friction: friction?,
         conductance: conductance?,
+        wear: wear?,
         loading: loading?,
         solver: solver?,
         output: output?,

@@ -21,3 +21,4 @@ mod rough;
 mod spring;
 mod tables;
 mod waves;
+mod wear;
