@@ -229,7 +229,7 @@ fn mistakes_in_solid(tables: &mut Vec<Edits>) {
     tables.push(Edits { base: soft(), cases: &[
         (r#"law = "maugis-dugdale""#, r#"law = "lennard-jones""#, "s.toml:7: solid.hardness: a hardness with the Lennard-Jones law is not in this version", "leave the hardness out"),
         (r#"range = "1 nm""#, "range = \"1 nm\"\ntreatment = \"dmt\"", "s.toml:7: solid.hardness: a hardness with treatment = \"dmt\" is not in this version", "take treatment = \"full\""),
-        ("tolerance = 1e-6", "tolerance = 1e-6\nprecision = \"mixed\"", "s.toml:7: solid.hardness: a hardness in mixed precision is not in this version", "take precision = \"single\""),
+        ("[solver]", "[solver]\nprecision = \"mixed\"", "s.toml:7: solid.hardness: a hardness in mixed precision is not in this version", "take precision = \"single\""),
         ("control = \"pressure\"\npath = [\"1 MPa\", \"2 MPa\"]", "control = \"mean-gap\"\npath = [\"1 nm\"]", "s.toml:7: solid.hardness: control = \"mean-gap\" does not fix how deep", "take control = \"approach\""),
         ("control = \"pressure\"\npath = [\"1 MPa\", \"2 MPa\"]", "control = \"force\"\npath = [1e-3]", "s.toml:7: solid.hardness: the path asks for a mean pressure of 1 GPa", "stay below it"),
     ]});
