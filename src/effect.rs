@@ -34,6 +34,8 @@ pub enum Effect {
     Friction,
     /// `[conductance]`: what flows through the area in contact.
     Conductance,
+    /// `[wear]`: what sliding takes off.
+    Wear,
     /// `spring`: the approach acts through a cantilever.
     Spring,
 }
@@ -55,7 +57,7 @@ pub struct EffectCost {
 
 impl Effect {
     /// Every effect of this version.
-    pub const ALL: [Effect; 12] = [
+    pub const ALL: [Effect; 13] = [
         Effect::Adhesion,
         Effect::Dmt,
         Effect::AdhesionMap,
@@ -68,6 +70,7 @@ impl Effect {
         Effect::Spring,
         Effect::Friction,
         Effect::Conductance,
+        Effect::Wear,
     ];
 
     /// Its name in summaries.
@@ -85,6 +88,7 @@ impl Effect {
             Effect::Spring => "spring",
             Effect::Friction => "friction",
             Effect::Conductance => "conductance",
+            Effect::Wear => "wear",
         }
     }
 
@@ -120,6 +124,9 @@ impl Effect {
             Effect::Conductance => {
                 "what the area in contact conducts, in a column of its own, by conjugate gradients after each step"
             }
+            Effect::Wear => {
+                "the volume that a length of sliding takes off, in a column of its own; it changes nothing else"
+            }
             Effect::Spring => {
                 "the approach is prescribed at the far end of a spring, so contacts snap in and off"
             }
@@ -147,6 +154,7 @@ impl Effect {
             Effect::Spring => scene.loading.spring.is_some(),
             Effect::Friction => scene.friction.is_some(),
             Effect::Conductance => scene.conductance.is_some(),
+            Effect::Wear => scene.wear.is_some(),
         }
     }
 
@@ -253,6 +261,15 @@ impl Effect {
                     format_si(combined * grid.pixel_area().sqrt(), "W/K")
                 )
             }
+            Effect::Wear => {
+                let specific = scene.wear.map_or(0.0, |wear| wear.specific_wear_rate);
+                let flattening = 0.5 * scene.solid.contact_modulus * moments.rms_slope();
+                format!(
+                    "holds while little is worn, for the heights stay: here a spot under the pressure that flattens the roughness (E* rms slope/2) loses {} a metre of sliding, beside an rms height of {}",
+                    format_si(specific * flattening, "m"),
+                    format_si(moments.rms_height(), "m")
+                )
+            }
             Effect::Spring => {
                 let stiffness = scene.loading.spring.unwrap_or(0.0);
                 let contact = 2.0 * scene.solid.contact_modulus * grid.area().sqrt();
@@ -295,6 +312,7 @@ impl Effect {
             Effect::Spring => scene.loading.spring = None,
             Effect::Friction => scene.friction = None,
             Effect::Conductance => scene.conductance = None,
+            Effect::Wear => scene.wear = None,
         }
         scene
     }

@@ -44,6 +44,8 @@ pub enum Dimension {
     Speed,
     /// W/(m K); of an electric one only the number is read, in S/m.
     Conductivity,
+    /// m^3/(N m), which is 1/Pa: the volume worn off for each load and length of sliding.
+    SpecificWear,
     /// 1/m: a curvature, a wave number.
     PerLength,
     /// 1/m^2: a count per area.
@@ -69,6 +71,7 @@ impl Dimension {
             Dimension::MolarVolume => "m^3/mol",
             Dimension::Speed => "m/s",
             Dimension::Conductivity => "W/(m K)",
+            Dimension::SpecificWear => "m^3/(N m)",
             Dimension::PerLength => "1/m",
             Dimension::PerArea => "1/m^2",
             Dimension::Angle => "rad",
@@ -91,6 +94,7 @@ impl Dimension {
             Dimension::MolarVolume => "a molar volume in m^3/mol",
             Dimension::Speed => "a speed in m/s",
             Dimension::Conductivity => "a conductivity in W/(m K)",
+            Dimension::SpecificWear => "a specific wear rate in m^3/(N m) or 1/Pa",
             Dimension::PerLength => "a reciprocal length in 1/m",
             Dimension::PerArea => "a count per area in 1/m^2",
             Dimension::Angle => "an angle in deg or rad",
@@ -113,6 +117,7 @@ impl Dimension {
             Dimension::MolarVolume => "\"18e-6 m^3/mol\"",
             Dimension::Speed => "\"1 um/s\"",
             Dimension::Conductivity => "\"400 W/(m K)\"",
+            Dimension::SpecificWear => "\"1e-6 mm^3/(N m)\"",
             Dimension::PerLength => "\"0.1 1/um\"",
             Dimension::PerArea => "\"10 1/um^2\"",
             Dimension::Angle => "\"70 deg\"",
@@ -247,15 +252,20 @@ const PREFIXED: &[(&str, Dimension)] = &[
     ("W/m/K", Dimension::Conductivity),
 ];
 
-/// Units that stand alone, with their size in SI.
-const PLAIN: &[(&str, Dimension, f64)] = &[
-    ("min", Dimension::Time, 60.0),
-    ("K", Dimension::Temperature, 1.0),
-    ("m^3/mol", Dimension::MolarVolume, 1.0),
-    ("m³/mol", Dimension::MolarVolume, 1.0),
-    ("deg", Dimension::Angle, std::f64::consts::PI / 180.0),
-    ("°", Dimension::Angle, std::f64::consts::PI / 180.0),
-    ("rad", Dimension::Angle, 1.0),
+/// Units that stand alone, with their size in SI: a power of ten and a factor.
+const PLAIN: &[(&str, Dimension, i32, f64)] = &[
+    ("min", Dimension::Time, 0, 60.0),
+    ("K", Dimension::Temperature, 0, 1.0),
+    ("m^3/mol", Dimension::MolarVolume, 0, 1.0),
+    ("m³/mol", Dimension::MolarVolume, 0, 1.0),
+    ("m^3/(N m)", Dimension::SpecificWear, 0, 1.0),
+    ("m³/(N m)", Dimension::SpecificWear, 0, 1.0),
+    ("mm^3/(N m)", Dimension::SpecificWear, -9, 1.0),
+    ("mm³/(N m)", Dimension::SpecificWear, -9, 1.0),
+    ("1/Pa", Dimension::SpecificWear, 0, 1.0),
+    ("deg", Dimension::Angle, 0, std::f64::consts::PI / 180.0),
+    ("°", Dimension::Angle, 0, std::f64::consts::PI / 180.0),
+    ("rad", Dimension::Angle, 0, 1.0),
 ];
 
 /// Prefixes with their power of ten; both code points of the Greek letter are in use.
@@ -274,9 +284,9 @@ const PREFIXES: &[(char, i32)] = &[
 ];
 
 fn find_unit(name: &str) -> Option<Unit> {
-    if let Some(&(_, dimension, factor)) = PLAIN.iter().find(|(plain, ..)| *plain == name) {
+    if let Some(&(_, dimension, power, factor)) = PLAIN.iter().find(|(plain, ..)| *plain == name) {
         return Some(Unit {
-            power: 0,
+            power,
             factor,
             dimension,
         });
@@ -568,6 +578,10 @@ mod tests {
             ("3 m/s", Speed, 3.0),
             ("3 mW/(m K)", Conductivity, 3e-3),
             ("3 W/m/K", Conductivity, 3.0),
+            ("3e-6 mm^3/(N m)", SpecificWear, 3e-15),
+            ("0.3mm³ / (N m)", SpecificWear, 3e-10),
+            ("3e-15 m^3/(N m)", SpecificWear, 3e-15),
+            ("3e-15 1/Pa", SpecificWear, 3e-15),
             ("0.1 1/um", PerLength, 1e5),
             ("9e3/m", PerLength, 9e3),
             ("10 1/um^2", PerArea, 1e13),

@@ -117,6 +117,7 @@ fn rough(points: usize) -> Surface {
         capillary: None,
         friction: None,
         conductance: None,
+        wear: None,
         adhesion: None,
         loading: LoadingScene {
             control: Control::Pressure,

@@ -72,6 +72,7 @@ mod tests {
             friction_force: None,
             plastic_energy: None,
             conductance: None,
+            wear_rate: None,
         };
         let text = table(&(1..=30).map(row).collect::<Vec<_>>());
         let lines: Vec<&str> = text.lines().collect();

@@ -258,6 +258,7 @@ fn parse_row(line: &str, columns: &[Column]) -> Option<StepRow> {
         friction_force: None,
         plastic_energy: None,
         conductance: None,
+        wear_rate: None,
     };
     for (column, cell) in columns.iter().zip(more) {
         column.set(&mut row, optional(cell)?);
@@ -291,6 +292,7 @@ mod tests {
             friction_force: None,
             plastic_energy: None,
             conductance: None,
+            wear_rate: None,
         }
     }
 

@@ -36,6 +36,7 @@ pub(super) const SCENE: Section = Section {
         ("capillary", "[capillary]"),
         ("friction", "[friction]"),
         ("conductance", "[conductance]"),
+        ("wear", "[wear]"),
         ("loading", "[loading]"),
         ("solver", "[solver]"),
         ("output", "[output]"),
@@ -218,6 +219,15 @@ pub(super) const CONDUCTANCE: Section = Section {
     later: &[],
 };
 
+pub(super) const WEAR: Section = Section {
+    title: "[wear]",
+    keys: &[(
+        "specific_wear_rate",
+        "specific_wear_rate = \"1e-6 mm^3/(N m)\"",
+    )],
+    later: &[],
+};
+
 pub(super) const LOADING: Section = Section {
     title: "[loading]",
     keys: &[
@@ -280,6 +290,7 @@ pub(super) const ALL: &[&Section] = &[
     &CAPILLARY,
     &FRICTION,
     &CONDUCTANCE,
+    &WEAR,
     &LOADING,
     &RAMP,
     &SOLVER,

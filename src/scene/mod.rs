@@ -25,6 +25,7 @@ mod solver;
 mod surface;
 mod time_steps;
 mod types;
+mod wear;
 
 use std::path::{Path, PathBuf};
 
@@ -117,6 +118,7 @@ fn read_tables(root: &Table, folder: &Path, log: &Log) -> Option<Scene> {
     let friction = friction::read(&scene);
     let layered = solid.as_ref().is_some_and(|solid| solid.layer.is_some());
     let conductance = conductance::read(&scene, layered);
+    let wear = wear::read(&scene);
     let path_length = loading.as_ref().map(|loading| loading.path.len());
     let output = output::read(&scene, path_length);
     Some(Scene {
@@ -128,6 +130,7 @@ fn read_tables(root: &Table, folder: &Path, log: &Log) -> Option<Scene> {
         capillary: capillary?,
         friction: friction?,
         conductance: conductance?,
+        wear: wear?,
         loading: loading?,
         solver: solver?,
         output: output?,

@@ -36,6 +36,10 @@ impl Scene {
             });
             scene.insert("conductance".into(), table);
         }
+        if let Some(wear) = &self.wear {
+            let table = json!({ "specific_wear_rate": wear.specific_wear_rate });
+            scene.insert("wear".into(), table);
+        }
         scene.insert("loading".into(), self.loading.resolved());
         scene.insert("solver".into(), self.solver.resolved());
         scene.insert("output".into(), self.output.resolved());

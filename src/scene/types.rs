@@ -26,6 +26,8 @@ pub struct Scene {
     pub friction: Option<FrictionScene>,
     /// `[conductance]`, an effect.
     pub conductance: Option<ConductanceScene>,
+    /// `[wear]`, an effect.
+    pub wear: Option<WearScene>,
     /// `[loading]`.
     pub loading: LoadingScene,
     /// `[solver]`.
@@ -316,6 +318,13 @@ pub struct ConductanceScene {
     pub conductivity: f64,
     /// Conductivity of the counter-face, W/(m K).
     pub counter_conductivity: f64,
+}
+
+/// `[wear]`: what sliding takes off.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct WearScene {
+    /// Volume worn off for each load and length of sliding, m^3/(N m).
+    pub specific_wear_rate: f64,
 }
 
 /// `[capillary]`: a liquid that condenses between the surfaces.

@@ -16,6 +16,7 @@ mod relaxation;
 mod row;
 mod setup;
 mod walk;
+mod wear;
 
 pub use cost::Cost;
 pub use evaluation::{Evaluation, PointState, Solved};

@@ -73,6 +73,8 @@ pub struct StepRow {
     /// What the contact conducts, W/K; `None` without conductance, where the surfaces are closed
     /// everywhere, or where the step did not converge.
     pub conductance: Option<f64>,
+    /// Volume that a length of sliding wears off, m^3 per m; `None` without wear.
+    pub wear_rate: Option<f64>,
 }
 
 /// A column that `curve.csv` has behind the others where an effect asks for it.
@@ -84,6 +86,8 @@ pub enum Column {
     PlasticEnergy,
     /// Conductance.
     Conductance,
+    /// Volume worn off for each length of sliding.
+    WearRate,
 }
 
 impl Column {
@@ -99,6 +103,9 @@ impl Column {
         if scene.conductance.is_some() {
             columns.push(Column::Conductance);
         }
+        if scene.wear.is_some() {
+            columns.push(Column::WearRate);
+        }
         columns
     }
 
@@ -108,6 +115,7 @@ impl Column {
             Column::FrictionForce => "friction_force",
             Column::PlasticEnergy => "plastic_energy",
             Column::Conductance => "conductance",
+            Column::WearRate => "wear_rate",
         }
     }
 
@@ -117,6 +125,7 @@ impl Column {
             Column::FrictionForce => row.friction_force,
             Column::PlasticEnergy => row.plastic_energy,
             Column::Conductance => row.conductance,
+            Column::WearRate => row.wear_rate,
         }
     }
 
@@ -126,6 +135,7 @@ impl Column {
             Column::FrictionForce => row.friction_force = value,
             Column::PlasticEnergy => row.plastic_energy = value,
             Column::Conductance => row.conductance = value,
+            Column::WearRate => row.wear_rate = value,
         }
     }
 }

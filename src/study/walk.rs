@@ -15,6 +15,7 @@ use super::rate::RatedStep;
 use super::relaxation::{History, effective_modulus, stretches};
 use super::row::{State, StepRow};
 use super::setup::Setup;
+use super::wear;
 use crate::backend::BackendError;
 use crate::kernel::{Scalars, Status};
 use crate::law::Law;
@@ -530,6 +531,11 @@ impl PathState<'_> {
             }),
             plastic_energy: None,
             conductance: None,
+            wear_rate: self
+                .setup
+                .scene
+                .wear
+                .map(|wear| wear::rate(wear, evaluation, self.setup.surface.grid.pixel_area())),
         }
     }
 }

@@ -474,6 +474,9 @@ fn mistakes_in_the_scene_itself(tables: &mut Vec<Edits>) {
         ("images = []", "images = []\n[conductance]\nconductivity = 1", "s.toml:21: conductance.counter_conductivity: missing", "`counter_conductivity = \"1.4 W/(m K)\"`"),
         ("images = []", "images = []\n[conductance]\nconductivity = 0\ncounter_conductivity = 1", "s.toml:22: conductance.conductivity: 0 is out of range", "finite and above 0"),
         ("images = []", "images = []\n[conductance]\nconductivity = 1\ncounter_conductivity = \"3 W\"", "s.toml:23: conductance.counter_conductivity: \"W\" is not a unit", "give a conductivity in W/(m K), such as \"400 W/(m K)\""),
+        ("images = []", "images = []\n[wear]", "s.toml:21: wear.specific_wear_rate: missing", "`specific_wear_rate = \"1e-6 mm^3/(N m)\"`"),
+        ("images = []", "images = []\n[wear]\nspecific_wear_rate = -1e-15", "s.toml:22: wear.specific_wear_rate: -1e-15 is out of range", "finite and above 0"),
+        ("images = []", "images = []\n[wear]\nspecific_wear_rate = \"1 m^3\"", "s.toml:22: wear.specific_wear_rate: \"m^3\" is not a unit", "give a specific wear rate in m^3/(N m) or 1/Pa, such as \"1e-6 mm^3/(N m)\""),
         (r#"contact_modulus = "1 GPa""#, "contact_modulus = \"1 GPa\"\npoisson_ratio = 0.3\nthickness = 1\n[conductance]\nconductivity = 1\ncounter_conductivity = 2", "s.toml:9: conductance: the conductance of a layer is not in this version", "leave the thickness out, or [conductance]"),
         ("points = 64", "points = 64\npoints = 65", "s.toml:4: not valid TOML: duplicate key", "duplicate key"),
         ("points = 64", "points = ", "s.toml:3: not valid TOML:", "expected"),
@@ -829,6 +832,7 @@ steps  = "last"
         capillary: None,
         friction: None,
         conductance: None,
+        wear: None,
         adhesion: Some(AdhesionScene {
             law: LawName::MaugisDugdale,
             work_of_adhesion: 0.2,

@@ -22,3 +22,4 @@ mod spring;
 mod tables;
 mod time_steps;
 mod waves;
+mod wear;

@@ -53,6 +53,9 @@ fn scene(effects: &[Effect]) -> String {
     if on(Effect::Conductance) {
         tables += "[conductance]\nconductivity = 1.0\ncounter_conductivity = 3.0\n";
     }
+    if on(Effect::Wear) {
+        tables += "[wear]\nspecific_wear_rate = 0.1\n";
+    }
     let boundary = match on(Effect::FreeBoundary) {
         true => "boundary = \"free\"\n",
         false => "",
@@ -87,12 +90,12 @@ fn refusal(pair: [Effect; 2]) -> Option<&'static str> {
 
 #[test]
 fn any_two_effects() {
-    // Both forces of each step and what it conducts; without the effects the others are 0.
+    // Both forces of each step, what it conducts and what it wears; without the effects the others are 0.
     let forces = |effects: &[Effect]| -> Vec<f64> {
         let solved = solve_table(&scene(effects));
         let both = |row: &StepRow| {
-            let others = [row.friction_force, row.conductance];
-            [Some(row.force), others[0], others[1]].map(|value| value.unwrap_or(0.0))
+            let others = [row.friction_force, row.conductance, row.wear_rate];
+            [Some(row.force), others[0], others[1], others[2]].map(|value| value.unwrap_or(0.0))
         };
         solved.rows().flat_map(both).collect()
     };
@@ -132,6 +135,6 @@ fn any_two_effects() {
             );
         }
     }
-    // Of 66 pairs 11 are refused.
-    assert_eq!(pairs, 55);
+    // Of 78 pairs 11 are refused.
+    assert_eq!(pairs, 67);
 }

@@ -149,6 +149,7 @@ mod tests {
             friction_force: None,
             plastic_energy: None,
             conductance: None,
+            wear_rate: None,
         }
     }
 

@@ -130,6 +130,7 @@ fn unit<'u>(key: &str, path_unit: &'u str) -> Option<&'u str> {
         "temperature" => "K",
         "reference_speed" => "m/s",
         "conductivity" | "counter_conductivity" => "W/(m K)",
+        "specific_wear_rate" => "m^3/(N m)",
         "half_angle" | "contact_angle" => "°",
         "path" => path_unit,
         _ => return None,
