@@ -156,10 +156,11 @@ fn t3_asperities_and_persson() {
         let (most, kappa) = if row.model == "icha-displaced" {
             // Steadily low, also where Persson lies above the field: no claim holds for its mean.
             (0.28, 1.55..2.1)
-        } else if merges_without_end(row.case) {
-            (0.55, 1.65..3.3)
         } else {
-            (0.25, 1.65..2.45)
+            match runaway(row.case) {
+                Some(Runaway { most, kappa, .. }) => (most, 1.65..kappa),
+                None => (0.25, 1.65..2.45),
+            }
         };
         assert!(miss < most, "{row:?}: {miss}");
         assert!(kappa.contains(&(row.area / row.repulsive)), "{row:?}");
@@ -170,10 +171,27 @@ fn t3_asperities_and_persson() {
     assert!(count >= 9.0 * 15.0 && sum / count < 0.1, "{}", sum / count);
 }
 
-/// Where keeping the volume of the caps drops so much load at each merge that the area runs away: the
-/// smoothest spectrum with the widest bands, `docs/dmt_study.md`.
-fn merges_without_end(case: Case) -> bool {
-    case.hurst == 0.8 && case.ratio > 16
+/// How far asperities go that keep the volume of their caps, rounded outwards.
+struct Runaway {
+    /// Largest miss of Persson's area below 30 % in contact.
+    most: f64,
+    /// Largest area over load below 30 % in contact.
+    kappa: f64,
+    /// Least and greatest misses of the field's area up to 0.05 E* h'.
+    area: [f64; 2],
+}
+
+/// Where keeping the volume of the caps drops so much load at each merge that the area runs away: smooth
+/// spectra with wide bands, `docs/dmt_study.md`.
+fn runaway(case: Case) -> Option<Runaway> {
+    let (most, kappa, area) = match (case.hurst, case.ratio) {
+        (0.8, 32) => (0.55, 3.3, [-0.02, 0.27]),
+        (0.8, 64) => (0.68, 3.6, [0.0, 0.43]),
+        // Beyond 0.05 E* h' only.
+        (0.6, 64) => (0.38, 2.9, ICHA_AREA),
+        _ => return None,
+    };
+    Some(Runaway { most, kappa, area })
 }
 
 /// T6 on the surfaces of the table: the study has finite boxes 10 to 25 % above Persson's pull-off.
@@ -396,10 +414,7 @@ fn misses_of_the_models_stay_within_the_stated_bounds() {
             ("gw-m", theory, GW_AREA, GW_PULL_OFF),
         ] {
             let rows = of(&table, model, of_case);
-            // Asperities may be left out of the largest surfaces.
-            if rows.is_empty() && model.starts_with("icha") && case.ratio > 32 {
-                continue;
-            }
+            assert!(rows.len() >= 14, "{case:?} {model}");
             let off = rows::pull_off(&rows) / judge - 1.0;
             assert!(
                 (pull_off[0]..=pull_off[1]).contains(&off),
@@ -423,12 +438,9 @@ fn misses_of_the_models_stay_within_the_stated_bounds() {
 
 /// Least and greatest misses over all surfaces, seeds and loads up to 0.05 E* h', rounded outwards.
 fn icha_area(case: Case) -> [f64; 2] {
-    if merges_without_end(case) {
-        [-0.02, 0.27]
-    } else {
-        [-0.15, 0.15]
-    }
+    runaway(case).map_or(ICHA_AREA, |runaway| runaway.area)
 }
+const ICHA_AREA: [f64; 2] = [-0.15, 0.15];
 const ICHA_PULL_OFF: [f64; 2] = [0.0, 0.06];
 const DISPLACED_AREA: [f64; 2] = [-0.2, 0.0];
 const DISPLACED_PULL_OFF: [f64; 2] = [0.0, 0.04];

@@ -10,8 +10,8 @@ use super::opening::{STATE, fingerprint, solver};
 use crate::kernel::Scalars;
 use crate::output::{
     CurveWriter, Load, OutputError, Picture, Progress, RunFolder, SavedState, Seconds, Summary,
-    chart, report::Report, write_atomically, write_field, write_field_single, write_picture,
-    write_volume,
+    chart, report::Report, write_field, write_field_single, write_picture, write_volume,
+    write_within,
 };
 use crate::scene::{FieldName, Precision, StepChoice};
 use crate::study::{
@@ -206,7 +206,7 @@ impl<'a> Keeper<'a> {
             let bytes = chart::picture(&self.setup.scene, &self.rows).map_err(
                 OutputError::write("write", &self.folder.curve_picture_path()),
             )?;
-            write_atomically(&self.folder.curve_picture_path(), &bytes)?;
+            write_within(&self.folder.curve_picture_path(), &bytes)?;
         }
         let text = Report {
             setup: self.setup,
@@ -218,7 +218,7 @@ impl<'a> Keeper<'a> {
             summary,
         }
         .html();
-        write_atomically(&self.folder.report_path(), text.as_bytes())?;
+        write_within(&self.folder.report_path(), text.as_bytes())?;
         self.refreshed = Some((Instant::now(), clock.elapsed()));
         Ok(())
     }

@@ -6,7 +6,7 @@ use std::io::{self, Write as _};
 use std::path::{Path, PathBuf};
 
 use super::error::OutputError;
-use super::folder::write_atomically;
+use super::folder::write_within;
 use crate::study::{Column, State, StepRow};
 
 /// First line of `curve.csv` where no effect adds a column.
@@ -103,7 +103,7 @@ impl Curve {
             header(&self.columns),
             self.lines[..finished].concat()
         );
-        write_atomically(&self.path, text.as_bytes())?;
+        write_within(&self.path, text.as_bytes())?;
         let writer = CurveWriter::append_to(&self.path, self.columns, found)?;
         Ok((writer, self.rows))
     }
@@ -121,7 +121,7 @@ pub struct CurveWriter {
 impl CurveWriter {
     /// Starts a curve at `path` with its head, these columns behind the others, and no rows.
     pub fn create(path: &Path, columns: Vec<Column>) -> Result<CurveWriter, OutputError> {
-        write_atomically(path, format!("{}\n", header(&columns)).as_bytes())?;
+        write_within(path, format!("{}\n", header(&columns)).as_bytes())?;
         CurveWriter::append_to(path, columns, crc32fast::Hasher::new())
     }
 

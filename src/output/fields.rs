@@ -5,7 +5,7 @@ use std::path::Path;
 use npyz::WriterBuilder;
 
 use super::error::OutputError;
-use super::folder::write_atomically;
+use super::folder::write_within;
 use crate::grid::Grid;
 
 /// Writes a field as a float64 array of shape `[ny, nx]`, row-major, in SI units.
@@ -28,7 +28,7 @@ where
     debug_assert_eq!(values.len(), grid.len(), "one value a point");
     let mut bytes = Vec::with_capacity(size_of_val(values) + 128);
     encode(&mut bytes, grid, values).map_err(OutputError::write("write", path))?;
-    write_atomically(path, &bytes)
+    write_within(path, &bytes)
 }
 
 /// The bytes of the file; fails where the number of values is not that of the points.

@@ -12,6 +12,8 @@ use crate::scene::FieldName;
 
 /// End of the names under which files are written before they are renamed.
 const UNFINISHED: &str = ".tabor-unfinished";
+/// Folders within that of a run.
+const PARTS: [&str; 3] = ["images", "fields", "state"];
 
 /// Files that a run writes at the top of its folder.
 const TOP_FILES: [&str; 4] = ["curve.csv", "curve.png", "summary.json", "report.html"];
@@ -63,7 +65,7 @@ impl RunFolder {
             return Ok((RunFolder::open(path, fingerprint)?, false));
         }
         folder.expect_marker(fingerprint)?;
-        for part in ["", "images", "fields", "state"] {
+        for part in [""].into_iter().chain(PARTS) {
             remove_files(&folder.path.join(part), |name, unfinished| {
                 unfinished && !name.is_empty()
             })?;
@@ -308,6 +310,27 @@ pub fn write_atomically(path: &Path, bytes: &[u8]) -> Result<(), OutputError> {
     if !folder.as_os_str().is_empty() {
         fs::create_dir_all(folder).map_err(OutputError::write("create the folder", folder))?;
     }
+    replace(path, folder, bytes)
+}
+
+/// As [`write_atomically`] into the folder of a run, which is there or was taken away: only a folder
+/// within it is created, so that no half of a run is made anew.
+pub fn write_within(path: &Path, bytes: &[u8]) -> Result<(), OutputError> {
+    let folder = path.parent().unwrap_or(Path::new(""));
+    let within = folder.file_name().and_then(|name| name.to_str());
+    if within.is_some_and(|name| PARTS.contains(&name)) {
+        match fs::create_dir(folder) {
+            Err(error) if error.kind() != io::ErrorKind::AlreadyExists => {
+                return Err(OutputError::write("create the folder", folder)(error));
+            }
+            _ => {}
+        }
+    }
+    replace(path, folder, bytes)
+}
+
+/// Puts `bytes` into a hidden file of the folder, which then takes the name.
+fn replace(path: &Path, folder: &Path, bytes: &[u8]) -> Result<(), OutputError> {
     let mut hidden_name = std::ffi::OsString::from(".");
     hidden_name.push(path.file_name().unwrap_or_default());
     hidden_name.push(UNFINISHED);

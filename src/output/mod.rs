@@ -32,7 +32,7 @@ pub use cpu_time::cpu_seconds;
 pub use curve::{Curve, CurveWriter};
 pub use error::OutputError;
 pub use fields::{write_field, write_field_single};
-pub use folder::{RunFolder, write_atomically};
+pub use folder::{RunFolder, write_atomically, write_within};
 pub use picture::{Load, Picture, Snapshot, write_picture};
 pub use progress::Progress;
 pub use spectrum_plot::SpectrumPlot;

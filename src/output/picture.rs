@@ -8,7 +8,7 @@ use image::{ExtendedColorType, ImageEncoder, RgbImage, codecs::png::PngEncoder};
 use super::canvas::{self, FRAME, INK, QUIET_INK, WHITE, printable};
 use super::colour_scale::ColourScale;
 use super::error::OutputError;
-use super::folder::write_atomically;
+use super::folder::write_within;
 use super::layout::{Contents, LONGEST_FIELD, Layout, Rect, tick_mark};
 use super::png_text::with_texts;
 use super::resample::{drawn_size, resample};
@@ -196,7 +196,7 @@ pub fn write_picture(path: &Path, picture: &Picture) -> Result<(), OutputError> 
         .draw()?
         .encode()
         .map_err(OutputError::write("write", path))?;
-    write_atomically(path, &bytes)
+    write_within(path, &bytes)
 }
 
 /// Texts, frames, ticks and the scale bar.

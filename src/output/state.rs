@@ -14,7 +14,7 @@ use serde::{Deserialize, Serialize};
 use serde_json::Value;
 
 use super::error::OutputError;
-use super::folder::write_atomically;
+use super::folder::write_within;
 use crate::study::{HandOver, HandedField, PointState};
 
 /// First line of the file. A change of the form changes the number.
@@ -72,7 +72,7 @@ impl SavedState<'_> {
         let bytes = self
             .encode()
             .map_err(|error| OutputError::write("write", path)(error.into()))?;
-        write_atomically(path, &bytes)
+        write_within(path, &bytes)
     }
 
     fn encode(&self) -> serde_json::Result<Vec<u8>> {

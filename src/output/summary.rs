@@ -7,7 +7,7 @@ use serde::{Serialize, Serializer};
 use serde_json::Value;
 
 use super::error::OutputError;
-use super::folder::write_atomically;
+use super::folder::write_within;
 
 /// Content of `summary.json`, SI units; `None` is written as `null`.
 #[derive(Clone, Debug, PartialEq, Serialize)]
@@ -93,7 +93,7 @@ impl Summary {
         let mut text = serde_json::to_string_pretty(self)
             .map_err(|error| OutputError::write("write", path)(error.into()))?;
         text.push('\n');
-        write_atomically(path, text.as_bytes())
+        write_within(path, text.as_bytes())
     }
 }
 

@@ -4,7 +4,7 @@ use std::io;
 use std::path::Path;
 
 use super::error::OutputError;
-use super::folder::write_atomically;
+use super::folder::write_within;
 use crate::grid::Grid;
 use crate::scene::FieldName;
 
@@ -27,7 +27,7 @@ pub fn write_volume(
 ) -> Result<(), OutputError> {
     debug_assert!(fields.iter().all(|(_, values)| values.len() == grid.len()));
     let bytes = encode(grid, fields, single).map_err(OutputError::write("write", path))?;
-    write_atomically(path, &bytes)
+    write_within(path, &bytes)
 }
 
 fn encode(grid: &Grid, fields: &[(FieldName, Vec<f64>)], single: bool) -> io::Result<Vec<u8>> {

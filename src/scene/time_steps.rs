@@ -267,6 +267,7 @@ mod tests {
             contact_modulus: 0.1,
             poisson_ratio: None,
             layer: None,
+            hardness: None,
             relaxation: branches
                 .iter()
                 .map(|&(modulus, time)| RelaxationScene { modulus, time })
