@@ -51,7 +51,8 @@ pub(super) fn build(scene: &Scene, grid: &Grid) -> Result<Option<Vec<f64>>, Surf
             low,
             high,
         } => (
-            PathBuf::new(),
+            // What the message names in place of a file.
+            PathBuf::from("pattern"),
             Ok(pattern(*kind, *period, [*low, *high], grid)),
         ),
     };
