@@ -21,11 +21,17 @@ pub fn device_with_single_sums() -> Option<GpuDevice> {
 }
 
 fn ready(single_sums: bool) -> Option<GpuDevice> {
-    let choice = AdapterChoice {
-        name: None,
-        software: true,
+    device_with(&AdapterChoice {
         single_sums,
         ..AdapterChoice::default()
+    })
+}
+
+/// A device of a choice, software drivers included, and told of as the shared one.
+pub fn device_with(choice: &AdapterChoice) -> Option<GpuDevice> {
+    let choice = AdapterChoice {
+        software: true,
+        ..choice.clone()
     };
     match GpuDevice::new(&choice) {
         Ok(device) => Some(device),

@@ -2,6 +2,7 @@
 
 use super::level::ROW_TRANSFORMS_PER_TRANSFORM;
 use super::recorder::Part;
+use super::space::{NUMBER_BYTES, single_of};
 use super::{GpuBackend, GpuError, layout};
 use crate::backend::Field;
 use crate::kernel::Scalars;
@@ -40,23 +41,22 @@ impl GpuBackend {
         self.checked()?;
         self.settle()?;
         self.traffic.fields_down += 1;
-        let space = self
-            .fields
-            .get(field.index)
-            .and_then(Option::as_ref)
-            .ok_or_else(|| GpuError::Device("a field that was not made".to_string()))?;
-        let bytes = self.recorder.read(&[Part {
-            buffer: &space.buffer,
-            start: 0,
-            length: 4 * space.points,
-        }])?;
-        Ok(bytes
-            .chunks_exact(4)
-            .map(|value| {
-                value
-                    .try_into()
-                    .map_or(f64::NAN, |b| f64::from(f32::from_le_bytes(b)))
-            })
-            .collect())
+        let plan = self.level_space(field.level)?.plan.clone();
+        let slabs = self.field_space(field)?.slabs.clone();
+        let mut values = vec![f64::NAN; plan.points()];
+        for (slab, buffer) in slabs.iter().enumerate() {
+            let bytes = self.recorder.read(&[Part {
+                buffer,
+                start: 0,
+                length: NUMBER_BYTES * plan.slab_points(),
+            }])?;
+            let mut numbers = bytes.chunks_exact(NUMBER_BYTES);
+            for range in plan.slab_ranges(slab) {
+                for (value, number) in values[range].iter_mut().zip(&mut numbers) {
+                    *value = f64::from(single_of(number));
+                }
+            }
+        }
+        Ok(values)
     }
 }

@@ -1,0 +1,78 @@
+//! Buffers of slabs: made, written and sized.
+
+use super::level::LevelPlan;
+use super::slabs::Limits;
+use super::space::{self, NUMBER_BYTES, single_bytes};
+use super::{GpuBackend, GpuError};
+use crate::backend::{Field, Shape};
+
+/// Bytes of the buffer that tells a kernel its slab: the least that a uniform takes.
+const TURN_BYTES: usize = 16;
+
+impl GpuBackend {
+    /// How a level of this shape lies on the device.
+    pub(super) fn plan(&self, shape: Shape) -> Result<LevelPlan, GpuError> {
+        let limits: Limits = self.device.limits();
+        LevelPlan::laid_out(shape, &limits, NUMBER_BYTES)
+    }
+
+    /// A number a point, zero, in slabs.
+    pub(super) fn slabs(
+        &self,
+        name: &str,
+        plan: &LevelPlan,
+    ) -> Result<Vec<wgpu::Buffer>, GpuError> {
+        let bytes = NUMBER_BYTES * plan.slab_points();
+        (0..plan.slabs)
+            .map(|_| self.storage(name, bytes))
+            .collect()
+    }
+
+    /// The numbers by which kernels know their slab or part, where there is more than one.
+    pub(super) fn turns(&mut self, plan: &LevelPlan) -> Result<Vec<wgpu::Buffer>, GpuError> {
+        let count = match plan.turns() {
+            1 => 0,
+            turns => turns as u32,
+        };
+        (0..count)
+            .map(|turn| {
+                let buffer = self.device.guarded(|device| {
+                    space::buffer(device, "turn", TURN_BYTES, wgpu::BufferUsages::UNIFORM)
+                })?;
+                self.overwrite(&buffer, turn.to_le_bytes().into_iter())?;
+                Ok(buffer)
+            })
+            .collect()
+    }
+
+    /// Overwrites a field, slab by slab.
+    pub(super) fn write_slabs(&mut self, field: Field, values: &[f64]) -> Result<(), GpuError> {
+        let plan = self.level_space(field.level)?.plan.clone();
+        let slabs = self.field_space(field)?.slabs.clone();
+        for (slab, buffer) in slabs.iter().enumerate() {
+            let [rows, partners] = plan
+                .slab_ranges(slab)
+                .map(|range| values.get(range).unwrap_or_default());
+            self.overwrite(buffer, single_bytes(rows).chain(single_bytes(partners)))?;
+        }
+        Ok(())
+    }
+
+    /// A spectrum in parts.
+    pub(super) fn write_parts(
+        &mut self,
+        name: &str,
+        plan: &LevelPlan,
+        values: &[f64],
+    ) -> Result<Vec<wgpu::Buffer>, GpuError> {
+        (0..plan.parts)
+            .map(|part| {
+                let range = plan.part_range(part);
+                let buffer = self.storage(name, NUMBER_BYTES * range.len())?;
+                let values = values.get(range).unwrap_or_default();
+                self.overwrite(&buffer, single_bytes(values))?;
+                Ok(buffer)
+            })
+            .collect()
+    }
+}
