@@ -4,7 +4,8 @@ use super::Failure;
 use crate::backend::Backend;
 use crate::backend::cpu::CpuBackend;
 use crate::backend::gpu::{
-    AdapterChoice, AdapterDescription, GpuBackend, GpuDevice, GpuError, Wide, adapters, radices,
+    AdapterChoice, AdapterDescription, GpuBackend, GpuDevice, GpuError, Number, Wide, adapters,
+    radices,
 };
 use crate::scene::{BackendName, Boundary, Precision};
 use crate::study::Setup;
@@ -219,10 +220,10 @@ pub(super) fn best(found: &[AdapterDescription]) -> Option<&AdapterDescription> 
 /// Refuses grids that are past what an adapter transforms and binds.
 fn refuse_limits(setup: &Setup, adapter: &AdapterDescription) -> Result<(), Failure> {
     let shape = setup.problem.shape;
-    if adapter.takes(shape.points) {
+    if adapter.takes(shape.points, Number::Single) {
         return Ok(());
     }
-    let largest = adapter.largest_side();
+    let largest = adapter.largest_side(Number::Single);
     let side = match setup.scene.grid.boundary {
         Boundary::Periodic => largest,
         Boundary::Free => largest / 2,

@@ -6,7 +6,7 @@ use std::sync::{Arc, Mutex, OnceLock, PoisonError};
 
 use super::GpuBackend;
 use super::error::GpuError;
-use super::layout::Wide;
+use super::layout::{Number, Wide};
 use super::plan::{GroupLimits, LinePlan};
 
 /// Which adapter to take.
@@ -80,18 +80,20 @@ impl AdapterDescription {
         self.kind == AdapterKind::Software
     }
 
-    /// Whether its transforms and bindings take a grid of so many points each way.
-    pub fn takes(&self, points: [usize; 2]) -> bool {
-        let longest = LinePlan::longest(self.group_limits);
-        let bytes = 4 * points[0] as u64 * points[1] as u64;
+    /// Whether its transforms and bindings take fields of so many points each way in this number.
+    pub fn takes(&self, points: [usize; 2], number: Number) -> bool {
+        let longest = LinePlan::longest(self.group_limits, number);
+        let bytes = number.bytes() as u64 * points[0] as u64 * points[1] as u64;
         points.into_iter().all(|side| side <= longest) && bytes <= self.binding_limit
     }
 
-    /// Points along the side of the largest square grid that its transforms and bindings take.
-    pub fn largest_side(&self) -> usize {
-        // A field in single precision is the largest thing that is bound.
-        let mut side = LinePlan::longest(self.group_limits);
-        while side > 1 && 4 * (side as u64).pow(2) > self.binding_limit {
+    /// Points along the side of the largest square grid whose fields in this number its transforms and
+    /// bindings take.
+    pub fn largest_side(&self, number: Number) -> usize {
+        // A field is the largest thing that is bound.
+        let mut side = LinePlan::longest(self.group_limits, number);
+        let bytes = number.bytes() as u64;
+        while side > 1 && bytes * (side as u64).pow(2) > self.binding_limit {
             side /= 2;
         }
         side
@@ -433,13 +435,19 @@ mod tests {
     #[test]
     fn the_largest_grid_keeps_both_limits() {
         let mut found = adapter("one", AdapterKind::Discrete);
-        assert_eq!(found.largest_side(), 4096);
+        let single = Number::Single;
+        assert_eq!(found.largest_side(single), 4096);
+        assert_eq!(found.largest_side(Number::Double), 4096);
         found.binding_limit = (1 << 31) - 1;
-        assert_eq!(found.largest_side(), 16384);
+        assert_eq!(found.largest_side(single), 16384);
+        assert_eq!(found.largest_side(Number::Double), 8192);
         found.binding_limit = 1 << 20;
-        assert_eq!(found.largest_side(), 512);
+        assert_eq!(found.largest_side(single), 512);
+        assert_eq!(found.largest_side(Number::Double), 256);
         // It is the points that count, not the longer side.
-        assert!(found.takes([2048, 128]) && !found.takes([2048, 130]));
-        assert!(!found.takes([32768, 2]));
+        assert!(found.takes([2048, 128], single) && !found.takes([2048, 130], single));
+        assert!(found.takes([1024, 128], Number::Double));
+        assert!(!found.takes([2048, 128], Number::Double));
+        assert!(!found.takes([32768, 2], single));
     }
 }

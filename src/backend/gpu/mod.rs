@@ -34,18 +34,20 @@ use deciding::{Decided, Deciding};
 use level::LevelPlan;
 use recorder::{Prepared, Recorder};
 use source::{Reduction, Results};
-use space::{FieldSpace, Key, LevelSpace, SpectrumSpace, single_bytes};
+use space::{FieldSpace, Key, LevelSpace, SpectrumSpace};
 
 pub use catalogue::LawPart;
 pub use device::{AdapterChoice, AdapterDescription, AdapterKind, GpuDevice, adapters};
 pub use error::GpuError;
-pub use layout::Wide;
+pub use layout::{Number, Wide};
 pub use plan::{Exchange, GroupLimits, LinePlan, radices};
 pub use traffic::Traffic;
 
 /// The GPU backend, in single precision.
 pub struct GpuBackend {
     device: GpuDevice,
+    /// The number of the fields.
+    number: Number,
     wide: Wide,
     recorder: Recorder,
     params: wgpu::Buffer,
@@ -99,6 +101,7 @@ impl GpuBackend {
         });
         let mut backend = GpuBackend {
             device: device.clone(),
+            number: Number::Single,
             wide,
             recorder: Recorder::new(device.clone()),
             params,
@@ -179,13 +182,12 @@ impl GpuBackend {
         if let Some(buffer) = self.roots.get(&length) {
             return Ok(buffer.clone());
         }
-        let buffer = self.storage("roots", 8 * length)?;
+        let buffer = self.storage("roots", 2 * self.number.bytes() * length)?;
         let values = (0..length).flat_map(|m| {
             let angle = TAU * m as f64 / length as f64;
-            [angle.cos() as f32, -angle.sin() as f32]
+            [angle.cos(), -angle.sin()]
         });
-        self.recorder
-            .write(&buffer, values.flat_map(f32::to_le_bytes))?;
+        self.recorder.write(&buffer, self.number.bytes_of(values))?;
         self.roots.insert(length, buffer.clone());
         Ok(buffer)
     }
@@ -420,14 +422,15 @@ impl Backend for GpuBackend {
     }
 
     fn suits(&self, shape: Shape) -> bool {
-        LevelPlan::new(shape, self.device.group_limits()).is_ok()
+        LevelPlan::new(shape, self.device.group_limits(), self.number).is_ok()
     }
 
     fn level(&mut self, name: &'static str, shape: Shape) -> Level {
         let space = self.attempt(|backend| {
-            let plan = LevelPlan::new(shape, backend.device.group_limits())?;
+            let number = backend.number;
+            let plan = LevelPlan::new(shape, backend.device.group_limits(), number)?;
             // Half as many complex numbers as points.
-            let work = backend.storage(name, 4 * plan.points())?;
+            let work = backend.storage(name, number.bytes() * plan.points())?;
             let partials = 8 + plan.partials() * backend.wide.part_bytes();
             Ok(LevelSpace {
                 row_roots: backend.roots(plan.shape[0])?,
@@ -444,7 +447,7 @@ impl Backend for GpuBackend {
     fn field(&mut self, level: Level, name: &'static str) -> Field {
         let space = self.attempt(|backend| {
             let points = backend.level_space(level)?.plan.points();
-            let buffer = backend.storage(name, 4 * points)?;
+            let buffer = backend.storage(name, backend.number.bytes() * points)?;
             Ok(FieldSpace { buffer, points })
         });
         self.fields.push(space);
@@ -456,8 +459,9 @@ impl Backend for GpuBackend {
 
     fn spectrum(&mut self, level: Level, name: &'static str, values: &[f64]) -> Spectrum {
         let space = self.attempt(|backend| {
-            let buffer = backend.storage(name, 4 * values.len())?;
-            backend.overwrite(&buffer, single_bytes(values))?;
+            let buffer = backend.storage(name, backend.number.bytes() * values.len())?;
+            let bytes = backend.number.bytes_of(values.iter().copied());
+            backend.overwrite(&buffer, bytes)?;
             Ok(SpectrumSpace { buffer })
         });
         self.spectra.push(space);
@@ -470,7 +474,8 @@ impl Backend for GpuBackend {
     fn set_zero_mode(&mut self, spectrum: Spectrum, value: f64) {
         self.attempt(|backend| {
             let buffer = backend.spectrum_space(spectrum)?.buffer.clone();
-            backend.overwrite(&buffer, single_bytes(&[value]))
+            let bytes = backend.number.bytes_of([value]);
+            backend.overwrite(&buffer, bytes)
         });
     }
 
@@ -478,7 +483,8 @@ impl Backend for GpuBackend {
         self.attempt(|backend| {
             let buffer = backend.field_space(field)?.buffer.clone();
             backend.traffic.fields_up += 1;
-            backend.overwrite(&buffer, single_bytes(values))
+            let bytes = backend.number.bytes_of(values.iter().copied());
+            backend.overwrite(&buffer, bytes)
         });
     }
 
@@ -564,7 +570,7 @@ impl Backend for GpuBackend {
     }
 
     fn epsilon(&self) -> f64 {
-        f64::from(f32::EPSILON)
+        self.number.epsilon()
     }
 
     /// As counted on the device when the host last waited.
