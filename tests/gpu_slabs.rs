@@ -79,10 +79,18 @@ fn a_convolution_in_slabs_is_the_same_to_the_last_bit() {
         ([16, 250], 4 << 10, 5),
     ] {
         let Some(split) = in_slabs(bytes) else { return };
-        assert_eq!(split.slabs(Shape::whole(size[0], size[1])), Ok(slabs), "{size:?}");
+        assert_eq!(
+            split.slabs(Shape::whole(size[0], size[1])),
+            Ok(slabs),
+            "{size:?}"
+        );
         let one = convolve(&mut backend(device), size);
         let many = convolve(&mut backend(&split), size);
-        assert!(one.0 == many.0, "{size:?}: {}", relative_difference(&many.0, &one.0));
+        assert!(
+            one.0 == many.0,
+            "{size:?}: {}",
+            relative_difference(&many.0, &one.0)
+        );
         assert!(one.0.iter().any(|x| *x != 0.0));
         // Of some thousand terms in double precision.
         assert!((one.1 / many.1 - 1.0).abs() < 1e-12, "{size:?}");
@@ -90,14 +98,20 @@ fn a_convolution_in_slabs_is_the_same_to_the_last_bit() {
 }
 
 /// Fine and coarse points, each of several slabs.
-const FINE: [usize; 2] = [48, 64];
-const COARSE: [usize; 2] = [12, 16];
-/// 4 slabs of the fine level and 2 of the coarse one.
-const SLAB: u64 = 3 << 10;
-const COARSE_SLAB: u64 = 512;
+const FINE: [usize; 2] = [48, 80];
+const COARSE: [usize; 2] = [12, 20];
+/// Four slabs of the fine level: 40 pairs of rows, 15 KiB.
+const SLAB: u64 = 4 << 10;
+/// Two slabs of the coarse level, 960 bytes, and twenty of the fine one.
+const COARSE_SLAB: u64 = 768;
 
 /// What a kernel makes of seeded fields: all it writes, and its sums.
-fn run(backend: &mut dyn Backend, kernel: &'static Kernel, law: Law, shape: Shape) -> (Vec<Vec<f64>>, Vec<f64>) {
+fn run(
+    backend: &mut dyn Backend,
+    kernel: &'static Kernel,
+    law: Law,
+    shape: Shape,
+) -> (Vec<Vec<f64>>, Vec<f64>) {
     let coarse = Shape::whole(COARSE[0], COARSE[1]);
     let [own, other] = match kernel.name.starts_with("coarse") {
         true => [coarse, shape],
@@ -158,10 +172,16 @@ fn run(backend: &mut dyn Backend, kernel: &'static Kernel, law: Law, shape: Shap
             backend.backward(kernel, level, &fields);
         }
     }
-    let scalars = backend.scalars().unwrap_or_else(|error| panic!("{}: {error}", kernel.name));
+    let scalars = backend
+        .scalars()
+        .unwrap_or_else(|error| panic!("{}: {error}", kernel.name));
     let mut traces = fields[kernel.reads..kernel.reads + kernel.writes].to_vec();
     traces.push(lines);
-    let read = |field| backend.read(field).unwrap_or_else(|error| panic!("{error}"));
+    let read = |field| {
+        backend
+            .read(field)
+            .unwrap_or_else(|error| panic!("{error}"))
+    };
     let written = traces.into_iter().map(read).collect();
     (written, scalars.sums[..kernel.sums.len()].to_vec())
 }
@@ -203,7 +223,11 @@ fn every_kernel_in_slabs_writes_the_same() {
                 Reduce::Add => 1e-11 * (1.0 + a.abs()),
                 Reduce::Min | Reduce::Max => 0.0,
             };
-            assert!(a == b || (a - b).abs() <= bound, "{} {slot}: {a} {b}", kernel.name);
+            assert!(
+                a == b || (a - b).abs() <= bound,
+                "{} {slot}: {a} {b}",
+                kernel.name
+            );
         }
     }
 }
@@ -230,7 +254,11 @@ fn solve(device: &GpuDevice, problem: &Problem, load: &Load) -> (Outcome, Vec<f6
         .unwrap_or_else(|error| panic!("{error}"));
     let gap = solver.gap().unwrap_or_else(|error| panic!("{error}"));
     let pressure = solver.elastic_pressure();
-    (outcome, gap, pressure.unwrap_or_else(|error| panic!("{error}")))
+    (
+        outcome,
+        gap,
+        pressure.unwrap_or_else(|error| panic!("{error}")),
+    )
 }
 
 /// The laws under what holds them, the two-band preconditioner of the wall and the pad of a free
@@ -239,7 +267,9 @@ fn solve(device: &GpuDevice, problem: &Problem, load: &Load) -> (Outcome, Vec<f6
 fn whole_solves_in_slabs_agree_with_those_in_one() {
     let Some(device) = device() else { return };
     // 32 x 32 and 64 x 64 numbers of four bytes in slabs of 1 KiB: four and sixteen.
-    let Some(split) = in_slabs(1 << 10) else { return };
+    let Some(split) = in_slabs(1 << 10) else {
+        return;
+    };
     let dugdale = Law::MaugisDugdale(MaugisDugdale {
         peak_tension: 0.05,
         range: 5e-3,
@@ -250,10 +280,30 @@ fn whole_solves_in_slabs_agree_with_those_in_one() {
         range: 5e-3,
     });
     for (name, law, boundary, held) in [
-        ("wall under pressure", Law::HardWall, Boundary::Periodic, false),
-        ("Lennard-Jones under pressure", jones, Boundary::Periodic, false),
-        ("Maugis-Dugdale at a mean gap", dugdale, Boundary::Periodic, true),
-        ("Maugis-Dugdale on a free boundary", dugdale, Boundary::Free, false),
+        (
+            "wall under pressure",
+            Law::HardWall,
+            Boundary::Periodic,
+            false,
+        ),
+        (
+            "Lennard-Jones under pressure",
+            jones,
+            Boundary::Periodic,
+            false,
+        ),
+        (
+            "Maugis-Dugdale at a mean gap",
+            dugdale,
+            Boundary::Periodic,
+            true,
+        ),
+        (
+            "Maugis-Dugdale on a free boundary",
+            dugdale,
+            Boundary::Free,
+            false,
+        ),
     ] {
         let (grid, heights) = wavy(32);
         let problem = Problem::new(grid, boundary, 1.0, &heights, 1.0, law);

@@ -5,7 +5,7 @@ use std::num::NonZero;
 
 use super::Failure;
 use super::machine::best;
-use crate::backend::gpu::{AdapterDescription, adapters};
+use crate::backend::gpu::{AdapterDescription, Number, adapters};
 use crate::scene::Precision;
 
 /// Prints the adapters and which one `auto` takes.
@@ -25,7 +25,7 @@ fn describe(found: &[AdapterDescription]) -> String {
          \x20 largest     any grid that the memory holds"
     )];
     for (index, adapter) in found.iter().enumerate() {
-        let side = adapter.largest_side();
+        let side = adapter.largest_side(Number::Single);
         lines.push(format!(
             "adapter {}     {}\n\
              \x20 type        {}\n\

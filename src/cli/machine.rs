@@ -4,7 +4,8 @@ use super::Failure;
 use crate::backend::Backend;
 use crate::backend::cpu::CpuBackend;
 use crate::backend::gpu::{
-    AdapterChoice, AdapterDescription, GpuBackend, GpuDevice, GpuError, Wide, adapters, radices,
+    AdapterChoice, AdapterDescription, GpuBackend, GpuDevice, GpuError, Number, Wide, adapters,
+    radices,
 };
 use crate::scene::{BackendName, Boundary, Precision};
 use crate::study::Setup;
@@ -133,6 +134,7 @@ fn choice() -> AdapterChoice {
     AdapterChoice {
         software: asked.split(',').any(|word| word == "software"),
         binding_limit: number("binding"),
+        slab_bytes: number("slab"),
         lost_after: number("lost"),
         ..AdapterChoice::default()
     }
@@ -164,8 +166,7 @@ fn auto(setup: &Setup) -> (Place, Option<String>) {
     }
     let mut found = adapters();
     for adapter in &mut found {
-        let limit = choice.binding_limit.unwrap_or(u64::MAX);
-        adapter.binding_limit = adapter.binding_limit.min(limit);
+        adapter.limits = choice.narrowed(adapter.limits);
     }
     let chosen = match choice.software {
         true => found.first(),
@@ -219,10 +220,10 @@ pub(super) fn best(found: &[AdapterDescription]) -> Option<&AdapterDescription> 
 /// Refuses grids that are past what an adapter transforms and binds.
 fn refuse_limits(setup: &Setup, adapter: &AdapterDescription) -> Result<(), Failure> {
     let shape = setup.problem.shape;
-    if adapter.takes(shape.points) {
+    if adapter.takes(shape.points, Number::Single) {
         return Ok(());
     }
-    let largest = adapter.largest_side();
+    let largest = adapter.largest_side(Number::Single);
     let side = match setup.scene.grid.boundary {
         Boundary::Periodic => largest,
         Boundary::Free => largest / 2,
@@ -264,7 +265,7 @@ pub(super) fn refuse_size(points: [usize; 2]) -> Result<(), Failure> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::backend::gpu::{AdapterKind, GroupLimits};
+    use crate::backend::gpu::{AdapterKind, GroupLimits, Limits};
 
     #[test]
     fn auto_never_takes_software() {
@@ -274,10 +275,14 @@ mod tests {
             driver: String::new(),
             kind,
             double: true,
-            binding_limit: 1 << 27,
-            group_limits: GroupLimits {
-                threads: 1024,
-                memory: 32768,
+            limits: Limits {
+                group: GroupLimits {
+                    threads: 1024,
+                    memory: 32768,
+                },
+                binding: 1 << 27,
+                slab: 1 << 27,
+                bindings: 32,
             },
         };
         let found = [

@@ -1,5 +1,6 @@
 //! Which WGSL belongs to which word of the catalogue.
 
+use super::layout::Number;
 use crate::law::Law;
 
 /// The WGSL of a kernel: its own part and those it builds on, joined in this order.
@@ -146,13 +147,19 @@ impl LawPart {
         }
     }
 
-    /// Its WGSL: `law_traction`, `law_energy` and `law_slope` of a gap.
-    pub fn source(self) -> &'static str {
-        match self {
-            LawPart::HardWall => part!("law_hard_wall"),
-            LawPart::MaugisDugdale => part!("law_maugis_dugdale"),
-            LawPart::Exponential => part!("law_exponential"),
-            LawPart::LennardJones => part!("law_lennard_jones"),
+    /// Its WGSL: `law_traction`, `law_energy` and `law_slope` of a gap in this number, after what they
+    /// build on.
+    pub fn sources(self, number: Number) -> &'static [&'static str] {
+        match (self, number) {
+            (LawPart::HardWall, _) => &[part!("law_hard_wall")],
+            (LawPart::MaugisDugdale, _) => &[part!("law_maugis_dugdale")],
+            (LawPart::Exponential, Number::Single) => {
+                &[part!("exp_single"), part!("law_exponential")]
+            }
+            (LawPart::Exponential, Number::Double) => {
+                &[part!("exp_double"), part!("law_exponential")]
+            }
+            (LawPart::LennardJones, _) => &[part!("law_lennard_jones")],
         }
     }
 }

@@ -6,8 +6,11 @@ use std::sync::{Arc, Mutex, OnceLock, PoisonError};
 
 use super::GpuBackend;
 use super::error::GpuError;
-use super::layout::Wide;
-use super::plan::{GroupLimits, LinePlan};
+use super::layout::{Number, Wide};
+use super::level::LevelPlan;
+use super::plan::GroupLimits;
+use super::slabs::{LONGEST_BINDING, Limits};
+use crate::backend::Shape;
 
 /// Which adapter to take.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
@@ -23,8 +26,24 @@ pub struct AdapterChoice {
     /// Bytes that may be bound at a time, where that is to be less than the adapter takes: for tests of
     /// grids past the limits.
     pub binding_limit: Option<u64>,
+    /// Bytes of a field that go into one buffer, where that is to be less than the adapter binds: for
+    /// tests of grids in several slabs.
+    pub slab_bytes: Option<u64>,
     /// Dispatches after which the device is given up: for tests of its loss.
     pub lost_after: Option<u64>,
+}
+
+impl AdapterChoice {
+    /// An adapter's limits, narrowed as the tests ask.
+    pub fn narrowed(&self, limits: Limits) -> Limits {
+        let binding = limits.binding.min(self.binding_limit.unwrap_or(u64::MAX));
+        let slab = binding.min(self.slab_bytes.unwrap_or(u64::MAX));
+        Limits {
+            binding,
+            slab,
+            ..limits
+        }
+    }
 }
 
 /// An adapter in words.
@@ -40,10 +59,8 @@ pub struct AdapterDescription {
     pub kind: AdapterKind,
     /// Whether it has double precision.
     pub double: bool,
-    /// Bytes that it binds at a time.
-    pub binding_limit: u64,
-    /// What a workgroup may hold.
-    pub group_limits: GroupLimits,
+    /// What it binds and what a workgroup may hold.
+    pub limits: Limits,
 }
 
 /// What computes behind an adapter, best first.
@@ -80,21 +97,16 @@ impl AdapterDescription {
         self.kind == AdapterKind::Software
     }
 
-    /// Whether its transforms and bindings take a grid of so many points each way.
-    pub fn takes(&self, points: [usize; 2]) -> bool {
-        let longest = LinePlan::longest(self.group_limits);
-        let bytes = 4 * points[0] as u64 * points[1] as u64;
-        points.into_iter().all(|side| side <= longest) && bytes <= self.binding_limit
+    /// Whether its transforms and bindings take fields of so many points each way in this number.
+    pub fn takes(&self, points: [usize; 2], number: Number) -> bool {
+        let shape = Shape::whole(points[0], points[1]);
+        LevelPlan::laid_out(shape, &self.limits, number).is_ok()
     }
 
-    /// Points along the side of the largest square grid that its transforms and bindings take.
-    pub fn largest_side(&self) -> usize {
-        // A field in single precision is the largest thing that is bound.
-        let mut side = LinePlan::longest(self.group_limits);
-        while side > 1 && 4 * (side as u64).pow(2) > self.binding_limit {
-            side /= 2;
-        }
-        side
+    /// Points along the side of the largest square grid whose fields in this number its transforms and
+    /// bindings take.
+    pub fn largest_side(&self, number: Number) -> usize {
+        self.limits.largest_side(number)
     }
 }
 
@@ -109,10 +121,17 @@ fn group_limits(limits: &wgpu::Limits) -> GroupLimits {
     }
 }
 
-fn binding_limit(limits: &wgpu::Limits) -> u64 {
-    limits
+fn limits(found: &wgpu::Limits) -> Limits {
+    let binding = found
         .max_storage_buffer_binding_size
-        .min(limits.max_buffer_size)
+        .min(found.max_buffer_size)
+        .min(LONGEST_BINDING);
+    Limits {
+        group: group_limits(found),
+        binding,
+        slab: binding,
+        bindings: found.max_storage_buffers_per_shader_stage as usize,
+    }
 }
 
 /// A graphics processor, ready to compute. Copies share the device and its compiled kernels.
@@ -139,7 +158,6 @@ fn instance() -> wgpu::Instance {
 
 fn describe(adapter: &wgpu::Adapter) -> AdapterDescription {
     let info = adapter.get_info();
-    let limits = adapter.limits();
     AdapterDescription {
         interface: format!("{:?}", info.backend),
         driver: [info.driver, info.driver_info].join(" ").trim().to_string(),
@@ -151,8 +169,7 @@ fn describe(adapter: &wgpu::Adapter) -> AdapterDescription {
             wgpu::DeviceType::Cpu => AdapterKind::Software,
         },
         double: adapter.features().contains(wgpu::Features::SHADER_F64),
-        binding_limit: binding_limit(&limits),
-        group_limits: group_limits(&limits),
+        limits: limits(&adapter.limits()),
         name: info.name,
     }
 }
@@ -214,9 +231,7 @@ impl GpuDevice {
         let place = choose(&descriptions, &choice)?;
         let adapter = &found[place];
         let mut description = descriptions[place].clone();
-        if let Some(limit) = choice.binding_limit {
-            description.binding_limit = description.binding_limit.min(limit);
-        }
+        description.limits = choice.narrowed(description.limits);
         let required_features = match choice.single_sums {
             true => wgpu::Features::empty(),
             false => adapter.features() & wgpu::Features::SHADER_F64,
@@ -276,14 +291,14 @@ impl GpuDevice {
         }
     }
 
-    /// What a workgroup may hold.
-    pub fn group_limits(&self) -> GroupLimits {
-        group_limits(&self.inner.device.limits())
+    /// What it binds and what a workgroup may hold.
+    pub fn limits(&self) -> Limits {
+        self.inner.description.limits
     }
 
-    /// Bytes that may be bound at a time.
-    pub fn binding_limit(&self) -> u64 {
-        self.inner.description.binding_limit
+    /// Buffers that a field of this shape in single precision is cut into.
+    pub fn slabs(&self, shape: Shape) -> Result<usize, GpuError> {
+        LevelPlan::laid_out(shape, &self.limits(), Number::Single).map(|plan| plan.slabs)
     }
 
     /// Counts a dispatch, and gives the device up where it is to be lost.
@@ -396,10 +411,14 @@ mod tests {
             driver: String::new(),
             kind,
             double: true,
-            binding_limit: 1 << 27,
-            group_limits: GroupLimits {
-                threads: 1024,
-                memory: 32768,
+            limits: Limits {
+                group: GroupLimits {
+                    threads: 1024,
+                    memory: 32768,
+                },
+                binding: 1 << 27,
+                slab: 1 << 27,
+                bindings: 32,
             },
         }
     }
@@ -433,13 +452,19 @@ mod tests {
     #[test]
     fn the_largest_grid_keeps_both_limits() {
         let mut found = adapter("one", AdapterKind::Discrete);
-        assert_eq!(found.largest_side(), 4096);
-        found.binding_limit = (1 << 31) - 1;
-        assert_eq!(found.largest_side(), 16384);
-        found.binding_limit = 1 << 20;
-        assert_eq!(found.largest_side(), 512);
-        // It is the points that count, not the longer side.
-        assert!(found.takes([2048, 128]) && !found.takes([2048, 130]));
-        assert!(!found.takes([32768, 2]));
+        let (single, double) = (Number::Single, Number::Double);
+        // Eight slabs of 128 MiB, of the 28 that 32 bindings leave; lines of two numbers in 32 KiB.
+        assert_eq!(found.largest_side(single), 16384);
+        assert_eq!(found.largest_side(double), 8192);
+        found.limits.slab = 1 << 20;
+        // 16 MiB in sixteen slabs; four times as many would not be bound together.
+        assert_eq!(found.largest_side(single), 2048);
+        assert_eq!(found.largest_side(double), 1024);
+        found.limits.bindings = 8;
+        // Four slabs beside four other buffers.
+        assert_eq!(found.largest_side(single), 1024);
+        assert!(found.takes([4096, 256], single) && !found.takes([4096, 258], single));
+        assert!(!found.takes([4096, 256], double));
+        assert!(!found.takes([32768, 2], single));
     }
 }

@@ -2,7 +2,7 @@
 
 use super::level::LevelPlan;
 use super::slabs::Limits;
-use super::space::{self, NUMBER_BYTES, single_bytes};
+use super::space;
 use super::{GpuBackend, GpuError};
 use crate::backend::{Field, Shape};
 
@@ -13,7 +13,7 @@ impl GpuBackend {
     /// How a level of this shape lies on the device.
     pub(super) fn plan(&self, shape: Shape) -> Result<LevelPlan, GpuError> {
         let limits: Limits = self.device.limits();
-        LevelPlan::laid_out(shape, &limits, NUMBER_BYTES)
+        LevelPlan::laid_out(shape, &limits, self.number)
     }
 
     /// A number a point, zero, in slabs.
@@ -22,10 +22,8 @@ impl GpuBackend {
         name: &str,
         plan: &LevelPlan,
     ) -> Result<Vec<wgpu::Buffer>, GpuError> {
-        let bytes = NUMBER_BYTES * plan.slab_points();
-        (0..plan.slabs)
-            .map(|_| self.storage(name, bytes))
-            .collect()
+        let bytes = self.number.bytes() * plan.slab_points();
+        (0..plan.slabs).map(|_| self.storage(name, bytes)).collect()
     }
 
     /// The numbers by which kernels know their slab or part, where there is more than one.
@@ -53,7 +51,9 @@ impl GpuBackend {
             let [rows, partners] = plan
                 .slab_ranges(slab)
                 .map(|range| values.get(range).unwrap_or_default());
-            self.overwrite(buffer, single_bytes(rows).chain(single_bytes(partners)))?;
+            let values = rows.iter().chain(partners).copied();
+            let bytes = self.number.bytes_of(values);
+            self.overwrite(buffer, bytes)?;
         }
         Ok(())
     }
@@ -68,9 +68,10 @@ impl GpuBackend {
         (0..plan.parts)
             .map(|part| {
                 let range = plan.part_range(part);
-                let buffer = self.storage(name, NUMBER_BYTES * range.len())?;
+                let buffer = self.storage(name, self.number.bytes() * range.len())?;
                 let values = values.get(range).unwrap_or_default();
-                self.overwrite(&buffer, single_bytes(values))?;
+                let bytes = self.number.bytes_of(values.iter().copied());
+                self.overwrite(&buffer, bytes)?;
                 Ok(buffer)
             })
             .collect()

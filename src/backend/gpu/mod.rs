@@ -33,15 +33,14 @@ use super::{Backend, BackendError, Field, Level, Shape, Spectrum};
 use crate::kernel::{Form, Gate, Kernel, Params, ScalarKernel, Scalars};
 use bindings::{Access, ROWS, WORKING, WORKING_IN_TURNS};
 use deciding::{Decided, Deciding};
-use level::LevelPlan;
 use recorder::{Prepared, Recorder};
 use source::{Reduction, Results};
-use space::{FieldSpace, Key, LevelSpace, SpectrumSpace, single_bytes};
+use space::{FieldSpace, Key, LevelSpace, SpectrumSpace};
 
 pub use catalogue::LawPart;
 pub use device::{AdapterChoice, AdapterDescription, AdapterKind, GpuDevice, adapters};
 pub use error::GpuError;
-pub use layout::Wide;
+pub use layout::{Number, Wide};
 pub use plan::{Exchange, GroupLimits, LinePlan, radices};
 pub use slabs::Limits;
 pub use traffic::Traffic;
@@ -49,6 +48,8 @@ pub use traffic::Traffic;
 /// The GPU backend, in single precision.
 pub struct GpuBackend {
     device: GpuDevice,
+    /// The number of the fields.
+    number: Number,
     wide: Wide,
     recorder: Recorder,
     params: wgpu::Buffer,
@@ -102,6 +103,7 @@ impl GpuBackend {
         });
         let mut backend = GpuBackend {
             device: device.clone(),
+            number: Number::Single,
             wide,
             recorder: Recorder::new(device.clone()),
             params,
@@ -182,20 +184,19 @@ impl GpuBackend {
         if let Some(buffer) = self.roots.get(&length) {
             return Ok(buffer.clone());
         }
-        let buffer = self.storage("roots", 8 * length)?;
+        let buffer = self.storage("roots", 2 * self.number.bytes() * length)?;
         let values = (0..length).flat_map(|m| {
             let angle = TAU * m as f64 / length as f64;
-            [angle.cos() as f32, -angle.sin() as f32]
+            [angle.cos(), -angle.sin()]
         });
-        self.recorder
-            .write(&buffer, values.flat_map(f32::to_le_bytes))?;
+        self.recorder.write(&buffer, self.number.bytes_of(values))?;
         self.roots.insert(length, buffer.clone());
         Ok(buffer)
     }
 
     /// A storage buffer of zeros, if the adapter can bind it.
     fn storage(&self, name: &str, bytes: usize) -> Result<wgpu::Buffer, GpuError> {
-        let limit = self.device.binding_limit();
+        let limit = self.device.limits().binding;
         if bytes as u64 > limit {
             return Err(GpuError::TooLarge {
                 name: name.to_string(),
@@ -501,7 +502,8 @@ impl Backend for GpuBackend {
     fn set_zero_mode(&mut self, spectrum: Spectrum, value: f64) {
         self.attempt(|backend| {
             let first = backend.spectrum_space(spectrum)?.parts[0].clone();
-            backend.overwrite(&first, single_bytes(&[value]))
+            let bytes = backend.number.bytes_of([value]);
+            backend.overwrite(&first, bytes)
         });
     }
 
@@ -534,7 +536,9 @@ impl Backend for GpuBackend {
         self.attempt(|backend| {
             backend.settle()?;
             let slabs = backend.field_space(field)?.slabs.clone();
-            slabs.iter().try_for_each(|slab| backend.recorder.clear(slab))
+            slabs
+                .iter()
+                .try_for_each(|slab| backend.recorder.clear(slab))
         });
     }
 
@@ -594,7 +598,7 @@ impl Backend for GpuBackend {
     }
 
     fn epsilon(&self) -> f64 {
-        f64::from(f32::EPSILON)
+        self.number.epsilon()
     }
 
     /// As counted on the device when the host last waited.

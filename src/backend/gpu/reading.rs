@@ -2,7 +2,6 @@
 
 use super::level::ROW_TRANSFORMS_PER_TRANSFORM;
 use super::recorder::Part;
-use super::space::{NUMBER_BYTES, single_of};
 use super::{GpuBackend, GpuError, layout};
 use crate::backend::Field;
 use crate::kernel::Scalars;
@@ -48,14 +47,13 @@ impl GpuBackend {
             let bytes = self.recorder.read(&[Part {
                 buffer,
                 start: 0,
-                length: NUMBER_BYTES * plan.slab_points(),
+                length: self.number.bytes() * plan.slab_points(),
             }])?;
-            let mut numbers = bytes.chunks_exact(NUMBER_BYTES);
-            for range in plan.slab_ranges(slab) {
-                for (value, number) in values[range].iter_mut().zip(&mut numbers) {
-                    *value = f64::from(single_of(number));
-                }
-            }
+            let numbers = self.number.values_of(&bytes);
+            let (rows, partners) = numbers.split_at(numbers.len() / 2);
+            let [to_rows, to_partners] = plan.slab_ranges(slab);
+            values[to_rows].copy_from_slice(rows);
+            values[to_partners].copy_from_slice(partners);
         }
         Ok(values)
     }

@@ -9,10 +9,11 @@
 use std::ops::Range;
 
 use super::error::GpuError;
+use super::layout::Number;
 use super::level::LevelPlan;
 use super::plan::GroupLimits;
 use crate::backend::Shape;
-use crate::kernel::SUMS;
+use crate::kernel::Form;
 
 /// Storage buffers that the columns bind besides the slabs: scalars, partial sums, roots, factors.
 /// The kernel that restricts a field of all slabs binds as many.
@@ -41,12 +42,12 @@ impl Limits {
         self.bindings.saturating_sub(BOUND_BESIDES)
     }
 
-    /// Points along the side of the largest square grid that a device with these limits takes, in
-    /// numbers of so many bytes, among the powers of two.
-    pub fn largest_side(&self, number_bytes: usize) -> usize {
+    /// Points along the side of the largest square grid that a device with these limits takes in
+    /// fields of this number, among the powers of two.
+    pub fn largest_side(&self, number: Number) -> usize {
         (1..=20)
             .map(|power| 1usize << power)
-            .take_while(|&side| LevelPlan::laid_out(Shape::whole(side, side), self, number_bytes).is_ok())
+            .take_while(|&side| LevelPlan::laid_out(Shape::whole(side, side), self, number).is_ok())
             .last()
             .unwrap_or(0)
     }
@@ -54,10 +55,11 @@ impl Limits {
 
 impl LevelPlan {
     /// The plan of a shape in as few slabs as the limits ask for; most grids take one.
-    pub fn laid_out(shape: Shape, limits: &Limits, number_bytes: usize) -> Result<Self, GpuError> {
-        let plan = LevelPlan::new(shape, limits.group)?;
+    pub fn laid_out(shape: Shape, limits: &Limits, number: Number) -> Result<Self, GpuError> {
+        let plan = LevelPlan::new(shape, limits.group, number)?;
+        let number_bytes = number.bytes() as u64;
         let (pairs, width) = (plan.pairs() as u64, plan.shape[0] as u64);
-        let field = 2 * pairs * width * number_bytes as u64;
+        let field = 2 * pairs * width * number_bytes;
         let too_large = |bytes: u64, limit: u64| GpuError::TooLarge {
             name: "a field".to_string(),
             bytes,
@@ -69,22 +71,28 @@ impl LevelPlan {
         let slabs = (least..=most as u64)
             .find(|&slabs| pairs.is_multiple_of(slabs))
             .ok_or_else(|| too_large(field, most as u64 * limits.slab))?;
-        let column = (plan.shape[1] as u64 / 2 + 1) * number_bytes as u64;
-        let columns = (limits.slab / column).max(1).min(plan.column_count() as u64);
+        let column = (plan.shape[1] as u64 / 2 + 1) * number_bytes;
+        let columns = (limits.slab / column)
+            .max(1)
+            .min(plan.column_count() as u64);
         let parts = plan.column_count().div_ceil(columns as usize);
         let plan = LevelPlan {
             slabs: slabs as usize,
             parts,
             ..plan
         };
-        let longest = 2 * number_bytes as u64 * plan.shape[0].max(plan.shape[1]) as u64;
+        let longest = 2 * number_bytes * plan.shape[0].max(plan.shape[1]) as u64;
         let partials = 8 + (plan.partials() * 8) as u64;
         for bytes in [longest, partials, column] {
             if bytes > limits.binding {
                 return Err(too_large(bytes, limits.binding));
             }
         }
-        Ok(plan)
+        match plan.slab_groups(Form::Load).max(plan.part_groups()) {
+            0..=MOST_GROUPS => Ok(plan),
+            // Only of a grid far longer than wide.
+            _ => Err(too_large(field, limits.slab)),
+        }
     }
 
     /// Pairs of rows in a slab.

@@ -20,13 +20,13 @@ pub struct LevelSpace {
 
 /// One number a point.
 pub struct FieldSpace {
-    /// Its numbers, f32, a buffer each slab.
+    /// Its numbers, a buffer each slab.
     pub slabs: Vec<wgpu::Buffer>,
 }
 
 /// One factor a wavevector.
 pub struct SpectrumSpace {
-    /// Its factors, f32, a buffer each part.
+    /// Its factors, a buffer each part.
     pub parts: Vec<wgpu::Buffer>,
 }
 
@@ -57,17 +57,7 @@ pub enum Key {
     Decide(Option<(&'static str, usize)>, Vec<&'static str>),
 }
 
-/// Bytes of a number of a field.
-pub const NUMBER_BYTES: usize = 4;
-
 /// The number that four bytes from the device are.
 pub fn single_of(bytes: &[u8]) -> f32 {
     bytes.try_into().map_or(f32::NAN, f32::from_le_bytes)
-}
-
-/// Doubles as the bytes of the device's numbers.
-pub fn single_bytes(values: &[f64]) -> impl Iterator<Item = u8> {
-    values
-        .iter()
-        .flat_map(|&value| (value as f32).to_le_bytes())
 }

@@ -35,14 +35,14 @@ impl Whole {
         for slab in 0..self.slabs {
             let _ = writeln!(
                 source,
-                "@group(1) @binding({}) var<storage, read> whole_{slab}: array<f32>;",
+                "@group(1) @binding({}) var<storage, read> whole_{slab}: array<real>;",
                 binding + slab
             );
         }
         let _ = writeln!(
             source,
             "const WHOLE_WIDTH: u32 = {width}u;\nconst WHOLE_HEIGHT: u32 = {height}u;\n\
-             fn whole_at(column: u32, row: u32) -> f32 {{"
+             fn whole_at(column: u32, row: u32) -> real {{"
         );
         if self.slabs == 1 {
             source.push_str("return whole_0[row * WHOLE_WIDTH + column];\n}\n");
@@ -69,7 +69,7 @@ impl Whole {
 pub(super) fn declare_turn(source: &mut String, plan: &LevelPlan) {
     if plan.turns() > 1 {
         source.push_str(
-            "struct Turn {\n    number: u32,\n}\n@group(0) @binding(3) var<uniform> turn: Turn;\n",
+            "struct Slab {\n    number: u32,\n}\n@group(0) @binding(3) var<uniform> slab: Slab;\n",
         );
     }
 }
@@ -86,7 +86,7 @@ pub(super) fn row_of(source: &mut String, plan: &LevelPlan) {
     let _ = writeln!(
         source,
         "let row = index / {width}u;\n\
-         return turn.number * {slab_pairs}u + select(row, row + {between}u, row >= {slab_pairs}u);\n}}",
+         return slab.number * {slab_pairs}u + select(row, row + {between}u, row >= {slab_pairs}u);\n}}",
         between = pairs - slab_pairs,
     );
 }
@@ -96,7 +96,7 @@ pub(super) fn row_of(source: &mut String, plan: &LevelPlan) {
 pub(super) fn after_turns(turns: usize, each: usize) -> String {
     match turns {
         1 => String::new(),
-        _ => format!("turn.number * {each}u + "),
+        _ => format!("slab.number * {each}u + "),
     }
 }
 
@@ -104,7 +104,7 @@ pub(super) fn after_turns(turns: usize, each: usize) -> String {
 pub(super) fn first_turn(turns: usize) -> &'static str {
     match turns {
         1 => "",
-        _ => "turn.number == 0u && ",
+        _ => "slab.number == 0u && ",
     }
 }
 
@@ -126,21 +126,21 @@ impl Work {
     pub(super) fn declare(&self, source: &mut String) {
         if self.slabs == 1 {
             source.push_str(
-                "@group(1) @binding(1) var<storage, read_write> work: array<vec2<f32>>;\n",
+                "@group(1) @binding(1) var<storage, read_write> work: array<vec2<real>>;\n",
             );
             return;
         }
         for slab in 0..self.slabs {
             let _ = writeln!(
                 source,
-                "@group(1) @binding({}) var<storage, read_write> work_{slab}: array<vec2<f32>>;",
+                "@group(1) @binding({}) var<storage, read_write> work_{slab}: array<vec2<real>>;",
                 slab + 1
             );
         }
         let pairs = self.slab_pairs;
         let _ = writeln!(
             source,
-            "fn read_work(base: u32, pair: u32) -> vec2<f32> {{\nlet place = base + pair % {pairs}u;\nswitch pair / {pairs}u {{"
+            "fn read_work(base: u32, pair: u32) -> vec2<real> {{\nlet place = base + pair % {pairs}u;\nswitch pair / {pairs}u {{"
         );
         for slab in 1..self.slabs {
             let _ = writeln!(source, "case {slab}u: {{ return work_{slab}[place]; }}");
@@ -148,7 +148,7 @@ impl Work {
         let _ = writeln!(
             source,
             "default: {{ return work_0[place]; }}\n}}\n}}\n\
-             fn write_work(base: u32, pair: u32, value: vec2<f32>) {{\nlet place = base + pair % {pairs}u;\nswitch pair / {pairs}u {{"
+             fn write_work(base: u32, pair: u32, value: vec2<real>) {{\nlet place = base + pair % {pairs}u;\nswitch pair / {pairs}u {{"
         );
         for slab in 1..self.slabs {
             let _ = writeln!(source, "case {slab}u: {{ work_{slab}[place] = value; }}");
