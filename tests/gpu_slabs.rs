@@ -1,19 +1,18 @@
-//! Grids in several slabs against the same grids in one: operator, every kernel, whole solves.
+//! Grids in several slabs against the same grids in one: operator, kernels of each kind, whole solves.
 //!
 //! Slabs are forced small here; a slab's workgroups are those of the whole grid, row by row, so that
 //! what rows and columns compute agrees bit by bit. Sums over points are put together in another
 //! order, so that they agree to the rounding of a double.
 
-mod gpu_catalogue;
 mod gpu_shared;
 
-use gpu_catalogue::KERNELS;
 use gpu_shared::{Numbers, backend, device, device_with, relative_difference};
 use tabor::backend::gpu::{AdapterChoice, GpuDevice};
 use tabor::backend::{Backend, Field, Level, Shape};
 use tabor::grid::Grid;
-use tabor::kernel::common::{LOAD_FIELD, STORE_PRESSURE};
+use tabor::kernel::common::{LOAD_DISPLACEMENT, LOAD_FIELD, STORE_PRESSURE};
 use tabor::kernel::{Form, Gate, Kernel, Params, Reduce, Scalars, Status};
+use tabor::kernel::{coarse, core, wall};
 use tabor::law::{Law, LennardJones, MaugisDugdale};
 use tabor::scene::Boundary;
 use tabor::solver::{ContactSolver, Hold, Load, Outcome, Problem, Start};
@@ -186,8 +185,20 @@ fn run(
     (written, scalars.sums[..kernel.sums.len()].to_vec())
 }
 
+/// One of each kind of shader: rows in and out, points, with sums or without, beside a field of
+/// another level or without. Software compiles a shader slowly, and whole solves run the others.
+static KINDS: [&Kernel; 7] = [
+    &LOAD_DISPLACEMENT,
+    &wall::WALL_FREE_KEPT,
+    &wall::WALL_DESCENT_TWO_BAND,
+    &wall::WALL_ADVANCE,
+    &wall::WALL_RESIDUAL,
+    &core::CORE_DIRECT,
+    &coarse::COARSE_RESTRICT,
+];
+
 #[test]
-fn every_kernel_in_slabs_writes_the_same() {
+fn every_kind_of_kernel_in_slabs_writes_the_same() {
     let Some(device) = device() else { return };
     let (Some(fine), Some(coarse)) = (in_slabs(SLAB), in_slabs(COARSE_SLAB)) else {
         return;
@@ -196,7 +207,7 @@ fn every_kernel_in_slabs_writes_the_same() {
         points: FINE,
         surface: [30, 40],
     };
-    for &kernel in KERNELS {
+    for kernel in KINDS {
         let law = match kernel.name.starts_with("core") {
             true => Law::LennardJones(LennardJones {
                 work_of_adhesion: 0.1,

@@ -78,8 +78,10 @@ impl Machine {
     /// A backend on it.
     pub fn backend(&self) -> Box<dyn Backend + Send> {
         match (&self.place, self.precision) {
-            (Place::Gpu(device), Precision::Mixed) => Box::new(GpuBackend::on(device).corrected()),
-            (Place::Gpu(device), _) => Box::new(GpuBackend::on(device)),
+            (Place::Gpu(device), Precision::Mixed) => {
+                Box::new(GpuBackend::on(device).expecting_numbers().corrected())
+            }
+            (Place::Gpu(device), _) => Box::new(GpuBackend::on(device).expecting_numbers()),
             (Place::Processor, Precision::Single) => Box::new(CpuBackend::<f32>::new()),
             (Place::Processor, Precision::Mixed) => Box::new(CpuBackend::<f32>::new().corrected()),
             (Place::Processor, _) => Box::new(CpuBackend::<f64>::new()),
@@ -122,7 +124,9 @@ impl Machine {
 
 /// What the environment asks of the adapter: `TABOR_TEST_GPU`, for tests of what no sound adapter
 /// does, is a list of `software` (`auto` takes it for a graphics processor), `binding=BYTES` (it binds
-/// no more) and `lost=DISPATCHES` (it is lost after so many).
+/// no more), `slab=BYTES` (a buffer holds no more of a field), `memory=BYTES` (it has no more),
+/// `lost=DISPATCHES` (it is lost after so many), `nan=DISPATCHES` (numbers are none after so many) and
+/// `plain-sums` (its compiler undoes the compensation of sums).
 fn choice() -> AdapterChoice {
     let asked = std::env::var("TABOR_TEST_GPU").unwrap_or_default();
     let number = |key: &str| -> Option<u64> {
@@ -136,6 +140,9 @@ fn choice() -> AdapterChoice {
         binding_limit: number("binding"),
         slab_bytes: number("slab"),
         lost_after: number("lost"),
+        memory: number("memory"),
+        not_a_number_after: number("nan"),
+        plain_sums: asked.split(',').any(|word| word == "plain-sums"),
         ..AdapterChoice::default()
     }
 }

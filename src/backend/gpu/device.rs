@@ -10,6 +10,7 @@ use super::layout::{Number, Wide};
 use super::level::LevelPlan;
 use super::plan::GroupLimits;
 use super::slabs::{LONGEST_BINDING, Limits};
+use super::space;
 use crate::backend::Shape;
 
 /// Which adapter to take.
@@ -31,6 +32,12 @@ pub struct AdapterChoice {
     pub slab_bytes: Option<u64>,
     /// Dispatches after which the device is given up: for tests of its loss.
     pub lost_after: Option<u64>,
+    /// Bytes after which it has no memory left: for tests of that.
+    pub memory: Option<u64>,
+    /// Dispatches after which some number of each field is none: for tests of that.
+    pub not_a_number_after: Option<u64>,
+    /// Whether compensated sums are taken to come out wrong: for tests of plain ones.
+    pub plain_sums: bool,
 }
 
 impl AdapterChoice {
@@ -150,6 +157,10 @@ struct Inner {
     plain_sums: OnceLock<bool>,
     /// Dispatches left before the device is given up, where it is to be.
     left: Option<AtomicU64>,
+    /// Dispatches left before numbers are none, where they are to be.
+    sound: Option<AtomicU64>,
+    /// Bytes left, where they are counted.
+    memory: Option<AtomicU64>,
 }
 
 fn instance() -> wgpu::Instance {
@@ -232,7 +243,7 @@ impl GpuDevice {
         let adapter = &found[place];
         let mut description = descriptions[place].clone();
         description.limits = choice.narrowed(description.limits);
-        let required_features = match choice.single_sums {
+        let required_features = match choice.single_sums || choice.plain_sums {
             true => wgpu::Features::empty(),
             false => adapter.features() & wgpu::Features::SHADER_F64,
         };
@@ -265,10 +276,12 @@ impl GpuDevice {
                 lost,
                 plain_sums: OnceLock::new(),
                 left: choice.lost_after.map(AtomicU64::new),
+                sound: choice.not_a_number_after.map(AtomicU64::new),
+                memory: choice.memory.map(AtomicU64::new),
             }),
         };
         if device.wide() == Wide::Compensated {
-            let survive = GpuBackend::new(&device)?.sums_survive()?;
+            let survive = !choice.plain_sums && GpuBackend::new(&device)?.sums_survive()?;
             let _ = device.inner.plain_sums.set(!survive);
         }
         Ok(device)
@@ -310,6 +323,34 @@ impl GpuDevice {
         }
     }
 
+    /// Counts a dispatch towards that after which numbers are none; whether this is the one.
+    pub(super) fn poisons(&self) -> bool {
+        let sound = self.inner.sound.as_ref();
+        sound.is_some_and(|sound| sound.fetch_sub(1, Ordering::Relaxed) == 1)
+    }
+
+    /// A storage buffer of zeros.
+    pub(super) fn allocate(&self, name: &str, bytes: usize) -> Result<wgpu::Buffer, GpuError> {
+        let bytes_wanted = bytes as u64;
+        let out_of_memory = || GpuError::OutOfMemory {
+            adapter: self.description().name.clone(),
+            name: name.to_string(),
+            bytes: bytes_wanted,
+        };
+        if let Some(memory) = &self.inner.memory {
+            let take = |left: u64| left.checked_sub(bytes_wanted);
+            memory
+                .fetch_update(Ordering::Relaxed, Ordering::Relaxed, take)
+                .map_err(|_| out_of_memory())?;
+        }
+        let make =
+            |device: &wgpu::Device| space::buffer(device, name, bytes, wgpu::BufferUsages::STORAGE);
+        self.guarded(make).map_err(|error| match error {
+            GpuError::OutOfMemory { .. } => out_of_memory(),
+            other => other,
+        })
+    }
+
     pub(super) fn queue(&self) -> &wgpu::Queue {
         &self.inner.queue
     }
@@ -345,14 +386,18 @@ impl GpuDevice {
             pollster::block_on(internal.pop()),
             pollster::block_on(memory.pop()),
         ];
-        let failure = errors.into_iter().flatten().next().map(|error| {
-            GpuError::Device(match error {
-                wgpu::Error::OutOfMemory { .. } => {
-                    "out of memory on the graphics processor".to_string()
-                }
-                other => other.to_string(),
-            })
-        });
+        let failure = errors
+            .into_iter()
+            .flatten()
+            .next()
+            .map(|error| match error {
+                wgpu::Error::OutOfMemory { .. } => GpuError::OutOfMemory {
+                    adapter: self.description().name.clone(),
+                    name: "a buffer".to_string(),
+                    bytes: 0,
+                },
+                other => GpuError::Device(other.to_string()),
+            });
         (result, failure.or_else(|| self.loss()))
     }
 
@@ -466,5 +511,25 @@ mod tests {
         assert!(found.takes([4096, 256], single) && !found.takes([4096, 258], single));
         assert!(!found.takes([4096, 256], double));
         assert!(!found.takes([32768, 2], single));
+    }
+
+    /// More than any device has, in one buffer and in a kernel's text: wgpu's own errors come back as
+    /// ours.
+    #[test]
+    fn what_a_device_cannot_do_is_an_error() {
+        let choice = AdapterChoice {
+            software: true,
+            ..AdapterChoice::default()
+        };
+        let Ok(device) = GpuDevice::new(&choice) else {
+            let required = std::env::var("TABOR_REQUIRE_GPU").is_ok_and(|value| value == "1");
+            assert!(!required, "TABOR_REQUIRE_GPU is set");
+            return;
+        };
+        let refused = device.allocate("far too long", 1 << 50);
+        assert!(refused.is_err(), "{refused:?}");
+        let refused = device.pipeline("nothing", "no shader".to_string(), &[]);
+        assert!(refused.is_err(), "{refused:?}");
+        assert!(device.allocate("short", 16).is_ok());
     }
 }

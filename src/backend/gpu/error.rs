@@ -66,7 +66,7 @@ pub enum GpuError {
     },
     /// A buffer for which the device has no memory left.
     #[error(
-        "out of memory on {adapter}: `{name}` takes {bytes} bytes more; take fewer points, or --backend cpu"
+        "out of memory on {adapter}: there is no room for `{name}`, of {bytes} bytes; take fewer points, or --backend cpu"
     )]
     OutOfMemory {
         /// The adapter's name.

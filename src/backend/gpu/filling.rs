@@ -2,7 +2,7 @@
 
 use super::level::LevelPlan;
 use super::slabs::Limits;
-use super::space;
+use super::space::{self, FieldSpace};
 use super::{GpuBackend, GpuError};
 use crate::backend::{Field, Shape};
 
@@ -41,6 +41,16 @@ impl GpuBackend {
                 Ok(buffer)
             })
             .collect()
+    }
+
+    /// Makes the first number of every field none: for tests of what follows.
+    pub(super) fn poison(&mut self) -> Result<(), GpuError> {
+        let first = |field: &FieldSpace| field.slabs[0].clone();
+        let buffers: Vec<_> = self.fields.iter().flatten().map(first).collect();
+        buffers.iter().try_for_each(|buffer| {
+            let bytes = self.number.bytes_of([f64::NAN]);
+            self.recorder.write(buffer, bytes)
+        })
     }
 
     /// Overwrites a field, slab by slab.

@@ -69,6 +69,8 @@ pub struct GpuBackend {
     base: Option<[Field; 2]>,
     /// Whether a state in double precision stands beside the fields.
     corrected: bool,
+    /// Whether scalars that are not finite are a failure.
+    expects_numbers: bool,
     /// The first thing that went wrong; told where the host waits.
     failure: Option<GpuError>,
     transforms: f64,
@@ -119,6 +121,7 @@ impl GpuBackend {
             law_factor: None,
             base: None,
             corrected: false,
+            expects_numbers: false,
             failure,
             transforms: 0.0,
             // Software idles through shut gates slower than it waits.
@@ -135,6 +138,14 @@ impl GpuBackend {
     pub fn looking_every(self, rounds: usize) -> Self {
         GpuBackend {
             look_every: rounds.max(1),
+            ..self
+        }
+    }
+
+    /// The same where numbers that are none are a failure of the device, not an answer.
+    pub fn expecting_numbers(self) -> Self {
+        GpuBackend {
+            expects_numbers: true,
             ..self
         }
     }
@@ -204,8 +215,7 @@ impl GpuBackend {
                 limit,
             });
         }
-        self.device
-            .guarded(|device| space::buffer(device, name, bytes, wgpu::BufferUsages::STORAGE))
+        self.device.allocate(name, bytes)
     }
 
     fn level_space(&self, level: Level) -> Result<&LevelSpace, GpuError> {
@@ -286,7 +296,10 @@ impl GpuBackend {
             self.device.count_dispatch();
             self.recorder.dispatch(each)?;
         }
-        Ok(())
+        match self.device.poisons() {
+            true => self.poison(),
+            false => Ok(()),
+        }
     }
 
     /// Records a kernel of the catalogue and the reduction of its sums.

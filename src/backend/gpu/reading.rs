@@ -4,7 +4,7 @@ use super::level::ROW_TRANSFORMS_PER_TRANSFORM;
 use super::recorder::Part;
 use super::{GpuBackend, GpuError, layout};
 use crate::backend::Field;
-use crate::kernel::Scalars;
+use crate::kernel::{Scalars, Status};
 
 impl GpuBackend {
     /// Waits, and reads the scalars and what was counted.
@@ -33,7 +33,12 @@ impl GpuBackend {
             transforms += f64::from(rows) * share / ROW_TRANSFORMS_PER_TRANSFORM;
         }
         self.transforms = transforms;
-        Ok(layout::scalars_of(&bytes[..length], self.wide))
+        let scalars = layout::scalars_of(&bytes[..length], self.wide);
+        if self.expects_numbers && scalars.status == Status::NotFinite {
+            let adapter = self.device.description().name.clone();
+            return Err(GpuError::NotFinite(adapter));
+        }
+        Ok(scalars)
     }
 
     pub(super) fn fetch(&mut self, field: Field) -> Result<Vec<f64>, GpuError> {
