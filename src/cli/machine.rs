@@ -224,17 +224,37 @@ pub(super) fn best(found: &[AdapterDescription]) -> Option<&AdapterDescription> 
         .min_by_key(|adapter| adapter.kind)
 }
 
+/// The largest grid of the adapter that `--backend gpu` takes here, in words.
+pub(super) fn largest_here(boundary: Boundary) -> String {
+    let found = adapters();
+    match best(&found).or(found.first()) {
+        None => "no adapter here".to_owned(),
+        Some(adapter) => {
+            let side = largest_with(adapter, boundary);
+            format!(
+                "{side} x {side} points in single and mixed precision on {}",
+                adapter.name
+            )
+        }
+    }
+}
+
+/// Points along the side of the largest square surface that an adapter takes.
+fn largest_with(adapter: &AdapterDescription, boundary: Boundary) -> usize {
+    let largest = adapter.largest_side(Number::Single);
+    match boundary {
+        Boundary::Periodic => largest,
+        Boundary::Free => largest / 2,
+    }
+}
+
 /// Refuses grids that are past what an adapter transforms and binds.
 fn refuse_limits(setup: &Setup, adapter: &AdapterDescription) -> Result<(), Failure> {
     let shape = setup.problem.shape;
     if adapter.takes(shape.points, Number::Single) {
         return Ok(());
     }
-    let largest = adapter.largest_side(Number::Single);
-    let side = match setup.scene.grid.boundary {
-        Boundary::Periodic => largest,
-        Boundary::Free => largest / 2,
-    };
+    let side = largest_with(adapter, setup.scene.grid.boundary);
     Err(Failure::Usage(format!(
         "grid.points: {} x {} points are past the limits of {}, which takes up to {side} x {side} here: take fewer points, or --backend cpu",
         shape.surface[0], shape.surface[1], adapter.name
