@@ -124,7 +124,8 @@ impl Machine {
 
 /// What the environment asks of the adapter: `TABOR_TEST_GPU`, for tests of what no sound adapter
 /// does, is a list of `software` (`auto` takes it for a graphics processor), `binding=BYTES` (it binds
-/// no more), `slab=BYTES` (a buffer holds no more of a field), `memory=BYTES` (it has no more),
+/// no more), `slab=BYTES` (a buffer holds no more of a field),
+/// `line=POINTS` (a workgroup holds no longer line), `memory=BYTES` (it has no more),
 /// `lost=DISPATCHES` (it is lost after so many), `nan=DISPATCHES` (numbers are none after so many) and
 /// `plain-sums` (its compiler undoes the compensation of sums).
 fn choice() -> AdapterChoice {
@@ -139,6 +140,7 @@ fn choice() -> AdapterChoice {
         software: asked.split(',').any(|word| word == "software"),
         binding_limit: number("binding"),
         slab_bytes: number("slab"),
+        longest_line: number("line").map(|points| points as usize),
         lost_after: number("lost"),
         memory: number("memory"),
         not_a_number_after: number("nan"),
@@ -310,6 +312,7 @@ mod tests {
                 binding: 1 << 27,
                 slab: 1 << 27,
                 bindings: 32,
+                longest_line: usize::MAX,
             },
         };
         let found = [

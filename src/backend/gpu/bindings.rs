@@ -26,11 +26,13 @@ pub const DECIDING: &[Access] = &[Access::Uniform, Access::Write, Access::Write]
 /// Group 2 of the row transforms: roots of unity, work space.
 pub const ROWS: &[Access] = &[Access::Read, Access::Write];
 
-/// Group 1 of the columns: roots of unity, work space of each slab, factors.
-pub fn columns(slabs: usize) -> Vec<Access> {
+/// Group 1 of the columns: roots of unity, work space of each slab, factors, and the spare halves of long
+/// columns.
+pub fn columns(slabs: usize, long: bool) -> Vec<Access> {
     let mut accesses = vec![Access::Read];
     accesses.extend(vec![Access::Write; slabs]);
     accesses.push(Access::Read);
+    accesses.extend(long.then_some(Access::Write));
     accesses
 }
 

@@ -30,6 +30,9 @@ pub struct AdapterChoice {
     /// Bytes of a field that go into one buffer, where that is to be less than the adapter binds: for
     /// tests of grids in several slabs.
     pub slab_bytes: Option<u64>,
+    /// Points of a line that is transformed in one pass, where that is to be less than a workgroup
+    /// holds: for tests of longer ones.
+    pub longest_line: Option<usize>,
     /// Dispatches after which the device is given up: for tests of its loss.
     pub lost_after: Option<u64>,
     /// Bytes after which it has no memory left: for tests of that.
@@ -48,6 +51,7 @@ impl AdapterChoice {
         Limits {
             binding,
             slab,
+            longest_line: self.longest_line.unwrap_or(limits.longest_line),
             ..limits
         }
     }
@@ -138,6 +142,7 @@ fn limits(found: &wgpu::Limits) -> Limits {
         binding,
         slab: binding,
         bindings: found.max_storage_buffers_per_shader_stage as usize,
+        longest_line: usize::MAX,
     }
 }
 
@@ -464,6 +469,7 @@ mod tests {
                 binding: 1 << 27,
                 slab: 1 << 27,
                 bindings: 32,
+                longest_line: usize::MAX,
             },
         }
     }

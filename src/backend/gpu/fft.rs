@@ -71,6 +71,12 @@ impl<'a> LineWriter<'a> {
         }
     }
 
+    /// The same for a line that is not the first one of its thread: memory may be in use.
+    pub fn again(mut self) -> Self {
+        self.occupied = true;
+        self
+    }
+
     /// Declares the memory through which the threads of a workgroup exchange values.
     pub fn declarations(plan: &LinePlan) -> String {
         let kind = match plan.exchange {
@@ -148,7 +154,7 @@ impl<'a> LineWriter<'a> {
             Direction::Forward => "turn",
             Direction::Inverse => "turn_back",
         };
-        let fold = self.plan.length / (before * radix);
+        let fold = self.plan.roots / (before * radix);
         self.butterflies(radix, |source, each| {
             if before > 1 {
                 let _ = writeln!(source, "let root = (j % {before}u) * {fold}u;");

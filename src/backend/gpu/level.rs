@@ -27,8 +27,12 @@ pub struct LevelPlan {
     pub surface: [usize; 2],
     /// Transforms along x of ny/2 pairs of rows.
     pub rows: LinePlan,
+    /// The second pass over rows that are too long for one.
+    pub rows_then: Option<LinePlan>,
     /// Transforms along y of nx/2 + 1 columns.
     pub columns: LinePlan,
+    /// The second pass over columns that are too long for one.
+    pub columns_then: Option<LinePlan>,
     /// Slabs of a field, each of as many pairs of rows; 1 where a binding holds all of it.
     pub slabs: usize,
     /// Parts of a spectrum, each of as many columns but the last.
@@ -38,24 +42,7 @@ pub struct LevelPlan {
 impl LevelPlan {
     /// The plan of a shape in one slab, if its numbers are even, smooth and not too large.
     pub fn new(shape: Shape, limits: GroupLimits, number: Number) -> Result<Self, GpuError> {
-        let [nx, ny] = shape.points;
-        let refused = || GpuError::Size {
-            nx,
-            ny,
-            largest: LinePlan::longest(limits, number),
-        };
-        if !nx.is_multiple_of(2) || !ny.is_multiple_of(2) {
-            return Err(refused());
-        }
-        Ok(LevelPlan {
-            number,
-            shape: shape.points,
-            surface: shape.surface,
-            rows: LinePlan::new(nx, ny / 2, limits, number).ok_or_else(refused)?,
-            columns: LinePlan::new(ny, nx / 2 + 1, limits, number).ok_or_else(refused)?,
-            slabs: 1,
-            parts: 1,
-        })
+        LevelPlan::with_lines(shape, limits, number, usize::MAX)
     }
 
     /// Number of points.
@@ -77,7 +64,7 @@ impl LevelPlan {
     pub fn slab_groups(&self, form: Form) -> usize {
         match form {
             Form::Sweep => self.slab_points().div_ceil(SWEEP_THREADS).min(SWEEP_GROUPS),
-            Form::Load | Form::Store => self.rows.groups(self.slab_pairs()),
+            Form::Load | Form::Store => self.slab_pairs().div_ceil(self.pairs_at_once()),
         }
     }
 
@@ -88,7 +75,11 @@ impl LevelPlan {
 
     /// Workgroups of the columns of one part of a spectrum.
     pub fn part_groups(&self) -> usize {
-        self.columns.groups(self.part_columns())
+        match self.columns_then {
+            None => self.columns.groups(self.part_columns()),
+            // One works on a column after another, part by part.
+            Some(_) => self.part_columns(),
+        }
     }
 
     /// Workgroups of the columns, all parts together.

@@ -16,6 +16,7 @@ mod fft;
 mod filling;
 mod layout;
 mod level;
+mod long;
 mod plan;
 mod reading;
 mod recorder;
@@ -32,6 +33,7 @@ use super::cpu::CpuBackend;
 use super::{Backend, BackendError, Field, Level, Shape, Spectrum};
 use crate::kernel::{Form, Gate, Kernel, Params, ScalarKernel, Scalars};
 use bindings::{Access, ROWS, WORKING, WORKING_IN_TURNS};
+use butterfly::Direction;
 use deciding::{Decided, Deciding};
 use recorder::{Prepared, Recorder};
 use source::{Reduction, Results};
@@ -245,7 +247,7 @@ impl GpuBackend {
         name: &str,
         source: String,
         groups: &[(&[bindings::Access], &[&wgpu::Buffer])],
-        workgroups: usize,
+        workgroups: [usize; 2],
     ) -> Result<Prepared, GpuError> {
         let (layouts, groups) = self.device.guarded(|device| {
             groups
@@ -263,7 +265,7 @@ impl GpuBackend {
             pipeline,
             groups,
             // Plans keep it far below the 65535 that every adapter takes.
-            workgroups: workgroups as u32,
+            workgroups: workgroups.map(|count| count as u32),
         })
     }
 
@@ -318,7 +320,13 @@ impl GpuBackend {
         }
         let indices = fields.iter().map(|field| field.index).collect();
         let key = Key::Kernel(kernel.name, level.0, self.base.is_some(), indices);
+        if kernel.form == Form::Store {
+            self.rows_then(level, Direction::Inverse, kernel.gate)?;
+        }
         self.record(key, |backend| backend.kernel(kernel, level, fields))?;
+        if kernel.form == Form::Load {
+            self.rows_then(level, Direction::Forward, kernel.gate)?;
+        }
         if kernel.sums.is_empty() {
             return Ok(());
         }
@@ -401,7 +409,7 @@ impl GpuBackend {
             if kernel.form != Form::Sweep {
                 all.push((ROWS, &transform));
             }
-            self.prepare(kernel.name, text.clone(), &all, groups)
+            self.prepare(kernel.name, text.clone(), &all, [groups, 1])
         };
         (0..space.plan.slabs).map(in_slab).collect()
     }
@@ -417,19 +425,23 @@ impl GpuBackend {
         let word = source::gate_name(gate);
         self.record(Key::Multiply(by.index, energy, word), |backend| {
             let space = backend.level_space(by.level)?;
-            let text = source::multiply(&space.plan, energy, gate, backend.wide);
-            let accesses = bindings::columns(space.plan.slabs);
-            let in_part = |(part, factors): (usize, &wgpu::Buffer)| {
-                let shared = backend.shared(space, part);
-                let mut buffers = vec![&space.column_roots];
-                buffers.extend(&space.work);
-                buffers.push(factors);
-                let all: [(&[Access], &[&wgpu::Buffer]); 2] =
-                    [(working(&shared), &shared), (&accesses, &buffers)];
-                backend.prepare("multiply", text.clone(), &all, space.plan.part_groups())
-            };
-            let parts = &backend.spectrum_space(by)?.parts;
-            parts.iter().enumerate().map(in_part).collect()
+            let passes = backend.column_passes(&space.plan, energy, gate);
+            let accesses = bindings::columns(space.plan.slabs, space.spare.is_some());
+            let mut prepared = Vec::new();
+            for (text, workgroups) in passes {
+                for (part, factors) in backend.spectrum_space(by)?.parts.iter().enumerate() {
+                    let shared = backend.shared(space, part);
+                    let mut buffers = vec![&space.column_roots];
+                    buffers.extend(&space.work);
+                    buffers.push(factors);
+                    buffers.extend(&space.spare);
+                    let all: [(&[Access], &[&wgpu::Buffer]); 2] =
+                        [(working(&shared), &shared), (&accesses, &buffers)];
+                    let each = backend.prepare("multiply", text.clone(), &all, workgroups)?;
+                    prepared.push(each);
+                }
+            }
+            Ok(prepared)
         })?;
         if !energy {
             return Ok(());
@@ -479,6 +491,7 @@ impl Backend for GpuBackend {
                 partials: backend.storage(name, partials)?,
                 // Half as many complex numbers as points.
                 work: backend.slabs(name, &plan)?,
+                spare: backend.spare(&plan)?,
                 turns: backend.turns(&plan)?,
                 plan,
             })

@@ -68,11 +68,19 @@ pub struct LinePlan {
     pub exchange: Exchange,
     /// Sums that the workgroup reduces together, in the memory that is left.
     pub sums_at_once: usize,
+    /// Points of the whole line of which this is a part, whose roots of unity are bound; where it is
+    /// no part, its own.
+    pub roots: usize,
 }
 
 /// Radices of an even length whose prime factors are 2, 3, 5 and 7, powers of two first.
 pub fn radices(length: usize) -> Option<Vec<usize>> {
-    if length < 2 || !length.is_multiple_of(2) {
+    smooth_radices(length).filter(|_| length.is_multiple_of(2))
+}
+
+/// The same of any length.
+fn smooth_radices(length: usize) -> Option<Vec<usize>> {
+    if length < 2 {
         return None;
     }
     let mut twos = length.trailing_zeros();
@@ -101,10 +109,21 @@ impl LinePlan {
     /// The plan of `count` lines of a length, or `None` where the length has another prime factor,
     /// is odd, or does not fit the adapter's workgroups.
     pub fn new(length: usize, count: usize, limits: GroupLimits, number: Number) -> Option<Self> {
-        let radices = radices(length)?;
+        Self::part(length, length, count, limits, number).filter(|_| length.is_multiple_of(2))
+    }
+
+    /// The plan of parts of a line of `whole` points; these may be odd.
+    pub fn part(
+        length: usize,
+        whole: usize,
+        count: usize,
+        limits: GroupLimits,
+        number: Number,
+    ) -> Option<Self> {
+        let radices = smooth_radices(length)?;
         let rounds = |threads: usize, radix: usize| (length / radix).div_ceil(threads);
         // The least work counted in idle threads too; of equals, the most threads.
-        let threads = (1..=limits.threads.min(length / 2))
+        let threads = (1..=limits.threads.min(length.div_ceil(2)))
             .filter(|&threads| {
                 radices
                     .iter()
@@ -149,6 +168,7 @@ impl LinePlan {
         let left = (limits.memory - used) / (lines * threads * SUM_BYTES);
         Some(LinePlan {
             sums_at_once: left.min(SUMS),
+            roots: whole,
             length,
             radices,
             threads,

@@ -17,8 +17,8 @@ pub struct Prepared {
     pub pipeline: wgpu::ComputePipeline,
     /// Its bind groups, from 0.
     pub groups: Vec<wgpu::BindGroup>,
-    /// Workgroups.
-    pub workgroups: u32,
+    /// Workgroups along x and y.
+    pub workgroups: [u32; 2],
 }
 
 /// A part of a buffer to be read.
@@ -75,7 +75,8 @@ impl Recorder {
                     for (group, place) in prepared.groups.iter().zip(0..) {
                         pass.set_bind_group(place, group, &[]);
                     }
-                    pass.dispatch_workgroups(prepared.workgroups, 1, 1);
+                    let [x, y] = prepared.workgroups;
+                    pass.dispatch_workgroups(x, y, 1);
                 }
             }
             if let Some(staging) = staging {

@@ -15,8 +15,8 @@ use super::plan::GroupLimits;
 use crate::backend::Shape;
 use crate::kernel::Form;
 
-/// Storage buffers that the columns bind besides the slabs: scalars, partial sums, roots, factors.
-/// The kernel that restricts a field of all slabs binds as many.
+/// Storage buffers that the columns bind besides the slabs: scalars, partial sums, roots, factors; the
+/// spare halves of long ones come on top. The kernel that restricts a field of all slabs binds as many.
 const BOUND_BESIDES: usize = 4;
 /// Longest binding that wgpu makes, whatever the adapter says.
 pub const LONGEST_BINDING: u64 = (1 << 31) - 1;
@@ -34,12 +34,15 @@ pub struct Limits {
     pub slab: u64,
     /// Storage buffers that one kernel may bind.
     pub bindings: usize,
+    /// Points of a line that is transformed in one pass, at most.
+    pub longest_line: usize,
 }
 
 impl Limits {
     /// Slabs that one kernel binds at most.
-    fn most_slabs(&self) -> usize {
-        self.bindings.saturating_sub(BOUND_BESIDES)
+    fn most_slabs(&self, plan: &LevelPlan) -> usize {
+        let besides = BOUND_BESIDES + usize::from(plan.columns_then.is_some());
+        self.bindings.saturating_sub(besides)
     }
 
     /// Points along the side of the largest square grid that a device with these limits takes in
@@ -56,7 +59,7 @@ impl Limits {
 impl LevelPlan {
     /// The plan of a shape in as few slabs as the limits ask for; most grids take one.
     pub fn laid_out(shape: Shape, limits: &Limits, number: Number) -> Result<Self, GpuError> {
-        let plan = LevelPlan::new(shape, limits.group, number)?;
+        let plan = LevelPlan::with_lines(shape, limits.group, number, limits.longest_line)?;
         let number_bytes = number.bytes() as u64;
         let (pairs, width) = (plan.pairs() as u64, plan.shape[0] as u64);
         let field = 2 * pairs * width * number_bytes;
@@ -65,7 +68,7 @@ impl LevelPlan {
             bytes,
             limit,
         };
-        let most = limits.most_slabs();
+        let most = limits.most_slabs(&plan);
         let least = field.div_ceil(limits.slab.max(1)).max(1);
         // Slabs alike, so that one shader serves them all.
         let slabs = (least..=most as u64)

@@ -5,6 +5,7 @@
 //! bound whether a kernel uses it or not.
 
 mod deciding;
+mod long;
 mod slabs;
 
 use std::fmt::Write;
@@ -19,6 +20,7 @@ use super::level::{SWEEP_SUMS_AT_ONCE, SWEEP_THREADS};
 use super::plan::LinePlan;
 use crate::kernel::{Form, Gate, Kernel, Reduce, SUMS};
 pub use deciding::{PAIRS, Reduction, Results, decide, two_sums};
+pub use long::{Pass, multiply_long, rows_then};
 pub use slabs::Whole;
 use slabs::{Work, after_turns, first_turn};
 
@@ -283,10 +285,7 @@ fn rows_head(source: &mut String, name: &str, plan: &LevelPlan, open: &str) {
          {open}\
          let line = place.x;\n\
          let thread = place.y;\n\
-         let pair = group.x * LINES + line;\n\
-         let inside = pair < {pairs}u;\n\
          if ({first_turn}group.x == 0u && index_in_group == 0u) {{ partials.transforms = partials.transforms + 1u; }}\n",
-        pairs = plan.slab_pairs(),
         first_turn = first_turn(plan.slabs),
     );
 }
@@ -294,37 +293,40 @@ fn rows_head(source: &mut String, name: &str, plan: &LevelPlan, open: &str) {
 fn load_main(source: &mut String, kernel: &Kernel, plan: &LevelPlan) {
     let (open, close) = frame(kernel);
     rows_head(source, kernel.name, plan, &open);
-    let width = plan.shape[0];
-    let (pairs, half) = (plan.slab_pairs(), plan.slab_pairs() * width);
+    let half = plan.slab_pairs() * plan.shape[0];
     let (first, last) = ends(&plan.rows);
-    let mut writer = LineWriter::new(&plan.rows, true);
+    let mut writer = long::row_writer(plan);
+    let (open, end) = long::row_frame(plan);
+    source.push_str(&open);
     writer.source.push_str("if (inside) {\n");
     writer.butterflies(first, |source, each| {
         for leg in 0..each.radix {
             let _ = writeln!(
                 source,
-                "{{ let index = pair * {width}u + {};\n\
+                "{{ let index = {};\n\
                  {} = vec2<real>(load_point(index, arrive(index)), load_point(index + {half}u, arrive(index + {half}u))); }}",
-                each.position(leg),
+                long::row_index(plan, &each.position(leg)),
                 each.name(leg),
             );
         }
     });
     writer.source.push_str("}\n");
     writer.transform(Direction::Forward);
+    long::row_turn(&mut writer, plan, Direction::Forward);
     writer.source.push_str("if (inside) {\n");
     writer.butterflies(last, |source, each| {
         for leg in 0..each.radix {
             let _ = writeln!(
                 source,
-                "work[{} * {pairs}u + pair] = {};",
-                each.position(leg),
+                "{} = {};",
+                long::row_place(plan, &each.position(leg)),
                 each.name(leg)
             );
         }
     });
     writer.source.push_str("}\n");
     source.push_str(&writer.source);
+    source.push_str(end);
     source.push_str(close);
     source.push_str("}\n");
 }
@@ -332,38 +334,41 @@ fn load_main(source: &mut String, kernel: &Kernel, plan: &LevelPlan) {
 fn store_main(source: &mut String, kernel: &Kernel, plan: &LevelPlan) {
     let (open, close) = frame(kernel);
     rows_head(source, kernel.name, plan, &open);
-    let width = plan.shape[0];
-    let (pairs, half) = (plan.slab_pairs(), plan.slab_pairs() * width);
+    let half = plan.slab_pairs() * plan.shape[0];
     let (first, last) = ends(&plan.rows);
-    let mut writer = LineWriter::new(&plan.rows, true);
+    let mut writer = long::row_writer(plan);
+    let (open, end) = long::row_frame(plan);
+    source.push_str(&open);
     writer.source.push_str("if (inside) {\n");
     writer.butterflies(last, |source, each| {
         for leg in 0..each.radix {
             let _ = writeln!(
                 source,
-                "{} = work[{} * {pairs}u + pair];",
+                "{} = {};",
                 each.name(leg),
-                each.position(leg),
+                long::row_place(plan, &each.position(leg)),
             );
         }
     });
     writer.source.push_str("}\n");
+    long::row_turn(&mut writer, plan, Direction::Inverse);
     writer.transform(Direction::Inverse);
     writer.source.push_str("if (inside) {\n");
     writer.butterflies(first, |source, each| {
         for leg in 0..each.radix {
             let _ = writeln!(
                 source,
-                "{{ let index = pair * {width}u + {};\n\
+                "{{ let index = {};\n\
                  store_point(index, arrive(index), {name}.x);\n\
                  store_point(index + {half}u, arrive(index + {half}u), {name}.y); }}",
-                each.position(leg),
+                long::row_index(plan, &each.position(leg)),
                 name = each.name(leg),
             );
         }
     });
     writer.source.push_str("}\n");
     source.push_str(&writer.source);
+    source.push_str(end);
     source.push_str(close);
     source.push_str("}\n");
 }
@@ -410,12 +415,15 @@ pub fn multiply(plan: &LevelPlan, energy: bool, gate: Gate, wide: Wide) -> Strin
          let column = {before}group.x * LINES + line;\n\
          let inside = {inside};\n\
          let own = column == 0u || 2u * column == {width}u;\n\
-         let here = column * {pairs}u;\n\
-         let there = select({width}u - column, 0u, column == 0u) * {pairs}u;\n\
+         let here = {here} * {pairs}u;\n\
+         let mirror_column = select({width}u - column, 0u, column == 0u);\n\
+         let there = {there} * {pairs}u;\n\
          if ({first_turn}group.x == 0u && index_in_group == 0u) {{ partials.transforms = partials.transforms + 2u; }}\n",
         gate = gate_name(gate),
         start = if energy { "start_sums();\n" } else { "" },
         factors = 1 + plan.slabs,
+        here = plan.place_of("column"),
+        there = plan.place_of("mirror_column"),
         before = after_turns(plan.parts, plan.part_columns()),
         first_turn = first_turn(plan.parts),
         inside = match plan.parts {

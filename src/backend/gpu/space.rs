@@ -10,6 +10,8 @@ pub struct LevelSpace {
     pub partials: wgpu::Buffer,
     /// Transforms of pairs of rows, `[nx, pairs]` complex numbers a slab.
     pub work: Vec<wgpu::Buffer>,
+    /// Halves of long columns that are their own mirror images.
+    pub spare: Option<wgpu::Buffer>,
     /// For each slab or part of a spectrum its number; empty where there is one of each.
     pub turns: Vec<wgpu::Buffer>,
     /// Roots of unity of nx.
@@ -51,6 +53,8 @@ pub fn buffer(
 pub enum Key {
     /// A kernel of the catalogue, its level, whether it works on corrections, and its fields.
     Kernel(&'static str, usize, bool, Vec<usize>),
+    /// The second pass over long rows of a level, forward or back, behind a gate.
+    RowsThen(usize, bool, &'static str),
     /// The columns with a spectrum, with or without the energy, behind a gate.
     Multiply(usize, bool, &'static str),
     /// Sums by their name and level, then scalar kernels.

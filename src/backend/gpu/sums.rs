@@ -35,7 +35,7 @@ impl GpuBackend {
             "check",
             source::two_sums(),
             &[(WORKING, &shared), (&[Access::Read], &[&given])],
-            1,
+            [1, 1],
         )?;
         self.recorder.dispatch(prepared)?;
         let bytes = self.recorder.read(&[Part {

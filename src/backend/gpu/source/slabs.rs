@@ -163,6 +163,22 @@ impl Work {
         (slab == last && slab < self.slabs).then_some(slab)
     }
 
+    /// Reads a pair of the column at `base`, in whichever slab.
+    pub(super) fn read_at(&self, base: &str, pair: &str) -> String {
+        match self.slabs {
+            1 => format!("work[{base} + {pair}]"),
+            _ => format!("read_work({base}, {pair})"),
+        }
+    }
+
+    /// Writes it.
+    pub(super) fn write_at(&self, base: &str, pair: &str, value: &str) -> String {
+        match self.slabs {
+            1 => format!("work[{base} + {pair}] = {value};"),
+            _ => format!("write_work({base}, {pair}, {value});"),
+        }
+    }
+
     /// Reads pair `j + first` of the column at `base`, where j is below `count`.
     pub(super) fn read(&self, base: &str, first: usize, count: usize) -> String {
         match self.slab_of(first, count) {
