@@ -10,6 +10,7 @@ use tabor::backend::cpu::CpuBackend;
 use tabor::backend::gpu::Wide;
 use tabor::backend::{Backend, Field, Level, Shape};
 use tabor::kernel::common::{LOAD_FIELD, STORE_PRESSURE};
+use tabor::kernel::wall::{WALL_DESCENT, WALL_TRIAL};
 use tabor::kernel::{Form, Gate, Kernel, Params, Scalars, Status};
 use tabor::law::{Exponential, Law, LennardJones, MaugisDugdale};
 
@@ -67,8 +68,8 @@ fn params(law: Law, fixed_gap: bool) -> Params {
     }
 }
 
-/// A state in which every gate is open and every factor counts.
-fn open() -> Scalars {
+/// A state in which this gate is open and every factor counts.
+fn open(gate: Gate) -> Scalars {
     Scalars {
         mean_pressure: 0.1,
         descent: -1.0,
@@ -79,7 +80,7 @@ fn open() -> Scalars {
         step: 0.6,
         snap: 1e-3,
         accepted: true,
-        searching: true,
+        searching: gate == Gate::Searching,
         status: Status::Running,
         ..Scalars::start(0.1, false)
     }
@@ -102,13 +103,22 @@ fn gap_like(numbers: &mut Numbers, count: usize, law: &Law, flows: bool) -> Vec<
     numbers.field(count).iter().map(gap).collect()
 }
 
-/// Runs a kernel on a fresh level with seeded fields; `poison` fills its written fields with NaN.
+/// A state in which a wall's descent and trial pass lines on where all points are open.
+fn passing() -> Scalars {
+    Scalars {
+        descent: 1.0,
+        ..Scalars::start(0.0, false)
+    }
+}
+
+/// Runs a kernel on a fresh level with seeded fields; `poison` tells which of its written fields are
+/// filled with NaN.
 fn run(
     backend: &mut dyn Backend,
     kernel: &'static Kernel,
     params: &Params,
     shape: Shape,
-    poison: bool,
+    poison: &[bool],
     patterned: bool,
     based: bool,
 ) -> Trace {
@@ -137,7 +147,7 @@ fn run(
         } else {
             numbers.field(own.len())
         };
-        let values = match written && poison {
+        let values = match written && poison[place - kernel.reads] {
             true => vec![f64::NAN; own.len()],
             false => values,
         };
@@ -165,23 +175,38 @@ fn run(
         backend.set_base(Some(base));
     }
     backend.set_params(params);
-    backend.set_scalars(&open());
+    backend.set_scalars(&passing());
+    let far = vec![1e3; own.len()];
+    let [open_gap, blank, other_blank] =
+        [&far[..], &numbers.field(own.len()), &far].map(|values| make(backend, level, values));
+    if kernel.form != Form::Sweep && kernel.form != Form::Load {
+        backend.forward(&LOAD_FIELD, level, &[lines]);
+        backend.multiply(ones, false, Gate::Always);
+    }
+    if kernel.form.takes_kept() {
+        // Everywhere open, the descent keeps the lines as they are.
+        backend.backward(&WALL_DESCENT, level, &[open_gap, blank, other_blank]);
+    }
+    backend.set_scalars(&open(kernel.gate));
     match kernel.form {
-        Form::Sweep => backend.sweep(kernel, level, &fields),
-        Form::Load => {
-            backend.forward(kernel, level, &fields);
-            backend.multiply(ones, false, Gate::Always);
-            backend.backward(&STORE_PRESSURE, level, &[lines]);
-        }
-        Form::Store => {
-            backend.forward(&LOAD_FIELD, level, &[lines]);
-            backend.multiply(ones, false, Gate::Always);
-            backend.backward(kernel, level, &fields);
-        }
+        Form::Sweep | Form::Peek => backend.sweep(kernel, level, &fields),
+        Form::Load | Form::Resume => backend.forward(kernel, level, &fields),
+        Form::Store | Form::Keep => backend.backward(kernel, level, &fields),
+        Form::Turn => backend.turn(kernel, level, &fields),
     }
     let scalars = backend
         .scalars()
         .unwrap_or_else(|error| panic!("{}: {error}", kernel.name));
+    if kernel.form == Form::Keep {
+        // Everywhere open, the trial loads what was kept.
+        backend.set_scalars(&passing());
+        backend.forward(&WALL_TRIAL, level, &[open_gap, blank, other_blank]);
+    }
+    let gives = kernel.form.before_forward() || kernel.form == Form::Keep;
+    if gives {
+        backend.multiply(ones, false, Gate::Always);
+        backend.backward(&STORE_PRESSURE, level, &[lines]);
+    }
     let written = fields[kernel.reads..kernel.reads + kernel.writes].to_vec();
     let mut read = |field| {
         backend
@@ -189,7 +214,7 @@ fn run(
             .unwrap_or_else(|error| panic!("{error}"))
     };
     let mut traces: Vec<_> = written.into_iter().map(&mut read).collect();
-    if kernel.form == Form::Load {
+    if gives {
         traces.push(read(lines));
     }
     Trace {
@@ -253,23 +278,30 @@ fn kernels_agree_with_their_twins() {
                 let params = params(law, fixed_gap);
                 let cpu = || CpuBackend::<f32>::new();
                 // Fields that are only written are poisoned, so that what is left out shows.
-                let poison = is_number(&run(
+                let poison: Vec<bool> = (0..kernel.writes)
+                    .map(|place| {
+                        let mut one = vec![false; kernel.writes];
+                        one[place] = true;
+                        let cpu = &mut cpu();
+                        is_number(&run(cpu, kernel, &params, shape, &one, patterned, based))
+                    })
+                    .collect();
+                let twin = run(
                     &mut cpu(),
                     kernel,
                     &params,
                     shape,
-                    true,
+                    &poison,
                     patterned,
                     based,
-                ));
-                let twin = run(&mut cpu(), kernel, &params, shape, poison, patterned, based);
+                );
                 assert!(is_number(&twin), "{} {law_name}", kernel.name);
                 let ours = run(
                     &mut backend(device),
                     kernel,
                     &params,
                     shape,
-                    poison,
+                    &poison,
                     patterned,
                     based,
                 );
@@ -309,6 +341,7 @@ fn numbers(s: &Scalars) -> Vec<(&'static str, f64)> {
     let mut all: Vec<_> = s.sums.iter().map(|&x| ("sums", x)).collect();
     all.extend(s.low.iter().map(|&x| ("low", x)));
     all.extend(s.high.iter().map(|&x| ("high", x)));
+    all.extend(s.carried.iter().map(|&x| ("carried", x)));
     all.extend([
         ("mean_pressure", s.mean_pressure),
         ("descent", s.descent),
@@ -319,7 +352,6 @@ fn numbers(s: &Scalars) -> Vec<(&'static str, f64)> {
         ("slope", s.slope),
         ("curvature", s.curvature),
         ("elastic_slope", s.elastic_slope),
-        ("plain_shift", s.plain_shift),
         ("up", s.up),
         ("down", s.down),
         ("step", s.step),
@@ -350,7 +382,8 @@ fn numbers(s: &Scalars) -> Vec<(&'static str, f64)> {
 }
 
 /// A state drawn at random; some of its numbers are the special ones on which decisions turn.
-fn drawn(random: &mut Numbers) -> Scalars {
+/// `searches` where the kernel is part of a search.
+fn drawn(random: &mut Numbers, searches: bool) -> Scalars {
     let mut number = |special: &[f64]| {
         let pick = ((random.next() + 0.5) * 12.0) as usize;
         special
@@ -364,11 +397,13 @@ fn drawn(random: &mut Numbers) -> Scalars {
         *sum = number(&[0.0, infinite, f64::NAN, 1e-9]);
     }
     scalars.sums[1] = scalars.sums[1].abs();
+    let [first, second] = &mut scalars.carried;
     for value in [
+        first,
+        second,
         &mut scalars.memory,
         &mut scalars.shift,
         &mut scalars.trial,
-        &mut scalars.plain_shift,
         &mut scalars.slope,
         &mut scalars.curvature,
         &mut scalars.elastic_slope,
@@ -391,7 +426,7 @@ fn drawn(random: &mut Numbers) -> Scalars {
     scalars.restart = flag(0.2);
     scalars.accepted = flag(0.8);
     scalars.truncated = flag(0.5);
-    scalars.searching = flag(0.8);
+    scalars.searching = flag(if searches { 0.8 } else { 0.1 });
     scalars.careful = flag(0.2);
     scalars.status = if flag(0.1) {
         Status::Converged
@@ -400,7 +435,7 @@ fn drawn(random: &mut Numbers) -> Scalars {
     };
     let mut count = |most: f64| ((random.next() + 0.5) * most) as u32;
     scalars.evaluations = [count(8.0), 39][(count(8.0) == 0) as usize];
-    scalars.lost = [4, 24, count(5.0)][count(3.0) as usize];
+    scalars.lost = [4, 24, count(5.0), 0, 0, 0][count(6.0) as usize];
     scalars.stalls = count(5.0);
     scalars.at_floor = [19, count(5.0)][count(2.0) as usize];
     scalars.iterations = 1 + count(100.0);
@@ -421,7 +456,7 @@ fn scalar_kernels_agree_with_their_twins() {
         for round in 0..60 {
             let (_, law) = laws()[round % 5];
             let params = params(law, round % 2 == 0);
-            let mut twin = drawn(&mut random);
+            let mut twin = drawn(&mut random, kernel.name.starts_with("search"));
             backend.set_params(&params);
             backend.set_scalars(&twin);
             backend.scalar(kernel);
@@ -470,7 +505,7 @@ fn sums_without_double_precision_are_compensated() {
     let pressure = backend.field(level, "pressure");
     backend.write(gap, &values);
     backend.set_params(&params(Law::HardWall, true));
-    backend.set_scalars(&open());
+    backend.set_scalars(&open(Gate::Running));
     backend.sweep(&tabor::kernel::wall::WALL_BALANCE, level, &[gap, pressure]);
     let sums = backend
         .scalars()

@@ -2,7 +2,7 @@
 
 use naga::valid::{Capabilities, ModuleInfo, ValidationFlags, Validator};
 use tabor::backend::Shape;
-use tabor::backend::gpu::source::{self, LawSource, LevelPlan, Reduction, Results};
+use tabor::backend::gpu::source::{self, Decision, LawSource, LevelPlan, Reduction, Results};
 use tabor::backend::gpu::{Exchange, GroupLimits, LawPart, Number, Wide};
 use tabor::kernel::common::{LOAD_FIELD, STORE_PRESSURE};
 use tabor::kernel::{Gate, Reduce};
@@ -29,10 +29,11 @@ const NUMBERS: [(Number, Wide); 4] = [
     (Number::Single, Wide::Double),
     (Number::Double, Wide::Double),
 ];
-const GATES: [Gate; 5] = [
+const GATES: [Gate; 6] = [
     Gate::Always,
     Gate::Running,
     Gate::Fresh,
+    Gate::Ahead,
     Gate::Accepted,
     Gate::Searching,
 ];
@@ -182,9 +183,10 @@ fn reductions_are_valid() {
                 let reduction = Reduction {
                     results,
                     groups: 7,
+                    first: 5,
                     gate,
                 };
-                let text = source::decide(Some(reduction), &[], wide)
+                let text = source::decide(&[Decision::Sums(reduction); 2], wide)
                     .unwrap_or_else(|error| panic!("{error}"));
                 validate("decide", &text, wide);
             }
@@ -196,8 +198,8 @@ fn reductions_are_valid() {
 fn scalar_kernels_are_valid() {
     for wide in WIDES {
         for kernel in SCALAR_KERNELS {
-            let text =
-                source::decide(None, &[kernel], wide).unwrap_or_else(|error| panic!("{error}"));
+            let text = source::decide(&[Decision::Scalar(kernel)], wide)
+                .unwrap_or_else(|error| panic!("{error}"));
             validate(kernel.name, &text, wide);
         }
     }

@@ -314,7 +314,9 @@ fn looking_less_often_changes_no_bit() {
         assert_eq!(one.outcome, eight.outcome);
         assert_eq!(one.gap, eight.gap);
         assert_eq!(one.pressure, eight.pressure);
-        assert_eq!(one.transforms, eight.transforms);
+        // A direction that was readied and not taken: two transforms, and the half that brings it back.
+        let more = eight.transforms - one.transforms;
+        assert!((0.0..=2.5).contains(&more), "{more} transforms more");
     }
 }
 
@@ -463,17 +465,19 @@ fn mixed_precision_on_the_device_reaches_the_tolerance_of_double() {
 }
 
 /// Fields that a kernel writes without reading what was there; all others that it writes it updates.
-const ONLY_WRITTEN: [(&str, usize); 10] = [
+const ONLY_WRITTEN: [(&str, usize); 12] = [
     ("wall_free_kept", 1),
-    ("wall_descent", 1),
-    ("wall_descent_two_band", 1),
-    ("core_descent", 1),
+    ("wall_turn", 1),
+    ("wall_turn_kept", 2),
+    ("wall_advance", 1),
+    ("core_turn", 1),
+    ("core_trial", 1),
     ("core_direct", 1),
+    ("core_advance", 1),
     ("coarse_restrict", 2),
-    ("coarse_weight", 1),
+    ("coarse_weigh", 1),
     ("coarse_store", 1),
     ("store_pressure", 1),
-    ("wall_residual", 0),
 ];
 
 /// Fields that passes move, in numbers a point of the fine grid: those bound, twice where they are
@@ -504,30 +508,32 @@ fn fields_moved(passes: &[&'static str]) -> f64 {
         if kernel.whole {
             moved += if own == coarse { fine } else { coarse };
         }
-        if kernel.form != Form::Sweep {
-            moved += own;
-        }
+        moved += own
+            * match kernel.form {
+                Form::Sweep => 0.0,
+                Form::Load | Form::Store | Form::Peek => 1.0,
+                // The work space is read and written.
+                Form::Keep | Form::Resume | Form::Turn => 2.0,
+            };
         // The last store on the coarse level hands over to the fine columns.
         level = if name == "coarse_store" { fine } else { own };
     }
     moved
 }
 
-/// Dispatches and passes of so many iterations from cold, with what readies them.
+/// Dispatches and passes of so many iterations from cold that are not looked at, with what readies them.
 fn iterations(
     device: &GpuDevice,
     problem: &Problem,
     load: &Load,
     count: usize,
 ) -> (Traffic, Vec<&'static str>) {
-    let mut watching = Watching::over(backend(device));
+    let mut watching = Watching::over(backend(device).looking_every(count));
     let mut solver = ContactSolver::new(&mut watching, problem);
     solver
         .begin(load, &Start::Cold, 0.0, false)
+        .and_then(|()| solver.advance(count))
         .unwrap_or_else(|error| panic!("{error}"));
-    for _ in 0..count {
-        solver.iterate().unwrap_or_else(|error| panic!("{error}"));
-    }
     let passes = watching.here.lock().expect("nobody panics here").clone();
     (watching.inner.traffic(), passes)
 }
@@ -560,13 +566,13 @@ fn an_iteration_costs_what_the_crate_page_says() {
             true => at_gap(&problem, 0.03),
             false => at_pressure(&problem, 0.05),
         };
-        let (before, passes_before) = iterations(device, &problem, &load, 1);
-        let (after, passes) = iterations(device, &problem, &load, 2);
+        let (before, passes_before) = iterations(device, &problem, &load, 2);
+        let (after, passes) = iterations(device, &problem, &load, 3);
         let passes = &passes[passes_before.len()..];
         let is_search = |name: &&&str| name.ends_with("_search");
         let searches = passes.iter().filter(is_search).count() as u64;
-        // A search is its kernel and the decision after it; what would be decided before the first
-        // one joins that of the last.
+        // A search is its kernel and the decision after it; what would be decided without one joins
+        // that of the last.
         let dispatches = after.dispatches - before.dispatches - 2 * searches;
         let rest: Vec<_> = passes
             .iter()
@@ -625,8 +631,8 @@ fn nothing_but_corrections_crosses_the_bus() {
             .filter(|&&name| name == "load_displacement")
             .count();
         println!("{outcome:?} {traffic:?}, {evaluations} evaluations");
-        // As the crate page has it, an iteration of this law takes 11.
-        assert!(traffic.dispatches >= 11 * outcome.iterations as u64);
+        // As the crate page has it, an iteration of this law takes 7.
+        assert!(traffic.dispatches >= 7 * outcome.iterations as u64);
         let residual = [
             "load_displacement",
             "multiply",

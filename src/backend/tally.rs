@@ -194,6 +194,11 @@ impl Backend for Tally {
         self.transforms += 0.5 * self.share_of_first(level);
     }
 
+    fn turn(&mut self, kernel: &'static Kernel, level: Level, fields: &[Field]) {
+        self.pass(kernel, fields);
+        self.transforms += self.share_of_first(level);
+    }
+
     fn epsilon(&self) -> f64 {
         f64::EPSILON
     }

@@ -174,6 +174,7 @@ impl ContactSolver<'_> {
         let mut scalars = Scalars::start(0.0, false);
         scalars.iterations = iterations as u32;
         self.backend.set_scalars(&scalars);
+        self.ready();
         let round = self.run_out(iterations, most, watch)?;
         let correction = self.backend.read(self.gap)?;
         self.backend.set_base(None);

@@ -124,6 +124,10 @@ macro_rules! passed_on {
             self.note(kernel.name);
             self.inner.backward(kernel, level, fields);
         }
+        fn turn(&mut self, kernel: &'static Kernel, level: Level, fields: &[Field]) {
+            self.note(kernel.name);
+            self.inner.turn(kernel, level, fields);
+        }
         fn epsilon(&self) -> f64 {
             self.inner.epsilon()
         }

@@ -31,7 +31,7 @@ use super::{Backend, BackendError, Field, Level, Shape, Spectrum};
 use crate::kernel::{Form, Gate, Kernel, Params, ScalarKernel, Scalars};
 use bindings::{COLUMNS, ROWS, WORKING};
 use deciding::{Decided, Deciding};
-use level::LevelPlan;
+use level::{LevelPlan, Place};
 use recorder::{Prepared, Recorder};
 use source::{Reduction, Results};
 use space::{FieldSpace, Key, LevelSpace, SpectrumSpace};
@@ -255,16 +255,6 @@ impl GpuBackend {
         })
     }
 
-    /// Records a dispatch over points, after what waits to be decided.
-    fn record(
-        &mut self,
-        key: Key,
-        prepare: impl FnOnce(&Self) -> Result<Prepared, GpuError>,
-    ) -> Result<(), GpuError> {
-        self.settle()?;
-        self.dispatch(key, prepare)
-    }
-
     /// Finds a prepared dispatch or prepares it, and records it.
     fn dispatch(
         &mut self,
@@ -300,19 +290,28 @@ impl GpuBackend {
         }
         let indices = fields.iter().map(|field| field.index).collect();
         let key = Key::Kernel(kernel.name, level.0, self.base.is_some(), indices);
-        self.record(key, |backend| backend.kernel(kernel, level, fields))?;
+        let place = Place::of(kernel.form);
+        if kernel.gate != Gate::Ahead {
+            self.settle()?;
+        } else if !kernel.sums.is_empty() {
+            self.make_room(level, place)?;
+        }
+        self.dispatch(key, |backend| backend.kernel(kernel, level, fields))?;
         if kernel.sums.is_empty() {
             return Ok(());
         }
-        let groups = self.level_space(level)?.plan.groups(kernel.form);
-        self.deciding.reduction = Some(Decided {
+        let plan = &self.level_space(level)?.plan;
+        let reduction = Reduction {
+            results: Results::Sums(kernel.sums),
+            groups: plan.groups(kernel.form),
+            first: plan.first_partial(place),
+            gate: kernel.gate,
+        };
+        self.put_off(Decided {
             name: kernel.name,
             level,
-            reduction: Reduction {
-                results: Results::Sums(kernel.sums),
-                groups,
-                gate: kernel.gate,
-            },
+            place,
+            reduction,
         });
         Ok(())
     }
@@ -380,8 +379,16 @@ impl GpuBackend {
     }
 
     fn columns(&mut self, by: Spectrum, energy: bool, gate: Gate) -> Result<(), GpuError> {
+        // It changes the work space alone, so it need not wait for the decision whether to run.
+        let gate = match gate {
+            Gate::Accepted => Gate::Running,
+            other => other,
+        };
         let word = source::gate_name(gate);
-        self.record(Key::Multiply(by.index, energy, word), |backend| {
+        if energy {
+            self.make_room(by.level, Place::Columns)?;
+        }
+        self.dispatch(Key::Multiply(by.index, energy, word), |backend| {
             let space = backend.level_space(by.level)?;
             let text = source::multiply(&space.plan, energy, gate, backend.wide);
             let shared = [&backend.params, &backend.scalars, &space.partials];
@@ -402,11 +409,13 @@ impl GpuBackend {
         let reduction = Reduction {
             results: Results::Curvature(plan.points()),
             groups: plan.column_groups(),
+            first: plan.first_partial(Place::Columns),
             gate,
         };
-        self.deciding.reduction = Some(Decided {
+        self.put_off(Decided {
             name: word,
             level: by.level,
+            place: Place::Columns,
             reduction,
         });
         Ok(())
@@ -554,7 +563,7 @@ impl Backend for GpuBackend {
     }
 
     fn scalar(&mut self, kernel: &'static ScalarKernel) {
-        self.deciding.kernels.push(kernel);
+        self.deciding.decide(kernel);
     }
 
     fn forward(&mut self, kernel: &'static Kernel, level: Level, fields: &[Field]) {
@@ -566,6 +575,10 @@ impl Backend for GpuBackend {
     }
 
     fn backward(&mut self, kernel: &'static Kernel, level: Level, fields: &[Field]) {
+        self.attempt(|backend| backend.run(kernel, level, fields));
+    }
+
+    fn turn(&mut self, kernel: &'static Kernel, level: Level, fields: &[Field]) {
         self.attempt(|backend| backend.run(kernel, level, fields));
     }
 

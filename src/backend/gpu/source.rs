@@ -2,9 +2,12 @@
 //!
 //! Group 0 binds the params, the scalars and the level's partial sums; group 1 the kernel's fields
 //! in declared order; group 2 the roots of unity and the work space of a transform. Each of them is
-//! bound whether a kernel uses it or not.
+//! bound whether a kernel uses it or not. A kernel's own part is a function of a point: `point` of a
+//! sweep, `load_point` where lines are filled, `store_point` where they are taken, `pass_point` where
+//! they are taken and others given.
 
 mod deciding;
+mod rows;
 
 use std::fmt::Write;
 
@@ -14,10 +17,11 @@ use super::error::GpuError;
 use super::fft::LineWriter;
 use super::layout::{self, Number, Wide};
 pub use super::level::LevelPlan;
-use super::level::{SWEEP_SUMS_AT_ONCE, SWEEP_THREADS};
+use super::level::{Place, SWEEP_SUMS_AT_ONCE, SWEEP_THREADS};
 use super::plan::LinePlan;
 use crate::kernel::{Form, Gate, Kernel, Reduce, SUMS};
-pub use deciding::{PAIRS, Reduction, Results, decide, two_sums};
+pub use deciding::{Decision, PAIRS, Reduction, Results, decide, two_sums};
+use rows::rows_main;
 
 /// The law of a kernel: its part, and where the factors on its tension are bound.
 #[derive(Clone, Copy, Debug)]
@@ -47,7 +51,8 @@ pub fn gate_name(gate: Gate) -> &'static str {
     match gate {
         Gate::Always => "gate_always",
         Gate::Running => "gate_running",
-        Gate::Fresh => "gate_fresh",
+        // Ahead of decisions it is what it was after the last ones.
+        Gate::Fresh | Gate::Ahead => "gate_fresh",
         Gate::Accepted => "gate_accepted",
         Gate::Searching => "gate_searching",
     }
@@ -70,13 +75,13 @@ fn neutral(reduce: Reduce) -> &'static str {
 }
 
 /// The parts before a kernel: numbers and gates.
-fn preamble(source: &mut String, wide: Wide, access: &str) {
+fn preamble(source: &mut String, wide: Wide, access: &str, sums: usize) {
     source.push_str(&layout::declarations(wide));
     source.push_str(catalogue::COMMON);
     let _ = writeln!(
         source,
         "@group(0) @binding(1) var<storage, {access}> scalars: Scalars;\n\
-         const SUM_COUNT: u32 = {SUMS}u;\n\
+         const SUM_COUNT: u32 = {sums}u;\n\
          // Parts shared between kernels name sums that not all of them have.\n\
          var<private> sums: array<wide, SUM_COUNT>;"
     );
@@ -114,8 +119,8 @@ fn reduction(source: &mut String, reduces: &[Reduce], threads: usize, at_once: u
     source.push_str("}\n");
 }
 
-/// How a workgroup hands in its sums, after `reduction`.
-fn hand_in(source: &mut String, reduces: &[Reduce], groups: usize) {
+/// How a workgroup hands in its sums, after `reduction`; `first_partial` is where they begin.
+fn hand_in(source: &mut String, reduces: &[Reduce], groups: usize, first_partial: usize) {
     let count = reduces.len();
     let _ = write!(
         source,
@@ -123,7 +128,7 @@ fn hand_in(source: &mut String, reduces: &[Reduce], groups: usize) {
          for (var first = 0u; first < {count}u; first = first + SUMS_AT_ONCE) {{\n\
          gather(first, thread);\n\
          if (thread < SUMS_AT_ONCE && first + thread < {count}u) {{\n\
-         partials.values[(first + thread) * {groups}u + group] = group_values[thread * GROUP_THREADS];\n\
+         partials.values[{first_partial}u + (first + thread) * {groups}u + group] = group_values[thread * GROUP_THREADS];\n\
          }}\n}}\n}}\n"
     );
 }
@@ -183,15 +188,16 @@ pub fn kernel(
 ) -> Result<String, GpuError> {
     let shader = catalogue::shader(kernel.name).ok_or(GpuError::NoShader(kernel.name))?;
     let mut source = plan.number.declaration();
-    preamble(&mut source, wide, "read");
+    preamble(&mut source, wide, "read", SUMS);
     if !kernel.sums.is_empty() {
         let (threads, at_once) = match kernel.form {
             Form::Sweep => (SWEEP_THREADS, SWEEP_SUMS_AT_ONCE),
-            Form::Load | Form::Store => (plan.rows.group_threads(), plan.rows.sums_at_once),
+            _ => (plan.rows.group_threads(), plan.rows.sums_at_once),
         };
         let at_once = at_once.min(kernel.sums.len());
         reduction(&mut source, kernel.sums, threads, at_once);
-        hand_in(&mut source, kernel.sums, plan.groups(kernel.form));
+        let first = plan.first_partial(Place::of(kernel.form));
+        hand_in(&mut source, kernel.sums, plan.groups(kernel.form), first);
     }
     on_surface(&mut source, plan);
     arrive(&mut source, law);
@@ -205,8 +211,7 @@ pub fn kernel(
     join(&mut source, shader, law, plan.number);
     match kernel.form {
         Form::Sweep => sweep_main(&mut source, kernel, plan),
-        Form::Load => load_main(&mut source, kernel, plan),
-        Form::Store => store_main(&mut source, kernel, plan),
+        _ => rows_main(&mut source, kernel, plan),
     }
     Ok(source)
 }
@@ -254,104 +259,6 @@ fn sweep_main(source: &mut String, kernel: &Kernel, plan: &LevelPlan) {
     );
 }
 
-/// The head of a kernel that transforms pairs of rows; `pair` is this thread's pair of rows.
-fn rows_head(source: &mut String, name: &str, plan: &LevelPlan, open: &str) {
-    source.push_str(&LineWriter::declarations(&plan.rows));
-    source.push_str(catalogue::FFT);
-    let [x, y] = LineWriter::workgroup_size(&plan.rows, true);
-    let _ = write!(
-        source,
-        "@group(2) @binding(0) var<storage, read> roots: array<vec2<real>>;\n\
-         @group(2) @binding(1) var<storage, read_write> work: array<vec2<real>>;\n\
-         @compute @workgroup_size({x}, {y})\n\
-         fn {name}(@builtin(workgroup_id) group: vec3<u32>, @builtin(local_invocation_id) place: vec3<u32>, @builtin(local_invocation_index) index_in_group: u32) {{\n\
-         {open}\
-         let line = place.x;\n\
-         let thread = place.y;\n\
-         let pair = group.x * LINES + line;\n\
-         let inside = pair < {pairs}u;\n\
-         if (group.x == 0u && index_in_group == 0u) {{ partials.transforms = partials.transforms + 1u; }}\n",
-        pairs = plan.pairs(),
-    );
-}
-
-fn load_main(source: &mut String, kernel: &Kernel, plan: &LevelPlan) {
-    let (open, close) = frame(kernel);
-    rows_head(source, kernel.name, plan, &open);
-    let width = plan.shape[0];
-    let (pairs, half) = (plan.pairs(), plan.pairs() * width);
-    let (first, last) = ends(&plan.rows);
-    let mut writer = LineWriter::new(&plan.rows, true);
-    writer.source.push_str("if (inside) {\n");
-    writer.butterflies(first, |source, each| {
-        for leg in 0..each.radix {
-            let _ = writeln!(
-                source,
-                "{{ let index = pair * {width}u + {};\n\
-                 {} = vec2<real>(load_point(index, arrive(index)), load_point(index + {half}u, arrive(index + {half}u))); }}",
-                each.position(leg),
-                each.name(leg),
-            );
-        }
-    });
-    writer.source.push_str("}\n");
-    writer.transform(Direction::Forward);
-    writer.source.push_str("if (inside) {\n");
-    writer.butterflies(last, |source, each| {
-        for leg in 0..each.radix {
-            let _ = writeln!(
-                source,
-                "work[{} * {pairs}u + pair] = {};",
-                each.position(leg),
-                each.name(leg)
-            );
-        }
-    });
-    writer.source.push_str("}\n");
-    source.push_str(&writer.source);
-    source.push_str(close);
-    source.push_str("}\n");
-}
-
-fn store_main(source: &mut String, kernel: &Kernel, plan: &LevelPlan) {
-    let (open, close) = frame(kernel);
-    rows_head(source, kernel.name, plan, &open);
-    let width = plan.shape[0];
-    let (pairs, half) = (plan.pairs(), plan.pairs() * width);
-    let (first, last) = ends(&plan.rows);
-    let mut writer = LineWriter::new(&plan.rows, true);
-    writer.source.push_str("if (inside) {\n");
-    writer.butterflies(last, |source, each| {
-        for leg in 0..each.radix {
-            let _ = writeln!(
-                source,
-                "{} = work[{} * {pairs}u + pair];",
-                each.name(leg),
-                each.position(leg),
-            );
-        }
-    });
-    writer.source.push_str("}\n");
-    writer.transform(Direction::Inverse);
-    writer.source.push_str("if (inside) {\n");
-    writer.butterflies(first, |source, each| {
-        for leg in 0..each.radix {
-            let _ = writeln!(
-                source,
-                "{{ let index = pair * {width}u + {};\n\
-                 store_point(index, arrive(index), {name}.x);\n\
-                 store_point(index + {half}u, arrive(index + {half}u), {name}.y); }}",
-                each.position(leg),
-                name = each.name(leg),
-            );
-        }
-    });
-    writer.source.push_str("}\n");
-    source.push_str(&writer.source);
-    source.push_str(close);
-    source.push_str("}\n");
-}
-
 /// First and last radix of a forward transform.
 fn ends(plan: &LinePlan) -> (usize, usize) {
     // A plan has at least one radix.
@@ -370,10 +277,11 @@ pub fn multiply(plan: &LevelPlan, energy: bool, gate: Gate, wide: Wide) -> Strin
     let [width, height] = plan.shape;
     let pairs = plan.pairs();
     let mut source = plan.number.declaration();
-    preamble(&mut source, wide, "read");
+    preamble(&mut source, wide, "read", SUMS);
     if energy {
         reduction(&mut source, &[Reduce::Add], columns.group_threads(), 1);
-        hand_in(&mut source, &[Reduce::Add], plan.column_groups());
+        let first = plan.first_partial(Place::Columns);
+        hand_in(&mut source, &[Reduce::Add], plan.column_groups(), first);
     }
     source.push_str(&LineWriter::declarations(columns));
     source.push_str(catalogue::FFT);

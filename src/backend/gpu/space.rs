@@ -53,8 +53,8 @@ pub enum Key {
     Kernel(&'static str, usize, bool, Vec<usize>),
     /// The columns with a spectrum, with or without the energy, behind a gate.
     Multiply(usize, bool, &'static str),
-    /// Sums by their name and level, then scalar kernels.
-    Decide(Option<(&'static str, usize)>, Vec<&'static str>),
+    /// Sums by their name and level, and scalar kernels.
+    Decide(Vec<(&'static str, Option<usize>)>),
 }
 
 /// The number that four bytes from the device are.
