@@ -50,7 +50,7 @@ fn params() -> Params {
 
 /// Those in double precision, whose shaders are slow to compile in software: every radix each way, and
 /// the ways of passing values between threads.
-const SIZES_IN_DOUBLE: [[usize; 2]; 5] = [[120, 84], [84, 120], [14, 250], [2048, 6], [6, 4096]];
+const SIZES_IN_DOUBLE: [[usize; 2]; 4] = [[120, 84], [28, 250], [2048, 2], [6, 4096]];
 
 /// What one convolution gives: of one field, of a sum of two, and the energy of the first.
 fn convolve(
