@@ -78,6 +78,11 @@ const SHADERS: &[Shader] = shaders! {
     "core_search" true ["core"];
     "core_advance" false [];
     "core_balance" true ["core"];
+    "base_total" true [];
+    "base_add_wall" false [];
+    "base_add_core" true ["core"];
+    "base_hold_wall" false [];
+    "base_hold_core" true ["core"];
     "coarse_restrict" false [];
     "coarse_share" false [];
     "coarse_weight" false [];
@@ -94,8 +99,14 @@ const OVER_FLOW: &[Shader] = over_flow! {
     "yield_trial" of "wall_trial" [];
 };
 
-/// Parts of the scalar kernels: those of every law, of a wall, of the Lennard-Jones core.
-const SCALAR_PARTS: [&str; 3] = [part!("scalar"), part!("scalar_wall"), part!("scalar_core")];
+/// Parts of the scalar kernels: those of every law, of a wall, of the Lennard-Jones core, of the base of
+/// corrections.
+const SCALAR_PARTS: [&str; 4] = [
+    part!("scalar"),
+    part!("scalar_wall"),
+    part!("scalar_core"),
+    part!("scalar_base"),
+];
 
 /// The parts from which a scalar kernel is called, if one of them defines it.
 pub fn scalar(name: &str) -> Option<Vec<&'static str>> {

@@ -4,6 +4,7 @@
 //! in declared order; group 2 the roots of unity and the work space of a transform. Each of them is
 //! bound whether a kernel uses it or not.
 
+mod convert;
 mod deciding;
 
 use std::fmt::Write;
@@ -17,6 +18,7 @@ pub use super::level::LevelPlan;
 use super::level::{SWEEP_SUMS_AT_ONCE, SWEEP_THREADS};
 use super::plan::LinePlan;
 use crate::kernel::{Form, Gate, Kernel, Reduce, SUMS};
+pub use convert::convert;
 pub use deciding::{PAIRS, Reduction, Results, decide, two_sums};
 
 /// The law of a kernel: its part, and where the factors on its tension are bound.
