@@ -111,7 +111,7 @@ fn pull_at(g: real, on_surface: bool) -> real {
 // The terms of the mean pressure that a held gap asks for.
 fn add_balance(g: real, p: real, on_surface: bool) {
     let y = wide(p + pull_at(g, on_surface));
-    let weight = wide(abs(open_gap(g)));
+    let weight = wide(abs(g));
     add_sum(0u, weight * y);
     add_sum(1u, weight);
     if (y < sums[2]) {

@@ -50,6 +50,8 @@ pub trait Floor<T: Real>: Copy {
     /// The gap after a step: `[step, t, snap]`, of which t is taken; gaps below `snap` that a step
     /// closes are closed.
     fn land(&self, law: &impl Cohesion<T>, gap: T, y: T, step: [T; 3]) -> T;
+    /// The weight of a point in the mean pressure that a held gap asks for.
+    fn weight(&self, law: &impl Cohesion<T>, gap: T) -> T;
     /// Attraction at a gap on the side on which the point is, less the floor's pressure below zero.
     fn traction(&self, law: &impl Cohesion<T>, gap: T) -> T;
 }
@@ -105,6 +107,11 @@ impl<T: Real> Floor<T> for Rigid {
         } else {
             gap + t * step
         }
+    }
+
+    #[inline(always)]
+    fn weight(&self, law: &impl Cohesion<T>, gap: T) -> T {
+        law.open(gap)
     }
 
     #[inline(always)]
@@ -197,6 +204,11 @@ impl<T: Real> Floor<T> for Yielding<T> {
                 moved
             }
         }
+    }
+
+    #[inline(always)]
+    fn weight(&self, _: &impl Cohesion<T>, gap: T) -> T {
+        gap.abs()
     }
 
     #[inline(always)]

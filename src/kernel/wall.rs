@@ -555,9 +555,9 @@ fn add_balance<T: Real>(
         law.beyond()
     };
     let y = (pressure + traction).double();
-    let open = law.open(gap).double().abs();
-    sums[0] += open * y;
-    sums[1] += open;
+    let weight = floor.weight(law, gap).double();
+    sums[0] += weight * y;
+    sums[1] += weight;
     if y < sums[2] {
         sums[2] = y;
     }

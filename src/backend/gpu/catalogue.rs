@@ -83,6 +83,11 @@ const SHADERS: &[Shader] = shaders! {
     "core_balance" true ["core"];
     "two_band_descent" false ["descend", "neighbours"];
     "two_band_descent_held" false ["descend", "neighbours"];
+    "base_total" true [];
+    "base_add_wall" false [];
+    "base_add_core" true ["core"];
+    "base_hold_wall" false [];
+    "base_hold_core" true ["core"];
     "coarse_restrict" false [];
     "coarse_share" false [];
     "coarse_weigh" false [];
@@ -102,8 +107,14 @@ const OVER_FLOW: &[Shader] = over_flow! {
     "yield_balance" of "wall_balance" [];
 };
 
-/// Parts of the scalar kernels: those of every law, of a wall, of the Lennard-Jones core.
-const SCALAR_PARTS: [&str; 3] = [part!("scalar"), part!("scalar_wall"), part!("scalar_core")];
+/// Parts of the scalar kernels: those of every law, of a wall, of the Lennard-Jones core, of the base of
+/// corrections.
+const SCALAR_PARTS: [&str; 4] = [
+    part!("scalar"),
+    part!("scalar_wall"),
+    part!("scalar_core"),
+    part!("scalar_base"),
+];
 
 /// The parts from which a scalar kernel is called, if one of them defines it.
 pub fn scalar(name: &str) -> Option<Vec<&'static str>> {

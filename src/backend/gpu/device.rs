@@ -17,9 +17,8 @@ pub struct AdapterChoice {
     /// Whether a driver that computes on the processor will do. It is slower there than this
     /// program's own CPU backend, so only tests and explicit wishes want it.
     pub software: bool,
-    /// Whether sums are kept in single precision even where the device has double: for tests of
-    /// what other devices do.
-    pub single_sums: bool,
+    /// Whether the device is taken for one without double precision: for tests of what such devices do.
+    pub without_double: bool,
     /// Bytes that may be bound at a time, where that is to be less than the adapter takes: for tests of
     /// grids past the limits.
     pub binding_limit: Option<u64>,
@@ -219,9 +218,10 @@ impl GpuDevice {
         if let Some(limit) = choice.binding_limit {
             description.binding_limit = description.binding_limit.min(limit);
         }
-        let required_features = match choice.single_sums {
-            true => wgpu::Features::empty(),
-            false => adapter.features() & wgpu::Features::SHADER_F64,
+        description.double &= !choice.without_double;
+        let required_features = match description.double {
+            true => wgpu::Features::SHADER_F64,
+            false => wgpu::Features::empty(),
         };
         let (device, queue) = pollster::block_on(adapter.request_device(&wgpu::DeviceDescriptor {
             label: Some("tabor"),
@@ -276,6 +276,11 @@ impl GpuDevice {
         } else {
             Wide::Compensated
         }
+    }
+
+    /// Whether both are one.
+    pub(super) fn is(&self, other: &GpuDevice) -> bool {
+        Arc::ptr_eq(&self.inner, &other.inner)
     }
 
     /// What a workgroup may hold.

@@ -9,7 +9,7 @@ use crate::kernel::{Form, SUMS};
 /// Threads in a workgroup of a sweep and of a reduction.
 pub const SWEEP_THREADS: usize = 256;
 /// Most workgroups of a sweep; each of its threads takes several points beyond.
-const SWEEP_GROUPS: usize = 1024;
+pub const SWEEP_GROUPS: usize = 1024;
 /// Sums that a sweep's workgroup reduces together; their memory is below the least that adapters
 /// have.
 pub const SWEEP_SUMS_AT_ONCE: usize = 5;

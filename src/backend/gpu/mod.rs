@@ -1,4 +1,4 @@
-//! A graphics processor through wgpu: fields in single precision, kernels as WGSL.
+//! A graphics processor through wgpu: fields in single or double precision, kernels as WGSL.
 //!
 //! A convolution is three dispatches: rows, columns with the factors, rows back. The work space of
 //! a level holds the transforms along x of its pairs of rows (y with y + ny/2, one complex row),
@@ -14,6 +14,7 @@ mod device;
 mod error;
 mod fft;
 mod layout;
+mod lending;
 mod level;
 mod plan;
 mod reading;
@@ -40,10 +41,11 @@ pub use catalogue::LawPart;
 pub use device::{AdapterChoice, AdapterDescription, AdapterKind, GpuDevice, adapters};
 pub use error::GpuError;
 pub use layout::{Number, Wide};
+pub use lending::Lent;
 pub use plan::{Exchange, GroupLimits, LinePlan, radices};
 pub use traffic::Traffic;
 
-/// The GPU backend, in single precision.
+/// The GPU backend.
 pub struct GpuBackend {
     device: GpuDevice,
     /// The number of the fields.
@@ -74,7 +76,7 @@ pub struct GpuBackend {
 }
 
 impl GpuBackend {
-    /// A backend with nothing in it.
+    /// A backend in single precision with nothing in it.
     pub fn new(device: &GpuDevice) -> Result<Self, GpuError> {
         let backend = Self::on(device);
         backend.checked()?;
@@ -135,6 +137,16 @@ impl GpuBackend {
             look_every: rounds.max(1),
             ..self
         }
+    }
+
+    /// The same with its fields in this number, before there are any. Where the device lacks it that is
+    /// told where the host waits.
+    pub fn keeping(mut self, number: Number) -> Self {
+        if number == Number::Double && !self.device.description().double {
+            let name = self.device.description().name.clone();
+            self.failure.get_or_insert(GpuError::Precision(name));
+        }
+        GpuBackend { number, ..self }
     }
 
     /// The same for iterations that correct a state kept in double precision.
@@ -523,9 +535,34 @@ impl Backend for GpuBackend {
         });
     }
 
-    fn in_double(&self) -> Option<Box<dyn Backend + Send>> {
-        self.corrected
-            .then(|| Box::new(CpuBackend::<f64>::new()) as Box<dyn Backend + Send>)
+    /// On the device where it has double precision and takes the shape in it, else on the processor.
+    fn in_double(&self, shape: Shape) -> Option<Box<dyn Backend + Send>> {
+        self.corrected.then(|| -> Box<dyn Backend + Send> {
+            let adapter = self.device.description();
+            match adapter.double && adapter.takes(shape.points, Number::Double) {
+                true => Box::new(GpuBackend::on(&self.device).keeping(Number::Double)),
+                false => Box::new(CpuBackend::<f64>::new()),
+            }
+        })
+    }
+
+    fn take(
+        &mut self,
+        field: Field,
+        from: &mut dyn Backend,
+        source: Field,
+    ) -> Result<(), BackendError> {
+        match from.lend(source) {
+            Some(lent) if lent.is_on(&self.device) => {
+                self.attempt(|backend| backend.convert(field, &lent));
+            }
+            _ => self.write(field, &from.read(source)?),
+        }
+        Ok(())
+    }
+
+    fn lend(&mut self, field: Field) -> Option<Lent> {
+        self.attempt(|backend| backend.hand_out(field))
     }
 
     fn set_params(&mut self, params: &Params) {

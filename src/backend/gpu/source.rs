@@ -6,6 +6,7 @@
 //! sweep, `load_point` where lines are filled, `store_point` where they are taken, `pass_point` where
 //! they are taken and others given.
 
+mod convert;
 mod deciding;
 mod rows;
 
@@ -20,6 +21,7 @@ pub use super::level::LevelPlan;
 use super::level::{Place, SWEEP_SUMS_AT_ONCE, SWEEP_THREADS};
 use super::plan::LinePlan;
 use crate::kernel::{Form, Gate, Kernel, Reduce, SUMS};
+pub use convert::convert;
 pub use deciding::{Decision, PAIRS, Reduction, Results, decide, two_sums};
 use rows::rows_main;
 
