@@ -63,3 +63,86 @@ fn add_residual(g: real, y: real, traction: real, on_surface: bool) {
         add_sum(3u, wide(g) * wide(g));
     }
 }
+
+// What the descent in v makes of a point.
+struct Descent {
+    // S2 y.
+    y: real,
+    // z / S2: the long-range part, and the local part that the core's own stiffness answers.
+    z: real,
+    s2: real,
+}
+
+fn descent_in_v(g: real, p: real, line_value: real, on_surface: bool) -> Descent {
+    let y = p + real(scalars.mean_pressure) + attraction(g, on_surface);
+    let hard = hardening(g, on_surface);
+    let stiffness = real(params.core_stiffness);
+    let s2 = stiffness / (stiffness + hard);
+    return Descent(s2 * y, line_value + hard / stiffness * y / (hard + stiffness), s2);
+}
+
+// The new direction.
+fn new_direction(z: real, d: real) -> real {
+    return real(scalars.descent) * z + real(scalars.memory) * d + real(scalars.shift);
+}
+
+// The trial step of a way in v.
+fn step_in_v(g: real, way: real, on_surface: bool) -> real {
+    if (!on_surface) {
+        return way;
+    }
+    if (CORRECTS) {
+        // A correction is short: v follows its slope.
+        return share_of(g, true) * way;
+    }
+    return gap_at(variable(g) + way, g) - g;
+}
+
+// The sums over a trial step: slots as `accept` reads them, then those of a search at step 1.
+fn add_trial(g: real, p: real, s: real, on_surface: bool) {
+    let elastic = p + real(scalars.mean_pressure);
+    let step = wide(s);
+    let all = elastic + attraction(g, on_surface);
+    add_sum(0u, step * wide(all));
+    if (step > sums[2]) {
+        sums[2] = step;
+    }
+    if (step < sums[3]) {
+        sums[3] = step;
+    }
+    if (!on_surface) {
+        // On a pad a base's residual is no law's: the search will not count it.
+        add_sum(5u, step * wide(all));
+        return;
+    }
+    add_sum(5u, step * wide(elastic));
+    let energy = energy_change(g, s);
+    add_sum(6u, wide(traction_change(g, s)) * step);
+    add_sum(7u, wide(energy.x));
+    add_sum(8u, wide(energy.y));
+}
+
+// The step length; 0 after a lost trial, which leaves all as it is.
+fn taken() -> real {
+    return select(0.0, real(scalars.step), scalars.accepted != 0u);
+}
+
+// S2 y before a step.
+fn before_step(g: real, p: real, on_surface: bool) -> real {
+    return share_of(g, on_surface) * (p + real(scalars.mean_pressure) + attraction(g, on_surface));
+}
+
+// S2 y, with the stopping measure summed on the way.
+fn free_line(g: real, p: real, on_surface: bool) -> real {
+    let traction = attraction(g, on_surface);
+    let y = p + real(scalars.mean_pressure) + traction;
+    add_residual(g, y, traction, on_surface);
+    return share_of(g, on_surface) * y;
+}
+
+// The terms of the mean pressure that a held gap asks for.
+fn add_balance(g: real, p: real, on_surface: bool) {
+    let s2 = share_of(g, on_surface);
+    add_sum(0u, wide(s2 * (p + attraction(g, on_surface))));
+    add_sum(1u, wide(s2));
+}

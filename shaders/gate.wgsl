@@ -3,16 +3,21 @@ fn gate_always() -> bool {
     return true;
 }
 
+// The solve has ended, or its iteration waits for the end of a search.
+fn waits() -> bool {
+    return scalars.status != RUNNING || scalars.searching != 0u;
+}
+
 fn gate_running() -> bool {
-    return scalars.status == RUNNING;
+    return !waits();
 }
 
 fn gate_fresh() -> bool {
-    return scalars.status == RUNNING && scalars.repeat == 0u;
+    return !waits() && scalars.repeat == 0u;
 }
 
 fn gate_accepted() -> bool {
-    return scalars.status == RUNNING && scalars.accepted != 0u;
+    return !waits() && scalars.accepted != 0u;
 }
 
 fn gate_searching() -> bool {

@@ -63,7 +63,8 @@ fn stall() {
 
 // The stopping measure from its sums, and what follows from it.
 fn judge() {
-    if (scalars.status != RUNNING || scalars.repeat != 0u) {
+    // After a lost trial the state is the one that was judged.
+    if (waits() || scalars.lost > 0u) {
         return;
     }
     let violation = scalars.sums[0];
@@ -97,12 +98,26 @@ fn judge() {
     }
 }
 
+// Keeps what the last step says of its direction.
+fn carry() {
+    if (!waits()) {
+        scalars.carried[0] = scalars.sums[4];
+        scalars.carried[1] = scalars.sums[5];
+    }
+}
+
 // The conjugacy of the new direction (Polak-Ribiere, never negative).
 fn direct() {
-    if (scalars.status != RUNNING || scalars.repeat != 0u) {
+    if (waits() || scalars.repeat != 0u) {
         return;
     }
-    let d_change = scalars.sums[2];
+    // Which points are free is known only after the mean pressure where that follows from the gap.
+    var d_change = scalars.carried[0];
+    var dy = scalars.carried[1];
+    if (params.fixed_gap != 0u) {
+        d_change = scalars.sums[2];
+        dy = scalars.sums[3];
+    }
     let y_sum = scalars.sums[6];
     // Under a held mean gap z and d carry no mean over the free points (in the measure of the local
     // compliance, for Lennard-Jones).
@@ -122,14 +137,13 @@ fn direct() {
         memory = ZERO;
     }
     scalars.restart = 0u;
-    let slope = -zy + memory * (scalars.sums[3] - d_mean * y_sum);
+    let slope = -zy + memory * (dy - d_mean * y_sum);
     if (slope >= -SLOPE_SHARE * zy) {
         memory = ZERO;
     }
     scalars.descent = -ONE;
     scalars.memory = memory;
     scalars.shift = z_mean - memory * d_mean;
-    scalars.plain_shift = z_mean;
     if (scalars.careful != 0u) {
         scalars.trial = CAREFUL_LENGTH;
     }
@@ -137,11 +151,10 @@ fn direct() {
 
 // Takes a trial that descends; otherwise shortens it and has it repeated.
 fn accept() {
-    scalars.accepted = 0u;
-    scalars.searching = 0u;
-    if (scalars.status != RUNNING) {
+    if (waits()) {
         return;
     }
+    scalars.accepted = 0u;
     let slope = scalars.sums[0];
     if (!is_finite(slope)) {
         scalars.status = NOT_FINITE;
@@ -166,15 +179,11 @@ fn accept() {
         stall();
         return;
     }
-    scalars.repeat = 1u;
     scalars.trial = scalars.trial * SHORTEN;
-    if (scalars.lost == LOST_BEFORE_DESCENT) {
-        scalars.descent = -ONE;
-        scalars.memory = ZERO;
-        scalars.shift = scalars.plain_shift;
-    } else {
-        scalars.descent = ZERO;
-        scalars.memory = ONE;
-        scalars.shift = ZERO;
-    }
+    // The trial has taken the place of the descent, which is found again where it is wanted.
+    scalars.restart = u32(scalars.lost == LOST_BEFORE_DESCENT);
+    scalars.repeat = u32(scalars.lost != LOST_BEFORE_DESCENT);
+    scalars.descent = ZERO;
+    scalars.memory = ONE;
+    scalars.shift = ZERO;
 }

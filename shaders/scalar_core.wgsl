@@ -2,16 +2,21 @@
 
 // The multiple of the local compliance that keeps the mean of a step zero.
 fn restore_core() {
+    if (waits()) {
+        return;
+    }
     scalars.restore = ZERO;
     if (params.fixed_gap != 0u) {
         scalars.restore = quotient(scalars.sums[0], scalars.sums[1]);
     }
 }
 
-// Starts the search along s at step 1.
+// First of the sums in which a trial evaluates the step 1, as a search would.
+const AT_ONE: u32 = 6u;
+
+// Starts the search along s at step 1, which the trial's sums evaluate.
 fn step_core() {
-    scalars.searching = 0u;
-    if (scalars.status != RUNNING || scalars.accepted == 0u) {
+    if (waits() || scalars.accepted == 0u) {
         return;
     }
     if (!is_finite(scalars.curvature)) {
@@ -28,6 +33,11 @@ fn step_core() {
     scalars.high[1] = params.infinity;
     // Not known yet: larger than any slope that would lengthen the next trial.
     scalars.slope_at_one = params.infinity;
+    // The trial has evaluated this step on its way.
+    scalars.sums[0] = scalars.sums[AT_ONE];
+    scalars.sums[1] = scalars.sums[AT_ONE + 1u];
+    scalars.sums[2] = scalars.sums[AT_ONE + 2u];
+    search_core();
 }
 
 // Brackets the step at which the slope is small and the energy has fallen.
@@ -97,7 +107,7 @@ fn search_core() {
 
 // The next trial length, after the step was taken.
 fn lengthen_core() {
-    if (scalars.status != RUNNING || scalars.accepted == 0u) {
+    if (waits() || scalars.accepted == 0u) {
         return;
     }
     let t = scalars.step;
@@ -110,7 +120,7 @@ fn lengthen_core() {
 
 // The mean pressure that a held mean gap asks for, in the measure of the local compliance.
 fn balance_core() {
-    if (scalars.status != RUNNING) {
+    if (waits()) {
         return;
     }
     scalars.mean_pressure = -quotient(scalars.sums[0], scalars.sums[1]);

@@ -2,6 +2,9 @@
 
 // The share of a trial gap that brings it back to the held mean.
 fn restore_wall() {
+    if (waits()) {
+        return;
+    }
     let trial = scalars.sums[1] + scalars.sums[0];
     scalars.restore = ZERO;
     if (trial > ZERO) {
@@ -11,6 +14,9 @@ fn restore_wall() {
 
 // The same where gaps may be below zero, which are scaled the other way.
 fn restore_yield() {
+    if (waits()) {
+        return;
+    }
     scalars.restore = ZERO;
     let size = scalars.sums[1] + scalars.sums[0] + (scalars.sums[2] + scalars.sums[2]);
     if (size > ZERO) {
@@ -39,8 +45,7 @@ fn rigid_motion() -> bool {
 
 // The step along s, by the curvature.
 fn step_wall() {
-    scalars.searching = 0u;
-    if (scalars.status != RUNNING || scalars.accepted == 0u) {
+    if (waits() || scalars.accepted == 0u) {
         return;
     }
     if (scalars.careful != 0u) {
@@ -110,7 +115,7 @@ fn search_wall() {
 
 // What the step needs to know before it is taken.
 fn settle_wall() {
-    if (scalars.status != RUNNING || scalars.accepted == 0u || scalars.careful != 0u) {
+    if (waits() || scalars.accepted == 0u || scalars.careful != 0u) {
         return;
     }
     scalars.snap = ZERO;
@@ -121,14 +126,14 @@ fn settle_wall() {
 
 // The next trial length, after the step was taken.
 fn lengthen_wall() {
-    if (scalars.status == RUNNING && scalars.accepted != 0u && scalars.careful == 0u) {
+    if (!waits() && scalars.accepted != 0u && scalars.careful == 0u) {
         scalars.trial = scalars.trial * clamp(scalars.length, wide(0.3), wide(2.0));
     }
 }
 
 // The mean pressure that a held mean gap asks for: minus the gap-weighted mean of p + sigma.
 fn balance_wall() {
-    if (scalars.status != RUNNING) {
+    if (waits()) {
         return;
     }
     if (scalars.sums[1] > ZERO) {

@@ -72,3 +72,27 @@ fn add_trial(s: real, y: real, open: real, moved: real, on_surface: bool) {
         sums[4] = wide(1.0);
     }
 }
+
+// The gap after the step t s.
+fn land(g: real, y: real, s: real, t: real) -> real {
+    // By what is left of the gap, which a cut makes exactly zero.
+    let left = open_gap(g) + t * s;
+    let closed = left <= 0.0 || (s < 0.0 && left < real(scalars.snap));
+    return select(g + t * s, closed_at(), closed);
+}
+
+// What adds to the elastic pressure at a gap.
+fn pull_at(g: real, on_surface: bool) -> real {
+    return attraction(g, on_surface);
+}
+
+// The terms of the mean pressure that a held gap asks for.
+fn add_balance(g: real, p: real, on_surface: bool) {
+    let y = wide(p + pull_at(g, on_surface));
+    let weight = wide(open_gap(g));
+    add_sum(0u, weight * y);
+    add_sum(1u, weight);
+    if (y < sums[2]) {
+        sums[2] = y;
+    }
+}

@@ -91,3 +91,30 @@ fn add_trial(s: real, y: real, g: real, moved: real, on_surface: bool) {
         sums[4] = wide(1.0);
     }
 }
+
+// The gap after the step t s: no point crosses zero.
+fn land(g: real, y: real, s: real, t: real) -> real {
+    let moved = g + t * s;
+    let snap = real(scalars.snap);
+    if (goes_down(g, y)) {
+        return select(min(moved, 0.0), 0.0, s > 0.0 && moved > -snap);
+    }
+    return select(max(moved, 0.0), 0.0, s < 0.0 && moved < snap);
+}
+
+// What adds to the elastic pressure at a gap: below zero the solid's own hardness.
+fn pull_at(g: real, on_surface: bool) -> real {
+    let below = on_surface && g < 0.0;
+    return select(attraction(max(g, 0.0), on_surface), -real(params.hardness), below);
+}
+
+// The terms of the mean pressure that a held gap asks for.
+fn add_balance(g: real, p: real, on_surface: bool) {
+    let y = wide(p + pull_at(g, on_surface));
+    let weight = wide(abs(g));
+    add_sum(0u, weight * y);
+    add_sum(1u, weight);
+    if (y < sums[2]) {
+        sums[2] = y;
+    }
+}

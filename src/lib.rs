@@ -55,8 +55,9 @@
 //! the points that may move, smooths it with the half-space's compliance (two transforms, and about
 //! a quarter of one on a coarse grid for the long waves), makes it a conjugate direction, cuts it
 //! where a gap would close, and asks what pressure the step takes (two transforms); then gap and
-//! pressure move. The work on points rides in the rows of those transforms, so a field is read while
-//! it is in cache. With adhesion the coarse grid goes and a search for the step length comes, point by
+//! pressure move, and the rows of the new residual go into the next iteration's first transform at once.
+//! The work on points rides in the rows of those transforms, so a field is read while it is in cache, and
+//! what one pass leaves for the next stays in their work space. With adhesion the coarse grid goes and a search for the step length comes, point by
 //! point, without transforms. An effect that the scene does not name has no field and no pass;
 //! `tabor check` lists both. The residual that ends a solve is defined in `docs/solver.md`.
 //!
@@ -65,16 +66,17 @@
 //!
 //! | at | dispatches | fields |
 //! |---|---|---|
-//! | no adhesion, a pressure | 18 | 29.6 |
-//! | sharp Maugis-Dugdale, a pressure | 11 | 26.5 |
-//! | sharp Maugis-Dugdale, a mean gap | 15 | 31.5 |
-//! | exponential, a pressure | 12 | 26.5 |
-//! | Lennard-Jones, a pressure | 14 | 30.5 |
-//! | Lennard-Jones, a mean gap | 16 | 32.5 |
+//! | no adhesion, a pressure | 13 | 25.5 |
+//! | sharp Maugis-Dugdale, a pressure | 7 | 23.5 |
+//! | sharp Maugis-Dugdale, a mean gap | 11 | 29.5 |
+//! | exponential, a pressure | 7 | 23.5 |
+//! | Lennard-Jones, a pressure | 7 | 25.5 |
+//! | Lennard-Jones, a mean gap | 11 | 30.5 |
 //!
 //! Each evaluation of a step length, of which a law with a tail needs about one an iteration, adds two
-//! dispatches and two fields. Of these fields a convolution takes six and a quarter. In the rounds of
-//! mixed precision every kernel of a law reads two fields more.
+//! dispatches and two fields; of Lennard-Jones the first one rides in the trial. Of these fields a
+//! convolution takes six and a quarter. In the rounds of mixed precision every kernel of a law reads two
+//! fields more.
 #![warn(missing_docs)]
 
 pub mod accuracy;

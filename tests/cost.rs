@@ -82,14 +82,7 @@ fn expected(scene: &Scene, grid: [usize; 2]) -> Expected {
         };
     let two_band = solved_law.is_none() && !free && coarse(points).is_some();
 
-    let mut fields = vec![
-        "heights",
-        "gap",
-        "pressure",
-        "direction",
-        "descent",
-        "free_before",
-    ];
+    let mut fields = vec!["heights", "gap", "pressure", "direction", "free_before"];
     if core {
         fields.push("step");
     }
@@ -106,24 +99,28 @@ fn expected(scene: &Scene, grid: [usize; 2]) -> Expected {
     let hard = scene.solid.hardness.is_some();
     let history = if branches > 0 { branches + 1 } else { 0 } + if hard { 2 } else { 0 };
     let mut passes: Vec<&'static str> = Vec::new();
-    match (core, two_band) {
-        (true, _) => passes.extend(["core_free", "multiply", "core_descent"]),
-        (false, false) => passes.extend(["wall_free", "multiply", "wall_descent"]),
-        (false, true) => passes.extend([
-            "wall_free_kept",
+    if two_band {
+        passes.extend([
             "coarse_restrict",
             "coarse_share",
             "multiply",
-            "coarse_weight",
-            "coarse_load",
+            "coarse_weigh",
             "multiply",
             "coarse_store",
-            "multiply",
-            "wall_descent_two_band",
-        ]),
+        ]);
     }
+    passes.push("multiply");
+    passes.push(match (core, two_band, held) {
+        (true, _, false) => "core_descent",
+        (true, _, true) => "core_descent_held",
+        (false, false, false) => "wall_descent",
+        (false, false, true) => "wall_descent_held",
+        (false, true, false) => "two_band_descent",
+        (false, true, true) => "two_band_descent_held",
+    });
     match (core, held) {
-        (true, _) => passes.extend(["core_direct", "core_trial"]),
+        (true, true) => passes.extend(["core_direct", "core_trial_held"]),
+        (true, false) => passes.push("core_trial"),
         (false, true) => passes.extend(["wall_direct", "wall_trial_held"]),
         (false, false) => passes.push("wall_trial"),
     }
@@ -131,9 +128,13 @@ fn expected(scene: &Scene, grid: [usize; 2]) -> Expected {
     if tail {
         passes.push(if core { "core_search" } else { "wall_search" });
     }
-    passes.push(if core { "core_advance" } else { "wall_advance" });
-    if held {
-        passes.push(if core { "core_balance" } else { "wall_balance" });
+    match (core, two_band, held) {
+        (true, _, true) => passes.extend(["core_advance", "core_free"]),
+        (true, _, false) => passes.push("core_turn"),
+        (false, false, true) => passes.extend(["wall_advance", "wall_free"]),
+        (false, true, true) => passes.extend(["wall_advance", "wall_free_kept"]),
+        (false, false, false) => passes.push("wall_turn"),
+        (false, true, false) => passes.push("wall_turn_kept"),
     }
     if hard {
         passes.iter_mut().for_each(|pass| *pass = over_flow(pass));
@@ -152,7 +153,9 @@ fn over_flow(pass: &'static str) -> &'static str {
         "wall_free" => "yield_free",
         "wall_free_kept" => "yield_free_kept",
         "wall_descent" => "yield_descent",
-        "wall_descent_two_band" => "yield_descent_two_band",
+        "wall_descent_held" => "yield_descent_held",
+        "wall_turn" => "yield_turn",
+        "wall_turn_kept" => "yield_turn_kept",
         "wall_direct" => "yield_direct",
         "wall_trial" => "yield_trial",
         "wall_trial_held" => "yield_trial_held",

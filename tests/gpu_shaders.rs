@@ -2,8 +2,9 @@
 
 use naga::valid::{Capabilities, ModuleInfo, ValidationFlags, Validator};
 use tabor::backend::Shape;
-use tabor::backend::gpu::source::{self, LawSource, LevelPlan, Reduction, Results};
-use tabor::backend::gpu::{Exchange, GroupLimits, LawPart, Number, Wide};
+use tabor::backend::gpu::source::{self, Decision, LawSource, LevelPlan, Pass, Reduction, Results};
+use tabor::backend::gpu::{Direction, Exchange, GroupLimits, LawPart, Limits, Number, Wide};
+use tabor::kernel::coarse::COARSE_RESTRICT;
 use tabor::kernel::common::{LOAD_FIELD, STORE_PRESSURE};
 use tabor::kernel::{Gate, Reduce};
 
@@ -29,10 +30,11 @@ const NUMBERS: [(Number, Wide); 4] = [
     (Number::Single, Wide::Double),
     (Number::Double, Wide::Double),
 ];
-const GATES: [Gate; 5] = [
+const GATES: [Gate; 6] = [
     Gate::Always,
     Gate::Running,
     Gate::Fresh,
+    Gate::Ahead,
     Gate::Accepted,
     Gate::Searching,
 ];
@@ -166,6 +168,62 @@ fn rounds_are_valid() {
     }
 }
 
+/// The largest grids: sixteen slabs, spectra in parts, lines in two passes; and elongated ones.
+#[test]
+fn slabs_and_long_lines_are_valid() {
+    let limits = Limits {
+        group: LIMITS,
+        binding: (1 << 31) - 1,
+        slab: (1 << 31) - 1,
+        bindings: 32,
+        longest_line: usize::MAX,
+    };
+    for (number, wide) in NUMBERS {
+        for ([nx, ny], slabs, long) in [
+            ([32768, 32768], [4, 8], [true, true]),
+            ([65536, 65536 / 2], [8, 16], [true, true]),
+            ([118098, 96], [1, 1], [true, false]),
+            ([96, 235298], [1, 1], [false, true]),
+        ] {
+            let shape = Shape::whole(nx, ny);
+            let plan = LevelPlan::laid_out(shape, &limits, number).expect("within the limits");
+            let expected = match number {
+                Number::Single => slabs[0],
+                Number::Double => slabs[1],
+            };
+            assert_eq!(plan.slabs, expected, "{nx} x {ny}");
+            assert_eq!(
+                [plan.rows_then.is_some(), plan.columns_then.is_some()],
+                long
+            );
+            let name = format!("{nx} x {ny}");
+            for kernel in [&LOAD_FIELD, &STORE_PRESSURE, &COARSE_RESTRICT] {
+                let whole = source::Whole::of(&plan);
+                let text = source::kernel(kernel, &plan, whole, LawPart::HardWall.uniform(), wide)
+                    .unwrap_or_else(|error| panic!("{error}"));
+                validate(&name, &text, wide);
+            }
+            let gate = Gate::Running;
+            for direction in [Direction::Forward, Direction::Inverse] {
+                let text = source::rows_then(&plan, direction, gate, wide);
+                assert_eq!(text.is_some(), long[0]);
+                text.iter()
+                    .for_each(|text| drop(validate(&name, text, wide)));
+            }
+            for pass in Pass::ALL {
+                let text = source::multiply_long(&plan, pass, true, gate, wide);
+                assert_eq!(text.is_some(), long[1]);
+                text.iter()
+                    .for_each(|text| drop(validate(&name, text, wide)));
+            }
+            if !long[1] {
+                let text = source::multiply(&plan, true, gate, wide);
+                validate(&name, &text, wide);
+            }
+        }
+    }
+}
+
 #[test]
 fn the_check_of_sums_is_valid() {
     validate("check", &source::two_sums(), Wide::Compensated);
@@ -182,9 +240,10 @@ fn reductions_are_valid() {
                 let reduction = Reduction {
                     results,
                     groups: 7,
+                    first: 5,
                     gate,
                 };
-                let text = source::decide(Some(reduction), &[], wide)
+                let text = source::decide(&[Decision::Sums(reduction); 2], wide)
                     .unwrap_or_else(|error| panic!("{error}"));
                 validate("decide", &text, wide);
             }
@@ -196,8 +255,8 @@ fn reductions_are_valid() {
 fn scalar_kernels_are_valid() {
     for wide in WIDES {
         for kernel in SCALAR_KERNELS {
-            let text =
-                source::decide(None, &[kernel], wide).unwrap_or_else(|error| panic!("{error}"));
+            let text = source::decide(&[Decision::Scalar(kernel)], wide)
+                .unwrap_or_else(|error| panic!("{error}"));
             validate(kernel.name, &text, wide);
         }
     }

@@ -6,6 +6,7 @@
 //! A convolution is three calls, so that what happens to a point as it enters the first row
 //! transform and as it leaves the last one is fused into those rows:
 //! [`forward`](Backend::forward), [`multiply`](Backend::multiply), [`backward`](Backend::backward).
+//! Where one convolution ends in the rows in which the next one starts, [`turn`](Backend::turn) is both.
 
 pub mod cpu;
 pub mod gpu;
@@ -131,9 +132,28 @@ pub trait Backend {
     fn set_base(&mut self, base: Option<[Field; 2]>);
     /// Sets a field to zero where it is.
     fn clear(&mut self, field: Field);
-    /// An empty backend in double precision, where the solver is asked to keep its state in double
-    /// precision and to iterate here on corrections of it. `None` where this one's numbers will do.
-    fn in_double(&self) -> Option<Box<dyn Backend + Send>> {
+    /// An empty backend in double precision for a level of this shape, where the solver is asked to keep
+    /// its state in double precision and to iterate here on corrections of it. `None` where this one's
+    /// numbers will do.
+    fn in_double(&self, _shape: Shape) -> Option<Box<dyn Backend + Send>> {
+        None
+    }
+    /// Overwrites a field with one of another backend, of as many points, rounded to this one's number.
+    /// It passes through the host, unless both are on one device.
+    ///
+    /// # Errors
+    /// Those of [`read`](Backend::read) there.
+    fn take(
+        &mut self,
+        field: Field,
+        from: &mut dyn Backend,
+        source: Field,
+    ) -> Result<(), BackendError> {
+        self.write(field, &from.read(source)?);
+        Ok(())
+    }
+    /// A field for another backend on the same device to take; `None` where there is no device.
+    fn lend(&mut self, _field: Field) -> Option<gpu::Lent> {
         None
     }
     /// Sets the numbers that stay fixed during a solve.
@@ -142,17 +162,21 @@ pub trait Backend {
     fn set_scalars(&mut self, scalars: &Scalars);
     /// Waits, and reads the scalars.
     fn scalars(&mut self) -> Result<Scalars, BackendError>;
-    /// Runs a kernel over points; its sums go to the scalars.
+    /// Runs a kernel over points, those of kept lines included; its sums go to the scalars.
     fn sweep(&mut self, kernel: &'static Kernel, level: Level, fields: &[Field]);
     /// Runs a scalar kernel.
     fn scalar(&mut self, kernel: &'static ScalarKernel);
-    /// Transforms what a load kernel makes of the fields into the level's work space.
+    /// Transforms what a kernel makes of the fields, and of the lines that were kept if it takes them,
+    /// into the level's work space.
     fn forward(&mut self, kernel: &'static Kernel, level: Level, fields: &[Field]);
     /// Multiplies the work space by a spectrum. With `energy`, `sum K |s_q|^2` over all
-    /// wavevectors, divided by the number of points, goes to `scalars.curvature`.
+    /// wavevectors, divided by the number of points, goes to `scalars.curvature`. It changes no field,
+    /// so a backend may run it before it knows that the gate shuts.
     fn multiply(&mut self, by: Spectrum, energy: bool, gate: Gate);
-    /// Transforms the work space back and hands it to a store kernel.
+    /// Transforms the work space back and hands it to a kernel that stores or keeps it.
     fn backward(&mut self, kernel: &'static Kernel, level: Level, fields: &[Field]);
+    /// Transforms the work space back, hands it to a kernel, and transforms what this makes of it.
+    fn turn(&mut self, kernel: &'static Kernel, level: Level, fields: &[Field]);
     /// Relative rounding error of the fields' numbers.
     fn epsilon(&self) -> f64;
     /// Real two-dimensional transforms run so far, forward and inverse one each, those of other

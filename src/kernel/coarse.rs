@@ -1,6 +1,7 @@
 //! Kernels of the two-band preconditioner: long waves are corrected on a coarse grid, where the
 //! share of free points weighs them, so that they do not reach across contacts.
 
+use super::wall::{add_descent, add_descent_held};
 use crate::kernel::{Params, Rows, SUMS, Scalars, kernel};
 use crate::real::Real;
 
@@ -37,7 +38,7 @@ fn shares<T: Real>(ratio: usize) -> [T; LARGEST_RATIO] {
 }
 
 /// Adds the whole (coarse) field, interpolated, to the lines.
-pub(super) fn add_interpolated<T: Real>(rows: &mut Rows<T>) {
+fn add_interpolated<T: Real>(rows: &mut Rows<T>) {
     let whole = rows.whole;
     let [cells, cell_rows] = whole.points;
     let (first, width) = (rows.first, rows.width);
@@ -113,7 +114,7 @@ fn coarse_restrict<T: Real>(rows: &mut Rows<T>, _: &Params, _: &Scalars, _: &mut
 }
 kernel!(
     /// Restricts the fine yF and the share of free points. Writes both; whole: the fine yF.
-    COARSE_RESTRICT, coarse_restrict, Sweep, reads 0, writes 2, whole true, sums [], gate Fresh
+    COARSE_RESTRICT, coarse_restrict, Sweep, reads 0, writes 2, whole true, sums [], gate Ahead
 );
 
 /// Adds `weight` times the horizontal restriction of a fine line.
@@ -140,27 +141,19 @@ fn gather<T: Real>(out: &mut [T], line: &[T], shares: &[T], weight: T) {
     out[0] += weight * carried;
 }
 
-fn coarse_weight<T: Real>(rows: &mut Rows<T>, _: &Params, _: &Scalars, _: &mut [f64; SUMS]) {
-    let lines = &*rows.lines;
-    for (out, &m) in rows.writes[0].iter_mut().zip(lines) {
-        let m = m.max(T::zero()).min(T::one());
-        *out = m * m;
-    }
-}
-kernel!(
-    /// Stores the square of the smoothed share of free points, clipped to [0, 1].
-    COARSE_WEIGHT, coarse_weight, Store, reads 0, writes 1, whole false, sums [], gate Fresh
-);
-
-fn coarse_load<T: Real>(rows: &mut Rows<T>, _: &Params, _: &Scalars, _: &mut [f64; SUMS]) {
-    let [field, weight, ..] = rows.reads;
+fn coarse_weigh<T: Real>(rows: &mut Rows<T>, _: &Params, _: &Scalars, _: &mut [f64; SUMS]) {
+    let restricted = rows.reads[0];
+    let weight = &mut *rows.writes[0];
     for (i, line) in rows.lines.iter_mut().enumerate() {
-        *line = field[i] * weight[i];
+        let m = line.max(T::zero()).min(T::one());
+        weight[i] = m * m;
+        *line = restricted[i] * weight[i];
     }
 }
 kernel!(
-    /// Loads a field times its weight.
-    COARSE_LOAD, coarse_load, Load, reads 2, writes 0, whole false, sums [], gate Fresh
+    /// Takes the smoothed share of free points, stores its square, clipped to [0, 1], as the weight,
+    /// and loads the restricted yF times it.
+    COARSE_WEIGH, coarse_weigh, Turn, reads 1, writes 1, whole false, sums [], gate Ahead
 );
 
 fn coarse_share<T: Real>(rows: &mut Rows<T>, _: &Params, _: &Scalars, _: &mut [f64; SUMS]) {
@@ -169,7 +162,7 @@ fn coarse_share<T: Real>(rows: &mut Rows<T>, _: &Params, _: &Scalars, _: &mut [f
 }
 kernel!(
     /// Loads the share of free points.
-    COARSE_SHARE, coarse_share, Load, reads 1, writes 0, whole false, sums [], gate Fresh
+    COARSE_SHARE, coarse_share, Load, reads 1, writes 0, whole false, sums [], gate Ahead
 );
 
 fn coarse_store<T: Real>(rows: &mut Rows<T>, _: &Params, _: &Scalars, _: &mut [f64; SUMS]) {
@@ -181,5 +174,49 @@ fn coarse_store<T: Real>(rows: &mut Rows<T>, _: &Params, _: &Scalars, _: &mut [f
 }
 kernel!(
     /// Stores the lines times the weight: the long-wave part of z.
-    COARSE_STORE, coarse_store, Store, reads 1, writes 1, whole false, sums [], gate Fresh
+    COARSE_STORE, coarse_store, Store, reads 1, writes 1, whole false, sums [], gate Ahead
+);
+
+/// z on free points, which are those where yF is not zero, with the long waves added.
+fn two_band_descent<T: Real>(rows: &mut Rows<T>, _: &Params, _: &Scalars, sums: &mut [f64; SUMS]) {
+    add_interpolated(rows);
+    let count = rows.len();
+    let [y, y_before, ..] = rows.reads;
+    let (y, y_before) = (&y[..count], &y_before[..count]);
+    for (i, line) in rows.lines[..count].iter_mut().enumerate() {
+        if y[i] == T::zero() {
+            *line = T::zero();
+        }
+        add_descent(sums, *line, y[i], y_before[i]);
+    }
+}
+kernel!(
+    /// As `wall_descent`, with the long waves added from the coarse level. Reads yF, the old yF; whole:
+    /// the coarse z.
+    TWO_BAND_DESCENT, two_band_descent, Keep, reads 2, writes 0, whole true,
+    sums [Add, Add], gate Ahead
+);
+
+fn two_band_descent_held<T: Real>(
+    rows: &mut Rows<T>,
+    _: &Params,
+    _: &Scalars,
+    sums: &mut [f64; SUMS],
+) {
+    add_interpolated(rows);
+    let count = rows.len();
+    let [y, y_before, direction, _] = rows.reads;
+    let (y, y_before, direction) = (&y[..count], &y_before[..count], &direction[..count]);
+    for (i, line) in rows.lines[..count].iter_mut().enumerate() {
+        let free = y[i] != T::zero();
+        if !free {
+            *line = T::zero();
+        }
+        add_descent_held(sums, [*line, y[i], y_before[i], direction[i]], free);
+    }
+}
+kernel!(
+    /// The same where the mean gap is held. Reads yF, the old yF, direction; whole: the coarse z.
+    TWO_BAND_DESCENT_HELD, two_band_descent_held, Keep, reads 3, writes 0, whole true,
+    sums [Add, Add, Add, Add, Add, Add, Add, Add, Add], gate Ahead
 );

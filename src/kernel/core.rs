@@ -14,7 +14,7 @@ const NEWTON_STEPS: usize = 25;
 /// The law, its variable and their constants in the kernel's number. With `BASE` the unknown is the
 /// correction of a known gap (see [`crate::law::Correction`]).
 #[derive(Clone, Copy)]
-struct Core<T, const BASE: bool> {
+pub(super) struct Core<T, const BASE: bool> {
     law: LennardJones<T>,
     /// k.
     stiffness: T,
@@ -50,7 +50,7 @@ impl<T: Real, const BASE: bool> Core<T, BASE> {
     /// The core at a point of a block with these factors on its tension and this base, if there are
     /// any.
     #[inline(always)]
-    fn at(mut self, factor: &[T], base: [&[T]; 2], index: usize) -> Self {
+    pub(super) fn at(mut self, factor: &[T], base: [&[T]; 2], index: usize) -> Self {
         if BASE {
             self.base = [base[0][index], base[1][index]];
         }
@@ -61,7 +61,7 @@ impl<T: Real, const BASE: bool> Core<T, BASE> {
         self
     }
 
-    fn new(params: &Params) -> Self {
+    pub(super) fn new(params: &Params) -> Self {
         let law = match params.law {
             Law::LennardJones(law) => law,
             // Other laws have a wall and never come here; any constants keep this total.
@@ -124,7 +124,7 @@ impl<T: Real, const BASE: bool> Core<T, BASE> {
 
     /// S2 at a gap; 1 on a pad.
     #[inline(always)]
-    fn share(&self, gap: T, on_surface: bool) -> T {
+    pub(super) fn share(&self, gap: T, on_surface: bool) -> T {
         if on_surface {
             self.stiffness / (self.stiffness + self.hardening(gap))
         } else {
@@ -257,9 +257,61 @@ kernel!(
     sums [Add, Add, Min, Add], gate Fresh
 );
 
-with_or_without_base!(core_descent, descent);
+/// What the descent in v makes of a point.
+struct Descent<T> {
+    /// S2 y.
+    y: T,
+    /// z / S2: the long-range part, and the local part that the core's own stiffness answers.
+    z: T,
+    /// S2.
+    share: T,
+}
 
-fn descent<T: Real, const BASE: bool>(
+impl<T: Real, const BASE: bool> Core<T, BASE> {
+    #[inline(always)]
+    fn descent(&self, gap: T, elastic: T, line: T, on_surface: bool) -> Descent<T> {
+        let hardening = if on_surface {
+            self.hardening(gap)
+        } else {
+            T::zero()
+        };
+        let y = elastic + self.attraction(gap, on_surface);
+        let share = self.stiffness / (self.stiffness + hardening);
+        Descent {
+            y: share * y,
+            z: line + hardening / self.stiffness * y / (hardening + self.stiffness),
+            share,
+        }
+    }
+}
+
+fn core_descent<T: Real>(
+    rows: &mut Rows<T>,
+    params: &Params,
+    scalars: &Scalars,
+    sums: &mut [f64; SUMS],
+) {
+    if rows.base[0].is_empty() {
+        descent::<T, false, false>(rows, params, scalars, sums);
+    } else {
+        descent::<T, true, false>(rows, params, scalars, sums);
+    }
+}
+
+fn core_descent_held<T: Real>(
+    rows: &mut Rows<T>,
+    params: &Params,
+    scalars: &Scalars,
+    sums: &mut [f64; SUMS],
+) {
+    if rows.base[0].is_empty() {
+        descent::<T, false, true>(rows, params, scalars, sums);
+    } else {
+        descent::<T, true, true>(rows, params, scalars, sums);
+    }
+}
+
+fn descent<T: Real, const BASE: bool, const HELD: bool>(
     rows: &mut Rows<T>,
     params: &Params,
     scalars: &Scalars,
@@ -268,44 +320,111 @@ fn descent<T: Real, const BASE: bool>(
     let layout = rows.layout();
     let core = Core::<T, BASE>::new(params);
     let (factor, base) = (rows.factor, rows.base);
-    let [gap, pressure, direction, _] = rows.reads;
-    let lines = &*rows.lines;
-    let [z_out, y_before, _] = &mut rows.writes;
+    let [gap, pressure, y_before, direction] = rows.reads;
+    let lines = &mut *rows.lines;
     let mean = T::of(scalars.mean_pressure);
     layout.points(|i, on_surface| {
         let core = core.at(factor, base, i);
-        let traction = core.attraction(gap[i], on_surface);
-        let hardening = if on_surface {
-            core.hardening(gap[i])
-        } else {
-            T::zero()
-        };
-        let y = pressure[i] + mean + traction;
-        let share = core.stiffness / (core.stiffness + hardening);
-        // z / S2: the long-range part, and the local part that the core's own stiffness answers.
-        let z = lines[i] + hardening / core.stiffness * y / (hardening + core.stiffness);
-        let y = share * y;
-        let (zd, yd, d) = (z.double(), y.double(), direction[i].double());
+        let Descent { y, z, share } =
+            core.descent(gap[i], pressure[i] + mean, lines[i], on_surface);
+        let (zd, yd) = (z.double(), y.double());
         let change = yd - y_before[i].double();
-        let s2 = share.double();
         sums[0] += zd * yd;
         sums[1] += zd * change;
-        sums[2] += d * change;
-        sums[3] += d * yd;
-        sums[4] += s2 * zd;
-        sums[5] += s2;
-        sums[6] += yd;
-        sums[7] += change;
-        sums[8] += s2 * d;
-        z_out[i] = z;
-        y_before[i] = y;
+        if HELD {
+            let (d, s2) = (direction[i].double(), share.double());
+            sums[2] += d * change;
+            sums[3] += d * yd;
+            sums[4] += s2 * zd;
+            sums[5] += s2;
+            sums[6] += yd;
+            sums[7] += change;
+            sums[8] += s2 * d;
+        }
+        lines[i] = z;
     });
 }
 kernel!(
-    /// Stores the preconditioned residual in v. Reads gap, pressure, direction; writes z and
-    /// replaces the old S2 y by the new one.
-    CORE_DESCENT, core_descent, Store, reads 3, writes 2, whole false,
-    sums [Add, Add, Add, Add, Add, Add, Add, Add, Add], gate Fresh
+    /// Keeps the preconditioned residual in v. Reads gap, pressure, the old S2 y.
+    CORE_DESCENT, core_descent, Keep, reads 3, writes 0, whole false,
+    sums [Add, Add], gate Ahead
+);
+kernel!(
+    /// The same where the mean gap is held. Reads gap, pressure, the old S2 y, direction.
+    CORE_DESCENT_HELD, core_descent_held, Keep, reads 4, writes 0, whole false,
+    sums [Add, Add, Add, Add, Add, Add, Add, Add, Add], gate Ahead
+);
+
+impl<T: Real, const BASE: bool> Core<T, BASE> {
+    /// The trial step of a way in v.
+    #[inline(always)]
+    fn step(&self, gap: T, way: T, on_surface: bool) -> T {
+        if !on_surface {
+            way
+        } else if BASE {
+            // A correction is short: v follows its slope.
+            self.share(gap, true) * way
+        } else {
+            self.gap_at(self.variable(gap) + way, gap) - gap
+        }
+    }
+
+    /// The sums over a trial step: slots as `accept` reads them, then those of a search at step 1.
+    #[inline(always)]
+    fn add_trial(&self, sums: &mut [f64; SUMS], gap: T, elastic: T, step: T, on_surface: bool) {
+        let all = elastic + self.attraction(gap, on_surface);
+        let s = step.double();
+        sums[0] += s * all.double();
+        if s > sums[2] {
+            sums[2] = s;
+        }
+        if s < sums[3] {
+            sums[3] = s;
+        }
+        if on_surface {
+            sums[5] += s * elastic.double();
+            let (change, [energy, size]) = self.changes(gap, step);
+            sums[6] += change.double() * s;
+            sums[7] += energy.double();
+            sums[8] += size.double();
+        } else {
+            // On a pad a base's residual is no law's: the search will not count it.
+            sums[5] += s * all.double();
+        }
+    }
+}
+
+with_or_without_base!(core_trial, trial);
+
+fn trial<T: Real, const BASE: bool>(
+    rows: &mut Rows<T>,
+    params: &Params,
+    scalars: &Scalars,
+    sums: &mut [f64; SUMS],
+) {
+    let layout = rows.layout();
+    let core = Core::<T, BASE>::new(params);
+    let (factor, base) = (rows.factor, rows.base);
+    let [gap, pressure, ..] = rows.reads;
+    let lines = &mut *rows.lines;
+    let [direction, step, ..] = &mut rows.writes;
+    let factors = [scalars.descent, scalars.memory, scalars.shift].map(T::of);
+    let (length, mean) = (T::of(scalars.trial), T::of(scalars.mean_pressure));
+    layout.points(|i, on_surface| {
+        let core = core.at(factor, base, i);
+        let d = factors[0] * lines[i] + factors[1] * direction[i] + factors[2];
+        direction[i] = d;
+        let s = core.step(gap[i], length * d, on_surface);
+        step[i] = s;
+        lines[i] = s;
+        core.add_trial(sums, gap[i], pressure[i] + mean, s, on_surface);
+    });
+}
+kernel!(
+    /// Turns the direction by the kept z, finds the trial step by inverting v, and loads it. Reads gap,
+    /// pressure; updates direction, writes step.
+    CORE_TRIAL, core_trial, Resume, reads 2, writes 2, whole false,
+    sums [Add, Min, Max, Min, Max, Add, Add, Add, Add], gate Running
 );
 
 with_or_without_base!(core_direct, direct);
@@ -319,37 +438,31 @@ fn direct<T: Real, const BASE: bool>(
     let layout = rows.layout();
     let core = Core::<T, BASE>::new(params);
     let (factor, base) = (rows.factor, rows.base);
-    let [gap, z, ..] = rows.reads;
-    let [direction, step, _] = &mut rows.writes;
+    let gap = rows.reads[0];
+    let z = &*rows.lines;
+    let [direction, step, ..] = &mut rows.writes;
     let factors = [scalars.descent, scalars.memory, scalars.shift].map(T::of);
     let length = T::of(scalars.trial);
     layout.points(|i, on_surface| {
         let core = core.at(factor, base, i);
         let d = factors[0] * z[i] + factors[1] * direction[i] + factors[2];
         direction[i] = d;
-        let s = if !on_surface {
-            length * d
-        } else if BASE {
-            // A correction is short: v follows its slope.
-            core.share(gap[i], true) * length * d
-        } else {
-            core.gap_at(core.variable(gap[i]) + length * d, gap[i]) - gap[i]
-        };
+        let s = core.step(gap[i], length * d, on_surface);
         step[i] = s;
         sums[0] += s.double();
         sums[1] += core.share(gap[i] + s, on_surface).double();
     });
 }
 kernel!(
-    /// Turns the direction and finds the trial step by inverting v. Reads gap, z; updates
-    /// direction, writes step.
-    CORE_DIRECT, core_direct, Sweep, reads 2, writes 2, whole false,
+    /// Turns the direction by the kept z and finds the trial step by inverting v (fixed mean gap). Reads
+    /// gap; updates direction, writes step.
+    CORE_DIRECT, core_direct, Peek, reads 1, writes 2, whole false,
     sums [Add, Add], gate Running
 );
 
-with_or_without_base!(core_trial, trial);
+with_or_without_base!(core_trial_held, trial_held);
 
-fn trial<T: Real, const BASE: bool>(
+fn trial_held<T: Real, const BASE: bool>(
     rows: &mut Rows<T>,
     params: &Params,
     scalars: &Scalars,
@@ -365,35 +478,17 @@ fn trial<T: Real, const BASE: bool>(
     let restore = T::of(scalars.restore);
     layout.points(|i, on_surface| {
         let core = core.at(factor, base, i);
-        let mut s = step[i];
-        if restore != T::zero() {
-            s -= restore * core.share(gap[i] + s, on_surface);
-        }
+        let s = step[i] - restore * core.share(gap[i] + step[i], on_surface);
         step[i] = s;
         lines[i] = s;
-        let elastic = pressure[i] + mean;
-        let traction = core.attraction(gap[i], on_surface);
-        let s = s.double();
-        sums[0] += s * (elastic + traction).double();
-        if s > sums[2] {
-            sums[2] = s;
-        }
-        if s < sums[3] {
-            sums[3] = s;
-        }
-        // On a pad a base's residual is no law's: the search will not count it.
-        sums[5] += if on_surface {
-            s * elastic.double()
-        } else {
-            s * (elastic + traction).double()
-        };
+        core.add_trial(sums, gap[i], pressure[i] + mean, s, on_surface);
     });
 }
 kernel!(
-    /// Loads the trial step, with its mean taken off in proportion to the local compliance where
-    /// the mean gap is held. Reads gap, pressure; updates step.
-    CORE_TRIAL, core_trial, Load, reads 2, writes 1, whole false,
-    sums [Add, Min, Max, Min, Max, Add], gate Running
+    /// Loads the trial step with its mean taken off in proportion to the local compliance. Reads gap,
+    /// pressure; updates step.
+    CORE_TRIAL_HELD, core_trial_held, Load, reads 2, writes 1, whole false,
+    sums [Add, Min, Max, Min, Max, Add, Add, Add, Add], gate Running
 );
 
 with_or_without_base!(core_search, search);
@@ -426,21 +521,98 @@ kernel!(
     sums [Add, Add, Add], gate Searching
 );
 
-fn core_advance<T: Real>(rows: &mut Rows<T>, _: &Params, scalars: &Scalars, _: &mut [f64; SUMS]) {
-    let count = rows.len();
-    let step = &rows.reads[0][..count];
-    let lines = &rows.lines[..count];
-    let [gap, pressure, _] = &mut rows.writes;
-    let t = T::of(scalars.step);
-    for i in 0..count {
+with_or_without_base!(core_turn, turn);
+
+fn turn<T: Real, const BASE: bool>(
+    rows: &mut Rows<T>,
+    params: &Params,
+    scalars: &Scalars,
+    sums: &mut [f64; SUMS],
+) {
+    let layout = rows.layout();
+    let core = Core::<T, BASE>::new(params);
+    let (factor, base) = (rows.factor, rows.base);
+    let [direction, step, ..] = rows.reads;
+    let lines = &mut *rows.lines;
+    let [gap, pressure, y_before, _] = &mut rows.writes;
+    let t: T = taken(scalars);
+    let mean = T::of(scalars.mean_pressure);
+    layout.points(|i, on_surface| {
+        let core = core.at(factor, base, i);
+        let y = pressure[i] + mean + core.attraction(gap[i], on_surface);
+        let before = core.share(gap[i], on_surface) * y;
+        y_before[i] = before;
         gap[i] += t * step[i];
         pressure[i] += t * lines[i];
-    }
+        let traction = core.attraction(gap[i], on_surface);
+        let y = pressure[i] + mean + traction;
+        add_residual(sums, &core, gap[i], y, traction, on_surface);
+        let y = core.share(gap[i], on_surface) * y;
+        let d = direction[i].double();
+        sums[4] += d * (y.double() - before.double());
+        sums[5] += d * y.double();
+        lines[i] = y;
+    });
 }
 kernel!(
-    /// Takes K s and steps: g += t s, p += t K s. Reads step; updates gap, pressure.
-    CORE_ADVANCE, core_advance, Store, reads 1, writes 2, whole false,
-    sums [], gate Accepted
+    /// Takes K s and steps: g += t s, p += t K s; then loads the new S2 y, as `core_free` does, with the
+    /// sums of the step's direction. Reads direction, step; updates gap, pressure; writes the old S2 y.
+    CORE_TURN, core_turn, Turn, reads 2, writes 3, whole false,
+    sums [Add, Add, Min, Add, Add, Add], gate Running
+);
+
+/// The step length; 0 after a lost trial, which leaves all as it is.
+fn taken<T: Real>(scalars: &Scalars) -> T {
+    match scalars.accepted {
+        true => T::of(scalars.step),
+        false => T::zero(),
+    }
+}
+
+/// The terms of the mean pressure that a held gap asks for.
+#[inline(always)]
+fn add_balance<T: Real, const BASE: bool>(
+    sums: &mut [f64; SUMS],
+    core: &Core<T, BASE>,
+    [gap, pressure]: [T; 2],
+    on_surface: bool,
+) {
+    let share = core.share(gap, on_surface);
+    let traction = core.attraction(gap, on_surface);
+    sums[0] += (share * (pressure + traction)).double();
+    sums[1] += share.double();
+}
+
+with_or_without_base!(core_advance, advance);
+
+fn advance<T: Real, const BASE: bool>(
+    rows: &mut Rows<T>,
+    params: &Params,
+    scalars: &Scalars,
+    sums: &mut [f64; SUMS],
+) {
+    let layout = rows.layout();
+    let core = Core::<T, BASE>::new(params);
+    let (factor, base) = (rows.factor, rows.base);
+    let step = rows.reads[0];
+    let lines = &*rows.lines;
+    let [gap, pressure, y_before, _] = &mut rows.writes;
+    let t: T = taken(scalars);
+    let mean = T::of(scalars.mean_pressure);
+    layout.points(|i, on_surface| {
+        let core = core.at(factor, base, i);
+        let y = pressure[i] + mean + core.attraction(gap[i], on_surface);
+        y_before[i] = core.share(gap[i], on_surface) * y;
+        gap[i] += t * step[i];
+        pressure[i] += t * lines[i];
+        add_balance(sums, &core, [gap[i], pressure[i]], on_surface);
+    });
+}
+kernel!(
+    /// Takes K s and steps, where the mean gap is held; sums as `core_balance`. Reads step; updates gap,
+    /// pressure; writes the old S2 y.
+    CORE_ADVANCE, core_advance, Store, reads 1, writes 3, whole false,
+    sums [Add, Add], gate Running
 );
 
 with_or_without_base!(core_balance, balance);
@@ -457,10 +629,7 @@ fn balance<T: Real, const BASE: bool>(
     let [gap, pressure, ..] = rows.reads;
     layout.points(|i, on_surface| {
         let core = core.at(factor, base, i);
-        let share = core.share(gap[i], on_surface);
-        let traction = core.attraction(gap[i], on_surface);
-        sums[0] += (share * (pressure[i] + traction)).double();
-        sums[1] += share.double();
+        add_balance(sums, &core, [gap[i], pressure[i]], on_surface);
     });
 }
 kernel!(

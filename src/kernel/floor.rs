@@ -47,6 +47,11 @@ pub trait Floor<T: Real>: Copy {
     ) -> Violation<T>;
     /// Whether a closed point may only go down.
     fn goes_down(&self, gap: T, y: T) -> bool;
+    /// The gap after a step: `[step, t, snap]`, of which t is taken; gaps below `snap` that a step
+    /// closes are closed.
+    fn land(&self, law: &impl Cohesion<T>, gap: T, y: T, step: [T; 3]) -> T;
+    /// The weight of a point in the mean pressure that a held gap asks for.
+    fn weight(&self, law: &impl Cohesion<T>, gap: T) -> T;
     /// Attraction at a gap on the side on which the point is, less the floor's pressure below zero.
     fn traction(&self, law: &impl Cohesion<T>, gap: T) -> T;
 }
@@ -91,6 +96,22 @@ impl<T: Real> Floor<T> for Rigid {
     #[inline(always)]
     fn goes_down(&self, _gap: T, _y: T) -> bool {
         false
+    }
+
+    #[inline(always)]
+    fn land(&self, law: &impl Cohesion<T>, gap: T, _y: T, [step, t, snap]: [T; 3]) -> T {
+        // By what is left of the gap, which a cut makes exactly zero.
+        let left = law.open(gap) + t * step;
+        if left <= T::zero() || (step < T::zero() && left < snap) {
+            law.floor()
+        } else {
+            gap + t * step
+        }
+    }
+
+    #[inline(always)]
+    fn weight(&self, law: &impl Cohesion<T>, gap: T) -> T {
+        law.open(gap)
     }
 
     #[inline(always)]
@@ -162,6 +183,32 @@ impl<T: Real> Floor<T> for Yielding<T> {
     fn goes_down(&self, gap: T, y: T) -> bool {
         // A closed point that is free and does not open has y of the flow, which is positive.
         gap < T::zero() || (gap == T::zero() && y > T::zero())
+    }
+
+    #[inline(always)]
+    fn land(&self, _: &impl Cohesion<T>, gap: T, y: T, [step, t, snap]: [T; 3]) -> T {
+        // No point crosses zero.
+        let moved = gap + t * step;
+        if self.goes_down(gap, y) {
+            let moved = moved.min(T::zero());
+            if step > T::zero() && moved > -snap {
+                T::zero()
+            } else {
+                moved
+            }
+        } else {
+            let moved = moved.max(T::zero());
+            if step < T::zero() && moved < snap {
+                T::zero()
+            } else {
+                moved
+            }
+        }
+    }
+
+    #[inline(always)]
+    fn weight(&self, _: &impl Cohesion<T>, gap: T) -> T {
+        gap.abs()
     }
 
     #[inline(always)]

@@ -1,11 +1,13 @@
 //! The catalogue of kernels: what is done at each point, as a twin that the CPU runs and against
 //! which a shader of the same name is compared.
 //!
-//! A kernel is a *sweep* over points, the *load* part of a forward transform (it fills the lines
-//! that are transformed) or the *store* part of an inverse one (it takes the lines). It reads some
-//! fields, writes or updates others, and hands back a few sums. [`scalar`] kernels work on the
-//! [`Scalars`] alone; they hold all of the algorithm's decisions, so that a device can keep them.
+//! A kernel is a *sweep* over points, or it works on the lines of a transform: it takes those of an
+//! inverse transform or lines that were kept, and gives lines to be kept or to a forward transform
+//! (see [`Form`]). It reads some fields, writes or updates others, and hands back a few sums.
+//! [`scalar`] kernels work on the [`Scalars`] alone; they hold all of the algorithm's decisions, so
+//! that a device can keep them.
 
+pub mod base;
 pub mod coarse;
 pub mod common;
 pub mod core;
@@ -53,15 +55,41 @@ impl Reduce {
     }
 }
 
-/// Which of the three shapes a kernel has.
+/// Where the lines of a kernel come from and where they go. Lines are kept in the work space of the
+/// level's transforms, so that they cost no field.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Form {
-    /// Points, no transform.
+    /// Points, no lines.
     Sweep,
     /// Fills the lines of a forward transform.
     Load,
     /// Takes the lines of an inverse transform.
     Store,
+    /// Takes the lines of an inverse transform and leaves others to be kept.
+    Keep,
+    /// Takes the lines that were kept; they stay.
+    Peek,
+    /// Takes the lines that were kept and fills those of a forward transform.
+    Resume,
+    /// Takes the lines of an inverse transform and fills those of a forward transform.
+    Turn,
+}
+
+impl Form {
+    /// Whether an inverse transform goes before it.
+    pub fn after_inverse(self) -> bool {
+        matches!(self, Form::Store | Form::Keep | Form::Turn)
+    }
+
+    /// Whether a forward transform comes after it.
+    pub fn before_forward(self) -> bool {
+        matches!(self, Form::Load | Form::Resume | Form::Turn)
+    }
+
+    /// Whether it takes lines that were kept.
+    pub fn takes_kept(self) -> bool {
+        matches!(self, Form::Peek | Form::Resume)
+    }
 }
 
 /// A twin: a serial loop over the points of some rows.
@@ -71,7 +99,7 @@ pub type Twin<T> = fn(&mut Rows<T>, &Params, &Scalars, &mut [f64; SUMS]);
 pub struct Kernel {
     /// The word under which it is found everywhere.
     pub name: &'static str,
-    /// Sweep, load or store.
+    /// Where its lines come from and go.
     pub form: Form,
     /// How many fields it reads point by point.
     pub reads: usize,

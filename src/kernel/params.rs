@@ -56,9 +56,12 @@ pub enum Gate {
     Running,
     /// While it runs and the last trial was accepted, so that a new direction is due.
     Fresh,
+    /// The same, for what readies a direction and changes no field that outlives it: a device need not
+    /// wait for the decisions before it, since one that ends the solve leaves it unread.
+    Ahead,
     /// If this iteration's trial was accepted.
     Accepted,
-    /// While the step length is being searched.
+    /// While the step length is being searched; all other gates but `Always` are shut meanwhile.
     Searching,
 }
 
@@ -89,8 +92,9 @@ pub struct Scalars {
     pub curvature: f64,
     /// The part of the slope that the elastic pressure makes.
     pub elastic_slope: f64,
-    /// Constant of the direction if the plain descent takes its place.
-    pub plain_shift: f64,
+    /// Of the last step under a held pressure: `<d, yF - old yF>` and `<d, yF>`, d the direction that
+    /// it went along.
+    pub carried: [f64; 2],
     /// Largest s.
     pub up: f64,
     /// Least s.
@@ -162,7 +166,7 @@ impl Scalars {
             slope: 0.0,
             curvature: 0.0,
             elastic_slope: 0.0,
-            plain_shift: 0.0,
+            carried: [0.0; 2],
             up: 0.0,
             down: 0.0,
             step: 0.0,
@@ -193,15 +197,20 @@ impl Scalars {
         }
     }
 
+    /// Whether the solve has ended, or its iteration waits for the end of a search.
+    pub fn waits(&self) -> bool {
+        self.status != Status::Running || self.searching
+    }
+
     /// Whether a kernel behind this gate runs now.
     pub fn is_open(&self, gate: Gate) -> bool {
-        let running = self.status == Status::Running;
+        let running = !self.waits();
         match gate {
             Gate::Always => true,
             Gate::Running => running,
-            Gate::Fresh => running && !self.repeat,
+            Gate::Fresh | Gate::Ahead => running && !self.repeat,
             Gate::Accepted => running && self.accepted,
-            Gate::Searching => running && self.searching,
+            Gate::Searching => self.status == Status::Running && self.searching,
         }
     }
 }

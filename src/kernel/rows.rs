@@ -21,12 +21,12 @@ pub struct Rows<'a, T> {
     pub count: usize,
     /// Surface points along x and y; the others are the pad of a free boundary.
     pub surface: [usize; 2],
-    /// The lines of a transform, filled by a load part and taken by a store part.
+    /// The lines of a transform or those that were kept, as the kernel's form says.
     pub lines: &'a mut [T],
     /// Fields read, cut to these rows.
     pub reads: [&'a [T]; 4],
     /// Fields written or updated, cut to these rows.
-    pub writes: [&'a mut [T]; 3],
+    pub writes: [&'a mut [T]; 4],
     /// A field read anywhere.
     pub whole: Whole<'a, T>,
     /// Factors on the law's tension, cut to these rows; empty where the law is the same everywhere.

@@ -18,6 +18,7 @@ macro_rules! scalar_kernel {
         pub static $constant: ScalarKernel = ScalarKernel { name: stringify!($run), run: $run };
     };
 }
+pub(super) use scalar_kernel;
 
 /// Trials that may be lost in a row before the direction is given up.
 const LOST_TRIALS: u32 = 25;
@@ -52,6 +53,8 @@ const SEARCH_SHARE: f64 = 0.1;
 const EXTRAPOLATIONS: u32 = 6;
 /// Evaluations that one Lennard-Jones search may make.
 const EVALUATIONS: u32 = 40;
+/// First of the sums in which a Lennard-Jones trial evaluates the step 1, as a search would.
+const AT_ONE: usize = 6;
 
 /// The floor that rounding sets to the numerator of the stopping measure.
 pub fn rounding_floor(params: &Params, scalars: &Scalars) -> f64 {
@@ -88,7 +91,8 @@ fn stall(scalars: &mut Scalars) {
 }
 
 fn judge(params: &Params, scalars: &mut Scalars) {
-    if scalars.status != Status::Running || scalars.repeat {
+    // After a lost trial the state is the one that was judged.
+    if scalars.waits() || scalars.lost > 0 {
         return;
     }
     let [violation, pressures, least_gap, gaps, ..] = scalars.sums;
@@ -125,8 +129,18 @@ scalar_kernel!(
     JUDGE, judge
 );
 
+fn carry(_: &Params, scalars: &mut Scalars) {
+    if !scalars.waits() {
+        scalars.carried = [scalars.sums[4], scalars.sums[5]];
+    }
+}
+scalar_kernel!(
+    /// Keeps what the last step says of its direction.
+    CARRY, carry
+);
+
 fn direct(params: &Params, scalars: &mut Scalars) {
-    if scalars.status != Status::Running || scalars.repeat {
+    if scalars.waits() || scalars.repeat {
         return;
     }
     let [
@@ -141,6 +155,11 @@ fn direct(params: &Params, scalars: &mut Scalars) {
         d_sum,
         ..,
     ] = scalars.sums;
+    // Which points are free is known only after the mean pressure where that follows from the gap.
+    let [d_change, dy] = match params.fixed_gap {
+        true => [d_change, dy],
+        false => scalars.carried,
+    };
     // Under a held mean gap z and d carry no mean over the free points (in the measure of the
     // local compliance, for Lennard-Jones).
     let z_mean = if params.fixed_gap {
@@ -171,7 +190,6 @@ fn direct(params: &Params, scalars: &mut Scalars) {
     scalars.descent = -1.0;
     scalars.memory = memory;
     scalars.shift = z_mean - memory * d_mean;
-    scalars.plain_shift = z_mean;
     if scalars.careful {
         scalars.trial = CAREFUL_LENGTH;
     }
@@ -182,6 +200,9 @@ scalar_kernel!(
 );
 
 fn restore_wall(_: &Params, scalars: &mut Scalars) {
+    if scalars.waits() {
+        return;
+    }
     let [step, present, ..] = scalars.sums;
     let trial = present + step;
     scalars.restore = if trial > 0.0 { -step / trial } else { 0.0 };
@@ -192,6 +213,9 @@ scalar_kernel!(
 );
 
 fn restore_yield(_: &Params, scalars: &mut Scalars) {
+    if scalars.waits() {
+        return;
+    }
     let [step, present, depth, ..] = scalars.sums;
     let size = present + step + 2.0 * depth;
     scalars.restore = if size > 0.0 { -step / size } else { 0.0 };
@@ -202,6 +226,9 @@ scalar_kernel!(
 );
 
 fn restore_core(params: &Params, scalars: &mut Scalars) {
+    if scalars.waits() {
+        return;
+    }
     let [step, share, ..] = scalars.sums;
     scalars.restore = if params.fixed_gap {
         quotient(step, share)
@@ -215,11 +242,10 @@ scalar_kernel!(
 );
 
 fn accept(_: &Params, scalars: &mut Scalars) {
-    scalars.accepted = false;
-    scalars.searching = false;
-    if scalars.status != Status::Running {
+    if scalars.waits() {
         return;
     }
+    scalars.accepted = false;
     let [slope, first, up, down, cut, elastic, ..] = scalars.sums;
     if !slope.is_finite() {
         scalars.status = Status::NotFinite;
@@ -244,17 +270,13 @@ fn accept(_: &Params, scalars: &mut Scalars) {
         stall(scalars);
         return;
     }
-    scalars.repeat = true;
     scalars.trial *= SHORTEN;
-    if scalars.lost == LOST_BEFORE_DESCENT {
-        scalars.descent = -1.0;
-        scalars.memory = 0.0;
-        scalars.shift = scalars.plain_shift;
-    } else {
-        scalars.descent = 0.0;
-        scalars.memory = 1.0;
-        scalars.shift = 0.0;
-    }
+    // The trial has taken the place of the descent, which is found again where it is wanted.
+    scalars.restart = scalars.lost == LOST_BEFORE_DESCENT;
+    scalars.repeat = !scalars.restart;
+    scalars.descent = 0.0;
+    scalars.memory = 1.0;
+    scalars.shift = 0.0;
 }
 scalar_kernel!(
     /// Takes a trial that descends; otherwise shortens it and has it repeated.
@@ -282,8 +304,7 @@ fn rigid_motion(params: &Params, scalars: &mut Scalars) -> bool {
 }
 
 fn step_wall(params: &Params, scalars: &mut Scalars) {
-    scalars.searching = false;
-    if scalars.status != Status::Running || !scalars.accepted {
+    if scalars.waits() || !scalars.accepted {
         return;
     }
     if scalars.careful {
@@ -356,7 +377,7 @@ scalar_kernel!(
 );
 
 fn settle_wall(params: &Params, scalars: &mut Scalars) {
-    if scalars.status != Status::Running || !scalars.accepted || scalars.careful {
+    if scalars.waits() || !scalars.accepted || scalars.careful {
         return;
     }
     scalars.snap = if scalars.step == scalars.step_first {
@@ -371,7 +392,7 @@ scalar_kernel!(
 );
 
 fn lengthen_wall(_: &Params, scalars: &mut Scalars) {
-    if scalars.status == Status::Running && scalars.accepted && !scalars.careful {
+    if !scalars.waits() && scalars.accepted && !scalars.careful {
         scalars.trial *= scalars.length.clamp(0.3, 2.0);
     }
 }
@@ -380,9 +401,8 @@ scalar_kernel!(
     LENGTHEN_WALL, lengthen_wall
 );
 
-fn step_core(_: &Params, scalars: &mut Scalars) {
-    scalars.searching = false;
-    if scalars.status != Status::Running || !scalars.accepted {
+fn step_core(params: &Params, scalars: &mut Scalars) {
+    if scalars.waits() || !scalars.accepted {
         return;
     }
     if !scalars.curvature.is_finite() {
@@ -395,9 +415,12 @@ fn step_core(_: &Params, scalars: &mut Scalars) {
     scalars.low = [0.0, scalars.slope, 0.0];
     scalars.high = [f64::INFINITY; 2];
     scalars.slope_at_one = f64::INFINITY;
+    // The trial has evaluated this step on its way.
+    scalars.sums.copy_within(AT_ONE..AT_ONE + 3, 0);
+    search_core(params, scalars);
 }
 scalar_kernel!(
-    /// Starts the search along s at step 1.
+    /// Starts the search along s at step 1, which the trial's sums evaluate.
     STEP_CORE, step_core
 );
 
@@ -469,7 +492,7 @@ scalar_kernel!(
 );
 
 fn lengthen_core(_: &Params, scalars: &mut Scalars) {
-    if scalars.status != Status::Running || !scalars.accepted {
+    if scalars.waits() || !scalars.accepted {
         return;
     }
     let t = scalars.step;
@@ -485,7 +508,7 @@ scalar_kernel!(
 );
 
 fn balance_wall(_: &Params, scalars: &mut Scalars) {
-    if scalars.status != Status::Running {
+    if scalars.waits() {
         return;
     }
     let [gap_pressure, gap, least, ..] = scalars.sums;
@@ -501,7 +524,7 @@ scalar_kernel!(
 );
 
 fn balance_core(_: &Params, scalars: &mut Scalars) {
-    if scalars.status != Status::Running {
+    if scalars.waits() {
         return;
     }
     let [pressure, share, ..] = scalars.sums;

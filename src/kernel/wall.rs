@@ -4,7 +4,6 @@
 //! points (g > 0 or y < 0), yF = y on F and 0 elsewhere, d direction, s trial step. Points of a pad
 //! have no wall and no law: they are always free.
 
-use super::coarse;
 use super::floor::{Balance, Floor, Rigid, Violation, trial_step};
 use crate::kernel::{Params, Rows, SUMS, Scalars, kernel};
 use crate::law::{Cohesion, LawField};
@@ -153,10 +152,10 @@ kernel!(
     sums [Add, Add, Min, Add], gate Fresh
 );
 
-/// Keeps the lines in the first written field.
-pub(super) fn keep_lines<T: Real>(rows: &mut Rows<T>) {
+/// Keeps the lines in a written field.
+pub(super) fn keep_lines<T: Real>(rows: &mut Rows<T>, place: usize) {
     let count = rows.len();
-    rows.writes[0][..count].copy_from_slice(&rows.lines[..count]);
+    rows.writes[place][..count].copy_from_slice(&rows.lines[..count]);
 }
 
 fn wall_free_kept<T: Real>(
@@ -166,7 +165,7 @@ fn wall_free_kept<T: Real>(
     sums: &mut [f64; SUMS],
 ) {
     wall_free(rows, params, scalars, sums);
-    keep_lines(rows);
+    keep_lines(rows, 0);
 }
 kernel!(
     /// As `wall_free`, and keeps yF in a field for the coarse level. Reads gap, pressure; writes yF.
@@ -176,39 +175,35 @@ kernel!(
 
 /// The sums from which the direction's conjugacy is found; slots as `scalar::direct` reads them.
 #[inline(always)]
-fn add_descent<T: Real>(
+pub(super) fn add_descent<T: Real>(sums: &mut [f64; SUMS], z: T, y_free: T, y_before: T) {
+    let (z, y) = (z.double(), y_free.double());
+    sums[0] += z * y;
+    sums[1] += z * (y - y_before.double());
+}
+
+/// Those that the direction enters too, and what takes the means off (fixed mean gap).
+#[inline(always)]
+pub(super) fn add_descent_held<T: Real>(
     sums: &mut [f64; SUMS],
-    z: T,
-    y_free: T,
-    y_before: T,
-    direction: T,
+    [z, y_free, y_before, direction]: [T; 4],
     free: bool,
-    held: bool,
 ) {
-    let (z, y, before, d) = (
-        z.double(),
-        y_free.double(),
-        y_before.double(),
-        direction.double(),
-    );
-    let change = y - before;
+    add_descent(sums, z, y_free, y_before);
+    let (z, y, d) = (z.double(), y_free.double(), direction.double());
+    let change = y - y_before.double();
     sums[2] += d * change;
     if free {
-        sums[0] += z * y;
-        sums[1] += z * change;
         sums[3] += d * y;
-        if held {
-            sums[4] += z;
-            sums[5] += 1.0;
-            sums[6] += y;
-            sums[7] += change;
-            sums[8] += d;
-        }
+        sums[4] += z;
+        sums[5] += 1.0;
+        sums[6] += y;
+        sums[7] += change;
+        sums[8] += d;
     }
 }
 
-/// The twin of `wall_descent` over a floor.
-pub(super) fn descent<T: Real, F: Floor<T>>(
+/// The twin of `wall_descent` over a floor, and with a fourth field of `wall_descent_held`.
+pub(super) fn descent<T: Real, F: Floor<T>, const HELD: bool>(
     rows: &mut Rows<T>,
     params: &Params,
     scalars: &Scalars,
@@ -216,22 +211,21 @@ pub(super) fn descent<T: Real, F: Floor<T>>(
 ) {
     let layout = rows.layout();
     let count = rows.len();
-    let [gap, pressure, direction, _] = rows.reads;
-    let (gap, pressure, direction) = (&gap[..count], &pressure[..count], &direction[..count]);
-    let lines = &rows.lines[..count];
-    let [z_out, y_before, _] = &mut rows.writes;
-    let (z_out, y_before) = (&mut z_out[..count], &mut y_before[..count]);
+    let [gap, pressure, y_before, direction] = rows.reads;
+    let (gap, pressure, y_before) = (&gap[..count], &pressure[..count], &y_before[..count]);
+    let lines = &mut rows.lines[..count];
     let mean = T::of(scalars.mean_pressure);
-    let held = params.fixed_gap;
     let floor = F::of(params);
     with_law_field!(params.law, rows.factor, rows.base, T, law => layout.points(|i, on_surface| {
         let law = LawField::<T>::at(&law, i);
         let Balance { y, free } = balance(&floor, &law, gap[i], pressure[i] + mean, on_surface);
-        let y_free = if free { y } else { T::zero() };
-        let z = if free { lines[i] } else { T::zero() };
-        add_descent(sums, z, y_free, y_before[i], direction[i], free, held);
-        z_out[i] = z;
-        y_before[i] = y_free;
+        let [y, z] = if free { [y, lines[i]] } else { [T::zero(); 2] };
+        if HELD {
+            add_descent_held(sums, [z, y, y_before[i], direction[i]], free);
+        } else {
+            add_descent(sums, z, y, y_before[i]);
+        }
+        lines[i] = z;
     }));
 }
 
@@ -241,28 +235,26 @@ fn wall_descent<T: Real>(
     scalars: &Scalars,
     sums: &mut [f64; SUMS],
 ) {
-    descent::<T, Rigid>(rows, params, scalars, sums);
+    descent::<T, Rigid, false>(rows, params, scalars, sums);
 }
 kernel!(
-    /// Stores the preconditioned residual z on free points. Reads gap, pressure, direction;
-    /// writes z and replaces the old yF by the new one.
-    WALL_DESCENT, wall_descent, Store, reads 3, writes 2, whole false,
-    sums [Add, Add, Add, Add, Add, Add, Add, Add, Add], gate Fresh
+    /// Keeps the preconditioned residual z on free points. Reads gap, pressure, the old yF.
+    WALL_DESCENT, wall_descent, Keep, reads 3, writes 0, whole false,
+    sums [Add, Add], gate Ahead
 );
 
-fn wall_descent_two_band<T: Real>(
+fn wall_descent_held<T: Real>(
     rows: &mut Rows<T>,
     params: &Params,
     scalars: &Scalars,
     sums: &mut [f64; SUMS],
 ) {
-    coarse::add_interpolated(rows);
-    wall_descent(rows, params, scalars, sums);
+    descent::<T, Rigid, true>(rows, params, scalars, sums);
 }
 kernel!(
-    /// As `wall_descent`, with the long waves added from the coarse level. Whole: the coarse z.
-    WALL_DESCENT_TWO_BAND, wall_descent_two_band, Store, reads 3, writes 2, whole true,
-    sums [Add, Add, Add, Add, Add, Add, Add, Add, Add], gate Fresh
+    /// The same where the mean gap is held. Reads gap, pressure, the old yF, direction.
+    WALL_DESCENT_HELD, wall_descent_held, Keep, reads 4, writes 0, whole false,
+    sums [Add, Add, Add, Add, Add, Add, Add, Add, Add], gate Ahead
 );
 
 /// The new direction at one point: zero where the point is not free.
@@ -312,8 +304,8 @@ pub(super) fn trial<T: Real, F: Floor<T>>(
 ) {
     let layout = rows.layout();
     let count = rows.len();
-    let [gap, pressure, z, _] = rows.reads;
-    let (gap, pressure, z) = (&gap[..count], &pressure[..count], &z[..count]);
+    let [gap, pressure, ..] = rows.reads;
+    let (gap, pressure) = (&gap[..count], &pressure[..count]);
     let direction = &mut rows.writes[0][..count];
     let lines = &mut rows.lines[..count];
     let mean = T::of(scalars.mean_pressure);
@@ -323,7 +315,7 @@ pub(super) fn trial<T: Real, F: Floor<T>>(
     with_law_field!(params.law, rows.factor, rows.base, T, law => layout.points(|i, on_surface| {
         let law = LawField::<T>::at(&law, i);
         let Balance { y, free } = balance(&floor, &law, gap[i], pressure[i] + mean, on_surface);
-        let d = new_direction(z[i], direction[i], factors, free);
+        let d = new_direction(lines[i], direction[i], factors, free);
         direction[i] = d;
         let open = law.open(gap[i]);
         let (step, cut) = step_of(&floor, [open, y, length * d, T::zero()], on_surface);
@@ -341,8 +333,9 @@ fn wall_trial<T: Real>(
     trial::<T, Rigid>(rows, params, scalars, sums);
 }
 kernel!(
-    /// Turns the direction and loads the trial step s. Reads gap, pressure, z; updates direction.
-    WALL_TRIAL, wall_trial, Load, reads 3, writes 1, whole false,
+    /// Turns the direction by the kept z and loads the trial step s. Reads gap, pressure; updates
+    /// direction.
+    WALL_TRIAL, wall_trial, Resume, reads 2, writes 1, whole false,
     sums [Add, Min, Max, Min, Max], gate Running
 );
 
@@ -353,7 +346,8 @@ fn wall_direct<T: Real>(
     sums: &mut [f64; SUMS],
 ) {
     let layout = rows.layout();
-    let [gap, pressure, z, _] = rows.reads;
+    let [gap, pressure, ..] = rows.reads;
+    let z = &*rows.lines;
     let direction = &mut rows.writes[0];
     let mean = T::of(scalars.mean_pressure);
     let factors = [scalars.descent, scalars.memory, scalars.shift].map(T::of);
@@ -369,9 +363,9 @@ fn wall_direct<T: Real>(
     }));
 }
 kernel!(
-    /// Turns the direction and sums the trial step and the gap (fixed mean gap). Reads gap,
-    /// pressure, z; updates direction.
-    WALL_DIRECT, wall_direct, Sweep, reads 3, writes 1, whole false,
+    /// Turns the direction by the kept z and sums the trial step and the gap (fixed mean gap). Reads
+    /// gap, pressure; updates direction.
+    WALL_DIRECT, wall_direct, Peek, reads 2, writes 1, whole false,
     sums [Add, Add], gate Running
 );
 
@@ -428,51 +422,190 @@ kernel!(
     sums [Add], gate Searching
 );
 
-fn wall_advance<T: Real>(
+/// The step of one point, and what stays of it: gap and pressure after it, y on free points before it.
+#[inline(always)]
+fn step_from<T: Real>(
+    floor: &impl Floor<T>,
+    law: &impl Cohesion<T>,
+    [gap, pressure]: [T; 2],
+    [direction, answer]: [T; 2],
+    step: &Step<T>,
+    on_surface: bool,
+) -> [T; 3] {
+    let before = balance(floor, law, gap, pressure + step.mean, on_surface);
+    let y_before = if before.free { before.y } else { T::zero() };
+    if !step.taken {
+        return [gap, pressure, y_before];
+    }
+    let here = [
+        law.open(gap),
+        before.y,
+        step.trial * direction,
+        step.restore,
+    ];
+    let (way, _) = step_of(floor, here, on_surface);
+    let moved = if on_surface {
+        floor.land(law, gap, before.y, [way, step.length, step.snap])
+    } else {
+        gap + step.length * way
+    };
+    [moved, pressure + step.length * answer, y_before]
+}
+
+/// What a step is made of, from the scalars.
+struct Step<T> {
+    /// Whether there is one: a lost trial leaves all as it is.
+    taken: bool,
+    mean: T,
+    trial: T,
+    restore: T,
+    length: T,
+    snap: T,
+}
+
+impl<T: Real> Step<T> {
+    fn of(scalars: &Scalars) -> Self {
+        Step {
+            taken: scalars.accepted,
+            mean: T::of(scalars.mean_pressure),
+            trial: T::of(scalars.trial),
+            restore: T::of(scalars.restore),
+            length: T::of(scalars.step),
+            snap: T::of(scalars.snap),
+        }
+    }
+}
+
+/// The twin of `wall_turn` over a floor.
+pub(super) fn turn<T: Real, F: Floor<T>>(
     rows: &mut Rows<T>,
-    _params: &Params,
+    params: &Params,
     scalars: &Scalars,
-    _sums: &mut [f64; SUMS],
+    sums: &mut [f64; SUMS],
+) {
+    let layout = rows.layout();
+    let count = rows.len();
+    let direction = &rows.reads[0][..count];
+    let lines = &mut rows.lines[..count];
+    let [gap, pressure, y_before, _] = &mut rows.writes;
+    let (gap, pressure) = (&mut gap[..count], &mut pressure[..count]);
+    let y_before = &mut y_before[..count];
+    let step = Step::of(scalars);
+    let stiffness_max = T::of(params.stiffness_max);
+    let floor = F::of(params);
+    with_law_field!(params.law, rows.factor, rows.base, T, law => layout.points(|i, on_surface| {
+        let law = LawField::<T>::at(&law, i);
+        let here = [gap[i], pressure[i]];
+        let way = [direction[i], lines[i]];
+        let [g, p, before] = step_from(&floor, &law, here, way, &step, on_surface);
+        [gap[i], pressure[i], y_before[i]] = [g, p, before];
+        let elastic = p + step.mean;
+        add_residual(sums, &floor, &law, [g, elastic, stiffness_max], on_surface);
+        let here = balance(&floor, &law, g, elastic, on_surface);
+        let y = if here.free { here.y } else { T::zero() };
+        let d = direction[i].double();
+        sums[4] += d * (y.double() - before.double());
+        sums[5] += d * y.double();
+        lines[i] = y;
+    }));
+}
+
+fn wall_turn<T: Real>(
+    rows: &mut Rows<T>,
+    params: &Params,
+    scalars: &Scalars,
+    sums: &mut [f64; SUMS],
+) {
+    turn::<T, Rigid>(rows, params, scalars, sums);
+}
+kernel!(
+    /// Takes K s and steps: g += t s, p += t K s; then loads the new yF, as `wall_free` does, with the
+    /// sums of the step's direction. Reads direction; updates gap, pressure; writes the old yF.
+    WALL_TURN, wall_turn, Turn, reads 1, writes 3, whole false,
+    sums [Add, Add, Min, Add, Add, Add], gate Running
+);
+
+fn wall_turn_kept<T: Real>(
+    rows: &mut Rows<T>,
+    params: &Params,
+    scalars: &Scalars,
+    sums: &mut [f64; SUMS],
+) {
+    wall_turn(rows, params, scalars, sums);
+    keep_lines(rows, 3);
+}
+kernel!(
+    /// As `wall_turn`, and keeps the new yF in a field for the coarse level. Writes it after the others.
+    WALL_TURN_KEPT, wall_turn_kept, Turn, reads 1, writes 4, whole false,
+    sums [Add, Add, Min, Add, Add, Add], gate Running
+);
+
+/// The terms of the mean pressure that a held gap asks for.
+#[inline(always)]
+fn add_balance<T: Real>(
+    sums: &mut [f64; SUMS],
+    floor: &impl Floor<T>,
+    law: &impl Cohesion<T>,
+    [gap, pressure]: [T; 2],
+    on_surface: bool,
+) {
+    let traction = if on_surface {
+        floor.traction(law, gap)
+    } else {
+        law.beyond()
+    };
+    let y = (pressure + traction).double();
+    let weight = floor.weight(law, gap).double();
+    sums[0] += weight * y;
+    sums[1] += weight;
+    if y < sums[2] {
+        sums[2] = y;
+    }
+}
+
+/// The twin of `wall_advance` over a floor.
+pub(super) fn advance<T: Real, F: Floor<T>>(
+    rows: &mut Rows<T>,
+    params: &Params,
+    scalars: &Scalars,
+    sums: &mut [f64; SUMS],
 ) {
     let layout = rows.layout();
     let count = rows.len();
     let direction = &rows.reads[0][..count];
     let lines = &rows.lines[..count];
-    let [gap, pressure, _] = &mut rows.writes;
+    let [gap, pressure, y_before, _] = &mut rows.writes;
     let (gap, pressure) = (&mut gap[..count], &mut pressure[..count]);
-    let length = T::of(scalars.trial);
-    let restore = T::of(scalars.restore);
-    let t = T::of(scalars.step);
-    let snap = T::of(scalars.snap);
-    let base = rows.base[0];
-    let mut point = |i: usize, floor: T, on_surface: bool| {
-        let open = gap[i] - floor;
-        let moved = length * direction[i];
-        let step = if on_surface {
-            trial_step(open, moved, restore, false)
-        } else {
-            moved
-        };
-        let moved = gap[i] + t * step;
-        let left = open + t * step;
-        // By what is left of the gap, which a cut makes exactly zero.
-        let closed = on_surface && (left <= T::zero() || (step < T::zero() && left < snap));
-        gap[i] = if closed { floor } else { moved };
-        pressure[i] += t * lines[i];
-    };
-    if base.is_empty() {
-        layout.points(|i, on_surface| point(i, T::zero(), on_surface));
-    } else {
-        layout.points(|i, on_surface| point(i, -base[i], on_surface));
-    }
+    let y_before = &mut y_before[..count];
+    let step = Step::of(scalars);
+    let floor = F::of(params);
+    with_law_field!(params.law, rows.factor, rows.base, T, law => layout.points(|i, on_surface| {
+        let law = LawField::<T>::at(&law, i);
+        let here = [gap[i], pressure[i]];
+        let way = [direction[i], lines[i]];
+        let [g, p, before] = step_from(&floor, &law, here, way, &step, on_surface);
+        [gap[i], pressure[i], y_before[i]] = [g, p, before];
+        add_balance(sums, &floor, &law, [g, p], on_surface);
+    }));
+}
+
+fn wall_advance<T: Real>(
+    rows: &mut Rows<T>,
+    params: &Params,
+    scalars: &Scalars,
+    sums: &mut [f64; SUMS],
+) {
+    advance::<T, Rigid>(rows, params, scalars, sums);
 }
 kernel!(
-    /// Takes K s and steps: g += t s, p += t K s. Reads direction; updates gap, pressure.
-    WALL_ADVANCE, wall_advance, Store, reads 1, writes 2, whole false,
-    sums [], gate Accepted
+    /// Takes K s and steps, where the mean gap is held; sums as `wall_balance`. Reads direction; updates
+    /// gap, pressure; writes the old yF.
+    WALL_ADVANCE, wall_advance, Store, reads 1, writes 3, whole false,
+    sums [Add, Add, Min], gate Running
 );
 
-fn wall_balance<T: Real>(
+/// The twin of `wall_balance` over a floor.
+pub(super) fn balance_sums<T: Real, F: Floor<T>>(
     rows: &mut Rows<T>,
     params: &Params,
     _scalars: &Scalars,
@@ -480,16 +613,20 @@ fn wall_balance<T: Real>(
 ) {
     let layout = rows.layout();
     let [gap, pressure, ..] = rows.reads;
+    let floor = F::of(params);
     with_law_field!(params.law, rows.factor, rows.base, T, law => layout.points(|i, on_surface| {
         let law = LawField::<T>::at(&law, i);
-        let y = balance(&Rigid, &law, gap[i], pressure[i], on_surface).y.double();
-        let open = law.open(gap[i]).double();
-        sums[0] += open * y;
-        sums[1] += open;
-        if y < sums[2] {
-            sums[2] = y;
-        }
+        add_balance(sums, &floor, &law, [gap[i], pressure[i]], on_surface);
     }));
+}
+
+fn wall_balance<T: Real>(
+    rows: &mut Rows<T>,
+    params: &Params,
+    scalars: &Scalars,
+    sums: &mut [f64; SUMS],
+) {
+    balance_sums::<T, Rigid>(rows, params, scalars, sums);
 }
 kernel!(
     /// The sums that give the mean pressure under a held mean gap. Reads gap, pressure.

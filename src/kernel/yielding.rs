@@ -1,7 +1,6 @@
 //! Kernels of a solid whose pressure saturates: those of the wall over a floor that flows, see
 //! [`floor`](super::floor). A gap below zero is the depth that has flowed in this solve.
 
-use super::coarse;
 use super::floor::{Balance, Floor, Yielding, trial_step};
 use super::wall;
 use crate::kernel::{Params, Rows, SUMS, Scalars, kernel};
@@ -44,7 +43,7 @@ fn yield_free_kept<T: Real>(
     sums: &mut [f64; SUMS],
 ) {
     yield_free(rows, params, scalars, sums);
-    wall::keep_lines(rows);
+    wall::keep_lines(rows, 0);
 }
 kernel!(
     /// As `yield_free`, and keeps yF in a field for the coarse level. Reads gap, pressure; writes yF.
@@ -58,28 +57,26 @@ fn yield_descent<T: Real>(
     scalars: &Scalars,
     sums: &mut [f64; SUMS],
 ) {
-    wall::descent::<T, Yielding<T>>(rows, params, scalars, sums);
+    wall::descent::<T, Yielding<T>, false>(rows, params, scalars, sums);
 }
 kernel!(
-    /// Stores the preconditioned residual z on free points. Reads gap, pressure, direction;
-    /// writes z and replaces the old yF by the new one.
-    YIELD_DESCENT, yield_descent, Store, reads 3, writes 2, whole false,
-    sums [Add, Add, Add, Add, Add, Add, Add, Add, Add], gate Fresh
+    /// Keeps the preconditioned residual z on free points. Reads gap, pressure, the old yF.
+    YIELD_DESCENT, yield_descent, Keep, reads 3, writes 0, whole false,
+    sums [Add, Add], gate Ahead
 );
 
-fn yield_descent_two_band<T: Real>(
+fn yield_descent_held<T: Real>(
     rows: &mut Rows<T>,
     params: &Params,
     scalars: &Scalars,
     sums: &mut [f64; SUMS],
 ) {
-    coarse::add_interpolated(rows);
-    yield_descent(rows, params, scalars, sums);
+    wall::descent::<T, Yielding<T>, true>(rows, params, scalars, sums);
 }
 kernel!(
-    /// As `yield_descent`, with the long waves added from the coarse level. Whole: the coarse z.
-    YIELD_DESCENT_TWO_BAND, yield_descent_two_band, Store, reads 3, writes 2, whole true,
-    sums [Add, Add, Add, Add, Add, Add, Add, Add, Add], gate Fresh
+    /// The same where the mean gap is held. Reads gap, pressure, the old yF, direction.
+    YIELD_DESCENT_HELD, yield_descent_held, Keep, reads 4, writes 0, whole false,
+    sums [Add, Add, Add, Add, Add, Add, Add, Add, Add], gate Ahead
 );
 
 fn yield_trial<T: Real>(
@@ -91,8 +88,9 @@ fn yield_trial<T: Real>(
     wall::trial::<T, Yielding<T>>(rows, params, scalars, sums);
 }
 kernel!(
-    /// Turns the direction and loads the trial step s. Reads gap, pressure, z; updates direction.
-    YIELD_TRIAL, yield_trial, Load, reads 3, writes 1, whole false,
+    /// Turns the direction by the kept z and loads the trial step s. Reads gap, pressure; updates
+    /// direction.
+    YIELD_TRIAL, yield_trial, Resume, reads 2, writes 1, whole false,
     sums [Add, Min, Max, Min, Max], gate Running
 );
 
@@ -103,7 +101,8 @@ fn yield_direct<T: Real>(
     sums: &mut [f64; SUMS],
 ) {
     let layout = rows.layout();
-    let [gap, pressure, z, _] = rows.reads;
+    let [gap, pressure, ..] = rows.reads;
+    let z = &*rows.lines;
     let direction = &mut rows.writes[0];
     let mean = T::of(scalars.mean_pressure);
     let factors = [scalars.descent, scalars.memory, scalars.shift].map(T::of);
@@ -122,9 +121,9 @@ fn yield_direct<T: Real>(
     }));
 }
 kernel!(
-    /// Turns the direction and sums the trial step, the gap, and the depth of the trial (fixed mean
-    /// gap). Reads gap, pressure, z; updates direction.
-    YIELD_DIRECT, yield_direct, Sweep, reads 3, writes 1, whole false,
+    /// Turns the direction by the kept z and sums the trial step, the gap, and the depth of the trial
+    /// (fixed mean gap). Reads gap, pressure; updates direction.
+    YIELD_DIRECT, yield_direct, Peek, reads 2, writes 1, whole false,
     sums [Add, Add, Add], gate Running
 );
 
@@ -197,71 +196,58 @@ kernel!(
     sums [Add], gate Searching
 );
 
+fn yield_turn<T: Real>(
+    rows: &mut Rows<T>,
+    params: &Params,
+    scalars: &Scalars,
+    sums: &mut [f64; SUMS],
+) {
+    wall::turn::<T, Yielding<T>>(rows, params, scalars, sums);
+}
+kernel!(
+    /// Takes K s and steps, then loads the new yF. Reads direction; updates gap, pressure; writes the
+    /// old yF.
+    YIELD_TURN, yield_turn, Turn, reads 1, writes 3, whole false,
+    sums [Add, Add, Min, Add, Add, Add], gate Running
+);
+
+fn yield_turn_kept<T: Real>(
+    rows: &mut Rows<T>,
+    params: &Params,
+    scalars: &Scalars,
+    sums: &mut [f64; SUMS],
+) {
+    yield_turn(rows, params, scalars, sums);
+    wall::keep_lines(rows, 3);
+}
+kernel!(
+    /// As `yield_turn`, and keeps the new yF in a field for the coarse level. Writes it after the others.
+    YIELD_TURN_KEPT, yield_turn_kept, Turn, reads 1, writes 4, whole false,
+    sums [Add, Add, Min, Add, Add, Add], gate Running
+);
+
 fn yield_advance<T: Real>(
     rows: &mut Rows<T>,
     params: &Params,
     scalars: &Scalars,
-    _sums: &mut [f64; SUMS],
+    sums: &mut [f64; SUMS],
 ) {
-    let layout = rows.layout();
-    let direction = rows.reads[0];
-    let lines = &*rows.lines;
-    let [gap, pressure, _] = &mut rows.writes;
-    let mean = T::of(scalars.mean_pressure);
-    let length = T::of(scalars.trial);
-    let restore = T::of(scalars.restore);
-    let t = T::of(scalars.step);
-    let snap = T::of(scalars.snap);
-    let floor = Yielding::of(params);
-    with_law_field!(params.law, rows.factor, rows.base, T, law => layout.points(|i, on_surface| {
-        let law = LawField::<T>::at(&law, i);
-        let y = wall::balance(&floor, &law, gap[i], pressure[i] + mean, on_surface).y;
-        let here = [gap[i], y, length * direction[i], restore];
-        let (step, _) = wall::step_of(&floor, here, on_surface);
-        let mut moved = gap[i] + t * step;
-        if on_surface {
-            if floor.goes_down(gap[i], y) {
-                moved = moved.min(T::zero());
-                if step > T::zero() && moved > -snap {
-                    moved = T::zero();
-                }
-            } else {
-                moved = moved.max(T::zero());
-                if step < T::zero() && moved < snap {
-                    moved = T::zero();
-                }
-            }
-        }
-        gap[i] = moved;
-        pressure[i] += t * lines[i];
-    }));
+    wall::advance::<T, Yielding<T>>(rows, params, scalars, sums);
 }
 kernel!(
-    /// Takes K s and steps: g += t s, p += t K s. Reads direction; updates gap, pressure.
-    YIELD_ADVANCE, yield_advance, Store, reads 1, writes 2, whole false,
-    sums [], gate Accepted
+    /// Takes K s and steps, where the mean gap is held; sums as `yield_balance`. Reads direction; updates
+    /// gap, pressure; writes the old yF.
+    YIELD_ADVANCE, yield_advance, Store, reads 1, writes 3, whole false,
+    sums [Add, Add, Min], gate Running
 );
 
 fn yield_balance<T: Real>(
     rows: &mut Rows<T>,
     params: &Params,
-    _scalars: &Scalars,
+    scalars: &Scalars,
     sums: &mut [f64; SUMS],
 ) {
-    let layout = rows.layout();
-    let [gap, pressure, ..] = rows.reads;
-    let floor = Yielding::of(params);
-    with_law_field!(params.law, rows.factor, rows.base, T, law => layout.points(|i, on_surface| {
-        let law = LawField::<T>::at(&law, i);
-        let traction = if on_surface { floor.traction(&law, gap[i]) } else { T::zero() };
-        let y = (pressure[i] + traction).double();
-        let weight = gap[i].double().abs();
-        sums[0] += weight * y;
-        sums[1] += weight;
-        if y < sums[2] {
-            sums[2] = y;
-        }
-    }));
+    wall::balance_sums::<T, Yielding<T>>(rows, params, scalars, sums);
 }
 kernel!(
     /// The sums that give the mean pressure under a held mean gap. Reads gap, pressure.

@@ -64,7 +64,6 @@ pub struct ContactSolver<'a> {
     pub(super) gap: Field,
     pub(super) pressure: Field,
     pub(super) direction: Field,
-    pub(super) descent: Field,
     pub(super) free_before: Field,
     /// Factors on the law's tension, where it is not the same everywhere and always.
     law_factor: Option<Field>,
@@ -93,11 +92,13 @@ pub struct ContactSolver<'a> {
     flowed: Vec<f64>,
 }
 
-/// Evaluations that one search of a step length may take, the scalar kernels' own bounds included.
+/// Evaluations that one search of a step length may take where each is looked at, the scalar kernels'
+/// own bounds included.
 const SEARCHES: usize = 48;
-/// Evaluations recorded before a look at whether the search is over, at most.
-const SEARCHES_AT_ONCE: usize = 4;
-/// Lost trials that a solve may see for each iteration allowed.
+/// Evaluations in a round that is not looked at: most searches need no more, and one that does goes on in
+/// the next round, which does nothing else.
+const SEARCHES_AT_ONCE: usize = 2;
+/// Rounds, lost trials and long searches included, that a solve may take for each iteration allowed.
 const ROUNDS_PER_ITERATION: usize = 4;
 
 impl<'a> ContactSolver<'a> {
@@ -108,7 +109,6 @@ impl<'a> ContactSolver<'a> {
         let gap = backend.field(level, "gap");
         let pressure = backend.field(level, "pressure");
         let direction = backend.field(level, "direction");
-        let descent = backend.field(level, "descent");
         let free_before = backend.field(level, "free_before");
         let has_wall = problem.law.has_wall();
         let step = (!has_wall).then(|| backend.field(level, "step"));
@@ -139,7 +139,6 @@ impl<'a> ContactSolver<'a> {
             gap,
             pressure,
             direction,
-            descent,
             free_before,
             law_factor,
             present_factor: None,
@@ -237,11 +236,11 @@ impl<'a> ContactSolver<'a> {
         if let (Some(field), Some(own)) = (self.law_factor, &self.problem.law_factor) {
             let values = factor.as_ref().unwrap_or(own);
             self.backend.write(field, &self.problem.padded(values, 0.0));
-            if self.reference().is_some() {
-                let values = values.clone();
-                if let Some(reference) = &mut self.reference {
-                    reference.set_law_factor(self.problem, values);
-                }
+            let problem = self.problem;
+            if self.reference().is_some()
+                && let Some(reference) = &mut self.reference
+            {
+                reference.set_law_factor(problem, values);
             }
             self.present_factor = factor;
         }
@@ -285,7 +284,7 @@ impl<'a> ContactSolver<'a> {
 
     /// Readies a solve: the load, the start, and the pressures that belong to it.
     ///
-    /// Around a reference the present gap is the reference's, which the caller hands in.
+    /// Around a reference the present gap is the reference's, which [`ContactSolver::solve`] hands in.
     pub fn begin(
         &mut self,
         load: &Load,
@@ -325,7 +324,22 @@ impl<'a> ContactSolver<'a> {
                 self.backend.write(self.gap, &gap);
             }
         }
-        self.refresh()
+        self.refresh()?;
+        self.ready();
+        Ok(())
+    }
+
+    /// Loads and judges the residual of the present state: every round starts from its transformed rows.
+    pub(super) fn ready(&mut self) {
+        let (level, g, p) = (self.level, self.gap, self.pressure);
+        match &self.two_band {
+            Some(bands) => {
+                let fields = [g, p, bands.free()];
+                self.backend.forward(bands.load_free, level, &fields);
+            }
+            None => self.backend.forward(self.kernels.free, level, &[g, p]),
+        }
+        self.backend.scalar(&scalar::JUDGE);
     }
 
     /// p = K*(g + h) afresh, and the mean pressure that goes with a held gap.
@@ -357,74 +371,90 @@ impl<'a> ContactSolver<'a> {
 
     /// Up to `most` iterations, as many as the backend records before it looks; says how many,
     /// those that idled after the end included.
-    pub(super) fn advance(&mut self, most: usize) -> Result<(usize, Scalars), BackendError> {
-        // A law with a tail looks during its search anyhow.
-        let rounds = match self.problem.law.has_tail() {
-            true => 1,
-            false => self.backend.look_every().min(most).max(1),
-        };
+    pub fn advance(&mut self, most: usize) -> Result<(usize, Scalars), BackendError> {
+        let rounds = self.backend.look_every().min(most).max(1);
         for _ in 0..rounds {
             self.record()?;
         }
         Ok((rounds, self.backend.scalars()?))
     }
 
-    /// Records one iteration. All decisions are taken by the scalar kernels; the search is left
-    /// early where the host can see that it is over.
+    /// Records one iteration, from the rows of the residual to those of the next one. All decisions are
+    /// taken by the scalar kernels; where looking is free a search is left when it is over.
     fn record(&mut self) -> Result<(), BackendError> {
         let (level, kernels) = (self.level, self.kernels);
-        let (g, p, z, d) = (self.gap, self.pressure, self.descent, self.direction);
+        let (g, p, d, before) = (self.gap, self.pressure, self.direction, self.free_before);
+        let held = self.params.fixed_gap;
         let backend = &mut *self.backend;
         match &self.two_band {
             Some(bands) => {
-                bands.descend(backend, g, p, d, z, self.free_before, self.preconditioner)
+                bands.descend(backend, before, held.then_some(d), self.preconditioner);
             }
             None => {
-                backend.forward(kernels.free, level, &[g, p]);
-                backend.scalar(&scalar::JUDGE);
-                backend.multiply(self.preconditioner, false, Gate::Fresh);
-                backend.backward(kernels.descent, level, &[g, p, d, z, self.free_before]);
+                backend.multiply(self.preconditioner, false, Gate::Ahead);
+                match held {
+                    true => backend.backward(kernels.descent_held, level, &[g, p, before, d]),
+                    false => backend.backward(kernels.descent, level, &[g, p, before]),
+                }
             }
         }
         backend.scalar(&scalar::DIRECT);
-        match self.step {
-            Some(step) => {
-                backend.sweep(kernels.direct, level, &[g, z, d, step]);
-                backend.scalar(kernels.restore);
-                backend.forward(kernels.trial, level, &[g, p, step]);
+        if held {
+            match self.step {
+                Some(step) => backend.sweep(kernels.direct, level, &[g, d, step]),
+                None => backend.sweep(kernels.direct, level, &[g, p, d]),
             }
-            None if self.params.fixed_gap => {
-                backend.sweep(kernels.direct, level, &[g, p, z, d]);
-                backend.scalar(kernels.restore);
-                backend.forward(kernels.trial_held, level, &[g, p, d]);
+            backend.scalar(kernels.restore);
+            let moved = self.step.unwrap_or(d);
+            backend.forward(kernels.trial_held, level, &[g, p, moved]);
+        } else {
+            match self.step {
+                Some(step) => backend.forward(kernels.trial, level, &[g, p, d, step]),
+                None => backend.forward(kernels.trial, level, &[g, p, d]),
             }
-            None => backend.forward(kernels.trial, level, &[g, p, z, d]),
         }
         backend.scalar(&scalar::ACCEPT);
         backend.multiply(self.stiffness, true, Gate::Accepted);
         backend.scalar(kernels.step);
-        let moved = self.step.unwrap_or(d);
-        // To which side a closed point may move is told by its pressure.
-        let searched = [g, moved, p];
-        let searched = &searched[..kernels.search.fields()];
         if self.problem.law.has_tail() {
-            let at_once = SEARCHES_AT_ONCE.min(backend.look_every());
-            let mut left = SEARCHES;
-            // Where looking is free the first look may already end it.
-            let mut over = at_once == 1 && !backend.scalars()?.is_open(Gate::Searching);
-            while left > 0 && !over {
-                for _ in 0..at_once.min(left) {
-                    backend.sweep(kernels.search, level, searched);
-                    backend.scalar(kernels.search_scalar);
-                }
-                left -= at_once.min(left);
-                over = !backend.scalars()?.is_open(Gate::Searching);
-            }
+            self.search()?;
         }
+        let backend = &mut *self.backend;
         backend.scalar(&scalar::SETTLE_WALL);
-        backend.backward(kernels.advance, level, &[moved, g, p]);
+        if held {
+            let moved = self.step.unwrap_or(d);
+            backend.backward(kernels.advance, level, &[moved, g, p, before]);
+            backend.scalar(kernels.lengthen);
+            backend.scalar(kernels.balance_scalar);
+            self.ready();
+            return Ok(());
+        }
+        match (&self.two_band, self.step) {
+            (Some(bands), _) => backend.turn(bands.turn, level, &[d, g, p, before, bands.free()]),
+            (None, Some(step)) => backend.turn(kernels.turn, level, &[d, step, g, p, before]),
+            (None, None) => backend.turn(kernels.turn, level, &[d, g, p, before]),
+        }
         backend.scalar(kernels.lengthen);
-        self.balance();
+        backend.scalar(&scalar::CARRY);
+        backend.scalar(&scalar::JUDGE);
+        Ok(())
+    }
+
+    /// Records the search of the step length, or the part of it that belongs to a round.
+    fn search(&mut self) -> Result<(), BackendError> {
+        let kernels = self.kernels;
+        // To which side a closed point may move is told by its pressure.
+        let moved = self.step.unwrap_or(self.direction);
+        let fields = [self.gap, moved, self.pressure];
+        let fields = &fields[..kernels.search.fields()];
+        let looks = self.backend.look_every() == 1;
+        for _ in 0..if looks { SEARCHES } else { SEARCHES_AT_ONCE } {
+            if looks && !self.backend.scalars()?.is_open(Gate::Searching) {
+                break;
+            }
+            self.backend.sweep(kernels.search, self.level, fields);
+            self.backend.scalar(kernels.search_scalar);
+        }
         Ok(())
     }
 
@@ -433,6 +463,8 @@ impl<'a> ContactSolver<'a> {
         let mut scalars = self.backend.scalars()?;
         scalars.status = Status::Running;
         scalars.repeat = false;
+        scalars.searching = false;
+        scalars.lost = 0;
         self.backend.set_scalars(&scalars);
         self.refresh()?;
         let fields = [self.gap, self.pressure];
@@ -455,11 +487,9 @@ impl<'a> ContactSolver<'a> {
         make_backend: MakeBackend,
         watch: &mut dyn FnMut(&Scalars) -> bool,
     ) -> Result<Outcome, BackendError> {
-        let present = match (start, &mut self.reference) {
-            (Start::Present, Some(reference)) => Some(Start::Gap(reference.gap()?)),
-            _ => None,
-        };
-        let start = present.as_ref().unwrap_or(start);
+        if let (Start::Present, Some(reference)) = (start, &mut self.reference) {
+            reference.hand_gap(self.backend, self.gap)?;
+        }
         let corrected = self.reference().is_some();
         let first = match corrected {
             true => tolerance.max(FIRST_TOLERANCE),
@@ -501,6 +531,7 @@ impl<'a> ContactSolver<'a> {
                 // rounding of the gap, which only the fresh one sees, is all that is left.
                 Status::Converged if end.status != Status::Converged && !at_floor => {
                     if !out_of_iterations && !stopped && end.status == Status::Running {
+                        self.ready();
                         continue;
                     }
                     status = end.status;

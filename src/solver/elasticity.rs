@@ -47,13 +47,13 @@ impl ContactSolver<'_> {
     }
 
     fn convolve(&mut self, by: Spectrum, values: &[f64]) -> Result<Vec<f64>, BackendError> {
-        let (work, out) = (self.direction, self.descent);
+        let work = self.direction;
         self.backend.write(work, values);
         self.backend
             .forward(&common::LOAD_FIELD, self.level, &[work]);
         self.backend.multiply(by, false, Gate::Always);
         self.backend
-            .backward(&common::STORE_PRESSURE, self.level, &[out]);
-        self.backend.read(out)
+            .backward(&common::STORE_PRESSURE, self.level, &[work]);
+        self.backend.read(work)
     }
 }

@@ -2,77 +2,93 @@
 //! Lennard-Jones core, and the numbers that stay fixed.
 
 use super::problem::Problem;
-use crate::kernel::{Kernel, Params, core, scalar, wall, yielding};
+use crate::kernel::{Kernel, Params, base, core, scalar, wall, yielding};
 
-/// The kernels of one family of laws.
+/// The kernels of one family of laws. Those that end in `held` and `direct`, `advance` and `balance` are
+/// asked where the mean gap is held; in their place without it stand `descent`, `trial` and `turn`.
 pub(super) struct KernelSet {
     pub residual: &'static Kernel,
     pub free: &'static Kernel,
     pub descent: &'static Kernel,
+    pub descent_held: &'static Kernel,
+    pub direct: &'static Kernel,
+    pub trial: &'static Kernel,
+    pub trial_held: &'static Kernel,
     pub search: &'static Kernel,
+    pub turn: &'static Kernel,
     pub advance: &'static Kernel,
     pub balance: &'static Kernel,
-    /// The direction and the trial where the mean gap is held, and the trial where it is not; for
-    /// Lennard-Jones the direction is found, and the trial loaded, in one way.
-    pub direct: &'static Kernel,
-    pub trial_held: &'static Kernel,
-    pub trial: &'static Kernel,
     pub restore: &'static scalar::ScalarKernel,
     pub balance_scalar: &'static scalar::ScalarKernel,
     pub step: &'static scalar::ScalarKernel,
     pub search_scalar: &'static scalar::ScalarKernel,
     pub lengthen: &'static scalar::ScalarKernel,
+    /// What adds a correction to its base, and what holds the base's mean gap.
+    pub base_add: &'static Kernel,
+    pub base_hold: &'static Kernel,
 }
 
 static WALL: KernelSet = KernelSet {
     residual: &wall::WALL_RESIDUAL,
     free: &wall::WALL_FREE,
     descent: &wall::WALL_DESCENT,
+    descent_held: &wall::WALL_DESCENT_HELD,
+    direct: &wall::WALL_DIRECT,
+    trial: &wall::WALL_TRIAL,
+    trial_held: &wall::WALL_TRIAL_HELD,
     search: &wall::WALL_SEARCH,
+    turn: &wall::WALL_TURN,
     advance: &wall::WALL_ADVANCE,
     balance: &wall::WALL_BALANCE,
-    direct: &wall::WALL_DIRECT,
-    trial_held: &wall::WALL_TRIAL_HELD,
-    trial: &wall::WALL_TRIAL,
     restore: &scalar::RESTORE_WALL,
     balance_scalar: &scalar::BALANCE_WALL,
     step: &scalar::STEP_WALL,
     search_scalar: &scalar::SEARCH_WALL,
     lengthen: &scalar::LENGTHEN_WALL,
+    base_add: &base::BASE_ADD_WALL,
+    base_hold: &base::BASE_HOLD_WALL,
 };
 
 static YIELD: KernelSet = KernelSet {
     residual: &yielding::YIELD_RESIDUAL,
     free: &yielding::YIELD_FREE,
     descent: &yielding::YIELD_DESCENT,
+    descent_held: &yielding::YIELD_DESCENT_HELD,
+    direct: &yielding::YIELD_DIRECT,
+    trial: &yielding::YIELD_TRIAL,
+    trial_held: &yielding::YIELD_TRIAL_HELD,
     search: &yielding::YIELD_SEARCH,
+    turn: &yielding::YIELD_TURN,
     advance: &yielding::YIELD_ADVANCE,
     balance: &yielding::YIELD_BALANCE,
-    direct: &yielding::YIELD_DIRECT,
-    trial_held: &yielding::YIELD_TRIAL_HELD,
-    trial: &yielding::YIELD_TRIAL,
     restore: &scalar::RESTORE_YIELD,
     balance_scalar: &scalar::BALANCE_WALL,
     step: &scalar::STEP_WALL,
     search_scalar: &scalar::SEARCH_WALL,
     lengthen: &scalar::LENGTHEN_WALL,
+    base_add: &base::BASE_ADD_WALL,
+    base_hold: &base::BASE_HOLD_WALL,
 };
 
 static CORE: KernelSet = KernelSet {
     residual: &core::CORE_RESIDUAL,
     free: &core::CORE_FREE,
     descent: &core::CORE_DESCENT,
+    descent_held: &core::CORE_DESCENT_HELD,
+    direct: &core::CORE_DIRECT,
+    trial: &core::CORE_TRIAL,
+    trial_held: &core::CORE_TRIAL_HELD,
     search: &core::CORE_SEARCH,
+    turn: &core::CORE_TURN,
     advance: &core::CORE_ADVANCE,
     balance: &core::CORE_BALANCE,
-    direct: &core::CORE_DIRECT,
-    trial_held: &core::CORE_TRIAL,
-    trial: &core::CORE_TRIAL,
     restore: &scalar::RESTORE_CORE,
     balance_scalar: &scalar::BALANCE_CORE,
     step: &scalar::STEP_CORE,
     search_scalar: &scalar::SEARCH_CORE,
     lengthen: &scalar::LENGTHEN_CORE,
+    base_add: &base::BASE_ADD_CORE,
+    base_hold: &base::BASE_HOLD_CORE,
 };
 
 impl KernelSet {

@@ -9,7 +9,7 @@ use super::problem::Problem;
 use crate::backend::{Backend, Field, Level, Shape, Spectrum};
 use crate::elastic::wave_stiffness;
 use crate::grid::Grid;
-use crate::kernel::{Gate, Kernel, coarse, scalar, wall, yielding};
+use crate::kernel::{Gate, Kernel, coarse, wall, yielding};
 use crate::law::Law;
 use crate::scene::Boundary;
 
@@ -28,8 +28,9 @@ pub(super) struct TwoBand {
     long_waves: Field,
     smoothing: Spectrum,
     compliance: Spectrum,
-    load_free: &'static Kernel,
-    store_descent: &'static Kernel,
+    /// What loads yF and keeps it, from a state as it is and after a step.
+    pub load_free: &'static Kernel,
+    pub turn: &'static Kernel,
 }
 
 /// l at a wave number, with the pixel in the same unit.
@@ -72,16 +73,13 @@ impl TwoBand {
                 0.0
             }
         });
-        let (load_free, store_descent) = match problem.hardness {
-            Some(_) => (
-                &yielding::YIELD_FREE_KEPT,
-                &yielding::YIELD_DESCENT_TWO_BAND,
-            ),
-            None => (&wall::WALL_FREE_KEPT, &wall::WALL_DESCENT_TWO_BAND),
+        let (load_free, turn) = match problem.hardness {
+            Some(_) => (&yielding::YIELD_FREE_KEPT, &yielding::YIELD_TURN_KEPT),
+            None => (&wall::WALL_FREE_KEPT, &wall::WALL_TURN_KEPT),
         };
         Some(TwoBand {
             load_free,
-            store_descent,
+            turn,
             fine,
             level,
             free: backend.field(fine, "free"),
@@ -115,42 +113,41 @@ impl TwoBand {
         backend.set_zero_mode(self.compliance, value);
     }
 
-    /// Records the preconditioned residual z.
-    #[allow(clippy::too_many_arguments)]
+    /// The field of yF, which the kernels that load it keep.
+    pub fn free(&self) -> Field {
+        self.free
+    }
+
+    /// Records the preconditioned residual z of the yF that was kept and whose rows are transformed;
+    /// `direction` where the mean gap is held.
     pub fn descend(
         &self,
         backend: &mut dyn Backend,
-        gap: Field,
-        pressure: Field,
-        direction: Field,
-        descent: Field,
         free_before: Field,
+        direction: Option<Field>,
         short_waves: Spectrum,
     ) {
         let level = self.level;
-        backend.forward(self.load_free, self.fine, &[gap, pressure, self.free]);
-        backend.scalar(&scalar::JUDGE);
         let fields = [self.restricted, self.share, self.free];
         backend.sweep(&coarse::COARSE_RESTRICT, level, &fields);
         backend.forward(&coarse::COARSE_SHARE, level, &[self.share]);
-        backend.multiply(self.smoothing, false, Gate::Fresh);
-        backend.backward(&coarse::COARSE_WEIGHT, level, &[self.weight]);
-        backend.forward(&coarse::COARSE_LOAD, level, &[self.restricted, self.weight]);
-        backend.multiply(self.compliance, false, Gate::Fresh);
-        backend.backward(
-            &coarse::COARSE_STORE,
-            level,
-            &[self.weight, self.long_waves],
-        );
-        backend.multiply(short_waves, false, Gate::Fresh);
-        let fields = [
-            gap,
-            pressure,
-            direction,
-            descent,
-            free_before,
-            self.long_waves,
-        ];
-        backend.backward(self.store_descent, self.fine, &fields);
+        backend.multiply(self.smoothing, false, Gate::Ahead);
+        let fields = [self.restricted, self.weight];
+        backend.turn(&coarse::COARSE_WEIGH, level, &fields);
+        backend.multiply(self.compliance, false, Gate::Ahead);
+        let fields = [self.weight, self.long_waves];
+        backend.backward(&coarse::COARSE_STORE, level, &fields);
+        backend.multiply(short_waves, false, Gate::Ahead);
+        let own = [self.free, free_before];
+        match direction {
+            Some(direction) => {
+                let fields = [own[0], own[1], direction, self.long_waves];
+                backend.backward(&coarse::TWO_BAND_DESCENT_HELD, self.fine, &fields);
+            }
+            None => {
+                let fields = [own[0], own[1], self.long_waves];
+                backend.backward(&coarse::TWO_BAND_DESCENT, self.fine, &fields);
+            }
+        }
     }
 }

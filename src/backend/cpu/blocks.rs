@@ -21,7 +21,7 @@ pub(super) struct Job<'a, T: Real> {
     /// Fields read, whole.
     pub reads: [&'a [T]; 4],
     /// Fields written, cut to these blocks.
-    pub writes: [&'a mut [T]; 3],
+    pub writes: [&'a mut [T]; 4],
     /// The field read anywhere.
     pub whole: Whole<'a, T>,
     /// Factors on the law's tension, whole; empty without them.
@@ -53,12 +53,12 @@ impl<'a, T: Real> Job<'a, T> {
         let left_blocks = at - self.blocks.start;
         let rows = (at * BLOCK).min(self.shape.points[1]) - self.blocks.start * BLOCK;
         let values = rows * self.shape.points[0];
-        let [a, b, c] = self.writes;
+        let [a, b, c, d] = self.writes;
         let cut = |field: &'a mut [T]| {
             let at = values.min(field.len());
             field.split_at_mut(at)
         };
-        let ((a0, a1), (b0, b1), (c0, c1)) = (cut(a), cut(b), cut(c));
+        let ((a0, a1), (b0, b1), (c0, c1), (d0, d1)) = (cut(a), cut(b), cut(c), cut(d));
         let (partials0, partials1) = self.partials.split_at_mut(left_blocks);
         let cut = (left_blocks * self.work_per_block).min(self.work.len());
         let (work0, work1) = self.work.split_at_mut(cut);
@@ -78,8 +78,8 @@ impl<'a, T: Real> Job<'a, T> {
             twin: self.twin,
         };
         (
-            part(self.blocks.start..at, [a0, b0, c0], partials0, work0),
-            part(at..self.blocks.end, [a1, b1, c1], partials1, work1),
+            part(self.blocks.start..at, [a0, b0, c0, d0], partials0, work0),
+            part(at..self.blocks.end, [a1, b1, c1, d1], partials1, work1),
         )
     }
 
@@ -102,7 +102,7 @@ impl<'a, T: Real> Job<'a, T> {
             }
         };
         let (factor, base) = (cut(self.factor), self.base.map(cut));
-        let [a, b, c] = &mut self.writes;
+        let [a, b, c, d] = &mut self.writes;
         let mut rows = Rows {
             first,
             width,
@@ -110,7 +110,7 @@ impl<'a, T: Real> Job<'a, T> {
             surface: self.shape.surface,
             lines,
             reads,
-            writes: [a, b, c],
+            writes: [a, b, c, d],
             whole: self.whole,
             factor,
             base,

@@ -118,7 +118,7 @@ impl<T: CpuReal> CpuBackend<T> {
         };
         let twin = T::twin(kernel);
         // Written fields are lifted out, so that the others can be borrowed meanwhile.
-        let mut lifted: [Vec<T>; 3] = Default::default();
+        let mut lifted: [Vec<T>; 4] = Default::default();
         for (slot, field) in fields[kernel.reads..kernel.reads + kernel.writes]
             .iter()
             .enumerate()
@@ -156,12 +156,12 @@ impl<T: CpuReal> CpuBackend<T> {
         }
         let partials = &mut space.partials[..blocks];
         partials.fill(neutral);
-        let [a, b, c] = &mut lifted;
+        let [a, b, c, d] = &mut lifted;
         let job = Job {
             blocks: 0..blocks,
             shape: space.shape,
             reads,
-            writes: [a, b, c],
+            writes: [a, b, c, d],
             whole,
             factor,
             base,
@@ -174,13 +174,10 @@ impl<T: CpuReal> CpuBackend<T> {
         };
         match kernel.form {
             Form::Sweep => run_blocks(job, &|mut job| job.call(&mut [])),
-            Form::Load => {
-                space.transform.forward(job);
-                self.transforms += 0.5 * share;
-            }
-            Form::Store => {
-                space.transform.backward(job);
-                self.transforms += 0.5 * share;
+            form => {
+                space.transform.rows(job, form);
+                let transforms = u8::from(form.after_inverse()) + u8::from(form.before_forward());
+                self.transforms += 0.5 * share * f64::from(transforms);
             }
         }
         let partials = &self.levels[level.0].partials[..blocks];
@@ -258,7 +255,7 @@ impl<T: CpuReal> Backend for CpuBackend<T> {
         self.fields[field.index].fill(T::zero());
     }
 
-    fn in_double(&self) -> Option<Box<dyn Backend + Send>> {
+    fn in_double(&self, _shape: Shape) -> Option<Box<dyn Backend + Send>> {
         self.corrected
             .then(|| Box::new(CpuBackend::<f64>::new()) as Box<dyn Backend + Send>)
     }
@@ -302,6 +299,10 @@ impl<T: CpuReal> Backend for CpuBackend<T> {
     }
 
     fn backward(&mut self, kernel: &'static Kernel, level: Level, fields: &[Field]) {
+        self.run(kernel, level, fields);
+    }
+
+    fn turn(&mut self, kernel: &'static Kernel, level: Level, fields: &[Field]) {
         self.run(kernel, level, fields);
     }
 

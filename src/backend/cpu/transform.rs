@@ -13,6 +13,7 @@ use rustfft::{Fft, FftPlanner};
 
 use super::blocks::{BLOCK, Job, run_blocks};
 use crate::backend::Shape;
+use crate::kernel::Form;
 use crate::real::Real;
 
 /// Transform plans and work space of one level.
@@ -89,14 +90,18 @@ impl<T: Real> Transform<T> {
         }
     }
 
-    /// Fills lines by the job's twin and transforms them.
-    pub fn forward(&mut self, job: Job<T>) {
+    /// Hands lines to the job's twin block by block: those of the inverse transform, or those that were
+    /// kept in the place of the row spectra; keeps what it makes of them there, or transforms it.
+    pub fn rows(&mut self, job: Job<T>, form: Form) {
         let Transform {
             ref mut by_rows,
+            ref by_columns,
             ref scratch,
             ref row_forward,
+            ref row_backward,
             columns,
             groups,
+            blocks,
             ..
         } = *self;
         let nx = self.shape.points[0];
@@ -107,19 +112,60 @@ impl<T: Real> Transform<T> {
         };
         run_blocks(job, &|mut job| {
             let guard = &mut *lock(scratch);
-            let (_, count) = job.rows_of(job.blocks.start);
+            let block = job.blocks.start;
+            let (_, count) = job.rows_of(block);
             let lines = &mut guard.lines[..count * nx];
-            job.call(lines);
-            for (line, spectrum) in lines
-                .chunks_exact_mut(nx)
-                .zip(guard.spectra.chunks_exact_mut(columns))
-            {
-                // Lengths are those of the plan, so this cannot fail.
-                let _ = row_forward.process_with_scratch(line, spectrum, &mut guard.transform);
+            if form.after_inverse() {
+                for group in 0..groups {
+                    let start = (group * blocks + block) * BLOCK * BLOCK;
+                    let tiles = &by_columns[start..start + BLOCK * BLOCK];
+                    let first = group * BLOCK;
+                    for row in 0..count {
+                        let spectrum = &mut guard.spectra[row * columns..(row + 1) * columns];
+                        for (place, value) in spectrum[first..].iter_mut().take(BLOCK).enumerate() {
+                            *value = tiles[place * BLOCK + row];
+                        }
+                    }
+                }
+                for (line, spectrum) in lines
+                    .chunks_exact_mut(nx)
+                    .zip(guard.spectra.chunks_exact_mut(columns))
+                {
+                    // The imaginary parts of the first and the Nyquist bin are rounding; the real
+                    // transform wants them zero.
+                    spectrum[0].im = T::zero();
+                    if nx.is_multiple_of(2) {
+                        spectrum[columns - 1].im = T::zero();
+                    }
+                    // Lengths are those of the plan, so this cannot fail.
+                    let _ = row_backward.process_with_scratch(spectrum, line, &mut guard.transform);
+                }
             }
-            for (column, tile) in job.work.chunks_exact_mut(BLOCK).take(columns).enumerate() {
-                for (row, value) in tile[..count].iter_mut().enumerate() {
-                    *value = guard.spectra[row * columns + column];
+            if form.takes_kept() {
+                for (pair, kept) in lines.chunks_mut(2).zip(&*job.work) {
+                    pair[0] = kept.re;
+                    if let Some(second) = pair.get_mut(1) {
+                        *second = kept.im;
+                    }
+                }
+            }
+            job.call(lines);
+            if form == Form::Keep {
+                for (pair, kept) in lines.chunks(2).zip(&mut *job.work) {
+                    *kept = Complex::new(pair[0], pair.get(1).copied().unwrap_or(T::zero()));
+                }
+            }
+            if form.before_forward() {
+                for (line, spectrum) in lines
+                    .chunks_exact_mut(nx)
+                    .zip(guard.spectra.chunks_exact_mut(columns))
+                {
+                    let _ = row_forward.process_with_scratch(line, spectrum, &mut guard.transform);
+                }
+                for (column, tile) in job.work.chunks_exact_mut(BLOCK).take(columns).enumerate() {
+                    for (row, value) in tile[..count].iter_mut().enumerate() {
+                        *value = guard.spectra[row * columns + column];
+                    }
                 }
             }
         });
@@ -147,50 +193,6 @@ impl<T: Real> Transform<T> {
         };
         context.run(0..groups, &mut self.by_columns, &mut self.energies);
         self.energies.iter().sum::<f64>() / self.shape.len() as f64
-    }
-
-    /// Transforms the rows back and hands the lines to the job's twin.
-    pub fn backward(&mut self, job: Job<T>) {
-        let Transform {
-            ref by_columns,
-            ref scratch,
-            ref row_backward,
-            columns,
-            groups,
-            blocks,
-            ..
-        } = *self;
-        let nx = self.shape.points[0];
-        run_blocks(job, &|mut job| {
-            let guard = &mut *lock(scratch);
-            let block = job.blocks.start;
-            let (_, count) = job.rows_of(block);
-            for group in 0..groups {
-                let start = (group * blocks + block) * BLOCK * BLOCK;
-                let tiles = &by_columns[start..start + BLOCK * BLOCK];
-                let first = group * BLOCK;
-                for row in 0..count {
-                    let spectrum = &mut guard.spectra[row * columns..(row + 1) * columns];
-                    for (place, value) in spectrum[first..].iter_mut().take(BLOCK).enumerate() {
-                        *value = tiles[place * BLOCK + row];
-                    }
-                }
-            }
-            let lines = &mut guard.lines[..count * nx];
-            for (line, spectrum) in lines
-                .chunks_exact_mut(nx)
-                .zip(guard.spectra.chunks_exact_mut(columns))
-            {
-                // The imaginary parts of the first and the Nyquist bin are rounding; the real
-                // transform wants them zero.
-                spectrum[0].im = T::zero();
-                if nx.is_multiple_of(2) {
-                    spectrum[columns - 1].im = T::zero();
-                }
-                let _ = row_backward.process_with_scratch(spectrum, line, &mut guard.transform);
-            }
-            job.call(lines);
-        });
     }
 }
 

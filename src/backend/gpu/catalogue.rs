@@ -57,31 +57,40 @@ const SHADERS: &[Shader] = shaders! {
     "wall_residual" true ["wall"];
     "wall_free" true ["wall"];
     "wall_free_kept" true ["wall"];
-    "wall_descent" true ["wall", "wall_descend"];
-    "wall_descent_two_band" true ["wall", "wall_descend", "neighbours"];
+    "wall_descent" true ["wall", "descend"];
+    "wall_descent_held" true ["wall", "descend"];
     "wall_trial" true ["wall"];
     "wall_direct" true ["wall"];
     "wall_trial_held" true ["wall"];
     "wall_search" true ["wall"];
-    "wall_advance" true ["wall"];
+    "wall_turn" true ["wall", "step"];
+    "wall_turn_kept" true ["wall", "step"];
+    "wall_advance" true ["wall", "step"];
     "wall_balance" true ["wall"];
     "yield_direct" true ["yielding"];
     "yield_trial_held" true ["yielding"];
     "yield_search" true ["yielding"];
-    "yield_advance" true ["yielding"];
-    "yield_balance" true ["yielding"];
     "core_residual" true ["core"];
     "core_free" true ["core"];
     "core_descent" true ["core"];
+    "core_descent_held" true ["core"];
     "core_direct" true ["core"];
     "core_trial" true ["core"];
+    "core_trial_held" true ["core"];
     "core_search" true ["core"];
-    "core_advance" false [];
+    "core_turn" true ["core"];
+    "core_advance" true ["core"];
     "core_balance" true ["core"];
+    "two_band_descent" false ["descend", "neighbours"];
+    "two_band_descent_held" false ["descend", "neighbours"];
+    "base_total" true [];
+    "base_add_wall" false [];
+    "base_add_core" true ["core"];
+    "base_hold_wall" false [];
+    "base_hold_core" true ["core"];
     "coarse_restrict" false [];
     "coarse_share" false [];
-    "coarse_weight" false [];
-    "coarse_load" false [];
+    "coarse_weigh" false [];
     "coarse_store" false [];
 };
 
@@ -89,13 +98,23 @@ const OVER_FLOW: &[Shader] = over_flow! {
     "yield_residual" of "wall_residual" [];
     "yield_free" of "wall_free" [];
     "yield_free_kept" of "wall_free_kept" [];
-    "yield_descent" of "wall_descent" ["wall_descend"];
-    "yield_descent_two_band" of "wall_descent_two_band" ["wall_descend", "neighbours"];
+    "yield_descent" of "wall_descent" ["descend"];
+    "yield_descent_held" of "wall_descent_held" ["descend"];
     "yield_trial" of "wall_trial" [];
+    "yield_turn" of "wall_turn" ["step"];
+    "yield_turn_kept" of "wall_turn_kept" ["step"];
+    "yield_advance" of "wall_advance" ["step"];
+    "yield_balance" of "wall_balance" [];
 };
 
-/// Parts of the scalar kernels: those of every law, of a wall, of the Lennard-Jones core.
-const SCALAR_PARTS: [&str; 3] = [part!("scalar"), part!("scalar_wall"), part!("scalar_core")];
+/// Parts of the scalar kernels: those of every law, of a wall, of the Lennard-Jones core, of the base of
+/// corrections.
+const SCALAR_PARTS: [&str; 4] = [
+    part!("scalar"),
+    part!("scalar_wall"),
+    part!("scalar_core"),
+    part!("scalar_base"),
+];
 
 /// The parts from which a scalar kernel is called, if one of them defines it.
 pub fn scalar(name: &str) -> Option<Vec<&'static str>> {

@@ -1,17 +1,25 @@
-//! Decisions between two kernels over points: sums put together and scalar kernels, in one dispatch.
+//! Decisions between kernels over points: sums put together and scalar kernels, in one dispatch.
+//!
+//! They wait until a kernel comes that asks what was decided. Kernels and multiplications that run ahead
+//! of them leave their sums in places of their own and are decided on with the next ones.
 
 use super::bindings::DECIDING;
-use super::source::{self, Reduction};
+use super::level::Place;
+use super::source::{self, Decision, Reduction};
 use super::space::Key;
 use super::{GpuBackend, GpuError};
 use crate::backend::Level;
 use crate::kernel::ScalarKernel;
 
-/// What is decided together: the sums of the last kernel over points, then scalar kernels.
+/// What is decided together, in this order.
 #[derive(Default)]
 pub(super) struct Deciding {
-    pub reduction: Option<Decided>,
-    pub kernels: Vec<&'static ScalarKernel>,
+    parts: Vec<Part>,
+}
+
+enum Part {
+    Sums(Decided),
+    Scalar(&'static ScalarKernel),
 }
 
 /// Sums to be put together.
@@ -19,24 +27,64 @@ pub(super) struct Decided {
     /// What they are known by on their level.
     pub name: &'static str,
     pub level: Level,
+    pub place: Place,
     pub reduction: Reduction,
 }
 
+impl Deciding {
+    pub fn decide(&mut self, kernel: &'static ScalarKernel) {
+        self.parts.push(Part::Scalar(kernel));
+    }
+
+    /// Whether sums of this place on this level may wait beside those that do.
+    fn has_room(&self, level: Level, place: Place) -> bool {
+        self.parts.iter().all(|part| match part {
+            Part::Sums(sums) => sums.level == level && sums.place != place,
+            Part::Scalar(_) => true,
+        })
+    }
+}
+
 impl GpuBackend {
+    /// Sees to it that sums of this place may be handed in.
+    pub(super) fn make_room(&mut self, level: Level, place: Place) -> Result<(), GpuError> {
+        match self.deciding.has_room(level, place) {
+            true => Ok(()),
+            false => self.settle(),
+        }
+    }
+
+    /// Lets sums wait.
+    pub(super) fn put_off(&mut self, sums: Decided) {
+        self.deciding.parts.push(Part::Sums(sums));
+    }
+
     /// Records what waits to be decided.
     pub(super) fn settle(&mut self) -> Result<(), GpuError> {
-        if self.deciding.reduction.is_none() && self.deciding.kernels.is_empty() {
+        if self.deciding.parts.is_empty() {
             return Ok(());
         }
-        let Deciding { reduction, kernels } = std::mem::take(&mut self.deciding);
-        let key = Key::Decide(
-            reduction.as_ref().map(|sums| (sums.name, sums.level.0)),
-            kernels.iter().map(|kernel| kernel.name).collect(),
-        );
-        self.dispatch(key, |backend| {
-            let level = reduction.as_ref().map_or(Level(0), |sums| sums.level);
-            let first = reduction.as_ref().map(|sums| sums.reduction);
-            let text = source::decide(first, &kernels, backend.wide)?;
+        let Deciding { parts } = std::mem::take(&mut self.deciding);
+        let mut names = Vec::with_capacity(parts.len());
+        let mut level = Level(0);
+        for part in &parts {
+            names.push(match part {
+                Part::Scalar(kernel) => (kernel.name, None),
+                Part::Sums(sums) => {
+                    level = sums.level;
+                    (sums.name, Some(sums.level.0))
+                }
+            });
+        }
+        self.dispatch(Key::Decide(names), |backend| {
+            let decisions: Vec<_> = parts
+                .iter()
+                .map(|part| match part {
+                    Part::Scalar(kernel) => Decision::Scalar(kernel),
+                    Part::Sums(sums) => Decision::Sums(sums.reduction),
+                })
+                .collect();
+            let text = source::decide(&decisions, backend.wide)?;
             let space = backend.level_space(level)?;
             let shared = [&backend.params, &backend.scalars, &space.partials];
             let prepared = backend.prepare("decide", text, &[(DECIDING, &shared)], [1, 1])?;

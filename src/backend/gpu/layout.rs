@@ -134,7 +134,6 @@ const SCALARS: &[Member] = &[
     ("slope", 1),
     ("curvature", 1),
     ("elastic_slope", 1),
-    ("plain_shift", 1),
     ("up", 1),
     ("down", 1),
     ("step", 1),
@@ -142,6 +141,7 @@ const SCALARS: &[Member] = &[
     ("step_first", 1),
     ("largest", 1),
     ("snap", 1),
+    ("carried", 2),
     ("low", 3),
     ("high", 2),
     ("slope_at_one", 1),
@@ -330,7 +330,6 @@ pub fn scalars_bytes(scalars: &Scalars, wide: Wide) -> Vec<u8> {
         s.slope,
         s.curvature,
         s.elastic_slope,
-        s.plain_shift,
         s.up,
         s.down,
         s.step,
@@ -351,6 +350,7 @@ pub fn scalars_bytes(scalars: &Scalars, wide: Wide) -> Vec<u8> {
         .sums
         .iter()
         .chain(&single)
+        .chain(&s.carried)
         .chain(&s.low)
         .chain(&s.high)
         .chain(&last)
@@ -428,7 +428,6 @@ pub fn scalars_of(bytes: &[u8], wide: Wide) -> Scalars {
         slope: r.number(),
         curvature: r.number(),
         elastic_slope: r.number(),
-        plain_shift: r.number(),
         up: r.number(),
         down: r.number(),
         step: r.number(),
@@ -436,6 +435,7 @@ pub fn scalars_of(bytes: &[u8], wide: Wide) -> Scalars {
         step_first: r.number(),
         largest: r.number(),
         snap: r.number(),
+        carried: r.numbers(),
         low: r.numbers(),
         high: r.numbers(),
         slope_at_one: r.number(),

@@ -9,12 +9,34 @@ use crate::kernel::{Form, SUMS};
 /// Threads in a workgroup of a sweep and of a reduction.
 pub const SWEEP_THREADS: usize = 256;
 /// Most workgroups of a sweep; each of its threads takes several points beyond.
-const SWEEP_GROUPS: usize = 1024;
+pub const SWEEP_GROUPS: usize = 1024;
 /// Sums that a sweep's workgroup reduces together; their memory is below the least that adapters
 /// have.
 pub const SWEEP_SUMS_AT_ONCE: usize = 5;
 /// Work done in a level's transforms is counted in these: transforms of all its rows.
 pub const ROW_TRANSFORMS_PER_TRANSFORM: f64 = 2.0;
+
+/// Where partial sums wait to be put together, so that those of kernels which run ahead of a decision do
+/// not meet those that it waits for.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+pub enum Place {
+    /// Of a kernel.
+    Kernel,
+    /// Of a kernel whose lines are kept.
+    Kept,
+    /// Of the columns.
+    Columns,
+}
+
+impl Place {
+    /// That of a kernel of the catalogue.
+    pub fn of(form: Form) -> Place {
+        match form {
+            Form::Keep => Place::Kept,
+            _ => Place::Kernel,
+        }
+    }
+}
 
 /// How a level is cut into workgroups.
 #[derive(Clone, Debug, PartialEq, Eq, Hash)]
@@ -64,7 +86,7 @@ impl LevelPlan {
     pub fn slab_groups(&self, form: Form) -> usize {
         match form {
             Form::Sweep => self.slab_points().div_ceil(SWEEP_THREADS).min(SWEEP_GROUPS),
-            Form::Load | Form::Store => self.slab_pairs().div_ceil(self.pairs_at_once()),
+            _ => self.slab_pairs().div_ceil(self.pairs_at_once()),
         }
     }
 
@@ -87,9 +109,18 @@ impl LevelPlan {
         self.parts * self.part_groups()
     }
 
-    /// Partial sums that the kernels of this level write at most.
+    /// Partial sums that wait on this level at most: one set in each of their places.
     pub fn partials(&self) -> usize {
+        self.first_partial(Place::Columns) + self.column_groups()
+    }
+
+    /// The first of the partial sums in a place.
+    pub fn first_partial(&self, place: Place) -> usize {
         let kernels = self.groups(Form::Sweep).max(self.groups(Form::Load)) * SUMS;
-        kernels.max(self.column_groups())
+        match place {
+            Place::Kernel => 0,
+            Place::Kept => kernels,
+            Place::Columns => kernels + self.groups(Form::Keep) * SUMS,
+        }
     }
 }

@@ -5,15 +5,16 @@
 //! that wave `c + first d` ends at place `then c + d` of its line. Nothing puts it back in order: the
 //! columns look for it there, and the inverse starts from there.
 
+use super::GpuBackend;
 use super::bindings::{Access, ROWS};
 use super::butterfly::Direction;
+use super::dispatching::working;
 use super::error::GpuError;
 use super::layout::Number;
 use super::level::LevelPlan;
 use super::plan::{GroupLimits, LinePlan};
 use super::source::{self, Pass};
 use super::space::Key;
-use super::{GpuBackend, working};
 use crate::backend::{Level, Shape};
 use crate::kernel::Gate;
 
@@ -143,10 +144,6 @@ impl GpuBackend {
         direction: Direction,
         gate: Gate,
     ) -> Result<(), GpuError> {
-        if direction == Direction::Inverse {
-            // Its gate is that of the kernel after it, which knows what was decided.
-            self.settle()?;
-        }
         let plan = &self.level_space(level)?.plan;
         let Some(text) = source::rows_then(plan, direction, gate, self.wide) else {
             return Ok(());

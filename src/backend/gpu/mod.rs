@@ -1,4 +1,4 @@
-//! A graphics processor through wgpu: fields in single precision, kernels as WGSL.
+//! A graphics processor through wgpu: fields in single or double precision, kernels as WGSL.
 //!
 //! A convolution is three dispatches: rows, columns with the factors, rows back. The work space of
 //! a level holds the transforms along x of its pairs of rows (y with y + ny/2, one complex row),
@@ -6,15 +6,18 @@
 //! kernels change them; a kernel whose gate is shut returns at once. This is the only place that
 //! names wgpu.
 
+mod adapter;
 mod bindings;
 mod butterfly;
 mod catalogue;
 mod deciding;
 mod device;
+mod dispatching;
 mod error;
 mod fft;
 mod filling;
 mod layout;
+mod lending;
 mod level;
 mod long;
 mod plan;
@@ -31,23 +34,23 @@ use std::f64::consts::TAU;
 
 use super::cpu::CpuBackend;
 use super::{Backend, BackendError, Field, Level, Shape, Spectrum};
-use crate::kernel::{Form, Gate, Kernel, Params, ScalarKernel, Scalars};
-use bindings::{Access, ROWS, WORKING, WORKING_IN_TURNS};
-use butterfly::Direction;
-use deciding::{Decided, Deciding};
+use crate::kernel::{Gate, Kernel, Params, ScalarKernel, Scalars};
+use deciding::Deciding;
 use recorder::{Prepared, Recorder};
-use source::{Reduction, Results};
 use space::{FieldSpace, Key, LevelSpace, SpectrumSpace};
 
+pub use adapter::{AdapterChoice, AdapterDescription, AdapterKind, adapters};
+pub use butterfly::Direction;
 pub use catalogue::LawPart;
-pub use device::{AdapterChoice, AdapterDescription, AdapterKind, GpuDevice, adapters};
+pub use device::GpuDevice;
 pub use error::GpuError;
 pub use layout::{Number, Wide};
+pub use lending::Lent;
 pub use plan::{Exchange, GroupLimits, LinePlan, radices};
 pub use slabs::Limits;
 pub use traffic::Traffic;
 
-/// The GPU backend, in single precision.
+/// The GPU backend.
 pub struct GpuBackend {
     device: GpuDevice,
     /// The number of the fields.
@@ -80,7 +83,7 @@ pub struct GpuBackend {
 }
 
 impl GpuBackend {
-    /// A backend with nothing in it.
+    /// A backend in single precision with nothing in it.
     pub fn new(device: &GpuDevice) -> Result<Self, GpuError> {
         let backend = Self::on(device);
         backend.checked()?;
@@ -150,6 +153,16 @@ impl GpuBackend {
             expects_numbers: true,
             ..self
         }
+    }
+
+    /// The same with its fields in this number, before there are any. Where the device lacks it that is
+    /// told where the host waits.
+    pub fn keeping(mut self, number: Number) -> Self {
+        if number == Number::Double && !self.device.description().double {
+            let name = self.device.description().name.clone();
+            self.failure.get_or_insert(GpuError::Precision(name));
+        }
+        GpuBackend { number, ..self }
     }
 
     /// The same for iterations that correct a state kept in double precision.
@@ -241,108 +254,6 @@ impl GpuBackend {
             .ok_or_else(|| GpuError::Device("a spectrum that was not made".to_string()))
     }
 
-    /// Compiles a shader and binds its buffers, group by group.
-    fn prepare(
-        &self,
-        name: &str,
-        source: String,
-        groups: &[(&[bindings::Access], &[&wgpu::Buffer])],
-        workgroups: [usize; 2],
-    ) -> Result<Prepared, GpuError> {
-        let (layouts, groups) = self.device.guarded(|device| {
-            groups
-                .iter()
-                .map(|(accesses, buffers)| {
-                    let layout = bindings::layout(device, accesses);
-                    let group = bindings::group(device, &layout, buffers);
-                    (layout, group)
-                })
-                .collect::<(Vec<_>, Vec<_>)>()
-        })?;
-        let layouts: Vec<_> = layouts.iter().collect();
-        let pipeline = self.device.pipeline(name, source, &layouts)?;
-        Ok(Prepared {
-            pipeline,
-            groups,
-            // Plans keep it far below the 65535 that every adapter takes.
-            workgroups: workgroups.map(|count| count as u32),
-        })
-    }
-
-    /// Records a dispatch over points, after what waits to be decided.
-    fn record(
-        &mut self,
-        key: Key,
-        prepare: impl FnOnce(&Self) -> Result<Vec<Prepared>, GpuError>,
-    ) -> Result<(), GpuError> {
-        self.settle()?;
-        self.dispatch(key, prepare)
-    }
-
-    /// Finds what is prepared, a dispatch each slab, or prepares it, and records it.
-    fn dispatch(
-        &mut self,
-        key: Key,
-        prepare: impl FnOnce(&Self) -> Result<Vec<Prepared>, GpuError>,
-    ) -> Result<(), GpuError> {
-        let prepared = match self.prepared.get(&key) {
-            Some(prepared) => prepared.clone(),
-            None => {
-                let prepared = prepare(self)?;
-                self.prepared.insert(key, prepared.clone());
-                prepared
-            }
-        };
-        for each in prepared {
-            self.traffic.dispatches += 1;
-            self.device.count_dispatch();
-            self.recorder.dispatch(each)?;
-        }
-        match self.device.poisons() {
-            true => self.poison(),
-            false => Ok(()),
-        }
-    }
-
-    /// Records a kernel of the catalogue and the reduction of its sums.
-    fn run(
-        &mut self,
-        kernel: &'static Kernel,
-        level: Level,
-        fields: &[Field],
-    ) -> Result<(), GpuError> {
-        if fields.len() != kernel.fields() {
-            return Err(GpuError::Fields {
-                kernel: kernel.name,
-                expected: kernel.fields(),
-                given: fields.len(),
-            });
-        }
-        let indices = fields.iter().map(|field| field.index).collect();
-        let key = Key::Kernel(kernel.name, level.0, self.base.is_some(), indices);
-        if kernel.form == Form::Store {
-            self.rows_then(level, Direction::Inverse, kernel.gate)?;
-        }
-        self.record(key, |backend| backend.kernel(kernel, level, fields))?;
-        if kernel.form == Form::Load {
-            self.rows_then(level, Direction::Forward, kernel.gate)?;
-        }
-        if kernel.sums.is_empty() {
-            return Ok(());
-        }
-        let groups = self.level_space(level)?.plan.groups(kernel.form);
-        self.deciding.reduction = Some(Decided {
-            name: kernel.name,
-            level,
-            reduction: Reduction {
-                results: Results::Sums(kernel.sums),
-                groups,
-                gate: kernel.gate,
-            },
-        });
-        Ok(())
-    }
-
     /// Hands over what waits, then overwrites the beginning of a buffer.
     fn overwrite(
         &mut self,
@@ -351,121 +262,6 @@ impl GpuBackend {
     ) -> Result<(), GpuError> {
         self.settle()?;
         self.recorder.write(buffer, bytes)
-    }
-
-    /// The dispatches of a kernel, one a slab.
-    fn kernel(
-        &self,
-        kernel: &'static Kernel,
-        level: Level,
-        fields: &[Field],
-    ) -> Result<Vec<Prepared>, GpuError> {
-        let space = self.level_space(level)?;
-        let mut bound = Vec::new();
-        for &field in fields {
-            bound.push(&self.field_space(field)?.slabs);
-        }
-        let own = kernel.reads + kernel.writes;
-        let whole = match (kernel.whole, fields.last()) {
-            (true, Some(field)) => source::Whole::of(&self.level_space(field.level)?.plan),
-            _ => source::Whole::default(),
-        };
-        let mut accesses = bindings::fields(kernel.reads, kernel.writes, whole.slabs);
-        let mut behind = Vec::new();
-        let mut follow = |fields: &[Field]| -> Result<usize, GpuError> {
-            let first = accesses.len();
-            for &field in fields {
-                behind.push(&self.field_space(field)?.slabs);
-                accesses.push(Access::Read);
-            }
-            Ok(first)
-        };
-        // Bound behind the kernel's own fields.
-        let asks = catalogue::asks_for_law(kernel.name);
-        let factor = match self.law_factor {
-            Some(field) if field.level == level && asks => Some(follow(&[field])?),
-            _ => None,
-        };
-        let base = match self.base {
-            Some(base) if base[0].level == level && asks => Some(follow(&base)?),
-            _ => None,
-        };
-        let law = source::LawSource {
-            part: self.law,
-            factor,
-            base,
-        };
-        let text = source::kernel(kernel, &space.plan, whole, law, self.wide)?;
-        let groups = space.plan.slab_groups(kernel.form);
-        let in_slab = |slab: usize| {
-            let shared = self.shared(space, slab);
-            let mut buffers: Vec<_> = bound[..own].iter().map(|slabs| &slabs[slab]).collect();
-            // A field read as a whole is bound in all its slabs.
-            buffers.extend(bound[own..].iter().copied().flatten());
-            buffers.extend(behind.iter().map(|slabs| &slabs[slab]));
-            let transform = [&space.row_roots, &space.work[slab]];
-            let mut all: Vec<(&[Access], &[&wgpu::Buffer])> =
-                vec![(working(&shared), &shared), (&accesses, &buffers)];
-            if kernel.form != Form::Sweep {
-                all.push((ROWS, &transform));
-            }
-            self.prepare(kernel.name, text.clone(), &all, [groups, 1])
-        };
-        (0..space.plan.slabs).map(in_slab).collect()
-    }
-
-    /// Group 0 of a kernel in one of its turns over slabs or parts of a spectrum.
-    fn shared<'a>(&'a self, space: &'a LevelSpace, turn: usize) -> Vec<&'a wgpu::Buffer> {
-        let mut shared = vec![&self.params, &self.scalars, &space.partials];
-        shared.extend(space.turns.get(turn));
-        shared
-    }
-
-    fn columns(&mut self, by: Spectrum, energy: bool, gate: Gate) -> Result<(), GpuError> {
-        let word = source::gate_name(gate);
-        self.record(Key::Multiply(by.index, energy, word), |backend| {
-            let space = backend.level_space(by.level)?;
-            let passes = backend.column_passes(&space.plan, energy, gate);
-            let accesses = bindings::columns(space.plan.slabs, space.spare.is_some());
-            let mut prepared = Vec::new();
-            for (text, workgroups) in passes {
-                for (part, factors) in backend.spectrum_space(by)?.parts.iter().enumerate() {
-                    let shared = backend.shared(space, part);
-                    let mut buffers = vec![&space.column_roots];
-                    buffers.extend(&space.work);
-                    buffers.push(factors);
-                    buffers.extend(&space.spare);
-                    let all: [(&[Access], &[&wgpu::Buffer]); 2] =
-                        [(working(&shared), &shared), (&accesses, &buffers)];
-                    let each = backend.prepare("multiply", text.clone(), &all, workgroups)?;
-                    prepared.push(each);
-                }
-            }
-            Ok(prepared)
-        })?;
-        if !energy {
-            return Ok(());
-        }
-        let plan = &self.level_space(by.level)?.plan;
-        let reduction = Reduction {
-            results: Results::Curvature(plan.points()),
-            groups: plan.column_groups(),
-            gate,
-        };
-        self.deciding.reduction = Some(Decided {
-            name: word,
-            level: by.level,
-            reduction,
-        });
-        Ok(())
-    }
-}
-
-/// What group 0 is to a kernel over points, by what is bound.
-fn working(shared: &[&wgpu::Buffer]) -> &'static [Access] {
-    match shared.len() == WORKING.len() {
-        true => WORKING,
-        false => WORKING_IN_TURNS,
     }
 }
 
@@ -568,9 +364,37 @@ impl Backend for GpuBackend {
         });
     }
 
-    fn in_double(&self) -> Option<Box<dyn Backend + Send>> {
-        self.corrected
-            .then(|| Box::new(CpuBackend::<f64>::new()) as Box<dyn Backend + Send>)
+    /// On the device where it has double precision and takes the shape in it, else on the processor.
+    fn in_double(&self, shape: Shape) -> Option<Box<dyn Backend + Send>> {
+        self.corrected.then(|| -> Box<dyn Backend + Send> {
+            let adapter = self.device.description();
+            match adapter.double && adapter.takes(shape.points, Number::Double) {
+                true => Box::new(GpuBackend {
+                    expects_numbers: self.expects_numbers,
+                    ..GpuBackend::on(&self.device).keeping(Number::Double)
+                }),
+                false => Box::new(CpuBackend::<f64>::new()),
+            }
+        })
+    }
+
+    fn take(
+        &mut self,
+        field: Field,
+        from: &mut dyn Backend,
+        source: Field,
+    ) -> Result<(), BackendError> {
+        match from.lend(source) {
+            Some(lent) if self.takes(field, &lent) => {
+                self.attempt(|backend| backend.convert(field, &lent));
+            }
+            _ => self.write(field, &from.read(source)?),
+        }
+        Ok(())
+    }
+
+    fn lend(&mut self, field: Field) -> Option<Lent> {
+        self.attempt(|backend| backend.hand_out(field))
     }
 
     fn set_params(&mut self, params: &Params) {
@@ -608,7 +432,7 @@ impl Backend for GpuBackend {
     }
 
     fn scalar(&mut self, kernel: &'static ScalarKernel) {
-        self.deciding.kernels.push(kernel);
+        self.deciding.decide(kernel);
     }
 
     fn forward(&mut self, kernel: &'static Kernel, level: Level, fields: &[Field]) {
@@ -620,6 +444,10 @@ impl Backend for GpuBackend {
     }
 
     fn backward(&mut self, kernel: &'static Kernel, level: Level, fields: &[Field]) {
+        self.attempt(|backend| backend.run(kernel, level, fields));
+    }
+
+    fn turn(&mut self, kernel: &'static Kernel, level: Level, fields: &[Field]) {
         self.attempt(|backend| backend.run(kernel, level, fields));
     }
 

@@ -2,10 +2,14 @@
 //!
 //! Group 0 binds the params, the scalars and the level's partial sums; group 1 the kernel's fields
 //! in declared order; group 2 the roots of unity and the work space of a transform. Each of them is
-//! bound whether a kernel uses it or not.
+//! bound whether a kernel uses it or not. A kernel's own part is a function of a point: `point` of a
+//! sweep, `load_point` where lines are filled, `store_point` where they are taken, `pass_point` where
+//! they are taken and others given.
 
+mod convert;
 mod deciding;
 mod long;
+mod rows;
 mod slabs;
 
 use std::fmt::Write;
@@ -16,11 +20,13 @@ use super::error::GpuError;
 use super::fft::LineWriter;
 use super::layout::{self, Number, Wide};
 pub use super::level::LevelPlan;
-use super::level::{SWEEP_SUMS_AT_ONCE, SWEEP_THREADS};
+use super::level::{Place, SWEEP_SUMS_AT_ONCE, SWEEP_THREADS};
 use super::plan::LinePlan;
 use crate::kernel::{Form, Gate, Kernel, Reduce, SUMS};
-pub use deciding::{PAIRS, Reduction, Results, decide, two_sums};
+pub use convert::convert;
+pub use deciding::{Decision, PAIRS, Reduction, Results, decide, two_sums};
 pub use long::{Pass, multiply_long, rows_then};
+use rows::rows_main;
 pub use slabs::Whole;
 use slabs::{Work, after_turns, first_turn};
 
@@ -52,7 +58,8 @@ pub fn gate_name(gate: Gate) -> &'static str {
     match gate {
         Gate::Always => "gate_always",
         Gate::Running => "gate_running",
-        Gate::Fresh => "gate_fresh",
+        // Ahead of decisions it is what it was after the last ones.
+        Gate::Fresh | Gate::Ahead => "gate_fresh",
         Gate::Accepted => "gate_accepted",
         Gate::Searching => "gate_searching",
     }
@@ -75,13 +82,13 @@ fn neutral(reduce: Reduce) -> &'static str {
 }
 
 /// The parts before a kernel: numbers and gates.
-fn preamble(source: &mut String, wide: Wide, access: &str) {
+fn preamble(source: &mut String, wide: Wide, access: &str, sums: usize) {
     source.push_str(&layout::declarations(wide));
     source.push_str(catalogue::COMMON);
     let _ = writeln!(
         source,
         "@group(0) @binding(1) var<storage, {access}> scalars: Scalars;\n\
-         const SUM_COUNT: u32 = {SUMS}u;\n\
+         const SUM_COUNT: u32 = {sums}u;\n\
          // Parts shared between kernels name sums that not all of them have.\n\
          var<private> sums: array<wide, SUM_COUNT>;"
     );
@@ -119,8 +126,14 @@ fn reduction(source: &mut String, reduces: &[Reduce], threads: usize, at_once: u
     source.push_str("}\n");
 }
 
-/// How a workgroup hands in its sums, after `reduction`: so many workgroups in each of some turns.
-fn hand_in(source: &mut String, reduces: &[Reduce], turns: usize, turn_groups: usize) {
+/// How a workgroup hands in its sums, after `reduction`: so many workgroups in each of some turns, whose
+/// sums begin at `first_partial`.
+fn hand_in(
+    source: &mut String,
+    reduces: &[Reduce],
+    [turns, turn_groups]: [usize; 2],
+    first_partial: usize,
+) {
     let count = reduces.len();
     let groups = turns * turn_groups;
     let before = after_turns(turns, turn_groups);
@@ -130,7 +143,7 @@ fn hand_in(source: &mut String, reduces: &[Reduce], turns: usize, turn_groups: u
          for (var first = 0u; first < {count}u; first = first + SUMS_AT_ONCE) {{\n\
          gather(first, thread);\n\
          if (thread < SUMS_AT_ONCE && first + thread < {count}u) {{\n\
-         partials.values[(first + thread) * {groups}u + {before}group] = group_values[thread * GROUP_THREADS];\n\
+         partials.values[{first_partial}u + (first + thread) * {groups}u + {before}group] = group_values[thread * GROUP_THREADS];\n\
          }}\n}}\n}}\n"
     );
 }
@@ -190,21 +203,18 @@ pub fn kernel(
 ) -> Result<String, GpuError> {
     let shader = catalogue::shader(kernel.name).ok_or(GpuError::NoShader(kernel.name))?;
     let mut source = plan.number.declaration();
-    preamble(&mut source, wide, "read");
+    preamble(&mut source, wide, "read", SUMS);
     slabs::declare_turn(&mut source, plan);
     if !kernel.sums.is_empty() {
         let (threads, at_once) = match kernel.form {
             Form::Sweep => (SWEEP_THREADS, SWEEP_SUMS_AT_ONCE),
-            Form::Load | Form::Store => (plan.rows.group_threads(), plan.rows.sums_at_once),
+            _ => (plan.rows.group_threads(), plan.rows.sums_at_once),
         };
         let at_once = at_once.min(kernel.sums.len());
         reduction(&mut source, kernel.sums, threads, at_once);
-        hand_in(
-            &mut source,
-            kernel.sums,
-            plan.slabs,
-            plan.slab_groups(kernel.form),
-        );
+        let first = plan.first_partial(Place::of(kernel.form));
+        let groups = [plan.slabs, plan.slab_groups(kernel.form)];
+        hand_in(&mut source, kernel.sums, groups, first);
     }
     slabs::row_of(&mut source, plan);
     on_surface(&mut source, plan);
@@ -222,8 +232,7 @@ pub fn kernel(
     join(&mut source, shader, law, plan.number);
     match kernel.form {
         Form::Sweep => sweep_main(&mut source, kernel, plan),
-        Form::Load => load_main(&mut source, kernel, plan),
-        Form::Store => store_main(&mut source, kernel, plan),
+        _ => rows_main(&mut source, kernel, plan),
     }
     Ok(source)
 }
@@ -271,108 +280,6 @@ fn sweep_main(source: &mut String, kernel: &Kernel, plan: &LevelPlan) {
     );
 }
 
-/// The head of a kernel that transforms pairs of rows; `pair` is this thread's pair of rows.
-fn rows_head(source: &mut String, name: &str, plan: &LevelPlan, open: &str) {
-    source.push_str(&LineWriter::declarations(&plan.rows));
-    source.push_str(catalogue::FFT);
-    let [x, y] = LineWriter::workgroup_size(&plan.rows, true);
-    let _ = write!(
-        source,
-        "@group(2) @binding(0) var<storage, read> roots: array<vec2<real>>;\n\
-         @group(2) @binding(1) var<storage, read_write> work: array<vec2<real>>;\n\
-         @compute @workgroup_size({x}, {y})\n\
-         fn {name}(@builtin(workgroup_id) group: vec3<u32>, @builtin(local_invocation_id) place: vec3<u32>, @builtin(local_invocation_index) index_in_group: u32) {{\n\
-         {open}\
-         let line = place.x;\n\
-         let thread = place.y;\n\
-         if ({first_turn}group.x == 0u && index_in_group == 0u) {{ partials.transforms = partials.transforms + 1u; }}\n",
-        first_turn = first_turn(plan.slabs),
-    );
-}
-
-fn load_main(source: &mut String, kernel: &Kernel, plan: &LevelPlan) {
-    let (open, close) = frame(kernel);
-    rows_head(source, kernel.name, plan, &open);
-    let half = plan.slab_pairs() * plan.shape[0];
-    let (first, last) = ends(&plan.rows);
-    let mut writer = long::row_writer(plan);
-    let (open, end) = long::row_frame(plan);
-    source.push_str(&open);
-    writer.source.push_str("if (inside) {\n");
-    writer.butterflies(first, |source, each| {
-        for leg in 0..each.radix {
-            let _ = writeln!(
-                source,
-                "{{ let index = {};\n\
-                 {} = vec2<real>(load_point(index, arrive(index)), load_point(index + {half}u, arrive(index + {half}u))); }}",
-                long::row_index(plan, &each.position(leg)),
-                each.name(leg),
-            );
-        }
-    });
-    writer.source.push_str("}\n");
-    writer.transform(Direction::Forward);
-    long::row_turn(&mut writer, plan, Direction::Forward);
-    writer.source.push_str("if (inside) {\n");
-    writer.butterflies(last, |source, each| {
-        for leg in 0..each.radix {
-            let _ = writeln!(
-                source,
-                "{} = {};",
-                long::row_place(plan, &each.position(leg)),
-                each.name(leg)
-            );
-        }
-    });
-    writer.source.push_str("}\n");
-    source.push_str(&writer.source);
-    source.push_str(end);
-    source.push_str(close);
-    source.push_str("}\n");
-}
-
-fn store_main(source: &mut String, kernel: &Kernel, plan: &LevelPlan) {
-    let (open, close) = frame(kernel);
-    rows_head(source, kernel.name, plan, &open);
-    let half = plan.slab_pairs() * plan.shape[0];
-    let (first, last) = ends(&plan.rows);
-    let mut writer = long::row_writer(plan);
-    let (open, end) = long::row_frame(plan);
-    source.push_str(&open);
-    writer.source.push_str("if (inside) {\n");
-    writer.butterflies(last, |source, each| {
-        for leg in 0..each.radix {
-            let _ = writeln!(
-                source,
-                "{} = {};",
-                each.name(leg),
-                long::row_place(plan, &each.position(leg)),
-            );
-        }
-    });
-    writer.source.push_str("}\n");
-    long::row_turn(&mut writer, plan, Direction::Inverse);
-    writer.transform(Direction::Inverse);
-    writer.source.push_str("if (inside) {\n");
-    writer.butterflies(first, |source, each| {
-        for leg in 0..each.radix {
-            let _ = writeln!(
-                source,
-                "{{ let index = {};\n\
-                 store_point(index, arrive(index), {name}.x);\n\
-                 store_point(index + {half}u, arrive(index + {half}u), {name}.y); }}",
-                long::row_index(plan, &each.position(leg)),
-                name = each.name(leg),
-            );
-        }
-    });
-    writer.source.push_str("}\n");
-    source.push_str(&writer.source);
-    source.push_str(end);
-    source.push_str(close);
-    source.push_str("}\n");
-}
-
 /// First and last radix of a forward transform.
 fn ends(plan: &LinePlan) -> (usize, usize) {
     // A plan has at least one radix.
@@ -392,11 +299,13 @@ pub fn multiply(plan: &LevelPlan, energy: bool, gate: Gate, wide: Wide) -> Strin
     let pairs = plan.slab_pairs();
     let work = Work::of(plan);
     let mut source = plan.number.declaration();
-    preamble(&mut source, wide, "read");
+    preamble(&mut source, wide, "read", SUMS);
     slabs::declare_turn(&mut source, plan);
     if energy {
         reduction(&mut source, &[Reduce::Add], columns.group_threads(), 1);
-        hand_in(&mut source, &[Reduce::Add], plan.parts, plan.part_groups());
+        let first = plan.first_partial(Place::Columns);
+        let groups = [plan.parts, plan.part_groups()];
+        hand_in(&mut source, &[Reduce::Add], groups, first);
     }
     source.push_str(&LineWriter::declarations(columns));
     source.push_str(catalogue::FFT);

@@ -57,8 +57,8 @@ pub enum Key {
     RowsThen(usize, bool, &'static str),
     /// The columns with a spectrum, with or without the energy, behind a gate.
     Multiply(usize, bool, &'static str),
-    /// Sums by their name and level, then scalar kernels.
-    Decide(Option<(&'static str, usize)>, Vec<&'static str>),
+    /// Sums by their name and level, and scalar kernels.
+    Decide(Vec<(&'static str, Option<usize>)>),
 }
 
 /// The number that four bytes from the device are.

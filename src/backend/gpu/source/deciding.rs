@@ -7,7 +7,7 @@ use super::super::error::GpuError;
 use super::super::layout::Wide;
 use super::super::level::{SWEEP_SUMS_AT_ONCE, SWEEP_THREADS};
 use super::{gate_name, preamble, reduction};
-use crate::kernel::{Gate, Reduce, ScalarKernel};
+use crate::kernel::{Gate, Reduce, SUMS, ScalarKernel};
 
 /// Where a reduction's results go.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -18,90 +18,148 @@ pub enum Results {
     Curvature(usize),
 }
 
-/// A reduction: what it puts together, of how many workgroups, behind which gate.
+impl Results {
+    /// How they are put together.
+    fn reduces(self) -> &'static [Reduce] {
+        match self {
+            Results::Sums(reduces) => reduces,
+            Results::Curvature(_) => &[Reduce::Add],
+        }
+    }
+}
+
+/// A reduction: what it puts together, of how many workgroups, from which partial sum on, behind which
+/// gate.
 #[derive(Clone, Copy, Debug)]
 pub struct Reduction {
     /// Where its results go.
     pub results: Results,
     /// Workgroups that handed in partial sums.
     pub groups: usize,
+    /// The first of their partial sums.
+    pub first: usize,
     /// The gate of the kernel that wrote them.
     pub gate: Gate,
 }
 
-/// One dispatch that decides: puts partial sums together in a fixed order, if the gate of the kernel
-/// that wrote them was open, then runs scalar kernels one after another. An error where one of them
-/// has no shader. Its entry point is `decide`.
-pub fn decide(
-    reduction_first: Option<Reduction>,
-    kernels: &[&ScalarKernel],
-    wide: Wide,
-) -> Result<String, GpuError> {
+/// One part of a decision.
+#[derive(Clone, Copy)]
+pub enum Decision {
+    /// Partial sums put together and handed to the scalars.
+    Sums(Reduction),
+    /// A scalar kernel.
+    Scalar(&'static ScalarKernel),
+}
+
+/// One dispatch that decides: puts all partial sums together in a fixed order, then goes through its
+/// parts one after another: hands a reduction's results over if the gate of the kernel that wrote them
+/// is open, or runs a scalar kernel. An error where one of them has no shader. Its entry point is
+/// `decide`.
+pub fn decide(parts: &[Decision], wide: Wide) -> Result<String, GpuError> {
     let mut source = String::new();
-    preamble(&mut source, wide, "read_write");
-    let mut parts: Vec<&str> = Vec::new();
-    for kernel in kernels {
+    let reductions: Vec<Reduction> = parts
+        .iter()
+        .filter_map(|part| match part {
+            Decision::Sums(reduction) => Some(*reduction),
+            Decision::Scalar(_) => None,
+        })
+        .collect();
+    let reduces: Vec<Reduce> = reductions
+        .iter()
+        .flat_map(|reduction| reduction.results.reduces().iter().copied())
+        .collect();
+    preamble(&mut source, wide, "read_write", reduces.len().max(1));
+    let mut shaders: Vec<&str> = Vec::new();
+    for part in parts {
+        let Decision::Scalar(kernel) = part else {
+            continue;
+        };
         let found = catalogue::scalar(kernel.name).ok_or(GpuError::NoShader(kernel.name))?;
-        for part in found {
-            if !parts.contains(&part) {
-                parts.push(part);
+        for shader in found {
+            if !shaders.contains(&shader) {
+                shaders.push(shader);
             }
         }
     }
-    parts.iter().for_each(|part| source.push_str(part));
-    let threads = match reduction_first {
-        Some(first) => {
-            put_together(&mut source, first);
+    shaders.iter().for_each(|part| source.push_str(part));
+    let threads = match reductions.is_empty() {
+        true => 1,
+        false => {
+            put_together(&mut source, &reductions, &reduces);
             SWEEP_THREADS
         }
-        None => 1,
     };
     let _ = writeln!(
         source,
         "@compute @workgroup_size({threads})\n\
          fn decide(@builtin(local_invocation_index) thread: u32) {{"
     );
-    if reduction_first.is_some() {
-        source.push_str("put_together(thread);\nstorageBarrier();\n");
+    if !reductions.is_empty() {
+        source.push_str("put_together(thread);\n");
     }
     source.push_str("if (thread == 0u) {\n");
-    for kernel in kernels {
-        let _ = writeln!(source, "{}();", kernel.name);
+    let mut slot = 0;
+    for part in parts {
+        match part {
+            Decision::Scalar(kernel) => {
+                let _ = writeln!(source, "{}();", kernel.name);
+            }
+            Decision::Sums(reduction) => {
+                let _ = writeln!(source, "if ({}()) {{", gate_name(reduction.gate));
+                let count = reduction.results.reduces().len();
+                for place in 0..count {
+                    let total = format!("totals[{}]", slot + place);
+                    let _ = match reduction.results {
+                        Results::Sums(_) => writeln!(source, "scalars.sums[{place}] = {total};"),
+                        Results::Curvature(points) => {
+                            writeln!(source, "scalars.curvature = {total} / wide({points}.0);")
+                        }
+                    };
+                }
+                slot += count;
+                source.push_str("}\n");
+            }
+        }
     }
     source.push_str("}\n}\n");
     Ok(source)
 }
 
-/// Writes the function that puts partial sums together.
-fn put_together(source: &mut String, what: Reduction) {
-    let (reduces, target) = match what.results {
-        Results::Sums(reduces) => (reduces, "scalars.sums[first + thread] = total".to_string()),
-        Results::Curvature(points) => (
-            &[Reduce::Add] as &[Reduce],
-            format!("scalars.curvature = total / wide({points}.0)"),
-        ),
-    };
-    let (groups, count) = (what.groups, reduces.len());
+/// Writes the function that puts partial sums together, slot by slot of all reductions.
+fn put_together(source: &mut String, reductions: &[Reduction], reduces: &[Reduce]) {
+    let count = reduces.len();
     let at_once = SWEEP_SUMS_AT_ONCE.min(count);
     reduction(source, reduces, SWEEP_THREADS, at_once);
     let _ = write!(
         source,
-        "fn put_together(thread: u32) {{\n\
-         start_sums();\n\
-         for (var slot = 0u; slot < {count}u; slot = slot + 1u) {{\n\
-         var total = part_of(slot);\n\
-         for (var group = thread; group < {groups}u; group = group + {SWEEP_THREADS}u) {{\n\
-         total = join_slot(slot, total, partials.values[slot * {groups}u + group]);\n\
-         }}\n\
-         set_part(slot, total);\n\
-         }}\n\
-         for (var first = 0u; first < {count}u; first = first + SUMS_AT_ONCE) {{\n\
+        "var<workgroup> totals: array<wide, {count}>;\n\
+         fn put_together(thread: u32) {{\n\
+         start_sums();\n"
+    );
+    let mut slot = 0;
+    for what in reductions {
+        let (groups, of) = (what.groups, what.results.reduces().len());
+        let _ = write!(
+            source,
+            "for (var slot = 0u; slot < {of}u; slot = slot + 1u) {{\n\
+             var total = part_of({slot}u + slot);\n\
+             for (var group = thread; group < {groups}u; group = group + {SWEEP_THREADS}u) {{\n\
+             total = join_slot({slot}u + slot, total, partials.values[{first}u + slot * {groups}u + group]);\n\
+             }}\n\
+             set_part({slot}u + slot, total);\n\
+             }}\n",
+            first = what.first,
+        );
+        slot += of;
+    }
+    let _ = write!(
+        source,
+        "for (var first = 0u; first < {count}u; first = first + SUMS_AT_ONCE) {{\n\
          gather(first, thread);\n\
-         if (thread < SUMS_AT_ONCE && first + thread < {count}u && {gate}()) {{\n\
-         let total = part_value(group_values[thread * GROUP_THREADS]);\n\
-         {target};\n\
-         }}\n}}\n}}\n",
-        gate = gate_name(what.gate),
+         if (thread < SUMS_AT_ONCE && first + thread < {count}u) {{\n\
+         totals[first + thread] = part_value(group_values[thread * GROUP_THREADS]);\n\
+         }}\n}}\n\
+         workgroupBarrier();\n}}\n",
     );
 }
 
@@ -109,7 +167,7 @@ fn put_together(source: &mut String, what: Reduction) {
 /// entry point is `check`.
 pub fn two_sums() -> String {
     let mut source = String::new();
-    preamble(&mut source, Wide::Compensated, "read");
+    preamble(&mut source, Wide::Compensated, "read", SUMS);
     let _ = writeln!(
         source,
         "@group(1) @binding(0) var<storage, read> pairs: array<vec2<f32>>;\n\

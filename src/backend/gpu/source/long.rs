@@ -9,11 +9,11 @@ use super::super::butterfly::{Direction, literal};
 use super::super::catalogue;
 use super::super::fft::LineWriter;
 use super::super::layout::Wide;
-use super::super::level::LevelPlan;
+use super::super::level::{LevelPlan, Place};
 use super::super::plan::LinePlan;
 use super::slabs::{self, Work, after_turns, first_turn};
 use super::{ends, gate_name, hand_in, preamble, reduction};
-use crate::kernel::{Gate, Reduce};
+use crate::kernel::{Gate, Reduce, SUMS};
 
 /// The three passes over long columns.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -114,7 +114,7 @@ pub fn rows_then(plan: &LevelPlan, direction: Direction, gate: Gate, wide: Wide)
     let then = plan.rows_then.as_ref()?;
     let (pairs, length) = (plan.slab_pairs(), then.length);
     let mut source = plan.number.declaration();
-    preamble(&mut source, wide, "read");
+    preamble(&mut source, wide, "read", SUMS);
     slabs::declare_turn(&mut source, plan);
     source.push_str(&LineWriter::declarations(then));
     source.push_str(catalogue::FFT);
@@ -204,11 +204,13 @@ pub fn multiply_long(
     let pairs = plan.pairs();
     let work = Work::of(plan);
     let mut source = plan.number.declaration();
-    preamble(&mut source, wide, "read");
+    preamble(&mut source, wide, "read", SUMS);
     slabs::declare_turn(&mut source, plan);
     if energy {
         reduction(&mut source, &[Reduce::Add], line.group_threads(), 1);
-        hand_in(&mut source, &[Reduce::Add], plan.parts, plan.part_groups());
+        let groups = [plan.parts, plan.part_groups()];
+        let first = plan.first_partial(Place::Columns);
+        hand_in(&mut source, &[Reduce::Add], groups, first);
     }
     source.push_str(&LineWriter::declarations(line));
     source.push_str(catalogue::FFT);

@@ -1,0 +1,249 @@
+//! Kernels bound to their buffers, a dispatch a slab, and recorded.
+
+use super::bindings::{self, Access, ROWS, WORKING, WORKING_IN_TURNS};
+use super::butterfly::Direction;
+use super::deciding::Decided;
+use super::level::Place;
+use super::recorder::Prepared;
+use super::source::{self, Reduction, Results};
+use super::space::{Key, LevelSpace};
+use super::{GpuBackend, GpuError, catalogue};
+use crate::backend::{Field, Level, Spectrum};
+use crate::kernel::{Form, Gate, Kernel};
+
+impl GpuBackend {
+    /// Compiles a shader and binds its buffers, group by group.
+    pub(super) fn prepare(
+        &self,
+        name: &str,
+        source: String,
+        groups: &[(&[bindings::Access], &[&wgpu::Buffer])],
+        workgroups: [usize; 2],
+    ) -> Result<Prepared, GpuError> {
+        let (layouts, groups) = self.device.guarded(|device| {
+            groups
+                .iter()
+                .map(|(accesses, buffers)| {
+                    let layout = bindings::layout(device, accesses);
+                    let group = bindings::group(device, &layout, buffers);
+                    (layout, group)
+                })
+                .collect::<(Vec<_>, Vec<_>)>()
+        })?;
+        let layouts: Vec<_> = layouts.iter().collect();
+        let pipeline = self.device.pipeline(name, source, &layouts)?;
+        Ok(Prepared {
+            pipeline,
+            groups,
+            // Plans keep it far below the 65535 that every adapter takes.
+            workgroups: workgroups.map(|count| count as u32),
+        })
+    }
+
+    /// Finds what is prepared, a dispatch each slab, or prepares it, and records it.
+    pub(super) fn dispatch(
+        &mut self,
+        key: Key,
+        prepare: impl FnOnce(&Self) -> Result<Vec<Prepared>, GpuError>,
+    ) -> Result<(), GpuError> {
+        let prepared = match self.prepared.get(&key) {
+            Some(prepared) => prepared.clone(),
+            None => {
+                let prepared = prepare(self)?;
+                self.prepared.insert(key, prepared.clone());
+                prepared
+            }
+        };
+        for each in prepared {
+            self.traffic.dispatches += 1;
+            self.device.count_dispatch();
+            self.recorder.dispatch(each)?;
+        }
+        match self.device.poisons() {
+            true => self.poison(),
+            false => Ok(()),
+        }
+    }
+
+    /// Records a kernel of the catalogue and the reduction of its sums.
+    pub(super) fn run(
+        &mut self,
+        kernel: &'static Kernel,
+        level: Level,
+        fields: &[Field],
+    ) -> Result<(), GpuError> {
+        if fields.len() != kernel.fields() {
+            return Err(GpuError::Fields {
+                kernel: kernel.name,
+                expected: kernel.fields(),
+                given: fields.len(),
+            });
+        }
+        let indices = fields.iter().map(|field| field.index).collect();
+        let key = Key::Kernel(kernel.name, level.0, self.base.is_some(), indices);
+        let place = Place::of(kernel.form);
+        if kernel.gate != Gate::Ahead {
+            self.settle()?;
+        } else if !kernel.sums.is_empty() {
+            self.make_room(level, place)?;
+        }
+        if kernel.form.after_inverse() {
+            self.rows_then(level, Direction::Inverse, kernel.gate)?;
+        }
+        self.dispatch(key, |backend| backend.kernel(kernel, level, fields))?;
+        if kernel.form.before_forward() {
+            self.rows_then(level, Direction::Forward, kernel.gate)?;
+        }
+        if kernel.sums.is_empty() {
+            return Ok(());
+        }
+        let plan = &self.level_space(level)?.plan;
+        let reduction = Reduction {
+            results: Results::Sums(kernel.sums),
+            groups: plan.groups(kernel.form),
+            first: plan.first_partial(place),
+            gate: kernel.gate,
+        };
+        self.put_off(Decided {
+            name: kernel.name,
+            level,
+            place,
+            reduction,
+        });
+        Ok(())
+    }
+
+    /// The dispatches of a kernel, one a slab.
+    pub(super) fn kernel(
+        &self,
+        kernel: &'static Kernel,
+        level: Level,
+        fields: &[Field],
+    ) -> Result<Vec<Prepared>, GpuError> {
+        let space = self.level_space(level)?;
+        let mut bound = Vec::new();
+        for &field in fields {
+            bound.push(&self.field_space(field)?.slabs);
+        }
+        let own = kernel.reads + kernel.writes;
+        let whole = match (kernel.whole, fields.last()) {
+            (true, Some(field)) => source::Whole::of(&self.level_space(field.level)?.plan),
+            _ => source::Whole::default(),
+        };
+        let mut accesses = bindings::fields(kernel.reads, kernel.writes, whole.slabs);
+        let mut behind = Vec::new();
+        let mut follow = |fields: &[Field]| -> Result<usize, GpuError> {
+            let first = accesses.len();
+            for &field in fields {
+                behind.push(&self.field_space(field)?.slabs);
+                accesses.push(Access::Read);
+            }
+            Ok(first)
+        };
+        // Bound behind the kernel's own fields.
+        let asks = catalogue::asks_for_law(kernel.name);
+        let factor = match self.law_factor {
+            Some(field) if field.level == level && asks => Some(follow(&[field])?),
+            _ => None,
+        };
+        let base = match self.base {
+            Some(base) if base[0].level == level && asks => Some(follow(&base)?),
+            _ => None,
+        };
+        let law = source::LawSource {
+            part: self.law,
+            factor,
+            base,
+        };
+        let text = source::kernel(kernel, &space.plan, whole, law, self.wide)?;
+        let groups = space.plan.slab_groups(kernel.form);
+        let in_slab = |slab: usize| {
+            let shared = self.shared(space, slab);
+            let mut buffers: Vec<_> = bound[..own].iter().map(|slabs| &slabs[slab]).collect();
+            // A field read as a whole is bound in all its slabs.
+            buffers.extend(bound[own..].iter().copied().flatten());
+            buffers.extend(behind.iter().map(|slabs| &slabs[slab]));
+            let transform = [&space.row_roots, &space.work[slab]];
+            let mut all: Vec<(&[Access], &[&wgpu::Buffer])> =
+                vec![(working(&shared), &shared), (&accesses, &buffers)];
+            if kernel.form != Form::Sweep {
+                all.push((ROWS, &transform));
+            }
+            self.prepare(kernel.name, text.clone(), &all, [groups, 1])
+        };
+        (0..space.plan.slabs).map(in_slab).collect()
+    }
+
+    /// Group 0 of a kernel in one of its turns over slabs or parts of a spectrum.
+    pub(super) fn shared<'a>(
+        &'a self,
+        space: &'a LevelSpace,
+        turn: usize,
+    ) -> Vec<&'a wgpu::Buffer> {
+        let mut shared = vec![&self.params, &self.scalars, &space.partials];
+        shared.extend(space.turns.get(turn));
+        shared
+    }
+
+    pub(super) fn columns(
+        &mut self,
+        by: Spectrum,
+        energy: bool,
+        gate: Gate,
+    ) -> Result<(), GpuError> {
+        // It changes the work space alone, so it need not wait for the decision whether to run.
+        let gate = match gate {
+            Gate::Accepted => Gate::Running,
+            other => other,
+        };
+        let word = source::gate_name(gate);
+        if energy {
+            self.make_room(by.level, Place::Columns)?;
+        }
+        self.dispatch(Key::Multiply(by.index, energy, word), |backend| {
+            let space = backend.level_space(by.level)?;
+            let passes = backend.column_passes(&space.plan, energy, gate);
+            let accesses = bindings::columns(space.plan.slabs, space.spare.is_some());
+            let mut prepared = Vec::new();
+            for (text, workgroups) in passes {
+                for (part, factors) in backend.spectrum_space(by)?.parts.iter().enumerate() {
+                    let shared = backend.shared(space, part);
+                    let mut buffers = vec![&space.column_roots];
+                    buffers.extend(&space.work);
+                    buffers.push(factors);
+                    buffers.extend(&space.spare);
+                    let all: [(&[Access], &[&wgpu::Buffer]); 2] =
+                        [(working(&shared), &shared), (&accesses, &buffers)];
+                    let each = backend.prepare("multiply", text.clone(), &all, workgroups)?;
+                    prepared.push(each);
+                }
+            }
+            Ok(prepared)
+        })?;
+        if !energy {
+            return Ok(());
+        }
+        let plan = &self.level_space(by.level)?.plan;
+        let reduction = Reduction {
+            results: Results::Curvature(plan.points()),
+            groups: plan.column_groups(),
+            first: plan.first_partial(Place::Columns),
+            gate,
+        };
+        self.put_off(Decided {
+            name: word,
+            level: by.level,
+            place: Place::Columns,
+            reduction,
+        });
+        Ok(())
+    }
+}
+
+/// What group 0 is to a kernel over points, by what is bound.
+pub(super) fn working(shared: &[&wgpu::Buffer]) -> &'static [Access] {
+    match shared.len() == WORKING.len() {
+        true => WORKING,
+        false => WORKING_IN_TURNS,
+    }
+}
