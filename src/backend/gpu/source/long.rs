@@ -356,7 +356,7 @@ fn middle(source: &mut String, plan: &LevelPlan, then: &LinePlan, inside: &str, 
     if energy {
         writer
             .source
-            .push_str("let weight: real = select(2.0, 1.0, own);\n");
+            .push_str("let weight = select(real(2.0), real(1.0), own);\n");
     }
     writer.butterflies(last, |source, each| {
         for leg in 0..each.radix {
