@@ -10,6 +10,8 @@ mod calls;
 mod curves;
 mod files;
 mod scenes;
+#[path = "../shared/mod.rs"]
+mod shared;
 mod variants;
 
 use std::collections::BTreeMap;
