@@ -1,7 +1,7 @@
 // As wall_descent, with the long waves added from the coarse level.
-@group(1) @binding(5) var<storage, read> long_waves: array<f32>;
+@group(1) @binding(5) var<storage, read> long_waves: array<real>;
 
-fn store_point(index: u32, on_surface: bool, line_value: f32) {
+fn store_point(index: u32, on_surface: bool, line_value: real) {
     let ratio = WIDTH / WHOLE_WIDTH;
     let x = neighbours(index % WIDTH, ratio, WHOLE_WIDTH);
     let y = neighbours(index / WIDTH, ratio, WHOLE_HEIGHT);

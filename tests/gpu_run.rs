@@ -7,7 +7,7 @@ use std::fs;
 use std::path::Path;
 use std::process::{Command, Output};
 
-use gpu_shared::{device, relative_difference};
+use gpu_shared::{device, device_with_double, relative_difference};
 use serde_json::Value;
 use tempfile::TempDir;
 
@@ -114,7 +114,7 @@ fn field(folder: &Path, name: &str) -> npyz::NpyFile<std::io::Cursor<Vec<u8>>> {
     npyz::NpyFile::new(std::io::Cursor::new(bytes)).expect("an npy file")
 }
 
-/// Runs a scene on both, to a tolerance that asks for this precision. The stopping measure is relative
+/// Runs a scene on both, to a tolerance that asks for this precision, or in double. The stopping measure is relative
 /// to the pressures, so gaps agree to the tolerance and pressures, which weigh short waves, to ten
 /// times that (both come out better); at 1e-4 a few points at the rim may be closed in one and open in
 /// the other.
@@ -122,8 +122,16 @@ fn compare(text: &str, precision: &str, tolerance: f64) {
     let Some(device) = device() else { return };
     let folder = scene(text);
     let set = format!("solver.tolerance={tolerance:e}");
+    let asked = match precision {
+        "double" => "double",
+        // Chosen by the tolerance.
+        _ => "auto",
+    };
     let calls: [(&str, &[&str]); 2] = [
-        ("gpu", &["--backend", "gpu", "--set", &set]),
+        (
+            "gpu",
+            &["--backend", "gpu", "--precision", asked, "--set", &set],
+        ),
         ("cpu", &["--backend", "cpu", "--precision", "double"]),
     ];
     for (out, call) in calls {
@@ -185,6 +193,13 @@ fn compare(text: &str, precision: &str, tolerance: f64) {
 #[test]
 fn an_adhesive_sphere_agrees_with_the_processor() {
     compare(SPHERE, "mixed", 1e-9);
+}
+
+#[test]
+fn an_adhesive_sphere_in_double_precision_agrees_with_the_processor() {
+    if device_with_double().is_some() {
+        compare(SPHERE, "double", 1e-9);
+    }
 }
 
 #[test]
@@ -263,19 +278,64 @@ fn devices_names_the_adapter() {
     }
 }
 
+/// With the adapter's double precision taken away: refused where it is asked for, left where the choice is
+/// free, and corrected by the processor in mixed.
 #[test]
-fn double_precision_is_refused_with_what_does_as_well() {
+fn without_double_precision_it_is_refused_with_what_does_as_well() {
     if device().is_none() {
         return;
     }
     let folder = scene(ROUGH);
     let call = ["--backend", "gpu", "--precision", "double"];
-    let output = run(folder.path(), "gpu", &call, None);
+    let output = run_tested(folder.path(), "gpu", &call, None, "nodouble");
     let message = errors(&output);
     assert_eq!(output.status.code(), Some(4), "{message}");
-    assert!(message.contains("single precision only"), "{message}");
+    assert!(message.contains("has no double precision"), "{message}");
     assert!(message.contains("\"mixed\" reaches"), "{message}");
     assert!(!folder.path().join("gpu").exists());
+    let call = ["--precision", "double"];
+    let output = run_tested(folder.path(), "auto", &call, None, "software,nodouble");
+    let message = errors(&output);
+    assert_eq!(output.status.code(), Some(0), "{message}");
+    assert!(message.contains("it has no double precision"), "{message}");
+    assert_eq!(summary(&folder.path().join("auto"))["backend"], "cpu");
+    let call = ["--backend", "gpu", "--precision", "mixed"];
+    let output = run_tested(folder.path(), "mixed", &call, None, "nodouble");
+    assert_eq!(output.status.code(), Some(0), "{}", errors(&output));
+    assert_eq!(summary(&folder.path().join("mixed"))["precision"], "mixed");
+}
+
+/// Where the choice is free, double precision goes to an adapter that has it.
+#[test]
+fn double_precision_goes_to_an_adapter_that_has_it() {
+    if device_with_double().is_none() {
+        return;
+    }
+    let folder = scene(ROUGH);
+    let call = ["--precision", "double"];
+    let output = run_tested(folder.path(), "auto", &call, None, "software");
+    let message = errors(&output);
+    assert_eq!(output.status.code(), Some(0), "{message}");
+    assert!(message.contains("in double precision"), "{message}");
+    let said = summary(&folder.path().join("auto"));
+    assert_eq!(
+        (&said["backend"], &said["precision"]),
+        (&"gpu".into(), &"double".into())
+    );
+    // A field of 64 x 64 doubles takes 32 KiB.
+    let output = run_tested(
+        folder.path(),
+        "gpu",
+        &["--backend", "gpu", "--precision", "double"],
+        None,
+        "binding=16384",
+    );
+    let message = errors(&output);
+    assert_eq!(output.status.code(), Some(2), "{message}");
+    assert!(
+        message.contains("takes up to 32 x 32 here in double precision"),
+        "{message}"
+    );
 }
 
 /// A field of 64 x 64 points takes 16 KiB: one that binds 4 KiB takes 32 x 32.

@@ -6,7 +6,7 @@ use std::sync::{Arc, Mutex, OnceLock, PoisonError};
 
 use super::GpuBackend;
 use super::error::GpuError;
-use super::layout::Wide;
+use super::layout::{Number, Wide};
 use super::plan::{GroupLimits, LinePlan};
 
 /// Which adapter to take.
@@ -17,9 +17,8 @@ pub struct AdapterChoice {
     /// Whether a driver that computes on the processor will do. It is slower there than this
     /// program's own CPU backend, so only tests and explicit wishes want it.
     pub software: bool,
-    /// Whether sums are kept in single precision even where the device has double: for tests of
-    /// what other devices do.
-    pub single_sums: bool,
+    /// Whether the device is taken for one without double precision: for tests of what such devices do.
+    pub without_double: bool,
     /// Bytes that may be bound at a time, where that is to be less than the adapter takes: for tests of
     /// grids past the limits.
     pub binding_limit: Option<u64>,
@@ -80,18 +79,20 @@ impl AdapterDescription {
         self.kind == AdapterKind::Software
     }
 
-    /// Whether its transforms and bindings take a grid of so many points each way.
-    pub fn takes(&self, points: [usize; 2]) -> bool {
-        let longest = LinePlan::longest(self.group_limits);
-        let bytes = 4 * points[0] as u64 * points[1] as u64;
+    /// Whether its transforms and bindings take fields of so many points each way in this number.
+    pub fn takes(&self, points: [usize; 2], number: Number) -> bool {
+        let longest = LinePlan::longest(self.group_limits, number);
+        let bytes = number.bytes() as u64 * points[0] as u64 * points[1] as u64;
         points.into_iter().all(|side| side <= longest) && bytes <= self.binding_limit
     }
 
-    /// Points along the side of the largest square grid that its transforms and bindings take.
-    pub fn largest_side(&self) -> usize {
-        // A field in single precision is the largest thing that is bound.
-        let mut side = LinePlan::longest(self.group_limits);
-        while side > 1 && 4 * (side as u64).pow(2) > self.binding_limit {
+    /// Points along the side of the largest square grid whose fields in this number its transforms and
+    /// bindings take.
+    pub fn largest_side(&self, number: Number) -> usize {
+        // A field is the largest thing that is bound.
+        let mut side = LinePlan::longest(self.group_limits, number);
+        let bytes = number.bytes() as u64;
+        while side > 1 && bytes * (side as u64).pow(2) > self.binding_limit {
             side /= 2;
         }
         side
@@ -217,9 +218,10 @@ impl GpuDevice {
         if let Some(limit) = choice.binding_limit {
             description.binding_limit = description.binding_limit.min(limit);
         }
-        let required_features = match choice.single_sums {
-            true => wgpu::Features::empty(),
-            false => adapter.features() & wgpu::Features::SHADER_F64,
+        description.double &= !choice.without_double;
+        let required_features = match description.double {
+            true => wgpu::Features::SHADER_F64,
+            false => wgpu::Features::empty(),
         };
         let (device, queue) = pollster::block_on(adapter.request_device(&wgpu::DeviceDescriptor {
             label: Some("tabor"),
@@ -274,6 +276,11 @@ impl GpuDevice {
         } else {
             Wide::Compensated
         }
+    }
+
+    /// Whether both are one.
+    pub(super) fn is(&self, other: &GpuDevice) -> bool {
+        Arc::ptr_eq(&self.inner, &other.inner)
     }
 
     /// What a workgroup may hold.
@@ -433,13 +440,19 @@ mod tests {
     #[test]
     fn the_largest_grid_keeps_both_limits() {
         let mut found = adapter("one", AdapterKind::Discrete);
-        assert_eq!(found.largest_side(), 4096);
+        let single = Number::Single;
+        assert_eq!(found.largest_side(single), 4096);
+        assert_eq!(found.largest_side(Number::Double), 4096);
         found.binding_limit = (1 << 31) - 1;
-        assert_eq!(found.largest_side(), 16384);
+        assert_eq!(found.largest_side(single), 16384);
+        assert_eq!(found.largest_side(Number::Double), 8192);
         found.binding_limit = 1 << 20;
-        assert_eq!(found.largest_side(), 512);
+        assert_eq!(found.largest_side(single), 512);
+        assert_eq!(found.largest_side(Number::Double), 256);
         // It is the points that count, not the longer side.
-        assert!(found.takes([2048, 128]) && !found.takes([2048, 130]));
-        assert!(!found.takes([32768, 2]));
+        assert!(found.takes([2048, 128], single) && !found.takes([2048, 130], single));
+        assert!(found.takes([1024, 128], Number::Double));
+        assert!(!found.takes([2048, 128], Number::Double));
+        assert!(!found.takes([32768, 2], single));
     }
 }

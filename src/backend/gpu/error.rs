@@ -46,9 +46,9 @@ pub enum GpuError {
         /// The adapter's limit.
         limit: u64,
     },
-    /// Fields in a precision that the adapter, or this version on it, does not have.
+    /// Fields in a precision that the adapter does not have.
     #[error(
-        "{0} keeps fields in single precision only; precision = \"mixed\" reaches the tolerances of double"
+        "{0} has no double precision (SHADER_F64); precision = \"mixed\" reaches the same tolerances without"
     )]
     Precision(String),
     /// A kernel that has no shader.

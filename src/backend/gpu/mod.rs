@@ -1,4 +1,4 @@
-//! A graphics processor through wgpu: fields in single precision, kernels as WGSL.
+//! A graphics processor through wgpu: fields in single or double precision, kernels as WGSL.
 //!
 //! A convolution is three dispatches: rows, columns with the factors, rows back. The work space of
 //! a level holds the transforms along x of its pairs of rows (y with y + ny/2, one complex row),
@@ -14,6 +14,7 @@ mod device;
 mod error;
 mod fft;
 mod layout;
+mod lending;
 mod level;
 mod plan;
 mod reading;
@@ -34,18 +35,21 @@ use deciding::{Decided, Deciding};
 use level::LevelPlan;
 use recorder::{Prepared, Recorder};
 use source::{Reduction, Results};
-use space::{FieldSpace, Key, LevelSpace, SpectrumSpace, single_bytes};
+use space::{FieldSpace, Key, LevelSpace, SpectrumSpace};
 
 pub use catalogue::LawPart;
 pub use device::{AdapterChoice, AdapterDescription, AdapterKind, GpuDevice, adapters};
 pub use error::GpuError;
-pub use layout::Wide;
+pub use layout::{Number, Wide};
+pub use lending::Lent;
 pub use plan::{Exchange, GroupLimits, LinePlan, radices};
 pub use traffic::Traffic;
 
-/// The GPU backend, in single precision.
+/// The GPU backend.
 pub struct GpuBackend {
     device: GpuDevice,
+    /// The number of the fields.
+    number: Number,
     wide: Wide,
     recorder: Recorder,
     params: wgpu::Buffer,
@@ -72,7 +76,7 @@ pub struct GpuBackend {
 }
 
 impl GpuBackend {
-    /// A backend with nothing in it.
+    /// A backend in single precision with nothing in it.
     pub fn new(device: &GpuDevice) -> Result<Self, GpuError> {
         let backend = Self::on(device);
         backend.checked()?;
@@ -99,6 +103,7 @@ impl GpuBackend {
         });
         let mut backend = GpuBackend {
             device: device.clone(),
+            number: Number::Single,
             wide,
             recorder: Recorder::new(device.clone()),
             params,
@@ -132,6 +137,16 @@ impl GpuBackend {
             look_every: rounds.max(1),
             ..self
         }
+    }
+
+    /// The same with its fields in this number, before there are any. Where the device lacks it that is
+    /// told where the host waits.
+    pub fn keeping(mut self, number: Number) -> Self {
+        if number == Number::Double && !self.device.description().double {
+            let name = self.device.description().name.clone();
+            self.failure.get_or_insert(GpuError::Precision(name));
+        }
+        GpuBackend { number, ..self }
     }
 
     /// The same for iterations that correct a state kept in double precision.
@@ -179,13 +194,12 @@ impl GpuBackend {
         if let Some(buffer) = self.roots.get(&length) {
             return Ok(buffer.clone());
         }
-        let buffer = self.storage("roots", 8 * length)?;
+        let buffer = self.storage("roots", 2 * self.number.bytes() * length)?;
         let values = (0..length).flat_map(|m| {
             let angle = TAU * m as f64 / length as f64;
-            [angle.cos() as f32, -angle.sin() as f32]
+            [angle.cos(), -angle.sin()]
         });
-        self.recorder
-            .write(&buffer, values.flat_map(f32::to_le_bytes))?;
+        self.recorder.write(&buffer, self.number.bytes_of(values))?;
         self.roots.insert(length, buffer.clone());
         Ok(buffer)
     }
@@ -420,14 +434,15 @@ impl Backend for GpuBackend {
     }
 
     fn suits(&self, shape: Shape) -> bool {
-        LevelPlan::new(shape, self.device.group_limits()).is_ok()
+        LevelPlan::new(shape, self.device.group_limits(), self.number).is_ok()
     }
 
     fn level(&mut self, name: &'static str, shape: Shape) -> Level {
         let space = self.attempt(|backend| {
-            let plan = LevelPlan::new(shape, backend.device.group_limits())?;
+            let number = backend.number;
+            let plan = LevelPlan::new(shape, backend.device.group_limits(), number)?;
             // Half as many complex numbers as points.
-            let work = backend.storage(name, 4 * plan.points())?;
+            let work = backend.storage(name, number.bytes() * plan.points())?;
             let partials = 8 + plan.partials() * backend.wide.part_bytes();
             Ok(LevelSpace {
                 row_roots: backend.roots(plan.shape[0])?,
@@ -444,7 +459,7 @@ impl Backend for GpuBackend {
     fn field(&mut self, level: Level, name: &'static str) -> Field {
         let space = self.attempt(|backend| {
             let points = backend.level_space(level)?.plan.points();
-            let buffer = backend.storage(name, 4 * points)?;
+            let buffer = backend.storage(name, backend.number.bytes() * points)?;
             Ok(FieldSpace { buffer, points })
         });
         self.fields.push(space);
@@ -456,8 +471,9 @@ impl Backend for GpuBackend {
 
     fn spectrum(&mut self, level: Level, name: &'static str, values: &[f64]) -> Spectrum {
         let space = self.attempt(|backend| {
-            let buffer = backend.storage(name, 4 * values.len())?;
-            backend.overwrite(&buffer, single_bytes(values))?;
+            let buffer = backend.storage(name, backend.number.bytes() * values.len())?;
+            let bytes = backend.number.bytes_of(values.iter().copied());
+            backend.overwrite(&buffer, bytes)?;
             Ok(SpectrumSpace { buffer })
         });
         self.spectra.push(space);
@@ -470,7 +486,8 @@ impl Backend for GpuBackend {
     fn set_zero_mode(&mut self, spectrum: Spectrum, value: f64) {
         self.attempt(|backend| {
             let buffer = backend.spectrum_space(spectrum)?.buffer.clone();
-            backend.overwrite(&buffer, single_bytes(&[value]))
+            let bytes = backend.number.bytes_of([value]);
+            backend.overwrite(&buffer, bytes)
         });
     }
 
@@ -478,7 +495,8 @@ impl Backend for GpuBackend {
         self.attempt(|backend| {
             let buffer = backend.field_space(field)?.buffer.clone();
             backend.traffic.fields_up += 1;
-            backend.overwrite(&buffer, single_bytes(values))
+            let bytes = backend.number.bytes_of(values.iter().copied());
+            backend.overwrite(&buffer, bytes)
         });
     }
 
@@ -508,9 +526,34 @@ impl Backend for GpuBackend {
         });
     }
 
-    fn in_double(&self) -> Option<Box<dyn Backend + Send>> {
-        self.corrected
-            .then(|| Box::new(CpuBackend::<f64>::new()) as Box<dyn Backend + Send>)
+    /// On the device where it has double precision and takes the shape in it, else on the processor.
+    fn in_double(&self, shape: Shape) -> Option<Box<dyn Backend + Send>> {
+        self.corrected.then(|| -> Box<dyn Backend + Send> {
+            let adapter = self.device.description();
+            match adapter.double && adapter.takes(shape.points, Number::Double) {
+                true => Box::new(GpuBackend::on(&self.device).keeping(Number::Double)),
+                false => Box::new(CpuBackend::<f64>::new()),
+            }
+        })
+    }
+
+    fn take(
+        &mut self,
+        field: Field,
+        from: &mut dyn Backend,
+        source: Field,
+    ) -> Result<(), BackendError> {
+        match from.lend(source) {
+            Some(lent) if lent.is_on(&self.device) => {
+                self.attempt(|backend| backend.convert(field, &lent));
+            }
+            _ => self.write(field, &from.read(source)?),
+        }
+        Ok(())
+    }
+
+    fn lend(&mut self, field: Field) -> Option<Lent> {
+        self.attempt(|backend| backend.hand_out(field))
     }
 
     fn set_params(&mut self, params: &Params) {
@@ -564,7 +607,7 @@ impl Backend for GpuBackend {
     }
 
     fn epsilon(&self) -> f64 {
-        f64::from(f32::EPSILON)
+        self.number.epsilon()
     }
 
     /// As counted on the device when the host last waited.

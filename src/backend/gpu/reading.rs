@@ -48,15 +48,8 @@ impl GpuBackend {
         let bytes = self.recorder.read(&[Part {
             buffer: &space.buffer,
             start: 0,
-            length: 4 * space.points,
+            length: self.number.bytes() * space.points,
         }])?;
-        Ok(bytes
-            .chunks_exact(4)
-            .map(|value| {
-                value
-                    .try_into()
-                    .map_or(f64::NAN, |b| f64::from(f32::from_le_bytes(b)))
-            })
-            .collect())
+        Ok(self.number.values_of(&bytes))
     }
 }

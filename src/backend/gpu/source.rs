@@ -4,6 +4,7 @@
 //! in declared order; group 2 the roots of unity and the work space of a transform. Each of them is
 //! bound whether a kernel uses it or not.
 
+mod convert;
 mod deciding;
 
 use std::fmt::Write;
@@ -12,11 +13,12 @@ use super::butterfly::{Direction, literal};
 use super::catalogue::{self, LawPart, Shader};
 use super::error::GpuError;
 use super::fft::LineWriter;
-use super::layout::{self, Wide};
+use super::layout::{self, Number, Wide};
 pub use super::level::LevelPlan;
 use super::level::{SWEEP_SUMS_AT_ONCE, SWEEP_THREADS};
 use super::plan::LinePlan;
 use crate::kernel::{Form, Gate, Kernel, Reduce, SUMS};
+pub use convert::convert;
 pub use deciding::{PAIRS, Reduction, Results, decide, two_sums};
 
 /// The law of a kernel: its part, and where the factors on its tension are bound.
@@ -147,20 +149,20 @@ fn arrive(source: &mut String, law: LawSource) {
     let (factor, take) = match law.factor {
         Some(binding) => (
             format!(
-                "@group(1) @binding({binding}) var<storage, read> law_factors: array<f32>;\n\
-                 var<private> law_factor: f32;\n"
+                "@group(1) @binding({binding}) var<storage, read> law_factors: array<real>;\n\
+                 var<private> law_factor: real;\n"
             ),
             "law_factor = law_factors[index]; ",
         ),
-        None => ("const law_factor: f32 = 1.0;\n".to_string(), ""),
+        None => ("const law_factor: real = 1.0;\n".to_string(), ""),
     };
     let (base, base_here) = match law.base {
         Some(gap) => (
             format!(
-                "@group(1) @binding({gap}) var<storage, read> base_gaps: array<f32>;\n\
-                 @group(1) @binding({residual}) var<storage, read> base_residuals: array<f32>;\n\
-                 var<private> base_gap: f32;\n\
-                 var<private> base_residual: f32;\n",
+                "@group(1) @binding({gap}) var<storage, read> base_gaps: array<real>;\n\
+                 @group(1) @binding({residual}) var<storage, read> base_residuals: array<real>;\n\
+                 var<private> base_gap: real;\n\
+                 var<private> base_residual: real;\n",
                 residual = gap + 1
             ),
             "base_gap = base_gaps[index]; base_residual = base_residuals[index]; ",
@@ -182,7 +184,7 @@ pub fn kernel(
     wide: Wide,
 ) -> Result<String, GpuError> {
     let shader = catalogue::shader(kernel.name).ok_or(GpuError::NoShader(kernel.name))?;
-    let mut source = String::new();
+    let mut source = plan.number.declaration();
     preamble(&mut source, wide, "read");
     if !kernel.sums.is_empty() {
         let (threads, at_once) = match kernel.form {
@@ -202,7 +204,7 @@ pub fn kernel(
          const WHOLE_WIDTH: u32 = {}u;\nconst WHOLE_HEIGHT: u32 = {}u;",
         whole[0], whole[1]
     );
-    join(&mut source, shader, law);
+    join(&mut source, shader, law, plan.number);
     match kernel.form {
         Form::Sweep => sweep_main(&mut source, kernel, plan),
         Form::Load => load_main(&mut source, kernel, plan),
@@ -211,9 +213,11 @@ pub fn kernel(
     Ok(source)
 }
 
-fn join(source: &mut String, shader: &Shader, law: LawSource) {
+fn join(source: &mut String, shader: &Shader, law: LawSource, number: Number) {
     if shader.law {
-        source.push_str(law.part.source());
+        for part in law.part.sources(number) {
+            source.push_str(part);
+        }
         source.push_str(match law.base {
             Some(_) => catalogue::CORRECTION,
             None => catalogue::WHOLE_GAP,
@@ -259,8 +263,8 @@ fn rows_head(source: &mut String, name: &str, plan: &LevelPlan, open: &str) {
     let [x, y] = LineWriter::workgroup_size(&plan.rows, true);
     let _ = write!(
         source,
-        "@group(2) @binding(0) var<storage, read> roots: array<vec2<f32>>;\n\
-         @group(2) @binding(1) var<storage, read_write> work: array<vec2<f32>>;\n\
+        "@group(2) @binding(0) var<storage, read> roots: array<vec2<real>>;\n\
+         @group(2) @binding(1) var<storage, read_write> work: array<vec2<real>>;\n\
          @compute @workgroup_size({x}, {y})\n\
          fn {name}(@builtin(workgroup_id) group: vec3<u32>, @builtin(local_invocation_id) place: vec3<u32>, @builtin(local_invocation_index) index_in_group: u32) {{\n\
          {open}\
@@ -286,7 +290,7 @@ fn load_main(source: &mut String, kernel: &Kernel, plan: &LevelPlan) {
             let _ = writeln!(
                 source,
                 "{{ let index = pair * {width}u + {};\n\
-                 {} = vec2<f32>(load_point(index, arrive(index)), load_point(index + {half}u, arrive(index + {half}u))); }}",
+                 {} = vec2<real>(load_point(index, arrive(index)), load_point(index + {half}u, arrive(index + {half}u))); }}",
                 each.position(leg),
                 each.name(leg),
             );
@@ -367,7 +371,7 @@ pub fn multiply(plan: &LevelPlan, energy: bool, gate: Gate, wide: Wide) -> Strin
     let columns = &plan.columns;
     let [width, height] = plan.shape;
     let pairs = plan.pairs();
-    let mut source = String::new();
+    let mut source = plan.number.declaration();
     preamble(&mut source, wide, "read");
     if energy {
         reduction(&mut source, &[Reduce::Add], columns.group_threads(), 1);
@@ -378,9 +382,9 @@ pub fn multiply(plan: &LevelPlan, energy: bool, gate: Gate, wide: Wide) -> Strin
     let [x, y] = LineWriter::workgroup_size(columns, false);
     let _ = write!(
         source,
-        "@group(1) @binding(0) var<storage, read> roots: array<vec2<f32>>;\n\
-         @group(1) @binding(1) var<storage, read_write> work: array<vec2<f32>>;\n\
-         @group(1) @binding(2) var<storage, read> factors: array<f32>;\n\
+        "@group(1) @binding(0) var<storage, read> roots: array<vec2<real>>;\n\
+         @group(1) @binding(1) var<storage, read_write> work: array<vec2<real>>;\n\
+         @group(1) @binding(2) var<storage, read> factors: array<real>;\n\
          @compute @workgroup_size({x}, {y})\n\
          fn multiply(@builtin(workgroup_id) group: vec3<u32>, @builtin(local_invocation_id) place: vec3<u32>, @builtin(local_invocation_index) index_in_group: u32) {{\n\
          if (!{gate}()) {{ return; }}\n\
@@ -406,8 +410,8 @@ pub fn multiply(plan: &LevelPlan, energy: bool, gate: Gate, wide: Wide) -> Strin
                 source,
                 "{{ let z = work[here + {at}];\n\
                  let mirror = work[there + {at}];\n\
-                 {a} = 0.5 * vec2<f32>(z.x + mirror.x, z.y - mirror.y);\n\
-                 {b} = 0.5 * vec2<f32>(z.y + mirror.y, mirror.x - z.x); }}",
+                 {a} = 0.5 * vec2<real>(z.x + mirror.x, z.y - mirror.y);\n\
+                 {b} = 0.5 * vec2<real>(z.y + mirror.y, mirror.x - z.x); }}",
                 at = each.position(leg),
                 a = each.name(leg),
                 b = each.name(leg + first / 2),
@@ -422,7 +426,7 @@ pub fn multiply(plan: &LevelPlan, energy: bool, gate: Gate, wide: Wide) -> Strin
     if energy {
         writer
             .source
-            .push_str("let weight = select(2.0, 1.0, own);\n");
+            .push_str("let weight = select(real(2.0), real(1.0), own);\n");
     }
     writer.butterflies(last, |source, each| {
         for leg in 0..each.radix {
@@ -451,8 +455,8 @@ pub fn multiply(plan: &LevelPlan, energy: bool, gate: Gate, wide: Wide) -> Strin
             let at = each.position(leg);
             let _ = writeln!(
                 source,
-                "work[here + {at}] = vec2<f32>({a}.x - {b}.y, {a}.y + {b}.x);\n\
-                 if (!own) {{ work[there + {at}] = vec2<f32>({a}.x + {b}.y, {b}.x - {a}.y); }}",
+                "work[here + {at}] = vec2<real>({a}.x - {b}.y, {a}.y + {b}.x);\n\
+                 if (!own) {{ work[there + {at}] = vec2<real>({a}.x + {b}.y, {b}.x - {a}.y); }}",
             );
         }
     });

@@ -18,7 +18,7 @@ pub struct LevelSpace {
 
 /// One number a point.
 pub struct FieldSpace {
-    /// Its numbers, f32.
+    /// Its numbers.
     pub buffer: wgpu::Buffer,
     /// How many.
     pub points: usize,
@@ -26,7 +26,7 @@ pub struct FieldSpace {
 
 /// One factor a wavevector.
 pub struct SpectrumSpace {
-    /// Its factors, f32.
+    /// Its factors.
     pub buffer: wgpu::Buffer,
 }
 
@@ -60,11 +60,4 @@ pub enum Key {
 /// The number that four bytes from the device are.
 pub fn single_of(bytes: &[u8]) -> f32 {
     bytes.try_into().map_or(f32::NAN, f32::from_le_bytes)
-}
-
-/// Doubles as the bytes of the device's numbers.
-pub fn single_bytes(values: &[f64]) -> impl Iterator<Item = u8> {
-    values
-        .iter()
-        .flat_map(|&value| (value as f32).to_le_bytes())
 }
