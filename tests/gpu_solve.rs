@@ -675,14 +675,14 @@ fn nothing_but_corrections_crosses_the_bus() {
         // As the crate page has it, an iteration of these laws takes 11 at least.
         assert!(traffic.dispatches >= 11 * outcome.iterations as u64);
         // What stands beside evaluates and corrects, and does not iterate.
-        let of_base = |name: &&str| {
+        let of_base = |name: &&'static str| {
             let evaluates = ["load_displacement", "multiply", "store_pressure"].contains(name);
             evaluates
                 || name.starts_with("base_")
                 || name.ends_with("_residual")
                 || name.ends_with("_balance")
         };
-        assert!(double.iter().all(|name| of_base(&name)), "{double:?}");
+        assert!(double.iter().all(of_base), "{double:?}");
         let rounds = evaluations.saturating_sub(1) as u64;
         assert_eq!(corrected, rounds > 0);
         assert!(rounds <= 4, "{rounds} rounds");
