@@ -61,7 +61,8 @@
 //! `tabor check` lists both. The residual that ends a solve is defined in `docs/solver.md`.
 //!
 //! On a graphics processor an iteration takes so many dispatches and moves so many fields, in numbers
-//! a grid point (four bytes each; what is updated counts twice, tables and coarse grids by their size):
+//! a grid point (four bytes each, eight in double precision; what is updated counts twice, tables and coarse
+//! grids by their size):
 //!
 //! | at | dispatches | fields |
 //! |---|---|---|
