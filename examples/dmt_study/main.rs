@@ -2,10 +2,11 @@
 //!
 //! `cargo run --release --example dmt_study [LARGEST]` runs the surfaces of Hurst exponent 0.4, 0.6, 0.8 and
 //! N = 16, 32, 64 (up to LARGEST, default 64) with three seeds each, writes `docs/dmt_study.csv` row by row,
-//! then the pictures `docs/pictures/dmt_study_*.png` and a table of misses on standard output.
+//! then the pictures `docs/pictures/dmt_study_*.png` and the docs' two tables, of misses and of claims, on standard output.
 //! `dmt_study asperities` computes the rows of the interacting asperities again and keeps the others of
 //! the table that is there; `dmt_study draw` only draws from it.
 
+mod claims;
 mod figures;
 mod rows;
 
@@ -107,6 +108,7 @@ fn main() -> Result<(), Box<dyn Error>> {
         None => run(64)?,
     }
     let table = rows::read(&std::fs::read_to_string(TABLE)?)?;
-    print!("{}", figures::misses(&table));
+    println!("{}", figures::misses(&table));
+    println!("{}", claims::text(&claims::claims(&table)?));
     figures::draw(&table, Path::new("docs/pictures"))
 }
