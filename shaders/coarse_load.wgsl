@@ -1,7 +1,7 @@
 // Loads a field times its weight.
-@group(1) @binding(0) var<storage, read> field: array<f32>;
-@group(1) @binding(1) var<storage, read> weight: array<f32>;
+@group(1) @binding(0) var<storage, read> field: array<real>;
+@group(1) @binding(1) var<storage, read> weight: array<real>;
 
-fn load_point(index: u32, on_surface: bool) -> f32 {
+fn load_point(index: u32, on_surface: bool) -> real {
     return field[index] * weight[index];
 }

@@ -1,15 +1,15 @@
 // Stores the preconditioned residual in v and replaces the old S2 y by the new one.
-@group(1) @binding(0) var<storage, read> gap: array<f32>;
-@group(1) @binding(1) var<storage, read> pressure: array<f32>;
-@group(1) @binding(2) var<storage, read> direction: array<f32>;
-@group(1) @binding(3) var<storage, read_write> descent: array<f32>;
-@group(1) @binding(4) var<storage, read_write> free_before: array<f32>;
+@group(1) @binding(0) var<storage, read> gap: array<real>;
+@group(1) @binding(1) var<storage, read> pressure: array<real>;
+@group(1) @binding(2) var<storage, read> direction: array<real>;
+@group(1) @binding(3) var<storage, read_write> descent: array<real>;
+@group(1) @binding(4) var<storage, read_write> free_before: array<real>;
 
-fn store_point(index: u32, on_surface: bool, line_value: f32) {
+fn store_point(index: u32, on_surface: bool, line_value: real) {
     let g = gap[index];
-    let y_here = pressure[index] + f32(scalars.mean_pressure) + attraction(g, on_surface);
+    let y_here = pressure[index] + real(scalars.mean_pressure) + attraction(g, on_surface);
     let hard = hardening(g, on_surface);
-    let stiffness = f32(params.core_stiffness);
+    let stiffness = real(params.core_stiffness);
     let s2 = stiffness / (stiffness + hard);
     // z / S2: the long-range part, and the local part that the core's own stiffness answers.
     let z = line_value + hard / stiffness * y_here / (hard + stiffness);

@@ -1,6 +1,6 @@
 // Loads a field as it is.
-@group(1) @binding(0) var<storage, read> field: array<f32>;
+@group(1) @binding(0) var<storage, read> field: array<real>;
 
-fn load_point(index: u32, on_surface: bool) -> f32 {
+fn load_point(index: u32, on_surface: bool) -> real {
     return field[index];
 }

@@ -1,11 +1,11 @@
 // What both descents share: z on free points, yF renewed, and the sums for the conjugacy.
-@group(1) @binding(0) var<storage, read> gap: array<f32>;
-@group(1) @binding(1) var<storage, read> pressure: array<f32>;
-@group(1) @binding(2) var<storage, read> direction: array<f32>;
-@group(1) @binding(3) var<storage, read_write> descent: array<f32>;
-@group(1) @binding(4) var<storage, read_write> free_before: array<f32>;
+@group(1) @binding(0) var<storage, read> gap: array<real>;
+@group(1) @binding(1) var<storage, read> pressure: array<real>;
+@group(1) @binding(2) var<storage, read> direction: array<real>;
+@group(1) @binding(3) var<storage, read_write> descent: array<real>;
+@group(1) @binding(4) var<storage, read_write> free_before: array<real>;
 
-fn descend(index: u32, on_surface: bool, candidate: f32) {
+fn descend(index: u32, on_surface: bool, candidate: real) {
     let g = gap[index];
     let y_here = total(g, pressure[index], on_surface);
     let free = is_free(open_gap(g), y_here, on_surface);

@@ -1,9 +1,9 @@
 // As wall_free, and keeps yF in a field for the coarse level.
-@group(1) @binding(0) var<storage, read> gap: array<f32>;
-@group(1) @binding(1) var<storage, read> pressure: array<f32>;
-@group(1) @binding(2) var<storage, read_write> free: array<f32>;
+@group(1) @binding(0) var<storage, read> gap: array<real>;
+@group(1) @binding(1) var<storage, read> pressure: array<real>;
+@group(1) @binding(2) var<storage, read_write> free: array<real>;
 
-fn load_point(index: u32, on_surface: bool) -> f32 {
+fn load_point(index: u32, on_surface: bool) -> real {
     let y = free_line(gap[index], pressure[index], on_surface);
     free[index] = y;
     return y;

@@ -1,17 +1,17 @@
 // Takes K s and steps: g += t s, p += t K s; no point crosses zero.
-@group(1) @binding(0) var<storage, read> direction: array<f32>;
-@group(1) @binding(1) var<storage, read_write> gap: array<f32>;
-@group(1) @binding(2) var<storage, read_write> pressure: array<f32>;
+@group(1) @binding(0) var<storage, read> direction: array<real>;
+@group(1) @binding(1) var<storage, read_write> gap: array<real>;
+@group(1) @binding(2) var<storage, read_write> pressure: array<real>;
 
-fn store_point(index: u32, on_surface: bool, line_value: f32) {
+fn store_point(index: u32, on_surface: bool, line_value: real) {
     let g = gap[index];
-    let t = f32(scalars.step);
+    let t = real(scalars.step);
     let y = total(g, pressure[index], on_surface);
-    let way = f32(scalars.trial) * direction[index];
-    let s = trial_step(g, y, way, f32(scalars.restore), on_surface);
+    let way = real(scalars.trial) * direction[index];
+    let s = trial_step(g, y, way, real(scalars.restore), on_surface);
     var moved = g + t * s;
     if (on_surface) {
-        let snap = f32(scalars.snap);
+        let snap = real(scalars.snap);
         if (goes_down(g, y)) {
             moved = min(moved, 0.0);
             if (s > 0.0 && moved > -snap) {

@@ -1,12 +1,12 @@
 // What the kernels of a solid that flows at its hardness share; the same words as in `wall`. Below
 // zero a gap is a depth that has flowed, and y = p + mean_pressure - hardness. A closed point that
 // rests has y = 0; one that may move has the y of the side to which it may.
-fn total(g: f32, p: f32, on_surface: bool) -> f32 {
-    let elastic = p + f32(scalars.mean_pressure);
+fn total(g: real, p: real, on_surface: bool) -> real {
+    let elastic = p + real(scalars.mean_pressure);
     if (!on_surface) {
         return elastic;
     }
-    let flow = elastic - f32(params.hardness);
+    let flow = elastic - real(params.hardness);
     if (g < 0.0) {
         return flow;
     }
@@ -17,18 +17,18 @@ fn total(g: f32, p: f32, on_surface: bool) -> f32 {
     return max(flow, 0.0);
 }
 
-fn is_free(g: f32, y: f32, on_surface: bool) -> bool {
+fn is_free(g: real, y: real, on_surface: bool) -> bool {
     return !on_surface || g != 0.0 || y != 0.0;
 }
 
 // Whether a point is below zero or may only go there.
-fn goes_down(g: f32, y: f32) -> bool {
+fn goes_down(g: real, y: real) -> bool {
     return g < 0.0 || (g == 0.0 && y > 0.0);
 }
 
 // s = s0 + restore (g + s0) with s0 the way to clip(g + moved); below zero with the opposite sign of
 // restore, so that a held mean is kept on either side.
-fn trial_step(g: f32, y: f32, moved: f32, restore: f32, on_surface: bool) -> f32 {
+fn trial_step(g: real, y: real, moved: real, restore: real, on_surface: bool) -> real {
     if (!on_surface) {
         return moved;
     }
@@ -41,15 +41,15 @@ fn trial_step(g: f32, y: f32, moved: f32, restore: f32, on_surface: bool) -> f32
 }
 
 // The terms of the stopping measure, and y on free points, 0 elsewhere.
-fn free_line(g: f32, p: f32, on_surface: bool) -> f32 {
-    let elastic = p + f32(scalars.mean_pressure);
+fn free_line(g: real, p: real, on_surface: bool) -> real {
+    let elastic = p + real(scalars.mean_pressure);
     if (!on_surface) {
         add_sum(0u, wide(elastic) * wide(elastic));
         return elastic;
     }
     let traction = attraction(max(g, 0.0), true);
     let y = elastic + traction;
-    let middle = max(min(y, g * f32(params.stiffness_max)), elastic - f32(params.hardness));
+    let middle = max(min(y, g * real(params.stiffness_max)), elastic - real(params.hardness));
     let violation = wide(middle);
     add_sum(0u, violation * violation);
     let reaction = wide(select(max(y, 0.0), 0.0, g > 0.0));
@@ -62,15 +62,15 @@ fn free_line(g: f32, p: f32, on_surface: bool) -> f32 {
 }
 
 // The new direction: zero where the point is not free.
-fn new_direction(z: f32, d: f32, free: bool) -> f32 {
+fn new_direction(z: real, d: real, free: bool) -> real {
     if (!free) {
         return 0.0;
     }
-    return f32(scalars.descent) * z + f32(scalars.memory) * d + f32(scalars.shift);
+    return real(scalars.descent) * z + real(scalars.memory) * d + real(scalars.shift);
 }
 
 // The sums over a trial step; slots as `accept` reads them.
-fn add_trial(s: f32, y: f32, g: f32, moved: f32, on_surface: bool) {
+fn add_trial(s: real, y: real, g: real, moved: real, on_surface: bool) {
     let step = wide(s);
     add_sum(0u, step * wide(y));
     let closes = (g >= 0.0 && s < 0.0) || (g < 0.0 && s > 0.0);

@@ -152,6 +152,11 @@ fn a_sphere_is_judged_by_its_closed_form() {
     for varied in ["tolerance", "precision", "steps"] {
         assert!(rows.iter().any(|row| row["varied"] == varied), "{varied}");
     }
+    // Nothing relaxes: there is no time to be wrong about.
+    for row in &rows {
+        assert!(row["varied"] != "time tolerance", "{row:?}");
+        assert!(row["time_tolerance"].is_empty() && row["error_in_time"].is_empty());
+    }
     let single = rows.iter().filter(|row| row["precision"] == "single");
     for row in single {
         assert!(
@@ -265,6 +270,104 @@ fn a_rough_surface_is_judged_by_finer_grids_and_an_interrupt_keeps_the_rows() {
         );
         // Pressed on only: no pull-off to be wrong about.
         assert!(row["error_pull_off"].is_empty());
+    }
+}
+
+/// A force held on a solid of two relaxation times: in equal steps, as the scene has them, and in those
+/// that `steps = "auto"` finds for several errors in time.
+#[test]
+fn the_error_of_adaptive_time_steps_is_shown_beside_that_of_equal_ones() {
+    let folder = scene(
+        r#"
+[grid]
+points = 32
+size = "40 um"
+boundary = "free"
+[solid]
+contact_modulus = "1 MPa"
+[[solid.relaxation]]
+modulus = "5 MPa"
+time = "20 ms"
+[[solid.relaxation]]
+modulus = "4 MPa"
+time = "1 s"
+[[surface]]
+kind = "sphere"
+radius = "100 um"
+[loading]
+control = "force"
+start = "50 uN"
+[[loading.ramp]]
+hold = "40 s"
+steps = 40
+"#,
+    );
+    let mut study = command(folder.path(), &["--budget", "60 s"]);
+    let output = without_adapter(&mut study).output().expect("it runs");
+    let text = said(&output);
+    assert_eq!(output.status.code(), Some(0), "{text}");
+    let picture = image::open(folder.path().join("out/accuracy.png")).expect("a picture");
+    assert!(picture.height() > 600, "three errors, and that in time");
+    let rows = rows(folder.path());
+    let get = |row: &HashMap<String, String>, name: &str| number(row, name).expect("a number");
+    for points in ["16", "32"] {
+        let on_grid: Vec<_> = rows.iter().filter(|row| row["points"] == points).collect();
+        // The reference itself is walked, and in more than twice as many steps as all others.
+        let most = |is_judged: bool| {
+            let rows = on_grid
+                .iter()
+                .filter(|row| row["error_in_time"].is_empty() != is_judged);
+            let plain = rows.filter(|row| {
+                ["grid", "steps", "time tolerance"].contains(&row["varied"].as_str())
+            });
+            plain.map(|row| get(row, "steps")).fold(0.0, f64::max)
+        };
+        assert!(most(false) > 2.0 * most(true), "{points}");
+
+        let mut auto: Vec<_> = on_grid
+            .iter()
+            .filter(|row| row["varied"] == "time tolerance")
+            .map(|row| {
+                ["time_tolerance", "steps", "error_in_time", "transforms"]
+                    .map(|name| get(row, name))
+            })
+            .collect();
+        auto.sort_by(|a, b| b[0].total_cmp(&a[0]));
+        let asked: Vec<f64> = auto.iter().map(|row| row[0]).collect();
+        assert_eq!(asked, [1e-1, 1e-2, 1e-3]);
+        // What is asked is kept, and a tenth of it costs more and errs less.
+        assert!(auto.iter().all(|row| row[2] < row[0]), "{auto:?}");
+        let falls = |pair: &[[f64; 4]]| pair[1][2] < 0.5 * pair[0][2] && pair[1][3] > pair[0][3];
+        assert!(auto.windows(2).all(falls), "{auto:?}");
+
+        // Of second order, an error falls with the square of the steps: at one number of steps, equal
+        // ones of 0.5 to 2 s err at least twice as much, since much of the answer comes within 20 ms.
+        let equal: Vec<_> = on_grid
+            .iter()
+            .filter(|row| {
+                ["grid", "steps"].contains(&row["varied"].as_str())
+                    && !row["error_in_time"].is_empty()
+            })
+            .map(|row| ["steps", "error_in_time"].map(|name| get(row, name)))
+            .collect();
+        assert_eq!(equal.len(), 3, "the scene's own, half and twice: {equal:?}");
+        let square = |steps: f64, error: f64| steps * steps * error;
+        for [steps, error] in equal {
+            assert!(
+                2.0 * square(auto[2][1], auto[2][2]) < square(steps, error),
+                "{points}: {steps} {error:e} {auto:?}"
+            );
+        }
+    }
+    // With a word for each on the screen.
+    let shown = text.split("of which in time").nth(1).expect("a table");
+    for words in [
+        "half the steps",
+        "auto steps to 1e-1",
+        "auto steps to 1e-2",
+        "auto steps to 1e-3",
+    ] {
+        assert!(shown.contains(words), "{text}");
     }
 }
 

@@ -3,7 +3,7 @@
 use naga::valid::{Capabilities, ModuleInfo, ValidationFlags, Validator};
 use tabor::backend::Shape;
 use tabor::backend::gpu::source::{self, LawSource, LevelPlan, Reduction, Results};
-use tabor::backend::gpu::{Exchange, GroupLimits, LawPart, Wide};
+use tabor::backend::gpu::{Exchange, GroupLimits, LawPart, Number, Wide};
 use tabor::kernel::common::{LOAD_FIELD, STORE_PRESSURE};
 use tabor::kernel::{Gate, Reduce};
 
@@ -20,7 +20,15 @@ const LAWS: [LawPart; 4] = [
     LawPart::Exponential,
     LawPart::LennardJones,
 ];
-const NUMBERS: [Wide; 3] = [Wide::Single, Wide::Compensated, Wide::Double];
+/// Numbers of sums.
+const WIDES: [Wide; 3] = [Wide::Single, Wide::Compensated, Wide::Double];
+/// Numbers of fields and of sums that go together.
+const NUMBERS: [(Number, Wide); 4] = [
+    (Number::Single, Wide::Single),
+    (Number::Single, Wide::Compensated),
+    (Number::Single, Wide::Double),
+    (Number::Double, Wide::Double),
+];
 const GATES: [Gate; 5] = [
     Gate::Always,
     Gate::Running,
@@ -62,8 +70,8 @@ fn fields(module: &naga::Module) -> Vec<(u32, bool)> {
     found
 }
 
-fn plan(nx: usize, ny: usize) -> LevelPlan {
-    LevelPlan::new(Shape::whole(nx, ny), LIMITS).expect("a smooth size")
+fn plan(nx: usize, ny: usize, number: Number) -> LevelPlan {
+    LevelPlan::new(Shape::whole(nx, ny), LIMITS, number).expect("a smooth size")
 }
 
 #[test]
@@ -72,11 +80,11 @@ fn kernels_are_valid_and_bind_what_the_catalogue_declares() {
         points: [64, 48],
         surface: [30, 20],
     };
-    let padded = LevelPlan::new(padded, LIMITS).expect("a smooth size");
     for kernel in KERNELS {
         for law in LAWS {
-            for wide in NUMBERS {
-                for plan in [&plan(48, 64), &padded] {
+            for (number, wide) in NUMBERS {
+                let padded = LevelPlan::new(padded, LIMITS, number).expect("a smooth size");
+                for plan in [&plan(48, 64, number), &padded] {
                     let text = source::kernel(kernel, plan, [12, 16], law.uniform(), wide)
                         .unwrap_or_else(|error| panic!("{error}"));
                     let (module, _) = validate(kernel.name, &text, wide);
@@ -114,8 +122,13 @@ fn transforms_of_many_lengths_are_valid() {
         [16, 4096],
         [8192, 16384],
     ] {
-        let plan = plan(nx, ny);
-        for wide in NUMBERS {
+        for (number, wide) in NUMBERS {
+            // The longest line is half as long in double precision.
+            let ny = match number {
+                Number::Single => ny,
+                Number::Double => ny.min(8192),
+            };
+            let plan = plan(nx, ny, number);
             for kernel in [&LOAD_FIELD, &STORE_PRESSURE] {
                 let text = source::kernel(kernel, &plan, [0, 0], LawPart::HardWall.uniform(), wide)
                     .unwrap_or_else(|error| panic!("{error}"));
@@ -136,9 +149,13 @@ fn rounds_are_valid() {
         threads: 256,
         memory: 16384,
     };
-    let plan = LevelPlan::new(Shape::whole(4096, 3000), least).expect("lines that fit in rounds");
-    assert_eq!(plan.rows.exchange, Exchange::Rounds(2));
-    for wide in NUMBERS {
+    for (number, wide) in NUMBERS {
+        let shape = match number {
+            Number::Single => Shape::whole(4096, 3000),
+            Number::Double => Shape::whole(2048, 1500),
+        };
+        let plan = LevelPlan::new(shape, least, number).expect("lines that fit in rounds");
+        assert_eq!(plan.rows.exchange, Exchange::Rounds(2));
         for kernel in [&LOAD_FIELD, &STORE_PRESSURE] {
             let text = source::kernel(kernel, &plan, [0, 0], LawPart::HardWall.uniform(), wide)
                 .unwrap_or_else(|error| panic!("{error}"));
@@ -156,7 +173,7 @@ fn the_check_of_sums_is_valid() {
 
 #[test]
 fn reductions_are_valid() {
-    for wide in NUMBERS {
+    for wide in WIDES {
         for gate in GATES {
             for results in [
                 Results::Curvature(4096),
@@ -177,7 +194,7 @@ fn reductions_are_valid() {
 
 #[test]
 fn scalar_kernels_are_valid() {
-    for wide in NUMBERS {
+    for wide in WIDES {
         for kernel in SCALAR_KERNELS {
             let text =
                 source::decide(None, &[kernel], wide).unwrap_or_else(|error| panic!("{error}"));

@@ -1,4 +1,4 @@
-//! Whole solves on the graphics processor in single and mixed precision, and in mixed on the
+//! Whole solves on the graphics processor in single, mixed and double precision, and in mixed on the
 //! processor, against the CPU in double.
 
 mod gpu_catalogue;
@@ -8,7 +8,9 @@ use std::path::PathBuf;
 
 use gpu_catalogue::KERNELS;
 use gpu_shared::watching::Watching;
-use gpu_shared::{backend, device, device_with_single_sums, relative_difference};
+use gpu_shared::{
+    backend, device, device_with_double, device_without_double, double_backend, relative_difference,
+};
 use tabor::backend::Backend;
 use tabor::backend::cpu::CpuBackend;
 use tabor::backend::gpu::{GpuBackend, GpuDevice, Traffic, Wide};
@@ -194,7 +196,7 @@ fn rough_hard_wall() {
 /// Sums in single precision, halved in order, do as well at this tolerance.
 #[test]
 fn rough_hard_wall_without_double_precision() {
-    let Some(device) = device_with_single_sums() else {
+    let Some(device) = device_without_double() else {
         return;
     };
     assert_eq!(device.wide(), Wide::Compensated);
@@ -462,6 +464,37 @@ fn mixed_precision_on_the_device_reaches_the_tolerance_of_double() {
     println!("worst residual {worst:.1e}");
 }
 
+/// Solves to `TIGHT` in double precision on the device and on the processor: the same iterations, give or
+/// take a few where rounding decides whether one more is made, and the same gap to the tolerance.
+#[test]
+fn double_precision_on_the_device_solves_as_the_processor_does() {
+    let Some(device) = device_with_double() else {
+        return;
+    };
+    let cpu = || -> Box<dyn Backend + Send> { Box::new(CpuBackend::<f64>::new()) };
+    let gpu = || -> Box<dyn Backend + Send> { Box::new(double_backend(device)) };
+    for (name, problem, load) in contacts(32) {
+        let reference = solve(&problem, &load, &Start::Cold, TIGHT, &cpu);
+        let ours = solve(&problem, &load, &Start::Cold, TIGHT, &gpu);
+        let apart = relative_difference(&ours.gap, &reference.gap);
+        let counts = [&ours, &reference].map(|solution| solution.outcome.iterations);
+        println!(
+            "{name}: {:?} {counts:?} iterations, gap apart {apart:.1e}",
+            ours.outcome.status
+        );
+        assert_eq!(ours.outcome.status, reference.outcome.status, "{name}");
+        if ours.outcome.status != Status::Converged {
+            continue;
+        }
+        let more = counts[0].abs_diff(counts[1]);
+        assert!(more <= 1 + counts[1] / 20, "{name}: {counts:?}");
+        // The residual weighs short waves by their stiffness, up to some times that of the gap's own.
+        assert!(apart <= 10.0 * TIGHT, "{name}: {apart:e}");
+        let residual = true_residual(&problem, &load, &ours.gap);
+        assert!(residual <= TIGHT, "{name}: {residual:e}");
+    }
+}
+
 /// Fields that a kernel writes without reading what was there; all others that it writes it updates.
 const ONLY_WRITTEN: [(&str, usize); 10] = [
     ("wall_free_kept", 1),
@@ -582,13 +615,27 @@ fn an_iteration_costs_what_the_crate_page_says() {
     assert!(missing.is_empty(), "not on the crate page: {missing:?}");
 }
 
-/// A whole solve in mixed precision: every iteration is on the device, the processor evaluates the
-/// residual of each round and nothing else, and fields cross the bus for the corrections alone.
+/// A whole solve in mixed precision: every iteration is on the device, and so is all that corrects it where
+/// the device has double precision: then nothing crosses the bus after the start. Elsewhere the processor
+/// does that and nothing else, and fields cross the bus for the corrections alone.
 #[test]
 fn nothing_but_corrections_crosses_the_bus() {
     let Some(device) = device() else { return };
-    let surface = rough(64);
-    for (law, corrected) in [(laws()[1].1, true), (laws()[1].1, false)] {
+    let Some(without) = device_without_double() else {
+        return;
+    };
+    // As the other tests here have it, whose shaders serve.
+    let surface = rough(32);
+    let load = |problem: &Problem, held: bool| match held {
+        true => at_gap(problem, 0.03),
+        false => at_pressure(problem, 0.05),
+    };
+    for (device, law, held, corrected) in [
+        (device, laws()[1].1, false, true),
+        (device, laws()[4].1, true, true),
+        (&without, laws()[1].1, true, true),
+        (device, laws()[1].1, false, false),
+    ] {
         let problem = Problem::new(
             surface.grid,
             Boundary::Periodic,
@@ -597,7 +644,7 @@ fn nothing_but_corrections_crosses_the_bus() {
             1.0,
             law,
         );
-        let load = at_pressure(&problem, 0.05);
+        let load = load(&problem, held);
         let nobody = || -> Box<dyn Backend + Send> { panic!("no coarse start on this grid") };
         let gpu: GpuBackend = match corrected {
             true => backend(device).corrected(),
@@ -625,47 +672,57 @@ fn nothing_but_corrections_crosses_the_bus() {
             .filter(|&&name| name == "load_displacement")
             .count();
         println!("{outcome:?} {traffic:?}, {evaluations} evaluations");
-        // As the crate page has it, an iteration of this law takes 11.
+        // As the crate page has it, an iteration of these laws takes 11 at least.
         assert!(traffic.dispatches >= 11 * outcome.iterations as u64);
-        let residual = [
-            "load_displacement",
-            "multiply",
-            "store_pressure",
-            "wall_residual",
-        ];
-        assert_eq!(double.len(), evaluations * residual.len());
-        assert!(
-            double.iter().all(|name| residual.contains(name)),
-            "{double:?}"
-        );
-        // Heights and start go up; without corrections nothing comes down.
+        // What stands beside evaluates and corrects, and does not iterate.
+        let of_base = |name: &&str| {
+            let evaluates = ["load_displacement", "multiply", "store_pressure"].contains(name);
+            evaluates
+                || name.starts_with("base_")
+                || name.ends_with("_residual")
+                || name.ends_with("_balance")
+        };
+        assert!(double.iter().all(|name| of_base(&name)), "{double:?}");
         let rounds = evaluations.saturating_sub(1) as u64;
-        assert_eq!(traffic.fields_up, 2 + 2 * rounds);
-        assert_eq!(traffic.fields_down, if corrected { 1 + rounds } else { 0 });
         assert_eq!(corrected, rounds > 0);
         assert!(rounds <= 4, "{rounds} rounds");
+        // Heights and start go up, once each; without corrections nothing comes down.
+        let through_the_host = corrected && !device.description().double;
+        let [up, down] = match through_the_host {
+            true => [2 * rounds, 1 + rounds],
+            false => [0, 0],
+        };
+        assert_eq!(traffic.fields_up, 2 + up);
+        assert_eq!(traffic.fields_down, down);
     }
 }
 
-/// The same problem twice, sums in double or compensated in single, in both precisions.
+/// The same problem twice, sums in double or compensated in single, in all precisions.
 #[test]
 fn the_same_problem_twice_gives_the_same_bits() {
     let Some(device) = device() else { return };
-    let Some(single_sums) = device_with_single_sums() else {
+    let Some(single_sums) = device_without_double() else {
         return;
     };
     let (grid, heights) = sphere(32);
     let problem = Problem::new(grid, Boundary::Periodic, 1.0, &heights, 0.3, laws()[2].1);
     let load = at_gap(&problem, 0.05);
     for device in [device, &single_sums] {
-        for corrected in [false, true] {
+        for precision in [Precision::Single, Precision::Mixed, Precision::Double] {
+            if precision == Precision::Double && !device.description().double {
+                continue;
+            }
             let gpu = || -> Box<dyn Backend + Send> {
-                match corrected {
-                    true => Box::new(backend(device).corrected()),
-                    false => Box::new(backend(device)),
-                }
+                Box::new(match precision {
+                    Precision::Mixed => backend(device).corrected(),
+                    Precision::Double => double_backend(device),
+                    _ => backend(device),
+                })
             };
-            let tolerance = if corrected { TIGHT } else { 1e-4 };
+            let tolerance = match precision {
+                Precision::Single => 1e-4,
+                _ => TIGHT,
+            };
             let [one, two] =
                 [(); 2].map(|()| solve(&problem, &load, &Start::Cold, tolerance, &gpu));
             assert_eq!(one.outcome.status, Status::Converged);

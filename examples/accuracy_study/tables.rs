@@ -4,7 +4,7 @@ use std::collections::BTreeMap;
 use std::fmt::Write;
 
 /// The studies of the page: names of their scenes, tables, pictures and parts of the page.
-pub const STUDIES: [&str; 3] = ["sphere", "rough", "sticky"];
+pub const STUDIES: [&str; 4] = ["sphere", "rough", "sticky", "creep"];
 
 /// A row by the names of its columns.
 type Row = BTreeMap<String, String>;
@@ -209,8 +209,12 @@ pub fn tables(table: &str) -> Result<String, String> {
         let first = ["model", "points a side", "seconds"];
         text.push_str(&markdown(&head(&first, &errors), &lines));
     }
+    let timed = |row: &Row| number(row, "error_in_time").is_some();
     let mut steps: Vec<&Row> = of("steps");
-    if !steps.is_empty() {
+    if own.iter().any(|row| timed(row)) {
+        let rows: Vec<&Row> = rows.iter().filter(|row| timed(row)).collect();
+        text.push_str(&in_time(&rows, &errors));
+    } else if !steps.is_empty() {
         let most = steps
             .iter()
             .filter_map(|row| number(row, "points"))
@@ -234,6 +238,45 @@ pub fn tables(table: &str) -> Result<String, String> {
         text.push_str(&markdown(&head(&["steps", "seconds"], &errors), &lines));
     }
     Ok(text)
+}
+
+/// Counted steps and those of `steps = "auto"` on the finest grid.
+fn in_time(rows: &[&Row], errors: &[(&str, &str)]) -> String {
+    let points = |row: &Row| number(row, "points").unwrap_or(0.0);
+    let most = rows.iter().map(|row| points(row)).fold(0.0, f64::max);
+    let mut rows: Vec<&Row> = rows
+        .iter()
+        .copied()
+        .filter(|row| points(row) == most)
+        .collect();
+    let asked = |row: &Row| number(row, "time_tolerance");
+    let count = |row: &Row| number(row, "steps").unwrap_or(0.0);
+    rows.sort_by(|a, b| {
+        let order = asked(a).is_some().cmp(&asked(b).is_some());
+        order.then(count(a).total_cmp(&count(b)))
+    });
+    let lines: Vec<Vec<String>> = rows
+        .into_iter()
+        .map(|row| {
+            let steps = match asked(row) {
+                None => "equal on each ramp".to_owned(),
+                Some(error) => format!("`\"auto\"` to {error:e}"),
+            };
+            let mut line = vec![steps, row["steps"].clone(), seconds(row)];
+            line.push(percent(number(row, "error_in_time")));
+            line.extend(
+                errors
+                    .iter()
+                    .map(|(column, _)| percent(number(row, column))),
+            );
+            line
+        })
+        .collect();
+    let first = ["steps", "of them", "seconds", "force or gap, in time"];
+    let table = markdown(&head(&first, errors), &lines);
+    format!(
+        "\nSteps of the path, on {most} points a side, with what they change of the force or gap on this grid:\n\n{table}"
+    )
 }
 
 /// The row of each model with the most points.

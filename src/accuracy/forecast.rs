@@ -74,6 +74,7 @@ impl Work {
     /// Counts what a scene does, made by `setting` with `steps` steps.
     pub fn of(setting: &Setting, scene: &Scene, grid: Grid, steps: usize) -> Work {
         let place = match (setting.backend, setting.precision) {
+            (BackendName::Gpu, Precision::Double) => Place::GpuDouble,
             (BackendName::Gpu, _) => Place::Gpu,
             (_, Precision::Single) => Place::Single,
             _ => Place::Double,

@@ -3,7 +3,7 @@
 use std::time::Instant;
 
 use super::cells;
-use super::steps::{Steps, Walk};
+use super::steps::{Place, Steps, Walk};
 use crate::backend::BackendError;
 use crate::kernel::Scalars;
 use crate::scene::{Boundary, Control, Scene};
@@ -87,7 +87,7 @@ pub fn measure(
     let deepest = deepest(scene);
     let mut observer = Watch {
         setup,
-        profiled: path.scene_step.iter().position(|own| *own == Some(deepest)),
+        profiled: path.places[deepest].map(|place| place.step),
         cells,
         profile: None,
         watch,
@@ -105,10 +105,10 @@ pub fn measure(
     }
     let compared = compared(scene);
     let mut steps = vec![None; scene.loading.path.len()];
-    for (row, own) in end.rows.iter().zip(&path.scene_step) {
-        if let Some(own) = own.filter(|own| compared[*own]) {
-            steps[own] = Some(point(row, scene));
-        }
+    for (own, place) in path.places.iter().enumerate() {
+        steps[own] = place
+            .filter(|_| compared[own])
+            .and_then(|place| point_at(&end.rows, place, scene));
     }
     let (pull_off, pull_off_step) = pull_off(&end.rows, &path.loading.path, scene).unzip();
     Ok(Measured {
@@ -121,6 +121,23 @@ pub fn measure(
         transforms: end.transforms,
         walked: end.rows.len(),
         converged: end.rows.iter().all(|row| row.converged),
+    })
+}
+
+/// Between two steps the answer is linear in time, as what a step assumes of the displacement.
+fn point_at(rows: &[StepRow], place: Place, scene: &Scene) -> Option<Point> {
+    let before = point(rows.get(place.step)?, scene);
+    if place.share == 0.0 {
+        return Some(before);
+    }
+    let after = point(rows.get(place.step + 1)?, scene);
+    let between = |from: f64, to: f64| from + place.share * (to - from);
+    Some(Point {
+        area: between(before.area, after.area),
+        answer: before
+            .answer
+            .zip(after.answer)
+            .map(|(from, to)| between(from, to)),
     })
 }
 
@@ -141,13 +158,9 @@ fn point(row: &StepRow, scene: &Scene) -> Point {
 /// Which steps of a scene are compared: those of the halved path.
 pub fn compared(scene: &Scene) -> Vec<bool> {
     let mut compared = vec![false; scene.loading.path.len()];
-    for own in Steps::Halved
-        .of(&scene.loading)
-        .scene_step
-        .into_iter()
-        .flatten()
-    {
-        compared[own] = true;
+    let halved = Steps::Halved.of(scene).places;
+    for (compared, place) in compared.iter_mut().zip(halved) {
+        *compared = place.is_some();
     }
     compared
 }

@@ -1,7 +1,7 @@
 //! `accuracy.png`: error against seconds, both logarithmic, a panel a quantity.
 
 use super::judge::Errors;
-use super::setting::Varied;
+use super::setting::{Taper, Varied};
 use super::study::{Report, Row};
 use crate::output::panels::{Axis, Figure, Panel, PlotPoint, Series};
 
@@ -9,6 +9,36 @@ use crate::output::panels::{Axis, Figure, Panel, PlotPoint, Series};
 const LEAST: f64 = 1e-7;
 /// A panel's title, and which error it shows.
 type Shown = (&'static str, fn(&Errors) -> Option<f64>);
+
+/// What a row varies, by the order of colours and marks.
+const KINDS: [&str; 10] = [
+    "grid",
+    "tolerance",
+    "precision",
+    "no taper",
+    "steps",
+    "range",
+    "dmt",
+    "no adhesion",
+    "twice the taper",
+    "time tolerance",
+];
+
+/// Which of [`KINDS`] a row is.
+fn kind(row: &Row) -> usize {
+    match (row.varied, row.setting.taper) {
+        (Varied::Nothing, _) => 0,
+        (Varied::Tolerance, _) => 1,
+        (Varied::Precision, _) => 2,
+        (Varied::Taper, Taper::Twice) => 8,
+        (Varied::Taper, _) => 3,
+        (Varied::Steps, _) => 4,
+        (Varied::Range, _) => 5,
+        (Varied::Dmt, _) => 6,
+        (Varied::NoAdhesion, _) => 7,
+        (Varied::TimeTolerance, _) => 9,
+    }
+}
 
 /// The picture of a report. Each colour and mark is what a setting varies; the line joins the
 /// front; the dashed line is the uncertainty of the reference.
@@ -21,11 +51,14 @@ pub fn picture(report: &Report) -> Figure {
     ];
     let judged =
         |of: fn(&Errors) -> Option<f64>| report.rows.iter().any(|row| of(&row.errors).is_some());
-    let panels: Vec<Panel> = shown
+    let mut panels: Vec<Panel> = shown
         .into_iter()
         .filter(|(_, of)| judged(*of))
         .map(|(title, of)| panel(report, title, of))
         .collect();
+    if report.rows.iter().any(|row| row.in_time.is_some()) {
+        panels.push(in_time(report));
+    }
     let reference = report.reference.as_ref();
     Figure {
         title: report
@@ -37,7 +70,15 @@ pub fn picture(report: &Report) -> Figure {
             "line: front; dashed: uncertainty of the reference, {}",
             reference.map_or("none", |found| found.words.as_str())
         ),
-        names: Varied::ALL.map(|varied| varied.name().to_owned()).to_vec(),
+        // What nothing varied has no entry; the others keep their colours.
+        names: (0..KINDS.len())
+            .map(
+                |index| match report.rows.iter().any(|row| kind(row) == index) {
+                    true => KINDS[index].to_owned(),
+                    false => String::new(),
+                },
+            )
+            .collect(),
         panels,
         columns: 2,
     }
@@ -79,24 +120,51 @@ fn panel(report: &Report, title: &str, of: fn(&Errors) -> Option<f64>) -> Panel 
             marks: false,
         });
     }
-    for (name, varied) in Varied::ALL.into_iter().enumerate() {
-        let of_kind = report.rows.iter().filter(|row| row.varied == varied);
-        series.push(Series {
-            name,
-            points: of_kind.filter_map(place).collect(),
-            line: false,
-            marks: true,
-        });
-    }
-    let axis = |name: &str, unit: &str| Axis {
-        name: name.to_owned(),
-        unit: unit.to_owned(),
-        logarithmic: true,
-    };
+    series.extend(marks(report, place));
     Panel {
         title: title.to_owned(),
         x: axis("seconds", "s"),
         y: axis(title, ""),
         series,
+    }
+}
+
+/// Error in time of what answers the path against the number of steps, of all grids: a grid changes
+/// little of it.
+fn in_time(report: &Report) -> Panel {
+    let title = "error in time of force or gap, same grid";
+    let place = |row: &Row| {
+        Some(PlotPoint {
+            x: row.measured.walked as f64,
+            y: row.in_time?.force?.max(LEAST),
+            hollow: false,
+        })
+    };
+    Panel {
+        title: title.to_owned(),
+        x: axis("steps", ""),
+        y: axis(title, ""),
+        series: marks(report, place),
+    }
+}
+
+/// A mark a row, by what it varies.
+fn marks(report: &Report, place: impl Fn(&Row) -> Option<PlotPoint>) -> Vec<Series> {
+    let of_kind = |index: usize| report.rows.iter().filter(move |row| kind(row) == index);
+    (0..KINDS.len())
+        .map(|name| Series {
+            name,
+            points: of_kind(name).filter_map(&place).collect(),
+            line: false,
+            marks: true,
+        })
+        .collect()
+}
+
+fn axis(name: &str, unit: &str) -> Axis {
+    Axis {
+        name: name.to_owned(),
+        unit: unit.to_owned(),
+        logarithmic: true,
     }
 }

@@ -28,8 +28,9 @@ pub struct Reference {
 
 impl Reference {
     /// Extrapolates from runs of the same path on grids each twice as fine as the one before, the
-    /// coarsest first. Needs one; the uncertainty of one alone is infinite.
-    pub fn numeric(levels: &[Measured], points: [usize; 2]) -> Option<Reference> {
+    /// coarsest first. Needs one; the uncertainty of one alone is infinite. `walked` says in how many
+    /// steps.
+    pub fn numeric(levels: &[Measured], points: [usize; 2], walked: &str) -> Option<Reference> {
         let fine = levels.last()?;
         let areas = Curve::of(levels, |point| Some(point.area));
         let answers = Curve::of(levels, |point| point.answer);
@@ -75,7 +76,7 @@ impl Reference {
                 tension.and_then(|found| found.order),
             ],
             words: format!(
-                "double precision on {} x {} points with twice the steps, extrapolated from {} grids",
+                "double precision on {} x {} points with {walked}, extrapolated from {} grids",
                 points[0],
                 points[1],
                 levels.len().min(3)
@@ -84,10 +85,10 @@ impl Reference {
         })
     }
 
-    /// Adds what walking the path in twice the steps changed on one grid: what a still finer path
-    /// would change is no more.
-    pub fn add_steps(&mut self, own: &Measured, doubled: &Measured) {
-        let change = change(own, doubled);
+    /// Adds what walking the path as finely as the reference changed on one grid, against steps that
+    /// are twice as long: what a still finer path would change is no more.
+    pub fn add_steps(&mut self, coarser: &Measured, finer: &Measured) {
+        let change = change(coarser, finer);
         let add =
             |known: Option<f64>, more: Option<f64>| known.map(|known| known + more.unwrap_or(0.0));
         self.uncertainty = Errors {
@@ -181,7 +182,7 @@ mod tests {
     #[test]
     fn three_grids_of_first_order_give_the_limit() {
         let levels = [level(0.04, false), level(0.02, false), level(0.01, false)];
-        let found = Reference::numeric(&levels, [64, 64]).expect("three grids");
+        let found = Reference::numeric(&levels, [64, 64], "twice the steps").expect("three grids");
         let first = found.steps[0].expect("compared");
         assert!((first.area - 0.2).abs() < 1e-12, "{}", first.area);
         assert!((first.answer.expect("held") - 1.0).abs() < 1e-12);
@@ -202,7 +203,7 @@ mod tests {
     fn what_grids_disagree_on_is_in_doubt() {
         let mut levels = [level(0.04, false), level(0.02, true), level(0.01, false)];
         levels[2].pull_off_step = 0.3;
-        let found = Reference::numeric(&levels, [64, 64]).expect("three grids");
+        let found = Reference::numeric(&levels, [64, 64], "twice the steps").expect("three grids");
         let last = found.steps[2].expect("compared");
         assert_eq!(last.answer, Some(4.0));
         // All of the 4 of 5, and 0.02.

@@ -42,6 +42,8 @@ pub enum Varied {
     Taper,
     /// The number of steps.
     Steps,
+    /// The error in time to which `steps = "auto"` finds them.
+    TimeTolerance,
     /// The range of the law.
     Range,
     /// The treatment of the attraction.
@@ -52,12 +54,13 @@ pub enum Varied {
 
 impl Varied {
     /// Every one of them.
-    pub const ALL: [Varied; 8] = [
+    pub const ALL: [Varied; 9] = [
         Varied::Nothing,
         Varied::Tolerance,
         Varied::Precision,
         Varied::Taper,
         Varied::Steps,
+        Varied::TimeTolerance,
         Varied::Range,
         Varied::Dmt,
         Varied::NoAdhesion,
@@ -71,6 +74,7 @@ impl Varied {
             Varied::Precision => "precision",
             Varied::Taper => "taper",
             Varied::Steps => "steps",
+            Varied::TimeTolerance => "time tolerance",
             Varied::Range => "range",
             Varied::Dmt => "dmt",
             Varied::NoAdhesion => "no adhesion",
@@ -130,7 +134,11 @@ impl Setting {
                 ..
             } => Varied::Taper,
             Setting {
-                steps: Steps::Halved | Steps::Doubled,
+                steps: Steps::Auto(_),
+                ..
+            } => Varied::TimeTolerance,
+            Setting {
+                steps: Steps::Halved | Steps::Doubled | Steps::Equal | Steps::Finest,
                 ..
             } => Varied::Steps,
             _ if self.backend != BackendName::Cpu || self.precision != Precision::Double => {
@@ -143,7 +151,7 @@ impl Setting {
 
     /// The scene solved this way, but for its heights, and its path.
     pub fn apply(&self, scene: &Scene) -> (Scene, Walk) {
-        let walk = self.steps.of(&scene.loading);
+        let walk = self.steps.of(scene);
         let mut changed = scene.clone();
         changed.grid.points = Some(self.points);
         changed.solver.backend = self.backend;
@@ -212,11 +220,7 @@ impl Setting {
             self.precision.name(),
             self.tolerance
         ));
-        words.push_str(match self.steps {
-            Steps::AsGiven => "",
-            Steps::Halved => ", half the steps",
-            Steps::Doubled => ", twice the steps",
-        });
+        words.push_str(&self.steps.words());
         words.push_str(match self.taper {
             Taper::AsGiven => "",
             Taper::Sharp => ", no taper",
@@ -285,19 +289,8 @@ pub fn others(
             ..own
         });
     }
-    let path = &scene.loading.path;
-    if path.len() > 1 {
-        found.push(Setting {
-            steps: Steps::Doubled,
-            ..own
-        });
-    }
-    if Steps::Halved.of(&scene.loading).loading.path.len() < path.len() {
-        found.push(Setting {
-            steps: Steps::Halved,
-            ..own
-        });
-    }
+    let steps = Steps::others(scene).into_iter();
+    found.extend(steps.map(|steps| Setting { steps, ..own }));
     let Some(adhesion) = &scene.adhesion else {
         return found;
     };

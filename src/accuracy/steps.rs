@@ -1,9 +1,15 @@
-//! A loading path in half and in twice as many steps, through the same turning points.
+//! A loading path in half and in twice as many steps, through the same turning points; for a solid that
+//! relaxes also in those that `steps = "auto"` finds, in equal ones, and in finer ones than all of them.
 
-use crate::scene::LoadingScene;
+use crate::scene::{DEFAULT_TIME_TOLERANCE, LoadingScene, Scene};
+
+/// Errors in time for which `steps = "auto"` is tried.
+const TIME_TOLERANCES: [f64; 4] = [1e-1, 1e-2, 1e-3, 1e-4];
+/// Times that differ by less, of all the path takes, are one: they were added up in different orders.
+const SAME_TIME: f64 = 1e-12;
 
 /// How finely a path is walked.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Steps {
     /// Every other step between turning points left out.
     Halved,
@@ -11,58 +17,257 @@ pub enum Steps {
     AsGiven,
     /// A step half way to each step.
     Doubled,
+    /// As many as the scene has between its turning points, all as long.
+    Equal,
+    /// What `steps = "auto"` finds for an error in time.
+    Auto(f64),
+    /// Each step that is tried in two halves at least.
+    Finest,
 }
 
-/// A path and which of its steps are the scene's.
+/// Where a step of the scene lies in a walk.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Place {
+    /// The step of the walk, from 0, that it is or that comes before it.
+    pub step: usize,
+    /// How far it lies towards the next one, from 0 to below 1, by time.
+    pub share: f64,
+}
+
+impl Place {
+    fn at(step: usize) -> Place {
+        Place { step, share: 0.0 }
+    }
+}
+
+/// A path and where the scene's steps lie in it.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Walk {
     /// The path to walk.
     pub loading: LoadingScene,
-    /// For each step of it, the scene's step that it is, from 0.
-    pub scene_step: Vec<Option<usize>>,
+    /// For each step of the scene, where it lies; `None` where the walk lacks it.
+    pub places: Vec<Option<Place>>,
 }
 
 impl Steps {
     /// The path of a scene walked this finely.
-    pub fn of(self, loading: &LoadingScene) -> Walk {
-        let path = &loading.path;
-        let scene_step: Vec<Option<usize>> = match self {
-            Steps::AsGiven => (0..path.len()).map(Some).collect(),
-            Steps::Halved => kept(path).into_iter().map(Some).collect(),
-            Steps::Doubled => (0..2 * path.len() - 1)
-                .map(|step| step.is_multiple_of(2).then_some(step / 2))
+    pub fn of(self, scene: &Scene) -> Walk {
+        let loading = &scene.loading;
+        let as_given = || Walk {
+            loading: loading.clone(),
+            places: (0..loading.path.len())
+                .map(|s| Some(Place::at(s)))
                 .collect(),
         };
-        let value = |step: usize| match scene_step[step] {
-            Some(own) => path[own],
-            // Between the two steps of the scene on either side.
-            None => 0.5 * (path[step / 2] + path[step / 2 + 1]),
+        let timed = match self {
+            Steps::AsGiven => return as_given(),
+            Steps::Halved => return halved(loading),
+            Steps::Doubled => return doubled(loading),
+            Steps::Equal => equal(loading),
+            Steps::Auto(tolerance) => scene.auto_steps(tolerance),
+            Steps::Finest => finest_tolerance(scene)
+                .and_then(|tolerance| scene.auto_steps(tolerance))
+                .map(|auto| doubled(&both(&doubled(loading).loading, &auto)).loading),
         };
-        let times = loading.durations.as_ref().map(|durations| {
-            let ends: Vec<f64> = durations
-                .iter()
-                .scan(0.0, |time, duration| {
-                    *time += duration;
-                    Some(*time)
-                })
-                .collect();
-            let time = |step: usize| match scene_step[step] {
-                Some(own) => ends[own],
-                None => 0.5 * (ends[step / 2] + ends[step / 2 + 1]),
-            };
-            (0..scene_step.len())
-                .map(|step| time(step) - if step == 0 { 0.0 } else { time(step - 1) })
-                .collect()
-        });
-        Walk {
-            loading: LoadingScene {
-                path: (0..scene_step.len()).map(value).collect(),
-                durations: times,
-                ..loading.clone()
-            },
-            scene_step,
+        // What a path without time cannot be asked for is not offered either.
+        timed.map_or_else(as_given, |timed| Walk {
+            places: places(loading, &timed),
+            loading: timed,
+        })
+    }
+
+    /// How finely the reference of a scene is walked.
+    pub fn of_reference(scene: &Scene) -> Steps {
+        finest_tolerance(scene).map_or(Steps::Doubled, |_| Steps::Finest)
+    }
+
+    /// The way to walk a scene that shows how far its reference may be off in time: what that changes
+    /// against the finest that it judges.
+    pub fn beside_reference(scene: &Scene) -> Steps {
+        finest_tolerance(scene).map_or(Steps::AsGiven, Steps::Auto)
+    }
+
+    /// Every way to walk a scene but its own.
+    pub fn others(scene: &Scene) -> Vec<Steps> {
+        let path = &scene.loading.path;
+        let mut found = Vec::new();
+        if path.len() > 1 {
+            found.push(Steps::Doubled);
+        }
+        if halved(&scene.loading).loading.path.len() < path.len() {
+            found.push(Steps::Halved);
+        }
+        let tolerances = time_tolerances(scene);
+        let uneven = |equal: LoadingScene| {
+            let places = places(&scene.loading, &equal);
+            let mut steps = places.iter().enumerate();
+            !steps.all(|(step, place)| *place == Some(Place::at(step)))
+        };
+        if !tolerances.is_empty() && equal(&scene.loading).is_some_and(uneven) {
+            found.push(Steps::Equal);
+        }
+        found.extend(tolerances.into_iter().map(Steps::Auto));
+        found
+    }
+
+    /// As in `, half the steps`; empty for the scene's own.
+    pub fn words(self) -> String {
+        match self {
+            Steps::AsGiven => String::new(),
+            Steps::Halved => ", half the steps".to_owned(),
+            Steps::Doubled => ", twice the steps".to_owned(),
+            Steps::Equal => ", equal steps".to_owned(),
+            Steps::Auto(tolerance) => format!(", auto steps to {tolerance:e}"),
+            Steps::Finest => ", steps of the reference".to_owned(),
         }
     }
+}
+
+/// The errors in time for which a scene is walked in `steps = "auto"`: down to what is asked for by
+/// default, and below that where it takes no more than twice the scene's own steps.
+fn time_tolerances(scene: &Scene) -> Vec<f64> {
+    let most = 2 * scene.loading.path.len();
+    let is_tried = |tolerance: &f64| {
+        let steps = scene.auto_steps(*tolerance);
+        steps.is_some_and(|auto| *tolerance >= DEFAULT_TIME_TOLERANCE || auto.path.len() <= most)
+    };
+    TIME_TOLERANCES.into_iter().filter(is_tried).collect()
+}
+
+fn finest_tolerance(scene: &Scene) -> Option<f64> {
+    time_tolerances(scene).into_iter().reduce(f64::min)
+}
+
+fn halved(loading: &LoadingScene) -> Walk {
+    let kept = kept(&loading.path);
+    let mut places = vec![None; loading.path.len()];
+    for (step, own) in kept.iter().enumerate() {
+        places[*own] = Some(Place::at(step));
+    }
+    let ends = ends(loading);
+    let durations = ends.map(|ends| {
+        let before = |step: usize| if step == 0 { 0.0 } else { ends[kept[step - 1]] };
+        (0..kept.len())
+            .map(|step| ends[kept[step]] - before(step))
+            .collect()
+    });
+    Walk {
+        loading: LoadingScene {
+            path: kept.iter().map(|own| loading.path[*own]).collect(),
+            durations,
+            ..loading.clone()
+        },
+        places,
+    }
+}
+
+fn doubled(loading: &LoadingScene) -> Walk {
+    let between = |values: &[f64], share: fn(f64, f64) -> [f64; 2]| {
+        let pairs = values.windows(2).flat_map(|pair| share(pair[0], pair[1]));
+        values.iter().copied().take(1).chain(pairs).collect()
+    };
+    let path = &loading.path;
+    Walk {
+        loading: LoadingScene {
+            path: between(path, |from, to| [0.5 * (from + to), to]),
+            durations: loading
+                .durations
+                .as_ref()
+                .map(|durations| between(durations, |_, time| [0.5 * time; 2])),
+            ..loading.clone()
+        },
+        places: (0..path.len()).map(|s| Some(Place::at(2 * s))).collect(),
+    }
+}
+
+/// As many steps on each stretch, all as long; `None` where the path takes no time.
+fn equal(loading: &LoadingScene) -> Option<LoadingScene> {
+    loading.durations.as_ref()?;
+    let mut path = vec![*loading.path.first()?];
+    let mut durations = vec![0.0];
+    for stretch in loading.stretches() {
+        let (from, count) = (path[path.len() - 1], stretch.steps as f64);
+        path.extend(
+            (1..stretch.steps).map(|step| from + (stretch.to - from) * (step as f64 / count)),
+        );
+        path.push(stretch.to);
+        durations.resize(path.len(), stretch.duration / count);
+    }
+    Some(LoadingScene {
+        path,
+        durations: Some(durations),
+        ..loading.clone()
+    })
+}
+
+/// The steps of two paths through the same turning points, of which the first has the second's jumps.
+fn both(one: &LoadingScene, other: &LoadingScene) -> LoadingScene {
+    let (Some(one_ends), Some(other_ends)) = (ends(one), ends(other)) else {
+        return one.clone();
+    };
+    let same_time = SAME_TIME * one_ends.last().copied().unwrap_or(0.0);
+    let mut others = other_ends.iter().zip(&other.path).peekable();
+    let mut merged: Vec<(f64, f64)> = Vec::new();
+    for (end, value) in one_ends.iter().zip(&one.path) {
+        while let Some((between, value)) = others.next_if(|(other, _)| **other < end - same_time) {
+            merged.push((*between, *value));
+        }
+        merged.push((*end, *value));
+        // The same place, or a jump that the first has too.
+        while others
+            .next_if(|(other, _)| (**other - end).abs() <= same_time)
+            .is_some()
+        {}
+    }
+    let mut before = 0.0;
+    LoadingScene {
+        path: merged.iter().map(|(_, value)| *value).collect(),
+        durations: Some(
+            merged
+                .iter()
+                .map(|(end, _)| end - std::mem::replace(&mut before, *end))
+                .collect(),
+        ),
+        ..one.clone()
+    }
+}
+
+/// When each step ends, s; `None` where the path takes no time.
+fn ends(loading: &LoadingScene) -> Option<Vec<f64>> {
+    let durations = loading.durations.as_ref()?;
+    let ends = durations.iter().scan(0.0, |time, duration| {
+        *time += duration;
+        Some(*time)
+    });
+    Some(ends.collect())
+}
+
+/// Where the steps of a path lie in another one through the same turning points, by their times.
+fn places(own: &LoadingScene, walk: &LoadingScene) -> Vec<Option<Place>> {
+    let (Some(own_ends), Some(ends)) = (ends(own), ends(walk)) else {
+        return vec![None; own.path.len()];
+    };
+    let whole = ends.last().copied().unwrap_or(0.0);
+    let same_time = SAME_TIME * whole;
+    let scale = own.path.iter().fold(0.0, |most: f64, v| most.max(v.abs()));
+    let place = |(time, value): (&f64, &f64)| {
+        // More than one step is at a time at which the path jumps.
+        let first = ends.partition_point(|end| *end < time - same_time);
+        let at = (first..ends.len()).take_while(|step| ends[*step] <= time + same_time);
+        let off = |step: &usize| (walk.path[*step] - value).abs();
+        let nearest = at.min_by(|a, b| off(a).total_cmp(&off(b)));
+        match nearest {
+            Some(step) => (off(&step) <= SAME_TIME * scale).then(|| Place::at(step)),
+            None => (first > 0 && first < ends.len()).then(|| {
+                let (before, after) = (ends[first - 1], ends[first]);
+                Place {
+                    step: first - 1,
+                    share: (time - before) / (after - before),
+                }
+            }),
+        }
+    };
+    own_ends.iter().zip(&own.path).map(place).collect()
 }
 
 /// Steps that stay when the others are left out: both ends, where the path turns or holds, and every
@@ -98,22 +303,77 @@ mod tests {
         }
     }
 
+    fn own(walk: &Walk) -> Vec<Option<usize>> {
+        let step = |place: &Option<Place>| {
+            place.map(|place| {
+                assert_eq!(place.share, 0.0);
+                place.step
+            })
+        };
+        walk.places.iter().map(step).collect()
+    }
+
+    /// A force pressed on, held, and taken off in half the time, on a solid of two relaxation times.
+    fn relaxing(steps: &str) -> Scene {
+        let text = format!(
+            r#"
+            [grid]
+            points = 16
+            size = 1.0
+            boundary = "free"
+            [solid]
+            contact_modulus = 1.0
+            [[solid.relaxation]]
+            modulus = 5.0
+            time = 0.1
+            [[solid.relaxation]]
+            modulus = 2.0
+            time = 3.0
+            [[surface]]
+            kind = "sphere"
+            radius = 1.0
+            [loading]
+            control = "force"
+            start = 0
+            [[loading.ramp]]
+            to = 0.3
+            steps = {steps}
+            duration = 1
+            [[loading.ramp]]
+            hold = 7
+            steps = {steps}
+            [[loading.ramp]]
+            to = 0.1
+            steps = {steps}
+            duration = 0.5
+            "#
+        );
+        let parsed = Scene::parse(&text, "test.toml", std::path::Path::new("."), &[]);
+        parsed.unwrap_or_else(|errors| panic!("{errors}"))
+    }
+
     #[test]
     fn both_ends_and_the_turns_stay() {
         let scene = loading(&[0.0, 1.0, 2.0, 3.0, 4.0, 3.0, 2.0, 0.0], None);
-        let halved = Steps::Halved.of(&scene);
-        assert_eq!(halved.loading.path, [0.0, 2.0, 4.0, 2.0, 0.0]);
-        assert_eq!(
-            halved.scene_step,
-            [Some(0), Some(2), Some(4), Some(6), Some(7)]
-        );
-        let doubled = Steps::Doubled.of(&loading(&[0.0, 1.0, -1.0], None));
-        assert_eq!(doubled.loading.path, [0.0, 0.5, 1.0, 0.0, -1.0]);
-        assert_eq!(doubled.scene_step, [Some(0), None, Some(1), None, Some(2)]);
-        assert_eq!(Steps::AsGiven.of(&scene).loading, scene);
+        let half = halved(&scene);
+        assert_eq!(half.loading.path, [0.0, 2.0, 4.0, 2.0, 0.0]);
+        let kept = [
+            Some(0),
+            None,
+            Some(1),
+            None,
+            Some(2),
+            None,
+            Some(3),
+            Some(4),
+        ];
+        assert_eq!(own(&half), kept);
+        let double = doubled(&loading(&[0.0, 1.0, -1.0], None));
+        assert_eq!(double.loading.path, [0.0, 0.5, 1.0, 0.0, -1.0]);
+        assert_eq!(own(&double), [Some(0), Some(2), Some(4)]);
         let one = loading(&[2.0], None);
-        for steps in [Steps::Halved, Steps::Doubled] {
-            assert_eq!(steps.of(&one).loading.path, [2.0]);
+        for walk in [halved(&one), doubled(&one)] {
+            assert_eq!(walk.loading.path, [2.0]);
         }
     }
 
@@ -121,13 +381,94 @@ mod tests {
     fn the_time_at_a_step_stays() {
         let scene = loading(&[0.0, 1.0, 2.0, 2.0], Some(vec![0.0, 1.0, 3.0, 5.0]));
         // The hold at the end is a turn, so the step before it stays.
-        let halved = Steps::Halved.of(&scene);
-        assert_eq!(halved.loading.path, [0.0, 2.0, 2.0]);
-        assert_eq!(halved.loading.durations, Some(vec![0.0, 4.0, 5.0]));
-        let doubled = Steps::Doubled.of(&scene);
+        let half = halved(&scene);
+        assert_eq!(half.loading.path, [0.0, 2.0, 2.0]);
+        assert_eq!(half.loading.durations, Some(vec![0.0, 4.0, 5.0]));
+        let double = doubled(&scene);
         assert_eq!(
-            doubled.loading.durations,
+            double.loading.durations,
             Some(vec![0.0, 0.5, 0.5, 1.5, 1.5, 2.5, 2.5])
         );
+    }
+
+    #[test]
+    fn steps_between_those_of_a_walk_are_found_by_time() {
+        let fine = loading(
+            &[0.0, 1.0, 2.0, 3.0, 9.0, 9.0],
+            Some(vec![0.0, 1.0, 1.0, 1.0, 0.0, 2.0]),
+        );
+        let coarse = loading(&[0.0, 3.0, 9.0, 9.0], Some(vec![0.0, 3.0, 0.0, 2.0]));
+        let found = places(&fine, &coarse);
+        // The jump at time 3 has a step before and one after it.
+        for (own, step) in [(0, 0), (3, 1), (4, 2), (5, 3)] {
+            assert_eq!(found[own], Some(Place::at(step)));
+        }
+        for (own, share) in [(1, 1.0 / 3.0), (2, 2.0 / 3.0)] {
+            let place = found[own].expect("within the path");
+            assert_eq!(place.step, 0);
+            assert!((place.share - share).abs() < 1e-15);
+        }
+        assert!(places(&coarse, &fine).iter().all(Option::is_some));
+    }
+
+    /// The answer in time is a straight line over a step: no step of what is judged may be shorter than
+    /// two of the reference.
+    #[test]
+    fn the_reference_is_twice_as_fine_as_all_that_it_judges() {
+        for steps in ["2", "30", "500", "\"auto\""] {
+            let scene = relaxing(steps);
+            assert_eq!(Steps::of_reference(&scene), Steps::Finest);
+            let finest = ends(&Steps::Finest.of(&scene).loading).expect("a path in time");
+            let mut judged = Steps::others(&scene);
+            assert!(judged.contains(&Steps::Auto(1e-1)) && judged.contains(&Steps::Auto(1e-3)));
+            assert_eq!(judged.contains(&Steps::Auto(1e-4)), steps == "500");
+            assert_eq!(judged.contains(&Steps::Equal), steps == "\"auto\"");
+            judged.push(Steps::AsGiven);
+            for steps in judged {
+                let walk = Steps::of(steps, &scene);
+                assert!(walk.places.iter().all(|place| place.is_some()) || steps == Steps::Halved);
+                let coarse = ends(&walk.loading).expect("a path in time");
+                for pair in coarse.windows(2) {
+                    let longest = finest
+                        .windows(2)
+                        .filter(|fine| fine[0] < pair[1] - 1e-9 && fine[1] > pair[0] + 1e-9)
+                        .map(|fine| fine[1] - fine[0])
+                        .fold(0.0, f64::max);
+                    assert!(
+                        longest < 0.501 * (pair[1] - pair[0]),
+                        "{steps:?}: {longest} {pair:?}"
+                    );
+                }
+            }
+        }
+        let elastic = Scene {
+            solid: crate::scene::SolidScene {
+                relaxation: Vec::new(),
+                ..relaxing("4").solid
+            },
+            ..relaxing("4")
+        };
+        assert_eq!(Steps::of_reference(&elastic), Steps::Doubled);
+        assert_eq!(Steps::others(&elastic), [Steps::Doubled, Steps::Halved]);
+    }
+
+    #[test]
+    fn equal_steps_are_as_many_on_each_ramp() {
+        let auto = relaxing("\"auto\"");
+        let equal = Steps::Equal.of(&auto);
+        assert_eq!(equal.loading.path.len(), auto.loading.path.len());
+        let stretches = |loading: &LoadingScene| -> Vec<(f64, usize)> {
+            loading
+                .stretches()
+                .iter()
+                .map(|part| (part.to, part.steps))
+                .collect()
+        };
+        assert_eq!(stretches(&equal.loading), stretches(&auto.loading));
+        assert_eq!(stretches(&auto.loading).len(), 3);
+        let durations = equal.loading.durations.expect("a path in time");
+        let mut different = durations[1..].to_vec();
+        different.dedup();
+        assert_eq!(different.len(), 3);
     }
 }

@@ -82,6 +82,9 @@ pub struct Row {
     pub errors: Errors,
     /// How far it is from the scene's own way on the same grid.
     pub change: Option<f64>,
+    /// Of a solid that relaxes, for rows that vary nothing but steps: how far it is from the reference's
+    /// steps on the same grid.
+    pub in_time: Option<Errors>,
     /// Range of its law, m; `None` without one.
     pub range: Option<f64>,
     /// Taper of its law, m.
@@ -281,13 +284,14 @@ impl<'a> Study<'a> {
         let finest = grids[grids.len() - 1];
         grids.push(twice(finest));
         let allowed = REFERENCE_SHARE * self.budget;
+        let finer = Steps::of_reference(&self.report.scene);
         let mut levels: Vec<(Setting, Done)> = Vec::new();
         let mut ended = String::new();
         for points in &grids {
             let own = Setting::own(&self.report.scene, *points);
             let setting = Setting {
                 tolerance: TIGHTER * own.tolerance,
-                steps: Steps::Doubled,
+                steps: finer,
                 ..own
             };
             let spent = self.budget - self.left();
@@ -330,7 +334,11 @@ impl<'a> Study<'a> {
             return Ok(Vec::new());
         }
         let top = levels[levels.len() - 1].0;
-        self.report.reference = Reference::numeric(&measured, top.points);
+        let walked = match finer {
+            Steps::Doubled => "twice the steps".to_owned(),
+            _ => format!("{} steps", measured[0].walked),
+        };
+        self.report.reference = Reference::numeric(&measured, top.points, &walked);
         // What is judged is at most half as fine as the finest.
         let coarser = levels.len() - 1;
         let judged: Vec<[usize; 2]> = levels[..coarser]
@@ -377,28 +385,52 @@ impl<'a> Study<'a> {
             }
         }
         *judged = run;
-        self.judge_again();
+        self.judge_in_time(judged, listener)?;
         listener.row(&self.report)
     }
 
-    /// Once the scene's own steps are known on a grid that the reference has too, what twice as many
-    /// change belongs to its uncertainty. The finest such grid says it.
-    fn judge_again(&mut self) {
-        let own = self
-            .report
-            .rows
+    /// Once the steps that stand beside those of the reference are known on a grid that it has too,
+    /// what its own change belongs to its uncertainty. The finest such grid says it; where they are
+    /// not the scene's own, they are walked on the coarsest.
+    fn judge_in_time(
+        &mut self,
+        judged: &[[usize; 2]],
+        listener: &mut dyn Listener,
+    ) -> Result<(), AccuracyError> {
+        let beside = Steps::beside_reference(&self.report.scene);
+        if let (false, Some(points)) = (beside == Steps::AsGiven, judged.first()) {
+            let setting = Setting {
+                steps: beside,
+                ..Setting::own(&self.report.scene, *points)
+            };
+            match self.attempt(&setting, self.left(), listener) {
+                Ok(done) => self.keep(setting, done, listener)?,
+                Err(Missed::Interrupted) => self.report.interrupted = true,
+                Err(missed) => self.leave_out(&setting, missed.words()),
+            }
+        }
+        let rows = &self.report.rows;
+        let is_plain = |row: &&Row| {
+            let own = Setting::own(&self.report.scene, row.setting.points);
+            row.setting
+                == Setting {
+                    steps: beside,
+                    ..own
+                }
+        };
+        let finer = Steps::of_reference(&self.report.scene);
+        let Some(coarser) = rows.iter().rev().find(is_plain) else {
+            return Ok(());
+        };
+        let finer = rows
             .iter()
-            .rev()
-            .find(|row| row.varied == Varied::Nothing);
-        let Some(own) = own else { return };
-        let doubled = self.report.rows.iter().find(|row| {
-            row.setting.points == own.setting.points && row.setting.steps == Steps::Doubled
-        });
-        if let (Some(reference), Some(doubled)) = (&mut self.report.reference, doubled)
+            .find(|row| row.setting.points == coarser.setting.points && row.setting.steps == finer);
+        if let (Some(reference), Some(finer)) = (&mut self.report.reference, finer)
             && reference.points.is_some()
         {
-            reference.add_steps(&own.measured, &doubled.measured);
+            reference.add_steps(&coarser.measured, &finer.measured);
         }
+        Ok(())
     }
 
     /// Runs everything else on those grids, the cheapest next, while there is time.
@@ -412,8 +444,8 @@ impl<'a> Study<'a> {
             .iter()
             .flat_map(|points| others(&self.report.scene, *points, arithmetics))
             .filter(|setting| {
-                // The reference has walked some in twice the steps.
-                setting.steps != Steps::Doubled
+                // The reference has walked some, and what it stands beside.
+                setting.steps == Steps::AsGiven
                     || !self.report.rows.iter().any(|row| {
                         row.setting.points == setting.points && row.setting.steps == setting.steps
                     })
@@ -450,7 +482,7 @@ impl<'a> Study<'a> {
         let (scene, path) = setting.apply(&self.report.scene);
         let size = [self.same.grid.lx, self.same.grid.ly];
         let grid = Grid::new(setting.points, size);
-        Work::of(setting, &scene, grid, path.scene_step.len())
+        Work::of(setting, &scene, grid, path.loading.path.len())
     }
 
     /// Runs a setting if it will end within `allowed` seconds.
@@ -463,7 +495,9 @@ impl<'a> Study<'a> {
         let (scene, path) = setting.apply(&self.report.scene);
         let work = self.work(setting);
         let predicted = self.forecast.seconds(&work);
-        if predicted > allowed {
+        let is_late = predicted > allowed;
+        // What a graphics processor cannot do is said rather than how long it would take.
+        if is_late && setting.backend != BackendName::Gpu {
             return Err(Missed::Late(predicted));
         }
         let size = [self.same.grid.lx, self.same.grid.ly];
@@ -473,6 +507,9 @@ impl<'a> Study<'a> {
         let surface = surface.map_err(|error| Missed::Impossible(error.to_string()))?;
         let setup = Setup::new(scene, surface);
         let bench = self.workplace.bench(&setup).map_err(Missed::Impossible)?;
+        if is_late {
+            return Err(Missed::Late(predicted));
+        }
         if let Some(remark) = &bench.remark {
             listener.note(remark);
         }
@@ -544,8 +581,17 @@ impl<'a> Study<'a> {
             (Varied::Nothing, _) | (_, None) => None,
             (_, Some(base)) => change(&done.measured, &base.measured).largest(),
         };
+        let by_time = match varied {
+            Varied::Nothing | Varied::Steps | Varied::TimeTolerance => self.report.rows.iter(),
+            _ => [].iter(),
+        };
+        let in_time = by_time
+            .filter(|row| row.setting.steps == Steps::Finest)
+            .find(|row| row.setting.points == setting.points)
+            .map(|finest| self::change(&done.measured, &finest.measured));
         self.report.rows.push(Row {
             varied,
+            in_time,
             setting,
             measured: done.measured,
             errors,

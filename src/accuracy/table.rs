@@ -6,11 +6,16 @@ use std::path::Path;
 
 use super::front;
 use super::judge::Errors;
+use super::setting::Varied;
+use super::steps::Steps;
 use super::study::{Report, Row, duration};
 use crate::output::{OutputError, write_atomically};
 
-/// First line of `accuracy.csv`.
-const HEADER: &str = "points,backend,precision,tolerance,steps,treatment,taper,seconds,error_area,error_force,error_pressure,error_pull_off,reference_uncertainty,pareto,error_largest,varied,range,chi,zone_pixels,change,iterations,transforms,converged,uncertainty_area,uncertainty_force,uncertainty_pressure,uncertainty_pull_off";
+/// Columns that every `accuracy.csv` begins with, those of older versions too.
+const FIRST_COLUMNS: &str = "points,backend,precision,tolerance,steps,treatment,taper,seconds,error_area,error_force,error_pressure,error_pull_off,reference_uncertainty,pareto";
+
+/// The columns after those.
+const MORE_COLUMNS: &str = "error_largest,varied,range,chi,zone_pixels,change,iterations,transforms,converged,uncertainty_area,uncertainty_force,uncertainty_pressure,uncertainty_pull_off,time_tolerance,error_in_time";
 
 /// Errors for which the cheapest setting is named.
 pub const LEVELS: [f64; 3] = [0.1, 0.01, 0.001];
@@ -29,7 +34,7 @@ const QUANTITIES: [(&str, Quantity); 5] = [
 
 /// The table of all rows so far as CSV. What is not known is empty.
 pub fn csv(report: &Report) -> String {
-    let mut text = format!("{HEADER}\n");
+    let mut text = format!("{FIRST_COLUMNS},{MORE_COLUMNS}\n");
     let front = report.front(Errors::largest);
     let cell = |value: Option<f64>| value.map_or(String::new(), |value| format!("{value:e}"));
     let uncertainty = report.reference.as_ref().map(|found| found.uncertainty);
@@ -55,6 +60,11 @@ pub fn csv(report: &Report) -> String {
         cells.push(format!("{:e}", row.measured.transforms));
         cells.push(row.measured.converged.to_string());
         cells.extend(uncertainty.unwrap_or_default().all().map(cell));
+        let time_tolerance = match setting.steps {
+            Steps::Auto(tolerance) => Some(tolerance),
+            _ => None,
+        };
+        cells.extend([time_tolerance, row.in_time.and_then(|errors| errors.force)].map(cell));
         text.push_str(&cells.join(","));
         text.push('\n');
     }
@@ -73,7 +83,7 @@ pub fn write_csv(path: &Path, report: &Report) -> Result<(), OutputError> {
     if path.parent().is_some_and(Path::is_file) {
         return Err(refused("its folder is a file; name a folder with --out"));
     }
-    if fs::read(path).is_ok_and(|old| !old.starts_with(HEADER.as_bytes())) {
+    if fs::read(path).is_ok_and(|old| !old.starts_with(FIRST_COLUMNS.as_bytes())) {
         return Err(refused(
             "is not a table that tabor wrote; name another folder with --out",
         ));
@@ -171,6 +181,9 @@ pub fn screen(report: &Report) -> String {
             orders.join(", ")
         ));
     }
+    for words in in_time(report) {
+        line(words);
+    }
     if !report.left_out.is_empty() {
         line(format!("left out, {} settings:", report.left_out.len()));
         for left in &report.left_out {
@@ -178,6 +191,32 @@ pub fn screen(report: &Report) -> String {
         }
     }
     text
+}
+
+/// What steps cost and leave on the finest grid that has both counted ones and those of `steps = "auto"`.
+fn in_time(report: &Report) -> Vec<String> {
+    let rows = || report.rows.iter().filter(|row| row.in_time.is_some());
+    let is_auto = |row: &Row| row.varied == Varied::TimeTolerance;
+    let grids = rows()
+        .filter(|row| is_auto(row))
+        .map(|row| row.setting.points);
+    let Some(points) = grids.max() else {
+        return Vec::new();
+    };
+    let mut rows: Vec<&Row> = rows().filter(|row| row.setting.points == points).collect();
+    rows.sort_by_key(|row| (is_auto(row), row.measured.walked));
+    let mut lines =
+        vec!["of which in time, from the steps of the reference on the same grid:".to_owned()];
+    lines.extend(rows.into_iter().map(|row| {
+        let words = row.setting.words(&report.scene);
+        let words = format!("{words}: {} steps", row.measured.walked);
+        let errors = row.in_time.unwrap_or_default();
+        format!(
+            "  {}",
+            cells(&words, &duration(row.measured.seconds), &errors)
+        )
+    }));
+    lines
 }
 
 fn cells(words: &str, seconds: &str, errors: &Errors) -> String {

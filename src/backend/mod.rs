@@ -131,9 +131,28 @@ pub trait Backend {
     fn set_base(&mut self, base: Option<[Field; 2]>);
     /// Sets a field to zero where it is.
     fn clear(&mut self, field: Field);
-    /// An empty backend in double precision, where the solver is asked to keep its state in double
-    /// precision and to iterate here on corrections of it. `None` where this one's numbers will do.
-    fn in_double(&self) -> Option<Box<dyn Backend + Send>> {
+    /// An empty backend in double precision for a level of this shape, where the solver is asked to keep
+    /// its state in double precision and to iterate here on corrections of it. `None` where this one's
+    /// numbers will do.
+    fn in_double(&self, _shape: Shape) -> Option<Box<dyn Backend + Send>> {
+        None
+    }
+    /// Overwrites a field with one of another backend, of as many points, rounded to this one's number.
+    /// It passes through the host, unless both are on one device.
+    ///
+    /// # Errors
+    /// Those of [`read`](Backend::read) there.
+    fn take(
+        &mut self,
+        field: Field,
+        from: &mut dyn Backend,
+        source: Field,
+    ) -> Result<(), BackendError> {
+        self.write(field, &from.read(source)?);
+        Ok(())
+    }
+    /// A field for another backend on the same device to take; `None` where there is no device.
+    fn lend(&mut self, _field: Field) -> Option<gpu::Lent> {
         None
     }
     /// Sets the numbers that stay fixed during a solve.

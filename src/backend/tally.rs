@@ -23,13 +23,20 @@ pub enum Place {
     Single,
     /// A graphics processor in single precision.
     Gpu,
+    /// A graphics processor in double precision.
+    GpuDouble,
 }
 
 impl Place {
+    /// Whether it is a graphics processor.
+    pub fn on_gpu(self) -> bool {
+        matches!(self, Place::Gpu | Place::GpuDouble)
+    }
+
     /// Bytes of a number of its fields.
     pub fn number(self) -> usize {
         match self {
-            Place::Double => size_of::<f64>(),
+            Place::Double | Place::GpuDouble => size_of::<f64>(),
             Place::Single | Place::Gpu => size_of::<f32>(),
         }
     }
@@ -44,7 +51,7 @@ impl Place {
                 2 * tiles * TILE * TILE * 2 * self.number()
             }
             // Half as many complex numbers as points.
-            Place::Gpu => shape.len() * self.number(),
+            Place::Gpu | Place::GpuDouble => shape.len() * self.number(),
         }
     }
 }

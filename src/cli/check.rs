@@ -1,6 +1,6 @@
 //! `tabor check`: what a scene would do and cost.
 
-use super::machine::refuse_size;
+use super::machine::{largest_here, refuse_size};
 use super::{CheckArguments, Failure, print, read_scene, room};
 use crate::backend::tally::Place;
 use crate::effect::Effect;
@@ -18,7 +18,7 @@ pub(super) fn check(arguments: &CheckArguments) -> Result<(), Failure> {
     })?;
     let place = Place::of(&plan.scene);
     let cost = plan.cost(place)?;
-    if place == Place::Gpu {
+    if place.on_gpu() {
         refuse_size(cost.points)?;
     }
     let text = describe(&plan, &cost)?;
@@ -128,12 +128,23 @@ fn describe(plan: &Plan, cost: &Cost) -> Result<String, Failure> {
             Place::Double => "double precision",
             Place::Single => "single precision",
             Place::Gpu => "single precision on the GPU",
+            Place::GpuDouble => "double precision on the GPU",
         }
     ));
+    if cost.place == Place::Gpu {
+        lines.push(format!(
+            "largest       {}",
+            largest_here(scene.grid.boundary)
+        ));
+    }
     if !cost.reference.is_empty() {
         lines.push(format!(
-            "corrections   {} of state in double precision on the processor",
-            mebibytes(cost.reference_bytes() as u64)
+            "corrections   {} of state in double precision on the {}",
+            mebibytes(cost.reference_bytes() as u64),
+            match cost.place.on_gpu() {
+                true => "GPU where that has it, else on the processor",
+                false => "processor",
+            }
         ));
     }
     lines.push(format!(

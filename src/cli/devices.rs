@@ -5,7 +5,7 @@ use std::num::NonZero;
 
 use super::Failure;
 use super::machine::best;
-use crate::backend::gpu::{AdapterDescription, adapters};
+use crate::backend::gpu::{AdapterDescription, Number, adapters};
 use crate::scene::Precision;
 
 /// Prints the adapters and which one `auto` takes.
@@ -25,21 +25,30 @@ fn describe(found: &[AdapterDescription]) -> String {
          \x20 largest     any grid that the memory holds"
     )];
     for (index, adapter) in found.iter().enumerate() {
-        let side = adapter.largest_side();
+        let side = adapter.largest_side(Number::Single);
+        let in_double = adapter.largest_side(Number::Double);
         lines.push(format!(
             "adapter {}     {}\n\
              \x20 type        {}\n\
              \x20 driver      {} {}\n\
              \x20 precision   single, mixed{}\n\
-             \x20 largest     {side} x {side} points in single and mixed, {half} x {half} with a free boundary",
+             \x20 largest     {side} x {side} points in single and mixed, {half} x {half} with a free boundary{}",
             index + 1,
             adapter.name,
             adapter.kind.name(),
             adapter.interface,
             adapter.driver,
             match adapter.double {
-                true => "; double on the device for sums, not for fields in this version",
-                false => "; no double on the device, so sums are compensated",
+                true => ", double; sums in double",
+                false => "; no double on the device, so sums are compensated and the processor corrects",
+            },
+            match adapter.double {
+                true => format!(
+                    "\n\
+                     \x20             {in_double} x {in_double} in double, {0} x {0}; above, the processor corrects in mixed",
+                    in_double / 2
+                ),
+                false => String::new(),
             },
             half = side / 2,
         ));
@@ -49,9 +58,13 @@ fn describe(found: &[AdapterDescription]) -> String {
     }
     lines.push(match (best(found), found) {
         (Some(adapter), _) => format!(
-            "auto          {}, from 256 x 256 solved points on: in single precision for tolerances from {:e}, in mixed below; the processor for smaller grids and for precision = \"double\"",
+            "auto          {}, from 256 x 256 solved points on: in single precision for tolerances from {:e}, in mixed below; {}; the processor for smaller grids",
             adapter.name,
-            Precision::SINGLE_FLOOR
+            Precision::SINGLE_FLOOR,
+            match adapter.double {
+                true => "from 512 x 512 on for precision = \"double\"",
+                false => "the processor for precision = \"double\"",
+            }
         ),
         (None, []) => "auto          the processor: there is no adapter".to_owned(),
         (None, _) => "auto          the processor: no adapter is more than software on it".to_owned(),

@@ -4,7 +4,8 @@ use super::Failure;
 use crate::backend::Backend;
 use crate::backend::cpu::CpuBackend;
 use crate::backend::gpu::{
-    AdapterChoice, AdapterDescription, GpuBackend, GpuDevice, GpuError, Wide, adapters, radices,
+    AdapterChoice, AdapterDescription, GpuBackend, GpuDevice, GpuError, Number, Wide, adapters,
+    radices,
 };
 use crate::scene::{BackendName, Boundary, Precision};
 use crate::study::Setup;
@@ -36,10 +37,10 @@ impl Machine {
                 })
                 .map_err(Failure::Gpu)?;
                 let found = device.description();
-                if settings.precision == Precision::Double {
+                if settings.precision == Precision::Double && !found.double {
                     return Err(Failure::Gpu(GpuError::Precision(found.name.clone())));
                 }
-                refuse_limits(setup, found)?;
+                refuse_limits(setup, found, number(settings.precision))?;
                 let remark = found.software().then(|| {
                     format!(
                         "on {}, which is software on the processor: --backend cpu is faster",
@@ -77,8 +78,14 @@ impl Machine {
     /// A backend on it.
     pub fn backend(&self) -> Box<dyn Backend + Send> {
         match (&self.place, self.precision) {
-            (Place::Gpu(device), Precision::Mixed) => Box::new(GpuBackend::on(device).corrected()),
-            (Place::Gpu(device), _) => Box::new(GpuBackend::on(device)),
+            (Place::Gpu(device), Precision::Mixed) => {
+                Box::new(GpuBackend::on(device).expecting_numbers().corrected())
+            }
+            (Place::Gpu(device), precision) => Box::new(
+                GpuBackend::on(device)
+                    .expecting_numbers()
+                    .keeping(number(precision)),
+            ),
             (Place::Processor, Precision::Single) => Box::new(CpuBackend::<f32>::new()),
             (Place::Processor, Precision::Mixed) => Box::new(CpuBackend::<f32>::new().corrected()),
             (Place::Processor, _) => Box::new(CpuBackend::<f64>::new()),
@@ -119,9 +126,21 @@ impl Machine {
     }
 }
 
+/// The number of the fields on a graphics processor.
+fn number(precision: Precision) -> Number {
+    match precision {
+        Precision::Double => Number::Double,
+        // What corrects in mixed precision goes where it fits.
+        Precision::Auto | Precision::Single | Precision::Mixed => Number::Single,
+    }
+}
+
 /// What the environment asks of the adapter: `TABOR_TEST_GPU`, for tests of what no sound adapter
-/// does, is a list of `software` (`auto` takes it for a graphics processor), `binding=BYTES` (it binds
-/// no more) and `lost=DISPATCHES` (it is lost after so many).
+/// does, is a list of `software` (`auto` takes it for a graphics processor), `nodouble` (it has no
+/// double precision), `binding=BYTES` (it binds no more), `slab=BYTES` (a buffer holds no more of a
+/// field), `memory=BYTES` (it has no more), `lost=DISPATCHES` (it is lost after so many),
+/// `nan=DISPATCHES` (numbers are none after so many) and `plain-sums` (its compiler undoes the
+/// compensation of sums).
 fn choice() -> AdapterChoice {
     let asked = std::env::var("TABOR_TEST_GPU").unwrap_or_default();
     let number = |key: &str| -> Option<u64> {
@@ -132,8 +151,13 @@ fn choice() -> AdapterChoice {
     };
     AdapterChoice {
         software: asked.split(',').any(|word| word == "software"),
+        without_double: asked.split(',').any(|word| word == "nodouble"),
         binding_limit: number("binding"),
+        slab_bytes: number("slab"),
         lost_after: number("lost"),
+        memory: number("memory"),
+        not_a_number_after: number("nan"),
+        plain_sums: asked.split(',').any(|word| word == "plain-sums"),
         ..AdapterChoice::default()
     }
 }
@@ -151,21 +175,26 @@ fn plain_sums(device: &GpuDevice) -> Option<String> {
 /// Solved points from which `auto` looks for an adapter: fewer fill none, and are done before one is
 /// ready.
 const FEWEST_POINTS: usize = 256 * 256;
+/// The same where the scene asks for double precision, which many adapters compute slowly.
+const FEWEST_POINTS_IN_DOUBLE: usize = 512 * 512;
 
-/// A graphics processor that is one, where the grid is worth it; else the processor. Double precision
-/// is the processor's alone in this version, so no adapter is asked then. Says why only where there
-/// is a choice.
+/// A graphics processor that is one, where the grid is worth it; else the processor. Says why only
+/// where there is a choice.
 fn auto(setup: &Setup) -> (Place, Option<String>) {
     let settings = &setup.scene.solver;
     let choice = choice();
-    let worth_it = choice.software || setup.problem.shape.len() >= FEWEST_POINTS;
-    if settings.precision == Precision::Double || !worth_it {
+    let in_double = settings.precision == Precision::Double;
+    let fewest = match in_double {
+        true => FEWEST_POINTS_IN_DOUBLE,
+        false => FEWEST_POINTS,
+    };
+    if !choice.software && setup.problem.shape.len() < fewest {
         return (Place::Processor, None);
     }
     let mut found = adapters();
     for adapter in &mut found {
-        let limit = choice.binding_limit.unwrap_or(u64::MAX);
-        adapter.binding_limit = adapter.binding_limit.min(limit);
+        adapter.limits = choice.narrowed(adapter.limits);
+        adapter.double &= !choice.without_double;
     }
     let chosen = match choice.software {
         true => found.first(),
@@ -178,7 +207,11 @@ fn auto(setup: &Setup) -> (Place, Option<String>) {
         let remark = format!("on the processor, not on {}: {why}", best.name);
         (Place::Processor, Some(remark))
     };
-    let fits = refuse_size(setup.problem.shape.points).and_then(|()| refuse_limits(setup, best));
+    if in_double && !best.double {
+        return stays("it has no double precision".to_owned());
+    }
+    let fits = refuse_size(setup.problem.shape.points)
+        .and_then(|()| refuse_limits(setup, best, number(settings.precision)));
     if let Err(error) = fits {
         return stays(error.to_string());
     }
@@ -216,20 +249,50 @@ pub(super) fn best(found: &[AdapterDescription]) -> Option<&AdapterDescription> 
         .min_by_key(|adapter| adapter.kind)
 }
 
-/// Refuses grids that are past what an adapter transforms and binds.
-fn refuse_limits(setup: &Setup, adapter: &AdapterDescription) -> Result<(), Failure> {
-    let shape = setup.problem.shape;
-    if adapter.takes(shape.points) {
-        return Ok(());
+/// The largest grid of the adapter that `--backend gpu` takes here, in words.
+pub(super) fn largest_here(boundary: Boundary) -> String {
+    let found = adapters();
+    match best(&found).or(found.first()) {
+        None => "no adapter here".to_owned(),
+        Some(adapter) => {
+            let side = largest_with(adapter, boundary, Number::Single);
+            format!(
+                "{side} x {side} points in single and mixed precision on {}",
+                adapter.name
+            )
+        }
     }
-    let largest = adapter.largest_side();
-    let side = match setup.scene.grid.boundary {
+}
+
+/// Points along the side of the largest square surface that an adapter takes.
+fn largest_with(adapter: &AdapterDescription, boundary: Boundary, number: Number) -> usize {
+    let largest = adapter.largest_side(number);
+    match boundary {
         Boundary::Periodic => largest,
         Boundary::Free => largest / 2,
-    };
+    }
+}
+
+/// Refuses grids that are past what an adapter transforms and binds.
+fn refuse_limits(
+    setup: &Setup,
+    adapter: &AdapterDescription,
+    number: Number,
+) -> Result<(), Failure> {
+    let shape = setup.problem.shape;
+    if adapter.takes(shape.points, number) {
+        return Ok(());
+    }
+    let side = largest_with(adapter, setup.scene.grid.boundary, number);
     Err(Failure::Usage(format!(
-        "grid.points: {} x {} points are past the limits of {}, which takes up to {side} x {side} here: take fewer points, or --backend cpu",
-        shape.surface[0], shape.surface[1], adapter.name
+        "grid.points: {} x {} points are past the limits of {}, which takes up to {side} x {side} here{}: take fewer points, or --backend cpu",
+        shape.surface[0],
+        shape.surface[1],
+        adapter.name,
+        match number {
+            Number::Single => "",
+            Number::Double => " in double precision",
+        }
     )))
 }
 
@@ -264,7 +327,7 @@ pub(super) fn refuse_size(points: [usize; 2]) -> Result<(), Failure> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::backend::gpu::{AdapterKind, GroupLimits};
+    use crate::backend::gpu::{AdapterKind, GroupLimits, Limits};
 
     #[test]
     fn auto_never_takes_software() {
@@ -274,10 +337,14 @@ mod tests {
             driver: String::new(),
             kind,
             double: true,
-            binding_limit: 1 << 27,
-            group_limits: GroupLimits {
-                threads: 1024,
-                memory: 32768,
+            limits: Limits {
+                group: GroupLimits {
+                    threads: 1024,
+                    memory: 32768,
+                },
+                binding: 1 << 27,
+                slab: 1 << 27,
+                bindings: 32,
             },
         };
         let found = [

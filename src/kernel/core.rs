@@ -14,7 +14,7 @@ const NEWTON_STEPS: usize = 25;
 /// The law, its variable and their constants in the kernel's number. With `BASE` the unknown is the
 /// correction of a known gap (see [`crate::law::Correction`]).
 #[derive(Clone, Copy)]
-struct Core<T, const BASE: bool> {
+pub(super) struct Core<T, const BASE: bool> {
     law: LennardJones<T>,
     /// k.
     stiffness: T,
@@ -50,7 +50,7 @@ impl<T: Real, const BASE: bool> Core<T, BASE> {
     /// The core at a point of a block with these factors on its tension and this base, if there are
     /// any.
     #[inline(always)]
-    fn at(mut self, factor: &[T], base: [&[T]; 2], index: usize) -> Self {
+    pub(super) fn at(mut self, factor: &[T], base: [&[T]; 2], index: usize) -> Self {
         if BASE {
             self.base = [base[0][index], base[1][index]];
         }
@@ -61,7 +61,7 @@ impl<T: Real, const BASE: bool> Core<T, BASE> {
         self
     }
 
-    fn new(params: &Params) -> Self {
+    pub(super) fn new(params: &Params) -> Self {
         let law = match params.law {
             Law::LennardJones(law) => law,
             // Other laws have a wall and never come here; any constants keep this total.
@@ -124,7 +124,7 @@ impl<T: Real, const BASE: bool> Core<T, BASE> {
 
     /// S2 at a gap; 1 on a pad.
     #[inline(always)]
-    fn share(&self, gap: T, on_surface: bool) -> T {
+    pub(super) fn share(&self, gap: T, on_surface: bool) -> T {
         if on_surface {
             self.stiffness / (self.stiffness + self.hardening(gap))
         } else {

@@ -6,6 +6,7 @@
 //! fields, writes or updates others, and hands back a few sums. [`scalar`] kernels work on the
 //! [`Scalars`] alone; they hold all of the algorithm's decisions, so that a device can keep them.
 
+pub mod base;
 pub mod coarse;
 pub mod common;
 pub mod core;

@@ -18,6 +18,7 @@ macro_rules! scalar_kernel {
         pub static $constant: ScalarKernel = ScalarKernel { name: stringify!($run), run: $run };
     };
 }
+pub(super) use scalar_kernel;
 
 /// Trials that may be lost in a row before the direction is given up.
 const LOST_TRIALS: u32 = 25;

@@ -11,7 +11,7 @@ use super::types::{
 use crate::units::{self, Dimension};
 
 /// Most steps of a path, so that a slip of the finger cannot fill the memory.
-const MOST_STEPS: usize = 1_000_000;
+pub(super) const MOST_STEPS: usize = 1_000_000;
 
 /// What `steps` of a ramp is in place of a number.
 const AUTO: &str = "auto";
@@ -344,16 +344,9 @@ fn ramps(
                 too_many();
                 return None;
             };
-            let mut end = 0.0;
-            for share in shares {
-                end += share;
-                // Halves add up to 1 without rounding.
-                path.push(if end < 1.0 {
-                    from + (to - from) * end
-                } else {
-                    to
-                });
-                durations.push(leg.duration * share);
+            for (value, duration) in leg.steps(from, shares) {
+                path.push(value);
+                durations.push(duration);
             }
             from = to;
             continue;

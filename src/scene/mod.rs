@@ -30,6 +30,7 @@ mod wear;
 use std::path::{Path, PathBuf};
 
 pub use mistake::{Mistake, SceneError, SceneErrors};
+pub use time_steps::{DEFAULT_TOLERANCE as DEFAULT_TIME_TOLERANCE, Stretch};
 pub use types::*;
 
 use document::{Place, Table};

@@ -13,10 +13,15 @@
 //! A contact that changes its shape bends over a ramp too; it is taken as bent as a parabola that
 //! stands off its chord by a quarter of the ramp's change.
 
-use super::types::{Control, SolidScene};
+use super::loading::MOST_STEPS;
+use super::types::{Control, LoadingScene, Scene, SolidScene};
 
 /// Error of a path in time where none is asked for, relative.
-pub(super) const DEFAULT_TOLERANCE: f64 = 1e-3;
+pub const DEFAULT_TOLERANCE: f64 = 1e-3;
+
+/// Rates of a path that differ by less, of its greatest value over the time of a step, are one rate:
+/// the values were rounded.
+const SAME_RATE: f64 = 1e-12;
 
 /// Mean over its middle of a parabola that vanishes at both ends.
 const MEAN_OF_A_BEND: f64 = 2.0 / 3.0;
@@ -42,6 +47,117 @@ pub(super) struct Leg {
     pub to: f64,
     /// How long it takes, s.
     pub duration: f64,
+}
+
+impl Leg {
+    /// Values at the ends of the steps that cut this leg, and how long each takes, s.
+    pub fn steps(self, from: f64, shares: Vec<f64>) -> impl Iterator<Item = (f64, f64)> {
+        let mut end = 0.0;
+        shares.into_iter().map(move |share| {
+            end += share;
+            // Halves add up to 1 without rounding.
+            let value = if end < 1.0 {
+                from + (self.to - from) * end
+            } else {
+                self.to
+            };
+            (value, self.duration * share)
+        })
+    }
+}
+
+impl LoadingScene {
+    /// Stretches of one rate, with how many steps each has; none where the path takes no time.
+    pub fn stretches(&self) -> Vec<Stretch> {
+        let Some(durations) = &self.durations else {
+            return Vec::new();
+        };
+        let scale = self.path.iter().fold(0.0, |most: f64, v| most.max(v.abs()));
+        let mut found: Vec<Stretch> = Vec::new();
+        let mut change = 0.0;
+        for (pair, duration) in self.path.windows(2).zip(&durations[1..]) {
+            let step = pair[1] - pair[0];
+            if let Some(last) = found.last_mut() {
+                let time = last.duration + duration;
+                let goes_on = if time > 0.0 {
+                    let off = (step * last.duration - change * duration).abs();
+                    off <= SAME_RATE * scale * time
+                } else {
+                    step * change >= 0.0
+                };
+                if goes_on {
+                    *last = Stretch {
+                        to: pair[1],
+                        duration: time,
+                        steps: last.steps + 1,
+                    };
+                    change += step;
+                    continue;
+                }
+            }
+            change = step;
+            found.push(Stretch {
+                to: pair[1],
+                duration: *duration,
+                steps: 1,
+            });
+        }
+        found
+    }
+}
+
+/// A part of a path at one rate.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Stretch {
+    /// Where it goes, in the unit of the path.
+    pub to: f64,
+    /// How long it takes, s.
+    pub duration: f64,
+    /// How many steps it has.
+    pub steps: usize,
+}
+
+impl Scene {
+    /// The path as `steps = "auto"` cuts it on every ramp for a relative error of `tolerance` in time,
+    /// whatever the steps of this scene; `None` for a solid that does not relax, and where there
+    /// would be more steps than a path may have.
+    pub fn auto_steps(&self, tolerance: f64) -> Option<LoadingScene> {
+        let loading = &self.loading;
+        if self.solid.relaxation.is_empty() || loading.durations.is_none() {
+            return None;
+        }
+        let stretches = loading.stretches().into_iter();
+        let legs: Vec<Leg> = stretches
+            .map(|stretch| Leg {
+                to: stretch.to,
+                duration: stretch.duration,
+            })
+            .collect();
+        let start = *loading.path.first()?;
+        let creeps = self.adhesion.is_some() || loading.spring.is_some();
+        let mut cutter = Cutter::new(
+            &self.solid,
+            loading.control,
+            creeps,
+            start,
+            &legs,
+            tolerance,
+        );
+        let mut path = vec![start];
+        let mut durations = vec![0.0];
+        for leg in legs {
+            let from = path[path.len() - 1];
+            let shares = cutter.cut(&leg, MOST_STEPS.saturating_sub(path.len()))?;
+            let (values, times): (Vec<f64>, Vec<f64>) = leg.steps(from, shares).unzip();
+            path.extend(values);
+            durations.extend(times);
+        }
+        Some(LoadingScene {
+            path,
+            durations: Some(durations),
+            ..loading.clone()
+        })
+    }
 }
 
 /// Cuts the legs of one path.
@@ -72,15 +188,20 @@ impl Cutter {
             true => retardation(solid),
             false => relaxation(solid),
         };
-        // How far a mean gap dents the surface is not known: by as much as the path moves it.
-        let first = match control {
+        // How far a mean gap dents the surface at first is not known: what is remembered may be as much
+        // as the path moves it, what errors are compared with may be no more than that.
+        let (first, least) = match control {
             Control::MeanGap => {
                 let ends = legs.iter().map(|leg| leg.to);
                 let moved = ends.fold(0.0, |most: f64, to| most.max((to - start).abs()));
                 // A gap that shrinks dents.
-                if moved > 0.0 { -moved } else { -start.abs() }
+                if moved > 0.0 {
+                    (-moved, 0.0)
+                } else {
+                    (-start.abs(), -start.abs())
+                }
             }
-            _ => start,
+            _ => (start, start),
         };
         let total: f64 = legs.iter().map(|leg| leg.duration).sum();
         let gain = match creeps {
@@ -95,17 +216,18 @@ impl Cutter {
             value: start,
         };
         for mode in &mut cutter.modes {
-            mode.memory = first;
+            mode.memory = least;
         }
-        let rest = cutter.modes.clone();
-        let mut level = first;
+        let mut level = least;
         cutter.scale = cutter.answer(level, creeps);
         for leg in legs {
             level += leg.to - cutter.value;
             cutter.go(leg);
             cutter.scale = cutter.scale.max(cutter.answer(level, creeps));
         }
-        cutter.modes = rest;
+        for mode in &mut cutter.modes {
+            mode.memory = first;
+        }
         cutter.value = start;
         cutter
     }

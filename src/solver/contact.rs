@@ -237,11 +237,11 @@ impl<'a> ContactSolver<'a> {
         if let (Some(field), Some(own)) = (self.law_factor, &self.problem.law_factor) {
             let values = factor.as_ref().unwrap_or(own);
             self.backend.write(field, &self.problem.padded(values, 0.0));
-            if self.reference().is_some() {
-                let values = values.clone();
-                if let Some(reference) = &mut self.reference {
-                    reference.set_law_factor(self.problem, values);
-                }
+            let problem = self.problem;
+            if self.reference().is_some()
+                && let Some(reference) = &mut self.reference
+            {
+                reference.set_law_factor(problem, values);
             }
             self.present_factor = factor;
         }
@@ -285,7 +285,7 @@ impl<'a> ContactSolver<'a> {
 
     /// Readies a solve: the load, the start, and the pressures that belong to it.
     ///
-    /// Around a reference the present gap is the reference's, which the caller hands in.
+    /// Around a reference the present gap is the reference's, which [`ContactSolver::solve`] hands in.
     pub fn begin(
         &mut self,
         load: &Load,
@@ -455,11 +455,9 @@ impl<'a> ContactSolver<'a> {
         make_backend: MakeBackend,
         watch: &mut dyn FnMut(&Scalars) -> bool,
     ) -> Result<Outcome, BackendError> {
-        let present = match (start, &mut self.reference) {
-            (Start::Present, Some(reference)) => Some(Start::Gap(reference.gap()?)),
-            _ => None,
-        };
-        let start = present.as_ref().unwrap_or(start);
+        if let (Start::Present, Some(reference)) = (start, &mut self.reference) {
+            reference.hand_gap(self.backend, self.gap)?;
+        }
         let corrected = self.reference().is_some();
         let first = match corrected {
             true => tolerance.max(FIRST_TOLERANCE),

@@ -5,12 +5,10 @@
 //! single, looks for the correction c that removes it, with c >= -g at a wall. All that it works
 //! with is relative to c, so each round gains some digits, whatever the law.
 
-use super::contact::{ContactSolver, Hold, Load, Outcome};
-use super::problem::Problem;
+use super::contact::{ContactSolver, Load, Outcome};
 use super::reference::Reference;
-use crate::backend::BackendError;
+use crate::backend::{Backend, BackendError, Field};
 use crate::kernel::{Scalars, Status};
-use crate::law::Law;
 
 /// Tolerance of the first solve: what single precision reaches on every scene.
 pub(super) const FIRST_TOLERANCE: f64 = 1e-4;
@@ -33,7 +31,7 @@ impl ContactSolver<'_> {
     pub(super) fn reference(&mut self) -> Option<&mut Reference> {
         // The corrections are those of a wall; what flows is left to the backend's own numbers.
         if self.reference.is_none() && self.problem.hardness.is_none() {
-            let double = self.backend.in_double()?;
+            let double = self.backend.in_double(self.problem.shape)?;
             self.reference = Some(Reference::new(
                 double,
                 self.backend,
@@ -78,15 +76,11 @@ impl ContactSolver<'_> {
         let (first, mut stopped) = self.run_out(0, max_iterations, watch)?;
         let mut iterations = first.iterations as usize;
         let mut status = first.status;
-        let mut gap = self.backend.read(self.gap)?;
-        hold_mean(self.problem, load, &mut gap);
-        let Some(reference) = self.reference() else {
-            // Only solvers with one come here.
-            return Err(BackendError::Device("no state in double precision".into()));
-        };
-        reference.begin(load, tolerance, may_detach);
-        reference.set_gap(&gap);
-        let mut end = reference.evaluate()?;
+        let mut end = self.refer(|reference, iterating, gap| {
+            reference.begin(load, tolerance, may_detach);
+            reference.take_gap(iterating, gap)?;
+            reference.evaluate()
+        })?;
         let mut lost = 0;
         loop {
             let at_floor = end.numerator <= self.rounding_floor(&end);
@@ -109,14 +103,14 @@ impl ContactSolver<'_> {
             }
             let before = end.residual;
             let most = ROUND_ITERATIONS.min(max_iterations - iterations);
-            let round = self.correct(&mut gap, load, &end, tolerance, most, iterations, watch)?;
+            let round = self.correct(&end, tolerance, most, iterations, watch)?;
             iterations = round.0.iterations as usize;
             status = round.0.status;
             stopped = round.1;
-            if let Some(reference) = self.reference() {
-                reference.set_gap(&gap);
-                end = reference.evaluate()?;
-            }
+            end = self.refer(|reference, iterating, correction| {
+                reference.add(iterating, correction)?;
+                reference.evaluate()
+            })?;
             lost = match end.residual <= NO_GAIN * before {
                 true => 0,
                 false => lost + 1,
@@ -141,27 +135,29 @@ impl ContactSolver<'_> {
             * padded.sqrt()
     }
 
-    /// One round: looks for the correction of a gap whose evaluation is `end`, and adds it.
-    #[allow(clippy::too_many_arguments)]
+    /// Does something with the state in double precision, the backend of the iterations and the field
+    /// that these work on.
+    fn refer<R>(
+        &mut self,
+        work: impl FnOnce(&mut Reference, &mut dyn Backend, Field) -> Result<R, BackendError>,
+    ) -> Result<R, BackendError> {
+        match &mut self.reference {
+            Some(reference) => work(reference, self.backend, self.gap),
+            // Only solvers with one come here.
+            None => Err(BackendError::Device("no state in double precision".into())),
+        }
+    }
+
+    /// One round: looks for the correction of the base, whose evaluation is `end`.
     fn correct(
         &mut self,
-        gap: &mut [f64],
-        load: &Load,
         end: &Scalars,
         tolerance: f64,
         most: usize,
         iterations: usize,
         watch: &mut dyn FnMut(&Scalars) -> bool,
     ) -> Result<(Scalars, bool), BackendError> {
-        let problem = self.problem;
-        let Some(reference) = self.reference() else {
-            return Ok((*end, true));
-        };
-        let residual = reference.residual(problem, gap, end.mean_pressure)?;
-        let base = reference.base();
-        self.backend.write(base[0], gap);
-        self.backend.write(base[1], &residual);
-        drop(residual);
+        let base = self.refer(|reference, iterating, _| reference.hand_base(iterating))?;
         for field in [self.gap, self.pressure, self.direction, self.free_before] {
             self.backend.clear(field);
         }
@@ -174,70 +170,8 @@ impl ContactSolver<'_> {
         let mut scalars = Scalars::start(0.0, false);
         scalars.iterations = iterations as u32;
         self.backend.set_scalars(&scalars);
-        let round = self.run_out(iterations, most, watch)?;
-        let correction = self.backend.read(self.gap)?;
+        let round = self.run_out(iterations, most, watch);
         self.backend.set_base(None);
-        add(problem, gap, &correction);
-        hold_mean(problem, load, gap);
-        Ok(round)
-    }
-}
-
-/// Adds a correction that was found in single precision. At a wall the points that it closes are
-/// those where it undoes the base as single precision has it.
-fn add(problem: &Problem, gap: &mut [f64], correction: &[f64]) {
-    let [width, _] = problem.shape.points;
-    let [nx, ny] = problem.shape.surface;
-    let wall = problem.law.has_wall();
-    let rows = gap
-        .chunks_exact_mut(width)
-        .zip(correction.chunks_exact(width));
-    for (row, (gap, correction)) in rows.enumerate() {
-        for (column, (g, &c)) in gap.iter_mut().zip(correction).enumerate() {
-            let bounded = wall && row < ny && column < nx;
-            if bounded && c <= -f64::from(*g as f32) {
-                *g = 0.0;
-            } else {
-                *g += c;
-                if bounded && *g < 0.0 {
-                    *g = 0.0;
-                }
-            }
-        }
-    }
-}
-
-/// Brings a gap that single precision has moved back to the mean that is held: open points in
-/// proportion to their gap, at a steep core in proportion to its compliance.
-fn hold_mean(problem: &Problem, load: &Load, gap: &mut [f64]) {
-    let Hold::Gap(target) = load.hold else {
-        return;
-    };
-    let count = gap.len() as f64;
-    let excess = gap.iter().map(|g| g - target).sum::<f64>() / count;
-    match problem.law {
-        Law::LennardJones(_) => {
-            let stiffness = 0.2 * problem.stiffness_max();
-            let factor = problem.law_factor.as_deref();
-            let share = |index: usize, gap: f64| {
-                let factor = factor.map_or(1.0, |factor| factor[index]);
-                stiffness / (stiffness + (factor * problem.law.slope(gap)).max(0.0))
-            };
-            let mean = gap
-                .iter()
-                .enumerate()
-                .map(|(index, &g)| share(index, g))
-                .sum::<f64>()
-                / count;
-            for (index, g) in gap.iter_mut().enumerate() {
-                *g -= excess / mean * share(index, *g);
-            }
-        }
-        _ => {
-            let mean = excess + target;
-            if mean > 0.0 {
-                gap.iter_mut().for_each(|g| *g -= excess / mean * *g);
-            }
-        }
+        round
     }
 }

@@ -2,7 +2,7 @@
 //! Lennard-Jones core, and the numbers that stay fixed.
 
 use super::problem::Problem;
-use crate::kernel::{Kernel, Params, core, scalar, wall, yielding};
+use crate::kernel::{Kernel, Params, base, core, scalar, wall, yielding};
 
 /// The kernels of one family of laws.
 pub(super) struct KernelSet {
@@ -22,6 +22,9 @@ pub(super) struct KernelSet {
     pub step: &'static scalar::ScalarKernel,
     pub search_scalar: &'static scalar::ScalarKernel,
     pub lengthen: &'static scalar::ScalarKernel,
+    /// What adds a correction to its base, and what holds the base's mean gap.
+    pub base_add: &'static Kernel,
+    pub base_hold: &'static Kernel,
 }
 
 static WALL: KernelSet = KernelSet {
@@ -39,6 +42,8 @@ static WALL: KernelSet = KernelSet {
     step: &scalar::STEP_WALL,
     search_scalar: &scalar::SEARCH_WALL,
     lengthen: &scalar::LENGTHEN_WALL,
+    base_add: &base::BASE_ADD_WALL,
+    base_hold: &base::BASE_HOLD_WALL,
 };
 
 static YIELD: KernelSet = KernelSet {
@@ -56,6 +61,8 @@ static YIELD: KernelSet = KernelSet {
     step: &scalar::STEP_WALL,
     search_scalar: &scalar::SEARCH_WALL,
     lengthen: &scalar::LENGTHEN_WALL,
+    base_add: &base::BASE_ADD_WALL,
+    base_hold: &base::BASE_HOLD_WALL,
 };
 
 static CORE: KernelSet = KernelSet {
@@ -73,6 +80,8 @@ static CORE: KernelSet = KernelSet {
     step: &scalar::STEP_CORE,
     search_scalar: &scalar::SEARCH_CORE,
     lengthen: &scalar::LENGTHEN_CORE,
+    base_add: &base::BASE_ADD_CORE,
+    base_hold: &base::BASE_HOLD_CORE,
 };
 
 impl KernelSet {

@@ -4,8 +4,7 @@ use super::contact::{Hold, Load};
 use super::kernel_set::{KernelSet, fixed_params};
 use super::problem::Problem;
 use crate::backend::{Backend, BackendError, Field, Level, Spectrum};
-use crate::kernel::{Gate, Params, Scalars, Status, common, scalar};
-use crate::law::Law;
+use crate::kernel::{Gate, Params, Scalars, Status, base, common, scalar};
 
 /// Gap and pressure in double precision, and the evaluation of their residual.
 pub(super) struct Reference {
@@ -13,17 +12,18 @@ pub(super) struct Reference {
     places: Places,
     kernels: &'static KernelSet,
     params: Params,
-    /// Factors on the law's tension over the grid, where it is not the same everywhere.
-    law_factor: Option<Vec<f64>>,
 }
 
 /// What is held for it.
+#[derive(Clone, Copy)]
 struct Places {
     level: Level,
     law_factor: Option<Field>,
     heights: Field,
     gap: Field,
     pressure: Field,
+    /// A residual on its way to the iterations, or a correction from there.
+    between: Field,
     stiffness: Spectrum,
     /// Gap and residual of the base, where the iterations run.
     base: [Field; 2],
@@ -55,10 +55,11 @@ impl Places {
             heights: backend.field(level, "heights"),
             gap: backend.field(level, "gap"),
             pressure: backend.field(level, "pressure"),
+            between: backend.field(level, "between"),
             stiffness: backend.spectrum(level, "stiffness", &problem.stiffness),
             base: [
                 iterating.field(fine, "base_gap"),
-                iterating.field(fine, "base_residual"),
+                iterating.field(fine, "base_total"),
             ],
         }
     }
@@ -79,14 +80,8 @@ impl Reference {
             places,
             kernels: KernelSet::of(problem),
             params: fixed_params(problem, backend.epsilon()),
-            law_factor: problem.law_factor.clone(),
             backend,
         }
-    }
-
-    /// Gap and residual of the base, where the iterations run.
-    pub fn base(&self) -> [Field; 2] {
-        self.places.base
     }
 
     pub fn transforms(&self) -> f64 {
@@ -98,10 +93,9 @@ impl Reference {
     }
 
     /// Sets the factors on the law's tension, one a grid point.
-    pub fn set_law_factor(&mut self, problem: &Problem, factor: Vec<f64>) {
+    pub fn set_law_factor(&mut self, problem: &Problem, factor: &[f64]) {
         if let Some(field) = self.places.law_factor {
-            self.backend.write(field, &problem.padded(&factor, 0.0));
-            self.law_factor = Some(factor);
+            self.backend.write(field, &problem.padded(factor, 0.0));
         }
     }
 
@@ -165,33 +159,62 @@ impl Reference {
         scalar::rounding_floor(&self.params, end)
     }
 
-    /// y = p + mean_pressure + sigma(g) at each point, as last evaluated; without a law on the pad.
-    pub fn residual(
+    /// Takes the gap that iterations have found.
+    pub fn take_gap(
         &mut self,
-        problem: &Problem,
-        gap: &[f64],
-        mean_pressure: f64,
-    ) -> Result<Vec<f64>, BackendError> {
-        let mut residual = self.pressure()?;
-        residual.iter_mut().for_each(|y| *y += mean_pressure);
-        if problem.law == Law::HardWall {
-            return Ok(residual);
+        iterating: &mut dyn Backend,
+        gap: Field,
+    ) -> Result<(), BackendError> {
+        self.backend.clear(self.places.gap);
+        self.add(iterating, gap)
+    }
+
+    /// Adds a correction that iterations have found, and brings the gap back to the mean that is held.
+    pub fn add(
+        &mut self,
+        iterating: &mut dyn Backend,
+        correction: Field,
+    ) -> Result<(), BackendError> {
+        let Places {
+            level,
+            gap,
+            between,
+            ..
+        } = self.places;
+        let backend = &mut *self.backend;
+        backend.take(between, iterating, correction)?;
+        backend.sweep(self.kernels.base_add, level, &[between, gap]);
+        if self.params.fixed_gap {
+            backend.scalar(&base::RESTORE_BASE);
+            backend.sweep(self.kernels.base_hold, level, &[gap]);
         }
-        let [width, _] = problem.shape.points;
-        let [nx, ny] = problem.shape.surface;
-        let rows = residual
-            .chunks_exact_mut(width)
-            .zip(gap.chunks_exact(width));
-        for (row, (residual, gap)) in rows.take(ny).enumerate() {
-            for (column, (y, &g)) in residual.iter_mut().zip(gap).take(nx).enumerate() {
-                let factor = self
-                    .law_factor
-                    .as_ref()
-                    .map_or(1.0, |factor| factor[row * nx + column]);
-                *y += factor * problem.law.traction(g);
-            }
-        }
-        Ok(residual)
+        Ok(())
+    }
+
+    /// Hands the present gap and its residual, as last evaluated, to where the iterations run.
+    pub fn hand_base(&mut self, iterating: &mut dyn Backend) -> Result<[Field; 2], BackendError> {
+        let Places {
+            level,
+            gap,
+            pressure,
+            between,
+            base: there,
+            ..
+        } = self.places;
+        let backend = &mut *self.backend;
+        backend.sweep(&base::BASE_TOTAL, level, &[gap, pressure, between]);
+        iterating.take(there[0], backend, gap)?;
+        iterating.take(there[1], backend, between)?;
+        Ok(there)
+    }
+
+    /// Has the iterations start from the present gap.
+    pub fn hand_gap(
+        &mut self,
+        iterating: &mut dyn Backend,
+        gap: Field,
+    ) -> Result<(), BackendError> {
+        iterating.take(gap, &mut *self.backend, self.places.gap)
     }
 
     /// `<values, K*values>/2` with this value of K at the zero wavevector. The next solve sets it to

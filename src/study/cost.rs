@@ -24,7 +24,8 @@ pub struct Cost {
     pub spectra: Vec<Held>,
     /// Work space of the transforms.
     pub work: Vec<Held>,
-    /// The state in double precision beside iterations in single (mixed precision), on the processor.
+    /// The state in double precision beside iterations in single (mixed precision): on an adapter that has
+    /// double precision, else on the processor.
     pub reference: Vec<Held>,
     /// Passes of one iteration, in order; `multiply` stands for the columns of a convolution.
     pub passes: Vec<&'static str>,
@@ -98,6 +99,7 @@ impl Place {
     /// Where a scene runs; `auto` is the processor, since only a look at the machine says more.
     pub fn of(scene: &Scene) -> Place {
         match (scene.solver.backend, scene.solver.arithmetic()) {
+            (BackendName::Gpu, Precision::Double) => Place::GpuDouble,
             (BackendName::Gpu, _) => Place::Gpu,
             (_, Precision::Single | Precision::Mixed) => Place::Single,
             _ => Place::Double,
@@ -128,7 +130,7 @@ fn plan(
         return Err(mistake);
     }
     let mut reference = Vec::new();
-    if scene.solver.arithmetic_on(place == Place::Gpu) == Precision::Mixed {
+    if scene.solver.arithmetic_on(place.on_gpu()) == Precision::Mixed {
         let mut double = Tally::on(Place::Double);
         plan_reference(&mut double, &mut iterated, problem);
         for held in [double.fields, double.spectra, double.work] {

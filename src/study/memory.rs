@@ -43,7 +43,7 @@ impl Memory {
         let solved = shape.len() as u64;
         let table = DOUBLE * shape.spectrum_len() as u64;
         let solver = cost.bytes() as u64;
-        let on_processor = cost.place != Place::Gpu;
+        let on_processor = !cost.place.on_gpu();
         let solver_here = if on_processor { solver } else { 0 };
 
         let building = building(scene, grid);
@@ -53,10 +53,11 @@ impl Memory {
         let planning = table + DOUBLE * solved;
         // Gap and elastic pressure as read, padded heights, their parts on the grid, the results.
         let evaluating = 3 * DOUBLE * solved + (3 * DOUBLE + EVALUATION) * points;
-        // In mixed precision the state in double, and a round's gap, pressure, residual, correction.
+        // In mixed precision the state in double, and a field on its way between it and the iterations. On
+        // an adapter without double precision it is here, on others there: both are counted.
         let reference = cost.reference_bytes() as u64;
         let correcting = if reference > 0 {
-            4 * DOUBLE * solved
+            2 * DOUBLE * solved
         } else {
             0
         };
@@ -92,7 +93,7 @@ impl Memory {
         Memory {
             solver,
             machine: PROGRAM + building.max(solving),
-            adapter: if on_processor { 0 } else { solver },
+            adapter: if on_processor { 0 } else { solver + reference },
         }
     }
 

@@ -1,7 +1,7 @@
 //! The whole catalogue, for the tests that go through it in a loop.
 #![allow(dead_code)]
 
-use tabor::kernel::{Kernel, ScalarKernel, coarse, common, core, scalar, wall, yielding};
+use tabor::kernel::{Kernel, ScalarKernel, base, coarse, common, core, scalar, wall, yielding};
 
 /// Every kernel over points.
 pub static KERNELS: &[&Kernel] = &[
@@ -38,6 +38,11 @@ pub static KERNELS: &[&Kernel] = &[
     &core::CORE_SEARCH,
     &core::CORE_ADVANCE,
     &core::CORE_BALANCE,
+    &base::BASE_TOTAL,
+    &base::BASE_ADD_WALL,
+    &base::BASE_ADD_CORE,
+    &base::BASE_HOLD_WALL,
+    &base::BASE_HOLD_CORE,
     &coarse::COARSE_RESTRICT,
     &coarse::COARSE_SHARE,
     &coarse::COARSE_WEIGHT,
@@ -62,4 +67,5 @@ pub static SCALAR_KERNELS: &[&ScalarKernel] = &[
     &scalar::LENGTHEN_CORE,
     &scalar::BALANCE_WALL,
     &scalar::BALANCE_CORE,
+    &base::RESTORE_BASE,
 ];

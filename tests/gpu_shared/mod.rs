@@ -5,7 +5,7 @@ pub mod watching;
 
 use std::sync::OnceLock;
 
-use tabor::backend::gpu::{AdapterChoice, GpuBackend, GpuDevice};
+use tabor::backend::gpu::{AdapterChoice, GpuBackend, GpuDevice, Number};
 
 /// A device, software drivers included. Without one the test that asks is skipped with a word,
 /// or fails where `TABOR_REQUIRE_GPU=1` says that there must be one: a missing driver on a test
@@ -15,17 +15,33 @@ pub fn device() -> Option<&'static GpuDevice> {
     DEVICE.get_or_init(|| ready(false)).as_ref()
 }
 
-/// A device that keeps its sums in single precision, as those without double precision must.
-pub fn device_with_single_sums() -> Option<GpuDevice> {
+/// The same where it has double precision; one without is as good as none.
+pub fn device_with_double() -> Option<&'static GpuDevice> {
+    let device = device()?;
+    if !device.description().double {
+        eprintln!("skipped: the adapter has no double precision");
+        return None;
+    }
+    Some(device)
+}
+
+/// A device that is taken for one without double precision, which keeps its sums in single.
+pub fn device_without_double() -> Option<GpuDevice> {
     ready(true)
 }
 
-fn ready(single_sums: bool) -> Option<GpuDevice> {
-    let choice = AdapterChoice {
-        name: None,
-        software: true,
-        single_sums,
+fn ready(without_double: bool) -> Option<GpuDevice> {
+    device_with(&AdapterChoice {
+        without_double,
         ..AdapterChoice::default()
+    })
+}
+
+/// A device of a choice, software drivers included, and told of as the shared one.
+pub fn device_with(choice: &AdapterChoice) -> Option<GpuDevice> {
+    let choice = AdapterChoice {
+        software: true,
+        ..choice.clone()
     };
     match GpuDevice::new(&choice) {
         Ok(device) => Some(device),
@@ -43,6 +59,11 @@ pub fn backend(device: &GpuDevice) -> GpuBackend {
     GpuBackend::new(device).expect("two small buffers fit any device")
 }
 
+/// A backend on the shared device whose fields are in double precision.
+pub fn double_backend(device: &GpuDevice) -> GpuBackend {
+    backend(device).keeping(Number::Double)
+}
+
 /// Numbers in [-0.5, 0.5) from a seed.
 pub struct Numbers(pub u64);
 
@@ -56,7 +77,12 @@ impl Numbers {
         ((z ^ (z >> 31)) >> 11) as f64 / (1u64 << 53) as f64 - 0.5
     }
 
-    /// So many of them, rounded to what a field on the device holds.
+    /// So many of them, in all their digits.
+    pub fn doubles(&mut self, count: usize) -> Vec<f64> {
+        (0..count).map(|_| self.next()).collect()
+    }
+
+    /// So many of them, rounded to what a field in single precision holds.
     pub fn field(&mut self, count: usize) -> Vec<f64> {
         (0..count).map(|_| f64::from(self.next() as f32)).collect()
     }

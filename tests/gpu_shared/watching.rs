@@ -2,6 +2,7 @@
 
 use std::sync::{Arc, Mutex};
 
+use tabor::backend::gpu::Lent;
 use tabor::backend::{Backend, BackendError, Field, Level, Shape, Spectrum};
 use tabor::kernel::{Gate, Kernel, Params, ScalarKernel, Scalars};
 
@@ -40,15 +41,15 @@ impl<B> Watching<B> {
 }
 
 impl<B: Backend> Watching<B> {
-    fn beside(&self) -> Option<Box<dyn Backend + Send>> {
-        let inner = self.inner.in_double()?;
+    fn beside(&self, shape: Shape) -> Option<Box<dyn Backend + Send>> {
+        let inner = self.inner.in_double(shape)?;
         let here = Arc::clone(&self.double);
         Some(Box::new(Beside { inner, here }))
     }
 }
 
 impl Beside {
-    fn beside(&self) -> Option<Box<dyn Backend + Send>> {
+    fn beside(&self, _shape: Shape) -> Option<Box<dyn Backend + Send>> {
         None
     }
 
@@ -93,8 +94,19 @@ macro_rules! passed_on {
         fn clear(&mut self, field: Field) {
             self.inner.clear(field);
         }
-        fn in_double(&self) -> Option<Box<dyn Backend + Send>> {
-            self.beside()
+        fn in_double(&self, shape: Shape) -> Option<Box<dyn Backend + Send>> {
+            self.beside(shape)
+        }
+        fn take(
+            &mut self,
+            field: Field,
+            from: &mut dyn Backend,
+            source: Field,
+        ) -> Result<(), BackendError> {
+            self.inner.take(field, from, source)
+        }
+        fn lend(&mut self, field: Field) -> Option<Lent> {
+            self.inner.lend(field)
         }
         fn set_params(&mut self, params: &Params) {
             self.inner.set_params(params);

@@ -54,6 +54,14 @@ const OUT_OF_REACH: &[(&str, &str)] = &[
     ),
     ("GpuError::Device", "the device fails amid a run"),
     (
+        "GpuError::OutOfMemory",
+        "needs an adapter that is out of memory: tests/gpu_run.rs forces it",
+    ),
+    (
+        "GpuError::NotFinite",
+        "needs an adapter that errs: tests/gpu_run.rs forces it",
+    ),
+    (
         "GpuError::Size",
         "the command line refuses the grid before, in words of the scene: see calls::past_the_adapter",
     ),

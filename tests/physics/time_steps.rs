@@ -32,6 +32,28 @@ fn sphere(branches: &str, adhesion: &str, loading: &str) -> Solved {
     ))
 }
 
+/// An egg box on a periodic grid, whose mean gap is its amplitude where it first touches.
+fn waves(branches: &str, loading: &str) -> Solved {
+    solve_table(&format!(
+        r#"
+        [grid]
+        points = 32
+        size = 1.0
+        [solid]
+        contact_modulus = {RELAXED}
+        {branches}
+        [[surface]]
+        kind = "wavy"
+        amplitude = 0.02
+        wavelength = [1.0, 1.0]
+        [loading]
+        {loading}
+        [solver]
+        tolerance = 1e-8
+        "#
+    ))
+}
+
 fn one_branch() -> String {
     format!("[[solid.relaxation]]\nmodulus = {BRANCH}\ntime = 1.0")
 }
@@ -91,57 +113,80 @@ fn creep_keeps_the_asked_error_with_fewer_steps() {
     }
 }
 
-/// Two branches, pressed within 2, held for 10, drawn back within 3: at the times that all paths
-/// share, against equal steps that are several times as short as the shortest would have to be.
-#[test]
-fn ramps_keep_the_asked_error() {
+/// Two branches, pressed within 2, held for 10, drawn back within 3; `around` makes a scene of
+/// the branches and `[loading]`, of which `keys` are the first. With how many steps, and what answers the
+/// path at the times that all such paths share.
+fn pressed_held_and_drawn(
+    around: &dyn Fn(&str, &str) -> Solved,
+    keys: &str,
+    values: [f64; 3],
+    steps: [&str; 3],
+) -> (usize, Vec<f64>) {
     let two = format!(
         "[[solid.relaxation]]\nmodulus = 0.3\ntime = 0.1\n{}",
         one_branch()
     );
-    let run = |law: &str, control: &str, values: [f64; 3], steps: [&str; 3], keys: &str| {
-        let [start, up, down] = values;
-        let [pressed, held, drawn] = steps;
-        let solved = sphere(
-            &two,
-            law,
-            &format!(
-                "control = \"{control}\"\nstart = {start}\n{keys}\n[[loading.ramp]]\nto = {up}\nduration = 2\nsteps = {pressed}\n[[loading.ramp]]\nhold = 10\nsteps = {held}\n[[loading.ramp]]\nto = {down}\nduration = 3\nsteps = {drawn}"
-            ),
-        );
-        let shared = |time: f64| {
-            [2.0, 12.0, 13.5, 15.0]
-                .iter()
-                .any(|t| (time - t).abs() < 1e-9)
-        };
-        let values: Vec<f64> = solved
-            .rows()
-            .filter(|row| shared(row.time.expect("a time")))
-            .map(|row| match control {
-                "force" => row.approach.expect("an approach"),
-                _ => row.force,
-            })
-            .collect();
-        assert_eq!(values.len(), 4, "{control}");
-        (solved.rows().count(), values)
+    let [start, up, down] = values;
+    let [pressed, held, drawn] = steps;
+    let solved = around(
+        &two,
+        &format!(
+            "{keys}\nstart = {start}\n[[loading.ramp]]\nto = {up}\nduration = 2\nsteps = {pressed}\n[[loading.ramp]]\nhold = 10\nsteps = {held}\n[[loading.ramp]]\nto = {down}\nduration = 3\nsteps = {drawn}"
+        ),
+    );
+    let shared = |time: f64| {
+        [2.0, 12.0, 13.5, 15.0]
+            .iter()
+            .any(|t| (time - t).abs() < 1e-9)
     };
+    let is_load = keys.contains("force") || keys.contains("pressure");
+    let values: Vec<f64> = solved
+        .rows()
+        .filter(|row| shared(row.time.expect("a time")))
+        .map(|row| match is_load {
+            true => row.approach.expect("an approach"),
+            false => row.force,
+        })
+        .collect();
+    assert_eq!(values.len(), 4, "{keys}");
+    (solved.rows().count(), values)
+}
+
+/// Every control, and a spring, at the times that all paths share, against equal steps that are
+/// several times as short as the shortest would have to be.
+#[test]
+fn ramps_keep_the_asked_error() {
     let attracts = adhesion("exponential", 2e-3, 0.1);
-    for (law, control, values) in [
-        ("", "force", [1e-4, 0.04, 0.01]),
-        ("", "approach", [1e-3, 0.15, 0.14]),
-        (attracts.as_str(), "approach", [-0.1, 0.1, 0.02]),
-    ] {
-        let (_, fine) = run(law, control, values, ["256", "512", "256"], "");
+    let alone = |branches: &str, loading: &str| sphere(branches, "", loading);
+    let sticky = |branches: &str, loading: &str| sphere(branches, &attracts, loading);
+    type Around<'a> = &'a dyn Fn(&str, &str) -> Solved;
+    let cases: [(&str, Around, &str, [f64; 3]); 6] = [
+        ("force", &alone, "force", [1e-4, 0.04, 0.01]),
+        ("approach", &alone, "approach", [1e-3, 0.15, 0.14]),
+        ("attraction", &sticky, "approach", [-0.1, 0.1, 0.02]),
+        // As stiff as the relaxed sphere at this approach, `2 E sqrt(R d)`.
+        (
+            "spring",
+            &alone,
+            "approach\"\nspring = \"0.08 N/m",
+            [1e-3, 0.3, 0.2],
+        ),
+        ("pressure", &waves, "pressure", [1e-4, 4e-3, 1e-3]),
+        ("mean gap", &waves, "mean-gap", [0.019, 0.008, 0.012]),
+    ];
+    for (name, around, control, values) in cases {
+        let control = format!("control = \"{control}\"");
+        let (_, fine) = pressed_held_and_drawn(around, &control, values, ["256", "512", "256"]);
         let greatest = fine
             .iter()
             .fold(0.0, |most: f64, value| most.max(value.abs()));
         for tolerance in [1e-2, 1e-3] {
-            let keys = format!("time_tolerance = {tolerance}");
-            let (steps, found) = run(law, control, values, ["\"auto\""; 3], &keys);
+            let keys = format!("{control}\ntime_tolerance = {tolerance}");
+            let (steps, found) = pressed_held_and_drawn(around, &keys, values, ["\"auto\""; 3]);
             let errors = found.iter().zip(&fine).map(|(a, b)| (a - b).abs());
             let error = errors.fold(0.0, f64::max) / greatest;
-            println!("{control} {law:.20}, asked {tolerance}: {error:.2e} in {steps} steps");
-            assert!(error < tolerance, "{control} {law}: {error:e}");
+            println!("{name}, asked {tolerance}: {error:.2e} in {steps} steps");
+            assert!(error < tolerance, "{name}: {error:e}");
         }
     }
 }

@@ -258,7 +258,7 @@ impl<T: CpuReal> Backend for CpuBackend<T> {
         self.fields[field.index].fill(T::zero());
     }
 
-    fn in_double(&self) -> Option<Box<dyn Backend + Send>> {
+    fn in_double(&self, _shape: Shape) -> Option<Box<dyn Backend + Send>> {
         self.corrected
             .then(|| Box::new(CpuBackend::<f64>::new()) as Box<dyn Backend + Send>)
     }

@@ -12,16 +12,17 @@ pub enum Direction {
     Inverse,
 }
 
-/// A number in WGSL with all the digits it has: written short, small ones would lose them.
+/// A number in WGSL with all the digits of a double: written short, small ones would lose them. It has
+/// no type of its own, so single precision rounds it once.
 pub fn literal(value: f64) -> String {
-    format!("{:e}", value as f32)
+    format!("{value:e}")
 }
 
 /// The WGSL of `value` turned by a quarter in the direction of the transform's exponent.
 fn quarter(direction: Direction, value: &str) -> String {
     match direction {
-        Direction::Forward => format!("vec2<f32>({value}.y, -{value}.x)"),
-        Direction::Inverse => format!("vec2<f32>(-{value}.y, {value}.x)"),
+        Direction::Forward => format!("vec2<real>({value}.y, -{value}.x)"),
+        Direction::Inverse => format!("vec2<real>(-{value}.y, {value}.x)"),
     }
 }
 
@@ -78,9 +79,9 @@ fn eight(source: &mut String, direction: Direction, names: &[String]) {
     let [first, second, third] = [1, 2, 3].map(|place| &odd[place]);
     let _ = writeln!(
         source,
-        "let first = {root} * vec2<f32>({first}.x {plus} {first}.y, {first}.y {minus} {first}.x);\n\
+        "let first = {root} * vec2<real>({first}.x {plus} {first}.y, {first}.y {minus} {first}.x);\n\
          let second = {turned};\n\
-         let third = {root} * vec2<f32>({reverse}{third}.x {plus} {third}.y, {reverse}{third}.y {minus} {third}.x);",
+         let third = {root} * vec2<real>({reverse}{third}.x {plus} {third}.y, {reverse}{third}.y {minus} {third}.x);",
         plus = sign[0],
         minus = sign[1],
         turned = quarter(direction, second),

@@ -1,5 +1,6 @@
 //! Which WGSL belongs to which word of the catalogue.
 
+use super::layout::Number;
 use crate::law::Law;
 
 /// The WGSL of a kernel: its own part and those it builds on, joined in this order.
@@ -77,6 +78,11 @@ const SHADERS: &[Shader] = shaders! {
     "core_search" true ["core"];
     "core_advance" false [];
     "core_balance" true ["core"];
+    "base_total" true [];
+    "base_add_wall" false [];
+    "base_add_core" true ["core"];
+    "base_hold_wall" false [];
+    "base_hold_core" true ["core"];
     "coarse_restrict" false [];
     "coarse_share" false [];
     "coarse_weight" false [];
@@ -93,8 +99,14 @@ const OVER_FLOW: &[Shader] = over_flow! {
     "yield_trial" of "wall_trial" [];
 };
 
-/// Parts of the scalar kernels: those of every law, of a wall, of the Lennard-Jones core.
-const SCALAR_PARTS: [&str; 3] = [part!("scalar"), part!("scalar_wall"), part!("scalar_core")];
+/// Parts of the scalar kernels: those of every law, of a wall, of the Lennard-Jones core, of the base of
+/// corrections.
+const SCALAR_PARTS: [&str; 4] = [
+    part!("scalar"),
+    part!("scalar_wall"),
+    part!("scalar_core"),
+    part!("scalar_base"),
+];
 
 /// The parts from which a scalar kernel is called, if one of them defines it.
 pub fn scalar(name: &str) -> Option<Vec<&'static str>> {
@@ -146,13 +158,19 @@ impl LawPart {
         }
     }
 
-    /// Its WGSL: `law_traction`, `law_energy` and `law_slope` of a gap.
-    pub fn source(self) -> &'static str {
-        match self {
-            LawPart::HardWall => part!("law_hard_wall"),
-            LawPart::MaugisDugdale => part!("law_maugis_dugdale"),
-            LawPart::Exponential => part!("law_exponential"),
-            LawPart::LennardJones => part!("law_lennard_jones"),
+    /// Its WGSL: `law_traction`, `law_energy` and `law_slope` of a gap in this number, after what they
+    /// build on.
+    pub fn sources(self, number: Number) -> &'static [&'static str] {
+        match (self, number) {
+            (LawPart::HardWall, _) => &[part!("law_hard_wall")],
+            (LawPart::MaugisDugdale, _) => &[part!("law_maugis_dugdale")],
+            (LawPart::Exponential, Number::Single) => {
+                &[part!("exp_single"), part!("law_exponential")]
+            }
+            (LawPart::Exponential, Number::Double) => {
+                &[part!("exp_double"), part!("law_exponential")]
+            }
+            (LawPart::LennardJones, _) => &[part!("law_lennard_jones")],
         }
     }
 }

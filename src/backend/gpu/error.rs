@@ -46,9 +46,9 @@ pub enum GpuError {
         /// The adapter's limit.
         limit: u64,
     },
-    /// Fields in a precision that the adapter, or this version on it, does not have.
+    /// Fields in a precision that the adapter does not have.
     #[error(
-        "{0} keeps fields in single precision only; precision = \"mixed\" reaches the tolerances of double"
+        "{0} has no double precision (SHADER_F64); precision = \"mixed\" reaches the same tolerances without"
     )]
     Precision(String),
     /// A kernel that has no shader.
@@ -64,6 +64,23 @@ pub enum GpuError {
         /// How many it was given.
         given: usize,
     },
+    /// A buffer for which the device has no memory left.
+    #[error(
+        "out of memory on {adapter}: there is no room for `{name}`, of {bytes} bytes; take fewer points, or --backend cpu"
+    )]
+    OutOfMemory {
+        /// The adapter's name.
+        adapter: String,
+        /// Which buffer.
+        name: String,
+        /// Its length.
+        bytes: u64,
+    },
+    /// Numbers on the device that are none.
+    #[error(
+        "numbers on {0} are no longer finite: the device erred, or single precision does not hold this scene; --backend cpu tells which"
+    )]
+    NotFinite(String),
     /// The device refused or failed.
     #[error("{0}")]
     Device(String),

@@ -56,11 +56,11 @@ impl<'a> LineWriter<'a> {
     pub fn new(plan: &'a LinePlan, interleaved: bool) -> Self {
         let mut source = String::new();
         for value in 0..plan.values() {
-            let _ = writeln!(source, "var v{value} = vec2<f32>(0.0, 0.0);");
+            let _ = writeln!(source, "var v{value} = vec2<real>(0.0, 0.0);");
         }
         if let Exchange::Rounds(_) = plan.exchange {
             for value in 0..plan.values() {
-                let _ = writeln!(source, "var w{value} = 0.0;");
+                let _ = writeln!(source, "var w{value}: real = 0.0;");
             }
         }
         LineWriter {
@@ -74,8 +74,8 @@ impl<'a> LineWriter<'a> {
     /// Declares the memory through which the threads of a workgroup exchange values.
     pub fn declarations(plan: &LinePlan) -> String {
         let kind = match plan.exchange {
-            Exchange::Whole => "vec2<f32>",
-            Exchange::Split | Exchange::Rounds(_) => "f32",
+            Exchange::Whole => "vec2<real>",
+            Exchange::Split | Exchange::Rounds(_) => "real",
         };
         format!(
             "var<workgroup> exchange: array<{kind}, {}>;\nconst LINES: u32 = {}u;\n",

@@ -1,10 +1,86 @@
 //! The numbers of the algorithm as the device holds them: structs of plain members in one order,
 //! written once here for the WGSL and for the bytes.
 //!
-//! `wide` is the number in which sums and scalars are kept: f64 where the device has it, else f32.
+//! `real` is the number of the fields; `wide` the one in which sums and scalars are kept: f64 where the
+//! device has it, else f32.
 
 use crate::kernel::{Params, SUMS, Scalars, Status, scalar};
 use crate::law::Law;
+
+/// The number in which the fields of a level are kept, and all that is done to them.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+pub enum Number {
+    /// Single precision.
+    Single,
+    /// Double precision, where the device has it.
+    Double,
+}
+
+impl Number {
+    /// Its name in WGSL.
+    pub fn name(self) -> &'static str {
+        match self {
+            Number::Single => "f32",
+            Number::Double => "f64",
+        }
+    }
+
+    /// What a shader calls it.
+    pub fn declaration(self) -> String {
+        format!("alias real = {};\n", self.name())
+    }
+
+    /// Bytes of one.
+    pub fn bytes(self) -> usize {
+        match self {
+            Number::Single => size_of::<f32>(),
+            Number::Double => size_of::<f64>(),
+        }
+    }
+
+    /// Relative rounding error.
+    pub fn epsilon(self) -> f64 {
+        match self {
+            Number::Single => f64::from(f32::EPSILON),
+            Number::Double => f64::EPSILON,
+        }
+    }
+
+    /// Doubles as the bytes of these.
+    pub fn bytes_of(self, values: impl IntoIterator<Item = f64>) -> impl Iterator<Item = u8> {
+        values.into_iter().flat_map(move |value| {
+            let (bytes, count) = match self {
+                Number::Single => {
+                    let mut bytes = [0; size_of::<f64>()];
+                    bytes[..size_of::<f32>()].copy_from_slice(&(value as f32).to_le_bytes());
+                    (bytes, size_of::<f32>())
+                }
+                Number::Double => (value.to_le_bytes(), size_of::<f64>()),
+            };
+            bytes.into_iter().take(count)
+        })
+    }
+
+    /// The numbers that bytes from the device are.
+    pub fn values_of(self, bytes: &[u8]) -> Vec<f64> {
+        match self {
+            Number::Single => {
+                let (values, _) = bytes.as_chunks();
+                values
+                    .iter()
+                    .map(|&bytes| f64::from(f32::from_le_bytes(bytes)))
+                    .collect()
+            }
+            Number::Double => {
+                let (values, _) = bytes.as_chunks();
+                values
+                    .iter()
+                    .map(|&bytes| f64::from_le_bytes(bytes))
+                    .collect()
+            }
+        }
+    }
+}
 
 /// The kind of number that sums and scalars are kept in.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]

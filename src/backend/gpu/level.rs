@@ -1,6 +1,7 @@
 //! How the work on a level is cut into workgroups.
 
 use super::error::GpuError;
+use super::layout::Number;
 use super::plan::{GroupLimits, LinePlan};
 use crate::backend::Shape;
 use crate::kernel::{Form, SUMS};
@@ -8,7 +9,7 @@ use crate::kernel::{Form, SUMS};
 /// Threads in a workgroup of a sweep and of a reduction.
 pub const SWEEP_THREADS: usize = 256;
 /// Most workgroups of a sweep; each of its threads takes several points beyond.
-const SWEEP_GROUPS: usize = 1024;
+pub const SWEEP_GROUPS: usize = 1024;
 /// Sums that a sweep's workgroup reduces together; their memory is below the least that adapters
 /// have.
 pub const SWEEP_SUMS_AT_ONCE: usize = 5;
@@ -18,6 +19,8 @@ pub const ROW_TRANSFORMS_PER_TRANSFORM: f64 = 2.0;
 /// How a level is cut into workgroups.
 #[derive(Clone, Debug, PartialEq, Eq, Hash)]
 pub struct LevelPlan {
+    /// The number of its fields.
+    pub number: Number,
     /// Its points.
     pub shape: [usize; 2],
     /// Those of them that are surface.
@@ -26,25 +29,32 @@ pub struct LevelPlan {
     pub rows: LinePlan,
     /// Transforms along y of nx/2 + 1 columns.
     pub columns: LinePlan,
+    /// Slabs of a field, each of as many pairs of rows; 1 where a binding holds all of it.
+    pub slabs: usize,
+    /// Parts of a spectrum, each of as many columns but the last.
+    pub parts: usize,
 }
 
 impl LevelPlan {
-    /// The plan of a shape, if its numbers are even, smooth and not too large.
-    pub fn new(shape: Shape, limits: GroupLimits) -> Result<Self, GpuError> {
+    /// The plan of a shape in one slab, if its numbers are even, smooth and not too large.
+    pub fn new(shape: Shape, limits: GroupLimits, number: Number) -> Result<Self, GpuError> {
         let [nx, ny] = shape.points;
         let refused = || GpuError::Size {
             nx,
             ny,
-            largest: LinePlan::longest(limits),
+            largest: LinePlan::longest(limits, number),
         };
         if !nx.is_multiple_of(2) || !ny.is_multiple_of(2) {
             return Err(refused());
         }
         Ok(LevelPlan {
+            number,
             shape: shape.points,
             surface: shape.surface,
-            rows: LinePlan::new(nx, ny / 2, limits).ok_or_else(refused)?,
-            columns: LinePlan::new(ny, nx / 2 + 1, limits).ok_or_else(refused)?,
+            rows: LinePlan::new(nx, ny / 2, limits, number).ok_or_else(refused)?,
+            columns: LinePlan::new(ny, nx / 2 + 1, limits, number).ok_or_else(refused)?,
+            slabs: 1,
+            parts: 1,
         })
     }
 
@@ -63,17 +73,27 @@ impl LevelPlan {
         self.shape[0] / 2 + 1
     }
 
-    /// Workgroups of a kernel on this level.
-    pub fn groups(&self, form: Form) -> usize {
+    /// Workgroups of a kernel on one slab of this level.
+    pub fn slab_groups(&self, form: Form) -> usize {
         match form {
-            Form::Sweep => self.points().div_ceil(SWEEP_THREADS).min(SWEEP_GROUPS),
-            Form::Load | Form::Store => self.rows.groups(self.pairs()),
+            Form::Sweep => self.slab_points().div_ceil(SWEEP_THREADS).min(SWEEP_GROUPS),
+            Form::Load | Form::Store => self.rows.groups(self.slab_pairs()),
         }
     }
 
-    /// Workgroups of the columns.
+    /// Workgroups of a kernel on this level, all slabs together.
+    pub fn groups(&self, form: Form) -> usize {
+        self.slabs * self.slab_groups(form)
+    }
+
+    /// Workgroups of the columns of one part of a spectrum.
+    pub fn part_groups(&self) -> usize {
+        self.columns.groups(self.part_columns())
+    }
+
+    /// Workgroups of the columns, all parts together.
     pub fn column_groups(&self) -> usize {
-        self.columns.groups(self.column_count())
+        self.parts * self.part_groups()
     }
 
     /// Partial sums that the kernels of this level write at most.

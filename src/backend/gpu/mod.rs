@@ -1,4 +1,4 @@
-//! A graphics processor through wgpu: fields in single precision, kernels as WGSL.
+//! A graphics processor through wgpu: fields in single or double precision, kernels as WGSL.
 //!
 //! A convolution is three dispatches: rows, columns with the factors, rows back. The work space of
 //! a level holds the transforms along x of its pairs of rows (y with y + ny/2, one complex row),
@@ -13,11 +13,14 @@ mod deciding;
 mod device;
 mod error;
 mod fft;
+mod filling;
 mod layout;
+mod lending;
 mod level;
 mod plan;
 mod reading;
 mod recorder;
+mod slabs;
 pub mod source;
 mod space;
 mod sums;
@@ -29,23 +32,26 @@ use std::f64::consts::TAU;
 use super::cpu::CpuBackend;
 use super::{Backend, BackendError, Field, Level, Shape, Spectrum};
 use crate::kernel::{Form, Gate, Kernel, Params, ScalarKernel, Scalars};
-use bindings::{COLUMNS, ROWS, WORKING};
+use bindings::{Access, ROWS, WORKING, WORKING_IN_TURNS};
 use deciding::{Decided, Deciding};
-use level::LevelPlan;
 use recorder::{Prepared, Recorder};
 use source::{Reduction, Results};
-use space::{FieldSpace, Key, LevelSpace, SpectrumSpace, single_bytes};
+use space::{FieldSpace, Key, LevelSpace, SpectrumSpace};
 
 pub use catalogue::LawPart;
 pub use device::{AdapterChoice, AdapterDescription, AdapterKind, GpuDevice, adapters};
 pub use error::GpuError;
-pub use layout::Wide;
+pub use layout::{Number, Wide};
+pub use lending::Lent;
 pub use plan::{Exchange, GroupLimits, LinePlan, radices};
+pub use slabs::Limits;
 pub use traffic::Traffic;
 
-/// The GPU backend, in single precision.
+/// The GPU backend.
 pub struct GpuBackend {
     device: GpuDevice,
+    /// The number of the fields.
+    number: Number,
     wide: Wide,
     recorder: Recorder,
     params: wgpu::Buffer,
@@ -54,7 +60,7 @@ pub struct GpuBackend {
     fields: Vec<Option<FieldSpace>>,
     spectra: Vec<Option<SpectrumSpace>>,
     roots: HashMap<usize, wgpu::Buffer>,
-    prepared: HashMap<Key, Prepared>,
+    prepared: HashMap<Key, Vec<Prepared>>,
     /// What is decided after the last kernel over points, in one dispatch.
     deciding: Deciding,
     traffic: Traffic,
@@ -65,6 +71,8 @@ pub struct GpuBackend {
     base: Option<[Field; 2]>,
     /// Whether a state in double precision stands beside the fields.
     corrected: bool,
+    /// Whether scalars that are not finite are a failure.
+    expects_numbers: bool,
     /// The first thing that went wrong; told where the host waits.
     failure: Option<GpuError>,
     transforms: f64,
@@ -72,7 +80,7 @@ pub struct GpuBackend {
 }
 
 impl GpuBackend {
-    /// A backend with nothing in it.
+    /// A backend in single precision with nothing in it.
     pub fn new(device: &GpuDevice) -> Result<Self, GpuError> {
         let backend = Self::on(device);
         backend.checked()?;
@@ -99,6 +107,7 @@ impl GpuBackend {
         });
         let mut backend = GpuBackend {
             device: device.clone(),
+            number: Number::Single,
             wide,
             recorder: Recorder::new(device.clone()),
             params,
@@ -114,6 +123,7 @@ impl GpuBackend {
             law_factor: None,
             base: None,
             corrected: false,
+            expects_numbers: false,
             failure,
             transforms: 0.0,
             // Software idles through shut gates slower than it waits.
@@ -130,6 +140,24 @@ impl GpuBackend {
     pub fn looking_every(self, rounds: usize) -> Self {
         GpuBackend {
             look_every: rounds.max(1),
+            ..self
+        }
+    }
+
+    /// The same with its fields in this number, before there are any. Where the device lacks it that is
+    /// told where the host waits.
+    pub fn keeping(mut self, number: Number) -> Self {
+        if number == Number::Double && !self.device.description().double {
+            let name = self.device.description().name.clone();
+            self.failure.get_or_insert(GpuError::Precision(name));
+        }
+        GpuBackend { number, ..self }
+    }
+
+    /// The same where numbers that are none are a failure of the device, not an answer.
+    pub fn expecting_numbers(self) -> Self {
+        GpuBackend {
+            expects_numbers: true,
             ..self
         }
     }
@@ -179,20 +207,19 @@ impl GpuBackend {
         if let Some(buffer) = self.roots.get(&length) {
             return Ok(buffer.clone());
         }
-        let buffer = self.storage("roots", 8 * length)?;
+        let buffer = self.storage("roots", 2 * self.number.bytes() * length)?;
         let values = (0..length).flat_map(|m| {
             let angle = TAU * m as f64 / length as f64;
-            [angle.cos() as f32, -angle.sin() as f32]
+            [angle.cos(), -angle.sin()]
         });
-        self.recorder
-            .write(&buffer, values.flat_map(f32::to_le_bytes))?;
+        self.recorder.write(&buffer, self.number.bytes_of(values))?;
         self.roots.insert(length, buffer.clone());
         Ok(buffer)
     }
 
     /// A storage buffer of zeros, if the adapter can bind it.
     fn storage(&self, name: &str, bytes: usize) -> Result<wgpu::Buffer, GpuError> {
-        let limit = self.device.binding_limit();
+        let limit = self.device.limits().binding;
         if bytes as u64 > limit {
             return Err(GpuError::TooLarge {
                 name: name.to_string(),
@@ -200,8 +227,7 @@ impl GpuBackend {
                 limit,
             });
         }
-        self.device
-            .guarded(|device| space::buffer(device, name, bytes, wgpu::BufferUsages::STORAGE))
+        self.device.allocate(name, bytes)
     }
 
     fn level_space(&self, level: Level) -> Result<&LevelSpace, GpuError> {
@@ -257,17 +283,17 @@ impl GpuBackend {
     fn record(
         &mut self,
         key: Key,
-        prepare: impl FnOnce(&Self) -> Result<Prepared, GpuError>,
+        prepare: impl FnOnce(&Self) -> Result<Vec<Prepared>, GpuError>,
     ) -> Result<(), GpuError> {
         self.settle()?;
         self.dispatch(key, prepare)
     }
 
-    /// Finds a prepared dispatch or prepares it, and records it.
+    /// Finds what is prepared, a dispatch each slab, or prepares it, and records it.
     fn dispatch(
         &mut self,
         key: Key,
-        prepare: impl FnOnce(&Self) -> Result<Prepared, GpuError>,
+        prepare: impl FnOnce(&Self) -> Result<Vec<Prepared>, GpuError>,
     ) -> Result<(), GpuError> {
         let prepared = match self.prepared.get(&key) {
             Some(prepared) => prepared.clone(),
@@ -277,9 +303,15 @@ impl GpuBackend {
                 prepared
             }
         };
-        self.traffic.dispatches += 1;
-        self.device.count_dispatch();
-        self.recorder.dispatch(prepared)
+        for each in prepared {
+            self.traffic.dispatches += 1;
+            self.device.count_dispatch();
+            self.recorder.dispatch(each)?;
+        }
+        match self.device.poisons() {
+            true => self.poison(),
+            false => Ok(()),
+        }
     }
 
     /// Records a kernel of the catalogue and the reduction of its sums.
@@ -325,40 +357,41 @@ impl GpuBackend {
         self.recorder.write(buffer, bytes)
     }
 
+    /// The dispatches of a kernel, one a slab.
     fn kernel(
         &self,
         kernel: &'static Kernel,
         level: Level,
         fields: &[Field],
-    ) -> Result<Prepared, GpuError> {
+    ) -> Result<Vec<Prepared>, GpuError> {
         let space = self.level_space(level)?;
-        let mut buffers = Vec::new();
+        let mut bound = Vec::new();
         for &field in fields {
-            buffers.push(&self.field_space(field)?.buffer);
+            bound.push(&self.field_space(field)?.slabs);
         }
+        let own = kernel.reads + kernel.writes;
         let whole = match (kernel.whole, fields.last()) {
-            (true, Some(field)) => self.level_space(field.level)?.plan.shape,
-            _ => [0, 0],
+            (true, Some(field)) => source::Whole::of(&self.level_space(field.level)?.plan),
+            _ => source::Whole::default(),
         };
-        let mut accesses = bindings::fields(kernel.reads, kernel.writes, kernel.whole);
-        // Bound behind the kernel's own fields.
-        let factor = match self.law_factor {
-            Some(field) if field.level == level && catalogue::asks_for_law(kernel.name) => {
-                buffers.push(&self.field_space(field)?.buffer);
-                accesses.push(bindings::Access::Read);
-                Some(kernel.fields())
+        let mut accesses = bindings::fields(kernel.reads, kernel.writes, whole.slabs);
+        let mut behind = Vec::new();
+        let mut follow = |fields: &[Field]| -> Result<usize, GpuError> {
+            let first = accesses.len();
+            for &field in fields {
+                behind.push(&self.field_space(field)?.slabs);
+                accesses.push(Access::Read);
             }
+            Ok(first)
+        };
+        // Bound behind the kernel's own fields.
+        let asks = catalogue::asks_for_law(kernel.name);
+        let factor = match self.law_factor {
+            Some(field) if field.level == level && asks => Some(follow(&[field])?),
             _ => None,
         };
         let base = match self.base {
-            Some(base) if base[0].level == level && catalogue::asks_for_law(kernel.name) => {
-                let first = buffers.len();
-                for field in base {
-                    buffers.push(&self.field_space(field)?.buffer);
-                    accesses.push(bindings::Access::Read);
-                }
-                Some(first)
-            }
+            Some(base) if base[0].level == level && asks => Some(follow(&base)?),
             _ => None,
         };
         let law = source::LawSource {
@@ -367,14 +400,29 @@ impl GpuBackend {
             base,
         };
         let text = source::kernel(kernel, &space.plan, whole, law, self.wide)?;
-        let shared = [&self.params, &self.scalars, &space.partials];
-        let transform = [&space.row_roots, &space.work];
-        let mut groups: Vec<(&[bindings::Access], &[&wgpu::Buffer])> =
-            vec![(WORKING, &shared), (&accesses, &buffers)];
-        if kernel.form != Form::Sweep {
-            groups.push((ROWS, &transform));
-        }
-        self.prepare(kernel.name, text, &groups, space.plan.groups(kernel.form))
+        let groups = space.plan.slab_groups(kernel.form);
+        let in_slab = |slab: usize| {
+            let shared = self.shared(space, slab);
+            let mut buffers: Vec<_> = bound[..own].iter().map(|slabs| &slabs[slab]).collect();
+            // A field read as a whole is bound in all its slabs.
+            buffers.extend(bound[own..].iter().copied().flatten());
+            buffers.extend(behind.iter().map(|slabs| &slabs[slab]));
+            let transform = [&space.row_roots, &space.work[slab]];
+            let mut all: Vec<(&[Access], &[&wgpu::Buffer])> =
+                vec![(working(&shared), &shared), (&accesses, &buffers)];
+            if kernel.form != Form::Sweep {
+                all.push((ROWS, &transform));
+            }
+            self.prepare(kernel.name, text.clone(), &all, groups)
+        };
+        (0..space.plan.slabs).map(in_slab).collect()
+    }
+
+    /// Group 0 of a kernel in one of its turns over slabs or parts of a spectrum.
+    fn shared<'a>(&'a self, space: &'a LevelSpace, turn: usize) -> Vec<&'a wgpu::Buffer> {
+        let mut shared = vec![&self.params, &self.scalars, &space.partials];
+        shared.extend(space.turns.get(turn));
+        shared
     }
 
     fn columns(&mut self, by: Spectrum, energy: bool, gate: Gate) -> Result<(), GpuError> {
@@ -382,16 +430,18 @@ impl GpuBackend {
         self.record(Key::Multiply(by.index, energy, word), |backend| {
             let space = backend.level_space(by.level)?;
             let text = source::multiply(&space.plan, energy, gate, backend.wide);
-            let shared = [&backend.params, &backend.scalars, &space.partials];
-            let factors = &backend.spectrum_space(by)?.buffer;
-            let buffers = [&space.column_roots, &space.work, factors];
-            let groups = space.plan.column_groups();
-            backend.prepare(
-                "multiply",
-                text,
-                &[(WORKING, &shared), (COLUMNS, &buffers)],
-                groups,
-            )
+            let accesses = bindings::columns(space.plan.slabs);
+            let in_part = |(part, factors): (usize, &wgpu::Buffer)| {
+                let shared = backend.shared(space, part);
+                let mut buffers = vec![&space.column_roots];
+                buffers.extend(&space.work);
+                buffers.push(factors);
+                let all: [(&[Access], &[&wgpu::Buffer]); 2] =
+                    [(working(&shared), &shared), (&accesses, &buffers)];
+                backend.prepare("multiply", text.clone(), &all, space.plan.part_groups())
+            };
+            let parts = &backend.spectrum_space(by)?.parts;
+            parts.iter().enumerate().map(in_part).collect()
         })?;
         if !energy {
             return Ok(());
@@ -411,6 +461,14 @@ impl GpuBackend {
     }
 }
 
+/// What group 0 is to a kernel over points, by what is bound.
+fn working(shared: &[&wgpu::Buffer]) -> &'static [Access] {
+    match shared.len() == WORKING.len() {
+        true => WORKING,
+        false => WORKING_IN_TURNS,
+    }
+}
+
 /// Rounds recorded before the host waits: a wait costs about as much as these cost to record.
 const LOOK_EVERY: usize = 8;
 
@@ -420,20 +478,20 @@ impl Backend for GpuBackend {
     }
 
     fn suits(&self, shape: Shape) -> bool {
-        LevelPlan::new(shape, self.device.group_limits()).is_ok()
+        self.plan(shape).is_ok()
     }
 
     fn level(&mut self, name: &'static str, shape: Shape) -> Level {
         let space = self.attempt(|backend| {
-            let plan = LevelPlan::new(shape, backend.device.group_limits())?;
-            // Half as many complex numbers as points.
-            let work = backend.storage(name, 4 * plan.points())?;
+            let plan = backend.plan(shape)?;
             let partials = 8 + plan.partials() * backend.wide.part_bytes();
             Ok(LevelSpace {
                 row_roots: backend.roots(plan.shape[0])?,
                 column_roots: backend.roots(plan.shape[1])?,
                 partials: backend.storage(name, partials)?,
-                work,
+                // Half as many complex numbers as points.
+                work: backend.slabs(name, &plan)?,
+                turns: backend.turns(&plan)?,
                 plan,
             })
         });
@@ -443,9 +501,8 @@ impl Backend for GpuBackend {
 
     fn field(&mut self, level: Level, name: &'static str) -> Field {
         let space = self.attempt(|backend| {
-            let points = backend.level_space(level)?.plan.points();
-            let buffer = backend.storage(name, 4 * points)?;
-            Ok(FieldSpace { buffer, points })
+            let slabs = backend.slabs(name, &backend.level_space(level)?.plan)?;
+            Ok(FieldSpace { slabs })
         });
         self.fields.push(space);
         Field {
@@ -456,9 +513,9 @@ impl Backend for GpuBackend {
 
     fn spectrum(&mut self, level: Level, name: &'static str, values: &[f64]) -> Spectrum {
         let space = self.attempt(|backend| {
-            let buffer = backend.storage(name, 4 * values.len())?;
-            backend.overwrite(&buffer, single_bytes(values))?;
-            Ok(SpectrumSpace { buffer })
+            let plan = backend.level_space(level)?.plan.clone();
+            let parts = backend.write_parts(name, &plan, values)?;
+            Ok(SpectrumSpace { parts })
         });
         self.spectra.push(space);
         Spectrum {
@@ -469,16 +526,16 @@ impl Backend for GpuBackend {
 
     fn set_zero_mode(&mut self, spectrum: Spectrum, value: f64) {
         self.attempt(|backend| {
-            let buffer = backend.spectrum_space(spectrum)?.buffer.clone();
-            backend.overwrite(&buffer, single_bytes(&[value]))
+            let first = backend.spectrum_space(spectrum)?.parts[0].clone();
+            let bytes = backend.number.bytes_of([value]);
+            backend.overwrite(&first, bytes)
         });
     }
 
     fn write(&mut self, field: Field, values: &[f64]) {
         self.attempt(|backend| {
-            let buffer = backend.field_space(field)?.buffer.clone();
             backend.traffic.fields_up += 1;
-            backend.overwrite(&buffer, single_bytes(values))
+            backend.write_slabs(field, values)
         });
     }
 
@@ -502,15 +559,41 @@ impl Backend for GpuBackend {
 
     fn clear(&mut self, field: Field) {
         self.attempt(|backend| {
-            let buffer = backend.field_space(field)?.buffer.clone();
             backend.settle()?;
-            backend.recorder.clear(&buffer)
+            let slabs = backend.field_space(field)?.slabs.clone();
+            slabs
+                .iter()
+                .try_for_each(|slab| backend.recorder.clear(slab))
         });
     }
 
-    fn in_double(&self) -> Option<Box<dyn Backend + Send>> {
-        self.corrected
-            .then(|| Box::new(CpuBackend::<f64>::new()) as Box<dyn Backend + Send>)
+    /// On the device where it has double precision and takes the shape in it, else on the processor.
+    fn in_double(&self, shape: Shape) -> Option<Box<dyn Backend + Send>> {
+        self.corrected.then(|| -> Box<dyn Backend + Send> {
+            match self.corrects_here(shape) {
+                true => Box::new(GpuBackend::on(&self.device).keeping(Number::Double)),
+                false => Box::new(CpuBackend::<f64>::new()),
+            }
+        })
+    }
+
+    fn take(
+        &mut self,
+        field: Field,
+        from: &mut dyn Backend,
+        source: Field,
+    ) -> Result<(), BackendError> {
+        match from.lend(source) {
+            Some(lent) if self.takes_over(field, &lent) => {
+                self.attempt(|backend| backend.convert(field, &lent));
+            }
+            _ => self.write(field, &from.read(source)?),
+        }
+        Ok(())
+    }
+
+    fn lend(&mut self, field: Field) -> Option<Lent> {
+        self.attempt(|backend| backend.hand_out(field))
     }
 
     fn set_params(&mut self, params: &Params) {
@@ -564,7 +647,7 @@ impl Backend for GpuBackend {
     }
 
     fn epsilon(&self) -> f64 {
-        f64::from(f32::EPSILON)
+        self.number.epsilon()
     }
 
     /// As counted on the device when the host last waited.

@@ -1,6 +1,7 @@
 //! How a line is transformed by a workgroup: radices, threads, lines side by side, and how values
 //! pass between the threads.
 
+use super::layout::Number;
 use crate::kernel::SUMS;
 
 /// What the adapter allows a workgroup.
@@ -24,9 +25,9 @@ const SUM_BYTES: usize = 8;
 /// How values pass from one butterfly to the next through workgroup memory.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub enum Exchange {
-    /// Complex numbers as they are: 8 bytes a point.
+    /// Complex numbers as they are.
     Whole,
-    /// Real parts first, then imaginary parts: 4 bytes a point.
+    /// Real parts first, then imaginary parts: half the memory.
     Split,
     /// The same, each in so many rounds, for a part of the line at a time.
     Rounds(usize),
@@ -41,13 +42,13 @@ impl Exchange {
         }
     }
 
-    /// Bytes of workgroup memory that a line takes.
-    pub fn memory(self, length: usize) -> usize {
-        let bytes = match self {
-            Exchange::Whole => 8,
-            Exchange::Split | Exchange::Rounds(_) => 4,
+    /// Bytes of workgroup memory that a line of these numbers takes.
+    pub fn memory(self, length: usize, number: Number) -> usize {
+        let numbers = match self {
+            Exchange::Whole => 2,
+            Exchange::Split | Exchange::Rounds(_) => 1,
         };
-        bytes * self.places(length)
+        numbers * number.bytes() * self.places(length)
     }
 }
 
@@ -99,7 +100,7 @@ pub fn radices(length: usize) -> Option<Vec<usize>> {
 impl LinePlan {
     /// The plan of `count` lines of a length, or `None` where the length has another prime factor,
     /// is odd, or does not fit the adapter's workgroups.
-    pub fn new(length: usize, count: usize, limits: GroupLimits) -> Option<Self> {
+    pub fn new(length: usize, count: usize, limits: GroupLimits, number: Number) -> Option<Self> {
         let radices = radices(length)?;
         let rounds = |threads: usize, radix: usize| (length / radix).div_ceil(threads);
         // The least work counted in idle threads too; of equals, the most threads.
@@ -114,7 +115,7 @@ impl LinePlan {
                 (threads * work, std::cmp::Reverse(threads))
             })?;
         let fits = |lines: usize, exchange: Exchange| {
-            lines * (threads * SUM_BYTES + exchange.memory(length)) <= limits.memory
+            lines * (threads * SUM_BYTES + exchange.memory(length, number)) <= limits.memory
                 && lines * threads <= limits.threads
         };
         let most = MOST_LINES.max(ENOUGH_THREADS / threads.next_power_of_two());
@@ -144,7 +145,7 @@ impl LinePlan {
             }
             lines /= 2;
         };
-        let used = lines * exchange.memory(length);
+        let used = lines * exchange.memory(length, number);
         let left = (limits.memory - used) / (lines * threads * SUM_BYTES);
         Some(LinePlan {
             sums_at_once: left.min(SUMS),
@@ -156,11 +157,11 @@ impl LinePlan {
         })
     }
 
-    /// Longest line that has a plan: a power of two, since these fill workgroups best.
-    pub fn longest(limits: GroupLimits) -> usize {
+    /// Longest line of these numbers that has a plan: a power of two, since these fill workgroups best.
+    pub fn longest(limits: GroupLimits, number: Number) -> usize {
         (1..=20)
             .map(|power| 1usize << power)
-            .take_while(|&length| LinePlan::new(length, 1, limits).is_some())
+            .take_while(|&length| LinePlan::new(length, 1, limits, number).is_some())
             .last()
             .unwrap_or(0)
     }
@@ -222,19 +223,23 @@ mod tests {
             threads: 256,
             memory: 16384,
         };
-        for limits in [COMMON, least] {
-            for length in (2..=LinePlan::longest(limits)).step_by(2) {
-                let Some(plan) = LinePlan::new(length, length, limits) else {
+        let all = [Number::Single, Number::Double]
+            .into_iter()
+            .flat_map(|number| [(COMMON, number), (least, number)]);
+        for (limits, number) in all {
+            for length in (2..=LinePlan::longest(limits, number)).step_by(2) {
+                let Some(plan) = LinePlan::new(length, length, limits, number) else {
                     continue;
                 };
                 assert!(plan.group_threads() <= limits.threads, "{plan:?}");
                 assert!(plan.values() <= MOST_VALUES, "{plan:?}");
                 let sums = plan.sums_at_once * plan.threads * SUM_BYTES;
-                let memory = plan.lines * (plan.exchange.memory(length) + sums);
+                let memory = plan.lines * (plan.exchange.memory(length, number) + sums);
                 assert!(plan.sums_at_once > 0, "{plan:?}");
                 assert!(memory <= limits.memory, "{plan:?}");
             }
         }
-        assert_eq!(LinePlan::longest(COMMON), 16384);
+        assert_eq!(LinePlan::longest(COMMON, Number::Single), 16384);
+        assert_eq!(LinePlan::longest(COMMON, Number::Double), 8192);
     }
 }

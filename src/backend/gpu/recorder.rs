@@ -96,6 +96,11 @@ impl Recorder {
         })
     }
 
+    /// Hands the waiting work to the device.
+    pub fn hand_over(&mut self) -> Result<(), GpuError> {
+        self.submit(&[])
+    }
+
     /// Overwrites the beginning of a buffer after all work recorded so far.
     pub fn write(
         &mut self,

@@ -4,7 +4,9 @@
 //! in declared order; group 2 the roots of unity and the work space of a transform. Each of them is
 //! bound whether a kernel uses it or not.
 
+mod convert;
 mod deciding;
+mod slabs;
 
 use std::fmt::Write;
 
@@ -12,12 +14,15 @@ use super::butterfly::{Direction, literal};
 use super::catalogue::{self, LawPart, Shader};
 use super::error::GpuError;
 use super::fft::LineWriter;
-use super::layout::{self, Wide};
+use super::layout::{self, Number, Wide};
 pub use super::level::LevelPlan;
 use super::level::{SWEEP_SUMS_AT_ONCE, SWEEP_THREADS};
 use super::plan::LinePlan;
 use crate::kernel::{Form, Gate, Kernel, Reduce, SUMS};
+pub use convert::convert;
 pub use deciding::{PAIRS, Reduction, Results, decide, two_sums};
+pub use slabs::Whole;
+use slabs::{Work, after_turns, first_turn};
 
 /// The law of a kernel: its part, and where the factors on its tension are bound.
 #[derive(Clone, Copy, Debug)]
@@ -114,16 +119,18 @@ fn reduction(source: &mut String, reduces: &[Reduce], threads: usize, at_once: u
     source.push_str("}\n");
 }
 
-/// How a workgroup hands in its sums, after `reduction`.
-fn hand_in(source: &mut String, reduces: &[Reduce], groups: usize) {
+/// How a workgroup hands in its sums, after `reduction`: so many workgroups in each of some turns.
+fn hand_in(source: &mut String, reduces: &[Reduce], turns: usize, turn_groups: usize) {
     let count = reduces.len();
+    let groups = turns * turn_groups;
+    let before = after_turns(turns, turn_groups);
     let _ = write!(
         source,
         "fn hand_in(group: u32, thread: u32) {{\n\
          for (var first = 0u; first < {count}u; first = first + SUMS_AT_ONCE) {{\n\
          gather(first, thread);\n\
          if (thread < SUMS_AT_ONCE && first + thread < {count}u) {{\n\
-         partials.values[(first + thread) * {groups}u + group] = group_values[thread * GROUP_THREADS];\n\
+         partials.values[(first + thread) * {groups}u + {before}group] = group_values[thread * GROUP_THREADS];\n\
          }}\n}}\n}}\n"
     );
 }
@@ -134,7 +141,7 @@ fn on_surface(source: &mut String, plan: &LevelPlan) {
     let body = if plan.shape == plan.surface {
         "true".to_string()
     } else {
-        format!("index % {width}u < {nx}u && index / {width}u < {ny}u")
+        format!("index % {width}u < {nx}u && row_of(index) < {ny}u")
     };
     let _ = writeln!(
         source,
@@ -147,20 +154,20 @@ fn arrive(source: &mut String, law: LawSource) {
     let (factor, take) = match law.factor {
         Some(binding) => (
             format!(
-                "@group(1) @binding({binding}) var<storage, read> law_factors: array<f32>;\n\
-                 var<private> law_factor: f32;\n"
+                "@group(1) @binding({binding}) var<storage, read> law_factors: array<real>;\n\
+                 var<private> law_factor: real;\n"
             ),
             "law_factor = law_factors[index]; ",
         ),
-        None => ("const law_factor: f32 = 1.0;\n".to_string(), ""),
+        None => ("const law_factor: real = 1.0;\n".to_string(), ""),
     };
     let (base, base_here) = match law.base {
         Some(gap) => (
             format!(
-                "@group(1) @binding({gap}) var<storage, read> base_gaps: array<f32>;\n\
-                 @group(1) @binding({residual}) var<storage, read> base_residuals: array<f32>;\n\
-                 var<private> base_gap: f32;\n\
-                 var<private> base_residual: f32;\n",
+                "@group(1) @binding({gap}) var<storage, read> base_gaps: array<real>;\n\
+                 @group(1) @binding({residual}) var<storage, read> base_residuals: array<real>;\n\
+                 var<private> base_gap: real;\n\
+                 var<private> base_residual: real;\n",
                 residual = gap + 1
             ),
             "base_gap = base_gaps[index]; base_residual = base_residuals[index]; ",
@@ -173,17 +180,18 @@ fn arrive(source: &mut String, law: LawSource) {
     );
 }
 
-/// The shader of a kernel on a level. `whole` is the shape of the field it reads anywhere.
+/// The shader of a kernel on a level, for all its slabs. `whole` is the field that it reads anywhere.
 pub fn kernel(
     kernel: &Kernel,
     plan: &LevelPlan,
-    whole: [usize; 2],
+    whole: impl Into<Whole>,
     law: LawSource,
     wide: Wide,
 ) -> Result<String, GpuError> {
     let shader = catalogue::shader(kernel.name).ok_or(GpuError::NoShader(kernel.name))?;
-    let mut source = String::new();
+    let mut source = plan.number.declaration();
     preamble(&mut source, wide, "read");
+    slabs::declare_turn(&mut source, plan);
     if !kernel.sums.is_empty() {
         let (threads, at_once) = match kernel.form {
             Form::Sweep => (SWEEP_THREADS, SWEEP_SUMS_AT_ONCE),
@@ -191,18 +199,27 @@ pub fn kernel(
         };
         let at_once = at_once.min(kernel.sums.len());
         reduction(&mut source, kernel.sums, threads, at_once);
-        hand_in(&mut source, kernel.sums, plan.groups(kernel.form));
+        hand_in(
+            &mut source,
+            kernel.sums,
+            plan.slabs,
+            plan.slab_groups(kernel.form),
+        );
     }
+    slabs::row_of(&mut source, plan);
     on_surface(&mut source, plan);
     arrive(&mut source, law);
     let [width, height] = plan.shape;
     let _ = writeln!(
         source,
-        "const WIDTH: u32 = {width}u;\nconst HEIGHT: u32 = {height}u;\n\
-         const WHOLE_WIDTH: u32 = {}u;\nconst WHOLE_HEIGHT: u32 = {}u;",
-        whole[0], whole[1]
+        "const WIDTH: u32 = {width}u;\nconst HEIGHT: u32 = {height}u;"
     );
-    join(&mut source, shader, law);
+    if kernel.whole {
+        whole
+            .into()
+            .declare(&mut source, kernel.reads + kernel.writes);
+    }
+    join(&mut source, shader, law, plan.number);
     match kernel.form {
         Form::Sweep => sweep_main(&mut source, kernel, plan),
         Form::Load => load_main(&mut source, kernel, plan),
@@ -211,9 +228,11 @@ pub fn kernel(
     Ok(source)
 }
 
-fn join(source: &mut String, shader: &Shader, law: LawSource) {
+fn join(source: &mut String, shader: &Shader, law: LawSource, number: Number) {
     if shader.law {
-        source.push_str(law.part.source());
+        for part in law.part.sources(number) {
+            source.push_str(part);
+        }
         source.push_str(match law.base {
             Some(_) => catalogue::CORRECTION,
             None => catalogue::WHOLE_GAP,
@@ -237,7 +256,7 @@ fn frame(kernel: &Kernel) -> (String, &'static str) {
 
 fn sweep_main(source: &mut String, kernel: &Kernel, plan: &LevelPlan) {
     let (open, close) = frame(kernel);
-    let stride = plan.groups(Form::Sweep) * SWEEP_THREADS;
+    let stride = plan.slab_groups(Form::Sweep) * SWEEP_THREADS;
     let _ = write!(
         source,
         "@compute @workgroup_size({SWEEP_THREADS})\n\
@@ -248,7 +267,7 @@ fn sweep_main(source: &mut String, kernel: &Kernel, plan: &LevelPlan) {
          }}\n\
          {close}}}\n",
         kernel.name,
-        points = plan.points(),
+        points = plan.slab_points(),
     );
 }
 
@@ -259,8 +278,8 @@ fn rows_head(source: &mut String, name: &str, plan: &LevelPlan, open: &str) {
     let [x, y] = LineWriter::workgroup_size(&plan.rows, true);
     let _ = write!(
         source,
-        "@group(2) @binding(0) var<storage, read> roots: array<vec2<f32>>;\n\
-         @group(2) @binding(1) var<storage, read_write> work: array<vec2<f32>>;\n\
+        "@group(2) @binding(0) var<storage, read> roots: array<vec2<real>>;\n\
+         @group(2) @binding(1) var<storage, read_write> work: array<vec2<real>>;\n\
          @compute @workgroup_size({x}, {y})\n\
          fn {name}(@builtin(workgroup_id) group: vec3<u32>, @builtin(local_invocation_id) place: vec3<u32>, @builtin(local_invocation_index) index_in_group: u32) {{\n\
          {open}\
@@ -268,8 +287,9 @@ fn rows_head(source: &mut String, name: &str, plan: &LevelPlan, open: &str) {
          let thread = place.y;\n\
          let pair = group.x * LINES + line;\n\
          let inside = pair < {pairs}u;\n\
-         if (group.x == 0u && index_in_group == 0u) {{ partials.transforms = partials.transforms + 1u; }}\n",
-        pairs = plan.pairs(),
+         if ({first_turn}group.x == 0u && index_in_group == 0u) {{ partials.transforms = partials.transforms + 1u; }}\n",
+        pairs = plan.slab_pairs(),
+        first_turn = first_turn(plan.slabs),
     );
 }
 
@@ -277,7 +297,7 @@ fn load_main(source: &mut String, kernel: &Kernel, plan: &LevelPlan) {
     let (open, close) = frame(kernel);
     rows_head(source, kernel.name, plan, &open);
     let width = plan.shape[0];
-    let (pairs, half) = (plan.pairs(), plan.pairs() * width);
+    let (pairs, half) = (plan.slab_pairs(), plan.slab_pairs() * width);
     let (first, last) = ends(&plan.rows);
     let mut writer = LineWriter::new(&plan.rows, true);
     writer.source.push_str("if (inside) {\n");
@@ -286,7 +306,7 @@ fn load_main(source: &mut String, kernel: &Kernel, plan: &LevelPlan) {
             let _ = writeln!(
                 source,
                 "{{ let index = pair * {width}u + {};\n\
-                 {} = vec2<f32>(load_point(index, arrive(index)), load_point(index + {half}u, arrive(index + {half}u))); }}",
+                 {} = vec2<real>(load_point(index, arrive(index)), load_point(index + {half}u, arrive(index + {half}u))); }}",
                 each.position(leg),
                 each.name(leg),
             );
@@ -315,7 +335,7 @@ fn store_main(source: &mut String, kernel: &Kernel, plan: &LevelPlan) {
     let (open, close) = frame(kernel);
     rows_head(source, kernel.name, plan, &open);
     let width = plan.shape[0];
-    let (pairs, half) = (plan.pairs(), plan.pairs() * width);
+    let (pairs, half) = (plan.slab_pairs(), plan.slab_pairs() * width);
     let (first, last) = ends(&plan.rows);
     let mut writer = LineWriter::new(&plan.rows, true);
     writer.source.push_str("if (inside) {\n");
@@ -366,36 +386,48 @@ fn ends(plan: &LinePlan) -> (usize, usize) {
 pub fn multiply(plan: &LevelPlan, energy: bool, gate: Gate, wide: Wide) -> String {
     let columns = &plan.columns;
     let [width, height] = plan.shape;
-    let pairs = plan.pairs();
-    let mut source = String::new();
+    let pairs = plan.slab_pairs();
+    let work = Work::of(plan);
+    let mut source = plan.number.declaration();
     preamble(&mut source, wide, "read");
+    slabs::declare_turn(&mut source, plan);
     if energy {
         reduction(&mut source, &[Reduce::Add], columns.group_threads(), 1);
-        hand_in(&mut source, &[Reduce::Add], plan.column_groups());
+        hand_in(&mut source, &[Reduce::Add], plan.parts, plan.part_groups());
     }
     source.push_str(&LineWriter::declarations(columns));
     source.push_str(catalogue::FFT);
     let [x, y] = LineWriter::workgroup_size(columns, false);
+    work.declare(&mut source);
     let _ = write!(
         source,
-        "@group(1) @binding(0) var<storage, read> roots: array<vec2<f32>>;\n\
-         @group(1) @binding(1) var<storage, read_write> work: array<vec2<f32>>;\n\
-         @group(1) @binding(2) var<storage, read> factors: array<f32>;\n\
+        "@group(1) @binding(0) var<storage, read> roots: array<vec2<real>>;\n\
+         @group(1) @binding({factors}) var<storage, read> factors: array<real>;\n\
          @compute @workgroup_size({x}, {y})\n\
          fn multiply(@builtin(workgroup_id) group: vec3<u32>, @builtin(local_invocation_id) place: vec3<u32>, @builtin(local_invocation_index) index_in_group: u32) {{\n\
          if (!{gate}()) {{ return; }}\n\
          {start}\
          let thread = place.x;\n\
          let line = place.y;\n\
-         let column = group.x * LINES + line;\n\
-         let inside = column < {columns}u;\n\
+         let column = {before}group.x * LINES + line;\n\
+         let inside = {inside};\n\
          let own = column == 0u || 2u * column == {width}u;\n\
          let here = column * {pairs}u;\n\
          let there = select({width}u - column, 0u, column == 0u) * {pairs}u;\n\
-         if (group.x == 0u && index_in_group == 0u) {{ partials.transforms = partials.transforms + 2u; }}\n",
+         if ({first_turn}group.x == 0u && index_in_group == 0u) {{ partials.transforms = partials.transforms + 2u; }}\n",
         gate = gate_name(gate),
         start = if energy { "start_sums();\n" } else { "" },
-        columns = plan.column_count(),
+        factors = 1 + plan.slabs,
+        before = after_turns(plan.parts, plan.part_columns()),
+        first_turn = first_turn(plan.parts),
+        inside = match plan.parts {
+            1 => format!("column < {}u", plan.column_count()),
+            _ => format!(
+                "group.x * LINES + line < {}u && column < {}u",
+                plan.part_columns(),
+                plan.column_count()
+            ),
+        },
     );
     let (first, last) = ends(columns);
     let mut writer = LineWriter::new(columns, false);
@@ -404,11 +436,12 @@ pub fn multiply(plan: &LevelPlan, energy: bool, gate: Gate, wide: Wide) -> Strin
         for leg in 0..first / 2 {
             let _ = writeln!(
                 source,
-                "{{ let z = work[here + {at}];\n\
-                 let mirror = work[there + {at}];\n\
-                 {a} = 0.5 * vec2<f32>(z.x + mirror.x, z.y - mirror.y);\n\
-                 {b} = 0.5 * vec2<f32>(z.y + mirror.y, mirror.x - z.x); }}",
-                at = each.position(leg),
+                "{{ let z = {z};\n\
+                 let mirror = {mirror};\n\
+                 {a} = 0.5 * vec2<real>(z.x + mirror.x, z.y - mirror.y);\n\
+                 {b} = 0.5 * vec2<real>(z.y + mirror.y, mirror.x - z.x); }}",
+                z = work.read("here", leg * each.stride, each.stride),
+                mirror = work.read("there", leg * each.stride, each.stride),
                 a = each.name(leg),
                 b = each.name(leg + first / 2),
             );
@@ -418,11 +451,15 @@ pub fn multiply(plan: &LevelPlan, energy: bool, gate: Gate, wide: Wide) -> Strin
     writer.transform(Direction::Forward);
     let scale = literal(1.0 / plan.points() as f64);
     let row = height / 2 + 1;
+    let column = match plan.parts {
+        1 => "column".to_string(),
+        _ => format!("(column - slab.number * {}u)", plan.part_columns()),
+    };
     writer.source.push_str("if (inside) {\n");
     if energy {
         writer
             .source
-            .push_str("let weight = select(2.0, 1.0, own);\n");
+            .push_str("let weight = select(real(2.0), real(1.0), own);\n");
     }
     writer.butterflies(last, |source, each| {
         for leg in 0..each.radix {
@@ -430,7 +467,7 @@ pub fn multiply(plan: &LevelPlan, energy: bool, gate: Gate, wide: Wide) -> Strin
             let _ = writeln!(
                 source,
                 "{{ let row = {at};\n\
-                 let factor = factors[column * {row}u + min(row, {height}u - row)];",
+                 let factor = factors[{column} * {row}u + min(row, {height}u - row)];",
                 at = each.position(leg),
             );
             if energy {
@@ -448,11 +485,14 @@ pub fn multiply(plan: &LevelPlan, energy: bool, gate: Gate, wide: Wide) -> Strin
     writer.butterflies(first, |source, each| {
         for leg in 0..first / 2 {
             let (a, b) = (each.name(leg), each.name(leg + first / 2));
-            let at = each.position(leg);
+            let own = format!("vec2<real>({a}.x - {b}.y, {a}.y + {b}.x)");
+            let mirror = format!("vec2<real>({a}.x + {b}.y, {b}.x - {a}.y)");
+            let (from, count) = (leg * each.stride, each.stride);
             let _ = writeln!(
                 source,
-                "work[here + {at}] = vec2<f32>({a}.x - {b}.y, {a}.y + {b}.x);\n\
-                 if (!own) {{ work[there + {at}] = vec2<f32>({a}.x + {b}.y, {b}.x - {a}.y); }}",
+                "{}\nif (!own) {{ {} }}",
+                work.write("here", from, count, &own),
+                work.write("there", from, count, &mirror),
             );
         }
     });

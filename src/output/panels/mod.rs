@@ -27,7 +27,7 @@ const MARGIN: u32 = 24;
 /// Lines of the grid behind the curves.
 const GRID: Rgb = [232, 232, 236];
 /// Colours of curves, apart in lightness as well as in hue; marks differ besides.
-const COLOURS: [Rgb; 8] = [
+const COLOURS: [Rgb; 10] = [
     [28, 28, 30],
     [0, 104, 190],
     [214, 74, 0],
@@ -36,6 +36,8 @@ const COLOURS: [Rgb; 8] = [
     [196, 150, 0],
     [90, 170, 225],
     [130, 130, 134],
+    [128, 84, 40],
+    [205, 30, 60],
 ];
 
 /// A point of a curve.
@@ -83,7 +85,8 @@ pub struct Figure {
     pub title: String,
     /// A second line, in quiet ink.
     pub note: String,
-    /// Names of the curves, at most as many as there are colours (8); others share a colour.
+    /// Names of the curves, at most as many as there are colours (10); others share a colour.
+    /// An empty one keeps its colour and is not named.
     pub names: Vec<String>,
     /// The panels, row by row.
     pub panels: Vec<Panel>,
@@ -116,7 +119,7 @@ impl Figure {
         ];
         let width = columns * cell[0] + MARGIN;
         let entries = self.legend(width);
-        let legend_lines = entries.last().map_or(0, |entry| entry.1 + 1);
+        let legend_lines = entries.last().map_or(0, |entry| entry.2 + 1);
         let head = MARGIN + HEADING.height() + 6 + line + legend_lines * line + 10;
         let mut page = RgbImage::from_pixel(width, head + rows * cell[1], image::Rgb(WHITE));
         let fit = |text: &str, font: Font| -> String {
@@ -138,7 +141,8 @@ impl Figure {
             [MARGIN, second],
             &fit(&self.note, TEXT),
         );
-        for (index, (x, row, name)) in entries.iter().enumerate() {
+        for (index, x, row, name) in &entries {
+            let index = *index;
             let y = second + line + row * line;
             let middle = f64::from(y + TEXT.height() / 2);
             let mut pen = Pen::new(&mut page, colour(index));
@@ -160,17 +164,18 @@ impl Figure {
         page
     }
 
-    /// Place and line of each name.
-    fn legend(&self, width: u32) -> Vec<(u32, u32, String)> {
-        let mut entries: Vec<(u32, u32, String)> = Vec::new();
+    /// Index, place and line of each name that is given.
+    fn legend(&self, width: u32) -> Vec<(usize, u32, u32, String)> {
+        let mut entries: Vec<(usize, u32, u32, String)> = Vec::new();
         let (mut x, mut row) = (MARGIN, 0);
-        for name in &self.names {
+        let given = self.names.iter().enumerate();
+        for (index, name) in given.filter(|(_, name)| !name.is_empty()) {
             let name = printable(name);
             let wide = 36 + TEXT.width(&name) + 24;
             if x + wide > width && x > MARGIN {
                 (x, row) = (MARGIN, row + 1);
             }
-            entries.push((x, row, name));
+            entries.push((index, x, row, name));
             x += wide;
         }
         entries
