@@ -206,6 +206,35 @@ fn t6_finite_boxes() {
     }
 }
 
+/// Why the field lies above Persson, at H = 0.4, N = 64: at the load of pull-off his attraction is 15 to 20 %
+/// below the field's, at the same mean gap (by straight lines between rows) 1 to 5 %. What he misses is
+/// the mean gap under a light load, not the distribution of gaps about it.
+#[test]
+fn persson_misses_the_gap_rather_than_its_distribution() {
+    let table = table();
+    let theory = of(&table, "persson", case(0.4, 64, 0));
+    for seed in 1..=3 {
+        let field = of(&table, "field", case(0.4, 64, seed));
+        let light = theory[1].attraction / field[1].attraction - 1.0;
+        assert!((-0.2..-0.15).contains(&light), "{seed}: {light}");
+        let mut count = 0;
+        for row in &theory {
+            let around = field
+                .windows(2)
+                .find(|pair| pair[1].gap <= row.gap && row.gap <= pair[0].gap);
+            let Some([wide, close]) = around else {
+                continue;
+            };
+            let share = (row.gap - close.gap) / (wide.gap - close.gap);
+            let attraction = close.attraction + share * (wide.attraction - close.attraction);
+            let miss = row.attraction / attraction - 1.0;
+            assert!((-0.05..-0.01).contains(&miss), "{seed}: {row:?} {miss}");
+            count += 1;
+        }
+        assert!(count >= 10, "{count}");
+    }
+}
+
 /// Persson's area at a net load of 0.02 E* h', with adhesion.
 fn area_at_two_hundredths(hurst: f64, ratio: usize) -> f64 {
     let contact = rows::persson(hurst, ratio).expect("a contact");

@@ -302,13 +302,18 @@ fn uncertainties_hold_where_lambda_is_not_told() {
                 let samples = made(Model::MaugisDugdale, lambda, noise, 100 + seed);
                 let result = fitted(samples, RADIUS, FREE);
                 let found = result.best().parameters;
-                let work = (found.work_of_adhesion - WORK) / result.work_uncertainty.expect("known");
-                let stiff = (found.contact_modulus - MODULUS) / result.modulus_uncertainty.expect("known");
+                let work =
+                    (found.work_of_adhesion - WORK) / result.work_uncertainty.expect("known");
+                let stiff =
+                    (found.contact_modulus - MODULUS) / result.modulus_uncertainty.expect("known");
                 missed[0] += usize::from(work.abs() > 2.0);
                 missed[1] += usize::from(stiff.abs() > 2.0);
             }
             println!("lambda {lambda}, noise {noise}: w, E* missed {missed:?} of {CURVES}");
-            assert!(missed[0] <= 5 && missed[1] <= 5, "{lambda} {noise}: {missed:?}");
+            assert!(
+                missed[0] <= 5 && missed[1] <= 5,
+                "{lambda} {noise}: {missed:?}"
+            );
         }
     }
 }

@@ -29,26 +29,95 @@ type Found = Result<(String, bool), Box<dyn Error>>;
 /// All of them, in order.
 pub fn claims(table: &[Row]) -> Result<Vec<Claim>, Box<dyn Error>> {
     let parts: [(&'static str, &'static str, Found); 16] = [
-        ("T1", "attraction over 2 pi w R: DMT-T and IDMT-T fall from 1 to 1/2, 0.037 apart at most; DMT-F grows from 1 without bound", one_sphere()),
-        ("T2a", "Tabor number 0.2, pressed: Derjaguin > DMT-T > IDMT-T > DMT-M > DMT-F; DMT-M misses the self-consistent sphere by 0.007 to 0.20, the energy methods by 0.20 to 0.60", pressed_sphere()),
-        ("T2b", "its pull-off is between 0.75 and 1 of 2 pi w R, before contact; Bradley below it by 14, 14, 5, 1 % at gaps of 1/4, 1/2, 1, 2 ranges", free_sphere()),
-        ("T3a", "H = 0.8, N = 32, no adhesion: kappa of Persson 2.25 at 0.01, 2.09 at 0.1 E* h'", persson_kappa()),
-        ("T3b", "kappa of ICHA about 2, 1.65 to 2.35 (below 10 % in contact)", icha_kappa(table)),
-        ("T3c", "ICHA and Persson within 25 % in area, 10 % on average (below 30 % in contact)", icha_and_persson(table)),
-        ("T3d", "with adhesion 13.6 % in contact at no load; GW-M off by -27 % without and +13 % with adhesion at 0.02 E* h', pull-off 3.5 times too small", sticky_area()),
-        ("T4", "N = 64, 0.02 E* h', adhesion: area grows with H, 9.27 % at 0.4 to 15.6 % at 0.8", by_hurst()),
-        ("T5", "H = 0.8: area falls with N: 19.6, 17.4, 15.6 %", by_band()),
-        ("T6a", "Persson's pull-off changes by at most 2.5 % from N = 16 to 64 at H = 0.8, by 17 % at 0.4, and falls with 3 - H", pull_off_changes()),
-        ("T6b", "full field of a finite box: pull-off 10 to 25 % above Persson's", above_persson(table, "field")),
-        ("T6c", "ICHA of the same: 10 to 25 % above", above_persson(table, "icha")),
-        ("T6d", "GW-M: 0.177 to 1.8e-4 w/eps, 2 to over 1000 times too small", summits_alone()),
-        ("T7", "no hysteresis: pull-off is the greatest tension on loading", hysteresis()),
-        ("T8a", "ratio of Pastewka & Robbins from 1.04 (H = 0.8, N = 16) to over 3 (0.4, 64)", stickiness()),
-        ("T8b", "where Persson's pull-off changes by 30 %", lost_pull_off()),
+        (
+            "T1",
+            "attraction over 2 pi w R: DMT-T and IDMT-T fall from 1 to 1/2, 0.037 apart at most; DMT-F grows from 1 without bound",
+            one_sphere(),
+        ),
+        (
+            "T2a",
+            "Tabor number 0.2, pressed: Derjaguin > DMT-T > IDMT-T > DMT-M > DMT-F; DMT-M misses the self-consistent sphere by 0.007 to 0.20, the energy methods by 0.20 to 0.60",
+            pressed_sphere(),
+        ),
+        (
+            "T2b",
+            "its pull-off is between 0.75 and 1 of 2 pi w R, before contact; Bradley below it by 14, 14, 5, 1 % at gaps of 1/4, 1/2, 1, 2 ranges",
+            free_sphere(),
+        ),
+        (
+            "T3a",
+            "H = 0.8, N = 32, no adhesion: kappa of Persson 2.25 at 0.01, 2.09 at 0.1 E* h'",
+            persson_kappa(),
+        ),
+        (
+            "T3b",
+            "kappa of ICHA about 2, 1.65 to 2.35 (below 10 % in contact)",
+            icha_kappa(table),
+        ),
+        (
+            "T3c",
+            "ICHA and Persson within 25 % in area, 10 % on average (below 30 % in contact)",
+            icha_and_persson(table),
+        ),
+        (
+            "T3d",
+            "with adhesion 13.6 % in contact at no load; GW-M off by -27 % without and +13 % with adhesion at 0.02 E* h', pull-off 3.5 times too small",
+            sticky_area(),
+        ),
+        (
+            "T4",
+            "N = 64, 0.02 E* h', adhesion: area grows with H, 9.27 % at 0.4 to 15.6 % at 0.8",
+            by_hurst(),
+        ),
+        (
+            "T5",
+            "H = 0.8: area falls with N: 19.6, 17.4, 15.6 %",
+            by_band(),
+        ),
+        (
+            "T6a",
+            "Persson's pull-off changes by at most 2.5 % from N = 16 to 64 at H = 0.8, by 17 % at 0.4, and falls with 3 - H",
+            pull_off_changes(),
+        ),
+        (
+            "T6b",
+            "full field of a finite box: pull-off 10 to 25 % above Persson's",
+            above_persson(table, "field"),
+        ),
+        (
+            "T6c",
+            "ICHA of the same: 10 to 25 % above",
+            above_persson(table, "icha"),
+        ),
+        (
+            "T6d",
+            "GW-M: 0.177 to 1.8e-4 w/eps, 2 to over 1000 times too small",
+            summits_alone(),
+        ),
+        (
+            "T7",
+            "no hysteresis: pull-off is the greatest tension on loading",
+            hysteresis(),
+        ),
+        (
+            "T8a",
+            "ratio of Pastewka & Robbins from 1.04 (H = 0.8, N = 16) to over 3 (0.4, 64)",
+            stickiness(),
+        ),
+        (
+            "T8b",
+            "where Persson's pull-off changes by 30 %",
+            lost_pull_off(),
+        ),
     ];
     let each = parts.into_iter().map(|(name, claim, found)| {
         let (found, holds) = found?;
-        Ok(Claim { name, claim, found, holds })
+        Ok(Claim {
+            name,
+            claim,
+            found,
+            holds,
+        })
     });
     each.collect()
 }
@@ -56,7 +125,13 @@ pub fn claims(table: &[Row]) -> Result<Vec<Claim>, Box<dyn Error>> {
 /// The table in the docs.
 pub fn text(claims: &[Claim]) -> String {
     let mut text = String::from("| | claim | found | holds |\n|---|---|---|---|\n");
-    for Claim { name, claim, found, holds } in claims {
+    for Claim {
+        name,
+        claim,
+        found,
+        holds,
+    } in claims
+    {
         let holds = if *holds { "yes" } else { "**no**" };
         let _ = writeln!(text, "| {name} | {claim} | {found} | {holds} |");
     }
@@ -80,7 +155,12 @@ fn one_sphere() -> Found {
     let far = at(Method::Thermodynamic, Law::LennardJones, 300.0)?;
     let force = at(Method::Force, Law::LennardJones, 200.0)?;
     let holds = falls && apart <= 0.037 && (far - 0.5).abs() < 0.02 && force > 20.0;
-    Ok((format!("{apart:.4} apart; {far:.2} at a contact of 300, DMT-F {force:.0} at 200 sqrt(R eps)"), holds))
+    Ok((
+        format!(
+            "{apart:.4} apart; {far:.2} at a contact of 300, DMT-F {force:.0} at 200 sqrt(R eps)"
+        ),
+        holds,
+    ))
 }
 
 const TABOR: f64 = 0.2;
@@ -108,8 +188,26 @@ fn pressed_sphere() -> Found {
         }
     }
     // To the last digit of the claim.
-    let holds = ordered && constant.0 > 0.0065 && constant.1 < 0.205 && energy.0 > 0.195 && energy.1 < 0.605;
-    Ok((format!("{}; {:.3} to {:.2}, {:.2} to {:.2}", if ordered { "so ordered" } else { "not so ordered" }, constant.0, constant.1, energy.0, energy.1), holds))
+    let holds = ordered
+        && constant.0 > 0.0065
+        && constant.1 < 0.205
+        && energy.0 > 0.195
+        && energy.1 < 0.605;
+    Ok((
+        format!(
+            "{}; {:.3} to {:.2}, {:.2} to {:.2}",
+            if ordered {
+                "so ordered"
+            } else {
+                "not so ordered"
+            },
+            constant.0,
+            constant.1,
+            energy.0,
+            energy.1
+        ),
+        holds,
+    ))
 }
 
 fn free_sphere() -> Found {
@@ -120,15 +218,30 @@ fn free_sphere() -> Found {
         let rigid = bradley::reduced_force(Law::LennardJones, gap);
         less.push(100.0 * (1.0 - rigid / sphere.at_approach(-gap)?.force));
     }
-    let near = less.iter().zip([14.0, 14.0, 5.0, 1.0]).all(|(found, asked)| (found - asked).abs() < 0.6);
+    let near = less
+        .iter()
+        .zip([14.0, 14.0, 5.0, 1.0])
+        .all(|(found, asked)| (found - asked).abs() < 0.6);
     let holds = near && pull_off.approach < 0.0 && (-1.0..-0.75).contains(&pull_off.force);
-    Ok((format!("{:.3} at {:.2} eps; {:.1}, {:.1}, {:.1}, {:.1} %", -pull_off.force, pull_off.approach, less[0], less[1], less[2], less[3]), holds))
+    Ok((
+        format!(
+            "{:.3} at {:.2} eps; {:.1}, {:.1}, {:.1}, {:.1} %",
+            -pull_off.force, pull_off.approach, less[0], less[1], less[2], less[3]
+        ),
+        holds,
+    ))
 }
 
 fn persson_kappa() -> Found {
     let theory = Persson::new(rows::GAMMA)?;
-    let (light, heavy) = (theory.area_fraction(0.01)? / 0.01, theory.area_fraction(0.1)? / 0.1);
-    Ok((format!("{light:.2}, {heavy:.2}"), (light - 2.25).abs() < 0.01 && (heavy - 2.09).abs() < 0.01))
+    let (light, heavy) = (
+        theory.area_fraction(0.01)? / 0.01,
+        theory.area_fraction(0.1)? / 0.1,
+    );
+    Ok((
+        format!("{light:.2}, {heavy:.2}"),
+        (light - 2.25).abs() < 0.01 && (heavy - 2.09).abs() < 0.01,
+    ))
 }
 
 /// Rows of a model on the surfaces of the third figure, H = 0.8 and N = 32, below a contact area.
@@ -145,7 +258,10 @@ fn icha_kappa(table: &[Row]) -> Found {
         let kappa = row.area / row.repulsive;
         (least, most) = (least.min(kappa), most.max(kappa));
     }
-    Ok((format!("{least:.2} to {most:.2}, three seeds"), least >= 1.65 && most <= 2.35))
+    Ok((
+        format!("{least:.2} to {most:.2}, three seeds"),
+        least >= 1.65 && most <= 2.35,
+    ))
 }
 
 fn icha_and_persson(table: &[Row]) -> Found {
@@ -156,7 +272,14 @@ fn icha_and_persson(table: &[Row]) -> Found {
         (most, sum, count) = (most.max(miss), sum + miss, count + 1.0);
     }
     let mean = sum / count;
-    Ok((format!("{:.0} %, {:.1} % on average, three seeds", 100.0 * most, 100.0 * mean), most <= 0.25 && mean <= 0.1))
+    Ok((
+        format!(
+            "{:.0} %, {:.1} % on average, three seeds",
+            100.0 * most,
+            100.0 * mean
+        ),
+        most <= 0.25 && mean <= 0.1,
+    ))
 }
 
 /// Persson's area at a net load in E* h', with adhesion.
@@ -185,7 +308,15 @@ fn sticky_area() -> Found {
         && (hard + 0.27).abs() < 0.01
         && (sticky - 0.13).abs() < 0.01
         && (times - 3.5).abs() < 0.05;
-    Ok((format!("{:.1} %; {:+.0} %, {:+.0} %, {times:.1} times", 100.0 * area, 100.0 * hard, 100.0 * sticky), holds))
+    Ok((
+        format!(
+            "{:.1} %; {:+.0} %, {:+.0} %, {times:.1} times",
+            100.0 * area,
+            100.0 * hard,
+            100.0 * sticky
+        ),
+        holds,
+    ))
 }
 
 /// Areas against those of the claim, to the 0.3 % that the source of the numbers states.
@@ -203,12 +334,18 @@ fn by_hurst() -> Found {
     let (found, near) = areas(&[(0.4, 64, 0.09274), (0.8, 64, 0.15621)])?;
     let middle = 100.0 * area_at(0.6, 64, 0.02)?;
     let holds = near && found[0] < middle && middle < found[1];
-    Ok((format!("{:.2}, {middle:.1}, {:.1} %", found[0], found[1]), holds))
+    Ok((
+        format!("{:.2}, {middle:.1}, {:.1} %", found[0], found[1]),
+        holds,
+    ))
 }
 
 fn by_band() -> Found {
     let (found, near) = areas(&[(0.8, 16, 0.19579), (0.8, 32, 0.17426), (0.8, 64, 0.15621)])?;
-    Ok((format!("{:.1}, {:.1}, {:.1} %", found[0], found[1], found[2]), near))
+    Ok((
+        format!("{:.1}, {:.1}, {:.1} %", found[0], found[1], found[2]),
+        near,
+    ))
 }
 
 /// Persson's pull-off in w/eps, the Fuller-Tabor parameter, and GW-M's pull-off.
@@ -229,11 +366,23 @@ fn pull_off_changes() -> Found {
     let (smooth, rough) = (change(0.8)?, change(0.4)?);
     let mut falls = true;
     for ratio in [16, 32, 64] {
-        let by_hurst = [pull_offs(0.8, ratio)?[0], pull_offs(0.6, ratio)?[0], pull_offs(0.4, ratio)?[0]];
+        let by_hurst = [
+            pull_offs(0.8, ratio)?[0],
+            pull_offs(0.6, ratio)?[0],
+            pull_offs(0.4, ratio)?[0],
+        ];
         falls &= by_hurst.windows(2).all(|pair| pair[0] > pair[1]);
     }
     let holds = falls && (0.0..=0.025).contains(&smooth) && (0.0..=0.17).contains(&rough);
-    Ok((format!("{:.1} %, {:.1} %, {}", 100.0 * smooth, 100.0 * rough, if falls { "falls" } else { "does not fall" }), holds))
+    Ok((
+        format!(
+            "{:.1} %, {:.1} %, {}",
+            100.0 * smooth,
+            100.0 * rough,
+            if falls { "falls" } else { "does not fall" }
+        ),
+        holds,
+    ))
 }
 
 /// How far a model's pull-off, the mean over its seeds, lies above Persson's, by surface: H, N, share.
@@ -243,9 +392,16 @@ pub fn shares_above(table: &[Row], model: &str) -> Vec<(f64, usize, f64)> {
         for ratio in [16, 32, 64] {
             let of = |model: &str, seed| -> Vec<&Row> {
                 let case = Case { hurst, ratio, seed };
-                table.iter().filter(|row| row.model == model && row.case == case).collect()
+                table
+                    .iter()
+                    .filter(|row| row.model == model && row.case == case)
+                    .collect()
             };
-            let seeds: Vec<f64> = (1..=3).map(|seed| of(model, seed)).filter(|rows| !rows.is_empty()).map(|rows| rows::pull_off(&rows)).collect();
+            let seeds: Vec<f64> = (1..=3)
+                .map(|seed| of(model, seed))
+                .filter(|rows| !rows.is_empty())
+                .map(|rows| rows::pull_off(&rows))
+                .collect();
             if !seeds.is_empty() {
                 let mean = seeds.iter().sum::<f64>() / seeds.len() as f64;
                 shares.push((hurst, ratio, mean / rows::pull_off(&of("persson", 0)) - 1.0));
@@ -264,7 +420,10 @@ fn above_persson(table: &[Row], model: &str) -> Found {
         .map(|(hurst, ratio, share)| format!("{:.0} % at H = {hurst}, N = {ratio}", 100.0 * share))
         .collect();
     let (within, of) = (shares.len() - outside.len(), shares.len());
-    let mut found = format!("{within} of {of} surfaces, {:.0} % on average (means of three seeds)", 100.0 * mean);
+    let mut found = format!(
+        "{within} of {of} surfaces, {:.0} % on average (means of three seeds)",
+        100.0 * mean
+    );
     if !outside.is_empty() {
         let _ = write!(found, "; {}", outside.join(", "));
     }
@@ -275,8 +434,14 @@ fn summits_alone() -> Found {
     let [persson, _, first] = pull_offs(0.8, 16)?;
     let [rough, _, last] = pull_offs(0.4, 64)?;
     let (few, many) = (persson / first, rough / last);
-    let holds = (first - 0.1775).abs() < 1e-3 && (last / 1.77e-4 - 1.0).abs() < 0.01 && (1.9..2.1).contains(&few) && many > 1000.0;
-    Ok((format!("{first:.3} to {last:.1e}, {few:.1} to {many:.0} times"), holds))
+    let holds = (first - 0.1775).abs() < 1e-3
+        && (last / 1.77e-4 - 1.0).abs() < 0.01
+        && (1.9..2.1).contains(&few)
+        && many > 1000.0;
+    Ok((
+        format!("{first:.3} to {last:.1e}, {few:.1} to {many:.0} times"),
+        holds,
+    ))
 }
 
 /// Largest relative difference in mean gap between the ways in and out of the field with attraction, on a
@@ -303,7 +468,11 @@ fn loop_difference() -> Result<f64, Box<dyn Error>> {
         let (up, down) = (&end.rows[up], &end.rows[down]);
         let gap = |row: &tabor::study::Row| row.mean_gap.unwrap_or(f64::NAN);
         let same = up.contact_area_fraction == down.contact_area_fraction;
-        most = most.max(if same { (gap(up) / gap(down) - 1.0).abs() } else { f64::INFINITY });
+        most = most.max(if same {
+            (gap(up) / gap(down) - 1.0).abs()
+        } else {
+            f64::INFINITY
+        });
     }
     Ok(most)
 }
@@ -311,7 +480,13 @@ fn loop_difference() -> Result<f64, Box<dyn Error>> {
 fn hysteresis() -> Found {
     // Both ways were met to 1e-6 of the net load.
     let holds = loop_difference()? < 1e-4;
-    Ok((format!("on the way back the field's area is the same and its mean gap to {}", if holds { "1e-4" } else { "no better than 1e-4" }), holds))
+    Ok((
+        format!(
+            "on the way back the field's area is the same and its mean gap to {}",
+            if holds { "1e-4" } else { "no better than 1e-4" }
+        ),
+        holds,
+    ))
 }
 
 fn stickiness() -> Found {
@@ -327,7 +502,10 @@ fn stickiness() -> Found {
         })?)
     };
     let (first, last) = (ratio(0.8, 16)?, ratio(0.4, 64)?);
-    Ok((format!("{first:.2} to {last:.2}"), (first - 1.04).abs() < 0.005 && last > 3.0))
+    Ok((
+        format!("{first:.2} to {last:.2}"),
+        (first - 1.04).abs() < 0.005 && last > 3.0,
+    ))
 }
 
 fn lost_pull_off() -> Found {
