@@ -97,6 +97,7 @@ const CALLS: &[BadCall] = &[
     call(&["check", "sizeless.toml"], "SurfaceError::SizeMissing", "[grid] size is missing, and no height file of this scene carries it; write size = \"10 um\""),
     call(&["run", "good.toml", "--out", "good.toml"], "OutputError::Refused", "good.toml"),
     call(&["run", "good.toml", "--out", "foreign"], "OutputError::Refused", "foreign"),
+    call(&["compare", "good.toml"], "CompareError::Unsuited", "[[surface]] 1 is a sphere: compare is of nominally flat rough surfaces"),
     call(&["accuracy", "good.toml", "--set", "grid.points=8"], "AccuracyError::TooCoarse", "grid.points: 8 x 8 points leave no coarser grid to compare with; take at least 16 a side"),
     call(&["accuracy", "good.toml", "--set", "grid.points=8"], "Failure::Accuracy", "grid.points: 8 x 8 points"),
     call(&["accuracy", "good.toml", "--out", "hasty", "--budget", "1 us"], "AccuracyError::NoReference", "no reference was solved: would take about "),
