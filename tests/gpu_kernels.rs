@@ -6,10 +6,11 @@ mod gpu_shared;
 
 use gpu_catalogue::{KERNELS, SCALAR_KERNELS};
 use gpu_shared::{
-    Numbers, backend, device, device_with_double, device_without_double, double_backend,
+    Numbers, backend, device, device_with, device_with_double, device_without_double,
+    double_backend,
 };
 use tabor::backend::cpu::CpuBackend;
-use tabor::backend::gpu::{GpuDevice, Number, Wide};
+use tabor::backend::gpu::{AdapterChoice, GpuDevice, Number, Wide};
 use tabor::backend::{Backend, Field, Level, Shape};
 use tabor::kernel::base::BASE_TOTAL;
 use tabor::kernel::common::{LOAD_FIELD, STORE_PRESSURE};
@@ -547,6 +548,36 @@ fn fields_are_taken_over_on_the_device() {
     let rounded: Vec<f64> = values.iter().map(|&x| f64::from(x as f32)).collect();
     assert_eq!(single.read(places[1]).expect("nothing has failed"), rounded);
     assert_eq!(double.read(places[0]).expect("nothing has failed"), rounded);
+}
+
+/// Where a field takes more slabs in double than in single precision, iterations that are corrected lie as
+/// what corrects them.
+#[test]
+fn fields_in_slabs_are_taken_over_on_the_device() {
+    if device_with_double().is_none() {
+        return;
+    }
+    let shape = Shape::whole(48, 64);
+    let device = device_with(&AdapterChoice {
+        slab_bytes: Some(4 * shape.len() as u64),
+        ..AdapterChoice::default()
+    });
+    let Some(device) = device else { return };
+    let mut single = backend(&device).corrected();
+    let mut double = double_backend(&device);
+    assert_eq!(device.slabs(shape), Ok(1));
+    let values = Numbers(9).doubles(shape.len());
+    let [here, there] = [&mut single, &mut double].map(|backend| {
+        let level = backend.level("fine", shape);
+        backend.field(level, "field")
+    });
+    double.write(there, &values);
+    single
+        .take(here, &mut double, there)
+        .unwrap_or_else(|error| panic!("{error}"));
+    assert_eq!(single.traffic().fields_up + double.traffic().fields_down, 0);
+    let rounded: Vec<f64> = values.iter().map(|&x| f64::from(x as f32)).collect();
+    assert_eq!(single.read(here).expect("nothing has failed"), rounded);
 }
 
 /// All numbers of the scalars, flags and status included.

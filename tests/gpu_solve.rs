@@ -475,7 +475,14 @@ fn double_precision_on_the_device_solves_as_the_processor_does() {
     };
     let cpu = || -> Box<dyn Backend + Send> { Box::new(CpuBackend::<f64>::new()) };
     let gpu = || -> Box<dyn Backend + Send> { Box::new(double_backend(device)) };
-    for (name, problem, load) in contacts(32) {
+    let surface = rough(32);
+    let (grid, heights) = (surface.grid, &surface.heights);
+    let flowing =
+        Problem::new(grid, Boundary::Periodic, 1.0, heights, 1.0, laws()[2].1).yielding(0.3);
+    let held = at_gap(&flowing, 0.02);
+    let mut all = contacts(32);
+    all.push(("hardness, gap".to_owned(), flowing, held));
+    for (name, problem, load) in all {
         let reference = solve(&problem, &load, &Start::Cold, TIGHT, &cpu);
         let ours = solve(&problem, &load, &Start::Cold, TIGHT, &gpu);
         let apart = relative_difference(&ours.gap, &reference.gap);
@@ -681,14 +688,14 @@ fn nothing_but_corrections_crosses_the_bus() {
         // As the crate page has it, an iteration of these laws takes 7 at least.
         assert!(traffic.dispatches >= 7 * outcome.iterations as u64);
         // What stands beside evaluates and corrects, and does not iterate.
-        let of_base = |name: &&str| {
+        let of_base = |name: &&'static str| {
             let evaluates = ["load_displacement", "multiply", "store_pressure"].contains(name);
             evaluates
                 || name.starts_with("base_")
                 || name.ends_with("_residual")
                 || name.ends_with("_balance")
         };
-        assert!(double.iter().all(|name| of_base(&name)), "{double:?}");
+        assert!(double.iter().all(of_base), "{double:?}");
         let rounds = evaluations.saturating_sub(1) as u64;
         assert_eq!(corrected, rounds > 0);
         assert!(rounds <= 4, "{rounds} rounds");

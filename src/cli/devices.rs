@@ -45,7 +45,7 @@ fn describe(found: &[AdapterDescription]) -> String {
             match adapter.double {
                 true => format!(
                     "\n\
-                     \x20             {in_double} x {in_double} in double, {0} x {0}; above, the processor corrects in mixed",
+                     \x20             {in_double} x {in_double} in double, {0} x {0} with a free boundary; above, the processor corrects mixed",
                     in_double / 2
                 ),
                 false => String::new(),

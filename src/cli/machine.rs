@@ -81,10 +81,11 @@ impl Machine {
             (Place::Gpu(device), Precision::Mixed) => {
                 Box::new(GpuBackend::on(device).expecting_numbers().corrected())
             }
-            (Place::Gpu(device), precision) => {
-                let backend = GpuBackend::on(device).expecting_numbers();
-                Box::new(backend.keeping(number(precision)))
-            }
+            (Place::Gpu(device), precision) => Box::new(
+                GpuBackend::on(device)
+                    .expecting_numbers()
+                    .keeping(number(precision)),
+            ),
             (Place::Processor, Precision::Single) => Box::new(CpuBackend::<f32>::new()),
             (Place::Processor, Precision::Mixed) => Box::new(CpuBackend::<f32>::new().corrected()),
             (Place::Processor, _) => Box::new(CpuBackend::<f64>::new()),

@@ -3,7 +3,7 @@
 use super::keys;
 use super::mistake::SceneError;
 use super::reader::Reader;
-use super::types::{
+use super::{
     AdhesionScene, Control, GridScene, LawName, LoadingScene, Precision, SolidScene, SolverScene,
     Treatment,
 };
@@ -21,7 +21,7 @@ pub(super) fn check_precision(scene: &Reader, solid: &SolidScene, solver: Option
             SceneError::NotInThisVersion {
                 what: "a hardness in mixed precision".to_string(),
                 instead:
-                    "take precision = \"single\", or backend = \"cpu\" with precision = \"double\""
+                    "take precision = \"single\", or \"double\", with backend = \"cpu\" where the adapter has none"
                         .to_string(),
             },
         );

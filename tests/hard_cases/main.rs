@@ -15,6 +15,8 @@ mod grids;
 mod jumps;
 mod paths;
 mod run;
+#[path = "../shared/mod.rs"]
+mod shared;
 mod spheres;
 mod table;
 mod truth;
@@ -65,7 +67,7 @@ fn try_case(case: &Case, paths: &[&'static Path]) -> Vec<Entry> {
         heights.push(judge.field(step, "heights"));
     }
     let heights = heights.into_iter().flatten().next();
-    for path in paths {
+    for path in paths.iter().filter(|path| path.tries(&case.name)) {
         let other;
         let run = if path.name == paths[0].name {
             &judge

@@ -1,5 +1,6 @@
 //! Buffers of slabs: made, written and sized.
 
+use super::layout::Number;
 use super::level::LevelPlan;
 use super::slabs::Limits;
 use super::space::{self, FieldSpace};
@@ -10,10 +11,16 @@ use crate::backend::{Field, Shape};
 const TURN_BYTES: usize = 16;
 
 impl GpuBackend {
-    /// How a level of this shape lies on the device.
+    /// How a level of this shape lies on the device; in as many slabs as its correction in double
+    /// precision takes, if that is there too.
     pub(super) fn plan(&self, shape: Shape) -> Result<LevelPlan, GpuError> {
         let limits: Limits = self.device.limits();
-        LevelPlan::laid_out(shape, &limits, self.number)
+        let own = LevelPlan::laid_out(shape, &limits, self.number)?;
+        if !self.corrects_here(shape) {
+            return Ok(own);
+        }
+        let slabs = LevelPlan::laid_out(shape, &limits, Number::Double)?.slabs;
+        Ok(LevelPlan { slabs, ..own })
     }
 
     /// A number a point, zero, in slabs.

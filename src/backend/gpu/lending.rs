@@ -5,17 +5,37 @@ use super::device::GpuDevice;
 use super::layout::Number;
 use super::source;
 use super::{GpuBackend, GpuError};
-use crate::backend::Field;
+use crate::backend::{Field, Shape};
 
 /// A field lent to another backend on the same device.
 pub struct Lent {
     device: GpuDevice,
     slabs: Vec<wgpu::Buffer>,
     number: Number,
-    slab_points: usize,
+    /// Points in a slab.
+    points: usize,
+}
+
+impl Lent {
+    /// Whether it lies on this device, in slabs of so many points.
+    pub(super) fn suits(&self, device: &GpuDevice, points: usize) -> bool {
+        self.device.is(device) && self.points == points
+    }
 }
 
 impl GpuBackend {
+    /// Whether what corrects this backend's state in double precision keeps it on the same device.
+    pub(super) fn corrects_here(&self, shape: Shape) -> bool {
+        let adapter = self.device.description();
+        self.corrected && adapter.double && adapter.takes(shape.points, Number::Double)
+    }
+
+    /// Whether a lent field lies as one of this backend's does.
+    pub(super) fn takes_over(&self, field: Field, lent: &Lent) -> bool {
+        self.level_space(field.level)
+            .is_ok_and(|level| lent.suits(&self.device, level.plan.slab_points()))
+    }
+
     /// Hands a field out, with all that was recorded for it on its way to the device.
     pub(super) fn hand_out(&mut self, field: Field) -> Result<Lent, GpuError> {
         self.settle()?;
@@ -24,27 +44,19 @@ impl GpuBackend {
             device: self.device.clone(),
             slabs: self.field_space(field)?.slabs.clone(),
             number: self.number,
-            slab_points: self.level_space(field.level)?.plan.slab_points(),
+            points: self.level_space(field.level)?.plan.slab_points(),
         })
-    }
-
-    /// Whether a lent field lies on this device, in the same slabs as a field here.
-    pub(super) fn takes(&self, field: Field, lent: &Lent) -> bool {
-        let slabs = self.field_space(field).map_or(0, |space| space.slabs.len());
-        lent.device.is(&self.device) && lent.slabs.len() == slabs
     }
 
     /// Overwrites a field with a lent one. It is handed to the device at once: what the lender records
     /// next may change the field again.
     pub(super) fn convert(&mut self, field: Field, lent: &Lent) -> Result<(), GpuError> {
         self.settle()?;
-        let slabs = self.field_space(field)?.slabs.clone();
-        let points = self.level_space(field.level)?.plan.slab_points();
-        let points = points.min(lent.slab_points);
-        let (text, workgroups) = source::convert(lent.number, self.number, points);
+        let (text, workgroups) = source::convert(lent.number, self.number, lent.points);
         let accesses = [Access::Read, Access::Write];
-        for (there, here) in lent.slabs.iter().zip(&slabs) {
-            let groups: [(&[Access], &[&wgpu::Buffer]); 1] = [(&accesses, &[there, here])];
+        let slabs = self.field_space(field)?.slabs.clone();
+        for (from, to) in lent.slabs.iter().zip(&slabs) {
+            let groups: [(&[Access], &[&wgpu::Buffer]); 1] = [(&accesses, &[from, to])];
             let prepared = self.prepare("convert", text.clone(), &groups, [workgroups, 1])?;
             self.traffic.dispatches += 1;
             self.device.count_dispatch();

@@ -147,14 +147,6 @@ impl GpuBackend {
         }
     }
 
-    /// The same where numbers that are none are a failure of the device, not an answer.
-    pub fn expecting_numbers(self) -> Self {
-        GpuBackend {
-            expects_numbers: true,
-            ..self
-        }
-    }
-
     /// The same with its fields in this number, before there are any. Where the device lacks it that is
     /// told where the host waits.
     pub fn keeping(mut self, number: Number) -> Self {
@@ -163,6 +155,14 @@ impl GpuBackend {
             self.failure.get_or_insert(GpuError::Precision(name));
         }
         GpuBackend { number, ..self }
+    }
+
+    /// The same where numbers that are none are a failure of the device, not an answer.
+    pub fn expecting_numbers(self) -> Self {
+        GpuBackend {
+            expects_numbers: true,
+            ..self
+        }
     }
 
     /// The same for iterations that correct a state kept in double precision.
@@ -367,8 +367,7 @@ impl Backend for GpuBackend {
     /// On the device where it has double precision and takes the shape in it, else on the processor.
     fn in_double(&self, shape: Shape) -> Option<Box<dyn Backend + Send>> {
         self.corrected.then(|| -> Box<dyn Backend + Send> {
-            let adapter = self.device.description();
-            match adapter.double && adapter.takes(shape.points, Number::Double) {
+            match self.corrects_here(shape) {
                 true => Box::new(GpuBackend {
                     expects_numbers: self.expects_numbers,
                     ..GpuBackend::on(&self.device).keeping(Number::Double)
@@ -385,7 +384,7 @@ impl Backend for GpuBackend {
         source: Field,
     ) -> Result<(), BackendError> {
         match from.lend(source) {
-            Some(lent) if self.takes(field, &lent) => {
+            Some(lent) if self.takes_over(field, &lent) => {
                 self.attempt(|backend| backend.convert(field, &lent));
             }
             _ => self.write(field, &from.read(source)?),
