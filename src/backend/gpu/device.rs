@@ -219,10 +219,11 @@ impl GpuDevice {
             description.binding_limit = description.binding_limit.min(limit);
         }
         description.double &= !choice.without_double;
-        let required_features = match description.double {
-            true => wgpu::Features::SHADER_F64,
-            false => wgpu::Features::empty(),
-        };
+        // Timestamps cost nothing until they are asked for.
+        let mut required_features = adapter.features() & wgpu::Features::TIMESTAMP_QUERY;
+        if description.double {
+            required_features |= wgpu::Features::SHADER_F64;
+        }
         let (device, queue) = pollster::block_on(adapter.request_device(&wgpu::DeviceDescriptor {
             label: Some("tabor"),
             required_features,

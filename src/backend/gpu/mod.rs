@@ -22,6 +22,7 @@ mod recorder;
 pub mod source;
 mod space;
 mod sums;
+mod timing;
 mod traffic;
 
 use std::collections::HashMap;
@@ -30,7 +31,7 @@ use std::f64::consts::TAU;
 use super::cpu::CpuBackend;
 use super::{Backend, BackendError, Field, Level, Shape, Spectrum};
 use crate::kernel::{Form, Gate, Kernel, Params, ScalarKernel, Scalars};
-use bindings::{COLUMNS, ROWS, WORKING};
+use bindings::{Access, COLUMNS, ROWS, WORKING};
 use deciding::{Decided, Deciding};
 use level::{LevelPlan, Place};
 use recorder::{Prepared, Recorder};
@@ -43,6 +44,7 @@ pub use error::GpuError;
 pub use layout::{Number, Wide};
 pub use lending::Lent;
 pub use plan::{Exchange, GroupLimits, LinePlan, radices};
+pub use timing::{KernelTime, Stopwatch, Timings};
 pub use traffic::Traffic;
 
 /// The GPU backend.
@@ -244,9 +246,19 @@ impl GpuBackend {
         &self,
         name: &str,
         source: String,
-        groups: &[(&[bindings::Access], &[&wgpu::Buffer])],
+        groups: &[(&[Access], &[&wgpu::Buffer])],
         workgroups: usize,
     ) -> Result<Prepared, GpuError> {
+        // All but what decisions are taken from; what is written is taken to be updated.
+        let bytes = groups
+            .iter()
+            .filter(|(accesses, _)| !accesses.contains(&Access::Uniform))
+            .flat_map(|(accesses, buffers)| accesses.iter().zip(*buffers))
+            .map(|(access, buffer)| match access {
+                Access::Write => 2 * buffer.size(),
+                Access::Read | Access::Uniform => buffer.size(),
+            })
+            .sum();
         let (layouts, groups) = self.device.guarded(|device| {
             groups
                 .iter()
@@ -260,6 +272,8 @@ impl GpuBackend {
         let layouts: Vec<_> = layouts.iter().collect();
         let pipeline = self.device.pipeline(name, source, &layouts)?;
         Ok(Prepared {
+            name: name.to_owned(),
+            bytes,
             pipeline,
             groups,
             // Plans keep it far below the 65535 that every adapter takes.
@@ -358,7 +372,7 @@ impl GpuBackend {
         let factor = match self.law_factor {
             Some(field) if field.level == level && catalogue::asks_for_law(kernel.name) => {
                 buffers.push(&self.field_space(field)?.buffer);
-                accesses.push(bindings::Access::Read);
+                accesses.push(Access::Read);
                 Some(kernel.fields())
             }
             _ => None,
@@ -368,7 +382,7 @@ impl GpuBackend {
                 let first = buffers.len();
                 for field in base {
                     buffers.push(&self.field_space(field)?.buffer);
-                    accesses.push(bindings::Access::Read);
+                    accesses.push(Access::Read);
                 }
                 Some(first)
             }
@@ -382,12 +396,19 @@ impl GpuBackend {
         let text = source::kernel(kernel, &space.plan, whole, law, self.wide)?;
         let shared = [&self.params, &self.scalars, &space.partials];
         let transform = [&space.row_roots, &space.work];
-        let mut groups: Vec<(&[bindings::Access], &[&wgpu::Buffer])> =
+        let mut groups: Vec<(&[Access], &[&wgpu::Buffer])> =
             vec![(WORKING, &shared), (&accesses, &buffers)];
         if kernel.form != Form::Sweep {
             groups.push((ROWS, &transform));
         }
-        self.prepare(kernel.name, text, &groups, space.plan.groups(kernel.form))
+        let mut prepared =
+            self.prepare(kernel.name, text, &groups, space.plan.groups(kernel.form))?;
+        let only_written = &buffers[kernel.reads + kernel.writes - kernel.fresh..][..kernel.fresh];
+        prepared.bytes -= only_written.iter().map(|buffer| buffer.size()).sum::<u64>();
+        if matches!(kernel.form, Form::Load | Form::Store | Form::Peek) {
+            prepared.bytes -= space.work.size();
+        }
+        Ok(prepared)
     }
 
     fn columns(&mut self, by: Spectrum, energy: bool, gate: Gate) -> Result<(), GpuError> {
