@@ -14,14 +14,12 @@ fn neighbours(fine: u32, ratio: u32, coarse: u32) -> Neighbours {
     return Neighbours(cell, select(cell + 1u, 0u, cell + 1u == coarse), place - 0.5);
 }
 
-// A field of the coarse level, `long_waves`, interpolated at a fine point.
+// A field of the coarse level, which `whole_at` reads, interpolated at a fine point.
 fn long_waves_at(index: u32) -> real {
     let ratio = WIDTH / WHOLE_WIDTH;
     let x = neighbours(index % WIDTH, ratio, WHOLE_WIDTH);
-    let y = neighbours(index / WIDTH, ratio, WHOLE_HEIGHT);
-    let below = y.first * WHOLE_WIDTH;
-    let above = y.second * WHOLE_WIDTH;
-    let low = long_waves[below + x.first] * (1.0 - x.share) + long_waves[below + x.second] * x.share;
-    let high = long_waves[above + x.first] * (1.0 - x.share) + long_waves[above + x.second] * x.share;
+    let y = neighbours(row_of(index), ratio, WHOLE_HEIGHT);
+    let low = whole_at(x.first, y.first) * (1.0 - x.share) + whole_at(x.second, y.first) * x.share;
+    let high = whole_at(x.first, y.second) * (1.0 - x.share) + whole_at(x.second, y.second) * x.share;
     return low * (1.0 - y.share) + high * y.share;
 }

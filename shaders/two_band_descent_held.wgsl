@@ -2,7 +2,6 @@
 @group(1) @binding(0) var<storage, read> free: array<real>;
 @group(1) @binding(1) var<storage, read> free_before: array<real>;
 @group(1) @binding(2) var<storage, read> direction: array<real>;
-@group(1) @binding(3) var<storage, read> long_waves: array<real>;
 
 fn pass_point(index: u32, on_surface: bool, line_value: real) -> real {
     let y = free[index];

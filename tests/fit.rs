@@ -1,11 +1,13 @@
 //! `tabor fit`: known work of adhesion and modulus come back, with the uncertainty they claim.
 
+mod shared;
+
 use std::f64::consts::{PI, TAU};
 use std::fs;
 use std::path::Path;
-use std::process::{Command, Output};
 
 use serde_json::Value;
+use shared::{errors, tabor};
 use tabor::backend::{Backend, cpu::CpuBackend};
 use tabor::fit::model::{Parameters, SphereModel};
 use tabor::fit::{FitResult, ForceCurve, Freedom, Model, Sample, fit_curve};
@@ -258,14 +260,6 @@ fn modulus_of_a_full_field_without_adhesion() {
     assert!((stiff - 1.0).abs() < 0.03, "E* {stiff}");
 }
 
-fn tabor(folder: &Path, arguments: &[&str]) -> Output {
-    Command::new(env!("CARGO_BIN_EXE_tabor"))
-        .current_dir(folder)
-        .args(arguments)
-        .output()
-        .expect("the binary runs")
-}
-
 /// The curve of the documentation, from outside.
 #[test]
 fn the_example_is_fitted() {
@@ -273,7 +267,7 @@ fn the_example_is_fitted() {
     let curve = Path::new(env!("CARGO_MANIFEST_DIR")).join("examples/force_curve.csv");
     let curve = curve.to_str().expect("a path");
     let output = tabor(folder.path(), &["fit", curve, "--radius", "10 um"]);
-    let says = String::from_utf8_lossy(&output.stderr).into_owned();
+    let says = errors(&output);
     assert_eq!(output.status.code(), Some(0), "{says}");
     assert!(output.stdout.is_empty());
     assert!(says.contains("> maugis-dugdale"), "{says}");
@@ -342,7 +336,7 @@ fn calls_that_are_wrong_say_so() {
         ),
     ] {
         let output = tabor(folder.path(), &arguments);
-        let says = String::from_utf8_lossy(&output.stderr).into_owned();
+        let says = errors(&output);
         assert_eq!(output.status.code(), Some(2), "{arguments:?}: {says}");
         assert!(says.contains(expected), "{arguments:?}: {says}");
     }

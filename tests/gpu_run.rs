@@ -2,14 +2,15 @@
 //! and what a run says where the adapter lacks something or fails.
 
 mod gpu_shared;
+mod shared;
 
+use std::collections::HashMap;
 use std::fs;
 use std::path::Path;
-use std::process::{Command, Output};
+use std::process::Output;
 
 use gpu_shared::{device, device_with_double, relative_difference};
-use serde_json::Value;
-use tempfile::TempDir;
+use shared::{command, errors, scene, summary, table, tabor, with_drivers, without_adapter};
 
 const SPHERE: &str = r#"
 [grid]
@@ -51,13 +52,6 @@ path = ["2 MPa", "10 MPa", "2 MPa"]
 fields = ["gap", "pressure"]
 "#;
 
-/// A folder with a scene in it.
-fn scene(text: &str) -> TempDir {
-    let folder = tempfile::tempdir().expect("a temporary folder");
-    fs::write(folder.path().join("scene.toml"), text).expect("the scene is written");
-    folder
-}
-
 fn run(folder: &Path, out: &str, arguments: &[&str], drivers: Option<&str>) -> Output {
     run_tested(folder, out, arguments, drivers, "")
 }
@@ -70,42 +64,17 @@ fn run_tested(
     drivers: Option<&str>,
     tested: &str,
 ) -> Output {
-    let mut command = Command::new(env!("CARGO_BIN_EXE_tabor"));
-    command
-        .current_dir(folder)
-        .env("TABOR_TEST_GPU", tested)
-        .args(["run", "scene.toml", "--out", out])
-        .args(arguments);
+    let mut command = command(folder, &["run", "scene.toml", "--out", out]);
+    command.env("TABOR_TEST_GPU", tested).args(arguments);
     if let Some(drivers) = drivers {
-        command
-            .env("VK_DRIVER_FILES", drivers)
-            .env("VK_ICD_FILENAMES", drivers);
+        with_drivers(&mut command, drivers);
     }
     command.output().expect("the binary runs")
 }
 
-fn errors(output: &Output) -> String {
-    String::from_utf8_lossy(&output.stderr).into_owned()
-}
-
-fn summary(folder: &Path) -> Value {
-    let bytes = fs::read(folder.join("summary.json")).expect("a summary");
-    serde_json::from_slice(&bytes).expect("JSON")
-}
-
 /// Rows of the curve, by name.
-fn rows(folder: &Path) -> Vec<std::collections::HashMap<String, String>> {
-    let text = fs::read_to_string(folder.join("curve.csv")).expect("a curve");
-    let mut lines = text.lines();
-    let head: Vec<&str> = lines.next().expect("a head").split(',').collect();
-    lines
-        .map(|line| {
-            head.iter()
-                .zip(line.split(','))
-                .map(|(name, value)| ((*name).to_owned(), value.to_owned()))
-                .collect()
-        })
-        .collect()
+fn rows(folder: &Path) -> Vec<HashMap<String, String>> {
+    table(&folder.join("curve.csv"))
 }
 
 fn field(folder: &Path, name: &str) -> npyz::NpyFile<std::io::Cursor<Vec<u8>>> {
@@ -227,10 +196,7 @@ fn without_an_adapter_gpu_fails_and_auto_does_not() {
         assert_eq!(summary(&folder.path().join("auto"))["backend"], "cpu");
         assert!(!errors(&auto).contains("note:"), "{}", errors(&auto));
     }
-    let devices = Command::new(env!("CARGO_BIN_EXE_tabor"))
-        .arg("devices")
-        .env("VK_DRIVER_FILES", "/nonexistent")
-        .env("VK_ICD_FILENAMES", "/nonexistent")
+    let devices = without_adapter(&mut command(folder.path(), &["devices"]))
         .output()
         .expect("the binary runs");
     assert_eq!(devices.status.code(), Some(0));
@@ -267,10 +233,7 @@ fn sizes_without_a_transform_are_refused_with_the_nearest() {
 #[test]
 fn devices_names_the_adapter() {
     let Some(device) = device() else { return };
-    let output = Command::new(env!("CARGO_BIN_EXE_tabor"))
-        .arg("devices")
-        .output()
-        .expect("the binary runs");
+    let output = tabor(Path::new("."), &["devices"]);
     assert_eq!(output.status.code(), Some(0));
     let text = String::from_utf8_lossy(&output.stdout);
     for part in [device.description().name.as_str(), "largest", "auto  "] {
@@ -338,7 +301,8 @@ fn double_precision_goes_to_an_adapter_that_has_it() {
     );
 }
 
-/// A field of 64 x 64 points takes 16 KiB: one that binds 4 KiB takes 32 x 32.
+/// A field of 64 x 64 points takes 16 KiB. One that binds 1 KiB holds it in sixteen slabs, but not the
+/// sums of their sixteen workgroups; 32 x 32 fit.
 #[test]
 fn a_grid_past_the_limits_is_refused_with_the_largest_and_auto_stays() {
     if device().is_none() {
@@ -346,12 +310,12 @@ fn a_grid_past_the_limits_is_refused_with_the_largest_and_auto_stays() {
     }
     let folder = scene(ROUGH);
     let gpu = ["--backend", "gpu"];
-    let output = run_tested(folder.path(), "gpu", &gpu, None, "binding=4096");
+    let output = run_tested(folder.path(), "gpu", &gpu, None, "binding=1024");
     let message = errors(&output);
     assert_eq!(output.status.code(), Some(2), "{message}");
     assert!(message.contains("takes up to 32 x 32 here"), "{message}");
     assert!(!folder.path().join("gpu").exists());
-    let output = run_tested(folder.path(), "auto", &[], None, "software,binding=4096");
+    let output = run_tested(folder.path(), "auto", &[], None, "software,binding=1024");
     let message = errors(&output);
     assert_eq!(output.status.code(), Some(0), "{message}");
     assert!(message.contains("on the processor, not on"), "{message}");
@@ -367,6 +331,17 @@ fn a_grid_past_the_limits_is_refused_with_the_largest_and_auto_stays() {
 /// choice the processor goes on, to the same curve.
 #[test]
 fn a_lost_device_keeps_what_is_solved_and_auto_goes_on() {
+    keeps_what_is_solved("lost", "error: the device failed");
+}
+
+/// The same where numbers on the device are none.
+#[test]
+fn a_number_that_is_none_keeps_what_is_solved_and_auto_goes_on() {
+    keeps_what_is_solved("nan", "are no longer finite");
+}
+
+/// After so many dispatches as `fault` counts, the device fails with these words.
+fn keeps_what_is_solved(fault: &str, words: &str) {
     if device().is_none() {
         return;
     }
@@ -376,18 +351,18 @@ fn a_lost_device_keeps_what_is_solved_and_auto_goes_on() {
     let all = rows(&folder.path().join("cpu"));
     // The first step takes between one and two of these.
     let lost = [400, 800, 1600].into_iter().find(|dispatches| {
-        let lost = format!("lost={dispatches}");
+        let lost = format!("{fault}={dispatches}");
         let output = run_tested(folder.path(), "gpu", &["--backend", "gpu"], None, &lost);
         let message = errors(&output);
         assert_eq!(output.status.code(), Some(4), "{message}");
-        assert!(message.contains("error: the device failed"), "{message}");
+        assert!(message.contains(words), "{message}");
         assert!(!message.contains("panicked"), "{message}");
         let kept = rows(&folder.path().join("gpu"));
         assert!(kept.len() < all.len());
         !kept.is_empty() && message.contains("kept in")
     });
     let lost = lost.expect("a loss amid the path");
-    let tested = format!("software,lost={lost}");
+    let tested = format!("software,{fault}={lost}");
     let output = run_tested(folder.path(), "auto", &[], None, &tested);
     let message = errors(&output);
     assert_eq!(output.status.code(), Some(0), "{message}");
@@ -409,5 +384,75 @@ fn a_lost_device_keeps_what_is_solved_and_auto_goes_on() {
         };
         // Both to a residual of 1e-6.
         assert!((number(found) - number(all)).abs() <= 1e-5 * number(all).abs());
+    }
+}
+
+/// Sixteen kilobytes of the fields, then no more.
+#[test]
+fn a_device_out_of_memory_says_so_and_auto_goes_on() {
+    if device().is_none() {
+        return;
+    }
+    let folder = scene(ROUGH);
+    let gpu = ["--backend", "gpu"];
+    let output = run_tested(folder.path(), "gpu", &gpu, None, "memory=40000");
+    let message = errors(&output);
+    assert_eq!(output.status.code(), Some(4), "{message}");
+    assert!(message.contains("out of memory on "), "{message}");
+    assert!(message.contains("no room for `"), "{message}");
+    assert!(message.contains("--backend cpu"), "{message}");
+    assert!(!message.contains("panicked"), "{message}");
+    let output = run_tested(folder.path(), "auto", &[], None, "software,memory=40000");
+    let message = errors(&output);
+    assert_eq!(output.status.code(), Some(0), "{message}");
+    assert!(message.contains("the processor goes on"), "{message}");
+    let said = summary(&folder.path().join("auto"));
+    assert_eq!(said["backend"], "cpu");
+}
+
+/// A buffer of 4 KiB holds a fourth of a field of 64 x 64; the coarse grid of the wall stays whole.
+#[test]
+fn a_run_in_slabs_gives_the_same_bytes() {
+    if device().is_none() {
+        return;
+    }
+    let folder = scene(ROUGH);
+    let call = ["--backend", "gpu", "--set", "solver.tolerance=1e-4"];
+    for (out, tested) in [("one", ""), ("four", "slab=4096")] {
+        let output = run_tested(folder.path(), out, &call, None, tested);
+        assert_eq!(output.status.code(), Some(0), "{}", errors(&output));
+    }
+    for name in ["gap", "pressure"] {
+        let bytes = |out: &str| {
+            let path = folder
+                .path()
+                .join(format!("{out}/fields/step_0003_{name}.npy"));
+            fs::read(path).expect("a field")
+        };
+        assert!(bytes("one") == bytes("four"), "{name}");
+    }
+}
+
+/// Where the driver undoes compensated sums, plain ones do for a tolerance of single precision: their
+/// error over 64 x 64 points, added in halves, is below 1e-6.
+#[test]
+fn plain_sums_are_said_and_reach_the_tolerance() {
+    if device().is_none() {
+        return;
+    }
+    let folder = scene(ROUGH);
+    let call = ["--backend", "gpu", "--set", "solver.tolerance=1e-4"];
+    let output = run_tested(folder.path(), "gpu", &call, None, "plain-sums");
+    let message = errors(&output);
+    assert_eq!(output.status.code(), Some(0), "{message}");
+    assert!(
+        message.contains("adds in plain single precision"),
+        "{message}"
+    );
+    let found = rows(&folder.path().join("gpu"));
+    assert_eq!(found.len(), 3);
+    for row in &found {
+        assert_eq!(row["converged"], "true");
+        assert!(row["residual"].parse::<f64>().expect("a number") <= 1e-4);
     }
 }

@@ -1,6 +1,6 @@
 //! `tabor check`: what a scene would do and cost.
 
-use super::machine::refuse_size;
+use super::machine::{largest_here, refuse_size};
 use super::{CheckArguments, Failure, print, read_scene, room};
 use crate::backend::tally::Place;
 use crate::effect::Effect;
@@ -131,6 +131,12 @@ fn describe(plan: &Plan, cost: &Cost) -> Result<String, Failure> {
             Place::GpuDouble => "double precision on the GPU",
         }
     ));
+    if cost.place == Place::Gpu {
+        lines.push(format!(
+            "largest       {}",
+            largest_here(scene.grid.boundary)
+        ));
+    }
     if !cost.reference.is_empty() {
         lines.push(format!(
             "corrections   {} of state in double precision on the {}",

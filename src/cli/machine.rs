@@ -78,10 +78,14 @@ impl Machine {
     /// A backend on it.
     pub fn backend(&self) -> Box<dyn Backend + Send> {
         match (&self.place, self.precision) {
-            (Place::Gpu(device), Precision::Mixed) => Box::new(GpuBackend::on(device).corrected()),
-            (Place::Gpu(device), precision) => {
-                Box::new(GpuBackend::on(device).keeping(number(precision)))
+            (Place::Gpu(device), Precision::Mixed) => {
+                Box::new(GpuBackend::on(device).expecting_numbers().corrected())
             }
+            (Place::Gpu(device), precision) => Box::new(
+                GpuBackend::on(device)
+                    .expecting_numbers()
+                    .keeping(number(precision)),
+            ),
             (Place::Processor, Precision::Single) => Box::new(CpuBackend::<f32>::new()),
             (Place::Processor, Precision::Mixed) => Box::new(CpuBackend::<f32>::new().corrected()),
             (Place::Processor, _) => Box::new(CpuBackend::<f64>::new()),
@@ -133,8 +137,10 @@ fn number(precision: Precision) -> Number {
 
 /// What the environment asks of the adapter: `TABOR_TEST_GPU`, for tests of what no sound adapter
 /// does, is a list of `software` (`auto` takes it for a graphics processor), `nodouble` (it has no
-/// double precision), `binding=BYTES` (it binds no more) and `lost=DISPATCHES` (it is lost after so
-/// many).
+/// double precision), `binding=BYTES` (it binds no more), `slab=BYTES` (a buffer holds no more of a
+/// field), `memory=BYTES` (it has no more), `lost=DISPATCHES` (it is lost after so many),
+/// `nan=DISPATCHES` (numbers are none after so many) and `plain-sums` (its compiler undoes the
+/// compensation of sums).
 fn choice() -> AdapterChoice {
     let asked = std::env::var("TABOR_TEST_GPU").unwrap_or_default();
     let number = |key: &str| -> Option<u64> {
@@ -147,7 +153,11 @@ fn choice() -> AdapterChoice {
         software: asked.split(',').any(|word| word == "software"),
         without_double: asked.split(',').any(|word| word == "nodouble"),
         binding_limit: number("binding"),
+        slab_bytes: number("slab"),
         lost_after: number("lost"),
+        memory: number("memory"),
+        not_a_number_after: number("nan"),
+        plain_sums: asked.split(',').any(|word| word == "plain-sums"),
         ..AdapterChoice::default()
     }
 }
@@ -183,8 +193,7 @@ fn auto(setup: &Setup) -> (Place, Option<String>) {
     }
     let mut found = adapters();
     for adapter in &mut found {
-        let limit = choice.binding_limit.unwrap_or(u64::MAX);
-        adapter.binding_limit = adapter.binding_limit.min(limit);
+        adapter.limits = choice.narrowed(adapter.limits);
         adapter.double &= !choice.without_double;
     }
     let chosen = match choice.software {
@@ -240,6 +249,30 @@ pub(super) fn best(found: &[AdapterDescription]) -> Option<&AdapterDescription> 
         .min_by_key(|adapter| adapter.kind)
 }
 
+/// The largest grid of the adapter that `--backend gpu` takes here, in words.
+pub(super) fn largest_here(boundary: Boundary) -> String {
+    let found = adapters();
+    match best(&found).or(found.first()) {
+        None => "no adapter here".to_owned(),
+        Some(adapter) => {
+            let side = largest_with(adapter, boundary, Number::Single);
+            format!(
+                "{side} x {side} points in single and mixed precision on {}",
+                adapter.name
+            )
+        }
+    }
+}
+
+/// Points along the side of the largest square surface that an adapter takes.
+fn largest_with(adapter: &AdapterDescription, boundary: Boundary, number: Number) -> usize {
+    let largest = adapter.largest_side(number);
+    match boundary {
+        Boundary::Periodic => largest,
+        Boundary::Free => largest / 2,
+    }
+}
+
 /// Refuses grids that are past what an adapter transforms and binds.
 fn refuse_limits(
     setup: &Setup,
@@ -250,11 +283,7 @@ fn refuse_limits(
     if adapter.takes(shape.points, number) {
         return Ok(());
     }
-    let largest = adapter.largest_side(number);
-    let side = match setup.scene.grid.boundary {
-        Boundary::Periodic => largest,
-        Boundary::Free => largest / 2,
-    };
+    let side = largest_with(adapter, setup.scene.grid.boundary, number);
     Err(Failure::Usage(format!(
         "grid.points: {} x {} points are past the limits of {}, which takes up to {side} x {side} here{}: take fewer points, or --backend cpu",
         shape.surface[0],
@@ -298,7 +327,7 @@ pub(super) fn refuse_size(points: [usize; 2]) -> Result<(), Failure> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::backend::gpu::{AdapterKind, GroupLimits};
+    use crate::backend::gpu::{AdapterKind, GroupLimits, Limits};
 
     #[test]
     fn auto_never_takes_software() {
@@ -308,10 +337,14 @@ mod tests {
             driver: String::new(),
             kind,
             double: true,
-            binding_limit: 1 << 27,
-            group_limits: GroupLimits {
-                threads: 1024,
-                memory: 32768,
+            limits: Limits {
+                group: GroupLimits {
+                    threads: 1024,
+                    memory: 32768,
+                },
+                binding: 1 << 27,
+                slab: 1 << 27,
+                bindings: 32,
             },
         };
         let found = [

@@ -31,11 +31,17 @@ pub fn device_without_double() -> Option<GpuDevice> {
 }
 
 fn ready(without_double: bool) -> Option<GpuDevice> {
-    let choice = AdapterChoice {
-        name: None,
-        software: true,
+    device_with(&AdapterChoice {
         without_double,
         ..AdapterChoice::default()
+    })
+}
+
+/// A device of a choice, software drivers included, and told of as the shared one.
+pub fn device_with(choice: &AdapterChoice) -> Option<GpuDevice> {
+    let choice = AdapterChoice {
+        software: true,
+        ..choice.clone()
     };
     match GpuDevice::new(&choice) {
         Ok(device) => Some(device),

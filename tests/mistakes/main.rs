@@ -10,6 +10,8 @@ mod calls;
 mod curves;
 mod files;
 mod scenes;
+#[path = "../shared/mod.rs"]
+mod shared;
 mod variants;
 
 use std::collections::BTreeMap;
@@ -53,6 +55,14 @@ const OUT_OF_REACH: &[(&str, &str)] = &[
         "needs an adapter: tests/gpu_run.rs asks for it",
     ),
     ("GpuError::Device", "the device fails amid a run"),
+    (
+        "GpuError::OutOfMemory",
+        "needs an adapter that is out of memory: tests/gpu_run.rs forces it",
+    ),
+    (
+        "GpuError::NotFinite",
+        "needs an adapter that errs: tests/gpu_run.rs forces it",
+    ),
     (
         "GpuError::Size",
         "the command line refuses the grid before, in words of the scene: see calls::past_the_adapter",

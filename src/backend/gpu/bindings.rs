@@ -14,18 +14,32 @@ pub enum Access {
 
 /// Group 0 of the kernels that work on points: params, scalars, partial sums.
 pub const WORKING: &[Access] = &[Access::Uniform, Access::Read, Access::Write];
+/// The same where there are several slabs or parts of a spectrum: the number of this one besides.
+pub const WORKING_IN_TURNS: &[Access] = &[
+    Access::Uniform,
+    Access::Read,
+    Access::Write,
+    Access::Uniform,
+];
 /// Group 0 of the kernels that change the scalars.
 pub const DECIDING: &[Access] = &[Access::Uniform, Access::Write, Access::Write];
 /// Group 2 of the row transforms: roots of unity, work space.
 pub const ROWS: &[Access] = &[Access::Read, Access::Write];
-/// Group 1 of the columns: roots of unity, work space, factors.
-pub const COLUMNS: &[Access] = &[Access::Read, Access::Write, Access::Read];
 
-/// Group 1 of a kernel of the catalogue: its fields in declared order.
-pub fn fields(reads: usize, writes: usize, whole: bool) -> Vec<Access> {
+/// Group 1 of the columns: roots of unity, work space of each slab, factors.
+pub fn columns(slabs: usize) -> Vec<Access> {
+    let mut accesses = vec![Access::Read];
+    accesses.extend(vec![Access::Write; slabs]);
+    accesses.push(Access::Read);
+    accesses
+}
+
+/// Group 1 of a kernel of the catalogue: its fields in declared order, the last one, where it is read
+/// as a whole, in so many slabs.
+pub fn fields(reads: usize, writes: usize, whole: usize) -> Vec<Access> {
     let mut accesses = vec![Access::Read; reads];
     accesses.extend(vec![Access::Write; writes]);
-    accesses.extend(whole.then_some(Access::Read));
+    accesses.extend(vec![Access::Read; whole]);
     accesses
 }
 

@@ -87,7 +87,8 @@ impl GpuBackend {
             let text = source::decide(&decisions, backend.wide)?;
             let space = backend.level_space(level)?;
             let shared = [&backend.params, &backend.scalars, &space.partials];
-            backend.prepare("decide", text, &[(DECIDING, &shared)], 1)
+            let prepared = backend.prepare("decide", text, &[(DECIDING, &shared)], 1)?;
+            Ok(vec![prepared])
         })
     }
 }

@@ -7,7 +7,11 @@ use std::sync::{Arc, Mutex, OnceLock, PoisonError};
 use super::GpuBackend;
 use super::error::GpuError;
 use super::layout::{Number, Wide};
-use super::plan::{GroupLimits, LinePlan};
+use super::level::LevelPlan;
+use super::plan::GroupLimits;
+use super::slabs::{LONGEST_BINDING, Limits};
+use super::space;
+use crate::backend::Shape;
 
 /// Which adapter to take.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
@@ -22,8 +26,30 @@ pub struct AdapterChoice {
     /// Bytes that may be bound at a time, where that is to be less than the adapter takes: for tests of
     /// grids past the limits.
     pub binding_limit: Option<u64>,
+    /// Bytes of a field that go into one buffer, where that is to be less than the adapter binds: for
+    /// tests of grids in several slabs.
+    pub slab_bytes: Option<u64>,
     /// Dispatches after which the device is given up: for tests of its loss.
     pub lost_after: Option<u64>,
+    /// Bytes after which it has no memory left: for tests of that.
+    pub memory: Option<u64>,
+    /// Dispatches after which some number of each field is none: for tests of that.
+    pub not_a_number_after: Option<u64>,
+    /// Whether compensated sums are taken to come out wrong: for tests of plain ones.
+    pub plain_sums: bool,
+}
+
+impl AdapterChoice {
+    /// An adapter's limits, narrowed as the tests ask.
+    pub fn narrowed(&self, limits: Limits) -> Limits {
+        let binding = limits.binding.min(self.binding_limit.unwrap_or(u64::MAX));
+        let slab = binding.min(self.slab_bytes.unwrap_or(u64::MAX));
+        Limits {
+            binding,
+            slab,
+            ..limits
+        }
+    }
 }
 
 /// An adapter in words.
@@ -39,10 +65,8 @@ pub struct AdapterDescription {
     pub kind: AdapterKind,
     /// Whether it has double precision.
     pub double: bool,
-    /// Bytes that it binds at a time.
-    pub binding_limit: u64,
-    /// What a workgroup may hold.
-    pub group_limits: GroupLimits,
+    /// What it binds and what a workgroup may hold.
+    pub limits: Limits,
 }
 
 /// What computes behind an adapter, best first.
@@ -81,21 +105,14 @@ impl AdapterDescription {
 
     /// Whether its transforms and bindings take fields of so many points each way in this number.
     pub fn takes(&self, points: [usize; 2], number: Number) -> bool {
-        let longest = LinePlan::longest(self.group_limits, number);
-        let bytes = number.bytes() as u64 * points[0] as u64 * points[1] as u64;
-        points.into_iter().all(|side| side <= longest) && bytes <= self.binding_limit
+        let shape = Shape::whole(points[0], points[1]);
+        LevelPlan::laid_out(shape, &self.limits, number).is_ok()
     }
 
     /// Points along the side of the largest square grid whose fields in this number its transforms and
     /// bindings take.
     pub fn largest_side(&self, number: Number) -> usize {
-        // A field is the largest thing that is bound.
-        let mut side = LinePlan::longest(self.group_limits, number);
-        let bytes = number.bytes() as u64;
-        while side > 1 && bytes * (side as u64).pow(2) > self.binding_limit {
-            side /= 2;
-        }
-        side
+        self.limits.largest_side(number)
     }
 }
 
@@ -110,10 +127,17 @@ fn group_limits(limits: &wgpu::Limits) -> GroupLimits {
     }
 }
 
-fn binding_limit(limits: &wgpu::Limits) -> u64 {
-    limits
+fn limits(found: &wgpu::Limits) -> Limits {
+    let binding = found
         .max_storage_buffer_binding_size
-        .min(limits.max_buffer_size)
+        .min(found.max_buffer_size)
+        .min(LONGEST_BINDING);
+    Limits {
+        group: group_limits(found),
+        binding,
+        slab: binding,
+        bindings: found.max_storage_buffers_per_shader_stage as usize,
+    }
 }
 
 /// A graphics processor, ready to compute. Copies share the device and its compiled kernels.
@@ -132,6 +156,10 @@ struct Inner {
     plain_sums: OnceLock<bool>,
     /// Dispatches left before the device is given up, where it is to be.
     left: Option<AtomicU64>,
+    /// Dispatches left before numbers are none, where they are to be.
+    sound: Option<AtomicU64>,
+    /// Bytes left, where they are counted.
+    memory: Option<AtomicU64>,
 }
 
 fn instance() -> wgpu::Instance {
@@ -140,7 +168,6 @@ fn instance() -> wgpu::Instance {
 
 fn describe(adapter: &wgpu::Adapter) -> AdapterDescription {
     let info = adapter.get_info();
-    let limits = adapter.limits();
     AdapterDescription {
         interface: format!("{:?}", info.backend),
         driver: [info.driver, info.driver_info].join(" ").trim().to_string(),
@@ -152,8 +179,7 @@ fn describe(adapter: &wgpu::Adapter) -> AdapterDescription {
             wgpu::DeviceType::Cpu => AdapterKind::Software,
         },
         double: adapter.features().contains(wgpu::Features::SHADER_F64),
-        binding_limit: binding_limit(&limits),
-        group_limits: group_limits(&limits),
+        limits: limits(&adapter.limits()),
         name: info.name,
     }
 }
@@ -215,10 +241,8 @@ impl GpuDevice {
         let place = choose(&descriptions, &choice)?;
         let adapter = &found[place];
         let mut description = descriptions[place].clone();
-        if let Some(limit) = choice.binding_limit {
-            description.binding_limit = description.binding_limit.min(limit);
-        }
-        description.double &= !choice.without_double;
+        description.limits = choice.narrowed(description.limits);
+        description.double &= !(choice.without_double || choice.plain_sums);
         // Timestamps cost nothing until they are asked for.
         let mut required_features = adapter.features() & wgpu::Features::TIMESTAMP_QUERY;
         if description.double {
@@ -253,10 +277,12 @@ impl GpuDevice {
                 lost,
                 plain_sums: OnceLock::new(),
                 left: choice.lost_after.map(AtomicU64::new),
+                sound: choice.not_a_number_after.map(AtomicU64::new),
+                memory: choice.memory.map(AtomicU64::new),
             }),
         };
         if device.wide() == Wide::Compensated {
-            let survive = GpuBackend::new(&device)?.sums_survive()?;
+            let survive = !choice.plain_sums && GpuBackend::new(&device)?.sums_survive()?;
             let _ = device.inner.plain_sums.set(!survive);
         }
         Ok(device)
@@ -284,14 +310,14 @@ impl GpuDevice {
         Arc::ptr_eq(&self.inner, &other.inner)
     }
 
-    /// What a workgroup may hold.
-    pub fn group_limits(&self) -> GroupLimits {
-        group_limits(&self.inner.device.limits())
+    /// What it binds and what a workgroup may hold.
+    pub fn limits(&self) -> Limits {
+        self.inner.description.limits
     }
 
-    /// Bytes that may be bound at a time.
-    pub fn binding_limit(&self) -> u64 {
-        self.inner.description.binding_limit
+    /// Buffers that a field of this shape in single precision is cut into.
+    pub fn slabs(&self, shape: Shape) -> Result<usize, GpuError> {
+        LevelPlan::laid_out(shape, &self.limits(), Number::Single).map(|plan| plan.slabs)
     }
 
     /// Counts a dispatch, and gives the device up where it is to be lost.
@@ -301,6 +327,34 @@ impl GpuDevice {
         {
             self.inner.device.destroy();
         }
+    }
+
+    /// Counts a dispatch towards that after which numbers are none; whether this is the one.
+    pub(super) fn poisons(&self) -> bool {
+        let sound = self.inner.sound.as_ref();
+        sound.is_some_and(|sound| sound.fetch_sub(1, Ordering::Relaxed) == 1)
+    }
+
+    /// A storage buffer of zeros.
+    pub(super) fn allocate(&self, name: &str, bytes: usize) -> Result<wgpu::Buffer, GpuError> {
+        let bytes_wanted = bytes as u64;
+        let out_of_memory = || GpuError::OutOfMemory {
+            adapter: self.description().name.clone(),
+            name: name.to_string(),
+            bytes: bytes_wanted,
+        };
+        if let Some(memory) = &self.inner.memory {
+            let take = |left: u64| left.checked_sub(bytes_wanted);
+            memory
+                .fetch_update(Ordering::Relaxed, Ordering::Relaxed, take)
+                .map_err(|_| out_of_memory())?;
+        }
+        let make =
+            |device: &wgpu::Device| space::buffer(device, name, bytes, wgpu::BufferUsages::STORAGE);
+        self.guarded(make).map_err(|error| match error {
+            GpuError::OutOfMemory { .. } => out_of_memory(),
+            other => other,
+        })
     }
 
     pub(super) fn queue(&self) -> &wgpu::Queue {
@@ -338,14 +392,18 @@ impl GpuDevice {
             pollster::block_on(internal.pop()),
             pollster::block_on(memory.pop()),
         ];
-        let failure = errors.into_iter().flatten().next().map(|error| {
-            GpuError::Device(match error {
-                wgpu::Error::OutOfMemory { .. } => {
-                    "out of memory on the graphics processor".to_string()
-                }
-                other => other.to_string(),
-            })
-        });
+        let failure = errors
+            .into_iter()
+            .flatten()
+            .next()
+            .map(|error| match error {
+                wgpu::Error::OutOfMemory { .. } => GpuError::OutOfMemory {
+                    adapter: self.description().name.clone(),
+                    name: "a buffer".to_string(),
+                    bytes: 0,
+                },
+                other => GpuError::Device(other.to_string()),
+            });
         (result, failure.or_else(|| self.loss()))
     }
 
@@ -404,10 +462,14 @@ mod tests {
             driver: String::new(),
             kind,
             double: true,
-            binding_limit: 1 << 27,
-            group_limits: GroupLimits {
-                threads: 1024,
-                memory: 32768,
+            limits: Limits {
+                group: GroupLimits {
+                    threads: 1024,
+                    memory: 32768,
+                },
+                binding: 1 << 27,
+                slab: 1 << 27,
+                bindings: 32,
             },
         }
     }
@@ -441,19 +503,39 @@ mod tests {
     #[test]
     fn the_largest_grid_keeps_both_limits() {
         let mut found = adapter("one", AdapterKind::Discrete);
-        let single = Number::Single;
-        assert_eq!(found.largest_side(single), 4096);
-        assert_eq!(found.largest_side(Number::Double), 4096);
-        found.binding_limit = (1 << 31) - 1;
+        let (single, double) = (Number::Single, Number::Double);
+        // Eight slabs of 128 MiB, of the 28 that 32 bindings leave; lines of two numbers in 32 KiB.
         assert_eq!(found.largest_side(single), 16384);
-        assert_eq!(found.largest_side(Number::Double), 8192);
-        found.binding_limit = 1 << 20;
-        assert_eq!(found.largest_side(single), 512);
-        assert_eq!(found.largest_side(Number::Double), 256);
-        // It is the points that count, not the longer side.
-        assert!(found.takes([2048, 128], single) && !found.takes([2048, 130], single));
-        assert!(found.takes([1024, 128], Number::Double));
-        assert!(!found.takes([2048, 128], Number::Double));
+        assert_eq!(found.largest_side(double), 8192);
+        found.limits.slab = 1 << 20;
+        // 16 MiB in sixteen slabs; four times as many would not be bound together.
+        assert_eq!(found.largest_side(single), 2048);
+        assert_eq!(found.largest_side(double), 1024);
+        found.limits.bindings = 8;
+        // Four slabs beside four other buffers.
+        assert_eq!(found.largest_side(single), 1024);
+        assert!(found.takes([4096, 256], single) && !found.takes([4096, 258], single));
+        assert!(!found.takes([4096, 256], double));
         assert!(!found.takes([32768, 2], single));
+    }
+
+    /// More than any device has, in one buffer and in a kernel's text: wgpu's own errors come back as
+    /// ours.
+    #[test]
+    fn what_a_device_cannot_do_is_an_error() {
+        let choice = AdapterChoice {
+            software: true,
+            ..AdapterChoice::default()
+        };
+        let Ok(device) = GpuDevice::new(&choice) else {
+            let required = std::env::var("TABOR_REQUIRE_GPU").is_ok_and(|value| value == "1");
+            assert!(!required, "TABOR_REQUIRE_GPU is set");
+            return;
+        };
+        let refused = device.allocate("far too long", 1 << 50);
+        assert!(refused.is_err(), "{refused:?}");
+        let refused = device.pipeline("nothing", "no shader".to_string(), &[]);
+        assert!(refused.is_err(), "{refused:?}");
+        assert!(device.allocate("short", 16).is_ok());
     }
 }

@@ -64,6 +64,23 @@ pub enum GpuError {
         /// How many it was given.
         given: usize,
     },
+    /// A buffer for which the device has no memory left.
+    #[error(
+        "out of memory on {adapter}: there is no room for `{name}`, of {bytes} bytes; take fewer points, or --backend cpu"
+    )]
+    OutOfMemory {
+        /// The adapter's name.
+        adapter: String,
+        /// Which buffer.
+        name: String,
+        /// Its length.
+        bytes: u64,
+    },
+    /// Numbers on the device that are none.
+    #[error(
+        "numbers on {0} are no longer finite: the device erred, or single precision does not hold this scene; --backend cpu tells which"
+    )]
+    NotFinite(String),
     /// The device refused or failed.
     #[error("{0}")]
     Device(String),

@@ -5,34 +5,46 @@ use super::device::GpuDevice;
 use super::layout::Number;
 use super::source;
 use super::{GpuBackend, GpuError};
-use crate::backend::Field;
+use crate::backend::{Field, Shape};
 
 /// A field lent to another backend on the same device.
 pub struct Lent {
     device: GpuDevice,
-    buffer: wgpu::Buffer,
+    slabs: Vec<wgpu::Buffer>,
     number: Number,
+    /// Points in a slab.
     points: usize,
 }
 
 impl Lent {
-    /// Whether it lies on this device.
-    pub(super) fn is_on(&self, device: &GpuDevice) -> bool {
-        self.device.is(device)
+    /// Whether it lies on this device, in slabs of so many points.
+    pub(super) fn suits(&self, device: &GpuDevice, points: usize) -> bool {
+        self.device.is(device) && self.points == points
     }
 }
 
 impl GpuBackend {
+    /// Whether what corrects this backend's state in double precision keeps it on the same device.
+    pub(super) fn corrects_here(&self, shape: Shape) -> bool {
+        let adapter = self.device.description();
+        self.corrected && adapter.double && adapter.takes(shape.points, Number::Double)
+    }
+
+    /// Whether a lent field lies as one of this backend's does.
+    pub(super) fn takes_over(&self, field: Field, lent: &Lent) -> bool {
+        self.level_space(field.level)
+            .is_ok_and(|level| lent.suits(&self.device, level.plan.slab_points()))
+    }
+
     /// Hands a field out, with all that was recorded for it on its way to the device.
     pub(super) fn hand_out(&mut self, field: Field) -> Result<Lent, GpuError> {
         self.settle()?;
         self.recorder.hand_over()?;
-        let space = self.field_space(field)?;
         Ok(Lent {
             device: self.device.clone(),
-            buffer: space.buffer.clone(),
+            slabs: self.field_space(field)?.slabs.clone(),
             number: self.number,
-            points: space.points,
+            points: self.level_space(field.level)?.plan.slab_points(),
         })
     }
 
@@ -40,15 +52,16 @@ impl GpuBackend {
     /// next may change the field again.
     pub(super) fn convert(&mut self, field: Field, lent: &Lent) -> Result<(), GpuError> {
         self.settle()?;
-        let space = self.field_space(field)?;
-        let points = space.points.min(lent.points);
-        let (text, workgroups) = source::convert(lent.number, self.number, points);
+        let (text, workgroups) = source::convert(lent.number, self.number, lent.points);
         let accesses = [Access::Read, Access::Write];
-        let buffers = [&lent.buffer, &space.buffer];
-        let prepared = self.prepare("convert", text, &[(&accesses, &buffers)], workgroups)?;
-        self.traffic.dispatches += 1;
-        self.device.count_dispatch();
-        self.recorder.dispatch(prepared)?;
+        let slabs = self.field_space(field)?.slabs.clone();
+        for (from, to) in lent.slabs.iter().zip(&slabs) {
+            let groups: [(&[Access], &[&wgpu::Buffer]); 1] = [(&accesses, &[from, to])];
+            let prepared = self.prepare("convert", text.clone(), &groups, workgroups)?;
+            self.traffic.dispatches += 1;
+            self.device.count_dispatch();
+            self.recorder.dispatch(prepared)?;
+        }
         self.recorder.hand_over()
     }
 }

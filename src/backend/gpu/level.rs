@@ -51,10 +51,14 @@ pub struct LevelPlan {
     pub rows: LinePlan,
     /// Transforms along y of nx/2 + 1 columns.
     pub columns: LinePlan,
+    /// Slabs of a field, each of as many pairs of rows; 1 where a binding holds all of it.
+    pub slabs: usize,
+    /// Parts of a spectrum, each of as many columns but the last.
+    pub parts: usize,
 }
 
 impl LevelPlan {
-    /// The plan of a shape, if its numbers are even, smooth and not too large.
+    /// The plan of a shape in one slab, if its numbers are even, smooth and not too large.
     pub fn new(shape: Shape, limits: GroupLimits, number: Number) -> Result<Self, GpuError> {
         let [nx, ny] = shape.points;
         let refused = || GpuError::Size {
@@ -71,6 +75,8 @@ impl LevelPlan {
             surface: shape.surface,
             rows: LinePlan::new(nx, ny / 2, limits, number).ok_or_else(refused)?,
             columns: LinePlan::new(ny, nx / 2 + 1, limits, number).ok_or_else(refused)?,
+            slabs: 1,
+            parts: 1,
         })
     }
 
@@ -89,17 +95,27 @@ impl LevelPlan {
         self.shape[0] / 2 + 1
     }
 
-    /// Workgroups of a kernel on this level.
-    pub fn groups(&self, form: Form) -> usize {
+    /// Workgroups of a kernel on one slab of this level.
+    pub fn slab_groups(&self, form: Form) -> usize {
         match form {
-            Form::Sweep => self.points().div_ceil(SWEEP_THREADS).min(SWEEP_GROUPS),
-            _ => self.rows.groups(self.pairs()),
+            Form::Sweep => self.slab_points().div_ceil(SWEEP_THREADS).min(SWEEP_GROUPS),
+            _ => self.rows.groups(self.slab_pairs()),
         }
     }
 
-    /// Workgroups of the columns.
+    /// Workgroups of a kernel on this level, all slabs together.
+    pub fn groups(&self, form: Form) -> usize {
+        self.slabs * self.slab_groups(form)
+    }
+
+    /// Workgroups of the columns of one part of a spectrum.
+    pub fn part_groups(&self) -> usize {
+        self.columns.groups(self.part_columns())
+    }
+
+    /// Workgroups of the columns, all parts together.
     pub fn column_groups(&self) -> usize {
-        self.columns.groups(self.column_count())
+        self.parts * self.part_groups()
     }
 
     /// Partial sums that wait on this level at most: one set in each of their places.

@@ -13,12 +13,14 @@ mod deciding;
 mod device;
 mod error;
 mod fft;
+mod filling;
 mod layout;
 mod lending;
 mod level;
 mod plan;
 mod reading;
 mod recorder;
+mod slabs;
 pub mod source;
 mod space;
 mod sums;
@@ -31,9 +33,9 @@ use std::f64::consts::TAU;
 use super::cpu::CpuBackend;
 use super::{Backend, BackendError, Field, Level, Shape, Spectrum};
 use crate::kernel::{Form, Gate, Kernel, Params, ScalarKernel, Scalars};
-use bindings::{Access, COLUMNS, ROWS, WORKING};
+use bindings::{Access, ROWS, WORKING, WORKING_IN_TURNS};
 use deciding::{Decided, Deciding};
-use level::{LevelPlan, Place};
+use level::Place;
 use recorder::{Prepared, Recorder};
 use source::{Reduction, Results};
 use space::{FieldSpace, Key, LevelSpace, SpectrumSpace};
@@ -44,6 +46,7 @@ pub use error::GpuError;
 pub use layout::{Number, Wide};
 pub use lending::Lent;
 pub use plan::{Exchange, GroupLimits, LinePlan, radices};
+pub use slabs::Limits;
 pub use timing::{KernelTime, Stopwatch, Timings};
 pub use traffic::Traffic;
 
@@ -60,7 +63,7 @@ pub struct GpuBackend {
     fields: Vec<Option<FieldSpace>>,
     spectra: Vec<Option<SpectrumSpace>>,
     roots: HashMap<usize, wgpu::Buffer>,
-    prepared: HashMap<Key, Prepared>,
+    prepared: HashMap<Key, Vec<Prepared>>,
     /// What is decided after the last kernel over points, in one dispatch.
     deciding: Deciding,
     traffic: Traffic,
@@ -71,6 +74,8 @@ pub struct GpuBackend {
     base: Option<[Field; 2]>,
     /// Whether a state in double precision stands beside the fields.
     corrected: bool,
+    /// Whether scalars that are not finite are a failure.
+    expects_numbers: bool,
     /// The first thing that went wrong; told where the host waits.
     failure: Option<GpuError>,
     transforms: f64,
@@ -121,6 +126,7 @@ impl GpuBackend {
             law_factor: None,
             base: None,
             corrected: false,
+            expects_numbers: false,
             failure,
             transforms: 0.0,
             // Software idles through shut gates slower than it waits.
@@ -149,6 +155,14 @@ impl GpuBackend {
             self.failure.get_or_insert(GpuError::Precision(name));
         }
         GpuBackend { number, ..self }
+    }
+
+    /// The same where numbers that are none are a failure of the device, not an answer.
+    pub fn expecting_numbers(self) -> Self {
+        GpuBackend {
+            expects_numbers: true,
+            ..self
+        }
     }
 
     /// The same for iterations that correct a state kept in double precision.
@@ -208,7 +222,7 @@ impl GpuBackend {
 
     /// A storage buffer of zeros, if the adapter can bind it.
     fn storage(&self, name: &str, bytes: usize) -> Result<wgpu::Buffer, GpuError> {
-        let limit = self.device.binding_limit();
+        let limit = self.device.limits().binding;
         if bytes as u64 > limit {
             return Err(GpuError::TooLarge {
                 name: name.to_string(),
@@ -216,8 +230,7 @@ impl GpuBackend {
                 limit,
             });
         }
-        self.device
-            .guarded(|device| space::buffer(device, name, bytes, wgpu::BufferUsages::STORAGE))
+        self.device.allocate(name, bytes)
     }
 
     fn level_space(&self, level: Level) -> Result<&LevelSpace, GpuError> {
@@ -281,11 +294,11 @@ impl GpuBackend {
         })
     }
 
-    /// Finds a prepared dispatch or prepares it, and records it.
+    /// Finds what is prepared, a dispatch each slab, or prepares it, and records it.
     fn dispatch(
         &mut self,
         key: Key,
-        prepare: impl FnOnce(&Self) -> Result<Prepared, GpuError>,
+        prepare: impl FnOnce(&Self) -> Result<Vec<Prepared>, GpuError>,
     ) -> Result<(), GpuError> {
         let prepared = match self.prepared.get(&key) {
             Some(prepared) => prepared.clone(),
@@ -295,9 +308,15 @@ impl GpuBackend {
                 prepared
             }
         };
-        self.traffic.dispatches += 1;
-        self.device.count_dispatch();
-        self.recorder.dispatch(prepared)
+        for each in prepared {
+            self.traffic.dispatches += 1;
+            self.device.count_dispatch();
+            self.recorder.dispatch(each)?;
+        }
+        match self.device.poisons() {
+            true => self.poison(),
+            false => Ok(()),
+        }
     }
 
     /// Records a kernel of the catalogue and the reduction of its sums.
@@ -352,40 +371,41 @@ impl GpuBackend {
         self.recorder.write(buffer, bytes)
     }
 
+    /// The dispatches of a kernel, one a slab.
     fn kernel(
         &self,
         kernel: &'static Kernel,
         level: Level,
         fields: &[Field],
-    ) -> Result<Prepared, GpuError> {
+    ) -> Result<Vec<Prepared>, GpuError> {
         let space = self.level_space(level)?;
-        let mut buffers = Vec::new();
+        let mut bound = Vec::new();
         for &field in fields {
-            buffers.push(&self.field_space(field)?.buffer);
+            bound.push(&self.field_space(field)?.slabs);
         }
+        let own = kernel.reads + kernel.writes;
         let whole = match (kernel.whole, fields.last()) {
-            (true, Some(field)) => self.level_space(field.level)?.plan.shape,
-            _ => [0, 0],
+            (true, Some(field)) => source::Whole::of(&self.level_space(field.level)?.plan),
+            _ => source::Whole::default(),
         };
-        let mut accesses = bindings::fields(kernel.reads, kernel.writes, kernel.whole);
-        // Bound behind the kernel's own fields.
-        let factor = match self.law_factor {
-            Some(field) if field.level == level && catalogue::asks_for_law(kernel.name) => {
-                buffers.push(&self.field_space(field)?.buffer);
+        let mut accesses = bindings::fields(kernel.reads, kernel.writes, whole.slabs);
+        let mut behind = Vec::new();
+        let mut follow = |fields: &[Field]| -> Result<usize, GpuError> {
+            let first = accesses.len();
+            for &field in fields {
+                behind.push(&self.field_space(field)?.slabs);
                 accesses.push(Access::Read);
-                Some(kernel.fields())
             }
+            Ok(first)
+        };
+        // Bound behind the kernel's own fields.
+        let asks = catalogue::asks_for_law(kernel.name);
+        let factor = match self.law_factor {
+            Some(field) if field.level == level && asks => Some(follow(&[field])?),
             _ => None,
         };
         let base = match self.base {
-            Some(base) if base[0].level == level && catalogue::asks_for_law(kernel.name) => {
-                let first = buffers.len();
-                for field in base {
-                    buffers.push(&self.field_space(field)?.buffer);
-                    accesses.push(Access::Read);
-                }
-                Some(first)
-            }
+            Some(base) if base[0].level == level && asks => Some(follow(&base)?),
             _ => None,
         };
         let law = source::LawSource {
@@ -394,21 +414,35 @@ impl GpuBackend {
             base,
         };
         let text = source::kernel(kernel, &space.plan, whole, law, self.wide)?;
-        let shared = [&self.params, &self.scalars, &space.partials];
-        let transform = [&space.row_roots, &space.work];
-        let mut groups: Vec<(&[Access], &[&wgpu::Buffer])> =
-            vec![(WORKING, &shared), (&accesses, &buffers)];
-        if kernel.form != Form::Sweep {
-            groups.push((ROWS, &transform));
-        }
-        let mut prepared =
-            self.prepare(kernel.name, text, &groups, space.plan.groups(kernel.form))?;
-        let only_written = &buffers[kernel.reads + kernel.writes - kernel.fresh..][..kernel.fresh];
-        prepared.bytes -= only_written.iter().map(|buffer| buffer.size()).sum::<u64>();
-        if matches!(kernel.form, Form::Load | Form::Store | Form::Peek) {
-            prepared.bytes -= space.work.size();
-        }
-        Ok(prepared)
+        let groups = space.plan.slab_groups(kernel.form);
+        let in_slab = |slab: usize| {
+            let shared = self.shared(space, slab);
+            let mut buffers: Vec<_> = bound[..own].iter().map(|slabs| &slabs[slab]).collect();
+            // A field read as a whole is bound in all its slabs.
+            buffers.extend(bound[own..].iter().copied().flatten());
+            buffers.extend(behind.iter().map(|slabs| &slabs[slab]));
+            let transform = [&space.row_roots, &space.work[slab]];
+            let mut all: Vec<(&[Access], &[&wgpu::Buffer])> =
+                vec![(working(&shared), &shared), (&accesses, &buffers)];
+            if kernel.form != Form::Sweep {
+                all.push((ROWS, &transform));
+            }
+            let mut prepared = self.prepare(kernel.name, text.clone(), &all, groups)?;
+            let only_written = &buffers[own - kernel.fresh..own];
+            prepared.bytes -= only_written.iter().map(|buffer| buffer.size()).sum::<u64>();
+            if matches!(kernel.form, Form::Load | Form::Store | Form::Peek) {
+                prepared.bytes -= space.work[slab].size();
+            }
+            Ok(prepared)
+        };
+        (0..space.plan.slabs).map(in_slab).collect()
+    }
+
+    /// Group 0 of a kernel in one of its turns over slabs or parts of a spectrum.
+    fn shared<'a>(&'a self, space: &'a LevelSpace, turn: usize) -> Vec<&'a wgpu::Buffer> {
+        let mut shared = vec![&self.params, &self.scalars, &space.partials];
+        shared.extend(space.turns.get(turn));
+        shared
     }
 
     fn columns(&mut self, by: Spectrum, energy: bool, gate: Gate) -> Result<(), GpuError> {
@@ -424,16 +458,23 @@ impl GpuBackend {
         self.dispatch(Key::Multiply(by.index, energy, word), |backend| {
             let space = backend.level_space(by.level)?;
             let text = source::multiply(&space.plan, energy, gate, backend.wide);
-            let shared = [&backend.params, &backend.scalars, &space.partials];
-            let factors = &backend.spectrum_space(by)?.buffer;
-            let buffers = [&space.column_roots, &space.work, factors];
-            let groups = space.plan.column_groups();
-            backend.prepare(
-                "multiply",
-                text,
-                &[(WORKING, &shared), (COLUMNS, &buffers)],
-                groups,
-            )
+            let accesses = bindings::columns(space.plan.slabs);
+            let in_part = |(part, factors): (usize, &wgpu::Buffer)| {
+                let shared = backend.shared(space, part);
+                let mut buffers = vec![&space.column_roots];
+                buffers.extend(&space.work);
+                buffers.push(factors);
+                let all: [(&[Access], &[&wgpu::Buffer]); 2] =
+                    [(working(&shared), &shared), (&accesses, &buffers)];
+                let groups = space.plan.part_groups();
+                let mut prepared = backend.prepare("multiply", text.clone(), &all, groups)?;
+                // Each part goes through its own columns of the work space alone.
+                let work: u64 = space.work.iter().map(|slab| slab.size()).sum();
+                prepared.bytes -= 2 * (work - work / space.plan.parts as u64);
+                Ok(prepared)
+            };
+            let parts = &backend.spectrum_space(by)?.parts;
+            parts.iter().enumerate().map(in_part).collect()
         })?;
         if !energy {
             return Ok(());
@@ -455,6 +496,14 @@ impl GpuBackend {
     }
 }
 
+/// What group 0 is to a kernel over points, by what is bound.
+fn working(shared: &[&wgpu::Buffer]) -> &'static [Access] {
+    match shared.len() == WORKING.len() {
+        true => WORKING,
+        false => WORKING_IN_TURNS,
+    }
+}
+
 /// Rounds recorded before the host waits: a wait costs about as much as these cost to record.
 const LOOK_EVERY: usize = 8;
 
@@ -464,21 +513,20 @@ impl Backend for GpuBackend {
     }
 
     fn suits(&self, shape: Shape) -> bool {
-        LevelPlan::new(shape, self.device.group_limits(), self.number).is_ok()
+        self.plan(shape).is_ok()
     }
 
     fn level(&mut self, name: &'static str, shape: Shape) -> Level {
         let space = self.attempt(|backend| {
-            let number = backend.number;
-            let plan = LevelPlan::new(shape, backend.device.group_limits(), number)?;
-            // Half as many complex numbers as points.
-            let work = backend.storage(name, number.bytes() * plan.points())?;
+            let plan = backend.plan(shape)?;
             let partials = 8 + plan.partials() * backend.wide.part_bytes();
             Ok(LevelSpace {
                 row_roots: backend.roots(plan.shape[0])?,
                 column_roots: backend.roots(plan.shape[1])?,
                 partials: backend.storage(name, partials)?,
-                work,
+                // Half as many complex numbers as points.
+                work: backend.slabs(name, &plan)?,
+                turns: backend.turns(&plan)?,
                 plan,
             })
         });
@@ -488,9 +536,8 @@ impl Backend for GpuBackend {
 
     fn field(&mut self, level: Level, name: &'static str) -> Field {
         let space = self.attempt(|backend| {
-            let points = backend.level_space(level)?.plan.points();
-            let buffer = backend.storage(name, backend.number.bytes() * points)?;
-            Ok(FieldSpace { buffer, points })
+            let slabs = backend.slabs(name, &backend.level_space(level)?.plan)?;
+            Ok(FieldSpace { slabs })
         });
         self.fields.push(space);
         Field {
@@ -501,10 +548,9 @@ impl Backend for GpuBackend {
 
     fn spectrum(&mut self, level: Level, name: &'static str, values: &[f64]) -> Spectrum {
         let space = self.attempt(|backend| {
-            let buffer = backend.storage(name, backend.number.bytes() * values.len())?;
-            let bytes = backend.number.bytes_of(values.iter().copied());
-            backend.overwrite(&buffer, bytes)?;
-            Ok(SpectrumSpace { buffer })
+            let plan = backend.level_space(level)?.plan.clone();
+            let parts = backend.write_parts(name, &plan, values)?;
+            Ok(SpectrumSpace { parts })
         });
         self.spectra.push(space);
         Spectrum {
@@ -515,18 +561,16 @@ impl Backend for GpuBackend {
 
     fn set_zero_mode(&mut self, spectrum: Spectrum, value: f64) {
         self.attempt(|backend| {
-            let buffer = backend.spectrum_space(spectrum)?.buffer.clone();
+            let first = backend.spectrum_space(spectrum)?.parts[0].clone();
             let bytes = backend.number.bytes_of([value]);
-            backend.overwrite(&buffer, bytes)
+            backend.overwrite(&first, bytes)
         });
     }
 
     fn write(&mut self, field: Field, values: &[f64]) {
         self.attempt(|backend| {
-            let buffer = backend.field_space(field)?.buffer.clone();
             backend.traffic.fields_up += 1;
-            let bytes = backend.number.bytes_of(values.iter().copied());
-            backend.overwrite(&buffer, bytes)
+            backend.write_slabs(field, values)
         });
     }
 
@@ -550,17 +594,18 @@ impl Backend for GpuBackend {
 
     fn clear(&mut self, field: Field) {
         self.attempt(|backend| {
-            let buffer = backend.field_space(field)?.buffer.clone();
             backend.settle()?;
-            backend.recorder.clear(&buffer)
+            let slabs = backend.field_space(field)?.slabs.clone();
+            slabs
+                .iter()
+                .try_for_each(|slab| backend.recorder.clear(slab))
         });
     }
 
     /// On the device where it has double precision and takes the shape in it, else on the processor.
     fn in_double(&self, shape: Shape) -> Option<Box<dyn Backend + Send>> {
         self.corrected.then(|| -> Box<dyn Backend + Send> {
-            let adapter = self.device.description();
-            match adapter.double && adapter.takes(shape.points, Number::Double) {
+            match self.corrects_here(shape) {
                 true => Box::new(GpuBackend::on(&self.device).keeping(Number::Double)),
                 false => Box::new(CpuBackend::<f64>::new()),
             }
@@ -574,7 +619,7 @@ impl Backend for GpuBackend {
         source: Field,
     ) -> Result<(), BackendError> {
         match from.lend(source) {
-            Some(lent) if lent.is_on(&self.device) => {
+            Some(lent) if self.takes_over(field, &lent) => {
                 self.attempt(|backend| backend.convert(field, &lent));
             }
             _ => self.write(field, &from.read(source)?),

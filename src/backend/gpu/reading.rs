@@ -4,7 +4,7 @@ use super::level::ROW_TRANSFORMS_PER_TRANSFORM;
 use super::recorder::Part;
 use super::{GpuBackend, GpuError, layout};
 use crate::backend::Field;
-use crate::kernel::Scalars;
+use crate::kernel::{Scalars, Status};
 
 impl GpuBackend {
     /// Waits, and reads the scalars and what was counted.
@@ -33,23 +33,33 @@ impl GpuBackend {
             transforms += f64::from(rows) * share / ROW_TRANSFORMS_PER_TRANSFORM;
         }
         self.transforms = transforms;
-        Ok(layout::scalars_of(&bytes[..length], self.wide))
+        let scalars = layout::scalars_of(&bytes[..length], self.wide);
+        if self.expects_numbers && scalars.status == Status::NotFinite {
+            let adapter = self.device.description().name.clone();
+            return Err(GpuError::NotFinite(adapter));
+        }
+        Ok(scalars)
     }
 
     pub(super) fn fetch(&mut self, field: Field) -> Result<Vec<f64>, GpuError> {
         self.checked()?;
         self.settle()?;
         self.traffic.fields_down += 1;
-        let space = self
-            .fields
-            .get(field.index)
-            .and_then(Option::as_ref)
-            .ok_or_else(|| GpuError::Device("a field that was not made".to_string()))?;
-        let bytes = self.recorder.read(&[Part {
-            buffer: &space.buffer,
-            start: 0,
-            length: self.number.bytes() * space.points,
-        }])?;
-        Ok(self.number.values_of(&bytes))
+        let plan = self.level_space(field.level)?.plan.clone();
+        let slabs = self.field_space(field)?.slabs.clone();
+        let mut values = vec![f64::NAN; plan.points()];
+        for (slab, buffer) in slabs.iter().enumerate() {
+            let bytes = self.recorder.read(&[Part {
+                buffer,
+                start: 0,
+                length: self.number.bytes() * plan.slab_points(),
+            }])?;
+            let numbers = self.number.values_of(&bytes);
+            let (rows, partners) = numbers.split_at(numbers.len() / 2);
+            let [to_rows, to_partners] = plan.slab_ranges(slab);
+            values[to_rows].copy_from_slice(rows);
+            values[to_partners].copy_from_slice(partners);
+        }
+        Ok(values)
     }
 }

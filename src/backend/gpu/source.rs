@@ -10,6 +10,7 @@ mod convert;
 mod copy;
 mod deciding;
 mod rows;
+mod slabs;
 
 use std::fmt::Write;
 
@@ -26,6 +27,8 @@ pub use convert::convert;
 pub use copy::copy;
 pub use deciding::{Decision, PAIRS, Reduction, Results, decide, two_sums};
 use rows::rows_main;
+pub use slabs::Whole;
+use slabs::{Work, after_turns, first_turn};
 
 /// The law of a kernel: its part, and where the factors on its tension are bound.
 #[derive(Clone, Copy, Debug)]
@@ -123,16 +126,25 @@ fn reduction(source: &mut String, reduces: &[Reduce], threads: usize, at_once: u
     source.push_str("}\n");
 }
 
-/// How a workgroup hands in its sums, after `reduction`; `first_partial` is where they begin.
-fn hand_in(source: &mut String, reduces: &[Reduce], groups: usize, first_partial: usize) {
+/// How a workgroup hands in its sums, after `reduction`: so many workgroups in each of some turns, their
+/// partial sums from `place` on.
+fn hand_in(
+    source: &mut String,
+    reduces: &[Reduce],
+    turns: usize,
+    turn_groups: usize,
+    place: usize,
+) {
     let count = reduces.len();
+    let groups = turns * turn_groups;
+    let before = after_turns(turns, turn_groups);
     let _ = write!(
         source,
         "fn hand_in(group: u32, thread: u32) {{\n\
          for (var first = 0u; first < {count}u; first = first + SUMS_AT_ONCE) {{\n\
          gather(first, thread);\n\
          if (thread < SUMS_AT_ONCE && first + thread < {count}u) {{\n\
-         partials.values[{first_partial}u + (first + thread) * {groups}u + group] = group_values[thread * GROUP_THREADS];\n\
+         partials.values[{place}u + (first + thread) * {groups}u + {before}group] = group_values[thread * GROUP_THREADS];\n\
          }}\n}}\n}}\n"
     );
 }
@@ -143,7 +155,7 @@ fn on_surface(source: &mut String, plan: &LevelPlan) {
     let body = if plan.shape == plan.surface {
         "true".to_string()
     } else {
-        format!("index % {width}u < {nx}u && index / {width}u < {ny}u")
+        format!("index % {width}u < {nx}u && row_of(index) < {ny}u")
     };
     let _ = writeln!(
         source,
@@ -182,17 +194,18 @@ fn arrive(source: &mut String, law: LawSource) {
     );
 }
 
-/// The shader of a kernel on a level. `whole` is the shape of the field it reads anywhere.
+/// The shader of a kernel on a level, for all its slabs. `whole` is the field that it reads anywhere.
 pub fn kernel(
     kernel: &Kernel,
     plan: &LevelPlan,
-    whole: [usize; 2],
+    whole: impl Into<Whole>,
     law: LawSource,
     wide: Wide,
 ) -> Result<String, GpuError> {
     let shader = catalogue::shader(kernel.name).ok_or(GpuError::NoShader(kernel.name))?;
     let mut source = plan.number.declaration();
     preamble(&mut source, wide, "read", SUMS);
+    slabs::declare_turn(&mut source, plan);
     if !kernel.sums.is_empty() {
         let (threads, at_once) = match kernel.form {
             Form::Sweep => (SWEEP_THREADS, SWEEP_SUMS_AT_ONCE),
@@ -200,18 +213,27 @@ pub fn kernel(
         };
         let at_once = at_once.min(kernel.sums.len());
         reduction(&mut source, kernel.sums, threads, at_once);
-        let first = plan.first_partial(Place::of(kernel.form));
-        hand_in(&mut source, kernel.sums, plan.groups(kernel.form), first);
+        hand_in(
+            &mut source,
+            kernel.sums,
+            plan.slabs,
+            plan.slab_groups(kernel.form),
+            plan.first_partial(Place::of(kernel.form)),
+        );
     }
+    slabs::row_of(&mut source, plan);
     on_surface(&mut source, plan);
     arrive(&mut source, law);
     let [width, height] = plan.shape;
     let _ = writeln!(
         source,
-        "const WIDTH: u32 = {width}u;\nconst HEIGHT: u32 = {height}u;\n\
-         const WHOLE_WIDTH: u32 = {}u;\nconst WHOLE_HEIGHT: u32 = {}u;",
-        whole[0], whole[1]
+        "const WIDTH: u32 = {width}u;\nconst HEIGHT: u32 = {height}u;"
     );
+    if kernel.whole {
+        whole
+            .into()
+            .declare(&mut source, kernel.reads + kernel.writes);
+    }
     join(&mut source, shader, law, plan.number);
     match kernel.form {
         Form::Sweep => sweep_main(&mut source, kernel, plan),
@@ -248,7 +270,7 @@ fn frame(kernel: &Kernel) -> (String, &'static str) {
 
 fn sweep_main(source: &mut String, kernel: &Kernel, plan: &LevelPlan) {
     let (open, close) = frame(kernel);
-    let stride = plan.groups(Form::Sweep) * SWEEP_THREADS;
+    let stride = plan.slab_groups(Form::Sweep) * SWEEP_THREADS;
     let _ = write!(
         source,
         "@compute @workgroup_size({SWEEP_THREADS})\n\
@@ -259,7 +281,7 @@ fn sweep_main(source: &mut String, kernel: &Kernel, plan: &LevelPlan) {
          }}\n\
          {close}}}\n",
         kernel.name,
-        points = plan.points(),
+        points = plan.slab_points(),
     );
 }
 
@@ -279,37 +301,55 @@ fn ends(plan: &LinePlan) -> (usize, usize) {
 pub fn multiply(plan: &LevelPlan, energy: bool, gate: Gate, wide: Wide) -> String {
     let columns = &plan.columns;
     let [width, height] = plan.shape;
-    let pairs = plan.pairs();
+    let pairs = plan.slab_pairs();
+    let work = Work::of(plan);
     let mut source = plan.number.declaration();
     preamble(&mut source, wide, "read", SUMS);
+    slabs::declare_turn(&mut source, plan);
     if energy {
+        let place = plan.first_partial(Place::Columns);
         reduction(&mut source, &[Reduce::Add], columns.group_threads(), 1);
-        let first = plan.first_partial(Place::Columns);
-        hand_in(&mut source, &[Reduce::Add], plan.column_groups(), first);
+        hand_in(
+            &mut source,
+            &[Reduce::Add],
+            plan.parts,
+            plan.part_groups(),
+            place,
+        );
     }
     source.push_str(&LineWriter::declarations(columns));
     source.push_str(catalogue::FFT);
     let [x, y] = LineWriter::workgroup_size(columns, false);
+    work.declare(&mut source);
     let _ = write!(
         source,
         "@group(1) @binding(0) var<storage, read> roots: array<vec2<real>>;\n\
-         @group(1) @binding(1) var<storage, read_write> work: array<vec2<real>>;\n\
-         @group(1) @binding(2) var<storage, read> factors: array<real>;\n\
+         @group(1) @binding({factors}) var<storage, read> factors: array<real>;\n\
          @compute @workgroup_size({x}, {y})\n\
          fn multiply(@builtin(workgroup_id) group: vec3<u32>, @builtin(local_invocation_id) place: vec3<u32>, @builtin(local_invocation_index) index_in_group: u32) {{\n\
          if (!{gate}()) {{ return; }}\n\
          {start}\
          let thread = place.x;\n\
          let line = place.y;\n\
-         let column = group.x * LINES + line;\n\
-         let inside = column < {columns}u;\n\
+         let column = {before}group.x * LINES + line;\n\
+         let inside = {inside};\n\
          let own = column == 0u || 2u * column == {width}u;\n\
          let here = column * {pairs}u;\n\
          let there = select({width}u - column, 0u, column == 0u) * {pairs}u;\n\
-         if (group.x == 0u && index_in_group == 0u) {{ partials.transforms = partials.transforms + 2u; }}\n",
+         if ({first_turn}group.x == 0u && index_in_group == 0u) {{ partials.transforms = partials.transforms + 2u; }}\n",
         gate = gate_name(gate),
         start = if energy { "start_sums();\n" } else { "" },
-        columns = plan.column_count(),
+        factors = 1 + plan.slabs,
+        before = after_turns(plan.parts, plan.part_columns()),
+        first_turn = first_turn(plan.parts),
+        inside = match plan.parts {
+            1 => format!("column < {}u", plan.column_count()),
+            _ => format!(
+                "group.x * LINES + line < {}u && column < {}u",
+                plan.part_columns(),
+                plan.column_count()
+            ),
+        },
     );
     let (first, last) = ends(columns);
     let mut writer = LineWriter::new(columns, false);
@@ -318,11 +358,12 @@ pub fn multiply(plan: &LevelPlan, energy: bool, gate: Gate, wide: Wide) -> Strin
         for leg in 0..first / 2 {
             let _ = writeln!(
                 source,
-                "{{ let z = work[here + {at}];\n\
-                 let mirror = work[there + {at}];\n\
+                "{{ let z = {z};\n\
+                 let mirror = {mirror};\n\
                  {a} = 0.5 * vec2<real>(z.x + mirror.x, z.y - mirror.y);\n\
                  {b} = 0.5 * vec2<real>(z.y + mirror.y, mirror.x - z.x); }}",
-                at = each.position(leg),
+                z = work.read("here", leg * each.stride, each.stride),
+                mirror = work.read("there", leg * each.stride, each.stride),
                 a = each.name(leg),
                 b = each.name(leg + first / 2),
             );
@@ -332,6 +373,10 @@ pub fn multiply(plan: &LevelPlan, energy: bool, gate: Gate, wide: Wide) -> Strin
     writer.transform(Direction::Forward);
     let scale = literal(1.0 / plan.points() as f64);
     let row = height / 2 + 1;
+    let column = match plan.parts {
+        1 => "column".to_string(),
+        _ => format!("(column - slab.number * {}u)", plan.part_columns()),
+    };
     writer.source.push_str("if (inside) {\n");
     if energy {
         writer
@@ -344,7 +389,7 @@ pub fn multiply(plan: &LevelPlan, energy: bool, gate: Gate, wide: Wide) -> Strin
             let _ = writeln!(
                 source,
                 "{{ let row = {at};\n\
-                 let factor = factors[column * {row}u + min(row, {height}u - row)];",
+                 let factor = factors[{column} * {row}u + min(row, {height}u - row)];",
                 at = each.position(leg),
             );
             if energy {
@@ -362,11 +407,14 @@ pub fn multiply(plan: &LevelPlan, energy: bool, gate: Gate, wide: Wide) -> Strin
     writer.butterflies(first, |source, each| {
         for leg in 0..first / 2 {
             let (a, b) = (each.name(leg), each.name(leg + first / 2));
-            let at = each.position(leg);
+            let own = format!("vec2<real>({a}.x - {b}.y, {a}.y + {b}.x)");
+            let mirror = format!("vec2<real>({a}.x + {b}.y, {b}.x - {a}.y)");
+            let (from, count) = (leg * each.stride, each.stride);
             let _ = writeln!(
                 source,
-                "work[here + {at}] = vec2<real>({a}.x - {b}.y, {a}.y + {b}.x);\n\
-                 if (!own) {{ work[there + {at}] = vec2<real>({a}.x + {b}.y, {b}.x - {a}.y); }}",
+                "{}\nif (!own) {{ {} }}",
+                work.write("here", from, count, &own),
+                work.write("there", from, count, &mirror),
             );
         }
     });

@@ -8,8 +8,10 @@ pub struct LevelSpace {
     pub plan: LevelPlan,
     /// A count of transforms, then partial sums.
     pub partials: wgpu::Buffer,
-    /// Transforms of pairs of rows, `[nx, ny/2]` complex numbers.
-    pub work: wgpu::Buffer,
+    /// Transforms of pairs of rows, `[nx, pairs]` complex numbers a slab.
+    pub work: Vec<wgpu::Buffer>,
+    /// For each slab or part of a spectrum its number; empty where there is one of each.
+    pub turns: Vec<wgpu::Buffer>,
     /// Roots of unity of nx.
     pub row_roots: wgpu::Buffer,
     /// Roots of unity of ny.
@@ -18,16 +20,14 @@ pub struct LevelSpace {
 
 /// One number a point.
 pub struct FieldSpace {
-    /// Its numbers.
-    pub buffer: wgpu::Buffer,
-    /// How many.
-    pub points: usize,
+    /// Its numbers, a buffer each slab.
+    pub slabs: Vec<wgpu::Buffer>,
 }
 
 /// One factor a wavevector.
 pub struct SpectrumSpace {
-    /// Its factors.
-    pub buffer: wgpu::Buffer,
+    /// Its factors, a buffer each part.
+    pub parts: Vec<wgpu::Buffer>,
 }
 
 /// A buffer of zeros that can also be written to and read from.

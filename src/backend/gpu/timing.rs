@@ -234,7 +234,10 @@ impl GpuDevice {
         let Some(watch) = watch else {
             return Ok(None);
         };
-        let bytes = bytes.max(16).next_multiple_of(16).min(self.binding_limit());
+        let bytes = bytes
+            .max(16)
+            .next_multiple_of(16)
+            .min(self.limits().binding);
         let count = bytes as usize / 16;
         let from = backend.storage("copy", 16 * count)?;
         let to = backend.storage("copy", 16 * count)?;

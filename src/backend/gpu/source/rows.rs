@@ -10,7 +10,7 @@ use super::super::butterfly::Direction;
 use super::super::catalogue;
 use super::super::fft::LineWriter;
 use super::super::level::LevelPlan;
-use super::{ends, frame};
+use super::{ends, first_turn, frame};
 use crate::kernel::{Form, Kernel};
 
 /// The head of a kernel that works on pairs of rows; `pair` is this thread's.
@@ -31,9 +31,10 @@ fn head(source: &mut String, kernel: &Kernel, plan: &LevelPlan, open: &str) {
          let thread = place.y;\n\
          let pair = group.x * LINES + line;\n\
          let inside = pair < {pairs}u;\n\
-         if (group.x == 0u && index_in_group == 0u) {{ partials.transforms = partials.transforms + {transforms}u; }}\n",
+         if ({first_turn}group.x == 0u && index_in_group == 0u) {{ partials.transforms = partials.transforms + {transforms}u; }}\n",
         name = kernel.name,
-        pairs = plan.pairs(),
+        pairs = plan.slab_pairs(),
+        first_turn = first_turn(plan.slabs),
     );
 }
 
@@ -43,7 +44,7 @@ pub fn rows_main(source: &mut String, kernel: &Kernel, plan: &LevelPlan) {
     let (open, close) = frame(kernel);
     head(source, kernel, plan, &open);
     let width = plan.shape[0];
-    let (pairs, half) = (plan.pairs(), plan.pairs() * width);
+    let (pairs, half) = (plan.slab_pairs(), plan.slab_pairs() * width);
     let (first, last) = ends(&plan.rows);
     let mut writer = LineWriter::new(&plan.rows, true);
     let take = |writer: &mut LineWriter, radix: usize| {

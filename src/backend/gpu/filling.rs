@@ -1,0 +1,96 @@
+//! Buffers of slabs: made, written and sized.
+
+use super::layout::Number;
+use super::level::LevelPlan;
+use super::slabs::Limits;
+use super::space::{self, FieldSpace};
+use super::{GpuBackend, GpuError};
+use crate::backend::{Field, Shape};
+
+/// Bytes of the buffer that tells a kernel its slab: the least that a uniform takes.
+const TURN_BYTES: usize = 16;
+
+impl GpuBackend {
+    /// How a level of this shape lies on the device; in as many slabs as its correction in double
+    /// precision takes, if that is there too.
+    pub(super) fn plan(&self, shape: Shape) -> Result<LevelPlan, GpuError> {
+        let limits: Limits = self.device.limits();
+        let own = LevelPlan::laid_out(shape, &limits, self.number)?;
+        if !self.corrects_here(shape) {
+            return Ok(own);
+        }
+        let slabs = LevelPlan::laid_out(shape, &limits, Number::Double)?.slabs;
+        Ok(LevelPlan { slabs, ..own })
+    }
+
+    /// A number a point, zero, in slabs.
+    pub(super) fn slabs(
+        &self,
+        name: &str,
+        plan: &LevelPlan,
+    ) -> Result<Vec<wgpu::Buffer>, GpuError> {
+        let bytes = self.number.bytes() * plan.slab_points();
+        (0..plan.slabs).map(|_| self.storage(name, bytes)).collect()
+    }
+
+    /// The numbers by which kernels know their slab or part, where there is more than one.
+    pub(super) fn turns(&mut self, plan: &LevelPlan) -> Result<Vec<wgpu::Buffer>, GpuError> {
+        let count = match plan.turns() {
+            1 => 0,
+            turns => turns as u32,
+        };
+        (0..count)
+            .map(|turn| {
+                let buffer = self.device.guarded(|device| {
+                    space::buffer(device, "turn", TURN_BYTES, wgpu::BufferUsages::UNIFORM)
+                })?;
+                self.overwrite(&buffer, turn.to_le_bytes().into_iter())?;
+                Ok(buffer)
+            })
+            .collect()
+    }
+
+    /// Makes the first number of every field none: for tests of what follows.
+    pub(super) fn poison(&mut self) -> Result<(), GpuError> {
+        let first = |field: &FieldSpace| field.slabs[0].clone();
+        let buffers: Vec<_> = self.fields.iter().flatten().map(first).collect();
+        buffers.iter().try_for_each(|buffer| {
+            let bytes = self.number.bytes_of([f64::NAN]);
+            self.recorder.write(buffer, bytes)
+        })
+    }
+
+    /// Overwrites a field, slab by slab.
+    pub(super) fn write_slabs(&mut self, field: Field, values: &[f64]) -> Result<(), GpuError> {
+        let plan = self.level_space(field.level)?.plan.clone();
+        let slabs = self.field_space(field)?.slabs.clone();
+        for (slab, buffer) in slabs.iter().enumerate() {
+            let [rows, partners] = plan
+                .slab_ranges(slab)
+                .map(|range| values.get(range).unwrap_or_default());
+            let values = rows.iter().chain(partners).copied();
+            let bytes = self.number.bytes_of(values);
+            self.overwrite(buffer, bytes)?;
+        }
+        Ok(())
+    }
+
+    /// A spectrum in parts.
+    pub(super) fn write_parts(
+        &mut self,
+        name: &str,
+        plan: &LevelPlan,
+        values: &[f64],
+    ) -> Result<Vec<wgpu::Buffer>, GpuError> {
+        (0..plan.parts)
+            .map(|part| {
+                let range = plan.part_range(part);
+                let buffer = self.storage(name, self.number.bytes() * range.len())?;
+                let values = values.get(range).unwrap_or_default();
+                let bytes = self.number.bytes_of(values.iter().copied());
+                self.overwrite(&buffer, bytes)?;
+                Ok(buffer)
+            })
+            .collect()
+    }
+}
