@@ -2,26 +2,40 @@
 //!
 //! `cargo bench --bench operator`. Ids are `operator/backend/points`; the throughput counts points. A
 //! graphics processor is timed where there is one; software that stands in for one by its name, as in
-//! `WGPU_ADAPTER_NAME=llvmpipe`.
+//! `WGPU_ADAPTER_NAME=llvmpipe`. Sizes go from 256 to 2048, or to what `BENCH_POINTS` says.
 
 use std::hint::black_box;
 
 use criterion::{BenchmarkId, Criterion, Throughput, criterion_group, criterion_main};
-use tabor::backend::gpu::{AdapterChoice, GpuBackend, GpuDevice};
+use tabor::backend::gpu::{AdapterChoice, GpuBackend, GpuDevice, Number};
 use tabor::backend::{Backend, Shape, cpu::CpuBackend};
 use tabor::elastic::periodic_stiffness;
 use tabor::grid::Grid;
 use tabor::kernel::{Gate, common};
 
+/// Points each way, from 256 to 8192, up to the number in `BENCH_POINTS` (2048 without it).
+fn sizes() -> impl Iterator<Item = usize> {
+    let most = std::env::var("BENCH_POINTS")
+        .ok()
+        .and_then(|text| text.parse().ok())
+        .unwrap_or(2048);
+    (8..=13)
+        .map(|power| 1usize << power)
+        .filter(move |&points| points <= most)
+}
+
 fn operator(criterion: &mut Criterion) {
     let device = GpuDevice::new(&AdapterChoice::default()).ok();
     let mut group = criterion.benchmark_group("operator");
     group.sample_size(10);
-    for points in [512, 1024, 2048] {
+    for points in sizes() {
         let grid = Grid::new([points; 2], [1.0; 2]);
         group.throughput(Throughput::Elements(grid.len() as u64));
         let cpu: Box<dyn Backend> = Box::new(CpuBackend::<f64>::new());
-        let gpu = device.as_ref().map(GpuBackend::on);
+        let gpu = device
+            .as_ref()
+            .filter(|device| device.description().takes([points; 2], Number::Single))
+            .map(GpuBackend::on);
         let gpu = gpu.map(|backend| ("gpu", Box::new(backend) as Box<dyn Backend>));
         for (name, mut backend) in std::iter::once(("cpu", cpu)).chain(gpu) {
             let level = backend.level("fine", Shape::whole(points, points));

@@ -4,13 +4,14 @@
 //! surface: Hurst exponent 0.8, roll-off at a quarter of the side, 8 pixels across the shortest wave,
 //! rms slope 1, seed 1; mean pressure 0.05 E* times the rms slope, tolerance 1e-6: in double precision
 //! on the processor, in mixed on a graphics processor, where there is one (software that stands in for
-//! one by its name, as in `WGPU_ADAPTER_NAME=llvmpipe`).
+//! one by its name, as in `WGPU_ADAPTER_NAME=llvmpipe`). Sizes go from 256 to 2048, or to what
+//! `BENCH_POINTS` says; with adhesion to 512.
 
 use std::path::Path;
 use std::time::Duration;
 
 use criterion::{BenchmarkId, Criterion, Throughput, criterion_group, criterion_main};
-use tabor::backend::gpu::{AdapterChoice, GpuBackend, GpuDevice};
+use tabor::backend::gpu::{AdapterChoice, GpuBackend, GpuDevice, Number};
 use tabor::backend::{Backend, cpu::CpuBackend};
 use tabor::scene::Scene;
 use tabor::study::{Setup, walk};
@@ -51,7 +52,23 @@ fn setup(points: usize, adhesion: &str) -> Setup {
     Setup::new(scene, surface)
 }
 
-fn solve(criterion: &mut Criterion, name: &str, sizes: &[usize], adhesion: &str) {
+/// Points each way, from 256 to 8192, up to the number in `BENCH_POINTS` (2048 without it).
+fn sizes() -> impl Iterator<Item = usize> {
+    let most = std::env::var("BENCH_POINTS")
+        .ok()
+        .and_then(|text| text.parse().ok())
+        .unwrap_or(2048);
+    (8..=13)
+        .map(|power| 1usize << power)
+        .filter(move |&points| points <= most)
+}
+
+fn solve(
+    criterion: &mut Criterion,
+    name: &str,
+    sizes: impl Iterator<Item = usize>,
+    adhesion: &str,
+) {
     let device = GpuDevice::new(&AdapterChoice::default()).ok();
     let cpu = || -> Box<dyn Backend + Send> { Box::new(CpuBackend::<f64>::new()) };
     let gpu = |device: &GpuDevice| -> Box<dyn Backend + Send> {
@@ -62,12 +79,14 @@ fn solve(criterion: &mut Criterion, name: &str, sizes: &[usize], adhesion: &str)
         .sample_size(10)
         .warm_up_time(Duration::from_millis(1))
         .measurement_time(Duration::from_secs(5));
-    for &points in sizes {
+    for points in sizes {
         let setup = setup(points, adhesion);
         group.throughput(Throughput::Elements((points * points) as u64));
         let timed: &[Option<&GpuDevice>] = match &device {
-            Some(device) => &[None, Some(device)],
-            None => &[None],
+            Some(device) if device.description().takes([points; 2], Number::Single) => {
+                &[None, Some(device)]
+            }
+            _ => &[None],
         };
         for &place in timed {
             let name = if place.is_some() { "gpu" } else { "cpu" };
@@ -85,11 +104,11 @@ fn solve(criterion: &mut Criterion, name: &str, sizes: &[usize], adhesion: &str)
 }
 
 fn hard(criterion: &mut Criterion) {
-    solve(criterion, "solve_hard", &[512, 1024, 2048], "");
+    solve(criterion, "solve_hard", sizes(), "");
 }
 
 fn adhesive(criterion: &mut Criterion) {
-    solve(criterion, "solve_adhesive", &[512], ADHESION);
+    solve(criterion, "solve_adhesive", sizes().take(2), ADHESION);
 }
 
 criterion_group!(benches, hard, adhesive);

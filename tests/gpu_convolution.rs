@@ -216,3 +216,62 @@ fn a_kernel_without_a_shader_is_an_error_where_the_host_waits() {
         BackendError::from(GpuError::NoShader("unheard_of")).to_string()
     );
 }
+
+/// Each kernel's dispatches and bytes as counted by hand, a time for each, and the same bits as untimed.
+#[test]
+fn kernels_are_timed_on_the_device() {
+    let Some(device) = device() else { return };
+    let [nx, ny] = [96, 64];
+    let run = |backend: &mut dyn Backend| {
+        let level = backend.level("fine", Shape::whole(nx, ny));
+        let [from, to] = [(); 2].map(|()| backend.field(level, "field"));
+        let ones = vec![1.0; Shape::whole(nx, ny).spectrum_len()];
+        let ones = backend.spectrum(level, "ones", &ones);
+        backend.write(from, &Numbers(4).field(nx * ny));
+        backend.set_params(&params());
+        for _ in 0..3 {
+            backend.forward(&LOAD_FIELD, level, &[from]);
+            backend.multiply(ones, false, Gate::Always);
+        }
+        backend.backward(&STORE_PRESSURE, level, &[to]);
+        backend.read(to).unwrap_or_else(|error| panic!("{error}"))
+    };
+    let (mut timed, watch) = backend(device).timed();
+    let Some(watch) = watch else {
+        println!("skipped: no timestamps");
+        return;
+    };
+    let clock = std::time::Instant::now();
+    let values = run(&mut timed);
+    let took = clock.elapsed().as_secs_f64();
+    assert_eq!(values, run(&mut backend(device)));
+    let timings = watch.take();
+    let field = (4 * nx * ny) as u64;
+    let table = (4 * (nx / 2 + 1) * (ny / 2 + 1)) as u64;
+    // Two numbers of four bytes for each root of unity.
+    let roots = |length: usize| 8 * length as u64;
+    for (name, dispatches, bytes) in [
+        ("load_field", 3, 2 * field + roots(nx)),
+        ("multiply", 3, 2 * field + table + roots(ny)),
+        ("store_pressure", 1, 2 * field + roots(nx)),
+    ] {
+        let found = timings.kernels.iter().find(|kernel| kernel.name == name);
+        let found = found.unwrap_or_else(|| panic!("{name} in {timings:?}"));
+        assert_eq!(found.dispatches, dispatches, "{name}");
+        assert_eq!(found.bytes, dispatches * bytes, "{name}");
+        assert!(found.seconds > 0.0, "{name}");
+    }
+    let total = timings.total();
+    assert_eq!(total.dispatches, 7);
+    assert!(total.seconds <= took, "{} of {took} s", total.seconds);
+    // Taken is taken.
+    assert!(watch.take().kernels.is_empty());
+    let rate = device
+        .copy_rate(field)
+        .unwrap_or_else(|error| panic!("{error}"));
+    // Between a tape and what no memory does.
+    assert!(
+        rate.is_some_and(|rate| rate > 1e6 && rate < 1e14),
+        "{rate:?}"
+    );
+}

@@ -282,6 +282,12 @@ fn compare(
             is_number(&run(&mut *cpu(), kernel, params, shape, &one, case))
         })
         .collect();
+    let fresh = poison.iter().filter(|&&only_written| only_written).count();
+    assert!(
+        fresh == kernel.fresh && poison.is_sorted(),
+        "{}: {poison:?}",
+        kernel.name
+    );
     let twin = run(&mut *cpu(), kernel, params, shape, &poison, case);
     let name = format!(
         "{}, {:?}, surface {:?}, {case:?}",

@@ -222,6 +222,14 @@ fn run(
         status: Status::Running,
         ..Scalars::start(0.1, false)
     });
+    if kernel.form != Form::Sweep && kernel.form != Form::Load {
+        backend.forward(&LOAD_FIELD, level, &[lines]);
+        backend.multiply(ones, false, Gate::Always);
+    }
+    let own_gap = fields[0];
+    if kernel.form.takes_kept() {
+        backend.backward(&wall::WALL_DESCENT, level, &[own_gap; 3]);
+    }
     match kernel.form {
         Form::Sweep | Form::Peek => backend.sweep(kernel, level, &fields),
         Form::Load | Form::Resume => backend.forward(kernel, level, &fields),

@@ -504,22 +504,6 @@ fn double_precision_on_the_device_solves_as_the_processor_does() {
     }
 }
 
-/// Fields that a kernel writes without reading what was there; all others that it writes it updates.
-const ONLY_WRITTEN: [(&str, usize); 12] = [
-    ("wall_free_kept", 1),
-    ("wall_turn", 1),
-    ("wall_turn_kept", 2),
-    ("wall_advance", 1),
-    ("core_turn", 1),
-    ("core_trial", 1),
-    ("core_direct", 1),
-    ("core_advance", 1),
-    ("coarse_restrict", 2),
-    ("coarse_weigh", 1),
-    ("coarse_store", 1),
-    ("store_pressure", 1),
-];
-
 /// Fields that passes move, in numbers a point of the fine grid: those bound, twice where they are
 /// updated, and the work space, which a multiplication updates beside its table.
 fn fields_moved(passes: &[&'static str]) -> f64 {
@@ -542,8 +526,7 @@ fn fields_moved(passes: &[&'static str]) -> f64 {
         } else {
             fine
         };
-        let only = ONLY_WRITTEN.iter().find(|(of, _)| *of == name);
-        let written = 2 * kernel.writes - only.map_or(0, |(_, count)| *count);
+        let written = 2 * kernel.writes - kernel.fresh;
         moved += own * (kernel.reads + written) as f64;
         if kernel.whole {
             moved += if own == coarse { fine } else { coarse };

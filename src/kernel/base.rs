@@ -31,7 +31,7 @@ fn base_total<T: Real>(
 }
 kernel!(
     /// y = p + mean_pressure + sigma(g), without a law on the pad. Reads gap, pressure; writes y.
-    BASE_TOTAL, base_total, Sweep, reads 2, writes 1, whole false, sums [], gate Always
+    BASE_TOTAL, base_total, Sweep, reads 2, writes 1, fresh 1, whole false, sums [], gate Always
 );
 
 fn base_add_wall<T: Real>(

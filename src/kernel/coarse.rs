@@ -114,7 +114,7 @@ fn coarse_restrict<T: Real>(rows: &mut Rows<T>, _: &Params, _: &Scalars, _: &mut
 }
 kernel!(
     /// Restricts the fine yF and the share of free points. Writes both; whole: the fine yF.
-    COARSE_RESTRICT, coarse_restrict, Sweep, reads 0, writes 2, whole true, sums [], gate Ahead
+    COARSE_RESTRICT, coarse_restrict, Sweep, reads 0, writes 2, fresh 2, whole true, sums [], gate Ahead
 );
 
 /// Adds `weight` times the horizontal restriction of a fine line.
@@ -153,7 +153,7 @@ fn coarse_weigh<T: Real>(rows: &mut Rows<T>, _: &Params, _: &Scalars, _: &mut [f
 kernel!(
     /// Takes the smoothed share of free points, stores its square, clipped to [0, 1], as the weight,
     /// and loads the restricted yF times it.
-    COARSE_WEIGH, coarse_weigh, Turn, reads 1, writes 1, whole false, sums [], gate Ahead
+    COARSE_WEIGH, coarse_weigh, Turn, reads 1, writes 1, fresh 1, whole false, sums [], gate Ahead
 );
 
 fn coarse_share<T: Real>(rows: &mut Rows<T>, _: &Params, _: &Scalars, _: &mut [f64; SUMS]) {
@@ -174,7 +174,7 @@ fn coarse_store<T: Real>(rows: &mut Rows<T>, _: &Params, _: &Scalars, _: &mut [f
 }
 kernel!(
     /// Stores the lines times the weight: the long-wave part of z.
-    COARSE_STORE, coarse_store, Store, reads 1, writes 1, whole false, sums [], gate Ahead
+    COARSE_STORE, coarse_store, Store, reads 1, writes 1, fresh 1, whole false, sums [], gate Ahead
 );
 
 /// z on free points, which are those where yF is not zero, with the long waves added.

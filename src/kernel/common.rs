@@ -28,7 +28,7 @@ fn store_pressure<T: Real>(rows: &mut Rows<T>, _: &Params, _: &Scalars, _: &mut 
 }
 kernel!(
     /// Stores the lines as they are. Writes one field.
-    STORE_PRESSURE, store_pressure, Store, reads 0, writes 1, whole false, sums [], gate Always
+    STORE_PRESSURE, store_pressure, Store, reads 0, writes 1, fresh 1, whole false, sums [], gate Always
 );
 
 fn load_field<T: Real>(rows: &mut Rows<T>, _: &Params, _: &Scalars, _: &mut [f64; SUMS]) {

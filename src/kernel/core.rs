@@ -4,6 +4,7 @@
 //! in which the core is no stiffer than `k`. With D = max(sigma'(g), 0) the change of variable is
 //! dg = S2 dv, S2 = k/(k + D). Points of a pad have no law: S2 = 1.
 
+pub use super::core_step::{CORE_ADVANCE, CORE_BALANCE, CORE_TURN};
 use crate::kernel::{Params, Rows, SUMS, Scalars, kernel};
 use crate::law::{Cohesion, Correction, Law, LennardJones};
 use crate::real::Real;
@@ -45,6 +46,7 @@ macro_rules! with_or_without_base {
         }
     };
 }
+pub(super) use with_or_without_base;
 
 impl<T: Real, const BASE: bool> Core<T, BASE> {
     /// The core at a point of a block with these factors on its tension and this base, if there are
@@ -88,7 +90,7 @@ impl<T: Real, const BASE: bool> Core<T, BASE> {
 
     /// sigma at a gap; around a base all of y that does not come from the correction's own pressure.
     #[inline(always)]
-    fn attraction(&self, gap: T, on_surface: bool) -> T {
+    pub(super) fn attraction(&self, gap: T, on_surface: bool) -> T {
         match (BASE, on_surface) {
             (false, false) => T::zero(),
             (false, true) => self.law.traction(gap),
@@ -173,7 +175,7 @@ impl<T: Real, const BASE: bool> Core<T, BASE> {
 }
 
 /// The terms of the stopping measure at one point. Around a base its scale is the base's.
-fn add_residual<T: Real, const BASE: bool>(
+pub(super) fn add_residual<T: Real, const BASE: bool>(
     sums: &mut [f64; SUMS],
     core: &Core<T, BASE>,
     gap: T,
@@ -423,7 +425,7 @@ fn trial<T: Real, const BASE: bool>(
 kernel!(
     /// Turns the direction by the kept z, finds the trial step by inverting v, and loads it. Reads gap,
     /// pressure; updates direction, writes step.
-    CORE_TRIAL, core_trial, Resume, reads 2, writes 2, whole false,
+    CORE_TRIAL, core_trial, Resume, reads 2, writes 2, fresh 1, whole false,
     sums [Add, Min, Max, Min, Max, Add, Add, Add, Add], gate Running
 );
 
@@ -456,7 +458,7 @@ fn direct<T: Real, const BASE: bool>(
 kernel!(
     /// Turns the direction by the kept z and finds the trial step by inverting v (fixed mean gap). Reads
     /// gap; updates direction, writes step.
-    CORE_DIRECT, core_direct, Peek, reads 1, writes 2, whole false,
+    CORE_DIRECT, core_direct, Peek, reads 1, writes 2, fresh 1, whole false,
     sums [Add, Add], gate Running
 );
 
@@ -519,121 +521,4 @@ kernel!(
     /// Reads gap, step.
     CORE_SEARCH, core_search, Sweep, reads 2, writes 0, whole false,
     sums [Add, Add, Add], gate Searching
-);
-
-with_or_without_base!(core_turn, turn);
-
-fn turn<T: Real, const BASE: bool>(
-    rows: &mut Rows<T>,
-    params: &Params,
-    scalars: &Scalars,
-    sums: &mut [f64; SUMS],
-) {
-    let layout = rows.layout();
-    let core = Core::<T, BASE>::new(params);
-    let (factor, base) = (rows.factor, rows.base);
-    let [direction, step, ..] = rows.reads;
-    let lines = &mut *rows.lines;
-    let [gap, pressure, y_before, _] = &mut rows.writes;
-    let t: T = taken(scalars);
-    let mean = T::of(scalars.mean_pressure);
-    layout.points(|i, on_surface| {
-        let core = core.at(factor, base, i);
-        let y = pressure[i] + mean + core.attraction(gap[i], on_surface);
-        let before = core.share(gap[i], on_surface) * y;
-        y_before[i] = before;
-        gap[i] += t * step[i];
-        pressure[i] += t * lines[i];
-        let traction = core.attraction(gap[i], on_surface);
-        let y = pressure[i] + mean + traction;
-        add_residual(sums, &core, gap[i], y, traction, on_surface);
-        let y = core.share(gap[i], on_surface) * y;
-        let d = direction[i].double();
-        sums[4] += d * (y.double() - before.double());
-        sums[5] += d * y.double();
-        lines[i] = y;
-    });
-}
-kernel!(
-    /// Takes K s and steps: g += t s, p += t K s; then loads the new S2 y, as `core_free` does, with the
-    /// sums of the step's direction. Reads direction, step; updates gap, pressure; writes the old S2 y.
-    CORE_TURN, core_turn, Turn, reads 2, writes 3, whole false,
-    sums [Add, Add, Min, Add, Add, Add], gate Running
-);
-
-/// The step length; 0 after a lost trial, which leaves all as it is.
-fn taken<T: Real>(scalars: &Scalars) -> T {
-    match scalars.accepted {
-        true => T::of(scalars.step),
-        false => T::zero(),
-    }
-}
-
-/// The terms of the mean pressure that a held gap asks for.
-#[inline(always)]
-fn add_balance<T: Real, const BASE: bool>(
-    sums: &mut [f64; SUMS],
-    core: &Core<T, BASE>,
-    [gap, pressure]: [T; 2],
-    on_surface: bool,
-) {
-    let share = core.share(gap, on_surface);
-    let traction = core.attraction(gap, on_surface);
-    sums[0] += (share * (pressure + traction)).double();
-    sums[1] += share.double();
-}
-
-with_or_without_base!(core_advance, advance);
-
-fn advance<T: Real, const BASE: bool>(
-    rows: &mut Rows<T>,
-    params: &Params,
-    scalars: &Scalars,
-    sums: &mut [f64; SUMS],
-) {
-    let layout = rows.layout();
-    let core = Core::<T, BASE>::new(params);
-    let (factor, base) = (rows.factor, rows.base);
-    let step = rows.reads[0];
-    let lines = &*rows.lines;
-    let [gap, pressure, y_before, _] = &mut rows.writes;
-    let t: T = taken(scalars);
-    let mean = T::of(scalars.mean_pressure);
-    layout.points(|i, on_surface| {
-        let core = core.at(factor, base, i);
-        let y = pressure[i] + mean + core.attraction(gap[i], on_surface);
-        y_before[i] = core.share(gap[i], on_surface) * y;
-        gap[i] += t * step[i];
-        pressure[i] += t * lines[i];
-        add_balance(sums, &core, [gap[i], pressure[i]], on_surface);
-    });
-}
-kernel!(
-    /// Takes K s and steps, where the mean gap is held; sums as `core_balance`. Reads step; updates gap,
-    /// pressure; writes the old S2 y.
-    CORE_ADVANCE, core_advance, Store, reads 1, writes 3, whole false,
-    sums [Add, Add], gate Running
-);
-
-with_or_without_base!(core_balance, balance);
-
-fn balance<T: Real, const BASE: bool>(
-    rows: &mut Rows<T>,
-    params: &Params,
-    _: &Scalars,
-    sums: &mut [f64; SUMS],
-) {
-    let layout = rows.layout();
-    let core = Core::<T, BASE>::new(params);
-    let (factor, base) = (rows.factor, rows.base);
-    let [gap, pressure, ..] = rows.reads;
-    layout.points(|i, on_surface| {
-        let core = core.at(factor, base, i);
-        add_balance(sums, &core, [gap[i], pressure[i]], on_surface);
-    });
-}
-kernel!(
-    /// The sums that give the mean pressure under a held mean gap. Reads gap, pressure.
-    CORE_BALANCE, core_balance, Sweep, reads 2, writes 0, whole false,
-    sums [Add, Add], gate Running
 );

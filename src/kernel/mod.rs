@@ -16,8 +16,10 @@ pub mod scalar;
 pub mod wall;
 pub mod yielding;
 
+mod core_step;
 mod params;
 mod rows;
+mod step;
 
 pub use params::{Gate, Params, SUMS, Scalars, Status};
 pub use rows::{Rows, Whole};
@@ -105,6 +107,8 @@ pub struct Kernel {
     pub reads: usize,
     /// How many fields it writes or updates.
     pub writes: usize,
+    /// How many of these, the last ones, it writes without reading what was there.
+    pub fresh: usize,
     /// Whether it also reads one field, of any level, at points of its own choice.
     pub whole: bool,
     /// How its sums are put together.
@@ -126,13 +130,14 @@ impl Kernel {
 
 /// Makes a catalogue entry whose twins are one generic function.
 macro_rules! kernel {
-    ($(#[$doc:meta])* $constant:ident, $twin:ident, $form:ident, reads $reads:expr, writes $writes:expr, whole $whole:expr, sums [$($sum:ident),*], gate $gate:ident) => {
+    ($(#[$doc:meta])* $constant:ident, $twin:ident, $form:ident, reads $reads:expr, writes $writes:expr $(, fresh $fresh:expr)?, whole $whole:expr, sums [$($sum:ident),*], gate $gate:ident) => {
         $(#[$doc])*
         pub static $constant: $crate::kernel::Kernel = $crate::kernel::Kernel {
             name: stringify!($twin),
             form: $crate::kernel::Form::$form,
             reads: $reads,
             writes: $writes,
+            fresh: 0 $(+ $fresh)?,
             whole: $whole,
             sums: &[$($crate::kernel::Reduce::$sum),*],
             gate: $crate::kernel::Gate::$gate,

@@ -2,7 +2,7 @@
 //! [`floor`](super::floor). A gap below zero is the depth that has flowed in this solve.
 
 use super::floor::{Balance, Floor, Yielding, trial_step};
-use super::wall;
+use super::{step, wall};
 use crate::kernel::{Params, Rows, SUMS, Scalars, kernel};
 use crate::law::{Cohesion, LawField};
 use crate::real::Real;
@@ -47,7 +47,7 @@ fn yield_free_kept<T: Real>(
 }
 kernel!(
     /// As `yield_free`, and keeps yF in a field for the coarse level. Reads gap, pressure; writes yF.
-    YIELD_FREE_KEPT, yield_free_kept, Load, reads 2, writes 1, whole false,
+    YIELD_FREE_KEPT, yield_free_kept, Load, reads 2, writes 1, fresh 1, whole false,
     sums [Add, Add, Min, Add], gate Fresh
 );
 
@@ -202,12 +202,12 @@ fn yield_turn<T: Real>(
     scalars: &Scalars,
     sums: &mut [f64; SUMS],
 ) {
-    wall::turn::<T, Yielding<T>>(rows, params, scalars, sums);
+    step::turn::<T, Yielding<T>>(rows, params, scalars, sums);
 }
 kernel!(
     /// Takes K s and steps, then loads the new yF. Reads direction; updates gap, pressure; writes the
     /// old yF.
-    YIELD_TURN, yield_turn, Turn, reads 1, writes 3, whole false,
+    YIELD_TURN, yield_turn, Turn, reads 1, writes 3, fresh 1, whole false,
     sums [Add, Add, Min, Add, Add, Add], gate Running
 );
 
@@ -222,7 +222,7 @@ fn yield_turn_kept<T: Real>(
 }
 kernel!(
     /// As `yield_turn`, and keeps the new yF in a field for the coarse level. Writes it after the others.
-    YIELD_TURN_KEPT, yield_turn_kept, Turn, reads 1, writes 4, whole false,
+    YIELD_TURN_KEPT, yield_turn_kept, Turn, reads 1, writes 4, fresh 2, whole false,
     sums [Add, Add, Min, Add, Add, Add], gate Running
 );
 
@@ -232,12 +232,12 @@ fn yield_advance<T: Real>(
     scalars: &Scalars,
     sums: &mut [f64; SUMS],
 ) {
-    wall::advance::<T, Yielding<T>>(rows, params, scalars, sums);
+    step::advance::<T, Yielding<T>>(rows, params, scalars, sums);
 }
 kernel!(
     /// Takes K s and steps, where the mean gap is held; sums as `yield_balance`. Reads direction; updates
     /// gap, pressure; writes the old yF.
-    YIELD_ADVANCE, yield_advance, Store, reads 1, writes 3, whole false,
+    YIELD_ADVANCE, yield_advance, Store, reads 1, writes 3, fresh 1, whole false,
     sums [Add, Add, Min], gate Running
 );
 
@@ -247,7 +247,7 @@ fn yield_balance<T: Real>(
     scalars: &Scalars,
     sums: &mut [f64; SUMS],
 ) {
-    wall::balance_sums::<T, Yielding<T>>(rows, params, scalars, sums);
+    step::balance_sums::<T, Yielding<T>>(rows, params, scalars, sums);
 }
 kernel!(
     /// The sums that give the mean pressure under a held mean gap. Reads gap, pressure.

@@ -47,6 +47,8 @@ pub const GATE: &str = part!("gate");
 pub const WHOLE_GAP: &str = part!("whole_gap");
 /// How they see it where the unknown is a correction of a base gap.
 pub const CORRECTION: &str = part!("correction");
+/// Copies a buffer.
+pub const COPY: &str = part!("copy");
 /// Products of complex numbers.
 pub const FFT: &str = part!("fft");
 

@@ -51,10 +51,11 @@ impl GpuDevice {
         let mut description = descriptions[place].clone();
         description.limits = choice.narrowed(description.limits);
         description.double &= !(choice.without_double || choice.plain_sums);
-        let required_features = match description.double {
-            true => wgpu::Features::SHADER_F64,
-            false => wgpu::Features::empty(),
-        };
+        // Timestamps cost nothing until they are asked for.
+        let mut required_features = adapter.features() & wgpu::Features::TIMESTAMP_QUERY;
+        if description.double {
+            required_features |= wgpu::Features::SHADER_F64;
+        }
         let (device, queue) = pollster::block_on(adapter.request_device(&wgpu::DeviceDescriptor {
             label: Some("tabor"),
             required_features,

@@ -17,9 +17,19 @@ impl GpuBackend {
         &self,
         name: &str,
         source: String,
-        groups: &[(&[bindings::Access], &[&wgpu::Buffer])],
+        groups: &[(&[Access], &[&wgpu::Buffer])],
         workgroups: [usize; 2],
     ) -> Result<Prepared, GpuError> {
+        // All but what decisions are taken from; what is written is taken to be updated.
+        let bytes = groups
+            .iter()
+            .filter(|(accesses, _)| !accesses.contains(&Access::Uniform))
+            .flat_map(|(accesses, buffers)| accesses.iter().zip(*buffers))
+            .map(|(access, buffer)| match access {
+                Access::Write => 2 * buffer.size(),
+                Access::Read | Access::Uniform => buffer.size(),
+            })
+            .sum();
         let (layouts, groups) = self.device.guarded(|device| {
             groups
                 .iter()
@@ -33,6 +43,8 @@ impl GpuBackend {
         let layouts: Vec<_> = layouts.iter().collect();
         let pipeline = self.device.pipeline(name, source, &layouts)?;
         Ok(Prepared {
+            name: name.to_owned(),
+            bytes,
             pipeline,
             groups,
             // Plans keep it far below the 65535 that every adapter takes.
@@ -169,7 +181,13 @@ impl GpuBackend {
             if kernel.form != Form::Sweep {
                 all.push((ROWS, &transform));
             }
-            self.prepare(kernel.name, text.clone(), &all, [groups, 1])
+            let mut prepared = self.prepare(kernel.name, text.clone(), &all, [groups, 1])?;
+            let only_written = &buffers[own - kernel.fresh..own];
+            prepared.bytes -= only_written.iter().map(|buffer| buffer.size()).sum::<u64>();
+            if matches!(kernel.form, Form::Load | Form::Store | Form::Peek) {
+                prepared.bytes -= space.work[slab].size();
+            }
+            Ok(prepared)
         };
         (0..space.plan.slabs).map(in_slab).collect()
     }
@@ -214,7 +232,10 @@ impl GpuBackend {
                     buffers.extend(&space.spare);
                     let all: [(&[Access], &[&wgpu::Buffer]); 2] =
                         [(working(&shared), &shared), (&accesses, &buffers)];
-                    let each = backend.prepare("multiply", text.clone(), &all, workgroups)?;
+                    let mut each = backend.prepare("multiply", text.clone(), &all, workgroups)?;
+                    // Each part goes through its own columns of the work space alone.
+                    let work: u64 = space.work.iter().map(|slab| slab.size()).sum();
+                    each.bytes -= 2 * (work - work / space.plan.parts as u64);
                     prepared.push(each);
                 }
             }

@@ -27,6 +27,7 @@ mod slabs;
 pub mod source;
 mod space;
 mod sums;
+mod timing;
 mod traffic;
 
 use std::collections::HashMap;
@@ -48,6 +49,7 @@ pub use layout::{Number, Wide};
 pub use lending::Lent;
 pub use plan::{Exchange, GroupLimits, LinePlan, radices};
 pub use slabs::Limits;
+pub use timing::{KernelTime, Stopwatch, Timings};
 pub use traffic::Traffic;
 
 /// The GPU backend.

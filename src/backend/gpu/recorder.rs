@@ -4,21 +4,38 @@ use std::sync::mpsc;
 
 use super::device::GpuDevice;
 use super::error::GpuError;
+use super::timing::Timer;
 
 /// Bytes that are written or read at a time, since each way needs a copy of them.
 const PIECE: usize = 64 << 20;
 /// Dispatches after which a submission is due, so that the device does not wait for the host.
-const DISPATCHES: usize = 256;
+pub const DISPATCHES: usize = 256;
 
 /// A compiled kernel with everything bound that it works on.
 #[derive(Clone)]
 pub struct Prepared {
+    /// What it is known by where it is timed.
+    pub name: String,
+    /// Bytes of the fields, tables and work space that it moves.
+    pub bytes: u64,
     /// The kernel.
     pub pipeline: wgpu::ComputePipeline,
     /// Its bind groups, from 0.
     pub groups: Vec<wgpu::BindGroup>,
     /// Workgroups along x and y.
     pub workgroups: [u32; 2],
+}
+
+impl Prepared {
+    /// Records it in a pass.
+    pub fn record(&self, pass: &mut wgpu::ComputePass) {
+        pass.set_pipeline(&self.pipeline);
+        for (group, place) in self.groups.iter().zip(0..) {
+            pass.set_bind_group(place, group, &[]);
+        }
+        let [x, y] = self.workgroups;
+        pass.dispatch_workgroups(x, y, 1);
+    }
 }
 
 /// A part of a buffer to be read.
@@ -36,6 +53,8 @@ pub struct Recorder {
     device: GpuDevice,
     waiting: Vec<Prepared>,
     staging: Option<wgpu::Buffer>,
+    /// Takes the time of each dispatch, where that is asked.
+    pub timer: Option<Timer>,
 }
 
 impl Recorder {
@@ -45,6 +64,7 @@ impl Recorder {
             device,
             waiting: Vec::new(),
             staging: None,
+            timer: None,
         }
     }
 
@@ -64,19 +84,17 @@ impl Recorder {
         }
         let waiting = std::mem::take(&mut self.waiting);
         let staging = self.staging.as_ref();
+        let timer = self.timer.as_ref();
         let queue = self.device.queue();
         self.device.guarded(|device| {
             let mut encoder = device.create_command_encoder(&Default::default());
-            if !waiting.is_empty() {
+            if let Some(timer) = timer {
+                timer.passes(&mut encoder, &waiting);
+            } else if !waiting.is_empty() {
                 // One pass for all: a pass each costs the host three times as much.
                 let mut pass = encoder.begin_compute_pass(&Default::default());
                 for prepared in &waiting {
-                    pass.set_pipeline(&prepared.pipeline);
-                    for (group, place) in prepared.groups.iter().zip(0..) {
-                        pass.set_bind_group(place, group, &[]);
-                    }
-                    let [x, y] = prepared.workgroups;
-                    pass.dispatch_workgroups(x, y, 1);
+                    prepared.record(&mut pass);
                 }
             }
             if let Some(staging) = staging {
@@ -94,7 +112,11 @@ impl Recorder {
                 }
             }
             queue.submit([encoder.finish()]);
-        })
+        })?;
+        match &mut self.timer {
+            Some(timer) => timer.add(&self.device, &waiting),
+            None => Ok(()),
+        }
     }
 
     /// Hands the waiting work to the device.

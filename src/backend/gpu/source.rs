@@ -7,6 +7,7 @@
 //! they are taken and others given.
 
 mod convert;
+mod copy;
 mod deciding;
 mod long;
 mod rows;
@@ -24,6 +25,7 @@ use super::level::{Place, SWEEP_SUMS_AT_ONCE, SWEEP_THREADS};
 use super::plan::LinePlan;
 use crate::kernel::{Form, Gate, Kernel, Reduce, SUMS};
 pub use convert::convert;
+pub use copy::copy;
 pub use deciding::{Decision, PAIRS, Reduction, Results, decide, two_sums};
 pub use long::{Pass, multiply_long, rows_then};
 use rows::rows_main;
