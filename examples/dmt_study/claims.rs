@@ -466,7 +466,7 @@ fn loop_difference() -> Result<f64, Box<dyn Error>> {
     let mut most = 0.0_f64;
     for (up, down) in [(0, 4), (1, 3)] {
         let (up, down) = (&end.rows[up], &end.rows[down]);
-        let gap = |row: &tabor::study::Row| row.mean_gap.unwrap_or(f64::NAN);
+        let gap = |row: &tabor::study::StepRow| row.mean_gap.unwrap_or(f64::NAN);
         let same = up.contact_area_fraction == down.contact_area_fraction;
         most = most.max(if same {
             (gap(up) / gap(down) - 1.0).abs()
