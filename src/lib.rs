@@ -45,6 +45,7 @@
 //! | [`effect`] | what a scene may ask for besides, and what each costs |
 //! | [`output`] | the folder of a run: curve, summary, fields, pictures, report, and the state to go on from |
 //! | [`theory`] | closed forms and models to compare with: Hertz, JKR, Maugis, Persson and others |
+//! | [`compare`] | one rough surface through the full field and the models of it, with seconds and ranges |
 //! | [`fit`] | work of adhesion and modulus from a measured force curve |
 //! | [`accuracy`] | error against seconds: a scene over grids, precisions, steps and models |
 //! | [`cli`] | the command line |
@@ -81,6 +82,7 @@
 pub mod accuracy;
 pub mod backend;
 pub mod cli;
+pub mod compare;
 pub mod effect;
 pub mod elastic;
 pub mod fit;

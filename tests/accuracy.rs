@@ -4,13 +4,15 @@
 #[path = "../examples/accuracy_study/tables.rs"]
 mod tables;
 
+mod shared;
+
 use std::collections::HashMap;
 use std::fs;
 use std::path::Path;
-use std::process::{Command, Output, Stdio};
+use std::process::{Command, Stdio};
 use std::time::{Duration, Instant};
 
-use tempfile::TempDir;
+use shared::{errors, number, scene, signal, table, tabor, without_adapter};
 
 /// The columns that other programs rely on, in their order.
 const COLUMNS: &str = "points,backend,precision,tolerance,steps,treatment,taper,seconds,error_area,error_force,error_pressure,error_pull_off,reference_uncertainty,pareto";
@@ -55,57 +57,20 @@ path = ["0.2 MPa", "1 MPa", "0.2 MPa"]
 "#;
 
 fn command(folder: &Path, arguments: &[&str]) -> Command {
-    let mut command = Command::new(env!("CARGO_BIN_EXE_tabor"));
+    let mut command = shared::command(folder, &["accuracy", "scene.toml", "--out", "out"]);
     command
-        .current_dir(folder)
-        .args(["accuracy", "scene.toml", "--out", "out"])
         .args(arguments)
-        .stdin(Stdio::null())
         .stdout(Stdio::piped())
         .stderr(Stdio::piped());
     command
 }
 
-fn scene(text: &str) -> TempDir {
-    let folder = tempfile::tempdir().expect("a temporary folder");
-    fs::write(folder.path().join("scene.toml"), text).expect("the scene is written");
-    folder
-}
-
-fn said(output: &Output) -> String {
-    String::from_utf8_lossy(&output.stderr).into_owned()
-}
-
-/// Leaves out the graphics processor, which may be software: for what does not ask about it.
-fn without_adapter(command: &mut Command) -> &mut Command {
-    command
-        .env("VK_DRIVER_FILES", "/nonexistent")
-        .env("VK_ICD_FILENAMES", "/nonexistent")
-}
-
 /// The rows of `accuracy.csv` by column.
 fn rows(folder: &Path) -> Vec<HashMap<String, String>> {
-    let text = fs::read_to_string(folder.join("out/accuracy.csv")).expect("there is a table");
-    let mut lines = text.lines();
-    let head = lines.next().expect("a head");
-    assert!(head.starts_with(COLUMNS), "{head}");
-    let names: Vec<&str> = head.split(',').collect();
-    assert!(text.ends_with('\n'), "the last line is whole");
-    lines
-        .map(|line| {
-            let cells: Vec<&str> = line.split(',').collect();
-            assert_eq!(cells.len(), names.len(), "{line}");
-            let named = names.iter().zip(cells);
-            named
-                .map(|(name, cell)| ((*name).to_owned(), cell.to_owned()))
-                .collect()
-        })
-        .collect()
-}
-
-fn number(row: &HashMap<String, String>, name: &str) -> Option<f64> {
-    let cell = &row[name];
-    (!cell.is_empty()).then(|| cell.parse().expect("a number"))
+    let path = folder.join("out/accuracy.csv");
+    let text = fs::read_to_string(&path).expect("there is a table");
+    assert!(text.starts_with(COLUMNS), "{text:.200}");
+    table(&path)
 }
 
 #[test]
@@ -114,7 +79,7 @@ fn a_sphere_is_judged_by_its_closed_form() {
     let output = command(folder.path(), &["--budget", "60 s"])
         .output()
         .expect("it runs");
-    let text = said(&output);
+    let text = errors(&output);
     assert_eq!(output.status.code(), Some(0), "{text}");
     assert!(output.stdout.is_empty(), "standard output stays clean");
     assert!(text.contains("the closed form of Hertz"), "{text}");
@@ -213,7 +178,7 @@ fn what_there_is_no_time_for_is_left_out_and_listed() {
         .output()
         .expect("it runs");
     let took = clock.elapsed();
-    let text = said(&output);
+    let text = errors(&output);
     assert_eq!(output.status.code(), Some(0), "{text}");
     // Runs end with the iteration in which the time does; the rest is for heights and pictures.
     assert!(took < Duration::from_secs(18), "{took:?} of 6 s");
@@ -248,13 +213,12 @@ fn a_rough_surface_is_judged_by_finer_grids_and_an_interrupt_keeps_the_rows() {
     while lines() < 6 && clock.elapsed() < Duration::from_secs(300) {
         std::thread::sleep(Duration::from_millis(20));
     }
-    let sent = Command::new("kill")
-        .args(["-INT", &child.id().to_string()])
-        .status()
-        .expect("there is a kill");
-    assert!(sent.success(), "the study was over before its interrupt");
+    assert!(
+        signal(&child, "-INT"),
+        "the study was over before its interrupt"
+    );
     let output = child.wait_with_output().expect("it ends");
-    let text = said(&output);
+    let text = errors(&output);
     assert_eq!(output.status.code(), Some(130), "{text}");
     assert!(
         text.contains("interrupted after") && text.contains("are kept in out"),
@@ -304,7 +268,7 @@ steps = 40
     );
     let mut study = command(folder.path(), &["--budget", "60 s"]);
     let output = without_adapter(&mut study).output().expect("it runs");
-    let text = said(&output);
+    let text = errors(&output);
     assert_eq!(output.status.code(), Some(0), "{text}");
     let picture = image::open(folder.path().join("out/accuracy.png")).expect("a picture");
     assert!(picture.height() > 600, "three errors, and that in time");
@@ -402,7 +366,7 @@ steps = 36
         let set = format!("adhesion.range={range}");
         let mut study = command(folder.path(), &["--budget", "30 s", "--set", &set]);
         let output = without_adapter(&mut study).output().expect("it runs");
-        let text = said(&output);
+        let text = errors(&output);
         assert_eq!(output.status.code(), Some(0), "{text}");
         assert!(
             text.contains(&format!("the closed form of {reference}")),
@@ -481,15 +445,11 @@ fn soft_spheres_are_right_or_warned_of() {
         // On these points alone: fewer would be coarser still.
         let mut study = command(folder.path(), &["--budget", "60 s"]);
         let output = without_adapter(&mut study).output().expect("it runs");
-        assert_eq!(output.status.code(), Some(0), "{}", said(&output));
-        assert!(said(&output).contains("the closed form of Maugis"));
+        assert_eq!(output.status.code(), Some(0), "{}", errors(&output));
+        assert!(errors(&output).contains("the closed form of Maugis"));
         let warned = |taper: &str| -> Option<String> {
-            let output = Command::new(env!("CARGO_BIN_EXE_tabor"))
-                .current_dir(folder.path())
-                .args(["check", "scene.toml", "--set", taper])
-                .output()
-                .expect("it runs");
-            let text = said(&output);
+            let output = shared::tabor(folder.path(), &["check", "scene.toml", "--set", taper]);
+            let text = errors(&output);
             text.lines()
                 .find(|line| line.contains("(chi = "))
                 .map(str::to_owned)
@@ -543,12 +503,8 @@ fn a_contact_of_few_pixels_is_warned_of() {
         (0.33, "the contact at pull-off"),
     ] {
         let folder = scene(&soft_sphere(1.0, chi));
-        let output = Command::new(env!("CARGO_BIN_EXE_tabor"))
-            .current_dir(folder.path())
-            .args(["check", "scene.toml"])
-            .output()
-            .expect("it runs");
-        let text = said(&output);
+        let output = tabor(folder.path(), &["check", "scene.toml"]);
+        let text = errors(&output);
         let line = text.lines().find(|line| line.contains("pixels wide"));
         assert!(line.is_some_and(|line| line.contains(strength)), "{text}");
     }

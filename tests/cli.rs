@@ -1,35 +1,19 @@
 //! The binary from outside: exit status, messages, files written.
 
+mod shared;
+
 use std::fs;
 use std::path::{Path, PathBuf};
-use std::process::{Command, Output};
 
-use serde_json::Value;
+use shared::{errors, status, summary, tabor};
 use tempfile::TempDir;
 
 const HEAD: &str = "step,time,approach,mean_gap,force,mean_pressure,contact_area_fraction,attractive_area_fraction,elastic_energy,adhesive_energy,iterations,residual,converged,seconds,contact_area_fraction_corrected,state";
 
-fn tabor(folder: &Path, arguments: &[&str]) -> Output {
-    Command::new(env!("CARGO_BIN_EXE_tabor"))
-        .current_dir(folder)
-        .args(arguments)
-        .output()
-        .expect("the binary runs")
-}
-
-fn status(output: &Output) -> i32 {
-    output.status.code().expect("it ended by itself")
-}
-
-fn errors(output: &Output) -> String {
-    String::from_utf8_lossy(&output.stderr).into_owned()
-}
-
-/// A folder with a scene in it.
+/// A folder with a scene in it, and the scene.
 fn scene(text: &str) -> (TempDir, PathBuf) {
-    let folder = tempfile::tempdir().expect("a temporary folder");
+    let folder = shared::scene(text);
     let path = folder.path().join("scene.toml");
-    fs::write(&path, text).expect("the scene is written");
     (folder, path)
 }
 
@@ -113,9 +97,7 @@ fn a_run_writes_what_the_contract_says() {
     assert!(number(1, "contact_area_fraction") + number(1, "attractive_area_fraction") <= 1.0);
     assert!(number(1, "adhesive_energy") < 0.0 && number(1, "elastic_energy") > 0.0);
 
-    let summary: Value =
-        serde_json::from_slice(&fs::read(results.join("summary.json")).expect("a summary"))
-            .expect("JSON");
+    let summary = summary(&results);
     for key in [
         "version",
         "scene",
@@ -404,9 +386,7 @@ fn single_precision_has_its_floor_and_its_fields() {
         assert_eq!(status(&output), 0, "{}", errors(&output));
     }
     let single = folder.path().join("single");
-    let summary: Value =
-        serde_json::from_slice(&fs::read(single.join("summary.json")).expect("a summary"))
-            .expect("JSON");
+    let summary = summary(&single);
     assert_eq!(summary["precision"], "single");
     assert_eq!(summary["backend"], "cpu");
     assert_eq!(summary["scene"]["solver"]["tolerance"], 1e-4);

@@ -1,8 +1,11 @@
 //! `tabor compare` from outside: its table, its picture, and what it refuses.
 
+mod shared;
+
 use std::fs;
 use std::path::Path;
-use std::process::{Command, Output};
+
+use shared::{errors, tabor};
 
 const HEAD: &str = "model,mean_pressure,contact_area_fraction,mean_gap,adhesive_pressure,pull_off_pressure,seconds,within_range,limit";
 
@@ -28,18 +31,6 @@ range = "1 nm"
 control = "pressure"
 path = ["10 MPa", "30 MPa", "60 MPa", "30 MPa"]
 "#;
-
-fn tabor(folder: &Path, arguments: &[&str]) -> Output {
-    Command::new(env!("CARGO_BIN_EXE_tabor"))
-        .current_dir(folder)
-        .args(arguments)
-        .output()
-        .expect("the binary runs")
-}
-
-fn errors(output: &Output) -> String {
-    String::from_utf8_lossy(&output.stderr).into_owned()
-}
 
 fn rows(path: &Path) -> Vec<Vec<String>> {
     let text = fs::read_to_string(path).expect("there is a table");

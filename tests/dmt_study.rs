@@ -1,6 +1,8 @@
 //! The claims of the DMT study (Violano, Demelio & Afferrante 2018), with its numbers, and the models
 //! of a rough contact judged by the full field of the same surface.
 
+#[path = "../examples/dmt_study/claims.rs"]
+mod claims;
 #[path = "../examples/dmt_study/rows.rs"]
 mod rows;
 
@@ -134,64 +136,48 @@ fn t3_area_and_load() {
     assert!((small - 3.5).abs() < 0.05, "{small}");
 }
 
-/// T3 on the surfaces of the table: asperities against Persson without adhesion.
+/// Each claim with its numbers, and the docs' table of them, which `dmt_study draw` prints. What does not
+/// hold is T6b alone, at H = 0.4 for N = 32 and 64, by the numbers of `t6_finite_boxes`.
+#[test]
+fn every_claim_but_one_holds_and_the_docs_say_so() {
+    let claims = claims::claims(&table()).expect("numbers");
+    let lines = claims::text(&claims);
+    let failed: Vec<&str> = claims
+        .iter()
+        .filter(|claim| !claim.holds)
+        .map(|claim| claim.name)
+        .collect();
+    assert_eq!(failed, ["T6b"], "{lines}");
+    let docs = include_str!("../docs/dmt_study.md");
+    for line in lines.lines() {
+        assert!(docs.contains(line), "docs/dmt_study.md misses\n{line}");
+    }
+}
+
+/// T3 on all surfaces of the table, of which the study shows H = 0.8, N = 32: asperities against Persson
+/// without adhesion, below 30 % in contact; kappa below 10 %. Found numbers, rounded outwards.
 #[test]
 fn t3_asperities_and_persson() {
     let table = table();
-    let (mut sum, mut count) = (0.0, 0.0);
-    // The claim is of less than 30 % in contact.
-    let claimed = |row: &&Row| row.model.starts_with("icha") && row.area < 0.3;
-    for row in table.iter().filter(claimed) {
-        let theory = of(
-            &table,
-            "persson",
-            Case {
-                seed: 0,
-                ..row.case
-            },
-        );
-        let judge = theory.iter().find(|other| other.repulsive == row.repulsive);
-        let miss = (row.area / judge.expect("the same loads").area - 1.0).abs();
-        // Claimed within 25 %, and a kappa of 1.65 to 2.35; single surfaces pass that a little.
-        let (most, kappa) = if row.model == "icha-displaced" {
-            // Steadily low, also where Persson lies above the field: no claim holds for its mean.
-            (0.28, 1.55..2.1)
-        } else {
-            match runaway(row.case) {
-                Some(Runaway { most, kappa, .. }) => (most, 1.65..kappa),
-                None => (0.25, 1.65..2.45),
-            }
+    let theory = Persson::new(rows::GAMMA).expect("a factor");
+    let mut count = 0;
+    for row in table.iter().filter(|row| row.area < 0.3) {
+        let (most, kappas) = match (row.model.as_str(), row.case.hurst, row.case.ratio) {
+            // Beyond 0.05 E* h' merged circles go on to merge: up to 36 % too much area.
+            ("icha", 0.8, 64) => (0.4, 1.65..2.35),
+            ("icha", ..) => (0.25, 1.65..2.36),
+            // Steadily low.
+            ("icha-displaced", ..) => (0.31, 1.5..2.1),
+            _ => continue,
         };
+        let judge = theory.area_fraction(row.repulsive).expect("a number");
+        let miss = (row.area / judge - 1.0).abs();
         assert!(miss < most, "{row:?}: {miss}");
-        assert!(kappa.contains(&(row.area / row.repulsive)), "{row:?}");
-        if row.model == "icha" && row.case.ratio <= 32 {
-            (sum, count) = (sum + miss, count + 1.0);
-        }
+        let kappa = row.area / row.repulsive;
+        assert!(row.area >= 0.1 || kappas.contains(&kappa), "{row:?}");
+        count += 1;
     }
-    assert!(count >= 9.0 * 15.0 && sum / count < 0.1, "{}", sum / count);
-}
-
-/// How far asperities go that keep the volume of their caps, rounded outwards.
-struct Runaway {
-    /// Largest miss of Persson's area below 30 % in contact.
-    most: f64,
-    /// Largest area over load below 30 % in contact.
-    kappa: f64,
-    /// Least and greatest misses of the field's area up to 0.05 E* h'.
-    area: [f64; 2],
-}
-
-/// Where keeping the volume of the caps drops so much load at each merge that the area runs away: smooth
-/// spectra with wide bands, `docs/dmt_study.md`.
-fn runaway(case: Case) -> Option<Runaway> {
-    let (most, kappa, area) = match (case.hurst, case.ratio) {
-        (0.8, 32) => (0.55, 3.3, [-0.02, 0.27]),
-        (0.8, 64) => (0.68, 3.6, [0.0, 0.43]),
-        // Beyond 0.05 E* h' only.
-        (0.6, 64) => (0.38, 2.9, ICHA_AREA),
-        _ => return None,
-    };
-    Some(Runaway { most, kappa, area })
+    assert!(count >= 500, "{count}");
 }
 
 /// T6 on the surfaces of the table: the study has finite boxes 10 to 25 % above Persson's pull-off.
@@ -217,6 +203,35 @@ fn t6_finite_boxes() {
             };
             assert!((0.12..most).contains(&above), "{hurst} {ratio}: {above}");
         }
+    }
+}
+
+/// Why the field lies above Persson, at H = 0.4, N = 64: at the load of pull-off his attraction is 15 to 20 %
+/// below the field's, at the same mean gap (by straight lines between rows) 1 to 5 %. What he misses is
+/// the mean gap under a light load, not the distribution of gaps about it.
+#[test]
+fn persson_misses_the_gap_rather_than_its_distribution() {
+    let table = table();
+    let theory = of(&table, "persson", case(0.4, 64, 0));
+    for seed in 1..=3 {
+        let field = of(&table, "field", case(0.4, 64, seed));
+        let light = theory[1].attraction / field[1].attraction - 1.0;
+        assert!((-0.2..-0.15).contains(&light), "{seed}: {light}");
+        let mut count = 0;
+        for row in &theory {
+            let around = field
+                .windows(2)
+                .find(|pair| pair[1].gap <= row.gap && row.gap <= pair[0].gap);
+            let Some([wide, close]) = around else {
+                continue;
+            };
+            let share = (row.gap - close.gap) / (wide.gap - close.gap);
+            let attraction = close.attraction + share * (wide.attraction - close.attraction);
+            let miss = row.attraction / attraction - 1.0;
+            assert!((-0.05..-0.01).contains(&miss), "{seed}: {row:?} {miss}");
+            count += 1;
+        }
+        assert!(count >= 10, "{count}");
     }
 }
 
@@ -298,38 +313,6 @@ fn t6_pull_off() {
     assert!((theta / 23.282988 - 1.0).abs() < 1e-6 && persson / summits > 1000.0);
 }
 
-/// T7: pull-off is the greatest tension on loading, since each load has one gap field: the branch
-/// that is walked back down is the same. Here of the full field, on the surface of N = 16.
-#[test]
-fn t7_no_hysteresis() {
-    use tabor::backend::{Backend, cpu::CpuBackend};
-    let side = 2.0 * std::f64::consts::PI / rows::SMALLEST;
-    let text = format!(
-        "[grid]\npoints = 128\nsize = {side:e}\n[solid]\ncontact_modulus = {MODULUS:e}\n\
-         [[surface]]\nkind = \"self-affine\"\nhurst = 0.8\nrms_height = {:e}\n\
-         longest = {side:e}\nrolloff = {:e}\nshortest = {:e}\n\
-         [adhesion]\nlaw = \"lennard-jones\"\nwork_of_adhesion = {WORK}\nrange = {RANGE:e}\ntreatment = \"dmt\"\n\
-         [loading]\ncontrol = \"pressure\"\npath = [1e7, 4e7, 8e7, 4e7, 1e7]\n",
-        rows::RMS_HEIGHT,
-        side / 4.0,
-        side / 16.0,
-    );
-    let scene = tabor::scene::Scene::parse(&text, "loop", ".".as_ref(), &[]).expect("a scene");
-    let surface = tabor::surface::Surface::build(&scene).expect("a surface");
-    let setup = tabor::study::Setup::new(scene, surface);
-    let cpu = || -> Box<dyn Backend + Send> { Box::new(CpuBackend::<f64>::new()) };
-    let end = tabor::study::walk(&setup, &cpu, &mut ()).expect("a walk");
-    for (up, down) in [(0, 4), (1, 3)] {
-        let gap = |step: usize| end.rows[step].mean_gap.expect("in contact");
-        // Both were met to the tolerance of 1e-6 of the net load.
-        assert!((gap(up) / gap(down) - 1.0).abs() < 1e-4, "{up}");
-        assert_eq!(
-            end.rows[up].contact_area_fraction,
-            end.rows[down].contact_area_fraction
-        );
-    }
-}
-
 /// T8: the criterion of Pastewka & Robbins triples where Persson's pull-off loses 30 %.
 #[test]
 fn t8_stickiness() {
@@ -408,13 +391,13 @@ fn misses_of_the_models_stay_within_the_stated_bounds() {
         let field = of(&table, "field", case);
         let judge = rows::pull_off(&field);
         for (model, of_case, area, pull_off) in [
-            ("icha", case, icha_area(case), ICHA_PULL_OFF),
+            ("icha", case, ICHA_AREA, ICHA_PULL_OFF),
             ("icha-displaced", case, DISPLACED_AREA, DISPLACED_PULL_OFF),
             ("persson", theory, PERSSON_AREA, PERSSON_PULL_OFF),
             ("gw-m", theory, GW_AREA, GW_PULL_OFF),
         ] {
             let rows = of(&table, model, of_case);
-            assert!(rows.len() >= 14, "{case:?} {model}");
+            assert!(rows.len() >= 13, "{case:?} {model}");
             let off = rows::pull_off(&rows) / judge - 1.0;
             assert!(
                 (pull_off[0]..=pull_off[1]).contains(&off),
@@ -437,12 +420,9 @@ fn misses_of_the_models_stay_within_the_stated_bounds() {
 }
 
 /// Least and greatest misses over all surfaces, seeds and loads up to 0.05 E* h', rounded outwards.
-fn icha_area(case: Case) -> [f64; 2] {
-    runaway(case).map_or(ICHA_AREA, |runaway| runaway.area)
-}
-const ICHA_AREA: [f64; 2] = [-0.15, 0.15];
+const ICHA_AREA: [f64; 2] = [-0.17, 0.17];
 const ICHA_PULL_OFF: [f64; 2] = [0.0, 0.06];
-const DISPLACED_AREA: [f64; 2] = [-0.2, 0.0];
+const DISPLACED_AREA: [f64; 2] = [-0.24, 0.0];
 const DISPLACED_PULL_OFF: [f64; 2] = [0.0, 0.04];
 const PERSSON_AREA: [f64; 2] = [-0.05, 0.13];
 const PERSSON_PULL_OFF: [f64; 2] = [-0.27, -0.08];

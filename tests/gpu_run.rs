@@ -2,14 +2,15 @@
 //! and what a run says where the adapter lacks something or fails.
 
 mod gpu_shared;
+mod shared;
 
+use std::collections::HashMap;
 use std::fs;
 use std::path::Path;
-use std::process::{Command, Output};
+use std::process::Output;
 
 use gpu_shared::{device, device_with_double, relative_difference};
-use serde_json::Value;
-use tempfile::TempDir;
+use shared::{command, errors, scene, summary, table, tabor, with_drivers, without_adapter};
 
 const SPHERE: &str = r#"
 [grid]
@@ -51,13 +52,6 @@ path = ["2 MPa", "10 MPa", "2 MPa"]
 fields = ["gap", "pressure"]
 "#;
 
-/// A folder with a scene in it.
-fn scene(text: &str) -> TempDir {
-    let folder = tempfile::tempdir().expect("a temporary folder");
-    fs::write(folder.path().join("scene.toml"), text).expect("the scene is written");
-    folder
-}
-
 fn run(folder: &Path, out: &str, arguments: &[&str], drivers: Option<&str>) -> Output {
     run_tested(folder, out, arguments, drivers, "")
 }
@@ -70,42 +64,17 @@ fn run_tested(
     drivers: Option<&str>,
     tested: &str,
 ) -> Output {
-    let mut command = Command::new(env!("CARGO_BIN_EXE_tabor"));
-    command
-        .current_dir(folder)
-        .env("TABOR_TEST_GPU", tested)
-        .args(["run", "scene.toml", "--out", out])
-        .args(arguments);
+    let mut command = command(folder, &["run", "scene.toml", "--out", out]);
+    command.env("TABOR_TEST_GPU", tested).args(arguments);
     if let Some(drivers) = drivers {
-        command
-            .env("VK_DRIVER_FILES", drivers)
-            .env("VK_ICD_FILENAMES", drivers);
+        with_drivers(&mut command, drivers);
     }
     command.output().expect("the binary runs")
 }
 
-fn errors(output: &Output) -> String {
-    String::from_utf8_lossy(&output.stderr).into_owned()
-}
-
-fn summary(folder: &Path) -> Value {
-    let bytes = fs::read(folder.join("summary.json")).expect("a summary");
-    serde_json::from_slice(&bytes).expect("JSON")
-}
-
 /// Rows of the curve, by name.
-fn rows(folder: &Path) -> Vec<std::collections::HashMap<String, String>> {
-    let text = fs::read_to_string(folder.join("curve.csv")).expect("a curve");
-    let mut lines = text.lines();
-    let head: Vec<&str> = lines.next().expect("a head").split(',').collect();
-    lines
-        .map(|line| {
-            head.iter()
-                .zip(line.split(','))
-                .map(|(name, value)| ((*name).to_owned(), value.to_owned()))
-                .collect()
-        })
-        .collect()
+fn rows(folder: &Path) -> Vec<HashMap<String, String>> {
+    table(&folder.join("curve.csv"))
 }
 
 fn field(folder: &Path, name: &str) -> npyz::NpyFile<std::io::Cursor<Vec<u8>>> {
@@ -227,10 +196,7 @@ fn without_an_adapter_gpu_fails_and_auto_does_not() {
         assert_eq!(summary(&folder.path().join("auto"))["backend"], "cpu");
         assert!(!errors(&auto).contains("note:"), "{}", errors(&auto));
     }
-    let devices = Command::new(env!("CARGO_BIN_EXE_tabor"))
-        .arg("devices")
-        .env("VK_DRIVER_FILES", "/nonexistent")
-        .env("VK_ICD_FILENAMES", "/nonexistent")
+    let devices = without_adapter(&mut command(folder.path(), &["devices"]))
         .output()
         .expect("the binary runs");
     assert_eq!(devices.status.code(), Some(0));
@@ -267,10 +233,7 @@ fn sizes_without_a_transform_are_refused_with_the_nearest() {
 #[test]
 fn devices_names_the_adapter() {
     let Some(device) = device() else { return };
-    let output = Command::new(env!("CARGO_BIN_EXE_tabor"))
-        .arg("devices")
-        .output()
-        .expect("the binary runs");
+    let output = tabor(Path::new("."), &["devices"]);
     assert_eq!(output.status.code(), Some(0));
     let text = String::from_utf8_lossy(&output.stdout);
     for part in [device.description().name.as_str(), "largest", "auto  "] {

@@ -3,11 +3,13 @@
 //! `tests/files/values.csv` holds what other readers found in the files beside it; README.md there says
 //! who wrote and who read each.
 
+mod shared;
+
 use std::fs;
 use std::path::{Path, PathBuf};
-use std::process::{Command, Output};
 
 use approx::assert_relative_eq;
+use shared::{errors, tabor};
 use tabor::scene::{Boundary, Detrend, Fill, GridScene, HeightFileScene, SurfacePart};
 use tabor::surface::Surface;
 
@@ -17,18 +19,6 @@ fn files() -> PathBuf {
 
 fn good(name: &str) -> Vec<u8> {
     fs::read(files().join(name)).expect("a file of the collection")
-}
-
-fn tabor(folder: &Path, arguments: &[&str]) -> Output {
-    Command::new(env!("CARGO_BIN_EXE_tabor"))
-        .current_dir(folder)
-        .args(arguments)
-        .output()
-        .expect("the binary runs")
-}
-
-fn errors(output: &Output) -> String {
-    String::from_utf8_lossy(&output.stderr).into_owned()
 }
 
 /// Metres in the unit of a file of the collection that does not say it; see its README.

@@ -4,9 +4,9 @@ use std::fs;
 use std::path::{Path, PathBuf};
 
 /// From the ground up, as the crate page lists them.
-const ORDER: [&str; 18] = [
+const ORDER: [&str; 19] = [
     "units", "grid", "real", "law", "elastic", "kernel", "backend", "scene", "surface", "solver",
-    "study", "effect", "output", "theory", "fit", "accuracy", "cli", "lib",
+    "study", "effect", "output", "theory", "compare", "fit", "accuracy", "cli", "lib",
 ];
 
 fn rust_files(folder: &Path, found: &mut Vec<PathBuf>) {

@@ -1,11 +1,13 @@
 //! The memory that `tabor check` announces is what a run takes, by precision, boundary and effect,
 //! and a run that cannot have it is refused with a grid that fits.
 
+mod shared;
+
 use std::fs;
 use std::path::Path;
-use std::process::{Command, Output};
+use std::process::Output;
 
-use serde_json::Value;
+use shared::{errors, summary};
 use tabor::backend::tally::Place;
 use tabor::scene::Scene;
 use tabor::solver::good_size;
@@ -37,11 +39,8 @@ const ADHESION: &str =
     "[adhesion]\nlaw = \"exponential\"\nwork_of_adhesion = \"10 mJ/m^2\"\nrange = \"10 nm\"\n";
 
 fn tabor(folder: &Path, arguments: &[&str], memory: Option<u64>) -> Output {
-    let mut command = Command::new(env!("CARGO_BIN_EXE_tabor"));
-    command
-        .current_dir(folder)
-        .args(arguments)
-        .env_remove("TABOR_MEMORY");
+    let mut command = shared::command(folder, arguments);
+    command.env_remove("TABOR_MEMORY");
     if let Some(bytes) = memory {
         command.env("TABOR_MEMORY", bytes.to_string());
     }
@@ -97,10 +96,9 @@ fn a_run_takes_what_was_counted() {
         let _ = fs::remove_dir_all(folder.path().join("scene"));
         // Two iterations do not converge; all memory has been taken by then.
         let output = tabor(folder.path(), &["run", "scene.toml", "--quiet"], None);
-        let message = String::from_utf8_lossy(&output.stderr).into_owned();
+        let message = errors(&output);
         assert_eq!(output.status.code(), Some(3), "{name}: {message}");
-        let summary = fs::read(folder.path().join("scene/summary.json")).expect("a summary");
-        let summary: Value = serde_json::from_slice(&summary).expect("JSON");
+        let summary = summary(&folder.path().join("scene"));
         let peak = summary["peak_memory_bytes"].as_f64().expect("a peak");
         let plan = plan(&text);
         let counted = plan
@@ -130,7 +128,7 @@ fn what_does_not_fit_is_refused_with_the_largest_grid_that_does() {
     ];
     let call = |command: &'static str| [&[command, "scene.toml"][..], &set].concat();
     let output = tabor(folder.path(), &call("run"), Some(available));
-    let message = String::from_utf8_lossy(&output.stderr).into_owned();
+    let message = errors(&output);
     assert_eq!(output.status.code(), Some(2), "{message}");
     assert!(!folder.path().join("scene").exists(), "nothing is written");
     assert!(
@@ -162,7 +160,7 @@ fn what_does_not_fit_is_refused_with_the_largest_grid_that_does() {
     assert!(fits(points[0]) && !fits(next), "{message} and not {next}");
     // A check answers, and warns of the same; single precision takes less.
     let output = tabor(folder.path(), &call("check"), Some(available));
-    let warning = String::from_utf8_lossy(&output.stderr).into_owned();
+    let warning = errors(&output);
     assert_eq!(output.status.code(), Some(0), "{warning}");
     assert!(
         warning.contains("warning: grid.points: 3000 x 1500 points need "),

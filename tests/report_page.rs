@@ -4,6 +4,7 @@
 //! `TABOR_REQUIRE_BROWSER=1` makes that a failure.
 
 mod resume_shared;
+mod shared;
 
 use std::fs;
 use std::io::Read;
@@ -12,7 +13,8 @@ use std::path::{Path, PathBuf};
 use std::process::{Command, Stdio};
 use std::sync::{Arc, Mutex};
 
-use resume_shared::{ROUGH, errors, status, tabor};
+use resume_shared::ROUGH;
+use shared::{errors, status, tabor};
 use tempfile::TempDir;
 
 /// A browser, if there is one.
@@ -172,8 +174,7 @@ fn arguments(profile: &Path, width: usize) -> Vec<String> {
 
 /// A run of a scene; its folder.
 fn run(text: &str, extra: &[&str], expected: i32) -> (TempDir, PathBuf) {
-    let folder = tempfile::tempdir().expect("a temporary folder");
-    fs::write(folder.path().join("scene.toml"), text).expect("the scene is written");
+    let folder = shared::scene(text);
     let call = [&["run", "scene.toml", "--out", "out"], extra].concat();
     let output = tabor(folder.path(), &call);
     assert_eq!(status(&output), expected, "{}", errors(&output));
@@ -357,17 +358,9 @@ fn a_terminal_shows_progress_and_the_table_at_the_end() {
         println!("skipped: no script(1)");
         return;
     }
-    let folder = tempfile::tempdir().expect("a temporary folder");
-    fs::write(
-        folder.path().join("scene.toml"),
-        ROUGH.replace("[64, 48]", "[256, 192]"),
-    )
-    .expect("the scene is written");
+    let folder = shared::scene(&ROUGH.replace("[64, 48]", "[256, 192]"));
     let typed = |extra: &str| {
-        let call = format!(
-            "{} run scene.toml --out out {extra}",
-            env!("CARGO_BIN_EXE_tabor")
-        );
+        let call = format!("{} run scene.toml --out out {extra}", shared::BINARY);
         let output = Command::new("script")
             .args(["-qec", &call, "/dev/null"])
             .env("TERM", "xterm")

@@ -3,6 +3,7 @@
 
 mod gpu_shared;
 mod resume_shared;
+mod shared;
 
 use std::fs;
 use std::path::Path;
@@ -10,15 +11,8 @@ use std::process::{Command, Stdio};
 use std::thread::sleep;
 use std::time::{Duration, Instant};
 
-use resume_shared::{ROUGH, command, errors, expect_same, files, rows, status, tabor};
-use serde_json::Value;
-use tempfile::TempDir;
-
-fn scene(text: &str) -> TempDir {
-    let folder = tempfile::tempdir().expect("a temporary folder");
-    fs::write(folder.path().join("scene.toml"), text).expect("the scene is written");
-    folder
-}
+use resume_shared::{ROUGH, expect_same, files, rows};
+use shared::{command, errors, scene, status, summary, tabor};
 
 /// A number from 0 to 1, the next of a fixed sequence (Knuth's MMIX generator).
 fn next_share(seed: &mut u64) -> f64 {
@@ -143,10 +137,7 @@ fn an_interrupt_ends_after_the_iteration_with_everything_written() {
     run_whole(folder, &[]);
     for (signal, out) in [("-INT", "interrupted"), ("-TERM", "terminated")] {
         let child = start(folder, out, 2, &[]);
-        let sent = Command::new("kill")
-            .args([signal, &child.id().to_string()])
-            .status();
-        assert!(sent.expect("kill runs").success());
+        assert!(shared::signal(&child, signal));
         let output = child.wait_with_output().expect("it ended");
         assert_eq!(status(&output), 130, "{}", errors(&output));
         let said = errors(&output);
@@ -157,9 +148,7 @@ fn an_interrupt_ends_after_the_iteration_with_everything_written() {
         let place = folder.join(out);
         let done = rows(&place).len();
         assert!((2..8).contains(&done), "{done} steps");
-        let summary: Value =
-            serde_json::from_slice(&fs::read(place.join("summary.json")).expect("a summary"))
-                .expect("JSON");
+        let summary = summary(&place);
         assert!(
             summary["largest_contact_area_fraction"]
                 .as_f64()
@@ -430,13 +419,7 @@ fn a_disk_without_room_keeps_what_was_finished() {
     let script = "trap '' XFSZ; ulimit -f $1; shift; exec \"$@\"";
     let run = |blocks: usize, extra: &[&str]| {
         Command::new("sh")
-            .args([
-                "-c",
-                script,
-                "sh",
-                &blocks.to_string(),
-                env!("CARGO_BIN_EXE_tabor"),
-            ])
+            .args(["-c", script, "sh", &blocks.to_string(), shared::BINARY])
             .args(["run", "scene.toml", "--out", "full"])
             .args(extra)
             .current_dir(folder)

@@ -1,8 +1,9 @@
 //! Every shipped scene runs to its end, at reduced size.
 
+mod shared;
+
 use std::fs;
 use std::path::Path;
-use std::process::Command;
 
 /// Points a side at most, so that all scenes together take seconds.
 const POINTS: u64 = 64;
@@ -26,9 +27,8 @@ fn every_shipped_scene_runs() {
             .and_then(|name| name.to_str())
             .expect("a name")
             .to_owned();
-        let mut command = Command::new(env!("CARGO_BIN_EXE_tabor"));
+        let mut command = shared::command(results.path(), &["run"]);
         command
-            .arg("run")
             .arg(&path)
             .arg("--quiet")
             .arg("--out")
@@ -39,7 +39,7 @@ fn every_shipped_scene_runs() {
         }
         // Waves that the small grid cannot hold are left out, with a warning.
         let output = command.output().expect("the binary runs");
-        let message = String::from_utf8_lossy(&output.stderr);
+        let message = shared::errors(&output);
         assert_eq!(output.status.code(), Some(0), "{name}: {message}");
         let curve =
             fs::read_to_string(results.path().join(&name).join("curve.csv")).expect("a curve");

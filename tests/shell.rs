@@ -1,9 +1,12 @@
 //! The command line at home in a shell: completions, man pages, colour, quiet runs, and values of
 //! `--set` as a shell hands them over.
 
+mod shared;
+
 use std::fs;
-use std::path::Path;
-use std::process::{Command, Output, Stdio};
+use std::process::{Command, Stdio};
+
+use shared::{scene, tabor};
 
 const SCENE: &str = r#"[grid]
 points = 16
@@ -31,28 +34,13 @@ const COMMANDS: [&str; 10] = [
     "man",
 ];
 
-fn tabor(folder: &Path, arguments: &[&str]) -> Output {
-    Command::new(env!("CARGO_BIN_EXE_tabor"))
-        .current_dir(folder)
-        .args(arguments)
-        .stdin(Stdio::null())
-        .output()
-        .expect("the binary runs")
-}
-
-fn scene() -> tempfile::TempDir {
-    let folder = tempfile::tempdir().expect("a folder");
-    fs::write(folder.path().join("scene.toml"), SCENE).expect("a scene");
-    folder
-}
-
 fn text(bytes: &[u8]) -> String {
     String::from_utf8(bytes.to_vec()).expect("text")
 }
 
 #[test]
 fn completions_name_every_command() {
-    let folder = scene();
+    let folder = scene(SCENE);
     for shell in ["bash", "zsh", "fish", "powershell", "elvish"] {
         let output = tabor(folder.path(), &["completions", shell]);
         assert_eq!(output.status.code(), Some(0), "{}", text(&output.stderr));
@@ -86,7 +74,7 @@ fn completions_name_every_command() {
 
 #[test]
 fn man_pages_are_one_a_command() {
-    let folder = scene();
+    let folder = scene(SCENE);
     let output = tabor(folder.path(), &["man"]);
     assert_eq!(output.status.code(), Some(0), "{}", text(&output.stderr));
     let page = text(&output.stdout);
@@ -112,7 +100,7 @@ fn man_pages_are_one_a_command() {
 
 #[test]
 fn without_a_terminal_there_is_no_colour() {
-    let folder = scene();
+    let folder = scene(SCENE);
     for arguments in [
         &["check", "absent.toml"][..],
         &["run", "scene.toml"],
@@ -130,14 +118,14 @@ fn without_a_terminal_there_is_no_colour() {
 #[test]
 #[cfg(target_os = "linux")]
 fn on_a_terminal_colour_is_the_users_choice() {
-    let folder = scene();
+    let folder = scene(SCENE);
     let on_a_terminal = |arguments: &str, no_color: Option<&str>| {
         let mut command = Command::new("script");
         command
             .current_dir(folder.path())
             .args([
                 "-qec",
-                &format!("{} {arguments}", env!("CARGO_BIN_EXE_tabor")),
+                &format!("{} {arguments}", shared::BINARY),
                 "/dev/null",
             ])
             .env("TERM", "xterm-256color")
@@ -176,7 +164,7 @@ fn on_a_terminal_colour_is_the_users_choice() {
 
 #[test]
 fn a_quiet_run_says_nothing_but_warnings_and_errors() {
-    let folder = scene();
+    let folder = scene(SCENE);
     let loud = tabor(folder.path(), &["run", "scene.toml", "--out", "loud"]);
     assert_eq!(loud.status.code(), Some(0), "{}", text(&loud.stderr));
     assert!(
@@ -221,7 +209,7 @@ fn a_quiet_run_says_nothing_but_warnings_and_errors() {
 #[test]
 #[rustfmt::skip] // one call a line
 fn values_of_set_arrive_as_they_are_written() {
-    let folder = scene();
+    let folder = scene(SCENE);
     for (set, line) in [
         ("grid.points=32", "32 x 32 points"),
         (" grid.points = 32 ", "32 x 32 points"),

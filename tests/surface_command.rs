@@ -1,20 +1,11 @@
 //! `tabor surface` from outside: the table, the scene in it, the pictures.
 
+mod shared;
+
 use std::fs;
 use std::path::Path;
-use std::process::{Command, Output};
 
-fn tabor(folder: &Path, arguments: &[&str]) -> Output {
-    Command::new(env!("CARGO_BIN_EXE_tabor"))
-        .current_dir(folder)
-        .args(arguments)
-        .output()
-        .expect("the binary runs")
-}
-
-fn errors(output: &Output) -> String {
-    String::from_utf8_lossy(&output.stderr).into_owned()
-}
+use shared::{errors, tabor};
 
 /// Standard output of a call that ends well.
 fn report(folder: &Path, arguments: &[&str]) -> String {

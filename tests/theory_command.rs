@@ -1,10 +1,14 @@
 //! `tabor theory` from outside: tables, values, the list, messages.
 
+mod shared;
+
 use std::f64::consts::PI;
 use std::io::Read;
-use std::process::{Command, Output, Stdio};
+use std::path::Path;
+use std::process::{Output, Stdio};
 
 use serde_json::Value;
+use shared::{command, tabor};
 
 /// Every model with its columns.
 const MODELS: [(&str, &str); 21] = [
@@ -56,11 +60,7 @@ const MODELS: [(&str, &str); 21] = [
 ];
 
 fn theory(arguments: &[&str]) -> Output {
-    Command::new(env!("CARGO_BIN_EXE_tabor"))
-        .arg("theory")
-        .args(arguments)
-        .output()
-        .expect("the binary runs")
+    tabor(Path::new("."), &[&["theory"], arguments].concat())
 }
 
 fn text(bytes: &[u8]) -> String {
@@ -723,8 +723,8 @@ fn help_is_there_on_both_levels() {
 
 #[test]
 fn a_closed_pipe_is_no_failure() {
-    let mut child = Command::new(env!("CARGO_BIN_EXE_tabor"))
-        .args(["theory", "hertz", "--radius", "1", "--contact_modulus", "1"])
+    let sphere = ["theory", "hertz", "--radius", "1", "--contact_modulus", "1"];
+    let mut child = command(Path::new("."), &sphere)
         // More than a pipe holds.
         .args(["--points", "100000"])
         .stdout(Stdio::piped())

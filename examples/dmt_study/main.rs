@@ -2,10 +2,11 @@
 //!
 //! `cargo run --release --example dmt_study [LARGEST]` runs the surfaces of Hurst exponent 0.4, 0.6, 0.8 and
 //! N = 16, 32, 64 (up to LARGEST, default 64) with three seeds each, writes `docs/dmt_study.csv` row by row,
-//! then the pictures `docs/pictures/dmt_study_*.png` and a table of misses on standard output.
+//! then the pictures `docs/pictures/dmt_study_*.png` and the docs' two tables, of misses and of claims, on standard output.
 //! `dmt_study asperities` computes the rows of the interacting asperities again and keeps the others of
-//! the table that is there; `dmt_study draw` only draws from it.
+//! the table that is there; `dmt_study draw` only draws from it; `dmt_study boxes` asks wider boxes.
 
+mod claims;
 mod figures;
 mod rows;
 
@@ -81,6 +82,33 @@ fn run_asperities() -> Result<(), Box<dyn Error>> {
     Ok(())
 }
 
+/// Pull-off of the field in boxes once and twice as wide, H = 0.4 and N = 16, as a table on standard output,
+/// and Persson's with the waves that fit the box and with those of a plane without end.
+fn run_boxes() -> Result<(), Box<dyn Error>> {
+    println!("| box | seed | pull-off eps/w |\n|---|---|---|");
+    let (hurst, ratio) = (0.4, 16);
+    for times in [1, 2] {
+        for seed in 1..=3 {
+            let case = Case { hurst, ratio, seed };
+            let sample = Sample::in_box(case, times)?;
+            let found = rows::field_rows(case, &sample)?;
+            let tension = rows::pull_off(&found.iter().collect::<Vec<_>>());
+            let share = tension * sample.unit * rows::RANGE / rows::WORK;
+            println!("| {times} | {seed} | {share:.4} |");
+        }
+    }
+    // Waves on a lattice of spacing q stand for all from q/sqrt(pi) on.
+    for smallest in [1.0, 1.0 / std::f64::consts::PI.sqrt()] {
+        let share = rows::persson_from(smallest * rows::SMALLEST, hurst, ratio)?
+            .pull_off(&rows::ADHESION)?
+            .tension
+            * rows::RANGE
+            / rows::WORK;
+        println!("| Persson from {smallest:.3} qL | | {share:.4} |");
+    }
+    Ok(())
+}
+
 const UNITS: &str =
     "# pressures in E* h', mean gap in rms heights; seed 0: the model does not know it";
 
@@ -102,11 +130,13 @@ fn main() -> Result<(), Box<dyn Error>> {
     let argument = std::env::args().nth(1);
     match argument.as_deref() {
         Some("draw") => {}
+        Some("boxes") => return run_boxes(),
         Some("asperities") => run_asperities()?,
         Some(largest) => run(largest.parse()?)?,
         None => run(64)?,
     }
     let table = rows::read(&std::fs::read_to_string(TABLE)?)?;
-    print!("{}", figures::misses(&table));
+    println!("{}", figures::misses(&table));
+    println!("{}", claims::text(&claims::claims(&table)?));
     figures::draw(&table, Path::new("docs/pictures"))
 }

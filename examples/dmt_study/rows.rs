@@ -93,13 +93,19 @@ impl Sample {
 
     /// Builds the surface with eight points across its shortest wave.
     pub fn new(case: Case) -> Result<Sample, Box<dyn Error>> {
+        Sample::in_box(case, 1)
+    }
+
+    /// The same waves in a box that is some times as wide.
+    pub fn in_box(case: Case, times: usize) -> Result<Sample, Box<dyn Error>> {
         let side = 2.0 * PI / SMALLEST;
+        let width = times as f64 * side;
         let text = format!(
-            "[grid]\npoints = {}\nsize = {side:e}\n[solid]\ncontact_modulus = {MODULUS:e}\n\
+            "[grid]\npoints = {}\nsize = {width:e}\n[solid]\ncontact_modulus = {MODULUS:e}\n\
              [[surface]]\nkind = \"self-affine\"\nhurst = {}\nrms_height = {RMS_HEIGHT:e}\n\
              longest = {side:e}\nrolloff = {:e}\nshortest = {:e}\nseed = {}\n\
              [loading]\ncontrol = \"pressure\"\npath = [1.0]\n",
-            32 * case.ratio,
+            32 * case.ratio * times,
             case.hurst,
             side / 4.0,
             side / (4 * case.ratio) as f64,
@@ -211,8 +217,19 @@ pub fn summits(spectrum: &Spectrum, work: f64) -> Result<Summits, Box<dyn Error>
 
 /// Persson's contact of the study.
 pub fn persson(hurst: f64, ratio: usize) -> Result<RoughContact, Box<dyn Error>> {
-    let theory = Persson::new(GAMMA)?;
-    Ok(RoughContact::new(theory, spectrum(hurst, ratio)?, MODULUS)?)
+    persson_from(SMALLEST, hurst, ratio)
+}
+
+/// The same with another smallest wave number, 1/m.
+pub fn persson_from(
+    smallest: f64,
+    hurst: f64,
+    ratio: usize,
+) -> Result<RoughContact, Box<dyn Error>> {
+    let rolloff = 4.0 * SMALLEST;
+    let wavenumbers = [smallest, rolloff, ratio as f64 * rolloff];
+    let spectrum = Spectrum::new(wavenumbers, hurst, RMS_HEIGHT)?;
+    Ok(RoughContact::new(Persson::new(GAMMA)?, spectrum, MODULUS)?)
 }
 
 /// The study's adhesion, for Persson's theory.

@@ -7,37 +7,43 @@
 //! | is it the same surface on every grid | `same_surface` |
 //! | what is compared | `measure`, `cells`, `judge` |
 //! | with what | `reference`: `closed`, or `richardson` on finer grids |
-//! | what there is time for | `study`, `forecast` |
+//! | what there is time for, and where | `study`, `grids`, `forecast`; `workplace` |
 //! | what is worth its seconds | `front` |
-//! | how it is shown | `table`, `picture` |
+//! | what was found, and how it is shown | `report`; `table`, `picture` |
 
 mod cells;
 mod closed;
 mod error;
 mod forecast;
 mod front;
+mod grids;
 mod judge;
 mod measure;
 mod picture;
 mod reference;
+mod report;
 mod richardson;
 mod same_surface;
 mod setting;
 mod steps;
 mod study;
 mod table;
+mod workplace;
 
 pub use cells::means;
 pub use closed::closed;
 pub use error::AccuracyError;
 pub use front::{cheapest, pareto};
+pub use grids::LEAST_POINTS;
 pub use judge::Errors;
 pub use measure::{Measured, Point};
 pub use picture::picture;
 pub use reference::Reference;
+pub use report::{LeftOut, Report, Row, duration};
 pub use richardson::{Extrapolated, extrapolate};
 pub use same_surface::SameSurface;
 pub use setting::{Model, Setting, Taper, Varied, others};
 pub use steps::{Steps, Walk};
-pub use study::{Bench, LEAST_POINTS, LeftOut, Listener, Report, Row, Study, Workplace, duration};
+pub use study::Study;
 pub use table::{LEVELS, csv, screen, write_csv};
+pub use workplace::{Bench, Listener, Workplace};

@@ -1,8 +1,8 @@
 //! `accuracy.png`: error against seconds, both logarithmic, a panel a quantity.
 
 use super::judge::Errors;
+use super::report::{Report, Row};
 use super::setting::{Taper, Varied};
-use super::study::{Report, Row};
 use crate::output::panels::{Axis, Figure, Panel, PlotPoint, Series};
 
 /// Errors below this are drawn at it: what is exact has no place on a logarithmic axis.

@@ -5,162 +5,27 @@ use std::time::{Duration, Instant};
 use super::closed::closed;
 use super::error::AccuracyError;
 use super::forecast::{Forecast, Work};
-use super::front;
+use super::grids::{ladder, twice};
 use super::judge::{Errors, change, judge};
 use super::measure::{Measured, Unfinished, compared, measure};
 use super::reference::Reference;
+use super::report::{LeftOut, Report, Row, duration};
 use super::same_surface::SameSurface;
 use super::setting::{Setting, Varied, others};
 use super::steps::Steps;
-use crate::backend::Backend;
+use super::workplace::{Listener, Workplace};
 use crate::grid::Grid;
 use crate::kernel::Scalars;
 use crate::law::Law;
 use crate::scene::{BackendName, Precision, Scene, Treatment};
 use crate::study::Setup;
 
-/// Grids that are judged, at most; each has twice the points of the one before.
-const GRIDS: u32 = 4;
-/// Fewest points along a side of a grid that is judged.
-pub const LEAST_POINTS: usize = 16;
 /// Share of the time that the reference may take.
 const REFERENCE_SHARE: f64 = 0.6;
 /// Share of what is then left that one more grid may take.
 const OWN_SHARE: f64 = 0.3;
 /// How much tighter the reference is solved than the scene asks.
 const TIGHTER: f64 = 0.1;
-
-/// A backend for one setting.
-pub struct Bench {
-    /// Makes one.
-    pub make: Box<dyn Fn() -> Box<dyn Backend + Send> + Send + Sync>,
-    /// What the user should know about it.
-    pub remark: Option<String>,
-}
-
-/// Where settings are run.
-pub trait Workplace: Sync {
-    /// Backends and precisions at hand.
-    fn arithmetics(&self) -> &[(BackendName, Precision)];
-    /// Whether the memory holds a scene on a grid, else why not.
-    ///
-    /// # Errors
-    /// In words.
-    fn fits(&self, scene: &Scene, grid: Grid) -> Result<(), String>;
-    /// A backend for a setup.
-    ///
-    /// # Errors
-    /// In words.
-    fn bench(&self, setup: &Setup) -> Result<Bench, String>;
-}
-
-/// Who watches a study.
-pub trait Listener: Send {
-    /// A run begins, which will take some seconds.
-    fn begins(&mut self, words: &str, seconds: f64);
-    /// It goes on; `false` ends the study.
-    fn goes_on(&mut self, step: usize, iteration: usize, residual: f64) -> bool;
-    /// Something to know.
-    fn note(&mut self, text: &str);
-    /// A row is done; all of them are in the report so far.
-    ///
-    /// # Errors
-    /// What keeps it from being kept.
-    fn row(&mut self, report: &Report) -> Result<(), AccuracyError>;
-}
-
-/// A setting that was run.
-#[derive(Clone, Debug)]
-pub struct Row {
-    /// The setting.
-    pub setting: Setting,
-    /// What it varies.
-    pub varied: Varied,
-    /// What it gave; without its profile.
-    pub measured: Measured,
-    /// How far that is from the reference.
-    pub errors: Errors,
-    /// How far it is from the scene's own way on the same grid.
-    pub change: Option<f64>,
-    /// Of a solid that relaxes, for rows that vary nothing but steps: how far it is from the reference's
-    /// steps on the same grid.
-    pub in_time: Option<Errors>,
-    /// Range of its law, m; `None` without one.
-    pub range: Option<f64>,
-    /// Taper of its law, m.
-    pub taper: Option<f64>,
-    /// Pixel over cohesive zone.
-    pub chi: Option<f64>,
-    /// Pixels across the cohesive zone.
-    pub zone_pixels: Option<f64>,
-}
-
-/// A setting that was not run.
-#[derive(Clone, Debug)]
-pub struct LeftOut {
-    /// Which.
-    pub words: String,
-    /// Why.
-    pub reason: String,
-}
-
-/// All that a study found.
-#[derive(Clone, Debug)]
-pub struct Report {
-    /// The scene that was judged.
-    pub scene: Scene,
-    /// The answer; `None` until it is known.
-    pub reference: Option<Reference>,
-    /// Rows as they ended.
-    pub rows: Vec<Row>,
-    /// Settings that were not run.
-    pub left_out: Vec<LeftOut>,
-    /// Whether it was ended from outside.
-    pub interrupted: bool,
-}
-
-impl Report {
-    /// Seconds and the errors that `of` takes, one a row.
-    pub fn costs(&self, of: impl Fn(&Errors) -> Option<f64>) -> Vec<(f64, Option<f64>)> {
-        let point = |row: &Row| (row.measured.seconds, of(&row.errors));
-        self.rows.iter().map(point).collect()
-    }
-
-    /// The reference's own uncertainty, of what `of` takes; 0 where it has none.
-    pub fn uncertainty(&self, of: impl Fn(&Errors) -> Option<f64>) -> f64 {
-        let reference = self.reference.as_ref();
-        reference
-            .and_then(|found| of(&found.uncertainty))
-            .unwrap_or(0.0)
-    }
-
-    /// Rows on the front of an error against seconds; what is all wrong is no answer at any price.
-    pub fn front(&self, of: impl Fn(&Errors) -> Option<f64>) -> Vec<usize> {
-        front::pareto(&self.costs(|errors| of(errors).filter(|error| *error < 1.0)))
-    }
-
-    /// The order with which an error of the scene's own way falls with the grid: the slope of
-    /// logarithms through all its grids, by least squares.
-    pub fn order(&self, of: impl Fn(&Errors) -> Option<f64>) -> Option<f64> {
-        let own = self.rows.iter().filter(|row| row.varied == Varied::Nothing);
-        let points: Vec<(f64, f64)> = own
-            .filter_map(|row| {
-                let error = of(&row.errors).filter(|error| *error > 0.0)?;
-                let pixels = row.setting.points[0].max(row.setting.points[1]) as f64;
-                Some((pixels.ln(), error.ln()))
-            })
-            .collect();
-        if points.len() < 3 {
-            return None;
-        }
-        let count = points.len() as f64;
-        let mean = |of: fn(&(f64, f64)) -> f64| points.iter().map(of).sum::<f64>() / count;
-        let (x, y) = (mean(|p| p.0), mean(|p| p.1));
-        let across: f64 = points.iter().map(|p| (p.0 - x) * (p.1 - y)).sum();
-        let along: f64 = points.iter().map(|p| (p.0 - x).powi(2)).sum();
-        Some(-across / along)
-    }
-}
 
 /// Judges a scene within a budget of seconds.
 pub struct Study<'a> {
@@ -613,65 +478,5 @@ impl Missed {
             Missed::Interrupted => "interrupted".to_owned(),
             Missed::Impossible(reason) => reason.clone(),
         }
-    }
-}
-
-/// Seconds in two digits.
-pub fn duration(seconds: f64) -> String {
-    match seconds {
-        s if s < 0.01 => format!("{:.1} ms", 1e3 * s),
-        s if s < 1.0 => format!("{:.0} ms", 1e3 * s),
-        s if s < 10.0 => format!("{s:.1} s"),
-        s if s < 120.0 => format!("{s:.0} s"),
-        s => format!("{:.0} min", s / 60.0),
-    }
-}
-
-/// Each side of more than one point twice as fine.
-fn twice(points: [usize; 2]) -> [usize; 2] {
-    points.map(|side| if side == 1 { 1 } else { 2 * side })
-}
-
-/// The grids that are judged, the coarsest first: the scene's own, halved while every side is even
-/// and has points enough.
-fn ladder(own: [usize; 2]) -> Result<Vec<[usize; 2]>, AccuracyError> {
-    let is_coarse =
-        |points: [usize; 2]| points.iter().any(|side| *side > 1 && *side < LEAST_POINTS);
-    if is_coarse(own) || own == [1, 1] {
-        return Err(AccuracyError::TooCoarse {
-            points: own,
-            least: LEAST_POINTS,
-        });
-    }
-    let mut grids = vec![own];
-    for _ in 1..GRIDS {
-        let finer = grids[grids.len() - 1];
-        let half = finer.map(|side| if side == 1 { 1 } else { side / 2 });
-        if is_coarse(half) || finer.iter().any(|side| *side > 1 && side % 2 == 1) {
-            break;
-        }
-        grids.push(half);
-    }
-    grids.reverse();
-    Ok(grids)
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn grids_are_halves_down_to_the_fewest_points() {
-        let grids = |own| ladder(own).expect("points enough");
-        assert_eq!(
-            grids([128, 128]),
-            [[16, 16], [32, 32], [64, 64], [128, 128]]
-        );
-        assert_eq!(grids([512, 256])[0], [64, 32]);
-        assert_eq!(grids([100, 100]), [[25, 25], [50, 50], [100, 100]]);
-        assert_eq!(grids([64, 1]), [[16, 1], [32, 1], [64, 1]]);
-        assert_eq!(grids([27, 27]), [[27, 27]]);
-        assert!(ladder([8, 64]).is_err() && ladder([1, 1]).is_err());
-        assert_eq!(twice([64, 1]), [128, 1]);
     }
 }

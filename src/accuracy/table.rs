@@ -6,9 +6,9 @@ use std::path::Path;
 
 use super::front;
 use super::judge::Errors;
+use super::report::{Report, Row, duration};
 use super::setting::Varied;
 use super::steps::Steps;
-use super::study::{Report, Row, duration};
 use crate::output::{OutputError, write_atomically};
 
 /// Columns that every `accuracy.csv` begins with, those of older versions too.

@@ -2,27 +2,18 @@
 
 use std::io;
 
-use image::{ExtendedColorType, ImageEncoder, RgbImage, codecs::png::PngEncoder};
-use noto_sans_mono_bitmap::{FontWeight, RasterHeight};
+use image::RgbImage;
 
 use super::choice::FitResult;
-use crate::output::canvas::{self, FRAME, INK, QUIET_INK, WHITE, printable};
+use crate::output::canvas::{self, FRAME, HEADING, INK, QUIET_INK, TEXT, WHITE, say};
 use crate::output::colour_scale::round_values;
 use crate::output::layout::Rect;
 use crate::output::palette::Rgb;
+use crate::output::pen::Pen;
 use crate::output::si::{ScaledUnit, scaled_unit};
-use crate::output::{Font, TextLine};
 use crate::units::format_si;
 
 const PAGE: [u32; 2] = [1100, 900];
-const TEXT: Font = Font {
-    weight: FontWeight::Regular,
-    size: RasterHeight::Size16,
-};
-const HEADING: Font = Font {
-    weight: FontWeight::Bold,
-    size: RasterHeight::Size20,
-};
 /// The panel of the curve.
 const CURVE: Rect = Rect {
     x: 120,
@@ -44,6 +35,8 @@ const APART: Rgb = [40, 96, 168];
 const TICKS: usize = 8;
 /// Pixels of a tick mark.
 const MARK: u32 = 6;
+/// Width of the model's line, pixels.
+const LINE: f64 = 1.0;
 /// Share of an axis left free at its ends.
 const MARGIN: f64 = 0.04;
 
@@ -124,29 +117,20 @@ pub fn draw(result: &FitResult, title: &str) -> io::Result<Vec<u8>> {
         }
     }
     for way in &result.measured.ways {
-        let mut before: Option<(f64, f64)> = None;
+        let mut before: Option<[f64; 2]> = None;
         for i in way.points.clone() {
-            let here = (
+            let here = [
                 approach.pixel(samples[i].approach),
                 force.pixel(fit.fitted[i]),
-            );
-            line(&mut page, before.unwrap_or(here), here, INK);
+            ];
+            Pen::new(&mut page, INK).stroke(before.unwrap_or(here), here, LINE);
             before = Some(here);
         }
     }
     let zero = residual.pixel(0.0);
-    let ends = (f64::from(RESIDUALS.x), f64::from(RESIDUALS.right() - 1));
-    line(&mut page, (ends.0, zero), (ends.1, zero), INK);
-    let mut png = Vec::new();
-    PngEncoder::new(&mut png)
-        .write_image(
-            page.as_raw(),
-            page.width(),
-            page.height(),
-            ExtendedColorType::Rgb8,
-        )
-        .map_err(io::Error::other)?;
-    Ok(png)
+    let ends = [RESIDUALS.x, RESIDUALS.right() - 1].map(|x| [f64::from(x), zero]);
+    Pen::new(&mut page, INK).stroke(ends[0], ends[1], LINE);
+    canvas::png(&page)
 }
 
 fn heading(page: &mut RgbImage, result: &FitResult, title: &str) {
@@ -162,15 +146,14 @@ fn heading(page: &mut RgbImage, result: &FitResult, title: &str) {
     if let Some(mu) = result.tabor_parameter {
         says += &format!(", Tabor number {mu:.2}");
     }
-    let longest = (CURVE.width / HEADING.advance()) as usize;
-    let cut: String = printable(title).chars().take(longest).collect();
-    put(page, cut, HEADING, (CURVE.x, 22), INK);
-    put(page, printable(&says), TEXT, (CURVE.x, 54), INK);
+    let title = canvas::cut(title, HEADING, CURVE.width);
+    say(page, HEADING, INK, [CURVE.x, 22], &title);
+    say(page, TEXT, INK, [CURVE.x, 54], &says);
     let keys = [("together", TOGETHER), ("apart", APART), ("model", INK)];
     let mut x = CURVE.right() - 330;
     for (name, colour) in keys {
         dot(page, (f64::from(x), 62.0), colour);
-        put(page, name.to_owned(), TEXT, (x + 10, 54), QUIET_INK);
+        say(page, TEXT, QUIET_INK, [x + 10, 54], name);
         x += 30 + TEXT.width(name);
     }
 }
@@ -187,7 +170,7 @@ fn panel(page: &mut RgbImage, place: Rect, across: &Axis, up: &Axis, name: &str)
         };
         canvas::fill(page, mark, INK);
         let left = x.saturating_sub(TEXT.width(&label) / 2);
-        put(page, label, TEXT, (left, place.bottom() + MARK + 2), INK);
+        say(page, TEXT, INK, [left, place.bottom() + MARK + 2], &label);
     }
     for (value, label) in up.ticks() {
         let y = up.pixel(value).round() as u32;
@@ -199,23 +182,14 @@ fn panel(page: &mut RgbImage, place: Rect, across: &Axis, up: &Axis, name: &str)
         };
         canvas::fill(page, mark, INK);
         let left = (place.x - MARK - 4).saturating_sub(TEXT.width(&label));
-        put(page, label, TEXT, (left, y.saturating_sub(8)), INK);
+        say(page, TEXT, INK, [left, y.saturating_sub(8)], &label);
     }
-    let above = (place.x, place.y - TEXT.height() - 2);
-    put(
-        page,
-        format!("{name} [{}]", up.unit.name),
-        TEXT,
-        above,
-        QUIET_INK,
-    );
+    let above = [place.x, place.y - TEXT.height() - 2];
+    let name = format!("{name} [{}]", up.unit.name);
+    say(page, TEXT, QUIET_INK, above, &name);
     let says = format!("approach [{}]", across.unit.name);
     let left = place.right() - TEXT.width(&says);
-    put(page, says, TEXT, (left, place.bottom() + 26), QUIET_INK);
-}
-
-fn put(page: &mut RgbImage, text: String, font: Font, (x, y): (u32, u32), ink: Rgb) {
-    canvas::write(page, &TextLine { text, font, x, y }, ink);
+    say(page, TEXT, QUIET_INK, [left, place.bottom() + 26], &says);
 }
 
 /// A square of three pixels.
@@ -227,23 +201,4 @@ fn dot(page: &mut RgbImage, (x, y): (f64, f64), colour: Rgb) {
         height: 3,
     };
     canvas::fill(page, place, colour);
-}
-
-/// A straight line one pixel wide.
-fn line(page: &mut RgbImage, from: (f64, f64), to: (f64, f64), colour: Rgb) {
-    let steps = (to.0 - from.0)
-        .abs()
-        .max((to.1 - from.1).abs())
-        .ceil()
-        .max(1.0) as u32;
-    for step in 0..=steps {
-        let share = f64::from(step) / f64::from(steps);
-        let place = Rect {
-            x: (from.0 + share * (to.0 - from.0)).round() as u32,
-            y: (from.1 + share * (to.1 - from.1)).round() as u32,
-            width: 1,
-            height: 1,
-        };
-        canvas::fill(page, place, colour);
-    }
 }

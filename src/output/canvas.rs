@@ -1,6 +1,8 @@
 //! A white page with rectangles and text.
 
-use image::RgbImage;
+use std::io;
+
+use image::{ExtendedColorType, ImageEncoder, RgbImage, codecs::png::PngEncoder};
 use noto_sans_mono_bitmap::{FontWeight, RasterHeight, get_raster, get_raster_width};
 
 use super::layout::Rect;
@@ -41,6 +43,22 @@ impl Font {
     }
 }
 
+/// Text of plots.
+pub(crate) const TEXT: Font = Font {
+    weight: FontWeight::Regular,
+    size: RasterHeight::Size16,
+};
+/// What stands out in plots.
+pub(crate) const BOLD: Font = Font {
+    weight: FontWeight::Bold,
+    ..TEXT
+};
+/// Titles of plots.
+pub(crate) const HEADING: Font = Font {
+    weight: FontWeight::Bold,
+    size: RasterHeight::Size20,
+};
+
 /// A line of text and where it stands.
 #[derive(Clone, Debug, PartialEq)]
 pub struct TextLine {
@@ -76,6 +94,32 @@ pub(crate) fn printable(text: &str) -> String {
             }
         })
         .collect()
+}
+
+/// Writes text with its left upper corner at a place, pixels.
+pub(crate) fn say(page: &mut RgbImage, font: Font, ink: Rgb, [x, y]: [u32; 2], text: &str) {
+    let text = printable(text);
+    write(page, &TextLine { text, font, x, y }, ink);
+}
+
+/// As much of a text as `width` pixels hold.
+pub(crate) fn cut(text: &str, font: Font, width: u32) -> String {
+    let most = (width / font.advance()) as usize;
+    printable(text).chars().take(most).collect()
+}
+
+/// The page as a PNG file: 8-bit sRGB.
+pub(crate) fn png(page: &RgbImage) -> io::Result<Vec<u8>> {
+    let mut bytes = Vec::new();
+    PngEncoder::new(&mut bytes)
+        .write_image(
+            page.as_raw(),
+            page.width(),
+            page.height(),
+            ExtendedColorType::Rgb8,
+        )
+        .map_err(io::Error::other)?;
+    Ok(bytes)
 }
 
 /// Fills a rectangle, as far as it lies on the page.

@@ -16,6 +16,7 @@ pub mod folder;
 pub mod layout;
 pub mod palette;
 pub mod panels;
+pub(crate) mod pen;
 pub mod picture;
 mod png_text;
 pub mod progress;

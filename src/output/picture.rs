@@ -3,14 +3,14 @@
 use std::io;
 use std::path::Path;
 
-use image::{ExtendedColorType, ImageEncoder, RgbImage, codecs::png::PngEncoder};
+use image::RgbImage;
 
 use super::canvas::{self, FRAME, INK, QUIET_INK, WHITE, printable};
 use super::colour_scale::ColourScale;
 use super::error::OutputError;
 use super::folder::write_within;
 use super::layout::{Contents, LONGEST_FIELD, Layout, Rect, tick_mark};
-use super::png_text::with_texts;
+use super::png_text::{software, with_texts};
 use super::resample::{drawn_size, resample};
 use crate::grid::Grid;
 use crate::scene::{Control, FieldName};
@@ -146,10 +146,7 @@ impl Picture<'_> {
             } = rect;
             format!("{x} {y} {width} {height}")
         };
-        let mut texts = vec![(
-            "Software",
-            concat!("tabor ", env!("CARGO_PKG_VERSION")).to_owned(),
-        )];
+        let mut texts = vec![software()];
         texts.extend(self.title.map(|title| ("Title", title.to_owned())));
         texts.push(("tabor field", self.field.name().to_owned()));
         texts.extend(self.step.map(|step| ("tabor step", step.to_string())));
@@ -177,16 +174,7 @@ impl Picture<'_> {
 impl Snapshot {
     /// The PNG file: 8-bit sRGB, with its texts.
     pub fn encode(&self) -> io::Result<Vec<u8>> {
-        let mut png = Vec::new();
-        PngEncoder::new(&mut png)
-            .write_image(
-                self.image.as_raw(),
-                self.image.width(),
-                self.image.height(),
-                ExtendedColorType::Rgb8,
-            )
-            .map_err(io::Error::other)?;
-        Ok(with_texts(&png, &self.texts))
+        Ok(with_texts(&canvas::png(&self.image)?, &self.texts))
     }
 }
 

@@ -3,6 +3,14 @@
 /// Length of the signature and of the header chunk, after which texts may stand.
 const AFTER_HEADER: usize = 8 + 25;
 
+/// Which program wrote a file.
+pub(super) fn software() -> (&'static str, String) {
+    (
+        "Software",
+        concat!("tabor ", env!("CARGO_PKG_VERSION")).to_owned(),
+    )
+}
+
 /// `png` with a text chunk for each keyword and text, placed after its header.
 ///
 /// Texts outside ASCII are stored as `iTXt` (UTF-8), others as `tEXt`. Keywords are ours: ASCII,

@@ -2,15 +2,15 @@
 
 use std::path::Path;
 
-use image::{ExtendedColorType, ImageEncoder, RgbImage, codecs::png::PngEncoder};
-use noto_sans_mono_bitmap::{FontWeight, RasterHeight};
+use image::RgbImage;
 
-use super::canvas::{self, FRAME, Font, INK, QUIET_INK, TextLine, WHITE, printable};
+use super::canvas::{self, FRAME, HEADING, INK, QUIET_INK, TEXT, WHITE, say};
 use super::error::OutputError;
 use super::folder::write_atomically;
 use super::layout::Rect;
 use super::palette::{self, Rgb};
-use super::png_text::with_texts;
+use super::pen::Pen;
+use super::png_text::{software, with_texts};
 
 /// Size of the page, pixels.
 const PAGE: [u32; 2] = [900, 660];
@@ -45,20 +45,19 @@ impl SpectrumPlot<'_> {
     /// Draws the plot.
     pub fn draw(&self) -> RgbImage {
         let mut page = RgbImage::from_pixel(PAGE[0], PAGE[1], image::Rgb(WHITE));
-        let heading = font(FontWeight::Bold, RasterHeight::Size20);
-        let text = font(FontWeight::Regular, RasterHeight::Size16);
-        let longest = ((PAGE[0] - AXES.x) / heading.advance()) as usize;
-        let title: String = printable(self.title).chars().take(longest).collect();
-        put(&mut page, heading, &title, AXES.x, 24, INK);
+        let title = canvas::cut(self.title, HEADING, PAGE[0] - AXES.x);
+        say(&mut page, HEADING, INK, [AXES.x, 24], &title);
         let axis = "power spectral density [m^4] over wave number [1/m]";
-        put(&mut page, text, axis, AXES.x, 54, INK);
+        say(&mut page, TEXT, INK, [AXES.x, 54], axis);
         let axes = Axes::of(self.points, self.line);
         for (axis, ends) in axes.ends.iter().enumerate() {
-            draw_ticks(&mut page, &axes, axis, *ends, text);
+            draw_ticks(&mut page, &axes, axis, *ends);
         }
         let line = palette::compression()[150];
         for pair in self.line.windows(2) {
-            stroke(&mut page, axes.place(pair[0]), axes.place(pair[1]), line);
+            if let [Some(from), Some(to)] = [pair[0], pair[1]].map(|point| axes.place(point)) {
+                Pen::new(&mut page, line).line(from.map(f64::from), to.map(f64::from), false);
+            }
         }
         let mark = palette::rising()[70];
         for point in self.points {
@@ -89,7 +88,7 @@ impl SpectrumPlot<'_> {
                 height: 5,
             };
             canvas::fill(&mut page, sample, colour);
-            put(&mut page, text, words, AXES.x + 48, y, INK);
+            say(&mut page, TEXT, INK, [AXES.x + 48, y], words);
         }
         page
     }
@@ -100,34 +99,10 @@ impl SpectrumPlot<'_> {
     /// What the system says.
     pub fn write(&self, path: &Path) -> Result<(), OutputError> {
         let page = self.draw();
-        let mut png = Vec::new();
-        PngEncoder::new(&mut png)
-            .write_image(page.as_raw(), PAGE[0], PAGE[1], ExtendedColorType::Rgb8)
-            .map_err(std::io::Error::other)
-            .map_err(OutputError::write("write", path))?;
-        let texts = [
-            (
-                "Software",
-                concat!("tabor ", env!("CARGO_PKG_VERSION")).to_owned(),
-            ),
-            ("Title", self.title.to_owned()),
-        ];
+        let png = canvas::png(&page).map_err(OutputError::write("write", path))?;
+        let texts = [software(), ("Title", self.title.to_owned())];
         write_atomically(path, &with_texts(&png, &texts))
     }
-}
-
-fn font(weight: FontWeight, size: RasterHeight) -> Font {
-    Font { weight, size }
-}
-
-fn put(page: &mut RgbImage, font: Font, words: &str, x: u32, y: u32, ink: Rgb) {
-    let line = TextLine {
-        text: words.to_owned(),
-        font,
-        x,
-        y,
-    };
-    canvas::write(page, &line, ink);
 }
 
 /// Decimal logarithms at the ends of both axes.
@@ -179,7 +154,7 @@ impl Axes {
 }
 
 /// Lines and labels at powers of ten, as many as there is room for.
-fn draw_ticks(page: &mut RgbImage, axes: &Axes, axis: usize, [low, high]: [f64; 2], text: Font) {
+fn draw_ticks(page: &mut RgbImage, axes: &Axes, axis: usize, [low, high]: [f64; 2]) {
     let (first, last) = (low.ceil() as i32, high.floor() as i32);
     let every = ((last - first) / MOST_TICKS + 1).max(1);
     for power in (first..=last).filter(|power| power.rem_euclid(every) == 0) {
@@ -193,8 +168,8 @@ fn draw_ticks(page: &mut RgbImage, axes: &Axes, axis: usize, [low, high]: [f64; 
                 ..AXES
             };
             canvas::fill(page, line, LATTICE);
-            let left = x.saturating_sub(text.width(&label) / 2);
-            put(page, text, &label, left, AXES.bottom() + 10, QUIET_INK);
+            let left = x.saturating_sub(TEXT.width(&label) / 2);
+            say(page, TEXT, QUIET_INK, [left, AXES.bottom() + 10], &label);
         } else {
             let y = AXES.y + ((1.0 - share) * f64::from(AXES.height - 1)).round() as u32;
             let line = Rect {
@@ -203,32 +178,10 @@ fn draw_ticks(page: &mut RgbImage, axes: &Axes, axis: usize, [low, high]: [f64; 
                 ..AXES
             };
             canvas::fill(page, line, LATTICE);
-            let left = AXES.x.saturating_sub(text.width(&label) + 10);
-            let top = y.saturating_sub(text.height() / 2);
-            put(page, text, &label, left, top, QUIET_INK);
+            let left = AXES.x.saturating_sub(TEXT.width(&label) + 10);
+            let top = y.saturating_sub(TEXT.height() / 2);
+            say(page, TEXT, QUIET_INK, [left, top], &label);
         }
-    }
-}
-
-/// A line two pixels wide between two places.
-fn stroke(page: &mut RgbImage, from: Option<[u32; 2]>, to: Option<[u32; 2]>, colour: Rgb) {
-    let (Some(from), Some(to)) = (from, to) else {
-        return;
-    };
-    let steps = from[0].abs_diff(to[0]).max(from[1].abs_diff(to[1])).max(1);
-    for step in 0..=steps {
-        let share = f64::from(step) / f64::from(steps);
-        let at = |axis: usize| {
-            let (from, to) = (f64::from(from[axis]), f64::from(to[axis]));
-            (from + share * (to - from)).round() as u32
-        };
-        let dot = Rect {
-            x: at(0),
-            y: at(1),
-            width: 2,
-            height: 2,
-        };
-        canvas::fill(page, dot, colour);
     }
 }
 

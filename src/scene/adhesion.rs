@@ -2,12 +2,13 @@
 
 use std::path::Path;
 
+use super::allowed::{Allowed, is_sane};
 use super::document::Value;
 use super::keys;
 use super::mistake::SceneError;
 use super::rate;
-use super::reader::{Allowed, Reader, is_sane};
-use super::types::{
+use super::reader::Reader;
+use super::{
     AdhesionMap, AdhesionScene, Boundary, GridScene, LawName, PatternKind, Range, Treatment,
 };
 use crate::units::{self, Dimension};

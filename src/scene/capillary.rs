@@ -2,9 +2,10 @@
 
 use std::f64::consts::FRAC_PI_2;
 
+use super::allowed::{Allowed, is_sane};
 use super::keys;
-use super::reader::{Allowed, Reader, is_sane};
-use super::types::{AdhesionScene, CapillaryScene, LawName, Range, Treatment};
+use super::reader::Reader;
+use super::{AdhesionScene, CapillaryScene, LawName, Range, Treatment};
 use crate::law::{Meniscus, least_humidity};
 use crate::units::Dimension;
 

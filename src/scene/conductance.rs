@@ -1,9 +1,10 @@
 //! `[conductance]`: what the contact conducts from one body to the other.
 
+use super::ConductanceScene;
+use super::allowed::Allowed;
 use super::keys;
 use super::mistake::SceneError;
-use super::reader::{Allowed, Reader};
-use super::types::ConductanceScene;
+use super::reader::Reader;
 use crate::units::Dimension;
 
 /// Reads `[conductance]`: `Some(None)` where the scene has none. `layered` tells whether the solid is

@@ -1,8 +1,9 @@
 //! `[friction]`: a shear strength of the area in contact.
 
+use super::FrictionScene;
+use super::allowed::Allowed;
 use super::keys;
-use super::reader::{Allowed, Reader};
-use super::types::FrictionScene;
+use super::reader::Reader;
 use crate::units::Dimension;
 
 /// Reads `[friction]`: `Some(None)` where the scene has none.

@@ -1,9 +1,10 @@
 //! `[grid]`: points, size, and what lies beyond the edge.
 
+use super::allowed::Allowed;
 use super::document::{Table, Value};
 use super::keys;
-use super::reader::{Allowed, Reader};
-use super::types::{Boundary, GridScene};
+use super::reader::Reader;
+use super::{Boundary, GridScene};
 use crate::units::Dimension;
 
 /// Most points along one axis.

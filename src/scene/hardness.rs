@@ -3,7 +3,7 @@
 use super::keys;
 use super::mistake::SceneError;
 use super::reader::Reader;
-use super::types::{
+use super::{
     AdhesionScene, Control, GridScene, LawName, LoadingScene, Precision, SolidScene, SolverScene,
     Treatment,
 };

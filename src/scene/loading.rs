@@ -1,11 +1,12 @@
 //! `[loading]`: the path, written out step by step.
 
+use super::allowed::Allowed;
 use super::document::Value;
 use super::keys;
 use super::mistake::SceneError;
-use super::reader::{Allowed, Reader};
+use super::reader::Reader;
 use super::time_steps::{Cutter, DEFAULT_TOLERANCE, Leg};
-use super::types::{
+use super::{
     AdhesionScene, Boundary, Control, LawName, LoadingScene, Range, SolidScene, Treatment,
 };
 use crate::units::{self, Dimension};

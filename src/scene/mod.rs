@@ -6,6 +6,8 @@
 //! machine is refused here; later code may assume it.
 
 mod adhesion;
+mod allowed;
+mod attraction;
 mod capillary;
 mod conductance;
 mod document;
@@ -17,6 +19,7 @@ mod loading;
 mod mistake;
 mod output;
 mod overrides;
+mod parts;
 mod rate;
 mod reader;
 mod resolved;
@@ -29,7 +32,9 @@ mod wear;
 
 use std::path::{Path, PathBuf};
 
+pub use attraction::*;
 pub use mistake::{Mistake, SceneError, SceneErrors};
+pub use parts::*;
 pub use time_steps::{DEFAULT_TOLERANCE as DEFAULT_TIME_TOLERANCE, Stretch};
 pub use types::*;
 

@@ -4,7 +4,7 @@ use super::document::Value;
 use super::keys;
 use super::mistake::SceneError;
 use super::reader::Reader;
-use super::types::{FieldName, OutputScene, StepChoice};
+use super::{FieldName, OutputScene, StepChoice};
 
 impl Default for OutputScene {
     fn default() -> Self {

@@ -1,9 +1,10 @@
 //! `rate` in `[adhesion]`: a work of adhesion that grows with the speed of a receding edge.
 
+use super::allowed::Allowed;
 use super::keys;
 use super::mistake::SceneError;
-use super::reader::{Allowed, Reader};
-use super::types::{LawName, RateScene, Treatment};
+use super::reader::Reader;
+use super::{LawName, RateScene, Treatment};
 use crate::units::Dimension;
 
 /// Exponents for which the growth is one that has been measured, with room on both sides.

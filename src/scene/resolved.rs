@@ -2,7 +2,7 @@
 
 use serde_json::{Map, Value, json};
 
-use super::types::*;
+use super::*;
 
 impl Scene {
     /// The scene as resolved: every default filled in, every value in SI units (angles, which a

@@ -1,9 +1,10 @@
 //! `[solid]`: one way or another to the contact modulus, and a layer in place of the half-space.
 
+use super::allowed::{Allowed, is_sane};
 use super::keys;
 use super::mistake::SceneError;
-use super::reader::{Allowed, Reader, is_sane};
-use super::types::{Boundary, RelaxationScene, SolidScene};
+use super::reader::Reader;
+use super::{Boundary, RelaxationScene, SolidScene};
 use crate::elastic::{Base, Layer};
 use crate::units::Dimension;
 

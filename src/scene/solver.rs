@@ -1,9 +1,10 @@
 //! `[solver]`: how well, how long, and where.
 
+use super::allowed::Allowed;
 use super::keys;
 use super::mistake::SceneError;
-use super::reader::{Allowed, Reader};
-use super::types::{BackendName, Precision, SolverScene};
+use super::reader::Reader;
+use super::{BackendName, Precision, SolverScene};
 use crate::units::Dimension;
 
 /// Default tolerance of double precision; single precision takes its floor.

@@ -2,10 +2,11 @@
 
 use std::path::Path;
 
+use super::allowed::Allowed;
 use super::document::{Node, Table, Value};
 use super::keys::{self, Section};
-use super::reader::{Allowed, Reader};
-use super::types::{
+use super::reader::Reader;
+use super::{
     Boundary, Detrend, Fill, GridScene, HeightFileScene, Roughness, SelfAffineScene, SurfacePart,
 };
 use crate::units::{self, Dimension};

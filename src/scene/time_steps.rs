@@ -14,7 +14,7 @@
 //! stands off its chord by a quarter of the ramp's change.
 
 use super::loading::MOST_STEPS;
-use super::types::{Control, LoadingScene, Scene, SolidScene};
+use super::{Control, LoadingScene, Scene, SolidScene};
 
 /// Error of a path in time where none is asked for, relative.
 pub const DEFAULT_TOLERANCE: f64 = 1e-3;

@@ -1,8 +1,9 @@
 //! `[wear]`: what sliding takes off the spots in contact.
 
+use super::WearScene;
+use super::allowed::Allowed;
 use super::keys;
-use super::reader::{Allowed, Reader};
-use super::types::WearScene;
+use super::reader::Reader;
 use crate::units::Dimension;
 
 /// Reads `[wear]`: `Some(None)` where the scene has none.

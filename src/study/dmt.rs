@@ -3,7 +3,7 @@
 
 use super::control::Controller;
 use super::setup::Setup;
-use super::walk::{SolvedStep, finish, separated, solve};
+use super::step::{SolvedStep, finish, separated, solve};
 use crate::backend::BackendError;
 use crate::kernel::Scalars;
 use crate::scene::Boundary;

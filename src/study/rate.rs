@@ -11,7 +11,7 @@ use super::control::Controller;
 use super::edge::Edge;
 use super::evaluation::PointState;
 use super::setup::Setup;
-use super::walk::{SolvedStep, finish, solve};
+use super::step::{SolvedStep, finish, solve};
 use crate::backend::BackendError;
 use crate::kernel::Scalars;
 use crate::scene::RateScene;

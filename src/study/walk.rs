@@ -7,89 +7,21 @@ use std::time::Instant;
 use super::conductance;
 use super::control::Controller;
 use super::dmt;
-use super::evaluation::{Evaluation, Solved};
 use super::flow::{Flow, load_on};
 use super::hand_over::{Earlier, GAP, HandOver, HandedField};
 use super::jumps::{Jump, Jumps};
+use super::observer::{FinishedStep, Observer, WalkEnd, WalkError};
 use super::rate::RatedStep;
 use super::relaxation::{History, effective_modulus, stretches};
 use super::row::{State, StepRow};
 use super::setup::Setup;
+use super::step::{SolvedStep, finish, separated, solve};
 use super::wear;
 use crate::backend::BackendError;
-use crate::kernel::{Scalars, Status};
+use crate::kernel::Scalars;
 use crate::law::Law;
 use crate::scene::{Boundary, Control};
-use crate::solver::{ContactSolver, Hold, Load, MakeBackend, Outcome, Start};
-
-/// A finished step, handed to whoever keeps it.
-pub struct FinishedStep<'a> {
-    /// The row of the table.
-    pub row: &'a StepRow,
-    /// The fields; `None` where the surfaces are apart and no field belongs to the load.
-    pub evaluation: Option<Evaluation>,
-    /// The jump that the step made, if it made one.
-    pub jump: Option<Jump>,
-}
-
-/// What keeps the steps and watches the solver.
-pub trait Observer {
-    /// What may go wrong in keeping a step.
-    type Error;
-    /// Keeps a finished step.
-    fn step(&mut self, step: FinishedStep) -> Result<(), Self::Error>;
-    /// Sees each iteration; returns whether to go on.
-    fn iteration(&mut self, step: usize, scalars: &Scalars) -> bool;
-    /// Whether [`hand_over`](Observer::hand_over) is wanted: reading fields back is not free.
-    fn wants_hand_over(&self) -> bool {
-        false
-    }
-    /// Keeps what a converged step hands to the next, once the step itself is kept.
-    fn hand_over(&mut self, _step: usize, _state: &HandOver) -> Result<(), Self::Error> {
-        Ok(())
-    }
-}
-
-/// Keeps nothing but the rows, which [`walk`] hands back, and never ends a path.
-impl Observer for () {
-    type Error = std::convert::Infallible;
-
-    fn step(&mut self, _: FinishedStep) -> Result<(), Self::Error> {
-        Ok(())
-    }
-
-    fn iteration(&mut self, _: usize, _: &Scalars) -> bool {
-        true
-    }
-}
-
-/// Why a path ended early.
-#[derive(Debug, thiserror::Error)]
-pub enum WalkError<E> {
-    /// The device failed.
-    #[error(transparent)]
-    Backend(#[from] BackendError),
-    /// A step could not be kept.
-    #[error("a step could not be kept")]
-    Observer(E),
-}
-
-/// How a path ended.
-#[derive(Clone, Debug, Default)]
-pub struct WalkEnd {
-    /// Rows of all steps done.
-    pub rows: Vec<StepRow>,
-    /// Steps that jumped into contact.
-    pub jump_in_steps: Vec<usize>,
-    /// Steps that jumped off.
-    pub jump_off_steps: Vec<usize>,
-    /// Energy that a closed loop dissipates, J.
-    pub hysteresis_energy: Option<f64>,
-    /// Whether the observer ended it.
-    pub interrupted: bool,
-    /// Real two-dimensional transforms.
-    pub transforms: f64,
-}
+use crate::solver::{ContactSolver, Hold, Load, MakeBackend, Start};
 
 /// Walks a path from its first step. Ends at the first step that does not converge, which is handed
 /// on like any other.
@@ -296,18 +228,6 @@ impl Stretch<'_> {
 /// Share of the mean gap below which a point moved by it is closed: the rounding of that mean in
 /// double precision.
 const CLOSED: f64 = 1e-13;
-
-/// A step as solved.
-pub(super) struct SolvedStep {
-    /// Fields and sums; `None` where no equilibrium carries the load.
-    pub evaluation: Option<Evaluation>,
-    /// Whether the residual meets the tolerance.
-    pub converged: bool,
-    /// Iterations of all its solves.
-    pub iterations: usize,
-    /// The stopping measure.
-    pub residual: f64,
-}
 
 /// What is asked of a step.
 struct Asked<'s> {
@@ -538,74 +458,4 @@ impl PathState<'_> {
                 .map(|wear| wear::rate(wear, evaluation, self.setup.surface.grid.pixel_area())),
         }
     }
-}
-
-/// A load that the surfaces do not carry.
-pub(super) fn separated() -> SolvedStep {
-    SolvedStep {
-        evaluation: None,
-        converged: true,
-        iterations: 0,
-        residual: 0.0,
-    }
-}
-
-/// Solves with the scene's own settings. A sharp law is walked in careful steps first, from a state
-/// that is a branch's.
-pub(super) fn solve(
-    setup: &Setup,
-    solver: &mut ContactSolver,
-    load: &Load,
-    start: &Start,
-    make_backend: MakeBackend,
-    watch: &mut dyn FnMut(&Scalars) -> bool,
-) -> Result<Outcome, BackendError> {
-    let sharp = matches!(solver.problem().law, Law::MaugisDugdale(law) if law.taper == 0.0);
-    let careful = sharp && *start != Start::Cold;
-    let settings = &setup.scene.solver;
-    solver.solve(
-        load,
-        start,
-        settings.tolerance,
-        settings.max_iterations,
-        careful,
-        make_backend,
-        watch,
-    )
-}
-
-/// Reads the solved fields and evaluates them.
-pub(super) fn finish(
-    setup: &Setup,
-    controller: &Controller,
-    solver: &mut ContactSolver,
-    load: &Load,
-    outcome: &Outcome,
-) -> Result<SolvedStep, BackendError> {
-    if outcome.status == Status::PulledOff {
-        return Ok(SolvedStep {
-            iterations: outcome.iterations,
-            ..separated()
-        });
-    }
-    let gap = solver.gap()?;
-    let elastic = solver.elastic_pressure()?;
-    let solved = Solved {
-        gap: &gap,
-        elastic: &elastic,
-        mean_offset: solver.mean_offset(),
-        flowed: solver.flowed(),
-        held: outcome.mean_pressure,
-        load: *load,
-        law_factor: solver.law_factor(),
-    };
-    let evaluation = Evaluation::of(setup, solver.problem(), controller, &solved);
-    // What is no number has not converged, whatever the residual makes of it.
-    let is_finite = evaluation.force.is_finite() && evaluation.position.mean_gap.is_finite();
-    Ok(SolvedStep {
-        evaluation: Some(evaluation),
-        converged: is_finite && outcome.status == Status::Converged,
-        iterations: outcome.iterations,
-        residual: outcome.residual,
-    })
 }

@@ -2,7 +2,8 @@
 //! numbers.
 
 use std::fs;
-use std::process::{Command, Stdio};
+
+use crate::shared::{errors, tabor};
 
 const SCENE: &str = r#"[grid]
 points = 16
@@ -54,14 +55,10 @@ fn a_converged_row_holds_numbers() {
     ] {
         for precision in ["double", "single"] {
             let _ = fs::remove_dir_all(folder.path().join("scene"));
-            let output = Command::new(env!("CARGO_BIN_EXE_tabor"))
-                .current_dir(folder.path())
-                .args(["run", "scene.toml", "--quiet", "--backend", "cpu"])
-                .args(["--precision", precision, "--set", set])
-                .stdin(Stdio::null())
-                .output()
-                .expect("the binary runs");
-            let message = String::from_utf8_lossy(&output.stderr);
+            let run = ["run", "scene.toml", "--quiet", "--backend", "cpu"];
+            let call = [&run[..], &["--precision", precision, "--set", set]].concat();
+            let output = tabor(folder.path(), &call);
+            let message = errors(&output);
             let status = output.status.code();
             assert!(
                 matches!(status, Some(0 | 2 | 3)) && !message.contains("panicked"),

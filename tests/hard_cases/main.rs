@@ -15,6 +15,8 @@ mod grids;
 mod jumps;
 mod paths;
 mod run;
+#[path = "../shared/mod.rs"]
+mod shared;
 mod spheres;
 mod table;
 mod truth;

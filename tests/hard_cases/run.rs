@@ -2,13 +2,14 @@
 
 use std::collections::HashMap;
 use std::fs::{self, File};
-use std::process::{Command, Stdio};
+use std::process::Stdio;
 use std::time::{Duration, Instant};
 
 use tempfile::TempDir;
 
 use crate::case::Case;
 use crate::paths::Path;
+use crate::shared::command;
 
 /// Longest time for one run, on a machine that is busy with other things: the slowest takes seconds.
 const LONGEST: Duration = Duration::from_secs(300);
@@ -44,13 +45,11 @@ pub fn run(case: &Case, path: &Path) -> Run {
         write_npy(&folder.path().join(name), case.contact.points, heights);
     }
     let messages = File::create(folder.path().join("messages")).expect("a file");
-    let mut child = Command::new(env!("CARGO_BIN_EXE_tabor"))
-        .current_dir(folder.path())
-        .args(["run", "scene.toml", "--out", "out", "--threads", "1"])
+    let call = ["run", "scene.toml", "--out", "out", "--threads", "1"];
+    let mut child = command(folder.path(), &call)
         .args(["--backend", path.backend, "--precision", path.precision])
         // A software driver brings threads of its own.
         .env("LP_NUM_THREADS", "1")
-        .stdin(Stdio::null())
         .stdout(Stdio::null())
         .stderr(messages)
         .spawn()

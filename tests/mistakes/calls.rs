@@ -3,7 +3,7 @@
 
 use std::fs;
 use std::path::Path;
-use std::process::{Command, Output, Stdio};
+use std::process::{Output, Stdio};
 
 use tabor::grid::Grid;
 use tabor::output::{Load, Picture, write_picture};
@@ -14,7 +14,7 @@ use tabor::scene::{
 use tabor::surface::{Surface, fit::fit};
 use tabor::theory::roots::root;
 
-use super::Reached;
+use super::{Reached, shared};
 
 /// A small scene that is right.
 pub const GOOD: &str = r#"[grid]
@@ -32,19 +32,16 @@ path = ["1 MPa", "2 MPa"]
 
 /// Runs the binary in a folder, with variables of the environment.
 pub fn tabor(folder: &Path, arguments: &[&str], environment: &[(&str, &str)]) -> Output {
-    Command::new(env!("CARGO_BIN_EXE_tabor"))
-        .current_dir(folder)
-        .args(arguments)
+    shared::command(folder, arguments)
         .env_remove("TABOR_MEMORY")
         .envs(environment.iter().copied())
-        .stdin(Stdio::null())
         .output()
         .expect("the binary runs")
 }
 
 /// The one line on standard error, which must hold `expected`; nothing on standard output.
 pub fn one_line(output: &Output, status: i32, expected: &str) -> String {
-    let message = String::from_utf8_lossy(&output.stderr).into_owned();
+    let message = shared::errors(output);
     assert_eq!(output.status.code(), Some(status), "{message}");
     assert!(output.stdout.is_empty(), "standard output stays clean");
     let lines: Vec<&str> = message
@@ -100,6 +97,7 @@ const CALLS: &[BadCall] = &[
     call(&["check", "sizeless.toml"], "SurfaceError::SizeMissing", "[grid] size is missing, and no height file of this scene carries it; write size = \"10 um\""),
     call(&["run", "good.toml", "--out", "good.toml"], "OutputError::Refused", "good.toml"),
     call(&["run", "good.toml", "--out", "foreign"], "OutputError::Refused", "foreign"),
+    call(&["compare", "good.toml"], "CompareError::Unsuited", "[[surface]] 1 is a sphere: compare is of nominally flat rough surfaces"),
     call(&["accuracy", "good.toml", "--set", "grid.points=8"], "AccuracyError::TooCoarse", "grid.points: 8 x 8 points leave no coarser grid to compare with; take at least 16 a side"),
     call(&["accuracy", "good.toml", "--set", "grid.points=8"], "Failure::Accuracy", "grid.points: 8 x 8 points"),
     call(&["accuracy", "good.toml", "--out", "hasty", "--budget", "1 us"], "AccuracyError::NoReference", "no reference was solved: would take about "),
@@ -223,9 +221,7 @@ fn full_disk(folder: &Path) -> Reached {
         .write(true)
         .open("/dev/full")
         .expect("a full device");
-    let output = Command::new(env!("CARGO_BIN_EXE_tabor"))
-        .current_dir(folder)
-        .args(["check", "good.toml"])
+    let output = shared::command(folder, &["check", "good.toml"])
         .stdout(full)
         .output()
         .expect("the binary runs");
@@ -237,17 +233,9 @@ fn full_disk(folder: &Path) -> Reached {
 
 /// Ctrl-C amid a run: exit status 130, and what was finished is kept.
 fn interrupted(folder: &Path) -> Reached {
-    let run = Command::new(env!("CARGO_BIN_EXE_tabor"))
-        .current_dir(folder)
-        // More than a minute of iterations, of which none is the last.
-        .args([
-            "run",
-            "good.toml",
-            "--out",
-            "long",
-            "--set",
-            "grid.points=512",
-        ])
+    // More than a minute of iterations, of which none is the last.
+    let run = shared::command(folder, &["run", "good.toml", "--out", "long"])
+        .args(["--set", "grid.points=512"])
         .args([
             "--set",
             "solver.tolerance=1e-30",
@@ -266,11 +254,7 @@ fn interrupted(folder: &Path) -> Reached {
     while !folder.join("long/curve.csv").exists() {
         std::thread::sleep(std::time::Duration::from_millis(20));
     }
-    let killed = Command::new("kill")
-        .args(["-INT", &run.id().to_string()])
-        .status()
-        .expect("a signal");
-    assert!(killed.success());
+    assert!(shared::signal(&run, "-INT"));
     let output = run.wait_with_output().expect("the run ends");
     Reached {
         variant: "Failure::Interrupted".to_owned(),
@@ -280,16 +264,8 @@ fn interrupted(folder: &Path) -> Reached {
 
 /// Ctrl-C amid the reference of a study: exit status 130, and its table is there, without rows.
 fn interrupted_study(folder: &Path) -> Reached {
-    let study = Command::new(env!("CARGO_BIN_EXE_tabor"))
-        .current_dir(folder)
-        .args([
-            "accuracy",
-            "good.toml",
-            "--out",
-            "study",
-            "--set",
-            "grid.points=512",
-        ])
+    let study = shared::command(folder, &["accuracy", "good.toml", "--out", "study"])
+        .args(["--set", "grid.points=512"])
         .args([
             "--set",
             "solver.tolerance=1e-30",
@@ -304,11 +280,7 @@ fn interrupted_study(folder: &Path) -> Reached {
     while !folder.join("study/accuracy.csv").exists() {
         std::thread::sleep(std::time::Duration::from_millis(20));
     }
-    let killed = Command::new("kill")
-        .args(["-INT", &study.id().to_string()])
-        .status()
-        .expect("a signal");
-    assert!(killed.success());
+    assert!(shared::signal(&study, "-INT"));
     let output = study.wait_with_output().expect("the study ends");
     Reached {
         variant: "Failure::InterruptedStudy".to_owned(),

@@ -10,6 +10,8 @@ mod calls;
 mod curves;
 mod files;
 mod scenes;
+#[path = "../shared/mod.rs"]
+mod shared;
 mod variants;
 
 use std::collections::BTreeMap;
@@ -91,6 +93,14 @@ const OUT_OF_REACH: &[(&str, &str)] = &[
     (
         "AccuracyError::Surface",
         "passes a surface's mistake on; the command line shows it with its scene",
+    ),
+    (
+        "CompareError::Output",
+        "passes an output's failure on; the command line shows what is inside",
+    ),
+    (
+        "CompareError::Backend",
+        "passes the device's failure on; the command line shows what is inside",
     ),
     ("Left::Out", "a model of compare ends; a note says why"),
     ("Left::Theory", "passes a theory's own range on"),

@@ -5,7 +5,6 @@
 use std::collections::BTreeMap;
 use std::fs;
 use std::path::Path;
-use std::process::{Command, Output};
 
 use serde_json::Value;
 
@@ -36,30 +35,6 @@ images = ["pressure", "gap"]
 fields = ["pressure", "gap"]
 steps = [1, 2, 3, 4, 5, 6, 7, 8]
 "#;
-
-/// A command on the binary, from `folder`.
-pub fn command(folder: &Path, arguments: &[&str]) -> Command {
-    let mut command = Command::new(env!("CARGO_BIN_EXE_tabor"));
-    command.current_dir(folder).args(arguments);
-    command
-}
-
-/// Runs the binary to its end.
-pub fn tabor(folder: &Path, arguments: &[&str]) -> Output {
-    command(folder, arguments)
-        .output()
-        .expect("the binary runs")
-}
-
-/// Exit status of a run that ended by itself.
-pub fn status(output: &Output) -> i32 {
-    output.status.code().expect("it ended by itself")
-}
-
-/// What a run said on standard error.
-pub fn errors(output: &Output) -> String {
-    String::from_utf8_lossy(&output.stderr).into_owned()
-}
 
 /// Rows of the curve in `folder`, cell by cell; none where there is no curve yet.
 pub fn rows(folder: &Path) -> Vec<Vec<String>> {

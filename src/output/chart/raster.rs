@@ -2,12 +2,13 @@
 
 use std::io;
 
-use image::{ExtendedColorType, ImageEncoder, RgbImage, codecs::png::PngEncoder};
+use image::RgbImage;
 use noto_sans_mono_bitmap::{FontWeight, RasterHeight};
 
-use super::super::canvas::{self, Font, TextLine, WHITE, printable};
+use super::super::canvas::{self, Font, WHITE, printable};
 use super::super::palette::Rgb;
-use super::super::png_text::with_texts;
+use super::super::pen::Pen;
+use super::super::png_text::{software, with_texts};
 use super::{Anchor, Chart, DASHES, Ink, Mark, Panel};
 
 /// Size of one chart, pixels.
@@ -27,14 +28,8 @@ pub(super) fn png(title: Option<&str>, charts: &[Chart]) -> io::Result<Vec<u8>> 
     let mut page = RgbImage::from_pixel(page_width, 2 * MARGIN + strip + height, image::Rgb(WHITE));
     if let Some(title) = title {
         let font = font(true, RasterHeight::Size24);
-        let room = ((page_width - 2 * MARGIN) / font.advance()) as usize;
-        let line = TextLine {
-            text: printable(title).chars().take(room).collect(),
-            font,
-            x: MARGIN + 5,
-            y: MARGIN,
-        };
-        canvas::write(&mut page, &line, canvas::INK);
+        let title = canvas::cut(title, font, page_width - 2 * MARGIN);
+        canvas::say(&mut page, font, canvas::INK, [MARGIN + 5, MARGIN], &title);
     }
     let regular = font(false, RasterHeight::Size20);
     let panel = Panel {
@@ -52,17 +47,7 @@ pub(super) fn png(title: Option<&str>, charts: &[Chart]) -> io::Result<Vec<u8>> 
             draw(&mut page, corner, &mark);
         }
     }
-    let mut bytes = Vec::new();
-    PngEncoder::new(&mut bytes)
-        .write_image(
-            page.as_raw(),
-            page.width(),
-            page.height(),
-            ExtendedColorType::Rgb8,
-        )
-        .map_err(io::Error::other)?;
-    let software = concat!("tabor ", env!("CARGO_PKG_VERSION")).to_owned();
-    Ok(with_texts(&bytes, &[("Software", software)]))
+    Ok(with_texts(&canvas::png(&page)?, &[software()]))
 }
 
 fn font(bold: bool, size: RasterHeight) -> Font {
@@ -131,13 +116,9 @@ fn draw(page: &mut RgbImage, corner: [f64; 2], mark: &Mark) {
                 Anchor::Middle => x - 0.5 * width,
                 Anchor::End => x - width,
             };
-            let line = TextLine {
-                text,
-                font,
-                x: left.round().max(0.0) as u32,
-                y: (y - 0.5 * f64::from(font.height())).round().max(0.0) as u32,
-            };
-            canvas::write(page, &line, canvas::INK);
+            let top = y - 0.5 * f64::from(font.height());
+            let place = [left, top].map(|at| at.round().max(0.0) as u32);
+            canvas::say(page, font, canvas::INK, place, &text);
         }
     }
 }
@@ -174,35 +155,10 @@ fn dashes(points: &[[f64; 2]], [dash, space]: [f64; 2]) -> Vec<[[f64; 2]; 2]> {
     pieces
 }
 
-/// Draws a line with round ends; a dot is a line of no length.
+/// Draws a line with round ends; a dot is a line of no length. The corners of pixels are at whole numbers.
 fn stroke(page: &mut RgbImage, from: [f64; 2], to: [f64; 2], radius: f64, colour: Rgb) {
-    let reach = radius + 1.0;
-    let range = |a: f64, b: f64, most: u32| {
-        let low = (a.min(b) - reach).floor().clamp(0.0, f64::from(most)) as u32;
-        let high = (a.max(b) + reach).ceil().clamp(0.0, f64::from(most)) as u32;
-        low..high
-    };
-    let along = [to[0] - from[0], to[1] - from[1]];
-    let square = along[0] * along[0] + along[1] * along[1];
-    for y in range(from[1], to[1], page.height()) {
-        for x in range(from[0], to[0], page.width()) {
-            let at = [f64::from(x) + 0.5 - from[0], f64::from(y) + 0.5 - from[1]];
-            let share = if square > 0.0 {
-                ((at[0] * along[0] + at[1] * along[1]) / square).clamp(0.0, 1.0)
-            } else {
-                0.0
-            };
-            let distance = (at[0] - share * along[0]).hypot(at[1] - share * along[1]);
-            let cover = (radius + 0.5 - distance).clamp(0.0, 1.0);
-            if cover > 0.0 {
-                let pixel = page.get_pixel_mut(x, y);
-                for (channel, ink) in pixel.0.iter_mut().zip(colour) {
-                    let mixed = f64::from(*channel) * (1.0 - cover) + f64::from(ink) * cover;
-                    *channel = mixed.round() as u8;
-                }
-            }
-        }
-    }
+    let [from, to] = [from, to].map(|place| place.map(|at| at - 0.5));
+    Pen::new(page, colour).stroke(from, to, 2.0 * radius);
 }
 
 #[cfg(test)]

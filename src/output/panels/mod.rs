@@ -2,21 +2,20 @@
 //! marks over all panels, and are named once above them.
 
 mod axis;
-mod pen;
 
 use std::path::Path;
 
-use image::{ExtendedColorType, ImageEncoder, RgbImage, codecs::png::PngEncoder};
-use noto_sans_mono_bitmap::{FontWeight, RasterHeight};
+use image::RgbImage;
 
-use super::canvas::{self, FRAME, Font, INK, QUIET_INK, TextLine, WHITE, printable};
+use super::canvas::{self, BOLD, FRAME, Font, HEADING, INK, QUIET_INK, TEXT, WHITE};
+use super::canvas::{cut, printable, say};
 use super::error::OutputError;
 use super::folder::write_atomically;
 use super::layout::Rect;
 use super::palette::Rgb;
+use super::pen::Pen;
 pub use axis::Axis;
 use axis::Scale;
-use pen::Pen;
 
 /// Size of the frame of a panel, pixels.
 const FRAME_SIZE: [u32; 2] = [400, 280];
@@ -94,19 +93,6 @@ pub struct Figure {
     pub columns: usize,
 }
 
-const TEXT: Font = Font {
-    weight: FontWeight::Regular,
-    size: RasterHeight::Size16,
-};
-const BOLD: Font = Font {
-    weight: FontWeight::Bold,
-    size: RasterHeight::Size16,
-};
-const HEADING: Font = Font {
-    weight: FontWeight::Bold,
-    size: RasterHeight::Size20,
-};
-
 impl Figure {
     /// Draws the figure.
     pub fn draw(&self) -> RgbImage {
@@ -122,10 +108,7 @@ impl Figure {
         let legend_lines = entries.last().map_or(0, |entry| entry.2 + 1);
         let head = MARGIN + HEADING.height() + 6 + line + legend_lines * line + 10;
         let mut page = RgbImage::from_pixel(width, head + rows * cell[1], image::Rgb(WHITE));
-        let fit = |text: &str, font: Font| -> String {
-            let most = ((width - 2 * MARGIN) / font.advance()) as usize;
-            printable(text).chars().take(most).collect()
-        };
+        let fit = |text: &str, font: Font| cut(text, font, width - 2 * MARGIN);
         say(
             &mut page,
             HEADING,
@@ -184,32 +167,13 @@ impl Figure {
     /// Draws the figure and writes it to `path` as a PNG, whole or not at all.
     pub fn write(&self, path: &Path) -> Result<(), OutputError> {
         let page = self.draw();
-        let mut png = Vec::new();
-        PngEncoder::new(&mut png)
-            .write_image(
-                page.as_raw(),
-                page.width(),
-                page.height(),
-                ExtendedColorType::Rgb8,
-            )
-            .map_err(std::io::Error::other)
-            .map_err(OutputError::write("write", path))?;
+        let png = canvas::png(&page).map_err(OutputError::write("write", path))?;
         write_atomically(path, &png)
     }
 }
 
 fn colour(name: usize) -> Rgb {
     COLOURS[name % COLOURS.len()]
-}
-
-fn say(page: &mut RgbImage, font: Font, ink: Rgb, at: [u32; 2], text: &str) {
-    let line = TextLine {
-        text: text.to_owned(),
-        font,
-        x: at[0],
-        y: at[1],
-    };
-    canvas::write(page, &line, ink);
 }
 
 fn draw_panel(page: &mut RgbImage, panel: &Panel, frame: Rect) {

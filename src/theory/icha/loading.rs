@@ -82,12 +82,18 @@ impl<'a> Icha<'a> {
     }
 }
 
-/// A surface that is pressed on and on. Contacts that have merged stay merged.
+/// A surface that is pressed on and on.
+///
+/// An elastic contact without adhesion does not know how it was loaded. So circles that overlap become
+/// one anew at each load that is asked for, and part again for the next one. Only where a circle
+/// came to cover another summit there is no balance of the two: these become one for good,
+/// keeping the volume that they displace, since their caps are no longer two.
 #[derive(Clone, Debug)]
 pub struct Loading<'a> {
     surface: &'a Icha<'a>,
     rule: MergeRule,
     step: f64,
+    /// The asperities, those merged that cover each other.
     set: Set,
     state: Option<Equilibrium>,
     /// Mean pressure over the modulus so far.
@@ -105,7 +111,7 @@ impl Loading<'_> {
             "pressure over modulus",
             target,
             target >= self.pressure,
-            "no less than that before: contacts that merged do not part",
+            "no less than that before: contacts that cover each other do not part",
         )?;
         let mut pressure = if self.state.is_some() {
             self.pressure
@@ -115,12 +121,7 @@ impl Loading<'_> {
         let mut factor = self.step;
         while self.pressure < target {
             let next = (pressure * factor).min(target);
-            let care = if next < target {
-                Care::PASSING
-            } else {
-                Care::FINAL
-            };
-            match self.press_at_once(next, care) {
+            match self.press_at_once(next) {
                 Ok(()) => {
                     pressure = next;
                     factor = (factor * factor).min(self.step);
@@ -132,10 +133,18 @@ impl Loading<'_> {
                 Err(error) => return Err(error),
             }
         }
-        let state = self.state.as_ref().ok_or(TheoryError::NoSolution {
+        let state = self.state.clone().ok_or(TheoryError::NoSolution {
             what: "an equilibrium",
         })?;
-        let mut contacts = state.contacts(&self.set.asperities);
+        let (set, state) = settle_merged(
+            self.set.clone(),
+            &self.surface.lattice,
+            Hold::Load(target * self.surface.grid.area()),
+            state,
+            self.rule,
+            Care::FINAL,
+        )?;
+        let mut contacts = state.contacts(&set.asperities);
         contacts.retain(|contact| contact.contact_radius > 0.0);
         let pressed = Pressed {
             plane: state.plane,
@@ -151,7 +160,8 @@ impl Loading<'_> {
         Ok(pressed)
     }
 
-    fn press_at_once(&mut self, pressure: f64, care: Care) -> Result<(), TheoryError> {
+    /// Goes to a load with the contacts apart that do not cover each other.
+    fn press_at_once(&mut self, pressure: f64) -> Result<(), TheoryError> {
         let surface = self.surface;
         let load = pressure * surface.grid.area();
         let start = match &self.state {
@@ -163,8 +173,8 @@ impl Loading<'_> {
             &surface.lattice,
             Hold::Load(load),
             start,
-            self.rule,
-            care,
+            MergeRule::DisplacedVolume,
+            Care::PASSING.of_covering(),
         )?;
         self.set = set;
         self.state = Some(state);

@@ -41,8 +41,8 @@ pub(super) struct Field<'a> {
     pairs: Vec<Pair>,
     /// Those in contact whose circles overlap, two and two.
     pub overlapping: Vec<[usize; 2]>,
-    /// Whether a circle reaches over another one's summit.
-    pub covered: bool,
+    /// Those of them where one reaches over the other's summit.
+    pub covering: Vec<[usize; 2]>,
 }
 
 impl<'a> Field<'a> {
@@ -67,7 +67,7 @@ impl<'a> Field<'a> {
                 .collect(),
             pairs: Vec::new(),
             overlapping: Vec::new(),
-            covered: false,
+            covering: Vec::new(),
             touching,
         };
         match mesh {
@@ -148,7 +148,9 @@ impl<'a> Field<'a> {
             if distance < other + wider {
                 self.overlapping.push([i, j]);
             }
-            self.covered |= distance < wider;
+            if distance < wider {
+                self.covering.push([i, j]);
+            }
         }
     }
 

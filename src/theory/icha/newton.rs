@@ -46,15 +46,35 @@ pub(super) struct Care {
     pub linear: f64,
     /// Rounds after which circles that cover each other are handed back to be merged, as they are.
     pub rounds_before_merging: usize,
+    /// Which contacts are handed back.
+    pub merges: Merges,
+}
+
+/// Contacts that are to become one.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum Merges {
+    /// Whose circles overlap.
+    Overlapping,
+    /// Of which one reaches over the other's summit.
+    Covering,
 }
 
 impl Care {
+    /// The same for contacts that cover each other.
+    pub fn of_covering(self) -> Care {
+        Care {
+            merges: Merges::Covering,
+            ..self
+        }
+    }
+
     /// To the last digit.
     pub const FULL: Care = Care {
         tolerance: 1e-11,
         merging: 1e-11,
         linear: 1e-4,
         rounds_before_merging: 7,
+        merges: Merges::Overlapping,
     };
     /// At a load that is asked for.
     pub const FINAL: Care = Care {
@@ -62,6 +82,7 @@ impl Care {
         merging: 2e-2,
         linear: 3e-2,
         rounds_before_merging: 4,
+        merges: Merges::Overlapping,
     };
     /// On the way to a load, where more merging and pressing follows.
     pub const PASSING: Care = Care {
@@ -69,6 +90,7 @@ impl Care {
         merging: 2e-2,
         linear: 3e-2,
         rounds_before_merging: 3,
+        merges: Merges::Overlapping,
     };
 }
 
@@ -112,8 +134,8 @@ impl Equilibrium {
 pub(super) struct Settled {
     /// The state.
     pub state: Equilibrium,
-    /// Asperities whose circles overlap, two and two.
-    pub overlapping: Vec<[usize; 2]>,
+    /// Asperities that are to become one, two and two.
+    pub meeting: Vec<[usize; 2]>,
 }
 
 /// Displacement at `position` by one contact, its images included, and its slope.
@@ -180,14 +202,17 @@ pub(super) fn settle(
             Hold::Load(asked) => (load / asked - 1.0).abs() / LOAD_TOLERANCE,
         };
         let settles = |tolerance: f64| worst <= tolerance * deepest && off <= tolerance;
-        let overlaps = !field.overlapping.is_empty();
+        let meeting = match care.merges {
+            Merges::Overlapping => &field.overlapping,
+            Merges::Covering => &field.covering,
+        };
         let impatient = round >= care.rounds_before_merging;
         if settles(care.tolerance)
-            || overlaps && round > 0 && settles(care.merging)
-            || field.covered && impatient && worst <= NEAR * deepest
+            || !meeting.is_empty() && round > 0 && settles(care.merging)
+            || !field.covering.is_empty() && impatient && worst <= NEAR * deepest
         {
             return Ok(Settled {
-                overlapping: field.overlapping,
+                meeting: meeting.clone(),
                 state,
             });
         }

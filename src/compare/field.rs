@@ -2,13 +2,12 @@
 
 use super::ladder::{Ladder, rungs};
 use super::table::Table;
-use super::{Comparison, State};
-use crate::cli::Failure;
-use crate::cli::machine::Machine;
+use super::{CompareError, Comparison, State};
 use crate::kernel::Scalars;
 use crate::law::Law;
 use crate::output::OutputError;
 use crate::scene::{AdhesionScene, Control, Scene, Treatment};
+use crate::solver::MakeBackend;
 use crate::study::{Evaluation, FinishedStep, Observer, PointState, Setup, WalkError, walk};
 
 /// Mean gaps at which pull-off is looked for on the way out, and around the greatest tension found.
@@ -64,12 +63,12 @@ fn tension(fields: &Evaluation) -> f64 {
 /// Walks another path over the same surface.
 fn walked<F: FnMut(State, &Evaluation, bool) -> Result<bool, OutputError>>(
     comparison: &Comparison,
-    machine: &Machine,
+    make_backend: MakeBackend,
     control: Control,
     path: Vec<f64>,
     adhesion: Option<AdhesionScene>,
     watch: F,
-) -> Result<(), Failure> {
+) -> Result<(), CompareError> {
     if path.is_empty() {
         return Ok(());
     }
@@ -78,8 +77,7 @@ fn walked<F: FnMut(State, &Evaluation, bool) -> Result<bool, OutputError>>(
     scene.loading.path = path;
     scene.adhesion = adhesion;
     let setup = Setup::new(scene, comparison.setup.surface.clone());
-    let make = || machine.backend();
-    match walk(&setup, &make, &mut Watch(watch)) {
+    match walk(&setup, make_backend, &mut Watch(watch)) {
         Ok(_) | Err(WalkError::Observer(End::Enough)) => Ok(()),
         Err(WalkError::Backend(error)) => Err(error.into()),
         Err(WalkError::Observer(End::Output(error))) => Err(error.into()),
@@ -94,9 +92,9 @@ fn unconverged(converged: bool) -> Option<&'static str> {
 /// the loads of the other models.
 pub(super) fn full(
     comparison: &mut Comparison,
-    machine: &Machine,
+    make_backend: MakeBackend,
     table: &mut Table,
-) -> Result<(), Failure> {
+) -> Result<(), CompareError> {
     let scene = comparison.setup.scene.clone();
     let full = scene.adhesion.clone().map(|adhesion| AdhesionScene {
         treatment: Treatment::Full,
@@ -104,7 +102,7 @@ pub(super) fn full(
     });
     let mut pull_off = full.is_none().then_some(0.0);
     if full.is_some() {
-        let best = way_out(comparison, machine, full.clone())?;
+        let best = way_out(comparison, make_backend, full.clone())?;
         pull_off = best.map(|state| -state.mean_pressure);
         if let Some(state) = best {
             table.add(state, pull_off, None)?;
@@ -118,7 +116,7 @@ pub(super) fn full(
         table.add(state, pull_off, unconverged(converged))?;
         Ok(true)
     };
-    walked(comparison, machine, control, path, full, keep)?;
+    walked(comparison, make_backend, control, path, full, keep)?;
     loads.sort_by(f64::total_cmp);
     loads.dedup();
     comparison.loads = loads;
@@ -128,9 +126,9 @@ pub(super) fn full(
 /// The state of greatest tension on the way out from the closest step of the scene's path.
 fn way_out(
     comparison: &Comparison,
-    machine: &Machine,
+    make_backend: MakeBackend,
     adhesion: Option<AdhesionScene>,
-) -> Result<Option<State>, Failure> {
+) -> Result<Option<State>, CompareError> {
     let loading = &comparison.setup.scene.loading;
     let closest = match loading.control {
         Control::MeanGap => loading.path.iter().copied().reduce(f64::min),
@@ -146,7 +144,7 @@ fn way_out(
     };
     walked(
         comparison,
-        machine,
+        make_backend,
         loading.control,
         vec![closest],
         adhesion.clone(),
@@ -173,7 +171,7 @@ fn way_out(
         };
         walked(
             comparison,
-            machine,
+            make_backend,
             Control::MeanGap,
             path,
             adhesion.clone(),
@@ -190,9 +188,9 @@ fn way_out(
 /// The treatment of DMT: a ladder of contacts without adhesion for pull-off, then each load by itself.
 pub(super) fn dmt(
     comparison: &Comparison,
-    machine: &Machine,
+    make_backend: MakeBackend,
     table: &mut Table,
-) -> Result<(), Failure> {
+) -> Result<(), CompareError> {
     let setup = &comparison.setup;
     let law: Law = setup.law;
     let unit = setup.scene.solid.contact_modulus * setup.statistics.moments.rms_slope();
@@ -209,7 +207,14 @@ pub(super) fn dmt(
         Ok(ladder.last() < 0.0 || ladder.pull_off().is_none())
     };
     let path = rungs(unit, 0.0, comparison.tension);
-    walked(comparison, machine, Control::Pressure, path, None, climb)?;
+    walked(
+        comparison,
+        make_backend,
+        Control::Pressure,
+        path,
+        None,
+        climb,
+    )?;
     let limit = comparison.beyond_dmt();
     let pull_off = ladder.pull_off();
     let tension = pull_off.map_or(0.0, |state| -state.mean_pressure);
@@ -227,7 +232,7 @@ pub(super) fn dmt(
     };
     walked(
         comparison,
-        machine,
+        make_backend,
         Control::Pressure,
         loads,
         adhesion,

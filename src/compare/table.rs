@@ -1,4 +1,4 @@
-//! `compare.csv`, on the disk row by row, and the table on standard error.
+//! `compare.csv`, on the disk row by row.
 
 use std::fs::{self, File, OpenOptions};
 use std::io::Write;
@@ -8,18 +8,20 @@ use std::time::Instant;
 use super::State;
 use crate::output::OutputError;
 use crate::output::write_atomically;
-use crate::units::format_si;
 
 /// First line of `compare.csv`.
 const HEADER: &str = "model,mean_pressure,contact_area_fraction,mean_gap,adhesive_pressure,pull_off_pressure,seconds,within_range,limit";
 
 /// A row of the comparison.
-pub(super) struct Row {
+#[derive(Clone, Debug, PartialEq)]
+pub struct Row {
+    /// Name of the model.
     pub model: &'static str,
+    /// What it says.
     pub state: State,
     /// Greatest tension that the model carries, Pa, positive.
     pub pull_off: Option<f64>,
-    /// Time since the model's row before.
+    /// Seconds since the model's row before.
     pub seconds: f64,
     /// Why the model is out of its range here.
     pub limit: Option<&'static str>,
@@ -116,34 +118,8 @@ impl Table {
         Ok(())
     }
 
-    /// All rows so far.
-    pub fn rows(&self) -> &[Row] {
-        &self.rows
-    }
-
-    /// The table on standard error.
-    pub fn print(&self) {
-        eprintln!(
-            "{:<10} {:>12} {:>9} {:>11} {:>12} {:>12} {:>8}  out of range",
-            "model", "pressure", "contact", "mean gap", "attraction", "pull-off", "seconds"
-        );
-        let si = |value: Option<f64>, unit: &str| {
-            value.map_or_else(|| "-".to_owned(), |value| format_si(value, unit))
-        };
-        for row in &self.rows {
-            eprintln!(
-                "{:<10} {:>12} {:>9} {:>11} {:>12} {:>12} {:>8.2}  {}",
-                row.model,
-                format_si(row.state.mean_pressure, "Pa"),
-                row.state
-                    .contact_area_fraction
-                    .map_or_else(|| "-".to_owned(), |share| format!("{:.3}%", 100.0 * share)),
-                si(row.state.mean_gap, "m"),
-                si(row.state.adhesive_pressure, "Pa"),
-                si(row.pull_off, "Pa"),
-                row.seconds,
-                row.limit.unwrap_or_default()
-            );
-        }
+    /// All rows.
+    pub fn into_rows(self) -> Vec<Row> {
+        self.rows
     }
 }

@@ -1,8 +1,8 @@
-//! Lines and marks with smooth edges.
+//! Lines and marks with smooth edges. The middle of a pixel is at whole numbers.
 
 use image::RgbImage;
 
-use super::super::palette::Rgb;
+use super::palette::Rgb;
 
 /// Width of a line, pixels.
 const WIDTH: f64 = 2.0;
@@ -12,7 +12,7 @@ const DASH: [f64; 2] = [7.0, 5.0];
 const MARK: f64 = 4.5;
 
 /// Draws in one colour on a page.
-pub(super) struct Pen<'a> {
+pub(crate) struct Pen<'a> {
     page: &'a mut RgbImage,
     colour: Rgb,
 }
@@ -27,7 +27,7 @@ impl<'a> Pen<'a> {
         let along = [to[0] - from[0], to[1] - from[1]];
         let length = along[0].hypot(along[1]);
         if !dashed {
-            self.stroke(from, to);
+            self.stroke(from, to, WIDTH);
             return;
         }
         let at = |place: f64| {
@@ -36,22 +36,23 @@ impl<'a> Pen<'a> {
         };
         let mut place = 0.0;
         while place < length {
-            self.stroke(at(place), at(place + DASH[0]));
+            self.stroke(at(place), at(place + DASH[0]), WIDTH);
             place += DASH[0] + DASH[1];
         }
     }
 
-    fn stroke(&mut self, from: [f64; 2], to: [f64; 2]) {
+    /// A line of some width with round ends; a disc where it has no length.
+    pub fn stroke(&mut self, from: [f64; 2], to: [f64; 2], width: f64) {
         let along = [to[0] - from[0], to[1] - from[1]];
         let square = along[0] * along[0] + along[1] * along[1];
-        self.blend(from, to, WIDTH, |at| {
+        self.blend(from, to, 0.5 * width + 1.0, |at| {
             let off = [at[0] - from[0], at[1] - from[1]];
             let share = if square > 0.0 {
                 ((off[0] * along[0] + off[1] * along[1]) / square).clamp(0.0, 1.0)
             } else {
                 0.0
             };
-            (off[0] - share * along[0]).hypot(off[1] - share * along[1]) - 0.5 * WIDTH
+            (off[0] - share * along[0]).hypot(off[1] - share * along[1]) - 0.5 * width
         });
     }
 

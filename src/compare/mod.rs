@@ -1,4 +1,9 @@
-//! `tabor compare`: one rough surface through several models.
+//! One rough surface through several models, side by side with the seconds that each takes.
+//!
+//! [`compare`] asks the full field, the field without adhesion whose attraction is summed afterwards
+//! (DMT), interacting asperities, Persson's theory, summits by themselves (GW-M) and the bearing-area
+//! model for contact area, mean gap, attraction and pull-off under the same loads; `docs/compare.md`
+//! says what each is and where it leaves its range.
 
 mod asperities;
 mod draw;
@@ -7,26 +12,55 @@ mod ladder;
 mod spectrum;
 mod table;
 
-use std::path::PathBuf;
+pub use table::Row;
+
+use std::path::Path;
 use std::time::Instant;
 
-use super::machine::Machine;
-use super::{CompareArguments, Failure, read_scene};
+use crate::backend::BackendError;
 use crate::law::Law;
+use crate::output::OutputError;
 use crate::scene::{Boundary, Scene, SurfacePart};
+use crate::solver::MakeBackend;
 use crate::study::Setup;
-use crate::surface::Surface;
 use crate::theory::TheoryError;
 use crate::theory::tabor_map::FORCE_DMT_LIMIT;
 use table::Table;
 
-/// What a model says at one net mean pressure; `None` where it has no such quantity. SI.
+/// What a model says at one net mean pressure; `None` where it has no such quantity.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
-struct State {
-    mean_pressure: f64,
-    contact_area_fraction: Option<f64>,
-    mean_gap: Option<f64>,
-    adhesive_pressure: Option<f64>,
+pub struct State {
+    /// Mean pressure, Pa, negative in tension.
+    pub mean_pressure: f64,
+    /// Contact area over nominal area.
+    pub contact_area_fraction: Option<f64>,
+    /// Mean gap, m.
+    pub mean_gap: Option<f64>,
+    /// Mean tension that the attraction makes, Pa.
+    pub adhesive_pressure: Option<f64>,
+}
+
+/// What a comparison found.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Compared {
+    /// The rows of `compare.csv`, model by model.
+    pub rows: Vec<Row>,
+    /// Models left out or cut short, and why.
+    pub notes: Vec<String>,
+}
+
+/// Why there is no comparison.
+#[derive(Debug, thiserror::Error)]
+pub enum CompareError {
+    /// The models say nothing of the scene; what, where and the way out.
+    #[error("{0}")]
+    Unsuited(String),
+    /// A file that cannot be written.
+    #[error(transparent)]
+    Output(#[from] OutputError),
+    /// A device that failed.
+    #[error(transparent)]
+    Backend(#[from] BackendError),
 }
 
 /// A scene and its surface, and the loads that models are asked.
@@ -52,35 +86,24 @@ impl Comparison {
     }
 }
 
-/// Compares and writes `compare.csv` and `compare.png`.
-pub(super) fn compare(arguments: &CompareArguments) -> Result<(), Failure> {
-    let scene = read_scene(&arguments.scene, &arguments.set)?;
-    refuse(&scene)?;
-    let surface = Surface::build(&scene).map_err(|error| Failure::Surface {
-        path: arguments.scene.clone(),
-        error,
-    })?;
-    let setup = Setup::new(scene, surface);
+/// Compares and writes `compare.csv`, row by row, and `compare.png` into `folder`.
+///
+/// # Errors
+/// A scene that does not suit ([`suits`]), a flat surface, files that cannot be written, a device that
+/// fails. A model that has nothing to say is no error: a note tells why.
+pub fn compare(
+    setup: Setup,
+    make_backend: MakeBackend,
+    folder: &Path,
+) -> Result<Compared, CompareError> {
+    suits(&setup.scene)?;
     if setup.statistics.moments.rms_slope() == 0.0 {
-        return Err(Failure::Usage(
+        return Err(CompareError::Unsuited(
             "the surface is flat: there is no roughness to compare models of".to_owned(),
         ));
     }
-    for warning in &setup.warnings {
-        eprintln!("warning: {warning}");
-    }
-    let machine = Machine::of(&setup)?;
-    if let Some(remark) = &machine.remark {
-        eprintln!("note: {remark}");
-    }
-    let folder = match &arguments.out {
-        Some(folder) => folder.clone(),
-        None => {
-            let stem = arguments.scene.file_stem().unwrap_or_default();
-            PathBuf::from(format!("{}_compare", stem.to_string_lossy()))
-        }
-    };
-    let mut table = Table::create(&folder)?;
+    let mut table = Table::create(folder)?;
+    let mut notes = Vec::new();
     let mut comparison = Comparison {
         loads: Vec::new(),
         tension: match setup.law.range() {
@@ -90,12 +113,12 @@ pub(super) fn compare(arguments: &CompareArguments) -> Result<(), Failure> {
         setup,
     };
     table.begin("full field");
-    field::full(&mut comparison, &machine, &mut table)?;
+    field::full(&mut comparison, make_backend, &mut table)?;
     if comparison.setup.law == Law::HardWall {
-        eprintln!("note: no [adhesion]: DMT is the full field itself, and BAM has no law");
+        notes.push("no [adhesion]: DMT is the full field itself, and BAM has no law".to_owned());
     } else {
         table.begin("DMT");
-        field::dmt(&comparison, &machine, &mut table)?;
+        field::dmt(&comparison, make_backend, &mut table)?;
     }
     let models: [(&'static str, Model); 4] = [
         ("ICHA", asperities::icha),
@@ -108,18 +131,17 @@ pub(super) fn compare(arguments: &CompareArguments) -> Result<(), Failure> {
         let clock = Instant::now();
         match model(&comparison, &mut table) {
             Ok(()) => {}
-            Err(Left::Out(reason)) => eprintln!("note: {name} is left out: {reason}"),
-            Err(Left::Theory(error)) => eprintln!(
-                "note: {name} ends here, after {:.1} s: {error}",
+            Err(Left::Out(reason)) => notes.push(format!("{name} is left out: {reason}")),
+            Err(Left::Theory(error)) => notes.push(format!(
+                "{name} ends here, after {:.1} s: {error}",
                 clock.elapsed().as_secs_f64()
-            ),
+            )),
             Err(Left::Output(error)) => return Err(error.into()),
         }
     }
-    table.print();
-    draw::figure(&comparison, table.rows())
-        .write(&folder.join("compare.png"))
-        .map_err(Failure::from)
+    let rows = table.into_rows();
+    draw::figure(&comparison, &rows).write(&folder.join("compare.png"))?;
+    Ok(Compared { rows, notes })
 }
 
 type Model = fn(&Comparison, &mut Table) -> Result<(), Left>;
@@ -132,19 +154,22 @@ enum Left {
     #[error(transparent)]
     Theory(#[from] TheoryError),
     #[error(transparent)]
-    Output(#[from] crate::output::OutputError),
+    Output(#[from] OutputError),
 }
 
 /// Refuses scenes of which the models say nothing.
-fn refuse(scene: &Scene) -> Result<(), Failure> {
-    let mistake = |text: &str| Err(Failure::Usage(text.to_owned()));
+///
+/// # Errors
+/// Spheres and cones, a free boundary, a spring, and a solid or an adhesion that only the full field knows.
+pub fn suits(scene: &Scene) -> Result<(), CompareError> {
+    let mistake = |text: &str| Err(CompareError::Unsuited(text.to_owned()));
     for (index, part) in scene.surfaces.iter().enumerate() {
         let shape = match part {
             SurfacePart::Sphere { .. } => "sphere",
             SurfacePart::Cone { .. } => "cone",
             _ => continue,
         };
-        return Err(Failure::Usage(format!(
+        return Err(CompareError::Unsuited(format!(
             "[[surface]] {} is a {shape}: compare is of nominally flat rough surfaces, whose models ask for the statistics of many summits; one {shape} is compared with `tabor theory` (hertz, jkr, maugis-dugdale, dmt-f, ...)",
             index + 1
         )));
@@ -172,7 +197,7 @@ fn refuse(scene: &Scene) -> Result<(), Failure> {
         (rated, "[adhesion] rate"),
     ] {
         if named {
-            return Err(Failure::Usage(format!(
+            return Err(CompareError::Unsuited(format!(
                 "{what}: the models of compare know an elastic half-space of one adhesion; leave it out"
             )));
         }

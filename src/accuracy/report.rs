@@ -1,0 +1,112 @@
+//! What a study found.
+
+use super::front;
+use super::judge::Errors;
+use super::measure::Measured;
+use super::reference::Reference;
+use super::setting::{Setting, Varied};
+use crate::scene::Scene;
+
+/// A setting that was run.
+#[derive(Clone, Debug)]
+pub struct Row {
+    /// The setting.
+    pub setting: Setting,
+    /// What it varies.
+    pub varied: Varied,
+    /// What it gave; without its profile.
+    pub measured: Measured,
+    /// How far that is from the reference.
+    pub errors: Errors,
+    /// How far it is from the scene's own way on the same grid.
+    pub change: Option<f64>,
+    /// Of a solid that relaxes, for rows that vary nothing but steps: how far it is from the reference's
+    /// steps on the same grid.
+    pub in_time: Option<Errors>,
+    /// Range of its law, m; `None` without one.
+    pub range: Option<f64>,
+    /// Taper of its law, m.
+    pub taper: Option<f64>,
+    /// Pixel over cohesive zone.
+    pub chi: Option<f64>,
+    /// Pixels across the cohesive zone.
+    pub zone_pixels: Option<f64>,
+}
+
+/// A setting that was not run.
+#[derive(Clone, Debug)]
+pub struct LeftOut {
+    /// Which.
+    pub words: String,
+    /// Why.
+    pub reason: String,
+}
+
+/// All that a study found.
+#[derive(Clone, Debug)]
+pub struct Report {
+    /// The scene that was judged.
+    pub scene: Scene,
+    /// The answer; `None` until it is known.
+    pub reference: Option<Reference>,
+    /// Rows as they ended.
+    pub rows: Vec<Row>,
+    /// Settings that were not run.
+    pub left_out: Vec<LeftOut>,
+    /// Whether it was ended from outside.
+    pub interrupted: bool,
+}
+
+impl Report {
+    /// Seconds and the errors that `of` takes, one a row.
+    pub fn costs(&self, of: impl Fn(&Errors) -> Option<f64>) -> Vec<(f64, Option<f64>)> {
+        let point = |row: &Row| (row.measured.seconds, of(&row.errors));
+        self.rows.iter().map(point).collect()
+    }
+
+    /// The reference's own uncertainty, of what `of` takes; 0 where it has none.
+    pub fn uncertainty(&self, of: impl Fn(&Errors) -> Option<f64>) -> f64 {
+        let reference = self.reference.as_ref();
+        reference
+            .and_then(|found| of(&found.uncertainty))
+            .unwrap_or(0.0)
+    }
+
+    /// Rows on the front of an error against seconds; what is all wrong is no answer at any price.
+    pub fn front(&self, of: impl Fn(&Errors) -> Option<f64>) -> Vec<usize> {
+        front::pareto(&self.costs(|errors| of(errors).filter(|error| *error < 1.0)))
+    }
+
+    /// The order with which an error of the scene's own way falls with the grid: the slope of
+    /// logarithms through all its grids, by least squares.
+    pub fn order(&self, of: impl Fn(&Errors) -> Option<f64>) -> Option<f64> {
+        let own = self.rows.iter().filter(|row| row.varied == Varied::Nothing);
+        let points: Vec<(f64, f64)> = own
+            .filter_map(|row| {
+                let error = of(&row.errors).filter(|error| *error > 0.0)?;
+                let pixels = row.setting.points[0].max(row.setting.points[1]) as f64;
+                Some((pixels.ln(), error.ln()))
+            })
+            .collect();
+        if points.len() < 3 {
+            return None;
+        }
+        let count = points.len() as f64;
+        let mean = |of: fn(&(f64, f64)) -> f64| points.iter().map(of).sum::<f64>() / count;
+        let (x, y) = (mean(|p| p.0), mean(|p| p.1));
+        let across: f64 = points.iter().map(|p| (p.0 - x) * (p.1 - y)).sum();
+        let along: f64 = points.iter().map(|p| (p.0 - x).powi(2)).sum();
+        Some(-across / along)
+    }
+}
+
+/// Seconds in two digits.
+pub fn duration(seconds: f64) -> String {
+    match seconds {
+        s if s < 0.01 => format!("{:.1} ms", 1e3 * s),
+        s if s < 1.0 => format!("{:.0} ms", 1e3 * s),
+        s if s < 10.0 => format!("{s:.1} s"),
+        s if s < 120.0 => format!("{s:.0} s"),
+        s => format!("{:.0} min", s / 60.0),
+    }
+}

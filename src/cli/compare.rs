@@ -1,0 +1,78 @@
+//! `tabor compare`: one rough surface through several models.
+
+use std::path::PathBuf;
+
+use super::machine::Machine;
+use super::{CompareArguments, Failure, read_scene};
+use crate::compare::{self, CompareError, Row};
+use crate::study::Setup;
+use crate::surface::Surface;
+use crate::units::format_si;
+
+/// Compares and writes `compare.csv` and `compare.png`.
+pub(super) fn compare(arguments: &CompareArguments) -> Result<(), Failure> {
+    let scene = read_scene(&arguments.scene, &arguments.set)?;
+    // Before a surface is built of which nothing could be said.
+    compare::suits(&scene)?;
+    let surface = Surface::build(&scene).map_err(|error| Failure::Surface {
+        path: arguments.scene.clone(),
+        error,
+    })?;
+    let setup = Setup::new(scene, surface);
+    for warning in &setup.warnings {
+        eprintln!("warning: {warning}");
+    }
+    let machine = Machine::of(&setup)?;
+    if let Some(remark) = &machine.remark {
+        eprintln!("note: {remark}");
+    }
+    let folder = match &arguments.out {
+        Some(folder) => folder.clone(),
+        None => {
+            let stem = arguments.scene.file_stem().unwrap_or_default();
+            PathBuf::from(format!("{}_compare", stem.to_string_lossy()))
+        }
+    };
+    let compared = compare::compare(setup, &|| machine.backend(), &folder)?;
+    for note in &compared.notes {
+        eprintln!("note: {note}");
+    }
+    print(&compared.rows);
+    Ok(())
+}
+
+impl From<CompareError> for Failure {
+    fn from(error: CompareError) -> Self {
+        match error {
+            CompareError::Unsuited(text) => Failure::Usage(text),
+            CompareError::Output(error) => error.into(),
+            CompareError::Backend(error) => error.into(),
+        }
+    }
+}
+
+/// The table on standard error.
+fn print(rows: &[Row]) {
+    eprintln!(
+        "{:<10} {:>12} {:>9} {:>11} {:>12} {:>12} {:>8}  out of range",
+        "model", "pressure", "contact", "mean gap", "attraction", "pull-off", "seconds"
+    );
+    let si = |value: Option<f64>, unit: &str| {
+        value.map_or_else(|| "-".to_owned(), |value| format_si(value, unit))
+    };
+    for row in rows {
+        eprintln!(
+            "{:<10} {:>12} {:>9} {:>11} {:>12} {:>12} {:>8.2}  {}",
+            row.model,
+            format_si(row.state.mean_pressure, "Pa"),
+            row.state
+                .contact_area_fraction
+                .map_or_else(|| "-".to_owned(), |share| format!("{:.3}%", 100.0 * share)),
+            si(row.state.mean_gap, "m"),
+            si(row.state.adhesive_pressure, "Pa"),
+            si(row.pull_off, "Pa"),
+            row.seconds,
+            row.limit.unwrap_or_default()
+        );
+    }
+}

@@ -1,0 +1,135 @@
+//! What the parts of a surface say, in SI units.
+
+use std::path::PathBuf;
+
+/// One `[[surface]]` part.
+#[derive(Clone, Debug, PartialEq)]
+pub enum SurfacePart {
+    /// Self-affine roughness with a roll-off and a cut-off.
+    SelfAffine(SelfAffineScene),
+    /// Paraboloid `-r^2/(2 radius)`.
+    Sphere {
+        /// Radius of curvature, m.
+        radius: f64,
+        /// Apex (x, y), m; `None` is the middle of the grid.
+        centre: Option<[f64; 2]>,
+    },
+    /// Cone `-r / tan(half_angle)`.
+    Cone {
+        /// Angle between axis and flank, rad.
+        half_angle: f64,
+        /// Apex (x, y), m; `None` is the middle of the grid.
+        centre: Option<[f64; 2]>,
+    },
+    /// `amplitude cos(2 pi x / wavelength_x) cos(2 pi y / wavelength_y)`; an infinite wavelength gives 1.
+    Wavy {
+        /// Amplitude, m.
+        amplitude: f64,
+        /// Wavelengths along x and y, m; `f64::INFINITY` for none.
+        wavelength: [f64; 2],
+    },
+    /// Nothing at all.
+    Flat,
+    /// Heights read from a file.
+    File(HeightFileScene),
+}
+
+/// Self-affine roughness: spectrum flat from `longest` to `rolloff`, then falling as `q^(-2 hurst - 2)` to `shortest`.
+#[derive(Clone, Debug, PartialEq)]
+pub struct SelfAffineScene {
+    /// Hurst exponent, between 0 and 1.
+    pub hurst: f64,
+    /// What fixes the amplitude.
+    pub roughness: Roughness,
+    /// Longest wavelength, m.
+    pub longest: f64,
+    /// Roll-off wavelength, m.
+    pub rolloff: f64,
+    /// Shortest wavelength, m.
+    pub shortest: f64,
+    /// Seed of the phases.
+    pub seed: u64,
+}
+
+/// The moment that fixes a self-affine amplitude.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Roughness {
+    /// Root mean square height, m.
+    RmsHeight(f64),
+    /// Root mean square slope.
+    RmsSlope(f64),
+}
+
+/// A height map from a file.
+#[derive(Clone, Debug, PartialEq)]
+pub struct HeightFileScene {
+    /// Path, already resolved against the scene's folder.
+    pub path: PathBuf,
+    /// Metres per unit of the file's numbers.
+    pub unit: f64,
+    /// Further factor on the heights.
+    pub scale: f64,
+    /// Height of black in a grey image, m.
+    pub black: Option<f64>,
+    /// Height of white in a grey image, m.
+    pub white: Option<f64>,
+    /// What to take off the heights.
+    pub detrend: Detrend,
+    /// What to do with missing pixels.
+    pub fill: Fill,
+}
+
+/// What to take off a measured height map.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Detrend {
+    /// Nothing.
+    None,
+    /// The mean.
+    Mean,
+    /// The least-squares plane.
+    Plane,
+    /// The least-squares quadratic surface.
+    Quadratic,
+}
+
+impl Detrend {
+    /// Every one of them.
+    pub const ALL: &[Detrend] = &[
+        Detrend::None,
+        Detrend::Mean,
+        Detrend::Plane,
+        Detrend::Quadratic,
+    ];
+
+    /// The word used in scenes.
+    pub fn name(self) -> &'static str {
+        match self {
+            Detrend::None => "none",
+            Detrend::Mean => "mean",
+            Detrend::Plane => "plane",
+            Detrend::Quadratic => "quadratic",
+        }
+    }
+}
+
+/// What to do with missing (NaN) pixels.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Fill {
+    /// Refuse, counting them.
+    None,
+    /// Interpolate from the neighbours.
+    Interpolate,
+}
+
+impl Fill {
+    /// Every one of them.
+    pub const ALL: &[Fill] = &[Fill::None, Fill::Interpolate];
+
+    /// The word used in scenes.
+    pub fn name(self) -> &'static str {
+        match self {
+            Fill::None => "none",
+            Fill::Interpolate => "interpolate",
+        }
+    }
+}

@@ -1,0 +1,77 @@
+//! Who keeps the steps of a path and watches its solver, and how the path ends.
+
+use super::evaluation::Evaluation;
+use super::hand_over::HandOver;
+use super::jumps::Jump;
+use super::row::StepRow;
+use crate::backend::BackendError;
+use crate::kernel::Scalars;
+
+/// A finished step, handed to whoever keeps it.
+pub struct FinishedStep<'a> {
+    /// The row of the table.
+    pub row: &'a StepRow,
+    /// The fields; `None` where the surfaces are apart and no field belongs to the load.
+    pub evaluation: Option<Evaluation>,
+    /// The jump that the step made, if it made one.
+    pub jump: Option<Jump>,
+}
+
+/// What keeps the steps and watches the solver.
+pub trait Observer {
+    /// What may go wrong in keeping a step.
+    type Error;
+    /// Keeps a finished step.
+    fn step(&mut self, step: FinishedStep) -> Result<(), Self::Error>;
+    /// Sees each iteration; returns whether to go on.
+    fn iteration(&mut self, step: usize, scalars: &Scalars) -> bool;
+    /// Whether [`hand_over`](Observer::hand_over) is wanted: reading fields back is not free.
+    fn wants_hand_over(&self) -> bool {
+        false
+    }
+    /// Keeps what a converged step hands to the next, once the step itself is kept.
+    fn hand_over(&mut self, _step: usize, _state: &HandOver) -> Result<(), Self::Error> {
+        Ok(())
+    }
+}
+
+/// Keeps nothing but the rows, which [`walk`](super::walk) hands back, and never ends a path.
+impl Observer for () {
+    type Error = std::convert::Infallible;
+
+    fn step(&mut self, _: FinishedStep) -> Result<(), Self::Error> {
+        Ok(())
+    }
+
+    fn iteration(&mut self, _: usize, _: &Scalars) -> bool {
+        true
+    }
+}
+
+/// Why a path ended early.
+#[derive(Debug, thiserror::Error)]
+pub enum WalkError<E> {
+    /// The device failed.
+    #[error(transparent)]
+    Backend(#[from] BackendError),
+    /// A step could not be kept.
+    #[error("a step could not be kept")]
+    Observer(E),
+}
+
+/// How a path ended.
+#[derive(Clone, Debug, Default)]
+pub struct WalkEnd {
+    /// Rows of all steps done.
+    pub rows: Vec<StepRow>,
+    /// Steps that jumped into contact.
+    pub jump_in_steps: Vec<usize>,
+    /// Steps that jumped off.
+    pub jump_off_steps: Vec<usize>,
+    /// Energy that a closed loop dissipates, J.
+    pub hysteresis_energy: Option<f64>,
+    /// Whether the observer ended it.
+    pub interrupted: bool,
+    /// Real two-dimensional transforms.
+    pub transforms: f64,
+}
