@@ -12,7 +12,15 @@ fn law_slope(gap_here: real) -> real {
     return -law_traction(gap_here) / real(params.law_range);
 }
 
+// Ranges of a closing step beyond which its exponential may be past single precision. The gap it starts
+// from then has next to no tension that could cancel.
+const MOST_RANGES: real = 80.0;
+
 // The gain of the traction over a step, to the rounding of the gain itself.
 fn law_difference(gap_here: real, step: real) -> real {
-    return law_traction(gap_here) * exp_less_one(-step / real(params.law_range));
+    let ranges = -step / real(params.law_range);
+    if (ranges > MOST_RANGES) {
+        return law_traction(gap_here + step) - law_traction(gap_here);
+    }
+    return law_traction(gap_here) * exp_less_one(ranges);
 }

@@ -152,6 +152,23 @@ mod tests {
     }
 
     #[test]
+    fn a_step_from_far_away_gains_a_number() {
+        let law = Exponential {
+            work_of_adhesion: 1e-6,
+            range: 1e-6,
+        };
+        // exp(1e6) is none in any precision.
+        assert_eq!(law.difference(1.0, -1.0), 1.0);
+        assert_eq!(law.cast::<f32>().difference(1.0, -1.0), 1.0);
+        // On either side of where the one form hands over to the other.
+        for ranges in [79.9, 80.1] {
+            let gained = law.difference(100e-6, -ranges * 1e-6);
+            let exact = (ranges - 100.0f64).exp();
+            assert!((gained - exact).abs() <= 1e-12 * exact, "{gained} {exact}");
+        }
+    }
+
+    #[test]
     fn a_taper_is_left_at_both_ends() {
         let law = MaugisDugdale {
             peak_tension: 2.0,

@@ -12,6 +12,10 @@ pub struct Exponential<T> {
     pub range: T,
 }
 
+/// Ranges of a closing step beyond which its exponential may be past single precision. The gap it starts
+/// from then has next to no tension that could cancel.
+const MOST_RANGES: f64 = 80.0;
+
 impl Exponential<f64> {
     /// The same constants in the kernel's number.
     pub fn cast<T: Real>(self) -> Exponential<T> {
@@ -30,7 +34,11 @@ impl<T: Real> Cohesion<T> for Exponential<T> {
 
     #[inline]
     fn difference(&self, gap: T, step: T) -> T {
-        self.traction(gap) * (-step / self.range).exp_m1()
+        let ranges = -step / self.range;
+        if ranges > T::of(MOST_RANGES) {
+            return self.traction(gap + step) - self.traction(gap);
+        }
+        self.traction(gap) * ranges.exp_m1()
     }
 
     #[inline]
