@@ -4,11 +4,12 @@
 //! N = 16, 32, 64 (up to LARGEST, default 64) with three seeds each, writes `docs/dmt_study.csv` row by row,
 //! then the pictures `docs/pictures/dmt_study_*.png` and the docs' two tables, of misses and of claims, on standard output.
 //! `dmt_study asperities` computes the rows of the interacting asperities again and keeps the others of
-//! the table that is there; `dmt_study draw` only draws from it; `dmt_study boxes` asks wider boxes.
+//! the table that is there, `dmt_study missing` only those that are missing of them; `dmt_study draw` only draws from it; `dmt_study boxes` asks wider boxes.
 
 mod claims;
 mod figures;
 mod rows;
+mod sphere_claims;
 
 use std::error::Error;
 use std::fs::File;
@@ -58,11 +59,12 @@ fn run(largest: usize) -> Result<(), Box<dyn Error>> {
 }
 
 /// The rows of asperities anew, after those of the field of the same surface; all others as they are.
-fn run_asperities() -> Result<(), Box<dyn Error>> {
+/// Rows of asperities that are there stay too where only `missing` ones are asked for.
+fn run_asperities(missing: bool) -> Result<(), Box<dyn Error>> {
     let text = std::fs::read_to_string(TABLE)?;
     let kept: Vec<Row> = rows::read(&text)?
         .into_iter()
-        .filter(|row| !rows::ICHA.iter().any(|(model, _)| *model == row.model))
+        .filter(|row| missing || !is_of_asperities(row))
         .collect();
     let head = text.lines().next().unwrap_or_default();
     let asperities = format!(
@@ -73,7 +75,7 @@ fn run_asperities() -> Result<(), Box<dyn Error>> {
     for group in kept.chunk_by(|one, next| one.case == next.case) {
         keep(&mut file, group)?;
         let case = group[0].case;
-        if case.seed > 0 {
+        if case.seed > 0 && !group.iter().any(is_of_asperities) {
             let clock = Instant::now();
             keep(&mut file, &rows::icha_rows(case, &Sample::new(case)?)?)?;
             eprintln!("{case:?}: {:.1} s", clock.elapsed().as_secs_f64());
@@ -109,6 +111,10 @@ fn run_boxes() -> Result<(), Box<dyn Error>> {
     Ok(())
 }
 
+fn is_of_asperities(row: &Row) -> bool {
+    rows::ICHA.iter().any(|(model, _)| *model == row.model)
+}
+
 const UNITS: &str =
     "# pressures in E* h', mean gap in rms heights; seed 0: the model does not know it";
 
@@ -131,7 +137,8 @@ fn main() -> Result<(), Box<dyn Error>> {
     match argument.as_deref() {
         Some("draw") => {}
         Some("boxes") => return run_boxes(),
-        Some("asperities") => run_asperities()?,
+        Some("asperities") => run_asperities(false)?,
+        Some("missing") => run_asperities(true)?,
         Some(largest) => run(largest.parse()?)?,
         None => run(64)?,
     }
