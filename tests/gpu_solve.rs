@@ -671,7 +671,7 @@ fn nothing_but_corrections_crosses_the_bus() {
                 || name.ends_with("_residual")
                 || name.ends_with("_balance")
         };
-        assert!(double.iter().all(|name| of_base(name)), "{double:?}");
+        assert!(double.iter().all(of_base), "{double:?}");
         let rounds = evaluations.saturating_sub(1) as u64;
         assert_eq!(corrected, rounds > 0);
         assert!(rounds <= 4, "{rounds} rounds");
