@@ -97,9 +97,9 @@ fn land(g: real, y: real, s: real, t: real) -> real {
     let moved = g + t * s;
     let snap = real(scalars.snap);
     if (goes_down(g, y)) {
-        return select(min(moved, 0.0), 0.0, s > 0.0 && moved > -snap);
+        return select(moved, 0.0, moved > 0.0 || (s > 0.0 && moved > -snap));
     }
-    return select(max(moved, 0.0), 0.0, s < 0.0 && moved < snap);
+    return select(moved, 0.0, moved < 0.0 || (s < 0.0 && moved < snap));
 }
 
 // What adds to the elastic pressure at a gap: below zero the solid's own hardness.

@@ -187,23 +187,14 @@ impl<T: Real> Floor<T> for Yielding<T> {
 
     #[inline(always)]
     fn land(&self, _: &impl Cohesion<T>, gap: T, y: T, [step, t, snap]: [T; 3]) -> T {
-        // No point crosses zero.
+        // No point crosses zero. What is no number stays none.
         let moved = gap + t * step;
-        if self.goes_down(gap, y) {
-            let moved = moved.min(T::zero());
-            if step > T::zero() && moved > -snap {
-                T::zero()
-            } else {
-                moved
-            }
+        let lands = if self.goes_down(gap, y) {
+            moved > T::zero() || (step > T::zero() && moved > -snap)
         } else {
-            let moved = moved.max(T::zero());
-            if step < T::zero() && moved < snap {
-                T::zero()
-            } else {
-                moved
-            }
-        }
+            moved < T::zero() || (step < T::zero() && moved < snap)
+        };
+        if lands { T::zero() } else { moved }
     }
 
     #[inline(always)]
