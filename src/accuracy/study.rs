@@ -79,7 +79,7 @@ impl<'a> Study<'a> {
         if let Some(adhesion) = &mut same.scene.adhesion {
             adhesion.treatment = Treatment::Full;
         }
-        if same.scene.solver.arithmetic() == Precision::Single {
+        if same.scene.arithmetic() == Precision::Single {
             same.scene.solver.tolerance = same
                 .scene
                 .solver

@@ -37,10 +37,11 @@ impl Machine {
                 })
                 .map_err(Failure::Gpu)?;
                 let found = device.description();
-                if settings.precision == Precision::Double && !found.double {
+                let precision = setup.scene.arithmetic_on(true);
+                if precision == Precision::Double && !found.double {
                     return Err(Failure::Gpu(GpuError::Precision(found.name.clone())));
                 }
-                refuse_limits(setup, found, number(settings.precision))?;
+                refuse_limits(setup, found, number(precision))?;
                 let remark = found.software().then(|| {
                     format!(
                         "on {}, which is software on the processor: --backend cpu is faster",
@@ -51,7 +52,7 @@ impl Machine {
             }
             BackendName::Auto => auto(setup),
         };
-        let precision = settings.arithmetic_on(matches!(place, Place::Gpu(_)));
+        let precision = setup.scene.arithmetic_on(matches!(place, Place::Gpu(_)));
         let sums = match &place {
             Place::Gpu(device) => plain_sums(device),
             Place::Processor => None,
@@ -70,7 +71,7 @@ impl Machine {
         let may = settings.backend == BackendName::Auto && matches!(self.place, Place::Gpu(_));
         may.then(|| Machine {
             place: Place::Processor,
-            precision: settings.arithmetic_on(false),
+            precision: setup.scene.arithmetic_on(false),
             remark: None,
         })
     }
@@ -184,7 +185,8 @@ const FEWEST_POINTS_IN_DOUBLE: usize = 512 * 512;
 fn auto(setup: &Setup) -> (Place, Option<String>) {
     let settings = &setup.scene.solver;
     let choice = choice();
-    let in_double = settings.precision == Precision::Double;
+    let precision = setup.scene.arithmetic_on(true);
+    let in_double = precision == Precision::Double;
     let fewest = match in_double {
         true => FEWEST_POINTS_IN_DOUBLE,
         false => FEWEST_POINTS,
@@ -212,19 +214,17 @@ fn auto(setup: &Setup) -> (Place, Option<String>) {
         return stays("it has no double precision".to_owned());
     }
     let fits = refuse_size(setup.problem.shape.points)
-        .and_then(|()| refuse_limits(setup, best, number(settings.precision)));
+        .and_then(|()| refuse_limits(setup, best, number(precision)));
     if let Err(error) = fits {
         return stays(error.to_string());
-    }
-    if setup.scene.solid.hardness.is_some() && settings.arithmetic_on(true) == Precision::Mixed {
-        return stays("a hardness is not solved in mixed precision".to_owned());
     }
     match GpuDevice::new(&choice) {
         Ok(device) if device.description().software() && !choice.software => {
             stays("WGPU_ADAPTER_NAME names one that computes on the processor".to_owned())
         }
         Ok(device) => {
-            let why = match (settings.precision, settings.arithmetic_on(true)) {
+            let why = match (settings.precision, precision) {
+                (Precision::Auto, Precision::Double) => ", for the solid flows",
                 (Precision::Auto, Precision::Mixed) => {
                     ", for the tolerance is below its floor in single"
                 }
@@ -234,7 +234,7 @@ fn auto(setup: &Setup) -> (Place, Option<String>) {
             let remark = format!(
                 "on {}, in {} precision{why}",
                 device.description().name,
-                settings.arithmetic_on(true).name()
+                precision.name()
             );
             (Place::Gpu(device), Some(remark))
         }

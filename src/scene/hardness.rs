@@ -11,7 +11,7 @@ use crate::units::format_si;
 
 /// Notes an arithmetic that knows no flow: the corrections of mixed precision are those of a wall.
 pub(super) fn check_precision(scene: &Reader, solid: &SolidScene, solver: Option<&SolverScene>) {
-    let mixed = solver.is_some_and(|solver| solver.arithmetic() == Precision::Mixed);
+    let mixed = solver.is_some_and(|solver| solver.precision == Precision::Mixed);
     if solid.hardness.is_none() || !mixed {
         return;
     }

@@ -4,7 +4,7 @@ use super::allowed::Allowed;
 use super::keys;
 use super::mistake::SceneError;
 use super::reader::Reader;
-use super::{BackendName, Precision, SolverScene};
+use super::{BackendName, Precision, Scene, SolverScene};
 use crate::units::Dimension;
 
 /// Default tolerance of double precision; single precision takes its floor.
@@ -22,22 +22,32 @@ impl Default for SolverScene {
 }
 
 impl SolverScene {
-    /// The arithmetic of a solve: what `auto` stands for on a graphics processor, where it goes by
-    /// the tolerance, or on the processor.
-    pub fn arithmetic_on(&self, gpu: bool) -> Precision {
+    /// The arithmetic of a solve of a solid that flows or does not: what `auto` stands for on a
+    /// graphics processor, where it goes by the tolerance, or on the processor.
+    fn arithmetic_on(&self, gpu: bool, flows: bool) -> Precision {
         match (self.precision, gpu) {
             (Precision::Auto, true) if self.tolerance >= Precision::SINGLE_FLOOR => {
                 Precision::Single
             }
+            // The corrections of mixed precision know no flow.
+            (Precision::Auto, true) if flows => Precision::Double,
             (Precision::Auto, true) => Precision::Mixed,
             (Precision::Auto, false) => Precision::Double,
             (other, _) => other,
         }
     }
+}
+
+impl Scene {
+    /// The arithmetic of a solve on a graphics processor or on the processor.
+    pub fn arithmetic_on(&self, gpu: bool) -> Precision {
+        let flows = self.solid.hardness.is_some();
+        self.solver.arithmetic_on(gpu, flows)
+    }
 
     /// The same on the backend that the scene names; `auto` is the processor here.
     pub fn arithmetic(&self) -> Precision {
-        self.arithmetic_on(self.backend == BackendName::Gpu)
+        self.arithmetic_on(self.solver.backend == BackendName::Gpu)
     }
 }
 

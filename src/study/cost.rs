@@ -98,7 +98,7 @@ impl Cost {
 impl Place {
     /// Where a scene runs; `auto` is the processor, since only a look at the machine says more.
     pub fn of(scene: &Scene) -> Place {
-        match (scene.solver.backend, scene.solver.arithmetic()) {
+        match (scene.solver.backend, scene.arithmetic()) {
             (BackendName::Gpu, Precision::Double) => Place::GpuDouble,
             (BackendName::Gpu, _) => Place::Gpu,
             (_, Precision::Single | Precision::Mixed) => Place::Single,
@@ -130,7 +130,7 @@ fn plan(
         return Err(mistake);
     }
     let mut reference = Vec::new();
-    if scene.solver.arithmetic_on(place.on_gpu()) == Precision::Mixed {
+    if scene.arithmetic_on(place.on_gpu()) == Precision::Mixed {
         let mut double = Tally::on(Place::Double);
         plan_reference(&mut double, &mut iterated, problem);
         for held in [double.fields, double.spectra, double.work] {

@@ -600,19 +600,22 @@ fn overrides_change_what_they_name() {
     let single = ("solver.precision", "single");
     let scene = parse_set(&bare, &[single]).expect("a solver");
     assert_eq!(scene.solver.tolerance, Precision::SINGLE_FLOOR);
-    assert_eq!(scene.solver.arithmetic(), Precision::Single);
+    assert_eq!(scene.arithmetic(), Precision::Single);
     let at_the_floor = ("solver.tolerance", "1e-4");
     let set = [single, at_the_floor];
     assert_eq!(parse_set(&bare, &set).expect("at the floor"), scene);
     let gpu = ("solver.backend", "gpu");
     let scene = parse_set(&bare, &[gpu]).expect("a solver");
     assert_eq!(scene.solver.tolerance, 1e-6);
-    assert_eq!(scene.solver.arithmetic(), Precision::Mixed);
+    assert_eq!(scene.arithmetic(), Precision::Mixed);
+    let hardness = ("solid.hardness", "1e12");
+    let scene = parse_set(&bare, &[gpu, hardness]).expect("a solver");
+    assert_eq!(scene.arithmetic(), Precision::Double);
     let scene = parse_set(&bare, &[gpu, at_the_floor]).expect("a solver");
-    assert_eq!(scene.solver.arithmetic(), Precision::Single);
+    assert_eq!(scene.arithmetic(), Precision::Single);
     let scene = parse_set(&bare, &[("solver.precision", "mixed")]).expect("a solver");
     assert_eq!(
-        (scene.solver.tolerance, scene.solver.arithmetic()),
+        (scene.solver.tolerance, scene.arithmetic()),
         (1e-6, Precision::Mixed)
     );
     // An effect may be set as a whole.
