@@ -86,6 +86,12 @@ fn expected(scene: &Scene, grid: [usize; 2]) -> Expected {
     if core {
         fields.push("step");
     }
+    let hard = scene.solid.hardness.is_some();
+    // A trial that is scaled back to the mean gap by linearity takes what the heights alone would press.
+    let linear = held && !core && !hard;
+    if linear {
+        fields.push("heights_pressure");
+    }
     let factored = |a: &AdhesionScene| a.map.is_some() || a.rate.is_some();
     if solved_law.is_some() && scene.adhesion.as_ref().is_some_and(factored) {
         fields.push("law_factor");
@@ -96,7 +102,6 @@ fn expected(scene: &Scene, grid: [usize; 2]) -> Expected {
     // What a relaxing solid remembers: its displacement and the spring of each branch.
     let branches = scene.solid.relaxation.len();
     // What has flowed, as the path keeps it and as the solver does.
-    let hard = scene.solid.hardness.is_some();
     let history = if branches > 0 { branches + 1 } else { 0 } + if hard { 2 } else { 0 };
     let mut passes: Vec<&'static str> = Vec::new();
     if two_band {
@@ -121,7 +126,8 @@ fn expected(scene: &Scene, grid: [usize; 2]) -> Expected {
     match (core, held) {
         (true, true) => passes.extend(["core_direct", "core_trial_held"]),
         (true, false) => passes.push("core_trial"),
-        (false, true) => passes.extend(["wall_direct", "wall_trial_held"]),
+        (false, true) if hard => passes.extend(["yield_direct", "yield_trial_held"]),
+        (false, true) => passes.push("wall_trial_held"),
         (false, false) => passes.push("wall_trial"),
     }
     passes.push("multiply");
@@ -156,9 +162,7 @@ fn over_flow(pass: &'static str) -> &'static str {
         "wall_descent_held" => "yield_descent_held",
         "wall_turn" => "yield_turn",
         "wall_turn_kept" => "yield_turn_kept",
-        "wall_direct" => "yield_direct",
         "wall_trial" => "yield_trial",
-        "wall_trial_held" => "yield_trial_held",
         "wall_search" => "yield_search",
         "wall_advance" => "yield_advance",
         "wall_balance" => "yield_balance",

@@ -151,8 +151,9 @@ fn add_balance<T: Real>(
     }
 }
 
-/// The twin of `wall_advance` over a floor.
-pub(super) fn advance<T: Real, F: Floor<T>>(
+/// The twin of `yield_advance` over a floor, and with a second field to read of `wall_advance`: there the
+/// lines are K s0, see [`held`](super::held).
+pub(super) fn advance<T: Real, F: Floor<T>, const LINEAR: bool>(
     rows: &mut Rows<T>,
     params: &Params,
     scalars: &Scalars,
@@ -161,6 +162,7 @@ pub(super) fn advance<T: Real, F: Floor<T>>(
     let layout = rows.layout();
     let count = rows.len();
     let direction = &rows.reads[0][..count];
+    let rigid = if LINEAR { &rows.reads[1][..count] } else { &[] };
     let lines = &rows.lines[..count];
     let [gap, pressure, y_before, _] = &mut rows.writes;
     let (gap, pressure) = (&mut gap[..count], &mut pressure[..count]);
@@ -170,7 +172,12 @@ pub(super) fn advance<T: Real, F: Floor<T>>(
     with_law_field!(params.law, rows.factor, rows.base, T, law => layout.points(|i, on_surface| {
         let law = LawField::<T>::at(&law, i);
         let here = [gap[i], pressure[i]];
-        let way = [direction[i], lines[i]];
+        let answer = if LINEAR {
+            lines[i] + step.restore * (lines[i] + (pressure[i] - rigid[i]))
+        } else {
+            lines[i]
+        };
+        let way = [direction[i], answer];
         let [g, p, before] = step_from(&floor, &law, here, way, &step, on_surface);
         [gap[i], pressure[i], y_before[i]] = [g, p, before];
         add_balance(sums, &floor, &law, [g, p], on_surface);
@@ -183,12 +190,12 @@ fn wall_advance<T: Real>(
     scalars: &Scalars,
     sums: &mut [f64; SUMS],
 ) {
-    advance::<T, Rigid>(rows, params, scalars, sums);
+    advance::<T, Rigid, true>(rows, params, scalars, sums);
 }
 kernel!(
-    /// Takes K s and steps, where the mean gap is held; sums as `wall_balance`. Reads direction; updates
-    /// gap, pressure; writes the old yF.
-    WALL_ADVANCE, wall_advance, Store, reads 1, writes 3, fresh 1, whole false,
+    /// Takes K s0 and steps, where the mean gap is held; sums as `wall_balance`. Reads direction, the pressure
+    /// of the heights; updates gap, pressure; writes the old yF.
+    WALL_ADVANCE, wall_advance, Store, reads 2, writes 3, fresh 1, whole false,
     sums [Add, Add, Min], gate Running
 );
 

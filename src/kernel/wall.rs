@@ -5,6 +5,7 @@
 //! have no wall and no law: they are always free.
 
 use super::floor::{Balance, Floor, Rigid, Violation, trial_step};
+pub use super::held::WALL_TRIAL_HELD;
 pub use super::step::{WALL_ADVANCE, WALL_BALANCE, WALL_TURN, WALL_TURN_KEPT};
 use crate::kernel::{Params, Rows, SUMS, Scalars, kernel};
 use crate::law::{Cohesion, LawField};
@@ -337,63 +338,6 @@ kernel!(
     /// Turns the direction by the kept z and loads the trial step s. Reads gap, pressure; updates
     /// direction.
     WALL_TRIAL, wall_trial, Resume, reads 2, writes 1, whole false,
-    sums [Add, Min, Max, Min, Max], gate Running
-);
-
-fn wall_direct<T: Real>(
-    rows: &mut Rows<T>,
-    params: &Params,
-    scalars: &Scalars,
-    sums: &mut [f64; SUMS],
-) {
-    let layout = rows.layout();
-    let [gap, pressure, ..] = rows.reads;
-    let z = &*rows.lines;
-    let direction = &mut rows.writes[0];
-    let mean = T::of(scalars.mean_pressure);
-    let factors = [scalars.descent, scalars.memory, scalars.shift].map(T::of);
-    let length = T::of(scalars.trial);
-    with_law_field!(params.law, rows.factor, rows.base, T, law => layout.points(|i, on_surface| {
-        let law = LawField::<T>::at(&law, i);
-        let here = balance(&Rigid, &law, gap[i], pressure[i] + mean, on_surface);
-        let d = new_direction(z[i], direction[i], factors, here.free);
-        direction[i] = d;
-        let open = law.open(gap[i]);
-        sums[0] += (length * d).max(-open).double();
-        sums[1] += open.double();
-    }));
-}
-kernel!(
-    /// Turns the direction by the kept z and sums the trial step and the gap (fixed mean gap). Reads
-    /// gap, pressure; updates direction.
-    WALL_DIRECT, wall_direct, Peek, reads 2, writes 1, whole false,
-    sums [Add, Add], gate Running
-);
-
-fn wall_trial_held<T: Real>(
-    rows: &mut Rows<T>,
-    params: &Params,
-    scalars: &Scalars,
-    sums: &mut [f64; SUMS],
-) {
-    let layout = rows.layout();
-    let [gap, pressure, direction, _] = rows.reads;
-    let lines = &mut *rows.lines;
-    let mean = T::of(scalars.mean_pressure);
-    let length = T::of(scalars.trial);
-    let restore = T::of(scalars.restore);
-    with_law_field!(params.law, rows.factor, rows.base, T, law => layout.points(|i, on_surface| {
-        let law = LawField::<T>::at(&law, i);
-        let y = balance(&Rigid, &law, gap[i], pressure[i] + mean, on_surface).y;
-        let open = law.open(gap[i]);
-        let (step, cut) = step_of(&Rigid, [open, y, length * direction[i], restore], on_surface);
-        add_trial(sums, [step, y, open], cut, on_surface);
-        lines[i] = step;
-    }));
-}
-kernel!(
-    /// Loads the trial step scaled back to the held mean gap. Reads gap, pressure, direction.
-    WALL_TRIAL_HELD, wall_trial_held, Load, reads 3, writes 0, whole false,
     sums [Add, Min, Max, Min, Max], gate Running
 );
 

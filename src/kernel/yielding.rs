@@ -232,7 +232,7 @@ fn yield_advance<T: Real>(
     scalars: &Scalars,
     sums: &mut [f64; SUMS],
 ) {
-    step::advance::<T, Yielding<T>>(rows, params, scalars, sums);
+    step::advance::<T, Yielding<T>, false>(rows, params, scalars, sums);
 }
 kernel!(
     /// Takes K s and steps, where the mean gap is held; sums as `yield_balance`. Reads direction; updates
