@@ -34,6 +34,13 @@ fn curve_wall() {
     }
     let restore = scalars.restore;
     let whole = ONE + restore;
-    scalars.curvature = whole * whole * scalars.curvature
-        + restore * (wide(2.0) * whole * scalars.sums[8] + restore * scalars.sums[9]);
+    let step = whole * whole * scalars.curvature;
+    let mixed = wide(2.0) * whole * restore * scalars.sums[8];
+    let own = restore * restore * scalars.sums[9];
+    scalars.curvature = step + mixed + own;
+    // Where K g has no digits left its sums must not be taken for a motion without curvature.
+    let least = params.epsilon * (step + abs(mixed) + abs(own));
+    if (scalars.curvature < least) {
+        scalars.curvature = least;
+    }
 }
