@@ -226,7 +226,7 @@ mod tests {
                 (0..POINTS).map(|_| make(random.next())).collect()
             };
             // One point in ten is barely open, in some states only: it is cut by any step down.
-            let least = if seed % 3 == 0 { 0.3 } else { 1e-7 };
+            let least = if seed.is_multiple_of(3) { 0.3 } else { 1e-7 };
             let open = draw(&|x| match x {
                 x if x < -0.2 => 0.0,
                 x if x < 0.0 => least * (0.1 - x),
