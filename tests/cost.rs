@@ -4,9 +4,10 @@
 use std::fs;
 use std::path::Path;
 
+use tabor::backend::tally::{Held, Place};
 use tabor::effect::Effect;
 use tabor::law::Law;
-use tabor::scene::{AdhesionScene, Boundary, Control, Scene, Treatment};
+use tabor::scene::{AdhesionScene, Boundary, Control, Precision, Scene, Treatment};
 use tabor::solver::good_size;
 use tabor::study::{Cost, Setup};
 use tabor::surface::Surface;
@@ -198,6 +199,14 @@ fn check(name: &str, scene: &Scene) {
     assert_eq!(names, wanted, "{name}");
     let fine = expected.points[0] * expected.points[1] * 8;
     let small = coarse(expected.points).map_or(0, |points| points[0] * points[1] * 8);
+    // Beside iterations in single precision the state in double takes it too.
+    let mut mixed = scene.clone();
+    mixed.solver.precision = Precision::Mixed;
+    let beside = Cost::of_scene(&mixed, grid, Place::Single)
+        .unwrap_or_else(|error| panic!("{name}: {error}"));
+    let taken = |held: &[Held]| held.iter().any(|held| held.name == "heights_pressure");
+    assert!(!beside.reference.is_empty() || scene.solid.hardness.is_some());
+    assert_eq!(taken(&beside.reference), taken(&cost.fields), "{name}");
     for field in &cost.fields {
         let on_coarse = ["restricted", "share", "weight", "long_waves"].contains(&field.name);
         assert_eq!(

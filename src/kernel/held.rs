@@ -9,77 +9,76 @@
 //!
 //! A mean gap is held on periodic grids alone, which have no pad.
 
-use super::floor::Rigid;
+use super::floor::{Floor, Rigid};
+use super::points::{Made, Point, PointKernel};
 use super::scalar::scalar_kernel;
-use super::wall::{balance, new_direction, step_of};
-use crate::kernel::{Params, Rows, SUMS, ScalarKernel, Scalars, kernel};
-use crate::law::{Cohesion, LawField};
+use super::wall::{Directing, Here, step_of};
+use crate::kernel::{Params, ScalarKernel, Scalars, point_kernel};
+use crate::law::Cohesion;
 use crate::real::Real;
-use crate::with_law_field;
 
-/// First of the sums that only the held mean asks for.
-const OF_MEAN: usize = 5;
-/// Those of the curvature: <s0, K g> and <g, K g>.
+/// Of the sums over s0 those of the curvature: <s0, K g> and <g, K g>.
 const OF_CURVATURE: [usize; 2] = [8, 9];
 
-/// The sums over the step s0 of a point, its y, open gap and K g; slots as `restore_wall` and
-/// `curve_wall` read them.
-#[inline(always)]
-fn add_held<T: Real>(sums: &mut [f64; SUMS], [step, y, open, bent]: [T; 4], cut: bool) {
-    if open > T::zero() {
-        let closing = (-step / open).double();
-        if closing > sums[1] {
-            sums[1] = closing;
-        }
-    }
-    let [s, y, g, bent] = [step, y, open, bent].map(T::double);
-    sums[0] += s * y;
-    if s > sums[2] {
-        sums[2] = s;
-    }
-    if s < sums[3] {
-        sums[3] = s;
-    }
-    if cut {
-        sums[4] = 1.0;
-    }
-    sums[OF_MEAN] += s;
-    sums[OF_MEAN + 1] += g;
-    sums[OF_MEAN + 2] += g * y;
-    sums[OF_CURVATURE[0]] += s * bent;
-    sums[OF_CURVATURE[1]] += g * bent;
+/// The new direction and its trial step before the held mean gap is restored.
+#[derive(Clone, Copy)]
+struct TrialHeld<T, F> {
+    floor: F,
+    mean: T,
+    directing: Directing<T>,
+    length: T,
 }
 
-fn wall_trial_held<T: Real>(
-    rows: &mut Rows<T>,
-    params: &Params,
-    scalars: &Scalars,
-    sums: &mut [f64; SUMS],
-) {
-    let layout = rows.layout();
-    let count = rows.len();
-    let [gap, pressure, rigid, _] = rows.reads;
-    let (gap, pressure, rigid) = (&gap[..count], &pressure[..count], &rigid[..count]);
-    let direction = &mut rows.writes[0][..count];
-    let lines = &mut rows.lines[..count];
-    let mean = T::of(scalars.mean_pressure);
-    let factors = [scalars.descent, scalars.memory, scalars.shift].map(T::of);
-    let length = T::of(scalars.trial);
-    with_law_field!(params.law, rows.factor, rows.base, T, law => layout.points(|i, on_surface| {
-        let law = LawField::<T>::at(&law, i);
-        let here = balance(&Rigid, &law, gap[i], pressure[i] + mean, on_surface);
-        let d = new_direction(lines[i], direction[i], factors, here.free);
-        direction[i] = d;
-        let open = law.open(gap[i]);
-        let (step, cut) = step_of(&Rigid, [open, here.y, length * d, T::zero()], on_surface);
-        add_held(sums, [step, here.y, open, pressure[i] - rigid[i]], cut);
-        lines[i] = step;
-    }));
+impl<T: Real, F: Floor<T>> PointKernel<T, 3, 1, 10> for TrialHeld<T, F> {
+    #[inline(always)]
+    fn of(params: &Params, scalars: &Scalars) -> Self {
+        TrialHeld {
+            floor: F::of(params),
+            mean: T::of(scalars.mean_pressure),
+            directing: Directing::of(scalars),
+            length: T::of(scalars.trial),
+        }
+    }
+
+    #[inline(always)]
+    fn at(&self, law: &impl Cohesion<T>, point: Point<T, 3, 1>) -> Made<T, 1, 10> {
+        let ([gap, pressure, rigid], [direction]) = (point.reads, point.writes);
+        let on_surface = point.on_surface;
+        let here = Here::at(&self.floor, law, gap, pressure + self.mean, on_surface);
+        let d = self.directing.turn(point.line, direction, here.free);
+        let way = [self.length * d, T::zero()];
+        let (step, cut) = step_of(&self.floor, &here, way, on_surface);
+        let open = here.state.open;
+        let closing = (-step / open).double();
+        let [s, y, g, bent] = [step, here.y, open, pressure - rigid].map(T::double);
+        Made {
+            writes: [d],
+            line: step,
+            terms: [
+                s * y,
+                if open > T::zero() {
+                    closing
+                } else {
+                    f64::NEG_INFINITY
+                },
+                s,
+                s,
+                if cut { 1.0 } else { 0.0 },
+                s,
+                g,
+                g * y,
+                s * bent,
+                g * bent,
+            ],
+        }
+    }
 }
-kernel!(
+
+point_kernel!(
     /// Turns the direction by the kept z and loads the trial step s0 as it is before the held mean gap is
-    /// restored. Reads gap, pressure, the pressure of the heights; updates direction.
-    WALL_TRIAL_HELD, wall_trial_held, Resume, reads 3, writes 1, whole false,
+    /// restored; slots of its sums as `restore_wall` and `curve_wall` read them. Reads gap, pressure, the
+    /// pressure of the heights; updates direction.
+    WALL_TRIAL_HELD, wall_trial_held, Resume, TrialHeld over Rigid by each_point, reads 3, writes 1,
     sums [Add, Max, Max, Min, Max, Add, Add, Add, Add, Add], gate Running
 );
 
@@ -145,9 +144,9 @@ scalar_kernel!(
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::kernel::Whole;
     use crate::kernel::scalar::ACCEPT;
     use crate::kernel::wall::WALL_ADVANCE;
+    use crate::kernel::{Rows, SUMS, Whole};
     use crate::law::Law;
     use std::f64::consts::TAU;
 
@@ -333,6 +332,7 @@ mod tests {
                 },
                 factor: &[],
                 base: [&self.base[0], &self.base[1]],
+                reduces: kernel.sums,
             };
             (kernel.twin)(&mut rows, &params(), &self.scalars, &mut sums);
             self.scalars.sums = sums;
