@@ -1,6 +1,7 @@
 //! Runs nothing and counts everything: what a scene costs before anything is allocated.
 
-use super::{Backend, BackendError, Field, Level, Shape, Spectrum, check_fields};
+use super::gpu::OWN_FACTORS;
+use super::{Backend, BackendError, Factors, Field, Level, Shape, Spectrum, check_fields};
 use crate::kernel::{Gate, Kernel, Params, ScalarKernel, Scalars};
 
 /// One thing that would be held in memory.
@@ -143,8 +144,12 @@ impl Backend for Tally {
         }
     }
 
-    fn spectrum(&mut self, level: Level, name: &'static str, _values: &[f64]) -> Spectrum {
-        let bytes = self.levels[level.0].spectrum_len() * self.place.number();
+    fn spectrum(&mut self, level: Level, name: &'static str, factors: Factors) -> Spectrum {
+        let numbers = match factors {
+            Factors::HalfSpace(..) if self.place.on_gpu() => OWN_FACTORS,
+            _ => self.levels[level.0].spectrum_len(),
+        };
+        let bytes = numbers * self.place.number();
         self.spectra.push(Held { name, level, bytes });
         Spectrum {
             level,

@@ -7,7 +7,7 @@ use super::kernel_set::{KernelSet, fixed_params};
 use super::problem::Problem;
 use super::reference::Reference;
 use super::two_band::TwoBand;
-use crate::backend::{Backend, BackendError, Field, Level, Spectrum};
+use crate::backend::{Backend, BackendError, Field, Level, Response, Spectrum};
 use crate::kernel::{Gate, Params, Scalars, Status, common, scalar};
 use crate::law::Law;
 
@@ -119,16 +119,15 @@ impl<'a> ContactSolver<'a> {
             backend.set_law_factor(field);
             field
         });
-        let stiffness = backend.spectrum(level, "stiffness", &problem.stiffness);
+        let stiffness = problem.spectrum(backend, level, "stiffness", Response::Stiffness);
         let two_band = TwoBand::plan(backend, level, problem);
-        let compliance: Vec<f64> = match &two_band {
-            Some(bands) => bands.short_waves(problem),
-            None => problem.compliance(),
+        let preconditioner = match &two_band {
+            Some(bands) => bands.short_waves(backend, "preconditioner", problem),
+            None => problem.spectrum(backend, level, "preconditioner", Response::Compliance),
         };
-        let preconditioner = backend.spectrum(level, "preconditioner", &compliance);
         let compliance = problem
             .conducts
-            .then(|| backend.spectrum(level, "compliance", &problem.compliance()));
+            .then(|| problem.spectrum(backend, level, "compliance", Response::Compliance));
         backend.write(heights, &problem.padded(&problem.heights, 0.0));
         let params = fixed_params(problem, backend.epsilon());
         ContactSolver {
