@@ -283,6 +283,9 @@ fn kernels_are_timed_on_the_device() {
     }
     let total = timings.total();
     assert_eq!(total.dispatches, 7);
+    // Per point, one operator application of a half-space moves exactly six numbers.
+    let application: u64 = timings.kernels.iter().map(|k| k.bytes / k.dispatches).sum();
+    assert_eq!(application - few - 2 * roots(nx) - roots(ny), 6 * field);
     assert!(total.seconds <= took, "{} of {took} s", total.seconds);
     // Taken is taken.
     assert!(watch.take().kernels.is_empty());

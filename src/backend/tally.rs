@@ -1,6 +1,5 @@
 //! Runs nothing and counts everything: what a scene costs before anything is allocated.
 
-use super::gpu::OWN_FACTORS;
 use super::{Backend, BackendError, Factors, Field, Level, Shape, Spectrum, check_fields};
 use crate::kernel::{Gate, Kernel, Params, ScalarKernel, Scalars};
 
@@ -65,7 +64,7 @@ pub struct Tally {
     pub levels: Vec<Shape>,
     /// Fields, in the order in which they were made.
     pub fields: Vec<Held>,
-    /// Spectra.
+    /// Spectra that are tables.
     pub spectra: Vec<Held>,
     /// Work space of transforms, one entry a level.
     pub work: Vec<Held>,
@@ -74,6 +73,7 @@ pub struct Tally {
     /// The first mistake in a field list.
     pub mistake: Option<BackendError>,
     scalars: Scalars,
+    spectra_made: usize,
     transforms: f64,
 }
 
@@ -103,6 +103,7 @@ impl Tally {
             passes: Vec::new(),
             mistake: None,
             scalars: Scalars::start(0.0, false),
+            spectra_made: 0,
             transforms: 0.0,
         }
     }
@@ -145,15 +146,15 @@ impl Backend for Tally {
     }
 
     fn spectrum(&mut self, level: Level, name: &'static str, factors: Factors) -> Spectrum {
-        let numbers = match factors {
-            Factors::HalfSpace(..) if self.place.on_gpu() => OWN_FACTORS,
-            _ => self.levels[level.0].spectrum_len(),
-        };
-        let bytes = numbers * self.place.number();
-        self.spectra.push(Held { name, level, bytes });
+        // A graphics processor computes those of a half-space in its registers.
+        if !(self.place.on_gpu() && matches!(factors, Factors::HalfSpace(..))) {
+            let bytes = self.levels[level.0].spectrum_len() * self.place.number();
+            self.spectra.push(Held { name, level, bytes });
+        }
+        self.spectra_made += 1;
         Spectrum {
             level,
-            index: self.spectra.len() - 1,
+            index: self.spectra_made - 1,
         }
     }
 

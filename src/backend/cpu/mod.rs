@@ -215,7 +215,7 @@ impl<T: CpuReal> Backend for CpuBackend<T> {
     }
 
     fn spectrum(&mut self, level: Level, _name: &'static str, factors: Factors) -> Spectrum {
-        // A table is read as fast as its numbers are computed, and is as exact as they come.
+        // A table is read faster than roots are taken.
         let shape = self.levels[level.0].shape;
         self.spectra.push(factors.tabulated(shape, T::of));
         Spectrum {
