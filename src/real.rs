@@ -11,12 +11,25 @@ pub trait Real: FftNum + Float + NumAssign + Default + Send + Sync + 'static {
     fn double(self) -> f64;
     /// Relative rounding error of this type.
     const EPSILON: f64;
+    /// The lesser of two, by the one comparison that a processor has an instruction for; this one where
+    /// either is no number.
+    #[inline(always)]
+    fn least(self, other: Self) -> Self {
+        if other < self { other } else { self }
+    }
+    /// The greater of two; this one where either is no number.
+    #[inline(always)]
+    fn most(self, other: Self) -> Self {
+        if other > self { other } else { self }
+    }
 }
 
 impl Real for f64 {
+    #[inline(always)]
     fn of(value: f64) -> Self {
         value
     }
+    #[inline(always)]
     fn double(self) -> f64 {
         self
     }
@@ -24,9 +37,11 @@ impl Real for f64 {
 }
 
 impl Real for f32 {
+    #[inline(always)]
     fn of(value: f64) -> Self {
         value as f32
     }
+    #[inline(always)]
     fn double(self) -> f64 {
         f64::from(self)
     }

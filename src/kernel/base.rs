@@ -7,9 +7,9 @@
 use super::core::Core;
 use super::scalar::scalar_kernel;
 use crate::kernel::{Params, Rows, SUMS, ScalarKernel, Scalars, kernel};
-use crate::law::{Cohesion, LawField};
+use crate::law::Cohesion;
 use crate::real::Real;
-use crate::with_law_field;
+use crate::with_law;
 
 fn base_total<T: Real>(
     rows: &mut Rows<T>,
@@ -21,10 +21,12 @@ fn base_total<T: Real>(
     let [gap, pressure, ..] = rows.reads;
     let residual = &mut *rows.writes[0];
     let mean = T::of(scalars.mean_pressure);
-    with_law_field!(params.law, rows.factor, rows.base, T, law => layout.points(|i, on_surface| {
+    let factor = rows.factor;
+    with_law!(params.law, T, law => layout.points(|i, on_surface| {
         let elastic = pressure[i] + mean;
+        let factor = factor.get(i).copied().unwrap_or(T::one());
         residual[i] = match on_surface {
-            true => elastic + LawField::<T>::at(&law, i).traction(gap[i]),
+            true => elastic + factor * law.traction(gap[i]),
             false => elastic,
         };
     }));

@@ -1,8 +1,10 @@
 //! Kernels of the two-band preconditioner: long waves are corrected on a coarse grid, where the
 //! share of free points weighs them, so that they do not reach across contacts.
 
-use super::wall::{add_descent, add_descent_held};
+use super::points::{Made, Point, PointKernel, each_point_without_law};
+use super::wall::{descent_held_terms, descent_terms};
 use crate::kernel::{Params, Rows, SUMS, Scalars, kernel};
+use crate::law::Cohesion;
 use crate::real::Real;
 
 /// Largest number of fine points in a coarse cell along one axis.
@@ -177,18 +179,59 @@ kernel!(
     COARSE_STORE, coarse_store, Store, reads 1, writes 1, fresh 1, whole false, sums [], gate Ahead
 );
 
-/// z on free points, which are those where yF is not zero, with the long waves added.
-fn two_band_descent<T: Real>(rows: &mut Rows<T>, _: &Params, _: &Scalars, sums: &mut [f64; SUMS]) {
-    add_interpolated(rows);
-    let count = rows.len();
-    let [y, y_before, ..] = rows.reads;
-    let (y, y_before) = (&y[..count], &y_before[..count]);
-    for (i, line) in rows.lines[..count].iter_mut().enumerate() {
-        if y[i] == T::zero() {
-            *line = T::zero();
-        }
-        add_descent(sums, *line, y[i], y_before[i]);
+/// z on free points, which are those where yF is not zero.
+#[derive(Clone, Copy)]
+struct BandDescent;
+
+impl<T: Real> PointKernel<T, 2, 0, 2> for BandDescent {
+    #[inline(always)]
+    fn of(_: &Params, _: &Scalars) -> Self {
+        BandDescent
     }
+
+    #[inline(always)]
+    fn at(&self, _: &impl Cohesion<T>, point: Point<T, 2, 0>) -> Made<T, 0, 2> {
+        let [y, y_before] = point.reads;
+        let z = if y != T::zero() {
+            point.line
+        } else {
+            T::zero()
+        };
+        Made {
+            writes: [],
+            line: z,
+            terms: descent_terms(z, y, y_before),
+        }
+    }
+}
+
+impl<T: Real> PointKernel<T, 3, 0, 9> for BandDescent {
+    #[inline(always)]
+    fn of(_: &Params, _: &Scalars) -> Self {
+        BandDescent
+    }
+
+    #[inline(always)]
+    fn at(&self, _: &impl Cohesion<T>, point: Point<T, 3, 0>) -> Made<T, 0, 9> {
+        let [y, y_before, direction] = point.reads;
+        let free = y != T::zero();
+        let z = if free { point.line } else { T::zero() };
+        Made {
+            writes: [],
+            line: z,
+            terms: descent_held_terms([z, y, y_before, direction], free),
+        }
+    }
+}
+
+fn two_band_descent<T: Real>(
+    rows: &mut Rows<T>,
+    params: &Params,
+    scalars: &Scalars,
+    sums: &mut [f64; SUMS],
+) {
+    add_interpolated(rows);
+    each_point_without_law::<T, BandDescent, 2, 0, 2>(rows, params, scalars, sums);
 }
 kernel!(
     /// As `wall_descent`, with the long waves added from the coarse level. Reads yF, the old yF; whole:
@@ -199,21 +242,12 @@ kernel!(
 
 fn two_band_descent_held<T: Real>(
     rows: &mut Rows<T>,
-    _: &Params,
-    _: &Scalars,
+    params: &Params,
+    scalars: &Scalars,
     sums: &mut [f64; SUMS],
 ) {
     add_interpolated(rows);
-    let count = rows.len();
-    let [y, y_before, direction, _] = rows.reads;
-    let (y, y_before, direction) = (&y[..count], &y_before[..count], &direction[..count]);
-    for (i, line) in rows.lines[..count].iter_mut().enumerate() {
-        let free = y[i] != T::zero();
-        if !free {
-            *line = T::zero();
-        }
-        add_descent_held(sums, [*line, y[i], y_before[i], direction[i]], free);
-    }
+    each_point_without_law::<T, BandDescent, 3, 0, 9>(rows, params, scalars, sums);
 }
 kernel!(
     /// The same where the mean gap is held. Reads yF, the old yF, direction; whole: the coarse z.

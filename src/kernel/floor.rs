@@ -6,6 +6,8 @@
 //! at zero while the first is not negative and the second not positive; else it is free to the side
 //! to which the energy falls. No step takes a point across zero.
 
+use std::marker::PhantomData;
+
 use crate::kernel::Params;
 use crate::law::Cohesion;
 use crate::real::Real;
@@ -31,92 +33,100 @@ pub struct Violation<T> {
     pub traction: T,
 }
 
-/// A floor of the gap, point by point. `elastic` is p + mean_pressure.
+/// A point of the surface as its floor sees it.
+#[derive(Clone, Copy)]
+pub struct State<T> {
+    /// The unknown: the gap, or its correction.
+    pub gap: T,
+    /// The gap itself.
+    pub open: T,
+    /// p + mean_pressure.
+    pub elastic: T,
+    /// Attraction at the gap, or at zero for a gap below it.
+    pub pull: T,
+}
+
+/// A floor of the gap, point by point.
 pub trait Floor<T: Real>: Copy {
     /// The floor of a solve.
     fn of(params: &Params) -> Self;
+    /// A point, at which the law is looked at once.
+    fn state(&self, law: &impl Cohesion<T>, gap: T, elastic: T) -> State<T>;
     /// The balance of a point.
-    fn balance(&self, law: &impl Cohesion<T>, gap: T, elastic: T) -> Balance<T>;
+    fn balance(&self, here: &State<T>) -> Balance<T>;
     /// What the point adds to the stopping measure.
-    fn violation(
-        &self,
-        law: &impl Cohesion<T>,
-        gap: T,
-        elastic: T,
-        stiffness_max: T,
-    ) -> Violation<T>;
-    /// Whether a closed point may only go down.
-    fn goes_down(&self, gap: T, y: T) -> bool;
+    fn violation(&self, here: &State<T>, stiffness_max: T) -> Violation<T>;
+    /// Whether a closed point may only go down, of its open gap and y.
+    fn goes_down(&self, open: T, y: T) -> bool;
     /// The gap after a step: `[step, t, snap]`, of which t is taken; gaps below `snap` that a step
-    /// closes are closed.
-    fn land(&self, law: &impl Cohesion<T>, gap: T, y: T, step: [T; 3]) -> T;
+    /// closes are closed, at the unknown `closed`.
+    fn land(&self, here: &State<T>, y: T, step: [T; 3], closed: T) -> T;
     /// The weight of a point in the mean pressure that a held gap asks for.
-    fn weight(&self, law: &impl Cohesion<T>, gap: T) -> T;
+    fn weight(&self, here: &State<T>) -> T;
     /// Attraction at a gap on the side on which the point is, less the floor's pressure below zero.
-    fn traction(&self, law: &impl Cohesion<T>, gap: T) -> T;
+    fn traction(&self, here: &State<T>) -> T;
 }
 
 /// A wall at zero gap.
 #[derive(Clone, Copy)]
-pub struct Rigid;
+pub struct Rigid<T>(PhantomData<T>);
 
-impl<T: Real> Floor<T> for Rigid {
+impl<T: Real> Floor<T> for Rigid<T> {
     #[inline(always)]
     fn of(_: &Params) -> Self {
-        Rigid
+        Rigid(PhantomData)
     }
 
     #[inline(always)]
-    fn balance(&self, law: &impl Cohesion<T>, gap: T, elastic: T) -> Balance<T> {
-        let y = elastic + law.traction(gap);
+    fn state(&self, law: &impl Cohesion<T>, gap: T, elastic: T) -> State<T> {
+        State {
+            gap,
+            open: law.open(gap),
+            elastic,
+            pull: law.traction(gap),
+        }
+    }
+
+    #[inline(always)]
+    fn balance(&self, here: &State<T>) -> Balance<T> {
+        let y = here.elastic + here.pull;
         Balance {
             y,
-            free: law.open(gap) > T::zero() || y < T::zero(),
+            free: (here.open > T::zero()) | (y < T::zero()),
         }
     }
 
     #[inline(always)]
-    fn violation(
-        &self,
-        law: &impl Cohesion<T>,
-        gap: T,
-        elastic: T,
-        stiffness_max: T,
-    ) -> Violation<T> {
-        let traction = law.traction(gap);
-        let y = elastic + traction;
-        let open = law.open(gap);
+    fn violation(&self, here: &State<T>, stiffness_max: T) -> Violation<T> {
+        let y = here.elastic + here.pull;
         Violation {
-            violation: y.min(open * stiffness_max),
-            reaction: law.weighed(reaction(open, y)),
-            traction: law.weighed(traction),
+            violation: y.least(here.open * stiffness_max),
+            reaction: reaction(here.open, y),
+            traction: here.pull,
         }
     }
 
     #[inline(always)]
-    fn goes_down(&self, _gap: T, _y: T) -> bool {
+    fn goes_down(&self, _: T, _: T) -> bool {
         false
     }
 
     #[inline(always)]
-    fn land(&self, law: &impl Cohesion<T>, gap: T, _y: T, [step, t, snap]: [T; 3]) -> T {
+    fn land(&self, here: &State<T>, _: T, [step, t, snap]: [T; 3], closed: T) -> T {
         // By what is left of the gap, which a cut makes exactly zero.
-        let left = law.open(gap) + t * step;
-        if left <= T::zero() || (step < T::zero() && left < snap) {
-            law.floor()
-        } else {
-            gap + t * step
-        }
+        let left = here.open + t * step;
+        let lands = (left <= T::zero()) | ((step < T::zero()) & (left < snap));
+        if lands { closed } else { here.gap + t * step }
     }
 
     #[inline(always)]
-    fn weight(&self, law: &impl Cohesion<T>, gap: T) -> T {
-        law.open(gap)
+    fn weight(&self, here: &State<T>) -> T {
+        here.open
     }
 
     #[inline(always)]
-    fn traction(&self, law: &impl Cohesion<T>, gap: T) -> T {
-        law.traction(gap)
+    fn traction(&self, here: &State<T>) -> T {
+        here.pull
     }
 }
 
@@ -136,89 +146,82 @@ impl<T: Real> Floor<T> for Yielding<T> {
     }
 
     #[inline(always)]
-    fn balance(&self, law: &impl Cohesion<T>, gap: T, elastic: T) -> Balance<T> {
-        let flow = elastic - self.hardness;
-        if gap < T::zero() {
-            return Balance {
-                y: flow,
-                free: true,
-            };
-        }
-        let y = elastic + law.traction(gap);
-        if gap > T::zero() || y < T::zero() {
-            Balance { y, free: true }
-        } else if flow > T::zero() {
-            Balance {
-                y: flow,
-                free: true,
-            }
-        } else {
-            Balance {
-                y: T::zero(),
-                free: false,
-            }
+    fn state(&self, law: &impl Cohesion<T>, gap: T, elastic: T) -> State<T> {
+        State {
+            gap,
+            open: gap,
+            elastic,
+            pull: law.traction(gap.most(T::zero())),
         }
     }
 
     #[inline(always)]
-    fn violation(
-        &self,
-        law: &impl Cohesion<T>,
-        gap: T,
-        elastic: T,
-        stiffness_max: T,
-    ) -> Violation<T> {
-        let traction = law.traction(gap.max(T::zero()));
-        let y = elastic + traction;
+    fn balance(&self, here: &State<T>) -> Balance<T> {
+        let flow = here.elastic - self.hardness;
+        let y = here.elastic + here.pull;
+        let below = here.gap < T::zero();
+        let above = (here.gap > T::zero()) | (y < T::zero());
+        let flows = below | (!above & (flow > T::zero()));
+        let rests = if above { y } else { T::zero() };
+        Balance {
+            y: if flows { flow } else { rests },
+            free: flows | above,
+        }
+    }
+
+    #[inline(always)]
+    fn violation(&self, here: &State<T>, stiffness_max: T) -> Violation<T> {
+        let y = here.elastic + here.pull;
+        let open = here.gap * stiffness_max;
         // The middle one of the two slopes and the gap: 0 just where one of the three states is met.
-        let violation = y.min(gap * stiffness_max).max(elastic - self.hardness);
+        let violation = y.least(open).most(here.elastic - self.hardness);
         Violation {
             violation,
-            reaction: reaction(gap, y),
-            traction,
+            reaction: reaction(here.gap, y),
+            traction: here.pull,
         }
     }
 
     #[inline(always)]
     fn goes_down(&self, gap: T, y: T) -> bool {
         // A closed point that is free and does not open has y of the flow, which is positive.
-        gap < T::zero() || (gap == T::zero() && y > T::zero())
+        (gap < T::zero()) | ((gap == T::zero()) & (y > T::zero()))
     }
 
     #[inline(always)]
-    fn land(&self, _: &impl Cohesion<T>, gap: T, y: T, [step, t, snap]: [T; 3]) -> T {
+    fn land(&self, here: &State<T>, y: T, [step, t, snap]: [T; 3], closed: T) -> T {
         // No point crosses zero. What is no number stays none.
-        let moved = gap + t * step;
-        let lands = if self.goes_down(gap, y) {
-            moved > T::zero() || (step > T::zero() && moved > -snap)
+        let moved = here.gap + t * step;
+        let lands = if self.goes_down(here.gap, y) {
+            (moved > T::zero()) | ((step > T::zero()) & (moved > -snap))
         } else {
-            moved < T::zero() || (step < T::zero() && moved < snap)
+            (moved < T::zero()) | ((step < T::zero()) & (moved < snap))
         };
-        if lands { T::zero() } else { moved }
+        if lands { closed } else { moved }
     }
 
     #[inline(always)]
-    fn weight(&self, _: &impl Cohesion<T>, gap: T) -> T {
-        gap.abs()
+    fn weight(&self, here: &State<T>) -> T {
+        here.gap.abs()
     }
 
     #[inline(always)]
-    fn traction(&self, law: &impl Cohesion<T>, gap: T) -> T {
-        if gap < T::zero() {
+    fn traction(&self, here: &State<T>) -> T {
+        if here.gap < T::zero() {
             -self.hardness
         } else {
-            law.traction(gap)
+            here.pull
         }
     }
 }
 
 /// max(y, 0) where the point is closed.
 #[inline(always)]
-fn reaction<T: Real>(gap: T, y: T) -> T {
-    if gap > T::zero() {
+fn reaction<T: Real>(open: T, y: T) -> T {
+    if open > T::zero() {
         T::zero()
     } else {
-        y.max(T::zero())
+        y.most(T::zero())
     }
 }
 
@@ -228,10 +231,10 @@ fn reaction<T: Real>(gap: T, y: T) -> T {
 #[inline(always)]
 pub fn trial_step<T: Real>(open: T, moved: T, restore: T, down: bool) -> T {
     if down {
-        let step = moved.min(-open);
+        let step = moved.least(-open);
         step - restore * (open + step)
     } else {
-        let step = moved.max(-open);
+        let step = moved.most(-open);
         step + restore * (open + step)
     }
 }

@@ -18,6 +18,7 @@ pub mod yielding;
 
 mod core_step;
 mod params;
+mod points;
 mod rows;
 mod step;
 
@@ -147,3 +148,30 @@ macro_rules! kernel {
     };
 }
 pub(crate) use kernel;
+
+/// Makes a catalogue entry of a kernel that looks at one point at a time, over a floor of the gap.
+macro_rules! point_kernel {
+    ($(#[$doc:meta])* $constant:ident, $name:ident, $form:ident, $kernel:ident over $floor:ident by $each:ident, reads $reads:literal, writes $writes:literal $(, fresh $fresh:expr)?, sums [$($sum:ident),*], gate $gate:ident) => {
+        $(#[$doc])*
+        pub static $constant: $crate::kernel::Kernel = {
+            const SUMS_OF_IT: &[$crate::kernel::Reduce] = &[$($crate::kernel::Reduce::$sum),*];
+            $crate::kernel::Kernel {
+                name: stringify!($name),
+                form: $crate::kernel::Form::$form,
+                reads: $reads,
+                writes: $writes,
+                fresh: 0 $(+ $fresh)?,
+                whole: false,
+                sums: SUMS_OF_IT,
+                gate: $crate::kernel::Gate::$gate,
+                twin: $crate::kernel::points::$each::<
+                    f64, $kernel<f64, $floor<f64>>, $reads, $writes, { SUMS_OF_IT.len() },
+                >,
+                twin_single: $crate::kernel::points::$each::<
+                    f32, $kernel<f32, $floor<f32>>, $reads, $writes, { SUMS_OF_IT.len() },
+                >,
+            }
+        };
+    };
+}
+pub(crate) use point_kernel;

@@ -1,5 +1,8 @@
 //! The points that one call of a twin works on.
 
+use std::ops::Range;
+
+use super::Reduce;
 use crate::real::Real;
 
 /// A field read at points of the kernel's own choice, with its level's shape.
@@ -34,6 +37,8 @@ pub struct Rows<'a, T> {
     /// Gap and residual of the base that is corrected, cut to these rows; empty where the unknown is
     /// the gap itself.
     pub base: [&'a [T]; 2],
+    /// How the kernel's sums are put together.
+    pub reduces: &'static [Reduce],
 }
 
 impl<T: Real> Rows<'_, T> {
@@ -68,6 +73,28 @@ pub struct Layout {
 }
 
 impl Layout {
+    /// The points in order, in stretches that are all surface (true) or all pad.
+    pub fn runs(self) -> impl Iterator<Item = (Range<usize>, bool)> {
+        // Without a pad all rows are one stretch.
+        let whole = self.surface[0] == self.width && self.first + self.count <= self.surface[1];
+        let (width, count) = match whole {
+            true => (self.width * self.count, 1),
+            false => (self.width, self.count),
+        };
+        (0..count).flat_map(move |row| {
+            let surface = match whole {
+                true => width,
+                false if self.first + row < self.surface[1] => self.surface[0],
+                false => 0,
+            };
+            let (start, end) = (row * width, (row + 1) * width);
+            [
+                (start..start + surface, true),
+                (start + surface..end, false),
+            ]
+        })
+    }
+
     /// Calls `point(index, on_surface)` for each point in order; `on_surface` is false on the pad.
     #[inline(always)]
     pub fn points(&self, mut point: impl FnMut(usize, bool)) {

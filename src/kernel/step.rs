@@ -3,44 +3,17 @@
 //! They are those of a wall and, by their floor, of a solid that flows. Notation as in
 //! [`wall`](super::wall).
 
-use super::floor::{Floor, Rigid};
-use super::wall::{add_residual, balance, keep_lines, step_of};
-use crate::kernel::{Params, Rows, SUMS, Scalars, kernel};
-use crate::law::{Cohesion, LawField};
-use crate::real::Real;
-use crate::with_law_field;
+use std::marker::PhantomData;
 
-/// The step of one point, and what stays of it: gap and pressure after it, y on free points before it.
-#[inline(always)]
-fn step_from<T: Real>(
-    floor: &impl Floor<T>,
-    law: &impl Cohesion<T>,
-    [gap, pressure]: [T; 2],
-    [direction, answer]: [T; 2],
-    step: &Step<T>,
-    on_surface: bool,
-) -> [T; 3] {
-    let before = balance(floor, law, gap, pressure + step.mean, on_surface);
-    let y_before = if before.free { before.y } else { T::zero() };
-    if !step.taken {
-        return [gap, pressure, y_before];
-    }
-    let here = [
-        law.open(gap),
-        before.y,
-        step.trial * direction,
-        step.restore,
-    ];
-    let (way, _) = step_of(floor, here, on_surface);
-    let moved = if on_surface {
-        floor.land(law, gap, before.y, [way, step.length, step.snap])
-    } else {
-        gap + step.length * way
-    };
-    [moved, pressure + step.length * answer, y_before]
-}
+use super::floor::{Floor, Rigid};
+use super::points::{Made, Point, PointKernel};
+use super::wall::{Here, residual_terms, step_of};
+use crate::kernel::{Params, Scalars, point_kernel};
+use crate::law::Cohesion;
+use crate::real::Real;
 
 /// What a step is made of, from the scalars.
+#[derive(Clone, Copy)]
 struct Step<T> {
     /// Whether there is one: a lost trial leaves all as it is.
     taken: bool,
@@ -52,6 +25,7 @@ struct Step<T> {
 }
 
 impl<T: Real> Step<T> {
+    #[inline(always)]
     fn of(scalars: &Scalars) -> Self {
         Step {
             taken: scalars.accepted,
@@ -62,162 +36,205 @@ impl<T: Real> Step<T> {
             snap: T::of(scalars.snap),
         }
     }
+
+    /// Gap and pressure of a point after the step along a direction, which the elastic pressure answers;
+    /// and y on free points before it.
+    #[inline(always)]
+    fn take(
+        &self,
+        floor: &impl Floor<T>,
+        law: &impl Cohesion<T>,
+        [gap, pressure]: [T; 2],
+        [direction, answer]: [T; 2],
+        on_surface: bool,
+    ) -> [T; 3] {
+        let here = Here::at(floor, law, gap, pressure + self.mean, on_surface);
+        let way = [self.trial * direction, self.restore];
+        let (step, _) = step_of(floor, &here, way, on_surface);
+        let moved = match on_surface {
+            true => {
+                let step = [step, self.length, self.snap];
+                floor.land(&here.state, here.y, step, law.floor())
+            }
+            false => gap + self.length * step,
+        };
+        let pushed = pressure + self.length * answer;
+        let before = here.y_free();
+        match self.taken {
+            true => [moved, pushed, before],
+            false => [gap, pressure, before],
+        }
+    }
 }
 
-/// The twin of `wall_turn` over a floor.
-pub(super) fn turn<T: Real, F: Floor<T>>(
-    rows: &mut Rows<T>,
-    params: &Params,
-    scalars: &Scalars,
-    sums: &mut [f64; SUMS],
-) {
-    let layout = rows.layout();
-    let count = rows.len();
-    let direction = &rows.reads[0][..count];
-    let lines = &mut rows.lines[..count];
-    let [gap, pressure, y_before, _] = &mut rows.writes;
-    let (gap, pressure) = (&mut gap[..count], &mut pressure[..count]);
-    let y_before = &mut y_before[..count];
-    let step = Step::of(scalars);
-    let stiffness_max = T::of(params.stiffness_max);
-    let floor = F::of(params);
-    with_law_field!(params.law, rows.factor, rows.base, T, law => layout.points(|i, on_surface| {
-        let law = LawField::<T>::at(&law, i);
-        let here = [gap[i], pressure[i]];
-        let way = [direction[i], lines[i]];
-        let [g, p, before] = step_from(&floor, &law, here, way, &step, on_surface);
-        [gap[i], pressure[i], y_before[i]] = [g, p, before];
-        let elastic = p + step.mean;
-        add_residual(sums, &floor, &law, [g, elastic, stiffness_max], on_surface);
-        let here = balance(&floor, &law, g, elastic, on_surface);
-        let y = if here.free { here.y } else { T::zero() };
-        let d = direction[i].double();
-        sums[4] += d * (y.double() - before.double());
-        sums[5] += d * y.double();
-        lines[i] = y;
-    }));
+/// The step, and the free residual after it.
+#[derive(Clone, Copy)]
+pub(super) struct Turn<T, F> {
+    floor: F,
+    step: Step<T>,
+    stiffness_max: T,
 }
 
-fn wall_turn<T: Real>(
-    rows: &mut Rows<T>,
-    params: &Params,
-    scalars: &Scalars,
-    sums: &mut [f64; SUMS],
-) {
-    turn::<T, Rigid>(rows, params, scalars, sums);
+impl<T: Real, F: Floor<T>> PointKernel<T, 1, 3, 6> for Turn<T, F> {
+    #[inline(always)]
+    fn of(params: &Params, scalars: &Scalars) -> Self {
+        Turn {
+            floor: F::of(params),
+            step: Step::of(scalars),
+            stiffness_max: T::of(params.stiffness_max),
+        }
+    }
+
+    #[inline(always)]
+    fn at(&self, law: &impl Cohesion<T>, point: Point<T, 1, 3>) -> Made<T, 3, 6> {
+        let ([direction], [gap, pressure, _]) = (point.reads, point.writes);
+        let on_surface = point.on_surface;
+        let way = [direction, point.line];
+        let [gap, pressure, before] =
+            self.step
+                .take(&self.floor, law, [gap, pressure], way, on_surface);
+        let here = Here::at(&self.floor, law, gap, pressure + self.step.mean, on_surface);
+        let [violation, pressures, least, gaps] =
+            residual_terms(&self.floor, law, &here, self.stiffness_max, on_surface);
+        let (d, y) = (direction.double(), here.y_free());
+        let change = d * (y.double() - before.double());
+        Made {
+            writes: [gap, pressure, before],
+            line: y,
+            terms: [violation, pressures, least, gaps, change, d * y.double()],
+        }
+    }
 }
-kernel!(
+
+point_kernel!(
     /// Takes K s and steps: g += t s, p += t K s; then loads the new yF, as `wall_free` does, with the
     /// sums of the step's direction. Reads direction; updates gap, pressure; writes the old yF.
-    WALL_TURN, wall_turn, Turn, reads 1, writes 3, fresh 1, whole false,
+    WALL_TURN, wall_turn, Turn, Turn over Rigid by each_point, reads 1, writes 3, fresh 1,
     sums [Add, Add, Min, Add, Add, Add], gate Running
 );
 
-fn wall_turn_kept<T: Real>(
-    rows: &mut Rows<T>,
-    params: &Params,
-    scalars: &Scalars,
-    sums: &mut [f64; SUMS],
-) {
-    wall_turn(rows, params, scalars, sums);
-    keep_lines(rows, 3);
+/// The same, which keeps the free residual in a field.
+#[derive(Clone, Copy)]
+pub(super) struct TurnKept<T, F>(Turn<T, F>);
+
+impl<T: Real, F: Floor<T>> PointKernel<T, 1, 4, 6> for TurnKept<T, F> {
+    #[inline(always)]
+    fn of(params: &Params, scalars: &Scalars) -> Self {
+        TurnKept(Turn::of(params, scalars))
+    }
+
+    #[inline(always)]
+    fn at(&self, law: &impl Cohesion<T>, point: Point<T, 1, 4>) -> Made<T, 4, 6> {
+        let [gap, pressure, before, _] = point.writes;
+        let made = self.0.at(
+            law,
+            Point {
+                reads: point.reads,
+                writes: [gap, pressure, before],
+                line: point.line,
+                on_surface: point.on_surface,
+            },
+        );
+        let [gap, pressure, before] = made.writes;
+        Made {
+            writes: [gap, pressure, before, made.line],
+            line: made.line,
+            terms: made.terms,
+        }
+    }
 }
-kernel!(
+
+point_kernel!(
     /// As `wall_turn`, and keeps the new yF in a field for the coarse level. Writes it after the others.
-    WALL_TURN_KEPT, wall_turn_kept, Turn, reads 1, writes 4, fresh 2, whole false,
+    WALL_TURN_KEPT, wall_turn_kept, Turn, TurnKept over Rigid by each_point, reads 1, writes 4, fresh 2,
     sums [Add, Add, Min, Add, Add, Add], gate Running
 );
 
 /// The terms of the mean pressure that a held gap asks for.
 #[inline(always)]
-fn add_balance<T: Real>(
-    sums: &mut [f64; SUMS],
+fn balance_terms<T: Real>(
     floor: &impl Floor<T>,
     law: &impl Cohesion<T>,
     [gap, pressure]: [T; 2],
     on_surface: bool,
-) {
-    let traction = if on_surface {
-        floor.traction(law, gap)
-    } else {
-        law.beyond()
+) -> [f64; 3] {
+    // The mean pressure is what these terms are to give.
+    let state = Here::at(floor, law, gap, pressure, on_surface).state;
+    let traction = match on_surface {
+        true => floor.traction(&state),
+        false => state.pull,
     };
     let y = (pressure + traction).double();
-    let weight = floor.weight(law, gap).double();
-    sums[0] += weight * y;
-    sums[1] += weight;
-    if y < sums[2] {
-        sums[2] = y;
+    let weight = floor.weight(&state).double();
+    [weight * y, weight, y]
+}
+
+/// The step, where the mean gap is held.
+#[derive(Clone, Copy)]
+pub(super) struct Advance<T, F> {
+    floor: F,
+    step: Step<T>,
+}
+
+impl<T: Real, F: Floor<T>> PointKernel<T, 1, 3, 3> for Advance<T, F> {
+    #[inline(always)]
+    fn of(params: &Params, scalars: &Scalars) -> Self {
+        Advance {
+            floor: F::of(params),
+            step: Step::of(scalars),
+        }
+    }
+
+    #[inline(always)]
+    fn at(&self, law: &impl Cohesion<T>, point: Point<T, 1, 3>) -> Made<T, 3, 3> {
+        let ([direction], [gap, pressure, _]) = (point.reads, point.writes);
+        let way = [direction, point.line];
+        let [gap, pressure, before] =
+            self.step
+                .take(&self.floor, law, [gap, pressure], way, point.on_surface);
+        Made {
+            writes: [gap, pressure, before],
+            line: point.line,
+            terms: balance_terms(&self.floor, law, [gap, pressure], point.on_surface),
+        }
     }
 }
 
-/// The twin of `wall_advance` over a floor.
-pub(super) fn advance<T: Real, F: Floor<T>>(
-    rows: &mut Rows<T>,
-    params: &Params,
-    scalars: &Scalars,
-    sums: &mut [f64; SUMS],
-) {
-    let layout = rows.layout();
-    let count = rows.len();
-    let direction = &rows.reads[0][..count];
-    let lines = &rows.lines[..count];
-    let [gap, pressure, y_before, _] = &mut rows.writes;
-    let (gap, pressure) = (&mut gap[..count], &mut pressure[..count]);
-    let y_before = &mut y_before[..count];
-    let step = Step::of(scalars);
-    let floor = F::of(params);
-    with_law_field!(params.law, rows.factor, rows.base, T, law => layout.points(|i, on_surface| {
-        let law = LawField::<T>::at(&law, i);
-        let here = [gap[i], pressure[i]];
-        let way = [direction[i], lines[i]];
-        let [g, p, before] = step_from(&floor, &law, here, way, &step, on_surface);
-        [gap[i], pressure[i], y_before[i]] = [g, p, before];
-        add_balance(sums, &floor, &law, [g, p], on_surface);
-    }));
-}
-
-fn wall_advance<T: Real>(
-    rows: &mut Rows<T>,
-    params: &Params,
-    scalars: &Scalars,
-    sums: &mut [f64; SUMS],
-) {
-    advance::<T, Rigid>(rows, params, scalars, sums);
-}
-kernel!(
+point_kernel!(
     /// Takes K s and steps, where the mean gap is held; sums as `wall_balance`. Reads direction; updates
     /// gap, pressure; writes the old yF.
-    WALL_ADVANCE, wall_advance, Store, reads 1, writes 3, fresh 1, whole false,
+    WALL_ADVANCE, wall_advance, Store, Advance over Rigid by each_point, reads 1, writes 3, fresh 1,
     sums [Add, Add, Min], gate Running
 );
 
-/// The twin of `wall_balance` over a floor.
-pub(super) fn balance_sums<T: Real, F: Floor<T>>(
-    rows: &mut Rows<T>,
-    params: &Params,
-    _scalars: &Scalars,
-    sums: &mut [f64; SUMS],
-) {
-    let layout = rows.layout();
-    let [gap, pressure, ..] = rows.reads;
-    let floor = F::of(params);
-    with_law_field!(params.law, rows.factor, rows.base, T, law => layout.points(|i, on_surface| {
-        let law = LawField::<T>::at(&law, i);
-        add_balance(sums, &floor, &law, [gap[i], pressure[i]], on_surface);
-    }));
+/// What gives the mean pressure under a held mean gap.
+#[derive(Clone, Copy)]
+pub(super) struct Weighing<T, F> {
+    floor: F,
+    number: PhantomData<T>,
 }
 
-fn wall_balance<T: Real>(
-    rows: &mut Rows<T>,
-    params: &Params,
-    scalars: &Scalars,
-    sums: &mut [f64; SUMS],
-) {
-    balance_sums::<T, Rigid>(rows, params, scalars, sums);
+impl<T: Real, F: Floor<T>> PointKernel<T, 2, 0, 3> for Weighing<T, F> {
+    #[inline(always)]
+    fn of(params: &Params, _: &Scalars) -> Self {
+        Weighing {
+            floor: F::of(params),
+            number: PhantomData,
+        }
+    }
+
+    #[inline(always)]
+    fn at(&self, law: &impl Cohesion<T>, point: Point<T, 2, 0>) -> Made<T, 0, 3> {
+        Made {
+            writes: [],
+            line: point.line,
+            terms: balance_terms(&self.floor, law, point.reads, point.on_surface),
+        }
+    }
 }
-kernel!(
+
+point_kernel!(
     /// The sums that give the mean pressure under a held mean gap. Reads gap, pressure.
-    WALL_BALANCE, wall_balance, Sweep, reads 2, writes 0, whole false,
+    WALL_BALANCE, wall_balance, Sweep, Weighing over Rigid by each_point, reads 2, writes 0,
     sums [Add, Add, Min], gate Running
 );

@@ -4,44 +4,80 @@
 //! points (g > 0 or y < 0), yF = y on F and 0 elsewhere, d direction, s trial step. Points of a pad
 //! have no wall and no law: they are always free.
 
-use super::floor::{Balance, Floor, Rigid, Violation, trial_step};
-pub use super::step::{WALL_ADVANCE, WALL_BALANCE, WALL_TURN, WALL_TURN_KEPT};
-use crate::kernel::{Params, Rows, SUMS, Scalars, kernel};
-use crate::law::{Cohesion, LawField};
-use crate::real::Real;
-use crate::with_law_field;
+use std::marker::PhantomData;
 
-/// The balance of a point; those of the pad are free and have no law.
-#[inline(always)]
-pub(super) fn balance<T: Real>(
-    floor: &impl Floor<T>,
-    law: &impl Cohesion<T>,
-    gap: T,
-    elastic: T,
-    on_surface: bool,
-) -> Balance<T> {
-    if on_surface {
-        floor.balance(law, gap, elastic)
-    } else {
-        Balance {
-            y: elastic + law.beyond(),
-            free: true,
+use super::floor::{Floor, Rigid, State, trial_step};
+use super::points::{Made, Point, PointKernel};
+pub use super::step::{WALL_ADVANCE, WALL_BALANCE, WALL_TURN, WALL_TURN_KEPT};
+use crate::kernel::{Params, Scalars, point_kernel};
+use crate::law::Cohesion;
+use crate::real::Real;
+
+/// A point as the kernels see it: what its floor sees, and its balance.
+#[derive(Clone, Copy)]
+pub(super) struct Here<T> {
+    /// What a floor would see; on a pad the pull is what stands in the traction's place there.
+    pub state: State<T>,
+    /// y, to the side to which the point may move.
+    pub y: T,
+    /// Whether it may move.
+    pub free: bool,
+}
+
+impl<T: Real> Here<T> {
+    /// A point of its gap and p + mean_pressure, at which the law is looked at once. Those of the pad are
+    /// free and have no law.
+    #[inline(always)]
+    pub fn at(
+        floor: &impl Floor<T>,
+        law: &impl Cohesion<T>,
+        gap: T,
+        elastic: T,
+        on_surface: bool,
+    ) -> Self {
+        if on_surface {
+            let state = floor.state(law, gap, elastic);
+            let balance = floor.balance(&state);
+            Here {
+                state,
+                y: balance.y,
+                free: balance.free,
+            }
+        } else {
+            Here {
+                state: State {
+                    gap,
+                    open: law.open(gap),
+                    elastic,
+                    pull: law.beyond(),
+                },
+                y: elastic + law.beyond(),
+                free: true,
+            }
         }
+    }
+
+    /// y on free points, 0 elsewhere.
+    #[inline(always)]
+    pub fn y_free(&self) -> T {
+        if self.free { self.y } else { T::zero() }
     }
 }
 
-/// The trial step of a point, of its open gap, y, way and share to restore, and whether it was cut at zero; the pad
-/// has no floor.
+/// The trial step of a point, of its way and share to restore, and whether it was cut at zero; the pad has
+/// no floor.
 #[inline(always)]
 pub(super) fn step_of<T: Real>(
     floor: &impl Floor<T>,
-    [open, y, moved, restore]: [T; 4],
+    here: &Here<T>,
+    [moved, restore]: [T; 2],
     on_surface: bool,
 ) -> (T, bool) {
     if !on_surface {
         return (moved, false);
     }
-    let down = floor.goes_down(open, y);
+    let open = here.state.open;
+    let down = floor.goes_down(open, here.y);
     let cut = if down {
         open + moved > T::zero()
     } else {
@@ -50,375 +86,441 @@ pub(super) fn step_of<T: Real>(
     (trial_step(open, moved, restore, down), cut)
 }
 
-/// The terms of the stopping measure at one point, of its gap, p + mean_pressure and the largest
-/// stiffness.
+/// The terms of the stopping measure at one point, with the largest stiffness.
 #[inline(always)]
-pub(super) fn add_residual<T: Real>(
-    sums: &mut [f64; SUMS],
+pub(super) fn residual_terms<T: Real>(
     floor: &impl Floor<T>,
     law: &impl Cohesion<T>,
-    [gap, elastic, stiffness_max]: [T; 3],
+    here: &Here<T>,
+    stiffness_max: T,
     on_surface: bool,
-) {
-    if on_surface {
-        let Violation {
-            violation,
-            reaction,
-            traction,
-        } = floor.violation(law, gap, elastic, stiffness_max);
-        let violation = violation.double();
-        sums[0] += violation * violation;
-        let (reaction, traction) = (reaction.double(), traction.double());
-        sums[1] += reaction * reaction + traction * traction;
-        let open = law.open(gap).double();
-        if open < sums[2] {
-            sums[2] = open;
+) -> [f64; 4] {
+    if !on_surface {
+        let y = here.y.double();
+        return [y * y, 0.0, f64::INFINITY, 0.0];
+    }
+    let found = floor.violation(&here.state, stiffness_max);
+    let violation = found.violation.double();
+    let reaction = law.weighed(found.reaction).double();
+    let traction = law.weighed(found.traction).double();
+    let gap = here.state.gap.double();
+    [
+        violation * violation,
+        reaction * reaction + traction * traction,
+        here.state.open.double(),
+        gap * gap,
+    ]
+}
+
+/// The stopping measure, and yF on the way.
+#[derive(Clone, Copy)]
+pub(super) struct Free<T, F> {
+    floor: F,
+    mean: T,
+    stiffness_max: T,
+}
+
+impl<T: Real, F: Floor<T>> PointKernel<T, 2, 0, 4> for Free<T, F> {
+    #[inline(always)]
+    fn of(params: &Params, scalars: &Scalars) -> Self {
+        Free {
+            floor: F::of(params),
+            mean: T::of(scalars.mean_pressure),
+            stiffness_max: T::of(params.stiffness_max),
         }
-        let gap = gap.double();
-        sums[3] += gap * gap;
-    } else {
-        let y = (elastic + law.beyond()).double();
-        sums[0] += y * y;
+    }
+
+    #[inline(always)]
+    fn at(&self, law: &impl Cohesion<T>, point: Point<T, 2, 0>) -> Made<T, 0, 4> {
+        let [gap, pressure] = point.reads;
+        let here = Here::at(
+            &self.floor,
+            law,
+            gap,
+            pressure + self.mean,
+            point.on_surface,
+        );
+        Made {
+            writes: [],
+            line: here.y_free(),
+            terms: residual_terms(
+                &self.floor,
+                law,
+                &here,
+                self.stiffness_max,
+                point.on_surface,
+            ),
+        }
     }
 }
 
-/// The twin of `wall_residual` over a floor.
-pub(super) fn residual<T: Real, F: Floor<T>>(
-    rows: &mut Rows<T>,
-    params: &Params,
-    scalars: &Scalars,
-    sums: &mut [f64; SUMS],
-) {
-    let layout = rows.layout();
-    let [gap, pressure, ..] = rows.reads;
-    let mean = T::of(scalars.mean_pressure);
-    let stiffness_max = T::of(params.stiffness_max);
-    let floor = F::of(params);
-    with_law_field!(params.law, rows.factor, rows.base, T, law => layout.points(|i, on_surface| {
-        let law = LawField::<T>::at(&law, i);
-        let here = [gap[i], pressure[i] + mean, stiffness_max];
-        add_residual(sums, &floor, &law, here, on_surface);
-    }));
-}
-
-fn wall_residual<T: Real>(
-    rows: &mut Rows<T>,
-    params: &Params,
-    scalars: &Scalars,
-    sums: &mut [f64; SUMS],
-) {
-    residual::<T, Rigid>(rows, params, scalars, sums);
-}
-kernel!(
+point_kernel!(
     /// The stopping measure of the present state. Reads gap, pressure.
-    WALL_RESIDUAL, wall_residual, Sweep, reads 2, writes 0, whole false,
+    WALL_RESIDUAL, wall_residual, Sweep, Free over Rigid by each_point, reads 2, writes 0,
     sums [Add, Add, Min, Add], gate Always
 );
-
-/// The twin of `wall_free` over a floor.
-pub(super) fn free<T: Real, F: Floor<T>>(
-    rows: &mut Rows<T>,
-    params: &Params,
-    scalars: &Scalars,
-    sums: &mut [f64; SUMS],
-) {
-    let layout = rows.layout();
-    let count = rows.len();
-    let gap = &rows.reads[0][..count];
-    let pressure = &rows.reads[1][..count];
-    let lines = &mut rows.lines[..count];
-    let mean = T::of(scalars.mean_pressure);
-    let stiffness_max = T::of(params.stiffness_max);
-    let floor = F::of(params);
-    with_law_field!(params.law, rows.factor, rows.base, T, law => layout.points(|i, on_surface| {
-        let law = LawField::<T>::at(&law, i);
-        let elastic = pressure[i] + mean;
-        add_residual(sums, &floor, &law, [gap[i], elastic, stiffness_max], on_surface);
-        let here = balance(&floor, &law, gap[i], elastic, on_surface);
-        lines[i] = if here.free { here.y } else { T::zero() };
-    }));
-}
-
-fn wall_free<T: Real>(
-    rows: &mut Rows<T>,
-    params: &Params,
-    scalars: &Scalars,
-    sums: &mut [f64; SUMS],
-) {
-    free::<T, Rigid>(rows, params, scalars, sums);
-}
-kernel!(
+point_kernel!(
     /// Loads yF and sums the stopping measure on the way. Reads gap, pressure.
-    WALL_FREE, wall_free, Load, reads 2, writes 0, whole false,
+    WALL_FREE, wall_free, Load, Free over Rigid by each_point, reads 2, writes 0,
     sums [Add, Add, Min, Add], gate Fresh
 );
 
-/// Keeps the lines in a written field.
-pub(super) fn keep_lines<T: Real>(rows: &mut Rows<T>, place: usize) {
-    let count = rows.len();
-    rows.writes[place][..count].copy_from_slice(&rows.lines[..count]);
+/// The same, which keeps yF in a field.
+#[derive(Clone, Copy)]
+pub(super) struct FreeKept<T, F>(Free<T, F>);
+
+impl<T: Real, F: Floor<T>> PointKernel<T, 2, 1, 4> for FreeKept<T, F> {
+    #[inline(always)]
+    fn of(params: &Params, scalars: &Scalars) -> Self {
+        FreeKept(Free::of(params, scalars))
+    }
+
+    #[inline(always)]
+    fn at(&self, law: &impl Cohesion<T>, point: Point<T, 2, 1>) -> Made<T, 1, 4> {
+        let made = self.0.at(
+            law,
+            Point {
+                reads: point.reads,
+                writes: [],
+                line: point.line,
+                on_surface: point.on_surface,
+            },
+        );
+        Made {
+            writes: [made.line],
+            line: made.line,
+            terms: made.terms,
+        }
+    }
 }
 
-fn wall_free_kept<T: Real>(
-    rows: &mut Rows<T>,
-    params: &Params,
-    scalars: &Scalars,
-    sums: &mut [f64; SUMS],
-) {
-    wall_free(rows, params, scalars, sums);
-    keep_lines(rows, 0);
-}
-kernel!(
+point_kernel!(
     /// As `wall_free`, and keeps yF in a field for the coarse level. Reads gap, pressure; writes yF.
-    WALL_FREE_KEPT, wall_free_kept, Load, reads 2, writes 1, fresh 1, whole false,
+    WALL_FREE_KEPT, wall_free_kept, Load, FreeKept over Rigid by each_point, reads 2, writes 1, fresh 1,
     sums [Add, Add, Min, Add], gate Fresh
 );
 
-/// The sums from which the direction's conjugacy is found; slots as `scalar::direct` reads them.
+/// The terms from which the direction's conjugacy is found; slots as `scalar::direct` reads them.
 #[inline(always)]
-pub(super) fn add_descent<T: Real>(sums: &mut [f64; SUMS], z: T, y_free: T, y_before: T) {
+pub(super) fn descent_terms<T: Real>(z: T, y_free: T, y_before: T) -> [f64; 2] {
     let (z, y) = (z.double(), y_free.double());
-    sums[0] += z * y;
-    sums[1] += z * (y - y_before.double());
+    [z * y, z * (y - y_before.double())]
 }
 
 /// Those that the direction enters too, and what takes the means off (fixed mean gap).
 #[inline(always)]
-pub(super) fn add_descent_held<T: Real>(
-    sums: &mut [f64; SUMS],
+pub(super) fn descent_held_terms<T: Real>(
     [z, y_free, y_before, direction]: [T; 4],
     free: bool,
-) {
-    add_descent(sums, z, y_free, y_before);
+) -> [f64; 9] {
+    let [zy, z_change] = descent_terms(z, y_free, y_before);
     let (z, y, d) = (z.double(), y_free.double(), direction.double());
     let change = y - y_before.double();
-    sums[2] += d * change;
-    if free {
-        sums[3] += d * y;
-        sums[4] += z;
-        sums[5] += 1.0;
-        sums[6] += y;
-        sums[7] += change;
-        sums[8] += d;
+    let on_free = |term: f64| if free { term } else { 0.0 };
+    [
+        zy,
+        z_change,
+        d * change,
+        on_free(d * y),
+        on_free(z),
+        on_free(1.0),
+        on_free(y),
+        on_free(change),
+        on_free(d),
+    ]
+}
+
+/// The preconditioned residual z on free points.
+#[derive(Clone, Copy)]
+pub(super) struct Descent<T, F> {
+    floor: F,
+    mean: T,
+}
+
+impl<T: Real, F: Floor<T>> Descent<T, F> {
+    #[inline(always)]
+    fn at(
+        &self,
+        law: &impl Cohesion<T>,
+        [gap, pressure, line]: [T; 3],
+        on_surface: bool,
+    ) -> (Here<T>, T) {
+        let here = Here::at(&self.floor, law, gap, pressure + self.mean, on_surface);
+        (here, if here.free { line } else { T::zero() })
     }
 }
 
-/// The twin of `wall_descent` over a floor, and with a fourth field of `wall_descent_held`.
-pub(super) fn descent<T: Real, F: Floor<T>, const HELD: bool>(
-    rows: &mut Rows<T>,
-    params: &Params,
-    scalars: &Scalars,
-    sums: &mut [f64; SUMS],
-) {
-    let layout = rows.layout();
-    let count = rows.len();
-    let [gap, pressure, y_before, direction] = rows.reads;
-    let (gap, pressure, y_before) = (&gap[..count], &pressure[..count], &y_before[..count]);
-    let lines = &mut rows.lines[..count];
-    let mean = T::of(scalars.mean_pressure);
-    let floor = F::of(params);
-    with_law_field!(params.law, rows.factor, rows.base, T, law => layout.points(|i, on_surface| {
-        let law = LawField::<T>::at(&law, i);
-        let Balance { y, free } = balance(&floor, &law, gap[i], pressure[i] + mean, on_surface);
-        let [y, z] = if free { [y, lines[i]] } else { [T::zero(); 2] };
-        if HELD {
-            add_descent_held(sums, [z, y, y_before[i], direction[i]], free);
-        } else {
-            add_descent(sums, z, y, y_before[i]);
+impl<T: Real, F: Floor<T>> PointKernel<T, 3, 0, 2> for Descent<T, F> {
+    #[inline(always)]
+    fn of(params: &Params, scalars: &Scalars) -> Self {
+        Descent {
+            floor: F::of(params),
+            mean: T::of(scalars.mean_pressure),
         }
-        lines[i] = z;
-    }));
+    }
+
+    #[inline(always)]
+    fn at(&self, law: &impl Cohesion<T>, point: Point<T, 3, 0>) -> Made<T, 0, 2> {
+        let [gap, pressure, y_before] = point.reads;
+        let (here, z) = self.at(law, [gap, pressure, point.line], point.on_surface);
+        Made {
+            writes: [],
+            line: z,
+            terms: descent_terms(z, here.y_free(), y_before),
+        }
+    }
 }
 
-fn wall_descent<T: Real>(
-    rows: &mut Rows<T>,
-    params: &Params,
-    scalars: &Scalars,
-    sums: &mut [f64; SUMS],
-) {
-    descent::<T, Rigid, false>(rows, params, scalars, sums);
-}
-kernel!(
+point_kernel!(
     /// Keeps the preconditioned residual z on free points. Reads gap, pressure, the old yF.
-    WALL_DESCENT, wall_descent, Keep, reads 3, writes 0, whole false,
+    WALL_DESCENT, wall_descent, Keep, Descent over Rigid by each_point, reads 3, writes 0,
     sums [Add, Add], gate Ahead
 );
 
-fn wall_descent_held<T: Real>(
-    rows: &mut Rows<T>,
-    params: &Params,
-    scalars: &Scalars,
-    sums: &mut [f64; SUMS],
-) {
-    descent::<T, Rigid, true>(rows, params, scalars, sums);
+impl<T: Real, F: Floor<T>> PointKernel<T, 4, 0, 9> for Descent<T, F> {
+    #[inline(always)]
+    fn of(params: &Params, scalars: &Scalars) -> Self {
+        <Self as PointKernel<T, 3, 0, 2>>::of(params, scalars)
+    }
+
+    #[inline(always)]
+    fn at(&self, law: &impl Cohesion<T>, point: Point<T, 4, 0>) -> Made<T, 0, 9> {
+        let [gap, pressure, y_before, direction] = point.reads;
+        let (here, z) = self.at(law, [gap, pressure, point.line], point.on_surface);
+        Made {
+            writes: [],
+            line: z,
+            terms: descent_held_terms([z, here.y_free(), y_before, direction], here.free),
+        }
+    }
 }
-kernel!(
+
+point_kernel!(
     /// The same where the mean gap is held. Reads gap, pressure, the old yF, direction.
-    WALL_DESCENT_HELD, wall_descent_held, Keep, reads 4, writes 0, whole false,
+    WALL_DESCENT_HELD, wall_descent_held, Keep, Descent over Rigid by each_point, reads 4, writes 0,
     sums [Add, Add, Add, Add, Add, Add, Add, Add, Add], gate Ahead
 );
 
-/// The new direction at one point: zero where the point is not free.
-#[inline(always)]
-pub(super) fn new_direction<T: Real>(z: T, direction: T, factors: [T; 3], free: bool) -> T {
-    if free {
-        factors[0] * z + factors[1] * direction + factors[2]
-    } else {
-        T::zero()
-    }
+/// The new direction of a point, from the scalars.
+#[derive(Clone, Copy)]
+pub(super) struct Directing<T> {
+    descent: T,
+    memory: T,
+    shift: T,
 }
 
-/// The sums over a trial step; slots as `scalar::accept` reads them.
-#[inline(always)]
-pub(super) fn add_trial<T: Real>(
-    sums: &mut [f64; SUMS],
-    [step, y, open]: [T; 3],
-    cut: bool,
-    on_surface: bool,
-) {
-    let s = step.double();
-    sums[0] += s * y.double();
-    let closes = (open >= T::zero() && s < 0.0) || (open < T::zero() && s > 0.0);
-    if closes && on_surface {
-        let ratio = open.double() / -s;
-        if ratio < sums[1] {
-            sums[1] = ratio;
+impl<T: Real> Directing<T> {
+    #[inline(always)]
+    pub fn of(scalars: &Scalars) -> Self {
+        Directing {
+            descent: T::of(scalars.descent),
+            memory: T::of(scalars.memory),
+            shift: T::of(scalars.shift),
         }
     }
-    if s > sums[2] {
-        sums[2] = s;
-    }
-    if s < sums[3] {
-        sums[3] = s;
-    }
-    if cut {
-        sums[4] = 1.0;
+
+    /// Zero where the point is not free.
+    #[inline(always)]
+    pub fn turn(&self, z: T, direction: T, free: bool) -> T {
+        if free {
+            self.descent * z + self.memory * direction + self.shift
+        } else {
+            T::zero()
+        }
     }
 }
 
-/// The twin of `wall_trial` over a floor.
-pub(super) fn trial<T: Real, F: Floor<T>>(
-    rows: &mut Rows<T>,
-    params: &Params,
-    scalars: &Scalars,
-    sums: &mut [f64; SUMS],
-) {
-    let layout = rows.layout();
-    let count = rows.len();
-    let [gap, pressure, ..] = rows.reads;
-    let (gap, pressure) = (&gap[..count], &pressure[..count]);
-    let direction = &mut rows.writes[0][..count];
-    let lines = &mut rows.lines[..count];
-    let mean = T::of(scalars.mean_pressure);
-    let factors = [scalars.descent, scalars.memory, scalars.shift].map(T::of);
-    let length = T::of(scalars.trial);
-    let floor = F::of(params);
-    with_law_field!(params.law, rows.factor, rows.base, T, law => layout.points(|i, on_surface| {
-        let law = LawField::<T>::at(&law, i);
-        let Balance { y, free } = balance(&floor, &law, gap[i], pressure[i] + mean, on_surface);
-        let d = new_direction(lines[i], direction[i], factors, free);
-        direction[i] = d;
-        let open = law.open(gap[i]);
-        let (step, cut) = step_of(&floor, [open, y, length * d, T::zero()], on_surface);
-        add_trial(sums, [step, y, open], cut, on_surface);
-        lines[i] = step;
-    }));
+/// The terms of a trial step; slots as `scalar::accept` reads them.
+#[inline(always)]
+pub(super) fn trial_terms<T: Real>(
+    step: T,
+    here: &Here<T>,
+    cut: bool,
+    on_surface: bool,
+) -> [f64; 5] {
+    let open = here.state.open;
+    let s = step.double();
+    let closes = ((open >= T::zero()) & (s < 0.0)) | ((open < T::zero()) & (s > 0.0));
+    let ratio = open.double() / -s;
+    [
+        s * here.y.double(),
+        if closes & on_surface {
+            ratio
+        } else {
+            f64::INFINITY
+        },
+        s,
+        s,
+        if cut { 1.0 } else { 0.0 },
+    ]
 }
 
-fn wall_trial<T: Real>(
-    rows: &mut Rows<T>,
-    params: &Params,
-    scalars: &Scalars,
-    sums: &mut [f64; SUMS],
-) {
-    trial::<T, Rigid>(rows, params, scalars, sums);
+/// The new direction and its trial step.
+#[derive(Clone, Copy)]
+pub(super) struct Trial<T, F> {
+    floor: F,
+    mean: T,
+    directing: Directing<T>,
+    length: T,
 }
-kernel!(
+
+impl<T: Real, F: Floor<T>> PointKernel<T, 2, 1, 5> for Trial<T, F> {
+    #[inline(always)]
+    fn of(params: &Params, scalars: &Scalars) -> Self {
+        Trial {
+            floor: F::of(params),
+            mean: T::of(scalars.mean_pressure),
+            directing: Directing::of(scalars),
+            length: T::of(scalars.trial),
+        }
+    }
+
+    #[inline(always)]
+    fn at(&self, law: &impl Cohesion<T>, point: Point<T, 2, 1>) -> Made<T, 1, 5> {
+        let ([gap, pressure], [direction]) = (point.reads, point.writes);
+        let on_surface = point.on_surface;
+        let here = Here::at(&self.floor, law, gap, pressure + self.mean, on_surface);
+        let d = self.directing.turn(point.line, direction, here.free);
+        let way = [self.length * d, T::zero()];
+        let (step, cut) = step_of(&self.floor, &here, way, on_surface);
+        Made {
+            writes: [d],
+            line: step,
+            terms: trial_terms(step, &here, cut, on_surface),
+        }
+    }
+}
+
+point_kernel!(
     /// Turns the direction by the kept z and loads the trial step s. Reads gap, pressure; updates
     /// direction.
-    WALL_TRIAL, wall_trial, Resume, reads 2, writes 1, whole false,
+    WALL_TRIAL, wall_trial, Resume, Trial over Rigid by each_point, reads 2, writes 1,
     sums [Add, Min, Max, Min, Max], gate Running
 );
 
-fn wall_direct<T: Real>(
-    rows: &mut Rows<T>,
-    params: &Params,
-    scalars: &Scalars,
-    sums: &mut [f64; SUMS],
-) {
-    let layout = rows.layout();
-    let [gap, pressure, ..] = rows.reads;
-    let z = &*rows.lines;
-    let direction = &mut rows.writes[0];
-    let mean = T::of(scalars.mean_pressure);
-    let factors = [scalars.descent, scalars.memory, scalars.shift].map(T::of);
-    let length = T::of(scalars.trial);
-    with_law_field!(params.law, rows.factor, rows.base, T, law => layout.points(|i, on_surface| {
-        let law = LawField::<T>::at(&law, i);
-        let here = balance(&Rigid, &law, gap[i], pressure[i] + mean, on_surface);
-        let d = new_direction(z[i], direction[i], factors, here.free);
-        direction[i] = d;
-        let open = law.open(gap[i]);
-        sums[0] += (length * d).max(-open).double();
-        sums[1] += open.double();
-    }));
+/// The new direction, with what its trial step takes off the mean gap.
+#[derive(Clone, Copy)]
+pub(super) struct Direct<T, F> {
+    floor: F,
+    mean: T,
+    directing: Directing<T>,
+    length: T,
 }
-kernel!(
+
+impl<T: Real, F: Floor<T>> PointKernel<T, 2, 1, 2> for Direct<T, F> {
+    #[inline(always)]
+    fn of(params: &Params, scalars: &Scalars) -> Self {
+        Direct {
+            floor: F::of(params),
+            mean: T::of(scalars.mean_pressure),
+            directing: Directing::of(scalars),
+            length: T::of(scalars.trial),
+        }
+    }
+
+    #[inline(always)]
+    fn at(&self, law: &impl Cohesion<T>, point: Point<T, 2, 1>) -> Made<T, 1, 2> {
+        let ([gap, pressure], [direction]) = (point.reads, point.writes);
+        let here = Here::at(
+            &self.floor,
+            law,
+            gap,
+            pressure + self.mean,
+            point.on_surface,
+        );
+        let d = self.directing.turn(point.line, direction, here.free);
+        let open = here.state.open;
+        Made {
+            writes: [d],
+            line: point.line,
+            terms: [(self.length * d).most(-open).double(), open.double()],
+        }
+    }
+}
+
+point_kernel!(
     /// Turns the direction by the kept z and sums the trial step and the gap (fixed mean gap). Reads
     /// gap, pressure; updates direction.
-    WALL_DIRECT, wall_direct, Peek, reads 2, writes 1, whole false,
+    WALL_DIRECT, wall_direct, Peek, Direct over Rigid by each_point, reads 2, writes 1,
     sums [Add, Add], gate Running
 );
 
-fn wall_trial_held<T: Real>(
-    rows: &mut Rows<T>,
-    params: &Params,
-    scalars: &Scalars,
-    sums: &mut [f64; SUMS],
-) {
-    let layout = rows.layout();
-    let [gap, pressure, direction, _] = rows.reads;
-    let lines = &mut *rows.lines;
-    let mean = T::of(scalars.mean_pressure);
-    let length = T::of(scalars.trial);
-    let restore = T::of(scalars.restore);
-    with_law_field!(params.law, rows.factor, rows.base, T, law => layout.points(|i, on_surface| {
-        let law = LawField::<T>::at(&law, i);
-        let y = balance(&Rigid, &law, gap[i], pressure[i] + mean, on_surface).y;
-        let open = law.open(gap[i]);
-        let (step, cut) = step_of(&Rigid, [open, y, length * direction[i], restore], on_surface);
-        add_trial(sums, [step, y, open], cut, on_surface);
-        lines[i] = step;
-    }));
+/// The trial step scaled back to the held mean gap.
+#[derive(Clone, Copy)]
+pub(super) struct TrialHeld<T, F> {
+    floor: F,
+    mean: T,
+    length: T,
+    restore: T,
 }
-kernel!(
+
+impl<T: Real, F: Floor<T>> PointKernel<T, 3, 0, 5> for TrialHeld<T, F> {
+    #[inline(always)]
+    fn of(params: &Params, scalars: &Scalars) -> Self {
+        TrialHeld {
+            floor: F::of(params),
+            mean: T::of(scalars.mean_pressure),
+            length: T::of(scalars.trial),
+            restore: T::of(scalars.restore),
+        }
+    }
+
+    #[inline(always)]
+    fn at(&self, law: &impl Cohesion<T>, point: Point<T, 3, 0>) -> Made<T, 0, 5> {
+        let [gap, pressure, direction] = point.reads;
+        let on_surface = point.on_surface;
+        let here = Here::at(&self.floor, law, gap, pressure + self.mean, on_surface);
+        let way = [self.length * direction, self.restore];
+        let (step, cut) = step_of(&self.floor, &here, way, on_surface);
+        Made {
+            writes: [],
+            line: step,
+            terms: trial_terms(step, &here, cut, on_surface),
+        }
+    }
+}
+
+point_kernel!(
     /// Loads the trial step scaled back to the held mean gap. Reads gap, pressure, direction.
-    WALL_TRIAL_HELD, wall_trial_held, Load, reads 3, writes 0, whole false,
+    WALL_TRIAL_HELD, wall_trial_held, Load, TrialHeld over Rigid by each_point, reads 3, writes 0,
     sums [Add, Min, Max, Min, Max], gate Running
 );
 
-fn wall_search<T: Real>(
-    rows: &mut Rows<T>,
-    params: &Params,
-    scalars: &Scalars,
-    sums: &mut [f64; SUMS],
-) {
-    let layout = rows.layout();
-    let [gap, direction, ..] = rows.reads;
-    let length = T::of(scalars.trial);
-    let restore = T::of(scalars.restore);
-    let t = T::of(scalars.step);
-    with_law_field!(params.law, rows.factor, rows.base, T, law => layout.points(|i, on_surface| {
-        let law = LawField::<T>::at(&law, i);
-        if on_surface {
-            let step = trial_step(law.open(gap[i]), length * direction[i], restore, false);
-            let change = law.change(gap[i], t * step);
-            sums[0] += change.double() * step.double();
-        }
-    }));
+/// What the step t does to the traction.
+#[derive(Clone, Copy)]
+pub(super) struct Search<T, F> {
+    floor: PhantomData<F>,
+    length: T,
+    restore: T,
+    t: T,
 }
-kernel!(
+
+impl<T: Real, F: Floor<T>> PointKernel<T, 2, 0, 1> for Search<T, F> {
+    #[inline(always)]
+    fn of(_: &Params, scalars: &Scalars) -> Self {
+        Search {
+            floor: PhantomData,
+            length: T::of(scalars.trial),
+            restore: T::of(scalars.restore),
+            t: T::of(scalars.step),
+        }
+    }
+
+    #[inline(always)]
+    fn at(&self, law: &impl Cohesion<T>, point: Point<T, 2, 0>) -> Made<T, 0, 1> {
+        let [gap, direction] = point.reads;
+        let step = trial_step(law.open(gap), self.length * direction, self.restore, false);
+        let change = law.change(gap, self.t * step).double() * step.double();
+        Made {
+            writes: [],
+            line: point.line,
+            terms: [if point.on_surface { change } else { 0.0 }],
+        }
+    }
+}
+
+point_kernel!(
     /// Sums `<sigma(g + t s) - sigma(g), s>`. Reads gap, direction.
-    WALL_SEARCH, wall_search, Sweep, reads 2, writes 0, whole false,
+    WALL_SEARCH, wall_search, Sweep, Search over Rigid by each_point, reads 2, writes 0,
     sums [Add], gate Searching
 );

@@ -1,256 +1,200 @@
 //! Kernels of a solid whose pressure saturates: those of the wall over a floor that flows, see
 //! [`floor`](super::floor). A gap below zero is the depth that has flowed in this solve.
 
-use super::floor::{Balance, Floor, Yielding, trial_step};
-use super::{step, wall};
-use crate::kernel::{Params, Rows, SUMS, Scalars, kernel};
-use crate::law::{Cohesion, LawField};
+use super::floor::{Floor, Yielding, trial_step};
+use super::points::{Made, Point, PointKernel};
+use super::step::{Advance, Turn, TurnKept, Weighing};
+use super::wall::{Descent, Directing, Free, FreeKept, Here, Trial, TrialHeld};
+use crate::kernel::{Params, Scalars, point_kernel};
+use crate::law::Cohesion;
 use crate::real::Real;
-use crate::with_law_field;
 
-fn yield_residual<T: Real>(
-    rows: &mut Rows<T>,
-    params: &Params,
-    scalars: &Scalars,
-    sums: &mut [f64; SUMS],
-) {
-    wall::residual::<T, Yielding<T>>(rows, params, scalars, sums);
-}
-kernel!(
+point_kernel!(
     /// The stopping measure of the present state. Reads gap, pressure.
-    YIELD_RESIDUAL, yield_residual, Sweep, reads 2, writes 0, whole false,
+    YIELD_RESIDUAL, yield_residual, Sweep, Free over Yielding by each_point_itself, reads 2, writes 0,
     sums [Add, Add, Min, Add], gate Always
 );
-
-fn yield_free<T: Real>(
-    rows: &mut Rows<T>,
-    params: &Params,
-    scalars: &Scalars,
-    sums: &mut [f64; SUMS],
-) {
-    wall::free::<T, Yielding<T>>(rows, params, scalars, sums);
-}
-kernel!(
+point_kernel!(
     /// Loads yF and sums the stopping measure on the way. Reads gap, pressure.
-    YIELD_FREE, yield_free, Load, reads 2, writes 0, whole false,
+    YIELD_FREE, yield_free, Load, Free over Yielding by each_point_itself, reads 2, writes 0,
     sums [Add, Add, Min, Add], gate Fresh
 );
-
-fn yield_free_kept<T: Real>(
-    rows: &mut Rows<T>,
-    params: &Params,
-    scalars: &Scalars,
-    sums: &mut [f64; SUMS],
-) {
-    yield_free(rows, params, scalars, sums);
-    wall::keep_lines(rows, 0);
-}
-kernel!(
+point_kernel!(
     /// As `yield_free`, and keeps yF in a field for the coarse level. Reads gap, pressure; writes yF.
-    YIELD_FREE_KEPT, yield_free_kept, Load, reads 2, writes 1, fresh 1, whole false,
+    YIELD_FREE_KEPT, yield_free_kept, Load, FreeKept over Yielding by each_point_itself, reads 2, writes 1, fresh 1,
     sums [Add, Add, Min, Add], gate Fresh
 );
-
-fn yield_descent<T: Real>(
-    rows: &mut Rows<T>,
-    params: &Params,
-    scalars: &Scalars,
-    sums: &mut [f64; SUMS],
-) {
-    wall::descent::<T, Yielding<T>, false>(rows, params, scalars, sums);
-}
-kernel!(
+point_kernel!(
     /// Keeps the preconditioned residual z on free points. Reads gap, pressure, the old yF.
-    YIELD_DESCENT, yield_descent, Keep, reads 3, writes 0, whole false,
+    YIELD_DESCENT, yield_descent, Keep, Descent over Yielding by each_point_itself, reads 3, writes 0,
     sums [Add, Add], gate Ahead
 );
-
-fn yield_descent_held<T: Real>(
-    rows: &mut Rows<T>,
-    params: &Params,
-    scalars: &Scalars,
-    sums: &mut [f64; SUMS],
-) {
-    wall::descent::<T, Yielding<T>, true>(rows, params, scalars, sums);
-}
-kernel!(
+point_kernel!(
     /// The same where the mean gap is held. Reads gap, pressure, the old yF, direction.
-    YIELD_DESCENT_HELD, yield_descent_held, Keep, reads 4, writes 0, whole false,
+    YIELD_DESCENT_HELD, yield_descent_held, Keep, Descent over Yielding by each_point_itself, reads 4, writes 0,
     sums [Add, Add, Add, Add, Add, Add, Add, Add, Add], gate Ahead
 );
-
-fn yield_trial<T: Real>(
-    rows: &mut Rows<T>,
-    params: &Params,
-    scalars: &Scalars,
-    sums: &mut [f64; SUMS],
-) {
-    wall::trial::<T, Yielding<T>>(rows, params, scalars, sums);
-}
-kernel!(
+point_kernel!(
     /// Turns the direction by the kept z and loads the trial step s. Reads gap, pressure; updates
     /// direction.
-    YIELD_TRIAL, yield_trial, Resume, reads 2, writes 1, whole false,
+    YIELD_TRIAL, yield_trial, Resume, Trial over Yielding by each_point_itself, reads 2, writes 1,
     sums [Add, Min, Max, Min, Max], gate Running
 );
 
-fn yield_direct<T: Real>(
-    rows: &mut Rows<T>,
-    params: &Params,
-    scalars: &Scalars,
-    sums: &mut [f64; SUMS],
-) {
-    let layout = rows.layout();
-    let [gap, pressure, ..] = rows.reads;
-    let z = &*rows.lines;
-    let direction = &mut rows.writes[0];
-    let mean = T::of(scalars.mean_pressure);
-    let factors = [scalars.descent, scalars.memory, scalars.shift].map(T::of);
-    let length = T::of(scalars.trial);
-    let floor = Yielding::of(params);
-    with_law_field!(params.law, rows.factor, rows.base, T, law => layout.points(|i, on_surface| {
-        let law = LawField::<T>::at(&law, i);
-        let Balance { y, free } =
-            wall::balance(&floor, &law, gap[i], pressure[i] + mean, on_surface);
-        let d = wall::new_direction(z[i], direction[i], factors, free);
-        direction[i] = d;
-        let step = trial_step(gap[i], length * d, T::zero(), floor.goes_down(gap[i], y));
-        sums[0] += step.double();
-        sums[1] += gap[i].double();
-        sums[2] += (-(gap[i] + step)).max(T::zero()).double();
-    }));
+/// The new direction, with what its trial step takes off the mean gap and how deep it goes.
+#[derive(Clone, Copy)]
+struct YieldDirect<T, F> {
+    floor: F,
+    mean: T,
+    directing: Directing<T>,
+    length: T,
 }
-kernel!(
+
+impl<T: Real, F: Floor<T>> PointKernel<T, 2, 1, 3> for YieldDirect<T, F> {
+    #[inline(always)]
+    fn of(params: &Params, scalars: &Scalars) -> Self {
+        YieldDirect {
+            floor: F::of(params),
+            mean: T::of(scalars.mean_pressure),
+            directing: Directing::of(scalars),
+            length: T::of(scalars.trial),
+        }
+    }
+
+    #[inline(always)]
+    fn at(&self, law: &impl Cohesion<T>, point: Point<T, 2, 1>) -> Made<T, 1, 3> {
+        let ([gap, pressure], [direction]) = (point.reads, point.writes);
+        let here = Here::at(
+            &self.floor,
+            law,
+            gap,
+            pressure + self.mean,
+            point.on_surface,
+        );
+        let d = self.directing.turn(point.line, direction, here.free);
+        let down = self.floor.goes_down(gap, here.y);
+        let step = trial_step(gap, self.length * d, T::zero(), down);
+        let depth = (-(gap + step)).most(T::zero());
+        Made {
+            writes: [d],
+            line: point.line,
+            terms: [step.double(), gap.double(), depth.double()],
+        }
+    }
+}
+
+point_kernel!(
     /// Turns the direction by the kept z and sums the trial step, the gap, and the depth of the trial
     /// (fixed mean gap). Reads gap, pressure; updates direction.
-    YIELD_DIRECT, yield_direct, Peek, reads 2, writes 1, whole false,
+    YIELD_DIRECT, yield_direct, Peek, YieldDirect over Yielding by each_point_itself, reads 2, writes 1,
     sums [Add, Add, Add], gate Running
 );
 
-fn yield_trial_held<T: Real>(
-    rows: &mut Rows<T>,
-    params: &Params,
-    scalars: &Scalars,
-    sums: &mut [f64; SUMS],
-) {
-    let layout = rows.layout();
-    let [gap, pressure, direction, _] = rows.reads;
-    let lines = &mut *rows.lines;
-    let mean = T::of(scalars.mean_pressure);
-    let length = T::of(scalars.trial);
-    let restore = T::of(scalars.restore);
-    let floor = Yielding::of(params);
-    // A trial that no scaling brings back is lost: one that moves and does not descend.
-    let lost = !(restore > -T::one() && restore < T::one());
-    if lost {
-        sums[2] = 1.0;
-    }
-    with_law_field!(params.law, rows.factor, rows.base, T, law => layout.points(|i, on_surface| {
-        let law = LawField::<T>::at(&law, i);
-        if lost {
-            lines[i] = T::zero();
-            return;
-        }
-        let y = wall::balance(&floor, &law, gap[i], pressure[i] + mean, on_surface).y;
-        let here = [gap[i], y, length * direction[i], restore];
-        let (step, cut) = wall::step_of(&floor, here, on_surface);
-        wall::add_trial(sums, [step, y, gap[i]], cut, on_surface);
-        lines[i] = step;
-    }));
+/// The trial step scaled back to the held mean gap, unless no scaling brings it back.
+#[derive(Clone, Copy)]
+struct YieldTrialHeld<T, F> {
+    trial: TrialHeld<T, F>,
+    /// Whether the trial is lost: one that moves and does not descend.
+    lost: bool,
 }
-kernel!(
+
+impl<T: Real, F: Floor<T>> PointKernel<T, 3, 0, 5> for YieldTrialHeld<T, F> {
+    #[inline(always)]
+    fn of(params: &Params, scalars: &Scalars) -> Self {
+        YieldTrialHeld {
+            trial: TrialHeld::of(params, scalars),
+            lost: !(scalars.restore > -1.0 && scalars.restore < 1.0),
+        }
+    }
+
+    #[inline(always)]
+    fn at(&self, law: &impl Cohesion<T>, point: Point<T, 3, 0>) -> Made<T, 0, 5> {
+        let made = self.trial.at(law, point);
+        match self.lost {
+            true => Made {
+                writes: [],
+                line: T::zero(),
+                terms: [0.0, f64::INFINITY, 1.0, f64::INFINITY, 0.0],
+            },
+            false => made,
+        }
+    }
+}
+
+point_kernel!(
     /// Loads the trial step scaled back to the held mean gap. Reads gap, pressure, direction.
-    YIELD_TRIAL_HELD, yield_trial_held, Load, reads 3, writes 0, whole false,
+    YIELD_TRIAL_HELD, yield_trial_held, Load, YieldTrialHeld over Yielding by each_point_itself, reads 3, writes 0,
     sums [Add, Min, Max, Min, Max], gate Running
 );
 
-fn yield_search<T: Real>(
-    rows: &mut Rows<T>,
-    params: &Params,
-    scalars: &Scalars,
-    sums: &mut [f64; SUMS],
-) {
-    let layout = rows.layout();
-    let [gap, direction, pressure, _] = rows.reads;
-    let mean = T::of(scalars.mean_pressure);
-    let length = T::of(scalars.trial);
-    let restore = T::of(scalars.restore);
-    let t = T::of(scalars.step);
-    let floor = Yielding::of(params);
-    with_law_field!(params.law, rows.factor, rows.base, T, law => layout.points(|i, on_surface| {
-        let law = LawField::<T>::at(&law, i);
-        if on_surface {
-            let y = floor.balance(&law, gap[i], pressure[i] + mean).y;
-            // Below zero the pressure does not change.
-            if !floor.goes_down(gap[i], y) {
-                let step = trial_step(gap[i], length * direction[i], restore, false);
-                let change = law.change(gap[i], t * step);
-                sums[0] += change.double() * step.double();
-            }
-        }
-    }));
+/// What the step t does to the traction.
+#[derive(Clone, Copy)]
+struct YieldSearch<T, F> {
+    floor: F,
+    mean: T,
+    length: T,
+    restore: T,
+    t: T,
 }
-kernel!(
+
+impl<T: Real, F: Floor<T>> PointKernel<T, 3, 0, 1> for YieldSearch<T, F> {
+    #[inline(always)]
+    fn of(params: &Params, scalars: &Scalars) -> Self {
+        YieldSearch {
+            floor: F::of(params),
+            mean: T::of(scalars.mean_pressure),
+            length: T::of(scalars.trial),
+            restore: T::of(scalars.restore),
+            t: T::of(scalars.step),
+        }
+    }
+
+    #[inline(always)]
+    fn at(&self, law: &impl Cohesion<T>, point: Point<T, 3, 0>) -> Made<T, 0, 1> {
+        let [gap, direction, pressure] = point.reads;
+        let here = Here::at(
+            &self.floor,
+            law,
+            gap,
+            pressure + self.mean,
+            point.on_surface,
+        );
+        let step = trial_step(gap, self.length * direction, self.restore, false);
+        let change = law.change(gap, self.t * step).double() * step.double();
+        // Below zero the pressure does not change.
+        let counts = point.on_surface & !self.floor.goes_down(gap, here.y);
+        Made {
+            writes: [],
+            line: point.line,
+            terms: [if counts { change } else { 0.0 }],
+        }
+    }
+}
+
+point_kernel!(
     /// Sums `<sigma(g + t s) - sigma(g), s>`. Reads gap, direction, pressure.
-    YIELD_SEARCH, yield_search, Sweep, reads 3, writes 0, whole false,
+    YIELD_SEARCH, yield_search, Sweep, YieldSearch over Yielding by each_point_itself, reads 3, writes 0,
     sums [Add], gate Searching
 );
-
-fn yield_turn<T: Real>(
-    rows: &mut Rows<T>,
-    params: &Params,
-    scalars: &Scalars,
-    sums: &mut [f64; SUMS],
-) {
-    step::turn::<T, Yielding<T>>(rows, params, scalars, sums);
-}
-kernel!(
+point_kernel!(
     /// Takes K s and steps, then loads the new yF. Reads direction; updates gap, pressure; writes the
     /// old yF.
-    YIELD_TURN, yield_turn, Turn, reads 1, writes 3, fresh 1, whole false,
+    YIELD_TURN, yield_turn, Turn, Turn over Yielding by each_point_itself, reads 1, writes 3, fresh 1,
     sums [Add, Add, Min, Add, Add, Add], gate Running
 );
-
-fn yield_turn_kept<T: Real>(
-    rows: &mut Rows<T>,
-    params: &Params,
-    scalars: &Scalars,
-    sums: &mut [f64; SUMS],
-) {
-    yield_turn(rows, params, scalars, sums);
-    wall::keep_lines(rows, 3);
-}
-kernel!(
+point_kernel!(
     /// As `yield_turn`, and keeps the new yF in a field for the coarse level. Writes it after the others.
-    YIELD_TURN_KEPT, yield_turn_kept, Turn, reads 1, writes 4, fresh 2, whole false,
+    YIELD_TURN_KEPT, yield_turn_kept, Turn, TurnKept over Yielding by each_point_itself, reads 1, writes 4, fresh 2,
     sums [Add, Add, Min, Add, Add, Add], gate Running
 );
-
-fn yield_advance<T: Real>(
-    rows: &mut Rows<T>,
-    params: &Params,
-    scalars: &Scalars,
-    sums: &mut [f64; SUMS],
-) {
-    step::advance::<T, Yielding<T>>(rows, params, scalars, sums);
-}
-kernel!(
+point_kernel!(
     /// Takes K s and steps, where the mean gap is held; sums as `yield_balance`. Reads direction; updates
     /// gap, pressure; writes the old yF.
-    YIELD_ADVANCE, yield_advance, Store, reads 1, writes 3, fresh 1, whole false,
+    YIELD_ADVANCE, yield_advance, Store, Advance over Yielding by each_point_itself, reads 1, writes 3, fresh 1,
     sums [Add, Add, Min], gate Running
 );
-
-fn yield_balance<T: Real>(
-    rows: &mut Rows<T>,
-    params: &Params,
-    scalars: &Scalars,
-    sums: &mut [f64; SUMS],
-) {
-    step::balance_sums::<T, Yielding<T>>(rows, params, scalars, sums);
-}
-kernel!(
+point_kernel!(
     /// The sums that give the mean pressure under a held mean gap. Reads gap, pressure.
-    YIELD_BALANCE, yield_balance, Sweep, reads 2, writes 0, whole false,
+    YIELD_BALANCE, yield_balance, Sweep, Weighing over Yielding by each_point_itself, reads 2, writes 0,
     sums [Add, Add, Min], gate Running
 );

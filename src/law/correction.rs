@@ -21,26 +21,19 @@ pub struct Correction<L, T> {
     pub residual: T,
 }
 
-/// Corrections at each point of a block.
+/// A law around a base state that differs from point to point.
 #[derive(Clone, Copy, Debug)]
-pub struct CorrectedField<'a, L, T> {
-    /// The law where the factor is 1.
-    pub law: L,
-    /// One factor a point; empty where the law is the same everywhere.
-    pub factor: &'a [T],
-    /// Gap and residual of the base, one a point.
-    pub base: [&'a [T]; 2],
-}
+pub struct CorrectedField<L>(pub L);
 
-impl<T: Real, L: Cohesion<T>> LawField<T> for CorrectedField<'_, L, T> {
+impl<T: Real, L: Cohesion<T>> LawField<T> for CorrectedField<L> {
     type Here = Correction<L, T>;
     #[inline(always)]
-    fn at(&self, index: usize) -> Correction<L, T> {
+    fn here(&self, factor: T, [gap, residual]: [T; 2]) -> Correction<L, T> {
         Correction {
-            law: self.law,
-            factor: self.factor.get(index).copied().unwrap_or(T::one()),
-            gap: self.base[0][index],
-            residual: self.base[1][index],
+            law: self.0,
+            factor,
+            gap,
+            residual,
         }
     }
 }

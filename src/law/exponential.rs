@@ -27,12 +27,12 @@ impl Exponential<f64> {
 }
 
 impl<T: Real> Cohesion<T> for Exponential<T> {
-    #[inline]
+    #[inline(always)]
     fn traction(&self, gap: T) -> T {
         self.work_of_adhesion / self.range * (-gap / self.range).exp()
     }
 
-    #[inline]
+    #[inline(always)]
     fn difference(&self, gap: T, step: T) -> T {
         let ranges = -step / self.range;
         if ranges > T::of(MOST_RANGES) {
@@ -41,12 +41,12 @@ impl<T: Real> Cohesion<T> for Exponential<T> {
         self.traction(gap) * ranges.exp_m1()
     }
 
-    #[inline]
+    #[inline(always)]
     fn energy(&self, gap: T) -> T {
         -self.work_of_adhesion * (-gap / self.range).exp()
     }
 
-    #[inline]
+    #[inline(always)]
     fn slope(&self, gap: T) -> T {
         -self.traction(gap) / self.range
     }

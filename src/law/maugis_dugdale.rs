@@ -19,6 +19,13 @@ pub struct MaugisDugdale<T> {
 }
 
 impl MaugisDugdale<f64> {
+    /// No tension at any gap.
+    pub const NOTHING: Self = MaugisDugdale {
+        peak_tension: 0.0,
+        range: 0.0,
+        taper: 0.0,
+    };
+
     /// The same constants in the kernel's number.
     pub fn cast<T: Real>(self) -> MaugisDugdale<T> {
         MaugisDugdale {
@@ -30,11 +37,11 @@ impl MaugisDugdale<f64> {
 }
 
 impl<T: Real> Cohesion<T> for MaugisDugdale<T> {
-    #[inline]
+    #[inline(always)]
     fn traction(&self, gap: T) -> T {
         if self.taper > T::zero() {
             let left = (self.range - gap) / self.taper + T::of(0.5);
-            self.peak_tension * left.max(T::zero()).min(T::one())
+            self.peak_tension * left.most(T::zero()).least(T::one())
         } else if gap < self.range {
             self.peak_tension
         } else {
@@ -42,7 +49,7 @@ impl<T: Real> Cohesion<T> for MaugisDugdale<T> {
         }
     }
 
-    #[inline]
+    #[inline(always)]
     fn difference(&self, gap: T, step: T) -> T {
         if self.taper <= T::zero() {
             return self.traction(gap + step) - self.traction(gap);
@@ -61,7 +68,7 @@ impl<T: Real> Cohesion<T> for MaugisDugdale<T> {
         -self.peak_tension * lost
     }
 
-    #[inline]
+    #[inline(always)]
     fn energy(&self, gap: T) -> T {
         let half = T::of(0.5) * self.taper;
         if gap <= self.range - half {
@@ -74,7 +81,7 @@ impl<T: Real> Cohesion<T> for MaugisDugdale<T> {
         }
     }
 
-    #[inline]
+    #[inline(always)]
     fn slope(&self, gap: T) -> T {
         let half = T::of(0.5) * self.taper;
         if gap > self.range - half && gap < self.range + half {

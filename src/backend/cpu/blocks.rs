@@ -5,7 +5,7 @@ use std::ops::Range;
 use rustfft::num_complex::Complex;
 
 use crate::backend::Shape;
-use crate::kernel::{Params, Rows, SUMS, Scalars, Twin, Whole};
+use crate::kernel::{Params, Reduce, Rows, SUMS, Scalars, Twin, Whole};
 use crate::real::Real;
 
 /// Rows in a block; also the side of the tiles in which spectra are transposed. Eight complex
@@ -38,6 +38,8 @@ pub(super) struct Job<'a, T: Real> {
     pub params: &'a Params,
     /// Moving numbers.
     pub scalars: &'a Scalars,
+    /// How its sums are put together.
+    pub reduces: &'static [Reduce],
     /// What is done.
     pub twin: Twin<T>,
 }
@@ -75,6 +77,7 @@ impl<'a, T: Real> Job<'a, T> {
             work_per_block: self.work_per_block,
             params: self.params,
             scalars: self.scalars,
+            reduces: self.reduces,
             twin: self.twin,
         };
         (
@@ -114,6 +117,7 @@ impl<'a, T: Real> Job<'a, T> {
             whole: self.whole,
             factor,
             base,
+            reduces: self.reduces,
         };
         (self.twin)(&mut rows, self.params, self.scalars, &mut self.partials[0]);
     }

@@ -170,6 +170,7 @@ impl<T: CpuReal> CpuBackend<T> {
             work_per_block: 0,
             params: &params,
             scalars: &self.scalars,
+            reduces: kernel.sums,
             twin,
         };
         match kernel.form {

@@ -1,0 +1,381 @@
+//! Kernels that look at one point at a time, run over several points side by side.
+//!
+//! A processor does the same to several numbers with one instruction, if it finds them next to each
+//! other and nothing between them depends on the order. So the points of a block go through a kernel
+//! in groups: their numbers are gathered, the kernel says what becomes of each, and what they add to
+//! the sums is kept apart for each place in a group until the block ends. The order of all additions
+//! follows from the number of places alone, so that results are the same bits whatever a processor can do
+//! at once.
+
+use std::array::from_fn;
+use std::ops::Range;
+
+use pulp::{Arch, Simd, WithSimd};
+
+use super::{Params, Reduce, Rows, SUMS, Scalars};
+use crate::law::{Cohesion, CorrectedField, HardWall, LawField, Patterned};
+use crate::real::Real;
+use crate::with_wall_law;
+
+/// Points in a group: a few of the widest vectors, so that what is done once a group costs little.
+const LANES: usize = 32;
+
+/// One number a point of a group.
+type Lanes<T> = [T; LANES];
+
+/// What a kernel finds at a point.
+#[derive(Clone, Copy)]
+pub struct Point<T, const READS: usize, const WRITES: usize> {
+    /// The fields that it reads.
+    pub reads: [T; READS],
+    /// The fields that it writes, as they were.
+    pub writes: [T; WRITES],
+    /// The line of a transform, or the one that was kept.
+    pub line: T,
+    /// Whether the point is surface; else it is of the pad.
+    pub on_surface: bool,
+}
+
+/// What a kernel makes of a point.
+#[derive(Clone, Copy)]
+pub struct Made<T, const WRITES: usize, const TERMS: usize> {
+    /// The fields that it writes.
+    pub writes: [T; WRITES],
+    /// The line.
+    pub line: T,
+    /// What it adds to each sum.
+    pub terms: [f64; TERMS],
+}
+
+/// A kernel that looks at one point at a time, with all that is the same at every point.
+///
+/// What it does at a point is always inlined, and it chooses between values rather than between ways, so
+/// that a processor may do it at several points at once.
+pub trait PointKernel<T: Real, const READS: usize, const WRITES: usize, const TERMS: usize>:
+    Copy
+{
+    /// The kernel of a solve as it stands.
+    fn of(params: &Params, scalars: &Scalars) -> Self;
+    /// What becomes of a point.
+    fn at(&self, law: &impl Cohesion<T>, point: Point<T, READS, WRITES>) -> Made<T, WRITES, TERMS>;
+}
+
+/// The twin that is made of such a kernel, around a base where there is one.
+pub fn each_point<T, K, const READS: usize, const WRITES: usize, const TERMS: usize>(
+    rows: &mut Rows<T>,
+    params: &Params,
+    scalars: &Scalars,
+    sums: &mut [f64; SUMS],
+) where
+    T: Real,
+    K: PointKernel<T, READS, WRITES, TERMS>,
+{
+    if rows.base[0].is_empty() {
+        return each_point_itself::<T, K, READS, WRITES, TERMS>(rows, params, scalars, sums);
+    }
+    let kernel = K::of(params, scalars);
+    with_wall_law!(params.law, T, law => walk(kernel, CorrectedField(law), rows, sums));
+}
+
+/// The same of a kernel whose unknown is always the gap itself.
+pub fn each_point_itself<T, K, const READS: usize, const WRITES: usize, const TERMS: usize>(
+    rows: &mut Rows<T>,
+    params: &Params,
+    scalars: &Scalars,
+    sums: &mut [f64; SUMS],
+) where
+    T: Real,
+    K: PointKernel<T, READS, WRITES, TERMS>,
+{
+    let kernel = K::of(params, scalars);
+    with_wall_law!(params.law, T, law => walk(kernel, Patterned(law), rows, sums));
+}
+
+/// The same of a kernel that asks for no law.
+pub fn each_point_without_law<T, K, const READS: usize, const WRITES: usize, const TERMS: usize>(
+    rows: &mut Rows<T>,
+    params: &Params,
+    scalars: &Scalars,
+    sums: &mut [f64; SUMS],
+) where
+    T: Real,
+    K: PointKernel<T, READS, WRITES, TERMS>,
+{
+    walk(K::of(params, scalars), Patterned(HardWall), rows, sums);
+}
+
+/// Takes the best that the processor has.
+fn walk<T, K, const READS: usize, const WRITES: usize, const TERMS: usize>(
+    kernel: K,
+    law: impl LawField<T>,
+    rows: &mut Rows<T>,
+    sums: &mut [f64; SUMS],
+) where
+    T: Real,
+    K: PointKernel<T, READS, WRITES, TERMS>,
+{
+    Arch::new().dispatch(Walk {
+        kernel,
+        law,
+        rows,
+        sums,
+    });
+}
+
+/// A kernel's walk over the points of some rows.
+struct Walk<'a, 'b, T, K, L, const READS: usize, const WRITES: usize, const TERMS: usize> {
+    kernel: K,
+    law: L,
+    rows: &'a mut Rows<'b, T>,
+    sums: &'a mut [f64; SUMS],
+}
+
+impl<T, K, L, const READS: usize, const WRITES: usize, const TERMS: usize> WithSimd
+    for Walk<'_, '_, T, K, L, READS, WRITES, TERMS>
+where
+    T: Real,
+    K: PointKernel<T, READS, WRITES, TERMS>,
+    L: LawField<T>,
+{
+    type Output = ();
+
+    /// The same source for each kind of processor; the compiler finds the vectors.
+    #[inline(always)]
+    fn with_simd<S: Simd>(self, _: S) {
+        let Walk {
+            kernel,
+            law,
+            rows,
+            sums,
+        } = self;
+        let mut totals: [Lanes<f64>; TERMS] = from_fn(|slot| [rows.reduces[slot].neutral(); LANES]);
+        let mut group = Group {
+            reads: [[T::zero(); LANES]; READS],
+            writes: [[T::zero(); LANES]; WRITES],
+            line: [T::zero(); LANES],
+            factor: [T::one(); LANES],
+            base: [[T::zero(); LANES]; 2],
+            terms: [[0.0; LANES]; TERMS],
+        };
+        for (points, on_surface) in rows.layout().runs() {
+            for start in points.clone().step_by(LANES) {
+                let here = start..points.end.min(start + LANES);
+                group.gather(rows, &here);
+                group.work(&kernel, &law, on_surface);
+                group.scatter(rows, &here);
+                for ((total, terms), reduce) in
+                    totals.iter_mut().zip(&group.terms).zip(rows.reduces)
+                {
+                    match reduce {
+                        Reduce::Add => add(total, &terms[..here.len()], |a, b| a + b),
+                        Reduce::Min => add(total, &terms[..here.len()], f64::least),
+                        Reduce::Max => add(total, &terms[..here.len()], f64::most),
+                    }
+                }
+            }
+        }
+        for ((sum, total), reduce) in sums.iter_mut().zip(&totals).zip(rows.reduces) {
+            *sum = total.iter().fold(*sum, |sum, &lane| reduce.join(sum, lane));
+        }
+    }
+}
+
+/// Puts what a group adds to a sum to what its places hold already.
+#[inline(always)]
+fn add(total: &mut Lanes<f64>, terms: &[f64], join: impl Fn(f64, f64) -> f64) {
+    match <&Lanes<f64>>::try_from(terms) {
+        Ok(all) => {
+            for lane in 0..LANES {
+                total[lane] = join(total[lane], all[lane]);
+            }
+        }
+        Err(_) => {
+            for (total, &term) in total.iter_mut().zip(terms) {
+                *total = join(*total, term);
+            }
+        }
+    }
+}
+
+/// The numbers of a group of points.
+struct Group<T, const READS: usize, const WRITES: usize, const TERMS: usize> {
+    reads: [Lanes<T>; READS],
+    writes: [Lanes<T>; WRITES],
+    line: Lanes<T>,
+    factor: Lanes<T>,
+    base: [Lanes<T>; 2],
+    terms: [Lanes<f64>; TERMS],
+}
+
+impl<T: Real, const READS: usize, const WRITES: usize, const TERMS: usize>
+    Group<T, READS, WRITES, TERMS>
+{
+    #[inline(always)]
+    fn gather(&mut self, rows: &Rows<T>, here: &Range<usize>) {
+        for (to, from) in self.reads.iter_mut().zip(&rows.reads) {
+            load(to, from, here);
+        }
+        for (to, from) in self.writes.iter_mut().zip(&rows.writes) {
+            load(to, from, here);
+        }
+        load(&mut self.line, rows.lines, here);
+        load(&mut self.factor, rows.factor, here);
+        for (to, from) in self.base.iter_mut().zip(&rows.base) {
+            load(to, from, here);
+        }
+    }
+
+    /// Places without a point work on what they held before; nothing of them is kept.
+    #[inline(always)]
+    fn work<K, L>(&mut self, kernel: &K, law: &L, on_surface: bool)
+    where
+        K: PointKernel<T, READS, WRITES, TERMS>,
+        L: LawField<T>,
+    {
+        for lane in 0..LANES {
+            let law = law.here(self.factor[lane], [self.base[0][lane], self.base[1][lane]]);
+            let made = kernel.at(
+                &law,
+                Point {
+                    reads: from_fn(|place| self.reads[place][lane]),
+                    writes: from_fn(|place| self.writes[place][lane]),
+                    line: self.line[lane],
+                    on_surface,
+                },
+            );
+            for place in 0..WRITES {
+                self.writes[place][lane] = made.writes[place];
+            }
+            self.line[lane] = made.line;
+            for slot in 0..TERMS {
+                self.terms[slot][lane] = made.terms[slot];
+            }
+        }
+    }
+
+    #[inline(always)]
+    fn scatter(&self, rows: &mut Rows<T>, here: &Range<usize>) {
+        for (from, to) in self.writes.iter().zip(&mut rows.writes) {
+            store(to, from, here);
+        }
+        store(rows.lines, &self.line, here);
+    }
+}
+
+/// Takes a field's values; without a field all stays as it is.
+#[inline(always)]
+fn load<T: Real>(to: &mut Lanes<T>, field: &[T], here: &Range<usize>) {
+    let Some(from) = field.get(here.clone()) else {
+        return;
+    };
+    match <&Lanes<T>>::try_from(from) {
+        Ok(all) => *to = *all,
+        Err(_) => copy(&mut to[..from.len()], from),
+    }
+}
+
+/// Copies the few points of a stretch's last group.
+#[inline(never)]
+fn copy<T: Real>(to: &mut [T], from: &[T]) {
+    to.copy_from_slice(from);
+}
+
+/// Hands values to a field, if there is one.
+#[inline(always)]
+fn store<T: Real>(field: &mut [T], from: &Lanes<T>, here: &Range<usize>) {
+    let Some(to) = field.get_mut(here.clone()) else {
+        return;
+    };
+    match <&mut Lanes<T>>::try_from(&mut *to) {
+        Ok(all) => *all = *from,
+        Err(_) => copy(to, &from[..here.len()]),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::kernel::Whole;
+
+    /// Reads one field, updates another and the line, and adds to one sum of each kind.
+    #[derive(Clone, Copy)]
+    struct Probe;
+
+    impl PointKernel<f64, 1, 1, 3> for Probe {
+        fn of(_: &Params, _: &Scalars) -> Self {
+            Probe
+        }
+        fn at(&self, law: &impl Cohesion<f64>, point: Point<f64, 1, 1>) -> Made<f64, 1, 3> {
+            let ([read], [write]) = (point.reads, point.writes);
+            let pull = if point.on_surface {
+                law.traction(read)
+            } else {
+                -1.0
+            };
+            Made {
+                writes: [write + read],
+                line: point.line * pull,
+                terms: [read * pull, read, read],
+            }
+        }
+    }
+
+    /// Rows that are no multiple of a group long, with and without a pad: each point is visited once, in
+    /// its own place, and a place without a point adds nothing.
+    #[test]
+    fn every_point_once() {
+        let law = crate::law::MaugisDugdale {
+            peak_tension: 2.0,
+            range: 0.5,
+            taper: 0.0,
+        };
+        for (width, count, surface) in [
+            (7, 1, [7, 1]),
+            (LANES + 5, 3, [LANES + 5, 3]),
+            (2 * LANES, 4, [LANES + 1, 2]),
+            (3, 5, [0, 0]),
+        ] {
+            let points = width * count;
+            let read: Vec<f64> = (0..points).map(|i| (i as f64 * 0.37).sin()).collect();
+            let factor: Vec<f64> = (0..points).map(|i| 1.0 + i as f64).collect();
+            let (mut written, mut lines) = (vec![1.0; points], vec![3.0; points]);
+            let mut rows = Rows {
+                first: 0,
+                width,
+                count,
+                surface,
+                lines: &mut lines,
+                reads: [&read, &[], &[], &[]],
+                writes: [&mut written, &mut [], &mut [], &mut []],
+                whole: Whole {
+                    values: &[],
+                    points: [0, 0],
+                },
+                factor: &factor,
+                base: [&[]; 2],
+                reduces: &[Reduce::Add, Reduce::Min, Reduce::Max],
+            };
+            let mut sums = [0.0; SUMS];
+            (sums[1], sums[2]) = (f64::INFINITY, f64::NEG_INFINITY);
+            walk(Probe, Patterned(law), &mut rows, &mut sums);
+            let mut expected = 0.0;
+            for i in 0..points {
+                let on_surface = i % width < surface[0] && i / width < surface[1];
+                let pull = match on_surface {
+                    true if read[i] < 0.5 => 2.0 * factor[i],
+                    true => 0.0,
+                    false => -1.0,
+                };
+                assert_eq!(written[i], 1.0 + read[i]);
+                assert_eq!(lines[i], 3.0 * pull);
+                expected += read[i] * pull;
+            }
+            let (least, most) = read
+                .iter()
+                .fold((f64::MAX, f64::MIN), |(a, b), &r| (a.min(r), b.max(r)));
+            // The order of the additions is another one.
+            assert!((sums[0] - expected).abs() <= 1e-12 * points as f64 * points as f64);
+            assert_eq!([sums[1], sums[2]], [least, most]);
+        }
+    }
+}
