@@ -8,8 +8,8 @@ use std::hint::black_box;
 
 use criterion::{BenchmarkId, Criterion, Throughput, criterion_group, criterion_main};
 use tabor::backend::gpu::{AdapterChoice, GpuBackend, GpuDevice, Number};
-use tabor::backend::{Backend, Shape, cpu::CpuBackend};
-use tabor::elastic::periodic_stiffness;
+use tabor::backend::{Backend, Factors, Response, Shape, cpu::CpuBackend};
+use tabor::elastic::HalfSpace;
 use tabor::grid::Grid;
 use tabor::kernel::{Gate, common};
 
@@ -41,8 +41,8 @@ fn operator(criterion: &mut Criterion) {
             let level = backend.level("fine", Shape::whole(points, points));
             let displacement = backend.field(level, "displacement");
             let pressure = backend.field(level, "pressure");
-            let stiffness =
-                backend.spectrum(level, "stiffness", &periodic_stiffness(&grid, 1.0, None));
+            let half_space = Factors::HalfSpace(HalfSpace::new(grid, 1.0), Response::Stiffness);
+            let stiffness = backend.spectrum(level, "stiffness", half_space);
             let waves: Vec<f64> = (0..grid.len()).map(|i| (0.1 * i as f64).sin()).collect();
             backend.write(displacement, &waves);
             group.bench_function(BenchmarkId::new(name, points), |bencher| {

@@ -6,6 +6,7 @@ use std::path::Path;
 
 use tabor::backend::tally::{Held, Place};
 use tabor::effect::Effect;
+use tabor::grid::Grid;
 use tabor::law::Law;
 use tabor::scene::{AdhesionScene, Boundary, Control, Precision, Scene, Treatment};
 use tabor::solver::good_size;
@@ -290,6 +291,33 @@ fn every_combination_of_effects() {
         }
     }
     assert!(count >= 90, "{count}");
+}
+
+/// On a graphics processor a periodic half-space has no tables but those of the hard wall's coarse level; a
+/// layer and a free boundary have theirs, of the stiffness and of its inverse.
+#[test]
+fn a_half_space_has_no_tables_on_a_graphics_processor() {
+    let tables = |grid: &str, solid: &str, adhesion: &str, place: Place| -> Vec<&'static str> {
+        let text = format!(
+            "[grid]\npoints = 40\nsize = 4.0\n{grid}[solid]\ncontact_modulus = 1.0\n{solid}[[surface]]\nkind = \"sphere\"\nradius = 10.0\n{adhesion}[loading]\ncontrol = \"force\"\npath = [1e-3]\n"
+        );
+        let scene = Scene::parse(&text, "test.toml", Path::new("."), &[])
+            .unwrap_or_else(|errors| panic!("{errors}"));
+        let grid = Grid::new([40, 40], [4.0, 4.0]);
+        let cost = Cost::of_scene(&scene, grid, place).unwrap_or_else(|error| panic!("{error}"));
+        cost.spectra.iter().map(|held| held.name).collect()
+    };
+    let adhesion = "[adhesion]\nlaw = \"exponential\"\nwork_of_adhesion = 0.01\nrange = 0.1\n";
+    let layer = "poisson_ratio = 0.3\nthickness = 1.0\n";
+    let free = "boundary = \"free\"\n";
+    let both = ["stiffness", "preconditioner"];
+    for place in [Place::Gpu, Place::GpuDouble] {
+        assert!(tables("", "", adhesion, place).is_empty());
+        assert_eq!(tables("", "", "", place), ["smoothing", "long_compliance"]);
+        assert_eq!(tables("", layer, adhesion, place), both);
+        assert_eq!(tables(free, "", adhesion, place), both);
+    }
+    assert_eq!(tables("", "", adhesion, Place::Single), both);
 }
 
 /// The law of a scene without adhesion is the hard wall, not a law of zero strength.

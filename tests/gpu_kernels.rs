@@ -11,7 +11,7 @@ use gpu_shared::{
 };
 use tabor::backend::cpu::CpuBackend;
 use tabor::backend::gpu::{AdapterChoice, GpuDevice, Number, Wide};
-use tabor::backend::{Backend, Field, Level, Shape};
+use tabor::backend::{Backend, Factors, Field, Level, Shape};
 use tabor::kernel::base::BASE_TOTAL;
 use tabor::kernel::common::{LOAD_FIELD, STORE_PRESSURE};
 use tabor::kernel::wall::{WALL_DESCENT, WALL_TRIAL};
@@ -192,7 +192,11 @@ fn run(
         fields.push(make(backend, second, &values));
     }
     let lines = make(backend, level, &draw(own.len()));
-    let ones = backend.spectrum(level, "ones", &vec![1.0; own.spectrum_len()]);
+    let ones = backend.spectrum(
+        level,
+        "ones",
+        Factors::Table(&vec![1.0; own.spectrum_len()]),
+    );
     if patterned {
         let factors: Vec<f64> = draw(own.len()).iter().map(|x| x.abs() + 0.1).collect();
         let factors = make(backend, level, &factors);

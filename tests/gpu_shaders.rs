@@ -2,7 +2,9 @@
 
 use naga::valid::{Capabilities, ModuleInfo, ValidationFlags, Validator};
 use tabor::backend::Shape;
-use tabor::backend::gpu::source::{self, Decision, LawSource, LevelPlan, Pass, Reduction, Results};
+use tabor::backend::gpu::source::{
+    self, Decision, FactorSource, LawSource, LevelPlan, Pass, Reduction, Results,
+};
 use tabor::backend::gpu::{Direction, Exchange, GroupLimits, LawPart, Limits, Number, Wide};
 use tabor::kernel::coarse::COARSE_RESTRICT;
 use tabor::kernel::common::{LOAD_FIELD, STORE_PRESSURE};
@@ -136,8 +138,11 @@ fn transforms_of_many_lengths_are_valid() {
                     .unwrap_or_else(|error| panic!("{error}"));
                 validate(&format!("{} {nx} x {ny}", kernel.name), &text, wide);
             }
-            for energy in [false, true] {
-                let text = source::multiply(&plan, energy, Gate::Accepted, wide);
+            for (factors, energy) in [
+                (FactorSource::ShortCompliance, false),
+                (FactorSource::Stiffness, true),
+            ] {
+                let text = source::multiply(&plan, factors, energy, Gate::Accepted, wide);
                 validate(&format!("multiply {nx} x {ny}"), &text, wide);
             }
         }
@@ -163,8 +168,10 @@ fn rounds_are_valid() {
                 .unwrap_or_else(|error| panic!("{error}"));
             validate(kernel.name, &text, wide);
         }
-        let text = source::multiply(&plan, true, Gate::Accepted, wide);
-        validate("multiply", &text, wide);
+        for factors in FactorSource::ALL {
+            let text = source::multiply(&plan, factors, true, Gate::Accepted, wide);
+            validate("multiply", &text, wide);
+        }
     }
 }
 
@@ -211,13 +218,19 @@ fn slabs_and_long_lines_are_valid() {
                     .for_each(|text| drop(validate(&name, text, wide)));
             }
             for pass in Pass::ALL {
-                let text = source::multiply_long(&plan, pass, true, gate, wide);
-                assert_eq!(text.is_some(), long[1]);
-                text.iter()
-                    .for_each(|text| drop(validate(&name, text, wide)));
+                for factors in FactorSource::ALL {
+                    // Nothing but the middle pass asks for them.
+                    if pass != Pass::Middle && factors != FactorSource::Table {
+                        continue;
+                    }
+                    let text = source::multiply_long(&plan, pass, factors, true, gate, wide);
+                    assert_eq!(text.is_some(), long[1]);
+                    text.iter()
+                        .for_each(|text| drop(validate(&name, text, wide)));
+                }
             }
             if !long[1] {
-                let text = source::multiply(&plan, true, gate, wide);
+                let text = source::multiply(&plan, FactorSource::Table, true, gate, wide);
                 validate(&name, &text, wide);
             }
         }

@@ -9,7 +9,8 @@ mod gpu_shared;
 use gpu_shared::{Numbers, backend, device, device_with, relative_difference};
 use tabor::backend::cpu::CpuBackend;
 use tabor::backend::gpu::{AdapterChoice, GpuDevice};
-use tabor::backend::{Backend, Field, Level, Shape};
+use tabor::backend::{Backend, Factors, Field, Level, Response, Shape};
+use tabor::elastic::HalfSpace;
 use tabor::grid::Grid;
 use tabor::kernel::common::{LOAD_DISPLACEMENT, LOAD_FIELD, STORE_PRESSURE};
 use tabor::kernel::{Form, Gate, Kernel, Params, Reduce, Scalars, Status};
@@ -51,8 +52,8 @@ fn params(law: Law) -> Params {
     }
 }
 
-/// A convolution of seeded numbers, and its energy.
-fn convolve(backend: &mut dyn Backend, [nx, ny]: [usize; 2]) -> (Vec<f64>, f64) {
+/// A convolution of seeded numbers with a half-space, or with a table, and its energy.
+fn convolve(backend: &mut dyn Backend, [nx, ny]: [usize; 2], tabulated: bool) -> (Vec<f64>, f64) {
     let shape = Shape::whole(nx, ny);
     let level = backend.level("fine", shape);
     let field = backend.field(level, "field");
@@ -61,7 +62,12 @@ fn convolve(backend: &mut dyn Backend, [nx, ny]: [usize; 2]) -> (Vec<f64>, f64) 
     // Different at each wavevector, so that a factor out of place shows.
     let factors: Vec<f64> = numbers.field(shape.spectrum_len());
     let factors: Vec<f64> = factors.iter().map(|x| x + 1.0).collect();
-    let spectrum = backend.spectrum(level, "factors", &factors);
+    let half_space = HalfSpace::new(Grid::new([nx, ny], [1.0, 1.3]), 1.0 / nx as f64);
+    let factors = match tabulated {
+        true => Factors::Table(&factors),
+        false => Factors::HalfSpace(half_space, Response::Stiffness),
+    };
+    let spectrum = backend.spectrum(level, "factors", factors);
     backend.set_params(&params(Law::HardWall));
     backend.set_zero_mode(spectrum, 0.75);
     backend.write(field, &numbers.field(nx * ny));
@@ -79,11 +85,11 @@ fn convolve(backend: &mut dyn Backend, [nx, ny]: [usize; 2]) -> (Vec<f64>, f64) 
 #[test]
 fn a_convolution_in_slabs_is_the_same_to_the_last_bit() {
     let Some(device) = device() else { return };
-    for (size, bytes, slabs) in [
-        ([256, 256], 64 << 10, 4),
-        // 42 pairs: six slabs of seven.
-        ([120, 84], 7 << 10, 6),
-        ([16, 250], 4 << 10, 5),
+    for (size, bytes, slabs, tabulated) in [
+        ([256, 256], 64 << 10, 4, false),
+        // 42 pairs: six slabs of seven. The table is in two parts.
+        ([120, 84], 7 << 10, 6, true),
+        ([16, 250], 4 << 10, 5, false),
     ] {
         let Some(split) = in_slabs(bytes) else { return };
         assert_eq!(
@@ -91,8 +97,8 @@ fn a_convolution_in_slabs_is_the_same_to_the_last_bit() {
             Ok(slabs),
             "{size:?}"
         );
-        let one = convolve(&mut backend(device), size);
-        let many = convolve(&mut backend(&split), size);
+        let one = convolve(&mut backend(device), size, tabulated);
+        let many = convolve(&mut backend(&split), size, tabulated);
         assert!(
             one.0 == many.0,
             "{size:?}: {}",
@@ -111,19 +117,19 @@ const BOUND: f64 = 5e-7;
 /// Lines in two passes along x, along y, along both, of equal and of unequal shares, and in slabs.
 #[test]
 fn a_convolution_of_long_lines_agrees_with_the_processor() {
-    for (size, points, bytes) in [
-        ([256, 256], 64, 1 << 20),
-        ([256, 32], 64, 1 << 20),
+    for (size, points, bytes, tabulated) in [
+        ([256, 256], 64, 1 << 20, false),
+        ([256, 32], 64, 1 << 20, false),
         // 12 * 10 and 18 * 14, in six slabs of 21 pairs; 2 * 7 * 7 as 14 * 7 and 2 * 5^3 as 10 * 25.
-        ([120, 252], 30, 20 << 10),
-        ([98, 250], 30, 1 << 20),
-        ([2, 96], 16, 256),
+        ([120, 252], 30, 20 << 10, true),
+        ([98, 250], 30, 1 << 20, false),
+        ([2, 96], 16, 256, false),
     ] {
         let Some(long) = with_lines(points, bytes) else {
             return;
         };
-        let reference = convolve(&mut CpuBackend::<f64>::new(), size);
-        let ours = convolve(&mut backend(&long), size);
+        let reference = convolve(&mut CpuBackend::<f64>::new(), size, tabulated);
+        let ours = convolve(&mut backend(&long), size, tabulated);
         let error = relative_difference(&ours.0, &reference.0);
         println!(
             "{size:?}: {error:e}, energy {:e}",
@@ -131,7 +137,7 @@ fn a_convolution_of_long_lines_agrees_with_the_processor() {
         );
         assert!(error < BOUND, "{size:?}: {error}");
         assert!((ours.1 / reference.1 - 1.0).abs() < BOUND, "{size:?}");
-        let again = convolve(&mut backend(&long), size);
+        let again = convolve(&mut backend(&long), size, tabulated);
         assert!(
             ours.0 == again.0 && ours.1 == again.1,
             "{size:?}: bits differ"
@@ -189,7 +195,11 @@ fn run(
         fields.push(make(backend, second, &values));
     }
     let lines = make(backend, level, &numbers.field(own.len()));
-    let ones = backend.spectrum(level, "ones", &vec![1.0; own.spectrum_len()]);
+    let ones = backend.spectrum(
+        level,
+        "ones",
+        Factors::Table(&vec![1.0; own.spectrum_len()]),
+    );
     backend.set_params(&params(law));
     let passing = Scalars {
         descent: 1.0,
@@ -416,7 +426,7 @@ fn whole_solves_in_slabs_agree_with_those_in_one() {
             zero_stiffness: 0.0,
             zero_compliance: match boundary {
                 Boundary::Periodic => softest,
-                Boundary::Free => 1.0 / problem.stiffness[0],
+                Boundary::Free => 1.0 / problem.stiffness.zero_mode(),
             },
         };
         assert!(split.slabs(problem.shape).expect("slabs") >= 4);

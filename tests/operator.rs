@@ -5,7 +5,7 @@ use std::f64::consts::PI;
 
 use proptest::prelude::*;
 use tabor::backend::cpu::{CpuBackend, CpuReal, with_threads};
-use tabor::backend::{Backend, Shape};
+use tabor::backend::{Backend, Factors, Shape};
 use tabor::elastic::{free_stiffness, love_displacement, periodic_stiffness};
 use tabor::grid::Grid;
 use tabor::kernel::common::{LOAD_FIELD, STORE_PRESSURE};
@@ -38,7 +38,7 @@ fn apply<T: CpuReal>(points: [usize; 2], spectrum: &[f64], field: &[f64]) -> (Ve
         backend.field(level, "source"),
         backend.field(level, "result"),
     );
-    let spectrum = backend.spectrum(level, "stiffness", spectrum);
+    let spectrum = backend.spectrum(level, "stiffness", Factors::Table(spectrum));
     backend.set_params(&params());
     backend.write(source, field);
     backend.forward(&LOAD_FIELD, level, &[source]);

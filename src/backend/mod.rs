@@ -9,10 +9,12 @@
 //! Where one convolution ends in the rows in which the next one starts, [`turn`](Backend::turn) is both.
 
 pub mod cpu;
+mod factors;
 pub mod gpu;
 pub mod tally;
 
 use crate::kernel::{Gate, Kernel, Params, ScalarKernel, Scalars};
+pub use factors::{Factors, Response};
 
 /// A grid on which fields live: the fine one, or a coarse one of the preconditioner.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
@@ -116,8 +118,8 @@ pub trait Backend {
     fn level(&mut self, name: &'static str, shape: Shape) -> Level;
     /// Makes a field of zeros.
     fn field(&mut self, level: Level, name: &'static str) -> Field;
-    /// Makes a spectrum; `values` as [`Shape::spectrum_len`] says.
-    fn spectrum(&mut self, level: Level, name: &'static str, values: &[f64]) -> Spectrum;
+    /// Makes a spectrum of these factors. Those of a half-space are 0 at the zero wavevector until it is set.
+    fn spectrum(&mut self, level: Level, name: &'static str, factors: Factors) -> Spectrum;
     /// Overwrites a spectrum's value at the zero wavevector.
     fn set_zero_mode(&mut self, spectrum: Spectrum, value: f64);
     /// Overwrites a field.

@@ -1,6 +1,6 @@
 //! Runs nothing and counts everything: what a scene costs before anything is allocated.
 
-use super::{Backend, BackendError, Field, Level, Shape, Spectrum, check_fields};
+use super::{Backend, BackendError, Factors, Field, Level, Shape, Spectrum, check_fields};
 use crate::kernel::{Gate, Kernel, Params, ScalarKernel, Scalars};
 
 /// One thing that would be held in memory.
@@ -64,7 +64,7 @@ pub struct Tally {
     pub levels: Vec<Shape>,
     /// Fields, in the order in which they were made.
     pub fields: Vec<Held>,
-    /// Spectra.
+    /// Spectra that are tables.
     pub spectra: Vec<Held>,
     /// Work space of transforms, one entry a level.
     pub work: Vec<Held>,
@@ -73,6 +73,7 @@ pub struct Tally {
     /// The first mistake in a field list.
     pub mistake: Option<BackendError>,
     scalars: Scalars,
+    spectra_made: usize,
     transforms: f64,
 }
 
@@ -102,6 +103,7 @@ impl Tally {
             passes: Vec::new(),
             mistake: None,
             scalars: Scalars::start(0.0, false),
+            spectra_made: 0,
             transforms: 0.0,
         }
     }
@@ -143,12 +145,16 @@ impl Backend for Tally {
         }
     }
 
-    fn spectrum(&mut self, level: Level, name: &'static str, _values: &[f64]) -> Spectrum {
-        let bytes = self.levels[level.0].spectrum_len() * self.place.number();
-        self.spectra.push(Held { name, level, bytes });
+    fn spectrum(&mut self, level: Level, name: &'static str, factors: Factors) -> Spectrum {
+        // A graphics processor computes those of a half-space in its registers.
+        if !(self.place.on_gpu() && matches!(factors, Factors::HalfSpace(..))) {
+            let bytes = self.levels[level.0].spectrum_len() * self.place.number();
+            self.spectra.push(Held { name, level, bytes });
+        }
+        self.spectra_made += 1;
         Spectrum {
             level,
-            index: self.spectra.len() - 1,
+            index: self.spectra_made - 1,
         }
     }
 

@@ -6,7 +6,9 @@
 mod half_space;
 mod layer;
 mod love;
+mod stiffness;
 
-pub use half_space::{periodic_stiffness, wave_stiffness};
+pub use half_space::{HalfSpace, periodic_stiffness, wave_stiffness};
 pub use layer::{Base, Layer, bonded_compliance, frictionless_compliance};
 pub use love::{free_stiffness, love_displacement};
+pub use stiffness::Stiffness;

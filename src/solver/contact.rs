@@ -8,7 +8,7 @@ use super::kernel_set::{KernelSet, fixed_params};
 use super::problem::Problem;
 use super::reference::Reference;
 use super::two_band::TwoBand;
-use crate::backend::{Backend, BackendError, Field, Level, Spectrum};
+use crate::backend::{Backend, BackendError, Field, Level, Response, Spectrum};
 use crate::kernel::{Gate, Params, Scalars, Status, common, scalar};
 use crate::law::Law;
 
@@ -98,9 +98,11 @@ pub struct ContactSolver<'a> {
 /// Evaluations that one search of a step length may take where each is looked at, the scalar kernels'
 /// own bounds included.
 const SEARCHES: usize = 48;
-/// Evaluations in a round that is not looked at: most searches need no more, and one that does goes on in
-/// the next round, which does nothing else.
+/// Evaluations in a round that is not looked at: a search that needs more goes on in the next round, which
+/// does nothing else. Behind a wall most searches take two.
 const SEARCHES_AT_ONCE: usize = 2;
+/// The same of Lennard-Jones, whose first evaluation rides in the trial: one more or none, most times.
+const SEARCHES_AT_ONCE_CORE: usize = 1;
 /// Rounds, lost trials and long searches included, that a solve may take for each iteration allowed.
 const ROUNDS_PER_ITERATION: usize = 4;
 
@@ -122,16 +124,15 @@ impl<'a> ContactSolver<'a> {
             backend.set_law_factor(field);
             field
         });
-        let stiffness = backend.spectrum(level, "stiffness", &problem.stiffness);
+        let stiffness = problem.spectrum(backend, level, "stiffness", Response::Stiffness);
         let two_band = TwoBand::plan(backend, level, problem);
-        let compliance: Vec<f64> = match &two_band {
-            Some(bands) => bands.short_waves(problem),
-            None => problem.compliance(),
+        let preconditioner = match &two_band {
+            Some(bands) => bands.short_waves(backend, "preconditioner", problem),
+            None => problem.spectrum(backend, level, "preconditioner", Response::Compliance),
         };
-        let preconditioner = backend.spectrum(level, "preconditioner", &compliance);
         let compliance = problem
             .conducts
-            .then(|| backend.spectrum(level, "compliance", &problem.compliance()));
+            .then(|| problem.spectrum(backend, level, "compliance", Response::Compliance));
         backend.write(heights, &problem.padded(&problem.heights, 0.0));
         let params = fixed_params(problem, backend.epsilon());
         ContactSolver {
@@ -441,7 +442,12 @@ impl<'a> ContactSolver<'a> {
         let fields = [self.gap, moved, self.pressure];
         let fields = &fields[..kernels.search.fields()];
         let looks = self.backend.look_every() == 1;
-        for _ in 0..if looks { SEARCHES } else { SEARCHES_AT_ONCE } {
+        let most = match self.step {
+            _ if looks => SEARCHES,
+            Some(_) => SEARCHES_AT_ONCE_CORE,
+            None => SEARCHES_AT_ONCE,
+        };
+        for _ in 0..most {
             if looks && !self.backend.scalars()?.is_open(Gate::Searching) {
                 break;
             }

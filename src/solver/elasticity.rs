@@ -26,7 +26,7 @@ impl ContactSolver<'_> {
     fn own_zero_mode(&self) -> f64 {
         match self.problem.boundary {
             Boundary::Periodic => 0.0,
-            Boundary::Free => self.problem.stiffness[0],
+            Boundary::Free => self.problem.stiffness.zero_mode(),
         }
     }
 

@@ -1,7 +1,7 @@
 //! A contact problem in reduced units, ready to be solved.
 
-use crate::backend::Shape;
-use crate::elastic::{Layer, free_stiffness, periodic_stiffness};
+use crate::backend::{Backend, Factors, Level, Response, Shape, Spectrum};
+use crate::elastic::{HalfSpace, Layer, Stiffness, free_stiffness, periodic_stiffness};
 use crate::grid::Grid;
 use crate::law::Law;
 use crate::scene::Boundary;
@@ -47,9 +47,8 @@ pub struct Problem {
     pub hardness: Option<f64>,
     /// The layer in place of the half-space (periodic grids), SI.
     pub layer: Option<Layer>,
-    /// Stiffness at each wavevector, as [`Shape::spectrum_len`] says; its zero mode is 0
-    /// (periodic) or the free half-space's.
-    pub stiffness: Vec<f64>,
+    /// Stiffness at each wavevector; its zero mode is 0 (periodic) or the free half-space's.
+    pub stiffness: Stiffness,
     /// Whether the conductance of its contacts is asked.
     pub conducts: bool,
 }
@@ -79,6 +78,14 @@ fn solved_shape(grid: &Grid, boundary: Boundary) -> Shape {
             points: [good_size(2 * grid.nx - 1), good_size(2 * grid.ny - 1)],
             surface: [grid.nx, grid.ny],
         },
+    }
+}
+
+/// Stiffness of a periodic half-space or layer, with this many metres to a lateral unit.
+fn layered_stiffness(grid: Grid, lateral: f64, layer: Option<&Layer>) -> Stiffness {
+    match layer {
+        None => Stiffness::HalfSpace(HalfSpace::new(grid, lateral)),
+        Some(_) => Stiffness::Table(periodic_stiffness(&grid, lateral, layer)),
     }
 }
 
@@ -116,9 +123,10 @@ impl Problem {
         };
         let shape = solved_shape(&grid, boundary);
         let stiffness = match boundary {
-            Boundary::Periodic => periodic_stiffness(&grid, lateral, None),
+            Boundary::Periodic => layered_stiffness(grid, lateral, None),
             Boundary::Free => {
-                free_stiffness(shape.points, [grid.dx() / lateral, grid.dy() / lateral])
+                let pixel = [grid.dx() / lateral, grid.dy() / lateral];
+                Stiffness::Table(free_stiffness(shape.points, pixel))
             }
         };
         Problem {
@@ -152,7 +160,7 @@ impl Problem {
     /// The same problem on a layer in place of the half-space (periodic grids).
     pub fn on_layer(self, layer: Layer) -> Problem {
         Problem {
-            stiffness: periodic_stiffness(&self.grid, self.scales.lateral, Some(&layer)),
+            stiffness: layered_stiffness(self.grid, self.scales.lateral, Some(&layer)),
             layer: Some(layer),
             ..self
         }
@@ -190,8 +198,8 @@ impl Problem {
         }
     }
 
-    /// A problem that has its shape and the kind of its law and no values: no heights, and a
-    /// stiffness of 1. A solver planned on it says what the problem costs, and cannot solve it.
+    /// A problem that has its shape and the kind of its law and no values: no heights, and where its
+    /// stiffness is a table one of 1. A solver planned on it says what the problem costs, and cannot solve it.
     ///
     /// `mapped` tells whether the law has a map of factors.
     pub fn sketch(
@@ -214,7 +222,10 @@ impl Problem {
             height_origin: 0.0,
             rms_slope: 0.0,
             law,
-            stiffness: vec![1.0],
+            stiffness: match (boundary, layer) {
+                (Boundary::Periodic, None) => layered_stiffness(grid, 1.0, None),
+                _ => Stiffness::Table(vec![1.0]),
+            },
             law_factor: mapped.then(Vec::new),
             hardness: None,
             layer,
@@ -258,7 +269,7 @@ impl Problem {
             grid,
             shape: Shape::whole(grid.nx, grid.ny),
             heights,
-            stiffness: periodic_stiffness(&grid, self.scales.lateral, self.layer.as_ref()),
+            stiffness: layered_stiffness(grid, self.scales.lateral, self.layer.as_ref()),
             law: self.law,
             // Only a wall without a law is helped by coarser grids.
             law_factor: None,
@@ -292,26 +303,35 @@ impl Problem {
 
     /// Largest stiffness over all wavevectors.
     pub fn stiffness_max(&self) -> f64 {
-        let largest = self.stiffness.iter().copied().fold(0.0, f64::max);
-        if largest > 0.0 { largest } else { 1.0 }
+        self.stiffness.largest()
     }
 
     /// Least stiffness over the wavevectors other than zero.
     pub fn stiffness_min(&self) -> f64 {
-        let least = self.stiffness[1..]
-            .iter()
-            .copied()
-            .fold(f64::INFINITY, f64::min);
-        if least.is_finite() { least } else { 1.0 }
+        self.stiffness.least()
     }
 
-    /// Inverse of the stiffness at each wavevector; 0 where that is 0.
-    pub fn compliance(&self) -> Vec<f64> {
-        let inverse = |&stiffness: &f64| match stiffness > 0.0 {
-            true => 1.0 / stiffness,
-            false => 0.0,
-        };
-        self.stiffness.iter().map(inverse).collect()
+    /// Makes the spectrum of the stiffness, or of its inverse, on a level of the solved points; 0 where
+    /// the stiffness is 0.
+    pub fn spectrum(
+        &self,
+        backend: &mut dyn Backend,
+        level: Level,
+        name: &'static str,
+        response: Response,
+    ) -> Spectrum {
+        match (&self.stiffness, response) {
+            (&Stiffness::HalfSpace(half_space), _) => {
+                backend.spectrum(level, name, Factors::HalfSpace(half_space, response))
+            }
+            (Stiffness::Table(values), Response::Stiffness) => {
+                backend.spectrum(level, name, Factors::Table(values))
+            }
+            (Stiffness::Table(values), _) => {
+                let values: Vec<f64> = values.iter().map(|&k| response.of(k)).collect();
+                backend.spectrum(level, name, Factors::Table(&values))
+            }
+        }
     }
 
     /// Displacement of a uniform unit pressure on a layer, reduced; 0 on the half-space, whose

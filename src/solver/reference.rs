@@ -4,7 +4,7 @@ use super::contact::{Hold, Load};
 use super::held::HeightsPressure;
 use super::kernel_set::{KernelSet, fixed_params};
 use super::problem::Problem;
-use crate::backend::{Backend, BackendError, Field, Level, Spectrum};
+use crate::backend::{Backend, BackendError, Field, Level, Response, Spectrum};
 use crate::kernel::{Gate, Params, Scalars, Status, base, common, scalar};
 
 /// Gap and pressure in double precision, and the evaluation of their residual.
@@ -67,7 +67,7 @@ impl Places {
             gap: backend.field(level, "gap"),
             pressure: backend.field(level, "pressure"),
             between: backend.field(level, "between"),
-            stiffness: backend.spectrum(level, "stiffness", &problem.stiffness),
+            stiffness: problem.spectrum(backend, level, "stiffness", Response::Stiffness),
             base: [
                 iterating.field(fine, "base_gap"),
                 iterating.field(fine, "base_total"),

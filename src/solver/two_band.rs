@@ -6,8 +6,8 @@
 //! `z = ((1-l)/K)*yF + P[Wc ((l/K)*(Wc R yF))]`, with `l = exp(-(8 q dx)^2)`.
 
 use super::problem::Problem;
-use crate::backend::{Backend, Field, Level, Shape, Spectrum};
-use crate::elastic::wave_stiffness;
+use crate::backend::{Backend, Factors, Field, Level, Response, Shape, Spectrum};
+use crate::elastic::{Stiffness, wave_stiffness};
 use crate::grid::Grid;
 use crate::kernel::{Gate, Kernel, coarse, wall, yielding};
 use crate::law::Law;
@@ -15,6 +15,9 @@ use crate::scene::Boundary;
 
 /// Fewest coarse points each way for which the second band pays.
 const FEWEST_COARSE: usize = 8;
+
+/// Pixels in the length beyond which waves count as long.
+const LONG_WAVES: f64 = 8.0;
 
 /// The coarse level of the preconditioner and its fields.
 pub(super) struct TwoBand {
@@ -35,7 +38,7 @@ pub(super) struct TwoBand {
 
 /// l at a wave number, with the pixel in the same unit.
 fn long_share(wavenumber: f64, pixel: f64) -> f64 {
-    (-(8.0 * wavenumber * pixel).powi(2)).exp()
+    (-(LONG_WAVES * wavenumber * pixel).powi(2)).exp()
 }
 
 impl TwoBand {
@@ -87,25 +90,37 @@ impl TwoBand {
             share: backend.field(level, "share"),
             weight: backend.field(level, "weight"),
             long_waves: backend.field(level, "long_waves"),
-            smoothing: backend.spectrum(level, "smoothing", &smoothing),
-            compliance: backend.spectrum(level, "long_compliance", &compliance),
+            smoothing: backend.spectrum(level, "smoothing", Factors::Table(&smoothing)),
+            compliance: backend.spectrum(level, "long_compliance", Factors::Table(&compliance)),
         })
     }
 
-    /// The compliance of the first band, `(1 - l)/K`, on the fine level.
-    pub fn short_waves(&self, problem: &Problem) -> Vec<f64> {
+    /// Makes the compliance of the first band, `(1 - l)/K`, on the fine level.
+    pub fn short_waves(
+        &self,
+        backend: &mut dyn Backend,
+        name: &'static str,
+        problem: &Problem,
+    ) -> Spectrum {
         let (grid, pixel) = (&problem.grid, problem.scales.lateral);
-        (0..=grid.nx / 2)
-            .flat_map(|kx| (0..=grid.ny / 2).map(move |ky| (kx, ky)))
-            .zip(&problem.stiffness)
-            .map(|((kx, ky), &stiffness)| {
-                if stiffness > 0.0 {
-                    (1.0 - long_share(grid.wavenumber(kx, ky), pixel)) / stiffness
-                } else {
-                    0.0
-                }
-            })
-            .collect()
+        match &problem.stiffness {
+            // Of a half-space K is q/2 times the pixel.
+            &Stiffness::HalfSpace(half_space) => {
+                let short = Response::ShortCompliance(2.0 * LONG_WAVES);
+                backend.spectrum(self.fine, name, Factors::HalfSpace(half_space, short))
+            }
+            Stiffness::Table(stiffness) => {
+                let values: Vec<f64> = (0..=grid.nx / 2)
+                    .flat_map(|kx| (0..=grid.ny / 2).map(move |ky| (kx, ky)))
+                    .zip(stiffness)
+                    .map(|((kx, ky), &stiffness)| match stiffness > 0.0 {
+                        true => (1.0 - long_share(grid.wavenumber(kx, ky), pixel)) / stiffness,
+                        false => 0.0,
+                    })
+                    .collect();
+                backend.spectrum(self.fine, name, Factors::Table(&values))
+            }
+        }
     }
 
     /// Sets the compliance of the zero mode.

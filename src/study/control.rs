@@ -70,7 +70,7 @@ impl<'s> Controller<'s> {
 
     /// Compliance of the free half-space to a uniform pressure on all solved points, reduced.
     fn free_compliance(&self) -> f64 {
-        1.0 / self.problem.stiffness[0]
+        1.0 / self.problem.stiffness.zero_mode()
     }
 
     /// Stiffness with which a prescribed approach holds the mean displacement, reduced: that of all

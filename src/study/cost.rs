@@ -20,7 +20,7 @@ pub struct Cost {
     pub fields: Vec<Held>,
     /// What the host keeps between the steps, in double precision.
     pub history: Vec<Held>,
-    /// Factors a wavevector.
+    /// Tables of factors, one a wavevector; a graphics processor has none of a periodic half-space.
     pub spectra: Vec<Held>,
     /// Work space of the transforms.
     pub work: Vec<Held>,

@@ -41,13 +41,17 @@ impl Memory {
             surface: [grid.nx, grid.ny],
         };
         let solved = shape.len() as u64;
-        let table = DOUBLE * shape.spectrum_len() as u64;
+        // A periodic half-space has a formula in its place.
+        let table = match (scene.grid.boundary, scene.solid.layer) {
+            (Boundary::Periodic, None) => 0,
+            _ => DOUBLE * shape.spectrum_len() as u64,
+        };
         let solver = cost.bytes() as u64;
         let on_processor = !cost.place.on_gpu();
         let solver_here = if on_processor { solver } else { 0 };
 
         let building = building(scene, grid);
-        // The surface keeps its heights, the problem reduced ones and its stiffness.
+        // The surface keeps its heights, the problem reduced ones and the table of its stiffness.
         let kept = 2 * DOUBLE * points + table;
         // Compliance and padded heights on their way to the backend.
         let planning = table + DOUBLE * solved;

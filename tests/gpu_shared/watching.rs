@@ -3,10 +3,11 @@
 use std::sync::{Arc, Mutex};
 
 use tabor::backend::gpu::Lent;
-use tabor::backend::{Backend, BackendError, Field, Level, Shape, Spectrum};
+use tabor::backend::{Backend, BackendError, Factors, Field, Level, Shape, Spectrum};
 use tabor::kernel::{Gate, Kernel, Params, ScalarKernel, Scalars};
 
-/// Names of kernels in the order in which they were asked for.
+/// Names of kernels in the order in which they were asked for; `multiply` where factors are computed,
+/// `multiply_by_table` where they are read.
 pub type Seen = Arc<Mutex<Vec<&'static str>>>;
 
 /// Passes everything on, and notes the kernels.
@@ -17,12 +18,15 @@ pub struct Watching<B> {
     pub here: Seen,
     /// What ran beside it in double precision.
     pub double: Seen,
+    /// Which spectra are tables.
+    tables: Vec<bool>,
 }
 
 /// The backend beside, which has none beside itself.
 struct Beside {
     inner: Box<dyn Backend + Send>,
     here: Seen,
+    tables: Vec<bool>,
 }
 
 impl<B> Watching<B> {
@@ -32,6 +36,7 @@ impl<B> Watching<B> {
             inner,
             here: Seen::default(),
             double: Seen::default(),
+            tables: Vec::new(),
         }
     }
 
@@ -44,7 +49,11 @@ impl<B: Backend> Watching<B> {
     fn beside(&self, shape: Shape) -> Option<Box<dyn Backend + Send>> {
         let inner = self.inner.in_double(shape)?;
         let here = Arc::clone(&self.double);
-        Some(Box::new(Beside { inner, here }))
+        Some(Box::new(Beside {
+            inner,
+            here,
+            tables: Vec::new(),
+        }))
     }
 }
 
@@ -73,8 +82,9 @@ macro_rules! passed_on {
         fn field(&mut self, level: Level, name: &'static str) -> Field {
             self.inner.field(level, name)
         }
-        fn spectrum(&mut self, level: Level, name: &'static str, values: &[f64]) -> Spectrum {
-            self.inner.spectrum(level, name, values)
+        fn spectrum(&mut self, level: Level, name: &'static str, factors: Factors) -> Spectrum {
+            self.tables.push(matches!(factors, Factors::Table(_)));
+            self.inner.spectrum(level, name, factors)
         }
         fn set_zero_mode(&mut self, spectrum: Spectrum, value: f64) {
             self.inner.set_zero_mode(spectrum, value);
@@ -129,7 +139,10 @@ macro_rules! passed_on {
             self.inner.forward(kernel, level, fields);
         }
         fn multiply(&mut self, by: Spectrum, energy: bool, gate: Gate) {
-            self.note("multiply");
+            self.note(match self.tables[by.index] {
+                true => "multiply_by_table",
+                false => "multiply",
+            });
             self.inner.multiply(by, energy, gate);
         }
         fn backward(&mut self, kernel: &'static Kernel, level: Level, fields: &[Field]) {

@@ -9,7 +9,7 @@ mod transform;
 
 use rayon::ThreadPoolBuilder;
 
-use super::{Backend, BackendError, Field, Level, Shape, Spectrum, check_fields};
+use super::{Backend, BackendError, Factors, Field, Level, Shape, Spectrum, check_fields};
 use crate::kernel::{Form, Gate, Kernel, Params, SUMS, ScalarKernel, Scalars, Twin, Whole};
 use crate::real::Real;
 use blocks::{BLOCK, Job, run_blocks};
@@ -215,10 +215,10 @@ impl<T: CpuReal> Backend for CpuBackend<T> {
         }
     }
 
-    fn spectrum(&mut self, level: Level, _name: &'static str, values: &[f64]) -> Spectrum {
-        debug_assert_eq!(values.len(), self.levels[level.0].shape.spectrum_len());
-        self.spectra
-            .push(values.iter().map(|&value| T::of(value)).collect());
+    fn spectrum(&mut self, level: Level, _name: &'static str, factors: Factors) -> Spectrum {
+        // A table is read faster than roots are taken.
+        let shape = self.levels[level.0].shape;
+        self.spectra.push(factors.tabulated(shape, T::of));
         Spectrum {
             level,
             index: self.spectra.len() - 1,

@@ -51,6 +51,20 @@ pub const CORRECTION: &str = part!("correction");
 pub const COPY: &str = part!("copy");
 /// Products of complex numbers.
 pub const FFT: &str = part!("fft");
+/// Factors out of a table.
+pub const FACTOR_TABLE: &str = part!("factor_table");
+/// The stiffness of a half-space, and the factors that are made of it.
+pub const HALF_SPACE: &str = part!("half_space");
+/// The stiffness.
+pub const FACTOR_STIFFNESS: &str = part!("factor_stiffness");
+/// The compliance.
+pub const FACTOR_COMPLIANCE: &str = part!("factor_compliance");
+/// The compliance to short waves.
+pub const FACTOR_SHORT_COMPLIANCE: &str = part!("factor_short_compliance");
+/// exp in single precision.
+pub const EXP_SINGLE: &str = part!("exp_single");
+/// exp in double precision.
+pub const EXP_DOUBLE: &str = part!("exp_double");
 
 const SHADERS: &[Shader] = shaders! {
     "load_displacement" false [];
@@ -175,12 +189,8 @@ impl LawPart {
         match (self, number) {
             (LawPart::HardWall, _) => &[part!("law_hard_wall")],
             (LawPart::MaugisDugdale, _) => &[part!("law_maugis_dugdale")],
-            (LawPart::Exponential, Number::Single) => {
-                &[part!("exp_single"), part!("law_exponential")]
-            }
-            (LawPart::Exponential, Number::Double) => {
-                &[part!("exp_double"), part!("law_exponential")]
-            }
+            (LawPart::Exponential, Number::Single) => &[EXP_SINGLE, part!("law_exponential")],
+            (LawPart::Exponential, Number::Double) => &[EXP_DOUBLE, part!("law_exponential")],
             (LawPart::LennardJones, _) => &[part!("law_lennard_jones")],
         }
     }

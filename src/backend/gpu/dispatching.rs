@@ -220,15 +220,16 @@ impl GpuBackend {
         }
         self.dispatch(Key::Multiply(by.index, energy, word), |backend| {
             let space = backend.level_space(by.level)?;
-            let passes = backend.column_passes(&space.plan, energy, gate);
+            let spectrum = backend.spectrum_space(by)?;
+            let passes = backend.column_passes(&space.plan, spectrum.source, energy, gate);
             let accesses = bindings::columns(space.plan.slabs, space.spare.is_some());
             let mut prepared = Vec::new();
             for (text, workgroups) in passes {
-                for (part, factors) in backend.spectrum_space(by)?.parts.iter().enumerate() {
+                for part in 0..space.plan.parts {
                     let shared = backend.shared(space, part);
                     let mut buffers = vec![&space.column_roots];
                     buffers.extend(&space.work);
-                    buffers.push(factors);
+                    buffers.push(spectrum.part(part));
                     buffers.extend(&space.spare);
                     let all: [(&[Access], &[&wgpu::Buffer]); 2] =
                         [(working(&shared), &shared), (&accesses, &buffers)];

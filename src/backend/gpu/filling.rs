@@ -3,9 +3,10 @@
 use super::layout::Number;
 use super::level::LevelPlan;
 use super::slabs::Limits;
-use super::space::{self, FieldSpace};
+use super::source::{FactorSource, OWN_FACTORS};
+use super::space::{self, FieldSpace, SpectrumSpace};
 use super::{GpuBackend, GpuError};
-use crate::backend::{Field, Shape};
+use crate::backend::{Factors, Field, Shape};
 
 /// Bytes of the buffer that tells a kernel its slab: the least that a uniform takes.
 const TURN_BYTES: usize = 16;
@@ -75,22 +76,41 @@ impl GpuBackend {
         Ok(())
     }
 
-    /// A spectrum in parts.
-    pub(super) fn write_parts(
+    /// A spectrum: its table in parts, or the few numbers that its factors are computed from.
+    pub(super) fn write_factors(
         &mut self,
         name: &str,
         plan: &LevelPlan,
-        values: &[f64],
-    ) -> Result<Vec<wgpu::Buffer>, GpuError> {
-        (0..plan.parts)
-            .map(|part| {
-                let range = plan.part_range(part);
-                let buffer = self.storage(name, self.number.bytes() * range.len())?;
-                let values = values.get(range).unwrap_or_default();
-                let bytes = self.number.bytes_of(values.iter().copied());
-                self.overwrite(&buffer, bytes)?;
-                Ok(buffer)
-            })
-            .collect()
+        factors: &Factors,
+    ) -> Result<SpectrumSpace, GpuError> {
+        let source = FactorSource::of(factors);
+        let mut buffer = |numbers: usize, values: &[f64]| -> Result<wgpu::Buffer, GpuError> {
+            let buffer = self.storage(name, self.number.bytes() * numbers)?;
+            let bytes = self.number.bytes_of(values.iter().copied());
+            self.overwrite(&buffer, bytes)?;
+            Ok(buffer)
+        };
+        let (first, others) = match *factors {
+            Factors::Table(values) => {
+                let mut part = |part| {
+                    let range = plan.part_range(part);
+                    buffer(range.len(), values.get(range).unwrap_or_default())
+                };
+                (
+                    part(0)?,
+                    (1..plan.parts).map(part).collect::<Result<_, _>>()?,
+                )
+            }
+            Factors::HalfSpace(half_space, response) => {
+                let [x, y] = half_space.steps();
+                let own: [f64; OWN_FACTORS] = [0.0, x, y, response.scale()];
+                (buffer(OWN_FACTORS, &own)?, Vec::new())
+            }
+        };
+        Ok(SpectrumSpace {
+            source,
+            first,
+            others,
+        })
     }
 }

@@ -13,7 +13,7 @@ use super::error::GpuError;
 use super::layout::Number;
 use super::level::LevelPlan;
 use super::plan::{GroupLimits, LinePlan};
-use super::source::{self, Pass};
+use super::source::{self, FactorSource, Pass};
 use super::space::Key;
 use crate::backend::{Level, Shape};
 use crate::kernel::Gate;
@@ -172,18 +172,19 @@ impl GpuBackend {
     pub(super) fn column_passes(
         &self,
         plan: &LevelPlan,
+        factors: FactorSource,
         energy: bool,
         gate: Gate,
     ) -> Vec<(String, [usize; 2])> {
         if plan.columns_then.is_none() {
-            let text = source::multiply(plan, energy, gate, self.wide);
+            let text = source::multiply(plan, factors, energy, gate, self.wide);
             return vec![(text, [plan.part_groups(), 1])];
         }
         let parts = plan.columns.groups(plan.column_parts());
         Pass::ALL
             .into_iter()
             .filter_map(|pass| {
-                let text = source::multiply_long(plan, pass, energy, gate, self.wide)?;
+                let text = source::multiply_long(plan, pass, factors, energy, gate, self.wide)?;
                 let along = match pass {
                     Pass::Middle => 1,
                     Pass::First | Pass::Last => parts,

@@ -34,7 +34,7 @@ use std::collections::HashMap;
 use std::f64::consts::TAU;
 
 use super::cpu::CpuBackend;
-use super::{Backend, BackendError, Field, Level, Shape, Spectrum};
+use super::{Backend, BackendError, Factors, Field, Level, Shape, Spectrum};
 use crate::kernel::{Gate, Kernel, Params, ScalarKernel, Scalars};
 use deciding::Deciding;
 use recorder::{Prepared, Recorder};
@@ -49,6 +49,7 @@ pub use layout::{Number, Wide};
 pub use lending::Lent;
 pub use plan::{Exchange, GroupLimits, LinePlan, radices};
 pub use slabs::Limits;
+pub use source::OWN_FACTORS;
 pub use timing::{KernelTime, Stopwatch, Timings};
 pub use traffic::Traffic;
 
@@ -310,11 +311,10 @@ impl Backend for GpuBackend {
         }
     }
 
-    fn spectrum(&mut self, level: Level, name: &'static str, values: &[f64]) -> Spectrum {
+    fn spectrum(&mut self, level: Level, name: &'static str, factors: Factors) -> Spectrum {
         let space = self.attempt(|backend| {
             let plan = backend.level_space(level)?.plan.clone();
-            let parts = backend.write_parts(name, &plan, values)?;
-            Ok(SpectrumSpace { parts })
+            backend.write_factors(name, &plan, &factors)
         });
         self.spectra.push(space);
         Spectrum {
@@ -325,7 +325,7 @@ impl Backend for GpuBackend {
 
     fn set_zero_mode(&mut self, spectrum: Spectrum, value: f64) {
         self.attempt(|backend| {
-            let first = backend.spectrum_space(spectrum)?.parts[0].clone();
+            let first = backend.spectrum_space(spectrum)?.first.clone();
             let bytes = backend.number.bytes_of([value]);
             backend.overwrite(&first, bytes)
         });

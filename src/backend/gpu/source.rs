@@ -9,6 +9,7 @@
 mod convert;
 mod copy;
 mod deciding;
+mod factors;
 mod long;
 mod rows;
 mod slabs;
@@ -27,6 +28,7 @@ use crate::kernel::{Form, Gate, Kernel, Reduce, SUMS};
 pub use convert::convert;
 pub use copy::copy;
 pub use deciding::{Decision, PAIRS, Reduction, Results, decide, two_sums};
+pub use factors::{FactorSource, OWN_FACTORS};
 pub use long::{Pass, multiply_long, rows_then};
 use rows::rows_main;
 pub use slabs::Whole;
@@ -295,7 +297,13 @@ fn ends(plan: &LinePlan) -> (usize, usize) {
 /// transforms A and B of the two halves of the rows apart: `A = (z(kx) + conj z(-kx))/2`,
 /// `B = (z(kx) - conj z(-kx))/2i`. Since the first radix is even, the lower legs of a butterfly
 /// are values of A and the upper ones those of B at the same places.
-pub fn multiply(plan: &LevelPlan, energy: bool, gate: Gate, wide: Wide) -> String {
+pub fn multiply(
+    plan: &LevelPlan,
+    factors: FactorSource,
+    energy: bool,
+    gate: Gate,
+    wide: Wide,
+) -> String {
     let columns = &plan.columns;
     let [width, height] = plan.shape;
     let pairs = plan.slab_pairs();
@@ -311,6 +319,7 @@ pub fn multiply(plan: &LevelPlan, energy: bool, gate: Gate, wide: Wide) -> Strin
     }
     source.push_str(&LineWriter::declarations(columns));
     source.push_str(catalogue::FFT);
+    factors.define(&mut source, plan);
     let [x, y] = LineWriter::workgroup_size(columns, false);
     work.declare(&mut source);
     let _ = write!(
@@ -367,11 +376,6 @@ pub fn multiply(plan: &LevelPlan, energy: bool, gate: Gate, wide: Wide) -> Strin
     writer.source.push_str("}\n");
     writer.transform(Direction::Forward);
     let scale = literal(1.0 / plan.points() as f64);
-    let row = height / 2 + 1;
-    let column = match plan.parts {
-        1 => "column".to_string(),
-        _ => format!("(column - slab.number * {}u)", plan.part_columns()),
-    };
     writer.source.push_str("if (inside) {\n");
     if energy {
         writer
@@ -384,7 +388,7 @@ pub fn multiply(plan: &LevelPlan, energy: bool, gate: Gate, wide: Wide) -> Strin
             let _ = writeln!(
                 source,
                 "{{ let row = {at};\n\
-                 let factor = factors[{column} * {row}u + min(row, {height}u - row)];",
+                 let factor = factor_of(column, min(row, {height}u - row));",
                 at = each.position(leg),
             );
             if energy {

@@ -1,6 +1,6 @@
 //! What the backend keeps on the device.
 
-use super::source::LevelPlan;
+use super::source::{FactorSource, LevelPlan};
 
 /// A level: its plan, its partial sums and the work space of its transforms.
 pub struct LevelSpace {
@@ -28,8 +28,20 @@ pub struct FieldSpace {
 
 /// One factor a wavevector.
 pub struct SpectrumSpace {
-    /// Its factors, a buffer each part.
-    pub parts: Vec<wgpu::Buffer>,
+    /// Where they come from.
+    pub source: FactorSource,
+    /// The first part of its table, or what stands for all of it; the zero wavevector's factor first.
+    pub first: wgpu::Buffer,
+    /// The other parts of its table.
+    pub others: Vec<wgpu::Buffer>,
+}
+
+impl SpectrumSpace {
+    /// What the columns of a part bind.
+    pub fn part(&self, part: usize) -> &wgpu::Buffer {
+        let other = part.checked_sub(1).and_then(|other| self.others.get(other));
+        other.unwrap_or(&self.first)
+    }
 }
 
 /// A buffer of zeros that can also be written to and read from.

@@ -12,7 +12,7 @@ use super::super::layout::Wide;
 use super::super::level::{LevelPlan, Place};
 use super::super::plan::LinePlan;
 use super::slabs::{self, Work, after_turns, first_turn};
-use super::{ends, gate_name, hand_in, preamble, reduction};
+use super::{FactorSource, ends, gate_name, hand_in, preamble, reduction};
 use crate::kernel::{Gate, Reduce, SUMS};
 
 /// The three passes over long columns.
@@ -190,6 +190,7 @@ fn column_places(source: &mut String, plan: &LevelPlan, work: &Work) {
 pub fn multiply_long(
     plan: &LevelPlan,
     pass: Pass,
+    factors: FactorSource,
     energy: bool,
     gate: Gate,
     wide: Wide,
@@ -214,6 +215,9 @@ pub fn multiply_long(
     }
     source.push_str(&LineWriter::declarations(line));
     source.push_str(catalogue::FFT);
+    if pass == Pass::Middle {
+        factors.define(&mut source, plan);
+    }
     work.declare(&mut source);
     column_places(&mut source, plan, &work);
     let interleaved = pass != Pass::Middle;
@@ -347,11 +351,6 @@ fn middle(source: &mut String, plan: &LevelPlan, then: &LinePlan, inside: &str, 
     writer.source.push_str("}\n");
     writer.transform(Direction::Forward);
     let scale = literal(1.0 / plan.points() as f64);
-    let row = height / 2 + 1;
-    let column = match plan.parts {
-        1 => "column".to_string(),
-        _ => format!("(column - slab.number * {}u)", plan.part_columns()),
-    };
     writer.source.push_str("if (inside) {\n");
     if energy {
         writer
@@ -364,7 +363,7 @@ fn middle(source: &mut String, plan: &LevelPlan, then: &LinePlan, inside: &str, 
             let _ = writeln!(
                 source,
                 "{{ let row = wave + {at} * {waves}u;\n\
-                 let factor = factors[{column} * {row}u + min(row, {height}u - row)];",
+                 let factor = factor_of(column, min(row, {height}u - row));",
                 at = each.position(leg),
             );
             if energy {

@@ -1,0 +1,93 @@
+//! What the waves of a convolution are multiplied by.
+
+use super::Shape;
+use crate::elastic::HalfSpace;
+
+/// One real, even factor a wavevector.
+#[derive(Clone, Copy, Debug)]
+pub enum Factors<'a> {
+    /// A table of them, as [`Shape::spectrum_len`] says.
+    Table(&'a [f64]),
+    /// Those of a half-space: a backend may compute them where it needs them, and hold nothing.
+    HalfSpace(HalfSpace, Response),
+}
+
+/// What is asked of an elastic solid of stiffness K at a wavevector.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Response {
+    /// K.
+    Stiffness,
+    /// 1/K.
+    Compliance,
+    /// `(1 - exp(-(a K)^2))/K` for this a: the compliance of short waves alone.
+    ShortCompliance(f64),
+}
+
+impl Response {
+    /// The factor of a wave of this stiffness; 0 where that is 0.
+    pub fn of(self, stiffness: f64) -> f64 {
+        match self {
+            Response::Stiffness => stiffness,
+            _ if stiffness <= 0.0 => 0.0,
+            Response::Compliance => 1.0 / stiffness,
+            Response::ShortCompliance(scale) => {
+                (1.0 - (-(scale * stiffness).powi(2)).exp()) / stiffness
+            }
+        }
+    }
+
+    /// The a of short waves; 0 where there is none.
+    pub fn scale(self) -> f64 {
+        match self {
+            Response::Stiffness | Response::Compliance => 0.0,
+            Response::ShortCompliance(scale) => scale,
+        }
+    }
+}
+
+impl Factors<'_> {
+    /// The factors of a shape, one after another.
+    pub fn tabulated<T>(&self, shape: Shape, number: impl Fn(f64) -> T) -> Vec<T> {
+        match *self {
+            Factors::Table(values) => {
+                debug_assert_eq!(values.len(), shape.spectrum_len());
+                values.iter().map(|&value| number(value)).collect()
+            }
+            Factors::HalfSpace(half_space, response) => {
+                let [nx, ny] = shape.points;
+                let mut values = Vec::with_capacity(shape.spectrum_len());
+                for kx in 0..=nx / 2 {
+                    for ky in 0..=ny / 2 {
+                        values.push(number(response.of(half_space.stiffness(kx, ky))));
+                    }
+                }
+                values
+            }
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::grid::Grid;
+
+    /// The unit cell's first wave along x: K = pi, and what is made of it.
+    #[test]
+    fn responses_of_a_wave() {
+        let half_space = HalfSpace::new(Grid::new([4, 4], [1.0, 1.0]), 1.0);
+        let shape = Shape::whole(4, 4);
+        let first = |response| {
+            let values = Factors::HalfSpace(half_space, response).tabulated(shape, |x| x);
+            assert_eq!(values.len(), 9);
+            assert_eq!(values[0], 0.0);
+            values[3]
+        };
+        let pi = std::f64::consts::PI;
+        assert!((first(Response::Stiffness) - pi).abs() < 1e-15);
+        assert!((first(Response::Compliance) - 1.0 / pi).abs() < 1e-15);
+        // 1 - exp(-1) = 0.6321205588285577.
+        let short = first(Response::ShortCompliance(1.0 / pi));
+        assert!((short - 0.6321205588285577 / pi).abs() < 1e-15);
+    }
+}

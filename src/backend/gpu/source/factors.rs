@@ -1,0 +1,75 @@
+//! How the columns come by their factors: out of a table, or computed where they are wanted.
+
+use std::fmt::Write;
+
+use super::super::catalogue;
+use super::super::layout::Number;
+use super::super::level::LevelPlan;
+use crate::backend::{Factors, Response};
+
+/// Numbers that a spectrum without a table binds in its place: the factor of the zero wavevector, the
+/// half-space's two steps, and the scale of short waves.
+pub const OWN_FACTORS: usize = 4;
+
+/// What a spectrum's factors are to a shader.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+pub enum FactorSource {
+    /// One number each, in a table.
+    Table,
+    /// The stiffness of a half-space.
+    Stiffness,
+    /// Its compliance.
+    Compliance,
+    /// Its compliance to short waves.
+    ShortCompliance,
+}
+
+impl FactorSource {
+    /// All of them.
+    pub const ALL: [FactorSource; 4] = [
+        FactorSource::Table,
+        FactorSource::Stiffness,
+        FactorSource::Compliance,
+        FactorSource::ShortCompliance,
+    ];
+
+    /// That of a spectrum.
+    pub fn of(factors: &Factors) -> Self {
+        match factors {
+            Factors::Table(_) => FactorSource::Table,
+            Factors::HalfSpace(_, Response::Stiffness) => FactorSource::Stiffness,
+            Factors::HalfSpace(_, Response::Compliance) => FactorSource::Compliance,
+            Factors::HalfSpace(_, Response::ShortCompliance(_)) => FactorSource::ShortCompliance,
+        }
+    }
+
+    /// Defines `factor_of`, the factor of a column of the grid and a row up to the middle one.
+    pub(super) fn define(self, source: &mut String, plan: &LevelPlan) {
+        let parts: &[&str] = match self {
+            FactorSource::Table => {
+                let first = match plan.parts {
+                    1 => "0u".to_string(),
+                    _ => format!("slab.number * {}u", plan.part_columns()),
+                };
+                let _ = writeln!(
+                    source,
+                    "const FACTOR_ROWS: u32 = {}u;\n\
+                     fn first_column() -> u32 {{ return {first}; }}",
+                    plan.shape[1] / 2 + 1
+                );
+                &[catalogue::FACTOR_TABLE]
+            }
+            FactorSource::Stiffness => &[catalogue::HALF_SPACE, catalogue::FACTOR_STIFFNESS],
+            FactorSource::Compliance => &[catalogue::HALF_SPACE, catalogue::FACTOR_COMPLIANCE],
+            FactorSource::ShortCompliance => &[
+                match plan.number {
+                    Number::Single => catalogue::EXP_SINGLE,
+                    Number::Double => catalogue::EXP_DOUBLE,
+                },
+                catalogue::HALF_SPACE,
+                catalogue::FACTOR_SHORT_COMPLIANCE,
+            ],
+        };
+        parts.iter().for_each(|part| source.push_str(part));
+    }
+}
