@@ -1,5 +1,8 @@
 // The decisions that belong to laws with a hard wall.
 
+// Steps that a pass of the search looks at, over the first one.
+const REACHES = array<wide, 4>(1.0, 1.75, 3.0, 5.0);
+
 // The share of a trial gap that brings it back to the held mean; gaps below zero are scaled the other way.
 fn restore_yield() {
     if (waits()) {
@@ -59,6 +62,15 @@ fn step_wall() {
     scalars.low[0] = ZERO;
     scalars.low[1] = scalars.slope;
     scalars.low[2] = ZERO;
+    reach(scalars.step);
+}
+
+// The steps that a pass of the search looks at, from the first one on.
+fn reach(step: wide) {
+    scalars.reached[0] = min(step * REACHES[0], scalars.step_first);
+    scalars.reached[1] = min(step * REACHES[1], scalars.step_first);
+    scalars.reached[2] = min(step * REACHES[2], scalars.step_first);
+    scalars.reached[3] = min(step * REACHES[3], scalars.step_first);
 }
 
 // Lengthens a step while the energy still falls steeply.
@@ -66,39 +78,40 @@ fn search_wall() {
     if (scalars.status != RUNNING || scalars.searching == 0u) {
         return;
     }
-    let t = scalars.step;
-    let slope = scalars.slope + t * scalars.curvature + scalars.sums[0];
+    let first = scalars.slope;
     scalars.evaluations = scalars.evaluations + 1u;
-    let before = scalars.low[0];
-    let slope_before = scalars.low[1];
-    if (scalars.evaluations > 1u && !(slope <= SEARCH_SHARE * abs(scalars.slope))) {
-        // Too far: the last step stands.
-        scalars.step = before;
-        scalars.length = before;
-        scalars.searching = 0u;
-        return;
+    var before = scalars.low[0];
+    var slope_before = scalars.low[1];
+    for (var place = 0u; place < 4u; place = place + 1u) {
+        let t = scalars.reached[place];
+        let slope = first + t * scalars.curvature + scalars.sums[place];
+        if (before > ZERO && !(slope <= SEARCH_SHARE * abs(first))) {
+            // Too far. The energy curves no more than it does without the attraction, so that from the step
+            // before it falls at least as far as the slope takes it to rise to zero.
+            scalars.step = min(before - slope_before / scalars.curvature, t);
+            scalars.length = scalars.step;
+            scalars.searching = 0u;
+            return;
+        }
+        if (before > ZERO) {
+            scalars.length = t;
+        }
+        scalars.step = t;
+        before = t;
+        slope_before = slope;
+        if (slope >= SEARCH_SHARE * first || t >= scalars.step_first) {
+            scalars.searching = 0u;
+            return;
+        }
     }
-    if (scalars.evaluations > 1u) {
-        scalars.length = t;
-    }
-    if (slope >= SEARCH_SHARE * scalars.slope || scalars.evaluations > EXTRAPOLATIONS) {
-        scalars.searching = 0u;
-        return;
-    }
-    let rise = (slope - slope_before) / (t - before);
-    var secant = params.infinity;
-    if (rise > ZERO) {
-        secant = -slope / rise;
-    }
-    let next = min(t + min(wide(4.0) * t, secant), scalars.step_first);
-    scalars.low[0] = t;
-    scalars.low[1] = slope;
+    scalars.low[0] = before;
+    scalars.low[1] = slope_before;
     scalars.low[2] = ZERO;
-    if (next > t) {
-        scalars.step = next;
-    } else {
+    if (scalars.evaluations > EXTRAPOLATIONS) {
         scalars.searching = 0u;
+        return;
     }
+    reach(before * REACHES[1]);
 }
 
 // What the step needs to know before it is taken.

@@ -594,6 +594,7 @@ fn numbers(s: &Scalars) -> Vec<(&'static str, f64)> {
     let flag = |value: bool| f64::from(u8::from(value));
     let mut all: Vec<_> = s.sums.iter().map(|&x| ("sums", x)).collect();
     all.extend(s.low.iter().map(|&x| ("low", x)));
+    all.extend(s.reached.iter().map(|&x| ("reached", x)));
     all.extend(s.high.iter().map(|&x| ("high", x)));
     all.extend(s.carried.iter().map(|&x| ("carried", x)));
     all.extend([
@@ -674,6 +675,9 @@ fn drawn(random: &mut Numbers, searches: bool) -> Scalars {
     scalars.step_first = number(&[infinite, 1.0]).abs().max(scalars.step);
     scalars.largest = number(&[0.0]).abs();
     scalars.low = [number(&[0.0]).abs(), -number(&[]).abs(), number(&[])];
+    for reach in &mut scalars.reached {
+        *reach = number(&[1.0]).abs().min(scalars.step_first);
+    }
     scalars.high = [number(&[infinite, infinite]).abs() + 1.0, number(&[]).abs()];
     let mut flag = |share: f64| random.next() + 0.5 < share;
     scalars.repeat = flag(0.2);

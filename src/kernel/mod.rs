@@ -23,7 +23,7 @@ mod points;
 mod rows;
 mod step;
 
-pub use params::{Gate, Params, SUMS, Scalars, Status};
+pub use params::{Gate, Params, REACHED, SUMS, Scalars, Status};
 pub use rows::{Rows, Whole};
 pub use scalar::ScalarKernel;
 

@@ -4,6 +4,8 @@ use crate::law::Law;
 
 /// Sums that one kernel may hand back.
 pub const SUMS: usize = 10;
+/// Steps that one pass of a search behind a wall looks at.
+pub const REACHED: usize = 4;
 
 /// Numbers that stay fixed during a solve, in reduced units.
 #[derive(Clone, Copy, Debug)]
@@ -111,6 +113,8 @@ pub struct Scalars {
     pub snap: f64,
     /// Lower end of the search: step, slope and energy there.
     pub low: [f64; 3],
+    /// Steps that the next pass of a search behind a wall looks at, rising.
+    pub reached: [f64; REACHED],
     /// Upper end of the search: step and slope; infinite while there is none.
     pub high: [f64; 2],
     /// Slope at step 1.
@@ -139,7 +143,7 @@ pub struct Scalars {
     pub searching: bool,
     /// Small plain steps instead of conjugate ones, to stay on the branch of a sharp law.
     pub careful: bool,
-    /// Evaluations in this search.
+    /// Evaluations in this search; behind a wall, passes.
     pub evaluations: u32,
     /// Trials lost in a row.
     pub lost: u32,
@@ -175,6 +179,7 @@ impl Scalars {
             largest: 0.0,
             snap: 0.0,
             low: [0.0; 3],
+            reached: [0.0; REACHED],
             high: [f64::INFINITY; 2],
             slope_at_one: 0.0,
             residual: f64::INFINITY,

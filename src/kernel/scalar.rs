@@ -2,7 +2,7 @@
 //!
 //! Slots of `sums` are those that the kernels before them fill.
 
-use crate::kernel::{Params, Scalars, Status};
+use crate::kernel::{Params, REACHED, Scalars, Status};
 
 /// One scalar kernel of the catalogue.
 pub struct ScalarKernel {
@@ -49,7 +49,10 @@ const CAREFUL_LENGTH: f64 = 0.25;
 const CAREFUL_UNTIL: f64 = 1e-3;
 /// Share of the first slope at which a search ends.
 const SEARCH_SHARE: f64 = 0.1;
-/// Extrapolations that one search may make.
+/// Steps that a pass of a search behind a wall looks at, over the first one: up to five times the step that
+/// the energy without attraction asks for, close enough to each other that one of them is near the best.
+const REACHES: [f64; REACHED] = [1.0, 1.75, 3.0, 5.0];
+/// Extrapolations, or passes, that one search may make.
 const EXTRAPOLATIONS: u32 = 6;
 /// Evaluations that one Lennard-Jones search may make.
 const EVALUATIONS: u32 = 40;
@@ -314,6 +317,7 @@ fn step_wall(params: &Params, scalars: &mut Scalars) {
         scalars.searching = params.law.has_tail() && scalars.step < scalars.step_first;
         scalars.evaluations = 0;
         scalars.low = [0.0, scalars.slope, 0.0];
+        reach(scalars, scalars.step);
     }
 }
 scalar_kernel!(
@@ -321,43 +325,47 @@ scalar_kernel!(
     STEP_WALL, step_wall
 );
 
+/// The steps that a pass of the search looks at, from the first one on.
+fn reach(scalars: &mut Scalars, step: f64) {
+    scalars.reached = REACHES.map(|reach| (step * reach).min(scalars.step_first));
+}
+
 fn search_wall(_: &Params, scalars: &mut Scalars) {
     if scalars.status != Status::Running || !scalars.searching {
         return;
     }
-    let t = scalars.step;
-    let slope = scalars.slope + t * scalars.curvature + scalars.sums[0];
+    let first = scalars.slope;
     scalars.evaluations += 1;
-    let [before, slope_before, _] = scalars.low;
-    // A slope that is no number is too far as well.
-    let too_far = slope.is_nan() || slope > SEARCH_SHARE * scalars.slope.abs();
-    if scalars.evaluations > 1 && too_far {
-        // Too far: the last step stands.
-        scalars.step = before;
-        scalars.length = before;
+    let [mut before, mut slope_before, _] = scalars.low;
+    for (t, change) in scalars.reached.into_iter().zip(scalars.sums) {
+        let slope = first + t * scalars.curvature + change;
+        // A slope that is no number is too far as well. The first step of all is never too far.
+        let too_far = slope.is_nan() || slope > SEARCH_SHARE * first.abs();
+        if before > 0.0 && too_far {
+            // Too far. The energy curves no more than it does without the attraction, so that from the step
+            // before it falls at least as far as the slope takes it to rise to zero.
+            let safe = before - slope_before / scalars.curvature;
+            scalars.step = safe.min(t);
+            scalars.length = scalars.step;
+            scalars.searching = false;
+            return;
+        }
+        if before > 0.0 {
+            scalars.length = t;
+        }
+        scalars.step = t;
+        (before, slope_before) = (t, slope);
+        if slope >= SEARCH_SHARE * first || t >= scalars.step_first {
+            scalars.searching = false;
+            return;
+        }
+    }
+    scalars.low = [before, slope_before, 0.0];
+    if scalars.evaluations > EXTRAPOLATIONS {
         scalars.searching = false;
         return;
     }
-    if scalars.evaluations > 1 {
-        scalars.length = t;
-    }
-    if slope >= SEARCH_SHARE * scalars.slope || scalars.evaluations > EXTRAPOLATIONS {
-        scalars.searching = false;
-        return;
-    }
-    let rise = (slope - slope_before) / (t - before);
-    let secant = if rise > 0.0 {
-        -slope / rise
-    } else {
-        f64::INFINITY
-    };
-    let next = (t + (4.0 * t).min(secant)).min(scalars.step_first);
-    scalars.low = [t, slope, 0.0];
-    if next > t {
-        scalars.step = next;
-    } else {
-        scalars.searching = false;
-    }
+    reach(scalars, before * REACHES[1]);
 }
 scalar_kernel!(
     /// Lengthens a step while the energy still falls steeply.

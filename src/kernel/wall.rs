@@ -10,7 +10,7 @@ use super::floor::{Floor, Rigid, State, trial_step};
 pub use super::held::WALL_TRIAL_HELD;
 use super::points::{Made, Point, PointKernel};
 pub use super::step::{WALL_ADVANCE, WALL_BALANCE, WALL_TURN, WALL_TURN_KEPT};
-use crate::kernel::{Params, Scalars, point_kernel};
+use crate::kernel::{Params, REACHED, Scalars, point_kernel};
 use crate::law::Cohesion;
 use crate::real::Real;
 
@@ -399,41 +399,60 @@ point_kernel!(
     sums [Add, Min, Max, Min, Max], gate Running
 );
 
-/// What the step t does to the traction.
+/// What the steps that a pass of the search looks at do to the traction.
 #[derive(Clone, Copy)]
 pub(super) struct Search<T, F> {
     floor: PhantomData<F>,
     length: T,
     restore: T,
-    t: T,
+    reached: [T; REACHED],
 }
 
-impl<T: Real, F: Floor<T>> PointKernel<T, 2, 0, 1> for Search<T, F> {
+impl<T: Real, F> Search<T, F> {
+    /// What each of the steps does to a point that counts. Written out, since the compiler makes no vectors
+    /// of a loop in here.
+    #[inline(always)]
+    pub fn gains(
+        &self,
+        law: &impl Cohesion<T>,
+        gap: T,
+        direction: T,
+        counts: bool,
+    ) -> [f64; REACHED] {
+        let step = trial_step(law.open(gap), self.length * direction, self.restore, false);
+        let gain = |t: T| {
+            let change = law.change(gap, t * step).double() * step.double();
+            if counts { change } else { 0.0 }
+        };
+        let [a, b, c, d] = self.reached;
+        [gain(a), gain(b), gain(c), gain(d)]
+    }
+}
+
+impl<T: Real, F: Floor<T>> PointKernel<T, 2, 0, REACHED> for Search<T, F> {
     #[inline(always)]
     fn of(_: &Params, scalars: &Scalars) -> Self {
         Search {
             floor: PhantomData,
             length: T::of(scalars.trial),
             restore: T::of(scalars.restore),
-            t: T::of(scalars.step),
+            reached: scalars.reached.map(T::of),
         }
     }
 
     #[inline(always)]
-    fn at(&self, law: &impl Cohesion<T>, point: Point<T, 2, 0>) -> Made<T, 0, 1> {
+    fn at(&self, law: &impl Cohesion<T>, point: Point<T, 2, 0>) -> Made<T, 0, REACHED> {
         let [gap, direction] = point.reads;
-        let step = trial_step(law.open(gap), self.length * direction, self.restore, false);
-        let change = law.change(gap, self.t * step).double() * step.double();
         Made {
             writes: [],
             line: point.line,
-            terms: [if point.on_surface { change } else { 0.0 }],
+            terms: self.gains(law, gap, direction, point.on_surface),
         }
     }
 }
 
 point_kernel!(
-    /// Sums `<sigma(g + t s) - sigma(g), s>`. Reads gap, direction.
+    /// Sums `<sigma(g + t s) - sigma(g), s>` of each t that a pass looks at. Reads gap, direction.
     WALL_SEARCH, wall_search, Sweep, Search over Rigid by each_point, reads 2, writes 0,
-    sums [Add], gate Searching
+    sums [Add, Add, Add, Add], gate Searching
 );

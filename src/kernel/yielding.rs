@@ -4,8 +4,8 @@
 use super::floor::{Floor, Yielding, trial_step};
 use super::points::{Made, Point, PointKernel};
 use super::step::{Advance, Turn, TurnKept, Weighing};
-use super::wall::{Descent, Directing, Free, FreeKept, Here, Trial, step_of, trial_terms};
-use crate::kernel::{Params, Scalars, point_kernel};
+use super::wall::{Descent, Directing, Free, FreeKept, Here, Search, Trial, step_of, trial_terms};
+use crate::kernel::{Params, REACHED, Scalars, point_kernel};
 use crate::law::Cohesion;
 use crate::real::Real;
 
@@ -141,54 +141,43 @@ point_kernel!(
     sums [Add, Min, Max, Min, Max], gate Running
 );
 
-/// What the step t does to the traction.
+/// What the steps that a pass of the search looks at do to the traction.
 #[derive(Clone, Copy)]
 struct YieldSearch<T, F> {
     floor: F,
     mean: T,
-    length: T,
-    restore: T,
-    t: T,
+    search: Search<T, F>,
 }
 
-impl<T: Real, F: Floor<T>> PointKernel<T, 3, 0, 1> for YieldSearch<T, F> {
+impl<T: Real, F: Floor<T>> PointKernel<T, 3, 0, REACHED> for YieldSearch<T, F> {
     #[inline(always)]
     fn of(params: &Params, scalars: &Scalars) -> Self {
         YieldSearch {
             floor: F::of(params),
             mean: T::of(scalars.mean_pressure),
-            length: T::of(scalars.trial),
-            restore: T::of(scalars.restore),
-            t: T::of(scalars.step),
+            search: Search::of(params, scalars),
         }
     }
 
     #[inline(always)]
-    fn at(&self, law: &impl Cohesion<T>, point: Point<T, 3, 0>) -> Made<T, 0, 1> {
+    fn at(&self, law: &impl Cohesion<T>, point: Point<T, 3, 0>) -> Made<T, 0, REACHED> {
         let [gap, direction, pressure] = point.reads;
-        let here = Here::at(
-            &self.floor,
-            law,
-            gap,
-            pressure + self.mean,
-            point.on_surface,
-        );
-        let step = trial_step(gap, self.length * direction, self.restore, false);
-        let change = law.change(gap, self.t * step).double() * step.double();
+        let elastic = pressure + self.mean;
+        let here = Here::at(&self.floor, law, gap, elastic, point.on_surface);
         // Below zero the pressure does not change.
         let counts = point.on_surface & !self.floor.goes_down(gap, here.y);
         Made {
             writes: [],
             line: point.line,
-            terms: [if counts { change } else { 0.0 }],
+            terms: self.search.gains(law, gap, direction, counts),
         }
     }
 }
 
 point_kernel!(
-    /// Sums `<sigma(g + t s) - sigma(g), s>`. Reads gap, direction, pressure.
+    /// Sums `<sigma(g + t s) - sigma(g), s>` of each t that a pass looks at. Reads gap, direction, pressure.
     YIELD_SEARCH, yield_search, Sweep, YieldSearch over Yielding by each_point_itself, reads 3, writes 0,
-    sums [Add], gate Searching
+    sums [Add, Add, Add, Add], gate Searching
 );
 point_kernel!(
     /// Takes K s and steps, then loads the new yF. Reads direction; updates gap, pressure; writes the

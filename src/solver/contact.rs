@@ -98,11 +98,10 @@ pub struct ContactSolver<'a> {
 /// Evaluations that one search of a step length may take where each is looked at, the scalar kernels'
 /// own bounds included.
 const SEARCHES: usize = 48;
-/// Evaluations in a round that is not looked at: a search that needs more goes on in the next round, which
-/// does nothing else. Behind a wall most searches take two.
-const SEARCHES_AT_ONCE: usize = 2;
-/// The same of Lennard-Jones, whose first evaluation rides in the trial: one more or none, most times.
-const SEARCHES_AT_ONCE_CORE: usize = 1;
+/// Passes of a search in a round that is not looked at: most need no more, and one that does goes on in the
+/// next round, which does nothing else. Behind a wall a pass looks at several steps; with Lennard-Jones the
+/// first one rides in the trial.
+const SEARCHES_AT_ONCE: usize = 1;
 /// Rounds, lost trials and long searches included, that a solve may take for each iteration allowed.
 const ROUNDS_PER_ITERATION: usize = 4;
 
@@ -442,11 +441,7 @@ impl<'a> ContactSolver<'a> {
         let fields = [self.gap, moved, self.pressure];
         let fields = &fields[..kernels.search.fields()];
         let looks = self.backend.look_every() == 1;
-        let most = match self.step {
-            _ if looks => SEARCHES,
-            Some(_) => SEARCHES_AT_ONCE_CORE,
-            None => SEARCHES_AT_ONCE,
-        };
+        let most = if looks { SEARCHES } else { SEARCHES_AT_ONCE };
         for _ in 0..most {
             if looks && !self.backend.scalars()?.is_open(Gate::Searching) {
                 break;

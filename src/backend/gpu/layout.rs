@@ -4,7 +4,7 @@
 //! `real` is the number of the fields; `wide` the one in which sums and scalars are kept: f64 where the
 //! device has it, else f32.
 
-use crate::kernel::{Params, SUMS, Scalars, Status, scalar};
+use crate::kernel::{Params, REACHED, SUMS, Scalars, Status, scalar};
 use crate::law::Law;
 
 /// The number in which the fields of a level are kept, and all that is done to them.
@@ -143,6 +143,7 @@ const SCALARS: &[Member] = &[
     ("snap", 1),
     ("carried", 2),
     ("low", 3),
+    ("reached", REACHED),
     ("high", 2),
     ("slope_at_one", 1),
     ("residual", 1),
@@ -352,6 +353,7 @@ pub fn scalars_bytes(scalars: &Scalars, wide: Wide) -> Vec<u8> {
         .chain(&single)
         .chain(&s.carried)
         .chain(&s.low)
+        .chain(&s.reached)
         .chain(&s.high)
         .chain(&last)
     {
@@ -437,6 +439,7 @@ pub fn scalars_of(bytes: &[u8], wide: Wide) -> Scalars {
         snap: r.number(),
         carried: r.numbers(),
         low: r.numbers(),
+        reached: r.numbers(),
         high: r.numbers(),
         slope_at_one: r.number(),
         residual: r.number(),
