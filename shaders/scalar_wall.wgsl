@@ -1,18 +1,6 @@
 // The decisions that belong to laws with a hard wall.
 
-// The share of a trial gap that brings it back to the held mean.
-fn restore_wall() {
-    if (waits()) {
-        return;
-    }
-    let trial = scalars.sums[1] + scalars.sums[0];
-    scalars.restore = ZERO;
-    if (trial > ZERO) {
-        scalars.restore = -scalars.sums[0] / trial;
-    }
-}
-
-// The same where gaps may be below zero, which are scaled the other way.
+// The share of a trial gap that brings it back to the held mean; gaps below zero are scaled the other way.
 fn restore_yield() {
     if (waits()) {
         return;

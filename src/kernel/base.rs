@@ -36,6 +36,19 @@ kernel!(
     BASE_TOTAL, base_total, Sweep, reads 2, writes 1, fresh 1, whole false, sums [], gate Always
 );
 
+fn base_rigid<T: Real>(rows: &mut Rows<T>, _: &Params, _: &Scalars, _: &mut [f64; SUMS]) {
+    let count = rows.len();
+    let (heights_pressure, pressure) = (&rows.reads[0][..count], &rows.reads[1][..count]);
+    for (i, left) in rows.writes[0][..count].iter_mut().enumerate() {
+        *left = heights_pressure[i] - pressure[i];
+    }
+}
+kernel!(
+    /// Minus the pressure that the base's gap makes, K h - p. Reads the pressure of the heights, pressure;
+    /// writes what takes its place in corrections.
+    BASE_RIGID, base_rigid, Sweep, reads 2, writes 1, fresh 1, whole false, sums [], gate Always
+);
+
 fn base_add_wall<T: Real>(
     rows: &mut Rows<T>,
     _: &Params,

@@ -12,6 +12,7 @@ pub mod coarse;
 pub mod common;
 pub mod core;
 pub mod floor;
+pub mod held;
 pub mod scalar;
 pub mod wall;
 pub mod yielding;

@@ -199,19 +199,6 @@ scalar_kernel!(
     DIRECT, direct
 );
 
-fn restore_wall(_: &Params, scalars: &mut Scalars) {
-    if scalars.waits() {
-        return;
-    }
-    let [step, present, ..] = scalars.sums;
-    let trial = present + step;
-    scalars.restore = if trial > 0.0 { -step / trial } else { 0.0 };
-}
-scalar_kernel!(
-    /// The share of a trial gap that brings it back to the held mean.
-    RESTORE_WALL, restore_wall
-);
-
 fn restore_yield(_: &Params, scalars: &mut Scalars) {
     if scalars.waits() {
         return;
@@ -221,7 +208,8 @@ fn restore_yield(_: &Params, scalars: &mut Scalars) {
     scalars.restore = if size > 0.0 { -step / size } else { 0.0 };
 }
 scalar_kernel!(
-    /// The same where gaps may be below zero, which are scaled the other way.
+    /// The share of a trial gap that brings it back to the held mean; gaps below zero are scaled the other
+    /// way.
     RESTORE_YIELD, restore_yield
 );
 

@@ -200,10 +200,33 @@ impl<T: Real, F: Floor<T>> PointKernel<T, 1, 3, 3> for Advance<T, F> {
     }
 }
 
+/// The same from K s0 and with the pressure of the heights, see [`held`](super::held).
+impl<T: Real, F: Floor<T>> PointKernel<T, 2, 3, 3> for Advance<T, F> {
+    #[inline(always)]
+    fn of(params: &Params, scalars: &Scalars) -> Self {
+        <Self as PointKernel<T, 1, 3, 3>>::of(params, scalars)
+    }
+
+    #[inline(always)]
+    fn at(&self, law: &impl Cohesion<T>, point: Point<T, 2, 3>) -> Made<T, 3, 3> {
+        let ([direction, rigid], [_, pressure, _]) = (point.reads, point.writes);
+        let answer = point.line + self.step.restore * (point.line + (pressure - rigid));
+        self.at(
+            law,
+            Point {
+                reads: [direction],
+                writes: point.writes,
+                line: answer,
+                on_surface: point.on_surface,
+            },
+        )
+    }
+}
+
 point_kernel!(
-    /// Takes K s and steps, where the mean gap is held; sums as `wall_balance`. Reads direction; updates
-    /// gap, pressure; writes the old yF.
-    WALL_ADVANCE, wall_advance, Store, Advance over Rigid by each_point, reads 1, writes 3, fresh 1,
+    /// Takes K s0 and steps, where the mean gap is held; sums as `wall_balance`. Reads direction, the pressure
+    /// of the heights; updates gap, pressure; writes the old yF.
+    WALL_ADVANCE, wall_advance, Store, Advance over Rigid by each_point, reads 2, writes 3, fresh 1,
     sums [Add, Add, Min], gate Running
 );
 

@@ -7,6 +7,7 @@
 use std::marker::PhantomData;
 
 use super::floor::{Floor, Rigid, State, trial_step};
+pub use super::held::WALL_TRIAL_HELD;
 use super::points::{Made, Point, PointKernel};
 pub use super::step::{WALL_ADVANCE, WALL_BALANCE, WALL_TURN, WALL_TURN_KEPT};
 use crate::kernel::{Params, Scalars, point_kernel};
@@ -395,94 +396,6 @@ point_kernel!(
     /// Turns the direction by the kept z and loads the trial step s. Reads gap, pressure; updates
     /// direction.
     WALL_TRIAL, wall_trial, Resume, Trial over Rigid by each_point, reads 2, writes 1,
-    sums [Add, Min, Max, Min, Max], gate Running
-);
-
-/// The new direction, with what its trial step takes off the mean gap.
-#[derive(Clone, Copy)]
-pub(super) struct Direct<T, F> {
-    floor: F,
-    mean: T,
-    directing: Directing<T>,
-    length: T,
-}
-
-impl<T: Real, F: Floor<T>> PointKernel<T, 2, 1, 2> for Direct<T, F> {
-    #[inline(always)]
-    fn of(params: &Params, scalars: &Scalars) -> Self {
-        Direct {
-            floor: F::of(params),
-            mean: T::of(scalars.mean_pressure),
-            directing: Directing::of(scalars),
-            length: T::of(scalars.trial),
-        }
-    }
-
-    #[inline(always)]
-    fn at(&self, law: &impl Cohesion<T>, point: Point<T, 2, 1>) -> Made<T, 1, 2> {
-        let ([gap, pressure], [direction]) = (point.reads, point.writes);
-        let here = Here::at(
-            &self.floor,
-            law,
-            gap,
-            pressure + self.mean,
-            point.on_surface,
-        );
-        let d = self.directing.turn(point.line, direction, here.free);
-        let open = here.state.open;
-        Made {
-            writes: [d],
-            line: point.line,
-            terms: [(self.length * d).most(-open).double(), open.double()],
-        }
-    }
-}
-
-point_kernel!(
-    /// Turns the direction by the kept z and sums the trial step and the gap (fixed mean gap). Reads
-    /// gap, pressure; updates direction.
-    WALL_DIRECT, wall_direct, Peek, Direct over Rigid by each_point, reads 2, writes 1,
-    sums [Add, Add], gate Running
-);
-
-/// The trial step scaled back to the held mean gap.
-#[derive(Clone, Copy)]
-pub(super) struct TrialHeld<T, F> {
-    floor: F,
-    mean: T,
-    length: T,
-    restore: T,
-}
-
-impl<T: Real, F: Floor<T>> PointKernel<T, 3, 0, 5> for TrialHeld<T, F> {
-    #[inline(always)]
-    fn of(params: &Params, scalars: &Scalars) -> Self {
-        TrialHeld {
-            floor: F::of(params),
-            mean: T::of(scalars.mean_pressure),
-            length: T::of(scalars.trial),
-            restore: T::of(scalars.restore),
-        }
-    }
-
-    #[inline(always)]
-    fn at(&self, law: &impl Cohesion<T>, point: Point<T, 3, 0>) -> Made<T, 0, 5> {
-        let [gap, pressure, direction] = point.reads;
-        let on_surface = point.on_surface;
-        let here = Here::at(&self.floor, law, gap, pressure + self.mean, on_surface);
-        let way = [self.length * direction, self.restore];
-        let (step, cut) = step_of(&self.floor, &here, way, on_surface);
-        Made {
-            writes: [],
-            line: step,
-            terms: trial_terms(step, &here, cut, on_surface),
-        }
-    }
-}
-
-point_kernel!(
-    /// Loads the trial step scaled back to the held mean gap. Reads gap, pressure, direction.
-    WALL_TRIAL_HELD, wall_trial_held, Load, TrialHeld over Rigid by each_point, reads 3, writes 0,
     sums [Add, Min, Max, Min, Max], gate Running
 );
 

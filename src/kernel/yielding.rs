@@ -4,7 +4,7 @@
 use super::floor::{Floor, Yielding, trial_step};
 use super::points::{Made, Point, PointKernel};
 use super::step::{Advance, Turn, TurnKept, Weighing};
-use super::wall::{Descent, Directing, Free, FreeKept, Here, Trial, TrialHeld};
+use super::wall::{Descent, Directing, Free, FreeKept, Here, Trial, step_of, trial_terms};
 use crate::kernel::{Params, Scalars, point_kernel};
 use crate::law::Cohesion;
 use crate::real::Real;
@@ -93,7 +93,10 @@ point_kernel!(
 /// The trial step scaled back to the held mean gap, unless no scaling brings it back.
 #[derive(Clone, Copy)]
 struct YieldTrialHeld<T, F> {
-    trial: TrialHeld<T, F>,
+    floor: F,
+    mean: T,
+    length: T,
+    restore: T,
     /// Whether the trial is lost: one that moves and does not descend.
     lost: bool,
 }
@@ -102,21 +105,32 @@ impl<T: Real, F: Floor<T>> PointKernel<T, 3, 0, 5> for YieldTrialHeld<T, F> {
     #[inline(always)]
     fn of(params: &Params, scalars: &Scalars) -> Self {
         YieldTrialHeld {
-            trial: TrialHeld::of(params, scalars),
+            floor: F::of(params),
+            mean: T::of(scalars.mean_pressure),
+            length: T::of(scalars.trial),
+            restore: T::of(scalars.restore),
             lost: !(scalars.restore > -1.0 && scalars.restore < 1.0),
         }
     }
 
     #[inline(always)]
     fn at(&self, law: &impl Cohesion<T>, point: Point<T, 3, 0>) -> Made<T, 0, 5> {
-        let made = self.trial.at(law, point);
+        let [gap, pressure, direction] = point.reads;
+        let on_surface = point.on_surface;
+        let here = Here::at(&self.floor, law, gap, pressure + self.mean, on_surface);
+        let way = [self.length * direction, self.restore];
+        let (step, cut) = step_of(&self.floor, &here, way, on_surface);
         match self.lost {
             true => Made {
                 writes: [],
                 line: T::zero(),
                 terms: [0.0, f64::INFINITY, 1.0, f64::INFINITY, 0.0],
             },
-            false => made,
+            false => Made {
+                writes: [],
+                line: step,
+                terms: trial_terms(step, &here, cut, on_surface),
+            },
         }
     }
 }

@@ -3,6 +3,7 @@
 use super::MakeBackend;
 use super::coarse_start;
 use super::correction::FIRST_TOLERANCE;
+use super::held::HeightsPressure;
 use super::kernel_set::{KernelSet, fixed_params};
 use super::problem::Problem;
 use super::reference::Reference;
@@ -25,7 +26,7 @@ pub enum Hold {
 pub struct Load {
     /// What is held fixed.
     pub hold: Hold,
-    /// Stiffness of the zero mode: 0 without a spring.
+    /// Stiffness of the zero mode: 0 without a spring, and where the mean gap is held.
     pub zero_stiffness: f64,
     /// The preconditioner's zero mode, a compliance.
     pub zero_compliance: f64,
@@ -60,23 +61,25 @@ pub struct ContactSolver<'a> {
     pub(super) backend: &'a mut dyn Backend,
     pub(super) problem: &'a Problem,
     pub(super) level: Level,
-    heights: Field,
+    pub(super) heights: Field,
     pub(super) gap: Field,
     pub(super) pressure: Field,
     pub(super) direction: Field,
     pub(super) free_before: Field,
+    /// K times the heights, where a mean gap is held by linearity.
+    pub(super) heights_pressure: Option<HeightsPressure>,
     /// Factors on the law's tension, where it is not the same everywhere and always.
     law_factor: Option<Field>,
     /// Those factors over the grid, where they are not the problem's own.
     present_factor: Option<Vec<f64>>,
     /// The trial step of a law whose change of variable makes it costly.
-    step: Option<Field>,
+    pub(super) step: Option<Field>,
     pub(super) stiffness: Spectrum,
     preconditioner: Spectrum,
     /// The compliance of all waves, where the contact's conductance is asked.
     pub(super) compliance: Option<Spectrum>,
     two_band: Option<TwoBand>,
-    kernels: &'static KernelSet,
+    pub(super) kernels: &'static KernelSet,
     pub(super) params: Params,
     /// The state in double precision, where iterations here are to be corrected by it; made when it
     /// is first asked for.
@@ -141,6 +144,7 @@ impl<'a> ContactSolver<'a> {
             pressure,
             direction,
             free_before,
+            heights_pressure: None,
             law_factor,
             present_factor: None,
             step,
@@ -226,6 +230,9 @@ impl<'a> ContactSolver<'a> {
             *height += offset;
         }
         self.backend.write(self.heights, &moved);
+        if let Some(heights_pressure) = &mut self.heights_pressure {
+            heights_pressure.forget();
+        }
         if let Some(reference) = self.reference() {
             reference.set_heights(&moved);
         }
@@ -297,6 +304,8 @@ impl<'a> ContactSolver<'a> {
             Hold::Pressure(pressure) => (false, pressure),
             Hold::Gap(_) => (true, 0.0),
         };
+        // K takes the mean of the heights away, by which the pressure of the heights counts.
+        debug_assert!(!fixed_gap || load.zero_stiffness == 0.0);
         self.backend.set_base(None);
         self.params.fixed_gap = fixed_gap;
         self.params.tolerance = tolerance;
@@ -311,6 +320,9 @@ impl<'a> ContactSolver<'a> {
             None => self
                 .backend
                 .set_zero_mode(self.preconditioner, load.zero_compliance),
+        }
+        if fixed_gap {
+            self.begin_held();
         }
         let mut scalars = Scalars::start(mean_pressure, careful);
         if let Hold::Gap(target) = load.hold {
@@ -355,15 +367,6 @@ impl<'a> ContactSolver<'a> {
         Ok(())
     }
 
-    fn balance(&mut self) {
-        if self.params.fixed_gap {
-            let fields = [self.gap, self.pressure];
-            self.backend
-                .sweep(self.kernels.balance, self.level, &fields);
-            self.backend.scalar(self.kernels.balance_scalar);
-        }
-    }
-
     /// One iteration.
     pub fn iterate(&mut self) -> Result<Scalars, BackendError> {
         self.record()?;
@@ -401,35 +404,25 @@ impl<'a> ContactSolver<'a> {
         }
         backend.scalar(&scalar::DIRECT);
         if held {
-            match self.step {
-                Some(step) => backend.sweep(kernels.direct, level, &[g, d, step]),
-                None => backend.sweep(kernels.direct, level, &[g, p, d]),
-            }
-            backend.scalar(kernels.restore);
-            let moved = self.step.unwrap_or(d);
-            backend.forward(kernels.trial_held, level, &[g, p, moved]);
+            self.try_held();
         } else {
             match self.step {
                 Some(step) => backend.forward(kernels.trial, level, &[g, p, d, step]),
                 None => backend.forward(kernels.trial, level, &[g, p, d]),
             }
+            backend.scalar(&scalar::ACCEPT);
+            backend.multiply(self.stiffness, true, Gate::Accepted);
         }
-        backend.scalar(&scalar::ACCEPT);
-        backend.multiply(self.stiffness, true, Gate::Accepted);
-        backend.scalar(kernels.step);
+        self.backend.scalar(kernels.step);
         if self.problem.law.has_tail() {
             self.search()?;
         }
-        let backend = &mut *self.backend;
-        backend.scalar(&scalar::SETTLE_WALL);
+        self.backend.scalar(&scalar::SETTLE_WALL);
         if held {
-            let moved = self.step.unwrap_or(d);
-            backend.backward(kernels.advance, level, &[moved, g, p, before]);
-            backend.scalar(kernels.lengthen);
-            backend.scalar(kernels.balance_scalar);
-            self.ready();
+            self.advance_held();
             return Ok(());
         }
+        let backend = &mut *self.backend;
         match (&self.two_band, self.step) {
             (Some(bands), _) => backend.turn(bands.turn, level, &[d, g, p, before, bands.free()]),
             (None, Some(step)) => backend.turn(kernels.turn, level, &[d, step, g, p, before]),

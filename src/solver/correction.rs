@@ -158,6 +158,12 @@ impl ContactSolver<'_> {
         watch: &mut dyn FnMut(&Scalars) -> bool,
     ) -> Result<(Scalars, bool), BackendError> {
         let base = self.refer(|reference, iterating, _| reference.hand_base(iterating))?;
+        if let (true, Some(heights_pressure)) = (self.params.fixed_gap, &mut self.heights_pressure)
+        {
+            heights_pressure.forget();
+            let rigid = heights_pressure.field();
+            self.refer(|reference, iterating, _| reference.hand_rigid(iterating, rigid))?;
+        }
         for field in [self.gap, self.pressure, self.direction, self.free_before] {
             self.backend.clear(field);
         }

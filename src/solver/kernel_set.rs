@@ -2,7 +2,7 @@
 //! Lennard-Jones core, and the numbers that stay fixed.
 
 use super::problem::Problem;
-use crate::kernel::{Kernel, Params, base, core, scalar, wall, yielding};
+use crate::kernel::{Kernel, Params, base, core, held, scalar, wall, yielding};
 
 /// The kernels of one family of laws. Those that end in `held` and `direct`, `advance` and `balance` are
 /// asked where the mean gap is held; in their place without it stand `descent`, `trial` and `turn`.
@@ -11,7 +11,9 @@ pub(super) struct KernelSet {
     pub free: &'static Kernel,
     pub descent: &'static Kernel,
     pub descent_held: &'static Kernel,
-    pub direct: &'static Kernel,
+    /// What sums a trial before the held mean gap is restored; `None` where a trial needs the restoring for
+    /// nothing but numbers, which follow by linearity.
+    pub direct: Option<&'static Kernel>,
     pub trial: &'static Kernel,
     pub trial_held: &'static Kernel,
     pub search: &'static Kernel,
@@ -33,14 +35,14 @@ static WALL: KernelSet = KernelSet {
     free: &wall::WALL_FREE,
     descent: &wall::WALL_DESCENT,
     descent_held: &wall::WALL_DESCENT_HELD,
-    direct: &wall::WALL_DIRECT,
+    direct: None,
     trial: &wall::WALL_TRIAL,
     trial_held: &wall::WALL_TRIAL_HELD,
     search: &wall::WALL_SEARCH,
     turn: &wall::WALL_TURN,
     advance: &wall::WALL_ADVANCE,
     balance: &wall::WALL_BALANCE,
-    restore: &scalar::RESTORE_WALL,
+    restore: &held::RESTORE_WALL,
     balance_scalar: &scalar::BALANCE_WALL,
     step: &scalar::STEP_WALL,
     search_scalar: &scalar::SEARCH_WALL,
@@ -54,7 +56,7 @@ static YIELD: KernelSet = KernelSet {
     free: &yielding::YIELD_FREE,
     descent: &yielding::YIELD_DESCENT,
     descent_held: &yielding::YIELD_DESCENT_HELD,
-    direct: &yielding::YIELD_DIRECT,
+    direct: Some(&yielding::YIELD_DIRECT),
     trial: &yielding::YIELD_TRIAL,
     trial_held: &yielding::YIELD_TRIAL_HELD,
     search: &yielding::YIELD_SEARCH,
@@ -75,7 +77,7 @@ static CORE: KernelSet = KernelSet {
     free: &core::CORE_FREE,
     descent: &core::CORE_DESCENT,
     descent_held: &core::CORE_DESCENT_HELD,
-    direct: &core::CORE_DIRECT,
+    direct: Some(&core::CORE_DIRECT),
     trial: &core::CORE_TRIAL,
     trial_held: &core::CORE_TRIAL_HELD,
     search: &core::CORE_SEARCH,

@@ -10,6 +10,7 @@ mod contact;
 mod correction;
 mod elasticity;
 mod frozen;
+mod held;
 mod kernel_set;
 mod problem;
 mod reference;

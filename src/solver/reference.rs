@@ -1,6 +1,7 @@
 //! The state of a contact in double precision, beside a solver whose iterations run in single.
 
 use super::contact::{Hold, Load};
+use super::held::HeightsPressure;
 use super::kernel_set::{KernelSet, fixed_params};
 use super::problem::Problem;
 use crate::backend::{Backend, BackendError, Field, Level, Response, Spectrum};
@@ -10,6 +11,8 @@ use crate::kernel::{Gate, Params, Scalars, Status, base, common, scalar};
 pub(super) struct Reference {
     backend: Box<dyn Backend + Send>,
     places: Places,
+    /// K times the heights, where a mean gap is held by linearity.
+    heights_pressure: Option<HeightsPressure>,
     kernels: &'static KernelSet,
     params: Params,
 }
@@ -30,9 +33,17 @@ struct Places {
 }
 
 /// Plans what mixed precision holds besides: on `double` the state, beside the `iterating` fields of a
-/// solver that is planned there the base of its corrections. To count it.
-pub fn plan_reference(double: &mut dyn Backend, iterating: &mut dyn Backend, problem: &Problem) {
-    Places::plan(double, iterating, Level(0), problem);
+/// solver that is planned there the base of its corrections. To count it for a load.
+pub fn plan_reference(
+    double: &mut dyn Backend,
+    iterating: &mut dyn Backend,
+    problem: &Problem,
+    load: &Load,
+) {
+    let places = Places::plan(double, iterating, Level(0), problem);
+    if matches!(load.hold, Hold::Gap(_)) && KernelSet::of(problem).direct.is_none() {
+        HeightsPressure::plan(double, places.level);
+    }
 }
 
 impl Places {
@@ -78,6 +89,7 @@ impl Reference {
         backend.write(places.heights, &problem.padded(&problem.heights, 0.0));
         Reference {
             places,
+            heights_pressure: None,
             kernels: KernelSet::of(problem),
             params: fixed_params(problem, backend.epsilon()),
             backend,
@@ -90,6 +102,9 @@ impl Reference {
 
     pub fn set_heights(&mut self, heights: &[f64]) {
         self.backend.write(self.places.heights, heights);
+        if let Some(heights_pressure) = &mut self.heights_pressure {
+            heights_pressure.forget();
+        }
     }
 
     /// Sets the factors on the law's tension, one a grid point.
@@ -124,6 +139,12 @@ impl Reference {
         self.backend.set_params(&self.params);
         self.backend
             .set_zero_mode(self.places.stiffness, load.zero_stiffness);
+        if fixed_gap && self.kernels.direct.is_none() {
+            let fields = [self.places.heights, self.places.pressure];
+            self.heights_pressure
+                .get_or_insert_with(|| HeightsPressure::plan(&mut *self.backend, self.places.level))
+                .find(&mut *self.backend, fields, self.places.stiffness);
+        }
         self.backend.set_scalars(&Scalars {
             offset,
             ..Scalars::start(mean_pressure, false)
@@ -206,6 +227,28 @@ impl Reference {
         iterating.take(there[0], backend, gap)?;
         iterating.take(there[1], backend, between)?;
         Ok(there)
+    }
+
+    /// Hands minus the pressure that the present gap makes, as last evaluated, to where the iterations run:
+    /// in place of that of the heights it is what the pressure of a correction differs by from that of its
+    /// open gap. Taken from p - K h here it keeps the digits that single precision would lose.
+    pub fn hand_rigid(
+        &mut self,
+        iterating: &mut dyn Backend,
+        rigid: Field,
+    ) -> Result<(), BackendError> {
+        let Some(heights_pressure) = &self.heights_pressure else {
+            return Ok(());
+        };
+        let Places {
+            level,
+            pressure,
+            between,
+            ..
+        } = self.places;
+        let fields = [heights_pressure.field(), pressure, between];
+        self.backend.sweep(&base::BASE_RIGID, level, &fields);
+        iterating.take(rigid, &mut *self.backend, between)
     }
 
     /// Has the iterations start from the present gap.

@@ -132,7 +132,7 @@ fn plan(
     let mut reference = Vec::new();
     if scene.arithmetic_on(place.on_gpu()) == Precision::Mixed {
         let mut double = Tally::on(Place::Double);
-        plan_reference(&mut double, &mut iterated, problem);
+        plan_reference(&mut double, &mut iterated, problem, &load);
         for held in [double.fields, double.spectra, double.work] {
             reference.extend(held);
         }

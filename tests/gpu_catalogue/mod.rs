@@ -1,7 +1,9 @@
 //! The whole catalogue, for the tests that go through it in a loop.
 #![allow(dead_code)]
 
-use tabor::kernel::{Kernel, ScalarKernel, base, coarse, common, core, scalar, wall, yielding};
+use tabor::kernel::{
+    Kernel, ScalarKernel, base, coarse, common, core, held, scalar, wall, yielding,
+};
 
 /// Every kernel over points.
 pub static KERNELS: &[&Kernel] = &[
@@ -14,7 +16,6 @@ pub static KERNELS: &[&Kernel] = &[
     &wall::WALL_DESCENT,
     &wall::WALL_DESCENT_HELD,
     &wall::WALL_TRIAL,
-    &wall::WALL_DIRECT,
     &wall::WALL_TRIAL_HELD,
     &wall::WALL_SEARCH,
     &wall::WALL_TURN,
@@ -46,6 +47,7 @@ pub static KERNELS: &[&Kernel] = &[
     &core::CORE_ADVANCE,
     &core::CORE_BALANCE,
     &base::BASE_TOTAL,
+    &base::BASE_RIGID,
     &base::BASE_ADD_WALL,
     &base::BASE_ADD_CORE,
     &base::BASE_HOLD_WALL,
@@ -63,7 +65,8 @@ pub static SCALAR_KERNELS: &[&ScalarKernel] = &[
     &scalar::JUDGE,
     &scalar::CARRY,
     &scalar::DIRECT,
-    &scalar::RESTORE_WALL,
+    &held::RESTORE_WALL,
+    &held::CURVE_WALL,
     &scalar::RESTORE_YIELD,
     &scalar::RESTORE_CORE,
     &scalar::ACCEPT,

@@ -76,7 +76,6 @@ const SHADERS: &[Shader] = shaders! {
     "wall_descent" true ["wall", "descend"];
     "wall_descent_held" true ["wall", "descend"];
     "wall_trial" true ["wall"];
-    "wall_direct" true ["wall"];
     "wall_trial_held" true ["wall"];
     "wall_search" true ["wall"];
     "wall_turn" true ["wall", "step"];
@@ -86,6 +85,7 @@ const SHADERS: &[Shader] = shaders! {
     "yield_direct" true ["yielding"];
     "yield_trial_held" true ["yielding"];
     "yield_search" true ["yielding"];
+    "yield_advance" true ["yielding", "step"];
     "core_residual" true ["core"];
     "core_free" true ["core"];
     "core_descent" true ["core"];
@@ -100,6 +100,7 @@ const SHADERS: &[Shader] = shaders! {
     "two_band_descent" false ["descend", "neighbours"];
     "two_band_descent_held" false ["descend", "neighbours"];
     "base_total" true [];
+    "base_rigid" false [];
     "base_add_wall" false [];
     "base_add_core" true ["core"];
     "base_hold_wall" false [];
@@ -119,15 +120,15 @@ const OVER_FLOW: &[Shader] = over_flow! {
     "yield_trial" of "wall_trial" [];
     "yield_turn" of "wall_turn" ["step"];
     "yield_turn_kept" of "wall_turn_kept" ["step"];
-    "yield_advance" of "wall_advance" ["step"];
     "yield_balance" of "wall_balance" [];
 };
 
-/// Parts of the scalar kernels: those of every law, of a wall, of the Lennard-Jones core, of the base of
-/// corrections.
-const SCALAR_PARTS: [&str; 4] = [
+/// Parts of the scalar kernels: those of every law, of a wall, of its held mean gap, of the Lennard-Jones
+/// core, of the base of corrections.
+const SCALAR_PARTS: [&str; 5] = [
     part!("scalar"),
     part!("scalar_wall"),
+    part!("scalar_held"),
     part!("scalar_core"),
     part!("scalar_base"),
 ];
