@@ -81,9 +81,9 @@
 //! of a law with a tail two each are an evaluation of the step length: two evaluations behind a wall, one of
 //! Lennard-Jones, whose first one rides in the trial. One that is not needed moves nothing; a search that
 //! needs more goes on in the next round, which does nothing else. In the rounds of mixed precision every
-//! kernel of a law reads two fields more. Under a mean gap the trial step is scaled back to it: by linearity,
-//! so that no pass comes between, but with Lennard-Jones and on a solid that flows, where the share that is
-//! added to a point is not linear in its step.
+//! kernel of a law reads two fields more. Under a mean gap the trial step is scaled back to it: by
+//! linearity, so that no pass comes between, but with Lennard-Jones and on a solid that flows, where the
+//! share that is added to a point is not linear in its step.
 #![warn(missing_docs)]
 
 pub mod accuracy;
