@@ -197,10 +197,8 @@ fn a_limited_address_space_is_no_abort() {
         .expect("a shell runs");
     let message = errors(&output);
     assert_eq!(output.status.code(), Some(2), "{message}");
-    assert!(
-        message.contains("768 x 768 points need ") && message.contains("take at most "),
-        "{message}"
-    );
+    // How much is left, and whether any grid fits, depends on the number of threads.
+    assert!(message.contains("768 x 768 points need "), "{message}");
 }
 
 /// What a relaxing solid remembers is the host's, also where an adapter solves.

@@ -8,6 +8,8 @@ use crate::study::{Cost, Memory};
 
 /// Environment variable that sets the memory a run may take, in bytes.
 const LIMIT: &str = "TABOR_MEMORY";
+/// Address space that the allocator reserves for each thread, used or not (glibc on 64 bits).
+const RESERVED: u64 = 64 << 20;
 
 /// Bytes that a run may take: what the machine has left, within the limits of its container and of its
 /// process, or what `TABOR_MEMORY` says. `None` where the system does not tell.
@@ -41,7 +43,8 @@ fn address_space_left() -> Option<u64> {
     };
     let limit = number("/proc/self/limits", "Max address space")?;
     let kibibytes = number("/proc/self/status", "VmSize:")?;
-    Some(limit.saturating_sub(kibibytes * 1024))
+    let threads = std::thread::available_parallelism().map_or(1, |count| count.get() as u64);
+    Some(limit.saturating_sub(kibibytes * 1024 + threads * RESERVED))
 }
 
 /// Refuses a run on `grid` that needs more memory than there is, with the largest grid that fits.
