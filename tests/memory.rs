@@ -180,6 +180,27 @@ fn what_does_not_fit_is_refused_with_the_largest_grid_that_does() {
     assert!(double.1 == 0 && single.1 == 0 && gpu.1 > 0);
 }
 
+/// The limit of the process counts as well, before anything fails to be allocated.
+#[test]
+#[cfg(target_os = "linux")]
+fn a_limited_address_space_is_no_abort() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let text = ROUGH.replace("BOUNDARY", "periodic");
+    fs::write(folder.path().join("scene.toml"), &text).expect("a scene");
+    // Of the 167 MiB that are counted, with the program's own.
+    let limited = "ulimit -v 150000; exec \"$0\" run scene.toml --quiet";
+    let output = std::process::Command::new("sh")
+        .args(["-c", limited, env!("CARGO_BIN_EXE_tabor")])
+        .current_dir(folder.path())
+        .env_remove("TABOR_MEMORY")
+        .output()
+        .expect("a shell runs");
+    let message = errors(&output);
+    assert_eq!(output.status.code(), Some(2), "{message}");
+    // How much is left, and whether any grid fits, depends on the number of threads.
+    assert!(message.contains("768 x 768 points need "), "{message}");
+}
+
 /// What a relaxing solid remembers is the host's, also where an adapter solves.
 #[test]
 fn the_host_keeps_the_history() {

@@ -8,9 +8,11 @@ use crate::study::{Cost, Memory};
 
 /// Environment variable that sets the memory a run may take, in bytes.
 const LIMIT: &str = "TABOR_MEMORY";
+/// Address space that the allocator reserves for each thread, used or not (glibc on 64 bits).
+const RESERVED: u64 = 64 << 20;
 
-/// Bytes that a run may take: what the machine has left, within the limits of its container, or
-/// what `TABOR_MEMORY` says. `None` where the system does not tell.
+/// Bytes that a run may take: what the machine has left, within the limits of its container and of its
+/// process, or what `TABOR_MEMORY` says. `None` where the system does not tell.
 fn available() -> Result<Option<u64>, Failure> {
     if let Ok(text) = std::env::var(LIMIT) {
         return match text.trim().parse() {
@@ -26,7 +28,23 @@ fn available() -> Result<Option<u64>, Failure> {
     let limit = system
         .cgroup_limits()
         .map_or(u64::MAX, |limits| limits.total_memory);
-    Ok((left > 0).then_some(left.min(limit)))
+    let left = left.min(limit);
+    Ok((left > 0).then_some(address_space_left().map_or(left, |space| left.min(space))))
+}
+
+/// Bytes of address space that this process may still take where it is limited (Linux, `ulimit -v`): past
+/// them nothing can be allocated, and nobody asks again.
+fn address_space_left() -> Option<u64> {
+    let number = |file: &str, key: &str| -> Option<u64> {
+        let text = std::fs::read_to_string(file).ok()?;
+        let value = text.lines().find_map(|line| line.strip_prefix(key))?;
+        // "unlimited" is no number.
+        value.split_whitespace().next()?.parse().ok()
+    };
+    let limit = number("/proc/self/limits", "Max address space")?;
+    let kibibytes = number("/proc/self/status", "VmSize:")?;
+    let threads = std::thread::available_parallelism().map_or(1, |count| count.get() as u64);
+    Some(limit.saturating_sub(kibibytes * 1024 + threads * RESERVED))
 }
 
 /// Refuses a run on `grid` that needs more memory than there is, with the largest grid that fits.
