@@ -363,7 +363,8 @@ fn the_work_of_a_loop_is_what_has_flowed() {
 }
 
 /// A hardness above every pressure is none, to the bit: for a wall with its coarse grids, for laws
-/// with and without a tail, for each control and boundary.
+/// with and without a tail, for each control and boundary. Under a held mean gap it is so to rounding: there
+/// a solid that flows takes the pressure of its trial from the trial itself, the other one by linearity.
 #[test]
 fn a_hardness_that_nothing_reaches() {
     let sharp =
@@ -394,12 +395,31 @@ fn a_hardness_that_nothing_reaches() {
             assert_eq!(row.plastic_energy, Some(0.0));
             row.plastic_energy = None;
             row.seconds = a.row.seconds;
-            assert_eq!(row, a.row, "{grid} {tables} {loading}, step {step}");
-            let (a, b) = (without.fields(step), with.fields(step));
-            assert_eq!(a.pressure, b.pressure);
-            assert_eq!(a.gap, b.gap);
+            let place = format!("{grid} {tables} {loading}, step {step}");
+            let (fields_a, fields_b) = (without.fields(step), with.fields(step));
+            if loading == gap {
+                assert_eq!(row.iterations, a.row.iterations, "{place}");
+                assert_eq!(row.contact_area_fraction, a.row.contact_area_fraction);
+                // Rounding of some ten iterations, 1e-15 each of what the fields are at the deepest.
+                let deepest = without.fields(1);
+                for (a, b, scale) in [
+                    (&fields_a.pressure, &fields_b.pressure, &deepest.pressure),
+                    (&fields_a.gap, &fields_b.gap, &deepest.gap),
+                ] {
+                    let largest = scale.iter().fold(0.0f64, |most, x| most.max(x.abs()));
+                    for (x, y) in a.iter().zip(b.iter()) {
+                        assert!((x - y).abs() <= 1e-12 * largest, "{x} {y}, {place}");
+                    }
+                }
+                continue;
+            }
+            assert_eq!(row, a.row, "{place}");
+            assert_eq!(fields_a.pressure, fields_b.pressure);
+            assert_eq!(fields_a.gap, fields_b.gap);
         }
-        assert_eq!(without.end.transforms, with.end.transforms);
+        // The pressure of the heights, found once.
+        let heights = if loading == gap { 2.0 } else { 0.0 };
+        assert_eq!(without.end.transforms, with.end.transforms + heights);
     }
 }
 
