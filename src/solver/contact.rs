@@ -229,9 +229,6 @@ impl<'a> ContactSolver<'a> {
             *height += offset;
         }
         self.backend.write(self.heights, &moved);
-        if let Some(heights_pressure) = &mut self.heights_pressure {
-            heights_pressure.forget();
-        }
         if let Some(reference) = self.reference() {
             reference.set_heights(&moved);
         }

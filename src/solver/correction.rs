@@ -158,9 +158,7 @@ impl ContactSolver<'_> {
         watch: &mut dyn FnMut(&Scalars) -> bool,
     ) -> Result<(Scalars, bool), BackendError> {
         let base = self.refer(|reference, iterating, _| reference.hand_base(iterating))?;
-        if let (true, Some(heights_pressure)) = (self.params.fixed_gap, &mut self.heights_pressure)
-        {
-            heights_pressure.forget();
+        if let (true, Some(heights_pressure)) = (self.params.fixed_gap, &self.heights_pressure) {
             let rigid = heights_pressure.field();
             self.refer(|reference, iterating, _| reference.hand_rigid(iterating, rigid))?;
         }

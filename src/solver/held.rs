@@ -2,17 +2,16 @@
 //! takes.
 //!
 //! Over a wall the trial is scaled back by linearity (see [`held`](crate::kernel::held)), which takes the
-//! pressure of the heights: K h, found once where they have not moved since.
+//! pressure of the heights, K h.
 
 use super::contact::ContactSolver;
 use crate::backend::{Backend, Field, Level, Spectrum};
 use crate::kernel::{Gate, Scalars, common, held, scalar};
 
-/// K h in a field of its own.
+/// K h in a field of its own. It is found anew for each load, so that what a step takes does not depend on
+/// which steps the same process has done before it.
 pub(super) struct HeightsPressure {
     field: Field,
-    /// Whether it belongs to the present heights.
-    present: bool,
 }
 
 impl HeightsPressure {
@@ -20,7 +19,6 @@ impl HeightsPressure {
     pub fn plan(backend: &mut dyn Backend, level: Level) -> Self {
         HeightsPressure {
             field: backend.field(level, "heights_pressure"),
-            present: false,
         }
     }
 
@@ -29,21 +27,13 @@ impl HeightsPressure {
         self.field
     }
 
-    /// Says that the field no longer holds K h.
-    pub fn forget(&mut self) {
-        self.present = false;
-    }
-
     /// Has the field hold K h; `pressure` is work space, and the scalars are set anew afterwards.
     pub fn find(
-        &mut self,
+        &self,
         backend: &mut dyn Backend,
         [heights, pressure]: [Field; 2],
         stiffness: Spectrum,
     ) {
-        if self.present {
-            return;
-        }
         // The heights alone: no gap, and no offset, which K takes away and whose rounding it keeps.
         backend.set_scalars(&Scalars::start(0.0, false));
         backend.clear(pressure);
@@ -51,7 +41,6 @@ impl HeightsPressure {
         backend.forward(&common::LOAD_DISPLACEMENT, level, &[pressure, heights]);
         backend.multiply(stiffness, false, Gate::Always);
         backend.backward(&common::STORE_PRESSURE, level, &[self.field]);
-        self.present = true;
     }
 }
 

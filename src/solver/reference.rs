@@ -102,9 +102,6 @@ impl Reference {
 
     pub fn set_heights(&mut self, heights: &[f64]) {
         self.backend.write(self.places.heights, heights);
-        if let Some(heights_pressure) = &mut self.heights_pressure {
-            heights_pressure.forget();
-        }
     }
 
     /// Sets the factors on the law's tension, one a grid point.

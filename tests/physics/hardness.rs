@@ -417,8 +417,11 @@ fn a_hardness_that_nothing_reaches() {
             assert_eq!(fields_a.pressure, fields_b.pressure);
             assert_eq!(fields_a.gap, fields_b.gap);
         }
-        // The pressure of the heights, found once.
-        let heights = if loading == gap { 2.0 } else { 0.0 };
+        // The pressure of the heights, once a step.
+        let heights = match loading == gap {
+            true => 2.0 * without.steps.len() as f64,
+            false => 0.0,
+        };
         assert_eq!(without.end.transforms, with.end.transforms + heights);
     }
 }
