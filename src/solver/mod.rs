@@ -4,6 +4,8 @@
 //! the elastic pressure p = K*u. With y = p + mean_pressure + sigma(g), a solution has y >= 0 where
 //! the gap is closed (there y is the wall's reaction) and y = 0 where it is open. It is a stationary
 //! point of `<u, Ku>/2 + <V(g)> + mean_pressure <g>`, which each accepted step lowers.
+//!
+//! [`plain`] tells the method in plain arrays; [`ContactSolver`] carries it out on a backend.
 
 mod coarse_start;
 mod contact;
@@ -12,6 +14,7 @@ mod elasticity;
 mod frozen;
 mod held;
 mod kernel_set;
+pub mod plain;
 mod problem;
 mod reference;
 mod two_band;
