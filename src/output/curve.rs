@@ -5,8 +5,8 @@ use std::fs::{self, File, OpenOptions};
 use std::io::{self, Write as _};
 use std::path::{Path, PathBuf};
 
-use super::error::OutputError;
-use super::folder::write_within;
+use super::error::{FRESH, OutputError};
+use super::folder::{set_aside, write_within};
 use crate::study::{Column, State, StepRow};
 
 /// First line of `curve.csv` where no effect adds a column.
@@ -48,14 +48,14 @@ impl Curve {
         if lines.next().map(str::trim_end) != Some(header(&curve.columns).as_str()) {
             return Err(OutputError::refused(
                 path,
-                "is not a curve that this version of tabor wrote",
+                format!("is not a curve that this version of tabor wrote; {FRESH}"),
             ));
         }
         for (index, line) in lines.enumerate() {
             let row = parse_row(line, &curve.columns).filter(|row| row.step == index + 1);
             let row = row.ok_or_else(|| {
                 let reason = format!(
-                    "line {} is not row {} of a curve; run without --resume to start afresh",
+                    "line {} is not row {} of a curve; {FRESH}",
                     index + 2,
                     index + 1
                 );
@@ -72,39 +72,48 @@ impl Curve {
         &self.rows
     }
 
+    /// Refuses a curve with fewer rows than `finished`, or whose rows up to that are not those that the
+    /// checksum was made of.
+    pub fn expect(&self, finished: usize, checksum: u32) -> Result<(), OutputError> {
+        let Some(rows) = self.rows.get(..finished) else {
+            let reason = format!(
+                "has {} whole rows where {finished} steps are finished; {FRESH}",
+                self.rows.len()
+            );
+            return Err(OutputError::refused(&self.path, reason));
+        };
+        if self.checksum_of(rows).finalize() != checksum {
+            let reason = format!("was changed since its steps were solved; {FRESH}");
+            return Err(OutputError::refused(&self.path, reason));
+        }
+        Ok(())
+    }
+
+    fn checksum_of(&self, rows: &[StepRow]) -> crc32fast::Hasher {
+        let mut found = crc32fast::Hasher::new();
+        for row in rows {
+            add_row(&mut found, row, &self.columns);
+        }
+        found
+    }
+
     /// Goes on after the first `finished` rows, whose checksum is known; later ones are dropped.
     ///
-    /// Refused where there are fewer, or where they are not those that the checksum was made of.
+    /// Refused where [`expect`](Curve::expect) refuses.
     pub fn go_on(
         mut self,
         finished: usize,
         checksum: u32,
     ) -> Result<(CurveWriter, Vec<StepRow>), OutputError> {
-        if self.rows.len() < finished {
-            let reason = format!(
-                "has {} whole rows where {finished} steps are finished; run without --resume to start afresh",
-                self.rows.len()
-            );
-            return Err(OutputError::refused(&self.path, reason));
-        }
+        self.expect(finished, checksum)?;
         self.rows.truncate(finished);
-        let mut found = crc32fast::Hasher::new();
-        for row in &self.rows {
-            add_row(&mut found, row, &self.columns);
-        }
-        if found.clone().finalize() != checksum {
-            return Err(OutputError::refused(
-                &self.path,
-                "was changed since its steps were solved; run without --resume to start afresh",
-            ));
-        }
+        let found = self.checksum_of(&self.rows);
         let text = format!(
             "{}\n{}",
             header(&self.columns),
             self.lines[..finished].concat()
         );
-        write_within(&self.path, text.as_bytes())?;
-        let writer = CurveWriter::append_to(&self.path, self.columns, found)?;
+        let writer = CurveWriter::write(&self.path, self.columns, text, found)?;
         Ok((writer, self.rows))
     }
 }
@@ -115,32 +124,62 @@ pub struct CurveWriter {
     path: PathBuf,
     columns: Vec<Column>,
     file: File,
+    /// What the file holds.
+    text: String,
     checksum: crc32fast::Hasher,
 }
 
 impl CurveWriter {
     /// Starts a curve at `path` with its head, these columns behind the others, and no rows.
     pub fn create(path: &Path, columns: Vec<Column>) -> Result<CurveWriter, OutputError> {
-        write_within(path, format!("{}\n", header(&columns)).as_bytes())?;
-        CurveWriter::append_to(path, columns, crc32fast::Hasher::new())
+        let text = format!("{}\n", header(&columns));
+        CurveWriter::write(path, columns, text, crc32fast::Hasher::new())
     }
 
-    /// Goes on with the file at `path`, whose rows gave this checksum.
-    fn append_to(
+    /// Writes the file at `path` anew, with rows that gave this checksum.
+    fn write(
         path: &Path,
         columns: Vec<Column>,
+        text: String,
         checksum: crc32fast::Hasher,
     ) -> Result<CurveWriter, OutputError> {
-        let file = OpenOptions::new()
-            .append(true)
-            .open(path)
-            .map_err(OutputError::write("open", path))?;
         Ok(CurveWriter {
             path: path.to_path_buf(),
             columns,
-            file,
+            file: written(path, &text)?,
+            text,
             checksum,
         })
+    }
+
+    /// Writes the curve anew from memory where the file under its name is not the one that this run writes, or
+    /// has another length; with `whole` its content is compared too. Returns what was found, in words.
+    pub fn mend(&mut self, whole: bool) -> Result<Option<String>, OutputError> {
+        let here = match fs::metadata(&self.path) {
+            Ok(found) => Some(found),
+            Err(error) if error.kind() == io::ErrorKind::NotFound => None,
+            Err(error) => return Err(OutputError::write("read", &self.path)(error)),
+        };
+        let mended = match here {
+            None => "was removed while the run went on; its rows are written anew".to_owned(),
+            Some(here) => {
+                let same = here.len() == self.text.len() as u64
+                    && is_one_file(&here, &self.file)
+                    && (!whole
+                        || fs::read(&self.path).map_err(OutputError::write("read", &self.path))?
+                            == self.text.as_bytes());
+                if same {
+                    return Ok(None);
+                }
+                let aside = set_aside(&self.path)?;
+                format!(
+                    "was changed by another program while the run went on; its rows are written anew, and what was there is kept in {}",
+                    aside.display()
+                )
+            }
+        };
+        self.file = written(&self.path, &self.text)?;
+        Ok(Some(format!("{} {mended}", self.path.display())))
     }
 
     /// Appends one row and waits until it is on the disk.
@@ -151,6 +190,7 @@ impl CurveWriter {
             .write_all(line.as_bytes())
             .and_then(|()| self.file.sync_data())
             .map_err(OutputError::write("write", &self.path))?;
+        self.text.push_str(&line);
         add_row(&mut self.checksum, row, &self.columns);
         Ok(())
     }
@@ -160,6 +200,31 @@ impl CurveWriter {
     pub fn checksum(&self) -> u32 {
         self.checksum.clone().finalize()
     }
+}
+
+/// Writes a curve in one piece and opens it for further rows.
+fn written(path: &Path, text: &str) -> Result<File, OutputError> {
+    write_within(path, text.as_bytes())?;
+    OpenOptions::new()
+        .append(true)
+        .open(path)
+        .map_err(OutputError::write("open", path))
+}
+
+/// Whether the file found under a name is the open one.
+#[cfg(unix)]
+fn is_one_file(found: &fs::Metadata, open: &File) -> bool {
+    use std::os::unix::fs::MetadataExt;
+    let place = |data: &fs::Metadata| (data.dev(), data.ino());
+    // What cannot be asked is not taken for another.
+    open.metadata()
+        .map_or(true, |open| place(&open) == place(found))
+}
+
+/// Elsewhere an open file keeps its name.
+#[cfg(not(unix))]
+fn is_one_file(_: &fs::Metadata, _: &File) -> bool {
+    true
 }
 
 /// One line of `curve.csv`, with its line end.
