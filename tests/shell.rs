@@ -169,20 +169,17 @@ const ACTING: &str = "\u{1b}[2J\u{1b}]0;x\u{7}\u{1b}[31mred\u{9b}1m\rnote: forge
 /// What a program's words do not hold but as its own colours.
 fn acts(bytes: &[u8]) -> Option<String> {
     let text = String::from_utf8_lossy(bytes);
-    // Its own: styles, the progress line's moves to its beginning and clearing of it, and ends of lines as
-    // a terminal has them.
-    let mut left = text.replace("\r\n", "\n");
+    // Its own: styles, ends of lines as a terminal has them, and the progress line, which is padded to its width and
+    // drawn over.
+    let mut left = text.replace("\r\n", "\n").replace(" \r", " \n");
     for own in [
+        "\u{1b}[1m\u{1b}[31m",
+        "\u{1b}[31m\u{1b}[1m",
         "\u{1b}[0m",
         "\u{1b}[1m",
         "\u{1b}[4m",
-        "\u{1b}[31m\u{1b}[1m",
-        "\u{1b}[1m\u{1b}[31m",
         "\u{1b}[32m",
         "\u{1b}[33m",
-        "\u{1b}[2K",
-        "\u{1b}[1B",
-        "\u{1b}[1A",
     ] {
         left = left.replace(own, "");
     }

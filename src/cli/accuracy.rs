@@ -12,7 +12,8 @@ use super::interrupts::Interrupts;
 use super::machine::{Machine, may_take_adapters};
 use super::{Failure, drivers, key_and_value, note, read_scene, room, say, warn};
 use crate::accuracy::{
-    AccuracyError, Bench, Listener, Report, Study, Workplace, duration, picture, screen, write_csv,
+    AccuracyError, Bench, Listener, Report, Study, Workplace, duration, expect_place, picture,
+    screen, write_csv,
 };
 use crate::backend::cpu::with_threads;
 use crate::grid::Grid;
@@ -21,6 +22,8 @@ use crate::scene::{BackendName, Precision, Scene};
 use crate::study::Setup;
 use crate::units::{Dimension, parse_quantity};
 
+/// The rows of a study.
+const TABLE: &str = "accuracy.csv";
 /// The file that holds a study's folder, so that no second one writes there.
 const LOCK: &str = ".tabor-lock";
 
@@ -89,6 +92,7 @@ pub(super) fn accuracy(arguments: &AccuracyArguments) -> Result<(), Failure> {
         study => study?,
     };
     // Each row is written with all rows before it: those of a second study in the folder would be lost.
+    expect_place(&folder.join(TABLE)).map_err(AccuracyError::from)?;
     let lock = FolderLock::take(&folder.join(LOCK), &folder)?;
     if let Some(warning) = lock.warning() {
         warn(warning);
@@ -234,7 +238,7 @@ impl Listener for Keeper {
     }
 
     fn row(&mut self, report: &Report) -> Result<(), AccuracyError> {
-        Ok(write_csv(&self.folder.join("accuracy.csv"), report)?)
+        Ok(write_csv(&self.folder.join(TABLE), report)?)
     }
 }
 
