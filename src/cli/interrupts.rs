@@ -1,7 +1,7 @@
 //! Ctrl-C: a run ends after its present iteration, or at once where the graphics processor keeps it waiting.
 
 use std::sync::atomic::{AtomicBool, Ordering};
-use std::sync::{Arc, Mutex, PoisonError};
+use std::sync::{Arc, Mutex, OnceLock, PoisonError};
 use std::time::{Duration, Instant};
 
 use super::{drivers, fail, say};
@@ -12,6 +12,9 @@ pub(super) const INTERRUPTED: u8 = 130;
 
 /// How long a driver may keep a run from its end. A shader may compile for minutes.
 const PATIENCE: Duration = Duration::from_millis(1500);
+/// What comes so soon after the first signal is that one again: `timeout` and some shells send it both to a program
+/// and to its group.
+const ECHO: Duration = Duration::from_millis(300);
 /// How often it is looked whether that is over.
 const LOOK: Duration = Duration::from_millis(20);
 
@@ -23,8 +26,8 @@ pub(super) struct Interrupts {
 
 #[derive(Debug, Default)]
 struct Asked {
-    /// Whether a signal came.
-    raised: AtomicBool,
+    /// When the first signal came.
+    raised: OnceLock<Instant>,
     /// Whether the run knows, and is about to end by itself.
     seen: AtomicBool,
     /// What an end at once leaves, in words.
@@ -47,7 +50,7 @@ impl Interrupts {
 
     /// Whether the run is to end; whoever asks and hears so ends it.
     pub fn raised(&self) -> bool {
-        let raised = self.asked.raised.load(Ordering::Relaxed);
+        let raised = self.asked.raised.get().is_some();
         if raised {
             self.asked.seen.store(true, Ordering::Relaxed);
         }
@@ -67,8 +70,13 @@ impl Interrupts {
 impl Asked {
     /// A signal came. The second one ends the process at once.
     fn raise(self: &Arc<Self>) {
-        if self.raised.swap(true, Ordering::Relaxed) {
-            self.end("interrupted twice: ended at once");
+        let now = Instant::now();
+        if let Err(again) = self.raised.set(now) {
+            let first = self.raised.get().copied().unwrap_or(again);
+            if again.duration_since(first) > ECHO {
+                self.end("interrupted twice: ended at once");
+            }
+            return;
         }
         let asked = Arc::clone(self);
         let watch = move || {
