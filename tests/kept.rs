@@ -326,3 +326,31 @@ fn a_signal_while_a_shader_compiles_ends_the_run_at_once() {
     assert_eq!(status(&output), 0, "{}", errors(&output));
     assert_eq!(rows(&out).len(), 8);
 }
+
+/// The other commands that write for a while hold their folders too.
+#[test]
+fn studies_and_surfaces_keep_out_of_folders_that_are_held() {
+    let folder = scene(ROUGH);
+    let folder = folder.path();
+    for (command, lock) in [
+        ("compare", "held/.tabor-lock"),
+        ("accuracy", "held/.tabor-lock"),
+        ("surface", "held/state/lock"),
+        ("run", "held/state/lock"),
+    ] {
+        let lock = folder.join(lock);
+        fs::create_dir_all(lock.parent().expect("a folder")).expect("it is made");
+        fs::write(&lock, "7 0 box\n").expect("it is written");
+        let held = fs::File::open(&lock).expect("it is there");
+        held.lock().expect("this file system knows locks");
+        let output = tabor(folder, &[command, "scene.toml", "--out", "held"]);
+        let said = errors(&output);
+        assert_eq!(status(&output), 2, "{command}: {said}");
+        assert!(
+            said.contains("(process 7 on box, for "),
+            "{command}: {said}"
+        );
+        drop(held);
+        fs::remove_dir_all(folder.join("held")).expect("it is removed");
+    }
+}

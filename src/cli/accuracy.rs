@@ -24,8 +24,6 @@ use crate::units::{Dimension, parse_quantity};
 
 /// The rows of a study.
 const TABLE: &str = "accuracy.csv";
-/// The file that holds a study's folder, so that no second one writes there.
-const LOCK: &str = ".tabor-lock";
 
 #[derive(Debug, Args)]
 pub(super) struct AccuracyArguments {
@@ -93,7 +91,7 @@ pub(super) fn accuracy(arguments: &AccuracyArguments) -> Result<(), Failure> {
     };
     // Each row is written with all rows before it: those of a second study in the folder would be lost.
     expect_place(&folder.join(TABLE)).map_err(AccuracyError::from)?;
-    let lock = FolderLock::take(&folder.join(LOCK), &folder)?;
+    let lock = FolderLock::take(&folder.join(FolderLock::HIDDEN), &folder)?;
     if let Some(warning) = lock.warning() {
         warn(warning);
     }

@@ -1,12 +1,12 @@
 //! `curve.csv`: one row a step, on the disk as soon as the step ends.
 
 use std::fmt::Write as _;
-use std::fs::{self, File, OpenOptions};
-use std::io::{self, Write as _};
+use std::fs;
+use std::io;
 use std::path::{Path, PathBuf};
 
 use super::error::{FRESH, OutputError};
-use super::folder::{set_aside, write_within};
+use super::growing::GrowingTable;
 use crate::study::{Column, State, StepRow};
 
 /// First line of `curve.csv` where no effect adds a column.
@@ -121,11 +121,8 @@ impl Curve {
 /// Writes `curve.csv` row by row.
 #[derive(Debug)]
 pub struct CurveWriter {
-    path: PathBuf,
+    table: GrowingTable,
     columns: Vec<Column>,
-    file: File,
-    /// What the file holds.
-    text: String,
     checksum: crc32fast::Hasher,
 }
 
@@ -144,53 +141,21 @@ impl CurveWriter {
         checksum: crc32fast::Hasher,
     ) -> Result<CurveWriter, OutputError> {
         Ok(CurveWriter {
-            path: path.to_path_buf(),
+            table: GrowingTable::create(path, text)?,
             columns,
-            file: written(path, &text)?,
-            text,
             checksum,
         })
     }
 
-    /// Writes the curve anew from memory where the file under its name is not the one that this run writes, or
-    /// has another length; with `whole` its content is compared too. Returns what was found, in words.
+    /// Writes the curve anew from memory where something else has removed or changed it; see
+    /// [`GrowingTable::mend`].
     pub fn mend(&mut self, whole: bool) -> Result<Option<String>, OutputError> {
-        let here = match fs::metadata(&self.path) {
-            Ok(found) => Some(found),
-            Err(error) if error.kind() == io::ErrorKind::NotFound => None,
-            Err(error) => return Err(OutputError::write("read", &self.path)(error)),
-        };
-        let mended = match here {
-            None => "was removed while the run went on; its rows are written anew".to_owned(),
-            Some(here) => {
-                let same = here.len() == self.text.len() as u64
-                    && is_one_file(&here, &self.file)
-                    && (!whole
-                        || fs::read(&self.path).map_err(OutputError::write("read", &self.path))?
-                            == self.text.as_bytes());
-                if same {
-                    return Ok(None);
-                }
-                let aside = set_aside(&self.path)?;
-                format!(
-                    "was changed by another program while the run went on; its rows are written anew, and what was there is kept in {}",
-                    aside.display()
-                )
-            }
-        };
-        self.file = written(&self.path, &self.text)?;
-        Ok(Some(format!("{} {mended}", self.path.display())))
+        self.table.mend(whole)
     }
 
     /// Appends one row and waits until it is on the disk.
     pub fn append(&mut self, row: &StepRow) -> Result<(), OutputError> {
-        let line = format_row(row, &self.columns);
-        // One write a row, so that a reader or a crash meets whole rows.
-        self.file
-            .write_all(line.as_bytes())
-            .and_then(|()| self.file.sync_data())
-            .map_err(OutputError::write("write", &self.path))?;
-        self.text.push_str(&line);
+        self.table.append(&format_row(row, &self.columns))?;
         add_row(&mut self.checksum, row, &self.columns);
         Ok(())
     }
@@ -200,31 +165,6 @@ impl CurveWriter {
     pub fn checksum(&self) -> u32 {
         self.checksum.clone().finalize()
     }
-}
-
-/// Writes a curve in one piece and opens it for further rows.
-fn written(path: &Path, text: &str) -> Result<File, OutputError> {
-    write_within(path, text.as_bytes())?;
-    OpenOptions::new()
-        .append(true)
-        .open(path)
-        .map_err(OutputError::write("open", path))
-}
-
-/// Whether the file found under a name is the open one.
-#[cfg(unix)]
-fn is_one_file(found: &fs::Metadata, open: &File) -> bool {
-    use std::os::unix::fs::MetadataExt;
-    let place = |data: &fs::Metadata| (data.dev(), data.ino());
-    // What cannot be asked is not taken for another.
-    open.metadata()
-        .map_or(true, |open| place(&open) == place(found))
-}
-
-/// Elsewhere an open file keeps its name.
-#[cfg(not(unix))]
-fn is_one_file(_: &fs::Metadata, _: &File) -> bool {
-    true
 }
 
 /// One line of `curve.csv`, with its line end.

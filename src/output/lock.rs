@@ -21,6 +21,9 @@ pub struct FolderLock {
 }
 
 impl FolderLock {
+    /// The lock file of a folder that has no place of its own for it.
+    pub const HIDDEN: &str = ".tabor-lock";
+
     /// Takes the lock at `path`, a file in or below `folder`, which is there.
     ///
     /// Where the file system knows no locks the folder is not held, and [`warning`](FolderLock::warning) says so.
