@@ -85,6 +85,8 @@
 //! it: by linearity, so that no pass comes between, but with Lennard-Jones and on a solid that flows, where
 //! the share that is added to a point is not linear in its step.
 #![warn(missing_docs)]
+// Both macros panic where nobody reads; `cli` has one place for each stream.
+#![cfg_attr(not(test), deny(clippy::print_stdout, clippy::print_stderr))]
 
 pub mod accuracy;
 pub mod backend;

@@ -162,6 +162,377 @@ fn on_a_terminal_colour_is_the_users_choice() {
     }
 }
 
+/// Text of a file, a key or a call that would change a terminal: clear it, turn red, ring, and begin a line that looks
+/// like one of tabor's.
+const ACTING: &str = "\u{1b}[2J\u{1b}]0;x\u{7}\u{1b}[31mred\u{9b}1m\rnote: forged\u{8}\u{202e}";
+
+/// What a program's words do not hold but as its own colours.
+fn acts(bytes: &[u8]) -> Option<String> {
+    let text = String::from_utf8_lossy(bytes);
+    // Its own: styles, ends of lines as a terminal has them, and the progress line, which is padded to its width and
+    // drawn over.
+    let mut left = text.replace("\r\n", "\n").replace(" \r", " \n");
+    for own in [
+        "\u{1b}[1m\u{1b}[31m",
+        "\u{1b}[31m\u{1b}[1m",
+        "\u{1b}[0m",
+        "\u{1b}[1m",
+        "\u{1b}[4m",
+        "\u{1b}[32m",
+        "\u{1b}[33m",
+    ] {
+        left = left.replace(own, "");
+    }
+    let odd = |c: char| (c.is_control() && c != '\n') || c == '\u{202e}';
+    left.lines()
+        .find(|line| line.contains(odd))
+        .map(|line| format!("{line:?}"))
+}
+
+#[test]
+#[cfg(target_os = "linux")]
+fn nothing_from_outside_acts_on_a_terminal_or_a_page() {
+    let escaped: String = ACTING
+        .chars()
+        .map(|c| format!("\\U{:08X}", c as u32))
+        .collect();
+    let folder = scene(SCENE);
+    let path = folder.path();
+    let write = |name: &str, text: &str| fs::write(path.join(name), text).expect("a file");
+    write("titled.toml", &format!("title = \"{escaped}\"\n{SCENE}"));
+    write("key.toml", &format!("\"{escaped}\" = 1\n{SCENE}"));
+    write(
+        "value.toml",
+        &SCENE.replace("\"pressure\"", &format!("\"{escaped}\"")),
+    );
+    write("broken.toml", &format!("{SCENE}\n{ACTING} = ["));
+    let heights = format!("1 2 3\n4 {ACTING} 6\n");
+    write("heights.txt", &heights);
+    write(&format!("{ACTING}.txt"), "1 2\n3 x\n");
+    write(&format!("{ACTING}.toml"), SCENE);
+    write("curve.csv", &format!("{ACTING},force\n1,2\n"));
+    write("script", "exec \"$TABOR\" \"$@\"");
+    let file = format!("{ACTING}.txt");
+    let scene_file = format!("{ACTING}.toml");
+    let set = format!("title={ACTING}");
+    let odd_key = format!("grid.{ACTING}=1");
+    let calls: &[&[&str]] = &[
+        &["run", "titled.toml", "--out", "titled"],
+        &["check", "titled.toml"],
+        &["check", "key.toml"],
+        &["check", "value.toml"],
+        &["check", "broken.toml"],
+        &["check", ACTING],
+        &["check", "scene.toml", "--set", ACTING],
+        &["check", "scene.toml", "--set", &set],
+        &["check", "scene.toml", "--set", &odd_key],
+        &["run", &scene_file],
+        &["run", "scene.toml", "--out", ACTING, "--resume"],
+        &["run", "titled.toml", "--out", ACTING],
+        &["surface", "heights.txt", "--size", "1 um"],
+        &["surface", &file, "--size", "1 um"],
+        &["surface", &scene_file],
+        &["fit", "curve.csv", "--radius", "1 um"],
+        &["fit", ACTING, "--radius", "1 um"],
+        &["theory", ACTING],
+        &["theory", "hertz", "--radius", ACTING],
+        &["theory", "hertz", ACTING],
+        &["compare", ACTING],
+        &["accuracy", ACTING],
+        &["accuracy", "scene.toml", "--budget", ACTING],
+        &[ACTING],
+        &["run", "scene.toml", ACTING],
+        &["run", "scene.toml", "--backend", ACTING],
+        &["completions", ACTING],
+        &["man", &scene_file],
+    ];
+    let mut wrong = Vec::new();
+    for call in calls {
+        // Off a terminal, and on one of its own as `script` of util-linux makes it.
+        let piped = tabor(path, call);
+        for stream in [&piped.stdout, &piped.stderr] {
+            wrong.extend(acts(stream).map(|line| format!("{call:?}: {line}")));
+        }
+        let words: Vec<String> = call
+            .iter()
+            .map(|word| format!("\"$(printf '{}')\"", octal(word)))
+            .collect();
+        let line = format!("\"$TABOR\" {}", words.join(" "));
+        let on_a_terminal = Command::new("script")
+            .current_dir(path)
+            .env("TABOR", shared::BINARY)
+            .env("TERM", "xterm-256color")
+            .env("SHELL", "/bin/sh")
+            .env_remove("NO_COLOR")
+            .args(["-qec", &line, "/dev/null"])
+            .stdin(Stdio::null())
+            .output();
+        let Ok(shown) = on_a_terminal else {
+            println!("skipped: no script");
+            continue;
+        };
+        assert_eq!(
+            shown.status.code(),
+            piped.status.code(),
+            "{call:?}: {}",
+            text_of(&shown.stdout)
+        );
+        wrong.extend(acts(&shown.stdout).map(|line| format!("{call:?} on a terminal: {line}")));
+    }
+    // The page and the pictures.
+    let page = fs::read(path.join("titled/report.html")).expect("a page");
+    assert!(!page.is_empty());
+    wrong.extend(acts(&page).map(|line| format!("report.html: {line}")));
+    for name in ["titled/curve.png"] {
+        let picture = fs::read(path.join(name)).expect("a picture");
+        let raw = ACTING.as_bytes();
+        if picture.windows(4).any(|bytes| bytes == &raw[..4]) {
+            wrong.push(format!("{name} holds it raw"));
+        }
+    }
+    assert!(wrong.is_empty(), "{}", wrong.join("\n"));
+}
+
+/// The bytes of a word for `printf` of a shell.
+fn octal(word: &str) -> String {
+    word.bytes().map(|byte| format!("\\{byte:03o}")).collect()
+}
+
+fn text_of(bytes: &[u8]) -> String {
+    String::from_utf8_lossy(bytes).into_owned()
+}
+
+/// What drivers print at their start is not tabor's to say, in a shell that has nothing but its paths.
+#[test]
+fn nothing_but_tabor_speaks() {
+    let folder = scene(SCENE);
+    let path = folder.path();
+    let bare = |arguments: &[&str]| {
+        let mut command = Command::new(shared::BINARY);
+        command
+            .current_dir(path)
+            .args(arguments)
+            .env_clear()
+            .stdin(Stdio::null());
+        for name in ["PATH", "HOME"] {
+            if let Some(value) = std::env::var_os(name) {
+                command.env(name, value);
+            }
+        }
+        command.output().expect("the binary runs")
+    };
+    let ours = |line: &str| {
+        ["note: ", "warning: ", "error: "]
+            .iter()
+            .any(|head| line.starts_with(head))
+            && !line.contains("XDG_RUNTIME_DIR")
+    };
+    let gpu = ["--backend", "gpu", "--quiet"];
+    for call in [
+        &["devices"][..],
+        &[&["run", "scene.toml", "--out", "gpu"], &gpu[..]].concat(),
+        &[
+            "run",
+            "scene.toml",
+            "--out",
+            "auto",
+            "--quiet",
+            "--set",
+            "grid.points=256",
+        ],
+        &["check", "scene.toml", "--set", "solver.backend=gpu"],
+        &["compare", "scene.toml"],
+        &["accuracy", "scene.toml", "--set", "grid.points=8"],
+        &[
+            "accuracy",
+            "scene.toml",
+            "--quiet",
+            "--budget",
+            "1 s",
+            "--out",
+            "study",
+        ],
+    ] {
+        let output = bare(call);
+        let said = text(&output.stderr);
+        assert!(said.lines().all(ours), "{call:?}: {said}");
+    }
+}
+
+/// The loader of Vulkan says on request what it does: where no adapter can be used it is not even loaded.
+#[test]
+#[cfg(target_os = "linux")]
+fn no_adapter_is_asked_for_where_none_can_be_used() {
+    let folder = scene(SCENE);
+    let loader_spoke = |call: &[&str]| {
+        let output = shared::command(folder.path(), call)
+            .env("VK_LOADER_DEBUG", "all")
+            .output()
+            .expect("the binary runs");
+        let said = String::from_utf8_lossy(&output.stderr).into_owned();
+        said.contains("Vulkan Loader") || said.contains("LAYER:") || said.contains("DRIVER:")
+    };
+    if !loader_spoke(&["devices", "--verbose"]) {
+        println!("skipped: no loader of Vulkan that speaks");
+        return;
+    }
+    assert!(!loader_spoke(&["devices"]), "heard without --verbose");
+    for call in [
+        &["run", "scene.toml", "--verbose", "--out", "small"][..],
+        &[
+            "run",
+            "scene.toml",
+            "--verbose",
+            "--out",
+            "cpu",
+            "--set",
+            "grid.points=256",
+            "--backend",
+            "cpu",
+        ],
+        // No transform on an adapter.
+        &[
+            "run",
+            "scene.toml",
+            "--verbose",
+            "--out",
+            "odd",
+            "--set",
+            "grid.points=[1024, 65]",
+        ],
+        &[
+            "run",
+            "scene.toml",
+            "--verbose",
+            "--out",
+            "seventh",
+            "--backend",
+            "gpu",
+            "--set",
+            "grid.points=11",
+        ],
+        &["check", "scene.toml", "--verbose"],
+        &[
+            "check",
+            "scene.toml",
+            "--verbose",
+            "--set",
+            "grid.points=1024",
+        ],
+        &["compare", "scene.toml", "--verbose"],
+        &[
+            "accuracy",
+            "scene.toml",
+            "--verbose",
+            "--set",
+            "grid.points=8",
+        ],
+        &["accuracy", "absent.toml", "--verbose"],
+        &["surface", "scene.toml"],
+        &[
+            "theory",
+            "hertz",
+            "--radius",
+            "1e-6",
+            "--contact_modulus",
+            "1e9",
+        ],
+        &["man"],
+    ] {
+        assert!(!loader_spoke(call), "{call:?}");
+    }
+}
+
+/// Nobody reads on: no panic, and no failure, for nothing is lost.
+#[cfg(unix)]
+#[test]
+fn a_reader_that_leaves_is_no_failure() {
+    let folder = scene(SCENE);
+    let path = folder.path();
+    let shell = |line: &str| {
+        Command::new("bash")
+            .current_dir(path)
+            .env("TABOR", shared::BINARY)
+            .args(["-c", &format!("set -o pipefail; {line}")])
+            .stdin(Stdio::null())
+            .output()
+    };
+    if shell("true").is_err() {
+        println!("skipped: no bash");
+        return;
+    }
+    let hertz = "theory hertz --radius 1e-6 --contact_modulus 1e9";
+    for line in [
+        &format!("\"$TABOR\" {hertz} | head -1")[..],
+        &format!("\"$TABOR\" {hertz} | (exec <&-; sleep 0.3)"),
+        "\"$TABOR\" theory | (exec <&-; sleep 0.3)",
+        "\"$TABOR\" check scene.toml | (exec <&-; sleep 0.3)",
+        "\"$TABOR\" devices | (exec <&-; sleep 0.3)",
+        "\"$TABOR\" man | (exec <&-; sleep 0.3)",
+        "\"$TABOR\" completions bash | (exec <&-; sleep 0.3)",
+        "\"$TABOR\" --help | (exec <&-; sleep 0.3)",
+        "\"$TABOR\" surface scene.toml --out s | (exec <&-; sleep 0.3)",
+        "\"$TABOR\" run scene.toml --out r 2>&1 | (exec <&-; sleep 0.3)",
+        "\"$TABOR\" check scene.toml --set surface.0.radius=1e-8 2>&1 | (exec <&-; sleep 0.3)",
+        "\"$TABOR\" compare scene.toml --out c 2>&1 | (exec <&-; sleep 0.3); true",
+    ] {
+        let output = shell(line).expect("it ran before");
+        let said = text(&output.stderr);
+        assert_eq!(output.status.code(), Some(0), "{line}: {said}");
+        assert_eq!(said, "", "{line}");
+    }
+    for written in ["s/psd.csv", "r/summary.json", "r/report.html"] {
+        assert!(path.join(written).exists(), "{written}");
+    }
+}
+
+/// A limit on the length of files is met like a full disk: a sentence and 1, not an end by a signal.
+#[cfg(unix)]
+#[test]
+fn a_limit_on_files_ends_with_a_sentence() {
+    let folder = scene(SCENE);
+    let run = |limit: &str, line: &str| {
+        Command::new("bash")
+            .current_dir(folder.path())
+            .env("TABOR", shared::BINARY)
+            .args(["-c", &format!("ulimit -f {limit}; {line}")])
+            .stdin(Stdio::null())
+            .output()
+    };
+    if run("1000", "true").is_err() {
+        println!("skipped: no bash");
+        return;
+    }
+    for (limit, line, named) in [
+        (
+            "0",
+            "\"$TABOR\" run scene.toml --out none",
+            "cannot write none",
+        ),
+        (
+            "1",
+            "\"$TABOR\" run scene.toml --out one --set 'output={ images = [\"gap\"] }'",
+            "cannot write one",
+        ),
+        (
+            "0",
+            "\"$TABOR\" theory hertz --radius 1e-6 --contact_modulus 1e9 > table.csv",
+            "cannot print",
+        ),
+        ("1", "\"$TABOR\" man pages", "cannot write pages"),
+        (
+            "1",
+            "\"$TABOR\" surface scene.toml --out s",
+            "cannot write s",
+        ),
+    ] {
+        let output = run(limit, line).expect("it ran before");
+        let said = text(&output.stderr);
+        assert_eq!(output.status.code(), Some(1), "{line}: {said}");
+        assert!(said.contains(&format!("error: {named}")), "{line}: {said}");
+    }
+}
+
 #[test]
 fn a_quiet_run_says_nothing_but_warnings_and_errors() {
     let folder = scene(SCENE);

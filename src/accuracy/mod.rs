@@ -45,5 +45,5 @@ pub use same_surface::SameSurface;
 pub use setting::{Model, Setting, Taper, Varied, others};
 pub use steps::{Steps, Walk};
 pub use study::Study;
-pub use table::{LEVELS, csv, screen, write_csv};
+pub use table::{LEVELS, csv, expect_place, screen, write_csv};
 pub use workplace::{Bench, Listener, Workplace};

@@ -76,6 +76,15 @@ pub fn csv(report: &Report) -> String {
 /// # Errors
 /// A file of that name that is no such table; what the system refuses.
 pub fn write_csv(path: &Path, report: &Report) -> Result<(), OutputError> {
+    expect_place(path)?;
+    write_atomically(path, csv(report).as_bytes())
+}
+
+/// Refuses a place where something else lies than such a table.
+///
+/// # Errors
+/// [`OutputError::Refused`] where it does.
+pub fn expect_place(path: &Path) -> Result<(), OutputError> {
     let refused = |reason: &str| OutputError::Refused {
         path: path.to_path_buf(),
         reason: reason.to_owned(),
@@ -88,7 +97,7 @@ pub fn write_csv(path: &Path, report: &Report) -> Result<(), OutputError> {
             "is not a table that tabor wrote; name another folder with --out",
         ));
     }
-    write_atomically(path, csv(report).as_bytes())
+    Ok(())
 }
 
 /// As in `256`, or `256x128`.

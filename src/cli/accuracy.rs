@@ -2,25 +2,28 @@
 
 use std::io::{IsTerminal, stderr};
 use std::path::PathBuf;
-use std::sync::Arc;
-use std::sync::atomic::{AtomicBool, Ordering};
+use std::sync::OnceLock;
 use std::time::{Duration, Instant};
 
 use clap::Args;
 use indicatif::{ProgressBar, ProgressDrawTarget, ProgressStyle};
 
-use super::machine::Machine;
-use super::run::watch_for_interrupts;
-use super::{Failure, key_and_value, read_scene, room, say};
+use super::interrupts::Interrupts;
+use super::machine::{Machine, may_take_adapters};
+use super::{Failure, drivers, key_and_value, note, read_scene, room, say, warn};
 use crate::accuracy::{
-    AccuracyError, Bench, Listener, Report, Study, Workplace, duration, picture, screen, write_csv,
+    AccuracyError, Bench, Listener, Report, Study, Workplace, duration, expect_place, picture,
+    screen, write_csv,
 };
 use crate::backend::cpu::with_threads;
-use crate::backend::gpu::adapters;
 use crate::grid::Grid;
+use crate::output::FolderLock;
 use crate::scene::{BackendName, Precision, Scene};
 use crate::study::Setup;
 use crate::units::{Dimension, parse_quantity};
+
+/// The rows of a study.
+const TABLE: &str = "accuracy.csv";
 
 #[derive(Debug, Args)]
 pub(super) struct AccuracyArguments {
@@ -38,6 +41,9 @@ pub(super) struct AccuracyArguments {
     /// No progress and no table; warnings and errors are still said
     #[arg(long)]
     quiet: bool,
+    /// Let graphics drivers say what they say at their start
+    #[arg(long)]
+    verbose: bool,
     /// Override a key of the scene, as in surface.0.hurst=0.4; may be repeated
     #[arg(long, value_name = "KEY=VALUE", value_parser = key_and_value)]
     set: Vec<(String, String)>,
@@ -69,9 +75,13 @@ pub(super) fn accuracy(arguments: &AccuracyArguments) -> Result<(), Failure> {
     if let Some(adhesion) = &scene.adhesion
         && adhesion.treatment == crate::scene::Treatment::Dmt
     {
-        say("note: adhesion.treatment = \"dmt\" is judged by the full law, as one of the settings");
+        note("adhesion.treatment = \"dmt\" is judged by the full law, as one of the settings");
     }
-    let shop = Shop::of(arguments);
+    let shop = Shop {
+        arguments,
+        scene: &scene,
+        arithmetics: OnceLock::new(),
+    };
     let study = match Study::new(&scene, &shop, arguments.budget) {
         Err(AccuracyError::Surface(error)) => {
             let path = arguments.scene.clone();
@@ -79,13 +89,24 @@ pub(super) fn accuracy(arguments: &AccuracyArguments) -> Result<(), Failure> {
         }
         study => study?,
     };
+    // Each row is written with all rows before it: those of a second study in the folder would be lost.
+    expect_place(&folder.join(TABLE)).map_err(AccuracyError::from)?;
+    let lock = FolderLock::take(&folder.join(FolderLock::HIDDEN), &folder)?;
+    if let Some(warning) = lock.warning() {
+        warn(warning);
+    }
+    let interrupts = Interrupts::watch();
+    interrupts.keep(format!(
+        "note: the settings done are kept in {}",
+        folder.display()
+    ));
     let mut keeper = Keeper {
         folder: folder.clone(),
         bar: bar(arguments.quiet, arguments.budget),
         began: Instant::now(),
         running: String::new(),
         said: Vec::new(),
-        interrupted: watch_for_interrupts(),
+        interrupts,
     };
     let threads = arguments.threads.map(usize::from);
     let report = with_threads(threads, || study.run(&mut keeper))??;
@@ -106,15 +127,20 @@ pub(super) fn accuracy(arguments: &AccuracyArguments) -> Result<(), Failure> {
 }
 
 /// The backends and precisions at hand here.
-struct Shop {
-    arithmetics: Vec<(BackendName, Precision)>,
+struct Shop<'a> {
+    arguments: &'a AccuracyArguments,
+    scene: &'a Scene,
+    /// Looked for when the study first wants them.
+    arithmetics: OnceLock<Vec<(BackendName, Precision)>>,
 }
 
-impl Shop {
-    /// Asks the scene's own reader which of them are in this version, and the machine for an adapter.
-    fn of(arguments: &AccuracyArguments) -> Shop {
+impl Shop<'_> {
+    /// Asks the scene's own reader which of them are in this version, and the machine for an adapter
+    /// where one can take the grid.
+    fn found(&self) -> Vec<(BackendName, Precision)> {
+        let arguments = self.arguments;
         let mut backends = vec![BackendName::Cpu];
-        if !adapters().is_empty() {
+        if may_take_adapters(self.scene) && !drivers::list(arguments.verbose).is_empty() {
             backends.push(BackendName::Gpu);
         }
         let precisions = [Precision::Double, Precision::Single, Precision::Mixed];
@@ -131,18 +157,17 @@ impl Shop {
             ]);
             Scene::read(&arguments.scene, &set).is_ok()
         };
-        let arithmetics = backends
+        backends
             .into_iter()
             .flat_map(|backend| precisions.map(|precision| (backend, precision)))
             .filter(|(backend, precision)| is_here(*backend, *precision))
-            .collect();
-        Shop { arithmetics }
+            .collect()
     }
 }
 
-impl Workplace for Shop {
+impl Workplace for Shop<'_> {
     fn arithmetics(&self) -> &[(BackendName, Precision)] {
-        &self.arithmetics
+        self.arithmetics.get_or_init(|| self.found())
     }
 
     fn fits(&self, scene: &Scene, grid: Grid) -> Result<(), String> {
@@ -150,7 +175,8 @@ impl Workplace for Shop {
     }
 
     fn bench(&self, setup: &Setup) -> Result<Bench, String> {
-        let machine = Machine::of(setup).map_err(|error| error.to_string())?;
+        let machine =
+            Machine::of(setup, self.arguments.verbose).map_err(|error| error.to_string())?;
         Ok(Bench {
             remark: machine.remark.clone(),
             make: Box::new(move || machine.backend()),
@@ -178,7 +204,7 @@ struct Keeper {
     began: Instant,
     running: String,
     said: Vec<String>,
-    interrupted: Arc<AtomicBool>,
+    interrupts: Interrupts,
 }
 
 impl Listener for Keeper {
@@ -194,7 +220,7 @@ impl Listener for Keeper {
                 self.running
             ));
         }
-        !self.interrupted.load(Ordering::Relaxed)
+        !self.interrupts.raised()
     }
 
     fn note(&mut self, text: &str) {
@@ -203,15 +229,14 @@ impl Listener for Keeper {
             return;
         }
         self.said.push(text.to_owned());
-        let line = format!("note: {text}");
         match &self.bar {
-            Some(bar) => bar.suspend(|| say(&line)),
-            None => say(&line),
+            Some(bar) => bar.suspend(|| note(text)),
+            None => note(text),
         }
     }
 
     fn row(&mut self, report: &Report) -> Result<(), AccuracyError> {
-        Ok(write_csv(&self.folder.join("accuracy.csv"), report)?)
+        Ok(write_csv(&self.folder.join(TABLE), report)?)
     }
 }
 

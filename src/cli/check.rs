@@ -1,7 +1,7 @@
 //! `tabor check`: what a scene would do and cost.
 
 use super::machine::{largest_here, refuse_size};
-use super::{CheckArguments, Failure, print, read_scene, room};
+use super::{CheckArguments, Failure, print, read_scene, room, warn};
 use crate::backend::tally::Place;
 use crate::effect::Effect;
 use crate::study::{Cost, Memory, Plan};
@@ -21,14 +21,13 @@ pub(super) fn check(arguments: &CheckArguments) -> Result<(), Failure> {
     if place.on_gpu() {
         refuse_size(cost.points)?;
     }
-    let text = describe(&plan, &cost)?;
-    print(text.as_bytes())?;
+    print(&describe(&plan, &cost, arguments.verbose)?)?;
     for warning in &plan.warnings {
-        eprintln!("warning: {warning}");
+        warn(warning);
     }
     // A scene may be looked at here and run elsewhere.
     if let Err(error) = room::refuse(&plan.scene, plan.outline.grid) {
-        eprintln!("warning: {error}");
+        warn(&error.to_string());
     }
     Ok(())
 }
@@ -38,7 +37,7 @@ fn mebibytes(bytes: u64) -> String {
 }
 
 /// The report, line by line.
-fn describe(plan: &Plan, cost: &Cost) -> Result<String, Failure> {
+fn describe(plan: &Plan, cost: &Cost, verbose: bool) -> Result<String, Failure> {
     let scene = &plan.scene;
     let grid = plan.outline.grid;
     let moments = plan.outline.moments;
@@ -134,7 +133,7 @@ fn describe(plan: &Plan, cost: &Cost) -> Result<String, Failure> {
     if cost.place == Place::Gpu {
         lines.push(format!(
             "largest       {}",
-            largest_here(scene.grid.boundary)
+            largest_here(scene.grid.boundary, verbose)
         ));
     }
     if !cost.reference.is_empty() {

@@ -3,7 +3,7 @@
 use std::path::PathBuf;
 
 use super::machine::Machine;
-use super::{CompareArguments, Failure, read_scene};
+use super::{CompareArguments, Failure, note, read_scene, say, warn};
 use crate::compare::{self, CompareError, Row};
 use crate::study::Setup;
 use crate::surface::Surface;
@@ -20,11 +20,11 @@ pub(super) fn compare(arguments: &CompareArguments) -> Result<(), Failure> {
     })?;
     let setup = Setup::new(scene, surface);
     for warning in &setup.warnings {
-        eprintln!("warning: {warning}");
+        warn(warning);
     }
-    let machine = Machine::of(&setup)?;
+    let machine = Machine::of(&setup, arguments.verbose)?;
     if let Some(remark) = &machine.remark {
-        eprintln!("note: {remark}");
+        note(remark);
     }
     let folder = match &arguments.out {
         Some(folder) => folder.clone(),
@@ -34,8 +34,8 @@ pub(super) fn compare(arguments: &CompareArguments) -> Result<(), Failure> {
         }
     };
     let compared = compare::compare(setup, &|| machine.backend(), &folder)?;
-    for note in &compared.notes {
-        eprintln!("note: {note}");
+    for text in &compared.notes {
+        note(text);
     }
     print(&compared.rows);
     Ok(())
@@ -53,15 +53,15 @@ impl From<CompareError> for Failure {
 
 /// The table on standard error.
 fn print(rows: &[Row]) {
-    eprintln!(
+    say(&format!(
         "{:<10} {:>12} {:>9} {:>11} {:>12} {:>12} {:>8}  out of range",
         "model", "pressure", "contact", "mean gap", "attraction", "pull-off", "seconds"
-    );
+    ));
     let si = |value: Option<f64>, unit: &str| {
         value.map_or_else(|| "-".to_owned(), |value| format_si(value, unit))
     };
     for row in rows {
-        eprintln!(
+        say(&format!(
             "{:<10} {:>12} {:>9} {:>11} {:>12} {:>12} {:>8.2}  {}",
             row.model,
             format_si(row.state.mean_pressure, "Pa"),
@@ -73,6 +73,6 @@ fn print(rows: &[Row]) {
             si(row.pull_off, "Pa"),
             row.seconds,
             row.limit.unwrap_or_default()
-        );
+        ));
     }
 }

@@ -1,20 +1,15 @@
 //! `tabor devices`: adapters found and what each can do.
 
-use std::io::Write;
 use std::num::NonZero;
 
-use super::Failure;
 use super::machine::best;
-use crate::backend::gpu::{AdapterDescription, Number, adapters};
+use super::{Failure, drivers, print};
+use crate::backend::gpu::{AdapterDescription, Number};
 use crate::scene::Precision;
 
 /// Prints the adapters and which one `auto` takes.
-pub(super) fn devices() -> Result<(), Failure> {
-    let text = describe(&adapters());
-    let mut out = std::io::stdout().lock();
-    out.write_all(text.as_bytes())
-        .and_then(|()| out.flush())
-        .map_err(Failure::Print)
+pub(super) fn devices(verbose: bool) -> Result<(), Failure> {
+    print(&describe(&drivers::list(verbose)))
 }
 
 fn describe(found: &[AdapterDescription]) -> String {

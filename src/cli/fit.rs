@@ -1,11 +1,10 @@
 //! `tabor fit`: work of adhesion and modulus from a force curve.
 
-use std::io::Write as _;
 use std::path::{Path, PathBuf};
 
 use clap::Args;
 
-use super::Failure;
+use super::{Failure, print, say, warn};
 use crate::fit::{FitResult, ForceCurve, Freedom, ModelFit, draw, fit_curve, report};
 use crate::output::{OutputError, write_atomically};
 use crate::theory::jkr;
@@ -78,13 +77,16 @@ fn fit_file(arguments: &FitArguments, path: &Path) -> Result<(), Failure> {
         path: picture.clone(),
         cause,
     })?;
-    eprint!("{}", table(&result));
+    table(&result).lines().for_each(say);
     for warning in &result.warnings {
-        eprintln!("warning: {warning}");
+        warn(warning);
     }
     write_atomically(&folder.join("fit.json"), text.as_bytes())?;
     write_atomically(&picture, &drawn)?;
-    eprintln!("{} and fit.png written", folder.join("fit.json").display());
+    say(&format!(
+        "{} and fit.png written",
+        folder.join("fit.json").display()
+    ));
     Ok(())
 }
 
@@ -96,10 +98,7 @@ fn two_numbers(radius: f64, pull_off: f64, load: f64, stiffness: f64) -> Result<
         sphere.work_of_adhesion(),
         sphere.contact_modulus()
     );
-    match std::io::stdout().write_all(text.as_bytes()) {
-        Err(error) if error.kind() == std::io::ErrorKind::BrokenPipe => Ok(()),
-        done => done.map_err(Failure::Print),
-    }
+    print(&text)
 }
 
 /// Every model with its numbers, the one that is taken marked, and what it comes to.

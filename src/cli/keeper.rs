@@ -1,10 +1,10 @@
 //! Keeps each step of a run as it ends: row, fields, pictures, state, report.
 
 use std::borrow::Cow;
-use std::sync::Arc;
-use std::sync::atomic::{AtomicBool, Ordering};
 use std::time::{Duration, Instant};
 
+use super::interrupts::Interrupts;
+use super::leftovers::separated_words;
 use super::machine::Machine;
 use super::opening::{STATE, fingerprint, solver};
 use crate::kernel::Scalars;
@@ -30,7 +30,7 @@ pub(super) struct Keeper<'a> {
     folder: &'a RunFolder,
     curve: CurveWriter,
     progress: Progress,
-    interrupted: Arc<AtomicBool>,
+    interrupts: Interrupts,
     /// The last step's fields, where only those are asked for.
     last: Option<(usize, Evaluation)>,
     rows: Vec<StepRow>,
@@ -58,18 +58,18 @@ impl<'a> Keeper<'a> {
         folder: &'a RunFolder,
         curve: CurveWriter,
         progress: Progress,
-        interrupted: Arc<AtomicBool>,
+        interrupts: Interrupts,
         earlier: &Earlier,
         warnings: Vec<String>,
         seconds: Seconds,
     ) -> Self {
-        Keeper {
+        let keeper = Keeper {
             setup,
             machine,
             folder,
             curve,
             progress,
-            interrupted,
+            interrupts,
             last: None,
             rows: earlier.rows.clone(),
             warnings,
@@ -82,7 +82,9 @@ impl<'a> Keeper<'a> {
             scene: fingerprint(setup),
             solver: solver(&setup.scene),
             refreshed: None,
-        }
+        };
+        keeper.interrupts.keep(keeper.kept());
+        keeper
     }
 
     fn single(&self) -> bool {
@@ -131,9 +133,7 @@ impl<'a> Keeper<'a> {
     }
 
     fn no_fields(&mut self, step: usize) {
-        self.warn(format!(
-            "step {step} is separated: the load has no equilibrium, so there are no fields to write"
-        ));
+        self.warn(separated_words(step));
     }
 
     /// Everything that is warned of.
@@ -169,9 +169,18 @@ impl<'a> Keeper<'a> {
             (StepChoice::List(list), None) if list.contains(&number) => self.no_fields(number),
             _ => {}
         }
+        self.mend_curve(false)?;
         self.curve.append(step.row)?;
         self.rows.push(step.row.clone());
         self.progress.finished_steps(number);
+        Ok(())
+    }
+
+    /// Writes the curve anew where something other than this run has changed it.
+    fn mend_curve(&mut self, whole: bool) -> Result<(), OutputError> {
+        if let Some(text) = self.curve.mend(whole)? {
+            self.warn(text);
+        }
         Ok(())
     }
 
@@ -189,6 +198,7 @@ impl<'a> Keeper<'a> {
         }
         .write(&self.folder.state_path(STATE))?;
         self.committed = step;
+        self.interrupts.keep(self.kept());
         self.tallies = tallies(state);
         let due = self
             .refreshed
@@ -231,6 +241,7 @@ impl<'a> Keeper<'a> {
     ) -> Result<(), OutputError> {
         let clock = Instant::now();
         self.folder.expect_present()?;
+        self.mend_curve(true)?;
         if let Some((step, evaluation)) = self.last.take() {
             self.write_fields(step, &evaluation)?;
         }
@@ -312,7 +323,7 @@ impl Observer for Keeper<'_> {
     fn iteration(&mut self, _step: usize, scalars: &Scalars) -> bool {
         self.progress
             .iteration(scalars.iterations as usize, scalars.residual);
-        !self.interrupted.load(Ordering::Relaxed)
+        !self.interrupts.raised()
     }
 
     fn wants_hand_over(&self) -> bool {

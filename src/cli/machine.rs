@@ -1,13 +1,12 @@
 //! Where a run computes: the processor or a graphics processor, and in which arithmetic.
 
-use super::Failure;
+use super::{Failure, drivers};
 use crate::backend::Backend;
 use crate::backend::cpu::CpuBackend;
 use crate::backend::gpu::{
-    AdapterChoice, AdapterDescription, GpuBackend, GpuDevice, GpuError, Number, Wide, adapters,
-    radices,
+    AdapterChoice, AdapterDescription, GpuBackend, GpuDevice, GpuError, Number, Wide, radices,
 };
-use crate::scene::{BackendName, Boundary, Precision};
+use crate::scene::{BackendName, Boundary, Precision, Scene};
 use crate::study::Setup;
 
 /// What a run computes on.
@@ -24,18 +23,18 @@ enum Place {
 }
 
 impl Machine {
-    /// Takes what a scene asks for.
-    pub fn of(setup: &Setup) -> Result<Machine, Failure> {
+    /// Takes what a scene asks for. What drivers say at their start is heard if `verbose`.
+    pub fn of(setup: &Setup, verbose: bool) -> Result<Machine, Failure> {
         let settings = &setup.scene.solver;
         let (place, remark) = match settings.backend {
             BackendName::Cpu => (Place::Processor, None),
             BackendName::Gpu => {
                 refuse_size(setup.problem.shape.points)?;
-                let device = GpuDevice::new(&AdapterChoice {
+                let choice = AdapterChoice {
                     software: true,
                     ..choice()
-                })
-                .map_err(Failure::Gpu)?;
+                };
+                let device = drivers::device(&choice, verbose).map_err(Failure::Gpu)?;
                 let found = device.description();
                 let precision = setup.scene.arithmetic_on(true);
                 if precision == Precision::Double && !found.double {
@@ -50,7 +49,7 @@ impl Machine {
                 });
                 (Place::Gpu(device), remark)
             }
-            BackendName::Auto => auto(setup),
+            BackendName::Auto => auto(setup, verbose),
         };
         let precision = setup.scene.arithmetic_on(matches!(place, Place::Gpu(_)));
         let sums = match &place {
@@ -140,7 +139,8 @@ fn number(precision: Precision) -> Number {
 /// does, is a list of `software` (`auto` takes it for a graphics processor), `nodouble` (it has no
 /// double precision), `binding=BYTES` (it binds no more), `slab=BYTES` (a buffer holds no more of a
 /// field), `line=POINTS` (a workgroup holds no longer line), `memory=BYTES` (it has no more),
-/// `lost=DISPATCHES` (it is lost after so many), `nan=DISPATCHES` (numbers are none after so many) and
+/// `lost=DISPATCHES` (it is lost after so many), `nan=DISPATCHES` (numbers are none after so many),
+/// `compiling=MILLISECONDS` (a shader takes so much longer to compile) and
 /// `plain-sums` (its compiler undoes the compensation of sums).
 fn choice() -> AdapterChoice {
     let asked = std::env::var("TABOR_TEST_GPU").unwrap_or_default();
@@ -159,6 +159,7 @@ fn choice() -> AdapterChoice {
         lost_after: number("lost"),
         memory: number("memory"),
         not_a_number_after: number("nan"),
+        compiling: number("compiling"),
         plain_sums: asked.split(',').any(|word| word == "plain-sums"),
         ..AdapterChoice::default()
     }
@@ -182,7 +183,7 @@ const FEWEST_POINTS_IN_DOUBLE: usize = 512 * 512;
 
 /// A graphics processor that is one, where the grid is worth it; else the processor. Says why only
 /// where there is a choice.
-fn auto(setup: &Setup) -> (Place, Option<String>) {
+fn auto(setup: &Setup, verbose: bool) -> (Place, Option<String>) {
     let settings = &setup.scene.solver;
     let choice = choice();
     let precision = setup.scene.arithmetic_on(true);
@@ -194,7 +195,11 @@ fn auto(setup: &Setup) -> (Place, Option<String>) {
     if !choice.software && setup.problem.shape.len() < fewest {
         return (Place::Processor, None);
     }
-    let mut found = adapters();
+    // No adapter transforms these points, so none is asked for.
+    if refuse_size(setup.problem.shape.points).is_err() {
+        return (Place::Processor, None);
+    }
+    let mut found = drivers::list(verbose);
     for adapter in &mut found {
         adapter.limits = choice.narrowed(adapter.limits);
         adapter.double &= !choice.without_double;
@@ -213,12 +218,10 @@ fn auto(setup: &Setup) -> (Place, Option<String>) {
     if in_double && !best.double {
         return stays("it has no double precision".to_owned());
     }
-    let fits = refuse_size(setup.problem.shape.points)
-        .and_then(|()| refuse_limits(setup, best, number(precision)));
-    if let Err(error) = fits {
+    if let Err(error) = refuse_limits(setup, best, number(precision)) {
         return stays(error.to_string());
     }
-    match GpuDevice::new(&choice) {
+    match drivers::device(&choice, verbose) {
         Ok(device) if device.description().software() && !choice.software => {
             stays("WGPU_ADAPTER_NAME names one that computes on the processor".to_owned())
         }
@@ -242,6 +245,20 @@ fn auto(setup: &Setup) -> (Place, Option<String>) {
     }
 }
 
+/// Whether an adapter could take the grid of a scene, as far as that is known before its surface is built.
+pub(super) fn may_take_adapters(scene: &Scene) -> bool {
+    let solved = |points: [usize; 2]| match scene.grid.boundary {
+        Boundary::Periodic => points,
+        Boundary::Free => points.map(|count| count.saturating_mul(2)),
+    };
+    let points = scene.grid.points.map(solved);
+    // A grid that is finer or coarser by halves has the same prime factors.
+    points.is_none_or(|points| {
+        let even = points.map(|count| count.saturating_mul(2));
+        even.into_iter().all(|count| radices(count).is_some())
+    })
+}
+
 /// The adapter that `auto` takes where it can: the best one that is no software.
 pub(super) fn best(found: &[AdapterDescription]) -> Option<&AdapterDescription> {
     found
@@ -251,8 +268,8 @@ pub(super) fn best(found: &[AdapterDescription]) -> Option<&AdapterDescription> 
 }
 
 /// The largest grid of the adapter that `--backend gpu` takes here, in words.
-pub(super) fn largest_here(boundary: Boundary) -> String {
-    let found = adapters();
+pub(super) fn largest_here(boundary: Boundary, verbose: bool) -> String {
+    let found = drivers::list(verbose);
     match best(&found).or(found.first()) {
         None => "no adapter here".to_owned(),
         Some(adapter) => {

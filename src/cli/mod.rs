@@ -4,8 +4,11 @@ mod accuracy;
 mod check;
 mod compare;
 mod devices;
+mod drivers;
 mod fit;
+mod interrupts;
 mod keeper;
+mod leftovers;
 mod machine;
 mod opening;
 mod room;
@@ -25,7 +28,7 @@ use crate::accuracy::AccuracyError;
 use crate::backend::BackendError;
 use crate::backend::gpu::GpuError;
 use crate::fit::FitError;
-use crate::output::OutputError;
+use crate::output::{OutputError, visible, visible_line};
 use crate::scene::{BackendName, Precision, Scene, SceneErrors};
 use crate::surface::SurfaceError;
 use crate::theory::TheoryError;
@@ -78,7 +81,11 @@ enum Command {
     Fit(fit::FitArguments),
     /// Adapters found, what each can do, and which one `auto` takes
     #[command(after_help = "Example:\n  tabor devices")]
-    Devices,
+    Devices {
+        /// Let graphics drivers say what they say at their start
+        #[arg(long)]
+        verbose: bool,
+    },
     /// Print the completions of a shell
     #[command(
         after_help = "Example:\n  tabor completions bash > ~/.local/share/bash-completion/completions/tabor"
@@ -117,6 +124,9 @@ struct RunArguments {
     /// No progress; warnings and errors are still said
     #[arg(long)]
     quiet: bool,
+    /// Let graphics drivers say what they say at their start
+    #[arg(long)]
+    verbose: bool,
     /// Override a key of the scene, as in surface.0.hurst=0.4; may be repeated
     #[arg(long, value_name = "KEY=VALUE", value_parser = key_and_value)]
     set: Vec<(String, String)>,
@@ -126,6 +136,9 @@ struct RunArguments {
 struct CheckArguments {
     /// The scene, a TOML file
     scene: PathBuf,
+    /// Let graphics drivers say what they say at their start
+    #[arg(long)]
+    verbose: bool,
     /// Override a key of the scene, as in surface.0.hurst=0.4; may be repeated
     #[arg(long, value_name = "KEY=VALUE", value_parser = key_and_value)]
     set: Vec<(String, String)>,
@@ -138,6 +151,9 @@ struct CompareArguments {
     /// Folder for compare.csv and compare.png [default: the scene's name with _compare]
     #[arg(long, value_name = "DIR")]
     out: Option<PathBuf>,
+    /// Let graphics drivers say what they say at their start
+    #[arg(long)]
+    verbose: bool,
     /// Override a key of the scene, as in surface.0.hurst=0.4; may be repeated
     #[arg(long, value_name = "KEY=VALUE", value_parser = key_and_value)]
     set: Vec<(String, String)>,
@@ -314,15 +330,20 @@ impl Failure {
             Failure::Accuracy(AccuracyError::Output(OutputError::Refused { .. })) => 2,
             Failure::Accuracy(AccuracyError::Output(_)) => 1,
             Failure::Accuracy(_) => 2,
-            Failure::Interrupted { .. } | Failure::InterruptedStudy { .. } => 130,
+            Failure::Interrupted { .. } | Failure::InterruptedStudy { .. } => {
+                interrupts::INTERRUPTED
+            }
         }
     }
 }
 
 /// Runs the command line and says how it ended.
 pub fn main() -> ExitCode {
-    // clap prints its own messages and exits with 2 where the call is wrong.
-    let arguments = Arguments::parse();
+    room::outlive_a_limit_on_files();
+    let arguments = match Arguments::try_parse() {
+        Ok(arguments) => arguments,
+        Err(error) => refuse_call(error),
+    };
     let done = match arguments.command {
         Command::Run(arguments) => run::run(&arguments),
         Command::Check(arguments) => check::check(&arguments),
@@ -331,34 +352,81 @@ pub fn main() -> ExitCode {
         Command::Compare(arguments) => compare::compare(&arguments),
         Command::Accuracy(arguments) => accuracy::accuracy(&arguments),
         Command::Fit(arguments) => fit::fit(&arguments),
-        Command::Devices => devices::devices(),
+        Command::Devices { verbose } => devices::devices(verbose),
         Command::Completions { shell } => shell::completions(shell),
         Command::Man { folder } => shell::man(folder.as_deref()),
     };
     match done {
         Ok(()) => ExitCode::SUCCESS,
         Err(failure) => {
-            // Red on a terminal; plain elsewhere, and with NO_COLOR.
-            let red = anstyle::AnsiColor::Red.on_default().bold();
-            for line in failure.to_string().lines() {
-                say(&format!("{red}error:{red:#} {line}"));
+            match &failure {
+                // One line a mistake; what a scene holds begins none.
+                Failure::Scene(SceneErrors(mistakes)) => mistakes
+                    .iter()
+                    .for_each(|mistake| fail(&visible_line(&mistake.to_string()))),
+                other => fail(&other.to_string()),
             }
             ExitCode::from(failure.status())
         }
     }
 }
 
-/// Prints a line on standard error. Where that is closed nobody is there to be told.
-fn say(line: &str) {
-    let _ = writeln!(anstream::stderr(), "{line}");
+/// Prints clap's words on a wrong call, or its help, and ends with clap's status.
+fn refuse_call(error: clap::Error) -> ! {
+    let words = || std::env::args_os().map(|word| word.to_string_lossy().into_owned());
+    // clap repeats what it was given. Where that would act on a terminal, it is told in words that do not.
+    if words().any(|word| visible_line(&word) != word) {
+        match Arguments::try_parse_from(words().map(|word| visible_line(&word))) {
+            Err(safe) if safe.kind() == error.kind() => safe.exit(),
+            // Spelled out, another mistake comes first, or none: no colours then.
+            _ => {
+                say(&error.render().to_string());
+                std::process::exit(error.exit_code());
+            }
+        }
+    }
+    error.exit()
 }
 
-/// Writes to standard output.
-fn print(bytes: &[u8]) -> Result<(), Failure> {
+/// Prints a line on standard error, and what follows it on lines of their own further in, so that no text from
+/// outside looks like a message. Where standard error is closed nobody is there to be told.
+fn say(text: &str) {
+    write_lines("", text);
+}
+
+/// The same, with `note:` before it.
+fn note(text: &str) {
+    write_lines("note: ", text);
+}
+
+/// The same, with `warning:` before it.
+fn warn(text: &str) {
+    write_lines("warning: ", text);
+}
+
+/// The same, with `error:` before it: red on a terminal, plain elsewhere and with NO_COLOR.
+fn fail(text: &str) {
+    let red = anstyle::AnsiColor::Red.on_default().bold();
+    write_lines(&format!("{red}error:{red:#} "), text);
+}
+
+fn write_lines(head: &str, text: &str) {
+    let text = visible(text).replace('\n', "\n  ");
+    let _ = writeln!(anstream::stderr(), "{head}{}", text.trim_end());
+}
+
+/// Writes text to standard output.
+fn print(text: &str) -> Result<(), Failure> {
+    print_bytes(visible(text).as_bytes())
+}
+
+/// Writes bytes of our own to standard output. A reader that has gone, as `head` does, had what it wanted.
+fn print_bytes(bytes: &[u8]) -> Result<(), Failure> {
     let mut out = std::io::stdout().lock();
-    out.write_all(bytes)
-        .and_then(|()| out.flush())
-        .map_err(Failure::Print)
+    match out.write_all(bytes).and_then(|()| out.flush()) {
+        Err(error) if error.kind() == std::io::ErrorKind::BrokenPipe => Ok(()),
+        done => done.map_err(Failure::Print),
+    }
 }
 
 /// Reads a scene with its overrides.

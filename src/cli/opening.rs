@@ -1,11 +1,13 @@
 //! The folder of a run, opened at its first step or after the last finished one.
 
 use std::borrow::Cow;
+use std::fs;
 use std::path::Path;
 
 use super::Failure;
+use super::leftovers::lost;
 use super::machine::Machine;
-use crate::output::{Curve, CurveWriter, OutputError, RunFolder, SavedState};
+use crate::output::{Curve, CurveWriter, FRESH, OutputError, RunFolder, SavedState, set_aside};
 use crate::scene::{Precision, Scene};
 use crate::study::{Column, Earlier, HandOver, Setup};
 
@@ -19,6 +21,8 @@ pub(super) struct Opening {
     pub warnings: Vec<String>,
     /// What the user should know.
     pub remarks: Vec<String>,
+    /// What the user is warned of at once.
+    pub lost: Vec<String>,
 }
 
 /// What makes a scene the same scene: all but how it is solved, heights read from files included.
@@ -53,10 +57,33 @@ pub(super) fn open(
     let scene = fingerprint(setup);
     let (folder, there) = match resume {
         true => RunFolder::resume(path, &scene)?,
-        false => (RunFolder::open(path, &scene)?, false),
+        false => RunFolder::take(path, &scene)?,
     };
-    if there && let Some(opening) = go_on(&folder, &scene, setup, machine)? {
-        return Ok(opening);
+    let mut opening = match go_on(&folder, &scene, setup, machine, resume && there)? {
+        Some(opening) => opening,
+        None => start(folder, there, scene, setup, machine, resume)?,
+    };
+    let unheld = opening.folder.warning().map(str::to_owned);
+    opening.lost.extend(unheld);
+    Ok(opening)
+}
+
+/// Begins at the first step.
+fn start(
+    folder: RunFolder,
+    there: bool,
+    scene: String,
+    setup: &Setup,
+    machine: &Machine,
+    resume: bool,
+) -> Result<Opening, Failure> {
+    let mut remarks = Vec::new();
+    if resume {
+        let path = folder.path().display();
+        remarks.push(format!("{path}: nothing to resume, starts at step 1"));
+    } else {
+        remarks.extend(keep_rows(&folder, &scene, setup, there)?);
+        folder.start_afresh(&scene, there)?;
     }
     let curve = CurveWriter::create(&folder.curve_path(), Column::of(&setup.scene))?;
     // A state of no steps: from here on a missing one is a lost one.
@@ -71,44 +98,68 @@ pub(super) fn open(
         hand_over: Cow::Owned(HandOver::default()),
     }
     .write(&folder.state_path(STATE))?;
-    let fresh = format!("{}: nothing to resume, starts at step 1", path.display());
     Ok(Opening {
         folder,
         curve,
         earlier: Earlier::default(),
         warnings: Vec::new(),
-        remarks: if resume { vec![fresh] } else { Vec::new() },
+        remarks,
+        lost: Vec::new(),
     })
 }
 
 /// The file that holds the state, after its prefix.
 pub(super) const STATE: &str = "step.bin";
 
-/// What is in a folder of this scene; `None` where the run ended before it came to its first step.
-fn go_on(
+/// Sets the curve aside before a run from the first step takes its name, where the steps in it cannot be gone
+/// on with; of others `--resume` would have kept the rows. Says so.
+fn keep_rows(
     folder: &RunFolder,
     scene: &str,
     setup: &Setup,
-    machine: &Machine,
-) -> Result<Option<Opening>, Failure> {
+    there: bool,
+) -> Result<Option<String>, OutputError> {
+    let path = folder.curve_path();
+    let rows = fs::read(&path).map_or(0, |bytes| {
+        bytes.iter().filter(|byte| **byte == b'\n').count()
+    });
+    // Its head is a line too.
+    if !there || rows < 2 || sound(folder, scene, setup).is_ok() {
+        return Ok(None);
+    }
+    let kept = set_aside(&path)?;
+    Ok(Some(format!(
+        "the rows of the earlier run are kept in {}",
+        kept.display()
+    )))
+}
+
+/// The state and the curve of a folder, if steps can be gone on with from them.
+///
+/// # Errors
+/// Refused where one is damaged, missing, or does not belong to the other or to the scene; the way out keeps
+/// the rows.
+fn sound(
+    folder: &RunFolder,
+    scene: &str,
+    setup: &Setup,
+) -> Result<Option<(SavedState<'static>, Curve)>, OutputError> {
     let path = folder.state_path(STATE);
     let curve = Curve::read(&folder.curve_path(), Column::of(&setup.scene))?;
     let refuse = |reason: String| {
-        Err(Failure::Output(OutputError::Refused {
+        Err(OutputError::Refused {
             path: path.clone(),
-            reason,
-        }))
+            reason: format!("{reason}; {FRESH}"),
+        })
     };
     let Some(state) = SavedState::read(&path)? else {
         return match curve.rows().len() {
             0 => Ok(None),
-            rows => refuse(format!(
-                "is missing, where curve.csv has {rows} steps; run without --resume to start afresh"
-            )),
+            rows => refuse(format!("is missing, where curve.csv has {rows} steps")),
         };
     };
     if state.scene != scene {
-        return refuse("is of another scene; run without --resume to start afresh".to_owned());
+        return refuse("is of another scene".to_owned());
     }
     let points = setup.problem.shape.len();
     let handed = &state.hand_over;
@@ -119,8 +170,27 @@ fn go_on(
             .any(|field| field.values.len() != points)
         || (handed.points.as_ref()).is_some_and(|points| points.len() != setup.surface.grid.len())
     {
-        return refuse("does not fit the scene; run without --resume to start afresh".to_owned());
+        return refuse("does not fit the scene".to_owned());
     }
+    curve.expect(state.finished, state.curve)?;
+    Ok(Some((state, curve)))
+}
+
+/// What is in a folder of this scene, if it is `there` to be gone on with; `None` where the run ended before it
+/// came to its first step.
+fn go_on(
+    folder: &RunFolder,
+    scene: &str,
+    setup: &Setup,
+    machine: &Machine,
+    there: bool,
+) -> Result<Option<Opening>, Failure> {
+    if !there {
+        return Ok(None);
+    }
+    let Some((state, curve)) = sound(folder, scene, setup)? else {
+        return Ok(None);
+    };
     let failed = curve
         .rows()
         .get(state.finished)
@@ -137,10 +207,13 @@ fn go_on(
         solver
     };
     if said(&state.solver) != said(&now) && state.finished > 0 && !failed {
-        return refuse(format!(
-            "was solved with [solver] {}, and here it is {now}: it may change only where a step did not converge; put it back, or run without --resume to start afresh",
-            state.solver
-        ));
+        return Err(Failure::Output(OutputError::Refused {
+            path: folder.state_path(STATE),
+            reason: format!(
+                "was solved with [solver] {}, and here it is {now}: it may change only where a step did not converge; put it back, or name another folder with --out",
+                state.solver
+            ),
+        }));
     }
     let mut remarks = Vec::new();
     let mut warnings = state.warnings;
@@ -160,6 +233,13 @@ fn go_on(
         remarks.push(text.clone());
         warnings.push(text);
     }
+    let lost = lost(folder, setup, state.finished, &warnings);
+    warnings.extend(
+        lost.iter()
+            .filter(|text| !warnings.contains(text))
+            .cloned()
+            .collect::<Vec<_>>(),
+    );
     let (curve, rows) = curve.go_on(state.finished, state.curve)?;
     Ok(Some(Opening {
         folder: folder.clone(),
@@ -170,5 +250,6 @@ fn go_on(
         },
         warnings,
         remarks,
+        lost: lost.into_iter().collect(),
     }))
 }

@@ -1,4 +1,4 @@
-//! Whether this machine has the memory for a run, asked before any of it is taken.
+//! Whether this machine has the room for a run: memory, asked before any of it is taken, and files.
 
 use super::Failure;
 use crate::backend::tally::Place;
@@ -111,3 +111,17 @@ pub(super) fn refuse_files(scene: &Scene) -> Result<(), Failure> {
     }
     Ok(())
 }
+
+/// Has the system refuse what goes beyond a limit on the length of files (`ulimit -f`), as it refuses what a full
+/// disk does not hold, in place of ending the program.
+#[cfg(unix)]
+pub(super) fn outlive_a_limit_on_files() {
+    use std::sync::Arc;
+    use std::sync::atomic::AtomicBool;
+    let noted = Arc::new(AtomicBool::new(false));
+    // Where it cannot be had, the signal ends the program as it would have.
+    let _ = signal_hook::flag::register(signal_hook::consts::SIGXFSZ, noted);
+}
+
+#[cfg(not(unix))]
+pub(super) fn outlive_a_limit_on_files() {}

@@ -1,14 +1,13 @@
 //! `tabor run`: the main job.
 
 use std::path::{Path, PathBuf};
-use std::sync::Arc;
-use std::sync::atomic::{AtomicBool, Ordering};
 use std::time::Instant;
 
+use super::interrupts::Interrupts;
 use super::keeper::Keeper;
 use super::machine::Machine;
 use super::opening::{Opening, open};
-use super::{Failure, RunArguments, read_scene, room, say, table};
+use super::{Failure, RunArguments, note, read_scene, room, say, table, warn};
 use crate::backend::BackendError;
 use crate::backend::cpu::with_threads;
 use crate::effect::Effect;
@@ -33,21 +32,21 @@ pub(super) fn run(arguments: &RunArguments) -> Result<(), Failure> {
     let setup = Setup::new(scene, surface);
     seconds.add("surface", clock.elapsed().as_secs_f64());
     let clock = Instant::now();
-    let machine = Machine::of(&setup)?;
+    let machine = Machine::of(&setup, arguments.verbose)?;
     seconds.add("device", clock.elapsed().as_secs_f64());
-    let interrupted = watch_for_interrupts();
-    match walk(arguments, &setup, &machine, &interrupted, seconds.clone())? {
+    let interrupts = Interrupts::watch();
+    match walk(arguments, &setup, &machine, &interrupts, seconds.clone())? {
         None => Ok(()),
         // The device failed and another may go on: what is solved is kept, as for `--resume`.
         Some((error, instead)) => {
-            say(&format!(
-                "warning: {error}; the processor goes on after the last finished step"
+            warn(&format!(
+                "{error}; the processor goes on after the last finished step"
             ));
             let again = RunArguments {
                 resume: true,
                 ..arguments.clone()
             };
-            walk(&again, &setup, &instead, &interrupted, seconds).map(drop)
+            walk(&again, &setup, &instead, &interrupts, seconds).map(drop)
         }
     }
 }
@@ -58,7 +57,7 @@ fn walk(
     arguments: &RunArguments,
     setup: &Setup,
     machine: &Machine,
-    interrupted: &Arc<AtomicBool>,
+    interrupts: &Interrupts,
     mut seconds: Seconds,
 ) -> Result<Option<(BackendError, Machine)>, Failure> {
     let path = arguments
@@ -71,12 +70,13 @@ fn walk(
         earlier,
         warnings,
         remarks,
+        lost,
     } = open(&path, setup, machine, arguments.resume)?;
     for remark in machine.remark.iter().chain(&remarks) {
-        say(&format!("note: {remark}"));
+        note(remark);
     }
-    for warning in &setup.warnings {
-        say(&format!("warning: {warning}"));
+    for warning in setup.warnings.iter().chain(&lost) {
+        warn(warning);
     }
     seconds.add("solve", earlier.rows.iter().map(|row| row.seconds).sum());
     let progress = Progress::new(
@@ -91,7 +91,7 @@ fn walk(
         &folder,
         curve,
         progress,
-        Arc::clone(interrupted),
+        interrupts.clone(),
         &earlier,
         warnings,
         seconds,
@@ -135,19 +135,6 @@ fn walk(
 /// The scene's name without `.toml`, in the current folder.
 fn default_folder(scene: &Path) -> PathBuf {
     PathBuf::from(scene.file_stem().unwrap_or(scene.as_os_str()))
-}
-
-/// Ctrl-C asks the run to end after the current iteration.
-pub(super) fn watch_for_interrupts() -> Arc<AtomicBool> {
-    let flag = Arc::new(AtomicBool::new(false));
-    let raised = Arc::clone(&flag);
-    // A second handler in one process is refused; then the first one's default stands.
-    if let Err(error) = ctrlc::set_handler(move || raised.store(true, Ordering::Relaxed)) {
-        say(&format!(
-            "warning: Ctrl-C will end the run without a summary: {error}"
-        ));
-    }
-    flag
 }
 
 fn summarise(

@@ -4,14 +4,14 @@ use std::path::{Path, PathBuf};
 
 use clap::CommandFactory;
 
-use super::{Arguments, Failure, print};
+use super::{Arguments, Failure, print_bytes};
 use crate::output::OutputError;
 
 /// Prints the completions of a shell.
 pub(super) fn completions(shell: clap_complete::Shell) -> Result<(), Failure> {
     let mut text = Vec::new();
     clap_complete::generate(shell, &mut Arguments::command(), "tabor", &mut text);
-    print(&text)
+    print_bytes(&text)
 }
 
 /// Prints the man page of `tabor`, or writes that one and one a command into a folder.
@@ -20,7 +20,7 @@ pub(super) fn man(folder: Option<&Path>) -> Result<(), Failure> {
     // Names of the pages and `help` come with the build.
     command.build();
     let Some(folder) = folder else {
-        return print(&page(&command)?);
+        return print_bytes(&page(&command)?);
     };
     let cannot = |action: &'static str, path: PathBuf| {
         move |cause| {

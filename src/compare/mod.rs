@@ -139,7 +139,8 @@ pub fn compare(
             Err(Left::Output(error)) => return Err(error.into()),
         }
     }
-    let rows = table.into_rows();
+    let (rows, more) = table.into_rows()?;
+    notes.extend(more);
     draw::figure(&comparison, &rows).write(&folder.join("compare.png"))?;
     Ok(Compared { rows, notes })
 }

@@ -1,13 +1,11 @@
 //! `compare.csv`, on the disk row by row.
 
-use std::fs::{self, File, OpenOptions};
-use std::io::Write;
-use std::path::{Path, PathBuf};
+use std::fs;
+use std::path::Path;
 use std::time::Instant;
 
 use super::State;
-use crate::output::OutputError;
-use crate::output::write_atomically;
+use crate::output::{FolderLock, GrowingTable, OutputError};
 
 /// First line of `compare.csv`.
 const HEADER: &str = "model,mean_pressure,contact_area_fraction,mean_gap,adhesive_pressure,pull_off_pressure,seconds,within_range,limit";
@@ -29,8 +27,8 @@ pub struct Row {
 
 /// The comparison as it grows.
 pub(super) struct Table {
-    path: PathBuf,
-    file: File,
+    table: GrowingTable,
+    lock: FolderLock,
     rows: Vec<Row>,
     model: &'static str,
     clock: Instant,
@@ -52,19 +50,10 @@ impl Table {
                 "is not a table that tabor wrote; name another folder with --out",
             ));
         }
-        write_atomically(&path, format!("{HEADER}\n").as_bytes())?;
-        let failed = |cause| OutputError::Write {
-            action: "open",
-            path: path.clone(),
-            cause,
-        };
-        let file = OpenOptions::new()
-            .append(true)
-            .open(&path)
-            .map_err(failed)?;
+        let lock = FolderLock::take(&folder.join(FolderLock::HIDDEN), folder)?;
         Ok(Table {
-            path,
-            file,
+            table: GrowingTable::create(&path, format!("{HEADER}\n"))?,
+            lock,
             rows: Vec::new(),
             model: "",
             clock: Instant::now(),
@@ -105,21 +94,15 @@ impl Table {
             limit.is_none(),
             limit.unwrap_or_default()
         );
-        let written = self
-            .file
-            .write_all(line.as_bytes())
-            .and_then(|()| self.file.sync_data());
-        written.map_err(|cause| OutputError::Write {
-            action: "write",
-            path: self.path.clone(),
-            cause,
-        })?;
+        self.table.append(&line)?;
         self.rows.push(row);
         Ok(())
     }
 
-    /// All rows.
-    pub fn into_rows(self) -> Vec<Row> {
-        self.rows
+    /// All rows, once they are in the file, and what is to be said of that.
+    pub fn into_rows(mut self) -> Result<(Vec<Row>, Vec<String>), OutputError> {
+        let unheld = self.lock.warning().map(str::to_owned);
+        let notes = unheld.into_iter().chain(self.table.mend(true)?).collect();
+        Ok((self.rows, notes))
     }
 }

@@ -1,12 +1,12 @@
 //! `curve.csv`: one row a step, on the disk as soon as the step ends.
 
 use std::fmt::Write as _;
-use std::fs::{self, File, OpenOptions};
-use std::io::{self, Write as _};
+use std::fs;
+use std::io;
 use std::path::{Path, PathBuf};
 
-use super::error::OutputError;
-use super::folder::write_within;
+use super::error::{FRESH, OutputError};
+use super::growing::GrowingTable;
 use crate::study::{Column, State, StepRow};
 
 /// First line of `curve.csv` where no effect adds a column.
@@ -48,14 +48,14 @@ impl Curve {
         if lines.next().map(str::trim_end) != Some(header(&curve.columns).as_str()) {
             return Err(OutputError::refused(
                 path,
-                "is not a curve that this version of tabor wrote",
+                format!("is not a curve that this version of tabor wrote; {FRESH}"),
             ));
         }
         for (index, line) in lines.enumerate() {
             let row = parse_row(line, &curve.columns).filter(|row| row.step == index + 1);
             let row = row.ok_or_else(|| {
                 let reason = format!(
-                    "line {} is not row {} of a curve; run without --resume to start afresh",
+                    "line {} is not row {} of a curve; {FRESH}",
                     index + 2,
                     index + 1
                 );
@@ -72,39 +72,48 @@ impl Curve {
         &self.rows
     }
 
+    /// Refuses a curve with fewer rows than `finished`, or whose rows up to that are not those that the
+    /// checksum was made of.
+    pub fn expect(&self, finished: usize, checksum: u32) -> Result<(), OutputError> {
+        let Some(rows) = self.rows.get(..finished) else {
+            let reason = format!(
+                "has {} whole rows where {finished} steps are finished; {FRESH}",
+                self.rows.len()
+            );
+            return Err(OutputError::refused(&self.path, reason));
+        };
+        if self.checksum_of(rows).finalize() != checksum {
+            let reason = format!("was changed since its steps were solved; {FRESH}");
+            return Err(OutputError::refused(&self.path, reason));
+        }
+        Ok(())
+    }
+
+    fn checksum_of(&self, rows: &[StepRow]) -> crc32fast::Hasher {
+        let mut found = crc32fast::Hasher::new();
+        for row in rows {
+            add_row(&mut found, row, &self.columns);
+        }
+        found
+    }
+
     /// Goes on after the first `finished` rows, whose checksum is known; later ones are dropped.
     ///
-    /// Refused where there are fewer, or where they are not those that the checksum was made of.
+    /// Refused where [`expect`](Curve::expect) refuses.
     pub fn go_on(
         mut self,
         finished: usize,
         checksum: u32,
     ) -> Result<(CurveWriter, Vec<StepRow>), OutputError> {
-        if self.rows.len() < finished {
-            let reason = format!(
-                "has {} whole rows where {finished} steps are finished; run without --resume to start afresh",
-                self.rows.len()
-            );
-            return Err(OutputError::refused(&self.path, reason));
-        }
+        self.expect(finished, checksum)?;
         self.rows.truncate(finished);
-        let mut found = crc32fast::Hasher::new();
-        for row in &self.rows {
-            add_row(&mut found, row, &self.columns);
-        }
-        if found.clone().finalize() != checksum {
-            return Err(OutputError::refused(
-                &self.path,
-                "was changed since its steps were solved; run without --resume to start afresh",
-            ));
-        }
+        let found = self.checksum_of(&self.rows);
         let text = format!(
             "{}\n{}",
             header(&self.columns),
             self.lines[..finished].concat()
         );
-        write_within(&self.path, text.as_bytes())?;
-        let writer = CurveWriter::append_to(&self.path, self.columns, found)?;
+        let writer = CurveWriter::write(&self.path, self.columns, text, found)?;
         Ok((writer, self.rows))
     }
 }
@@ -112,45 +121,41 @@ impl Curve {
 /// Writes `curve.csv` row by row.
 #[derive(Debug)]
 pub struct CurveWriter {
-    path: PathBuf,
+    table: GrowingTable,
     columns: Vec<Column>,
-    file: File,
     checksum: crc32fast::Hasher,
 }
 
 impl CurveWriter {
     /// Starts a curve at `path` with its head, these columns behind the others, and no rows.
     pub fn create(path: &Path, columns: Vec<Column>) -> Result<CurveWriter, OutputError> {
-        write_within(path, format!("{}\n", header(&columns)).as_bytes())?;
-        CurveWriter::append_to(path, columns, crc32fast::Hasher::new())
+        let text = format!("{}\n", header(&columns));
+        CurveWriter::write(path, columns, text, crc32fast::Hasher::new())
     }
 
-    /// Goes on with the file at `path`, whose rows gave this checksum.
-    fn append_to(
+    /// Writes the file at `path` anew, with rows that gave this checksum.
+    fn write(
         path: &Path,
         columns: Vec<Column>,
+        text: String,
         checksum: crc32fast::Hasher,
     ) -> Result<CurveWriter, OutputError> {
-        let file = OpenOptions::new()
-            .append(true)
-            .open(path)
-            .map_err(OutputError::write("open", path))?;
         Ok(CurveWriter {
-            path: path.to_path_buf(),
+            table: GrowingTable::create(path, text)?,
             columns,
-            file,
             checksum,
         })
     }
 
+    /// Writes the curve anew from memory where something else has removed or changed it; see
+    /// [`GrowingTable::mend`].
+    pub fn mend(&mut self, whole: bool) -> Result<Option<String>, OutputError> {
+        self.table.mend(whole)
+    }
+
     /// Appends one row and waits until it is on the disk.
     pub fn append(&mut self, row: &StepRow) -> Result<(), OutputError> {
-        let line = format_row(row, &self.columns);
-        // One write a row, so that a reader or a crash meets whole rows.
-        self.file
-            .write_all(line.as_bytes())
-            .and_then(|()| self.file.sync_data())
-            .map_err(OutputError::write("write", &self.path))?;
+        self.table.append(&format_row(row, &self.columns))?;
         add_row(&mut self.checksum, row, &self.columns);
         Ok(())
     }

@@ -3,6 +3,10 @@
 use std::io;
 use std::path::{Path, PathBuf};
 
+/// The way out of a run that cannot be gone on with: rows of it are never lost by following it.
+pub(crate) const FRESH: &str =
+    "run without --resume to start afresh, which keeps the rows of curve.csv in curve.csv.before";
+
 /// Why an output could not be written.
 ///
 /// [`OutputError::Refused`] is a mistake in the call (exit status 2), everything else an output

@@ -3,11 +3,13 @@
 use std::fs::{self, File};
 use std::io::{self, Write};
 use std::path::{Path, PathBuf};
+use std::sync::Arc;
 
 use serde::{Deserialize, Serialize};
 
 use super::difference::difference;
 use super::error::OutputError;
+use super::lock::FolderLock;
 use crate::scene::FieldName;
 
 /// End of the names under which files are written before they are renamed.
@@ -24,6 +26,9 @@ const STATE_PREFIX: &str = "last_";
 /// The file that says that tabor wrote this folder, and for which scene.
 const MARKER: &str = "scene.json";
 
+/// The file in `state` that a run holds while it writes the folder. It stays when the run ends, empty.
+const LOCK: &str = "lock";
+
 /// Content of `state/scene.json`.
 #[derive(Debug, Serialize, Deserialize)]
 struct Marker {
@@ -33,10 +38,12 @@ struct Marker {
     fingerprint: String,
 }
 
-/// The folder that one run of one scene writes.
+/// The folder that one run of one scene writes, held against other runs until the last copy of this is
+/// dropped or the process ends, however it ends.
 #[derive(Clone, Debug)]
 pub struct RunFolder {
     path: PathBuf,
+    lock: Arc<FolderLock>,
 }
 
 impl RunFolder {
@@ -45,13 +52,47 @@ impl RunFolder {
     /// A folder with files in it is taken only if tabor wrote it for the scene of this
     /// `fingerprint`; then the files of that run are removed and no others.
     pub fn open(path: &Path, fingerprint: &str) -> Result<RunFolder, OutputError> {
-        let folder = RunFolder::at(path);
-        if !folder.is_empty()? {
-            folder.expect_marker(fingerprint)?;
-            folder.remove_own_files()?;
-        }
-        folder.write_marker(fingerprint)?;
+        let (folder, there) = RunFolder::take(path, fingerprint)?;
+        folder.start_afresh(fingerprint, there)?;
         Ok(folder)
+    }
+
+    /// Holds the folder at `path`, which is created where it is missing, and says whether a run of this
+    /// `fingerprint` is in it. Nothing in it is changed.
+    ///
+    /// # Errors
+    /// Refused where another run holds it, or where it has files in it and tabor did not write them for the
+    /// scene of this `fingerprint`; then it is left untouched.
+    pub fn take(path: &Path, fingerprint: &str) -> Result<(RunFolder, bool), OutputError> {
+        let path = here_if_empty(path);
+        let inside = Inside { path: &path };
+        if !inside.is_empty()? {
+            inside.expect_marker(fingerprint)?;
+        }
+        let state = path.join("state");
+        fs::create_dir_all(&state).map_err(OutputError::write("create the folder", &state))?;
+        let lock = FolderLock::take(&state.join(LOCK), &path)?;
+        // Another run may have begun and ended since the look before.
+        let there = !inside.is_empty()?;
+        if there {
+            inside.expect_marker(fingerprint)?;
+        }
+        let lock = Arc::new(lock);
+        Ok((RunFolder { path, lock }, there))
+    }
+
+    /// Makes the folder that of a run from its first step: the files of a run that is `there` are removed and
+    /// no others.
+    pub fn start_afresh(&self, fingerprint: &str, there: bool) -> Result<(), OutputError> {
+        if there {
+            self.remove_own_files()?;
+        }
+        self.write_marker(fingerprint)
+    }
+
+    /// What is to be said of a folder that cannot be held.
+    pub fn warning(&self) -> Option<&str> {
+        self.lock.warning()
     }
 
     /// Opens `path` to go on with the run that it holds; says whether there is one. Results stay,
@@ -60,11 +101,11 @@ impl RunFolder {
     /// A folder that is missing or empty is opened for a run from its first step; one that tabor
     /// did not write for the scene of this `fingerprint` is refused.
     pub fn resume(path: &Path, fingerprint: &str) -> Result<(RunFolder, bool), OutputError> {
-        let folder = RunFolder::at(path);
-        if folder.is_empty()? {
-            return Ok((RunFolder::open(path, fingerprint)?, false));
+        let (folder, there) = RunFolder::take(path, fingerprint)?;
+        if !there {
+            folder.start_afresh(fingerprint, false)?;
+            return Ok((folder, false));
         }
-        folder.expect_marker(fingerprint)?;
         for part in [""].into_iter().chain(PARTS) {
             remove_files(&folder.path.join(part), |name, unfinished| {
                 unfinished && !name.is_empty()
@@ -75,7 +116,7 @@ impl RunFolder {
 
     /// Fails where the folder is no longer there, so that nothing makes half of it anew.
     pub fn expect_present(&self) -> Result<(), OutputError> {
-        match fs::metadata(self.marker_path()) {
+        match fs::metadata(marker_path(&self.path)) {
             Ok(_) => Ok(()),
             Err(error) => Err(OutputError::write("find the folder", &self.path)(error)),
         }
@@ -119,14 +160,6 @@ impl RunFolder {
             .into_iter()
             .map(|(step, field, path)| (step, FieldName::ALL[field].name(), path))
             .collect()
-    }
-
-    fn at(path: &Path) -> RunFolder {
-        // An empty path joins like the current folder but cannot be listed like it.
-        let here = path.as_os_str().is_empty();
-        RunFolder {
-            path: if here { Path::new(".") } else { path }.to_path_buf(),
-        }
     }
 
     /// The folder itself.
@@ -182,58 +215,6 @@ impl RunFolder {
             .join(format!("{STATE_PREFIX}{name}"))
     }
 
-    fn marker_path(&self) -> PathBuf {
-        self.path.join("state").join(MARKER)
-    }
-
-    /// Whether there is nothing in the folder, or no folder. One in which a run ended before it had
-    /// left its marker holds nothing either.
-    fn is_empty(&self) -> Result<bool, OutputError> {
-        let names = |folder: &Path| -> io::Result<Vec<std::ffi::OsString>> {
-            fs::read_dir(folder)?
-                .take(2)
-                .map(|entry| Ok(entry?.file_name()))
-                .collect()
-        };
-        match names(&self.path) {
-            Ok(found) if found == ["state"] => {
-                let unfinished = format!(".{MARKER}{UNFINISHED}");
-                let inside = names(&self.path.join("state")).unwrap_or_default();
-                Ok(inside.is_empty() || inside == [unfinished.as_str()])
-            }
-            Ok(found) => Ok(found.is_empty()),
-            Err(error) if error.kind() == io::ErrorKind::NotFound => Ok(true),
-            Err(error) if error.kind() == io::ErrorKind::NotADirectory => Err(
-                OutputError::refused(&self.path, "is a file; name a folder with --out"),
-            ),
-            Err(error) => Err(OutputError::write("read the folder", &self.path)(error)),
-        }
-    }
-
-    fn expect_marker(&self, fingerprint: &str) -> Result<(), OutputError> {
-        let marker = match fs::read(self.marker_path()) {
-            Ok(bytes) => serde_json::from_slice::<Marker>(&bytes).ok(),
-            Err(error) if error.kind() == io::ErrorKind::PermissionDenied => {
-                return Err(OutputError::write("read", &self.marker_path())(error));
-            }
-            Err(_) => None,
-        };
-        match marker {
-            None => Err(OutputError::refused(
-                &self.path,
-                "holds files that tabor did not write; name an empty or new folder with --out",
-            )),
-            Some(marker) if marker.fingerprint != fingerprint => Err(OutputError::refused(
-                &self.path,
-                format!(
-                    "holds the results of another scene{}; name another folder with --out, or remove it",
-                    difference(&marker.fingerprint, fingerprint)
-                ),
-            )),
-            Some(_) => Ok(()),
-        }
-    }
-
     fn write_marker(&self, fingerprint: &str) -> Result<(), OutputError> {
         let marker = Marker {
             tabor: env!("CARGO_PKG_VERSION").to_owned(),
@@ -242,12 +223,7 @@ impl RunFolder {
         let mut text = serde_json::to_string_pretty(&marker)
             .expect("two strings can always be written as JSON");
         text.push('\n');
-        let written = write_atomically(&self.marker_path(), text.as_bytes());
-        if written.is_err() {
-            // A folder left with an empty `state` and no marker would be refused the next time.
-            let _ = fs::remove_dir(self.path.join("state"));
-        }
-        written
+        write_atomically(&marker_path(&self.path), text.as_bytes())
     }
 
     /// Removes what a run writes: known names only, so that a note left beside them stays.
@@ -259,6 +235,74 @@ impl RunFolder {
             name.starts_with(STATE_PREFIX)
         })
     }
+}
+
+/// A folder that is looked at before it is held.
+struct Inside<'a> {
+    path: &'a Path,
+}
+
+impl Inside<'_> {
+    /// Whether there is nothing in the folder, or no folder. One in which a run ended before it had
+    /// left its marker holds nothing either.
+    fn is_empty(&self) -> Result<bool, OutputError> {
+        let names = |folder: &Path| -> io::Result<Vec<std::ffi::OsString>> {
+            fs::read_dir(folder)?
+                .take(3)
+                .map(|entry| Ok(entry?.file_name()))
+                .collect()
+        };
+        match names(self.path) {
+            Ok(found) if found == ["state"] => {
+                let unfinished = format!(".{MARKER}{UNFINISHED}");
+                let inside = names(&self.path.join("state")).unwrap_or_default();
+                Ok(inside
+                    .iter()
+                    .all(|name| name == LOCK || *name == unfinished.as_str()))
+            }
+            Ok(found) => Ok(found.is_empty()),
+            Err(error) if error.kind() == io::ErrorKind::NotFound => Ok(true),
+            Err(error) if error.kind() == io::ErrorKind::NotADirectory => Err(
+                OutputError::refused(&self.path, "is a file; name a folder with --out"),
+            ),
+            Err(error) => Err(OutputError::write("read the folder", self.path)(error)),
+        }
+    }
+
+    fn expect_marker(&self, fingerprint: &str) -> Result<(), OutputError> {
+        let path = marker_path(self.path);
+        let marker = match fs::read(&path) {
+            Ok(bytes) => serde_json::from_slice::<Marker>(&bytes).ok(),
+            Err(error) if error.kind() == io::ErrorKind::PermissionDenied => {
+                return Err(OutputError::write("read", &path)(error));
+            }
+            Err(_) => None,
+        };
+        match marker {
+            None => Err(OutputError::refused(
+                self.path,
+                "holds files that tabor did not write (state/scene.json is not there or damaged); name an empty or new folder with --out",
+            )),
+            Some(marker) if marker.fingerprint != fingerprint => Err(OutputError::refused(
+                self.path,
+                format!(
+                    "holds the results of another scene{}; name another folder with --out, or move this one away",
+                    difference(&marker.fingerprint, fingerprint)
+                ),
+            )),
+            Some(_) => Ok(()),
+        }
+    }
+}
+
+/// An empty path joins like the current folder but cannot be listed like it.
+fn here_if_empty(path: &Path) -> PathBuf {
+    let here = path.as_os_str().is_empty();
+    if here { Path::new(".") } else { path }.to_path_buf()
+}
+
+fn marker_path(folder: &Path) -> PathBuf {
+    folder.join("state").join(MARKER)
 }
 
 /// The step of `step_DIGITS_FIELD.png`, `step_DIGITS_FIELD.npy` or `step_DIGITS.vti`.
@@ -299,6 +343,25 @@ fn remove_files(folder: &Path, own: impl Fn(&str, bool) -> bool) -> Result<(), O
         }
     }
     Ok(())
+}
+
+/// Gives the file at `path` the first free name of `NAME.before`, `NAME.before2` and so on, which no run
+/// removes, and returns it.
+pub fn set_aside(path: &Path) -> Result<PathBuf, OutputError> {
+    let named = |count: usize| {
+        let mut name = path.as_os_str().to_owned();
+        name.push(match count {
+            1 => ".before".to_owned(),
+            more => format!(".before{more}"),
+        });
+        PathBuf::from(name)
+    };
+    let free = (1..)
+        .map(named)
+        .find(|name| fs::symlink_metadata(name).is_err())
+        .expect("names do not run out");
+    fs::rename(path, &free).map_err(OutputError::write("move away", path))?;
+    Ok(free)
 }
 
 /// Writes `bytes` to `path` so that a reader finds the old file or the new one, never half of it.
@@ -367,6 +430,38 @@ mod tests {
         assert_eq!(marker["fingerprint"], "one");
         assert_eq!(marker["tabor"], env!("CARGO_PKG_VERSION"));
         RunFolder::open(place.path().join("a/b").as_path(), "one").unwrap();
+    }
+
+    #[test]
+    fn a_folder_is_held_until_its_run_ends() {
+        let place = tempfile::tempdir().unwrap();
+        let first = RunFolder::open(place.path(), "one").unwrap();
+        touch(&first.curve_path());
+        let copy = first.clone();
+        drop(first);
+        for open in [RunFolder::open, |path: &Path, scene: &str| {
+            RunFolder::resume(path, scene).map(|(folder, _)| folder)
+        }] {
+            let refused = open(place.path(), "one").unwrap_err().to_string();
+            let me = format!("process {}", std::process::id());
+            assert!(refused.contains(&me), "{refused}");
+        }
+        assert!(copy.curve_path().exists(), "nothing was touched");
+        drop(copy);
+        let lock = fs::read(place.path().join("state/lock")).unwrap();
+        assert!(lock.is_empty(), "nobody holds it");
+        RunFolder::open(place.path(), "one").unwrap();
+    }
+
+    #[test]
+    fn what_is_set_aside_takes_no_ones_place() {
+        let place = tempfile::tempdir().unwrap();
+        let path = place.path().join("curve.csv");
+        for name in ["curve.csv.before", "curve.csv.before2", "curve.csv.before3"] {
+            touch(&path);
+            assert_eq!(set_aside(&path).unwrap(), place.path().join(name));
+        }
+        assert!(set_aside(&path).is_err());
     }
 
     #[test]

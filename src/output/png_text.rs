@@ -1,5 +1,7 @@
 //! Texts inside a PNG file, for programs that read its numbers.
 
+use super::visible::visible;
+
 /// Length of the signature and of the header chunk, after which texts may stand.
 const AFTER_HEADER: usize = 8 + 25;
 
@@ -11,7 +13,8 @@ pub(super) fn software() -> (&'static str, String) {
     )
 }
 
-/// `png` with a text chunk for each keyword and text, placed after its header.
+/// `png` with a text chunk for each keyword and text, placed after its header. Control characters are
+/// spelled out: programs print these texts, and a zero byte would end one early.
 ///
 /// Texts outside ASCII are stored as `iTXt` (UTF-8), others as `tEXt`. Keywords are ours: ASCII,
 /// shorter than 80 bytes.
@@ -22,8 +25,7 @@ pub(super) fn with_texts(png: &[u8], texts: &[(&str, String)]) -> Vec<u8> {
     let mut bytes = png[..AFTER_HEADER].to_vec();
     for (keyword, text) in texts {
         let mut content = keyword.as_bytes().to_vec();
-        // A zero byte would end the text early.
-        let text = text.replace('\0', " ");
+        let text = visible(text);
         if text.is_ascii() {
             content.push(0);
             content.extend(text.bytes());

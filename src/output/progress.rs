@@ -6,6 +6,8 @@ use std::time::{Duration, Instant};
 
 use indicatif::{ProgressBar, ProgressDrawTarget, ProgressStyle};
 
+use super::visible::visible;
+
 /// A progress line, or nothing where nobody watches.
 #[derive(Debug)]
 pub struct Progress {
@@ -80,8 +82,10 @@ impl Progress {
         }
     }
 
-    /// Prints a line to standard error, always, above the progress line where there is one.
+    /// Prints a line to standard error, always, above the progress line where there is one. What follows it stands
+    /// further in.
     pub fn say(&self, text: &str) {
+        let text = visible(text).replace('\n', "\n  ");
         // Where standard error is closed nobody is there to be told.
         let write = || {
             let _ = writeln!(stderr(), "{text}");

@@ -13,7 +13,7 @@ use std::path::Path;
 use serde::{Deserialize, Serialize};
 use serde_json::Value;
 
-use super::error::OutputError;
+use super::error::{FRESH, OutputError};
 use super::folder::write_within;
 use crate::study::{HandOver, HandedField, PointState};
 
@@ -136,7 +136,6 @@ impl SavedState<'_> {
 
 /// The state in `bytes`, or why there is none in it and the way out.
 fn decode(bytes: &[u8]) -> Result<SavedState<'static>, String> {
-    const FRESH: &str = "run without --resume to start afresh";
     let damaged = || format!("is damaged; {FRESH}");
     let content = bytes.strip_prefix(FORM).ok_or_else(|| {
         format!("is not a state of this version of tabor, or was cut short; {FRESH}")

@@ -30,6 +30,9 @@ pub fn write_volume(
     write_within(path, &bytes)
 }
 
+/// The last bytes of every volume.
+pub const VOLUME_END: &[u8] = b"\n</VTKFile>\n";
+
 fn encode(grid: &Grid, fields: &[(FieldName, Vec<f64>)], single: bool) -> io::Result<Vec<u8>> {
     let (kind, width) = if single {
         ("Float32", 4)
@@ -71,7 +74,8 @@ fn encode(grid: &Grid, fields: &[(FieldName, Vec<f64>)], single: bool) -> io::Re
             bytes.extend(values.iter().flat_map(|value| value.to_le_bytes()));
         }
     }
-    bytes.extend(b"\n  </AppendedData>\n</VTKFile>\n");
+    bytes.extend(b"\n  </AppendedData>");
+    bytes.extend(VOLUME_END);
     Ok(bytes)
 }
 

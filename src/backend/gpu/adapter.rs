@@ -32,6 +32,8 @@ pub struct AdapterChoice {
     pub memory: Option<u64>,
     /// Dispatches after which some number of each field is none: for tests of that.
     pub not_a_number_after: Option<u64>,
+    /// Milliseconds that a shader takes to compile besides: for tests of what waits for it.
+    pub compiling: Option<u64>,
     /// Whether compensated sums are taken to come out wrong: for tests of plain ones.
     pub plain_sums: bool,
 }

@@ -1,8 +1,9 @@
 //! Devices: what one allows, and how its failures are caught.
 
 use std::collections::HashMap;
-use std::sync::atomic::{AtomicU64, Ordering};
+use std::sync::atomic::{AtomicU64, AtomicUsize, Ordering};
 use std::sync::{Arc, Mutex, OnceLock, PoisonError};
+use std::time::Duration;
 
 use super::GpuBackend;
 use super::adapter::{AdapterChoice, AdapterDescription, choose, describe, enumerate, instance};
@@ -12,6 +13,31 @@ use super::level::LevelPlan;
 use super::slabs::Limits;
 use super::space;
 use crate::backend::Shape;
+
+/// Threads of this process that are in a driver.
+static IN_DRIVERS: AtomicUsize = AtomicUsize::new(0);
+
+/// Whether some thread waits for a device or its driver, as while a shader is compiled: such a wait cannot
+/// be given up, and may take as long as the driver likes.
+pub fn keeps_waiting() -> bool {
+    IN_DRIVERS.load(Ordering::Relaxed) > 0
+}
+
+/// A thread in a driver, while this is held.
+struct InDriver;
+
+impl InDriver {
+    fn enter() -> InDriver {
+        IN_DRIVERS.fetch_add(1, Ordering::Relaxed);
+        InDriver
+    }
+}
+
+impl Drop for InDriver {
+    fn drop(&mut self) {
+        IN_DRIVERS.fetch_sub(1, Ordering::Relaxed);
+    }
+}
 
 /// A graphics processor, ready to compute. Copies share the device and its compiled kernels.
 #[derive(Clone)]
@@ -33,6 +59,8 @@ struct Inner {
     sound: Option<AtomicU64>,
     /// Bytes left, where they are counted.
     memory: Option<AtomicU64>,
+    /// How long a shader takes to compile besides, where that is asked for.
+    compiling: Option<Duration>,
 }
 
 impl GpuDevice {
@@ -87,6 +115,7 @@ impl GpuDevice {
                 left: choice.lost_after.map(AtomicU64::new),
                 sound: choice.not_a_number_after.map(AtomicU64::new),
                 memory: choice.memory.map(AtomicU64::new),
+                compiling: choice.compiling.map(Duration::from_millis),
             }),
         };
         if device.wide() == Wide::Compensated {
@@ -190,6 +219,7 @@ impl GpuDevice {
         &self,
         work: impl FnOnce(&wgpu::Device) -> R,
     ) -> (R, Option<GpuError>) {
+        let _waits = InDriver::enter();
         let device = &self.inner.device;
         let memory = device.push_error_scope(wgpu::ErrorFilter::OutOfMemory);
         let internal = device.push_error_scope(wgpu::ErrorFilter::Internal);
@@ -231,6 +261,9 @@ impl GpuDevice {
             return Ok(pipeline.clone());
         }
         let pipeline = self.guarded(|device| {
+            if let Some(time) = self.inner.compiling {
+                std::thread::sleep(time);
+            }
             let module = device.create_shader_module(wgpu::ShaderModuleDescriptor {
                 label: Some(name),
                 source: wgpu::ShaderSource::Wgsl(source.as_str().into()),

@@ -43,7 +43,7 @@ use space::{FieldSpace, Key, LevelSpace, SpectrumSpace};
 pub use adapter::{AdapterChoice, AdapterDescription, AdapterKind, adapters};
 pub use butterfly::Direction;
 pub use catalogue::LawPart;
-pub use device::GpuDevice;
+pub use device::{GpuDevice, keeps_waiting};
 pub use error::GpuError;
 pub use layout::{Number, Wide};
 pub use lending::Lent;

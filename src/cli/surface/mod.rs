@@ -2,10 +2,9 @@
 
 mod report;
 
-use std::io::Write;
 use std::path::{Path, PathBuf};
 
-use super::{Failure, key_and_value, read_scene};
+use super::{Failure, key_and_value, print, read_scene, warn};
 use crate::output::{
     OutputError, Picture, RunFolder, SpectrumPlot, write_atomically, write_picture,
 };
@@ -136,7 +135,7 @@ pub(super) fn surface(arguments: &SurfaceArguments) -> Result<(), Failure> {
     };
     let folder = RunFolder::open(&path, &format!("surface of {}", source.display()))?;
     for warning in &surface.warnings {
-        eprintln!("warning: {}", plain(warning, is_scene));
+        warn(&plain(warning, is_scene));
     }
     let rings = radial_spectrum(&surface.grid, &surface.heights, boundary);
     let report = Report {
@@ -149,10 +148,7 @@ pub(super) fn surface(arguments: &SurfaceArguments) -> Result<(), Failure> {
         fit: fit(&surface.grid, &surface.heights, boundary),
     };
     // The table first: it stands even where no picture can be written.
-    let mut out = std::io::stdout().lock();
-    out.write_all(report.text().as_bytes())
-        .and_then(|()| out.flush())
-        .map_err(Failure::Print)?;
+    print(&report.text())?;
     write_pictures(&folder, &report)?;
     Ok(())
 }

@@ -17,11 +17,9 @@ mod values;
 mod waves;
 mod words;
 
-use std::io::{ErrorKind, Write};
-
 use clap::CommandFactory;
 
-use super::{Arguments, Failure, TheoryArguments};
+use super::{Arguments, Failure, TheoryArguments, print};
 use catalogue::{MODELS, Model};
 use values::Values;
 
@@ -91,13 +89,4 @@ fn nearest(word: &str, candidates: impl Iterator<Item = &'static str>) -> &'stat
             |best, next| if next.1 > best.1 { next } else { best },
         )
         .0
-}
-
-/// Writes to standard output; a reader that went away has had enough, and that is no failure.
-fn print(text: &str) -> Result<(), Failure> {
-    let mut out = std::io::stdout().lock();
-    match out.write_all(text.as_bytes()).and_then(|()| out.flush()) {
-        Err(error) if error.kind() == ErrorKind::BrokenPipe => Ok(()),
-        done => done.map_err(Failure::Print),
-    }
 }

@@ -13,6 +13,7 @@ use std::path::PathBuf;
 use super::chart;
 use super::picture::Load;
 use super::summary::Summary;
+use super::visible::visible;
 use crate::effect::Effect;
 use crate::study::{HandOver, Setup, State, StepRow};
 use crate::units::format_si;
@@ -43,10 +44,10 @@ pub struct Report<'a> {
     pub summary: Option<&'a Summary>,
 }
 
-/// Text between tags and in attributes.
+/// Text between tags and in attributes, without characters that a page must not hold.
 pub(super) fn escape(text: &str) -> String {
     let mut escaped = String::with_capacity(text.len());
-    for character in text.chars() {
+    for character in visible(text).chars() {
         match character {
             '&' => escaped.push_str("&amp;"),
             '<' => escaped.push_str("&lt;"),

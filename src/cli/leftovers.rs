@@ -1,0 +1,120 @@
+//! What an earlier run left in a folder that is gone on with: whether the files of its finished steps are whole.
+
+use std::fs::File;
+use std::io::{Read, Seek, SeekFrom};
+use std::path::{Path, PathBuf};
+
+use crate::output::RunFolder;
+use crate::output::volume::VOLUME_END;
+use crate::scene::StepChoice;
+use crate::study::Setup;
+
+/// The last bytes of every PNG file: the chunk that ends it.
+const PNG_END: &[u8] = b"\0\0\0\0IEND\xae\x42\x60\x82";
+
+/// Most files that a warning names.
+const NAMED: usize = 8;
+
+/// What is warned of a step that no equilibrium carries.
+pub(super) fn separated_words(step: usize) -> String {
+    format!(
+        "step {step} is separated: the load has no equilibrium, so there are no fields to write"
+    )
+}
+
+/// A warning of fields and pictures of the first `finished` steps that are not there or cut short; `None` where
+/// all are whole. `warnings` are those of the run so far.
+pub(super) fn lost(
+    folder: &RunFolder,
+    setup: &Setup,
+    finished: usize,
+    warnings: &[String],
+) -> Option<String> {
+    let found: Vec<PathBuf> = expected(folder, setup, finished, warnings)
+        .into_iter()
+        .filter(|path| !is_whole(path))
+        .collect();
+    let names: Vec<String> = found
+        .iter()
+        .take(NAMED)
+        .map(|path| path.display().to_string())
+        .collect();
+    let more = match found.len() - names.len() {
+        0 => String::new(),
+        more => format!(" and {more} more"),
+    };
+    (!found.is_empty()).then(|| {
+        format!(
+            "files of finished steps are missing or cut short: {}{more}; their steps are not solved again: a run into another folder (--out) writes them",
+            names.join(", ")
+        )
+    })
+}
+
+/// The files that finished steps have written.
+fn expected(
+    folder: &RunFolder,
+    setup: &Setup,
+    finished: usize,
+    warnings: &[String],
+) -> Vec<PathBuf> {
+    let output = &setup.scene.output;
+    let total = setup.scene.loading.path.len();
+    let asked = |step: &usize| match &output.steps {
+        StepChoice::All => true,
+        StepChoice::List(list) => list.contains(step),
+        // Those of an earlier end are cleared away when the run goes on.
+        StepChoice::Last => *step == total,
+    };
+    let has_fields = |step: &usize| !warnings.contains(&separated_words(*step));
+    let mut paths = Vec::new();
+    for step in (1..=finished).filter(asked).filter(has_fields) {
+        paths.extend(
+            output
+                .images
+                .iter()
+                .map(|&field| folder.image_path(step, field)),
+        );
+        paths.extend(
+            output
+                .fields
+                .iter()
+                .map(|&field| folder.field_path(step, field)),
+        );
+        if !output.fields.is_empty() {
+            paths.push(folder.volume_path(step));
+        }
+    }
+    paths
+}
+
+/// Whether a file is there to its end. Pictures and volumes end in marks of their own; an array of NumPy
+/// says in its head how long it is. What stands between is not looked at: whole folders are gigabytes.
+fn is_whole(path: &Path) -> bool {
+    let Ok(mut file) = File::open(path) else {
+        return false;
+    };
+    let whole = match path.extension().and_then(|extension| extension.to_str()) {
+        Some("png") => ends_in(&mut file, PNG_END),
+        Some("vti") => ends_in(&mut file, VOLUME_END),
+        _ => array_is_whole(file),
+    };
+    whole.unwrap_or(false)
+}
+
+fn ends_in(file: &mut File, end: &[u8]) -> std::io::Result<bool> {
+    file.seek(SeekFrom::End(-(end.len() as i64)))?;
+    let mut found = Vec::new();
+    file.read_to_end(&mut found)?;
+    Ok(found == end)
+}
+
+fn array_is_whole(file: File) -> std::io::Result<bool> {
+    let length = file.metadata()?.len();
+    let mut reader = std::io::BufReader::new(file);
+    let header = npyz::NpyHeader::from_reader(&mut reader)?;
+    let width = header.dtype().num_bytes().unwrap_or(0);
+    let values: u64 = header.shape().iter().product();
+    let head = reader.stream_position()?;
+    Ok(length == head + values * width as u64)
+}

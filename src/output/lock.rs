@@ -1,0 +1,134 @@
+//! A folder that is being written is held against a second writer.
+//!
+//! The system holds the lock for the process and releases it when the process ends, however it ends: there is none
+//! to be left behind. Who holds it stands in the file, for whoever is refused.
+
+use std::fs::{File, TryLockError};
+use std::io::{Read as _, Write as _};
+use std::path::Path;
+use std::time::{SystemTime, UNIX_EPOCH};
+
+use super::error::OutputError;
+
+/// Most bytes of a lock file that are read.
+const LONGEST: u64 = 512;
+
+/// A lock that is held until this is dropped.
+#[derive(Debug)]
+pub struct FolderLock {
+    file: File,
+    warning: Option<String>,
+}
+
+impl FolderLock {
+    /// The lock file of a folder that has no place of its own for it.
+    pub const HIDDEN: &str = ".tabor-lock";
+
+    /// Takes the lock at `path`, a file in or below `folder`, which is there.
+    ///
+    /// Where the file system knows no locks the folder is not held, and [`warning`](FolderLock::warning) says so.
+    ///
+    /// # Errors
+    /// Refused where another process holds it, with what is known of that one.
+    pub fn take(path: &Path, folder: &Path) -> Result<FolderLock, OutputError> {
+        std::fs::create_dir_all(folder).map_err(OutputError::write("create the folder", folder))?;
+        let mut file = File::options()
+            .read(true)
+            .write(true)
+            .create(true)
+            .truncate(false)
+            .open(path)
+            .map_err(OutputError::write("write", path))?;
+        let warning = match file.try_lock() {
+            Ok(()) => None,
+            Err(TryLockError::WouldBlock) => {
+                let reason = format!(
+                    "another run is writing it{}; wait for its end, or name another folder with --out",
+                    holder(&mut file)
+                );
+                return Err(OutputError::refused(folder, reason));
+            }
+            Err(TryLockError::Error(cause)) => Some(format!(
+                "{} cannot be held against a second run ({cause}): two at once would spoil each other's files",
+                folder.display()
+            )),
+        };
+        // It is held with or without these words.
+        let _ = file
+            .set_len(0)
+            .and_then(|()| file.write_all(own_words().as_bytes()));
+        Ok(FolderLock { file, warning })
+    }
+
+    /// What is to be said where the folder is not held.
+    pub fn warning(&self) -> Option<&str> {
+        self.warning.as_deref()
+    }
+}
+
+impl Drop for FolderLock {
+    /// Leaves an empty file: were it removed, a third process could lock a new one of its name while a
+    /// second still waits with the old.
+    fn drop(&mut self) {
+        let _ = self.file.set_len(0);
+    }
+}
+
+fn seconds_since_epoch() -> u64 {
+    let since = SystemTime::now().duration_since(UNIX_EPOCH);
+    since.map_or(0, |since| since.as_secs())
+}
+
+/// Process, moment and machine of this run.
+fn own_words() -> String {
+    let host = sysinfo::System::host_name().unwrap_or_default();
+    format!("{} {} {host}\n", std::process::id(), seconds_since_epoch())
+}
+
+/// Who holds a lock, as the file says.
+fn holder(file: &mut File) -> String {
+    let mut text = String::new();
+    // A file that cannot be read while it is locked names nobody.
+    let read = file.take(LONGEST).read_to_string(&mut text);
+    read.ok()
+        .and_then(|_| in_words(&text, seconds_since_epoch()))
+        .unwrap_or_default()
+}
+
+fn in_words(text: &str, now: u64) -> Option<String> {
+    let mut words = text.trim_end().splitn(3, ' ');
+    let process: u32 = words.next()?.parse().ok()?;
+    let since: u64 = words.next()?.parse().ok()?;
+    let host = match words.next() {
+        None | Some("") => String::new(),
+        Some(host) => format!(" on {host}"),
+    };
+    let time = match now.saturating_sub(since) {
+        seconds @ 0..120 => format!("{seconds} s"),
+        seconds @ 120..7200 => format!("{} min", seconds / 60),
+        seconds => format!("{} h", seconds / 3600),
+    };
+    Some(format!(" (process {process}{host}, for {time})"))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_holder_is_named_as_far_as_it_is_known() {
+        let words = |text: &str| in_words(text, 10_000);
+        let found = |text: &str| Some(text.to_owned());
+        assert_eq!(
+            words("42 9990 box\n"),
+            found(" (process 42 on box, for 10 s)")
+        );
+        assert_eq!(words("42 9000 \n"), found(" (process 42, for 16 min)"));
+        assert_eq!(words("42 0 box"), found(" (process 42 on box, for 2 h)"));
+        // A clock set back.
+        assert_eq!(words("42 20000"), found(" (process 42, for 0 s)"));
+        for text in ["", "42", "x 1 box"] {
+            assert_eq!(words(text), None);
+        }
+    }
+}

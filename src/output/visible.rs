@@ -1,0 +1,52 @@
+//! Text from files, scenes and calls, made safe to show: no character of it moves a cursor, changes a colour or
+//! turns the direction of what follows.
+
+use std::borrow::Cow;
+
+/// `text` with its control characters spelled out, as in `\u{1b}`; ends of lines stay.
+///
+/// So are marks that reorder what stands around them (Unicode's bidirectional controls), by which a name can be
+/// made to look like another.
+pub fn visible(text: &str) -> Cow<'_, str> {
+    if !text.chars().any(hides) {
+        return Cow::Borrowed(text);
+    }
+    let mut shown = String::with_capacity(text.len() + 16);
+    for character in text.chars() {
+        match hides(character) {
+            true => shown.extend(character.escape_default()),
+            false => shown.push(character),
+        }
+    }
+    Cow::Owned(shown)
+}
+
+/// The same on one line: what comes from outside cannot begin a line of its own.
+pub fn visible_line(text: &str) -> String {
+    visible(text).replace('\n', "\\n")
+}
+
+fn hides(character: char) -> bool {
+    match character {
+        '\n' => false,
+        '\u{61c}' | '\u{200e}' | '\u{200f}' => true,
+        '\u{2028}'..='\u{202e}' | '\u{2066}'..='\u{2069}' => true,
+        other => other.is_control(),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn nothing_but_what_acts_is_spelled_out() {
+        let plain = "rms height 707.1 pm, µ, 高さ, \"a\\b\"\nnext";
+        assert!(matches!(visible(plain), Cow::Borrowed(same) if same == plain));
+        assert_eq!(
+            visible("a\u{1b}[31mb\r\u{7}\t\u{7f}\u{9b}2J\u{202e}c\0"),
+            "a\\u{1b}[31mb\\r\\u{7}\\t\\u{7f}\\u{9b}2J\\u{202e}c\\u{0}"
+        );
+        assert_eq!(visible_line("a\nerror: b"), "a\\nerror: b");
+    }
+}
