@@ -3,7 +3,7 @@
 use std::path::PathBuf;
 
 use super::machine::Machine;
-use super::{CompareArguments, Failure, read_scene};
+use super::{CompareArguments, Failure, read_scene, room};
 use crate::compare::{self, CompareError, Row};
 use crate::study::Setup;
 use crate::surface::Surface;
@@ -14,10 +14,13 @@ pub(super) fn compare(arguments: &CompareArguments) -> Result<(), Failure> {
     let scene = read_scene(&arguments.scene, &arguments.set)?;
     // Before a surface is built of which nothing could be said.
     compare::suits(&scene)?;
+    room::refuse_scene(&scene)?;
     let surface = Surface::build(&scene).map_err(|error| Failure::Surface {
         path: arguments.scene.clone(),
         error,
     })?;
+    // Of a grid that a height file carries.
+    room::refuse(&scene, surface.grid)?;
     let setup = Setup::new(scene, surface);
     for warning in &setup.warnings {
         eprintln!("warning: {warning}");

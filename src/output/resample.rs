@@ -33,7 +33,12 @@ pub(super) fn resample(grid: &Grid, values: &[f64], size: [u32; 2]) -> Vec<f64> 
     let rows = weights(grid.ny, size[1] as usize);
     let mut pixels = Vec::with_capacity(columns.len() * rows.len());
     let mut line = vec![0.0; grid.nx];
-    for row in &rows {
+    for (index, row) in rows.iter().enumerate() {
+        // Where a point is several pixels high, the row is there already.
+        if index > 0 && *row == rows[index - 1] {
+            pixels.extend_from_within(pixels.len() - columns.len()..);
+            continue;
+        }
         line.fill(0.0);
         for &(iy, weight) in row {
             let source = &values[iy * grid.nx..(iy + 1) * grid.nx];
