@@ -10,6 +10,7 @@ use clap::Args;
 use indicatif::{ProgressBar, ProgressDrawTarget, ProgressStyle};
 
 use super::machine::Machine;
+use super::patience::Patience;
 use super::run::watch_for_interrupts;
 use super::{Failure, key_and_value, read_scene, room, say};
 use crate::accuracy::{
@@ -57,6 +58,9 @@ fn time(text: &str) -> Result<f64, String> {
 
 /// Runs the study and writes `accuracy.csv` and `accuracy.png`.
 pub(super) fn accuracy(arguments: &AccuracyArguments) -> Result<(), Failure> {
+    // On a terminal a bar says so.
+    let _patience = (!arguments.quiet && !stderr().is_terminal())
+        .then(|| Patience::new("--budget says how long it may take"));
     let scene = read_scene(&arguments.scene, &arguments.set)?;
     room::refuse_scene(&scene)?;
     let folder = match &arguments.out {

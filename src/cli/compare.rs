@@ -3,6 +3,7 @@
 use std::path::PathBuf;
 
 use super::machine::Machine;
+use super::patience::Patience;
 use super::{CompareArguments, Failure, read_scene, room};
 use crate::compare::{self, CompareError, Row};
 use crate::study::Setup;
@@ -11,6 +12,7 @@ use crate::units::format_si;
 
 /// Compares and writes `compare.csv` and `compare.png`.
 pub(super) fn compare(arguments: &CompareArguments) -> Result<(), Failure> {
+    let _patience = Patience::new("compare.csv has the rows so far; a coarser grid takes less");
     let scene = read_scene(&arguments.scene, &arguments.set)?;
     // Before a surface is built of which nothing could be said.
     compare::suits(&scene)?;

@@ -6,6 +6,7 @@ use std::path::{Path, PathBuf};
 use clap::Args;
 
 use super::Failure;
+use super::patience::Patience;
 use crate::fit::{FitResult, ForceCurve, Freedom, ModelFit, draw, fit_curve, report};
 use crate::output::{OutputError, write_atomically};
 use crate::theory::jkr;
@@ -45,6 +46,7 @@ pub(super) struct FitArguments {
 
 /// Fits a curve, or turns two numbers into two others.
 pub(super) fn fit(arguments: &FitArguments) -> Result<(), Failure> {
+    let _patience = Patience::new("a curve of fewer rows takes less");
     match (&arguments.curve, arguments.pull_off, arguments.stiffness) {
         (Some(curve), ..) => fit_file(arguments, curve),
         (None, Some(pull_off), Some(stiffness)) => {
