@@ -207,6 +207,21 @@ fn bare_unit(dimension: Dimension) -> &'static str {
     }
 }
 
+/// Least and largest magnitude of a number other than 0, in SI units: far beyond anything that two
+/// surfaces do, and such that products of several of them are numbers still. Scenes, files and the
+/// command line keep to it.
+const SANE: [f64; 2] = [1e-30, 1e30];
+/// The larger of the two.
+pub(crate) const LARGEST: f64 = SANE[1];
+/// [`SANE`] in words.
+pub(crate) const SANE_WORDS: &str =
+    "0 or between 1e-30 and 1e30 in SI units; check the powers of ten";
+
+/// Whether a number has a magnitude that one can compute with.
+pub(crate) fn is_sane(value: f64) -> bool {
+    value == 0.0 || (SANE[0]..=SANE[1]).contains(&value.abs())
+}
+
 /// Text in quotes for a message: one line, cut where it would flood it.
 pub(crate) fn quoted(text: &str) -> String {
     const LONGEST: usize = 60;

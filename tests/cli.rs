@@ -427,3 +427,89 @@ fn single_precision_has_its_floor_and_its_fields() {
     ];
     assert_eq!(status(&tabor(folder.path(), &call)), 0);
 }
+
+/// What a call says that is refused at once; it is ended where it is not.
+fn refused_at_once(folder: &Path, arguments: &[&str]) -> String {
+    let mut child = shared::command(folder, arguments)
+        .stdout(std::process::Stdio::null())
+        .stderr(std::process::Stdio::piped())
+        .spawn()
+        .expect("the binary runs");
+    let clock = std::time::Instant::now();
+    while child.try_wait().expect("a child").is_none() {
+        if clock.elapsed().as_secs() > 20 {
+            child.kill().expect("ended");
+            panic!("{arguments:?} is not refused");
+        }
+        std::thread::sleep(std::time::Duration::from_millis(5));
+    }
+    let output = child.wait_with_output().expect("an end");
+    assert_eq!(status(&output), 2, "{arguments:?}: {}", errors(&output));
+    errors(&output)
+}
+
+/// Devices never end and pipes wait for a writer: each place where a file is named says so.
+#[test]
+#[cfg(unix)]
+fn what_is_no_regular_file_is_refused() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let path = |name: &str| folder.path().join(name);
+    let made = std::process::Command::new("mkfifo")
+        .arg(path("pipe.txt"))
+        .status()
+        .expect("mkfifo runs");
+    assert!(made.success());
+    let _socket = std::os::unix::net::UnixListener::bind(path("socket.txt")).expect("a socket");
+    fs::create_dir(path("folder.txt")).expect("a folder");
+    for name in [
+        "/dev/zero",
+        "/dev/null",
+        "pipe.txt",
+        "socket.txt",
+        "folder.txt",
+    ] {
+        for command in ["check", "run", "compare", "accuracy"] {
+            let message = refused_at_once(folder.path(), &[command, name]);
+            assert!(
+                message.contains("it is no regular file (a folder, a pipe or a device); write the scene to a file and name that"),
+                "{command} {name}: {message}"
+            );
+        }
+        let message = refused_at_once(folder.path(), &["fit", name, "--radius", "1 um"]);
+        assert!(
+            message.contains("is no regular file (a folder, a pipe or a device); write the curve to a file and name that"),
+            "{name}: {message}"
+        );
+        let message = refused_at_once(folder.path(), &["surface", name, "--size", "1 um"]);
+        assert!(
+            message.contains("this is no regular file; copy the heights into one")
+                || message.contains("this is a folder; path must name one height file"),
+            "{name}: {message}"
+        );
+    }
+    // Too long for a scene, in name only: its bytes are never written.
+    let long = fs::File::create(path("long.toml")).expect("created");
+    long.set_len(1 << 40).expect("sparse");
+    let message = refused_at_once(folder.path(), &["check", "long.toml"]);
+    assert!(
+        message.contains("1099511627776 bytes are no scene"),
+        "{message}"
+    );
+}
+
+#[test]
+fn of_very_many_mistakes_the_first_and_their_number_are_said() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let keys: String = (0..200_000).map(|i| format!("key{i} = {i}\n")).collect();
+    fs::write(folder.path().join("scene.toml"), keys).expect("a scene");
+    let message = refused_at_once(folder.path(), &["check", "scene.toml"]);
+    let lines: Vec<&str> = message.lines().collect();
+    assert_eq!(lines.len(), 21, "{} lines", lines.len());
+    assert!(
+        lines[19].contains("scene.toml:20: key19: unknown key"),
+        "{}",
+        lines[19]
+    );
+    // Beside the keys [grid], [solid], [[surface]] and [loading] are missing.
+    assert_eq!(lines[20], "error: scene.toml: 199984 more mistakes");
+}

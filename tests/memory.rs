@@ -216,3 +216,113 @@ fn the_host_keeps_the_history() {
     // At least the displacement and the branch's spring, in double precision.
     assert!(relaxing.machine >= elastic.machine + 2 * 8 * 768 * 768);
 }
+
+/// What a call with little memory says; it is refused with exit status 2.
+fn refused(folder: &Path, arguments: &[&str]) -> String {
+    let output = tabor(folder, arguments, Some(100_000_000));
+    let message = errors(&output);
+    assert_eq!(output.status.code(), Some(2), "{arguments:?}: {message}");
+    message
+}
+
+/// A small file may be a large image: what its header claims is counted before a pixel is unpacked.
+#[test]
+fn a_small_file_of_a_large_map_is_refused() {
+    const SIDE: u32 = 3000;
+    let folder = tempfile::tempdir().expect("a folder");
+    let path = |name: &str| folder.path().join(name);
+    let black = vec![0_u8; (SIDE * SIDE) as usize];
+    image::GrayImage::from_raw(SIDE, SIDE, black.clone())
+        .expect("all pixels")
+        .save(path("map.png"))
+        .expect("an image");
+    let file = fs::File::create(path("map.tif")).expect("a file");
+    tiff::encoder::TiffEncoder::new(file)
+        .expect("a header")
+        .with_compression(tiff::encoder::Compression::Deflate(
+            tiff::encoder::DeflateLevel::Fast,
+        ))
+        .write_image::<tiff::encoder::colortype::Gray8>(SIDE, SIDE, &black)
+        .expect("an image");
+    let header =
+        format!("{{'descr': '|u1', 'fortran_order': False, 'shape': ({SIDE}, {SIDE}), }}\n");
+    let mut bytes = b"\x93NUMPY\x01\x00".to_vec();
+    bytes.extend((header.len() as u16).to_le_bytes());
+    bytes.extend(header.bytes());
+    fs::write(path("map.npy"), [bytes, black].concat()).expect("an array");
+    for name in ["map.png", "map.tif", "map.npy"] {
+        let length = fs::metadata(path(name)).expect("a file").len();
+        assert!(
+            name == "map.npy" || length < 200_000,
+            "{name}: {length} bytes"
+        );
+        let expected = format!("{name}: {SIDE} x {SIDE} points need ");
+        let ends: &[&str] = match name {
+            "map.npy" => &[],
+            _ => &["--black", "0", "--white", "1 um"],
+        };
+        let call = [&["surface", name, "--size", "10 um"], ends].concat();
+        let message = refused(folder.path(), &call);
+        assert!(message.contains(&expected), "{message}");
+        assert!(
+            message.contains(" GiB of memory and there are 0.09 GiB; take a coarser map"),
+            "{message}"
+        );
+        let keys = match name {
+            "map.npy" => "",
+            _ => "black = 0\nwhite = 1e-6\n",
+        };
+        let scene = format!(
+            "[grid]\nsize = \"10 um\"\n[solid]\ncontact_modulus = \"1 GPa\"\n[[surface]]\nkind = \"file\"\npath = \"{name}\"\n{keys}[loading]\ncontrol = \"pressure\"\npath = [\"1 MPa\"]\n"
+        );
+        fs::write(path("scene.toml"), scene).expect("a scene");
+        for command in ["surface", "check", "run", "compare", "accuracy"] {
+            let message = refused(folder.path(), &[command, "scene.toml"]);
+            assert!(message.contains(&expected), "{command}: {message}");
+        }
+    }
+    // A scene says its points itself.
+    let text = ROUGH.replace("BOUNDARY", "free").replace("768", "2000");
+    fs::write(path("scene.toml"), text).expect("a scene");
+    let message = refused(folder.path(), &["surface", "scene.toml"]);
+    assert!(
+        message.contains("scene.toml: 2000 x 2000 points need 0.2"),
+        "{message}"
+    );
+}
+
+/// Waves along the long side of pixels 1 to 1e8: the rings of the spectrum are counted by what is in them.
+/// 16 kB of heights took 4.7 GB, which is not to be had here.
+#[test]
+#[cfg(target_os = "linux")]
+fn long_pixels_take_no_more_memory_than_square_ones() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let wave = |k: usize, ix: usize| {
+        (std::f64::consts::TAU * (k * ix) as f64 / 100.0 + (k * k) as f64).cos()
+    };
+    let row: Vec<String> = (0..100)
+        .map(|ix| {
+            (1..18)
+                .map(|k| wave(k, ix) / k as f64)
+                .sum::<f64>()
+                .to_string()
+        })
+        .collect();
+    fs::write(
+        folder.path().join("map.txt"),
+        format!("{}\n", row.join(" ")).repeat(20),
+    )
+    .expect("a map");
+    for boundary in ["periodic", "free"] {
+        let limited = format!(
+            "ulimit -v 2000000; exec \"$0\" surface map.txt --size \"1e8, 1\" --boundary {boundary} --out {boundary}"
+        );
+        let output = std::process::Command::new("sh")
+            .args(["-c", &limited, env!("CARGO_BIN_EXE_tabor")])
+            .current_dir(folder.path())
+            .env_remove("TABOR_MEMORY")
+            .output()
+            .expect("a shell runs");
+        assert_eq!(output.status.code(), Some(0), "{}", errors(&output));
+    }
+}

@@ -170,22 +170,22 @@ fn wrong_settings_of_a_good_file_are_refused() {
     refused(
         &grid(None),
         part,
-        "scale = NaN must be a finite number other than 0",
+        "scale = NaN must be between 1e-30 and 1e30, or minus that; check the powers of ten",
     );
     let mut part = good.clone();
     part.unit = 0.0;
     refused(
         &grid(None),
         part,
-        "unit = 0 must be a finite number other than 0",
+        "unit = 0e0 must be between 1e-30 and 1e30",
     );
     let mut part = good.clone();
-    part.scale = 1e308;
+    part.scale = 1e30;
     part.unit = 1e10;
     refused(
         &grid(None),
         part,
-        "the heights are not finite at row 1, column 1",
+        "m; heights must be 0 or between 1e-30 and 1e30 m: check the unit and the powers of ten",
     );
     let mut part = file_part(&nothing);
     part.fill = Fill::Interpolate;
@@ -217,12 +217,12 @@ fn grids_are_checked_before_memory_is_asked_for() {
     refused(
         Some([8, 8]),
         Some([1.0, 0.0]),
-        "[grid] size = [1e0, 0e0] m must be two positive lengths",
+        "[grid] size = [1e0, 0e0] m must be two lengths between 1e-30 and 1e30 m; check the unit",
     );
     refused(
         Some([8, 8]),
         Some([f64::NAN, 1.0]),
-        "must be two positive lengths",
+        "must be two lengths between",
     );
     let message = Surface::from_parts(&grid(Some([2, 2])), &[]).unwrap_err();
     assert!(message.to_string().contains("the scene has no [[surface]]"));

@@ -663,7 +663,7 @@ fn bad_calls_say_what_is_wrong() {
         ("hertz --radius 1 um --contact_modulus 1e9".into(), &["\"um\" stands where a parameter is due", "a value with a space in it needs quotes"]),
         ("hertz --radius wide --contact_modulus 1e9".into(), &["\"wide\" does not begin with a number"]),
         ("hertz --radius inf --contact_modulus 1e9".into(), &["--radius \"inf\" is not finite"]),
-        (format!("hertz {SPHERE} --points 1"), &["--points 1 is out of range: it must be a whole number between 2 and 1000000"]),
+        (format!("hertz {SPHERE} --points 1"), &["--points 1 is out of range: it must be a whole number between 2 and 100000"]),
         (format!("hertz {SPHERE} --points 2.5"), &["a whole number"]),
         (format!("hertz {SPHERE} --from 1e-9 --to 1e-9"), &["--from and --to are the same"]),
         (format!("hertz {SPHERE} --to 0"), &["--from and --to are the same"]),

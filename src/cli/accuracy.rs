@@ -10,6 +10,7 @@ use indicatif::{ProgressBar, ProgressDrawTarget, ProgressStyle};
 
 use super::interrupts::Interrupts;
 use super::machine::{Machine, may_take_adapters};
+use super::patience::Patience;
 use super::{Failure, drivers, key_and_value, note, read_scene, room, say, warn};
 use crate::accuracy::{
     AccuracyError, Bench, Listener, Report, Study, Workplace, duration, expect_place, picture,
@@ -63,6 +64,9 @@ fn time(text: &str) -> Result<f64, String> {
 
 /// Runs the study and writes `accuracy.csv` and `accuracy.png`.
 pub(super) fn accuracy(arguments: &AccuracyArguments) -> Result<(), Failure> {
+    // On a terminal a bar says so.
+    let _patience = (!arguments.quiet && !stderr().is_terminal())
+        .then(|| Patience::new("--budget says how long it may take"));
     let scene = read_scene(&arguments.scene, &arguments.set)?;
     room::refuse_scene(&scene)?;
     let folder = match &arguments.out {

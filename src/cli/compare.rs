@@ -3,7 +3,8 @@
 use std::path::PathBuf;
 
 use super::machine::Machine;
-use super::{CompareArguments, Failure, note, read_scene, say, warn};
+use super::patience::Patience;
+use super::{CompareArguments, Failure, note, read_scene, room, say, warn};
 use crate::compare::{self, CompareError, Row};
 use crate::study::Setup;
 use crate::surface::Surface;
@@ -11,13 +12,17 @@ use crate::units::format_si;
 
 /// Compares and writes `compare.csv` and `compare.png`.
 pub(super) fn compare(arguments: &CompareArguments) -> Result<(), Failure> {
+    let _patience = Patience::new("compare.csv has the rows so far; a coarser grid takes less");
     let scene = read_scene(&arguments.scene, &arguments.set)?;
     // Before a surface is built of which nothing could be said.
     compare::suits(&scene)?;
+    room::refuse_scene(&scene)?;
     let surface = Surface::build(&scene).map_err(|error| Failure::Surface {
         path: arguments.scene.clone(),
         error,
     })?;
+    // Of a grid that a height file carries.
+    room::refuse(&scene, surface.grid)?;
     let setup = Setup::new(scene, surface);
     for warning in &setup.warnings {
         warn(warning);

@@ -4,11 +4,12 @@ use std::path::{Path, PathBuf};
 
 use clap::Args;
 
+use super::patience::Patience;
 use super::{Failure, print, say, warn};
 use crate::fit::{FitResult, ForceCurve, Freedom, ModelFit, draw, fit_curve, report};
 use crate::output::{OutputError, write_atomically};
 use crate::theory::jkr;
-use crate::units::{Dimension, format_si, parse_quantity};
+use crate::units::{Dimension, SANE_WORDS, format_si, is_sane, parse_quantity};
 
 /// What `tabor fit` takes.
 #[derive(Debug, Args)]
@@ -44,6 +45,7 @@ pub(super) struct FitArguments {
 
 /// Fits a curve, or turns two numbers into two others.
 pub(super) fn fit(arguments: &FitArguments) -> Result<(), Failure> {
+    let _patience = Patience::new("a curve of fewer rows takes less");
     match (&arguments.curve, arguments.pull_off, arguments.stiffness) {
         (Some(curve), ..) => fit_file(arguments, curve),
         (None, Some(pull_off), Some(stiffness)) => {
@@ -172,10 +174,10 @@ fn quantity(text: &str, dimension: Dimension) -> Result<f64, String> {
         Some(value) => value,
         None => parse_quantity(text, dimension).map_err(|error| error.to_string())?,
     };
-    if value.is_finite() {
+    if is_sane(value) {
         Ok(value)
     } else {
-        Err(format!("must be finite; give {dimension}"))
+        Err(format!("must be {SANE_WORDS}; give {dimension}"))
     }
 }
 

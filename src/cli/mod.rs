@@ -11,6 +11,7 @@ mod keeper;
 mod leftovers;
 mod machine;
 mod opening;
+mod patience;
 mod room;
 mod run;
 mod shell;
@@ -268,6 +269,16 @@ enum Failure {
         length: u64,
         available: u64,
     },
+    #[error(
+        "{}: {} x {} points need {} of memory and there are {}; take a coarser map", path.display(), points[0], points[1], gibibytes(*needed), gibibytes(*available)
+    )]
+    MapMemory {
+        /// The height file or the scene.
+        path: PathBuf,
+        points: [usize; 2],
+        needed: u64,
+        available: u64,
+    },
     #[error("{0}")]
     Usage(String),
     #[error(
@@ -321,7 +332,7 @@ impl Failure {
             Failure::Output(OutputError::Refused { .. }) => 2,
             Failure::Output(_) | Failure::Print(_) => 1,
             Failure::Scene(_) | Failure::Surface { .. } | Failure::Usage(_) => 2,
-            Failure::Memory { .. } | Failure::FileMemory { .. } => 2,
+            Failure::Memory { .. } | Failure::FileMemory { .. } | Failure::MapMemory { .. } => 2,
             Failure::NotConverged { .. }
             | Failure::Theory(TheoryError::NotConverged { .. })
             | Failure::Fit(FitError::Theory(TheoryError::NotConverged { .. })) => 3,

@@ -1,15 +1,25 @@
-//! Whether this machine has the room for a run: memory, asked before any of it is taken, and files.
+//! Whether this machine has the room for a run or a surface: memory, asked before any of it is taken, and files.
+
+use std::path::Path;
 
 use super::Failure;
 use crate::backend::tally::Place;
 use crate::grid::Grid;
-use crate::scene::{Precision, Scene, SurfacePart};
+use crate::scene::{Boundary, Precision, Scene, SurfacePart};
 use crate::study::{Cost, Memory};
+use crate::surface::{MOST_POINTS, claimed_points};
 
 /// Environment variable that sets the memory a run may take, in bytes.
 const LIMIT: &str = "TABOR_MEMORY";
 /// Address space that the allocator reserves for each thread, used or not (glibc on 64 bits).
 const RESERVED: u64 = 64 << 20;
+
+/// Bytes a point that reading a map takes: shades or numbers of the file, and the heights.
+const READING: u64 = 24;
+/// Bytes a point that the statistics of a surface take: the heights, and three fields of a transform; on a
+/// free grid those of the correlation have 9/4 as many points.
+const STATISTICS_PERIODIC: u64 = 8 + 3 * 8;
+const STATISTICS_FREE: u64 = 8 + 3 * 8 * 9 / 4;
 
 /// Bytes that a run may take: what the machine has left, within the limits of its container and of its
 /// process, or what `TABOR_MEMORY` says. `None` where the system does not tell.
@@ -81,33 +91,22 @@ pub(super) fn refuse_scene(scene: &Scene) -> Result<(), Failure> {
     refuse_files(scene)?;
     match (scene.grid.points, scene.grid.size) {
         // Counts past all grids are the surface's to refuse.
-        (Some(points), Some(size))
-            if points[0].saturating_mul(points[1]) <= crate::surface::MOST_POINTS =>
-        {
+        (Some(points), Some(size)) if points[0].saturating_mul(points[1]) <= MOST_POINTS => {
             refuse(scene, Grid::new(points, size))
         }
         _ => Ok(()),
     }
 }
 
-/// Refuses height files that are longer than the memory.
+/// Refuses height files that are longer than the memory, and those whose header claims more points than
+/// it holds: a small file may be a large image.
 pub(super) fn refuse_files(scene: &Scene) -> Result<(), Failure> {
     let files = scene.surfaces.iter().filter_map(|part| match part {
         SurfacePart::File(file) => Some(&file.path),
         _ => None,
     });
     for path in files {
-        // What cannot be asked for its length is the surface's to refuse.
-        let length = std::fs::metadata(path).map_or(0, |metadata| metadata.len());
-        if let Some(available) = available()?
-            && length > available
-        {
-            return Err(Failure::FileMemory {
-                path: path.clone(),
-                length,
-                available,
-            });
-        }
+        refuse_file(path, READING)?;
     }
     Ok(())
 }
@@ -125,3 +124,71 @@ pub(super) fn outlive_a_limit_on_files() {
 
 #[cfg(not(unix))]
 pub(super) fn outlive_a_limit_on_files() {}
+
+/// The same of one file of whose points each takes `bytes_a_point`.
+fn refuse_file(path: &Path, bytes_a_point: u64) -> Result<(), Failure> {
+    // What cannot be asked for its length is the surface's to refuse.
+    let length = std::fs::metadata(path).map_or(0, |metadata| metadata.len());
+    let Some(available) = available()? else {
+        return Ok(());
+    };
+    if length > available {
+        return Err(Failure::FileMemory {
+            path: path.to_path_buf(),
+            length,
+            available,
+        });
+    }
+    match claimed_points(path) {
+        // Counts past all grids are the surface's to refuse.
+        Some(points) if points[0].saturating_mul(points[1]) <= MOST_POINTS => {
+            refuse_points(path, points, bytes_a_point, length, available)
+        }
+        _ => Ok(()),
+    }
+}
+
+fn refuse_points(
+    path: &Path,
+    points: [usize; 2],
+    bytes_a_point: u64,
+    besides: u64,
+    available: u64,
+) -> Result<(), Failure> {
+    let count = points[0].saturating_mul(points[1]) as u64;
+    let needed = count.saturating_mul(bytes_a_point).saturating_add(besides);
+    if needed <= available {
+        return Ok(());
+    }
+    Err(Failure::MapMemory {
+        path: path.to_path_buf(),
+        points,
+        needed,
+        available,
+    })
+}
+
+/// Bytes a point that the statistics of a surface take.
+fn statistics(boundary: Boundary) -> u64 {
+    match boundary {
+        Boundary::Periodic => STATISTICS_PERIODIC,
+        Boundary::Free => STATISTICS_FREE,
+    }
+}
+
+/// Refuses a height file whose statistics need more memory than there is, where its header tells.
+pub(super) fn refuse_map(path: &Path, boundary: Boundary) -> Result<(), Failure> {
+    refuse_file(path, statistics(boundary))
+}
+
+/// The same of `points` that are known, of the surface that `path` describes.
+pub(super) fn refuse_statistics(
+    path: &Path,
+    points: [usize; 2],
+    boundary: Boundary,
+) -> Result<(), Failure> {
+    match available()? {
+        Some(available) => refuse_points(path, points, statistics(boundary), 0, available),
+        None => Ok(()),
+    }
+}

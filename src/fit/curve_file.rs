@@ -1,10 +1,11 @@
 //! Force curves as text: one row a point, the columns named in the head.
 
 use std::fs;
+use std::io::Read;
 use std::path::Path;
 
 use super::error::FitError;
-use crate::units::{Dimension, quoted, unit_factor};
+use crate::units::{Dimension, is_sane, quoted, unit_factor};
 
 /// Largest file that is read.
 pub const MOST_BYTES: u64 = 256 << 20;
@@ -48,14 +49,26 @@ impl ForceCurve {
             path: path.to_path_buf(),
             cause,
         };
-        let bytes = fs::metadata(path).map_err(unreadable)?.len();
+        let metadata = fs::metadata(path).map_err(unreadable)?;
+        if !metadata.is_file() {
+            // A device never ends, and a pipe says no length.
+            return Err(FitError::NotRegular {
+                path: path.to_path_buf(),
+            });
+        }
+        let bytes = metadata.len();
         if bytes > MOST_BYTES {
             return Err(FitError::TooLarge {
                 path: path.to_path_buf(),
                 bytes,
             });
         }
-        let text = fs::read(path).map_err(unreadable)?;
+        let mut text = Vec::new();
+        // A file that grows meanwhile is read as long as it was.
+        let file = fs::File::open(path).map_err(unreadable)?;
+        file.take(bytes)
+            .read_to_end(&mut text)
+            .map_err(unreadable)?;
         Self::parse(&text, path)
     }
 
@@ -119,12 +132,30 @@ impl ForceCurve {
     }
 
     fn check(&self, path: &Path) -> Result<(), FitError> {
+        let extreme = |column, of: fn(&Sample) -> f64| {
+            // Beside a larger one a small number may be as small as it likes.
+            let largest = self
+                .samples
+                .iter()
+                .map(of)
+                .fold(0.0, |most: f64, value| most.max(value.abs()));
+            if is_sane(largest) {
+                return Ok(());
+            }
+            Err(FitError::Extreme {
+                path: path.to_path_buf(),
+                column,
+                largest,
+            })
+        };
         if self.samples.len() < LEAST_ROWS {
             return Err(FitError::TooFewRows {
                 path: path.to_path_buf(),
                 rows: self.samples.len(),
             });
         }
+        extreme(APPROACH.0, |sample| sample.approach)?;
+        extreme(FORCE.0, |sample| sample.force)?;
         let first = self.samples[0];
         let constant = |column, same: fn(&Sample, &Sample) -> bool| {
             if self.samples.iter().all(|sample| same(sample, &first)) {

@@ -18,6 +18,15 @@ pub enum FitError {
         /// What the system says.
         cause: io::Error,
     },
+    /// A folder, device, pipe or socket in place of a file.
+    #[error(
+        "{path} is no regular file (a folder, a pipe or a device); write the curve to a file and name that",
+        path = path.display()
+    )]
+    NotRegular {
+        /// What was named.
+        path: PathBuf,
+    },
     /// The file is larger than any force curve.
     #[error(
         "{path} has {bytes} bytes; a force curve may have {MOST_BYTES}, so thin its rows out",
@@ -118,6 +127,19 @@ pub enum FitError {
         column: &'static str,
         /// What stands there, quoted.
         text: String,
+    },
+    /// Numbers with which one cannot compute.
+    #[error(
+        "{path}, column `{column}`: its largest number is {largest:e}; it must be between 1e-30 and 1e30 in SI units: check the unit in the head",
+        path = path.display()
+    )]
+    Extreme {
+        /// The file.
+        path: PathBuf,
+        /// The column.
+        column: &'static str,
+        /// Its largest magnitude, SI.
+        largest: f64,
     },
     /// Not enough rows with both numbers.
     #[error(

@@ -145,19 +145,27 @@ impl std::error::Error for Mistake {
     }
 }
 
-/// All mistakes of a scene, in the order of its lines; shown one a line.
+/// Mistakes that are shown; a file of many more is no scene, or one slip makes them all.
+const MOST_SHOWN: usize = 20;
+
+/// All mistakes of a scene, in the order of its lines; the first 20 are shown, one a line, and the number
+/// of the others.
 #[derive(Clone, Debug, PartialEq)]
 pub struct SceneErrors(pub Vec<Mistake>);
 
 impl fmt::Display for SceneErrors {
     fn fmt(&self, formatter: &mut fmt::Formatter<'_>) -> fmt::Result {
-        for (index, mistake) in self.0.iter().enumerate() {
+        for (index, mistake) in self.0.iter().take(MOST_SHOWN).enumerate() {
             if index > 0 {
                 formatter.write_str("\n")?;
             }
             write!(formatter, "{mistake}")?;
         }
-        Ok(())
+        match self.0.len().saturating_sub(MOST_SHOWN) {
+            0 => Ok(()),
+            1 => write!(formatter, "\n{}: 1 more mistake", self.0[0].file),
+            more => write!(formatter, "\n{}: {more} more mistakes", self.0[0].file),
+        }
     }
 }
 

@@ -30,6 +30,7 @@ mod time_steps;
 mod types;
 mod wear;
 
+use std::io::Read;
 use std::path::{Path, PathBuf};
 
 pub use attraction::*;
@@ -41,6 +42,9 @@ pub use types::*;
 use document::{Place, Table};
 use reader::{Log, Reader};
 
+/// Longest scene file: a path of a million steps has about 20 bytes a step.
+const MOST_BYTES: u64 = 32 << 20;
+
 impl Scene {
     /// Reads a scene file, with `overrides` as `--set KEY=VALUE` gives them.
     ///
@@ -48,16 +52,11 @@ impl Scene {
     /// Every mistake of the scene, or that the file cannot be read.
     pub fn read(path: &Path, overrides: &[(String, String)]) -> Result<Scene, SceneErrors> {
         let file_name = path.display().to_string();
-        let text = std::fs::read(path)
-            .map_err(|error| error.to_string())
-            .and_then(|bytes| {
-                String::from_utf8(bytes).map_err(|_| "it is not UTF-8 text".to_string())
-            })
-            .map_err(|reason| {
-                let log = Log::new(&file_name);
-                log.add(Place::Nowhere, "", SceneError::Unreadable { reason });
-                log.into_errors()
-            })?;
+        let text = read_text(path).map_err(|reason| {
+            let log = Log::new(&file_name);
+            log.add(Place::Nowhere, "", SceneError::Unreadable { reason });
+            log.into_errors()
+        })?;
         let folder = match path.parent() {
             Some(parent) if !parent.as_os_str().is_empty() => parent.to_path_buf(),
             _ => PathBuf::from("."),
@@ -92,6 +91,32 @@ impl Scene {
             _ => Err(log.into_errors()),
         }
     }
+}
+
+/// The text of a scene file, or why there is none.
+fn read_text(path: &Path) -> Result<String, String> {
+    let said = |error: std::io::Error| error.to_string();
+    let metadata = std::fs::metadata(path).map_err(said)?;
+    if !metadata.is_file() {
+        // A device never ends, and a pipe says no length.
+        return Err(
+            "it is no regular file (a folder, a pipe or a device); write the scene to a file and name that"
+                .to_string(),
+        );
+    }
+    if metadata.len() > MOST_BYTES {
+        return Err(format!(
+            "{} bytes are no scene, which may have {MOST_BYTES}; name its TOML file",
+            metadata.len()
+        ));
+    }
+    let mut bytes = Vec::new();
+    // A file that grows meanwhile is read as long as it was.
+    let file = std::fs::File::open(path).map_err(said)?;
+    file.take(metadata.len())
+        .read_to_end(&mut bytes)
+        .map_err(said)?;
+    String::from_utf8(bytes).map_err(|_| "it is not UTF-8 text".to_string())
 }
 
 /// Reads every table before any is given up, so that all mistakes are noted.

@@ -32,8 +32,8 @@ pub enum SurfaceError {
         /// Points along x and y.
         points: [usize; 2],
     },
-    /// A size that is not two lengths.
-    #[error("[grid] size = [{:e}, {:e}] m must be two positive lengths", size[0], size[1])]
+    /// A size that is not two lengths that one can compute with.
+    #[error("[grid] size = [{:e}, {:e}] m must be two lengths between 1e-30 and 1e30 m; check the unit", size[0], size[1])]
     Size {
         /// Size along x and y, m.
         size: [f64; 2],
@@ -63,7 +63,7 @@ pub enum SurfaceError {
     },
     /// A sum of parts past the range of numbers.
     #[error(
-        "the heights are not finite at row {row}, column {column} (counted from 1): a length of a [[surface]] is too large"
+        "the heights are not finite, or past 1e30 m, at row {row}, column {column} (counted from 1): a length of a [[surface]] is too large"
     )]
     NotFinite {
         /// Row (y), from 1.
@@ -429,8 +429,18 @@ pub enum FileError {
         /// All pixels.
         points: usize,
     },
+    /// Heights with which one cannot compute.
+    #[error(
+        "the largest height is {largest:e} m; heights must be 0 or between 1e-30 and 1e30 m: check the unit and the powers of ten"
+    )]
+    Extreme {
+        /// Largest magnitude of a height, m.
+        largest: f64,
+    },
     /// A factor that is no number.
-    #[error("{name} = {value} must be a finite number other than 0")]
+    #[error(
+        "{name} = {value:e} must be between 1e-30 and 1e30, or minus that; check the powers of ten"
+    )]
     Factor {
         /// The key.
         name: &'static str,

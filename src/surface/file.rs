@@ -6,6 +6,7 @@ use super::statistics::edge_jumps;
 use super::{detrend, fill, formats};
 use crate::grid::Grid;
 use crate::scene::{Boundary, Fill, HeightFileScene};
+use crate::units::is_sane;
 
 /// Relative difference up to which two sizes agree: files write a few digits.
 const SIZE_MARGIN: f64 = 1e-3;
@@ -77,7 +78,7 @@ impl HeightMap {
 /// See [`FileError`].
 pub(super) fn read(scene: &HeightFileScene, boundary: Boundary) -> Result<HeightMap, FileError> {
     for (name, value) in [("unit", scene.unit), ("scale", scene.scale)] {
-        if !value.is_finite() || value == 0.0 {
+        if value == 0.0 || !is_sane(value) {
             return Err(FileError::Factor { name, value });
         }
     }
@@ -104,6 +105,11 @@ pub(super) fn read(scene: &HeightFileScene, boundary: Boundary) -> Result<Height
     }
     for height in &mut heights {
         *height = *height * factor + zero;
+    }
+    let magnitude = |most: f64, height: &f64| most.max(height.abs());
+    let largest = heights.iter().fold(0.0, magnitude);
+    if !is_sane(largest) {
+        return Err(FileError::Extreme { largest });
     }
     detrend::detrend(&mut heights, rows, columns, scene.detrend);
     if boundary == Boundary::Periodic {

@@ -57,7 +57,7 @@ pub struct SelfAffineFit {
     pub cutoff_seen: bool,
     /// Whether the Hurst exponent lies inside the range tried.
     pub hurst_inside: bool,
-    /// Root mean square of `log10` of the rings' densities over the fit's.
+    /// Root mean square of `log10` of the rings' densities over the fit's, of rings that have any.
     pub scatter: f64,
 }
 
@@ -72,7 +72,7 @@ pub enum BandFitError {
         "{rings} rings of the spectrum are too few, {FEWEST_RINGS} are needed; take a map of more points"
     )]
     TooFewRings {
-        /// Rings that there are.
+        /// Rings with any power that there are.
         rings: usize,
     },
 }
@@ -119,10 +119,11 @@ pub fn fit(
     rings.drain(..before.min(rings.len()));
     let end = end_of_band(&rings);
     let compared = &rings[..end.unwrap_or(rings.len())];
-    if compared.len() < FEWEST_RINGS {
-        return Err(BandFitError::TooFewRings {
-            rings: compared.len(),
-        });
+    // Waves along one axis alone leave rings without any power.
+    let held_power = |ring: &&SpectrumRing| ring.density > 0.0;
+    let filled = compared.iter().filter(held_power).count();
+    if filled < FEWEST_RINGS {
+        return Err(BandFitError::TooFewRings { rings: filled });
     }
     let mut spectrum = bend(compared, long, held);
     let rolloff_seen = spectrum.rolloff > ROLLOFF_SEEN * compared[0].wavenumber;
@@ -141,6 +142,7 @@ pub fn fit(
     }
     let squares: f64 = compared
         .iter()
+        .filter(held_power)
         .map(|ring| {
             (ring.density / spectrum.density(ring.wavenumber))
                 .log10()
@@ -153,7 +155,7 @@ pub fn fit(
         rolloff_seen,
         cutoff_seen: end.is_some(),
         hurst_inside: HURST[0] + 1e-3 < spectrum.hurst && spectrum.hurst < HURST[1] - 1e-3,
-        scatter: (squares / compared.len() as f64).sqrt(),
+        scatter: (squares / filled as f64).sqrt(),
     })
 }
 

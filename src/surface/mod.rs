@@ -29,10 +29,12 @@ pub mod statistics;
 
 pub use adhesion_map::MapError;
 pub use error::{FileError, PartError, SurfaceError};
+pub use formats::claimed_points;
 pub use outline::{MapOutline, Outline, Source};
 
 use crate::grid::Grid;
 use crate::scene::{Boundary, GridScene, Scene, SurfacePart};
+use crate::units::{LARGEST, is_sane};
 use file::HeightMap;
 use shapes::Place;
 use statistics::Statistics;
@@ -98,7 +100,9 @@ impl Surface {
             let named = |warning| format!("[[surface]] {}: {warning}", index + 1);
             warnings.extend(found.into_iter().map(named));
         }
-        if let Some(index) = heights.iter().position(|height| !height.is_finite()) {
+        // Past the range are squares of curvatures that are no numbers.
+        let fits = |height: &f64| height.abs() <= LARGEST;
+        if let Some(index) = heights.iter().position(|height| !fits(height)) {
             return Err(SurfaceError::NotFinite {
                 row: index / grid.nx + 1,
                 column: index % grid.nx + 1,
@@ -154,7 +158,7 @@ fn check_grid(points: Option<[usize; 2]>, size: Option<[f64; 2]>) -> Result<(), 
         }
     }
     if let Some(size) = size
-        && !size.iter().all(|side| side.is_finite() && *side > 0.0)
+        && !size.iter().all(|side| *side > 0.0 && is_sane(*side))
     {
         return Err(SurfaceError::Size { size });
     }

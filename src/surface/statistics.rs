@@ -1,5 +1,6 @@
 //! Statistics of a height map: root mean squares, spectral moments, radial power spectrum.
 
+use std::collections::BTreeMap;
 use std::f64::consts::PI;
 
 use rayon::prelude::*;
@@ -104,34 +105,32 @@ fn rings(
         Boundary::Free => fourier::analyse(grid, &windowed(grid, heights)),
     };
     let area = grid.area() / (4.0 * PI * PI);
-    let mut rings: Vec<SpectrumRing> = Vec::new();
+    // By number and not one after the other: of pixels a million times longer than wide the numbers
+    // reach far past the count of modes.
+    let mut rings: BTreeMap<usize, SpectrumRing> = BTreeMap::new();
     for (kx, column) in spectrum.chunks(grid.ny).enumerate() {
         for (ky, coefficient) in column.iter().enumerate() {
             if kx == 0 && ky == 0 {
                 continue;
             }
             let wavenumber = grid.wavenumber(kx, ky);
-            let ring = ring_of(wavenumber);
-            if rings.len() <= ring {
-                let empty = SpectrumRing {
-                    wavenumber: 0.0,
-                    density: 0.0,
-                    modes: 0,
-                };
-                rings.resize(ring + 1, empty);
-            }
+            let ring = rings.entry(ring_of(wavenumber)).or_insert(SpectrumRing {
+                wavenumber: 0.0,
+                density: 0.0,
+                modes: 0,
+            });
             let images = images(grid, kx);
-            rings[ring].modes += images;
-            rings[ring].wavenumber += images as f64 * wavenumber;
-            rings[ring].density += images as f64 * area * coefficient.norm_sqr();
+            ring.modes += images;
+            ring.wavenumber += images as f64 * wavenumber;
+            ring.density += images as f64 * area * coefficient.norm_sqr();
         }
     }
-    rings.retain(|ring| ring.modes > 0);
-    for ring in &mut rings {
-        ring.wavenumber /= ring.modes as f64;
-        ring.density /= ring.modes as f64;
-    }
-    rings
+    let mean = |ring: SpectrumRing| SpectrumRing {
+        wavenumber: ring.wavenumber / ring.modes as f64,
+        density: ring.density / ring.modes as f64,
+        ..ring
+    };
+    rings.into_values().map(mean).collect()
 }
 
 /// How often a stored column stands in the full spectrum.

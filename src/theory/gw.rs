@@ -117,7 +117,8 @@ pub(crate) fn scaled_tail(n: i32, t: f64) -> Result<f64, TheoryError> {
     )?;
     let exponent = |s: f64| -s * s * (t + 0.5 * s * s);
     let step = 0.1 / (1.0 + t.abs()).sqrt();
-    let end = (-t + (t * t + 100.0).sqrt()).sqrt() + 2.0 * step;
+    // Where y (t + y/2) is 50: y = -t + sqrt(t^2 + 100), without its cancellation and its overflow.
+    let end = (100.0 / (t + t.hypot(10.0))).sqrt() + 2.0 * step;
     let mut sum = 0.0;
     let mut s = step;
     while s < end {
@@ -129,6 +130,9 @@ pub(crate) fn scaled_tail(n: i32, t: f64) -> Result<f64, TheoryError> {
 
 /// `int_0^inf y^k exp(-t y - y^2/2) dy` for t > 0, by the trapezoid rule in log y.
 fn scaled_tail_by_logarithm(k: f64, t: f64) -> f64 {
+    if t == f64::INFINITY {
+        return 0.0;
+    }
     let step = 0.05;
     let mut sum = 0.0;
     let mut log = -(40.0 + t.ln());

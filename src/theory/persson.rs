@@ -122,10 +122,11 @@ impl Persson {
 
     pub(crate) fn gap_integral_at(&self, x0: f64) -> f64 {
         let place = x0 / GAP_STEP;
-        let i = place as usize;
-        let repulsion = if i + 1 >= GAP_ENTRIES {
+        // Compared before it is counted: a place past all integers has no next one.
+        let repulsion = if place >= (GAP_ENTRIES - 1) as f64 {
             0.0
         } else {
+            let i = place as usize;
             let at = i as f64 * GAP_STEP;
             let slopes = (
                 -repulsion_rate(at) * GAP_STEP,

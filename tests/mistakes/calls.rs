@@ -374,7 +374,7 @@ fn library() -> Vec<Reached> {
     vec![
         reached("SurfaceError::Empty", surface(&small, &[]), "the scene has no [[surface]]; for a flat one write kind = \"flat\""),
         reached("SurfaceError::PointsMissing", surface(&grid(None, Some([1.0, 1.0])), &[SurfacePart::Flat]), "[grid] points is missing"),
-        reached("SurfaceError::Size", surface(&grid(Some([8, 8]), Some([1.0, f64::NAN])), &[SurfacePart::Flat]), "must be two positive lengths"),
+        reached("SurfaceError::Size", surface(&grid(Some([8, 8]), Some([1.0, f64::NAN])), &[SurfacePart::Flat]), "must be two lengths between 1e-30 and 1e30 m; check the unit"),
         reached("SurfaceError::Part", of_part(SurfacePart::Cone { half_angle: 2.0, centre: None }), "[[surface]] 1: half_angle = "),
         reached("PartError::HalfAngle", of_part(SurfacePart::Cone { half_angle: 2.0, centre: None }), "degrees must lie between 0 and 90"),
         reached("PartError::NotPositive", of_part(SurfacePart::Sphere { radius: -1.0, centre: None }), "radius = -1 must be a positive, finite number"),
@@ -383,7 +383,7 @@ fn library() -> Vec<Reached> {
         reached("PartError::Hurst", rough(&|scene| scene.hurst = 1.5), "hurst = 1.5 must lie between 0 and 1"),
         reached("PartError::BandOrder", rough(&|scene| scene.rolloff = 2.0), "needed is longest >= rolloff >= shortest"),
         reached("PartError::File", of_part(file(1.0)), "[[surface]] 1: map.txt: there is no such file"),
-        reached("FileError::Factor", of_part(file(0.0)), "scale = 0 must be a finite number other than 0"),
+        reached("FileError::Factor", of_part(file(0.0)), "scale = 0e0 must be between 1e-30 and 1e30, or minus that; check the powers of ten"),
         reached("FileError::TooLong", long_text(), "bytes are too many to take in; save the heights as .npy"),
         reached("BandFitError::Flat", fit_band(4, 0.0), "the surface is flat"),
         reached("BandFitError::TooFewRings", fit_band(4, 1.0), "rings of the spectrum are too few"),

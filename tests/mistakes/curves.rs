@@ -2,7 +2,7 @@
 
 use std::fs;
 
-use tabor::fit::{FitError, ForceCurve, Freedom, fit_curve};
+use tabor::fit::{FitError, ForceCurve, Freedom, Sample, fit_curve};
 
 use super::Reached;
 
@@ -91,6 +91,16 @@ pub fn reached() -> Vec<Reached> {
         ),
         ("TooFewRows", rows(head, 20, |_| ",".to_owned()), "0 rows"),
         (
+            "Extreme",
+            rows(head, 20, |i| format!("{i}e-9,{}e40", i as f64 - 5.0)),
+            "column `force`: its largest number is 1.4e41; it must be between 1e-30 and 1e30 in SI units: check the unit in the head",
+        ),
+        (
+            "Extreme",
+            rows(head, 20, |i| format!("{i}e-40,{}e-9", i as f64 - 5.0)),
+            "column `approach`: its largest number is 1.9e-39; it must be",
+        ),
+        (
             "Constant",
             rows(head, 20, |i| format!("1,{i}")),
             "the approach is the same in every row",
@@ -143,10 +153,23 @@ pub fn reached() -> Vec<Reached> {
     let error = fit_curve(&curve, &path, -1.0, FREE).expect_err("no radius");
     assert!(matches!(error, FitError::Theory(_)), "{error}");
     reach("Theory", &error);
-    // Forces so large that no modulus is a number.
-    let absurd = |i: usize| format!("{i}e-300,{}e300", i as f64 - 5.0);
-    fs::write(&path, rows(head, 20, absurd)).expect("written");
-    let curve = ForceCurve::read(&path).expect("a curve");
+    let error = ForceCurve::read(folder.path()).expect_err("a folder");
+    assert!(
+        error.to_string().contains(
+            "is no regular file (a folder, a pipe or a device); write the curve to a file"
+        ),
+        "{error}"
+    );
+    reach("NotRegular", &error);
+    // Forces so large that no modulus is a number; no file may hold them.
+    let absurd = |i: usize| Sample {
+        approach: i as f64 * 1e-300,
+        force: (i as f64 - 5.0) * 1e300,
+    };
+    let curve = ForceCurve {
+        samples: (0..20).map(absurd).collect(),
+        ..ForceCurve::default()
+    };
     let error = fit_curve(&curve, &path, 1e-6, FREE).expect_err("no fit");
     assert!(matches!(error, FitError::NoFit { .. }), "{error}");
     reach("NoFit", &error);

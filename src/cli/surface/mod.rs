@@ -4,16 +4,14 @@ mod report;
 
 use std::path::{Path, PathBuf};
 
-use super::{Failure, key_and_value, print, read_scene, warn};
+use super::patience::Patience;
+use super::{Failure, key_and_value, print, read_scene, room, warn};
 use crate::output::{
     OutputError, Picture, RunFolder, SpectrumPlot, write_atomically, write_picture,
 };
 use crate::scene::{Boundary, Detrend, FieldName, Fill, GridScene, HeightFileScene, SurfacePart};
-use crate::surface::correlation::correlation_length;
-use crate::surface::fit::fit;
-use crate::surface::statistics::radial_spectrum;
 use crate::surface::{Surface, SurfaceError};
-use crate::units::{Dimension, parse_quantity};
+use crate::units::{Dimension, SANE_WORDS, is_sane, parse_quantity};
 use report::Report;
 
 /// Extension of scenes; every other file holds heights.
@@ -44,7 +42,7 @@ struct FileArguments {
     #[arg(long, value_name = "U", value_parser = unit)]
     unit: Option<f64>,
     /// Factor on the heights [default: 1]
-    #[arg(long, value_name = "F", allow_hyphen_values = true)]
+    #[arg(long, value_name = "F", value_parser = factor, allow_hyphen_values = true)]
     scale: Option<f64>,
     /// Height of black in a grey image, as "0 nm"
     #[arg(long, value_name = "H", value_parser = length, allow_hyphen_values = true)]
@@ -73,9 +71,24 @@ impl FileArguments {
 }
 
 fn length(text: &str) -> Result<f64, String> {
-    text.parse()
+    let value = text
+        .parse()
         .or_else(|_| parse_quantity(text, Dimension::Length))
-        .map_err(|error| error.to_string())
+        .map_err(|error| error.to_string())?;
+    sane(value)
+}
+
+/// A number without a unit.
+fn factor(text: &str) -> Result<f64, String> {
+    sane(text.parse().map_err(|_| "write a number".to_owned())?)
+}
+
+fn sane(value: f64) -> Result<f64, String> {
+    if is_sane(value) {
+        Ok(value)
+    } else {
+        Err(format!("must be {SANE_WORDS}"))
+    }
 }
 
 /// A unit alone, as in `nm`, or a length, as in `0.5 nm`.
@@ -120,6 +133,7 @@ fn boundary(text: &str) -> Result<Boundary, String> {
 
 /// Prints the report and writes the pictures.
 pub(super) fn surface(arguments: &SurfaceArguments) -> Result<(), Failure> {
+    let _patience = Patience::new("a coarser map takes less");
     let source = &arguments.source;
     let is_scene = source
         .extension()
@@ -137,16 +151,7 @@ pub(super) fn surface(arguments: &SurfaceArguments) -> Result<(), Failure> {
     for warning in &surface.warnings {
         warn(&plain(warning, is_scene));
     }
-    let rings = radial_spectrum(&surface.grid, &surface.heights, boundary);
-    let report = Report {
-        source,
-        surface: &surface,
-        boundary,
-        statistics: surface.statistics(boundary),
-        correlation_length: correlation_length(&surface.grid, &surface.heights, boundary),
-        rings: &rings,
-        fit: fit(&surface.grid, &surface.heights, boundary),
-    };
+    let report = Report::of(source, &surface, boundary);
     // The table first: it stands even where no picture can be written.
     print(&report.text())?;
     write_pictures(&folder, &report)?;
@@ -166,11 +171,19 @@ fn of_scene(arguments: &SurfaceArguments) -> Result<(Surface, Boundary), Failure
         set.push(("grid.size".to_owned(), format!("[{x:e}, {y:e}]")));
     }
     let scene = read_scene(&arguments.source, &set)?;
+    room::refuse_files(&scene)?;
+    let boundary = scene.grid.boundary;
+    let refuse = |points| room::refuse_statistics(&arguments.source, points, boundary);
+    if let Some(points) = scene.grid.points {
+        refuse(points)?;
+    }
     let surface = Surface::build(&scene).map_err(|error| Failure::Surface {
         path: arguments.source.clone(),
         error,
     })?;
-    Ok((surface, scene.grid.boundary))
+    // Of a grid that a height file carries.
+    refuse([surface.grid.nx, surface.grid.ny])?;
+    Ok((surface, boundary))
 }
 
 /// The surface of a file, as a patch with free edges unless the call says otherwise.
@@ -183,6 +196,7 @@ fn of_file(arguments: &SurfaceArguments) -> Result<(Surface, Boundary), Failure>
     }
     let file = &arguments.file;
     let boundary = file.boundary.unwrap_or(Boundary::Free);
+    room::refuse_map(&arguments.source, boundary)?;
     let grid = GridScene {
         points: None,
         size: arguments.size,
@@ -208,6 +222,8 @@ fn of_file(arguments: &SurfaceArguments) -> Result<(Surface, Boundary), Failure>
             other => format!("{}: {other}", arguments.source.display()),
         })
     })?;
+    let points = [surface.grid.nx, surface.grid.ny];
+    room::refuse_statistics(&arguments.source, points, boundary)?;
     Ok((surface, boundary))
 }
 
@@ -252,3 +268,7 @@ fn default_folder(source: &Path) -> PathBuf {
     name.push("_surface");
     PathBuf::from(name)
 }
+
+#[cfg(test)]
+#[path = "hostile_tests.rs"]
+mod tests;

@@ -5,8 +5,9 @@ use std::path::Path;
 
 use crate::scene::Boundary;
 use crate::surface::Surface;
-use crate::surface::fit::{BandFitError, SelfAffineFit};
-use crate::surface::statistics::{SpectrumRing, Statistics};
+use crate::surface::correlation::correlation_length;
+use crate::surface::fit::{BandFitError, SelfAffineFit, fit};
+use crate::surface::statistics::{SpectrumRing, Statistics, radial_spectrum};
 
 /// Points of the line that stands for the fit in the plot.
 const LINE_POINTS: usize = 200;
@@ -18,11 +19,25 @@ pub(super) struct Report<'a> {
     pub boundary: Boundary,
     pub statistics: Statistics,
     pub correlation_length: Option<f64>,
-    pub rings: &'a [SpectrumRing],
+    pub rings: Vec<SpectrumRing>,
     pub fit: Result<SelfAffineFit, BandFitError>,
 }
 
-impl Report<'_> {
+impl<'a> Report<'a> {
+    /// Everything about a surface that came from `source`.
+    pub fn of(source: &'a Path, surface: &'a Surface, boundary: Boundary) -> Self {
+        let (grid, heights) = (&surface.grid, &surface.heights);
+        Report {
+            source,
+            surface,
+            boundary,
+            statistics: surface.statistics(boundary),
+            correlation_length: correlation_length(grid, heights, boundary),
+            rings: radial_spectrum(grid, heights, boundary),
+            fit: fit(grid, heights, boundary),
+        }
+    }
+
     /// Everything, for standard output.
     pub fn text(&self) -> String {
         let mut text = String::new();
@@ -45,7 +60,7 @@ impl Report<'_> {
             }
         ));
         line(row("wavenumber [1/m]", "C [m^4]", "modes", "fit [m^4]"));
-        for ring in self.rings {
+        for ring in &self.rings {
             let fitted = self.fitted(ring.wavenumber).map(number);
             line(row(
                 &number(ring.wavenumber),
@@ -239,7 +254,7 @@ impl Report<'_> {
     /// The radial spectrum as CSV.
     pub fn table(&self) -> String {
         let mut text = "wavenumber [1/m],density [m^4],modes,fit [m^4]\n".to_owned();
-        for ring in self.rings {
+        for ring in &self.rings {
             let fitted = self.fitted(ring.wavenumber);
             let fitted = fitted.map(|density| format!("{density:e}"));
             let _ = writeln!(
@@ -290,9 +305,13 @@ fn row(name: &str, value: &str, unit: &str, what: &str) -> String {
     format!("{name:<20} {value:<14} {unit:<6} {what}")
 }
 
-/// A number with six digits.
+/// A number with six digits; `-` for what is none.
 fn number(value: f64) -> String {
-    format!("{value:.5e}")
+    if value.is_finite() {
+        format!("{value:.5e}")
+    } else {
+        "-".to_owned()
+    }
 }
 
 /// The nearest number with six digits.

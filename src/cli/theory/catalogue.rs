@@ -47,7 +47,11 @@ impl Table {
     /// Adds a named number to the comments.
     pub fn note(&mut self, name: &str, value: f64, unit: &str) {
         let space = if unit.is_empty() { "" } else { " " };
-        self.notes.push(format!("{name} = {value:?}{space}{unit}"));
+        self.notes.push(if value.is_finite() {
+            format!("{name} = {value:?}{space}{unit}")
+        } else {
+            format!("{name}: beyond the range of numbers")
+        });
     }
 }
 

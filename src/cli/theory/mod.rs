@@ -19,26 +19,35 @@ mod words;
 
 use clap::CommandFactory;
 
+use super::patience::Patience;
 use super::{Arguments, Failure, TheoryArguments, print};
 use catalogue::{MODELS, Model};
 use values::Values;
 
 /// Prints the table of a model, the help of a model, or the list of the models.
 pub(super) fn theory(arguments: &TheoryArguments) -> Result<(), Failure> {
+    let patience = Patience::new("fewer rows take less, see --points");
+    let text = text(&arguments.words)?;
+    drop(patience);
+    print(&text)
+}
+
+/// What is printed for the words of a call.
+fn text(words: &[String]) -> Result<String, Failure> {
     let asks = |word: &String| word == "--help" || word == "-h";
-    let Some((name, rest)) = arguments.words.split_first() else {
-        return print(&print::list(MODELS));
+    let Some((name, rest)) = words.split_first() else {
+        return Ok(print::list(MODELS));
     };
     if asks(name) {
-        return print(&general_help());
+        return Ok(general_help());
     }
     let model = find(name)?;
     if rest.iter().any(asks) {
-        return print(&print::help(model));
+        return Ok(print::help(model));
     }
     let values = Values::read(model, rest).map_err(|messages| usage(&messages))?;
     let table = (model.table)(&values)?;
-    print(&print::csv(model, &values, &table))
+    Ok(print::csv(model, &values, &table))
 }
 
 fn find(name: &str) -> Result<&'static Model, Failure> {
@@ -90,3 +99,7 @@ fn nearest(word: &str, candidates: impl Iterator<Item = &'static str>) -> &'stat
         )
         .0
 }
+
+#[cfg(test)]
+#[path = "hostile_tests.rs"]
+mod tests;

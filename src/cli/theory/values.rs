@@ -10,7 +10,8 @@ use crate::cli::Failure;
 use crate::theory::Law;
 use crate::units::{Dimension, format_si, quoted};
 
-const MOST_ROWS: f64 = 1e6;
+/// Most rows of a table: of the slowest model some seconds.
+const MOST_ROWS: f64 = 1e5;
 
 /// What was given and what is assumed, checked one by one.
 #[derive(Default)]

@@ -5,7 +5,7 @@ use std::collections::BTreeMap;
 use super::catalogue::Model;
 use super::nearest;
 use super::parameters::{Allowed, Kind, Need, Parameter};
-use crate::units::{Dimension, angle_from_number, parse_quantity, quoted};
+use crate::units::{Dimension, SANE_WORDS, angle_from_number, is_sane, parse_quantity, quoted};
 
 /// The text given for each parameter; none for one whose value is missing, which is a problem
 /// already.
@@ -123,14 +123,22 @@ pub(super) fn quantity(name: &str, text: &str, dimension: Dimension) -> Result<f
     if text.is_empty() {
         return Err(format!("--{name} is empty; give {}", dimension.words()));
     }
-    match (text.trim().parse::<f64>(), dimension) {
+    let value = match (text.trim().parse::<f64>(), dimension) {
         (Ok(number), _) if !number.is_finite() => {
-            Err(format!("--{name} {} is not finite", quoted(text)))
+            return Err(format!("--{name} {} is not finite", quoted(text)));
         }
-        (Ok(degrees), Dimension::Angle) => Ok(angle_from_number(degrees)),
-        (Ok(number), _) => Ok(number),
+        (Ok(degrees), Dimension::Angle) => angle_from_number(degrees),
+        (Ok(number), _) => number,
         (Err(_), _) => {
-            parse_quantity(text, dimension).map_err(|error| format!("--{name}: {error}"))
+            parse_quantity(text, dimension).map_err(|error| format!("--{name}: {error}"))?
         }
+    };
+    if is_sane(value) {
+        Ok(value)
+    } else {
+        Err(format!(
+            "--{name} {} is out of range: it must be {SANE_WORDS}",
+            quoted(text)
+        ))
     }
 }

@@ -130,6 +130,32 @@ const FORMATS: &[Format] = &[
     },
 ];
 
+/// What reads the columns and rows that a file says it has, and nothing else of it.
+type Claim = fn(BufReader<File>) -> Option<[usize; 2]>;
+
+/// Files whose length does not tell how much memory their numbers take: compressed ones, and those that
+/// may hold a byte a number.
+const CLAIMS: [(&[&[u8]], Claim); 3] = [
+    (&[npy::MAGIC], npy::claimed_points),
+    (&[png::MAGIC], png::claimed_points),
+    (&tiff::MAGIC, tiff::claimed_points),
+];
+
+/// Points along x and y that an image or an array says it has, from its header alone.
+///
+/// `None` for other files, which hold no more numbers than bytes, and for one that cannot be read: reading
+/// it says why.
+pub fn claimed_points(path: &Path) -> Option<[usize; 2]> {
+    if !fs::metadata(path).ok()?.is_file() {
+        return None;
+    }
+    let mut file = BufReader::new(File::open(path).ok()?);
+    let start = file.fill_buf().ok()?;
+    let begins = |magic: &&[u8]| start.starts_with(magic);
+    let (_, claim) = CLAIMS.iter().find(|(magic, _)| magic.iter().any(begins))?;
+    claim(file)
+}
+
 /// First bytes of other files that may come under a wrong name, with what they are.
 const STRANGERS: [(&[u8], &str); 4] = [
     (b"PK\x03\x04", "ZIP archive (.npz, .xlsx, .x3p)"),

@@ -2,7 +2,8 @@
 //!
 //! Everything that the header claims is compared with the length of the file before memory is asked for.
 
-use std::io::{BufRead, Cursor, Read};
+use std::fs::File;
+use std::io::{BufRead, BufReader, Cursor, Read};
 
 use npyz::{DType, Deserialize, NpyFile, Order, TypeChar};
 
@@ -18,6 +19,16 @@ const LONGEST_HEADER: usize = 4096;
 
 /// Most digits in a shape: their product then fits in 64 bits, whatever they are.
 const MOST_SHAPE_DIGITS: usize = 19;
+
+/// Columns and rows of a two-dimensional array, from its header.
+pub(super) fn claimed_points(mut file: BufReader<File>) -> Option<[usize; 2]> {
+    let header = read_header(&mut file).ok()?;
+    let npy = NpyFile::new(Cursor::new(header)).ok()?;
+    let &[rows, columns] = npy.shape() else {
+        return None;
+    };
+    Some([columns as usize, rows as usize])
+}
 
 /// Reads a two-dimensional array of real numbers from `file`, which has `length` bytes.
 ///

@@ -1,6 +1,7 @@
 //! Grey PNG images of up to 16 bits. They say no unit, and their dots per inch are those of a printer.
 
-use std::io::Cursor;
+use std::fs::File;
+use std::io::{BufReader, Cursor};
 
 use image::codecs::png::PngDecoder;
 use image::{ColorType, ImageDecoder};
@@ -15,6 +16,12 @@ pub(super) const MAGIC: &[u8] = b"\x89PNG\r\n\x1a\n";
 /// Most bytes of pixels that a byte of a compressed file can stand for: LZW packs up to 3840 bytes
 /// into a code of 12 bits, deflate 1032 into a byte.
 pub(super) const LARGEST_RATIO: usize = 4096;
+
+/// Columns and rows of an image, from its header.
+pub(super) fn claimed_points(file: BufReader<File>) -> Option<[usize; 2]> {
+    let (columns, rows) = PngDecoder::new(file).ok()?.dimensions();
+    Some([columns as usize, rows as usize])
+}
 
 /// Reads an image; 0 is black and 1 white.
 pub(super) fn read(bytes: &[u8]) -> Result<Matrix, FileError> {

@@ -2,7 +2,8 @@
 //!
 //! They say no unit, and their resolution is that of a printer.
 
-use std::io::Cursor;
+use std::fs::File;
+use std::io::{BufReader, Cursor};
 
 use tiff::ColorType;
 use tiff::decoder::{Decoder, DecodingResult, Limits};
@@ -17,6 +18,12 @@ pub(super) const MAGIC: [&[u8]; 4] = [b"II*\0", b"MM\0*", b"II+\0", b"MM\0+"];
 
 /// Room for the decoder's own tables, bytes.
 const TABLES: usize = 1 << 20;
+
+/// Columns and rows of the first image, from its directory.
+pub(super) fn claimed_points(file: BufReader<File>) -> Option<[usize; 2]> {
+    let (columns, rows) = Decoder::new(file).ok()?.dimensions().ok()?;
+    Some([columns as usize, rows as usize])
+}
 
 /// Reads the first image of a file.
 pub(super) fn read(bytes: &[u8]) -> Result<Matrix, FileError> {

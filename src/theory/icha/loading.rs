@@ -15,6 +15,9 @@ const LOAD_STEP: f64 = 1.2;
 /// Share of the first load asked at which the way up begins.
 const FIRST_LOAD: f64 = 1e-3;
 
+/// Longest cell whose images are summed, in its width: their number grows with the root of it.
+const LONGEST_CELL: f64 = 1e4;
+
 /// Factor between two loads below which a step that does not settle is given up.
 const SMALLEST_STEP: f64 = 1.0005;
 
@@ -32,8 +35,16 @@ impl<'a> Icha<'a> {
     /// that repeats.
     ///
     /// # Errors
-    /// Heights that are not finite, and a map without a summit.
+    /// Heights that are not finite, a map without a summit, and a cell more than 10 000 times longer than
+    /// wide.
     pub fn new(grid: Grid, heights: &'a [f64]) -> Result<Self, TheoryError> {
+        let ratio = grid.lx.max(grid.ly) / grid.lx.min(grid.ly);
+        within(
+            "longer over shorter side of the cell",
+            ratio,
+            ratio <= LONGEST_CELL,
+            "no more than 10000, or the sums over its images take too long",
+        )?;
         let summits = find_summits(&grid, heights)?;
         if summits.is_empty() {
             return Err(TheoryError::NoSolution {
