@@ -4,10 +4,10 @@ use std::path::Path;
 
 use super::curve_file::ForceCurve;
 use super::error::FitError;
-use super::estimate::{ModelFit, fit_model};
+use super::estimate::{LEAST_FREE, ModelFit, Rung, Uncertainties, fit_model};
 use super::inversion::{Inversion, invert_curve};
-use super::measured::{Freedom, Measured};
-use super::model::Model;
+use super::measured::{Freedom, Measured, Turned};
+use super::model::{Model, Parameters};
 use crate::theory::Law;
 use crate::theory::tabor_map::{
     FORCE_DMT_LIMIT, JKR_LIMIT, LAMBDA_PER_MU_MATCHED, Regime, Sphere, regime, tabor_parameter,
@@ -27,8 +27,9 @@ pub const VAGUE: f64 = 0.3;
 /// Rounds of choosing a regime by the Tabor number that the last choice gave.
 const ROUNDS: usize = 4;
 
+
 /// A number of a fit with its standard deviation.
-type Number = fn(&ModelFit) -> (f64, Option<f64>);
+type Number = fn(&Parameters, &Uncertainties) -> (f64, Option<f64>);
 
 /// What a curve gave.
 #[derive(Clone, Debug)]
@@ -79,38 +80,31 @@ pub fn fit_curve(
     // Refuses a radius that is none.
     Sphere::new(radius, 1.0, 0.0)?;
     let measured = Measured::new(curve.samples.clone(), radius, freedom);
-    check(&measured, path)?;
+    let no_fit = || FitError::NoFit {
+        path: path.to_path_buf(),
+    };
     let fits: Vec<ModelFit> = Model::ALL
         .into_iter()
         .filter_map(|model| fit_model(&measured, model))
         .collect();
+    check_signs(&measured, &fits, path)?;
     let mut warnings = left_out(curve);
     let (chosen, tabor_parameter) =
-        choose(&measured, &fits, &mut warnings).ok_or_else(|| FitError::NoFit {
-            path: path.to_path_buf(),
-        })?;
+        choose(&measured, &fits, &mut warnings).ok_or_else(no_fit)?;
     doubts(&measured, &fits[chosen], &mut warnings);
-    let best = &fits[chosen];
-    // Where another model suits as well, neither its numbers nor its doubts can be ruled out.
-    let with_models = |(value, deviation): (f64, Option<f64>), of: Number| {
-        let alike = fits.iter().filter(|fit| not_told_apart(fit, best));
-        let others = alike.fold(0.0_f64, |most, fit| {
-            let (other, doubt) = of(fit);
-            most.max((other - value).abs()).max(doubt.unwrap_or(0.0))
+    let work: Number = |p, u| (p.work_of_adhesion, u.work_of_adhesion);
+    let modulus: Number = |p, u| (p.contact_modulus, u.contact_modulus);
+    let modulus_uncertainty = deviation(&fits, chosen, modulus);
+    let stiff = fits[chosen].parameters.contact_modulus;
+    let pressed = measured.extremes().1.force > measured.baseline();
+    if !pressed && modulus_uncertainty.is_none_or(|deviation| deviation > VAGUE * stiff) {
+        return Err(FitError::NoCompression {
+            path: path.to_path_buf(),
         });
-        deviation.map(|deviation| deviation.max(others))
-    };
-    let work: Number = |fit| {
-        let deviation = fit.uncertainties.work_of_adhesion;
-        (fit.parameters.work_of_adhesion, deviation)
-    };
-    let modulus: Number = |fit| {
-        let deviation = fit.uncertainties.contact_modulus;
-        (fit.parameters.contact_modulus, deviation)
-    };
+    }
     Ok(FitResult {
-        work_uncertainty: with_models(work(best), work),
-        modulus_uncertainty: with_models(modulus(best), modulus),
+        work_uncertainty: deviation(&fits, chosen, work),
+        modulus_uncertainty,
         inversion: invert_curve(&measured, &fits[chosen]),
         measured,
         fits,
@@ -120,28 +114,57 @@ pub fn fit_curve(
     })
 }
 
-/// Whether two adhesive models suit a curve so nearly alike that it cannot tell them apart.
-fn not_told_apart(one: &ModelFit, other: &ModelFit) -> bool {
-    let both = one.model.adheres() && other.model.adheres();
-    both && one.model != other.model && (one.aic - other.aic).abs() < TELLS_APART
+/// Standard deviation of a number of the taken model: its own, or what any state of any model that
+/// the curve does not rule out leaves open, if that is more. `None` where the curve does not tell.
+///
+/// This is the profile of the sum of squares over all models: where the truth is one of their states,
+/// three deviations hold it as often as its sum of squares lies within nine variances of the least.
+fn deviation(fits: &[ModelFit], chosen: usize, number: Number) -> Option<f64> {
+    let best = &fits[chosen];
+    let (value, own) = number(&best.parameters, &best.uncertainties);
+    let least = fits
+        .iter()
+        .min_by(|a, b| a.sum_of_squares.total_cmp(&b.sum_of_squares))?;
+    let states = fits.iter().flat_map(ModelFit::states);
+    let spread = states.filter_map(|state: Rung| {
+        let rise = (state.sum_of_squares - least.sum_of_squares) / least.variance;
+        state.deviation(value, number, rise)
+    });
+    own.map(|own| spread.fold(own, f64::max))
 }
 
-fn check(measured: &Measured, path: &Path) -> Result<(), FitError> {
-    let path = || path.to_path_buf();
-    let (least, greatest) = measured.extremes();
-    if greatest.force <= measured.baseline() {
-        return Err(FitError::NoCompression { path: path() });
+/// Refuses a curve that is fitted far better with the sign of its approach, of its force, or of both
+/// turned.
+fn check_signs(measured: &Measured, fits: &[ModelFit], path: &Path) -> Result<(), FitError> {
+    let Some(best) = fits.iter().min_by(|a, b| a.aic.total_cmp(&b.aic)) else {
+        return Ok(());
+    };
+    let pressed = measured.extremes().1.force > measured.baseline();
+    // A curve of the wrong sign is fitted by no model.
+    if pressed && !misses(measured, best) {
+        return Ok(());
     }
-    // The hardest pressed point lies among the closest, wherever the tension is.
-    let (mut low, mut high) = (f64::INFINITY, f64::NEG_INFINITY);
-    for sample in &measured.samples {
-        low = low.min(sample.approach);
-        high = high.max(sample.approach);
-    }
-    if greatest.approach - low < high - greatest.approach && greatest.approach < least.approach {
-        return Err(FitError::WrongWay { path: path() });
+    let simple = [Model::Hertz, Model::Dmt, Model::Jkr];
+    for turned in Turned::ALL {
+        let other = measured.turned(turned);
+        let fitted = simple.iter().filter_map(|model| fit_model(&other, *model));
+        let least = fitted.map(|fit| fit.aic).fold(f64::INFINITY, f64::min);
+        if least < best.aic - TELLS_APART {
+            let path = path.to_path_buf();
+            return Err(if pressed {
+                FitError::WrongWay { path }
+            } else {
+                FitError::NoCompression { path }
+            });
+        }
     }
     Ok(())
+}
+
+/// Whether the residuals of a fit follow one another.
+fn misses(measured: &Measured, fit: &ModelFit) -> bool {
+    let chance = 3.0 / (measured.samples.len() as f64).sqrt();
+    fit.autocorrelation > MISSES + chance
 }
 
 fn left_out(curve: &ForceCurve) -> Vec<String> {
@@ -171,7 +194,12 @@ fn choose(
     if let Some(hertz) = place(Model::Hertz)
         && fits[hertz].aic - best < TELLS_APART
     {
-        return Some((hertz, None));
+        if !hides_adhesion(measured, &fits[hertz]) {
+            return Some((hertz, None));
+        }
+        warnings.push(
+            "no stretch of the curve lies where nothing acts, so a baseline below zero cannot be told from adhesion: leave --baseline out if the zero of the force is known, or measure until the sphere is free".to_owned(),
+        );
     }
     let Some(general) = place(Model::MaugisDugdale) else {
         let least = |a: &usize, b: &usize| fits[*a].aic.total_cmp(&fits[*b].aic);
@@ -248,6 +276,17 @@ fn choose(
     Some((taken, number(taken)))
 }
 
+/// Whether a fit without adhesion takes a tension for the zero of the force, where no point shows that
+/// zero.
+fn hides_adhesion(measured: &Measured, hertz: &ModelFit) -> bool {
+    let touch = hertz.parameters.approach_offset;
+    let apart = |approach: &&f64| **approach < touch;
+    let free = measured.approaches.iter().filter(apart).count();
+    measured.freedom.force_offset
+        && free < LEAST_FREE
+        && hertz.parameters.force_offset < -3.0 * hertz.noise
+}
+
 /// The limit that cannot be told from the general model and lies within two standard deviations of
 /// its lambda.
 fn simpler(fits: &[ModelFit], general: usize) -> Option<usize> {
@@ -285,8 +324,7 @@ fn doubts(measured: &Measured, fit: &ModelFit, warnings: &mut Vec<String>) {
             fit.model.title()
         ));
     }
-    let chance = 3.0 / (measured.samples.len() as f64).sqrt();
-    if fit.autocorrelation > MISSES + chance {
+    if misses(measured, fit) {
         warnings.push(format!(
             "the residuals of {} follow one another (correlation {:.2}): the model misses the curve by {}, and the uncertainties are no more than an order of magnitude",
             fit.model.title(),

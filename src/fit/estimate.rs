@@ -8,7 +8,7 @@ use super::curve_file::Sample;
 use super::least_squares::{Minimum, Problem, covariance, minimise};
 use super::measured::Measured;
 use super::model::{LAMBDAS, Model, Parameters, SphereModel};
-use super::start::starts;
+use super::start::{scale_grid, starts};
 use super::ways::Way;
 use crate::theory::tabor_map::{LAMBDA_PER_MU_MATCHED, Sphere, maugis_parameter};
 
@@ -19,9 +19,17 @@ const LADDER: [f64; 16] = [
 ];
 /// Rungs from which lambda is set free.
 const BEST_RUNGS: usize = 3;
-/// Rise of the sum of squares, in variances of the noise, up to which a rung tells of the
+/// Fewest points of a way that may be free where the force of a free sphere is fitted too: one or two
+/// would only take up their own noise.
+pub(super) const LEAST_FREE: usize = 3;
+/// Points of the grid of scales from which a search begins, besides the usual starts.
+const GRID_STARTS: usize = 3;
+/// Rise of the sum of squares, in variances of the noise, up to which a state tells of the
 /// uncertainty: three standard deviations.
 const MOST_RISE: f64 = 9.0;
+/// Standard deviation of ln lambda from which a parabola around the minimum says nothing, and only
+/// the rungs do: their distance.
+const RUNG_DISTANCE: f64 = 0.5;
 /// Share of the sum of squares that no fit is credited with going below: force span squared a
 /// point. Below it are rounding and the tables of the models.
 const FLOOR: f64 = 1e-14;
@@ -74,9 +82,57 @@ pub struct ModelFit {
     pub fitted: Vec<f64>,
     /// Whether each point is held by the attraction or pressed; else the sphere is free.
     pub held: Vec<bool>,
+    /// Other states of the model, each with the least sum of squares at its lambda.
+    pub(super) rungs: Vec<Rung>,
+    /// Variance of the residuals, with what their correlation takes from the number of points, N^2.
+    pub(super) variance: f64,
+}
+
+/// The best numbers at one lambda, with standard deviations at that lambda.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Rung {
+    pub parameters: Parameters,
+    pub uncertainties: Uncertainties,
+    /// Sum of squares of the residuals, N^2.
+    pub sum_of_squares: f64,
+}
+
+impl Rung {
+    /// Standard deviation of a number at `value` for which this state speaks: one that suits a curve
+    /// `rise` variances worse speaks for a distance of `sqrt(rise)` deviations, as a parabola would.
+    /// `None` where the state is ruled out.
+    pub(super) fn deviation(
+        &self,
+        value: f64,
+        number: impl Fn(&Parameters, &Uncertainties) -> (f64, Option<f64>),
+        rise: f64,
+    ) -> Option<f64> {
+        let (other, own) = number(&self.parameters, &self.uncertainties);
+        (rise <= MOST_RISE)
+            .then(|| ((other - value) / rise.max(1.0).sqrt()).hypot(own.unwrap_or(0.0)))
+    }
 }
 
 impl ModelFit {
+    /// States of the model that the curve may not rule out: its rungs, or where lambda is known too
+    /// closely for any of these the fit itself.
+    pub(super) fn states(&self) -> Vec<Rung> {
+        let suits = |rung: &&Rung| {
+            rung.sum_of_squares - self.sum_of_squares <= MOST_RISE * self.variance
+        };
+        let rungs: Vec<Rung> = self.rungs.iter().filter(suits).copied().collect();
+        if rungs.is_empty() { vec![self.as_rung()] } else { rungs }
+    }
+
+    /// The fit as one state among others.
+    fn as_rung(&self) -> Rung {
+        Rung {
+            parameters: self.parameters,
+            uncertainties: self.uncertainties,
+            sum_of_squares: self.sum_of_squares,
+        }
+    }
+
     /// Range of the attraction, m; `None` but for Maugis-Dugdale.
     pub fn range(&self, radius: f64) -> Option<f64> {
         Some(self.parameters.work_of_adhesion / self.peak_tension(radius)?)
@@ -196,6 +252,11 @@ impl Problem for Search<'_> {
         let held = self.held(values)?;
         let samples = &self.measured.samples;
         let mut choice = vec![true; samples.len()];
+        let least_free = if self.measured.freedom.force_offset {
+            LEAST_FREE
+        } else {
+            1
+        };
         for way in &self.measured.ways {
             let cost = |i: usize, force: f64| self.residual(&samples[i], force).powi(2);
             // What is gained by setting a point free.
@@ -207,7 +268,7 @@ impl Problem for Search<'_> {
             let (mut best, mut until, mut sum) = (0.0, 0, 0.0);
             for (count, i) in order.iter().enumerate() {
                 sum += gain(*i);
-                if sum > best {
+                if sum > best && count + 1 >= least_free {
                     (best, until) = (sum, count + 1);
                 }
             }
@@ -278,8 +339,15 @@ pub(super) fn fit_model(measured: &Measured, model: Model) -> Option<ModelFit> {
             .filter_map(|start| search_from(start, variables))
             .min_by(|a, b| a.0.sum().total_cmp(&b.0.sum()))
     };
+    let starts_at = |lambda: f64, variables: &[Variable]| {
+        let mut starts = starts(measured, model, lambda);
+        if model.adheres() {
+            starts.extend(best_of_grid(measured, model, lambda, variables));
+        }
+        starts
+    };
     if !variables.contains(&Variable::MaugisParameter) {
-        let (minimum, search) = best_of(starts(measured, model, 1.0), &variables)?;
+        let (minimum, search) = best_of(starts_at(1.0, &variables), &variables)?;
         return Some(judged(&search, &minimum));
     }
     let held: Vec<Variable> = variables
@@ -287,40 +355,75 @@ pub(super) fn fit_model(measured: &Measured, model: Model) -> Option<ModelFit> {
         .copied()
         .filter(|variable| *variable != Variable::MaugisParameter)
         .collect();
-    let mut rungs: Vec<(f64, Parameters)> = LADDER
+    let mut rungs: Vec<Rung> = LADDER
         .into_iter()
-        .filter_map(|lambda| best_of(starts(measured, model, lambda), &held))
-        .map(|(minimum, search)| (minimum.sum(), search.parameters(&minimum.variables)))
+        .filter_map(|lambda| best_of(starts_at(lambda, &held), &held))
+        .map(|(minimum, search)| judged(&search, &minimum).as_rung())
         .collect();
-    rungs.sort_by(|a, b| a.0.total_cmp(&b.0));
-    let first = rungs.iter().take(BEST_RUNGS).map(|(_, start)| *start);
+    rungs.sort_by(|a, b| a.sum_of_squares.total_cmp(&b.sum_of_squares));
+    let first = rungs.iter().take(BEST_RUNGS).map(|rung| rung.parameters);
     let (minimum, search) = best_of(first.collect(), &variables)?;
     let mut fit = judged(&search, &minimum);
-    widen(&mut fit, &rungs, &minimum);
+    fit.rungs = rungs;
+    widen(&mut fit);
     Some(fit)
+}
+
+/// The points of the grid of scales with the least sums of squares.
+fn best_of_grid(
+    measured: &Measured,
+    model: Model,
+    lambda: f64,
+    variables: &[Variable],
+) -> Vec<Parameters> {
+    let sphere = SphereModel::new(model, measured.radius);
+    let grid = scale_grid(measured, &sphere, lambda);
+    let mut search = Search {
+        measured,
+        sphere,
+        variables: variables.to_vec(),
+        start: Parameters::default(),
+    };
+    let here = DVector::zeros(variables.len());
+    let mut judged: Vec<(f64, Parameters)> = grid
+        .into_iter()
+        .filter_map(|start| {
+            search.start = start;
+            let (_, residuals) = search.choose(&here)?;
+            let sum = residuals.norm_squared();
+            sum.is_finite().then_some((sum, start))
+        })
+        .collect();
+    judged.sort_by(|a, b| a.0.total_cmp(&b.0));
+    judged.truncate(GRID_STARTS);
+    judged.into_iter().map(|(_, start)| start).collect()
 }
 
 /// Takes the uncertainties from the rungs of the ladder that suit the curve as well, where lambda
 /// is so little known that a parabola around the minimum says nothing.
-fn widen(fit: &mut ModelFit, rungs: &[(f64, Parameters)], minimum: &Minimum) {
-    let variance = minimum.sum() / fit.degrees_of_freedom as f64;
-    for (sum, other) in rungs {
-        let rise = (sum - minimum.sum()) / variance;
-        if rise > MOST_RISE {
+fn widen(fit: &mut ModelFit) {
+    let parameters = fit.parameters;
+    let known = fit.uncertainties.maugis_parameter;
+    let parabola = known.is_some_and(|known| known < RUNG_DISTANCE * parameters.maugis_parameter);
+    type Pick = fn(&mut Uncertainties) -> &mut Option<f64>;
+    let numbers: [(Pick, fn(&Parameters) -> f64); 4] = [
+        (|u| &mut u.work_of_adhesion, |p| p.work_of_adhesion),
+        (|u| &mut u.contact_modulus, |p| p.contact_modulus),
+        (|u| &mut u.maugis_parameter, |p| p.maugis_parameter),
+        (|u| &mut u.approach_offset, |p| p.approach_offset),
+    ];
+    for (pick, value) in numbers {
+        let spread = fit.rungs.iter().filter_map(|rung| {
+            let rise = (rung.sum_of_squares - fit.sum_of_squares) / fit.variance;
+            let own = |p: &Parameters, u: &Uncertainties| (value(p), *pick(&mut u.clone()));
+            rung.deviation(value(&parameters), own, rise)
+        });
+        let Some(spread) = spread.reduce(f64::max) else {
             continue;
-        }
-        // A parabola would rise by the square of the distance in standard deviations.
-        let deviations = rise.max(1.0).sqrt();
-        let raise = |known: &mut Option<f64>, of: fn(&Parameters) -> f64| {
-            if let Some(known) = known {
-                *known = known.max((of(other) - of(&fit.parameters)).abs() / deviations);
-            }
         };
-        let deviations = &mut fit.uncertainties;
-        raise(&mut deviations.work_of_adhesion, |p| p.work_of_adhesion);
-        raise(&mut deviations.contact_modulus, |p| p.contact_modulus);
-        raise(&mut deviations.maugis_parameter, |p| p.maugis_parameter);
-        raise(&mut deviations.approach_offset, |p| p.approach_offset);
+        let deviation = pick(&mut fit.uncertainties);
+        // A number without effect on the curve (an offset that is held, a lambda at its bound) stays so.
+        *deviation = deviation.map(|known| if parabola { known.max(spread) } else { spread });
     }
 }
 
@@ -368,6 +471,8 @@ fn judged(search: &Search, minimum: &Minimum) -> ModelFit {
         autocorrelation,
         fitted,
         held,
+        rungs: Vec::new(),
+        variance: variance * span * span,
     }
 }
 

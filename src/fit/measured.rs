@@ -14,6 +14,22 @@ pub struct Freedom {
     pub range: Option<f64>,
 }
 
+/// Which signs of a curve are turned.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) struct Turned {
+    approach: bool,
+    force: bool,
+}
+
+impl Turned {
+    /// Every way to turn a sign.
+    pub(super) const ALL: [Turned; 3] = [
+        Turned { approach: true, force: false },
+        Turned { approach: false, force: true },
+        Turned { approach: true, force: true },
+    ];
+}
+
 /// A curve ready to be fitted.
 #[derive(Clone, Debug)]
 pub struct Measured {
@@ -53,6 +69,16 @@ impl Measured {
             approach_span: span(|sample| sample.approach),
             samples,
         }
+    }
+
+    /// The same curve with signs turned.
+    pub(super) fn turned(&self, turned: Turned) -> Measured {
+        let sign = |turned: bool| if turned { -1.0 } else { 1.0 };
+        let samples = self.samples.iter().map(|sample| Sample {
+            approach: sign(turned.approach) * sample.approach,
+            force: sign(turned.force) * sample.force,
+        });
+        Measured::new(samples.collect(), self.radius, self.freedom)
     }
 
     /// Force where nothing acts, as far as it can be guessed: the median of the tenth of the

@@ -55,7 +55,7 @@ impl Model {
 }
 
 /// What a model needs to know, SI.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Parameters {
     /// E*, Pa.
     pub contact_modulus: f64,
@@ -70,7 +70,7 @@ pub struct Parameters {
 }
 
 /// A force at an approach.
-type ForceByApproach = Box<dyn Fn(f64) -> Result<f64, TheoryError>>;
+pub(super) type ForceByApproach = Box<dyn Fn(f64) -> Result<f64, TheoryError>>;
 
 /// A model of a sphere of a given radius, with the tables it made last.
 #[derive(Clone, Debug)]
@@ -129,7 +129,7 @@ impl SphereModel {
     }
 
     /// Force by approach in Maugis units, up to an approach.
-    fn reduced(&self, lambda: f64, deepest: f64) -> Result<ForceByApproach, TheoryError> {
+    pub(super) fn reduced(&self, lambda: f64, deepest: f64) -> Result<ForceByApproach, TheoryError> {
         Ok(match self.model {
             Model::Hertz => Box::new(|approach: f64| Ok(approach.max(0.0).powf(1.5))),
             Model::Dmt => Box::new(|approach: f64| Ok(approach.max(0.0).powf(1.5) - 2.0)),

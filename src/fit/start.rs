@@ -2,6 +2,8 @@
 
 use std::f64::consts::PI;
 
+use nalgebra::{Matrix2, Vector2};
+
 use super::curve_file::Sample;
 use super::measured::Measured;
 use super::model::{Model, Parameters, SphereModel, units};
@@ -34,6 +36,90 @@ pub(super) fn starts(measured: &Measured, model: Model, lambda: f64) -> Vec<Para
         }
     }
     starts
+}
+
+/// Shares of the measured approach that the way from pull-off to the deepest point may take.
+const SHARES: [f64; 10] = [1.0, 0.7, 0.5, 0.35, 0.25, 0.18, 0.12, 0.08, 0.05, 0.03];
+/// The same way in Maugis units, from a contact that only tension deforms to one pressed hard.
+const DEPTHS: [f64; 7] = [0.25, 0.5, 1.0, 2.0, 4.0, 8.0, 16.0];
+
+/// Parameters over the whole range of scales: for each way from pull-off to the deepest point, as a
+/// share of the curve and in Maugis units, force scale and baseline follow by linear least squares.
+///
+/// On a lightly pressed curve neither the greatest force nor the least tells the scale of the
+/// approach, and the sum of squares has more than one valley.
+pub(super) fn scale_grid(measured: &Measured, sphere: &SphereModel, lambda: f64) -> Vec<Parameters> {
+    let Ok((pull_off, _)) = sphere.pull_off(lambda) else {
+        return Vec::new();
+    };
+    let deepest = measured.approaches.iter().copied().fold(f64::NEG_INFINITY, f64::max);
+    let mut grid = Vec::with_capacity(SHARES.len() * DEPTHS.len());
+    for depth in DEPTHS {
+        let Ok(reduced) = sphere.reduced(lambda, pull_off + depth) else {
+            continue;
+        };
+        for share in SHARES {
+            let unit = share * measured.approach_span / depth;
+            let approach_offset = if measured.freedom.approach_offset {
+                deepest - (pull_off + depth) * unit
+            } else {
+                0.0
+            };
+            // Beyond pull-off most points are free, unless the curve ends before the jump.
+            for free_beyond in [true, false] {
+                let force = |approach: f64| {
+                    let place = (approach - approach_offset) / unit;
+                    if free_beyond && place < pull_off {
+                        Some(0.0)
+                    } else {
+                        reduced(place).ok()
+                    }
+                };
+                let Some((force_unit, force_offset)) = linear_scale(measured, force) else {
+                    continue;
+                };
+                let work_of_adhesion = force_unit / (PI * sphere.radius);
+                let contact_modulus = modulus_of(sphere.radius, work_of_adhesion, unit);
+                if contact_modulus.is_finite() && contact_modulus > 0.0 {
+                    grid.push(Parameters {
+                        contact_modulus,
+                        work_of_adhesion,
+                        maugis_parameter: lambda,
+                        approach_offset,
+                        force_offset,
+                    });
+                }
+            }
+        }
+    }
+    grid
+}
+
+/// Unit of force and baseline that bring reduced forces closest to the measured ones; `None` where
+/// that unit is not positive.
+fn linear_scale(
+    measured: &Measured,
+    reduced: impl Fn(f64) -> Option<f64>,
+) -> Option<(f64, f64)> {
+    let mut normal = Matrix2::zeros();
+    let mut right = Vector2::zeros();
+    for sample in &measured.samples {
+        let row = Vector2::new(reduced(sample.approach)?, 1.0);
+        normal += row * row.transpose();
+        right += row * sample.force;
+    }
+    let (unit, offset) = if measured.freedom.force_offset {
+        let solution = normal.lu().solve(&right)?;
+        (solution[0], solution[1])
+    } else {
+        (right[0] / normal[(0, 0)], 0.0)
+    };
+    (unit.is_finite() && unit > 0.0).then_some((unit, offset))
+}
+
+/// E* from the unit of approach, `(pi^2 w^2 R/K^2)^(1/3)` with `K = 4 E*/3`.
+fn modulus_of(radius: f64, work_of_adhesion: f64, approach_unit: f64) -> f64 {
+    0.75 * PI * work_of_adhesion * (radius / approach_unit.powi(3)).sqrt()
 }
 
 /// A straight line through the approach over the force to the power 2/3.
@@ -85,9 +171,7 @@ fn pull_off_start(
         .ok()?;
     let approach_unit = way / (deepest - place);
     let work_of_adhesion = unit / (PI * sphere.radius);
-    // The unit of approach is (pi^2 w^2 R/K^2)^(1/3).
-    let contact_modulus =
-        0.75 * PI * work_of_adhesion * (sphere.radius / approach_unit.powi(3)).sqrt();
+    let contact_modulus = modulus_of(sphere.radius, work_of_adhesion, approach_unit);
     debug_assert!(
         (units(sphere.radius, contact_modulus, work_of_adhesion).1 / approach_unit - 1.0).abs()
             < 1e-6
