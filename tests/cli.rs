@@ -111,6 +111,8 @@ fn a_run_writes_what_the_contract_says() {
         "largest_contact_area_fraction",
         "pull_off_force",
         "pull_off_step",
+        "pull_off_lower",
+        "pull_off_upper",
         "jump_in_steps",
         "jump_off_steps",
         "hysteresis_energy",

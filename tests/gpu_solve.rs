@@ -126,6 +126,7 @@ fn rough(points: usize) -> Surface {
             durations: None,
             path: vec![0.05],
             spring: None,
+            pull_off_tolerance: 0.01,
         },
         solver: SolverScene {
             tolerance: 1e-4,

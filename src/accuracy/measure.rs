@@ -8,7 +8,7 @@ use crate::backend::BackendError;
 use crate::kernel::Scalars;
 use crate::scene::{Boundary, Control, Scene};
 use crate::solver::MakeBackend;
-use crate::study::{FinishedStep, Observer, Setup, State, StepRow, WalkError, walk};
+use crate::study::{FinishedStep, Observer, Setup, StepRow, Tension, WalkEnd, WalkError, walk};
 
 /// What is compared at a step of the scene.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -27,7 +27,7 @@ pub struct Measured {
     pub steps: Vec<Option<Point>>,
     /// Greatest tension of the path, N, positive; `None` where the path shows none.
     pub pull_off: Option<f64>,
-    /// How much more tension was asked next, N, and not carried; 0 where a position is held.
+    /// How much more tension was tried, N, and not carried; 0 where a position is held.
     pub pull_off_step: f64,
     /// Mean pressure, Pa, over the cells of the coarsest grid at the step that presses hardest.
     pub profile: Option<Vec<f64>>,
@@ -110,7 +110,7 @@ pub fn measure(
             .filter(|_| compared[own])
             .and_then(|place| point_at(&end.rows, place, scene));
     }
-    let (pull_off, pull_off_step) = pull_off(&end.rows, &path.loading.path, scene).unzip();
+    let (pull_off, pull_off_step) = pull_off(&end, scene).unzip();
     Ok(Measured {
         steps,
         pull_off,
@@ -166,21 +166,11 @@ pub fn compared(scene: &Scene) -> Vec<bool> {
 }
 
 /// The greatest tension, where the path shows that there is no greater one: a held position has a
-/// step beyond it, a load has let go. With how much more was asked then.
-fn pull_off(rows: &[StepRow], path: &[f64], scene: &Scene) -> Option<(f64, f64)> {
-    let (at, greatest) = rows
-        .iter()
-        .enumerate()
-        .filter(|(_, row)| row.force < 0.0)
-        .min_by(|a, b| a.1.force.total_cmp(&b.1.force))?;
-    let carried = -greatest.force;
-    if !is_load(scene.loading.control) {
-        return (at + 1 < rows.len()).then_some((carried, 0.0));
-    }
-    let parted = (at + 1..rows.len()).find(|step| rows[*step].state == State::Separated)?;
-    // Pressure or force, in the ratio of the two at the carried load.
-    let asked = -path[parted] * carried / -path[at];
-    Some((carried, (asked - carried).max(0.0)))
+/// step beyond it, a load has let go. With how much more did not hold then.
+fn pull_off(end: &WalkEnd, scene: &Scene) -> Option<(f64, f64)> {
+    let tension = Tension::of(&scene.loading, end);
+    let more = tension.bounds().map_or(0.0, |[lower, upper]| upper - lower);
+    Some((tension.pull_off()?, more))
 }
 
 /// Keeps the pressure of one step.

@@ -300,6 +300,7 @@ mod tests {
             path: path.to_vec(),
             durations,
             spring: None,
+            pull_off_tolerance: 0.01,
         }
     }
 

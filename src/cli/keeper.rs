@@ -13,10 +13,12 @@ use crate::output::{
     chart, report::Report, write_field, write_field_single, write_picture, write_volume,
     write_within,
 };
-use crate::scene::{FieldName, Precision, StepChoice};
+use crate::scene::{Control, FieldName, LoadingScene, Precision, StepChoice};
 use crate::study::{
-    Earlier, Evaluation, FinishedStep, HandOver, Observer, Setup, StepRow, WalkEnd,
+    Earlier, Evaluation, FinishedStep, HandOver, Observer, PullOff, Search, Setup, State, StepRow,
+    Tension, WalkEnd,
 };
+use crate::units::format_si;
 
 /// Least time between two refreshed reports.
 const REFRESH: Duration = Duration::from_secs(2);
@@ -106,6 +108,7 @@ impl<'a> Keeper<'a> {
             rows: self.rows.clone(),
             jump_in_steps: self.tallies.jump_in_steps.clone(),
             jump_off_steps: self.tallies.jump_off_steps.clone(),
+            pull_off: self.tallies.pull_off,
             hysteresis_energy: None,
             interrupted: true,
             transforms: self.tallies.transforms,
@@ -246,9 +249,17 @@ impl<'a> Keeper<'a> {
             self.write_fields(step, &evaluation)?;
         }
         self.output_seconds += clock.elapsed().as_secs_f64();
+        let is_whole = end.rows.len() == self.setup.scene.loading.path.len();
+        if is_whole
+            && end.rows.last().is_some_and(|row| row.converged)
+            && let Some(text) = pull_off_warning(&self.setup.scene.loading, end)
+        {
+            self.warn(text);
+        }
         self.tallies = HandOver {
             jump_in_steps: end.jump_in_steps.clone(),
             jump_off_steps: end.jump_off_steps.clone(),
+            pull_off: end.pull_off,
             transforms: end.transforms,
             ..HandOver::default()
         };
@@ -299,6 +310,31 @@ impl<'a> Keeper<'a> {
     }
 }
 
+/// What a user who looks for the pull-off of a path that has ended should know.
+fn pull_off_warning(loading: &LoadingScene, end: &WalkEnd) -> Option<String> {
+    let newtons = |force: f64| format_si(force, "N");
+    match Tension::of(loading, end) {
+        Tension::Holds { step, force } if end.rows[step - 1].state == State::Contact => {
+            Some(format!(
+                "the contact held {} in step {step}, the greatest tension of the path: its pull-off is beyond; let the path go on until it lets go",
+                newtons(force)
+            ))
+        }
+        Tension::LetGo(PullOff { lower, upper, .. })
+            if loading.pull_off_tolerance > 0.0
+                && lower > 0.0
+                && upper - lower > loading.pull_off_tolerance * upper * (1.0 + f64::EPSILON) =>
+        {
+            Some(format!(
+                "pull-off lies between {} and {}, and is known no better: a load between them did not converge; allow more max_iterations",
+                newtons(lower),
+                newtons(upper)
+            ))
+        }
+        _ => None,
+    }
+}
+
 /// What a hand-over says besides its fields.
 fn tallies(state: &HandOver) -> HandOver {
     HandOver {
@@ -306,6 +342,7 @@ fn tallies(state: &HandOver) -> HandOver {
         points: None,
         jump_in_steps: state.jump_in_steps.clone(),
         jump_off_steps: state.jump_off_steps.clone(),
+        pull_off: state.pull_off,
         transforms: state.transforms,
     }
 }
@@ -324,6 +361,20 @@ impl Observer for Keeper<'_> {
         self.progress
             .iteration(scalars.iterations as usize, scalars.residual);
         !self.interrupts.raised()
+    }
+
+    fn search(&mut self, _step: usize, search: Search) {
+        let unit = match self.setup.scene.loading.control {
+            Control::Pressure => "Pa",
+            _ => "N",
+        };
+        let tension = |load: f64| format_si(-load, unit);
+        self.progress.search(match search {
+            Search::PullOff { held, parted } => {
+                format!("pull-off between {} and {}", tension(held), tension(parted))
+            }
+            Search::Jump => "looks for a jump".to_owned(),
+        });
     }
 
     fn wants_hand_over(&self) -> bool {

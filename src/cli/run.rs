@@ -12,7 +12,7 @@ use crate::backend::BackendError;
 use crate::backend::cpu::with_threads;
 use crate::effect::Effect;
 use crate::output::{Effects, Progress, Seconds, Summary, peak_memory_bytes};
-use crate::study::{Setup, WalkEnd, WalkError, walk_on};
+use crate::study::{Setup, Tension, WalkEnd, WalkError, walk_on};
 use crate::surface::Surface;
 
 /// Solves a scene and writes its folder.
@@ -151,11 +151,10 @@ fn summarise(
             .map(|effect| effect.name().to_owned())
             .collect()
     };
-    let pull_off = end
-        .rows
-        .iter()
-        .filter(|row| row.force < 0.0)
-        .min_by(|a, b| a.force.total_cmp(&b.force));
+    let tension = Tension::of(&setup.scene.loading, end);
+    let [lower, upper] = tension
+        .bounds()
+        .map_or([None; 2], |bounds| bounds.map(Some));
     Summary {
         version: env!("CARGO_PKG_VERSION").to_owned(),
         scene: setup.scene.resolved_json(),
@@ -174,8 +173,10 @@ fn summarise(
             .iter()
             .map(|row| row.contact_area_fraction)
             .reduce(f64::max),
-        pull_off_force: pull_off.map(|row| -row.force),
-        pull_off_step: pull_off.map(|row| row.step),
+        pull_off_force: tension.pull_off(),
+        pull_off_step: tension.step(),
+        pull_off_lower: lower,
+        pull_off_upper: upper,
         jump_in_steps: end.jump_in_steps.clone(),
         jump_off_steps: end.jump_off_steps.clone(),
         hysteresis_energy: end.hysteresis_energy,

@@ -1,6 +1,6 @@
 //! How far a run has come, on standard error and only to a terminal.
 
-use std::cell::Cell;
+use std::cell::{Cell, RefCell};
 use std::io::{IsTerminal, Write, stderr};
 use std::time::{Duration, Instant};
 
@@ -25,6 +25,8 @@ struct Line {
     tolerance: f64,
     /// Residual of the first iteration of this step.
     first: Cell<f64>,
+    /// What is looked for besides, with two spaces behind.
+    search: RefCell<String>,
 }
 
 impl Progress {
@@ -52,6 +54,7 @@ impl Progress {
             finished: Cell::new(finished),
             tolerance,
             first: Cell::new(f64::NAN),
+            search: RefCell::default(),
         };
         Progress { line: Some(line) }
     }
@@ -66,9 +69,18 @@ impl Progress {
         let done = (line.finished.get() - line.earlier) as f64 + share;
         let left = (line.steps - line.earlier) as f64 - done;
         line.bar.set_message(format!(
-            "iteration {iteration}  residual {residual:.1e}  {}",
+            "{}iteration {iteration}  residual {residual:.1e}  {}",
+            line.search.borrow(),
             time_left(line.started.elapsed().as_secs_f64(), done, left)
         ));
+    }
+
+    /// Says what is looked for in this step besides its own load.
+    pub fn search(&self, words: String) {
+        if let Some(line) = &self.line {
+            line.first.set(f64::NAN);
+            line.search.replace(words + "  ");
+        }
     }
 
     /// Says that `finished` steps are done.
@@ -76,6 +88,7 @@ impl Progress {
         if let Some(line) = &self.line {
             line.finished.set(finished);
             line.first.set(f64::NAN);
+            line.search.replace(String::new());
             line.bar.set_position(finished as u64);
             let next = (finished + 1).min(line.steps);
             line.bar.set_prefix(next.to_string());

@@ -15,10 +15,10 @@ use serde_json::Value;
 
 use super::error::{FRESH, OutputError};
 use super::folder::write_within;
-use crate::study::{HandOver, HandedField, PointState};
+use crate::study::{HandOver, HandedField, PointState, PullOff};
 
 /// First line of the file. A change of the form changes the number.
-const FORM: &[u8] = b"tabor state 1\n";
+const FORM: &[u8] = b"tabor state 2\n";
 /// Bytes of the head's length.
 const LENGTH_BYTES: usize = 8;
 /// Bytes of the checksum.
@@ -59,6 +59,8 @@ struct Head {
     transforms: String,
     jump_in_steps: Vec<usize>,
     jump_off_steps: Vec<usize>,
+    /// Step, lower and upper tension, as text like the transforms.
+    pull_off: Option<(usize, String, String)>,
     single: bool,
     /// Names and lengths of the fields.
     fields: Vec<(String, usize)>,
@@ -88,6 +90,10 @@ impl SavedState<'_> {
             transforms: format!("{:?}", state.transforms),
             jump_in_steps: state.jump_in_steps.clone(),
             jump_off_steps: state.jump_off_steps.clone(),
+            pull_off: state.pull_off.map(|found| {
+                let [lower, upper] = [found.lower, found.upper].map(|force| format!("{force:?}"));
+                (found.step, lower, upper)
+            }),
             single: self.single,
             fields: state
                 .fields
@@ -198,6 +204,14 @@ fn decode(bytes: &[u8]) -> Result<SavedState<'static>, String> {
             points,
             jump_in_steps: head.jump_in_steps,
             jump_off_steps: head.jump_off_steps,
+            pull_off: match head.pull_off {
+                None => None,
+                Some((step, lower, upper)) => Some(PullOff {
+                    step,
+                    lower: lower.parse().map_err(|_| damaged())?,
+                    upper: upper.parse().map_err(|_| damaged())?,
+                }),
+            },
             transforms: head.transforms.parse().map_err(|_| damaged())?,
         }),
     })
@@ -239,6 +253,11 @@ mod tests {
                 ]),
                 jump_in_steps: vec![2],
                 jump_off_steps: vec![],
+                pull_off: Some(PullOff {
+                    step: 2,
+                    lower: 0.1,
+                    upper: 0.1 + f64::EPSILON,
+                }),
                 transforms: 1234.5625,
             }),
         }

@@ -32,10 +32,15 @@ pub struct Summary {
     pub peak_memory_bytes: Option<u64>,
     /// Largest contact area fraction among the steps.
     pub largest_contact_area_fraction: Option<f64>,
-    /// Largest tension among the steps, N, positive.
+    /// The pull-off force, N, positive: under a prescribed load the greatest tension known to hold before the
+    /// contact let go, else the largest among the steps of a path that goes on beyond it.
     pub pull_off_force: Option<f64>,
-    /// The step of that tension.
+    /// The step of that tension, or the last that held.
     pub pull_off_step: Option<usize>,
+    /// Under a prescribed load: the greatest tension known to hold, N.
+    pub pull_off_lower: Option<f64>,
+    /// Under a prescribed load: the least tension known not to hold, N.
+    pub pull_off_upper: Option<f64>,
     /// Steps in which surfaces jumped into contact.
     pub jump_in_steps: Vec<usize>,
     /// Steps in which surfaces jumped apart.
@@ -136,6 +141,8 @@ mod tests {
             largest_contact_area_fraction: Some(0.25),
             pull_off_force: None,
             pull_off_step: None,
+            pull_off_lower: None,
+            pull_off_upper: None,
             jump_in_steps: vec![2],
             jump_off_steps: vec![],
             hysteresis_energy: None,
@@ -164,6 +171,8 @@ mod tests {
             "largest_contact_area_fraction",
             "pull_off_force",
             "pull_off_step",
+            "pull_off_lower",
+            "pull_off_upper",
             "jump_in_steps",
             "jump_off_steps",
             "hysteresis_energy",

@@ -237,6 +237,7 @@ pub(super) const LOADING: Section = Section {
         ("ramp", "[[loading.ramp]]"),
         ("spring", "spring = \"0.2 N/m\""),
         ("time_tolerance", "time_tolerance = 1e-3"),
+        ("pull_off_tolerance", "pull_off_tolerance = 0.01"),
     ],
     later: &[],
 };

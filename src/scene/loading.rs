@@ -24,6 +24,15 @@ const TIME_TOLERANCE: Allowed = Allowed::new(
     "from 1e-6 to 0.1",
 );
 
+/// Default of `pull_off_tolerance`.
+pub(super) const PULL_OFF_TOLERANCE: f64 = 0.01;
+
+/// How well a pull-off may be asked for: below, the solver's tolerance decides.
+const PULL_OFF_TOLERANCES: Allowed = Allowed::new(
+    |tolerance| tolerance == 0.0 || (1e-6..=0.5).contains(&tolerance),
+    "0 for none, or from 1e-6 to 0.5",
+);
+
 /// A path with the time that each step takes, where it says.
 struct TimedPath {
     path: Vec<f64>,
@@ -76,6 +85,21 @@ pub(super) fn read(
     } else {
         Some(None)
     };
+    let pull_off_tolerance = if loading.has("pull_off_tolerance") {
+        if matches!(control, Some(Control::Approach | Control::MeanGap)) {
+            loading.conflict(
+                "pull_off_tolerance",
+                "is for a load that lets go, and a position holds on; take control = \"pressure\" or \"force\", or leave the tolerance out",
+            );
+        }
+        loading.quantity(
+            "pull_off_tolerance",
+            Dimension::Dimensionless,
+            PULL_OFF_TOLERANCES,
+        )
+    } else {
+        Some(PULL_OFF_TOLERANCE)
+    };
     let relaxes = solid.is_some_and(|solid| !solid.relaxation.is_empty());
     let timed = path(&loading, control, adhesion, solid);
     if let Some(timed) = &timed
@@ -106,6 +130,7 @@ pub(super) fn read(
         path: timed.path,
         durations: timed.durations,
         spring: spring?,
+        pull_off_tolerance: pull_off_tolerance?,
     })
 }
 

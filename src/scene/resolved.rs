@@ -231,11 +231,14 @@ impl LoadingScene {
                 json!({ "control": control, "start": self.path.first(), "ramp": ramps })
             }
         };
-        with(
+        let table = with(
             table,
             "spring",
             self.spring.map(|stiffness| json!(stiffness)),
-        )
+        );
+        let is_load = matches!(self.control, Control::Pressure | Control::Force);
+        let tolerance = is_load.then(|| json!(self.pull_off_tolerance));
+        with(table, "pull_off_tolerance", tolerance)
     }
 }
 

@@ -141,6 +141,9 @@ pub struct LoadingScene {
     pub durations: Option<Vec<f64>>,
     /// Spring between the prescribed approach and the body, N/m (an effect).
     pub spring: Option<f64>,
+    /// How well a prescribed load that the contact can no longer bear is narrowed down: greatest relative
+    /// difference between a tension that does not hold and one that does; 0 for not at all.
+    pub pull_off_tolerance: f64,
 }
 
 /// Which quantity a loading path prescribes.

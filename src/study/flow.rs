@@ -40,9 +40,9 @@ impl Flow {
         })
     }
 
-    /// Tells a new solver what has flowed.
+    /// Tells a solver what has flowed.
     pub fn lower(&self, solver: &mut ContactSolver) {
-        if !self.depths.is_empty() {
+        if !(self.depths.is_empty() && solver.flowed().is_empty()) {
             solver.set_flowed(&self.depths);
         }
     }

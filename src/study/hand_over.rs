@@ -1,6 +1,7 @@
 //! What one step hands to the next, so that a path can be gone on with by another process.
 
 use super::evaluation::PointState;
+use super::pull_off::PullOff;
 use super::row::StepRow;
 
 /// The name of the gap among the fields that are handed on.
@@ -28,6 +29,8 @@ pub struct HandOver {
     pub jump_in_steps: Vec<usize>,
     /// Steps so far that jumped off.
     pub jump_off_steps: Vec<usize>,
+    /// The greatest pull-off so far of contacts that let go under a prescribed load.
+    pub pull_off: Option<PullOff>,
     /// Real two-dimensional transforms so far.
     pub transforms: f64,
 }

@@ -1,12 +1,36 @@
-//! Jumps: steps that dissipate energy because the surfaces left one equilibrium for another.
+//! Jumps: steps on whose way an equilibrium ends, so that the surfaces leave it for another.
+//!
+//! Along a branch of equilibria the force is the slope of the energy. So forces and energies at the ends
+//! of a step say how steep the force is there, and the step before says it too. Where the two agree the
+//! step is a piece of one smooth curve. Where they do not, and energy is missing, the step is halved, and
+//! the half that is worse again: what a curve seems to lose falls with the third power of the piece's
+//! length, what a jump loses stays.
 
+use super::between::{Between, Place, Search};
 use super::evaluation::{Evaluation, PointState};
 use super::row::{State, StepRow};
 use super::setup::Setup;
+use super::walker::Carried;
+use crate::backend::BackendError;
 use crate::scene::Control;
 
-/// A step is a jump if it dissipates more than this share of w times the area that changed state.
-const DISSIPATED_SHARE: f64 = 0.05;
+/// Losses below this share of w times the area that changed state are not looked into: contact edges move
+/// from pixel to pixel, and the force on a grid is bumpy by as much.
+const LEAST_SHARE: f64 = 0.01;
+/// A curve has a kink where its slopes on the two sides differ by more than this share of the steeper.
+const KINK: f64 = 0.3;
+/// A half with less than this share of the whole's size shrinks as a curve does: to a quarter, or to a third
+/// beside the end of a branch.
+const SHRINKS: f64 = 0.45;
+/// Halvings in a row that shrink so after which nothing is looked for any more.
+const SHRINKING: usize = 3;
+/// A half that loses more than this share of what the whole does loses it by a jump: a curve's half loses an
+/// eighth.
+const KEEPS: f64 = 0.3;
+/// Halvings in a row that must keep the loss.
+const KEEPING: usize = 2;
+/// Halvings of a step at most.
+const MOST_HALVINGS: usize = 8;
 /// A path is closed if its ends agree to this share of its span.
 const CLOSED: f64 = 1e-9;
 
@@ -19,12 +43,25 @@ pub enum Jump {
     Off,
 }
 
+/// What a step is, as far as its ends say.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) enum Verdict {
+    /// It follows a branch.
+    Follows,
+    /// It jumped.
+    Jumped(Jump),
+    /// It jumped that way if what it lost stays when it is halved; losses below `least` (J) are none.
+    Perhaps { way: Jump, least: f64 },
+}
+
 /// Watches the steps of a path for jumps.
 pub struct Jumps {
     /// Work of adhesion, J/m^2; `None` where nothing can jump.
     work: Option<f64>,
     pixel_area: f64,
-    control: Control,
+    loading: Prescribed,
+    /// The solver's tolerance: the share of the energies that are known no better.
+    tolerance: f64,
     /// Factors on the law's tension.
     law_factor: Option<Vec<f64>>,
     before: Option<Before>,
@@ -33,6 +70,8 @@ pub struct Jumps {
 struct Before {
     row: StepRow,
     points: Option<Vec<PointState>>,
+    /// Slope of force over approach at its end, where the step before it follows a branch.
+    slope: Option<f64>,
 }
 
 impl Jumps {
@@ -48,20 +87,34 @@ impl Jumps {
         Jumps {
             work: adhesive.then(|| setup.law.work_of_adhesion()),
             pixel_area: setup.surface.grid.pixel_area(),
-            control: setup.scene.loading.control,
+            loading: Prescribed::of(setup),
+            tolerance: setup.scene.solver.tolerance,
             law_factor: setup.surface.adhesion_map.clone(),
             before: None,
         }
     }
 
-    /// Takes the last of the steps that another process did.
-    pub fn go_on(&mut self, row: &StepRow, points: Option<Vec<PointState>>) {
-        if self.work.is_some() {
+    /// Takes the steps that another process did: their rows, the points after the last one, and whether
+    /// that one jumped.
+    pub fn go_on(&mut self, rows: &[StepRow], points: Option<Vec<PointState>>, jumped: bool) {
+        if let (Some(_), [.., row]) = (self.work, rows) {
+            let slope = match rows {
+                [.., before, row] if !jumped => {
+                    Piece::of(self.loading, before, row).and_then(|piece| piece.slope_after())
+                }
+                _ => None,
+            };
             self.before = Some(Before {
                 row: row.clone(),
                 points,
+                slope,
             });
         }
+    }
+
+    /// Whether steps are watched, so that the state before each is needed.
+    pub fn watches(&self) -> bool {
+        self.work.is_some()
     }
 
     /// What the points did in the last step, where it had fields.
@@ -69,15 +122,11 @@ impl Jumps {
         self.before.as_ref()?.points.as_deref()
     }
 
-    /// Takes the next step and says whether it jumped.
-    pub fn step(&mut self, row: &StepRow, evaluation: Option<&Evaluation>) -> Option<Jump> {
-        let work = self.work?;
-        let points = evaluation.map(|evaluation| evaluation.points.clone());
-        let before = self.before.replace(Before {
-            row: row.clone(),
-            points,
-        })?;
-        let now = self.before.as_ref()?;
+    /// Looks at a step that converged, before it is taken.
+    pub(super) fn judge(&self, row: &StepRow, evaluation: Option<&Evaluation>) -> Verdict {
+        let (Some(work), Some(before)) = (self.work, &self.before) else {
+            return Verdict::Follows;
+        };
         let stuck = |row: &StepRow| row.contact_area_fraction + row.attractive_area_fraction;
         let way = if stuck(row) > stuck(&before.row)
             || (stuck(row) == stuck(&before.row)
@@ -87,7 +136,8 @@ impl Jumps {
         } else {
             Jump::Off
         };
-        match (&before.points, &now.points) {
+        let points = evaluation.map(|evaluation| &evaluation.points);
+        match (&before.points, points) {
             (Some(old), Some(new)) => {
                 // Points that changed, each by how strongly it sticks.
                 let sticks = |point: usize| self.law_factor.as_ref().map_or(1.0, |map| map[point]);
@@ -98,22 +148,45 @@ impl Jumps {
                     .filter(|(_, (a, b))| a != b)
                     .map(|(point, _)| sticks(point))
                     .sum::<f64>();
-                let dissipated =
-                    dissipation(&before.row, row)? - quadrature_error(&before.row, row)?;
-                let threshold = DISSIPATED_SHARE * work * changed * self.pixel_area;
-                (changed > 0.0 && dissipated > threshold).then_some(way)
+                let energies =
+                    [&before.row, row].map(|row| row.elastic_energy - row.adhesive_energy);
+                let least = (LEAST_SHARE * work * changed * self.pixel_area)
+                    .max(self.tolerance * (energies[0] + energies[1]));
+                match Piece::of(self.loading, &before.row, row) {
+                    Some(piece)
+                        if changed > 0.0 && piece.lost > least && piece.bends(before.slope) =>
+                    {
+                        Verdict::Perhaps { way, least }
+                    }
+                    _ => Verdict::Follows,
+                }
             }
             // Under a prescribed load the parted surfaces have no position, so no energy either:
             // parting and meeting are jumps wherever something stuck.
-            (Some(_), None) => (before.row.state != State::Separated).then_some(Jump::Off),
-            (None, Some(_)) => (row.state != State::Separated).then_some(Jump::In),
-            (None, None) => None,
+            (Some(_), None) if before.row.state != State::Separated => Verdict::Jumped(Jump::Off),
+            (None, Some(_)) if row.state != State::Separated => Verdict::Jumped(Jump::In),
+            _ => Verdict::Follows,
         }
+    }
+
+    /// Takes a step with what was found of it.
+    pub(super) fn take(&mut self, row: &StepRow, evaluation: Option<&Evaluation>, jumped: bool) {
+        if self.work.is_none() {
+            return;
+        }
+        let before = self.before.take().filter(|_| !jumped);
+        self.before = Some(Before {
+            slope: before
+                .and_then(|before| Piece::of(self.loading, &before.row, row))
+                .and_then(|piece| piece.slope_after()),
+            row: row.clone(),
+            points: evaluation.map(|evaluation| evaluation.points.clone()),
+        });
     }
 
     /// Energy dissipated over a path of approach or mean gap that returns to its start.
     pub fn hysteresis(&self, rows: &[StepRow]) -> Option<f64> {
-        let place = |row: &StepRow| match self.control {
+        let place = |row: &StepRow| match self.loading.control {
             Control::Approach => row.approach,
             Control::MeanGap => row.mean_gap.map(|gap| -gap),
             Control::Pressure | Control::Force => None,
@@ -138,14 +211,162 @@ impl Jumps {
     }
 }
 
-/// What the straight line between two steps may be off by, J, where the force follows a smooth curve.
-///
-/// A sixth of the change of force times the way is the trapezium's error for a parabola from its
-/// vertex; the curves of spheres and rough surfaces bend less. It vanishes with the square of the step,
-/// a jump does not.
-fn quadrature_error(before: &StepRow, row: &StepRow) -> Option<f64> {
-    let moved = row.approach? - before.approach?;
-    Some(((row.force - before.force) * moved).abs() / 6.0)
+/// What a path prescribes.
+#[derive(Clone, Copy, Debug)]
+struct Prescribed {
+    control: Control,
+    /// Spring between the prescribed approach and the body, N/m.
+    spring: Option<f64>,
+}
+
+impl Prescribed {
+    fn of(setup: &Setup) -> Prescribed {
+        let loading = &setup.scene.loading;
+        Prescribed {
+            control: loading.control,
+            spring: loading.spring,
+        }
+    }
+}
+
+/// A piece of a path between two solved states.
+#[derive(Clone, Copy, Debug)]
+struct Piece {
+    /// Change of approach, m.
+    moved: f64,
+    /// Change of force, N.
+    change: f64,
+    /// Work done less what is stored and what flows, J, where the force follows the straight line.
+    lost: f64,
+    /// What the work may be off by where the piece jumps at one of its ends, J: it falls with the length of
+    /// the piece, whether force or position is prescribed.
+    doubt: f64,
+}
+
+impl Piece {
+    /// The piece between two rows; `None` where one has no position.
+    fn of(loading: Prescribed, before: &StepRow, row: &StepRow) -> Option<Piece> {
+        let moved = row.approach? - before.approach?;
+        let change = row.force - before.force;
+        Some(Piece {
+            moved,
+            change,
+            lost: dissipation(before, row)?,
+            doubt: match (loading.control, loading.spring) {
+                // What yields below the gap moves in a jump too, on its own straight line.
+                (Control::MeanGap, _) => change * (row.mean_gap? - before.mean_gap?),
+                // And so does what the far end of a spring holds.
+                (_, Some(spring)) => moved * change.abs().min((change + spring * moved).abs()),
+                (_, None) => change * moved,
+            }
+            .abs(),
+        })
+    }
+
+    fn size(&self) -> f64 {
+        self.lost.abs() + self.doubt
+    }
+
+    /// Slope of the force over the approach where the piece begins, if it is a piece of one parabola:
+    /// what the straight line is off by is what the energies lack.
+    fn slope_before(&self) -> Option<f64> {
+        let slope = (self.change - 6.0 * self.lost / self.moved) / self.moved;
+        slope.is_finite().then_some(slope)
+    }
+
+    /// The same where it ends.
+    fn slope_after(&self) -> Option<f64> {
+        let slope = (self.change + 6.0 * self.lost / self.moved) / self.moved;
+        slope.is_finite().then_some(slope)
+    }
+
+    /// Whether the piece does not go on as the one before ended.
+    fn bends(&self, slope: Option<f64>) -> bool {
+        match (slope, self.slope_before()) {
+            (Some(slope), Some(own)) => {
+                let steepest = own
+                    .abs()
+                    .max(slope.abs())
+                    .max((self.change / self.moved).abs());
+                (own - slope).abs() > KINK * steepest
+            }
+            // A parabola loses up to a sixth of the doubt, when it starts level.
+            (None, Some(_)) => self.lost > self.doubt / 6.0,
+            (_, None) => false,
+        }
+    }
+}
+
+/// Whether a step between two rows jumped, found by halving it from the state before it. Losses below
+/// `least` (J) are none. `None` where the watch ended it.
+pub(super) fn confirm(
+    between: &mut Between,
+    before: &StepRow,
+    state: Carried,
+    row: &StepRow,
+    least: f64,
+) -> Result<Option<bool>, BackendError> {
+    let loading = Prescribed::of(between.walker.setup());
+    let Some(mut whole) = Piece::of(loading, before, row) else {
+        return Ok(Some(true));
+    };
+    let mut start = (
+        Place {
+            share: 0.0,
+            carried: state,
+        },
+        before.clone(),
+    );
+    let mut end = (1.0, row.clone());
+    let (mut keeping, mut shrinking) = (0, 0);
+    between.tell(Search::Jump);
+    for _ in 0..MOST_HALVINGS {
+        let share = 0.5 * (start.0.share + end.0);
+        let tried = between.solve(&start.0, share)?;
+        if between.interrupted {
+            return Ok(None);
+        }
+        if !tried.row.converged {
+            break;
+        }
+        let pieces =
+            Piece::of(loading, &start.1, &tried.row).zip(Piece::of(loading, &tried.row, &end.1));
+        let Some((first, second)) = pieces else {
+            // Apart on the way from one place to another.
+            return Ok(Some(true));
+        };
+        let is_first = first.size() > second.size();
+        let half = if is_first { first } else { second };
+        if half.size() <= least {
+            return Ok(Some(false));
+        }
+        shrinking = match half.size() < SHRINKS * whole.size() {
+            true => shrinking + 1,
+            false => 0,
+        };
+        let is_smooth = shrinking > 0 && !second.bends(first.slope_after());
+        if is_smooth || shrinking == SHRINKING {
+            return Ok(Some(false));
+        }
+        keeping = match half.lost > least.max(half.doubt) && half.lost > KEEPS * whole.lost {
+            true => keeping + 1,
+            false => 0,
+        };
+        if keeping == KEEPING {
+            return Ok(Some(true));
+        }
+        whole = half;
+        if is_first {
+            end = (share, tried.row);
+        } else {
+            let place = Place {
+                share,
+                carried: tried.carried,
+            };
+            start = (place, tried.row);
+        }
+    }
+    Ok(Some(keeping > 0))
 }
 
 /// Work done on the surfaces in a step less what they store and what flows, J.

@@ -1,5 +1,6 @@
 //! Many solves: the steps of a loading path.
 
+mod between;
 mod conductance;
 pub mod control;
 mod cost;
@@ -11,23 +12,27 @@ mod hand_over;
 mod jumps;
 mod memory;
 mod observer;
+mod path;
 mod plan;
+mod pull_off;
 mod rate;
 mod relaxation;
 mod row;
 mod setup;
 mod step;
-mod walk;
+mod walker;
 mod wear;
 
+pub use between::Search;
 pub use cost::Cost;
 pub use evaluation::{Evaluation, PointState, Solved};
 pub use hand_over::{Earlier, HandOver, HandedField};
 pub use jumps::{Jump, dissipation};
 pub use memory::Memory;
 pub use observer::{FinishedStep, Observer, WalkEnd, WalkError};
+pub use path::{walk, walk_on};
 pub use plan::{Plan, Regime};
+pub use pull_off::{PullOff, Tension};
 pub use relaxation::{History, branch_coefficients, effective_modulus};
 pub use row::{Column, State, StepRow};
 pub use setup::{Setup, resolve_law};
-pub use walk::{walk, walk_on};

@@ -1,8 +1,10 @@
 //! Who keeps the steps of a path and watches its solver, and how the path ends.
 
+use super::between::Search;
 use super::evaluation::Evaluation;
 use super::hand_over::HandOver;
 use super::jumps::Jump;
+use super::pull_off::PullOff;
 use super::row::StepRow;
 use crate::backend::BackendError;
 use crate::kernel::Scalars;
@@ -25,6 +27,9 @@ pub trait Observer {
     fn step(&mut self, step: FinishedStep) -> Result<(), Self::Error>;
     /// Sees each iteration; returns whether to go on.
     fn iteration(&mut self, step: usize, scalars: &Scalars) -> bool;
+    /// Is told what is looked for between a step and the one before, each time that more is known. The
+    /// iterations that follow are of loads in between, which have no rows.
+    fn search(&mut self, _step: usize, _search: Search) {}
     /// Whether [`hand_over`](Observer::hand_over) is wanted: reading fields back is not free.
     fn wants_hand_over(&self) -> bool {
         false
@@ -68,6 +73,9 @@ pub struct WalkEnd {
     pub jump_in_steps: Vec<usize>,
     /// Steps that jumped off.
     pub jump_off_steps: Vec<usize>,
+    /// The greatest pull-off of contacts that let go under a prescribed load; [`Tension`](super::Tension)
+    /// says what the whole path shows.
+    pub pull_off: Option<PullOff>,
     /// Energy that a closed loop dissipates, J.
     pub hysteresis_energy: Option<f64>,
     /// Whether the observer ended it.

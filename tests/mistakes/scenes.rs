@@ -850,6 +850,7 @@ steps  = "last"
             durations: None,
             path: vec![1e6, 1e7, 1e8, 1e7, 1e6],
             spring: None,
+            pull_off_tolerance: 0.01,
         },
         solver: SolverScene::default(),
         output: OutputScene::default(),

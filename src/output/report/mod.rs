@@ -148,7 +148,15 @@ impl Report<'_> {
             .iter()
             .filter(|row| row.force < 0.0)
             .min_by(|a, b| a.force.total_cmp(&b.force));
-        if let Some(row) = tension {
+        let bounds = self.summary.and_then(|summary| {
+            let bounds = summary.pull_off_lower.zip(summary.pull_off_upper)?;
+            Some((summary.pull_off_force?, summary.pull_off_step?, bounds))
+        });
+        if let Some((force, step, (lower, upper))) = bounds {
+            let [lower, upper] = [lower, upper].map(|force| format_si(force, "N"));
+            let note = format!("after step {step}, between {lower} and {upper}");
+            found.push(("Pull-off", format_si(force, "N"), note));
+        } else if let Some(row) = tension {
             let note = format!("step {}", row.step);
             found.push(("Largest tension", format_si(-row.force, "N"), note));
         }

@@ -1,227 +1,190 @@
-//! A loading path, step after step, each from the state of the one before.
+//! One solver on its way along a path: it solves a load from the state that the last one left.
 
 use std::borrow::Cow;
-use std::ops::Range;
-use std::time::Instant;
 
-use super::conductance;
 use super::control::Controller;
 use super::dmt;
 use super::flow::{Flow, load_on};
-use super::hand_over::{Earlier, GAP, HandOver, HandedField};
-use super::jumps::{Jump, Jumps};
-use super::observer::{FinishedStep, Observer, WalkEnd, WalkError};
+use super::hand_over::{GAP, HandOver, HandedField};
 use super::rate::RatedStep;
-use super::relaxation::{History, effective_modulus, stretches};
+use super::relaxation::{History, effective_modulus};
 use super::row::{State, StepRow};
 use super::setup::Setup;
 use super::step::{SolvedStep, finish, separated, solve};
 use super::wear;
-use crate::backend::BackendError;
+use crate::backend::{Backend, BackendError};
 use crate::kernel::Scalars;
 use crate::law::Law;
 use crate::scene::{Boundary, Control};
-use crate::solver::{ContactSolver, Hold, Load, MakeBackend, Start};
+use crate::solver::{ContactSolver, Hold, Load, MakeBackend, Problem, Start};
 
-/// Walks a path from its first step. Ends at the first step that does not converge, which is handed
-/// on like any other.
-pub fn walk<O: Observer>(
-    setup: &Setup,
-    make_backend: MakeBackend,
-    observer: &mut O,
-) -> Result<WalkEnd, WalkError<O::Error>> {
-    walk_on(setup, make_backend, observer, Earlier::default())
-}
-
-/// Walks a path from the step after those done earlier. The rows, jumps and transforms of all of
-/// them are in the end that it returns.
-pub fn walk_on<O: Observer>(
-    setup: &Setup,
-    make_backend: MakeBackend,
-    observer: &mut O,
-    earlier: Earlier,
-) -> Result<WalkEnd, WalkError<O::Error>> {
-    let Earlier { rows, hand_over } = earlier;
-    let mut jumps = Jumps::new(setup);
-    if let Some(row) = rows.last() {
-        jumps.go_on(row, hand_over.points.clone());
-    }
-    let mut gap = hand_over.field(GAP).map(<[f64]>::to_vec);
-    let mut history = History::of(setup, &hand_over);
-    let mut flow = Flow::of(setup, &hand_over);
-    let mut end = WalkEnd {
-        jump_in_steps: hand_over.jump_in_steps,
-        jump_off_steps: hand_over.jump_off_steps,
-        transforms: hand_over.transforms,
-        ..WalkEnd::default()
-    };
-    let done = rows.len();
-    end.rows = rows;
-    for stretch in stretches(&setup.scene, done) {
-        let walking = Stretch {
-            setup,
-            make_backend,
-            steps: stretch,
-        };
-        let path = Path {
-            gap: &mut gap,
-            history: &mut history,
-            flow: &mut flow,
-        };
-        let goes_on = walking.walk(observer, &mut end, &mut jumps, path)?;
-        if !goes_on {
-            break;
-        }
-    }
-    end.hysteresis_energy = jumps.hysteresis(&end.rows);
-    Ok(end)
-}
-
-/// What a path carries from step to step.
-struct Path<'a> {
-    /// `None` where the surfaces are apart.
-    gap: &'a mut Option<Vec<f64>>,
+/// What one load leaves for the next.
+#[derive(Clone, Debug)]
+pub(super) struct Carried {
+    /// Gap over all solved points, reduced; `None` where the surfaces are apart.
+    gap: Option<Vec<f64>>,
     /// `None` for a solid that does not relax.
-    history: &'a mut Option<History>,
+    history: Option<History>,
     /// `None` for a solid that cannot flow.
-    flow: &'a mut Option<Flow>,
+    flow: Option<Flow>,
 }
 
-/// Steps of a path that meet one modulus, so that one solver takes them.
-struct Stretch<'s> {
-    setup: &'s Setup,
-    make_backend: MakeBackend<'s>,
-    steps: Range<usize>,
-}
+impl Carried {
+    /// What a path goes on from.
+    pub fn of(setup: &Setup, hand_over: &HandOver) -> Carried {
+        Carried {
+            gap: hand_over.field(GAP).map(<[f64]>::to_vec),
+            history: History::of(setup, hand_over),
+            flow: Flow::of(setup, hand_over),
+        }
+    }
 
-impl Stretch<'_> {
-    /// Walks the steps from what the path carries, which is left as the last of them has it. Returns
-    /// whether the path goes on.
-    fn walk<O: Observer>(
-        &self,
-        observer: &mut O,
-        end: &mut WalkEnd,
-        jumps: &mut Jumps,
-        Path { gap, history, flow }: Path,
-    ) -> Result<bool, WalkError<O::Error>> {
-        let setup = self.setup;
-        let duration = self.duration(self.steps.start);
-        let problem = match history {
-            Some(_) => Cow::Owned(setup.problem.stiffened(
-                effective_modulus(&setup.scene.solid, duration),
-                setup.solved_law(),
-            )),
-            None => Cow::Borrowed(&setup.problem),
-        };
-        let mut backend = (self.make_backend)();
-        let mut solver = ContactSolver::new(&mut *backend, &problem);
-        let mut state = PathState {
-            setup,
-            controller: Controller::new(setup, &problem),
-            loaded: gap.is_some(),
-            interrupted: false,
-        };
-        if let Some(gap) = gap {
-            solver.set_gap(gap);
-        }
-        if let Some(flow) = flow {
-            flow.lower(&mut solver);
-        }
-        let before = end.transforms;
-        let mut goes_on = true;
-        for index in self.steps.clone() {
-            let clock = Instant::now();
-            let step = index + 1;
-            let value = setup.scene.loading.path[index];
-            let offset = history.as_ref().map(|history| {
-                let offset = history.offset(&setup.scene.solid, duration);
-                solver.set_offset(&offset);
-                offset
+    /// The fields of it.
+    pub fn handed_fields(&self) -> Vec<HandedField> {
+        let mut fields = (self.history.as_ref()).map_or_else(Vec::new, History::handed_fields);
+        fields.extend(self.flow.as_ref().and_then(Flow::handed_field));
+        if let Some(gap) = &self.gap {
+            fields.push(HandedField {
+                name: GAP.to_owned(),
+                values: gap.clone(),
             });
-            let asked = Asked {
-                value,
-                duration: self.duration(index),
-                make_backend: self.make_backend,
-            };
-            let mut solved = state.step(&mut solver, &asked, &mut |scalars| {
-                observer.iteration(step, scalars)
-            })?;
-            if state.interrupted {
-                end.interrupted = true;
-                goes_on = false;
-                break;
-            }
-            if let (Some(history), Some(offset)) = (history.as_mut(), offset) {
-                state.relax(&mut solver, &mut solved, history, offset, duration)?;
-            }
-            let conductance = match solved.converged {
-                true => conductance::of(setup, &mut solver, solved.evaluation.as_ref())?,
-                false => None,
-            };
-            if setup.scene.conductance.is_some() && conductance.is_none() {
-                solved.converged = false;
-            }
-            if let Some(flow) = flow.as_mut().filter(|_| solved.converged && state.loaded) {
-                flow.settle(&mut solver)?;
-            }
-            let mut row = state.row(step, value, &solved, clock.elapsed().as_secs_f64());
-            row.conductance = conductance.filter(|conductance| conductance.is_finite());
-            row.time = self.time(index, end.rows.last());
-            row.plastic_energy = flow.as_ref().map(Flow::energy);
-            let jump = jumps.step(&row, solved.evaluation.as_ref());
-            match jump {
-                Some(Jump::In) => end.jump_in_steps.push(step),
-                Some(Jump::Off) => end.jump_off_steps.push(step),
-                None => {}
-            }
-            let finished = FinishedStep {
-                row: &row,
-                evaluation: solved.evaluation,
-                jump,
-            };
-            observer.step(finished).map_err(WalkError::Observer)?;
-            let converged = row.converged;
-            end.rows.push(row);
-            end.transforms = before + solver.transforms();
-            if !converged {
-                goes_on = false;
-                break;
-            }
-            if observer.wants_hand_over() {
-                let handed = HandOver {
-                    fields: state.handed_fields(&mut solver, history.as_ref(), flow.as_ref())?,
-                    points: jumps.points().map(<[_]>::to_vec),
-                    jump_in_steps: end.jump_in_steps.clone(),
-                    jump_off_steps: end.jump_off_steps.clone(),
-                    transforms: end.transforms,
-                };
-                let kept = observer.hand_over(step, &handed);
-                kept.map_err(WalkError::Observer)?;
-            }
         }
-        // What an interrupted step took is counted too.
-        end.transforms = before + solver.transforms();
-        *gap = match state.loaded {
-            true => Some(solver.gap()?),
-            false => None,
+        fields
+    }
+}
+
+/// The problem that steps of `duration` (s) meet: a solid that relaxes is the stiffer the less time it has.
+pub(super) fn met_problem(setup: &Setup, duration: f64) -> Cow<'_, Problem> {
+    let solid = &setup.scene.solid;
+    match solid.relaxation.is_empty() {
+        true => Cow::Borrowed(&setup.problem),
+        false => {
+            let modulus = effective_modulus(solid, duration);
+            Cow::Owned(setup.problem.stiffened(modulus, setup.solved_law()))
+        }
+    }
+}
+
+/// A solver with what its loads leave.
+pub(super) struct Walker<'s> {
+    pub solver: ContactSolver<'s>,
+    state: PathState<'s>,
+    make_backend: MakeBackend<'s>,
+    history: Option<History>,
+    flow: Option<Flow>,
+}
+
+impl<'s> Walker<'s> {
+    /// A solver of the problem that goes on from `carried`.
+    pub fn new(
+        setup: &'s Setup,
+        make_backend: MakeBackend<'s>,
+        backend: &'s mut dyn Backend,
+        problem: &'s Problem,
+        carried: &Carried,
+    ) -> Walker<'s> {
+        let mut walker = Walker {
+            solver: ContactSolver::new(backend, problem),
+            state: PathState {
+                setup,
+                controller: Controller::new(setup, problem),
+                loaded: false,
+                interrupted: false,
+            },
+            make_backend,
+            history: None,
+            flow: None,
         };
-        Ok(goes_on)
+        walker.go_back(carried);
+        walker
     }
 
-    /// How long a step takes, s; 0 where the path has no durations.
-    fn duration(&self, index: usize) -> f64 {
-        let durations = self.setup.scene.loading.durations.as_ref();
-        // A path that is gone on with at its end has no step there.
-        durations
-            .and_then(|durations| durations.get(index).copied())
-            .unwrap_or(0.0)
+    /// The scene that is walked.
+    pub fn setup(&self) -> &'s Setup {
+        self.state.setup
     }
 
-    /// Time at the end of a step, s, where the path has durations.
-    fn time(&self, index: usize, before: Option<&StepRow>) -> Option<f64> {
-        self.setup.scene.loading.durations.as_ref()?;
-        let before = before.and_then(|row| row.time).unwrap_or(0.0);
-        Some(before + self.duration(index))
+    /// Where further solvers get their backends from.
+    pub fn make_backend(&self) -> MakeBackend<'s> {
+        self.make_backend
+    }
+
+    /// Whether the surfaces are together, or a position holds them.
+    pub fn is_loaded(&self) -> bool {
+        self.state.loaded
+    }
+
+    /// Whether the last load was ended by who watched it.
+    pub fn is_interrupted(&self) -> bool {
+        self.state.interrupted
+    }
+
+    /// Takes up the state that a load has left.
+    pub fn go_back(&mut self, carried: &Carried) {
+        if let Some(gap) = &carried.gap {
+            self.solver.set_gap(gap);
+        }
+        self.state.loaded = carried.gap.is_some();
+        self.history = carried.history.clone();
+        self.flow = carried.flow.clone();
+        if let Some(flow) = &self.flow {
+            flow.lower(&mut self.solver);
+        }
+    }
+
+    /// What the next load starts from.
+    pub fn carried(&mut self) -> Result<Carried, BackendError> {
+        Ok(Carried {
+            gap: match self.state.loaded {
+                true => Some(self.solver.gap()?),
+                false => None,
+            },
+            history: self.history.clone(),
+            flow: self.flow.clone(),
+        })
+    }
+
+    /// Solves a value of the path, `duration` (s) after the last one.
+    pub fn advance(
+        &mut self,
+        value: f64,
+        duration: f64,
+        watch: &mut dyn FnMut(&Scalars) -> bool,
+    ) -> Result<SolvedStep, BackendError> {
+        let solid = &self.state.setup.scene.solid;
+        let offset = self.history.as_ref().map(|history| {
+            let offset = history.offset(solid, duration);
+            self.solver.set_offset(&offset);
+            offset
+        });
+        let asked = Asked {
+            value,
+            duration,
+            make_backend: self.make_backend,
+        };
+        let mut solved = self.state.step(&mut self.solver, &asked, watch)?;
+        if let (Some(history), Some(offset), false) =
+            (&mut self.history, offset, self.state.interrupted)
+        {
+            self.state
+                .relax(&mut self.solver, &mut solved, history, offset, duration)?;
+        }
+        Ok(solved)
+    }
+
+    /// Ends a load that converged: what flows in it is gone for good.
+    pub fn settle(&mut self) -> Result<(), BackendError> {
+        match &mut self.flow {
+            Some(flow) if self.state.loaded => flow.settle(&mut self.solver),
+            _ => Ok(()),
+        }
+    }
+
+    /// The row of a load that is settled.
+    pub fn row(&self, step: usize, value: f64, solved: &SolvedStep) -> StepRow {
+        let mut row = self.state.row(step, value, solved, 0.0);
+        row.plastic_energy = self.flow.as_ref().map(Flow::energy);
+        row
     }
 }
 
@@ -310,24 +273,6 @@ impl PathState<'_> {
         self.interrupted = !going;
         self.loaded = solved.evaluation.is_some();
         Ok(solved)
-    }
-
-    /// The fields from which the next step starts.
-    fn handed_fields(
-        &self,
-        solver: &mut ContactSolver,
-        history: Option<&History>,
-        flow: Option<&Flow>,
-    ) -> Result<Vec<HandedField>, BackendError> {
-        let mut fields = history.map_or_else(Vec::new, History::handed_fields);
-        fields.extend(flow.and_then(Flow::handed_field));
-        if self.loaded {
-            fields.push(HandedField {
-                name: GAP.to_owned(),
-                values: solver.gap()?,
-            });
-        }
-        Ok(fields)
     }
 
     /// Ends a step of a solid that relaxes: its displacement goes to the history, and what its

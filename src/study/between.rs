@@ -1,0 +1,117 @@
+//! States between two steps of a path, which have no rows: a load on the way from one step to the next,
+//! solved from the state of the one or of another such load.
+
+use super::row::{State, StepRow};
+use super::walker::{Carried, Walker, met_problem};
+use crate::backend::BackendError;
+use crate::kernel::Scalars;
+
+/// What is looked for between two steps.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Search {
+    /// The load at which the surfaces part, between a value of the path that held and one that did not.
+    PullOff {
+        /// The last that held.
+        held: f64,
+        /// The first that did not.
+        parted: f64,
+    },
+    /// Whether the step lost its equilibrium on the way.
+    Jump,
+}
+
+/// What whoever watches a search is told.
+pub(super) enum Watched<'a> {
+    /// An iteration of a solve.
+    Iteration(&'a Scalars),
+    /// How far the search is.
+    Search(Search),
+}
+
+/// A place between two steps and the state there.
+pub(super) struct Place {
+    /// How far it lies from the one step to the other, from 0 to 1.
+    pub share: f64,
+    pub carried: Carried,
+}
+
+/// A load that was tried.
+pub(super) struct Tried {
+    pub row: StepRow,
+    pub carried: Carried,
+}
+
+impl Tried {
+    /// Whether the surfaces hold together.
+    pub fn holds(&self) -> bool {
+        self.row.approach.is_some() && self.row.state != State::Separated
+    }
+}
+
+/// The way from one step to the next.
+pub(super) struct Between<'b, 's> {
+    pub walker: &'b mut Walker<'s>,
+    /// Values of the path.
+    pub from: f64,
+    pub to: f64,
+    /// How long the step takes, s.
+    pub duration: f64,
+    /// Sees each iteration and says whether to go on.
+    pub watch: &'b mut dyn FnMut(Watched) -> bool,
+    /// Transforms of other solvers than the walker's own.
+    pub transforms: f64,
+    /// Whether the watch ended it.
+    pub interrupted: bool,
+}
+
+impl Between<'_, '_> {
+    /// The value of the path at a place.
+    pub fn value(&self, share: f64) -> f64 {
+        self.from + (self.to - self.from) * share
+    }
+
+    /// Says how far the search is.
+    pub fn tell(&mut self, search: Search) {
+        (self.watch)(Watched::Search(search));
+    }
+
+    /// Solves the load at `share` from the state at an earlier place, in the time between the two. The
+    /// walker is left with what it solved last.
+    pub fn solve(&mut self, from: &Place, share: f64) -> Result<Tried, BackendError> {
+        let value = self.value(share);
+        let duration = (share - from.share) * self.duration;
+        let setup = self.walker.setup();
+        let mut watch = |scalars: &Scalars| (self.watch)(Watched::Iteration(scalars));
+        if setup.scene.solid.relaxation.is_empty() {
+            self.walker.go_back(&from.carried);
+            let tried = try_load(self.walker, value, duration, &mut watch)?;
+            self.interrupted |= self.walker.is_interrupted();
+            return Ok(tried);
+        }
+        // In another time a solid that relaxes is another solid.
+        let problem = met_problem(setup, duration);
+        let make_backend = self.walker.make_backend();
+        let mut backend = make_backend();
+        let mut walker = Walker::new(setup, make_backend, &mut *backend, &problem, &from.carried);
+        let tried = try_load(&mut walker, value, duration, &mut watch)?;
+        self.interrupted |= walker.is_interrupted();
+        self.transforms += walker.solver.transforms();
+        Ok(tried)
+    }
+}
+
+fn try_load(
+    walker: &mut Walker,
+    value: f64,
+    duration: f64,
+    watch: &mut dyn FnMut(&Scalars) -> bool,
+) -> Result<Tried, BackendError> {
+    let solved = walker.advance(value, duration, watch)?;
+    if solved.converged {
+        walker.settle()?;
+    }
+    Ok(Tried {
+        row: walker.row(0, value, &solved),
+        carried: walker.carried()?,
+    })
+}

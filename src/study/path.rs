@@ -1,0 +1,253 @@
+//! A loading path, step after step, each from the state of the one before.
+
+use std::ops::Range;
+use std::time::Instant;
+
+use super::between::{Between, Watched};
+use super::conductance;
+use super::hand_over::{Earlier, HandOver};
+use super::jumps::{Jump, Jumps, Verdict, confirm};
+use super::observer::{FinishedStep, Observer, WalkEnd, WalkError};
+use super::pull_off;
+use super::relaxation::stretches;
+use super::row::{State, StepRow};
+use super::setup::Setup;
+use super::step::SolvedStep;
+use super::walker::{Carried, Walker, met_problem};
+use crate::backend::BackendError;
+use crate::solver::MakeBackend;
+
+/// Walks a path from its first step. Ends at the first step that does not converge, which is handed
+/// on like any other.
+pub fn walk<O: Observer>(
+    setup: &Setup,
+    make_backend: MakeBackend,
+    observer: &mut O,
+) -> Result<WalkEnd, WalkError<O::Error>> {
+    walk_on(setup, make_backend, observer, Earlier::default())
+}
+
+/// Walks a path from the step after those done earlier. The rows, jumps and transforms of all of
+/// them are in the end that it returns.
+pub fn walk_on<O: Observer>(
+    setup: &Setup,
+    make_backend: MakeBackend,
+    observer: &mut O,
+    earlier: Earlier,
+) -> Result<WalkEnd, WalkError<O::Error>> {
+    let Earlier { rows, hand_over } = earlier;
+    let mut carried = Carried::of(setup, &hand_over);
+    let mut end = WalkEnd {
+        jump_in_steps: hand_over.jump_in_steps,
+        jump_off_steps: hand_over.jump_off_steps,
+        pull_off: hand_over.pull_off,
+        transforms: hand_over.transforms,
+        ..WalkEnd::default()
+    };
+    let done = rows.len();
+    let last_jump = end.jump_in_steps.last().max(end.jump_off_steps.last());
+    let mut jumps = Jumps::new(setup);
+    jumps.go_on(&rows, hand_over.points, last_jump == Some(&done));
+    end.rows = rows;
+    for steps in stretches(&setup.scene, done) {
+        let stretch = Stretch {
+            setup,
+            make_backend,
+            steps,
+        };
+        match stretch.walk(observer, &mut end, &mut jumps, &carried)? {
+            Some(left) => carried = left,
+            None => break,
+        }
+    }
+    end.hysteresis_energy = jumps.hysteresis(&end.rows);
+    Ok(end)
+}
+
+/// Steps of a path that meet one modulus, so that one solver takes them.
+struct Stretch<'s> {
+    setup: &'s Setup,
+    make_backend: MakeBackend<'s>,
+    steps: Range<usize>,
+}
+
+impl Stretch<'_> {
+    /// Walks the steps from what the path carries. Returns what it carries then, or nothing where it does
+    /// not go on.
+    fn walk<O: Observer>(
+        &self,
+        observer: &mut O,
+        end: &mut WalkEnd,
+        jumps: &mut Jumps,
+        carried: &Carried,
+    ) -> Result<Option<Carried>, WalkError<O::Error>> {
+        let setup = self.setup;
+        let problem = met_problem(setup, self.duration(self.steps.start));
+        let mut backend = (self.make_backend)();
+        let mut walker = Walker::new(setup, self.make_backend, &mut *backend, &problem, carried);
+        // Transforms of earlier stretches, and of further solvers of this one.
+        let mut others = end.transforms;
+        let mut standing: Option<Carried> = None;
+        for index in self.steps.clone() {
+            let clock = Instant::now();
+            let step = index + 1;
+            let value = setup.scene.loading.path[index];
+            let duration = self.duration(index);
+            let needed = jumps.watches() || pull_off::may_let_go(setup, value);
+            let state = match standing.take() {
+                Some(state) => Some(state),
+                None if needed && walker.is_loaded() => Some(walker.carried()?),
+                None => None,
+            };
+            let mut watch = |watched: Watched| match watched {
+                Watched::Iteration(scalars) => observer.iteration(step, scalars),
+                Watched::Search(search) => {
+                    observer.search(step, search);
+                    true
+                }
+            };
+            let mut solved = walker.advance(value, duration, &mut |scalars| {
+                watch(Watched::Iteration(scalars))
+            })?;
+            if walker.is_interrupted() {
+                end.transforms = others + walker.solver.transforms();
+                end.interrupted = true;
+                return Ok(None);
+            }
+            let conductance = match solved.converged {
+                true => conductance::of(setup, &mut walker.solver, solved.evaluation.as_ref())?,
+                false => None,
+            };
+            if setup.scene.conductance.is_some() && conductance.is_none() {
+                solved.converged = false;
+            }
+            if solved.converged {
+                walker.settle()?;
+            }
+            let mut row = walker.row(step, value, &solved);
+            row.conductance = conductance.filter(|conductance| conductance.is_finite());
+            row.time = self.time(index, end.rows.last());
+            let between = Between {
+                from: setup.scene.loading.path[index.saturating_sub(1)],
+                to: value,
+                duration,
+                walker: &mut walker,
+                watch: &mut watch,
+                transforms: 0.0,
+                interrupted: false,
+            };
+            let found = look_between(between, jumps, end.rows.last(), state, &row, &solved)?;
+            others += found.transforms;
+            end.transforms = others + walker.solver.transforms();
+            if found.interrupted {
+                end.interrupted = true;
+                return Ok(None);
+            }
+            if let Some(let_go) = found.pull_off {
+                end.pull_off = Some(let_go.greater(end.pull_off));
+            }
+            match found.jump {
+                Some(Jump::In) => end.jump_in_steps.push(step),
+                Some(Jump::Off) => end.jump_off_steps.push(step),
+                None => {}
+            }
+            jumps.take(&row, solved.evaluation.as_ref(), found.jump.is_some());
+            row.seconds = clock.elapsed().as_secs_f64();
+            let finished = FinishedStep {
+                row: &row,
+                evaluation: solved.evaluation,
+                jump: found.jump,
+            };
+            observer.step(finished).map_err(WalkError::Observer)?;
+            let converged = row.converged;
+            end.rows.push(row);
+            if !converged {
+                return Ok(None);
+            }
+            if observer.wants_hand_over() {
+                let left = walker.carried()?;
+                let handed = HandOver {
+                    fields: left.handed_fields(),
+                    points: jumps.points().map(<[_]>::to_vec),
+                    jump_in_steps: end.jump_in_steps.clone(),
+                    jump_off_steps: end.jump_off_steps.clone(),
+                    pull_off: end.pull_off,
+                    transforms: end.transforms,
+                };
+                let kept = observer.hand_over(step, &handed);
+                kept.map_err(WalkError::Observer)?;
+                standing = walker.is_loaded().then_some(left);
+            }
+        }
+        Ok(Some(match standing {
+            Some(left) => left,
+            None => walker.carried()?,
+        }))
+    }
+
+    /// How long a step takes, s; 0 where the path has no durations.
+    fn duration(&self, index: usize) -> f64 {
+        let durations = self.setup.scene.loading.durations.as_ref();
+        // A path that is gone on with at its end has no step there.
+        durations
+            .and_then(|durations| durations.get(index).copied())
+            .unwrap_or(0.0)
+    }
+
+    /// Time at the end of a step, s, where the path has durations.
+    fn time(&self, index: usize, before: Option<&StepRow>) -> Option<f64> {
+        self.setup.scene.loading.durations.as_ref()?;
+        let before = before.and_then(|row| row.time).unwrap_or(0.0);
+        Some(before + self.duration(index))
+    }
+}
+
+/// What was found between two steps.
+#[derive(Default)]
+struct Found {
+    jump: Option<Jump>,
+    pull_off: Option<pull_off::PullOff>,
+    /// Transforms of further solvers.
+    transforms: f64,
+    interrupted: bool,
+}
+
+/// Looks between a step and the one before it, whose state is at hand where that may be needed. The
+/// walker is left where the step left it.
+fn look_between(
+    mut between: Between,
+    jumps: &Jumps,
+    before: Option<&StepRow>,
+    state: Option<Carried>,
+    row: &StepRow,
+    solved: &SolvedStep,
+) -> Result<Found, BackendError> {
+    let mut found = Found::default();
+    let (Some(before), true) = (before, row.converged) else {
+        return Ok(found);
+    };
+    let verdict = jumps.judge(row, solved.evaluation.as_ref());
+    if let Verdict::Jumped(way) = verdict {
+        found.jump = Some(way);
+    }
+    let Some(state) = state else {
+        return Ok(found);
+    };
+    let held = before.state != State::Separated;
+    let lets_go = held
+        && solved.evaluation.is_none()
+        && pull_off::may_let_go(between.walker.setup(), between.to);
+    if let Verdict::Perhaps { way, least } = verdict {
+        let left = between.walker.carried()?;
+        let jumped = confirm(&mut between, before, state, row, least)?;
+        found.jump = jumped.unwrap_or(false).then_some(way);
+        between.walker.go_back(&left);
+    } else if lets_go {
+        let left = between.walker.carried()?;
+        found.pull_off = pull_off::find(&mut between, before.step, state)?;
+        between.walker.go_back(&left);
+    }
+    found.transforms = between.transforms;
+    found.interrupted = between.interrupted;
+    Ok(found)
+}

@@ -1,0 +1,174 @@
+//! The tension at which a contact lets go of a prescribed load, narrowed down between two steps.
+
+use std::f64::consts::PI;
+
+use tabor::study::{PullOff, StepRow, Tension};
+use tabor::theory::maugis_dugdale::MaugisDugdale;
+
+use crate::bench::{Solved, solve_table};
+
+/// A sphere in the units of Maugis (K = 4E*/3 = 1, R = 1, w = 1/pi), lambda 0.5, forces in pi w R. The taper
+/// is a length, so that the law is this one whatever its default.
+fn sphere(solid: &str, adhesion: &str, loading: &str) -> Solved {
+    solve_table(&format!(
+        "[grid]\npoints = 96\nsize = 5.0\nboundary = \"free\"\n[solid]\ncontact_modulus = 0.75\n{solid}\n[[surface]]\nkind = \"sphere\"\nradius = 1.0\n[adhesion]\nlaw = \"maugis-dugdale\"\npeak_tension = 0.25\nrange = {}\ntaper = 0.02\n{adhesion}\n[loading]\n{loading}\n",
+        4.0 / PI
+    ))
+}
+
+fn found(solved: &Solved) -> PullOff {
+    match Tension::of(&solved.setup.scene.loading, &solved.end) {
+        Tension::LetGo(found) => found,
+        other => panic!("{other:?}"),
+    }
+}
+
+/// Rows but for their seconds, bit by bit.
+fn bits(solved: &Solved) -> Vec<String> {
+    let plain = |row: &StepRow| {
+        let row = StepRow {
+            seconds: 0.0,
+            ..row.clone()
+        };
+        format!("{row:?}")
+    };
+    solved.rows().map(plain).collect()
+}
+
+/// Maugis' closed form lies between the two bounds, which are as near to each other as was asked; the grid
+/// errs by 2.5e-3 of 2 pi w R at this lambda on twice as many points, and here by twice that.
+#[test]
+fn bounds_hem_in_the_closed_form() {
+    let exact = MaugisDugdale::new(0.5).and_then(|sphere| sphere.pull_off());
+    let exact = -exact.expect("a pull-off").force;
+    let allowed = 2.0 * 5e-3;
+    // From compression and from tension, in one step and in several.
+    for (tolerance, path, last) in [
+        (1e-2, "[0.5, 0.0, -3.0]", 2),
+        (1e-2, "[0.5, -20.0]", 1),
+        (1e-4, "[0.5, -0.8, -1.2, -2.4]", 3),
+        (0.1, "[0.5, -1.0, -2.4, -2.5, 0.5]", 2),
+    ] {
+        let solved = sphere(
+            "",
+            "",
+            &format!("control = \"force\"\npath = {path}\npull_off_tolerance = {tolerance}"),
+        );
+        let PullOff { step, lower, upper } = found(&solved);
+        println!("{path} to {tolerance}: {lower:.5} to {upper:.5}, exact {exact:.5}");
+        assert_eq!(step, last, "{path}");
+        assert!(
+            lower < upper && upper - lower <= tolerance * upper,
+            "{path}"
+        );
+        assert!(
+            lower <= exact + allowed && upper >= exact - allowed,
+            "{path}: {lower} {upper} {exact}"
+        );
+    }
+    // Nothing is narrowed down where that is not asked: the steps themselves are the bounds.
+    let solved = sphere(
+        "",
+        "",
+        "control = \"force\"\npath = [0.5, -1.0, -2.5]\npull_off_tolerance = 0",
+    );
+    let expected = PullOff {
+        step: 2,
+        lower: 1.0,
+        upper: 2.5,
+    };
+    assert_eq!(found(&solved), expected);
+}
+
+/// What lies between two steps leaves no trace in them: rows are the same bits with and without, whatever the
+/// solid remembers and the law depends on.
+#[test]
+fn rows_stay_as_they_are() {
+    let relaxing = "[[solid.relaxation]]\nmodulus = 2.0\ntime = 1.0";
+    let rate = "rate = { reference_speed = 1.0, exponent = 0.5 }";
+    let timed = "control = \"force\"\nstart = 0.5\n[[loading.ramp]]\nto = -1.2\nsteps = 3\nduration = 2\n[[loading.ramp]]\nto = -12.0\nsteps = 3\nduration = 1\n[[loading.ramp]]\nto = 0.7\nsteps = 2\nduration = 3";
+    let plain = "control = \"force\"\npath = [0.5, -0.8, -3.0, -4.0, 0.5, 0.0]";
+    for (name, solid, adhesion, loading) in [
+        ("elastic", "", "", plain),
+        ("hard", "hardness = 1.5", "", plain),
+        ("summed afterwards", "", "treatment = \"dmt\"", plain),
+        ("relaxing", relaxing, "", timed),
+        ("receding at a rate", "", rate, timed),
+    ] {
+        let [with, without] = [0.01, 0.0].map(|tolerance| {
+            let (control, rest) = loading.split_once('\n').expect("two lines");
+            let loading = format!("{control}\npull_off_tolerance = {tolerance}\n{rest}");
+            sphere(solid, adhesion, &loading)
+        });
+        assert_eq!(bits(&with), bits(&without), "{name}");
+        assert_eq!(with.end.jump_off_steps, without.end.jump_off_steps);
+        let (near, far) = (found(&with), found(&without));
+        println!("{name}: {near:?} in {far:?}");
+        assert_eq!(near.step, far.step, "{name}");
+        assert!(near.lower >= far.lower && near.upper <= far.upper, "{name}");
+        assert!(near.upper - near.lower <= 0.01 * near.upper, "{name}");
+        assert!(far.upper - far.lower > 0.01 * far.upper, "{name}");
+        assert!(with.end.transforms > without.end.transforms, "{name}");
+    }
+}
+
+/// Half way in load is half way in time: what is found between two steps of a solid that relaxes is what a
+/// path of sixteen times as many steps finds between two of its own. That path's steps are short against the
+/// relaxation; those of the first are not, and the loads tried meet the solid in ever shorter ones: what
+/// implicit steps of a third of the time of relaxation are off by, some per cent of the pull-off.
+#[test]
+fn time_goes_with_the_load() {
+    let relaxing = "[[solid.relaxation]]\nmodulus = 2.0\ntime = 1.0";
+    let pulled = |steps: usize| {
+        let loading = format!(
+            "control = \"force\"\nstart = 0.5\n[[loading.ramp]]\nhold = 10\nsteps = 4\n[[loading.ramp]]\nto = -6.0\nsteps = {steps}\nduration = 2"
+        );
+        found(&sphere(relaxing, "", &loading))
+    };
+    let (coarse, fine) = (pulled(6), pulled(96));
+    let still = found(&sphere("", "", "control = \"force\"\npath = [0.5, -6.0]"));
+    println!("{coarse:?}, {fine:?}, at rest {still:?}");
+    assert!((coarse.lower / fine.lower - 1.0).abs() < 0.05);
+    // Had the loads tried no time the solid would be stiff, had they all of it, soft.
+    assert!(fine.lower > 1.05 * still.upper);
+}
+
+/// Without letting go there is no pull-off under a load; a held position shows it once it is passed.
+#[test]
+fn what_still_holds_is_no_pull_off() {
+    let says = |loading: &str| {
+        let solved = sphere("", "", loading);
+        Tension::of(&solved.setup.scene.loading, &solved.end)
+    };
+    let ends = says("control = \"force\"\npath = [0.5, -0.5, -1.0]");
+    assert_eq!(
+        ends,
+        Tension::Holds {
+            step: 3,
+            force: 1.0
+        }
+    );
+    assert_eq!(
+        (ends.pull_off(), ends.step(), ends.bounds()),
+        (None, None, None)
+    );
+    // Nor by a path that turns before it.
+    let turned = says("control = \"force\"\npath = [0.5, -1.0, 0.5]");
+    assert_eq!(turned.pull_off(), None);
+    assert_eq!(
+        says("control = \"force\"\npath = [0.5, 0.2]"),
+        Tension::None
+    );
+    let places = [0.5, 0.0, -0.5, -0.7, -0.9];
+    let rising = says(&format!(
+        "control = \"approach\"\npath = {:?}",
+        &places[..3]
+    ));
+    assert!(
+        matches!(rising, Tension::Holds { step: 3, .. }),
+        "{rising:?}"
+    );
+    let passed = says(&format!("control = \"approach\"\npath = {places:?}"));
+    assert!(passed.pull_off().is_some(), "{passed:?}");
+    assert_eq!(passed.bounds(), None);
+}
