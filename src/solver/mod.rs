@@ -14,6 +14,7 @@ mod held;
 mod kernel_set;
 mod problem;
 mod reference;
+mod rigid;
 mod two_band;
 
 pub use contact::{ContactSolver, Hold, Load, Outcome, Start};
