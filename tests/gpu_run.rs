@@ -217,9 +217,9 @@ fields = ["gap", "pressure"]
 "#
         )
     };
-    let mixed = text(32, 0.125, 1.6e-6, 1e-3, "[-1e-3, 0.02]");
+    let mixed = text(32, 0.125, 1.6e-6, 1e-3, "[-1e-3, 0.02, 0.018]");
     compare(&mixed, "mixed", 1e-9);
-    let single = text(16, 0.25, 5.12e-5, 4e-3, "[-4e-3, 0.018]");
+    let single = text(16, 0.25, 5.12e-5, 4e-3, "[-4e-3, 0.018, 0.016]");
     compare(&single, "single", 1e-4);
 }
 

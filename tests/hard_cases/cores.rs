@@ -34,17 +34,28 @@ fn pressed() -> Vec<Case> {
 
 /// Pressed and let go to no load, held by less than single precision tells from nothing.
 fn let_go() -> Vec<Case> {
-    let (work, range) = (4.8e-10, 1e-4);
     vec![
         Case::new(
             "rough, Lennard-Jones, let go",
-            Contact::cell(16, Law::LennardJones { work, range }),
+            Contact::cell(
+                16,
+                Law::LennardJones {
+                    work: 4.8e-8,
+                    range: 1e-3,
+                },
+            ),
             surface(0.5, 0.125, 1),
         )
         .under("pressure", [3e-3, 0.0]),
         Case::new(
             "white noise, exponential, let go",
-            Contact::cell(16, Law::Exponential { work, range }),
+            Contact::cell(
+                16,
+                Law::Exponential {
+                    work: 4.8e-10,
+                    range: 1e-4,
+                },
+            ),
             surface(0.25025, 0.25, 1),
         )
         .under("pressure", [3e-3, 0.0]),
