@@ -23,6 +23,8 @@ const FLOOR_FACTOR: wide = 1.0;
 const CAREFUL_LENGTH: wide = 0.25;
 // Residual at which careful mode ends.
 const CAREFUL_UNTIL: wide = 1e-3;
+// Iterations after which careful mode ends all the same.
+const CAREFUL_MOST: u32 = 2000u;
 // Share of the first slope at which a search ends.
 const SEARCH_SHARE: wide = 0.1;
 // Extrapolations that one search may make.
@@ -92,7 +94,8 @@ fn judge() {
     }
     // Beyond the range of a sharp law nothing sticks: under tension there is no way back.
     let apart = params.may_detach != 0u && least_gap > params.law_range;
-    if (scalars.careful != 0u && (apart || scalars.residual < CAREFUL_UNTIL)) {
+    let careful_enough = scalars.residual < CAREFUL_UNTIL || scalars.iterations >= CAREFUL_MOST;
+    if (scalars.careful != 0u && (apart || careful_enough)) {
         scalars.careful = 0u;
         give_up_direction();
     }

@@ -515,3 +515,47 @@ fn of_very_many_mistakes_the_first_and_their_number_are_said() {
     // Beside the keys [grid], [solid], [[surface]] and [loading] are missing.
     assert_eq!(lines[20], "error: scene.toml: 199984 more mistakes");
 }
+
+/// At no load the attraction of this surface is below what single precision tells from nothing: its row is
+/// converged at the rounding, and the run says at what residual, in its messages and in its summary. In mixed
+/// precision there is nothing to say.
+#[test]
+fn steps_that_rounding_ends_are_warned_of() {
+    let (folder, _) = scene(
+        r#"
+        [grid]
+        points = 16
+        size = 1.0
+        [solid]
+        contact_modulus = 1.0
+        [[surface]]
+        kind = "self-affine"
+        hurst = 0.8
+        rms_height = 0.01
+        longest = 1.0
+        rolloff = 0.5
+        shortest = 0.125
+        seed = 1
+        [adhesion]
+        law = "exponential"
+        work_of_adhesion = 4.8e-10
+        range = 1e-4
+        [loading]
+        control = "pressure"
+        path = [3e-3, 0]
+        "#,
+    );
+    let warning = "rounding in single precision ends 1 of 2 steps, the first of them step 2";
+    for precision in ["single", "mixed"] {
+        let call = ["run", "scene.toml", "--backend", "cpu", "--quiet"];
+        let call = [&call[..], &["--precision", precision, "--out", precision]].concat();
+        let output = tabor(folder.path(), &call);
+        assert_eq!(status(&output), 0, "{}", errors(&output));
+        let summary = summary(&folder.path().join(precision)).to_string();
+        for said in [errors(&output), summary] {
+            assert_eq!(said.contains(warning), precision == "single", "{said}");
+            let remedy = said.contains("\"mixed\\\" or") || said.contains("\"mixed\" or");
+            assert_eq!(remedy, precision == "single", "{said}");
+        }
+    }
+}

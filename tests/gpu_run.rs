@@ -185,6 +185,44 @@ fn a_rough_surface_agrees_with_the_processor() {
     compare(ROUGH, "single", 1e-4);
 }
 
+/// Steps of many ranges, which taken rigidly drive points deep into the core of the law: single and mixed
+/// precision ended there after no iteration, at a residual of 1.
+#[test]
+fn steps_into_the_lennard_jones_core_agree_with_the_processor() {
+    let text = |points: usize, shortest: f64, work: f64, range: f64, path: &str| {
+        format!(
+            r#"
+[grid]
+points = {points}
+size = 1.0
+[solid]
+contact_modulus = 1.0
+[[surface]]
+kind = "self-affine"
+hurst = 0.8
+rms_height = 0.01
+longest = 1.0
+rolloff = 0.5
+shortest = {shortest}
+seed = 5
+[adhesion]
+law = "lennard-jones"
+work_of_adhesion = {work:e}
+range = {range:e}
+[loading]
+control = "approach"
+path = {path}
+[output]
+fields = ["gap", "pressure"]
+"#
+        )
+    };
+    let mixed = text(32, 0.125, 1.6e-6, 1e-3, "[-1e-3, 0.02, 0.018]");
+    compare(&mixed, "mixed", 1e-9);
+    let single = text(16, 0.25, 5.12e-5, 4e-3, "[-4e-3, 0.018, 0.016]");
+    compare(&single, "single", 1e-4);
+}
+
 #[test]
 fn without_an_adapter_gpu_fails_and_auto_does_not() {
     let folder = scene(ROUGH);

@@ -139,6 +139,32 @@ impl<'a> Keeper<'a> {
         self.warn(separated_words(step));
     }
 
+    /// Says of the steps that stand at the rounding of their arithmetic how far that is from what was asked.
+    fn at_rounding(&mut self) {
+        let asked = self.setup.scene.solver.tolerance;
+        let short: Vec<&StepRow> = self
+            .rows
+            .iter()
+            .filter(|row| row.converged && row.residual.is_finite() && row.residual > asked)
+            .collect();
+        let Some(first) = short.first() else {
+            return;
+        };
+        let most = short.iter().map(|row| row.residual).fold(0.0, f64::max);
+        let (count, first) = (short.len(), first.step);
+        let precision = self.machine.precision();
+        let remedy = match precision {
+            Precision::Single => "; precision = \"mixed\" or \"double\" goes on from there",
+            _ => "",
+        };
+        self.warn(format!(
+            "rounding in {} precision ends {count} of {} steps, the first of them step {first}, at a residual of \
+             up to {most:.1e}, asked {asked:.1e}{remedy}",
+            precision.name(),
+            self.rows.len(),
+        ));
+    }
+
     /// Everything that is warned of.
     fn all_warnings(&self) -> Vec<String> {
         [self.setup.warnings.as_slice(), &self.warnings].concat()
@@ -248,6 +274,7 @@ impl<'a> Keeper<'a> {
         if let Some((step, evaluation)) = self.last.take() {
             self.write_fields(step, &evaluation)?;
         }
+        self.at_rounding();
         self.output_seconds += clock.elapsed().as_secs_f64();
         let is_whole = end.rows.len() == self.setup.scene.loading.path.len();
         if is_whole

@@ -27,7 +27,6 @@ pub const VAGUE: f64 = 0.3;
 /// Rounds of choosing a regime by the Tabor number that the last choice gave.
 const ROUNDS: usize = 4;
 
-
 /// A number of a fit with its standard deviation.
 type Number = fn(&Parameters, &Uncertainties) -> (f64, Option<f64>);
 
@@ -89,8 +88,7 @@ pub fn fit_curve(
         .collect();
     check_signs(&measured, &fits, path)?;
     let mut warnings = left_out(curve);
-    let (chosen, tabor_parameter) =
-        choose(&measured, &fits, &mut warnings).ok_or_else(no_fit)?;
+    let (chosen, tabor_parameter) = choose(&measured, &fits, &mut warnings).ok_or_else(no_fit)?;
     doubts(&measured, &fits[chosen], &mut warnings);
     let work: Number = |p, u| (p.work_of_adhesion, u.work_of_adhesion);
     let modulus: Number = |p, u| (p.contact_modulus, u.contact_modulus);

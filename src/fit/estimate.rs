@@ -117,11 +117,14 @@ impl ModelFit {
     /// States of the model that the curve may not rule out: its rungs, or where lambda is known too
     /// closely for any of these the fit itself.
     pub(super) fn states(&self) -> Vec<Rung> {
-        let suits = |rung: &&Rung| {
-            rung.sum_of_squares - self.sum_of_squares <= MOST_RISE * self.variance
-        };
+        let suits =
+            |rung: &&Rung| rung.sum_of_squares - self.sum_of_squares <= MOST_RISE * self.variance;
         let rungs: Vec<Rung> = self.rungs.iter().filter(suits).copied().collect();
-        if rungs.is_empty() { vec![self.as_rung()] } else { rungs }
+        if rungs.is_empty() {
+            vec![self.as_rung()]
+        } else {
+            rungs
+        }
     }
 
     /// The fit as one state among others.

@@ -150,13 +150,9 @@ impl<T: Real, const BASE: bool> Core<T, BASE> {
         }
         // v is concave here: from the left every step stays on the left of the root, so only the
         // start needs a bound, which the repulsive power alone gives.
-        let load = ((self.stiffness * (self.peak_gap - target) - self.peak)
-            * T::of(3.0 / 8.0)
-            * self.law.range
-            / self.law.work_of_adhesion)
-            .max(T::zero());
-        let bound =
-            self.law.range * ((T::of(1.3) * load + T::of(2.5)).powf(T::of(-1.0 / 9.0)) - T::one());
+        let bound = self
+            .law
+            .repelling(self.stiffness * (self.peak_gap - target) - self.peak);
         let mut x = gap + (target - self.variable(gap)) * self.share(gap, true);
         x = x.max(bound).min(self.peak_gap);
         for _ in 0..NEWTON_STEPS {

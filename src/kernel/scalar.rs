@@ -47,6 +47,10 @@ pub const SNAP_ROUNDINGS: f64 = 8.0;
 const CAREFUL_LENGTH: f64 = 0.25;
 /// Residual at which careful mode ends.
 const CAREFUL_UNTIL: f64 = 1e-3;
+/// Iterations after which careful mode ends all the same. Under a load that nearly lets go it crawls, long
+/// after the points within the range have been chosen: on 200 rough surfaces each of the 1 % of steps that
+/// took more came to the same points with this bound as without one, and with 300 all but five steps did.
+const CAREFUL_MOST: u32 = 2000;
 /// Share of the first slope at which a search ends.
 const SEARCH_SHARE: f64 = 0.1;
 /// Steps that a pass of a search behind a wall looks at, over the first one: up to five times the step that
@@ -122,7 +126,8 @@ fn judge(params: &Params, scalars: &mut Scalars) {
     }
     // Beyond the range of a sharp law nothing sticks: under tension there is no way back.
     let apart = params.may_detach && least_gap > params.law.range();
-    if scalars.careful && (apart || scalars.residual < CAREFUL_UNTIL) {
+    let careful_enough = scalars.residual < CAREFUL_UNTIL || scalars.iterations >= CAREFUL_MOST;
+    if scalars.careful && (apart || careful_enough) {
         scalars.careful = false;
         give_up_direction(scalars);
     }

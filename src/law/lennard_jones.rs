@@ -33,6 +33,19 @@ impl LennardJones<f64> {
         16.0 / (9.0 * 3f64.sqrt()) * self.work_of_adhesion / self.range
     }
 
+    /// The same law with its traction multiplied by a factor.
+    pub fn times(&self, factor: f64) -> Self {
+        LennardJones {
+            work_of_adhesion: factor * self.work_of_adhesion,
+            ..*self
+        }
+    }
+
+    /// Gap down to which the law is the 9-3 law; no state goes on below.
+    pub fn least_gap(&self) -> f64 {
+        (NEAREST - 1.0) * self.range
+    }
+
     /// Gap at which the tension is largest, `(3^(1/6) - 1) eps`.
     pub fn peak_gap(&self) -> f64 {
         (3f64.powf(1.0 / 6.0) - 1.0) * self.range
@@ -40,6 +53,15 @@ impl LennardJones<f64> {
 }
 
 impl<T: Real> LennardJones<T> {
+    /// A gap, just below that of zero force or deeper, at which the law repels by at least this pressure,
+    /// from the repulsive power alone: `r^9 = 1.3 P + 2.5` in units of `8 w / 3 eps` leaves P after r^3.
+    #[inline]
+    pub fn repelling(&self, pressure: T) -> T {
+        let load =
+            (pressure * T::of(3.0 / 8.0) * self.range / self.work_of_adhesion).max(T::zero());
+        self.range * ((T::of(1.3) * load + T::of(2.5)).powf(T::of(-1.0 / 9.0)) - T::one())
+    }
+
     /// eps over the distance.
     #[inline]
     fn ratio(&self, gap: T) -> T {

@@ -197,6 +197,15 @@ impl Law {
         !matches!(self, Law::HardWall)
     }
 
+    /// The least gap that a state may have: 0 behind a wall, and where the repulsion of a law without one is
+    /// evaluated no further.
+    pub fn least_gap(&self) -> f64 {
+        match self {
+            Law::LennardJones(law) => law.least_gap(),
+            _ => 0.0,
+        }
+    }
+
     /// Whether a wall at zero gap bounds the gap from below.
     pub fn has_wall(&self) -> bool {
         !matches!(self, Law::LennardJones(_))

@@ -105,6 +105,12 @@ const SEARCHES_AT_ONCE: usize = 1;
 /// Rounds, lost trials and long searches included, that a solve may take for each iteration allowed.
 const ROUNDS_PER_ITERATION: usize = 4;
 
+/// A solve has stalled on rounding alone where the residual carried along is below this share of the fresh
+/// one.
+const DRIFTED: f64 = 0.5;
+/// Times that a solve goes on from fresh pressures after such a stall.
+const REFRESHES: usize = 4;
+
 impl<'a> ContactSolver<'a> {
     /// Plans a problem on a backend: fields, spectra and kernels for its law, and no others.
     pub fn new(backend: &'a mut dyn Backend, problem: &'a Problem) -> Self {
@@ -276,8 +282,10 @@ impl<'a> ContactSolver<'a> {
             let mean = gap.iter().sum::<f64>() / gap.len() as f64;
             if target >= mean {
                 gap.iter_mut().for_each(|g| *g += target - mean);
-            } else if target <= 0.0 && self.problem.hardness.is_some() {
-                // Pressed in beyond closure: the solid flows all over.
+            } else if target <= 0.0
+                && (self.problem.hardness.is_some() || !self.problem.law.has_wall())
+            {
+                // Pressed in beyond closure: the solid flows all over, or stands parallel in the core.
                 gap.fill(target);
             } else {
                 gap.iter_mut().for_each(|g| *g *= target / mean);
@@ -456,6 +464,7 @@ impl<'a> ContactSolver<'a> {
         scalars.repeat = false;
         scalars.searching = false;
         scalars.lost = 0;
+        scalars.stalls = 0;
         self.backend.set_scalars(&scalars);
         self.refresh()?;
         let fields = [self.gap, self.pressure];
@@ -503,7 +512,7 @@ impl<'a> ContactSolver<'a> {
         if corrected {
             return self.solve_in_rounds(load, tolerance, max_iterations, watch);
         }
-        let (mut rounds, mut iterations) = (0, 0);
+        let (mut rounds, mut iterations, mut refreshed) = (0, 0, 0);
         loop {
             let (recorded, scalars) = self.advance(max_iterations.saturating_sub(iterations))?;
             rounds += recorded;
@@ -526,6 +535,20 @@ impl<'a> ContactSolver<'a> {
                         continue;
                     }
                     status = end.status;
+                }
+                // Pressures carried along balance, those of the gap do not: each step has rounded both for
+                // itself. From the fresh ones it goes on, to what one rounding leaves.
+                Status::Stalled
+                    if !at_floor
+                        && scalars.residual <= DRIFTED * end.residual
+                        && refreshed < REFRESHES
+                        && !out_of_iterations
+                        && !stopped
+                        && end.status == Status::Running =>
+                {
+                    refreshed += 1;
+                    self.ready();
+                    continue;
                 }
                 Status::Stalled | Status::Running
                     if end.residual <= tolerance || (status == Status::Stalled && at_floor) =>

@@ -17,6 +17,7 @@ mod kernel_set;
 pub mod plain;
 mod problem;
 mod reference;
+mod rigid;
 mod two_band;
 
 pub use contact::{ContactSolver, Hold, Load, Outcome, Start};

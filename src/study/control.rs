@@ -158,15 +158,16 @@ impl<'s> Controller<'s> {
         }
     }
 
-    /// Whether a prescribed approach lies beyond what a periodic cell can be closed by.
+    /// Whether a prescribed approach or gap lies beyond what a periodic cell can be closed by: to a wall, or
+    /// to the end of a law that repels by itself.
     pub fn is_beyond_closure(&self, value: f64) -> bool {
+        let least = self.problem.law.least_gap() * self.problem.scales.length;
         self.problem.boundary == Boundary::Periodic
             && !self.is_sprung()
-            && self.problem.law.has_wall()
             && self.problem.hardness.is_none()
             && match self.control {
-                Control::Approach => self.gap_at(value) < 0.0,
-                Control::MeanGap => value < 0.0,
+                Control::Approach => self.gap_at(value) < least,
+                Control::MeanGap => value < least,
                 _ => false,
             }
     }

@@ -79,13 +79,21 @@ pub(super) fn finish(
         load: *load,
         law_factor: solver.law_factor(),
     };
-    let evaluation = Evaluation::of(setup, solver.problem(), controller, &solved);
+    let problem = solver.problem();
+    let evaluation = Evaluation::of(setup, problem, controller, &solved);
     // What is no number has not converged, whatever the residual makes of it.
     let is_finite = evaluation.force.is_finite() && evaluation.position.mean_gap.is_finite();
+    // Nor has a state on the constant that stands in the place of a core nearer than any load takes it.
+    let nearest = problem.law.least_gap() * problem.scales.length;
+    let is_beyond = !problem.law.has_wall() && evaluation.gap.iter().any(|gap| *gap <= nearest);
     Ok(SolvedStep {
         evaluation: Some(evaluation),
-        converged: is_finite && outcome.status == Status::Converged,
+        converged: is_finite && !is_beyond && outcome.status == Status::Converged,
         iterations: outcome.iterations,
-        residual: outcome.residual,
+        residual: if is_beyond {
+            f64::INFINITY
+        } else {
+            outcome.residual
+        },
     })
 }

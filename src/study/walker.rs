@@ -339,13 +339,15 @@ impl PathState<'_> {
         let mean = gap.iter().sum::<f64>() / gap.len() as f64;
         let least = gap.iter().copied().fold(f64::INFINITY, f64::min);
         // Open surfaces move rigidly; a wall in contact stays where it is and the rest scales.
-        if !problem.law.has_wall() || (least > 0.0 && least + target - mean >= 0.0) {
+        if !problem.law.has_wall() {
+            gap = solver.problem().moved_to(gap, target);
+        } else if least > 0.0 && least + target - mean >= 0.0 {
             let moved = target - mean;
             // Surfaces that meet in this very step meet everywhere they should.
             let rounding = CLOSED.max(8.0 * solver.epsilon()) * mean.abs();
             for g in &mut gap {
                 *g += moved;
-                if problem.law.has_wall() && *g <= rounding {
+                if *g <= rounding {
                     *g = 0.0;
                 }
             }

@@ -7,6 +7,7 @@
 //! `TABOR_HARD_CASES_ONLY=word` tries the cases with that word in their name.
 
 mod case;
+mod cores;
 mod extremes;
 mod flats;
 #[path = "../gpu_shared/mod.rs"]
@@ -116,6 +117,7 @@ fn every_case_is_right_or_says_that_it_is_not() {
     let mut cases = walls::cases();
     cases.extend(spheres::cases());
     cases.extend(jumps::cases());
+    cases.extend(cores::cases());
     cases.extend(flats::cases());
     cases.extend(grids::cases());
     cases.extend(units::cases());
