@@ -29,5 +29,5 @@ pub use observer::{FinishedStep, Observer, WalkEnd, WalkError};
 pub use plan::{Plan, Regime};
 pub use relaxation::{History, branch_coefficients, effective_modulus};
 pub use row::{Column, State, StepRow};
-pub use setup::{Setup, resolve_law};
+pub use setup::{AUTO_TAPER, Setup, resolve_law};
 pub use walk::{walk, walk_on};
