@@ -15,10 +15,10 @@ const RANGE: f64 = 20e-9;
 /// Points of the reference, with the narrowest taper.
 const FINEST: usize = 1024;
 /// Step of the tension, Pa.
-const STEP: f64 = 2e3;
+const STEP: f64 = 0.5e3;
 
 const LEGEND: &str = "rough.toml, loaded to 4 MPa and pulled off: contact area at no load after unloading off by % \
-(staircase taken off), pull-off off by % (steps of 5 %), areas at 1 MPa on loading and unloading apart by %, transforms; \
+(staircase taken off), pull-off off by % (steps of 1.5 %), areas at 1 MPa on loading and unloading apart by %, transforms; \
 against 1024 points with a width of 2";
 
 /// What is compared.
@@ -62,7 +62,7 @@ pub fn part() -> Result<Part, Failure> {
 fn find(points: usize, taper: Taper) -> Result<Found, Failure> {
     let length = taper.length(WORK / RANGE, SIZE / points as f64, MODULUS, RANGE);
     let mut path = vec![0.5e6, 1e6, 2e6, 4e6, 2e6, 1e6, 0.5e6, 0.0, -20e3, -30e3];
-    path.extend((1..40).map(|i| -30e3 - STEP * f64::from(i)));
+    path.extend((1..60).map(|i| -30e3 - STEP * f64::from(i)));
     let head = SCENE.split("[loading]").next().unwrap_or(SCENE);
     let text = head
         .replace("points = 512 ", &format!("points = {points} "))

@@ -4,6 +4,7 @@ use std::f64::consts::{PI, TAU};
 
 use tabor::study::State;
 use tabor::theory::cohesive_wave::CohesiveWave;
+use tabor::theory::westergaard::adhesive_extrema;
 
 use crate::run::{Failure, percent, solve};
 use crate::{Part, TAPERS, Taper};
@@ -11,6 +12,9 @@ use crate::{Part, TAPERS, Taper};
 const AMPLITUDE: f64 = 0.01;
 /// Step of the load around a turn, over the turn.
 const STEP: f64 = 0.0025;
+
+/// Points of a cell that holds an oblique wave.
+const SQUARE: [usize; 2] = [128, 128];
 
 const LEGEND: &str = "Waves of Johnson's alpha on a periodic cell under pressure: pull-off and the snap into full contact \
 off by %, contact areas on loading and unloading apart by pixels of a wave's length, transforms";
@@ -26,18 +30,16 @@ struct Strip {
 
 pub fn part() -> Part {
     let mut rows = Vec::new();
-    let plain = [
-        ("along y, alpha 0.3", [512, 2], [1.0, 0.0], 0.3),
-        ("along y, alpha 0.1", [512, 2], [1.0, 0.0], 0.1),
-        ("along x, alpha 0.3", [2, 300], [0.0, 1.0], 0.3),
-        ("at 45 degrees, alpha 0.3", [128, 128], [1.0, 1.0], 0.3),
-        ("at 27 degrees, alpha 0.3", [128, 128], [2.0, 1.0], 0.3),
+    let few = [0.1, 0.25, 0.65].as_slice();
+    let many = [0.05, 0.1, 0.25, 0.5, 0.65, 0.8, 1.3].as_slice();
+    let waves = [
+        ("along y, alpha 0.3", [512, 2], [1.0, 0.0], 0.3, many),
+        ("along y, alpha 0.1", [512, 2], [1.0, 0.0], 0.1, few),
+        ("along x, alpha 0.3", [2, 300], [0.0, 1.0], 0.3, few),
+        ("at 45 degrees, alpha 0.3", SQUARE, [1.0, 1.0], 0.3, few),
+        ("at 27 degrees, alpha 0.1", SQUARE, [2.0, 1.0], 0.1, few),
     ];
-    for (name, points, waves, adhesion) in plain {
-        let chis: &[f64] = match points {
-            [128, 128] => &[0.1, 0.25, 0.65],
-            _ => &[0.05, 0.1, 0.25, 0.5, 0.65, 0.8, 1.3],
-        };
+    for (name, points, waves, adhesion, chis) in waves {
         for &chi in chis {
             let strip = Strip {
                 points,
@@ -100,33 +102,43 @@ impl Strip {
         let heights = self.heights();
         let full = PI * AMPLITUDE;
         let theory = CohesiveWave::new(self.adhesion, self.range() / AMPLITUDE)?;
-        let [off, closing] = theory.extrema()?.map(|state| state.mean_pressure * full);
+        let off = theory.pull_off()?.mean_pressure * full;
+        // A long range closes the wave without a snap.
+        let closing = theory
+            .closing()
+            .ok()
+            .map(|state| state.mean_pressure * full);
+        let most = adhesive_extrema(self.adhesion)?.closing_pressure * full;
         let path = |start: &[f64], turn: f64| -> Vec<f64> {
             let near = (0..140).map(|i| 0.965 + STEP * f64::from(i));
             let way = [0.7, 0.9].into_iter().chain(near).map(|share| share * turn);
             start.iter().copied().chain(way).collect()
         };
         // Up, down and into tension; then from no load until it closes.
-        let up = [0.0, 0.25, 0.5, 0.75, 0.5, 0.25, 0.0].map(|share| share * closing);
+        let up = [0.0, 0.25, 0.5, 0.75, 0.5, 0.25, 0.0].map(|share| share * most);
         let unloading = solve(&self.scene(taper, &path(&up, off)), Some(&heights), |row| {
             row.state == State::Separated
         })?;
-        let loading = solve(
-            &self.scene(taper, &path(&[0.0], closing)),
-            Some(&heights),
-            |row| row.contact_area_fraction == 1.0,
-        )?;
+        let mut transforms = unloading.transforms;
+        let mut snap = "-".to_owned();
+        if let Some(closing) = closing {
+            let scene = self.scene(taper, &path(&[0.0], closing));
+            let loading = solve(&scene, Some(&heights), |row| {
+                row.contact_area_fraction == 1.0
+            })?;
+            let open = loading
+                .rows
+                .iter()
+                .filter(|row| row.contact_area_fraction < 1.0);
+            let open = open.map(|row| row.mean_pressure).fold(0.0, f64::max);
+            snap = percent(open / closing - 1.0 + 0.5 * STEP);
+            transforms += loading.transforms;
+        }
         let held = unloading
             .rows
             .iter()
             .filter(|row| row.state == State::Contact)
             .map(|row| -row.mean_pressure)
-            .fold(0.0, f64::max);
-        let open = loading
-            .rows
-            .iter()
-            .filter(|row| row.contact_area_fraction < 1.0)
-            .map(|row| row.mean_pressure)
             .fold(0.0, f64::max);
         let apart = (0..3)
             .map(|i| {
@@ -135,11 +147,8 @@ impl Strip {
             })
             .fold(0.0, f64::max);
         Ok(format!(
-            "{} {} {:.1} {:.0}",
+            "{} {snap} {apart:.0} {transforms:.0}",
             percent(held / -off - 1.0 + 0.5 * STEP),
-            percent(open / closing - 1.0 + 0.5 * STEP),
-            apart,
-            unloading.transforms + loading.transforms
         ))
     }
 }

@@ -115,19 +115,36 @@ impl CohesiveWave {
         hard + 2.0 / PI * self.tension * opened.sum::<f64>()
     }
 
-    /// The greatest tension, and the greatest pressure before the wave closes: where it comes off and where
-    /// it snaps into full contact.
+    /// The state of the greatest tension, in which it comes off.
     ///
     /// # Errors
-    /// A range so long that there is no such turn.
-    pub fn extrema(&self) -> Result<[WaveState; 2], TheoryError> {
-        let sharp = adhesive_extrema(self.adhesion)?;
-        // A range lets the contact shrink further and keeps it from growing as far.
-        let (off, closing) = (sharp.pull_off_angle.sin(), sharp.closing_angle.sin());
-        let pressure = |contact: f64| self.state(contact).map_or(f64::NAN, |s| s.mean_pressure);
-        let (least, _) = minimum(pressure, 1e-6, 1.05 * off);
-        let (most, _) = minimum(|contact| -pressure(contact), off, closing.max(0.999));
-        Ok([self.state(least)?, self.state(most)?])
+    /// A state that is not found.
+    pub fn pull_off(&self) -> Result<WaveState, TheoryError> {
+        // A range lets the contact shrink further than Johnson's before it lets go.
+        let sharp = adhesive_extrema(self.adhesion)?.pull_off_angle.sin();
+        let (contact, _) = minimum(|contact| self.pressure(contact), 1e-6, 1.05 * sharp);
+        self.state(contact)
+    }
+
+    /// The state of the greatest pressure before it snaps into full contact.
+    ///
+    /// # Errors
+    /// A range so long that it closes without a snap.
+    pub fn closing(&self) -> Result<WaveState, TheoryError> {
+        let sharp = adhesive_extrema(self.adhesion)?.pull_off_angle.sin();
+        let (contact, _) = minimum(|contact| -self.pressure(contact), sharp, 1.0 - 1e-9);
+        let state = self.state(contact)?;
+        if state.zone < 1.0 {
+            return Ok(state);
+        }
+        Err(TheoryError::NoSolution {
+            what: "a snap into full contact",
+        })
+    }
+
+    fn pressure(&self, contact: f64) -> f64 {
+        self.state(contact)
+            .map_or(f64::NAN, |state| state.mean_pressure)
     }
 }
 
@@ -139,10 +156,8 @@ mod tests {
     fn a_short_range_is_johnsons_wave() {
         for adhesion in [0.03, 0.1, 0.3, 0.5] {
             let sharp = adhesive_extrema(adhesion).unwrap();
-            let [off, closing] = CohesiveWave::new(adhesion, 1e-4)
-                .unwrap()
-                .extrema()
-                .unwrap();
+            let wave = CohesiveWave::new(adhesion, 1e-4).unwrap();
+            let (off, closing) = (wave.pull_off().unwrap(), wave.closing().unwrap());
             assert!((off.mean_pressure + sharp.pull_off).abs() < 1e-3 * sharp.pull_off);
             assert!((closing.mean_pressure - sharp.closing_pressure).abs() < 1e-3);
         }
@@ -154,6 +169,7 @@ mod tests {
         let state = CohesiveWave::new(0.3, 10.0).unwrap().state(0.4).unwrap();
         let tension = 0.5 * PI * 0.09 / 10.0;
         assert_eq!(state.zone, 1.0);
+        assert!(CohesiveWave::new(0.3, 10.0).unwrap().closing().is_err());
         assert!((state.mean_pressure - (0.16 - tension)).abs() < 1e-15);
     }
 }

@@ -37,8 +37,9 @@ impl Strip {
     /// Pull-off and the pressure that closes it, in Pa, both positive.
     fn closed_form(&self) -> [f64; 2] {
         let wave = CohesiveWave::new(self.adhesion, self.range() / AMPLITUDE).expect("numbers");
-        let [off, closing] = wave.extrema().expect("both turns");
-        [-off.mean_pressure * FULL, closing.mean_pressure * FULL]
+        let off = wave.pull_off().expect("a turn").mean_pressure;
+        let closing = wave.closing().expect("a turn").mean_pressure;
+        [-off * FULL, closing * FULL]
     }
 
     fn solve(&self, law: &str, path: &[f64]) -> Solved {
