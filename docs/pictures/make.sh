@@ -17,7 +17,7 @@ keep wave 0005_pressure wave
 keep lennard_jones_sphere 0041_pressure lennard_jones_sphere
 keep cantilever 0041_pressure cantilever
 keep dmt 0004_pressure dmt
-keep coating 0016_pressure coating
+keep coating 0018_pressure coating
 keep striped 0015_pressure striped
 keep viscoelastic 0026_pressure viscoelastic
 keep yielding 0003_pressure yielding

@@ -157,7 +157,7 @@ pub fn tables(table: &str) -> Result<String, String> {
         )
     });
     if !tapers.is_empty() {
-        text.push_str("\nThe same without the taper, and with twice as long a one:\n\n");
+        text.push_str("\nThe same without the taper, and with one of another length:\n\n");
         let lines: Vec<Vec<String>> = tapers
             .iter()
             .map(|row| {
@@ -165,7 +165,10 @@ pub fn tables(table: &str) -> Result<String, String> {
                 let mut line = vec![
                     row["points"].clone(),
                     two_digits(number(row, "zone_pixels")),
-                    taper.map_or_else(|| "none".to_owned(), |_| "twice".to_owned()),
+                    taper.map_or_else(
+                        || "none".to_owned(),
+                        |taper| format!("{} nm", two_digits(Some(1e9 * taper))),
+                    ),
                     seconds(row),
                 ];
                 line.extend(cells(row));

@@ -20,7 +20,7 @@ const KINDS: [&str; 10] = [
     "range",
     "dmt",
     "no adhesion",
-    "twice the taper",
+    "half the taper",
     "time tolerance",
 ];
 
@@ -30,7 +30,7 @@ fn kind(row: &Row) -> usize {
         (Varied::Nothing, _) => 0,
         (Varied::Tolerance, _) => 1,
         (Varied::Precision, _) => 2,
-        (Varied::Taper, Taper::Twice) => 8,
+        (Varied::Taper, Taper::Half) => 8,
         (Varied::Taper, _) => 3,
         (Varied::Steps, _) => 4,
         (Varied::Range, _) => 5,

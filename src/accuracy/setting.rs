@@ -2,6 +2,7 @@
 
 use super::steps::{Steps, Walk};
 use crate::grid::Grid;
+use crate::law::Law;
 use crate::scene::{AdhesionScene, BackendName, LawName, Precision, Range, Scene, Treatment};
 use crate::study::resolve_law;
 
@@ -25,8 +26,8 @@ pub enum Taper {
     AsGiven,
     /// The law ends at once.
     Sharp,
-    /// Twice as long as `auto`.
-    Twice,
+    /// Half as long as `auto`: nearer to the range, and the edge less free of the pixels.
+    Half,
 }
 
 /// What differs from the scene's own way on the same grid; the colours of the picture.
@@ -130,7 +131,7 @@ impl Setting {
                 ..
             } => Varied::Range,
             Setting {
-                taper: Taper::Sharp | Taper::Twice,
+                taper: Taper::Sharp | Taper::Half,
                 ..
             } => Varied::Taper,
             Setting {
@@ -178,16 +179,21 @@ impl Setting {
             (Taper::AsGiven, Range::Auto) => None,
             (Taper::AsGiven, Range::Length(_)) => law.taper,
             (Taper::Sharp, _) => Some(0.0),
-            (Taper::Twice, Range::Length(range)) => {
+            (Taper::Half, Range::Length(_)) => {
                 let pixel = scene.grid.size.map_or(0.0, |size| {
                     let grid = Grid::new(self.points, size);
                     grid.dx().max(grid.dy())
                 });
-                // `auto` is 2 sigma0 dx/E*.
-                let auto = 2.0 * law.work_of_adhesion / range * pixel / scene.solid.contact_modulus;
-                Some((2.0 * auto).min(2.0 * range))
+                let auto = AdhesionScene {
+                    taper: None,
+                    ..law.clone()
+                };
+                match resolve_law(&auto, pixel, scene.solid.contact_modulus, 1.0) {
+                    Law::MaugisDugdale(law) => Some(0.5 * law.taper),
+                    _ => None,
+                }
             }
-            (Taper::Twice, Range::Auto) => None,
+            (Taper::Half, Range::Auto) => None,
         };
         AdhesionScene {
             range,
@@ -224,7 +230,7 @@ impl Setting {
         words.push_str(match self.taper {
             Taper::AsGiven => "",
             Taper::Sharp => ", no taper",
-            Taper::Twice => ", twice the taper",
+            Taper::Half => ", half the taper",
         });
         words.push_str(match self.model {
             Model::Full => "",
@@ -295,7 +301,7 @@ pub fn others(
         return found;
     };
     let tapers: &[Taper] = match (adhesion.law, adhesion.range, adhesion.taper) {
-        (LawName::MaugisDugdale, Range::Length(_), None) => &[Taper::Sharp, Taper::Twice],
+        (LawName::MaugisDugdale, Range::Length(_), None) => &[Taper::Sharp, Taper::Half],
         (LawName::MaugisDugdale, _, None) => &[Taper::Sharp],
         _ => &[],
     };

@@ -89,8 +89,13 @@ fn describe(plan: &Plan, cost: &Cost, verbose: bool) -> Result<String, Failure> 
             format_si(plan.law.range(), "m"),
             format_si(plan.law.peak_tension(), "Pa"),
             match plan.law {
-                crate::law::Law::MaugisDugdale(law) if law.taper > 0.0 =>
-                    format!(", taper {}", format_si(law.taper, "m")),
+                crate::law::Law::MaugisDugdale(law) if law.taper > 0.0 => {
+                    format!(
+                        ", taper {}: it attracts up to {}, and jump-in comes as much earlier",
+                        format_si(law.taper, "m"),
+                        format_si(law.range + 0.5 * law.taper, "m")
+                    )
+                }
                 _ => String::new(),
             }
         ));

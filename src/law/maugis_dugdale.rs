@@ -7,7 +7,7 @@ use crate::real::Real;
 /// centred on the range, so that the work of adhesion is `peak_tension * range` for every taper.
 ///
 /// The sharp law (`taper = 0`) traps the edge of a contact between pixels; a taper of some pixels'
-/// worth of elastic opening frees it.
+/// worth of elastic opening frees it. Surfaces that approach feel it `taper/2` before the range.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct MaugisDugdale<T> {
     /// Constant tension.

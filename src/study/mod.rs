@@ -35,4 +35,4 @@ pub use plan::{Plan, Regime};
 pub use pull_off::{PullOff, Tension};
 pub use relaxation::{History, branch_coefficients, effective_modulus};
 pub use row::{Column, State, StepRow};
-pub use setup::{Setup, resolve_law};
+pub use setup::{AUTO_TAPER, Setup, resolve_law};

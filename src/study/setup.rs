@@ -29,6 +29,12 @@ pub struct Setup {
     pub transforms: f64,
 }
 
+/// Width of the automatic taper over `sigma0 dx/E*`, what a pixel of the peak tension opens.
+///
+/// The least at which a straight edge along the grid comes off within 1 % of the closed form; the table of
+/// `docs/solver.md`.
+pub const AUTO_TAPER: f64 = 6.0;
+
 /// The law of a scene on pixels of side `pixel` (m), with what `auto` stands for where the map's
 /// largest factor on the tension is `strongest`.
 pub fn resolve_law(
@@ -51,7 +57,7 @@ pub fn resolve_law(
             let peak_tension = work / range;
             // Summed over a gap that does not feel it, the attraction traps nothing.
             let auto = match adhesion.treatment {
-                Treatment::Full => 2.0 * strongest * peak_tension * pixel / contact_modulus,
+                Treatment::Full => AUTO_TAPER * strongest * peak_tension * pixel / contact_modulus,
                 Treatment::Dmt => 0.0,
             };
             Law::MaugisDugdale(MaugisDugdale {

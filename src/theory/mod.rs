@@ -12,7 +12,7 @@
 //! | one sphere, rigid and adhesive | [`bradley`], [`derjaguin`], [`dmt`] |
 //! | one sphere, soft and adhesive | [`jkr`], [`maugis_dugdale`], [`lennard_jones_sphere`], [`rate`] |
 //! | what else a sphere does | [`capillary`], [`friction`], [`conductance`], [`viscoelastic`] |
-//! | a wave | [`westergaard`] |
+//! | a wave | [`westergaard`], [`cohesive_wave`] |
 //! | a rough surface by its summits | [`gw`], [`gw_m`], [`fuller_tabor`], [`icha`] |
 //! | a rough surface by its spectrum | [`spectrum`], [`persson`], [`persson_gap`], [`bam`], [`pastewka_robbins`] |
 //! | the elastic body itself | [`love`], [`kernel_eigenvalue`], [`layer`] |
@@ -30,6 +30,7 @@ pub mod tabor_map;
 pub mod bam;
 pub mod bradley;
 pub mod capillary;
+pub mod cohesive_wave;
 pub mod conductance;
 pub mod cone_punch;
 pub mod derjaguin;

@@ -190,7 +190,7 @@ impl Law {
                 let peak = work / range;
                 let width = taper.unwrap_or_else(|| {
                     let [dx, dy] = contact.pixel();
-                    (2.0 * peak * dx.max(dy) / contact.modulus).min(2.0 * range)
+                    (6.0 * peak * dx.max(dy) / contact.modulus).min(2.0 * range)
                 });
                 if width > 0.0 {
                     peak * ((range + 0.5 * width - gap) / width).clamp(0.0, 1.0)

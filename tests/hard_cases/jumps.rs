@@ -52,7 +52,7 @@ fn sphere() -> Case {
     let contact = spheres::window(32, 2.0, 0.0);
     let pixel = contact.pixel()[0];
     let range = 1.0 / PI;
-    let taper = 2.0 * spheres::WORK / range * pixel / spheres::MODULUS;
+    let taper = (6.0 * spheres::WORK / range * pixel / spheres::MODULUS).min(2.0 * range);
     let (fold, step) = (-0.938_636_589_498_f64, 0.1);
     let path = loops(-1.6, 0.8);
     let places = path.clone();

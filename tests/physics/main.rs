@@ -22,6 +22,7 @@ mod relaxation;
 mod rough;
 mod spring;
 mod tables;
+mod taper;
 mod time_steps;
 mod waves;
 mod wear;

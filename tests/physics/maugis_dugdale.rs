@@ -6,7 +6,7 @@
 
 use std::f64::consts::PI;
 
-use tabor::study::{Jump, State};
+use tabor::study::{AUTO_TAPER, Jump, State};
 
 use crate::bench::{Solved, solve_table};
 use crate::tables::{Table, parameters, slope, table, thinned};
@@ -14,8 +14,8 @@ use crate::tables::{Table, parameters, slope, table, thinned};
 const MODULUS: f64 = 0.75;
 /// The window over the largest cohesive diameter on the path.
 const WINDOW: f64 = 1.15;
-/// Widest taper over range. The figures behind `accuracy` hold up to a taper as wide as the range.
-const TAPER: f64 = 0.5;
+/// Largest chi = sigma0 dx/(E* h0): the taper, six times that of the range, is then 1.5 ranges wide.
+const CHI: f64 = 0.25;
 /// Points a side, at least: the grid of the figures behind `accuracy`.
 const POINTS: usize = 256;
 const MOST_POINTS: usize = 1024;
@@ -43,8 +43,8 @@ impl Sphere {
     /// A grid that resolves the taper and the contact; `None` if that takes too many points.
     fn resolved(lambda: f64, largest_radius: f64, name: &str) -> Option<Sphere> {
         let side = 2.0 * WINDOW * largest_radius;
-        // taper/range = 2 chi, chi = sigma0 dx/(E* h0) = pi lambda^2 dx/3.
-        let pixel = (TAPER * 3.0 / (2.0 * PI * lambda * lambda)).min(side / POINTS as f64);
+        // chi = pi lambda^2 dx/3.
+        let pixel = (CHI * 3.0 / (PI * lambda * lambda)).min(side / POINTS as f64);
         let points = ((side / pixel).ceil() as usize).next_multiple_of(32);
         if points > MOST_POINTS {
             println!("skipped: {name} needs {points} points a side");
@@ -67,7 +67,8 @@ impl Sphere {
     }
 
     fn taper(&self) -> f64 {
-        2.0 * self.peak() * self.side / self.points as f64 / MODULUS
+        let pixel = self.side / self.points as f64;
+        (AUTO_TAPER * self.peak() * pixel / MODULUS).min(2.0 * self.range())
     }
 
     fn solve(&self, control: &str, path: &[f64]) -> Solved {
