@@ -106,6 +106,7 @@ impl<'a> Keeper<'a> {
             jump_off_steps: self.tallies.jump_off_steps.clone(),
             hysteresis_energy: None,
             interrupted: true,
+            unreachable: None,
             transforms: self.tallies.transforms,
         }
     }

@@ -25,7 +25,7 @@ pub use evaluation::{Evaluation, PointState, Solved};
 pub use hand_over::{Earlier, HandOver, HandedField};
 pub use jumps::{Jump, dissipation};
 pub use memory::Memory;
-pub use observer::{FinishedStep, Observer, WalkEnd, WalkError};
+pub use observer::{FinishedStep, Observer, Unreachable, WalkEnd, WalkError};
 pub use plan::{Plan, Regime};
 pub use relaxation::{History, branch_coefficients, effective_modulus};
 pub use row::{Column, State, StepRow};

@@ -10,12 +10,12 @@ use super::dmt;
 use super::flow::{Flow, load_on};
 use super::hand_over::{Earlier, GAP, HandOver, HandedField};
 use super::jumps::{Jump, Jumps};
-use super::observer::{FinishedStep, Observer, WalkEnd, WalkError};
+use super::observer::{FinishedStep, Observer, Unreachable, WalkEnd, WalkError};
 use super::rate::RatedStep;
 use super::relaxation::{History, effective_modulus, stretches};
 use super::row::{State, StepRow};
 use super::setup::Setup;
-use super::step::{SolvedStep, finish, separated, solve};
+use super::step::{SolvedStep, finish, separated, solve, unreachable};
 use super::wear;
 use crate::backend::BackendError;
 use crate::kernel::Scalars;
@@ -184,6 +184,7 @@ impl Stretch<'_> {
             end.rows.push(row);
             end.transforms = before + solver.transforms();
             if !converged {
+                end.unreachable = solved.unreachable;
                 goes_on = false;
                 break;
             }
@@ -278,14 +279,10 @@ impl PathState<'_> {
         } else if is_load && setup.problem.law == Law::HardWall && value <= 0.0 {
             // A wall alone carries no tension, and at zero load it only touches.
             separated()
-        } else if self.controller.is_beyond_closure(value)
-            || self.controller.is_beyond_hardness(value)
-        {
-            SolvedStep {
-                converged: false,
-                residual: f64::INFINITY,
-                ..separated()
-            }
+        } else if self.controller.is_beyond_closure(value) {
+            unreachable(Unreachable::BeyondClosure)
+        } else if self.controller.is_beyond_hardness(value) {
+            unreachable(Unreachable::BeyondHardness)
         } else {
             let load = load_on(solver, self.controller.load(value));
             let start = self.start(solver, &load, value)?;
