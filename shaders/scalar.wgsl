@@ -15,6 +15,8 @@ const AT_FLOOR: u32 = 20u;
 const SLOPE_SHARE: wide = 1e-6;
 // Curvature over slope below which a step is a rigid motion.
 const RIGID: wide = 1e-30;
+// Roundings within which all points of a step go the same way.
+const SAME_WAY: wide = 16.0;
 // Ranges beyond which surfaces under tension have left each other.
 const DETACHED_RANGES: wide = 60.0;
 // The rounding floor of the numerator over epsilon K_max norm(h or g).
@@ -74,15 +76,23 @@ fn judge() {
     let least_gap = scalars.sums[2];
     let gaps = scalars.sums[3];
     scalars.numerator = sqrt(violation);
-    scalars.residual = quotient(scalars.numerator, max(sqrt(pressures), params.pressure_floor));
     scalars.least_gap = least_gap;
     scalars.gap_norm = sqrt(gaps);
+    let pressures_norm = sqrt(pressures);
     let floor_of_rounding = FLOOR_FACTOR * params.epsilon * params.stiffness_max * max(params.heights_norm, scalars.gap_norm);
+    // Between flat surfaces there may be no pressure at all. 0/0 counts as 0, and what rounding alone has left of
+    // either is 0.
+    let detached = params.may_detach != 0u && least_gap > DETACHED_RANGES * params.law_range;
+    let nothing = params.pressure_floor == ZERO && pressures_norm <= floor_of_rounding && !detached;
+    scalars.residual = quotient(scalars.numerator, max(pressures_norm, params.pressure_floor));
+    if (nothing && scalars.numerator <= floor_of_rounding) {
+        scalars.residual = ZERO;
+    }
     if (!is_finite(violation) || !is_finite(pressures) || !is_finite(gaps)) {
         scalars.status = NOT_FINITE;
     } else if (scalars.residual <= params.tolerance) {
         scalars.status = CONVERGED;
-    } else if (params.may_detach != 0u && least_gap > DETACHED_RANGES * params.law_range) {
+    } else if (detached) {
         scalars.status = PULLED_OFF;
     } else if (scalars.numerator <= floor_of_rounding) {
         scalars.at_floor = scalars.at_floor + 1u;
@@ -92,8 +102,11 @@ fn judge() {
     } else {
         scalars.at_floor = 0u;
     }
-    // Beyond the range of a sharp law nothing sticks: under tension there is no way back.
-    let apart = params.may_detach != 0u && least_gap > params.law_range;
+    // Beyond the range of a sharp law nothing sticks: under tension there is no way back, and else not if all
+    // that is left of the way, a geometric series of steps like the last, does not lead there.
+    let beyond = least_gap - params.law_range;
+    let way_left = scalars.largest / CAREFUL_LENGTH;
+    let apart = beyond > ZERO && (params.may_detach != 0u || (scalars.accepted != 0u && way_left < beyond));
     let careful_enough = scalars.residual < CAREFUL_UNTIL || scalars.iterations >= CAREFUL_MOST;
     if (scalars.careful != 0u && (apart || careful_enough)) {
         scalars.careful = 0u;

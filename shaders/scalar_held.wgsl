@@ -1,5 +1,8 @@
 // The decisions over a wall's trial step where the mean gap is held, by linearity.
 
+// Roundings of what they are taken from within which the parts of s cancel each other.
+const VANISHES: wide = 8.0;
+
 // The share of a trial gap that brings it back to the held mean, and in place of the sums over s0 those over s.
 fn restore_wall() {
     if (waits()) {
@@ -15,13 +18,26 @@ fn restore_wall() {
     scalars.restore = restore;
     scalars.sums[0] = whole * scalars.sums[0] + restore * scalars.sums[7];
     // A point that was cut touches at the step 1 exactly.
+    let closing = scalars.sums[1];
     var most = ONE;
-    if (scalars.sums[1] < ONE) {
-        most = whole * scalars.sums[1] - restore;
+    if (closing < ONE) {
+        most = whole * closing - restore;
     }
     scalars.sums[1] = params.infinity;
     if (open > ZERO && most > ZERO) {
         scalars.sums[1] = ONE / most;
+    }
+    if (open > ZERO && trial <= ZERO) {
+        // Nothing is left of the gap that could be scaled back.
+        scalars.sums[0] = ZERO;
+    }
+    if (open > ZERO && most <= VANISHES * params.epsilon * (abs(closing) + abs(restore))) {
+        // The step vanishes but for its rounding.
+        scalars.sums[0] = ZERO;
+        scalars.sums[1] = params.infinity;
+        scalars.sums[2] = ZERO;
+        scalars.sums[3] = ZERO;
+        return;
     }
     scalars.sums[2] = whole * scalars.sums[2];
     scalars.sums[3] = whole * scalars.sums[3];

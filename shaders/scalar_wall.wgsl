@@ -15,7 +15,7 @@ fn restore_yield() {
     }
 }
 
-// Whether the accepted step is a rigid motion; then says what becomes of it.
+// Whether the accepted step is a rigid motion; then says what becomes of it. A held mean gap leaves none.
 fn rigid_motion() -> bool {
     if (scalars.curvature > RIGID * abs(scalars.slope)) {
         return false;
@@ -24,7 +24,7 @@ fn rigid_motion() -> bool {
         scalars.status = NOT_FINITE;
     } else if (scalars.down > ZERO && params.may_detach != 0u) {
         scalars.status = PULLED_OFF;
-    } else if (scalars.up < ZERO && is_finite(scalars.step_first)) {
+    } else if (scalars.up < ZERO && is_finite(scalars.step_first) && params.fixed_gap == 0u) {
         scalars.step = scalars.step_first;
         scalars.length = scalars.step;
     } else {
@@ -40,6 +40,12 @@ fn step_wall() {
         return;
     }
     if (scalars.careful != 0u) {
+        // A rigid lift meets no more attraction than there is here, so that nothing stops it.
+        let same_way = scalars.up - scalars.down <= SAME_WAY * params.epsilon * scalars.up;
+        if (params.may_detach != 0u && scalars.down > ZERO && same_way) {
+            scalars.status = PULLED_OFF;
+            return;
+        }
         scalars.step = ONE;
         scalars.length = ONE;
         scalars.snap = ZERO;

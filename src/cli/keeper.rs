@@ -111,6 +111,7 @@ impl<'a> Keeper<'a> {
             pull_off: self.tallies.pull_off,
             hysteresis_energy: None,
             interrupted: true,
+            unreachable: None,
             transforms: self.tallies.transforms,
         }
     }

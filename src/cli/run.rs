@@ -12,7 +12,7 @@ use crate::backend::BackendError;
 use crate::backend::cpu::with_threads;
 use crate::effect::Effect;
 use crate::output::{Effects, Progress, Seconds, Summary, peak_memory_bytes};
-use crate::study::{Setup, Tension, WalkEnd, WalkError, walk_on};
+use crate::study::{Setup, Tension, Unreachable, WalkEnd, WalkError, walk_on};
 use crate::surface::Surface;
 
 /// Solves a scene and writes its folder.
@@ -198,10 +198,14 @@ fn judge(setup: &Setup, end: &WalkEnd, steps: usize) -> Result<(), Failure> {
             residual: row.residual,
             iterations: row.iterations,
             tolerance: setup.scene.solver.tolerance,
-            remedy: if row.residual.is_finite() {
-                "allow more max_iterations, or take smaller steps"
-            } else {
-                "the surfaces cannot be closed further than full contact: end the path earlier"
+            remedy: match end.unreachable {
+                None => "allow more max_iterations, or take smaller steps",
+                Some(Unreachable::BeyondClosure) => {
+                    "the surfaces cannot be closed further than full contact: end the path earlier"
+                }
+                Some(Unreachable::BeyondHardness) => {
+                    "the solid flows everywhere before it bears this load: end the path earlier"
+                }
             },
         }),
         _ => Ok(()),

@@ -17,6 +17,9 @@ use crate::kernel::{Params, ScalarKernel, Scalars, point_kernel};
 use crate::law::Cohesion;
 use crate::real::Real;
 
+/// Roundings of what they are taken from within which the parts of s cancel each other.
+const VANISHES: f64 = 8.0;
+
 /// Of the sums over s0 those of the curvature: <s0, K g> and <g, K g>.
 const OF_CURVATURE: [usize; 2] = [8, 9];
 
@@ -82,7 +85,7 @@ point_kernel!(
     sums [Add, Max, Max, Min, Max, Add, Add, Add, Add, Add], gate Running
 );
 
-fn restore_wall(_: &Params, scalars: &mut Scalars) {
+fn restore_wall(params: &Params, scalars: &mut Scalars) {
     if scalars.waits() {
         return;
     }
@@ -101,6 +104,16 @@ fn restore_wall(_: &Params, scalars: &mut Scalars) {
     };
     let touches = open > 0.0 && most > 0.0;
     scalars.sums[1] = if touches { 1.0 / most } else { f64::INFINITY };
+    if open > 0.0 && trial <= 0.0 {
+        // Nothing is left of the gap that could be scaled back to the mean: the trial is lost.
+        scalars.sums[0] = 0.0;
+    }
+    if open > 0.0 && most <= VANISHES * params.epsilon * (closing.abs() + restore.abs()) {
+        // Since the sum of s is zero, -s/g is above zero somewhere unless s vanishes. Here it does but for
+        // its rounding, which has no mean of zero and would be taken any distance. The direction is lost.
+        scalars.sums[..4].copy_from_slice(&[0.0, f64::INFINITY, 0.0, 0.0]);
+        return;
+    }
     // The largest and the least s differ from these by c g. They are asked twice. Whether the step vanishes:
     // s0 = 0 has c = 0; a step that c undoes, s0 as g, has no slope and is a lost trial. And for the size of
     // the roundings that leave a point open that has closed: |c| is at most the largest s0 over the mean

@@ -18,7 +18,7 @@ pub struct Params {
     pub pressure_floor: f64,
     /// Largest accepted value of the stopping measure.
     pub tolerance: f64,
-    /// Norm of the heights over the surface points.
+    /// Norm over the surface points of what the gap is rounded beside: of the heights, or of what is larger.
     pub heights_norm: f64,
     /// Whether the mean gap is held instead of the mean pressure.
     pub fixed_gap: bool,

@@ -34,6 +34,8 @@ const AT_FLOOR: u32 = 20;
 const SLOPE_SHARE: f64 = 1e-6;
 /// Curvature over slope below which a step is a rigid motion.
 const RIGID: f64 = 1e-30;
+/// Roundings within which all points of a step go the same way.
+const SAME_WAY: f64 = 16.0;
 /// Ranges beyond which surfaces under tension have left each other.
 const DETACHED_RANGES: f64 = 60.0;
 /// The rounding floor of the numerator over `epsilon K_max norm(h or g)`: a gap rounded once leaves
@@ -104,19 +106,27 @@ fn judge(params: &Params, scalars: &mut Scalars) {
     }
     let [violation, pressures, least_gap, gaps, ..] = scalars.sums;
     scalars.numerator = violation.sqrt();
-    scalars.residual = quotient(
-        scalars.numerator,
-        pressures.sqrt().max(params.pressure_floor),
-    );
     scalars.least_gap = least_gap;
     scalars.gap_norm = gaps.sqrt();
+    let pressures_norm = pressures.sqrt();
+    let floor = rounding_floor(params, scalars);
+    // Between flat surfaces there may be no pressure at all. 0/0 counts as 0, and what rounding alone has left of
+    // either is 0: nothing is gained by going on, and a direction made of rounding leads anywhere.
+    // What is on its way apart is not at rest, however far the rounding of its gap reaches by then.
+    let detached = params.may_detach && least_gap > DETACHED_RANGES * params.law.range();
+    let nothing = params.pressure_floor == 0.0 && pressures_norm <= floor && !detached;
+    scalars.residual = if nothing && scalars.numerator <= floor {
+        0.0
+    } else {
+        quotient(scalars.numerator, pressures_norm.max(params.pressure_floor))
+    };
     if !violation.is_finite() || !pressures.is_finite() || !gaps.is_finite() {
         scalars.status = Status::NotFinite;
     } else if scalars.residual <= params.tolerance {
         scalars.status = Status::Converged;
-    } else if params.may_detach && least_gap > DETACHED_RANGES * params.law.range() {
+    } else if detached {
         scalars.status = Status::PulledOff;
-    } else if scalars.numerator <= rounding_floor(params, scalars) {
+    } else if scalars.numerator <= floor {
         scalars.at_floor += 1;
         if scalars.at_floor >= AT_FLOOR {
             scalars.status = Status::Stalled;
@@ -124,8 +134,11 @@ fn judge(params: &Params, scalars: &mut Scalars) {
     } else {
         scalars.at_floor = 0;
     }
-    // Beyond the range of a sharp law nothing sticks: under tension there is no way back.
-    let apart = params.may_detach && least_gap > params.law.range();
+    // Beyond the range of a sharp law nothing sticks: under tension there is no way back, and else not if all
+    // that is left of the way, a geometric series of steps like the last, does not lead there.
+    let beyond = least_gap - params.law.range();
+    let way_left = scalars.largest / CAREFUL_LENGTH;
+    let apart = beyond > 0.0 && (params.may_detach || (scalars.accepted && way_left < beyond));
     let careful_enough = scalars.residual < CAREFUL_UNTIL || scalars.iterations >= CAREFUL_MOST;
     if scalars.careful && (apart || careful_enough) {
         scalars.careful = false;
@@ -279,7 +292,8 @@ scalar_kernel!(
     ACCEPT, accept
 );
 
-/// Whether the accepted step is a rigid motion; then says what becomes of it.
+/// Whether the accepted step is a rigid motion; then says what becomes of it. A mean gap that is held leaves
+/// none: what looks like one is rounding.
 fn rigid_motion(params: &Params, scalars: &mut Scalars) -> bool {
     if scalars.curvature > RIGID * scalars.slope.abs() {
         return false;
@@ -288,7 +302,7 @@ fn rigid_motion(params: &Params, scalars: &mut Scalars) -> bool {
         scalars.status = Status::NotFinite;
     } else if scalars.down > 0.0 && params.may_detach {
         scalars.status = Status::PulledOff;
-    } else if scalars.up < 0.0 && scalars.step_first.is_finite() {
+    } else if scalars.up < 0.0 && scalars.step_first.is_finite() && !params.fixed_gap {
         scalars.step = scalars.step_first;
         scalars.length = scalars.step;
         return true;
@@ -299,11 +313,22 @@ fn rigid_motion(params: &Params, scalars: &mut Scalars) -> bool {
     true
 }
 
+/// Whether a step lifts all points by the same way.
+fn is_rigid_lift(params: &Params, scalars: &Scalars) -> bool {
+    scalars.down > 0.0 && scalars.up - scalars.down <= SAME_WAY * params.epsilon * scalars.up
+}
+
 fn step_wall(params: &Params, scalars: &mut Scalars) {
     if scalars.waits() || !scalars.accepted {
         return;
     }
     if scalars.careful {
+        // A rigid lift meets no more attraction than there is here, so that nothing stops it: small steps
+        // would only take long.
+        if params.may_detach && is_rigid_lift(params, scalars) {
+            scalars.status = Status::PulledOff;
+            return;
+        }
         scalars.step = 1.0;
         scalars.length = 1.0;
         scalars.snap = 0.0;

@@ -4,13 +4,13 @@ use super::MakeBackend;
 use super::coarse_start;
 use super::correction::FIRST_TOLERANCE;
 use super::held::HeightsPressure;
-use super::kernel_set::{KernelSet, fixed_params};
+use super::kernel_set::{KernelSet, fixed_params, rounded_beside_under};
 use super::problem::Problem;
 use super::reference::Reference;
 use super::two_band::TwoBand;
 use crate::backend::{Backend, BackendError, Field, Level, Response, Spectrum};
 use crate::kernel::{Gate, Params, Scalars, Status, common, scalar};
-use crate::law::Law;
+use crate::law::{Cohesion, Law};
 
 /// What is held fixed, reduced units.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -56,6 +56,23 @@ pub struct Outcome {
     pub mean_pressure: f64,
 }
 
+impl Outcome {
+    /// The end of a solve, whose last evaluation is `end`: the one place where it is said to have converged.
+    /// Without a finite residual none has, whatever the iterations made of it.
+    pub(super) fn of(status: Status, iterations: usize, end: &Scalars) -> Outcome {
+        let status = match status {
+            Status::Converged if !end.residual.is_finite() => Status::Stalled,
+            status => status,
+        };
+        Outcome {
+            status,
+            iterations,
+            residual: end.residual,
+            mean_pressure: end.mean_pressure,
+        }
+    }
+}
+
 /// Solves one problem, load after load.
 pub struct ContactSolver<'a> {
     pub(super) backend: &'a mut dyn Backend,
@@ -81,6 +98,8 @@ pub struct ContactSolver<'a> {
     two_band: Option<TwoBand>,
     pub(super) kernels: &'static KernelSet,
     pub(super) params: Params,
+    /// What a gap is rounded beside whatever the load.
+    heights_norm: f64,
     /// The state in double precision, where iterations here are to be corrected by it; made when it
     /// is first asked for.
     pub(super) reference: Option<Reference>,
@@ -103,7 +122,7 @@ const SEARCHES: usize = 48;
 /// first one rides in the trial.
 const SEARCHES_AT_ONCE: usize = 1;
 /// Rounds, lost trials and long searches included, that a solve may take for each iteration allowed.
-const ROUNDS_PER_ITERATION: usize = 4;
+pub const ROUNDS_PER_ITERATION: usize = 4;
 
 /// A solve has stalled on rounding alone where the residual carried along is below this share of the fresh
 /// one.
@@ -158,6 +177,7 @@ impl<'a> ContactSolver<'a> {
             compliance,
             two_band,
             kernels: KernelSet::of(problem),
+            heights_norm: params.heights_norm,
             params,
             reference: None,
             helped_by: 0.0,
@@ -313,6 +333,7 @@ impl<'a> ContactSolver<'a> {
         self.backend.set_base(None);
         self.params.fixed_gap = fixed_gap;
         self.params.tolerance = tolerance;
+        self.params.heights_norm = rounded_beside_under(self.heights_norm, &self.params, load);
         self.params.may_detach = !fixed_gap
             && load.zero_stiffness == 0.0
             && (mean_pressure < 0.0 || (mean_pressure == 0.0 && self.problem.law.is_adhesive()));
@@ -524,7 +545,7 @@ impl<'a> ContactSolver<'a> {
             if status == Status::Running && !out_of_iterations && !stopped {
                 continue;
             }
-            let mut end = self.evaluate()?;
+            let end = self.evaluate()?;
             let at_floor = end.numerator <= scalar::rounding_floor(&self.params, &end);
             match status {
                 // The measure carried along says converged, the fresh one not yet: go on, unless
@@ -557,13 +578,7 @@ impl<'a> ContactSolver<'a> {
                 }
                 _ => {}
             }
-            end.status = status;
-            return Ok(Outcome {
-                status,
-                iterations: end.iterations as usize,
-                residual: end.residual,
-                mean_pressure: end.mean_pressure,
-            });
+            return Ok(Outcome::of(status, end.iterations as usize, &end));
         }
     }
 
@@ -574,6 +589,11 @@ impl<'a> ContactSolver<'a> {
             Law::HardWall if mean_pressure != 0.0 => (problem.rms_height() / mean_pressure.abs())
                 .min(100.0 * softest)
                 .max(softest),
+            // Between flat surfaces a pressure meets the slope of the law, which is far stiffer than a wave: a
+            // step by the wave's compliance would cross the gap of the largest tension and leave the branch.
+            Law::LennardJones(law) if problem.rms_height() == 0.0 => {
+                softest.min(1.0 / Cohesion::slope(&law, 0.0))
+            }
             _ => softest,
         }
     }

@@ -20,10 +20,13 @@ const AIM: f64 = 0.5;
 const ROUND_ITERATIONS: usize = 100;
 /// A round that leaves more than this share of the residual has gained nothing.
 const NO_GAIN: f64 = 0.5;
+/// Rounds that a solve may take. One that gains takes half of the residual away at least, and three digits as
+/// a rule, of the sixteen there are.
+pub const MOST_ROUNDS: usize = 60;
 /// Rounds without gain, in a row, that end a solve.
 const LOST_ROUNDS: usize = 4;
 /// Trials, lost ones included, that may be made for each iteration allowed.
-const TRIALS_PER_ITERATION: usize = 4;
+pub const TRIALS_PER_ITERATION: usize = 4;
 
 impl ContactSolver<'_> {
     /// The state in double precision, made when it is first asked for; `None` where the backend's own
@@ -82,6 +85,7 @@ impl ContactSolver<'_> {
             reference.evaluate()
         })?;
         let mut lost = 0;
+        let mut rounds = 0;
         loop {
             let at_floor = end.numerator <= self.rounding_floor(&end);
             let over = stopped || iterations >= max_iterations;
@@ -93,7 +97,7 @@ impl ContactSolver<'_> {
                 };
                 break;
             }
-            if at_floor || lost >= LOST_ROUNDS || over {
+            if at_floor || lost >= LOST_ROUNDS || rounds == MOST_ROUNDS || over {
                 status = match (at_floor, over) {
                     (true, _) => Status::Converged,
                     (false, true) => Status::Running,
@@ -101,7 +105,9 @@ impl ContactSolver<'_> {
                 };
                 break;
             }
-            let before = end.residual;
+            rounds += 1;
+            // By the numerator, where there is no pressure yet to measure it by.
+            let before = [end.residual, end.numerator];
             let most = ROUND_ITERATIONS.min(max_iterations - iterations);
             let round = self.correct(&end, tolerance, most, iterations, watch)?;
             iterations = round.0.iterations as usize;
@@ -111,17 +117,16 @@ impl ContactSolver<'_> {
                 reference.add(iterating, correction)?;
                 reference.evaluate()
             })?;
-            lost = match end.residual <= NO_GAIN * before {
+            let gained = match before[0].is_finite() {
+                true => end.residual <= NO_GAIN * before[0],
+                false => end.numerator <= NO_GAIN * before[1],
+            };
+            lost = match gained {
                 true => 0,
                 false => lost + 1,
             };
         }
-        Ok(Outcome {
-            status,
-            iterations,
-            residual: end.residual,
-            mean_pressure: end.mean_pressure,
-        })
+        Ok(Outcome::of(status, iterations, &end))
     }
 
     /// The numerator that rounding in double precision leaves, of a pad's points too, which have no
@@ -167,9 +172,14 @@ impl ContactSolver<'_> {
         }
         self.backend.set_base(Some(base));
         let mut params = self.params;
-        params.tolerance = (AIM * tolerance).max(GAIN * end.residual);
+        // The scale of the base's residual; where that has no pressure, what is off balance itself.
+        let residual = match end.residual.is_finite() {
+            true => end.residual,
+            false => 1.0,
+        };
+        params.tolerance = (AIM * tolerance).max(GAIN * residual);
         params.heights_norm = 0.0;
-        params.pressure_floor = end.numerator / end.residual;
+        params.pressure_floor = end.numerator / residual;
         self.backend.set_params(&params);
         let mut scalars = Scalars::start(0.0, false);
         scalars.iterations = iterations as u32;

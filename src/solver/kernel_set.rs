@@ -1,6 +1,7 @@
 //! What a problem asks of the solver: its kernels, those of a wall, of a solid that flows or of the
 //! Lennard-Jones core, and the numbers that stay fixed.
 
+use super::contact::{Hold, Load};
 use super::problem::Problem;
 use crate::kernel::{Kernel, Params, base, core, held, scalar, wall, yielding};
 
@@ -115,12 +116,39 @@ pub(super) fn fixed_params(problem: &Problem, epsilon: f64) -> Params {
             * (problem.rms_slope * problem.scales.lateral / problem.scales.length)
             * points.sqrt(),
         tolerance: 0.0,
-        heights_norm: problem.heights.iter().map(|h| h * h).sum::<f64>().sqrt(),
+        heights_norm: rounded_beside(problem),
         fixed_gap: false,
         may_detach: false,
         points,
         core_stiffness: 0.2 * stiffness_max,
         hardness: problem.hardness.unwrap_or(f64::INFINITY),
         epsilon,
+    }
+}
+
+/// Roundings of its range that a Lennard-Jones gap is found to: those of the inversion of its variable.
+const CORE_ROUNDINGS: f64 = 2.0;
+
+/// Norm over the surface points of what a gap is rounded beside, whatever the load. A gap of the
+/// Lennard-Jones law counts from a range away, and where its traction vanishes it is a difference of two
+/// parts, whose rounding is that of the range times the slope there, 16 w/range^2.
+fn rounded_beside(problem: &Problem) -> f64 {
+    let heights = problem.heights.iter().map(|h| h * h).sum::<f64>().sqrt();
+    if problem.law.has_wall() {
+        return heights;
+    }
+    let steep = problem.law.slope(0.0).abs() / problem.stiffness_max();
+    let points = problem.shape.surface_len() as f64;
+    heights.max(CORE_ROUNDINGS * problem.law.range() * steep.max(1.0) * points.sqrt())
+}
+
+/// The same under a load: what holds the mean displacement presses with its far end's whole pressure, and
+/// takes most of it back.
+pub(super) fn rounded_beside_under(own: f64, params: &Params, load: &Load) -> f64 {
+    match load.hold {
+        Hold::Pressure(far_end) if load.zero_stiffness > 0.0 => {
+            own.max(far_end.abs() * params.points.sqrt() / params.stiffness_max)
+        }
+        _ => own,
     }
 }

@@ -20,7 +20,8 @@ mod reference;
 mod rigid;
 mod two_band;
 
-pub use contact::{ContactSolver, Hold, Load, Outcome, Start};
+pub use contact::{ContactSolver, Hold, Load, Outcome, ROUNDS_PER_ITERATION, Start};
+pub use correction::{MOST_ROUNDS, TRIALS_PER_ITERATION};
 pub use problem::{Problem, Scales, good_size};
 pub use reference::plan_reference;
 

@@ -2,7 +2,7 @@
 
 use super::contact::{Hold, Load};
 use super::held::HeightsPressure;
-use super::kernel_set::{KernelSet, fixed_params};
+use super::kernel_set::{KernelSet, fixed_params, rounded_beside_under};
 use super::problem::Problem;
 use crate::backend::{Backend, BackendError, Field, Level, Response, Spectrum};
 use crate::kernel::{Gate, Params, Scalars, Status, base, common, scalar};
@@ -15,6 +15,8 @@ pub(super) struct Reference {
     heights_pressure: Option<HeightsPressure>,
     kernels: &'static KernelSet,
     params: Params,
+    /// What a gap is rounded beside whatever the load.
+    heights_norm: f64,
 }
 
 /// What is held for it.
@@ -87,11 +89,13 @@ impl Reference {
     ) -> Self {
         let places = Places::plan(&mut *backend, iterating, fine, problem);
         backend.write(places.heights, &problem.padded(&problem.heights, 0.0));
+        let params = fixed_params(problem, backend.epsilon());
         Reference {
             places,
             heights_pressure: None,
             kernels: KernelSet::of(problem),
-            params: fixed_params(problem, backend.epsilon()),
+            heights_norm: params.heights_norm,
+            params,
             backend,
         }
     }
@@ -132,6 +136,7 @@ impl Reference {
         };
         self.params.fixed_gap = fixed_gap;
         self.params.tolerance = tolerance;
+        self.params.heights_norm = rounded_beside_under(self.heights_norm, &self.params, load);
         self.params.may_detach = may_detach;
         self.backend.set_params(&self.params);
         self.backend

@@ -29,7 +29,7 @@ pub use evaluation::{Evaluation, PointState, Solved};
 pub use hand_over::{Earlier, HandOver, HandedField};
 pub use jumps::{Jump, dissipation};
 pub use memory::Memory;
-pub use observer::{FinishedStep, Observer, WalkEnd, WalkError};
+pub use observer::{FinishedStep, Observer, Unreachable, WalkEnd, WalkError};
 pub use path::{walk, walk_on};
 pub use plan::{Plan, Regime};
 pub use pull_off::{PullOff, Tension};

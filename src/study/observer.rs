@@ -64,6 +64,15 @@ pub enum WalkError<E> {
     Observer(E),
 }
 
+/// What a step asks for that no contact can have.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Unreachable {
+    /// A position beyond that at which a periodic cell is closed everywhere.
+    BeyondClosure,
+    /// A load beyond what the solid bears everywhere before it flows.
+    BeyondHardness,
+}
+
 /// How a path ended.
 #[derive(Clone, Debug, Default)]
 pub struct WalkEnd {
@@ -80,6 +89,8 @@ pub struct WalkEnd {
     pub hysteresis_energy: Option<f64>,
     /// Whether the observer ended it.
     pub interrupted: bool,
+    /// Why its last step, which did not converge, could not: what it asks for no contact can have.
+    pub unreachable: Option<Unreachable>,
     /// Real two-dimensional transforms.
     pub transforms: f64,
 }

@@ -162,6 +162,7 @@ impl Stretch<'_> {
             let converged = row.converged;
             end.rows.push(row);
             if !converged {
+                end.unreachable = solved.unreachable;
                 return Ok(None);
             }
             if observer.wants_hand_over() {

@@ -2,11 +2,12 @@
 
 use super::control::Controller;
 use super::evaluation::{Evaluation, Solved};
+use super::observer::Unreachable;
 use super::setup::Setup;
 use crate::backend::BackendError;
 use crate::kernel::{Scalars, Status};
 use crate::law::Law;
-use crate::solver::{ContactSolver, Load, MakeBackend, Outcome, Start};
+use crate::solver::{ContactSolver, Hold, Load, MakeBackend, Outcome, Start};
 
 /// A step as solved.
 pub(super) struct SolvedStep {
@@ -18,6 +19,8 @@ pub(super) struct SolvedStep {
     pub iterations: usize,
     /// The stopping measure.
     pub residual: f64,
+    /// Why there is nothing to solve for, where that is so.
+    pub unreachable: Option<Unreachable>,
 }
 
 /// A load that the surfaces do not carry.
@@ -27,7 +30,35 @@ pub(super) fn separated() -> SolvedStep {
         converged: true,
         iterations: 0,
         residual: 0.0,
+        unreachable: None,
     }
+}
+
+/// What is asked for and no contact can have.
+pub(super) fn unreachable(why: Unreachable) -> SolvedStep {
+    SolvedStep {
+        converged: false,
+        residual: f64::INFINITY,
+        unreachable: Some(why),
+        ..separated()
+    }
+}
+
+/// Share of itself, of the roughness and of the range by which a mean gap may miss the one that is held: well
+/// above what sums over large grids round to, and far below what a wrong position is off by.
+const MISSED: f64 = 1e-6;
+/// The same in roundings of the fields, where these are larger: each of some hundred iterations adds a few.
+const MISSED_ROUNDINGS: f64 = 1e4;
+
+/// Whether a mean gap that is held was kept, beside itself and the roughness.
+fn keeps_gap(solver: &ContactSolver, load: &Load, gap: &[f64]) -> bool {
+    let Hold::Gap(target) = load.hold else {
+        return true;
+    };
+    let mean = gap.iter().sum::<f64>() / gap.len() as f64;
+    let problem = solver.problem();
+    let scale = target.abs() + problem.rms_height() + problem.law.range();
+    (mean - target).abs() <= MISSED.max(MISSED_ROUNDINGS * solver.epsilon()) * scale
 }
 
 /// Solves with the scene's own settings. A sharp law is walked in careful steps first, from a state
@@ -86,14 +117,17 @@ pub(super) fn finish(
     // Nor has a state on the constant that stands in the place of a core nearer than any load takes it.
     let nearest = problem.law.least_gap() * problem.scales.length;
     let is_beyond = !problem.law.has_wall() && evaluation.gap.iter().any(|gap| *gap <= nearest);
+    // Nor has what is not at the position asked, however well it is balanced there.
+    let is_there = keeps_gap(solver, load, &gap);
     Ok(SolvedStep {
         evaluation: Some(evaluation),
-        converged: is_finite && !is_beyond && outcome.status == Status::Converged,
+        converged: is_finite && is_there && !is_beyond && outcome.status == Status::Converged,
         iterations: outcome.iterations,
         residual: if is_beyond {
             f64::INFINITY
         } else {
             outcome.residual
         },
+        unreachable: None,
     })
 }

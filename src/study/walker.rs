@@ -6,11 +6,12 @@ use super::control::Controller;
 use super::dmt;
 use super::flow::{Flow, load_on};
 use super::hand_over::{GAP, HandOver, HandedField};
+use super::observer::Unreachable;
 use super::rate::RatedStep;
 use super::relaxation::{History, effective_modulus};
 use super::row::{State, StepRow};
 use super::setup::Setup;
-use super::step::{SolvedStep, finish, separated, solve};
+use super::step::{SolvedStep, finish, separated, solve, unreachable};
 use super::wear;
 use crate::backend::{Backend, BackendError};
 use crate::kernel::Scalars;
@@ -241,14 +242,10 @@ impl PathState<'_> {
         } else if is_load && setup.problem.law == Law::HardWall && value <= 0.0 {
             // A wall alone carries no tension, and at zero load it only touches.
             separated()
-        } else if self.controller.is_beyond_closure(value)
-            || self.controller.is_beyond_hardness(value)
-        {
-            SolvedStep {
-                converged: false,
-                residual: f64::INFINITY,
-                ..separated()
-            }
+        } else if self.controller.is_beyond_closure(value) {
+            unreachable(Unreachable::BeyondClosure)
+        } else if self.controller.is_beyond_hardness(value) {
+            unreachable(Unreachable::BeyondHardness)
         } else {
             let load = load_on(solver, self.controller.load(value));
             let start = self.start(solver, &load, value)?;

@@ -72,23 +72,31 @@ pub fn cpu() -> Box<dyn Backend + Send> {
     Box::new(CpuBackend::<f64>::new())
 }
 
-fn run(text: &str, fields: bool) -> Solved {
+/// Makes the backends of a solve.
+pub type Maker<'a> = &'a (dyn Fn() -> Box<dyn Backend + Send> + Sync);
+
+fn run(text: &str, fields: bool, backend: Maker) -> Solved {
     let setup = setup(text);
     let (steps, end) = with_threads(None, || {
         let mut keep = Keep {
             fields,
             ..Keep::default()
         };
-        let end = walk(&setup, &cpu, &mut keep).unwrap_or_else(|error| panic!("{error}"));
+        let end = walk(&setup, &|| backend(), &mut keep).unwrap_or_else(|error| panic!("{error}"));
         (keep.steps, end)
     })
     .expect("threads");
     Solved { setup, steps, end }
 }
 
+/// Solves a scene on backends of a kind and keeps every step's fields, whether the last step converges or not.
+pub fn solve_on(text: &str, backend: Maker) -> Solved {
+    run(text, true, backend)
+}
+
 /// Solves a scene and keeps every step's fields.
 pub fn solve(text: &str) -> Solved {
-    let solved = run(text, true);
+    let solved = run(text, true, &cpu);
     assert!(
         solved.rows().all(|row| row.converged),
         "a step did not converge"
@@ -98,7 +106,7 @@ pub fn solve(text: &str) -> Solved {
 
 /// Solves a scene and keeps its table.
 pub fn solve_table(text: &str) -> Solved {
-    let solved = run(text, false);
+    let solved = run(text, false, &cpu);
     assert!(
         solved.rows().all(|row| row.converged),
         "a step did not converge"

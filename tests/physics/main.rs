@@ -15,6 +15,7 @@ mod lennard_jones;
 mod maugis_dugdale;
 mod pairs;
 mod pattern;
+mod plates;
 mod precisions;
 mod pull_off;
 mod rate;
