@@ -559,3 +559,55 @@ fn steps_that_rounding_ends_are_warned_of() {
         }
     }
 }
+
+/// Under a load the pull-off of the README's scene lies between its steps of -30 and -60 kPa, and is narrowed down
+/// to a per cent; a path that does not let go has none, and says what held.
+#[test]
+fn pull_off_under_a_load() {
+    let rough = concat!(env!("CARGO_MANIFEST_DIR"), "/examples/scenes/rough.toml");
+    let folder = tempfile::tempdir().expect("a folder");
+    let run = |out: &str, set: &[&str]| {
+        let call = [
+            "run",
+            rough,
+            "--quiet",
+            "--out",
+            out,
+            "--set",
+            "grid.points=128",
+        ];
+        let output = tabor(folder.path(), &[&call[..], set].concat());
+        assert_eq!(status(&output), 0, "{}", errors(&output));
+        (summary(&folder.path().join(out)), errors(&output))
+    };
+    let (found, said) = run("whole", &[]);
+    let number = |key: &str| found[key].as_f64().unwrap_or_else(|| panic!("no {key}"));
+    let [force, lower, upper] = ["pull_off_force", "pull_off_lower", "pull_off_upper"].map(number);
+    assert_eq!(force, lower);
+    assert!(upper - lower <= 0.01 * upper, "{lower} {upper}");
+    // 20 um squared: between 12 and 24 uN, neither of them.
+    assert!(lower > 12.01e-6 && upper < 23.99e-6, "{lower} {upper}");
+    assert_eq!(found["pull_off_step"], 9);
+    assert!(!said.contains("pull-off"), "{said}");
+    let page = fs::read_to_string(folder.path().join("whole/report.html")).expect("a report");
+    assert!(
+        page.contains("<dt>Pull-off</dt>"),
+        "no pull-off on the page"
+    );
+
+    let path = "loading.path=[\"4 MPa\", 0, \"-30 kPa\"]";
+    let (found, said) = run("holds", &["--set", path, "--set", "output.steps=last"]);
+    for key in [
+        "pull_off_force",
+        "pull_off_step",
+        "pull_off_lower",
+        "pull_off_upper",
+    ] {
+        assert!(found[key].is_null(), "{key}: {}", found[key]);
+    }
+    let words = "the contact held 12 \u{b5}N in step 3, the greatest tension of the path: its pull-off is beyond";
+    let ascii = words.replace('\u{b5}', "u");
+    assert!(said.contains(words) || said.contains(&ascii), "{said}");
+    let warnings = found["warnings"].to_string();
+    assert!(warnings.contains("its pull-off is beyond"), "{warnings}");
+}

@@ -12,7 +12,7 @@ use tabor::kernel::Scalars;
 use tabor::output::SavedState;
 use tabor::scene::Scene;
 use tabor::study::{
-    Earlier, FinishedStep, HandOver, Observer, Setup, StepRow, WalkEnd, walk, walk_on,
+    Earlier, FinishedStep, HandOver, Observer, Search, Setup, StepRow, WalkEnd, walk, walk_on,
 };
 use tabor::surface::Surface;
 
@@ -118,6 +118,7 @@ fn expect_same(one: &WalkEnd, other: &WalkEnd, what: &str) {
     assert_eq!(bits(&one.rows), bits(&other.rows), "{what}");
     assert_eq!(one.jump_in_steps, other.jump_in_steps, "{what}");
     assert_eq!(one.jump_off_steps, other.jump_off_steps, "{what}");
+    assert_eq!(one.pull_off, other.pull_off, "{what}");
     assert_eq!(one.transforms, other.transforms, "{what}");
     assert_eq!(
         one.hysteresis_energy.map(f64::to_bits),
@@ -380,4 +381,101 @@ fn cut_and_gone_on_with_where_steps_grow() {
     let longest = durations.iter().copied().fold(0.0, f64::max);
     assert!(longest > 8.0 * durations[1], "they grow: {durations:?}");
     cut(scene, &make, false, false, "growing steps");
+}
+
+/// Ends a path in its n-th search between two steps, with the rows and the state of the steps before it.
+#[derive(Default)]
+struct Stopper {
+    at: usize,
+    searches: usize,
+    rows: Vec<StepRow>,
+    state: HandOver,
+}
+
+impl Observer for Stopper {
+    type Error = std::convert::Infallible;
+
+    fn step(&mut self, step: FinishedStep) -> Result<(), Self::Error> {
+        self.rows.push(step.row.clone());
+        Ok(())
+    }
+
+    fn iteration(&mut self, _: usize, _: &Scalars) -> bool {
+        self.searches < self.at
+    }
+
+    fn search(&mut self, _: usize, _: Search) {
+        self.searches += 1;
+    }
+
+    fn wants_hand_over(&self) -> bool {
+        true
+    }
+
+    fn hand_over(&mut self, _: usize, state: &HandOver) -> Result<(), Self::Error> {
+        self.state = state.clone();
+        Ok(())
+    }
+}
+
+/// A path ended amid what is looked for between two of its steps, pull-off or a jump, goes on from the step
+/// before and ends the same, whatever the solid remembers.
+#[test]
+fn ended_between_two_steps_and_gone_on_with() {
+    let make = || -> Box<dyn Backend + Send> { Box::new(CpuBackend::<f64>::new()) };
+    let law = adhesion("maugis-dugdale", "full");
+    let rated = format!("{law}rate = {{ reference_speed = \"1 um/s\", exponent = 0.5 }}\n");
+    let relaxing = "[[solid.relaxation]]\nmodulus = \"50 MPa\"\ntime = 1.0\n";
+    let hard = "[solid]\ncontact_modulus = \"50 MPa\"\nhardness = \"20 MPa\"\n";
+    let pulled = "control = \"force\"\npath = [1e-6, 0, -1e-4, 1e-7, -5e-5]";
+    let timed = "control = \"force\"\nstart = 1e-6\n[[loading.ramp]]\nto = -1e-4\nsteps = 4\nduration = 1\n[[loading.ramp]]\nto = 1e-7\nsteps = 1\nduration = 2\n";
+    let held = "control = \"approach\"\npath = [\"-20 nm\", \"10 nm\", \"-15 nm\", \"-40 nm\", \"-60 nm\"]";
+    for (name, solid, law, loading) in [
+        ("elastic", "", law.as_str(), pulled),
+        ("held", "", law.as_str(), held),
+        ("hard", hard, law.as_str(), pulled),
+        ("relaxing", relaxing, law.as_str(), timed),
+        ("rated", "", rated.as_str(), timed),
+    ] {
+        let surface = match solid.starts_with("[solid]") {
+            true => SPHERE.to_owned(),
+            false => format!("{solid}{SPHERE}"),
+        };
+        let text = format!(
+            "[grid]\npoints = 32\nsize = \"2 um\"\nboundary = \"free\"\n{}{surface}{law}[loading]\n{loading}\n",
+            match solid.starts_with("[solid]") {
+                true => solid,
+                false => "[solid]\ncontact_modulus = \"50 MPa\"\n",
+            }
+        );
+        let scene = Scene::parse(&text, "scene.toml", Path::new("."), &[])
+            .unwrap_or_else(|e| panic!("{e}\n{text}"));
+        let surface = Surface::build(&scene).expect("a surface");
+        let setup = Setup::new(scene, surface);
+        let mut count = Stopper {
+            at: usize::MAX,
+            ..Stopper::default()
+        };
+        let whole = walk(&setup, &make, &mut count).expect("it is solved");
+        assert!(
+            !whole.interrupted && count.searches > 0,
+            "{name}: nothing is looked for"
+        );
+        for at in (1..=count.searches).step_by(3) {
+            let mut stopper = Stopper {
+                at,
+                ..Stopper::default()
+            };
+            let cut = walk(&setup, &make, &mut stopper).expect("it is solved");
+            assert!(cut.interrupted, "{name}: search {at}");
+            assert!(cut.rows.len() < whole.rows.len(), "{name}: search {at}");
+            let earlier = Earlier {
+                rows: stopper.rows,
+                hand_over: stopper.state,
+            };
+            let on = walk_on(&setup, &make, &mut (), earlier).expect("it is solved");
+            expect_same(&whole, &on, &format!("{name}, ended in search {at}"));
+        }
+        println!("{name}: {} searches, {:?}", count.searches, whole.pull_off);
+    }
 }

@@ -29,6 +29,9 @@ const SHRINKING: usize = 3;
 const KEEPS: f64 = 0.3;
 /// Halvings in a row that must keep the loss.
 const KEEPING: usize = 2;
+/// One halving is enough where the half keeps this share of the loss, and loses so many times what it may be
+/// misjudged by.
+const SURE: [f64; 2] = [0.7, 2.0];
 /// Halvings of a step at most.
 const MOST_HALVINGS: usize = 8;
 /// A path is closed if its ends agree to this share of its span.
@@ -349,6 +352,7 @@ pub(super) fn confirm(
             return Ok(Some(false));
         }
         keeping = match half.lost > least.max(half.doubt) && half.lost > KEEPS * whole.lost {
+            true if half.lost > (SURE[0] * whole.lost).max(SURE[1] * half.doubt) => KEEPING,
             true => keeping + 1,
             false => 0,
         };

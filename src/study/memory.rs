@@ -68,6 +68,12 @@ impl Memory {
         let evaluating = evaluating + EVALUATION * points * kept_steps(scene);
         // A relaxing solid's history, what the past moves the surface by, and a problem of its own.
         let history = cost.history_bytes() as u64;
+        // With adhesion a step keeps the state before it, and a search between the two three at most.
+        let state = match (&scene.adhesion, &scene.capillary) {
+            (None, None) => 0,
+            _ => DOUBLE * solved + history,
+        };
+        let evaluating = evaluating + 3 * state;
         let (remembered, relaxing) = match scene.solid.relaxation.is_empty() {
             true => (history, 0),
             false => (

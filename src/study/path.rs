@@ -93,10 +93,11 @@ impl Stretch<'_> {
             let step = index + 1;
             let value = setup.scene.loading.path[index];
             let duration = self.duration(index);
-            let needed = jumps.watches() || pull_off::may_let_go(setup, value);
             let state = match standing.take() {
                 Some(state) => Some(state),
-                None if needed && walker.is_loaded() => Some(walker.carried()?),
+                None if self.looks_back(index, jumps) && walker.is_loaded() => {
+                    Some(walker.carried()?)
+                }
                 None => None,
             };
             let mut watch = |watched: Watched| match watched {
@@ -177,13 +178,22 @@ impl Stretch<'_> {
                 };
                 let kept = observer.hand_over(step, &handed);
                 kept.map_err(WalkError::Observer)?;
-                standing = walker.is_loaded().then_some(left);
+                let needed = walker.is_loaded() && self.looks_back(index + 1, jumps);
+                standing = needed.then_some(left);
             }
         }
         Ok(Some(match standing {
             Some(left) => left,
             None => walker.carried()?,
         }))
+    }
+
+    /// Whether the state before a step may be needed, to look between the two.
+    fn looks_back(&self, index: usize, jumps: &Jumps) -> bool {
+        let value = self.setup.scene.loading.path.get(index);
+        self.steps.contains(&index)
+            && (jumps.watches()
+                || value.is_some_and(|value| pull_off::may_let_go(self.setup, *value)))
     }
 
     /// How long a step takes, s; 0 where the path has no durations.

@@ -376,6 +376,7 @@ fn mistakes_in_loading(tables: &mut Vec<Edits>) {
     ]});
     tables.push(Edits { base: spring(), cases: &[
         ("path = [\"1 nm\"]\nspring = \"1 N/m\"", r#"path = ["1 MPa"]"#, r#"s.toml:16: loading.path.0: "MPa" is a pressure in Pa"#, "give a length in m"),
+        (r#"spring = "1 N/m""#, "pull_off_tolerance = 0.01", "s.toml:17: loading.pull_off_tolerance: is for a load that lets go", "leave the tolerance out"),
         (r#"spring = "1 N/m""#, "spring = 0", "s.toml:17: loading.spring: 0 is out of range", "finite and above 0"),
         (r#"spring = "1 N/m""#, r#"spring = "1 N""#, r#"s.toml:17: loading.spring: "N" is a force in N"#, "a force per length in N/m"),
     ]});
@@ -400,6 +401,7 @@ fn mistakes_in_loading(tables: &mut Vec<Edits>) {
         ("steps = 4", "steps = \"auto\"\nduration = 1", "s.toml:19: loading.ramp.0.steps: \"auto\" goes by how fast the solid relaxes", "or [[solid.relaxation]]"),
         ("steps = 4", "steps = \"atuo\"", "s.toml:19: loading.ramp.0.steps", "did you mean"),
         ("[[loading.ramp]]", "time_tolerance = 1e-3\n[[loading.ramp]]", "s.toml:17: loading.time_tolerance: is for ramps with steps = \"auto\", and there is none", "leave the tolerance out"),
+        ("[[loading.ramp]]", "pull_off_tolerance = 0.7\n[[loading.ramp]]", "s.toml:17: loading.pull_off_tolerance: 0.7 is out of range", "0 for none, or from 1e-6 to 0.5"),
         ("steps = 4", "steps = 4\nstep = 3", "s.toml:20: loading.ramp.0.step: unknown key in [[loading.ramp]]", "did you mean `steps`?"),
     ]});
 }

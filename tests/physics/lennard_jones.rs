@@ -286,6 +286,80 @@ fn no_jump(sphere: &Sphere) {
     assert!(solved.end.jump_in_steps.is_empty() && solved.end.jump_off_steps.is_empty());
 }
 
+/// A wave on a solid so stiff that it has one state for each gap presses and pulls along one curve, which has a
+/// hump: a step over it starts and ends at like forces, and yet nothing jumps, however coarse the path.
+#[test]
+fn no_jump_over_a_hump() {
+    for (modulus, range) in [
+        (0.5, 0.01),
+        (1.0, 0.02),
+        (2.0, 0.01),
+        (5.0, 0.01),
+        (10.0, 0.02),
+    ] {
+        for steps in [8, 12, 25] {
+            let (far, near) = (4.0 * range, -0.1 * range);
+            let solved = solve_table(&format!(
+                "[grid]\npoints = [64, 1]\nsize = [1.0, 1.0]\n[solid]\ncontact_modulus = {modulus}\n[[surface]]\nkind = \"wavy\"\namplitude = 0.01\nwavelength = [1.0, \"inf\"]\n[adhesion]\nlaw = \"lennard-jones\"\nwork_of_adhesion = 1e-4\nrange = {range}\n[loading]\ncontrol = \"mean-gap\"\nstart = {far}\n[[loading.ramp]]\nto = {near}\nsteps = {steps}\n[[loading.ramp]]\nto = {far}\nsteps = {steps}\n"
+            ));
+            let name = format!("E* {modulus}, range {range}, {steps} steps");
+            // Both ways are one curve, to what a residual of 1e-6 leaves open.
+            let forces: Vec<f64> = solved.rows().map(|row| row.force).collect();
+            let most = forces
+                .iter()
+                .fold(0.0_f64, |most, force| most.max(force.abs()));
+            for (there, back) in forces.iter().zip(forces.iter().rev()) {
+                assert!((there - back).abs() < 1e-4 * most, "{name}: {there} {back}");
+            }
+            let jumps = [&solved.end.jump_in_steps, &solved.end.jump_off_steps];
+            assert!(
+                jumps.iter().all(|steps| steps.is_empty()),
+                "{name}: {jumps:?}"
+            );
+        }
+    }
+}
+
+/// At Tabor number 1 the folds are 0.11 ranges apart and little is lost between them: one jump each way, in
+/// the step that passes the fold of the radial solution or in the next.
+#[test]
+fn jumps_between_close_folds() {
+    let sphere = Sphere::resolved(1.0, 0.0, "close folds").expect("a small mu");
+    let radial = LennardJonesSphere::new(sphere.mu, 0.0).expect("a sphere");
+    let curve = radial
+        .curve(|states| states.last().is_some_and(|last| last.force > 0.0))
+        .expect("a curve");
+    // Along the curve the approach turns at each fold.
+    let folds: Vec<f64> = curve
+        .windows(3)
+        .map(|three| [0, 1, 2].map(|i| three[i].approach))
+        .filter(|at| (at[1] - at[0]) * (at[2] - at[1]) < 0.0)
+        .map(|at| at[1])
+        .collect();
+    assert_eq!(folds.len(), 2, "{folds:?}");
+    let outwards = folds.iter().copied().fold(f64::INFINITY, f64::min);
+    let inwards = folds.iter().copied().fold(f64::NEG_INFINITY, f64::max);
+    let step = 0.02;
+    let mut path = vec![-3.0, -2.0];
+    path.extend((0..14).map(|i| inwards - 7.5 * step + step * f64::from(i)));
+    path.extend([-1.2, -1.0, -1.2, -1.4]);
+    path.extend((0..14).map(|i| outwards + 7.5 * step - step * f64::from(i)));
+    path.extend([-2.0, -3.0]);
+    let solved = sphere.solve("approach", &path);
+    let found: Vec<f64> = [&solved.end.jump_in_steps, &solved.end.jump_off_steps]
+        .map(|steps| match steps[..] {
+            [step] => path[step - 1],
+            _ => panic!("{steps:?} instead of one jump"),
+        })
+        .to_vec();
+    println!(
+        "in at {:.3} ({inwards:.4}), off at {:.3} ({outwards:.4})",
+        found[0], found[1]
+    );
+    assert!((found[0] - inwards).abs() <= step, "{found:?} {inwards}");
+    assert!((found[1] - outwards).abs() <= step, "{found:?} {outwards}");
+}
+
 /// Between two folds that are only 0.025 ranges apart a held approach has two states, one for each
 /// way there; the radial solution names both.
 #[test]
