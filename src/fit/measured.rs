@@ -24,9 +24,18 @@ pub(super) struct Turned {
 impl Turned {
     /// Every way to turn a sign.
     pub(super) const ALL: [Turned; 3] = [
-        Turned { approach: true, force: false },
-        Turned { approach: false, force: true },
-        Turned { approach: true, force: true },
+        Turned {
+            approach: true,
+            force: false,
+        },
+        Turned {
+            approach: false,
+            force: true,
+        },
+        Turned {
+            approach: true,
+            force: true,
+        },
     ];
 }
 

@@ -129,7 +129,11 @@ impl SphereModel {
     }
 
     /// Force by approach in Maugis units, up to an approach.
-    pub(super) fn reduced(&self, lambda: f64, deepest: f64) -> Result<ForceByApproach, TheoryError> {
+    pub(super) fn reduced(
+        &self,
+        lambda: f64,
+        deepest: f64,
+    ) -> Result<ForceByApproach, TheoryError> {
         Ok(match self.model {
             Model::Hertz => Box::new(|approach: f64| Ok(approach.max(0.0).powf(1.5))),
             Model::Dmt => Box::new(|approach: f64| Ok(approach.max(0.0).powf(1.5) - 2.0)),

@@ -48,11 +48,19 @@ const DEPTHS: [f64; 7] = [0.25, 0.5, 1.0, 2.0, 4.0, 8.0, 16.0];
 ///
 /// On a lightly pressed curve neither the greatest force nor the least tells the scale of the
 /// approach, and the sum of squares has more than one valley.
-pub(super) fn scale_grid(measured: &Measured, sphere: &SphereModel, lambda: f64) -> Vec<Parameters> {
+pub(super) fn scale_grid(
+    measured: &Measured,
+    sphere: &SphereModel,
+    lambda: f64,
+) -> Vec<Parameters> {
     let Ok((pull_off, _)) = sphere.pull_off(lambda) else {
         return Vec::new();
     };
-    let deepest = measured.approaches.iter().copied().fold(f64::NEG_INFINITY, f64::max);
+    let deepest = measured
+        .approaches
+        .iter()
+        .copied()
+        .fold(f64::NEG_INFINITY, f64::max);
     let mut grid = Vec::with_capacity(SHARES.len() * DEPTHS.len());
     for depth in DEPTHS {
         let Ok(reduced) = sphere.reduced(lambda, pull_off + depth) else {
@@ -97,10 +105,7 @@ pub(super) fn scale_grid(measured: &Measured, sphere: &SphereModel, lambda: f64)
 
 /// Unit of force and baseline that bring reduced forces closest to the measured ones; `None` where
 /// that unit is not positive.
-fn linear_scale(
-    measured: &Measured,
-    reduced: impl Fn(f64) -> Option<f64>,
-) -> Option<(f64, f64)> {
+fn linear_scale(measured: &Measured, reduced: impl Fn(f64) -> Option<f64>) -> Option<(f64, f64)> {
     let mut normal = Matrix2::zeros();
     let mut right = Vector2::zeros();
     for sample in &measured.samples {

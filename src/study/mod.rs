@@ -21,6 +21,7 @@ mod walk;
 mod wear;
 
 pub use cost::Cost;
+pub use dmt::attraction_across;
 pub use evaluation::{Evaluation, PointState, Solved};
 pub use hand_over::{Earlier, HandOver, HandedField};
 pub use jumps::{Jump, dissipation};
