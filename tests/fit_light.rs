@@ -1,10 +1,12 @@
-//! `tabor fit` on curves that were hardly pressed.
+//! `tabor fit` on curves whose greatest load is no more than their pull-off, and on curves of other laws
+//! than the models'.
 
 use std::f64::consts::{PI, TAU};
 use std::path::Path;
 
 use tabor::fit::model::{Parameters, SphereModel};
-use tabor::fit::{ForceCurve, Freedom, Model, Sample, fit_curve};
+use tabor::fit::{FitError, FitResult, ForceCurve, Freedom, Model, Sample, fit_curve};
+use tabor::theory::lennard_jones_sphere::LennardJonesSphere;
 
 const FREE: Freedom = Freedom {
     approach_offset: true,
@@ -12,6 +14,7 @@ const FREE: Freedom = Freedom {
     range: None,
 };
 
+/// Normal random numbers by splitmix64 and Box & Muller.
 struct Random(u64);
 
 impl Random {
@@ -32,206 +35,228 @@ impl Random {
 const RADIUS: f64 = 1e-6;
 const MODULUS: f64 = 1e7;
 const WORK: f64 = 0.05;
+const OFFSET: f64 = 3e-9;
+const POINTS: usize = 60;
 
-fn made(model: Model, ratio: f64, both: bool, tail: f64, points: usize, seed: u64) -> Vec<Sample> {
+/// What the greatest load is `share` pull-off forces of.
+#[derive(Clone, Copy, Debug)]
+enum Load {
+    /// The net force.
+    Net,
+    /// Hertz' force at the same approach: the net force may be hardly above zero, or a tension.
+    Hertz,
+}
+
+/// A curve of JKR or DMT at a held approach with noise of 1 % of the pull-off, from half as far out
+/// as it goes in beyond the jump.
+fn made(model: Model, load: Load, share: f64, both_ways: bool, seed: u64) -> Vec<Sample> {
     let truth = Parameters {
         contact_modulus: MODULUS,
         work_of_adhesion: WORK,
         maugis_parameter: 1.0,
-        approach_offset: if std::env::var("ZERO").is_ok() {
-            0.0
-        } else {
-            3e-9
-        },
+        approach_offset: OFFSET,
         force_offset: 0.0,
     };
     let force_unit = PI * WORK * RADIUS;
     let unit = (force_unit * force_unit / (16.0 / 9.0 * MODULUS * MODULUS * RADIUS)).cbrt();
-    let (pull_off, last) = match model {
+    // Greatest tension, and where the contact lets go, in Maugis units.
+    let (pull_off, off) = match model {
         Model::Dmt => (2.0, 0.0),
         _ => (1.5, -3.0 / 6.0_f64.powf(2.0 / 3.0)),
     };
     let sphere = SphereModel::new(model, RADIUS);
     let force = |reduced: f64| {
-        sphere
-            .forces(&truth, &[truth.approach_offset + unit * reduced])
-            .unwrap()[0]
-            / force_unit
+        let forces = sphere.forces(&truth, &[OFFSET + unit * reduced]);
+        forces.expect("a force")[0] / force_unit
     };
-    let (mut low, mut high) = (last, 10.0);
-    while high - low > 1e-12 {
-        let mid = 0.5 * (low + high);
-        if force(mid) < ratio * pull_off {
-            low = mid
-        } else {
-            high = mid
-        }
-    }
-    let deepest = if std::env::var("HERTZ").is_ok() {
-        (ratio * pull_off).powf(2.0 / 3.0)
-    } else {
-        high
-    };
-    if seed == 1000 {
-        print!("[net/pull-off {:.3}] ", force(deepest) / pull_off);
-    }
-    let far = last - tail * (deepest - last);
-    let mut random = Random(seed);
-    if std::env::var("LOAD").is_ok() {
-        let at_force = |wanted: f64| {
-            let (mut low, mut high) = (
-                if model == Model::Dmt {
-                    0.0
+    let deepest = match load {
+        Load::Hertz => (share * pull_off).powf(2.0 / 3.0),
+        Load::Net => {
+            let (mut low, mut high) = (off, 10.0);
+            for _ in 0..60 {
+                let middle = 0.5 * (low + high);
+                if force(middle) < share * pull_off {
+                    low = middle;
                 } else {
-                    -0.75f64.powf(1.0 / 3.0) * 0.9086 / 0.9086 * 0.0 - 3.0 / 6.0_f64.powf(2.0 / 3.0)
-                },
-                10.0,
-            );
-            if model != Model::Dmt {
-                low = tabor::theory::jkr::reduced_approach(1.5f64.cbrt());
-            }
-            while high - low > 1e-12 {
-                let mid = 0.5 * (low + high);
-                if force(mid) < wanted {
-                    low = mid
-                } else {
-                    high = mid
+                    high = middle;
                 }
             }
             high
-        };
-        let top = ratio * pull_off;
-        let up = (0..if both { points } else { 0 }).map(|i| top * i as f64 / (points - 1) as f64);
-        let down =
-            (0..points).map(|i| top - (top + pull_off * 0.999) * i as f64 / (points - 1) as f64);
-        return up
-            .chain(down)
-            .map(|f| Sample {
-                approach: truth.approach_offset + unit * at_force(f),
-                force: force_unit * (f + 0.01 * pull_off * random.normal()),
-            })
-            .collect();
-    }
-    let place = |i: usize| far + (deepest - far) * i as f64 / (points - 1) as f64;
-    let there = (0..if both { points } else { 0 }).map(|i| (place(i), 0.0));
-    there
-        .chain((0..points).rev().map(|i| (place(i), last)))
-        .map(|(reduced, last)| Sample {
-            approach: truth.approach_offset + unit * reduced,
-            force: force_unit
-                * (if reduced < last { 0.0 } else { force(reduced) }
-                    + 0.01 * pull_off * random.normal()),
+        }
+    };
+    let far = off - 0.5 * (deepest - off);
+    let mut random = Random(seed);
+    let place = |i: usize| far + (deepest - far) * i as f64 / (POINTS - 1) as f64;
+    let inwards = (0..if both_ways { POINTS } else { 0 }).map(|i| (place(i), 0.0));
+    let outwards = (0..POINTS).rev().map(|i| (place(i), off));
+    inwards
+        .chain(outwards)
+        .map(|(reduced, last)| {
+            let held = if reduced < last { 0.0 } else { force(reduced) };
+            Sample {
+                approach: OFFSET + unit * reduced,
+                force: force_unit * (held + 0.01 * pull_off * random.normal()),
+            }
         })
         .collect()
 }
 
+fn fitted(samples: Vec<Sample>, radius: f64) -> Result<FitResult, FitError> {
+    let curve = ForceCurve {
+        samples,
+        ..ForceCurve::default()
+    };
+    fit_curve(&curve, Path::new("made.csv"), radius, FREE)
+}
+
+/// Three stated deviations hold work and modulus of at least 99 of 100 curves. A lightly pressed curve
+/// whose jumps are not used does not tell the Tabor number, between JKR and DMT w differs by a third and
+/// E* by a tenth, and the deviations say no more than that: the median of w is below 40 %, of E* below
+/// 20 %.
 #[test]
-fn lightly_pressed() {
-    let seeds: u64 = std::env::var("SEEDS").map_or(20, |s| s.parse().unwrap());
-    let points: usize = std::env::var("POINTS").map_or(60, |s| s.parse().unwrap());
-    let tails: Vec<f64> = std::env::var("TAILS").map_or(vec![0.5, 0.0], |s| {
-        s.split(',').map(|x| x.parse().unwrap()).collect()
-    });
-    let verbose = std::env::var("VERBOSE").is_ok();
+fn hardly_pressed_curves_are_fitted_within_their_deviations() {
+    const SEEDS: u64 = 20;
+    let (mut curves, mut missed) = (0, [0; 2]);
     for model in [Model::Jkr, Model::Dmt] {
-        for both in [true, false] {
-            for tail in &tails {
-                for ratio in std::env::var("RATIOS")
-                    .map_or("0.4,0.6,0.8,1,1.2,1.4".to_owned(), |s| s)
-                    .split(",")
-                    .map(|x| x.parse::<f64>().unwrap())
-                {
-                    let mut errors = 0;
-                    let mut none = 0;
-                    let mut z: [Vec<f64>; 2] = Default::default();
-                    let mut dev: [Vec<f64>; 2] = Default::default();
-                    let mut chosen = std::collections::BTreeMap::new();
-                    for seed in 0..seeds {
-                        let curve = ForceCurve {
-                            samples: made(model, ratio, both, *tail, points, 1000 + seed),
-                            ..ForceCurve::default()
-                        };
-                        match fit_curve(
-                            &curve,
-                            Path::new("x.csv"),
-                            RADIUS,
-                            Freedom {
-                                force_offset: std::env::var("BASE").is_ok(),
-                                approach_offset: std::env::var("ZERO").is_err(),
-                                ..FREE
-                            },
-                        ) {
-                            Err(error) => {
-                                if errors == 0 && verbose {
-                                    println!("{error}");
-                                }
-                                errors += 1
-                            }
-                            Ok(result) => {
-                                let best = result.best();
-                                if verbose {
-                                    for f in &result.fits {
-                                        println!(
-                                            "   {} w {:.4} {:?} E {:.3e} {:?} lam {:.2} off {:.3e} aic {:.2} conv {} sum {:.4e} ac {:.2}",
-                                            f.model.name(),
-                                            f.parameters.work_of_adhesion,
-                                            f.uncertainties.work_of_adhesion,
-                                            f.parameters.contact_modulus,
-                                            f.uncertainties.contact_modulus,
-                                            f.parameters.maugis_parameter,
-                                            f.parameters.approach_offset,
-                                            f.aic,
-                                            f.converged,
-                                            f.sum_of_squares,
-                                            f.autocorrelation
-                                        );
-                                    }
-                                    println!(
-                                        "  -> {} w {:?} E {:?} {:?}",
-                                        best.model.name(),
-                                        result.work_uncertainty,
-                                        result.modulus_uncertainty,
-                                        result.warnings
-                                    );
-                                }
-                                *chosen.entry(best.model.name()).or_insert(0) += 1;
-                                let Some(w) = result.work_uncertainty else {
-                                    none += 1;
-                                    continue;
-                                };
-                                let Some(e) = result.modulus_uncertainty else {
-                                    none += 1;
-                                    continue;
-                                };
-                                z[0].push((best.parameters.work_of_adhesion - WORK) / w);
-                                dev[0].push(w / WORK);
-                                z[1].push((best.parameters.contact_modulus - MODULUS) / e);
-                                dev[1].push(e / MODULUS);
-                            }
+        for load in [Load::Net, Load::Hertz] {
+            for both_ways in [true, false] {
+                for share in [0.4, 0.8, 1.0, 1.4] {
+                    let mut stated = [Vec::new(), Vec::new()];
+                    let mut worst = [0.0_f64; 2];
+                    for seed in 0..SEEDS {
+                        let samples = made(model, load, share, both_ways, 1000 + seed);
+                        let result = fitted(samples, RADIUS)
+                            .unwrap_or_else(|e| panic!("{model:?} {load:?} {share}: {e}"));
+                        assert!(result.best().model.adheres(), "{model:?} {load:?} {share}");
+                        let found = result.best().parameters;
+                        let numbers = [
+                            (found.work_of_adhesion, WORK, result.work_uncertainty),
+                            (found.contact_modulus, MODULUS, result.modulus_uncertainty),
+                        ];
+                        curves += 1;
+                        for (i, (value, truth, known)) in numbers.into_iter().enumerate() {
+                            let known = known.expect("a deviation");
+                            let off = (value - truth).abs() / known;
+                            missed[i] += usize::from(off > 3.0);
+                            worst[i] = worst[i].max(off);
+                            stated[i].push(known / truth);
                         }
                     }
-                    let med = |v: &Vec<f64>| {
-                        let mut v = v.clone();
-                        v.sort_by(f64::total_cmp);
-                        if v.is_empty() {
-                            f64::NAN
-                        } else {
-                            v[v.len() / 2]
-                        }
-                    };
-                    let worst = |v: &Vec<f64>| v.iter().fold(0.0_f64, |m, x| m.max(x.abs()));
-                    let beyond = |v: &Vec<f64>| v.iter().filter(|x| !(x.abs() <= 3.0)).count();
+                    let median = stated.map(|mut all| {
+                        all.sort_by(f64::total_cmp);
+                        all[all.len() / 2]
+                    });
                     println!(
-                        "{:15} both {both} tail {tail} ratio {ratio}: errors {errors} none {none}; w beyond3 {} worst {:.1} dev {:.3}; E beyond3 {} worst {:.1} dev {:.3}; {chosen:?}",
-                        model.name(),
-                        beyond(&z[0]),
-                        worst(&z[0]),
-                        med(&dev[0]),
-                        beyond(&z[1]),
-                        worst(&z[1]),
-                        med(&dev[1])
+                        "{model:?} {load:?} {share} both ways {both_ways}: w to {:.3}, worst {:.1}; E* to {:.3}, worst {:.1}",
+                        median[0], worst[0], median[1], worst[1]
                     );
+                    assert!(median[0] < 0.4 && median[1] < 0.2, "{median:?}");
                 }
+            }
+        }
+    }
+    println!("{missed:?} of {curves} beyond three deviations");
+    assert!(missed.iter().all(|missed| 100 * missed <= curves));
+}
+
+/// A sign that is wrong is still told, on the same curves.
+#[test]
+fn turned_signs_are_told() {
+    for model in [Model::Jkr, Model::Dmt] {
+        for share in [0.4, 1.4] {
+            for both_ways in [true, false] {
+                for (approach, force) in [(-1.0, 1.0), (1.0, -1.0)] {
+                    let mut samples = made(model, Load::Net, share, both_ways, 7);
+                    for sample in &mut samples {
+                        sample.approach *= approach;
+                        sample.force *= force;
+                    }
+                    let told = matches!(fitted(samples, RADIUS), Err(FitError::WrongWay { .. }));
+                    assert!(told, "{model:?} {share} {both_ways} {approach} {force}");
+                }
+            }
+        }
+    }
+}
+
+/// A curve that ends before the sphere is free, with a free baseline: an offset may be a tension, and no
+/// deviation is stated.
+#[test]
+fn a_baseline_without_a_free_stretch_is_no_baseline() {
+    let freedom = Freedom {
+        force_offset: true,
+        ..FREE
+    };
+    for model in [Model::Jkr, Model::Dmt] {
+        let mut samples = made(model, Load::Net, 1.0, false, 7);
+        samples.truncate(POINTS * 2 / 3);
+        let curve = ForceCurve {
+            samples,
+            ..ForceCurve::default()
+        };
+        let result = fit_curve(&curve, Path::new("made.csv"), RADIUS, freedom).expect("a fit");
+        let told = result.warnings.iter().any(|text| text.contains("baseline"));
+        let best = result.best();
+        println!("{model:?}: {:?} {:?}", best.model, result.warnings);
+        assert!(told && result.work_uncertainty.is_none() && result.modulus_uncertainty.is_none());
+    }
+}
+
+/// Curves of a Lennard-Jones sphere, in units of the range, w and R: what the stated deviations leave is
+/// within the error of the law that the fit states, and a warning says so where the deviations are less.
+#[test]
+fn what_another_law_leaves_is_stated() {
+    let mut random = Random(3);
+    for tabor in [0.2, 0.4, 1.0] {
+        let modulus = f64::powf(tabor, -1.5);
+        let deepest = (9.0 / modulus).powf(2.0 / 3.0);
+        let sphere = LennardJonesSphere::new(tabor, deepest).expect("a sphere");
+        let beyond = |states: &[tabor::theory::lennard_jones_sphere::State]| {
+            states.last().is_some_and(|last| last.approach > deepest)
+        };
+        let states = sphere.curve(beyond).expect("a curve");
+        let force = |approach: f64, inwards: bool| {
+            let crosses = |pair: &&[tabor::theory::lennard_jones_sphere::State]| {
+                (pair[0].approach - approach) * (pair[1].approach - approach) <= 0.0
+            };
+            let mut pairs = states.windows(2).filter(crosses);
+            let pair = if inwards {
+                pairs.next()
+            } else {
+                pairs.next_back()
+            };
+            pair.map_or(0.0, |pair| {
+                sphere.between(pair, approach).expect("a state").force
+            })
+        };
+        for depth in [0.3, 1.0] {
+            let place = |i: usize| -4.0 + (depth * deepest + 4.0) * i as f64 / 49.0;
+            let inwards = (0..50).map(|i| (place(i), true));
+            let samples = inwards.chain((0..50).rev().map(|i| (place(i), false)));
+            let samples: Vec<Sample> = samples
+                .map(|(approach, inwards)| Sample {
+                    approach,
+                    force: TAU * (force(approach, inwards) + 0.005 * random.normal()),
+                })
+                .collect();
+            let result = fitted(samples, 1.0).expect("a fit");
+            let found = result.best().parameters;
+            let law = result.law_error.expect("it adheres");
+            let off = [
+                (found.work_of_adhesion - 1.0).abs(),
+                (found.contact_modulus - modulus).abs(),
+            ];
+            let stated = [result.work_uncertainty, result.modulus_uncertainty];
+            let stated = stated.map(|stated| stated.expect("a deviation"));
+            let left = [law.work_of_adhesion, law.contact_modulus];
+            println!("{tabor} {depth}: off {off:?} stated {stated:?} law {left:?}");
+            let said = result
+                .warnings
+                .iter()
+                .any(|text| text.contains("another shape"));
+            for i in 0..2 {
+                assert!(off[i] <= left[i].max(3.0 * stated[i]), "{tabor} {depth}");
+                assert!(said || stated[i] >= left[i]);
             }
         }
     }

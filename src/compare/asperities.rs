@@ -35,7 +35,7 @@ pub(super) fn icha(comparison: &Comparison, table: &mut Table) -> Result<(), Lef
         let attraction = gap.mean_outside(|gap| setup.law.traction(gap));
         let area = pressed.contact_area_fraction();
         ladder.add(repulsive, area, gap.mean(), attraction);
-        if ladder.last() > largest {
+        if ladder.stays_above(largest, setup.law.peak_tension()) {
             break;
         }
     }

@@ -8,13 +8,21 @@ use crate::law::Law;
 use crate::output::OutputError;
 use crate::scene::{AdhesionScene, Control, Scene, Treatment};
 use crate::solver::MakeBackend;
-use crate::study::{Evaluation, FinishedStep, Observer, PointState, Setup, WalkError, walk};
+use crate::study::{
+    Evaluation, FinishedStep, Observer, PointState, Setup, WalkError, attraction_across, walk,
+};
 
 /// Mean gaps at which pull-off is looked for on the way out, and around the greatest tension found.
 const WAY_OUT: usize = 32;
 const CLOSER: usize = 8;
 /// Tension over the greatest one below which the way out ends.
 const OVER: f64 = 0.3;
+
+/// Gaps without contact at which the attraction is summed, their factor, and the first of them in ranges
+/// of the law: up to some fifteen ranges, where an attraction is a thousandth of its peak.
+const CLEARANCES: i32 = 24;
+const CLEARANCE_RUNG: f64 = 1.5;
+const CLOSEST: f64 = 1e-3;
 
 /// Sees the state of each step; may end the path.
 struct Watch<F: FnMut(State, &Evaluation, bool) -> Result<bool, OutputError>>(F);
@@ -186,6 +194,10 @@ fn way_out(
 }
 
 /// The treatment of DMT: a ladder of contacts without adhesion for pull-off, then each load by itself.
+///
+/// The net pressure is not monotone in the repulsive one: a summit that stands out lets go alone before
+/// the rest comes near. So the ladder is climbed until no attraction can win any more, what attracts
+/// across a gap without contact is asked too, and every dip is looked at closer.
 pub(super) fn dmt(
     comparison: &Comparison,
     make_backend: MakeBackend,
@@ -193,30 +205,32 @@ pub(super) fn dmt(
 ) -> Result<(), CompareError> {
     let setup = &comparison.setup;
     let law: Law = setup.law;
+    let peak = law.peak_tension();
     let unit = setup.scene.solid.contact_modulus * setup.statistics.moments.rms_slope();
     let mut ladder = Ladder::default();
-    let climb = |state: State, fields: &Evaluation, _: bool| {
-        let open = fields.gap.iter().zip(&fields.points);
-        let open = open.filter(|(_, point)| **point != PointState::Contact);
-        let attraction =
-            open.map(|(gap, _)| law.traction(*gap)).sum::<f64>() / fields.gap.len() as f64;
-        let area = state.contact_area_fraction.unwrap_or(f64::NAN);
-        let gap = state.mean_gap.unwrap_or(f64::NAN);
-        ladder.add(state.mean_pressure, area, gap, attraction);
-        // Beyond pull-off the net load only grows, and is past doubt once it presses.
-        Ok(ladder.last() < 0.0 || ladder.pull_off().is_none())
+    let mut climb = |path: Vec<f64>, to_the_end: bool| {
+        let add = |state: State, fields: &Evaluation, _: bool| {
+            let open = fields.gap.iter().zip(&fields.points);
+            let open = open.filter(|(_, point)| **point != PointState::Contact);
+            let attraction =
+                open.map(|(gap, _)| law.traction(*gap)).sum::<f64>() / fields.gap.len() as f64;
+            let area = state.contact_area_fraction.unwrap_or(f64::NAN);
+            let gap = state.mean_gap.unwrap_or(f64::NAN);
+            ladder.add(state.mean_pressure, area, gap, attraction);
+            Ok(to_the_end || !ladder.stays_above(0.0, peak))
+        };
+        walked(comparison, make_backend, Control::Pressure, path, None, add)?;
+        Ok::<_, CompareError>(ladder.closer())
     };
-    let path = rungs(unit, 0.0, comparison.tension);
-    walked(
-        comparison,
-        make_backend,
-        Control::Pressure,
-        path,
-        None,
-        climb,
-    )?;
+    let closer = climb(rungs(unit, 0.0, peak), false)?;
+    climb(closer, true)?;
     let limit = comparison.beyond_dmt();
-    let pull_off = ladder.pull_off();
+    let pulls = |state: &State| state.mean_pressure < 0.0;
+    let pull_off = [ladder.pull_off(), Some(across_a_gap(setup))]
+        .into_iter()
+        .flatten()
+        .filter(pulls)
+        .min_by(|a, b| a.mean_pressure.total_cmp(&b.mean_pressure));
     let tension = pull_off.map_or(0.0, |state| -state.mean_pressure);
     if let Some(state) = pull_off {
         table.add(state, Some(tension), limit)?;
@@ -238,4 +252,36 @@ pub(super) fn dmt(
         adhesion,
         keep,
     )
+}
+
+/// The state of greatest tension without contact: the undeformed surfaces, from first touch outwards.
+fn across_a_gap(setup: &Setup) -> State {
+    let law = setup.law;
+    let tension = |clearance: f64| attraction_across(setup, clearance);
+    // With a wall a point pulls less the wider its gap, so first touch is the greatest.
+    let mut best = (0.0, tension(0.0));
+    if !law.has_wall() {
+        let rungs = (0..=CLEARANCES).map(|i| CLOSEST * CLEARANCE_RUNG.powi(i) * law.range());
+        for clearance in rungs {
+            let pull = tension(clearance);
+            if pull > best.1 {
+                best = (clearance, pull);
+            }
+        }
+        let ends = [best.0 / CLEARANCE_RUNG, best.0 * CLEARANCE_RUNG];
+        for i in 0..=CLEARANCES {
+            let clearance = ends[0] + (ends[1] - ends[0]) * f64::from(i) / f64::from(CLEARANCES);
+            let pull = tension(clearance);
+            if pull > best.1 {
+                best = (clearance, pull);
+            }
+        }
+    }
+    let statistics = setup.statistics;
+    State {
+        mean_pressure: -best.1,
+        contact_area_fraction: Some(0.0),
+        mean_gap: Some(statistics.highest - statistics.mean + best.0),
+        adhesive_pressure: Some(best.1),
+    }
 }

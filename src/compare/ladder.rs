@@ -10,6 +10,11 @@ const LIGHT_RUNG: f64 = 1.5;
 const FIRST: f64 = 1e-6;
 const LIGHT: f64 = 2e-3;
 
+/// Rungs between the two beside a dip of the net pressure, and the share of the greatest tension from
+/// which a dip may turn out the deepest.
+const CLOSER: i32 = 9;
+const MAY_BE: f64 = 0.5;
+
 /// Repulsive pressures, in units of `unit`, from the first summit to what leaves `largest` net under
 /// an attraction of at most `tension` (Pa).
 pub(super) fn rungs(unit: f64, largest: f64, tension: f64) -> Vec<f64> {
@@ -30,24 +35,54 @@ pub(super) fn rungs(unit: f64, largest: f64, tension: f64) -> Vec<f64> {
 #[derive(Default)]
 pub(super) struct Ladder {
     states: Vec<State>,
+    /// Repulsive pressure of each, Pa, rising.
+    repulsive: Vec<f64>,
 }
 
 impl Ladder {
-    /// Adds the state under a repulsive pressure, Pa.
+    /// Adds the state under a repulsive pressure, Pa, in its place.
     pub fn add(&mut self, repulsive: f64, area: f64, mean_gap: f64, attraction: f64) {
-        self.states.push(State {
+        let state = State {
             mean_pressure: repulsive - attraction,
             contact_area_fraction: Some(area),
             mean_gap: Some(mean_gap),
             adhesive_pressure: Some(attraction),
-        });
+        };
+        let place = self.repulsive.partition_point(|at| *at < repulsive);
+        self.repulsive.insert(place, repulsive);
+        self.states.insert(place, state);
     }
 
-    /// The net pressure of the last state, Pa.
-    pub fn last(&self) -> f64 {
-        self.states
-            .last()
-            .map_or(f64::NEG_INFINITY, |state| state.mean_pressure)
+    /// Whether the net pressure stays above `net` (Pa) under every repulsive pressure above the last,
+    /// whatever the gaps there: what does not touch now pulls by `peak` (Pa) at most, and what touches
+    /// goes on to touch.
+    pub fn stays_above(&self, net: f64, peak: f64) -> bool {
+        let (Some(repulsive), Some(state)) = (self.repulsive.last(), self.states.last()) else {
+            return false;
+        };
+        let open = 1.0 - state.contact_area_fraction.unwrap_or(0.0);
+        repulsive - peak * open > net
+    }
+
+    /// Repulsive pressures between the rungs beside each dip of the net pressure that may hold the
+    /// greatest tension, `CLOSER` to a dip.
+    pub fn closer(&self) -> Vec<f64> {
+        let net = |i: usize| self.states[i].mean_pressure;
+        let deepest = self
+            .states
+            .get(self.lowest())
+            .map_or(0.0, |state| state.mean_pressure);
+        let last = self.states.len().saturating_sub(1);
+        let mut closer = Vec::new();
+        for i in 0..self.states.len() {
+            let (before, after) = (i.saturating_sub(1), (i + 1).min(last));
+            if net(i) < 0.0 && net(i) < MAY_BE * deepest && net(i) <= net(before).min(net(after)) {
+                let (low, high) = (self.repulsive[before], self.repulsive[after]);
+                let rung = (high / low).powf(1.0 / (CLOSER + 1) as f64);
+                closer.extend((1..=CLOSER).map(|k| low * rung.powi(k)));
+            }
+        }
+        closer
     }
 
     fn lowest(&self) -> usize {
@@ -68,23 +103,27 @@ impl Ladder {
 
     /// The state at a net pressure on the closer side of pull-off, by straight lines between rungs.
     pub fn at(&self, net: f64) -> Option<State> {
-        self.states[self.lowest()..].windows(2).find_map(|pair| {
-            let (low, high) = (pair[0].mean_pressure, pair[1].mean_pressure);
-            if !(low <= net && net <= high) {
-                return None;
-            }
-            let share = (net - low) / (high - low);
-            let between = |of: fn(&State) -> Option<f64>| {
-                let (one, other) = (of(&pair[0])?, of(&pair[1])?);
-                Some(one + share * (other - one))
-            };
-            Some(State {
-                mean_pressure: net,
-                contact_area_fraction: between(|state| state.contact_area_fraction),
-                mean_gap: between(|state| state.mean_gap),
-                adhesive_pressure: between(|state| state.adhesive_pressure),
+        // Of several, the one under the largest repulsive pressure.
+        self.states[self.lowest()..]
+            .windows(2)
+            .rev()
+            .find_map(|pair| {
+                let (low, high) = (pair[0].mean_pressure, pair[1].mean_pressure);
+                if !(low <= net && net <= high) {
+                    return None;
+                }
+                let share = (net - low) / (high - low);
+                let between = |of: fn(&State) -> Option<f64>| {
+                    let (one, other) = (of(&pair[0])?, of(&pair[1])?);
+                    Some(one + share * (other - one))
+                };
+                Some(State {
+                    mean_pressure: net,
+                    contact_area_fraction: between(|state| state.contact_area_fraction),
+                    mean_gap: between(|state| state.mean_gap),
+                    adhesive_pressure: between(|state| state.adhesive_pressure),
+                })
             })
-        })
     }
 }
 
@@ -104,6 +143,12 @@ mod tests {
         assert_eq!(state.mean_pressure, -1.0);
         assert!((state.contact_area_fraction.unwrap() - (0.04 + 0.25 * 0.04)).abs() < 1e-15);
         assert_eq!(ladder.at(3.0), None);
+        // Nine rungs between those beside the one dip; above 8 an attraction of 9 may yet hold, one of 7
+        // not where 8 % touch.
+        let closer = ladder.closer();
+        assert_eq!(closer.len(), 9);
+        assert!(closer[0] > 1.0 && closer[8] < 4.0);
+        assert!(!ladder.stays_above(0.0, 9.0) && ladder.stays_above(0.0, 7.0));
         let rungs = rungs(1.0, 0.1, 0.0);
         assert!(rungs[0] == FIRST && rungs.last().is_some_and(|last| *last >= 0.1));
     }

@@ -4,8 +4,9 @@ use std::path::Path;
 
 use super::curve_file::ForceCurve;
 use super::error::FitError;
-use super::estimate::{LEAST_FREE, ModelFit, Rung, Uncertainties, fit_model};
+use super::estimate::{ModelFit, Rung, Uncertainties, fit_model};
 use super::inversion::{Inversion, invert_curve};
+use super::law_error::{LawError, law_error};
 use super::measured::{Freedom, Measured, Turned};
 use super::model::{Model, Parameters};
 use crate::theory::Law;
@@ -17,6 +18,8 @@ use crate::units::format_si;
 /// Difference of Akaike's criterion from which two models count as told apart: the better one is
 /// then `exp(6/2) = 20` times as likely.
 pub const TELLS_APART: f64 = 6.0;
+/// Fewest free points that tell where the force is zero, where that is fitted too.
+const ZERO_POINTS: usize = 5;
 /// Correlation of neighbouring residuals from which a model misses the curve, beyond the
 /// 3/sqrt(points) that chance may give.
 pub const MISSES: f64 = 0.3;
@@ -47,6 +50,9 @@ pub struct FitResult {
     pub work_uncertainty: Option<f64>,
     /// The same of the contact modulus, Pa.
     pub modulus_uncertainty: Option<f64>,
+    /// What a law of another shape than the model's may put work and modulus off by; `None` without
+    /// adhesion.
+    pub law_error: Option<LawError>,
     /// Work and modulus from pull-off and one stiffness alone, by JKR.
     pub inversion: Option<Inversion>,
     /// What the reader should know.
@@ -92,7 +98,15 @@ pub fn fit_curve(
     doubts(&measured, &fits[chosen], &mut warnings);
     let work: Number = |p, u| (p.work_of_adhesion, u.work_of_adhesion);
     let modulus: Number = |p, u| (p.contact_modulus, u.contact_modulus);
-    let modulus_uncertainty = deviation(&fits, chosen, modulus);
+    // Where the zero of the force is fitted but not measured, tension may be an offset.
+    let zero_known = knows_zero(&measured, &fits[chosen]);
+    if !zero_known {
+        warnings.push(
+            format!("fewer than {ZERO_POINTS} points lie where nothing acts, so that a fitted baseline cannot be told from adhesion and no deviation is stated: leave --baseline out if the zero of the force is known, or measure until the sphere is free"),
+        );
+    }
+    let stated = |number: Number| deviation(&fits, chosen, number).filter(|_| zero_known);
+    let (work_uncertainty, modulus_uncertainty) = (stated(work), stated(modulus));
     let stiff = fits[chosen].parameters.contact_modulus;
     let pressed = measured.extremes().1.force > measured.baseline();
     if !pressed && modulus_uncertainty.is_none_or(|deviation| deviation > VAGUE * stiff) {
@@ -100,9 +114,23 @@ pub fn fit_curve(
             path: path.to_path_buf(),
         });
     }
+    let law_error = law_error(&measured, &fits[chosen]);
+    if let Some(error) = law_error {
+        let within = |stated: Option<f64>, error: f64| stated.is_some_and(|stated| stated >= error);
+        if !within(work_uncertainty, error.work_of_adhesion)
+            || !within(modulus_uncertainty, error.contact_modulus)
+        {
+            warnings.push(format!(
+                "the deviations are those of noise, with the model's own law: surfaces that attract by a law of another shape (Lennard-Jones, exponential) may put w off by {} and E* by {}",
+                format_si(error.work_of_adhesion, "J/m^2"),
+                format_si(error.contact_modulus, "Pa"),
+            ));
+        }
+    }
     Ok(FitResult {
-        work_uncertainty: deviation(&fits, chosen, work),
+        work_uncertainty,
         modulus_uncertainty,
+        law_error,
         inversion: invert_curve(&measured, &fits[chosen]),
         measured,
         fits,
@@ -129,6 +157,19 @@ fn deviation(fits: &[ModelFit], chosen: usize, number: Number) -> Option<f64> {
         state.deviation(value, number, rise)
     });
     own.map(|own| spread.fold(own, f64::max))
+}
+
+/// Whether a fit with a free baseline has points on which nothing acts; true where the baseline is
+/// known.
+fn knows_zero(measured: &Measured, fit: &ModelFit) -> bool {
+    let touch = fit.parameters.approach_offset;
+    let free = if fit.model.adheres() {
+        fit.held.iter().filter(|held| !**held).count()
+    } else {
+        let apart = |approach: &&f64| **approach < touch;
+        measured.approaches.iter().filter(apart).count()
+    };
+    !measured.freedom.force_offset || free >= ZERO_POINTS
 }
 
 /// Refuses a curve that is fitted far better with the sign of its approach, of its force, or of both
@@ -195,9 +236,6 @@ fn choose(
         if !hides_adhesion(measured, &fits[hertz]) {
             return Some((hertz, None));
         }
-        warnings.push(
-            "no stretch of the curve lies where nothing acts, so a baseline below zero cannot be told from adhesion: leave --baseline out if the zero of the force is known, or measure until the sphere is free".to_owned(),
-        );
     }
     let Some(general) = place(Model::MaugisDugdale) else {
         let least = |a: &usize, b: &usize| fits[*a].aic.total_cmp(&fits[*b].aic);
@@ -277,12 +315,7 @@ fn choose(
 /// Whether a fit without adhesion takes a tension for the zero of the force, where no point shows that
 /// zero.
 fn hides_adhesion(measured: &Measured, hertz: &ModelFit) -> bool {
-    let touch = hertz.parameters.approach_offset;
-    let apart = |approach: &&f64| **approach < touch;
-    let free = measured.approaches.iter().filter(apart).count();
-    measured.freedom.force_offset
-        && free < LEAST_FREE
-        && hertz.parameters.force_offset < -3.0 * hertz.noise
+    !knows_zero(measured, hertz) && hertz.parameters.force_offset < -3.0 * hertz.noise
 }
 
 /// The limit that cannot be told from the general model and lies within two standard deviations of

@@ -21,7 +21,7 @@ const LADDER: [f64; 16] = [
 const BEST_RUNGS: usize = 3;
 /// Fewest points of a way that may be free where the force of a free sphere is fitted too: one or two
 /// would only take up their own noise.
-pub(super) const LEAST_FREE: usize = 3;
+const LEAST_FREE: usize = 3;
 /// Points of the grid of scales from which a search begins, besides the usual starts.
 const GRID_STARTS: usize = 3;
 /// Rise of the sum of squares, in variances of the noise, up to which a state tells of the

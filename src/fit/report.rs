@@ -36,6 +36,15 @@ pub fn report(result: &FitResult, path: &Path) -> Value {
         measurement(best.parameters.contact_modulus, result.modulus_uncertainty),
     );
     put("tabor_parameter", json!(result.tabor_parameter));
+    put(
+        "law_error",
+        result.law_error.map_or(Value::Null, |error| {
+            json!({
+                "work_of_adhesion": error.work_of_adhesion,
+                "contact_modulus": error.contact_modulus,
+            })
+        }),
+    );
     put("correlations", correlations(best));
     put("noise", json!(best.noise));
     put(

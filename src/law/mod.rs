@@ -192,6 +192,15 @@ impl Law {
         }
     }
 
+    /// The largest tension at any gap from `gap` on: what a point may pull with as it opens.
+    pub fn traction_beyond(&self, gap: f64) -> f64 {
+        match self {
+            // Every other law pulls less the wider the gap.
+            Law::LennardJones(law) => self.traction(gap.max(law.peak_gap())),
+            _ => self.traction(gap),
+        }
+    }
+
     /// Whether the surfaces attract at all.
     pub fn is_adhesive(&self) -> bool {
         !matches!(self, Law::HardWall)

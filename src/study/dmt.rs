@@ -2,6 +2,7 @@
 //! without it, and the repulsive load sought that leaves the asked net load.
 
 use super::control::Controller;
+use super::evaluation::Evaluation;
 use super::setup::Setup;
 use super::step::{SolvedStep, finish, separated, solve};
 use crate::backend::BackendError;
@@ -10,9 +11,17 @@ use crate::scene::Boundary;
 use crate::solver::{ContactSolver, MakeBackend, Start};
 
 /// Most hard-wall solves in one step.
-const MOST_SOLVES: usize = 120;
+const MOST_SOLVES: usize = 240;
 /// Repulsive loads below this share of the law's peak are a first touch.
 const TOUCH: f64 = 1e-9;
+/// Factor between repulsive loads of the way down, where no bound allows a longer step: two balances
+/// closer to each other than this may be missed together.
+const RUNG: f64 = 1.15;
+/// The same below the share of the peak at which few summits touch.
+const LIGHT_RUNG: f64 = 1.5;
+const LIGHT: f64 = 1e-3;
+/// Solves that look for the bottom of a dip between three rungs.
+const DIP_SOLVES: usize = 12;
 
 /// Width of a bracket, over the largest repulsive load, at which the net load is taken to jump.
 const JUMP_WIDTH: f64 = 1e-10;
@@ -23,10 +32,26 @@ struct Balance {
     repulsive: f64,
     /// Net mean pressure less the asked one, Pa.
     excess: f64,
+    /// No lesser repulsive load has more attraction than this, Pa.
+    most_attraction: f64,
     solved: SolvedStep,
 }
 
+/// Share of an asked load within which the sum over the field is the load asked.
+const SAME: f64 = 1e-3;
+
+/// Whether the sum over a field (N) is the load asked (N), as far as the search goes; at a jump of the
+/// net load it is not.
+pub(super) fn meets(setup: &Setup, asked: f64, sum: f64) -> bool {
+    let peak = setup.law.peak_tension() * setup.largest_law_factor();
+    let reached = setup.scene.solver.tolerance * 1e-3 * peak * setup.surface.grid.area();
+    (sum - asked).abs() <= SAME * asked.abs() + reached
+}
+
 /// The largest repulsive load whose net load is `value`; separated where none is.
+///
+/// The net load is not monotone in the repulsive one. The search comes from above, where no attraction
+/// can hold, by steps that pass no balance, and by rungs of [`RUNG`] where there is no such step.
 pub(super) fn step(
     setup: &Setup,
     controller: &Controller,
@@ -57,17 +82,23 @@ pub(super) fn step(
             .evaluation
             .as_ref()
             .map_or(0.0, |evaluation| evaluation.force / controller.force(1.0));
+        let most_attraction = solved.evaluation.as_ref().map_or(0.0, |evaluation| {
+            most_attraction(setup, evaluation) / controller.force(1.0)
+        });
         Ok(Balance {
             repulsive,
             excess: net - asked,
+            most_attraction,
             solved,
         })
     };
     // From above: no attraction exceeds the peak everywhere, so here the net load is too large.
-    // Going down by the excess never passes a balance while attraction grows with the load.
     let mut upper = balance((asked + peak * covered).max(TOUCH * peak))?;
     let scale = upper.repulsive;
     let mut lower: Option<Balance> = None;
+    // The rung above `upper`, while it is not known whether the net load dips between rungs.
+    let mut above: Option<(f64, f64)> = None;
+    let mut dip: Option<Dip> = None;
     let mut width = f64::INFINITY;
     for _ in 0..MOST_SOLVES {
         let done = |excess: f64| excess.abs() <= tolerance * (asked.abs() + scale * 1e-3);
@@ -79,7 +110,19 @@ pub(super) fn step(
             return Ok(upper.solved);
         }
         let next = match &lower {
-            None => upper.repulsive - upper.excess,
+            None => match &dip {
+                Some(dip) => dip.next(),
+                // No balance lies above what the most attraction of any lesser load would bring; where
+                // that is no progress, a rung down.
+                None => {
+                    let factor = if upper.repulsive < LIGHT * peak {
+                        LIGHT_RUNG
+                    } else {
+                        RUNG
+                    };
+                    (asked + upper.most_attraction).min(upper.repulsive / factor)
+                }
+            },
             Some(low) => {
                 let span = upper.repulsive - low.repulsive;
                 // Regula falsi where it works, halves where it does not.
@@ -100,13 +143,108 @@ pub(super) fn step(
             });
         }
         let found = balance(next)?;
-        if !found.solved.converged || found.excess > 0.0 || done(found.excess) {
+        if !found.solved.converged || done(found.excess) {
             upper = found;
-        } else {
+            lower = None;
+            continue;
+        }
+        if found.excess <= 0.0 {
+            if let Some(dip) = dip.take() {
+                // The state above the dip is known by its numbers only.
+                upper = balance(dip.places[0].0)?;
+            }
             lower = Some(found);
+            continue;
+        }
+        if lower.is_some() {
+            upper = found;
+        } else if let Some(searched) = &mut dip {
+            if !searched.narrow((found.repulsive, found.excess)) {
+                // Nothing in it: the way goes on below.
+                let below = searched.after;
+                dip = None;
+                upper = balance(below)?;
+                above = None;
+            }
+        } else {
+            let here = (upper.repulsive, upper.excess);
+            let places = above.map(|above| [above, here, (found.repulsive, found.excess)]);
+            above = Some(here);
+            upper = found;
+            dip = places.and_then(Dip::of);
         }
     }
     upper.solved.iterations = iterations;
     upper.solved.converged = false;
     Ok(upper.solved)
+}
+
+/// Force of the attraction that no state of a lesser repulsive load exceeds, N: each point pulls by
+/// the most that it may as its gap widens, and what touches by the most of all.
+fn most_attraction(setup: &Setup, evaluation: &Evaluation) -> f64 {
+    let law = setup.law;
+    let sum = evaluation
+        .gap
+        .iter()
+        .enumerate()
+        .fold(0.0, |sum, (i, gap)| {
+            sum + setup.law_factor(i) * law.traction_beyond(gap.max(0.0))
+        });
+    sum * setup.surface.grid.pixel_area()
+}
+
+/// Three repulsive loads from above, with the excess of each, of which the middle one has the least.
+struct Dip {
+    places: [(f64, f64); 3],
+    /// The rung at which the way down goes on where the dip holds no balance.
+    after: f64,
+    solves: usize,
+}
+
+impl Dip {
+    /// A dip that may reach a balance: its middle lies below both others by more than a quarter of
+    /// what is left.
+    fn of(places: [(f64, f64); 3]) -> Option<Dip> {
+        let [(_, left), (_, middle), (after, right)] = places;
+        let depth = left.min(right) - middle;
+        (depth > 0.0 && 4.0 * depth > middle).then_some(Dip {
+            places,
+            after,
+            solves: 0,
+        })
+    }
+
+    /// The middle, in logarithms, of the wider side.
+    fn next(&self) -> f64 {
+        let [(left, _), (middle, _), (right, _)] = self.places;
+        if left / middle > middle / right {
+            (left * middle).sqrt()
+        } else {
+            (middle * right).sqrt()
+        }
+    }
+
+    /// Takes a state between the three; whether it is worth going on.
+    fn narrow(&mut self, found: (f64, f64)) -> bool {
+        let [left, middle, right] = self.places;
+        self.places = match (found.0 > middle.0, found.1 < middle.1) {
+            (true, true) => [left, found, middle],
+            (true, false) => [found, middle, right],
+            (false, true) => [middle, found, right],
+            (false, false) => [left, middle, found],
+        };
+        self.solves += 1;
+        self.solves < DIP_SOLVES
+    }
+}
+
+/// Mean attraction across a gap without contact, Pa: the undeformed surfaces at `clearance` (m) from
+/// first touch.
+pub fn attraction_across(setup: &Setup, clearance: f64) -> f64 {
+    let heights = &setup.surface.heights;
+    let highest = heights.iter().copied().fold(f64::NEG_INFINITY, f64::max);
+    let sum = heights.iter().enumerate().fold(0.0, |sum, (i, height)| {
+        sum + setup.law_factor(i) * setup.law.traction(highest - height + clearance)
+    });
+    sum / heights.len() as f64
 }

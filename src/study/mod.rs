@@ -25,6 +25,7 @@ mod wear;
 
 pub use between::Search;
 pub use cost::Cost;
+pub use dmt::attraction_across;
 pub use evaluation::{Evaluation, PointState, Solved};
 pub use hand_over::{Earlier, HandOver, HandedField};
 pub use jumps::{Jump, dissipation};

@@ -363,9 +363,13 @@ impl PathState<'_> {
         let area = self.setup.surface.grid.area();
         let control = self.setup.scene.loading.control;
         let evaluation = solved.evaluation.as_ref();
+        let asked = self.controller.force(self.controller.mean_pressure(value));
         // Where a load was asked the residual was met at that load, so that load it is.
         let (force, mean_pressure) = match (control, evaluation) {
             (_, None) => (0.0, 0.0),
+            (_, Some(found)) if self.setup.dmt && !dmt::meets(self.setup, asked, found.force) => {
+                (found.force, found.force / area)
+            }
             (Control::Force, Some(_)) => (value, value / area),
             (Control::Pressure, Some(_)) => (value * area, value),
             (_, Some(evaluation)) => (evaluation.force, evaluation.force / area),
@@ -391,7 +395,8 @@ impl PathState<'_> {
             },
             state: evaluation.map_or(State::Separated, |e| e.state),
             friction_force: self.setup.scene.friction.map(|friction| {
-                friction.shear_strength * evaluation.map_or(0.0, |e| e.contact) * area
+                let touching = evaluation.map(|e| e.contact_corrected.unwrap_or(e.contact));
+                friction.shear_strength * touching.unwrap_or(0.0) * area
             }),
             plastic_energy: None,
             conductance: None,
