@@ -82,7 +82,10 @@ impl Table {
             .collect();
         let output = theory(&arguments);
         assert!(output.status.success(), "{model}: {}", text(&output.stderr));
-        assert!(output.stderr.is_empty(), "{}", text(&output.stderr));
+        // On a busy machine a sphere under Lennard-Jones takes long enough to be told of.
+        let said = text(&output.stderr);
+        let at_work = |line: &str| line.starts_with("note: at work for ");
+        assert!(said.lines().all(at_work), "{said}");
         let all = text(&output.stdout);
         let is_comment = |line: &&str| line.starts_with('#');
         let comments = all.lines().take_while(is_comment).map(str::to_owned);

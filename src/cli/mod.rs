@@ -1,6 +1,8 @@
 //! The command line: arguments, messages, exit statuses.
 
 mod accuracy;
+#[cfg(test)]
+mod busy;
 mod check;
 mod compare;
 mod devices;

@@ -16,10 +16,8 @@ const RESERVED: u64 = 64 << 20;
 
 /// Bytes a point that reading a map takes: shades or numbers of the file, and the heights.
 const READING: u64 = 24;
-/// Bytes a point that the statistics of a surface take: the heights, and three fields of a transform; on a
-/// free grid those of the correlation have 9/4 as many points.
-const STATISTICS_PERIODIC: u64 = 8 + 3 * 8;
-const STATISTICS_FREE: u64 = 8 + 3 * 8 * 9 / 4;
+/// Bytes of a complex number.
+const COMPLEX: u64 = 16;
 
 /// Bytes that a run may take: what the machine has left, within the limits of its container and of its
 /// process, or what `TABOR_MEMORY` says. `None` where the system does not tell.
@@ -106,7 +104,7 @@ pub(super) fn refuse_files(scene: &Scene) -> Result<(), Failure> {
         _ => None,
     });
     for path in files {
-        refuse_file(path, READING)?;
+        refuse_file(path, |points| READING * count(points))?;
     }
     Ok(())
 }
@@ -125,8 +123,27 @@ pub(super) fn outlive_a_limit_on_files() {
 #[cfg(not(unix))]
 pub(super) fn outlive_a_limit_on_files() {}
 
-/// The same of one file of whose points each takes `bytes_a_point`.
-fn refuse_file(path: &Path, bytes_a_point: u64) -> Result<(), Failure> {
+/// Refuses a height file whose statistics need more memory than there is, where its header tells.
+pub(super) fn refuse_map(path: &Path, boundary: Boundary) -> Result<(), Failure> {
+    refuse_file(path, |points| statistics(points, boundary))
+}
+
+/// Refuses the statistics of `points` of the surface that `path` describes.
+pub(super) fn refuse_statistics(
+    path: &Path,
+    points: [usize; 2],
+    boundary: Boundary,
+) -> Result<(), Failure> {
+    match available()? {
+        // Counts past all grids are the surface's to refuse.
+        Some(available) if points[0].saturating_mul(points[1]) <= MOST_POINTS => {
+            refuse_map_of(path, points, statistics(points, boundary), available)
+        }
+        _ => Ok(()),
+    }
+}
+
+fn refuse_file(path: &Path, need: impl Fn([usize; 2]) -> u64) -> Result<(), Failure> {
     // What cannot be asked for its length is the surface's to refuse.
     let length = std::fs::metadata(path).map_or(0, |metadata| metadata.len());
     let Some(available) = available()? else {
@@ -140,23 +157,19 @@ fn refuse_file(path: &Path, bytes_a_point: u64) -> Result<(), Failure> {
         });
     }
     match claimed_points(path) {
-        // Counts past all grids are the surface's to refuse.
         Some(points) if points[0].saturating_mul(points[1]) <= MOST_POINTS => {
-            refuse_points(path, points, bytes_a_point, length, available)
+            refuse_map_of(path, points, need(points).saturating_add(length), available)
         }
         _ => Ok(()),
     }
 }
 
-fn refuse_points(
+fn refuse_map_of(
     path: &Path,
     points: [usize; 2],
-    bytes_a_point: u64,
-    besides: u64,
+    needed: u64,
     available: u64,
 ) -> Result<(), Failure> {
-    let count = points[0].saturating_mul(points[1]) as u64;
-    let needed = count.saturating_mul(bytes_a_point).saturating_add(besides);
     if needed <= available {
         return Ok(());
     }
@@ -168,27 +181,20 @@ fn refuse_points(
     })
 }
 
-/// Bytes a point that the statistics of a surface take.
-fn statistics(boundary: Boundary) -> u64 {
-    match boundary {
-        Boundary::Periodic => STATISTICS_PERIODIC,
-        Boundary::Free => STATISTICS_FREE,
-    }
+fn count(points: [usize; 2]) -> u64 {
+    points[0] as u64 * points[1] as u64
 }
 
-/// Refuses a height file whose statistics need more memory than there is, where its header tells.
-pub(super) fn refuse_map(path: &Path, boundary: Boundary) -> Result<(), Failure> {
-    refuse_file(path, statistics(boundary))
-}
-
-/// The same of `points` that are known, of the surface that `path` describes.
-pub(super) fn refuse_statistics(
-    path: &Path,
-    points: [usize; 2],
-    boundary: Boundary,
-) -> Result<(), Failure> {
-    match available()? {
-        Some(available) => refuse_points(path, points, statistics(boundary), 0, available),
-        None => Ok(()),
-    }
+/// Bytes that the statistics of a surface take, at most [`MOST_POINTS`]: the heights, and the
+/// autocorrelation's field with two half spectra, on a free grid of half as many points again a side. A
+/// transform has its table and a line for each thread.
+fn statistics(points: [usize; 2], boundary: Boundary) -> u64 {
+    let padded = match boundary {
+        Boundary::Periodic => points,
+        Boundary::Free => points.map(|side| side + side.div_ceil(2)),
+    };
+    let half = [padded[0] / 2 + 1, padded[1]];
+    let threads = std::thread::available_parallelism().map_or(1, |count| count.get() as u64);
+    let line = COMPLEX * padded[0].max(padded[1]) as u64;
+    8 * count(points) + 8 * count(padded) + 2 * COMPLEX * count(half) + (2 + threads) * line
 }

@@ -6,18 +6,19 @@
 use std::cell::Cell;
 use std::fmt::Write;
 use std::fs;
-use std::time::{Duration, Instant};
+use std::time::Duration;
 
 use proptest::prelude::*;
 use proptest::test_runner::{Config, RngAlgorithm, TestRng, TestRunner};
 
+use super::super::busy::Clock;
 use super::*;
 
 /// Cases of a usual run.
 const CASES: u32 = 1000;
 /// Cases of which one has its pictures drawn too.
 const DRAWN: u32 = 50;
-/// Time for one, on a machine that is busy with other things.
+/// Processor time for one.
 const MOST_TIME: Duration = Duration::from_secs(10);
 
 /// Numbers at the ends of what is allowed, and past them.
@@ -59,8 +60,9 @@ impl Map {
         for iy in 0..ny {
             for ix in 0..nx {
                 let (x, y) = (ix as f64 / nx as f64, iy as f64 / ny as f64);
-                let wave =
-                    |k: i32, along: f64| (6.283 * f64::from(k) * along + f64::from(k * k)).cos();
+                let wave = |k: i32, along: f64| {
+                    (std::f64::consts::TAU * f64::from(k) * along + f64::from(k * k)).cos()
+                };
                 let height = match self.kind {
                     0 => random() - 0.5,
                     // Waves up to a third of those that the map holds: its spectrum has an end.
@@ -145,7 +147,7 @@ fn no_hostile_map_is_trouble() {
             detrend,
             fill: Fill::None,
         });
-        let clock = Instant::now();
+        let clock = Clock::start();
         let Ok(surface) = Surface::from_parts(&grid, &[part]) else {
             return Ok(());
         };
@@ -163,7 +165,7 @@ fn no_hostile_map_is_trouble() {
             !quantities.contains("rms_slope            -"),
             "{quantities}"
         );
-        if tried.get() % DRAWN == 0 {
+        if tried.get().is_multiple_of(DRAWN) {
             write_pictures(&drawn, &report).expect("a picture");
         }
         reported.set(reported.get() + 1);

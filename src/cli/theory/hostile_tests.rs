@@ -5,18 +5,19 @@
 //! are the same in every run, more of them begin with the fewer.
 
 use std::cell::Cell;
-use std::time::{Duration, Instant};
+use std::time::Duration;
 
 use proptest::prelude::*;
 use proptest::test_runner::{Config, RngAlgorithm, TestRng, TestRunner};
 
+use super::super::busy::Clock;
 use super::catalogue::{MODELS, Model};
 use super::parameters::{Allowed, Kind, Need, Parameter};
 use super::text;
 
 /// Cases of a usual run.
 const CASES: u32 = 4000;
-/// Time for one, on a machine that is busy with other things.
+/// Processor time for one.
 const MOST_TIME: Duration = Duration::from_secs(10);
 /// Share of the calls that take a second which are tried.
 const SOLVED: f64 = 0.02;
@@ -106,7 +107,7 @@ fn value(kind: Kind, pick: &Pick) -> String {
         _ => return one_of(REFUSED),
     };
     let number = match allowed {
-        Allowed::Any if pick.which % 2 == 0 => -magnitude,
+        Allowed::Any if pick.which.is_multiple_of(2) => -magnitude,
         Allowed::NotPositive => -magnitude,
         Allowed::Inside(low, high) => {
             let inside = low + pick.share * (high - low);
@@ -202,7 +203,7 @@ fn no_hostile_argument_of_a_theory_is_trouble() {
         if is_solved(&call, 5.1) && !(is_solved(&call, 1.0) && picks[0].share < SOLVED) {
             return Ok(());
         }
-        let clock = Instant::now();
+        let clock = Clock::start();
         match text(&call) {
             Ok(table) => {
                 prop_assert!(!is_no_number(&table), "{call:?}:\n{table}");
@@ -247,7 +248,7 @@ fn what_was_found_is_answered() {
         "gw-m --radius 1e-5 --density 1e12 --rms_height 1e-9 --contact_modulus 1e9 --work_of_adhesion 0.1 --from 1e30",
     ] {
         let call: Vec<String> = call.split(' ').map(str::to_owned).collect();
-        let clock = Instant::now();
+        let clock = Clock::start();
         match text(&call) {
             Ok(table) => assert!(!is_no_number(&table), "{call:?}:\n{table}"),
             Err(failure) => assert_eq!(failure.status(), 2, "{call:?}: {failure}"),
