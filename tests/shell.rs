@@ -180,6 +180,8 @@ fn acts(bytes: &[u8]) -> Option<String> {
         "\u{1b}[4m",
         "\u{1b}[32m",
         "\u{1b}[33m",
+        // Clears the progress line.
+        "\u{1b}[2K",
     ] {
         left = left.replace(own, "");
     }
