@@ -135,7 +135,7 @@ pub(super) fn surface(arguments: &SurfaceArguments) -> Result<(), Failure> {
     };
     let folder = RunFolder::open(&path, &format!("surface of {}", source.display()))?;
     for warning in &surface.warnings {
-        warn(&plain(warning, is_scene));
+        warn(plain(warning, is_scene));
     }
     let rings = radial_spectrum(&surface.grid, &surface.heights, boundary);
     let report = Report {
