@@ -322,7 +322,7 @@ mod tests {
         writer.append(&row(2, 2.0)).unwrap();
         let checksum = writer.checksum();
         writer.append(&row(3, 3.0)).unwrap();
-        writer.file.write_all(b"4,,0.5").unwrap();
+        writer.table.append("4,,0.5").unwrap();
         checksum
     }
 

@@ -263,7 +263,7 @@ impl Inside<'_> {
             Ok(found) => Ok(found.is_empty()),
             Err(error) if error.kind() == io::ErrorKind::NotFound => Ok(true),
             Err(error) if error.kind() == io::ErrorKind::NotADirectory => Err(
-                OutputError::refused(&self.path, "is a file; name a folder with --out"),
+                OutputError::refused(self.path, "is a file; name a folder with --out"),
             ),
             Err(error) => Err(OutputError::write("read the folder", self.path)(error)),
         }

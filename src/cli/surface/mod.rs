@@ -149,7 +149,7 @@ pub(super) fn surface(arguments: &SurfaceArguments) -> Result<(), Failure> {
     };
     let folder = RunFolder::open(&path, &format!("surface of {}", source.display()))?;
     for warning in &surface.warnings {
-        warn(&plain(warning, is_scene));
+        warn(plain(warning, is_scene));
     }
     let report = Report::of(source, &surface, boundary);
     // The table first: it stands even where no picture can be written.
