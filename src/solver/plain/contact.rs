@@ -2,13 +2,17 @@
 
 use super::waves::{Fourier, LongWaves, long_share};
 use crate::elastic::Stiffness;
+use crate::kernel::Params;
 use crate::law::Cohesion;
 use crate::law::{Law, LennardJones};
 use crate::solver::contact::{Hold, Load};
+use crate::solver::kernel_set::{fixed_params, rounded_beside_under};
 use crate::solver::problem::Problem;
 
 /// Floor of the stopping measure's pressures, over E* times the rms slope.
 const LEAST_PRESSURE: f64 = 1e-6;
+/// Ranges beyond which surfaces under tension have left each other.
+const DETACHED_RANGES: f64 = 60.0;
 /// k of the smooth law's variable over the largest stiffness.
 const SMOOTH_STIFFNESS: f64 = 0.2;
 /// Newton steps in the inversion of v(g).
@@ -29,6 +33,8 @@ pub struct Measure {
     pub residual: f64,
     pub numerator: f64,
     pub least_gap: f64,
+    /// Whether surfaces under tension have left each other.
+    pub detached: bool,
 }
 
 /// A contact under a load: its convolutions and its law.
@@ -47,6 +53,8 @@ pub struct Contact<'a> {
     pub mean_pressure: Option<f64>,
     /// Whether the surfaces may leave each other.
     pub may_detach: bool,
+    /// Norm of what the gap is rounded beside: the heights, or what is larger.
+    rounded_beside: f64,
     /// k of the smooth law's change of variable.
     smooth_stiffness: f64,
 }
@@ -86,6 +94,7 @@ impl<'a> Contact<'a> {
         let adhesive = problem.law.is_adhesive();
         let pulled = mean_pressure.is_some_and(|p| p < 0.0 || (p == 0.0 && adhesive));
         let whole = vec![1.0; nx * ny];
+        let params: Params = fixed_params(problem, f64::EPSILON);
         Contact {
             problem,
             heights: problem.padded(&problem.heights, 0.0),
@@ -99,6 +108,7 @@ impl<'a> Contact<'a> {
             long_waves,
             mean_pressure,
             may_detach: pulled && load.zero_stiffness == 0.0,
+            rounded_beside: rounded_beside_under(params.heights_norm, &params, load),
             smooth_stiffness: SMOOTH_STIFFNESS * problem.stiffness_max(),
         }
     }
@@ -179,26 +189,30 @@ impl<'a> Contact<'a> {
         let points = self.problem.shape.surface_len() as f64;
         let scales = self.problem.scales;
         let slope = self.problem.rms_slope * scales.lateral / scales.length;
+        let least_pressure = LEAST_PRESSURE * slope * points.sqrt();
+        let (numerator, pressures) = (violation.sqrt(), pressures.sqrt());
+        // Between flat surfaces there may be no pressure at all: what rounding leaves of it is none.
+        let floor = self.rounding(gap);
+        let detached = self.may_detach && least_gap > DETACHED_RANGES * self.problem.law.range();
+        let nothing = least_pressure == 0.0 && pressures.max(numerator) <= floor && !detached;
         Measure {
-            residual: quotient(
-                violation.sqrt(),
-                pressures.sqrt().max(LEAST_PRESSURE * slope * points.sqrt()),
-            ),
-            numerator: violation.sqrt(),
+            residual: if nothing {
+                0.0
+            } else {
+                quotient(numerator, pressures.max(least_pressure))
+            },
+            numerator,
             least_gap,
+            detached,
         }
     }
 
     /// What rounding leaves of the measure's numerator.
     pub fn rounding(&self, gap: &[f64]) -> f64 {
         let on_surface = |i: &usize| self.in_domain[*i];
-        let norm = |values: &[f64]| -> f64 {
-            let squares = (0..gap.len())
-                .filter(on_surface)
-                .map(|i| values[i] * values[i]);
-            squares.sum::<f64>().sqrt()
-        };
-        f64::EPSILON * self.problem.stiffness_max() * norm(&self.heights).max(norm(gap))
+        let squares = (0..gap.len()).filter(on_surface).map(|i| gap[i] * gap[i]);
+        let norm = squares.sum::<f64>().sqrt().max(self.rounded_beside);
+        f64::EPSILON * self.problem.stiffness_max() * norm
     }
 
     /// 1 on F and 0 off it; for a smooth law S2, by which its variable changes with the gap.

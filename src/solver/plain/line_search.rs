@@ -80,10 +80,14 @@ impl Contact<'_> {
             return self.bracketed(line);
         }
         if *curvature <= RIGID * slope.abs() {
-            // A rigid motion: apart without end, or down to the first touch.
+            // A rigid motion: apart without end, or down to the first touch; a prescribed mean gap
+            // leaves none, and what looks like one is rounding.
             return if self.may_detach && trial.s.iter().all(|s| *s > 0.0) {
                 Length::End(Status::PulledOff)
-            } else if first.is_finite() && trial.s.iter().all(|s| *s < 0.0) {
+            } else if first.is_finite()
+                && self.mean_pressure.is_some()
+                && trial.s.iter().all(|s| *s < 0.0)
+            {
                 Length::of(first, first.clamp(LENGTHEN[0], LENGTHEN[1]))
             } else {
                 Length::None { tried: true }

@@ -34,8 +34,6 @@ const MOST_STALLS: usize = 4;
 const MOST_AT_FLOOR: usize = 20;
 /// A direction whose slope is above this share of the descent's is given up.
 const LEAST_SLOPE: f64 = 1e-6;
-/// Ranges beyond which surfaces under tension have left each other.
-const DETACHED_RANGES: f64 = 60.0;
 /// Gaps below this share of the largest step are closed by a step to first touch.
 const LEAST_SNAP: f64 = 1e-12;
 /// The same in relative rounding errors.
@@ -43,6 +41,10 @@ const SNAP_ROUNDINGS: f64 = 8.0;
 /// Step along the plain descent in careful mode, and the residual at which the mode ends.
 const CAREFUL_LENGTH: f64 = 0.25;
 const CAREFUL_UNTIL: f64 = 1e-3;
+/// Iterations after which it ends all the same.
+const CAREFUL_MOST: usize = 2000;
+/// Roundings within which the parts of a trial cancel each other.
+const VANISHES: f64 = 8.0;
 
 /// What an iteration did.
 pub struct Iterate<'a> {
@@ -87,7 +89,7 @@ pub fn solve(
     // Length a of the trial along the direction.
     let mut trial_length = 1.0;
     let (mut stalls, mut residual_at_stall, mut at_floor) = (0, f64::INFINITY, 0);
-    let (mut iterations, mut taken) = (0, None);
+    let (mut iterations, mut taken, mut last_largest) = (0, None, f64::INFINITY);
 
     let status = loop {
         // Step 1. The imbalance y, the free points F and the stopping measure.
@@ -118,7 +120,7 @@ pub fn solve(
             }
             continue;
         }
-        if contact.may_detach && measure.least_gap > DETACHED_RANGES * problem.law.range() {
+        if measure.detached {
             break Status::PulledOff;
         }
         at_floor = if measure.numerator <= contact.rounding(&gap) {
@@ -132,8 +134,13 @@ pub fn solve(
         if iterations >= max_iterations {
             break Status::Running;
         }
-        let separated = contact.may_detach && measure.least_gap > problem.law.range();
-        if careful && (separated || measure.residual < CAREFUL_UNTIL) {
+        // Beyond the range of a sharp law nothing attracts: under tension there is no way back, and else
+        // not if all steps still to come, a geometric series, do not lead there.
+        let beyond = measure.least_gap - problem.law.range();
+        let separated =
+            beyond > 0.0 && (contact.may_detach || last_largest / CAREFUL_LENGTH < beyond);
+        let enough = measure.residual < CAREFUL_UNTIL || iterations >= CAREFUL_MOST;
+        if careful && (separated || enough) {
             (careful, restart, trial_length) = (false, true, 1.0);
         }
 
@@ -193,6 +200,7 @@ pub fn solve(
         let mut counts = true;
         if let Some(trial) = trial {
             iterations += 1;
+            last_largest = trial.s.iter().fold(0.0, |most: f64, s| most.max(s.abs()));
             let answer = contact.stiffness_times(&trial.s);
             let elastic: Vec<f64> = pressure.iter().map(|p| p + mean_pressure).collect();
             let line = Line {
@@ -299,7 +307,16 @@ impl Contact<'_> {
             let total: f64 = weight.iter().sum();
             if total > 0.0 {
                 let share = s.iter().sum::<f64>() / total;
+                let closing = |s: &[f64]| -> f64 {
+                    let open = (0..count).filter(|i| gap[*i] > 0.0);
+                    open.fold(f64::NEG_INFINITY, |most, i| most.max(-s[i] / gap[i]))
+                };
+                let parts = closing(&s).abs() + share.abs();
                 s.iter_mut().zip(weight).for_each(|(s, w)| *s -= share * w);
+                // s has no mean, so that some point closes, unless nothing but rounding is left of s.
+                if wall && closing(&s) <= VANISHES * f64::EPSILON * parts {
+                    s.fill(0.0);
+                }
             }
         }
         let touch = |i: usize| {
