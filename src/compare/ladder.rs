@@ -6,6 +6,8 @@ use super::State;
 const RUNG: f64 = 1.15;
 /// The same for its light end, where a weak attraction has its pull-off at the first few summits.
 const LIGHT_RUNG: f64 = 1.5;
+/// Rungs that a ladder may have: enough for loads up to 1e100 times the modulus.
+const MOST_RUNGS: usize = 2000;
 /// First rung and the end of the light ones, in E* times the rms slope.
 const FIRST: f64 = 1e-6;
 const LIGHT: f64 = 2e-3;
@@ -24,7 +26,7 @@ pub(super) fn rungs(unit: f64, largest: f64, tension: f64) -> Vec<f64> {
     let last = (net + tension).min(net + unit).max(2.0 * LIGHT * unit);
     let mut rungs = vec![FIRST * unit];
     let mut at = FIRST * unit;
-    while at < last {
+    while at < last && rungs.len() < MOST_RUNGS {
         at *= if at < LIGHT * unit { LIGHT_RUNG } else { RUNG };
         rungs.push(at);
     }
@@ -151,5 +153,18 @@ mod tests {
         assert!(!ladder.stays_above(0.0, 9.0) && ladder.stays_above(0.0, 7.0));
         let rungs = rungs(1.0, 0.1, 0.0);
         assert!(rungs[0] == FIRST && rungs.last().is_some_and(|last| *last >= 0.1));
+    }
+
+    /// Without roughness or with a load beyond all measure a ladder has its most rungs, and not more.
+    #[test]
+    fn a_ladder_ends() {
+        for (unit, largest) in [
+            (0.0, 1.0),
+            (1e-300, 1e300),
+            (1.0, 1e20),
+            (1.0, f64::INFINITY),
+        ] {
+            assert!(rungs(unit, largest, f64::INFINITY).len() <= MOST_RUNGS);
+        }
     }
 }

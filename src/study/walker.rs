@@ -193,6 +193,12 @@ impl<'s> Walker<'s> {
 /// double precision.
 const CLOSED: f64 = 1e-13;
 
+/// The mean, taken about the first of the values: that of equal ones is exact on any grid.
+fn mean_of(values: &[f64]) -> f64 {
+    let first = values[0];
+    first + values.iter().map(|value| value - first).sum::<f64>() / values.len() as f64
+}
+
 /// What is asked of a step.
 struct Asked<'s> {
     value: f64,
@@ -333,7 +339,7 @@ impl PathState<'_> {
             return Ok(Start::Present);
         };
         let mut gap = solver.gap()?;
-        let mean = gap.iter().sum::<f64>() / gap.len() as f64;
+        let mean = mean_of(&gap);
         let least = gap.iter().copied().fold(f64::INFINITY, f64::min);
         // Open surfaces move rigidly; a wall in contact stays where it is and the rest scales.
         if !problem.law.has_wall() {

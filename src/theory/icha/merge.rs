@@ -11,6 +11,9 @@ use crate::theory::error::positive;
 
 /// Logarithm of the factor between two loads below which asperities that do not settle are given up.
 const LEAST_STEP: f64 = 5e-4;
+/// Times that asperities may settle for each of them: each merger takes one away, and between two mergers a load
+/// is neared by halves down to the least step.
+const MOST_SETTLES: usize = 100;
 
 /// What is kept as overlapping contacts become one, besides their area.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -155,7 +158,7 @@ pub(super) fn settle_merged(
     care: Care,
 ) -> Result<(Set, Equilibrium), TheoryError> {
     let mut held = hold;
-    loop {
+    for _ in 0..MOST_SETTLES * (set.asperities.len() + 1) {
         let settled = match settle(&set, lattice, held, state.clone(), care) {
             Ok(settled) => settled,
             Err(failed) => {
@@ -198,6 +201,9 @@ pub(super) fn settle_merged(
             set.push(one.asperity, lattice);
         }
     }
+    Err(TheoryError::NotConverged {
+        what: "the merging of asperities",
+    })
 }
 
 /// A load between that which was too far off and that which the asperities carry as they are: many
