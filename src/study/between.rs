@@ -92,7 +92,13 @@ impl Between<'_, '_> {
         let problem = met_problem(setup, duration);
         let make_backend = self.walker.make_backend();
         let mut backend = make_backend();
-        let mut walker = Walker::new(setup, make_backend, &mut *backend, &problem, &from.carried);
+        let mut walker = Walker::new(
+            setup,
+            make_backend,
+            &mut *backend,
+            &problem,
+            from.carried.clone(),
+        );
         let tried = try_load(&mut walker, value, duration, &mut watch)?;
         self.interrupted |= walker.is_interrupted();
         self.transforms += walker.solver.transforms();

@@ -55,7 +55,7 @@ pub fn walk_on<O: Observer>(
             make_backend,
             steps,
         };
-        match stretch.walk(observer, &mut end, &mut jumps, &carried)? {
+        match stretch.walk(observer, &mut end, &mut jumps, carried)? {
             Some(left) => carried = left,
             None => break,
         }
@@ -79,7 +79,7 @@ impl Stretch<'_> {
         observer: &mut O,
         end: &mut WalkEnd,
         jumps: &mut Jumps,
-        carried: &Carried,
+        carried: Carried,
     ) -> Result<Option<Carried>, WalkError<O::Error>> {
         let setup = self.setup;
         let problem = met_problem(setup, self.duration(self.steps.start));

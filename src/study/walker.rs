@@ -82,7 +82,7 @@ impl<'s> Walker<'s> {
         make_backend: MakeBackend<'s>,
         backend: &'s mut dyn Backend,
         problem: &'s Problem,
-        carried: &Carried,
+        carried: Carried,
     ) -> Walker<'s> {
         let mut walker = Walker {
             solver: ContactSolver::new(backend, problem),
@@ -96,7 +96,7 @@ impl<'s> Walker<'s> {
             history: None,
             flow: None,
         };
-        walker.go_back(carried);
+        walker.take(carried);
         walker
     }
 
@@ -122,12 +122,16 @@ impl<'s> Walker<'s> {
 
     /// Takes up the state that a load has left.
     pub fn go_back(&mut self, carried: &Carried) {
+        self.take(carried.clone());
+    }
+
+    fn take(&mut self, carried: Carried) {
         if let Some(gap) = &carried.gap {
             self.solver.set_gap(gap);
         }
         self.state.loaded = carried.gap.is_some();
-        self.history = carried.history.clone();
-        self.flow = carried.flow.clone();
+        self.history = carried.history;
+        self.flow = carried.flow;
         if let Some(flow) = &self.flow {
             flow.lower(&mut self.solver);
         }
