@@ -118,9 +118,12 @@ fn hardly_pressed_curves_are_fitted_within_their_deviations() {
     const SEEDS: u64 = 20;
     let (mut curves, mut missed) = (0, [0; 2]);
     for model in [Model::Jkr, Model::Dmt] {
-        for load in [Load::Net, Load::Hertz] {
+        for (load, shares) in [
+            (Load::Net, &[0.4, 0.9, 1.4][..]),
+            (Load::Hertz, &[0.4, 1.0]),
+        ] {
             for both_ways in [true, false] {
-                for share in [0.4, 0.8, 1.0, 1.4] {
+                for &share in shares {
                     let mut stated = [Vec::new(), Vec::new()];
                     let mut worst = [0.0_f64; 2];
                     for seed in 0..SEEDS {
@@ -209,7 +212,7 @@ fn what_another_law_leaves_is_stated() {
     let mut random = Random(3);
     for tabor in [0.2, 0.4, 1.0] {
         let modulus = f64::powf(tabor, -1.5);
-        let deepest = (9.0 / modulus).powf(2.0 / 3.0);
+        let deepest = (30.0 / modulus).powf(2.0 / 3.0);
         let sphere = LennardJonesSphere::new(tabor, deepest).expect("a sphere");
         let beyond = |states: &[tabor::theory::lennard_jones_sphere::State]| {
             states.last().is_some_and(|last| last.approach > deepest)
@@ -229,7 +232,7 @@ fn what_another_law_leaves_is_stated() {
                 sphere.between(pair, approach).expect("a state").force
             })
         };
-        for depth in [0.3, 1.0] {
+        for depth in [0.45, 1.0] {
             let place = |i: usize| -4.0 + (depth * deepest + 4.0) * i as f64 / 49.0;
             let inwards = (0..50).map(|i| (place(i), true));
             let samples = inwards.chain((0..50).rev().map(|i| (place(i), false)));

@@ -27,6 +27,9 @@ pub const MISSES: f64 = 0.3;
 pub const ENTANGLED: f64 = 0.95;
 /// Relative standard deviation from which a number is hardly one.
 pub const VAGUE: f64 = 0.3;
+/// Share of the approach at its closest end in which the greatest tension of a curve without compression
+/// shows no contact.
+const CLOSEST: f64 = 0.05;
 /// Rounds of choosing a regime by the Tabor number that the last choice gave.
 const ROUNDS: usize = 4;
 
@@ -108,15 +111,25 @@ pub fn fit_curve(
     let stated = |number: Number| deviation(&fits, chosen, number).filter(|_| zero_known);
     let (work_uncertainty, modulus_uncertainty) = (stated(work), stated(modulus));
     let stiff = fits[chosen].parameters.contact_modulus;
-    let pressed = measured.extremes().1.force > measured.baseline();
-    if !pressed && modulus_uncertainty.is_none_or(|deviation| deviation > VAGUE * stiff) {
+    let (least, greatest) = measured.extremes();
+    let pressed = greatest.force > measured.baseline();
+    // Where the tension grows up to the closest point there may be an attraction and no contact.
+    let closest = measured
+        .approaches
+        .iter()
+        .copied()
+        .fold(f64::NEG_INFINITY, f64::max);
+    let grows = closest - least.approach < CLOSEST * measured.approach_span;
+    let vague = modulus_uncertainty.is_none_or(|deviation| deviation > VAGUE * stiff);
+    if !pressed && (grows || vague) {
         return Err(FitError::NoCompression {
             path: path.to_path_buf(),
         });
     }
     let law_error = law_error(&measured, &fits[chosen]);
     if let Some(error) = law_error {
-        let within = |stated: Option<f64>, error: f64| stated.is_some_and(|stated| stated >= error);
+        // Of a number that the curve does not tell nothing need be added.
+        let within = |stated: Option<f64>, error: f64| stated.is_none_or(|stated| stated >= error);
         if !within(work_uncertainty, error.work_of_adhesion)
             || !within(modulus_uncertainty, error.contact_modulus)
         {
@@ -232,10 +245,9 @@ fn choose(
     let best = fits.iter().map(|fit| fit.aic).fold(f64::INFINITY, f64::min);
     if let Some(hertz) = place(Model::Hertz)
         && fits[hertz].aic - best < TELLS_APART
+        && !hides_adhesion(measured, &fits[hertz])
     {
-        if !hides_adhesion(measured, &fits[hertz]) {
-            return Some((hertz, None));
-        }
+        return Some((hertz, None));
     }
     let Some(general) = place(Model::MaugisDugdale) else {
         let least = |a: &usize, b: &usize| fits[*a].aic.total_cmp(&fits[*b].aic);

@@ -409,7 +409,8 @@ fn widen(fit: &mut ModelFit) {
     let known = fit.uncertainties.maugis_parameter;
     let parabola = known.is_some_and(|known| known < RUNG_DISTANCE * parameters.maugis_parameter);
     type Pick = fn(&mut Uncertainties) -> &mut Option<f64>;
-    let numbers: [(Pick, fn(&Parameters) -> f64); 4] = [
+    type Value = fn(&Parameters) -> f64;
+    let numbers: [(Pick, Value); 4] = [
         (|u| &mut u.work_of_adhesion, |p| p.work_of_adhesion),
         (|u| &mut u.contact_modulus, |p| p.contact_modulus),
         (|u| &mut u.maugis_parameter, |p| p.maugis_parameter),

@@ -44,7 +44,9 @@ const SAME: f64 = 1e-3;
 /// net load it is not.
 pub(super) fn meets(setup: &Setup, asked: f64, sum: f64) -> bool {
     let peak = setup.law.peak_tension() * setup.largest_law_factor();
-    let reached = setup.scene.solver.tolerance * 1e-3 * peak * setup.surface.grid.area();
+    // What the search leaves: its tolerance, or the width of a bracket in which nothing jumps.
+    let share = (setup.scene.solver.tolerance * 1e-3).max(10.0 * JUMP_WIDTH);
+    let reached = share * peak * setup.surface.grid.area();
     (sum - asked).abs() <= SAME * asked.abs() + reached
 }
 
