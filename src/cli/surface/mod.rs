@@ -6,7 +6,7 @@ use std::path::{Path, PathBuf};
 
 use super::{Failure, key_and_value, print, read_scene, warn};
 use crate::output::{
-    OutputError, Picture, RunFolder, SpectrumPlot, write_atomically, write_picture,
+    OutputError, Picture, RunFolder, SpectrumPlot, visible_line, write_atomically, write_picture,
 };
 use crate::scene::{Boundary, Detrend, FieldName, Fill, GridScene, HeightFileScene, SurfacePart};
 use crate::surface::correlation::correlation_length;
@@ -198,7 +198,7 @@ fn of_file(arguments: &SurfaceArguments) -> Result<(Surface, Boundary), Failure>
         fill: file.fill.unwrap_or(Fill::None),
     });
     let surface = Surface::from_parts(&grid, &[part]).map_err(|error| {
-        Failure::Usage(match error {
+        let text = match error {
             // There are no parts to count here.
             SurfaceError::Part { problem, .. } => problem.to_string(),
             SurfaceError::SizeMissing => format!(
@@ -206,7 +206,8 @@ fn of_file(arguments: &SurfaceArguments) -> Result<(Surface, Boundary), Failure>
                 arguments.source.display()
             ),
             other => format!("{}: {other}", arguments.source.display()),
-        })
+        };
+        Failure::Usage(visible_line(&text))
     })?;
     Ok((surface, boundary))
 }
