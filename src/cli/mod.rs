@@ -377,6 +377,8 @@ pub fn main() -> ExitCode {
                 Failure::Scene(SceneErrors(mistakes)) => mistakes
                     .iter()
                     .for_each(|mistake| fail(&visible_line(&mistake.to_string()))),
+                // A mistake a line here too; texts from outside are quoted in them.
+                Failure::Usage(mistakes) => mistakes.lines().for_each(fail),
                 other => fail(&other.to_string()),
             }
             ExitCode::from(failure.status())

@@ -514,6 +514,8 @@ mod tests {
         for path in own.iter().chain(&others) {
             touch(path);
         }
+        // The run that wrote them has ended.
+        drop(folder);
         let (unfinished, whole) = own.split_last().unwrap();
         RunFolder::resume(place.path(), "one").unwrap();
         assert!(whole.iter().all(|path| path.exists()) && !unfinished.exists());

@@ -7,7 +7,7 @@ use std::path::{Path, PathBuf};
 use super::patience::Patience;
 use super::{Failure, key_and_value, print, read_scene, room, warn};
 use crate::output::{
-    OutputError, Picture, RunFolder, SpectrumPlot, write_atomically, write_picture,
+    OutputError, Picture, RunFolder, SpectrumPlot, visible_line, write_atomically, write_picture,
 };
 use crate::scene::{Boundary, Detrend, FieldName, Fill, GridScene, HeightFileScene, SurfacePart};
 use crate::surface::{Surface, SurfaceError};
@@ -212,7 +212,7 @@ fn of_file(arguments: &SurfaceArguments) -> Result<(Surface, Boundary), Failure>
         fill: file.fill.unwrap_or(Fill::None),
     });
     let surface = Surface::from_parts(&grid, &[part]).map_err(|error| {
-        Failure::Usage(match error {
+        let text = match error {
             // There are no parts to count here.
             SurfaceError::Part { problem, .. } => problem.to_string(),
             SurfaceError::SizeMissing => format!(
@@ -220,7 +220,8 @@ fn of_file(arguments: &SurfaceArguments) -> Result<(Surface, Boundary), Failure>
                 arguments.source.display()
             ),
             other => format!("{}: {other}", arguments.source.display()),
-        })
+        };
+        Failure::Usage(visible_line(&text))
     })?;
     let points = [surface.grid.nx, surface.grid.ny];
     room::refuse_statistics(&arguments.source, points, boundary)?;

@@ -21,6 +21,7 @@ use clap::CommandFactory;
 
 use super::patience::Patience;
 use super::{Arguments, Failure, TheoryArguments, print};
+use crate::output::visible_line;
 use catalogue::{MODELS, Model};
 use values::Values;
 
@@ -76,7 +77,8 @@ fn general_help() -> String {
 }
 
 fn usage(messages: &[String]) -> Failure {
-    Failure::Usage(messages.join("\n"))
+    let lines: Vec<String> = messages.iter().map(|text| visible_line(text)).collect();
+    Failure::Usage(lines.join("\n"))
 }
 
 /// The candidate spelled most alike.
