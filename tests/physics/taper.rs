@@ -164,6 +164,37 @@ fn straight_edges_are_free() {
     assert!(late.iter().all(|late| late.abs() < 0.01), "{late:?}");
 }
 
+/// Where the taper cannot be wide enough the run says by how much straight edges come off late, and where it says
+/// nothing they are right: to 3 % up to chi 0.65, to 11 % up to 1.3 and one step.
+#[test]
+fn trapped_edges_are_warned_of() {
+    for (chi, warned, allowed) in [
+        (0.5, false, 0.03),
+        (0.65, false, 0.03),
+        (0.8, true, 0.11),
+        (1.3, true, 0.11),
+    ] {
+        let strip = Strip {
+            points: 256,
+            adhesion: 0.3,
+            chi,
+            along_y: false,
+        };
+        let [off, _] = strip.late("maugis-dugdale");
+        println!("chi {chi}: off {:+.2} %", 100.0 * off);
+        assert!(off < allowed + STEP, "chi {chi}: {off}");
+        let said = strip.solve("maugis-dugdale", &[0.0]).setup.warnings;
+        let trapped = said
+            .iter()
+            .find(|text| text.contains("straight along the grid"));
+        assert_eq!(trapped.is_some(), warned, "chi {chi}: {said:?}");
+        assert!(
+            !warned || off > 0.03,
+            "a needless warning at chi {chi}: {off}"
+        );
+    }
+}
+
 /// Between its two turns the wave has one state at a load, so loading and unloading have one area: to the pixel
 /// at each edge that lies on a point's boundary.
 #[test]
