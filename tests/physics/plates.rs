@@ -198,9 +198,9 @@ impl Plates {
             if let Some([low, high]) = self.stripes {
                 // Half of an even number of columns each.
                 let period = 2.0 * self.pixel;
-                write!(
+                writeln!(
                     text,
-                    "map = {{ pattern = \"stripe\", period = {period:e}, low = {low}, high = {high} }}\n"
+                    "map = {{ pattern = \"stripe\", period = {period:e}, low = {low}, high = {high} }}"
                 )
                 .expect("text takes all");
             }
