@@ -374,9 +374,9 @@ pub fn main() -> ExitCode {
         Err(failure) => {
             match &failure {
                 // One line a mistake; what a scene holds begins none.
-                Failure::Scene(SceneErrors(mistakes)) => mistakes
-                    .iter()
-                    .for_each(|mistake| fail(&visible_line(&mistake.to_string()))),
+                Failure::Scene(mistakes) => {
+                    mistakes.lines().for_each(|line| fail(&visible_line(&line)));
+                }
                 // A mistake a line here too; texts from outside are quoted in them.
                 Failure::Usage(mistakes) => mistakes.lines().for_each(fail),
                 other => fail(&other.to_string()),

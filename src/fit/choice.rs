@@ -15,6 +15,8 @@ use crate::theory::tabor_map::{
 };
 use crate::units::format_si;
 
+/// Force farther away than the largest tension, as a share of that: more than noise or drift make of it.
+const FAR_FORCE: f64 = 0.2;
 /// Difference of Akaike's criterion from which two models count as told apart: the better one is
 /// then `exp(6/2) = 20` times as likely.
 pub const TELLS_APART: f64 = 6.0;
@@ -191,9 +193,14 @@ fn check_signs(measured: &Measured, fits: &[ModelFit], path: &Path) -> Result<()
     let Some(best) = fits.iter().min_by(|a, b| a.aic.total_cmp(&b.aic)) else {
         return Ok(());
     };
-    let pressed = measured.extremes().1.force > measured.baseline();
-    // A curve of the wrong sign is fitted by no model.
-    if pressed && !misses(measured, best) {
+    let (least, greatest) = measured.extremes();
+    let baseline = measured.baseline();
+    let pressed = greatest.force > baseline;
+    // Farther away than where the tension is largest nothing presses.
+    let presses_from_afar = greatest.approach < least.approach
+        && greatest.force - baseline > FAR_FORCE * (baseline - least.force);
+    // Else a curve of the wrong sign is fitted by no model.
+    if pressed && !presses_from_afar && !misses(measured, best) {
         return Ok(());
     }
     let simple = [Model::Hertz, Model::Dmt, Model::Jkr];

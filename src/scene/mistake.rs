@@ -153,19 +153,23 @@ const MOST_SHOWN: usize = 20;
 #[derive(Clone, Debug, PartialEq)]
 pub struct SceneErrors(pub Vec<Mistake>);
 
+impl SceneErrors {
+    /// What is shown: a line a mistake, and one for the number of those left out.
+    pub fn lines(&self) -> impl Iterator<Item = String> {
+        let left_out = match self.0.len().saturating_sub(MOST_SHOWN) {
+            0 => None,
+            1 => Some(format!("{}: 1 more mistake", self.0[0].file)),
+            more => Some(format!("{}: {more} more mistakes", self.0[0].file)),
+        };
+        let shown = self.0.iter().take(MOST_SHOWN).map(Mistake::to_string);
+        shown.chain(left_out)
+    }
+}
+
 impl fmt::Display for SceneErrors {
     fn fmt(&self, formatter: &mut fmt::Formatter<'_>) -> fmt::Result {
-        for (index, mistake) in self.0.iter().take(MOST_SHOWN).enumerate() {
-            if index > 0 {
-                formatter.write_str("\n")?;
-            }
-            write!(formatter, "{mistake}")?;
-        }
-        match self.0.len().saturating_sub(MOST_SHOWN) {
-            0 => Ok(()),
-            1 => write!(formatter, "\n{}: 1 more mistake", self.0[0].file),
-            more => write!(formatter, "\n{}: {more} more mistakes", self.0[0].file),
-        }
+        let lines: Vec<String> = self.lines().collect();
+        formatter.write_str(&lines.join("\n"))
     }
 }
 
