@@ -1,4 +1,4 @@
-//! What an earlier run left in a folder that is gone on with: whether the files of its finished steps are whole.
+//! What an earlier run left in a folder that is resumed: whether the files of its finished steps are whole.
 
 use std::fs::File;
 use std::io::{Read, Seek, SeekFrom};

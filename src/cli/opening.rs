@@ -134,7 +134,7 @@ fn keep_rows(
     )))
 }
 
-/// The state and the curve of a folder, if steps can be gone on with from them.
+/// The state and the curve of a folder, if steps can be resumed from them.
 ///
 /// # Errors
 /// Refused where one is damaged, missing, or does not belong to the other or to the scene; the way out keeps
@@ -176,7 +176,7 @@ fn sound(
     Ok(Some((state, curve)))
 }
 
-/// What is in a folder of this scene, if it is `there` to be gone on with; `None` where the run ended before it
+/// What is in a folder of this scene, if it is `there` to be resumed; `None` where the run ended before it
 /// came to its first step.
 fn go_on(
     folder: &RunFolder,

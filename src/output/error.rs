@@ -3,7 +3,7 @@
 use std::io;
 use std::path::{Path, PathBuf};
 
-/// The way out of a run that cannot be gone on with: rows of it are never lost by following it.
+/// The remedy for a run that cannot be resumed: following it never loses rows.
 pub(crate) const FRESH: &str =
     "run without --resume to start afresh, which keeps the rows of curve.csv in curve.csv.before";
 

@@ -1,4 +1,4 @@
-//! What one step hands to the next, so that a path can be gone on with by another process.
+//! Checkpoint of a path, from which another process resumes.
 
 use super::evaluation::PointState;
 use super::pull_off::PullOff;

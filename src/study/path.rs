@@ -199,7 +199,7 @@ impl Stretch<'_> {
     /// How long a step takes, s; 0 where the path has no durations.
     fn duration(&self, index: usize) -> f64 {
         let durations = self.setup.scene.loading.durations.as_ref();
-        // A path that is gone on with at its end has no step there.
+        // A run resumed after its last step has no step here.
         durations
             .and_then(|durations| durations.get(index).copied())
             .unwrap_or(0.0)
