@@ -3,9 +3,10 @@
 
 pub mod watching;
 
+use std::panic::resume_unwind;
 use std::sync::OnceLock;
 
-use tabor::backend::gpu::{AdapterChoice, GpuBackend, GpuDevice, Number};
+use tabor::backend::gpu::{AdapterChoice, GpuBackend, GpuDevice, Number, quietly};
 
 /// A device, software drivers included. Without one the test that asks is skipped with a word,
 /// or fails where `TABOR_REQUIRE_GPU=1` says that there must be one: a missing driver on a test
@@ -43,7 +44,9 @@ pub fn device_with(choice: &AdapterChoice) -> Option<GpuDevice> {
         software: true,
         ..choice.clone()
     };
-    match GpuDevice::new(&choice) {
+    // Without what its driver prints at its start.
+    let made = quietly(|| GpuDevice::new(&choice));
+    match made.unwrap_or_else(|panic| resume_unwind(panic)) {
         Ok(device) => Some(device),
         Err(error) => {
             let required = std::env::var("TABOR_REQUIRE_GPU").is_ok_and(|v| v == "1");
