@@ -33,7 +33,7 @@ impl<F: Fn(&StepRow) -> bool> Observer for Until<F> {
     }
 }
 
-/// Walks a scene on `heights`, or on its own where there are none, until `is_last`.
+/// Walks a scene on `heights`, or on its own heights if none are given, until `is_last`.
 pub fn solve(
     text: &str,
     heights: Option<&[f64]>,

@@ -139,7 +139,7 @@ fn number(precision: Precision) -> Number {
 /// does, is a list of `software` (`auto` takes it for a graphics processor), `nodouble` (it has no
 /// double precision), `binding=BYTES` (it binds no more), `slab=BYTES` (a buffer holds no more of a
 /// field), `line=POINTS` (a workgroup holds no longer line), `memory=BYTES` (it has no more),
-/// `lost=DISPATCHES` (it is lost after so many), `nan=DISPATCHES` (numbers are none after so many),
+/// `lost=DISPATCHES` (it is lost after so many), `nan=DISPATCHES` (numbers are NaN after so many),
 /// `compiling=MILLISECONDS` (a shader takes so much longer to compile) and
 /// `plain-sums` (its compiler undoes the compensation of sums).
 fn choice() -> AdapterChoice {

@@ -305,7 +305,7 @@ fn row(name: &str, value: &str, unit: &str, what: &str) -> String {
     format!("{name:<20} {value:<14} {unit:<6} {what}")
 }
 
-/// A number with six digits; `-` for what is none.
+/// A number with six digits; `-` for NaN and infinity.
 fn number(value: f64) -> String {
     if value.is_finite() {
         format!("{value:.5e}")
