@@ -26,7 +26,7 @@ pub struct Scene {
     pub adhesion: Option<AdhesionScene>,
     /// `[capillary]`, an effect.
     pub capillary: Option<CapillaryScene>,
-    /// Tables of effects that hold numbers alone, such as `[friction]`.
+    /// Tables of effects that hold numbers alone.
     pub tables: EffectTables,
     /// `[loading]`.
     pub loading: LoadingScene,

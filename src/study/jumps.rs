@@ -328,8 +328,8 @@ pub(super) fn confirm(
         if !tried.row.converged {
             break;
         }
-        let pieces =
-            Piece::of(prescribed, &start.1, &tried.row).zip(Piece::of(prescribed, &tried.row, &end.1));
+        let pieces = Piece::of(prescribed, &start.1, &tried.row)
+            .zip(Piece::of(prescribed, &tried.row, &end.1));
         let Some((first, second)) = pieces else {
             // Separated on the way from one place to another.
             return Ok(Some(true));
