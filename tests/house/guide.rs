@@ -124,7 +124,7 @@ fn a_further_effect_touches_six_files() {
         if is_table || !(text.contains("friction") || text.contains("shear_strength")) {
             continue;
         }
-        let is_test_list = name.ends_with("/main.rs") && text.contains("mod friction;");
+        let is_test_list = name.starts_with("tests/physics/") && text.contains("mod friction;");
         let is_test = name.starts_with("tests/") && name.ends_with("/friction.rs");
         if NEEDED[..4].contains(&name.as_str()) || is_test || is_test_list {
             needed.push(name);

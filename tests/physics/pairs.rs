@@ -10,6 +10,7 @@ use tabor::study::{Setup, StepRow, walk};
 use tabor::surface::Surface;
 
 use crate::bench::cpu;
+use crate::shared::trials::tests;
 
 /// Bumps on a small grid, pressed on and drawn back.
 const SCENE: &str = "[grid]\npoints = 32\nsize = 1.0\n[solid]\ncontact_modulus = 1.0\n[[surface]]\nkind = \"wavy\"\namplitude = 0.02\nwavelength = 0.5\n[loading]\ncontrol = \"approach\"\nstart = 0.005\n[[loading.ramp]]\nto = 0.012\nsteps = 2\nduration = 1\n[[loading.ramp]]\nto = 0.004\nsteps = 2\nduration = 1\n[solver]\ntolerance = 1e-8\n";
@@ -62,7 +63,6 @@ fn refusal(pair: [Effect; 2]) -> Option<&'static str> {
     }
 }
 
-#[test]
 fn any_two_effects() {
     // The force of each step and the columns of effects that change nothing else; without the effects the
     // others are 0. Plastic energy is left out: a hardness must show in the rest.
@@ -116,3 +116,5 @@ fn any_two_effects() {
     assert!(pairs >= 78, "{pairs}");
     assert_eq!(refused, 11);
 }
+
+tests![any_two_effects,];
