@@ -25,7 +25,7 @@ mod wear;
 
 pub use between::Search;
 pub use cost::Cost;
-pub use dmt::attraction_across;
+pub use dmt::{attraction_across, greatest_across};
 pub use evaluation::{Evaluation, PointState, Solved};
 pub use hand_over::{Earlier, HandOver, HandedField};
 pub use jumps::{Jump, dissipation};
