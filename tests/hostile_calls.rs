@@ -159,7 +159,7 @@ fn in_process(name: &str, usual: u64, each: &dyn Fn(u64) -> bool) {
 #[test]
 fn no_hostile_curve_is_trouble_in_this_process() {
     let folder = tempfile::tempdir().expect("a folder");
-    in_process("fit", 400, &|case| {
+    in_process("fit", 100, &|case| {
         calls::curve(&spoiled(&mut Random(1 << 32 | case)), folder.path())
     });
 }
@@ -167,7 +167,7 @@ fn no_hostile_curve_is_trouble_in_this_process() {
 #[test]
 fn no_hostile_scene_is_trouble_to_compare_in_this_process() {
     let folder = tempfile::tempdir().expect("a folder");
-    in_process("compare", 40, &|case| {
+    in_process("compare", 12, &|case| {
         let text = scene(&mut Random(1 << 32 | case));
         calls::compare(text.as_bytes(), folder.path())
     });
