@@ -1,6 +1,6 @@
 //! What is asked of `fit`, `theory` and `compare` with any bytes: an answer of numbers or a refusal, never a panic.
 //!
-//! The fuzz targets feed it, and `tests/hostile_calls.rs` feeds it random curves.
+//! The fuzz targets feed it, and `tests/command_line/hostile_calls.rs` feeds it random curves.
 
 use std::fs;
 use std::path::Path;
