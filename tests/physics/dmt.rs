@@ -11,6 +11,7 @@ use tabor::study::{FinishedStep, Observer, PointState, Setup, State, StepRow, wa
 use tabor::surface::Surface;
 
 use crate::shared::binary::{errors, tabor};
+use crate::shared::trials::tests;
 
 const LAWS: [&str; 3] = ["exponential", "lennard-jones", "maugis-dugdale"];
 
@@ -107,7 +108,6 @@ const LIGHT: f64 = 2e-3;
 /// Steps of the dip that `compare` is judged by: 0.05 % apart.
 const STEPS: i32 = 401;
 
-#[test]
 fn pull_off_is_the_greatest_of_all_dips() {
     let folder = tempfile::tempdir().expect("a folder");
     fs::write(folder.path().join("map.txt"), spiked()).expect("written");
@@ -165,7 +165,6 @@ fn pull_off_is_the_greatest_of_all_dips() {
     }
 }
 
-#[test]
 fn a_load_is_met_on_the_closest_branch() {
     let folder = tempfile::tempdir().expect("a folder");
     fs::write(folder.path().join("map.txt"), spiked()).expect("written");
@@ -229,7 +228,6 @@ const BESIDE: f64 = 1e-4;
 /// Nearly flat surfaces under Lennard-Jones hold more tension just out of contact than at first touch: each point
 /// pulls most at a gap of its own. Without contact nothing is deformed, so the closed form is the mean of the law over
 /// the undeformed gap.
-#[test]
 fn a_tension_is_held_across_a_gap() {
     let folder = tempfile::tempdir().expect("a folder");
     let wave = |i: i32| (2.0 * std::f64::consts::PI * f64::from(i) / 32.0).cos();
@@ -293,3 +291,8 @@ fn a_tension_is_held_across_a_gap() {
     // Its clearances are a twenty-eighth apart, of which half changes the crest by less than a thousandth.
     assert!((found / most - 1.0).abs() < 1e-3, "{found} {most}");
 }
+tests![
+    pull_off_is_the_greatest_of_all_dips,
+    a_load_is_met_on_the_closest_branch,
+    a_tension_is_held_across_a_gap,
+];
