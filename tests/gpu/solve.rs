@@ -116,9 +116,7 @@ fn rough(points: usize) -> Surface {
             seed: 1,
         })],
         capillary: None,
-        friction: None,
-        conductance: None,
-        wear: None,
+        tables: EffectTables::default(),
         adhesion: None,
         loading: LoadingScene {
             control: Control::Pressure,
