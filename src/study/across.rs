@@ -21,7 +21,7 @@ pub fn attraction_across(setup: &Setup, clearance: f64) -> f64 {
     sum / heights.len() as f64
 }
 
-/// The greatest mean attraction without contact, Pa, and the clearance (m) at which it is met.
+/// The clearance (m) at which surfaces without contact attract most, and that mean attraction, Pa.
 ///
 /// With a wall a point pulls less the wider its gap, so it is met at first touch. Lennard-Jones pulls most at a
 /// gap of its own: nearly flat surfaces are held best just out of contact.
