@@ -1,7 +1,7 @@
-//! Which settings are worth their seconds.
+//! The Pareto front of cost and error.
 
-/// The settings that no other one beats in both cost and error: indices, the cheapest first. Costs
-/// and errors that are no numbers are on no front.
+/// Settings that no other setting beats in both cost and error, as indices, the cheapest first. NaN
+/// costs and errors are never on the front.
 pub fn pareto(points: &[(f64, Option<f64>)]) -> Vec<usize> {
     let mut known: Vec<(usize, f64, f64)> = points
         .iter()
@@ -19,8 +19,7 @@ pub fn pareto(points: &[(f64, Option<f64>)]) -> Vec<usize> {
     known.into_iter().map(|(index, ..)| index).collect()
 }
 
-/// The cheapest setting whose error, with the reference's own uncertainty on top, is at most
-/// `level`.
+/// The cheapest setting whose error plus the uncertainty of the reference is at most `level`.
 pub fn cheapest(points: &[(f64, Option<f64>)], uncertainty: f64, level: f64) -> Option<usize> {
     let reaches = |error: f64| error + uncertainty <= level;
     let front = pareto(points);

@@ -1,18 +1,18 @@
-//! The grids of a study.
+//! The grids of an accuracy study.
 
 use super::error::AccuracyError;
 
-/// Grids that are judged, at most; each has twice the points of the one before.
+/// Most grids compared; each has twice the points a side of the one before.
 const GRIDS: u32 = 4;
-/// Fewest points along a side of a grid that is judged.
+/// Fewest points along a side of a compared grid.
 pub const LEAST_POINTS: usize = 16;
-/// Each side of more than one point twice as fine.
+/// Doubles each side of more than one point.
 pub(super) fn twice(points: [usize; 2]) -> [usize; 2] {
     points.map(|side| if side == 1 { 1 } else { 2 * side })
 }
 
-/// The grids that are judged, the coarsest first: the scene's own, halved while every side is even
-/// and has points enough.
+/// The compared grids, the coarsest first: the scene's own grid, halved while every side is even
+/// and long enough.
 pub(super) fn ladder(own: [usize; 2]) -> Result<Vec<[usize; 2]>, AccuracyError> {
     let is_coarse =
         |points: [usize; 2]| points.iter().any(|side| *side > 1 && *side < LEAST_POINTS);

@@ -1,15 +1,15 @@
-//! What accuracy costs: a scene over grids, tolerances, precisions, tapers, step counts, backends
-//! and models, each with its error and its seconds.
+//! Error against run time: a scene over grids, tolerances, precisions, tapers, step counts,
+//! backends and models.
 //!
 //! | question | file |
 //! |---|---|
-//! | what is tried | `setting`, `steps` |
-//! | is it the same surface on every grid | `same_surface` |
-//! | what is compared | `measure`, `cells`, `judge` |
-//! | with what | `reference`: `closed`, or `richardson` on finer grids |
-//! | what there is time for, and where | `study`, `grids`, `forecast`; `workplace` |
-//! | what is worth its seconds | `front` |
-//! | what was found, and how it is shown | `report`; `table`, `picture` |
+//! | which settings are tried | `setting`, `steps` |
+//! | the same surface on every grid | `same_surface` |
+//! | which quantities are compared | `measure`, `cells`, `judge` |
+//! | with which reference | `reference`: `closed`, or `richardson` on finer grids |
+//! | which settings the time allows, on which backend | `study`, `grids`, `forecast`; `workplace` |
+//! | which settings are worth their time | `front` |
+//! | results and their display | `report`; `table`, `picture` |
 
 mod cells;
 mod closed;

@@ -1,4 +1,4 @@
-//! The study: a reference first, then each setting that the time allows, the cheapest next.
+//! Runs the reference first, then each setting that the time allows, the cheapest first.
 
 use std::time::{Duration, Instant};
 
@@ -20,14 +20,14 @@ use crate::law::Law;
 use crate::scene::{BackendName, Precision, Scene, Treatment};
 use crate::study::Setup;
 
-/// Share of the time that the reference may take.
+/// Share of the budget for the reference.
 const REFERENCE_SHARE: f64 = 0.6;
-/// Share of what is then left that one more grid may take.
+/// Share of the remaining budget for one more grid.
 const OWN_SHARE: f64 = 0.3;
-/// How much tighter the reference is solved than the scene asks.
+/// Tolerance of the reference over the scene's.
 const TIGHTER: f64 = 0.1;
 
-/// Judges a scene within a budget of seconds.
+/// An accuracy study of a scene within a budget of seconds.
 pub struct Study<'a> {
     same: SameSurface,
     workplace: &'a dyn Workplace,
@@ -41,19 +41,19 @@ pub struct Study<'a> {
     report: Report,
 }
 
-/// How a run ended that gave no row.
+/// Why a run gave no row.
 enum Missed {
-    /// It would not end in time.
+    /// It would take too long.
     Late(f64),
-    /// It ran into the end of the time.
+    /// It reached the time limit.
     OutOfTime(f64),
     /// Ctrl-C.
     Interrupted,
-    /// It cannot be run here.
+    /// It cannot be run on this machine.
     Impossible(String),
 }
 
-/// A run that ended.
+/// A finished run.
 struct Done {
     measured: Measured,
     range: Option<f64>,
@@ -66,7 +66,7 @@ impl<'a> Study<'a> {
     /// Prepares the study of a scene.
     ///
     /// # Errors
-    /// A surface that cannot be built or has one grid only; too few points.
+    /// A surface that cannot be built or belongs to one grid; too few points.
     pub fn new(
         scene: &Scene,
         workplace: &'a dyn Workplace,
@@ -74,8 +74,8 @@ impl<'a> Study<'a> {
     ) -> Result<Study<'a>, AccuracyError> {
         let started = Instant::now();
         let mut same = SameSurface::of(scene)?;
-        // The full law is what models are judged by, and double precision on the processor what
-        // every other arithmetic is.
+        // Models are compared with the full law, and other precisions with double precision on the
+        // processor.
         if let Some(adhesion) = &mut same.scene.adhesion {
             adhesion.treatment = Treatment::Full;
         }
@@ -114,12 +114,12 @@ impl<'a> Study<'a> {
         })
     }
 
-    /// Runs it. Rows go to the listener as they end.
+    /// Runs the study. Rows go to the listener as they finish.
     ///
     /// # Errors
-    /// No reference within the budget; what the listener cannot keep.
+    /// No reference within the budget; errors of the listener.
     pub fn run(mut self, listener: &mut dyn Listener) -> Result<Report, AccuracyError> {
-        // What cannot be kept is better known before minutes of work than after.
+        // Find output errors before minutes of work, not after.
         listener.row(&self.report)?;
         for warning in std::mem::take(&mut self.same.warnings) {
             listener.note(&warning);
@@ -137,13 +137,13 @@ impl<'a> Study<'a> {
         Ok(self.report)
     }
 
-    /// Seconds that are left.
+    /// Remaining seconds.
     fn left(&self) -> f64 {
         (self.deadline - Instant::now().min(self.deadline)).as_secs_f64()
     }
 
-    /// Solves the reference grid by grid while the time allows, and says which grids are coarse
-    /// enough to be judged by it.
+    /// Solves the reference grid by grid while time allows; returns the grids coarse enough to be
+    /// compared with it.
     fn climb(&mut self, listener: &mut dyn Listener) -> Result<Vec<[usize; 2]>, AccuracyError> {
         let mut grids = self.grids.clone();
         let finest = grids[grids.len() - 1];
@@ -167,7 +167,7 @@ impl<'a> Study<'a> {
                     self.leave_out(&setting, "the reference did not converge".to_owned());
                     break;
                 }
-                // A grid that cannot hold the surface has nothing to say; a finer one may.
+                // A grid that cannot resolve the surface is skipped; a finer one may do.
                 Err(Missed::Impossible(reason)) if levels.is_empty() => {
                     self.leave_out(&setting, reason.clone());
                     ended = reason;
@@ -192,7 +192,7 @@ impl<'a> Study<'a> {
             if !self.report.interrupted {
                 return Err(AccuracyError::NoReference { reason: ended });
             }
-            // What was measured is kept, without a judgement.
+            // Measured runs are kept, without errors.
             for (setting, done) in levels {
                 self.keep(setting, done, listener)?;
             }
@@ -204,7 +204,7 @@ impl<'a> Study<'a> {
             _ => format!("{} steps", measured[0].walked),
         };
         self.report.reference = Reference::numeric(&measured, top.points, &walked);
-        // What is judged is at most half as fine as the finest.
+        // Compared grids are at most half as fine as the finest.
         let coarser = levels.len() - 1;
         let judged: Vec<[usize; 2]> = levels[..coarser]
             .iter()
@@ -226,7 +226,7 @@ impl<'a> Study<'a> {
         Ok(judged)
     }
 
-    /// Runs the scene's own way on each grid, and drops the grids for which there is no time.
+    /// Runs the scene's own setting on each grid, and drops the grids for which there is no time.
     fn own(
         &mut self,
         judged: &mut Vec<[usize; 2]>,
@@ -235,7 +235,8 @@ impl<'a> Study<'a> {
         let mut run = Vec::new();
         for points in judged.iter() {
             let setting = Setting::own(&self.report.scene, *points);
-            // What is varied on the coarser grids needs its time too; the first grid needs its own.
+            // Leave time for the variations on the coarser grids; the first grid gets all the time
+            // it needs.
             let share = if run.is_empty() { 1.0 } else { OWN_SHARE };
             match self.attempt(&setting, share * self.left(), listener) {
                 Ok(done) => {
@@ -254,9 +255,9 @@ impl<'a> Study<'a> {
         listener.row(&self.report)
     }
 
-    /// Once the steps that stand beside those of the reference are known on a grid that it has too,
-    /// what its own change belongs to its uncertainty. The finest such grid says it; where they are
-    /// not the scene's own, they are walked on the coarsest.
+    /// Once the comparison steps of the reference are known on a grid that the reference also has,
+    /// adds their difference to its uncertainty. Uses the finest such grid; if they are not the
+    /// scene's own steps, solves them on the coarsest grid.
     fn judge_in_time(
         &mut self,
         judged: &[[usize; 2]],
@@ -298,7 +299,7 @@ impl<'a> Study<'a> {
         Ok(())
     }
 
-    /// Runs everything else on those grids, the cheapest next, while there is time.
+    /// Runs all other settings on those grids, the cheapest first, while time allows.
     fn vary(
         &mut self,
         judged: &[[usize; 2]],
@@ -309,7 +310,7 @@ impl<'a> Study<'a> {
             .iter()
             .flat_map(|points| others(&self.report.scene, *points, arithmetics))
             .filter(|setting| {
-                // The reference has walked some, and what it stands beside.
+                // Some were run for the reference or its uncertainty.
                 setting.steps == Steps::AsGiven
                     || !self.report.rows.iter().any(|row| {
                         row.setting.points == setting.points && row.setting.steps == setting.steps
@@ -350,7 +351,7 @@ impl<'a> Study<'a> {
         Work::of(setting, &scene, grid, path.loading.path.len())
     }
 
-    /// Runs a setting if it will end within `allowed` seconds.
+    /// Runs a setting if it is predicted to end within `allowed` seconds.
     fn attempt(
         &mut self,
         setting: &Setting,
@@ -361,7 +362,7 @@ impl<'a> Study<'a> {
         let work = self.work(setting);
         let predicted = self.forecast.seconds(&work);
         let is_late = predicted > allowed;
-        // What a graphics processor cannot do is said rather than how long it would take.
+        // An unsupported setting is reported as such, not by its duration.
         if is_late && setting.backend != BackendName::Gpu {
             return Err(Missed::Late(predicted));
         }
@@ -392,7 +393,8 @@ impl<'a> Study<'a> {
         };
         let mut end = run();
         if setting.backend == BackendName::Gpu && !self.warm && end.is_ok() {
-            // The first run builds shaders, which later ones find: it is no measure of any.
+            // The first run builds shaders, which later runs reuse, so its time is not
+            // representative.
             end = run();
         }
         self.warm |= setting.backend == BackendName::Gpu;
@@ -414,7 +416,7 @@ impl<'a> Study<'a> {
             Err(Unfinished::Stopped) if interrupted => Err(Missed::Interrupted),
             Err(Unfinished::Stopped) => {
                 let took = began.elapsed().as_secs_f64();
-                // So much at least: what is like it will not be tried again.
+                // It takes at least this long; similar settings will not be tried again.
                 self.forecast.learn(&work, took.max(predicted));
                 Err(Missed::OutOfTime(took))
             }
@@ -427,7 +429,7 @@ impl<'a> Study<'a> {
         self.report.left_out.push(LeftOut { words, reason });
     }
 
-    /// Judges a run and hands its row on.
+    /// Computes the errors of a run and passes its row on.
     fn keep(
         &mut self,
         setting: Setting,

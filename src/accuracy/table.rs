@@ -1,4 +1,4 @@
-//! `accuracy.csv`, and the table on the screen.
+//! `accuracy.csv`, and the table on the terminal.
 
 use std::fmt::Write;
 use std::fs;
@@ -11,7 +11,7 @@ use super::setting::Varied;
 use super::steps::Steps;
 use crate::output::{OutputError, write_atomically};
 
-/// Columns that every `accuracy.csv` begins with, those of older versions too.
+/// First columns of every `accuracy.csv`, including those of older versions.
 const FIRST_COLUMNS: &str = "points,backend,precision,tolerance,steps,treatment,taper,seconds,error_area,error_force,error_pressure,error_pull_off,reference_uncertainty,pareto";
 
 /// The columns after those.
@@ -23,7 +23,7 @@ pub const LEVELS: [f64; 3] = [0.1, 0.01, 0.001];
 /// A quantity of [`Errors`].
 type Quantity = fn(&Errors) -> Option<f64>;
 
-/// What is judged apart, and all of it together.
+/// Each quantity, and all together.
 const QUANTITIES: [(&str, Quantity); 5] = [
     ("contact area", |errors| errors.area),
     ("force or gap", |errors| errors.force),
@@ -32,7 +32,7 @@ const QUANTITIES: [(&str, Quantity); 5] = [
     ("all of them", Errors::largest),
 ];
 
-/// The table of all rows so far as CSV. What is not known is empty.
+/// The table of all rows so far as CSV. Unknown values are empty.
 pub fn csv(report: &Report) -> String {
     let mut text = format!("{FIRST_COLUMNS},{MORE_COLUMNS}\n");
     let front = report.front(Errors::largest);
@@ -71,19 +71,19 @@ pub fn csv(report: &Report) -> String {
     text
 }
 
-/// Writes `accuracy.csv`, whole or not at all.
+/// Writes `accuracy.csv`, in one piece.
 ///
 /// # Errors
-/// A file of that name that is no such table; what the system refuses.
+/// An existing file of that name that is not such a table; errors of the system.
 pub fn write_csv(path: &Path, report: &Report) -> Result<(), OutputError> {
     expect_place(path)?;
     write_atomically(path, csv(report).as_bytes())
 }
 
-/// Refuses a place where something else lies than such a table.
+/// Refuses a path with an existing file that is not such a table.
 ///
 /// # Errors
-/// [`OutputError::Refused`] where it does.
+/// [`OutputError::Refused`] in that case.
 pub fn expect_place(path: &Path) -> Result<(), OutputError> {
     let refused = |reason: &str| OutputError::Refused {
         path: path.to_path_buf(),
@@ -100,7 +100,7 @@ pub fn expect_place(path: &Path) -> Result<(), OutputError> {
     Ok(())
 }
 
-/// As in `256`, or `256x128`.
+/// `256`, or `256x128`.
 fn points([nx, ny]: [usize; 2]) -> String {
     match nx == ny {
         true => nx.to_string(),
@@ -108,7 +108,7 @@ fn points([nx, ny]: [usize; 2]) -> String {
     }
 }
 
-/// In two digits.
+/// Per cent with two digits.
 fn percent(value: Option<f64>) -> String {
     match value.map(|value| 100.0 * value) {
         None => "-".to_owned(),
@@ -122,7 +122,7 @@ fn percent(value: Option<f64>) -> String {
     }
 }
 
-/// The report for people.
+/// The report for the terminal.
 pub fn screen(report: &Report) -> String {
     let mut text = String::new();
     // Writing to a string cannot fail.
@@ -202,7 +202,7 @@ pub fn screen(report: &Report) -> String {
     text
 }
 
-/// What steps cost and leave on the finest grid that has both counted ones and those of `steps = "auto"`.
+/// Error in time of the finest grid that has both numbered steps and `steps = "auto"`.
 fn in_time(report: &Report) -> Vec<String> {
     let rows = || report.rows.iter().filter(|row| row.in_time.is_some());
     let is_auto = |row: &Row| row.varied == Varied::TimeTolerance;
@@ -233,7 +233,7 @@ fn cells(words: &str, seconds: &str, errors: &Errors) -> String {
     format!("{words:<58} {seconds:>8} {area:>9} {force:>9} {pressure:>9} {pull_off:>9}")
 }
 
-/// The cheapest setting for a level, or that none reached it; `None` where nothing is judged.
+/// The cheapest setting for a level, or a note that none reached it; `None` without errors.
 fn cheapest(report: &Report, of: Quantity, level: f64) -> Option<String> {
     let costs = report.costs(of);
     let best = costs.iter().filter_map(|cost| cost.1).reduce(f64::min)?;

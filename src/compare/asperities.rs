@@ -1,4 +1,4 @@
-//! The models of summits: interacting asperities of the height map, and GW-M.
+//! Models of summits: interacting asperities of the height map, and GW-M.
 
 use super::ladder::{Ladder, rungs};
 use super::table::Table;
@@ -7,9 +7,10 @@ use crate::theory::gw::Summits;
 use crate::theory::icha::{Icha, MergeRule};
 use crate::theory::{Sphere, gw_m};
 
-/// Contact area up to which interacting asperities are near full fields; beyond it most have merged.
+/// Contact area up to which interacting asperities approximate the full field; beyond it most have
+/// merged.
 const ICHA_AREA: f64 = 0.3;
-/// Contact area up to which summits that do not feel each other are a model.
+/// Contact area up to which non-interacting summits are a valid model.
 const GW_AREA: f64 = 0.05;
 
 /// Interacting asperities, the law's traction summed over their gap field.
@@ -25,7 +26,7 @@ pub(super) fn icha(comparison: &Comparison, table: &mut Table) -> Result<(), Lef
     for repulsive in rungs(unit, largest, comparison.tension) {
         let pressed = match loading.press(repulsive / modulus) {
             Ok(pressed) => pressed,
-            // What it reached stands.
+            // The rows reached so far are kept.
             Err(error) => {
                 ended = Some(error);
                 break;
@@ -75,7 +76,7 @@ pub(super) fn gw_m(comparison: &Comparison, table: &mut Table) -> Result<(), Lef
         Ok(State {
             mean_pressure: net,
             contact_area_fraction: Some(summits.contact_area_fraction(separation)),
-            // Below the mean plane its flat has no gap to speak of.
+            // Below the mean plane the model's flat has no meaningful gap.
             mean_gap: Some(separation * rms_height + mean_summit).filter(|gap| *gap > 0.0),
             adhesive_pressure: Some(summits.pressure(separation)? - net),
         })

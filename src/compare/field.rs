@@ -1,4 +1,4 @@
-//! The full field, and the field without adhesion whose attraction is summed afterwards.
+//! The full field, and the field without adhesion with the attraction added afterwards (DMT).
 
 use super::ladder::{Ladder, rungs};
 use super::table::Table;
@@ -12,22 +12,23 @@ use crate::study::{
     Evaluation, FinishedStep, Observer, PointState, Setup, WalkError, attraction_across, walk,
 };
 
-/// Mean gaps at which pull-off is looked for on the way out, and around the greatest tension found.
+/// Number of mean gaps in the search for pull-off on retraction, and around its greatest tension.
 const WAY_OUT: usize = 32;
 const CLOSER: usize = 8;
-/// Tension over the greatest one below which the way out ends.
+/// The retraction ends where the tension falls below this share of the greatest one.
 const OVER: f64 = 0.3;
 
-/// Gaps without contact at which the attraction is summed, their factor, and the first of them in ranges
-/// of the law: up to some fifteen ranges, where an attraction is a thousandth of its peak.
+/// Number of gaps without contact at which the attraction is summed, their ratio, and the first of
+/// them in ranges of the law: up to about fifteen ranges, where the attraction is a thousandth of
+/// its peak.
 const CLEARANCES: i32 = 24;
 const CLEARANCE_RUNG: f64 = 1.5;
 const CLOSEST: f64 = 1e-3;
 
-/// Sees the state of each step; may end the path.
+/// Observes the state of each step and may end the path.
 struct Watch<F: FnMut(State, &Evaluation, bool) -> Result<bool, OutputError>>(F);
 
-/// Why a watched path ended.
+/// Why an observed path ended.
 enum End {
     Enough,
     Output(OutputError),
@@ -62,13 +63,13 @@ impl<F: FnMut(State, &Evaluation, bool) -> Result<bool, OutputError>> Observer f
     }
 }
 
-/// Mean over the cell of the tension, Pa.
+/// Mean tension over the cell, Pa.
 fn tension(fields: &Evaluation) -> f64 {
     let sum: f64 = fields.pressure.iter().map(|p| (-p).max(0.0)).sum();
     sum / fields.pressure.len() as f64
 }
 
-/// Walks another path over the same surface.
+/// Follows another path over the same surface.
 fn walked<F: FnMut(State, &Evaluation, bool) -> Result<bool, OutputError>>(
     comparison: &Comparison,
     make_backend: MakeBackend,
@@ -96,8 +97,8 @@ fn unconverged(converged: bool) -> Option<&'static str> {
     (!converged).then_some("not converged")
 }
 
-/// The scene as it is: pull-off from its largest load, then its path step by step, which also finds
-/// the loads of the other models.
+/// The scene itself: pull-off by retraction from its largest load, then its path step by step,
+/// which also gives the loads for the other models.
 pub(super) fn full(
     comparison: &mut Comparison,
     make_backend: MakeBackend,
@@ -131,7 +132,7 @@ pub(super) fn full(
     Ok(())
 }
 
-/// The state of greatest tension on the way out from the closest step of the scene's path.
+/// The state of greatest tension on retraction from the closest step of the scene's path.
 fn way_out(
     comparison: &Comparison,
     make_backend: MakeBackend,
@@ -161,7 +162,7 @@ fn way_out(
     let Some(nearest) = nearest else {
         return Ok(None);
     };
-    // Apart by more than the highest summit and some ranges nothing is left.
+    // Beyond the highest summit by a few ranges no attraction is left.
     let statistics = comparison.setup.statistics;
     let far = statistics.highest - statistics.mean + 3.0 * comparison.setup.law.range();
     let mut low = nearest.max(1e-3 * far);
@@ -193,11 +194,11 @@ fn way_out(
     Ok(best)
 }
 
-/// The treatment of DMT: a ladder of contacts without adhesion for pull-off, then each load by itself.
+/// The DMT treatment: a scan of contacts without adhesion for pull-off, then each load separately.
 ///
-/// The net pressure is not monotone in the repulsive one: a summit that stands out lets go alone before
-/// the rest comes near. So the ladder is climbed until no attraction can win any more, what attracts
-/// across a gap without contact is asked too, and every dip is looked at closer.
+/// The net pressure is not monotone in the repulsive pressure: a single high summit detaches before
+/// the rest of the surface comes near. So the scan continues until no attraction can exceed the
+/// repulsion, includes states without contact, and is refined around every minimum.
 pub(super) fn dmt(
     comparison: &Comparison,
     make_backend: MakeBackend,
@@ -254,11 +255,12 @@ pub(super) fn dmt(
     )
 }
 
-/// The state of greatest tension without contact: the undeformed surfaces, from first touch outwards.
+/// The state of greatest tension without contact: the undeformed surfaces, from first touch
+/// outwards.
 fn across_a_gap(setup: &Setup) -> State {
     let law = setup.law;
     let tension = |clearance: f64| attraction_across(setup, clearance);
-    // With a wall a point pulls less the wider its gap, so first touch is the greatest.
+    // For a law with a wall the attraction falls with the gap, so it is greatest at first touch.
     let mut best = (0.0, tension(0.0));
     if !law.has_wall() {
         let rungs = (0..=CLEARANCES).map(|i| CLOSEST * CLEARANCE_RUNG.powi(i) * law.range());

@@ -1,9 +1,9 @@
-//! One rough surface through several models, side by side with the seconds that each takes.
+//! One rough surface through several models, with the seconds that each takes.
 //!
-//! [`compare`] asks the full field, the field without adhesion whose attraction is summed afterwards
-//! (DMT), interacting asperities, Persson's theory, summits by themselves (GW-M) and the bearing-area
-//! model for contact area, mean gap, attraction and pull-off under the same loads; `docs/compare.md`
-//! says what each is and where it leaves its range.
+//! [`compare`] computes contact area, mean gap, attraction and pull-off under the same loads by the
+//! full field, the field without adhesion with the attraction added afterwards (DMT), interacting
+//! asperities, Persson's theory, independent summits (GW-M) and the bearing-area model;
+//! `docs/compare.md` describes each and its range.
 
 mod asperities;
 mod draw;
@@ -27,7 +27,7 @@ use crate::theory::TheoryError;
 use crate::theory::tabor_map::FORCE_DMT_LIMIT;
 use table::Table;
 
-/// What a model says at one net mean pressure; `None` where it has no such quantity.
+/// Results of a model at one net mean pressure; `None` if the model has no such quantity.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct State {
     /// Mean pressure, Pa, negative in tension.
@@ -36,23 +36,23 @@ pub struct State {
     pub contact_area_fraction: Option<f64>,
     /// Mean gap, m.
     pub mean_gap: Option<f64>,
-    /// Mean tension that the attraction makes, Pa.
+    /// Mean tension of the attraction, Pa.
     pub adhesive_pressure: Option<f64>,
 }
 
-/// What a comparison found.
+/// Results of a comparison.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Compared {
     /// The rows of `compare.csv`, model by model.
     pub rows: Vec<Row>,
-    /// Models left out or cut short, and why.
+    /// Models left out or ended early, with reasons.
     pub notes: Vec<String>,
 }
 
-/// Why there is no comparison.
+/// Why a comparison is impossible.
 #[derive(Debug, thiserror::Error)]
 pub enum CompareError {
-    /// The models say nothing of the scene; what, where and the way out.
+    /// A scene outside the models: the part and the remedy.
     #[error("{0}")]
     Unsuited(String),
     /// A file that cannot be written.
@@ -63,7 +63,7 @@ pub enum CompareError {
     Backend(#[from] BackendError),
 }
 
-/// A scene and its surface, and the loads that models are asked.
+/// A scene with its surface, and the loads for the models.
 struct Comparison {
     setup: Setup,
     /// Distinct net mean pressures, Pa, rising.
@@ -73,13 +73,13 @@ struct Comparison {
 }
 
 impl Comparison {
-    /// Net mean pressures of a model between its pull-off and its reach.
+    /// Net mean pressures that a model carries: above its pull-off and within its range.
     fn carried(&self, pull_off: f64) -> impl Iterator<Item = f64> {
         let loads = self.loads.iter().copied();
         loads.filter(move |load| *load > -pull_off)
     }
 
-    /// Why the force approach of DMT is out of its range here, if it is.
+    /// Why the DMT force approach is out of its range here, if it is.
     fn beyond_dmt(&self) -> Option<&'static str> {
         let tabor = self.setup.regime?.tabor;
         (tabor > FORCE_DMT_LIMIT).then_some("Tabor number above 0.237")
@@ -89,8 +89,8 @@ impl Comparison {
 /// Compares and writes `compare.csv`, row by row, and `compare.png` into `folder`.
 ///
 /// # Errors
-/// A scene that does not suit ([`suits`]), a flat surface, files that cannot be written, a device that
-/// fails. A model that has nothing to say is no error: a note tells why.
+/// A scene that does not suit ([`suits`]), a flat surface, files that cannot be written, a device
+/// that fails. A model without results is not an error: a note gives the reason.
 pub fn compare(
     setup: Setup,
     make_backend: MakeBackend,
@@ -147,7 +147,7 @@ pub fn compare(
 
 type Model = fn(&Comparison, &mut Table) -> Result<(), Left>;
 
-/// Why a model has no more rows.
+/// Why a model has no further rows.
 #[derive(Debug, thiserror::Error)]
 enum Left {
     #[error("{0}")]
@@ -158,10 +158,11 @@ enum Left {
     Output(#[from] OutputError),
 }
 
-/// Refuses scenes of which the models say nothing.
+/// Refuses scenes outside the models.
 ///
 /// # Errors
-/// Spheres and cones, a free boundary, a spring, and a solid or an adhesion that only the full field knows.
+/// Spheres and cones, a free boundary, a spring, and solids or adhesion that only the full field
+/// can model.
 pub fn suits(scene: &Scene) -> Result<(), CompareError> {
     let mistake = |text: &str| Err(CompareError::Unsuited(text.to_owned()));
     for (index, part) in scene.surfaces.iter().enumerate() {

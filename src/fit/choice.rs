@@ -1,4 +1,4 @@
-//! Which model a curve belongs to.
+//! Chooses the model of a curve.
 
 use std::path::Path;
 
@@ -15,57 +15,57 @@ use crate::theory::tabor_map::{
 };
 use crate::units::format_si;
 
-/// Force farther away than the largest tension, as a share of that: more than noise or drift make of it.
+/// A force farther away than the largest tension, relative to it, that cannot be noise or drift.
 const FAR_FORCE: f64 = 0.2;
-/// Difference of Akaike's criterion from which two models count as told apart: the better one is
-/// then `exp(6/2) = 20` times as likely.
+/// Difference of Akaike's criterion from which one model is preferred: it is then `exp(6/2) = 20`
+/// times as likely.
 pub const TELLS_APART: f64 = 6.0;
-/// Fewest free points that tell where the force is zero, where that is fitted too.
+/// Fewest points without force that determine a fitted baseline.
 const ZERO_POINTS: usize = 5;
-/// Correlation of neighbouring residuals from which a model misses the curve, beyond the
-/// 3/sqrt(points) that chance may give.
+/// Correlation of neighbouring residuals above which a model misses the curve, in addition to the
+/// 3/sqrt(points) that chance allows.
 pub const MISSES: f64 = 0.3;
-/// Correlation of work of adhesion and modulus beyond which neither is known by itself.
+/// Correlation of work of adhesion and modulus above which they cannot be separated.
 pub const ENTANGLED: f64 = 0.95;
-/// Relative standard deviation from which a number is hardly one.
+/// Relative standard deviation from which a warning is given.
 pub const VAGUE: f64 = 0.3;
-/// Share of the approach at its closest end in which the greatest tension of a curve without compression
-/// shows no contact.
+/// If the greatest tension lies within this share of the approach at its closest end, a curve
+/// without compression shows no contact.
 const CLOSEST: f64 = 0.05;
-/// Rounds of choosing a regime by the Tabor number that the last choice gave.
+/// Most iterations of model choice and Tabor number.
 const ROUNDS: usize = 4;
 
-/// A number of a fit with its standard deviation.
+/// A fitted number with its standard deviation.
 type Number = fn(&Parameters, &Uncertainties) -> (f64, Option<f64>);
 
-/// What a curve gave.
+/// Results of a fit.
 #[derive(Clone, Debug)]
 pub struct FitResult {
-    /// The curve with its ways.
+    /// The curve with its segments.
     pub measured: Measured,
-    /// Every model that could be fitted, from the simplest.
+    /// Every fitted model, from the simplest.
     pub fits: Vec<ModelFit>,
-    /// Which of them is taken.
+    /// The chosen one.
     pub chosen: usize,
-    /// Tabor number that the taken model implies; `None` without adhesion, or where the range is
-    /// not known.
+    /// Tabor number that the chosen model implies; `None` without adhesion, or if the range is
+    /// unknown.
     pub tabor_parameter: Option<f64>,
-    /// Standard deviation of the work of adhesion, or what models that the curve cannot tell
-    /// apart leave open if that is more, J/m^2.
+    /// Standard deviation of the work of adhesion, or the spread over indistinguishable models if
+    /// that is larger, J/m^2.
     pub work_uncertainty: Option<f64>,
     /// The same of the contact modulus, Pa.
     pub modulus_uncertainty: Option<f64>,
-    /// What a law of another shape than the model's may put work and modulus off by; `None` without
-    /// adhesion.
+    /// Possible error of work and modulus if the law has another shape than the model's; `None`
+    /// without adhesion.
     pub law_error: Option<LawError>,
     /// Work and modulus from pull-off and one stiffness alone, by JKR.
     pub inversion: Option<Inversion>,
-    /// What the reader should know.
+    /// Warnings for the user.
     pub warnings: Vec<String>,
 }
 
 impl FitResult {
-    /// The model that is taken.
+    /// The chosen model.
     pub fn best(&self) -> &ModelFit {
         &self.fits[self.chosen]
     }
@@ -76,18 +76,17 @@ impl FitResult {
     }
 }
 
-/// Fits all models to a curve of a sphere of `radius` (m) and takes one; `path` is for messages.
+/// Fits all models to a curve of a sphere of `radius` (m) and chooses one; `path` is for messages.
 ///
 /// # Errors
-/// A curve that shows no compression or is the wrong way round, and one that no model is brought
-/// to.
+/// A curve without compression or with wrong signs, and one that no model fits.
 pub fn fit_curve(
     curve: &ForceCurve,
     path: &Path,
     radius: f64,
     freedom: Freedom,
 ) -> Result<FitResult, FitError> {
-    // Refuses a radius that is none.
+    // Refuses an invalid radius.
     Sphere::new(radius, 1.0, 0.0)?;
     let measured = Measured::new(curve.samples.clone(), radius, freedom);
     let no_fit = || FitError::NoFit {
@@ -103,7 +102,7 @@ pub fn fit_curve(
     doubts(&measured, &fits[chosen], &mut warnings);
     let work: Number = |p, u| (p.work_of_adhesion, u.work_of_adhesion);
     let modulus: Number = |p, u| (p.contact_modulus, u.contact_modulus);
-    // Where the zero of the force is fitted but not measured, tension may be an offset.
+    // If the baseline is fitted but not measured, tension may be an offset.
     let zero_known = knows_zero(&measured, &fits[chosen]);
     if !zero_known {
         warnings.push(
@@ -115,7 +114,7 @@ pub fn fit_curve(
     let stiff = fits[chosen].parameters.contact_modulus;
     let (least, greatest) = measured.extremes();
     let pressed = greatest.force > measured.baseline();
-    // Where the tension grows up to the closest point there may be an attraction and no contact.
+    // If the tension grows up to the closest point there may be attraction without contact.
     let closest = measured
         .approaches
         .iter()
@@ -130,7 +129,7 @@ pub fn fit_curve(
     }
     let law_error = law_error(&measured, &fits[chosen]);
     if let Some(error) = law_error {
-        // Of a number that the curve does not tell nothing need be added.
+        // Nothing to add for a number that the curve does not determine.
         let within = |stated: Option<f64>, error: f64| stated.is_none_or(|stated| stated >= error);
         if !within(work_uncertainty, error.work_of_adhesion)
             || !within(modulus_uncertainty, error.contact_modulus)
@@ -155,11 +154,13 @@ pub fn fit_curve(
     })
 }
 
-/// Standard deviation of a number of the taken model: its own, or what any state of any model that
-/// the curve does not rule out leaves open, if that is more. `None` where the curve does not tell.
+/// Standard deviation of a number of the chosen model: its own, or the spread over all states of
+/// all models that the curve does not rule out, if that is larger. `None` if the curve does not
+/// determine it.
 ///
-/// This is the profile of the sum of squares over all models: where the truth is one of their states,
-/// three deviations hold it as often as its sum of squares lies within nine variances of the least.
+/// This is the profile of the sum of squares over all models: if the truth is one of their states,
+/// three deviations contain it as often as its sum of squares lies within nine variances of the
+/// least.
 fn deviation(fits: &[ModelFit], chosen: usize, number: Number) -> Option<f64> {
     let best = &fits[chosen];
     let (value, own) = number(&best.parameters, &best.uncertainties);
@@ -174,8 +175,7 @@ fn deviation(fits: &[ModelFit], chosen: usize, number: Number) -> Option<f64> {
     own.map(|own| spread.fold(own, f64::max))
 }
 
-/// Whether a fit with a free baseline has points on which nothing acts; true where the baseline is
-/// known.
+/// Whether a fit with a free baseline has points without force; true if the baseline is known.
 fn knows_zero(measured: &Measured, fit: &ModelFit) -> bool {
     let touch = fit.parameters.approach_offset;
     let free = if fit.model.adheres() {
@@ -187,8 +187,7 @@ fn knows_zero(measured: &Measured, fit: &ModelFit) -> bool {
     !measured.freedom.force_offset || free >= ZERO_POINTS
 }
 
-/// Refuses a curve that is fitted far better with the sign of its approach, of its force, or of both
-/// turned.
+/// Refuses a curve that fits far better with the sign of its approach, its force, or both reversed.
 fn check_signs(measured: &Measured, fits: &[ModelFit], path: &Path) -> Result<(), FitError> {
     let Some(best) = fits.iter().min_by(|a, b| a.aic.total_cmp(&b.aic)) else {
         return Ok(());
@@ -196,10 +195,10 @@ fn check_signs(measured: &Measured, fits: &[ModelFit], path: &Path) -> Result<()
     let (least, greatest) = measured.extremes();
     let baseline = measured.baseline();
     let pressed = greatest.force > baseline;
-    // Farther away than where the tension is largest nothing presses.
+    // No point farther away than the largest tension can be in compression.
     let presses_from_afar = greatest.approach < least.approach
         && greatest.force - baseline > FAR_FORCE * (baseline - least.force);
-    // Else a curve of the wrong sign is fitted by no model.
+    // Otherwise no model fits a curve of the wrong sign.
     if pressed && !presses_from_afar && !misses(measured, best) {
         return Ok(());
     }
@@ -220,7 +219,7 @@ fn check_signs(measured: &Measured, fits: &[ModelFit], path: &Path) -> Result<()
     Ok(())
 }
 
-/// Whether the residuals of a fit follow one another.
+/// Whether the residuals of a fit are correlated.
 fn misses(measured: &Measured, fit: &ModelFit) -> bool {
     let chance = 3.0 / (measured.samples.len() as f64).sqrt();
     fit.autocorrelation > MISSES + chance
@@ -242,7 +241,7 @@ fn left_out(curve: &ForceCurve) -> Vec<String> {
     warnings
 }
 
-/// The model to take and the Tabor number it implies.
+/// The chosen model and the Tabor number it implies.
 fn choose(
     measured: &Measured,
     fits: &[ModelFit],
@@ -283,9 +282,9 @@ fn choose(
     if !closed {
         taken = general;
     }
-    // The limits are taken where the data do not resolve what they leave out.
+    // The limits are chosen if the data do not resolve the difference.
     let beyond = taken != general && fits[taken].aic - fits[general].aic > TELLS_APART;
-    // A Tabor number that may as well lie in a limit is no reason for a richer model.
+    // A Tabor number that is compatible with a limit does not justify a richer model.
     let simpler = simpler(fits, general).filter(|_| measured.freedom.range.is_none());
     if let Some(limit) = simpler.filter(|_| beyond || taken == general) {
         taken = limit;
@@ -331,14 +330,14 @@ fn choose(
     Some((taken, number(taken)))
 }
 
-/// Whether a fit without adhesion takes a tension for the zero of the force, where no point shows that
-/// zero.
+/// Whether a fit without adhesion takes a tension for the baseline, with no point that shows the
+/// baseline.
 fn hides_adhesion(measured: &Measured, hertz: &ModelFit) -> bool {
     !knows_zero(measured, hertz) && hertz.parameters.force_offset < -3.0 * hertz.noise
 }
 
-/// The limit that cannot be told from the general model and lies within two standard deviations of
-/// its lambda.
+/// The limit that is indistinguishable from the general model and lies within two standard
+/// deviations of its lambda.
 fn simpler(fits: &[ModelFit], general: usize) -> Option<usize> {
     let fit = &fits[general];
     let number = fit.tabor_parameter()?;
@@ -353,7 +352,7 @@ fn simpler(fits: &[ModelFit], general: usize) -> Option<usize> {
         .min_by(|a, b| fits[*a].aic.total_cmp(&fits[*b].aic))
 }
 
-/// Tabor number of a fit with a Dugdale `range` (m) that stands for a Lennard-Jones law of the same
+/// Tabor number of a fit with a Dugdale `range` (m), matched to a Lennard-Jones law of the same
 /// work and peak tension.
 fn tabor_of(radius: f64, fit: &ModelFit, range: Option<f64>) -> Option<f64> {
     let parameters = fit.parameters;
@@ -366,7 +365,7 @@ fn tabor_of(radius: f64, fit: &ModelFit, range: Option<f64>) -> Option<f64> {
     tabor_parameter(&sphere.ok()?, range).ok()
 }
 
-/// What speaks against the numbers of a fit.
+/// Warnings about the numbers of a fit.
 fn doubts(measured: &Measured, fit: &ModelFit, warnings: &mut Vec<String>) {
     if !fit.converged {
         warnings.push(format!(

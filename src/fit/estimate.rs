@@ -1,4 +1,4 @@
-//! One model brought to a curve: its numbers and how well they are known.
+//! Fits one model to a curve: its numbers and their uncertainties.
 
 use std::f64::consts::PI;
 
@@ -12,29 +12,29 @@ use super::start::{scale_grid, starts};
 use super::ways::Way;
 use crate::theory::tabor_map::{LAMBDA_PER_MU_MATCHED, Sphere, maugis_parameter};
 
-/// Maugis parameters at which all else is fitted before lambda is set free: the sum of squares has
-/// more than one valley along it.
+/// Maugis parameters at which all other numbers are fitted before lambda is freed: the sum of
+/// squares has more than one minimum along lambda.
 const LADDER: [f64; 16] = [
     0.01, 0.03, 0.06, 0.1, 0.16, 0.25, 0.4, 0.6, 0.85, 1.2, 1.7, 2.5, 4.0, 6.5, 11.0, 20.0,
 ];
-/// Rungs from which lambda is set free.
+/// Number of lambdas from which lambda is freed.
 const BEST_RUNGS: usize = 3;
-/// Fewest points of a way that may be free where the force of a free sphere is fitted too: one or two
-/// would only take up their own noise.
+/// Fewest points of a segment without force if the baseline is fitted too: one or two would only
+/// fit their own noise.
 const LEAST_FREE: usize = 3;
-/// Points of the grid of scales from which a search begins, besides the usual starts.
+/// Points of the grid of scales from which a search starts, in addition to the usual starts.
 const GRID_STARTS: usize = 3;
-/// Rise of the sum of squares, in variances of the noise, up to which a state tells of the
+/// Rise of the sum of squares, in variances of the noise, up to which a state contributes to the
 /// uncertainty: three standard deviations.
 const MOST_RISE: f64 = 9.0;
-/// Standard deviation of ln lambda from which a parabola around the minimum says nothing, and only
-/// the rungs do: their distance.
+/// Standard deviation of ln lambda from which a parabola around the minimum is meaningless, and the
+/// profile over lambda is used.
 const RUNG_DISTANCE: f64 = 0.5;
-/// Share of the sum of squares that no fit is credited with going below: force span squared a
-/// point. Below it are rounding and the tables of the models.
+/// Least sum of squares with which a fit is credited, in squares of the force range a point. Below
+/// it are rounding and interpolation errors.
 const FLOOR: f64 = 1e-14;
 
-/// How well numbers are known: one standard deviation each, `None` where the curve does not tell.
+/// Uncertainties: one standard deviation each, `None` if the curve does not determine the number.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Uncertainties {
     /// Of E*, Pa.
@@ -43,17 +43,17 @@ pub struct Uncertainties {
     pub work_of_adhesion: Option<f64>,
     /// Of lambda.
     pub maugis_parameter: Option<f64>,
-    /// Of w over the tension, m.
+    /// Of the range, w over the tension, m.
     pub range: Option<f64>,
     /// Of the tension of the cohesive zone, Pa.
     pub peak_tension: Option<f64>,
     /// Of the approach at first touch, m.
     pub approach_offset: Option<f64>,
-    /// Of the force where nothing acts, N.
+    /// Of the baseline force, N.
     pub force_offset: Option<f64>,
 }
 
-/// A model with the numbers that suit a curve best.
+/// A model with its best-fitting numbers.
 #[derive(Clone, Debug)]
 pub struct ModelFit {
     /// Which model.
@@ -64,27 +64,27 @@ pub struct ModelFit {
     pub uncertainties: Uncertainties,
     /// Correlations of pairs of free numbers.
     pub correlations: Vec<(&'static str, &'static str, f64)>,
-    /// Whether the search ended at a minimum.
+    /// Whether the search converged.
     pub converged: bool,
     /// Sum of squares of the residuals, N^2.
     pub sum_of_squares: f64,
-    /// Points less free numbers.
+    /// Degrees of freedom: points less free numbers.
     pub degrees_of_freedom: usize,
     /// Free numbers.
     pub free: usize,
-    /// Akaike's criterion for noise of unknown size; of two models the one with less is better.
+    /// Akaike's criterion for noise of unknown size; less is better.
     pub aic: f64,
     /// Standard deviation of the residuals, N.
     pub noise: f64,
-    /// Correlation of a residual with the next: about 0 for noise, near 1 for a model that misses.
+    /// Correlation of a residual with the next: about 0 for noise, near 1 for a wrong model.
     pub autocorrelation: f64,
     /// Force of the model at each point, N.
     pub fitted: Vec<f64>,
-    /// Whether each point is held by the attraction or pressed; else the sphere is free.
+    /// For each point, whether the sphere interacts with the flat; else it is free.
     pub held: Vec<bool>,
     /// Other states of the model, each with the least sum of squares at its lambda.
     pub(super) rungs: Vec<Rung>,
-    /// Variance of the residuals, with what their correlation takes from the number of points, N^2.
+    /// Variance of the residuals, corrected for their correlation, N^2.
     pub(super) variance: f64,
 }
 
@@ -98,9 +98,9 @@ pub(super) struct Rung {
 }
 
 impl Rung {
-    /// Standard deviation of a number at `value` for which this state speaks: one that suits a curve
-    /// `rise` variances worse speaks for a distance of `sqrt(rise)` deviations, as a parabola would.
-    /// `None` where the state is ruled out.
+    /// Standard deviation of a number at `value` implied by this state: a state whose sum of
+    /// squares is larger by `rise` variances implies a distance of `sqrt(rise)` deviations, as for
+    /// a parabola. `None` if the state is ruled out.
     pub(super) fn deviation(
         &self,
         value: f64,
@@ -114,8 +114,8 @@ impl Rung {
 }
 
 impl ModelFit {
-    /// States of the model that the curve may not rule out: its rungs, or where lambda is known too
-    /// closely for any of these the fit itself.
+    /// States of the model that the curve may not rule out: its states over lambda, or the fit
+    /// itself if lambda is known more closely than their spacing.
     pub(super) fn states(&self) -> Vec<Rung> {
         let suits =
             |rung: &&Rung| rung.sum_of_squares - self.sum_of_squares <= MOST_RISE * self.variance;
@@ -127,7 +127,7 @@ impl ModelFit {
         }
     }
 
-    /// The fit as one state among others.
+    /// The fit as a state of its own lambda.
     fn as_rung(&self) -> Rung {
         Rung {
             parameters: self.parameters,
@@ -155,21 +155,21 @@ impl ModelFit {
         })
     }
 
-    /// Whether lambda ended where it may not go on, so that there is only a bound on it.
+    /// Whether lambda reached the limit of its range, so that only a bound is known.
     pub fn at_bound(&self) -> bool {
         let lambda = self.parameters.maugis_parameter;
         self.model == Model::MaugisDugdale
             && !(1.01 * LAMBDAS.0..=0.99 * LAMBDAS.1).contains(&lambda)
     }
 
-    /// Tabor number of a range law of the same work and peak tension.
+    /// Tabor number matched to a law of the same work and peak tension.
     pub fn tabor_parameter(&self) -> Option<f64> {
         let known = self.model == Model::MaugisDugdale;
         known.then_some(self.parameters.maugis_parameter / LAMBDA_PER_MU_MATCHED)
     }
 }
 
-/// A free number.
+/// A free number of the fit.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 enum Variable {
     ContactModulus,
@@ -191,8 +191,8 @@ impl Variable {
     }
 }
 
-/// A model against a curve: variables are logarithms of what is positive, and offsets in shares of
-/// the spans.
+/// The least-squares problem of a model: variables are logarithms of positive numbers, and offsets
+/// as shares of the ranges.
 struct Search<'a> {
     measured: &'a Measured,
     sphere: SphereModel,
@@ -223,7 +223,7 @@ impl Search<'_> {
         found
     }
 
-    /// What a variable of 1 is, of those that are not logarithms.
+    /// Scale of a variable that is not a logarithm.
     fn unit(&self, variable: Variable) -> f64 {
         match variable {
             Variable::ApproachOffset => 0.1 * self.measured.approach_span,
@@ -246,11 +246,11 @@ impl Search<'_> {
 }
 
 impl Problem for Search<'_> {
-    /// Whether each point is held by the attraction or pressed; else the sphere is free.
+    /// For each point, whether the sphere interacts with the flat; else it is free.
     type Choice = Vec<bool>;
 
-    /// On a way together the sphere is free first and held then, on a way apart the reverse; where
-    /// it jumps is what suits the forces best.
+    /// On loading the sphere is free first and interacts later, on unloading the reverse; the jump
+    /// is placed where it fits the forces best.
     fn choose(&self, values: &DVector<f64>) -> Option<(Vec<bool>, DVector<f64>)> {
         let held = self.held(values)?;
         let samples = &self.measured.samples;
@@ -262,7 +262,7 @@ impl Problem for Search<'_> {
         };
         for way in &self.measured.ways {
             let cost = |i: usize, force: f64| self.residual(&samples[i], force).powi(2);
-            // What is gained by setting a point free.
+            // Gain from treating a point as free.
             let gain = |i: usize| cost(i, held.0[i]) - cost(i, held.1);
             let mut order: Vec<usize> = way.points.clone().collect();
             if !way.together {
@@ -299,7 +299,7 @@ impl Search<'_> {
     }
 }
 
-/// Maugis' lambda of a range; 0 where the numbers are out of all bounds.
+/// Maugis' lambda of a range; 0 if the numbers are out of bounds.
 fn lambda_of(parameters: &Parameters, radius: f64, range: f64) -> f64 {
     Sphere::new(
         radius,
@@ -310,7 +310,7 @@ fn lambda_of(parameters: &Parameters, radius: f64, range: f64) -> f64 {
     .unwrap_or(0.0)
 }
 
-/// The best fit of a model, from several starts; `None` where no start leads anywhere.
+/// The best fit of a model from several starts; `None` if all of them fail.
 pub(super) fn fit_model(measured: &Measured, model: Model) -> Option<ModelFit> {
     let freedom = measured.freedom;
     let mut variables = vec![Variable::ContactModulus];
@@ -402,8 +402,8 @@ fn best_of_grid(
     judged.into_iter().map(|(_, start)| start).collect()
 }
 
-/// Takes the uncertainties from the rungs of the ladder that suit the curve as well, where lambda
-/// is so little known that a parabola around the minimum says nothing.
+/// Takes the uncertainties from the profile over lambda if lambda is so uncertain that a parabola
+/// around the minimum is meaningless.
 fn widen(fit: &mut ModelFit) {
     let parameters = fit.parameters;
     let known = fit.uncertainties.maugis_parameter;
@@ -426,7 +426,8 @@ fn widen(fit: &mut ModelFit) {
             continue;
         };
         let deviation = pick(&mut fit.uncertainties);
-        // A number without effect on the curve (an offset that is held, a lambda at its bound) stays so.
+        // A number that does not affect the curve (a fixed offset, a lambda at its limit) is left
+        // as it is.
         *deviation = deviation.map(|known| if parabola { known.max(spread) } else { spread });
     }
 }
@@ -440,7 +441,7 @@ fn judged(search: &Search, minimum: &Minimum) -> ModelFit {
     let degrees = points.saturating_sub(free).max(1);
     let sum = minimum.sum();
     let autocorrelation = autocorrelation(&minimum.residuals, &measured.ways);
-    // Residuals that follow one another count for fewer: n (1 - r)/(1 + r) of them are independent.
+    // Correlated residuals count for fewer: n (1 - r)/(1 + r) of them are independent.
     let noticed = autocorrelation > 2.0 / (points as f64).sqrt();
     let repeated = if noticed {
         ((1.0 + autocorrelation) / (1.0 - autocorrelation)).min(0.1 * points as f64)
@@ -469,7 +470,7 @@ fn judged(search: &Search, minimum: &Minimum) -> ModelFit {
         sum_of_squares: sum * span * span,
         degrees_of_freedom: degrees,
         free,
-        // The noise is a number that is fitted too.
+        // The noise is a fitted number too.
         aic: points as f64 * (floor / points as f64).ln() + 2.0 * (free + 1) as f64,
         noise: (sum / degrees as f64).sqrt() * span,
         autocorrelation,
@@ -487,7 +488,7 @@ fn uncertainties(
 ) -> Uncertainties {
     let place = |variable: Variable| search.variables.iter().position(|v| *v == variable);
     let known = |variance: f64| (variance.is_finite()).then(|| variance.max(0.0).sqrt());
-    // Standard deviation of a sum of variables with these weights.
+    // Standard deviation of a linear combination of variables.
     let of = |weights: &[(Variable, f64)]| -> Option<f64> {
         let mut variance = 0.0;
         for (first, a) in weights {
@@ -552,7 +553,7 @@ fn correlations(
     pairs
 }
 
-/// Correlation of each residual with the next of the same way.
+/// Correlation of each residual with the next one of the same segment.
 fn autocorrelation(residuals: &DVector<f64>, ways: &[Way]) -> f64 {
     let square = residuals.norm_squared();
     let products: f64 = ways

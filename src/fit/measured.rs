@@ -1,20 +1,20 @@
-//! A curve ready to be fitted.
+//! A curve prepared for fitting.
 
 use super::curve_file::Sample;
 use super::ways::{Way, ways};
 
-/// What is free besides the numbers of the model.
+/// Numbers that are fitted in addition to those of the model.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Freedom {
-    /// Where the undeformed surfaces first touch is not known.
+    /// The approach of first touch of the undeformed surfaces is unknown.
     pub approach_offset: bool,
-    /// The force where nothing acts is not known.
+    /// The baseline force is unknown.
     pub force_offset: bool,
-    /// Range of the attraction, m, where it is known: `w` over the tension, as in a scene.
+    /// Range of the attraction, m, if it is known: `w` over the tension, as in a scene.
     pub range: Option<f64>,
 }
 
-/// Which signs of a curve are turned.
+/// The signs of a curve that are reversed.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) struct Turned {
     approach: bool,
@@ -22,7 +22,7 @@ pub(super) struct Turned {
 }
 
 impl Turned {
-    /// Every way to turn a sign.
+    /// Every combination of reversed signs.
     pub(super) const ALL: [Turned; 3] = [
         Turned {
             approach: true,
@@ -39,21 +39,21 @@ impl Turned {
     ];
 }
 
-/// A curve ready to be fitted.
+/// A curve prepared for fitting.
 #[derive(Clone, Debug)]
 pub struct Measured {
     /// Points in the order of the file.
     pub samples: Vec<Sample>,
-    /// Ways together and apart.
+    /// Loading and unloading segments.
     pub ways: Vec<Way>,
     /// R, m.
     pub radius: f64,
-    /// What is free.
+    /// The fitted offsets.
     pub freedom: Freedom,
     pub(super) approaches: Vec<f64>,
-    /// Greatest less least force, N.
+    /// Range of the force, N.
     pub(super) force_span: f64,
-    /// Greatest less least approach, m.
+    /// Range of the approach, m.
     pub(super) approach_span: f64,
 }
 
@@ -80,7 +80,7 @@ impl Measured {
         }
     }
 
-    /// The same curve with signs turned.
+    /// The same curve with signs reversed.
     pub(super) fn turned(&self, turned: Turned) -> Measured {
         let sign = |turned: bool| if turned { -1.0 } else { 1.0 };
         let samples = self.samples.iter().map(|sample| Sample {
@@ -90,8 +90,8 @@ impl Measured {
         Measured::new(samples.collect(), self.radius, self.freedom)
     }
 
-    /// Force where nothing acts, as far as it can be guessed: the median of the tenth of the
-    /// points that are farthest apart; 0 where it is known.
+    /// Estimated baseline force: the median of the tenth of the points that are farthest apart; 0
+    /// if it is known.
     pub(super) fn baseline(&self) -> f64 {
         if !self.freedom.force_offset {
             return 0.0;
@@ -103,7 +103,7 @@ impl Measured {
         far[far.len() / 2].force
     }
 
-    /// The points of the least and the greatest force.
+    /// The points of least and greatest force.
     pub(super) fn extremes(&self) -> (Sample, Sample) {
         let by_force = |a: &&Sample, b: &&Sample| a.force.total_cmp(&b.force);
         let least = self.samples.iter().min_by(by_force);

@@ -1,4 +1,4 @@
-//! `fit.png`: the curve with the model through it, and what is left between them.
+//! `fit.png`: the curve with the fitted model, and the residuals.
 
 use std::io;
 
@@ -28,7 +28,7 @@ const RESIDUALS: Rect = Rect {
     width: 940,
     height: 170,
 };
-/// Points on the way together, and on the way apart.
+/// Colours of the points on loading and on unloading.
 const TOGETHER: Rgb = [216, 132, 44];
 const APART: Rgb = [40, 96, 168];
 /// Most ticks of an axis.
@@ -37,10 +37,10 @@ const TICKS: usize = 8;
 const MARK: u32 = 6;
 /// Width of the model's line, pixels.
 const LINE: f64 = 1.0;
-/// Share of an axis left free at its ends.
+/// Share of an axis left empty at its ends.
 const MARGIN: f64 = 0.04;
 
-/// One axis: the values at its ends and the pixels they lie on.
+/// One axis: the values at its ends and their pixels.
 struct Axis {
     low: f64,
     high: f64,
@@ -55,7 +55,7 @@ impl Axis {
             .fold((f64::INFINITY, f64::NEG_INFINITY), |(low, high), value| {
                 (low.min(value), high.max(value))
             });
-        // A constant still needs a width.
+        // A constant still needs a range.
         let room = (MARGIN * (high - low))
             .max(1e-6 * high.abs())
             .max(f64::MIN_POSITIVE);

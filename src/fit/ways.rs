@@ -1,22 +1,22 @@
-//! Ways together and apart.
+//! Divides a force curve into loading and unloading segments.
 
 use std::ops::Range;
 
 use super::curve_file::Sample;
 
-/// Share of the whole approach that a turn must cover: less is noise of the approach.
+/// Share of the whole approach that a reversal must cover: smaller ones are noise of the approach.
 const LEAST_TURN: f64 = 0.02;
 
-/// Consecutive points over which the surfaces come together, or go apart.
+/// Consecutive points of loading (surfaces approach) or unloading (surfaces separate).
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Way {
-    /// Which points.
+    /// Indices of its points.
     pub points: Range<usize>,
-    /// Whether they come together.
+    /// Whether the surfaces approach.
     pub together: bool,
 }
 
-/// Cuts a curve where its approach turns.
+/// Divides a curve where its approach reverses.
 pub fn ways(samples: &[Sample]) -> Vec<Way> {
     let Some(first) = samples.first() else {
         return Vec::new();
@@ -29,7 +29,8 @@ pub fn ways(samples: &[Sample]) -> Vec<Way> {
     let turn = LEAST_TURN * (high - low);
     let mut ways = Vec::new();
     let mut begin = 0;
-    // The furthest point of the way so far, in its direction; no direction before the first turn.
+    // The extreme point of the current segment in its direction; no direction before the first
+    // reversal.
     let mut direction: Option<bool> = None;
     let mut furthest = 0;
     let mut lowest = 0;

@@ -25,7 +25,7 @@ const ANGLE: Allowed = Allowed::new(
     "from 0 to below 90 degrees: only a liquid that wets pulls",
 );
 
-/// Reads `[capillary]`: `Some(None)` where the scene has none.
+/// Reads `[capillary]`: `Some(None)` if the scene has none, `None` after a mistake.
 pub(super) fn read(scene: &Reader) -> Option<Option<CapillaryScene>> {
     if !scene.has("capillary") {
         return Some(None);
@@ -85,7 +85,8 @@ pub(super) fn read(scene: &Reader) -> Option<Option<CapillaryScene>> {
 }
 
 impl CapillaryScene {
-    /// The meniscus at this humidity; meaningless where nothing [bridges](CapillaryScene::bridges).
+    /// The meniscus at this humidity; meaningless unless it [bridges](CapillaryScene::bridges) the
+    /// gap.
     pub fn meniscus(&self) -> Meniscus {
         Meniscus::at_humidity(
             self.surface_tension,
@@ -106,7 +107,7 @@ impl CapillaryScene {
         self.humidity > 0.0 && self.meniscus().bridges()
     }
 
-    /// The law that stands for the liquid; `None` in air too dry for one.
+    /// The equivalent cohesive law; `None` if the air is too dry for a liquid.
     pub fn adhesion(&self) -> Option<AdhesionScene> {
         let meniscus = self.meniscus();
         self.bridges().then(|| AdhesionScene {

@@ -1,4 +1,4 @@
-//! `[conductance]`: what the contact conducts from one body to the other.
+//! `[conductance]`: the thermal or electrical conductance of the contact.
 
 use super::ConductanceScene;
 use super::allowed::Allowed;
@@ -7,15 +7,15 @@ use super::mistake::SceneError;
 use super::reader::Reader;
 use crate::units::Dimension;
 
-/// Reads `[conductance]`: `Some(None)` where the scene has none. `layered` tells whether the solid is
-/// a layer.
+/// Reads `[conductance]`: `Some(None)` if the scene has none, `None` after a mistake. `layered` is
+/// true if the solid is a layer.
 pub(super) fn read(scene: &Reader, layered: bool) -> Option<Option<ConductanceScene>> {
     if !scene.has("conductance") {
         return Some(None);
     }
     let conductance = scene.table("conductance", &keys::CONDUCTANCE)?;
     if layered {
-        // The current below a layer spreads by another law than the displacement does.
+        // The analogy of conductance and stiffness holds for a half-space, not for a layer.
         scene.report(
             "conductance",
             SceneError::NotInThisVersion {
@@ -34,7 +34,7 @@ pub(super) fn read(scene: &Reader, layered: bool) -> Option<Option<ConductanceSc
 }
 
 impl ConductanceScene {
-    /// Harmonic mean of the two conductivities, W/(m K): one body after the other.
+    /// Harmonic mean of the two conductivities, W/(m K): resistances in series.
     pub fn combined(&self) -> f64 {
         2.0 / (1.0 / self.conductivity + 1.0 / self.counter_conductivity)
     }

@@ -1,7 +1,7 @@
-//! A scene's text as a tree in which every value knows where it was written.
+//! A scene's text as a tree whose values know their line.
 //!
-//! `[[surface]]`, `surface = [{ ... }]` and dotted keys all come out alike, and a `--set` can
-//! replace any part of the tree before it is read.
+//! `[[surface]]`, `surface = [{ ... }]` and dotted keys give the same tree, and `--set` can replace
+//! any part of it before it is read.
 
 use toml_edit as toml;
 
@@ -15,11 +15,11 @@ pub(super) enum Place {
     Line(usize),
     /// A `--set` of the command line.
     Set,
-    /// Nowhere: the file does not have it.
+    /// Not in the file.
     Nowhere,
 }
 
-/// A value with its place.
+/// A value with its location.
 #[derive(Clone, Debug)]
 pub(super) struct Node {
     pub value: Value,
@@ -48,13 +48,13 @@ pub(super) struct Table {
 #[derive(Clone, Debug)]
 pub(super) struct Entry {
     pub name: String,
-    /// Where the key stands; its value may begin on a later line.
+    /// Location of the key; its value may begin on a later line.
     pub place: Place,
     pub node: Node,
 }
 
 impl Node {
-    /// The value as it is shown in a message.
+    /// The value as messages show it.
     pub fn shown(&self) -> String {
         match &self.value {
             Value::Text(text) => quoted(text),
@@ -67,7 +67,7 @@ impl Node {
         }
     }
 
-    /// The value with its kind, as it is shown where another kind was expected.
+    /// The value and its kind, for messages that expected another kind.
     pub fn described(&self) -> String {
         match &self.value {
             Value::Text(_) => format!("the text {}", self.shown()),
@@ -110,7 +110,7 @@ impl Table {
 
 /// Parses the text of a scene.
 ///
-/// # Errors
+/// The first syntax error, with its line.
 /// The first place where the text is no TOML, with its line.
 pub(super) fn parse(text: &str) -> Result<Table, (Option<usize>, SceneError)> {
     let lines = Lines::of(text);
@@ -128,7 +128,7 @@ pub(super) fn parse(text: &str) -> Result<Table, (Option<usize>, SceneError)> {
 /// Parses one value given on the command line: TOML, or else a bare word as it stands.
 ///
 /// # Errors
-/// Text that opens a list, a table or a quotation and does not end it properly.
+/// A list, a table or a quotation that is not closed.
 pub(super) fn parse_set(text: &str) -> Result<Node, SceneError> {
     match text.trim().parse::<toml::Value>() {
         Ok(found) => Ok(value(&found, Place::Set, &|_| Place::Set)),
@@ -170,7 +170,8 @@ impl Lines {
     }
 }
 
-/// A TOML table; `at` turns an offset into a place. The parser bounds the depth, so recursion is safe.
+/// A TOML table; `at` turns an offset into a location. The parser bounds the depth, so recursion is
+/// safe.
 fn table(from: &dyn toml::TableLike, at: &dyn Fn(usize) -> Place) -> Table {
     let entries = from
         .iter()

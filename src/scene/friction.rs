@@ -6,7 +6,7 @@ use super::keys;
 use super::reader::Reader;
 use crate::units::Dimension;
 
-/// Reads `[friction]`: `Some(None)` where the scene has none.
+/// Reads `[friction]`: `Some(None)` if the scene has none, `None` after a mistake.
 pub(super) fn read(scene: &Reader) -> Option<Option<FrictionScene>> {
     if !scene.has("friction") {
         return Some(None);

@@ -1,17 +1,17 @@
-//! The keys of each table, with a line that would do: the one list behind every message.
+//! The keys of each table with an example line: the one list behind every message.
 
 /// A table of a scene, or one kind of `[[surface]]`.
 pub(super) struct Section {
-    /// The table as messages name it.
+    /// The table's name in messages.
     pub title: &'static str,
-    /// Keys, each with a line that sets it, in the order of the contract.
+    /// Keys, each with an example line, in the order of the documentation.
     pub keys: &'static [(&'static str, &'static str)],
-    /// Keys of effects that this version lacks, each with what it stands for.
+    /// Keys of effects that this version lacks, each with the name of the effect.
     pub later: &'static [(&'static str, &'static str)],
 }
 
 impl Section {
-    /// A line that sets a key, for messages.
+    /// An example line for a key.
     pub fn example(&self, key: &str) -> String {
         self.keys
             .iter()
@@ -19,7 +19,7 @@ impl Section {
             .map_or_else(|| format!("{key} = ..."), |(_, line)| (*line).to_string())
     }
 
-    /// The keys of the table, those of later versions last.
+    /// The keys of the table; those of later versions come last.
     pub fn names(&self) -> impl Iterator<Item = &'static str> {
         self.keys.iter().chain(self.later).map(|(name, _)| *name)
     }
@@ -103,7 +103,7 @@ const FILL: (&str, &str) = ("fill", "fill = \"interpolate\"");
 const BLACK: (&str, &str) = ("black", "black = 0.0");
 const WHITE: (&str, &str) = ("white", "white = \"1 um\"");
 
-/// A `[[surface]]` whose kind cannot be told: the keys of every kind.
+/// A `[[surface]]` of unknown kind: the keys of every kind.
 pub(super) const SURFACE: Section = Section {
     title: "[[surface]]",
     keys: &[
@@ -274,7 +274,7 @@ pub(super) const OUTPUT: Section = Section {
     later: &[],
 };
 
-/// Every section, to tell where a misplaced key belongs.
+/// Every section, to find where a misplaced key belongs.
 pub(super) const ALL: &[&Section] = &[
     &SCENE,
     &GRID,

@@ -1,4 +1,4 @@
-//! `[loading]`: the path, written out step by step.
+//! `[loading]`: the path, step by step.
 
 use super::allowed::Allowed;
 use super::document::Value;
@@ -11,14 +11,14 @@ use super::{
 };
 use crate::units::{self, Dimension};
 
-/// Most steps of a path, so that a slip of the finger cannot fill the memory.
+/// Most steps of a path, so that a typing error cannot exhaust memory.
 pub(super) const MOST_STEPS: usize = 1_000_000;
 
-/// What `steps` of a ramp is in place of a number.
+/// The word for automatic `steps` of a ramp.
 const AUTO: &str = "auto";
 
-/// Errors of a path in time that may be asked for: beyond, the pixels or the solver's tolerance
-/// decide, or the steps are no longer steps of a path.
+/// Accepted time tolerances: below, the solver's tolerance or the pixels dominate; above, the steps
+/// no longer follow the path.
 const TIME_TOLERANCE: Allowed = Allowed::new(
     |tolerance| (1e-6..=0.1).contains(&tolerance),
     "from 1e-6 to 0.1",
@@ -27,20 +27,20 @@ const TIME_TOLERANCE: Allowed = Allowed::new(
 /// Default of `pull_off_tolerance`.
 pub(super) const PULL_OFF_TOLERANCE: f64 = 0.01;
 
-/// How well a pull-off may be asked for: below, the solver's tolerance decides.
+/// Accepted pull-off tolerances: below, the solver's tolerance dominates.
 const PULL_OFF_TOLERANCES: Allowed = Allowed::new(
     |tolerance| tolerance == 0.0 || (1e-6..=0.5).contains(&tolerance),
     "0 for none, or from 1e-6 to 0.5",
 );
 
-/// A path with the time that each step takes, where it says.
+/// A path with the duration of each step, if given.
 struct TimedPath {
     path: Vec<f64>,
     durations: Option<Vec<f64>>,
 }
 
-/// Reads `[loading]`; `boundary`, `adhesion` and `solid` are there to check against, if they could be
-/// read.
+/// Reads `[loading]`, and checks it against `boundary`, `adhesion` and `solid` as far as these
+/// could be read.
 pub(super) fn read(
     scene: &Reader,
     boundary: Option<Boundary>,
@@ -70,7 +70,7 @@ pub(super) fn read(
             );
         }
         if adhesion.is_some_and(|adhesion| adhesion.treatment == Treatment::Dmt) {
-            // The spring would have to balance a load that the solver does not see.
+            // The spring would have to balance a load that the solver does not know.
             loading.report(
                 "spring",
                 SceneError::NotInThisVersion {
@@ -134,7 +134,7 @@ pub(super) fn read(
     })
 }
 
-/// The value of a path, in the unit and within the limits of its control.
+/// Reads values of a path, in the unit and within the limits of its control.
 struct PathValue {
     dimension: Dimension,
     allowed: Allowed,
@@ -192,7 +192,7 @@ fn path(
             loading.conflict("path", format!("is longer than {MOST_STEPS} steps"));
             return None;
         }
-        // Without a control the unit of the values is unknown; that mistake has been noted.
+        // Without a control the unit is unknown; that mistake has been noted.
         let value = value?;
         let values: Vec<Option<f64>> = list
             .iter()
@@ -211,15 +211,15 @@ fn path(
 
 /// One `[[loading.ramp]]`.
 struct Ramp {
-    /// Where it goes; `None` holds the load.
+    /// Target value; `None` holds the load.
     to: Option<f64>,
-    /// How many steps; `None` as many as its tolerance in time takes.
+    /// Number of steps; `None` means `auto`.
     steps: Option<usize>,
-    /// How long it takes, s.
+    /// Duration, s.
     duration: Option<f64>,
 }
 
-/// Reads a ramp, without its place among the others.
+/// Reads a ramp by itself.
 fn ramp(ramp: &Reader, value: Option<&PathValue>, solid: Option<&SolidScene>) -> Option<Ramp> {
     let holds = ramp.has("hold");
     if !holds {
@@ -252,12 +252,12 @@ fn ramp(ramp: &Reader, value: Option<&PathValue>, solid: Option<&SolidScene>) ->
     })
 }
 
-/// Whether a ramp finds its steps by itself.
+/// Whether a ramp has `steps = "auto"`.
 fn is_auto(ramp: &Reader) -> bool {
     matches!(ramp.node("steps"), Some(node) if matches!(&node.value, Value::Text(text) if text == AUTO))
 }
 
-/// The steps of a ramp that says how many.
+/// The number of steps of a ramp that gives one.
 fn whole_steps(ramp: &Reader) -> Option<usize> {
     if let Some(node) = ramp.node("steps")
         && matches!(node.value, Value::Text(_))
@@ -269,7 +269,7 @@ fn whole_steps(ramp: &Reader) -> Option<usize> {
     usize::try_from(steps).ok()
 }
 
-/// Notes what a ramp lacks to find its steps by itself.
+/// Notes what a ramp lacks for `steps = "auto"`.
 fn may_be_auto(ramp: &Reader, solid: Option<&SolidScene>) -> Option<()> {
     if solid.is_some_and(|solid| solid.relaxation.is_empty()) {
         ramp.conflict(
@@ -288,7 +288,7 @@ fn may_be_auto(ramp: &Reader, solid: Option<&SolidScene>) -> Option<()> {
     Some(())
 }
 
-/// Notes a tolerance in time that no ramp goes by.
+/// Notes a time tolerance that no ramp uses.
 fn no_auto_ramp(loading: &Reader, ramps: &[Reader]) -> Option<()> {
     if loading.has("time_tolerance") && !ramps.iter().any(is_auto) {
         loading.conflict(
@@ -396,7 +396,7 @@ fn ramps(
     })
 }
 
-/// Ramps by their ends and times; one without a time takes none.
+/// Ramps as target and duration; a ramp without a duration takes no time.
 fn legs(start: f64, ramps: &[Ramp]) -> Vec<Leg> {
     let mut from = start;
     let leg = |ramp: &Ramp| {
@@ -409,7 +409,7 @@ fn legs(start: f64, ramps: &[Ramp]) -> Vec<Leg> {
     ramps.iter().map(leg).collect()
 }
 
-/// A Lennard-Jones surface repels without limit at a gap of minus its range.
+/// A Lennard-Jones law diverges at a gap of minus its range.
 fn check_least_gap(
     loading: &Reader,
     control: Option<Control>,

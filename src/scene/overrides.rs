@@ -4,11 +4,11 @@ use super::document::{Entry, Node, Place, Table, Value, parse_set};
 use super::mistake::SceneError;
 use super::reader::{Log, shown_key};
 
-/// Tables that every scene has, written or not; the others are effects, and a single key does not
-/// switch one on.
+/// Tables that every scene has, written or not. The others are effects, which a single key does not
+/// switch on.
 const ALWAYS: &[&str] = &["grid", "solid", "loading", "solver", "output"];
 
-/// Applies the overrides in order; those that lead nowhere are noted.
+/// Applies the overrides in order and notes those whose key does not exist.
 pub(super) fn apply(root: &mut Table, overrides: &[(String, String)], log: &Log) {
     for (key, text) in overrides {
         let done = parse_set(text).and_then(|node| set(root, key, node));
@@ -73,7 +73,7 @@ fn absent_table(name: &str) -> SceneError {
     }
 }
 
-/// The value one name further down; `walked` is how far the key has come.
+/// The value one level down; `walked` is the key up to here.
 fn step<'a>(node: &'a mut Node, name: &str, walked: &str) -> Result<&'a mut Node, SceneError> {
     match &mut node.value {
         Value::Table(table) => match table.get_mut(name) {

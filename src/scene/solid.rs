@@ -1,4 +1,4 @@
-//! `[solid]`: one way or another to the contact modulus, and a layer in place of the half-space.
+//! `[solid]`: the contact modulus, and a layer in place of the half-space.
 
 use super::allowed::{Allowed, is_sane};
 use super::keys;
@@ -93,7 +93,7 @@ pub(super) fn read(scene: &Reader, boundary: Option<Boundary>) -> Option<SolidSc
     })
 }
 
-/// Reads the layer: `Some(None)` where the scene names none, `None` after a mistake.
+/// Reads the layer: `Some(None)` if the scene has none, `None` after a mistake.
 fn read_layer(
     solid: &Reader,
     poisson_ratio: Option<f64>,
@@ -108,7 +108,7 @@ fn read_layer(
         }
         return Some(None);
     }
-    // Beside young_modulus it is asked for anyhow.
+    // Beside young_modulus it is required in any case.
     if !solid.has("young_modulus") {
         solid.require(&["poisson_ratio"]);
     }
@@ -139,7 +139,7 @@ fn read_layer(
     }))
 }
 
-/// Reads the Maxwell branches; none where the scene names none, `None` after a mistake.
+/// Reads the Maxwell branches; empty if the scene has none, `None` after a mistake.
 fn read_relaxation(solid: &Reader, layer: Option<Layer>) -> Option<Vec<RelaxationScene>> {
     if !solid.has("relaxation") {
         return Some(Vec::new());

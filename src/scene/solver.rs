@@ -1,4 +1,4 @@
-//! `[solver]`: how well, how long, and where.
+//! `[solver]`: tolerance, iterations, precision and backend.
 
 use super::allowed::Allowed;
 use super::keys;
@@ -7,7 +7,7 @@ use super::reader::Reader;
 use super::{BackendName, Precision, Scene, SolverScene};
 use crate::units::Dimension;
 
-/// Default tolerance of double precision; single precision takes its floor.
+/// Default tolerance in double precision; single precision uses its least tolerance.
 const TOLERANCE: f64 = 1e-6;
 
 impl Default for SolverScene {
@@ -22,14 +22,14 @@ impl Default for SolverScene {
 }
 
 impl SolverScene {
-    /// The arithmetic of a solve of a solid that flows or does not: what `auto` stands for on a
-    /// graphics processor, where it goes by the tolerance, or on the processor.
+    /// The precision for which `auto` stands: on a graphics processor it depends on the tolerance;
+    /// `flows` is true for a solid with a hardness.
     fn arithmetic_on(&self, gpu: bool, flows: bool) -> Precision {
         match (self.precision, gpu) {
             (Precision::Auto, true) if self.tolerance >= Precision::SINGLE_FLOOR => {
                 Precision::Single
             }
-            // The corrections of mixed precision know no flow.
+            // The corrections of mixed precision have no hardness limit.
             (Precision::Auto, true) if flows => Precision::Double,
             (Precision::Auto, true) => Precision::Mixed,
             (Precision::Auto, false) => Precision::Double,
@@ -39,19 +39,19 @@ impl SolverScene {
 }
 
 impl Scene {
-    /// The arithmetic of a solve on a graphics processor or on the processor.
+    /// The precision of a solve on a graphics processor or on the processor.
     pub fn arithmetic_on(&self, gpu: bool) -> Precision {
         let flows = self.solid.hardness.is_some();
         self.solver.arithmetic_on(gpu, flows)
     }
 
-    /// The same on the backend that the scene names; `auto` is the processor here.
+    /// The same on the scene's backend; `auto` counts as the processor here.
     pub fn arithmetic(&self) -> Precision {
         self.arithmetic_on(self.solver.backend == BackendName::Gpu)
     }
 }
 
-/// Reads `[solver]`; what it leaves out has its default.
+/// Reads `[solver]` and fills in its defaults.
 pub(super) fn read(scene: &Reader) -> Option<SolverScene> {
     const ALLOWED: Allowed = Allowed::new(
         |tolerance| tolerance > 0.0 && tolerance <= 0.1,
@@ -105,7 +105,7 @@ pub(super) fn read(scene: &Reader) -> Option<SolverScene> {
     Some(settings)
 }
 
-/// A tolerance that single precision does not reach.
+/// The error for a tolerance that single precision does not reach.
 fn below_the_floor(asked: f64) -> SceneError {
     SceneError::OutOfRange {
         found: format!("{asked:e}"),

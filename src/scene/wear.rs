@@ -1,4 +1,4 @@
-//! `[wear]`: what sliding takes off the spots in contact.
+//! `[wear]`: the volume that sliding removes.
 
 use super::WearScene;
 use super::allowed::Allowed;
@@ -6,7 +6,7 @@ use super::keys;
 use super::reader::Reader;
 use crate::units::Dimension;
 
-/// Reads `[wear]`: `Some(None)` where the scene has none.
+/// Reads `[wear]`: `Some(None)` if the scene has none, `None` after a mistake.
 pub(super) fn read(scene: &Reader) -> Option<Option<WearScene>> {
     if !scene.has("wear") {
         return Some(None);

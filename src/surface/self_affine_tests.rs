@@ -147,7 +147,7 @@ fn values_outside_the_model_are_refused() {
 proptest! {
     #![proptest_config(ProptestConfig::with_cases(24))]
 
-    /// A finer grid samples the same surface: the waves do not know the grid.
+    /// A finer grid samples the same surface: the waves do not depend on the grid.
     #[test]
     fn the_surface_does_not_change_with_the_grid(
         half_points in (17_usize..40, 17_usize..40),

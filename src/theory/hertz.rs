@@ -44,7 +44,7 @@ pub fn displacement(sphere: &Sphere, contact_radius: f64, r: f64) -> f64 {
 /// a/r below which four terms of the displacement's series leave an error of 1e-14.
 const FAR: f64 = 0.03;
 
-/// Displacement `U(r; a, R)` around a Hertz contact; it does not depend on the modulus.
+/// Displacement `U(r; a, R)` around a Hertz contact; independent of the modulus.
 pub(crate) fn displacement_of(radius: f64, contact_radius: f64, r: f64) -> f64 {
     let a = contact_radius;
     if r <= a {

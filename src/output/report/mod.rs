@@ -1,7 +1,7 @@
-//! `report.html`: one page with everything a run found, that opens without a network.
+//! `report.html`: one self-contained page with the results of a run.
 //!
-//! The page holds neither seconds nor dates, so that the same run has the same page. It loads
-//! nothing and runs nothing: pictures are in it, and a content policy forbids the rest.
+//! The page contains neither seconds nor dates, so that the same run gives the same page. It loads
+//! nothing and runs no script: pictures are embedded, and a content policy forbids the rest.
 
 mod base64;
 mod scene_table;
@@ -21,30 +21,30 @@ use base64::base64;
 
 /// Most pictures on a page.
 const MOST_PICTURES: usize = 24;
-/// Most bytes of pictures on a page, so that a phone can open it; one picture always has its place.
+/// Most bytes of pictures on a page, so that a phone can open it; one picture is always shown.
 const MOST_PICTURE_BYTES: usize = 12 << 20;
-/// Steps of a table at either end of a long path.
+/// Rows at either end of a long table of steps.
 const SHOWN_STEPS: usize = 60;
 
-/// What a page is made of.
+/// Contents of the page.
 pub struct Report<'a> {
-    /// The scene and what was found of it before the first step.
+    /// The scene and its setup.
     pub setup: &'a Setup,
-    /// Where it was solved, in words.
+    /// Backend, adapter and precision, in words.
     pub machine: String,
     /// Rows of all steps done.
     pub rows: &'a [StepRow],
     /// Jumps and transforms so far.
     pub tallies: &'a HandOver,
-    /// What was warned of.
+    /// Warnings so far.
     pub warnings: &'a [String],
-    /// The pictures that there are: step, field and file.
+    /// The existing pictures: step, field and file.
     pub pictures: &'a [(usize, &'static str, PathBuf)],
     /// The summary, once the run has ended.
     pub summary: Option<&'a Summary>,
 }
 
-/// Text between tags and in attributes, without characters that a page must not hold.
+/// Escapes text for tags and attributes and removes characters that a page must not contain.
 pub(super) fn escape(text: &str) -> String {
     let mut escaped = String::with_capacity(text.len());
     for character in visible(text).chars() {
@@ -108,7 +108,7 @@ impl Report<'_> {
         }
     }
 
-    /// How far the run came.
+    /// The progress of the run.
     fn status(&self) -> String {
         let (done, steps) = (self.rows.len(), self.setup.scene.loading.path.len());
         let plural = if steps == 1 { "" } else { "s" };
@@ -131,7 +131,7 @@ impl Report<'_> {
         }
     }
 
-    /// The numbers that most readers come for.
+    /// The main results.
     fn figures(&self) -> String {
         let mut found: Vec<(&str, String, String)> = Vec::new();
         let largest = self
@@ -234,7 +234,7 @@ impl Report<'_> {
         let loading = &self.setup.scene.loading;
         for index in chosen {
             let (step, field, path) = &self.pictures[index];
-            // A picture that cannot be read back is missing on the page and no more.
+            // A picture that cannot be read is left out.
             let Ok(bytes) = fs::read(path) else { continue };
             if shown > 0 && bytes_shown + bytes.len() > MOST_PICTURE_BYTES {
                 continue;
@@ -290,7 +290,7 @@ impl Report<'_> {
         text
     }
 
-    /// How it was solved.
+    /// How the run was solved.
     fn solution(&self) -> String {
         let setup = self.setup;
         let grid = setup.surface.grid;
@@ -385,7 +385,7 @@ impl Report<'_> {
     }
 }
 
-/// At most `most` of `count` places, evenly spread, both ends among them.
+/// At most `most` of `count` indices, evenly spread, including both ends.
 fn spread(count: usize, most: usize) -> Vec<usize> {
     if count <= most {
         return (0..count).collect();

@@ -11,7 +11,7 @@ use crate::surface::matrix::{Matrix, Size};
 /// First bytes of a file.
 pub(super) const MAGIC: &[u8] = b"Gwyddion Simple Field 1.";
 
-/// Longest header taken; it holds a few lines of text.
+/// Longest header accepted; a header has a few lines of text.
 const LONGEST_HEADER: usize = 1 << 20;
 
 /// Reads a field.
@@ -66,7 +66,7 @@ impl Header {
         line.map(|(number, _, value)| (*number, value.as_str()))
     }
 
-    /// A text, empty where there is none.
+    /// A text, empty if the name is absent.
     fn text(&self, name: &str) -> &str {
         self.find(name).map_or("", |(_, value)| value)
     }

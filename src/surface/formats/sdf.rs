@@ -1,7 +1,7 @@
 //! Surface data files (.sdf), the exchange format of profilers: text and binary.
 //!
-//! Lengths are in metres. The forms of the years before the standard (BCR, NPL) differ in their magic
-//! words only; version 2 has wider counts.
+//! Lengths are in metres. The formats before the standard (BCR, NPL) differ only in their magic
+//! words; version 2 has wider counts.
 //!
 //! # Source
 //! ISO 25178-71:2017, clause 5; its forerunner in Stout et al. 1993, report EUR 15178 EN.
@@ -10,10 +10,11 @@ use super::bytes::{Bytes, checked_shape, latin_1, room};
 use crate::surface::error::FileError;
 use crate::surface::matrix::{Matrix, Size};
 
-/// First bytes of a file: `a` for text or `b` for binary, then who defined the version that follows.
+/// First bytes of a file: `a` for text or `b` for binary, then the organisation that defined the
+/// version.
 pub(super) const MAGIC: [&[u8]; 5] = [b"aISO-", b"aBCR-", b"aNPL-", b"bISO-", b"bBCR-"];
 
-/// What a file calls its format in messages.
+/// Name of the format in messages.
 const FORMAT: &str = ".sdf";
 
 /// The word for a missing point in text.
@@ -28,7 +29,7 @@ pub(super) fn read(bytes: &[u8]) -> Result<Matrix, FileError> {
     }
 }
 
-/// What both headers say that is needed.
+/// The required entries of both headers.
 struct Header {
     columns: i64,
     rows: i64,
@@ -38,7 +39,7 @@ struct Header {
 }
 
 impl Header {
-    /// Rows and columns of a header that can be read.
+    /// Rows and columns, if the header is supported.
     fn shape(&self) -> Result<[usize; 2], FileError> {
         if self.compression != 0 {
             return Err(FileError::NotSupported {
@@ -49,7 +50,7 @@ impl Header {
         checked_shape(self.rows, self.columns)
     }
 
-    /// What is wrong with the scales, if anything is.
+    /// An error message if the scales are wrong.
     fn complaint(&self) -> Option<String> {
         let [x, y, z] = self.scales;
         // A single profile has no scale along y.
@@ -161,7 +162,7 @@ fn read_text(bytes: &[u8]) -> Result<Matrix, FileError> {
             continue;
         };
         let name = name.trim().to_ascii_lowercase();
-        // Maker and dates are no numbers and not needed.
+        // The maker and the dates are not numbers and not needed.
         if let Ok(value) = value.trim().parse() {
             found.push((name, value));
         } else if NUMBERS
@@ -197,7 +198,7 @@ fn read_text(bytes: &[u8]) -> Result<Matrix, FileError> {
     }
     let shape = header.shape()?;
     let points = shape[0] * shape[1];
-    // Each number takes a digit and a blank at least.
+    // Each number takes at least a digit and a blank.
     if points > bytes.len() / 2 + 1 {
         return Err(FileError::Truncated {
             rows: shape[0],

@@ -1,4 +1,4 @@
-//! Digital Surf's surfaces (.sur), as MountainsMap and many profilers write them: not compressed.
+//! Digital Surf's uncompressed surfaces (.sur), as MountainsMap and many profilers write them.
 //!
 //! A header of 512 bytes, a comment, a private zone, then 16- or 32-bit integers, row by row.
 //!
@@ -14,18 +14,18 @@ use crate::surface::matrix::{Matrix, Size};
 pub(super) const MAGIC: &[u8] = b"DIGITAL SURF";
 pub(super) const COMPRESSED: &[u8] = b"DSCOMPRESSED";
 
-/// What a file calls its format in messages.
+/// Name of the format in messages.
 const FORMAT: &str = ".sur";
 
 /// Length of the header.
 const HEADER: usize = 512;
 
-/// Values of the field "inverted": which way up the heights are stored.
+/// Values of the field "inverted": how rows and columns are stored.
 const INVERTED_Z: u16 = 1;
 const FLIPPED: u16 = 2;
 const FLOPPED: u16 = 3;
 
-/// A missing point is this far below the least value.
+/// The code of a missing point is this far below the least value.
 const MISSING_BELOW: i64 = 2;
 
 /// Reads a surface.
@@ -63,11 +63,11 @@ pub(super) fn read(bytes: &[u8]) -> Result<Matrix, FileError> {
     })
 }
 
-/// What the header says that is needed.
+/// The required entries of the header.
 struct Header {
     shape: [usize; 2],
     bits: u16,
-    /// Value of a missing point, if there are any.
+    /// Code of a missing point, if there are any.
     missing: Option<i64>,
     /// Pixel lengths along x and y, m.
     pixel: [f64; 2],
@@ -85,7 +85,7 @@ impl Header {
     /// Field by field, in the order of the format.
     fn of(file: &mut Bytes) -> Result<Header, FileError> {
         file.take(12, "the magic words")?;
-        // Order of bytes (0 is that of a PC), objects, version, kind of object.
+        // Byte order (0 is that of a PC), objects, version, kind of object.
         if file.u16("the order of bytes")? != 0 {
             return Err(FileError::NotSupported {
                 what: ".sur files with the bytes in Motorola's order",
@@ -150,7 +150,7 @@ impl Header {
         })
     }
 
-    /// The height that an integer stands for; NaN where it is missing.
+    /// The height of an integer code; NaN if the point is missing.
     fn height(&self, value: i64) -> f64 {
         if self.missing == Some(value) {
             return f64::NAN;
@@ -163,7 +163,7 @@ impl Header {
     }
 }
 
-/// Puts rows and columns in the order in which they lie on the sample.
+/// Puts rows and columns into their order on the sample.
 fn turn(values: &mut [f64], [rows, columns]: [usize; 2], inversion: u16) {
     match inversion {
         FLIPPED => values.chunks_mut(columns).for_each(<[f64]>::reverse),

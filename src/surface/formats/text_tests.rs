@@ -1,4 +1,4 @@
-//! Forms in which a matrix is written, and what is refused with its place.
+//! Forms of a text matrix, and errors with their place.
 
 use super::*;
 
@@ -53,7 +53,7 @@ fn missing_pixels_are_not_numbers() {
             "{text:?}"
         );
     }
-    // Only a mark that ends every line is no missing pixel.
+    // Only a separator that ends every line is not a missing pixel.
     let (_, columns, values) = numbers("1,2,\n3,4,5\n");
     assert!(columns == 3 && values[2].is_nan());
 }
@@ -134,13 +134,13 @@ fn what_is_wrong_is_said_with_its_place() {
 }
 
 proptest::proptest! {
-    /// Whatever the bytes, an answer.
+    /// Any bytes give a matrix or an error.
     #[test]
     fn no_bytes_are_trouble(bytes in proptest::collection::vec(proptest::prelude::any::<u8>(), 0..200)) {
         let _ = read(&bytes);
     }
 
-    /// The same with the characters that matter.
+    /// The same with the significant characters.
     #[test]
     fn no_text_is_trouble(text in "[0-9a-e,;.\t\r\n #%/nax+-]{0,60}") {
         if let Ok(matrix) = read(text.as_bytes()) {

@@ -1,6 +1,6 @@
 //! Grey TIFF images: 8 or 16 bits a pixel as shades, 32 or 64 bits of floating point as heights.
 //!
-//! They say no unit, and their resolution is that of a printer.
+//! They state no unit, and their resolution is a printer's.
 
 use std::fs::File;
 use std::io::{BufReader, Cursor};
@@ -13,7 +13,7 @@ use super::png::{first_line, not_grey, refuse_ratio};
 use crate::surface::error::FileError;
 use crate::surface::matrix::Matrix;
 
-/// First bytes of a file: both orders of bytes, and files beyond 4 GiB.
+/// First bytes of a file: both byte orders, and files beyond 4 GiB.
 pub(super) const MAGIC: [&[u8]; 4] = [b"II*\0", b"MM\0*", b"II+\0", b"MM\0+"];
 
 /// Room for the decoder's own tables, bytes.

@@ -1,4 +1,4 @@
-//! How overlapping contacts become one.
+//! Merges overlapping contacts.
 
 use std::collections::BTreeMap;
 
@@ -9,27 +9,28 @@ use super::{Asperity, Contact, check};
 use crate::theory::TheoryError;
 use crate::theory::error::positive;
 
-/// Logarithm of the factor between two loads below which asperities that do not settle are given up.
+/// Logarithm of the ratio of loads below which asperities that do not converge are abandoned.
 const LEAST_STEP: f64 = 5e-4;
-/// Times that asperities may settle for each of them: each merger takes one away, and between two mergers a load
-/// is neared by halves down to the least step.
+/// Most solves per asperity: each merger removes one, and between two mergers a load is approached
+/// by bisection down to the least step.
 const MOST_SETTLES: usize = 100;
 
-/// What is kept as overlapping contacts become one, besides their area.
+/// What is conserved when overlapping contacts merge, besides their area.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum MergeRule {
     /// The volume of their caps.
     Volume,
-    /// The volume that they displace under their circles, what they do to each other included.
+    /// The volume that they displace under their circles, including their interaction.
     DisplacedVolume,
     /// Their load.
     Load,
 }
 
-/// One contact in place of several: their area, and their cap volume or load, at the centroid of
-/// the caps; `others` (m) is the displacement there by contacts that are not merged.
+/// One contact in place of several, with their area and their cap volume, displaced volume or load,
+/// at the centroid of the caps; `others` (m) is the displacement there by contacts that are not
+/// merged.
 ///
-/// The sources fix area and centroid only; `docs/dmt_study.md` says what the volumes come to.
+/// The sources define area and centroid only; `docs/dmt_study.md` compares the conserved volumes.
 pub fn merged(
     cluster: &[Contact],
     plane: f64,
@@ -70,8 +71,8 @@ pub fn merged(
     })
 }
 
-/// What members do to each other, as `a^4/R`, m^3: under its circle a contact displaces
-/// `3/4 pi a^4/R`, and each of the others U more over its area.
+/// Interaction of the members, as `a^4/R`, m^3: under its circle a contact displaces `3/4 pi
+/// a^4/R`, and each of the others U more over its area.
 fn lift(cluster: &[Contact]) -> f64 {
     let mut sum = 0.0;
     for (i, one) in cluster.iter().enumerate() {
@@ -85,8 +86,8 @@ fn lift(cluster: &[Contact]) -> f64 {
     sum
 }
 
-/// Clusters of contacts whose circles overlap, as lists of places in `contacts`, those of a
-/// single contact left out.
+/// Clusters of contacts whose circles overlap, as lists of indices into `contacts`, without single
+/// contacts.
 pub fn clusters(contacts: &[Contact]) -> Vec<Vec<usize>> {
     connected(contacts.len(), &overlapping(contacts))
 }
@@ -106,7 +107,7 @@ fn overlapping(contacts: &[Contact]) -> Vec<[usize; 2]> {
     pairs
 }
 
-/// The connected parts of `count` things joined two and two, those of a single one left out.
+/// Connected components of `count` elements joined in pairs, without single elements.
 fn connected(count: usize, pairs: &[[usize; 2]]) -> Vec<Vec<usize>> {
     fn root(parents: &mut [usize], mut i: usize) -> usize {
         while parents[i] != i {
@@ -133,8 +134,8 @@ fn connected(count: usize, pairs: &[[usize; 2]]) -> Vec<Vec<usize>> {
     parts.into_values().collect()
 }
 
-/// Contacts with a plane, merged until no two circles overlap. Summits inside a merged circle
-/// that carried nothing are dropped.
+/// Contacts with a plane, merged until no two circles overlap. Summits without load inside a merged
+/// circle are removed.
 pub fn merged_contacts(
     asperities: &[Asperity],
     plane: f64,
@@ -148,7 +149,8 @@ pub fn merged_contacts(
     Ok(settled.contacts(&set.asperities))
 }
 
-/// Settles and merges in turn until no two circles overlap; also says which asperities are left.
+/// Solves and merges alternately until no two circles overlap; also returns the remaining
+/// asperities.
 pub(super) fn settle_merged(
     mut set: Set,
     lattice: &Lattice,
@@ -206,8 +208,8 @@ pub(super) fn settle_merged(
     })
 }
 
-/// A load between that which was too far off and that which the asperities carry as they are: many
-/// merged at once carry a quarter less than before. Nothing where the two are the same.
+/// A load between the one that was too far and the one that the asperities carry now: many
+/// simultaneous mergers reduce the load by a quarter. `None` if the two are equal.
 fn nearer(held: Hold, state: &Equilibrium, set: &Set) -> Option<Hold> {
     let Hold::Load(asked) = held else {
         return None;
@@ -218,7 +220,7 @@ fn nearer(held: Hold, state: &Equilibrium, set: &Set) -> Option<Hold> {
     (far > LEAST_STEP && far.is_finite()).then(|| Hold::Load((asked * carried).sqrt()))
 }
 
-/// The contact in place of the cluster at places `members`, in balance with all others.
+/// The contact that replaces the cluster `members`, in equilibrium with all others.
 fn merged_cluster(
     contacts: &[Contact],
     members: &[usize],
@@ -226,7 +228,7 @@ fn merged_cluster(
     lattice: &Lattice,
     rule: MergeRule,
 ) -> Result<Contact, TheoryError> {
-    // Side by side, also where the cluster reaches over the edge of the cell.
+    // Positions relative to one member, also if the cluster crosses the edge of the cell.
     let first = contacts[members[0]].asperity.position;
     let together: Vec<Contact> = members
         .iter()
