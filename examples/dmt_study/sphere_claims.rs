@@ -4,7 +4,7 @@ use tabor::theory::dmt::{self, Method};
 use tabor::theory::lennard_jones_sphere::LennardJonesSphere;
 use tabor::theory::{Law, bradley, derjaguin};
 
-use crate::claims::Found;
+use super::claims::Found;
 
 /// T1: attraction of each DMT theory.
 pub fn one_sphere() -> Found {
