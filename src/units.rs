@@ -210,16 +210,16 @@ fn bare_unit(dimension: Dimension) -> &'static str {
 /// Least and largest magnitude of a nonzero number in SI units: far beyond any contact problem, and
 /// such that products of several of them do not overflow. Scenes, files and the command line use
 /// it.
-const SANE: [f64; 2] = [1e-30, 1e30];
+const RANGE: [f64; 2] = [1e-30, 1e30];
 /// The larger of the two.
-pub(crate) const LARGEST: f64 = SANE[1];
-/// [`SANE`] in words.
-pub(crate) const SANE_WORDS: &str =
+pub(crate) const LARGEST: f64 = RANGE[1];
+/// [`RANGE`] in words.
+pub(crate) const RANGE_WORDS: &str =
     "0 or between 1e-30 and 1e30 in SI units; check the powers of ten";
 
 /// Whether a number has a magnitude that one can compute with.
-pub(crate) fn is_sane(value: f64) -> bool {
-    value == 0.0 || (SANE[0]..=SANE[1]).contains(&value.abs())
+pub(crate) fn in_range(value: f64) -> bool {
+    value == 0.0 || (RANGE[0]..=RANGE[1]).contains(&value.abs())
 }
 
 /// Text in quotes for a message: one line, cut to a readable length.

@@ -37,7 +37,7 @@ struct Kind {
 }
 
 impl Kind {
-    fn of(setting: &Setting) -> Kind {
+    fn from_setting(setting: &Setting) -> Kind {
         Kind {
             backend: setting.backend,
             precision: setting.precision,
@@ -72,7 +72,7 @@ pub struct Work {
 
 impl Work {
     /// The work of `scene`, derived by `setting`, over `steps` steps.
-    pub fn of(setting: &Setting, scene: &Scene, grid: Grid, steps: usize) -> Work {
+    pub fn new(setting: &Setting, scene: &Scene, grid: Grid, steps: usize) -> Work {
         let place = match (setting.backend, setting.precision) {
             (BackendName::Gpu, Precision::Double) => Place::GpuDouble,
             (BackendName::Gpu, _) => Place::Gpu,
@@ -87,7 +87,7 @@ impl Work {
         let points = points as f64;
         let decades = -setting.tolerance.log10() / DECADES;
         Work {
-            kind: Kind::of(setting),
+            kind: Kind::from_setting(setting),
             units: passes as f64 * points * points.max(2.0).log2() * steps as f64 * decades,
             points,
         }

@@ -13,7 +13,7 @@ pub(super) fn twice(points: [usize; 2]) -> [usize; 2] {
 
 /// The compared grids, the coarsest first: the scene's own grid, halved while every side is even
 /// and long enough.
-pub(super) fn ladder(own: [usize; 2]) -> Result<Vec<[usize; 2]>, AccuracyError> {
+pub(super) fn halved_grids(own: [usize; 2]) -> Result<Vec<[usize; 2]>, AccuracyError> {
     let is_coarse =
         |points: [usize; 2]| points.iter().any(|side| *side > 1 && *side < LEAST_POINTS);
     if is_coarse(own) || own == [1, 1] {
@@ -41,7 +41,7 @@ mod tests {
 
     #[test]
     fn grids_are_halves_down_to_the_fewest_points() {
-        let grids = |own| ladder(own).expect("points enough");
+        let grids = |own| halved_grids(own).expect("points enough");
         assert_eq!(
             grids([128, 128]),
             [[16, 16], [32, 32], [64, 64], [128, 128]]
@@ -50,7 +50,7 @@ mod tests {
         assert_eq!(grids([100, 100]), [[25, 25], [50, 50], [100, 100]]);
         assert_eq!(grids([64, 1]), [[16, 1], [32, 1], [64, 1]]);
         assert_eq!(grids([27, 27]), [[27, 27]]);
-        assert!(ladder([8, 64]).is_err() && ladder([1, 1]).is_err());
+        assert!(halved_grids([8, 64]).is_err() && halved_grids([1, 1]).is_err());
         assert_eq!(twice([64, 1]), [128, 1]);
     }
 }

@@ -3,7 +3,7 @@
 use std::time::Instant;
 
 use super::cells;
-use super::steps::{Place, Steps, Walk};
+use super::steps::{PathVariant, StepPosition, Steps};
 use crate::backend::BackendError;
 use crate::kernel::Scalars;
 use crate::scene::{Boundary, Control, Scene};
@@ -38,7 +38,7 @@ pub struct Measured {
     /// Real two-dimensional transforms.
     pub transforms: f64,
     /// Steps solved.
-    pub walked: usize,
+    pub steps_solved: usize,
     /// Whether every step converged.
     pub converged: bool,
 }
@@ -53,7 +53,7 @@ pub enum Unfinished {
 }
 
 /// Index of the step of greatest compression.
-pub fn deepest(scene: &Scene) -> usize {
+pub fn most_compressed_step(scene: &Scene) -> usize {
     let path = &scene.loading.path;
     let closer = |a: f64, b: f64| match scene.loading.control {
         Control::MeanGap => a < b,
@@ -78,16 +78,16 @@ pub fn is_load(control: Control) -> bool {
 /// all settings are judged by the same steps.
 pub fn measure(
     setup: &Setup,
-    path: &Walk,
+    path: &PathVariant,
     scene: &Scene,
     cells: [usize; 2],
     make_backend: MakeBackend,
     watch: &mut dyn FnMut(usize, &Scalars) -> bool,
 ) -> Result<Measured, Unfinished> {
-    let deepest = deepest(scene);
+    let most_compressed_step = most_compressed_step(scene);
     let mut observer = Watch {
         setup,
-        profiled: path.places[deepest].map(|place| place.step),
+        profiled: path.places[most_compressed_step].map(|place| place.step),
         cells,
         profile: None,
         watch,
@@ -119,13 +119,13 @@ pub fn measure(
         seconds,
         iterations: end.rows.iter().map(|row| row.iterations).sum(),
         transforms: end.transforms,
-        walked: end.rows.len(),
+        steps_solved: end.rows.len(),
         converged: end.rows.iter().all(|row| row.converged),
     })
 }
 
 /// Between two steps the response is taken as linear in time, as a step takes the displacement.
-fn point_at(rows: &[StepRow], place: Place, scene: &Scene) -> Option<Point> {
+fn point_at(rows: &[StepRow], place: StepPosition, scene: &Scene) -> Option<Point> {
     let before = point(rows.get(place.step)?, scene);
     if place.share == 0.0 {
         return Some(before);
@@ -158,7 +158,7 @@ fn point(row: &StepRow, scene: &Scene) -> Point {
 /// Which steps of a scene are compared: those of the halved path.
 pub fn compared(scene: &Scene) -> Vec<bool> {
     let mut compared = vec![false; scene.loading.path.len()];
-    let halved = Steps::Halved.of(scene).places;
+    let halved = Steps::Halved.path(scene).places;
     for (compared, place) in compared.iter_mut().zip(halved) {
         *compared = place.is_some();
     }

@@ -1,6 +1,6 @@
 //! `accuracy.png`: error against seconds, both logarithmic, one panel a quantity.
 
-use super::judge::Errors;
+use super::errors::Errors;
 use super::report::{Report, Row};
 use super::setting::{Taper, Varied};
 use crate::output::panels::{Axis, Figure, Panel, PlotPoint, Series};
@@ -67,7 +67,7 @@ pub fn picture(report: &Report) -> Figure {
             .clone()
             .unwrap_or_else(|| "What accuracy costs".to_owned()),
         note: format!(
-            "line: front; dashed: uncertainty of the reference, {}",
+            "line: Pareto front; dashed: uncertainty of the reference, {}",
             reference.map_or("none", |found| found.words.as_str())
         ),
         // Unused kinds have no legend entry; the others keep their colours.
@@ -92,10 +92,10 @@ fn panel(report: &Report, title: &str, of: fn(&Errors) -> Option<f64>) -> Panel 
             hollow: false,
         })
     };
-    let front = report.front(of);
+    let pareto = report.pareto(of);
     let mut series = vec![Series {
         name: 0,
-        points: front
+        points: pareto
             .iter()
             .filter_map(|index| place(&report.rows[*index]))
             .collect(),
@@ -135,7 +135,7 @@ fn in_time(report: &Report) -> Panel {
     let title = "error in time of force or gap, same grid";
     let place = |row: &Row| {
         Some(PlotPoint {
-            x: row.measured.walked as f64,
+            x: row.measured.steps_solved as f64,
             y: row.in_time?.force?.max(LEAST),
             hollow: false,
         })

@@ -1,6 +1,6 @@
 //! References: a closed form, or the same scene in double precision on finer grids.
 
-use super::judge::{Errors, change};
+use super::errors::{Errors, change};
 use super::measure::{Measured, Point};
 use super::richardson::{Extrapolated, extrapolate};
 
@@ -28,12 +28,12 @@ pub struct Reference {
 
 impl Reference {
     /// Extrapolates from runs of the same path on successively doubled grids, the coarsest first.
-    /// Needs at least one run; with one the uncertainty is infinite. `walked` describes the number
+    /// Needs at least one run; with one the uncertainty is infinite. `path_steps` describes the number
     /// of steps.
-    pub fn numeric(levels: &[Measured], points: [usize; 2], walked: &str) -> Option<Reference> {
+    pub fn numeric(levels: &[Measured], points: [usize; 2], path_steps: &str) -> Option<Reference> {
         let fine = levels.last()?;
-        let areas = Curve::of(levels, |point| Some(point.area));
-        let answers = Curve::of(levels, |point| point.answer);
+        let areas = Curve::extrapolate(levels, |point| Some(point.area));
+        let answers = Curve::extrapolate(levels, |point| point.answer);
         let steps = fine.steps.iter().enumerate().map(|(step, own)| {
             (*own).map(|own| Point {
                 area: areas.values[step].unwrap_or(own.area),
@@ -76,7 +76,7 @@ impl Reference {
                 tension.and_then(|found| found.order),
             ],
             words: format!(
-                "double precision on {} x {} points with {walked}, extrapolated from {} grids",
+                "double precision on {} x {} points with {path_steps}, extrapolated from {} grids",
                 points[0],
                 points[1],
                 levels.len().min(3)
@@ -109,7 +109,7 @@ struct Curve {
 }
 
 impl Curve {
-    fn of(levels: &[Measured], of: impl Fn(&Point) -> Option<f64>) -> Curve {
+    fn extrapolate(levels: &[Measured], of: impl Fn(&Point) -> Option<f64>) -> Curve {
         let value = |level: &Measured, step: usize| level.steps[step].as_ref().and_then(&of);
         let count = levels.last().map_or(0, |fine| fine.steps.len());
         // The last three grids decide; a grid on which the contact separated has no value to
@@ -175,7 +175,7 @@ mod tests {
             seconds: 1.0,
             iterations: 1,
             transforms: 1.0,
-            walked: 3,
+            steps_solved: 3,
             converged: true,
         }
     }

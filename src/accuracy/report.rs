@@ -1,8 +1,8 @@
 //! Results of an accuracy study.
 
-use super::front;
-use super::judge::Errors;
+use super::errors::Errors;
 use super::measure::Measured;
+use super::pareto;
 use super::reference::Reference;
 use super::setting::{Setting, Varied};
 use crate::scene::Scene;
@@ -74,8 +74,8 @@ impl Report {
 
     /// Rows on the Pareto front of the error selected by `of`; rows with an error of 100 % are
     /// never on it.
-    pub fn front(&self, of: impl Fn(&Errors) -> Option<f64>) -> Vec<usize> {
-        front::pareto(&self.costs(|errors| of(errors).filter(|error| *error < 1.0)))
+    pub fn pareto(&self, of: impl Fn(&Errors) -> Option<f64>) -> Vec<usize> {
+        pareto::pareto(&self.costs(|errors| of(errors).filter(|error| *error < 1.0)))
     }
 
     /// Order of convergence of an error with the grid: the least-squares slope of logarithms over

@@ -1,6 +1,6 @@
 //! A setting: grid, precision, tolerance, taper, steps and model.
 
-use super::steps::{Steps, Walk};
+use super::steps::{PathVariant, Steps};
 use crate::grid::Grid;
 use crate::law::Law;
 use crate::scene::{AdhesionScene, BackendName, LawName, Precision, Range, Scene, Treatment};
@@ -152,8 +152,8 @@ impl Setting {
     }
 
     /// The scene and the path of this setting, without heights.
-    pub fn apply(&self, scene: &Scene) -> (Scene, Walk) {
-        let walk = self.steps.of(scene);
+    pub fn apply(&self, scene: &Scene) -> (Scene, PathVariant) {
+        let walk = self.steps.path(scene);
         let mut changed = scene.clone();
         changed.grid.points = Some(self.points);
         changed.solver.backend = self.backend;

@@ -29,36 +29,36 @@ pub enum Steps {
 
 /// Position of a step of the scene within another path.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Place {
+pub struct StepPosition {
     /// Index of the step that it equals or that precedes it.
     pub step: usize,
     /// Position towards the next step by time, from 0 to below 1.
     pub share: f64,
 }
 
-impl Place {
-    fn at(step: usize) -> Place {
-        Place { step, share: 0.0 }
+impl StepPosition {
+    fn at(step: usize) -> StepPosition {
+        StepPosition { step, share: 0.0 }
     }
 }
 
 /// A path, and the positions of the scene's steps in it.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Walk {
+pub struct PathVariant {
     /// The path.
     pub loading: LoadingScene,
     /// Position of each step of the scene; `None` if the path lacks it.
-    pub places: Vec<Option<Place>>,
+    pub places: Vec<Option<StepPosition>>,
 }
 
 impl Steps {
     /// The path of a scene with these steps.
-    pub fn of(self, scene: &Scene) -> Walk {
+    pub fn path(self, scene: &Scene) -> PathVariant {
         let loading = &scene.loading;
-        let as_given = || Walk {
+        let as_given = || PathVariant {
             loading: loading.clone(),
             places: (0..loading.path.len())
-                .map(|s| Some(Place::at(s)))
+                .map(|s| Some(StepPosition::at(s)))
                 .collect(),
         };
         let timed = match self {
@@ -72,20 +72,20 @@ impl Steps {
                 .map(|auto| doubled(&both(&doubled(loading).loading, &auto)).loading),
         };
         // A path without time has no time-dependent variants.
-        timed.map_or_else(as_given, |timed| Walk {
+        timed.map_or_else(as_given, |timed| PathVariant {
             places: places(loading, &timed),
             loading: timed,
         })
     }
 
     /// The steps of the reference of a scene.
-    pub fn of_reference(scene: &Scene) -> Steps {
+    pub fn for_reference(scene: &Scene) -> Steps {
         finest_tolerance(scene).map_or(Steps::Doubled, |_| Steps::Finest)
     }
 
     /// The steps that show the uncertainty of the reference in time: the difference from the finest
     /// steps that are compared.
-    pub fn beside_reference(scene: &Scene) -> Steps {
+    pub fn for_time_uncertainty(scene: &Scene) -> Steps {
         finest_tolerance(scene).map_or(Steps::AsGiven, Steps::Auto)
     }
 
@@ -103,7 +103,7 @@ impl Steps {
         let uneven = |equal: LoadingScene| {
             let places = places(&scene.loading, &equal);
             let mut steps = places.iter().enumerate();
-            !steps.all(|(step, place)| *place == Some(Place::at(step)))
+            !steps.all(|(step, place)| *place == Some(StepPosition::at(step)))
         };
         if !tolerances.is_empty() && equal(&scene.loading).is_some_and(uneven) {
             found.push(Steps::Equal);
@@ -140,11 +140,11 @@ fn finest_tolerance(scene: &Scene) -> Option<f64> {
     time_tolerances(scene).into_iter().reduce(f64::min)
 }
 
-fn halved(loading: &LoadingScene) -> Walk {
+fn halved(loading: &LoadingScene) -> PathVariant {
     let kept = kept(&loading.path);
     let mut places = vec![None; loading.path.len()];
     for (step, own) in kept.iter().enumerate() {
-        places[*own] = Some(Place::at(step));
+        places[*own] = Some(StepPosition::at(step));
     }
     let ends = ends(loading);
     let durations = ends.map(|ends| {
@@ -153,7 +153,7 @@ fn halved(loading: &LoadingScene) -> Walk {
             .map(|step| ends[kept[step]] - before(step))
             .collect()
     });
-    Walk {
+    PathVariant {
         loading: LoadingScene {
             path: kept.iter().map(|own| loading.path[*own]).collect(),
             durations,
@@ -163,13 +163,13 @@ fn halved(loading: &LoadingScene) -> Walk {
     }
 }
 
-fn doubled(loading: &LoadingScene) -> Walk {
+fn doubled(loading: &LoadingScene) -> PathVariant {
     let between = |values: &[f64], share: fn(f64, f64) -> [f64; 2]| {
         let pairs = values.windows(2).flat_map(|pair| share(pair[0], pair[1]));
         values.iter().copied().take(1).chain(pairs).collect()
     };
     let path = &loading.path;
-    Walk {
+    PathVariant {
         loading: LoadingScene {
             path: between(path, |from, to| [0.5 * (from + to), to]),
             durations: loading
@@ -178,7 +178,9 @@ fn doubled(loading: &LoadingScene) -> Walk {
                 .map(|durations| between(durations, |_, time| [0.5 * time; 2])),
             ..loading.clone()
         },
-        places: (0..path.len()).map(|s| Some(Place::at(2 * s))).collect(),
+        places: (0..path.len())
+            .map(|s| Some(StepPosition::at(2 * s)))
+            .collect(),
     }
 }
 
@@ -246,7 +248,7 @@ fn ends(loading: &LoadingScene) -> Option<Vec<f64>> {
 }
 
 /// Positions of the steps of a path within another through the same turning points, by time.
-fn places(own: &LoadingScene, walk: &LoadingScene) -> Vec<Option<Place>> {
+fn places(own: &LoadingScene, walk: &LoadingScene) -> Vec<Option<StepPosition>> {
     let (Some(own_ends), Some(ends)) = (ends(own), ends(walk)) else {
         return vec![None; own.path.len()];
     };
@@ -260,10 +262,10 @@ fn places(own: &LoadingScene, walk: &LoadingScene) -> Vec<Option<Place>> {
         let off = |step: &usize| (walk.path[*step] - value).abs();
         let nearest = at.min_by(|a, b| off(a).total_cmp(&off(b)));
         match nearest {
-            Some(step) => (off(&step) <= SAME_TIME * scale).then(|| Place::at(step)),
+            Some(step) => (off(&step) <= SAME_TIME * scale).then(|| StepPosition::at(step)),
             None => (first > 0 && first < ends.len()).then(|| {
                 let (before, after) = (ends[first - 1], ends[first]);
-                Place {
+                StepPosition {
                     step: first - 1,
                     share: (time - before) / (after - before),
                 }
@@ -307,8 +309,8 @@ mod tests {
         }
     }
 
-    fn own(walk: &Walk) -> Vec<Option<usize>> {
-        let step = |place: &Option<Place>| {
+    fn own(walk: &PathVariant) -> Vec<Option<usize>> {
+        let step = |place: &Option<StepPosition>| {
             place.map(|place| {
                 assert_eq!(place.share, 0.0);
                 place.step
@@ -405,7 +407,7 @@ mod tests {
         let found = places(&fine, &coarse);
         // The jump at time 3 has a step before and one after it.
         for (own, step) in [(0, 0), (3, 1), (4, 2), (5, 3)] {
-            assert_eq!(found[own], Some(Place::at(step)));
+            assert_eq!(found[own], Some(StepPosition::at(step)));
         }
         for (own, share) in [(1, 1.0 / 3.0), (2, 2.0 / 3.0)] {
             let place = found[own].expect("within the path");
@@ -421,15 +423,15 @@ mod tests {
     fn the_reference_is_twice_as_fine_as_all_that_it_judges() {
         for steps in ["2", "30", "500", "\"auto\""] {
             let scene = relaxing(steps);
-            assert_eq!(Steps::of_reference(&scene), Steps::Finest);
-            let finest = ends(&Steps::Finest.of(&scene).loading).expect("a path in time");
+            assert_eq!(Steps::for_reference(&scene), Steps::Finest);
+            let finest = ends(&Steps::Finest.path(&scene).loading).expect("a path in time");
             let mut judged = Steps::others(&scene);
             assert!(judged.contains(&Steps::Auto(1e-1)) && judged.contains(&Steps::Auto(1e-3)));
             assert_eq!(judged.contains(&Steps::Auto(1e-4)), steps == "500");
             assert_eq!(judged.contains(&Steps::Equal), steps == "\"auto\"");
             judged.push(Steps::AsGiven);
             for steps in judged {
-                let walk = Steps::of(steps, &scene);
+                let walk = steps.path(&scene);
                 assert!(walk.places.iter().all(|place| place.is_some()) || steps == Steps::Halved);
                 let coarse = ends(&walk.loading).expect("a path in time");
                 for pair in coarse.windows(2) {
@@ -452,14 +454,14 @@ mod tests {
             },
             ..relaxing("4")
         };
-        assert_eq!(Steps::of_reference(&elastic), Steps::Doubled);
+        assert_eq!(Steps::for_reference(&elastic), Steps::Doubled);
         assert_eq!(Steps::others(&elastic), [Steps::Doubled, Steps::Halved]);
     }
 
     #[test]
     fn equal_steps_are_as_many_on_each_ramp() {
         let auto = relaxing("\"auto\"");
-        let equal = Steps::Equal.of(&auto);
+        let equal = Steps::Equal.path(&auto);
         assert_eq!(equal.loading.path.len(), auto.loading.path.len());
         let stretches = |loading: &LoadingScene| -> Vec<(f64, usize)> {
             loading

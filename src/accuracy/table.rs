@@ -4,8 +4,8 @@ use std::fmt::Write;
 use std::fs;
 use std::path::Path;
 
-use super::front;
-use super::judge::Errors;
+use super::errors::Errors;
+use super::pareto;
 use super::report::{Report, Row, duration};
 use super::setting::Varied;
 use super::steps::Steps;
@@ -35,7 +35,7 @@ const QUANTITIES: [(&str, Quantity); 5] = [
 /// The table of all rows so far as CSV. Unknown values are empty.
 pub fn csv(report: &Report) -> String {
     let mut text = format!("{FIRST_COLUMNS},{MORE_COLUMNS}\n");
-    let front = report.front(Errors::largest);
+    let pareto = report.pareto(Errors::largest);
     let cell = |value: Option<f64>| value.map_or(String::new(), |value| format!("{value:e}"));
     let uncertainty = report.reference.as_ref().map(|found| found.uncertainty);
     for (index, row) in report.rows.iter().enumerate() {
@@ -45,14 +45,14 @@ pub fn csv(report: &Report) -> String {
             setting.backend.name().to_owned(),
             setting.precision.name().to_owned(),
             format!("{:e}", setting.tolerance),
-            row.measured.walked.to_string(),
+            row.measured.steps_solved.to_string(),
             setting.treatment(&report.scene).to_owned(),
             cell(row.taper),
             format!("{:.6}", row.measured.seconds),
         ];
         cells.extend(row.errors.all().map(cell));
         cells.push(cell(uncertainty.and_then(|known| known.largest())));
-        cells.push(front.contains(&index).to_string());
+        cells.push(pareto.contains(&index).to_string());
         cells.push(cell(row.errors.largest()));
         cells.push(row.varied.name().to_owned());
         cells.extend([row.range, row.chi, row.zone_pixels, row.change].map(cell));
@@ -136,7 +136,7 @@ pub fn screen(report: &Report) -> String {
         "  {:<58} {:>8} {:>9} {:>9} {:>9} {:>9}",
         "setting", "seconds", "area", "force", "pressure", "pull-off"
     ));
-    let front = report.front(Errors::largest);
+    let pareto = report.pareto(Errors::largest);
     let mut order: Vec<usize> = (0..report.rows.len()).collect();
     order.sort_by_key(|index| {
         let row = &report.rows[*index];
@@ -146,7 +146,7 @@ pub fn screen(report: &Report) -> String {
         let row = &report.rows[index];
         line(format!(
             "{} {}{}",
-            if front.contains(&index) { "*" } else { " " },
+            if pareto.contains(&index) { "*" } else { " " },
             cells(
                 &row.setting.words(&report.scene),
                 &duration(row.measured.seconds),
@@ -165,7 +165,7 @@ pub fn screen(report: &Report) -> String {
             cells("uncertainty of the reference", "", &reference.uncertainty)
         ));
         line(
-            "* on the front: nothing is both cheaper and better, by the largest of the errors"
+            "* on the Pareto front: nothing is both cheaper and better, by the largest of the errors"
                 .to_owned(),
         );
     }
@@ -213,12 +213,12 @@ fn in_time(report: &Report) -> Vec<String> {
         return Vec::new();
     };
     let mut rows: Vec<&Row> = rows().filter(|row| row.setting.points == points).collect();
-    rows.sort_by_key(|row| (is_auto(row), row.measured.walked));
+    rows.sort_by_key(|row| (is_auto(row), row.measured.steps_solved));
     let mut lines =
         vec!["of which in time, from the steps of the reference on the same grid:".to_owned()];
     lines.extend(rows.into_iter().map(|row| {
         let words = row.setting.words(&report.scene);
-        let words = format!("{words}: {} steps", row.measured.walked);
+        let words = format!("{words}: {} steps", row.measured.steps_solved);
         let errors = row.in_time.unwrap_or_default();
         format!(
             "  {}",
@@ -238,7 +238,7 @@ fn cheapest(report: &Report, of: Quantity, level: f64) -> Option<String> {
     let costs = report.costs(of);
     let best = costs.iter().filter_map(|cost| cost.1).reduce(f64::min)?;
     let uncertainty = report.uncertainty(of);
-    Some(match front::cheapest(&costs, uncertainty, level) {
+    Some(match pareto::cheapest(&costs, uncertainty, level) {
         Some(index) => {
             let row: &Row = &report.rows[index];
             format!(

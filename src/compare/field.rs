@@ -1,6 +1,6 @@
 //! The full field, and the field without adhesion with the attraction added afterwards (DMT).
 
-use super::ladder::{Ladder, rungs};
+use super::load_scan::{LoadScan, scan_loads};
 use super::table::Table;
 use super::{CompareError, Comparison, State};
 use crate::kernel::Scalars;
@@ -13,7 +13,7 @@ use crate::study::{
 };
 
 /// Number of mean gaps in the search for pull-off on retraction, and around its greatest tension.
-const WAY_OUT: usize = 32;
+const RETRACTION_GAPS: usize = 32;
 const CLOSER: usize = 8;
 /// The retraction ends where the tension falls below this share of the greatest one.
 const OVER: f64 = 0.3;
@@ -22,7 +22,7 @@ const OVER: f64 = 0.3;
 /// them in ranges of the law: up to about fifteen ranges, where the attraction is a thousandth of
 /// its peak.
 const CLEARANCES: i32 = 24;
-const CLEARANCE_RUNG: f64 = 1.5;
+const CLEARANCE_RATIO: f64 = 1.5;
 const CLOSEST: f64 = 1e-3;
 
 /// Observes the state of each step and may end the path.
@@ -70,7 +70,7 @@ fn tension(fields: &Evaluation) -> f64 {
 }
 
 /// Follows another path over the same surface.
-fn walked<F: FnMut(State, &Evaluation, bool) -> Result<bool, OutputError>>(
+fn follow_path<F: FnMut(State, &Evaluation, bool) -> Result<bool, OutputError>>(
     comparison: &Comparison,
     make_backend: MakeBackend,
     control: Control,
@@ -111,7 +111,7 @@ pub(super) fn full(
     });
     let mut pull_off = full.is_none().then_some(0.0);
     if full.is_some() {
-        let best = way_out(comparison, make_backend, full.clone())?;
+        let best = pull_off_by_retraction(comparison, make_backend, full.clone())?;
         pull_off = best.map(|state| -state.mean_pressure);
         if let Some(state) = best {
             table.add(state, pull_off, None)?;
@@ -125,7 +125,7 @@ pub(super) fn full(
         table.add(state, pull_off, unconverged(converged))?;
         Ok(true)
     };
-    walked(comparison, make_backend, control, path, full, keep)?;
+    follow_path(comparison, make_backend, control, path, full, keep)?;
     loads.sort_by(f64::total_cmp);
     loads.dedup();
     comparison.loads = loads;
@@ -133,7 +133,7 @@ pub(super) fn full(
 }
 
 /// The state of greatest tension on retraction from the closest step of the scene's path.
-fn way_out(
+fn pull_off_by_retraction(
     comparison: &Comparison,
     make_backend: MakeBackend,
     adhesion: Option<AdhesionScene>,
@@ -151,7 +151,7 @@ fn way_out(
         nearest = state.mean_gap;
         Ok(true)
     };
-    walked(
+    follow_path(
         comparison,
         make_backend,
         loading.control,
@@ -168,7 +168,7 @@ fn way_out(
     let mut low = nearest.max(1e-3 * far);
     let mut high = far.max(2.0 * low);
     let mut best: Option<State> = None;
-    for count in [WAY_OUT, CLOSER] {
+    for count in [RETRACTION_GAPS, CLOSER] {
         let step = (high - low) / count as f64;
         let path = (0..=count).map(|i| low + step * i as f64).collect();
         let see = |state: State, _: &Evaluation, converged: bool| {
@@ -178,7 +178,7 @@ fn way_out(
             }
             Ok(state.mean_pressure <= OVER * least || least == 0.0)
         };
-        walked(
+        follow_path(
             comparison,
             make_backend,
             Control::MeanGap,
@@ -208,8 +208,8 @@ pub(super) fn dmt(
     let law: Law = setup.law;
     let peak = law.peak_tension();
     let unit = setup.scene.solid.contact_modulus * setup.statistics.moments.rms_slope();
-    let mut ladder = Ladder::default();
-    let mut climb = |path: Vec<f64>, to_the_end: bool| {
+    let mut scan = LoadScan::default();
+    let mut scan_states = |path: Vec<f64>, to_the_end: bool| {
         let add = |state: State, fields: &Evaluation, _: bool| {
             let open = fields.gap.iter().zip(&fields.points);
             let open = open.filter(|(_, point)| **point != PointState::Contact);
@@ -217,17 +217,17 @@ pub(super) fn dmt(
                 open.map(|(gap, _)| law.traction(*gap)).sum::<f64>() / fields.gap.len() as f64;
             let area = state.contact_area_fraction.unwrap_or(f64::NAN);
             let gap = state.mean_gap.unwrap_or(f64::NAN);
-            ladder.add(state.mean_pressure, area, gap, attraction);
-            Ok(to_the_end || !ladder.stays_above(0.0, peak))
+            scan.add(state.mean_pressure, area, gap, attraction);
+            Ok(to_the_end || !scan.stays_above(0.0, peak))
         };
-        walked(comparison, make_backend, Control::Pressure, path, None, add)?;
-        Ok::<_, CompareError>(ladder.closer())
+        follow_path(comparison, make_backend, Control::Pressure, path, None, add)?;
+        Ok::<_, CompareError>(scan.closer())
     };
-    let closer = climb(rungs(unit, 0.0, peak), false)?;
-    climb(closer, true)?;
+    let closer = scan_states(scan_loads(unit, 0.0, peak), false)?;
+    scan_states(closer, true)?;
     let limit = comparison.beyond_dmt();
     let pulls = |state: &State| state.mean_pressure < 0.0;
-    let pull_off = [ladder.pull_off(), Some(across_a_gap(setup))]
+    let pull_off = [scan.pull_off(), Some(separated_pull_off(setup))]
         .into_iter()
         .flatten()
         .filter(pulls)
@@ -245,7 +245,7 @@ pub(super) fn dmt(
         table.add(state, Some(tension), unconverged(converged).or(limit))?;
         Ok(true)
     };
-    walked(
+    follow_path(
         comparison,
         make_backend,
         Control::Pressure,
@@ -257,20 +257,20 @@ pub(super) fn dmt(
 
 /// The state of greatest tension without contact: the undeformed surfaces, from first touch
 /// outwards.
-fn across_a_gap(setup: &Setup) -> State {
+fn separated_pull_off(setup: &Setup) -> State {
     let law = setup.law;
     let tension = |clearance: f64| attraction_across(setup, clearance);
     // For a law with a wall the attraction falls with the gap, so it is greatest at first touch.
     let mut best = (0.0, tension(0.0));
     if !law.has_wall() {
-        let rungs = (0..=CLEARANCES).map(|i| CLOSEST * CLEARANCE_RUNG.powi(i) * law.range());
-        for clearance in rungs {
+        let clearances = (0..=CLEARANCES).map(|i| CLOSEST * CLEARANCE_RATIO.powi(i) * law.range());
+        for clearance in clearances {
             let pull = tension(clearance);
             if pull > best.1 {
                 best = (clearance, pull);
             }
         }
-        let ends = [best.0 / CLEARANCE_RUNG, best.0 * CLEARANCE_RUNG];
+        let ends = [best.0 / CLEARANCE_RATIO, best.0 * CLEARANCE_RATIO];
         for i in 0..=CLEARANCES {
             let clearance = ends[0] + (ends[1] - ends[0]) * f64::from(i) / f64::from(CLEARANCES);
             let pull = tension(clearance);

@@ -8,7 +8,7 @@
 mod asperities;
 mod draw;
 mod field;
-mod ladder;
+mod load_scan;
 mod spectrum;
 mod table;
 
@@ -89,14 +89,14 @@ impl Comparison {
 /// Compares and writes `compare.csv`, row by row, and `compare.png` into `folder`.
 ///
 /// # Errors
-/// A scene that does not suit ([`suits`]), a flat surface, files that cannot be written, a device
+/// A scene that does not suit ([`check_scene`]), a flat surface, files that cannot be written, a device
 /// that fails. A model without results is not an error: a note gives the reason.
 pub fn compare(
     setup: Setup,
     make_backend: MakeBackend,
     folder: &Path,
 ) -> Result<Compared, CompareError> {
-    suits(&setup.scene)?;
+    check_scene(&setup.scene)?;
     if setup.statistics.moments.rms_slope() == 0.0 {
         return Err(CompareError::Unsuited(
             "the surface is flat: there is no roughness to compare models of".to_owned(),
@@ -131,12 +131,12 @@ pub fn compare(
         let clock = Instant::now();
         match model(&comparison, &mut table) {
             Ok(()) => {}
-            Err(Left::Out(reason)) => notes.push(format!("{name} is left out: {reason}")),
-            Err(Left::Theory(error)) => notes.push(format!(
+            Err(Stopped::Out(reason)) => notes.push(format!("{name} is left out: {reason}")),
+            Err(Stopped::Theory(error)) => notes.push(format!(
                 "{name} ends here, after {:.1} s: {error}",
                 clock.elapsed().as_secs_f64()
             )),
-            Err(Left::Output(error)) => return Err(error.into()),
+            Err(Stopped::Output(error)) => return Err(error.into()),
         }
     }
     let (rows, more) = table.into_rows()?;
@@ -145,11 +145,11 @@ pub fn compare(
     Ok(Compared { rows, notes })
 }
 
-type Model = fn(&Comparison, &mut Table) -> Result<(), Left>;
+type Model = fn(&Comparison, &mut Table) -> Result<(), Stopped>;
 
 /// Why a model has no further rows.
 #[derive(Debug, thiserror::Error)]
-enum Left {
+enum Stopped {
     #[error("{0}")]
     Out(String),
     #[error(transparent)]
@@ -163,7 +163,7 @@ enum Left {
 /// # Errors
 /// Spheres and cones, a free boundary, a spring, and solids or adhesion that only the full field
 /// can model.
-pub fn suits(scene: &Scene) -> Result<(), CompareError> {
+pub fn check_scene(scene: &Scene) -> Result<(), CompareError> {
     let mistake = |text: &str| Err(CompareError::Unsuited(text.to_owned()));
     for (index, part) in scene.surfaces.iter().enumerate() {
         let shape = match part {

@@ -3,7 +3,7 @@
 use std::f64::consts::PI;
 
 use super::table::Table;
-use super::{Comparison, Left, State};
+use super::{Comparison, State, Stopped};
 use crate::law::Law;
 use crate::scene::SurfacePart;
 use crate::surface::spectrum::SpectralMoments;
@@ -28,7 +28,7 @@ struct Found {
 
 /// The scene's own spectrum if the surface is one self-affine part; else a self-affine spectrum
 /// from the longest wave of the cell with the map's rms height, slope and curvature.
-fn spectrum_of(comparison: &Comparison) -> Result<Found, Left> {
+fn spectrum_of(comparison: &Comparison) -> Result<Found, Stopped> {
     let setup = &comparison.setup;
     let moments = setup.statistics.moments;
     let grid = setup.surface.grid;
@@ -51,7 +51,7 @@ fn spectrum_of(comparison: &Comparison) -> Result<Found, Left> {
             spectrum,
             limit: Some("self-affine spectrum matched to the map"),
         }),
-        None => Err(Left::Out(
+        None => Err(Stopped::Out(
             "no self-affine spectrum has the surface's rms height, slope and curvature".to_owned(),
         )),
     }
@@ -86,7 +86,7 @@ fn matched(moments: &SpectralMoments, smallest: f64) -> Option<Spectrum> {
 }
 
 /// Persson's theory; attraction over its distribution of gaps.
-pub(super) fn persson(comparison: &Comparison, table: &mut Table) -> Result<(), Left> {
+pub(super) fn persson(comparison: &Comparison, table: &mut Table) -> Result<(), Stopped> {
     let setup = &comparison.setup;
     let found = spectrum_of(comparison)?;
     let modulus = setup.scene.solid.contact_modulus;
@@ -139,10 +139,10 @@ pub(super) fn persson(comparison: &Comparison, table: &mut Table) -> Result<(), 
 }
 
 /// The bearing-area model, with the Dugdale law of the same work of adhesion and peak tension.
-pub(super) fn bam(comparison: &Comparison, table: &mut Table) -> Result<(), Left> {
+pub(super) fn bam(comparison: &Comparison, table: &mut Table) -> Result<(), Stopped> {
     let setup = &comparison.setup;
     if !setup.law.is_adhesive() {
-        return Err(Left::Out("without [adhesion] it has no law".to_owned()));
+        return Err(Stopped::Out("without [adhesion] it has no law".to_owned()));
     }
     let found = spectrum_of(comparison)?;
     let peak = setup.law.peak_tension();
@@ -173,7 +173,9 @@ pub(super) fn bam(comparison: &Comparison, table: &mut Table) -> Result<(), Left
     for load in comparison.carried(tension) {
         // At full closure the model carries only a finite load.
         let Ok(gap) = model.mean_gap(load / peak) else {
-            return Err(Left::Out(format!("beyond {load:e} Pa its mean gap is 0")));
+            return Err(Stopped::Out(format!(
+                "beyond {load:e} Pa its mean gap is 0"
+            )));
         };
         table.add(state(gap, load), Some(tension), limit)?;
     }

@@ -4,10 +4,10 @@ use std::path::Path;
 
 use super::curve_file::ForceCurve;
 use super::error::FitError;
-use super::estimate::{ModelFit, Rung, Uncertainties, fit_model};
+use super::estimate::{ModelFit, ProfilePoint, Uncertainties, fit_model};
 use super::inversion::{Inversion, invert_curve};
 use super::law_error::{LawError, law_error};
-use super::measured::{Freedom, Measured, Turned};
+use super::measured::{Freedom, Measured, ReversedSigns};
 use super::model::{Model, Parameters};
 use crate::theory::Law;
 use crate::theory::tabor_map::{
@@ -19,16 +19,16 @@ use crate::units::format_si;
 const FAR_FORCE: f64 = 0.2;
 /// Difference of Akaike's criterion from which one model is preferred: it is then `exp(6/2) = 20`
 /// times as likely.
-pub const TELLS_APART: f64 = 6.0;
+pub const DECISIVE_AIC: f64 = 6.0;
 /// Fewest points without force that determine a fitted baseline.
 const ZERO_POINTS: usize = 5;
 /// Correlation of neighbouring residuals above which a model misses the curve, in addition to the
 /// 3/sqrt(points) that chance allows.
-pub const MISSES: f64 = 0.3;
+pub const MISFIT_CORRELATION: f64 = 0.3;
 /// Correlation of work of adhesion and modulus above which they cannot be separated.
-pub const ENTANGLED: f64 = 0.95;
+pub const INSEPARABLE_CORRELATION: f64 = 0.95;
 /// Relative standard deviation from which a warning is given.
-pub const VAGUE: f64 = 0.3;
+pub const UNCERTAIN: f64 = 0.3;
 /// If the greatest tension lies within this share of the approach at its closest end, a curve
 /// without compression shows no contact.
 const CLOSEST: f64 = 0.05;
@@ -71,7 +71,7 @@ impl FitResult {
     }
 
     /// The fit of a model.
-    pub fn of(&self, model: Model) -> Option<&ModelFit> {
+    pub fn fit_of(&self, model: Model) -> Option<&ModelFit> {
         self.fits.iter().find(|fit| fit.model == model)
     }
 }
@@ -99,7 +99,7 @@ pub fn fit_curve(
     check_signs(&measured, &fits, path)?;
     let mut warnings = left_out(curve);
     let (chosen, tabor_parameter) = choose(&measured, &fits, &mut warnings).ok_or_else(no_fit)?;
-    doubts(&measured, &fits[chosen], &mut warnings);
+    add_warnings(&measured, &fits[chosen], &mut warnings);
     let work: Number = |p, u| (p.work_of_adhesion, u.work_of_adhesion);
     let modulus: Number = |p, u| (p.contact_modulus, u.contact_modulus);
     // If the baseline is fitted but not measured, tension may be an offset.
@@ -121,8 +121,8 @@ pub fn fit_curve(
         .copied()
         .fold(f64::NEG_INFINITY, f64::max);
     let grows = closest - least.approach < CLOSEST * measured.approach_span;
-    let vague = modulus_uncertainty.is_none_or(|deviation| deviation > VAGUE * stiff);
-    if !pressed && (grows || vague) {
+    let uncertain = modulus_uncertainty.is_none_or(|deviation| deviation > UNCERTAIN * stiff);
+    if !pressed && (grows || uncertain) {
         return Err(FitError::NoCompression {
             path: path.to_path_buf(),
         });
@@ -168,7 +168,7 @@ fn deviation(fits: &[ModelFit], chosen: usize, number: Number) -> Option<f64> {
         .iter()
         .min_by(|a, b| a.sum_of_squares.total_cmp(&b.sum_of_squares))?;
     let states = fits.iter().flat_map(ModelFit::states);
-    let spread = states.filter_map(|state: Rung| {
+    let spread = states.filter_map(|state: ProfilePoint| {
         let rise = (state.sum_of_squares - least.sum_of_squares) / least.variance;
         state.deviation(value, number, rise)
     });
@@ -179,10 +179,13 @@ fn deviation(fits: &[ModelFit], chosen: usize, number: Number) -> Option<f64> {
 fn knows_zero(measured: &Measured, fit: &ModelFit) -> bool {
     let touch = fit.parameters.approach_offset;
     let free = if fit.model.adheres() {
-        fit.held.iter().filter(|held| !**held).count()
+        fit.interacting
+            .iter()
+            .filter(|interacting| !**interacting)
+            .count()
     } else {
-        let apart = |approach: &&f64| **approach < touch;
-        measured.approaches.iter().filter(apart).count()
+        let separated = |approach: &&f64| **approach < touch;
+        measured.approaches.iter().filter(separated).count()
     };
     !measured.freedom.force_offset || free >= ZERO_POINTS
 }
@@ -203,11 +206,11 @@ fn check_signs(measured: &Measured, fits: &[ModelFit], path: &Path) -> Result<()
         return Ok(());
     }
     let simple = [Model::Hertz, Model::Dmt, Model::Jkr];
-    for turned in Turned::ALL {
-        let other = measured.turned(turned);
+    for reversed in ReversedSigns::ALL {
+        let other = measured.with_reversed(reversed);
         let fitted = simple.iter().filter_map(|model| fit_model(&other, *model));
         let least = fitted.map(|fit| fit.aic).fold(f64::INFINITY, f64::min);
-        if least < best.aic - TELLS_APART {
+        if least < best.aic - DECISIVE_AIC {
             let path = path.to_path_buf();
             return Err(if pressed {
                 FitError::WrongWay { path }
@@ -222,7 +225,7 @@ fn check_signs(measured: &Measured, fits: &[ModelFit], path: &Path) -> Result<()
 /// Whether the residuals of a fit are correlated.
 fn misses(measured: &Measured, fit: &ModelFit) -> bool {
     let chance = 3.0 / (measured.samples.len() as f64).sqrt();
-    fit.autocorrelation > MISSES + chance
+    fit.autocorrelation > MISFIT_CORRELATION + chance
 }
 
 fn left_out(curve: &ForceCurve) -> Vec<String> {
@@ -250,7 +253,7 @@ fn choose(
     let place = |model: Model| fits.iter().position(|fit| fit.model == model);
     let best = fits.iter().map(|fit| fit.aic).fold(f64::INFINITY, f64::min);
     if let Some(hertz) = place(Model::Hertz)
-        && fits[hertz].aic - best < TELLS_APART
+        && fits[hertz].aic - best < DECISIVE_AIC
         && !hides_adhesion(measured, &fits[hertz])
     {
         return Some((hertz, None));
@@ -283,7 +286,7 @@ fn choose(
         taken = general;
     }
     // The limits are chosen if the data do not resolve the difference.
-    let beyond = taken != general && fits[taken].aic - fits[general].aic > TELLS_APART;
+    let beyond = taken != general && fits[taken].aic - fits[general].aic > DECISIVE_AIC;
     // A Tabor number that is compatible with a limit does not justify a richer model.
     let simpler = simpler(fits, general).filter(|_| measured.freedom.range.is_none());
     if let Some(limit) = simpler.filter(|_| beyond || taken == general) {
@@ -299,9 +302,9 @@ fn choose(
     }
     for other in fits.iter().filter(|fit| fit.model != fits[taken].model) {
         let difference = other.aic - fits[taken].aic;
-        if difference.abs() < TELLS_APART {
+        if difference.abs() < DECISIVE_AIC {
             warnings.push(format!(
-                "the curve cannot tell {} from {} (AIC differ by {:.1}, {TELLS_APART} would): {} gives w = {}, E* = {}",
+                "the curve cannot tell {} from {} (AIC differ by {:.1}, {DECISIVE_AIC} would): {} gives w = {}, E* = {}",
                 fits[taken].model.title(),
                 other.model.title(),
                 difference.abs(),
@@ -348,7 +351,7 @@ fn simpler(fits: &[ModelFit], general: usize) -> Option<usize> {
         Model::Hertz | Model::MaugisDugdale => false,
     };
     (0..fits.len())
-        .filter(|i| reaches(fits[*i].model) && fits[*i].aic - fit.aic < TELLS_APART)
+        .filter(|i| reaches(fits[*i].model) && fits[*i].aic - fit.aic < DECISIVE_AIC)
         .min_by(|a, b| fits[*a].aic.total_cmp(&fits[*b].aic))
 }
 
@@ -366,7 +369,7 @@ fn tabor_of(radius: f64, fit: &ModelFit, range: Option<f64>) -> Option<f64> {
 }
 
 /// Warnings about the numbers of a fit.
-fn doubts(measured: &Measured, fit: &ModelFit, warnings: &mut Vec<String>) {
+fn add_warnings(measured: &Measured, fit: &ModelFit, warnings: &mut Vec<String>) {
     if !fit.converged {
         warnings.push(format!(
             "the search for {} did not settle; its numbers are the best found",
@@ -383,7 +386,7 @@ fn doubts(measured: &Measured, fit: &ModelFit, warnings: &mut Vec<String>) {
     }
     for (first, second, correlation) in &fit.correlations {
         if (*first, *second) == ("contact_modulus", "work_of_adhesion")
-            && correlation.abs() > ENTANGLED
+            && correlation.abs() > INSEPARABLE_CORRELATION
         {
             warnings.push(format!(
                 "w and E* are known together but hardly apart (correlation {correlation:.3})"
@@ -403,7 +406,7 @@ fn doubts(measured: &Measured, fit: &ModelFit, warnings: &mut Vec<String>) {
         ),
     ] {
         if let Some(deviation) = deviation
-            && deviation > VAGUE * value
+            && deviation > UNCERTAIN * value
         {
             warnings.push(format!(
                 "the {name} is known to {:.0} % only",

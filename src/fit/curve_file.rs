@@ -5,7 +5,7 @@ use std::io::Read;
 use std::path::Path;
 
 use super::error::FitError;
-use crate::units::{Dimension, is_sane, quoted, unit_factor};
+use crate::units::{Dimension, in_range, quoted, unit_factor};
 
 /// Largest file that is read.
 pub const MOST_BYTES: u64 = 256 << 20;
@@ -139,7 +139,7 @@ impl ForceCurve {
                 .iter()
                 .map(of)
                 .fold(0.0, |most: f64, value| most.max(value.abs()));
-            if is_sane(largest) {
+            if in_range(largest) {
                 return Ok(());
             }
             Err(FitError::Extreme {

@@ -8,17 +8,17 @@ use super::curve_file::Sample;
 use super::least_squares::{Minimum, Problem, covariance, minimise};
 use super::measured::Measured;
 use super::model::{LAMBDAS, Model, Parameters, SphereModel};
+use super::segments::Segment;
 use super::start::{scale_grid, starts};
-use super::ways::Way;
 use crate::theory::tabor_map::{LAMBDA_PER_MU_MATCHED, Sphere, maugis_parameter};
 
 /// Maugis parameters at which all other numbers are fitted before lambda is freed: the sum of
 /// squares has more than one minimum along lambda.
-const LADDER: [f64; 16] = [
+const LAMBDAS_TRIED: [f64; 16] = [
     0.01, 0.03, 0.06, 0.1, 0.16, 0.25, 0.4, 0.6, 0.85, 1.2, 1.7, 2.5, 4.0, 6.5, 11.0, 20.0,
 ];
 /// Number of lambdas from which lambda is freed.
-const BEST_RUNGS: usize = 3;
+const BEST_LAMBDAS: usize = 3;
 /// Fewest points of a segment without force if the baseline is fitted too: one or two would only
 /// fit their own noise.
 const LEAST_FREE: usize = 3;
@@ -29,7 +29,7 @@ const GRID_STARTS: usize = 3;
 const MOST_RISE: f64 = 9.0;
 /// Standard deviation of ln lambda from which a parabola around the minimum is meaningless, and the
 /// profile over lambda is used.
-const RUNG_DISTANCE: f64 = 0.5;
+const FLAT_PROFILE: f64 = 0.5;
 /// Least sum of squares with which a fit is credited, in squares of the force range a point. Below
 /// it are rounding and interpolation errors.
 const FLOOR: f64 = 1e-14;
@@ -81,23 +81,23 @@ pub struct ModelFit {
     /// Force of the model at each point, N.
     pub fitted: Vec<f64>,
     /// For each point, whether the sphere interacts with the flat; else it is free.
-    pub held: Vec<bool>,
+    pub interacting: Vec<bool>,
     /// Other states of the model, each with the least sum of squares at its lambda.
-    pub(super) rungs: Vec<Rung>,
+    pub(super) profile: Vec<ProfilePoint>,
     /// Variance of the residuals, corrected for their correlation, N^2.
     pub(super) variance: f64,
 }
 
 /// The best numbers at one lambda, with standard deviations at that lambda.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct Rung {
+pub(super) struct ProfilePoint {
     pub parameters: Parameters,
     pub uncertainties: Uncertainties,
     /// Sum of squares of the residuals, N^2.
     pub sum_of_squares: f64,
 }
 
-impl Rung {
+impl ProfilePoint {
     /// Standard deviation of a number at `value` implied by this state: a state whose sum of
     /// squares is larger by `rise` variances implies a distance of `sqrt(rise)` deviations, as for
     /// a parabola. `None` if the state is ruled out.
@@ -116,20 +116,21 @@ impl Rung {
 impl ModelFit {
     /// States of the model that the curve may not rule out: its states over lambda, or the fit
     /// itself if lambda is known more closely than their spacing.
-    pub(super) fn states(&self) -> Vec<Rung> {
-        let suits =
-            |rung: &&Rung| rung.sum_of_squares - self.sum_of_squares <= MOST_RISE * self.variance;
-        let rungs: Vec<Rung> = self.rungs.iter().filter(suits).copied().collect();
-        if rungs.is_empty() {
-            vec![self.as_rung()]
+    pub(super) fn states(&self) -> Vec<ProfilePoint> {
+        let suits = |point: &&ProfilePoint| {
+            point.sum_of_squares - self.sum_of_squares <= MOST_RISE * self.variance
+        };
+        let profile: Vec<ProfilePoint> = self.profile.iter().filter(suits).copied().collect();
+        if profile.is_empty() {
+            vec![self.as_profile_point()]
         } else {
-            rungs
+            profile
         }
     }
 
     /// The fit as a state of its own lambda.
-    fn as_rung(&self) -> Rung {
-        Rung {
+    fn as_profile_point(&self) -> ProfilePoint {
+        ProfilePoint {
             parameters: self.parameters,
             uncertainties: self.uncertainties,
             sum_of_squares: self.sum_of_squares,
@@ -232,7 +233,7 @@ impl Search<'_> {
         }
     }
 
-    fn held(&self, values: &DVector<f64>) -> Option<(Vec<f64>, f64)> {
+    fn interacting(&self, values: &DVector<f64>) -> Option<(Vec<f64>, f64)> {
         let parameters = self.parameters(values);
         let forces = self.sphere.forces(&parameters, &self.measured.approaches);
         let forces = forces.ok()?;
@@ -252,7 +253,7 @@ impl Problem for Search<'_> {
     /// On loading the sphere is free first and interacts later, on unloading the reverse; the jump
     /// is placed where it fits the forces best.
     fn choose(&self, values: &DVector<f64>) -> Option<(Vec<bool>, DVector<f64>)> {
-        let held = self.held(values)?;
+        let interacting = self.interacting(values)?;
         let samples = &self.measured.samples;
         let mut choice = vec![true; samples.len()];
         let least_free = if self.measured.freedom.force_offset {
@@ -260,12 +261,12 @@ impl Problem for Search<'_> {
         } else {
             1
         };
-        for way in &self.measured.ways {
+        for segment in &self.measured.segments {
             let cost = |i: usize, force: f64| self.residual(&samples[i], force).powi(2);
             // Gain from treating a point as free.
-            let gain = |i: usize| cost(i, held.0[i]) - cost(i, held.1);
-            let mut order: Vec<usize> = way.points.clone().collect();
-            if !way.together {
+            let gain = |i: usize| cost(i, interacting.0[i]) - cost(i, interacting.1);
+            let mut order: Vec<usize> = segment.points.clone().collect();
+            if !segment.loading {
                 order.reverse();
             }
             let (mut best, mut until, mut sum) = (0.0, 0, 0.0);
@@ -279,20 +280,20 @@ impl Problem for Search<'_> {
                 choice[*i] = false;
             }
         }
-        let residuals = self.pick(&held, &choice);
+        let residuals = self.pick(&interacting, &choice);
         Some((choice, residuals))
     }
 
     fn residuals(&self, values: &DVector<f64>, choice: &Vec<bool>) -> Option<DVector<f64>> {
-        Some(self.pick(&self.held(values)?, choice))
+        Some(self.pick(&self.interacting(values)?, choice))
     }
 }
 
 impl Search<'_> {
-    fn pick(&self, (held, free): &(Vec<f64>, f64), choice: &[bool]) -> DVector<f64> {
+    fn pick(&self, (interacting, free): &(Vec<f64>, f64), choice: &[bool]) -> DVector<f64> {
         let samples = &self.measured.samples;
         let each = (0..samples.len()).map(|i| {
-            let force = if choice[i] { held[i] } else { *free };
+            let force = if choice[i] { interacting[i] } else { *free };
             self.residual(&samples[i], force)
         });
         DVector::from_iterator(samples.len(), each)
@@ -351,23 +352,26 @@ pub(super) fn fit_model(measured: &Measured, model: Model) -> Option<ModelFit> {
     };
     if !variables.contains(&Variable::MaugisParameter) {
         let (minimum, search) = best_of(starts_at(1.0, &variables), &variables)?;
-        return Some(judged(&search, &minimum));
+        return Some(fit_at(&search, &minimum));
     }
-    let held: Vec<Variable> = variables
+    let at_fixed_lambda: Vec<Variable> = variables
         .iter()
         .copied()
         .filter(|variable| *variable != Variable::MaugisParameter)
         .collect();
-    let mut rungs: Vec<Rung> = LADDER
+    let mut profile: Vec<ProfilePoint> = LAMBDAS_TRIED
         .into_iter()
-        .filter_map(|lambda| best_of(starts_at(lambda, &held), &held))
-        .map(|(minimum, search)| judged(&search, &minimum).as_rung())
+        .filter_map(|lambda| best_of(starts_at(lambda, &at_fixed_lambda), &at_fixed_lambda))
+        .map(|(minimum, search)| fit_at(&search, &minimum).as_profile_point())
         .collect();
-    rungs.sort_by(|a, b| a.sum_of_squares.total_cmp(&b.sum_of_squares));
-    let first = rungs.iter().take(BEST_RUNGS).map(|rung| rung.parameters);
+    profile.sort_by(|a, b| a.sum_of_squares.total_cmp(&b.sum_of_squares));
+    let first = profile
+        .iter()
+        .take(BEST_LAMBDAS)
+        .map(|point| point.parameters);
     let (minimum, search) = best_of(first.collect(), &variables)?;
-    let mut fit = judged(&search, &minimum);
-    fit.rungs = rungs;
+    let mut fit = fit_at(&search, &minimum);
+    fit.profile = profile;
     widen(&mut fit);
     Some(fit)
 }
@@ -388,7 +392,7 @@ fn best_of_grid(
         start: Parameters::default(),
     };
     let here = DVector::zeros(variables.len());
-    let mut judged: Vec<(f64, Parameters)> = grid
+    let mut fit_at: Vec<(f64, Parameters)> = grid
         .into_iter()
         .filter_map(|start| {
             search.start = start;
@@ -397,9 +401,9 @@ fn best_of_grid(
             sum.is_finite().then_some((sum, start))
         })
         .collect();
-    judged.sort_by(|a, b| a.0.total_cmp(&b.0));
-    judged.truncate(GRID_STARTS);
-    judged.into_iter().map(|(_, start)| start).collect()
+    fit_at.sort_by(|a, b| a.0.total_cmp(&b.0));
+    fit_at.truncate(GRID_STARTS);
+    fit_at.into_iter().map(|(_, start)| start).collect()
 }
 
 /// Takes the uncertainties from the profile over lambda if lambda is so uncertain that a parabola
@@ -407,7 +411,7 @@ fn best_of_grid(
 fn widen(fit: &mut ModelFit) {
     let parameters = fit.parameters;
     let known = fit.uncertainties.maugis_parameter;
-    let parabola = known.is_some_and(|known| known < RUNG_DISTANCE * parameters.maugis_parameter);
+    let parabola = known.is_some_and(|known| known < FLAT_PROFILE * parameters.maugis_parameter);
     type Pick = fn(&mut Uncertainties) -> &mut Option<f64>;
     type Value = fn(&Parameters) -> f64;
     let numbers: [(Pick, Value); 4] = [
@@ -417,10 +421,10 @@ fn widen(fit: &mut ModelFit) {
         (|u| &mut u.approach_offset, |p| p.approach_offset),
     ];
     for (pick, value) in numbers {
-        let spread = fit.rungs.iter().filter_map(|rung| {
-            let rise = (rung.sum_of_squares - fit.sum_of_squares) / fit.variance;
+        let spread = fit.profile.iter().filter_map(|point| {
+            let rise = (point.sum_of_squares - fit.sum_of_squares) / fit.variance;
             let own = |p: &Parameters, u: &Uncertainties| (value(p), *pick(&mut u.clone()));
-            rung.deviation(value(&parameters), own, rise)
+            point.deviation(value(&parameters), own, rise)
         });
         let Some(spread) = spread.reduce(f64::max) else {
             continue;
@@ -433,14 +437,14 @@ fn widen(fit: &mut ModelFit) {
 }
 
 /// Numbers and their uncertainties at a minimum.
-fn judged(search: &Search, minimum: &Minimum) -> ModelFit {
+fn fit_at(search: &Search, minimum: &Minimum) -> ModelFit {
     let measured = search.measured;
     let parameters = search.parameters(&minimum.variables);
     let points = measured.samples.len();
     let free = search.variables.len();
     let degrees = points.saturating_sub(free).max(1);
     let sum = minimum.sum();
-    let autocorrelation = autocorrelation(&minimum.residuals, &measured.ways);
+    let autocorrelation = autocorrelation(&minimum.residuals, &measured.segments);
     // Correlated residuals count for fewer: n (1 - r)/(1 + r) of them are independent.
     let noticed = autocorrelation > 2.0 / (points as f64).sqrt();
     let repeated = if noticed {
@@ -451,7 +455,7 @@ fn judged(search: &Search, minimum: &Minimum) -> ModelFit {
     let variance = sum / degrees as f64 * repeated.max(1.0);
     let covariance = covariance(&minimum.jacobian, variance);
     let span = measured.force_span;
-    let held = search
+    let interacting = search
         .choose(&minimum.variables)
         .map_or_else(Vec::new, |(choice, _)| choice);
     let fitted = measured
@@ -475,8 +479,8 @@ fn judged(search: &Search, minimum: &Minimum) -> ModelFit {
         noise: (sum / degrees as f64).sqrt() * span,
         autocorrelation,
         fitted,
-        held,
-        rungs: Vec::new(),
+        interacting,
+        profile: Vec::new(),
         variance: variance * span * span,
     }
 }
@@ -554,11 +558,11 @@ fn correlations(
 }
 
 /// Correlation of each residual with the next one of the same segment.
-fn autocorrelation(residuals: &DVector<f64>, ways: &[Way]) -> f64 {
+fn autocorrelation(residuals: &DVector<f64>, segments: &[Segment]) -> f64 {
     let square = residuals.norm_squared();
-    let products: f64 = ways
+    let products: f64 = segments
         .iter()
-        .flat_map(|way| way.points.clone().skip(1))
+        .flat_map(|segment| segment.points.clone().skip(1))
         .map(|i| residuals[i] * residuals[i - 1])
         .sum();
     if square > 0.0 {

@@ -44,9 +44,9 @@ pub fn invert_curve(measured: &Measured, fit: &ModelFit) -> Option<Inversion> {
         return None;
     }
     // The last unloading segment, else the last loading segment.
-    let apart = measured.ways.iter().rfind(|way| !way.together);
-    let way = apart.or(measured.ways.last())?;
-    let points: Vec<&Sample> = measured.samples[way.points.clone()]
+    let unloading = measured.segments.iter().rfind(|segment| !segment.loading);
+    let segment = unloading.or(measured.segments.last())?;
+    let points: Vec<&Sample> = measured.samples[segment.points.clone()]
         .iter()
         .filter(|sample| {
             let load = sample.force - zero;

@@ -1,7 +1,7 @@
 //! A curve prepared for fitting.
 
 use super::curve_file::Sample;
-use super::ways::{Way, ways};
+use super::segments::{Segment, segments};
 
 /// Numbers that are fitted in addition to those of the model.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -16,23 +16,23 @@ pub struct Freedom {
 
 /// The signs of a curve that are reversed.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(super) struct Turned {
+pub(super) struct ReversedSigns {
     approach: bool,
     force: bool,
 }
 
-impl Turned {
+impl ReversedSigns {
     /// Every combination of reversed signs.
-    pub(super) const ALL: [Turned; 3] = [
-        Turned {
+    pub(super) const ALL: [ReversedSigns; 3] = [
+        ReversedSigns {
             approach: true,
             force: false,
         },
-        Turned {
+        ReversedSigns {
             approach: false,
             force: true,
         },
-        Turned {
+        ReversedSigns {
             approach: true,
             force: true,
         },
@@ -45,7 +45,7 @@ pub struct Measured {
     /// Points in the order of the file.
     pub samples: Vec<Sample>,
     /// Loading and unloading segments.
-    pub ways: Vec<Way>,
+    pub segments: Vec<Segment>,
     /// R, m.
     pub radius: f64,
     /// The fitted offsets.
@@ -70,7 +70,7 @@ impl Measured {
             ends.1 - ends.0
         };
         Measured {
-            ways: ways(&samples),
+            segments: segments(&samples),
             radius,
             freedom,
             approaches: samples.iter().map(|sample| sample.approach).collect(),
@@ -81,11 +81,11 @@ impl Measured {
     }
 
     /// The same curve with signs reversed.
-    pub(super) fn turned(&self, turned: Turned) -> Measured {
-        let sign = |turned: bool| if turned { -1.0 } else { 1.0 };
+    pub(super) fn with_reversed(&self, reversed: ReversedSigns) -> Measured {
+        let sign = |reversed: bool| if reversed { -1.0 } else { 1.0 };
         let samples = self.samples.iter().map(|sample| Sample {
-            approach: sign(turned.approach) * sample.approach,
-            force: sign(turned.force) * sample.force,
+            approach: sign(reversed.approach) * sample.approach,
+            force: sign(reversed.force) * sample.force,
         });
         Measured::new(samples.collect(), self.radius, self.freedom)
     }

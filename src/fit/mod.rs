@@ -21,8 +21,8 @@ mod measured;
 pub mod model;
 mod picture;
 mod report;
+mod segments;
 mod start;
-mod ways;
 
 pub use choice::{FitResult, fit_curve};
 pub use curve_file::{ForceCurve, Sample};
@@ -34,4 +34,4 @@ pub use measured::{Freedom, Measured};
 pub use model::Model;
 pub use picture::draw;
 pub use report::report;
-pub use ways::{Way, ways};
+pub use segments::{Segment, segments};

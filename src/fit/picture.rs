@@ -29,8 +29,8 @@ const RESIDUALS: Rect = Rect {
     height: 170,
 };
 /// Colours of the points on loading and on unloading.
-const TOGETHER: Rgb = [216, 132, 44];
-const APART: Rgb = [40, 96, 168];
+const LOADING: Rgb = [216, 132, 44];
+const UNLOADING: Rgb = [40, 96, 168];
 /// Most ticks of an axis.
 const TICKS: usize = 8;
 /// Pixels of a tick mark.
@@ -108,17 +108,17 @@ pub fn draw(result: &FitResult, title: &str) -> io::Result<Vec<u8>> {
     heading(&mut page, result, title);
     panel(&mut page, CURVE, &approach, &force, "force");
     panel(&mut page, RESIDUALS, &approach, &residual, "data - model");
-    for way in &result.measured.ways {
-        let colour = if way.together { TOGETHER } else { APART };
-        for i in way.points.clone() {
+    for segment in &result.measured.segments {
+        let colour = if segment.loading { LOADING } else { UNLOADING };
+        for i in segment.points.clone() {
             let x = approach.pixel(samples[i].approach);
             dot(&mut page, (x, force.pixel(samples[i].force)), colour);
             dot(&mut page, (x, residual.pixel(rest(i))), colour);
         }
     }
-    for way in &result.measured.ways {
+    for segment in &result.measured.segments {
         let mut before: Option<[f64; 2]> = None;
-        for i in way.points.clone() {
+        for i in segment.points.clone() {
             let here = [
                 approach.pixel(samples[i].approach),
                 force.pixel(fit.fitted[i]),
@@ -149,7 +149,11 @@ fn heading(page: &mut RgbImage, result: &FitResult, title: &str) {
     let title = canvas::cut(title, HEADING, CURVE.width);
     say(page, HEADING, INK, [CURVE.x, 22], &title);
     say(page, TEXT, INK, [CURVE.x, 54], &says);
-    let keys = [("together", TOGETHER), ("apart", APART), ("model", INK)];
+    let keys = [
+        ("loading", LOADING),
+        ("unloading", UNLOADING),
+        ("model", INK),
+    ];
     let mut x = CURVE.right() - 330;
     for (name, colour) in keys {
         dot(page, (f64::from(x), 62.0), colour);

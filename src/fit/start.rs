@@ -170,14 +170,14 @@ fn pull_off_start(
     let (place, force) = sphere.pull_off(lambda).ok()?;
     let tension = baseline - least.force;
     let unit = tension / -force;
-    let way = greatest.approach - least.approach;
-    if unit <= 0.0 || way <= 0.0 {
+    let segment = greatest.approach - least.approach;
+    if unit <= 0.0 || segment <= 0.0 {
         return None;
     }
     let deepest = sphere
         .approach_at(lambda, (greatest.force - baseline) / unit)
         .ok()?;
-    let approach_unit = way / (deepest - place);
+    let approach_unit = segment / (deepest - place);
     let work_of_adhesion = unit / (PI * sphere.radius);
     let contact_modulus = modulus_of(sphere.radius, work_of_adhesion, approach_unit);
     debug_assert!(

@@ -49,7 +49,7 @@ impl SpectrumPlot<'_> {
         say(&mut page, HEADING, INK, [AXES.x, 24], &title);
         let axis = "power spectral density [m^4] over wave number [1/m]";
         say(&mut page, TEXT, INK, [AXES.x, 54], axis);
-        let axes = Axes::of(self.points, self.line);
+        let axes = Axes::for_points(self.points, self.line);
         for (axis, ends) in axes.ends.iter().enumerate() {
             draw_ticks(&mut page, &axes, axis, *ends);
         }
@@ -112,7 +112,7 @@ struct Axes {
 
 impl Axes {
     /// Axes that contain all points except those far below the greatest.
-    fn of(points: &[[f64; 2]], line: &[[f64; 2]]) -> Axes {
+    fn for_points(points: &[[f64; 2]], line: &[[f64; 2]]) -> Axes {
         let ends = [0, 1].map(|axis| {
             let logarithms = points.iter().chain(line).map(|point| point[axis].log10());
             let finite = logarithms.filter(|value| value.is_finite());
@@ -192,7 +192,7 @@ mod tests {
     #[test]
     fn points_lie_where_their_logarithms_say() {
         let points = [[1e5, 1e-30], [1e6, 1e-32], [1e7, 1e-34]];
-        let axes = Axes::of(&points, &[]);
+        let axes = Axes::for_points(&points, &[]);
         let [low, middle, high] = points.map(|point| axes.place(point).unwrap());
         // The middle one is the mean of the others in both logarithms, to the nearest pixel.
         assert!(middle[0].abs_diff((low[0] + high[0]) / 2) <= 1);

@@ -2,7 +2,7 @@
 
 use std::path::Path;
 
-use super::allowed::{Allowed, is_sane};
+use super::allowed::{Allowed, in_range};
 use super::document::Value;
 use super::keys;
 use super::mistake::SceneError;
@@ -199,7 +199,7 @@ fn numbers(adhesion: &Reader, law: Option<LawName>) -> Option<(f64, Range)> {
 
 /// Notes a derived parameter outside the supported magnitudes.
 fn is_normal(adhesion: &Reader, derived: f64) -> bool {
-    let normal = derived > 0.0 && is_sane(derived);
+    let normal = derived > 0.0 && in_range(derived);
     if !normal {
         adhesion.conflict(
             "peak_tension",

@@ -1,6 +1,6 @@
 //! Limits on the numbers of a key.
 
-pub(super) use crate::units::{SANE_WORDS, is_sane};
+pub(super) use crate::units::{RANGE_WORDS, in_range};
 
 /// The limits on the numbers of a key.
 #[derive(Clone, Copy)]

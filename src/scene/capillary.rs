@@ -2,7 +2,7 @@
 
 use std::f64::consts::FRAC_PI_2;
 
-use super::allowed::{Allowed, is_sane};
+use super::allowed::{Allowed, in_range};
 use super::keys;
 use super::reader::Reader;
 use super::{AdhesionScene, CapillaryScene, LawName, Range, Treatment};
@@ -71,7 +71,7 @@ pub(super) fn read(scene: &Reader) -> Option<Option<CapillaryScene>> {
     };
     let meniscus = found.meniscus();
     let numbers = [meniscus.range(), meniscus.peak_tension()];
-    if found.bridges() && !numbers.iter().all(|&number| is_sane(number)) {
+    if found.bridges() && !numbers.iter().all(|&number| in_range(number)) {
         capillary.conflict(
             "humidity",
             format!(

@@ -141,7 +141,7 @@ struct PathValue {
 }
 
 impl PathValue {
-    fn of(control: Control, adhesion: Option<&AdhesionScene>) -> Self {
+    fn for_control(control: Control, adhesion: Option<&AdhesionScene>) -> Self {
         let dimension = match control {
             Control::Pressure => Dimension::Pressure,
             Control::Force => Dimension::Force,
@@ -166,7 +166,7 @@ fn path(
     adhesion: Option<&AdhesionScene>,
     solid: Option<&SolidScene>,
 ) -> Option<TimedPath> {
-    let value = control.map(|control| PathValue::of(control, adhesion));
+    let value = control.map(|control| PathValue::for_control(control, adhesion));
     let has_ramps = loading.has("start") || loading.has("ramp");
     if loading.has("path") && has_ramps {
         loading.conflict(

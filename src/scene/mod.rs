@@ -38,7 +38,7 @@ pub use parts::*;
 pub use time_steps::{DEFAULT_TOLERANCE as DEFAULT_TIME_TOLERANCE, Stretch};
 pub use types::*;
 
-use document::{Place, Table};
+use document::{Location, Table};
 use reader::{Log, Reader};
 
 /// Longest scene file: a path of a million steps has about 20 bytes a step.
@@ -53,7 +53,7 @@ impl Scene {
         let file_name = path.display().to_string();
         let text = read_text(path).map_err(|reason| {
             let log = Log::new(&file_name);
-            log.add(Place::Nowhere, "", SceneError::Unreadable { reason });
+            log.add(Location::Nowhere, "", SceneError::Unreadable { reason });
             log.into_errors()
         })?;
         let folder = match path.parent() {
@@ -81,7 +81,7 @@ impl Scene {
                 read_tables(&root, folder, &log)
             }
             Err((line, error)) => {
-                log.add(line.map_or(Place::Nowhere, Place::Line), "", error);
+                log.add(line.map_or(Location::Nowhere, Location::Line), "", error);
                 None
             }
         };
@@ -120,7 +120,7 @@ fn read_text(path: &Path) -> Result<String, String> {
 
 /// Reads every table before returning, so that all mistakes are collected.
 fn read_tables(root: &Table, folder: &Path, log: &Log) -> Option<Scene> {
-    let scene = Reader::open(root, Place::Nowhere, "", &keys::SCENE, log);
+    let scene = Reader::open(root, Location::Nowhere, "", &keys::SCENE, log);
     let title = match scene.has("title") {
         true => scene.text("title").map(|title| Some(title.to_string())),
         false => Some(None),

@@ -1,6 +1,6 @@
 //! `--set KEY=VALUE`: changes to the tree of a scene before it is read.
 
-use super::document::{Entry, Node, Place, Table, Value, parse_set};
+use super::document::{Entry, Location, Node, Table, Value, parse_set};
 use super::mistake::SceneError;
 use super::reader::{Log, shown_key};
 
@@ -13,7 +13,7 @@ pub(super) fn apply(root: &mut Table, overrides: &[(String, String)], log: &Log)
     for (key, text) in overrides {
         let done = parse_set(text).and_then(|node| set(root, key, node));
         if let Err(error) = done {
-            log.add(Place::Set, &shown_key(key), error);
+            log.add(Location::Set, &shown_key(key), error);
         }
     }
 }
@@ -36,10 +36,10 @@ fn set(root: &mut Table, key: &str, node: Node) -> Result<(), SceneError> {
     {
         root.entries.push(Entry {
             name: (*first).into(),
-            place: Place::Set,
+            place: Location::Set,
             node: Node {
                 value: Value::Table(Table::default()),
-                place: Place::Set,
+                place: Location::Set,
             },
         });
     }

@@ -5,8 +5,8 @@
 
 use std::cell::RefCell;
 
-use super::allowed::{Allowed, SANE_WORDS, is_sane};
-use super::document::{Entry, Node, Place, Table, Value};
+use super::allowed::{Allowed, RANGE_WORDS, in_range};
+use super::document::{Entry, Location, Node, Table, Value};
 use super::keys::{self, Section};
 use super::mistake::{Mistake, SceneError, SceneErrors};
 use crate::units::{self, Dimension, UnitError};
@@ -26,15 +26,15 @@ impl Log {
     }
 
     /// Notes a mistake.
-    pub fn add(&self, place: Place, key: &str, error: SceneError) {
+    pub fn add(&self, place: Location, key: &str, error: SceneError) {
         self.mistakes.borrow_mut().push(Mistake {
             file: self.file.clone(),
             line: match place {
-                Place::Line(line) => Some(line),
-                Place::Set | Place::Nowhere => None,
+                Location::Line(line) => Some(line),
+                Location::Set | Location::Nowhere => None,
             },
             key: key.into(),
-            from_set: place == Place::Set,
+            from_set: place == Location::Set,
             error,
         });
     }
@@ -71,7 +71,7 @@ fn quantity_of(node: &Node, dimension: Dimension) -> Option<Result<f64, UnitErro
 /// A cursor over one table.
 pub(super) struct Reader<'a> {
     table: &'a Table,
-    place: Place,
+    place: Location,
     path: String,
     section: &'static Section,
     log: &'a Log,
@@ -83,7 +83,7 @@ impl<'a> Reader<'a> {
     /// Opens a table and notes each key that is not in `section`. `path` is its dotted name.
     pub fn open(
         table: &'a Table,
-        place: Place,
+        place: Location,
         path: &str,
         section: &'static Section,
         log: &'a Log,
@@ -163,7 +163,7 @@ impl<'a> Reader<'a> {
     }
 
     /// Notes a mistake of a key at another location.
-    pub fn report_at(&self, place: Place, key: &str, error: SceneError) {
+    pub fn report_at(&self, place: Location, key: &str, error: SceneError) {
         self.log.add(place, &self.dotted(key), error);
     }
 
@@ -239,8 +239,8 @@ impl<'a> Reader<'a> {
                 self.out_of_range(node, name, allowed.words);
                 None
             }
-            Some(Ok(value)) if !is_sane(value) => {
-                self.out_of_range(node, name, SANE_WORDS);
+            Some(Ok(value)) if !in_range(value) => {
+                self.out_of_range(node, name, RANGE_WORDS);
                 None
             }
             Some(Ok(value)) => Some(value),

@@ -1,6 +1,6 @@
 //! `[solid]`: the contact modulus, and a layer in place of the half-space.
 
-use super::allowed::{Allowed, is_sane};
+use super::allowed::{Allowed, in_range};
 use super::keys;
 use super::mistake::SceneError;
 use super::reader::Reader;
@@ -77,7 +77,7 @@ pub(super) fn read(scene: &Reader, boundary: Option<Boundary>) -> Option<SolidSc
         compliance += plane_compliance(counter?, counter_ratio?);
     }
     let contact_modulus = 1.0 / compliance;
-    if !is_sane(contact_modulus) {
+    if !in_range(contact_modulus) {
         solid.conflict(
             "young_modulus",
             format!("makes the contact modulus {contact_modulus:e} Pa; check the powers of ten"),

@@ -7,7 +7,7 @@ use crate::grid::{Grid, signed_index};
 use crate::scene::Boundary;
 
 /// The correlation length is the distance at which the autocorrelation has fallen to 1/e.
-const FALLEN_TO: f64 = 0.367_879_441_171_442_33;
+const ONE_OVER_E: f64 = 0.367_879_441_171_442_33;
 
 /// Correlation length, m: the shortest distance at which the autocorrelation of the heights about
 /// their mean, averaged over directions in rings one pixel wide, falls to 1/e of the mean square
@@ -23,7 +23,7 @@ pub fn correlation_length(grid: &Grid, heights: &[f64], boundary: Boundary) -> O
     if !(whole.is_finite() && whole > 0.0) {
         return None;
     }
-    let target = FALLEN_TO * whole;
+    let target = ONE_OVER_E * whole;
     let pair = rings.windows(2).find(|pair| pair[1].1 <= target)?;
     let [(near, before), (far, after)] = [pair[0], pair[1]];
     Some(near + (far - near) * (before - target) / (before - after))

@@ -6,7 +6,7 @@ use super::statistics::edge_jumps;
 use super::{detrend, fill, formats};
 use crate::grid::Grid;
 use crate::scene::{Boundary, Fill, HeightFileScene};
-use crate::units::is_sane;
+use crate::units::in_range;
 
 /// Relative difference up to which two sizes agree: files store few digits.
 const SIZE_MARGIN: f64 = 1e-3;
@@ -79,7 +79,7 @@ impl HeightMap {
 /// See [`FileError`].
 pub(super) fn read(scene: &HeightFileScene, boundary: Boundary) -> Result<HeightMap, FileError> {
     for (name, value) in [("unit", scene.unit), ("scale", scene.scale)] {
-        if value == 0.0 || !is_sane(value) {
+        if value == 0.0 || !in_range(value) {
             return Err(FileError::Factor { name, value });
         }
     }
@@ -109,7 +109,7 @@ pub(super) fn read(scene: &HeightFileScene, boundary: Boundary) -> Result<Height
     }
     let magnitude = |most: f64, height: &f64| most.max(height.abs());
     let largest = heights.iter().fold(0.0, magnitude);
-    if !is_sane(largest) {
+    if !in_range(largest) {
         return Err(FileError::Extreme { largest });
     }
     detrend::detrend(&mut heights, rows, columns, scene.detrend);

@@ -42,7 +42,7 @@ pub(super) fn interpolate(
     for pixel in &missing {
         let mut slots = [none; 4];
         let (mut degree, mut load) = (0.0, 0.0);
-        let around = around(*pixel, rows, columns, periodic);
+        let around = neighbours_of(*pixel, rows, columns, periodic);
         for (place, neighbour) in slots.iter_mut().zip(around.into_iter().flatten()) {
             *place = slot[neighbour];
             degree += 1.0;
@@ -55,7 +55,7 @@ pub(super) fn interpolate(
         residual.push(load);
     }
     drop(slot);
-    let unknown = relax(&neighbours, &degrees, residual);
+    let unknown = solve_membrane(&neighbours, &degrees, residual);
     for (pixel, height) in missing.iter().zip(&unknown) {
         values[*pixel] = mean + height;
     }
@@ -63,7 +63,7 @@ pub(super) fn interpolate(
 }
 
 /// Conjugate gradients for the membrane from a start of 0; `residual` is the right-hand side.
-fn relax(neighbours: &[[usize; 4]], degrees: &[f64], mut residual: Vec<f64>) -> Vec<f64> {
+fn solve_membrane(neighbours: &[[usize; 4]], degrees: &[f64], mut residual: Vec<f64>) -> Vec<f64> {
     let count = degrees.len();
     let mut unknown = vec![0.0; count];
     let mut direction = residual.clone();
@@ -99,7 +99,7 @@ fn dot(one: &[f64], other: &[f64]) -> f64 {
 }
 
 /// The neighbours of a pixel; `None` beyond a free edge.
-fn around(pixel: usize, rows: usize, columns: usize, periodic: bool) -> [Option<usize>; 4] {
+fn neighbours_of(pixel: usize, rows: usize, columns: usize, periodic: bool) -> [Option<usize>; 4] {
     let (row, column) = (pixel / columns, pixel % columns);
     let step = |at: usize, count: usize, forward: bool| -> Option<usize> {
         let next = if forward { at + 1 } else { at + count - 1 };

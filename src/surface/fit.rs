@@ -120,7 +120,7 @@ pub fn fit(
         _ => first,
     };
     rings.drain(..before.min(rings.len()));
-    let end = end_of_band(&rings);
+    let end = cutoff_ring(&rings);
     let compared = &rings[..end.unwrap_or(rings.len())];
     // If all waves run along one axis, some rings have no power.
     let held_power = |ring: &&SpectrumRing| ring.density > 0.0;
@@ -128,7 +128,7 @@ pub fn fit(
     if filled < FEWEST_RINGS {
         return Err(BandFitError::TooFewRings { rings: filled });
     }
-    let mut spectrum = bend(compared, long, held);
+    let mut spectrum = fit_rolloff(compared, long, held);
     let rolloff_seen = spectrum.rolloff > ROLLOFF_SEEN * compared[0].wavenumber;
     if !rolloff_seen {
         // No plateau is resolved: the power law extends to the longest wave.
@@ -141,7 +141,7 @@ pub fn fit(
         let last = rings[(end + END_RINGS).min(rings.len() - 1)].wavenumber;
         let guess = (rings[end].wavenumber * last).sqrt();
         let fine = fine_spectrum(grid, heights, boundary);
-        spectrum.short = end_about(&spectrum, &fine, first, guess).min(held);
+        spectrum.short = refined_cutoff(&spectrum, &fine, first, guess).min(held);
     }
     let squares: f64 = compared
         .iter()
@@ -170,7 +170,7 @@ fn largest_held(grid: &Grid) -> f64 {
 }
 
 /// Number of rings before the cut-off, if there is one.
-fn end_of_band(rings: &[SpectrumRing]) -> Option<usize> {
+fn cutoff_ring(rings: &[SpectrumRing]) -> Option<usize> {
     (0..rings.len().saturating_sub(1)).find(|&index| {
         let here = &rings[index];
         let later = &rings[(index + END_RINGS).min(rings.len() - 1)];
@@ -190,7 +190,7 @@ fn end_of_band(rings: &[SpectrumRing]) -> Option<usize> {
 ///
 /// A full ring is as dense as those shortly below it, which may lie a little above or below the
 /// fit.
-fn end_about(
+fn refined_cutoff(
     spectrum: &SelfAffineSpectrum,
     fine: &[SpectrumRing],
     first: f64,
@@ -221,13 +221,13 @@ fn end_about(
 }
 
 /// The most likely spectrum from `long` to `short` for the rings.
-fn bend(rings: &[SpectrumRing], long: f64, short: f64) -> SelfAffineSpectrum {
+fn fit_rolloff(rings: &[SpectrumRing], long: f64, short: f64) -> SelfAffineSpectrum {
     let [near, far] = [rings[0].wavenumber, rings[rings.len() - 1].wavenumber];
     // A few rings must lie beyond the roll-off, or the exponent is undetermined.
     let far = far.min(rings[rings.len() - 3].wavenumber);
     let at = |rolloff: f64| {
         let of = |hurst: f64| profiled(rings, hurst, rolloff, [long, short]);
-        let hurst = golden(HURST, |hurst| of(hurst).0);
+        let hurst = golden_section(HURST, |hurst| of(hurst).0);
         of(hurst)
     };
     let place = |step: usize| near * (far / near).powf(step as f64 / ROLLOFFS as f64);
@@ -238,7 +238,7 @@ fn bend(rings: &[SpectrumRing], long: f64, short: f64) -> SelfAffineSpectrum {
         place(best.saturating_sub(1)),
         place((best + 1).min(ROLLOFFS)),
     ];
-    let logarithm = golden(around.map(f64::ln), |logarithm| at(logarithm.exp()).0);
+    let logarithm = golden_section(around.map(f64::ln), |logarithm| at(logarithm.exp()).0);
     at(logarithm.exp()).1
 }
 
@@ -269,8 +269,8 @@ fn profiled(
     (weights * spectrum.plateau.ln() + logarithms, spectrum)
 }
 
-/// Minimum of a unimodal function between two ends, by golden-section search.
-fn golden([mut low, mut high]: [f64; 2], function: impl Fn(f64) -> f64) -> f64 {
+/// Minimum of a unimodal function between two ends, by golden_section-section search.
+fn golden_section([mut low, mut high]: [f64; 2], function: impl Fn(f64) -> f64) -> f64 {
     const STEPS: usize = 40;
     let ratio = (5.0_f64.sqrt() - 1.0) / 2.0;
     let mut inner = [high - ratio * (high - low), low + ratio * (high - low)];

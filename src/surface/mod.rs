@@ -34,9 +34,9 @@ pub use outline::{MapOutline, Outline, Source};
 
 use crate::grid::Grid;
 use crate::scene::{Boundary, GridScene, Scene, SurfacePart};
-use crate::units::{LARGEST, is_sane};
+use crate::units::{LARGEST, in_range};
 use file::HeightMap;
-use shapes::Place;
+use shapes::ApexPosition;
 use statistics::Statistics;
 
 /// Most points of a grid: 8 GiB of heights.
@@ -95,7 +95,7 @@ impl Surface {
                     found = map.warnings;
                 }
                 None => add_part(&mut heights, part, &grid, scene.boundary, &mut found)
-                    .map_err(|problem| of_part(index, problem))?,
+                    .map_err(|problem| part_error(index, problem))?,
             }
             let named = |warning| format!("[[surface]] {}: {warning}", index + 1);
             warnings.extend(found.into_iter().map(named));
@@ -126,14 +126,14 @@ impl Surface {
         })
     }
 
-    /// Root mean squares, moments and extremes of the heights; see [`Statistics::of`].
+    /// Root mean squares, moments and extremes of the heights; see [`Statistics::from_heights`].
     pub fn statistics(&self, boundary: Boundary) -> Statistics {
-        Statistics::of(&self.grid, &self.heights, boundary)
+        Statistics::from_heights(&self.grid, &self.heights, boundary)
     }
 }
 
 /// An error of the part at `index`.
-fn of_part(index: usize, problem: PartError) -> SurfaceError {
+fn part_error(index: usize, problem: PartError) -> SurfaceError {
     SurfaceError::Part {
         part: index + 1,
         problem: Box::new(problem),
@@ -158,7 +158,7 @@ fn check_grid(points: Option<[usize; 2]>, size: Option<[f64; 2]>) -> Result<(), 
         }
     }
     if let Some(size) = size
-        && !size.iter().all(|side| *side > 0.0 && is_sane(*side))
+        && !size.iter().all(|side| *side > 0.0 && in_range(*side))
     {
         return Err(SurfaceError::Size { size });
     }
@@ -182,7 +182,7 @@ fn read_maps(
         };
         let of_file = |problem| {
             let path = file.path.clone();
-            of_part(index, PartError::File { path, problem })
+            part_error(index, PartError::File { path, problem })
         };
         let map = file::read(file, scene.boundary).map_err(of_file)?;
         if let Some((points, against)) = points {
@@ -231,7 +231,7 @@ fn add_part(
     boundary: Boundary,
     warnings: &mut Vec<String>,
 ) -> Result<(), PartError> {
-    let place = |centre: Option<[f64; 2]>| Place { centre, boundary };
+    let place = |centre: Option<[f64; 2]>| ApexPosition { centre, boundary };
     match part {
         SurfacePart::Flat => Ok(()),
         SurfacePart::Sphere { radius, centre } => {

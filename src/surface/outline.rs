@@ -5,9 +5,9 @@
 use std::f64::consts::PI;
 
 use super::error::{PartError, SurfaceError};
-use super::shapes::{self, Place};
+use super::shapes::{self, ApexPosition};
 use super::spectrum::SpectralMoments;
-use super::{Surface, adhesion_map, check_grid, of_part, self_affine, single_part};
+use super::{Surface, adhesion_map, check_grid, part_error, self_affine, single_part};
 use crate::grid::Grid;
 use crate::scene::{AdhesionMap, Boundary, Scene, SurfacePart};
 
@@ -56,7 +56,7 @@ pub struct MapOutline {
 
 impl MapOutline {
     /// Summary of a non-empty map.
-    pub fn of(map: &[f64]) -> MapOutline {
+    pub fn from_factors(map: &[f64]) -> MapOutline {
         let count = map.len() as f64;
         let mean = map.iter().sum::<f64>() / count;
         let square = map.iter().map(|f| (f - mean) * (f - mean)).sum::<f64>() / count;
@@ -68,7 +68,7 @@ impl MapOutline {
     }
 
     /// Summary of two alternating factors, ignoring the pixels at their boundaries.
-    pub fn of_pattern(low: f64, high: f64) -> MapOutline {
+    pub fn from_pattern(low: f64, high: f64) -> MapOutline {
         MapOutline {
             largest: low.max(high),
             mean: 0.5 * (low + high),
@@ -91,13 +91,13 @@ impl Outline {
     ///
     /// # Errors
     /// As [`Surface::build`], except for overflow of the sum of the parts.
-    pub fn of(scene: &Scene) -> Result<Outline, SurfaceError> {
+    pub fn from_scene(scene: &Scene) -> Result<Outline, SurfaceError> {
         let parts = &scene.surfaces;
         if parts
             .iter()
             .any(|part| matches!(part, SurfacePart::File(_)))
         {
-            return Ok(Outline::measured(
+            return Ok(Outline::from_heights(
                 &Surface::build(scene)?,
                 scene.grid.boundary,
             ));
@@ -114,7 +114,7 @@ impl Outline {
         let mut source = Source::Spectrum;
         for (index, part) in parts.iter().enumerate() {
             let found = part_outline(part, &grid, scene.grid.boundary)
-                .map_err(|problem| of_part(index, problem))?;
+                .map_err(|problem| part_error(index, problem))?;
             for (sum, one) in sums.iter_mut().zip(found.mean_squares) {
                 *sum += one;
             }
@@ -143,24 +143,27 @@ impl Outline {
                 .and_then(|adhesion| adhesion.map.as_ref())
             {
                 Some(AdhesionMap::Pattern { low, high, .. }) => {
-                    Some(MapOutline::of_pattern(*low, *high))
+                    Some(MapOutline::from_pattern(*low, *high))
                 }
                 _ => adhesion_map::build(scene, &grid)?
                     .as_deref()
-                    .map(MapOutline::of),
+                    .map(MapOutline::from_factors),
             },
             warnings,
         })
     }
 
     /// The outline of existing heights.
-    pub fn measured(surface: &Surface, boundary: Boundary) -> Outline {
+    pub fn from_heights(surface: &Surface, boundary: Boundary) -> Outline {
         Outline {
             grid: surface.grid,
             moments: surface.statistics(boundary).moments,
             source: Source::Heights,
             sphere_radius: surface.sphere_radius,
-            map: surface.adhesion_map.as_deref().map(MapOutline::of),
+            map: surface
+                .adhesion_map
+                .as_deref()
+                .map(MapOutline::from_factors),
             warnings: surface.warnings.clone(),
         }
     }
@@ -171,7 +174,7 @@ fn part_outline(
     grid: &Grid,
     boundary: Boundary,
 ) -> Result<PartOutline, PartError> {
-    let place = |centre: Option<[f64; 2]>| Place { centre, boundary };
+    let place = |centre: Option<[f64; 2]>| ApexPosition { centre, boundary };
     match part {
         SurfacePart::Flat | SurfacePart::File(_) => Ok(PartOutline {
             mean_squares: [0.0; 3],
@@ -216,7 +219,7 @@ fn part_outline(
 /// Mean squares of a sphere or a cone from a sample of it on fewer points.
 fn sampled(
     grid: &Grid,
-    place: Place,
+    place: ApexPosition,
     add: impl Fn(&mut [f64], &Grid) -> Result<(), PartError>,
 ) -> Result<PartOutline, PartError> {
     let fewer = Grid::new(
@@ -226,7 +229,8 @@ fn sampled(
     let mut heights = vec![0.0; fewer.len()];
     add(&mut heights, &fewer)?;
     // Differences, not waves: the edge jump of a shape that is not periodic does not count.
-    let moments = super::statistics::Statistics::of(&fewer, &heights, Boundary::Free).moments;
+    let moments =
+        super::statistics::Statistics::from_heights(&fewer, &heights, Boundary::Free).moments;
     Ok(PartOutline {
         mean_squares: [
             moments.m0,

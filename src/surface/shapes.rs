@@ -17,14 +17,14 @@ const WAVES_MARGIN: f64 = 1e-6;
 
 /// Where a shape stands: its apex and the boundary.
 #[derive(Clone, Copy, Debug)]
-pub struct Place {
+pub struct ApexPosition {
     /// Apex (x, y), m; `None` is the middle of the points.
     pub centre: Option<[f64; 2]>,
     /// A periodic grid repeats the shape: each point uses the nearest image.
     pub boundary: Boundary,
 }
 
-impl Place {
+impl ApexPosition {
     /// The apex (x, y) on this grid, m.
     pub fn centre_on(&self, grid: &Grid) -> [f64; 2] {
         self.centre.unwrap_or([
@@ -56,7 +56,7 @@ pub fn add_sphere(
     heights: &mut [f64],
     grid: &Grid,
     radius: f64,
-    place: Place,
+    place: ApexPosition,
 ) -> Result<(), PartError> {
     positive("radius", radius)?;
     add_round(heights, grid, place, |square| -square / (2.0 * radius))
@@ -70,7 +70,7 @@ pub fn add_cone(
     heights: &mut [f64],
     grid: &Grid,
     half_angle: f64,
-    place: Place,
+    place: ApexPosition,
 ) -> Result<(), PartError> {
     let degrees = half_angle.to_degrees();
     if !(degrees > 0.0 && degrees < 90.0) {
@@ -124,7 +124,7 @@ pub fn check_waves(
 fn add_round(
     heights: &mut [f64],
     grid: &Grid,
-    place: Place,
+    place: ApexPosition,
     profile: impl Fn(f64) -> f64 + Sync,
 ) -> Result<(), PartError> {
     let centre = place.centre_on(grid);
@@ -220,13 +220,13 @@ fn finite(name: &'static str, value: f64) -> Result<(), PartError> {
 mod tests {
     use super::*;
 
-    const PERIODIC: Place = Place {
+    const PERIODIC: ApexPosition = ApexPosition {
         centre: None,
         boundary: Boundary::Periodic,
     };
 
-    fn at(centre: [f64; 2], boundary: Boundary) -> Place {
-        Place {
+    fn at(centre: [f64; 2], boundary: Boundary) -> ApexPosition {
+        ApexPosition {
             centre: Some(centre),
             boundary,
         }

@@ -37,7 +37,7 @@ impl Statistics {
     ///
     /// A periodic map takes one Fourier transform and twice its own memory. The grid must not be
     /// empty.
-    pub fn of(grid: &Grid, heights: &[f64], boundary: Boundary) -> Self {
+    pub fn from_heights(grid: &Grid, heights: &[f64], boundary: Boundary) -> Self {
         debug_assert!(!grid.is_empty() && heights.len() == grid.len());
         let count = grid.len() as f64;
         let mean = sum_over_rows(grid, heights, |_, row| row.iter().sum()) / count;
@@ -315,7 +315,7 @@ mod tests {
         let grid = Grid::new([64, 81], [2.0 * PI, 3.0 * PI]);
         let sums = self_affine::band_sums(&spectrum, [grid.lx, grid.ly]);
         let heights = self_affine::heights(&spectrum, &grid, 9);
-        let moments = Statistics::of(&grid, &heights, Boundary::Periodic).moments;
+        let moments = Statistics::from_heights(&grid, &heights, Boundary::Periodic).moments;
         assert_relative_eq!(moments.m0, sums.height, max_relative = 1e-12);
         assert_relative_eq!(moments.rms_slope(), sums.slope.sqrt(), max_relative = 1e-12);
         assert_relative_eq!(
@@ -336,7 +336,7 @@ mod tests {
                 7.0 + at(i % 16) * at(i / 16)
             })
             .collect();
-        let statistics = Statistics::of(&grid, &heights, Boundary::Periodic);
+        let statistics = Statistics::from_heights(&grid, &heights, Boundary::Periodic);
         assert_relative_eq!(statistics.mean, 7.0, max_relative = 1e-14);
         assert_eq!((statistics.lowest, statistics.highest), (6.0, 8.0));
         assert_relative_eq!(statistics.moments.rms_height(), 0.5, max_relative = 1e-13);
@@ -359,7 +359,7 @@ mod tests {
         let heights: Vec<f64> = (0..12)
             .map(|i| ((i % 4) as f64).powi(2) + 6.0 * (i / 4) as f64)
             .collect();
-        let moments = Statistics::of(&grid, &heights, Boundary::Free).moments;
+        let moments = Statistics::from_heights(&grid, &heights, Boundary::Free).moments;
         assert_relative_eq!(moments.rms_curvature(), 2.0, max_relative = 1e-14);
         assert_relative_eq!(
             2.0 * moments.m2,
@@ -367,7 +367,7 @@ mod tests {
             max_relative = 1e-14
         );
         let line = Grid::new([3, 1], [3.0, 1.0]);
-        let moments = Statistics::of(&line, &[0.0, 1.0, 2.0], Boundary::Free).moments;
+        let moments = Statistics::from_heights(&line, &[0.0, 1.0, 2.0], Boundary::Free).moments;
         assert_eq!((2.0 * moments.m2, moments.m4), (1.0, 0.0));
     }
 

@@ -29,7 +29,7 @@ impl Summits {
 
     /// Summits of a spectrum by its moments: radius `(3/8) sqrt(pi/m4)`, height variance
     /// `(1 - 0.8968/alpha) m0`, Nayak's density. McCool 1986.
-    pub fn of_spectrum(
+    pub fn from_spectrum(
         spectrum: &Spectrum,
         contact_modulus: f64,
         work_of_adhesion: f64,

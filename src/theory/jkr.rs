@@ -111,7 +111,7 @@ pub fn force(sphere: &Sphere, contact_radius: f64) -> f64 {
 
 /// Force at any `contact_radius` and `approach` (m), not necessarily in equilibrium, N: `2 E* (a
 /// delta - a^3/(3R))`.
-pub fn force_held(sphere: &Sphere, contact_radius: f64, approach: f64) -> f64 {
+pub fn force_at(sphere: &Sphere, contact_radius: f64, approach: f64) -> f64 {
     let a = contact_radius;
     2.0 * sphere.contact_modulus() * (a * approach - a.powi(3) / (3.0 * sphere.radius()))
 }
@@ -204,7 +204,7 @@ mod tests {
             let a = contact_radius(&sphere, load).unwrap();
             let delta = approach(&sphere, a);
             assert!((energy_release_rate(&sphere, a, delta) / 0.05 - 1.0).abs() < 1e-12);
-            assert!((force_held(&sphere, a, delta) - load).abs() < 1e-17);
+            assert!((force_at(&sphere, a, delta) - load).abs() < 1e-17);
             assert!((force(&sphere, a) - load).abs() < 1e-17);
             assert!((contact_radius_at_approach(&sphere, delta).unwrap() / a - 1.0).abs() < 1e-13);
             let step = 1e-6 * a;

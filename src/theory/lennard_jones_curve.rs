@@ -5,7 +5,7 @@
 //! neighbours the approach is monotone.
 
 use super::error::TheoryError;
-use super::lennard_jones_sphere::{Held, LennardJonesSphere, Solved, State};
+use super::lennard_jones_sphere::{Constraint, LennardJonesSphere, Solved, State};
 use super::roots::{minimum, root};
 
 const MAX_CURVE: usize = 4000;
@@ -84,7 +84,7 @@ impl LennardJonesSphere {
             if until(&states) {
                 return Ok((states, tangents));
             }
-            let held = Held {
+            let held = Constraint {
                 approach_share: tangent.0 / unit,
                 force_share: tangent.1,
                 sum: tangent.0 * last.approach / unit + tangent.1 * last.force + step,
@@ -245,7 +245,7 @@ impl LennardJonesSphere {
             force: first.force + share * (last.force - first.force),
             gap: &first.gap + (&last.gap - &first.gap) * share,
         };
-        let held = Held {
+        let held = Constraint {
             approach_share: piece.direction.0 / piece.unit,
             force_share: piece.direction.1,
             sum: place,

@@ -40,7 +40,7 @@ pub struct State {
 
 /// The prescribed quantity: `approach_share * approach + force_share * force`.
 #[derive(Clone, Copy)]
-pub(crate) struct Held {
+pub(crate) struct Constraint {
     pub(crate) approach_share: f64,
     pub(crate) force_share: f64,
     pub(crate) sum: f64,
@@ -161,7 +161,7 @@ impl LennardJonesSphere {
     }
 
     fn at_approach_near(&self, guess: State, approach: f64) -> Result<Solved, TheoryError> {
-        let held = Held {
+        let held = Constraint {
             approach_share: 1.0,
             force_share: 0.0,
             sum: approach,
@@ -210,7 +210,7 @@ impl LennardJonesSphere {
     }
 
     /// Newton's method for the gaps and the approach.
-    pub(crate) fn solve(&self, guess: State, held: Held) -> Result<Solved, TheoryError> {
+    pub(crate) fn solve(&self, guess: State, held: Constraint) -> Result<Solved, TheoryError> {
         let State {
             mut approach,
             mut gap,

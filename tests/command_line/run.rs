@@ -299,13 +299,27 @@ fn check_lists_effects_regime_and_resolution() {
     let text = String::from_utf8(output.stdout).expect("text");
     for part in [
         "effect on     adhesion",
-        "effect off    spring",
-        "effect off    free boundary",
         "Tabor number",
-        "chi",
+        "chi = ",
         "pixels across the shortest",
         "MiB",
+        "cost          2 convolutions",
     ] {
+        assert!(text.contains(part), "{part} is missing in:\n{text}");
+    }
+    // Kernels, fields and effects that are off are for those who ask.
+    let internals = [
+        "effect off    spring",
+        "effect off    free boundary",
+        "fields ",
+        "kernels ",
+    ];
+    for part in internals {
+        assert!(!text.contains(part), "{part} is in:\n{text}");
+    }
+    let output = tabor(folder.path(), &["check", "scene.toml", "--verbose"]);
+    let text = String::from_utf8(output.stdout).expect("text");
+    for part in internals {
         assert!(text.contains(part), "{part} is missing in:\n{text}");
     }
     // Ten times the pixel: the grid no longer resolves the cohesive zone, and that is said.

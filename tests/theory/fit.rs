@@ -172,7 +172,7 @@ fn a_baseline_is_found() {
         ..FREE
     };
     let result = fitted(samples, RADIUS, freedom);
-    let jkr = result.of(Model::Jkr).expect("JKR");
+    let jkr = result.fit_of(Model::Jkr).expect("JKR");
     // Noise 1.6e-9 over some 100 points of no force.
     assert!((jkr.parameters.force_offset - 4e-8).abs() < 1e-9);
     assert!((jkr.parameters.work_of_adhesion / WORK - 1.0).abs() < 0.02);

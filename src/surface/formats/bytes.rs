@@ -140,7 +140,7 @@ impl<'a> Bytes<'a> {
                 found: elements.len() as u64,
             });
         }
-        let mut values = room([rows, columns])?;
+        let mut values = with_capacity([rows, columns])?;
         for row in elements.chunks(stride).take(rows) {
             values.extend(row[..row_bytes].chunks_exact(SIZE).map(|element| {
                 let mut bytes = [0; SIZE];
@@ -195,7 +195,7 @@ pub(super) fn latin_1(bytes: &[u8]) -> String {
 }
 
 /// An empty list with capacity for all points of a shape, if memory allows.
-pub(super) fn room([rows, columns]: [usize; 2]) -> Result<Vec<f64>, FileError> {
+pub(super) fn with_capacity([rows, columns]: [usize; 2]) -> Result<Vec<f64>, FileError> {
     let mut values = Vec::new();
     values
         .try_reserve_exact(rows * columns)

@@ -20,7 +20,7 @@ pub(super) fn length_unit(name: &str) -> Option<f64> {
 ///
 /// # Errors
 /// A unit that is not a length.
-pub(super) fn said_unit(name: &str, what: &'static str) -> Result<Option<f64>, FileError> {
+pub(super) fn stated_unit(name: &str, what: &'static str) -> Result<Option<f64>, FileError> {
     if name.trim().is_empty() {
         return Ok(None);
     }

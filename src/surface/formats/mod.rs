@@ -157,7 +157,7 @@ pub fn claimed_points(path: &Path) -> Option<[usize; 2]> {
 }
 
 /// First bytes of unsupported files that may carry a supported extension, with their names.
-const STRANGERS: [(&[u8], &str); 4] = [
+const UNSUPPORTED: [(&[u8], &str); 4] = [
     (b"PK\x03\x04", "ZIP archive (.npz, .xlsx, .x3p)"),
     (b"\x89HDF", "HDF5 file"),
     (b"\xFF\xD8\xFF", "JPEG image"),
@@ -233,7 +233,7 @@ fn find(start: &[u8], extension: Option<&str>) -> Result<&'static Format, FileEr
         }
         (Some(found), _) => Ok(found),
         (None, Some(said)) => {
-            let stranger = STRANGERS.iter().find(|(magic, _)| begins(magic));
+            let stranger = UNSUPPORTED.iter().find(|(magic, _)| begins(magic));
             match stranger {
                 Some((_, name)) => Err(other(format!("a {name}"))),
                 None if said.magic.is_empty() || start.is_empty() => Ok(said),

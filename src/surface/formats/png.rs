@@ -6,7 +6,7 @@ use std::io::{BufReader, Cursor};
 use image::codecs::png::PngDecoder;
 use image::{ColorType, ImageDecoder};
 
-use super::bytes::{checked_shape, room};
+use super::bytes::{checked_shape, with_capacity};
 use crate::surface::error::FileError;
 use crate::surface::matrix::Matrix;
 
@@ -45,7 +45,7 @@ pub(super) fn read(bytes: &[u8]) -> Result<Matrix, FileError> {
         })?;
     pixels.resize(length, 0);
     image.read_image(&mut pixels).map_err(broken)?;
-    let mut values = room(shape)?;
+    let mut values = with_capacity(shape)?;
     if size == 1 {
         values.extend(
             pixels

@@ -6,7 +6,7 @@
 //! # Source
 //! ISO 25178-71:2017, clause 5; its forerunner in Stout et al. 1993, report EUR 15178 EN.
 
-use super::bytes::{Bytes, checked_shape, latin_1, room};
+use super::bytes::{Bytes, checked_shape, latin_1, with_capacity};
 use crate::surface::error::FileError;
 use crate::surface::matrix::{Matrix, Size};
 
@@ -51,7 +51,7 @@ impl Header {
     }
 
     /// An error message if the scales are wrong.
-    fn complaint(&self) -> Option<String> {
+    fn scale_error(&self) -> Option<String> {
         let [x, y, z] = self.scales;
         // A single profile has no scale along y.
         let y_stands = (y.is_finite() && y > 0.0) || self.rows == 1;
@@ -100,8 +100,8 @@ fn read_binary(bytes: &[u8]) -> Result<Matrix, FileError> {
         compression: file.u8("the compression")?.into(),
         data_type: file.u8("the type of the data")?.into(),
     };
-    if let Some(complaint) = header.complaint() {
-        return Err(file.broken(place, complaint));
+    if let Some(scale_error) = header.scale_error() {
+        return Err(file.broken(place, scale_error));
     }
     file.take(1, "the checksum's type")?;
     let shape = header.shape()?;
@@ -193,8 +193,8 @@ fn read_text(bytes: &[u8]) -> Result<Matrix, FileError> {
         compression: number("Compression").unwrap_or(0.0) as i64,
         data_type: number("DataType").unwrap_or(7.0) as i64,
     };
-    if let Some(complaint) = header.complaint() {
-        return Err(wrong(end, complaint));
+    if let Some(scale_error) = header.scale_error() {
+        return Err(wrong(end, scale_error));
     }
     let shape = header.shape()?;
     let points = shape[0] * shape[1];
@@ -207,7 +207,7 @@ fn read_text(bytes: &[u8]) -> Result<Matrix, FileError> {
             found: bytes.len() as u64,
         });
     }
-    let mut values = room(shape)?;
+    let mut values = with_capacity(shape)?;
     let mut last = end;
     'lines: for (line, number) in lines {
         last = number;

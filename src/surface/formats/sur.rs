@@ -6,7 +6,7 @@
 //! Digital Surf, "SURF file format", version 1; ISO 25178-71 names it among the formats in use.
 
 use super::bytes::{Bytes, checked_shape};
-use super::length::said_unit;
+use super::length::stated_unit;
 use crate::surface::error::FileError;
 use crate::surface::matrix::{Matrix, Size};
 
@@ -39,7 +39,7 @@ pub(super) fn read(bytes: &[u8]) -> Result<Matrix, FileError> {
     let mut file = Bytes::new(FORMAT, bytes);
     file.take(HEADER, "the header")?;
     file.seek(0, "the header")?;
-    let header = Header::of(&mut file)?;
+    let header = Header::parse(&mut file)?;
     let start = HEADER + header.comment + header.private;
     file.seek(start, "the heights")?;
     let mut values = match header.bits {
@@ -50,7 +50,7 @@ pub(super) fn read(bytes: &[u8]) -> Result<Matrix, FileError> {
             header.height(i32::from_le_bytes(element).into())
         })?,
     };
-    turn(&mut values, header.shape, header.inversion);
+    reorder(&mut values, header.shape, header.inversion);
     let [rows, columns] = header.shape;
     let [dx, dy] = header.pixel;
     Ok(Matrix {
@@ -83,7 +83,7 @@ struct Header {
 
 impl Header {
     /// Field by field, in the order of the format.
-    fn of(file: &mut Bytes) -> Result<Header, FileError> {
+    fn parse(file: &mut Bytes) -> Result<Header, FileError> {
         file.take(12, "the magic words")?;
         // Byte order (0 is that of a PC), objects, version, kind of object.
         if file.u16("the order of bytes")? != 0 {
@@ -126,7 +126,7 @@ impl Header {
         }
         let mut pixel = [dx, dy];
         for (side, name) in pixel.iter_mut().zip(&units) {
-            let unit = said_unit(name, "x and y")?;
+            let unit = stated_unit(name, "x and y")?;
             *side *= unit.ok_or_else(|| file.broken(place, "x and y have no unit"))?;
         }
         file.take(3 * 16 + 3 * 4 + 2, "the units that are shown")?;
@@ -143,7 +143,7 @@ impl Header {
             pixel,
             step,
             offset: if offset.is_finite() { offset } else { 0.0 },
-            unit: said_unit(&units[2], "heights")?,
+            unit: stated_unit(&units[2], "heights")?,
             inversion,
             comment,
             private,
@@ -164,7 +164,7 @@ impl Header {
 }
 
 /// Puts rows and columns into their order on the sample.
-fn turn(values: &mut [f64], [rows, columns]: [usize; 2], inversion: u16) {
+fn reorder(values: &mut [f64], [rows, columns]: [usize; 2], inversion: u16) {
     match inversion {
         FLIPPED => values.chunks_mut(columns).for_each(<[f64]>::reverse),
         FLOPPED => {

@@ -7,7 +7,7 @@
 //! Golden Software, Surfer user's guide, "ASCII grid file format", "Surfer 6 grid file format" and
 //! "Surfer 7 grid file format".
 
-use super::bytes::{Bytes, checked_shape, latin_1, room};
+use super::bytes::{Bytes, checked_shape, latin_1, with_capacity};
 use crate::surface::error::FileError;
 use crate::surface::matrix::{Matrix, Size};
 
@@ -80,7 +80,7 @@ fn read_text(bytes: &[u8]) -> Result<Matrix, FileError> {
     ]) {
         *end = number(what)?;
     }
-    let mut values = room(shape)?;
+    let mut values = with_capacity(shape)?;
     for index in 0..points {
         let (row, column) = (index / shape[1] + 1, index % shape[1] + 1);
         values.push(number(&format!(

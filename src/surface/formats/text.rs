@@ -105,7 +105,7 @@ pub(super) fn read_columns(bytes: &[u8]) -> Result<(Matrix, Remarks), FileError>
     if values.is_empty() {
         return Err(FileError::NoNumbers);
     }
-    let remarks = Remarks::of(&body);
+    let remarks = Remarks::from_body(&body);
     let size = remarks.width.zip(remarks.height);
     let matrix = Matrix {
         values,
@@ -282,7 +282,7 @@ pub(super) struct Remarks {
 
 impl Remarks {
     /// All comments of a file.
-    fn of(body: &Body) -> Self {
+    fn from_body(body: &Body) -> Self {
         let mut remarks = Remarks::default();
         for line in body.text.split(body.line_end) {
             remarks.take(split_comment(line).1);

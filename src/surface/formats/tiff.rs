@@ -8,7 +8,7 @@ use std::io::{BufReader, Cursor};
 use tiff::ColorType;
 use tiff::decoder::{Decoder, DecodingResult, Limits};
 
-use super::bytes::{checked_shape, room};
+use super::bytes::{checked_shape, with_capacity};
 use super::png::{first_line, not_grey, refuse_ratio};
 use crate::surface::error::FileError;
 use crate::surface::matrix::Matrix;
@@ -41,7 +41,7 @@ pub(super) fn read(bytes: &[u8]) -> Result<Matrix, FileError> {
     limits.intermediate_buffer_size = shape[0] * shape[1] * size + TABLES;
     let mut image = image.with_limits(limits);
     let pixels = image.read_image().map_err(broken)?;
-    let mut values = room(shape)?;
+    let mut values = with_capacity(shape)?;
     let grey = match pixels {
         DecodingResult::U8(shades) => {
             values.extend(

@@ -52,7 +52,7 @@ fn gridded(points: &Matrix, lateral_unit: Option<f64>) -> Result<Matrix, String>
             .step_by(3)
             .copied()
             .collect();
-        Axis::of(coordinates).map_err(|what| format!("{name}: {what}"))
+        Axis::from_coordinates(coordinates).map_err(|what| format!("{name}: {what}"))
     });
     let axes: Vec<Axis> = axes.collect::<Result<_, _>>()?;
     let (x, y) = (&axes[0], &axes[1]);
@@ -112,7 +112,7 @@ struct Axis {
 }
 
 impl Axis {
-    fn of(mut coordinates: Vec<f64>) -> Result<Axis, String> {
+    fn from_coordinates(mut coordinates: Vec<f64>) -> Result<Axis, String> {
         if let Some(row) = coordinates.iter().position(|value| !value.is_finite()) {
             return Err(format!("row {} has none", row + 1));
         }

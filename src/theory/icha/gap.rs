@@ -20,7 +20,7 @@ use crate::surface::fourier;
 /// Least standard deviation of a Gaussian load, pixels: its waves beyond the grid's are below 1e-5.
 const NARROWEST: f64 = 1.6;
 /// Standard deviations that contain the Gaussian load, to 1e-7.
-const CLOUD_REACH: f64 = 5.5;
+const GAUSSIAN_REACH: f64 = 5.5;
 /// Standard deviations at which the near difference is cut off.
 const NEAR_REACH: f64 = 8.0;
 /// Nodes of the Gaussian's displacement over the near part; linear interpolation is accurate to
@@ -63,11 +63,11 @@ pub(super) fn gap_field(
     plane: f64,
     contacts: &[Contact],
 ) -> GapField {
-    let clouds: Vec<Cloud> = contacts
+    let gaussians: Vec<GaussianLoad> = contacts
         .iter()
-        .map(|contact| Cloud::of(contact, grid))
+        .map(|contact| GaussianLoad::new(contact, grid))
         .collect();
-    let mut displacement = clouds_displacement(grid, &clouds);
+    let mut displacement = gaussian_displacement(grid, &gaussians);
     let profile = profile();
     // Only few contacts affect a row; each row gathers them in order, so that sums do not depend on
     // threads.
@@ -75,8 +75,8 @@ pub(super) fn gap_field(
         .par_chunks_mut(grid.nx)
         .enumerate()
         .for_each(|(iy, row)| {
-            for cloud in &clouds {
-                cloud.add_near(grid, iy, row, &profile);
+            for gaussian in &gaussians {
+                gaussian.add_near(grid, iy, row, &profile);
             }
         });
     let mut gap: Vec<f64> = displacement
@@ -89,9 +89,9 @@ pub(super) fn gap_field(
         .par_chunks_mut(grid.nx)
         .enumerate()
         .for_each(|(iy, row)| {
-            for cloud in &clouds {
-                let radius = cloud.contact.contact_radius;
-                cloud.each_within(grid, iy, radius, |ix, _| row[ix] = true);
+            for gaussian in &gaussians {
+                let radius = gaussian.contact.contact_radius;
+                gaussian.each_within(grid, iy, radius, |ix, _| row[ix] = true);
             }
         });
     let overlaps = gap
@@ -110,15 +110,15 @@ pub(super) fn gap_field(
 }
 
 /// A contact, and the standard deviation of its Gaussian load on the grid, m.
-struct Cloud {
+struct GaussianLoad {
     contact: Contact,
     deviation: f64,
 }
 
-impl Cloud {
-    fn of(contact: &Contact, grid: &Grid) -> Self {
+impl GaussianLoad {
+    fn new(contact: &Contact, grid: &Grid) -> Self {
         let narrowest = NARROWEST * grid.dx().max(grid.dy());
-        Cloud {
+        GaussianLoad {
             contact: *contact,
             // <r^2> of Hertz's pressure is (2/5) a^2, that of the Gaussian twice its variance.
             deviation: (contact.contact_radius / 5f64.sqrt()).max(narrowest),
@@ -157,23 +157,23 @@ impl Cloud {
             let place = distance / deviation * (NODES as f64 / NEAR_REACH);
             let node = (place as usize).min(NODES - 1);
             let share = place - node as f64;
-            let cloud = profile[node] * (1.0 - share) + profile[node + 1] * share;
-            row[ix] += hertz - unit * cloud;
+            let gaussian = profile[node] * (1.0 - share) + profile[node + 1] * share;
+            row[ix] += hertz - unit * gaussian;
         });
     }
 }
 
 /// Displacement of all Gaussian loads over the modulus, m, by one convolution.
-fn clouds_displacement(grid: &Grid, clouds: &[Cloud]) -> Vec<f64> {
+fn gaussian_displacement(grid: &Grid, gaussians: &[GaussianLoad]) -> Vec<f64> {
     let mut pressure = vec![0.0; grid.len()];
     pressure
         .par_chunks_mut(grid.nx)
         .enumerate()
         .for_each(|(iy, row)| {
-            for cloud in clouds {
-                let s = cloud.deviation;
-                let top = cloud.contact.load_over_modulus() / (2.0 * PI * s * s);
-                cloud.each_within(grid, iy, CLOUD_REACH * s, |ix, distance| {
+            for gaussian in gaussians {
+                let s = gaussian.deviation;
+                let top = gaussian.contact.load_over_modulus() / (2.0 * PI * s * s);
+                gaussian.each_within(grid, iy, GAUSSIAN_REACH * s, |ix, distance| {
                     row[ix] += top * (-0.5 * (distance / s).powi(2)).exp();
                 });
             }
@@ -219,7 +219,7 @@ fn profile() -> Vec<f64> {
 #[cfg(test)]
 mod tests {
     use super::super::Asperity;
-    use super::super::newton::pushed_by;
+    use super::super::newton::displacement_by;
     use super::*;
     use crate::theory::icha::lattice::Lattice;
 
@@ -252,7 +252,10 @@ mod tests {
                 continue;
             }
             let at = [(i % 256) as f64 * grid.dx(), (i / 256) as f64 * grid.dy()];
-            let sum: f64 = contacts.iter().map(|c| pushed_by(c, at, &lattice).0).sum();
+            let sum: f64 = contacts
+                .iter()
+                .map(|c| displacement_by(c, at, &lattice).0)
+                .sum();
             worst = worst.max((gap - 1.0 - sum).abs());
         }
         // The sum treats images as point loads, the field does not: a^2 load/(5 R E* A) everywhere

@@ -1,8 +1,8 @@
 //! A rough surface, represented by its summits, under increasing load.
 
 use super::lattice::Lattice;
-use super::merge::settle_merged;
-use super::newton::{Care, Equilibrium, Hold};
+use super::merge::solve_with_merging;
+use super::newton::{Equilibrium, Prescribed, Tolerances};
 use super::set::Set;
 use super::{Asperity, Contact, GapField, MergeRule, find_summits, gap};
 use crate::grid::Grid;
@@ -148,13 +148,13 @@ impl Loading<'_> {
         let state = self.state.clone().ok_or(TheoryError::NoSolution {
             what: "an equilibrium",
         })?;
-        let (set, state) = settle_merged(
+        let (set, state) = solve_with_merging(
             self.set.clone(),
             &self.surface.lattice,
-            Hold::Load(target * self.surface.grid.area()),
+            Prescribed::Load(target * self.surface.grid.area()),
             state,
             self.rule,
-            Care::FINAL,
+            Tolerances::FINAL,
         )?;
         let mut contacts = state.contacts(&set.asperities);
         contacts.retain(|contact| contact.contact_radius > 0.0);
@@ -180,13 +180,13 @@ impl Loading<'_> {
             Some(state) => state.clone(),
             None => first_touch(&self.set.asperities, load),
         };
-        let (set, state) = settle_merged(
+        let (set, state) = solve_with_merging(
             self.set.clone(),
             &surface.lattice,
-            Hold::Load(load),
+            Prescribed::Load(load),
             start,
             MergeRule::DisplacedVolume,
-            Care::PASSING.of_covering(),
+            Tolerances::PASSING.merging_covered(),
         )?;
         self.set = set;
         self.state = Some(state);

@@ -3,8 +3,8 @@
 use std::collections::BTreeMap;
 
 use super::lattice::Lattice;
-use super::newton::{Care, Equilibrium, Hold, pushed_by, settle};
-use super::set::{Set, keep};
+use super::newton::{Equilibrium, Prescribed, Tolerances, displacement_by, solve_equilibrium};
+use super::set::{Set, retain_unmarked};
 use super::{Asperity, Contact, check};
 use crate::theory::TheoryError;
 use crate::theory::error::positive;
@@ -78,7 +78,7 @@ fn lift(cluster: &[Contact]) -> f64 {
     for (i, one) in cluster.iter().enumerate() {
         for (j, other) in cluster.iter().enumerate() {
             if i != j {
-                let pushed = pushed_by(other, one.asperity.position, &Lattice::infinite()).0;
+                let pushed = displacement_by(other, one.asperity.position, &Lattice::infinite()).0;
                 sum += 4.0 / 3.0 * one.contact_radius.powi(2) * pushed;
             }
         }
@@ -145,23 +145,30 @@ pub fn merged_contacts(
     let lattice = Lattice::infinite();
     let set = Set::new(asperities.to_vec(), &lattice);
     let start = Equilibrium::undeformed(asperities, plane);
-    let (set, settled) = settle_merged(set, &lattice, Hold::Plane, start, rule, Care::FULL)?;
+    let (set, settled) = solve_with_merging(
+        set,
+        &lattice,
+        Prescribed::Plane,
+        start,
+        rule,
+        Tolerances::FULL,
+    )?;
     Ok(settled.contacts(&set.asperities))
 }
 
 /// Solves and merges alternately until no two circles overlap; also returns the remaining
 /// asperities.
-pub(super) fn settle_merged(
+pub(super) fn solve_with_merging(
     mut set: Set,
     lattice: &Lattice,
-    hold: Hold,
+    hold: Prescribed,
     mut state: Equilibrium,
     rule: MergeRule,
-    care: Care,
+    care: Tolerances,
 ) -> Result<(Set, Equilibrium), TheoryError> {
     let mut held = hold;
     for _ in 0..MOST_SETTLES * (set.asperities.len() + 1) {
-        let settled = match settle(&set, lattice, held, state.clone(), care) {
+        let settled = match solve_equilibrium(&set, lattice, held, state.clone(), care) {
             Ok(settled) => settled,
             Err(failed) => {
                 held = nearer(held, &state, &set).ok_or(failed)?;
@@ -194,9 +201,9 @@ pub(super) fn settle_merged(
             let lowered: f64 = cluster.iter().map(|&i| state.lowered[i]).sum();
             fresh.push((one, lowered / cluster.len() as f64));
         }
-        set.drop_those(&gone);
-        keep(&mut state.indentations, &gone);
-        keep(&mut state.lowered, &gone);
+        set.remove_marked(&gone);
+        retain_unmarked(&mut state.indentations, &gone);
+        retain_unmarked(&mut state.lowered, &gone);
         for (one, lowered) in fresh {
             state.indentations.push(one.indentation());
             state.lowered.push(lowered);
@@ -210,14 +217,14 @@ pub(super) fn settle_merged(
 
 /// A load between the one that was too far and the one that the asperities carry now: many
 /// simultaneous mergers reduce the load by a quarter. `None` if the two are equal.
-fn nearer(held: Hold, state: &Equilibrium, set: &Set) -> Option<Hold> {
-    let Hold::Load(asked) = held else {
+fn nearer(held: Prescribed, state: &Equilibrium, set: &Set) -> Option<Prescribed> {
+    let Prescribed::Load(asked) = held else {
         return None;
     };
     let contacts = state.contacts(&set.asperities);
     let carried: f64 = contacts.iter().map(Contact::load_over_modulus).sum();
     let far = (asked / carried).ln().abs();
-    (far > LEAST_STEP && far.is_finite()).then(|| Hold::Load((asked * carried).sqrt()))
+    (far > LEAST_STEP && far.is_finite()).then(|| Prescribed::Load((asked * carried).sqrt()))
 }
 
 /// The contact that replaces the cluster `members`, in equilibrium with all others.
@@ -249,7 +256,7 @@ fn merged_cluster(
             .iter()
             .enumerate()
             .filter(|(j, other)| other.contact_radius > 0.0 && !members.contains(j))
-            .map(|(_, other)| pushed_by(other, position, lattice).0)
+            .map(|(_, other)| displacement_by(other, position, lattice).0)
             .sum()
     };
     let mut one = merged(&together, plane, others, rule)?;

@@ -5,13 +5,13 @@
 //! whole periodic height map: [`Icha`], which finds the summits, increases the load, merges, and
 //! gives the gap field over which a law's traction can be summed.
 
+mod displacements;
 mod gap;
 mod gmres;
 mod lattice;
 mod loading;
 mod merge;
 mod mesh;
-mod near;
 mod newton;
 mod pair;
 mod set;
@@ -24,7 +24,7 @@ pub use summits::find_summits;
 
 use super::error::{TheoryError, finite, positive};
 use lattice::Lattice;
-use newton::{Care, Equilibrium, Hold, settle};
+use newton::{Equilibrium, Prescribed, Tolerances, solve_equilibrium};
 use set::Set;
 use std::f64::consts::PI;
 
@@ -77,7 +77,7 @@ pub fn contacts(asperities: &[Asperity], plane: f64) -> Result<Vec<Contact>, The
     let lattice = Lattice::infinite();
     let set = Set::new(asperities.to_vec(), &lattice);
     let start = Equilibrium::undeformed(asperities, plane);
-    let settled = settle(&set, &lattice, Hold::Plane, start, Care::FULL)?;
+    let settled = solve_equilibrium(&set, &lattice, Prescribed::Plane, start, Tolerances::FULL)?;
     Ok(settled.state.contacts(asperities))
 }
 

@@ -3,9 +3,9 @@
 
 use nalgebra::DVector;
 
+use super::displacements::Field;
 use super::gmres;
 use super::lattice::Lattice;
-use super::near::Field;
 use super::pair::pair;
 use super::set::Set;
 use super::{Asperity, Contact};
@@ -13,12 +13,12 @@ use crate::theory::TheoryError;
 
 const MAX_ROUNDS: usize = 60;
 /// Iterations after which steps are halved, in case contacts enter and leave alternately.
-const PATIENCE: usize = 30;
+const HALVING_AFTER: usize = 30;
 /// Misfit over the largest indentation at which circles that cover each other may be returned for
 /// merging: such a pair has no unique equilibrium.
 const NEAR: f64 = 0.05;
 /// Load over the requested load at which a start is too far off.
-const ASTRAY: f64 = 4.0;
+const TOO_FAR: f64 = 4.0;
 /// Tolerance of the total load over the requested load, in tolerances of an indentation over the
 /// largest one.
 const LOAD_TOLERANCE: f64 = 10.0;
@@ -28,7 +28,7 @@ const LOWERED_TOLERANCE: f64 = 3e-2;
 
 /// The prescribed quantity.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub(super) enum Hold {
+pub(super) enum Prescribed {
     /// The plane stays where it is.
     Plane,
     /// The sum of all loads over the modulus, m^2, is prescribed; the plane moves.
@@ -37,7 +37,7 @@ pub(super) enum Hold {
 
 /// Tolerances of the solve.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub(super) struct Care {
+pub(super) struct Tolerances {
     /// Tolerance of an indentation over the largest one.
     pub tolerance: f64,
     /// The same at which overlapping circles are returned for merging.
@@ -60,17 +60,17 @@ pub(super) enum Merges {
     Covering,
 }
 
-impl Care {
+impl Tolerances {
     /// The same tolerances, merging only contacts that cover each other.
-    pub fn of_covering(self) -> Care {
-        Care {
+    pub fn merging_covered(self) -> Tolerances {
+        Tolerances {
             merges: Merges::Covering,
             ..self
         }
     }
 
     /// Full precision.
-    pub const FULL: Care = Care {
+    pub const FULL: Tolerances = Tolerances {
         tolerance: 1e-11,
         merging: 1e-11,
         linear: 1e-4,
@@ -78,7 +78,7 @@ impl Care {
         merges: Merges::Overlapping,
     };
     /// At a requested load.
-    pub const FINAL: Care = Care {
+    pub const FINAL: Tolerances = Tolerances {
         tolerance: 1e-6,
         merging: 2e-2,
         linear: 3e-2,
@@ -86,7 +86,7 @@ impl Care {
         merges: Merges::Overlapping,
     };
     /// On the way to a load, before further merging.
-    pub const PASSING: Care = Care {
+    pub const PASSING: Tolerances = Tolerances {
         tolerance: 1e-2,
         merging: 2e-2,
         linear: 3e-2,
@@ -132,7 +132,7 @@ impl Equilibrium {
 }
 
 /// An equilibrium, or a state close enough to merge the overlapping circles.
-pub(super) struct Settled {
+pub(super) struct Solution {
     /// The state.
     pub state: Equilibrium,
     /// Pairs of asperities to be merged.
@@ -140,7 +140,11 @@ pub(super) struct Settled {
 }
 
 /// Displacement at `position` by one contact with its images, and its derivative.
-pub(super) fn pushed_by(contact: &Contact, position: [f64; 2], lattice: &Lattice) -> (f64, f64) {
+pub(super) fn displacement_by(
+    contact: &Contact,
+    position: [f64; 2],
+    lattice: &Lattice,
+) -> (f64, f64) {
     let offset = lattice.offset(contact.asperity.position, position);
     let distance = offset[0].hypot(offset[1]);
     let (u, slope) = pair(contact.contact_radius, contact.asperity.radius, distance);
@@ -157,13 +161,13 @@ pub(super) fn pushed_by(contact: &Contact, position: [f64; 2], lattice: &Lattice
 /// Iterates from a start to equilibrium, or close enough to merge overlapping circles. If circles
 /// cover each other's summits the iteration cannot converge, and the state may be returned as it
 /// is, for those circles to be merged.
-pub(super) fn settle(
+pub(super) fn solve_equilibrium(
     set: &Set,
     lattice: &Lattice,
-    hold: Hold,
+    hold: Prescribed,
     start: Equilibrium,
-    care: Care,
-) -> Result<Settled, TheoryError> {
+    care: Tolerances,
+) -> Result<Solution, TheoryError> {
     let failed = TheoryError::NotConverged {
         what: "the set of asperities",
     };
@@ -172,7 +176,7 @@ pub(super) fn settle(
     for round in 0..MAX_ROUNDS {
         let contacts = state.contacts(asperities);
         let load: f64 = contacts.iter().map(Contact::load_over_modulus).sum();
-        if matches!(hold, Hold::Load(asked) if load > ASTRAY * asked) {
+        if matches!(hold, Prescribed::Load(asked) if load > TOO_FAR * asked) {
             return Err(failed);
         }
         // No lower summit can touch: nowhere is the surface displaced by more.
@@ -199,8 +203,8 @@ pub(super) fn settle(
             .filter(|(i, misfit)| state.indentations[**i] > 0.0 || **misfit < 0.0)
             .fold(0.0_f64, |most, (_, misfit)| most.max(misfit.abs()));
         let off = match hold {
-            Hold::Plane => 0.0,
-            Hold::Load(asked) => (load / asked - 1.0).abs() / LOAD_TOLERANCE,
+            Prescribed::Plane => 0.0,
+            Prescribed::Load(asked) => (load / asked - 1.0).abs() / LOAD_TOLERANCE,
         };
         let settles = |tolerance: f64| worst <= tolerance * deepest && off <= tolerance;
         let meeting = match care.merges {
@@ -212,7 +216,7 @@ pub(super) fn settle(
             || !meeting.is_empty() && round > 0 && settles(care.merging)
             || !field.covering.is_empty() && impatient && worst <= NEAR * deepest
         {
-            return Ok(Settled {
+            return Ok(Solution {
                 meeting: meeting.clone(),
                 state,
             });
@@ -240,8 +244,8 @@ pub(super) fn settle(
         };
         let own = gmres::solve(apply, &right, care.linear).ok_or(failed.clone())?;
         let (steps, moved) = match hold {
-            Hold::Plane => (own, 0.0),
-            Hold::Load(asked) => {
+            Prescribed::Plane => (own, 0.0),
+            Prescribed::Load(asked) => {
                 let guess = DVector::from_iterator(
                     active.len(),
                     active.iter().map(|&row| state.lowered[rows[row]]),
@@ -268,7 +272,7 @@ pub(super) fn settle(
                 (own - lowered * moved, moved)
             }
         };
-        let share = if round < PATIENCE { 1.0 } else { 0.5 };
+        let share = if round < HALVING_AFTER { 1.0 } else { 0.5 };
         let mut next = vec![0.0; asperities.len()];
         for (&row, step) in active.iter().zip(steps.iter()) {
             let i = rows[row];

@@ -37,14 +37,14 @@ impl Set {
     }
 
     /// Removes the marked asperities.
-    pub fn drop_those(&mut self, gone: &[bool]) {
-        keep(&mut self.asperities, gone);
-        keep(&mut self.stencils, gone);
+    pub fn remove_marked(&mut self, gone: &[bool]) {
+        retain_unmarked(&mut self.asperities, gone);
+        retain_unmarked(&mut self.stencils, gone);
     }
 }
 
 /// Removes marked values; values without a mark stay.
-pub(super) fn keep<T>(values: &mut Vec<T>, gone: &[bool]) {
+pub(super) fn retain_unmarked<T>(values: &mut Vec<T>, gone: &[bool]) {
     let mut marks = gone.iter();
     values.retain(|_| !marks.next().is_some_and(|gone| *gone));
 }

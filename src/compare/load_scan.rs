@@ -3,11 +3,11 @@
 use super::State;
 
 /// Ratio of successive repulsive pressures.
-const RUNG: f64 = 1.15;
+const LOAD_RATIO: f64 = 1.15;
 /// The same for light loads, where a weak attraction has its pull-off at the first few summits.
-const LIGHT_RUNG: f64 = 1.5;
+const LIGHT_LOAD_RATIO: f64 = 1.5;
 /// Most repulsive pressures: enough for loads up to 1e100 times the modulus.
-const MOST_RUNGS: usize = 2000;
+const MOST_LOADS: usize = 2000;
 /// First repulsive pressure and end of the light ones, in E* times the rms slope.
 const FIRST: f64 = 1e-6;
 const LIGHT: f64 = 2e-3;
@@ -19,29 +19,33 @@ const MAY_BE: f64 = 0.5;
 
 /// Repulsive pressures, in units of `unit`, from the first summit to the pressure that leaves a net
 /// `largest` under an attraction of at most `tension` (Pa).
-pub(super) fn rungs(unit: f64, largest: f64, tension: f64) -> Vec<f64> {
+pub(super) fn scan_loads(unit: f64, largest: f64, tension: f64) -> Vec<f64> {
     // The law's peak tension is an upper bound: real attractions are a fraction of it, and beyond
     // rms slope times modulus hardly any gap is left.
     let net = largest.max(0.0);
     let last = (net + tension).min(net + unit).max(2.0 * LIGHT * unit);
-    let mut rungs = vec![FIRST * unit];
+    let mut loads = vec![FIRST * unit];
     let mut at = FIRST * unit;
-    while at < last && rungs.len() < MOST_RUNGS {
-        at *= if at < LIGHT * unit { LIGHT_RUNG } else { RUNG };
-        rungs.push(at);
+    while at < last && loads.len() < MOST_LOADS {
+        at *= if at < LIGHT * unit {
+            LIGHT_LOAD_RATIO
+        } else {
+            LOAD_RATIO
+        };
+        loads.push(at);
     }
-    rungs
+    loads
 }
 
 /// States under increasing repulsive pressures.
 #[derive(Default)]
-pub(super) struct Ladder {
+pub(super) struct LoadScan {
     states: Vec<State>,
     /// Repulsive pressure of each, Pa, increasing.
     repulsive: Vec<f64>,
 }
 
-impl Ladder {
+impl LoadScan {
     /// Inserts the state under a repulsive pressure, Pa, in order.
     pub fn add(&mut self, repulsive: f64, area: f64, mean_gap: f64, attraction: f64) {
         let state = State {
@@ -134,24 +138,24 @@ mod tests {
 
     #[test]
     fn a_ladder_is_read_on_the_closer_side_of_its_greatest_tension() {
-        let mut ladder = Ladder::default();
+        let mut scan = LoadScan::default();
         for (repulsive, attraction) in [(1.0, 2.0), (2.0, 5.0), (4.0, 6.0), (8.0, 6.0)] {
-            ladder.add(repulsive, 0.01 * repulsive, 10.0 - repulsive, attraction);
+            scan.add(repulsive, 0.01 * repulsive, 10.0 - repulsive, attraction);
         }
-        let pull_off = ladder.pull_off().expect("a tension");
+        let pull_off = scan.pull_off().expect("a tension");
         assert_eq!(pull_off.mean_pressure, -3.0);
-        let state = ladder.at(-1.0).expect("between the last three");
+        let state = scan.at(-1.0).expect("between the last three");
         assert_eq!(state.mean_pressure, -1.0);
         assert!((state.contact_area_fraction.unwrap() - (0.04 + 0.25 * 0.04)).abs() < 1e-15);
-        assert_eq!(ladder.at(3.0), None);
+        assert_eq!(scan.at(3.0), None);
         // Nine additional loads around the one minimum; above a load of 8 an attraction of 9 could
         // still balance it, one of 7 could not where 8 % touch.
-        let closer = ladder.closer();
+        let closer = scan.closer();
         assert_eq!(closer.len(), 9);
         assert!(closer[0] > 1.0 && closer[8] < 4.0);
-        assert!(!ladder.stays_above(0.0, 9.0) && ladder.stays_above(0.0, 7.0));
-        let rungs = rungs(1.0, 0.1, 0.0);
-        assert!(rungs[0] == FIRST && rungs.last().is_some_and(|last| *last >= 0.1));
+        assert!(!scan.stays_above(0.0, 9.0) && scan.stays_above(0.0, 7.0));
+        let loads = scan_loads(1.0, 0.1, 0.0);
+        assert!(loads[0] == FIRST && loads.last().is_some_and(|last| *last >= 0.1));
     }
 
     /// Without roughness or with an unlimited load the scan has its largest number of loads, and no
@@ -164,7 +168,7 @@ mod tests {
             (1.0, 1e20),
             (1.0, f64::INFINITY),
         ] {
-            assert!(rungs(unit, largest, f64::INFINITY).len() <= MOST_RUNGS);
+            assert!(scan_loads(unit, largest, f64::INFINITY).len() <= MOST_LOADS);
         }
     }
 }

@@ -8,7 +8,7 @@ use crate::scene::{BackendName, Precision, Scene};
 use crate::study::Setup;
 
 /// A backend for one setting.
-pub struct Bench {
+pub struct ProvidedBackend {
     /// Creates the backend.
     pub make: Box<dyn Fn() -> Box<dyn Backend + Send> + Send + Sync>,
     /// A note for the user.
@@ -16,7 +16,7 @@ pub struct Bench {
 }
 
 /// Provides backends for settings.
-pub trait Workplace: Sync {
+pub trait BackendProvider: Sync {
     /// Available backends and precisions.
     fn arithmetics(&self) -> &[(BackendName, Precision)];
     /// Checks that memory suffices for a scene on a grid.
@@ -28,7 +28,7 @@ pub trait Workplace: Sync {
     ///
     /// # Errors
     /// A message for the user.
-    fn bench(&self, setup: &Setup) -> Result<Bench, String>;
+    fn provide(&self, setup: &Setup) -> Result<ProvidedBackend, String>;
 }
 
 /// Observes a study.

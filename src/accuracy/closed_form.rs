@@ -2,8 +2,8 @@
 
 use std::f64::consts::PI;
 
-use super::judge::Errors;
-use super::measure::{Point, deepest};
+use super::errors::Errors;
+use super::measure::{Point, most_compressed_step};
 use super::reference::Reference;
 use crate::grid::Grid;
 use crate::scene::{Boundary, Control, LawName, Range, Scene, SurfacePart};
@@ -17,7 +17,7 @@ const SAMPLES: usize = 64;
 /// The closed-form reference of a scene whose grid and centres are given, if there is one: a sphere
 /// on a free boundary (Hertz, Maugis, and JKR for `range = "auto"`), and a line wave under a load
 /// without adhesion (Westergaard).
-pub fn closed(scene: &Scene, cells: [usize; 2]) -> Option<Reference> {
+pub fn closed_form(scene: &Scene, cells: [usize; 2]) -> Option<Reference> {
     let solid = &scene.solid;
     let plain =
         solid.layer.is_none() && solid.relaxation.is_empty() && scene.loading.spring.is_none();
@@ -119,7 +119,7 @@ fn sphere(
         Control::Pressure | Control::MeanGap => return Ok(None),
     };
     let area = size[0] * size[1];
-    let deepest = deepest(scene);
+    let most_compressed_step = most_compressed_step(scene);
     let mut branch = Branch::Apart;
     let mut steps = Vec::with_capacity(scene.loading.path.len());
     let mut profile = None;
@@ -150,7 +150,7 @@ fn sphere(
             },
         };
         steps.push(Some(point));
-        if step == deepest
+        if step == most_compressed_step
             && let Some(held) = held
         {
             let grid = Grid::new(cells, size);
@@ -361,7 +361,7 @@ fn wave(
         westergaard::full_contact_pressure(scene.solid.contact_modulus, amplitude.abs(), length)?;
     // A negative amplitude shifts the crests by half a wave.
     let shift = if amplitude < 0.0 { 0.5 } else { 0.0 };
-    let deepest = deepest(scene);
+    let most_compressed_step = most_compressed_step(scene);
     let mut profile = None;
     let mut steps = Vec::new();
     for (step, value) in scene.loading.path.iter().enumerate() {
@@ -379,7 +379,7 @@ fn wave(
             area: 2.0 * half_width,
             answer: Some(amplitude.abs() * westergaard::mean_gap(held)?),
         }));
-        if step == deepest {
+        if step == most_compressed_step {
             let grid = Grid::new(cells, size);
             profile = Some(averaged(&grid, |x, y| {
                 let place = [x, y][across] / length + shift;

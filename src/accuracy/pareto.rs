@@ -22,8 +22,8 @@ pub fn pareto(points: &[(f64, Option<f64>)]) -> Vec<usize> {
 /// The cheapest setting whose error plus the uncertainty of the reference is at most `level`.
 pub fn cheapest(points: &[(f64, Option<f64>)], uncertainty: f64, level: f64) -> Option<usize> {
     let reaches = |error: f64| error + uncertainty <= level;
-    let front = pareto(points);
-    front
+    let pareto = pareto(points);
+    pareto
         .into_iter()
         .find(|index| points[*index].1.is_some_and(reaches))
 }
@@ -44,8 +44,8 @@ mod tests {
             (0.1, Some(f64::NAN)),
             (2.0, Some(0.3)),
         ];
-        let front = pareto(&points);
-        assert_eq!(front, [0, 1, 4]);
+        let pareto = pareto(&points);
+        assert_eq!(pareto, [0, 1, 4]);
         for (index, (cost, error)) in points.iter().enumerate() {
             let Some(error) = error.filter(|error| !error.is_nan()) else {
                 continue;
@@ -56,7 +56,7 @@ mod tests {
                 })
             });
             let same = index == 3;
-            assert!(front.contains(&index) != beaten || same, "{index}");
+            assert!(pareto.contains(&index) != beaten || same, "{index}");
         }
     }
 

@@ -4,7 +4,7 @@
 use super::Contact;
 use super::lattice::Lattice;
 use super::mesh::{Mesh, Stencil};
-use super::newton::pushed_by;
+use super::newton::displacement_by;
 use super::pair::pair;
 
 /// Up to this number of contacts all pairs are summed; the mesh would cost more.
@@ -90,7 +90,7 @@ impl<'a> Field<'a> {
                     let position = contacts[i].asperity.position;
                     let [x, y] = lattice.offset(contact.asperity.position, position);
                     self.note(contacts, i, j, x.hypot(y));
-                    pushed_by(contact, position, lattice)
+                    displacement_by(contact, position, lattice)
                 };
                 self.pairs.push(Pair {
                     row,
@@ -354,7 +354,7 @@ mod tests {
             for (j, contact) in contacts.iter().enumerate() {
                 if j != i && contact.contact_radius > 0.0 {
                     let position = contacts[i].asperity.position;
-                    sum += pushed_by(contact, position, &lattice).0;
+                    sum += displacement_by(contact, position, &lattice).0;
                     let [x, y] = lattice.offset(contact.asperity.position, position);
                     // A distant contact is taken as a point, which underestimates it by 1/360 at
                     // most (and 3 % of that).

@@ -33,7 +33,7 @@ impl Errors {
 }
 
 /// Errors of a run; `None` if a step did not converge.
-pub fn judge(found: &Measured, reference: &Reference) -> Errors {
+pub fn relative_errors(found: &Measured, reference: &Reference) -> Errors {
     if !found.converged {
         return Errors::default();
     }
@@ -126,7 +126,7 @@ mod tests {
             seconds: 1.0,
             iterations: 1,
             transforms: 1.0,
-            walked: values.len(),
+            steps_solved: values.len(),
             converged: true,
         }
     }

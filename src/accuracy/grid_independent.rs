@@ -10,12 +10,12 @@ use num_complex::Complex;
 use super::error::AccuracyError;
 use crate::grid::{Grid, signed_index};
 use crate::scene::{AdhesionMap, Boundary, GridScene, Scene, SurfacePart};
-use crate::surface::shapes::Place;
+use crate::surface::shapes::ApexPosition;
 use crate::surface::{Surface, SurfaceError, fourier};
 
 /// A scene whose surface is the same on every grid.
 #[derive(Clone, Debug)]
-pub struct SameSurface {
+pub struct GridIndependentSurface {
     /// The scene with the points and size of its own grid and fixed centres of its shapes.
     pub scene: Scene,
     /// Its own grid.
@@ -28,13 +28,13 @@ pub struct SameSurface {
     pub warnings: Vec<String>,
 }
 
-impl SameSurface {
+impl GridIndependentSurface {
     /// Finds the scene's own grid and fixes everything that would change with it.
     ///
     /// # Errors
     /// A height file that cannot be read; a height file on a free boundary or an adhesion map from
     /// a file, which belong to one grid.
-    pub fn of(scene: &Scene) -> Result<SameSurface, AccuracyError> {
+    pub fn new(scene: &Scene) -> Result<GridIndependentSurface, AccuracyError> {
         let is_file = |part: &SurfacePart| matches!(part, SurfacePart::File(_));
         let has_file = scene.surfaces.iter().any(is_file);
         if has_file && scene.grid.boundary == Boundary::Free {
@@ -79,7 +79,7 @@ impl SameSurface {
         scene.surfaces.retain(|part| !is_file(part));
         for part in &mut scene.surfaces {
             if let SurfacePart::Sphere { centre, .. } | SurfacePart::Cone { centre, .. } = part {
-                let place = Place {
+                let place = ApexPosition {
                     centre: *centre,
                     boundary,
                 };
@@ -89,7 +89,7 @@ impl SameSurface {
         if scene.surfaces.is_empty() {
             scene.surfaces.push(SurfacePart::Flat);
         }
-        Ok(SameSurface {
+        Ok(GridIndependentSurface {
             scene,
             grid,
             files,
@@ -98,7 +98,7 @@ impl SameSurface {
         })
     }
 
-    /// The surface on the grid of a scene made from [`SameSurface::scene`].
+    /// The surface on the grid of a scene made from [`GridIndependentSurface::scene`].
     ///
     /// # Errors
     /// Errors of the surface's parts on this grid, such as waves below two pixels.

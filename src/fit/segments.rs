@@ -9,15 +9,15 @@ const LEAST_TURN: f64 = 0.02;
 
 /// Consecutive points of loading (surfaces approach) or unloading (surfaces separate).
 #[derive(Clone, Debug, PartialEq, Eq)]
-pub struct Way {
+pub struct Segment {
     /// Indices of its points.
     pub points: Range<usize>,
     /// Whether the surfaces approach.
-    pub together: bool,
+    pub loading: bool,
 }
 
 /// Divides a curve where its approach reverses.
-pub fn ways(samples: &[Sample]) -> Vec<Way> {
+pub fn segments(samples: &[Sample]) -> Vec<Segment> {
     let Some(first) = samples.first() else {
         return Vec::new();
     };
@@ -27,7 +27,7 @@ pub fn ways(samples: &[Sample]) -> Vec<Way> {
             (low.min(sample.approach), high.max(sample.approach))
         });
     let turn = LEAST_TURN * (high - low);
-    let mut ways = Vec::new();
+    let mut segments = Vec::new();
     let mut begin = 0;
     // The extreme point of the current segment in its direction; no direction before the first
     // reversal.
@@ -50,26 +50,26 @@ pub fn ways(samples: &[Sample]) -> Vec<Way> {
                     (direction, furthest) = (Some(false), i);
                 }
             }
-            Some(together) => {
-                let sign = if together { 1.0 } else { -1.0 };
+            Some(loading) => {
+                let sign = if loading { 1.0 } else { -1.0 };
                 if sign * beyond(furthest) >= 0.0 {
                     furthest = i;
                 } else if sign * beyond(furthest) < -turn {
-                    ways.push(Way {
+                    segments.push(Segment {
                         points: begin..furthest + 1,
-                        together,
+                        loading,
                     });
                     begin = furthest + 1;
-                    (direction, furthest) = (Some(!together), i);
+                    (direction, furthest) = (Some(!loading), i);
                 }
             }
         }
     }
-    ways.push(Way {
+    segments.push(Segment {
         points: begin..samples.len(),
-        together: direction.unwrap_or(true),
+        loading: direction.unwrap_or(true),
     });
-    ways
+    segments
 }
 
 #[cfg(test)]
@@ -86,9 +86,9 @@ mod tests {
                 force: 0.0,
             })
             .collect();
-        let found = ways(&samples);
+        let found = segments(&samples);
         assert_eq!(found.len(), 2, "{found:?}");
-        assert!(found[0].together && !found[1].together);
+        assert!(found[0].loading && !found[1].loading);
         assert!(found[0].points.end.abs_diff(100) <= 2);
         assert_eq!(found[1].points, found[0].points.end..201);
     }
