@@ -4,7 +4,7 @@ use std::collections::BTreeMap;
 use std::fmt::Write;
 
 /// The studies: names of their scenes, tables, pictures and parts of the page.
-pub const STUDIES: [&str; 4] = ["sphere", "rough", "sticky", "creep"];
+pub const STUDIES: [&str; 4] = ["sphere", "rough", "adhesive", "creep"];
 
 /// A row by the names of its columns.
 type Row = BTreeMap<String, String>;

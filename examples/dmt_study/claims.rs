@@ -62,7 +62,7 @@ pub fn claims(table: &[Row]) -> Result<Vec<Claim>, Box<dyn Error>> {
         (
             "T3d",
             "with adhesion 13.6 % in contact at no load; GW-M off by -27 % without and +13 % with adhesion at 0.02 E* h', pull-off 3.5 times too small",
-            sticky_area(),
+            adhesive_area(),
         ),
         (
             "T4",
@@ -197,7 +197,7 @@ pub fn area_at(hurst: f64, ratio: usize, load: f64) -> Result<f64, Box<dyn Error
     Ok(contact.area_fraction(repulsive)?)
 }
 
-fn sticky_area() -> Found {
+fn adhesive_area() -> Found {
     let contact = rows::persson(0.8, 32)?;
     let unit = MODULUS * contact.spectrum().rms_slope();
     let gw = |work| -> Result<f64, Box<dyn Error>> {
@@ -207,19 +207,19 @@ fn sticky_area() -> Found {
     };
     let area = area_at(0.8, 32, 0.0)?;
     let hard = gw(0.0)? / Persson::new(rows::GAMMA)?.area_fraction(0.02)? - 1.0;
-    let sticky = gw(WORK)? / area_at(0.8, 32, 0.02)? - 1.0;
+    let adhesive = gw(WORK)? / area_at(0.8, 32, 0.02)? - 1.0;
     let [persson, _, summits] = pull_offs(0.8, 32)?;
     let times = persson / summits;
     let holds = (area - 0.136).abs() < 1e-3
         && (hard + 0.27).abs() < 0.01
-        && (sticky - 0.13).abs() < 0.01
+        && (adhesive - 0.13).abs() < 0.01
         && (times - 3.5).abs() < 0.05;
     Ok((
         format!(
             "{:.1} %; {:+.0} %, {:+.0} %, {times:.1} times",
             100.0 * area,
             100.0 * hard,
-            100.0 * sticky
+            100.0 * adhesive
         ),
         holds,
     ))

@@ -128,13 +128,13 @@ fn area_load(table: &[Row]) -> Figure {
     let mut shown = vec![(0.8, 16), (0.8, largest), (0.4, largest)];
     shown.dedup();
     for (hurst, ratio) in shown {
-        for sticky in [false, true] {
+        for adhesive in [false, true] {
             let curve = |(name, model): (usize, &&str)| Series {
                 name,
                 points: of(table, model, hurst, ratio, u64::from(name < 3))
                     .iter()
                     .map(|row| {
-                        let attraction = if sticky { row.attraction } else { 0.0 };
+                        let attraction = if adhesive { row.attraction } else { 0.0 };
                         PlotPoint {
                             x: row.repulsive - attraction,
                             y: row.area,
@@ -145,7 +145,7 @@ fn area_load(table: &[Row]) -> Figure {
                 line: true,
                 marks: true,
             };
-            let adhesion = if sticky { "0.2 J/m²" } else { "no adhesion" };
+            let adhesion = if adhesive { "0.2 J/m²" } else { "no adhesion" };
             panels.push(Panel {
                 title: format!("contact area, H = {hurst}, N = {ratio}, {adhesion}"),
                 x: axis("net mean pressure / (E* h')", "", false),

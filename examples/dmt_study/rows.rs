@@ -251,7 +251,7 @@ pub fn theory_rows(hurst: f64, ratio: usize) -> Result<Vec<Row>, Box<dyn Error>>
     let spectrum = *contact.spectrum();
     let unit = MODULUS * spectrum.rms_slope();
     let hard = summits(&spectrum, 0.0)?;
-    let sticky = summits(&spectrum, WORK)?;
+    let adhesive = summits(&spectrum, WORK)?;
     let mut rows = Vec::new();
     for load in loads() {
         rows.push(Row {
@@ -265,7 +265,7 @@ pub fn theory_rows(hurst: f64, ratio: usize) -> Result<Vec<Row>, Box<dyn Error>>
     }
     for load in loads() {
         let separation = gw_m::separation(&hard, load * unit)?;
-        let attraction = load * unit - gw_m::pressure(&sticky, separation)?;
+        let attraction = load * unit - gw_m::pressure(&adhesive, separation)?;
         rows.push(Row {
             case,
             model: "gw-m".into(),

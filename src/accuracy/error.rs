@@ -30,7 +30,7 @@ pub enum AccuracyError {
     },
     /// Not even the coarsest reference was solved.
     #[error(
-        "no reference was solved: {reason}; give a longer --budget, a shorter path or max_iterations to spare"
+        "no reference was solved: {reason}; give a longer --budget, a shorter path or more max_iterations"
     )]
     NoReference {
         /// Why the first solve ended.

@@ -220,7 +220,7 @@ impl<'a> Study<'a> {
         {
             self.report.left_out.push(LeftOut {
                 words: format!("{} x {}", points[0], points[1]),
-                reason: "every setting: the time gave no reference twice as fine".to_owned(),
+                reason: "every setting: there was no time for a reference twice as fine".to_owned(),
             });
         }
         for (setting, done) in levels.into_iter().take(coarser) {

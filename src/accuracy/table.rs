@@ -248,7 +248,7 @@ fn cheapest(report: &Report, of: Quantity, level: f64) -> Option<String> {
             )
         }
         None if uncertainty > level => format!(
-            "not known: the reference itself is sure to {} only; a longer --budget gives a better one",
+            "unknown: the reference itself is accurate only to {}; a longer --budget gives a better one",
             percent(Some(uncertainty))
         ),
         None => format!(

@@ -172,18 +172,18 @@ pub fn check_scene(scene: &Scene) -> Result<(), CompareError> {
             _ => continue,
         };
         return Err(CompareError::Unsuited(format!(
-            "[[surface]] {} is a {shape}: compare is of nominally flat rough surfaces, whose models ask for the statistics of many summits; one {shape} is compared with `tabor theory` (hertz, jkr, maugis-dugdale, dmt-f, ...)",
+            "[[surface]] {} is a {shape}: the models of compare need a nominally flat rough surface with many summits; compare one {shape} with `tabor theory` (hertz, jkr, maugis-dugdale, dmt-f, ...)",
             index + 1
         )));
     }
     if scene.grid.boundary == Boundary::Free {
         return mistake(
-            "[grid] boundary = \"free\" is one isolated contact: the models of compare are of a nominal area without end; take boundary = \"periodic\"",
+            "[grid] boundary = \"free\" is one isolated contact: the models of compare assume an infinite nominal area; take boundary = \"periodic\"",
         );
     }
     if scene.loading.spring.is_some() {
         return mistake(
-            "[loading] spring: compare asks each model for its state under a mean pressure; leave the spring out",
+            "[loading] spring: compare prescribes the mean pressure of every model; leave the spring out",
         );
     }
     let mapped = scene.adhesion.as_ref().is_some_and(|law| law.map.is_some());
@@ -200,7 +200,7 @@ pub fn check_scene(scene: &Scene) -> Result<(), CompareError> {
     ] {
         if named {
             return Err(CompareError::Unsuited(format!(
-                "{what}: the models of compare know an elastic half-space of one adhesion; leave it out"
+                "{what}: the models of compare assume an elastic half-space with uniform adhesion; leave it out"
             )));
         }
     }

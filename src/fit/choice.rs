@@ -106,7 +106,7 @@ pub fn fit_curve(
     let zero_known = knows_zero(&measured, &fits[chosen]);
     if !zero_known {
         warnings.push(
-            format!("fewer than {ZERO_POINTS} points lie where nothing acts, so that a fitted baseline cannot be told from adhesion and no deviation is stated: leave --baseline out if the zero of the force is known, or measure until the sphere is free"),
+            format!("fewer than {ZERO_POINTS} points lie where no force acts, so that a fitted baseline cannot be distinguished from adhesion and no uncertainty is given: leave --baseline out if the zero of the force is known, or measure until the sphere is free"),
         );
     }
     let stated = |number: Number| deviation(&fits, chosen, number).filter(|_| zero_known);
@@ -135,7 +135,7 @@ pub fn fit_curve(
             || !within(modulus_uncertainty, error.contact_modulus)
         {
             warnings.push(format!(
-                "the deviations are those of noise, with the model's own law: surfaces that attract by a law of another shape (Lennard-Jones, exponential) may put w off by {} and E* by {}",
+                "the uncertainties include noise only: if the law of the surfaces has another shape (Lennard-Jones, exponential), w may be wrong by {} and E* by {}",
                 format_si(error.work_of_adhesion, "J/m^2"),
                 format_si(error.contact_modulus, "Pa"),
             ));
@@ -293,7 +293,7 @@ fn choose(
         taken = limit;
     } else if beyond {
         warnings.push(format!(
-            "the Tabor number {:.2} is in the range of {}, but the curve shows more than that model has (AIC {:+.1}); Maugis-Dugdale, which holds at any, is taken",
+            "the Tabor number {:.2} is in the range of {}, but that model does not describe the curve (AIC {:+.1}); Maugis-Dugdale, which holds at any Tabor number, is used",
             number(taken).unwrap_or(f64::NAN),
             fits[taken].model.title(),
             fits[taken].aic - fits[general].aic,
@@ -304,7 +304,7 @@ fn choose(
         let difference = other.aic - fits[taken].aic;
         if difference.abs() < DECISIVE_AIC {
             warnings.push(format!(
-                "the curve cannot tell {} from {} (AIC differ by {:.1}, {DECISIVE_AIC} would): {} gives w = {}, E* = {}",
+                "the curve does not distinguish {} from {} (AIC differ by {:.1}, {DECISIVE_AIC} is needed): {} gives w = {}, E* = {}",
                 fits[taken].model.title(),
                 other.model.title(),
                 difference.abs(),
@@ -327,7 +327,7 @@ fn choose(
             "only that it is long"
         };
         warnings.push(format!(
-            "the curve does not tell the range of the attraction, {side}; the Tabor number is a bound"
+            "the curve does not determine the range of the attraction, {side}; the Tabor number is a bound"
         ));
     }
     Some((taken, number(taken)))
@@ -372,13 +372,13 @@ fn tabor_of(radius: f64, fit: &ModelFit, range: Option<f64>) -> Option<f64> {
 fn add_warnings(measured: &Measured, fit: &ModelFit, warnings: &mut Vec<String>) {
     if !fit.converged {
         warnings.push(format!(
-            "the search for {} did not settle; its numbers are the best found",
+            "the fit of {} did not converge; its numbers are the best found",
             fit.model.title()
         ));
     }
     if misses(measured, fit) {
         warnings.push(format!(
-            "the residuals of {} follow one another (correlation {:.2}): the model misses the curve by {}, and the uncertainties are no more than an order of magnitude",
+            "the residuals of {} are correlated ({:.2}): the model deviates from the curve by {}, and the uncertainties are no more than orders of magnitude",
             fit.model.title(),
             fit.autocorrelation,
             format_si(fit.noise, "N"),
@@ -389,7 +389,7 @@ fn add_warnings(measured: &Measured, fit: &ModelFit, warnings: &mut Vec<String>)
             && correlation.abs() > INSEPARABLE_CORRELATION
         {
             warnings.push(format!(
-                "w and E* are known together but hardly apart (correlation {correlation:.3})"
+                "w and E* are strongly correlated ({correlation:.3}), so that neither is well known by itself"
             ));
         }
     }

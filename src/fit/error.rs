@@ -20,7 +20,7 @@ pub enum FitError {
     },
     /// A folder, device, pipe or socket in place of a file.
     #[error(
-        "{path} is no regular file (a folder, a pipe or a device); write the curve to a file and name that",
+        "{path} is not a regular file (but a folder, a pipe or a device); save the curve to a file and name that",
         path = path.display()
     )]
     NotRegular {
@@ -49,7 +49,7 @@ pub enum FitError {
     },
     /// The header is missing.
     #[error(
-        "{path} has no head; its first line must name the columns, as in `approach [nm], force [nN]`",
+        "{path} has no header; its first line must name the columns, as in `approach [nm], force [nN]`",
         path = path.display()
     )]
     NoHead {
@@ -100,7 +100,7 @@ pub enum FitError {
     },
     /// A row has another number of values than the header has names.
     #[error(
-        "{path}, line {line}: {found} values where the head names {expected} columns; decimal commas need semicolons or tabs between the columns",
+        "{path}, line {line}: {found} values where the header names {expected} columns; decimal commas need semicolons or tabs between the columns",
         path = path.display()
     )]
     Ragged {
@@ -130,7 +130,7 @@ pub enum FitError {
     },
     /// Numbers outside the supported magnitudes.
     #[error(
-        "{path}, column `{column}`: its largest number is {largest:e}; it must be between 1e-30 and 1e30 in SI units: check the unit in the head",
+        "{path}, column `{column}`: its largest number is {largest:e}; it must be between 1e-30 and 1e30 in SI units: check the unit in the header",
         path = path.display()
     )]
     Extreme {

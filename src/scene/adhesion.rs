@@ -39,7 +39,7 @@ pub(super) fn read(
         adhesion.report(
             "treatment",
             SceneError::NotInThisVersion {
-                what: "treatment = \"dmt\" on a solid that relaxes".to_string(),
+                what: "treatment = \"dmt\" on a viscoelastic solid".to_string(),
                 instead: "take treatment = \"full\", or leave [[solid.relaxation]] out".to_string(),
             },
         );
@@ -112,14 +112,14 @@ fn map(
     if low == 0.0 && high == 0.0 {
         pattern.conflict(
             "high",
-            "is 0 like low: nothing attracts; leave [adhesion] out, or give a factor above 0",
+            "is 0 like low, so nothing attracts; leave [adhesion] out, or give a factor above 0",
         );
         return None;
     }
     if law == Some(LawName::LennardJones) && low.min(high) == 0.0 {
         pattern.conflict(
             if low == 0.0 { "low" } else { "high" },
-            "must be above 0: with law = \"lennard-jones\" the same factor repels; take another law, or a small factor",
+            "must be above 0: with law = \"lennard-jones\" the factor also multiplies the repulsion; take another law, or a small factor",
         );
         return None;
     }

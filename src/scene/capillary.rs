@@ -22,7 +22,7 @@ const HUMIDITY: Allowed = Allowed::new(
 );
 const ANGLE: Allowed = Allowed::new(
     |angle| (0.0..FRAC_PI_2).contains(&angle),
-    "from 0 to below 90 degrees: only a liquid that wets pulls",
+    "from 0 to below 90 degrees: only a wetting liquid attracts",
 );
 
 /// Reads `[capillary]`: `Some(None)` if the scene has none, `None` after a mistake.
@@ -32,10 +32,7 @@ pub(super) fn read(scene: &Reader) -> Option<Option<CapillaryScene>> {
     }
     let capillary = scene.table("capillary", &keys::CAPILLARY)?;
     if scene.has("adhesion") {
-        scene.conflict(
-            "capillary",
-            "the liquid is the adhesion, and [adhesion] is given too; give one of the two",
-        );
+        scene.conflict("capillary", "[adhesion] is given too; give one of the two");
     }
     capillary.require(&["humidity"]);
     let humidity = capillary.quantity("humidity", Dimension::Dimensionless, HUMIDITY);

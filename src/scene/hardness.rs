@@ -79,7 +79,7 @@ pub(super) fn check(
         (Control::MeanGap, _) => {
             solid.conflict(
                 "hardness",
-                "control = \"mean-gap\" does not fix how deep the solid flows where the gap is closed; take control = \"approach\", or leave the hardness out",
+                "control = \"mean-gap\" does not determine the plastic depth where the gap is closed; take control = \"approach\", or leave the hardness out",
             );
             return;
         }
@@ -92,7 +92,7 @@ pub(super) fn check(
         solid.conflict(
             "hardness",
             format!(
-                "the path asks for a mean pressure of {}, which no contact of this hardness bears; stay below it",
+                "the path has a mean pressure of {}, which no contact of this hardness can carry; stay below it",
                 format_si(largest, "Pa")
             ),
         );

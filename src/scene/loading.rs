@@ -66,7 +66,7 @@ pub(super) fn read(
         if control.is_some_and(|control| control != Control::Approach) {
             loading.conflict(
                 "spring",
-                "a spring is held at its far end; take control = \"approach\", or leave the spring out",
+                "a spring needs a prescribed far end; take control = \"approach\", or leave the spring out",
             );
         }
         if adhesion.is_some_and(|adhesion| adhesion.treatment == Treatment::Dmt) {
@@ -89,7 +89,7 @@ pub(super) fn read(
         if matches!(control, Some(Control::Approach | Control::MeanGap)) {
             loading.conflict(
                 "pull_off_tolerance",
-                "is for a load that lets go, and a position holds on; take control = \"pressure\" or \"force\", or leave the tolerance out",
+                "applies to a prescribed load; take control = \"pressure\" or \"force\", or leave the tolerance out",
             );
         }
         loading.quantity(
@@ -108,7 +108,7 @@ pub(super) fn read(
     {
         loading.conflict(
             if loading.has("path") { "path" } else { "ramp" },
-            "a solid that relaxes must know how long the load takes; give start and [[loading.ramp]] with duration = \"1 s\" (or hold = \"1 s\")",
+            "a viscoelastic solid needs durations; give start and [[loading.ramp]] with duration = \"1 s\" (or hold = \"1 s\")",
         );
         return None;
     }
@@ -121,7 +121,7 @@ pub(super) fn read(
     {
         loading.conflict(
             if loading.has("path") { "path" } else { "ramp" },
-            "an edge that recedes at a rate must know how long the load takes; give start and [[loading.ramp]] with a duration above 0, such as duration = \"1 s\"",
+            "rate-dependent adhesion needs durations; give start and [[loading.ramp]] with a duration above 0, such as duration = \"1 s\"",
         );
         return None;
     }
@@ -171,7 +171,7 @@ fn path(
     if loading.has("path") && has_ramps {
         loading.conflict(
             "path",
-            "stands beside start and [[loading.ramp]]; give either the path or the ramps",
+            "is given together with start or [[loading.ramp]]; give either the path or the ramps",
         );
         return None;
     }
@@ -274,14 +274,14 @@ fn may_be_auto(ramp: &Reader, solid: Option<&SolidScene>) -> Option<()> {
     if solid.is_some_and(|solid| solid.relaxation.is_empty()) {
         ramp.conflict(
             "steps",
-            "\"auto\" goes by how fast the solid relaxes, and this one does not; give a number of steps, or [[solid.relaxation]]",
+            "\"auto\" follows the relaxation times of the solid, which has none; give a number of steps, or [[solid.relaxation]]",
         );
         return None;
     }
     if !ramp.has("hold") && !ramp.has("duration") {
         ramp.conflict(
             "steps",
-            "\"auto\" goes by how long the ramp takes; give duration = \"1 s\", or a number of steps",
+            "\"auto\" needs the duration of the ramp; give duration = \"1 s\", or a number of steps",
         );
         return None;
     }
@@ -293,7 +293,7 @@ fn no_auto_ramp(loading: &Reader, ramps: &[Reader]) -> Option<()> {
     if loading.has("time_tolerance") && !ramps.iter().any(is_auto) {
         loading.conflict(
             "time_tolerance",
-            "is for ramps with steps = \"auto\", and there is none; take \"auto\", or leave the tolerance out",
+            "applies to ramps with steps = \"auto\", and there is none; take \"auto\", or leave the tolerance out",
         );
         return None;
     }
@@ -426,7 +426,7 @@ fn check_least_gap(
         loading.conflict(
             "control",
             format!(
-                "a mean gap must stay above {}, where the law repels without limit",
+                "a mean gap must stay above {}, where the repulsion diverges",
                 units::format_si(-range, "m")
             ),
         );

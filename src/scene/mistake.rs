@@ -61,7 +61,7 @@ pub enum SceneError {
         allowed: String,
     },
     /// A word that is not among those allowed.
-    #[error("{found} is none of {}; did you mean \"{nearest}\"?", quoted_list(.allowed))]
+    #[error("{found} is not one of {}; did you mean \"{nearest}\"?", quoted_list(.allowed))]
     UnknownWord {
         /// The word as written.
         found: String,

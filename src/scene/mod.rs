@@ -99,13 +99,13 @@ fn read_text(path: &Path) -> Result<String, String> {
     if !metadata.is_file() {
         // A device never ends, and a pipe has no known length.
         return Err(
-            "it is no regular file (a folder, a pipe or a device); write the scene to a file and name that"
+            "it is not a regular file (but a folder, a pipe or a device); save the scene to a file and name that"
                 .to_string(),
         );
     }
     if metadata.len() > MOST_BYTES {
         return Err(format!(
-            "{} bytes are no scene, which may have {MOST_BYTES}; name its TOML file",
+            "{} bytes are too many for a scene, which may have {MOST_BYTES}; name its TOML file",
             metadata.len()
         ));
     }

@@ -26,7 +26,7 @@ fn set(root: &mut Table, key: &str, node: Node) -> Result<(), SceneError> {
     let names: Vec<&str> = key.split('.').map(str::trim).collect();
     let Some((last, tables)) = names.split_last().filter(|_| !names.contains(&"")) else {
         return Err(refuse(
-            "not a key; write it with points between the names, such as --set surface.0.hurst=0.4"
+            "not a key; write it with dots between the names, such as --set surface.0.hurst=0.4"
                 .into(),
         ));
     };

@@ -26,7 +26,7 @@ pub(super) fn read(
     if law == Some(LawName::LennardJones) {
         adhesion.conflict(
             "rate",
-            "raises the law of a receding edge, and with law = \"lennard-jones\" the same factor repels; take another law",
+            "multiplies the tension of a receding edge, and with law = \"lennard-jones\" also the repulsion; take another law",
         );
         return None;
     }

@@ -45,7 +45,7 @@ pub(super) fn read(scene: &Reader, boundary: Option<Boundary>) -> Option<SolidSc
             if solid.has(key) {
                 solid.conflict(
                     key,
-                    "contact_modulus already holds the counter-face's share; give young_modulus with poisson_ratio instead of it, or leave the counter-face out",
+                    "contact_modulus already includes the counter-face; give young_modulus with poisson_ratio instead of it, or leave the counter-face out",
                 );
             }
         }
@@ -118,7 +118,7 @@ fn read_layer(
     {
         solid.conflict(
             key,
-            "a layer presses on a rigid counter-face; leave the counter-face's elasticity out, or the thickness",
+            "the counter-face of a layer is rigid; leave the counter-face's elasticity out, or the thickness",
         );
     }
     if boundary == Some(Boundary::Free) {

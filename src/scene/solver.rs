@@ -110,7 +110,7 @@ fn below_the_floor(asked: f64) -> SceneError {
     SceneError::OutOfRange {
         found: format!("{asked:e}"),
         allowed: format!(
-            "at least {:e}, the floor of 32-bit numbers, for precision = \"single\"; \"mixed\" and \"double\" go below",
+            "at least {:e}, the limit of 32-bit numbers, for precision = \"single\"; \"mixed\" and \"double\" go below",
             Precision::SINGLE_FLOOR
         ),
     }

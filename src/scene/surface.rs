@@ -198,7 +198,7 @@ fn wavy(part: &Reader, grid: Option<&GridScene>) -> Option<SurfacePart> {
     if wavelength == [f64::INFINITY; 2] {
         part.conflict(
             "wavelength",
-            "infinite along both axes is no wave; give a finite one, or take kind = \"flat\"",
+            "is infinite along both axes; give a finite one, or take kind = \"flat\"",
         );
     }
     check_whole_waves(part, wavelength, grid);
@@ -274,7 +274,7 @@ fn file(part: &Reader, folder: &Path) -> Option<SurfacePart> {
         if part.has(given) && !part.has(other) {
             part.conflict(
                 given,
-                format!("stands without {other}; a grey image needs the heights of both"),
+                format!("is given without {other}; a grey image needs the heights of both"),
             );
         }
     }

@@ -117,7 +117,7 @@ fn check(factors: Vec<f64>, law: LawName, grid: &Grid) -> Result<Vec<f64>, MapEr
             column: point % grid.nx + 1,
             value: factors[point],
             remedy: if core {
-                "it must be above 0: with law = \"lennard-jones\" the same factor repels"
+                "it must be above 0: with law = \"lennard-jones\" the factor also multiplies the repulsion"
             } else {
                 "it must be finite and at least 0"
             },

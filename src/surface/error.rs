@@ -39,7 +39,7 @@ pub enum SurfaceError {
         size: [f64; 2],
     },
     /// The heights do not fit into this machine's memory.
-    #[error("[grid] points = [{}, {}]: no memory for {} bytes of heights; take fewer points",
+    #[error("[grid] points = [{}, {}]: {} bytes of heights do not fit into memory; take fewer points",
         points[0], points[1], points[0] * points[1] * size_of::<f64>())]
     Memory {
         /// Points along x and y.
@@ -63,7 +63,7 @@ pub enum SurfaceError {
     },
     /// The sum of the parts overflows.
     #[error(
-        "the heights are not finite, or past 1e30 m, at row {row}, column {column} (counted from 1): a length of a [[surface]] is too large"
+        "the heights are not finite, or exceed 1e30 m, at row {row}, column {column} (counted from 1): a length of a [[surface]] is too large"
     )]
     NotFinite {
         /// Row (y), from 1.
@@ -172,7 +172,7 @@ pub enum PartError {
     },
     /// A band of which the grid resolves no wave.
     #[error(
-        "the grid holds no wave of the band: pixels of {dx:e} x {dy:e} m against longest = {longest:e} m; \
+        "the grid resolves no wave of the band: pixels of {dx:e} x {dy:e} m against longest = {longest:e} m; \
          take more points"
     )]
     BandNotHeld {
@@ -218,7 +218,7 @@ pub enum FileError {
     #[error("this is a folder; path must name one height file")]
     Folder,
     /// A device, pipe or socket in place of a file.
-    #[error("this is no regular file; copy the heights into one")]
+    #[error("this is not a regular file; copy the heights into one")]
     NotRegular,
     /// A file that cannot be read.
     #[error("cannot be read: {0}")]
@@ -235,7 +235,7 @@ pub enum FileError {
         found: String,
     },
     /// A text file with binary content.
-    #[error("the file is no text: byte {offset} is 0")]
+    #[error("the file is not text: byte {offset} is 0")]
     Binary {
         /// Offset of the first such byte, from 0.
         offset: usize,
@@ -244,13 +244,13 @@ pub enum FileError {
     #[error("the text is in UTF-16; save it as UTF-8")]
     Utf16,
     /// A file too long to read.
-    #[error("{bytes} bytes are too many to take in; save the heights as .npy")]
+    #[error("{bytes} bytes are too many to read; save the heights as .npy")]
     TooLong {
         /// Length of the file.
         bytes: u64,
     },
     /// The numbers do not fit into this machine's memory.
-    #[error("no memory for {bytes} bytes; take a smaller map")]
+    #[error("{bytes} bytes do not fit into memory; take a smaller map")]
     Memory {
         /// Bytes asked for.
         bytes: u64,
@@ -301,7 +301,7 @@ pub enum FileError {
     },
     /// A quantity that is not a length.
     #[error(
-        "the file gives its {what} in {}, which is no length; save an image of heights, or the numbers as .npy",
+        "the file gives its {what} in {}, which is not a length; save an image of heights, or the numbers as .npy",
         quoted(unit)
     )]
     NotALength {
@@ -311,7 +311,7 @@ pub enum FileError {
         unit: String,
     },
     /// Points x, y, z that do not form a grid.
-    #[error("the points x, y, z form no grid: {what}")]
+    #[error("the points x, y, z do not form a grid: {what}")]
     NotAGrid {
         /// What is wrong.
         what: String,

@@ -486,18 +486,18 @@ fn what_is_no_regular_file_is_refused() {
         for command in ["check", "run", "compare", "accuracy"] {
             let message = refused_at_once(folder.path(), &[command, name]);
             assert!(
-                message.contains("it is no regular file (a folder, a pipe or a device); write the scene to a file and name that"),
+                message.contains("it is not a regular file (but a folder, a pipe or a device); save the scene to a file and name that"),
                 "{command} {name}: {message}"
             );
         }
         let message = refused_at_once(folder.path(), &["fit", name, "--radius", "1 um"]);
         assert!(
-            message.contains("is no regular file (a folder, a pipe or a device); write the curve to a file and name that"),
+            message.contains("is not a regular file (but a folder, a pipe or a device); save the curve to a file and name that"),
             "{name}: {message}"
         );
         let message = refused_at_once(folder.path(), &["surface", name, "--size", "1 um"]);
         assert!(
-            message.contains("this is no regular file; copy the heights into one")
+            message.contains("this is not a regular file; copy the heights into one")
                 || message.contains("this is a folder; path must name one height file"),
             "{name}: {message}"
         );
@@ -507,7 +507,7 @@ fn what_is_no_regular_file_is_refused() {
     long.set_len(1 << 40).expect("sparse");
     let message = refused_at_once(folder.path(), &["check", "long.toml"]);
     assert!(
-        message.contains("1099511627776 bytes are no scene"),
+        message.contains("1099511627776 bytes are too many for a scene"),
         "{message}"
     );
 }

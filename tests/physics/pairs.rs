@@ -76,7 +76,7 @@ fn refusal(pair: [Effect; 2]) -> Option<&'static str> {
         Relaxation, Spring,
     };
     match pair {
-        [Adhesion | Dmt | AdhesionMap | Rate, Capillary] => Some("the liquid is the adhesion"),
+        [Adhesion | Dmt | AdhesionMap | Rate, Capillary] => Some("[adhesion] is given too"),
         [Layer, Relaxation] => Some("relaxation of a compressible layer"),
         [Layer, FreeBoundary] => Some("a layer needs boundary = \"periodic\""),
         [Dmt, Hardness] => Some("a hardness with treatment = \"dmt\""),

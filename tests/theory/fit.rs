@@ -282,7 +282,7 @@ fn stated_uncertainties_cover_full_fields_from_dmt_to_jkr() {
             for (missed, off) in missed.iter_mut().zip(off) {
                 *missed += usize::from(off.abs() > 2.0);
             }
-            let says = |warning: &String| warning.contains("cannot tell");
+            let says = |warning: &String| warning.contains("does not distinguish");
             warned += usize::from(result.warnings.iter().any(says));
         }
         println!("lambda {lambda}: w, E* missed {missed:?}, warned {warned} of {CURVES}");

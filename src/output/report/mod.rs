@@ -123,10 +123,10 @@ impl Report<'_> {
                 self.setup.scene.solver.tolerance
             ),
             (_, Some(_)) => early(format!(
-                "Ended early: {done} of {steps} steps are finished. <code>tabor run</code> with <code>--resume</code> goes on after them."
+                "Ended early: {done} of {steps} steps are finished. <code>tabor run</code> with <code>--resume</code> continues after them."
             )),
             (_, None) => early(format!(
-                "Not ended: {done} of {steps} steps were finished when this page was written. If nothing is running any more, <code>tabor run</code> with <code>--resume</code> goes on after them."
+                "Not finished: {done} of {steps} steps were done when this page was written. If the run has ended, <code>tabor run</code> with <code>--resume</code> continues after them."
             )),
         }
     }
@@ -170,7 +170,7 @@ impl Report<'_> {
         };
         let jumps = [
             ("Jumps into contact", &self.tallies.jump_in_steps),
-            ("Jumps apart", &self.tallies.jump_off_steps),
+            ("Jumps out of contact", &self.tallies.jump_off_steps),
         ];
         for (name, at) in jumps {
             if !at.is_empty() {

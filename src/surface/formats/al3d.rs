@@ -45,7 +45,10 @@ pub(super) fn read(bytes: &[u8]) -> Result<Matrix, FileError> {
     for (side, name) in sides.iter_mut().zip(["PixelSizeXMeter", "PixelSizeYMeter"]) {
         let length: f64 = tags.number(&file, name)?;
         if !(length.is_finite() && length > 0.0) {
-            return Err(file.broken(tags.place(name), format!("{name} = {length} is no length")));
+            return Err(file.broken(
+                tags.place(name),
+                format!("{name} = {length} is not a length"),
+            ));
         }
         *side *= length;
     }

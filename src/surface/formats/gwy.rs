@@ -249,7 +249,7 @@ fn piece(file: &mut Bytes, depth: usize) -> Result<Piece, FileError> {
         other => {
             return Err(file.broken(
                 place,
-                format!("a piece of the unknown type {:?}", char::from(other)),
+                format!("a component of the unknown type {:?}", char::from(other)),
             ));
         }
     })

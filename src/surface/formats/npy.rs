@@ -141,7 +141,7 @@ fn read_header(file: &mut impl Read) -> Result<Vec<u8>, FileError> {
         .fold(0_usize, |length, byte| (length << 8) | usize::from(*byte));
     if text_length > LONGEST_HEADER {
         return Err(broken(format!(
-            "a header of {text_length} bytes is no plain array's"
+            "a header of {text_length} bytes is too long for a plain array"
         )));
     }
     let start = header.len();
@@ -165,7 +165,7 @@ fn read_header(file: &mut impl Read) -> Result<Vec<u8>, FileError> {
     let deepest = depths.max().unwrap_or(0);
     if !text.iter().all(plain) || brackets > 16 || deepest > 4 {
         return Err(broken(
-            "its header is no description of a plain array".to_owned(),
+            "its header does not describe a plain array".to_owned(),
         ));
     }
     let text = String::from_utf8_lossy(text);
@@ -173,7 +173,7 @@ fn read_header(file: &mut impl Read) -> Result<Vec<u8>, FileError> {
     let shape = text.split_once("shape").map_or("", |(_, rest)| rest);
     if shape.bytes().filter(u8::is_ascii_digit).count() > MOST_SHAPE_DIGITS {
         let shape = shape.trim_matches(['"', '\'', ':', ' ', ',', '}', '\n']);
-        return Err(broken(format!("its shape {shape} is past all memory")));
+        return Err(broken(format!("its shape {shape} exceeds all memory")));
     }
     Ok(header)
 }

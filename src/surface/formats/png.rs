@@ -88,7 +88,7 @@ pub(super) fn refuse_ratio(
 pub(super) fn not_grey() -> FileError {
     FileError::NotSupported {
         what: "images other than grey ones of 8 or 16 bits",
-        instead: "colours are no heights: save it as a grey image, without transparency",
+        instead: "colours are not heights: save it as a grey image, without transparency",
     }
 }
 

@@ -56,7 +56,7 @@ impl Header {
         // A single profile has no scale along y.
         let y_stands = (y.is_finite() && y > 0.0) || self.rows == 1;
         let stands = x.is_finite() && x > 0.0 && y_stands && z.is_finite() && z != 0.0;
-        (!stands).then(|| format!("Xscale = {x}, Yscale = {y}, Zscale = {z} are no lengths"))
+        (!stands).then(|| format!("Xscale = {x}, Yscale = {y}, Zscale = {z} are not lengths"))
     }
 
     fn matrix(&self, values: Vec<f64>, [rows, columns]: [usize; 2]) -> Matrix {

@@ -71,7 +71,7 @@ fn gridded(points: &Matrix, lateral_unit: Option<f64>) -> Result<Matrix, String>
         let place = y.index(point[1]) * x.count + x.index(point[0]);
         if std::mem::replace(&mut taken[place], true) {
             return Err(format!(
-                "row {} stands at x = {}, y = {}, where a row above stands already",
+                "row {} lies at x = {}, y = {}, as a row above",
                 row + 1,
                 point[0],
                 point[1]
