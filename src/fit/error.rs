@@ -130,7 +130,7 @@ pub enum FitError {
     },
     /// Numbers outside the supported magnitudes.
     #[error(
-        "{path}, column `{column}`: its largest number is {largest:e}; it must be between 1e-30 and 1e30 in SI units: check the unit in the header",
+        "{path}, column `{column}`: its largest number is {largest:e}; it must be between 1e-30 and 1e30 in SI units: check the unit in the headerer",
         path = path.display()
     )]
     Extreme {

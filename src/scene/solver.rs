@@ -23,14 +23,14 @@ impl Default for SolverScene {
 
 impl SolverScene {
     /// The precision for which `auto` stands: on a graphics processor it depends on the tolerance;
-    /// `flows` is true for a solid with a hardness.
-    fn arithmetic_on(&self, gpu: bool, flows: bool) -> Precision {
+    /// `has_hardness` is true for a solid with a hardness.
+    fn arithmetic_on(&self, gpu: bool, has_hardness: bool) -> Precision {
         match (self.precision, gpu) {
             (Precision::Auto, true) if self.tolerance >= Precision::SINGLE_FLOOR => {
                 Precision::Single
             }
             // The corrections of mixed precision have no hardness limit.
-            (Precision::Auto, true) if flows => Precision::Double,
+            (Precision::Auto, true) if has_hardness => Precision::Double,
             (Precision::Auto, true) => Precision::Mixed,
             (Precision::Auto, false) => Precision::Double,
             (other, _) => other,
@@ -41,8 +41,8 @@ impl SolverScene {
 impl Scene {
     /// The precision of a solve on a graphics processor or on the processor.
     pub fn arithmetic_on(&self, gpu: bool) -> Precision {
-        let flows = self.solid.hardness.is_some();
-        self.solver.arithmetic_on(gpu, flows)
+        let has_hardness = self.solid.hardness.is_some();
+        self.solver.arithmetic_on(gpu, has_hardness)
     }
 
     /// The same on the scene's backend; `auto` counts as the processor here.
