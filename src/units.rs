@@ -675,7 +675,7 @@ mod tests {
     }
 
     #[test]
-    fn units_stand_alone_too() {
+    fn units_without_numbers_are_parsed() {
         assert_eq!(unit_factor("nN", Force), Ok(1e-9));
         assert_eq!(unit_factor(" µm ", Length), Ok(1e-6));
         assert_eq!(unit_factor("min", Time), Ok(60.0));
@@ -684,7 +684,7 @@ mod tests {
     }
 
     #[test]
-    fn angles_are_degrees_unless_they_say_otherwise() {
+    fn bare_angles_are_degrees() {
         assert_eq!(angle_from_number(180.0), std::f64::consts::PI);
         assert_eq!(parse_angle("1 rad"), Ok(1.0));
         assert_eq!(parse_angle("90°"), parse_angle("90 deg"));
@@ -720,7 +720,7 @@ mod tests {
     }
 
     #[test]
-    fn what_is_written_can_be_read_back() {
+    fn formatted_values_can_be_parsed() {
         for exponent in -15..15 {
             let value = 1.234 * 10f64.powi(exponent);
             let text = format_si(value, "Pa");

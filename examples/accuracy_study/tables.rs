@@ -119,9 +119,10 @@ pub fn tables(table: &str) -> Result<String, String> {
             line
         })
         .collect();
-    let first: &[&str] = match adhesive {
-        true => &["points a side", "seconds", "chi", "pixels across the zone"],
-        false => &["points a side", "seconds"],
+    let first: &[&str] = if adhesive {
+        &["points a side", "seconds", "chi", "pixels across the zone"]
+    } else {
+        &["points a side", "seconds"]
     };
     text.push_str(&markdown(&head(first, &errors), &lines));
     let orders: Vec<String> = errors
@@ -316,9 +317,10 @@ fn floors(rows: &[Row]) -> Vec<Vec<String>> {
         let (Some(first), Some(last)) = (changes.first(), changes.last()) else {
             continue;
         };
-        let grids = match first.0 == last.0 {
-            true => first.0.to_string(),
-            false => format!("{} to {}", first.0, last.0),
+        let grids = if first.0 == last.0 {
+            first.0.to_string()
+        } else {
+            format!("{} to {}", first.0, last.0)
         };
         let largest = changes.iter().map(|change| change.1).fold(0.0, f64::max);
         let mut line = key.to_vec();

@@ -102,9 +102,10 @@ pub fn misses(table: &[Row]) -> String {
                         most = most.max(found / judge - 1.0);
                     }
                 }
-                let _ = match least <= most {
-                    true => write!(text, " {:+.0} to {:+.0} % |", 100.0 * least, 100.0 * most),
-                    false => write!(text, " - |"),
+                let _ = if least <= most {
+                    write!(text, " {:+.0} to {:+.0} % |", 100.0 * least, 100.0 * most)
+                } else {
+                    write!(text, " - |")
                 };
             }
             text.push('\n');

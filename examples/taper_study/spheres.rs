@@ -146,9 +146,10 @@ impl Sphere {
                 .map(|pair| -0.5 * (pair[0].1 + pair[1].1) * (pair[1].0 - pair[0].0))
                 .sum()
         };
-        let hysteresis = match self.lambda > FOLD_LAMBDA && -range > least {
-            true => format!("{:.2}", lost / closed),
-            false => "-".to_owned(),
+        let hysteresis = if self.lambda > FOLD_LAMBDA && -range > least {
+            format!("{:.2}", lost / closed)
+        } else {
+            "-".to_owned()
         };
         Ok(format!(
             "{} {:.1} {:.2} ({:.2}) {hysteresis} {:.0}",

@@ -133,9 +133,10 @@ fn sphere(
         // A path reaches pull-off only from contact and beyond the approach of the greatest
         // tension.
         if let Some(greatest) = &greatest {
-            let beyond = match by_force {
-                true => value < greatest.force,
-                false => value < greatest.approach,
+            let beyond = if by_force {
+                value < greatest.force
+            } else {
+                value < greatest.approach
             };
             passed |= touched && beyond;
         }
@@ -245,9 +246,10 @@ impl Theory {
                 if value <= 0.0 {
                     return Ok(None);
                 }
-                let radius = match by_force {
-                    true => hertz::contact_radius(sphere, value)?,
-                    false => hertz::contact_radius_at_approach(sphere, value)?,
+                let radius = if by_force {
+                    hertz::contact_radius(sphere, value)?
+                } else {
+                    hertz::contact_radius_at_approach(sphere, value)?
                 };
                 Some(Held {
                     contact_radius: radius,
@@ -258,16 +260,18 @@ impl Theory {
             }
             Theory::Jkr(sphere) => {
                 // Beyond the fold no state exists.
-                let radius = match by_force {
-                    true => jkr::contact_radius(sphere, value),
-                    false => jkr::contact_radius_at_approach(sphere, value),
+                let radius = if by_force {
+                    jkr::contact_radius(sphere, value)
+                } else {
+                    jkr::contact_radius_at_approach(sphere, value)
                 };
                 radius.ok().map(|radius| jkr_at(sphere, radius))
             }
             Theory::Maugis(theory, scales) => {
-                let states = match by_force {
-                    true => theory.states_at_force(value / scales.force)?,
-                    false => theory.states_at_approach(value / scales.approach)?,
+                let states = if by_force {
+                    theory.states_at_force(value / scales.force)?
+                } else {
+                    theory.states_at_approach(value / scales.approach)?
                 };
                 // Below the lambda of the fold the contact shrinks to a point first.
                 let least = if theory.lambda() > FOLD_LAMBDA || by_force {

@@ -158,7 +158,7 @@ mod tests {
     }
 
     #[test]
-    fn pull_off_that_does_not_come_is_all_wrong() {
+    fn missing_pull_off_is_an_error_of_100_percent() {
         let mut base = measured(&[(0.1, Some(1.0))], &[1.0]);
         base.pull_off = Some(2.0);
         let mut found = base.clone();

@@ -130,7 +130,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn what_was_measured_corrects_what_is_predicted() {
+    fn measurements_correct_predictions() {
         let kind = Kind {
             backend: BackendName::Cpu,
             precision: Precision::Double,

@@ -33,7 +33,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn nothing_beats_the_front() {
+    fn no_setting_beats_the_pareto_front() {
         let points = [
             (1.0, Some(0.5)),
             (2.0, Some(0.1)),
@@ -61,7 +61,7 @@ mod tests {
     }
 
     #[test]
-    fn a_level_is_reached_with_the_uncertainty_on_top() {
+    fn a_level_includes_the_uncertainty() {
         let points = [(1.0, Some(0.09)), (3.0, Some(0.004)), (2.0, Some(0.05))];
         assert_eq!(cheapest(&points, 0.0, 0.1), Some(0));
         assert_eq!(cheapest(&points, 0.02, 0.1), Some(2));

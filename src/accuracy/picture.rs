@@ -72,12 +72,13 @@ pub fn picture(report: &Report) -> Figure {
         ),
         // Unused kinds have no legend entry; the others keep their colours.
         names: (0..KINDS.len())
-            .map(
-                |index| match report.rows.iter().any(|row| kind(row) == index) {
-                    true => KINDS[index].to_owned(),
-                    false => String::new(),
-                },
-            )
+            .map(|index| {
+                if report.rows.iter().any(|row| kind(row) == index) {
+                    KINDS[index].to_owned()
+                } else {
+                    String::new()
+                }
+            })
             .collect(),
         panels,
         columns: 2,

@@ -201,7 +201,7 @@ mod tests {
     }
 
     #[test]
-    fn what_grids_disagree_on_is_in_doubt() {
+    fn disagreement_of_grids_increases_uncertainty() {
         let mut levels = [level(0.04, false), level(0.02, true), level(0.01, false)];
         levels[2].pull_off_step = 0.3;
         let found = Reference::numeric(&levels, [64, 64], "twice the steps").expect("three grids");

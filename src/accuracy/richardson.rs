@@ -106,7 +106,7 @@ mod tests {
     }
 
     #[test]
-    fn what_does_not_converge_is_not_extrapolated() {
+    fn values_without_convergence_are_not_extrapolated() {
         let found = extrapolate(&[vec![1.0], vec![1.1], vec![1.3]], 2.0);
         assert_eq!(found.values, [1.3]);
         assert!((found.uncertainty[0] - 0.2).abs() < 1e-12);

@@ -359,7 +359,7 @@ mod tests {
     }
 
     #[test]
-    fn both_ends_and_the_turns_stay() {
+    fn halving_keeps_ends_and_turning_points() {
         let scene = loading(&[0.0, 1.0, 2.0, 3.0, 4.0, 3.0, 2.0, 0.0], None);
         let half = halved(&scene);
         assert_eq!(half.loading.path, [0.0, 2.0, 4.0, 2.0, 0.0]);
@@ -384,7 +384,7 @@ mod tests {
     }
 
     #[test]
-    fn the_time_at_a_step_stays() {
+    fn halving_keeps_times() {
         let scene = loading(&[0.0, 1.0, 2.0, 2.0], Some(vec![0.0, 1.0, 3.0, 5.0]));
         // The final hold is a turning point, so the step before it stays.
         let half = halved(&scene);
@@ -398,7 +398,7 @@ mod tests {
     }
 
     #[test]
-    fn steps_between_those_of_a_walk_are_found_by_time() {
+    fn positions_within_a_path_follow_time() {
         let fine = loading(
             &[0.0, 1.0, 2.0, 3.0, 9.0, 9.0],
             Some(vec![0.0, 1.0, 1.0, 1.0, 0.0, 2.0]),
@@ -420,7 +420,7 @@ mod tests {
     /// Within a step the response is linear in time, so a compared step must span at least two
     /// steps of the reference.
     #[test]
-    fn the_reference_is_twice_as_fine_as_all_that_it_judges() {
+    fn the_reference_is_twice_as_fine_as_all_compared_paths() {
         for steps in ["2", "30", "500", "\"auto\""] {
             let scene = relaxing(steps);
             assert_eq!(Steps::for_reference(&scene), Steps::Finest);

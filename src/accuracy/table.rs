@@ -102,9 +102,10 @@ pub fn expect_place(path: &Path) -> Result<(), OutputError> {
 
 /// `256`, or `256x128`.
 fn points([nx, ny]: [usize; 2]) -> String {
-    match nx == ny {
-        true => nx.to_string(),
-        false => format!("{nx}x{ny}"),
+    if nx == ny {
+        nx.to_string()
+    } else {
+        format!("{nx}x{ny}")
     }
 }
 

@@ -137,7 +137,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn a_ladder_is_read_on_the_closer_side_of_its_greatest_tension() {
+    fn scans_are_read_on_the_compressive_side() {
         let mut scan = LoadScan::default();
         for (repulsive, attraction) in [(1.0, 2.0), (2.0, 5.0), (4.0, 6.0), (8.0, 6.0)] {
             scan.add(repulsive, 0.01 * repulsive, 10.0 - repulsive, attraction);
@@ -161,7 +161,7 @@ mod tests {
     /// Without roughness or with an unlimited load the scan has its largest number of loads, and no
     /// more.
     #[test]
-    fn a_ladder_ends() {
+    fn scans_are_finite() {
         for (unit, largest) in [
             (0.0, 1.0),
             (1e-300, 1e300),

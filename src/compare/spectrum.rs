@@ -187,7 +187,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn a_spectrum_is_found_again_by_its_moments() {
+    fn a_spectrum_is_recovered_from_its_moments() {
         let known = Spectrum::new([2.0, 2.0, 60.0], 0.7, 0.3).unwrap();
         let (m0, m2, m4) = known.profile_moments();
         let found = matched(&SpectralMoments { m0, m2, m4 }, 2.0).expect("a spectrum");

@@ -77,7 +77,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn a_loop_has_two_ways_and_noise_none() {
+    fn a_loop_has_two_segments_and_noise_none() {
         let noise = [0.0, 0.004, -0.006, 0.005, -0.003];
         let loop_of = |i: usize| if i < 100 { i } else { 200 - i } as f64 / 100.0;
         let samples: Vec<Sample> = (0..=200)

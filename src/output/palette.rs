@@ -239,7 +239,7 @@ mod tests {
     }
 
     #[test]
-    fn colour_blind_eyes_see_the_same_order() {
+    fn maps_are_ordered_for_colour_blind_eyes() {
         for eye in [DEUTERANOPIA, PROTANOPIA] {
             for path in [warm, cool, |fraction| dark_to_light(1.0 - fraction)] {
                 let exact: Vec<f64> = (0..=STEPS)

@@ -210,7 +210,7 @@ mod tests {
     }
 
     #[test]
-    fn nothing_to_draw_is_an_empty_plot() {
+    fn an_empty_plot_can_be_drawn() {
         for points in [
             &[][..],
             &[[1.0, 1.0]][..],

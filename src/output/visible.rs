@@ -12,9 +12,10 @@ pub fn visible(text: &str) -> Cow<'_, str> {
     }
     let mut shown = String::with_capacity(text.len() + 16);
     for character in text.chars() {
-        match hides(character) {
-            true => shown.extend(character.escape_default()),
-            false => shown.push(character),
+        if hides(character) {
+            shown.extend(character.escape_default())
+        } else {
+            shown.push(character)
         }
     }
     Cow::Owned(shown)
@@ -39,7 +40,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn nothing_but_what_acts_is_spelled_out() {
+    fn only_control_characters_are_escaped() {
         let plain = "rms height 707.1 pm, µ, 高さ, \"a\\b\"\nnext";
         assert!(matches!(visible(plain), Cow::Borrowed(same) if same == plain));
         assert_eq!(

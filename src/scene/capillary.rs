@@ -36,9 +36,12 @@ pub(super) fn read(scene: &Reader) -> Option<Option<CapillaryScene>> {
     }
     capillary.require(&["humidity"]);
     let humidity = capillary.quantity("humidity", Dimension::Dimensionless, HUMIDITY);
-    let or = |key: &str, dimension, default: f64, allowed| match capillary.has(key) {
-        true => capillary.quantity(key, dimension, allowed),
-        false => Some(default),
+    let or = |key: &str, dimension, default: f64, allowed| {
+        if capillary.has(key) {
+            capillary.quantity(key, dimension, allowed)
+        } else {
+            Some(default)
+        }
     };
     let surface_tension = or(
         "surface_tension",

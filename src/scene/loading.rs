@@ -235,9 +235,10 @@ fn ramp(ramp: &Reader, value: Option<&PathValue>, solid: Option<&SolidScene>) ->
         }
     }
     ramp.require(&["steps"]);
-    let steps = match is_auto(ramp) {
-        true => may_be_auto(ramp, solid).map(|()| None),
-        false => whole_steps(ramp).map(Some),
+    let steps = if is_auto(ramp) {
+        may_be_auto(ramp, solid).map(|()| None)
+    } else {
+        whole_steps(ramp).map(Some)
     };
     let to = value.and_then(|value| ramp.quantity("to", value.dimension, value.allowed));
     let key = if holds { "hold" } else { "duration" };
@@ -335,9 +336,10 @@ fn ramps(
         return None;
     }
     no_auto_ramp(loading, &readers)?;
-    let tolerance = match loading.has("time_tolerance") {
-        true => loading.quantity("time_tolerance", Dimension::Dimensionless, TIME_TOLERANCE)?,
-        false => DEFAULT_TOLERANCE,
+    let tolerance = if loading.has("time_tolerance") {
+        loading.quantity("time_tolerance", Dimension::Dimensionless, TIME_TOLERANCE)?
+    } else {
+        DEFAULT_TOLERANCE
     };
     let takes_time = |ramp: &Reader| ramp.has("hold") || ramp.has("duration");
     if readers.iter().any(takes_time) {
@@ -351,16 +353,17 @@ fn ramps(
     let mut durations = vec![0.0];
     let mut timed = true;
     let mut from = start;
-    let mut cutter = match readers.iter().any(is_auto) {
-        true => Some(Cutter::new(
+    let mut cutter = if readers.iter().any(is_auto) {
+        Some(Cutter::new(
             solid?,
             control?,
             attracts || loading.has("spring"),
             start,
             &legs(start, &ramps),
             tolerance,
-        )),
-        false => None,
+        ))
+    } else {
+        None
     };
     for (ramp, leg) in ramps.iter().zip(legs(start, &ramps)) {
         let to = leg.to;

@@ -121,9 +121,10 @@ fn read_text(path: &Path) -> Result<String, String> {
 /// Reads every table before returning, so that all mistakes are collected.
 fn read_tables(root: &Table, folder: &Path, log: &Log) -> Option<Scene> {
     let scene = Reader::open(root, Location::Nowhere, "", &keys::SCENE, log);
-    let title = match scene.has("title") {
-        true => scene.text("title").map(|title| Some(title.to_string())),
-        false => Some(None),
+    let title = if scene.has("title") {
+        scene.text("title").map(|title| Some(title.to_string()))
+    } else {
+        Some(None)
     };
     let grid = grid::read(&scene, grid::has_height_file(root));
     let boundary = grid.as_ref().map(|grid| grid.boundary);

@@ -27,9 +27,10 @@ pub(super) fn read(scene: &Reader, boundary: Option<Boundary>) -> Option<SolidSc
     ];
     let [ratio, counter_ratio] = [poisson("poisson_ratio"), poisson("counter_poisson_ratio")];
     let layer = read_layer(&solid, ratio, boundary);
-    let hardness = match solid.has("hardness") {
-        true => modulus("hardness").map(Some),
-        false => Some(None),
+    let hardness = if solid.has("hardness") {
+        modulus("hardness").map(Some)
+    } else {
+        Some(None)
     };
     let relaxation = read_relaxation(&solid, layer.flatten());
     let has_counter = solid.has("counter_young_modulus") || solid.has("counter_poisson_ratio");

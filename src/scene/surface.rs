@@ -263,11 +263,13 @@ fn file(part: &Reader, folder: &Path) -> Option<SurfacePart> {
     } else {
         Some(1.0)
     };
-    let grey_end = |key: &str| match part.has(key) {
-        true => part
-            .quantity(key, Dimension::Length, Allowed::FINITE)
-            .map(Some),
-        false => Some(None),
+    let grey_end = |key: &str| {
+        if part.has(key) {
+            part.quantity(key, Dimension::Length, Allowed::FINITE)
+                .map(Some)
+        } else {
+            Some(None)
+        }
     };
     let (black, white) = (grey_end("black"), grey_end("white"));
     for (given, other) in [("black", "white"), ("white", "black")] {

@@ -187,9 +187,10 @@ impl Cutter {
         tolerance: f64,
     ) -> Cutter {
         let creeps = creeps || matches!(control, Control::Pressure | Control::Force);
-        let modes = match creeps {
-            true => retardation(solid),
-            false => relaxation(solid),
+        let modes = if creeps {
+            retardation(solid)
+        } else {
+            relaxation(solid)
         };
         // The initial indentation under a mean gap is unknown: the memory is bounded by the whole
         // change of the path, and the error is compared with no more than that change.
@@ -207,9 +208,10 @@ impl Cutter {
             _ => (start, start),
         };
         let total: f64 = legs.iter().map(|leg| leg.duration).sum();
-        let gain = match creeps {
-            true => (compliance(&modes, total) / compliance(&modes, 0.0) - 1.0).max(1.0),
-            false => 1.0,
+        let gain = if creeps {
+            (compliance(&modes, total) / compliance(&modes, 0.0) - 1.0).max(1.0)
+        } else {
+            1.0
         };
         let mut cutter = Cutter {
             modes,
@@ -240,9 +242,10 @@ impl Cutter {
     fn answer(&self, level: f64, creeps: bool) -> f64 {
         let shares: f64 = self.modes.iter().map(|mode| mode.share).sum();
         let fading: f64 = self.modes.iter().map(|mode| mode.share * mode.memory).sum();
-        match creeps {
-            true => (level - fading).abs(),
-            false => ((1.0 - shares) * level + fading).abs(),
+        if creeps {
+            (level - fading).abs()
+        } else {
+            ((1.0 - shares) * level + fading).abs()
         }
     }
 

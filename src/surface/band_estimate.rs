@@ -94,7 +94,7 @@ mod tests {
     /// waves most of the slope and nearly all of the curvature come from the integral. The margin
     /// is twice the lattice error given above.
     #[test]
-    fn the_integral_is_the_sum() {
+    fn the_integral_approximates_the_sum() {
         let spectrum = SelfAffineSpectrum {
             hurst: 0.7,
             long: 1.0,

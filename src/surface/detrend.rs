@@ -106,7 +106,7 @@ mod tests {
     }
 
     #[test]
-    fn what_is_left_has_no_mean_and_no_slope() {
+    fn a_detrended_map_has_no_mean_and_no_slope() {
         let mut heights: Vec<f64> = (0..63).map(|i| ((i * 37) % 11) as f64).collect();
         detrend(&mut heights, 9, 7, Detrend::Plane);
         for term in 0..3 {
@@ -116,7 +116,7 @@ mod tests {
     }
 
     #[test]
-    fn narrow_maps_are_no_trouble() {
+    fn narrow_maps_are_detrended() {
         for (rows, columns) in [(1, 1), (1, 2), (2, 1), (2, 2), (1, 9), (3, 1)] {
             let mut heights: Vec<f64> = (0..rows * columns).map(|i| i as f64).collect();
             detrend(&mut heights, rows, columns, Detrend::Quadratic);

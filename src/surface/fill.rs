@@ -138,7 +138,7 @@ mod tests {
     }
 
     #[test]
-    fn a_hole_at_the_edge_sees_across_a_periodic_one() {
+    fn a_hole_at_a_periodic_edge_has_neighbours_opposite() {
         let row = [f64::NAN, 1.0, 2.0, 7.0];
         let mut free = row;
         interpolate(&mut free, 1, 4, false);
@@ -149,7 +149,7 @@ mod tests {
     }
 
     #[test]
-    fn with_nothing_known_nothing_is_filled() {
+    fn a_map_without_finite_pixels_is_unchanged() {
         let mut values = [f64::NAN; 4];
         assert_eq!(interpolate(&mut values, 2, 2, true), 0);
         assert_eq!(interpolate(&mut [1.0; 4], 2, 2, true), 0);

@@ -64,7 +64,7 @@ fn a_generated_surface_gives_its_parameters_back() {
 }
 
 #[test]
-fn a_patch_of_a_larger_surface_gives_them_too() {
+fn a_patch_of_a_larger_surface_gives_its_parameters() {
     // A quarter of the cell under a Hann window: its few long modes scatter like squares of
     // Gaussian numbers. An independent implementation of this estimate, over thirty patches each of
     // Hurst exponent 0.4 and 0.8, scatters by 0.034 in the exponent (mean off by 0.01) and by 12 to
@@ -91,7 +91,7 @@ fn a_patch_of_a_larger_surface_gives_them_too() {
 }
 
 #[test]
-fn without_a_bend_and_an_end_both_are_said_to_be_missing() {
+fn missing_rolloff_and_cutoff_are_reported() {
     let asked = spectrum(0.7, 1.0, 127.0, 1e-6);
     let grid = Grid::new([256, 256], [1e-6, 1e-6]);
     let heights = self_affine::heights(&asked, &grid, 5);
@@ -105,7 +105,7 @@ fn without_a_bend_and_an_end_both_are_said_to_be_missing() {
 }
 
 #[test]
-fn what_has_no_spectrum_is_refused() {
+fn maps_without_a_spectrum_are_refused() {
     let grid = Grid::new([64, 64], [1.0, 1.0]);
     assert_eq!(
         fit(&grid, &vec![2.0; 4096], Boundary::Periodic),

@@ -274,7 +274,7 @@ mod tests {
     }
 
     #[test]
-    fn an_apex_outside_is_told_on_a_free_grid() {
+    fn an_apex_outside_a_free_grid_is_reported() {
         let grid = Grid::new([8, 4], [8.0, 4.0]);
         assert_eq!(at([-0.5, 3.5], Boundary::Free).warning(&grid), None);
         assert_eq!(at([9.0, 1.0], Boundary::Periodic).warning(&grid), None);
@@ -341,7 +341,7 @@ mod tests {
     }
 
     #[test]
-    fn values_that_are_no_shapes_are_refused() {
+    fn invalid_shapes_are_refused() {
         let grid = Grid::new([2, 2], [1.0, 1.0]);
         let mut heights = [0.0; 4];
         assert!(add_sphere(&mut heights, &grid, 0.0, PERIODIC).is_err());

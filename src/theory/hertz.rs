@@ -122,7 +122,7 @@ mod tests {
     }
 
     #[test]
-    fn gap_is_what_is_left_of_the_shape() {
+    fn gap_is_shape_less_displacement() {
         let sphere = Sphere::new(2.0, 3.0, 0.0).unwrap();
         let a = 0.3;
         for r in [0.301, 0.303, 0.31, 0.5, 3.0] {

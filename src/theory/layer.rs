@@ -27,7 +27,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn refuses_what_is_not_a_layer() {
+    fn invalid_layers_are_refused() {
         assert!(bonded(0.0, 0.3).is_err());
         assert!(bonded(1.0, 0.51).is_err());
         assert!(sliding(f64::NAN).is_err());

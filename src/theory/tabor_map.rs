@@ -216,7 +216,7 @@ mod tests {
     use crate::theory::special::beta;
 
     #[test]
-    fn constants_are_what_their_formulas_say() {
+    fn constants_follow_from_their_formulas() {
         let close = |got: f64, formula: f64| assert!((got / formula - 1.0).abs() < 1e-14);
         close(LJ_PER_MAUGIS_APPROACH, (9.0 * PI * PI / 16.0).cbrt());
         close(LJ_PER_MAUGIS_RADIUS, (0.75 * PI).cbrt());

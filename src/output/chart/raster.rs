@@ -52,9 +52,10 @@ pub(super) fn png(title: Option<&str>, charts: &[Chart]) -> io::Result<Vec<u8>> 
 
 fn font(bold: bool, size: RasterHeight) -> Font {
     Font {
-        weight: match bold {
-            true => FontWeight::Bold,
-            false => FontWeight::Regular,
+        weight: if bold {
+            FontWeight::Bold
+        } else {
+            FontWeight::Regular
         },
         size,
     }
@@ -81,9 +82,10 @@ fn draw(page: &mut RgbImage, corner: [f64; 2], mark: &Mark) {
             dashed,
         } => {
             let points: Vec<[f64; 2]> = points.iter().map(moved).collect();
-            let pieces = match dashed {
-                true => dashes(&points, DASHES.map(|length| length * width)),
-                false => points.windows(2).map(|pair| [pair[0], pair[1]]).collect(),
+            let pieces = if *dashed {
+                dashes(&points, DASHES.map(|length| length * width))
+            } else {
+                points.windows(2).map(|pair| [pair[0], pair[1]]).collect()
             };
             for [from, to] in pieces {
                 stroke(page, from, to, 0.5 * width, colour(*ink));

@@ -51,13 +51,14 @@ fn push(text: &mut String, mark: &Mark) {
                 .iter()
                 .map(|[x, y]| format!("{x:.1},{y:.1}"))
                 .collect();
-            let dash = match dashed {
-                true => format!(
+            let dash = if *dashed {
+                format!(
                     " stroke-dasharray=\"{} {}\"",
                     DASHES[0] * width,
                     DASHES[1] * width
-                ),
-                false => String::new(),
+                )
+            } else {
+                String::new()
             };
             writeln!(
                 text,

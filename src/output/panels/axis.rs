@@ -80,9 +80,10 @@ impl Scale {
 
     /// As in "load (MPa)".
     pub fn label(&self) -> String {
-        match self.unit.is_empty() {
-            true => self.name.clone(),
-            false => format!("{} ({})", self.name, self.unit),
+        if self.unit.is_empty() {
+            self.name.clone()
+        } else {
+            format!("{} ({})", self.name, self.unit)
         }
     }
 

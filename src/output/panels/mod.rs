@@ -308,7 +308,7 @@ mod tests {
     }
 
     #[test]
-    fn values_that_have_no_place_are_left_out() {
+    fn values_off_the_axis_are_left_out() {
         let point = |x, y| PlotPoint {
             x,
             y,

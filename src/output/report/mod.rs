@@ -275,9 +275,10 @@ impl Report<'_> {
             "<section>\n<h2>Effects</h2>\n<div class=\"scroll\"><table>\n<thead><tr><th scope=\"col\">Effect</th><th scope=\"col\"></th><th scope=\"col\">What it does</th></tr></thead>\n<tbody>\n",
         );
         for effect in Effect::ALL {
-            let (class, word) = match effect.is_on(&self.setup.scene) {
-                true => ("on", "on"),
-                false => ("off", "off"),
+            let (class, word) = if effect.is_on(&self.setup.scene) {
+                ("on", "on")
+            } else {
+                ("off", "off")
             };
             let _ = writeln!(
                 text,

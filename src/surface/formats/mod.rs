@@ -277,7 +277,7 @@ mod tests {
 
         /// Any changed or missing bytes give an error or a complete matrix.
         #[test]
-        fn no_change_of_a_file_is_trouble(
+        fn modified_files_give_an_error_or_a_matrix(
             which in 0..GOOD.len(),
             changes in prop::collection::vec((0.0..1.0_f64, 0..3_u8, any::<u8>()), 0..5),
             kept in prop_oneof![3 => Just(1.0), 1 => 0.0..1.0_f64],
@@ -299,7 +299,7 @@ mod tests {
     }
 
     #[test]
-    fn no_extension_and_no_first_bytes_have_two_formats() {
+    fn extensions_and_first_bytes_are_unique() {
         for (index, format) in FORMATS.iter().enumerate() {
             for other in &FORMATS[index + 1..] {
                 let shared = |extension| other.extensions.contains(extension);

@@ -247,7 +247,7 @@ mod tests {
         /// Any header gives an error or a matrix; with a few bytes replaced most still reach the
         /// parser.
         #[test]
-        fn no_header_is_trouble(
+        fn any_header_gives_an_error_or_a_matrix(
             changes in prop::collection::vec((0_usize..60, prop::sample::select(
                 b"0123456789fiucSUVO<>|=bm'\"{}[]():, -TF\xFF\n".to_vec()
             )), 0..4),

@@ -69,7 +69,7 @@ mod tests {
     use nalgebra::DMatrix;
 
     #[test]
-    fn solves_what_an_elimination_solves() {
+    fn gmres_agrees_with_elimination() {
         for size in [1, 2, 40] {
             let matrix = DMatrix::from_fn(size, size, |i, j| {
                 f64::from(i == j) + 1.0 / (1.0 + i.abs_diff(2 * j) as f64)
