@@ -1,4 +1,4 @@
-//! Time for accuracy: a scene over grids and tolerances, as the table of `docs/benchmarks.md`.
+//! Time for accuracy: a scene over grids and tolerances; prints the table of `docs/benchmarks.md`.
 //!
 //! `cargo run --release --example accuracy_table [POINTS]` solves the first two steps of
 //! `examples/scenes/rough.toml`, up to 1 MPa, on 256, 512 and 1024 points to 1e-4, 1e-6 and 1e-8, and

@@ -1,7 +1,7 @@
-//! Writes a force curve like a measured one: `cargo run --release --example force_curve`.
+//! Writes a synthetic force curve: `cargo run --release --example force_curve`.
 //!
-//! A Maugis-Dugdale sphere of 10 um comes to a flat and leaves it, on a scale of which nobody told
-//! the zero, with noise of 2 % of the pull-off. Redirected to `examples/force_curve.csv` it is the
+//! A Maugis-Dugdale sphere of 10 um touches a flat and leaves it, with an unknown zero of the
+//! approach and noise of 2 % of the pull-off. Redirected to `examples/force_curve.csv` it is the
 //! curve of `docs/fit.md`.
 
 use std::f64::consts::{PI, TAU};
@@ -10,7 +10,7 @@ use tabor::fit::Model;
 use tabor::fit::model::{Parameters, SphereModel};
 
 const RADIUS: f64 = 10e-6;
-/// Points of one way.
+/// Points of one direction.
 const POINTS: usize = 160;
 const NOISE: f64 = 20e-9;
 
@@ -44,7 +44,7 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
     let modulus = 4.0 * truth.contact_modulus / 3.0;
     let unit = (PI * truth.work_of_adhesion / modulus).powi(2) * RADIUS;
     let unit = unit.cbrt();
-    // The attraction begins at the range, 2/(pi lambda) in these units, and ends beyond it.
+    // The attraction starts at the range, 2/(pi lambda) in these units, and ends beyond it.
     let range = 2.0 / (PI * truth.maugis_parameter);
     let grip = range + 0.5 * (8.0 * truth.maugis_parameter / (3.0 * PI)).powi(2);
     let place = |i: usize| -2.5 + 6.5 * i as f64 / (POINTS - 1) as f64;

@@ -214,9 +214,10 @@ fn figure(device: &str, software: bool, all: &[Measured]) -> Figure {
     });
     Figure {
         title: format!("Kernels on {device}"),
-        note: match software {
-            true => "software that computes on the processor, no graphics processor".to_owned(),
-            false => "counted bytes over device time".to_owned(),
+        note: if software {
+            "software that computes on the processor, no graphics processor".to_owned()
+        } else {
+            "counted bytes over device time".to_owned()
         },
         names: std::iter::once("copy")
             .chain(SHOWN.iter().map(|(_, name)| *name))

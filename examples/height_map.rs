@@ -1,9 +1,9 @@
-//! Makes a height map such as a profiler would give of a ground surface.
+//! Makes a synthetic height map of a ground surface, as from a profiler.
 //!
-//! `cargo run --release --example height_map > examples/scenes/ground.txt` makes the map that
-//! `examples/scenes/ground.toml` presses: 128 x 128 heights in nm on 10 um x 10 um. Self-affine
-//! roughness, scratches along a lay, a little noise of the instrument, and the tilt of a sample that
-//! was not quite level. The same numbers come out each time.
+//! `cargo run --release --example height_map > examples/scenes/ground.txt` makes the map of
+//! `examples/scenes/ground.toml`: 128 x 128 heights in nm on 10 um x 10 um. Self-affine roughness,
+//! scratches along a lay, a little instrument noise, and the tilt of a sample that was not level.
+//! Every run gives the same numbers.
 
 use std::f64::consts::TAU;
 
@@ -23,13 +23,13 @@ fn uniform(index: u64) -> f64 {
     (mix(mix(SEED) ^ index) >> 11) as f64 / (1_u64 << 53) as f64
 }
 
-/// Distance between two places on a line that closes on itself.
+/// Distance between two positions on a closed line.
 fn distance(a: f64, b: f64, length: f64) -> f64 {
     let apart = (a - b).rem_euclid(length);
     apart.min(length - apart)
 }
 
-/// Depth of all scratches at a point: grooves along y that wander, begin and end softly.
+/// Depth of all scratches at a point: meandering grooves along y with tapered ends.
 fn scratches(x: f64, y: f64) -> f64 {
     (0..SCRATCHES)
         .map(|scratch| {

@@ -1,8 +1,8 @@
-//! Interacting asperities beside the full field of the same load: what each costs and finds.
+//! Cost and results of interacting asperities and of the full field under the same loads.
 //!
 //! `cargo run --release --example icha_cost [POINTS]`: a self-affine surface of POINTS x POINTS
 //! (default 1024), Hurst exponent 0.8, roll-off at a quarter of the side, 8 pixels across the
-//! shortest wave. Each load is solved from cold by both; processor seconds of all threads.
+//! shortest wave. Both solve each load without a previous state; CPU seconds of all threads.
 
 use std::error::Error;
 use std::path::Path;
@@ -47,7 +47,7 @@ fn main() -> Result<(), Box<dyn Error>> {
     let mut scene = Scene::parse(&scene, "icha_cost", Path::new("."), &[])?;
     let surface = Surface::build(&scene)?;
     let clock = Instant::now();
-    // Where the system does not tell processor time, time on the clock stands for it.
+    // If the system does not report CPU time, wall-clock time is used.
     let now = || cpu_seconds().unwrap_or_else(|| clock.elapsed().as_secs_f64());
     let before = now();
     let asperities = Icha::new(surface.grid, &surface.heights)?;

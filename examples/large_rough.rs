@@ -1,7 +1,7 @@
 //! A large rough surface pressed against a half-space, without adhesion, on the CPU.
 //!
-//! `cargo run --release --example large_rough [POINTS]`: a grid of POINTS x POINTS (default 4096) and
-//! one line on what it took. Self-affine, Hurst exponent 0.8, roll-off at a quarter of the side, 8
+//! `cargo run --release --example large_rough [POINTS]`: a grid of POINTS x POINTS (default 4096)
+//! and one line on its cost. Self-affine, Hurst exponent 0.8, roll-off at a quarter of the side, 8
 //! pixels across the shortest wave, rms slope 1; mean pressure 0.05 E* times the rms slope.
 
 use std::convert::Infallible;
@@ -17,7 +17,7 @@ use tabor::scene::Scene;
 use tabor::study::{FinishedStep, Observer, Setup, walk};
 use tabor::surface::Surface;
 
-/// Reports each tenth iteration on standard error.
+/// Prints every tenth iteration on standard error.
 struct Report;
 
 impl Observer for Report {

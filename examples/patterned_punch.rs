@@ -1,5 +1,5 @@
-//! Makes the heights of a punch with pillars, as a gecko's foot or its imitations have them: round
-//! flat caps on a square lattice, slightly domed, with rounded rims, of heights that differ a little.
+//! Makes the heights of a punch with pillars, like a gecko's foot: round caps on a square lattice,
+//! slightly domed, with rounded rims, of slightly different heights.
 //!
 //! ```text
 //! cargo run --release --example patterned_punch > examples/scenes/patterned_punch.txt
@@ -19,13 +19,13 @@ const CAP: f64 = 4.0;
 const RIM: f64 = 1.5;
 /// Depth of the valleys between the pillars, nm.
 const DEPTH: f64 = 3000.0;
-/// How much lower than its middle a cap is at its rim, nm.
+/// Height difference between the middle and the rim of a cap, nm.
 const DOME: f64 = 20.0;
 
-/// How much lower than the highest a pillar may be, nm: no two are made alike.
+/// Largest height difference between pillars, nm.
 const SCATTER: f64 = 1200.0;
 
-/// How much lower than the highest each pillar is, as a share of [`SCATTER`].
+/// Height of each pillar below the highest, as a share of [`SCATTER`].
 const SHORTER: [[f64; PILLARS]; PILLARS] = [
     [0.9, 0.2, 0.6, 1.0],
     [0.4, 0.0, 0.3, 0.7],
@@ -33,10 +33,10 @@ const SHORTER: [[f64; PILLARS]; PILLARS] = [
     [0.6, 0.9, 0.2, 0.7],
 ];
 
-/// Height (nm) over the caps' own at a distance (um) from the middle of a pillar.
+/// Height (nm) relative to the cap's at a distance (um) from the middle of a pillar.
 fn pillar(distance: f64) -> f64 {
     let dome = -DOME * (distance / CAP).powi(2).min(1.0);
-    // A quarter of a sine from the cap down to the valley, steep in its middle.
+    // A quarter of a sine from the cap down to the valley.
     let rim = ((distance - CAP) / RIM).clamp(0.0, 1.0);
     dome - (DEPTH - DOME) * (1.0 - (std::f64::consts::PI * rim).cos()) / 2.0
 }
@@ -44,7 +44,7 @@ fn pillar(distance: f64) -> f64 {
 fn main() {
     let pixel = SIZE / POINTS as f64;
     let pitch = SIZE / PILLARS as f64;
-    // From the middle of the nearest pillar; the points are the middles of their pixels.
+    // From the middle of the nearest pillar; points are at the middles of their pixels.
     let offset = |index: usize| {
         let place = (index as f64 + 0.5) * pixel;
         (place % pitch) - 0.5 * pitch

@@ -1,4 +1,4 @@
-//! A rough contact as a picture of its pressure.
+//! Draws the pressure of a rough contact.
 //!
 //! `cargo run --release --example pressure_picture [FILE]` presses a self-affine surface against a
 //! half-space and writes the pressure field as a PNG (default `pressure.png`), with colour bar,
@@ -44,7 +44,7 @@ impl Observer for Draw<'_> {
     type Error = OutputError;
 
     fn step(&mut self, step: FinishedStep) -> Result<(), OutputError> {
-        // Surfaces that are apart have no field to draw.
+        // Separated surfaces have no field to draw.
         let Some(fields) = step.evaluation else {
             return Ok(());
         };

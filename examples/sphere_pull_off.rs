@@ -1,4 +1,4 @@
-//! A sphere that jumps into contact, is pressed on and pulled off again: the force-distance loop.
+//! A sphere jumps into contact, is pressed on and pulled off: the force-distance loop.
 //!
 //! `cargo run --release --example sphere_pull_off > loop.csv` solves `examples/scenes/sphere_pull_off.toml`
 //! and prints the loop as CSV on standard output, step by step, and the pull-off force in units of

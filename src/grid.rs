@@ -1,9 +1,9 @@
 //! The grid: points, sizes, wavevectors, and the order in which fields are stored.
 //!
-//! A field is row-major with shape `[ny, nx]`: point (ix, iy) is element `iy * nx + ix`, lies at
-//! `x = ix dx`, `y = iy dy`, and stands for the pixel around it. A half-plane spectrum keeps the
-//! wavevectors `kx = 0 ..= nx/2` and all of `ky`; the forward transform is unscaled and the
-//! inverse divides by the number of points.
+//! A field is row-major with shape `[ny, nx]`: point (ix, iy) is element `iy * nx + ix`, lies at `x
+//! = ix dx`, `y = iy dy`, and represents the pixel around it. A half-plane spectrum has the
+//! wavevectors `kx = 0 ..= nx/2` and all of `ky`; the forward transform is unscaled and the inverse
+//! divides by the number of points.
 
 use std::f64::consts::PI;
 
@@ -99,7 +99,7 @@ impl Grid {
     }
 }
 
-/// Index of a discrete frequency with its sign: `k` for `k <= n/2`, `k - n` above.
+/// Signed index of a discrete frequency: `k` for `k <= n/2`, `k - n` above.
 pub fn signed_index(k: usize, n: usize) -> i64 {
     if k <= n / 2 {
         k as i64

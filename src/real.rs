@@ -1,23 +1,22 @@
-//! The two kinds of number that a solve may run in.
+//! The floating-point types of fields: single and double precision.
 
 use rustfft::FftNum;
 use rustfft::num_traits::{Float, NumAssign};
 
-/// A floating-point number that fields may hold: `f64`, or `f32` beside a graphics processor.
+/// A floating-point type of fields: `f64` or `f32`.
 pub trait Real: FftNum + Float + NumAssign + Default + Send + Sync + 'static {
     /// Rounds a double to this type.
     fn of(value: f64) -> Self;
-    /// This number as a double.
+    /// Converts to double.
     fn double(self) -> f64;
     /// Relative rounding error of this type.
     const EPSILON: f64;
-    /// The lesser of two, by the one comparison that a processor has an instruction for; this one where
-    /// either is no number.
+    /// The lesser of two numbers, as a single processor instruction; `self` if either is NaN.
     #[inline(always)]
     fn least(self, other: Self) -> Self {
         if other < self { other } else { self }
     }
-    /// The greater of two; this one where either is no number.
+    /// The greater of two numbers; `self` if either is NaN.
     #[inline(always)]
     fn most(self, other: Self) -> Self {
         if other > self { other } else { self }

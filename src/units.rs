@@ -1,7 +1,7 @@
-//! Dimensional values: text with a unit in, SI out, and back for people to read.
+//! Dimensional values: reads text with a unit into SI, and formats SI values for people.
 //!
-//! This is the one place that knows unit names. A scene gives `25e-6` or `"25 um"`; a curve's head
-//! gives `[nN]`; messages and pictures say `25 µm`.
+//! The only place that knows unit names. A scene has `25e-6` or `"25 um"`; the header of a force
+//! curve has `[nN]`; messages and pictures show `25 µm`.
 //!
 //! ```
 //! use tabor::units::{Dimension, format_si, parse_quantity};
@@ -15,7 +15,7 @@ use std::fmt;
 
 use thiserror::Error;
 
-/// What a value measures, and with it the units that may be written.
+/// The dimension of a value, which determines its units.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub enum Dimension {
     /// A pure number, without a unit.
@@ -42,9 +42,9 @@ pub enum Dimension {
     MolarVolume,
     /// m/s.
     Speed,
-    /// W/(m K); of an electric one only the number is read, in S/m.
+    /// W/(m K); an electrical conductivity is given as a bare number in S/m.
     Conductivity,
-    /// m^3/(N m), which is 1/Pa: the volume worn off for each load and length of sliding.
+    /// m^3/(N m), which is 1/Pa: the volume worn off per load and length of sliding.
     SpecificWear,
     /// 1/m: a curvature, a wave number.
     PerLength,
@@ -55,7 +55,7 @@ pub enum Dimension {
 }
 
 impl Dimension {
-    /// The SI unit, as it is written in messages; empty for a pure number.
+    /// The SI unit in messages; empty for a pure number.
     pub fn unit(self) -> &'static str {
         match self {
             Dimension::Dimensionless => "",
@@ -78,7 +78,7 @@ impl Dimension {
         }
     }
 
-    /// What a value of this dimension is, with its units: `a length in m`.
+    /// The dimension with its units, for messages: `a length in m`.
     pub fn words(self) -> &'static str {
         match self {
             Dimension::Dimensionless => "a number without a unit",
@@ -101,7 +101,7 @@ impl Dimension {
         }
     }
 
-    /// A value as it may be written, for messages.
+    /// An example value for messages.
     pub fn example(self) -> &'static str {
         match self {
             Dimension::Dimensionless => "0.5",
@@ -124,7 +124,7 @@ impl Dimension {
         }
     }
 
-    /// Whether values of the two dimensions may stand for each other.
+    /// Whether values of the two dimensions are interchangeable.
     pub fn is_same_as(self, other: Dimension) -> bool {
         let canonical = |dimension| match dimension {
             Dimension::ForcePerLength => Dimension::EnergyPerArea,
@@ -140,7 +140,7 @@ impl fmt::Display for Dimension {
     }
 }
 
-/// Why a text is not a value of the dimension asked for.
+/// Why a text is not a value of the required dimension.
 #[derive(Clone, Debug, PartialEq, Error)]
 pub enum UnitError {
     /// The text does not begin with a number.
@@ -159,7 +159,7 @@ pub enum UnitError {
         /// What was expected.
         expected: Dimension,
     },
-    /// A number without its unit.
+    /// A number without a unit.
     #[error(
         "{text} has no unit; give {expected}, such as {}, or a bare number in {}",
         expected.example(),
@@ -171,7 +171,7 @@ pub enum UnitError {
         /// What was expected.
         expected: Dimension,
     },
-    /// A unit that does not exist here.
+    /// An unknown unit.
     #[error("{unit} is not a unit that is known here; give {expected}, such as {}", expected.example())]
     UnknownUnit {
         /// The unit, quoted.
@@ -199,7 +199,7 @@ pub enum UnitError {
     },
 }
 
-/// The unit of a number that is written without one.
+/// The unit of a number written without one.
 fn bare_unit(dimension: Dimension) -> &'static str {
     match dimension {
         Dimension::Angle => "degrees",
@@ -207,22 +207,22 @@ fn bare_unit(dimension: Dimension) -> &'static str {
     }
 }
 
-/// Least and largest magnitude of a number other than 0, in SI units: far beyond anything that two
-/// surfaces do, and such that products of several of them are numbers still. Scenes, files and the
-/// command line keep to it.
-const SANE: [f64; 2] = [1e-30, 1e30];
+/// Least and largest magnitude of a nonzero number in SI units: far beyond any contact problem, and
+/// such that products of several of them do not overflow. Scenes, files and the command line use
+/// it.
+const RANGE: [f64; 2] = [1e-30, 1e30];
 /// The larger of the two.
-pub(crate) const LARGEST: f64 = SANE[1];
-/// [`SANE`] in words.
-pub(crate) const SANE_WORDS: &str =
+pub(crate) const LARGEST: f64 = RANGE[1];
+/// [`RANGE`] in words.
+pub(crate) const RANGE_WORDS: &str =
     "0 or between 1e-30 and 1e30 in SI units; check the powers of ten";
 
 /// Whether a number has a magnitude that one can compute with.
-pub(crate) fn is_sane(value: f64) -> bool {
-    value == 0.0 || (SANE[0]..=SANE[1]).contains(&value.abs())
+pub(crate) fn in_range(value: f64) -> bool {
+    value == 0.0 || (RANGE[0]..=RANGE[1]).contains(&value.abs())
 }
 
-/// Text in quotes for a message: one line, cut where it would flood it.
+/// Text in quotes for a message: one line, cut to a readable length.
 pub(crate) fn quoted(text: &str) -> String {
     const LONGEST: usize = 60;
     if text.chars().count() > LONGEST {
@@ -233,7 +233,7 @@ pub(crate) fn quoted(text: &str) -> String {
     }
 }
 
-/// A sentence from elsewhere for a message, cut where it would flood it.
+/// A sentence from elsewhere for a message, cut to a readable length.
 pub(crate) fn cut(text: &str) -> String {
     const LONGEST: usize = 200;
     match text.char_indices().nth(LONGEST) {
@@ -242,8 +242,8 @@ pub(crate) fn cut(text: &str) -> String {
     }
 }
 
-/// How a unit relates to SI: a power of ten, kept apart so that `25 um` is exactly `25e-6`, and a
-/// factor for the few units that are no power of ten.
+/// The relation of a unit to SI: a power of ten, kept separately so that `25 um` is exactly
+/// `25e-6`, and a factor for the few units that are not powers of ten.
 #[derive(Clone, Copy, Debug, PartialEq)]
 struct Unit {
     power: i32,
@@ -267,7 +267,7 @@ const PREFIXED: &[(&str, Dimension)] = &[
     ("W/m/K", Dimension::Conductivity),
 ];
 
-/// Units that stand alone, with their size in SI: a power of ten and a factor.
+/// Units without prefixes, with their size in SI: a power of ten and a factor.
 const PLAIN: &[(&str, Dimension, i32, f64)] = &[
     ("min", Dimension::Time, 0, 60.0),
     ("K", Dimension::Temperature, 0, 1.0),
@@ -283,7 +283,7 @@ const PLAIN: &[(&str, Dimension, i32, f64)] = &[
     ("rad", Dimension::Angle, 0, 1.0),
 ];
 
-/// Prefixes with their power of ten; both code points of the Greek letter are in use.
+/// Prefixes with their powers of ten; both code points of the Greek letter are in use.
 const PREFIXES: &[(char, i32)] = &[
     ('f', -15),
     ('p', -12),
@@ -342,7 +342,7 @@ fn find_unit(name: &str) -> Option<Unit> {
 }
 
 fn expect_unit(name: &str, expected: Dimension) -> Result<Unit, UnitError> {
-    // "J / m^2" is the same unit; a space elsewhere is not, or "m m" would be a millimetre.
+    // "J / m^2" is the same unit; other spaces are not accepted, or "m m" would be a millimetre.
     let tight = name.split('/').map(str::trim).collect::<Vec<_>>().join("/");
     let unit = find_unit(&tight).ok_or_else(|| UnitError::UnknownUnit {
         unit: quoted(name),
@@ -370,12 +370,11 @@ pub fn unit_factor(name: &str, expected: Dimension) -> Result<f64, UnitError> {
 
 /// SI value of a text such as `25 um` or `0.2J/m²`; the space before the unit is optional.
 ///
-/// The value is the double nearest to the decimal meant: `25 um` is `25e-6` to the last bit. A
-/// pure number must stand without a unit, every other dimension needs one. Angles come in radians.
+/// The value is the double nearest to the written decimal: `25 um` is `25e-6` to the last bit. A
+/// pure number has no unit, every other dimension requires one. Angles are returned in radians.
 ///
-/// # Errors
-/// [`UnitError`] naming the unit that was expected: without a number or a unit, with an unknown
-/// unit or one of another dimension, or with a number beyond the largest double.
+/// [`UnitError`] with the expected unit: a missing number or unit, an unknown unit or one of
+/// another dimension, or a number beyond the largest double.
 pub fn parse_quantity(text: &str, expected: Dimension) -> Result<f64, UnitError> {
     let trimmed = text.trim();
     let quoted_text = || quoted(text);
@@ -442,7 +441,8 @@ fn scale(digits: &str, exponent: i32, unit: Unit) -> f64 {
     }
 }
 
-/// Digits with sign and point, power of ten, and what follows, or `None` without a number in front.
+/// Digits with sign and point, power of ten, and the rest of the text; `None` if it does not begin
+/// with a number.
 fn split_number(text: &str) -> Option<(&str, i32, &str)> {
     let bytes = text.as_bytes();
     let digits_from = |mut at: usize| {
@@ -469,7 +469,7 @@ fn split_number(text: &str) -> Option<(&str, i32, &str)> {
         let (after, count) = digits_from(end + 1 + signed);
         if count > 0 {
             let written = &text[end + 1..after];
-            // An exponent past i32 is as good as the largest one: infinite or zero.
+            // An exponent beyond i32 has the effect of the largest one: infinite or zero.
             let limit = if written.starts_with('-') {
                 i32::MIN / 2
             } else {
@@ -482,9 +482,9 @@ fn split_number(text: &str) -> Option<(&str, i32, &str)> {
     Some((digits, exponent, &text[end..]))
 }
 
-/// A value with an engineering prefix, at most four digits: `25 µm`, `1.33 TPa`, `200 mJ/m^2`.
+/// A value with an engineering prefix and at most four digits: `25 µm`, `1.33 TPa`, `200 mJ/m^2`.
 ///
-/// `unit` is an SI unit without a prefix; one that cannot take a prefix, such as `m^2` or `K`, and
+/// `unit` is an SI unit without a prefix. Units that take no prefix, such as `m^2` or `K`, and
 /// values beyond f and T are written with a power of ten. An empty unit gives a bare number.
 pub fn format_si(value: f64, unit: &str) -> String {
     let with_unit = |number: String, prefix: &str| {
@@ -504,7 +504,7 @@ pub fn format_si(value: f64, unit: &str) -> String {
             "",
         );
     }
-    // Rounding to four digits comes first, so that 999.96 becomes 1 k and not 1000.
+    // Round to four digits first, so that 999.96 becomes 1 k and not 1000.
     let rounded = format!("{value:.3e}");
     let (mantissa, exponent) = rounded.split_once('e').unwrap_or((&rounded, "0"));
     let exponent: i32 = exponent.parse().unwrap_or(0);
@@ -675,7 +675,7 @@ mod tests {
     }
 
     #[test]
-    fn units_stand_alone_too() {
+    fn units_without_numbers_are_parsed() {
         assert_eq!(unit_factor("nN", Force), Ok(1e-9));
         assert_eq!(unit_factor(" µm ", Length), Ok(1e-6));
         assert_eq!(unit_factor("min", Time), Ok(60.0));
@@ -684,7 +684,7 @@ mod tests {
     }
 
     #[test]
-    fn angles_are_degrees_unless_they_say_otherwise() {
+    fn bare_angles_are_degrees() {
         assert_eq!(angle_from_number(180.0), std::f64::consts::PI);
         assert_eq!(parse_angle("1 rad"), Ok(1.0));
         assert_eq!(parse_angle("90°"), parse_angle("90 deg"));
@@ -720,7 +720,7 @@ mod tests {
     }
 
     #[test]
-    fn what_is_written_can_be_read_back() {
+    fn formatted_values_can_be_parsed() {
         for exponent in -15..15 {
             let value = 1.234 * 10f64.powi(exponent);
             let text = format_si(value, "Pa");

@@ -1,4 +1,5 @@
-//! The studies of `docs/accuracy.md`: a sphere, a rough surface, one that sticks strongly, and one that creeps.
+//! The studies of `docs/accuracy.md`: a sphere, a rough surface, a strongly adhesive one, and one
+//! that creeps.
 //!
 //! `cargo run --release --example accuracy_study` runs `tabor accuracy` on the four scenes beside this
 //! file, in about eight minutes on two cores, and writes their tables (`docs/accuracy_NAME.csv`), their
@@ -61,7 +62,7 @@ fn main() -> Result<(), Box<dyn Error>> {
     Ok(())
 }
 
-/// What the command itself names: the reference, the cheapest settings and what it left out.
+/// Summary of the command: the reference, the cheapest settings and the skipped ones.
 fn named(said: &str) -> Result<String, String> {
     let reference = said.lines().find(|line| line.starts_with("reference: "));
     let reference = reference.ok_or("no reference is named")?;
@@ -77,7 +78,7 @@ fn named(said: &str) -> Result<String, String> {
     Ok(text)
 }
 
-/// The page with another part in place of a study's.
+/// The page with a study's part replaced.
 fn replaced(page: &str, name: &str, part: &str) -> Result<String, String> {
     let (begin, end) = (format!("<!-- {name} -->\n"), format!("<!-- /{name} -->"));
     let missing = || format!("docs/accuracy.md has no {begin}");

@@ -3,13 +3,13 @@
 use std::collections::BTreeMap;
 use std::fmt::Write;
 
-/// The studies of the page: names of their scenes, tables, pictures and parts of the page.
-pub const STUDIES: [&str; 4] = ["sphere", "rough", "sticky", "creep"];
+/// The studies: names of their scenes, tables, pictures and parts of the page.
+pub const STUDIES: [&str; 4] = ["sphere", "rough", "adhesive", "creep"];
 
 /// A row by the names of its columns.
 type Row = BTreeMap<String, String>;
 
-/// The errors that are judged, by column and by what they are called.
+/// The errors, by column and name.
 const ERRORS: [(&str, &str); 4] = [
     ("error_area", "area"),
     ("error_force", "force or gap"),
@@ -93,7 +93,7 @@ pub fn tables(table: &str) -> Result<String, String> {
     let rows = read(table)?;
     let of =
         |varied: &str| -> Vec<&Row> { rows.iter().filter(|row| row["varied"] == varied).collect() };
-    // What nothing was judged by has no column.
+    // Errors that were not measured have no column.
     let errors: Vec<(&str, &str)> = ERRORS
         .into_iter()
         .filter(|(column, _)| rows.iter().any(|row| number(row, column).is_some()))
@@ -119,9 +119,10 @@ pub fn tables(table: &str) -> Result<String, String> {
             line
         })
         .collect();
-    let first: &[&str] = match adhesive {
-        true => &["points a side", "seconds", "chi", "pixels across the zone"],
-        false => &["points a side", "seconds"],
+    let first: &[&str] = if adhesive {
+        &["points a side", "seconds", "chi", "pixels across the zone"]
+    } else {
+        &["points a side", "seconds"]
     };
     text.push_str(&markdown(&head(first, &errors), &lines));
     let orders: Vec<String> = errors
@@ -243,7 +244,7 @@ pub fn tables(table: &str) -> Result<String, String> {
     Ok(text)
 }
 
-/// Counted steps and those of `steps = "auto"` on the finest grid.
+/// Numbered steps and those of `steps = "auto"` on the finest grid.
 fn in_time(rows: &[&Row], errors: &[(&str, &str)]) -> String {
     let points = |row: &Row| number(row, "points").unwrap_or(0.0);
     let most = rows.iter().map(|row| points(row)).fold(0.0, f64::max);
@@ -298,7 +299,7 @@ fn finest<'a>(rows: &[&'a Row]) -> Vec<&'a Row> {
     found
 }
 
-/// Each arithmetic and tolerance, with its largest change over the grids and that on the finest.
+/// Each precision and tolerance, with its largest change over the grids and that on the finest.
 fn floors(rows: &[Row]) -> Vec<Vec<String>> {
     let mut groups: BTreeMap<[String; 3], Vec<(f64, f64)>> = BTreeMap::new();
     for row in rows {
@@ -316,9 +317,10 @@ fn floors(rows: &[Row]) -> Vec<Vec<String>> {
         let (Some(first), Some(last)) = (changes.first(), changes.last()) else {
             continue;
         };
-        let grids = match first.0 == last.0 {
-            true => first.0.to_string(),
-            false => format!("{} to {}", first.0, last.0),
+        let grids = if first.0 == last.0 {
+            first.0.to_string()
+        } else {
+            format!("{} to {}", first.0, last.0)
         };
         let largest = changes.iter().map(|change| change.1).fold(0.0, f64::max);
         let mut line = key.to_vec();
@@ -328,7 +330,7 @@ fn floors(rows: &[Row]) -> Vec<Vec<String>> {
     lines
 }
 
-/// Slope of the logarithms of error and pixel over all grids, by least squares.
+/// Least-squares slope of the logarithms of error against pixel size over all grids.
 fn order(own: &[&Row], column: &str) -> Option<f64> {
     let points: Vec<(f64, f64)> = own
         .iter()

@@ -1,4 +1,4 @@
-//! The study's claims T1 to T8 beside what is found here: the table of `docs/dmt_study.md`.
+//! The study's claims T1 to T8 with the results here: the table of `docs/dmt_study.md`.
 
 use std::error::Error;
 use std::fmt::Write as _;
@@ -11,19 +11,19 @@ use tabor::theory::persson::Persson;
 use super::rows::{self, Case, MODULUS, RANGE, Row, WORK};
 use super::sphere_claims;
 
-/// A claim with its numbers, and what is found.
+/// A claim with its numbers and the result here.
 pub struct Claim {
     /// T1 to T8, a letter for a part of one.
     pub name: &'static str,
-    /// As the study has it.
+    /// The claim in the study.
     pub claim: &'static str,
-    /// The same numbers from here.
+    /// The result here.
     pub found: String,
     /// Whether they agree.
     pub holds: bool,
 }
 
-/// What is found in words, and whether it is as claimed.
+/// The result in words, and whether it agrees with the claim.
 pub type Found = Result<(String, bool), Box<dyn Error>>;
 
 /// All of them, in order.
@@ -62,7 +62,7 @@ pub fn claims(table: &[Row]) -> Result<Vec<Claim>, Box<dyn Error>> {
         (
             "T3d",
             "with adhesion 13.6 % in contact at no load; GW-M off by -27 % without and +13 % with adhesion at 0.02 E* h', pull-off 3.5 times too small",
-            sticky_area(),
+            adhesive_area(),
         ),
         (
             "T4",
@@ -197,7 +197,7 @@ pub fn area_at(hurst: f64, ratio: usize, load: f64) -> Result<f64, Box<dyn Error
     Ok(contact.area_fraction(repulsive)?)
 }
 
-fn sticky_area() -> Found {
+fn adhesive_area() -> Found {
     let contact = rows::persson(0.8, 32)?;
     let unit = MODULUS * contact.spectrum().rms_slope();
     let gw = |work| -> Result<f64, Box<dyn Error>> {
@@ -207,25 +207,25 @@ fn sticky_area() -> Found {
     };
     let area = area_at(0.8, 32, 0.0)?;
     let hard = gw(0.0)? / Persson::new(rows::GAMMA)?.area_fraction(0.02)? - 1.0;
-    let sticky = gw(WORK)? / area_at(0.8, 32, 0.02)? - 1.0;
+    let adhesive = gw(WORK)? / area_at(0.8, 32, 0.02)? - 1.0;
     let [persson, _, summits] = pull_offs(0.8, 32)?;
     let times = persson / summits;
     let holds = (area - 0.136).abs() < 1e-3
         && (hard + 0.27).abs() < 0.01
-        && (sticky - 0.13).abs() < 0.01
+        && (adhesive - 0.13).abs() < 0.01
         && (times - 3.5).abs() < 0.05;
     Ok((
         format!(
             "{:.1} %; {:+.0} %, {:+.0} %, {times:.1} times",
             100.0 * area,
             100.0 * hard,
-            100.0 * sticky
+            100.0 * adhesive
         ),
         holds,
     ))
 }
 
-/// Areas against those of the claim, to the 0.3 % that the source of the numbers states.
+/// Areas compared with those of the claim, to the 0.3 % that the source of the numbers states.
 fn areas(cases: &[(f64, usize, f64)]) -> Result<(Vec<f64>, bool), Box<dyn Error>> {
     let (mut found, mut near) = (Vec::new(), true);
     for (hurst, ratio, asked) in cases {
@@ -291,7 +291,7 @@ fn pull_off_changes() -> Found {
     ))
 }
 
-/// How far a model's pull-off, the mean over its seeds, lies above Persson's, by surface: H, N, share.
+/// Excess of a model's pull-off (mean over its seeds) over Persson's, by surface: H, N, share.
 pub fn shares_above(table: &[Row], model: &str) -> Vec<(f64, usize, f64)> {
     let mut shares = Vec::new();
     for hurst in [0.8, 0.6, 0.4] {
@@ -350,8 +350,9 @@ fn summits_alone() -> Found {
     ))
 }
 
-/// Largest relative difference in mean gap between the ways in and out of the field with attraction, on a
-/// surface of N = 16 with 128 x 128 points; the area is the same to the last point or it is infinite.
+/// Largest relative difference in mean gap between loading and unloading of the field with
+/// attraction, on a surface of N = 16 with 128 x 128 points; infinite if the areas differ by a
+/// point.
 fn loop_difference() -> Result<f64, Box<dyn Error>> {
     let side = 2.0 * std::f64::consts::PI / rows::SMALLEST;
     let text = format!(
@@ -384,7 +385,7 @@ fn loop_difference() -> Result<f64, Box<dyn Error>> {
 }
 
 fn hysteresis() -> Found {
-    // Both ways were met to 1e-6 of the net load.
+    // Loading and unloading were solved to 1e-6 of the net load.
     let holds = loop_difference()? < 1e-4;
     Ok((
         format!(

@@ -1,4 +1,4 @@
-//! What the study's table shows: pictures, and how far each model misses the full field.
+//! Pictures of the study's table, and the differences of each model from the full field.
 
 use std::error::Error;
 use std::f64::consts::PI;
@@ -12,11 +12,11 @@ use tabor::theory::{Law, bradley, derjaguin, jkr};
 
 use crate::rows::{self, RANGE, Row, WORK};
 
-/// Tabor number of the sphere in the right figure.
+/// Tabor number of the sphere in the right-hand figure.
 const TABOR: f64 = 0.2;
 const MODELS: [&str; 5] = ["field", "icha", "icha-displaced", "persson", "gw-m"];
 
-/// Rows of one model on one surface, by rising load.
+/// Rows of one model on one surface, by increasing load.
 pub fn of<'a>(table: &'a [Row], model: &str, hurst: f64, ratio: usize, seed: u64) -> Vec<&'a Row> {
     let is = |row: &&Row| {
         row.model == model
@@ -43,7 +43,7 @@ fn point(x: f64, y: f64) -> PlotPoint {
     }
 }
 
-/// The mean over seeds of a number of a model's rows; nothing where there are none.
+/// The mean over seeds of a number of a model's rows; `None` without rows.
 fn over_seeds(
     table: &[Row],
     model: &str,
@@ -65,8 +65,8 @@ fn over_seeds(
     (!found.is_empty()).then(|| found.iter().sum::<f64>() / found.len() as f64)
 }
 
-/// Each model over the full field: area without adhesion (least and greatest ratio over the loads up
-/// to 0.05 E* h'), and pull-off, means over seeds.
+/// Each model relative to the full field: area without adhesion (least and greatest ratio over the
+/// loads up to 0.05 E* h'), and pull-off, means over seeds.
 pub fn misses(table: &[Row]) -> String {
     let mut text = String::from(
         "| H | N | field pull-off eps/w | ICHA | ICHA displaced | Persson | GW-M | ICHA area | ICHA displaced area | Persson area | GW-M area |\n|---|---|---|---|---|---|---|---|---|---|---|\n",
@@ -102,9 +102,10 @@ pub fn misses(table: &[Row]) -> String {
                         most = most.max(found / judge - 1.0);
                     }
                 }
-                let _ = match least <= most {
-                    true => write!(text, " {:+.0} to {:+.0} % |", 100.0 * least, 100.0 * most),
-                    false => write!(text, " - |"),
+                let _ = if least <= most {
+                    write!(text, " {:+.0} to {:+.0} % |", 100.0 * least, 100.0 * most)
+                } else {
+                    write!(text, " - |")
                 };
             }
             text.push('\n');
@@ -121,20 +122,20 @@ pub fn draw(table: &[Row], folder: &Path) -> Result<(), Box<dyn Error>> {
     Ok(())
 }
 
-/// Area against net load, first seed: H = 0.8 with the largest N there is, and H = 0.4.
+/// Area against net load, first seed: H = 0.8 with the largest available N, and H = 0.4.
 fn area_load(table: &[Row]) -> Figure {
     let largest = table.iter().map(|row| row.case.ratio).max().unwrap_or(16);
     let mut panels = Vec::new();
     let mut shown = vec![(0.8, 16), (0.8, largest), (0.4, largest)];
     shown.dedup();
     for (hurst, ratio) in shown {
-        for sticky in [false, true] {
+        for adhesive in [false, true] {
             let curve = |(name, model): (usize, &&str)| Series {
                 name,
                 points: of(table, model, hurst, ratio, u64::from(name < 3))
                     .iter()
                     .map(|row| {
-                        let attraction = if sticky { row.attraction } else { 0.0 };
+                        let attraction = if adhesive { row.attraction } else { 0.0 };
                         PlotPoint {
                             x: row.repulsive - attraction,
                             y: row.area,
@@ -145,7 +146,7 @@ fn area_load(table: &[Row]) -> Figure {
                 line: true,
                 marks: true,
             };
-            let adhesion = if sticky { "0.2 J/m²" } else { "no adhesion" };
+            let adhesion = if adhesive { "0.2 J/m²" } else { "no adhesion" };
             panels.push(Panel {
                 title: format!("contact area, H = {hurst}, N = {ratio}, {adhesion}"),
                 x: axis("net mean pressure / (E* h')", "", false),
@@ -200,7 +201,8 @@ fn pull_off(table: &[Row]) -> Result<Figure, Box<dyn Error>> {
     })
 }
 
-/// The two figures of a sphere: attraction by contact radius, and force by approach at Tabor 0.2.
+/// The two figures of a sphere: attraction against contact radius, and force against approach at
+/// Tabor number 0.2.
 fn spheres() -> Result<Figure, Box<dyn Error>> {
     let names = [
         "Derjaguin",
@@ -218,7 +220,7 @@ fn spheres() -> Result<Figure, Box<dyn Error>> {
         line: true,
         marks: false,
     };
-    // The law matters where a method sums it over the gap; DMT-T is by definition of the cubic one.
+    // The law matters if a method sums it over the gap; DMT-T is defined for the cubic law.
     let methods = [
         (1, Method::Thermodynamic, Law::Cubic),
         (2, Method::Thermodynamic, Law::LennardJones),
@@ -243,7 +245,8 @@ fn spheres() -> Result<Figure, Box<dyn Error>> {
     }
     for i in 0..=100 {
         let radius = jkr::grip() + 0.03 * f64::from(i);
-        // Maugis' unit of approach is (9 pi^2/16)^(1/3) mu ranges, his of force half of 2 pi w R.
+        // Maugis' unit of approach is (9 pi^2/16)^(1/3) mu ranges, his unit of force half of 2 pi w
+        // R.
         let approach = (9.0 * PI * PI / 16.0).cbrt() * TABOR * jkr::reduced_approach(radius);
         if approach <= 2.5 {
             force[5].push(point(approach, 0.5 * jkr::reduced_force(radius)));

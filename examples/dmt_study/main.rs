@@ -3,8 +3,9 @@
 //! `cargo run --release --example dmt_study [LARGEST]` runs the surfaces of Hurst exponent 0.4, 0.6, 0.8 and
 //! N = 16, 32, 64 (up to LARGEST, default 64) with three seeds each, writes `docs/dmt_study.csv` row by row,
 //! then the pictures `docs/pictures/dmt_study_*.png` and the docs' two tables, of misses and of claims, on standard output.
-//! `dmt_study asperities` computes the rows of the interacting asperities again and keeps the others of
-//! the table that is there, `dmt_study missing` only those that are missing of them; `dmt_study draw` only draws from it; `dmt_study boxes` asks wider boxes.
+//! `dmt_study asperities` recomputes the rows of the interacting asperities and keeps the others,
+//! `dmt_study missing` computes only missing ones of them, `dmt_study draw` only draws the table,
+//! `dmt_study boxes` solves wider boxes.
 
 mod claims;
 mod figures;
@@ -58,8 +59,8 @@ fn run(largest: usize) -> Result<(), Box<dyn Error>> {
     Ok(())
 }
 
-/// The rows of asperities anew, after those of the field of the same surface; all others as they are.
-/// Rows of asperities that are there stay too where only `missing` ones are asked for.
+/// Recomputes the rows of asperities after those of the field of the same surface and keeps all
+/// others. With `missing` existing rows of asperities stay too.
 fn run_asperities(missing: bool) -> Result<(), Box<dyn Error>> {
     let text = std::fs::read_to_string(TABLE)?;
     let kept: Vec<Row> = rows::read(&text)?
@@ -84,8 +85,9 @@ fn run_asperities(missing: bool) -> Result<(), Box<dyn Error>> {
     Ok(())
 }
 
-/// Pull-off of the field in boxes once and twice as wide, H = 0.4 and N = 16, as a table on standard output,
-/// and Persson's with the waves that fit the box and with those of a plane without end.
+/// Pull-off of the field in boxes of single and double width, H = 0.4 and N = 16, as a table on
+/// standard output, and Persson's with the waves that fit the box and with those of an infinite
+/// plane.
 fn run_boxes() -> Result<(), Box<dyn Error>> {
     println!("| box | seed | pull-off eps/w |\n|---|---|---|");
     let (hurst, ratio) = (0.4, 16);
@@ -99,7 +101,7 @@ fn run_boxes() -> Result<(), Box<dyn Error>> {
             println!("| {times} | {seed} | {share:.4} |");
         }
     }
-    // Waves on a lattice of spacing q stand for all from q/sqrt(pi) on.
+    // Waves on a lattice of spacing q represent all from q/sqrt(pi) on.
     for smallest in [1.0, 1.0 / std::f64::consts::PI.sqrt()] {
         let share = rows::persson_from(smallest * rows::SMALLEST, hurst, ratio)?
             .pull_off(&rows::ADHESION)?

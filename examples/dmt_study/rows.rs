@@ -1,4 +1,4 @@
-//! One surface of the study through each model, and the table of all of them.
+//! One surface of the study through each model, and the table of all results.
 //!
 //! Reduced units: pressures in `E* h'` with the surface's own rms slope, gaps in rms heights.
 
@@ -50,13 +50,13 @@ pub struct Case {
     pub seed: u64,
 }
 
-/// What a model says under one repulsive pressure.
+/// Results of a model under one repulsive pressure.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Row {
     /// The surface.
     pub case: Case,
-    /// `field`, `icha`, `icha-displaced`, `persson` or `gw-m`; the last two do not know the seed, and
-    /// say 0.
+    /// `field`, `icha`, `icha-displaced`, `persson` or `gw-m`; the last two do not depend on the
+    /// seed, which is 0.
     pub model: String,
     /// Repulsive mean pressure, in E* h'.
     pub repulsive: f64,
@@ -76,7 +76,8 @@ pub struct Sample {
 }
 
 impl Sample {
-    /// Root mean square slope of the surfaces of all seeds: sums over their waves do not know phases.
+    /// Root mean square slope of the surfaces of all seeds: sums over their waves do not depend on
+    /// phases.
     pub fn slope(hurst: f64, ratio: usize) -> Result<f64, Box<dyn Error>> {
         let side = 2.0 * PI / SMALLEST;
         let scene = SelfAffineScene {
@@ -96,7 +97,7 @@ impl Sample {
         Sample::in_box(case, 1)
     }
 
-    /// The same waves in a box that is some times as wide.
+    /// The same waves in a box wider by `times`.
     pub fn in_box(case: Case, times: usize) -> Result<Sample, Box<dyn Error>> {
         let side = 2.0 * PI / SMALLEST;
         let width = times as f64 * side;
@@ -166,13 +167,13 @@ pub fn field_rows(case: Case, sample: &Sample) -> Result<Vec<Row>, Box<dyn Error
     Ok(rows.collect())
 }
 
-/// What interacting asperities keep as they merge, and the name of the model in the table.
+/// What interacting asperities conserve as they merge, with the model's name in the table.
 pub const ICHA: [(&str, MergeRule); 2] = [
     ("icha", MergeRule::Volume),
     ("icha-displaced", MergeRule::DisplacedVolume),
 ];
 
-/// Interacting asperities on the same heights, up to the first load that they do not carry.
+/// Interacting asperities on the same heights, up to the first load that they cannot carry.
 pub fn icha_rows(case: Case, sample: &Sample) -> Result<Vec<Row>, Box<dyn Error>> {
     let surface = Icha::new(sample.setup.surface.grid, &sample.setup.surface.heights)?;
     let law = law();
@@ -201,7 +202,7 @@ pub fn icha_rows(case: Case, sample: &Sample) -> Result<Vec<Row>, Box<dyn Error>
     Ok(rows)
 }
 
-/// The spectrum of a surface of the study, as if it had no end.
+/// The spectrum of a surface of the study, without finite-size effects.
 pub fn spectrum(hurst: f64, ratio: usize) -> Result<Spectrum, Box<dyn Error>> {
     let rolloff = 4.0 * SMALLEST;
     let wavenumbers = [SMALLEST, rolloff, ratio as f64 * rolloff];
@@ -239,7 +240,7 @@ pub const ADHESION: Adhesion = Adhesion {
     range: RANGE,
 };
 
-/// Persson's theory and GW-M, which know the spectrum only.
+/// Persson's theory and GW-M, which depend on the spectrum only.
 pub fn theory_rows(hurst: f64, ratio: usize) -> Result<Vec<Row>, Box<dyn Error>> {
     let case = Case {
         hurst,
@@ -250,7 +251,7 @@ pub fn theory_rows(hurst: f64, ratio: usize) -> Result<Vec<Row>, Box<dyn Error>>
     let spectrum = *contact.spectrum();
     let unit = MODULUS * spectrum.rms_slope();
     let hard = summits(&spectrum, 0.0)?;
-    let sticky = summits(&spectrum, WORK)?;
+    let adhesive = summits(&spectrum, WORK)?;
     let mut rows = Vec::new();
     for load in loads() {
         rows.push(Row {
@@ -264,7 +265,7 @@ pub fn theory_rows(hurst: f64, ratio: usize) -> Result<Vec<Row>, Box<dyn Error>>
     }
     for load in loads() {
         let separation = gw_m::separation(&hard, load * unit)?;
-        let attraction = load * unit - gw_m::pressure(&sticky, separation)?;
+        let attraction = load * unit - gw_m::pressure(&adhesive, separation)?;
         rows.push(Row {
             case,
             model: "gw-m".into(),
@@ -277,8 +278,8 @@ pub fn theory_rows(hurst: f64, ratio: usize) -> Result<Vec<Row>, Box<dyn Error>>
     Ok(rows)
 }
 
-/// The greatest net tension of a model's rows, in E* h': the crest of the parabola in the logarithm
-/// of the load through the largest sample and its neighbours.
+/// The greatest net tension of a model's rows, in E* h': the maximum of the parabola in the
+/// logarithm of the load through the largest sample and its neighbours.
 pub fn pull_off(rows: &[&Row]) -> f64 {
     let tension = |i: usize| rows[i].attraction - rows[i].repulsive;
     let Some(best) = (0..rows.len()).max_by(|&i, &j| tension(i).total_cmp(&tension(j))) else {

@@ -6,7 +6,7 @@ use tabor::theory::{Law, bradley, derjaguin};
 
 use super::claims::Found;
 
-/// T1: what each DMT theory attracts with.
+/// T1: attraction of each DMT theory.
 pub fn one_sphere() -> Found {
     let at = |method, law, radius: f64| dmt::attraction(method, law, radius);
     let (mut apart, mut falls) = (0.0_f64, true);
@@ -34,7 +34,7 @@ pub fn one_sphere() -> Found {
 
 const TABOR: f64 = 0.2;
 
-/// T2: the order of the forces, and how far each is from the self-consistent sphere.
+/// T2: the order of the forces, and their differences from the self-consistent sphere.
 pub fn pressed_sphere() -> Found {
     let sphere = LennardJonesSphere::new(TABOR, 2.0)?;
     let mut ordered = true;

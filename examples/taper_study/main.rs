@@ -1,9 +1,10 @@
-//! How wide the taper of Maugis-Dugdale must be: the table of `docs/solver.md`.
+//! Compares widths of the Maugis-Dugdale taper: the table of `docs/solver.md`.
 //!
-//! `cargo run --release --example taper_study` solves waves whose contact edges lie along, across and oblique to the
-//! grid, spheres and a rough surface with tapers of 2 to 8 `sigma0 dx/E*` (no wider than twice the range, or,
-//! for comparison, than the range), compares them with closed forms, and prints the table: some minutes on two
-//! cores, a case on each. With words behind `--` (`strip`, `sphere`, `rough`) it prints only those parts.
+//! `cargo run --release --example taper_study` solves waves whose contact edges lie along, across
+//! and oblique to the grid, spheres and a rough surface with tapers of 2 to 8 `sigma0 dx/E*` (no
+//! wider than twice the range, or, for comparison, than the range), compares them with closed
+//! forms, and prints the table: some minutes on two cores, a case on each. With names behind `--`
+//! (`strip`, `sphere`, `rough`) it prints only those parts.
 
 mod rough;
 mod run;
@@ -46,14 +47,14 @@ const fn wide(width: f64, cap: f64) -> Taper {
     Taper { width, cap }
 }
 
-/// What a cell takes to be found.
+/// Computes a cell of the table.
 type Job = Box<dyn Fn() -> Result<String, Failure> + Send + Sync>;
 
 /// Rows of one kind.
 pub struct Part {
-    /// The word that asks for it.
+    /// Its name on the command line.
     pub name: &'static str,
-    /// What the numbers of a cell are.
+    /// Legend of the numbers in a cell.
     pub legend: &'static str,
     /// Name, chi, and the job of each taper.
     pub rows: Vec<(String, f64, Vec<Job>)>,

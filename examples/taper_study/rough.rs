@@ -1,4 +1,5 @@
-//! The surface of `examples/scenes/rough.toml`, against itself on a grid on which a narrow taper is free.
+//! The surface of `examples/scenes/rough.toml`, compared with itself on a grid on which a narrow
+//! taper does not trap the edge.
 
 use std::sync::{Arc, OnceLock};
 
@@ -21,7 +22,7 @@ const LEGEND: &str = "rough.toml, loaded to 4 MPa and pulled off: contact area a
 (staircase taken off), pull-off off by % (steps of 1.5 %), areas at 1 MPa on loading and unloading apart by %, transforms; \
 against 1024 points with a width of 2";
 
-/// What is compared.
+/// Compared quantities.
 #[derive(Clone, Copy)]
 struct Found {
     area: f64,

@@ -1,4 +1,4 @@
-//! A path through the library on one thread, ended where the surfaces part or another sign is given.
+//! Follows a path on one thread until the surfaces separate or a given condition holds.
 
 use std::convert::Infallible;
 use std::error::Error;
@@ -11,10 +11,10 @@ use tabor::scene::Scene;
 use tabor::study::{FinishedStep, Observer, Setup, StepRow, WalkEnd, walk};
 use tabor::surface::Surface;
 
-/// What goes wrong in a study.
+/// Errors of the study.
 pub type Failure = Box<dyn Error + Send + Sync>;
 
-/// Ends a path behind the first row of which `is_last` holds.
+/// Ends a path after the first row for which `is_last` holds.
 struct Until<F> {
     is_last: F,
     ended: bool,
@@ -33,7 +33,7 @@ impl<F: Fn(&StepRow) -> bool> Observer for Until<F> {
     }
 }
 
-/// Walks a scene on `heights`, or on its own heights if none are given, until `is_last`.
+/// Solves a scene on `heights`, or on its own heights if none are given, until `is_last`.
 pub fn solve(
     text: &str,
     heights: Option<&[f64]>,

@@ -54,7 +54,7 @@ impl Sphere {
         MaugisDugdale::new(self.lambda).expect("a lambda of the list")
     }
 
-    /// The cohesive zone at no load with a margin.
+    /// Side of the grid: the cohesive zone at zero load with a margin.
     fn side(&self) -> f64 {
         let zero = self.theory().states_at_force(0.0).ok();
         2.3 * zero
@@ -93,7 +93,7 @@ impl Sphere {
         let held = pulled.rows.iter().filter(|row| !apart(row));
         let held = held.map(|row| -row.force).fold(0.0, f64::max);
 
-        // In past the jump, on to beyond no load, and out until it lets go.
+        // In past the jump, further to compression, and out until it separates.
         let step = 0.02 * range;
         let first = -(range + 0.5 * taper) - 1.5 * step;
         let zero = theory.states_at_force(0.0)?;
@@ -135,7 +135,7 @@ impl Sphere {
                 .sum()
         };
         let lost = area(&looped.rows);
-        // Between the jump in and the fold the way in carries nothing.
+        // Between jump-in and the fold there is no force on loading.
         let closed: f64 = {
             let count = 400;
             let ways: Vec<_> = (0..=count)
@@ -146,9 +146,10 @@ impl Sphere {
                 .map(|pair| -0.5 * (pair[0].1 + pair[1].1) * (pair[1].0 - pair[0].0))
                 .sum()
         };
-        let hysteresis = match self.lambda > FOLD_LAMBDA && -range > least {
-            true => format!("{:.2}", lost / closed),
-            false => "-".to_owned(),
+        let hysteresis = if self.lambda > FOLD_LAMBDA && -range > least {
+            format!("{:.2}", lost / closed)
+        } else {
+            "-".to_owned()
         };
         Ok(format!(
             "{} {:.1} {:.2} ({:.2}) {hysteresis} {:.0}",

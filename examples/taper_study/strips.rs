@@ -10,7 +10,7 @@ use crate::run::{Failure, percent, solve};
 use crate::{Part, TAPERS, Taper};
 
 const AMPLITUDE: f64 = 0.01;
-/// Step of the load around a turn, over the turn.
+/// Step of the load around an extremum, relative to it.
 const STEP: f64 = 0.0025;
 
 /// Points of a cell that holds an oblique wave.
@@ -19,7 +19,7 @@ const SQUARE: [usize; 2] = [128, 128];
 const LEGEND: &str = "Waves of Johnson's alpha on a periodic cell under pressure: pull-off and the snap into full contact \
 off by %, contact areas on loading and unloading apart by pixels of a wave's length, transforms";
 
-/// A wave whose vector is `waves` over the cell of `points`; its length is 1.
+/// A wave with the wavevector `waves` over the cell of `points`; its length is 1.
 #[derive(Clone, Copy)]
 struct Strip {
     points: [usize; 2],
@@ -114,7 +114,7 @@ impl Strip {
             let way = [0.7, 0.9].into_iter().chain(near).map(|share| share * turn);
             start.iter().copied().chain(way).collect()
         };
-        // Up, down and into tension; then from no load until it closes.
+        // Up, down and into tension; then from zero load until it closes.
         let up = [0.0, 0.25, 0.5, 0.75, 0.5, 0.25, 0.0].map(|share| share * most);
         let unloading = solve(&self.scene(taper, &path(&up, off)), Some(&heights), |row| {
             row.state == State::Separated

@@ -1,17 +1,19 @@
-//! Means of a field over the cells of a coarser grid, so that grids compare point by point.
+//! Means of a field over the cells of a coarser grid, so that fields on different grids can be
+//! compared.
 //!
-//! A point stands for the pixel around it. A cell takes its share of each pixel that it covers,
-//! whatever the ratio of the two grids; the mean over all cells of a periodic field is the field's.
+//! A point represents the pixel around it. A cell takes its share of each pixel that it covers, for
+//! any ratio of the two grids, so the mean over all cells of a periodic field equals the mean of
+//! the field.
 
 use crate::grid::Grid;
 use crate::scene::Boundary;
 
-/// Means over the cells of a grid of `cells` points, shape `[cells_y, cells_x]`, of a field on
-/// `grid`. Beyond a free grid's edge the field is 0.
+/// Means of a field on `grid` over the cells of a grid of `cells` points, shape `[cells_y,
+/// cells_x]`. Beyond the edge of a free grid the field is 0.
 pub fn means(field: &[f64], grid: &Grid, cells: [usize; 2], boundary: Boundary) -> Vec<f64> {
     let along_x = shares(grid.nx, cells[0], boundary);
     let along_y = shares(grid.ny, cells[1], boundary);
-    // Rows first, so that the larger field is walked once.
+    // Rows first, so that the larger field is read once.
     let narrow: Vec<f64> = field
         .chunks(grid.nx)
         .flat_map(|row| along_x.iter().map(|cell| mean(cell, |pixel| row[pixel])))
@@ -31,7 +33,7 @@ fn mean(cell: &[(usize, f64)], value: impl Fn(usize) -> f64) -> f64 {
         .sum()
 }
 
-/// For each cell the pixels that it covers, with the share of the cell that each takes.
+/// The pixels that each cell covers, and the share of the cell that each fills.
 fn shares(pixels: usize, cells: usize, boundary: Boundary) -> Vec<Vec<(usize, f64)>> {
     let width = pixels as f64 / cells as f64;
     (0..cells)
@@ -81,8 +83,9 @@ mod tests {
             assert!((mean - whole).abs() < 1e-12 * whole, "{cells:?}");
         }
         assert_eq!(means(&field, &grid, [12, 10], Boundary::Periodic), field);
-        // The mean of a cosine over a cell of width D is itself times sin(q D/2)/(q D/2). Whole
-        // pixels and half ones at the ends are the trapezium rule, which is (2 pi/512)^2/12 off: 1.3e-5.
+        // The mean of a cosine over a cell of width D is the cosine times sin(q D/2)/(q D/2). Whole
+        // pixels with half pixels at the ends are the trapezoid rule, with an error of (2
+        // pi/512)^2/12 = 1.3e-5.
         let fine = Grid::new([512, 1], [1.0, 1.0]);
         let wave: Vec<f64> = (0..512)
             .map(|i| (std::f64::consts::TAU * f64::from(i) / 512.0).cos())

@@ -1,20 +1,20 @@
-//! What keeps a scene from being judged.
+//! Reasons why accuracy cannot be measured.
 
 use crate::output::OutputError;
 use crate::surface::SurfaceError;
 
-/// Why accuracy cannot be measured.
+/// Why the accuracy of a scene cannot be measured.
 #[derive(Debug, thiserror::Error)]
 pub enum AccuracyError {
     /// The surface cannot be built.
     #[error(transparent)]
     Surface(#[from] SurfaceError),
-    /// The scene has no finer and no coarser grid of the same surface.
+    /// The surface cannot be refined or coarsened.
     #[error("{what} belongs to one grid; accuracy needs the same surface on several: {remedy}")]
     OneGrid {
-        /// What is bound to its grid.
+        /// The part that belongs to one grid.
         what: &'static str,
-        /// The way out.
+        /// The remedy.
         remedy: &'static str,
     },
     /// Too few points for a coarser grid.
@@ -30,10 +30,10 @@ pub enum AccuracyError {
     },
     /// Not even the coarsest reference was solved.
     #[error(
-        "no reference was solved: {reason}; give a longer --budget, a shorter path or max_iterations to spare"
+        "no reference was solved: {reason}; give a longer --budget, a shorter path or more max_iterations"
     )]
     NoReference {
-        /// What ended the first solve.
+        /// Why the first solve ended.
         reason: String,
     },
     /// A table or a picture cannot be written.

@@ -1,4 +1,4 @@
-//! How long a run will take, from what it does and from the runs measured so far.
+//! Predicts the duration of a run from its work and from the runs measured so far.
 
 use super::setting::{Model, Setting, Taper};
 use crate::backend::tally::Place;
@@ -6,17 +6,17 @@ use crate::grid::Grid;
 use crate::scene::{BackendName, Precision, Scene};
 use crate::study::Cost;
 
-/// Seconds a point of a pass at first, before anything is measured: a core of today. Corrected by
-/// the first run.
+/// Initial estimate of seconds a point and pass, for one current core; the first run corrects it.
 const FIRST_RATE: f64 = 2e-9;
-/// Iterations of a step at first.
+/// Initial estimate of iterations a step.
 const FIRST_ITERATIONS: f64 = 60.0;
-/// Power of the number of points with which iterations grow: the square root of a side.
+/// Iterations grow with this power of the number of points: the square root of a side.
 const GROWTH: f64 = 0.25;
-/// Decades of a tolerance to which iterations are in proportion.
+/// Iterations are proportional to the decades of the tolerance; this many decades correspond to
+/// 1e-6.
 const DECADES: f64 = 6.0;
-/// A run of another kind, over what its passes say, until one is measured: software that stands for
-/// a graphics processor, the careful walk of a sharp law, the search of a summed attraction.
+/// Initial slow-down of other kinds of runs until one is measured: software rendering in place of a
+/// graphics processor, the small steps of a sharp law, the load search of the DMT treatment.
 const SOFTWARE: f64 = 10.0;
 const SHARP: f64 = 3.0;
 const SUMMED: f64 = 3.0;
@@ -27,7 +27,7 @@ pub struct Forecast {
     measured: Vec<(Kind, f64, f64)>,
 }
 
-/// What changes the time of an iteration, or their number, at once.
+/// Properties that change the time or the number of iterations.
 #[derive(Clone, Copy, Debug, PartialEq)]
 struct Kind {
     backend: BackendName,
@@ -37,7 +37,7 @@ struct Kind {
 }
 
 impl Kind {
-    fn of(setting: &Setting) -> Kind {
+    fn from_setting(setting: &Setting) -> Kind {
         Kind {
             backend: setting.backend,
             precision: setting.precision,
@@ -46,7 +46,7 @@ impl Kind {
         }
     }
 
-    /// Against the processor in double precision with the scene's own law.
+    /// Slow-down relative to the processor in double precision with the scene's own law.
     fn guess(&self) -> f64 {
         let mut factor = 1.0;
         if self.backend == BackendName::Gpu {
@@ -62,7 +62,7 @@ impl Kind {
     }
 }
 
-/// Work of a setting, points times passes; and its points.
+/// Work of a setting: points times passes; and its points.
 #[derive(Clone, Copy, Debug)]
 pub struct Work {
     kind: Kind,
@@ -71,8 +71,8 @@ pub struct Work {
 }
 
 impl Work {
-    /// Counts what a scene does, made by `setting` with `steps` steps.
-    pub fn of(setting: &Setting, scene: &Scene, grid: Grid, steps: usize) -> Work {
+    /// The work of `scene`, derived by `setting`, over `steps` steps.
+    pub fn new(setting: &Setting, scene: &Scene, grid: Grid, steps: usize) -> Work {
         let place = match (setting.backend, setting.precision) {
             (BackendName::Gpu, Precision::Double) => Place::GpuDouble,
             (BackendName::Gpu, _) => Place::Gpu,
@@ -80,14 +80,14 @@ impl Work {
             _ => Place::Double,
         };
         let cost = Cost::of_scene(scene, grid, place);
-        // A scene that cannot be planned fails where it is run, and says why.
+        // A scene that cannot be planned reports its error when it is run.
         let (passes, points) = cost.map_or((1, grid.len()), |cost| {
             (cost.passes.len(), cost.points[0] * cost.points[1])
         });
         let points = points as f64;
         let decades = -setting.tolerance.log10() / DECADES;
         Work {
-            kind: Kind::of(setting),
+            kind: Kind::from_setting(setting),
             units: passes as f64 * points * points.max(2.0).log2() * steps as f64 * decades,
             points,
         }
@@ -95,16 +95,16 @@ impl Work {
 }
 
 impl Forecast {
-    /// Keeps what a run took.
+    /// Records the duration of a run.
     pub fn learn(&mut self, work: &Work, seconds: f64) {
         self.measured
             .push((work.kind, work.points, seconds / work.units));
     }
 
-    /// Seconds that a run will take.
+    /// Predicted seconds of a run.
     pub fn seconds(&self, work: &Work) -> f64 {
         let growth = |from: f64| (work.points / from).powf(GROWTH);
-        // The nearest grid of the same kind says most; then the nearest of any.
+        // The nearest grid of the same kind predicts best; failing that, the nearest of any kind.
         let nearest = |same: bool| {
             self.measured
                 .iter()
@@ -130,7 +130,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn what_was_measured_corrects_what_is_predicted() {
+    fn measurements_correct_predictions() {
         let kind = Kind {
             backend: BackendName::Cpu,
             precision: Precision::Double,

@@ -1,19 +1,19 @@
-//! The grids of a study.
+//! The grids of an accuracy study.
 
 use super::error::AccuracyError;
 
-/// Grids that are judged, at most; each has twice the points of the one before.
+/// Most grids compared; each has twice the points a side of the one before.
 const GRIDS: u32 = 4;
-/// Fewest points along a side of a grid that is judged.
+/// Fewest points along a side of a compared grid.
 pub const LEAST_POINTS: usize = 16;
-/// Each side of more than one point twice as fine.
+/// Doubles each side of more than one point.
 pub(super) fn twice(points: [usize; 2]) -> [usize; 2] {
     points.map(|side| if side == 1 { 1 } else { 2 * side })
 }
 
-/// The grids that are judged, the coarsest first: the scene's own, halved while every side is even
-/// and has points enough.
-pub(super) fn ladder(own: [usize; 2]) -> Result<Vec<[usize; 2]>, AccuracyError> {
+/// The compared grids, the coarsest first: the scene's own grid, halved while every side is even
+/// and long enough.
+pub(super) fn halved_grids(own: [usize; 2]) -> Result<Vec<[usize; 2]>, AccuracyError> {
     let is_coarse =
         |points: [usize; 2]| points.iter().any(|side| *side > 1 && *side < LEAST_POINTS);
     if is_coarse(own) || own == [1, 1] {
@@ -41,7 +41,7 @@ mod tests {
 
     #[test]
     fn grids_are_halves_down_to_the_fewest_points() {
-        let grids = |own| ladder(own).expect("points enough");
+        let grids = |own| halved_grids(own).expect("points enough");
         assert_eq!(
             grids([128, 128]),
             [[16, 16], [32, 32], [64, 64], [128, 128]]
@@ -50,7 +50,7 @@ mod tests {
         assert_eq!(grids([100, 100]), [[25, 25], [50, 50], [100, 100]]);
         assert_eq!(grids([64, 1]), [[16, 1], [32, 1], [64, 1]]);
         assert_eq!(grids([27, 27]), [[27, 27]]);
-        assert!(ladder([8, 64]).is_err() && ladder([1, 1]).is_err());
+        assert!(halved_grids([8, 64]).is_err() && halved_grids([1, 1]).is_err());
         assert_eq!(twice([64, 1]), [128, 1]);
     }
 }

@@ -1,35 +1,35 @@
-//! One setting, run and measured.
+//! Runs one setting and measures it.
 
 use std::time::Instant;
 
 use super::cells;
-use super::steps::{Place, Steps, Walk};
+use super::steps::{PathVariant, StepPosition, Steps};
 use crate::backend::BackendError;
 use crate::kernel::Scalars;
 use crate::scene::{Boundary, Control, Scene};
 use crate::solver::MakeBackend;
 use crate::study::{FinishedStep, Observer, Setup, StepRow, Tension, WalkEnd, WalkError, walk};
 
-/// What is compared at a step of the scene.
+/// Compared quantities at a step of the scene.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Point {
-    /// Share of the nominal area in contact, less the pixel staircase where there is a wall.
+    /// Contact area over nominal area, with the pixel staircase taken off for laws with a wall.
     pub area: f64,
-    /// What answers the path: force, N; under a load the mean gap, m, on a free boundary the
-    /// approach. `None` where the surfaces are apart and have no place.
+    /// The response to the path: force, N; under a load the mean gap, m, or on a free boundary the
+    /// approach. `None` if the surfaces are separated and have no position.
     pub answer: Option<f64>,
 }
 
-/// What a run of a setting gave.
+/// Results of a run.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Measured {
-    /// At each step of the scene; `None` for those that are not compared.
+    /// At each step of the scene; `None` for steps that are not compared.
     pub steps: Vec<Option<Point>>,
-    /// Greatest tension of the path, N, positive; `None` where the path shows none.
+    /// Greatest tension of the path, N, positive; `None` if the path does not pass it.
     pub pull_off: Option<f64>,
-    /// How much more tension was tried, N, and not carried; 0 where a position is held.
+    /// Additional tension, N, that was tried and not carried; 0 under a prescribed position.
     pub pull_off_step: f64,
-    /// Mean pressure, Pa, over the cells of the coarsest grid at the step that presses hardest.
+    /// Mean pressure, Pa, over the cells of the coarsest grid at the step of greatest compression.
     pub profile: Option<Vec<f64>>,
     /// Wall-clock seconds of the steps.
     pub seconds: f64,
@@ -37,23 +37,23 @@ pub struct Measured {
     pub iterations: usize,
     /// Real two-dimensional transforms.
     pub transforms: f64,
-    /// Steps walked.
-    pub walked: usize,
+    /// Steps solved.
+    pub steps_solved: usize,
     /// Whether every step converged.
     pub converged: bool,
 }
 
-/// Why a run has no end.
+/// Why a run did not finish.
 #[derive(Debug)]
 pub enum Unfinished {
-    /// The watch ended it.
+    /// The observer ended it.
     Stopped,
     /// The device failed.
     Backend(BackendError),
 }
 
-/// The step of a path that presses hardest, from 0.
-pub fn deepest(scene: &Scene) -> usize {
+/// Index of the step of greatest compression.
+pub fn most_compressed_step(scene: &Scene) -> usize {
     let path = &scene.loading.path;
     let closer = |a: f64, b: f64| match scene.loading.control {
         Control::MeanGap => a < b,
@@ -73,21 +73,21 @@ pub fn is_load(control: Control) -> bool {
     matches!(control, Control::Pressure | Control::Force)
 }
 
-/// Runs a setting whose scene is in `setup`, along `path`; `watch` sees the step and the iteration
-/// and says whether to go on. Only the steps that half of the path has as well are compared, so that
-/// no setting is judged by fewer than another.
+/// Runs the setting in `setup` along `path`; `watch` gets the step and the iteration and returns
+/// whether to continue. Only steps that the path with half the steps also has are compared, so that
+/// all settings are judged by the same steps.
 pub fn measure(
     setup: &Setup,
-    path: &Walk,
+    path: &PathVariant,
     scene: &Scene,
     cells: [usize; 2],
     make_backend: MakeBackend,
     watch: &mut dyn FnMut(usize, &Scalars) -> bool,
 ) -> Result<Measured, Unfinished> {
-    let deepest = deepest(scene);
+    let most_compressed_step = most_compressed_step(scene);
     let mut observer = Watch {
         setup,
-        profiled: path.places[deepest].map(|place| place.step),
+        profiled: path.places[most_compressed_step].map(|place| place.step),
         cells,
         profile: None,
         watch,
@@ -119,13 +119,13 @@ pub fn measure(
         seconds,
         iterations: end.rows.iter().map(|row| row.iterations).sum(),
         transforms: end.transforms,
-        walked: end.rows.len(),
+        steps_solved: end.rows.len(),
         converged: end.rows.iter().all(|row| row.converged),
     })
 }
 
-/// Between two steps the answer is linear in time, as what a step assumes of the displacement.
-fn point_at(rows: &[StepRow], place: Place, scene: &Scene) -> Option<Point> {
+/// Between two steps the response is taken as linear in time, as a step takes the displacement.
+fn point_at(rows: &[StepRow], place: StepPosition, scene: &Scene) -> Option<Point> {
     let before = point(rows.get(place.step)?, scene);
     if place.share == 0.0 {
         return Some(before);
@@ -158,25 +158,26 @@ fn point(row: &StepRow, scene: &Scene) -> Point {
 /// Which steps of a scene are compared: those of the halved path.
 pub fn compared(scene: &Scene) -> Vec<bool> {
     let mut compared = vec![false; scene.loading.path.len()];
-    let halved = Steps::Halved.of(scene).places;
+    let halved = Steps::Halved.path(scene).places;
     for (compared, place) in compared.iter_mut().zip(halved) {
         *compared = place.is_some();
     }
     compared
 }
 
-/// The greatest tension, where the path shows that there is no greater one: a held position has a
-/// step beyond it, a load has let go. With how much more did not hold then.
+/// The greatest tension, if the path passes it: a prescribed position has a step beyond it, or a
+/// prescribed load has separated the contact. The second number is the additional tension that was
+/// not carried.
 fn pull_off(end: &WalkEnd, scene: &Scene) -> Option<(f64, f64)> {
     let tension = Tension::of(&scene.loading, end);
     let more = tension.bounds().map_or(0.0, |[lower, upper]| upper - lower);
     Some((tension.pull_off()?, more))
 }
 
-/// Keeps the pressure of one step.
+/// Records the pressure of one step.
 struct Watch<'a> {
     setup: &'a Setup,
-    /// Which step of the path, from 0.
+    /// Index of that step in the path.
     profiled: Option<usize>,
     cells: [usize; 2],
     profile: Option<Vec<f64>>,
@@ -192,7 +193,7 @@ impl Observer for Watch<'_> {
             let boundary = self.setup.scene.grid.boundary;
             self.profile = Some(match &step.evaluation {
                 Some(fields) => cells::means(&fields.pressure, grid, self.cells, boundary),
-                // Apart there is no pressure.
+                // Separated surfaces have no pressure.
                 None => vec![0.0; self.cells[0] * self.cells[1]],
             });
         }

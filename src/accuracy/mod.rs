@@ -1,49 +1,49 @@
-//! What accuracy costs: a scene over grids, tolerances, precisions, tapers, step counts, backends
-//! and models, each with its error and its seconds.
+//! Error against run time: a scene over grids, tolerances, precisions, tapers, step counts,
+//! backends and models.
 //!
 //! | question | file |
 //! |---|---|
-//! | what is tried | `setting`, `steps` |
-//! | is it the same surface on every grid | `same_surface` |
-//! | what is compared | `measure`, `cells`, `judge` |
-//! | with what | `reference`: `closed`, or `richardson` on finer grids |
-//! | what there is time for, and where | `study`, `grids`, `forecast`; `workplace` |
-//! | what is worth its seconds | `front` |
-//! | what was found, and how it is shown | `report`; `table`, `picture` |
+//! | which settings are tried | `setting`, `steps` |
+//! | the same surface on every grid | `grid_independent` |
+//! | which quantities are compared | `measure`, `cells`, `errors` |
+//! | with which reference | `reference`: `closed_form`, or `richardson` on finer grids |
+//! | which settings the time allows, on which backend | `study`, `grids`, `forecast`; `provider` |
+//! | which settings are worth their time | `pareto` |
+//! | results and their display | `report`; `table`, `picture` |
 
 mod cells;
-mod closed;
+mod closed_form;
 mod error;
+mod errors;
 mod forecast;
-mod front;
+mod grid_independent;
 mod grids;
-mod judge;
 mod measure;
+mod pareto;
 mod picture;
+mod provider;
 mod reference;
 mod report;
 mod richardson;
-mod same_surface;
 mod setting;
 mod steps;
 mod study;
 mod table;
-mod workplace;
 
 pub use cells::means;
-pub use closed::closed;
+pub use closed_form::closed_form;
 pub use error::AccuracyError;
-pub use front::{cheapest, pareto};
+pub use errors::Errors;
+pub use grid_independent::GridIndependentSurface;
 pub use grids::LEAST_POINTS;
-pub use judge::Errors;
 pub use measure::{Measured, Point};
+pub use pareto::{cheapest, pareto};
 pub use picture::picture;
+pub use provider::{BackendProvider, Listener, ProvidedBackend};
 pub use reference::Reference;
 pub use report::{LeftOut, Report, Row, duration};
 pub use richardson::{Extrapolated, extrapolate};
-pub use same_surface::SameSurface;
 pub use setting::{Model, Setting, Taper, Varied, others};
-pub use steps::{Steps, Walk};
+pub use steps::{PathVariant, Steps};
 pub use study::Study;
 pub use table::{LEVELS, csv, expect_place, screen, write_csv};
-pub use workplace::{Bench, Listener, Workplace};

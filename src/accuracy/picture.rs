@@ -1,16 +1,16 @@
-//! `accuracy.png`: error against seconds, both logarithmic, a panel a quantity.
+//! `accuracy.png`: error against seconds, both logarithmic, one panel a quantity.
 
-use super::judge::Errors;
+use super::errors::Errors;
 use super::report::{Report, Row};
 use super::setting::{Taper, Varied};
 use crate::output::panels::{Axis, Figure, Panel, PlotPoint, Series};
 
-/// Errors below this are drawn at it: what is exact has no place on a logarithmic axis.
+/// Smaller errors are drawn at this value: a logarithmic axis has no zero.
 const LEAST: f64 = 1e-7;
-/// A panel's title, and which error it shows.
+/// Title of a panel and the error it shows.
 type Shown = (&'static str, fn(&Errors) -> Option<f64>);
 
-/// What a row varies, by the order of colours and marks.
+/// The varied quantities, in the order of colours and marks.
 const KINDS: [&str; 10] = [
     "grid",
     "tolerance",
@@ -24,7 +24,7 @@ const KINDS: [&str; 10] = [
     "time tolerance",
 ];
 
-/// Which of [`KINDS`] a row is.
+/// Index of a row in [`KINDS`].
 fn kind(row: &Row) -> usize {
     match (row.varied, row.setting.taper) {
         (Varied::Nothing, _) => 0,
@@ -40,7 +40,7 @@ fn kind(row: &Row) -> usize {
     }
 }
 
-/// The picture of a report. Each colour and mark is what a setting varies; the line joins the
+/// The picture of a report. Colour and mark show what a setting varies; the line joins the Pareto
 /// front; the dashed line is the uncertainty of the reference.
 pub fn picture(report: &Report) -> Figure {
     let shown: [Shown; 4] = [
@@ -67,17 +67,18 @@ pub fn picture(report: &Report) -> Figure {
             .clone()
             .unwrap_or_else(|| "What accuracy costs".to_owned()),
         note: format!(
-            "line: front; dashed: uncertainty of the reference, {}",
+            "line: Pareto front; dashed: uncertainty of the reference, {}",
             reference.map_or("none", |found| found.words.as_str())
         ),
-        // What nothing varied has no entry; the others keep their colours.
+        // Unused kinds have no legend entry; the others keep their colours.
         names: (0..KINDS.len())
-            .map(
-                |index| match report.rows.iter().any(|row| kind(row) == index) {
-                    true => KINDS[index].to_owned(),
-                    false => String::new(),
-                },
-            )
+            .map(|index| {
+                if report.rows.iter().any(|row| kind(row) == index) {
+                    KINDS[index].to_owned()
+                } else {
+                    String::new()
+                }
+            })
             .collect(),
         panels,
         columns: 2,
@@ -92,10 +93,10 @@ fn panel(report: &Report, title: &str, of: fn(&Errors) -> Option<f64>) -> Panel 
             hollow: false,
         })
     };
-    let front = report.front(of);
+    let pareto = report.pareto(of);
     let mut series = vec![Series {
         name: 0,
-        points: front
+        points: pareto
             .iter()
             .filter_map(|index| place(&report.rows[*index]))
             .collect(),
@@ -129,13 +130,13 @@ fn panel(report: &Report, title: &str, of: fn(&Errors) -> Option<f64>) -> Panel 
     }
 }
 
-/// Error in time of what answers the path against the number of steps, of all grids: a grid changes
-/// little of it.
+/// Error in time of the response to the path against the number of steps, for all grids together:
+/// it depends little on the grid.
 fn in_time(report: &Report) -> Panel {
     let title = "error in time of force or gap, same grid";
     let place = |row: &Row| {
         Some(PlotPoint {
-            x: row.measured.walked as f64,
+            x: row.measured.steps_solved as f64,
             y: row.in_time?.force?.max(LEAST),
             hollow: false,
         })
@@ -148,7 +149,7 @@ fn in_time(report: &Report) -> Panel {
     }
 }
 
-/// A mark a row, by what it varies.
+/// One mark a row, by what it varies.
 fn marks(report: &Report, place: impl Fn(&Row) -> Option<PlotPoint>) -> Vec<Series> {
     let of_kind = |index: usize| report.rows.iter().filter(move |row| kind(row) == index);
     (0..KINDS.len())

@@ -1,39 +1,39 @@
-//! What settings are judged by: a closed form, or the same scene in double precision on finer grids.
+//! References: a closed form, or the same scene in double precision on finer grids.
 
-use super::judge::{Errors, change};
+use super::errors::{Errors, change};
 use super::measure::{Measured, Point};
 use super::richardson::{Extrapolated, extrapolate};
 
-/// How much finer each grid is than the one before.
+/// Ratio of points a side between successive grids.
 const RATIO: f64 = 2.0;
 
-/// The answer that errors are taken from.
+/// The reference solution.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Reference {
-    /// At each step of the scene; `None` where it says nothing.
+    /// At each step of the scene; `None` where the reference has no value.
     pub steps: Vec<Option<Point>>,
     /// Greatest tension, N, positive.
     pub pull_off: Option<f64>,
     /// Mean pressure over the cells of the coarsest grid, Pa.
     pub profile: Option<Vec<f64>>,
-    /// How far it may itself be off, relative, as errors are.
+    /// Relative uncertainty, of each quantity.
     pub uncertainty: Errors,
-    /// The orders of convergence that its grids show, as in [`Errors::all`].
+    /// Observed orders of convergence, as in [`Errors::all`].
     pub orders: [Option<f64>; 4],
-    /// What it is, in words.
+    /// Description.
     pub words: String,
     /// Its finest grid; `None` for a closed form.
     pub points: Option<[usize; 2]>,
 }
 
 impl Reference {
-    /// Extrapolates from runs of the same path on grids each twice as fine as the one before, the
-    /// coarsest first. Needs one; the uncertainty of one alone is infinite. `walked` says in how many
-    /// steps.
-    pub fn numeric(levels: &[Measured], points: [usize; 2], walked: &str) -> Option<Reference> {
+    /// Extrapolates from runs of the same path on successively doubled grids, the coarsest first.
+    /// Needs at least one run; with one the uncertainty is infinite. `path_steps` describes the number
+    /// of steps.
+    pub fn numeric(levels: &[Measured], points: [usize; 2], path_steps: &str) -> Option<Reference> {
         let fine = levels.last()?;
-        let areas = Curve::of(levels, |point| Some(point.area));
-        let answers = Curve::of(levels, |point| point.answer);
+        let areas = Curve::extrapolate(levels, |point| Some(point.area));
+        let answers = Curve::extrapolate(levels, |point| point.answer);
         let steps = fine.steps.iter().enumerate().map(|(step, own)| {
             (*own).map(|own| Point {
                 area: areas.values[step].unwrap_or(own.area),
@@ -65,7 +65,7 @@ impl Reference {
                 pressure: profile.as_ref().and_then(|found| relative(found, 0.0)),
                 pull_off: match &tension {
                     Some(found) => relative(found, fine.pull_off_step),
-                    // Some grid did not let go at all.
+                    // On some grid the contact did not separate.
                     None => fine.pull_off.map(|_| f64::INFINITY),
                 },
             },
@@ -76,7 +76,7 @@ impl Reference {
                 tension.and_then(|found| found.order),
             ],
             words: format!(
-                "double precision on {} x {} points with {walked}, extrapolated from {} grids",
+                "double precision on {} x {} points with {path_steps}, extrapolated from {} grids",
                 points[0],
                 points[1],
                 levels.len().min(3)
@@ -85,8 +85,8 @@ impl Reference {
         })
     }
 
-    /// Adds what walking the path as finely as the reference changed on one grid, against steps that
-    /// are twice as long: what a still finer path would change is no more.
+    /// Adds the uncertainty in time: the difference that halving the reference's steps makes on one
+    /// grid. Still finer steps would change no more than that.
     pub fn add_steps(&mut self, coarser: &Measured, finer: &Measured) {
         let change = change(coarser, finer);
         let add =
@@ -100,19 +100,20 @@ impl Reference {
     }
 }
 
-/// A value at each step of the scene, extrapolated over grids.
+/// One quantity at each step of the scene, extrapolated over grids.
 struct Curve {
     values: Vec<Option<f64>>,
-    /// How far each may be off.
+    /// Uncertainty of each value.
     off: Vec<f64>,
     order: Option<f64>,
 }
 
 impl Curve {
-    fn of(levels: &[Measured], of: impl Fn(&Point) -> Option<f64>) -> Curve {
+    fn extrapolate(levels: &[Measured], of: impl Fn(&Point) -> Option<f64>) -> Curve {
         let value = |level: &Measured, step: usize| level.steps[step].as_ref().and_then(&of);
         let count = levels.last().map_or(0, |fine| fine.steps.len());
-        // The last three say it; one of them that has let go says nothing of how it goes on.
+        // The last three grids decide; a grid on which the contact separated has no value to
+        // extrapolate.
         let last = &levels[levels.len().saturating_sub(3)..];
         let common: Vec<usize> = (0..count)
             .filter(|step| last.iter().all(|level| value(level, *step).is_some()))
@@ -130,7 +131,7 @@ impl Curve {
         let mut values: Vec<Option<f64>> = (0..count)
             .map(|step| last.last().and_then(|fine| value(fine, step)))
             .collect();
-        // Where grids disagree on whether there is a value, all of it is in doubt.
+        // If grids disagree on whether there is a value, the whole value is uncertain.
         let mut off: Vec<f64> = (0..count)
             .map(|step| {
                 let known = last.iter().filter_map(|level| value(level, step));
@@ -148,7 +149,7 @@ impl Curve {
         }
     }
 
-    /// As errors are: the area between over the area below.
+    /// Defined like errors: the area between over the area below.
     fn uncertainty(&self) -> Option<f64> {
         let below: f64 = self.values.iter().flatten().map(|value| value.abs()).sum();
         (below > 0.0).then(|| self.off.iter().sum::<f64>() / below)
@@ -174,7 +175,7 @@ mod tests {
             seconds: 1.0,
             iterations: 1,
             transforms: 1.0,
-            walked: 3,
+            steps_solved: 3,
             converged: true,
         }
     }
@@ -189,7 +190,7 @@ mod tests {
         assert_eq!(found.steps[1], None);
         assert!((found.pull_off.expect("a tension") - 3.0).abs() < 1e-12);
         assert!((found.profile.expect("a field")[0] - 5.0).abs() < 1e-12);
-        // What is left on the finest grid: 0.01 of 0.2, 0.02 of 1 + 4, 0.01 of 5, 0.01 of 3.
+        // The remaining error of the finest grid: 0.01 of 0.2, 0.02 of 1 + 4, 0.01 of 5, 0.01 of 3.
         let expected = [0.05, 0.004, 0.002, 0.01 / 3.0];
         for (found, expected) in found.uncertainty.all().into_iter().zip(expected) {
             assert!((found.expect("known") - expected).abs() < 1e-9);
@@ -200,7 +201,7 @@ mod tests {
     }
 
     #[test]
-    fn what_grids_disagree_on_is_in_doubt() {
+    fn disagreement_of_grids_increases_uncertainty() {
         let mut levels = [level(0.04, false), level(0.02, true), level(0.01, false)];
         levels[2].pull_off_step = 0.3;
         let found = Reference::numeric(&levels, [64, 64], "twice the steps").expect("three grids");
@@ -208,7 +209,7 @@ mod tests {
         assert_eq!(last.answer, Some(4.0));
         // All of the 4 of 5, and 0.02.
         assert!((found.uncertainty.force.expect("known") - 4.02 / 5.0).abs() < 1e-9);
-        // A load was asked that is 0.3 of 3 more.
+        // The next load asked for is larger by 0.3 of 3.
         assert!((found.uncertainty.pull_off.expect("known") - 0.31 / 3.0).abs() < 1e-9);
     }
 }

@@ -1,8 +1,8 @@
-//! What a study found.
+//! Results of an accuracy study.
 
-use super::front;
-use super::judge::Errors;
+use super::errors::Errors;
 use super::measure::Measured;
+use super::pareto;
 use super::reference::Reference;
 use super::setting::{Setting, Varied};
 use crate::scene::Scene;
@@ -12,16 +12,16 @@ use crate::scene::Scene;
 pub struct Row {
     /// The setting.
     pub setting: Setting,
-    /// What it varies.
+    /// The varied quantity.
     pub varied: Varied,
-    /// What it gave; without its profile.
+    /// Its results, without the pressure profile.
     pub measured: Measured,
-    /// How far that is from the reference.
+    /// Its errors.
     pub errors: Errors,
-    /// How far it is from the scene's own way on the same grid.
+    /// Its difference from the scene's own setting on the same grid.
     pub change: Option<f64>,
-    /// Of a solid that relaxes, for rows that vary nothing but steps: how far it is from the reference's
-    /// steps on the same grid.
+    /// For a viscoelastic solid and rows that vary only the steps: the difference from the
+    /// reference's steps on the same grid.
     pub in_time: Option<Errors>,
     /// Range of its law, m; `None` without one.
     pub range: Option<f64>,
@@ -33,38 +33,38 @@ pub struct Row {
     pub zone_pixels: Option<f64>,
 }
 
-/// A setting that was not run.
+/// A setting that was skipped.
 #[derive(Clone, Debug)]
 pub struct LeftOut {
-    /// Which.
+    /// The setting.
     pub words: String,
-    /// Why.
+    /// The reason.
     pub reason: String,
 }
 
-/// All that a study found.
+/// Results of a study.
 #[derive(Clone, Debug)]
 pub struct Report {
-    /// The scene that was judged.
+    /// The scene.
     pub scene: Scene,
-    /// The answer; `None` until it is known.
+    /// The reference; `None` until it is known.
     pub reference: Option<Reference>,
-    /// Rows as they ended.
+    /// Rows in the order in which they finished.
     pub rows: Vec<Row>,
-    /// Settings that were not run.
+    /// Skipped settings.
     pub left_out: Vec<LeftOut>,
-    /// Whether it was ended from outside.
+    /// Whether the user ended the study.
     pub interrupted: bool,
 }
 
 impl Report {
-    /// Seconds and the errors that `of` takes, one a row.
+    /// Seconds and the error selected by `of`, for each row.
     pub fn costs(&self, of: impl Fn(&Errors) -> Option<f64>) -> Vec<(f64, Option<f64>)> {
         let point = |row: &Row| (row.measured.seconds, of(&row.errors));
         self.rows.iter().map(point).collect()
     }
 
-    /// The reference's own uncertainty, of what `of` takes; 0 where it has none.
+    /// Uncertainty of the reference for the error selected by `of`; 0 if it has none.
     pub fn uncertainty(&self, of: impl Fn(&Errors) -> Option<f64>) -> f64 {
         let reference = self.reference.as_ref();
         reference
@@ -72,13 +72,14 @@ impl Report {
             .unwrap_or(0.0)
     }
 
-    /// Rows on the front of an error against seconds; what is all wrong is no answer at any price.
-    pub fn front(&self, of: impl Fn(&Errors) -> Option<f64>) -> Vec<usize> {
-        front::pareto(&self.costs(|errors| of(errors).filter(|error| *error < 1.0)))
+    /// Rows on the Pareto front of the error selected by `of`; rows with an error of 100 % are
+    /// never on it.
+    pub fn pareto(&self, of: impl Fn(&Errors) -> Option<f64>) -> Vec<usize> {
+        pareto::pareto(&self.costs(|errors| of(errors).filter(|error| *error < 1.0)))
     }
 
-    /// The order with which an error of the scene's own way falls with the grid: the slope of
-    /// logarithms through all its grids, by least squares.
+    /// Order of convergence of an error with the grid: the least-squares slope of logarithms over
+    /// all grids of the scene's own setting.
     pub fn order(&self, of: impl Fn(&Errors) -> Option<f64>) -> Option<f64> {
         let own = self.rows.iter().filter(|row| row.varied == Varied::Nothing);
         let points: Vec<(f64, f64)> = own

@@ -1,27 +1,28 @@
-//! Richardson's extrapolation from three grids, with the order that they show.
+//! Richardson extrapolation from three grids with the observed order.
 //!
-//! Richardson 1911, doi:10.1098/rsta.1911.0009; the uncertainty is the whole of the correction,
-//! as Roache 1994 (doi:10.1115/1.2910291) advises to within his safety factor.
+//! Richardson 1911, doi:10.1098/rsta.1911.0009. The uncertainty is the whole correction, as Roache
+//! 1994 (doi:10.1115/1.2910291) recommends up to his safety factor.
 
-/// Orders outside of these are no convergence to build on.
+/// Lower observed orders are not taken as convergence.
 const LEAST_ORDER: f64 = 0.3;
-/// The method is of second order at most; a higher one is luck, and would make the rest look small.
+/// The method is at most of second order; a higher observed order is accidental and would
+/// understate the rest.
 const MOST_ORDER: f64 = 2.0;
 
-/// A value for no pixel at all, and what is known of it.
+/// Values extrapolated to zero pixel size, with their uncertainty.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Extrapolated {
     /// The extrapolated values; those of the finest grid where the grids show no order.
     pub values: Vec<f64>,
-    /// How far each may be off.
+    /// Uncertainty of each value.
     pub uncertainty: Vec<f64>,
-    /// The order that the grids show, before it is limited.
+    /// Observed order, before it is limited.
     pub order: Option<f64>,
 }
 
-/// Extrapolates the same values on grids, the coarsest first, each `ratio` times as fine as the one
-/// before. Needs the last three; with two the difference is the uncertainty, with one it is unknown
-/// and infinite.
+/// Extrapolates values on successively refined grids, the coarsest first, each `ratio` times finer
+/// than the one before. Uses the last three; with two the uncertainty is their difference, with one
+/// it is infinite.
 pub fn extrapolate(grids: &[Vec<f64>], ratio: f64) -> Extrapolated {
     let Some(fine) = grids.last() else {
         return Extrapolated {
@@ -67,8 +68,7 @@ pub fn extrapolate(grids: &[Vec<f64>], ratio: f64) -> Extrapolated {
     }
 }
 
-/// The order by which changes shrink from one grid to the next; `None` where one of them is 0 or no
-/// number.
+/// Observed order of convergence; `None` if a difference is 0 or NaN.
 pub fn order(before: &[f64], after: &[f64], ratio: f64) -> Option<f64> {
     let size = |change: &[f64]| change.iter().map(|d| d * d).sum::<f64>().sqrt();
     let order = (size(before) / size(after)).ln() / ratio.ln();
@@ -95,17 +95,18 @@ mod tests {
             for (value, limit) in found.values.iter().zip([1.0, -2.0]) {
                 assert!((value - limit).abs() < 1e-12, "{order}: {value}");
             }
-            // The uncertainty is what is left of the finest grid.
+            // The uncertainty is the error of the finest grid.
             let left = 0.5 * 0.0625_f64.powf(order);
             assert!((found.uncertainty[0] - left).abs() < 1e-12);
         }
-        // Fourth order is taken as second: less is corrected, and the rest is within what is said.
+        // Fourth order is taken as second: the correction is smaller, and the rest is within the
+        // uncertainty.
         let found = extrapolate(&grids(4.0), 2.0);
         assert!((found.values[0] - 1.0).abs() <= found.uncertainty[0]);
     }
 
     #[test]
-    fn what_does_not_converge_is_not_extrapolated() {
+    fn values_without_convergence_are_not_extrapolated() {
         let found = extrapolate(&[vec![1.0], vec![1.1], vec![1.3]], 2.0);
         assert_eq!(found.values, [1.3]);
         assert!((found.uncertainty[0] - 0.2).abs() < 1e-12);

@@ -1,36 +1,37 @@
-//! A way to solve a scene: grid, arithmetic, tolerance, taper, steps, and which model.
+//! A setting: grid, precision, tolerance, taper, steps and model.
 
-use super::steps::{Steps, Walk};
+use super::steps::{PathVariant, Steps};
 use crate::grid::Grid;
 use crate::law::Law;
 use crate::scene::{AdhesionScene, BackendName, LawName, Precision, Range, Scene, Treatment};
 use crate::study::resolve_law;
 
-/// What of the adhesion is solved.
+/// How the adhesion is modelled.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Model {
-    /// All of it, together with the contact; without adhesion the hard wall.
+    /// The scene's own law, in equilibrium with the contact; the hard wall without adhesion.
     Full,
     /// The shortest range that the grid resolves, at the same work of adhesion.
     AutoRange,
-    /// Attraction summed over the gap of the solution without it.
+    /// DMT: attraction summed over the gap of the solution without adhesion.
     Dmt,
-    /// None of it.
+    /// No adhesion.
     NoAdhesion,
 }
 
 /// The taper of Maugis-Dugdale.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Taper {
-    /// As the scene has it.
+    /// The scene's own taper.
     AsGiven,
-    /// The law ends at once.
+    /// No taper.
     Sharp,
-    /// Half as long as `auto`: nearer to the range, and the edge less free of the pixels.
+    /// Half the `auto` taper: closer to the range, but with more trapping of the edge by pixels.
     Half,
 }
 
-/// What differs from the scene's own way on the same grid; the colours of the picture.
+/// What a setting changes of the scene's own setting on the same grid; determines the colour in the
+/// picture.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Varied {
     /// Nothing.
@@ -43,18 +44,18 @@ pub enum Varied {
     Taper,
     /// The number of steps.
     Steps,
-    /// The error in time to which `steps = "auto"` finds them.
+    /// The time tolerance of `steps = "auto"`.
     TimeTolerance,
     /// The range of the law.
     Range,
     /// The treatment of the attraction.
     Dmt,
-    /// Whether there is any.
+    /// Adhesion is left out.
     NoAdhesion,
 }
 
 impl Varied {
-    /// Every one of them.
+    /// Every kind.
     pub const ALL: [Varied; 9] = [
         Varied::Nothing,
         Varied::Tolerance,
@@ -67,7 +68,7 @@ impl Varied {
         Varied::NoAdhesion,
     ];
 
-    /// The word in tables and legends.
+    /// Its name in tables and legends.
     pub fn name(self) -> &'static str {
         match self {
             Varied::Nothing => "grid",
@@ -83,27 +84,27 @@ impl Varied {
     }
 }
 
-/// A way to solve a scene.
+/// A setting.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Setting {
     /// Points along x and y.
     pub points: [usize; 2],
-    /// Where.
+    /// Backend.
     pub backend: BackendName,
-    /// In which arithmetic.
+    /// Precision.
     pub precision: Precision,
-    /// Largest accepted residual.
+    /// Tolerance of the residual.
     pub tolerance: f64,
-    /// How finely the path is walked.
+    /// Steps of the path.
     pub steps: Steps,
-    /// What of the adhesion is solved.
+    /// Model of the adhesion.
     pub model: Model,
-    /// How the law of Maugis and Dugdale ends.
+    /// Taper of the Maugis-Dugdale law.
     pub taper: Taper,
 }
 
 impl Setting {
-    /// The scene's own way in double precision on a grid.
+    /// The scene's own setting in double precision on a grid.
     pub fn own(scene: &Scene, points: [usize; 2]) -> Setting {
         Setting {
             points,
@@ -150,9 +151,9 @@ impl Setting {
         }
     }
 
-    /// The scene solved this way, but for its heights, and its path.
-    pub fn apply(&self, scene: &Scene) -> (Scene, Walk) {
-        let walk = self.steps.of(scene);
+    /// The scene and the path of this setting, without heights.
+    pub fn apply(&self, scene: &Scene) -> (Scene, PathVariant) {
+        let walk = self.steps.path(scene);
         let mut changed = scene.clone();
         changed.grid.points = Some(self.points);
         changed.solver.backend = self.backend;
@@ -164,7 +165,7 @@ impl Setting {
             _ => scene.adhesion.clone().map(|law| self.law(law, &changed)),
         };
         if changed.adhesion.is_none() {
-            // The liquid is the law.
+            // The liquid is a law.
             changed.capillary = None;
         }
         (changed, walk)
@@ -206,7 +207,7 @@ impl Setting {
         }
     }
 
-    /// The word in the column `treatment`.
+    /// The value of the column `treatment`.
     pub fn treatment(&self, scene: &Scene) -> &'static str {
         match (self.model, &scene.adhesion) {
             (Model::NoAdhesion, _) | (_, None) => "none",
@@ -243,10 +244,10 @@ impl Setting {
     }
 }
 
-/// Relative difference up to which two ranges are one.
+/// Relative difference up to which two ranges are equal.
 const SAME_RANGE: f64 = 1e-9;
 
-/// Whether the grid asks for a longer range than the scene gives.
+/// Whether `range = "auto"` is longer than the scene's range on this grid.
 fn is_longer(scene: &Scene, adhesion: &AdhesionScene, points: [usize; 2]) -> bool {
     let (Range::Length(given), Some(size)) = (adhesion.range, scene.grid.size) else {
         return false;
@@ -262,10 +263,10 @@ fn is_longer(scene: &Scene, adhesion: &AdhesionScene, points: [usize; 2]) -> boo
     asked > given * (1.0 + SAME_RANGE)
 }
 
-/// Tolerances that are tried beside the scene's own.
+/// Tolerances tried in addition to the scene's own.
 const TOLERANCES: [f64; 3] = [1e-2, 1e-4, 1e-8];
 
-/// Every way to solve a scene on a grid but its own: `arithmetics` are those at hand.
+/// Every other setting on a grid; `arithmetics` are the available backends and precisions.
 pub fn others(
     scene: &Scene,
     points: [usize; 2],
@@ -310,7 +311,8 @@ pub fn others(
         ..own
     }));
     let mut models = vec![Model::NoAdhesion];
-    // A solid that relaxes takes no summed attraction, and what a map cannot scale stays out.
+    // A viscoelastic solid excludes the DMT treatment, and an adhesion map the settings that cannot
+    // be scaled.
     if scene.solid.relaxation.is_empty() {
         models.push(Model::Dmt);
     }

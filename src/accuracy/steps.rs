@@ -1,62 +1,64 @@
-//! A loading path in half and in twice as many steps, through the same turning points; for a solid that
-//! relaxes also in those that `steps = "auto"` finds, in equal ones, and in finer ones than all of them.
+//! A loading path with half and with twice the steps, through the same turning points; for a
+//! viscoelastic solid also with `steps = "auto"`, with equal steps, and with steps finer than all
+//! of these.
 
 use crate::scene::{DEFAULT_TIME_TOLERANCE, LoadingScene, Scene};
 
-/// Errors in time for which `steps = "auto"` is tried.
+/// Time tolerances tried for `steps = "auto"`.
 const TIME_TOLERANCES: [f64; 4] = [1e-1, 1e-2, 1e-3, 1e-4];
-/// Times that differ by less, of all the path takes, are one: they were added up in different orders.
+/// Times that differ by less than this share of the path's time are equal: they were summed in
+/// different orders.
 const SAME_TIME: f64 = 1e-12;
 
-/// How finely a path is walked.
+/// How finely a path is divided into steps.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Steps {
-    /// Every other step between turning points left out.
+    /// Every other step between turning points is omitted.
     Halved,
-    /// As the scene has it.
+    /// The scene's own steps.
     AsGiven,
-    /// A step half way to each step.
+    /// One more step half way to each step.
     Doubled,
-    /// As many as the scene has between its turning points, all as long.
+    /// As many steps between turning points as the scene has, all of the same duration.
     Equal,
-    /// What `steps = "auto"` finds for an error in time.
+    /// `steps = "auto"` with this time tolerance.
     Auto(f64),
-    /// Each step that is tried in two halves at least.
+    /// Every tried step is divided at least in two.
     Finest,
 }
 
-/// Where a step of the scene lies in a walk.
+/// Position of a step of the scene within another path.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Place {
-    /// The step of the walk, from 0, that it is or that comes before it.
+pub struct StepPosition {
+    /// Index of the step that it equals or that precedes it.
     pub step: usize,
-    /// How far it lies towards the next one, from 0 to below 1, by time.
+    /// Position towards the next step by time, from 0 to below 1.
     pub share: f64,
 }
 
-impl Place {
-    fn at(step: usize) -> Place {
-        Place { step, share: 0.0 }
+impl StepPosition {
+    fn at(step: usize) -> StepPosition {
+        StepPosition { step, share: 0.0 }
     }
 }
 
-/// A path and where the scene's steps lie in it.
+/// A path, and the positions of the scene's steps in it.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Walk {
-    /// The path to walk.
+pub struct PathVariant {
+    /// The path.
     pub loading: LoadingScene,
-    /// For each step of the scene, where it lies; `None` where the walk lacks it.
-    pub places: Vec<Option<Place>>,
+    /// Position of each step of the scene; `None` if the path lacks it.
+    pub places: Vec<Option<StepPosition>>,
 }
 
 impl Steps {
-    /// The path of a scene walked this finely.
-    pub fn of(self, scene: &Scene) -> Walk {
+    /// The path of a scene with these steps.
+    pub fn path(self, scene: &Scene) -> PathVariant {
         let loading = &scene.loading;
-        let as_given = || Walk {
+        let as_given = || PathVariant {
             loading: loading.clone(),
             places: (0..loading.path.len())
-                .map(|s| Some(Place::at(s)))
+                .map(|s| Some(StepPosition::at(s)))
                 .collect(),
         };
         let timed = match self {
@@ -69,25 +71,25 @@ impl Steps {
                 .and_then(|tolerance| scene.auto_steps(tolerance))
                 .map(|auto| doubled(&both(&doubled(loading).loading, &auto)).loading),
         };
-        // What a path without time cannot be asked for is not offered either.
-        timed.map_or_else(as_given, |timed| Walk {
+        // A path without time has no time-dependent variants.
+        timed.map_or_else(as_given, |timed| PathVariant {
             places: places(loading, &timed),
             loading: timed,
         })
     }
 
-    /// How finely the reference of a scene is walked.
-    pub fn of_reference(scene: &Scene) -> Steps {
+    /// The steps of the reference of a scene.
+    pub fn for_reference(scene: &Scene) -> Steps {
         finest_tolerance(scene).map_or(Steps::Doubled, |_| Steps::Finest)
     }
 
-    /// The way to walk a scene that shows how far its reference may be off in time: what that changes
-    /// against the finest that it judges.
-    pub fn beside_reference(scene: &Scene) -> Steps {
+    /// The steps that show the uncertainty of the reference in time: the difference from the finest
+    /// steps that are compared.
+    pub fn for_time_uncertainty(scene: &Scene) -> Steps {
         finest_tolerance(scene).map_or(Steps::AsGiven, Steps::Auto)
     }
 
-    /// Every way to walk a scene but its own.
+    /// Every alternative to the scene's own steps.
     pub fn others(scene: &Scene) -> Vec<Steps> {
         let path = &scene.loading.path;
         let mut found = Vec::new();
@@ -101,7 +103,7 @@ impl Steps {
         let uneven = |equal: LoadingScene| {
             let places = places(&scene.loading, &equal);
             let mut steps = places.iter().enumerate();
-            !steps.all(|(step, place)| *place == Some(Place::at(step)))
+            !steps.all(|(step, place)| *place == Some(StepPosition::at(step)))
         };
         if !tolerances.is_empty() && equal(&scene.loading).is_some_and(uneven) {
             found.push(Steps::Equal);
@@ -110,7 +112,7 @@ impl Steps {
         found
     }
 
-    /// As in `, half the steps`; empty for the scene's own.
+    /// A description such as `, half the steps`; empty for the scene's own.
     pub fn words(self) -> String {
         match self {
             Steps::AsGiven => String::new(),
@@ -123,8 +125,8 @@ impl Steps {
     }
 }
 
-/// The errors in time for which a scene is walked in `steps = "auto"`: down to what is asked for by
-/// default, and below that where it takes no more than twice the scene's own steps.
+/// The time tolerances tried: down to the default, and below that while the path has no more than
+/// twice the scene's own steps.
 fn time_tolerances(scene: &Scene) -> Vec<f64> {
     let most = 2 * scene.loading.path.len();
     let is_tried = |tolerance: &f64| {
@@ -138,11 +140,11 @@ fn finest_tolerance(scene: &Scene) -> Option<f64> {
     time_tolerances(scene).into_iter().reduce(f64::min)
 }
 
-fn halved(loading: &LoadingScene) -> Walk {
+fn halved(loading: &LoadingScene) -> PathVariant {
     let kept = kept(&loading.path);
     let mut places = vec![None; loading.path.len()];
     for (step, own) in kept.iter().enumerate() {
-        places[*own] = Some(Place::at(step));
+        places[*own] = Some(StepPosition::at(step));
     }
     let ends = ends(loading);
     let durations = ends.map(|ends| {
@@ -151,7 +153,7 @@ fn halved(loading: &LoadingScene) -> Walk {
             .map(|step| ends[kept[step]] - before(step))
             .collect()
     });
-    Walk {
+    PathVariant {
         loading: LoadingScene {
             path: kept.iter().map(|own| loading.path[*own]).collect(),
             durations,
@@ -161,13 +163,13 @@ fn halved(loading: &LoadingScene) -> Walk {
     }
 }
 
-fn doubled(loading: &LoadingScene) -> Walk {
+fn doubled(loading: &LoadingScene) -> PathVariant {
     let between = |values: &[f64], share: fn(f64, f64) -> [f64; 2]| {
         let pairs = values.windows(2).flat_map(|pair| share(pair[0], pair[1]));
         values.iter().copied().take(1).chain(pairs).collect()
     };
     let path = &loading.path;
-    Walk {
+    PathVariant {
         loading: LoadingScene {
             path: between(path, |from, to| [0.5 * (from + to), to]),
             durations: loading
@@ -176,11 +178,13 @@ fn doubled(loading: &LoadingScene) -> Walk {
                 .map(|durations| between(durations, |_, time| [0.5 * time; 2])),
             ..loading.clone()
         },
-        places: (0..path.len()).map(|s| Some(Place::at(2 * s))).collect(),
+        places: (0..path.len())
+            .map(|s| Some(StepPosition::at(2 * s)))
+            .collect(),
     }
 }
 
-/// As many steps on each stretch, all as long; `None` where the path takes no time.
+/// As many steps in each interval, all of the same duration; `None` if the path takes no time.
 fn equal(loading: &LoadingScene) -> Option<LoadingScene> {
     loading.durations.as_ref()?;
     let mut path = vec![*loading.path.first()?];
@@ -200,7 +204,8 @@ fn equal(loading: &LoadingScene) -> Option<LoadingScene> {
     })
 }
 
-/// The steps of two paths through the same turning points, of which the first has the second's jumps.
+/// The union of the steps of two paths through the same turning points; the first one has all jumps
+/// of the second.
 fn both(one: &LoadingScene, other: &LoadingScene) -> LoadingScene {
     let (Some(one_ends), Some(other_ends)) = (ends(one), ends(other)) else {
         return one.clone();
@@ -213,7 +218,7 @@ fn both(one: &LoadingScene, other: &LoadingScene) -> LoadingScene {
             merged.push((*between, *value));
         }
         merged.push((*end, *value));
-        // The same place, or a jump that the first has too.
+        // The same time, or a jump that the first path also has.
         while others
             .next_if(|(other, _)| (**other - end).abs() <= same_time)
             .is_some()
@@ -232,7 +237,7 @@ fn both(one: &LoadingScene, other: &LoadingScene) -> LoadingScene {
     }
 }
 
-/// When each step ends, s; `None` where the path takes no time.
+/// End time of each step, s; `None` if the path takes no time.
 fn ends(loading: &LoadingScene) -> Option<Vec<f64>> {
     let durations = loading.durations.as_ref()?;
     let ends = durations.iter().scan(0.0, |time, duration| {
@@ -242,8 +247,8 @@ fn ends(loading: &LoadingScene) -> Option<Vec<f64>> {
     Some(ends.collect())
 }
 
-/// Where the steps of a path lie in another one through the same turning points, by their times.
-fn places(own: &LoadingScene, walk: &LoadingScene) -> Vec<Option<Place>> {
+/// Positions of the steps of a path within another through the same turning points, by time.
+fn places(own: &LoadingScene, walk: &LoadingScene) -> Vec<Option<StepPosition>> {
     let (Some(own_ends), Some(ends)) = (ends(own), ends(walk)) else {
         return vec![None; own.path.len()];
     };
@@ -251,16 +256,16 @@ fn places(own: &LoadingScene, walk: &LoadingScene) -> Vec<Option<Place>> {
     let same_time = SAME_TIME * whole;
     let scale = own.path.iter().fold(0.0, |most: f64, v| most.max(v.abs()));
     let place = |(time, value): (&f64, &f64)| {
-        // More than one step is at a time at which the path jumps.
+        // At a jump of the path several steps share one time.
         let first = ends.partition_point(|end| *end < time - same_time);
         let at = (first..ends.len()).take_while(|step| ends[*step] <= time + same_time);
         let off = |step: &usize| (walk.path[*step] - value).abs();
         let nearest = at.min_by(|a, b| off(a).total_cmp(&off(b)));
         match nearest {
-            Some(step) => (off(&step) <= SAME_TIME * scale).then(|| Place::at(step)),
+            Some(step) => (off(&step) <= SAME_TIME * scale).then(|| StepPosition::at(step)),
             None => (first > 0 && first < ends.len()).then(|| {
                 let (before, after) = (ends[first - 1], ends[first]);
-                Place {
+                StepPosition {
                     step: first - 1,
                     share: (time - before) / (after - before),
                 }
@@ -270,8 +275,8 @@ fn places(own: &LoadingScene, walk: &LoadingScene) -> Vec<Option<Place>> {
     own_ends.iter().zip(&own.path).map(place).collect()
 }
 
-/// Steps that stay when the others are left out: both ends, where the path turns or holds, and every
-/// other one between.
+/// Indices of the steps that remain: both ends, turning points, holds, and every other step
+/// between.
 fn kept(path: &[f64]) -> Vec<usize> {
     let direction = |step: usize| (path[step + 1] - path[step]).partial_cmp(&0.0);
     let last = path.len() - 1;
@@ -304,8 +309,8 @@ mod tests {
         }
     }
 
-    fn own(walk: &Walk) -> Vec<Option<usize>> {
-        let step = |place: &Option<Place>| {
+    fn own(walk: &PathVariant) -> Vec<Option<usize>> {
+        let step = |place: &Option<StepPosition>| {
             place.map(|place| {
                 assert_eq!(place.share, 0.0);
                 place.step
@@ -314,7 +319,7 @@ mod tests {
         walk.places.iter().map(step).collect()
     }
 
-    /// A force pressed on, held, and taken off in half the time, on a solid of two relaxation times.
+    /// A force applied, held, and removed in half the time, on a solid of two relaxation times.
     fn relaxing(steps: &str) -> Scene {
         let text = format!(
             r#"
@@ -354,7 +359,7 @@ mod tests {
     }
 
     #[test]
-    fn both_ends_and_the_turns_stay() {
+    fn halving_keeps_ends_and_turning_points() {
         let scene = loading(&[0.0, 1.0, 2.0, 3.0, 4.0, 3.0, 2.0, 0.0], None);
         let half = halved(&scene);
         assert_eq!(half.loading.path, [0.0, 2.0, 4.0, 2.0, 0.0]);
@@ -379,9 +384,9 @@ mod tests {
     }
 
     #[test]
-    fn the_time_at_a_step_stays() {
+    fn halving_keeps_times() {
         let scene = loading(&[0.0, 1.0, 2.0, 2.0], Some(vec![0.0, 1.0, 3.0, 5.0]));
-        // The hold at the end is a turn, so the step before it stays.
+        // The final hold is a turning point, so the step before it stays.
         let half = halved(&scene);
         assert_eq!(half.loading.path, [0.0, 2.0, 2.0]);
         assert_eq!(half.loading.durations, Some(vec![0.0, 4.0, 5.0]));
@@ -393,7 +398,7 @@ mod tests {
     }
 
     #[test]
-    fn steps_between_those_of_a_walk_are_found_by_time() {
+    fn positions_within_a_path_follow_time() {
         let fine = loading(
             &[0.0, 1.0, 2.0, 3.0, 9.0, 9.0],
             Some(vec![0.0, 1.0, 1.0, 1.0, 0.0, 2.0]),
@@ -402,7 +407,7 @@ mod tests {
         let found = places(&fine, &coarse);
         // The jump at time 3 has a step before and one after it.
         for (own, step) in [(0, 0), (3, 1), (4, 2), (5, 3)] {
-            assert_eq!(found[own], Some(Place::at(step)));
+            assert_eq!(found[own], Some(StepPosition::at(step)));
         }
         for (own, share) in [(1, 1.0 / 3.0), (2, 2.0 / 3.0)] {
             let place = found[own].expect("within the path");
@@ -412,21 +417,21 @@ mod tests {
         assert!(places(&coarse, &fine).iter().all(Option::is_some));
     }
 
-    /// The answer in time is a straight line over a step: no step of what is judged may be shorter than
-    /// two of the reference.
+    /// Within a step the response is linear in time, so a compared step must span at least two
+    /// steps of the reference.
     #[test]
-    fn the_reference_is_twice_as_fine_as_all_that_it_judges() {
+    fn the_reference_is_twice_as_fine_as_all_compared_paths() {
         for steps in ["2", "30", "500", "\"auto\""] {
             let scene = relaxing(steps);
-            assert_eq!(Steps::of_reference(&scene), Steps::Finest);
-            let finest = ends(&Steps::Finest.of(&scene).loading).expect("a path in time");
+            assert_eq!(Steps::for_reference(&scene), Steps::Finest);
+            let finest = ends(&Steps::Finest.path(&scene).loading).expect("a path in time");
             let mut judged = Steps::others(&scene);
             assert!(judged.contains(&Steps::Auto(1e-1)) && judged.contains(&Steps::Auto(1e-3)));
             assert_eq!(judged.contains(&Steps::Auto(1e-4)), steps == "500");
             assert_eq!(judged.contains(&Steps::Equal), steps == "\"auto\"");
             judged.push(Steps::AsGiven);
             for steps in judged {
-                let walk = Steps::of(steps, &scene);
+                let walk = steps.path(&scene);
                 assert!(walk.places.iter().all(|place| place.is_some()) || steps == Steps::Halved);
                 let coarse = ends(&walk.loading).expect("a path in time");
                 for pair in coarse.windows(2) {
@@ -449,14 +454,14 @@ mod tests {
             },
             ..relaxing("4")
         };
-        assert_eq!(Steps::of_reference(&elastic), Steps::Doubled);
+        assert_eq!(Steps::for_reference(&elastic), Steps::Doubled);
         assert_eq!(Steps::others(&elastic), [Steps::Doubled, Steps::Halved]);
     }
 
     #[test]
     fn equal_steps_are_as_many_on_each_ramp() {
         let auto = relaxing("\"auto\"");
-        let equal = Steps::Equal.of(&auto);
+        let equal = Steps::Equal.path(&auto);
         assert_eq!(equal.loading.path.len(), auto.loading.path.len());
         let stretches = |loading: &LoadingScene| -> Vec<(f64, usize)> {
             loading

@@ -1,36 +1,36 @@
-//! The study: a reference first, then each setting that the time allows, the cheapest next.
+//! Runs the reference first, then each setting that the time allows, the cheapest first.
 
 use std::time::{Duration, Instant};
 
-use super::closed::closed;
+use super::closed_form::closed_form;
 use super::error::AccuracyError;
+use super::errors::{Errors, change, relative_errors};
 use super::forecast::{Forecast, Work};
-use super::grids::{ladder, twice};
-use super::judge::{Errors, change, judge};
+use super::grid_independent::GridIndependentSurface;
+use super::grids::{halved_grids, twice};
 use super::measure::{Measured, Unfinished, compared, measure};
+use super::provider::{BackendProvider, Listener};
 use super::reference::Reference;
 use super::report::{LeftOut, Report, Row, duration};
-use super::same_surface::SameSurface;
 use super::setting::{Setting, Varied, others};
 use super::steps::Steps;
-use super::workplace::{Listener, Workplace};
 use crate::grid::Grid;
 use crate::kernel::Scalars;
 use crate::law::Law;
 use crate::scene::{BackendName, Precision, Scene, Treatment};
 use crate::study::Setup;
 
-/// Share of the time that the reference may take.
+/// Share of the budget for the reference.
 const REFERENCE_SHARE: f64 = 0.6;
-/// Share of what is then left that one more grid may take.
+/// Share of the remaining budget for one more grid.
 const OWN_SHARE: f64 = 0.3;
-/// How much tighter the reference is solved than the scene asks.
+/// Tolerance of the reference over the scene's.
 const TIGHTER: f64 = 0.1;
 
-/// Judges a scene within a budget of seconds.
+/// An accuracy study of a scene within a budget of seconds.
 pub struct Study<'a> {
-    same: SameSurface,
-    workplace: &'a dyn Workplace,
+    same: GridIndependentSurface,
+    provider: &'a dyn BackendProvider,
     deadline: Instant,
     budget: f64,
     cells: [usize; 2],
@@ -41,20 +41,20 @@ pub struct Study<'a> {
     report: Report,
 }
 
-/// How a run ended that gave no row.
-enum Missed {
-    /// It would not end in time.
+/// Why a run gave no row.
+enum Skipped {
+    /// It would take too long.
     Late(f64),
-    /// It ran into the end of the time.
+    /// It reached the time limit.
     OutOfTime(f64),
     /// Ctrl-C.
     Interrupted,
-    /// It cannot be run here.
+    /// It cannot be run on this machine.
     Impossible(String),
 }
 
-/// A run that ended.
-struct Done {
+/// A finished run.
+struct FinishedRun {
     measured: Measured,
     range: Option<f64>,
     taper: Option<f64>,
@@ -66,16 +66,16 @@ impl<'a> Study<'a> {
     /// Prepares the study of a scene.
     ///
     /// # Errors
-    /// A surface that cannot be built or has one grid only; too few points.
+    /// A surface that cannot be built or belongs to one grid; too few points.
     pub fn new(
         scene: &Scene,
-        workplace: &'a dyn Workplace,
+        provider: &'a dyn BackendProvider,
         budget: f64,
     ) -> Result<Study<'a>, AccuracyError> {
         let started = Instant::now();
-        let mut same = SameSurface::of(scene)?;
-        // The full law is what models are judged by, and double precision on the processor what
-        // every other arithmetic is.
+        let mut same = GridIndependentSurface::new(scene)?;
+        // Models are compared with the full law, and other precisions with double precision on the
+        // processor.
         if let Some(adhesion) = &mut same.scene.adhesion {
             adhesion.treatment = Treatment::Full;
         }
@@ -86,9 +86,9 @@ impl<'a> Study<'a> {
                 .tolerance
                 .min(crate::scene::SolverScene::default().tolerance);
         }
-        let grids = ladder([same.grid.nx, same.grid.ny])?;
+        let grids = halved_grids([same.grid.nx, same.grid.ny])?;
         let cells = grids[0];
-        let mut reference = closed(&same.scene, cells);
+        let mut reference = closed_form(&same.scene, cells);
         if let Some(reference) = &mut reference {
             for (step, compared) in reference.steps.iter_mut().zip(compared(&same.scene)) {
                 *step = step.filter(|_| compared);
@@ -103,7 +103,7 @@ impl<'a> Study<'a> {
         };
         Ok(Study {
             same,
-            workplace,
+            provider,
             deadline: started + Duration::from_secs_f64(budget),
             budget,
             cells,
@@ -114,43 +114,46 @@ impl<'a> Study<'a> {
         })
     }
 
-    /// Runs it. Rows go to the listener as they end.
+    /// Runs the study. Rows go to the listener as they finish.
     ///
     /// # Errors
-    /// No reference within the budget; what the listener cannot keep.
+    /// No reference within the budget; errors of the listener.
     pub fn run(mut self, listener: &mut dyn Listener) -> Result<Report, AccuracyError> {
-        // What cannot be kept is better known before minutes of work than after.
+        // Find output errors before minutes of work, not after.
         listener.row(&self.report)?;
         for warning in std::mem::take(&mut self.same.warnings) {
             listener.note(&warning);
         }
         let mut judged = self.grids.clone();
         if self.report.reference.is_none() {
-            judged = self.climb(listener)?;
+            judged = self.solve_reference(listener)?;
         }
         if !self.report.interrupted {
             self.own(&mut judged, listener)?;
         }
         if !self.report.interrupted {
-            self.vary(&judged, listener)?;
+            self.run_variations(&judged, listener)?;
         }
         Ok(self.report)
     }
 
-    /// Seconds that are left.
+    /// Remaining seconds.
     fn left(&self) -> f64 {
         (self.deadline - Instant::now().min(self.deadline)).as_secs_f64()
     }
 
-    /// Solves the reference grid by grid while the time allows, and says which grids are coarse
-    /// enough to be judged by it.
-    fn climb(&mut self, listener: &mut dyn Listener) -> Result<Vec<[usize; 2]>, AccuracyError> {
+    /// Solves the reference grid by grid while time allows; returns the grids coarse enough to be
+    /// compared with it.
+    fn solve_reference(
+        &mut self,
+        listener: &mut dyn Listener,
+    ) -> Result<Vec<[usize; 2]>, AccuracyError> {
         let mut grids = self.grids.clone();
         let finest = grids[grids.len() - 1];
         grids.push(twice(finest));
         let allowed = REFERENCE_SHARE * self.budget;
-        let finer = Steps::of_reference(&self.report.scene);
-        let mut levels: Vec<(Setting, Done)> = Vec::new();
+        let finer = Steps::for_reference(&self.report.scene);
+        let mut levels: Vec<(Setting, FinishedRun)> = Vec::new();
         let mut ended = String::new();
         for points in &grids {
             let own = Setting::own(&self.report.scene, *points);
@@ -164,21 +167,21 @@ impl<'a> Study<'a> {
                 Ok(done) if done.measured.converged => levels.push((setting, done)),
                 Ok(_) => {
                     ended = "a step did not converge".to_owned();
-                    self.leave_out(&setting, "the reference did not converge".to_owned());
+                    self.skip(&setting, "the reference did not converge".to_owned());
                     break;
                 }
-                // A grid that cannot hold the surface has nothing to say; a finer one may.
-                Err(Missed::Impossible(reason)) if levels.is_empty() => {
-                    self.leave_out(&setting, reason.clone());
+                // A grid that cannot resolve the surface is skipped; a finer one may do.
+                Err(Skipped::Impossible(reason)) if levels.is_empty() => {
+                    self.skip(&setting, reason.clone());
                     ended = reason;
                 }
                 Err(missed) => {
-                    let interrupted = matches!(missed, Missed::Interrupted);
+                    let interrupted = matches!(missed, Skipped::Interrupted);
                     ended = missed.words();
                     if interrupted {
                         self.report.interrupted = true;
                     } else {
-                        self.leave_out(&setting, format!("as a reference: {ended}"));
+                        self.skip(&setting, format!("as a reference: {ended}"));
                     }
                     break;
                 }
@@ -192,19 +195,19 @@ impl<'a> Study<'a> {
             if !self.report.interrupted {
                 return Err(AccuracyError::NoReference { reason: ended });
             }
-            // What was measured is kept, without a judgement.
+            // Measured runs are kept, without errors.
             for (setting, done) in levels {
                 self.keep(setting, done, listener)?;
             }
             return Ok(Vec::new());
         }
         let top = levels[levels.len() - 1].0;
-        let walked = match finer {
+        let steps_solved = match finer {
             Steps::Doubled => "twice the steps".to_owned(),
-            _ => format!("{} steps", measured[0].walked),
+            _ => format!("{} steps", measured[0].steps_solved),
         };
-        self.report.reference = Reference::numeric(&measured, top.points, &walked);
-        // What is judged is at most half as fine as the finest.
+        self.report.reference = Reference::numeric(&measured, top.points, &steps_solved);
+        // Compared grids are at most half as fine as the finest.
         let coarser = levels.len() - 1;
         let judged: Vec<[usize; 2]> = levels[..coarser]
             .iter()
@@ -217,7 +220,7 @@ impl<'a> Study<'a> {
         {
             self.report.left_out.push(LeftOut {
                 words: format!("{} x {}", points[0], points[1]),
-                reason: "every setting: the time gave no reference twice as fine".to_owned(),
+                reason: "every setting: there was no time for a reference twice as fine".to_owned(),
             });
         }
         for (setting, done) in levels.into_iter().take(coarser) {
@@ -226,7 +229,7 @@ impl<'a> Study<'a> {
         Ok(judged)
     }
 
-    /// Runs the scene's own way on each grid, and drops the grids for which there is no time.
+    /// Runs the scene's own setting on each grid, and drops the grids for which there is no time.
     fn own(
         &mut self,
         judged: &mut Vec<[usize; 2]>,
@@ -235,34 +238,35 @@ impl<'a> Study<'a> {
         let mut run = Vec::new();
         for points in judged.iter() {
             let setting = Setting::own(&self.report.scene, *points);
-            // What is varied on the coarser grids needs its time too; the first grid needs its own.
+            // Leave time for the variations on the coarser grids; the first grid gets all the time
+            // it needs.
             let share = if run.is_empty() { 1.0 } else { OWN_SHARE };
             match self.attempt(&setting, share * self.left(), listener) {
                 Ok(done) => {
                     run.push(*points);
                     self.keep(setting, done, listener)?;
                 }
-                Err(Missed::Interrupted) => {
+                Err(Skipped::Interrupted) => {
                     self.report.interrupted = true;
                     break;
                 }
-                Err(missed) => self.leave_out(&setting, missed.words()),
+                Err(missed) => self.skip(&setting, missed.words()),
             }
         }
         *judged = run;
-        self.judge_in_time(judged, listener)?;
+        self.add_time_uncertainty(judged, listener)?;
         listener.row(&self.report)
     }
 
-    /// Once the steps that stand beside those of the reference are known on a grid that it has too,
-    /// what its own change belongs to its uncertainty. The finest such grid says it; where they are
-    /// not the scene's own, they are walked on the coarsest.
-    fn judge_in_time(
+    /// Once the comparison steps of the reference are known on a grid that the reference also has,
+    /// adds their difference to its uncertainty. Uses the finest such grid; if they are not the
+    /// scene's own steps, solves them on the coarsest grid.
+    fn add_time_uncertainty(
         &mut self,
         judged: &[[usize; 2]],
         listener: &mut dyn Listener,
     ) -> Result<(), AccuracyError> {
-        let beside = Steps::beside_reference(&self.report.scene);
+        let beside = Steps::for_time_uncertainty(&self.report.scene);
         if let (false, Some(points)) = (beside == Steps::AsGiven, judged.first()) {
             let setting = Setting {
                 steps: beside,
@@ -270,8 +274,8 @@ impl<'a> Study<'a> {
             };
             match self.attempt(&setting, self.left(), listener) {
                 Ok(done) => self.keep(setting, done, listener)?,
-                Err(Missed::Interrupted) => self.report.interrupted = true,
-                Err(missed) => self.leave_out(&setting, missed.words()),
+                Err(Skipped::Interrupted) => self.report.interrupted = true,
+                Err(missed) => self.skip(&setting, missed.words()),
             }
         }
         let rows = &self.report.rows;
@@ -283,7 +287,7 @@ impl<'a> Study<'a> {
                     ..own
                 }
         };
-        let finer = Steps::of_reference(&self.report.scene);
+        let finer = Steps::for_reference(&self.report.scene);
         let Some(coarser) = rows.iter().rev().find(is_plain) else {
             return Ok(());
         };
@@ -298,18 +302,18 @@ impl<'a> Study<'a> {
         Ok(())
     }
 
-    /// Runs everything else on those grids, the cheapest next, while there is time.
-    fn vary(
+    /// Runs all other settings on those grids, the cheapest first, while time allows.
+    fn run_variations(
         &mut self,
         judged: &[[usize; 2]],
         listener: &mut dyn Listener,
     ) -> Result<(), AccuracyError> {
-        let arithmetics = self.workplace.arithmetics();
+        let arithmetics = self.provider.arithmetics();
         let mut waiting: Vec<Setting> = judged
             .iter()
             .flat_map(|points| others(&self.report.scene, *points, arithmetics))
             .filter(|setting| {
-                // The reference has walked some, and what it stands beside.
+                // Some were run for the reference or its uncertainty.
                 setting.steps == Steps::AsGiven
                     || !self.report.rows.iter().any(|row| {
                         row.setting.points == setting.points && row.setting.steps == setting.steps
@@ -325,16 +329,16 @@ impl<'a> Study<'a> {
             let setting = waiting.swap_remove(next);
             match self.attempt(&setting, self.left(), listener) {
                 Ok(done) => self.keep(setting, done, listener)?,
-                Err(Missed::Interrupted) => {
+                Err(Skipped::Interrupted) => {
                     self.report.interrupted = true;
                     break;
                 }
-                Err(missed) => self.leave_out(&setting, missed.words()),
+                Err(missed) => self.skip(&setting, missed.words()),
             }
         }
         if self.report.interrupted {
             for setting in waiting {
-                self.leave_out(&setting, "interrupted".to_owned());
+                self.skip(&setting, "interrupted".to_owned());
             }
         }
         Ok(())
@@ -348,33 +352,33 @@ impl<'a> Study<'a> {
         let (scene, path) = setting.apply(&self.report.scene);
         let size = [self.same.grid.lx, self.same.grid.ly];
         let grid = Grid::new(setting.points, size);
-        Work::of(setting, &scene, grid, path.loading.path.len())
+        Work::new(setting, &scene, grid, path.loading.path.len())
     }
 
-    /// Runs a setting if it will end within `allowed` seconds.
+    /// Runs a setting if it is predicted to end within `allowed` seconds.
     fn attempt(
         &mut self,
         setting: &Setting,
         allowed: f64,
         listener: &mut dyn Listener,
-    ) -> Result<Done, Missed> {
+    ) -> Result<FinishedRun, Skipped> {
         let (scene, path) = setting.apply(&self.report.scene);
         let work = self.work(setting);
         let predicted = self.forecast.seconds(&work);
         let is_late = predicted > allowed;
-        // What a graphics processor cannot do is said rather than how long it would take.
+        // An unsupported setting is reported as such, not by its duration.
         if is_late && setting.backend != BackendName::Gpu {
-            return Err(Missed::Late(predicted));
+            return Err(Skipped::Late(predicted));
         }
         let size = [self.same.grid.lx, self.same.grid.ly];
-        let fits = self.workplace.fits(&scene, Grid::new(setting.points, size));
-        fits.map_err(Missed::Impossible)?;
+        let fits = self.provider.fits(&scene, Grid::new(setting.points, size));
+        fits.map_err(Skipped::Impossible)?;
         let surface = self.same.on(&scene);
-        let surface = surface.map_err(|error| Missed::Impossible(error.to_string()))?;
+        let surface = surface.map_err(|error| Skipped::Impossible(error.to_string()))?;
         let setup = Setup::new(scene, surface);
-        let bench = self.workplace.bench(&setup).map_err(Missed::Impossible)?;
+        let bench = self.provider.provide(&setup).map_err(Skipped::Impossible)?;
         if is_late {
-            return Err(Missed::Late(predicted));
+            return Err(Skipped::Late(predicted));
         }
         if let Some(remark) = &bench.remark {
             listener.note(remark);
@@ -393,7 +397,8 @@ impl<'a> Study<'a> {
         };
         let mut end = run();
         if setting.backend == BackendName::Gpu && !self.warm && end.is_ok() {
-            // The first run builds shaders, which later ones find: it is no measure of any.
+            // The first run builds shaders, which later runs reuse, so its time is not
+            // representative.
             end = run();
         }
         self.warm |= setting.backend == BackendName::Gpu;
@@ -401,7 +406,7 @@ impl<'a> Study<'a> {
             Ok(measured) => {
                 self.forecast.learn(&work, measured.seconds);
                 let adhesive = setup.law.is_adhesive();
-                Ok(Done {
+                Ok(FinishedRun {
                     measured,
                     range: adhesive.then(|| setup.law.range()),
                     taper: match setup.law {
@@ -412,31 +417,33 @@ impl<'a> Study<'a> {
                     zone_pixels: setup.regime.map(|regime| regime.zone_pixels),
                 })
             }
-            Err(Unfinished::Stopped) if interrupted => Err(Missed::Interrupted),
+            Err(Unfinished::Stopped) if interrupted => Err(Skipped::Interrupted),
             Err(Unfinished::Stopped) => {
                 let took = began.elapsed().as_secs_f64();
-                // So much at least: what is like it will not be tried again.
+                // It takes at least this long; similar settings will not be tried again.
                 self.forecast.learn(&work, took.max(predicted));
-                Err(Missed::OutOfTime(took))
+                Err(Skipped::OutOfTime(took))
             }
-            Err(Unfinished::Backend(error)) => Err(Missed::Impossible(error.to_string())),
+            Err(Unfinished::Backend(error)) => Err(Skipped::Impossible(error.to_string())),
         }
     }
 
-    fn leave_out(&mut self, setting: &Setting, reason: String) {
+    fn skip(&mut self, setting: &Setting, reason: String) {
         let words = setting.words(&self.report.scene);
         self.report.left_out.push(LeftOut { words, reason });
     }
 
-    /// Judges a run and hands its row on.
+    /// Computes the errors of a run and passes its row on.
     fn keep(
         &mut self,
         setting: Setting,
-        done: Done,
+        done: FinishedRun,
         listener: &mut dyn Listener,
     ) -> Result<(), AccuracyError> {
         let reference = self.report.reference.as_ref();
-        let errors = reference.map_or_else(Errors::default, |found| judge(&done.measured, found));
+        let errors = reference.map_or_else(Errors::default, |found| {
+            relative_errors(&done.measured, found)
+        });
         let varied = setting.varied(&self.report.scene);
         let base = self
             .report
@@ -471,13 +478,13 @@ impl<'a> Study<'a> {
     }
 }
 
-impl Missed {
+impl Skipped {
     fn words(&self) -> String {
         match self {
-            Missed::Late(seconds) => format!("would take about {}", duration(*seconds)),
-            Missed::OutOfTime(seconds) => format!("not done after {}", duration(*seconds)),
-            Missed::Interrupted => "interrupted".to_owned(),
-            Missed::Impossible(reason) => reason.clone(),
+            Skipped::Late(seconds) => format!("would take about {}", duration(*seconds)),
+            Skipped::OutOfTime(seconds) => format!("not done after {}", duration(*seconds)),
+            Skipped::Interrupted => "interrupted".to_owned(),
+            Skipped::Impossible(reason) => reason.clone(),
         }
     }
 }

@@ -1,17 +1,17 @@
-//! `accuracy.csv`, and the table on the screen.
+//! `accuracy.csv`, and the table on the terminal.
 
 use std::fmt::Write;
 use std::fs;
 use std::path::Path;
 
-use super::front;
-use super::judge::Errors;
+use super::errors::Errors;
+use super::pareto;
 use super::report::{Report, Row, duration};
 use super::setting::Varied;
 use super::steps::Steps;
 use crate::output::{OutputError, write_atomically};
 
-/// Columns that every `accuracy.csv` begins with, those of older versions too.
+/// First columns of every `accuracy.csv`, including those of older versions.
 const FIRST_COLUMNS: &str = "points,backend,precision,tolerance,steps,treatment,taper,seconds,error_area,error_force,error_pressure,error_pull_off,reference_uncertainty,pareto";
 
 /// The columns after those.
@@ -23,7 +23,7 @@ pub const LEVELS: [f64; 3] = [0.1, 0.01, 0.001];
 /// A quantity of [`Errors`].
 type Quantity = fn(&Errors) -> Option<f64>;
 
-/// What is judged apart, and all of it together.
+/// Each quantity, and all together.
 const QUANTITIES: [(&str, Quantity); 5] = [
     ("contact area", |errors| errors.area),
     ("force or gap", |errors| errors.force),
@@ -32,10 +32,10 @@ const QUANTITIES: [(&str, Quantity); 5] = [
     ("all of them", Errors::largest),
 ];
 
-/// The table of all rows so far as CSV. What is not known is empty.
+/// The table of all rows so far as CSV. Unknown values are empty.
 pub fn csv(report: &Report) -> String {
     let mut text = format!("{FIRST_COLUMNS},{MORE_COLUMNS}\n");
-    let front = report.front(Errors::largest);
+    let pareto = report.pareto(Errors::largest);
     let cell = |value: Option<f64>| value.map_or(String::new(), |value| format!("{value:e}"));
     let uncertainty = report.reference.as_ref().map(|found| found.uncertainty);
     for (index, row) in report.rows.iter().enumerate() {
@@ -45,14 +45,14 @@ pub fn csv(report: &Report) -> String {
             setting.backend.name().to_owned(),
             setting.precision.name().to_owned(),
             format!("{:e}", setting.tolerance),
-            row.measured.walked.to_string(),
+            row.measured.steps_solved.to_string(),
             setting.treatment(&report.scene).to_owned(),
             cell(row.taper),
             format!("{:.6}", row.measured.seconds),
         ];
         cells.extend(row.errors.all().map(cell));
         cells.push(cell(uncertainty.and_then(|known| known.largest())));
-        cells.push(front.contains(&index).to_string());
+        cells.push(pareto.contains(&index).to_string());
         cells.push(cell(row.errors.largest()));
         cells.push(row.varied.name().to_owned());
         cells.extend([row.range, row.chi, row.zone_pixels, row.change].map(cell));
@@ -71,19 +71,19 @@ pub fn csv(report: &Report) -> String {
     text
 }
 
-/// Writes `accuracy.csv`, whole or not at all.
+/// Writes `accuracy.csv`, in one piece.
 ///
 /// # Errors
-/// A file of that name that is no such table; what the system refuses.
+/// An existing file of that name that is not such a table; errors of the system.
 pub fn write_csv(path: &Path, report: &Report) -> Result<(), OutputError> {
     expect_place(path)?;
     write_atomically(path, csv(report).as_bytes())
 }
 
-/// Refuses a place where something else lies than such a table.
+/// Refuses a path with an existing file that is not such a table.
 ///
 /// # Errors
-/// [`OutputError::Refused`] where it does.
+/// [`OutputError::Refused`] in that case.
 pub fn expect_place(path: &Path) -> Result<(), OutputError> {
     let refused = |reason: &str| OutputError::Refused {
         path: path.to_path_buf(),
@@ -100,15 +100,16 @@ pub fn expect_place(path: &Path) -> Result<(), OutputError> {
     Ok(())
 }
 
-/// As in `256`, or `256x128`.
+/// `256`, or `256x128`.
 fn points([nx, ny]: [usize; 2]) -> String {
-    match nx == ny {
-        true => nx.to_string(),
-        false => format!("{nx}x{ny}"),
+    if nx == ny {
+        nx.to_string()
+    } else {
+        format!("{nx}x{ny}")
     }
 }
 
-/// In two digits.
+/// Per cent with two digits.
 fn percent(value: Option<f64>) -> String {
     match value.map(|value| 100.0 * value) {
         None => "-".to_owned(),
@@ -122,7 +123,7 @@ fn percent(value: Option<f64>) -> String {
     }
 }
 
-/// The report for people.
+/// The report for the terminal.
 pub fn screen(report: &Report) -> String {
     let mut text = String::new();
     // Writing to a string cannot fail.
@@ -136,7 +137,7 @@ pub fn screen(report: &Report) -> String {
         "  {:<58} {:>8} {:>9} {:>9} {:>9} {:>9}",
         "setting", "seconds", "area", "force", "pressure", "pull-off"
     ));
-    let front = report.front(Errors::largest);
+    let pareto = report.pareto(Errors::largest);
     let mut order: Vec<usize> = (0..report.rows.len()).collect();
     order.sort_by_key(|index| {
         let row = &report.rows[*index];
@@ -146,7 +147,7 @@ pub fn screen(report: &Report) -> String {
         let row = &report.rows[index];
         line(format!(
             "{} {}{}",
-            if front.contains(&index) { "*" } else { " " },
+            if pareto.contains(&index) { "*" } else { " " },
             cells(
                 &row.setting.words(&report.scene),
                 &duration(row.measured.seconds),
@@ -165,7 +166,7 @@ pub fn screen(report: &Report) -> String {
             cells("uncertainty of the reference", "", &reference.uncertainty)
         ));
         line(
-            "* on the front: nothing is both cheaper and better, by the largest of the errors"
+            "* on the Pareto front: nothing is both cheaper and better, by the largest of the errors"
                 .to_owned(),
         );
     }
@@ -202,7 +203,7 @@ pub fn screen(report: &Report) -> String {
     text
 }
 
-/// What steps cost and leave on the finest grid that has both counted ones and those of `steps = "auto"`.
+/// Error in time of the finest grid that has both numbered steps and `steps = "auto"`.
 fn in_time(report: &Report) -> Vec<String> {
     let rows = || report.rows.iter().filter(|row| row.in_time.is_some());
     let is_auto = |row: &Row| row.varied == Varied::TimeTolerance;
@@ -213,12 +214,12 @@ fn in_time(report: &Report) -> Vec<String> {
         return Vec::new();
     };
     let mut rows: Vec<&Row> = rows().filter(|row| row.setting.points == points).collect();
-    rows.sort_by_key(|row| (is_auto(row), row.measured.walked));
+    rows.sort_by_key(|row| (is_auto(row), row.measured.steps_solved));
     let mut lines =
         vec!["of which in time, from the steps of the reference on the same grid:".to_owned()];
     lines.extend(rows.into_iter().map(|row| {
         let words = row.setting.words(&report.scene);
-        let words = format!("{words}: {} steps", row.measured.walked);
+        let words = format!("{words}: {} steps", row.measured.steps_solved);
         let errors = row.in_time.unwrap_or_default();
         format!(
             "  {}",
@@ -233,12 +234,12 @@ fn cells(words: &str, seconds: &str, errors: &Errors) -> String {
     format!("{words:<58} {seconds:>8} {area:>9} {force:>9} {pressure:>9} {pull_off:>9}")
 }
 
-/// The cheapest setting for a level, or that none reached it; `None` where nothing is judged.
+/// The cheapest setting for a level, or a note that none reached it; `None` without errors.
 fn cheapest(report: &Report, of: Quantity, level: f64) -> Option<String> {
     let costs = report.costs(of);
     let best = costs.iter().filter_map(|cost| cost.1).reduce(f64::min)?;
     let uncertainty = report.uncertainty(of);
-    Some(match front::cheapest(&costs, uncertainty, level) {
+    Some(match pareto::cheapest(&costs, uncertainty, level) {
         Some(index) => {
             let row: &Row = &report.rows[index];
             format!(
@@ -248,7 +249,7 @@ fn cheapest(report: &Report, of: Quantity, level: f64) -> Option<String> {
             )
         }
         None if uncertainty > level => format!(
-            "not known: the reference itself is sure to {} only; a longer --budget gives a better one",
+            "unknown: the reference itself is accurate only to {}; a longer --budget gives a better one",
             percent(Some(uncertainty))
         ),
         None => format!(

@@ -13,8 +13,8 @@ use super::machine::{Machine, may_take_adapters};
 use super::patience::Patience;
 use super::{Failure, drivers, key_and_value, note, read_scene, room, say, warn};
 use crate::accuracy::{
-    AccuracyError, Bench, Listener, Report, Study, Workplace, duration, expect_place, picture,
-    screen, write_csv,
+    AccuracyError, BackendProvider, Listener, ProvidedBackend, Report, Study, duration,
+    expect_place, picture, screen, write_csv,
 };
 use crate::backend::cpu::with_threads;
 use crate::grid::Grid;
@@ -169,7 +169,7 @@ impl Shop<'_> {
     }
 }
 
-impl Workplace for Shop<'_> {
+impl BackendProvider for Shop<'_> {
     fn arithmetics(&self) -> &[(BackendName, Precision)] {
         self.arithmetics.get_or_init(|| self.found())
     }
@@ -178,10 +178,10 @@ impl Workplace for Shop<'_> {
         room::refuse(scene, grid).map_err(|error| error.to_string())
     }
 
-    fn bench(&self, setup: &Setup) -> Result<Bench, String> {
+    fn provide(&self, setup: &Setup) -> Result<ProvidedBackend, String> {
         let machine =
             Machine::of(setup, self.arguments.verbose).map_err(|error| error.to_string())?;
-        Ok(Bench {
+        Ok(ProvidedBackend {
             remark: machine.remark.clone(),
             make: Box::new(move || machine.backend()),
         })

@@ -1,14 +1,15 @@
-//! `tabor check`: what a scene would do and cost.
+//! `tabor check`: physics, accuracy, memory and cost of a scene, without solving it.
 
 use super::machine::{largest_here, refuse_size};
 use super::{CheckArguments, Failure, print, read_scene, room, warn};
 use crate::backend::tally::Place;
 use crate::effect::Effect;
+use crate::law::Law;
 use crate::study::{Cost, Memory, Plan};
 use crate::surface::Source;
 use crate::units::format_si;
 
-/// Reads and validates a scene and prints what it found.
+/// Reads and validates a scene and prints a report.
 pub(super) fn check(arguments: &CheckArguments) -> Result<(), Failure> {
     let scene = read_scene(&arguments.scene, &arguments.set)?;
     room::refuse_files(&scene)?;
@@ -32,16 +33,32 @@ pub(super) fn check(arguments: &CheckArguments) -> Result<(), Failure> {
     Ok(())
 }
 
+/// Pass that stands for a convolution: a forward and an inverse transform.
+const CONVOLUTION: &str = "multiply";
+
 fn mebibytes(bytes: u64) -> String {
     format!("{:.1} MiB", bytes as f64 / f64::from(1 << 20))
 }
 
-/// The report, line by line.
+/// The report: physics, effects, accuracy, memory and cost. With `verbose` also the fields and kernels
+/// of the solver and the effects that are off.
 fn describe(plan: &Plan, cost: &Cost, verbose: bool) -> Result<String, Failure> {
+    let mut lines = physics(plan);
+    lines.extend(effects(plan, cost, verbose)?);
+    lines.extend(accuracy(plan));
+    lines.extend(resources(plan, cost, verbose));
+    if verbose {
+        lines.extend(internals(plan, cost));
+    }
+    lines.push(String::new());
+    Ok(lines.join("\n"))
+}
+
+/// Grid, solid, surface, loading, law and regime.
+fn physics(plan: &Plan) -> Vec<String> {
     let scene = &plan.scene;
     let grid = plan.outline.grid;
     let moments = plan.outline.moments;
-    let memory = Memory::of(scene, grid, cost);
     let mut lines = vec![
         format!(
             "grid          {} x {} points, {} x {}, {} boundary",
@@ -61,8 +78,8 @@ fn describe(plan: &Plan, cost: &Cost, verbose: bool) -> Result<String, Failure> 
             moments.rms_slope(),
             moments.rms_curvature(),
             match plan.outline.source {
-                Source::Heights => "of the heights",
-                Source::Spectrum => "of the spectrum on this grid",
+                Source::Heights => "from the heights",
+                Source::Spectrum => "from the spectrum on this grid",
                 Source::Estimate => "estimated without the heights",
             }
         ),
@@ -73,61 +90,120 @@ fn describe(plan: &Plan, cost: &Cost, verbose: bool) -> Result<String, Failure> 
             step_times(scene.loading.durations.as_deref())
         ),
     ];
+    let Some(regime) = &plan.regime else {
+        return lines;
+    };
+    lines.push(format!(
+        "law           {}: work of adhesion {}, range {}, peak tension {}",
+        scene
+            .adhesion
+            .as_ref()
+            .map_or("", |adhesion| adhesion.law.name()),
+        format_si(plan.law.work_of_adhesion(), "J/m^2"),
+        format_si(plan.law.range(), "m"),
+        format_si(plan.law.peak_tension(), "Pa"),
+    ));
+    if let Law::MaugisDugdale(law) = plan.law
+        && law.taper > 0.0
+    {
+        lines.push(format!(
+            "taper         {}: the attraction ends at a gap of {} in place of {}, so jump-in comes earlier",
+            format_si(law.taper, "m"),
+            format_si(law.range + 0.5 * law.taper, "m"),
+            format_si(law.range, "m"),
+        ));
+    }
+    let radius = if regime.radius.is_finite() {
+        format!("radius {}", format_si(regime.radius, "m"))
+    } else {
+        "flat surface".to_owned()
+    };
+    lines.push(format!(
+        "regime        Tabor number {:.3} ({radius}): {}",
+        regime.tabor,
+        regime.name()
+    ));
+    lines
+}
+
+/// The effects of the scene: what each does, when it matters and how much memory it takes.
+fn effects(plan: &Plan, cost: &Cost, verbose: bool) -> Result<Vec<String>, Failure> {
+    let mut lines = Vec::new();
+    for effect in Effect::ALL {
+        if !effect.is_on(&plan.scene) {
+            if verbose {
+                lines.push(format!("effect off    {}", effect.name()));
+            }
+            continue;
+        }
+        lines.push(format!(
+            "effect on     {}: {}",
+            effect.name(),
+            effect.purpose()
+        ));
+        lines.push(format!("              {}", effect.matters(plan)));
+        let found = effect.cost(&plan.scene, cost, plan.outline.grid)?;
+        let sign = if found.bytes < 0 { "-" } else { "+" };
+        let bytes = u64::try_from(found.bytes.unsigned_abs()).unwrap_or(u64::MAX);
+        lines.push(format!("              memory {sign}{}", mebibytes(bytes)));
+        if verbose {
+            lines.push(format!(
+                "              fields {}; kernels {}",
+                change(&found.fields_added, &found.fields_spared),
+                change(&found.passes_added, &found.passes_spared),
+            ));
+        }
+    }
+    Ok(lines)
+}
+
+/// How the grid resolves roughness and adhesion.
+fn accuracy(plan: &Plan) -> Vec<String> {
+    let mut lines = Vec::new();
     if let Some(pixels) = plan.pixels_a_wave() {
         lines.push(format!(
-            "waves         {pixels:.1} pixels across the shortest"
+            "accuracy      {pixels:.1} pixels across the shortest wave"
         ));
     }
     if let Some(regime) = &plan.regime {
         lines.push(format!(
-            "law           {}: work of adhesion {}, range {}, peak tension {}{}",
-            scene
-                .adhesion
-                .as_ref()
-                .map_or("", |adhesion| adhesion.law.name()),
-            format_si(plan.law.work_of_adhesion(), "J/m^2"),
-            format_si(plan.law.range(), "m"),
-            format_si(plan.law.peak_tension(), "Pa"),
-            match plan.law {
-                crate::law::Law::MaugisDugdale(law) if law.taper > 0.0 => {
-                    format!(
-                        ", taper {}: it attracts up to {}, and jump-in comes as much earlier",
-                        format_si(law.taper, "m"),
-                        format_si(law.range + 0.5 * law.taper, "m")
-                    )
-                }
-                _ => String::new(),
-            }
-        ));
-        let radius = if regime.radius.is_finite() {
-            format!("radius {}", format_si(regime.radius, "m"))
-        } else {
-            "flat surface".to_owned()
-        };
-        lines.push(format!(
-            "regime        Tabor number {:.3} ({radius}): {}",
-            regime.tabor,
-            regime.name()
-        ));
-        lines.push(format!(
-            "resolution    {:.2} pixels across the cohesive zone, chi {:.3}",
+            "accuracy      {:.2} pixels across the cohesive zone; chi = w dx/(E* range^2) = {:.3}",
             regime.zone_pixels, regime.chi
         ));
     }
-    lines.push(format!(
-        "memory        {} at most on this machine{}",
-        mebibytes(memory.machine),
-        if memory.adapter > 0 {
-            format!(", {} on the adapter", mebibytes(memory.adapter))
+    lines
+}
+
+/// Memory, precision and the work of an iteration.
+fn resources(plan: &Plan, cost: &Cost, verbose: bool) -> Vec<String> {
+    let scene = &plan.scene;
+    let memory = Memory::of(scene, plan.outline.grid, cost);
+    let adapter = if memory.adapter > 0 {
+        format!(", {} on the adapter", mebibytes(memory.adapter))
+    } else {
+        String::new()
+    };
+    let mut lines = vec![format!(
+        "memory        {} at most on this machine{adapter}",
+        mebibytes(memory.machine)
+    )];
+    if !cost.reference.is_empty() {
+        let device = if cost.place.on_gpu() {
+            "GPU if it supports that, else on the processor"
         } else {
-            String::new()
-        }
-    ));
+            "processor"
+        };
+        lines.push(format!(
+            "              with {} for the double-precision state of mixed precision, on the {device}",
+            mebibytes(cost.reference_bytes() as u64)
+        ));
+    }
+    let convolutions = cost.passes.iter().filter(|name| **name == CONVOLUTION);
     lines.push(format!(
-        "solver        {} in {} fields, {} tables and the transforms' work space, in {}",
-        mebibytes(memory.solver),
-        cost.fields.len(),
-        cost.spectra.len(),
+        "cost          {} convolutions (two Fourier transforms each) an iteration on up to {} x {} points, in {}",
+        convolutions.count(),
+        cost.points[0],
+        cost.points[1],
         match cost.place {
             Place::Double => "double precision",
             Place::Single => "single precision",
@@ -137,60 +213,36 @@ fn describe(plan: &Plan, cost: &Cost, verbose: bool) -> Result<String, Failure> 
     ));
     if cost.place == Place::Gpu {
         lines.push(format!(
-            "largest       {}",
+            "largest grid  {}",
             largest_here(scene.grid.boundary, verbose)
         ));
     }
-    if !cost.reference.is_empty() {
-        lines.push(format!(
-            "corrections   {} of state in double precision on the {}",
-            mebibytes(cost.reference_bytes() as u64),
-            match cost.place.on_gpu() {
-                true => "GPU where that has it, else on the processor",
-                false => "processor",
-            }
-        ));
-    }
-    lines.push(format!(
-        "fields        {}",
-        join(cost.fields.iter().map(|field| field.name))
-    ));
-    lines.push(format!(
-        "an iteration  {}",
-        join(cost.passes.iter().copied())
-    ));
-    for effect in Effect::ALL {
-        if !effect.is_on(scene) {
-            lines.push(format!(
-                "effect off    {}: no field, no pass",
-                effect.name()
-            ));
-            continue;
-        }
-        lines.push(format!(
-            "effect on     {}: {}",
-            effect.name(),
-            effect.purpose()
-        ));
-        lines.push(format!("              {}", effect.matters(plan)));
-        let found = effect.cost(scene, cost, grid)?;
-        lines.push(format!(
-            "              fields {}; passes {}; {}{}",
-            change(&found.fields_added, &found.fields_spared),
-            change(&found.passes_added, &found.passes_spared),
-            if found.bytes < 0 { "-" } else { "+" },
-            mebibytes(u64::try_from(found.bytes.unsigned_abs()).unwrap_or(u64::MAX))
-        ));
-    }
-    lines.push(String::new());
-    Ok(lines.join("\n"))
+    lines
+}
+
+/// Fields and kernels of the solver.
+fn internals(plan: &Plan, cost: &Cost) -> Vec<String> {
+    let memory = Memory::of(&plan.scene, plan.outline.grid, cost);
+    vec![
+        format!(
+            "solver        {} in {} fields, {} tables and the work space of the transforms",
+            mebibytes(memory.solver),
+            cost.fields.len(),
+            cost.spectra.len()
+        ),
+        format!(
+            "fields        {}",
+            join(cost.fields.iter().map(|field| field.name))
+        ),
+        format!("kernels       {}", join(cost.passes.iter().copied())),
+    ]
 }
 
 fn join(names: impl Iterator<Item = &'static str>) -> String {
     names.collect::<Vec<_>>().join(", ")
 }
 
-/// As in `+2 (step, search), -1 (coarse)`.
+/// A change such as `+2 (step, search), -1 (coarse)`.
 fn change(added: &[&'static str], spared: &[&'static str]) -> String {
     let part = |sign: &str, names: &[&'static str]| {
         (!names.is_empty()).then(|| format!("{sign}{} ({})", names.len(), names.join(", ")))
@@ -200,13 +252,13 @@ fn change(added: &[&'static str], spared: &[&'static str]) -> String {
         .flatten()
         .collect();
     if parts.is_empty() {
-        "the same".to_owned()
+        "unchanged".to_owned()
     } else {
         parts.join(", ")
     }
 }
 
-/// The shortest and the longest step of a path that says how long they take.
+/// The shortest and the longest duration of a step, if the path has durations.
 fn step_times(durations: Option<&[f64]>) -> String {
     let taking = durations.unwrap_or(&[]).iter().copied();
     let mut taking = taking.filter(|duration| *duration > 0.0);

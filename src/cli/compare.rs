@@ -15,7 +15,7 @@ pub(super) fn compare(arguments: &CompareArguments) -> Result<(), Failure> {
     let _patience = Patience::new("compare.csv has the rows so far; a coarser grid takes less");
     let scene = read_scene(&arguments.scene, &arguments.set)?;
     // Before a surface is built of which nothing could be said.
-    compare::suits(&scene)?;
+    compare::check_scene(&scene)?;
     room::refuse_scene(&scene)?;
     let surface = Surface::build(&scene).map_err(|error| Failure::Surface {
         path: arguments.scene.clone(),

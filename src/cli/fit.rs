@@ -9,7 +9,7 @@ use super::{Failure, print, say, warn};
 use crate::fit::{FitResult, ForceCurve, Freedom, ModelFit, draw, fit_curve, report};
 use crate::output::{OutputError, write_atomically};
 use crate::theory::jkr;
-use crate::units::{Dimension, SANE_WORDS, format_si, is_sane, parse_quantity};
+use crate::units::{Dimension, RANGE_WORDS, format_si, in_range, parse_quantity};
 
 /// What `tabor fit` takes.
 #[derive(Debug, Args)]
@@ -174,10 +174,10 @@ fn quantity(text: &str, dimension: Dimension) -> Result<f64, String> {
         Some(value) => value,
         None => parse_quantity(text, dimension).map_err(|error| error.to_string())?,
     };
-    if is_sane(value) {
+    if in_range(value) {
         Ok(value)
     } else {
-        Err(format!("must be {SANE_WORDS}; give {dimension}"))
+        Err(format!("must be {RANGE_WORDS}; give {dimension}"))
     }
 }
 

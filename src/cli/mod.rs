@@ -139,7 +139,7 @@ struct RunArguments {
 struct CheckArguments {
     /// The scene, a TOML file
     scene: PathBuf,
-    /// Let graphics drivers say what they say at their start
+    /// Also list the solver's fields and kernels, the effects that are off, and messages of graphics drivers
     #[arg(long)]
     verbose: bool,
     /// Override a key of the scene, as in surface.0.hurst=0.4; may be repeated

@@ -1,31 +1,32 @@
-//! The models of summits: interacting asperities of the height map, and GW-M.
+//! Models of summits: interacting asperities of the height map, and GW-M.
 
-use super::ladder::{Ladder, rungs};
+use super::load_scan::{LoadScan, scan_loads};
 use super::table::Table;
-use super::{Comparison, Left, State};
+use super::{Comparison, State, Stopped};
 use crate::theory::gw::Summits;
 use crate::theory::icha::{Icha, MergeRule};
 use crate::theory::{Sphere, gw_m};
 
-/// Contact area up to which interacting asperities are near full fields; beyond it most have merged.
+/// Contact area up to which interacting asperities approximate the full field; beyond it most have
+/// merged.
 const ICHA_AREA: f64 = 0.3;
-/// Contact area up to which summits that do not feel each other are a model.
+/// Contact area up to which non-interacting summits are a valid model.
 const GW_AREA: f64 = 0.05;
 
 /// Interacting asperities, the law's traction summed over their gap field.
-pub(super) fn icha(comparison: &Comparison, table: &mut Table) -> Result<(), Left> {
+pub(super) fn icha(comparison: &Comparison, table: &mut Table) -> Result<(), Stopped> {
     let setup = &comparison.setup;
     let modulus = setup.scene.solid.contact_modulus;
     let unit = modulus * setup.statistics.moments.rms_slope();
     let surface = Icha::new(setup.surface.grid, &setup.surface.heights)?;
     let mut loading = surface.loading(MergeRule::Volume);
-    let mut ladder = Ladder::default();
+    let mut scan = LoadScan::default();
     let largest = comparison.loads.last().copied().unwrap_or(0.0);
     let mut ended = None;
-    for repulsive in rungs(unit, largest, comparison.tension) {
+    for repulsive in scan_loads(unit, largest, comparison.tension) {
         let pressed = match loading.press(repulsive / modulus) {
             Ok(pressed) => pressed,
-            // What it reached stands.
+            // The rows reached so far are kept.
             Err(error) => {
                 ended = Some(error);
                 break;
@@ -34,8 +35,8 @@ pub(super) fn icha(comparison: &Comparison, table: &mut Table) -> Result<(), Lef
         let gap = pressed.gap(&surface);
         let attraction = gap.mean_outside(|gap| setup.law.traction(gap));
         let area = pressed.contact_area_fraction();
-        ladder.add(repulsive, area, gap.mean(), attraction);
-        if ladder.stays_above(largest, setup.law.peak_tension()) {
+        scan.add(repulsive, area, gap.mean(), attraction);
+        if scan.stays_above(largest, setup.law.peak_tension()) {
             break;
         }
     }
@@ -44,13 +45,13 @@ pub(super) fn icha(comparison: &Comparison, table: &mut Table) -> Result<(), Lef
         let crowded = crowded.then_some("contact area above 30 %");
         crowded.or(comparison.beyond_dmt())
     };
-    let pull_off = ladder.pull_off();
+    let pull_off = scan.pull_off();
     let tension = pull_off.map_or(0.0, |state| -state.mean_pressure);
     if let Some(state) = pull_off {
         table.add(state, Some(tension), limit(&state))?;
     }
     for load in comparison.carried(tension) {
-        if let Some(state) = ladder.at(load) {
+        if let Some(state) = scan.at(load) {
             table.add(state, Some(tension), limit(&state))?;
         }
     }
@@ -59,10 +60,10 @@ pub(super) fn icha(comparison: &Comparison, table: &mut Table) -> Result<(), Lef
 
 /// Greenwood & Williamson's summits with Maugis' constant: radius 2/h'', heights and number of the
 /// spectrum's moments.
-pub(super) fn gw_m(comparison: &Comparison, table: &mut Table) -> Result<(), Left> {
+pub(super) fn gw_m(comparison: &Comparison, table: &mut Table) -> Result<(), Stopped> {
     let setup = &comparison.setup;
     let moments = setup.statistics.moments;
-    let missing = || Left::Out("the surface has no summit statistics".to_owned());
+    let missing = || Stopped::Out("the surface has no summit statistics".to_owned());
     let radius = moments.mean_radius().ok_or_else(missing)?;
     let density = moments.summit_density().ok_or_else(missing)?;
     let mean_summit = moments.mean_summit_height().ok_or_else(missing)?;
@@ -70,12 +71,12 @@ pub(super) fn gw_m(comparison: &Comparison, table: &mut Table) -> Result<(), Lef
     let sphere = Sphere::new(radius, setup.scene.solid.contact_modulus, work)?;
     let rms_height = moments.rms_height();
     let summits = Summits::new(sphere, density, rms_height)?;
-    let state = |separation: f64| -> Result<State, Left> {
+    let state = |separation: f64| -> Result<State, Stopped> {
         let net = gw_m::pressure(&summits, separation)?;
         Ok(State {
             mean_pressure: net,
             contact_area_fraction: Some(summits.contact_area_fraction(separation)),
-            // Below the mean plane its flat has no gap to speak of.
+            // Below the mean plane the model's flat has no meaningful gap.
             mean_gap: Some(separation * rms_height + mean_summit).filter(|gap| *gap > 0.0),
             adhesive_pressure: Some(summits.pressure(separation)? - net),
         })

@@ -1,4 +1,4 @@
-//! `compare.png`: area, mean gap, attraction and pull-off against load, a colour a model.
+//! `compare.png`: area, mean gap, attraction and pull-off against load, one colour a model.
 
 use super::Comparison;
 use super::table::Row;
@@ -30,7 +30,7 @@ pub(super) fn figure(comparison: &Comparison, rows: &[Row]) -> Figure {
             .iter()
             .enumerate()
             .map(|(name, model)| {
-                // A path may go back and forth: points are joined as they were walked.
+                // A path may go back and forth: points are joined in the order of the path.
                 let of_model = rows.iter().filter(|row| row.model == *model);
                 let points = of_model.filter_map(|row| {
                     Some(PlotPoint {

@@ -1,6 +1,6 @@
-//! The full field, and the field without adhesion whose attraction is summed afterwards.
+//! The full field, and the field without adhesion with the attraction added afterwards (DMT).
 
-use super::ladder::{Ladder, rungs};
+use super::load_scan::{LoadScan, scan_loads};
 use super::table::Table;
 use super::{CompareError, Comparison, State};
 use crate::kernel::Scalars;
@@ -12,16 +12,16 @@ use crate::study::{
     Evaluation, FinishedStep, Observer, PointState, Setup, WalkError, greatest_across, walk,
 };
 
-/// Mean gaps at which pull-off is looked for on the way out, and around the greatest tension found.
-const WAY_OUT: usize = 32;
+/// Number of mean gaps in the search for pull-off on retraction, and around its greatest tension.
+const RETRACTION_GAPS: usize = 32;
 const CLOSER: usize = 8;
-/// Tension over the greatest one below which the way out ends.
+/// The retraction ends where the tension falls below this share of the greatest one.
 const OVER: f64 = 0.3;
 
-/// Sees the state of each step; may end the path.
+/// Observes the state of each step and may end the path.
 struct Watch<F: FnMut(State, &Evaluation, bool) -> Result<bool, OutputError>>(F);
 
-/// Why a watched path ended.
+/// Why an observed path ended.
 enum End {
     Enough,
     Output(OutputError),
@@ -56,14 +56,14 @@ impl<F: FnMut(State, &Evaluation, bool) -> Result<bool, OutputError>> Observer f
     }
 }
 
-/// Mean over the cell of the tension, Pa.
+/// Mean tension over the cell, Pa.
 fn tension(fields: &Evaluation) -> f64 {
     let sum: f64 = fields.pressure.iter().map(|p| (-p).max(0.0)).sum();
     sum / fields.pressure.len() as f64
 }
 
-/// Walks another path over the same surface.
-fn walked<F: FnMut(State, &Evaluation, bool) -> Result<bool, OutputError>>(
+/// Follows another path over the same surface.
+fn follow_path<F: FnMut(State, &Evaluation, bool) -> Result<bool, OutputError>>(
     comparison: &Comparison,
     make_backend: MakeBackend,
     control: Control,
@@ -90,8 +90,8 @@ fn unconverged(converged: bool) -> Option<&'static str> {
     (!converged).then_some("not converged")
 }
 
-/// The scene as it is: pull-off from its largest load, then its path step by step, which also finds
-/// the loads of the other models.
+/// The scene itself: pull-off by retraction from its largest load, then its path step by step,
+/// which also gives the loads for the other models.
 pub(super) fn full(
     comparison: &mut Comparison,
     make_backend: MakeBackend,
@@ -104,7 +104,7 @@ pub(super) fn full(
     });
     let mut pull_off = full.is_none().then_some(0.0);
     if full.is_some() {
-        let best = way_out(comparison, make_backend, full.clone())?;
+        let best = pull_off_by_retraction(comparison, make_backend, full.clone())?;
         pull_off = best.map(|state| -state.mean_pressure);
         if let Some(state) = best {
             table.add(state, pull_off, None)?;
@@ -118,15 +118,15 @@ pub(super) fn full(
         table.add(state, pull_off, unconverged(converged))?;
         Ok(true)
     };
-    walked(comparison, make_backend, control, path, full, keep)?;
+    follow_path(comparison, make_backend, control, path, full, keep)?;
     loads.sort_by(f64::total_cmp);
     loads.dedup();
     comparison.loads = loads;
     Ok(())
 }
 
-/// The state of greatest tension on the way out from the closest step of the scene's path.
-fn way_out(
+/// The state of greatest tension on retraction from the closest step of the scene's path.
+fn pull_off_by_retraction(
     comparison: &Comparison,
     make_backend: MakeBackend,
     adhesion: Option<AdhesionScene>,
@@ -144,7 +144,7 @@ fn way_out(
         nearest = state.mean_gap;
         Ok(true)
     };
-    walked(
+    follow_path(
         comparison,
         make_backend,
         loading.control,
@@ -155,13 +155,13 @@ fn way_out(
     let Some(nearest) = nearest else {
         return Ok(None);
     };
-    // Apart by more than the highest summit and some ranges nothing is left.
+    // Beyond the highest summit by a few ranges no attraction is left.
     let statistics = comparison.setup.statistics;
     let far = statistics.highest - statistics.mean + 3.0 * comparison.setup.law.range();
     let mut low = nearest.max(1e-3 * far);
     let mut high = far.max(2.0 * low);
     let mut best: Option<State> = None;
-    for count in [WAY_OUT, CLOSER] {
+    for count in [RETRACTION_GAPS, CLOSER] {
         let step = (high - low) / count as f64;
         let path = (0..=count).map(|i| low + step * i as f64).collect();
         let see = |state: State, _: &Evaluation, converged: bool| {
@@ -171,7 +171,7 @@ fn way_out(
             }
             Ok(state.mean_pressure <= OVER * least || least == 0.0)
         };
-        walked(
+        follow_path(
             comparison,
             make_backend,
             Control::MeanGap,
@@ -187,11 +187,11 @@ fn way_out(
     Ok(best)
 }
 
-/// The treatment of DMT: a ladder of contacts without adhesion for pull-off, then each load by itself.
+/// The DMT treatment: a scan of contacts without adhesion for pull-off, then each load separately.
 ///
-/// The net pressure is not monotone in the repulsive one: a summit that stands out lets go alone before
-/// the rest comes near. So the ladder is climbed until no attraction can win any more, what attracts
-/// across a gap without contact is asked too, and every dip is looked at closer.
+/// The net pressure is not monotone in the repulsive pressure: a single high summit detaches before
+/// the rest of the surface comes near. So the scan continues until no attraction can exceed the
+/// repulsion, includes states without contact, and is refined around every minimum.
 pub(super) fn dmt(
     comparison: &Comparison,
     make_backend: MakeBackend,
@@ -201,8 +201,8 @@ pub(super) fn dmt(
     let law: Law = setup.law;
     let peak = law.peak_tension();
     let unit = setup.scene.solid.contact_modulus * setup.statistics.moments.rms_slope();
-    let mut ladder = Ladder::default();
-    let mut climb = |path: Vec<f64>, to_the_end: bool| {
+    let mut scan = LoadScan::default();
+    let mut scan_states = |path: Vec<f64>, to_the_end: bool| {
         let add = |state: State, fields: &Evaluation, _: bool| {
             let open = fields.gap.iter().zip(&fields.points);
             let open = open.filter(|(_, point)| **point != PointState::Contact);
@@ -210,17 +210,17 @@ pub(super) fn dmt(
                 open.map(|(gap, _)| law.traction(*gap)).sum::<f64>() / fields.gap.len() as f64;
             let area = state.contact_area_fraction.unwrap_or(f64::NAN);
             let gap = state.mean_gap.unwrap_or(f64::NAN);
-            ladder.add(state.mean_pressure, area, gap, attraction);
-            Ok(to_the_end || !ladder.stays_above(0.0, peak))
+            scan.add(state.mean_pressure, area, gap, attraction);
+            Ok(to_the_end || !scan.stays_above(0.0, peak))
         };
-        walked(comparison, make_backend, Control::Pressure, path, None, add)?;
-        Ok::<_, CompareError>(ladder.closer())
+        follow_path(comparison, make_backend, Control::Pressure, path, None, add)?;
+        Ok::<_, CompareError>(scan.closer())
     };
-    let closer = climb(rungs(unit, 0.0, peak), false)?;
-    climb(closer, true)?;
+    let closer = scan_states(scan_loads(unit, 0.0, peak), false)?;
+    scan_states(closer, true)?;
     let limit = comparison.beyond_dmt();
     let pulls = |state: &State| state.mean_pressure < 0.0;
-    let pull_off = [ladder.pull_off(), Some(across_a_gap(setup))]
+    let pull_off = [scan.pull_off(), Some(separated_pull_off(setup))]
         .into_iter()
         .flatten()
         .filter(pulls)
@@ -238,7 +238,7 @@ pub(super) fn dmt(
         table.add(state, Some(tension), unconverged(converged).or(limit))?;
         Ok(true)
     };
-    walked(
+    follow_path(
         comparison,
         make_backend,
         Control::Pressure,
@@ -249,7 +249,7 @@ pub(super) fn dmt(
 }
 
 /// The state of greatest tension without contact: the undeformed surfaces at their best clearance.
-fn across_a_gap(setup: &Setup) -> State {
+fn separated_pull_off(setup: &Setup) -> State {
     let (clearance, tension) = greatest_across(setup);
     let statistics = setup.statistics;
     State {

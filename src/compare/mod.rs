@@ -1,14 +1,14 @@
-//! One rough surface through several models, side by side with the seconds that each takes.
+//! One rough surface through several models, with the seconds that each takes.
 //!
-//! [`compare`] asks the full field, the field without adhesion whose attraction is summed afterwards
-//! (DMT), interacting asperities, Persson's theory, summits by themselves (GW-M) and the bearing-area
-//! model for contact area, mean gap, attraction and pull-off under the same loads; `docs/compare.md`
-//! says what each is and where it leaves its range.
+//! [`compare`] computes contact area, mean gap, attraction and pull-off under the same loads by the
+//! full field, the field without adhesion with the attraction added afterwards (DMT), interacting
+//! asperities, Persson's theory, independent summits (GW-M) and the bearing-area model;
+//! `docs/compare.md` describes each and its range.
 
 mod asperities;
 mod draw;
 mod field;
-mod ladder;
+mod load_scan;
 mod spectrum;
 mod table;
 
@@ -27,7 +27,7 @@ use crate::theory::TheoryError;
 use crate::theory::tabor_map::FORCE_DMT_LIMIT;
 use table::Table;
 
-/// What a model says at one net mean pressure; `None` where it has no such quantity.
+/// Results of a model at one net mean pressure; `None` if the model has no such quantity.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct State {
     /// Mean pressure, Pa, negative in tension.
@@ -36,23 +36,23 @@ pub struct State {
     pub contact_area_fraction: Option<f64>,
     /// Mean gap, m.
     pub mean_gap: Option<f64>,
-    /// Mean tension that the attraction makes, Pa.
+    /// Mean tension of the attraction, Pa.
     pub adhesive_pressure: Option<f64>,
 }
 
-/// What a comparison found.
+/// Results of a comparison.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Compared {
     /// The rows of `compare.csv`, model by model.
     pub rows: Vec<Row>,
-    /// Models left out or cut short, and why.
+    /// Models left out or ended early, with reasons.
     pub notes: Vec<String>,
 }
 
-/// Why there is no comparison.
+/// Why a comparison is impossible.
 #[derive(Debug, thiserror::Error)]
 pub enum CompareError {
-    /// The models say nothing of the scene; what, where and the way out.
+    /// A scene outside the models: the part and the remedy.
     #[error("{0}")]
     Unsuited(String),
     /// A file that cannot be written.
@@ -63,7 +63,7 @@ pub enum CompareError {
     Backend(#[from] BackendError),
 }
 
-/// A scene and its surface, and the loads that models are asked.
+/// A scene with its surface, and the loads for the models.
 struct Comparison {
     setup: Setup,
     /// Distinct net mean pressures, Pa, rising.
@@ -73,13 +73,13 @@ struct Comparison {
 }
 
 impl Comparison {
-    /// Net mean pressures of a model between its pull-off and its reach.
+    /// Net mean pressures that a model carries: above its pull-off and within its range.
     fn carried(&self, pull_off: f64) -> impl Iterator<Item = f64> {
         let loads = self.loads.iter().copied();
         loads.filter(move |load| *load > -pull_off)
     }
 
-    /// Why the force approach of DMT is out of its range here, if it is.
+    /// Why the DMT force approach is out of its range here, if it is.
     fn beyond_dmt(&self) -> Option<&'static str> {
         let tabor = self.setup.regime?.tabor;
         (tabor > FORCE_DMT_LIMIT).then_some("Tabor number above 0.237")
@@ -89,14 +89,14 @@ impl Comparison {
 /// Compares and writes `compare.csv`, row by row, and `compare.png` into `folder`.
 ///
 /// # Errors
-/// A scene that does not suit ([`suits`]), a flat surface, files that cannot be written, a device that
-/// fails. A model that has nothing to say is no error: a note tells why.
+/// A scene that does not suit ([`check_scene`]), a flat surface, files that cannot be written, a device
+/// that fails. A model without results is not an error: a note gives the reason.
 pub fn compare(
     setup: Setup,
     make_backend: MakeBackend,
     folder: &Path,
 ) -> Result<Compared, CompareError> {
-    suits(&setup.scene)?;
+    check_scene(&setup.scene)?;
     if setup.statistics.moments.rms_slope() == 0.0 {
         return Err(CompareError::Unsuited(
             "the surface is flat: there is no roughness to compare models of".to_owned(),
@@ -131,12 +131,12 @@ pub fn compare(
         let clock = Instant::now();
         match model(&comparison, &mut table) {
             Ok(()) => {}
-            Err(Left::Out(reason)) => notes.push(format!("{name} is left out: {reason}")),
-            Err(Left::Theory(error)) => notes.push(format!(
+            Err(Stopped::Out(reason)) => notes.push(format!("{name} is left out: {reason}")),
+            Err(Stopped::Theory(error)) => notes.push(format!(
                 "{name} ends here, after {:.1} s: {error}",
                 clock.elapsed().as_secs_f64()
             )),
-            Err(Left::Output(error)) => return Err(error.into()),
+            Err(Stopped::Output(error)) => return Err(error.into()),
         }
     }
     let (rows, more) = table.into_rows()?;
@@ -145,11 +145,11 @@ pub fn compare(
     Ok(Compared { rows, notes })
 }
 
-type Model = fn(&Comparison, &mut Table) -> Result<(), Left>;
+type Model = fn(&Comparison, &mut Table) -> Result<(), Stopped>;
 
-/// Why a model has no more rows.
+/// Why a model has no further rows.
 #[derive(Debug, thiserror::Error)]
-enum Left {
+enum Stopped {
     #[error("{0}")]
     Out(String),
     #[error(transparent)]
@@ -158,11 +158,12 @@ enum Left {
     Output(#[from] OutputError),
 }
 
-/// Refuses scenes of which the models say nothing.
+/// Refuses scenes outside the models.
 ///
 /// # Errors
-/// Spheres and cones, a free boundary, a spring, and a solid or an adhesion that only the full field knows.
-pub fn suits(scene: &Scene) -> Result<(), CompareError> {
+/// Spheres and cones, a free boundary, a spring, and solids or adhesion that only the full field
+/// can model.
+pub fn check_scene(scene: &Scene) -> Result<(), CompareError> {
     let mistake = |text: &str| Err(CompareError::Unsuited(text.to_owned()));
     for (index, part) in scene.surfaces.iter().enumerate() {
         let shape = match part {
@@ -171,18 +172,18 @@ pub fn suits(scene: &Scene) -> Result<(), CompareError> {
             _ => continue,
         };
         return Err(CompareError::Unsuited(format!(
-            "[[surface]] {} is a {shape}: compare is of nominally flat rough surfaces, whose models ask for the statistics of many summits; one {shape} is compared with `tabor theory` (hertz, jkr, maugis-dugdale, dmt-f, ...)",
+            "[[surface]] {} is a {shape}: the models of compare need a nominally flat rough surface with many summits; compare one {shape} with `tabor theory` (hertz, jkr, maugis-dugdale, dmt-f, ...)",
             index + 1
         )));
     }
     if scene.grid.boundary == Boundary::Free {
         return mistake(
-            "[grid] boundary = \"free\" is one isolated contact: the models of compare are of a nominal area without end; take boundary = \"periodic\"",
+            "[grid] boundary = \"free\" is one isolated contact: the models of compare assume an infinite nominal area; take boundary = \"periodic\"",
         );
     }
     if scene.loading.spring.is_some() {
         return mistake(
-            "[loading] spring: compare asks each model for its state under a mean pressure; leave the spring out",
+            "[loading] spring: compare prescribes the mean pressure of every model; leave the spring out",
         );
     }
     let mapped = scene.adhesion.as_ref().is_some_and(|law| law.map.is_some());
@@ -199,7 +200,7 @@ pub fn suits(scene: &Scene) -> Result<(), CompareError> {
     ] {
         if named {
             return Err(CompareError::Unsuited(format!(
-                "{what}: the models of compare know an elastic half-space of one adhesion; leave it out"
+                "{what}: the models of compare assume an elastic half-space with uniform adhesion; leave it out"
             )));
         }
     }

@@ -3,7 +3,7 @@
 use std::f64::consts::PI;
 
 use super::table::Table;
-use super::{Comparison, Left, State};
+use super::{Comparison, State, Stopped};
 use crate::law::Law;
 use crate::scene::SurfacePart;
 use crate::surface::spectrum::SpectralMoments;
@@ -15,20 +15,20 @@ use crate::theory::{Law as Reduced, Spectrum, TheoryError};
 
 /// Energy factor of Persson's theory.
 const GAMMA: f64 = 0.5;
-/// Least repulsive pressure of the theory, in E* times the rms slope.
+/// Least repulsive pressure at which the theory is used, in E* times the rms slope.
 const NO_TENSION: f64 = 1e-5;
-/// Hurst exponents about 0.8 for which the constants of BAM stand.
+/// Hurst exponents around 0.8 for which the constants of BAM are valid.
 const BAM_HURST: [f64; 2] = [0.65, 0.95];
 
-/// A spectrum, and what is not exact about it.
+/// A spectrum, and how it is approximate.
 struct Found {
     spectrum: Spectrum,
     limit: Option<&'static str>,
 }
 
-/// The scene's own spectrum where the surface is one self-affine part, else the self-affine one from
-/// the longest wave of the cell that has the map's rms height, slope and curvature.
-fn spectrum_of(comparison: &Comparison) -> Result<Found, Left> {
+/// The scene's own spectrum if the surface is one self-affine part; else a self-affine spectrum
+/// from the longest wave of the cell with the map's rms height, slope and curvature.
+fn spectrum_of(comparison: &Comparison) -> Result<Found, Stopped> {
     let setup = &comparison.setup;
     let moments = setup.statistics.moments;
     let grid = setup.surface.grid;
@@ -51,16 +51,17 @@ fn spectrum_of(comparison: &Comparison) -> Result<Found, Left> {
             spectrum,
             limit: Some("self-affine spectrum matched to the map"),
         }),
-        None => Err(Left::Out(
+        None => Err(Stopped::Out(
             "no self-affine spectrum has the surface's rms height, slope and curvature".to_owned(),
         )),
     }
 }
 
-/// The self-affine spectrum without roll-off that begins at `smallest` (1/m) and has these moments.
+/// The self-affine spectrum without roll-off from `smallest` (1/m) with these moments.
 fn matched(moments: &SpectralMoments, smallest: f64) -> Option<Spectrum> {
     let slope = moments.rms_slope();
-    // For each Hurst exponent the largest wave number gives the slope, the exponent the curvature.
+    // For each Hurst exponent the largest wave number follows from the slope, and the exponent from
+    // the curvature.
     let with_slope = |hurst: f64| -> Option<Spectrum> {
         let build = |log: f64| {
             let wavenumbers = [smallest, smallest, smallest * log.exp()];
@@ -75,7 +76,7 @@ fn matched(moments: &SpectralMoments, smallest: f64) -> Option<Spectrum> {
             (s.rms_curvature() / moments.rms_curvature()).ln()
         })
     };
-    // Exponents for which no band has the slope make gaps: ends are sought from the middle.
+    // Some exponents have no band with this slope: bracket the root from the middle outwards.
     let places: Vec<f64> = (1..100).map(|i| 0.01 * f64::from(i)).collect();
     let pair = places
         .windows(2)
@@ -85,7 +86,7 @@ fn matched(moments: &SpectralMoments, smallest: f64) -> Option<Spectrum> {
 }
 
 /// Persson's theory; attraction over its distribution of gaps.
-pub(super) fn persson(comparison: &Comparison, table: &mut Table) -> Result<(), Left> {
+pub(super) fn persson(comparison: &Comparison, table: &mut Table) -> Result<(), Stopped> {
     let setup = &comparison.setup;
     let found = spectrum_of(comparison)?;
     let modulus = setup.scene.solid.contact_modulus;
@@ -122,7 +123,7 @@ pub(super) fn persson(comparison: &Comparison, table: &mut Table) -> Result<(), 
             table.add(at, Some(found.tension), limit)?;
             found
         }
-        // So little attraction that the theory finds no tension at any load it is good for.
+        // The attraction is so small that the theory finds no tension at any load within its range.
         Err(TheoryError::OutOfRange { .. }) => PullOff {
             tension: 0.0,
             pressure: NO_TENSION * modulus * found.spectrum.rms_slope(),
@@ -138,10 +139,10 @@ pub(super) fn persson(comparison: &Comparison, table: &mut Table) -> Result<(), 
 }
 
 /// The bearing-area model, with the Dugdale law of the same work of adhesion and peak tension.
-pub(super) fn bam(comparison: &Comparison, table: &mut Table) -> Result<(), Left> {
+pub(super) fn bam(comparison: &Comparison, table: &mut Table) -> Result<(), Stopped> {
     let setup = &comparison.setup;
     if !setup.law.is_adhesive() {
-        return Err(Left::Out("without [adhesion] it has no law".to_owned()));
+        return Err(Stopped::Out("without [adhesion] it has no law".to_owned()));
     }
     let found = spectrum_of(comparison)?;
     let peak = setup.law.peak_tension();
@@ -170,9 +171,11 @@ pub(super) fn bam(comparison: &Comparison, table: &mut Table) -> Result<(), Left
         Err(_) => 0.0,
     };
     for load in comparison.carried(tension) {
-        // At full closure it carries no more than a finite load.
+        // At full closure the model carries only a finite load.
         let Ok(gap) = model.mean_gap(load / peak) else {
-            return Err(Left::Out(format!("beyond {load:e} Pa its mean gap is 0")));
+            return Err(Stopped::Out(format!(
+                "beyond {load:e} Pa its mean gap is 0"
+            )));
         };
         table.add(state(gap, load), Some(tension), limit)?;
     }
@@ -184,7 +187,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn a_spectrum_is_found_again_by_its_moments() {
+    fn a_spectrum_is_recovered_from_its_moments() {
         let known = Spectrum::new([2.0, 2.0, 60.0], 0.7, 0.3).unwrap();
         let (m0, m2, m4) = known.profile_moments();
         let found = matched(&SpectralMoments { m0, m2, m4 }, 2.0).expect("a spectrum");

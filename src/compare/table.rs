@@ -15,7 +15,7 @@ const HEADER: &str = "model,mean_pressure,contact_area_fraction,mean_gap,adhesiv
 pub struct Row {
     /// Name of the model.
     pub model: &'static str,
-    /// What it says.
+    /// Its results.
     pub state: State,
     /// Greatest tension that the model carries, Pa, positive.
     pub pull_off: Option<f64>,
@@ -25,7 +25,7 @@ pub struct Row {
     pub limit: Option<&'static str>,
 }
 
-/// The comparison as it grows.
+/// The comparison while it is written.
 pub(super) struct Table {
     table: GrowingTable,
     lock: FolderLock,
@@ -60,13 +60,13 @@ impl Table {
         })
     }
 
-    /// The rows that follow are this model's.
+    /// The following rows belong to this model.
     pub fn begin(&mut self, model: &'static str) {
         self.model = model;
         self.clock = Instant::now();
     }
 
-    /// Adds a row of the present model and waits until it is on the disk.
+    /// Adds a row of the current model and waits until it is on the disk.
     pub fn add(
         &mut self,
         state: State,
@@ -99,7 +99,7 @@ impl Table {
         Ok(())
     }
 
-    /// All rows, once they are in the file, and what is to be said of that.
+    /// All rows, once they are in the file, with warnings about it.
     pub fn into_rows(mut self) -> Result<(Vec<Row>, Vec<String>), OutputError> {
         let unheld = self.lock.warning().map(str::to_owned);
         let notes = unheld.into_iter().chain(self.table.mend(true)?).collect();

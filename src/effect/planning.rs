@@ -17,7 +17,7 @@ impl Plan {
     /// # Errors
     /// A surface that cannot be built.
     pub fn of(scene: Scene) -> Result<Plan, SurfaceError> {
-        let outline = Outline::of(&scene)?;
+        let outline = Outline::from_scene(&scene)?;
         Ok(Plan::new(scene, outline))
     }
 

@@ -5,8 +5,8 @@ use std::f64::consts::PI;
 use super::layer::Layer;
 use crate::grid::Grid;
 
-/// Stiffness of a wave of `wavenumber` (1/m, above 0) for a contact modulus of 1, 1/m: `|q|/2`, over
-/// the layer's relative compliance where there is one.
+/// Stiffness of a wave of `wavenumber` (1/m, above 0) for a contact modulus of 1, 1/m: `|q|/2`,
+/// divided by the layer's relative compliance if there is a layer.
 pub fn wave_stiffness(wavenumber: f64, layer: Option<&Layer>) -> f64 {
     let half_space = 0.5 * wavenumber;
     match layer {
@@ -15,11 +15,11 @@ pub fn wave_stiffness(wavenumber: f64, layer: Option<&Layer>) -> f64 {
     }
 }
 
-/// Stiffness of a half-space, or of a layer, of unit contact modulus, per length in units of `unit`
+/// Stiffness of a half-space or of a layer of unit contact modulus, for lengths in units of `unit`
 /// metres.
 ///
-/// Shape `[nx/2 + 1, ny/2 + 1]`, the column (x) index running slowest; the zero mode is 0, since a
-/// periodic cell leaves the mean displacement open.
+/// Shape `[nx/2 + 1, ny/2 + 1]`, the column (x) index running slowest. The zero mode is 0: a
+/// periodic cell leaves the mean displacement undetermined.
 ///
 /// # Source
 /// Westergaard 1939; Stanley & Kato 1997, doi:10.1115/1.2833523.
@@ -38,7 +38,7 @@ pub fn periodic_stiffness(grid: &Grid, unit: f64, layer: Option<&Layer>) -> Vec<
     values
 }
 
-/// A periodic half-space of unit contact modulus, per length in units of `unit` metres: stiffness
+/// A periodic half-space of unit contact modulus, for lengths in units of `unit` metres: stiffness
 /// `unit |q|/2`.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct HalfSpace {
@@ -47,28 +47,28 @@ pub struct HalfSpace {
 }
 
 impl HalfSpace {
-    /// That of a grid.
+    /// The half-space of a grid.
     pub fn new(grid: Grid, unit: f64) -> Self {
         HalfSpace { grid, unit }
     }
 
-    /// Stiffness of the wavevector (kx, ky), in the order of a spectrum; 0 at zero.
+    /// Stiffness of the wavevector (kx, ky), indexed as in a spectrum; 0 at the zero wavevector.
     pub fn stiffness(&self, kx: usize, ky: usize) -> f64 {
         self.unit * wave_stiffness(self.grid.wavenumber(kx, ky), None)
     }
 
-    /// Stiffness of the longest waves along x and along y, of which that of a wavevector is the length:
-    /// `|(kx steps[0], ky steps[1])|`.
+    /// Stiffness of the longest waves along x and along y. That of a wavevector is the length `|(kx
+    /// steps[0], ky steps[1])|`.
     pub fn steps(&self) -> [f64; 2] {
         [self.grid.lx, self.grid.ly].map(|length| self.unit * PI / length)
     }
 
-    /// The largest stiffness, that of the shortest waves; 0 where there is no wave.
+    /// The largest stiffness, that of the shortest waves; 0 without any wave.
     pub fn largest(&self) -> f64 {
         self.stiffness(self.grid.nx / 2, self.grid.ny / 2)
     }
 
-    /// The least stiffness, that of the longest wave; infinite where there is none.
+    /// The least stiffness, that of the longest wave; infinite without any wave.
     pub fn least(&self) -> f64 {
         let along_x = (self.grid.nx > 1).then(|| self.stiffness(1, 0));
         let along_y = (self.grid.ny > 1).then(|| self.stiffness(0, 1));
@@ -90,7 +90,7 @@ mod tests {
         assert!((1.0 / values[4 * 5 + 4] - 0.0562697698).abs() < 1e-10);
     }
 
-    /// The formula is the table, on grids of any kind; its ends are the table's.
+    /// Formula and table agree, on grids of any parity, and so do their extremes.
     #[test]
     fn formula_and_table_agree() {
         for (points, size) in [
@@ -107,7 +107,7 @@ mod tests {
             for (index, &value) in table.iter().enumerate() {
                 let (kx, ky) = (index / rows, index % rows);
                 assert_eq!(formula.stiffness(kx, ky), value);
-                // A few roundings of a double apart.
+                // Equal up to a few roundings of a double.
                 let length = (kx as f64 * x).hypot(ky as f64 * y);
                 assert!((length - value).abs() <= 1e-15 * value);
             }

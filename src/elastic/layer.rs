@@ -1,18 +1,18 @@
-//! An elastic layer on a rigid base: compliance over that of the half-space, wave by wave.
+//! An elastic layer on a rigid base: its compliance relative to the half-space, wave by wave.
 //!
 //! `displacement = (2/(E* q)) M(q h) pressure` for a layer of thickness h, with `E* = E/(1 - nu^2)`.
 
-/// How the layer is held by its rigid base.
+/// Boundary condition at the rigid base.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Base {
-    /// No displacement at all.
+    /// No displacement.
     Bonded,
-    /// No displacement across, no friction along.
+    /// No normal displacement, no friction.
     Frictionless,
 }
 
 impl Base {
-    /// Every one of them.
+    /// Every base.
     pub const ALL: &[Base] = &[Base::Bonded, Base::Frictionless];
 
     /// The word used in scenes.
@@ -31,7 +31,7 @@ pub struct Layer {
     pub thickness: f64,
     /// Poisson ratio, above -1 and at most 1/2.
     pub poisson_ratio: f64,
-    /// How the base holds it.
+    /// Boundary condition at the base.
     pub base: Base,
 }
 
@@ -94,10 +94,10 @@ impl Layer {
         }
     }
 
-    /// Displacement under a uniform unit pressure for a contact modulus of 1, m:
-    /// `h (1 - 2 nu)/(1 - nu)^2`, which is `p h (1+nu)(1-2nu)/(E (1-nu))`.
+    /// Displacement under a uniform unit pressure for a contact modulus of 1, m: `h (1 - 2 nu)/(1 -
+    /// nu)^2`, which is `p h (1+nu)(1-2nu)/(E (1-nu))`.
     ///
-    /// The cell cannot widen, whatever the base; an incompressible layer then does not yield at all.
+    /// The cell cannot widen, whatever the base, so an incompressible layer does not deform at all.
     pub fn uniform_compliance(&self) -> f64 {
         let nu = self.poisson_ratio;
         self.thickness * (1.0 - 2.0 * nu) / ((1.0 - nu) * (1.0 - nu))
@@ -140,7 +140,7 @@ mod tests {
         assert!((jump - 1.0).abs() < 1e-9);
     }
 
-    /// The bonded layer tends to its uniform compliance as the wave grows long: `2 M/q`.
+    /// The bonded layer tends to its uniform compliance for long waves: `2 M/q`.
     #[test]
     fn long_waves_see_the_uniform_compliance() {
         for nu in [-0.4, 0.0, 0.3, 0.45] {

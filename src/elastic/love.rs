@@ -30,16 +30,16 @@ pub fn love_displacement(x: f64, y: f64, half_x: f64, half_y: f64) -> f64 {
 
 /// Stiffness of an unbounded half-space between the points of a doubled grid, in Fourier space.
 ///
-/// `points` is the doubled transform, `pixel` the pixel sides in reduced units. Shape
-/// `[nx/2 + 1, ny/2 + 1]`, the column (x) index running slowest: the inverse of the transform of
-/// the circulant kernel whose offsets are the nearest images. Exact between points that are at
-/// most half the doubled grid apart. All values are positive.
+/// `points` are those of the doubled grid, `pixel` the pixel sides in reduced units. Shape `[nx/2 +
+/// 1, ny/2 + 1]`, the column (x) index running slowest: the inverse of the transform of the
+/// circulant kernel whose offsets are the nearest images. Exact between points at most half the
+/// doubled grid apart. All values are positive.
 pub fn free_stiffness(points: [usize; 2], pixel: [f64; 2]) -> Vec<f64> {
     let [nx, ny] = points;
     let columns = nx / 2 + 1;
     let half = ny / 2 + 1;
     let plan = RealFftPlanner::<f64>::new().plan_fft_forward(nx);
-    // The kernel is even in both directions, so half of its rows are enough and spectra are real.
+    // The kernel is even in both directions, so half of its rows suffice and spectra are real.
     let rows: Vec<Vec<f64>> = (0..half)
         .into_par_iter()
         .map(|row| {
@@ -76,7 +76,8 @@ pub fn free_stiffness(points: [usize; 2], pixel: [f64; 2]) -> Vec<f64> {
 mod tests {
     use super::*;
 
-    /// Unit square, unit pressure: closed form at the centre, and two neighbours computed apart.
+    /// Unit square, unit pressure: the closed form at the centre, and two neighbours from an
+    /// independent computation.
     #[test]
     fn unit_square() {
         let at = |x, y| love_displacement(x, y, 0.5, 0.5);
@@ -86,8 +87,8 @@ mod tests {
         assert!((at(300.0, 400.0) * PI * 500.0 - 1.0).abs() < 1e-6);
     }
 
-    /// The least compliance is that of the checkerboard, 0.5807 pixels, and the largest 1.122 times
-    /// the doubled side, for square pixels.
+    /// For square pixels the least compliance is that of the checkerboard, 0.5807 pixels, and the
+    /// largest is 1.122 times the doubled side.
     #[test]
     fn bounds_of_the_free_spectrum() {
         for side in [16, 32, 50] {

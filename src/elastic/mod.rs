@@ -1,7 +1,7 @@
-//! Elasticity of the half-space or of a layer as one real factor a wavevector; numbers only.
+//! Stiffness of the half-space or of a layer: one real factor for each wavevector.
 //!
-//! Everything is for a contact modulus of 1 and in units of one reduced length: the stiffness of
-//! a wave is the pressure that a displacement of 1 needs.
+//! All values are for a contact modulus of 1 and in units of one reduced length: the stiffness of a
+//! wave is the pressure amplitude for a displacement amplitude of 1.
 
 mod half_space;
 mod layer;

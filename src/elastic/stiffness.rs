@@ -7,12 +7,13 @@ use super::half_space::HalfSpace;
 pub enum Stiffness {
     /// The periodic half-space, by its formula.
     HalfSpace(HalfSpace),
-    /// One value a wavevector: `[nx/2 + 1, ny/2 + 1]`, the column (x) index running slowest.
+    /// One value for each wavevector: `[nx/2 + 1, ny/2 + 1]`, the column (x) index running slowest.
     Table(Vec<f64>),
 }
 
 impl Stiffness {
-    /// That of the zero wavevector: 0 on a periodic grid, which leaves the mean displacement open.
+    /// Stiffness of the zero wavevector: 0 on a periodic grid, whose mean displacement is
+    /// undetermined.
     pub fn zero_mode(&self) -> f64 {
         match self {
             Stiffness::HalfSpace(_) => 0.0,
@@ -20,7 +21,7 @@ impl Stiffness {
         }
     }
 
-    /// The largest of all; 1 where there is no wave.
+    /// The largest stiffness; 1 without any wave.
     pub fn largest(&self) -> f64 {
         let largest = match self {
             Stiffness::HalfSpace(half_space) => half_space.largest(),
@@ -29,7 +30,7 @@ impl Stiffness {
         if largest > 0.0 { largest } else { 1.0 }
     }
 
-    /// The least but that of the zero wavevector; 1 where there is no wave.
+    /// The least stiffness of a nonzero wavevector; 1 without any wave.
     pub fn least(&self) -> f64 {
         let least = match self {
             Stiffness::HalfSpace(half_space) => half_space.least(),

@@ -1,13 +1,13 @@
-//! Which model a curve belongs to.
+//! Chooses the model of a curve.
 
 use std::path::Path;
 
 use super::curve_file::ForceCurve;
 use super::error::FitError;
-use super::estimate::{ModelFit, Rung, Uncertainties, fit_model};
+use super::estimate::{ModelFit, ProfilePoint, Uncertainties, fit_model};
 use super::inversion::{Inversion, invert_curve};
 use super::law_error::{LawError, law_error};
-use super::measured::{Freedom, Measured, Turned};
+use super::measured::{Freedom, Measured, ReversedSigns};
 use super::model::{Model, Parameters};
 use crate::theory::Law;
 use crate::theory::tabor_map::{
@@ -15,79 +15,78 @@ use crate::theory::tabor_map::{
 };
 use crate::units::format_si;
 
-/// Force farther away than the largest tension, as a share of that: more than noise or drift make of it.
+/// A force farther away than the largest tension, relative to it, that cannot be noise or drift.
 const FAR_FORCE: f64 = 0.2;
-/// Difference of Akaike's criterion from which two models count as told apart: the better one is
-/// then `exp(6/2) = 20` times as likely.
-pub const TELLS_APART: f64 = 6.0;
-/// Fewest free points that tell where the force is zero, where that is fitted too.
+/// Difference of Akaike's criterion from which one model is preferred: it is then `exp(6/2) = 20`
+/// times as likely.
+pub const DECISIVE_AIC: f64 = 6.0;
+/// Fewest points without force that determine a fitted baseline.
 const ZERO_POINTS: usize = 5;
-/// Correlation of neighbouring residuals from which a model misses the curve, beyond the
-/// 3/sqrt(points) that chance may give.
-pub const MISSES: f64 = 0.3;
-/// Correlation of work of adhesion and modulus beyond which neither is known by itself.
-pub const ENTANGLED: f64 = 0.95;
-/// Relative standard deviation from which a number is hardly one.
-pub const VAGUE: f64 = 0.3;
-/// Share of the approach at its closest end in which the greatest tension of a curve without compression
-/// shows no contact.
+/// Correlation of neighbouring residuals above which a model misses the curve, in addition to the
+/// 3/sqrt(points) that chance allows.
+pub const MISFIT_CORRELATION: f64 = 0.3;
+/// Correlation of work of adhesion and modulus above which they cannot be separated.
+pub const INSEPARABLE_CORRELATION: f64 = 0.95;
+/// Relative standard deviation from which a warning is given.
+pub const UNCERTAIN: f64 = 0.3;
+/// If the greatest tension lies within this share of the approach at its closest end, a curve
+/// without compression shows no contact.
 const CLOSEST: f64 = 0.05;
-/// Rounds of choosing a regime by the Tabor number that the last choice gave.
+/// Most iterations of model choice and Tabor number.
 const ROUNDS: usize = 4;
 
-/// A number of a fit with its standard deviation.
+/// A fitted number with its standard deviation.
 type Number = fn(&Parameters, &Uncertainties) -> (f64, Option<f64>);
 
-/// What a curve gave.
+/// Results of a fit.
 #[derive(Clone, Debug)]
 pub struct FitResult {
-    /// The curve with its ways.
+    /// The curve with its segments.
     pub measured: Measured,
-    /// Every model that could be fitted, from the simplest.
+    /// Every fitted model, from the simplest.
     pub fits: Vec<ModelFit>,
-    /// Which of them is taken.
+    /// The chosen one.
     pub chosen: usize,
-    /// Tabor number that the taken model implies; `None` without adhesion, or where the range is
-    /// not known.
+    /// Tabor number that the chosen model implies; `None` without adhesion, or if the range is
+    /// unknown.
     pub tabor_parameter: Option<f64>,
-    /// Standard deviation of the work of adhesion, or what models that the curve cannot tell
-    /// apart leave open if that is more, J/m^2.
+    /// Standard deviation of the work of adhesion, or the spread over indistinguishable models if
+    /// that is larger, J/m^2.
     pub work_uncertainty: Option<f64>,
     /// The same of the contact modulus, Pa.
     pub modulus_uncertainty: Option<f64>,
-    /// What a law of another shape than the model's may put work and modulus off by; `None` without
-    /// adhesion.
+    /// Possible error of work and modulus if the law has another shape than the model's; `None`
+    /// without adhesion.
     pub law_error: Option<LawError>,
     /// Work and modulus from pull-off and one stiffness alone, by JKR.
     pub inversion: Option<Inversion>,
-    /// What the reader should know.
+    /// Warnings for the user.
     pub warnings: Vec<String>,
 }
 
 impl FitResult {
-    /// The model that is taken.
+    /// The chosen model.
     pub fn best(&self) -> &ModelFit {
         &self.fits[self.chosen]
     }
 
     /// The fit of a model.
-    pub fn of(&self, model: Model) -> Option<&ModelFit> {
+    pub fn fit_of(&self, model: Model) -> Option<&ModelFit> {
         self.fits.iter().find(|fit| fit.model == model)
     }
 }
 
-/// Fits all models to a curve of a sphere of `radius` (m) and takes one; `path` is for messages.
+/// Fits all models to a curve of a sphere of `radius` (m) and chooses one; `path` is for messages.
 ///
 /// # Errors
-/// A curve that shows no compression or is the wrong way round, and one that no model is brought
-/// to.
+/// A curve without compression or with wrong signs, and one that no model fits.
 pub fn fit_curve(
     curve: &ForceCurve,
     path: &Path,
     radius: f64,
     freedom: Freedom,
 ) -> Result<FitResult, FitError> {
-    // Refuses a radius that is none.
+    // Refuses an invalid radius.
     Sphere::new(radius, 1.0, 0.0)?;
     let measured = Measured::new(curve.samples.clone(), radius, freedom);
     let no_fit = || FitError::NoFit {
@@ -100,14 +99,14 @@ pub fn fit_curve(
     check_signs(&measured, &fits, path)?;
     let mut warnings = left_out(curve);
     let (chosen, tabor_parameter) = choose(&measured, &fits, &mut warnings).ok_or_else(no_fit)?;
-    doubts(&measured, &fits[chosen], &mut warnings);
+    add_warnings(&measured, &fits[chosen], &mut warnings);
     let work: Number = |p, u| (p.work_of_adhesion, u.work_of_adhesion);
     let modulus: Number = |p, u| (p.contact_modulus, u.contact_modulus);
-    // Where the zero of the force is fitted but not measured, tension may be an offset.
+    // If the baseline is fitted but not measured, tension may be an offset.
     let zero_known = knows_zero(&measured, &fits[chosen]);
     if !zero_known {
         warnings.push(
-            format!("fewer than {ZERO_POINTS} points lie where nothing acts, so that a fitted baseline cannot be told from adhesion and no deviation is stated: leave --baseline out if the zero of the force is known, or measure until the sphere is free"),
+            format!("fewer than {ZERO_POINTS} points lie where no force acts, so that a fitted baseline cannot be distinguished from adhesion and no uncertainty is given: leave --baseline out if the zero of the force is known, or measure until the sphere is free"),
         );
     }
     let stated = |number: Number| deviation(&fits, chosen, number).filter(|_| zero_known);
@@ -115,28 +114,28 @@ pub fn fit_curve(
     let stiff = fits[chosen].parameters.contact_modulus;
     let (least, greatest) = measured.extremes();
     let pressed = greatest.force > measured.baseline();
-    // Where the tension grows up to the closest point there may be an attraction and no contact.
+    // If the tension grows up to the closest point there may be attraction without contact.
     let closest = measured
         .approaches
         .iter()
         .copied()
         .fold(f64::NEG_INFINITY, f64::max);
     let grows = closest - least.approach < CLOSEST * measured.approach_span;
-    let vague = modulus_uncertainty.is_none_or(|deviation| deviation > VAGUE * stiff);
-    if !pressed && (grows || vague) {
+    let uncertain = modulus_uncertainty.is_none_or(|deviation| deviation > UNCERTAIN * stiff);
+    if !pressed && (grows || uncertain) {
         return Err(FitError::NoCompression {
             path: path.to_path_buf(),
         });
     }
     let law_error = law_error(&measured, &fits[chosen]);
     if let Some(error) = law_error {
-        // Of a number that the curve does not tell nothing need be added.
+        // Nothing to add for a number that the curve does not determine.
         let within = |stated: Option<f64>, error: f64| stated.is_none_or(|stated| stated >= error);
         if !within(work_uncertainty, error.work_of_adhesion)
             || !within(modulus_uncertainty, error.contact_modulus)
         {
             warnings.push(format!(
-                "the deviations are those of noise, with the model's own law: surfaces that attract by a law of another shape (Lennard-Jones, exponential) may put w off by {} and E* by {}",
+                "the uncertainties include noise only: if the law of the surfaces has another shape (Lennard-Jones, exponential), w may be wrong by {} and E* by {}",
                 format_si(error.work_of_adhesion, "J/m^2"),
                 format_si(error.contact_modulus, "Pa"),
             ));
@@ -155,11 +154,13 @@ pub fn fit_curve(
     })
 }
 
-/// Standard deviation of a number of the taken model: its own, or what any state of any model that
-/// the curve does not rule out leaves open, if that is more. `None` where the curve does not tell.
+/// Standard deviation of a number of the chosen model: its own, or the spread over all states of
+/// all models that the curve does not rule out, if that is larger. `None` if the curve does not
+/// determine it.
 ///
-/// This is the profile of the sum of squares over all models: where the truth is one of their states,
-/// three deviations hold it as often as its sum of squares lies within nine variances of the least.
+/// This is the profile of the sum of squares over all models: if the truth is one of their states,
+/// three deviations contain it as often as its sum of squares lies within nine variances of the
+/// least.
 fn deviation(fits: &[ModelFit], chosen: usize, number: Number) -> Option<f64> {
     let best = &fits[chosen];
     let (value, own) = number(&best.parameters, &best.uncertainties);
@@ -167,28 +168,29 @@ fn deviation(fits: &[ModelFit], chosen: usize, number: Number) -> Option<f64> {
         .iter()
         .min_by(|a, b| a.sum_of_squares.total_cmp(&b.sum_of_squares))?;
     let states = fits.iter().flat_map(ModelFit::states);
-    let spread = states.filter_map(|state: Rung| {
+    let spread = states.filter_map(|state: ProfilePoint| {
         let rise = (state.sum_of_squares - least.sum_of_squares) / least.variance;
         state.deviation(value, number, rise)
     });
     own.map(|own| spread.fold(own, f64::max))
 }
 
-/// Whether a fit with a free baseline has points on which nothing acts; true where the baseline is
-/// known.
+/// Whether a fit with a free baseline has points without force; true if the baseline is known.
 fn knows_zero(measured: &Measured, fit: &ModelFit) -> bool {
     let touch = fit.parameters.approach_offset;
     let free = if fit.model.adheres() {
-        fit.held.iter().filter(|held| !**held).count()
+        fit.interacting
+            .iter()
+            .filter(|interacting| !**interacting)
+            .count()
     } else {
-        let apart = |approach: &&f64| **approach < touch;
-        measured.approaches.iter().filter(apart).count()
+        let separated = |approach: &&f64| **approach < touch;
+        measured.approaches.iter().filter(separated).count()
     };
     !measured.freedom.force_offset || free >= ZERO_POINTS
 }
 
-/// Refuses a curve that is fitted far better with the sign of its approach, of its force, or of both
-/// turned.
+/// Refuses a curve that fits far better with the sign of its approach, its force, or both reversed.
 fn check_signs(measured: &Measured, fits: &[ModelFit], path: &Path) -> Result<(), FitError> {
     let Some(best) = fits.iter().min_by(|a, b| a.aic.total_cmp(&b.aic)) else {
         return Ok(());
@@ -196,19 +198,19 @@ fn check_signs(measured: &Measured, fits: &[ModelFit], path: &Path) -> Result<()
     let (least, greatest) = measured.extremes();
     let baseline = measured.baseline();
     let pressed = greatest.force > baseline;
-    // Farther away than where the tension is largest nothing presses.
+    // No point farther away than the largest tension can be in compression.
     let presses_from_afar = greatest.approach < least.approach
         && greatest.force - baseline > FAR_FORCE * (baseline - least.force);
-    // Else a curve of the wrong sign is fitted by no model.
+    // Otherwise no model fits a curve of the wrong sign.
     if pressed && !presses_from_afar && !misses(measured, best) {
         return Ok(());
     }
     let simple = [Model::Hertz, Model::Dmt, Model::Jkr];
-    for turned in Turned::ALL {
-        let other = measured.turned(turned);
+    for reversed in ReversedSigns::ALL {
+        let other = measured.with_reversed(reversed);
         let fitted = simple.iter().filter_map(|model| fit_model(&other, *model));
         let least = fitted.map(|fit| fit.aic).fold(f64::INFINITY, f64::min);
-        if least < best.aic - TELLS_APART {
+        if least < best.aic - DECISIVE_AIC {
             let path = path.to_path_buf();
             return Err(if pressed {
                 FitError::WrongWay { path }
@@ -220,10 +222,10 @@ fn check_signs(measured: &Measured, fits: &[ModelFit], path: &Path) -> Result<()
     Ok(())
 }
 
-/// Whether the residuals of a fit follow one another.
+/// Whether the residuals of a fit are correlated.
 fn misses(measured: &Measured, fit: &ModelFit) -> bool {
     let chance = 3.0 / (measured.samples.len() as f64).sqrt();
-    fit.autocorrelation > MISSES + chance
+    fit.autocorrelation > MISFIT_CORRELATION + chance
 }
 
 fn left_out(curve: &ForceCurve) -> Vec<String> {
@@ -242,7 +244,7 @@ fn left_out(curve: &ForceCurve) -> Vec<String> {
     warnings
 }
 
-/// The model to take and the Tabor number it implies.
+/// The chosen model and the Tabor number it implies.
 fn choose(
     measured: &Measured,
     fits: &[ModelFit],
@@ -251,7 +253,7 @@ fn choose(
     let place = |model: Model| fits.iter().position(|fit| fit.model == model);
     let best = fits.iter().map(|fit| fit.aic).fold(f64::INFINITY, f64::min);
     if let Some(hertz) = place(Model::Hertz)
-        && fits[hertz].aic - best < TELLS_APART
+        && fits[hertz].aic - best < DECISIVE_AIC
         && !hides_adhesion(measured, &fits[hertz])
     {
         return Some((hertz, None));
@@ -283,15 +285,15 @@ fn choose(
     if !closed {
         taken = general;
     }
-    // The limits are taken where the data do not resolve what they leave out.
-    let beyond = taken != general && fits[taken].aic - fits[general].aic > TELLS_APART;
-    // A Tabor number that may as well lie in a limit is no reason for a richer model.
+    // The limits are chosen if the data do not resolve the difference.
+    let beyond = taken != general && fits[taken].aic - fits[general].aic > DECISIVE_AIC;
+    // A Tabor number that is compatible with a limit does not justify a richer model.
     let simpler = simpler(fits, general).filter(|_| measured.freedom.range.is_none());
     if let Some(limit) = simpler.filter(|_| beyond || taken == general) {
         taken = limit;
     } else if beyond {
         warnings.push(format!(
-            "the Tabor number {:.2} is in the range of {}, but the curve shows more than that model has (AIC {:+.1}); Maugis-Dugdale, which holds at any, is taken",
+            "the Tabor number {:.2} is in the range of {}, but that model does not describe the curve (AIC {:+.1}); Maugis-Dugdale, which holds at any Tabor number, is used",
             number(taken).unwrap_or(f64::NAN),
             fits[taken].model.title(),
             fits[taken].aic - fits[general].aic,
@@ -300,9 +302,9 @@ fn choose(
     }
     for other in fits.iter().filter(|fit| fit.model != fits[taken].model) {
         let difference = other.aic - fits[taken].aic;
-        if difference.abs() < TELLS_APART {
+        if difference.abs() < DECISIVE_AIC {
             warnings.push(format!(
-                "the curve cannot tell {} from {} (AIC differ by {:.1}, {TELLS_APART} would): {} gives w = {}, E* = {}",
+                "the curve does not distinguish {} from {} (AIC differ by {:.1}, {DECISIVE_AIC} is needed): {} gives w = {}, E* = {}",
                 fits[taken].model.title(),
                 other.model.title(),
                 difference.abs(),
@@ -325,20 +327,20 @@ fn choose(
             "only that it is long"
         };
         warnings.push(format!(
-            "the curve does not tell the range of the attraction, {side}; the Tabor number is a bound"
+            "the curve does not determine the range of the attraction, {side}; the Tabor number is a bound"
         ));
     }
     Some((taken, number(taken)))
 }
 
-/// Whether a fit without adhesion takes a tension for the zero of the force, where no point shows that
-/// zero.
+/// Whether a fit without adhesion takes a tension for the baseline, with no point that shows the
+/// baseline.
 fn hides_adhesion(measured: &Measured, hertz: &ModelFit) -> bool {
     !knows_zero(measured, hertz) && hertz.parameters.force_offset < -3.0 * hertz.noise
 }
 
-/// The limit that cannot be told from the general model and lies within two standard deviations of
-/// its lambda.
+/// The limit that is indistinguishable from the general model and lies within two standard
+/// deviations of its lambda.
 fn simpler(fits: &[ModelFit], general: usize) -> Option<usize> {
     let fit = &fits[general];
     let number = fit.tabor_parameter()?;
@@ -349,11 +351,11 @@ fn simpler(fits: &[ModelFit], general: usize) -> Option<usize> {
         Model::Hertz | Model::MaugisDugdale => false,
     };
     (0..fits.len())
-        .filter(|i| reaches(fits[*i].model) && fits[*i].aic - fit.aic < TELLS_APART)
+        .filter(|i| reaches(fits[*i].model) && fits[*i].aic - fit.aic < DECISIVE_AIC)
         .min_by(|a, b| fits[*a].aic.total_cmp(&fits[*b].aic))
 }
 
-/// Tabor number of a fit with a Dugdale `range` (m) that stands for a Lennard-Jones law of the same
+/// Tabor number of a fit with a Dugdale `range` (m), matched to a Lennard-Jones law of the same
 /// work and peak tension.
 fn tabor_of(radius: f64, fit: &ModelFit, range: Option<f64>) -> Option<f64> {
     let parameters = fit.parameters;
@@ -366,17 +368,17 @@ fn tabor_of(radius: f64, fit: &ModelFit, range: Option<f64>) -> Option<f64> {
     tabor_parameter(&sphere.ok()?, range).ok()
 }
 
-/// What speaks against the numbers of a fit.
-fn doubts(measured: &Measured, fit: &ModelFit, warnings: &mut Vec<String>) {
+/// Warnings about the numbers of a fit.
+fn add_warnings(measured: &Measured, fit: &ModelFit, warnings: &mut Vec<String>) {
     if !fit.converged {
         warnings.push(format!(
-            "the search for {} did not settle; its numbers are the best found",
+            "the fit of {} did not converge; its numbers are the best found",
             fit.model.title()
         ));
     }
     if misses(measured, fit) {
         warnings.push(format!(
-            "the residuals of {} follow one another (correlation {:.2}): the model misses the curve by {}, and the uncertainties are no more than an order of magnitude",
+            "the residuals of {} are correlated ({:.2}): the model deviates from the curve by {}, and the uncertainties are no more than orders of magnitude",
             fit.model.title(),
             fit.autocorrelation,
             format_si(fit.noise, "N"),
@@ -384,10 +386,10 @@ fn doubts(measured: &Measured, fit: &ModelFit, warnings: &mut Vec<String>) {
     }
     for (first, second, correlation) in &fit.correlations {
         if (*first, *second) == ("contact_modulus", "work_of_adhesion")
-            && correlation.abs() > ENTANGLED
+            && correlation.abs() > INSEPARABLE_CORRELATION
         {
             warnings.push(format!(
-                "w and E* are known together but hardly apart (correlation {correlation:.3})"
+                "w and E* are strongly correlated ({correlation:.3}), so that neither is well known by itself"
             ));
         }
     }
@@ -404,7 +406,7 @@ fn doubts(measured: &Measured, fit: &ModelFit, warnings: &mut Vec<String>) {
         ),
     ] {
         if let Some(deviation) = deviation
-            && deviation > VAGUE * value
+            && deviation > UNCERTAIN * value
         {
             warnings.push(format!(
                 "the {name} is known to {:.0} % only",

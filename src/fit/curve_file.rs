@@ -1,23 +1,23 @@
-//! Force curves as text: one row a point, the columns named in the head.
+//! Force curves as text: one row a point, the columns named in the header.
 
 use std::fs;
 use std::io::Read;
 use std::path::Path;
 
 use super::error::FitError;
-use crate::units::{Dimension, is_sane, quoted, unit_factor};
+use crate::units::{Dimension, in_range, quoted, unit_factor};
 
 /// Largest file that is read.
 pub const MOST_BYTES: u64 = 256 << 20;
-/// Fewest rows: twice the parameters of the richest model.
+/// Fewest rows: twice the parameters of the most general model.
 pub const LEAST_ROWS: usize = 10;
 
 /// One point of a curve, SI.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Sample {
-    /// Positive closer, m.
+    /// Approach, positive closer, m.
     pub approach: f64,
-    /// Positive in compression, N.
+    /// Force, positive in compression, N.
     pub force: f64,
 }
 
@@ -26,24 +26,23 @@ pub struct Sample {
 pub struct ForceCurve {
     /// Its points.
     pub samples: Vec<Sample>,
-    /// Lines left out because a value is missing, from 1.
+    /// Skipped lines with a missing value, from 1.
     pub incomplete: Vec<usize>,
-    /// Lines left out because the solver marked them as not converged, from 1.
+    /// Skipped lines marked as not converged, from 1.
     pub unconverged: Vec<usize>,
 }
 
-/// A column that is read: its name, what it measures, and a unit for messages.
+/// A required column: its name, its dimension, and a unit for messages.
 const APPROACH: (&str, Dimension, &str) = ("approach", Dimension::Length, "[nm]");
 const FORCE: (&str, Dimension, &str) = ("force", Dimension::Force, "[nN]");
-/// Written by tabor beside them.
+/// An optional column that tabor writes.
 const CONVERGED: &str = "converged";
 
 impl ForceCurve {
     /// Reads a file.
     ///
     /// # Errors
-    /// What cannot be read, with the line; fewer than ten rows; columns that never
-    /// change.
+    /// A file that cannot be read, with the line; fewer than ten rows; columns that never change.
     pub fn read(path: &Path) -> Result<Self, FitError> {
         let unreadable = |cause| FitError::Unreadable {
             path: path.to_path_buf(),
@@ -51,7 +50,7 @@ impl ForceCurve {
         };
         let metadata = fs::metadata(path).map_err(unreadable)?;
         if !metadata.is_file() {
-            // A device never ends, and a pipe says no length.
+            // A device never ends, and a pipe has no known length.
             return Err(FitError::NotRegular {
                 path: path.to_path_buf(),
             });
@@ -64,7 +63,7 @@ impl ForceCurve {
             });
         }
         let mut text = Vec::new();
-        // A file that grows meanwhile is read as long as it was.
+        // If the file grows while it is read, the extra bytes are ignored.
         let file = fs::File::open(path).map_err(unreadable)?;
         file.take(bytes)
             .read_to_end(&mut text)
@@ -74,7 +73,7 @@ impl ForceCurve {
 
     /// Reads the bytes of a file; `path` is for messages.
     ///
-    /// Commas, semicolons or tabs stand between the columns, whichever the head has; with the last
+    /// Columns are separated by commas, semicolons or tabs, whichever the header has; with the last
     /// two a comma may be the decimal mark. Lines that begin with `#` are comments.
     ///
     /// # Errors
@@ -133,13 +132,14 @@ impl ForceCurve {
 
     fn check(&self, path: &Path) -> Result<(), FitError> {
         let extreme = |column, of: fn(&Sample) -> f64| {
-            // Beside a larger one a small number may be as small as it likes.
+            // Only the largest magnitude matters; beside it a small number may be arbitrarily
+            // small.
             let largest = self
                 .samples
                 .iter()
                 .map(of)
                 .fold(0.0, |most: f64, value| most.max(value.abs()));
-            if is_sane(largest) {
+            if in_range(largest) {
                 return Ok(());
             }
             Err(FitError::Extreme {
@@ -171,14 +171,14 @@ impl ForceCurve {
     }
 }
 
-/// The line that names the columns.
+/// The header with the names of the columns.
 struct Head<'a> {
     path: &'a Path,
     line: usize,
     names: Vec<&'a str>,
 }
 
-/// Where a column stands and what its numbers are multiplied by.
+/// Index of a column and the factor to SI.
 struct Column {
     name: &'static str,
     place: usize,
@@ -267,9 +267,9 @@ fn unquoted(cell: &str) -> &str {
     cell.trim().trim_matches('"').trim()
 }
 
-/// A number, with a decimal comma where commas do not separate.
+/// A number, with a decimal comma if commas do not separate.
 fn number(text: &str, separator: char) -> Option<f64> {
-    // `parse` would take these words, and an instrument does not mean them as numbers.
+    // `parse` accepts these words, but instruments do not mean them as numbers.
     let worded = |c: char| c.is_ascii_alphabetic() && !matches!(c, 'e' | 'E');
     if text.contains(worded) {
         return None;
@@ -285,7 +285,7 @@ mod tests {
     use super::*;
 
     fn samples(text: &str) -> Vec<(f64, f64)> {
-        // Rows to fill the least number; they come last.
+        // Rows that fill up the least number; they come last.
         let separator = if text.contains(';') { ";" } else { "," };
         let columns = text
             .lines()

@@ -1,4 +1,4 @@
-//! What can be wrong with a force curve.
+//! Errors of force curves.
 
 use std::io;
 use std::path::PathBuf;
@@ -15,19 +15,19 @@ pub enum FitError {
     Unreadable {
         /// The file.
         path: PathBuf,
-        /// What the system says.
+        /// The system's message.
         cause: io::Error,
     },
     /// A folder, device, pipe or socket in place of a file.
     #[error(
-        "{path} is no regular file (a folder, a pipe or a device); write the curve to a file and name that",
+        "{path} is not a regular file (but a folder, a pipe or a device); save the curve to a file and name that",
         path = path.display()
     )]
     NotRegular {
-        /// What was named.
+        /// The path.
         path: PathBuf,
     },
-    /// The file is larger than any force curve.
+    /// The file is too large.
     #[error(
         "{path} has {bytes} bytes; a force curve may have {MOST_BYTES}, so thin its rows out",
         path = path.display()
@@ -38,7 +38,7 @@ pub enum FitError {
         /// Its size.
         bytes: u64,
     },
-    /// The file is no text.
+    /// The file is not text.
     #[error(
         "{path} is not text in UTF-8; save it as CSV with the columns approach and force",
         path = path.display()
@@ -47,9 +47,9 @@ pub enum FitError {
         /// The file.
         path: PathBuf,
     },
-    /// There are no names of columns.
+    /// The header is missing.
     #[error(
-        "{path} has no head; its first line must name the columns, as in `approach [nm], force [nN]`",
+        "{path} has no header; its first line must name the columns, as in `approach [nm], force [nN]`",
         path = path.display()
     )]
     NoHead {
@@ -66,14 +66,14 @@ pub enum FitError {
         path: PathBuf,
         /// The line of the head, from 1.
         line: usize,
-        /// The column looked for.
+        /// The name of the missing column.
         column: &'static str,
-        /// A unit it may have.
+        /// A unit that it may have.
         example: &'static str,
-        /// The columns that are there.
+        /// The columns present.
         found: String,
     },
-    /// A column stands there twice.
+    /// A column occurs twice.
     #[error(
         "{path}, line {line}: there are two columns `{column}`; leave one, or name the other differently",
         path = path.display()
@@ -86,7 +86,7 @@ pub enum FitError {
         /// The column.
         column: &'static str,
     },
-    /// A unit in the head is none, or one of something else.
+    /// A unit in the header is unknown or of the wrong dimension.
     #[error("{path}, line {line}, column `{column}`: {cause}", path = path.display())]
     Unit {
         /// The file.
@@ -95,12 +95,12 @@ pub enum FitError {
         line: usize,
         /// The column.
         column: &'static str,
-        /// What is wrong with it.
+        /// The reason.
         cause: UnitError,
     },
-    /// A row has another number of values than the head has names.
+    /// A row has another number of values than the header has names.
     #[error(
-        "{path}, line {line}: {found} values where the head names {expected} columns; decimal commas need semicolons or tabs between the columns",
+        "{path}, line {line}: {found} values where the header names {expected} columns; decimal commas need semicolons or tabs between the columns",
         path = path.display()
     )]
     Ragged {
@@ -110,10 +110,10 @@ pub enum FitError {
         line: usize,
         /// Values found.
         found: usize,
-        /// Names in the head.
+        /// Names in the header.
         expected: usize,
     },
-    /// A value is no number.
+    /// A value is not a number.
     #[error(
         "{path}, line {line}, column `{column}`: {text} is not a number; leave the cell empty where the value is missing",
         path = path.display()
@@ -125,12 +125,12 @@ pub enum FitError {
         line: usize,
         /// The column.
         column: &'static str,
-        /// What stands there, quoted.
+        /// Its text, quoted.
         text: String,
     },
-    /// Numbers with which one cannot compute.
+    /// Numbers outside the supported magnitudes.
     #[error(
-        "{path}, column `{column}`: its largest number is {largest:e}; it must be between 1e-30 and 1e30 in SI units: check the unit in the head",
+        "{path}, column `{column}`: its largest number is {largest:e}; it must be between 1e-30 and 1e30 in SI units: check the unit in the headerer",
         path = path.display()
     )]
     Extreme {
@@ -141,7 +141,7 @@ pub enum FitError {
         /// Its largest magnitude, SI.
         largest: f64,
     },
-    /// Not enough rows with both numbers.
+    /// Too few rows with both numbers.
     #[error(
         "{path}: {rows} rows with an approach and a force, of {LEAST_ROWS} that a fit needs",
         path = path.display()
@@ -163,7 +163,7 @@ pub enum FitError {
         /// The column.
         column: &'static str,
     },
-    /// No row shows the sphere pressed on.
+    /// No row is in compression.
     #[error(
         "{path}: no row is in compression (force > 0), so nothing tells the modulus; force must be positive in compression, tension negative",
         path = path.display()
@@ -181,7 +181,7 @@ pub enum FitError {
         /// The file.
         path: PathBuf,
     },
-    /// No model could be brought to the data.
+    /// No model fits the data.
     #[error(
         "no model of a sphere could be fitted to {path}: check units, signs and the radius",
         path = path.display()

@@ -1,4 +1,4 @@
-//! One model brought to a curve: its numbers and how well they are known.
+//! Fits one model to a curve: its numbers and their uncertainties.
 
 use std::f64::consts::PI;
 
@@ -8,33 +8,33 @@ use super::curve_file::Sample;
 use super::least_squares::{Minimum, Problem, covariance, minimise};
 use super::measured::Measured;
 use super::model::{LAMBDAS, Model, Parameters, SphereModel};
+use super::segments::Segment;
 use super::start::{scale_grid, starts};
-use super::ways::Way;
 use crate::theory::tabor_map::{LAMBDA_PER_MU_MATCHED, Sphere, maugis_parameter};
 
-/// Maugis parameters at which all else is fitted before lambda is set free: the sum of squares has
-/// more than one valley along it.
-const LADDER: [f64; 16] = [
+/// Maugis parameters at which all other numbers are fitted before lambda is freed: the sum of
+/// squares has more than one minimum along lambda.
+const LAMBDAS_TRIED: [f64; 16] = [
     0.01, 0.03, 0.06, 0.1, 0.16, 0.25, 0.4, 0.6, 0.85, 1.2, 1.7, 2.5, 4.0, 6.5, 11.0, 20.0,
 ];
-/// Rungs from which lambda is set free.
-const BEST_RUNGS: usize = 3;
-/// Fewest points of a way that may be free where the force of a free sphere is fitted too: one or two
-/// would only take up their own noise.
+/// Number of lambdas from which lambda is freed.
+const BEST_LAMBDAS: usize = 3;
+/// Fewest points of a segment without force if the baseline is fitted too: one or two would only
+/// fit their own noise.
 const LEAST_FREE: usize = 3;
-/// Points of the grid of scales from which a search begins, besides the usual starts.
+/// Points of the grid of scales from which a search starts, in addition to the usual starts.
 const GRID_STARTS: usize = 3;
-/// Rise of the sum of squares, in variances of the noise, up to which a state tells of the
+/// Rise of the sum of squares, in variances of the noise, up to which a state contributes to the
 /// uncertainty: three standard deviations.
 const MOST_RISE: f64 = 9.0;
-/// Standard deviation of ln lambda from which a parabola around the minimum says nothing, and only
-/// the rungs do: their distance.
-const RUNG_DISTANCE: f64 = 0.5;
-/// Share of the sum of squares that no fit is credited with going below: force span squared a
-/// point. Below it are rounding and the tables of the models.
+/// Standard deviation of ln lambda from which a parabola around the minimum is meaningless, and the
+/// profile over lambda is used.
+const FLAT_PROFILE: f64 = 0.5;
+/// Least sum of squares with which a fit is credited, in squares of the force range a point. Below
+/// it are rounding and interpolation errors.
 const FLOOR: f64 = 1e-14;
 
-/// How well numbers are known: one standard deviation each, `None` where the curve does not tell.
+/// Uncertainties: one standard deviation each, `None` if the curve does not determine the number.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Uncertainties {
     /// Of E*, Pa.
@@ -43,17 +43,17 @@ pub struct Uncertainties {
     pub work_of_adhesion: Option<f64>,
     /// Of lambda.
     pub maugis_parameter: Option<f64>,
-    /// Of w over the tension, m.
+    /// Of the range, w over the tension, m.
     pub range: Option<f64>,
     /// Of the tension of the cohesive zone, Pa.
     pub peak_tension: Option<f64>,
     /// Of the approach at first touch, m.
     pub approach_offset: Option<f64>,
-    /// Of the force where nothing acts, N.
+    /// Of the baseline force, N.
     pub force_offset: Option<f64>,
 }
 
-/// A model with the numbers that suit a curve best.
+/// A model with its best-fitting numbers.
 #[derive(Clone, Debug)]
 pub struct ModelFit {
     /// Which model.
@@ -64,43 +64,43 @@ pub struct ModelFit {
     pub uncertainties: Uncertainties,
     /// Correlations of pairs of free numbers.
     pub correlations: Vec<(&'static str, &'static str, f64)>,
-    /// Whether the search ended at a minimum.
+    /// Whether the search converged.
     pub converged: bool,
     /// Sum of squares of the residuals, N^2.
     pub sum_of_squares: f64,
-    /// Points less free numbers.
+    /// Degrees of freedom: points less free numbers.
     pub degrees_of_freedom: usize,
     /// Free numbers.
     pub free: usize,
-    /// Akaike's criterion for noise of unknown size; of two models the one with less is better.
+    /// Akaike's criterion for noise of unknown size; less is better.
     pub aic: f64,
     /// Standard deviation of the residuals, N.
     pub noise: f64,
-    /// Correlation of a residual with the next: about 0 for noise, near 1 for a model that misses.
+    /// Correlation of a residual with the next: about 0 for noise, near 1 for a wrong model.
     pub autocorrelation: f64,
     /// Force of the model at each point, N.
     pub fitted: Vec<f64>,
-    /// Whether each point is held by the attraction or pressed; else the sphere is free.
-    pub held: Vec<bool>,
+    /// For each point, whether the sphere interacts with the flat; else it is free.
+    pub interacting: Vec<bool>,
     /// Other states of the model, each with the least sum of squares at its lambda.
-    pub(super) rungs: Vec<Rung>,
-    /// Variance of the residuals, with what their correlation takes from the number of points, N^2.
+    pub(super) profile: Vec<ProfilePoint>,
+    /// Variance of the residuals, corrected for their correlation, N^2.
     pub(super) variance: f64,
 }
 
 /// The best numbers at one lambda, with standard deviations at that lambda.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct Rung {
+pub(super) struct ProfilePoint {
     pub parameters: Parameters,
     pub uncertainties: Uncertainties,
     /// Sum of squares of the residuals, N^2.
     pub sum_of_squares: f64,
 }
 
-impl Rung {
-    /// Standard deviation of a number at `value` for which this state speaks: one that suits a curve
-    /// `rise` variances worse speaks for a distance of `sqrt(rise)` deviations, as a parabola would.
-    /// `None` where the state is ruled out.
+impl ProfilePoint {
+    /// Standard deviation of a number at `value` implied by this state: a state whose sum of
+    /// squares is larger by `rise` variances implies a distance of `sqrt(rise)` deviations, as for
+    /// a parabola. `None` if the state is ruled out.
     pub(super) fn deviation(
         &self,
         value: f64,
@@ -114,22 +114,23 @@ impl Rung {
 }
 
 impl ModelFit {
-    /// States of the model that the curve may not rule out: its rungs, or where lambda is known too
-    /// closely for any of these the fit itself.
-    pub(super) fn states(&self) -> Vec<Rung> {
-        let suits =
-            |rung: &&Rung| rung.sum_of_squares - self.sum_of_squares <= MOST_RISE * self.variance;
-        let rungs: Vec<Rung> = self.rungs.iter().filter(suits).copied().collect();
-        if rungs.is_empty() {
-            vec![self.as_rung()]
+    /// States of the model that the curve may not rule out: its states over lambda, or the fit
+    /// itself if lambda is known more closely than their spacing.
+    pub(super) fn states(&self) -> Vec<ProfilePoint> {
+        let suits = |point: &&ProfilePoint| {
+            point.sum_of_squares - self.sum_of_squares <= MOST_RISE * self.variance
+        };
+        let profile: Vec<ProfilePoint> = self.profile.iter().filter(suits).copied().collect();
+        if profile.is_empty() {
+            vec![self.as_profile_point()]
         } else {
-            rungs
+            profile
         }
     }
 
-    /// The fit as one state among others.
-    fn as_rung(&self) -> Rung {
-        Rung {
+    /// The fit as a state of its own lambda.
+    fn as_profile_point(&self) -> ProfilePoint {
+        ProfilePoint {
             parameters: self.parameters,
             uncertainties: self.uncertainties,
             sum_of_squares: self.sum_of_squares,
@@ -155,21 +156,21 @@ impl ModelFit {
         })
     }
 
-    /// Whether lambda ended where it may not go on, so that there is only a bound on it.
+    /// Whether lambda reached the limit of its range, so that only a bound is known.
     pub fn at_bound(&self) -> bool {
         let lambda = self.parameters.maugis_parameter;
         self.model == Model::MaugisDugdale
             && !(1.01 * LAMBDAS.0..=0.99 * LAMBDAS.1).contains(&lambda)
     }
 
-    /// Tabor number of a range law of the same work and peak tension.
+    /// Tabor number matched to a law of the same work and peak tension.
     pub fn tabor_parameter(&self) -> Option<f64> {
         let known = self.model == Model::MaugisDugdale;
         known.then_some(self.parameters.maugis_parameter / LAMBDA_PER_MU_MATCHED)
     }
 }
 
-/// A free number.
+/// A free number of the fit.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 enum Variable {
     ContactModulus,
@@ -191,8 +192,8 @@ impl Variable {
     }
 }
 
-/// A model against a curve: variables are logarithms of what is positive, and offsets in shares of
-/// the spans.
+/// The least-squares problem of a model: variables are logarithms of positive numbers, and offsets
+/// as shares of the ranges.
 struct Search<'a> {
     measured: &'a Measured,
     sphere: SphereModel,
@@ -223,7 +224,7 @@ impl Search<'_> {
         found
     }
 
-    /// What a variable of 1 is, of those that are not logarithms.
+    /// Scale of a variable that is not a logarithm.
     fn unit(&self, variable: Variable) -> f64 {
         match variable {
             Variable::ApproachOffset => 0.1 * self.measured.approach_span,
@@ -232,7 +233,7 @@ impl Search<'_> {
         }
     }
 
-    fn held(&self, values: &DVector<f64>) -> Option<(Vec<f64>, f64)> {
+    fn interacting(&self, values: &DVector<f64>) -> Option<(Vec<f64>, f64)> {
         let parameters = self.parameters(values);
         let forces = self.sphere.forces(&parameters, &self.measured.approaches);
         let forces = forces.ok()?;
@@ -246,13 +247,13 @@ impl Search<'_> {
 }
 
 impl Problem for Search<'_> {
-    /// Whether each point is held by the attraction or pressed; else the sphere is free.
+    /// For each point, whether the sphere interacts with the flat; else it is free.
     type Choice = Vec<bool>;
 
-    /// On a way together the sphere is free first and held then, on a way apart the reverse; where
-    /// it jumps is what suits the forces best.
+    /// On loading the sphere is free first and interacts later, on unloading the reverse; the jump
+    /// is placed where it fits the forces best.
     fn choose(&self, values: &DVector<f64>) -> Option<(Vec<bool>, DVector<f64>)> {
-        let held = self.held(values)?;
+        let interacting = self.interacting(values)?;
         let samples = &self.measured.samples;
         let mut choice = vec![true; samples.len()];
         let least_free = if self.measured.freedom.force_offset {
@@ -260,12 +261,12 @@ impl Problem for Search<'_> {
         } else {
             1
         };
-        for way in &self.measured.ways {
+        for segment in &self.measured.segments {
             let cost = |i: usize, force: f64| self.residual(&samples[i], force).powi(2);
-            // What is gained by setting a point free.
-            let gain = |i: usize| cost(i, held.0[i]) - cost(i, held.1);
-            let mut order: Vec<usize> = way.points.clone().collect();
-            if !way.together {
+            // Gain from treating a point as free.
+            let gain = |i: usize| cost(i, interacting.0[i]) - cost(i, interacting.1);
+            let mut order: Vec<usize> = segment.points.clone().collect();
+            if !segment.loading {
                 order.reverse();
             }
             let (mut best, mut until, mut sum) = (0.0, 0, 0.0);
@@ -279,27 +280,27 @@ impl Problem for Search<'_> {
                 choice[*i] = false;
             }
         }
-        let residuals = self.pick(&held, &choice);
+        let residuals = self.pick(&interacting, &choice);
         Some((choice, residuals))
     }
 
     fn residuals(&self, values: &DVector<f64>, choice: &Vec<bool>) -> Option<DVector<f64>> {
-        Some(self.pick(&self.held(values)?, choice))
+        Some(self.pick(&self.interacting(values)?, choice))
     }
 }
 
 impl Search<'_> {
-    fn pick(&self, (held, free): &(Vec<f64>, f64), choice: &[bool]) -> DVector<f64> {
+    fn pick(&self, (interacting, free): &(Vec<f64>, f64), choice: &[bool]) -> DVector<f64> {
         let samples = &self.measured.samples;
         let each = (0..samples.len()).map(|i| {
-            let force = if choice[i] { held[i] } else { *free };
+            let force = if choice[i] { interacting[i] } else { *free };
             self.residual(&samples[i], force)
         });
         DVector::from_iterator(samples.len(), each)
     }
 }
 
-/// Maugis' lambda of a range; 0 where the numbers are out of all bounds.
+/// Maugis' lambda of a range; 0 if the numbers are out of bounds.
 fn lambda_of(parameters: &Parameters, radius: f64, range: f64) -> f64 {
     Sphere::new(
         radius,
@@ -310,7 +311,7 @@ fn lambda_of(parameters: &Parameters, radius: f64, range: f64) -> f64 {
     .unwrap_or(0.0)
 }
 
-/// The best fit of a model, from several starts; `None` where no start leads anywhere.
+/// The best fit of a model from several starts; `None` if all of them fail.
 pub(super) fn fit_model(measured: &Measured, model: Model) -> Option<ModelFit> {
     let freedom = measured.freedom;
     let mut variables = vec![Variable::ContactModulus];
@@ -351,23 +352,26 @@ pub(super) fn fit_model(measured: &Measured, model: Model) -> Option<ModelFit> {
     };
     if !variables.contains(&Variable::MaugisParameter) {
         let (minimum, search) = best_of(starts_at(1.0, &variables), &variables)?;
-        return Some(judged(&search, &minimum));
+        return Some(fit_at(&search, &minimum));
     }
-    let held: Vec<Variable> = variables
+    let at_fixed_lambda: Vec<Variable> = variables
         .iter()
         .copied()
         .filter(|variable| *variable != Variable::MaugisParameter)
         .collect();
-    let mut rungs: Vec<Rung> = LADDER
+    let mut profile: Vec<ProfilePoint> = LAMBDAS_TRIED
         .into_iter()
-        .filter_map(|lambda| best_of(starts_at(lambda, &held), &held))
-        .map(|(minimum, search)| judged(&search, &minimum).as_rung())
+        .filter_map(|lambda| best_of(starts_at(lambda, &at_fixed_lambda), &at_fixed_lambda))
+        .map(|(minimum, search)| fit_at(&search, &minimum).as_profile_point())
         .collect();
-    rungs.sort_by(|a, b| a.sum_of_squares.total_cmp(&b.sum_of_squares));
-    let first = rungs.iter().take(BEST_RUNGS).map(|rung| rung.parameters);
+    profile.sort_by(|a, b| a.sum_of_squares.total_cmp(&b.sum_of_squares));
+    let first = profile
+        .iter()
+        .take(BEST_LAMBDAS)
+        .map(|point| point.parameters);
     let (minimum, search) = best_of(first.collect(), &variables)?;
-    let mut fit = judged(&search, &minimum);
-    fit.rungs = rungs;
+    let mut fit = fit_at(&search, &minimum);
+    fit.profile = profile;
     widen(&mut fit);
     Some(fit)
 }
@@ -388,7 +392,7 @@ fn best_of_grid(
         start: Parameters::default(),
     };
     let here = DVector::zeros(variables.len());
-    let mut judged: Vec<(f64, Parameters)> = grid
+    let mut fit_at: Vec<(f64, Parameters)> = grid
         .into_iter()
         .filter_map(|start| {
             search.start = start;
@@ -397,17 +401,17 @@ fn best_of_grid(
             sum.is_finite().then_some((sum, start))
         })
         .collect();
-    judged.sort_by(|a, b| a.0.total_cmp(&b.0));
-    judged.truncate(GRID_STARTS);
-    judged.into_iter().map(|(_, start)| start).collect()
+    fit_at.sort_by(|a, b| a.0.total_cmp(&b.0));
+    fit_at.truncate(GRID_STARTS);
+    fit_at.into_iter().map(|(_, start)| start).collect()
 }
 
-/// Takes the uncertainties from the rungs of the ladder that suit the curve as well, where lambda
-/// is so little known that a parabola around the minimum says nothing.
+/// Takes the uncertainties from the profile over lambda if lambda is so uncertain that a parabola
+/// around the minimum is meaningless.
 fn widen(fit: &mut ModelFit) {
     let parameters = fit.parameters;
     let known = fit.uncertainties.maugis_parameter;
-    let parabola = known.is_some_and(|known| known < RUNG_DISTANCE * parameters.maugis_parameter);
+    let parabola = known.is_some_and(|known| known < FLAT_PROFILE * parameters.maugis_parameter);
     type Pick = fn(&mut Uncertainties) -> &mut Option<f64>;
     type Value = fn(&Parameters) -> f64;
     let numbers: [(Pick, Value); 4] = [
@@ -417,30 +421,31 @@ fn widen(fit: &mut ModelFit) {
         (|u| &mut u.approach_offset, |p| p.approach_offset),
     ];
     for (pick, value) in numbers {
-        let spread = fit.rungs.iter().filter_map(|rung| {
-            let rise = (rung.sum_of_squares - fit.sum_of_squares) / fit.variance;
+        let spread = fit.profile.iter().filter_map(|point| {
+            let rise = (point.sum_of_squares - fit.sum_of_squares) / fit.variance;
             let own = |p: &Parameters, u: &Uncertainties| (value(p), *pick(&mut u.clone()));
-            rung.deviation(value(&parameters), own, rise)
+            point.deviation(value(&parameters), own, rise)
         });
         let Some(spread) = spread.reduce(f64::max) else {
             continue;
         };
         let deviation = pick(&mut fit.uncertainties);
-        // A number without effect on the curve (an offset that is held, a lambda at its bound) stays so.
+        // A number that does not affect the curve (a fixed offset, a lambda at its limit) is left
+        // as it is.
         *deviation = deviation.map(|known| if parabola { known.max(spread) } else { spread });
     }
 }
 
 /// Numbers and their uncertainties at a minimum.
-fn judged(search: &Search, minimum: &Minimum) -> ModelFit {
+fn fit_at(search: &Search, minimum: &Minimum) -> ModelFit {
     let measured = search.measured;
     let parameters = search.parameters(&minimum.variables);
     let points = measured.samples.len();
     let free = search.variables.len();
     let degrees = points.saturating_sub(free).max(1);
     let sum = minimum.sum();
-    let autocorrelation = autocorrelation(&minimum.residuals, &measured.ways);
-    // Residuals that follow one another count for fewer: n (1 - r)/(1 + r) of them are independent.
+    let autocorrelation = autocorrelation(&minimum.residuals, &measured.segments);
+    // Correlated residuals count for fewer: n (1 - r)/(1 + r) of them are independent.
     let noticed = autocorrelation > 2.0 / (points as f64).sqrt();
     let repeated = if noticed {
         ((1.0 + autocorrelation) / (1.0 - autocorrelation)).min(0.1 * points as f64)
@@ -450,7 +455,7 @@ fn judged(search: &Search, minimum: &Minimum) -> ModelFit {
     let variance = sum / degrees as f64 * repeated.max(1.0);
     let covariance = covariance(&minimum.jacobian, variance);
     let span = measured.force_span;
-    let held = search
+    let interacting = search
         .choose(&minimum.variables)
         .map_or_else(Vec::new, |(choice, _)| choice);
     let fitted = measured
@@ -469,13 +474,13 @@ fn judged(search: &Search, minimum: &Minimum) -> ModelFit {
         sum_of_squares: sum * span * span,
         degrees_of_freedom: degrees,
         free,
-        // The noise is a number that is fitted too.
+        // The noise is a fitted number too.
         aic: points as f64 * (floor / points as f64).ln() + 2.0 * (free + 1) as f64,
         noise: (sum / degrees as f64).sqrt() * span,
         autocorrelation,
         fitted,
-        held,
-        rungs: Vec::new(),
+        interacting,
+        profile: Vec::new(),
         variance: variance * span * span,
     }
 }
@@ -487,7 +492,7 @@ fn uncertainties(
 ) -> Uncertainties {
     let place = |variable: Variable| search.variables.iter().position(|v| *v == variable);
     let known = |variance: f64| (variance.is_finite()).then(|| variance.max(0.0).sqrt());
-    // Standard deviation of a sum of variables with these weights.
+    // Standard deviation of a linear combination of variables.
     let of = |weights: &[(Variable, f64)]| -> Option<f64> {
         let mut variance = 0.0;
         for (first, a) in weights {
@@ -552,12 +557,12 @@ fn correlations(
     pairs
 }
 
-/// Correlation of each residual with the next of the same way.
-fn autocorrelation(residuals: &DVector<f64>, ways: &[Way]) -> f64 {
+/// Correlation of each residual with the next one of the same segment.
+fn autocorrelation(residuals: &DVector<f64>, segments: &[Segment]) -> f64 {
     let square = residuals.norm_squared();
-    let products: f64 = ways
+    let products: f64 = segments
         .iter()
-        .flat_map(|way| way.points.clone().skip(1))
+        .flat_map(|segment| segment.points.clone().skip(1))
         .map(|i| residuals[i] * residuals[i - 1])
         .sum();
     if square > 0.0 {

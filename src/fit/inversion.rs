@@ -1,6 +1,6 @@
 //! Work of adhesion and modulus from two numbers of a curve: pull-off force and a stiffness.
 //!
-//! This is what is left of a fit where only these two were kept. It assumes JKR; see
+//! For data where only these two numbers are known. Assumes JKR; see
 //! [`crate::theory::jkr::from_measurement`].
 
 use super::curve_file::Sample;
@@ -10,32 +10,32 @@ use crate::theory::jkr;
 
 /// Share of the greatest load at which the stiffness is taken.
 const AT: f64 = 0.5;
-/// Shares of the greatest load between which a line gives it.
+/// Range of loads for the linear fit of the stiffness, as shares of the greatest load.
 const BETWEEN: (f64, f64) = (0.3, 0.7);
-/// Fewest points of that line.
+/// Fewest points of that linear fit.
 const LEAST_POINTS: usize = 5;
 
-/// The two numbers, and what JKR makes of them.
+/// The two numbers, and the JKR result.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Inversion {
     /// Greatest tension, N, positive.
     pub pull_off_force: f64,
     /// Load at which the stiffness was taken, N.
     pub load: f64,
-    /// Slope of force by approach on the way apart, N/m.
+    /// Slope of force against approach on unloading, N/m.
     pub stiffness: f64,
-    /// J/m^2.
+    /// Work of adhesion, J/m^2.
     pub work_of_adhesion: f64,
     /// Its standard deviation, J/m^2.
     pub work_uncertainty: f64,
-    /// Pa.
+    /// Contact modulus, Pa.
     pub contact_modulus: f64,
     /// Its standard deviation, Pa.
     pub modulus_uncertainty: f64,
 }
 
-/// The inversion of a curve, with force offset and noise of `fit`; `None` where the curve has no
-/// tension or too few points of compression on the way apart.
+/// The inversion of a curve, with force offset and noise of `fit`; `None` if the curve has no
+/// tension or too few points of compression on unloading.
 pub fn invert_curve(measured: &Measured, fit: &ModelFit) -> Option<Inversion> {
     let zero = fit.parameters.force_offset;
     let (least, greatest) = measured.extremes();
@@ -43,10 +43,10 @@ pub fn invert_curve(measured: &Measured, fit: &ModelFit) -> Option<Inversion> {
     if pull_off <= 3.0 * fit.noise || most <= 0.0 {
         return None;
     }
-    // The last way apart, else the last way together.
-    let apart = measured.ways.iter().rfind(|way| !way.together);
-    let way = apart.or(measured.ways.last())?;
-    let points: Vec<&Sample> = measured.samples[way.points.clone()]
+    // The last unloading segment, else the last loading segment.
+    let unloading = measured.segments.iter().rfind(|segment| !segment.loading);
+    let segment = unloading.or(measured.segments.last())?;
+    let points: Vec<&Sample> = measured.samples[segment.points.clone()]
         .iter()
         .filter(|sample| {
             let load = sample.force - zero;

@@ -1,4 +1,4 @@
-//! Least squares by the method of Levenberg 1944 and Marquardt 1963, for some numbers.
+//! Nonlinear least squares by the method of Levenberg 1944 and Marquardt 1963, for a few variables.
 
 use nalgebra::{DMatrix, DVector};
 
@@ -10,30 +10,29 @@ const MOST_DAMPING: f64 = 1e12;
 /// Step of the derivatives; the variables are of the order of 1.
 const DIFFERENCE: f64 = 1e-5;
 
-/// A sum of squares of residuals that hang on variables and on discrete choices.
+/// A sum of squares of residuals that depend on variables and on discrete choices.
 ///
-/// The choices (which branch a point lies on) are made anew at each step and held while the
-/// derivatives are taken.
+/// The choices (the branch of each point) are updated at each step and fixed during
+/// differentiation.
 pub(super) trait Problem {
     /// The discrete choices.
     type Choice;
 
-    /// The choices that suit the variables, and the residuals with them; nothing where there are
-    /// none.
+    /// The best choices for the variables, and the residuals with them; `None` if there are none.
     fn choose(&self, variables: &DVector<f64>) -> Option<(Self::Choice, DVector<f64>)>;
 
     /// The residuals with given choices.
     fn residuals(&self, variables: &DVector<f64>, choice: &Self::Choice) -> Option<DVector<f64>>;
 }
 
-/// Where the search ended.
+/// Result of a search.
 #[derive(Clone, Debug)]
 pub(super) struct Minimum {
     pub variables: DVector<f64>,
     pub residuals: DVector<f64>,
-    /// One row a residual, one column a variable.
+    /// Jacobian: one row a residual, one column a variable.
     pub jacobian: DMatrix<f64>,
-    /// Whether it ended because nothing was to be gained.
+    /// Whether the search converged.
     pub converged: bool,
 }
 
@@ -43,7 +42,7 @@ impl Minimum {
     }
 }
 
-/// The minimum that lies downhill from `start`.
+/// The local minimum reached from `start`.
 pub(super) fn minimise<P: Problem>(problem: &P, start: DVector<f64>) -> Option<Minimum> {
     let count = start.len();
     let mut variables = start;
@@ -62,7 +61,7 @@ pub(super) fn minimise<P: Problem>(problem: &P, start: DVector<f64>) -> Option<M
                 damped[(i, i)] += damping * normal[(i, i)].max(1e-12 * scale);
             }
             let step = damped.cholesky().map(|factors| factors.solve(&-&gradient));
-            // No step of more than a factor of three at once.
+            // Limit a step to a factor of three.
             let step = step.map(|step| {
                 let longest = step.amax();
                 if longest > 1.1 {
@@ -132,8 +131,8 @@ fn derivatives<P: Problem>(
     Some(jacobian)
 }
 
-/// Covariance of the variables at a `variance` of the residuals; not a number in the rows and
-/// columns of variables without effect.
+/// Covariance of the variables at a `variance` of the residuals; NaN in the rows and columns of
+/// variables without effect.
 pub(super) fn covariance(jacobian: &DMatrix<f64>, variance: f64) -> DMatrix<f64> {
     let count = jacobian.ncols();
     let norms: Vec<f64> = jacobian.column_iter().map(|column| column.norm()).collect();
@@ -158,7 +157,7 @@ pub(super) fn covariance(jacobian: &DMatrix<f64>, variance: f64) -> DMatrix<f64>
 mod tests {
     use super::*;
 
-    /// `a exp(b x)` through points made of it.
+    /// `a exp(b x)` through points generated from it.
     struct Growth(Vec<(f64, f64)>);
 
     impl Problem for Growth {
@@ -188,7 +187,8 @@ mod tests {
 
     #[test]
     fn covariance_of_a_straight_line() {
-        // Intercept and slope over x = -1, 0, 1: variances 1/3 and 1/2; the third has no effect.
+        // Intercept and slope over x = -1, 0, 1: variances 1/3 and 1/2; the third variable has no
+        // effect.
         let jacobian =
             DMatrix::from_row_slice(3, 3, &[1.0, -1.0, 0.0, 1.0, 0.0, 0.0, 1.0, 1.0, 0.0]);
         let covariance = covariance(&jacobian, 2.0);

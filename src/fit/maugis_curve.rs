@@ -7,18 +7,19 @@ use std::f64::consts::{FRAC_PI_2, PI};
 use crate::theory::TheoryError;
 use crate::theory::maugis_dugdale::{FOLD_LAMBDA, MaugisDugdale};
 
-/// States of the table; an interpolated force is good to 1e-7 of the pull-off.
+/// States of the table; interpolated forces are accurate to 1e-7 of the pull-off.
 const NODES: usize = 320;
-/// Contact radius up to which the nodes are even; beyond it they spread.
+/// Contact radius up to which the nodes are evenly spaced; beyond it the spacing grows.
 const EVEN: f64 = 0.8;
-/// Contact radius that stands for the first touch.
+/// Contact radius that represents the first touch.
 const TOUCH: f64 = 1e-6;
 
 /// The curve of one lambda.
 #[derive(Clone, Debug)]
 pub(super) struct MaugisCurve {
     model: MaugisDugdale,
-    /// Root of the approach beyond the first node: the force is smooth in it, also at a fold.
+    /// Square root of the approach beyond the first node: the force is smooth in it, also at a
+    /// fold.
     roots: Vec<f64>,
     forces: Vec<f64>,
     /// Approach of the first node: the fold, or the first touch.
@@ -34,7 +35,7 @@ impl MaugisCurve {
         let grip = model.grip()?;
         let folded = lambda > FOLD_LAMBDA;
         let begin = if folded { grip.contact_radius } else { TOUCH };
-        // A^2 = approach + (4/3) lambda A t, and the tension draws no sphere in by more than JKR.
+        // A^2 = approach + (4/3) lambda A t, and the tension indents no sphere by more than JKR.
         let end = 4.0 + deepest.max(0.0).sqrt();
         let stretch = ((end - begin) / EVEN).asinh();
         let mut roots = Vec::with_capacity(NODES);
@@ -47,7 +48,7 @@ impl MaugisCurve {
                 first = state.approach;
             }
             let root = (state.approach - first).max(0.0).sqrt();
-            // Rounding beside the fold.
+            // Rounding near the fold.
             if roots.last().is_none_or(|last| root > *last) {
                 roots.push(root);
                 forces.push(state.force);
@@ -63,7 +64,7 @@ impl MaugisCurve {
         })
     }
 
-    /// Force on the one curve from the open disc to the contact; beyond its fold that of the fold.
+    /// Force along the curve from the open disc to the contact; beyond its fold that of the fold.
     pub(super) fn force(&self, approach: f64) -> f64 {
         if approach >= self.first {
             return self.interpolated((approach - self.first).sqrt());

@@ -1,59 +1,59 @@
-//! A curve ready to be fitted.
+//! A curve prepared for fitting.
 
 use super::curve_file::Sample;
-use super::ways::{Way, ways};
+use super::segments::{Segment, segments};
 
-/// What is free besides the numbers of the model.
+/// Numbers that are fitted in addition to those of the model.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Freedom {
-    /// Where the undeformed surfaces first touch is not known.
+    /// The approach of first touch of the undeformed surfaces is unknown.
     pub approach_offset: bool,
-    /// The force where nothing acts is not known.
+    /// The baseline force is unknown.
     pub force_offset: bool,
-    /// Range of the attraction, m, where it is known: `w` over the tension, as in a scene.
+    /// Range of the attraction, m, if it is known: `w` over the tension, as in a scene.
     pub range: Option<f64>,
 }
 
-/// Which signs of a curve are turned.
+/// The signs of a curve that are reversed.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(super) struct Turned {
+pub(super) struct ReversedSigns {
     approach: bool,
     force: bool,
 }
 
-impl Turned {
-    /// Every way to turn a sign.
-    pub(super) const ALL: [Turned; 3] = [
-        Turned {
+impl ReversedSigns {
+    /// Every combination of reversed signs.
+    pub(super) const ALL: [ReversedSigns; 3] = [
+        ReversedSigns {
             approach: true,
             force: false,
         },
-        Turned {
+        ReversedSigns {
             approach: false,
             force: true,
         },
-        Turned {
+        ReversedSigns {
             approach: true,
             force: true,
         },
     ];
 }
 
-/// A curve ready to be fitted.
+/// A curve prepared for fitting.
 #[derive(Clone, Debug)]
 pub struct Measured {
     /// Points in the order of the file.
     pub samples: Vec<Sample>,
-    /// Ways together and apart.
-    pub ways: Vec<Way>,
+    /// Loading and unloading segments.
+    pub segments: Vec<Segment>,
     /// R, m.
     pub radius: f64,
-    /// What is free.
+    /// The fitted offsets.
     pub freedom: Freedom,
     pub(super) approaches: Vec<f64>,
-    /// Greatest less least force, N.
+    /// Range of the force, N.
     pub(super) force_span: f64,
-    /// Greatest less least approach, m.
+    /// Range of the approach, m.
     pub(super) approach_span: f64,
 }
 
@@ -70,7 +70,7 @@ impl Measured {
             ends.1 - ends.0
         };
         Measured {
-            ways: ways(&samples),
+            segments: segments(&samples),
             radius,
             freedom,
             approaches: samples.iter().map(|sample| sample.approach).collect(),
@@ -80,18 +80,18 @@ impl Measured {
         }
     }
 
-    /// The same curve with signs turned.
-    pub(super) fn turned(&self, turned: Turned) -> Measured {
-        let sign = |turned: bool| if turned { -1.0 } else { 1.0 };
+    /// The same curve with signs reversed.
+    pub(super) fn with_reversed(&self, reversed: ReversedSigns) -> Measured {
+        let sign = |reversed: bool| if reversed { -1.0 } else { 1.0 };
         let samples = self.samples.iter().map(|sample| Sample {
-            approach: sign(turned.approach) * sample.approach,
-            force: sign(turned.force) * sample.force,
+            approach: sign(reversed.approach) * sample.approach,
+            force: sign(reversed.force) * sample.force,
         });
         Measured::new(samples.collect(), self.radius, self.freedom)
     }
 
-    /// Force where nothing acts, as far as it can be guessed: the median of the tenth of the
-    /// points that are farthest apart; 0 where it is known.
+    /// Estimated baseline force: the median of the tenth of the points that are farthest apart; 0
+    /// if it is known.
     pub(super) fn baseline(&self) -> f64 {
         if !self.freedom.force_offset {
             return 0.0;
@@ -103,7 +103,7 @@ impl Measured {
         far[far.len() / 2].force
     }
 
-    /// The points of the least and the greatest force.
+    /// The points of least and greatest force.
     pub(super) fn extremes(&self) -> (Sample, Sample) {
         let by_force = |a: &&Sample, b: &&Sample| a.force.total_cmp(&b.force);
         let least = self.samples.iter().min_by(by_force);

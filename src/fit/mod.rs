@@ -1,11 +1,12 @@
 //! Work of adhesion and contact modulus from a measured force curve of a sphere.
 //!
-//! A [`ForceCurve`] is read from a file, cut into [`ways`] together and apart, and held against four
-//! models of a sphere ([`model`]): Hertz, DMT, JKR and Maugis-Dugdale. Which of them is right depends
-//! on the Tabor number, which only the fit can tell; [`fit_curve`] goes round that circle until it
-//! closes. Every model's numbers come with it, so that the choice can be judged.
+//! A [`ForceCurve`] is read from a file, divided into loading and unloading segments, and fitted by
+//! four models of a sphere ([`model`]): Hertz, DMT, JKR and Maugis-Dugdale. The right model depends
+//! on the Tabor number, which only the fit can tell, so [`fit_curve`] iterates until both agree.
+//! The numbers of every model are returned, so that the choice can be checked.
 //!
-//! Signs are those of the results everywhere: a force is positive in compression, an approach is
+//! Signs are those of the results: force is positive in compression, approach is positive closer.
+//! Everything is in SI. `docs/fit.md` describes the method and its limits.
 //! positive closer. Everything is in SI. How it works, with its limits, is told in `docs/fit.md`.
 
 mod choice;
@@ -20,8 +21,8 @@ mod measured;
 pub mod model;
 mod picture;
 mod report;
+mod segments;
 mod start;
-mod ways;
 
 pub use choice::{FitResult, fit_curve};
 pub use curve_file::{ForceCurve, Sample};
@@ -33,4 +34,4 @@ pub use measured::{Freedom, Measured};
 pub use model::Model;
 pub use picture::draw;
 pub use report::report;
-pub use ways::{Way, ways};
+pub use segments::{Segment, segments};

@@ -1,4 +1,4 @@
-//! The models of a sphere that a curve is held against.
+//! The models of a sphere that are fitted to a curve.
 
 use std::cell::RefCell;
 use std::f64::consts::PI;
@@ -7,8 +7,8 @@ use std::rc::Rc;
 use super::maugis_curve::MaugisCurve;
 use crate::theory::{TheoryError, jkr};
 
-/// Least and greatest Maugis parameter that are tried: beyond, force curves are those of DMT and
-/// JKR to a thousandth.
+/// Least and greatest Maugis parameter: beyond, force curves agree with DMT and JKR to a
+/// thousandth.
 pub const LAMBDAS: (f64, f64) = (0.01, 20.0);
 
 /// A model of a sphere on a half-space.
@@ -16,19 +16,19 @@ pub const LAMBDAS: (f64, f64) = (0.01, 20.0);
 pub enum Model {
     /// No adhesion. [`crate::theory::hertz`].
     Hertz,
-    /// Hertz less `2 pi w R` in contact, nothing out of it: stiff and small. Maugis 1992.
+    /// Hertz less `2 pi w R` in contact, no force out of contact: stiff and small. Maugis 1992.
     Dmt,
-    /// Attraction of no range: soft and large. [`crate::theory::jkr`].
+    /// Attraction without range: soft and large. [`crate::theory::jkr`].
     Jkr,
     /// Attraction of any range. [`crate::theory::maugis_dugdale`].
     MaugisDugdale,
 }
 
 impl Model {
-    /// All of them, from the fewest numbers to the most.
+    /// All models, by the number of parameters.
     pub const ALL: [Model; 4] = [Model::Hertz, Model::Dmt, Model::Jkr, Model::MaugisDugdale];
 
-    /// As in `fit.json`.
+    /// Its name in `fit.json`.
     pub fn name(self) -> &'static str {
         match self {
             Model::Hertz => "hertz",
@@ -38,7 +38,7 @@ impl Model {
         }
     }
 
-    /// For people.
+    /// Its name in text.
     pub fn title(self) -> &'static str {
         match self {
             Model::Hertz => "Hertz",
@@ -48,41 +48,41 @@ impl Model {
         }
     }
 
-    /// Whether it attracts.
+    /// Whether it has adhesion.
     pub fn adheres(self) -> bool {
         self != Model::Hertz
     }
 }
 
-/// What a model needs to know, SI.
+/// Parameters of a model, SI.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Parameters {
     /// E*, Pa.
     pub contact_modulus: f64,
     /// w, J/m^2; 0 for Hertz.
     pub work_of_adhesion: f64,
-    /// Maugis' lambda; of no meaning but for Maugis-Dugdale.
+    /// Maugis' lambda; used by Maugis-Dugdale only.
     pub maugis_parameter: f64,
     /// Approach at which the undeformed surfaces first touch, m.
     pub approach_offset: f64,
-    /// Force where nothing acts, N.
+    /// Baseline force, N.
     pub force_offset: f64,
 }
 
-/// A force at an approach.
+/// Force as a function of approach.
 pub(super) type ForceByApproach = Box<dyn Fn(f64) -> Result<f64, TheoryError>>;
 
-/// A model of a sphere of a given radius, with the tables it made last.
+/// A model of a sphere of a given radius, with its most recent tables.
 #[derive(Clone, Debug)]
 pub struct SphereModel {
-    /// Which.
+    /// The model.
     pub model: Model,
     /// R, m.
     pub radius: f64,
     tables: RefCell<Vec<(f64, f64, Rc<MaugisCurve>)>>,
 }
 
-/// Tables kept: the state, and two beside it for a derivative.
+/// Number of stored tables: the state, and two near it for a derivative.
 const TABLES: usize = 4;
 
 impl SphereModel {
@@ -95,10 +95,10 @@ impl SphereModel {
         }
     }
 
-    /// Force of a sphere that the attraction holds, at each of `approaches` (m, as measured), N.
+    /// Force of a sphere that interacts with the flat, at each of `approaches` (m, as measured), N.
     ///
-    /// Beyond the fold where a held approach lets go it is that of the fold: the model has no
-    /// state there, and the sphere is free.
+    /// Beyond the fold where a prescribed approach jumps off, the force at the fold is returned:
+    /// the model has no state there, and the sphere is free.
     pub fn forces(
         &self,
         parameters: &Parameters,
@@ -161,7 +161,7 @@ impl SphereModel {
     /// Approach in contact at a force, beyond pull-off, in Maugis units.
     pub(super) fn approach_at(&self, lambda: f64, force: f64) -> Result<f64, TheoryError> {
         let (low, _) = self.pull_off(lambda)?;
-        // The attraction is less than 2.2 in these units, whatever the model.
+        // The attraction is less than 2.2 in these units, for every model.
         let high = 4.0 + (force.max(0.0) + 2.2).powf(2.0 / 3.0);
         let reduced = self.reduced(lambda, high)?;
         let excess = |approach: f64| reduced(approach).map_or(f64::NAN, |at| at - force);
@@ -177,7 +177,7 @@ impl SphereModel {
         if let Some((_, _, table)) = known {
             return Ok(Rc::clone(table));
         }
-        // Some room, so that the next step of a fit finds it still good.
+        // With a margin, so that the table serves the next steps of a fit.
         let to = 2.0 * (deepest + 1.0);
         let table = Rc::new(MaugisCurve::new(lambda, to)?);
         tables.truncate(TABLES - 1);

@@ -1,4 +1,4 @@
-//! `fit.png`: the curve with the model through it, and what is left between them.
+//! `fit.png`: the curve with the fitted model, and the residuals.
 
 use std::io;
 
@@ -28,19 +28,19 @@ const RESIDUALS: Rect = Rect {
     width: 940,
     height: 170,
 };
-/// Points on the way together, and on the way apart.
-const TOGETHER: Rgb = [216, 132, 44];
-const APART: Rgb = [40, 96, 168];
+/// Colours of the points on loading and on unloading.
+const LOADING: Rgb = [216, 132, 44];
+const UNLOADING: Rgb = [40, 96, 168];
 /// Most ticks of an axis.
 const TICKS: usize = 8;
 /// Pixels of a tick mark.
 const MARK: u32 = 6;
 /// Width of the model's line, pixels.
 const LINE: f64 = 1.0;
-/// Share of an axis left free at its ends.
+/// Share of an axis left empty at its ends.
 const MARGIN: f64 = 0.04;
 
-/// One axis: the values at its ends and the pixels they lie on.
+/// One axis: the values at its ends and their pixels.
 struct Axis {
     low: f64,
     high: f64,
@@ -55,7 +55,7 @@ impl Axis {
             .fold((f64::INFINITY, f64::NEG_INFINITY), |(low, high), value| {
                 (low.min(value), high.max(value))
             });
-        // A constant still needs a width.
+        // A constant still needs a range.
         let room = (MARGIN * (high - low))
             .max(1e-6 * high.abs())
             .max(f64::MIN_POSITIVE);
@@ -108,17 +108,17 @@ pub fn draw(result: &FitResult, title: &str) -> io::Result<Vec<u8>> {
     heading(&mut page, result, title);
     panel(&mut page, CURVE, &approach, &force, "force");
     panel(&mut page, RESIDUALS, &approach, &residual, "data - model");
-    for way in &result.measured.ways {
-        let colour = if way.together { TOGETHER } else { APART };
-        for i in way.points.clone() {
+    for segment in &result.measured.segments {
+        let colour = if segment.loading { LOADING } else { UNLOADING };
+        for i in segment.points.clone() {
             let x = approach.pixel(samples[i].approach);
             dot(&mut page, (x, force.pixel(samples[i].force)), colour);
             dot(&mut page, (x, residual.pixel(rest(i))), colour);
         }
     }
-    for way in &result.measured.ways {
+    for segment in &result.measured.segments {
         let mut before: Option<[f64; 2]> = None;
-        for i in way.points.clone() {
+        for i in segment.points.clone() {
             let here = [
                 approach.pixel(samples[i].approach),
                 force.pixel(fit.fitted[i]),
@@ -149,7 +149,11 @@ fn heading(page: &mut RgbImage, result: &FitResult, title: &str) {
     let title = canvas::cut(title, HEADING, CURVE.width);
     say(page, HEADING, INK, [CURVE.x, 22], &title);
     say(page, TEXT, INK, [CURVE.x, 54], &says);
-    let keys = [("together", TOGETHER), ("apart", APART), ("model", INK)];
+    let keys = [
+        ("loading", LOADING),
+        ("unloading", UNLOADING),
+        ("model", INK),
+    ];
     let mut x = CURVE.right() - 330;
     for (name, colour) in keys {
         dot(page, (f64::from(x), 62.0), colour);

@@ -1,4 +1,4 @@
-//! `fit.json`. Its keys are told in `docs/fit.md`.
+//! `fit.json`. `docs/fit.md` describes its keys.
 
 use std::path::Path;
 
@@ -7,7 +7,7 @@ use serde_json::{Map, Value, json};
 use super::choice::FitResult;
 use super::estimate::ModelFit;
 
-/// What a fit found, SI; a number that the curve does not tell is null.
+/// The results of a fit, SI; a number that the curve does not determine is null.
 pub fn report(result: &FitResult, path: &Path) -> Value {
     let best = result.best();
     let measured = &result.measured;
@@ -24,7 +24,7 @@ pub fn report(result: &FitResult, path: &Path) -> Value {
     for (key, value) in numbers(best, radius) {
         put(&key, value);
     }
-    // As the whole comparison leaves them, beside what the one model says of itself below.
+    // From the comparison of all models; the entries of a single model follow below.
     if best.model.adheres() {
         put(
             "work_of_adhesion",

@@ -1,4 +1,4 @@
-//! Where the search for a model's numbers begins.
+//! Starting points of the search for a model's numbers.
 
 use std::f64::consts::PI;
 
@@ -8,7 +8,7 @@ use super::curve_file::Sample;
 use super::measured::Measured;
 use super::model::{Model, Parameters, SphereModel, units};
 
-/// Parameters to start from: by the pull-off and the indentation, and by Hertz.
+/// Starting parameters: from pull-off and indentation, and from Hertz.
 pub(super) fn starts(measured: &Measured, model: Model, lambda: f64) -> Vec<Parameters> {
     let baseline = measured.baseline();
     let (least, greatest) = measured.extremes();
@@ -38,16 +38,19 @@ pub(super) fn starts(measured: &Measured, model: Model, lambda: f64) -> Vec<Para
     starts
 }
 
-/// Shares of the measured approach that the way from pull-off to the deepest point may take.
+/// Candidates for the displacement from pull-off to the deepest point, as shares of the measured
+/// approach.
 const SHARES: [f64; 10] = [1.0, 0.7, 0.5, 0.35, 0.25, 0.18, 0.12, 0.08, 0.05, 0.03];
-/// The same way in Maugis units, from a contact that only tension deforms to one pressed hard.
+/// The same displacement in Maugis units, from a contact deformed by tension alone to one under
+/// heavy load.
 const DEPTHS: [f64; 7] = [0.25, 0.5, 1.0, 2.0, 4.0, 8.0, 16.0];
 
-/// Parameters over the whole range of scales: for each way from pull-off to the deepest point, as a
-/// share of the curve and in Maugis units, force scale and baseline follow by linear least squares.
+/// Parameters over the whole range of scales: for each displacement from pull-off to the deepest
+/// point, as a share of the curve and in Maugis units, force scale and baseline follow by linear
+/// least squares.
 ///
-/// On a lightly pressed curve neither the greatest force nor the least tells the scale of the
-/// approach, and the sum of squares has more than one valley.
+/// On a lightly loaded curve neither the greatest nor the least force determines the scale of the
+/// approach, and the sum of squares has more than one minimum.
 pub(super) fn scale_grid(
     measured: &Measured,
     sphere: &SphereModel,
@@ -103,8 +106,8 @@ pub(super) fn scale_grid(
     grid
 }
 
-/// Unit of force and baseline that bring reduced forces closest to the measured ones; `None` where
-/// that unit is not positive.
+/// Force unit and baseline that bring reduced forces closest to the measured ones; `None` if that
+/// unit is not positive.
 fn linear_scale(measured: &Measured, reduced: impl Fn(f64) -> Option<f64>) -> Option<(f64, f64)> {
     let mut normal = Matrix2::zeros();
     let mut right = Vector2::zeros();
@@ -127,7 +130,7 @@ fn modulus_of(radius: f64, work_of_adhesion: f64, approach_unit: f64) -> f64 {
     0.75 * PI * work_of_adhesion * (radius / approach_unit.powi(3)).sqrt()
 }
 
-/// A straight line through the approach over the force to the power 2/3.
+/// A straight line through the approach against the force to the power 2/3.
 fn hertz_start(measured: &Measured, baseline: f64, greatest: Sample) -> Parameters {
     let least = 0.05 * (greatest.force - baseline);
     let pressed = measured
@@ -157,7 +160,7 @@ fn hertz_start(measured: &Measured, baseline: f64, greatest: Sample) -> Paramete
     }
 }
 
-/// Pull-off gives w; the way from there to the greatest force gives the modulus.
+/// Pull-off gives w; the displacement from there to the greatest force gives the modulus.
 fn pull_off_start(
     sphere: &SphereModel,
     lambda: f64,
@@ -167,14 +170,14 @@ fn pull_off_start(
     let (place, force) = sphere.pull_off(lambda).ok()?;
     let tension = baseline - least.force;
     let unit = tension / -force;
-    let way = greatest.approach - least.approach;
-    if unit <= 0.0 || way <= 0.0 {
+    let segment = greatest.approach - least.approach;
+    if unit <= 0.0 || segment <= 0.0 {
         return None;
     }
     let deepest = sphere
         .approach_at(lambda, (greatest.force - baseline) / unit)
         .ok()?;
-    let approach_unit = way / (deepest - place);
+    let approach_unit = segment / (deepest - place);
     let work_of_adhesion = unit / (PI * sphere.radius);
     let contact_modulus = modulus_of(sphere.radius, work_of_adhesion, approach_unit);
     debug_assert!(

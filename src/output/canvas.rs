@@ -12,7 +12,7 @@ use super::palette::Rgb;
 pub(crate) const WHITE: Rgb = [255, 255, 255];
 /// Text, ticks and the scale bar.
 pub(crate) const INK: Rgb = [28, 28, 30];
-/// Text that stands back.
+/// Text of less importance.
 pub(crate) const QUIET_INK: Rgb = [100, 100, 104];
 /// Frames.
 pub(crate) const FRAME: Rgb = [150, 150, 154];
@@ -48,7 +48,7 @@ pub(crate) const TEXT: Font = Font {
     weight: FontWeight::Regular,
     size: RasterHeight::Size16,
 };
-/// What stands out in plots.
+/// Emphasised text of plots.
 pub(crate) const BOLD: Font = Font {
     weight: FontWeight::Bold,
     ..TEXT
@@ -59,12 +59,12 @@ pub(crate) const HEADING: Font = Font {
     size: RasterHeight::Size20,
 };
 
-/// A line of text and where it stands.
+/// A line of text and its position.
 #[derive(Clone, Debug, PartialEq)]
 pub struct TextLine {
-    /// What it says, in characters that the typeface has.
+    /// Its characters, which the typeface has.
     pub text: String,
-    /// How it is set.
+    /// Its font.
     pub font: Font,
     /// Left edge of the first glyph, pixels.
     pub x: u32,
@@ -79,7 +79,7 @@ impl TextLine {
     }
 }
 
-/// `text` in characters that the typeface has (Latin-1); others become a near one or `?`.
+/// `text` in characters that the typeface has (Latin-1); others become a similar one or `?`.
 pub(crate) fn printable(text: &str) -> String {
     text.chars()
         .map(|character| match character {
@@ -96,13 +96,13 @@ pub(crate) fn printable(text: &str) -> String {
         .collect()
 }
 
-/// Writes text with its left upper corner at a place, pixels.
+/// Writes text with its upper left corner at a position, pixels.
 pub(crate) fn say(page: &mut RgbImage, font: Font, ink: Rgb, [x, y]: [u32; 2], text: &str) {
     let text = printable(text);
     write(page, &TextLine { text, font, x, y }, ink);
 }
 
-/// As much of a text as `width` pixels hold.
+/// The part of a text that fits into `width` pixels.
 pub(crate) fn cut(text: &str, font: Font, width: u32) -> String {
     let most = (width / font.advance()) as usize;
     printable(text).chars().take(most).collect()
@@ -122,7 +122,7 @@ pub(crate) fn png(page: &RgbImage) -> io::Result<Vec<u8>> {
     Ok(bytes)
 }
 
-/// Fills a rectangle, as far as it lies on the page.
+/// Fills a rectangle as far as it lies on the page.
 pub(crate) fn fill(page: &mut RgbImage, rect: Rect, colour: Rgb) {
     for y in rect.y..rect.bottom().min(page.height()) {
         for x in rect.x..rect.right().min(page.width()) {

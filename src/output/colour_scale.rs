@@ -1,10 +1,10 @@
-//! Which colour stands for which value, and the numbers beside the colour bar.
+//! The colour of each value, and the ticks of the colour bar.
 
 use super::palette::{self, Rgb};
 use super::si::{decimal_exponent, fixed};
 use crate::scene::FieldName;
 
-/// Tension below this share of the largest pressure is rounding, and takes no arm of the map.
+/// Tension below this share of the largest pressure is rounding and gets no colours of its own.
 const NEGLIGIBLE: f64 = 1e-9;
 
 /// Values and their colours, low at the bottom of the bar.
@@ -16,16 +16,16 @@ pub struct ColourScale {
     pub low: f64,
     /// Value at the top.
     pub high: f64,
-    /// Whether zero has the middle of the bar and each sign its own half of it.
+    /// Whether zero lies in the middle of the bar and each sign has half of it.
     pub two_sided: bool,
 }
 
 impl ColourScale {
     /// The scale for the finite `values` of a field.
     ///
-    /// Pressure always shows zero in the neutral colour. If it has both signs, each sign gets the
-    /// whole of its arm: the tension of an adhesive zone is seen beside a pressure many times larger.
-    /// The other fields run from their least to their greatest value.
+    /// Zero pressure always has the neutral colour. If the pressure has both signs, each sign gets
+    /// a whole half of the colour map, so that the tension of an adhesive zone is visible beside a
+    /// much larger pressure. The other fields run from their least to their greatest value.
     pub fn new(field: FieldName, values: &[f64]) -> ColourScale {
         let least = values.iter().copied().fold(f64::INFINITY, f64::min);
         let greatest = values.iter().copied().fold(f64::NEG_INFINITY, f64::max);
@@ -47,7 +47,7 @@ impl ColourScale {
         let (colours, low, high) = match (tense, compressed) {
             (true, true) => (palette::signed(), least, greatest),
             (true, false) => (palette::tension(), least, 0.0),
-            // No pressure at all is drawn in the neutral colour.
+            // Zero pressure everywhere is drawn in the neutral colour.
             (false, _) => (palette::compression(), 0.0, greatest.max(0.0)),
         };
         ColourScale {
@@ -58,7 +58,7 @@ impl ColourScale {
         }
     }
 
-    /// Place of a value on the bar, from 0 at the bottom to 1 at the top.
+    /// Position of a value on the bar, from 0 at the bottom to 1 at the top.
     pub fn fraction(&self, value: f64) -> f64 {
         let fraction = if self.two_sided {
             let end = if value < 0.0 { -self.low } else { self.high };
@@ -73,7 +73,7 @@ impl ColourScale {
         fraction.clamp(0.0, 1.0)
     }
 
-    /// Value at a place on the bar: the inverse of [`ColourScale::fraction`].
+    /// Value at a position on the bar: the inverse of [`ColourScale::fraction`].
     pub fn value(&self, fraction: f64) -> f64 {
         if !self.two_sided {
             return self.low + fraction * (self.high - self.low);
@@ -82,7 +82,7 @@ impl ColourScale {
         signed * if signed < 0.0 { -self.low } else { self.high }
     }
 
-    /// Colour at a place on the bar.
+    /// Colour at a position on the bar.
     pub fn colour_at(&self, fraction: f64) -> Rgb {
         let last = self.colours.len() - 1;
         self.colours[(fraction * last as f64).round() as usize]
@@ -93,20 +93,20 @@ impl ColourScale {
         self.colour_at(self.fraction(value))
     }
 
-    /// Whether all values have one colour, so that the bar has one label.
+    /// Whether all values have one colour, so that the bar has a single label.
     pub fn is_constant(&self) -> bool {
         self.low == self.high
     }
 
-    /// The largest magnitude on the bar, which picks the prefix of its unit.
+    /// The largest magnitude on the bar, which determines the prefix of its unit.
     pub(super) fn magnitude(&self) -> f64 {
         self.low.abs().max(self.high.abs())
     }
 
     /// Values to be labelled and their labels in units of `unit`, most important first.
     ///
-    /// The ends and a zero between them come first, then round values; the caller leaves out those
-    /// for which there is no room.
+    /// The ends and a zero between them come first, then round values; the caller omits those
+    /// without space.
     pub(super) fn ticks(&self, unit: f64) -> Vec<(f64, String)> {
         if self.is_constant() {
             return vec![(self.low, end_label(self.low / unit, self.low / unit))];
@@ -170,7 +170,7 @@ pub(super) fn round_down(value: f64) -> f64 {
 /// 1, 2, 5 and 10 times the power of ten at or below `value`.
 fn round_numbers(value: f64) -> [f64; 4] {
     let exponent = decimal_exponent(value, 12);
-    // Parsed from their decimal form: 5 times 1e-6 is not the number nearest to 5e-6.
+    // Parsed from their decimal form: 5 times 1e-6 is not the double nearest to 5e-6.
     [1, 2, 5, 10].map(|factor| {
         let text = format!("{factor}e{exponent}");
         text.parse().expect("a power of ten is a number")

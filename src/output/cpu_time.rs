@@ -1,12 +1,12 @@
 //! Processor time of this process.
 
-/// Ticks of `/proc/self/stat` in a second, on every Linux of today.
+/// Clock ticks a second in `/proc/self/stat`, on every current Linux.
 const TICKS_A_SECOND: f64 = 100.0;
 
-/// Seconds of processor time of all threads so far, to 0.01 s; known on Linux only.
+/// CPU seconds of all threads so far, to 0.01 s; Linux only.
 pub fn cpu_seconds() -> Option<f64> {
     let text = std::fs::read_to_string("/proc/self/stat").ok()?;
-    // The command's name may hold anything, and ends at the last parenthesis.
+    // The command's name may contain anything and ends at the last parenthesis.
     let (_, fields) = text.rsplit_once(')')?;
     let mut ticks = fields.split_whitespace().skip(11);
     let user: f64 = ticks.next()?.parse().ok()?;

@@ -321,7 +321,7 @@ mod tests {
     }
 
     #[test]
-    fn going_on_keeps_the_finished_rows_only() {
+    fn resuming_keeps_only_finished_rows() {
         let place = tempfile::tempdir().unwrap();
         let path = place.path().join("curve.csv");
         let checksum = torn(&path);
@@ -362,7 +362,7 @@ mod tests {
     }
 
     #[test]
-    fn a_foreign_file_is_not_gone_on_with() {
+    fn a_foreign_file_is_not_resumed() {
         let place = tempfile::tempdir().unwrap();
         let path = place.path().join("curve.csv");
         for text in [

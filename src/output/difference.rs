@@ -1,9 +1,9 @@
-//! Where two resolved scenes differ, in the words of a scene file.
+//! Finds the first difference of two resolved scenes, for messages.
 
 use serde_json::Value;
 
-/// The first key in which two scenes differ, to stand after "another scene": empty where they
-/// cannot be compared.
+/// The first key in which two scenes differ, to follow "another scene"; empty if they cannot be
+/// compared.
 pub(super) fn difference(there: &str, here: &str) -> String {
     let read = |text: &str| serde_json::from_str::<Value>(text).ok();
     let (Some(there), Some(here)) = (read(there), read(here)) else {

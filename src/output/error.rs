@@ -1,37 +1,37 @@
-//! What can go wrong with the files of a run.
+//! Errors of the files of a run.
 
 use std::io;
 use std::path::{Path, PathBuf};
 
-/// The remedy for a run that cannot be resumed: following it never loses rows.
+/// The remedy for a run that cannot be resumed; it never loses rows.
 pub(crate) const FRESH: &str =
     "run without --resume to start afresh, which keeps the rows of curve.csv in curve.csv.before";
 
-/// Why an output could not be written.
+/// Why an output was not written.
 ///
-/// [`OutputError::Refused`] is a mistake in the call (exit status 2), everything else an output
-/// that cannot be written (exit status 1).
+/// [`OutputError::Refused`] is a mistake in the call (exit status 2); every other variant is an
+/// output that cannot be written (exit status 1).
 #[derive(Debug, thiserror::Error)]
 pub enum OutputError {
-    /// Writing there would touch files that are not this run's.
+    /// The target contains files that do not belong to this run.
     #[error("{}: {reason}", path.display())]
     Refused {
         /// The folder or file asked for.
         path: PathBuf,
-        /// Why it is refused, and the way out.
+        /// The reason and the remedy.
         reason: String,
     },
     /// The system refused: disk full, no permission, ...
     #[error("cannot {action} {}: {cause}", path.display())]
     Write {
-        /// What was being done, such as "write" or "create the folder".
+        /// The action, such as "write" or "create the folder".
         action: &'static str,
-        /// The file or folder it was done to.
+        /// The file or folder concerned.
         path: PathBuf,
-        /// What the system said.
+        /// The system's message.
         cause: io::Error,
     },
-    /// A field to be drawn holds values that no colour can stand for.
+    /// A field with non-finite values cannot be drawn.
     #[error("cannot draw the {field}: {count} of {points} points are not finite numbers")]
     NotFinite {
         /// Name of the field.
@@ -44,7 +44,7 @@ pub enum OutputError {
 }
 
 impl OutputError {
-    /// A failure of the system while doing `action` to `path`; for use with `map_err`.
+    /// Wraps a system error of `action` on `path`; for use with `map_err`.
     pub(crate) fn write(action: &'static str, path: &Path) -> impl FnOnce(io::Error) -> Self {
         let path = path.to_path_buf();
         move |cause| OutputError::Write {
@@ -54,7 +54,7 @@ impl OutputError {
         }
     }
 
-    /// A refusal of `path`.
+    /// Refuses `path`.
     pub(crate) fn refused(path: &Path, reason: impl Into<String>) -> Self {
         OutputError::Refused {
             path: path.to_path_buf(),

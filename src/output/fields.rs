@@ -15,7 +15,7 @@ pub fn write_field(path: &Path, grid: &Grid, values: &[f64]) -> Result<(), Outpu
     write_array(path, grid, values)
 }
 
-/// The same in float32, which is what a run in single precision knows.
+/// The same in float32, the precision of a run in single precision.
 pub fn write_field_single(path: &Path, grid: &Grid, values: &[f64]) -> Result<(), OutputError> {
     let values: Vec<f32> = values.iter().map(|value| *value as f32).collect();
     write_array(path, grid, &values)

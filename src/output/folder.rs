@@ -454,7 +454,7 @@ mod tests {
     }
 
     #[test]
-    fn what_is_set_aside_takes_no_ones_place() {
+    fn renamed_files_replace_no_other() {
         let place = tempfile::tempdir().unwrap();
         let path = place.path().join("curve.csv");
         for name in ["curve.csv.before", "curve.csv.before2", "curve.csv.before3"] {

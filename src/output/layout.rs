@@ -1,4 +1,4 @@
-//! Where things stand on a picture.
+//! Positions of the elements of a picture.
 
 use noto_sans_mono_bitmap::{FontWeight, RasterHeight};
 
@@ -9,18 +9,18 @@ use crate::units::format_si;
 
 /// Longest side of a picture, pixels.
 pub const LONGEST_SIDE: u32 = 2048;
-/// Longest side of the field on it: the rest is for margins, texts and the colour bar.
+/// Longest side of the field in a picture: the rest is for margins, texts and the colour bar.
 pub(super) const LONGEST_FIELD: u32 = 1780;
 
 /// White space around everything.
 const MARGIN: u32 = 28;
-/// Between blocks.
+/// Space between blocks.
 const GAP: u32 = 22;
-/// From the bar to the tick labels: the tick itself, and some air.
+/// From the bar to the tick labels: the tick mark and some space.
 const TICK: u32 = 6;
-/// Least height of the colour bar's block, for fields that are low and wide.
+/// Least height of the colour bar's block, for wide fields.
 const LEAST_HEIGHT: u32 = 220;
-/// Longer side of a field from which on texts are larger, pixels.
+/// From this longer side of a field on texts are larger, pixels.
 const LARGE: u32 = 900;
 /// Most lines of a title; the rest is cut.
 const TITLE_LINES: usize = 2;
@@ -61,7 +61,7 @@ pub struct Tick {
     pub label: TextLine,
 }
 
-/// Where everything stands on a picture, and what its scales say.
+/// Positions of all elements of a picture, and the contents of its scales.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Layout {
     /// Size of the picture, pixels.
@@ -80,15 +80,15 @@ pub struct Layout {
     pub ticks: Vec<Tick>,
     /// The scale bar.
     pub scale_bar: Rect,
-    /// Its length, in words.
+    /// Its label.
     pub scale_label: TextLine,
     /// Its length, m.
     pub scale_length: f64,
-    /// Points of the grid, where there is room to say it.
+    /// Number of points, if there is space for it.
     pub note: Option<TextLine>,
 }
 
-/// What a layout is made for.
+/// Input of a layout.
 pub(super) struct Contents<'a> {
     pub title: Option<&'a str>,
     pub caption: &'a str,
@@ -201,7 +201,7 @@ fn font(weight: FontWeight, size: RasterHeight) -> Font {
     Font { weight, size }
 }
 
-/// Keeps the ticks for which there is room; those that come first have precedence.
+/// Keeps the ticks for which there is space; earlier ones take precedence.
 fn place_ticks(
     scale: &ColourScale,
     labels: Vec<(f64, String)>,
@@ -231,7 +231,8 @@ fn place_ticks(
     ticks
 }
 
-/// Breaks a title between words into lines no wider than `width`; what does not fit ends in "...".
+/// Breaks a title between words into lines no wider than `width`; a title that is too long ends in
+/// "...".
 fn wrap(title: &str, font: Font, width: u32) -> Vec<String> {
     let longest = ((width / font.advance()) as usize).max(4);
     let mut lines: Vec<String> = Vec::new();

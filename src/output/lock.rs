@@ -116,7 +116,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn the_holder_is_named_as_far_as_it_is_known() {
+    fn the_lock_holder_is_named() {
         let words = |text: &str| in_words(text, 10_000);
         let found = |text: &str| Some(text.to_owned());
         assert_eq!(

@@ -1,8 +1,8 @@
-//! What a run writes: the folder, the curve, the summary, fields and pictures.
+//! The files of a run: folder, curve, summary, fields and pictures.
 //!
-//! Everything here is in SI units and has the signs of the results: pressure is positive in
-//! compression. Files that are written whole appear under their name only when they are complete;
-//! `curve.csv` alone grows, a row a step.
+//! Everything is in SI units with the signs of the results: pressure is positive in compression.
+//! Files appear under their names only when they are complete; only `curve.csv` grows, one row a
+//! step.
 
 pub(crate) mod canvas;
 pub mod chart;

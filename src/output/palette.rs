@@ -1,20 +1,20 @@
 //! Colours for fields: ordered by lightness, so that they survive a grey printer and colour-blind eyes.
 //!
 //! Each map is a path through CIELAB (D65) along which L* falls or rises evenly while hue and
-//! chroma follow simple formulas of our own. Lightness alone therefore orders the values; hue tells
-//! tension from compression and eases reading. The tests hold that order for normal vision and under
-//! simulated deuteranopia and protanopia.
+//! chroma follow simple formulas. Lightness alone therefore orders the values; hue distinguishes
+//! tension from compression. The tests check that order for normal vision and under simulated
+//! deuteranopia and protanopia.
 
 use std::sync::LazyLock;
 
 /// Red, green and blue of a pixel, sRGB, 8 bits each.
 pub type Rgb = [u8; 3];
 
-/// L* of the neutral colour: light, yet off the white of the page.
+/// L* of the neutral colour: light, but distinct from the white page.
 const LIGHT: f64 = 96.0;
-/// L* at the end of an arm: dark, yet with its hue.
+/// L* at the end of a branch: dark, but with a visible hue.
 const DARK: f64 = 16.0;
-/// Steps from the neutral colour to the end of an arm.
+/// Steps from the neutral colour to the end of a branch.
 const STEPS: usize = 255;
 
 /// From neutral to dark through amber and crimson: compression. 256 colours.
@@ -40,7 +40,7 @@ pub fn signed() -> &'static [Rgb] {
     &COLOURS
 }
 
-/// From dark violet over teal to pale yellow, the higher the lighter: heights and gaps. 256 colours.
+/// From dark violet over teal to pale yellow, higher values lighter: heights and gaps. 256 colours.
 pub fn rising() -> &'static [Rgb] {
     static COLOURS: LazyLock<Vec<Rgb>> = LazyLock::new(|| sample(dark_to_light));
     &COLOURS
@@ -54,8 +54,8 @@ struct Colour {
     hue: f64,
 }
 
-/// The arm of compression. Chroma sets in steeply in both arms, so that a light pressure stands out
-/// from none at all.
+/// The branch of compression. Chroma rises steeply in both branches, so that a light pressure
+/// differs visibly from none.
 fn warm(fraction: f64) -> Colour {
     Colour {
         lightness: LIGHT + (DARK - LIGHT) * fraction,
@@ -64,7 +64,7 @@ fn warm(fraction: f64) -> Colour {
     }
 }
 
-/// The arm of tension.
+/// The branch of tension.
 fn cool(fraction: f64) -> Colour {
     Colour {
         lightness: LIGHT + (DARK - LIGHT) * fraction,
@@ -77,7 +77,7 @@ fn cool(fraction: f64) -> Colour {
 fn dark_to_light(fraction: f64) -> Colour {
     Colour {
         lightness: DARK + (LIGHT - DARK) * fraction,
-        // Teal is the narrow part of what a screen shows; green and yellow have room for more.
+        // The gamut is narrow at teal and wider at green and yellow.
         chroma: 23.0
             + 16.0 * (1.0 - fraction).powi(4)
             + 480.0 * fraction.powi(6) * (1.0 - fraction),
@@ -91,10 +91,10 @@ fn sample(path: fn(f64) -> Colour) -> Vec<Rgb> {
         .collect()
 }
 
-/// The 8-bit colour beside `colour` whose lightness is closest to the one asked for.
+/// The 8-bit colour near `colour` whose lightness is closest to the requested one.
 ///
-/// Rounding each channel by itself can shift L* by more than one step of the map and so break its
-/// order; among the eight neighbours one is always close.
+/// Rounding each channel separately can shift L* by more than one step of the map and break its
+/// order; one of the eight neighbours is always close.
 fn nearest_rgb(colour: Colour) -> Rgb {
     let exact = encoded(into_gamut(colour)).map(|channel| channel * 255.0);
     let neighbours = (0..8u8).map(|corner| {
@@ -110,7 +110,7 @@ fn nearest_rgb(colour: Colour) -> Rgb {
         .expect("there are eight neighbours")
 }
 
-/// Linear red, green and blue of `colour`, its chroma reduced until a screen can show it.
+/// Linear red, green and blue of `colour`, with its chroma reduced until it fits the gamut.
 fn into_gamut(colour: Colour) -> [f64; 3] {
     let at = |chroma: f64| to_linear(Colour { chroma, ..colour });
     let shown = |rgb: [f64; 3]| rgb.iter().all(|channel| (0.0..=1.0).contains(channel));
@@ -239,7 +239,7 @@ mod tests {
     }
 
     #[test]
-    fn colour_blind_eyes_see_the_same_order() {
+    fn maps_are_ordered_for_colour_blind_eyes() {
         for eye in [DEUTERANOPIA, PROTANOPIA] {
             for path in [warm, cool, |fraction| dark_to_light(1.0 - fraction)] {
                 let exact: Vec<f64> = (0..=STEPS)
@@ -256,7 +256,8 @@ mod tests {
 
     #[test]
     fn the_arms_stay_apart_for_colour_blind_eyes() {
-        // Blue against yellow is what those eyes keep: the blue channel's excess changes sign.
+        // Blue against yellow remains visible to those eyes: the excess of the blue channel changes
+        // sign.
         for eye in [DEUTERANOPIA, PROTANOPIA] {
             for step in (STEPS / 4)..=STEPS {
                 let excess = |path: fn(f64) -> Colour| {

@@ -1,4 +1,4 @@
-//! Lines and marks with smooth edges. The middle of a pixel is at whole numbers.
+//! Antialiased lines and marks. Pixel centres are at whole numbers.
 
 use image::RgbImage;
 
@@ -43,7 +43,7 @@ impl<'a> Pen<'a> {
         }
     }
 
-    /// A line of some width with round ends; a disc where it has no length.
+    /// A line of some width with round ends; a disc if it has no length.
     pub fn stroke(&mut self, from: [f64; 2], to: [f64; 2], width: f64) {
         let along = [to[0] - from[0], to[1] - from[1]];
         let square = along[0] * along[0] + along[1] * along[1];
@@ -58,7 +58,7 @@ impl<'a> Pen<'a> {
         });
     }
 
-    /// A mark: disc, square, diamond or triangle by the number of its curve.
+    /// A mark: disc, square, diamond or triangle, by the index of its curve.
     pub fn mark(&mut self, centre: [f64; 2], number: usize, hollow: bool) {
         self.blend(centre, centre, MARK + 2.0, |at| {
             let (x, y) = (at[0] - centre[0], at[1] - centre[1]);
@@ -68,7 +68,7 @@ impl<'a> Pen<'a> {
                 2 => (x.abs() + y.abs() - 1.3 * MARK) / 2f64.sqrt(),
                 _ => (0.87 * x.abs() - 0.5 * y - 0.62 * MARK).max(y - 0.9 * MARK),
             };
-            // A hollow mark is a rim.
+            // A hollow mark is drawn as a ring.
             if hollow {
                 (outside + 0.8).abs() - 0.8
             } else {
@@ -77,7 +77,8 @@ impl<'a> Pen<'a> {
         });
     }
 
-    /// Covers the pixels where `distance` to the shape's edge, negative inside, is below half.
+    /// Colours the pixels whose signed `distance` to the shape's edge, negative inside, is below
+    /// half.
     fn blend(
         &mut self,
         from: [f64; 2],

@@ -1,4 +1,4 @@
-//! A field as a PNG that can be read without the scene beside it: colours, lengths and load are on it.
+//! A field as a PNG that is readable without the scene: with colour bar, scale bar and load.
 
 use std::io;
 use std::path::Path;
@@ -16,10 +16,10 @@ use crate::grid::Grid;
 use crate::scene::{Control, FieldName};
 use crate::units::format_si;
 
-/// The load of a step, as a picture names it.
+/// The load of a step as a picture shows it.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Load {
-    /// Which quantity, in words.
+    /// The quantity, in words.
     pub name: &'static str,
     /// Its value, SI; positive in compression or closer.
     pub value: f64,
@@ -45,7 +45,7 @@ impl Load {
     }
 }
 
-/// What a picture shows.
+/// Contents of a picture.
 #[derive(Clone, Copy, Debug)]
 pub struct Picture<'a> {
     /// The scene's title.
@@ -62,21 +62,21 @@ pub struct Picture<'a> {
     pub values: &'a [f64],
 }
 
-/// A drawn picture, with what is needed to read it back.
+/// A drawn picture with the data needed to read it back.
 #[derive(Clone, Debug)]
 pub struct Snapshot {
     /// The pixels.
     pub image: RgbImage,
-    /// Where things stand.
+    /// Positions of its elements.
     pub layout: Layout,
-    /// Which colour stands for which value.
+    /// Its colour scale.
     pub scale: ColourScale,
-    /// Keywords and texts of the file.
+    /// Keywords and texts stored in the file.
     pub texts: Vec<(&'static str, String)>,
 }
 
 impl Picture<'_> {
-    /// Draws the picture; refused where a value is not finite.
+    /// Draws the picture; refuses non-finite values.
     pub fn draw(&self) -> Result<Snapshot, OutputError> {
         debug_assert_eq!(self.values.len(), self.grid.len(), "one value a point");
         let unfit = self.values.iter().filter(|value| !value.is_finite());
@@ -178,7 +178,7 @@ impl Snapshot {
     }
 }
 
-/// Draws `picture` and writes it to `path`, whole or not at all.
+/// Draws `picture` and writes it to `path`, in one piece.
 pub fn write_picture(path: &Path, picture: &Picture) -> Result<(), OutputError> {
     let bytes = picture
         .draw()?

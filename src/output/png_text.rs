@@ -1,11 +1,11 @@
-//! Texts inside a PNG file, for programs that read its numbers.
+//! Texts inside a PNG file, for programs that read its data.
 
 use super::visible::visible;
 
 /// Length of the signature and of the header chunk, after which texts may stand.
 const AFTER_HEADER: usize = 8 + 25;
 
-/// Which program wrote a file.
+/// The name of the writing program.
 pub(super) fn software() -> (&'static str, String) {
     (
         "Software",
@@ -13,11 +13,11 @@ pub(super) fn software() -> (&'static str, String) {
     )
 }
 
-/// `png` with a text chunk for each keyword and text, placed after its header. Control characters are
-/// spelled out: programs print these texts, and a zero byte would end one early.
+/// `png` with a text chunk for each keyword and text after its header. Control characters are
+/// escaped: programs print these texts, and a zero byte would end one early.
 ///
-/// Texts outside ASCII are stored as `iTXt` (UTF-8), others as `tEXt`. Keywords are ours: ASCII,
-/// shorter than 80 bytes.
+/// Texts outside ASCII are stored as `iTXt` (UTF-8), others as `tEXt`. Keywords are ASCII, shorter
+/// than 80 bytes.
 ///
 /// # Source
 /// PNG specification, third edition, sections 5.3 (chunks) and 11.3.3 (texts).

@@ -1,4 +1,4 @@
-//! How far a run has come, on standard error and only to a terminal.
+//! Progress of a run on standard error, only on a terminal.
 
 use std::cell::{Cell, RefCell};
 use std::io::{IsTerminal, Write, stderr};
@@ -8,7 +8,7 @@ use indicatif::{ProgressBar, ProgressDrawTarget, ProgressStyle};
 
 use super::visible::visible;
 
-/// A progress line, or nothing where nobody watches.
+/// A progress line; silent if standard error is not a terminal.
 #[derive(Debug)]
 pub struct Progress {
     line: Option<Line>,
@@ -18,20 +18,20 @@ pub struct Progress {
 struct Line {
     bar: ProgressBar,
     started: Instant,
-    /// Steps in all, done before this run, and done by now.
+    /// Total steps, steps done before this run, and steps done now.
     steps: usize,
     earlier: usize,
     finished: Cell<usize>,
     tolerance: f64,
     /// Residual of the first iteration of this step.
     first: Cell<f64>,
-    /// What is looked for besides, with two spaces behind.
+    /// The current search, followed by two spaces.
     search: RefCell<String>,
 }
 
 impl Progress {
     /// A line for `steps` steps of which `finished` are done, each solved to `tolerance`; silent
-    /// with `quiet` or where standard error is not a terminal.
+    /// with `quiet` or if standard error is not a terminal.
     pub fn new(steps: usize, finished: usize, tolerance: f64, quiet: bool) -> Progress {
         if quiet || !stderr().is_terminal() {
             return Progress { line: None };
@@ -59,7 +59,7 @@ impl Progress {
         Progress { line: Some(line) }
     }
 
-    /// Shows the solver at work: the iteration it has reached and its residual.
+    /// Shows the current iteration and its residual.
     pub fn iteration(&self, iteration: usize, residual: f64) {
         let Some(line) = &self.line else { return };
         if !line.first.get().is_finite() {
@@ -75,7 +75,7 @@ impl Progress {
         ));
     }
 
-    /// Says what is looked for in this step besides its own load.
+    /// Shows a search that this step needs in addition to its load.
     pub fn search(&self, words: String) {
         if let Some(line) = &self.line {
             line.first.set(f64::NAN);
@@ -83,7 +83,7 @@ impl Progress {
         }
     }
 
-    /// Says that `finished` steps are done.
+    /// Shows that `finished` steps are done.
     pub fn finished_steps(&self, finished: usize) {
         if let Some(line) = &self.line {
             line.finished.set(finished);
@@ -95,11 +95,11 @@ impl Progress {
         }
     }
 
-    /// Prints a line to standard error, always, above the progress line where there is one. What follows it stands
-    /// further in.
+    /// Always prints a line to standard error, above the progress line if there is one.
+    /// Continuation lines are indented.
     pub fn say(&self, text: &str) {
         let text = visible(text).replace('\n', "\n  ");
-        // Where standard error is closed nobody is there to be told.
+        // If standard error is closed nobody can be told.
         let write = || {
             let _ = writeln!(stderr(), "{text}");
         };
@@ -110,7 +110,7 @@ impl Progress {
     }
 }
 
-/// How much of a step is done, by the decades from its first residual down to the tolerance.
+/// Completed share of a step, by the decades from its first residual to the tolerance.
 fn share_of_step(first: f64, residual: f64, tolerance: f64) -> f64 {
     let share = (first / residual).ln() / (first / tolerance).ln();
     if share.is_finite() {
@@ -120,7 +120,7 @@ fn share_of_step(first: f64, residual: f64, tolerance: f64) -> f64 {
     }
 }
 
-/// The time left in words, from the seconds that `done` steps took; only roughly known.
+/// Remaining time in words, estimated from the seconds that `done` steps took.
 fn time_left(seconds: f64, done: f64, left: f64) -> String {
     let estimate = seconds * left / done;
     if !estimate.is_finite() || done <= 0.0 || seconds < 1.0 {
@@ -135,7 +135,7 @@ fn time_left(seconds: f64, done: f64, left: f64) -> String {
 }
 
 impl Drop for Progress {
-    /// Takes the line away, so that an error message does not land beside it.
+    /// Removes the line, so that an error message starts on a line of its own.
     fn drop(&mut self) {
         if let Some(line) = &self.line {
             line.bar.finish_and_clear();

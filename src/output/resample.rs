@@ -1,19 +1,19 @@
-//! A field at the resolution of a picture.
+//! Resamples a field to the resolution of a picture.
 
 use crate::grid::Grid;
 
-/// Shortest longer side of a drawn field, pixels: smaller grids are enlarged by a whole factor.
+/// Least longer side of a drawn field, pixels: smaller grids are enlarged by a whole factor.
 const ENLARGED: f64 = 512.0;
 
 /// Pixels along x and y for a field, its longer side at most `limit`; square on the surface.
 ///
-/// Where dx = dy a point becomes a whole number of pixels, or a pixel a whole number of points
-/// (but for a remainder that is spread evenly).
+/// For dx = dy a point becomes a whole number of pixels, or a pixel a whole number of points
+/// (except for a remainder that is spread evenly).
 pub(super) fn drawn_size(grid: &Grid, limit: u32) -> [u32; 2] {
     let finest = grid.dx().min(grid.dy());
     let points = grid.lx.max(grid.ly) / finest;
     let pixel = if points <= f64::from(limit) {
-        // Enlarging must not pass the limit either, for a grid just short of half of it.
+        // Enlarging must not exceed the limit either, for a grid slightly below half of it.
         let factor = (ENLARGED / points).ceil().max(1.0);
         let fitting = (f64::from(limit) / points).floor().max(1.0);
         finest / factor.min(fitting)
@@ -26,15 +26,15 @@ pub(super) fn drawn_size(grid: &Grid, limit: u32) -> [u32; 2] {
 
 /// `values` of shape `[ny, nx]` at `size` pixels, row 0 first.
 ///
-/// Along an axis with more pixels than points the nearest point is taken, along one with fewer the
-/// mean over the pixel, in which a point counts by its share of it.
+/// An axis with more pixels than points takes the nearest point; one with fewer takes the mean over
+/// the pixel, in which each point counts by its overlap.
 pub(super) fn resample(grid: &Grid, values: &[f64], size: [u32; 2]) -> Vec<f64> {
     let columns = weights(grid.nx, size[0] as usize);
     let rows = weights(grid.ny, size[1] as usize);
     let mut pixels = Vec::with_capacity(columns.len() * rows.len());
     let mut line = vec![0.0; grid.nx];
     for (index, row) in rows.iter().enumerate() {
-        // Where a point is several pixels high, the row is there already.
+        // If a point is several pixels high, its row exists already.
         if index > 0 && *row == rows[index - 1] {
             pixels.extend_from_within(pixels.len() - columns.len()..);
             continue;
@@ -54,7 +54,8 @@ pub(super) fn resample(grid: &Grid, values: &[f64], size: [u32; 2]) -> Vec<f64> 
     pixels
 }
 
-/// For each of `pixels` along an axis of `points`: the points it shows and their weights, which add up to 1.
+/// For each of `pixels` along an axis of `points`: the points it covers and their weights, which
+/// add up to 1.
 fn weights(points: usize, pixels: usize) -> Vec<Vec<(usize, f64)>> {
     let ratio = points as f64 / pixels as f64;
     (0..pixels)
@@ -97,7 +98,7 @@ mod tests {
         assert_eq!(size([1000, 2], [1.0, 1.0]), [1000, 1000]);
     }
 
-    /// A map of one row makes as many rows of pixels as the picture is high: each is summed once.
+    /// A map of one row fills as many rows of pixels as the picture is high: each is summed once.
     #[test]
     fn a_row_that_repeats_is_summed_once() {
         let grid = Grid::new([1_000_000, 1], [1.0, 1.0]);

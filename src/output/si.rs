@@ -1,4 +1,4 @@
-//! The prefixed unit of an axis, and the digits of its ticks.
+//! Prefixed units of axes, and the digits of their ticks.
 
 /// Prefixes with their powers of ten, rising.
 const PREFIXES: [(i32, &str); 10] = [
@@ -14,7 +14,7 @@ const PREFIXES: [(i32, &str); 10] = [
     (12, "T"),
 ];
 
-/// The factor and the name of a unit that suits a value, such as 1e-6 and "µm".
+/// A prefixed unit, such as "µm", with its factor 1e-6.
 #[derive(Clone, Debug, PartialEq)]
 pub(crate) struct ScaledUnit {
     /// SI units in one of these.
@@ -23,7 +23,7 @@ pub(crate) struct ScaledUnit {
     pub name: String,
 }
 
-/// The prefixed `unit` in which `value` lies between 1 and 1000, as far as prefixes reach.
+/// The prefixed `unit` in which `value` lies between 1 and 1000, within the range of prefixes.
 pub(crate) fn scaled_unit(value: f64, unit: &str) -> ScaledUnit {
     let digits = if value == 0.0 || !value.is_finite() {
         0
@@ -41,9 +41,9 @@ pub(crate) fn scaled_unit(value: f64, unit: &str) -> ScaledUnit {
     }
 }
 
-/// Power of ten of the leading digit once `value` is rounded to so many digits: 999.99996 has 3.
+/// Power of ten of the leading digit of `value` rounded to this many digits: 999.99996 has 3.
 ///
-/// Read from the formatted number, because a logarithm may fall just short of a whole one.
+/// Read from the formatted number, because a logarithm may fall just short of a whole number.
 pub(super) fn decimal_exponent(value: f64, digits: i32) -> i32 {
     let text = format!("{:.*e}", (digits - 1).max(0) as usize, value);
     text.split_once('e')

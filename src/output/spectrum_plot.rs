@@ -1,4 +1,4 @@
-//! A power spectral density over the wave number as a PNG, both logarithmic.
+//! A power spectral density over the wave number as a PNG, both axes logarithmic.
 
 use std::path::Path;
 
@@ -14,14 +14,14 @@ use super::png_text::{software, with_texts};
 
 /// Size of the page, pixels.
 const PAGE: [u32; 2] = [900, 660];
-/// Where the axes lie on it.
+/// Position of the axes.
 const AXES: Rect = Rect {
     x: 110,
     y: 92,
     width: 760,
     height: 490,
 };
-/// Decades shown below the greatest density, at most: what lies deeper is rounding.
+/// Most decades below the greatest density: lower values are rounding.
 const DEEPEST: f64 = 16.0;
 /// Half the side of a point's mark, pixels.
 const MARK: u32 = 3;
@@ -30,14 +30,14 @@ const MOST_TICKS: i32 = 8;
 /// The grid lines behind the points.
 const LATTICE: Rgb = [228, 228, 231];
 
-/// What the plot shows.
+/// Contents of the plot.
 #[derive(Clone, Copy, Debug)]
 pub struct SpectrumPlot<'a> {
     /// Its title.
     pub title: &'a str,
     /// Wave number (1/m) and density (m^4) of the rings, all positive.
     pub points: &'a [[f64; 2]],
-    /// The same of a line through them, all positive; none if empty.
+    /// The same for a fitted line; empty for none.
     pub line: &'a [[f64; 2]],
 }
 
@@ -49,7 +49,7 @@ impl SpectrumPlot<'_> {
         say(&mut page, HEADING, INK, [AXES.x, 24], &title);
         let axis = "power spectral density [m^4] over wave number [1/m]";
         say(&mut page, TEXT, INK, [AXES.x, 54], axis);
-        let axes = Axes::of(self.points, self.line);
+        let axes = Axes::for_points(self.points, self.line);
         for (axis, ends) in axes.ends.iter().enumerate() {
             draw_ticks(&mut page, &axes, axis, *ends);
         }
@@ -111,8 +111,8 @@ struct Axes {
 }
 
 impl Axes {
-    /// Axes that hold all points, as far as they are not much below the greatest.
-    fn of(points: &[[f64; 2]], line: &[[f64; 2]]) -> Axes {
+    /// Axes that contain all points except those far below the greatest.
+    fn for_points(points: &[[f64; 2]], line: &[[f64; 2]]) -> Axes {
         let ends = [0, 1].map(|axis| {
             let logarithms = points.iter().chain(line).map(|point| point[axis].log10());
             let finite = logarithms.filter(|value| value.is_finite());
@@ -134,13 +134,13 @@ impl Axes {
         Axes { ends }
     }
 
-    /// Share of the way along an axis.
+    /// Position along an axis, from 0 to 1.
     fn share(&self, axis: usize, logarithm: f64) -> f64 {
         let [low, high] = self.ends[axis];
         (logarithm - low) / (high - low)
     }
 
-    /// The pixel of a point; none outside the axes.
+    /// The pixel of a point; `None` outside the axes.
     fn place(&self, point: [f64; 2]) -> Option<[u32; 2]> {
         let [x, y] = [0, 1].map(|axis| self.share(axis, point[axis].log10()));
         let inside = |share: f64| (0.0..=1.0).contains(&share);
@@ -153,7 +153,7 @@ impl Axes {
     }
 }
 
-/// Lines and labels at powers of ten, as many as there is room for.
+/// Lines and labels at powers of ten, as many as fit.
 fn draw_ticks(page: &mut RgbImage, axes: &Axes, axis: usize, [low, high]: [f64; 2]) {
     let (first, last) = (low.ceil() as i32, high.floor() as i32);
     let every = ((last - first) / MOST_TICKS + 1).max(1);
@@ -192,7 +192,7 @@ mod tests {
     #[test]
     fn points_lie_where_their_logarithms_say() {
         let points = [[1e5, 1e-30], [1e6, 1e-32], [1e7, 1e-34]];
-        let axes = Axes::of(&points, &[]);
+        let axes = Axes::for_points(&points, &[]);
         let [low, middle, high] = points.map(|point| axes.place(point).unwrap());
         // The middle one is the mean of the others in both logarithms, to the nearest pixel.
         assert!(middle[0].abs_diff((low[0] + high[0]) / 2) <= 1);
@@ -210,7 +210,7 @@ mod tests {
     }
 
     #[test]
-    fn nothing_to_draw_is_an_empty_plot() {
+    fn an_empty_plot_can_be_drawn() {
         for points in [
             &[][..],
             &[[1.0, 1.0]][..],

@@ -175,9 +175,10 @@ fn decode(bytes: &[u8]) -> Result<SavedState<'static>, String> {
     let mut fields = Vec::new();
     for (name, count) in head.fields {
         let part = take(count.checked_mul(width).ok_or_else(damaged)?)?;
-        let values = match head.single {
-            true => numbers(part, |bytes| f64::from(f32::from_le_bytes(bytes))),
-            false => numbers(part, f64::from_le_bytes),
+        let values = if head.single {
+            numbers(part, |bytes| f64::from(f32::from_le_bytes(bytes)))
+        } else {
+            numbers(part, f64::from_le_bytes)
         };
         fields.push(HandedField { name, values });
     }
@@ -229,9 +230,10 @@ mod tests {
 
     fn state(single: bool) -> SavedState<'static> {
         let values = vec![0.1, -0.0, f64::MIN_POSITIVE, 1e300, f64::INFINITY];
-        let values = match single {
-            true => values.iter().map(|v| f64::from(*v as f32)).collect(),
-            false => values,
+        let values = if single {
+            values.iter().map(|v| f64::from(*v as f32)).collect()
+        } else {
+            values
         };
         SavedState {
             scene: "a \"scene\"".into(),

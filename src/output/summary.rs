@@ -1,4 +1,4 @@
-//! `summary.json`: what the run was and what came out, for programs.
+//! `summary.json`: the run and its main results, for programs.
 
 use std::path::Path;
 
@@ -16,9 +16,9 @@ pub struct Summary {
     pub version: String,
     /// The scene as resolved, with its defaults.
     pub scene: Value,
-    /// Which effects ran and which did not.
+    /// The effects that ran and those that did not.
     pub effects: Effects,
-    /// Where the arithmetic ran: `cpu` or `gpu`.
+    /// The backend: `cpu` or `gpu`.
     pub backend: String,
     /// Name of the graphics adapter, if one was used.
     pub adapter: Option<String>,
@@ -26,41 +26,42 @@ pub struct Summary {
     pub precision: String,
     /// Wall-clock seconds by phase.
     pub seconds: Seconds,
-    /// Real two-dimensional transforms of the run; another grid counts in proportion to its points.
+    /// Number of real two-dimensional transforms; other grids count in proportion to their points.
     pub transforms: f64,
-    /// Largest resident memory of the process, where the system tells.
+    /// Largest resident memory of the process, if the system reports it.
     pub peak_memory_bytes: Option<u64>,
     /// Largest contact area fraction among the steps.
     pub largest_contact_area_fraction: Option<f64>,
-    /// The pull-off force, N, positive: under a prescribed load the greatest tension known to hold before the
-    /// contact let go, else the largest among the steps of a path that goes on beyond it.
+    /// The pull-off force, N, positive: under a prescribed load the greatest tension known to be
+    /// carried before the contact separated, else the largest tension among the steps of a path
+    /// that continues beyond it.
     pub pull_off_force: Option<f64>,
-    /// The step of that tension, or the last that held.
+    /// The step of that tension, or the last step that carried its load.
     pub pull_off_step: Option<usize>,
-    /// Under a prescribed load: the greatest tension known to hold, N.
+    /// Under a prescribed load: the greatest tension known to be carried, N.
     pub pull_off_lower: Option<f64>,
-    /// Under a prescribed load: the least tension known not to hold, N.
+    /// Under a prescribed load: the least tension known not to be carried, N.
     pub pull_off_upper: Option<f64>,
     /// Steps in which surfaces jumped into contact.
     pub jump_in_steps: Vec<usize>,
-    /// Steps in which surfaces jumped apart.
+    /// Steps in which surfaces jumped out of contact.
     pub jump_off_steps: Vec<usize>,
     /// Energy lost over a path that returns to its start, J.
     pub hysteresis_energy: Option<f64>,
-    /// What was said on standard error.
+    /// The warnings printed on standard error.
     pub warnings: Vec<String>,
 }
 
-/// Names of the effects that the scene switched on, and of those it did not.
+/// Names of the effects that the scene switched on, and of the others.
 #[derive(Clone, Debug, Default, PartialEq, Eq, Serialize)]
 pub struct Effects {
     /// Named by the scene.
     pub on: Vec<String>,
-    /// Known to this version, not named by the scene.
+    /// Supported by this version, not named by the scene.
     pub off: Vec<String>,
 }
 
-/// Wall-clock seconds by phase, in the order in which the phases were first met.
+/// Wall-clock seconds by phase, in order of first use.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Seconds {
     phases: Vec<(String, f64)>,
@@ -93,7 +94,7 @@ impl Serialize for Seconds {
 }
 
 impl Summary {
-    /// Writes the summary to `path`, whole or not at all.
+    /// Writes the summary to `path`, in one piece.
     pub fn write(&self, path: &Path) -> Result<(), OutputError> {
         let mut text = serde_json::to_string_pretty(self)
             .map_err(|error| OutputError::write("write", path)(error.into()))?;
@@ -102,7 +103,7 @@ impl Summary {
     }
 }
 
-/// Largest resident memory of this process so far, bytes; `None` where the system does not tell.
+/// Largest resident memory of this process so far, bytes; `None` if the system does not report it.
 pub fn peak_memory_bytes() -> Option<u64> {
     let status = std::fs::read_to_string("/proc/self/status").ok()?;
     parse_peak_memory(&status)

@@ -1,27 +1,27 @@
-//! Text from files, scenes and calls, made safe to show: no character of it moves a cursor, changes a colour or
-//! turns the direction of what follows.
+//! Escapes text from files, scenes and calls for display, so that it cannot move the cursor, change
+//! colours or reverse the writing direction.
 
 use std::borrow::Cow;
 
-/// `text` with its control characters spelled out, as in `\u{1b}`; ends of lines stay.
+/// `text` with its control characters escaped, as in `\u{1b}`; line ends stay.
 ///
-/// So are marks that reorder what stands around them (Unicode's bidirectional controls), by which a name can be
-/// made to look like another.
+/// Unicode's bidirectional controls, which can disguise a name, are escaped too.
 pub fn visible(text: &str) -> Cow<'_, str> {
     if !text.chars().any(hides) {
         return Cow::Borrowed(text);
     }
     let mut shown = String::with_capacity(text.len() + 16);
     for character in text.chars() {
-        match hides(character) {
-            true => shown.extend(character.escape_default()),
-            false => shown.push(character),
+        if hides(character) {
+            shown.extend(character.escape_default())
+        } else {
+            shown.push(character)
         }
     }
     Cow::Owned(shown)
 }
 
-/// The same on one line: what comes from outside cannot begin a line of its own.
+/// The same on one line, with line ends escaped.
 pub fn visible_line(text: &str) -> String {
     visible(text).replace('\n', "\\n")
 }
@@ -40,7 +40,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn nothing_but_what_acts_is_spelled_out() {
+    fn only_control_characters_are_escaped() {
         let plain = "rms height 707.1 pm, µ, 高さ, \"a\\b\"\nnext";
         assert!(matches!(visible(plain), Cow::Borrowed(same) if same == plain));
         assert_eq!(

@@ -1,4 +1,4 @@
-//! The fields of a step as VTK image data (`.vti`), which ParaView opens.
+//! The fields of a step as VTK image data (`.vti`) for ParaView.
 
 use std::io;
 use std::path::Path;
@@ -136,7 +136,7 @@ mod tests {
         let place = tempfile::tempdir().unwrap();
         let path = place.path().join("fields/step_0001.vti");
         let grid = Grid::new([3, 2], [3e-6, 1e-6]);
-        // Bytes that spell the end of the data are data all the same.
+        // Bytes that spell the end marker inside the data are still data.
         let tricky = f64::from_le_bytes(*b"</Append");
         let gap = vec![0.0, -1.5, 2e-9, f64::MIN_POSITIVE, tricky, 5.1];
         let pressure = vec![1.0, 2.0, 3.0, 4.0, 5.0, 6.1];

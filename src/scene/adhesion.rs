@@ -1,8 +1,8 @@
-//! `[adhesion]`: a law from two of its three numbers.
+//! Reads `[adhesion]`: a law from two of its three parameters.
 
 use std::path::Path;
 
-use super::allowed::{Allowed, is_sane};
+use super::allowed::{Allowed, in_range};
 use super::document::Value;
 use super::keys;
 use super::mistake::SceneError;
@@ -13,8 +13,8 @@ use super::{
 };
 use crate::units::{self, Dimension};
 
-/// Reads `[adhesion]`: `Some(None)` where the scene has none. Paths are taken from `folder`;
-/// `relaxes` tells whether the solid does.
+/// Reads `[adhesion]`: `Some(None)` if the scene has none, `None` after a mistake. Paths are
+/// relative to `folder`; `relaxes` is true for a viscoelastic solid.
 pub(super) fn read(
     scene: &Reader,
     grid: Option<&GridScene>,
@@ -35,11 +35,11 @@ pub(super) fn read(
         Some(Treatment::Full)
     };
     if relaxes && treatment == Some(Treatment::Dmt) {
-        // What relaxes would have to remember each load that the search for the net one tries.
+        // The search for the net load tries loads that a viscoelastic solid would have to remember.
         adhesion.report(
             "treatment",
             SceneError::NotInThisVersion {
-                what: "treatment = \"dmt\" on a solid that relaxes".to_string(),
+                what: "treatment = \"dmt\" on a viscoelastic solid".to_string(),
                 instead: "take treatment = \"full\", or leave [[solid.relaxation]] out".to_string(),
             },
         );
@@ -61,7 +61,7 @@ pub(super) fn read(
 /// Relative difference up to which a period divides a size.
 const DIVIDES: f64 = 1e-9;
 
-/// Reads the map: `Some(None)` where there is none.
+/// Reads the map: `Some(None)` without one, `None` after a mistake.
 fn map(
     adhesion: &Reader,
     law: Option<LawName>,
@@ -79,7 +79,7 @@ fn map(
         return Some(Some(AdhesionMap::File(folder.join(path))));
     }
     if !matches!(node.value, Value::Table(_)) {
-        // A table is what else it may be; what it is instead is said by the text's own error.
+        // A map is a text or a table; for anything else the text's own error is reported.
         adhesion.text("map");
         return None;
     }
@@ -112,14 +112,14 @@ fn map(
     if low == 0.0 && high == 0.0 {
         pattern.conflict(
             "high",
-            "is 0 like low: nothing attracts; leave [adhesion] out, or give a factor above 0",
+            "is 0 like low, so nothing attracts; leave [adhesion] out, or give a factor above 0",
         );
         return None;
     }
     if law == Some(LawName::LennardJones) && low.min(high) == 0.0 {
         pattern.conflict(
             if low == 0.0 { "low" } else { "high" },
-            "must be above 0: with law = \"lennard-jones\" the same factor repels; take another law, or a small factor",
+            "must be above 0: with law = \"lennard-jones\" the factor also multiplies the repulsion; take another law, or a small factor",
         );
         return None;
     }
@@ -135,7 +135,7 @@ fn is_auto(adhesion: &Reader, key: &str) -> bool {
     matches!(adhesion.node(key), Some(node) if matches!(&node.value, Value::Text(text) if text == "auto"))
 }
 
-/// Work of adhesion and range from exactly two of the three numbers.
+/// Work of adhesion and range from exactly two of the three parameters.
 fn numbers(adhesion: &Reader, law: Option<LawName>) -> Option<(f64, Range)> {
     let work = adhesion.quantity(
         "work_of_adhesion",
@@ -197,9 +197,9 @@ fn numbers(adhesion: &Reader, law: Option<LawName>) -> Option<(f64, Range)> {
     }
 }
 
-/// Whether the number that follows from two others is one to compute with.
+/// Notes a derived parameter outside the supported magnitudes.
 fn is_normal(adhesion: &Reader, derived: f64) -> bool {
-    let normal = derived > 0.0 && is_sane(derived);
+    let normal = derived > 0.0 && in_range(derived);
     if !normal {
         adhesion.conflict(
             "peak_tension",
@@ -219,7 +219,7 @@ pub(super) fn shape(law: LawName) -> f64 {
     }
 }
 
-/// The taper: `Some(None)` is `auto`, also for the laws that have none.
+/// The taper: `Some(None)` is `auto`, also for the laws without one.
 fn taper(adhesion: &Reader, law: Option<LawName>, range: Option<Range>) -> Option<Option<f64>> {
     if !adhesion.has("taper") {
         return Some(None);
@@ -240,7 +240,8 @@ fn taper(adhesion: &Reader, law: Option<LawName>, range: Option<Range>) -> Optio
         return Some(None);
     }
     let taper = adhesion.quantity("taper", Dimension::Length, Allowed::NOT_NEGATIVE)?;
-    // The tension falls over the taper about the range: a longer one would begin inside the contact.
+    // The tension falls over the taper, centred on the range: a taper of more than twice the range
+    // would start inside the contact.
     if let Some(Range::Length(range)) = range
         && taper > 2.0 * range
     {

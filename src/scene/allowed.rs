@@ -1,8 +1,8 @@
-//! The numbers that keys take.
+//! Limits on the numbers of a key.
 
-pub(super) use crate::units::{SANE_WORDS, is_sane};
+pub(super) use crate::units::{RANGE_WORDS, in_range};
 
-/// The numbers that a key takes.
+/// The limits on the numbers of a key.
 #[derive(Clone, Copy)]
 pub(super) struct Allowed {
     pub test: fn(f64) -> bool,
@@ -19,6 +19,6 @@ impl Allowed {
     pub const FINITE: Allowed = Allowed::new(|_| true, "finite");
     /// Every finite number above zero.
     pub const POSITIVE: Allowed = Allowed::new(|value| value > 0.0, "finite and above 0");
-    /// Every finite number but the negative ones.
+    /// Every finite number of at least zero.
     pub const NOT_NEGATIVE: Allowed = Allowed::new(|value| value >= 0.0, "finite and at least 0");
 }

@@ -1,4 +1,4 @@
-//! What `[adhesion]` and `[capillary]` say, in SI units.
+//! Contents of `[adhesion]` and `[capillary]`, in SI units.
 
 use std::path::PathBuf;
 
@@ -15,7 +15,7 @@ pub struct AdhesionScene {
     pub taper: Option<f64>,
     /// How the attraction is found.
     pub treatment: Treatment,
-    /// A factor on the tension point by point (an effect).
+    /// A factor on the tension at each point (an effect).
     pub map: Option<AdhesionMap>,
     /// How the work of adhesion grows with the speed of a receding edge (an effect).
     pub rate: Option<RateScene>,
@@ -30,14 +30,14 @@ pub struct RateScene {
     pub exponent: f64,
 }
 
-/// Where the factors on a law's tension come from.
+/// Source of the factors on a law's tension.
 #[derive(Clone, Debug, PartialEq)]
 pub enum AdhesionMap {
-    /// A file of one factor a point; the path is resolved against the scene's folder.
+    /// A file with one factor a point; the path is resolved against the scene's folder.
     File(PathBuf),
-    /// Two factors in turn, each for half a period.
+    /// Two factors that alternate every half period.
     Pattern {
-        /// How they take turns.
+        /// The shape of the pattern.
         kind: PatternKind,
         /// Period, m.
         period: f64,
@@ -48,17 +48,17 @@ pub enum AdhesionMap {
     },
 }
 
-/// How two factors take turns.
+/// Shape of a pattern of two factors.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum PatternKind {
-    /// Along x and y.
+    /// A checkerboard: alternating along x and y.
     Checker,
-    /// Along x.
+    /// Stripes: alternating along x.
     Stripe,
 }
 
 impl PatternKind {
-    /// Every one of them.
+    /// Every pattern.
     pub const ALL: &[PatternKind] = &[PatternKind::Checker, PatternKind::Stripe];
 
     /// The word used in scenes.
@@ -85,12 +85,12 @@ pub struct CapillaryScene {
     pub contact_angle: f64,
 }
 
-/// The range of a cohesive law: a length, or the shortest that the grid resolves.
+/// The range of a cohesive law: a length, or `auto`.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Range {
     /// A length, m.
     Length(f64),
-    /// The shortest that the grid resolves at this work of adhesion.
+    /// The shortest range that the grid resolves at this work of adhesion.
     Auto,
 }
 
@@ -106,7 +106,7 @@ pub enum LawName {
 }
 
 impl LawName {
-    /// Every one of them.
+    /// Every law.
     pub const ALL: &[LawName] = &[
         LawName::MaugisDugdale,
         LawName::LennardJones,
@@ -123,7 +123,7 @@ impl LawName {
     }
 }
 
-/// How the attraction is found.
+/// How the attraction is computed.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Treatment {
     /// Solved together with the contact.
@@ -133,7 +133,7 @@ pub enum Treatment {
 }
 
 impl Treatment {
-    /// Every one of them.
+    /// Every treatment.
     pub const ALL: &[Treatment] = &[Treatment::Full, Treatment::Dmt];
 
     /// The word used in scenes.

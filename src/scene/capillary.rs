@@ -2,7 +2,7 @@
 
 use std::f64::consts::FRAC_PI_2;
 
-use super::allowed::{Allowed, is_sane};
+use super::allowed::{Allowed, in_range};
 use super::keys;
 use super::reader::Reader;
 use super::{AdhesionScene, CapillaryScene, LawName, Range, Treatment};
@@ -22,26 +22,26 @@ const HUMIDITY: Allowed = Allowed::new(
 );
 const ANGLE: Allowed = Allowed::new(
     |angle| (0.0..FRAC_PI_2).contains(&angle),
-    "from 0 to below 90 degrees: only a liquid that wets pulls",
+    "from 0 to below 90 degrees: only a wetting liquid attracts",
 );
 
-/// Reads `[capillary]`: `Some(None)` where the scene has none.
+/// Reads `[capillary]`: `Some(None)` if the scene has none, `None` after a mistake.
 pub(super) fn read(scene: &Reader) -> Option<Option<CapillaryScene>> {
     if !scene.has("capillary") {
         return Some(None);
     }
     let capillary = scene.table("capillary", &keys::CAPILLARY)?;
     if scene.has("adhesion") {
-        scene.conflict(
-            "capillary",
-            "the liquid is the adhesion, and [adhesion] is given too; give one of the two",
-        );
+        scene.conflict("capillary", "[adhesion] is given too; give one of the two");
     }
     capillary.require(&["humidity"]);
     let humidity = capillary.quantity("humidity", Dimension::Dimensionless, HUMIDITY);
-    let or = |key: &str, dimension, default: f64, allowed| match capillary.has(key) {
-        true => capillary.quantity(key, dimension, allowed),
-        false => Some(default),
+    let or = |key: &str, dimension, default: f64, allowed| {
+        if capillary.has(key) {
+            capillary.quantity(key, dimension, allowed)
+        } else {
+            Some(default)
+        }
     };
     let surface_tension = or(
         "surface_tension",
@@ -71,7 +71,7 @@ pub(super) fn read(scene: &Reader) -> Option<Option<CapillaryScene>> {
     };
     let meniscus = found.meniscus();
     let numbers = [meniscus.range(), meniscus.peak_tension()];
-    if found.bridges() && !numbers.iter().all(|&number| is_sane(number)) {
+    if found.bridges() && !numbers.iter().all(|&number| in_range(number)) {
         capillary.conflict(
             "humidity",
             format!(
@@ -85,7 +85,8 @@ pub(super) fn read(scene: &Reader) -> Option<Option<CapillaryScene>> {
 }
 
 impl CapillaryScene {
-    /// The meniscus at this humidity; meaningless where nothing [bridges](CapillaryScene::bridges).
+    /// The meniscus at this humidity; meaningless unless it [bridges](CapillaryScene::bridges) the
+    /// gap.
     pub fn meniscus(&self) -> Meniscus {
         Meniscus::at_humidity(
             self.surface_tension,
@@ -106,7 +107,7 @@ impl CapillaryScene {
         self.humidity > 0.0 && self.meniscus().bridges()
     }
 
-    /// The law that stands for the liquid; `None` in air too dry for one.
+    /// The equivalent cohesive law; `None` if the air is too dry for a liquid.
     pub fn adhesion(&self) -> Option<AdhesionScene> {
         let meniscus = self.meniscus();
         self.bridges().then(|| AdhesionScene {

@@ -1,13 +1,13 @@
-//! `[conductance]`: what the contact conducts from one body to the other.
+//! `[conductance]`: the thermal or electrical conductance of the contact.
 
 use super::SolidScene;
 use super::mistake::SceneError;
 use super::reader::Reader;
 
-/// Notes a solid that a conductance cannot stand with. The tables have been read before.
+/// Refuses `[conductance]` of a layer. The tables have been read before.
 pub(super) fn check(scene: &Reader, solid: &SolidScene) {
     if scene.has("conductance") && solid.layer.is_some() {
-        // The current below a layer spreads by another law than the displacement does.
+        // The analogy of conductance and stiffness holds for a half-space, not for a layer.
         scene.report(
             "conductance",
             SceneError::NotInThisVersion {

@@ -1,7 +1,7 @@
-//! A scene's text as a tree in which every value knows where it was written.
+//! A scene's text as a tree whose values know their line.
 //!
-//! `[[surface]]`, `surface = [{ ... }]` and dotted keys all come out alike, and a `--set` can
-//! replace any part of the tree before it is read.
+//! `[[surface]]`, `surface = [{ ... }]` and dotted keys give the same tree, and `--set` can replace
+//! any part of it before it is read.
 
 use toml_edit as toml;
 
@@ -10,20 +10,20 @@ use crate::units::quoted;
 
 /// Where a value was written.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(super) enum Place {
+pub(super) enum Location {
     /// This line of the file, from 1.
     Line(usize),
     /// A `--set` of the command line.
     Set,
-    /// Nowhere: the file does not have it.
+    /// Not in the file.
     Nowhere,
 }
 
-/// A value with its place.
+/// A value with its location.
 #[derive(Clone, Debug)]
 pub(super) struct Node {
     pub value: Value,
-    pub place: Place,
+    pub place: Location,
 }
 
 /// A TOML value.
@@ -48,13 +48,13 @@ pub(super) struct Table {
 #[derive(Clone, Debug)]
 pub(super) struct Entry {
     pub name: String,
-    /// Where the key stands; its value may begin on a later line.
-    pub place: Place,
+    /// Location of the key; its value may begin on a later line.
+    pub place: Location,
     pub node: Node,
 }
 
 impl Node {
-    /// The value as it is shown in a message.
+    /// The value as messages show it.
     pub fn shown(&self) -> String {
         match &self.value {
             Value::Text(text) => quoted(text),
@@ -67,7 +67,7 @@ impl Node {
         }
     }
 
-    /// The value with its kind, as it is shown where another kind was expected.
+    /// The value and its kind, for messages that expected another kind.
     pub fn described(&self) -> String {
         match &self.value {
             Value::Text(_) => format!("the text {}", self.shown()),
@@ -110,10 +110,10 @@ impl Table {
 
 /// Parses the text of a scene.
 ///
-/// # Errors
+/// The first syntax error, with its line.
 /// The first place where the text is no TOML, with its line.
 pub(super) fn parse(text: &str) -> Result<Table, (Option<usize>, SceneError)> {
-    let lines = Lines::of(text);
+    let lines = Lines::new(text);
     let document = toml::Document::parse(text).map_err(|error| {
         (
             error.span().map(|span| lines.line(span.start)),
@@ -121,21 +121,21 @@ pub(super) fn parse(text: &str) -> Result<Table, (Option<usize>, SceneError)> {
         )
     })?;
     Ok(table(document.as_table(), &|offset| {
-        Place::Line(lines.line(offset))
+        Location::Line(lines.line(offset))
     }))
 }
 
 /// Parses one value given on the command line: TOML, or else a bare word as it stands.
 ///
 /// # Errors
-/// Text that opens a list, a table or a quotation and does not end it properly.
+/// A list, a table or a quotation that is not closed.
 pub(super) fn parse_set(text: &str) -> Result<Node, SceneError> {
     match text.trim().parse::<toml::Value>() {
-        Ok(found) => Ok(value(&found, Place::Set, &|_| Place::Set)),
+        Ok(found) => Ok(value(&found, Location::Set, &|_| Location::Set)),
         Err(error) if text.trim_start().starts_with(['[', '{', '"', '\'']) => Err(syntax(&error)),
         Err(_) => Ok(Node {
             value: Value::Text(text.trim().into()),
-            place: Place::Set,
+            place: Location::Set,
         }),
     }
 }
@@ -157,7 +157,7 @@ struct Lines {
 }
 
 impl Lines {
-    fn of(text: &str) -> Self {
+    fn new(text: &str) -> Self {
         let after_breaks = text.match_indices('\n').map(|(at, _)| at + 1);
         Lines {
             starts: std::iter::once(0).chain(after_breaks).collect(),
@@ -170,14 +170,15 @@ impl Lines {
     }
 }
 
-/// A TOML table; `at` turns an offset into a place. The parser bounds the depth, so recursion is safe.
-fn table(from: &dyn toml::TableLike, at: &dyn Fn(usize) -> Place) -> Table {
+/// A TOML table; `at` turns an offset into a location. The parser bounds the depth, so recursion is
+/// safe.
+fn table(from: &dyn toml::TableLike, at: &dyn Fn(usize) -> Location) -> Table {
     let entries = from
         .iter()
         .filter_map(|(name, item)| {
             let key_span = from.get_key_value(name).and_then(|(key, _)| key.span());
             let span = key_span.or_else(|| item.span());
-            let place = span.map_or(Place::Nowhere, |span| at(span.start));
+            let place = span.map_or(Location::Nowhere, |span| at(span.start));
             Some(Entry {
                 name: name.into(),
                 place,
@@ -188,7 +189,7 @@ fn table(from: &dyn toml::TableLike, at: &dyn Fn(usize) -> Place) -> Table {
     Table { entries }
 }
 
-fn item_node(item: &toml::Item, parent: Place, at: &dyn Fn(usize) -> Place) -> Option<Node> {
+fn item_node(item: &toml::Item, parent: Location, at: &dyn Fn(usize) -> Location) -> Option<Node> {
     let place = item.span().map_or(parent, |span| at(span.start));
     match item {
         toml::Item::None => None,
@@ -210,7 +211,7 @@ fn item_node(item: &toml::Item, parent: Place, at: &dyn Fn(usize) -> Place) -> O
     }
 }
 
-fn value(from: &toml::Value, parent: Place, at: &dyn Fn(usize) -> Place) -> Node {
+fn value(from: &toml::Value, parent: Location, at: &dyn Fn(usize) -> Location) -> Node {
     let place = from.span().map_or(parent, |span| at(span.start));
     let value = match from {
         toml::Value::String(text) => Value::Text(text.value().clone()),
@@ -234,25 +235,28 @@ mod tests {
     fn every_value_knows_its_line() {
         let root = parse("a = 1\n\n[b]\nc = [\n  2,\n  3]\n[[d]]\n[[d]]\ne.f = 4\n").expect("TOML");
         let place = |name: &str| root.get(name).map(|entry| entry.place);
-        assert_eq!(place("a"), Some(Place::Line(1)));
-        assert_eq!(place("b"), Some(Place::Line(3)));
+        assert_eq!(place("a"), Some(Location::Line(1)));
+        assert_eq!(place("b"), Some(Location::Line(3)));
         let Some(Value::Table(b)) = root.get("b").map(|entry| &entry.node.value) else {
             panic!("no table");
         };
         let Some(Value::List(c)) = b.get("c").map(|entry| &entry.node.value) else {
             panic!("no list");
         };
-        assert_eq!(c[0].place, Place::Line(5));
-        assert_eq!(c[1].place, Place::Line(6));
+        assert_eq!(c[0].place, Location::Line(5));
+        assert_eq!(c[1].place, Location::Line(6));
         let Some(Value::List(d)) = root.get("d").map(|entry| &entry.node.value) else {
             panic!("no array of tables");
         };
-        assert_eq!(d[0].place, Place::Line(7));
-        assert_eq!(d[1].place, Place::Line(8));
+        assert_eq!(d[0].place, Location::Line(7));
+        assert_eq!(d[1].place, Location::Line(8));
         let Value::Table(last) = &d[1].value else {
             panic!("no table");
         };
-        assert_eq!(last.get("e").map(|entry| entry.place), Some(Place::Line(9)));
+        assert_eq!(
+            last.get("e").map(|entry| entry.place),
+            Some(Location::Line(9))
+        );
     }
 
     #[test]

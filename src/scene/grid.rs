@@ -1,4 +1,4 @@
-//! `[grid]`: points, size, and what lies beyond the edge.
+//! `[grid]`: points, size and boundary.
 
 use super::allowed::Allowed;
 use super::document::{Table, Value};
@@ -10,7 +10,7 @@ use crate::units::Dimension;
 /// Most points along one axis.
 const MOST_POINTS: i64 = 65536;
 
-/// Reads `[grid]`. Where a height file may carry points and size, both can be left out.
+/// Reads `[grid]`. Points and size may be left out if a height file can provide them.
 pub(super) fn read(scene: &Reader, surface_from_file: bool) -> Option<GridScene> {
     if !scene.has("grid") {
         if surface_from_file {
@@ -39,7 +39,7 @@ pub(super) fn read(scene: &Reader, surface_from_file: bool) -> Option<GridScene>
     } else {
         Boundary::Periodic
     };
-    // An absent value is right here, a wrong one is not.
+    // An absent value is allowed here, a wrong one is not.
     if points.is_none() && grid.has("points") || size.is_none() && grid.has("size") {
         return None;
     }

@@ -1,4 +1,5 @@
-//! `hardness` of `[solid]`: the largest pressure that the solid bears, and what it goes with.
+//! `hardness` of `[solid]`, the largest pressure that the solid bears, and what it can be combined
+//! with.
 
 use super::keys;
 use super::mistake::SceneError;
@@ -9,7 +10,7 @@ use super::{
 };
 use crate::units::format_si;
 
-/// Notes an arithmetic that knows no flow: the corrections of mixed precision are those of a wall.
+/// Refuses mixed precision: its corrections have no hardness limit.
 pub(super) fn check_precision(scene: &Reader, solid: &SolidScene, solver: Option<&SolverScene>) {
     let mixed = solver.is_some_and(|solver| solver.precision == Precision::Mixed);
     if solid.hardness.is_none() || !mixed {
@@ -28,7 +29,7 @@ pub(super) fn check_precision(scene: &Reader, solid: &SolidScene, solver: Option
     }
 }
 
-/// Notes what cannot stand with a hardness. The tables have been read before.
+/// Notes what cannot be combined with a hardness. The tables have been read before.
 pub(super) fn check(
     scene: &Reader,
     solid: &SolidScene,
@@ -53,14 +54,14 @@ pub(super) fn check(
     };
     match adhesion {
         Some(adhesion) if adhesion.treatment == Treatment::Dmt => {
-            // The search for the net load tries larger ones, at which the solid would flow.
+            // The search for the net load tries larger loads, which would indent the solid.
             not_yet(
                 "a hardness with treatment = \"dmt\"",
                 "take treatment = \"full\", or leave the hardness out",
             );
         }
         Some(adhesion) if adhesion.law == LawName::LennardJones => {
-            // Its repulsion has no contact at which a pressure could saturate.
+            // Its repulsion has no contact at which the pressure could saturate.
             not_yet(
                 "a hardness with the Lennard-Jones law",
                 "take law = \"maugis-dugdale\" or \"exponential\", or leave the hardness out",
@@ -78,7 +79,7 @@ pub(super) fn check(
         (Control::MeanGap, _) => {
             solid.conflict(
                 "hardness",
-                "control = \"mean-gap\" does not fix how deep the solid flows where the gap is closed; take control = \"approach\", or leave the hardness out",
+                "control = \"mean-gap\" does not determine the plastic depth where the gap is closed; take control = \"approach\", or leave the hardness out",
             );
             return;
         }
@@ -91,7 +92,7 @@ pub(super) fn check(
         solid.conflict(
             "hardness",
             format!(
-                "the path asks for a mean pressure of {}, which no contact of this hardness bears; stay below it",
+                "the path has a mean pressure of {}, which no contact of this hardness can carry; stay below it",
                 format_si(largest, "Pa")
             ),
         );

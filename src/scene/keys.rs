@@ -1,19 +1,19 @@
-//! The keys of each table, with a line that would do: the one list behind every message.
+//! The keys of each table with an example line: the one list behind every message.
 
 use super::tables;
 
 /// A table of a scene, or one kind of `[[surface]]`.
 pub(super) struct Section {
-    /// The table as messages name it.
+    /// The table's name in messages.
     pub title: &'static str,
-    /// Keys, each with a line that sets it, in the order of the contract.
+    /// Keys, each with an example line, in the order of the documentation.
     pub keys: &'static [(&'static str, &'static str)],
-    /// Keys of effects that this version lacks, each with what it stands for.
+    /// Keys of effects that this version lacks, each with the name of the effect.
     pub later: &'static [(&'static str, &'static str)],
 }
 
 impl Section {
-    /// A line that sets a key, for messages.
+    /// An example line for a key.
     pub fn example(&self, key: &str) -> String {
         self.keys
             .iter()
@@ -21,7 +21,7 @@ impl Section {
             .map_or_else(|| format!("{key} = ..."), |(_, line)| (*line).to_string())
     }
 
-    /// The keys of the table, those of later versions last.
+    /// The keys of the table; those of later versions come last.
     pub fn names(&self) -> impl Iterator<Item = &'static str> {
         self.keys.iter().chain(self.later).map(|(name, _)| *name)
     }
@@ -126,7 +126,7 @@ const FILL: (&str, &str) = ("fill", "fill = \"interpolate\"");
 const BLACK: (&str, &str) = ("black", "black = 0.0");
 const WHITE: (&str, &str) = ("white", "white = \"1 um\"");
 
-/// A `[[surface]]` whose kind cannot be told: the keys of every kind.
+/// A `[[surface]]` of unknown kind: the keys of every kind.
 pub(super) const SURFACE: Section = Section {
     title: "[[surface]]",
     keys: &[

@@ -1,4 +1,4 @@
-//! `[loading]`: the path, written out step by step.
+//! `[loading]`: the path, step by step.
 
 use super::allowed::Allowed;
 use super::document::Value;
@@ -11,14 +11,14 @@ use super::{
 };
 use crate::units::{self, Dimension};
 
-/// Most steps of a path, so that a slip of the finger cannot fill the memory.
+/// Most steps of a path, so that a typing error cannot exhaust memory.
 pub(super) const MOST_STEPS: usize = 1_000_000;
 
-/// What `steps` of a ramp is in place of a number.
+/// The word for automatic `steps` of a ramp.
 const AUTO: &str = "auto";
 
-/// Errors of a path in time that may be asked for: beyond, the pixels or the solver's tolerance
-/// decide, or the steps are no longer steps of a path.
+/// Accepted time tolerances: below, the solver's tolerance or the pixels dominate; above, the steps
+/// no longer follow the path.
 const TIME_TOLERANCE: Allowed = Allowed::new(
     |tolerance| (1e-6..=0.1).contains(&tolerance),
     "from 1e-6 to 0.1",
@@ -27,20 +27,20 @@ const TIME_TOLERANCE: Allowed = Allowed::new(
 /// Default of `pull_off_tolerance`.
 pub(super) const PULL_OFF_TOLERANCE: f64 = 0.01;
 
-/// How well a pull-off may be asked for: below, the solver's tolerance decides.
+/// Accepted pull-off tolerances: below, the solver's tolerance dominates.
 const PULL_OFF_TOLERANCES: Allowed = Allowed::new(
     |tolerance| tolerance == 0.0 || (1e-6..=0.5).contains(&tolerance),
     "0 for none, or from 1e-6 to 0.5",
 );
 
-/// A path with the time that each step takes, where it says.
+/// A path with the duration of each step, if given.
 struct TimedPath {
     path: Vec<f64>,
     durations: Option<Vec<f64>>,
 }
 
-/// Reads `[loading]`; `boundary`, `adhesion` and `solid` are there to check against, if they could be
-/// read.
+/// Reads `[loading]`, and checks it against `boundary`, `adhesion` and `solid` as far as these
+/// could be read.
 pub(super) fn read(
     scene: &Reader,
     boundary: Option<Boundary>,
@@ -66,11 +66,11 @@ pub(super) fn read(
         if control.is_some_and(|control| control != Control::Approach) {
             loading.conflict(
                 "spring",
-                "a spring is held at its far end; take control = \"approach\", or leave the spring out",
+                "a spring needs a prescribed far end; take control = \"approach\", or leave the spring out",
             );
         }
         if adhesion.is_some_and(|adhesion| adhesion.treatment == Treatment::Dmt) {
-            // The spring would have to balance a load that the solver does not see.
+            // The spring would have to balance a load that the solver does not know.
             loading.report(
                 "spring",
                 SceneError::NotInThisVersion {
@@ -89,7 +89,7 @@ pub(super) fn read(
         if matches!(control, Some(Control::Approach | Control::MeanGap)) {
             loading.conflict(
                 "pull_off_tolerance",
-                "is for a load that lets go, and a position holds on; take control = \"pressure\" or \"force\", or leave the tolerance out",
+                "applies to a prescribed load; take control = \"pressure\" or \"force\", or leave the tolerance out",
             );
         }
         loading.quantity(
@@ -108,7 +108,7 @@ pub(super) fn read(
     {
         loading.conflict(
             if loading.has("path") { "path" } else { "ramp" },
-            "a solid that relaxes must know how long the load takes; give start and [[loading.ramp]] with duration = \"1 s\" (or hold = \"1 s\")",
+            "a viscoelastic solid needs durations; give start and [[loading.ramp]] with duration = \"1 s\" (or hold = \"1 s\")",
         );
         return None;
     }
@@ -121,7 +121,7 @@ pub(super) fn read(
     {
         loading.conflict(
             if loading.has("path") { "path" } else { "ramp" },
-            "an edge that recedes at a rate must know how long the load takes; give start and [[loading.ramp]] with a duration above 0, such as duration = \"1 s\"",
+            "rate-dependent adhesion needs durations; give start and [[loading.ramp]] with a duration above 0, such as duration = \"1 s\"",
         );
         return None;
     }
@@ -134,14 +134,14 @@ pub(super) fn read(
     })
 }
 
-/// The value of a path, in the unit and within the limits of its control.
+/// Reads values of a path, in the unit and within the limits of its control.
 struct PathValue {
     dimension: Dimension,
     allowed: Allowed,
 }
 
 impl PathValue {
-    fn of(control: Control, adhesion: Option<&AdhesionScene>) -> Self {
+    fn for_control(control: Control, adhesion: Option<&AdhesionScene>) -> Self {
         let dimension = match control {
             Control::Pressure => Dimension::Pressure,
             Control::Force => Dimension::Force,
@@ -166,12 +166,12 @@ fn path(
     adhesion: Option<&AdhesionScene>,
     solid: Option<&SolidScene>,
 ) -> Option<TimedPath> {
-    let value = control.map(|control| PathValue::of(control, adhesion));
+    let value = control.map(|control| PathValue::for_control(control, adhesion));
     let has_ramps = loading.has("start") || loading.has("ramp");
     if loading.has("path") && has_ramps {
         loading.conflict(
             "path",
-            "stands beside start and [[loading.ramp]]; give either the path or the ramps",
+            "is given together with start or [[loading.ramp]]; give either the path or the ramps",
         );
         return None;
     }
@@ -192,7 +192,7 @@ fn path(
             loading.conflict("path", format!("is longer than {MOST_STEPS} steps"));
             return None;
         }
-        // Without a control the unit of the values is unknown; that mistake has been noted.
+        // Without a control the unit is unknown; that mistake has been noted.
         let value = value?;
         let values: Vec<Option<f64>> = list
             .iter()
@@ -211,15 +211,15 @@ fn path(
 
 /// One `[[loading.ramp]]`.
 struct Ramp {
-    /// Where it goes; `None` holds the load.
+    /// Target value; `None` holds the load.
     to: Option<f64>,
-    /// How many steps; `None` as many as its tolerance in time takes.
+    /// Number of steps; `None` means `auto`.
     steps: Option<usize>,
-    /// How long it takes, s.
+    /// Duration, s.
     duration: Option<f64>,
 }
 
-/// Reads a ramp, without its place among the others.
+/// Reads a ramp by itself.
 fn ramp(ramp: &Reader, value: Option<&PathValue>, solid: Option<&SolidScene>) -> Option<Ramp> {
     let holds = ramp.has("hold");
     if !holds {
@@ -235,9 +235,10 @@ fn ramp(ramp: &Reader, value: Option<&PathValue>, solid: Option<&SolidScene>) ->
         }
     }
     ramp.require(&["steps"]);
-    let steps = match is_auto(ramp) {
-        true => may_be_auto(ramp, solid).map(|()| None),
-        false => whole_steps(ramp).map(Some),
+    let steps = if is_auto(ramp) {
+        may_be_auto(ramp, solid).map(|()| None)
+    } else {
+        whole_steps(ramp).map(Some)
     };
     let to = value.and_then(|value| ramp.quantity("to", value.dimension, value.allowed));
     let key = if holds { "hold" } else { "duration" };
@@ -252,12 +253,12 @@ fn ramp(ramp: &Reader, value: Option<&PathValue>, solid: Option<&SolidScene>) ->
     })
 }
 
-/// Whether a ramp finds its steps by itself.
+/// Whether a ramp has `steps = "auto"`.
 fn is_auto(ramp: &Reader) -> bool {
     matches!(ramp.node("steps"), Some(node) if matches!(&node.value, Value::Text(text) if text == AUTO))
 }
 
-/// The steps of a ramp that says how many.
+/// The number of steps of a ramp that gives one.
 fn whole_steps(ramp: &Reader) -> Option<usize> {
     if let Some(node) = ramp.node("steps")
         && matches!(node.value, Value::Text(_))
@@ -269,31 +270,31 @@ fn whole_steps(ramp: &Reader) -> Option<usize> {
     usize::try_from(steps).ok()
 }
 
-/// Notes what a ramp lacks to find its steps by itself.
+/// Notes what a ramp lacks for `steps = "auto"`.
 fn may_be_auto(ramp: &Reader, solid: Option<&SolidScene>) -> Option<()> {
     if solid.is_some_and(|solid| solid.relaxation.is_empty()) {
         ramp.conflict(
             "steps",
-            "\"auto\" goes by how fast the solid relaxes, and this one does not; give a number of steps, or [[solid.relaxation]]",
+            "\"auto\" follows the relaxation times of the solid, which has none; give a number of steps, or [[solid.relaxation]]",
         );
         return None;
     }
     if !ramp.has("hold") && !ramp.has("duration") {
         ramp.conflict(
             "steps",
-            "\"auto\" goes by how long the ramp takes; give duration = \"1 s\", or a number of steps",
+            "\"auto\" needs the duration of the ramp; give duration = \"1 s\", or a number of steps",
         );
         return None;
     }
     Some(())
 }
 
-/// Notes a tolerance in time that no ramp goes by.
+/// Notes a time tolerance that no ramp uses.
 fn no_auto_ramp(loading: &Reader, ramps: &[Reader]) -> Option<()> {
     if loading.has("time_tolerance") && !ramps.iter().any(is_auto) {
         loading.conflict(
             "time_tolerance",
-            "is for ramps with steps = \"auto\", and there is none; take \"auto\", or leave the tolerance out",
+            "applies to ramps with steps = \"auto\", and there is none; take \"auto\", or leave the tolerance out",
         );
         return None;
     }
@@ -335,9 +336,10 @@ fn ramps(
         return None;
     }
     no_auto_ramp(loading, &readers)?;
-    let tolerance = match loading.has("time_tolerance") {
-        true => loading.quantity("time_tolerance", Dimension::Dimensionless, TIME_TOLERANCE)?,
-        false => DEFAULT_TOLERANCE,
+    let tolerance = if loading.has("time_tolerance") {
+        loading.quantity("time_tolerance", Dimension::Dimensionless, TIME_TOLERANCE)?
+    } else {
+        DEFAULT_TOLERANCE
     };
     let takes_time = |ramp: &Reader| ramp.has("hold") || ramp.has("duration");
     if readers.iter().any(takes_time) {
@@ -351,16 +353,17 @@ fn ramps(
     let mut durations = vec![0.0];
     let mut timed = true;
     let mut from = start;
-    let mut cutter = match readers.iter().any(is_auto) {
-        true => Some(Cutter::new(
+    let mut cutter = if readers.iter().any(is_auto) {
+        Some(Cutter::new(
             solid?,
             control?,
             attracts || loading.has("spring"),
             start,
             &legs(start, &ramps),
             tolerance,
-        )),
-        false => None,
+        ))
+    } else {
+        None
     };
     for (ramp, leg) in ramps.iter().zip(legs(start, &ramps)) {
         let to = leg.to;
@@ -396,7 +399,7 @@ fn ramps(
     })
 }
 
-/// Ramps by their ends and times; one without a time takes none.
+/// Ramps as target and duration; a ramp without a duration takes no time.
 fn legs(start: f64, ramps: &[Ramp]) -> Vec<Leg> {
     let mut from = start;
     let leg = |ramp: &Ramp| {
@@ -409,7 +412,7 @@ fn legs(start: f64, ramps: &[Ramp]) -> Vec<Leg> {
     ramps.iter().map(leg).collect()
 }
 
-/// A Lennard-Jones surface repels without limit at a gap of minus its range.
+/// A Lennard-Jones law diverges at a gap of minus its range.
 fn check_least_gap(
     loading: &Reader,
     control: Option<Control>,
@@ -426,7 +429,7 @@ fn check_least_gap(
         loading.conflict(
             "control",
             format!(
-                "a mean gap must stay above {}, where the law repels without limit",
+                "a mean gap must stay above {}, where the repulsion diverges",
                 units::format_si(-range, "m")
             ),
         );

@@ -1,4 +1,4 @@
-//! What can be wrong with a scene, said in its author's words.
+//! Mistakes of a scene, in terms of the scene file.
 
 use std::fmt;
 
@@ -6,50 +6,50 @@ use thiserror::Error;
 
 use crate::units::UnitError;
 
-/// What is wrong at one place of a scene, and what would be right.
+/// A mistake at one place of a scene, with its remedy.
 #[derive(Clone, Debug, PartialEq, Error)]
 pub enum SceneError {
     /// The file cannot be read.
     #[error("cannot be read: {reason}")]
     Unreadable {
-        /// What the system says.
+        /// Message of the system.
         reason: String,
     },
     /// The text is not TOML.
     #[error("not valid TOML: {reason}")]
     Syntax {
-        /// What the parser says.
+        /// Message of the parser.
         reason: String,
     },
     /// A key or table that does not exist.
     #[error("unknown key in {section}; did you mean `{nearest}`? It takes {}{}", known.join(", "), elsewhere_hint(.elsewhere))]
     UnknownKey {
-        /// The table, as it is named in the contract.
+        /// The table's name.
         section: String,
-        /// The known key that is spelled most alike.
+        /// The most similar known key.
         nearest: String,
         /// All keys of the table.
         known: Vec<String>,
-        /// The tables that do have a key of this name.
+        /// Tables that have a key of this name.
         elsewhere: Vec<String>,
     },
-    /// A key or table without which the scene says too little.
+    /// A required key or table that is absent.
     #[error("missing; add for example `{example}`")]
     Missing {
-        /// A line that would do.
+        /// An example line.
         example: String,
     },
     /// A value of the wrong kind.
     #[error("{found} where {expected} is expected; write for example `{example}`")]
     WrongType {
-        /// What stands there.
+        /// What was found.
         found: String,
-        /// What should.
+        /// What was expected.
         expected: String,
-        /// A line that would do.
+        /// An example line.
         example: String,
     },
-    /// A dimensional value with a wrong or missing unit, or none at all.
+    /// A dimensional value with a wrong or missing unit.
     #[error(transparent)]
     Unit(#[from] UnitError),
     /// A number outside its limits.
@@ -60,34 +60,34 @@ pub enum SceneError {
         /// The limits.
         allowed: String,
     },
-    /// A word that is none of those allowed.
-    #[error("{found} is none of {}; did you mean \"{nearest}\"?", quoted_list(.allowed))]
+    /// A word that is not among those allowed.
+    #[error("{found} is not one of {}; did you mean \"{nearest}\"?", quoted_list(.allowed))]
     UnknownWord {
         /// The word as written.
         found: String,
-        /// The allowed word that is spelled most alike.
+        /// The most similar allowed word.
         nearest: String,
         /// All allowed words.
         allowed: Vec<String>,
     },
-    /// Values that are right by themselves and cannot stand together.
+    /// Values that cannot be combined.
     #[error("{reason}")]
     Conflict {
-        /// What excludes what, and the way out.
+        /// The conflict and its remedy.
         reason: String,
     },
-    /// Something the scene format knows and this version of tabor cannot do.
+    /// A part of the scene format that this version lacks.
     #[error("{what} is not in this version; {instead}")]
     NotInThisVersion {
         /// The effect or choice.
         what: String,
-        /// The way out.
+        /// The remedy.
         instead: String,
     },
-    /// A `--set` that leads nowhere.
+    /// A `--set` whose key does not exist.
     #[error("{reason}")]
     Override {
-        /// Where it stops, and how to write it.
+        /// Where the key fails, and how to write it.
         reason: String,
     },
 }
@@ -108,19 +108,19 @@ fn elsewhere_hint(tables: &[String]) -> String {
     }
 }
 
-/// One mistake with its place.
+/// One mistake with its location.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Mistake {
-    /// The scene file, as it was named by the caller.
+    /// The scene file as the caller named it.
     pub file: String,
-    /// Line in the file, from 1; `None` where nothing in the file stands for it.
+    /// Line in the file, from 1; `None` if no line of the file is concerned.
     pub line: Option<usize>,
-    /// The key, dotted as `--set` takes it, tables of an array counted from 0: `surface.0.hurst`.
-    /// Empty where the whole file is meant.
+    /// The key, dotted as in `--set`, tables of an array counted from 0: `surface.0.hurst`. Empty
+    /// for the whole file.
     pub key: String,
     /// Whether the value came from `--set` and not from the file.
     pub from_set: bool,
-    /// What is wrong, and what would be right.
+    /// The mistake and its remedy.
     pub error: SceneError,
 }
 
@@ -145,16 +145,16 @@ impl std::error::Error for Mistake {
     }
 }
 
-/// Mistakes that are shown; a file of many more is no scene, or one slip makes them all.
+/// Mistakes shown; more usually come from a single error or from a file that is not a scene.
 const MOST_SHOWN: usize = 20;
 
-/// All mistakes of a scene, in the order of its lines; the first 20 are shown, one a line, and the number
-/// of the others.
+/// All mistakes of a scene in the order of its lines; displays the first 20, one a line, and the
+/// number of the others.
 #[derive(Clone, Debug, PartialEq)]
 pub struct SceneErrors(pub Vec<Mistake>);
 
 impl SceneErrors {
-    /// What is shown: a line a mistake, and one for the number of those left out.
+    /// The displayed lines: one a mistake, and one with the number of omitted mistakes.
     pub fn lines(&self) -> impl Iterator<Item = String> {
         let left_out = match self.0.len().saturating_sub(MOST_SHOWN) {
             0 => None,

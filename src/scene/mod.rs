@@ -1,9 +1,8 @@
 //! Scenes: TOML in, a checked [`Scene`] out, or every mistake of it at once.
 //!
-//! A scene goes through three hands: `document` turns the text into a tree that knows its lines,
-//! `overrides` applies `--set`, and one file for each table reads the tree with a `reader` that
-//! notes what is wrong and goes on. What can be refused without looking at a height file or the
-//! machine is refused here; later code may assume it.
+//! `document` parses the text into a tree with line numbers, `overrides` applies `--set`, and one
+//! file for each table reads the tree through a `reader` that collects mistakes. Everything that
+//! can be refused without a height file or the machine is refused here; later code may rely on it.
 
 mod adhesion;
 mod allowed;
@@ -39,7 +38,7 @@ pub use tables::*;
 pub use time_steps::{DEFAULT_TOLERANCE as DEFAULT_TIME_TOLERANCE, Stretch};
 pub use types::*;
 
-use document::{Place, Table};
+use document::{Location, Table};
 use reader::{Log, Reader};
 
 /// Longest scene file: a path of a million steps has about 20 bytes a step.
@@ -54,7 +53,7 @@ impl Scene {
         let file_name = path.display().to_string();
         let text = read_text(path).map_err(|reason| {
             let log = Log::new(&file_name);
-            log.add(Place::Nowhere, "", SceneError::Unreadable { reason });
+            log.add(Location::Nowhere, "", SceneError::Unreadable { reason });
             log.into_errors()
         })?;
         let folder = match path.parent() {
@@ -64,11 +63,11 @@ impl Scene {
         Scene::parse(&text, &file_name, &folder, overrides)
     }
 
-    /// Reads the text of a scene; `file_name` is what messages call it, and `folder` is where the
-    /// paths in it begin.
+    /// Parses the text of a scene. Messages call it `file_name`, and its paths are relative to
+    /// `folder`.
     ///
     /// # Errors
-    /// Every mistake of the scene. Text that is no TOML gives its first one alone.
+    /// Every mistake of the scene; of a syntax error only the first.
     pub fn parse(
         text: &str,
         file_name: &str,
@@ -82,7 +81,7 @@ impl Scene {
                 read_tables(&root, folder, &log)
             }
             Err((line, error)) => {
-                log.add(line.map_or(Place::Nowhere, Place::Line), "", error);
+                log.add(line.map_or(Location::Nowhere, Location::Line), "", error);
                 None
             }
         };
@@ -93,25 +92,25 @@ impl Scene {
     }
 }
 
-/// The text of a scene file, or why there is none.
+/// The text of a scene file, or why it cannot be read.
 fn read_text(path: &Path) -> Result<String, String> {
     let said = |error: std::io::Error| error.to_string();
     let metadata = std::fs::metadata(path).map_err(said)?;
     if !metadata.is_file() {
-        // A device never ends, and a pipe says no length.
+        // A device never ends, and a pipe has no known length.
         return Err(
-            "it is no regular file (a folder, a pipe or a device); write the scene to a file and name that"
+            "it is not a regular file (but a folder, a pipe or a device); save the scene to a file and name that"
                 .to_string(),
         );
     }
     if metadata.len() > MOST_BYTES {
         return Err(format!(
-            "{} bytes are no scene, which may have {MOST_BYTES}; name its TOML file",
+            "{} bytes are too many for a scene, which may have {MOST_BYTES}; name its TOML file",
             metadata.len()
         ));
     }
     let mut bytes = Vec::new();
-    // A file that grows meanwhile is read as long as it was.
+    // If the file grows while it is read, the extra bytes are ignored.
     let file = std::fs::File::open(path).map_err(said)?;
     file.take(metadata.len())
         .read_to_end(&mut bytes)
@@ -119,12 +118,13 @@ fn read_text(path: &Path) -> Result<String, String> {
     String::from_utf8(bytes).map_err(|_| "it is not UTF-8 text".to_string())
 }
 
-/// Reads every table before any is given up, so that all mistakes are noted.
+/// Reads every table before returning, so that all mistakes are collected.
 fn read_tables(root: &Table, folder: &Path, log: &Log) -> Option<Scene> {
-    let scene = Reader::open(root, Place::Nowhere, "", &keys::SCENE, log);
-    let title = match scene.has("title") {
-        true => scene.text("title").map(|title| Some(title.to_string())),
-        false => Some(None),
+    let scene = Reader::open(root, Location::Nowhere, "", &keys::SCENE, log);
+    let title = if scene.has("title") {
+        scene.text("title").map(|title| Some(title.to_string()))
+    } else {
+        Some(None)
     };
     let grid = grid::read(&scene, grid::has_height_file(root));
     let boundary = grid.as_ref().map(|grid| grid.boundary);

@@ -1,4 +1,4 @@
-//! `[output]`: which pictures and fields are written, and when.
+//! `[output]`: which pictures and fields are written, at which steps.
 
 use super::document::Value;
 use super::keys;
@@ -16,7 +16,7 @@ impl Default for OutputScene {
     }
 }
 
-/// Reads `[output]`; `path_length` is there to check step numbers against, if it is known.
+/// Reads `[output]`; checks step numbers against `path_length` if it is known.
 pub(super) fn read(scene: &Reader, path_length: Option<usize>) -> Option<OutputScene> {
     let default = OutputScene::default();
     if !scene.has("output") {

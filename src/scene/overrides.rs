@@ -1,19 +1,19 @@
 //! `--set KEY=VALUE`: changes to the tree of a scene before it is read.
 
-use super::document::{Entry, Node, Place, Table, Value, parse_set};
+use super::document::{Entry, Location, Node, Table, Value, parse_set};
 use super::mistake::SceneError;
 use super::reader::{Log, shown_key};
 
-/// Tables that every scene has, written or not; the others are effects, and a single key does not
-/// switch one on.
+/// Tables that every scene has, written or not. The others are effects, which a single key does not
+/// switch on.
 const ALWAYS: &[&str] = &["grid", "solid", "loading", "solver", "output"];
 
-/// Applies the overrides in order; those that lead nowhere are noted.
+/// Applies the overrides in order and notes those whose key does not exist.
 pub(super) fn apply(root: &mut Table, overrides: &[(String, String)], log: &Log) {
     for (key, text) in overrides {
         let done = parse_set(text).and_then(|node| set(root, key, node));
         if let Err(error) = done {
-            log.add(Place::Set, &shown_key(key), error);
+            log.add(Location::Set, &shown_key(key), error);
         }
     }
 }
@@ -26,7 +26,7 @@ fn set(root: &mut Table, key: &str, node: Node) -> Result<(), SceneError> {
     let names: Vec<&str> = key.split('.').map(str::trim).collect();
     let Some((last, tables)) = names.split_last().filter(|_| !names.contains(&"")) else {
         return Err(refuse(
-            "not a key; write it with points between the names, such as --set surface.0.hurst=0.4"
+            "not a key; write it with dots between the names, such as --set surface.0.hurst=0.4"
                 .into(),
         ));
     };
@@ -36,10 +36,10 @@ fn set(root: &mut Table, key: &str, node: Node) -> Result<(), SceneError> {
     {
         root.entries.push(Entry {
             name: (*first).into(),
-            place: Place::Set,
+            place: Location::Set,
             node: Node {
                 value: Value::Table(Table::default()),
-                place: Place::Set,
+                place: Location::Set,
             },
         });
     }
@@ -73,7 +73,7 @@ fn absent_table(name: &str) -> SceneError {
     }
 }
 
-/// The value one name further down; `walked` is how far the key has come.
+/// The value one level down; `walked` is the key up to here.
 fn step<'a>(node: &'a mut Node, name: &str, walked: &str) -> Result<&'a mut Node, SceneError> {
     match &mut node.value {
         Value::Table(table) => match table.get_mut(name) {

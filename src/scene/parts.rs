@@ -1,4 +1,4 @@
-//! What the parts of a surface say, in SI units.
+//! Contents of the `[[surface]]` parts, in SI units.
 
 use std::path::PathBuf;
 
@@ -28,7 +28,7 @@ pub enum SurfacePart {
         /// Wavelengths along x and y, m; `f64::INFINITY` for none.
         wavelength: [f64; 2],
     },
-    /// Nothing at all.
+    /// A flat part.
     Flat,
     /// Heights read from a file.
     File(HeightFileScene),
@@ -73,13 +73,13 @@ pub struct HeightFileScene {
     pub black: Option<f64>,
     /// Height of white in a grey image, m.
     pub white: Option<f64>,
-    /// What to take off the heights.
+    /// The trend to subtract.
     pub detrend: Detrend,
-    /// What to do with missing pixels.
+    /// How to treat missing pixels.
     pub fill: Fill,
 }
 
-/// What to take off a measured height map.
+/// The trend subtracted from a measured height map.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Detrend {
     /// Nothing.
@@ -93,7 +93,7 @@ pub enum Detrend {
 }
 
 impl Detrend {
-    /// Every one of them.
+    /// Every trend.
     pub const ALL: &[Detrend] = &[
         Detrend::None,
         Detrend::Mean,
@@ -112,17 +112,17 @@ impl Detrend {
     }
 }
 
-/// What to do with missing (NaN) pixels.
+/// How missing (NaN) pixels are treated.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Fill {
-    /// Refuse, counting them.
+    /// Refuse them and report their number.
     None,
     /// Interpolate from the neighbours.
     Interpolate,
 }
 
 impl Fill {
-    /// Every one of them.
+    /// Every treatment.
     pub const ALL: &[Fill] = &[Fill::None, Fill::Interpolate];
 
     /// The word used in scenes.

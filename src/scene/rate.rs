@@ -7,13 +7,13 @@ use super::reader::Reader;
 use super::{LawName, RateScene, Treatment};
 use crate::units::Dimension;
 
-/// Exponents for which the growth is one that has been measured, with room on both sides.
+/// Range of exponents, wider than what has been measured.
 const EXPONENT: Allowed = Allowed::new(
     |exponent| (0.05..=2.0).contains(&exponent),
     "an exponent from 0.05 to 2",
 );
 
-/// Reads the rate: `Some(None)` where there is none.
+/// Reads the rate: `Some(None)` if there is none, `None` after a mistake.
 pub(super) fn read(
     adhesion: &Reader,
     law: Option<LawName>,
@@ -26,12 +26,12 @@ pub(super) fn read(
     if law == Some(LawName::LennardJones) {
         adhesion.conflict(
             "rate",
-            "raises the law of a receding edge, and with law = \"lennard-jones\" the same factor repels; take another law",
+            "multiplies the tension of a receding edge, and with law = \"lennard-jones\" also the repulsion; take another law",
         );
         return None;
     }
     if treatment == Some(Treatment::Dmt) {
-        // The search for the net load and that for the speed would have to be one.
+        // The searches for the net load and for the speed would have to be combined.
         adhesion.report(
             "rate",
             SceneError::NotInThisVersion {

@@ -1,12 +1,12 @@
-//! A cursor over one table of a scene that collects mistakes and goes on.
+//! A cursor over one table of a scene that collects mistakes and continues.
 //!
-//! Every getter returns `None` both for a key that is absent and for one that is wrong, after
-//! noting the mistake; [`Reader::has`] tells the two apart where it matters.
+//! Every getter returns `None` both for an absent key and, after noting the mistake, for a wrong
+//! one; [`Reader::has`] tells the two apart.
 
 use std::cell::RefCell;
 
-use super::allowed::{Allowed, SANE_WORDS, is_sane};
-use super::document::{Entry, Node, Place, Table, Value};
+use super::allowed::{Allowed, RANGE_WORDS, in_range};
+use super::document::{Entry, Location, Node, Table, Value};
 use super::keys::{self, Section};
 use super::mistake::{Mistake, SceneError, SceneErrors};
 use crate::units::{self, Dimension, UnitError};
@@ -26,15 +26,15 @@ impl Log {
     }
 
     /// Notes a mistake.
-    pub fn add(&self, place: Place, key: &str, error: SceneError) {
+    pub fn add(&self, place: Location, key: &str, error: SceneError) {
         self.mistakes.borrow_mut().push(Mistake {
             file: self.file.clone(),
             line: match place {
-                Place::Line(line) => Some(line),
-                Place::Set | Place::Nowhere => None,
+                Location::Line(line) => Some(line),
+                Location::Set | Location::Nowhere => None,
             },
             key: key.into(),
-            from_set: place == Place::Set,
+            from_set: place == Location::Set,
             error,
         });
     }
@@ -51,7 +51,7 @@ impl Log {
     }
 }
 
-/// How a bare number becomes SI, and a text with a unit.
+/// SI value of a bare number or of a text with a unit.
 fn quantity_of(node: &Node, dimension: Dimension) -> Option<Result<f64, UnitError>> {
     let number = |value| match dimension {
         Dimension::Angle => units::angle_from_number(value),
@@ -60,7 +60,7 @@ fn quantity_of(node: &Node, dimension: Dimension) -> Option<Result<f64, UnitErro
     match &node.value {
         Value::Integer(value) => Some(Ok(number(*value as f64))),
         Value::Float(value) => Some(Ok(number(*value))),
-        // A pure number in quotes is a slip of the author, not a unit.
+        // A pure number in quotes is a mistake, not a unit.
         Value::Text(text) if dimension != Dimension::Dimensionless => {
             Some(units::parse_quantity(text, dimension))
         }
@@ -71,19 +71,19 @@ fn quantity_of(node: &Node, dimension: Dimension) -> Option<Result<f64, UnitErro
 /// A cursor over one table.
 pub(super) struct Reader<'a> {
     table: &'a Table,
-    place: Place,
+    place: Location,
     path: String,
     section: &'static Section,
     log: &'a Log,
-    /// Known keys that an unknown one was probably meant to be.
+    /// Known keys that an unknown key was probably meant to be.
     misspelled: Vec<&'static str>,
 }
 
 impl<'a> Reader<'a> {
-    /// Opens a table and notes each key that `section` does not have. `path` is its dotted name.
+    /// Opens a table and notes each key that is not in `section`. `path` is its dotted name.
     pub fn open(
         table: &'a Table,
-        place: Place,
+        place: Location,
         path: &str,
         section: &'static Section,
         log: &'a Log,
@@ -136,12 +136,12 @@ impl<'a> Reader<'a> {
         self.report_at(entry.place, name, error);
     }
 
-    /// Whether the key is there, right or wrong.
+    /// Whether the key is present, right or wrong.
     pub fn has(&self, key: &str) -> bool {
         self.table.get(key).is_some()
     }
 
-    /// The value of a key as it stands.
+    /// The raw value of a key.
     pub fn node(&self, key: &str) -> Option<&'a Node> {
         self.table.get(key).map(|entry| &entry.node)
     }
@@ -161,12 +161,12 @@ impl<'a> Reader<'a> {
         self.report_at(place, key, error);
     }
 
-    /// Notes a mistake of a key at a place of its own.
-    pub fn report_at(&self, place: Place, key: &str, error: SceneError) {
+    /// Notes a mistake of a key at another location.
+    pub fn report_at(&self, place: Location, key: &str, error: SceneError) {
         self.log.add(place, &self.dotted(key), error);
     }
 
-    /// Notes that a key cannot stand with others.
+    /// Notes that a key cannot be combined with others.
     pub fn conflict(&self, key: &str, reason: impl Into<String>) {
         self.report(
             key,
@@ -183,9 +183,9 @@ impl<'a> Reader<'a> {
         }
     }
 
-    /// Notes that a key is absent, with a line that would do.
+    /// Notes that a key is absent, with an example line.
     pub fn require_as(&self, key: &str, example: &str) {
-        // A misspelled key has been noted already, and is not missing.
+        // A misspelled key has been noted already and does not count as missing.
         if !self.has(key) && !self.misspelled.contains(&key) {
             self.report(
                 key,
@@ -219,12 +219,12 @@ impl<'a> Reader<'a> {
         );
     }
 
-    /// A dimensional value in SI units; a pure number if the dimension is none.
+    /// A dimensional value in SI units; a pure number if `dimension` has no unit.
     pub fn quantity(&self, key: &str, dimension: Dimension, allowed: Allowed) -> Option<f64> {
         self.quantity_in(self.node(key)?, key, key, dimension, allowed)
     }
 
-    /// A dimensional value somewhere inside the value of `key`; `name` says where.
+    /// A dimensional value within the value of `key`; `name` says which.
     pub fn quantity_in(
         &self,
         node: &Node,
@@ -238,8 +238,8 @@ impl<'a> Reader<'a> {
                 self.out_of_range(node, name, allowed.words);
                 None
             }
-            Some(Ok(value)) if !is_sane(value) => {
-                self.out_of_range(node, name, SANE_WORDS);
+            Some(Ok(value)) if !in_range(value) => {
+                self.out_of_range(node, name, RANGE_WORDS);
                 None
             }
             Some(Ok(value)) => Some(value),
@@ -259,7 +259,7 @@ impl<'a> Reader<'a> {
         self.whole_number_in(self.node(key)?, key, key, least, most)
     }
 
-    /// A whole number somewhere inside the value of `key`; `name` says where.
+    /// A whole number within the value of `key`; `name` says which.
     pub fn whole_number_in(
         &self,
         node: &Node,
@@ -298,7 +298,7 @@ impl<'a> Reader<'a> {
         }
     }
 
-    /// One of a few words.
+    /// One of several words.
     pub fn choice<T: Copy>(
         &self,
         key: &str,
@@ -308,7 +308,7 @@ impl<'a> Reader<'a> {
         self.choice_in(self.node(key)?, key, key, choices, name)
     }
 
-    /// One of a few words somewhere inside the value of `key`; `at` says where.
+    /// One of several words within the value of `key`; `at` says which.
     pub fn choice_in<T: Copy>(
         &self,
         node: &Node,
@@ -369,7 +369,7 @@ impl<'a> Reader<'a> {
         let node = self.node(key)?;
         match &node.value {
             Value::List(list) if list.len() == 2 => {
-                // Both are read before either is given up, so that both mistakes are seen.
+                // Both are read before returning, so that both mistakes are noted.
                 let x = read(&list[0], &format!("{key}.0"));
                 let y = read(&list[1], &format!("{key}.1"));
                 Some([x?, y?])
@@ -396,7 +396,7 @@ impl<'a> Reader<'a> {
         }
     }
 
-    /// A table that has been read, to note what goes wrong between it and others.
+    /// Opens a table that has been read, to note conflicts between tables.
     pub fn table_again(&self, key: &str, section: &'static Section) -> Option<Reader<'a>> {
         let node = self.node(key)?;
         let Value::Table(table) = &node.value else {
@@ -443,7 +443,7 @@ fn numbered<'a>(key: &str, list: &'a [Node]) -> Vec<(String, &'a Node)> {
         .collect()
 }
 
-/// The candidate spelled most alike, with its likeness from 0 to 1.
+/// The most similar candidate, with its similarity from 0 to 1.
 pub(super) fn nearest(
     word: &str,
     candidates: impl Iterator<Item = &'static str>,
@@ -457,7 +457,7 @@ pub(super) fn nearest(
 }
 
 fn likeness(word: &str, candidate: &str) -> f64 {
-    // Edit distance finds slips of the finger, the common beginning words cut short.
+    // The edit distance finds typing errors, the common prefix finds abbreviations.
     const LONGEST: usize = 64;
     let word: String = word.to_lowercase().chars().take(LONGEST).collect();
     let edits = strsim::normalized_damerau_levenshtein(&word, candidate);
@@ -472,7 +472,7 @@ fn likeness(word: &str, candidate: &str) -> f64 {
     }
 }
 
-/// A key as TOML would show it: in quotes where it is no bare word.
+/// A key as TOML shows it: in quotes unless it is a bare word.
 pub(super) fn shown_key(key: &str) -> String {
     let bare = |letter: char| letter.is_ascii_alphanumeric() || "-_.".contains(letter);
     if key.chars().all(bare) && key.len() <= 60 {

@@ -1,16 +1,17 @@
-//! The scene as it was understood, for `summary.json`: the keys of a scene file, SI values.
+//! The resolved scene for `summary.json`: the keys of a scene file with SI values.
 
 use serde_json::{Map, Value, json};
 
 use super::*;
 
 impl Scene {
-    /// The scene as resolved: every default filled in, every value in SI units (angles, which a
-    /// scene counts in degrees, in degrees).
+    /// The resolved scene: every default filled in, every value in SI units (angles in degrees, as
+    /// in a scene).
     ///
-    /// Keys are those of the scene file, so that written as TOML it is a scene again, and the same
-    /// one but for the last bit of an angle given in rad. What is off or left to tabor's choice by absence (an effect, a centre) is absent; a path
-    /// that is not UTF-8 has its odd bytes replaced.
+    /// Keys are those of the scene file, so that it can be written as TOML and read again; the
+    /// result is the same scene except for the last bit of an angle given in rad. Absent effects
+    /// and automatic choices (such as a centre) are absent; invalid bytes of a path that is not
+    /// UTF-8 are replaced.
     pub fn resolved_json(&self) -> Value {
         let mut scene = Map::new();
         if let Some(title) = &self.title {
@@ -35,7 +36,7 @@ impl Scene {
     }
 }
 
-/// Adds a key where it has a value.
+/// Adds a key if it has a value.
 fn with(mut table: Value, key: &str, value: Option<Value>) -> Value {
     if let (Some(table), Some(value)) = (table.as_object_mut(), value) {
         table.insert(key.into(), value);
@@ -117,7 +118,7 @@ impl SurfacePart {
                 amplitude,
                 wavelength,
             } => {
-                // JSON has no infinity; the scene's word for it stands instead.
+                // JSON has no infinity, so the scene's word is used.
                 let wavelength = wavelength.map(|length| {
                     if length.is_infinite() {
                         json!("inf")
@@ -144,7 +145,7 @@ impl SurfacePart {
     }
 }
 
-/// Degrees of an angle, without the dust of the conversion where a round number means the same.
+/// An angle in degrees; the round number if the conversion gives the same radians.
 fn degrees(radians: f64) -> f64 {
     let degrees = radians.to_degrees();
     let round = (degrees * 1e9).round() / 1e9;
@@ -207,7 +208,7 @@ impl LoadingScene {
         let control = self.control.name();
         let table = match &self.durations {
             None => json!({ "control": control, "path": self.path }),
-            // A ramp a step says the same times again, to the last bit.
+            // One ramp a step reproduces the times to the last bit.
             Some(durations) => {
                 let ramps: Vec<Value> = self
                     .path

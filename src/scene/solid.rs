@@ -1,6 +1,6 @@
-//! `[solid]`: one way or another to the contact modulus, and a layer in place of the half-space.
+//! `[solid]`: the contact modulus, and a layer in place of the half-space.
 
-use super::allowed::{Allowed, is_sane};
+use super::allowed::{Allowed, in_range};
 use super::keys;
 use super::mistake::SceneError;
 use super::reader::Reader;
@@ -27,9 +27,10 @@ pub(super) fn read(scene: &Reader, boundary: Option<Boundary>) -> Option<SolidSc
     ];
     let [ratio, counter_ratio] = [poisson("poisson_ratio"), poisson("counter_poisson_ratio")];
     let layer = read_layer(&solid, ratio, boundary);
-    let hardness = match solid.has("hardness") {
-        true => modulus("hardness").map(Some),
-        false => Some(None),
+    let hardness = if solid.has("hardness") {
+        modulus("hardness").map(Some)
+    } else {
+        Some(None)
     };
     let relaxation = read_relaxation(&solid, layer.flatten());
     let has_counter = solid.has("counter_young_modulus") || solid.has("counter_poisson_ratio");
@@ -45,7 +46,7 @@ pub(super) fn read(scene: &Reader, boundary: Option<Boundary>) -> Option<SolidSc
             if solid.has(key) {
                 solid.conflict(
                     key,
-                    "contact_modulus already holds the counter-face's share; give young_modulus with poisson_ratio instead of it, or leave the counter-face out",
+                    "contact_modulus already includes the counter-face; give young_modulus with poisson_ratio instead of it, or leave the counter-face out",
                 );
             }
         }
@@ -77,7 +78,7 @@ pub(super) fn read(scene: &Reader, boundary: Option<Boundary>) -> Option<SolidSc
         compliance += plane_compliance(counter?, counter_ratio?);
     }
     let contact_modulus = 1.0 / compliance;
-    if !is_sane(contact_modulus) {
+    if !in_range(contact_modulus) {
         solid.conflict(
             "young_modulus",
             format!("makes the contact modulus {contact_modulus:e} Pa; check the powers of ten"),
@@ -93,7 +94,7 @@ pub(super) fn read(scene: &Reader, boundary: Option<Boundary>) -> Option<SolidSc
     })
 }
 
-/// Reads the layer: `Some(None)` where the scene names none, `None` after a mistake.
+/// Reads the layer: `Some(None)` if the scene has none, `None` after a mistake.
 fn read_layer(
     solid: &Reader,
     poisson_ratio: Option<f64>,
@@ -108,7 +109,7 @@ fn read_layer(
         }
         return Some(None);
     }
-    // Beside young_modulus it is asked for anyhow.
+    // Beside young_modulus it is required in any case.
     if !solid.has("young_modulus") {
         solid.require(&["poisson_ratio"]);
     }
@@ -118,7 +119,7 @@ fn read_layer(
     {
         solid.conflict(
             key,
-            "a layer presses on a rigid counter-face; leave the counter-face's elasticity out, or the thickness",
+            "the counter-face of a layer is rigid; leave the counter-face's elasticity out, or the thickness",
         );
     }
     if boundary == Some(Boundary::Free) {
@@ -139,7 +140,7 @@ fn read_layer(
     }))
 }
 
-/// Reads the Maxwell branches; none where the scene names none, `None` after a mistake.
+/// Reads the Maxwell branches; empty if the scene has none, `None` after a mistake.
 fn read_relaxation(solid: &Reader, layer: Option<Layer>) -> Option<Vec<RelaxationScene>> {
     if !solid.has("relaxation") {
         return Some(Vec::new());

@@ -1,4 +1,4 @@
-//! `[solver]`: how well, how long, and where.
+//! `[solver]`: tolerance, iterations, precision and backend.
 
 use super::allowed::Allowed;
 use super::keys;
@@ -7,7 +7,7 @@ use super::reader::Reader;
 use super::{BackendName, Precision, Scene, SolverScene};
 use crate::units::Dimension;
 
-/// Default tolerance of double precision; single precision takes its floor.
+/// Default tolerance in double precision; single precision uses its least tolerance.
 const TOLERANCE: f64 = 1e-6;
 
 impl Default for SolverScene {
@@ -22,15 +22,15 @@ impl Default for SolverScene {
 }
 
 impl SolverScene {
-    /// The arithmetic of a solve of a solid that flows or does not: what `auto` stands for on a
-    /// graphics processor, where it goes by the tolerance, or on the processor.
-    fn arithmetic_on(&self, gpu: bool, flows: bool) -> Precision {
+    /// The precision for which `auto` stands: on a graphics processor it depends on the tolerance;
+    /// `has_hardness` is true for a solid with a hardness.
+    fn arithmetic_on(&self, gpu: bool, has_hardness: bool) -> Precision {
         match (self.precision, gpu) {
             (Precision::Auto, true) if self.tolerance >= Precision::SINGLE_FLOOR => {
                 Precision::Single
             }
-            // The corrections of mixed precision know no flow.
-            (Precision::Auto, true) if flows => Precision::Double,
+            // The corrections of mixed precision have no hardness limit.
+            (Precision::Auto, true) if has_hardness => Precision::Double,
             (Precision::Auto, true) => Precision::Mixed,
             (Precision::Auto, false) => Precision::Double,
             (other, _) => other,
@@ -39,19 +39,19 @@ impl SolverScene {
 }
 
 impl Scene {
-    /// The arithmetic of a solve on a graphics processor or on the processor.
+    /// The precision of a solve on a graphics processor or on the processor.
     pub fn arithmetic_on(&self, gpu: bool) -> Precision {
-        let flows = self.solid.hardness.is_some();
-        self.solver.arithmetic_on(gpu, flows)
+        let has_hardness = self.solid.hardness.is_some();
+        self.solver.arithmetic_on(gpu, has_hardness)
     }
 
-    /// The same on the backend that the scene names; `auto` is the processor here.
+    /// The same on the scene's backend; `auto` counts as the processor here.
     pub fn arithmetic(&self) -> Precision {
         self.arithmetic_on(self.solver.backend == BackendName::Gpu)
     }
 }
 
-/// Reads `[solver]`; what it leaves out has its default.
+/// Reads `[solver]` and fills in its defaults.
 pub(super) fn read(scene: &Reader) -> Option<SolverScene> {
     const ALLOWED: Allowed = Allowed::new(
         |tolerance| tolerance > 0.0 && tolerance <= 0.1,
@@ -105,12 +105,12 @@ pub(super) fn read(scene: &Reader) -> Option<SolverScene> {
     Some(settings)
 }
 
-/// A tolerance that single precision does not reach.
+/// The error for a tolerance that single precision does not reach.
 fn below_the_floor(asked: f64) -> SceneError {
     SceneError::OutOfRange {
         found: format!("{asked:e}"),
         allowed: format!(
-            "at least {:e}, the floor of 32-bit numbers, for precision = \"single\"; \"mixed\" and \"double\" go below",
+            "at least {:e}, the limit of 32-bit numbers, for precision = \"single\"; \"mixed\" and \"double\" go below",
             Precision::SINGLE_FLOOR
         ),
     }

@@ -1,4 +1,4 @@
-//! `[[surface]]`: the parts whose sum the heights are.
+//! `[[surface]]`: the parts that add up to the heights.
 
 use std::path::Path;
 
@@ -11,7 +11,7 @@ use super::{
 };
 use crate::units::{self, Dimension};
 
-/// The kinds of surface, with the keys of each.
+/// The kinds of surface with their keys.
 const KINDS: &[(&str, &Section)] = &[
     ("self-affine", &keys::SELF_AFFINE),
     ("sphere", &keys::SPHERE),
@@ -21,11 +21,11 @@ const KINDS: &[(&str, &Section)] = &[
     ("file", &keys::FILE),
 ];
 
-/// Relative tolerance on what counts as a whole number of waves, as for the band of self-affine
+/// Relative deviation from a whole number of waves that is accepted, as for the band of self-affine
 /// surfaces.
 const WHOLE_WAVES: f64 = 1e-9;
 
-/// Reads every `[[surface]]`; `grid` is there to check wavelengths against, if it could be read.
+/// Reads every `[[surface]]`; checks wavelengths against `grid` if it could be read.
 pub(super) fn read(
     scene: &Reader,
     grid: Option<&GridScene>,
@@ -44,7 +44,7 @@ pub(super) fn read(
     parts.into_iter().collect()
 }
 
-/// The keys of a part, by its kind; those of every kind together where it has none that is known.
+/// The keys of a part by its kind; those of every kind if it is missing or unknown.
 fn section_of(table: &Table) -> &'static Section {
     let kind = table.get("kind").map(|entry| &entry.node.value);
     KINDS
@@ -90,7 +90,7 @@ fn length(part: &Reader, key: &str) -> Option<f64> {
     part.quantity(key, Dimension::Length, Allowed::POSITIVE)
 }
 
-/// The apex: `Some(None)` where it is left to the middle of the grid.
+/// The apex: `Some(None)` is the middle of the grid.
 fn centre(part: &Reader) -> Option<Option<[f64; 2]>> {
     if !part.has("centre") {
         return Some(None);
@@ -192,13 +192,13 @@ fn wavy(part: &Reader, grid: Option<&GridScene>) -> Option<SurfacePart> {
     let node = part.node("wavelength")?;
     let wavelength = match node.value {
         Value::List(_) => part.two("wavelength", one)?,
-        // One number is waves along x alone.
+        // A single number means waves along x.
         _ => [one(node, "wavelength")?, f64::INFINITY],
     };
     if wavelength == [f64::INFINITY; 2] {
         part.conflict(
             "wavelength",
-            "infinite along both axes is no wave; give a finite one, or take kind = \"flat\"",
+            "is infinite along both axes; give a finite one, or take kind = \"flat\"",
         );
     }
     check_whole_waves(part, wavelength, grid);
@@ -249,7 +249,7 @@ fn file(part: &Reader, folder: &Path) -> Option<SurfacePart> {
     });
     let unit = match part.node("unit").map(|node| &node.value) {
         None => Some(1.0),
-        // The unit alone, as in "nm"; a length, as in "0.5 nm" or 5e-10, does too.
+        // A unit alone, as in "nm", or a length, as in "0.5 nm" or 5e-10.
         Some(Value::Text(text)) if !starts_like_a_number(text) => {
             let factor = units::unit_factor(text, Dimension::Length);
             factor
@@ -263,18 +263,20 @@ fn file(part: &Reader, folder: &Path) -> Option<SurfacePart> {
     } else {
         Some(1.0)
     };
-    let grey_end = |key: &str| match part.has(key) {
-        true => part
-            .quantity(key, Dimension::Length, Allowed::FINITE)
-            .map(Some),
-        false => Some(None),
+    let grey_end = |key: &str| {
+        if part.has(key) {
+            part.quantity(key, Dimension::Length, Allowed::FINITE)
+                .map(Some)
+        } else {
+            Some(None)
+        }
     };
     let (black, white) = (grey_end("black"), grey_end("white"));
     for (given, other) in [("black", "white"), ("white", "black")] {
         if part.has(given) && !part.has(other) {
             part.conflict(
                 given,
-                format!("stands without {other}; a grey image needs the heights of both"),
+                format!("is given without {other}; a grey image needs the heights of both"),
             );
         }
     }

@@ -1,61 +1,64 @@
-//! `steps = "auto"`: how finely a path is cut for a solid that relaxes.
+//! `steps = "auto"`: time steps of a path on a viscoelastic solid.
 //!
-//! A step takes its displacement as linear in time and is exact but for that. What the solid does
-//! between is known beforehand for a contact that keeps its shape: after each kink of the path its
-//! answer bends as a sum of exponentials, over the retardation times where a load creeps and the
-//! relaxation times where the surface is held. An attraction is a load, whatever is held. A ramp is halved, and its halves again, until every
-//! step is straight enough; so the steps are short after a kink and grow with the time from it.
+//! A step assumes that the displacement is linear in time and is otherwise exact. For a contact of
+//! constant shape the response between two kinks of the path is known beforehand: after a kink it
+//! is a sum of exponentials, over the retardation times under a prescribed load and over the
+//! relaxation times under a prescribed position. An attraction acts as a load under every control.
+//! Each ramp is halved recursively until every step is straight enough, so steps are short after a
+//! kink and grow with the time since it.
 //!
-//! A step whose answer stands off its chord by `gap` in the middle, two thirds of that on average,
-//! moves the springs by as much, and under a load they move the displacement in turn, all in all by
-//! up to `J(T)/J(0) - 1` times that (the resolvent of the creep compliance J over the path's time T).
+//! If the response lies off its chord by `gap` in the middle of a step, and by two thirds of that
+//! on average, the springs are off by as much. Under a load the springs move the displacement in
+//! turn; the total is at most `J(T)/J(0) - 1` times that (from the resolvent of the creep
+//! compliance J over the path's time T).
 //!
-//! A contact that changes its shape bends over a ramp too; it is taken as bent as a parabola that
-//! stands off its chord by a quarter of the ramp's change.
+//! A contact that changes its shape also bends the response within a ramp; it is taken as a
+//! parabola that lies off its chord by a quarter of the ramp's change.
 
 use super::loading::MOST_STEPS;
 use super::{Control, LoadingScene, Scene, SolidScene};
 
-/// Error of a path in time where none is asked for, relative.
+/// Default relative error of a path in time.
 pub const DEFAULT_TOLERANCE: f64 = 1e-3;
 
-/// Rates of a path that differ by less, of its greatest value over the time of a step, are one rate:
-/// the values were rounded.
+/// Rates that differ by less than this share of the path's greatest value over the step's time are
+/// equal: the values were rounded.
 const SAME_RATE: f64 = 1e-12;
 
 /// Mean over its middle of a parabola that vanishes at both ends.
 const MEAN_OF_A_BEND: f64 = 2.0 / 3.0;
 
-/// Halvings of an interval between two relaxation times: every bit of a double.
+/// Halvings of the interval between two relaxation times, enough for every bit of a double.
 const BISECTIONS: usize = 200;
 
-/// A part of the answer that fades.
+/// An exponentially decaying part of the response.
 #[derive(Clone, Copy, Debug)]
 struct Mode {
-    /// Its time, s.
+    /// Its time constant, s.
     time: f64,
-    /// Its share: of the last answer under a held load, of the first where the surface is held.
+    /// Its share: of the final response under a prescribed load, of the initial one under a
+    /// prescribed position.
     share: f64,
-    /// What it remembers of the path so far.
+    /// Its memory of the path so far.
     memory: f64,
 }
 
 /// A ramp between two values, or a hold.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Leg {
-    /// Where it goes.
+    /// Target value.
     pub to: f64,
-    /// How long it takes, s.
+    /// Duration, s.
     pub duration: f64,
 }
 
 impl Leg {
-    /// Values at the ends of the steps that cut this leg, and how long each takes, s.
+    /// Values at the ends of the steps of this leg, and their durations, s.
     pub fn steps(self, from: f64, shares: Vec<f64>) -> impl Iterator<Item = (f64, f64)> {
         let mut end = 0.0;
         shares.into_iter().map(move |share| {
             end += share;
-            // Halves add up to 1 without rounding.
+            // Powers of one half add up to 1 without rounding.
             let value = if end < 1.0 {
                 from + (self.to - from) * end
             } else {
@@ -67,7 +70,7 @@ impl Leg {
 }
 
 impl LoadingScene {
-    /// Stretches of one rate, with how many steps each has; none where the path takes no time.
+    /// Intervals of constant rate with their numbers of steps; empty if the path takes no time.
     pub fn stretches(&self) -> Vec<Stretch> {
         let Some(durations) = &self.durations else {
             return Vec::new();
@@ -106,21 +109,21 @@ impl LoadingScene {
     }
 }
 
-/// A part of a path at one rate.
+/// An interval of a path at constant rate.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Stretch {
-    /// Where it goes, in the unit of the path.
+    /// Target value, in the unit of the path.
     pub to: f64,
-    /// How long it takes, s.
+    /// Duration, s.
     pub duration: f64,
-    /// How many steps it has.
+    /// Number of steps.
     pub steps: usize,
 }
 
 impl Scene {
-    /// The path as `steps = "auto"` cuts it on every ramp for a relative error of `tolerance` in time,
-    /// whatever the steps of this scene; `None` for a solid that does not relax, and where there
-    /// would be more steps than a path may have.
+    /// The path with `steps = "auto"` on every ramp, for a relative error in time of `tolerance`,
+    /// whatever the steps of this scene. `None` for an elastic solid, and if there would be more
+    /// steps than a path may have.
     pub fn auto_steps(&self, tolerance: f64) -> Option<LoadingScene> {
         let loading = &self.loading;
         if self.solid.relaxation.is_empty() || loading.durations.is_none() {
@@ -160,21 +163,21 @@ impl Scene {
     }
 }
 
-/// Cuts the legs of one path.
+/// Divides the legs of one path into steps.
 #[derive(Debug)]
 pub(super) struct Cutter {
     modes: Vec<Mode>,
-    /// Greatest answer of the path, in the unit of the values.
+    /// Greatest response of the path, in the unit of the values.
     scale: f64,
-    /// What a bend does to the answer at most, relative to the bend.
+    /// Upper bound on the error of the response, relative to the deviation from its chord.
     gain: f64,
     tolerance: f64,
     value: f64,
 }
 
 impl Cutter {
-    /// For a path of a solid from `start` over all its legs, to a relative error of `tolerance`;
-    /// `creeps` where a load acts, be it an attraction or a spring's.
+    /// A cutter for the path of a solid from `start` over all its legs, to a relative error of
+    /// `tolerance`. `creeps` is true if a load acts, including an attraction or a spring.
     pub fn new(
         solid: &SolidScene,
         control: Control,
@@ -184,17 +187,18 @@ impl Cutter {
         tolerance: f64,
     ) -> Cutter {
         let creeps = creeps || matches!(control, Control::Pressure | Control::Force);
-        let modes = match creeps {
-            true => retardation(solid),
-            false => relaxation(solid),
+        let modes = if creeps {
+            retardation(solid)
+        } else {
+            relaxation(solid)
         };
-        // How far a mean gap dents the surface at first is not known: what is remembered may be as much
-        // as the path moves it, what errors are compared with may be no more than that.
+        // The initial indentation under a mean gap is unknown: the memory is bounded by the whole
+        // change of the path, and the error is compared with no more than that change.
         let (first, least) = match control {
             Control::MeanGap => {
                 let ends = legs.iter().map(|leg| leg.to);
                 let moved = ends.fold(0.0, |most: f64, to| most.max((to - start).abs()));
-                // A gap that shrinks dents.
+                // A decreasing gap is an increasing indentation.
                 if moved > 0.0 {
                     (-moved, 0.0)
                 } else {
@@ -204,9 +208,10 @@ impl Cutter {
             _ => (start, start),
         };
         let total: f64 = legs.iter().map(|leg| leg.duration).sum();
-        let gain = match creeps {
-            true => (compliance(&modes, total) / compliance(&modes, 0.0) - 1.0).max(1.0),
-            false => 1.0,
+        let gain = if creeps {
+            (compliance(&modes, total) / compliance(&modes, 0.0) - 1.0).max(1.0)
+        } else {
+            1.0
         };
         let mut cutter = Cutter {
             modes,
@@ -232,23 +237,24 @@ impl Cutter {
         cutter
     }
 
-    /// The answer at a level of what is prescribed: displacement times relaxed modulus, or force
-    /// over the modulus at once.
+    /// The response to a prescribed value: displacement times relaxed modulus, or force over
+    /// instantaneous modulus.
     fn answer(&self, level: f64, creeps: bool) -> f64 {
         let shares: f64 = self.modes.iter().map(|mode| mode.share).sum();
         let fading: f64 = self.modes.iter().map(|mode| mode.share * mode.memory).sum();
-        match creeps {
-            true => (level - fading).abs(),
-            false => ((1.0 - shares) * level + fading).abs(),
+        if creeps {
+            (level - fading).abs()
+        } else {
+            ((1.0 - shares) * level + fading).abs()
         }
     }
 
-    /// Goes over a leg without cutting it.
+    /// Passes over a leg without dividing it.
     pub fn go(&mut self, leg: &Leg) {
         let change = leg.to - self.value;
         for mode in &mut self.modes {
             let ratio = leg.duration / mode.time;
-            // A leg in no time is a jump.
+            // A leg of no duration is a jump.
             let kept = if ratio > 0.0 {
                 -(-ratio).exp_m1() / ratio
             } else {
@@ -259,18 +265,19 @@ impl Cutter {
         self.value = leg.to;
     }
 
-    /// Cuts a leg and goes over it: the share of each step in its duration, powers of one half
-    /// that add up to 1. `None` if there are more than `most`.
+    /// Divides a leg into steps: the share of each step in its duration, powers of one half that
+    /// add up to 1. `None` if there are more than `most`.
     pub fn cut(&mut self, leg: &Leg, most: usize) -> Option<Vec<f64>> {
         let mut shares = Vec::new();
-        // Begin and length of what is still to be cut, as shares of the leg; the next one last.
+        // Start and length of the parts still to be divided, as shares of the leg; the next one is
+        // last.
         let mut open = vec![(0.0, 1.0)];
         while let Some((begin, length)) = open.pop() {
             if leg.duration > 0.0 && self.error(leg, begin, length) > self.tolerance {
                 let half = 0.5 * length;
                 open.push((begin + half, half));
                 open.push((begin, half));
-                // Each of these is one step at least.
+                // Each of these becomes at least one step.
                 if shares.len() + open.len() > most {
                     return None;
                 }
@@ -282,7 +289,7 @@ impl Cutter {
         Some(shares)
     }
 
-    /// What one step over a part of a leg brings in, relative.
+    /// Relative error of one step over a part of a leg.
     fn error(&self, leg: &Leg, begin: f64, length: f64) -> f64 {
         let change = leg.to - self.value;
         let [begin_time, step] = [begin, length].map(|share| share * leg.duration);
@@ -304,13 +311,13 @@ impl Cutter {
     }
 }
 
-/// Creep compliance after a time, over that in the end.
+/// Creep compliance after a time, relative to its final value.
 fn compliance(modes: &[Mode], time: f64) -> f64 {
     let missing = |mode: &Mode| mode.share * (-time / mode.time).exp();
     1.0 - modes.iter().map(missing).sum::<f64>()
 }
 
-/// How the force under a held displacement fades.
+/// Decay of the force under a constant displacement.
 fn relaxation(solid: &SolidScene) -> Vec<Mode> {
     let branches = solid.relaxation.iter();
     let at_once = branches
@@ -324,7 +331,7 @@ fn relaxation(solid: &SolidScene) -> Vec<Mode> {
     branches.map(mode).collect()
 }
 
-/// How the displacement under a held load creeps: one retardation time above each relaxation time
+/// Creep of the displacement under a constant load: one retardation time above each relaxation time
 /// and below the next, where `E_inf = sum E_k tau_k/(theta - tau_k)`.
 fn retardation(solid: &SolidScene) -> Vec<Mode> {
     let relaxed = solid.contact_modulus;
@@ -338,7 +345,8 @@ fn retardation(solid: &SolidScene) -> Vec<Mode> {
     branches.sort_by(|one, other| one.0.total_cmp(&other.0));
     let all: f64 = branches.iter().map(|(_, modulus)| modulus).sum();
     let slowest = branches.last().map_or(0.0, |(time, _)| *time);
-    // No root lies above the time that all branches would have were they as slow as the slowest.
+    // No root lies above the retardation time of a solid whose branches are all as slow as the
+    // slowest.
     let bound = slowest * (1.0 + all / relaxed);
     let pull = |theta: f64| -> f64 {
         branches
@@ -361,7 +369,7 @@ fn retardation(solid: &SolidScene) -> Vec<Mode> {
                 high = middle;
             }
         }
-        // The upper end is no pole, but for times that no double lies between.
+        // The upper end is not a pole, except for times with no double between them.
         let theta = high;
         let steepness: f64 = branches
             .iter()
@@ -397,7 +405,7 @@ mod tests {
         }
     }
 
-    /// One branch: the time of creep is `tau E_0/E_inf`, and `1 - E_inf/E_0` creeps.
+    /// One branch: the retardation time is `tau E_0/E_inf`, and `1 - E_inf/E_0` creeps.
     #[test]
     fn one_branch_creeps_in_its_own_time() {
         let modes = retardation(&solid(&[(0.5, 1.0), (0.4, 1.0)]));
@@ -406,7 +414,7 @@ mod tests {
         assert!((modes[0].share - 0.9).abs() < 1e-12, "{modes:?}");
     }
 
-    /// At once the solid answers with the sum of its springs: the shares leave `E_inf/E_0`.
+    /// The instantaneous response is the sum of all springs: the shares leave `E_inf/E_0`.
     #[test]
     fn many_branches_leave_the_answer_at_once() {
         let many = solid(&[(0.3, 1.0), (0.2, 30.0), (0.4, 0.01), (5.0, 1.001)]);
@@ -430,7 +438,8 @@ mod tests {
         assert_eq!(steps.iter().sum::<f64>(), 1.0);
         assert!(steps.windows(2).all(|pair| pair[0] <= pair[1]), "{steps:?}");
         let finer = cut(1e-5, 10_000).expect("few enough");
-        // Second order: ten times as many for a hundredth of the error, as far as halves allow.
+        // Second order: ten times as many steps for a hundredth of the error, up to the rounding to
+        // halves.
         let ratio = finer.len() as f64 / steps.len() as f64;
         assert!((5.0..20.0).contains(&ratio), "{ratio}");
         assert_eq!(cut(1e-5, finer.len()), Some(finer.clone()));

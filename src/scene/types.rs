@@ -1,4 +1,4 @@
-//! What a scene says, in SI units, checked in itself but not yet against its surface.
+//! A scene in SI units, checked by itself but not yet against its surface.
 
 use std::path::PathBuf;
 
@@ -8,10 +8,10 @@ use super::tables::EffectTables;
 use crate::elastic::Layer;
 pub use crate::grid::Boundary;
 
-/// A scene as its author wrote it: every value in SI units, defaults filled in.
+/// A scene: every value in SI units, defaults filled in.
 ///
-/// An effect that the scene does not name is `None`; nothing further down the line allocates,
-/// builds or runs anything for it.
+/// An effect that the scene does not name is `None`; later code neither allocates nor runs anything
+/// for it.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Scene {
     /// Title, for pictures and reports.
@@ -22,7 +22,7 @@ pub struct Scene {
     pub solid: SolidScene,
     /// `[[surface]]`: the heights are the sum of these parts; never empty.
     pub surfaces: Vec<SurfacePart>,
-    /// `[adhesion]`, an effect; or the law that stands for `[capillary]`.
+    /// `[adhesion]`, an effect; or the law equivalent to `[capillary]`.
     pub adhesion: Option<AdhesionScene>,
     /// `[capillary]`, an effect.
     pub capillary: Option<CapillaryScene>,
@@ -38,14 +38,14 @@ pub struct Scene {
     pub folder: PathBuf,
 }
 
-/// `[grid]`: points and size may be left out where a height file carries them.
+/// `[grid]`: points and size may be left out if a height file provides them.
 #[derive(Clone, Debug, PartialEq)]
 pub struct GridScene {
     /// Points along x and y.
     pub points: Option<[usize; 2]>,
     /// Size along x and y, m.
     pub size: Option<[f64; 2]>,
-    /// What lies beyond the edge.
+    /// The boundary condition.
     pub boundary: Boundary,
 }
 
@@ -60,14 +60,14 @@ pub struct SolidScene {
     pub layer: Option<Layer>,
     /// Largest net pressure, at which the solid yields, Pa (an effect).
     pub hardness: Option<f64>,
-    /// Maxwell branches beside the contact modulus, which is then the relaxed one (an effect);
-    /// empty for an elastic solid.
+    /// Maxwell branches in parallel with the contact modulus, which is then the relaxed one (an
+    /// effect); empty for an elastic solid.
     pub relaxation: Vec<RelaxationScene>,
 }
 
 impl SolidScene {
-    /// Whether a path carries more than its gap from step to step, which is known in double precision
-    /// also where the gap is not.
+    /// Whether a path carries more state than its gap from step to step. That state is in double
+    /// precision even if the gap is not.
     pub fn remembers(&self) -> bool {
         !self.relaxation.is_empty() || self.hardness.is_some()
     }
@@ -89,13 +89,13 @@ pub struct LoadingScene {
     pub control: Control,
     /// The prescribed values in SI units, one a step; never empty.
     pub path: Vec<f64>,
-    /// Time from the step before to each step, s, as long as the path; `None` where the path has
-    /// no durations. The first is 0.
+    /// Duration of each step, s, as long as the path; `None` if the path has no durations. The
+    /// first is 0.
     pub durations: Option<Vec<f64>>,
     /// Spring between the prescribed approach and the body, N/m (an effect).
     pub spring: Option<f64>,
-    /// How well a prescribed load that the contact can no longer bear is narrowed down: greatest relative
-    /// difference between a tension that does not hold and one that does; 0 for not at all.
+    /// How closely pull-off is bracketed under a prescribed load: the greatest relative difference
+    /// between a tension that the contact does not carry and one that it does; 0 for no bracketing.
     pub pull_off_tolerance: f64,
 }
 
@@ -113,7 +113,7 @@ pub enum Control {
 }
 
 impl Control {
-    /// Every one of them.
+    /// Every control.
     pub const ALL: &[Control] = &[
         Control::Pressure,
         Control::Force,
@@ -135,20 +135,20 @@ impl Control {
 /// `[solver]`.
 #[derive(Clone, Debug, PartialEq)]
 pub struct SolverScene {
-    /// Largest accepted residual.
+    /// Tolerance of the residual.
     pub tolerance: f64,
-    /// Most iterations in a step.
+    /// Iteration limit of a step.
     pub max_iterations: usize,
-    /// Arithmetic.
+    /// Precision of its numbers.
     pub precision: Precision,
-    /// Where the arithmetic runs.
+    /// Processor or graphics processor.
     pub backend: BackendName,
 }
 
-/// Arithmetic of a solve.
+/// Precision of a solve.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Precision {
-    /// Picked by tabor.
+    /// Chosen by tabor.
     Auto,
     /// 32 bit.
     Single,
@@ -162,7 +162,7 @@ impl Precision {
     /// Least tolerance that single precision reaches on every scene.
     pub const SINGLE_FLOOR: f64 = 1e-4;
 
-    /// Every one of them.
+    /// Every precision.
     pub const ALL: &[Precision] = &[
         Precision::Auto,
         Precision::Single,
@@ -181,10 +181,10 @@ impl Precision {
     }
 }
 
-/// Where the arithmetic of a solve runs.
+/// The processor or a graphics processor.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum BackendName {
-    /// Picked by tabor.
+    /// Chosen by tabor.
     Auto,
     /// Threads of this machine's processor.
     Cpu,
@@ -193,7 +193,7 @@ pub enum BackendName {
 }
 
 impl BackendName {
-    /// Every one of them.
+    /// Every backend.
     pub const ALL: &[BackendName] = &[BackendName::Auto, BackendName::Cpu, BackendName::Gpu];
 
     /// The word used in scenes.
@@ -231,7 +231,7 @@ pub enum FieldName {
 }
 
 impl FieldName {
-    /// Every one of them.
+    /// Every field.
     pub const ALL: &[FieldName] = &[
         FieldName::Pressure,
         FieldName::Gap,
@@ -258,7 +258,7 @@ impl FieldName {
     }
 }
 
-/// The steps whose images and fields are written.
+/// Selects the steps whose images and fields are written.
 #[derive(Clone, Debug, PartialEq)]
 pub enum StepChoice {
     /// The last one.

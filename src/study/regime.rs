@@ -78,9 +78,9 @@ impl Regime {
     /// The regime in words.
     pub fn name(&self) -> &'static str {
         match self.tabor {
-            mu if mu < 0.24 => "DMT: soft and long-ranged, the attraction hardly deforms the solid",
+            mu if mu < 0.24 => "DMT: the attraction hardly deforms the stiff solid",
             mu if mu < 5.0 => "between DMT and JKR: the full field or Maugis' theory",
-            _ => "JKR: sharp and short-ranged, a crack at the edge of the contact",
+            _ => "JKR: the short-ranged attraction acts like a crack at the contact edge",
         }
     }
 

@@ -36,13 +36,16 @@ impl Setup {
     /// Puts a scene and its surface together, with those of a list of effects that the scene asks for.
     pub(crate) fn with_effects(all: &[&'static dyn Hooks], scene: Scene, surface: Surface) -> Self {
         let grid = surface.grid;
-        let statistics = Statistics::of(&grid, &surface.heights, scene.grid.boundary);
+        let statistics = Statistics::from_heights(&grid, &surface.heights, scene.grid.boundary);
         let outline = Outline {
             grid,
             moments: statistics.moments,
             source: Source::Heights,
             sphere_radius: surface.sphere_radius,
-            map: surface.adhesion_map.as_deref().map(MapOutline::of),
+            map: surface
+                .adhesion_map
+                .as_deref()
+                .map(MapOutline::from_factors),
             warnings: surface.warnings.clone(),
         };
         let Plan {

@@ -1,4 +1,4 @@
-//! A factor on the law's tension at each point: a pattern, or a map from a file.
+//! The adhesion map: a factor on the law's tension at each point, from a pattern or a file.
 
 use std::path::{Path, PathBuf};
 
@@ -9,7 +9,7 @@ use crate::scene::{
     AdhesionMap, Boundary, Detrend, Fill, HeightFileScene, LawName, PatternKind, Scene,
 };
 
-/// Rounding of a point's place in a pattern, in half periods.
+/// Rounding tolerance of a point's position in a pattern, in half periods.
 const ROUNDING: f64 = 1e-9;
 
 /// What is wrong with an adhesion map.
@@ -18,7 +18,7 @@ pub enum MapError {
     /// The file cannot be read as a map.
     #[error(transparent)]
     File(#[from] FileError),
-    /// A factor that is not one.
+    /// A factor that the law cannot take.
     #[error("row {row}, column {column}: a factor of {value:e}; {remedy}")]
     Factor {
         /// Row, from 1.
@@ -30,12 +30,12 @@ pub enum MapError {
         /// What would do.
         remedy: &'static str,
     },
-    /// Nothing attracts.
+    /// A map without any attraction.
     #[error("every factor is 0; leave [adhesion] out, or take a map that attracts somewhere")]
     Nothing,
 }
 
-/// The map of a scene on its grid, shape `[ny, nx]`; `None` where the scene names none.
+/// The adhesion map of a scene on its grid, shape `[ny, nx]`; `None` without a map.
 pub(super) fn build(scene: &Scene, grid: &Grid) -> Result<Option<Vec<f64>>, SurfaceError> {
     let Some(adhesion) = &scene.adhesion else {
         return Ok(None);
@@ -51,7 +51,7 @@ pub(super) fn build(scene: &Scene, grid: &Grid) -> Result<Option<Vec<f64>>, Surf
             low,
             high,
         } => (
-            // What the message names in place of a file.
+            // The message shows this in place of a file name.
             PathBuf::from("pattern"),
             Ok(pattern(*kind, *period, [*low, *high], grid)),
         ),
@@ -75,9 +75,9 @@ fn read(path: &Path, grid: &Grid) -> Result<Vec<f64>, MapError> {
         black: None,
         white: None,
     };
-    // Whether opposite edges match is no matter of a map.
+    // A map need not be periodic, so mismatched edges are not reported.
     let map = match file::read(&plain, Boundary::Free) {
-        // A grey image attracts not at all where it is black and by the law where it is white.
+        // Grey images: black means no attraction, white the full law.
         Err(FileError::GreyEndsMissing) => file::read(
             &HeightFileScene {
                 black: Some(0.0),
@@ -93,9 +93,9 @@ fn read(path: &Path, grid: &Grid) -> Result<Vec<f64>, MapError> {
     Ok(map.heights)
 }
 
-/// Points of low and high factors in turn, each for half a period; the first point is high.
+/// Low and high factors alternate every half period; the first point is high.
 fn pattern(kind: PatternKind, period: f64, [low, high]: [f64; 2], grid: &Grid) -> Vec<f64> {
-    // Told by the number itself: of periods far below a pixel no integer holds the count.
+    // Parity by floating point: with periods far below a pixel no integer holds the count.
     let odd = |place: f64| (2.0 * (place / period) + ROUNDING).floor() % 2.0 != 0.0;
     let mut factors = Vec::with_capacity(grid.len());
     for row in 0..grid.ny {
@@ -117,7 +117,7 @@ fn check(factors: Vec<f64>, law: LawName, grid: &Grid) -> Result<Vec<f64>, MapEr
             column: point % grid.nx + 1,
             value: factors[point],
             remedy: if core {
-                "it must be above 0: with law = \"lennard-jones\" the same factor repels"
+                "it must be above 0: with law = \"lennard-jones\" the factor also multiplies the repulsion"
             } else {
                 "it must be finite and at least 0"
             },
@@ -143,7 +143,7 @@ mod tests {
         assert!(stripe.chunks(4).all(|row| row == [1.0, 0.5, 1.0, 0.5]));
     }
 
-    /// More half periods to a pixel than any integer counts: a factor each, and no panic.
+    /// More half periods in a pixel than an integer holds: one factor each, no panic.
     #[test]
     fn periods_far_below_a_pixel() {
         let grid = Grid::new([4, 4], [1.0, 1.0]);

@@ -1,9 +1,9 @@
-//! Sums over the modes of a band in a time that does not grow with it.
+//! Sums over the modes of a band at a cost that does not grow with the band.
 //!
-//! Long waves are summed one by one, short ones, which lie densely, as an integral over the plane of
-//! wavevectors. Against the full sum this is off by some 1e-5: the count of lattice points in a
+//! Long waves are summed one by one. Short waves lie densely and are replaced by an integral over
+//! the plane of wavevectors. The relative error is about 1e-5: the number of lattice points in a
 //! circle of radius r differs from its area by about r^0.63 (Huxley 2003), which is 5e-5 of the
-//! modes at the seam and less of any sum over all.
+//! modes where the integral starts and less of any sum over all modes.
 
 use std::f64::consts::PI;
 
@@ -12,7 +12,7 @@ use super::spectrum::SelfAffineSpectrum;
 
 /// Waves across the longer side up to which modes are summed one by one.
 const SUMMED: f64 = 1024.0;
-/// Steps of the integral, equal in the logarithm of the wave number.
+/// Quadrature points of the integral, evenly spaced in the logarithm of the wave number.
 const STEPS: usize = 4096;
 
 /// Whether all modes of the band are summed one by one.
@@ -20,7 +20,7 @@ pub(super) fn is_exact(spectrum: &SelfAffineSpectrum, size: [f64; 2]) -> bool {
     spectrum.short <= 2.0 * seam(size)
 }
 
-/// Wave number at which the integral takes over, 1/m.
+/// Wave number at which the integral takes over from the sum, 1/m.
 fn seam(size: [f64; 2]) -> f64 {
     2.0 * PI * SUMMED / size[0].max(size[1])
 }
@@ -44,7 +44,7 @@ pub(super) fn sums_within(
     } else {
         BandSums::default()
     };
-    // The modes that count fill a rectangle: half a step beyond the last of them each way.
+    // The included modes fill a rectangle that ends half a step beyond the last mode each way.
     let step = size.map(|side| 2.0 * PI / side);
     let ends: [f64; 2] = std::array::from_fn(|axis| (most[axis] as f64 + 0.5) * step[axis]);
     let last = spectrum.short.min(ends[0].hypot(ends[1]));
@@ -57,7 +57,7 @@ pub(super) fn sums_within(
     for index in 0..STEPS {
         let wavenumber = seam * ((index as f64 + 0.5) * width).exp();
         let ring = share_within(wavenumber, ends) * 2.0 * PI * wavenumber * wavenumber * width;
-        // A mode stands for its cell of the plane: |H|^2 = C times its area.
+        // A mode represents its cell in the plane of wavevectors: |H|^2 = C times the cell's area.
         let power = ring * spectrum.density(wavenumber);
         let square = wavenumber * wavenumber;
         modes += ring * modes_per_area;
@@ -71,7 +71,7 @@ pub(super) fn sums_within(
 
 /// Share of the circle of radius `radius` that lies in the rectangle `|x| < ends[0], |y| < ends[1]`.
 fn share_within(radius: f64, ends: [f64; 2]) -> f64 {
-    // Of a quarter turn, the angles beyond the sides.
+    // In one quadrant, the angles beyond the sides.
     let beyond = |end: f64| (end / radius).min(1.0).acos();
     (1.0 - (beyond(ends[0]) + beyond(ends[1])) * 2.0 / PI).max(0.0)
 }
@@ -85,16 +85,16 @@ mod tests {
     fn a_circle_in_a_rectangle() {
         assert_eq!(share_within(1.0, [2.0, 1.0]), 1.0);
         assert_eq!(share_within(3.0, [2.0, 1.0]), 0.0);
-        // 30 degrees from each of the four crossings with the side x = 1/2 on.
+        // The circle crosses the side x = 1/2 at 30 degrees from each of the four corners.
         let at = share_within(1.0, [0.5, 2.0]);
         assert_relative_eq!(at, 1.0 / 3.0, max_relative = 1e-14);
     }
 
-    /// Against the sum over every mode, whole and cut by a grid: 2500 waves, so that most of the
-    /// slope and nearly all of the curvature come from the integral. The margin is twice what the
-    /// lattice leaves at the seam (see above), with which the sums of modes agree.
+    /// Against the sum over every mode, for the whole band and for a band cut by a grid. With 2500
+    /// waves most of the slope and nearly all of the curvature come from the integral. The margin
+    /// is twice the lattice error given above.
     #[test]
-    fn the_integral_is_the_sum() {
+    fn the_integral_approximates_the_sum() {
         let spectrum = SelfAffineSpectrum {
             hurst: 0.7,
             long: 1.0,
@@ -113,7 +113,7 @@ mod tests {
             close(found.slope, expected.slope);
             close(found.curvature, expected.curvature);
         }
-        // A seam within the plateau of the spectrum, on a cell that is not square.
+        // The integral starts on the spectrum's plateau; the cell is not square.
         let flat = SelfAffineSpectrum {
             rolloff: 2000.0,
             ..spectrum

@@ -1,4 +1,4 @@
-//! How far heights know of each other: the radially averaged autocorrelation and its length.
+//! The radially averaged autocorrelation of heights and its correlation length.
 
 use num_complex::Complex;
 
@@ -6,22 +6,24 @@ use super::fourier;
 use crate::grid::{Grid, signed_index};
 use crate::scene::Boundary;
 
-/// The correlation length is where the autocorrelation has fallen to this share: 1/e.
-const FALLEN_TO: f64 = 0.367_879_441_171_442_33;
+/// The correlation length is the distance at which the autocorrelation has fallen to 1/e.
+const ONE_OVER_E: f64 = 0.367_879_441_171_442_33;
 
-/// Correlation length, m: the shortest distance at which the autocorrelation of the heights about their
-/// mean, averaged over directions in rings a pixel wide, falls to 1/e of the mean square height.
+/// Correlation length, m: the shortest distance at which the autocorrelation of the heights about
+/// their mean, averaged over directions in rings one pixel wide, falls to 1/e of the mean square
+/// height.
 ///
-/// On a free grid only pairs of points on the map count, by zero padding, and each distance is divided
-/// by its number of pairs. `None` where it does not fall so far within half the shorter side, and on a
-/// flat map. Takes one transform there and back, of 9/4 as many points on a free grid.
+/// On a free grid the map is padded with zeros, so that only pairs of points on the map count, and
+/// each distance is divided by its number of pairs. `None` if the autocorrelation does not fall to
+/// 1/e within half the shorter side, and for a flat map. Costs one transform each way, of 9/4 as
+/// many points on a free grid.
 pub fn correlation_length(grid: &Grid, heights: &[f64], boundary: Boundary) -> Option<f64> {
     let rings = autocorrelation(grid, heights, boundary);
     let (_, whole) = *rings.first()?;
     if !(whole.is_finite() && whole > 0.0) {
         return None;
     }
-    let target = FALLEN_TO * whole;
+    let target = ONE_OVER_E * whole;
     let pair = rings.windows(2).find(|pair| pair[1].1 <= target)?;
     let [(near, before), (far, after)] = [pair[0], pair[1]];
     Some(near + (far - near) * (before - target) / (before - after))
@@ -31,7 +33,7 @@ pub fn correlation_length(grid: &Grid, heights: &[f64], boundary: Boundary) -> O
 /// the shorter side.
 fn autocorrelation(grid: &Grid, heights: &[f64], boundary: Boundary) -> Vec<(f64, f64)> {
     let mean = heights.iter().sum::<f64>() / grid.len() as f64;
-    // With zeros for half a side no pair of points up to half a side apart wraps round.
+    // With half a side of zeros no pair of points within half a side wraps round.
     let padded = match boundary {
         Boundary::Periodic => *grid,
         Boundary::Free => {
@@ -65,7 +67,8 @@ fn autocorrelation(grid: &Grid, heights: &[f64], boundary: Boundary) -> Vec<(f64
         if ring >= rings.len() || lags[0] >= grid.nx || lags[1] >= grid.ny {
             continue;
         }
-        // Share of the points that have a partner so far away; the transform averages over all.
+        // Share of the points that have a partner at this distance; the transform averages over all
+        // points.
         let share = match boundary {
             Boundary::Periodic => 1.0,
             Boundary::Free => {
@@ -105,7 +108,7 @@ mod tests {
         let expected = 1.749_91 / (2.0 * PI * 4.0);
         let found = correlation_length(&grid, &heights, Boundary::Periodic);
         assert_relative_eq!(found.unwrap(), expected, max_relative = 0.02);
-        // The same waves cut off where they do not close, fewer pairs: 5 %.
+        // The same waves cut at a phase where they do not close; fewer pairs: 5 %.
         let (grid, heights) = egg_box(256, 7.3);
         let expected = 1.749_91 / (2.0 * PI * 7.3);
         let found = correlation_length(&grid, &heights, Boundary::Free);

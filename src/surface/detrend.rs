@@ -1,12 +1,14 @@
-//! What is taken off a measured height map: mean, plane or quadratic, by least squares.
+//! Removes the mean, a plane or a quadratic from a measured height map by least squares.
 
 use nalgebra::{DMatrix, DVector};
 
 use crate::scene::Detrend;
 
-/// Takes the least-squares surface of the given kind off `heights`, shape `[rows, columns]`, row-major.
+/// Subtracts the least-squares surface of the given kind from `heights`, shape `[rows, columns]`,
+/// row-major.
 ///
-/// On a map too narrow for a term (two columns and a quadratic) the smallest coefficients that fit are taken.
+/// On a map too narrow for a term (two columns and a quadratic) the solution of least norm is
+/// taken.
 pub(super) fn detrend(heights: &mut [f64], rows: usize, columns: usize, kind: Detrend) {
     let terms = match kind {
         Detrend::None => return,
@@ -14,7 +16,7 @@ pub(super) fn detrend(heights: &mut [f64], rows: usize, columns: usize, kind: De
         Detrend::Plane => 3,
         Detrend::Quadratic => 6,
     };
-    // The mean first: a large offset would otherwise cost digits in the sums.
+    // Subtract the mean first: a large offset would cost digits in the sums.
     let mean = heights.iter().sum::<f64>() / heights.len() as f64;
     let mut normal = DMatrix::zeros(terms, terms);
     let mut load = DVector::zeros(terms);
@@ -28,7 +30,8 @@ pub(super) fn detrend(heights: &mut [f64], rows: usize, columns: usize, kind: De
             }
         }
     }
-    // Scaled so that what a narrow map cannot tell apart is a singular value of 0 up to rounding.
+    // Scaled so that a term that a narrow map cannot determine has a singular value of 0 up to
+    // rounding.
     let count = heights.len() as f64;
     let Ok(coefficients) = (normal / count)
         .svd(true, true)
@@ -103,7 +106,7 @@ mod tests {
     }
 
     #[test]
-    fn what_is_left_has_no_mean_and_no_slope() {
+    fn a_detrended_map_has_no_mean_and_no_slope() {
         let mut heights: Vec<f64> = (0..63).map(|i| ((i * 37) % 11) as f64).collect();
         detrend(&mut heights, 9, 7, Detrend::Plane);
         for term in 0..3 {
@@ -113,7 +116,7 @@ mod tests {
     }
 
     #[test]
-    fn narrow_maps_are_no_trouble() {
+    fn narrow_maps_are_detrended() {
         for (rows, columns) in [(1, 1), (1, 2), (2, 1), (2, 2), (1, 9), (3, 1)] {
             let mut heights: Vec<f64> = (0..rows * columns).map(|i| i as f64).collect();
             detrend(&mut heights, rows, columns, Detrend::Quadratic);

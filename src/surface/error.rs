@@ -1,4 +1,4 @@
-//! What can be wrong with a scene's surface.
+//! Errors of a scene's surface.
 
 use std::path::PathBuf;
 
@@ -23,7 +23,7 @@ pub enum SurfaceError {
         "[grid] size is missing, and no height file of this scene carries it; write size = \"10 um\""
     )]
     SizeMissing,
-    /// A count of points that no grid has, or none that memory holds.
+    /// A number of points outside the limits of a grid or of memory.
     #[error(
         "[grid] points = [{}, {}] is not possible: both must be at least 1 and their product at most {}",
         points[0], points[1], MOST_POINTS
@@ -32,14 +32,14 @@ pub enum SurfaceError {
         /// Points along x and y.
         points: [usize; 2],
     },
-    /// A size that is not two lengths that one can compute with.
+    /// A size that is not a pair of finite, positive lengths.
     #[error("[grid] size = [{:e}, {:e}] m must be two lengths between 1e-30 and 1e30 m; check the unit", size[0], size[1])]
     Size {
         /// Size along x and y, m.
         size: [f64; 2],
     },
-    /// The memory of this machine does not hold the heights.
-    #[error("[grid] points = [{}, {}]: no memory for {} bytes of heights; take fewer points",
+    /// The heights do not fit into this machine's memory.
+    #[error("[grid] points = [{}, {}]: {} bytes of heights do not fit into memory; take fewer points",
         points[0], points[1], points[0] * points[1] * size_of::<f64>())]
     Memory {
         /// Points along x and y.
@@ -61,9 +61,9 @@ pub enum SurfaceError {
         /// What is wrong with it.
         problem: Box<MapError>,
     },
-    /// A sum of parts past the range of numbers.
+    /// The sum of the parts overflows.
     #[error(
-        "the heights are not finite, or past 1e30 m, at row {row}, column {column} (counted from 1): a length of a [[surface]] is too large"
+        "the heights are not finite, or exceed 1e30 m, at row {row}, column {column} (counted from 1): a length of a [[surface]] is too large"
     )]
     NotFinite {
         /// Row (y), from 1.
@@ -98,7 +98,7 @@ pub enum PartError {
         /// Angle between axis and flank, degrees.
         degrees: f64,
     },
-    /// Waves that do not close on a periodic grid.
+    /// Waves that are not periodic on a periodic grid.
     #[error(
         "wavelength = {wavelength:e} m along {axis} does not divide the periodic size {size:e} m: \
          {waves:.6} waves; the nearest that does is {nearest:e} m"
@@ -146,7 +146,7 @@ pub enum PartError {
         /// Shortest wavelength, m.
         shortest: f64,
     },
-    /// A band between the modes of the cell.
+    /// A band that contains no mode of the cell.
     #[error(
         "no wave of the grid lies between longest = {longest:e} m and shortest = {shortest:e} m; \
          widen the band or take a larger size"
@@ -157,7 +157,7 @@ pub enum PartError {
         /// Shortest wavelength, m.
         shortest: f64,
     },
-    /// A band too long to sum over.
+    /// A band with too many modes to sum.
     #[error(
         "shortest = {shortest:e} m gives {waves:.3e} waves across the grid, more than can be summed; \
          take at least {least:.3e} m"
@@ -170,9 +170,9 @@ pub enum PartError {
         /// The least wavelength that can be summed, m.
         least: f64,
     },
-    /// A band of which the grid holds nothing.
+    /// A band of which the grid resolves no wave.
     #[error(
-        "the grid holds no wave of the band: pixels of {dx:e} x {dy:e} m against longest = {longest:e} m; \
+        "the grid resolves no wave of the band: pixels of {dx:e} x {dy:e} m against longest = {longest:e} m; \
          take more points"
     )]
     BandNotHeld {
@@ -196,7 +196,7 @@ pub enum PartError {
 /// What is wrong with a height file. Lines, rows and columns count from 1.
 #[derive(Debug, Error)]
 pub enum FileError {
-    /// A kind of file that this version does not read.
+    /// An unsupported kind of file.
     #[error(
         "height files of kind .{extension} are not in this version; save the heights as .npy, as text \
          (.txt, .csv, .xyz), or as .gsf, .gwy, .grd, .sdf, .sur, .al3d, grey .png or .tif"
@@ -205,7 +205,7 @@ pub enum FileError {
         /// The extension, lower case.
         extension: String,
     },
-    /// A name that does not tell the kind of file.
+    /// A name from which the kind of file cannot be told.
     #[error(
         "the name has no extension and the first bytes are those of no known kind; name it .txt if it is \
          a text matrix, so that its kind is known"
@@ -218,15 +218,15 @@ pub enum FileError {
     #[error("this is a folder; path must name one height file")]
     Folder,
     /// A device, pipe or socket in place of a file.
-    #[error("this is no regular file; copy the heights into one")]
+    #[error("this is not a regular file; copy the heights into one")]
     NotRegular,
     /// A file that cannot be read.
     #[error("cannot be read: {0}")]
     Read(#[source] std::io::Error),
-    /// Nothing in it.
+    /// An empty file.
     #[error("the file is empty (0 bytes)")]
     Empty,
-    /// A file that is not what its name says.
+    /// A file whose content contradicts its extension.
     #[error("the name says .{extension}, but the file holds {found}; give it the right extension")]
     OtherContent {
         /// The extension, lower case.
@@ -234,8 +234,8 @@ pub enum FileError {
         /// What its first bytes say.
         found: String,
     },
-    /// Text with bytes that no text has.
-    #[error("the file is no text: byte {offset} is 0")]
+    /// A text file with binary content.
+    #[error("the file is not text: byte {offset} is 0")]
     Binary {
         /// Offset of the first such byte, from 0.
         offset: usize,
@@ -243,14 +243,14 @@ pub enum FileError {
     /// Text in an encoding of two bytes a character.
     #[error("the text is in UTF-16; save it as UTF-8")]
     Utf16,
-    /// A file too long to take in.
-    #[error("{bytes} bytes are too many to take in; save the heights as .npy")]
+    /// A file too long to read.
+    #[error("{bytes} bytes are too many to read; save the heights as .npy")]
     TooLong {
         /// Length of the file.
         bytes: u64,
     },
-    /// The memory of this machine does not hold the numbers.
-    #[error("no memory for {bytes} bytes; take a smaller map")]
+    /// The numbers do not fit into this machine's memory.
+    #[error("{bytes} bytes do not fit into memory; take a smaller map")]
     Memory {
         /// Bytes asked for.
         bytes: u64,
@@ -283,7 +283,7 @@ pub enum FileError {
         /// What is wrong.
         what: String,
     },
-    /// A form of a known format that this version does not read.
+    /// An unsupported variant of a known format.
     #[error("{what} are not in this version; {instead}")]
     NotSupported {
         /// Which form.
@@ -291,7 +291,7 @@ pub enum FileError {
         /// What to do.
         instead: &'static str,
     },
-    /// Numbers of rows and columns that no grid has.
+    /// Numbers of rows and columns outside the limits of a grid.
     #[error("the file says it has {rows} rows of {columns} columns; both must be at least 1")]
     Counts {
         /// Rows in the file.
@@ -299,9 +299,9 @@ pub enum FileError {
         /// Columns in the file.
         columns: i64,
     },
-    /// A quantity that is no length.
+    /// A quantity that is not a length.
     #[error(
-        "the file gives its {what} in {}, which is no length; save an image of heights, or the numbers as .npy",
+        "the file gives its {what} in {}, which is not a length; save an image of heights, or the numbers as .npy",
         quoted(unit)
     )]
     NotALength {
@@ -310,21 +310,21 @@ pub enum FileError {
         /// The unit in the file.
         unit: String,
     },
-    /// Points with coordinates that form no grid.
-    #[error("the points x, y, z form no grid: {what}")]
+    /// Points x, y, z that do not form a grid.
+    #[error("the points x, y, z do not form a grid: {what}")]
     NotAGrid {
         /// What is wrong.
         what: String,
     },
-    /// A grey image without the heights of its shades.
+    /// A grey image without the heights of black and white.
     #[error(
         "this is a grey image: write black and white, the heights of its ends (black = 0, white = \"1 um\")"
     )]
     GreyEndsMissing,
-    /// Heights of shades for a file that has none.
+    /// Heights of black and white for a file that is not a grey image.
     #[error("black and white are for grey images; this file holds heights, so leave both out")]
     GreyEndsUnused,
-    /// Shades that make no difference.
+    /// Black and white of the same height.
     #[error(
         "black and white are both {value:e} m: an image of one height; write flat in its place"
     )]
@@ -347,7 +347,7 @@ pub enum FileError {
         /// The shape in the file.
         shape: Vec<u64>,
     },
-    /// An array of something else than real numbers.
+    /// An array of elements that are not real numbers.
     #[error(
         "elements of type {} are not heights; save them as float32, float64 or an integer type",
         cut(found)
@@ -376,7 +376,7 @@ pub enum FileError {
         /// Points in the file, or those counted so far.
         points: u64,
     },
-    /// Nothing but comments, or an array of no elements.
+    /// No numbers: nothing but comments, or an empty array.
     #[error("the file holds no numbers")]
     NoNumbers,
     /// Rows of different length.
@@ -394,7 +394,7 @@ pub enum FileError {
         /// Values of the first row.
         expected: usize,
     },
-    /// Something that is no number.
+    /// A cell that is not a number.
     #[error("line {line} (row {row}), column {column}: \"{text}\" is not a number")]
     NotANumber {
         /// Line of the file.
@@ -403,10 +403,10 @@ pub enum FileError {
         row: usize,
         /// Column.
         column: usize,
-        /// What stands there, cut to 40 characters.
+        /// Its text, cut to 40 characters.
         text: String,
     },
-    /// Missing pixels that nobody asked to fill.
+    /// Missing pixels without `fill = "interpolate"`.
     #[error(
         "{count} of {points} pixels are missing ({infinite} of them infinite), the first at row {row}, \
          column {column}; write fill = \"interpolate\" to fill them from their neighbours"
@@ -423,13 +423,13 @@ pub enum FileError {
         /// Column of the first.
         column: usize,
     },
-    /// No pixel to fill from.
+    /// All pixels are missing.
     #[error("all {points} pixels are missing: there is nothing to interpolate from")]
     AllMissing {
         /// All pixels.
         points: usize,
     },
-    /// Heights with which one cannot compute.
+    /// Heights outside the range of supported magnitudes.
     #[error(
         "the largest height is {largest:e} m; heights must be 0 or between 1e-30 and 1e30 m: check the unit and the powers of ten"
     )]
@@ -437,7 +437,7 @@ pub enum FileError {
         /// Largest magnitude of a height, m.
         largest: f64,
     },
-    /// A factor that is no number.
+    /// A factor that is not a supported number.
     #[error(
         "{name} = {value:e} must be between 1e-30 and 1e30, or minus that; check the powers of ten"
     )]
@@ -447,7 +447,7 @@ pub enum FileError {
         /// Its value.
         value: f64,
     },
-    /// Another number of points than the grid.
+    /// The file's number of points differs from the grid's.
     #[error(
         "the map has {columns} x {rows} points (x, y), but {against} has {} x {}{hint}",
         points[0], points[1]
@@ -464,7 +464,7 @@ pub enum FileError {
         /// What to do.
         hint: &'static str,
     },
-    /// Another size than the grid.
+    /// The file's size differs from the grid's.
     #[error(
         "the map says it is {:e} x {:e} m (x, y), but {against} says {:e} x {:e} m; leave size out or correct one",
         found[0], found[1], size[0], size[1]

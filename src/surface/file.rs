@@ -1,4 +1,4 @@
-//! Heights from a file: what kind it is, its numbers, and what the scene wants done with them.
+//! Reads a height file and applies the scene's fill, unit, scale and detrending.
 
 use super::error::FileError;
 use super::matrix::{Matrix, Size};
@@ -6,12 +6,13 @@ use super::statistics::edge_jumps;
 use super::{detrend, fill, formats};
 use crate::grid::Grid;
 use crate::scene::{Boundary, Fill, HeightFileScene};
-use crate::units::is_sane;
+use crate::units::in_range;
 
-/// Relative difference up to which two sizes agree: files write a few digits.
+/// Relative difference up to which two sizes agree: files store few digits.
 const SIZE_MARGIN: f64 = 1e-3;
 
-/// Jump between opposite edges, in steps between neighbours, from which on a map does not repeat.
+/// A map is taken as not periodic if the jump between opposite edges exceeds this many times the
+/// step between neighbours.
 ///
 /// A single wave whose steepest flank lies on the edge reaches 1.4.
 const EDGE_JUMP: f64 = 3.0;
@@ -23,14 +24,14 @@ pub(super) struct HeightMap {
     pub(super) heights: Vec<f64>,
     /// Points along x and y.
     pub(super) points: [usize; 2],
-    /// Size along x and y, m, where the file says it.
+    /// Size along x and y, m, if the file states it.
     pub(super) size: Option<[f64; 2]>,
-    /// What the author should know.
+    /// Warnings for the user.
     pub(super) warnings: Vec<String>,
 }
 
 impl HeightMap {
-    /// Refuses a map with other points than `points` (x, y).
+    /// Refuses a map whose number of points differs from `points` (x, y).
     pub(super) fn compare_points(
         &self,
         points: [usize; 2],
@@ -53,7 +54,7 @@ impl HeightMap {
         })
     }
 
-    /// Refuses a map that says another size than `size` (x, y), m.
+    /// Refuses a map whose size differs from `size` (x, y), m.
     pub(super) fn compare_size(
         &self,
         size: [f64; 2],
@@ -72,13 +73,13 @@ impl HeightMap {
     }
 }
 
-/// Reads the height map of a scene: numbers, missing pixels, unit and scale, trend.
+/// Reads the height map of a scene and applies fill, unit, scale and detrending.
 ///
 /// # Errors
 /// See [`FileError`].
 pub(super) fn read(scene: &HeightFileScene, boundary: Boundary) -> Result<HeightMap, FileError> {
     for (name, value) in [("unit", scene.unit), ("scale", scene.scale)] {
-        if value == 0.0 || !is_sane(value) {
+        if value == 0.0 || !in_range(value) {
             return Err(FileError::Factor { name, value });
         }
     }
@@ -108,7 +109,7 @@ pub(super) fn read(scene: &HeightFileScene, boundary: Boundary) -> Result<Height
     }
     let magnitude = |most: f64, height: &f64| most.max(height.abs());
     let largest = heights.iter().fold(0.0, magnitude);
-    if !is_sane(largest) {
+    if !in_range(largest) {
         return Err(FileError::Extreme { largest });
     }
     detrend::detrend(&mut heights, rows, columns, scene.detrend);
@@ -126,7 +127,7 @@ pub(super) fn read(scene: &HeightFileScene, boundary: Boundary) -> Result<Height
     })
 }
 
-/// What turns the numbers of a file into heights: the factor, then the height of 0.
+/// The factor that turns the file's numbers into heights, and the height of 0.
 fn factor_and_zero(
     matrix: &Matrix,
     scene: &HeightFileScene,
@@ -180,10 +181,10 @@ fn fill_missing(
 
 /// Warns of a map whose opposite edges do not match.
 fn warn_of_edges(heights: &[f64], points: [usize; 2], warnings: &mut Vec<String>) {
-    // Jumps are compared with steps of the same map: lengths do not matter.
+    // Jumps are compared with steps of the same map, so lengths do not matter.
     let grid = Grid::new(points, [1.0, 1.0]);
     for (axis, (jump, step)) in ["x", "y"].into_iter().zip(edge_jumps(&grid, heights)) {
-        // Rounding of a detrended plane is no jump.
+        // Rounding of a detrended plane is not a jump.
         let noise = 1e-12 * heights.iter().fold(0.0_f64, |most, h| most.max(h.abs()));
         if jump > EDGE_JUMP * step && jump > noise {
             warnings.push(format!(

@@ -1,17 +1,18 @@
-//! Missing pixels, interpolated from their neighbours.
+//! Interpolates missing pixels from their neighbours.
 
-/// Most iterations of the membrane; a hole of a few thousand pixels across takes as many.
+/// Iteration limit of the membrane solve; a hole a few thousand pixels wide needs as many.
 const MOST_ITERATIONS: usize = 20_000;
 
-/// Residual, relative to that of a start from the mean, at which the membrane is at rest.
+/// Residual, relative to that of a start from the mean, at which the solve ends.
 const TOLERANCE: f64 = 1e-10;
 
-/// Replaces what is not finite by a membrane spanned over the rest, and returns how many were replaced.
+/// Replaces non-finite heights by a membrane stretched over the finite ones; returns the number
+/// replaced.
 ///
-/// Shape `[rows, columns]`, row-major. Each replaced pixel is the mean of its neighbours (up to 4; on a
-/// periodic map always, across the edges): the discrete Laplace equation, with pixels taken as
-/// square. Solved by conjugate gradients; iterations grow with the diameter of the largest hole. Without
-/// any finite pixel nothing is replaced.
+/// Shape `[rows, columns]`, row-major. Each replaced pixel is the mean of its neighbours (up to 4;
+/// always 4 on a periodic map, across the edges). This is the discrete Laplace equation with pixels
+/// taken as square, solved by conjugate gradients; the number of iterations grows with the diameter
+/// of the largest hole. Without any finite pixel nothing is replaced.
 pub(super) fn interpolate(
     values: &mut [f64],
     rows: usize,
@@ -28,7 +29,7 @@ pub(super) fn interpolate(
     let finite = values.iter().filter(|value| value.is_finite());
     let mean = finite.map(|value| value / known).sum::<f64>();
 
-    // Slot of a missing pixel in the list, `missing.len()` for a known one.
+    // Index of a missing pixel in the list of unknowns; `missing.len()` for a known pixel.
     let none = missing.len();
     let mut slot = vec![none; values.len()];
     for (index, pixel) in missing.iter().enumerate() {
@@ -41,7 +42,7 @@ pub(super) fn interpolate(
     for pixel in &missing {
         let mut slots = [none; 4];
         let (mut degree, mut load) = (0.0, 0.0);
-        let around = around(*pixel, rows, columns, periodic);
+        let around = neighbours_of(*pixel, rows, columns, periodic);
         for (place, neighbour) in slots.iter_mut().zip(around.into_iter().flatten()) {
             *place = slot[neighbour];
             degree += 1.0;
@@ -54,15 +55,15 @@ pub(super) fn interpolate(
         residual.push(load);
     }
     drop(slot);
-    let unknown = relax(&neighbours, &degrees, residual);
+    let unknown = solve_membrane(&neighbours, &degrees, residual);
     for (pixel, height) in missing.iter().zip(&unknown) {
         values[*pixel] = mean + height;
     }
     none
 }
 
-/// Conjugate gradients for the membrane from a start of 0; `residual` is the load.
-fn relax(neighbours: &[[usize; 4]], degrees: &[f64], mut residual: Vec<f64>) -> Vec<f64> {
+/// Conjugate gradients for the membrane from a start of 0; `residual` is the right-hand side.
+fn solve_membrane(neighbours: &[[usize; 4]], degrees: &[f64], mut residual: Vec<f64>) -> Vec<f64> {
     let count = degrees.len();
     let mut unknown = vec![0.0; count];
     let mut direction = residual.clone();
@@ -92,18 +93,18 @@ fn relax(neighbours: &[[usize; 4]], degrees: &[f64], mut residual: Vec<f64>) -> 
     unknown
 }
 
-/// Sum of products.
+/// Scalar product.
 fn dot(one: &[f64], other: &[f64]) -> f64 {
     one.iter().zip(other).map(|(a, b)| a * b).sum()
 }
 
-/// The neighbours of a pixel that there are.
-fn around(pixel: usize, rows: usize, columns: usize, periodic: bool) -> [Option<usize>; 4] {
+/// The neighbours of a pixel; `None` beyond a free edge.
+fn neighbours_of(pixel: usize, rows: usize, columns: usize, periodic: bool) -> [Option<usize>; 4] {
     let (row, column) = (pixel / columns, pixel % columns);
     let step = |at: usize, count: usize, forward: bool| -> Option<usize> {
         let next = if forward { at + 1 } else { at + count - 1 };
         let inside = if forward { next < count } else { at > 0 };
-        // A pixel is no neighbour of itself on an axis of one.
+        // On an axis of one point a pixel is not its own neighbour.
         (count > 1 && (inside || periodic)).then_some(next % count)
     };
     [
@@ -121,7 +122,7 @@ mod tests {
 
     #[test]
     fn a_plane_is_filled_exactly() {
-        // A plane solves the Laplace equation; the hole keeps off the edges.
+        // A plane solves the Laplace equation; the hole does not touch the edges.
         let plane = |i: usize| 3.0 + 0.5 * (i % 12) as f64 - 2.0 * (i / 12) as f64;
         let mut values: Vec<f64> = (0..120).map(plane).collect();
         for row in 2..7 {
@@ -137,7 +138,7 @@ mod tests {
     }
 
     #[test]
-    fn a_hole_at_the_edge_sees_across_a_periodic_one() {
+    fn a_hole_at_a_periodic_edge_has_neighbours_opposite() {
         let row = [f64::NAN, 1.0, 2.0, 7.0];
         let mut free = row;
         interpolate(&mut free, 1, 4, false);
@@ -148,7 +149,7 @@ mod tests {
     }
 
     #[test]
-    fn with_nothing_known_nothing_is_filled() {
+    fn a_map_without_finite_pixels_is_unchanged() {
         let mut values = [f64::NAN; 4];
         assert_eq!(interpolate(&mut values, 2, 2, true), 0);
         assert_eq!(interpolate(&mut [1.0; 4], 2, 2, true), 0);

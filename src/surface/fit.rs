@@ -1,9 +1,9 @@
-//! The self-affine spectrum that a height map has: Hurst exponent, roll-off, cut-off, plateau.
+//! Fits a self-affine spectrum to a height map: Hurst exponent, roll-off, cut-off, plateau.
 //!
-//! Rings of the radial spectrum are compared with [`SelfAffineSpectrum`] in the likelihood of a random
-//! surface, whose periodogram scatters about its density like a sum of squares: `ln C + P/C` for each
-//! independent mode (Whittle 1953, doi:10.1007/BF02590998). Rings of very many modes count no more than
-//! those of a few hundred, so that the shortest waves do not outvote all others.
+//! Rings of the radial spectrum are compared with [`SelfAffineSpectrum`] by the likelihood of a
+//! random surface, whose periodogram scatters about its density like a sum of squares: `ln C + P/C`
+//! for each independent mode (Whittle 1953, doi:10.1007/BF02590998). The weight of a ring is
+//! limited to that of a few hundred modes, so that the shortest waves do not dominate the fit.
 
 use thiserror::Error;
 
@@ -13,51 +13,54 @@ use super::statistics::{SpectrumRing, fine_spectrum, first_wavenumber, radial_sp
 use crate::grid::Grid;
 use crate::scene::Boundary;
 
-/// Fewest rings from which four numbers are found.
+/// Minimum number of rings to fit four numbers.
 const FEWEST_RINGS: usize = 6;
-/// Largest weight of a ring, independent modes.
+/// Largest weight of a ring, in independent modes.
 const MOST_WEIGHT: f64 = 100.0;
-/// Modes from which on a ring's scatter cannot pass for the end of the spectrum.
+/// From this number of modes on a ring's scatter cannot be mistaken for the cut-off.
 const STEADY_MODES: usize = 16;
-/// A spectrum ends where it falls by this factor more than the steepest power law, within [`END_RINGS`].
+/// The spectrum is cut off where it falls by this factor more than the steepest power law within
+/// [`END_RINGS`].
 const END_FACTOR: f64 = 5.0;
-/// Waves to both sides of the end that tell where it is: a window smears it over two.
+/// Waves on either side of the cut-off that locate it: a window smears it over two.
 const END_WAVES: f64 = 4.0;
-/// Share of the waves up to the end from which on rings tell how dense a filled one is.
+/// Rings from this share of the cut-off's wave number on give the density of a full ring.
 const LEVEL_FROM: f64 = 0.75;
-/// Rounds after which the end stands still.
+/// Rounds after which the cut-off no longer moves.
 const END_ROUNDS: usize = 5;
-/// A fall by this factor is no scatter of however few modes.
+/// A fall by this factor cannot be scatter, however few the modes.
 const NO_SCATTER: f64 = 1e6;
 /// Steepest power law of a self-affine surface: 2 (1 + hurst) at a Hurst exponent of 1.
 const STEEPEST: f64 = 4.0;
-/// Rings within which a spectrum ends: a window smears its end over two modes.
+/// Number of rings over which the cut-off may be spread: a window smears it over two modes.
 const END_RINGS: usize = 3;
-/// Share of the densest ring below which rings of the longest waves lie before the band.
+/// Rings of the longest waves below this share of the densest ring lie outside the band.
 const BEFORE_BAND: f64 = 1e-3;
-/// Shortest wave number of a windowed map that is compared, in first ones: the window bends those below.
+/// Shortest wave number compared on a windowed map, in units of the first: the window distorts
+/// longer waves.
 const WINDOWED_FROM: f64 = 1.5;
-/// Hurst exponents tried.
+/// Range of Hurst exponents tried.
 const HURST: [f64; 2] = [0.01, 0.99];
-/// Places of the roll-off tried, before the best of them is refined.
+/// Number of roll-offs tried before the best is refined.
 const ROLLOFFS: usize = 120;
-/// Ratio of the roll-off to the smallest wave number from which on it counts as seen.
+/// A roll-off counts as resolved if it exceeds the smallest wave number by this factor.
 const ROLLOFF_SEEN: f64 = 1.2;
 
-/// What a map's spectrum looks like as that of a self-affine surface.
+/// The self-affine spectrum fitted to a height map.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct SelfAffineFit {
     /// The spectrum.
     pub spectrum: SelfAffineSpectrum,
     /// Its sums over the modes of a cell of the map's size, from which rms height and slope follow.
     pub sums: BandSums,
-    /// Whether the spectrum bends; if not, `rolloff` is the smallest wave number.
+    /// Whether a roll-off is resolved; if not, `rolloff` is the smallest wave number.
     pub rolloff_seen: bool,
-    /// Whether the spectrum ends before the pixels do; if not, `short` is the largest wave number held.
+    /// Whether a cut-off is resolved; if not, `short` is the largest wave number of the grid.
     pub cutoff_seen: bool,
     /// Whether the Hurst exponent lies inside the range tried.
     pub hurst_inside: bool,
-    /// Root mean square of `log10` of the rings' densities over the fit's, of rings that have any.
+    /// Root mean square of `log10` of the ratio of ring density to fitted density, over rings with
+    /// power.
     pub scatter: f64,
 }
 
@@ -67,12 +70,12 @@ pub enum BandFitError {
     /// A map without roughness.
     #[error("the surface is flat")]
     Flat,
-    /// Too few waves to tell a power law.
+    /// Too few waves to fit a power law.
     #[error(
         "{rings} rings of the spectrum are too few, {FEWEST_RINGS} are needed; take a map of more points"
     )]
     TooFewRings {
-        /// Rings with any power that there are.
+        /// Number of rings with power.
         rings: usize,
     },
 }
@@ -91,12 +94,12 @@ pub fn fit(
         .fold((f64::INFINITY, f64::NEG_INFINITY), |ends, h| {
             (ends.0.min(*h), ends.1.max(*h))
         });
-    // Rounding of a constant is no roughness.
+    // Rounding of a constant map is not roughness.
     if greatest - least <= 1e-12 * greatest.abs().max(least.abs()) {
         return Err(BandFitError::Flat);
     }
     let first = first_wavenumber(grid);
-    // Beyond the wave of two pixels along the coarser axis rings are cut by the corners of the plane.
+    // Rings beyond the two-pixel wave along the coarser axis are incomplete.
     let held = largest_held(grid);
     let mut rings = radial_spectrum(grid, heights, boundary);
     rings.retain(|ring| ring.wavenumber <= held * (1.0 + 1e-9));
@@ -117,28 +120,28 @@ pub fn fit(
         _ => first,
     };
     rings.drain(..before.min(rings.len()));
-    let end = end_of_band(&rings);
+    let end = cutoff_ring(&rings);
     let compared = &rings[..end.unwrap_or(rings.len())];
-    // Waves along one axis alone leave rings without any power.
+    // If all waves run along one axis, some rings have no power.
     let held_power = |ring: &&SpectrumRing| ring.density > 0.0;
     let filled = compared.iter().filter(held_power).count();
     if filled < FEWEST_RINGS {
         return Err(BandFitError::TooFewRings { rings: filled });
     }
-    let mut spectrum = bend(compared, long, held);
+    let mut spectrum = fit_rolloff(compared, long, held);
     let rolloff_seen = spectrum.rolloff > ROLLOFF_SEEN * compared[0].wavenumber;
     if !rolloff_seen {
-        // No plateau is seen: the same power law down to the longest wave.
+        // No plateau is resolved: the power law extends to the longest wave.
         spectrum.plateau = spectrum.density(long.max(spectrum.rolloff))
             * (long.max(spectrum.rolloff) / long).powf(2.0 * (spectrum.hurst + 1.0));
         spectrum.rolloff = long;
     }
     if let Some(end) = end {
-        // Of the rings within which it falls the first is full and the last is empty.
+        // Over the rings of the cut-off the first is full and the last is empty.
         let last = rings[(end + END_RINGS).min(rings.len() - 1)].wavenumber;
         let guess = (rings[end].wavenumber * last).sqrt();
         let fine = fine_spectrum(grid, heights, boundary);
-        spectrum.short = end_about(&spectrum, &fine, first, guess).min(held);
+        spectrum.short = refined_cutoff(&spectrum, &fine, first, guess).min(held);
     }
     let squares: f64 = compared
         .iter()
@@ -166,13 +169,13 @@ fn largest_held(grid: &Grid) -> f64 {
     along(grid.nx, grid.lx).min(along(grid.ny, grid.ly))
 }
 
-/// Number of rings before the spectrum ends, where it does.
-fn end_of_band(rings: &[SpectrumRing]) -> Option<usize> {
+/// Number of rings before the cut-off, if there is one.
+fn cutoff_ring(rings: &[SpectrumRing]) -> Option<usize> {
     (0..rings.len().saturating_sub(1)).find(|&index| {
         let here = &rings[index];
         let later = &rings[(index + END_RINGS).min(rings.len() - 1)];
         let power_law = (later.wavenumber / here.wavenumber).powf(-STEEPEST);
-        // What is past its end stays low.
+        // Rings beyond the cut-off stay low.
         let later = &rings[(index + END_RINGS).min(rings.len() - 1)..];
         let falls = |factor: f64| {
             let level = here.density * power_law / factor;
@@ -182,10 +185,12 @@ fn end_of_band(rings: &[SpectrumRing]) -> Option<usize> {
     })
 }
 
-/// Where the spectrum ends, about `guess`: the rings there add up to as many as are filled.
+/// Wave number of the cut-off, near `guess`: the power of the rings there equals that of so many
+/// full ones.
 ///
-/// Filled is a ring as dense as those shortly below, which the fit may leave a little above or below.
-fn end_about(
+/// A full ring is as dense as those shortly below it, which may lie a little above or below the
+/// fit.
+fn refined_cutoff(
     spectrum: &SelfAffineSpectrum,
     fine: &[SpectrumRing],
     first: f64,
@@ -209,20 +214,20 @@ fn end_about(
             .filter(|ring| (start..=end + END_WAVES).contains(&number(ring)))
             .map(|ring| share(ring) / level)
             .sum();
-        // A ring reaches half a wave number to both sides.
+        // A ring extends half a wave number to either side.
         guess = (start - 0.5 + filled) * first;
     }
     guess
 }
 
 /// The most likely spectrum from `long` to `short` for the rings.
-fn bend(rings: &[SpectrumRing], long: f64, short: f64) -> SelfAffineSpectrum {
+fn fit_rolloff(rings: &[SpectrumRing], long: f64, short: f64) -> SelfAffineSpectrum {
     let [near, far] = [rings[0].wavenumber, rings[rings.len() - 1].wavenumber];
-    // At least a few rings lie beyond the roll-off, or it has no exponent.
+    // A few rings must lie beyond the roll-off, or the exponent is undetermined.
     let far = far.min(rings[rings.len() - 3].wavenumber);
     let at = |rolloff: f64| {
         let of = |hurst: f64| profiled(rings, hurst, rolloff, [long, short]);
-        let hurst = golden(HURST, |hurst| of(hurst).0);
+        let hurst = golden_section(HURST, |hurst| of(hurst).0);
         of(hurst)
     };
     let place = |step: usize| near * (far / near).powf(step as f64 / ROLLOFFS as f64);
@@ -233,11 +238,11 @@ fn bend(rings: &[SpectrumRing], long: f64, short: f64) -> SelfAffineSpectrum {
         place(best.saturating_sub(1)),
         place((best + 1).min(ROLLOFFS)),
     ];
-    let logarithm = golden(around.map(f64::ln), |logarithm| at(logarithm.exp()).0);
+    let logarithm = golden_section(around.map(f64::ln), |logarithm| at(logarithm.exp()).0);
     at(logarithm.exp()).1
 }
 
-/// The measure to be made small at a Hurst exponent and a roll-off, with the best plateau.
+/// Negative log-likelihood at a Hurst exponent and a roll-off, with the best plateau.
 fn profiled(
     rings: &[SpectrumRing],
     hurst: f64,
@@ -260,12 +265,12 @@ fn profiled(
         logarithms += weight(ring) * shape.ln();
     }
     spectrum.plateau = ratios / weights;
-    // The sum of P/C is the sum of the weights at the best plateau, whatever the rest.
+    // At the best plateau the sum of P/C equals the sum of the weights.
     (weights * spectrum.plateau.ln() + logarithms, spectrum)
 }
 
-/// Where a function with one minimum between two ends has it, by golden section.
-fn golden([mut low, mut high]: [f64; 2], function: impl Fn(f64) -> f64) -> f64 {
+/// Minimum of a unimodal function between two ends, by golden_section-section search.
+fn golden_section([mut low, mut high]: [f64; 2], function: impl Fn(f64) -> f64) -> f64 {
     const STEPS: usize = 40;
     let ratio = (5.0_f64.sqrt() - 1.0) / 2.0;
     let mut inner = [high - ratio * (high - low), low + ratio * (high - low)];

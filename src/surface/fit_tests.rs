@@ -5,7 +5,8 @@ use std::f64::consts::PI;
 use super::super::self_affine;
 use super::*;
 
-/// A spectrum of a cell of 1 um with so many waves to the roll-off and to the cut-off.
+/// A spectrum with the given numbers of waves to the roll-off and to the cut-off, in a cell of 1
+/// um.
 fn spectrum(hurst: f64, rolloff: f64, short: f64, cell: f64) -> SelfAffineSpectrum {
     let first = 2.0 * PI / cell;
     SelfAffineSpectrum {
@@ -24,9 +25,9 @@ fn relative(found: f64, expected: f64) -> f64 {
 
 #[test]
 fn a_generated_surface_gives_its_parameters_back() {
-    // The amplitudes are exact, so what is left is the width of the rings (12 %, over which the mean
-    // of a power law lies off its middle by up to 1 %, alike for all) and of the pixels at the cut-off,
-    // half a wave of 60.
+    // The amplitudes are exact. The error is the width of the rings (12 %; the mean of a power law
+    // over a ring lies off its middle by up to 1 %, equally for all) and of the pixels at the
+    // cut-off, half a wave of 60.
     for (hurst, rolloff, short, seed) in [
         (0.3, 4.0, 60.0, 1),
         (0.5, 8.0, 60.0, 2),
@@ -49,7 +50,7 @@ fn a_generated_surface_gives_its_parameters_back() {
             found.rolloff_seen && found.cutoff_seen && found.hurst_inside,
             "{case}"
         );
-        // What counts: the surface that the fit makes is as rough.
+        // The surface generated from the fit is as rough.
         let sums = band_sums(&asked, [1e-6, 1e-6]);
         assert!(
             relative(found.sums.height.sqrt(), sums.height.sqrt()) < 0.03,
@@ -63,11 +64,12 @@ fn a_generated_surface_gives_its_parameters_back() {
 }
 
 #[test]
-fn a_patch_of_a_larger_surface_gives_them_too() {
-    // A quarter of the cell under a Hann window: its few long modes scatter like squares of Gaussian
-    // numbers. The same estimate written apart from this code, over thirty patches each of Hurst exponent
-    // 0.4 and 0.8, scatters by 0.034 in the exponent (mean off by 0.01) and by 12 to 16 % in the roll-off
-    // (off by 5 %); the end scatters by 0.3 waves of 60. Three standard deviations of each.
+fn a_patch_of_a_larger_surface_gives_its_parameters() {
+    // A quarter of the cell under a Hann window: its few long modes scatter like squares of
+    // Gaussian numbers. An independent implementation of this estimate, over thirty patches each of
+    // Hurst exponent 0.4 and 0.8, scatters by 0.034 in the exponent (mean off by 0.01) and by 12 to
+    // 16 % in the roll-off (mean off by 5 %); the cut-off scatters by 0.3 waves of 60. Three
+    // standard deviations of each.
     for (hurst, seed) in [(0.4, 1), (0.6, 2), (0.8, 3), (0.8, 4)] {
         let asked = spectrum(hurst, 8.0, 120.0, 2e-6);
         let whole = Grid::new([512, 512], [2e-6, 2e-6]);
@@ -89,7 +91,7 @@ fn a_patch_of_a_larger_surface_gives_them_too() {
 }
 
 #[test]
-fn without_a_bend_and_an_end_both_are_said_to_be_missing() {
+fn missing_rolloff_and_cutoff_are_reported() {
     let asked = spectrum(0.7, 1.0, 127.0, 1e-6);
     let grid = Grid::new([256, 256], [1e-6, 1e-6]);
     let heights = self_affine::heights(&asked, &grid, 5);
@@ -98,12 +100,12 @@ fn without_a_bend_and_an_end_both_are_said_to_be_missing() {
     assert_eq!(found.spectrum.rolloff, found.spectrum.long);
     assert!(relative(found.spectrum.short, asked.short) < 1e-9);
     assert!((found.spectrum.hurst - 0.7).abs() < 0.02, "{found:?}");
-    // The rings near the first mode hold 4 modes each; the slope is that of all the others: 3 %.
+    // The rings near the first mode hold 4 modes each; the slope follows from all the others: 3 %.
     assert!(relative(found.sums.slope, band_sums(&asked, [1e-6; 2]).slope) < 0.06);
 }
 
 #[test]
-fn what_has_no_spectrum_is_refused() {
+fn maps_without_a_spectrum_are_refused() {
     let grid = Grid::new([64, 64], [1.0, 1.0]);
     assert_eq!(
         fit(&grid, &vec![2.0; 4096], Boundary::Periodic),

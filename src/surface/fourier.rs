@@ -1,7 +1,7 @@
 //! Two-dimensional real Fourier transforms of a whole surface.
 //!
 //! A half spectrum is stored by columns: element `kx * ny + ky` for `kx = 0 .. columns`, all `ky`.
-//! Columns beyond those stored are zero, so that a band-limited surface needs no full spectrum.
+//! Columns beyond those stored are zero, so a band-limited surface needs no full spectrum.
 
 use num_complex::Complex;
 use rayon::prelude::*;
@@ -10,10 +10,10 @@ use rustfft::FftPlanner;
 
 use crate::grid::Grid;
 
-/// Rows handled together, so that a cache line of a column serves several of them.
+/// Rows processed together, so that a cache line of a column serves several of them.
 const ROWS_TOGETHER: usize = 8;
 
-/// Heights `h(x) = sum H exp(i q x)` from the coefficients H of the columns `kx = 0 ..` that are given.
+/// Heights `h(x) = sum H exp(i q x)` from the coefficients H of the stored columns `kx = 0 ..`.
 ///
 /// `columns` has length `stored * ny` with `stored <= nx/2 + 1`; the missing half follows from
 /// `H(-q) = conj H(q)`. Returns shape `[ny, nx]`. No factor is applied: the coefficients are those of
@@ -37,12 +37,14 @@ pub fn synthesise(grid: &Grid, mut columns: Vec<Complex<f64>>) -> Vec<f64> {
             |(row_spectrum, scratch), (chunk, rows)| {
                 for (offset, row) in rows.chunks_mut(nx).enumerate() {
                     let iy = chunk * ROWS_TOGETHER + offset;
-                    // The transform uses its input as scratch: every column anew, also the zero ones.
+                    // The transform uses its input as scratch, so every column is copied again,
+                    // also the zero ones.
                     row_spectrum.fill(Complex::default());
                     for (value, column) in row_spectrum.iter_mut().zip(columns.chunks(ny)) {
                         *value = column[iy];
                     }
-                    // Real by symmetry up to rounding, which the transform would refuse.
+                    // Real by symmetry; the transform would refuse a rounding error in the
+                    // imaginary part.
                     row_spectrum[0].im = 0.0;
                     if nx.is_multiple_of(2) {
                         row_spectrum[nx / 2].im = 0.0;

@@ -1,6 +1,6 @@
 //! A matrix of numbers as a file holds it.
 
-/// Numbers of a height file before anything is done to them.
+/// Numbers of a height file before unit, scale and detrending.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub(super) struct Matrix {
     /// Numbers in the file's unit, shape `[rows, columns]`, row-major; a missing one is NaN.
@@ -9,13 +9,13 @@ pub(super) struct Matrix {
     pub(super) rows: usize,
     /// Columns, along x.
     pub(super) columns: usize,
-    /// Size along x and y, where the file says it.
+    /// Size along x and y, if the file states it.
     pub(super) size: Option<Size>,
-    /// Metres per unit of the numbers, where the file says it.
+    /// Metres per unit of the numbers, if the file states it.
     pub(super) unit: Option<f64>,
     /// Whether the numbers are shades of grey, from 0 (black) to 1 (white).
     pub(super) grey: bool,
-    /// What the author should know.
+    /// Warnings for the user.
     pub(super) warnings: Vec<String>,
 }
 
@@ -24,6 +24,6 @@ pub(super) struct Matrix {
 pub(super) enum Size {
     /// In metres.
     Metres([f64; 2]),
-    /// In the unit of the numbers: of points with coordinates x, y, z and no word on units.
+    /// In the unit of the numbers: for points with coordinates x, y, z without stated units.
     LikeHeights([f64; 2]),
 }

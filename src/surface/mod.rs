@@ -34,29 +34,29 @@ pub use outline::{MapOutline, Outline, Source};
 
 use crate::grid::Grid;
 use crate::scene::{Boundary, GridScene, Scene, SurfacePart};
-use crate::units::{LARGEST, is_sane};
+use crate::units::{LARGEST, in_range};
 use file::HeightMap;
-use shapes::Place;
+use shapes::ApexPosition;
 use statistics::Statistics;
 
 /// Most points of a grid: 8 GiB of heights.
 pub const MOST_POINTS: usize = 1 << 30;
 
-/// Heights on a grid, and what is known about them.
+/// Heights on a grid, with their reference height and adhesion map.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Surface {
     /// The grid, from the scene or from a height file.
     pub grid: Grid,
     /// Heights, m, shape `[ny, nx]`, row-major, positive towards the solid.
     pub heights: Vec<f64>,
-    /// The highest point, m, from which the approach counts: of a surface that is exactly one sphere
-    /// or one cone its true apex, else the highest sampled point.
+    /// Height from which the approach counts, m: the true apex if the surface is exactly one sphere
+    /// or one cone, else the highest sampled point.
     pub highest: f64,
-    /// Radius, m, of a surface that is exactly one sphere.
+    /// Radius, m, if the surface is exactly one sphere.
     pub sphere_radius: Option<f64>,
     /// Factors on the tension of the scene's law, shape `[ny, nx]`; `None` without a map.
     pub adhesion_map: Option<Vec<f64>>,
-    /// What the author should know, one sentence each, naming the part.
+    /// Warnings for the user, one sentence each, naming the part.
     pub warnings: Vec<String>,
 }
 
@@ -81,7 +81,7 @@ impl Surface {
         if parts.is_empty() {
             return Err(SurfaceError::Empty);
         }
-        // Before a file is read or memory asked for: the scene's own numbers.
+        // Check the scene's own numbers before a file is read or memory is allocated.
         check_grid(scene.points, scene.size)?;
         let mut maps = read_maps(scene, parts)?;
         let grid = resolve_grid(scene, &maps)?;
@@ -95,12 +95,12 @@ impl Surface {
                     found = map.warnings;
                 }
                 None => add_part(&mut heights, part, &grid, scene.boundary, &mut found)
-                    .map_err(|problem| of_part(index, problem))?,
+                    .map_err(|problem| part_error(index, problem))?,
             }
             let named = |warning| format!("[[surface]] {}: {warning}", index + 1);
             warnings.extend(found.into_iter().map(named));
         }
-        // Past the range are squares of curvatures that are no numbers.
+        // Beyond this range squares of curvatures overflow.
         let fits = |height: &f64| height.abs() <= LARGEST;
         if let Some(index) = heights.iter().position(|height| !fits(height)) {
             return Err(SurfaceError::NotFinite {
@@ -126,14 +126,14 @@ impl Surface {
         })
     }
 
-    /// Root mean squares, moments and extremes of the heights; see [`Statistics::of`].
+    /// Root mean squares, moments and extremes of the heights; see [`Statistics::from_heights`].
     pub fn statistics(&self, boundary: Boundary) -> Statistics {
-        Statistics::of(&self.grid, &self.heights, boundary)
+        Statistics::from_heights(&self.grid, &self.heights, boundary)
     }
 }
 
 /// An error of the part at `index`.
-fn of_part(index: usize, problem: PartError) -> SurfaceError {
+fn part_error(index: usize, problem: PartError) -> SurfaceError {
     SurfaceError::Part {
         part: index + 1,
         problem: Box::new(problem),
@@ -149,7 +149,7 @@ fn single_part(parts: &[SurfacePart]) -> Option<&SurfacePart> {
     if shaped.next().is_some() { None } else { first }
 }
 
-/// Refuses points and sizes, where they are given, that no grid can have.
+/// Refuses numbers of points and sizes outside the limits of a grid.
 fn check_grid(points: Option<[usize; 2]>, size: Option<[f64; 2]>) -> Result<(), SurfaceError> {
     if let Some(points) = points {
         let count = points[0].checked_mul(points[1]);
@@ -158,7 +158,7 @@ fn check_grid(points: Option<[usize; 2]>, size: Option<[f64; 2]>) -> Result<(), 
         }
     }
     if let Some(size) = size
-        && !size.iter().all(|side| *side > 0.0 && is_sane(*side))
+        && !size.iter().all(|side| *side > 0.0 && in_range(*side))
     {
         return Err(SurfaceError::Size { size });
     }
@@ -167,7 +167,7 @@ fn check_grid(points: Option<[usize; 2]>, size: Option<[f64; 2]>) -> Result<(), 
 
 /// The height maps of the parts that are files; `None` for the others.
 ///
-/// Each is compared with the scene's grid as soon as it is read, so that the first wrong one ends it.
+/// Each is compared with the scene's grid as soon as it is read; the first mismatch is the error.
 fn read_maps(
     scene: &GridScene,
     parts: &[SurfacePart],
@@ -182,7 +182,7 @@ fn read_maps(
         };
         let of_file = |problem| {
             let path = file.path.clone();
-            of_part(index, PartError::File { path, problem })
+            part_error(index, PartError::File { path, problem })
         };
         let map = file::read(file, scene.boundary).map_err(of_file)?;
         if let Some((points, against)) = points {
@@ -211,7 +211,7 @@ fn resolve_grid(scene: &GridScene, maps: &[Option<HeightMap>]) -> Result<Grid, S
     Ok(Grid::new(points, size))
 }
 
-/// Heights of 0, if the memory of this machine holds them.
+/// Zero heights, if this machine's memory holds them.
 fn zeros(grid: &Grid) -> Result<Vec<f64>, SurfaceError> {
     let mut heights = Vec::new();
     heights
@@ -231,7 +231,7 @@ fn add_part(
     boundary: Boundary,
     warnings: &mut Vec<String>,
 ) -> Result<(), PartError> {
-    let place = |centre: Option<[f64; 2]>| Place { centre, boundary };
+    let place = |centre: Option<[f64; 2]>| ApexPosition { centre, boundary };
     match part {
         SurfacePart::Flat => Ok(()),
         SurfacePart::Sphere { radius, centre } => {
@@ -251,7 +251,7 @@ fn add_part(
             add(heights, &rough);
             Ok(())
         }
-        // Read and added before.
+        // A file's heights were read and added before.
         SurfacePart::File(_) => Ok(()),
     }
 }

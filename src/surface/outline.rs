@@ -1,17 +1,17 @@
-//! What is known of a scene's surface before its heights are made.
+//! Summary of a scene's surface without building its heights.
 //!
-//! A check of a large scene answers from its spectra and shapes; only height files are read.
+//! `tabor check` of a large scene answers from its spectra and shapes; only height files are read.
 
 use std::f64::consts::PI;
 
 use super::error::{PartError, SurfaceError};
-use super::shapes::{self, Place};
+use super::shapes::{self, ApexPosition};
 use super::spectrum::SpectralMoments;
-use super::{Surface, adhesion_map, check_grid, of_part, self_affine, single_part};
+use super::{Surface, adhesion_map, check_grid, part_error, self_affine, single_part};
 use crate::grid::Grid;
 use crate::scene::{AdhesionMap, Boundary, Scene, SurfacePart};
 
-/// Points a side of the sample from which the slope and curvature of a shape are taken.
+/// Points a side of the sample that gives the slope and curvature of a shape.
 const SAMPLE: usize = 128;
 
 /// How the moments of an outline were found.
@@ -19,10 +19,10 @@ const SAMPLE: usize = 128;
 pub enum Source {
     /// From the heights.
     Heights,
-    /// From the sum over the modes of a spectrum, which is what the heights have.
+    /// From the sum over the modes of a spectrum, which equals that over the heights.
     Spectrum,
-    /// Estimated: the parts' own mean squares added up as if they knew nothing of each other, a shape
-    /// sampled on fewer points, short waves as an integral, or edges of a free patch left out.
+    /// Estimated: the parts' mean squares are added as if uncorrelated, a shape is sampled on fewer
+    /// points, short waves are integrated, or edges of a free patch are left out.
     Estimate,
 }
 
@@ -35,15 +35,15 @@ pub struct Outline {
     pub moments: SpectralMoments,
     /// How they were found.
     pub source: Source,
-    /// Radius, m, of a surface that is exactly one sphere.
+    /// Radius, m, if the surface is exactly one sphere.
     pub sphere_radius: Option<f64>,
-    /// The map of factors on the law's tension, where the scene names one.
+    /// Summary of the adhesion map; `None` without one.
     pub map: Option<MapOutline>,
-    /// What the author should know, one sentence each, naming the part.
+    /// Warnings for the user, one sentence each, naming the part.
     pub warnings: Vec<String>,
 }
 
-/// What is known of a map of factors on the law's tension.
+/// Summary of an adhesion map, the factors on the law's tension.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct MapOutline {
     /// The largest factor.
@@ -55,8 +55,8 @@ pub struct MapOutline {
 }
 
 impl MapOutline {
-    /// That of a map that is there; it is not empty.
-    pub fn of(map: &[f64]) -> MapOutline {
+    /// Summary of a non-empty map.
+    pub fn from_factors(map: &[f64]) -> MapOutline {
         let count = map.len() as f64;
         let mean = map.iter().sum::<f64>() / count;
         let square = map.iter().map(|f| (f - mean) * (f - mean)).sum::<f64>() / count;
@@ -67,8 +67,8 @@ impl MapOutline {
         }
     }
 
-    /// That of two factors in turn, but for the pixels where they meet.
-    pub fn of_pattern(low: f64, high: f64) -> MapOutline {
+    /// Summary of two alternating factors, ignoring the pixels at their boundaries.
+    pub fn from_pattern(low: f64, high: f64) -> MapOutline {
         MapOutline {
             largest: low.max(high),
             mean: 0.5 * (low + high),
@@ -77,7 +77,7 @@ impl MapOutline {
     }
 }
 
-/// What one part gives to the whole.
+/// Contribution of one part.
 struct PartOutline {
     /// Mean squares of height, slope and Laplacian.
     mean_squares: [f64; 3],
@@ -86,18 +86,18 @@ struct PartOutline {
 }
 
 impl Outline {
-    /// Looks at a scene's surface. Takes no memory of the size of the grid, unless a part is a height
-    /// file: then the heights are built and measured.
+    /// Summarises a scene's surface. Needs no memory of the size of the grid, except for height
+    /// files, whose heights are built and measured.
     ///
     /// # Errors
-    /// As [`Surface::build`], but for sums of parts past the range of numbers.
-    pub fn of(scene: &Scene) -> Result<Outline, SurfaceError> {
+    /// As [`Surface::build`], except for overflow of the sum of the parts.
+    pub fn from_scene(scene: &Scene) -> Result<Outline, SurfaceError> {
         let parts = &scene.surfaces;
         if parts
             .iter()
             .any(|part| matches!(part, SurfacePart::File(_)))
         {
-            return Ok(Outline::measured(
+            return Ok(Outline::from_heights(
                 &Surface::build(scene)?,
                 scene.grid.boundary,
             ));
@@ -114,7 +114,7 @@ impl Outline {
         let mut source = Source::Spectrum;
         for (index, part) in parts.iter().enumerate() {
             let found = part_outline(part, &grid, scene.grid.boundary)
-                .map_err(|problem| of_part(index, problem))?;
+                .map_err(|problem| part_error(index, problem))?;
             for (sum, one) in sums.iter_mut().zip(found.mean_squares) {
                 *sum += one;
             }
@@ -143,24 +143,27 @@ impl Outline {
                 .and_then(|adhesion| adhesion.map.as_ref())
             {
                 Some(AdhesionMap::Pattern { low, high, .. }) => {
-                    Some(MapOutline::of_pattern(*low, *high))
+                    Some(MapOutline::from_pattern(*low, *high))
                 }
                 _ => adhesion_map::build(scene, &grid)?
                     .as_deref()
-                    .map(MapOutline::of),
+                    .map(MapOutline::from_factors),
             },
             warnings,
         })
     }
 
-    /// The outline of heights that are there.
-    pub fn measured(surface: &Surface, boundary: Boundary) -> Outline {
+    /// The outline of existing heights.
+    pub fn from_heights(surface: &Surface, boundary: Boundary) -> Outline {
         Outline {
             grid: surface.grid,
             moments: surface.statistics(boundary).moments,
             source: Source::Heights,
             sphere_radius: surface.sphere_radius,
-            map: surface.adhesion_map.as_deref().map(MapOutline::of),
+            map: surface
+                .adhesion_map
+                .as_deref()
+                .map(MapOutline::from_factors),
             warnings: surface.warnings.clone(),
         }
     }
@@ -171,7 +174,7 @@ fn part_outline(
     grid: &Grid,
     boundary: Boundary,
 ) -> Result<PartOutline, PartError> {
-    let place = |centre: Option<[f64; 2]>| Place { centre, boundary };
+    let place = |centre: Option<[f64; 2]>| ApexPosition { centre, boundary };
     match part {
         SurfacePart::Flat | SurfacePart::File(_) => Ok(PartOutline {
             mean_squares: [0.0; 3],
@@ -216,7 +219,7 @@ fn part_outline(
 /// Mean squares of a sphere or a cone from a sample of it on fewer points.
 fn sampled(
     grid: &Grid,
-    place: Place,
+    place: ApexPosition,
     add: impl Fn(&mut [f64], &Grid) -> Result<(), PartError>,
 ) -> Result<PartOutline, PartError> {
     let fewer = Grid::new(
@@ -225,8 +228,9 @@ fn sampled(
     );
     let mut heights = vec![0.0; fewer.len()];
     add(&mut heights, &fewer)?;
-    // Differences, not waves: the edges of a shape that does not repeat are no part of it.
-    let moments = super::statistics::Statistics::of(&fewer, &heights, Boundary::Free).moments;
+    // Differences, not waves: the edge jump of a shape that is not periodic does not count.
+    let moments =
+        super::statistics::Statistics::from_heights(&fewer, &heights, Boundary::Free).moments;
     Ok(PartOutline {
         mean_squares: [
             moments.m0,

@@ -1,6 +1,6 @@
 //! Self-affine roughness: a sum of waves of exact amplitude whose phases come from a seed.
 //!
-//! The phase of a wave depends on the seed and its index alone, so the surface is the same on every
+//! The phase of a wave depends only on the seed and its index, so the surface is the same on every
 //! grid, in every order of evaluation and on every machine.
 
 use std::f64::consts::PI;
@@ -15,10 +15,10 @@ use super::spectrum::SelfAffineSpectrum;
 use crate::grid::Grid;
 use crate::scene::{Roughness, SelfAffineScene};
 
-/// Relative margin within which a mode at the end of the band belongs to it.
+/// Relative margin within which a mode at the end of the band is included.
 const BAND_MARGIN: f64 = 1e-9;
 
-/// Most waves along one axis in a band: `size / shortest`. A longer band takes minutes to sum.
+/// Most waves along one axis in a band, `size / shortest`; a longer band takes minutes to sum.
 pub const MOST_WAVES: f64 = 32768.0;
 
 /// The finaliser of the splitmix64 generator: a bijection of 64-bit words that mixes them well.
@@ -40,7 +40,7 @@ pub fn phase_fraction(seed: u64, k: i64, l: i64) -> f64 {
     (mix(mix(seed) ^ index) >> 11) as f64 / (1_u64 << 53) as f64
 }
 
-/// Mean squares of a surface with every mode of a band: what the sums over `|H|^2` come to.
+/// Mean squares of a surface with every mode of a band: sums over `|H|^2`.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct BandSums {
     /// Number of modes, both half planes.
@@ -54,7 +54,7 @@ pub struct BandSums {
 }
 
 impl BandSums {
-    /// The sums of a spectrum `factor` times as high.
+    /// The sums of a spectrum scaled by `factor`.
     fn times(self, factor: f64) -> BandSums {
         BandSums {
             modes: self.modes,
@@ -64,7 +64,7 @@ impl BandSums {
         }
     }
 
-    /// Both together.
+    /// The sum of both.
     fn plus(self, other: BandSums) -> BandSums {
         BandSums {
             modes: self.modes + other.modes,
@@ -75,10 +75,10 @@ impl BandSums {
     }
 }
 
-/// Sums over all modes of the band in a cell of `size` (m), whatever a grid can hold.
+/// Sums over all modes of the band in a cell of `size` (m), whether or not a grid resolves them.
 ///
-/// Costs one power per mode of a quarter plane (15 s on two cores at [`MOST_WAVES`], 0.2 s at a tenth of
-/// it); independent of grid, seed and number of threads.
+/// Costs one power per mode of a quarter plane (15 s on two cores at [`MOST_WAVES`], 0.2 s at a
+/// tenth of it); independent of grid, seed and number of threads.
 pub fn band_sums(spectrum: &SelfAffineSpectrum, size: [f64; 2]) -> BandSums {
     sums_within(spectrum, size, [i64::MAX; 2])
 }
@@ -90,7 +90,7 @@ pub(super) fn sums_within(
     most: [i64; 2],
 ) -> BandSums {
     let band = Band::new(spectrum, size);
-    // Columns are summed apart and added in order, so that the sum does not depend on threads.
+    // Columns are summed separately and added in order, so that the sum does not depend on threads.
     let columns: Vec<BandSums> = (0..=band.last_k().min(most[0]))
         .into_par_iter()
         .map(|k| {
@@ -116,7 +116,7 @@ pub(super) fn sums_within(
         .fold(BandSums::default(), BandSums::plus)
 }
 
-/// Which modes of a cell lie in the band.
+/// The modes of a cell that lie in the band.
 struct Band {
     /// Wave numbers of the first mode along x and y, 1/m.
     step: [f64; 2],
@@ -135,17 +135,17 @@ impl Band {
         }
     }
 
-    /// Largest k that the band can hold.
+    /// Largest k in the band.
     fn last_k(&self) -> i64 {
         (self.ends[1] / self.step[0]) as i64
     }
 
-    /// Largest l that the band can hold.
+    /// Largest l in the band.
     fn last_l(&self) -> i64 {
         (self.ends[1] / self.step[1]) as i64
     }
 
-    /// Wave number of mode (k, l), if it lies in the band; the mean plane never does.
+    /// Wave number of mode (k, l), if it lies in the band; the mean plane is never included.
     fn wavenumber(&self, k: i64, l: i64) -> Option<f64> {
         if k == 0 && l == 0 {
             return None;
@@ -154,13 +154,13 @@ impl Band {
         (self.ends[0] <= wavenumber && wavenumber <= self.ends[1]).then_some(wavenumber)
     }
 
-    /// `|H|^2` of a mode, m^2: C times the area in the plane of wavevectors that it stands for.
+    /// `|H|^2` of a mode, m^2: C times the mode's area in the plane of wavevectors.
     fn power(&self, spectrum: &SelfAffineSpectrum, wavenumber: f64) -> f64 {
         self.step[0] * self.step[1] * spectrum.density(wavenumber)
     }
 }
 
-/// Heights with every mode of the band that the grid can hold, shape `[ny, nx]`, m.
+/// Heights with every mode of the band that the grid resolves, shape `[ny, nx]`, m.
 ///
 /// The amplitude of a mode is exactly `2 pi sqrt(C(q) / (lx ly))`. Modes with `|k| >= nx/2` or
 /// `|l| >= ny/2` are left out; the others do not change with the grid.
@@ -176,7 +176,7 @@ pub fn heights(spectrum: &SelfAffineSpectrum, grid: &Grid, seed: u64) -> Vec<f64
         .enumerate()
         .for_each(|(k, column)| {
             let k = k as i64;
-            // Of the column k = 0 only one half is free; the other one mirrors it.
+            // In the column k = 0 one half is free; the other mirrors it.
             let first_l = if k == 0 { 1 } else { -last_l };
             for l in first_l..=last_l {
                 let Some(wavenumber) = band.wavenumber(k, l) else {
@@ -194,26 +194,26 @@ pub fn heights(spectrum: &SelfAffineSpectrum, grid: &Grid, seed: u64) -> Vec<f64
     fourier::synthesise(grid, columns)
 }
 
-/// Largest |k| and |l| that the grid can hold: below half its points.
+/// Largest |k| and |l| that the grid resolves: below half its points.
 fn most_held(grid: &Grid) -> [i64; 2] {
     [(grid.nx as i64 - 1) / 2, (grid.ny as i64 - 1) / 2]
 }
 
-/// What is known of a self-affine part on a grid before its heights are made.
+/// Properties of a self-affine part on a grid, without its heights.
 pub(super) struct Survey {
     /// The spectrum, scaled to the asked rms height or slope.
     spectrum: SelfAffineSpectrum,
-    /// Sums over the modes that the grid holds.
+    /// Sums over the modes that the grid resolves.
     pub(super) held: BandSums,
-    /// Whether the sums were taken mode by mode.
+    /// Whether the sums are exact, mode by mode.
     pub(super) exact: bool,
 }
 
-/// Heights of a scene's self-affine part on the grid, with what the reader should know about them.
+/// Heights of a scene's self-affine part on the grid, with warnings.
 ///
 /// # Errors
-/// Values out of range, a band without modes in this cell, one with too many to sum, and one of
-/// which the grid holds nothing.
+/// Values out of range, a band without modes in this cell, one with too many modes to sum, and one
+/// of which the grid resolves nothing.
 pub(super) fn build(
     scene: &SelfAffineScene,
     grid: &Grid,
@@ -223,8 +223,8 @@ pub(super) fn build(
     Ok(heights(&found.spectrum, grid, scene.seed))
 }
 
-/// The same without the heights; of a band with very many waves the short ones are counted by an
-/// integral, so that it takes no time.
+/// The same without the heights; in a band with very many waves the short ones are integrated,
+/// which takes negligible time.
 ///
 /// # Errors
 /// As [`build`].
@@ -238,7 +238,7 @@ pub(super) fn survey(
     Ok(found)
 }
 
-/// A way to sum over the modes of a band with `|k| <= most[0]` and `|l| <= most[1]`.
+/// A sum over the modes of a band with `|k| <= most[0]` and `|l| <= most[1]`.
 type Sum = dyn Fn(&SelfAffineSpectrum, [f64; 2], [i64; 2]) -> BandSums;
 
 fn look(
@@ -271,7 +271,8 @@ fn look(
     })
 }
 
-/// Warns of waves that the cell or the grid cannot hold; of the modes `held` among `all`.
+/// Warns of waves that the cell or the grid cannot represent; `held` are the resolved modes of
+/// `all`.
 fn warn(
     scene: &SelfAffineScene,
     grid: &Grid,
@@ -302,8 +303,8 @@ fn warn(
     }
 }
 
-/// The spectrum of a scene's self-affine part in a cell of `size` (m), with the plateau that gives
-/// the asked rms height or slope to the sum over all modes of the band, and those sums.
+/// The spectrum of a scene's self-affine part in a cell of `size` (m), with the plateau for which
+/// the sum over all modes of the band has the given rms height or slope, and those sums.
 ///
 /// # Errors
 /// Values out of range, a band without modes in this cell, and one with too many to sum.

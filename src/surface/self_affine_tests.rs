@@ -102,7 +102,7 @@ fn rms_slope_sets_the_slope() {
 }
 
 #[test]
-fn a_grid_too_coarse_says_what_is_missing() {
+fn a_coarse_grid_reports_missing_waves() {
     let scene = scene(0.8, 16.0, Roughness::RmsHeight(0.52e-9));
     let size = [2.0 * PI / 2.5e5; 2];
     let mut warnings = Vec::new();
@@ -147,7 +147,7 @@ fn values_outside_the_model_are_refused() {
 proptest! {
     #![proptest_config(ProptestConfig::with_cases(24))]
 
-    /// A finer grid samples the same surface: the waves do not know the grid.
+    /// A finer grid samples the same surface: the waves do not depend on the grid.
     #[test]
     fn the_surface_does_not_change_with_the_grid(
         half_points in (17_usize..40, 17_usize..40),

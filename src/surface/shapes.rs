@@ -1,6 +1,6 @@
 //! Simple shapes: sphere, cone, waves.
 //!
-//! Every function adds its heights to those that are there, shape `[ny, nx]`, m.
+//! Every function adds its heights to those present, shape `[ny, nx]`, m.
 
 use std::f64::consts::PI;
 
@@ -10,21 +10,21 @@ use super::error::PartError;
 use crate::grid::Grid;
 use crate::scene::Boundary;
 
-/// How far the number of waves across a periodic grid may be from a whole one, relative.
+/// Relative deviation from a whole number of waves across a periodic grid that is accepted.
 ///
-/// A wavelength is written with a few digits; within this margin it is taken as the one that closes.
+/// A wavelength is written with few digits; within this margin the periodic one is taken.
 const WAVES_MARGIN: f64 = 1e-6;
 
-/// Where a shape stands: its apex, and what lies beyond the edge of the grid.
+/// Where a shape stands: its apex and the boundary.
 #[derive(Clone, Copy, Debug)]
-pub struct Place {
+pub struct ApexPosition {
     /// Apex (x, y), m; `None` is the middle of the points.
     pub centre: Option<[f64; 2]>,
-    /// A periodic grid repeats the shape: each point sees its nearest image.
+    /// A periodic grid repeats the shape: each point uses the nearest image.
     pub boundary: Boundary,
 }
 
-impl Place {
+impl ApexPosition {
     /// The apex (x, y) on this grid, m.
     pub fn centre_on(&self, grid: &Grid) -> [f64; 2] {
         self.centre.unwrap_or([
@@ -33,7 +33,7 @@ impl Place {
         ])
     }
 
-    /// What the author should know: an apex beyond a free grid is touched by nothing.
+    /// Warns of an apex beyond a free grid, where nothing touches.
     pub fn warning(&self, grid: &Grid) -> Option<String> {
         let [x, y] = self.centre_on(grid);
         // The grid ends with the pixels around its first and last points.
@@ -56,7 +56,7 @@ pub fn add_sphere(
     heights: &mut [f64],
     grid: &Grid,
     radius: f64,
-    place: Place,
+    place: ApexPosition,
 ) -> Result<(), PartError> {
     positive("radius", radius)?;
     add_round(heights, grid, place, |square| -square / (2.0 * radius))
@@ -70,7 +70,7 @@ pub fn add_cone(
     heights: &mut [f64],
     grid: &Grid,
     half_angle: f64,
-    place: Place,
+    place: ApexPosition,
 ) -> Result<(), PartError> {
     let degrees = half_angle.to_degrees();
     if !(degrees > 0.0 && degrees < 90.0) {
@@ -80,10 +80,12 @@ pub fn add_cone(
     add_round(heights, grid, place, |square| -square.sqrt() * flank)
 }
 
-/// Adds `amplitude cos(2 pi x / wavelength_x) cos(2 pi y / wavelength_y)`; an infinite wavelength gives 1.
+/// Adds `amplitude cos(2 pi x / wavelength_x) cos(2 pi y / wavelength_y)`; an infinite wavelength
+/// gives a factor of 1.
 ///
 /// # Errors
-/// Values that are no lengths; waves shorter than two pixels; waves that do not close on a periodic grid.
+/// Values that are not lengths; waves shorter than two pixels; waves that are not periodic on a
+/// periodic grid.
 pub fn add_waves(
     heights: &mut [f64],
     grid: &Grid,
@@ -102,7 +104,7 @@ pub fn add_waves(
     Ok(())
 }
 
-/// Refuses what [`add_waves`] refuses, without adding anything.
+/// The checks of [`add_waves`] alone.
 ///
 /// # Errors
 /// As [`add_waves`].
@@ -122,7 +124,7 @@ pub fn check_waves(
 fn add_round(
     heights: &mut [f64],
     grid: &Grid,
-    place: Place,
+    place: ApexPosition,
     profile: impl Fn(f64) -> f64 + Sync,
 ) -> Result<(), PartError> {
     let centre = place.centre_on(grid);
@@ -188,14 +190,15 @@ fn wave(
     }
     Ok((0..points)
         .map(|i| {
-            // The fraction of a period first: the argument stays small, and periods repeat exactly.
+            // Take the fraction of a period first: the argument stays small and periods repeat
+            // exactly.
             let periods = waves * i as f64 / points as f64;
             (2.0 * PI * periods.fract()).cos()
         })
         .collect())
 }
 
-/// Refuses what is no positive, finite number.
+/// Refuses a number that is not positive and finite.
 fn positive(name: &'static str, value: f64) -> Result<(), PartError> {
     if value.is_finite() && value > 0.0 {
         Ok(())
@@ -204,7 +207,7 @@ fn positive(name: &'static str, value: f64) -> Result<(), PartError> {
     }
 }
 
-/// Refuses what is no finite number.
+/// Refuses a non-finite number.
 fn finite(name: &'static str, value: f64) -> Result<(), PartError> {
     if value.is_finite() {
         Ok(())
@@ -217,13 +220,13 @@ fn finite(name: &'static str, value: f64) -> Result<(), PartError> {
 mod tests {
     use super::*;
 
-    const PERIODIC: Place = Place {
+    const PERIODIC: ApexPosition = ApexPosition {
         centre: None,
         boundary: Boundary::Periodic,
     };
 
-    fn at(centre: [f64; 2], boundary: Boundary) -> Place {
-        Place {
+    fn at(centre: [f64; 2], boundary: Boundary) -> ApexPosition {
+        ApexPosition {
             centre: Some(centre),
             boundary,
         }
@@ -237,7 +240,7 @@ mod tests {
         add_sphere(&mut heights, &grid, 2.0, PERIODIC).unwrap();
         assert_eq!(heights[2 * 4 + 1], -0.25 / 4.0);
         assert_eq!(heights[2 * 4 + 2], -0.25 / 4.0);
-        // Rows are y: one pixel of 2 up from the middle, half a pixel of 1 aside.
+        // Rows are y: one pixel of 2 up from the middle, half a pixel of 1 to the side.
         assert_eq!(heights[3 * 4 + 2], -(4.0 + 0.25) / 4.0);
     }
 
@@ -255,7 +258,7 @@ mod tests {
         assert_eq!(periodic[7], -0.5);
         assert_eq!(periodic[3 * 8], -0.5);
         assert_eq!(periodic[4], -8.0);
-        // An image of the same apex far away is the same shape.
+        // An image of the same apex far away gives the same shape.
         let mut image = vec![0.0; 32];
         add_sphere(
             &mut image,
@@ -271,7 +274,7 @@ mod tests {
     }
 
     #[test]
-    fn an_apex_outside_is_told_on_a_free_grid() {
+    fn an_apex_outside_a_free_grid_is_reported() {
         let grid = Grid::new([8, 4], [8.0, 4.0]);
         assert_eq!(at([-0.5, 3.5], Boundary::Free).warning(&grid), None);
         assert_eq!(at([9.0, 1.0], Boundary::Periodic).warning(&grid), None);
@@ -338,7 +341,7 @@ mod tests {
     }
 
     #[test]
-    fn values_that_are_no_shapes_are_refused() {
+    fn invalid_shapes_are_refused() {
         let grid = Grid::new([2, 2], [1.0, 1.0]);
         let mut heights = [0.0; 4];
         assert!(add_sphere(&mut heights, &grid, 0.0, PERIODIC).is_err());

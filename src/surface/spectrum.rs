@@ -1,4 +1,4 @@
-//! The self-affine power spectrum, its moments in closed form, and what follows from them.
+//! The self-affine power spectrum and its moments in closed form.
 
 use std::f64::consts::PI;
 
@@ -26,20 +26,21 @@ pub struct SelfAffineSpectrum {
 }
 
 impl SelfAffineSpectrum {
-    /// The same spectrum with the plateau that gives `rms_height` (m) to the continuous spectrum.
+    /// The same spectrum with the plateau that gives the continuous spectrum the given `rms_height`
+    /// (m).
     ///
-    /// A periodic surface has a sum in place of the integral and comes out a little different
-    /// (1 % at four modes up to the roll-off); see [`crate::surface::self_affine::band_sums`].
+    /// A periodic surface has a sum in place of the integral and differs a little (1 % at four
+    /// modes up to the roll-off); see [`crate::surface::self_affine::band_sums`].
     pub fn with_rms_height(mut self, rms_height: f64) -> Self {
         self.plateau = 1.0;
         self.plateau = rms_height * rms_height / self.moment(0);
         self
     }
 
-    /// C at wave number `wavenumber` (1/m), m^4, with no regard to the ends of the band.
+    /// C at wave number `wavenumber` (1/m), m^4, without the limits of the band.
     ///
-    /// The ends are the caller's: a mode of a periodic cell lies in the band or not, and rounding
-    /// must not cut it off.
+    /// The caller applies the limits: a mode of a periodic cell lies in the band or not, and
+    /// rounding must not remove it.
     pub fn density(&self, wavenumber: f64) -> f64 {
         if wavenumber <= self.rolloff {
             self.plateau
@@ -142,7 +143,7 @@ impl SpectralMoments {
     }
 }
 
-/// A number that is one, or nothing.
+/// A finite number, else `None`.
 fn defined(value: f64) -> Option<f64> {
     value.is_finite().then_some(value)
 }
@@ -199,7 +200,7 @@ mod tests {
         // k = 2 = 2H at H = 1: 2 pi ((2^4 - 1)/4 + 2^4 ln 10).
         let expected = 2.0 * PI * (15.0 / 4.0 + 16.0 * 10.0_f64.ln());
         assert_relative_eq!(at(1.0).moment(2), expected, max_relative = 1e-14);
-        // Continuous from both sides: no cancellation next to the special case.
+        // Continuous from both sides: no cancellation near the special case.
         for hurst in [1.0 - 1e-13, 1.0 + 1e-13] {
             assert_relative_eq!(at(hurst).moment(2), expected, max_relative = 1e-11);
         }

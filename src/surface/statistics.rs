@@ -13,7 +13,7 @@ use crate::scene::Boundary;
 /// Rings of the radial spectrum in a decade of wave numbers.
 const RINGS_A_DECADE: f64 = 20.0;
 
-/// What a height map is like.
+/// Statistics of a height map.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Statistics {
     /// Mean height, m.
@@ -22,21 +22,22 @@ pub struct Statistics {
     pub lowest: f64,
     /// Highest point, m.
     pub highest: f64,
-    /// Moments, from which follow rms height (about the mean), slope, curvature, Nayak parameter and
-    /// summit density.
+    /// Moments that give rms height (about the mean), slope, curvature, Nayak parameter and summit
+    /// density.
     pub moments: SpectralMoments,
 }
 
 impl Statistics {
     /// Statistics of `heights`, m, shape `[ny, nx]`.
     ///
-    /// On a periodic grid slope and curvature are those of the waves themselves (sums of `q^2 |H|^2`
-    /// and `q^4 |H|^2`). On a free grid the edges do not match and the waves would see a step: there
-    /// they are root mean squares of forward differences and of the five-point Laplacian, which are
-    /// low for waves of a few pixels (5 % of the curvature at eight pixels).
+    /// On a periodic grid slope and curvature are those of the waves (sums of `q^2 |H|^2` and `q^4
+    /// |H|^2`). On a free grid the edges do not match and the waves would include a step, so slope
+    /// and curvature are root mean squares of forward differences and of the five-point Laplacian,
+    /// which are low for waves of a few pixels (5 % of the curvature at eight pixels).
     ///
-    /// A periodic map takes one Fourier transform and twice its own memory. The grid has points.
-    pub fn of(grid: &Grid, heights: &[f64], boundary: Boundary) -> Self {
+    /// A periodic map takes one Fourier transform and twice its own memory. The grid must not be
+    /// empty.
+    pub fn from_heights(grid: &Grid, heights: &[f64], boundary: Boundary) -> Self {
         debug_assert!(!grid.is_empty() && heights.len() == grid.len());
         let count = grid.len() as f64;
         let mean = sum_over_rows(grid, heights, |_, row| row.iter().sum()) / count;
@@ -67,10 +68,10 @@ pub struct SpectrumRing {
     pub modes: usize,
 }
 
-/// Power spectral density averaged over rings of equal ratio, from long waves to short.
+/// Power spectral density averaged over rings of constant ratio, from long waves to short.
 ///
-/// Normalised so that `<h^2>` is the integral of C over the plane of wavevectors. The heights of a free
-/// grid are multiplied by a Hann window of mean square 1, for without it the mismatch of opposite
+/// Normalised so that `<h^2>` is the integral of C over the plane of wavevectors. The heights of a
+/// free grid are multiplied by a Hann window of mean square 1; without it the mismatch of opposite
 /// edges hides the short waves. Rings without modes are left out.
 pub fn radial_spectrum(grid: &Grid, heights: &[f64], boundary: Boundary) -> Vec<SpectrumRing> {
     let first = first_wavenumber(grid);
@@ -93,7 +94,7 @@ pub fn first_wavenumber(grid: &Grid) -> f64 {
     2.0 * PI / grid.lx.max(grid.ly)
 }
 
-/// Means over the modes for which `ring_of` gives the same number, by rising number.
+/// Means over the modes with the same ring number `ring_of`, by rising number.
 fn rings(
     grid: &Grid,
     heights: &[f64],
@@ -105,8 +106,8 @@ fn rings(
         Boundary::Free => fourier::analyse(grid, &windowed(grid, heights)),
     };
     let area = grid.area() / (4.0 * PI * PI);
-    // By number and not one after the other: of pixels a million times longer than wide the numbers
-    // reach far past the count of modes.
+    // Rings are stored by number, not as a dense list: for pixels a million times longer than wide
+    // the numbers far exceed the count of modes.
     let mut rings: BTreeMap<usize, SpectrumRing> = BTreeMap::new();
     for (kx, column) in spectrum.chunks(grid.ny).enumerate() {
         for (ky, coefficient) in column.iter().enumerate() {
@@ -133,7 +134,7 @@ fn rings(
     rings.into_values().map(mean).collect()
 }
 
-/// How often a stored column stands in the full spectrum.
+/// Multiplicity of a stored column in the full spectrum.
 fn images(grid: &Grid, kx: usize) -> usize {
     if kx == 0 || 2 * kx == grid.nx { 1 } else { 2 }
 }
@@ -161,7 +162,8 @@ fn spectral_mean_squares(grid: &Grid, heights: &[f64]) -> [f64; 2] {
         .fold([0.0; 2], |sum, one| [sum[0] + one[0], sum[1] + one[1]])
 }
 
-/// Mean square forward difference and five-point Laplacian of points that have the neighbours.
+/// Mean square forward difference and five-point Laplacian of the points that have these
+/// neighbours.
 fn difference_mean_squares(grid: &Grid, heights: &[f64]) -> [f64; 2] {
     let (nx, ny, dx, dy) = (grid.nx, grid.ny, grid.dx(), grid.dy());
     let along_x = sum_over_rows(grid, heights, |_, row| {
@@ -190,7 +192,7 @@ fn difference_mean_squares(grid: &Grid, heights: &[f64]) -> [f64; 2] {
             })
             .sum()
     });
-    // A grid one point wide has no slope that way, not an undefined one.
+    // A grid one point wide has zero slope along that axis, not an undefined one.
     let mean = |sum: f64, count: usize| if count == 0 { 0.0 } else { sum / count as f64 };
     [
         mean(along_x, (nx - 1) * ny) + mean(along_y, nx * (ny - 1)),
@@ -198,7 +200,7 @@ fn difference_mean_squares(grid: &Grid, heights: &[f64]) -> [f64; 2] {
     ]
 }
 
-/// Heights about their mean times a Hann window of mean square 1.
+/// Heights about their mean, times a Hann window of mean square 1.
 fn windowed(grid: &Grid, heights: &[f64]) -> Vec<f64> {
     let mean = heights.iter().sum::<f64>() / grid.len() as f64;
     let window = |points: usize| -> Vec<f64> {
@@ -219,7 +221,7 @@ fn windowed(grid: &Grid, heights: &[f64]) -> Vec<f64> {
     .collect()
 }
 
-/// Sum of a number for each row, added in order, so that it does not depend on threads.
+/// Sum over rows, added in order, so that it does not depend on threads.
 fn sum_over_rows(
     grid: &Grid,
     heights: &[f64],
@@ -235,7 +237,7 @@ fn sum_over_rows(
 
 /// Root mean square jump between opposite edges, and between neighbours, along x and along y.
 ///
-/// On a map that repeats the two are alike. Along an axis of one point both are 0.
+/// On a periodic map the two are similar. Along an axis of one point both are 0.
 pub fn edge_jumps(grid: &Grid, heights: &[f64]) -> [(f64, f64); 2] {
     let (nx, ny) = (grid.nx, grid.ny);
     let root = |sum: f64, count: usize| (sum / count.max(1) as f64).sqrt();
@@ -313,7 +315,7 @@ mod tests {
         let grid = Grid::new([64, 81], [2.0 * PI, 3.0 * PI]);
         let sums = self_affine::band_sums(&spectrum, [grid.lx, grid.ly]);
         let heights = self_affine::heights(&spectrum, &grid, 9);
-        let moments = Statistics::of(&grid, &heights, Boundary::Periodic).moments;
+        let moments = Statistics::from_heights(&grid, &heights, Boundary::Periodic).moments;
         assert_relative_eq!(moments.m0, sums.height, max_relative = 1e-12);
         assert_relative_eq!(moments.rms_slope(), sums.slope.sqrt(), max_relative = 1e-12);
         assert_relative_eq!(
@@ -334,7 +336,7 @@ mod tests {
                 7.0 + at(i % 16) * at(i / 16)
             })
             .collect();
-        let statistics = Statistics::of(&grid, &heights, Boundary::Periodic);
+        let statistics = Statistics::from_heights(&grid, &heights, Boundary::Periodic);
         assert_relative_eq!(statistics.mean, 7.0, max_relative = 1e-14);
         assert_eq!((statistics.lowest, statistics.highest), (6.0, 8.0));
         assert_relative_eq!(statistics.moments.rms_height(), 0.5, max_relative = 1e-13);
@@ -357,7 +359,7 @@ mod tests {
         let heights: Vec<f64> = (0..12)
             .map(|i| ((i % 4) as f64).powi(2) + 6.0 * (i / 4) as f64)
             .collect();
-        let moments = Statistics::of(&grid, &heights, Boundary::Free).moments;
+        let moments = Statistics::from_heights(&grid, &heights, Boundary::Free).moments;
         assert_relative_eq!(moments.rms_curvature(), 2.0, max_relative = 1e-14);
         assert_relative_eq!(
             2.0 * moments.m2,
@@ -365,7 +367,7 @@ mod tests {
             max_relative = 1e-14
         );
         let line = Grid::new([3, 1], [3.0, 1.0]);
-        let moments = Statistics::of(&line, &[0.0, 1.0, 2.0], Boundary::Free).moments;
+        let moments = Statistics::from_heights(&line, &[0.0, 1.0, 2.0], Boundary::Free).moments;
         assert_eq!((2.0 * moments.m2, moments.m4), (1.0, 0.0));
     }
 
@@ -392,7 +394,7 @@ mod tests {
             let expected = spectrum.density(ring.wavenumber);
             assert_relative_eq!(ring.density, expected, max_relative = 0.02);
         }
-        // The window keeps the mean square of a surface that does not repeat.
+        // The window keeps the mean square of a surface that is not periodic.
         let free = radial_spectrum(&grid, &heights, Boundary::Free);
         let total = |rings: &[SpectrumRing]| -> f64 {
             rings

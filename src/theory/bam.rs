@@ -1,15 +1,15 @@
 //! Bearing-area model: Ciavarella 2018, for a Dugdale law.
 //!
-//! Repulsion is Persson's exponential with the constants 3/8 and 2 of Persson 2007 (H = 0.8), kept
-//! as constants of the model; attraction acts where the undeformed surfaces are within the range,
-//! by the Gaussian bearing area. Slope and curvature of the roughness do not enter.
+//! Repulsion is Persson's exponential with the constants 3/8 and 2 of Persson 2007 (H = 0.8), which
+//! are constants of the model. Attraction acts where the undeformed gap is below the range, by the
+//! Gaussian bearing area. Slope and curvature of the roughness do not enter.
 
 use super::error::{TheoryError, positive};
 use super::roots::{minimum, root};
 use super::special::erfc;
 use std::f64::consts::SQRT_2;
 
-/// A rough surface in the two numbers of the model.
+/// A rough surface, described by the two parameters of the model.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct BearingArea {
     height_over_range: f64,
@@ -39,15 +39,14 @@ impl BearingArea {
         0.5 * (erfc((mean_gap - reach) / SQRT_2) - erfc(mean_gap / SQRT_2))
     }
 
-    /// Mean gap (in `h_rms`) at a net `pressure` (in sigma0), on the closer side of pull-off where
-    /// there is any tension.
+    /// Mean gap (in `h_rms`) at a net `pressure` (in sigma0), on the compressive side of pull-off.
     pub fn mean_gap(&self, pressure: f64) -> Result<f64, TheoryError> {
         let far = self.pull_off().map_or(self.farthest(), |(gap, _)| gap);
         let excess = |gap: f64| self.pressure(gap) - pressure;
         root("an equilibrium", excess, 0.0, far, 1e-12)
     }
 
-    /// A mean gap, in `h_rms`, beyond which nothing is left of either part.
+    /// A mean gap, in `h_rms`, beyond which both contributions vanish.
     fn farthest(&self) -> f64 {
         10.0 + 1.0 / self.height_over_range
     }

@@ -1,4 +1,4 @@
-//! Linear systems of some hundred unknowns by blocks, so that the work is matrix products.
+//! Linear systems of a few hundred unknowns by blocks, so that the work is matrix products.
 
 use nalgebra::DMatrix;
 
@@ -6,9 +6,9 @@ const BLOCK: usize = 48;
 
 /// Solves `matrix * x = sides`; `None` if a block on the diagonal is singular.
 ///
-/// Rows are exchanged within a block only. That serves matrices near the identity, and others
-/// whose solution is checked by its residual; it is several times faster than an elimination
-/// column by column.
+/// Pivots only within a block. That suffices for matrices near the identity, and for systems whose
+/// solution is checked by its residual; it is several times faster than elimination column by
+/// column.
 pub(crate) fn solve(mut matrix: DMatrix<f64>, mut sides: DMatrix<f64>) -> Option<DMatrix<f64>> {
     let (size, columns) = (matrix.nrows(), sides.ncols());
     let mut from = 0;
@@ -30,7 +30,7 @@ pub(crate) fn solve(mut matrix: DMatrix<f64>, mut sides: DMatrix<f64>) -> Option
         sides.view_mut((from, 0), (block, columns)).copy_from(&side);
         from = to;
     }
-    // The diagonal is now the identity: back through the rows of blocks.
+    // The diagonal is now the identity: back substitution through the rows of blocks.
     let mut to = size;
     while to > 0 {
         let from = (to - 1) / BLOCK * BLOCK;
@@ -49,7 +49,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn blocks_solve_what_they_should() {
+    fn block_solve_reproduces_a_known_solution() {
         for size in [1, 48, 50, 131] {
             let matrix = DMatrix::from_fn(size, size, |i, j| {
                 f64::from(i == j) + 0.3 / (1.0 + i.abs_diff(j) as f64)

@@ -1,7 +1,7 @@
 //! Rigid sphere and flat: Bradley 1932, in the approximation of Derjaguin 1934.
 //!
-//! The force is `2 pi R` times the energy per area of the flats at the least gap, for every law;
-//! good while the radius is much larger than the range.
+//! The force is `2 pi R` times the energy per area of flats at the least gap, for every law; valid
+//! while the radius is much larger than the range.
 
 use super::error::{TheoryError, positive, within};
 use super::laws::Law;

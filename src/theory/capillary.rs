@@ -1,12 +1,12 @@
-//! Liquid bridge between a sphere and a flat, and the Dugdale law that stands for it.
-//! Israelachvili 2011; the small meniscus, at the vapour's humidity.
+//! Liquid bridge between a sphere and a flat, and the equivalent Dugdale law. Israelachvili 2011,
+//! for a small meniscus at the humidity of the vapour.
 
 use super::error::{TheoryError, not_negative, positive, within};
 use std::f64::consts::{FRAC_PI_2, PI};
 
 pub use crate::law::{GAS_CONSTANT, LEAST_KELVIN_RADIUS};
 
-/// A liquid in its vapour between two surfaces of one contact angle, checked.
+/// A liquid in its vapour between two surfaces of one contact angle, with checked parameters.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Meniscus(crate::law::Meniscus);
 
@@ -70,7 +70,7 @@ impl Meniscus {
 
     /// Attraction of a rigid sphere of `radius` (m) at a least `gap` (m), N, positive:
     /// `4 pi R gamma cos(theta) (1 - gap/range)`, 0 beyond the range.
-    ///
+    /// A soft sphere has three quarters of it at most, depending on its Tabor parameter.
     /// A soft sphere gives three quarters of it at most; its Tabor parameter decides.
     pub fn rigid_force(&self, radius: f64, gap: f64) -> Result<f64, TheoryError> {
         let fade = (1.0 - not_negative("gap", gap)? / self.range()).max(0.0);

@@ -16,7 +16,7 @@ use std::f64::consts::PI;
 /// Nodes of each integral: 1e-9 of the opening.
 const NODES: usize = 40;
 
-/// A wave of a given adhesion and range.
+/// A wave of given adhesion and range.
 #[derive(Clone, Debug)]
 pub struct CohesiveWave {
     adhesion: f64,
@@ -25,10 +25,10 @@ pub struct CohesiveWave {
     nodes: Vec<(f64, f64)>,
 }
 
-/// An equilibrium of it.
+/// An equilibrium of the wave.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct WaveState {
-    /// `sin(pi a/wavelength)`, a being the half width of the contact.
+    /// `sin(pi a/wavelength)`, with a the half width of the contact.
     pub contact: f64,
     /// The same of the zone's outer edge; 1 where the tension acts everywhere.
     pub zone: f64,
@@ -69,7 +69,7 @@ impl CohesiveWave {
     /// The equilibrium with `contact = sin(pi a/wavelength)`, between 0 and 1.
     ///
     /// # Errors
-    /// A contact that is none.
+    /// A contact that is not between 0 and 1.
     pub fn state(&self, contact: f64) -> Result<WaveState, TheoryError> {
         within(
             "contact",
@@ -77,7 +77,7 @@ impl CohesiveWave {
             contact > 0.0 && contact < 1.0,
             "between 0 and 1",
         )?;
-        // The zone by its depth in s^2: from nothing to all that is open.
+        // The zone by its depth in s^2: from zero to everything that is open.
         let open = 1.0 - contact * contact;
         let excess = |share: f64| self.opening(contact, share * open.sqrt()) - self.range;
         let share = if excess(1.0 - 1e-12) <= 0.0 {
@@ -93,15 +93,16 @@ impl CohesiveWave {
     }
 
     /// Gap at the outer edge of a zone from `s = contact` to `s^2 = contact^2 + depth^2`, in D:
-    /// that of Westergaard's wave and what the tension opens.
+    /// that of Westergaard's wave plus the opening by the tension.
     fn opening(&self, contact: f64, depth: f64) -> f64 {
         let open = 1.0 - contact * contact;
         let edge = (contact * contact + depth * depth).sqrt();
         let hard = 2.0 * (edge * depth - contact * contact * (depth / contact).asinh());
-        // Slope over s: (2/pi) tension r I, r^2 = s^2 - contact^2, with the principal value
-        // I = 2 int_0^depth dv/((r^2 - v^2) sqrt(open - v^2)); its pole is taken out and integrated.
+        // Slope over s: (2/pi) tension r I, r^2 = s^2 - contact^2, with the principal value I = 2
+        // int_0^depth dv/((r^2 - v^2) sqrt(open - v^2)); the pole is subtracted and integrated in
+        // closed form.
         let opened = self.nodes.iter().map(|&(t, weight)| {
-            // Nodes crowd at the end of the zone, where the slope is a logarithm.
+            // Nodes are dense at the end of the zone, where the slope is a logarithm.
             let r = depth * (1.0 - t.powi(3));
             let at = (open - r * r).sqrt();
             let regular = self.nodes.iter().map(|&(x, weight)| {
@@ -115,21 +116,21 @@ impl CohesiveWave {
         hard + 2.0 / PI * self.tension * opened.sum::<f64>()
     }
 
-    /// The state of the greatest tension, in which it comes off.
+    /// The state of greatest tension, at which the wave separates under load control.
     ///
     /// # Errors
-    /// A state that is not found.
+    /// The search fails.
     pub fn pull_off(&self) -> Result<WaveState, TheoryError> {
-        // A range lets the contact shrink further than Johnson's before it lets go.
+        // A finite range lets the contact shrink further than Johnson's before it separates.
         let sharp = adhesive_extrema(self.adhesion)?.pull_off_angle.sin();
         let (contact, _) = minimum(|contact| self.pressure(contact), 1e-6, 1.05 * sharp);
         self.state(contact)
     }
 
-    /// The state of the greatest pressure before it snaps into full contact.
+    /// The state of greatest pressure before the snap into full contact.
     ///
     /// # Errors
-    /// A range so long that it closes without a snap.
+    /// A range so long that the wave closes without a snap.
     pub fn closing(&self) -> Result<WaveState, TheoryError> {
         let sharp = adhesive_extrema(self.adhesion)?.pull_off_angle.sin();
         let (contact, _) = minimum(|contact| -self.pressure(contact), sharp, 1.0 - 1e-9);
@@ -163,7 +164,7 @@ mod tests {
         }
     }
 
-    /// Westergaard's pressure less the constant tension of everywhere.
+    /// Westergaard's pressure less the tension, which acts everywhere.
     #[test]
     fn a_long_range_only_adds_its_tension() {
         let state = CohesiveWave::new(0.3, 10.0).unwrap().state(0.4).unwrap();

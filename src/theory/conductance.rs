@@ -1,9 +1,9 @@
-//! Heat through a contact, by its stiffness: Barber 2003.
+//! Heat conduction through a contact from its stiffness: Barber 2003.
 //!
-//! Steady conduction across a set of spots and the small indentation of the same spots, held
-//! fixed, are one harmonic problem. An electric current is another name for it: with conductivities
-//! in S/m the conductance is in S. The conductance follows from the stiffness with the contact
-//! frozen, for spots of any number and shape. No heat flows through the gap.
+//! Steady conduction through a set of contact spots and the small indentation of the same spots are
+//! the same harmonic problem, so the conductance follows from the stiffness at fixed contact, for
+//! spots of any number and shape. With electrical conductivities in S/m the conductance is in S. No
+//! heat flows through the gap.
 
 use super::error::{TheoryError, not_negative, positive};
 
@@ -16,8 +16,8 @@ pub fn combined_conductivity(first: f64, second: f64) -> Result<f64, TheoryError
     Ok(2.0 / (1.0 / first + 1.0 / second))
 }
 
-/// Conductance `(k/E*) S` of a contact of frozen `stiffness` S (N/m), W/K; with a stiffness per
-/// area (Pa/m) the conductance per area, W/(m^2 K).
+/// Conductance `(k/E*) S` of a contact whose stiffness at fixed contact is S (N/m), W/K; for a
+/// stiffness per area (Pa/m) the conductance per area, W/(m^2 K).
 pub fn from_stiffness(
     conductivity: f64,
     contact_modulus: f64,

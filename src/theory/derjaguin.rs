@@ -1,7 +1,7 @@
 //! Hertz contact with the energy of its area: Derjaguin 1934.
 //!
-//! The energy gained is that of the Hertz area alone, so the attraction is `pi w R` at every
-//! contact radius: half of what point contact really gives. Kept for comparison.
+//! The attraction is that of the Hertz area alone, `pi w R` at every contact radius: half of the
+//! correct value at point contact. Kept for comparison.
 
 use super::error::{TheoryError, positive};
 use super::hertz;

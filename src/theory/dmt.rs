@@ -12,14 +12,14 @@ use super::quadrature::{integrate, integrate_to_infinity};
 use super::roots::{minimum, positive_root};
 use std::f64::consts::PI;
 
-/// `i0 = (4/3) (B(-1/2, 7/2) - B(-1/2, 19/2))` of the Lennard-Jones law, which sets how the force
-/// method leaves point contact.
+/// `i0 = (4/3) (B(-1/2, 7/2) - B(-1/2, 19/2))` of the Lennard-Jones law, which determines how the
+/// attraction of the force method increases from point contact.
 pub const POINT_CONTACT_INTEGRAL: f64 = 6.130_170_723_587_996;
 
-/// How the attraction outside the contact is counted.
+/// How the attraction outside the contact is computed.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Method {
-    /// The derivative of the energy of the frozen profile (DMT-T; with Lennard-Jones IDMT-T).
+    /// The derivative of the energy at fixed profile (DMT-T; with Lennard-Jones IDMT-T).
     Thermodynamic,
     /// The sum of the traction (DMT-F).
     Force,
@@ -38,7 +38,7 @@ pub fn attraction(method: Method, law: Law, contact_radius: f64) -> Result<f64, 
     let a = not_negative("contact_radius", contact_radius)?;
     match method {
         Method::Constant => Ok(1.0),
-        // Both start from the traction of the undeformed sphere, which sums to 1.
+        // Both start from the traction of the undeformed sphere, whose integral is 1.
         _ if a == 0.0 => Ok(1.0),
         Method::Force => outside(law, a, |_, gap| law.traction(gap)),
         // 4 int sigma acos(a/r) r dr, and acos(a/r) = atan(x/a).
@@ -50,15 +50,15 @@ pub fn attraction(method: Method, law: Law, contact_radius: f64) -> Result<f64, 
 
 /// Energy gained by the contact and its surroundings, in `2 pi w R range`, positive.
 ///
-/// Its slope by the approach is the thermodynamic attraction. There is no further `pi w R`: the
-/// moving edge takes up what the contact area gains.
+/// Its derivative with the approach is the thermodynamic attraction. There is no further `pi w R`:
+/// the moving edge compensates for the gain of the contact area.
 pub fn energy_gain(law: Law, contact_radius: f64) -> Result<f64, TheoryError> {
     let a = not_negative("contact_radius", contact_radius)?;
     Ok(0.5 * a * a + outside(law, a, |_, gap| -law.energy(gap))?)
 }
 
-/// Force at an `approach`: Hertz less the attraction; at a negative one, the rigid sphere at the
-/// gap `-approach`.
+/// Force at an `approach`: Hertz less the attraction; at a negative approach, that of the rigid
+/// sphere at the gap `-approach`.
 pub fn force(
     method: Method,
     law: Law,
@@ -74,9 +74,9 @@ pub fn force(
 
 /// Contact radius and force of the greatest tension in contact.
 ///
-/// By the force method with Lennard-Jones this is at point contact, -1, up to
-/// [`super::tabor_map::FORCE_DMT_LIMIT`], and beyond it at a finite radius with a tension above
-/// `2 pi w R`, which no real sphere shows.
+/// For the force method with Lennard-Jones this is at point contact, -1, up to
+/// [`super::tabor_map::FORCE_DMT_LIMIT`]; beyond, it is at a finite radius with a tension above `2
+/// pi w R`, which no real sphere reaches.
 pub fn pull_off(method: Method, law: Law, tabor_parameter: f64) -> Result<(f64, f64), TheoryError> {
     positive("tabor_parameter", tabor_parameter)?;
     let at = |a: f64| force(method, law, a * a, tabor_parameter).unwrap_or(f64::INFINITY);

@@ -1,33 +1,33 @@
-//! What a theory can refuse, and the checks that refuse it.
+//! Errors of theories, and the checks of their input.
 
-/// Why a theory gives no number.
+/// Why a theory gives no result.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 pub enum TheoryError {
-    /// An input lies where the theory says nothing.
+    /// An input outside the theory's range.
     #[error("{name} = {value:e} is out of range: it must be {allowed}")]
     OutOfRange {
         /// Name of the input, as in the function's signature.
         name: &'static str,
         /// Its value.
         value: f64,
-        /// What would be accepted.
+        /// The accepted values.
         allowed: &'static str,
     },
-    /// The theory has no state at these values (a tension beyond pull-off, for instance).
+    /// The theory has no state at these values, for instance at a tension beyond pull-off.
     #[error("{what} does not exist for these values")]
     NoSolution {
-        /// What was asked for.
+        /// The quantity asked for.
         what: &'static str,
     },
     /// A numerical method ran out of steps before it reached its tolerance.
     #[error("{what} did not converge")]
     NotConverged {
-        /// The method.
+        /// Name of the method.
         what: &'static str,
     },
 }
 
-/// `value`, if it is finite and greater than zero.
+/// `value` if it is finite and positive.
 pub(crate) fn positive(name: &'static str, value: f64) -> Result<f64, TheoryError> {
     within(
         name,
@@ -37,7 +37,7 @@ pub(crate) fn positive(name: &'static str, value: f64) -> Result<f64, TheoryErro
     )
 }
 
-/// `value`, if it is finite and not negative.
+/// `value` if it is finite and not negative.
 pub(crate) fn not_negative(name: &'static str, value: f64) -> Result<f64, TheoryError> {
     within(
         name,
@@ -47,12 +47,12 @@ pub(crate) fn not_negative(name: &'static str, value: f64) -> Result<f64, Theory
     )
 }
 
-/// `value`, if it is finite.
+/// `value` if it is finite.
 pub(crate) fn finite(name: &'static str, value: f64) -> Result<f64, TheoryError> {
     within(name, value, value.is_finite(), "finite")
 }
 
-/// `value`, if `accepted`.
+/// `value` if `accepted` holds.
 pub(crate) fn within(
     name: &'static str,
     value: f64,

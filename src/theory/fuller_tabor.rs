@@ -1,7 +1,7 @@
 //! Summits of Gaussian heights, each a JKR contact: Fuller & Tabor 1975, with the exact JKR curve.
 //!
-//! A summit follows its approach, not its load, even if the body is under load. Separations are in
-//! standard deviations above the mean summit, forces per area in `n pi w R`.
+//! Each summit is under displacement control, even if the body is under load control. Separations
+//! are in standard deviations above the mean summit, forces per area in `n pi w R`.
 
 use super::error::{TheoryError, finite, positive};
 use super::jkr;
@@ -10,12 +10,12 @@ use super::roots::minimum;
 use super::special::normal_density;
 use std::f64::consts::PI;
 
-/// Which summits are in contact.
+/// Loading or unloading.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Path {
-    /// Those that reach the flat: coming together, a summit jumps in at no gap.
+    /// Loading: summits that reach the flat; a summit jumps in at zero gap.
     Loading,
-    /// Also those still stretched to it: going apart, a summit holds on to the grip limit.
+    /// Unloading: also stretched summits; a summit stays in contact up to its fixed-grips limit.
     Unloading,
 }
 
@@ -30,7 +30,7 @@ pub fn reduced_height(theta: f64) -> Result<f64, TheoryError> {
 pub fn reduced_pressure(theta: f64, separation: f64, path: Path) -> Result<f64, TheoryError> {
     let unit = 1.0 / reduced_height(theta)?;
     let separation = finite("separation", separation)?;
-    // Integrating by the contact radius removes the square root at the grip limit.
+    // Integrating over the contact radius removes the square root at the fixed-grips limit.
     let from = match path {
         Path::Loading => jkr::zero_approach(),
         Path::Unloading => jkr::grip(),
@@ -50,7 +50,7 @@ pub fn reduced_pressure(theta: f64, separation: f64, path: Path) -> Result<f64, 
 pub fn reduced_pull_off(theta: f64) -> Result<(f64, f64), TheoryError> {
     let unit = 1.0 / reduced_height(theta)?;
     let at = |h: f64| reduced_pressure(theta, h, Path::Unloading).unwrap_or(f64::NAN);
-    // The summit at mean height lets go 0.91 delta* above it; a rough surface is held by its
+    // The summit of mean height jumps off 0.91 delta* above it; a rough surface is held by its
     // highest summits.
     let (low, high) = (-4.0, 8.0 + unit + 0.5 * theta.cbrt().powi(2));
     let scan = 60;

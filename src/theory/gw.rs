@@ -1,5 +1,5 @@
-//! Summits of one radius and Gaussian heights, each a Hertz contact by itself: Greenwood &
-//! Williamson 1966. Good for small contact areas only.
+//! Independent Hertz contacts of summits of one radius and Gaussian heights: Greenwood & Williamson
+//! 1966. Valid for small contact areas only.
 
 use super::error::{TheoryError, positive, within};
 use super::hertz;
@@ -8,7 +8,7 @@ use super::spectrum::Spectrum;
 use super::tabor_map::Sphere;
 use std::f64::consts::{PI, SQRT_2};
 
-/// Summits of a rough surface against a flat.
+/// The summits of a rough surface in contact with a flat.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Summits {
     summit: Sphere,
@@ -17,7 +17,7 @@ pub struct Summits {
 }
 
 impl Summits {
-    /// `density` summits per area (1/m^2), each a `summit`, their heights of standard deviation
+    /// `density` summits per area (1/m^2), each a `summit`, with heights of standard deviation
     /// `rms_height` (m).
     pub fn new(summit: Sphere, density: f64, rms_height: f64) -> Result<Self, TheoryError> {
         Ok(Summits {
@@ -29,7 +29,7 @@ impl Summits {
 
     /// Summits of a spectrum by its moments: radius `(3/8) sqrt(pi/m4)`, height variance
     /// `(1 - 0.8968/alpha) m0`, Nayak's density. McCool 1986.
-    pub fn of_spectrum(
+    pub fn from_spectrum(
         spectrum: &Spectrum,
         contact_modulus: f64,
         work_of_adhesion: f64,
@@ -65,7 +65,7 @@ impl Summits {
         Ok(self.density * hertz::force(&self.summit, one.sqrt()) * tail_three_halves(separation)?)
     }
 
-    /// Contact area per nominal area; the model lets it exceed 1.
+    /// Contact area per nominal area; it can exceed 1 in this model.
     pub fn contact_area_fraction(&self, separation: f64) -> f64 {
         PI * self.density * self.summit.radius() * self.rms_height * tail_one(separation)
     }
@@ -75,8 +75,8 @@ impl Summits {
         self.density * tail_zero(separation)
     }
 
-    /// Adhesion parameter `theta = E* sigma^(3/2)/(w sqrt R)` of Fuller & Tabor 1975; large is
-    /// rough.
+    /// Adhesion parameter `theta = E* sigma^(3/2)/(w sqrt R)` of Fuller & Tabor 1975; large for
+    /// rough surfaces.
     pub fn adhesion_parameter(&self) -> Result<f64, TheoryError> {
         let work = positive("work_of_adhesion", self.summit.work_of_adhesion())?;
         let ratio = self.rms_height / self.summit.radius();
@@ -117,7 +117,8 @@ pub(crate) fn scaled_tail(n: i32, t: f64) -> Result<f64, TheoryError> {
     )?;
     let exponent = |s: f64| -s * s * (t + 0.5 * s * s);
     let step = 0.1 / (1.0 + t.abs()).sqrt();
-    // Where y (t + y/2) is 50: y = -t + sqrt(t^2 + 100), without its cancellation and its overflow.
+    // The place where y (t + y/2) is 50: y = -t + sqrt(t^2 + 100), without cancellation or
+    // overflow.
     let end = (100.0 / (t + t.hypot(10.0))).sqrt() + 2.0 * step;
     let mut sum = 0.0;
     let mut s = step;

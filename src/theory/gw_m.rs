@@ -1,7 +1,7 @@
-//! Summits that pull with `2 pi w R` each once they touch: Greenwood & Williamson with the constant
-//! of DMT, Maugis 1996 (GW-M).
+//! Greenwood & Williamson's summits, each with the constant attraction `2 pi w R` of DMT once it
+//! touches: Maugis 1996 (GW-M).
 //!
-//! Nothing but `theta` of [`Summits::adhesion_parameter`] matters. Separations are in standard
+//! The only parameter is `theta` of [`Summits::adhesion_parameter`]. Separations are in standard
 //! deviations above the mean summit, pressures in `n 2 pi w R`.
 
 use super::error::{TheoryError, not_negative, positive};
@@ -18,13 +18,14 @@ pub fn reduced_pressure(theta: f64, separation: f64) -> Result<f64, TheoryError>
 
 /// Separation and magnitude of the greatest tension.
 ///
-/// There `(theta/pi) F_(1/2)` equals the density; their ratio falls with the separation.
+/// There `(theta/pi) F_(1/2)` equals the density; their ratio decreases with the separation.
 pub fn reduced_pull_off(theta: f64) -> Result<(f64, f64), TheoryError> {
     let theta = positive("theta", theta)?;
     // In logarithms, since the ratio spans many decades.
     let excess = |t: f64| scaled_tail(2, t).map_or(f64::NAN, |tail| (theta / PI * tail).ln());
     let separation = root("a pull-off", excess, -25.0, 300.0, 1e-14)?;
-    // The two parts nearly cancel far out; both over the density they stay of order 1.
+    // The two parts nearly cancel at large separations; divided by the density they stay of order
+    // 1.
     let attraction = scaled_tail_zero(separation);
     let repulsion = 2.0 / (3.0 * PI) * theta * scaled_tail(4, separation)?;
     Ok((
@@ -55,8 +56,8 @@ pub fn pull_off(summits: &Summits) -> Result<f64, TheoryError> {
     Ok(summits.density() * unit * reduced_pull_off(summits.adhesion_parameter()?)?.1)
 }
 
-/// Separation at a net nominal `pressure` (Pa), on the closer side of pull-off. Without adhesion
-/// this is the Greenwood-Williamson model.
+/// Separation at a net nominal `pressure` (Pa), on the compressive side of pull-off. Without
+/// adhesion this is the Greenwood-Williamson model.
 pub fn separation(summits: &Summits, pressure: f64) -> Result<f64, TheoryError> {
     let far = if summits.summit().work_of_adhesion() > 0.0 {
         reduced_pull_off(summits.adhesion_parameter()?)?.0

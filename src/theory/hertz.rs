@@ -44,7 +44,7 @@ pub fn displacement(sphere: &Sphere, contact_radius: f64, r: f64) -> f64 {
 /// a/r below which four terms of the displacement's series leave an error of 1e-14.
 const FAR: f64 = 0.03;
 
-/// Displacement `U(r; a, R)` around a Hertz contact; it does not depend on the modulus.
+/// Displacement `U(r; a, R)` around a Hertz contact; independent of the modulus.
 pub(crate) fn displacement_of(radius: f64, contact_radius: f64, r: f64) -> f64 {
     let a = contact_radius;
     if r <= a {
@@ -122,7 +122,7 @@ mod tests {
     }
 
     #[test]
-    fn gap_is_what_is_left_of_the_shape() {
+    fn gap_is_shape_less_displacement() {
         let sphere = Sphere::new(2.0, 3.0, 0.0).unwrap();
         let a = 0.3;
         for r in [0.301, 0.303, 0.31, 0.5, 3.0] {

@@ -1,4 +1,4 @@
-//! Soft sphere with adhesion of no range: Johnson, Kendall & Roberts 1971.
+//! Soft sphere with adhesion of zero range: Johnson, Kendall & Roberts 1971.
 //!
 //! The first functions are reduced (Maugis units, see [`super::tabor_map`]); those that take a
 //! [`Sphere`] are SI. The theory holds for Tabor parameters above about 5.
@@ -9,7 +9,7 @@ use super::roots::root;
 use super::tabor_map::Sphere;
 use std::f64::consts::PI;
 
-/// Reduced load at which the sphere comes off under load control.
+/// Reduced load at which the sphere jumps off under load control.
 pub const PULL_OFF_FORCE: f64 = -1.5;
 
 /// Reduced force at a reduced contact radius: `A^3 - sqrt(6 A^3)`.
@@ -23,7 +23,7 @@ pub fn reduced_approach(radius: f64) -> f64 {
     radius * radius - 2.0 / 3.0 * (6.0 * radius).sqrt()
 }
 
-/// Reduced slope of force by approach along the equilibria, in `K a*`.
+/// Reduced slope of force against approach along the equilibria, in `K a*`.
 ///
 /// `(9/2) A (1-x)/(3-x)` with `x = (A_c/A)^(3/2)`: 0 at [`pull_off`], infinite at [`grip`].
 pub fn reduced_stiffness(radius: f64) -> f64 {
@@ -31,12 +31,13 @@ pub fn reduced_stiffness(radius: f64) -> f64 {
     4.5 * radius * (1.0 - x) / (3.0 - x)
 }
 
-/// Reduced contact radius of the lesser tension, where load control lets go: `1.5^(1/3)`.
+/// Reduced contact radius at pull-off under load control: `1.5^(1/3)`.
 pub fn pull_off() -> f64 {
     1.5_f64.cbrt()
 }
 
-/// Reduced contact radius at the least approach, where a held approach lets go: `6^(-1/3)`.
+/// Reduced contact radius at pull-off under displacement control (fixed grips), the least approach:
+/// `6^(-1/3)`.
 pub fn grip() -> f64 {
     6.0_f64.cbrt().recip()
 }
@@ -108,9 +109,9 @@ pub fn force(sphere: &Sphere, contact_radius: f64) -> f64 {
         - hertz::stiffness(sphere, contact_radius) * opening(sphere, contact_radius)
 }
 
-/// Force at any `contact_radius` and `approach` (m), in equilibrium or not, N:
-/// `2 E* (a delta - a^3/(3R))`.
-pub fn force_held(sphere: &Sphere, contact_radius: f64, approach: f64) -> f64 {
+/// Force at any `contact_radius` and `approach` (m), not necessarily in equilibrium, N: `2 E* (a
+/// delta - a^3/(3R))`.
+pub fn force_at(sphere: &Sphere, contact_radius: f64, approach: f64) -> f64 {
     let a = contact_radius;
     2.0 * sphere.contact_modulus() * (a * approach - a.powi(3) / (3.0 * sphere.radius()))
 }
@@ -122,7 +123,7 @@ pub fn energy_release_rate(sphere: &Sphere, contact_radius: f64, approach: f64) 
     sphere.contact_modulus() * opening * opening / (2.0 * PI * contact_radius)
 }
 
-/// How far a flat punch of the contact radius is drawn back at equilibrium, m.
+/// Displacement of a flat punch of the contact radius away from the surface at equilibrium, m.
 fn opening(sphere: &Sphere, contact_radius: f64) -> f64 {
     (2.0 * PI * contact_radius * sphere.work_of_adhesion() / sphere.contact_modulus()).sqrt()
 }
@@ -145,8 +146,8 @@ pub fn gap(sphere: &Sphere, contact_radius: f64, r: f64) -> f64 {
     hertz::gap(sphere, contact_radius, r) + 2.0 / PI * opening(sphere, contact_radius) * edge
 }
 
-/// Stiffness along the equilibria, N/m; for a contact that does not follow (fast oscillation)
-/// take [`hertz::stiffness`].
+/// Stiffness along the equilibria, N/m; for a contact radius that does not follow (fast
+/// oscillation) take [`hertz::stiffness`].
 pub fn stiffness(sphere: &Sphere, contact_radius: f64) -> f64 {
     let radius = sphere.radius();
     let critical =
@@ -161,11 +162,11 @@ pub fn pull_off_force(sphere: &Sphere) -> f64 {
 }
 
 /// Work of adhesion (J/m^2) and contact modulus (Pa) of a sphere of `radius` (m), from the
-/// magnitude `pull_off` (N) of its pull-off force and the slope `stiffness` (N/m) of force by
+/// magnitude `pull_off` (N) of its pull-off force and the slope `stiffness` (N/m) of force against
 /// approach, measured along equilibria at `force` (N).
 ///
-/// Derived from the equations above. If the contact did not follow the oscillation, the stiffness
-/// is `2 E* a` and this inversion is the wrong one.
+/// Derived from the equations above. If the contact radius did not follow an oscillation, the
+/// stiffness is `2 E* a` and this inversion does not apply.
 pub fn from_measurement(
     radius: f64,
     pull_off: f64,
@@ -182,7 +183,7 @@ pub fn from_measurement(
         "more than minus the pull-off force",
     )?;
     let s = (1.0 + force / pull_off).sqrt();
-    // a^3 E* follows from force and pull-off alone; the stiffness then tells E* from a.
+    // a^3 E* follows from force and pull-off alone; the stiffness then separates E* from a.
     let cube_times_modulus = 0.75 * radius * pull_off * (1.0 + s) * (1.0 + s);
     let root = stiffness * (3.0 * s + 2.0) / (6.0 * s);
     Sphere::new(
@@ -203,7 +204,7 @@ mod tests {
             let a = contact_radius(&sphere, load).unwrap();
             let delta = approach(&sphere, a);
             assert!((energy_release_rate(&sphere, a, delta) / 0.05 - 1.0).abs() < 1e-12);
-            assert!((force_held(&sphere, a, delta) - load).abs() < 1e-17);
+            assert!((force_at(&sphere, a, delta) - load).abs() < 1e-17);
             assert!((force(&sphere, a) - load).abs() < 1e-17);
             assert!((contact_radius_at_approach(&sphere, delta).unwrap() / a - 1.0).abs() < 1e-13);
             let step = 1e-6 * a;

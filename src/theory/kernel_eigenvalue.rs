@@ -1,24 +1,24 @@
-//! Compliance of a periodic grid on a half-space, mode by mode, for three ways to read a pixel.
+//! Compliance of a periodic grid on a half-space, mode by mode, for three discretisations.
 //!
-//! The three differ by a fifth to two fifths at the finest wave a grid holds.
+//! The three differ by a fifth to two fifths at the shortest wave of a grid.
 
 use super::error::{TheoryError, within};
 use std::f64::consts::PI;
 
-/// Displacement over pressure of one grid wave, times E*; lengths in those of the box.
+/// Displacement over pressure of one wave of the grid, times E*; lengths in units of the box.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Eigenvalue {
     /// Pressure and displacement are that one wave: `2/|q|`.
     pub spectral: f64,
-    /// Pressure is constant on each pixel, displacement is taken at its centre.
+    /// Pressure is constant on each pixel, displacement is evaluated at its centre.
     pub pixel_centre: f64,
-    /// Pressure is constant on each pixel, displacement is its mean over it.
+    /// Pressure is constant on each pixel, displacement is averaged over it.
     pub pixel_mean: f64,
 }
 
 /// Eigenvalue of the wave (k, l), not both 0, on `points` by `points` in a box of side 1.
 ///
-/// Sums the aliases `q + 2 pi points (i, j)`, `|i|, |j| <= 500`: good to 1e-7, and a million terms.
+/// Sums the aliases `q + 2 pi points (i, j)`, `|i|, |j| <= 500`: a million terms, accurate to 1e-7.
 pub fn eigenvalue(k: i64, l: i64, points: usize) -> Result<Eigenvalue, TheoryError> {
     const REACH: i64 = 500;
     within(

@@ -1,13 +1,13 @@
-//! Attraction of two facing surfaces, reduced: gap in units of the range, energy in w, traction in
+//! Reduced attraction of two facing surfaces: gap in units of the range, energy in w, traction in
 //! w/range, slope in w/range^2.
 //!
-//! Energy is -1 at gap 0 and 0 far away; the traction, its slope by the gap, is positive where it
-//! attracts. The hard wall at gap 0 is the contact's affair, not the law's.
+//! The energy is -1 at gap 0 and 0 far away. The traction, its derivative with the gap, is positive
+//! in attraction. The hard wall at gap 0 is not part of the law.
 
-/// How the attraction fades with the gap.
+/// How the attraction decreases with the gap.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Law {
-    /// Lennard-Jones 9-3, gap counted from where the traction is 0; repulsive at gaps in (-1, 0).
+    /// Lennard-Jones 9-3, gap measured from zero traction; repulsive at gaps in (-1, 0).
     ///
     /// Muller, Yushchenko & Derjaguin 1983; Greenwood 1997.
     LennardJones,
@@ -15,12 +15,12 @@ pub enum Law {
     Cubic,
     /// Energy `-exp(-gap)`.
     Exponential,
-    /// Traction 1 up to gap 1, then nothing. Maugis 1992, after Dugdale 1960.
+    /// Traction 1 up to gap 1, then 0. Maugis 1992, after Dugdale 1960.
     Dugdale,
 }
 
 impl Law {
-    /// Every law, for tables and tests.
+    /// Every law.
     pub const ALL: [Law; 4] = [
         Law::LennardJones,
         Law::Cubic,
@@ -28,7 +28,7 @@ impl Law {
         Law::Dugdale,
     ];
 
-    /// Energy per area, in w; at most 0 for gaps of zero or more.
+    /// Energy per area, in w; not positive at gaps of zero or more.
     pub fn energy(self, gap: f64) -> f64 {
         match self {
             Law::LennardJones => {
@@ -45,7 +45,7 @@ impl Law {
     pub fn traction(self, gap: f64) -> f64 {
         match self {
             Law::LennardJones => {
-                // 1 - (1 + gap)^(-6), with all its digits beside the distance of no force.
+                // 1 - (1 + gap)^(-6), without cancellation near zero traction.
                 let rest = -(-6.0 * gap.ln_1p()).exp_m1();
                 8.0 / 3.0 * (1.0 + gap).powi(-3) * rest
             }
@@ -55,7 +55,7 @@ impl Law {
         }
     }
 
-    /// Slope of the traction by the gap, in w/range^2; 0 on either side of Dugdale's step.
+    /// Derivative of the traction with the gap, in w/range^2; 0 on either side of Dugdale's step.
     pub fn slope(self, gap: f64) -> f64 {
         match self {
             Law::LennardJones => {
@@ -85,7 +85,8 @@ impl Law {
         }
     }
 
-    /// Gap at which the traction falls fastest, and its slope there: what bounds the mesh.
+    /// Gap at which the traction decreases fastest, and its slope there, which limits the mesh
+    /// size.
     pub fn steepest(self) -> (f64, f64) {
         let gap = match self {
             Law::LennardJones => 7.5_f64.powf(1.0 / 6.0) - 1.0,

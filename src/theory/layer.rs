@@ -1,7 +1,7 @@
 //! Elastic layer on a rigid base: compliance over that of the half-space, mode by mode.
 //!
 //! `displacement = (2/(E* q)) M(q h) pressure` for a layer of thickness h with `E* = E/(1-nu^2)`.
-//! The solver multiplies by the inverse of the same functions.
+//! The solver uses the inverse of the same functions.
 
 use super::error::{TheoryError, positive, within};
 use crate::elastic::{bonded_compliance, frictionless_compliance};
@@ -27,7 +27,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn refuses_what_is_not_a_layer() {
+    fn invalid_layers_are_refused() {
         assert!(bonded(0.0, 0.3).is_err());
         assert!(bonded(1.0, 0.51).is_err());
         assert!(sliding(f64::NAN).is_err());

@@ -1,33 +1,33 @@
-//! The curve of equilibria of a [`LennardJonesSphere`], with its unstable parts and turning points.
+//! The curve of equilibria of a [`LennardJonesSphere`], including unstable parts and folds.
 //!
 //! The curve is followed by its arc length in (approach, force), so that it may turn back in
-//! either. Places where the approach turns are found on the way and kept as states of the curve:
-//! between two neighbours the approach only rises or only falls.
+//! either. Folds of the approach are located and kept as states of the curve, so between two
+//! neighbours the approach is monotone.
 
 use super::error::TheoryError;
-use super::lennard_jones_sphere::{Held, LennardJonesSphere, Solved, State};
+use super::lennard_jones_sphere::{Constraint, LennardJonesSphere, Solved, State};
 use super::roots::{minimum, root};
 
 const MAX_CURVE: usize = 4000;
-/// In units of force; the curve bends over some tenths at the least.
+/// In units of force; the curve bends over at least some tenths.
 const LONGEST_STEP: f64 = 0.1;
 const SHORTEST_STEP: f64 = 1e-6;
-/// Least cosine between the tangents at two neighbours. A step over a fold and back within it would
-/// have to turn more than that twice.
+/// Least cosine of the angle between the tangents at two neighbours. A step that skips two folds
+/// would turn by more than that.
 const LEAST_COSINE: f64 = 0.9;
-/// Error of the place of a turning point along the curve; that of the value is its square.
+/// Error of the position of a fold along the curve; that of its value is the square.
 const PLACE_TOLERANCE: f64 = 1e-9;
 
 /// Unit tangent in (approach/unit, force).
 type Direction = (f64, f64);
 
-/// A state with the direction in which the curve goes on.
+/// A state with the direction of the curve.
 struct Node {
     state: State,
     tangent: Direction,
 }
 
-/// A piece of the curve between two of its states, by the place along their chord.
+/// A segment of the curve between two of its states, parametrised along their chord.
 struct Piece<'a> {
     ends: [&'a State; 2],
     direction: (f64, f64),
@@ -54,9 +54,9 @@ impl<'a> Piece<'a> {
 }
 
 impl LennardJonesSphere {
-    /// Equilibria from far away inwards, along both stable and unstable parts, until `until` is
-    /// met; the state that meets it is the last. Neighbours are at most 0.1 apart in force, and
-    /// every fold of the approach is one of them.
+    /// Equilibria from far away inwards, along stable and unstable parts, until `until` holds; the
+    /// last state satisfies it. Neighbours are at most 0.1 apart in force, and every fold of the
+    /// approach is a state.
     pub fn curve(&self, until: impl Fn(&[State]) -> bool) -> Result<Vec<State>, TheoryError> {
         let (states, tangents) = self.followed(until)?;
         let mut nodes: Vec<Node> = Vec::with_capacity(states.len() + 4);
@@ -68,7 +68,7 @@ impl LennardJonesSphere {
         Ok(nodes.into_iter().map(|node| node.state).collect())
     }
 
-    /// Equilibria at steps of the arc length, and the unit tangents there.
+    /// Equilibria at steps of the arc length, with their unit tangents.
     fn followed(
         &self,
         until: impl Fn(&[State]) -> bool,
@@ -84,7 +84,7 @@ impl LennardJonesSphere {
             if until(&states) {
                 return Ok((states, tangents));
             }
-            let held = Held {
+            let held = Constraint {
                 approach_share: tangent.0 / unit,
                 force_share: tangent.1,
                 sum: tangent.0 * last.approach / unit + tangent.1 * last.force + step,
@@ -103,7 +103,7 @@ impl LennardJonesSphere {
                 (next, new, near && cosine > LEAST_COSINE)
             });
             match next {
-                // A long way or a sharp turn may be a jump to another part of the curve.
+                // A long step or a sharp turn may be a jump to another part of the curve.
                 Ok((next, new, true)) => {
                     if next.rounds <= 5 {
                         step = (1.5 * step).min(LONGEST_STEP);
@@ -133,7 +133,7 @@ impl LennardJonesSphere {
             nodes.push(fold);
             return Ok(());
         }
-        // Two folds may lie within the last two steps: the approach goes slowest in between.
+        // Two folds may lie within the last two steps: the approach is slowest in between.
         let [.., before, middle] = &nodes[..] else {
             return Ok(());
         };
@@ -152,7 +152,7 @@ impl LennardJonesSphere {
         };
         let first = self.turning_point(&before.state, &between.state, |tangent| tangent.0)?;
         let second = self.turning_point(&between.state, &next.state, |tangent| tangent.0)?;
-        // The middle state keeps its place among the three new ones.
+        // The middle state keeps its position among the three new ones.
         let along = |state: &State| {
             piece.direction.0 * state.approach / piece.unit + piece.direction.1 * state.force
         };
@@ -170,7 +170,8 @@ impl LennardJonesSphere {
 
     /// The state of greatest tension: pull-off under load control.
     pub fn pull_off(&self) -> Result<State, TheoryError> {
-        // Pull-off is beyond -0.75 for all; a soft sphere has a lesser minimum before it touches.
+        // Pull-off is beyond -0.75 for every sphere; a soft sphere has a lesser minimum before it
+        // touches.
         const BEYOND_ATTRACTION: f64 = -0.6;
         let (states, tangents) = self.followed(|states| match states {
             [.., before, last] => before.force < BEYOND_ATTRACTION && last.force > before.force,
@@ -189,8 +190,8 @@ impl LennardJonesSphere {
             .map(|node| node.state)
     }
 
-    /// Folds of the approach, where a held approach jumps: in on the way together and off on the
-    /// way apart. None for small Tabor parameters (0.65 and less), where the curve is
+    /// Folds of the approach, at which the sphere jumps under a prescribed approach: in on loading
+    /// and off on unloading. `None` for small Tabor parameters (0.65 and less), where the curve is
     /// single-valued.
     pub fn folds(&self) -> Result<Option<(State, State)>, TheoryError> {
         let states = self.curve(|states| states.last().is_some_and(|last| last.force > 0.0))?;
@@ -202,8 +203,8 @@ impl LennardJonesSphere {
         Ok(turns.next().zip(turns.next()))
     }
 
-    /// The state between two neighbours where a component of the curve's tangent, in
-    /// (approach, force), changes sign.
+    /// The state between two neighbours at which a component of the curve's tangent, in (approach,
+    /// force), changes sign.
     fn turning_point(
         &self,
         first: &State,
@@ -229,13 +230,13 @@ impl LennardJonesSphere {
         })
     }
 
-    /// A component of the tangent at a place of a piece; not a number where no state is found.
+    /// A component of the tangent at a position in a segment; NaN if no state is found.
     fn rate_at(&self, piece: &Piece, place: f64, component: impl Fn((f64, f64)) -> f64) -> f64 {
         self.at_place(piece, place)
             .map_or(f64::NAN, |(_, tangent)| component(tangent))
     }
 
-    /// The state at a place of a piece, and the tangent there.
+    /// The state and the tangent at a position in a segment.
     fn at_place(&self, piece: &Piece, place: f64) -> Option<(Solved, (f64, f64))> {
         let share = (place - piece.places[0]) / (piece.places[1] - piece.places[0]);
         let [first, last] = piece.ends;
@@ -244,7 +245,7 @@ impl LennardJonesSphere {
             force: first.force + share * (last.force - first.force),
             gap: &first.gap + (&last.gap - &first.gap) * share,
         };
-        let held = Held {
+        let held = Constraint {
             approach_share: piece.direction.0 / piece.unit,
             force_share: piece.direction.1,
             sum: place,

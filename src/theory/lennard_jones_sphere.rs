@@ -1,10 +1,10 @@
-//! Sphere that attracts by Lennard-Jones 9-3 and deforms under it: the self-consistent solution
-//! of Muller, Yushchenko & Derjaguin 1980, Greenwood 1997 and Feng 2001, with no hard wall.
+//! Deformable sphere with a Lennard-Jones 9-3 law: the self-consistent solution of Muller,
+//! Yushchenko & Derjaguin 1980, Greenwood 1997 and Feng 2001, without a hard wall.
 //!
-//! Lennard-Jones units (see [`super::tabor_map`]): gaps and approach in the range, radii in
-//! `sqrt(R range)`, pressure in w/range, force in `2 pi w R`. The gap is counted from where the
-//! traction is zero, so it is negative under pressure; at approach 0 the undeformed apex is at
-//! gap 0. The only parameter is Tabor's.
+//! Lennard-Jones units (see [`super::tabor_map`]): gaps and approach in the range, radii in `sqrt(R
+//! range)`, pressure in w/range, force in `2 pi w R`. The gap is measured from zero traction, so it
+//! is negative under pressure; at approach 0 the undeformed apex is at gap 0. The only parameter is
+//! Tabor's.
 
 use super::block_solve;
 use super::error::{TheoryError, finite, within};
@@ -16,7 +16,7 @@ use nalgebra::{DMatrix, DVector};
 const LAW: Law = Law::LennardJones;
 const MAX_NEWTON: usize = 25;
 
-/// The discretised sphere. Making one costs about as much as solving for a state.
+/// The discretised sphere. Building it costs about as much as solving for a state.
 #[derive(Clone, Debug)]
 pub struct LennardJonesSphere {
     tabor_parameter: f64,
@@ -38,22 +38,22 @@ pub struct State {
     pub gap: DVector<f64>,
 }
 
-/// What is held while the gaps are solved for: `approach_share * approach + force_share * force`.
+/// The prescribed quantity: `approach_share * approach + force_share * force`.
 #[derive(Clone, Copy)]
-pub(crate) struct Held {
+pub(crate) struct Constraint {
     pub(crate) approach_share: f64,
     pub(crate) force_share: f64,
     pub(crate) sum: f64,
 }
 
-/// A solved equilibrium, and how it changes along the curve.
+/// A solved equilibrium with its derivatives along the curve.
 pub(crate) struct Solved {
     pub(crate) state: State,
-    /// Change of the gaps with the approach.
+    /// Derivative of the gaps with the approach.
     pub(crate) gap_rate: DVector<f64>,
-    /// Change of the force with the approach.
+    /// Derivative of the force with the approach.
     pub(crate) force_rate: f64,
-    /// Rounds of Newton's method it took.
+    /// Newton iterations.
     pub(crate) rounds: usize,
 }
 
@@ -71,11 +71,11 @@ impl Solved {
 }
 
 impl LennardJonesSphere {
-    /// A sphere of a Tabor parameter between 0.01 and 5, for states up to the approach `deepest`
-    /// (0 to 20 ranges).
+    /// A sphere of a Tabor parameter between 0.01 and 5, for states up to the approach `deepest` (0
+    /// to 20 ranges).
     ///
-    /// The edge of contact sharpens with the Tabor parameter: a curve takes a fraction of a second
-    /// at 1, some ten seconds at 3, minutes at 5.
+    /// The contact edge sharpens with the Tabor parameter: a curve takes a fraction of a second at
+    /// 1, about ten seconds at 3, minutes at 5.
     pub fn new(tabor_parameter: f64, deepest: f64) -> Result<Self, TheoryError> {
         let mu = within(
             "tabor_parameter",
@@ -89,15 +89,16 @@ impl LennardJonesSphere {
             (0.0..=20.0).contains(&deepest),
             "between 0 and 20",
         )?;
-        // The edge of contact is as wide as the cohesive length, 0.75 mu^(-3/2), or as the law.
+        // The contact edge is as wide as the cohesive length, 0.75 mu^(-3/2), or as the law.
         let width = (0.45 * mu.powf(-1.5)).min(0.35);
-        // No contact is wider than that of JKR at the deepest approach; the attraction reaches on.
+        // No contact is wider than that of JKR at the deepest approach; the attraction extends
+        // further.
         let widest = (deepest + 3.5 * mu).sqrt() + (1.8 / mu.sqrt()).min(1.5);
         Ok(Self::with_panels(mu, width, widest))
     }
 
     fn with_panels(tabor_parameter: f64, width: f64, fine: f64) -> Self {
-        // What attracts beyond x adds (16/3)/x^4 to the force: 2e-11 at 700.
+        // The attraction beyond x adds (16/3)/x^4 to the force: 2e-11 at 700.
         let rings = Rings::new(width, fine, 700.0);
         // E* is 1 in the rings; w/range over E* range/sqrt(R range) is mu^(3/2).
         let compliance = rings.compliance() * tabor_parameter.powf(1.5);
@@ -131,19 +132,19 @@ impl LennardJonesSphere {
         -LAW.traction(self.gap(state, x))
     }
 
-    /// Radius at which the gap is `gap`, if it is smaller on the axis. With 0 the radius of zero
-    /// traction, with [`Law::peak_gap`] that of the greatest tension.
+    /// Radius at which the gap is `gap`, which must exceed the gap on the axis. For 0 this is the
+    /// radius of zero traction, for [`Law::peak_gap`] that of the greatest tension.
     pub fn radius_of_gap(&self, state: &State, gap: f64) -> Result<f64, TheoryError> {
         let excess = |x: f64| self.gap(state, x) - gap;
         root("a radius of this gap", excess, 0.0, 500.0, 1e-13)
     }
 
-    /// Ranges of approach that count as much as a force of 1 along the curve.
+    /// Ranges of approach that count as much as a force of 1 in the arc length.
     pub(crate) fn force_unit(&self) -> f64 {
         1.0 + self.tabor_parameter
     }
 
-    /// An approach outside the jump-in of any sphere of this range of Tabor parameters.
+    /// An approach before the jump-in of any sphere of this range of Tabor parameters.
     pub(crate) fn far(&self) -> f64 {
         -(4.0 + 2.0 * self.tabor_parameter)
     }
@@ -160,7 +161,7 @@ impl LennardJonesSphere {
     }
 
     fn at_approach_near(&self, guess: State, approach: f64) -> Result<Solved, TheoryError> {
-        let held = Held {
+        let held = Constraint {
             approach_share: 1.0,
             force_share: 0.0,
             sum: approach,
@@ -168,7 +169,7 @@ impl LennardJonesSphere {
         self.solve(guess, held)
     }
 
-    /// The state at `approach` that coming together reaches first.
+    /// The state at `approach` that loading reaches first.
     pub fn at_approach(&self, approach: f64) -> Result<State, TheoryError> {
         finite("approach", approach)?;
         if approach <= self.far() {
@@ -209,7 +210,7 @@ impl LennardJonesSphere {
     }
 
     /// Newton's method for the gaps and the approach.
-    pub(crate) fn solve(&self, guess: State, held: Held) -> Result<Solved, TheoryError> {
+    pub(crate) fn solve(&self, guess: State, held: Constraint) -> Result<Solved, TheoryError> {
         let State {
             mut approach,
             mut gap,
@@ -247,7 +248,7 @@ impl LennardJonesSphere {
                 held.sum - held.approach_share * approach - held.force_share * (force + changes[0]);
             let approach_step = miss / (held.approach_share + held.force_share * changes[1]);
             let step = steps.column(0) + steps.column(1) * approach_step;
-            // The law has a pole at gap -1: go no more than half way towards it.
+            // The law has a pole at gap -1: move at most half way towards it.
             let mut share = 1.0_f64;
             for (u, change) in gap.iter().zip(step.iter()) {
                 if *change < 0.0 {
@@ -293,7 +294,7 @@ mod tests {
         let (first, second) = (folds(&coarse), folds(&fine));
         for (one, other) in [(first.0, second.0), (first.1, second.1)] {
             assert!((one.approach - other.approach).abs() < 1e-7);
-            // The place along the curve is known to 1e-9, but the panels move it by more.
+            // The position along the curve is known to 1e-9, but the panels change it by more.
             assert!((one.force - other.force).abs() < 1e-5);
         }
     }

@@ -11,7 +11,7 @@ use std::f64::consts::PI;
 pub fn rectangle(x: f64, y: f64, half_sides: (f64, f64)) -> Result<f64, TheoryError> {
     let a = positive("half_sides", half_sides.0)?;
     let b = positive("half_sides", half_sides.1)?;
-    // Along a side of the rectangle the factor is zero where the logarithm is infinite.
+    // Along a side of the rectangle the factor is zero where the logarithm diverges.
     let term = |factor: f64, from: f64, to: f64| {
         if factor == 0.0 {
             0.0

@@ -1,36 +1,36 @@
-//! Sphere with a cohesive zone of constant tension: Maugis 1992, at any lambda, reduced.
+//! Sphere with a cohesive zone of constant tension: Maugis 1992, for any lambda, reduced.
 //!
 //! Maugis units (see [`super::tabor_map`]); the tension acts up to the gap `2/(pi lambda)`. Small
-//! lambda is DMT with a constant pull of `2 pi w R`, large lambda is JKR. A cohesive disc that
-//! does not touch, the *open* branch, comes before the first contact.
+//! lambda is DMT with a constant attraction of `2 pi w R`, large lambda is JKR. Before first
+//! contact there is a cohesive disc without contact, the *open* branch.
 
 use super::error::{TheoryError, not_negative, positive, within};
 use super::hertz::reduced_gap;
 use super::roots::{minimum, positive_root, root};
 use std::f64::consts::{FRAC_PI_2, PI};
 
-/// Lambda above which the contact branch has a fold, so that a held approach lets go of a
-/// contact: `(9 pi/(16 (pi - 1)))^(1/3)`, the 0.938 of Johnson & Greenwood 1997. Below it the
-/// contact closes to a point first, and the open branch lets go.
+/// Lambda above which the contact branch has a fold, so that the sphere jumps off from contact
+/// under a prescribed approach: `(9 pi/(16 (pi - 1)))^(1/3)`, the 0.938 of Johnson & Greenwood
+/// 1997. Below it the contact shrinks to a point first, and the jump is from the open branch.
 pub const FOLD_LAMBDA: f64 = 0.937_947_457_210_712_3;
 
 /// An equilibrium of the sphere, reduced.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct State {
-    /// Contact radius A; 0 where the sphere does not touch.
+    /// Contact radius A; 0 out of contact.
     pub contact_radius: f64,
     /// Outer radius of the cohesive zone.
     pub cohesive_radius: f64,
     /// Force, positive in compression.
     pub force: f64,
-    /// Approach, positive together.
+    /// Approach, positive closer.
     pub approach: f64,
-    /// Gap on the axis; 0 where the sphere touches.
+    /// Gap on the axis; 0 in contact.
     pub central_gap: f64,
 }
 
 impl State {
-    /// `m = c/a`; infinite where the sphere does not touch.
+    /// `m = c/a`; infinite out of contact.
     pub fn ratio(&self) -> f64 {
         self.cohesive_radius / self.contact_radius
     }
@@ -71,8 +71,8 @@ impl MaugisDugdale {
 
     /// The equilibrium with contact radius `contact_radius > 0`.
     ///
-    /// Maugis 1992 eq. 6.6 to 6.8, in `t = sqrt(m^2 - 1)`, which keeps its digits as the zone
-    /// shrinks; its left side grows with t, so there is one root.
+    /// Maugis 1992 eq. 6.6 to 6.8, in `t = sqrt(m^2 - 1)`, which avoids cancellation as the zone
+    /// shrinks; its left side increases with t, so there is one root.
     pub fn state(&self, contact_radius: f64) -> Result<State, TheoryError> {
         let a = positive("contact_radius", contact_radius)?;
         let lambda = self.lambda;
@@ -91,7 +91,7 @@ impl MaugisDugdale {
         })
     }
 
-    /// Cohesive radius at which the open disc just touches, the limit of no contact radius.
+    /// Cohesive radius at which the open disc just touches, the limit of zero contact radius.
     pub fn touching_radius(&self) -> f64 {
         // lambda (pi/4) c^2 + (4/3) lambda^2 (pi/2 - 1) c = 1, solved without cancellation.
         let square = 0.25 * PI * self.lambda;
@@ -99,7 +99,7 @@ impl MaugisDugdale {
         1.0 / (half + (half * half + square).sqrt())
     }
 
-    /// The open disc of radius `cohesive_radius`, zero to [`Self::touching_radius`].
+    /// The open disc of radius `cohesive_radius`, from zero to [`Self::touching_radius`].
     pub fn open_state(&self, cohesive_radius: f64) -> Result<State, TheoryError> {
         let c = not_negative("cohesive_radius", cohesive_radius)?;
         within(
@@ -123,9 +123,11 @@ impl MaugisDugdale {
         self.least(|state| state.force)
     }
 
-    /// The equilibrium of the least approach, where a held approach lets go.
+    /// The equilibrium of least approach, at which the sphere jumps off under a prescribed approach
+    /// (fixed grips).
     ///
-    /// Above [`FOLD_LAMBDA`] it touches; below it is an open disc of radius `8 lambda/(3 pi)`.
+    /// Above [`FOLD_LAMBDA`] it is in contact; below it is an open disc of radius `8 lambda/(3
+    /// pi)`.
     pub fn grip(&self) -> Result<State, TheoryError> {
         if self.lambda > FOLD_LAMBDA {
             self.least(|state| state.approach)
@@ -142,14 +144,14 @@ impl MaugisDugdale {
     }
 
     /// Touching equilibria under `force`, the smaller contact radius first; the last is stable
-    /// under load control. None beyond pull-off.
+    /// under load control. Empty beyond pull-off.
     pub fn states_at_force(&self, force: f64) -> Result<Vec<State>, TheoryError> {
         let turn = self.pull_off()?;
         self.states_where(|state| state.force - force, turn, force.max(0.0).cbrt())
     }
 
-    /// Touching equilibria at `approach`, the smaller contact radius first; the last is stable if
-    /// the approach is held.
+    /// Touching equilibria at `approach`, the smaller contact radius first; the last is stable
+    /// under a prescribed approach.
     pub fn states_at_approach(&self, approach: f64) -> Result<Vec<State>, TheoryError> {
         let turn = if self.lambda > FOLD_LAMBDA {
             self.grip()?
@@ -160,8 +162,8 @@ impl MaugisDugdale {
         self.states_where(|state| state.approach - approach, turn, reach)
     }
 
-    /// Open discs at `approach`, the smaller first; the one at or above the radius of the fold,
-    /// `8 lambda/(3 pi)`, is stable if the approach is held.
+    /// Open discs at `approach`, the smaller first; one at or above the radius of the fold, `8
+    /// lambda/(3 pi)`, is stable under a prescribed approach.
     pub fn open_states_at_approach(&self, approach: f64) -> Result<Vec<State>, TheoryError> {
         let centre = 8.0 / (3.0 * PI) * self.lambda;
         let square = centre * centre + 2.0 * (self.range() + approach);
@@ -178,8 +180,8 @@ impl MaugisDugdale {
             .collect()
     }
 
-    /// Where a sphere that comes closer jumps to as it first feels the attraction, with the
-    /// approach held at minus the range: the open disc if there is one, else a contact.
+    /// The state to which an approaching sphere jumps as it first feels the attraction, at an
+    /// approach of minus the range: the open disc if there is one, else a contact.
     pub fn jump_in(&self) -> Result<State, TheoryError> {
         let approach = -self.range();
         let open = 16.0 / (3.0 * PI) * self.lambda;
@@ -193,7 +195,7 @@ impl MaugisDugdale {
             .ok_or(TheoryError::NoSolution { what: "a contact" })
     }
 
-    /// Touching states at which `excess` vanishes, given that it falls to `turn` and then rises.
+    /// Touching states at which `excess` vanishes, which decreases up to `turn` and then increases.
     fn states_where(
         &self,
         excess: impl Fn(&State) -> f64,
@@ -234,7 +236,7 @@ impl MaugisDugdale {
     }
 }
 
-/// `t atan t - m + 1` with `m = sqrt(1 + t^2)`: the opening of the cohesive zone's own punch.
+/// `t atan t - m + 1` with `m = sqrt(1 + t^2)`: the opening by the cohesive zone.
 fn punch_gap(t: f64) -> f64 {
     if t < 0.05 {
         // t atan t = t^2 - t^4/3 + ..., m - 1 = t^2/2 - t^4/8 + ...

@@ -1,21 +1,22 @@
-//! Closed forms and asperity models that the full field is judged by.
+//! Closed forms and asperity models to compare the full field with.
 //!
-//! One file a theory, each of plain functions with their source. SI units unless a name or its
-//! comment says *reduced*; then [`tabor_map`] says what the unit is. Force, pressure and approach
-//! are positive in compression; a cohesive traction is positive where it attracts, and a work of
-//! adhesion is positive. What lies outside a theory's range comes back as a [`TheoryError`].
+//! One file a theory, each with plain functions and their source. SI units unless a name or its
+//! comment says *reduced*; [`tabor_map`] defines the reduced units. Force, pressure and approach
+//! are positive in compression; a cohesive traction is positive in attraction, and a work of
+//! adhesion is positive. Outside its range a theory returns a [`TheoryError`].
 //!
-//! | question | file |
+//! | subject | file |
 //! |---|---|
-//! | which theory holds, and in what units | [`tabor_map`], [`laws`] |
-//! | one sphere, hard | [`hertz`], [`cone_punch`] |
-//! | one sphere, rigid and adhesive | [`bradley`], [`derjaguin`], [`dmt`] |
-//! | one sphere, soft and adhesive | [`jkr`], [`maugis_dugdale`], [`lennard_jones_sphere`], [`rate`] |
-//! | what else a sphere does | [`capillary`], [`friction`], [`conductance`], [`viscoelastic`] |
-//! | a wave | [`westergaard`], [`cohesive_wave`] |
-//! | a rough surface by its summits | [`gw`], [`gw_m`], [`fuller_tabor`], [`icha`] |
-//! | a rough surface by its spectrum | [`spectrum`], [`persson`], [`persson_gap`], [`bam`], [`pastewka_robbins`] |
-//! | the elastic body itself | [`love`], [`kernel_eigenvalue`], [`layer`] |
+//! | range of each theory, units, laws | [`tabor_map`], [`laws`] |
+//! | sphere, no adhesion | [`hertz`], [`cone_punch`] |
+//! | rigid adhesive sphere | [`bradley`], [`derjaguin`], [`dmt`] |
+//! | soft adhesive sphere | [`jkr`], [`maugis_dugdale`], [`lennard_jones_sphere`], [`rate`] |
+//! | other effects on a sphere | [`capillary`], [`friction`], [`conductance`], [`viscoelastic`] |
+//! | wave | [`westergaard`], [`cohesive_wave`] |
+//! | rough surface by its summits | [`gw`], [`gw_m`], [`fuller_tabor`], [`icha`] |
+//! | rough surface by its spectrum | [`spectrum`], [`persson`], [`persson_gap`], [`bam`],
+//! [`pastewka_robbins`] |
+//! | the elastic body | [`love`], [`kernel_eigenvalue`], [`layer`] |
 
 mod block_solve;
 pub mod error;

@@ -1,7 +1,7 @@
-//! Whether a rough surface sticks: Pastewka & Robbins 2014, derived again.
+//! Criterion for the adhesion of a rough surface: Pastewka & Robbins 2014, derived again.
 //!
 //! The contact edge is a line contact with the gap `(4/3) h' t^(3/2)/sqrt(d)`, `d = 4 h'/h''`; the
-//! strip within the range of attraction pulls against the repulsive mean pressure.
+//! attraction of the strip within its range opposes the repulsive mean pressure.
 
 use super::error::{TheoryError, positive};
 use std::f64::consts::PI;
@@ -23,7 +23,7 @@ pub struct Edge {
     pub area_coefficient: f64,
 }
 
-/// Repulsion over attraction; below 1 the surface sticks.
+/// Repulsion over attraction; the surface adheres below 1.
 ///
 /// `(h' dr/(kappa l)) (h' d/(4 dr))^(2/3) / (pi (3/16)^(2/3))` with `l = w/E*`.
 pub fn stickiness_ratio(edge: &Edge) -> Result<f64, TheoryError> {

@@ -1,9 +1,9 @@
 //! Contact area of a rough surface by its spectrum: Persson 2001, corrected 2008.
 //!
-//! With `P` the nominal pressure over `E* h'_rms`, the fraction of the area that looks in contact
-//! does not depend on the shape of the spectrum. The factor `gamma` (0.4 to 0.55 in the
-//! literature, here usually 0.5) tells how much less energy a partial contact stores than the
-//! full contact's waves would; `gamma = 1` is the first version of the theory.
+//! With `P` the nominal pressure over `E* h'_rms`, the contact area fraction does not depend on the
+//! shape of the spectrum. The factor `gamma` (0.4 to 0.55 in the literature, here usually 0.5) is
+//! the elastic energy of partial contact relative to that of full contact; `gamma = 1` is the first
+//! version of the theory.
 
 use super::error::{TheoryError, not_negative, positive, within};
 use super::quadrature::gauss_legendre;
@@ -16,7 +16,7 @@ const LOG_ENTRIES: usize = 8400;
 const GAP_STEP: f64 = 0.005;
 const GAP_ENTRIES: usize = 1400;
 
-/// The functions of the theory that only `gamma` changes, tabulated once (some milliseconds).
+/// The functions of the theory that depend only on `gamma`, tabulated once (some milliseconds).
 #[derive(Clone, Debug)]
 pub struct Persson {
     gamma: f64,
@@ -95,7 +95,7 @@ impl Persson {
         }
         let last = LOG_ENTRIES - 1;
         if place >= last as f64 {
-            // Nearly no contact is left: g grows by gamma v.
+            // Nearly no contact is left: g increases by gamma v.
             let end = LOG_START + last as f64 * LOG_STEP;
             return self.log_variance[last].exp() + self.gamma * (v - end.exp());
         }
@@ -122,7 +122,7 @@ impl Persson {
 
     pub(crate) fn gap_integral_at(&self, x0: f64) -> f64 {
         let place = x0 / GAP_STEP;
-        // Compared before it is counted: a place past all integers has no next one.
+        // Compare before converting to an index: a position beyond all integers has no next one.
         let repulsion = if place >= (GAP_ENTRIES - 1) as f64 {
             0.0
         } else {

@@ -1,8 +1,8 @@
-//! Gaps of a rough contact by its spectrum, and the adhesion they carry: Yang & Persson 2008,
+//! Gaps of a rough contact from its spectrum, and the adhesion across them: Yang & Persson 2008,
 //! Almqvist et al. 2011, Afferrante et al. 2018, Persson & Scaraggi 2014.
 //!
-//! The attraction is summed over the gaps of the hard-wall contact (the force method of DMT), so
-//! it holds for asperities of small Tabor parameter, and shows no hysteresis.
+//! The attraction is summed over the gaps of the hard-wall contact (the DMT force method), so it is
+//! valid for asperities of small Tabor parameter and has no hysteresis.
 
 use super::error::{TheoryError, not_negative, positive, within};
 use super::laws::Law;
@@ -21,7 +21,7 @@ pub struct RoughContact {
     cells: usize,
 }
 
-/// Part of the surface that leaves contact between two magnifications.
+/// Part of the surface that loses contact between two magnifications.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct GapCell {
     /// Its share of the nominal area.
@@ -32,10 +32,10 @@ pub struct GapCell {
     pub width: f64,
 }
 
-/// A law between the surfaces.
+/// Adhesion by a reduced law.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Adhesion {
-    /// How it fades.
+    /// The law.
     pub law: Law,
     /// Work of adhesion, J/m^2.
     pub work_of_adhesion: f64,
@@ -84,8 +84,8 @@ impl RoughContact {
         self.mean_gap_beyond(self.spectrum.smallest_wavenumber(), pressure, 1e-9)
     }
 
-    /// Mean gap, m, where the contact looks complete at wave numbers below `wavenumber`, under the
-    /// `pressure` that such a place carries.
+    /// Mean gap, m, of a region in contact at wave numbers below `wavenumber`, under the `pressure`
+    /// that such a region carries.
     fn mean_gap_beyond(
         &self,
         wavenumber: f64,
@@ -143,9 +143,9 @@ impl RoughContact {
 
     /// The surface out of contact at a nominal `pressure` (Pa), by magnification.
     ///
-    /// The weights and the contact area add up to 1, the weighted means to the mean gap: both are
-    /// differences of what is still in contact, so that no derivative is needed. The width joins
-    /// the roughness not yet seen with the mean (Afferrante et al. 2018).
+    /// The weights and the contact area add up to 1, and the weighted means to the mean gap: both
+    /// are differences of the remaining contact, so that no derivative is needed. The width
+    /// combines the roughness at higher magnifications with the mean (Afferrante et al. 2018).
     pub fn gap_cells(&self, pressure: f64) -> Result<Vec<GapCell>, TheoryError> {
         let pressure = positive("pressure", pressure)?;
         let (first, last) = (
@@ -172,7 +172,8 @@ impl RoughContact {
         for i in 0..self.cells {
             let (next_area, next_gap) = state(i + 1)?;
             let weight = area - next_area;
-            // At the first magnifications hardly anything leaves contact; it goes with the next.
+            // At the first magnifications hardly anything loses contact; it is added to the next
+            // cell.
             if weight <= 1e-14 {
                 continue;
             }
@@ -189,8 +190,7 @@ impl RoughContact {
         Ok(cells)
     }
 
-    /// Share of the nominal area per gap, 1/m, at a `gap` of zero or more (m), without the contact
-    /// itself.
+    /// Density of the gap distribution, 1/m, at a `gap` of zero or more (m), without the contact.
     pub fn gap_density(cells: &[GapCell], gap: f64) -> f64 {
         cells
             .iter()
@@ -248,7 +248,7 @@ impl RoughContact {
         })
     }
 
-    /// Repulsive pressure that leaves `net_pressure` (Pa), on the closer side of `pull_off`, Pa.
+    /// Repulsive pressure at a `net_pressure` (Pa), on the compressive side of `pull_off`, Pa.
     pub fn repulsive_pressure(
         &self,
         adhesion: &Adhesion,

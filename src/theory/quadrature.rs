@@ -1,4 +1,4 @@
-//! Integrals: adaptive Gauss-Kronrod for what is asked once, Gauss-Legendre for what is tabulated.
+//! Numerical integration: adaptive Gauss-Kronrod for single integrals, Gauss-Legendre for tables.
 
 use super::error::TheoryError;
 use std::f64::consts::PI;
@@ -58,7 +58,7 @@ fn panel(integrand: &mut impl FnMut(f64) -> f64, from: f64, to: f64) -> Panel {
             gauss += GAUSS_WEIGHTS[i / 2] * (left + right);
         }
     }
-    // A difference below rounding is no sign of an error, and splitting would not reduce it.
+    // A difference below rounding does not indicate an error, and splitting would not reduce it.
     let difference = ((kronrod - gauss) * half).abs();
     let rounding = 50.0 * f64::EPSILON * absolute * half.abs();
     Panel {
@@ -75,10 +75,10 @@ fn panel(integrand: &mut impl FnMut(f64) -> f64, from: f64, to: f64) -> Panel {
 
 /// Integral of `integrand` from `from` to `to`, to a relative (or absolute) tolerance.
 ///
-/// The panel with the largest error is halved until the sum of errors is below
-/// `max(absolute, relative * |integral|)`. The error of a panel is the difference between its
-/// 15-point and 7-point rule, which is far larger than the true one: `relative = 1e-10` gives
-/// nearly all digits on a smooth integrand. End points are never evaluated.
+/// The panel with the largest error is halved until the sum of errors is below `max(absolute,
+/// relative * |integral|)`. The error of a panel is the difference between its 15-point and 7-point
+/// rule, which far exceeds the true one: `relative = 1e-10` gives nearly full precision for a
+/// smooth integrand. End points are never evaluated.
 ///
 /// # Source
 /// Piessens et al. 1983, QUADPACK (routine QAG, rule 1).
@@ -115,7 +115,7 @@ pub fn integrate(
 
 /// Integral from `from` to infinity, by `x = from + scale t / (1 - t)`.
 ///
-/// `scale` is where the integrand has its weight; a wrong one costs panels, not digits.
+/// `scale` is the position of the integrand's weight; a poor choice costs panels, not digits.
 pub fn integrate_to_infinity(
     mut integrand: impl FnMut(f64) -> f64,
     from: f64,
@@ -126,7 +126,7 @@ pub fn integrate_to_infinity(
     let mapped = |t: f64| {
         let rest = 1.0 - t;
         let value = integrand(from + scale * t / rest);
-        // The Jacobian may overflow where the integrand has long been zero.
+        // The Jacobian may overflow where the integrand is already zero.
         if value == 0.0 {
             0.0
         } else {

@@ -1,6 +1,6 @@
-//! Work to open a crack that depends on its speed, and the pull-off of a sphere that follows.
+//! Fracture energy that depends on the crack speed, and the resulting pull-off of a sphere.
 //!
-//! The speed is that of the receding edge; an advancing edge costs the plain work of adhesion.
+//! The speed is that of the receding edge; an advancing edge costs the static work of adhesion.
 
 use super::error::{TheoryError, not_negative, positive, within};
 use super::jkr;
@@ -21,7 +21,8 @@ pub fn power_law(
     Ok(positive("work_of_adhesion", work_of_adhesion)? * (1.0 + growth))
 }
 
-/// `max(W0, W0 + slope log(v/v0))`, J/m^2: the bare logarithm is negative at low speeds.
+/// `max(W0, W0 + slope log(v/v0))`, J/m^2: without the limit the logarithm is negative at low
+/// speeds.
 pub fn logarithmic_law(
     work_of_adhesion: f64,
     slope: f64,
@@ -39,11 +40,12 @@ pub fn quasi_static_pull_off(sphere: &Sphere, fracture_energy: f64) -> Result<f6
     Ok(1.5 * PI * sphere.radius() * not_negative("fracture_energy", fracture_energy)?)
 }
 
-/// Greatest tension, in `pi w R`, of a JKR sphere of the power law that is drawn off at a steady
+/// Greatest tension, in `pi w R`, of a JKR sphere with the power law that is pulled off at a steady
 /// speed from zero load.
 ///
 /// `speed` is the rate of approach in `v* delta*/a*`. With the opening `y = -approach` as the
 /// variable the edge obeys `dA/dy = -(g - 1)^(1/n)/speed`, `g = 3 (A^2 + y)^2/(8 A)` (the energy
+/// release rate of [`jkr::energy_release_rate`] over w). As the speed goes to 0 this is 1.5.
 /// release rate of [`jkr::energy_release_rate`] over w). As the speed goes to 0 this is 1.5.
 pub fn reduced_pull_off(speed: f64, exponent: f64) -> Result<f64, TheoryError> {
     let speed = positive("speed", speed)?;

@@ -1,7 +1,7 @@
-//! Displacement of a half-space under axisymmetric pressure, without a grid's error.
+//! Displacement of a half-space under axisymmetric pressure by radial panels.
 //!
-//! The pressure is a polynomial on each of a row of radial panels, given at Gauss points; the
-//! matrix maps it to displacement at the same points, times E*, and is good to about 1e-11.
+//! The pressure is a polynomial on each radial panel, given at Gauss points; the matrix maps it to
+//! displacement at the same points, times E*, with an error of about 1e-11.
 
 use super::quadrature::gauss_legendre;
 use super::special::elliptic_complement;
@@ -26,7 +26,8 @@ pub(crate) struct Rings {
 }
 
 impl Rings {
-    /// Panels of `width` up to `fine`, then each twice as wide as the last, up to `far` at least.
+    /// Panels of `width` up to `fine`, then each twice as wide as the one before, up to at least
+    /// `far`.
     pub(crate) fn new(width: f64, fine: f64, far: f64) -> Self {
         let count = (fine / width).ceil().max(1.0);
         let mut edges: Vec<f64> = (0..=count as usize)
@@ -80,7 +81,7 @@ impl Rings {
         shapes.map(|shape| shape / sum)
     }
 
-    /// The field with `values` at the points, at radius `r`; the outermost panel goes on.
+    /// The field with `values` at the points, at radius `r`; the outermost panel is extrapolated.
     pub(crate) fn interpolate(&self, values: &[f64], r: f64) -> f64 {
         let panels = self.edges.len() - 1;
         let panel = self.edges.partition_point(|edge| *edge <= r);
@@ -114,11 +115,12 @@ impl Rings {
         matrix
     }
 
-    /// Displacement at `r` under each polynomial of a panel that holds or adjoins it.
+    /// Displacement at `r` under each polynomial of a panel that contains or adjoins it.
     fn near(&self, r: f64, panel: usize) -> [f64; ORDER] {
         let (from, to) = (self.edges[panel], self.edges[panel + 1]);
         let mut sums = [0.0; ORDER];
-        // Parts no longer than their distance from the logarithm at r; what is left is nothing.
+        // Subintervals no longer than their distance from the logarithm at r; the rest is
+        // negligible.
         let smallest = 1e-13 * (to - from);
         let mut parts = vec![(from, to)];
         while let Some((a, b)) = parts.pop() {

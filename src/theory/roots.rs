@@ -20,7 +20,7 @@ pub fn root(
     if !fa.is_finite() || !fb.is_finite() || fa * fb > 0.0 {
         return Err(TheoryError::NoSolution { what });
     }
-    // b is the best estimate, c lies on the other side, a is the estimate before.
+    // b is the best estimate, c lies on the other side of the root, a is the previous estimate.
     let (mut c, mut fc) = (a, fa);
     let mut step = b - a;
     let mut step_before = step;
@@ -98,10 +98,10 @@ pub fn positive_root(
     root(what, |s| function(s.exp()), low.ln(), high.ln(), 1e-15).map(f64::exp)
 }
 
-/// Place and value of the least value of `function` between `low` and `high` (Brent 1973).
+/// Position and value of the minimum of `function` between `low` and `high` (Brent 1973).
 ///
-/// The value is good to rounding, its place only to the square root of that. With several minima
-/// in the bracket any of them may come back.
+/// The value is accurate to rounding, its position only to the square root of that. With several
+/// minima in the bracket any of them may be returned.
 pub fn minimum(mut function: impl FnMut(f64) -> f64, low: f64, high: f64) -> (f64, f64) {
     let golden = 0.5 * (3.0 - 5.0_f64.sqrt());
     let (mut low, mut high) = (low, high);

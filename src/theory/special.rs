@@ -8,7 +8,7 @@ const EULER: f64 = 0.577_215_664_901_532_9;
 /// Error function, `2/sqrt(pi) int_0^x exp(-t^2) dt`.
 pub fn erf(x: f64) -> f64 {
     if x.abs() < 2.5 {
-        // All terms have one sign, so nothing cancels (Abramowitz & Stegun 7.1.6).
+        // All terms have the same sign, so there is no cancellation (Abramowitz & Stegun 7.1.6).
         let square = x * x;
         let (mut term, mut sum, mut n) = (x, x, 0.0);
         // Some 40 terms at the largest x here.
@@ -23,7 +23,7 @@ pub fn erf(x: f64) -> f64 {
     }
 }
 
-/// Complementary error function, `1 - erf(x)`, with a small relative error for large x too.
+/// Complementary error function, `1 - erf(x)`, with a small relative error also for large x.
 pub fn erfc(x: f64) -> f64 {
     if x < 1.0 {
         1.0 - if x < -2.5 { -1.0 + erfc(-x) } else { erf(x) }
@@ -75,7 +75,7 @@ pub fn elliptic(m: f64) -> (f64, f64) {
     elliptic_complement(1.0 - m)
 }
 
-/// The same from the complement `1 - m >= 0`, which keeps its digits near the singularity of K.
+/// The same from the complement `1 - m >= 0`, which is precise near the singularity of K.
 pub fn elliptic_complement(complement: f64) -> (f64, f64) {
     if complement <= 0.0 {
         return if complement == 0.0 {

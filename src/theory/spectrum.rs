@@ -1,4 +1,4 @@
-//! Self-affine spectrum with a roll-off plateau, and the roughness it stands for.
+//! Self-affine spectrum with a roll-off plateau, and its roughness parameters.
 //!
 //! `C(q)`, m^4, is isotropic with `<h^2> = 2 pi int q C dq`: constant from the smallest wave number
 //! qL to the roll-off q0, then `C0 (q/q0)^(-2(H+1))` up to the largest, q1.
@@ -7,8 +7,8 @@
 use super::error::{TheoryError, positive, within};
 use std::f64::consts::PI;
 
-/// A self-affine spectrum. Lengths in m, wave numbers in 1/m; any other unit of length serves as
-/// well, if it is the same throughout.
+/// A self-affine spectrum. Lengths in m, wave numbers in 1/m; any other unit of length works if
+/// used throughout.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Spectrum {
     smallest: f64,
@@ -99,13 +99,13 @@ impl Spectrum {
         self.moment_between(order, self.smallest, self.largest)
     }
 
-    /// `I_k` of the wave numbers between `from` and `to`; 0 if there are none.
+    /// `I_k` of the wave numbers between `from` and `to`; 0 for an empty interval.
     pub fn moment_between(&self, order: i32, from: f64, to: f64) -> f64 {
         let order = f64::from(order);
         let power = 2.0 * (self.hurst_exponent + 1.0);
         let (from, to) = (from.max(self.smallest), to.min(self.largest));
         let flat = power_integral(order + 2.0, from, to.min(self.rolloff));
-        // In units of q0, so that q0^power never appears by itself.
+        // In units of q0, so that q0^power never overflows.
         let steep = power_integral(
             order + 2.0 - power,
             from.max(self.rolloff) / self.rolloff,
@@ -156,13 +156,13 @@ impl Spectrum {
         8.0 / 3.0 * (self.profile_moments().2 / PI).sqrt()
     }
 
-    /// The radius `2/h''_rms`, m, used for one typical summit.
+    /// The radius `2/h''_rms`, m, of one typical summit.
     pub fn typical_radius(&self) -> f64 {
         2.0 / self.rms_curvature()
     }
 }
 
-/// `int_from^to x^(n-1) dx`, 0 for an empty interval, good at n = 0 and near it.
+/// `int_from^to x^(n-1) dx`, 0 for an empty interval, precise at and near n = 0.
 fn power_integral(n: f64, from: f64, to: f64) -> f64 {
     if to <= from {
         return 0.0;

@@ -1,4 +1,4 @@
-//! Conventions: contact modulus, range parameters, reduced units, and which theory holds where.
+//! Contact modulus, range parameters, reduced units, and the range of each theory.
 //!
 //! Two sets of reduced units are in use. *Maugis units*, with `K = 4 E*/3`: radius
 //! `a* = (pi w R^2/K)^(1/3)`, force `pi w R`, approach `a*^2/R`. *Lennard-Jones units*: heights in
@@ -19,13 +19,13 @@ pub const LJ_PER_MAUGIS_RADIUS: f64 = 1.330_670_039_491_468_8;
 /// Lennard-Jones law, `2 (16/(9 sqrt 3)) (9/(16 pi))^(1/3)` (Johnson & Greenwood 1997).
 pub const LAMBDA_PER_MU_MATCHED: f64 = 1.157_011_634_850_799_5;
 
-/// Tabor parameter below which the pull-off of the DMT force method is at point contact, and so
-/// its magnitude right: `(sqrt2 i0)^(-2/3)`, `i0 = (4/3)(B(-1/2, 7/2) - B(-1/2, 19/2))`.
+/// Tabor parameter below which the pull-off of the DMT force method is at point contact, so that
+/// its magnitude is correct: `(sqrt2 i0)^(-2/3)`, `i0 = (4/3)(B(-1/2, 7/2) - B(-1/2, 19/2))`.
 ///
 /// The 0.24 of Pashley 1984 and Greenwood 2007.
 pub const FORCE_DMT_LIMIT: f64 = 0.236_959_952_979_233_6;
 
-/// Tabor parameter above which the pull-off is that of JKR within 2 %.
+/// Tabor parameter above which the pull-off agrees with JKR within 2 %.
 pub const JKR_LIMIT: f64 = 5.0;
 
 /// A paraboloid `r^2/(2 radius)` against a half-space, with or without adhesion.
@@ -37,7 +37,7 @@ pub struct Sphere {
 }
 
 impl Sphere {
-    /// Checks and keeps `radius` (m), `contact_modulus` (Pa) and `work_of_adhesion` (J/m^2, 0
+    /// Checks and stores `radius` (m), `contact_modulus` (Pa) and `work_of_adhesion` (J/m^2, 0
     /// without adhesion).
     pub fn new(
         radius: f64,
@@ -71,7 +71,7 @@ impl Sphere {
         4.0 * self.contact_modulus / 3.0
     }
 
-    /// Maugis' units of this sphere (theory of the JKR and Maugis-Dugdale files).
+    /// Maugis' units of this sphere, used by the JKR and Maugis-Dugdale files.
     pub fn maugis_scales(&self) -> Result<MaugisScales, TheoryError> {
         positive("work_of_adhesion", self.work_of_adhesion)?;
         let force = PI * self.work_of_adhesion * self.radius;
@@ -84,7 +84,7 @@ impl Sphere {
     }
 }
 
-/// Units in which JKR has no and Maugis-Dugdale one parameter (Maugis 1992).
+/// Units in which JKR has no parameter and Maugis-Dugdale one (Maugis 1992).
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct MaugisScales {
     /// `a* = (pi w R^2/K)^(1/3)`, m.
@@ -126,8 +126,8 @@ pub fn contact_modulus(first: (f64, f64), second: (f64, f64)) -> Result<f64, The
     positive("contact modulus of the pair", 1.0 / compliance)
 }
 
-/// Radius of the sphere that stands for a pair, `1/R = 1/R1 + 1/R2`, m; an infinite radius is a
-/// flat, a negative one a hollow.
+/// Radius of the equivalent sphere of a pair, `1/R = 1/R1 + 1/R2`, m; an infinite radius is a flat,
+/// a negative one concave.
 pub fn combined_radius(first: f64, second: f64) -> Result<f64, TheoryError> {
     positive(
         "combined radius of the pair",
@@ -135,8 +135,8 @@ pub fn combined_radius(first: f64, second: f64) -> Result<f64, TheoryError> {
     )
 }
 
-/// Dupre's work of adhesion `gamma1 + gamma2 - gamma12`, J/m^2; twice the surface energy for
-/// one material.
+/// Dupre's work of adhesion `gamma1 + gamma2 - gamma12`, J/m^2; twice the surface energy for a
+/// single material.
 pub fn work_of_adhesion(
     surface_energies: [f64; 2],
     interface_energy: f64,
@@ -186,12 +186,13 @@ pub fn maugis_from_lj_radius(radius: f64, tabor_parameter: f64) -> f64 {
     radius / (LJ_PER_MAUGIS_RADIUS * tabor_parameter.sqrt())
 }
 
-/// Which theory of a sphere holds at a Tabor parameter (Johnson & Greenwood 1997).
+/// The valid theory of a sphere at a Tabor parameter (Johnson & Greenwood 1997).
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Regime {
-    /// Stiff, small, long-ranged: Hertz profile, attraction summed outside it ([`super::dmt`]).
+    /// Stiff, small, long-ranged: Hertz profile with the attraction summed outside it
+    /// ([`super::dmt`]).
     ForceDmt,
-    /// Neither: [`super::maugis_dugdale`], or the field itself.
+    /// Intermediate: [`super::maugis_dugdale`], or the full field.
     Intermediate,
     /// Soft, large, short-ranged: [`super::jkr`].
     Jkr,
@@ -215,7 +216,7 @@ mod tests {
     use crate::theory::special::beta;
 
     #[test]
-    fn constants_are_what_their_formulas_say() {
+    fn constants_follow_from_their_formulas() {
         let close = |got: f64, formula: f64| assert!((got / formula - 1.0).abs() < 1e-14);
         close(LJ_PER_MAUGIS_APPROACH, (9.0 * PI * PI / 16.0).cbrt());
         close(LJ_PER_MAUGIS_RADIUS, (0.75 * PI).cbrt());

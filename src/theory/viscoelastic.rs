@@ -1,6 +1,6 @@
 //! Standard linear solid: creep of one wave, and a sphere under a step of load (Lee & Radok 1960).
 //!
-//! The contact modulus relaxes as `E*(t) = E_inf + E_1 exp(-t/tau)`, Poisson's ratio stays.
+//! The contact modulus relaxes as `E*(t) = E_inf + E_1 exp(-t/tau)` at constant Poisson's ratio.
 
 use super::error::{TheoryError, not_negative, positive};
 use super::quadrature::integrate;
@@ -14,12 +14,12 @@ pub struct Solid {
     relaxation_time: f64,
 }
 
-/// How a branch is advanced in time.
+/// Time integration of a branch.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Scheme {
     /// First order in the step.
     BackwardEuler,
-    /// Exact for a displacement that is linear in the step; second order. Taylor, Pister &
+    /// Exact for a displacement that is linear within the step; second order. Taylor, Pister &
     /// Goudreau 1970, Simo & Hughes 1998.
     Exponential,
 }
@@ -36,8 +36,8 @@ impl Scheme {
 }
 
 impl Solid {
-    /// A solid of `relaxed_modulus` E_inf and `branch_modulus` E_1 (Pa) that relaxes within
-    /// `relaxation_time` tau (s).
+    /// A solid of `relaxed_modulus` E_inf and `branch_modulus` E_1 (Pa) with the `relaxation_time`
+    /// tau (s).
     pub fn new(
         relaxed_modulus: f64,
         branch_modulus: f64,
@@ -50,12 +50,12 @@ impl Solid {
         })
     }
 
-    /// Modulus at once, `E_0 = E_inf + E_1`, Pa.
+    /// Instantaneous modulus, `E_0 = E_inf + E_1`, Pa.
     pub fn instantaneous_modulus(&self) -> f64 {
         self.relaxed_modulus + self.branch_modulus
     }
 
-    /// Time of creep `tau E_0/E_inf`, s; longer than that of relaxation.
+    /// Creep time `tau E_0/E_inf`, s; longer than the relaxation time.
     pub fn creep_time(&self) -> f64 {
         self.relaxation_time * self.instantaneous_modulus() / self.relaxed_modulus
     }
@@ -76,10 +76,10 @@ impl Solid {
     }
 
     /// Displacement of the wave `wavenumber` (1/m) after `steps` of `time_step` (s) under a
-    /// constant `pressure` (Pa) from time 0 on, as a time-stepping solver finds it, m.
+    /// constant `pressure` (Pa) from time 0 on, by time stepping, m.
     ///
-    /// The branch starts with the strain of the instantaneous response. The exact value is
-    /// `2 pressure creep(t)/wavenumber`.
+    /// The branch starts with the strain of the instantaneous response. The exact value is `2
+    /// pressure creep(t)/wavenumber`.
     pub fn stepped_creep(
         &self,
         wavenumber: f64,
@@ -104,7 +104,7 @@ impl Solid {
     }
 
     /// Contact radius of a sphere of `radius` (m) at `time` (s) after a step to `force` (N), m:
-    /// `a^3 = (3 R F/4) J(t)`. Lee & Radok 1960; the contact grows, as it must for this.
+    /// `a^3 = (3 R F/4) J(t)`. Lee & Radok 1960; valid because the contact grows.
     pub fn sphere_contact_radius(
         &self,
         radius: f64,
@@ -117,7 +117,7 @@ impl Solid {
 
     /// Pressure on that sphere at distance `r` (m) from the axis, Pa.
     ///
-    /// The hereditary integral of `(2/(pi R)) sqrt(a(s)^2 - r^2)` over the relaxation modulus.
+    /// The hereditary integral of `(2/(pi R)) sqrt(a(s)^2 - r^2)` with the relaxation modulus.
     pub fn sphere_pressure(
         &self,
         radius: f64,
@@ -132,8 +132,8 @@ impl Solid {
         }
         let first = self.sphere_contact_radius(radius, force, 0.0)?;
         let shape = |a: f64| ((a - r) * (a + r)).max(0.0).sqrt();
-        // By parts: the modulus at once times the shape now, less what has relaxed since. Before
-        // the contact reached r there was no pressure there.
+        // Integrated by parts: the instantaneous modulus times the current shape, less the relaxed
+        // part. There was no pressure at r before the contact reached it.
         let reached = if r <= first {
             0.0
         } else {
@@ -142,7 +142,7 @@ impl Solid {
             -self.creep_time() * ((1.0 - share) / early).ln()
         };
         let rate = self.branch_modulus / self.relaxation_time;
-        // s = reached + x^2 takes out the square root at the moment of first contact.
+        // s = reached + x^2 removes the square root at the moment of first contact.
         let lost = |x: f64| {
             let s = reached + x * x;
             let a = (0.75 * radius * force * self.creep(s)).cbrt();

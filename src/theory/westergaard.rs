@@ -100,14 +100,14 @@ pub fn mean_gap(mean_pressure: f64) -> Result<f64, TheoryError> {
     })
 }
 
-/// Mean pressure of the adhesive wave at a `half_width` of contact, in p*:
-/// `sin^2(pi a) - alpha sqrt(tan(pi a))`. Johnson 1995; no range of adhesion, as in JKR.
+/// Mean pressure of the adhesive wave at a `half_width` of contact, in p*: `sin^2(pi a) - alpha
+/// sqrt(tan(pi a))`. Johnson 1995; zero range of adhesion, as in JKR.
 pub fn adhesive_mean_pressure(half_width: f64, adhesion: f64) -> Result<f64, TheoryError> {
     let angle = PI * checked(half_width)?;
     Ok(angle.sin().powi(2) - not_negative("adhesion", adhesion)? * angle.tan().abs().sqrt())
 }
 
-/// Where the adhesive wave comes off and where it closes.
+/// Extrema of the adhesive wave: pull-off and closure.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct AdhesiveExtrema {
     /// Greatest tension, in p*, positive.
@@ -120,8 +120,8 @@ pub struct AdhesiveExtrema {
     pub closing_angle: f64,
 }
 
-/// Extrema of [`adhesive_mean_pressure`]: the roots of `4 t^(3/2) = alpha (1 + t^2)^2`,
-/// `t = tan(pi a)`. There are none for `adhesion` above 1.065.
+/// Extrema of [`adhesive_mean_pressure`]: the roots of `4 t^(3/2) = alpha (1 + t^2)^2`, `t = tan(pi
+/// a)`. None for `adhesion` above 1.065.
 pub fn adhesive_extrema(adhesion: f64) -> Result<AdhesiveExtrema, TheoryError> {
     let adhesion = positive("adhesion", adhesion)?;
     let excess = |log: f64| {
@@ -151,7 +151,7 @@ pub fn egg_box_area_low(mean_pressure: f64) -> Result<f64, TheoryError> {
     Ok(PI * (3.0 * mean_pressure / (8.0 * PI)).cbrt().powi(2))
 }
 
-/// The same near full contact: `1 - (3/(2 pi)) (1 - p)`. As printed by the source, not derived
+/// The same near full contact: `1 - (3/(2 pi)) (1 - p)`. As printed in the source, not derived
 /// again.
 pub fn egg_box_area_high(mean_pressure: f64) -> Result<f64, TheoryError> {
     within(

@@ -243,7 +243,7 @@ fn a_browser_shows_the_whole_page_on_any_width_without_a_network() {
             "dmt treatment",
             "50 MPa",
             "2 µm × 1.5 µm",
-            "Jumps apart",
+            "Jumps out of contact",
         ] {
             assert!(text.contains(part), "{part} is missing in\n{text}");
         }

@@ -292,13 +292,27 @@ fn check_lists_effects_regime_and_resolution() {
     let text = String::from_utf8(output.stdout).expect("text");
     for part in [
         "effect on     adhesion",
-        "effect off    spring",
-        "effect off    free boundary",
         "Tabor number",
-        "chi",
+        "chi = ",
         "pixels across the shortest",
         "MiB",
+        "cost          2 convolutions",
     ] {
+        assert!(text.contains(part), "{part} is missing in:\n{text}");
+    }
+    // Kernels, fields and effects that are off are for those who ask.
+    let internals = [
+        "effect off    spring",
+        "effect off    free boundary",
+        "fields ",
+        "kernels ",
+    ];
+    for part in internals {
+        assert!(!text.contains(part), "{part} is in:\n{text}");
+    }
+    let output = tabor(folder.path(), &["check", "scene.toml", "--verbose"]);
+    let text = String::from_utf8(output.stdout).expect("text");
+    for part in internals {
         assert!(text.contains(part), "{part} is missing in:\n{text}");
     }
     // Ten times the pixel: the grid no longer resolves the cohesive zone, and that is said.
@@ -462,18 +476,18 @@ fn what_is_no_regular_file_is_refused() {
         for command in ["check", "run", "compare", "accuracy"] {
             let message = refused_at_once(folder.path(), &[command, name]);
             assert!(
-                message.contains("it is no regular file (a folder, a pipe or a device); write the scene to a file and name that"),
+                message.contains("it is not a regular file (but a folder, a pipe or a device); save the scene to a file and name that"),
                 "{command} {name}: {message}"
             );
         }
         let message = refused_at_once(folder.path(), &["fit", name, "--radius", "1 um"]);
         assert!(
-            message.contains("is no regular file (a folder, a pipe or a device); write the curve to a file and name that"),
+            message.contains("is not a regular file (but a folder, a pipe or a device); save the curve to a file and name that"),
             "{name}: {message}"
         );
         let message = refused_at_once(folder.path(), &["surface", name, "--size", "1 um"]);
         assert!(
-            message.contains("this is no regular file; copy the heights into one")
+            message.contains("this is not a regular file; copy the heights into one")
                 || message.contains("this is a folder; path must name one height file"),
             "{name}: {message}"
         );
@@ -483,7 +497,7 @@ fn what_is_no_regular_file_is_refused() {
     long.set_len(1 << 40).expect("sparse");
     let message = refused_at_once(folder.path(), &["check", "long.toml"]);
     assert!(
-        message.contains("1099511627776 bytes are no scene"),
+        message.contains("1099511627776 bytes are too many for a scene"),
         "{message}"
     );
 }

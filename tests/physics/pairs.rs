@@ -51,11 +51,11 @@ fn refusal(pair: [Effect; 2]) -> Option<&'static str> {
         [
             "adhesion" | "dmt treatment" | "adhesion map" | "rate",
             "capillary",
-        ] => Some("the liquid is the adhesion"),
+        ] => Some("[adhesion] is given too"),
         ["layer", "relaxation"] => Some("relaxation of a compressible layer"),
         ["layer", "free boundary"] => Some("a layer needs boundary = \"periodic\""),
         ["dmt treatment", "hardness"] => Some("a hardness with treatment = \"dmt\""),
-        ["dmt treatment", "relaxation"] => Some("on a solid that relaxes"),
+        ["dmt treatment", "relaxation"] => Some("on a viscoelastic solid"),
         ["layer", "conductance"] => Some("the conductance of a layer"),
         ["dmt treatment", "rate"] => Some("a rate with treatment = \"dmt\""),
         ["dmt treatment", "spring"] => Some("a spring with treatment = \"dmt\""),

@@ -84,7 +84,7 @@ fn bad_files_are_refused_in_a_sentence() {
         ("two_marks.csv", b"1;2\n3;1,000.5\n".to_vec(), "line 2 (row 2), column 2: \"1,000.5\" is not a number"),
         ("nan.txt", b"1 nan\nnan inf\n".to_vec(), "3 of 4 pixels are missing (1 of them infinite), the first at row 1, column 2; write fill = \"interpolate\""),
         ("hole.csv", b"1;2\n3;\n5;6\n".to_vec(), "1 of 6 pixels are missing (0 of them infinite), the first at row 2, column 2"),
-        ("nul.txt", b"1 2\n3 \0\n".to_vec(), "the file is no text: byte 6 is 0"),
+        ("nul.txt", b"1 2\n3 \0\n".to_vec(), "the file is not text: byte 6 is 0"),
         ("wide.txt", b"\xFF\xFE1\0 \0".to_vec(), "the text is in UTF-16; save it as UTF-8"),
         ("map.png", b"\x89PNG\r\n\x1a\n".to_vec(), "broken PNG image: "),
         ("map.gsf", b"Gwyddion Simple Field 1.0\n".to_vec(), "broken .gsf file at byte 26: no zero byte ends the header"),
@@ -98,8 +98,8 @@ fn bad_files_are_refused_in_a_sentence() {
         ("short.npy", npy(&c_order("<f8", "(2, 3)"), &six()[..40]), "the file is cut short: 2 rows of 3 columns need 48 bytes, there are 40"),
         ("huge.npy", npy(&c_order("<f8", "(20000, 20000)"), &six()), "20000 rows of 20000 columns need 3200000000 bytes, there are 48"),
         ("vast.npy", npy(&c_order("<f8", "(4294967296, 4294967)"), &six()), "18446742802399232 points are too many; at most 1073741824 can be taken"),
-        ("overflow.npy", npy(&c_order("<f8", "(18446744073709551615, 18446744073709551615)"), &six()), "its shape (18446744073709551615, 18446744073709551615) is past all memory"),
-        ("twice.npy", npy("{'descr': '<f8', 'fortran_order': False, 'shape': (2, 3), 'shape': (99999999999, 99999999999)}", &six()), "is past all memory"),
+        ("overflow.npy", npy(&c_order("<f8", "(18446744073709551615, 18446744073709551615)"), &six()), "its shape (18446744073709551615, 18446744073709551615) exceeds all memory"),
+        ("twice.npy", npy("{'descr': '<f8', 'fortran_order': False, 'shape': (2, 3), 'shape': (99999999999, 99999999999)}", &six()), "exceeds all memory"),
         ("line.npy", npy(&c_order("<f8", "(6,)"), &six()), "the array has shape [6]; heights need two dimensions, [rows (y), columns (x)]"),
         ("cube.npy", npy(&c_order("<f8", "(1, 2, 3)"), &six()), "the array has shape [1, 2, 3]"),
         ("scalar.npy", npy(&c_order("<f8", "()"), &six()), "the array has shape []"),
@@ -112,12 +112,12 @@ fn bad_files_are_refused_in_a_sentence() {
         ("record.npy", npy("{'descr': [('x', '<f8'), ('y', '<f8')], 'fortran_order': False, 'shape': (1, 3)}", &six()), "are not heights"),
         ("magic.npy", b"\x93NUMPY".to_vec(), "broken .npy file: it ends within the header"),
         ("header.npy", b"\x93NUMPY\x01\x00\xFF\x00{'descr'".to_vec(), "broken .npy file: it ends within the header"),
-        ("endless.npy", endless_header, "broken .npy file: a header of 4294967295 bytes is no plain array's"),
+        ("endless.npy", endless_header, "broken .npy file: a header of 4294967295 bytes is too long for a plain array"),
         ("version.npy", other_version, "broken .npy file: version 9 of the format is not known"),
         ("python.npy", npy("{'descr': '<f8'}", &six()), "broken .npy file: dict is missing key 'fortran_order'"),
         ("garbage.npy", npy("{{{{", &six()), "broken .npy file: could not parse"),
-        ("deep.npy", npy(&deep, &six()), "broken .npy file: its header is no description of a plain array"),
-        ("control.npy", npy("{'descr': '\u{7}'}", &six()), "broken .npy file: its header is no description of a plain array"),
+        ("deep.npy", npy(&deep, &six()), "broken .npy file: its header does not describe a plain array"),
+        ("control.npy", npy("{'descr': '\u{7}'}", &six()), "broken .npy file: its header does not describe a plain array"),
         ("negative.npy", npy(&c_order("<f8", "(-2, 3)"), &six()), "broken .npy file: dimension cannot be negative"),
         ("nan.npy", npy(&c_order("<f8", "(1, 1)"), &f64::NAN.to_le_bytes()), "1 of 1 pixels are missing"),
     ];
@@ -139,7 +139,7 @@ fn bad_files_are_refused_in_a_sentence() {
     refused(&folder.path().join("folder.npy"), "this is a folder");
     refused(Path::new(""), "there is no such file");
     #[cfg(unix)]
-    refused(Path::new("/dev/zero"), "no regular file");
+    refused(Path::new("/dev/zero"), "not a regular file");
 }
 
 #[test]

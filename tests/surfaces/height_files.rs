@@ -387,18 +387,18 @@ fn bad_files_are_refused_in_a_sentence() {
         ("vast.gsf", with(&gsf, b"XRes = 12", b"XRes = 4294967296\nYRes = 4294967296"), "18446744073709551615 points are too many"),
         ("long.gsf", with(&gsf, b"XRes = 12", b"XRes = 99999999"), "9 rows of 99999999 columns need 3599999964 bytes, there are 434"),
         ("size.gsf", with(&gsf, b"XReal = 6e-07", b"XReal = -1"), "broken .gsf file, line 4: XReal = \"-1\" is not a positive number"),
-        ("volts.gsf", with(&gsf, b"ZUnits = m", b"ZUnits = V"), "the file gives its heights in \"V\", which is no length"),
-        ("seconds.gsf", with(&gsf, b"XYUnits = m", b"XYUnits = s"), "the file gives its x and y in \"s\", which is no length"),
+        ("volts.gsf", with(&gsf, b"ZUnits = m", b"ZUnits = V"), "the file gives its heights in \"V\", which is not a length"),
+        ("seconds.gsf", with(&gsf, b"XYUnits = m", b"XYUnits = s"), "the file gives its x and y in \"s\", which is not a length"),
         // Gwyddion's own files.
         ("magic.gwy", b"GWYP".to_vec(), "broken .gwy file at byte 4: the file ends within the name of an object"),
         ("cut.gwy", gwy[..1000].to_vec(), "broken .gwy file at byte 4: the object \"GwyContainer\" has"),
         ("no_image.gwy", b"GWYPGwyContainer\0\0\0\0\0".to_vec(), "it holds no image"),
-        ("volts.gwy", with(&with(&gwy, b"unitstr\0sm\0", b"unitstr\0sV\0"), b"unitstr\0sm\0", b"unitstr\0sV\0"), "the file gives its heights in \"V\", which is no length"),
+        ("volts.gwy", with(&with(&gwy, b"unitstr\0sm\0", b"unitstr\0sV\0"), b"unitstr\0sm\0", b"unitstr\0sV\0"), "the file gives its heights in \"V\", which is not a length"),
         ("points.gwy", with(&gwy, b"xres\0i\x0c", b"xres\0i\x0d"), "108 heights for 13 x 9 points"),
         ("negative.gwy", with(&gwy, b"xres\0i\x0c\0\0\0", b"xres\0i\xff\xff\xff\xff"), "9 rows of -1 columns; both must be at least 1"),
         ("no_points.gwy", with(&gwy, b"xres\0i", b"xras\0i"), "the image here has no xres"),
         ("no_heights.gwy", with(&gwy, b"data\0D", b"dota\0D"), "the image here has no heights"),
-        ("type.gwy", with(&gwy, b"xres\0i", b"xres\0Z"), "a piece of the unknown type 'Z'"),
+        ("type.gwy", with(&gwy, b"xres\0i", b"xres\0Z"), "a component of the unknown type 'Z'"),
         ("list.gwy", with(&gwy, b"data\0Dl\0\0\0", b"data\0D\xff\xff\xff\x7f"), "the file ends within a list of numbers"),
         ("overrun.gwy", [b"GWYPa\0".as_slice(), &4_u32.to_le_bytes(), b"x\0i\x01\0\0\0"].concat(), "the object \"a\" runs over its end"),
         ("deep.gwy", nested(100), "its tree is too deep"),
@@ -415,7 +415,7 @@ fn bad_files_are_refused_in_a_sentence() {
         ("entry.sdf", with(&sdf, b"NumPoints ", b"NumPaints "), "its header has no NumPoints"),
         ("word.sdf", with(&sdf, b"NumPoints   = 12", b"NumPoints   = xx"), "broken .sdf file, line 5: numpoints = \"xx\" is not a number"),
         ("height.sdf", with(&sdf, b"-4.83354e-08", b"-4.8335xe-08"), "\"-4.8335xe-08\" is not a number"),
-        ("scale.sdf", with(&sdf, b"Xscale      = 5.000000e-08", b"Xscale      = 0"), "Xscale = 0, Yscale = 0.00000008, Zscale = 1 are no lengths"),
+        ("scale.sdf", with(&sdf, b"Xscale      = 5.000000e-08", b"Xscale      = 0"), "Xscale = 0, Yscale = 0.00000008, Zscale = 1 are not lengths"),
         ("long.sdf", with(&sdf, b"NumPoints   = 12", b"NumPoints   = 99999999"), "9 rows of 99999999 columns need"),
         ("vast.sdf", with(&sdf, b"NumPoints   = 12", b"NumPoints   = 1e300"), "points are too many"),
         ("packed.sdf", with(&sdf, b"Compression = 0", b"Compression = 1"), "compressed .sdf files are not in this version; save it without compression"),
@@ -454,7 +454,7 @@ fn bad_files_are_refused_in_a_sentence() {
         ("pixel.al3d", {
             let at = al3d.windows(15).position(|window| window == b"PixelSizeXMeter").expect("a tag") + 20;
             patched(&al3d, at, b"0\0")
-        }, "PixelSizeXMeter = 0 is no length"),
+        }, "PixelSizeXMeter = 0 is not a length"),
         ("line.al3d", patched(&al3d, 17 + 50, b"xx"), "broken .al3d file at byte 17: a tag does not end in a line end"),
         ("vast.al3d", {
             let at = al3d.windows(5).position(|window| window == b"Rows\0").expect("a tag") + 20;
@@ -475,8 +475,8 @@ fn bad_files_are_refused_in_a_sentence() {
         ("section_7.grd", patched(&grd_7, 16, &[0xff; 4]), "the next section is said to begin at byte"),
         ("steps_7.grd", patched(&grd_7, 20 + 8 + 16, &[0; 8]), "are not positive"),
         // Columns.
-        ("pairs.xyz", text("1 2\n3 4\n"), "the points x, y, z form no grid: its lines have 2 numbers; x, y and z are expected"),
-        ("twice.xyz", text("0 0 1\n1 0 2\n0 1 3\n0 1 4\n"), "row 4 stands at x = 0, y = 1, where a row above stands already"),
+        ("pairs.xyz", text("1 2\n3 4\n"), "the points x, y, z do not form a grid: its lines have 2 numbers; x, y and z are expected"),
+        ("twice.xyz", text("0 0 1\n1 0 2\n0 1 3\n0 1 4\n"), "row 4 stands at x = 0, y = 1, as a row above"),
         ("uneven.xyz", text("0 0 1\n1 0 2\n5 0 3\n0 1 4\n1 1 5\n5 1 6\n"), "x: 1 is not evenly spaced; place 2 of 3 from 0 to 5 is 2.5"),
         ("cloud.xyz", text("0 0 1\n1 3 2\n2 1 3\n3 2 4\n4 4 5\n"), "its 5 points have 5 different x and 5 different y"),
         ("hole.xyz", text("0 0 1\nnan 0 2\n0 1 3\n1 1 4\n"), "x: row 2 has none"),
@@ -528,7 +528,7 @@ fn bad_calls_are_refused_in_a_sentence() {
         ),
         (
             &["long.txt"],
-            "long.txt: 4294967297 bytes are too many to take in; save the heights as .npy",
+            "long.txt: 4294967297 bytes are too many to read; save the heights as .npy",
         ),
         (
             &["sizeless.txt"],

@@ -11,7 +11,7 @@ use crate::output::{
 };
 use crate::scene::{Boundary, Detrend, FieldName, Fill, GridScene, HeightFileScene, SurfacePart};
 use crate::surface::{Surface, SurfaceError};
-use crate::units::{Dimension, SANE_WORDS, is_sane, parse_quantity};
+use crate::units::{Dimension, RANGE_WORDS, in_range, parse_quantity};
 use report::Report;
 
 /// Extension of scenes; every other file holds heights.
@@ -84,10 +84,10 @@ fn factor(text: &str) -> Result<f64, String> {
 }
 
 fn sane(value: f64) -> Result<f64, String> {
-    if is_sane(value) {
+    if in_range(value) {
         Ok(value)
     } else {
-        Err(format!("must be {SANE_WORDS}"))
+        Err(format!("must be {RANGE_WORDS}"))
     }
 }
 

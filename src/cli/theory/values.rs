@@ -58,7 +58,7 @@ impl Values {
             Kind::Word(words) => {
                 let known = words.iter().find(|word| **word == text).ok_or_else(|| {
                     format!(
-                        "--{name} {} is none of {}; did you mean {}?",
+                        "--{name} {} is not one of {}; did you mean {}?",
                         quoted(text),
                         words.join(", "),
                         nearest(text, words.iter().copied())

@@ -5,7 +5,7 @@ use std::collections::BTreeMap;
 use super::catalogue::Model;
 use super::nearest;
 use super::parameters::{Allowed, Kind, Need, Parameter};
-use crate::units::{Dimension, SANE_WORDS, angle_from_number, is_sane, parse_quantity, quoted};
+use crate::units::{Dimension, RANGE_WORDS, angle_from_number, in_range, parse_quantity, quoted};
 
 /// The text given for each parameter; none for one whose value is missing, which is a problem
 /// already.
@@ -133,11 +133,11 @@ pub(super) fn quantity(name: &str, text: &str, dimension: Dimension) -> Result<f
             parse_quantity(text, dimension).map_err(|error| format!("--{name}: {error}"))?
         }
     };
-    if is_sane(value) {
+    if in_range(value) {
         Ok(value)
     } else {
         Err(format!(
-            "--{name} {} is out of range: it must be {SANE_WORDS}",
+            "--{name} {} is out of range: it must be {RANGE_WORDS}",
             quoted(text)
         ))
     }

@@ -3,7 +3,7 @@
 use super::super::colour_scale::round_values;
 use super::super::si::scaled_unit;
 
-/// Share of the range left free at either end.
+/// Share of the range left empty at either end.
 const MARGIN: f64 = 0.05;
 
 /// One axis of a chart.
@@ -18,7 +18,7 @@ pub(super) struct Axis {
 }
 
 impl Axis {
-    /// An axis for `values` in SI units. A share is counted in per cent and begins at zero.
+    /// An axis for `values` in SI units. Fractions are shown in per cent and begin at zero.
     pub fn new(name: &'static str, unit: &str, values: impl Iterator<Item = f64>) -> Axis {
         let is_share = unit.is_empty();
         let (mut low, mut high) = values.fold((f64::INFINITY, f64::NEG_INFINITY), |(l, h), v| {
@@ -30,7 +30,7 @@ impl Axis {
         if is_share {
             low = 0.0;
         }
-        // One value alone still has a place.
+        // A single value still gets a range.
         if low == high {
             let room = if low == 0.0 { 1.0 } else { 0.5 * low.abs() };
             high += room;
@@ -57,7 +57,7 @@ impl Axis {
         format!("{} ({})", self.name, self.unit)
     }
 
-    /// Place of a value, from 0 at the low end to 1 at the high one.
+    /// Position of a value, from 0 at the low end to 1 at the high one.
     pub fn share(&self, value: f64) -> f64 {
         (value - self.low) / (self.high - self.low)
     }
@@ -65,7 +65,7 @@ impl Axis {
     /// Round values, SI, with their labels in the axis' unit.
     pub fn ticks(&self, most: usize) -> Vec<(f64, String)> {
         let (low, high) = (self.low / self.factor, self.high / self.factor);
-        // A tick on the very end of the axis belongs to it.
+        // A tick exactly at the end of the axis is kept.
         let hair = 1e-9 * (high - low);
         round_values(low - hair, high + hair, most)
             .into_iter()

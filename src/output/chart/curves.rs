@@ -1,17 +1,16 @@
-//! Which curves a run has: load against distance, contact area against load.
+//! The curves of a run: load against distance, contact area against load.
 
 use super::axis::Axis;
 use super::{Chart, Stretch};
 use crate::scene::{Boundary, Control, Scene};
 use crate::study::StepRow;
 
-/// Rows beyond which a curve is thinned: more than a picture has columns.
+/// Rows above which a curve is thinned: more than a picture has columns.
 const MOST: usize = 4000;
 
 /// The curves of the finished rows of a path.
 ///
-/// Rows that carry no load, because no equilibrium does, break a curve; rows that did not converge
-/// are no part of it.
+/// Rows without an equilibrium interrupt a curve; rows that did not converge are left out.
 pub(super) fn charts(scene: &Scene, rows: &[StepRow]) -> Vec<Chart> {
     let control = scene.loading.control;
     let by_gap = matches!(control, Control::Pressure | Control::MeanGap);

@@ -1,4 +1,4 @@
-//! Curves of a run, drawn once as marks and rendered as SVG for the report and as PNG.
+//! Curves of a run, described once and rendered as SVG for the report and as PNG.
 
 mod axis;
 mod curves;
@@ -28,14 +28,14 @@ struct Stretch {
 /// One curve against one quantity.
 #[derive(Clone, Debug, PartialEq)]
 pub(super) struct Chart {
-    /// What it shows.
+    /// Title.
     pub title: String,
     x: Axis,
     y: Axis,
     stretches: Vec<Stretch>,
 }
 
-/// What a mark is drawn in; the renderer knows the colour.
+/// The role of a mark; the renderer chooses the colour.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 enum Ink {
     Grid,
@@ -45,7 +45,7 @@ enum Ink {
     Unloading,
 }
 
-/// Where a text stands about its place.
+/// Alignment of a text at its position.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 enum Anchor {
     Start,
@@ -53,7 +53,7 @@ enum Anchor {
     End,
 }
 
-/// Something to be drawn; y counts down, lengths are pixels.
+/// A drawing command; y counts down, lengths are pixels.
 #[derive(Clone, Debug, PartialEq)]
 enum Mark {
     Line {
@@ -100,7 +100,7 @@ pub(super) fn charts(scene: &Scene, rows: &[StepRow]) -> Vec<Chart> {
 }
 
 impl Chart {
-    /// All that is to be drawn, in order.
+    /// All drawing commands, in order.
     fn marks(&self, panel: &Panel) -> Vec<Mark> {
         let Panel {
             size: [width, height],
@@ -185,7 +185,7 @@ impl Chart {
         marks
     }
 
-    /// Names the directions, where there are two.
+    /// Labels the directions, if there are two.
     fn add_legend(&self, marks: &mut Vec<Mark>, panel: &Panel, right: f64) {
         let has = |loading: bool| self.stretches.iter().any(|s| s.loading == loading);
         if !(has(true) && has(false)) {
@@ -238,7 +238,8 @@ impl Chart {
             } else {
                 Ink::Unloading
             };
-            // A stretch begins where the last one ended; that point is the last one's.
+            // A stretch starts at the last point of the one before; that point belongs to the one
+            // before.
             let shared = ended.is_some() && ended == stretch.points.first();
             ended = stretch.points.last();
             let dots = points.iter().skip(usize::from(shared)).map(|at| Mark::Dot {

@@ -1,4 +1,4 @@
-//! Charts as a PNG: lines and dots with smooth edges on the white page of the pictures.
+//! Renders charts as PNG: antialiased lines and dots on the white page of the pictures.
 
 use std::io;
 
@@ -17,7 +17,7 @@ const SIZE: [u32; 2] = [960, 720];
 const TITLE: u32 = 44;
 /// White space around everything.
 const MARGIN: u32 = 16;
-/// What is left of a dash below this is rounding, pixels: less would not move along a line.
+/// A shorter remainder of a dash is rounding, pixels, and would not advance along a line.
 const ROUNDING: f64 = 1e-6;
 
 /// Charts side by side under a title.
@@ -52,15 +52,16 @@ pub(super) fn png(title: Option<&str>, charts: &[Chart]) -> io::Result<Vec<u8>> 
 
 fn font(bold: bool, size: RasterHeight) -> Font {
     Font {
-        weight: match bold {
-            true => FontWeight::Bold,
-            false => FontWeight::Regular,
+        weight: if bold {
+            FontWeight::Bold
+        } else {
+            FontWeight::Regular
         },
         size,
     }
 }
 
-/// Dark for loading and light for unloading, so that grey keeps them apart as the dashes do.
+/// Dark for loading and light for unloading, so that they differ in grey as they do in dashes.
 fn colour(ink: Ink) -> Rgb {
     match ink {
         Ink::Grid => [228, 228, 232],
@@ -81,9 +82,10 @@ fn draw(page: &mut RgbImage, corner: [f64; 2], mark: &Mark) {
             dashed,
         } => {
             let points: Vec<[f64; 2]> = points.iter().map(moved).collect();
-            let pieces = match dashed {
-                true => dashes(&points, DASHES.map(|length| length * width)),
-                false => points.windows(2).map(|pair| [pair[0], pair[1]]).collect(),
+            let pieces = if *dashed {
+                dashes(&points, DASHES.map(|length| length * width))
+            } else {
+                points.windows(2).map(|pair| [pair[0], pair[1]]).collect()
             };
             for [from, to] in pieces {
                 stroke(page, from, to, 0.5 * width, colour(*ink));
@@ -123,10 +125,10 @@ fn draw(page: &mut RgbImage, corner: [f64; 2], mark: &Mark) {
     }
 }
 
-/// A polyline in dashes, whose lengths run on around its corners.
+/// Divides a polyline into dashes that continue around its corners.
 fn dashes(points: &[[f64; 2]], [dash, space]: [f64; 2]) -> Vec<[[f64; 2]; 2]> {
     let mut pieces = Vec::new();
-    // Length left of the present dash or space.
+    // Length left of the current dash or space.
     let (mut drawing, mut left) = (true, dash);
     for pair in points.windows(2) {
         let [from, to] = [pair[0], pair[1]];
@@ -159,7 +161,7 @@ fn dashes(points: &[[f64; 2]], [dash, space]: [f64; 2]) -> Vec<[[f64; 2]; 2]> {
     pieces
 }
 
-/// Draws a line with round ends; a dot is a line of no length. The corners of pixels are at whole numbers.
+/// Draws a line with round ends; a line of no length is a dot. Pixel corners are at whole numbers.
 fn stroke(page: &mut RgbImage, from: [f64; 2], to: [f64; 2], radius: f64, colour: Rgb) {
     let [from, to] = [from, to].map(|place| place.map(|at| at - 0.5));
     Pen::new(page, colour).stroke(from, to, 2.0 * radius);
@@ -178,7 +180,8 @@ mod tests {
             .map(|[a, b]| (b[0] - a[0]).hypot(b[1] - a[1]))
             .sum();
         assert!((drawn - 40.0).abs() < 1e-9, "{drawn}");
-        // Lengths that leave rounding dust behind end as well: a long line of odd corners.
+        // Dash lengths that accumulate rounding errors also terminate: a long line with odd
+        // corners.
         let points: Vec<[f64; 2]> = (0..3000)
             .map(|k| [f64::from(k) * 0.1, f64::from(k * k % 97) * 0.1])
             .collect();
@@ -198,12 +201,14 @@ mod tests {
 
     #[test]
     fn lines_cover_their_area() {
-        // A level line of width 4 and length 20 between pixel corners covers 80 pixels and a disc's worth.
+        // A horizontal line of width 4 and length 20 between pixel corners covers 80 pixels plus a
+        // disc.
         let mut page = RgbImage::from_pixel(60, 20, image::Rgb(WHITE));
         stroke(&mut page, [20.0, 10.0], [40.0, 10.0], 2.0, [0, 0, 0]);
         let covered: f64 = page.pixels().map(|p| 1.0 - f64::from(p.0[0]) / 255.0).sum();
         let expected = 80.0 + std::f64::consts::PI * 4.0;
-        // The ends' edge is a linear ramp over curved pixels: off by less than a pixel a side.
+        // The edge of the round ends is a linear ramp over curved pixels: off by less than a pixel
+        // a side.
         assert!((covered - expected).abs() < 2.0, "{covered} {expected}");
     }
 

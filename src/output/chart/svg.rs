@@ -1,4 +1,4 @@
-//! A chart as SVG inside a page, whose style sheet knows the colours.
+//! Renders a chart as SVG within a page whose style sheet sets the colours.
 
 use std::fmt::Write as _;
 
@@ -51,13 +51,14 @@ fn push(text: &mut String, mark: &Mark) {
                 .iter()
                 .map(|[x, y]| format!("{x:.1},{y:.1}"))
                 .collect();
-            let dash = match dashed {
-                true => format!(
+            let dash = if *dashed {
+                format!(
                     " stroke-dasharray=\"{} {}\"",
                     DASHES[0] * width,
                     DASHES[1] * width
-                ),
-                false => String::new(),
+                )
+            } else {
+                String::new()
             };
             writeln!(
                 text,
@@ -91,7 +92,7 @@ fn push(text: &mut String, mark: &Mark) {
             writeln!(
                 text,
                 "<text x=\"{x:.1}\" y=\"{:.1}\" text-anchor=\"{anchor}\"{}>{}</text>",
-                // From the middle of a line to its base.
+                // From the middle of a line to its baseline.
                 y + 0.28 * PANEL.line,
                 if *bold { " class=\"bold\"" } else { "" },
                 escape(words)

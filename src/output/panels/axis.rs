@@ -2,21 +2,21 @@
 
 use super::super::si::{decimal_exponent, fixed, scaled_unit};
 
-/// Share of the range left free at either end.
+/// Share of the range left empty at either end.
 const AIR: f64 = 0.04;
-/// Most decades that a logarithmic axis shows below its greatest value.
+/// Most decades of a logarithmic axis below its greatest value.
 const DECADES: f64 = 8.0;
 /// Least step of a linear axis, as a share of its range.
 const STEP: f64 = 0.19;
 
-/// What an axis shows.
+/// Definition of an axis.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Axis {
     /// The quantity.
     pub name: String,
     /// Its SI unit; empty for a number without one.
     pub unit: String,
-    /// Equal steps for equal ratios.
+    /// Logarithmic.
     pub logarithmic: bool,
 }
 
@@ -80,9 +80,10 @@ impl Scale {
 
     /// As in "load (MPa)".
     pub fn label(&self) -> String {
-        match self.unit.is_empty() {
-            true => self.name.clone(),
-            false => format!("{} ({})", self.name, self.unit),
+        if self.unit.is_empty() {
+            self.name.clone()
+        } else {
+            format!("{} ({})", self.name, self.unit)
         }
     }
 
@@ -91,7 +92,7 @@ impl Scale {
         &self.unit
     }
 
-    /// Place of a value between 0 and 1; nothing where it has none.
+    /// Position of a value between 0 and 1; `None` if it cannot be shown.
     pub fn share(&self, value: f64) -> Option<f64> {
         let place = if self.logarithmic {
             value.log10()
@@ -102,7 +103,7 @@ impl Scale {
         (0.0..=1.0).contains(&share).then_some(share)
     }
 
-    /// Round values by their place, with labels.
+    /// Round values by position, with labels.
     pub fn ticks(&self) -> Vec<(f64, String)> {
         let mut ticks = if self.logarithmic {
             self.decades()
@@ -120,7 +121,7 @@ impl Scale {
             (self.high - unit).ceil() as i32,
         );
         let span = self.high - self.low;
-        // Within few decades also twice and five times; over many only each other one.
+        // Over few decades also 2 and 5 times the powers of ten; over many only every other power.
         let multiples: &[f64] = match span {
             span if span < 2.2 => &[1.0, 2.0, 5.0],
             _ => &[1.0],

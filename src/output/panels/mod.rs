@@ -1,5 +1,5 @@
-//! Plots of several curves in several panels, as one PNG: the curves share their names, colours and
-//! marks over all panels, and are named once above them.
+//! Plots of several curves in several panels, as one PNG. Curves share names, colours and marks
+//! over all panels, with one legend above them.
 
 mod axis;
 
@@ -19,13 +19,13 @@ use axis::Scale;
 
 /// Size of the frame of a panel, pixels.
 const FRAME_SIZE: [u32; 2] = [400, 280];
-/// Room left of a frame for numbers, and below it for numbers and the name of the axis.
+/// Space left of a frame for numbers, and below it for numbers and the axis label.
 const ROOM: [u32; 2] = [92, 62];
 /// White space around everything.
 const MARGIN: u32 = 24;
 /// Lines of the grid behind the curves.
 const GRID: Rgb = [232, 232, 236];
-/// Colours of curves, apart in lightness as well as in hue; marks differ besides.
+/// Colours of curves, distinct in lightness as well as in hue; marks differ too.
 const COLOURS: [Rgb; 10] = [
     [28, 28, 30],
     [0, 104, 190],
@@ -46,28 +46,28 @@ pub struct PlotPoint {
     pub x: f64,
     /// Value along the vertical axis, SI.
     pub y: f64,
-    /// Drawn hollow, and the line to it dashed: here the curve is not to be trusted.
+    /// Drawn hollow with a dashed line to it: the curve is not reliable here.
     pub hollow: bool,
 }
 
 /// A curve.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Series {
-    /// Which of the figure's names it has.
+    /// Index into the figure's names.
     pub name: usize,
-    /// Its points, in the order in which a line joins them. Those that are not finite, or not
+    /// Its points, in the order in which a line joins them. Points that are not finite, or not
     /// positive on a logarithmic axis, are left out.
     pub points: Vec<PlotPoint>,
-    /// Whether a line joins them.
+    /// Whether a line joins the points.
     pub line: bool,
-    /// Whether each is marked.
+    /// Whether each point is marked.
     pub marks: bool,
 }
 
 /// One frame with its curves.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Panel {
-    /// What it shows.
+    /// Title.
     pub title: String,
     /// The horizontal axis.
     pub x: Axis,
@@ -80,12 +80,12 @@ pub struct Panel {
 /// A figure: panels side by side and in rows.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Figure {
-    /// What all of it shows.
+    /// Title of the figure.
     pub title: String,
-    /// A second line, in quiet ink.
+    /// A second line in grey.
     pub note: String,
-    /// Names of the curves, at most as many as there are colours (10); others share a colour.
-    /// An empty one keeps its colour and is not named.
+    /// Names of the curves, at most as many as there are colours (10); others share a colour. An
+    /// empty name keeps its colour and has no legend entry.
     pub names: Vec<String>,
     /// The panels, row by row.
     pub panels: Vec<Panel>,
@@ -147,7 +147,7 @@ impl Figure {
         page
     }
 
-    /// Index, place and line of each name that is given.
+    /// Index, position and line of each legend entry.
     fn legend(&self, width: u32) -> Vec<(usize, u32, u32, String)> {
         let mut entries: Vec<(usize, u32, u32, String)> = Vec::new();
         let (mut x, mut row) = (MARGIN, 0);
@@ -164,7 +164,7 @@ impl Figure {
         entries
     }
 
-    /// Draws the figure and writes it to `path` as a PNG, whole or not at all.
+    /// Draws the figure and writes it to `path` as a PNG, in one piece.
     pub fn write(&self, path: &Path) -> Result<(), OutputError> {
         let page = self.draw();
         let png = canvas::png(&page).map_err(OutputError::write("write", path))?;
@@ -303,12 +303,12 @@ mod tests {
             solid > hollow + 100 && hollow > none + 100,
             "{solid} {hollow} {none}"
         );
-        // The legend alone has both colours.
+        // Only the legend has both colours.
         assert!(none > 20 && count(&figure(Vec::new(), false).draw(), COLOURS[0]) > 20);
     }
 
     #[test]
-    fn values_that_have_no_place_are_left_out() {
+    fn values_off_the_axis_are_left_out() {
         let point = |x, y| PlotPoint {
             x,
             y,

@@ -1,7 +1,7 @@
-//! `report.html`: one page with everything a run found, that opens without a network.
+//! `report.html`: one self-contained page with the results of a run.
 //!
-//! The page holds neither seconds nor dates, so that the same run has the same page. It loads
-//! nothing and runs nothing: pictures are in it, and a content policy forbids the rest.
+//! The page contains neither seconds nor dates, so that the same run gives the same page. It loads
+//! nothing and runs no script: pictures are embedded, and a content policy forbids the rest.
 
 mod base64;
 mod scene_table;
@@ -21,30 +21,30 @@ use base64::base64;
 
 /// Most pictures on a page.
 const MOST_PICTURES: usize = 24;
-/// Most bytes of pictures on a page, so that a phone can open it; one picture always has its place.
+/// Most bytes of pictures on a page, so that a phone can open it; one picture is always shown.
 const MOST_PICTURE_BYTES: usize = 12 << 20;
-/// Steps of a table at either end of a long path.
+/// Rows at either end of a long table of steps.
 const SHOWN_STEPS: usize = 60;
 
-/// What a page is made of.
+/// Contents of the page.
 pub struct Report<'a> {
-    /// The scene and what was found of it before the first step.
+    /// The scene and its setup.
     pub setup: &'a Setup,
-    /// Where it was solved, in words.
+    /// Backend, adapter and precision, in words.
     pub machine: String,
     /// Rows of all steps done.
     pub rows: &'a [StepRow],
     /// Jumps and transforms so far.
     pub tallies: &'a HandOver,
-    /// What was warned of.
+    /// Warnings so far.
     pub warnings: &'a [String],
-    /// The pictures that there are: step, field and file.
+    /// The existing pictures: step, field and file.
     pub pictures: &'a [(usize, &'static str, PathBuf)],
     /// The summary, once the run has ended.
     pub summary: Option<&'a Summary>,
 }
 
-/// Text between tags and in attributes, without characters that a page must not hold.
+/// Escapes text for tags and attributes and removes characters that a page must not contain.
 pub(super) fn escape(text: &str) -> String {
     let mut escaped = String::with_capacity(text.len());
     for character in visible(text).chars() {
@@ -108,7 +108,7 @@ impl Report<'_> {
         }
     }
 
-    /// How far the run came.
+    /// The progress of the run.
     fn status(&self) -> String {
         let (done, steps) = (self.rows.len(), self.setup.scene.loading.path.len());
         let plural = if steps == 1 { "" } else { "s" };
@@ -123,15 +123,15 @@ impl Report<'_> {
                 self.setup.scene.solver.tolerance
             ),
             (_, Some(_)) => early(format!(
-                "Ended early: {done} of {steps} steps are finished. <code>tabor run</code> with <code>--resume</code> goes on after them."
+                "Ended early: {done} of {steps} steps are finished. <code>tabor run</code> with <code>--resume</code> continues after them."
             )),
             (_, None) => early(format!(
-                "Not ended: {done} of {steps} steps were finished when this page was written. If nothing is running any more, <code>tabor run</code> with <code>--resume</code> goes on after them."
+                "Not finished: {done} of {steps} steps were done when this page was written. If the run has ended, <code>tabor run</code> with <code>--resume</code> continues after them."
             )),
         }
     }
 
-    /// The numbers that most readers come for.
+    /// The main results.
     fn figures(&self) -> String {
         let mut found: Vec<(&str, String, String)> = Vec::new();
         let largest = self
@@ -170,7 +170,7 @@ impl Report<'_> {
         };
         let jumps = [
             ("Jumps into contact", &self.tallies.jump_in_steps),
-            ("Jumps apart", &self.tallies.jump_off_steps),
+            ("Jumps out of contact", &self.tallies.jump_off_steps),
         ];
         for (name, at) in jumps {
             if !at.is_empty() {
@@ -234,7 +234,7 @@ impl Report<'_> {
         let loading = &self.setup.scene.loading;
         for index in chosen {
             let (step, field, path) = &self.pictures[index];
-            // A picture that cannot be read back is missing on the page and no more.
+            // A picture that cannot be read is left out.
             let Ok(bytes) = fs::read(path) else { continue };
             if shown > 0 && bytes_shown + bytes.len() > MOST_PICTURE_BYTES {
                 continue;
@@ -275,9 +275,10 @@ impl Report<'_> {
             "<section>\n<h2>Effects</h2>\n<div class=\"scroll\"><table>\n<thead><tr><th scope=\"col\">Effect</th><th scope=\"col\"></th><th scope=\"col\">What it does</th></tr></thead>\n<tbody>\n",
         );
         for effect in Effect::ALL {
-            let (class, word) = match effect.is_on(&self.setup.scene) {
-                true => ("on", "on"),
-                false => ("off", "off"),
+            let (class, word) = if effect.is_on(&self.setup.scene) {
+                ("on", "on")
+            } else {
+                ("off", "off")
             };
             let _ = writeln!(
                 text,
@@ -290,7 +291,7 @@ impl Report<'_> {
         text
     }
 
-    /// How it was solved.
+    /// How the run was solved.
     fn solution(&self) -> String {
         let setup = self.setup;
         let grid = setup.surface.grid;
@@ -385,7 +386,7 @@ impl Report<'_> {
     }
 }
 
-/// At most `most` of `count` places, evenly spread, both ends among them.
+/// At most `most` of `count` indices, evenly spread, including both ends.
 fn spread(count: usize, most: usize) -> Vec<usize> {
     if count <= most {
         return (0..count).collect();

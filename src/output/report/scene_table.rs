@@ -1,4 +1,4 @@
-//! The scene on a page: a table to read, and the scene file that gives it again.
+//! The scene on the report: a table, and the equivalent scene file.
 
 use std::fmt::Write as _;
 
@@ -9,7 +9,7 @@ use crate::scene::{Control, EffectTables};
 use crate::study::Setup;
 use crate::units::format_si;
 
-/// Values of a list that are all shown.
+/// Most values of a list that are shown in full.
 const SHOWN_VALUES: usize = 16;
 /// Longest scene file that is put on a page, bytes.
 const LONGEST_FILE: usize = 200_000;
@@ -22,7 +22,8 @@ pub(super) fn html(setup: &Setup) -> String {
         &setup.scene.loading.durations,
         shown.get_mut("loading").and_then(Value::as_object_mut),
     ) {
-        // A ramp a step is for machines; people read the path and how long its steps take.
+        // The resolved scene has one ramp a step; the report shows the path and the duration of its
+        // steps instead.
         loading.remove("start");
         loading.remove("ramp");
         loading.insert("path".into(), json!(setup.scene.loading.path));
@@ -36,7 +37,7 @@ pub(super) fn html(setup: &Setup) -> String {
     let mut rows = Vec::new();
     if let Value::Object(tables) = &shown {
         for (name, table) in tables {
-            // Where it was solved has its own table, and the title its own line.
+            // The solver has its own table, and the title its own line.
             if name != "title" && name != "solver" {
                 add_rows(&mut rows, name, table, path_unit);
             }
@@ -90,7 +91,7 @@ fn add_rows(rows: &mut Vec<(String, String)>, key: &str, value: &Value, path_uni
     }
 }
 
-/// A value as a person would write it.
+/// A value for people to read.
 fn words(key: &str, value: &Value, path_unit: &str) -> String {
     match value {
         Value::String(text) => text.clone(),
@@ -118,7 +119,7 @@ fn words(key: &str, value: &Value, path_unit: &str) -> String {
     }
 }
 
-/// The SI unit of a key; `None` for pure numbers and keys that are not known here.
+/// The SI unit of a key; `None` for pure numbers and unknown keys.
 fn unit<'u>(key: &str, path_unit: &'u str) -> Option<&'u str> {
     Some(match key {
         "size" | "radius" | "centre" | "amplitude" | "wavelength" | "rms_height" | "longest"

@@ -20,7 +20,7 @@ const ALIGNMENT: usize = 8;
 /// Heights from here on are missing, whatever the tag says.
 const MISSING: f64 = 3e15;
 
-/// Relative difference up to which a height is the missing one: single precision.
+/// Relative difference up to which a height equals the missing value, in single precision.
 const SINGLE: f64 = 1.5e-7;
 
 /// Reads the depth image.
@@ -45,7 +45,10 @@ pub(super) fn read(bytes: &[u8]) -> Result<Matrix, FileError> {
     for (side, name) in sides.iter_mut().zip(["PixelSizeXMeter", "PixelSizeYMeter"]) {
         let length: f64 = tags.number(&file, name)?;
         if !(length.is_finite() && length > 0.0) {
-            return Err(file.broken(tags.place(name), format!("{name} = {length} is no length")));
+            return Err(file.broken(
+                tags.place(name),
+                format!("{name} = {length} is not a length"),
+            ));
         }
         *side *= length;
     }
@@ -98,7 +101,7 @@ impl Tags {
         self.0.iter().find(|(_, other, _)| other == name)
     }
 
-    /// Where a tag stands; the end of the magic word if it is missing.
+    /// Offset of a tag; the end of the magic word if it is missing.
     fn place(&self, name: &str) -> usize {
         self.find(name).map_or(MAGIC.len(), |(place, ..)| *place)
     }

@@ -1,17 +1,17 @@
-//! Bytes of a file, taken one number after the other; every failure knows its offset.
+//! Reads the bytes of a binary file number by number; every error has its offset.
 
 use crate::surface::MOST_POINTS;
 use crate::surface::error::FileError;
 
-/// The bytes of one file of a named format, and how far they are read.
+/// The bytes of one file of a named format and the read position.
 pub(super) struct Bytes<'a> {
-    /// How messages call the format, such as `.sur`.
+    /// Name of the format in messages, such as `.sur`.
     format: &'static str,
     bytes: &'a [u8],
     at: usize,
 }
 
-/// A number of fixed width at the head of some bytes.
+/// Reads a number of fixed width.
 macro_rules! little_endian {
     ($($name:ident: $kind:ty),*) => {
         $(
@@ -39,7 +39,7 @@ impl<'a> Bytes<'a> {
         self.at
     }
 
-    /// Bytes that are left.
+    /// Number of unread bytes.
     pub(super) fn left(&self) -> usize {
         self.bytes.len() - self.at
     }
@@ -70,7 +70,7 @@ impl<'a> Bytes<'a> {
         }
     }
 
-    /// As many bytes as an array has.
+    /// The next bytes as an array.
     fn array<const COUNT: usize>(&mut self, what: &str) -> Result<[u8; COUNT], FileError> {
         let mut array = [0; COUNT];
         array.copy_from_slice(self.take(COUNT, what)?);
@@ -102,7 +102,7 @@ impl<'a> Bytes<'a> {
         Ok(text.trim().to_owned())
     }
 
-    /// Goes on at `offset`, which the file must have.
+    /// Moves to `offset`, which must lie within the file.
     pub(super) fn seek(&mut self, offset: usize, what: &str) -> Result<(), FileError> {
         if offset > self.bytes.len() {
             return Err(self.broken(
@@ -117,7 +117,7 @@ impl<'a> Bytes<'a> {
         Ok(())
     }
 
-    /// The numbers of a matrix; a row takes `stride` bytes, of which its elements are the first.
+    /// The numbers of a matrix; a row takes `stride` bytes and begins with its elements.
     ///
     /// # Errors
     /// Too few bytes for the shape, and too little memory.
@@ -129,7 +129,7 @@ impl<'a> Bytes<'a> {
     ) -> Result<Vec<f64>, FileError> {
         let row_bytes = columns * SIZE;
         let expected = (rows as u64).saturating_mul(stride as u64);
-        // Nobody needs the padding behind the last row.
+        // The padding after the last row is not needed.
         let needed = expected - (stride - row_bytes) as u64;
         let elements = &self.bytes[self.at..];
         if (elements.len() as u64) < needed {
@@ -140,7 +140,7 @@ impl<'a> Bytes<'a> {
                 found: elements.len() as u64,
             });
         }
-        let mut values = room([rows, columns])?;
+        let mut values = with_capacity([rows, columns])?;
         for row in elements.chunks(stride).take(rows) {
             values.extend(row[..row_bytes].chunks_exact(SIZE).map(|element| {
                 let mut bytes = [0; SIZE];
@@ -161,7 +161,7 @@ impl<'a> Bytes<'a> {
         self.matrix(shape, SIZE * shape[1], number)
     }
 
-    /// What to say of bytes that nobody reads.
+    /// Warns of trailing bytes that are not read.
     pub(super) fn warn_of_rest(&self, warnings: &mut Vec<String>) {
         if self.left() > 0 {
             warnings.push(format!(
@@ -172,10 +172,10 @@ impl<'a> Bytes<'a> {
     }
 }
 
-/// Rows and columns that a grid can have, from the numbers in a file.
+/// Rows and columns from a file, checked against the limits of a grid.
 ///
 /// # Errors
-/// Zero or negative numbers, and more points than a grid may have, whatever the product.
+/// Zero or negative numbers, and more points than a grid may have, without overflow.
 pub(super) fn checked_shape(rows: i64, columns: i64) -> Result<[usize; 2], FileError> {
     let counts = [rows, columns].map(|count| usize::try_from(count).ok().filter(|n| *n > 0));
     let [Some(rows), Some(columns)] = counts else {
@@ -189,13 +189,13 @@ pub(super) fn checked_shape(rows: i64, columns: i64) -> Result<[usize; 2], FileE
     }
 }
 
-/// Text in which each byte is a character.
+/// Decodes Latin-1.
 pub(super) fn latin_1(bytes: &[u8]) -> String {
     bytes.iter().map(|byte| char::from(*byte)).collect()
 }
 
-/// An empty list with room for all points of a shape, if memory has it.
-pub(super) fn room([rows, columns]: [usize; 2]) -> Result<Vec<f64>, FileError> {
+/// An empty list with capacity for all points of a shape, if memory allows.
+pub(super) fn with_capacity([rows, columns]: [usize; 2]) -> Result<Vec<f64>, FileError> {
     let mut values = Vec::new();
     values
         .try_reserve_exact(rows * columns)

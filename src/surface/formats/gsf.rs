@@ -4,14 +4,14 @@
 //! Gwyddion user guide, "Simple Field Files", <https://gwyddion.net/documentation/user-guide-en/gsf.html>.
 
 use super::bytes::{Bytes, checked_shape};
-use super::length::said_unit;
+use super::length::stated_unit;
 use crate::surface::error::FileError;
 use crate::surface::matrix::{Matrix, Size};
 
 /// First bytes of a file.
 pub(super) const MAGIC: &[u8] = b"Gwyddion Simple Field 1.";
 
-/// Longest header taken; it holds a few lines of text.
+/// Longest header accepted; a header has a few lines of text.
 const LONGEST_HEADER: usize = 1 << 20;
 
 /// Reads a field.
@@ -21,9 +21,9 @@ pub(super) fn read(bytes: &[u8]) -> Result<Matrix, FileError> {
     let Some(end) = start.iter().position(|byte| *byte == 0) else {
         return Err(file.broken(start.len(), "no zero byte ends the header"));
     };
-    let header = Header::of(&start[..end]);
+    let header = Header::parse(&start[..end]);
     let shape = checked_shape(header.count(&file, "YRes")?, header.count(&file, "XRes")?)?;
-    let lateral = said_unit(header.text("XYUnits"), "x and y")?;
+    let lateral = stated_unit(header.text("XYUnits"), "x and y")?;
     let size = match (header.side("XReal")?, header.side("YReal")?) {
         (Some(x), Some(y)) => lateral.map(|unit| Size::Metres([x * unit, y * unit])),
         _ => None,
@@ -38,7 +38,7 @@ pub(super) fn read(bytes: &[u8]) -> Result<Matrix, FileError> {
         rows: shape[0],
         columns: shape[1],
         size,
-        unit: said_unit(header.text("ZUnits"), "heights")?,
+        unit: stated_unit(header.text("ZUnits"), "heights")?,
         warnings,
         ..Matrix::default()
     })
@@ -50,7 +50,7 @@ struct Header {
 }
 
 impl Header {
-    fn of(bytes: &[u8]) -> Self {
+    fn parse(bytes: &[u8]) -> Self {
         let text = String::from_utf8_lossy(bytes);
         let lines = text.lines().enumerate().filter_map(|(index, line)| {
             let (name, value) = line.split_once('=')?;
@@ -66,7 +66,7 @@ impl Header {
         line.map(|(number, _, value)| (*number, value.as_str()))
     }
 
-    /// A text, empty where there is none.
+    /// A text, empty if the name is absent.
     fn text(&self, name: &str) -> &str {
         self.find(name).map_or("", |(_, value)| value)
     }

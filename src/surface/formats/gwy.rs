@@ -1,6 +1,7 @@
-//! Gwyddion's own files (.gwy): a tree of named and typed pieces, of which one image is read.
+//! Gwyddion's native files (.gwy): a tree of named and typed components, of which one image is
+//! read.
 //!
-//! The first image whose heights are lengths; what its mask covers is missing.
+//! Reads the first image whose heights are lengths; masked pixels are missing.
 //!
 //! # Source
 //! Gwyddion user guide, "Format of Gwyddion Files",
@@ -15,10 +16,10 @@ use crate::units::quoted;
 /// First bytes of a file.
 pub(super) const MAGIC: &[u8] = b"GWYP";
 
-/// What a file calls its format in messages.
+/// Name of the format in messages.
 const FORMAT: &str = ".gwy";
 
-/// Deepest tree taken; images lie at a depth of 3.
+/// Deepest tree accepted; images lie at a depth of 3.
 const DEEPEST: usize = 32;
 
 /// Reads the first image of heights.
@@ -73,7 +74,7 @@ fn image_number(name: &str) -> Option<u32> {
     name.strip_prefix('/')?.strip_suffix("/data")?.parse().ok()
 }
 
-/// Marks what a mask covers as missing.
+/// Marks masked pixels as missing.
 fn cover(matrix: &mut Matrix, mask: &Matrix, file: &Bytes) -> Result<(), FileError> {
     if (mask.rows, mask.columns) != (matrix.rows, matrix.columns) {
         return Err(file.broken(MAGIC.len(), "a mask has another shape than its image"));
@@ -94,7 +95,7 @@ struct Object {
     pieces: Vec<(String, Piece)>,
 }
 
-/// A piece of an object, as far as it is needed.
+/// A component of an object, as far as it is needed.
 enum Piece {
     Whole(i32),
     Real(f64),
@@ -102,7 +103,7 @@ enum Piece {
     /// Offset and count of doubles.
     Reals(usize, usize),
     Object(Object),
-    /// Of another type, skipped.
+    /// A component of another type, skipped.
     Other,
 }
 
@@ -149,7 +150,7 @@ impl Object {
         let mut heights = Bytes::new(FORMAT, bytes);
         heights.seek(*start, "an image")?;
         let values = heights.packed(shape, f64::from_le_bytes)?;
-        // Like Gwyddion: a side may be negative, and 0 is none.
+        // As in Gwyddion a side may be negative, and 0 means unknown.
         let side = |name: &str| match self.find(name) {
             Some(Piece::Real(side)) if side.is_finite() && *side != 0.0 => Some(side.abs()),
             _ => None,
@@ -170,7 +171,7 @@ impl Object {
     }
 }
 
-/// Reads an object: its name, the length of its pieces, the pieces.
+/// Reads an object: its name, the length of its components, the components.
 fn object(file: &mut Bytes, depth: usize) -> Result<Object, FileError> {
     let place = file.offset();
     if depth > DEEPEST {
@@ -205,7 +206,7 @@ fn object(file: &mut Bytes, depth: usize) -> Result<Object, FileError> {
     })
 }
 
-/// Reads the type and the value of a piece.
+/// Reads the type and the value of a component.
 fn piece(file: &mut Bytes, depth: usize) -> Result<Piece, FileError> {
     let place = file.offset();
     let kind = file.u8("the type of a piece")?;
@@ -248,7 +249,7 @@ fn piece(file: &mut Bytes, depth: usize) -> Result<Piece, FileError> {
         other => {
             return Err(file.broken(
                 place,
-                format!("a piece of the unknown type {:?}", char::from(other)),
+                format!("a component of the unknown type {:?}", char::from(other)),
             ));
         }
     })

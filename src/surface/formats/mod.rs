@@ -1,6 +1,6 @@
-//! Kinds of height file: one table, told apart by their first bytes, then by their extension.
+//! Formats of height files: one table, selected by the first bytes and then by the extension.
 //!
-//! Whatever a file claims about its shape is compared with its own length before memory is asked for.
+//! The shape that a file claims is compared with the file's length before memory is allocated.
 
 mod al3d;
 mod bytes;
@@ -23,33 +23,33 @@ use std::path::Path;
 use super::error::FileError;
 use super::matrix::Matrix;
 
-/// Longest file that is taken in whole, 16 GiB: the most points of a grid in doubles, twice.
+/// Longest file that is read whole, 16 GiB: the largest grid in doubles, twice.
 const LONGEST: u64 = 1 << 34;
 
-/// Longest text file taken, 4 GiB: numbers of it take twice the memory besides.
+/// Longest text file read, 4 GiB: its numbers need twice that memory in addition.
 const LONGEST_TEXT: u64 = 1 << 32;
 
-/// A kind of height file.
+/// A format of height files.
 struct Format {
-    /// What it is called in messages, without article.
+    /// Its name in messages, without article.
     name: &'static str,
     /// Extensions, lower case.
     extensions: &'static [&'static str],
-    /// First bytes, any of them; none for text, which begins with anything.
+    /// Possible first bytes; empty for text, which may begin with anything.
     magic: &'static [&'static [u8]],
-    /// Longest file taken.
+    /// Longest file read.
     longest: u64,
     /// Reads the numbers.
     read: Reader,
 }
 
-/// How a kind is read: as it streams, or from all its bytes.
+/// How a format is read: as a stream, or from all its bytes.
 enum Reader {
     Stream(fn(BufReader<File>, u64) -> Result<Matrix, FileError>),
     Whole(fn(&[u8]) -> Result<Matrix, FileError>),
 }
 
-/// Every kind of file that is read.
+/// All supported formats.
 const FORMATS: &[Format] = &[
     Format {
         name: "NumPy array (.npy)",
@@ -130,21 +130,21 @@ const FORMATS: &[Format] = &[
     },
 ];
 
-/// What reads the columns and rows that a file says it has, and nothing else of it.
+/// Reads only the numbers of columns and rows from a header.
 type Claim = fn(BufReader<File>) -> Option<[usize; 2]>;
 
-/// Files whose length does not tell how much memory their numbers take: compressed ones, and those that
-/// may hold a byte a number.
+/// Formats whose length does not tell how much memory their numbers take: compressed ones, and
+/// those that may store one byte a number.
 const CLAIMS: [(&[&[u8]], Claim); 3] = [
     (&[npy::MAGIC], npy::claimed_points),
     (&[png::MAGIC], png::claimed_points),
     (&tiff::MAGIC, tiff::claimed_points),
 ];
 
-/// Points along x and y that an image or an array says it has, from its header alone.
+/// Points along x and y that the header of an image or an array claims.
 ///
-/// `None` for other files, which hold no more numbers than bytes, and for one that cannot be read: reading
-/// it says why.
+/// `None` for other formats, which hold no more numbers than bytes, and for a file that cannot be
+/// read: reading it reports the reason.
 pub fn claimed_points(path: &Path) -> Option<[usize; 2]> {
     if !fs::metadata(path).ok()?.is_file() {
         return None;
@@ -156,20 +156,20 @@ pub fn claimed_points(path: &Path) -> Option<[usize; 2]> {
     claim(file)
 }
 
-/// First bytes of other files that may come under a wrong name, with what they are.
-const STRANGERS: [(&[u8], &str); 4] = [
+/// First bytes of unsupported files that may carry a supported extension, with their names.
+const UNSUPPORTED: [(&[u8], &str); 4] = [
     (b"PK\x03\x04", "ZIP archive (.npz, .xlsx, .x3p)"),
     (b"\x89HDF", "HDF5 file"),
     (b"\xFF\xD8\xFF", "JPEG image"),
     (b"\x1F\x8B", "gzip-compressed file"),
 ];
 
-/// The numbers of a file as they stand there.
+/// The numbers of a file, unscaled.
 ///
 /// # Errors
 /// See [`FileError`].
 pub(super) fn read(path: &Path) -> Result<Matrix, FileError> {
-    // What the path is comes before what its name says: a folder is no unknown kind of file.
+    // Check the kind of path before its extension: a folder is not an unknown kind of file.
     let metadata = fs::metadata(path).map_err(|error| match error.kind() {
         ErrorKind::NotFound => FileError::NotFound,
         _ => FileError::Read(error),
@@ -201,7 +201,7 @@ pub(super) fn read(path: &Path) -> Result<Matrix, FileError> {
             bytes
                 .try_reserve_exact(length as usize)
                 .map_err(|_| FileError::Memory { bytes: length })?;
-            // A file that grows meanwhile is read as long as it was.
+            // If the file grows while it is read, the extra bytes are ignored.
             file.take(length)
                 .read_to_end(&mut bytes)
                 .map_err(FileError::Read)?;
@@ -210,9 +210,9 @@ pub(super) fn read(path: &Path) -> Result<Matrix, FileError> {
     }
 }
 
-/// The format of a file that begins with `start`: what its first bytes say, and its name must agree.
+/// The format of a file that begins with `start`; its extension must agree.
 ///
-/// A name without a known extension is no contradiction where the first bytes are clear.
+/// An unknown extension is accepted where the first bytes identify the format.
 fn find(start: &[u8], extension: Option<&str>) -> Result<&'static Format, FileError> {
     let begins = |magic: &&[u8]| start.starts_with(magic);
     let by_content = FORMATS
@@ -233,7 +233,7 @@ fn find(start: &[u8], extension: Option<&str>) -> Result<&'static Format, FileEr
         }
         (Some(found), _) => Ok(found),
         (None, Some(said)) => {
-            let stranger = STRANGERS.iter().find(|(magic, _)| begins(magic));
+            let stranger = UNSUPPORTED.iter().find(|(magic, _)| begins(magic));
             match stranger {
                 Some((_, name)) => Err(other(format!("a {name}"))),
                 None if said.magic.is_empty() || start.is_empty() => Ok(said),
@@ -254,7 +254,7 @@ mod tests {
     use super::*;
     use proptest::prelude::*;
 
-    /// A file of another program for each format that is read in whole.
+    /// A file of another program for each format that is read whole.
     const GOOD: [&[u8]; 14] = [
         include_bytes!("../../../tests/files/pillow_16.png"),
         include_bytes!("../../../tests/files/tifffile_16.tif"),
@@ -275,9 +275,9 @@ mod tests {
     proptest! {
         #![proptest_config(ProptestConfig::with_cases(4000))]
 
-        /// Whatever bytes are wrong or missing: an answer, and a whole matrix if it is one.
+        /// Any changed or missing bytes give an error or a complete matrix.
         #[test]
-        fn no_change_of_a_file_is_trouble(
+        fn modified_files_give_an_error_or_a_matrix(
             which in 0..GOOD.len(),
             changes in prop::collection::vec((0.0..1.0_f64, 0..3_u8, any::<u8>()), 0..5),
             kept in prop_oneof![3 => Just(1.0), 1 => 0.0..1.0_f64],
@@ -285,7 +285,7 @@ mod tests {
             let mut bytes = GOOD[which].to_vec();
             let format = find(&bytes, Some("xyz").filter(|_| which + 1 == GOOD.len())).unwrap();
             for (place, near_start, byte) in changes {
-                // Two of three within the header, where lengths and counts stand.
+                // Two of three changes hit the header, where lengths and counts stand.
                 let reach = if near_start == 0 { bytes.len() } else { bytes.len().min(400) };
                 bytes[(place * reach as f64) as usize] = byte;
             }
@@ -299,7 +299,7 @@ mod tests {
     }
 
     #[test]
-    fn no_extension_and_no_first_bytes_have_two_formats() {
+    fn extensions_and_first_bytes_are_unique() {
         for (index, format) in FORMATS.iter().enumerate() {
             for other in &FORMATS[index + 1..] {
                 let shared = |extension| other.extensions.contains(extension);

@@ -1,6 +1,7 @@
 //! Height maps in NumPy's .npy format.
 //!
-//! Everything that the header claims is compared with the length of the file before memory is asked for.
+//! Everything that the header claims is compared with the length of the file before memory is
+//! allocated.
 
 use std::fs::File;
 use std::io::{BufRead, BufReader, Cursor, Read};
@@ -14,10 +15,10 @@ use crate::surface::matrix::Matrix;
 /// First bytes of a .npy file.
 pub(super) const MAGIC: &[u8] = b"\x93NUMPY";
 
-/// Longest header taken; that of a plain array has 128 bytes.
+/// Longest header accepted; that of a plain array has 128 bytes.
 const LONGEST_HEADER: usize = 4096;
 
-/// Most digits in a shape: their product then fits in 64 bits, whatever they are.
+/// Most digits in a shape, so that the product of its numbers fits in 64 bits.
 const MOST_SHAPE_DIGITS: usize = 19;
 
 /// Columns and rows of a two-dimensional array, from its header.
@@ -33,7 +34,7 @@ pub(super) fn claimed_points(mut file: BufReader<File>) -> Option<[usize; 2]> {
 /// Reads a two-dimensional array of real numbers from `file`, which has `length` bytes.
 ///
 /// # Errors
-/// A header that is none, other dimensions or types, and a length that does not fit the shape.
+/// A malformed header, other dimensions or types, and a length that does not fit the shape.
 pub(super) fn read(mut file: impl BufRead, length: u64) -> Result<Matrix, FileError> {
     let header = read_header(&mut file)?;
     let data_length = length.saturating_sub(header.len() as u64);
@@ -45,7 +46,7 @@ pub(super) fn read(mut file: impl BufRead, length: u64) -> Result<Matrix, FileEr
             shape: npy.shape().to_vec(),
         });
     };
-    // The digits of the header are few enough that this does not overflow.
+    // The header has few enough digits that this cannot overflow.
     let count = rows * columns;
     if count == 0 {
         return Err(FileError::NoNumbers);
@@ -111,8 +112,8 @@ pub(super) fn read(mut file: impl BufRead, length: u64) -> Result<Matrix, FileEr
     })
 }
 
-/// The bytes from the magic string to the end of the header, checked so far that the parser can
-/// neither run out of stack nor overflow.
+/// The bytes from the magic string to the end of the header, checked so that the parser can neither
+/// run out of stack nor overflow.
 fn read_header(file: &mut impl Read) -> Result<Vec<u8>, FileError> {
     let mut header = vec![0; 8];
     let mut take = |header: &mut Vec<u8>, from: usize| {
@@ -140,7 +141,7 @@ fn read_header(file: &mut impl Read) -> Result<Vec<u8>, FileError> {
         .fold(0_usize, |length, byte| (length << 8) | usize::from(*byte));
     if text_length > LONGEST_HEADER {
         return Err(broken(format!(
-            "a header of {text_length} bytes is no plain array's"
+            "a header of {text_length} bytes is too long for a plain array"
         )));
     }
     let start = header.len();
@@ -151,7 +152,8 @@ fn read_header(file: &mut impl Read) -> Result<Vec<u8>, FileError> {
     let plain =
         |byte: &u8| byte.is_ascii_alphanumeric() || b"_'\"{}()[],:<>|=- \t\r\n".contains(byte);
     let brackets = text.iter().filter(|byte| b"([{".contains(byte)).count();
-    // Nested deeper than any type of elements, a header takes its parser seconds, doubled by each bracket.
+    // Parsing time doubles with each nested bracket, so deeper nesting than any element type has is
+    // refused.
     let depths = text.iter().scan(0_usize, |depth, byte| {
         match byte {
             b'(' | b'[' | b'{' => *depth += 1,
@@ -163,15 +165,15 @@ fn read_header(file: &mut impl Read) -> Result<Vec<u8>, FileError> {
     let deepest = depths.max().unwrap_or(0);
     if !text.iter().all(plain) || brackets > 16 || deepest > 4 {
         return Err(broken(
-            "its header is no description of a plain array".to_owned(),
+            "its header does not describe a plain array".to_owned(),
         ));
     }
     let text = String::from_utf8_lossy(text);
-    // All that follows the word, for a key may be given twice.
+    // Everything after the word, since a key may be given twice.
     let shape = text.split_once("shape").map_or("", |(_, rest)| rest);
     if shape.bytes().filter(u8::is_ascii_digit).count() > MOST_SHAPE_DIGITS {
         let shape = shape.trim_matches(['"', '\'', ':', ' ', ',', '}', '\n']);
-        return Err(broken(format!("its shape {shape} is past all memory")));
+        return Err(broken(format!("its shape {shape} exceeds all memory")));
     }
     Ok(header)
 }
@@ -204,9 +206,9 @@ fn transposed(values: &[f64], rows: usize, columns: usize) -> Vec<f64> {
     result
 }
 
-/// A file that is not what a .npy file should be.
+/// A malformed .npy file.
 fn broken(what: String) -> FileError {
-    // A parser may draw a picture below its sentence.
+    // A parser may add a drawing below its message.
     let sentence = what.lines().next().unwrap_or("");
     let sentence = sentence.split(" --> ").next().unwrap_or("");
     FileError::BrokenNpy {
@@ -242,9 +244,10 @@ mod tests {
     proptest! {
         #![proptest_config(ProptestConfig::with_cases(2000))]
 
-        /// Whatever the header says, an answer; with a few bytes of it replaced, most get past the parser.
+        /// Any header gives an error or a matrix; with a few bytes replaced most still reach the
+        /// parser.
         #[test]
-        fn no_header_is_trouble(
+        fn any_header_gives_an_error_or_a_matrix(
             changes in prop::collection::vec((0_usize..60, prop::sample::select(
                 b"0123456789fiucSUVO<>|=bm'\"{}[]():, -TF\xFF\n".to_vec()
             )), 0..4),

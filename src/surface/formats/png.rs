@@ -1,4 +1,4 @@
-//! Grey PNG images of up to 16 bits. They say no unit, and their dots per inch are those of a printer.
+//! Grey PNG images of up to 16 bits. They state no unit, and their dots per inch are a printer's.
 
 use std::fs::File;
 use std::io::{BufReader, Cursor};
@@ -6,14 +6,14 @@ use std::io::{BufReader, Cursor};
 use image::codecs::png::PngDecoder;
 use image::{ColorType, ImageDecoder};
 
-use super::bytes::{checked_shape, room};
+use super::bytes::{checked_shape, with_capacity};
 use crate::surface::error::FileError;
 use crate::surface::matrix::Matrix;
 
 /// First bytes of a file.
 pub(super) const MAGIC: &[u8] = b"\x89PNG\r\n\x1a\n";
 
-/// Most bytes of pixels that a byte of a compressed file can stand for: LZW packs up to 3840 bytes
+/// Most bytes of pixels that a byte of a compressed file can encode: LZW packs up to 3840 bytes
 /// into a code of 12 bits, deflate 1032 into a byte.
 pub(super) const LARGEST_RATIO: usize = 4096;
 
@@ -35,7 +35,7 @@ pub(super) fn read(bytes: &[u8]) -> Result<Matrix, FileError> {
         _ => return Err(not_grey()),
     };
     refuse_ratio(shape, size, bytes.len())?;
-    // The decoder wants a buffer of bytes; numbers of 16 bits have the machine's order in it.
+    // The decoder needs a byte buffer; it stores 16-bit numbers in the machine's byte order.
     let mut pixels = Vec::new();
     let length = shape[0] * shape[1] * size;
     pixels
@@ -45,7 +45,7 @@ pub(super) fn read(bytes: &[u8]) -> Result<Matrix, FileError> {
         })?;
     pixels.resize(length, 0);
     image.read_image(&mut pixels).map_err(broken)?;
-    let mut values = room(shape)?;
+    let mut values = with_capacity(shape)?;
     if size == 1 {
         values.extend(
             pixels
@@ -66,7 +66,7 @@ pub(super) fn read(bytes: &[u8]) -> Result<Matrix, FileError> {
     })
 }
 
-/// Refuses an image of more pixels than a file of `length` bytes can hold, however it is compressed.
+/// Refuses an image of more pixels than a file of `length` bytes can encode.
 pub(super) fn refuse_ratio(
     [rows, columns]: [usize; 2],
     size: usize,
@@ -84,11 +84,11 @@ pub(super) fn refuse_ratio(
     Ok(())
 }
 
-/// The refusal of colours.
+/// The error for colour images.
 pub(super) fn not_grey() -> FileError {
     FileError::NotSupported {
         what: "images other than grey ones of 8 or 16 bits",
-        instead: "colours are no heights: save it as a grey image, without transparency",
+        instead: "colours are not heights: save it as a grey image, without transparency",
     }
 }
 
@@ -99,7 +99,7 @@ fn broken(error: image::ImageError) -> FileError {
     }
 }
 
-/// What a decoder says, on one line.
+/// A decoder's message, on one line.
 pub(super) fn first_line(text: &str) -> String {
     text.lines().next().unwrap_or_default().to_owned()
 }

@@ -1,19 +1,20 @@
 //! Surface data files (.sdf), the exchange format of profilers: text and binary.
 //!
-//! Lengths are in metres. The forms of the years before the standard (BCR, NPL) differ in their magic
-//! words only; version 2 has wider counts.
+//! Lengths are in metres. The formats before the standard (BCR, NPL) differ only in their magic
+//! words; version 2 has wider counts.
 //!
 //! # Source
 //! ISO 25178-71:2017, clause 5; its forerunner in Stout et al. 1993, report EUR 15178 EN.
 
-use super::bytes::{Bytes, checked_shape, latin_1, room};
+use super::bytes::{Bytes, checked_shape, latin_1, with_capacity};
 use crate::surface::error::FileError;
 use crate::surface::matrix::{Matrix, Size};
 
-/// First bytes of a file: `a` for text or `b` for binary, then who defined the version that follows.
+/// First bytes of a file: `a` for text or `b` for binary, then the organisation that defined the
+/// version.
 pub(super) const MAGIC: [&[u8]; 5] = [b"aISO-", b"aBCR-", b"aNPL-", b"bISO-", b"bBCR-"];
 
-/// What a file calls its format in messages.
+/// Name of the format in messages.
 const FORMAT: &str = ".sdf";
 
 /// The word for a missing point in text.
@@ -28,7 +29,7 @@ pub(super) fn read(bytes: &[u8]) -> Result<Matrix, FileError> {
     }
 }
 
-/// What both headers say that is needed.
+/// The required entries of both headers.
 struct Header {
     columns: i64,
     rows: i64,
@@ -38,7 +39,7 @@ struct Header {
 }
 
 impl Header {
-    /// Rows and columns of a header that can be read.
+    /// Rows and columns, if the header is supported.
     fn shape(&self) -> Result<[usize; 2], FileError> {
         if self.compression != 0 {
             return Err(FileError::NotSupported {
@@ -49,13 +50,13 @@ impl Header {
         checked_shape(self.rows, self.columns)
     }
 
-    /// What is wrong with the scales, if anything is.
-    fn complaint(&self) -> Option<String> {
+    /// An error message if the scales are wrong.
+    fn scale_error(&self) -> Option<String> {
         let [x, y, z] = self.scales;
         // A single profile has no scale along y.
         let y_stands = (y.is_finite() && y > 0.0) || self.rows == 1;
         let stands = x.is_finite() && x > 0.0 && y_stands && z.is_finite() && z != 0.0;
-        (!stands).then(|| format!("Xscale = {x}, Yscale = {y}, Zscale = {z} are no lengths"))
+        (!stands).then(|| format!("Xscale = {x}, Yscale = {y}, Zscale = {z} are not lengths"))
     }
 
     fn matrix(&self, values: Vec<f64>, [rows, columns]: [usize; 2]) -> Matrix {
@@ -99,8 +100,8 @@ fn read_binary(bytes: &[u8]) -> Result<Matrix, FileError> {
         compression: file.u8("the compression")?.into(),
         data_type: file.u8("the type of the data")?.into(),
     };
-    if let Some(complaint) = header.complaint() {
-        return Err(file.broken(place, complaint));
+    if let Some(scale_error) = header.scale_error() {
+        return Err(file.broken(place, scale_error));
     }
     file.take(1, "the checksum's type")?;
     let shape = header.shape()?;
@@ -161,7 +162,7 @@ fn read_text(bytes: &[u8]) -> Result<Matrix, FileError> {
             continue;
         };
         let name = name.trim().to_ascii_lowercase();
-        // Maker and dates are no numbers and not needed.
+        // The maker and the dates are not numbers and not needed.
         if let Ok(value) = value.trim().parse() {
             found.push((name, value));
         } else if NUMBERS
@@ -192,12 +193,12 @@ fn read_text(bytes: &[u8]) -> Result<Matrix, FileError> {
         compression: number("Compression").unwrap_or(0.0) as i64,
         data_type: number("DataType").unwrap_or(7.0) as i64,
     };
-    if let Some(complaint) = header.complaint() {
-        return Err(wrong(end, complaint));
+    if let Some(scale_error) = header.scale_error() {
+        return Err(wrong(end, scale_error));
     }
     let shape = header.shape()?;
     let points = shape[0] * shape[1];
-    // Each number takes a digit and a blank at least.
+    // Each number takes at least a digit and a blank.
     if points > bytes.len() / 2 + 1 {
         return Err(FileError::Truncated {
             rows: shape[0],
@@ -206,7 +207,7 @@ fn read_text(bytes: &[u8]) -> Result<Matrix, FileError> {
             found: bytes.len() as u64,
         });
     }
-    let mut values = room(shape)?;
+    let mut values = with_capacity(shape)?;
     let mut last = end;
     'lines: for (line, number) in lines {
         last = number;

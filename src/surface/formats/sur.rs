@@ -1,4 +1,4 @@
-//! Digital Surf's surfaces (.sur), as MountainsMap and many profilers write them: not compressed.
+//! Digital Surf's uncompressed surfaces (.sur), as MountainsMap and many profilers write them.
 //!
 //! A header of 512 bytes, a comment, a private zone, then 16- or 32-bit integers, row by row.
 //!
@@ -6,7 +6,7 @@
 //! Digital Surf, "SURF file format", version 1; ISO 25178-71 names it among the formats in use.
 
 use super::bytes::{Bytes, checked_shape};
-use super::length::said_unit;
+use super::length::stated_unit;
 use crate::surface::error::FileError;
 use crate::surface::matrix::{Matrix, Size};
 
@@ -14,18 +14,18 @@ use crate::surface::matrix::{Matrix, Size};
 pub(super) const MAGIC: &[u8] = b"DIGITAL SURF";
 pub(super) const COMPRESSED: &[u8] = b"DSCOMPRESSED";
 
-/// What a file calls its format in messages.
+/// Name of the format in messages.
 const FORMAT: &str = ".sur";
 
 /// Length of the header.
 const HEADER: usize = 512;
 
-/// Values of the field "inverted": which way up the heights are stored.
+/// Values of the field "inverted": how rows and columns are stored.
 const INVERTED_Z: u16 = 1;
 const FLIPPED: u16 = 2;
 const FLOPPED: u16 = 3;
 
-/// A missing point is this far below the least value.
+/// The code of a missing point is this far below the least value.
 const MISSING_BELOW: i64 = 2;
 
 /// Reads a surface.
@@ -39,7 +39,7 @@ pub(super) fn read(bytes: &[u8]) -> Result<Matrix, FileError> {
     let mut file = Bytes::new(FORMAT, bytes);
     file.take(HEADER, "the header")?;
     file.seek(0, "the header")?;
-    let header = Header::of(&mut file)?;
+    let header = Header::parse(&mut file)?;
     let start = HEADER + header.comment + header.private;
     file.seek(start, "the heights")?;
     let mut values = match header.bits {
@@ -50,7 +50,7 @@ pub(super) fn read(bytes: &[u8]) -> Result<Matrix, FileError> {
             header.height(i32::from_le_bytes(element).into())
         })?,
     };
-    turn(&mut values, header.shape, header.inversion);
+    reorder(&mut values, header.shape, header.inversion);
     let [rows, columns] = header.shape;
     let [dx, dy] = header.pixel;
     Ok(Matrix {
@@ -63,11 +63,11 @@ pub(super) fn read(bytes: &[u8]) -> Result<Matrix, FileError> {
     })
 }
 
-/// What the header says that is needed.
+/// The required entries of the header.
 struct Header {
     shape: [usize; 2],
     bits: u16,
-    /// Value of a missing point, if there are any.
+    /// Code of a missing point, if there are any.
     missing: Option<i64>,
     /// Pixel lengths along x and y, m.
     pixel: [f64; 2],
@@ -83,9 +83,9 @@ struct Header {
 
 impl Header {
     /// Field by field, in the order of the format.
-    fn of(file: &mut Bytes) -> Result<Header, FileError> {
+    fn parse(file: &mut Bytes) -> Result<Header, FileError> {
         file.take(12, "the magic words")?;
-        // Order of bytes (0 is that of a PC), objects, version, kind of object.
+        // Byte order (0 is that of a PC), objects, version, kind of object.
         if file.u16("the order of bytes")? != 0 {
             return Err(FileError::NotSupported {
                 what: ".sur files with the bytes in Motorola's order",
@@ -126,7 +126,7 @@ impl Header {
         }
         let mut pixel = [dx, dy];
         for (side, name) in pixel.iter_mut().zip(&units) {
-            let unit = said_unit(name, "x and y")?;
+            let unit = stated_unit(name, "x and y")?;
             *side *= unit.ok_or_else(|| file.broken(place, "x and y have no unit"))?;
         }
         file.take(3 * 16 + 3 * 4 + 2, "the units that are shown")?;
@@ -143,14 +143,14 @@ impl Header {
             pixel,
             step,
             offset: if offset.is_finite() { offset } else { 0.0 },
-            unit: said_unit(&units[2], "heights")?,
+            unit: stated_unit(&units[2], "heights")?,
             inversion,
             comment,
             private,
         })
     }
 
-    /// The height that an integer stands for; NaN where it is missing.
+    /// The height of an integer code; NaN if the point is missing.
     fn height(&self, value: i64) -> f64 {
         if self.missing == Some(value) {
             return f64::NAN;
@@ -163,8 +163,8 @@ impl Header {
     }
 }
 
-/// Puts rows and columns in the order in which they lie on the sample.
-fn turn(values: &mut [f64], [rows, columns]: [usize; 2], inversion: u16) {
+/// Puts rows and columns into their order on the sample.
+fn reorder(values: &mut [f64], [rows, columns]: [usize; 2], inversion: u16) {
     match inversion {
         FLIPPED => values.chunks_mut(columns).for_each(<[f64]>::reverse),
         FLOPPED => {

@@ -1,12 +1,13 @@
 //! Golden Software's Surfer grids (.grd): text (DSAA), 6 binary (DSBB), 7 binary (DSRB).
 //!
-//! Rows run along x and begin at the least y. No unit is said: coordinates are in that of the heights.
+//! Rows run along x and start at the least y. No unit is stated: coordinates have that of the
+//! heights.
 //!
 //! # Source
 //! Golden Software, Surfer user's guide, "ASCII grid file format", "Surfer 6 grid file format" and
 //! "Surfer 7 grid file format".
 
-use super::bytes::{Bytes, checked_shape, latin_1, room};
+use super::bytes::{Bytes, checked_shape, latin_1, with_capacity};
 use crate::surface::error::FileError;
 use crate::surface::matrix::{Matrix, Size};
 
@@ -18,7 +19,7 @@ pub(super) const BINARY_7: &[u8] = b"DSRB";
 /// Least value that marks a missing node: 1.70141e38, to the digits that every form keeps.
 const BLANK: f64 = 1.7014e38;
 
-/// What a file calls its format in messages.
+/// Name of the format in messages.
 const FORMAT: &str = ".grd";
 
 /// Reads a grid of any of the three forms.
@@ -58,7 +59,7 @@ fn read_text(bytes: &[u8]) -> Result<Matrix, FileError> {
     let columns = number("the number of columns")?;
     let rows = number("the number of rows")?;
     let shape = checked_shape(whole(rows), whole(columns))?;
-    // Each number takes a digit and a blank at least.
+    // Each number takes at least a digit and a blank.
     let points = shape[0] * shape[1];
     if points > bytes.len() / 2 + 1 {
         return Err(FileError::Truncated {
@@ -79,7 +80,7 @@ fn read_text(bytes: &[u8]) -> Result<Matrix, FileError> {
     ]) {
         *end = number(what)?;
     }
-    let mut values = room(shape)?;
+    let mut values = with_capacity(shape)?;
     for index in 0..points {
         let (row, column) = (index / shape[1] + 1, index % shape[1] + 1);
         values.push(number(&format!(
@@ -94,14 +95,14 @@ fn read_text(bytes: &[u8]) -> Result<Matrix, FileError> {
     Ok(finished(values, shape, steps, |height| height >= BLANK))
 }
 
-/// What is wrong with limits that are none.
+/// The error message for limits in the wrong order.
 const REVERSED: &str = "the greatest x and y must lie above the least ones";
 
 /// Distances between columns and rows from the least and greatest x and y.
 fn steps(ends: [f64; 6], [rows, columns]: [usize; 2]) -> Option<[f64; 2]> {
     let step = |least: f64, greatest: f64, count: usize| -> Option<f64> {
         let span = greatest - least;
-        // One line of nodes has no distance to the next.
+        // A single line of nodes has no spacing.
         if count == 1 {
             return Some(0.0);
         }
@@ -113,7 +114,7 @@ fn steps(ends: [f64; 6], [rows, columns]: [usize; 2]) -> Option<[f64; 2]> {
     ])
 }
 
-/// The matrix, with its missing nodes marked, and the size that its steps give.
+/// The matrix with missing nodes marked, and the size from its spacing.
 fn finished(
     mut values: Vec<f64>,
     [rows, columns]: [usize; 2],
@@ -160,7 +161,7 @@ fn read_binary(bytes: &[u8]) -> Result<Matrix, FileError> {
     Ok(matrix)
 }
 
-/// What the GRID section of a Surfer 7 file says.
+/// Contents of the GRID section of a Surfer 7 file.
 struct Description {
     shape: [usize; 2],
     steps: [f64; 2],
@@ -191,7 +192,7 @@ fn read_binary_7(bytes: &[u8]) -> Result<Matrix, FileError> {
                 };
                 let values = file.packed(shape, f64::from_le_bytes)?;
                 return Ok(finished(values, shape, steps, |height| match version {
-                    // The first version called every larger value missing, too.
+                    // The first version also marked every larger value as missing.
                     1 => height >= blank,
                     _ => height == blank,
                 }));
@@ -229,7 +230,7 @@ fn describe(file: &mut Bytes) -> Result<Description, FileError> {
     })
 }
 
-/// A number as a count; 0, which no grid has, if it is none.
+/// A number as a count; 0, which no grid has, if it is not a whole number.
 fn whole(number: f64) -> i64 {
     if number.fract() == 0.0 && number.abs() < 1e15 {
         number as i64

@@ -1,9 +1,9 @@
 //! Height maps as text: a matrix of numbers, one line a row.
 //!
-//! Numbers are separated by semicolons, tabs, blanks or commas; the file as a whole decides which. With
-//! any of the first three a comma may be the decimal mark. `#`, `%` and `//` begin comments, one first
-//! line of words is a header, blank lines do not count. Numbers left out and `nan`, `na`, `n/a` are
-//! missing pixels.
+//! Numbers are separated by semicolons, tabs, blanks or commas; the separator is that of the whole
+//! file. With the first three a comma may be the decimal mark. `#`, `%` and `//` begin comments, a
+//! first line of words is a header, blank lines are skipped. Empty fields and `nan`, `na`, `n/a`
+//! are missing pixels.
 
 use super::length::length_unit;
 use super::xyz;
@@ -12,12 +12,12 @@ use crate::surface::error::FileError;
 use crate::surface::matrix::{Matrix, Size};
 use crate::units::{Dimension, parse_quantity};
 
-/// What stands between the numbers of a line.
+/// Separator of the numbers in a line.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 enum Separator {
     Semicolon,
     Comma,
-    /// Tabs alone, so that an empty field is a missing pixel.
+    /// Single tabs, so that an empty field is a missing pixel.
     Tab,
     /// Any run of blanks and tabs.
     Blanks,
@@ -27,17 +27,19 @@ enum Separator {
 struct Line<'a> {
     /// Its number in the file, from 1.
     number: usize,
-    /// Its text without comment, blanks around it and line end.
+    /// Its text without comment, surrounding blanks and line end.
     text: &'a str,
 }
 
-/// Reads a matrix from the bytes of a text file, or a map from three columns x, y, z that form one.
+/// Reads a matrix from the bytes of a text file, or a map from three columns x, y, z that form a
+/// grid.
 ///
 /// # Errors
-/// What is no text, no number, or no matrix, with line, row and column from 1.
+/// Binary content, a field that is not a number, or rows of different length, with line, row and
+/// column from 1.
 pub(super) fn read(bytes: &[u8]) -> Result<Matrix, FileError> {
     let (matrix, remarks) = read_columns(bytes)?;
-    // A size in the comments says that this is a matrix of heights.
+    // A size in the comments means that this is a matrix of heights.
     if matrix.size.is_none()
         && let Some(map) = xyz::as_grid(&matrix, remarks.lateral_unit)
     {
@@ -46,7 +48,7 @@ pub(super) fn read(bytes: &[u8]) -> Result<Matrix, FileError> {
     Ok(matrix)
 }
 
-/// Reads the numbers of a text file line by line, and what its comments say.
+/// Reads the numbers of a text file line by line, and the entries of its comments.
 ///
 /// # Errors
 /// As [`read`].
@@ -58,7 +60,7 @@ pub(super) fn read_columns(bytes: &[u8]) -> Result<(Matrix, Remarks), FileError>
     if let Some(offset) = bytes.iter().position(|byte| *byte == 0) {
         return Err(FileError::Binary { offset });
     }
-    // Comments may be in another encoding (a Latin-1 micro sign); numbers cannot.
+    // Comments may use another encoding (a Latin-1 micro sign); numbers cannot.
     let text = String::from_utf8_lossy(bytes);
     let body = Body::new(&text);
     let separator = separator(&body);
@@ -103,7 +105,7 @@ pub(super) fn read_columns(bytes: &[u8]) -> Result<(Matrix, Remarks), FileError>
     if values.is_empty() {
         return Err(FileError::NoNumbers);
     }
-    let remarks = Remarks::of(&body);
+    let remarks = Remarks::from_body(&body);
     let size = remarks.width.zip(remarks.height);
     let matrix = Matrix {
         values,
@@ -116,7 +118,7 @@ pub(super) fn read_columns(bytes: &[u8]) -> Result<(Matrix, Remarks), FileError>
     Ok((matrix, remarks))
 }
 
-/// The text of a file, line by line. Lines are found anew in each pass, so that they need no memory.
+/// The text of a file, line by line. Each pass finds the lines again, so that they need no memory.
 struct Body<'a> {
     text: &'a str,
     line_end: char,
@@ -138,13 +140,13 @@ impl<'a> Body<'a> {
         body
     }
 
-    /// The lines that hold something besides comment.
+    /// The lines with content other than comments.
     fn lines(&self) -> impl Iterator<Item = Line<'a>> {
         let header = self.header;
         let lines = self.text.split(self.line_end).enumerate();
         lines.filter_map(move |(index, line)| {
             let number = index + 1;
-            // Tabs stay: they may separate numbers that are missing.
+            // Tabs stay: they may separate missing numbers.
             let text = split_comment(line).0.trim_matches([' ', '\r', '\u{c}']);
             let holds_numbers = number != header && !text.trim().is_empty();
             holds_numbers.then_some(Line { number, text })
@@ -161,14 +163,14 @@ fn split_comment(line: &str) -> (&str, &str) {
     }
 }
 
-/// Whether a line consists of words: nothing in it is a number.
+/// Whether a line consists of words, none of them a number.
 fn is_words(line: &str) -> bool {
     line.split([' ', '\t', ',', ';'])
         .filter(|word| !word.is_empty())
         .all(|word| number(word, Separator::Blanks).is_none())
 }
 
-/// The separator of the file: the first of semicolon, comma, tab, blanks that it uses as one.
+/// The separator of the file: the first of semicolon, comma, tab, blanks that it uses.
 fn separator(body: &Body) -> Separator {
     let (mut semicolons, mut commas, mut tabs, mut blanks) = (false, false, false, false);
     let (mut several, mut decimal_commas) = (false, true);
@@ -184,7 +186,7 @@ fn separator(body: &Body) -> Separator {
     if semicolons {
         Separator::Semicolon
     } else if commas && !(several && decimal_commas) {
-        // A lone `1,5` on each line, too, is taken as two numbers.
+        // A single `1,5` on each line is taken as two numbers.
         Separator::Comma
     } else if tabs && !blanks {
         Separator::Tab
@@ -193,7 +195,7 @@ fn separator(body: &Body) -> Separator {
     }
 }
 
-/// Whether a word has no comma, or one between digits as the only decimal mark.
+/// Whether a word has no comma, or exactly one, between digits, as a decimal mark.
 fn has_decimal_comma(word: &str) -> bool {
     word.split_once(',').is_none_or(|(whole, fraction)| {
         whole.ends_with(|c: char| c.is_ascii_digit())
@@ -213,13 +215,13 @@ fn fields(text: &str, separator: Separator) -> Box<dyn Iterator<Item = &str> + '
     }
 }
 
-/// Empty fields that every line has at its ends: marks at the ends of lines, not missing pixels.
+/// Empty fields at the ends of every line: trailing separators, not missing pixels.
 struct Margins {
     before: usize,
     after: usize,
 }
 
-/// Finds the marks that every line begins or ends with.
+/// Finds the separators that every line begins or ends with.
 fn margins(body: &Body, separator: Separator) -> Margins {
     let empty = |field: Option<&str>| field.is_some_and(|field| field.trim().is_empty());
     let (mut before, mut after, mut fewest) = (true, true, usize::MAX);
@@ -231,7 +233,7 @@ fn margins(body: &Body, separator: Separator) -> Margins {
             break;
         }
     }
-    // A field at least is left to every line.
+    // Every line keeps at least one field.
     let after = after && fewest > 1;
     Margins {
         before: usize::from(before && fewest > 1 + usize::from(after)),
@@ -239,7 +241,7 @@ fn margins(body: &Body, separator: Separator) -> Margins {
     }
 }
 
-/// The number in a field; NaN where it is missing, nothing where it is none.
+/// The number in a field; NaN if it is missing, `None` if it is not a number.
 fn number(field: &str, separator: Separator) -> Option<f64> {
     let field = field.trim();
     let field = field
@@ -268,19 +270,19 @@ fn number(field: &str, separator: Separator) -> Option<f64> {
     other.parse().ok()
 }
 
-/// What the comments say about lengths, in the form in which Gwyddion exports text matrices.
+/// Lengths stated in the comments, in the form of Gwyddion's text export.
 #[derive(Default)]
 pub(super) struct Remarks {
     width: Option<f64>,
     height: Option<f64>,
     unit: Option<f64>,
-    /// Metres per unit of x and y, of points with coordinates.
+    /// Metres per unit of x and y of points with coordinates.
     pub(super) lateral_unit: Option<f64>,
 }
 
 impl Remarks {
     /// All comments of a file.
-    fn of(body: &Body) -> Self {
+    fn from_body(body: &Body) -> Self {
         let mut remarks = Remarks::default();
         for line in body.text.split(body.line_end) {
             remarks.take(split_comment(line).1);
@@ -288,7 +290,8 @@ impl Remarks {
         remarks
     }
 
-    /// Takes `# Width: 5.0 um`, `# Height: 5.0 um`, `# Value units: m`, `# Lateral units: um` out of a comment.
+    /// Reads `# Width: 5.0 um`, `# Height: 5.0 um`, `# Value units: m`, `# Lateral units: um` from
+    /// a comment.
     fn take(&mut self, comment: &str) {
         let Some((name, value)) = comment
             .trim_start_matches(['#', '%', '/', ' '])
@@ -309,7 +312,7 @@ impl Remarks {
 /// A positive length with its unit, m.
 fn length(text: &str) -> Option<f64> {
     let text = text.trim();
-    // The nearest number to the digits where the unit is one of ours.
+    // For supported units this is the double nearest to the digits.
     if let Ok(length) = parse_quantity(text, Dimension::Length) {
         return (length > 0.0).then_some(length);
     }

@@ -1,4 +1,4 @@
-//! Forms in which a matrix is written, and what is refused with its place.
+//! Forms of a text matrix, and errors with their place.
 
 use super::*;
 
@@ -53,7 +53,7 @@ fn missing_pixels_are_not_numbers() {
             "{text:?}"
         );
     }
-    // Only a mark that ends every line is no missing pixel.
+    // Only a separator that ends every line is not a missing pixel.
     let (_, columns, values) = numbers("1,2,\n3,4,5\n");
     assert!(columns == 3 && values[2].is_nan());
 }
@@ -68,7 +68,7 @@ fn one_row_one_column_one_number() {
 }
 
 #[test]
-fn marks_alone_are_missing_pixels_and_no_trouble() {
+fn separators_alone_are_missing_pixels() {
     for text in [";", ";\n;;\n", "\t\n;", ",,,", ",\n,", ";;\n;;"] {
         match read(text.as_bytes()) {
             Ok(matrix) => assert!(matrix.values.iter().all(|value| value.is_nan())),
@@ -78,7 +78,7 @@ fn marks_alone_are_missing_pixels_and_no_trouble() {
 }
 
 #[test]
-fn comments_may_say_the_size() {
+fn comments_may_state_the_size() {
     for micro in ["um", "\u{b5}m", "\u{3bc}m"] {
         let text = format!(
             "# Channel: Z\n# Width: 5.00 {micro}\n# Height: 2.5 {micro}\n# Value units: nm\n1 2\n"
@@ -95,7 +95,7 @@ fn comments_may_say_the_size() {
 }
 
 #[test]
-fn what_is_wrong_is_said_with_its_place() {
+fn errors_name_line_row_and_column() {
     for (text, fragment) in [
         (
             "1 2\n3\n",
@@ -134,15 +134,15 @@ fn what_is_wrong_is_said_with_its_place() {
 }
 
 proptest::proptest! {
-    /// Whatever the bytes, an answer.
+    /// Any bytes give a matrix or an error.
     #[test]
-    fn no_bytes_are_trouble(bytes in proptest::collection::vec(proptest::prelude::any::<u8>(), 0..200)) {
+    fn any_bytes_give_an_error_or_a_matrix(bytes in proptest::collection::vec(proptest::prelude::any::<u8>(), 0..200)) {
         let _ = read(&bytes);
     }
 
-    /// The same with the characters that matter.
+    /// The same with the significant characters.
     #[test]
-    fn no_text_is_trouble(text in "[0-9a-e,;.\t\r\n #%/nax+-]{0,60}") {
+    fn any_text_gives_an_error_or_a_matrix(text in "[0-9a-e,;.\t\r\n #%/nax+-]{0,60}") {
         if let Ok(matrix) = read(text.as_bytes()) {
             assert_eq!(matrix.values.len(), matrix.rows * matrix.columns);
         }

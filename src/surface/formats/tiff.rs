@@ -1,6 +1,6 @@
 //! Grey TIFF images: 8 or 16 bits a pixel as shades, 32 or 64 bits of floating point as heights.
 //!
-//! They say no unit, and their resolution is that of a printer.
+//! They state no unit, and their resolution is a printer's.
 
 use std::fs::File;
 use std::io::{BufReader, Cursor};
@@ -8,12 +8,12 @@ use std::io::{BufReader, Cursor};
 use tiff::ColorType;
 use tiff::decoder::{Decoder, DecodingResult, Limits};
 
-use super::bytes::{checked_shape, room};
+use super::bytes::{checked_shape, with_capacity};
 use super::png::{first_line, not_grey, refuse_ratio};
 use crate::surface::error::FileError;
 use crate::surface::matrix::Matrix;
 
-/// First bytes of a file: both orders of bytes, and files beyond 4 GiB.
+/// First bytes of a file: both byte orders, and files beyond 4 GiB.
 pub(super) const MAGIC: [&[u8]; 4] = [b"II*\0", b"MM\0*", b"II+\0", b"MM\0+"];
 
 /// Room for the decoder's own tables, bytes.
@@ -41,7 +41,7 @@ pub(super) fn read(bytes: &[u8]) -> Result<Matrix, FileError> {
     limits.intermediate_buffer_size = shape[0] * shape[1] * size + TABLES;
     let mut image = image.with_limits(limits);
     let pixels = image.read_image().map_err(broken)?;
-    let mut values = room(shape)?;
+    let mut values = with_capacity(shape)?;
     let grey = match pixels {
         DecodingResult::U8(shades) => {
             values.extend(

@@ -1,20 +1,20 @@
 //! Points with coordinates: three columns x, y, z that form a grid, in any order.
 //!
-//! Points that the grid lacks are missing pixels. Rows of the map go with rising y.
+//! Grid points that the file lacks are missing pixels. Rows of the map follow rising y.
 
 use super::text;
 use crate::surface::MOST_POINTS;
 use crate::surface::error::FileError;
 use crate::surface::matrix::{Matrix, Size};
 
-/// Coordinates nearer than this share of their range are the same: less than the step of any grid,
+/// Coordinates closer than this share of their range are equal: less than the spacing of any grid,
 /// more than the rounding of a printed number.
 const SAME: f64 = 1e-6;
 
-/// Largest departure from even spacing, in steps: numbers printed with few digits.
+/// Largest deviation from even spacing, in steps: for numbers printed with few digits.
 const UNEVEN: f64 = 0.05;
 
-/// Places of a grid for each point that is there; fewer points form no grid.
+/// Grid points for each point in the file; with fewer points in the file it is not a grid.
 const SPARSEST: usize = 2;
 
 /// Reads a file of points.
@@ -31,7 +31,8 @@ pub(super) fn read(bytes: &[u8]) -> Result<Matrix, FileError> {
     gridded(&columns, remarks.lateral_unit).map_err(|what| FileError::NotAGrid { what })
 }
 
-/// The map that points form, if its sides have two points at least; `None` where three columns are just columns.
+/// The map that the points form if it has at least two points a side; `None` for three ordinary
+/// columns.
 pub(super) fn as_grid(columns: &Matrix, lateral_unit: Option<f64>) -> Option<Matrix> {
     if columns.columns != 3 || columns.rows < 4 {
         return None;
@@ -41,7 +42,7 @@ pub(super) fn as_grid(columns: &Matrix, lateral_unit: Option<f64>) -> Option<Mat
         .filter(|map| map.rows > 1 && map.columns > 1)
 }
 
-/// Puts points in their places.
+/// Arranges points on a grid.
 fn gridded(points: &Matrix, lateral_unit: Option<f64>) -> Result<Matrix, String> {
     let axes = ["x", "y"].iter().enumerate().map(|(axis, name)| {
         let coordinates: Vec<f64> = points
@@ -51,7 +52,7 @@ fn gridded(points: &Matrix, lateral_unit: Option<f64>) -> Result<Matrix, String>
             .step_by(3)
             .copied()
             .collect();
-        Axis::of(coordinates).map_err(|what| format!("{name}: {what}"))
+        Axis::from_coordinates(coordinates).map_err(|what| format!("{name}: {what}"))
     });
     let axes: Vec<Axis> = axes.collect::<Result<_, _>>()?;
     let (x, y) = (&axes[0], &axes[1]);
@@ -70,7 +71,7 @@ fn gridded(points: &Matrix, lateral_unit: Option<f64>) -> Result<Matrix, String>
         let place = y.index(point[1]) * x.count + x.index(point[0]);
         if std::mem::replace(&mut taken[place], true) {
             return Err(format!(
-                "row {} stands at x = {}, y = {}, where a row above stands already",
+                "row {} lies at x = {}, y = {}, as a row above",
                 row + 1,
                 point[0],
                 point[1]
@@ -105,13 +106,13 @@ fn gridded(points: &Matrix, lateral_unit: Option<f64>) -> Result<Matrix, String>
 /// Evenly spaced coordinates.
 struct Axis {
     least: f64,
-    /// Distance of neighbours; 0 for a single coordinate.
+    /// Distance between neighbours; 0 for a single coordinate.
     step: f64,
     count: usize,
 }
 
 impl Axis {
-    fn of(mut coordinates: Vec<f64>) -> Result<Axis, String> {
+    fn from_coordinates(mut coordinates: Vec<f64>) -> Result<Axis, String> {
         if let Some(row) = coordinates.iter().position(|value| !value.is_finite()) {
             return Err(format!("row {} has none", row + 1));
         }
@@ -144,7 +145,7 @@ impl Axis {
         Ok(Axis { least, step, count })
     }
 
-    /// The place of a coordinate.
+    /// Index of a coordinate.
     fn index(&self, coordinate: f64) -> usize {
         if self.count == 1 {
             return 0;

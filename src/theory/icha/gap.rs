@@ -1,11 +1,11 @@
-//! The gap that a set of contacts leaves over a whole height map.
+//! The gap of a set of contacts over a whole height map.
 //!
-//! Each contact's displacement is split in two. On the grid it is that of a Gaussian cloud of the
-//! same load, summed over all contacts and images by one convolution with the half-space's
-//! operator. Near the contact the difference to Hertz's own displacement is added point by point. A
-//! cloud as wide as the pixels allow has the second moment of Hertz's pressure, so that the
-//! difference falls as r^-5; a wider one leaves r^-3. It is cut off at eight standard deviations,
-//! where it is below 2e-3 of the contact's own displacement there.
+//! Each contact's displacement has two parts. On the grid it is that of a Gaussian load of the same
+//! force, summed over all contacts and images by one convolution with the half-space's operator.
+//! Near the contact the difference from Hertz's displacement is added point by point. A Gaussian
+//! with the second moment of Hertz's pressure leaves a difference that decreases as r^-5; a wider
+//! one, where pixels demand it, leaves r^-3. The difference is cut off at eight standard
+//! deviations, where it is below 2e-3 of the contact's own displacement there.
 
 use std::f64::consts::PI;
 
@@ -17,16 +17,17 @@ use crate::elastic::periodic_stiffness;
 use crate::grid::Grid;
 use crate::surface::fourier;
 
-/// Least standard deviation of a cloud, pixels: its waves beyond the grid's are below 1e-5.
+/// Least standard deviation of a Gaussian load, pixels: its waves beyond the grid's are below 1e-5.
 const NARROWEST: f64 = 1.6;
-/// Standard deviations within which a cloud's load lies, to 1e-7.
-const CLOUD_REACH: f64 = 5.5;
-/// Standard deviations at which the near part is cut off.
+/// Standard deviations that contain the Gaussian load, to 1e-7.
+const GAUSSIAN_REACH: f64 = 5.5;
+/// Standard deviations at which the near difference is cut off.
 const NEAR_REACH: f64 = 8.0;
-/// Nodes of the cloud's displacement over the near part; linear interpolation is good to 1e-6.
+/// Nodes of the Gaussian's displacement over the near part; linear interpolation is accurate to
+/// 1e-6.
 const NODES: usize = 2048;
 
-/// A gap field, and where it is contact.
+/// A gap field and its contact points.
 #[derive(Clone, Debug, PartialEq)]
 pub struct GapField {
     /// Gap, m, shape `[ny, nx]`: 0 in the circles of contacts, and where the model overlaps outside
@@ -44,7 +45,7 @@ impl GapField {
         self.gap.iter().sum::<f64>() / self.gap.len() as f64
     }
 
-    /// Mean over the cell of a `traction` of the gap, outside the circles: the force approach of DMT.
+    /// Mean over the cell of a `traction` of the gap, outside the circles: the DMT force approach.
     pub fn mean_outside(&self, traction: impl Fn(f64) -> f64) -> f64 {
         let outside = self
             .gap
@@ -62,20 +63,20 @@ pub(super) fn gap_field(
     plane: f64,
     contacts: &[Contact],
 ) -> GapField {
-    let clouds: Vec<Cloud> = contacts
+    let gaussians: Vec<GaussianLoad> = contacts
         .iter()
-        .map(|contact| Cloud::of(contact, grid))
+        .map(|contact| GaussianLoad::new(contact, grid))
         .collect();
-    let mut displacement = clouds_displacement(grid, &clouds);
+    let mut displacement = gaussian_displacement(grid, &gaussians);
     let profile = profile();
-    // Contacts are few to a row; each row gathers those that reach it, so that sums do not depend on
+    // Only few contacts affect a row; each row gathers them in order, so that sums do not depend on
     // threads.
     displacement
         .par_chunks_mut(grid.nx)
         .enumerate()
         .for_each(|(iy, row)| {
-            for cloud in &clouds {
-                cloud.add_near(grid, iy, row, &profile);
+            for gaussian in &gaussians {
+                gaussian.add_near(grid, iy, row, &profile);
             }
         });
     let mut gap: Vec<f64> = displacement
@@ -88,9 +89,9 @@ pub(super) fn gap_field(
         .par_chunks_mut(grid.nx)
         .enumerate()
         .for_each(|(iy, row)| {
-            for cloud in &clouds {
-                let radius = cloud.contact.contact_radius;
-                cloud.each_within(grid, iy, radius, |ix, _| row[ix] = true);
+            for gaussian in &gaussians {
+                let radius = gaussian.contact.contact_radius;
+                gaussian.each_within(grid, iy, radius, |ix, _| row[ix] = true);
             }
         });
     let overlaps = gap
@@ -108,18 +109,18 @@ pub(super) fn gap_field(
     }
 }
 
-/// A contact and the standard deviation of the cloud that stands for it on the grid, m.
-struct Cloud {
+/// A contact, and the standard deviation of its Gaussian load on the grid, m.
+struct GaussianLoad {
     contact: Contact,
     deviation: f64,
 }
 
-impl Cloud {
-    fn of(contact: &Contact, grid: &Grid) -> Self {
+impl GaussianLoad {
+    fn new(contact: &Contact, grid: &Grid) -> Self {
         let narrowest = NARROWEST * grid.dx().max(grid.dy());
-        Cloud {
+        GaussianLoad {
             contact: *contact,
-            // <r^2> of Hertz's pressure is (2/5) a^2, that of the cloud twice its variance.
+            // <r^2> of Hertz's pressure is (2/5) a^2, that of the Gaussian twice its variance.
             deviation: (contact.contact_radius / 5f64.sqrt()).max(narrowest),
         }
     }
@@ -128,7 +129,7 @@ impl Cloud {
     fn each_within(&self, grid: &Grid, iy: usize, reach: f64, mut at: impl FnMut(usize, f64)) {
         let (dx, dy) = (grid.dx(), grid.dy());
         let [x, y] = self.contact.asperity.position;
-        // The nearest image of the contact to the row; images beyond it are the convolution's.
+        // The nearest image of the contact to the row; the convolution includes all other images.
         let across = iy as f64 * dy - y;
         let across = across - grid.ly * (across / grid.ly).round();
         let half = reach * reach - across * across;
@@ -147,7 +148,7 @@ impl Cloud {
         }
     }
 
-    /// Adds to a row what Hertz's displacement is more than the cloud's.
+    /// Adds the difference between Hertz's displacement and the Gaussian's to a row.
     fn add_near(&self, grid: &Grid, iy: usize, row: &mut [f64], profile: &[f64]) {
         let (contact, deviation) = (&self.contact, self.deviation);
         let unit = contact.load_over_modulus() / (PI * deviation);
@@ -156,23 +157,23 @@ impl Cloud {
             let place = distance / deviation * (NODES as f64 / NEAR_REACH);
             let node = (place as usize).min(NODES - 1);
             let share = place - node as f64;
-            let cloud = profile[node] * (1.0 - share) + profile[node + 1] * share;
-            row[ix] += hertz - unit * cloud;
+            let gaussian = profile[node] * (1.0 - share) + profile[node + 1] * share;
+            row[ix] += hertz - unit * gaussian;
         });
     }
 }
 
-/// Displacement of all clouds over the modulus, m, by one convolution.
-fn clouds_displacement(grid: &Grid, clouds: &[Cloud]) -> Vec<f64> {
+/// Displacement of all Gaussian loads over the modulus, m, by one convolution.
+fn gaussian_displacement(grid: &Grid, gaussians: &[GaussianLoad]) -> Vec<f64> {
     let mut pressure = vec![0.0; grid.len()];
     pressure
         .par_chunks_mut(grid.nx)
         .enumerate()
         .for_each(|(iy, row)| {
-            for cloud in clouds {
-                let s = cloud.deviation;
-                let top = cloud.contact.load_over_modulus() / (2.0 * PI * s * s);
-                cloud.each_within(grid, iy, CLOUD_REACH * s, |ix, distance| {
+            for gaussian in gaussians {
+                let s = gaussian.deviation;
+                let top = gaussian.contact.load_over_modulus() / (2.0 * PI * s * s);
+                gaussian.each_within(grid, iy, GAUSSIAN_REACH * s, |ix, distance| {
                     row[ix] += top * (-0.5 * (distance / s).powi(2)).exp();
                 });
             }
@@ -193,11 +194,11 @@ fn clouds_displacement(grid: &Grid, clouds: &[Cloud]) -> Vec<f64> {
     fourier::synthesise(grid, columns)
 }
 
-/// `sqrt(pi/2) exp(-x) I_0(x)`, x = t^2/4, over t = distance/deviation from 0 to the near reach:
-/// the displacement of a Gaussian cloud in units of load/(pi E* deviation).
+/// `sqrt(pi/2) exp(-x) I_0(x)`, x = t^2/4, against t = distance/deviation from 0 to the near
+/// cut-off: the displacement of a Gaussian load in units of load/(pi E* deviation).
 fn profile() -> Vec<f64> {
-    // The mean over a full turn of a smooth periodic function: the trapezoid rule is exact to
-    // rounding from some sixty nodes on.
+    // The mean of a smooth periodic function over a full period: the trapezoid rule is exact to
+    // rounding from about sixty nodes on.
     const TURN: usize = 96;
     (0..=NODES)
         .map(|node| {
@@ -218,12 +219,12 @@ fn profile() -> Vec<f64> {
 #[cfg(test)]
 mod tests {
     use super::super::Asperity;
-    use super::super::newton::pushed_by;
+    use super::super::newton::displacement_by;
     use super::*;
     use crate::theory::icha::lattice::Lattice;
 
-    /// The split field against the sum over contacts, images by the lattice's table: a contact
-    /// below a pixel, one of ten, and one of 40 across the edge of the cell.
+    /// The two-part field against the sum over contacts, images by the lattice's table: a contact
+    /// below a pixel, one of ten pixels, and one of 40 across the edge of the cell.
     #[test]
     fn the_split_field_is_the_sum_over_contacts() {
         let grid = Grid::new([256, 192], [4.0, 3.0]);
@@ -243,7 +244,7 @@ mod tests {
         let lattice = Lattice::periodic([4.0, 3.0]);
         let deepest = contacts[2].indentation();
         let flat = vec![0.0; grid.len()];
-        // A plane so high that nothing is clipped.
+        // The plane is so high that nothing is clipped.
         let field = gap_field(&grid, &flat, 1.0, &contacts);
         let mut worst: f64 = 0.0;
         for (i, gap) in field.gap.iter().enumerate() {
@@ -251,11 +252,15 @@ mod tests {
                 continue;
             }
             let at = [(i % 256) as f64 * grid.dx(), (i / 256) as f64 * grid.dy()];
-            let sum: f64 = contacts.iter().map(|c| pushed_by(c, at, &lattice).0).sum();
+            let sum: f64 = contacts
+                .iter()
+                .map(|c| displacement_by(c, at, &lattice).0)
+                .sum();
             worst = worst.max((gap - 1.0 - sum).abs());
         }
-        // The sum takes images for point loads, the field does not: a^2 load/(5 R E* A) everywhere and
-        // half of that again where an image is nearest, R = 1.5 its distance: 7e-4 of the deepest.
+        // The sum treats images as point loads, the field does not: a^2 load/(5 R E* A) everywhere
+        // and half of that again where an image is nearest, R = 1.5 its distance: 7e-4 of the
+        // deepest.
         assert!(worst < 1e-3 * deepest, "{:e}", worst / deepest);
         let area = field.in_contact.iter().filter(|c| **c).count() as f64 * grid.pixel_area();
         let circles: f64 = contacts.iter().map(Contact::area).sum();

@@ -1,12 +1,12 @@
-//! Generalised minimal residuals for Newton's systems, which are the identity plus the smooth
-//! coupling of distant contacts: some fifteen products in place of an elimination. Saad & Schultz 1986.
+//! GMRES for Newton's systems, which are the identity plus the smooth coupling of distant contacts:
+//! about fifteen matrix products in place of an elimination. Saad & Schultz 1986.
 
 use nalgebra::DVector;
 
-/// Most directions; the systems here need far fewer.
+/// Largest Krylov space; the systems here need far fewer directions.
 const MOST: usize = 200;
 
-/// Solves `apply(x) = right` to a residual of `tolerance` times that of zero, or nothing.
+/// Solves `apply(x) = right` to a residual of `tolerance` times that of zero; `None` if it fails.
 pub(super) fn solve(
     apply: impl Fn(&DVector<f64>) -> DVector<f64>,
     right: &DVector<f64>,
@@ -17,7 +17,7 @@ pub(super) fn solve(
         return Some(DVector::zeros(right.len()));
     }
     let mut directions = vec![right / norm];
-    // Columns of the triangle that rotations make of the Hessenberg matrix.
+    // Columns of the triangular matrix that rotations make of the Hessenberg matrix.
     let mut columns: Vec<Vec<f64>> = Vec::new();
     let mut rotations: Vec<(f64, f64)> = Vec::new();
     let mut target = vec![norm];
@@ -69,7 +69,7 @@ mod tests {
     use nalgebra::DMatrix;
 
     #[test]
-    fn solves_what_an_elimination_solves() {
+    fn gmres_agrees_with_elimination() {
         for size in [1, 2, 40] {
             let matrix = DMatrix::from_fn(size, size, |i, j| {
                 f64::from(i == j) + 1.0 / (1.0 + i.abs_diff(2 * j) as f64)

@@ -1,17 +1,20 @@
-//! What lies around a set of asperities: nothing, or its own images in a cell that repeats.
+//! The surroundings of a set of asperities: an infinite half-space, or the images of a periodic
+//! cell.
 //!
-//! A periodic half-space under a point load answers with the lattice sum of `1/(pi E* r)` less its
-//! mean (the mode that a cell leaves open). Near the load that is the nearest image's own term plus
-//! a smooth rest, which does not depend on the load's shape and is tabulated once.
+//! The displacement of a periodic half-space under a point load is the lattice sum of `1/(pi E* r)`
+//! less its mean (the mode that a cell leaves undetermined). Near the load it is the nearest
+//! image's own term plus a smooth remainder, which does not depend on the load's shape and is
+//! tabulated once.
 
 use std::f64::consts::PI;
 
 use super::mesh::Mesh;
 use crate::theory::special::erfc;
 
-/// Intervals of the table along each half side; its linear interpolation is good to 1e-4 of 1/L.
+/// Intervals of the table along each half side; its linear interpolation is accurate to 1e-4 of
+/// 1/L.
 const INTERVALS: usize = 64;
-/// Where the two sums of Ewald are cut: both complementary error functions are below 1e-16 there.
+/// Cut-off of the two Ewald sums: both complementary error functions are below 1e-16 there.
 const CUT: f64 = 6.0;
 
 /// The surroundings of a set of asperities.
@@ -19,17 +22,17 @@ const CUT: f64 = 6.0;
 pub(super) struct Lattice {
     /// Sides of the cell, m; `None` on an infinite half-space.
     size: Option<[f64; 2]>,
-    /// Displacement times modulus over load that is not the nearest image's own, 1/m, on a quarter
-    /// of the cell, x running fastest.
+    /// Displacement times modulus over load by all images but the nearest, 1/m, on a quarter of the
+    /// cell, x running fastest.
     rest: Vec<f64>,
-    /// Least displacement times modulus over load anywhere in the cell, 1/m, not positive.
+    /// Least displacement times modulus over load anywhere in the cell, 1/m; not positive.
     pub least: f64,
-    /// For sums over many loads; `None` where all pairs are taken.
+    /// Mesh for sums over many loads; `None` if all pairs are summed.
     pub mesh: Option<Mesh>,
 }
 
 impl Lattice {
-    /// A half-space without end.
+    /// An infinite half-space.
     pub fn infinite() -> Self {
         Lattice {
             size: None,
@@ -39,7 +42,7 @@ impl Lattice {
         }
     }
 
-    /// A cell of `size` (m) that repeats.
+    /// A periodic cell of `size` (m).
     pub fn periodic(size: [f64; 2]) -> Self {
         let mut rest = Vec::with_capacity((INTERVALS + 1) * (INTERVALS + 1));
         let mut least: f64 = 0.0;
@@ -63,18 +66,18 @@ impl Lattice {
         }
     }
 
-    /// With a mesh for a number of loads.
+    /// Adds a mesh suited to a number of loads.
     pub fn with_mesh(mut self, loads: usize) -> Self {
         self.mesh = self.size.map(|size| Mesh::new(size, loads));
         self
     }
 
-    /// Sides of the cell, m; without end on an infinite half-space.
+    /// Sides of the cell, m; infinite for an infinite half-space.
     pub fn size(&self) -> [f64; 2] {
         self.size.unwrap_or([f64::INFINITY; 2])
     }
 
-    /// Whether it repeats.
+    /// Whether the cell is periodic.
     pub fn is_periodic(&self) -> bool {
         self.size.is_some()
     }
@@ -89,7 +92,7 @@ impl Lattice {
         }
     }
 
-    /// A position brought back into the cell.
+    /// A position wrapped back into the cell.
     pub fn wrapped(&self, position: [f64; 2]) -> [f64; 2] {
         match self.size {
             None => position,
@@ -118,10 +121,10 @@ impl Lattice {
     }
 }
 
-/// The rest at an offset within half a side of the load, by Ewald's two sums.
+/// The remainder at an offset within half a side of the load, by Ewald's two sums.
 ///
-/// Real space takes `erfc(alpha r)/(pi r)` of each image, Fourier space `2 erfc(q/(2 alpha))/q` of
-/// each wave; the mean of the first is taken off.
+/// Real space has `erfc(alpha r)/(pi r)` of each image, Fourier space `2 erfc(q/(2 alpha))/q` of
+/// each wave; the mean of the first is subtracted.
 fn rest_at(offset: [f64; 2], size: [f64; 2]) -> f64 {
     let area = size[0] * size[1];
     let alpha = (PI / area).sqrt();
@@ -167,7 +170,8 @@ mod tests {
             (found * PI * 2.0 + 3.900264920001956).abs() < 1e-9,
             "{found}"
         );
-        // A cell of two cells, loaded once, and once more half a side on, is the small cell.
+        // A cell of two such cells, loaded once and once more half a side away, equals the small
+        // cell.
         let small = rest_at([0.3, 0.2], [1.0, 1.0]);
         let both = rest_at([0.3, 0.2], [2.0, 1.0])
             + rest_at([-0.7, 0.2], [2.0, 1.0])

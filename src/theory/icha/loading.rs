@@ -1,30 +1,30 @@
-//! A rough surface by its summits, under a load that grows.
+//! A rough surface, represented by its summits, under increasing load.
 
 use super::lattice::Lattice;
-use super::merge::settle_merged;
-use super::newton::{Care, Equilibrium, Hold};
+use super::merge::solve_with_merging;
+use super::newton::{Equilibrium, Prescribed, Tolerances};
 use super::set::Set;
 use super::{Asperity, Contact, GapField, MergeRule, find_summits, gap};
 use crate::grid::Grid;
 use crate::theory::TheoryError;
 use crate::theory::error::{positive, within};
 
-/// Factor between two loads of the way up. What merges depends on it, and on the misfit at which
-/// circles are merged, by some per cent of the contact area.
+/// Ratio of successive loads. It affects which contacts merge, as does the misfit at which circles
+/// are merged; both change the contact area by a few per cent.
 const LOAD_STEP: f64 = 1.2;
-/// Share of the first load asked at which the way up begins.
+/// Share of the first requested load at which loading starts.
 const FIRST_LOAD: f64 = 1e-3;
 
-/// Longest cell whose images are summed, in its width: their number grows with the root of it.
+/// Largest aspect ratio of a cell whose images are summed; their number grows with its square root.
 const LONGEST_CELL: f64 = 1e4;
 
-/// Factor between two loads below which a step that does not settle is given up.
+/// Ratio of successive loads below which a step that does not converge is abandoned.
 const SMALLEST_STEP: f64 = 1.0005;
 /// Loads that [`Loading::press`] may try on one way up, those that do not settle included. In steps of
 /// [`LOAD_STEP`] the way from the first load takes 39, and over all numbers that a scene may hold 800.
 pub const MOST_LOADS: usize = 4000;
 
-/// A cell of a rough surface, with its asperities.
+/// A periodic cell of a rough surface with its asperities.
 #[derive(Clone, Debug)]
 pub struct Icha<'a> {
     grid: Grid,
@@ -34,8 +34,8 @@ pub struct Icha<'a> {
 }
 
 impl<'a> Icha<'a> {
-    /// Finds the asperities of `heights` (m, shape `[ny, nx]`, positive towards the solid) on a cell
-    /// that repeats.
+    /// Finds the asperities of `heights` (m, shape `[ny, nx]`, positive towards the solid) on a
+    /// periodic cell.
     ///
     /// # Errors
     /// Heights that are not finite, a map without a summit, and a cell more than 10 000 times longer than
@@ -63,7 +63,7 @@ impl<'a> Icha<'a> {
         })
     }
 
-    /// The asperities, before any of them merged.
+    /// The asperities before any merged.
     pub fn summits(&self) -> &[Asperity] {
         &self.summits
     }
@@ -78,13 +78,13 @@ impl<'a> Icha<'a> {
         self.heights
     }
 
-    /// The unloaded surface, ready to be pressed.
+    /// The unloaded surface, at the start of a loading.
     pub fn loading(&self, rule: MergeRule) -> Loading<'_> {
         self.loading_in_steps(rule, LOAD_STEP)
     }
 
-    /// As [`Icha::loading`], with another factor (above 1) between the loads of the way up, which takes
-    /// [`MOST_LOADS`] of them at most.
+    /// As [`Icha::loading`], with another ratio (above 1) between successive loads, at most
+    /// [`MOST_LOADS`] of them.
     pub fn loading_in_steps(&self, rule: MergeRule, step: f64) -> Loading<'_> {
         Loading {
             surface: self,
@@ -97,18 +97,18 @@ impl<'a> Icha<'a> {
     }
 }
 
-/// A surface that is pressed on and on.
+/// A surface under increasing load.
 ///
-/// An elastic contact without adhesion does not know how it was loaded. So circles that overlap become
-/// one anew at each load that is asked for, and part again for the next one. Only where a circle
-/// came to cover another summit there is no balance of the two: these become one for good,
-/// keeping the volume that they displace, since their caps are no longer two.
+/// An elastic contact without adhesion does not depend on its history. So overlapping circles are
+/// merged separately at each requested load. Only if a circle comes to cover another summit do the
+/// two have no separate equilibrium: these are merged permanently at constant displaced volume,
+/// since they no longer have two caps.
 #[derive(Clone, Debug)]
 pub struct Loading<'a> {
     surface: &'a Icha<'a>,
     rule: MergeRule,
     step: f64,
-    /// The asperities, those merged that cover each other.
+    /// The asperities, with those merged permanently.
     set: Set,
     state: Option<Equilibrium>,
     /// Mean pressure over the modulus so far.
@@ -116,11 +116,11 @@ pub struct Loading<'a> {
 }
 
 impl Loading<'_> {
-    /// Presses to a mean pressure over the contact modulus, not below the one before.
+    /// Increases the load to a mean pressure over the contact modulus, not below the previous one.
     ///
     /// # Errors
-    /// A load that falls, asperities that do not settle, a way up of more than [`MOST_LOADS`] loads, and
-    /// contacts that merge over all of the cell.
+    /// A decreasing load, asperities that do not converge, more than [`MOST_LOADS`] loads, and contacts
+    /// that merge over the whole cell.
     pub fn press(&mut self, pressure_over_modulus: f64) -> Result<Pressed, TheoryError> {
         let target = positive("pressure over modulus", pressure_over_modulus)?;
         within(
@@ -149,7 +149,7 @@ impl Loading<'_> {
                     pressure = next;
                     factor = (factor * factor).min(self.step);
                 }
-                // Circles came to cover each other before they could merge: a smaller step.
+                // Circles came to cover each other before they could merge: take a smaller step.
                 Err(TheoryError::NotConverged { .. }) if factor > SMALLEST_STEP => {
                     factor = factor.sqrt();
                 }
@@ -159,13 +159,13 @@ impl Loading<'_> {
         let state = self.state.clone().ok_or(TheoryError::NoSolution {
             what: "an equilibrium",
         })?;
-        let (set, state) = settle_merged(
+        let (set, state) = solve_with_merging(
             self.set.clone(),
             &self.surface.lattice,
-            Hold::Load(target * self.surface.grid.area()),
+            Prescribed::Load(target * self.surface.grid.area()),
             state,
             self.rule,
-            Care::FINAL,
+            Tolerances::FINAL,
         )?;
         let mut contacts = state.contacts(&set.asperities);
         contacts.retain(|contact| contact.contact_radius > 0.0);
@@ -174,7 +174,7 @@ impl Loading<'_> {
             contacts,
             nominal_area: self.surface.grid.area(),
         };
-        // All merged into one that covers more than there is: the model has nothing to say.
+        // All merged into one that covers more than the cell: outside the model.
         if pressed.contact_area_fraction() >= 1.0 {
             return Err(TheoryError::NoSolution {
                 what: "a contact of less than the nominal area",
@@ -183,7 +183,7 @@ impl Loading<'_> {
         Ok(pressed)
     }
 
-    /// Goes to a load with the contacts apart that do not cover each other.
+    /// Moves to a load with the permanently merged contacts only.
     fn press_at_once(&mut self, pressure: f64) -> Result<(), TheoryError> {
         let surface = self.surface;
         let load = pressure * surface.grid.area();
@@ -191,13 +191,13 @@ impl Loading<'_> {
             Some(state) => state.clone(),
             None => first_touch(&self.set.asperities, load),
         };
-        let (set, state) = settle_merged(
+        let (set, state) = solve_with_merging(
             self.set.clone(),
             &surface.lattice,
-            Hold::Load(load),
+            Prescribed::Load(load),
             start,
             MergeRule::DisplacedVolume,
-            Care::PASSING.of_covering(),
+            Tolerances::PASSING.merging_covered(),
         )?;
         self.set = set;
         self.state = Some(state);
@@ -227,7 +227,8 @@ fn first_touch(asperities: &[Asperity], load: f64) -> Equilibrium {
 /// Contacts of a surface under a load.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Pressed {
-    /// Height of the plane, m: the rigid flat where the surface displacement has no mean.
+    /// Height of the plane, m: the rigid flat, measured where the surface displacement has zero
+    /// mean.
     pub plane: f64,
     /// The contacts, none of which overlap.
     pub contacts: Vec<Contact>,

@@ -1,35 +1,36 @@
-//! How overlapping contacts become one.
+//! Merges overlapping contacts.
 
 use std::collections::BTreeMap;
 
 use super::lattice::Lattice;
-use super::newton::{Care, Equilibrium, Hold, pushed_by, settle};
-use super::set::{Set, keep};
+use super::newton::{Equilibrium, Prescribed, Tolerances, displacement_by, solve_equilibrium};
+use super::set::{Set, retain_unmarked};
 use super::{Asperity, Contact, check};
 use crate::theory::TheoryError;
 use crate::theory::error::positive;
 
-/// Logarithm of the factor between two loads below which asperities that do not settle are given up.
+/// Logarithm of the ratio of loads below which asperities that do not converge are abandoned.
 const LEAST_STEP: f64 = 5e-4;
-/// Times that asperities may settle for each of them: each merger takes one away, and between two mergers a load
-/// is neared by halves down to the least step.
+/// Most solves per asperity: each merger removes one, and between two mergers a load is approached
+/// by bisection down to the least step.
 const MOST_SETTLES: usize = 100;
 
-/// What is kept as overlapping contacts become one, besides their area.
+/// What is conserved when overlapping contacts merge, besides their area.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum MergeRule {
     /// The volume of their caps.
     Volume,
-    /// The volume that they displace under their circles, what they do to each other included.
+    /// The volume that they displace under their circles, including their interaction.
     DisplacedVolume,
     /// Their load.
     Load,
 }
 
-/// One contact in place of several: their area, and their cap volume or load, at the centroid of
-/// the caps; `others` (m) is the displacement there by contacts that are not merged.
+/// One contact in place of several, with their area and their cap volume, displaced volume or load,
+/// at the centroid of the caps; `others` (m) is the displacement there by contacts that are not
+/// merged.
 ///
-/// The sources fix area and centroid only; `docs/dmt_study.md` says what the volumes come to.
+/// The sources define area and centroid only; `docs/dmt_study.md` compares the conserved volumes.
 pub fn merged(
     cluster: &[Contact],
     plane: f64,
@@ -70,14 +71,14 @@ pub fn merged(
     })
 }
 
-/// What members do to each other, as `a^4/R`, m^3: under its circle a contact displaces
-/// `3/4 pi a^4/R`, and each of the others U more over its area.
+/// Interaction of the members, as `a^4/R`, m^3: under its circle a contact displaces `3/4 pi
+/// a^4/R`, and each of the others U more over its area.
 fn lift(cluster: &[Contact]) -> f64 {
     let mut sum = 0.0;
     for (i, one) in cluster.iter().enumerate() {
         for (j, other) in cluster.iter().enumerate() {
             if i != j {
-                let pushed = pushed_by(other, one.asperity.position, &Lattice::infinite()).0;
+                let pushed = displacement_by(other, one.asperity.position, &Lattice::infinite()).0;
                 sum += 4.0 / 3.0 * one.contact_radius.powi(2) * pushed;
             }
         }
@@ -85,8 +86,8 @@ fn lift(cluster: &[Contact]) -> f64 {
     sum
 }
 
-/// Clusters of contacts whose circles overlap, as lists of places in `contacts`, those of a
-/// single contact left out.
+/// Clusters of contacts whose circles overlap, as lists of indices into `contacts`, without single
+/// contacts.
 pub fn clusters(contacts: &[Contact]) -> Vec<Vec<usize>> {
     connected(contacts.len(), &overlapping(contacts))
 }
@@ -106,7 +107,7 @@ fn overlapping(contacts: &[Contact]) -> Vec<[usize; 2]> {
     pairs
 }
 
-/// The connected parts of `count` things joined two and two, those of a single one left out.
+/// Connected components of `count` elements joined in pairs, without single elements.
 fn connected(count: usize, pairs: &[[usize; 2]]) -> Vec<Vec<usize>> {
     fn root(parents: &mut [usize], mut i: usize) -> usize {
         // A parent is never above its child, so the way to the root falls.
@@ -134,8 +135,8 @@ fn connected(count: usize, pairs: &[[usize; 2]]) -> Vec<Vec<usize>> {
     parts.into_values().collect()
 }
 
-/// Contacts with a plane, merged until no two circles overlap. Summits inside a merged circle
-/// that carried nothing are dropped.
+/// Contacts with a plane, merged until no two circles overlap. Summits without load inside a merged
+/// circle are removed.
 pub fn merged_contacts(
     asperities: &[Asperity],
     plane: f64,
@@ -145,22 +146,30 @@ pub fn merged_contacts(
     let lattice = Lattice::infinite();
     let set = Set::new(asperities.to_vec(), &lattice);
     let start = Equilibrium::undeformed(asperities, plane);
-    let (set, settled) = settle_merged(set, &lattice, Hold::Plane, start, rule, Care::FULL)?;
+    let (set, settled) = solve_with_merging(
+        set,
+        &lattice,
+        Prescribed::Plane,
+        start,
+        rule,
+        Tolerances::FULL,
+    )?;
     Ok(settled.contacts(&set.asperities))
 }
 
-/// Settles and merges in turn until no two circles overlap; also says which asperities are left.
-pub(super) fn settle_merged(
+/// Solves and merges alternately until no two circles overlap; also returns the remaining
+/// asperities.
+pub(super) fn solve_with_merging(
     mut set: Set,
     lattice: &Lattice,
-    hold: Hold,
+    hold: Prescribed,
     mut state: Equilibrium,
     rule: MergeRule,
-    care: Care,
+    care: Tolerances,
 ) -> Result<(Set, Equilibrium), TheoryError> {
     let mut held = hold;
     for _ in 0..MOST_SETTLES * (set.asperities.len() + 1) {
-        let settled = match settle(&set, lattice, held, state.clone(), care) {
+        let settled = match solve_equilibrium(&set, lattice, held, state.clone(), care) {
             Ok(settled) => settled,
             Err(failed) => {
                 held = nearer(held, &state, &set).ok_or(failed)?;
@@ -193,9 +202,9 @@ pub(super) fn settle_merged(
             let lowered: f64 = cluster.iter().map(|&i| state.lowered[i]).sum();
             fresh.push((one, lowered / cluster.len() as f64));
         }
-        set.drop_those(&gone);
-        keep(&mut state.indentations, &gone);
-        keep(&mut state.lowered, &gone);
+        set.remove_marked(&gone);
+        retain_unmarked(&mut state.indentations, &gone);
+        retain_unmarked(&mut state.lowered, &gone);
         for (one, lowered) in fresh {
             state.indentations.push(one.indentation());
             state.lowered.push(lowered);
@@ -207,19 +216,19 @@ pub(super) fn settle_merged(
     })
 }
 
-/// A load between that which was too far off and that which the asperities carry as they are: many
-/// merged at once carry a quarter less than before. Nothing where the two are the same.
-fn nearer(held: Hold, state: &Equilibrium, set: &Set) -> Option<Hold> {
-    let Hold::Load(asked) = held else {
+/// A load between the one that was too far and the one that the asperities carry now: many
+/// simultaneous mergers reduce the load by a quarter. `None` if the two are equal.
+fn nearer(held: Prescribed, state: &Equilibrium, set: &Set) -> Option<Prescribed> {
+    let Prescribed::Load(asked) = held else {
         return None;
     };
     let contacts = state.contacts(&set.asperities);
     let carried: f64 = contacts.iter().map(Contact::load_over_modulus).sum();
     let far = (asked / carried).ln().abs();
-    (far > LEAST_STEP && far.is_finite()).then(|| Hold::Load((asked * carried).sqrt()))
+    (far > LEAST_STEP && far.is_finite()).then(|| Prescribed::Load((asked * carried).sqrt()))
 }
 
-/// The contact in place of the cluster at places `members`, in balance with all others.
+/// The contact that replaces the cluster `members`, in equilibrium with all others.
 fn merged_cluster(
     contacts: &[Contact],
     members: &[usize],
@@ -227,7 +236,7 @@ fn merged_cluster(
     lattice: &Lattice,
     rule: MergeRule,
 ) -> Result<Contact, TheoryError> {
-    // Side by side, also where the cluster reaches over the edge of the cell.
+    // Positions relative to one member, also if the cluster crosses the edge of the cell.
     let first = contacts[members[0]].asperity.position;
     let together: Vec<Contact> = members
         .iter()
@@ -248,7 +257,7 @@ fn merged_cluster(
             .iter()
             .enumerate()
             .filter(|(j, other)| other.contact_radius > 0.0 && !members.contains(j))
-            .map(|(_, other)| pushed_by(other, position, lattice).0)
+            .map(|(_, other)| displacement_by(other, position, lattice).0)
             .sum()
     };
     let mut one = merged(&together, plane, others, rule)?;

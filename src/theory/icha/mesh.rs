@@ -1,9 +1,9 @@
-//! The smooth part of what many point loads do to each other in a cell that repeats, by Fourier
-//! transforms of a coarse mesh: Ewald's split with B-splines (Essmann et al. 1995,
-//! doi:10.1063/1.470117), here for the surface of a half-space.
+//! The smooth part of the interaction of many point loads in a periodic cell, by Fourier transforms
+//! on a coarse mesh: Ewald's splitting with B-splines (Essmann et al. 1995, doi:10.1063/1.470117),
+//! for the surface of a half-space.
 //!
-//! A point load displaces by `1/(pi r)` over the modulus. Of that `erf(alpha r)/(pi r)` is smooth and
-//! is taken here with all its images; the rest is gone beyond [`Mesh::reach`].
+//! A point load displaces by `1/(pi r)` over the modulus. The smooth part `erf(alpha r)/(pi r)` is
+//! computed here with all its images; the rest vanishes beyond [`Mesh::reach`].
 
 use std::f64::consts::PI;
 use std::fmt;
@@ -17,16 +17,16 @@ use crate::theory::special::{erf, erfc};
 
 /// Points of a spline's support along each axis.
 const ORDER: usize = 6;
-/// `alpha` times the spacing: what the mesh leaves out at its shortest wave is erfc(2.6) = 2e-4.
+/// `alpha` times the spacing: the mesh omits erfc(2.6) = 2e-4 at its shortest wave.
 const SPLIT: f64 = 0.6;
 /// `alpha r` beyond which the part near a load is left out: erfc(3) = 2e-5.
 const REACH: f64 = 3.0;
-/// Mesh points a side over the root of the number of loads: as much work in the transforms as with
-/// the neighbours.
+/// Mesh points a side over the square root of the number of loads, chosen so that transforms and
+/// neighbours cost the same.
 const FINENESS: f64 = 1.6;
-/// Bounds on the points a side.
+/// Limits of the points a side.
 const POINTS: [usize; 2] = [32, 2048];
-/// Nodes of the table of `erf(t)/t`; linear interpolation is good to 3e-7.
+/// Nodes of the table of `erf(t)/t`; linear interpolation is accurate to 3e-7.
 const NODES: usize = 2048;
 
 /// A mesh over the cell.
@@ -34,7 +34,7 @@ const NODES: usize = 2048;
 pub(super) struct Mesh {
     points: [usize; 2],
     spacing: [f64; 2],
-    /// Inverse length of the split, 1/m.
+    /// Splitting parameter alpha, 1/m.
     alpha: f64,
     /// Displacement of a wave times modulus over load, 1/m; column by column.
     influence: Vec<f64>,
@@ -51,7 +51,7 @@ impl fmt::Debug for Mesh {
     }
 }
 
-/// Where a point lies on the mesh.
+/// Position of a point on the mesh.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Stencil {
     corner: [usize; 2],
@@ -59,7 +59,7 @@ pub(super) struct Stencil {
 }
 
 impl Mesh {
-    /// A mesh over a cell of `size` (m) that suits a number of loads.
+    /// A mesh over a cell of `size` (m) suited to a number of loads.
     pub fn new(size: [f64; 2], loads: usize) -> Self {
         let wanted = FINENESS * (loads as f64 / (size[0] * size[1])).sqrt();
         let points = size.map(|side| {
@@ -90,7 +90,7 @@ impl Mesh {
                 let value = if q > 0.0 {
                     2.0 * erfc(q / (2.0 * alpha)) / q
                 } else {
-                    // The mean of all is 0: less that of the part near the load.
+                    // The mean of the total is 0, so this is minus that of the near part.
                     -2.0 / (alpha * PI.sqrt())
                 };
                 influence.push(value / (area * damping[0][kx] * damping[1][ky]));
@@ -117,13 +117,13 @@ impl Mesh {
         }
     }
 
-    /// Distance beyond which the mesh holds all of a point load's displacement, m.
+    /// Distance beyond which the mesh contains all of a point load's displacement, m.
     pub fn reach(&self) -> f64 {
         REACH / self.alpha
     }
 
-    /// What the mesh holds of a point load's displacement times modulus over load at a distance from
-    /// it, its other images left out, 1/m.
+    /// The mesh's part of a point load's displacement times modulus over load at a distance from
+    /// it, without its other images, 1/m.
     pub fn smooth(&self, distance: f64) -> f64 {
         let place = distance * self.alpha * (NODES as f64 / REACH);
         let node = place as usize;
@@ -135,7 +135,7 @@ impl Mesh {
         value * self.alpha / PI
     }
 
-    /// The place of a position (m, within the cell).
+    /// The stencil of a position (m, within the cell).
     pub fn stencil(&self, position: [f64; 2]) -> Stencil {
         let scaled = [0, 1].map(|axis| position[axis] / self.spacing[axis]);
         Stencil {
@@ -144,8 +144,8 @@ impl Mesh {
         }
     }
 
-    /// Displacement times modulus, m, by all of the loads over the modulus (m^2), at each mesh point as
-    /// [`Mesh::at`] reads it.
+    /// Displacement times modulus, m, of all loads over the modulus (m^2), at each mesh point; read
+    /// with [`Mesh::at`].
     pub fn displacement<'a>(&self, loads: impl Iterator<Item = (&'a Stencil, f64)>) -> Vec<f64> {
         let [nx, ny] = self.points;
         let mut values = vec![0.0; nx * ny];
@@ -163,7 +163,7 @@ impl Mesh {
         let mut row_spectrum = self.forward.make_output_vec();
         let mut scratch = self.forward.make_scratch_vec();
         for (iy, row) in values.chunks_mut(nx).enumerate() {
-            // The lengths are the plan's own.
+            // The lengths are those of the plan.
             let _ = self
                 .forward
                 .process_with_scratch(row, &mut row_spectrum, &mut scratch);
@@ -183,7 +183,7 @@ impl Mesh {
             for (kx, value) in row_spectrum.iter_mut().enumerate() {
                 *value = columns[kx * ny + iy];
             }
-            // Real by symmetry up to rounding, which the transform would refuse.
+            // Real by symmetry; the transform would refuse a rounding error in the imaginary part.
             row_spectrum[0].im = 0.0;
             row_spectrum[nx / 2].im = 0.0;
             let _ = self
@@ -193,7 +193,7 @@ impl Mesh {
         values
     }
 
-    /// A field of the mesh at a place.
+    /// Value of a mesh field at a stencil.
     pub fn at(&self, field: &[f64], stencil: &Stencil) -> f64 {
         let [nx, ny] = self.points;
         let mut sum = 0.0;
@@ -209,7 +209,7 @@ impl Mesh {
     }
 }
 
-/// The B-spline at `share`, `share + 1`, ... from the left end of its support.
+/// Values of the B-spline at `share`, `share + 1`, ... from the left end of its support.
 fn splines(share: f64) -> [f64; ORDER] {
     let mut values = [0.0; ORDER];
     values[0] = 1.0;

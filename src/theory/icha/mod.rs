@@ -1,17 +1,17 @@
-//! Hertz asperities that push each other down, and how overlapping ones become one (ICHA):
-//! Afferrante, Carbone & Demelio 2012, Afferrante et al. 2018, with the sums corrected.
+//! Interacting Hertz asperities with merging of overlapping contacts (ICHA): Afferrante, Carbone &
+//! Demelio 2012, Afferrante et al. 2018, with the sums corrected.
 //!
-//! A few asperities on an infinite half-space: [`contacts`] and [`merged_contacts`]. A whole height
-//! map of a cell that repeats: [`Icha`], which finds the summits, walks up in load, merges, and
+//! For a few asperities on an infinite half-space: [`contacts`] and [`merged_contacts`]. For a
+//! whole periodic height map: [`Icha`], which finds the summits, increases the load, merges, and
 //! gives the gap field over which a law's traction can be summed.
 
+mod displacements;
 mod gap;
 mod gmres;
 mod lattice;
 mod loading;
 mod merge;
 mod mesh;
-mod near;
 mod newton;
 mod pair;
 mod set;
@@ -24,14 +24,14 @@ pub use summits::find_summits;
 
 use super::error::{TheoryError, finite, positive};
 use lattice::Lattice;
-use newton::{Care, Equilibrium, Hold, settle};
+use newton::{Equilibrium, Prescribed, Tolerances, solve_equilibrium};
 use set::Set;
 use std::f64::consts::PI;
 
-/// A paraboloid of the rough surface.
+/// A paraboloid that represents a summit of the rough surface.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Asperity {
-    /// Place of its summit, m.
+    /// Position of its summit, m.
     pub position: [f64; 2],
     /// Height of its summit, m.
     pub height: f64,
@@ -64,20 +64,20 @@ impl Contact {
         PI * self.contact_radius * self.contact_radius
     }
 
-    /// Volume of the cap cut off at the contact, `pi a^4/(4 R)`, m^3.
+    /// Volume of its cap, cut off at the contact, `pi a^4/(4 R)`, m^3.
     fn volume(&self) -> f64 {
         0.25 * PI * self.contact_radius.powi(4) / self.asperity.radius
     }
 }
 
-/// Contacts of all asperities with a plane at height `plane` (m), each pressed down by the others:
-/// `delta_i + sum_j U(r_ij; a_j, R_j) = z_i - plane` where in contact.
+/// Contacts of all asperities with a plane at height `plane` (m), each displaced by the others:
+/// `delta_i + sum_j U(r_ij; a_j, R_j) = z_i - plane` in contact.
 pub fn contacts(asperities: &[Asperity], plane: f64) -> Result<Vec<Contact>, TheoryError> {
     check(asperities, plane)?;
     let lattice = Lattice::infinite();
     let set = Set::new(asperities.to_vec(), &lattice);
     let start = Equilibrium::undeformed(asperities, plane);
-    let settled = settle(&set, &lattice, Hold::Plane, start, Care::FULL)?;
+    let settled = solve_equilibrium(&set, &lattice, Prescribed::Plane, start, Tolerances::FULL)?;
     Ok(settled.state.contacts(asperities))
 }
 
@@ -124,7 +124,8 @@ mod tests {
 
     #[test]
     fn merging_keeps_the_displaced_volume_if_told_so() {
-        // Twins whose circles touch: U = 0.2180 a^2/R of one at the other's summit (asin 1/2 = pi/6).
+        // Twins with touching circles: U = 0.2180 a^2/R of one at the other's summit (asin 1/2 =
+        // pi/6).
         let (a, radius) = (0.1, 1.0);
         let at = |x| Contact {
             asperity: at(x, 0.0, radius),
@@ -138,7 +139,7 @@ mod tests {
         )
         .unwrap();
         let felt = (3f64.sqrt() - PI / 3.0) / PI;
-        // 3/4 pi a^4/R and pi a^2 U of each, in place of both; the load follows.
+        // The conserved volume is 3/4 pi a^4/R and pi a^2 U of each; the load follows.
         let twins = 2.0 * PI * a.powi(4) / radius * (0.75 + felt);
         let displaced = 0.75 * PI * one.contact_radius.powi(4) / one.asperity.radius;
         assert!((displaced / twins - 1.0).abs() < 1e-13);

@@ -1,91 +1,92 @@
-//! Equilibrium of a given set of asperities: Newton's method on those in contact, which may leave
-//! and enter. The sum over the neighbours can exceed the diagonal, so that single passes over them
-//! would not settle.
+//! Equilibrium of a given set of asperities by Newton's method with an active set of contacts. The
+//! sum over the neighbours can exceed the diagonal, so fixed-point iteration would not converge.
 
 use nalgebra::DVector;
 
+use super::displacements::Field;
 use super::gmres;
 use super::lattice::Lattice;
-use super::near::Field;
 use super::pair::pair;
 use super::set::Set;
 use super::{Asperity, Contact};
 use crate::theory::TheoryError;
 
 const MAX_ROUNDS: usize = 60;
-/// Rounds after which steps are halved, should the contacts that enter and leave alternate.
-const PATIENCE: usize = 30;
-/// Misfit over the largest indentation at which circles that cover each other may be handed back to
-/// be merged: two such contacts are in balance for no share of the load, or for any.
+/// Iterations after which steps are halved, in case contacts enter and leave alternately.
+const HALVING_AFTER: usize = 30;
+/// Misfit over the largest indentation at which circles that cover each other may be returned for
+/// merging: such a pair has no unique equilibrium.
 const NEAR: f64 = 0.05;
-/// Load over the load asked at which a start was too far off.
-const ASTRAY: f64 = 4.0;
-/// Misfit of the total load over the load asked, in misfits of an indentation over the largest one.
+/// Load over the requested load at which a start is too far off.
+const TOO_FAR: f64 = 4.0;
+/// Tolerance of the total load over the requested load, in tolerances of an indentation over the
+/// largest one.
 const LOAD_TOLERANCE: f64 = 10.0;
-/// Residual of the system of what a lowered plane does; it moves little, and the next round makes good
-/// for it.
+/// Tolerance of the linear system for the response to the plane; the plane moves little, and the
+/// next iteration corrects the error.
 const LOWERED_TOLERANCE: f64 = 3e-2;
 
-/// What is held while the asperities settle.
+/// The prescribed quantity.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub(super) enum Hold {
-    /// The plane stays where the start has it.
+pub(super) enum Prescribed {
+    /// The plane stays where it is.
     Plane,
-    /// The sum of all loads over the modulus, m^2; the plane moves.
+    /// The sum of all loads over the modulus, m^2, is prescribed; the plane moves.
     Load(f64),
 }
 
-/// How well a set of asperities is to be settled.
+/// Tolerances of the solve.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub(super) struct Care {
-    /// Misfit of an indentation over the largest one.
+pub(super) struct Tolerances {
+    /// Tolerance of an indentation over the largest one.
     pub tolerance: f64,
-    /// The same at which overlapping circles are handed back to be merged.
+    /// The same at which overlapping circles are returned for merging.
     pub merging: f64,
-    /// Residual of a Newton system over its right side; the next round makes good for it.
+    /// Relative residual of a Newton system; the next iteration corrects the error.
     pub linear: f64,
-    /// Rounds after which circles that cover each other are handed back to be merged, as they are.
+    /// Iterations after which circles that cover each other are returned for merging without
+    /// convergence.
     pub rounds_before_merging: usize,
-    /// Which contacts are handed back.
+    /// Which contacts are returned for merging.
     pub merges: Merges,
 }
 
-/// Contacts that are to become one.
+/// Criterion for merging contacts.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Merges {
-    /// Whose circles overlap.
+    /// Their circles overlap.
     Overlapping,
-    /// Of which one reaches over the other's summit.
+    /// One circle covers the other's summit.
     Covering,
 }
 
-impl Care {
-    /// The same for contacts that cover each other.
-    pub fn of_covering(self) -> Care {
-        Care {
+impl Tolerances {
+    /// The same tolerances, merging only contacts that cover each other.
+    pub fn merging_covered(self) -> Tolerances {
+        Tolerances {
             merges: Merges::Covering,
             ..self
         }
     }
 
-    /// To the last digit.
-    pub const FULL: Care = Care {
+    /// Full precision.
+    pub const FULL: Tolerances = Tolerances {
         tolerance: 1e-11,
         merging: 1e-11,
         linear: 1e-4,
         rounds_before_merging: 7,
         merges: Merges::Overlapping,
     };
-    /// At a load that is asked for.
-    pub const FINAL: Care = Care {
+    /// At a requested load.
+    pub const FINAL: Tolerances = Tolerances {
         tolerance: 1e-6,
         merging: 2e-2,
         linear: 3e-2,
         rounds_before_merging: 4,
         merges: Merges::Overlapping,
     };
-    /// On the way to a load, where more merging and pressing follows.
-    pub const PASSING: Care = Care {
+    /// On the way to a load, before further merging.
+    pub const PASSING: Tolerances = Tolerances {
         tolerance: 1e-2,
         merging: 2e-2,
         linear: 3e-2,
@@ -94,19 +95,19 @@ impl Care {
     };
 }
 
-/// A plane and how deep each asperity is indented.
+/// The plane and the indentation of each asperity.
 #[derive(Clone, Debug, PartialEq)]
 pub(super) struct Equilibrium {
-    /// Height of the plane, m, over that of which the displacement has no mean where the cell repeats.
+    /// Height of the plane, m; in a periodic cell above the plane of zero mean displacement.
     pub plane: f64,
     /// Hertz indentation of each asperity, m; 0 out of contact.
     pub indentations: Vec<f64>,
-    /// How much each of them grows as the plane goes down by 1; a guess.
+    /// Estimated increase of each indentation as the plane goes down by 1.
     pub lowered: Vec<f64>,
 }
 
 impl Equilibrium {
-    /// A guess for a plane that nothing has moved yet.
+    /// A start for a plane that has not moved yet.
     pub fn undeformed(asperities: &[Asperity], plane: f64) -> Self {
         let half = |asperity: &Asperity| 0.5 * (asperity.height - plane).max(0.0);
         Equilibrium {
@@ -116,7 +117,7 @@ impl Equilibrium {
         }
     }
 
-    /// Every asperity with its contact, if any.
+    /// All asperities with their contacts.
     pub fn contacts(&self, asperities: &[Asperity]) -> Vec<Contact> {
         let contact = |(asperity, delta): (&Asperity, &f64)| Contact {
             asperity: *asperity,
@@ -130,16 +131,20 @@ impl Equilibrium {
     }
 }
 
-/// An equilibrium, or one near enough to merge the circles that overlap.
-pub(super) struct Settled {
+/// An equilibrium, or a state close enough to merge the overlapping circles.
+pub(super) struct Solution {
     /// The state.
     pub state: Equilibrium,
-    /// Asperities that are to become one, two and two.
+    /// Pairs of asperities to be merged.
     pub meeting: Vec<[usize; 2]>,
 }
 
-/// Displacement at `position` by one contact, its images included, and its slope.
-pub(super) fn pushed_by(contact: &Contact, position: [f64; 2], lattice: &Lattice) -> (f64, f64) {
+/// Displacement at `position` by one contact with its images, and its derivative.
+pub(super) fn displacement_by(
+    contact: &Contact,
+    position: [f64; 2],
+    lattice: &Lattice,
+) -> (f64, f64) {
     let offset = lattice.offset(contact.asperity.position, position);
     let distance = offset[0].hypot(offset[1]);
     let (u, slope) = pair(contact.contact_radius, contact.asperity.radius, distance);
@@ -153,16 +158,16 @@ pub(super) fn pushed_by(contact: &Contact, position: [f64; 2], lattice: &Lattice
     )
 }
 
-/// Brings a start to equilibrium, or so near to it that what overlaps can be merged. Where circles
-/// cover each other's summits, so that it cannot settle, it may be handed back as it is: such circles
-/// are to be merged.
-pub(super) fn settle(
+/// Iterates from a start to equilibrium, or close enough to merge overlapping circles. If circles
+/// cover each other's summits the iteration cannot converge, and the state may be returned as it
+/// is, for those circles to be merged.
+pub(super) fn solve_equilibrium(
     set: &Set,
     lattice: &Lattice,
-    hold: Hold,
+    hold: Prescribed,
     start: Equilibrium,
-    care: Care,
-) -> Result<Settled, TheoryError> {
+    care: Tolerances,
+) -> Result<Solution, TheoryError> {
     let failed = TheoryError::NotConverged {
         what: "the set of asperities",
     };
@@ -171,10 +176,10 @@ pub(super) fn settle(
     for round in 0..MAX_ROUNDS {
         let contacts = state.contacts(asperities);
         let load: f64 = contacts.iter().map(Contact::load_over_modulus).sum();
-        if matches!(hold, Hold::Load(asked) if load > ASTRAY * asked) {
+        if matches!(hold, Prescribed::Load(asked) if load > TOO_FAR * asked) {
             return Err(failed);
         }
-        // No lower summit can touch: nowhere is the surface lifted by more.
+        // No lower summit can touch: nowhere is the surface displaced by more.
         let floor = state.plane + load * lattice.least;
         let rows: Vec<usize> = (0..asperities.len())
             .filter(|&i| asperities[i].height > floor || state.indentations[i] > 0.0)
@@ -198,8 +203,8 @@ pub(super) fn settle(
             .filter(|(i, misfit)| state.indentations[**i] > 0.0 || **misfit < 0.0)
             .fold(0.0_f64, |most, (_, misfit)| most.max(misfit.abs()));
         let off = match hold {
-            Hold::Plane => 0.0,
-            Hold::Load(asked) => (load / asked - 1.0).abs() / LOAD_TOLERANCE,
+            Prescribed::Plane => 0.0,
+            Prescribed::Load(asked) => (load / asked - 1.0).abs() / LOAD_TOLERANCE,
         };
         let settles = |tolerance: f64| worst <= tolerance * deepest && off <= tolerance;
         let meeting = match care.merges {
@@ -211,7 +216,7 @@ pub(super) fn settle(
             || !meeting.is_empty() && round > 0 && settles(care.merging)
             || !field.covering.is_empty() && impatient && worst <= NEAR * deepest
         {
-            return Ok(Settled {
+            return Ok(Solution {
                 meeting: meeting.clone(),
                 state,
             });
@@ -221,7 +226,7 @@ pub(super) fn settle(
             .collect();
         let mut stays = vec![false; asperities.len()];
         active.iter().for_each(|&row| stays[rows[row]] = true);
-        // Those that leave take their displacement with them at once.
+        // The displacement of contacts that leave is removed at once.
         let leaves = |i: usize| !stays[i];
         let mut right =
             DVector::from_iterator(active.len(), active.iter().map(|&row| -misfits[row]));
@@ -239,8 +244,8 @@ pub(super) fn settle(
         };
         let own = gmres::solve(apply, &right, care.linear).ok_or(failed.clone())?;
         let (steps, moved) = match hold {
-            Hold::Plane => (own, 0.0),
-            Hold::Load(asked) => {
+            Prescribed::Plane => (own, 0.0),
+            Prescribed::Load(asked) => {
                 let guess = DVector::from_iterator(
                     active.len(),
                     active.iter().map(|&row| state.lowered[rows[row]]),
@@ -267,7 +272,7 @@ pub(super) fn settle(
                 (own - lowered * moved, moved)
             }
         };
-        let share = if round < PATIENCE { 1.0 } else { 0.5 };
+        let share = if round < HALVING_AFTER { 1.0 } else { 0.5 };
         let mut next = vec![0.0; asperities.len()];
         for (&row, step) in active.iter().zip(steps.iter()) {
             let i = rows[row];

@@ -1,14 +1,14 @@
-//! Displacement that one Hertz contact makes under another, and its slope.
+//! Displacement by one Hertz contact at the place of another, and its derivative.
 
 use std::f64::consts::PI;
 
-/// Distances over contact radius beyond which the multipoles of the Hertz pressure are summed.
+/// Distance over contact radius beyond which the multipole series of the Hertz pressure is used.
 const FAR: f64 = 8.0;
 
 /// `U(r; a, R)` and `dU/d delta = (2/pi) asin(min(1, a/r))` at `distance` r.
 ///
-/// Case by pair: inside the circle of the contact that pushes the surface is its paraboloid. Far
-/// away four multipoles of `p ~ sqrt(a^2 - r^2)` are good to 1e-9 of U and cost no arcsine.
+/// Not symmetric: inside the circle of the contact the displaced surface is its paraboloid. Far
+/// away four multipoles of `p ~ sqrt(a^2 - r^2)` are accurate to 1e-9 of U and need no arcsine.
 pub(super) fn pair(contact_radius: f64, radius: f64, distance: f64) -> (f64, f64) {
     let a = contact_radius;
     if distance <= a {

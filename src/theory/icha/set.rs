@@ -1,4 +1,4 @@
-//! The asperities that are left, each with its place on the mesh.
+//! The remaining asperities, each with its stencil on the mesh.
 
 use super::Asperity;
 use super::lattice::Lattice;
@@ -9,12 +9,12 @@ use super::mesh::Stencil;
 pub(super) struct Set {
     /// The asperities.
     pub asperities: Vec<Asperity>,
-    /// Their places on the cell's mesh; none without one.
+    /// Their stencils on the cell's mesh; empty without a mesh.
     pub stencils: Vec<Stencil>,
 }
 
 impl Set {
-    /// Places them.
+    /// Computes the stencils.
     pub fn new(asperities: Vec<Asperity>, lattice: &Lattice) -> Self {
         let mut set = Set {
             asperities: Vec::with_capacity(asperities.len()),
@@ -36,15 +36,15 @@ impl Set {
         self.asperities.push(asperity);
     }
 
-    /// Takes those out that are gone.
-    pub fn drop_those(&mut self, gone: &[bool]) {
-        keep(&mut self.asperities, gone);
-        keep(&mut self.stencils, gone);
+    /// Removes the marked asperities.
+    pub fn remove_marked(&mut self, gone: &[bool]) {
+        retain_unmarked(&mut self.asperities, gone);
+        retain_unmarked(&mut self.stencils, gone);
     }
 }
 
-/// Takes the values out whose place is marked; values without a mark stay.
-pub(super) fn keep<T>(values: &mut Vec<T>, gone: &[bool]) {
+/// Removes marked values; values without a mark stay.
+pub(super) fn retain_unmarked<T>(values: &mut Vec<T>, gone: &[bool]) {
     let mut marks = gone.iter();
     values.retain(|_| !marks.next().is_some_and(|gone| *gone));
 }

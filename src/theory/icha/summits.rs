@@ -1,4 +1,4 @@
-//! The asperities of a height map: its summits and how curved they are.
+//! Finds the asperities of a height map: its summits and their curvatures.
 
 use rayon::prelude::*;
 
@@ -8,19 +8,19 @@ use crate::surface::fourier;
 use crate::theory::error::{TheoryError, finite};
 use num_complex::Complex;
 
-/// Points between two of the map, along each axis, on which summits are sought.
+/// Refinement factor along each axis of the map on which summits are sought.
 const REFINEMENT: usize = 4;
-/// Most points of the finer map: half a gibibyte.
+/// Most points of the refined map: half a gibibyte.
 const MOST_POINTS: usize = 1 << 26;
-/// Waves with less than this share of the largest amplitude are rounding.
+/// Waves with less than this share of the largest amplitude are rounding errors.
 const ROUNDING: f64 = 1e-13;
 
-/// Summits of `heights` (m, shape `[ny, nx]`, a cell that repeats), with the geometric mean of their
-/// two radii of curvature.
+/// Summits of `heights` (m, shape `[ny, nx]`, periodic), with the geometric mean of their two radii
+/// of curvature.
 ///
-/// A summit is higher than its eight neighbours on a map that Fourier interpolation has made four
-/// times as fine (less where that would pass 2^26 points), of positive Gaussian curvature by central
-/// differences, and moved by one Newton step of at most one fine pixel.
+/// A summit is higher than its eight neighbours on a map refined four times by Fourier
+/// interpolation (less if that would exceed 2^26 points), has positive Gaussian curvature by
+/// central differences, and is moved by one Newton step of at most one fine pixel.
 pub fn find_summits(grid: &Grid, heights: &[f64]) -> Result<Vec<Asperity>, TheoryError> {
     finite("sum of all heights", heights.iter().sum())?;
     let mut refinement = REFINEMENT;
@@ -37,7 +37,7 @@ pub fn find_summits(grid: &Grid, heights: &[f64]) -> Result<Vec<Asperity>, Theor
     Ok(summits_of(&fine, &interpolated(grid, heights, &fine)))
 }
 
-/// The sum of the map's waves on a finer grid.
+/// Fourier interpolation of the map on a finer grid.
 fn interpolated(grid: &Grid, heights: &[f64], fine: &Grid) -> Vec<f64> {
     let (nx, ny) = (grid.nx, grid.ny);
     let coefficients = fourier::analyse(grid, heights);
@@ -55,7 +55,7 @@ fn interpolated(grid: &Grid, heights: &[f64], fine: &Grid) -> Vec<f64> {
         .map_or(1, |last| last + 1);
     let mut spread = vec![Complex::default(); held * fine.ny];
     for (kx, (column, wide)) in columns.iter().zip(spread.chunks_mut(fine.ny)).enumerate() {
-        // The wave at half the points stands for both directions, which a finer grid tells apart.
+        // The Nyquist wave stands for both directions, which a finer grid distinguishes.
         let factor = if 2 * kx == nx { 0.5 } else { 1.0 };
         for (ky, coefficient) in column.iter().enumerate() {
             let value = coefficient * factor;
@@ -96,7 +96,7 @@ fn summits_of(grid: &Grid, heights: &[f64]) -> Vec<Asperity> {
     rows.concat()
 }
 
-/// The summit at the middle of nine heights (rows along y), if there is one.
+/// The summit at the centre of nine heights (rows along y), if there is one.
 fn summit(patch: &[[f64; 3]; 3], grid: &Grid, point: [usize; 2]) -> Option<Asperity> {
     let here = patch[1][1];
     let above = (0..9)
@@ -170,7 +170,7 @@ mod tests {
 
     #[test]
     fn interpolation_goes_through_the_points() {
-        // Values without any smoothness: the waves at half the points must be split in two.
+        // Values without any smoothness: the Nyquist waves must be split in two.
         let grid = Grid::new([6, 4], [1.0, 1.0]);
         let heights: Vec<f64> = (0..24).map(|i| ((i * i) as f64 * 1.7).sin()).collect();
         let fine = Grid::new([12, 8], [1.0, 1.0]);

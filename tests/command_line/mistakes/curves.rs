@@ -36,9 +36,9 @@ pub fn reached() -> Vec<Reached> {
         (
             "NoHead",
             rows("1,2", 20, good),
-            "has no head; its first line must name the columns",
+            "has no header; its first line must name the columns",
         ),
-        ("NoHead", "# only a comment\n".to_owned(), "has no head"),
+        ("NoHead", "# only a comment\n".to_owned(), "has no header"),
         (
             "NoColumn",
             rows("depth,force", 20, good),
@@ -72,7 +72,7 @@ pub fn reached() -> Vec<Reached> {
         (
             "Ragged",
             rows(head, 20, with(4, "1,2,3")),
-            "line 6: 3 values where the head names 2 columns",
+            "line 6: 3 values where the header names 2 columns",
         ),
         (
             "NotANumber",
@@ -93,7 +93,7 @@ pub fn reached() -> Vec<Reached> {
         (
             "Extreme",
             rows(head, 20, |i| format!("{i}e-9,{}e40", i as f64 - 5.0)),
-            "column `force`: its largest number is 1.4e41; it must be between 1e-30 and 1e30 in SI units: check the unit in the head",
+            "column `force`: its largest number is 1.4e41; it must be between 1e-30 and 1e30 in SI units: check the unit in the headerer",
         ),
         (
             "Extreme",
@@ -156,7 +156,7 @@ pub fn reached() -> Vec<Reached> {
     let error = ForceCurve::read(folder.path()).expect_err("a folder");
     assert!(
         error.to_string().contains(
-            "is no regular file (a folder, a pipe or a device); write the curve to a file"
+            "is not a regular file (but a folder, a pipe or a device); save the curve to a file"
         ),
         "{error}"
     );

@@ -51,12 +51,12 @@ fn table() -> Vec<BadFile> {
         bad("zip.npy", b"PK\x03\x04....", "FileError::OtherContent", "the name says .npy, but the file holds a ZIP archive"),
         bad("text.npy", b"1 2\n3 4\n", "FileError::OtherContent", "the name says .npy, but the file holds no NumPy array"),
         bad("array.dat", &npy("<f8", "(2, 3)", &six), "FileError::OtherContent", "the name says .dat, but the file holds a NumPy array (.npy)"),
-        bad("nul.txt", b"1 2\n3 \0\n", "FileError::Binary", "the file is no text: byte 6 is 0"),
+        bad("nul.txt", b"1 2\n3 \0\n", "FileError::Binary", "the file is not text: byte 6 is 0"),
         bad("wide.txt", b"\xFF\xFE1\0 \0", "FileError::Utf16", "the text is in UTF-16; save it as UTF-8"),
         bad("short_header.npy", b"\x93NUMPY\x01", "FileError::BrokenNpy", "broken .npy file: it ends within the header"),
         bad("version.npy", b"\x93NUMPY\x09\x00\x00\x00", "FileError::BrokenNpy", "version 9 of the format is not known"),
         bad("no_keys.npy", b"\x93NUMPY\x01\x00\x02\x00{}", "FileError::BrokenNpy", "broken .npy file: "),
-        bad("overflow.npy", &npy("<f8", "(18446744073709551615, 2)", &six), "FileError::BrokenNpy", "is past all memory"),
+        bad("overflow.npy", &npy("<f8", "(18446744073709551615, 2)", &six), "FileError::BrokenNpy", "exceeds all memory"),
         bad("line.npy", &npy("<f8", "(6,)", &six), "FileError::Dimensions", "the array has shape [6]; heights need two dimensions, [rows (y), columns (x)]"),
         bad("cube.npy", &npy("<f8", "(1, 2, 3)", &six), "FileError::Dimensions", "the array has shape [1, 2, 3]"),
         bad("complex.npy", &npy("<c16", "(1, 3)", &six), "FileError::ElementType", "elements of type <c16 are not heights; save them as float32, float64 or an integer type"),
@@ -74,7 +74,7 @@ fn table() -> Vec<BadFile> {
         bad("inf.npy", &npy("<f8", "(1, 1)", &f64::INFINITY.to_le_bytes()), "FileError::Missing", "1 of 1 pixels are missing (1 of them infinite)"),
         BadFile { name: "all.txt", bytes: b"nan nan\n".to_vec(), more: "fill = \"interpolate\"", variant: "FileError::AllMissing", expected: "all 2 pixels are missing: there is nothing to interpolate from" },
         bad("sized.txt", b"# Width: 4 um\n# Height: 2 um\n1 2 3\n4 5 6\n", "FileError::OtherSize", "the map says it is 4e-6 x 2e-6 m (x, y), but [grid] size says 3e-6 x 2e-6 m; leave size out or correct one"),
-        BadFile { name: "far.txt", bytes: b"9e29 2 3\n4 5 6\n".to_vec(), more: "[[surface]]\nkind = \"file\"\npath = \"far.txt\"", variant: "SurfaceError::NotFinite", expected: "the heights are not finite, or past 1e30 m, at row 1, column 1" },
+        BadFile { name: "far.txt", bytes: b"9e29 2 3\n4 5 6\n".to_vec(), more: "[[surface]]\nkind = \"file\"\npath = \"far.txt\"", variant: "SurfaceError::NotFinite", expected: "the heights are not finite, or exceed 1e30 m, at row 1, column 1" },
         bad("farther.txt", b"1e300 2 3\n4 5 6\n", "FileError::Extreme", "the largest height is 1e300 m; heights must be 0 or between 1e-30 and 1e30 m: check the unit and the powers of ten"),
         bad("nearer.txt", b"1e-300 2e-299 0\n0 0 0\n", "FileError::Extreme", "the largest height is 2e-299 m; heights must be 0 or"),
         bad("magic.gwy", b"GWYP", "FileError::Broken", "broken .gwy file at byte 4: the file ends within the name of an object"),
@@ -82,8 +82,8 @@ fn table() -> Vec<BadFile> {
         bad("nothing.grd", b"DSAA\n2.5 2\n", "FileError::Counts", "the file says it has 2 rows of 0 columns; both must be at least 1"),
         bad("cut.png", b"\x89PNG\r\n\x1a\n", "FileError::BrokenImage", "broken PNG image: "),
         bad("packed.sur", &[&b"DSCOMPRESSED"[..], &[0; 600]].concat(), "FileError::NotSupported", "compressed .sur files are not in this version; save it without compression"),
-        bad("volts.gsf", b"Gwyddion Simple Field 1.0\nXRes = 1\nYRes = 1\nZUnits = V\n\0\0\0\0\0", "FileError::NotALength", "the file gives its heights in \"V\", which is no length"),
-        bad("pairs.xyz", b"1 2\n3 4\n", "FileError::NotAGrid", "the points x, y, z form no grid: its lines have 2 numbers"),
+        bad("volts.gsf", b"Gwyddion Simple Field 1.0\nXRes = 1\nYRes = 1\nZUnits = V\n\0\0\0\0\0", "FileError::NotALength", "the file gives its heights in \"V\", which is not a length"),
+        bad("pairs.xyz", b"1 2\n3 4\n", "FileError::NotAGrid", "the points x, y, z do not form a grid: its lines have 2 numbers"),
         bad("grey.png", GREY, "FileError::GreyEndsMissing", "this is a grey image: write black and white, the heights of its ends"),
         BadFile { name: "even.png", bytes: GREY.to_vec(), more: "black = 1\nwhite = 1", variant: "FileError::GreyEndsEqual", expected: "black and white are both 1e0 m: an image of one height" },
         good("black = 0\nwhite = 1", "FileError::GreyEndsUnused", "black and white are for grey images; this file holds heights"),
@@ -147,7 +147,7 @@ fn odd_paths() -> Vec<Reached> {
         cases.push((
             "/dev/zero".to_owned(),
             "FileError::NotRegular",
-            "this is no regular file; copy the heights into one",
+            "this is not a regular file; copy the heights into one",
         ));
         // Longer than any file system takes.
         cases.push((

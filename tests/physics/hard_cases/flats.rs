@@ -56,7 +56,7 @@ fn flats() -> Vec<Case> {
             assert!([0, 1, 3].iter().all(|i| run.rows[*i].contact == 1.0));
         }),
         Case::new(
-            "flat on flat, exponential at held gaps",
+            "flat on flat, exponential at prescribed gaps",
             cell(Law::Exponential {
                 work: WORK,
                 range: RANGE,
@@ -72,7 +72,7 @@ fn flats() -> Vec<Case> {
         }),
         // sigma at half the range and at twice it, of w/range (theory of the 9-3 law).
         Case::new(
-            "flat on flat, Lennard-Jones at held gaps",
+            "flat on flat, Lennard-Jones at prescribed gaps",
             cell(Law::LennardJones {
                 work: WORK,
                 range: RANGE,
@@ -152,7 +152,7 @@ fn steps() -> Vec<Case> {
             }
         })
         .collect();
-    let sticky = Law::MaugisDugdale {
+    let adhesive = Law::MaugisDugdale {
         work: 1e-4,
         range: 4e-3,
         taper: None,
@@ -162,13 +162,13 @@ fn steps() -> Vec<Case> {
         Case::new("stairs, wall", cell(Law::Wall), FILE)
             .with_file(NAME, stairs.clone())
             .under("pressure", [0.003, 0.1]),
-        Case::new("stairs, Maugis-Dugdale", cell(sticky), FILE)
+        Case::new("stairs, Maugis-Dugdale", cell(adhesive), FILE)
             .with_file(NAME, stairs)
             .under("pressure", [0.01, -0.002]),
         Case::new("plateaus, wall", cell(Law::Wall), FILE)
             .with_file(NAME, board.clone())
             .under("pressure", [0.01, 1.0]),
-        Case::new("plateaus, Maugis-Dugdale", cell(sticky), FILE)
+        Case::new("plateaus, Maugis-Dugdale", cell(adhesive), FILE)
             .with_file(NAME, board)
             .under("pressure", [0.01, -0.002]),
     ]

@@ -96,7 +96,7 @@ pub fn cases() -> Vec<Case> {
             .so_that(named)
         })
         .collect();
-    let sticky = Law::MaugisDugdale {
+    let adhesive = Law::MaugisDugdale {
         work: 1e-6,
         range: 2e-3,
         taper: None,
@@ -104,7 +104,7 @@ pub fn cases() -> Vec<Case> {
     for points in [[1, 64], [121, 63]] {
         let [nx, ny] = points;
         let name = format!("grid of {nx} x {ny}, Maugis-Dugdale");
-        cases.push(noisy(points, square_pixels(points), sticky, name));
+        cases.push(noisy(points, square_pixels(points), adhesive, name));
     }
     for aspect in [16.0, 1e3] {
         let name = format!("pixels {aspect} times as long as wide");

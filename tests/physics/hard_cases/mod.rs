@@ -39,11 +39,11 @@ fn outcome(case: &Case, run: &Run) -> String {
     // What pixels decide is no more than an equilibrium of theirs, and is warned of.
     let right = match case.compared {
         true => "right",
-        false => "in balance on its grid, and warned of",
+        false => "equilibrium on its grid, with a warning",
     };
     match run.status {
         2 => "refused, with a remedy".to_owned(),
-        3 => format!("not converged in step {}, and says so", run.rows.len()),
+        3 => format!("not converged in step {}, reported", run.rows.len()),
         _ => {
             let warned = run.messages.contains(": a pixel is");
             assert!(case.compared || warned, "{}: {}", case.name, run.messages);

@@ -161,9 +161,9 @@ pub fn cases() -> Vec<Case> {
         work,
         range,
     }));
-    // So sticky that it matters all the same: the zone is far below a pixel.
+    // Adhesion so strong that it matters all the same: the zone is far below a pixel.
     cases.push(
-        tall("sticky", |_, range| Law::MaugisDugdale {
+        tall("strong adhesion", |_, range| Law::MaugisDugdale {
             work: 1.0,
             range,
             taper: None,

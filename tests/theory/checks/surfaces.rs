@@ -52,7 +52,7 @@ fn deterministic(inputs: &Inputs) -> Answer {
     let heights = self_affine::heights(&spectrum.with_rms_height(rms_height), &grid, seed as u64);
     // The file counts x first, an array here y.
     let at = |i: usize, j: usize| heights[j * grid.nx + i];
-    let statistics = Statistics::of(&grid, &heights, Boundary::Periodic);
+    let statistics = Statistics::from_heights(&grid, &heights, Boundary::Periodic);
     Ok(json!({
         "h00": at(0, 0),
         "h01": at(0, 1),

@@ -1,4 +1,4 @@
-//! Where settings are run, and who watches.
+//! Interfaces of a study: where settings run, and who observes it.
 
 use super::error::AccuracyError;
 use super::report::Report;
@@ -8,40 +8,40 @@ use crate::scene::{BackendName, Precision, Scene};
 use crate::study::Setup;
 
 /// A backend for one setting.
-pub struct Bench {
-    /// Makes one.
+pub struct ProvidedBackend {
+    /// Creates the backend.
     pub make: Box<dyn Fn() -> Box<dyn Backend + Send> + Send + Sync>,
-    /// What the user should know about it.
+    /// A note for the user.
     pub remark: Option<String>,
 }
 
-/// Where settings are run.
-pub trait Workplace: Sync {
-    /// Backends and precisions at hand.
+/// Provides backends for settings.
+pub trait BackendProvider: Sync {
+    /// Available backends and precisions.
     fn arithmetics(&self) -> &[(BackendName, Precision)];
-    /// Whether the memory holds a scene on a grid, else why not.
+    /// Checks that memory suffices for a scene on a grid.
     ///
     /// # Errors
-    /// In words.
+    /// A message for the user.
     fn fits(&self, scene: &Scene, grid: Grid) -> Result<(), String>;
     /// A backend for a setup.
     ///
     /// # Errors
-    /// In words.
-    fn bench(&self, setup: &Setup) -> Result<Bench, String>;
+    /// A message for the user.
+    fn provide(&self, setup: &Setup) -> Result<ProvidedBackend, String>;
 }
 
-/// Who watches a study.
+/// Observes a study.
 pub trait Listener: Send {
-    /// A run begins, which will take some seconds.
+    /// A run begins; it will take about this many seconds.
     fn begins(&mut self, words: &str, seconds: f64);
-    /// It goes on; `false` ends the study.
+    /// Called at each iteration; `false` ends the study.
     fn goes_on(&mut self, step: usize, iteration: usize, residual: f64) -> bool;
-    /// Something to know.
+    /// A note for the user.
     fn note(&mut self, text: &str);
-    /// A row is done; all of them are in the report so far.
+    /// A row is finished; the report contains all rows so far.
     ///
     /// # Errors
-    /// What keeps it from being kept.
+    /// The row cannot be stored.
     fn row(&mut self, report: &Report) -> Result<(), AccuracyError>;
 }

@@ -1,23 +1,23 @@
-//! Ways together and apart.
+//! Divides a force curve into loading and unloading segments.
 
 use std::ops::Range;
 
 use super::curve_file::Sample;
 
-/// Share of the whole approach that a turn must cover: less is noise of the approach.
+/// Share of the whole approach that a reversal must cover: smaller ones are noise of the approach.
 const LEAST_TURN: f64 = 0.02;
 
-/// Consecutive points over which the surfaces come together, or go apart.
+/// Consecutive points of loading (surfaces approach) or unloading (surfaces separate).
 #[derive(Clone, Debug, PartialEq, Eq)]
-pub struct Way {
-    /// Which points.
+pub struct Segment {
+    /// Indices of its points.
     pub points: Range<usize>,
-    /// Whether they come together.
-    pub together: bool,
+    /// Whether the surfaces approach.
+    pub loading: bool,
 }
 
-/// Cuts a curve where its approach turns.
-pub fn ways(samples: &[Sample]) -> Vec<Way> {
+/// Divides a curve where its approach reverses.
+pub fn segments(samples: &[Sample]) -> Vec<Segment> {
     let Some(first) = samples.first() else {
         return Vec::new();
     };
@@ -27,9 +27,10 @@ pub fn ways(samples: &[Sample]) -> Vec<Way> {
             (low.min(sample.approach), high.max(sample.approach))
         });
     let turn = LEAST_TURN * (high - low);
-    let mut ways = Vec::new();
+    let mut segments = Vec::new();
     let mut begin = 0;
-    // The furthest point of the way so far, in its direction; no direction before the first turn.
+    // The extreme point of the current segment in its direction; no direction before the first
+    // reversal.
     let mut direction: Option<bool> = None;
     let mut furthest = 0;
     let mut lowest = 0;
@@ -49,26 +50,26 @@ pub fn ways(samples: &[Sample]) -> Vec<Way> {
                     (direction, furthest) = (Some(false), i);
                 }
             }
-            Some(together) => {
-                let sign = if together { 1.0 } else { -1.0 };
+            Some(loading) => {
+                let sign = if loading { 1.0 } else { -1.0 };
                 if sign * beyond(furthest) >= 0.0 {
                     furthest = i;
                 } else if sign * beyond(furthest) < -turn {
-                    ways.push(Way {
+                    segments.push(Segment {
                         points: begin..furthest + 1,
-                        together,
+                        loading,
                     });
                     begin = furthest + 1;
-                    (direction, furthest) = (Some(!together), i);
+                    (direction, furthest) = (Some(!loading), i);
                 }
             }
         }
     }
-    ways.push(Way {
+    segments.push(Segment {
         points: begin..samples.len(),
-        together: direction.unwrap_or(true),
+        loading: direction.unwrap_or(true),
     });
-    ways
+    segments
 }
 
 #[cfg(test)]
@@ -76,7 +77,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn a_loop_has_two_ways_and_noise_none() {
+    fn a_loop_has_two_segments_and_noise_none() {
         let noise = [0.0, 0.004, -0.006, 0.005, -0.003];
         let loop_of = |i: usize| if i < 100 { i } else { 200 - i } as f64 / 100.0;
         let samples: Vec<Sample> = (0..=200)
@@ -85,9 +86,9 @@ mod tests {
                 force: 0.0,
             })
             .collect();
-        let found = ways(&samples);
+        let found = segments(&samples);
         assert_eq!(found.len(), 2, "{found:?}");
-        assert!(found[0].together && !found[1].together);
+        assert!(found[0].loading && !found[1].loading);
         assert!(found[0].points.end.abs_diff(100) <= 2);
         assert_eq!(found[1].points, found[0].points.end..201);
     }

@@ -1,9 +1,9 @@
-//! Scenes that have a closed form, and what it says at each step of their path.
+//! Closed-form solutions at each step of a scene's path, for scenes that have one.
 
 use std::f64::consts::PI;
 
-use super::judge::Errors;
-use super::measure::{Point, deepest};
+use super::errors::Errors;
+use super::measure::{Point, most_compressed_step};
 use super::reference::Reference;
 use crate::grid::Grid;
 use crate::scene::{Boundary, Control, LawName, Range, Scene, SurfacePart};
@@ -11,13 +11,13 @@ use crate::theory::maugis_dugdale::{FOLD_LAMBDA, MaugisDugdale};
 use crate::theory::tabor_map::{MaugisScales, maugis_parameter};
 use crate::theory::{Sphere, TheoryError, hertz, jkr, westergaard};
 
-/// Samples along a side of a cell over which a closed pressure is averaged.
+/// Samples along a side of a cell over which a closed-form pressure is averaged.
 const SAMPLES: usize = 64;
 
-/// The closed form of a scene whose grid and centres are given, where it has one: a sphere on a
-/// free boundary (Hertz, Maugis, and JKR where `range = "auto"` stands for it), and a line wave
-/// under a load without adhesion (Westergaard).
-pub fn closed(scene: &Scene, cells: [usize; 2]) -> Option<Reference> {
+/// The closed-form reference of a scene whose grid and centres are given, if there is one: a sphere
+/// on a free boundary (Hertz, Maugis, and JKR for `range = "auto"`), and a line wave under a load
+/// without adhesion (Westergaard).
+pub fn closed_form(scene: &Scene, cells: [usize; 2]) -> Option<Reference> {
     let solid = &scene.solid;
     let plain =
         solid.layer.is_none() && solid.relaxation.is_empty() && scene.loading.spring.is_none();
@@ -45,7 +45,8 @@ pub fn closed(scene: &Scene, cells: [usize; 2]) -> Option<Reference> {
         }
         _ => return None,
     };
-    // A theory out of its range is no reference; the solve on finer grids is.
+    // Outside its range of validity a theory is no reference; the solution on finer grids is used
+    // instead.
     found.ok().flatten()
 }
 
@@ -81,7 +82,7 @@ struct Held {
     approach: f64,
 }
 
-/// A theory of the sphere, in the branches that a path meets.
+/// A theory of the sphere, with the branches of equilibria that a path follows.
 enum Theory {
     Hertz(Sphere),
     Jkr(Sphere),
@@ -107,7 +108,7 @@ fn sphere(
                     let maugis = MaugisDugdale::new(lambda)?;
                     ("Maugis", Theory::Maugis(maugis, sphere.maugis_scales()?))
                 }
-                // Another law, or one whose end is drawn out: no closed form.
+                // No closed form for other laws or for a given taper.
                 _ => return Ok(None),
             }
         }
@@ -118,7 +119,7 @@ fn sphere(
         Control::Pressure | Control::MeanGap => return Ok(None),
     };
     let area = size[0] * size[1];
-    let deepest = deepest(scene);
+    let most_compressed_step = most_compressed_step(scene);
     let mut branch = Branch::Apart;
     let mut steps = Vec::with_capacity(scene.loading.path.len());
     let mut profile = None;
@@ -129,12 +130,13 @@ fn sphere(
         let (next, held) = theory.follow(branch, value, by_force)?;
         touched |= branch == Branch::Touching;
         branch = next;
-        // Pull-off is on the way only to what was in touch and is farther out than its greatest
+        // A path reaches pull-off only from contact and beyond the approach of the greatest
         // tension.
         if let Some(greatest) = &greatest {
-            let beyond = match by_force {
-                true => value < greatest.force,
-                false => value < greatest.approach,
+            let beyond = if by_force {
+                value < greatest.force
+            } else {
+                value < greatest.approach
             };
             passed |= touched && beyond;
         }
@@ -149,7 +151,7 @@ fn sphere(
             },
         };
         steps.push(Some(point));
-        if step == deepest
+        if step == most_compressed_step
             && let Some(held) = held
         {
             let grid = Grid::new(cells, size);
@@ -167,17 +169,17 @@ fn sphere(
     Ok(Some(reference(words, steps, pull_off, profile)))
 }
 
-/// Which equilibrium the sphere is in.
+/// The branch of equilibria of the sphere.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 enum Branch {
     Apart,
-    /// Attracted without touching.
+    /// Attracted without contact.
     Open,
     Touching,
 }
 
 impl Theory {
-    /// The state of greatest tension; none without adhesion.
+    /// The state of greatest tension; `None` without adhesion.
     fn pull_off(&self) -> Result<Option<Held>, TheoryError> {
         Ok(match self {
             Theory::Hertz(_) => None,
@@ -189,7 +191,8 @@ impl Theory {
         })
     }
 
-    /// Goes on to the next value of a path from a branch: what was in touch stays so while it can.
+    /// Follows a path to its next value: a touching sphere stays in contact as long as that state
+    /// exists.
     fn follow(
         &self,
         from: Branch,
@@ -200,7 +203,7 @@ impl Theory {
         let apart = Ok((Branch::Apart, None));
         let (theory, scales) = match self {
             Theory::Hertz(_) | Theory::Jkr(_) => {
-                // Without a range nothing is felt before the surfaces meet.
+                // Without a range there is no attraction before contact.
                 let meets = from == Branch::Touching || value >= 0.0;
                 return match touching.filter(|_| meets) {
                     Some(held) => Ok((Branch::Touching, Some(held))),
@@ -210,7 +213,7 @@ impl Theory {
             Theory::Maugis(theory, scales) => (theory, scales),
         };
         if by_force {
-            // Under a load that only presses, what is apart meets; under tension it stays apart.
+            // A compressive load closes a separated contact; under tension it stays separated.
             let meets = from == Branch::Touching || value > 0.0;
             return match touching.filter(|_| meets) {
                 Some(held) => Ok((Branch::Touching, Some(held))),
@@ -243,9 +246,10 @@ impl Theory {
                 if value <= 0.0 {
                     return Ok(None);
                 }
-                let radius = match by_force {
-                    true => hertz::contact_radius(sphere, value)?,
-                    false => hertz::contact_radius_at_approach(sphere, value)?,
+                let radius = if by_force {
+                    hertz::contact_radius(sphere, value)?
+                } else {
+                    hertz::contact_radius_at_approach(sphere, value)?
                 };
                 Some(Held {
                     contact_radius: radius,
@@ -255,19 +259,21 @@ impl Theory {
                 })
             }
             Theory::Jkr(sphere) => {
-                // Beyond the fold there is none.
-                let radius = match by_force {
-                    true => jkr::contact_radius(sphere, value),
-                    false => jkr::contact_radius_at_approach(sphere, value),
+                // Beyond the fold no state exists.
+                let radius = if by_force {
+                    jkr::contact_radius(sphere, value)
+                } else {
+                    jkr::contact_radius_at_approach(sphere, value)
                 };
                 radius.ok().map(|radius| jkr_at(sphere, radius))
             }
             Theory::Maugis(theory, scales) => {
-                let states = match by_force {
-                    true => theory.states_at_force(value / scales.force)?,
-                    false => theory.states_at_approach(value / scales.approach)?,
+                let states = if by_force {
+                    theory.states_at_force(value / scales.force)?
+                } else {
+                    theory.states_at_approach(value / scales.approach)?
                 };
-                // Below the fold's lambda the contact closes to a point first.
+                // Below the lambda of the fold the contact shrinks to a point first.
                 let least = if theory.lambda() > FOLD_LAMBDA || by_force {
                     0.0
                 } else {
@@ -328,7 +334,7 @@ fn averaged(grid: &Grid, pressure: impl Fn(f64, f64) -> f64) -> Vec<f64> {
                 let y = iy as f64 * grid.dy() + offset(sy, grid.dy());
                 for sx in 0..SAMPLES {
                     let here = pressure(ix as f64 * grid.dx() + offset(sx, grid.dx()), y);
-                    // On the very edge of a crack there is no pressure to speak of.
+                    // The pressure is singular at a crack tip; count it as 0 there.
                     sum += if here.is_finite() { here } else { 0.0 };
                 }
             }
@@ -357,9 +363,9 @@ fn wave(
     };
     let unit =
         westergaard::full_contact_pressure(scene.solid.contact_modulus, amplitude.abs(), length)?;
-    // A negative amplitude has its crests half a wave on.
+    // A negative amplitude shifts the crests by half a wave.
     let shift = if amplitude < 0.0 { 0.5 } else { 0.0 };
-    let deepest = deepest(scene);
+    let most_compressed_step = most_compressed_step(scene);
     let mut profile = None;
     let mut steps = Vec::new();
     for (step, value) in scene.loading.path.iter().enumerate() {
@@ -377,7 +383,7 @@ fn wave(
             area: 2.0 * half_width,
             answer: Some(amplitude.abs() * westergaard::mean_gap(held)?),
         }));
-        if step == deepest {
+        if step == most_compressed_step {
             let grid = Grid::new(cells, size);
             profile = Some(averaged(&grid, |x, y| {
                 let place = [x, y][across] / length + shift;

@@ -1,7 +1,7 @@
-//! Which settings are worth their seconds.
+//! The Pareto front of cost and error.
 
-/// The settings that no other one beats in both cost and error: indices, the cheapest first. Costs
-/// and errors that are no numbers are on no front.
+/// Settings that no other setting beats in both cost and error, as indices, the cheapest first. NaN
+/// costs and errors are never on the front.
 pub fn pareto(points: &[(f64, Option<f64>)]) -> Vec<usize> {
     let mut known: Vec<(usize, f64, f64)> = points
         .iter()
@@ -19,12 +19,11 @@ pub fn pareto(points: &[(f64, Option<f64>)]) -> Vec<usize> {
     known.into_iter().map(|(index, ..)| index).collect()
 }
 
-/// The cheapest setting whose error, with the reference's own uncertainty on top, is at most
-/// `level`.
+/// The cheapest setting whose error plus the uncertainty of the reference is at most `level`.
 pub fn cheapest(points: &[(f64, Option<f64>)], uncertainty: f64, level: f64) -> Option<usize> {
     let reaches = |error: f64| error + uncertainty <= level;
-    let front = pareto(points);
-    front
+    let pareto = pareto(points);
+    pareto
         .into_iter()
         .find(|index| points[*index].1.is_some_and(reaches))
 }
@@ -34,7 +33,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn nothing_beats_the_front() {
+    fn no_setting_beats_the_pareto_front() {
         let points = [
             (1.0, Some(0.5)),
             (2.0, Some(0.1)),
@@ -45,8 +44,8 @@ mod tests {
             (0.1, Some(f64::NAN)),
             (2.0, Some(0.3)),
         ];
-        let front = pareto(&points);
-        assert_eq!(front, [0, 1, 4]);
+        let pareto = pareto(&points);
+        assert_eq!(pareto, [0, 1, 4]);
         for (index, (cost, error)) in points.iter().enumerate() {
             let Some(error) = error.filter(|error| !error.is_nan()) else {
                 continue;
@@ -57,12 +56,12 @@ mod tests {
                 })
             });
             let same = index == 3;
-            assert!(front.contains(&index) != beaten || same, "{index}");
+            assert!(pareto.contains(&index) != beaten || same, "{index}");
         }
     }
 
     #[test]
-    fn a_level_is_reached_with_the_uncertainty_on_top() {
+    fn a_level_includes_the_uncertainty() {
         let points = [(1.0, Some(0.09)), (3.0, Some(0.004)), (2.0, Some(0.05))];
         assert_eq!(cheapest(&points, 0.0, 0.1), Some(0));
         assert_eq!(cheapest(&points, 0.02, 0.1), Some(2));

@@ -1,48 +1,52 @@
-//! Models that know the attraction under a repulsive pressure, asked for a net one.
+//! States of a model under given repulsive pressures, interpolated to a given net pressure.
 
 use super::State;
 
-/// Factor between two repulsive pressures of a ladder.
-const RUNG: f64 = 1.15;
-/// The same for its light end, where a weak attraction has its pull-off at the first few summits.
-const LIGHT_RUNG: f64 = 1.5;
-/// Rungs that a ladder may have: enough for loads up to 1e100 times the modulus.
-const MOST_RUNGS: usize = 2000;
-/// First rung and the end of the light ones, in E* times the rms slope.
+/// Ratio of successive repulsive pressures.
+const LOAD_RATIO: f64 = 1.15;
+/// The same for light loads, where a weak attraction has its pull-off at the first few summits.
+const LIGHT_LOAD_RATIO: f64 = 1.5;
+/// Most repulsive pressures: enough for loads up to 1e100 times the modulus.
+const MOST_LOADS: usize = 2000;
+/// First repulsive pressure and end of the light ones, in E* times the rms slope.
 const FIRST: f64 = 1e-6;
 const LIGHT: f64 = 2e-3;
 
-/// Rungs between the two beside a dip of the net pressure, and the share of the greatest tension from
-/// which a dip may turn out the deepest.
+/// Repulsive pressures added around each minimum of the net pressure, and the share of the greatest
+/// tension from which a minimum is refined.
 const CLOSER: i32 = 9;
 const MAY_BE: f64 = 0.5;
 
-/// Repulsive pressures, in units of `unit`, from the first summit to what leaves `largest` net under
-/// an attraction of at most `tension` (Pa).
-pub(super) fn rungs(unit: f64, largest: f64, tension: f64) -> Vec<f64> {
-    // Tension is the law's scale, real attractions are a fraction of it, and beyond rms slope times
-    // modulus hardly a gap is left.
+/// Repulsive pressures, in units of `unit`, from the first summit to the pressure that leaves a net
+/// `largest` under an attraction of at most `tension` (Pa).
+pub(super) fn scan_loads(unit: f64, largest: f64, tension: f64) -> Vec<f64> {
+    // The law's peak tension is an upper bound: real attractions are a fraction of it, and beyond
+    // rms slope times modulus hardly any gap is left.
     let net = largest.max(0.0);
     let last = (net + tension).min(net + unit).max(2.0 * LIGHT * unit);
-    let mut rungs = vec![FIRST * unit];
+    let mut loads = vec![FIRST * unit];
     let mut at = FIRST * unit;
-    while at < last && rungs.len() < MOST_RUNGS {
-        at *= if at < LIGHT * unit { LIGHT_RUNG } else { RUNG };
-        rungs.push(at);
+    while at < last && loads.len() < MOST_LOADS {
+        at *= if at < LIGHT * unit {
+            LIGHT_LOAD_RATIO
+        } else {
+            LOAD_RATIO
+        };
+        loads.push(at);
     }
-    rungs
+    loads
 }
 
-/// States under rising repulsive pressures.
+/// States under increasing repulsive pressures.
 #[derive(Default)]
-pub(super) struct Ladder {
+pub(super) struct LoadScan {
     states: Vec<State>,
-    /// Repulsive pressure of each, Pa, rising.
+    /// Repulsive pressure of each, Pa, increasing.
     repulsive: Vec<f64>,
 }
 
-impl Ladder {
-    /// Adds the state under a repulsive pressure, Pa, in its place.
+impl LoadScan {
+    /// Inserts the state under a repulsive pressure, Pa, in order.
     pub fn add(&mut self, repulsive: f64, area: f64, mean_gap: f64, attraction: f64) {
         let state = State {
             mean_pressure: repulsive - attraction,
@@ -55,9 +59,8 @@ impl Ladder {
         self.states.insert(place, state);
     }
 
-    /// Whether the net pressure stays above `net` (Pa) under every repulsive pressure above the last,
-    /// whatever the gaps there: what does not touch now pulls by `peak` (Pa) at most, and what touches
-    /// goes on to touch.
+    /// Whether the net pressure exceeds `net` (Pa) under every repulsive pressure above the last:
+    /// points out of contact pull by at most `peak` (Pa), and points in contact stay in contact.
     pub fn stays_above(&self, net: f64, peak: f64) -> bool {
         let (Some(repulsive), Some(state)) = (self.repulsive.last(), self.states.last()) else {
             return false;
@@ -66,8 +69,8 @@ impl Ladder {
         repulsive - peak * open > net
     }
 
-    /// Repulsive pressures between the rungs beside each dip of the net pressure that may hold the
-    /// greatest tension, `CLOSER` to a dip.
+    /// Additional repulsive pressures around each minimum of the net pressure that may contain the
+    /// greatest tension, `CLOSER` for each.
     pub fn closer(&self) -> Vec<f64> {
         let net = |i: usize| self.states[i].mean_pressure;
         let deepest = self
@@ -103,7 +106,7 @@ impl Ladder {
             .filter(|state| state.mean_pressure < 0.0)
     }
 
-    /// The state at a net pressure on the closer side of pull-off, by straight lines between rungs.
+    /// The state at a net pressure on the compressive side of pull-off, by linear interpolation.
     pub fn at(&self, net: f64) -> Option<State> {
         // Of several, the one under the largest repulsive pressure.
         self.states[self.lowest()..]
@@ -134,37 +137,38 @@ mod tests {
     use super::*;
 
     #[test]
-    fn a_ladder_is_read_on_the_closer_side_of_its_greatest_tension() {
-        let mut ladder = Ladder::default();
+    fn scans_are_read_on_the_compressive_side() {
+        let mut scan = LoadScan::default();
         for (repulsive, attraction) in [(1.0, 2.0), (2.0, 5.0), (4.0, 6.0), (8.0, 6.0)] {
-            ladder.add(repulsive, 0.01 * repulsive, 10.0 - repulsive, attraction);
+            scan.add(repulsive, 0.01 * repulsive, 10.0 - repulsive, attraction);
         }
-        let pull_off = ladder.pull_off().expect("a tension");
+        let pull_off = scan.pull_off().expect("a tension");
         assert_eq!(pull_off.mean_pressure, -3.0);
-        let state = ladder.at(-1.0).expect("between the last three");
+        let state = scan.at(-1.0).expect("between the last three");
         assert_eq!(state.mean_pressure, -1.0);
         assert!((state.contact_area_fraction.unwrap() - (0.04 + 0.25 * 0.04)).abs() < 1e-15);
-        assert_eq!(ladder.at(3.0), None);
-        // Nine rungs between those beside the one dip; above 8 an attraction of 9 may yet hold, one of 7
-        // not where 8 % touch.
-        let closer = ladder.closer();
+        assert_eq!(scan.at(3.0), None);
+        // Nine additional loads around the one minimum; above a load of 8 an attraction of 9 could
+        // still balance it, one of 7 could not where 8 % touch.
+        let closer = scan.closer();
         assert_eq!(closer.len(), 9);
         assert!(closer[0] > 1.0 && closer[8] < 4.0);
-        assert!(!ladder.stays_above(0.0, 9.0) && ladder.stays_above(0.0, 7.0));
-        let rungs = rungs(1.0, 0.1, 0.0);
-        assert!(rungs[0] == FIRST && rungs.last().is_some_and(|last| *last >= 0.1));
+        assert!(!scan.stays_above(0.0, 9.0) && scan.stays_above(0.0, 7.0));
+        let loads = scan_loads(1.0, 0.1, 0.0);
+        assert!(loads[0] == FIRST && loads.last().is_some_and(|last| *last >= 0.1));
     }
 
-    /// Without roughness or with a load beyond all measure a ladder has its most rungs, and not more.
+    /// Without roughness or with an unlimited load the scan has its largest number of loads, and no
+    /// more.
     #[test]
-    fn a_ladder_ends() {
+    fn scans_are_finite() {
         for (unit, largest) in [
             (0.0, 1.0),
             (1e-300, 1e300),
             (1.0, 1e20),
             (1.0, f64::INFINITY),
         ] {
-            assert!(rungs(unit, largest, f64::INFINITY).len() <= MOST_RUNGS);
+            assert!(scan_loads(unit, largest, f64::INFINITY).len() <= MOST_LOADS);
         }
     }
 }

@@ -1,24 +1,24 @@
-//! How each asperity is pushed down by the contacts: pair by pair where they are near or few, and by
-//! the mesh beyond.
+//! Displacement of each asperity by the contacts: pair by pair if they are near or few, by the mesh
+//! otherwise.
 
 use super::Contact;
 use super::lattice::Lattice;
 use super::mesh::{Mesh, Stencil};
-use super::newton::pushed_by;
+use super::newton::displacement_by;
 use super::pair::pair;
 
-/// Contacts up to which all pairs are taken; the mesh would cost more.
+/// Up to this number of contacts all pairs are summed; the mesh would cost more.
 const FEW: usize = 96;
-/// Contact radii up to which a contact is more than a point load. Beyond, its displacement is taken low by
-/// `(a/r)^2/10` of itself, less than 1/360.
+/// Distance in contact radii up to which a contact is more than a point load. Beyond, its
+/// displacement is underestimated by `(a/r)^2/10` of itself, less than 1/360.
 const WIDE: f64 = 6.0;
-/// Most slope of one asperity's displacement by another's indentation. Two circles that cover each
-/// other's summits press on the same place, and slopes of 1 would leave open which of them carries
-/// how much; less than 1 lets the lower one leave.
+/// Largest derivative of one asperity's displacement with another's indentation. Two circles that
+/// cover each other's summits act on the same place, and derivatives of 1 would leave their shares
+/// of the load undetermined; less than 1 lets the lower one leave contact.
 const STEEPEST: f64 = 0.9;
 
-/// A contact's displacement at an asperity, or what the mesh lacks of it, m, and its slope by the
-/// contact's indentation.
+/// A contact's displacement of an asperity, or the part that the mesh lacks, m, and its derivative
+/// with the contact's indentation.
 #[derive(Clone, Copy, Debug)]
 struct Pair {
     row: usize,
@@ -27,26 +27,26 @@ struct Pair {
     slope: f64,
 }
 
-/// What the contacts of a set of asperities do to some of them, the rows.
+/// Displacements of some asperities (the rows) by the contacts of a set.
 pub(super) struct Field<'a> {
     mesh: Option<&'a Mesh>,
-    /// Places of the asperities on the mesh.
+    /// Stencils of the asperities on the mesh.
     stencils: &'a [Stencil],
-    /// The asperities that are looked at.
+    /// Indices of the rows.
     rows: Vec<usize>,
-    /// Those in contact.
+    /// Indices of the asperities in contact.
     touching: Vec<usize>,
-    /// Load over modulus of each of those, m^2.
+    /// Load over modulus of each contact, m^2.
     loads: Vec<f64>,
     pairs: Vec<Pair>,
-    /// Those in contact whose circles overlap, two and two.
+    /// Pairs of contacts whose circles overlap.
     pub overlapping: Vec<[usize; 2]>,
-    /// Those of them where one reaches over the other's summit.
+    /// Pairs of which one circle covers the other's summit.
     pub covering: Vec<[usize; 2]>,
 }
 
 impl<'a> Field<'a> {
-    /// Gathers the pairs.
+    /// Collects the pairs.
     pub fn new(
         contacts: &[Contact],
         rows: &[usize],
@@ -90,7 +90,7 @@ impl<'a> Field<'a> {
                     let position = contacts[i].asperity.position;
                     let [x, y] = lattice.offset(contact.asperity.position, position);
                     self.note(contacts, i, j, x.hypot(y));
-                    pushed_by(contact, position, lattice)
+                    displacement_by(contact, position, lattice)
                 };
                 self.pairs.push(Pair {
                     row,
@@ -141,7 +141,7 @@ impl<'a> Field<'a> {
         }
     }
 
-    /// Notes whether two circles overlap; of two in contact the wider is asked.
+    /// Records whether two circles overlap, tested from the wider one.
     fn note(&mut self, contacts: &[Contact], i: usize, j: usize, distance: f64) {
         let (other, wider) = (contacts[i].contact_radius, contacts[j].contact_radius);
         if other > 0.0 && (other, i) < (wider, j) {
@@ -154,7 +154,7 @@ impl<'a> Field<'a> {
         }
     }
 
-    /// Displacement of each row, m, by the contacts that are `counted`, by asperity.
+    /// Displacement of each row, m, by the contacts selected by `counted`.
     pub fn displacement(&self, counted: impl Fn(usize) -> bool) -> Vec<f64> {
         let takes: Vec<bool> = self.touching.iter().map(|&i| counted(i)).collect();
         let mut sums = self.smooth(|source| {
@@ -188,9 +188,9 @@ impl<'a> Field<'a> {
             .collect()
     }
 
-    /// The linear part of it for the rows that are active.
+    /// The linearised displacement of the active rows.
     pub fn slopes(&self, active: &[usize], contacts: &[Contact]) -> Slopes<'a> {
-        // Place of each row, and of each contact, among the active ones.
+        // Index of each row, and of each contact, among the active ones.
         let mut of_row = vec![None; self.rows.len()];
         let mut of_asperity = vec![None; contacts.len()];
         for (place, &row) in active.iter().enumerate() {
@@ -217,7 +217,7 @@ impl<'a> Field<'a> {
     }
 }
 
-/// Displacements of the active asperities by their indentations, to first order.
+/// Linearised displacements of the active asperities by their indentations.
 pub(super) struct Slopes<'a> {
     mesh: Option<&'a Mesh>,
     pairs: Vec<(u32, u32, f64)>,
@@ -243,7 +243,7 @@ impl Slopes<'_> {
     }
 }
 
-/// Rows by the part of the cell they lie in.
+/// Rows by their part of the cell.
 struct Bins {
     size: [f64; 2],
     counts: [usize; 2],
@@ -315,8 +315,8 @@ mod tests {
     use super::super::set::Set;
     use super::*;
 
-    /// Contacts at places without order, more of them than are taken pair by pair, a wide one among
-    /// them: the mesh against the sum over all pairs.
+    /// Contacts at random positions, more than are summed pair by pair, including a wide one: the
+    /// mesh against the sum over all pairs.
     #[test]
     fn the_mesh_and_its_pairs_are_the_sum_over_all_pairs() {
         let size = [4.0, 3.0];
@@ -345,7 +345,8 @@ mod tests {
         let field = Field::new(&contacts, &rows, &lattice, &set.stencils);
         let found = field.displacement(|_| true);
         let own = lattice.rest([0.0, 0.0]);
-        // The mesh stops where erfc is 2.4e-4 of what it splits; the table of the rest is good to 1e-4/L.
+        // The mesh omits an erfc of 2.4e-4 at its shortest wave; the table of the remainder is
+        // accurate to 1e-4/L.
         let coarse = 2.4e-4 * 3.0 / field.mesh.expect("many contacts").reach() + 3e-5;
         for (i, found) in found.iter().enumerate() {
             let mut sum = own * contacts[i].load_over_modulus();
@@ -353,9 +354,10 @@ mod tests {
             for (j, contact) in contacts.iter().enumerate() {
                 if j != i && contact.contact_radius > 0.0 {
                     let position = contacts[i].asperity.position;
-                    sum += pushed_by(contact, position, &lattice).0;
+                    sum += displacement_by(contact, position, &lattice).0;
                     let [x, y] = lattice.offset(contact.asperity.position, position);
-                    // One that is far is taken as a point, low by 1/360 at most (and 3 % of that).
+                    // A distant contact is taken as a point, which underestimates it by 1/360 at
+                    // most (and 3 % of that).
                     let point = 1.03 / (std::f64::consts::PI * x.hypot(y) * 360.0);
                     bound += contact.load_over_modulus() * (coarse + point);
                 }

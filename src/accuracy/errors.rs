@@ -1,19 +1,19 @@
-//! How far a run is from the reference.
+//! Errors of a run relative to the reference.
 
 use super::measure::{Measured, Point};
 use super::reference::Reference;
 
-/// Relative errors; `None` where there is nothing to compare.
+/// Relative errors; `None` if there is nothing to compare.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Errors {
-    /// Of contact area: the area between the two curves over the steps, over that below the
-    /// reference's.
+    /// Contact area: the area between the two curves over the steps, divided by the area below the
+    /// reference.
     pub area: Option<f64>,
-    /// The same of the force, of the mean gap or of the approach: what answers the path.
+    /// The same for the response to the path: force, mean gap or approach.
     pub force: Option<f64>,
-    /// Root mean square of the pressure over the cells, over that of the reference.
+    /// Root mean square error of the pressure over the cells, divided by that of the reference.
     pub pressure: Option<f64>,
-    /// Of the greatest tension.
+    /// Greatest tension.
     pub pull_off: Option<f64>,
 }
 
@@ -32,8 +32,8 @@ impl Errors {
     }
 }
 
-/// Errors of a run; none where a step did not converge.
-pub fn judge(found: &Measured, reference: &Reference) -> Errors {
+/// Errors of a run; `None` if a step did not converge.
+pub fn relative_errors(found: &Measured, reference: &Reference) -> Errors {
     if !found.converged {
         return Errors::default();
     }
@@ -43,13 +43,13 @@ pub fn judge(found: &Measured, reference: &Reference) -> Errors {
         [found.profile.as_deref(), reference.profile.as_deref()],
     );
     Errors {
-        // What the reference itself does not have is not judged.
+        // Quantities that the reference lacks are not compared.
         pull_off: reference.pull_off.and(difference.pull_off),
         ..difference
     }
 }
 
-/// How far a run is from another one of the same steps.
+/// Difference of a run from another run of the same steps.
 pub fn change(found: &Measured, base: &Measured) -> Errors {
     let steps: Vec<Option<Point>> = base.steps.clone();
     distance(
@@ -91,8 +91,8 @@ fn distance(
     }
 }
 
-/// The area between two curves over that below the second one, a step a unit. A step at which one of
-/// them has no value is all wrong.
+/// The area between two curves over steps, divided by the area below the second. A step at which
+/// only one of them has a value counts as completely wrong.
 fn between(pairs: impl Iterator<Item = (Option<f64>, Option<f64>)>) -> Option<f64> {
     let (mut off, mut whole) = (0.0, 0.0);
     for (found, there) in pairs {
@@ -126,7 +126,7 @@ mod tests {
             seconds: 1.0,
             iterations: 1,
             transforms: 1.0,
-            walked: values.len(),
+            steps_solved: values.len(),
             converged: true,
         }
     }
@@ -147,7 +147,7 @@ mod tests {
         assert!((errors.pressure.expect("a profile") - 0.1).abs() < 1e-12);
         assert_eq!(errors.pull_off, None);
         assert!(errors.largest() >= errors.force);
-        // A step that was left out is not compared; one that let go is all wrong.
+        // A skipped step is not compared; a step that separated is completely wrong.
         found.steps[0] = None;
         found.steps[1] = Some(Point {
             area: 0.0,
@@ -158,7 +158,7 @@ mod tests {
     }
 
     #[test]
-    fn pull_off_that_does_not_come_is_all_wrong() {
+    fn missing_pull_off_is_an_error_of_100_percent() {
         let mut base = measured(&[(0.1, Some(1.0))], &[1.0]);
         base.pull_off = Some(2.0);
         let mut found = base.clone();

@@ -1,40 +1,40 @@
-//! One surface on any grid.
+//! The same surface on any grid.
 //!
-//! A self-affine part draws the phase of each wave from its index, so its waves stay as the grid
-//! is refined, and a coarser grid lacks the shortest ones. Shapes are formulas; their centre is
-//! fixed where the scene's own grid has it. A periodic height file is refined and coarsened by its
-//! Fourier series. What belongs to one grid alone is refused.
+//! The phase of a self-affine wave depends on its index, so waves keep their phases as the grid is
+//! refined, and a coarser grid only lacks the shortest ones. Shapes are formulas; their centre
+//! stays where the scene's own grid has it. A periodic height file is interpolated by its Fourier
+//! series. Surfaces that belong to one grid are refused.
 
 use num_complex::Complex;
 
 use super::error::AccuracyError;
 use crate::grid::{Grid, signed_index};
 use crate::scene::{AdhesionMap, Boundary, GridScene, Scene, SurfacePart};
-use crate::surface::shapes::Place;
+use crate::surface::shapes::ApexPosition;
 use crate::surface::{Surface, SurfaceError, fourier};
 
 /// A scene whose surface is the same on every grid.
 #[derive(Clone, Debug)]
-pub struct SameSurface {
-    /// The scene, with points and size of its own grid and the centres of its shapes.
+pub struct GridIndependentSurface {
+    /// The scene with the points and size of its own grid and fixed centres of its shapes.
     pub scene: Scene,
     /// Its own grid.
     pub grid: Grid,
-    /// The series of its height files together, by columns; `None` without one.
+    /// The summed Fourier series of its height files, by columns; `None` without files.
     files: Option<Vec<Complex<f64>>>,
     /// The heights of those files on their own grid.
     sampled: Vec<f64>,
-    /// What the author should know of its files.
+    /// Warnings about its files.
     pub warnings: Vec<String>,
 }
 
-impl SameSurface {
-    /// Finds the scene's own grid and fixes what would move with it.
+impl GridIndependentSurface {
+    /// Finds the scene's own grid and fixes everything that would change with it.
     ///
     /// # Errors
-    /// A height file that cannot be read; a height file on a free boundary and a map of adhesion
-    /// from a file, which belong to one grid.
-    pub fn of(scene: &Scene) -> Result<SameSurface, AccuracyError> {
+    /// A height file that cannot be read; a height file on a free boundary or an adhesion map from
+    /// a file, which belong to one grid.
+    pub fn new(scene: &Scene) -> Result<GridIndependentSurface, AccuracyError> {
         let is_file = |part: &SurfacePart| matches!(part, SurfacePart::File(_));
         let has_file = scene.surfaces.iter().any(is_file);
         if has_file && scene.grid.boundary == Boundary::Free {
@@ -66,7 +66,7 @@ impl SameSurface {
             warnings = read.warnings;
             read.grid
         } else {
-            // Flat and checked: the scene's own numbers.
+            // Flat and already checked: only the scene's own numbers are used.
             Surface::from_parts(&scene.grid, &[SurfacePart::Flat])?.grid
         };
         let mut scene = scene.clone();
@@ -79,7 +79,7 @@ impl SameSurface {
         scene.surfaces.retain(|part| !is_file(part));
         for part in &mut scene.surfaces {
             if let SurfacePart::Sphere { centre, .. } | SurfacePart::Cone { centre, .. } = part {
-                let place = Place {
+                let place = ApexPosition {
                     centre: *centre,
                     boundary,
                 };
@@ -89,7 +89,7 @@ impl SameSurface {
         if scene.surfaces.is_empty() {
             scene.surfaces.push(SurfacePart::Flat);
         }
-        Ok(SameSurface {
+        Ok(GridIndependentSurface {
             scene,
             grid,
             files,
@@ -98,10 +98,10 @@ impl SameSurface {
         })
     }
 
-    /// The surface on the grid of a scene made from [`SameSurface::scene`].
+    /// The surface on the grid of a scene made from [`GridIndependentSurface::scene`].
     ///
     /// # Errors
-    /// What the surface's own parts refuse on this grid, such as waves below two pixels.
+    /// Errors of the surface's parts on this grid, such as waves below two pixels.
     pub fn on(&self, scene: &Scene) -> Result<Surface, SurfaceError> {
         let mut surface = Surface::build(scene)?;
         let Some(series) = &self.files else {
@@ -125,8 +125,8 @@ impl SameSurface {
     }
 }
 
-/// The columns of a series on another grid of the same size: waves that it cannot hold are left
-/// out, the ones at the end of the old band are shared between both signs.
+/// The columns of a Fourier series on another grid of the same size: waves that it cannot resolve
+/// are dropped, and the wave at the end of the old band is shared between both signs.
 fn resized(from: &Grid, series: &[Complex<f64>], to: &Grid) -> Vec<Complex<f64>> {
     let columns = from.nx.min(to.nx) / 2 + 1;
     let mut found = vec![Complex::default(); columns * to.ny];
@@ -134,7 +134,7 @@ fn resized(from: &Grid, series: &[Complex<f64>], to: &Grid) -> Vec<Complex<f64>>
         if 2 * kx >= to.nx && kx > 0 {
             continue;
         }
-        // The last column of an even grid is its own mirror image, and is counted once there.
+        // The last column of an even grid is its own mirror image and is counted once there.
         let share_x = if 2 * kx == from.nx { 0.5 } else { 1.0 };
         for ky in 0..from.ny {
             let l = signed_index(ky, from.ny);
@@ -161,7 +161,7 @@ mod tests {
     fn a_finer_grid_goes_through_the_points_of_the_coarser_one() {
         for [nx, ny] in [[8, 6], [7, 9], [4, 1]] {
             let coarse = Grid::new([nx, ny], [2.0, 1.0]);
-            // Any heights, the highest wave included.
+            // Arbitrary heights, with the highest wave.
             let heights: Vec<f64> = (0..nx * ny)
                 .map(|i| ((i * i * 31 + 7 * i) % 17) as f64)
                 .collect();
@@ -174,7 +174,8 @@ mod tests {
                     assert!((old - new).abs() < 1e-12, "{nx} x {ny}: {old} {new}");
                 }
             }
-            // And back: what the fine grid holds of the band is the coarse one's, but for its end.
+            // And back: within the band the fine grid agrees with the coarse one, except at the
+            // end.
             let again = resized(&fine, &fourier::analyse(&fine, &refined), &coarse);
             for kx in 0..nx.div_ceil(2) {
                 for ky in (0..ny).filter(|ky| 2 * ky != ny) {
