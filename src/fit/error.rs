@@ -165,7 +165,7 @@ pub enum FitError {
     },
     /// No row is in compression.
     #[error(
-        "{path}: no row is in compression (force > 0), so nothing tells the modulus; force must be positive in compression, tension negative",
+        "{path}: no row is in compression (force > 0), so the modulus cannot be determined; force must be positive in compression, tension negative",
         path = path.display()
     )]
     NoCompression {
@@ -174,7 +174,7 @@ pub enum FitError {
     },
     /// The greatest force lies on the far side.
     #[error(
-        "{path}: the force grows as the surfaces go apart; approach must be positive closer (turn its sign, or that of the force)",
+        "{path}: the force grows as the surfaces separate; approach must be positive closer (turn its sign, or that of the force)",
         path = path.display()
     )]
     WrongWay {

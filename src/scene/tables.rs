@@ -1,7 +1,7 @@
-//! Tables of effects that hold numbers alone: declared here, and read, shown and refused alike.
+//! Tables of effects that contain numbers only: one declaration gives type, keys, reader and summary.
 //!
-//! An entry is the table's name, its type, and a line for each key: what it measures, and a value
-//! that would do. Every key is required, and its value is above 0.
+//! An entry has the table's name, its type, and for each key its dimension and an example. Every key is
+//! required, and its value is above 0.
 
 use serde_json::{Value, json};
 
@@ -34,7 +34,7 @@ macro_rules! tables {
                     later: &[],
                 };
 
-                /// Reads the table: `Some(None)` where the scene has none.
+                /// Reads the table: `Some(None)` if the scene has none, `None` after a mistake.
                 fn read(scene: &Reader) -> Option<Option<Self>> {
                     if !scene.has(stringify!($table)) {
                         return Some(None);
@@ -100,21 +100,21 @@ macro_rules! tables {
 }
 
 tables! {
-    /// `[friction]`: what it takes to slide.
+    /// `[friction]`: a shear strength of the contact area.
     friction: FrictionScene {
         /// Shear strength of the area in contact, Pa.
         shear_strength: Pressure = "10 MPa",
     }
-    /// `[conductance]`: what the bodies conduct; heat, or a current with S/m in place of W/(m K).
+    /// `[conductance]`: conductivities for heat, or for a current with S/m in place of W/(m K).
     conductance: ConductanceScene {
         /// Conductivity of the solid, W/(m K).
         conductivity: Conductivity = "400 W/(m K)",
         /// Conductivity of the counter-face, W/(m K).
         counter_conductivity: Conductivity = "1.4 W/(m K)",
     }
-    /// `[wear]`: what sliding takes off.
+    /// `[wear]`.
     wear: WearScene {
-        /// Volume worn off for each load and length of sliding, m^3/(N m).
+        /// Volume worn off per load and length of sliding, m^3/(N m).
         specific_wear_rate: SpecificWear = "1e-6 mm^3/(N m)",
     }
 }

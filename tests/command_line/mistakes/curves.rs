@@ -118,7 +118,7 @@ pub fn reached() -> Vec<Reached> {
         (
             "WrongWay",
             rows(head, 20, |i| format!("{i},{}", 100.0 - 10.0 * i as f64)),
-            "the force grows as the surfaces go apart",
+            "the force grows as the surfaces separate",
         ),
     ];
     let folder = tempfile::tempdir().expect("a folder");
