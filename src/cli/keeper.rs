@@ -15,8 +15,8 @@ use crate::output::{
 };
 use crate::scene::{Control, FieldName, LoadingScene, Precision, StepChoice};
 use crate::study::{
-    Earlier, Evaluation, FinishedStep, HandOver, Observer, PullOff, Search, Setup, State, StepRow,
-    Tension, WalkEnd,
+    Checkpoint, Earlier, Evaluation, FinishedStep, Observer, PullOff, Search, Setup, State,
+    StepRow, Tension, WalkEnd,
 };
 use crate::units::format_si;
 
@@ -39,7 +39,7 @@ pub(super) struct Keeper<'a> {
     /// What the run warned of, besides what its scene gives rise to.
     warnings: Vec<String>,
     /// Jumps and transforms up to the last finished step.
-    tallies: HandOver,
+    tallies: Checkpoint,
     /// Steps whose state is on the disk.
     committed: usize,
     /// Whether pictures and fields of a run that ended early are still to be cleared away.
@@ -75,7 +75,7 @@ impl<'a> Keeper<'a> {
             last: None,
             rows: earlier.rows.clone(),
             warnings,
-            tallies: tallies(&earlier.hand_over),
+            tallies: tallies(&earlier.checkpoint),
             committed: earlier.rows.len(),
             stale: true,
             seconds,
@@ -214,7 +214,7 @@ impl<'a> Keeper<'a> {
         Ok(())
     }
 
-    fn commit(&mut self, step: usize, state: &HandOver) -> Result<(), OutputError> {
+    fn commit(&mut self, step: usize, state: &Checkpoint) -> Result<(), OutputError> {
         self.folder.expect_present()?;
         SavedState {
             scene: self.scene.clone(),
@@ -224,7 +224,7 @@ impl<'a> Keeper<'a> {
             curve: self.curve.checksum(),
             warnings: self.warnings.clone(),
             single: self.single() && !self.setup.scene.solid.remembers(),
-            hand_over: Cow::Borrowed(state),
+            checkpoint: Cow::Borrowed(state),
         }
         .write(&self.folder.state_path(STATE))?;
         self.committed = step;
@@ -284,12 +284,12 @@ impl<'a> Keeper<'a> {
         {
             self.warn(text);
         }
-        self.tallies = HandOver {
+        self.tallies = Checkpoint {
             jump_in_steps: end.jump_in_steps.clone(),
             jump_off_steps: end.jump_off_steps.clone(),
             pull_off: end.pull_off,
             transforms: end.transforms,
-            ..HandOver::default()
+            ..Checkpoint::default()
         };
         let summary = summarise(self.seconds_so_far(), self.all_warnings());
         summary.write(&self.folder.summary_path())?;
@@ -364,8 +364,8 @@ fn pull_off_warning(loading: &LoadingScene, end: &WalkEnd) -> Option<String> {
 }
 
 /// What a hand-over says besides its fields.
-fn tallies(state: &HandOver) -> HandOver {
-    HandOver {
+fn tallies(state: &Checkpoint) -> Checkpoint {
+    Checkpoint {
         fields: Vec::new(),
         points: None,
         jump_in_steps: state.jump_in_steps.clone(),
@@ -405,11 +405,11 @@ impl Observer for Keeper<'_> {
         });
     }
 
-    fn wants_hand_over(&self) -> bool {
+    fn wants_checkpoint(&self) -> bool {
         true
     }
 
-    fn hand_over(&mut self, step: usize, state: &HandOver) -> Result<(), OutputError> {
+    fn checkpoint(&mut self, step: usize, state: &Checkpoint) -> Result<(), OutputError> {
         let clock = Instant::now();
         let kept = self.commit(step, state);
         self.output_seconds += clock.elapsed().as_secs_f64();

@@ -9,7 +9,7 @@ use super::leftovers::lost;
 use super::machine::Machine;
 use crate::output::{Curve, CurveWriter, FRESH, OutputError, RunFolder, SavedState, set_aside};
 use crate::scene::{Precision, Scene};
-use crate::study::{Column, Earlier, HandOver, Setup};
+use crate::study::{Checkpoint, Column, Earlier, Setup};
 
 /// A folder ready to be written, and what is in it already.
 pub(super) struct Opening {
@@ -95,7 +95,7 @@ fn start(
         curve: curve.checksum(),
         warnings: Vec::new(),
         single: machine.precision() == Precision::Single && !setup.scene.solid.remembers(),
-        hand_over: Cow::Owned(HandOver::default()),
+        checkpoint: Cow::Owned(Checkpoint::default()),
     }
     .write(&folder.state_path(STATE))?;
     Ok(Opening {
@@ -162,7 +162,7 @@ fn sound(
         return refuse("is of another scene".to_owned());
     }
     let points = setup.problem.shape.len();
-    let handed = &state.hand_over;
+    let handed = &state.checkpoint;
     if state.finished > setup.scene.loading.path.len()
         || handed
             .fields
@@ -246,7 +246,7 @@ fn go_on(
         curve,
         earlier: Earlier {
             rows,
-            hand_over: state.hand_over.into_owned(),
+            checkpoint: state.checkpoint.into_owned(),
         },
         warnings,
         remarks,

@@ -48,7 +48,7 @@ impl Hooks for AdhesionMap {
     fn pose(&self, problem: Problem, _: &Scene, map: Option<&[f64]>) -> Problem {
         // A problem without a law has no tension to multiply.
         if problem.law.is_adhesive() {
-            problem.patterned(map.unwrap_or_default().to_vec())
+            problem.with_adhesion_map(map.unwrap_or_default().to_vec())
         } else {
             problem
         }

@@ -53,7 +53,7 @@ impl Hooks for Conductance {
     }
 
     fn pose(&self, problem: Problem, _: &Scene, _: Option<&[f64]>) -> Problem {
-        problem.conducting()
+        problem.with_conductance()
     }
 
     fn host_bytes(&self, sizes: &Sizes) -> HostBytes {

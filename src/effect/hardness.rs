@@ -71,7 +71,7 @@ impl Hooks for Hardness {
 
     fn pose(&self, problem: Problem, scene: &Scene, _: Option<&[f64]>) -> Problem {
         match scene.solid.hardness {
-            Some(hardness) => problem.yielding(hardness),
+            Some(hardness) => problem.with_hardness(hardness),
             None => problem,
         }
     }
@@ -122,14 +122,14 @@ impl Carry for Indentation {
     }
 
     fn restore(&self, solver: &mut ContactSolver) {
-        if !(self.depths.is_empty() && solver.flowed().is_empty()) {
-            solver.set_flowed(&self.depths);
+        if !(self.depths.is_empty() && solver.plastic_depths().is_empty()) {
+            solver.set_plastic_depths(&self.depths);
         }
     }
 
     /// A mean gap is wider by what the heights have lost.
     fn load(&self, solver: &ContactSolver, load: Load) -> Load {
-        let depths = solver.flowed();
+        let depths = solver.plastic_depths();
         match load.hold {
             Hold::Gap(target) if !depths.is_empty() => Load {
                 hold: Hold::Gap(target + depths.iter().sum::<f64>() / depths.len() as f64),
@@ -158,7 +158,7 @@ impl Carry for Indentation {
             }
         }
         if is_indented {
-            solver.set_flowed(&self.depths);
+            solver.set_plastic_depths(&self.depths);
             solver.set_gap(&gap);
         }
         Ok(())

@@ -175,6 +175,8 @@ fn difference(left: &[&'static str], right: &[&'static str]) -> Vec<&'static str
 
 #[cfg(test)]
 mod tests {
+    use std::path::Path;
+
     use super::*;
 
     #[test]
@@ -193,5 +195,25 @@ mod tests {
         let mut places: Vec<usize> = columns.map(|column| column.place).collect();
         places.sort_unstable();
         assert!(places.iter().copied().eq(0..places.len()), "{places:?}");
+    }
+
+    /// The example of each effect asks for it, and without it the scene does not.
+    #[test]
+    fn an_example_asks_for_its_effect() {
+        let text = "[grid]\npoints = 32\nsize = 1.0\n[solid]\ncontact_modulus = 1.0\n[[surface]]\nkind = \"wavy\"\namplitude = 0.02\nwavelength = 0.5\n[loading]\ncontrol = \"approach\"\nstart = 0.0\n[[loading.ramp]]\nto = 0.01\nsteps = 1\nduration = 1\n";
+        for effect in Effect::ALL {
+            let settings = effect.example().iter();
+            let settings: Vec<(String, String)> = settings
+                .map(|(key, value)| ((*key).to_owned(), (*value).to_owned()))
+                .collect();
+            let read = |settings| Scene::parse(text, "effect.toml", Path::new("."), settings);
+            let without = read(&[]).unwrap_or_else(|errors| panic!("{errors}"));
+            assert!(!effect.is_on(&without), "{effect:?}");
+            let with = read(&settings).unwrap_or_else(|errors| panic!("{errors}"));
+            assert!(effect.is_on(&with), "{effect:?}");
+            assert!(!effect.is_on(&effect.removed_from(&with)), "{effect:?}");
+            assert_eq!(Effect::from_name(effect.name()), Some(effect));
+        }
+        assert_eq!(Effect::from_name("levitation"), None);
     }
 }

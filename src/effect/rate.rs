@@ -78,7 +78,7 @@ impl Hooks for Rate {
         }
         // Where an edge recedes there will be a factor.
         let ones = vec![1.0; problem.heights.len()];
-        problem.patterned(ones)
+        problem.with_adhesion_map(ones)
     }
 
     // What the edge loses to its speed cannot be told from what a jump loses.

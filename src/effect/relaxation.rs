@@ -89,7 +89,11 @@ impl Hooks for Relaxation {
 
     fn problem_over(&self, setup: &Setup, duration: f64) -> Option<Problem> {
         let modulus = effective_modulus(&setup.scene.solid, duration);
-        Some(setup.problem.stiffened(modulus, setup.solved_law()))
+        Some(
+            setup
+                .problem
+                .with_contact_modulus(modulus, setup.solved_law()),
+        )
     }
 
     fn carry(&self, setup: &Setup, checkpoint: &Checkpoint) -> Option<Box<dyn Carry>> {
@@ -237,7 +241,7 @@ impl Carry for History {
         for (u, h) in displacement.iter_mut().zip(heights) {
             *u += h + rigid;
         }
-        for (u, depth) in displacement.iter_mut().zip(solver.flowed()) {
+        for (u, depth) in displacement.iter_mut().zip(solver.plastic_depths()) {
             *u -= depth;
         }
         self.advance(solid, duration, displacement);

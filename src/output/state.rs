@@ -15,7 +15,7 @@ use serde_json::Value;
 
 use super::error::{FRESH, OutputError};
 use super::folder::write_within;
-use crate::study::{HandOver, HandedField, PointState, PullOff};
+use crate::study::{Checkpoint, CheckpointField, PointState, PullOff};
 
 /// First line of the file. A change of the form changes the number.
 const FORM: &[u8] = b"tabor state 2\n";
@@ -42,7 +42,7 @@ pub struct SavedState<'a> {
     /// Whether fields are known in single precision only.
     pub single: bool,
     /// What the next step starts from.
-    pub hand_over: Cow<'a, HandOver>,
+    pub checkpoint: Cow<'a, Checkpoint>,
 }
 
 /// The JSON head.
@@ -78,7 +78,7 @@ impl SavedState<'_> {
     }
 
     fn encode(&self) -> serde_json::Result<Vec<u8>> {
-        let state = &self.hand_over;
+        let state = &self.checkpoint;
         let head = serde_json::to_vec(&Head {
             tabor: env!("CARGO_PKG_VERSION").to_owned(),
             scene: self.scene.clone(),
@@ -180,7 +180,7 @@ fn decode(bytes: &[u8]) -> Result<SavedState<'static>, String> {
         } else {
             numbers(part, f64::from_le_bytes)
         };
-        fields.push(HandedField { name, values });
+        fields.push(CheckpointField { name, values });
     }
     let points = match head.points {
         None => None,
@@ -200,7 +200,7 @@ fn decode(bytes: &[u8]) -> Result<SavedState<'static>, String> {
         curve: head.curve,
         warnings: head.warnings,
         single: head.single,
-        hand_over: Cow::Owned(HandOver {
+        checkpoint: Cow::Owned(Checkpoint {
             fields,
             points,
             jump_in_steps: head.jump_in_steps,
@@ -243,8 +243,8 @@ mod tests {
             curve: 0xdead_beef,
             warnings: vec!["step 2 is separated".into()],
             single,
-            hand_over: Cow::Owned(HandOver {
-                fields: vec![HandedField {
+            checkpoint: Cow::Owned(Checkpoint {
+                fields: vec![CheckpointField {
                     name: "gap".into(),
                     values,
                 }],
@@ -275,7 +275,7 @@ mod tests {
             state.write(&path).unwrap();
             let read = SavedState::read(&path).unwrap().unwrap();
             let bits = |state: &SavedState| -> Vec<u64> {
-                let values = state.hand_over.fields[0].values.iter();
+                let values = state.checkpoint.fields[0].values.iter();
                 values.map(|value| value.to_bits()).collect()
             };
             assert_eq!(bits(&read), bits(&state));

@@ -111,7 +111,7 @@ pub struct ContactSolver<'a> {
     /// Mean of it.
     mean_offset: f64,
     /// Depths by which flow has lowered the heights, over all solved points; empty where it has not.
-    flowed: Vec<f64>,
+    plastic_depths: Vec<f64>,
 }
 
 /// Evaluations that one search of a step length may take where each is looked at, the scalar kernels'
@@ -183,7 +183,7 @@ impl<'a> ContactSolver<'a> {
             helped_by: 0.0,
             offset: Vec::new(),
             mean_offset: 0.0,
-            flowed: Vec::new(),
+            plastic_depths: Vec::new(),
         }
     }
 
@@ -236,19 +236,19 @@ impl<'a> ContactSolver<'a> {
     }
 
     /// Lowers the rigid heights by the depths that have flowed (reduced, all solved points).
-    pub fn set_flowed(&mut self, depths: &[f64]) {
-        self.flowed = depths.to_vec();
+    pub fn set_plastic_depths(&mut self, depths: &[f64]) {
+        self.plastic_depths = depths.to_vec();
         self.write_heights();
     }
 
     /// Depths by which flow has lowered the heights, over all solved points; empty where it has not.
-    pub fn flowed(&self) -> &[f64] {
-        &self.flowed
+    pub fn plastic_depths(&self) -> &[f64] {
+        &self.plastic_depths
     }
 
     fn write_heights(&mut self) {
         let mut moved = self.problem.padded(&self.problem.heights, 0.0);
-        for (height, depth) in moved.iter_mut().zip(&self.flowed) {
+        for (height, depth) in moved.iter_mut().zip(&self.plastic_depths) {
             *height -= depth;
         }
         for (height, offset) in moved.iter_mut().zip(&self.offset) {
@@ -289,8 +289,8 @@ impl<'a> ContactSolver<'a> {
     /// The gap at which the undeformed surfaces first touch, scaled or shifted to a held mean gap.
     fn undeformed(&self, load: &Load) -> Vec<f64> {
         let mut heights = self.problem.heights.clone();
-        if !self.flowed.is_empty() {
-            let depths = self.problem.surface_part(&self.flowed);
+        if !self.plastic_depths.is_empty() {
+            let depths = self.problem.surface_part(&self.plastic_depths);
             heights
                 .iter_mut()
                 .zip(depths)
@@ -518,7 +518,7 @@ impl<'a> ContactSolver<'a> {
         };
         let helped = match start {
             // Coarse grids know nothing of what has flowed.
-            Start::Cold if self.flowed.is_empty() => {
+            Start::Cold if self.plastic_depths.is_empty() => {
                 coarse_start::gap(self.problem, load, make_backend, watch)?
             }
             _ => None,

@@ -149,7 +149,7 @@ impl Problem {
     }
 
     /// The same problem on a perfectly plastic solid of a hardness (Pa).
-    pub fn yielding(self, hardness: f64) -> Problem {
+    pub fn with_hardness(self, hardness: f64) -> Problem {
         Problem {
             hardness: Some(hardness / self.scales.pressure),
             ..self
@@ -171,7 +171,7 @@ impl Problem {
     }
 
     /// The same problem with the conductance of its contacts asked.
-    pub fn conducting(self) -> Problem {
+    pub fn with_conductance(self) -> Problem {
         Problem {
             conducts: true,
             ..self
@@ -179,7 +179,7 @@ impl Problem {
     }
 
     /// The same problem with the law's tension multiplied by a factor at each grid point.
-    pub fn patterned(self, factor: Vec<f64>) -> Problem {
+    pub fn with_adhesion_map(self, factor: Vec<f64>) -> Problem {
         Problem {
             law_factor: Some(factor),
             ..self
@@ -187,7 +187,7 @@ impl Problem {
     }
 
     /// The same problem on a solid of another contact modulus (Pa), with a law in SI units.
-    pub fn stiffened(&self, contact_modulus: f64, law: Law) -> Problem {
+    pub fn with_contact_modulus(&self, contact_modulus: f64, law: Law) -> Problem {
         let scales = Scales {
             pressure: contact_modulus * self.scales.length / self.scales.lateral,
             ..self.scales

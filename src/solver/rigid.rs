@@ -166,7 +166,7 @@ mod tests {
         let factor: Vec<f64> = (0..64)
             .map(|i| if i % 2 == 0 { 1.0 } else { 0.1 })
             .collect();
-        let problem = lennard_jones().patterned(factor);
+        let problem = lennard_jones().with_adhesion_map(factor);
         let gap = touching(&problem);
         let target = 0.2 * mean(&gap);
         let moved = problem.moved_to(gap, target);

@@ -41,7 +41,7 @@ pub struct Earlier {
     /// Their rows.
     pub rows: Vec<StepRow>,
     /// The state after the last of them.
-    pub hand_over: Checkpoint,
+    pub checkpoint: Checkpoint,
 }
 
 impl Checkpoint {

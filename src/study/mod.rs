@@ -26,7 +26,7 @@ mod walker;
 pub(crate) use across::held_across;
 pub use across::{attraction_across, greatest_across};
 pub use between::Search;
-pub use checkpoint::{Checkpoint as HandOver, CheckpointField as HandedField, Earlier};
+pub use checkpoint::{Checkpoint, CheckpointField, Earlier};
 pub use cost::Cost;
 pub use evaluation::{Evaluation, PointState, Solved};
 pub use hooks::HostBytes;
@@ -41,7 +41,6 @@ pub use row::{Column, State, StepRow};
 pub use setup::Setup;
 
 pub(crate) use attempt::Attempt;
-pub(crate) use checkpoint::{Checkpoint, CheckpointField};
 pub(crate) use hooks::{Carry, Effects, Hooks, Sizes};
 pub(crate) use memory::{DOUBLE, EVALUATION};
 pub(crate) use step::{SolvedStep, separated};

@@ -30,12 +30,12 @@ pub trait Observer {
     /// Is told what is looked for between a step and the one before, each time that more is known. The
     /// iterations that follow are of loads in between, which have no rows.
     fn search(&mut self, _step: usize, _search: Search) {}
-    /// Whether [`hand_over`](Observer::hand_over) is wanted: reading fields back is not free.
-    fn wants_hand_over(&self) -> bool {
+    /// Whether [`checkpoint`](Observer::checkpoint) is wanted: reading fields back is not free.
+    fn wants_checkpoint(&self) -> bool {
         false
     }
     /// Keeps the checkpoint after a converged step, once the step itself is kept.
-    fn hand_over(&mut self, _step: usize, _state: &Checkpoint) -> Result<(), Self::Error> {
+    fn checkpoint(&mut self, _step: usize, _state: &Checkpoint) -> Result<(), Self::Error> {
         Ok(())
     }
 }

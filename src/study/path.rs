@@ -33,10 +33,7 @@ pub fn walk_on<O: Observer>(
     observer: &mut O,
     earlier: Earlier,
 ) -> Result<WalkEnd, WalkError<O::Error>> {
-    let Earlier {
-        rows,
-        hand_over: checkpoint,
-    } = earlier;
+    let Earlier { rows, checkpoint } = earlier;
     let mut carried = Carried::from_checkpoint(setup, &checkpoint);
     let mut end = WalkEnd {
         jump_in_steps: checkpoint.jump_in_steps,
@@ -180,7 +177,7 @@ impl Stretch<'_> {
                 end.unreachable = solved.unreachable;
                 return Ok(None);
             }
-            if observer.wants_hand_over() {
+            if observer.wants_checkpoint() {
                 let left = walker.carried()?;
                 let checkpoint = Checkpoint {
                     fields: left.checkpoint_fields(),
@@ -190,7 +187,7 @@ impl Stretch<'_> {
                     pull_off: end.pull_off,
                     transforms: end.transforms,
                 };
-                let kept = observer.hand_over(step, &checkpoint);
+                let kept = observer.checkpoint(step, &checkpoint);
                 kept.map_err(WalkError::Observer)?;
                 let needed = walker.is_loaded() && self.looks_back(index + 1, jumps);
                 standing = needed.then_some(left);

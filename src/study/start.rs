@@ -22,7 +22,7 @@ pub(super) fn start(attempt: &mut Attempt, load: &Load) -> Result<Start, Backend
     if !attempt.loaded {
         return Ok(
             if problem.boundary == Boundary::Free || controller.is_sprung() {
-                let depths = attempt.solver.flowed();
+                let depths = attempt.solver.plastic_depths();
                 Start::Gap(controller.undeformed_gap(attempt.value, depths))
             } else {
                 Start::Cold

@@ -112,7 +112,7 @@ pub(super) fn finish(
         gap: &gap,
         elastic: &elastic,
         mean_offset: solver.mean_offset(),
-        plastic_depth: solver.flowed(),
+        plastic_depth: solver.plastic_depths(),
         held: outcome.mean_pressure,
         load: *load,
         law_factor: solver.law_factor(),

@@ -266,7 +266,7 @@ fn rough_solid_that_flows() {
     let surface = rough(64);
     let problem = |law| {
         let (grid, heights) = (surface.grid, &surface.heights);
-        Problem::new(grid, Boundary::Periodic, 1.0, heights, 1.0, law).yielding(0.3)
+        Problem::new(grid, Boundary::Periodic, 1.0, heights, 1.0, law).with_hardness(0.3)
     };
     let wall = problem(Law::HardWall);
     let load = at_pressure(&wall, 0.1);
@@ -462,7 +462,7 @@ fn double_precision_on_the_device_solves_as_the_processor_does() {
     let surface = rough(32);
     let (grid, heights) = (surface.grid, &surface.heights);
     let flowing =
-        Problem::new(grid, Boundary::Periodic, 1.0, heights, 1.0, laws()[2].1).yielding(0.3);
+        Problem::new(grid, Boundary::Periodic, 1.0, heights, 1.0, laws()[2].1).with_hardness(0.3);
     let held = at_gap(&flowing, 0.02);
     let mut all = contacts(32);
     all.push(("hardness, gap".to_owned(), flowing, held));
@@ -571,7 +571,7 @@ fn an_iteration_costs_what_the_crate_page_says() {
             law,
         );
         let problem = match title == flowing {
-            true => problem.yielding(0.3),
+            true => problem.with_hardness(0.3),
             false => problem,
         };
         let load = match held {

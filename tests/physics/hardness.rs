@@ -31,7 +31,7 @@ fn heights(solved: &Solved, step: usize) -> Vec<f64> {
         .field(FieldName::Heights, &solved.setup.surface.heights)
 }
 
-fn flowed(row: &StepRow) -> f64 {
+fn plastic_energy(row: &StepRow) -> f64 {
     row.column("plastic_energy").expect("a plastic energy")
 }
 
@@ -188,16 +188,19 @@ fn load_unload_load_again_against_a_dense_solution() {
             }
         }
         let row = &solved.steps[step].row;
-        assert!((flowed(row) - energy).abs() < 1e-6 * energy, "step {step}");
+        assert!(
+            (plastic_energy(row) - energy).abs() < 1e-6 * energy,
+            "step {step}"
+        );
         let flows = depth.iter().filter(|d| **d > 1e-12).count();
         println!("step {step}: {flows} of 256 points flow, plastic energy {energy:.4e}");
         // Down and up again nothing flows.
         assert_eq!(flows > 0, matches!(step, 0 | 1 | 4), "step {step}");
     }
     let rows: Vec<&StepRow> = solved.rows().collect();
-    assert!(flowed(rows[1]) > 1.5 * flowed(rows[0]));
-    assert!((flowed(rows[3]) / flowed(rows[1]) - 1.0).abs() < 1e-7);
-    assert!(flowed(rows[4]) > 1.2 * flowed(rows[3]));
+    assert!(plastic_energy(rows[1]) > 1.5 * plastic_energy(rows[0]));
+    assert!((plastic_energy(rows[3]) / plastic_energy(rows[1]) - 1.0).abs() < 1e-7);
+    assert!(plastic_energy(rows[4]) > 1.2 * plastic_energy(rows[3]));
 }
 
 /// p is within its bounds, presses only where the gap is closed, and flows only at the hardness.
@@ -236,14 +239,17 @@ fn a_sphere_begins_to_flow_where_its_peak_says() {
     let [soft, stiff] = [&solved, &elastic].map(|run| &run.fields(0).pressure);
     let apart = soft.iter().zip(stiff).map(|(a, b)| (a - b).abs());
     assert!(apart.fold(0.0, f64::max) < 1e-8 * hardness);
-    assert_eq!(flowed(&solved.steps[0].row), 0.0);
+    assert_eq!(plastic_energy(&solved.steps[0].row), 0.0);
     let mut before = vec![0.0; 64 * 64];
     for (step, force) in forces.into_iter().enumerate() {
         let fields = solved.fields(step);
         balanced(fields, &before, hardness, force, (0.4f64 / 64.0).powi(2));
         before = fields.plastic_depth.clone();
         if step > 0 {
-            assert!(flowed(&solved.steps[step].row) > flowed(&solved.steps[step - 1].row));
+            assert!(
+                plastic_energy(&solved.steps[step].row)
+                    > plastic_energy(&solved.steps[step - 1].row)
+            );
             let peak = fields.pressure.iter().copied().fold(0.0, f64::max);
             assert_eq!(peak, hardness);
             let [soft, stiff] = [&solved, &elastic].map(|run| run.steps[step].row.clone());
@@ -288,7 +294,7 @@ fn fully_plastic_contact_is_the_bearing_area() {
         let lower = sorted[(share * points).floor() as usize];
         let [least, most] = [upper, lower]
             .map(|level| sorted.iter().map(|h| (h - level).max(0.0)).sum::<f64>() / points);
-        let found = flowed(row) / hardness;
+        let found = plastic_energy(row) / hardness;
         println!("share {share}: volume {found:.6e}, bearing {least:.6e} to {most:.6e}");
         let elastic = 2.0 * hardness / (2.0 * PI);
         assert!(found > least - elastic && found < most + elastic);
@@ -317,16 +323,16 @@ fn one_step_or_many() {
     };
     let one = run("[0.02]");
     let many = run("[0.004, 0.008, 0.012, 0.016, 0.02]");
-    let [a, b] = [&one, &many].map(|run| flowed(run.rows().last().expect("a row")));
+    let [a, b] = [&one, &many].map(|run| plastic_energy(run.rows().last().expect("a row")));
     println!("in one step {a:.8e}, in five {b:.8e}");
     // A point that flows may be relieved a little by its neighbours' flow later.
     assert!((a / b - 1.0).abs() < 1e-3, "{a} {b}");
 }
 
-/// Pressed and drawn back by the approach: the work of the loop is what has flowed. Trapezia of the
+/// Pressed and drawn back by the approach: the work of the loop is the plastic energy. Trapezia of the
 /// force are right to second order in the step; twice the steps leave at most a third of the error
 /// (points that yield within a step bend the curve there).
-fn the_work_of_a_loop_is_what_has_flowed() {
+fn the_work_of_a_loop_is_the_plastic_energy() {
     let mut errors = Vec::new();
     for steps in [8, 16, 32] {
         let loading = format!(
@@ -342,17 +348,17 @@ fn the_work_of_a_loop_is_what_has_flowed() {
             })
             .sum();
         let last = rows.last().expect("a row");
-        assert!(last.elastic_energy < 1e-15 * flowed(last));
+        assert!(last.elastic_energy < 1e-15 * plastic_energy(last));
         assert_eq!(last.state, State::Separated);
-        let error = (work / flowed(last) - 1.0).abs();
+        let error = (work / plastic_energy(last) - 1.0).abs();
         println!(
-            "{steps} steps: work {work:.6e}, flowed {:.6e}, error {error:.2e}",
-            flowed(last)
+            "{steps} steps: work {work:.6e}, plastic {:.6e}, error {error:.2e}",
+            plastic_energy(last)
         );
         errors.push(error);
         // On the way back nothing flows: all of it did on the way in.
-        let turned = flowed(rows[steps]);
-        assert!((flowed(last) / turned - 1.0).abs() < 1e-6);
+        let turned = plastic_energy(rows[steps]);
+        assert!((plastic_energy(last) / turned - 1.0).abs() < 1e-6);
     }
     assert!(errors[2] < 2e-3, "{errors:?}");
     assert!(
@@ -448,8 +454,8 @@ fn a_flattened_sphere_sticks_more() {
     }
     // Unloading flows no further.
     let rows: Vec<&StepRow> = plastic.rows().collect();
-    assert!(flowed(rows[0]) > 0.0);
-    assert!(flowed(rows[26]) <= flowed(rows[0]) * (1.0 + 1e-6));
+    assert!(plastic_energy(rows[0]) > 0.0);
+    assert!(plastic_energy(rows[26]) <= plastic_energy(rows[0]) * (1.0 + 1e-6));
     let [before, after] = [pull_off(&elastic), pull_off(&plastic)];
     println!("pull-off {before:.4e} elastic, {after:.4e} after flow");
     assert!(after > 1.1 * before, "{before} {after}");
@@ -471,7 +477,7 @@ tests![
     a_sphere_begins_to_flow_where_its_peak_says,
     fully_plastic_contact_is_the_bearing_area,
     one_step_or_many,
-    the_work_of_a_loop_is_what_has_flowed,
+    the_work_of_a_loop_is_the_plastic_energy,
     a_hardness_that_nothing_reaches,
     a_flattened_sphere_sticks_more,
     nearly_all_of_the_surface_at_the_hardness,

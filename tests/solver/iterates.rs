@@ -283,11 +283,11 @@ fn cases() -> Vec<(String, Problem)> {
         cases.push((format!("layer, {law:?}"), on_layer));
     }
     let factor: Vec<f64> = values(32 * 32, 1).iter().map(|x| 1.0 + 0.5 * x).collect();
-    let mapped = problem([32, 32], Boundary::Periodic, tapered).patterned(factor);
+    let mapped = problem([32, 32], Boundary::Periodic, tapered).with_adhesion_map(factor);
     cases.push(("map of adhesion".into(), mapped));
     let factor: Vec<f64> = values(32 * 32, 1).iter().map(|x| 1.0 + 0.5 * x).collect();
     let smooth = laws(2e-4, 5e-3)[4].1;
-    let mapped = problem([32, 32], Boundary::Periodic, smooth).patterned(factor);
+    let mapped = problem([32, 32], Boundary::Periodic, smooth).with_adhesion_map(factor);
     cases.push(("map of Lennard-Jones".into(), mapped));
     // No coarse level: 27 and 25 cannot be halved.
     cases.push((

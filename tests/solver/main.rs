@@ -3,12 +3,12 @@
 
 use std::process::ExitCode;
 
-mod hand_over;
+mod checkpoint;
 mod iterates;
 mod operator;
 #[path = "../shared/mod.rs"]
 mod shared;
 
 fn main() -> ExitCode {
-    shared::trials::run([hand_over::tests(), iterates::tests(), operator::tests()])
+    shared::trials::run([checkpoint::tests(), iterates::tests(), operator::tests()])
 }

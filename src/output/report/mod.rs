@@ -15,7 +15,7 @@ use super::picture::Load;
 use super::summary::Summary;
 use super::visible::visible;
 use crate::effect::Effect;
-use crate::study::{HandOver, Setup, State, StepRow};
+use crate::study::{Checkpoint, Setup, State, StepRow};
 use crate::units::format_si;
 use base64::base64;
 
@@ -35,7 +35,7 @@ pub struct Report<'a> {
     /// Rows of all steps done.
     pub rows: &'a [StepRow],
     /// Jumps and transforms so far.
-    pub tallies: &'a HandOver,
+    pub tallies: &'a Checkpoint,
     /// Warnings so far.
     pub warnings: &'a [String],
     /// The existing pictures: step, field and file.

@@ -1,5 +1,5 @@
-//! What a step hands on is enough: a path that is cut after any step, put through the file of its
-//! state and gone on with on a fresh backend, gives the same rows to the bit. For every control, law,
+//! A checkpoint is enough: a path that is cut after any step, put through the file of its state and
+//! resumed on a fresh backend, gives the same rows to the bit. For every control, law,
 //! treatment and boundary, in double and single precision, and on the graphics processor.
 
 use std::borrow::Cow;
@@ -10,7 +10,7 @@ use tabor::kernel::Scalars;
 use tabor::output::SavedState;
 use tabor::scene::Scene;
 use tabor::study::{
-    Earlier, FinishedStep, HandOver, Observer, Search, Setup, StepRow, WalkEnd, walk, walk_on,
+    Checkpoint, Earlier, FinishedStep, Observer, Search, Setup, StepRow, WalkEnd, walk, walk_on,
 };
 use tabor::surface::Surface;
 
@@ -61,11 +61,11 @@ const LOADINGS: [(&str, &str); 5] = [
 
 type Make<'a> = &'a dyn Fn() -> Box<dyn Backend + Send>;
 
-/// Keeps what each step hands on, as the file of it gives it back.
+/// Keeps the checkpoint of each step, as its file gives it back.
 #[derive(Default)]
 struct Cutter {
     single: bool,
-    states: Vec<HandOver>,
+    states: Vec<Checkpoint>,
 }
 
 impl Observer for Cutter {
@@ -79,11 +79,11 @@ impl Observer for Cutter {
         true
     }
 
-    fn wants_hand_over(&self) -> bool {
+    fn wants_checkpoint(&self) -> bool {
         true
     }
 
-    fn hand_over(&mut self, step: usize, state: &HandOver) -> Result<(), Self::Error> {
+    fn checkpoint(&mut self, step: usize, state: &Checkpoint) -> Result<(), Self::Error> {
         let place = tempfile::tempdir().expect("a temporary folder");
         let path = place.path().join("state.bin");
         let saved = SavedState {
@@ -94,13 +94,13 @@ impl Observer for Cutter {
             curve: 0,
             warnings: Vec::new(),
             single: self.single,
-            hand_over: Cow::Borrowed(state),
+            checkpoint: Cow::Borrowed(state),
         };
         saved.write(&path).expect("it is written");
         let read = SavedState::read(&path)
             .expect("it is read")
             .expect("it is there");
-        self.states.push(read.hand_over.into_owned());
+        self.states.push(read.checkpoint.into_owned());
         Ok(())
     }
 }
@@ -149,7 +149,7 @@ fn cut(scene: Scene, make: Make, single: bool, few: bool, what: &str) -> usize {
     for (index, state) in cutter.states.into_iter().enumerate().step_by(stride) {
         let earlier = Earlier {
             rows: whole.rows[..=index].to_vec(),
-            hand_over: state,
+            checkpoint: state,
         };
         let on = walk_on(&setup, make, &mut (), earlier).expect("it is solved");
         expect_same(
@@ -199,7 +199,7 @@ fn all(make: Make, single: bool, few: bool) -> usize {
         events += cut(scene, make, single, few, &format!("spring, {boundary}"));
         count += 1;
     }
-    // A solid that flows, whose heights are handed on; mixed precision does not know it.
+    // A solid with a hardness, whose plastic depth is in the checkpoint; mixed precision does not know it.
     let corrects = make().in_double(Shape::whole(4, 4)).is_some();
     for (index, (boundary, loading)) in LOADINGS.into_iter().enumerate() {
         if corrects || loading.contains("mean-gap") || (few && index != 0) {
@@ -226,18 +226,18 @@ fn all(make: Make, single: bool, few: bool) -> usize {
     count
 }
 
-fn cut_and_gone_on_with_in_double_precision() {
+fn resume_in_double_precision() {
     let make = || -> Box<dyn Backend + Send> { Box::new(CpuBackend::<f64>::new()) };
     assert_eq!(all(&make, false, false), 45);
 }
 
-fn cut_and_gone_on_with_in_single_precision() {
+fn resume_in_single_precision() {
     let make = || -> Box<dyn Backend + Send> { Box::new(CpuBackend::<f32>::new()) };
     assert_eq!(all(&make, true, false), 45);
 }
 
 /// The state is kept in double precision, and iterations in single start from it.
-fn cut_and_gone_on_with_in_mixed_precision() {
+fn resume_in_mixed_precision() {
     let make = mixed();
     assert_eq!(all(&make, false, false), 37);
 }
@@ -246,14 +246,14 @@ fn mixed() -> impl Fn() -> Box<dyn Backend + Send> {
     || -> Box<dyn Backend + Send> { Box::new(CpuBackend::<f32>::new().corrected()) }
 }
 
-fn cut_and_gone_on_with_on_the_graphics_processor() {
+fn resume_on_the_graphics_processor() {
     let device = device();
     let make = || -> Box<dyn Backend + Send> { Box::new(GpuBackend::on(device)) };
     assert_eq!(all(&make, true, true), 9);
 }
 
 /// The cold start on coarser grids and the two-band preconditioner, which small grids do without.
-fn cut_and_gone_on_with_where_coarse_grids_help() {
+fn resume_with_a_coarse_start() {
     let loading = "control = \"pressure\"\npath = [2e5, 1e6, 0, 2e5]";
     let mut scene = scene("periodic", ROUGH, "", loading, false);
     scene.grid.points = Some([128, 128]);
@@ -351,7 +351,7 @@ fn mixed_precision_walks_the_path_of_double() {
 
 /// An edge that costs more at speed, found from the state before each step; and what its contact
 /// conducts.
-fn cut_and_gone_on_with_where_an_edge_costs_more_at_speed() {
+fn resume_with_rate_dependent_adhesion() {
     let law = format!(
         "{}rate = {{ reference_speed = \"1 um/s\", exponent = 0.5 }}\n[conductance]\nconductivity = 1\ncounter_conductivity = 2\n",
         adhesion("maugis-dugdale", "full")
@@ -363,7 +363,7 @@ fn cut_and_gone_on_with_where_an_edge_costs_more_at_speed() {
 }
 
 /// A solid that relaxes, over steps that grow with the time from each kink of the path.
-fn cut_and_gone_on_with_where_steps_grow() {
+fn resume_with_automatic_time_steps() {
     let relaxes = "[[solid.relaxation]]\nmodulus = \"200 MPa\"\ntime = 1\n[[solid.relaxation]]\nmodulus = \"50 MPa\"\ntime = 0.05\n";
     let loading = "control = \"force\"\nstart = 1e-7\ntime_tolerance = 0.03\n[[loading.ramp]]\nto = 1e-6\nsteps = \"auto\"\nduration = 0.5\n[[loading.ramp]]\nhold = 5\nsteps = \"auto\"";
     let make = || -> Box<dyn Backend + Send> { Box::new(CpuBackend::<f64>::new()) };
@@ -380,7 +380,7 @@ struct Stopper {
     at: usize,
     searches: usize,
     rows: Vec<StepRow>,
-    state: HandOver,
+    state: Checkpoint,
 }
 
 impl Observer for Stopper {
@@ -399,11 +399,11 @@ impl Observer for Stopper {
         self.searches += 1;
     }
 
-    fn wants_hand_over(&self) -> bool {
+    fn wants_checkpoint(&self) -> bool {
         true
     }
 
-    fn hand_over(&mut self, _: usize, state: &HandOver) -> Result<(), Self::Error> {
+    fn checkpoint(&mut self, _: usize, state: &Checkpoint) -> Result<(), Self::Error> {
         self.state = state.clone();
         Ok(())
     }
@@ -411,7 +411,7 @@ impl Observer for Stopper {
 
 /// A path ended amid what is looked for between two of its steps, pull-off or a jump, goes on from the step
 /// before and ends the same, whatever the solid remembers.
-fn ended_between_two_steps_and_gone_on_with() {
+fn resume_after_an_end_between_two_steps() {
     let make = || -> Box<dyn Backend + Send> { Box::new(CpuBackend::<f64>::new()) };
     let law = adhesion("maugis-dugdale", "full");
     let rated = format!("{law}rate = {{ reference_speed = \"1 um/s\", exponent = 0.5 }}\n");
@@ -461,7 +461,7 @@ fn ended_between_two_steps_and_gone_on_with() {
             assert!(cut.rows.len() < whole.rows.len(), "{name}: search {at}");
             let earlier = Earlier {
                 rows: stopper.rows,
-                hand_over: stopper.state,
+                checkpoint: stopper.state,
             };
             let on = walk_on(&setup, &make, &mut (), earlier).expect("it is solved");
             expect_same(&whole, &on, &format!("{name}, ended in search {at}"));
@@ -471,13 +471,13 @@ fn ended_between_two_steps_and_gone_on_with() {
 }
 
 tests![
-    cut_and_gone_on_with_in_double_precision,
-    cut_and_gone_on_with_in_single_precision,
-    cut_and_gone_on_with_in_mixed_precision,
-    cut_and_gone_on_with_on_the_graphics_processor,
-    cut_and_gone_on_with_where_coarse_grids_help,
+    resume_in_double_precision,
+    resume_in_single_precision,
+    resume_in_mixed_precision,
+    resume_on_the_graphics_processor,
+    resume_with_a_coarse_start,
     mixed_precision_walks_the_path_of_double,
-    cut_and_gone_on_with_where_an_edge_costs_more_at_speed,
-    cut_and_gone_on_with_where_steps_grow,
-    ended_between_two_steps_and_gone_on_with,
+    resume_with_rate_dependent_adhesion,
+    resume_with_automatic_time_steps,
+    resume_after_an_end_between_two_steps,
 ];
