@@ -1,7 +1,7 @@
 //! How long a run will take, from what it does and from the runs measured so far.
 
 use super::setting::{Model, Setting, Taper};
-use crate::backend::tally::Place;
+use crate::backend::dry_run::Place;
 use crate::grid::Grid;
 use crate::scene::{BackendName, Precision, Scene};
 use crate::study::Cost;

@@ -9,9 +9,9 @@
 //! Where one convolution ends in the rows in which the next one starts, [`turn`](Backend::turn) is both.
 
 pub mod cpu;
+pub mod dry_run;
 mod factors;
 pub mod gpu;
-pub mod tally;
 
 use crate::kernel::{Gate, Kernel, Params, ScalarKernel, Scalars};
 pub use factors::{Factors, Response};
@@ -129,9 +129,9 @@ pub trait Backend {
     /// Multiplies the law's tension by this field, in every kernel of its level from now on. Without
     /// a call the law is the same everywhere and nothing is read for it.
     fn set_law_factor(&mut self, factor: Field);
-    /// From now on the unknown of every kernel of the laws is the correction of a base gap, whose
-    /// residual is known: gap and residual of the base. Without a base it is the gap itself.
-    fn set_base(&mut self, base: Option<[Field; 2]>);
+    /// From now on the unknown of every kernel of the laws is the correction of an outer gap, whose
+    /// residual is known: gap and residual of the outer state. Without one it is the gap itself.
+    fn set_outer_state(&mut self, outer: Option<[Field; 2]>);
     /// Sets a field to zero where it is.
     fn clear(&mut self, field: Field);
     /// An empty backend in double precision for a level of this shape, where the solver is asked to keep

@@ -7,8 +7,8 @@ use crate::real::Real;
 pub trait LawField<T: Real>: Copy {
     /// The law at one point.
     type Here: Cohesion<T>;
-    /// The law at a point with this factor on its tension, and this gap and residual of a base.
-    fn here(&self, factor: T, base: [T; 2]) -> Self::Here;
+    /// The law at a point with this factor on its tension, and this gap and residual of an outer state.
+    fn here(&self, factor: T, outer: [T; 2]) -> Self::Here;
 }
 
 /// A law whose tension is multiplied by a factor of its own at each point; a factor of 1 changes no bit.
@@ -49,5 +49,13 @@ impl<T: Real, L: Cohesion<T>> Cohesion<T> for Scaled<L, T> {
     #[inline(always)]
     fn difference(&self, gap: T, step: T) -> T {
         self.factor * self.law.difference(gap, step)
+    }
+    #[inline(always)]
+    fn factored(&self, tension: T) -> T {
+        self.factor * tension
+    }
+    #[inline(always)]
+    fn repelling_gap(&self, pressure: T) -> T {
+        self.law.repelling_gap(pressure / self.factor)
     }
 }

@@ -3,13 +3,13 @@
 use super::MakeBackend;
 use super::coarse_start;
 use super::correction::FIRST_TOLERANCE;
-use super::held::HeightsPressure;
 use super::kernel_set::{KernelSet, fixed_params, rounded_beside_under};
+use super::mean_gap::HeightsPressure;
 use super::problem::Problem;
 use super::reference::Reference;
 use super::two_band::TwoBand;
 use crate::backend::{Backend, BackendError, Field, Level, Response, Spectrum};
-use crate::kernel::{Gate, Params, Scalars, Status, common, scalar};
+use crate::kernel::{Gate, Params, Scalars, Status, displacement, scalar, step_length};
 use crate::law::{Cohesion, Law};
 
 /// What is held fixed, reduced units.
@@ -82,7 +82,7 @@ pub struct ContactSolver<'a> {
     pub(super) gap: Field,
     pub(super) pressure: Field,
     pub(super) direction: Field,
-    pub(super) free_before: Field,
+    pub(super) previous_residual: Field,
     /// K times the heights, where a mean gap is held by linearity.
     pub(super) heights_pressure: Option<HeightsPressure>,
     /// Factors on the law's tension, where it is not the same everywhere and always.
@@ -96,7 +96,7 @@ pub struct ContactSolver<'a> {
     /// The compliance of all waves, where the contact's conductance is asked.
     pub(super) compliance: Option<Spectrum>,
     two_band: Option<TwoBand>,
-    pub(super) kernels: &'static KernelSet,
+    pub(super) kernels: KernelSet,
     pub(super) params: Params,
     /// What a gap is rounded beside whatever the load.
     heights_norm: f64,
@@ -138,7 +138,7 @@ impl<'a> ContactSolver<'a> {
         let gap = backend.field(level, "gap");
         let pressure = backend.field(level, "pressure");
         let direction = backend.field(level, "direction");
-        let free_before = backend.field(level, "free_before");
+        let previous_residual = backend.field(level, "previous_residual");
         let has_wall = problem.law.has_wall();
         let step = (!has_wall).then(|| backend.field(level, "step"));
         let law_factor = problem.law_factor.as_ref().map(|factor| {
@@ -167,7 +167,7 @@ impl<'a> ContactSolver<'a> {
             gap,
             pressure,
             direction,
-            free_before,
+            previous_residual,
             heights_pressure: None,
             law_factor,
             present_factor: None,
@@ -176,7 +176,7 @@ impl<'a> ContactSolver<'a> {
             preconditioner,
             compliance,
             two_band,
-            kernels: KernelSet::of(problem),
+            kernels: KernelSet::new(problem),
             heights_norm: params.heights_norm,
             params,
             reference: None,
@@ -330,7 +330,7 @@ impl<'a> ContactSolver<'a> {
         };
         // K takes the mean of the heights away, by which the pressure of the heights counts.
         debug_assert!(!fixed_gap || load.zero_stiffness == 0.0);
-        self.backend.set_base(None);
+        self.backend.set_outer_state(None);
         self.params.fixed_gap = fixed_gap;
         self.params.tolerance = tolerance;
         self.params.heights_norm = rounded_beside_under(self.heights_norm, &self.params, load);
@@ -347,7 +347,7 @@ impl<'a> ContactSolver<'a> {
                 .set_zero_mode(self.preconditioner, load.zero_compliance),
         }
         if fixed_gap {
-            self.begin_held();
+            self.begin_mean_gap();
         }
         let mut scalars = Scalars::start(mean_pressure, careful);
         if let Hold::Gap(target) = load.hold {
@@ -372,22 +372,25 @@ impl<'a> ContactSolver<'a> {
         let (level, g, p) = (self.level, self.gap, self.pressure);
         match &self.two_band {
             Some(bands) => {
-                let fields = [g, p, bands.free()];
-                self.backend.forward(bands.load_free, level, &fields);
+                let fields = [g, p, bands.residual()];
+                let load_residual = bands.retain.load_residual;
+                self.backend.forward(load_residual, level, &fields);
             }
-            None => self.backend.forward(self.kernels.free, level, &[g, p]),
+            None => self
+                .backend
+                .forward(self.kernels.load_residual, level, &[g, p]),
         }
-        self.backend.scalar(&scalar::JUDGE);
+        self.backend.scalar(&scalar::TEST_CONVERGENCE);
     }
 
     /// p = K*(g + h) afresh, and the mean pressure that goes with a held gap.
     fn refresh(&mut self) -> Result<(), BackendError> {
         let fields = [self.gap, self.heights];
         self.backend
-            .forward(&common::LOAD_DISPLACEMENT, self.level, &fields);
+            .forward(&displacement::LOAD_DISPLACEMENT, self.level, &fields);
         self.backend.multiply(self.stiffness, false, Gate::Always);
         self.backend
-            .backward(&common::STORE_PRESSURE, self.level, &[self.pressure]);
+            .backward(&displacement::STORE_FIELD, self.level, &[self.pressure]);
         self.balance();
         Ok(())
     }
@@ -411,69 +414,78 @@ impl<'a> ContactSolver<'a> {
     /// Records one iteration, from the rows of the residual to those of the next one. All decisions are
     /// taken by the scalar kernels; where looking is free a search is left when it is over.
     fn record(&mut self) -> Result<(), BackendError> {
-        let (level, kernels) = (self.level, self.kernels);
-        let (g, p, d, before) = (self.gap, self.pressure, self.direction, self.free_before);
-        let held = self.params.fixed_gap;
+        let (level, kernels) = (self.level, &self.kernels);
+        let (g, p, d) = (self.gap, self.pressure, self.direction);
+        let previous = self.previous_residual;
+        let mean_gap = self.params.fixed_gap;
         let backend = &mut *self.backend;
         match &self.two_band {
             Some(bands) => {
-                bands.descend(backend, before, held.then_some(d), self.preconditioner);
+                bands.descend(
+                    backend,
+                    previous,
+                    mean_gap.then_some(d),
+                    self.preconditioner,
+                );
             }
             None => {
                 backend.multiply(self.preconditioner, false, Gate::Ahead);
-                match held {
-                    true => backend.backward(kernels.descent_held, level, &[g, p, before, d]),
-                    false => backend.backward(kernels.descent, level, &[g, p, before]),
+                if mean_gap {
+                    backend.backward(kernels.mean_gap.descent, level, &[g, p, previous, d]);
+                } else {
+                    backend.backward(kernels.descent, level, &[g, p, previous]);
                 }
             }
         }
-        backend.scalar(&scalar::DIRECT);
-        if held {
-            self.try_held();
+        backend.scalar(&scalar::CONJUGATE_DIRECTION);
+        if mean_gap {
+            self.try_at_mean_gap();
         } else {
             match self.step {
                 Some(step) => backend.forward(kernels.trial, level, &[g, p, d, step]),
                 None => backend.forward(kernels.trial, level, &[g, p, d]),
             }
-            backend.scalar(&scalar::ACCEPT);
+            backend.scalar(&scalar::ACCEPT_TRIAL);
             backend.multiply(self.stiffness, true, Gate::Accepted);
         }
-        self.backend.scalar(kernels.step);
+        self.backend.scalar(&step_length::STEP_LENGTH);
         if self.problem.law.has_tail() {
             self.search()?;
         }
-        self.backend.scalar(&scalar::SETTLE_WALL);
-        if held {
-            self.advance_held();
+        self.backend.scalar(&step_length::SNAP_TO_CONTACT);
+        if mean_gap {
+            self.advance_at_mean_gap();
             return Ok(());
         }
-        let backend = &mut *self.backend;
+        let (backend, update) = (&mut *self.backend, self.kernels.update_state);
         match (&self.two_band, self.step) {
-            (Some(bands), _) => backend.turn(bands.turn, level, &[d, g, p, before, bands.free()]),
-            (None, Some(step)) => backend.turn(kernels.turn, level, &[d, step, g, p, before]),
-            (None, None) => backend.turn(kernels.turn, level, &[d, g, p, before]),
+            (Some(bands), _) => {
+                let fields = [d, g, p, previous, bands.residual()];
+                backend.turn(bands.retain.update_state, level, &fields);
+            }
+            (None, Some(step)) => backend.turn(update, level, &[d, step, g, p, previous]),
+            (None, None) => backend.turn(update, level, &[d, g, p, previous]),
         }
-        backend.scalar(kernels.lengthen);
-        backend.scalar(&scalar::CARRY);
-        backend.scalar(&scalar::JUDGE);
+        backend.scalar(&step_length::ADAPT_TRIAL_LENGTH);
+        backend.scalar(&scalar::TEST_CONVERGENCE);
         Ok(())
     }
 
     /// Records the search of the step length, or the part of it that belongs to a round.
     fn search(&mut self) -> Result<(), BackendError> {
-        let kernels = self.kernels;
+        let search = self.kernels.search;
         // To which side a closed point may move is told by its pressure.
         let moved = self.step.unwrap_or(self.direction);
         let fields = [self.gap, moved, self.pressure];
-        let fields = &fields[..kernels.search.fields()];
+        let fields = &fields[..search.fields()];
         let looks = self.backend.look_every() == 1;
         let most = if looks { SEARCHES } else { SEARCHES_AT_ONCE };
         for _ in 0..most {
             if looks && !self.backend.scalars()?.is_open(Gate::Searching) {
                 break;
             }
-            self.backend.sweep(kernels.search, self.level, fields);
-            self.backend.scalar(kernels.search_scalar);
+            self.backend.sweep(search, self.level, fields);
+            self.backend.scalar(&step_length::SEARCH);
         }
         Ok(())
     }
@@ -491,7 +503,7 @@ impl<'a> ContactSolver<'a> {
         let fields = [self.gap, self.pressure];
         self.backend
             .sweep(self.kernels.residual, self.level, &fields);
-        self.backend.scalar(&scalar::JUDGE);
+        self.backend.scalar(&scalar::TEST_CONVERGENCE);
         self.backend.scalars()
     }
 

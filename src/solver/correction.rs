@@ -168,10 +168,15 @@ impl ContactSolver<'_> {
             let rigid = heights_pressure.field();
             self.refer(|reference, iterating, _| reference.hand_rigid(iterating, rigid))?;
         }
-        for field in [self.gap, self.pressure, self.direction, self.free_before] {
+        for field in [
+            self.gap,
+            self.pressure,
+            self.direction,
+            self.previous_residual,
+        ] {
             self.backend.clear(field);
         }
-        self.backend.set_base(Some(base));
+        self.backend.set_outer_state(Some(base));
         let mut params = self.params;
         // The scale of the base's residual; where that has no pressure, what is off balance itself.
         let residual = match end.residual.is_finite() {
@@ -187,7 +192,7 @@ impl ContactSolver<'_> {
         self.backend.set_scalars(&scalars);
         self.ready();
         let round = self.run_out(iterations, most, watch);
-        self.backend.set_base(None);
+        self.backend.set_outer_state(None);
         round
     }
 }

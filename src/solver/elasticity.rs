@@ -2,7 +2,7 @@
 
 use super::contact::ContactSolver;
 use crate::backend::{BackendError, Spectrum};
-use crate::kernel::{Gate, common};
+use crate::kernel::{Gate, displacement};
 use crate::scene::Boundary;
 
 impl ContactSolver<'_> {
@@ -50,10 +50,10 @@ impl ContactSolver<'_> {
         let work = self.direction;
         self.backend.write(work, values);
         self.backend
-            .forward(&common::LOAD_FIELD, self.level, &[work]);
+            .forward(&displacement::LOAD_FIELD, self.level, &[work]);
         self.backend.multiply(by, false, Gate::Always);
         self.backend
-            .backward(&common::STORE_PRESSURE, self.level, &[work]);
+            .backward(&displacement::STORE_FIELD, self.level, &[work]);
         self.backend.read(work)
     }
 }

@@ -1,11 +1,11 @@
 //! The state of a contact in double precision, beside a solver whose iterations run in single.
 
 use super::contact::{Hold, Load};
-use super::held::HeightsPressure;
 use super::kernel_set::{KernelSet, fixed_params, rounded_beside_under};
+use super::mean_gap::HeightsPressure;
 use super::problem::Problem;
 use crate::backend::{Backend, BackendError, Field, Level, Response, Spectrum};
-use crate::kernel::{Gate, Params, Scalars, Status, base, common, scalar};
+use crate::kernel::{Gate, Params, Scalars, Status, displacement, mean_gap, refinement, scalar};
 
 /// Gap and pressure in double precision, and the evaluation of their residual.
 pub(super) struct Reference {
@@ -13,7 +13,7 @@ pub(super) struct Reference {
     places: Places,
     /// K times the heights, where a mean gap is held by linearity.
     heights_pressure: Option<HeightsPressure>,
-    kernels: &'static KernelSet,
+    kernels: KernelSet,
     params: Params,
     /// What a gap is rounded beside whatever the load.
     heights_norm: f64,
@@ -43,7 +43,7 @@ pub fn plan_reference(
     load: &Load,
 ) {
     let places = Places::plan(double, iterating, Level(0), problem);
-    if matches!(load.hold, Hold::Gap(_)) && KernelSet::of(problem).direct.is_none() {
+    if matches!(load.hold, Hold::Gap(_)) && KernelSet::new(problem).is_linear() {
         HeightsPressure::plan(double, places.level);
     }
 }
@@ -93,7 +93,7 @@ impl Reference {
         Reference {
             places,
             heights_pressure: None,
-            kernels: KernelSet::of(problem),
+            kernels: KernelSet::new(problem),
             heights_norm: params.heights_norm,
             params,
             backend,
@@ -141,7 +141,7 @@ impl Reference {
         self.backend.set_params(&self.params);
         self.backend
             .set_zero_mode(self.places.stiffness, load.zero_stiffness);
-        if fixed_gap && self.kernels.direct.is_none() {
+        if fixed_gap && self.kernels.is_linear() {
             let fields = [self.places.heights, self.places.pressure];
             self.heights_pressure
                 .get_or_insert_with(|| HeightsPressure::plan(&mut *self.backend, self.places.level))
@@ -160,20 +160,20 @@ impl Reference {
         scalars.status = Status::Running;
         backend.set_scalars(&scalars);
         let fields = [self.places.gap, self.places.heights];
-        backend.forward(&common::LOAD_DISPLACEMENT, self.places.level, &fields);
+        backend.forward(&displacement::LOAD_DISPLACEMENT, self.places.level, &fields);
         backend.multiply(self.places.stiffness, false, Gate::Always);
         backend.backward(
-            &common::STORE_PRESSURE,
+            &displacement::STORE_FIELD,
             self.places.level,
             &[self.places.pressure],
         );
         let fields = [self.places.gap, self.places.pressure];
         if self.params.fixed_gap {
-            backend.sweep(self.kernels.balance, self.places.level, &fields);
-            backend.scalar(self.kernels.balance_scalar);
+            backend.sweep(self.kernels.mean_gap.balance, self.places.level, &fields);
+            backend.scalar(&mean_gap::MEAN_PRESSURE);
         }
         backend.sweep(self.kernels.residual, self.places.level, &fields);
-        backend.scalar(&scalar::JUDGE);
+        backend.scalar(&scalar::TEST_CONVERGENCE);
         backend.scalars()
     }
 
@@ -206,10 +206,14 @@ impl Reference {
         } = self.places;
         let backend = &mut *self.backend;
         backend.take(between, iterating, correction)?;
-        backend.sweep(self.kernels.base_add, level, &[between, gap]);
+        // A solid with a hardness has no outer state.
+        let Some(kernels) = self.kernels.outer else {
+            return Ok(());
+        };
+        backend.sweep(kernels.add_correction, level, &[between, gap]);
         if self.params.fixed_gap {
-            backend.scalar(&base::RESTORE_BASE);
-            backend.sweep(self.kernels.base_hold, level, &[gap]);
+            backend.scalar(&mean_gap::RESTORE_OUTER_MEAN_GAP);
+            backend.sweep(kernels.restore_gap, level, &[gap]);
         }
         Ok(())
     }
@@ -225,7 +229,11 @@ impl Reference {
             ..
         } = self.places;
         let backend = &mut *self.backend;
-        backend.sweep(&base::BASE_TOTAL, level, &[gap, pressure, between]);
+        backend.sweep(
+            &refinement::OUTER_RESIDUAL,
+            level,
+            &[gap, pressure, between],
+        );
         iterating.take(there[0], backend, gap)?;
         iterating.take(there[1], backend, between)?;
         Ok(there)
@@ -249,7 +257,8 @@ impl Reference {
             ..
         } = self.places;
         let fields = [heights_pressure.field(), pressure, between];
-        self.backend.sweep(&base::BASE_RIGID, level, &fields);
+        self.backend
+            .sweep(&refinement::OUTER_PRESSURE, level, &fields);
         iterating.take(rigid, &mut *self.backend, between)
     }
 
@@ -269,10 +278,14 @@ impl Reference {
         let backend = &mut *self.backend;
         backend.set_zero_mode(self.places.stiffness, zero_mode);
         backend.write(self.places.gap, values);
-        backend.forward(&common::LOAD_FIELD, self.places.level, &[self.places.gap]);
+        backend.forward(
+            &displacement::LOAD_FIELD,
+            self.places.level,
+            &[self.places.gap],
+        );
         backend.multiply(self.places.stiffness, false, Gate::Always);
         backend.backward(
-            &common::STORE_PRESSURE,
+            &displacement::STORE_FIELD,
             self.places.level,
             &[self.places.pressure],
         );

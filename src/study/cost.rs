@@ -4,7 +4,7 @@ use super::control::Controller;
 use super::setup::{Setup, resolve_law};
 use crate::backend::{
     BackendError, Level,
-    tally::{Held, Place, Tally},
+    dry_run::{DryRun, Held, Place},
 };
 use crate::grid::Grid;
 use crate::law::Law;
@@ -116,22 +116,22 @@ fn plan(
     let controller = Controller::of(&scene.loading, highest, problem);
     let value = scene.loading.path.first().copied().unwrap_or(0.0);
     let load = controller.load(value);
-    let begin = |tally: &mut Tally, iterations: usize| -> Result<(), BackendError> {
+    let begin = |tally: &mut DryRun, iterations: usize| -> Result<(), BackendError> {
         let mut solver = ContactSolver::new(tally, problem);
         // What is counted does not depend on the tolerance.
         solver.begin(&load, &Start::Present, 0.0, false)?;
         (0..iterations).try_for_each(|_| solver.iterate().map(drop))
     };
-    let mut started = Tally::on(place);
+    let mut started = DryRun::on(place);
     begin(&mut started, 0)?;
-    let mut iterated = Tally::on(place);
+    let mut iterated = DryRun::on(place);
     begin(&mut iterated, 1)?;
     if let Some(mistake) = iterated.mistake {
         return Err(mistake);
     }
     let mut reference = Vec::new();
     if scene.arithmetic_on(place.on_gpu()) == Precision::Mixed {
-        let mut double = Tally::on(Place::Double);
+        let mut double = DryRun::on(Place::Double);
         plan_reference(&mut double, &mut iterated, problem, &load);
         for held in [double.fields, double.spectra, double.work] {
             reference.extend(held);

@@ -5,7 +5,7 @@
 //! compares them with the peak of real runs.
 
 use super::cost::Cost;
-use crate::backend::{BackendError, Shape, tally::Place};
+use crate::backend::{BackendError, Shape, dry_run::Place};
 use crate::grid::Grid;
 use crate::scene::{Boundary, OutputScene, Scene, StepChoice, SurfacePart, Treatment};
 use crate::solver::good_size;

@@ -3,7 +3,7 @@
 use super::cost::Cost;
 use super::memory::Memory;
 use super::setup::resolve_law;
-use crate::backend::{BackendError, tally::Place};
+use crate::backend::{BackendError, dry_run::Place};
 use crate::law::{LEAST_KELVIN_RADIUS, Law};
 use crate::scene::{Range, Scene, SurfacePart, Treatment};
 use crate::surface::{Outline, SurfaceError};

@@ -37,13 +37,13 @@ use std::f64::consts::TAU;
 use super::cpu::CpuBackend;
 use super::{Backend, BackendError, Factors, Field, Level, Shape, Spectrum};
 use crate::kernel::{Gate, Kernel, Params, ScalarKernel, Scalars};
+use crate::law::{Law, LawShader};
 use deciding::Deciding;
 use recorder::{Prepared, Recorder};
 use space::{FieldSpace, Key, LevelSpace, SpectrumSpace};
 
 pub use adapter::{AdapterChoice, AdapterDescription, AdapterKind, adapters};
 pub use butterfly::Direction;
-pub use catalogue::LawPart;
 pub use device::{GpuDevice, keeps_waiting};
 pub use error::GpuError;
 pub use layout::{Number, Wide};
@@ -72,11 +72,11 @@ pub struct GpuBackend {
     /// What is decided after the last kernel over points, in one dispatch.
     deciding: Deciding,
     traffic: Traffic,
-    law: LawPart,
+    law: LawShader,
     /// The field of factors on the law's tension.
     law_factor: Option<Field>,
-    /// Gap and residual of the base that is corrected.
-    base: Option<[Field; 2]>,
+    /// Gap and residual of the outer state that is corrected.
+    outer: Option<[Field; 2]>,
     /// Whether a state in double precision stands beside the fields.
     corrected: bool,
     /// Whether scalars that are not finite are a failure.
@@ -127,9 +127,9 @@ impl GpuBackend {
             prepared: HashMap::new(),
             deciding: Deciding::default(),
             traffic: Traffic::default(),
-            law: LawPart::HardWall,
+            law: Law::HardWall.shader(),
             law_factor: None,
-            base: None,
+            outer: None,
             corrected: false,
             expects_numbers: false,
             failure,
@@ -354,8 +354,8 @@ impl Backend for GpuBackend {
         self.law_factor = Some(factor);
     }
 
-    fn set_base(&mut self, base: Option<[Field; 2]>) {
-        self.base = base;
+    fn set_outer_state(&mut self, outer: Option<[Field; 2]>) {
+        self.outer = outer;
     }
 
     fn clear(&mut self, field: Field) {
@@ -401,7 +401,7 @@ impl Backend for GpuBackend {
     }
 
     fn set_params(&mut self, params: &Params) {
-        let law = LawPart::of(&params.law);
+        let law = params.law.shader();
         if law != self.law {
             // Kernels of another law are others under the same name.
             self.prepared.clear();

@@ -77,14 +77,12 @@ pub fn rows_main(source: &mut String, kernel: &Kernel, plan: &LevelPlan) {
     writer.butterflies(first, |source, each| {
         for leg in 0..each.radix {
             let name = each.name(leg);
-            let at = |part: &str, offset: usize| match form {
-                Form::Load => format!("load_point(index + {offset}u, arrive(index + {offset}u))"),
-                Form::Store | Form::Peek => format!(
-                    "store_point(index + {offset}u, arrive(index + {offset}u), {name}.{part})"
-                ),
-                _ => format!(
-                    "pass_point(index + {offset}u, arrive(index + {offset}u), {name}.{part})"
-                ),
+            let at = |part: &str, offset: usize| {
+                let line = match form {
+                    Form::Load => "0.0".to_owned(),
+                    _ => format!("{name}.{part}"),
+                };
+                format!("at(index + {offset}u, arrive(index + {offset}u), {line})")
             };
             let (upper, lower) = (at("x", 0), at("y", half));
             let index = long::row_index(plan, &each.position(leg));
