@@ -112,6 +112,8 @@ pub type Twin<T> = fn(&mut Rows<T>, &Params, &Scalars, &mut [f64; SUMS]);
 pub struct Kernel {
     /// The word under which it is found everywhere; the same of all its variants.
     pub name: &'static str,
+    /// The file of its twin.
+    pub file: &'static str,
     /// The constraint of the gap for which it is made, if it asks for one.
     pub constraint: Option<Constraint>,
     /// What else sets its variants apart.
@@ -192,6 +194,7 @@ macro_rules! rows_kernel {
         ));
         $crate::kernel::Kernel {
             name: stringify!($twin),
+            file: file!(),
             constraint: None,
             flag: $crate::kernel::first(&[$((stringify!($flag), $set))?]),
             form: $crate::kernel::Form::$form,
@@ -237,6 +240,7 @@ macro_rules! point_kernel {
         ));
         $crate::kernel::Kernel {
             name: stringify!($name),
+            file: file!(),
             constraint: Some($crate::kernel::Constraint::$constraint),
             flag: $crate::kernel::first(&[$((stringify!($flag), $set))?]),
             form: $crate::kernel::Form::$form,

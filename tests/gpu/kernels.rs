@@ -2,7 +2,7 @@
 //! kernel against its own, on seeded data.
 
 use tabor::backend::cpu::CpuBackend;
-use tabor::backend::gpu::{AdapterChoice, GpuDevice, Number, Wide};
+use tabor::backend::gpu::{AdapterChoice, Faults, GpuDevice, Number, Wide};
 use tabor::backend::{Backend, Factors, Field, Level, Shape};
 use tabor::kernel::declare::{DeviceValue, Word, members};
 use tabor::kernel::descent::DESCENT;
@@ -586,7 +586,10 @@ fn fields_in_slabs_are_taken_over_on_the_device() {
     }
     let shape = Shape::whole(48, 64);
     let device = device_with(&AdapterChoice {
-        slab_bytes: Some(4 * shape.len() as u64),
+        faults: Faults {
+            slab_bytes: Some(4 * shape.len() as u64),
+            ..Faults::default()
+        },
         ..AdapterChoice::default()
     });
     let Some(device) = device else { return };

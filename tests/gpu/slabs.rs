@@ -5,7 +5,7 @@
 //! order, so that they agree to the rounding of a double.
 
 use tabor::backend::cpu::CpuBackend;
-use tabor::backend::gpu::{AdapterChoice, GpuDevice};
+use tabor::backend::gpu::{AdapterChoice, Faults, GpuDevice};
 use tabor::backend::{Backend, Factors, Field, Level, Response, Shape};
 use tabor::elastic::HalfSpace;
 use tabor::grid::Grid;
@@ -21,7 +21,10 @@ use crate::shared::device::{Numbers, backend, device, device_with, relative_diff
 /// A device that holds so many bytes of a field in one buffer.
 fn in_slabs(bytes: u64) -> Option<GpuDevice> {
     device_with(&AdapterChoice {
-        slab_bytes: Some(bytes),
+        faults: Faults {
+            slab_bytes: Some(bytes),
+            ..Faults::default()
+        },
         ..AdapterChoice::default()
     })
 }
@@ -29,8 +32,11 @@ fn in_slabs(bytes: u64) -> Option<GpuDevice> {
 /// A device whose workgroups hold lines of so many points, and slabs of so many bytes.
 fn with_lines(points: usize, bytes: u64) -> Option<GpuDevice> {
     device_with(&AdapterChoice {
-        longest_line: Some(points),
-        slab_bytes: Some(bytes),
+        faults: Faults {
+            longest_line: Some(points),
+            slab_bytes: Some(bytes),
+            ..Faults::default()
+        },
         ..AdapterChoice::default()
     })
 }

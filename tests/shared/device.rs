@@ -3,7 +3,7 @@
 use std::panic::resume_unwind;
 use std::sync::OnceLock;
 
-use tabor::backend::gpu::{AdapterChoice, GpuBackend, GpuDevice, Number, quietly};
+use tabor::backend::gpu::{AdapterChoice, Faults, GpuBackend, GpuDevice, Number, quietly};
 
 /// A device, software drivers included. Without one the test that asks is skipped with a word,
 /// or fails where `TABOR_REQUIRE_GPU=1` says that there must be one: a missing driver on a test
@@ -30,7 +30,10 @@ pub fn device_without_double() -> Option<GpuDevice> {
 
 fn ready(without_double: bool) -> Option<GpuDevice> {
     device_with(&AdapterChoice {
-        without_double,
+        faults: Faults {
+            without_double,
+            ..Faults::default()
+        },
         ..AdapterChoice::default()
     })
 }

@@ -9,8 +9,6 @@ use crate::law::LawShader;
 pub struct Shader {
     /// The word of the catalogue.
     pub name: &'static str,
-    /// Names of the sources.
-    pub names: &'static [&'static str],
     /// Sources.
     pub parts: &'static [&'static str],
 }
@@ -25,7 +23,6 @@ macro_rules! shaders {
     ($($name:literal [$($part:literal),*];)*) => {
         &[$(Shader {
             name: $name,
-            names: &[$($part,)* $name],
             parts: &[$(part!($part),)* part!($name)],
         }),*]
     };

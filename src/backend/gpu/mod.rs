@@ -14,12 +14,15 @@ mod deciding;
 mod device;
 mod dispatching;
 mod error;
+mod faults;
 mod fft;
 mod filling;
 mod layout;
 mod lending;
 mod level;
 mod long;
+#[cfg(feature = "fault-injection")]
+mod members;
 mod plan;
 mod quiet;
 mod reading;
@@ -46,6 +49,8 @@ pub use adapter::{AdapterChoice, AdapterDescription, AdapterKind, adapters};
 pub use butterfly::Direction;
 pub use device::{GpuDevice, keeps_waiting};
 pub use error::GpuError;
+#[cfg(feature = "fault-injection")]
+pub use faults::Faults;
 pub use layout::{Number, Wide};
 pub use lending::Lent;
 pub use plan::{Exchange, GroupLimits, LinePlan, radices};

@@ -11,8 +11,10 @@ mod copy;
 mod deciding;
 mod factors;
 mod long;
+mod members;
 mod rows;
 mod slabs;
+mod snapshot;
 
 use std::fmt::Write;
 
@@ -30,6 +32,8 @@ pub use convert::convert;
 pub use copy::copy;
 pub use deciding::{Decision, PAIRS, Reduction, Results, decide, two_sums};
 pub use factors::{FactorSource, OWN_FACTORS};
+pub use members::copy_members;
+pub use snapshot::representative;
 pub use long::{Pass, multiply_long, rows_then};
 use rows::rows_main;
 pub use slabs::Whole;
