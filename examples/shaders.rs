@@ -15,7 +15,10 @@ fn main() -> Result<(), Box<dyn Error>> {
     // What is no longer written must not stay.
     for entry in fs::read_dir(folder)? {
         let path = entry?.path();
-        if path.extension().is_some_and(|extension| extension == "wgsl") {
+        if path
+            .extension()
+            .is_some_and(|extension| extension == "wgsl")
+        {
             fs::remove_file(path)?;
         }
     }

@@ -207,7 +207,7 @@ impl Backend for DryRun {
         self.transforms += 0.5 * self.share_of_first(level);
     }
 
-    fn turn(&mut self, kernel: &'static Kernel, level: Level, fields: &[Field]) {
+    fn inverse_then_forward(&mut self, kernel: &'static Kernel, level: Level, fields: &[Field]) {
         self.pass(kernel, fields);
         self.transforms += self.share_of_first(level);
     }

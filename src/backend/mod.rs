@@ -145,7 +145,7 @@ pub trait Backend {
     ///
     /// # Errors
     /// Those of [`read`](Backend::read) there.
-    fn take(
+    fn copy_from(
         &mut self,
         field: Field,
         from: &mut dyn Backend,
@@ -155,7 +155,7 @@ pub trait Backend {
         Ok(())
     }
     /// A field for another backend on the same device to take; `None` where there is no device.
-    fn lend(&mut self, _field: Field) -> Option<gpu::Lent> {
+    fn share_buffer(&mut self, _field: Field) -> Option<gpu::SharedBuffer> {
         None
     }
     /// Sets the numbers that stay fixed during a solve.
@@ -178,7 +178,7 @@ pub trait Backend {
     /// Transforms the work space back and hands it to a kernel that stores or keeps it.
     fn backward(&mut self, kernel: &'static Kernel, level: Level, fields: &[Field]);
     /// Transforms the work space back, hands it to a kernel, and transforms what this makes of it.
-    fn turn(&mut self, kernel: &'static Kernel, level: Level, fields: &[Field]);
+    fn inverse_then_forward(&mut self, kernel: &'static Kernel, level: Level, fields: &[Field]);
     /// Relative rounding error of the fields' numbers.
     fn epsilon(&self) -> f64;
     /// Real two-dimensional transforms run so far, forward and inverse one each, those of other

@@ -79,11 +79,11 @@ impl Machine {
     pub fn backend(&self) -> Box<dyn Backend + Send> {
         match (&self.place, self.precision) {
             (Place::Gpu(device), Precision::Mixed) => {
-                Box::new(GpuBackend::on(device).expecting_numbers().corrected())
+                Box::new(GpuBackend::on(device).expecting_finite().corrected())
             }
             (Place::Gpu(device), precision) => Box::new(
                 GpuBackend::on(device)
-                    .expecting_numbers()
+                    .expecting_finite()
                     .keeping(number(precision)),
             ),
             (Place::Processor, Precision::Single) => Box::new(CpuBackend::<f32>::new()),

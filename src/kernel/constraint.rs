@@ -15,7 +15,7 @@ use std::marker::PhantomData;
 
 use super::points::{PointKernel, side_by_side};
 use super::{Params, Rows, SUMS};
-use crate::law::{Cohesion, CorrectedField, Patterned};
+use crate::law::{AdhesionMap, Cohesion, CorrectedField};
 use crate::real::Real;
 use crate::with_wall_law;
 
@@ -286,7 +286,7 @@ impl<T: Real> GapConstraint<T> for Unilateral<T> {
         K: PointKernel<T, READS, WRITES, TERMS>,
     {
         if rows.outer[0].is_empty() {
-            with_wall_law!(params.law, T, law => side_by_side(kernel, Patterned(law), rows, sums));
+            with_wall_law!(params.law, T, law => side_by_side(kernel, AdhesionMap(law), rows, sums));
         } else {
             with_wall_law!(params.law, T, law => side_by_side(kernel, CorrectedField(law), rows, sums));
         }
@@ -436,6 +436,6 @@ impl<T: Real> GapConstraint<T> for HardnessLimit<T> {
     ) where
         K: PointKernel<T, READS, WRITES, TERMS>,
     {
-        with_wall_law!(params.law, T, law => side_by_side(kernel, Patterned(law), rows, sums));
+        with_wall_law!(params.law, T, law => side_by_side(kernel, AdhesionMap(law), rows, sums));
     }
 }

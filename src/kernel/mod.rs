@@ -68,7 +68,7 @@ impl Reduce {
     }
 }
 
-/// Where the lines of a kernel come from and where they go. Lines are kept in the work space of the
+/// Where the lines of a kernel come from and where they go. Rows are retained in the work space of the
 /// level's transforms, so that they cost no field.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Form {
@@ -79,29 +79,35 @@ pub enum Form {
     /// Takes the lines of an inverse transform.
     Store,
     /// Takes the lines of an inverse transform and leaves others to be kept.
-    Keep,
+    RetainRows,
     /// Takes the lines that were kept; they stay.
-    Peek,
+    ReadRetained,
     /// Takes the lines that were kept and fills those of a forward transform.
-    Resume,
+    FromRetained,
     /// Takes the lines of an inverse transform and fills those of a forward transform.
-    Turn,
+    InverseThenForward,
 }
 
 impl Form {
     /// Whether an inverse transform goes before it.
     pub fn after_inverse(self) -> bool {
-        matches!(self, Form::Store | Form::Keep | Form::Turn)
+        matches!(
+            self,
+            Form::Store | Form::RetainRows | Form::InverseThenForward
+        )
     }
 
     /// Whether a forward transform comes after it.
     pub fn before_forward(self) -> bool {
-        matches!(self, Form::Load | Form::Resume | Form::Turn)
+        matches!(
+            self,
+            Form::Load | Form::FromRetained | Form::InverseThenForward
+        )
     }
 
     /// Whether it takes lines that were kept.
-    pub fn takes_kept(self) -> bool {
-        matches!(self, Form::Peek | Form::Resume)
+    pub fn takes_retained(self) -> bool {
+        matches!(self, Form::ReadRetained | Form::FromRetained)
     }
 }
 

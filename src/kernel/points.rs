@@ -14,7 +14,7 @@ use pulp::{Arch, Simd, WithSimd};
 
 use super::constraint::GapConstraint;
 use super::{Params, Reduce, Rows, SUMS, Scalars};
-use crate::law::{Cohesion, HardWall, LawField, Patterned};
+use crate::law::{AdhesionMap, Cohesion, HardWall, LawField};
 use crate::real::Real;
 
 /// Points in a group: a few of the widest vectors, so that what is done once a group costs little.
@@ -84,7 +84,7 @@ pub fn each_point_without_law<T, K, const READS: usize, const WRITES: usize, con
     T: Real,
     K: PointKernel<T, READS, WRITES, TERMS>,
 {
-    side_by_side(K::new(params, scalars), Patterned(HardWall), rows, sums);
+    side_by_side(K::new(params, scalars), AdhesionMap(HardWall), rows, sums);
 }
 
 /// Runs a kernel over the points one after another: where each takes as many Newton steps as it needs there
@@ -383,7 +383,7 @@ mod tests {
             };
             let mut sums = [0.0; SUMS];
             (sums[1], sums[2]) = (f64::INFINITY, f64::NEG_INFINITY);
-            side_by_side(Probe, Patterned(law), &mut rows, &mut sums);
+            side_by_side(Probe, AdhesionMap(law), &mut rows, &mut sums);
             let mut expected = 0.0;
             for i in 0..points {
                 let in_domain = i % width < surface[0] && i / width < surface[1];

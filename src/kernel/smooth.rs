@@ -7,7 +7,7 @@
 use super::constraint::{GapConstraint, Here, Tried, Violation};
 use super::points::{PointKernel, one_by_one};
 use super::{Params, Rows, SUMS};
-use crate::law::{Cohesion, CorrectedField, Law, LennardJones, Patterned};
+use crate::law::{AdhesionMap, Cohesion, CorrectedField, Law, LennardJones};
 use crate::real::Real;
 
 /// Largest number of Newton steps in the inversion of v(g).
@@ -197,7 +197,7 @@ impl<T: Real> GapConstraint<T> for Smooth<T> {
         };
         let law = law.cast::<T>();
         if rows.outer[0].is_empty() {
-            one_by_one(kernel, Patterned(law), rows, sums);
+            one_by_one(kernel, AdhesionMap(law), rows, sums);
         } else {
             one_by_one(kernel, CorrectedField(law), rows, sums);
         }

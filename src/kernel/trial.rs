@@ -223,15 +223,15 @@ where
 /// the rows of a transform with the trial step s.
 pub static TRIAL: [Kernel; 3] = [
     point_kernel!(
-        trial, Resume, gate Running, Trial over Unilateral [LINEAR = false],
+        trial, FromRetained, gate Running, Trial over Unilateral [LINEAR = false],
         reads [gap, pressure], writes [direction], unbound [heights_pressure, step], sums [TrialSums]
     ),
     point_kernel!(
-        trial, Resume, gate Running, Trial over HardnessLimit [LINEAR = false],
+        trial, FromRetained, gate Running, Trial over HardnessLimit [LINEAR = false],
         reads [gap, pressure], writes [direction], unbound [heights_pressure, step], sums [TrialSums]
     ),
     point_kernel!(
-        trial, Resume, gate Running, Trial over Smooth [LINEAR = false],
+        trial, FromRetained, gate Running, Trial over Smooth [LINEAR = false],
         reads [gap, pressure], writes [direction, step], fresh 1, unbound [heights_pressure],
         sums [TrialSums, SmoothTrialSums]
     ),
@@ -240,7 +240,7 @@ pub static TRIAL: [Kernel; 3] = [
 /// The same under a prescribed mean gap and a unilateral constraint: the trial step s0 as it is before the
 /// mean gap is restored, with all sums from which the restored one follows.
 pub static LINEAR_TRIAL: Kernel = point_kernel!(
-    trial, Resume, gate Running, Trial over Unilateral [LINEAR = true],
+    trial, FromRetained, gate Running, Trial over Unilateral [LINEAR = true],
     reads [gap, pressure, heights_pressure], writes [direction], unbound [step], sums [LinearTrialSums]
 );
 
@@ -315,12 +315,12 @@ where
 /// Steps 3 and 4 under a prescribed mean gap where the trial does not follow by linearity: turns the direction
 /// by the retained rows of z and sums what restores the mean gap.
 pub static TWO_SIDED_DIRECTION: Kernel = point_kernel!(
-    direction, Peek, gate Running, Direction over HardnessLimit [],
+    direction, ReadRetained, gate Running, Direction over HardnessLimit [],
     reads [gap, pressure], writes [direction], unbound [step], sums [TwoSidedSums]
 );
 /// The same of a smooth law.
 pub static SMOOTH_DIRECTION: Kernel = point_kernel!(
-    direction, Peek, gate Running, Direction over Smooth [],
+    direction, ReadRetained, gate Running, Direction over Smooth [],
     reads [gap], writes [direction, step], fresh 1, unbound [pressure], sums [ComplianceSums]
 );
 

@@ -159,7 +159,7 @@ fn weigh<T: Real>(rows: &mut Rows<T>, _: &Params, _: &Scalars, _: &mut [f64; SUM
 /// Takes the smoothed share of free points, stores its square, clipped to [0, 1], as the weight,
 /// and fills the rows of a transform with the restricted residual times it.
 pub static WEIGH: Kernel = rows_kernel!(
-    weigh, Turn, gate Ahead, law false,
+    weigh, InverseThenForward, gate Ahead, law false,
     reads [restricted], writes [weight], fresh 1
 );
 
@@ -224,13 +224,13 @@ fn two_band_descent<T: Real, const MEAN_GAP: bool, const READS: usize, const TER
 /// Step 2, the end of `Contact::precondition` with two bands: as `descent`, with the long waves added from the
 /// coarse level.
 pub static TWO_BAND_DESCENT: Kernel = rows_kernel!(
-    two_band_descent [MEAN_GAP = false, 2, 2], Keep, gate Ahead, law false,
+    two_band_descent [MEAN_GAP = false, 2, 2], RetainRows, gate Ahead, law false,
     reads [projected_residual, previous_residual], writes [], whole true,
     unbound [direction], sums [DescentSums]
 );
 /// The same under a prescribed mean gap.
 pub static MEAN_GAP_TWO_BAND_DESCENT: Kernel = rows_kernel!(
-    two_band_descent [MEAN_GAP = true, 3, 9], Keep, gate Ahead, law false,
+    two_band_descent [MEAN_GAP = true, 3, 9], RetainRows, gate Ahead, law false,
     reads [projected_residual, previous_residual, direction], writes [], whole true,
     sums [DescentSums, MeanGapDescentSums]
 );

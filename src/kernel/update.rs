@@ -156,17 +156,17 @@ where
 /// fills the rows of a transform with the new projected residual, with the sums of the step's direction.
 pub static UPDATE_STATE: [Kernel; 3] = [
     point_kernel!(
-        update_state, Turn, gate Running, UpdateState over Unilateral [],
+        update_state, InverseThenForward, gate Running, UpdateState over Unilateral [],
         reads [direction], writes [gap, pressure, previous_residual], fresh 1,
         unbound [step, projected_residual], sums [ResidualSums, AlongSums]
     ),
     point_kernel!(
-        update_state, Turn, gate Running, UpdateState over HardnessLimit [],
+        update_state, InverseThenForward, gate Running, UpdateState over HardnessLimit [],
         reads [direction], writes [gap, pressure, previous_residual], fresh 1,
         unbound [step, projected_residual], sums [ResidualSums, AlongSums]
     ),
     point_kernel!(
-        update_state, Turn, gate Running, UpdateState over Smooth [],
+        update_state, InverseThenForward, gate Running, UpdateState over Smooth [],
         reads [direction, step], writes [gap, pressure, previous_residual], fresh 1,
         unbound [projected_residual], sums [ResidualSums, AlongSums]
     ),
@@ -175,12 +175,12 @@ pub static UPDATE_STATE: [Kernel; 3] = [
 /// The same, which retains the new projected residual in a field for the coarse level, a hard wall's.
 pub static UPDATE_AND_RETAIN: [Kernel; 2] = [
     point_kernel!(
-        update_state, Turn, gate Running, UpdateState over Unilateral [],
+        update_state, InverseThenForward, gate Running, UpdateState over Unilateral [],
         reads [direction], writes [gap, pressure, previous_residual, projected_residual], fresh 2,
         unbound [step], sums [ResidualSums, AlongSums]
     ),
     point_kernel!(
-        update_state, Turn, gate Running, UpdateState over HardnessLimit [],
+        update_state, InverseThenForward, gate Running, UpdateState over HardnessLimit [],
         reads [direction], writes [gap, pressure, previous_residual, projected_residual], fresh 2,
         unbound [step], sums [ResidualSums, AlongSums]
     ),

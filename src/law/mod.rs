@@ -4,19 +4,19 @@
 //! that is `-work_of_adhesion` at zero gap and vanishes far away. The net pressure carries the
 //! traction with a minus sign. All numbers are in the caller's units; the solver uses reduced ones.
 
+mod adhesion_map;
 mod correction;
 mod exponential;
 mod lennard_jones;
 mod maugis_dugdale;
 mod meniscus;
-mod pattern;
 
+pub use adhesion_map::{AdhesionMap, LawField, Scaled};
 pub use correction::{CorrectedField, Correction};
 pub use exponential::Exponential;
 pub use lennard_jones::LennardJones;
 pub use maugis_dugdale::MaugisDugdale;
 pub use meniscus::{GAS_CONSTANT, LEAST_KELVIN_RADIUS, Meniscus, least_humidity};
-pub use pattern::{LawField, Patterned, Scaled};
 
 use crate::real::Real;
 

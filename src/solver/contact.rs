@@ -5,8 +5,8 @@ use super::coarse_start;
 use super::correction::FIRST_TOLERANCE;
 use super::kernel_set::{KernelSet, fixed_params, rounded_beside_under};
 use super::mean_gap::HeightsPressure;
+use super::outer_state::OuterState;
 use super::problem::Problem;
-use super::reference::Reference;
 use super::two_band::TwoBand;
 use crate::backend::{Backend, BackendError, Field, Level, Response, Spectrum};
 use crate::kernel::{Gate, Params, Scalars, Status, displacement, scalar, step_length};
@@ -102,7 +102,7 @@ pub struct ContactSolver<'a> {
     heights_norm: f64,
     /// The state in double precision, where iterations here are to be corrected by it; made when it
     /// is first asked for.
-    pub(super) reference: Option<Reference>,
+    pub(super) outer: Option<OuterState>,
     /// Transforms of the solvers on coarser grids that this one asked for help.
     helped_by: f64,
     /// What a relaxing solid's past adds to its displacement, over all solved points; empty where the
@@ -111,7 +111,7 @@ pub struct ContactSolver<'a> {
     /// Mean of it.
     mean_offset: f64,
     /// Depths by which flow has lowered the heights, over all solved points; empty where it has not.
-    flowed: Vec<f64>,
+    plastic_depths: Vec<f64>,
 }
 
 /// Evaluations that one search of a step length may take where each is looked at, the scalar kernels'
@@ -179,11 +179,11 @@ impl<'a> ContactSolver<'a> {
             kernels: KernelSet::new(problem),
             heights_norm: params.heights_norm,
             params,
-            reference: None,
+            outer: None,
             helped_by: 0.0,
             offset: Vec::new(),
             mean_offset: 0.0,
-            flowed: Vec::new(),
+            plastic_depths: Vec::new(),
         }
     }
 
@@ -199,30 +199,30 @@ impl<'a> ContactSolver<'a> {
 
     /// Real two-dimensional transforms so far, those on coarser grids in proportion to their points.
     pub fn transforms(&self) -> f64 {
-        let reference = self.reference.as_ref().map_or(0.0, Reference::transforms);
-        self.backend.transforms() + self.helped_by + reference
+        let outer = self.outer.as_ref().map_or(0.0, OuterState::transforms);
+        self.backend.transforms() + self.helped_by + outer
     }
 
     /// The gap over all solved points, reduced.
     pub fn gap(&mut self) -> Result<Vec<f64>, BackendError> {
-        match &mut self.reference {
-            Some(reference) => reference.gap(),
+        match &mut self.outer {
+            Some(outer) => outer.gap(),
             None => self.backend.read(self.gap),
         }
     }
 
     /// Sets the gap from which [`Start::Present`] starts, as [`ContactSolver::gap`] gave it.
     pub fn set_gap(&mut self, gap: &[f64]) {
-        if let Some(reference) = self.reference() {
-            reference.set_gap(gap);
+        if let Some(outer) = self.outer() {
+            outer.set_gap(gap);
         }
         self.backend.write(self.gap, gap);
     }
 
     /// The elastic pressure K*(g + h) over all solved points, reduced, without the mean pressure.
     pub fn elastic_pressure(&mut self) -> Result<Vec<f64>, BackendError> {
-        match &mut self.reference {
-            Some(reference) => reference.pressure(),
+        match &mut self.outer {
+            Some(outer) => outer.pressure(),
             None => self.backend.read(self.pressure),
         }
     }
@@ -236,27 +236,27 @@ impl<'a> ContactSolver<'a> {
     }
 
     /// Lowers the rigid heights by the depths that have flowed (reduced, all solved points).
-    pub fn set_flowed(&mut self, depths: &[f64]) {
-        self.flowed = depths.to_vec();
+    pub fn set_plastic_depths(&mut self, depths: &[f64]) {
+        self.plastic_depths = depths.to_vec();
         self.write_heights();
     }
 
     /// Depths by which flow has lowered the heights, over all solved points; empty where it has not.
-    pub fn flowed(&self) -> &[f64] {
-        &self.flowed
+    pub fn plastic_depths(&self) -> &[f64] {
+        &self.plastic_depths
     }
 
     fn write_heights(&mut self) {
         let mut moved = self.problem.padded(&self.problem.heights, 0.0);
-        for (height, depth) in moved.iter_mut().zip(&self.flowed) {
+        for (height, depth) in moved.iter_mut().zip(&self.plastic_depths) {
             *height -= depth;
         }
         for (height, offset) in moved.iter_mut().zip(&self.offset) {
             *height += offset;
         }
         self.backend.write(self.heights, &moved);
-        if let Some(reference) = self.reference() {
-            reference.set_heights(&moved);
+        if let Some(outer) = self.outer() {
+            outer.set_heights(&moved);
         }
     }
 
@@ -267,10 +267,10 @@ impl<'a> ContactSolver<'a> {
             let values = factor.as_ref().unwrap_or(own);
             self.backend.write(field, &self.problem.padded(values, 0.0));
             let problem = self.problem;
-            if self.reference().is_some()
-                && let Some(reference) = &mut self.reference
+            if self.outer().is_some()
+                && let Some(outer) = &mut self.outer
             {
-                reference.set_law_factor(problem, values);
+                outer.set_law_factor(problem, values);
             }
             self.present_factor = factor;
         }
@@ -289,8 +289,8 @@ impl<'a> ContactSolver<'a> {
     /// The gap at which the undeformed surfaces first touch, scaled or shifted to a held mean gap.
     fn undeformed(&self, load: &Load) -> Vec<f64> {
         let mut heights = self.problem.heights.clone();
-        if !self.flowed.is_empty() {
-            let depths = self.problem.surface_part(&self.flowed);
+        if !self.plastic_depths.is_empty() {
+            let depths = self.problem.surface_part(&self.plastic_depths);
             heights
                 .iter_mut()
                 .zip(depths)
@@ -316,7 +316,7 @@ impl<'a> ContactSolver<'a> {
 
     /// Readies a solve: the load, the start, and the pressures that belong to it.
     ///
-    /// Around a reference the present gap is the reference's, which [`ContactSolver::solve`] hands in.
+    /// Around an outer state the present gap is that state's, which [`ContactSolver::solve`] hands in.
     pub fn begin(
         &mut self,
         load: &Load,
@@ -461,10 +461,12 @@ impl<'a> ContactSolver<'a> {
         match (&self.two_band, self.step) {
             (Some(bands), _) => {
                 let fields = [d, g, p, previous, bands.residual()];
-                backend.turn(bands.retain.update_state, level, &fields);
+                backend.inverse_then_forward(bands.retain.update_state, level, &fields);
             }
-            (None, Some(step)) => backend.turn(update, level, &[d, step, g, p, previous]),
-            (None, None) => backend.turn(update, level, &[d, g, p, previous]),
+            (None, Some(step)) => {
+                backend.inverse_then_forward(update, level, &[d, step, g, p, previous])
+            }
+            (None, None) => backend.inverse_then_forward(update, level, &[d, g, p, previous]),
         }
         backend.scalar(&step_length::ADAPT_TRIAL_LENGTH);
         backend.scalar(&scalar::TEST_CONVERGENCE);
@@ -520,17 +522,17 @@ impl<'a> ContactSolver<'a> {
         make_backend: MakeBackend,
         watch: &mut dyn FnMut(&Scalars) -> bool,
     ) -> Result<Outcome, BackendError> {
-        if let (Start::Present, Some(reference)) = (start, &mut self.reference) {
-            reference.hand_gap(self.backend, self.gap)?;
+        if let (Start::Present, Some(outer)) = (start, &mut self.outer) {
+            outer.hand_gap(self.backend, self.gap)?;
         }
-        let corrected = self.reference().is_some();
+        let corrected = self.outer().is_some();
         let first = match corrected {
             true => tolerance.max(FIRST_TOLERANCE),
             false => tolerance,
         };
         let helped = match start {
             // Coarse grids know nothing of what has flowed.
-            Start::Cold if self.flowed.is_empty() => {
+            Start::Cold if self.plastic_depths.is_empty() => {
                 coarse_start::gap(self.problem, load, make_backend, watch)?
             }
             _ => None,

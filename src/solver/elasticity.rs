@@ -10,8 +10,8 @@ impl ContactSolver<'_> {
     /// Between solves, since it takes their directions for work space.
     pub fn energy_of(&mut self, values: &[f64]) -> Result<f64, BackendError> {
         let own = self.own_zero_mode();
-        if let Some(reference) = &mut self.reference {
-            return reference.energy_of(values, own);
+        if let Some(outer) = &mut self.outer {
+            return outer.energy_of(values, own);
         }
         let pressure = self.stiffness_times(values)?;
         Ok(0.5

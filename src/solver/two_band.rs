@@ -144,7 +144,7 @@ impl TwoBand {
         backend.forward(&displacement::LOAD_FIELD_AHEAD, level, &[self.share]);
         backend.multiply(self.smoothing, false, Gate::Ahead);
         let fields = [self.restricted, self.weight];
-        backend.turn(&two_band::WEIGH, level, &fields);
+        backend.inverse_then_forward(&two_band::WEIGH, level, &fields);
         backend.multiply(self.compliance, false, Gate::Ahead);
         let fields = [self.weight, self.long_waves];
         backend.backward(&two_band::STORE_WEIGHTED, level, &fields);

@@ -9,7 +9,7 @@ use crate::backend::{
 use crate::grid::Grid;
 use crate::law::Law;
 use crate::scene::{BackendName, Precision, Scene, Treatment};
-use crate::solver::{ContactSolver, Problem, Start, plan_reference};
+use crate::solver::{ContactSolver, Problem, Start, plan_outer_state};
 
 /// What a scene's solver holds and does, and what is kept between its steps.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -132,7 +132,7 @@ fn plan(
     let mut reference = Vec::new();
     if scene.arithmetic_on(place.on_gpu()) == Precision::Mixed {
         let mut double = DryRun::on(Place::Double);
-        plan_reference(&mut double, &mut iterated, problem, &load);
+        plan_outer_state(&mut double, &mut iterated, problem, &load);
         for held in [double.fields, double.spectra, double.work] {
             reference.extend(held);
         }

@@ -42,8 +42,8 @@ impl Flow {
 
     /// Tells a solver what has flowed.
     pub fn lower(&self, solver: &mut ContactSolver) {
-        if !(self.depths.is_empty() && solver.flowed().is_empty()) {
-            solver.set_flowed(&self.depths);
+        if !(self.depths.is_empty() && solver.plastic_depths().is_empty()) {
+            solver.set_plastic_depths(&self.depths);
         }
     }
 
@@ -66,7 +66,7 @@ impl Flow {
             }
         }
         if flows {
-            solver.set_flowed(&self.depths);
+            solver.set_plastic_depths(&self.depths);
             solver.set_gap(&gap);
         }
         Ok(())
@@ -81,7 +81,7 @@ impl Flow {
 /// A load as the solver holds it on heights that have flowed: a mean gap is wider by what they have
 /// lost.
 pub(super) fn load_on(solver: &ContactSolver, load: Load) -> Load {
-    let depths = solver.flowed();
+    let depths = solver.plastic_depths();
     match load.hold {
         Hold::Gap(target) if !depths.is_empty() => Load {
             hold: Hold::Gap(target + depths.iter().sum::<f64>() / depths.len() as f64),

@@ -105,7 +105,7 @@ pub(super) fn finish(
         gap: &gap,
         elastic: &elastic,
         mean_offset: solver.mean_offset(),
-        flowed: solver.flowed(),
+        flowed: solver.plastic_depths(),
         held: outcome.mean_pressure,
         load: *load,
         law_factor: solver.law_factor(),

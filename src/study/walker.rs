@@ -307,7 +307,7 @@ impl PathState<'_> {
         for (u, h) in displacement.iter_mut().zip(heights) {
             *u += h + rigid;
         }
-        for (u, depth) in displacement.iter_mut().zip(solver.flowed()) {
+        for (u, depth) in displacement.iter_mut().zip(solver.plastic_depths()) {
             *u -= depth;
         }
         history.advance(solid, duration, displacement);
@@ -333,7 +333,10 @@ impl PathState<'_> {
         if !self.loaded {
             return Ok(
                 if problem.boundary == Boundary::Free || self.controller.is_sprung() {
-                    Start::Gap(self.controller.undeformed_gap(value, solver.flowed()))
+                    Start::Gap(
+                        self.controller
+                            .undeformed_gap(value, solver.plastic_depths()),
+                    )
                 } else {
                     Start::Cold
                 },

@@ -4,7 +4,7 @@
 use tabor::backend::cpu::CpuBackend;
 use tabor::backend::gpu::{AdapterChoice, Faults, GpuDevice, Number, Wide};
 use tabor::backend::{Backend, Factors, Field, Level, Shape};
-use tabor::kernel::declare::{DeviceValue, Word, members};
+use tabor::kernel::declare::{DeviceValue, FromDevice, Kind, Word, members};
 use tabor::kernel::descent::DESCENT;
 use tabor::kernel::displacement::{LOAD_FIELD, STORE_FIELD};
 use tabor::kernel::refinement::OUTER_RESIDUAL;
@@ -226,26 +226,26 @@ fn run(
         backend.forward(&LOAD_FIELD, level, &[lines]);
         backend.multiply(ones, false, Gate::Always);
     }
-    if kernel.form.takes_kept() {
+    if kernel.form.takes_retained() {
         // Everywhere open, the descent keeps the lines as they are.
         backend.backward(&DESCENT[0], level, &[open_gap, blank, other_blank]);
     }
     backend.set_scalars(&open(kernel.gate));
     match kernel.form {
-        Form::Sweep | Form::Peek => backend.sweep(kernel, level, &fields),
-        Form::Load | Form::Resume => backend.forward(kernel, level, &fields),
-        Form::Store | Form::Keep => backend.backward(kernel, level, &fields),
-        Form::Turn => backend.turn(kernel, level, &fields),
+        Form::Sweep | Form::ReadRetained => backend.sweep(kernel, level, &fields),
+        Form::Load | Form::FromRetained => backend.forward(kernel, level, &fields),
+        Form::Store | Form::RetainRows => backend.backward(kernel, level, &fields),
+        Form::InverseThenForward => backend.inverse_then_forward(kernel, level, &fields),
     }
     let scalars = backend
         .scalars()
         .unwrap_or_else(|error| panic!("{}: {error}", kernel.name));
-    if kernel.form == Form::Keep {
+    if kernel.form == Form::RetainRows {
         // Everywhere open, the trial loads what was kept.
         backend.set_scalars(&passing());
         backend.forward(&TRIAL[0], level, &[open_gap, blank, other_blank]);
     }
-    let gives = kernel.form.before_forward() || kernel.form == Form::Keep;
+    let gives = kernel.form.before_forward() || kernel.form == Form::RetainRows;
     if gives {
         backend.multiply(ones, false, Gate::Always);
         backend.backward(&STORE_FIELD, level, &[lines]);
@@ -542,7 +542,7 @@ fn exponentials_in_double_precision_are_good_to_the_last_digits() {
 /// A field taken over between single and double precision on the device is what the host would make of
 /// it, and nothing crosses the bus.
 #[test]
-fn fields_are_taken_over_on_the_device() {
+fn fields_are_copied_on_the_device() {
     let Some(device) = device_with_double() else {
         return;
     };
@@ -559,12 +559,12 @@ fn fields_are_taken_over_on_the_device() {
     double.write(places[0], &values);
     let before = [double.traffic(), single.traffic()];
     single
-        .take(places[1], &mut double, places[0])
+        .copy_from(places[1], &mut double, places[0])
         .unwrap_or_else(|error| panic!("{error}"));
     // What is recorded after the loan does not reach the borrower.
     double.clear(places[0]);
     double
-        .take(places[0], &mut single, places[1])
+        .copy_from(places[0], &mut single, places[1])
         .unwrap_or_else(|error| panic!("{error}"));
     for (before, after) in before.iter().zip([double.traffic(), single.traffic()]) {
         assert_eq!(
@@ -580,7 +580,7 @@ fn fields_are_taken_over_on_the_device() {
 /// Where a field takes more slabs in double than in single precision, iterations that are corrected lie as
 /// what corrects them.
 #[test]
-fn fields_in_slabs_are_taken_over_on_the_device() {
+fn fields_in_slabs_are_copied_on_the_device() {
     if device_with_double().is_none() {
         return;
     }
@@ -603,7 +603,7 @@ fn fields_in_slabs_are_taken_over_on_the_device() {
     });
     double.write(there, &values);
     single
-        .take(here, &mut double, there)
+        .copy_from(here, &mut double, there)
         .unwrap_or_else(|error| panic!("{error}"));
     assert_eq!(single.traffic().fields_up + double.traffic().fields_down, 0);
     let rounded: Vec<f64> = values.iter().map(|&x| f64::from(x as f32)).collect();
@@ -621,7 +621,7 @@ fn numbers(scalars: &Scalars) -> Vec<(String, f64)> {
     });
     let names = members(Scalars::KIND).into_iter().flat_map(|(name, kind)| {
         let count = match kind {
-            tabor::kernel::declare::Kind::Wide(count) => count,
+            Kind::Wide(count) => count,
             _ => 1,
         };
         std::iter::repeat_n(name, count)
@@ -732,6 +732,65 @@ fn scalar_kernels_agree_with_their_twins() {
                     "{}, round {round}: {name} is {a}, twin {b}\n{before:?}\n{params:?}",
                     kernel.name
                 );
+            }
+        }
+    }
+}
+
+/// Every member of the params and the scalars has another value, and a shader finds each where the host has
+/// put it, in every kind of number that sums are kept in.
+#[test]
+fn every_member_is_where_a_shader_reads_it() {
+    let Some(device) = device() else { return };
+    let Some(single) = device_without_double() else {
+        return;
+    };
+    for device in [device, &single] {
+        for law in [laws()[2].1, laws()[4].1] {
+            let params = Params {
+                law,
+                stiffness_max: 2.125,
+                pressure_floor: 3.125,
+                tolerance: 4.125,
+                heights_norm: 5.125,
+                points: 6.125,
+                core_stiffness: 7.125,
+                hardness: 8.125,
+                epsilon: 9.125,
+                fixed_gap: true,
+                may_detach: false,
+            };
+            let mut next = 10;
+            let scalars = Scalars::take(&mut |kind| {
+                next += 1;
+                match kind {
+                    Kind::Wide(_) => Word::Wide(f64::from(next) + 0.25),
+                    // A status, flags, and counts; a status beyond the last one is none.
+                    _ => Word::Count(next % 3),
+                }
+            });
+            let mut expected = Vec::new();
+            let mut add = |word| {
+                expected.push(match word {
+                    Word::Wide(value) => value,
+                    Word::Count(count) => f64::from(count),
+                });
+            };
+            params.give(&mut add);
+            // What WGSL cannot write down, and a zero that no compiler knows.
+            add(Word::Wide(f64::INFINITY));
+            add(Word::Count(0));
+            scalars.give(&mut add);
+            let mut backend = backend(device);
+            backend.set_params(&params);
+            backend.set_scalars(&scalars);
+            let found = backend
+                .words_on_device()
+                .unwrap_or_else(|error| panic!("{error}"));
+            assert_eq!(found.len(), expected.len());
+            for (place, (found, expected)) in found.iter().zip(&expected).enumerate() {
+                let same = found == expected || (found - expected).abs() <= 1e-6 * expected.abs();
+                assert!(same, "word {place}: {found} on the device, {expected} here");
             }
         }
     }

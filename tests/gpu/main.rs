@@ -10,4 +10,5 @@ mod shaders;
 mod shared;
 mod slabs;
 mod solve;
+mod twins;
 mod watching;

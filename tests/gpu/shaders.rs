@@ -279,6 +279,15 @@ fn reductions_are_valid() {
 }
 
 #[test]
+fn the_copy_of_members_is_valid() {
+    for wide in WIDES {
+        let (text, count) = source::copy_members(wide);
+        assert!(count > 90, "{count} words");
+        validate("copy_members", &text, wide);
+    }
+}
+
+#[test]
 fn scalar_kernels_are_valid() {
     for wide in WIDES {
         for kernel in SCALAR_KERNELS {

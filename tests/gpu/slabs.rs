@@ -189,7 +189,7 @@ fn run(
     };
     let mut fields = Vec::new();
     for place in 0..kernel.written().end {
-        let values = match place == 0 || place == kernel.reads {
+        let values = match place == 0 || place == kernel.reads.len() {
             true => gaps(&mut numbers),
             false => numbers.field(own.len()),
         };
@@ -218,7 +218,7 @@ fn run(
         backend.forward(&LOAD_FIELD, level, &[lines]);
         backend.multiply(ones, false, Gate::Always);
     }
-    if kernel.form.takes_kept() {
+    if kernel.form.takes_retained() {
         backend.backward(&descent::DESCENT[0], level, &spare);
     }
     backend.set_scalars(&Scalars {
@@ -239,23 +239,23 @@ fn run(
         backend.multiply(ones, false, Gate::Always);
     }
     let own_gap = fields[0];
-    if kernel.form.takes_kept() {
+    if kernel.form.takes_retained() {
         backend.backward(&descent::DESCENT[0], level, &[own_gap; 3]);
     }
     match kernel.form {
-        Form::Sweep | Form::Peek => backend.sweep(kernel, level, &fields),
-        Form::Load | Form::Resume => backend.forward(kernel, level, &fields),
-        Form::Store | Form::Keep => backend.backward(kernel, level, &fields),
-        Form::Turn => backend.turn(kernel, level, &fields),
+        Form::Sweep | Form::ReadRetained => backend.sweep(kernel, level, &fields),
+        Form::Load | Form::FromRetained => backend.forward(kernel, level, &fields),
+        Form::Store | Form::RetainRows => backend.backward(kernel, level, &fields),
+        Form::InverseThenForward => backend.inverse_then_forward(kernel, level, &fields),
     }
     let scalars = backend
         .scalars()
         .unwrap_or_else(|error| panic!("{}: {error}", kernel.name));
-    if kernel.form == Form::Keep {
+    if kernel.form == Form::RetainRows {
         backend.set_scalars(&passing);
         backend.forward(&trial::TRIAL[0], level, &spare);
     }
-    if kernel.form.before_forward() || kernel.form == Form::Keep {
+    if kernel.form.before_forward() || kernel.form == Form::RetainRows {
         backend.multiply(ones, false, Gate::Always);
         backend.backward(&STORE_FIELD, level, &[lines]);
     }

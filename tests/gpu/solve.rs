@@ -533,9 +533,9 @@ fn fields_moved(passes: &[String]) -> f64 {
         moved += own
             * match kernel.form {
                 Form::Sweep => 0.0,
-                Form::Load | Form::Store | Form::Peek => 1.0,
+                Form::Load | Form::Store | Form::ReadRetained => 1.0,
                 // The work space is read and written.
-                Form::Keep | Form::Resume | Form::Turn => 2.0,
+                Form::RetainRows | Form::FromRetained | Form::InverseThenForward => 2.0,
             };
         // The last store on the coarse level hands over to the fine columns.
         level = if name == "store_weighted" { fine } else { own };

@@ -2,7 +2,7 @@
 
 use std::sync::{Arc, Mutex};
 
-use tabor::backend::gpu::Lent;
+use tabor::backend::gpu::SharedBuffer;
 use tabor::backend::{Backend, BackendError, Factors, Field, Level, Shape, Spectrum};
 use tabor::kernel::{Gate, Kernel, Params, ScalarKernel, Scalars};
 
@@ -107,16 +107,16 @@ macro_rules! passed_on {
         fn in_double(&self, shape: Shape) -> Option<Box<dyn Backend + Send>> {
             self.beside(shape)
         }
-        fn take(
+        fn copy_from(
             &mut self,
             field: Field,
             from: &mut dyn Backend,
             source: Field,
         ) -> Result<(), BackendError> {
-            self.inner.take(field, from, source)
+            self.inner.copy_from(field, from, source)
         }
-        fn lend(&mut self, field: Field) -> Option<Lent> {
-            self.inner.lend(field)
+        fn share_buffer(&mut self, field: Field) -> Option<SharedBuffer> {
+            self.inner.share_buffer(field)
         }
         fn set_params(&mut self, params: &Params) {
             self.inner.set_params(params);
@@ -152,9 +152,14 @@ macro_rules! passed_on {
             self.note(kernel.variant());
             self.inner.backward(kernel, level, fields);
         }
-        fn turn(&mut self, kernel: &'static Kernel, level: Level, fields: &[Field]) {
+        fn inverse_then_forward(
+            &mut self,
+            kernel: &'static Kernel,
+            level: Level,
+            fields: &[Field],
+        ) {
             self.note(kernel.variant());
-            self.inner.turn(kernel, level, fields);
+            self.inner.inverse_then_forward(kernel, level, fields);
         }
         fn epsilon(&self) -> f64 {
             self.inner.epsilon()

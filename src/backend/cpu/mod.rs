@@ -315,7 +315,7 @@ impl<T: CpuReal> Backend for CpuBackend<T> {
         self.run(kernel, level, fields);
     }
 
-    fn turn(&mut self, kernel: &'static Kernel, level: Level, fields: &[Field]) {
+    fn inverse_then_forward(&mut self, kernel: &'static Kernel, level: Level, fields: &[Field]) {
         self.run(kernel, level, fields);
     }
 

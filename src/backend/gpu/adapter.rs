@@ -56,7 +56,7 @@ pub enum AdapterKind {
     Discrete,
     /// A graphics processor that shares the memory.
     Integrated,
-    /// One lent by a host.
+    /// One shared by a host.
     Virtual,
     /// Something else.
     Other,

@@ -184,7 +184,7 @@ impl GpuBackend {
             let mut prepared = self.prepare(kernel.name, text.clone(), &all, [groups, 1])?;
             let only_written = &buffers[own - kernel.fresh..own];
             prepared.bytes -= only_written.iter().map(|buffer| buffer.size()).sum::<u64>();
-            if matches!(kernel.form, Form::Load | Form::Store | Form::Peek) {
+            if matches!(kernel.form, Form::Load | Form::Store | Form::ReadRetained) {
                 prepared.bytes -= space.work[slab].size();
             }
             Ok(prepared)

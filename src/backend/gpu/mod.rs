@@ -18,7 +18,6 @@ mod faults;
 mod fft;
 mod filling;
 mod layout;
-mod lending;
 mod level;
 mod long;
 #[cfg(feature = "fault-injection")]
@@ -27,6 +26,7 @@ mod plan;
 mod quiet;
 mod reading;
 mod recorder;
+mod sharing;
 mod slabs;
 pub mod source;
 mod space;
@@ -52,9 +52,9 @@ pub use error::GpuError;
 #[cfg(feature = "fault-injection")]
 pub use faults::Faults;
 pub use layout::{Number, Wide};
-pub use lending::Lent;
 pub use plan::{Exchange, GroupLimits, LinePlan, radices};
 pub use quiet::{quietly, restore_standard_error};
+pub use sharing::SharedBuffer;
 pub use slabs::Limits;
 pub use source::OWN_FACTORS;
 pub use timing::{KernelTime, Stopwatch, Timings};
@@ -85,7 +85,7 @@ pub struct GpuBackend {
     /// Whether a state in double precision stands beside the fields.
     corrected: bool,
     /// Whether scalars that are not finite are a failure.
-    expects_numbers: bool,
+    expects_finite: bool,
     /// The first thing that went wrong; told where the host waits.
     failure: Option<GpuError>,
     transforms: f64,
@@ -136,7 +136,7 @@ impl GpuBackend {
             law_factor: None,
             outer: None,
             corrected: false,
-            expects_numbers: false,
+            expects_finite: false,
             failure,
             transforms: 0.0,
             // Software idles through shut gates slower than it waits.
@@ -168,9 +168,9 @@ impl GpuBackend {
     }
 
     /// The same where numbers that are none are a failure of the device, not an answer.
-    pub fn expecting_numbers(self) -> Self {
+    pub fn expecting_finite(self) -> Self {
         GpuBackend {
-            expects_numbers: true,
+            expects_finite: true,
             ..self
         }
     }
@@ -378,7 +378,7 @@ impl Backend for GpuBackend {
         self.corrected.then(|| -> Box<dyn Backend + Send> {
             match self.corrects_here(shape) {
                 true => Box::new(GpuBackend {
-                    expects_numbers: self.expects_numbers,
+                    expects_finite: self.expects_finite,
                     ..GpuBackend::on(&self.device).keeping(Number::Double)
                 }),
                 false => Box::new(CpuBackend::<f64>::new()),
@@ -386,22 +386,22 @@ impl Backend for GpuBackend {
         })
     }
 
-    fn take(
+    fn copy_from(
         &mut self,
         field: Field,
         from: &mut dyn Backend,
         source: Field,
     ) -> Result<(), BackendError> {
-        match from.lend(source) {
-            Some(lent) if self.takes_over(field, &lent) => {
-                self.attempt(|backend| backend.convert(field, &lent));
+        match from.share_buffer(source) {
+            Some(shared) if self.takes_over(field, &shared) => {
+                self.attempt(|backend| backend.convert(field, &shared));
             }
             _ => self.write(field, &from.read(source)?),
         }
         Ok(())
     }
 
-    fn lend(&mut self, field: Field) -> Option<Lent> {
+    fn share_buffer(&mut self, field: Field) -> Option<SharedBuffer> {
         self.attempt(|backend| backend.hand_out(field))
     }
 
@@ -455,7 +455,7 @@ impl Backend for GpuBackend {
         self.attempt(|backend| backend.run(kernel, level, fields));
     }
 
-    fn turn(&mut self, kernel: &'static Kernel, level: Level, fields: &[Field]) {
+    fn inverse_then_forward(&mut self, kernel: &'static Kernel, level: Level, fields: &[Field]) {
         self.attempt(|backend| backend.run(kernel, level, fields));
     }
 

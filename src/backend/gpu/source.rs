@@ -32,12 +32,12 @@ pub use convert::convert;
 pub use copy::copy;
 pub use deciding::{Decision, PAIRS, Reduction, Results, decide, two_sums};
 pub use factors::{FactorSource, OWN_FACTORS};
-pub use members::copy_members;
-pub use snapshot::representative;
 pub use long::{Pass, multiply_long, rows_then};
+pub use members::copy_members;
 use rows::rows_main;
 pub use slabs::Whole;
 use slabs::{Work, after_turns, first_turn};
+pub use snapshot::representative;
 
 /// The law of a kernel: its part, and where the factors on its tension are bound.
 #[derive(Clone, Copy, Debug)]

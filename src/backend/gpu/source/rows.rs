@@ -70,7 +70,7 @@ pub fn rows_main(source: &mut String, kernel: &Kernel, plan: &LevelPlan) {
         take(&mut writer, last);
         long::row_turn(&mut writer, plan, Direction::Inverse);
         writer.transform(Direction::Inverse);
-    } else if form.takes_kept() {
+    } else if form.takes_retained() {
         take(&mut writer, first);
     }
     writer.source.push_str("if (inside) {\n");
@@ -87,7 +87,7 @@ pub fn rows_main(source: &mut String, kernel: &Kernel, plan: &LevelPlan) {
             let (upper, lower) = (at("x", 0), at("y", half));
             let index = long::row_index(plan, &each.position(leg));
             let _ = match form {
-                Form::Store | Form::Peek => {
+                Form::Store | Form::ReadRetained => {
                     writeln!(source, "{{ let index = {index};\n{upper};\n{lower}; }}")
                 }
                 _ => writeln!(
@@ -103,7 +103,7 @@ pub fn rows_main(source: &mut String, kernel: &Kernel, plan: &LevelPlan) {
         writer.transform(Direction::Forward);
         long::row_turn(&mut writer, plan, Direction::Forward);
         give(&mut writer, last);
-    } else if form == Form::Keep {
+    } else if form == Form::RetainRows {
         give(&mut writer, first);
     }
     source.push_str(&writer.source);

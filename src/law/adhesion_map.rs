@@ -13,9 +13,9 @@ pub trait LawField<T: Real>: Copy {
 
 /// A law whose tension is multiplied by a factor of its own at each point; a factor of 1 changes no bit.
 #[derive(Clone, Copy, Debug)]
-pub struct Patterned<L>(pub L);
+pub struct AdhesionMap<L>(pub L);
 
-impl<T: Real, L: Cohesion<T>> LawField<T> for Patterned<L> {
+impl<T: Real, L: Cohesion<T>> LawField<T> for AdhesionMap<L> {
     type Here = Scaled<L, T>;
     #[inline(always)]
     fn here(&self, factor: T, _: [T; 2]) -> Scaled<L, T> {

@@ -23,7 +23,7 @@ impl ContactSolver<'_> {
     /// cell the displacement counts from its mean, so that the solid far below adds nothing.
     /// Between solves, since it takes their directions for work space; the problem must be one
     /// that [conducts](super::Problem::conducting).
-    pub fn frozen_stiffness(
+    pub fn incremental_stiffness(
         &mut self,
         contact: &[f64],
         tolerance: f64,

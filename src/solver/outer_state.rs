@@ -8,7 +8,7 @@ use crate::backend::{Backend, BackendError, Field, Level, Response, Spectrum};
 use crate::kernel::{Gate, Params, Scalars, Status, displacement, mean_gap, refinement, scalar};
 
 /// Gap and pressure in double precision, and the evaluation of their residual.
-pub(super) struct Reference {
+pub(super) struct OuterState {
     backend: Box<dyn Backend + Send>,
     places: Places,
     /// K times the heights, where a mean gap is held by linearity.
@@ -36,7 +36,7 @@ struct Places {
 
 /// Plans what mixed precision holds besides: on `double` the state, beside the `iterating` fields of a
 /// solver that is planned there the base of its corrections. To count it for a load.
-pub fn plan_reference(
+pub fn plan_outer_state(
     double: &mut dyn Backend,
     iterating: &mut dyn Backend,
     problem: &Problem,
@@ -71,14 +71,14 @@ impl Places {
             between: backend.field(level, "between"),
             stiffness: problem.spectrum(backend, level, "stiffness", Response::Stiffness),
             base: [
-                iterating.field(fine, "base_gap"),
-                iterating.field(fine, "base_total"),
+                iterating.field(fine, "outer_gap"),
+                iterating.field(fine, "outer_residual"),
             ],
         }
     }
 }
 
-impl Reference {
+impl OuterState {
     /// Plans the state of a problem on a backend of double precision, and its base beside the
     /// iterations on theirs.
     pub fn new(
@@ -90,7 +90,7 @@ impl Reference {
         let places = Places::plan(&mut *backend, iterating, fine, problem);
         backend.write(places.heights, &problem.padded(&problem.heights, 0.0));
         let params = fixed_params(problem, backend.epsilon());
-        Reference {
+        OuterState {
             places,
             heights_pressure: None,
             kernels: KernelSet::new(problem),
@@ -183,7 +183,7 @@ impl Reference {
     }
 
     /// Takes the gap that iterations have found.
-    pub fn take_gap(
+    pub fn copy_gap(
         &mut self,
         iterating: &mut dyn Backend,
         gap: Field,
@@ -205,7 +205,7 @@ impl Reference {
             ..
         } = self.places;
         let backend = &mut *self.backend;
-        backend.take(between, iterating, correction)?;
+        backend.copy_from(between, iterating, correction)?;
         // A solid with a hardness has no outer state.
         let Some(kernels) = self.kernels.outer else {
             return Ok(());
@@ -219,7 +219,10 @@ impl Reference {
     }
 
     /// Hands the present gap and its residual, as last evaluated, to where the iterations run.
-    pub fn hand_base(&mut self, iterating: &mut dyn Backend) -> Result<[Field; 2], BackendError> {
+    pub fn hand_outer_state(
+        &mut self,
+        iterating: &mut dyn Backend,
+    ) -> Result<[Field; 2], BackendError> {
         let Places {
             level,
             gap,
@@ -234,8 +237,8 @@ impl Reference {
             level,
             &[gap, pressure, between],
         );
-        iterating.take(there[0], backend, gap)?;
-        iterating.take(there[1], backend, between)?;
+        iterating.copy_from(there[0], backend, gap)?;
+        iterating.copy_from(there[1], backend, between)?;
         Ok(there)
     }
 
@@ -259,7 +262,7 @@ impl Reference {
         let fields = [heights_pressure.field(), pressure, between];
         self.backend
             .sweep(&refinement::OUTER_PRESSURE, level, &fields);
-        iterating.take(rigid, &mut *self.backend, between)
+        iterating.copy_from(rigid, &mut *self.backend, between)
     }
 
     /// Has the iterations start from the present gap.
@@ -268,7 +271,7 @@ impl Reference {
         iterating: &mut dyn Backend,
         gap: Field,
     ) -> Result<(), BackendError> {
-        iterating.take(gap, &mut *self.backend, self.places.gap)
+        iterating.copy_from(gap, &mut *self.backend, self.places.gap)
     }
 
     /// `<values, K*values>/2` with this value of K at the zero wavevector. The next solve sets it to

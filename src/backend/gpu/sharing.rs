@@ -7,8 +7,8 @@ use super::source;
 use super::{GpuBackend, GpuError};
 use crate::backend::{Field, Shape};
 
-/// A field lent to another backend on the same device.
-pub struct Lent {
+/// A field shared to another backend on the same device.
+pub struct SharedBuffer {
     device: GpuDevice,
     slabs: Vec<wgpu::Buffer>,
     number: Number,
@@ -16,7 +16,7 @@ pub struct Lent {
     points: usize,
 }
 
-impl Lent {
+impl SharedBuffer {
     /// Whether it lies on this device, in slabs of so many points.
     pub(super) fn suits(&self, device: &GpuDevice, points: usize) -> bool {
         self.device.is(device) && self.points == points
@@ -30,17 +30,17 @@ impl GpuBackend {
         self.corrected && adapter.double && adapter.takes(shape.points, Number::Double)
     }
 
-    /// Whether a lent field lies as one of this backend's does.
-    pub(super) fn takes_over(&self, field: Field, lent: &Lent) -> bool {
+    /// Whether a shared field lies as one of this backend's does.
+    pub(super) fn takes_over(&self, field: Field, shared: &SharedBuffer) -> bool {
         self.level_space(field.level)
-            .is_ok_and(|level| lent.suits(&self.device, level.plan.slab_points()))
+            .is_ok_and(|level| shared.suits(&self.device, level.plan.slab_points()))
     }
 
     /// Hands a field out, with all that was recorded for it on its way to the device.
-    pub(super) fn hand_out(&mut self, field: Field) -> Result<Lent, GpuError> {
+    pub(super) fn hand_out(&mut self, field: Field) -> Result<SharedBuffer, GpuError> {
         self.settle()?;
         self.recorder.hand_over()?;
-        Ok(Lent {
+        Ok(SharedBuffer {
             device: self.device.clone(),
             slabs: self.field_space(field)?.slabs.clone(),
             number: self.number,
@@ -48,14 +48,14 @@ impl GpuBackend {
         })
     }
 
-    /// Overwrites a field with a lent one. It is handed to the device at once: what the lender records
+    /// Overwrites a field with a shared one. It is handed to the device at once: what the lender records
     /// next may change the field again.
-    pub(super) fn convert(&mut self, field: Field, lent: &Lent) -> Result<(), GpuError> {
+    pub(super) fn convert(&mut self, field: Field, shared: &SharedBuffer) -> Result<(), GpuError> {
         self.settle()?;
-        let (text, workgroups) = source::convert(lent.number, self.number, lent.points);
+        let (text, workgroups) = source::convert(shared.number, self.number, shared.points);
         let accesses = [Access::Read, Access::Write];
         let slabs = self.field_space(field)?.slabs.clone();
-        for (from, to) in lent.slabs.iter().zip(&slabs) {
+        for (from, to) in shared.slabs.iter().zip(&slabs) {
             let groups: [(&[Access], &[&wgpu::Buffer]); 1] = [(&accesses, &[from, to])];
             let prepared = self.prepare("convert", text.clone(), &groups, [workgroups, 1])?;
             self.traffic.dispatches += 1;
