@@ -2,7 +2,7 @@
 
 use super::plan::{Plan, Regime};
 use crate::law::Law;
-use crate::scene::{AdhesionScene, Boundary, LawName, Range, Scene, Treatment};
+use crate::scene::{AdhesionScene, Boundary, Range, Scene, Treatment};
 use crate::solver::Problem;
 use crate::surface::{MapOutline, Outline, Source, Surface, statistics::Statistics};
 

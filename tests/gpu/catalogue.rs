@@ -2,6 +2,8 @@
 
 use tabor::kernel::{KERNELS, Kernel};
 
+use crate::shared::trials::tests;
+
 pub use tabor::kernel::SCALAR_KERNELS;
 
 /// Every kernel over points, variant by variant.
@@ -12,7 +14,7 @@ pub fn variants() -> impl Iterator<Item = &'static Kernel> {
 /// Every kernel over points by name. Each is compared with its twin by `kernels.rs`, which goes through the
 /// catalogue: a kernel that is not named here makes a test fail until somebody has looked that its variants are
 /// met there.
-pub const NAMES: [&str; 21] = [
+const NAMES: [&str; 21] = [
     "add_correction",
     "advance",
     "balance",
@@ -37,7 +39,7 @@ pub const NAMES: [&str; 21] = [
 ];
 
 /// Every scalar kernel by name.
-pub const SCALAR_NAMES: [&str; 11] = [
+const SCALAR_NAMES: [&str; 11] = [
     "accept_trial",
     "adapt_trial_length",
     "conjugate_direction",
@@ -52,7 +54,6 @@ pub const SCALAR_NAMES: [&str; 11] = [
 ];
 
 /// The fused path stays small, and no kernel is without a test that names it.
-#[test]
 fn every_kernel_is_named_here_and_there_are_few() {
     let mut names: Vec<&str> = variants().map(|kernel| kernel.name).collect();
     names.sort_unstable();
@@ -74,3 +75,5 @@ fn every_kernel_is_named_here_and_there_are_few() {
     told.dedup();
     assert_eq!(told.len(), count);
 }
+
+tests![every_kernel_is_named_here_and_there_are_few];

@@ -12,6 +12,7 @@ use tabor::kernel::{Gate, Sum};
 use tabor::law::{Exponential, Law, LennardJones, MaugisDugdale};
 
 use crate::catalogue::{SCALAR_KERNELS, variants};
+use crate::shared::trials::tests;
 
 const LIMITS: GroupLimits = GroupLimits {
     threads: 1024,
@@ -93,7 +94,6 @@ fn plan(nx: usize, ny: usize, number: Number) -> LevelPlan {
     LevelPlan::new(Shape::whole(nx, ny), LIMITS, number).expect("a smooth size")
 }
 
-#[test]
 fn kernels_are_valid_and_bind_what_the_catalogue_declares() {
     let padded = Shape {
         points: [64, 48],
@@ -129,7 +129,6 @@ fn kernels_are_valid_and_bind_what_the_catalogue_declares() {
     }
 }
 
-#[test]
 fn transforms_of_many_lengths_are_valid() {
     for [nx, ny] in [
         [2, 2],
@@ -164,7 +163,6 @@ fn transforms_of_many_lengths_are_valid() {
 }
 
 /// The least that a device offers takes longer lines in rounds.
-#[test]
 fn rounds_are_valid() {
     let least = GroupLimits {
         threads: 256,
@@ -190,7 +188,6 @@ fn rounds_are_valid() {
 }
 
 /// The largest grids: sixteen slabs, spectra in parts, lines in two passes; and elongated ones.
-#[test]
 fn slabs_and_long_lines_are_valid() {
     let limits = Limits {
         group: LIMITS,
@@ -251,12 +248,10 @@ fn slabs_and_long_lines_are_valid() {
     }
 }
 
-#[test]
 fn the_check_of_sums_is_valid() {
     validate("check", &source::two_sums(), Wide::Compensated);
 }
 
-#[test]
 fn reductions_are_valid() {
     for wide in WIDES {
         for gate in GATES {
@@ -278,7 +273,6 @@ fn reductions_are_valid() {
     }
 }
 
-#[test]
 fn the_copy_of_members_is_valid() {
     for wide in WIDES {
         let (text, count) = source::copy_members(wide);
@@ -287,7 +281,6 @@ fn the_copy_of_members_is_valid() {
     }
 }
 
-#[test]
 fn scalar_kernels_are_valid() {
     for wide in WIDES {
         for kernel in SCALAR_KERNELS {
@@ -297,3 +290,14 @@ fn scalar_kernels_are_valid() {
         }
     }
 }
+
+tests![
+    kernels_are_valid_and_bind_what_the_catalogue_declares,
+    transforms_of_many_lengths_are_valid,
+    rounds_are_valid,
+    slabs_and_long_lines_are_valid,
+    the_check_of_sums_is_valid,
+    reductions_are_valid,
+    scalar_kernels_are_valid,
+    the_copy_of_members_is_valid,
+];

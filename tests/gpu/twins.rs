@@ -8,6 +8,7 @@ use std::path::{Path, PathBuf};
 use tabor::backend::gpu::source::representative;
 
 use crate::catalogue::variants;
+use crate::shared::trials::tests;
 
 fn root() -> &'static Path {
     Path::new(env!("CARGO_MANIFEST_DIR"))
@@ -66,7 +67,6 @@ const FRAME: [&str; 12] = [
     "reduce",
 ];
 
-#[test]
 fn wgsl_and_rust_share_the_names_of_functions() {
     let files: BTreeMap<&str, &str> = variants()
         .map(|kernel| (kernel.name, kernel.file))
@@ -109,7 +109,6 @@ fn wgsl_and_rust_share_the_names_of_functions() {
 }
 
 /// Each constraint has all functions of the trait, on both sides.
-#[test]
 fn every_constraint_has_every_function_in_wgsl() {
     let rust = read(&root().join("src/kernel/constraint.rs"));
     let (_, body) = rust
@@ -133,7 +132,6 @@ fn every_constraint_has_every_function_in_wgsl() {
 }
 
 /// A law has its WGSL beside its Rust: `law_traction` is `traction`, and so on.
-#[test]
 fn laws_share_the_names_of_functions() {
     let shared = read(&root().join("src/law/mod.rs"));
     for law in [
@@ -161,7 +159,6 @@ fn laws_share_the_names_of_functions() {
 
 /// What a shader is now against what it was, line by line. Where a difference is meant the copies are renewed
 /// by `cargo run --release --example shaders -- tests/reference/shaders`, and the difference is then git's.
-#[test]
 fn assembled_shaders_are_those_that_are_kept() {
     let folder = root().join("tests/reference/shaders");
     let now: BTreeMap<String, String> = representative()
@@ -209,3 +206,10 @@ fn assembled_shaders_are_those_that_are_kept() {
         "{differences}\nIf this is meant: cargo run --release --example shaders -- tests/reference/shaders"
     );
 }
+
+tests![
+    wgsl_and_rust_share_the_names_of_functions,
+    every_constraint_has_every_function_in_wgsl,
+    laws_share_the_names_of_functions,
+    assembled_shaders_are_those_that_are_kept,
+];

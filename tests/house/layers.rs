@@ -9,7 +9,7 @@ const ORDER: [&str; 19] = [
     "study", "effect", "output", "theory", "compare", "fit", "accuracy", "cli", "lib",
 ];
 
-fn rust_files(folder: &Path, found: &mut Vec<PathBuf>) {
+pub fn rust_files(folder: &Path, found: &mut Vec<PathBuf>) {
     for entry in fs::read_dir(folder)
         .expect("the folder is readable")
         .flatten()

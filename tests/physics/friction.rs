@@ -7,11 +7,11 @@ use tabor::theory::maugis_dugdale::MaugisDugdale;
 use tabor::theory::tabor_map::{Sphere, maugis_parameter};
 
 use crate::bench::solve_table;
+use crate::shared::trials::tests;
 
 /// An adhesive sphere towards JKR's limit rubs at no load too: with the area of Maugis' contact of the
 /// same law, once the staircase of the pixels is taken off, to a tenth of a pixel of its radius of 47 pixels
 /// and the grid's first-order error, 1 % of the area. JKR's own is some per cent more.
-#[test]
 fn a_sphere_that_adheres_rubs_at_no_load() {
     let solved = solve_table(
         r#"
@@ -67,7 +67,6 @@ fn a_sphere_that_adheres_rubs_at_no_load() {
 
 /// Hertz' circles of 16 and 25 pixels of radius: the counted pixels have 1.9 and 1.2 % more area by their
 /// staircase alone.
-#[test]
 fn a_circle_rubs_by_its_area() {
     let solved = solve_table(
         r#"
@@ -96,3 +95,8 @@ fn a_circle_rubs_by_its_area() {
         assert!((counted / expected - 1.0).abs() > (found / expected - 1.0).abs());
     }
 }
+
+tests![
+    a_sphere_that_adheres_rubs_at_no_load,
+    a_circle_rubs_by_its_area,
+];

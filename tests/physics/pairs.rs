@@ -8,6 +8,7 @@ use tabor::scene::Scene;
 use tabor::study::StepRow;
 
 use crate::bench::solve_table;
+use crate::shared::trials::tests;
 
 /// A scene of bumps on a small grid, pressed on and drawn back, with some effects.
 fn scene(effects: &[Effect]) -> String {
@@ -88,7 +89,6 @@ fn refusal(pair: [Effect; 2]) -> Option<&'static str> {
     }
 }
 
-#[test]
 fn any_two_effects() {
     // Both forces of each step, what it conducts and what it wears; without the effects the others are 0.
     let forces = |effects: &[Effect]| -> Vec<f64> {
@@ -138,3 +138,5 @@ fn any_two_effects() {
     // Of 78 pairs 11 are refused.
     assert_eq!(pairs, 67);
 }
+
+tests![any_two_effects,];
