@@ -87,12 +87,12 @@ impl Default for DryRun {
 }
 
 impl DryRun {
-    /// A tally of nothing yet, for the processor in double precision.
+    /// Nothing counted yet, for the processor in double precision.
     pub fn new() -> Self {
         DryRun::on(Place::Double)
     }
 
-    /// A tally of nothing yet, for this place.
+    /// Nothing counted yet, for this place.
     pub fn on(place: Place) -> Self {
         DryRun {
             place,

@@ -2,8 +2,8 @@
 
 use super::{Kernel, ScalarKernel};
 use super::{
-    descent, displacement, mean_gap, measure, refinement, scalar, step_length, trial, two_band,
-    update,
+    descent, displacement, mean_gap, measure, refinement, scalar, search, step_length, trial,
+    two_band, update,
 };
 
 /// Every kernel over points, variant by variant.
@@ -23,7 +23,7 @@ pub static KERNELS: &[&[Kernel]] = &[
     one(&trial::SMOOTH_DIRECTION),
     one(&trial::TWO_SIDED_LOAD_TRIAL),
     one(&trial::SMOOTH_LOAD_TRIAL),
-    &trial::SEARCH,
+    &search::SEARCH,
     &update::UPDATE_STATE,
     &update::UPDATE_AND_RETAIN,
     &update::ADVANCE,

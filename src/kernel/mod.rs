@@ -17,6 +17,7 @@ pub mod mean_gap;
 pub mod measure;
 pub mod refinement;
 pub mod scalar;
+pub mod search;
 pub mod smooth;
 pub mod step_length;
 pub mod trial;
@@ -24,6 +25,8 @@ pub mod two_band;
 pub mod update;
 
 mod catalogue;
+#[cfg(test)]
+mod mean_gap_tests;
 mod params;
 mod points;
 mod rows;

@@ -4,7 +4,7 @@
 use super::contact::{Hold, Load};
 use super::problem::Problem;
 use crate::kernel::{Constraint, Kernel, Params};
-use crate::kernel::{descent, measure, refinement, trial, update};
+use crate::kernel::{descent, measure, refinement, search, trial, update};
 
 /// The kernels of one constraint. Those under `mean_gap` are asked where that is prescribed; in their place
 /// without it stand `descent`, `trial` and `update_state`.
@@ -88,7 +88,7 @@ impl KernelSet {
             load_residual: &measure::LOAD_RESIDUAL[at],
             descent: &descent::DESCENT[at],
             trial: &trial::TRIAL[at],
-            search: &trial::SEARCH[at],
+            search: &search::SEARCH[at],
             update_state: &update::UPDATE_STATE[at],
             mean_gap: MeanGapSet {
                 descent: &descent::MEAN_GAP_DESCENT[at],

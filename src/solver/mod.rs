@@ -12,6 +12,7 @@ mod contact;
 mod correction;
 mod elasticity;
 mod incremental_stiffness;
+mod iteration;
 mod kernel_set;
 mod mean_gap;
 mod outer_state;

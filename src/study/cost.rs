@@ -34,7 +34,7 @@ pub struct Cost {
 }
 
 impl Cost {
-    /// Plans a scene on a tally: its solver and one iteration of its first load.
+    /// Plans a scene on a dry run: its solver and one iteration of its first load.
     ///
     /// # Errors
     /// A kernel that is given fields which it does not take: a mistake in this crate.

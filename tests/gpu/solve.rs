@@ -554,7 +554,7 @@ fn an_iteration_costs_what_the_crate_page_says() {
     let page = include_str!("../../src/lib.rs");
     let mut missing = Vec::new();
     let surface = rough(64);
-    let flowing = "the same on a solid that flows, a mean gap";
+    let flowing = "the same with a hardness, a mean gap";
     for (title, law, held) in [
         ("no adhesion, a pressure", laws()[0].1, false),
         ("sharp Maugis-Dugdale, a pressure", laws()[1].1, false),
