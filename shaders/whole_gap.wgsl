@@ -1,4 +1,5 @@
-// How kernels see the law where the unknown is the gap itself. Twins: law.rs, law/pattern.rs.
+// How kernels see the law where the unknown is the gap itself. Twins: law/mod.rs,
+// law/adhesion_map.rs.
 fn open(gap: real) -> real {
     return gap;
 }

@@ -38,11 +38,11 @@
 //! | [`elastic`] | stiffness of the half-space or of a layer at each wavevector, periodic or free |
 //! | [`kernel`] | the catalogue of passes over points, and the numbers of the algorithm |
 //! | [`backend`] | where the arithmetic runs: the trait, the processor, shaders through wgpu, the dry run that only counts |
+//! | [`solver`] | the one algorithm, for every law and both boundaries |
 //! | [`scene`] | TOML to a checked scene, or every mistake of it with line, key and remedy |
 //! | [`surface`] | heights: self-affine, shapes, files; their statistics and the spectrum that fits |
-//! | [`solver`] | the one algorithm, for every law and both boundaries |
-//! | [`study`] | loading paths: what is held, jumps, energies, the rows of `curve.csv` |
-//! | [`effect`] | what a scene may ask for besides, and what each costs |
+//! | [`study`] | loading paths: what is prescribed, jumps, energies, the rows of `curve.csv`, the hooks of effects |
+//! | [`effect`] | what a scene may ask for besides, one file each, and what each costs |
 //! | [`output`] | the folder of a run: curve, summary, fields, pictures, report, and the state to go on from |
 //! | [`theory`] | closed forms and models to compare with: Hertz, JKR, Maugis, Persson and others |
 //! | [`compare`] | one rough surface through the full field and the models of it, with seconds and ranges |

@@ -28,7 +28,7 @@ pub static KERNELS: &[&[Kernel]] = &[
     &update::UPDATE_AND_RETAIN,
     &update::ADVANCE,
     &update::BALANCE,
-    one(&two_band::RESTRICT),
+    one(&two_band::COARSEN),
     one(&two_band::WEIGH),
     one(&two_band::STORE_WEIGHTED),
     one(&two_band::TWO_BAND_DESCENT),

@@ -15,7 +15,7 @@ use std::marker::PhantomData;
 
 use super::points::{PointKernel, side_by_side};
 use super::{Params, Rows, SUMS};
-use crate::law::{AdhesionMap, Cohesion, CorrectedField};
+use crate::law::{AdhesionMap, Cohesion, CorrectedField, imbalance};
 use crate::real::Real;
 use crate::with_wall_law;
 
@@ -69,7 +69,7 @@ pub fn here_at<T: Real>(
             open: law.open(gap),
             elastic,
             pull: law.pad_traction(),
-            y: elastic + law.pad_traction(),
+            y: imbalance(elastic, law.pad_traction()),
             free: true,
             weight: T::one(),
             hardening: T::zero(),
@@ -181,7 +181,7 @@ impl<T: Real> GapConstraint<T> for Unilateral<T> {
     #[inline(always)]
     fn state(&self, law: &impl Cohesion<T>, gap: T, elastic: T) -> Here<T> {
         let (open, pull) = (law.open(gap), law.traction(gap));
-        let y = elastic + pull;
+        let y = imbalance(elastic, pull);
         Here {
             gap,
             open,
@@ -313,7 +313,7 @@ impl<T: Real> GapConstraint<T> for HardnessLimit<T> {
     fn state(&self, law: &impl Cohesion<T>, gap: T, elastic: T) -> Here<T> {
         let pull = law.traction(gap.most(T::zero()));
         let excess = elastic - self.hardness;
-        let y = elastic + pull;
+        let y = imbalance(elastic, pull);
         let below = gap < T::zero();
         let above = (gap > T::zero()) | (y < T::zero());
         let yields = below | (!above & (excess > T::zero()));
@@ -332,7 +332,7 @@ impl<T: Real> GapConstraint<T> for HardnessLimit<T> {
 
     #[inline(always)]
     fn violation(&self, here: &Here<T>, stiffness_max: T) -> Violation<T> {
-        let y = here.elastic + here.pull;
+        let y = imbalance(here.elastic, here.pull);
         let open = here.gap * stiffness_max;
         // The middle one of the two slopes and the gap: 0 just where one of the three states is met.
         let violation = y.least(open).most(here.elastic - self.hardness);

@@ -9,7 +9,7 @@ use super::points::{Made, Point, PointKernel};
 use super::smooth::Smooth;
 use super::sums::sum_group;
 use super::{Kernel, Params, Rows, SUMS, Scalars, point_kernel, rows_kernel};
-use crate::law::Cohesion;
+use crate::law::{Cohesion, imbalance};
 use crate::real::Real;
 use crate::with_law;
 
@@ -33,7 +33,7 @@ fn outer_residual<T: Real>(
         let elastic = pressure[i] + mean_pressure;
         let factor = factor.get(i).copied().unwrap_or(T::one());
         residual[i] = if in_domain {
-            elastic + factor * law.traction(gap[i])
+            imbalance(elastic, factor * law.traction(gap[i]))
         } else {
             elastic
         };

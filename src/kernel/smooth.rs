@@ -7,7 +7,7 @@
 use super::constraint::{GapConstraint, Here, Tried, Violation};
 use super::points::{PointKernel, one_by_one};
 use super::{Params, Rows, SUMS};
-use crate::law::{AdhesionMap, Cohesion, CorrectedField, Law, LennardJones};
+use crate::law::{AdhesionMap, Cohesion, CorrectedField, Law, LennardJones, imbalance};
 use crate::real::Real;
 
 /// Largest number of Newton steps in the inversion of v(g).
@@ -97,7 +97,7 @@ impl<T: Real> GapConstraint<T> for Smooth<T> {
             open: law.open(gap),
             elastic,
             pull,
-            y: elastic + pull,
+            y: imbalance(elastic, pull),
             free: true,
             weight: self.stiffness / (self.stiffness + hardening),
             hardening,

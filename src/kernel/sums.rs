@@ -164,12 +164,13 @@ macro_rules! sum_group {
             /// Lays its values down among a kernel's terms.
             #[inline(always)]
             pub fn put<const TERMS: usize>(self, terms: &mut [f64; TERMS]) {
-                let values = [$(self.$sum),*];
-                let mut place = 0;
-                while place < values.len() {
-                    terms[Self::FIRST + place] = values[place];
-                    place += 1;
-                }
+                // One after another, so that every place is a constant: the compiler makes no vectors of a loop.
+                let place = Self::FIRST;
+                $(
+                    terms[place] = self.$sum;
+                    let place = place + 1;
+                )*
+                debug_assert!(place == Self::END);
             }
         }
     };

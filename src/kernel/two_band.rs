@@ -79,7 +79,7 @@ fn add_interpolated<T: Real>(rows: &mut Rows<T>) {
 }
 
 /// The transpose of the interpolation, over the number of fine points in a coarse cell.
-fn restrict<T: Real>(rows: &mut Rows<T>, _: &Params, _: &Scalars, _: &mut [f64; SUMS]) {
+fn coarsen<T: Real>(rows: &mut Rows<T>, _: &Params, _: &Scalars, _: &mut [f64; SUMS]) {
     let whole = rows.whole;
     let [fine_x, fine_y] = whole.points;
     let (width, first, count) = (rows.width, rows.first, rows.count);
@@ -117,8 +117,8 @@ fn restrict<T: Real>(rows: &mut Rows<T>, _: &Params, _: &Scalars, _: &mut [f64; 
 }
 
 /// Restricts the projected residual of the fine level, and the share of free points there.
-pub static RESTRICT: Kernel = rows_kernel!(
-    restrict, Sweep, gate Ahead, law false,
+pub static COARSEN: Kernel = rows_kernel!(
+    coarsen, Sweep, gate Ahead, law false,
     reads [], writes [restricted, share], fresh 2, whole true
 );
 

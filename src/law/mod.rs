@@ -5,6 +5,7 @@
 //! traction with a minus sign. All numbers are in the caller's units; the solver uses reduced ones.
 
 mod adhesion_map;
+mod balance;
 mod correction;
 mod exponential;
 mod lennard_jones;
@@ -12,6 +13,7 @@ mod maugis_dugdale;
 mod meniscus;
 
 pub use adhesion_map::{AdhesionMap, LawField, Scaled};
+pub use balance::{Support, imbalance, net_pressure};
 pub use correction::{CorrectedField, Correction};
 pub use exponential::Exponential;
 pub use lennard_jones::LennardJones;

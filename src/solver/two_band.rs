@@ -9,10 +9,9 @@ use super::kernel_set::{KernelSet, RetainSet};
 use super::problem::Problem;
 use crate::backend::{Backend, Factors, Field, Level, Response, Shape, Spectrum};
 use crate::elastic::{Stiffness, wave_stiffness};
-use crate::grid::Grid;
+use crate::grid::{Boundary, Grid};
 use crate::kernel::{Gate, displacement, two_band};
 use crate::law::Law;
-use crate::scene::Boundary;
 
 /// Fewest coarse points each way for which the second band pays.
 const FEWEST_COARSE: usize = 8;
@@ -140,7 +139,7 @@ impl TwoBand {
     ) {
         let level = self.level;
         let fields = [self.restricted, self.share, self.residual];
-        backend.sweep(&two_band::RESTRICT, level, &fields);
+        backend.sweep(&two_band::COARSEN, level, &fields);
         backend.forward(&displacement::LOAD_FIELD_AHEAD, level, &[self.share]);
         backend.multiply(self.smoothing, false, Gate::Ahead);
         let fields = [self.restricted, self.weight];

@@ -162,7 +162,7 @@ fn run(
         number,
     } = case;
     // The whole field lies on the other level: coarse for a fine kernel, fine for a coarse one.
-    let coarse_kernel = ["restrict", "weigh", "store_weighted"].contains(&kernel.name);
+    let coarse_kernel = ["coarsen", "weigh", "store_weighted"].contains(&kernel.name);
     let [nx, ny] = match number {
         Number::Single => COARSE,
         Number::Double => COARSE_IN_DOUBLE,

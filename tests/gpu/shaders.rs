@@ -7,7 +7,7 @@ use tabor::backend::gpu::source::{
 };
 use tabor::backend::gpu::{Direction, Exchange, GroupLimits, Limits, Number, Wide};
 use tabor::kernel::displacement::{LOAD_FIELD, STORE_FIELD};
-use tabor::kernel::two_band::RESTRICT;
+use tabor::kernel::two_band::COARSEN;
 use tabor::kernel::{Gate, Sum};
 use tabor::law::{Exponential, Law, LennardJones, MaugisDugdale};
 
@@ -215,7 +215,7 @@ fn slabs_and_long_lines_are_valid() {
                 long
             );
             let name = format!("{nx} x {ny}");
-            for kernel in [&LOAD_FIELD, &STORE_FIELD, &RESTRICT] {
+            for kernel in [&LOAD_FIELD, &STORE_FIELD, &COARSEN] {
                 let whole = source::Whole::of(&plan);
                 let text = source::kernel(kernel, &plan, whole, uniform(Law::HardWall), wide)
                     .unwrap_or_else(|error| panic!("{error}"));

@@ -168,7 +168,7 @@ fn run(
     shape: Shape,
 ) -> (Vec<Vec<f64>>, Vec<f64>) {
     let coarse = Shape::whole(COARSE[0], COARSE[1]);
-    let [own, other] = match kernel.name == "restrict" {
+    let [own, other] = match kernel.name == "coarsen" {
         true => [coarse, shape],
         false => [shape, coarse],
     };
@@ -279,7 +279,7 @@ static KINDS: [&Kernel; 8] = [
     &update::UPDATE_AND_RETAIN[0],
     &update::ADVANCE[0],
     &measure::RESIDUAL[0],
-    &two_band::RESTRICT,
+    &two_band::COARSEN,
 ];
 
 fn every_kind_of_kernel_in_slabs_writes_the_same() {

@@ -116,9 +116,7 @@ fn rough(points: usize) -> Surface {
             seed: 1,
         })],
         capillary: None,
-        friction: None,
-        conductance: None,
-        wear: None,
+        tables: EffectTables::default(),
         adhesion: None,
         loading: LoadingScene {
             control: Control::Pressure,
@@ -506,7 +504,7 @@ fn fields_moved(passes: &[String]) -> f64 {
         let kernel = variants()
             .find(|kernel| kernel.variant() == *name)
             .unwrap_or_else(|| panic!("{name} is in no catalogue"));
-        let on_coarse = ["restrict", "load_field-ahead", "weigh", "store_weighted"];
+        let on_coarse = ["coarsen", "load_field-ahead", "weigh", "store_weighted"];
         let own = if on_coarse.contains(&name.as_str()) {
             coarse
         } else {

@@ -11,7 +11,7 @@ const BODIES: &str = "[conductance]\nconductivity = 0.75\ncounter_conductivity =
 
 fn conductance(solved: &Solved, step: usize) -> f64 {
     let row = &solved.steps[step].row;
-    row.conductance.expect("a conductance")
+    row.column("conductance").expect("a conductance")
 }
 
 fn sphere(boundary: &str, points: usize, size: f64, tables: &str, loading: &str) -> String {
@@ -113,7 +113,7 @@ fn full_contact_has_no_constriction() {
     assert!(conductance(&solved, 0) > 0.0);
     let row = &solved.steps[1].row;
     assert_eq!(row.contact_area_fraction, 1.0);
-    assert_eq!(row.conductance, None);
+    assert_eq!(row.column("conductance"), None);
 }
 
 tests![

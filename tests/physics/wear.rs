@@ -27,7 +27,7 @@ fn a_sphere_without_adhesion_wears_by_its_load() {
     let loading = format!("control = \"approach\"\npath = {depths:?}");
     let solved = solve_table(&sphere(64, 1.0, "", &loading));
     for (row, depth) in solved.rows().zip(depths) {
-        let worn = row.wear_rate.expect("a wear rate");
+        let worn = row.column("wear_rate").expect("a wear rate");
         if depth < 0.0 {
             assert_eq!(worn, 0.0);
             continue;
@@ -40,7 +40,7 @@ fn a_sphere_without_adhesion_wears_by_its_load() {
     let solved = solve_table(&sphere(64, 1.0, "", "control = \"force\"\npath = [0.0]"));
     let row = solved.rows().next().expect("a row");
     assert_eq!(row.state, State::Separated);
-    assert_eq!(row.wear_rate, Some(0.0));
+    assert_eq!(row.column("wear_rate"), Some(0.0));
 }
 
 /// A sphere that sticks wears at no load too: by the part of Maugis' pressure (1992)
@@ -77,7 +77,7 @@ fn a_sphere_that_sticks_wears_at_no_load() {
             .map(|ring| (f64::from(ring) + 0.5) * width)
             .map(|r| 2.0 * PI * r * width * net(r).max(0.0))
             .sum();
-        let worn = row.wear_rate.expect("a wear rate");
+        let worn = row.column("wear_rate").expect("a wear rate");
         let expected = SPECIFIC * pressing;
         println!("at {}: {worn:.5} {expected:.5}", row.force);
         assert!((worn / expected - 1.0).abs() < 0.03, "{worn} {expected}");
@@ -120,7 +120,7 @@ fn without_its_own_deformation_attraction_presses_with_all_of_itself() {
     let load = |a: f64| 4.0 / 3.0 * a.powi(3);
     let pressing = load(bisect(1e-3, 0.2, &|a| load(a) - attraction(a)));
     let row = solved.rows().next().expect("a row");
-    let found = row.wear_rate.expect("a wear rate") / SPECIFIC;
+    let found = row.column("wear_rate").expect("a wear rate") / SPECIFIC;
     println!("{found:e} {pressing:e} {:e}", 2.0 * PI * work);
     assert!(
         (found / pressing - 1.0).abs() < 0.01,

@@ -75,7 +75,7 @@ const SHADERS: &[Shader] = shaders! {
     "update_state" ["step", "step_from", "measure"];
     "advance" ["step", "step_from", "balance_terms"];
     "balance" ["balance_terms"];
-    "restrict" ["two_band"];
+    "coarsen" ["two_band"];
     "weigh" [];
     "store_weighted" [];
     "two_band_descent" ["two_band", "descent_terms"];

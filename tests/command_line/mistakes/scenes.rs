@@ -830,9 +830,7 @@ steps  = "last"
             seed: 1,
         })],
         capillary: None,
-        friction: None,
-        conductance: None,
-        wear: None,
+        tables: EffectTables::default(),
         adhesion: Some(AdhesionScene {
             law: LawName::MaugisDugdale,
             work_of_adhesion: 0.2,

@@ -49,7 +49,7 @@ pub fn representative() -> Result<Vec<(String, String)>, GpuError> {
     };
     let show = |kernel: &'static Kernel, shape, number, wide, law: LawSource| {
         let plan = LevelPlan::new(shape, LIMITS, number)?;
-        let other = if kernel.name == "restrict" { 16 } else { 4 };
+        let other = if kernel.name == "coarsen" { 16 } else { 4 };
         super::kernel(kernel, &plan, Whole::from([other, other]), law, wide)
     };
     let (single, double) = (Number::Single, Wide::Double);
