@@ -87,8 +87,8 @@ pub fn each_point_without_law<T, K, const READS: usize, const WRITES: usize, con
     side_by_side(K::new(params, scalars), AdhesionMap(HardWall), rows, sums);
 }
 
-/// Runs a kernel over the points one after another: where each takes as many Newton steps as it needs there
-/// is nothing to do side by side.
+/// Runs a kernel over the points with sums in the order of the points: where each takes as many Newton steps
+/// as it needs there is nothing to do side by side.
 pub(super) fn one_by_one<T, K, const READS: usize, const WRITES: usize, const TERMS: usize>(
     kernel: K,
     law: impl LawField<T>,
@@ -98,33 +98,13 @@ pub(super) fn one_by_one<T, K, const READS: usize, const WRITES: usize, const TE
     T: Real,
     K: PointKernel<T, READS, WRITES, TERMS>,
 {
-    let value = |field: &[T], index: usize| field.get(index).copied().unwrap_or(T::zero());
-    let mut totals: [f64; TERMS] = from_fn(|place| sums[place]);
-    rows.layout().points(|index, in_domain| {
-        let factor = rows.factor.get(index).copied().unwrap_or(T::one());
-        let law = law.here(factor, rows.outer.map(|field| value(field, index)));
-        let made = kernel.at(
-            &law,
-            Point {
-                reads: from_fn(|place| value(rows.reads[place], index)),
-                writes: from_fn(|place| value(rows.writes[place], index)),
-                line: value(rows.lines, index),
-                in_domain,
-            },
-        );
-        for place in 0..WRITES {
-            if let Some(written) = rows.writes[place].get_mut(index) {
-                *written = made.writes[place];
-            }
-        }
-        if let Some(line) = rows.lines.get_mut(index) {
-            *line = made.line;
-        }
-        for place in 0..TERMS {
-            totals[place] = rows.reduces[place].join(totals[place], made.terms[place]);
-        }
-    });
-    sums[..TERMS].copy_from_slice(&totals);
+    Walk::<T, _, _, true, READS, WRITES, TERMS> {
+        kernel,
+        law,
+        rows,
+        sums,
+    }
+    .with_simd(pulp::Scalar);
 }
 
 /// Runs a kernel over several points side by side, with the best that the processor has.
@@ -137,7 +117,7 @@ pub(super) fn side_by_side<T, K, const READS: usize, const WRITES: usize, const 
     T: Real,
     K: PointKernel<T, READS, WRITES, TERMS>,
 {
-    Arch::new().dispatch(Walk {
+    Arch::new().dispatch(Walk::<T, _, _, false, READS, WRITES, TERMS> {
         kernel,
         law,
         rows,
@@ -145,16 +125,26 @@ pub(super) fn side_by_side<T, K, const READS: usize, const WRITES: usize, const 
     });
 }
 
-/// A kernel's walk over the points of some rows.
-struct Walk<'a, 'b, T, K, L, const READS: usize, const WRITES: usize, const TERMS: usize> {
+/// A kernel's walk over the points of some rows; `IN_ORDER` where its sums are those of one point after another.
+struct Walk<
+    'a,
+    'b,
+    T,
+    K,
+    L,
+    const IN_ORDER: bool,
+    const READS: usize,
+    const WRITES: usize,
+    const TERMS: usize,
+> {
     kernel: K,
     law: L,
     rows: &'a mut Rows<'b, T>,
     sums: &'a mut [f64; SUMS],
 }
 
-impl<T, K, L, const READS: usize, const WRITES: usize, const TERMS: usize> WithSimd
-    for Walk<'_, '_, T, K, L, READS, WRITES, TERMS>
+impl<T, K, L, const IN_ORDER: bool, const READS: usize, const WRITES: usize, const TERMS: usize>
+    WithSimd for Walk<'_, '_, T, K, L, IN_ORDER, READS, WRITES, TERMS>
 where
     T: Real,
     K: PointKernel<T, READS, WRITES, TERMS>,
@@ -189,6 +179,15 @@ where
                 for ((total, terms), reduce) in
                     totals.iter_mut().zip(&group.terms).zip(rows.reduces)
                 {
+                    if IN_ORDER {
+                        let terms = terms[..here.len()].iter();
+                        total[0] = match reduce {
+                            Reduce::Add => terms.fold(total[0], |a, b| a + b),
+                            Reduce::Min => terms.fold(total[0], |a, &b| a.least(b)),
+                            Reduce::Max => terms.fold(total[0], |a, &b| a.most(b)),
+                        };
+                        continue;
+                    }
                     match reduce {
                         Reduce::Add => add(total, &terms[..here.len()], |a, b| a + b),
                         Reduce::Min => add(total, &terms[..here.len()], f64::least),
