@@ -11,7 +11,7 @@ use tabor::backend::gpu::{AdapterChoice, GpuBackend, GpuDevice, Number};
 use tabor::backend::{Backend, Factors, Response, Shape, cpu::CpuBackend};
 use tabor::elastic::HalfSpace;
 use tabor::grid::Grid;
-use tabor::kernel::{Gate, common};
+use tabor::kernel::{Gate, displacement};
 
 /// Points each way, from 256 to 8192, up to the number in `BENCH_POINTS` (2048 without it).
 fn sizes() -> impl Iterator<Item = usize> {
@@ -47,9 +47,9 @@ fn operator(criterion: &mut Criterion) {
             backend.write(displacement, &waves);
             group.bench_function(BenchmarkId::new(name, points), |bencher| {
                 bencher.iter(|| {
-                    backend.forward(&common::LOAD_FIELD, level, &[displacement]);
+                    backend.forward(&displacement::LOAD_FIELD, level, &[displacement]);
                     backend.multiply(stiffness, false, Gate::Always);
-                    backend.backward(&common::STORE_PRESSURE, level, &[pressure]);
+                    backend.backward(&displacement::STORE_FIELD, level, &[pressure]);
                     // Waits: a backend that records must run what it recorded.
                     black_box(backend.scalars().expect("no backend fails here"))
                 });

@@ -5,7 +5,7 @@
 use std::fs;
 use std::path::Path;
 
-use tabor::backend::tally::Place;
+use tabor::backend::dry_run::Place;
 use tabor::scene::{Boundary, Detrend, Fill, GridScene, HeightFileScene, Scene, SurfacePart};
 use tabor::study::{Plan, Setup};
 use tabor::surface::Surface;

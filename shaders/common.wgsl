@@ -1,5 +1,5 @@
 // What every kernel sees: the fixed numbers, those the algorithm moves, and room for sums.
-// `wide`, `Params` and `Scalars` are declared by the program that joins these sources.
+// `wide`, `Params`, `Scalars` and the names of a status are declared by the program that joins these sources.
 struct Partials {
     // Transforms of rows run on this level, forward and back one each, a multiplication two.
     transforms: u32,
@@ -8,12 +8,6 @@ struct Partials {
 }
 @group(0) @binding(0) var<uniform> params: Params;
 @group(0) @binding(2) var<storage, read_write> partials: Partials;
-
-const RUNNING: u32 = 0u;
-const CONVERGED: u32 = 1u;
-const STALLED: u32 = 2u;
-const PULLED_OFF: u32 = 3u;
-const NOT_FINITE: u32 = 4u;
 
 // By the exponent's bits: a comparison of a number with itself may be optimised away.
 fn is_finite(value: wide) -> bool {

@@ -1,38 +1,46 @@
-// How kernels see the law where the unknown g is the correction of a base gap, whose residual y is
-// known: differences are taken without cancellation, so that all is relative to the correction.
-const CORRECTS: bool = true;
-
-fn open_gap(g: real) -> real {
-    return base_gap + g;
+// How kernels see the law where the unknown is the correction of an outer gap, whose residual y is
+// known: differences are taken without cancellation, so that all is relative to the correction. Twins:
+// law/correction.rs.
+fn open(correction: real) -> real {
+    return outer_gap + correction;
 }
 
 // The value of the unknown at which the surfaces touch.
-fn closed_at() -> real {
-    return -base_gap;
+fn closed_gap() -> real {
+    return -outer_gap;
 }
 
-// All of y that does not come from the correction's own pressure; a pad has no law.
-fn attraction(g: real, on_surface: bool) -> real {
-    if (on_surface) {
-        return base_residual + law_difference(base_gap, g);
-    }
-    return base_residual;
+// All of y that does not come from the correction's own pressure.
+fn traction(correction: real) -> real {
+    return outer_residual + law_difference(outer_gap, correction);
 }
 
-// The scale of the stopping measure is the base's.
-fn weighed(pressure_here: real) -> real {
+fn pad_traction() -> real {
+    return outer_residual;
+}
+
+fn slope(correction: real) -> real {
+    return law_slope(outer_gap + correction);
+}
+
+// The scale of the stopping measure is the outer state's.
+fn weighed(pressure: real) -> real {
     return 0.0;
 }
 
-fn traction_change(g: real, step: real) -> real {
-    return law_difference(base_gap + g, step);
+fn corrects() -> bool {
+    return true;
+}
+
+fn change(correction: real, moved: real) -> real {
+    return law_difference(outer_gap + correction, moved);
 }
 
 // The change of the energy to first order exactly, the rest by Simpson's rule over the step, which
 // is short beside the range of a law; and the size of the first order.
-fn energy_change(g: real, step: real) -> vec2<real> {
-    let first = step * attraction(g, true);
-    let middle = traction_change(g, 0.5 * step);
-    let rest = step / 6.0 * (4.0 * middle + traction_change(g, step));
+fn energy_change(correction: real, moved: real) -> vec2<real> {
+    let first = moved * traction(correction);
+    let middle = change(correction, 0.5 * moved);
+    let rest = moved / 6.0 * (4.0 * middle + change(correction, moved));
     return vec2<real>(first + rest, abs(first));
 }

@@ -1,7 +1,4 @@
-// Loads g + h less the offset.
-@group(1) @binding(0) var<storage, read> gap: array<real>;
-@group(1) @binding(1) var<storage, read> heights: array<real>;
-
-fn load_point(index: u32, on_surface: bool) -> real {
-    return (gap[index] - real(scalars.offset)) + heights[index];
+// Fills the rows of a transform with g + h less the offset.
+fn at(index: u32, in_domain: bool, line: real) -> real {
+    return (read_gap(index) - real(scalars.offset)) + read_heights(index);
 }

@@ -1,6 +1,4 @@
-// Loads a field as it is.
-@group(1) @binding(0) var<storage, read> field: array<real>;
-
-fn load_point(index: u32, on_surface: bool) -> real {
-    return field[index];
+// Fills the rows of a transform with a field as it is.
+fn at(index: u32, in_domain: bool, line: real) -> real {
+    return read_field(index);
 }

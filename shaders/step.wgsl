@@ -1,23 +1,15 @@
-// A point after a step, and y on free points before it.
-struct Moved {
-    gap: real,
-    pressure: real,
-    before: real,
+// Twins: kernel/trial.rs. The new direction: zero where the point is not free.
+fn new_direction(z: real, direction: real, free: bool) -> real {
+    if (!free) {
+        return 0.0;
+    }
+    return real(scalars.descent_factor) * z + real(scalars.beta) * direction + real(scalars.mean_gap_shift);
 }
 
-// Takes the step of a point, where its trial was not lost; `answer` is the pressure that it takes.
-fn step_from(g: real, p: real, d: real, answer: real, on_surface: bool) -> Moved {
-    let y = total(g, p, on_surface);
-    let open = open_gap(g);
-    let before = select(0.0, y, is_free(open, y, on_surface));
-    if (scalars.accepted == 0u) {
-        return Moved(g, p, before);
+// The trial step of a point; a pad has no constraint.
+fn step_at(here: Here, moved: real, correction: real, in_domain: bool) -> Tried {
+    if (in_domain) {
+        return trial_step(here, moved, correction);
     }
-    let t = real(scalars.step);
-    let s = trial_step(open, y, real(scalars.trial) * d, real(scalars.restore), on_surface);
-    var moved = g + t * s;
-    if (on_surface) {
-        moved = land(g, y, s, t);
-    }
-    return Moved(moved, p + t * answer, before);
+    return Tried(moved, false);
 }

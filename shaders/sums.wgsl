@@ -5,6 +5,18 @@ fn add_sum(slot: u32, term: wide) {
     sums[slot] = sums[slot] + term;
 }
 
+fn least(slot: u32, term: wide) {
+    if (term < sums[slot]) {
+        sums[slot] = term;
+    }
+}
+
+fn most(slot: u32, term: wide) {
+    if (term > sums[slot]) {
+        sums[slot] = term;
+    }
+}
+
 fn part_of(slot: u32) -> part {
     return sums[slot];
 }

@@ -24,6 +24,18 @@ fn add_sum(slot: u32, term: f32) {
     lost_sums[slot] = lost_sums[slot] + added.y;
 }
 
+fn least(slot: u32, term: wide) {
+    if (term < sums[slot]) {
+        sums[slot] = term;
+    }
+}
+
+fn most(slot: u32, term: wide) {
+    if (term > sums[slot]) {
+        sums[slot] = term;
+    }
+}
+
 fn part_of(slot: u32) -> part {
     return vec2<f32>(sums[slot], lost_sums[slot]);
 }

@@ -1,34 +1,42 @@
-// How kernels see the law where the unknown g is the gap itself.
-const CORRECTS: bool = false;
-
-fn open_gap(g: real) -> real {
-    return g;
+// How kernels see the law where the unknown is the gap itself. Twins: law/mod.rs,
+// law/adhesion_map.rs.
+fn open(gap: real) -> real {
+    return gap;
 }
 
 // The value of the unknown at which the surfaces touch.
-fn closed_at() -> real {
+fn closed_gap() -> real {
     return 0.0;
 }
 
-// What the law adds to y; nothing on a pad.
-fn attraction(g: real, on_surface: bool) -> real {
-    if (on_surface) {
-        return law_traction(g);
-    }
+fn traction(gap: real) -> real {
+    return law_traction(gap);
+}
+
+// What stands in the traction's place on a pad, which has no law.
+fn pad_traction() -> real {
     return 0.0;
+}
+
+fn slope(gap: real) -> real {
+    return law_slope(gap);
 }
 
 // What of a pressure enters the scale of the stopping measure.
-fn weighed(pressure_here: real) -> real {
-    return pressure_here;
+fn weighed(pressure: real) -> real {
+    return pressure;
 }
 
-fn traction_change(g: real, step: real) -> real {
-    return law_traction(g + step) - law_traction(g);
+fn corrects() -> bool {
+    return false;
+}
+
+fn change(gap: real, moved: real) -> real {
+    return law_traction(gap + moved) - law_traction(gap);
 }
 
 // The change of the energy of adhesion, and the size of what it was taken from.
-fn energy_change(g: real, step: real) -> vec2<real> {
-    let energy = law_energy(g);
-    return vec2<real>(law_energy(g + step) - energy, abs(energy));
+fn energy_change(gap: real, moved: real) -> vec2<real> {
+    let energy = law_energy(gap);
+    return vec2<real>(law_energy(gap + moved) - energy, abs(energy));
 }

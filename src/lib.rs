@@ -37,7 +37,7 @@
 //! | [`law`] | how strongly surfaces attract across a gap, one file a law |
 //! | [`elastic`] | stiffness of the half-space or of a layer at each wavevector, periodic or free |
 //! | [`kernel`] | the catalogue of passes over points, and the numbers of the algorithm |
-//! | [`backend`] | where the arithmetic runs: the trait, the processor, shaders through wgpu, the tally that only counts |
+//! | [`backend`] | where the arithmetic runs: the trait, the processor, shaders through wgpu, the dry run that only counts |
 //! | [`solver`] | the one algorithm, for every law and both boundaries |
 //! | [`scene`] | TOML to a checked scene, or every mistake of it with line, key and remedy |
 //! | [`surface`] | heights: self-affine, shapes, files; their statistics and the spectrum that fits |
@@ -71,7 +71,7 @@
 //! | no adhesion, a pressure | 13 | 25.0 |
 //! | sharp Maugis-Dugdale, a pressure | 7 | 23.0 |
 //! | sharp Maugis-Dugdale, a mean gap | 9 | 28.0 |
-//! | the same on a solid that flows, a mean gap | 11 | 29.0 |
+//! | the same with a hardness, a mean gap | 11 | 29.0 |
 //! | exponential, a pressure | 9 | 25.0 |
 //! | Lennard-Jones, a pressure | 9 | 27.0 |
 //! | Lennard-Jones, a mean gap | 13 | 32.0 |
@@ -82,7 +82,7 @@
 //! steps; of Lennard-Jones the first step rides in the trial. A pass that is not needed moves nothing; a
 //! search that needs more goes on in the next round, which does nothing else. In the rounds of mixed
 //! precision every kernel of a law reads two fields more. Under a mean gap the trial step is scaled back to
-//! it: by linearity, so that no pass comes between, but with Lennard-Jones and on a solid that flows, where
+//! it: by linearity, so that no pass comes between, but with Lennard-Jones and with a hardness, where
 //! the share that is added to a point is not linear in its step.
 #![warn(missing_docs)]
 // Both macros panic where nobody reads; `cli` has one place for each stream.

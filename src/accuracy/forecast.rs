@@ -1,7 +1,7 @@
 //! Predicts the duration of a run from its work and from the runs measured so far.
 
 use super::setting::{Model, Setting, Taper};
-use crate::backend::tally::Place;
+use crate::backend::dry_run::Place;
 use crate::grid::Grid;
 use crate::scene::{BackendName, Precision, Scene};
 use crate::study::Cost;

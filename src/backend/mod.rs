@@ -9,9 +9,9 @@
 //! Where one convolution ends in the rows in which the next one starts, [`turn`](Backend::turn) is both.
 
 pub mod cpu;
+pub mod dry_run;
 mod factors;
 pub mod gpu;
-pub mod tally;
 
 use crate::kernel::{Gate, Kernel, Params, ScalarKernel, Scalars};
 pub use factors::{Factors, Response};
@@ -129,9 +129,9 @@ pub trait Backend {
     /// Multiplies the law's tension by this field, in every kernel of its level from now on. Without
     /// a call the law is the same everywhere and nothing is read for it.
     fn set_law_factor(&mut self, factor: Field);
-    /// From now on the unknown of every kernel of the laws is the correction of a base gap, whose
-    /// residual is known: gap and residual of the base. Without a base it is the gap itself.
-    fn set_base(&mut self, base: Option<[Field; 2]>);
+    /// From now on the unknown of every kernel of the laws is the correction of an outer gap, whose
+    /// residual is known: gap and residual of the outer state. Without one it is the gap itself.
+    fn set_outer_state(&mut self, outer: Option<[Field; 2]>);
     /// Sets a field to zero where it is.
     fn clear(&mut self, field: Field);
     /// An empty backend in double precision for a level of this shape, where the solver is asked to keep
@@ -145,7 +145,7 @@ pub trait Backend {
     ///
     /// # Errors
     /// Those of [`read`](Backend::read) there.
-    fn take(
+    fn copy_from(
         &mut self,
         field: Field,
         from: &mut dyn Backend,
@@ -155,7 +155,7 @@ pub trait Backend {
         Ok(())
     }
     /// A field for another backend on the same device to take; `None` where there is no device.
-    fn lend(&mut self, _field: Field) -> Option<gpu::Lent> {
+    fn share_buffer(&mut self, _field: Field) -> Option<gpu::SharedBuffer> {
         None
     }
     /// Sets the numbers that stay fixed during a solve.
@@ -178,7 +178,7 @@ pub trait Backend {
     /// Transforms the work space back and hands it to a kernel that stores or keeps it.
     fn backward(&mut self, kernel: &'static Kernel, level: Level, fields: &[Field]);
     /// Transforms the work space back, hands it to a kernel, and transforms what this makes of it.
-    fn turn(&mut self, kernel: &'static Kernel, level: Level, fields: &[Field]);
+    fn inverse_then_forward(&mut self, kernel: &'static Kernel, level: Level, fields: &[Field]);
     /// Relative rounding error of the fields' numbers.
     fn epsilon(&self) -> f64;
     /// Real two-dimensional transforms run so far, forward and inverse one each, those of other

@@ -2,7 +2,7 @@
 
 use super::machine::{largest_here, refuse_size};
 use super::{CheckArguments, Failure, print, read_scene, room, warn};
-use crate::backend::tally::Place;
+use crate::backend::dry_run::Place;
 use crate::effect::Effect;
 use crate::law::Law;
 use crate::study::{Cost, Memory, Plan};

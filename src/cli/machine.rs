@@ -79,11 +79,11 @@ impl Machine {
     pub fn backend(&self) -> Box<dyn Backend + Send> {
         match (&self.place, self.precision) {
             (Place::Gpu(device), Precision::Mixed) => {
-                Box::new(GpuBackend::on(device).expecting_numbers().corrected())
+                Box::new(GpuBackend::on(device).expecting_finite().corrected())
             }
             (Place::Gpu(device), precision) => Box::new(
                 GpuBackend::on(device)
-                    .expecting_numbers()
+                    .expecting_finite()
                     .keeping(number(precision)),
             ),
             (Place::Processor, Precision::Single) => Box::new(CpuBackend::<f32>::new()),
@@ -135,6 +135,12 @@ fn number(precision: Precision) -> Number {
     }
 }
 
+/// Any adapter.
+#[cfg(not(feature = "fault-injection"))]
+fn choice() -> AdapterChoice {
+    AdapterChoice::default()
+}
+
 /// What the environment asks of the adapter: `TABOR_TEST_GPU`, for tests of what no sound adapter
 /// does, is a list of `software` (`auto` takes it for a graphics processor), `nodouble` (it has no
 /// double precision), `binding=BYTES` (it binds no more), `slab=BYTES` (a buffer holds no more of a
@@ -142,6 +148,7 @@ fn number(precision: Precision) -> Number {
 /// `lost=DISPATCHES` (it is lost after so many), `nan=DISPATCHES` (numbers are NaN after so many),
 /// `compiling=MILLISECONDS` (a shader takes so much longer to compile) and
 /// `plain-sums` (its compiler undoes the compensation of sums).
+#[cfg(feature = "fault-injection")]
 fn choice() -> AdapterChoice {
     let asked = std::env::var("TABOR_TEST_GPU").unwrap_or_default();
     let number = |key: &str| -> Option<u64> {
@@ -152,15 +159,17 @@ fn choice() -> AdapterChoice {
     };
     AdapterChoice {
         software: asked.split(',').any(|word| word == "software"),
-        without_double: asked.split(',').any(|word| word == "nodouble"),
-        binding_limit: number("binding"),
-        slab_bytes: number("slab"),
-        longest_line: number("line").map(|points| points as usize),
-        lost_after: number("lost"),
-        memory: number("memory"),
-        not_a_number_after: number("nan"),
-        compiling: number("compiling"),
-        plain_sums: asked.split(',').any(|word| word == "plain-sums"),
+        faults: crate::backend::gpu::Faults {
+            without_double: asked.split(',').any(|word| word == "nodouble"),
+            binding_limit: number("binding"),
+            slab_bytes: number("slab"),
+            longest_line: number("line").map(|points| points as usize),
+            lost_after: number("lost"),
+            memory: number("memory"),
+            not_a_number_after: number("nan"),
+            compiling: number("compiling"),
+            plain_sums: asked.split(',').any(|word| word == "plain-sums"),
+        },
         ..AdapterChoice::default()
     }
 }
@@ -201,8 +210,8 @@ fn auto(setup: &Setup, verbose: bool) -> (Place, Option<String>) {
     }
     let mut found = drivers::list(verbose);
     for adapter in &mut found {
-        adapter.limits = choice.narrowed(adapter.limits);
-        adapter.double &= !choice.without_double;
+        adapter.limits = choice.faults().narrowed(adapter.limits);
+        adapter.double &= !choice.faults().without_double;
     }
     let chosen = match choice.software {
         true => found.first(),

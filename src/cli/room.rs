@@ -3,7 +3,7 @@
 use std::path::Path;
 
 use super::Failure;
-use crate::backend::tally::Place;
+use crate::backend::dry_run::Place;
 use crate::grid::Grid;
 use crate::scene::{Boundary, Precision, Scene, SurfacePart};
 use crate::study::{Cost, Memory};

@@ -92,10 +92,10 @@ pub(super) fn persson(comparison: &Comparison, table: &mut Table) -> Result<(), 
     let modulus = setup.scene.solid.contact_modulus;
     let contact = RoughContact::new(Persson::new(GAMMA)?, found.spectrum, modulus)?;
     let adhesion = match setup.law {
-        Law::HardWall => None,
         Law::LennardJones(_) => Some(Reduced::LennardJones),
         Law::Exponential(_) => Some(Reduced::Exponential),
         Law::MaugisDugdale(_) => Some(Reduced::Dugdale),
+        _ => None,
     }
     .map(|law| Adhesion {
         law,

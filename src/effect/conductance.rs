@@ -85,7 +85,7 @@ impl Hooks for Conductance {
         let contact: Vec<f64> = evaluation.points.iter().map(touches).collect();
         let settings = &setup.scene.solver;
         let stiffness =
-            solver.frozen_stiffness(&contact, settings.tolerance, settings.max_iterations)?;
+            solver.incremental_stiffness(&contact, settings.tolerance, settings.max_iterations)?;
         let problem = solver.problem();
         // A reduced load over a reduced length is so many areas of a pixel over its side of E*.
         let side = problem.grid.pixel_area() / problem.scales.lateral;

@@ -1,7 +1,7 @@
 //! Plans, setups and costs with the effects of this version: what `study` does for any list of effects.
 
 use super::LIST;
-use crate::backend::{BackendError, tally::Place};
+use crate::backend::{BackendError, dry_run::Place};
 use crate::grid::Grid;
 use crate::scene::Scene;
 use crate::solver::good_size;

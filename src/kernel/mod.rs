@@ -1,31 +1,43 @@
 //! The catalogue of kernels: what is done at each point, as a twin that the CPU runs and against
 //! which a shader of the same name is compared.
 //!
-//! A kernel is a *sweep* over points, or it works on the lines of a transform: it takes those of an
-//! inverse transform or lines that were kept, and gives lines to be kept or to a forward transform
-//! (see [`Form`]). It reads some fields, writes or updates others, and hands back a few sums.
-//! [`scalar`] kernels work on the [`Scalars`] alone; they hold all of the algorithm's decisions, so
-//! that a device can keep them.
+//! A kernel is a *sweep* over points, or it works on the rows of a transform: it takes those of an
+//! inverse transform or rows that were retained, and gives rows to be retained or to a forward transform
+//! (see [`Form`]). It reads some fields, writes or updates others, and hands back a few [`Sums`].
+//! Each is written once; where a constraint, a prescribed mean gap or a retained field makes a difference
+//! it has a variant for each, which binds as many of its fields as it needs.
+//! Scalar kernels ([`scalar`], [`step_length`], [`mean_gap`]) work on the [`Scalars`] alone; they hold all of
+//! the algorithm's decisions, so that a device can keep them.
 
-pub mod base;
-pub mod coarse;
-pub mod common;
-pub mod core;
-pub mod floor;
-pub mod held;
+pub mod constraint;
+pub mod declare;
+pub mod descent;
+pub mod displacement;
+pub mod mean_gap;
+pub mod measure;
+pub mod refinement;
 pub mod scalar;
-pub mod wall;
-pub mod yielding;
+pub mod search;
+pub mod smooth;
+pub mod step_length;
+pub mod trial;
+pub mod two_band;
+pub mod update;
 
-mod core_step;
+mod catalogue;
+#[cfg(test)]
+mod mean_gap_tests;
 mod params;
 mod points;
 mod rows;
-mod step;
+mod sums;
 
-pub use params::{Gate, Params, REACHED, SUMS, Scalars, Status};
+pub use catalogue::{KERNELS, SCALAR_KERNELS};
+pub use constraint::Constraint;
+pub use params::{Gate, LawNumbers, Params, Scalars, Status, TRIED};
 pub use rows::{Rows, Whole};
 pub use scalar::ScalarKernel;
+pub use sums::{MOST_SUMS as SUMS, Sum, Sums};
 
 /// How the terms of a sum are put together.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -59,64 +71,82 @@ impl Reduce {
     }
 }
 
-/// Where the lines of a kernel come from and where they go. Lines are kept in the work space of the
+/// Where the lines of a kernel come from and where they go. Rows are retained in the work space of the
 /// level's transforms, so that they cost no field.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Form {
     /// Points, no lines.
     Sweep,
-    /// Fills the lines of a forward transform.
+    /// Fills the rows of a forward transform.
     Load,
     /// Takes the lines of an inverse transform.
     Store,
     /// Takes the lines of an inverse transform and leaves others to be kept.
-    Keep,
+    RetainRows,
     /// Takes the lines that were kept; they stay.
-    Peek,
+    ReadRetained,
     /// Takes the lines that were kept and fills those of a forward transform.
-    Resume,
+    FromRetained,
     /// Takes the lines of an inverse transform and fills those of a forward transform.
-    Turn,
+    InverseThenForward,
 }
 
 impl Form {
     /// Whether an inverse transform goes before it.
     pub fn after_inverse(self) -> bool {
-        matches!(self, Form::Store | Form::Keep | Form::Turn)
+        matches!(
+            self,
+            Form::Store | Form::RetainRows | Form::InverseThenForward
+        )
     }
 
     /// Whether a forward transform comes after it.
     pub fn before_forward(self) -> bool {
-        matches!(self, Form::Load | Form::Resume | Form::Turn)
+        matches!(
+            self,
+            Form::Load | Form::FromRetained | Form::InverseThenForward
+        )
     }
 
     /// Whether it takes lines that were kept.
-    pub fn takes_kept(self) -> bool {
-        matches!(self, Form::Peek | Form::Resume)
+    pub fn takes_retained(self) -> bool {
+        matches!(self, Form::ReadRetained | Form::FromRetained)
     }
 }
 
 /// A twin: a serial loop over the points of some rows.
 pub type Twin<T> = fn(&mut Rows<T>, &Params, &Scalars, &mut [f64; SUMS]);
 
-/// One kernel of the catalogue. Fields are bound in the order read, written, whole.
+/// One kernel of the catalogue, or a variant of one. Fields are bound in the order read, written, whole.
 pub struct Kernel {
-    /// The word under which it is found everywhere.
+    /// The word under which it is found everywhere; the same of all its variants.
     pub name: &'static str,
-    /// Where its lines come from and go.
+    /// The file of its twin.
+    pub file: &'static str,
+    /// The constraint of the gap for which it is made, if it asks for one.
+    pub constraint: Option<Constraint>,
+    /// What else sets its variants apart.
+    pub flag: Option<(&'static str, bool)>,
+    /// Where its rows come from and go.
     pub form: Form,
-    /// How many fields it reads point by point.
-    pub reads: usize,
-    /// How many fields it writes or updates.
-    pub writes: usize,
+    /// Fields that it reads point by point.
+    pub reads: &'static [&'static str],
+    /// Fields that it writes or updates.
+    pub writes: &'static [&'static str],
     /// How many of these, the last ones, it writes without reading what was there.
     pub fresh: usize,
     /// Whether it also reads one field, of any level, at points of its own choice.
     pub whole: bool,
-    /// How its sums are put together.
-    pub sums: &'static [Reduce],
+    /// Fields that other variants bind; here they are zero and written nowhere.
+    pub unbound: &'static [&'static str],
+    /// What it sums.
+    pub sums: &'static [Sum],
+    /// How these are put together.
+    pub reduces: &'static [Reduce],
     /// When it runs.
     pub gate: Gate,
+    /// Whether it asks for the law.
+    pub law: bool,
     /// Twin in double precision.
     pub twin: Twin<f64>,
     /// Twin in single precision.
@@ -126,53 +156,143 @@ pub struct Kernel {
 impl Kernel {
     /// How many fields it is given.
     pub fn fields(&self) -> usize {
-        self.reads + self.writes + usize::from(self.whole)
+        self.reads.len() + self.writes.len() + usize::from(self.whole)
+    }
+
+    /// Which of the fields that it is given are written.
+    pub fn written(&self) -> std::ops::Range<usize> {
+        self.reads.len()..self.reads.len() + self.writes.len()
+    }
+
+    /// Its name with what sets the variant apart.
+    pub fn variant(&self) -> String {
+        let mut name = self.name.to_owned();
+        if let Some(constraint) = self.constraint {
+            name += match constraint {
+                Constraint::Unilateral => "-unilateral",
+                Constraint::HardnessLimit => "-hardness_limit",
+                Constraint::Smooth => "-smooth",
+            };
+        }
+        if let Some((flag, true)) = self.flag {
+            name += "-";
+            name += &flag.to_lowercase();
+        }
+        if self.writes.last() == Some(&"projected_residual") {
+            name += "-retain";
+        }
+        if self.gate == Gate::Ahead && self.name == "load_field" {
+            name += "-ahead";
+        }
+        name
     }
 }
 
-/// Makes a catalogue entry whose twins are one generic function.
-macro_rules! kernel {
-    ($(#[$doc:meta])* $constant:ident, $twin:ident, $form:ident, reads $reads:expr, writes $writes:expr $(, fresh $fresh:expr)?, whole $whole:expr, sums [$($sum:ident),*], gate $gate:ident) => {
-        $(#[$doc])*
-        pub static $constant: $crate::kernel::Kernel = $crate::kernel::Kernel {
+/// A catalogue entry whose twins are one generic function over rows.
+macro_rules! rows_kernel {
+    ($twin:ident $([$flag:ident = $set:literal, $($size:literal),*])?, $form:ident, gate $gate:ident, law $law:literal,
+     reads [$($read:ident),*], writes [$($write:ident),*] $(, fresh $fresh:literal)? $(, whole $whole:literal)?
+     $(, unbound [$($unbound:ident),*])? $(, sums [$($group:ident),*])?) => {{
+        const TERMS: usize = 0 $($(+ $group::SUMS.len())*)?;
+        const SUMS_OF_IT: [$crate::kernel::Sum; TERMS] =
+            $crate::kernel::sums::joined(&[$($($group::SUMS),*)?]);
+        const REDUCES: [$crate::kernel::Reduce; TERMS] = $crate::kernel::sums::reduces(&SUMS_OF_IT);
+        const _: () = assert!($crate::kernel::sums::contiguous(
+            &[$($($group::FIRST,)*)? TERMS],
+            &[0 $($(, $group::END)*)?],
+        ));
+        $crate::kernel::Kernel {
             name: stringify!($twin),
+            file: file!(),
+            constraint: None,
+            flag: $crate::kernel::first(&[$((stringify!($flag), $set))?]),
             form: $crate::kernel::Form::$form,
-            reads: $reads,
-            writes: $writes,
+            reads: &[$(stringify!($read)),*],
+            writes: &[$(stringify!($write)),*],
             fresh: 0 $(+ $fresh)?,
-            whole: $whole,
-            sums: &[$($crate::kernel::Reduce::$sum),*],
+            whole: false $(| $whole)?,
+            unbound: &[$($(stringify!($unbound)),*)?],
+            sums: &SUMS_OF_IT,
+            reduces: &REDUCES,
             gate: $crate::kernel::Gate::$gate,
-            twin: $twin::<f64>,
-            twin_single: $twin::<f32>,
-        };
-    };
+            law: $law,
+            twin: $twin::<f64 $(, $set, $($size),*)?>,
+            twin_single: $twin::<f32 $(, $set, $($size),*)?>,
+        }
+    }};
 }
-pub(crate) use kernel;
+pub(crate) use rows_kernel;
 
-/// Makes a catalogue entry of a kernel that looks at one point at a time, over a floor of the gap.
+/// The flag of a variant, if it has one.
+pub(crate) const fn first(flags: &[(&'static str, bool)]) -> Option<(&'static str, bool)> {
+    match flags {
+        [flag, ..] => Some(*flag),
+        [] => None,
+    }
+}
+
+/// A catalogue entry of a kernel that looks at one point at a time, over a constraint of the gap.
 macro_rules! point_kernel {
-    ($(#[$doc:meta])* $constant:ident, $name:ident, $form:ident, $kernel:ident over $floor:ident by $each:ident, reads $reads:literal, writes $writes:literal $(, fresh $fresh:expr)?, sums [$($sum:ident),*], gate $gate:ident) => {
-        $(#[$doc])*
-        pub static $constant: $crate::kernel::Kernel = {
-            const SUMS_OF_IT: &[$crate::kernel::Reduce] = &[$($crate::kernel::Reduce::$sum),*];
-            $crate::kernel::Kernel {
-                name: stringify!($name),
-                form: $crate::kernel::Form::$form,
-                reads: $reads,
-                writes: $writes,
-                fresh: 0 $(+ $fresh)?,
-                whole: false,
-                sums: SUMS_OF_IT,
-                gate: $crate::kernel::Gate::$gate,
-                twin: $crate::kernel::points::$each::<
-                    f64, $kernel<f64, $floor<f64>>, $reads, $writes, { SUMS_OF_IT.len() },
-                >,
-                twin_single: $crate::kernel::points::$each::<
-                    f32, $kernel<f32, $floor<f32>>, $reads, $writes, { SUMS_OF_IT.len() },
-                >,
-            }
-        };
+    ($name:ident, $form:ident, gate $gate:ident,
+     $kernel:ident over $constraint:ident [$($flag:ident = $set:literal)?] $(without $law:ident)?,
+     reads [$($read:ident),*], writes [$($write:ident),*], $(fresh $fresh:literal,)?
+     $(unbound [$($unbound:ident),*],)? sums [$($group:ident),*]) => {{
+        const READS: &[&str] = &[$(stringify!($read)),*];
+        const WRITES: &[&str] = &[$(stringify!($write)),*];
+        const TERMS: usize = 0 $(+ $group::SUMS.len())*;
+        const SUMS_OF_IT: [$crate::kernel::Sum; TERMS] =
+            $crate::kernel::sums::joined(&[$($group::SUMS),*]);
+        const REDUCES: [$crate::kernel::Reduce; TERMS] = $crate::kernel::sums::reduces(&SUMS_OF_IT);
+        const _: () = assert!($crate::kernel::sums::contiguous(
+            &[$($group::FIRST,)* TERMS],
+            &[0 $(, $group::END)*],
+        ));
+        $crate::kernel::Kernel {
+            name: stringify!($name),
+            file: file!(),
+            constraint: Some($crate::kernel::Constraint::$constraint),
+            flag: $crate::kernel::first(&[$((stringify!($flag), $set))?]),
+            form: $crate::kernel::Form::$form,
+            reads: READS,
+            writes: WRITES,
+            fresh: 0 $(+ $fresh)?,
+            whole: false,
+            unbound: &[$($(stringify!($unbound)),*)?],
+            sums: &SUMS_OF_IT,
+            reduces: &REDUCES,
+            gate: $crate::kernel::Gate::$gate,
+            law: point_kernel!(@law $($law)?),
+            twin: point_kernel!(@twin f64, $kernel, $constraint, [$($set)?], $($law)?),
+            twin_single: point_kernel!(@twin f32, $kernel, $constraint, [$($set)?], $($law)?),
+        }
+    }};
+    (@law) => { true };
+    (@law law) => { false };
+    (@twin $number:ty, $kernel:ident, $constraint:ident, [$($set:literal)?],) => {
+        $crate::kernel::points::each_point::<
+            $number, $constraint<$number>, $kernel<$number, $constraint<$number> $(, $set)?>,
+            { READS.len() }, { WRITES.len() }, TERMS,
+        >
+    };
+    (@twin $number:ty, $kernel:ident, $constraint:ident, [$($set:literal)?], law) => {
+        $crate::kernel::points::each_point_without_law::<
+            $number, $kernel<$number, $constraint<$number> $(, $set)?>,
+            { READS.len() }, { WRITES.len() }, TERMS,
+        >
     };
 }
 pub(crate) use point_kernel;
+
+/// The variants of such a kernel for each constraint, where these bind the same fields.
+macro_rules! point_kernels {
+    ($(#[$doc:meta])* $constant:ident, $name:ident, $form:ident, gate $gate:ident, $kernel:ident $flags:tt,
+     $($rest:tt)*) => {
+        $(#[$doc])*
+        pub static $constant: [$crate::kernel::Kernel; 3] = [
+            point_kernel!($name, $form, gate $gate, $kernel over Unilateral $flags, $($rest)*),
+            point_kernel!($name, $form, gate $gate, $kernel over HardnessLimit $flags, $($rest)*),
+            point_kernel!($name, $form, gate $gate, $kernel over Smooth $flags, $($rest)*),
+        ];
+    };
+}
+pub(crate) use point_kernels;

@@ -1,37 +1,82 @@
-//! The numbers that kernels share: fixed ones, and those that the algorithm moves.
+//! The numbers that kernels share: fixed ones, and those that the algorithm moves. Each is declared once,
+//! for the processor and for a device.
 
+use super::Sums;
+use super::declare::{DeviceValue, FromDevice, Kind, Word, device_struct};
 use crate::law::Law;
 
-/// Sums that one kernel may hand back.
-pub const SUMS: usize = 10;
-/// Steps that one pass of a search behind a wall looks at.
-pub const REACHED: usize = 4;
+/// Step lengths that one pass of a search tries where the gap is constrained.
+pub const TRIED: usize = 4;
 
-/// Numbers that stay fixed during a solve, in reduced units.
-#[derive(Clone, Copy, Debug)]
-pub struct Params {
-    /// The cohesive law.
-    pub law: Law,
-    /// Largest eigenvalue of the stiffness.
-    pub stiffness_max: f64,
-    /// Floor of the stopping measure's denominator: `1e-6 E* rms_slope sqrt(points)`.
-    pub pressure_floor: f64,
-    /// Largest accepted value of the stopping measure.
-    pub tolerance: f64,
-    /// Norm over the surface points of what the gap is rounded beside: of the heights, or of what is larger.
-    pub heights_norm: f64,
-    /// Whether the mean gap is held instead of the mean pressure.
-    pub fixed_gap: bool,
-    /// Whether surfaces may leave each other: mean pressure fixed, no spring, and not pressed.
-    pub may_detach: bool,
-    /// Surface points.
-    pub points: f64,
-    /// Stiffness that the Lennard-Jones change of variable works with.
-    pub core_stiffness: f64,
-    /// Largest net pressure that the solid bears before it flows; infinite for an elastic one.
-    pub hardness: f64,
-    /// Relative rounding error of the fields.
-    pub epsilon: f64,
+device_struct! {
+    /// Numbers that stay fixed during a solve, in reduced units.
+    pub struct Params {
+        /// The cohesive law; a device has its numbers, and its formulas in WGSL.
+        law: Law,
+        /// Largest eigenvalue of the stiffness.
+        stiffness_max: f64,
+        /// Floor of the stopping measure's denominator: `1e-6 E* rms_slope sqrt(points)`.
+        pressure_floor: f64,
+        /// Largest accepted value of the stopping measure.
+        tolerance: f64,
+        /// Norm over the surface points of what the gap is rounded beside: of the heights, or of what is
+        /// larger.
+        heights_norm: f64,
+        /// Surface points.
+        points: f64,
+        /// Stiffness k that a smooth law's change of variable works with.
+        core_stiffness: f64,
+        /// Largest net pressure that the solid bears, its hardness; infinite for an elastic one.
+        hardness: f64,
+        /// Relative rounding error of the fields.
+        epsilon: f64,
+        /// Whether the mean gap is prescribed instead of the mean pressure.
+        fixed_gap: bool,
+        /// Whether surfaces may leave each other: mean pressure fixed, no spring, and not pressed.
+        may_detach: bool,
+    }
+}
+
+device_struct! {
+    /// The numbers of a law.
+    pub struct LawNumbers {
+        /// Work of adhesion.
+        work: f64,
+        /// Its range.
+        range: f64,
+        /// Its largest tension.
+        peak: f64,
+        /// Width of a linear end.
+        taper: f64,
+        /// Gap of the largest tension of a smooth law.
+        peak_gap: f64,
+        /// Whether the traction varies with the gap where it acts.
+        has_tail: bool,
+        /// Whether the gap is bounded by a constraint.
+        has_wall: bool,
+    }
+}
+
+impl LawNumbers {
+    /// Those of a law.
+    pub fn new(law: &Law) -> Self {
+        LawNumbers {
+            work: law.work_of_adhesion(),
+            range: law.range(),
+            peak: law.peak_tension(),
+            taper: law.taper(),
+            peak_gap: law.peak_gap(),
+            has_tail: law.has_tail(),
+            has_wall: law.has_wall(),
+        }
+    }
+}
+
+impl DeviceValue for Law {
+    const KIND: Kind = LawNumbers::KIND;
+    fn give(&self, to: &mut dyn FnMut(Word)) {
+        LawNumbers::new(self).give(to);
+    }
 }
 
 /// How a solve stands.
@@ -47,6 +92,34 @@ pub enum Status {
     PulledOff,
     /// A number is not finite.
     NotFinite,
+}
+
+impl Status {
+    /// Each with its name in WGSL; its number there is its place.
+    pub const ALL: [(Status, &'static str); 5] = [
+        (Status::Running, "RUNNING"),
+        (Status::Converged, "CONVERGED"),
+        (Status::Stalled, "STALLED"),
+        (Status::PulledOff, "PULLED_OFF"),
+        (Status::NotFinite, "NOT_FINITE"),
+    ];
+}
+
+impl DeviceValue for Status {
+    const KIND: Kind = Kind::Count;
+    fn give(&self, to: &mut dyn FnMut(Word)) {
+        (*self as u32).give(to);
+    }
+}
+
+impl FromDevice for Status {
+    /// A number that no shader writes means that memory was not what it should be.
+    fn take(from: &mut dyn FnMut(Kind) -> Word) -> Self {
+        let place = u32::take(from) as usize;
+        Status::ALL
+            .get(place)
+            .map_or(Status::NotFinite, |&(status, _)| status)
+    }
 }
 
 /// When a kernel runs: it looks at the scalars first, and does nothing where its gate is shut.
@@ -67,120 +140,117 @@ pub enum Gate {
     Searching,
 }
 
-/// The numbers that the algorithm moves; all of its decisions read and write only these.
-#[derive(Clone, Copy, Debug)]
-pub struct Scalars {
-    /// What the last kernel with sums handed back.
-    pub sums: [f64; SUMS],
-    /// Mean pressure; under a fixed mean gap its present estimate.
-    pub mean_pressure: f64,
-    /// Taken off the displacement before it is transformed: a held mean gap may be large beside the
-    /// roughness, and its rounding need not be.
-    pub offset: f64,
-    /// Factor of the new descent in the direction: -1, or 0 where a trial is repeated.
-    pub descent: f64,
-    /// Factor of the old direction.
-    pub memory: f64,
-    /// Constant added to the direction on free points (fixed mean gap).
-    pub shift: f64,
-    /// Trial length a.
-    pub trial: f64,
-    /// Share of a trial gap that is added to bring it back to the held mean; for Lennard-Jones the
-    /// multiple of the local compliance that is taken off.
-    pub restore: f64,
-    /// <s, y>, negative for a descent.
-    pub slope: f64,
-    /// <s, K s>.
-    pub curvature: f64,
-    /// The part of the slope that the elastic pressure makes.
-    pub elastic_slope: f64,
-    /// Of the last step under a held pressure: `<d, yF - old yF>` and `<d, yF>`, d the direction that
-    /// it went along.
-    pub carried: [f64; 2],
-    /// Largest s.
-    pub up: f64,
-    /// Least s.
-    pub down: f64,
-    /// Step t along s.
-    pub step: f64,
-    /// The step before it was bounded, which sets the next trial length.
-    pub length: f64,
-    /// Largest step before a further point touches.
-    pub step_first: f64,
-    /// Largest |s|.
-    pub largest: f64,
-    /// Points below this gap are set to zero after a step to first contact; 0 otherwise.
-    pub snap: f64,
-    /// Lower end of the search: step, slope and energy there.
-    pub low: [f64; 3],
-    /// Steps that the next pass of a search behind a wall looks at, rising.
-    pub reached: [f64; REACHED],
-    /// Upper end of the search: step and slope; infinite while there is none.
-    pub high: [f64; 2],
-    /// Slope at step 1.
-    pub slope_at_one: f64,
-    /// The stopping measure.
-    pub residual: f64,
-    /// Its numerator.
-    pub numerator: f64,
-    /// Residual at the last stall.
-    pub residual_at_stall: f64,
-    /// Least gap over the surface.
-    pub least_gap: f64,
-    /// Norm of the gap.
-    pub gap_norm: f64,
-    /// How the solve stands.
-    pub status: Status,
-    /// Whether the next trial repeats the last direction with a shorter length.
-    pub repeat: bool,
-    /// Whether the old direction is forgotten.
-    pub restart: bool,
-    /// Whether this iteration's trial was accepted.
-    pub accepted: bool,
-    /// Whether the trial cut points at the wall.
-    pub truncated: bool,
-    /// Whether the step length is being searched.
-    pub searching: bool,
-    /// Small plain steps instead of conjugate ones, to stay on the branch of a sharp law.
-    pub careful: bool,
-    /// Evaluations in this search; behind a wall, passes.
-    pub evaluations: u32,
-    /// Trials lost in a row.
-    pub lost: u32,
-    /// Stalls without progress.
-    pub stalls: u32,
-    /// Iterations with the numerator at the floor of rounding.
-    pub at_floor: u32,
-    /// Iterations so far.
-    pub iterations: u32,
+device_struct! {
+    /// The numbers that the algorithm moves; all of its decisions read and write only these.
+    pub struct Scalars and back {
+        /// What kernels have summed.
+        sums: Sums,
+        /// Mean pressure; under a prescribed mean gap its present estimate.
+        mean_pressure: f64,
+        /// Taken off the displacement before it is transformed: a prescribed mean gap may be large beside
+        /// the roughness, and its rounding need not be.
+        offset: f64,
+        /// Factor of z in the direction: -1, or 0 where a trial is repeated.
+        descent_factor: f64,
+        /// Factor of the old direction.
+        beta: f64,
+        /// Constant added to the direction on free points (prescribed mean gap).
+        mean_gap_shift: f64,
+        /// Trial length a.
+        trial_length: f64,
+        /// Share of a trial gap that is added to bring it back to the prescribed mean; for a smooth law
+        /// the multiple of the local compliance that is taken off.
+        mean_gap_correction: f64,
+        /// <s, y>, negative for a descent.
+        slope: f64,
+        /// <s, K s>.
+        curvature: f64,
+        /// The part of the slope that the elastic pressure makes.
+        elastic_slope: f64,
+        /// Largest s.
+        largest_step: f64,
+        /// Least s.
+        least_step: f64,
+        /// Largest |s|.
+        largest_move: f64,
+        /// Step length t along s.
+        step: f64,
+        /// The step length before it was bounded, which sets the next trial length.
+        length: f64,
+        /// Largest step length before a further point touches.
+        first_touch: f64,
+        /// Points below this gap are set to zero after a step to first touch; 0 otherwise.
+        snap: f64,
+        /// Lower end of the search: step length, slope and energy there.
+        low: [f64; 3],
+        /// Upper end of the search: step length and slope; infinite while there is none.
+        high: [f64; 2],
+        /// Step lengths that the next pass of a search tries where the gap is constrained, rising.
+        tried: [f64; TRIED],
+        /// Slope at step length 1.
+        slope_at_one: f64,
+        /// The stopping measure.
+        residual: f64,
+        /// Its numerator.
+        numerator: f64,
+        /// Residual at the last stall.
+        residual_at_stall: f64,
+        /// Least gap over the surface.
+        least_gap: f64,
+        /// Norm of the gap.
+        gap_norm: f64,
+        /// How the solve stands.
+        status: Status,
+        /// Whether the next trial repeats the last direction with a shorter length.
+        repeat: bool,
+        /// Whether the old direction is forgotten.
+        restart: bool,
+        /// Whether this iteration's trial was accepted.
+        accepted: bool,
+        /// Whether the constraint cut the trial at some point.
+        cut: bool,
+        /// Whether the step length is being searched.
+        searching: bool,
+        /// Small plain steps instead of conjugate ones, to stay on the branch of a sharp law.
+        careful: bool,
+        /// Evaluations in this search; where the gap is constrained, passes.
+        evaluations: u32,
+        /// Trials lost in a row.
+        lost: u32,
+        /// Stalls without progress.
+        stalls: u32,
+        /// Iterations with the numerator at the floor of rounding.
+        at_floor: u32,
+        /// Iterations so far.
+        iterations: u32,
+    }
 }
 
 impl Scalars {
     /// The state in which a solve starts.
     pub fn start(mean_pressure: f64, careful: bool) -> Self {
         Scalars {
-            sums: [0.0; SUMS],
+            sums: Sums::ZERO,
             mean_pressure,
             offset: 0.0,
-            descent: -1.0,
-            memory: 0.0,
-            shift: 0.0,
-            trial: 1.0,
-            restore: 0.0,
+            descent_factor: -1.0,
+            beta: 0.0,
+            mean_gap_shift: 0.0,
+            trial_length: 1.0,
+            mean_gap_correction: 0.0,
             slope: 0.0,
             curvature: 0.0,
             elastic_slope: 0.0,
-            carried: [0.0; 2],
-            up: 0.0,
-            down: 0.0,
+            largest_step: 0.0,
+            least_step: 0.0,
+            largest_move: 0.0,
             step: 0.0,
             length: 0.0,
-            step_first: 0.0,
-            largest: 0.0,
+            first_touch: 0.0,
             snap: 0.0,
             low: [0.0; 3],
-            reached: [0.0; REACHED],
             high: [f64::INFINITY; 2],
+            tried: [0.0; TRIED],
             slope_at_one: 0.0,
             residual: f64::INFINITY,
             numerator: f64::INFINITY,
@@ -191,7 +261,7 @@ impl Scalars {
             repeat: false,
             restart: true,
             accepted: false,
-            truncated: false,
+            cut: false,
             searching: false,
             careful,
             evaluations: 0,

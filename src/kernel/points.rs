@@ -12,10 +12,10 @@ use std::ops::Range;
 
 use pulp::{Arch, Simd, WithSimd};
 
+use super::constraint::GapConstraint;
 use super::{Params, Reduce, Rows, SUMS, Scalars};
-use crate::law::{Cohesion, CorrectedField, HardWall, LawField, Patterned};
+use crate::law::{AdhesionMap, Cohesion, HardWall, LawField};
 use crate::real::Real;
-use crate::with_wall_law;
 
 /// Points in a group: a few of the widest vectors, so that what is done once a group costs little.
 const LANES: usize = 32;
@@ -32,8 +32,8 @@ pub struct Point<T, const READS: usize, const WRITES: usize> {
     pub writes: [T; WRITES],
     /// The line of a transform, or the one that was kept.
     pub line: T,
-    /// Whether the point is surface; else it is of the pad.
-    pub on_surface: bool,
+    /// Whether the point is of the surface; else it is of the pad.
+    pub in_domain: bool,
 }
 
 /// What a kernel makes of a point.
@@ -55,40 +55,23 @@ pub trait PointKernel<T: Real, const READS: usize, const WRITES: usize, const TE
     Copy
 {
     /// The kernel of a solve as it stands.
-    fn of(params: &Params, scalars: &Scalars) -> Self;
+    fn new(params: &Params, scalars: &Scalars) -> Self;
     /// What becomes of a point.
     fn at(&self, law: &impl Cohesion<T>, point: Point<T, READS, WRITES>) -> Made<T, WRITES, TERMS>;
 }
 
-/// The twin that is made of such a kernel, around a base where there is one.
-pub fn each_point<T, K, const READS: usize, const WRITES: usize, const TERMS: usize>(
+/// The twin that is made of such a kernel, over a constraint.
+pub fn each_point<T, C, K, const READS: usize, const WRITES: usize, const TERMS: usize>(
     rows: &mut Rows<T>,
     params: &Params,
     scalars: &Scalars,
     sums: &mut [f64; SUMS],
 ) where
     T: Real,
+    C: GapConstraint<T>,
     K: PointKernel<T, READS, WRITES, TERMS>,
 {
-    if rows.base[0].is_empty() {
-        return each_point_itself::<T, K, READS, WRITES, TERMS>(rows, params, scalars, sums);
-    }
-    let kernel = K::of(params, scalars);
-    with_wall_law!(params.law, T, law => walk(kernel, CorrectedField(law), rows, sums));
-}
-
-/// The same of a kernel whose unknown is always the gap itself.
-pub fn each_point_itself<T, K, const READS: usize, const WRITES: usize, const TERMS: usize>(
-    rows: &mut Rows<T>,
-    params: &Params,
-    scalars: &Scalars,
-    sums: &mut [f64; SUMS],
-) where
-    T: Real,
-    K: PointKernel<T, READS, WRITES, TERMS>,
-{
-    let kernel = K::of(params, scalars);
-    with_wall_law!(params.law, T, law => walk(kernel, Patterned(law), rows, sums));
+    C::run(K::new(params, scalars), params, rows, sums);
 }
 
 /// The same of a kernel that asks for no law.
@@ -101,11 +84,12 @@ pub fn each_point_without_law<T, K, const READS: usize, const WRITES: usize, con
     T: Real,
     K: PointKernel<T, READS, WRITES, TERMS>,
 {
-    walk(K::of(params, scalars), Patterned(HardWall), rows, sums);
+    side_by_side(K::new(params, scalars), AdhesionMap(HardWall), rows, sums);
 }
 
-/// Takes the best that the processor has.
-fn walk<T, K, const READS: usize, const WRITES: usize, const TERMS: usize>(
+/// Runs a kernel over the points with sums in the order of the points: where each takes as many Newton steps
+/// as it needs there is nothing to do side by side.
+pub(super) fn one_by_one<T, K, const READS: usize, const WRITES: usize, const TERMS: usize>(
     kernel: K,
     law: impl LawField<T>,
     rows: &mut Rows<T>,
@@ -114,7 +98,26 @@ fn walk<T, K, const READS: usize, const WRITES: usize, const TERMS: usize>(
     T: Real,
     K: PointKernel<T, READS, WRITES, TERMS>,
 {
-    Arch::new().dispatch(Walk {
+    Walk::<T, _, _, true, READS, WRITES, TERMS> {
+        kernel,
+        law,
+        rows,
+        sums,
+    }
+    .with_simd(pulp::Scalar);
+}
+
+/// Runs a kernel over several points side by side, with the best that the processor has.
+pub(super) fn side_by_side<T, K, const READS: usize, const WRITES: usize, const TERMS: usize>(
+    kernel: K,
+    law: impl LawField<T>,
+    rows: &mut Rows<T>,
+    sums: &mut [f64; SUMS],
+) where
+    T: Real,
+    K: PointKernel<T, READS, WRITES, TERMS>,
+{
+    Arch::new().dispatch(Walk::<T, _, _, false, READS, WRITES, TERMS> {
         kernel,
         law,
         rows,
@@ -122,16 +125,26 @@ fn walk<T, K, const READS: usize, const WRITES: usize, const TERMS: usize>(
     });
 }
 
-/// A kernel's walk over the points of some rows.
-struct Walk<'a, 'b, T, K, L, const READS: usize, const WRITES: usize, const TERMS: usize> {
+/// A kernel's walk over the points of some rows; `IN_ORDER` where its sums are those of one point after another.
+struct Walk<
+    'a,
+    'b,
+    T,
+    K,
+    L,
+    const IN_ORDER: bool,
+    const READS: usize,
+    const WRITES: usize,
+    const TERMS: usize,
+> {
     kernel: K,
     law: L,
     rows: &'a mut Rows<'b, T>,
     sums: &'a mut [f64; SUMS],
 }
 
-impl<T, K, L, const READS: usize, const WRITES: usize, const TERMS: usize> WithSimd
-    for Walk<'_, '_, T, K, L, READS, WRITES, TERMS>
+impl<T, K, L, const IN_ORDER: bool, const READS: usize, const WRITES: usize, const TERMS: usize>
+    WithSimd for Walk<'_, '_, T, K, L, IN_ORDER, READS, WRITES, TERMS>
 where
     T: Real,
     K: PointKernel<T, READS, WRITES, TERMS>,
@@ -154,18 +167,27 @@ where
             writes: [[T::zero(); LANES]; WRITES],
             line: [T::zero(); LANES],
             factor: [T::one(); LANES],
-            base: [[T::zero(); LANES]; 2],
+            outer: [[T::zero(); LANES]; 2],
             terms: [[0.0; LANES]; TERMS],
         };
-        for (points, on_surface) in rows.layout().runs() {
+        for (points, in_domain) in rows.layout().runs() {
             for start in points.clone().step_by(LANES) {
                 let here = start..points.end.min(start + LANES);
                 group.gather(rows, &here);
-                group.work(&kernel, &law, on_surface);
+                group.work(&kernel, &law, in_domain);
                 group.scatter(rows, &here);
                 for ((total, terms), reduce) in
                     totals.iter_mut().zip(&group.terms).zip(rows.reduces)
                 {
+                    if IN_ORDER {
+                        let terms = terms[..here.len()].iter();
+                        total[0] = match reduce {
+                            Reduce::Add => terms.fold(total[0], |a, b| a + b),
+                            Reduce::Min => terms.fold(total[0], |a, &b| a.least(b)),
+                            Reduce::Max => terms.fold(total[0], |a, &b| a.most(b)),
+                        };
+                        continue;
+                    }
                     match reduce {
                         Reduce::Add => add(total, &terms[..here.len()], |a, b| a + b),
                         Reduce::Min => add(total, &terms[..here.len()], f64::least),
@@ -203,7 +225,7 @@ struct Group<T, const READS: usize, const WRITES: usize, const TERMS: usize> {
     writes: [Lanes<T>; WRITES],
     line: Lanes<T>,
     factor: Lanes<T>,
-    base: [Lanes<T>; 2],
+    outer: [Lanes<T>; 2],
     terms: [Lanes<f64>; TERMS],
 }
 
@@ -220,27 +242,30 @@ impl<T: Real, const READS: usize, const WRITES: usize, const TERMS: usize>
         }
         load(&mut self.line, rows.lines, here);
         load(&mut self.factor, rows.factor, here);
-        for (to, from) in self.base.iter_mut().zip(&rows.base) {
+        for (to, from) in self.outer.iter_mut().zip(&rows.outer) {
             load(to, from, here);
         }
     }
 
     /// Places without a point work on what they held before; nothing of them is kept.
     #[inline(always)]
-    fn work<K, L>(&mut self, kernel: &K, law: &L, on_surface: bool)
+    fn work<K, L>(&mut self, kernel: &K, law: &L, in_domain: bool)
     where
         K: PointKernel<T, READS, WRITES, TERMS>,
         L: LawField<T>,
     {
         for lane in 0..LANES {
-            let law = law.here(self.factor[lane], [self.base[0][lane], self.base[1][lane]]);
+            let law = law.here(
+                self.factor[lane],
+                [self.outer[0][lane], self.outer[1][lane]],
+            );
             let made = kernel.at(
                 &law,
                 Point {
                     reads: from_fn(|place| self.reads[place][lane]),
                     writes: from_fn(|place| self.writes[place][lane]),
                     line: self.line[lane],
-                    on_surface,
+                    in_domain,
                 },
             );
             for place in 0..WRITES {
@@ -302,12 +327,12 @@ mod tests {
     struct Probe;
 
     impl PointKernel<f64, 1, 1, 3> for Probe {
-        fn of(_: &Params, _: &Scalars) -> Self {
+        fn new(_: &Params, _: &Scalars) -> Self {
             Probe
         }
         fn at(&self, law: &impl Cohesion<f64>, point: Point<f64, 1, 1>) -> Made<f64, 1, 3> {
             let ([read], [write]) = (point.reads, point.writes);
-            let pull = if point.on_surface {
+            let pull = if point.in_domain {
                 law.traction(read)
             } else {
                 -1.0
@@ -352,16 +377,16 @@ mod tests {
                     points: [0, 0],
                 },
                 factor: &factor,
-                base: [&[]; 2],
+                outer: [&[]; 2],
                 reduces: &[Reduce::Add, Reduce::Min, Reduce::Max],
             };
             let mut sums = [0.0; SUMS];
             (sums[1], sums[2]) = (f64::INFINITY, f64::NEG_INFINITY);
-            walk(Probe, Patterned(law), &mut rows, &mut sums);
+            side_by_side(Probe, AdhesionMap(law), &mut rows, &mut sums);
             let mut expected = 0.0;
             for i in 0..points {
-                let on_surface = i % width < surface[0] && i / width < surface[1];
-                let pull = match on_surface {
+                let in_domain = i % width < surface[0] && i / width < surface[1];
+                let pull = match in_domain {
                     true if read[i] < 0.5 => 2.0 * factor[i],
                     true => 0.0,
                     false => -1.0,

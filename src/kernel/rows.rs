@@ -34,9 +34,9 @@ pub struct Rows<'a, T> {
     pub whole: Whole<'a, T>,
     /// Factors on the law's tension, cut to these rows; empty where the law is the same everywhere.
     pub factor: &'a [T],
-    /// Gap and residual of the base that is corrected, cut to these rows; empty where the unknown is
+    /// Gap and residual of the outer state that is corrected, cut to these rows; empty where the unknown is
     /// the gap itself.
-    pub base: [&'a [T]; 2],
+    pub outer: [&'a [T]; 2],
     /// How the kernel's sums are put together.
     pub reduces: &'static [Reduce],
 }
@@ -95,7 +95,7 @@ impl Layout {
         })
     }
 
-    /// Calls `point(index, on_surface)` for each point in order; `on_surface` is false on the pad.
+    /// Calls `point(index, in_domain)` for each point in order; `in_domain` is false on the pad.
     #[inline(always)]
     pub fn points(&self, mut point: impl FnMut(usize, bool)) {
         if self.surface[0] == self.width && self.first + self.count <= self.surface[1] {

@@ -1,27 +1,27 @@
 //! A law as the correction of a known state feels it.
 //!
 //! Where a solution is kept in double precision and iterations run in single, the unknown is the
-//! correction c of a base gap g, whose residual y(g) is known. What depends on c is then
+//! correction c of an outer gap g, whose residual y(g) is known. What depends on c is then
 //! `y(g) + sigma(g + c) - sigma(g)`, and the difference is taken without cancellation, so that
 //! single precision is relative to c and not to g.
 
 use super::{Cohesion, LawField};
 use crate::real::Real;
 
-/// A law at one point around a base state.
+/// A law at one point around an outer state.
 #[derive(Clone, Copy, Debug)]
 pub struct Correction<L, T> {
     /// The law.
     pub law: L,
     /// Factor on its tension.
     pub factor: T,
-    /// Gap of the base.
+    /// Gap of the outer state.
     pub gap: T,
-    /// Residual y of the base, its traction included.
+    /// Residual y of the outer state, its traction included.
     pub residual: T,
 }
 
-/// A law around a base state that differs from point to point.
+/// A law around an outer state that differs from point to point.
 #[derive(Clone, Copy, Debug)]
 pub struct CorrectedField<L>(pub L);
 
@@ -44,7 +44,7 @@ impl<T: Real, L: Cohesion<T>> Cohesion<T> for Correction<L, T> {
         self.residual + self.factor * self.law.difference(self.gap, correction)
     }
 
-    /// Of the base with all its pressures, to first order in the correction.
+    /// Of the outer state with all its pressures, to first order in the correction.
     #[inline(always)]
     fn energy(&self, correction: T) -> T {
         self.residual * correction
@@ -81,16 +81,21 @@ impl<T: Real, L: Cohesion<T>> Cohesion<T> for Correction<L, T> {
     }
 
     #[inline(always)]
-    fn floor(&self) -> T {
+    fn closed_gap(&self) -> T {
         -self.gap
     }
 
     #[inline(always)]
-    fn beyond(&self) -> T {
+    fn pad_traction(&self) -> T {
         self.residual
     }
 
-    /// The scale is the base's.
+    #[inline(always)]
+    fn corrects(&self) -> bool {
+        true
+    }
+
+    /// The scale is the outer state's.
     #[inline(always)]
     fn weighed(&self, _pressure: T) -> T {
         T::zero()
@@ -150,7 +155,7 @@ mod tests {
             work_of_adhesion: 1e-6,
             range: 1e-6,
         };
-        // exp(1e6) is none in any precision.
+        // exp(1e6) overflows in every precision.
         assert_eq!(law.difference(1.0, -1.0), 1.0);
         assert_eq!(law.cast::<f32>().difference(1.0, -1.0), 1.0);
         // On either side of where the one form hands over to the other.

@@ -97,6 +97,11 @@ impl<T: Real> Cohesion<T> for LennardJones<T> {
     }
 
     #[inline]
+    fn repelling_gap(&self, pressure: T) -> T {
+        self.repelling(pressure)
+    }
+
+    #[inline]
     fn energy(&self, gap: T) -> T {
         let r = self.ratio(gap);
         let square = r * r;

@@ -4,23 +4,42 @@
 //! that is `-work_of_adhesion` at zero gap and vanishes far away. The net pressure carries the
 //! traction with a minus sign. All numbers are in the caller's units; the solver uses reduced ones.
 
+mod adhesion_map;
 mod balance;
 mod correction;
 mod exponential;
 mod lennard_jones;
 mod maugis_dugdale;
 mod meniscus;
-mod pattern;
 
+pub use adhesion_map::{AdhesionMap, LawField, Scaled};
 pub use balance::{Support, imbalance, net_pressure};
 pub use correction::{CorrectedField, Correction};
 pub use exponential::Exponential;
 pub use lennard_jones::LennardJones;
 pub use maugis_dugdale::MaugisDugdale;
 pub use meniscus::{GAS_CONSTANT, LEAST_KELVIN_RADIUS, Meniscus, least_humidity};
-pub use pattern::{LawField, Patterned, Scaled};
 
 use crate::real::Real;
+
+/// The formulas of a law in WGSL, as a file beside its Rust.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+pub struct LawShader {
+    /// Its name.
+    pub name: &'static str,
+    /// `law_traction`, `law_energy`, `law_slope`, `law_difference` and `law_repelling_gap` of a gap.
+    pub source: &'static str,
+}
+
+/// Formulas of the file of this name.
+macro_rules! shader {
+    ($name:literal) => {
+        $crate::law::LawShader {
+            name: $name,
+            source: include_str!(concat!($name, ".wgsl")),
+        }
+    };
+}
 
 /// What the kernels ask of a law, point by point.
 pub trait Cohesion<T: Real>: Copy {
@@ -52,18 +71,33 @@ pub trait Cohesion<T: Real>: Copy {
     }
     /// The value of the unknown at which the surfaces touch.
     #[inline(always)]
-    fn floor(&self) -> T {
+    fn closed_gap(&self) -> T {
         T::zero()
     }
     /// What stands in the traction's place on a pad, which has no law.
     #[inline(always)]
-    fn beyond(&self) -> T {
+    fn pad_traction(&self) -> T {
         T::zero()
     }
     /// What of a pressure enters the scale of the stopping measure.
     #[inline(always)]
     fn weighed(&self, pressure: T) -> T {
         pressure
+    }
+    /// Whether the unknown is the correction of a known gap.
+    #[inline(always)]
+    fn corrects(&self) -> bool {
+        false
+    }
+    /// A tension of the law as it is at this point.
+    #[inline(always)]
+    fn factored(&self, tension: T) -> T {
+        tension
+    }
+    /// A gap at which a law without a wall repels by at least this pressure; 0 of the others.
+    #[inline(always)]
+    fn repelling_gap(&self, _pressure: T) -> T {
+        T::zero()
     }
 }
 
@@ -154,6 +188,16 @@ macro_rules! with_wall_law {
 }
 
 impl Law {
+    /// Its formulas for a device.
+    pub fn shader(&self) -> LawShader {
+        match self {
+            Law::HardWall => shader!("hard_wall"),
+            Law::MaugisDugdale(_) => shader!("maugis_dugdale"),
+            Law::Exponential(_) => shader!("exponential"),
+            Law::LennardJones(_) => shader!("lennard_jones"),
+        }
+    }
+
     /// Attraction across the gap, positive.
     pub fn traction(&self, gap: f64) -> f64 {
         with_law!(*self, f64, law => law.traction(gap))
@@ -200,6 +244,22 @@ impl Law {
             // Every other law pulls less the wider the gap.
             Law::LennardJones(law) => self.traction(gap.max(law.peak_gap())),
             _ => self.traction(gap),
+        }
+    }
+
+    /// Width of the linear end of the tension; 0 without one.
+    pub fn taper(&self) -> f64 {
+        match self {
+            Law::MaugisDugdale(law) => law.taper,
+            _ => 0.0,
+        }
+    }
+
+    /// Gap of the largest tension of a law without a wall; 0 of the others, whose tension is largest there.
+    pub fn peak_gap(&self) -> f64 {
+        match self {
+            Law::LennardJones(law) => law.peak_gap(),
+            _ => 0.0,
         }
     }
 

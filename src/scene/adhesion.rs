@@ -173,12 +173,12 @@ fn numbers(adhesion: &Reader, law: Option<LawName>) -> Option<(f64, Range)> {
         }
         [true, true, false] => Some((work?, range?)),
         [true, false, true] => {
-            let range = work? * shape(law?) / peak?;
+            let range = work? * law?.shape() / peak?;
             is_normal(adhesion, range).then_some((work?, Range::Length(range)))
         }
         [false, true, true] => match range? {
             Range::Length(length) => {
-                let work = peak? * length / shape(law?);
+                let work = peak? * length / law?.shape();
                 is_normal(adhesion, work).then_some((work, Range::Length(length)))
             }
             Range::Auto => None,
@@ -207,16 +207,6 @@ fn is_normal(adhesion: &Reader, derived: f64) -> bool {
         );
     }
     normal
-}
-
-/// `peak_tension * range / work_of_adhesion` of a law.
-///
-/// Lennard-Jones: the traction `(8 w / 3 eps)(s^3 - s^9)` is largest at `s^6 = 1/3`.
-pub(super) fn shape(law: LawName) -> f64 {
-    match law {
-        LawName::MaugisDugdale | LawName::Exponential => 1.0,
-        LawName::LennardJones => 16.0 / (9.0 * 3f64.sqrt()),
-    }
 }
 
 /// The taper: `Some(None)` is `auto`, also for the laws without one.
@@ -269,7 +259,7 @@ mod tests {
         let largest = (0..=100_000)
             .map(|step| traction(f64::from(step) * 1e-5))
             .fold(0.0, f64::max);
-        let shape = shape(LawName::LennardJones);
+        let shape = LawName::LennardJones.shape();
         assert!((largest / shape - 1.0).abs() < 2e-9, "{largest} {shape}");
     }
 }

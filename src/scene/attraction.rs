@@ -2,6 +2,8 @@
 
 use std::path::PathBuf;
 
+use crate::law::{Exponential, Law, LennardJones, MaugisDugdale};
+
 /// `[adhesion]`.
 #[derive(Clone, Debug, PartialEq)]
 pub struct AdhesionScene {
@@ -119,6 +121,45 @@ impl LawName {
             LawName::MaugisDugdale => "maugis-dugdale",
             LawName::LennardJones => "lennard-jones",
             LawName::Exponential => "exponential",
+        }
+    }
+
+    /// `peak_tension * range / work_of_adhesion` of the law.
+    ///
+    /// Lennard-Jones: the traction `(8 w / 3 eps)(s^3 - s^9)` is largest at `s^6 = 1/3`.
+    pub fn shape(self) -> f64 {
+        match self {
+            LawName::MaugisDugdale | LawName::Exponential => 1.0,
+            LawName::LennardJones => 16.0 / (9.0 * 3f64.sqrt()),
+        }
+    }
+
+    /// The shortest range at which pull-off is still within some per cent of JKR's, over
+    /// `sqrt(w dx / E*)`.
+    pub fn shortest_range(self) -> f64 {
+        match self {
+            LawName::MaugisDugdale => 2f64.sqrt(),
+            LawName::Exponential => 1.0,
+            LawName::LennardJones => 1.25,
+        }
+    }
+
+    /// The law of this work of adhesion and range, with this width of a linear end if it has one.
+    pub fn law(self, work_of_adhesion: f64, range: f64, taper: f64) -> Law {
+        match self {
+            LawName::MaugisDugdale => Law::MaugisDugdale(MaugisDugdale {
+                peak_tension: work_of_adhesion / range,
+                range,
+                taper,
+            }),
+            LawName::LennardJones => Law::LennardJones(LennardJones {
+                work_of_adhesion,
+                range,
+            }),
+            LawName::Exponential => Law::Exponential(Exponential {
+                work_of_adhesion,
+                range,
+            }),
         }
     }
 }

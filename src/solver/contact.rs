@@ -1,15 +1,15 @@
-//! The iteration: a fixed list of kernels over the backend, whose decisions are scalar kernels.
+//! A solver of one problem: what it plans, how a solve of a load begins, and when it ends.
 
 use super::MakeBackend;
 use super::coarse_start;
 use super::correction::FIRST_TOLERANCE;
-use super::held::HeightsPressure;
 use super::kernel_set::{KernelSet, fixed_params, rounded_beside_under};
+use super::mean_gap::HeightsPressure;
+use super::outer_state::OuterState;
 use super::problem::Problem;
-use super::reference::Reference;
 use super::two_band::TwoBand;
 use crate::backend::{Backend, BackendError, Field, Level, Response, Spectrum};
-use crate::kernel::{Gate, Params, Scalars, Status, common, scalar};
+use crate::kernel::{Params, Scalars, Status, scalar};
 use crate::law::{Cohesion, Law};
 
 /// What is held fixed, reduced units.
@@ -82,7 +82,7 @@ pub struct ContactSolver<'a> {
     pub(super) gap: Field,
     pub(super) pressure: Field,
     pub(super) direction: Field,
-    pub(super) free_before: Field,
+    pub(super) previous_residual: Field,
     /// K times the heights, where a mean gap is held by linearity.
     pub(super) heights_pressure: Option<HeightsPressure>,
     /// Factors on the law's tension, where it is not the same everywhere and always.
@@ -92,17 +92,17 @@ pub struct ContactSolver<'a> {
     /// The trial step of a law whose change of variable makes it costly.
     pub(super) step: Option<Field>,
     pub(super) stiffness: Spectrum,
-    preconditioner: Spectrum,
+    pub(super) preconditioner: Spectrum,
     /// The compliance of all waves, where the contact's conductance is asked.
     pub(super) compliance: Option<Spectrum>,
-    two_band: Option<TwoBand>,
-    pub(super) kernels: &'static KernelSet,
+    pub(super) two_band: Option<TwoBand>,
+    pub(super) kernels: KernelSet,
     pub(super) params: Params,
     /// What a gap is rounded beside whatever the load.
     heights_norm: f64,
     /// The state in double precision, where iterations here are to be corrected by it; made when it
     /// is first asked for.
-    pub(super) reference: Option<Reference>,
+    pub(super) outer: Option<OuterState>,
     /// Transforms of the solvers on coarser grids that this one asked for help.
     helped_by: f64,
     /// What a relaxing solid's past adds to its displacement, over all solved points; empty where the
@@ -114,13 +114,6 @@ pub struct ContactSolver<'a> {
     plastic_depths: Vec<f64>,
 }
 
-/// Evaluations that one search of a step length may take where each is looked at, the scalar kernels'
-/// own bounds included.
-const SEARCHES: usize = 48;
-/// Passes of a search in a round that is not looked at: most need no more, and one that does goes on in the
-/// next round, which does nothing else. Behind a wall a pass looks at several steps; with Lennard-Jones the
-/// first one rides in the trial.
-const SEARCHES_AT_ONCE: usize = 1;
 /// Rounds, lost trials and long searches included, that a solve may take for each iteration allowed.
 pub const ROUNDS_PER_ITERATION: usize = 4;
 
@@ -138,7 +131,7 @@ impl<'a> ContactSolver<'a> {
         let gap = backend.field(level, "gap");
         let pressure = backend.field(level, "pressure");
         let direction = backend.field(level, "direction");
-        let free_before = backend.field(level, "free_before");
+        let previous_residual = backend.field(level, "previous_residual");
         let has_wall = problem.law.has_wall();
         let step = (!has_wall).then(|| backend.field(level, "step"));
         let law_factor = problem.law_factor.as_ref().map(|factor| {
@@ -167,7 +160,7 @@ impl<'a> ContactSolver<'a> {
             gap,
             pressure,
             direction,
-            free_before,
+            previous_residual,
             heights_pressure: None,
             law_factor,
             present_factor: None,
@@ -176,10 +169,10 @@ impl<'a> ContactSolver<'a> {
             preconditioner,
             compliance,
             two_band,
-            kernels: KernelSet::of(problem),
+            kernels: KernelSet::new(problem),
             heights_norm: params.heights_norm,
             params,
-            reference: None,
+            outer: None,
             helped_by: 0.0,
             offset: Vec::new(),
             mean_offset: 0.0,
@@ -199,30 +192,30 @@ impl<'a> ContactSolver<'a> {
 
     /// Real two-dimensional transforms so far, those on coarser grids in proportion to their points.
     pub fn transforms(&self) -> f64 {
-        let reference = self.reference.as_ref().map_or(0.0, Reference::transforms);
-        self.backend.transforms() + self.helped_by + reference
+        let outer = self.outer.as_ref().map_or(0.0, OuterState::transforms);
+        self.backend.transforms() + self.helped_by + outer
     }
 
     /// The gap over all solved points, reduced.
     pub fn gap(&mut self) -> Result<Vec<f64>, BackendError> {
-        match &mut self.reference {
-            Some(reference) => reference.gap(),
+        match &mut self.outer {
+            Some(outer) => outer.gap(),
             None => self.backend.read(self.gap),
         }
     }
 
     /// Sets the gap from which [`Start::Present`] starts, as [`ContactSolver::gap`] gave it.
     pub fn set_gap(&mut self, gap: &[f64]) {
-        if let Some(reference) = self.reference() {
-            reference.set_gap(gap);
+        if let Some(outer) = self.outer() {
+            outer.set_gap(gap);
         }
         self.backend.write(self.gap, gap);
     }
 
     /// The elastic pressure K*(g + h) over all solved points, reduced, without the mean pressure.
     pub fn elastic_pressure(&mut self) -> Result<Vec<f64>, BackendError> {
-        match &mut self.reference {
-            Some(reference) => reference.pressure(),
+        match &mut self.outer {
+            Some(outer) => outer.pressure(),
             None => self.backend.read(self.pressure),
         }
     }
@@ -255,8 +248,8 @@ impl<'a> ContactSolver<'a> {
             *height += offset;
         }
         self.backend.write(self.heights, &moved);
-        if let Some(reference) = self.reference() {
-            reference.set_heights(&moved);
+        if let Some(outer) = self.outer() {
+            outer.set_heights(&moved);
         }
     }
 
@@ -267,10 +260,10 @@ impl<'a> ContactSolver<'a> {
             let values = factor.as_ref().unwrap_or(own);
             self.backend.write(field, &self.problem.padded(values, 0.0));
             let problem = self.problem;
-            if self.reference().is_some()
-                && let Some(reference) = &mut self.reference
+            if self.outer().is_some()
+                && let Some(outer) = &mut self.outer
             {
-                reference.set_law_factor(problem, values);
+                outer.set_law_factor(problem, values);
             }
             self.present_factor = factor;
         }
@@ -316,7 +309,7 @@ impl<'a> ContactSolver<'a> {
 
     /// Readies a solve: the load, the start, and the pressures that belong to it.
     ///
-    /// Around a reference the present gap is the reference's, which [`ContactSolver::solve`] hands in.
+    /// Around an outer state the present gap is that state's, which [`ContactSolver::solve`] hands in.
     pub fn begin(
         &mut self,
         load: &Load,
@@ -330,7 +323,7 @@ impl<'a> ContactSolver<'a> {
         };
         // K takes the mean of the heights away, by which the pressure of the heights counts.
         debug_assert!(!fixed_gap || load.zero_stiffness == 0.0);
-        self.backend.set_base(None);
+        self.backend.set_outer_state(None);
         self.params.fixed_gap = fixed_gap;
         self.params.tolerance = tolerance;
         self.params.heights_norm = rounded_beside_under(self.heights_norm, &self.params, load);
@@ -347,7 +340,7 @@ impl<'a> ContactSolver<'a> {
                 .set_zero_mode(self.preconditioner, load.zero_compliance),
         }
         if fixed_gap {
-            self.begin_held();
+            self.begin_mean_gap();
         }
         let mut scalars = Scalars::start(mean_pressure, careful);
         if let Hold::Gap(target) = load.hold {
@@ -367,134 +360,6 @@ impl<'a> ContactSolver<'a> {
         Ok(())
     }
 
-    /// Loads and judges the residual of the present state: every round starts from its transformed rows.
-    pub(super) fn ready(&mut self) {
-        let (level, g, p) = (self.level, self.gap, self.pressure);
-        match &self.two_band {
-            Some(bands) => {
-                let fields = [g, p, bands.free()];
-                self.backend.forward(bands.load_free, level, &fields);
-            }
-            None => self.backend.forward(self.kernels.free, level, &[g, p]),
-        }
-        self.backend.scalar(&scalar::JUDGE);
-    }
-
-    /// p = K*(g + h) afresh, and the mean pressure that goes with a held gap.
-    fn refresh(&mut self) -> Result<(), BackendError> {
-        let fields = [self.gap, self.heights];
-        self.backend
-            .forward(&common::LOAD_DISPLACEMENT, self.level, &fields);
-        self.backend.multiply(self.stiffness, false, Gate::Always);
-        self.backend
-            .backward(&common::STORE_PRESSURE, self.level, &[self.pressure]);
-        self.balance();
-        Ok(())
-    }
-
-    /// One iteration.
-    pub fn iterate(&mut self) -> Result<Scalars, BackendError> {
-        self.record()?;
-        self.backend.scalars()
-    }
-
-    /// Up to `most` iterations, as many as the backend records before it looks; says how many,
-    /// those that idled after the end included.
-    pub fn advance(&mut self, most: usize) -> Result<(usize, Scalars), BackendError> {
-        let rounds = self.backend.look_every().min(most).max(1);
-        for _ in 0..rounds {
-            self.record()?;
-        }
-        Ok((rounds, self.backend.scalars()?))
-    }
-
-    /// Records one iteration, from the rows of the residual to those of the next one. All decisions are
-    /// taken by the scalar kernels; where looking is free a search is left when it is over.
-    fn record(&mut self) -> Result<(), BackendError> {
-        let (level, kernels) = (self.level, self.kernels);
-        let (g, p, d, before) = (self.gap, self.pressure, self.direction, self.free_before);
-        let held = self.params.fixed_gap;
-        let backend = &mut *self.backend;
-        match &self.two_band {
-            Some(bands) => {
-                bands.descend(backend, before, held.then_some(d), self.preconditioner);
-            }
-            None => {
-                backend.multiply(self.preconditioner, false, Gate::Ahead);
-                match held {
-                    true => backend.backward(kernels.descent_held, level, &[g, p, before, d]),
-                    false => backend.backward(kernels.descent, level, &[g, p, before]),
-                }
-            }
-        }
-        backend.scalar(&scalar::DIRECT);
-        if held {
-            self.try_held();
-        } else {
-            match self.step {
-                Some(step) => backend.forward(kernels.trial, level, &[g, p, d, step]),
-                None => backend.forward(kernels.trial, level, &[g, p, d]),
-            }
-            backend.scalar(&scalar::ACCEPT);
-            backend.multiply(self.stiffness, true, Gate::Accepted);
-        }
-        self.backend.scalar(kernels.step);
-        if self.problem.law.has_tail() {
-            self.search()?;
-        }
-        self.backend.scalar(&scalar::SETTLE_WALL);
-        if held {
-            self.advance_held();
-            return Ok(());
-        }
-        let backend = &mut *self.backend;
-        match (&self.two_band, self.step) {
-            (Some(bands), _) => backend.turn(bands.turn, level, &[d, g, p, before, bands.free()]),
-            (None, Some(step)) => backend.turn(kernels.turn, level, &[d, step, g, p, before]),
-            (None, None) => backend.turn(kernels.turn, level, &[d, g, p, before]),
-        }
-        backend.scalar(kernels.lengthen);
-        backend.scalar(&scalar::CARRY);
-        backend.scalar(&scalar::JUDGE);
-        Ok(())
-    }
-
-    /// Records the search of the step length, or the part of it that belongs to a round.
-    fn search(&mut self) -> Result<(), BackendError> {
-        let kernels = self.kernels;
-        // To which side a closed point may move is told by its pressure.
-        let moved = self.step.unwrap_or(self.direction);
-        let fields = [self.gap, moved, self.pressure];
-        let fields = &fields[..kernels.search.fields()];
-        let looks = self.backend.look_every() == 1;
-        let most = if looks { SEARCHES } else { SEARCHES_AT_ONCE };
-        for _ in 0..most {
-            if looks && !self.backend.scalars()?.is_open(Gate::Searching) {
-                break;
-            }
-            self.backend.sweep(kernels.search, self.level, fields);
-            self.backend.scalar(kernels.search_scalar);
-        }
-        Ok(())
-    }
-
-    /// The stopping measure of the present gap, from pressures evaluated afresh.
-    pub fn evaluate(&mut self) -> Result<Scalars, BackendError> {
-        let mut scalars = self.backend.scalars()?;
-        scalars.status = Status::Running;
-        scalars.repeat = false;
-        scalars.searching = false;
-        scalars.lost = 0;
-        scalars.stalls = 0;
-        self.backend.set_scalars(&scalars);
-        self.refresh()?;
-        let fields = [self.gap, self.pressure];
-        self.backend
-            .sweep(self.kernels.residual, self.level, &fields);
-        self.backend.scalar(&scalar::JUDGE);
-        self.backend.scalars()
-    }
-
     /// Solves a load. `watch` sees the scalars whenever the host looks and may end the solve by
     /// returning false.
     #[allow(clippy::too_many_arguments)]
@@ -508,10 +373,10 @@ impl<'a> ContactSolver<'a> {
         make_backend: MakeBackend,
         watch: &mut dyn FnMut(&Scalars) -> bool,
     ) -> Result<Outcome, BackendError> {
-        if let (Start::Present, Some(reference)) = (start, &mut self.reference) {
-            reference.hand_gap(self.backend, self.gap)?;
+        if let (Start::Present, Some(outer)) = (start, &mut self.outer) {
+            outer.hand_gap(self.backend, self.gap)?;
         }
-        let corrected = self.reference().is_some();
+        let corrected = self.outer().is_some();
         let first = match corrected {
             true => tolerance.max(FIRST_TOLERANCE),
             false => tolerance,

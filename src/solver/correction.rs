@@ -6,7 +6,7 @@
 //! with is relative to c, so each round gains some digits, whatever the law.
 
 use super::contact::{ContactSolver, Load, Outcome};
-use super::reference::Reference;
+use super::outer_state::OuterState;
 use crate::backend::{Backend, BackendError, Field};
 use crate::kernel::{Scalars, Status};
 
@@ -32,18 +32,18 @@ pub const TRIALS_PER_ITERATION: usize = 4;
 impl ContactSolver<'_> {
     /// The state in double precision, made when it is first asked for; `None` where the backend's own
     /// numbers will do.
-    pub(super) fn reference(&mut self) -> Option<&mut Reference> {
+    pub(super) fn outer(&mut self) -> Option<&mut OuterState> {
         // The corrections are those of a wall; what flows is left to the backend's own numbers.
-        if self.reference.is_none() && self.problem.hardness.is_none() {
+        if self.outer.is_none() && self.problem.hardness.is_none() {
             let double = self.backend.in_double(self.problem.shape)?;
-            self.reference = Some(Reference::new(
+            self.outer = Some(OuterState::new(
                 double,
                 self.backend,
                 self.level,
                 self.problem,
             ));
         }
-        self.reference.as_mut()
+        self.outer.as_mut()
     }
 
     /// Iterates until the end that the scalars say, for at most so many iterations after those
@@ -80,10 +80,10 @@ impl ContactSolver<'_> {
         let (first, mut stopped) = self.run_out(0, max_iterations, watch)?;
         let mut iterations = first.iterations as usize;
         let mut status = first.status;
-        let mut end = self.refer(|reference, iterating, gap| {
-            reference.begin(load, tolerance, may_detach);
-            reference.take_gap(iterating, gap)?;
-            reference.evaluate()
+        let mut end = self.refer(|outer, iterating, gap| {
+            outer.begin(load, tolerance, may_detach);
+            outer.copy_gap(iterating, gap)?;
+            outer.evaluate()
         })?;
         let mut lost = 0;
         let mut rounds = 0;
@@ -114,9 +114,9 @@ impl ContactSolver<'_> {
             iterations = round.0.iterations as usize;
             status = round.0.status;
             stopped = round.1;
-            end = self.refer(|reference, iterating, correction| {
-                reference.add(iterating, correction)?;
-                reference.evaluate()
+            end = self.refer(|outer, iterating, correction| {
+                outer.add(iterating, correction)?;
+                outer.evaluate()
             })?;
             let gained = match before[0].is_finite() {
                 true => end.residual <= NO_GAIN * before[0],
@@ -135,9 +135,9 @@ impl ContactSolver<'_> {
     fn rounding_floor(&self, end: &Scalars) -> f64 {
         let shape = self.problem.shape;
         let padded = shape.len() as f64 / shape.surface_len() as f64;
-        self.reference
+        self.outer
             .as_ref()
-            .map_or(0.0, |reference| reference.rounding_floor(end))
+            .map_or(0.0, |outer| outer.rounding_floor(end))
             * padded.sqrt()
     }
 
@@ -145,10 +145,10 @@ impl ContactSolver<'_> {
     /// that these work on.
     fn refer<R>(
         &mut self,
-        work: impl FnOnce(&mut Reference, &mut dyn Backend, Field) -> Result<R, BackendError>,
+        work: impl FnOnce(&mut OuterState, &mut dyn Backend, Field) -> Result<R, BackendError>,
     ) -> Result<R, BackendError> {
-        match &mut self.reference {
-            Some(reference) => work(reference, self.backend, self.gap),
+        match &mut self.outer {
+            Some(outer) => work(outer, self.backend, self.gap),
             // Only solvers with one come here.
             None => Err(BackendError::Device("no state in double precision".into())),
         }
@@ -163,15 +163,20 @@ impl ContactSolver<'_> {
         iterations: usize,
         watch: &mut dyn FnMut(&Scalars) -> bool,
     ) -> Result<(Scalars, bool), BackendError> {
-        let base = self.refer(|reference, iterating, _| reference.hand_base(iterating))?;
+        let base = self.refer(|outer, iterating, _| outer.hand_outer_state(iterating))?;
         if let (true, Some(heights_pressure)) = (self.params.fixed_gap, &self.heights_pressure) {
             let rigid = heights_pressure.field();
-            self.refer(|reference, iterating, _| reference.hand_rigid(iterating, rigid))?;
+            self.refer(|outer, iterating, _| outer.hand_rigid(iterating, rigid))?;
         }
-        for field in [self.gap, self.pressure, self.direction, self.free_before] {
+        for field in [
+            self.gap,
+            self.pressure,
+            self.direction,
+            self.previous_residual,
+        ] {
             self.backend.clear(field);
         }
-        self.backend.set_base(Some(base));
+        self.backend.set_outer_state(Some(base));
         let mut params = self.params;
         // The scale of the base's residual; where that has no pressure, what is off balance itself.
         let residual = match end.residual.is_finite() {
@@ -187,7 +192,7 @@ impl ContactSolver<'_> {
         self.backend.set_scalars(&scalars);
         self.ready();
         let round = self.run_out(iterations, most, watch);
-        self.backend.set_base(None);
+        self.backend.set_outer_state(None);
         round
     }
 }

@@ -3,15 +3,15 @@
 use super::contact::ContactSolver;
 use crate::backend::{BackendError, Spectrum};
 use crate::grid::Boundary;
-use crate::kernel::{Gate, common};
+use crate::kernel::{Gate, displacement};
 
 impl ContactSolver<'_> {
     /// `<values, K*values>/2` over all solved points, reduced: the elastic energy of a displacement.
     /// Between solves, since it takes their directions for work space.
     pub fn energy_of(&mut self, values: &[f64]) -> Result<f64, BackendError> {
         let own = self.own_zero_mode();
-        if let Some(reference) = &mut self.reference {
-            return reference.energy_of(values, own);
+        if let Some(outer) = &mut self.outer {
+            return outer.energy_of(values, own);
         }
         let pressure = self.stiffness_times(values)?;
         Ok(0.5
@@ -50,10 +50,10 @@ impl ContactSolver<'_> {
         let work = self.direction;
         self.backend.write(work, values);
         self.backend
-            .forward(&common::LOAD_FIELD, self.level, &[work]);
+            .forward(&displacement::LOAD_FIELD, self.level, &[work]);
         self.backend.multiply(by, false, Gate::Always);
         self.backend
-            .backward(&common::STORE_PRESSURE, self.level, &[work]);
+            .backward(&displacement::STORE_FIELD, self.level, &[work]);
         self.backend.read(work)
     }
 }

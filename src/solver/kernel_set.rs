@@ -1,107 +1,117 @@
-//! What a problem asks of the solver: its kernels, those of a wall, of a solid that flows or of the
-//! Lennard-Jones core, and the numbers that stay fixed.
+//! What a problem asks of the solver: the variants of the kernels for its constraint, and the numbers that
+//! stay fixed.
 
 use super::contact::{Hold, Load};
 use super::problem::Problem;
-use crate::kernel::{Kernel, Params, base, core, held, scalar, wall, yielding};
+use crate::kernel::{Constraint, Kernel, Params};
+use crate::kernel::{descent, measure, refinement, search, trial, update};
 
-/// The kernels of one family of laws. Those that end in `held` and `direct`, `advance` and `balance` are
-/// asked where the mean gap is held; in their place without it stand `descent`, `trial` and `turn`.
+/// The kernels of one constraint. Those under `mean_gap` are asked where that is prescribed; in their place
+/// without it stand `descent`, `trial` and `update_state`.
 pub(super) struct KernelSet {
     pub residual: &'static Kernel,
-    pub free: &'static Kernel,
+    pub load_residual: &'static Kernel,
     pub descent: &'static Kernel,
-    pub descent_held: &'static Kernel,
-    /// What sums a trial before the held mean gap is restored; `None` where a trial needs the restoring for
-    /// nothing but numbers, which follow by linearity.
-    pub direct: Option<&'static Kernel>,
     pub trial: &'static Kernel,
-    pub trial_held: &'static Kernel,
     pub search: &'static Kernel,
-    pub turn: &'static Kernel,
-    pub advance: &'static Kernel,
-    pub balance: &'static Kernel,
-    pub restore: &'static scalar::ScalarKernel,
-    pub balance_scalar: &'static scalar::ScalarKernel,
-    pub step: &'static scalar::ScalarKernel,
-    pub search_scalar: &'static scalar::ScalarKernel,
-    pub lengthen: &'static scalar::ScalarKernel,
-    /// What adds a correction to its base, and what holds the base's mean gap.
-    pub base_add: &'static Kernel,
-    pub base_hold: &'static Kernel,
+    pub update_state: &'static Kernel,
+    pub mean_gap: MeanGapSet,
+    /// Those that retain the projected residual for the coarse level; of a smooth law none.
+    pub retain: Option<RetainSet>,
+    /// What is done to the outer state; nothing under a hardness.
+    pub outer: Option<OuterSet>,
 }
 
-static WALL: KernelSet = KernelSet {
-    residual: &wall::WALL_RESIDUAL,
-    free: &wall::WALL_FREE,
-    descent: &wall::WALL_DESCENT,
-    descent_held: &wall::WALL_DESCENT_HELD,
-    direct: None,
-    trial: &wall::WALL_TRIAL,
-    trial_held: &wall::WALL_TRIAL_HELD,
-    search: &wall::WALL_SEARCH,
-    turn: &wall::WALL_TURN,
-    advance: &wall::WALL_ADVANCE,
-    balance: &wall::WALL_BALANCE,
-    restore: &held::RESTORE_WALL,
-    balance_scalar: &scalar::BALANCE_WALL,
-    step: &scalar::STEP_WALL,
-    search_scalar: &scalar::SEARCH_WALL,
-    lengthen: &scalar::LENGTHEN_WALL,
-    base_add: &base::BASE_ADD_WALL,
-    base_hold: &base::BASE_HOLD_WALL,
-};
+/// What a prescribed mean gap asks.
+pub(super) struct MeanGapSet {
+    pub descent: &'static Kernel,
+    pub trial: MeanGapTrial,
+    pub advance: &'static Kernel,
+    pub balance: &'static Kernel,
+}
 
-static YIELD: KernelSet = KernelSet {
-    residual: &yielding::YIELD_RESIDUAL,
-    free: &yielding::YIELD_FREE,
-    descent: &yielding::YIELD_DESCENT,
-    descent_held: &yielding::YIELD_DESCENT_HELD,
-    direct: Some(&yielding::YIELD_DIRECT),
-    trial: &yielding::YIELD_TRIAL,
-    trial_held: &yielding::YIELD_TRIAL_HELD,
-    search: &yielding::YIELD_SEARCH,
-    turn: &yielding::YIELD_TURN,
-    advance: &yielding::YIELD_ADVANCE,
-    balance: &yielding::YIELD_BALANCE,
-    restore: &scalar::RESTORE_YIELD,
-    balance_scalar: &scalar::BALANCE_WALL,
-    step: &scalar::STEP_WALL,
-    search_scalar: &scalar::SEARCH_WALL,
-    lengthen: &scalar::LENGTHEN_WALL,
-    base_add: &base::BASE_ADD_WALL,
-    base_hold: &base::BASE_HOLD_WALL,
-};
+/// How a trial is brought back to the mean gap.
+pub(super) enum MeanGapTrial {
+    /// By linearity, in one pass.
+    Linear(&'static Kernel),
+    /// By one pass that sums how far it is off, and one that brings it back.
+    TwoPasses {
+        direction: &'static Kernel,
+        load_trial: &'static Kernel,
+    },
+}
 
-static CORE: KernelSet = KernelSet {
-    residual: &core::CORE_RESIDUAL,
-    free: &core::CORE_FREE,
-    descent: &core::CORE_DESCENT,
-    descent_held: &core::CORE_DESCENT_HELD,
-    direct: Some(&core::CORE_DIRECT),
-    trial: &core::CORE_TRIAL,
-    trial_held: &core::CORE_TRIAL_HELD,
-    search: &core::CORE_SEARCH,
-    turn: &core::CORE_TURN,
-    advance: &core::CORE_ADVANCE,
-    balance: &core::CORE_BALANCE,
-    restore: &scalar::RESTORE_CORE,
-    balance_scalar: &scalar::BALANCE_CORE,
-    step: &scalar::STEP_CORE,
-    search_scalar: &scalar::SEARCH_CORE,
-    lengthen: &scalar::LENGTHEN_CORE,
-    base_add: &base::BASE_ADD_CORE,
-    base_hold: &base::BASE_HOLD_CORE,
-};
+/// What retains the projected residual: from a state as it is and after a step.
+#[derive(Clone, Copy)]
+pub(super) struct RetainSet {
+    pub load_residual: &'static Kernel,
+    pub update_state: &'static Kernel,
+}
+
+/// What adds a correction to the outer state, and what restores its mean gap.
+#[derive(Clone, Copy)]
+pub(super) struct OuterSet {
+    pub add_correction: &'static Kernel,
+    pub restore_gap: &'static Kernel,
+}
 
 impl KernelSet {
     /// Those of a problem.
-    pub(super) fn of(problem: &Problem) -> &'static KernelSet {
-        match problem.hardness {
-            _ if !problem.law.has_wall() => &CORE,
-            Some(_) => &YIELD,
-            None => &WALL,
+    pub(super) fn new(problem: &Problem) -> KernelSet {
+        KernelSet::for_constraint(match problem.hardness {
+            _ if !problem.law.has_wall() => Constraint::Smooth,
+            Some(_) => Constraint::HardnessLimit,
+            None => Constraint::Unilateral,
+        })
+    }
+
+    fn for_constraint(constraint: Constraint) -> KernelSet {
+        let at = constraint as usize;
+        let trial = match constraint {
+            Constraint::Unilateral => MeanGapTrial::Linear(&trial::LINEAR_TRIAL),
+            Constraint::HardnessLimit => MeanGapTrial::TwoPasses {
+                direction: &trial::TWO_SIDED_DIRECTION,
+                load_trial: &trial::TWO_SIDED_LOAD_TRIAL,
+            },
+            Constraint::Smooth => MeanGapTrial::TwoPasses {
+                direction: &trial::SMOOTH_DIRECTION,
+                load_trial: &trial::SMOOTH_LOAD_TRIAL,
+            },
+        };
+        let outer = match constraint {
+            Constraint::Unilateral => Some(0),
+            Constraint::HardnessLimit => None,
+            Constraint::Smooth => Some(1),
+        };
+        KernelSet {
+            residual: &measure::RESIDUAL[at],
+            load_residual: &measure::LOAD_RESIDUAL[at],
+            descent: &descent::DESCENT[at],
+            trial: &trial::TRIAL[at],
+            search: &search::SEARCH[at],
+            update_state: &update::UPDATE_STATE[at],
+            mean_gap: MeanGapSet {
+                descent: &descent::MEAN_GAP_DESCENT[at],
+                trial,
+                advance: &update::ADVANCE[at],
+                balance: &update::BALANCE[at],
+            },
+            retain: update::UPDATE_AND_RETAIN
+                .get(at)
+                .map(|update_state| RetainSet {
+                    load_residual: &measure::LOAD_AND_RETAIN_RESIDUAL[at],
+                    update_state,
+                }),
+            outer: outer.map(|at| OuterSet {
+                add_correction: &refinement::ADD_CORRECTION[at],
+                restore_gap: &refinement::RESTORE_OUTER_GAP[at],
+            }),
         }
+    }
+
+    /// Whether a trial is brought back to a prescribed mean gap by linearity.
+    pub(super) fn is_linear(&self) -> bool {
+        matches!(self.mean_gap.trial, MeanGapTrial::Linear(_))
     }
 }
 

@@ -11,19 +11,20 @@ mod coarse_start;
 mod contact;
 mod correction;
 mod elasticity;
-mod frozen;
-mod held;
+mod incremental_stiffness;
+mod iteration;
 mod kernel_set;
+mod mean_gap;
+mod outer_state;
 pub mod plain;
 mod problem;
-mod reference;
 mod rigid;
 mod two_band;
 
 pub use contact::{ContactSolver, Hold, Load, Outcome, ROUNDS_PER_ITERATION, Start};
 pub use correction::{MOST_ROUNDS, TRIALS_PER_ITERATION};
+pub use outer_state::plan_outer_state;
 pub use problem::{Problem, Scales, good_size};
-pub use reference::plan_reference;
 
 /// Where solvers get their backends from; one a level of a coarse start.
 pub type MakeBackend<'a> = &'a dyn Fn() -> Box<dyn crate::backend::Backend + Send>;

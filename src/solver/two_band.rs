@@ -5,11 +5,12 @@
 //! weighed by the share of free points there:
 //! `z = ((1-l)/K)*yF + P[Wc ((l/K)*(Wc R yF))]`, with `l = exp(-(8 q dx)^2)`.
 
+use super::kernel_set::{KernelSet, RetainSet};
 use super::problem::Problem;
 use crate::backend::{Backend, Factors, Field, Level, Response, Shape, Spectrum};
 use crate::elastic::{Stiffness, wave_stiffness};
 use crate::grid::{Boundary, Grid};
-use crate::kernel::{Gate, Kernel, coarse, wall, yielding};
+use crate::kernel::{Gate, displacement, two_band};
 use crate::law::Law;
 
 /// Fewest coarse points each way for which the second band pays.
@@ -22,17 +23,16 @@ const LONG_WAVES: f64 = 8.0;
 pub(super) struct TwoBand {
     fine: Level,
     level: Level,
-    /// yF on the fine level.
-    free: Field,
+    /// The projected residual on the fine level.
+    residual: Field,
     restricted: Field,
     share: Field,
     weight: Field,
     long_waves: Field,
     smoothing: Spectrum,
     compliance: Spectrum,
-    /// What loads yF and keeps it, from a state as it is and after a step.
-    pub load_free: &'static Kernel,
-    pub turn: &'static Kernel,
+    /// What retains the projected residual.
+    pub retain: RetainSet,
 }
 
 /// l at a wave number, with the pixel in the same unit.
@@ -47,6 +47,7 @@ impl TwoBand {
         if problem.law != Law::HardWall || problem.boundary != Boundary::Periodic {
             return None;
         }
+        let retain = KernelSet::new(problem).retain?;
         let ratio = [4, 2].into_iter().find(|ratio| {
             nx % ratio == 0
                 && ny % ratio == 0
@@ -75,16 +76,11 @@ impl TwoBand {
                 0.0
             }
         });
-        let (load_free, turn) = match problem.hardness {
-            Some(_) => (&yielding::YIELD_FREE_KEPT, &yielding::YIELD_TURN_KEPT),
-            None => (&wall::WALL_FREE_KEPT, &wall::WALL_TURN_KEPT),
-        };
         Some(TwoBand {
-            load_free,
-            turn,
+            retain,
             fine,
             level,
-            free: backend.field(fine, "free"),
+            residual: backend.field(fine, "projected_residual"),
             restricted: backend.field(level, "restricted"),
             share: backend.field(level, "share"),
             weight: backend.field(level, "weight"),
@@ -127,40 +123,40 @@ impl TwoBand {
         backend.set_zero_mode(self.compliance, value);
     }
 
-    /// The field of yF, which the kernels that load it keep.
-    pub fn free(&self) -> Field {
-        self.free
+    /// The field of the projected residual, which the kernels that load it retain.
+    pub fn residual(&self) -> Field {
+        self.residual
     }
 
-    /// Records the preconditioned residual z of the yF that was kept and whose rows are transformed;
-    /// `direction` where the mean gap is held.
+    /// Records the preconditioned residual z of the projected one that was retained and whose rows are
+    /// transformed; `direction` where the mean gap is prescribed.
     pub fn descend(
         &self,
         backend: &mut dyn Backend,
-        free_before: Field,
+        previous_residual: Field,
         direction: Option<Field>,
         short_waves: Spectrum,
     ) {
         let level = self.level;
-        let fields = [self.restricted, self.share, self.free];
-        backend.sweep(&coarse::COARSE_RESTRICT, level, &fields);
-        backend.forward(&coarse::COARSE_SHARE, level, &[self.share]);
+        let fields = [self.restricted, self.share, self.residual];
+        backend.sweep(&two_band::COARSEN, level, &fields);
+        backend.forward(&displacement::LOAD_FIELD_AHEAD, level, &[self.share]);
         backend.multiply(self.smoothing, false, Gate::Ahead);
         let fields = [self.restricted, self.weight];
-        backend.turn(&coarse::COARSE_WEIGH, level, &fields);
+        backend.inverse_then_forward(&two_band::WEIGH, level, &fields);
         backend.multiply(self.compliance, false, Gate::Ahead);
         let fields = [self.weight, self.long_waves];
-        backend.backward(&coarse::COARSE_STORE, level, &fields);
+        backend.backward(&two_band::STORE_WEIGHTED, level, &fields);
         backend.multiply(short_waves, false, Gate::Ahead);
-        let own = [self.free, free_before];
+        let own = [self.residual, previous_residual];
         match direction {
             Some(direction) => {
                 let fields = [own[0], own[1], direction, self.long_waves];
-                backend.backward(&coarse::TWO_BAND_DESCENT_HELD, self.fine, &fields);
+                backend.backward(&two_band::MEAN_GAP_TWO_BAND_DESCENT, self.fine, &fields);
             }
             None => {
                 let fields = [own[0], own[1], self.long_waves];
-                backend.backward(&coarse::TWO_BAND_DESCENT, self.fine, &fields);
+                backend.backward(&two_band::TWO_BAND_DESCENT, self.fine, &fields);
             }
         }
     }

@@ -6,14 +6,14 @@ use super::regime::law_of;
 use super::setup::Setup;
 use crate::backend::{
     BackendError, Level,
-    tally::{Held, Place, Tally},
+    dry_run::{DryRun, Held, Place},
 };
 use crate::elastic::Stiffness;
 use crate::grid::Boundary;
 use crate::grid::Grid;
 use crate::law::Law;
 use crate::scene::{BackendName, Precision, Scene};
-use crate::solver::{ContactSolver, Problem, Start, plan_reference};
+use crate::solver::{ContactSolver, Problem, Start, plan_outer_state};
 
 /// What a scene's solver holds and does, and what is kept between its steps.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -44,7 +44,7 @@ pub struct Cost {
 }
 
 impl Cost {
-    /// Plans a scene on a tally: its solver and one iteration of its first load.
+    /// Plans a scene on a dry run: its solver and one iteration of its first load.
     ///
     /// # Errors
     /// A kernel that is given fields which it does not take: a mistake in this crate.
@@ -113,23 +113,23 @@ fn plan(
     let controller = Controller::with_spring(scene.loading.control, spring, highest, problem);
     let value = scene.loading.path.first().copied().unwrap_or(0.0);
     let load = controller.load(value);
-    let begin = |tally: &mut Tally, iterations: usize| -> Result<(), BackendError> {
-        let mut solver = ContactSolver::new(tally, problem);
+    let begin = |dry_run: &mut DryRun, iterations: usize| -> Result<(), BackendError> {
+        let mut solver = ContactSolver::new(dry_run, problem);
         // What is counted does not depend on the tolerance.
         solver.begin(&load, &Start::Present, 0.0, false)?;
         (0..iterations).try_for_each(|_| solver.iterate().map(drop))
     };
-    let mut started = Tally::on(place);
+    let mut started = DryRun::on(place);
     begin(&mut started, 0)?;
-    let mut iterated = Tally::on(place);
+    let mut iterated = DryRun::on(place);
     begin(&mut iterated, 1)?;
     if let Some(mistake) = iterated.mistake {
         return Err(mistake);
     }
     let mut reference = Vec::new();
     if scene.arithmetic_on(place.on_gpu()) == Precision::Mixed {
-        let mut double = Tally::on(Place::Double);
-        plan_reference(&mut double, &mut iterated, problem, &load);
+        let mut double = DryRun::on(Place::Double);
+        plan_outer_state(&mut double, &mut iterated, problem, &load);
         for held in [double.fields, double.spectra, double.work] {
             reference.extend(held);
         }

@@ -4,7 +4,7 @@ use super::cost::Cost;
 use super::hooks::{Effects, Hooks};
 use super::memory::Memory;
 use super::regime::{Regime, law_of};
-use crate::backend::{BackendError, tally::Place};
+use crate::backend::{BackendError, dry_run::Place};
 use crate::law::Law;
 use crate::scene::{Scene, SurfacePart};
 use crate::surface::Outline;

@@ -1,7 +1,7 @@
 //! The law of a scene, and where it stands between DMT and JKR and on its grid.
 
-use crate::law::{Exponential, Law, LennardJones, MaugisDugdale};
-use crate::scene::{AdhesionScene, LawName, Range, Scene, Treatment};
+use crate::law::Law;
+use crate::scene::{AdhesionScene, Range, Scene, Treatment};
 use crate::surface::Outline;
 
 /// Width of the automatic taper over `sigma0 dx/E*`, what a pixel of the peak tension opens.
@@ -20,36 +20,17 @@ pub fn resolve_law(
 ) -> Law {
     let work = adhesion.work_of_adhesion;
     let resolved = (strongest * work * pixel / contact_modulus).sqrt();
-    let range = match (adhesion.range, adhesion.law) {
-        (Range::Length(range), _) => range,
-        // The shortest ranges at which pull-off is still within some per cent of JKR's.
-        (Range::Auto, LawName::MaugisDugdale) => 2f64.sqrt() * resolved,
-        (Range::Auto, LawName::Exponential) => resolved,
-        (Range::Auto, LawName::LennardJones) => 1.25 * resolved,
+    let range = match adhesion.range {
+        Range::Length(range) => range,
+        Range::Auto => adhesion.law.shortest_range() * resolved,
     };
-    match adhesion.law {
-        LawName::MaugisDugdale => {
-            let peak_tension = work / range;
-            // Summed over a gap that does not feel it, the attraction traps nothing.
-            let auto = match adhesion.treatment {
-                Treatment::Full => AUTO_TAPER * strongest * peak_tension * pixel / contact_modulus,
-                Treatment::Dmt => 0.0,
-            };
-            Law::MaugisDugdale(MaugisDugdale {
-                peak_tension,
-                range,
-                taper: adhesion.taper.unwrap_or(auto).min(2.0 * range),
-            })
-        }
-        LawName::LennardJones => Law::LennardJones(LennardJones {
-            work_of_adhesion: work,
-            range,
-        }),
-        LawName::Exponential => Law::Exponential(Exponential {
-            work_of_adhesion: work,
-            range,
-        }),
-    }
+    // Summed over a gap that does not feel it, the attraction traps nothing.
+    let auto = match adhesion.treatment {
+        Treatment::Full => AUTO_TAPER * strongest * (work / range) * pixel / contact_modulus,
+        Treatment::Dmt => 0.0,
+    };
+    let taper = adhesion.taper.unwrap_or(auto).min(2.0 * range);
+    adhesion.law.law(work, range, taper)
 }
 
 /// The law of a scene in SI units on a grid whose longer pixel side is `pixel` (m), where the map's

@@ -1,82 +1,79 @@
 //! The whole catalogue, for the tests that go through it in a loop.
 
-use tabor::kernel::{
-    Kernel, ScalarKernel, base, coarse, common, core, held, scalar, wall, yielding,
-};
+use tabor::kernel::{KERNELS, Kernel};
 
-/// Every kernel over points.
-pub static KERNELS: &[&Kernel] = &[
-    &common::LOAD_DISPLACEMENT,
-    &common::LOAD_FIELD,
-    &common::STORE_PRESSURE,
-    &wall::WALL_RESIDUAL,
-    &wall::WALL_FREE,
-    &wall::WALL_FREE_KEPT,
-    &wall::WALL_DESCENT,
-    &wall::WALL_DESCENT_HELD,
-    &wall::WALL_TRIAL,
-    &wall::WALL_TRIAL_HELD,
-    &wall::WALL_SEARCH,
-    &wall::WALL_TURN,
-    &wall::WALL_TURN_KEPT,
-    &wall::WALL_ADVANCE,
-    &wall::WALL_BALANCE,
-    &yielding::YIELD_RESIDUAL,
-    &yielding::YIELD_FREE,
-    &yielding::YIELD_FREE_KEPT,
-    &yielding::YIELD_DESCENT,
-    &yielding::YIELD_DESCENT_HELD,
-    &yielding::YIELD_TRIAL,
-    &yielding::YIELD_DIRECT,
-    &yielding::YIELD_TRIAL_HELD,
-    &yielding::YIELD_SEARCH,
-    &yielding::YIELD_TURN,
-    &yielding::YIELD_TURN_KEPT,
-    &yielding::YIELD_ADVANCE,
-    &yielding::YIELD_BALANCE,
-    &core::CORE_RESIDUAL,
-    &core::CORE_FREE,
-    &core::CORE_DESCENT,
-    &core::CORE_DESCENT_HELD,
-    &core::CORE_DIRECT,
-    &core::CORE_TRIAL,
-    &core::CORE_TRIAL_HELD,
-    &core::CORE_SEARCH,
-    &core::CORE_TURN,
-    &core::CORE_ADVANCE,
-    &core::CORE_BALANCE,
-    &base::BASE_TOTAL,
-    &base::BASE_RIGID,
-    &base::BASE_ADD_WALL,
-    &base::BASE_ADD_CORE,
-    &base::BASE_HOLD_WALL,
-    &base::BASE_HOLD_CORE,
-    &coarse::COARSE_RESTRICT,
-    &coarse::COARSE_SHARE,
-    &coarse::COARSE_WEIGH,
-    &coarse::COARSE_STORE,
-    &coarse::TWO_BAND_DESCENT,
-    &coarse::TWO_BAND_DESCENT_HELD,
+use crate::shared::trials::tests;
+
+pub use tabor::kernel::SCALAR_KERNELS;
+
+/// Every kernel over points, variant by variant.
+pub fn variants() -> impl Iterator<Item = &'static Kernel> {
+    KERNELS.iter().copied().flatten()
+}
+
+/// Every kernel over points by name. Each is compared with its twin by `kernels.rs`, which goes through the
+/// catalogue: a kernel that is not named here makes a test fail until somebody has looked that its variants are
+/// met there.
+const NAMES: [&str; 21] = [
+    "add_correction",
+    "advance",
+    "balance",
+    "coarsen",
+    "descent",
+    "direction",
+    "load_displacement",
+    "load_field",
+    "load_residual",
+    "load_trial",
+    "outer_pressure",
+    "outer_residual",
+    "residual",
+    "restore_outer_gap",
+    "search",
+    "store_field",
+    "store_weighted",
+    "trial",
+    "two_band_descent",
+    "update_state",
+    "weigh",
 ];
 
-/// Every scalar kernel.
-pub static SCALAR_KERNELS: &[&ScalarKernel] = &[
-    &scalar::JUDGE,
-    &scalar::CARRY,
-    &scalar::DIRECT,
-    &held::RESTORE_WALL,
-    &held::CURVE_WALL,
-    &scalar::RESTORE_YIELD,
-    &scalar::RESTORE_CORE,
-    &scalar::ACCEPT,
-    &scalar::STEP_WALL,
-    &scalar::SEARCH_WALL,
-    &scalar::SETTLE_WALL,
-    &scalar::LENGTHEN_WALL,
-    &scalar::STEP_CORE,
-    &scalar::SEARCH_CORE,
-    &scalar::LENGTHEN_CORE,
-    &scalar::BALANCE_WALL,
-    &scalar::BALANCE_CORE,
-    &base::RESTORE_BASE,
+/// Every scalar kernel by name.
+const SCALAR_NAMES: [&str; 11] = [
+    "accept_trial",
+    "adapt_trial_length",
+    "conjugate_direction",
+    "curvature_by_linearity",
+    "mean_pressure",
+    "restore_mean_gap",
+    "restore_outer_mean_gap",
+    "search",
+    "snap_to_contact",
+    "step_length",
+    "test_convergence",
 ];
+
+/// The fused path stays small, and no kernel is without a test that names it.
+fn every_kernel_is_named_here_and_there_are_few() {
+    let mut names: Vec<&str> = variants().map(|kernel| kernel.name).collect();
+    names.sort_unstable();
+    names.dedup();
+    assert_eq!(names, NAMES);
+    let mut scalars: Vec<&str> = SCALAR_KERNELS.iter().map(|kernel| kernel.name).collect();
+    scalars.sort_unstable();
+    assert_eq!(scalars, SCALAR_NAMES);
+    println!(
+        "{} kernels over points, {} scalar kernels",
+        names.len(),
+        scalars.len()
+    );
+    assert!(names.len() <= 30 && scalars.len() <= 12);
+    // Variants are told apart.
+    let mut told: Vec<String> = variants().map(Kernel::variant).collect();
+    let count = told.len();
+    told.sort_unstable();
+    told.dedup();
+    assert_eq!(told.len(), count);
+}
+
+tests![every_kernel_is_named_here_and_there_are_few];

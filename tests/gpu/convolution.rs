@@ -5,7 +5,7 @@ use tabor::backend::gpu::{GpuError, Number, OWN_FACTORS};
 use tabor::backend::{Backend, BackendError, Factors, Response, Shape};
 use tabor::elastic::HalfSpace;
 use tabor::grid::Grid;
-use tabor::kernel::common::{LOAD_DISPLACEMENT, LOAD_FIELD, STORE_PRESSURE};
+use tabor::kernel::displacement::{LOAD_DISPLACEMENT, LOAD_FIELD, STORE_FIELD};
 use tabor::kernel::{Gate, Params, Scalars, Status, scalar};
 use tabor::law::Law;
 
@@ -90,10 +90,10 @@ fn convolve(
     backend.write(sum, &vec![f64::NAN; nx * ny]);
     backend.forward(&LOAD_FIELD, level, &[field]);
     backend.multiply(spectrum, true, Gate::Always);
-    backend.backward(&STORE_PRESSURE, level, &[result]);
+    backend.backward(&STORE_FIELD, level, &[result]);
     backend.forward(&LOAD_DISPLACEMENT, level, &[field, heights]);
     backend.multiply(other, false, Gate::Always);
-    backend.backward(&STORE_PRESSURE, level, &[sum]);
+    backend.backward(&STORE_FIELD, level, &[sum]);
     let scalars = backend.scalars()?;
     assert_eq!(backend.transforms(), 4.0, "{nx} x {ny}");
     Ok((backend.read(result)?, backend.read(sum)?, scalars))
@@ -244,7 +244,7 @@ fn kernels_are_timed_on_the_device() {
             backend.forward(&LOAD_FIELD, level, &[from]);
             backend.multiply(stiffness, false, Gate::Always);
         }
-        backend.backward(&STORE_PRESSURE, level, &[to]);
+        backend.backward(&STORE_FIELD, level, &[to]);
         backend.read(to).unwrap_or_else(|error| panic!("{error}"))
     };
     let (mut timed, watch) = backend(device).timed();
@@ -264,7 +264,7 @@ fn kernels_are_timed_on_the_device() {
     for (name, dispatches, bytes) in [
         ("load_field", 3, 2 * field + roots(nx)),
         ("multiply", 3, 2 * field + few + roots(ny)),
-        ("store_pressure", 1, 2 * field + roots(nx)),
+        ("store_field", 1, 2 * field + roots(nx)),
     ] {
         let found = timings.kernels.iter().find(|kernel| kernel.name == name);
         let found = found.unwrap_or_else(|| panic!("{name} in {timings:?}"));

@@ -12,17 +12,20 @@ mod shaders;
 mod shared;
 mod slabs;
 mod solve;
+mod twins;
 mod watching;
 mod without_adapter;
 
 fn main() -> ExitCode {
     shared::trials::run([
+        catalogue::tests(),
         convolution::tests(),
         kernels::tests(),
         run::tests(),
         shaders::tests(),
         slabs::tests(),
         solve::tests(),
+        twins::tests(),
         without_adapter::tests(),
     ])
 }

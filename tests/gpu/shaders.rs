@@ -5,27 +5,43 @@ use tabor::backend::Shape;
 use tabor::backend::gpu::source::{
     self, Decision, FactorSource, LawSource, LevelPlan, Pass, Reduction, Results,
 };
-use tabor::backend::gpu::{Direction, Exchange, GroupLimits, LawPart, Limits, Number, Wide};
-use tabor::kernel::coarse::COARSE_RESTRICT;
-use tabor::kernel::common::{LOAD_FIELD, STORE_PRESSURE};
-use tabor::kernel::{Gate, Reduce};
+use tabor::backend::gpu::{Direction, Exchange, GroupLimits, Limits, Number, Wide};
+use tabor::kernel::displacement::{LOAD_FIELD, STORE_FIELD};
+use tabor::kernel::two_band::COARSEN;
+use tabor::kernel::{Gate, Sum};
+use tabor::law::{Exponential, Law, LennardJones, MaugisDugdale};
 
-use crate::catalogue::{KERNELS, SCALAR_KERNELS};
+use crate::catalogue::{SCALAR_KERNELS, variants};
 use crate::shared::trials::tests;
 
 const LIMITS: GroupLimits = GroupLimits {
     threads: 1024,
     memory: 32768,
 };
-const LAWS: [LawPart; 4] = [
-    LawPart::HardWall,
-    LawPart::MaugisDugdale,
-    LawPart::Exponential,
-    LawPart::LennardJones,
+const LAWS: [Law; 4] = [
+    Law::HardWall,
+    Law::MaugisDugdale(MaugisDugdale {
+        peak_tension: 1.0,
+        range: 1.0,
+        taper: 0.0,
+    }),
+    Law::Exponential(Exponential {
+        work_of_adhesion: 1.0,
+        range: 1.0,
+    }),
+    Law::LennardJones(LennardJones {
+        work_of_adhesion: 1.0,
+        range: 1.0,
+    }),
 ];
-/// Random of sums.
+
+fn uniform(law: Law) -> LawSource {
+    LawSource::uniform(law.shader())
+}
+
+/// Numbers of sums.
 const WIDES: [Wide; 3] = [Wide::Single, Wide::Compensated, Wide::Double];
-/// Random of fields and of sums that go together.
+/// Numbers of fields and of sums that go together.
 const NUMBERS: [(Number, Wide); 4] = [
     (Number::Single, Wide::Single),
     (Number::Single, Wide::Compensated),
@@ -83,27 +99,26 @@ fn kernels_are_valid_and_bind_what_the_catalogue_declares() {
         points: [64, 48],
         surface: [30, 20],
     };
-    for kernel in KERNELS {
+    for kernel in variants() {
         for law in LAWS {
             for (number, wide) in NUMBERS {
                 let padded = LevelPlan::new(padded, LIMITS, number).expect("a smooth size");
                 for plan in [&plan(48, 64, number), &padded] {
-                    let text = source::kernel(kernel, plan, [12, 16], law.uniform(), wide)
+                    let text = source::kernel(kernel, plan, [12, 16], uniform(law), wide)
                         .unwrap_or_else(|error| panic!("{error}"));
                     let (module, _) = validate(kernel.name, &text, wide);
                     let declared: Vec<_> = (0..kernel.fields() as u32)
                         .map(|binding| {
                             let place = binding as usize;
-                            let written = kernel.reads..kernel.reads + kernel.writes;
-                            (binding, written.contains(&place))
+                            (binding, kernel.written().contains(&place))
                         })
                         .collect();
                     assert_eq!(fields(&module), declared, "{}", kernel.name);
                     assert_eq!(module.entry_points[0].name, kernel.name);
-                    // The same on corrections of a base.
+                    // The same on corrections of an outer state.
                     let corrected = LawSource {
-                        base: Some(kernel.fields()),
-                        ..law.uniform()
+                        outer: Some(kernel.fields()),
+                        ..uniform(law)
                     };
                     let text = source::kernel(kernel, plan, [12, 16], corrected, wide)
                         .unwrap_or_else(|error| panic!("{error}"));
@@ -131,8 +146,8 @@ fn transforms_of_many_lengths_are_valid() {
                 Number::Double => ny.min(8192),
             };
             let plan = plan(nx, ny, number);
-            for kernel in [&LOAD_FIELD, &STORE_PRESSURE] {
-                let text = source::kernel(kernel, &plan, [0, 0], LawPart::HardWall.uniform(), wide)
+            for kernel in [&LOAD_FIELD, &STORE_FIELD] {
+                let text = source::kernel(kernel, &plan, [0, 0], uniform(Law::HardWall), wide)
                     .unwrap_or_else(|error| panic!("{error}"));
                 validate(&format!("{} {nx} x {ny}", kernel.name), &text, wide);
             }
@@ -160,8 +175,8 @@ fn rounds_are_valid() {
         };
         let plan = LevelPlan::new(shape, least, number).expect("lines that fit in rounds");
         assert_eq!(plan.rows.exchange, Exchange::Rounds(2));
-        for kernel in [&LOAD_FIELD, &STORE_PRESSURE] {
-            let text = source::kernel(kernel, &plan, [0, 0], LawPart::HardWall.uniform(), wide)
+        for kernel in [&LOAD_FIELD, &STORE_FIELD] {
+            let text = source::kernel(kernel, &plan, [0, 0], uniform(Law::HardWall), wide)
                 .unwrap_or_else(|error| panic!("{error}"));
             validate(kernel.name, &text, wide);
         }
@@ -200,9 +215,9 @@ fn slabs_and_long_lines_are_valid() {
                 long
             );
             let name = format!("{nx} x {ny}");
-            for kernel in [&LOAD_FIELD, &STORE_PRESSURE, &COARSE_RESTRICT] {
+            for kernel in [&LOAD_FIELD, &STORE_FIELD, &COARSEN] {
                 let whole = source::Whole::of(&plan);
-                let text = source::kernel(kernel, &plan, whole, LawPart::HardWall.uniform(), wide)
+                let text = source::kernel(kernel, &plan, whole, uniform(Law::HardWall), wide)
                     .unwrap_or_else(|error| panic!("{error}"));
                 validate(&name, &text, wide);
             }
@@ -242,7 +257,7 @@ fn reductions_are_valid() {
         for gate in GATES {
             for results in [
                 Results::Curvature(4096),
-                Results::Sums(&[Reduce::Add, Reduce::Min, Reduce::Max]),
+                Results::Sums(&[Sum::slope, Sum::first_touch, Sum::cut]),
             ] {
                 let reduction = Reduction {
                     results,
@@ -255,6 +270,14 @@ fn reductions_are_valid() {
                 validate("decide", &text, wide);
             }
         }
+    }
+}
+
+fn the_copy_of_members_is_valid() {
+    for wide in WIDES {
+        let (text, count) = source::copy_members(wide);
+        assert!(count > 90, "{count} words");
+        validate("copy_members", &text, wide);
     }
 }
 
@@ -276,4 +299,5 @@ tests![
     the_check_of_sums_is_valid,
     reductions_are_valid,
     scalar_kernels_are_valid,
+    the_copy_of_members_is_valid,
 ];

@@ -5,13 +5,13 @@
 //! order, so that they agree to the rounding of a double.
 
 use tabor::backend::cpu::CpuBackend;
-use tabor::backend::gpu::{AdapterChoice, GpuDevice};
+use tabor::backend::gpu::{AdapterChoice, Faults, GpuDevice};
 use tabor::backend::{Backend, Factors, Field, Level, Response, Shape};
 use tabor::elastic::HalfSpace;
 use tabor::grid::Grid;
-use tabor::kernel::common::{LOAD_DISPLACEMENT, LOAD_FIELD, STORE_PRESSURE};
-use tabor::kernel::{Form, Gate, Kernel, Params, Reduce, Scalars, Status};
-use tabor::kernel::{coarse, core, wall};
+use tabor::kernel::displacement::{LOAD_DISPLACEMENT, LOAD_FIELD, STORE_FIELD};
+use tabor::kernel::{Constraint, Form, Gate, Kernel, Params, Reduce, Scalars, Status};
+use tabor::kernel::{descent, measure, trial, two_band, update};
 use tabor::law::{Law, LennardJones, MaugisDugdale};
 use tabor::scene::Boundary;
 use tabor::solver::{ContactSolver, Hold, Load, Outcome, Problem, Start};
@@ -23,7 +23,10 @@ use crate::shared::trials::tests;
 /// A device that holds so many bytes of a field in one buffer.
 fn in_slabs(bytes: u64) -> GpuDevice {
     device_with(&AdapterChoice {
-        slab_bytes: Some(bytes),
+        faults: Faults {
+            slab_bytes: Some(bytes),
+            ..Faults::default()
+        },
         ..AdapterChoice::default()
     })
 }
@@ -31,8 +34,11 @@ fn in_slabs(bytes: u64) -> GpuDevice {
 /// A device whose workgroups hold lines of so many points, and slabs of so many bytes.
 fn with_lines(points: usize, bytes: u64) -> GpuDevice {
     device_with(&AdapterChoice {
-        longest_line: Some(points),
-        slab_bytes: Some(bytes),
+        faults: Faults {
+            longest_line: Some(points),
+            slab_bytes: Some(bytes),
+            ..Faults::default()
+        },
         ..AdapterChoice::default()
     })
 }
@@ -75,7 +81,7 @@ fn convolve(backend: &mut dyn Backend, [nx, ny]: [usize; 2], tabulated: bool) ->
     backend.write(result, &vec![f64::NAN; nx * ny]);
     backend.forward(&LOAD_FIELD, level, &[field]);
     backend.multiply(spectrum, true, Gate::Always);
-    backend.backward(&STORE_PRESSURE, level, &[result]);
+    backend.backward(&STORE_FIELD, level, &[result]);
     let energy = backend.scalars().expect("nothing fails").curvature;
     assert_eq!(backend.transforms(), 2.0, "{nx} x {ny}");
     (backend.read(result).expect("nothing fails"), energy)
@@ -162,7 +168,7 @@ fn run(
     shape: Shape,
 ) -> (Vec<Vec<f64>>, Vec<f64>) {
     let coarse = Shape::whole(COARSE[0], COARSE[1]);
-    let [own, other] = match kernel.name.starts_with("coarse") {
+    let [own, other] = match kernel.name == "coarsen" {
         true => [coarse, shape],
         false => [shape, coarse],
     };
@@ -180,8 +186,8 @@ fn run(
         numbers.singles(own.len()).iter().map(closed).collect()
     };
     let mut fields = Vec::new();
-    for place in 0..kernel.reads + kernel.writes {
-        let values = match place == 0 || place == kernel.reads {
+    for place in 0..kernel.written().end {
+        let values = match place == 0 || place == kernel.reads.len() {
             true => gaps(&mut numbers),
             false => numbers.singles(own.len()),
         };
@@ -199,7 +205,7 @@ fn run(
     );
     backend.set_params(&params(law));
     let passing = Scalars {
-        descent: 1.0,
+        descent_factor: 1.0,
         ..Scalars::start(0.0, false)
     };
     backend.set_scalars(&passing);
@@ -210,16 +216,16 @@ fn run(
         backend.forward(&LOAD_FIELD, level, &[lines]);
         backend.multiply(ones, false, Gate::Always);
     }
-    if kernel.form.takes_kept() {
-        backend.backward(&wall::WALL_DESCENT, level, &spare);
+    if kernel.form.takes_retained() {
+        backend.backward(&descent::DESCENT[0], level, &spare);
     }
     backend.set_scalars(&Scalars {
         mean_pressure: 0.1,
-        descent: -1.0,
-        memory: 0.3,
-        shift: 0.05,
-        trial: 0.7,
-        restore: 0.1,
+        descent_factor: -1.0,
+        beta: 0.3,
+        mean_gap_shift: 0.05,
+        trial_length: 0.7,
+        mean_gap_correction: 0.1,
         step: 0.6,
         snap: 1e-3,
         accepted: true,
@@ -231,27 +237,27 @@ fn run(
         backend.multiply(ones, false, Gate::Always);
     }
     let own_gap = fields[0];
-    if kernel.form.takes_kept() {
-        backend.backward(&wall::WALL_DESCENT, level, &[own_gap; 3]);
+    if kernel.form.takes_retained() {
+        backend.backward(&descent::DESCENT[0], level, &[own_gap; 3]);
     }
     match kernel.form {
-        Form::Sweep | Form::Peek => backend.sweep(kernel, level, &fields),
-        Form::Load | Form::Resume => backend.forward(kernel, level, &fields),
-        Form::Store | Form::Keep => backend.backward(kernel, level, &fields),
-        Form::Turn => backend.turn(kernel, level, &fields),
+        Form::Sweep | Form::ReadRetained => backend.sweep(kernel, level, &fields),
+        Form::Load | Form::FromRetained => backend.forward(kernel, level, &fields),
+        Form::Store | Form::RetainRows => backend.backward(kernel, level, &fields),
+        Form::InverseThenForward => backend.inverse_then_forward(kernel, level, &fields),
     }
     let scalars = backend
         .scalars()
         .unwrap_or_else(|error| panic!("{}: {error}", kernel.name));
-    if kernel.form == Form::Keep {
+    if kernel.form == Form::RetainRows {
         backend.set_scalars(&passing);
-        backend.forward(&wall::WALL_TRIAL, level, &spare);
+        backend.forward(&trial::TRIAL[0], level, &spare);
     }
-    if kernel.form.before_forward() || kernel.form == Form::Keep {
+    if kernel.form.before_forward() || kernel.form == Form::RetainRows {
         backend.multiply(ones, false, Gate::Always);
-        backend.backward(&STORE_PRESSURE, level, &[lines]);
+        backend.backward(&STORE_FIELD, level, &[lines]);
     }
-    let mut traces = fields[kernel.reads..kernel.reads + kernel.writes].to_vec();
+    let mut traces = fields[kernel.written()].to_vec();
     traces.push(lines);
     let read = |field| {
         backend
@@ -259,20 +265,21 @@ fn run(
             .unwrap_or_else(|error| panic!("{error}"))
     };
     let written = traces.into_iter().map(read).collect();
-    (written, scalars.sums[..kernel.sums.len()].to_vec())
+    let sums = kernel.sums.iter().map(|&sum| scalars.sums.get(sum));
+    (written, sums.collect())
 }
 
 /// One of each form, with a field of another level and without. Software compiles a shader slowly, and
 /// whole solves run the others.
 static KINDS: [&Kernel; 8] = [
     &LOAD_DISPLACEMENT,
-    &coarse::TWO_BAND_DESCENT,
-    &core::CORE_DIRECT,
-    &wall::WALL_TRIAL,
-    &wall::WALL_TURN_KEPT,
-    &wall::WALL_ADVANCE,
-    &wall::WALL_RESIDUAL,
-    &coarse::COARSE_RESTRICT,
+    &two_band::TWO_BAND_DESCENT,
+    &trial::SMOOTH_DIRECTION,
+    &trial::TRIAL[0],
+    &update::UPDATE_AND_RETAIN[0],
+    &update::ADVANCE[0],
+    &measure::RESIDUAL[0],
+    &two_band::COARSEN,
 ];
 
 fn every_kind_of_kernel_in_slabs_writes_the_same() {
@@ -284,7 +291,7 @@ fn every_kind_of_kernel_in_slabs_writes_the_same() {
         surface: [30, 40],
     };
     for kernel in KINDS {
-        let law = match kernel.name.starts_with("core") {
+        let law = match kernel.constraint == Some(Constraint::Smooth) {
             true => Law::LennardJones(LennardJones {
                 work_of_adhesion: 0.1,
                 range: 0.5,
@@ -306,7 +313,7 @@ fn every_kind_of_kernel_in_slabs_writes_the_same() {
         assert!(one.0 == many.0, "{}: other fields", kernel.name);
         for (slot, (a, b)) in one.1.iter().zip(&many.1).enumerate() {
             // Double precision adds terms of either sign, of some thousand in all.
-            let bound = match kernel.sums[slot] {
+            let bound = match kernel.sums[slot].reduce() {
                 Reduce::Add => 1e-11 * (1.0 + a.abs()),
                 Reduce::Min | Reduce::Max => 0.0,
             };

@@ -2,13 +2,13 @@
 
 use std::sync::{Arc, Mutex};
 
-use tabor::backend::gpu::Lent;
+use tabor::backend::gpu::SharedBuffer;
 use tabor::backend::{Backend, BackendError, Factors, Field, Level, Shape, Spectrum};
 use tabor::kernel::{Gate, Kernel, Params, ScalarKernel, Scalars};
 
-/// Names of kernels in the order in which they were asked for; `multiply` where factors are computed,
+/// Variants of kernels in the order in which they were asked for; `multiply` where factors are computed,
 /// `multiply_by_table` where they are read.
-pub type Seen = Arc<Mutex<Vec<&'static str>>>;
+pub type Seen = Arc<Mutex<Vec<String>>>;
 
 /// Passes everything on, and notes the kernels.
 pub struct Watching<B> {
@@ -40,7 +40,7 @@ impl<B> Watching<B> {
         }
     }
 
-    fn note(&self, name: &'static str) {
+    fn note(&self, name: String) {
         self.here.lock().expect("nobody panics here").push(name);
     }
 }
@@ -62,7 +62,7 @@ impl Beside {
         None
     }
 
-    fn note(&self, name: &'static str) {
+    fn note(&self, name: String) {
         self.here.lock().expect("nobody panics here").push(name);
     }
 }
@@ -98,8 +98,8 @@ macro_rules! passed_on {
         fn set_law_factor(&mut self, factor: Field) {
             self.inner.set_law_factor(factor);
         }
-        fn set_base(&mut self, base: Option<[Field; 2]>) {
-            self.inner.set_base(base);
+        fn set_outer_state(&mut self, outer: Option<[Field; 2]>) {
+            self.inner.set_outer_state(outer);
         }
         fn clear(&mut self, field: Field) {
             self.inner.clear(field);
@@ -107,16 +107,16 @@ macro_rules! passed_on {
         fn in_double(&self, shape: Shape) -> Option<Box<dyn Backend + Send>> {
             self.beside(shape)
         }
-        fn take(
+        fn copy_from(
             &mut self,
             field: Field,
             from: &mut dyn Backend,
             source: Field,
         ) -> Result<(), BackendError> {
-            self.inner.take(field, from, source)
+            self.inner.copy_from(field, from, source)
         }
-        fn lend(&mut self, field: Field) -> Option<Lent> {
-            self.inner.lend(field)
+        fn share_buffer(&mut self, field: Field) -> Option<SharedBuffer> {
+            self.inner.share_buffer(field)
         }
         fn set_params(&mut self, params: &Params) {
             self.inner.set_params(params);
@@ -128,30 +128,38 @@ macro_rules! passed_on {
             self.inner.scalars()
         }
         fn sweep(&mut self, kernel: &'static Kernel, level: Level, fields: &[Field]) {
-            self.note(kernel.name);
+            self.note(kernel.variant());
             self.inner.sweep(kernel, level, fields);
         }
         fn scalar(&mut self, kernel: &'static ScalarKernel) {
             self.inner.scalar(kernel);
         }
         fn forward(&mut self, kernel: &'static Kernel, level: Level, fields: &[Field]) {
-            self.note(kernel.name);
+            self.note(kernel.variant());
             self.inner.forward(kernel, level, fields);
         }
         fn multiply(&mut self, by: Spectrum, energy: bool, gate: Gate) {
-            self.note(match self.tables[by.index] {
-                true => "multiply_by_table",
-                false => "multiply",
-            });
+            let tabulated = self.tables[by.index];
+            let name = if tabulated {
+                "multiply_by_table"
+            } else {
+                "multiply"
+            };
+            self.note(name.to_owned());
             self.inner.multiply(by, energy, gate);
         }
         fn backward(&mut self, kernel: &'static Kernel, level: Level, fields: &[Field]) {
-            self.note(kernel.name);
+            self.note(kernel.variant());
             self.inner.backward(kernel, level, fields);
         }
-        fn turn(&mut self, kernel: &'static Kernel, level: Level, fields: &[Field]) {
-            self.note(kernel.name);
-            self.inner.turn(kernel, level, fields);
+        fn inverse_then_forward(
+            &mut self,
+            kernel: &'static Kernel,
+            level: Level,
+            fields: &[Field],
+        ) {
+            self.note(kernel.variant());
+            self.inner.inverse_then_forward(kernel, level, fields);
         }
         fn epsilon(&self) -> f64 {
             self.inner.epsilon()

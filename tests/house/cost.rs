@@ -4,7 +4,7 @@
 use std::fs;
 use std::path::Path;
 
-use tabor::backend::tally::{Held, Place};
+use tabor::backend::dry_run::{Held, Place};
 use tabor::effect::Effect;
 use tabor::grid::Grid;
 use tabor::law::Law;
@@ -84,7 +84,13 @@ fn expected(scene: &Scene, grid: [usize; 2]) -> Expected {
         };
     let two_band = solved_law.is_none() && !free && coarse(points).is_some();
 
-    let mut fields = vec!["heights", "gap", "pressure", "direction", "free_before"];
+    let mut fields = vec![
+        "heights",
+        "gap",
+        "pressure",
+        "direction",
+        "previous_residual",
+    ];
     if core {
         fields.push("step");
     }
@@ -99,7 +105,13 @@ fn expected(scene: &Scene, grid: [usize; 2]) -> Expected {
         fields.push("law_factor");
     }
     if two_band {
-        fields.extend(["free", "restricted", "share", "weight", "long_waves"]);
+        fields.extend([
+            "projected_residual",
+            "restricted",
+            "share",
+            "weight",
+            "long_waves",
+        ]);
     }
     // What a viscoelastic solid carries: its displacement and the spring of each branch.
     let branches = scene.solid.relaxation.len();
@@ -108,67 +120,39 @@ fn expected(scene: &Scene, grid: [usize; 2]) -> Expected {
     let mut passes: Vec<&'static str> = Vec::new();
     if two_band {
         passes.extend([
-            "coarse_restrict",
-            "coarse_share",
+            "coarsen",
+            "load_field",
             "multiply",
-            "coarse_weigh",
+            "weigh",
             "multiply",
-            "coarse_store",
+            "store_weighted",
         ]);
     }
     passes.push("multiply");
-    passes.push(match (core, two_band, held) {
-        (true, _, false) => "core_descent",
-        (true, _, true) => "core_descent_held",
-        (false, false, false) => "wall_descent",
-        (false, false, true) => "wall_descent_held",
-        (false, true, false) => "two_band_descent",
-        (false, true, true) => "two_band_descent_held",
+    passes.push(if two_band {
+        "two_band_descent"
+    } else {
+        "descent"
     });
-    match (core, held) {
-        (true, true) => passes.extend(["core_direct", "core_trial_held"]),
-        (true, false) => passes.push("core_trial"),
-        (false, true) if hard => passes.extend(["yield_direct", "yield_trial_held"]),
-        (false, true) => passes.push("wall_trial_held"),
-        (false, false) => passes.push("wall_trial"),
+    if held && (core || hard) {
+        passes.extend(["direction", "load_trial"]);
+    } else {
+        passes.push("trial");
     }
     passes.push("multiply");
     if tail {
-        passes.push(if core { "core_search" } else { "wall_search" });
+        passes.push("search");
     }
-    match (core, two_band, held) {
-        (true, _, true) => passes.extend(["core_advance", "core_free"]),
-        (true, _, false) => passes.push("core_turn"),
-        (false, false, true) => passes.extend(["wall_advance", "wall_free"]),
-        (false, true, true) => passes.extend(["wall_advance", "wall_free_kept"]),
-        (false, false, false) => passes.push("wall_turn"),
-        (false, true, false) => passes.push("wall_turn_kept"),
-    }
-    if hard {
-        passes.iter_mut().for_each(|pass| *pass = on_hardness(pass));
+    if held {
+        passes.extend(["advance", "load_residual"]);
+    } else {
+        passes.push("update_state");
     }
     Expected {
         fields,
         history,
         passes,
         points,
-    }
-}
-
-/// The pass that takes a wall's place on a solid with a hardness.
-fn on_hardness(pass: &'static str) -> &'static str {
-    match pass {
-        "wall_free" => "yield_free",
-        "wall_free_kept" => "yield_free_kept",
-        "wall_descent" => "yield_descent",
-        "wall_descent_held" => "yield_descent_held",
-        "wall_turn" => "yield_turn",
-        "wall_turn_kept" => "yield_turn_kept",
-        "wall_trial" => "yield_trial",
-        "wall_search" => "yield_search",
-        "wall_advance" => "yield_advance",
-        "wall_balance" => "yield_balance",
-        other => other,
     }
 }
 

@@ -47,6 +47,54 @@ fn every_passage_stands_in_its_file() {
     }
 }
 
+/// The page on adding a law: its passages stand in their files, which are four, and none is a kernel.
+#[test]
+fn a_further_law_touches_four_files() {
+    let root = Path::new(env!("CARGO_MANIFEST_DIR"));
+    let page = fs::read_to_string(root.join("docs/add_a_law.md")).expect("the page is there");
+    let passages = passages(&page);
+    let mut files: Vec<&str> = passages.iter().map(|(file, _)| file.as_str()).collect();
+    files.sort_unstable();
+    files.dedup();
+    println!("a further law touches {} files: {files:?}", files.len());
+    assert_eq!(files.len(), 4, "{files:?}");
+    for (file, text) in &passages {
+        let content = fs::read_to_string(root.join(file)).expect("the file is there");
+        let content = content.replace("\r\n", "\n");
+        assert!(content.contains(text), "{file} does not hold\n{text}");
+    }
+    // No other file of the source has to tell one law with a constraint from another: none matches the
+    // exponential law but those that say more of it where they can.
+    let says_more = [
+        "src/study/plan.rs",
+        "src/compare/spectrum.rs",
+        "src/scene/adhesion.rs",
+    ];
+    let mut others = Vec::new();
+    let mut folders = vec![root.join("src")];
+    while let Some(folder) = folders.pop() {
+        for entry in fs::read_dir(folder).expect("a folder").flatten() {
+            let path = entry.path();
+            let name = path
+                .strip_prefix(root)
+                .expect("below")
+                .display()
+                .to_string();
+            if path.is_dir() {
+                folders.push(path);
+            } else if fs::read_to_string(&path).is_ok_and(|text| {
+                text.contains("Law::Exponential(") || text.contains("LawName::Exponential")
+            }) && !files.contains(&name.replace('\\', "/").as_str())
+            {
+                others.push(name.replace('\\', "/"));
+            }
+        }
+    }
+    // A picture of the shaders shows one law of each kind.
+    others.retain(|name| !says_more.contains(&name.as_str()) && !name.ends_with("snapshot.rs"));
+    assert!(others.is_empty(), "{others:?}");
+}
+
 /// Files that friction needs: what a further effect such as friction touches.
 const NEEDED: [&str; 6] = [
     "src/scene/tables.rs",

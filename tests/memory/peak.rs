@@ -5,7 +5,7 @@ use std::fs;
 use std::path::Path;
 use std::process::Output;
 
-use tabor::backend::tally::Place;
+use tabor::backend::dry_run::Place;
 use tabor::scene::Scene;
 use tabor::solver::good_size;
 use tabor::study::{Memory, Plan};

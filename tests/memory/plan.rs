@@ -6,7 +6,7 @@ use std::path::{Path, PathBuf};
 
 use approx::assert_relative_eq;
 use stats_alloc::Region;
-use tabor::backend::tally::Place;
+use tabor::backend::dry_run::Place;
 use tabor::effect::Effect;
 use tabor::scene::{Boundary, Scene, SurfacePart};
 use tabor::study::{Cost, Memory, Plan, Setup};

@@ -15,7 +15,7 @@ use std::time::{Duration, Instant};
 use proptest::prelude::*;
 use proptest::test_runner::{Config, TestRunner};
 use stats_alloc::Region;
-use tabor::backend::tally::Place;
+use tabor::backend::dry_run::Place;
 use tabor::scene::{Scene, SurfacePart};
 use tabor::study::{Plan, Setup};
 use tabor::surface::Surface;

@@ -3,7 +3,9 @@
 use std::panic::resume_unwind;
 use std::sync::OnceLock;
 
-use tabor::backend::gpu::{AdapterChoice, GpuBackend, GpuDevice, GpuError, Number, quietly};
+use tabor::backend::gpu::{
+    AdapterChoice, Faults, GpuBackend, GpuDevice, GpuError, Number, quietly,
+};
 
 use super::trials::ignore;
 
@@ -40,7 +42,10 @@ pub fn device_with_double() -> &'static GpuDevice {
 /// A device that is taken for one without double precision, which keeps its sums in single.
 pub fn device_without_double() -> GpuDevice {
     device_with(&AdapterChoice {
-        without_double: true,
+        faults: Faults {
+            without_double: true,
+            ..Faults::default()
+        },
         ..AdapterChoice::default()
     })
 }

@@ -8,7 +8,7 @@ use tabor::backend::cpu::{CpuBackend, CpuReal, with_threads};
 use tabor::backend::{Backend, Factors, Shape};
 use tabor::elastic::{free_stiffness, love_displacement, periodic_stiffness};
 use tabor::grid::Grid;
-use tabor::kernel::common::{LOAD_FIELD, STORE_PRESSURE};
+use tabor::kernel::displacement::{LOAD_FIELD, STORE_FIELD};
 use tabor::kernel::{Gate, Params};
 use tabor::law::{Exponential, Law, LennardJones};
 use tabor::scene::Boundary;
@@ -45,7 +45,7 @@ fn apply<T: CpuReal>(points: [usize; 2], spectrum: &[f64], field: &[f64]) -> (Ve
     backend.write(source, field);
     backend.forward(&LOAD_FIELD, level, &[source]);
     backend.multiply(spectrum, true, Gate::Always);
-    backend.backward(&STORE_PRESSURE, level, &[result]);
+    backend.backward(&STORE_FIELD, level, &[result]);
     let curvature = backend.scalars().expect("cpu").curvature;
     (backend.read(result).expect("cpu"), curvature)
 }

@@ -26,8 +26,8 @@ pub(super) struct Job<'a, T: Real> {
     pub whole: Whole<'a, T>,
     /// Factors on the law's tension, whole; empty without them.
     pub factor: &'a [T],
-    /// Gap and residual of the base that is corrected, whole; empty without one.
-    pub base: [&'a [T]; 2],
+    /// Gap and residual of the outer state that is corrected, whole; empty without one.
+    pub outer: [&'a [T]; 2],
     /// One set of sums a block.
     pub partials: &'a mut [[f64; SUMS]],
     /// Spectra of these blocks, `work_per_block` values each.
@@ -71,7 +71,7 @@ impl<'a, T: Real> Job<'a, T> {
             writes,
             whole: self.whole,
             factor: self.factor,
-            base: self.base,
+            outer: self.outer,
             partials,
             work,
             work_per_block: self.work_per_block,
@@ -104,7 +104,7 @@ impl<'a, T: Real> Job<'a, T> {
                 &field[range.clone()]
             }
         };
-        let (factor, base) = (cut(self.factor), self.base.map(cut));
+        let (factor, outer) = (cut(self.factor), self.outer.map(cut));
         let [a, b, c, d] = &mut self.writes;
         let mut rows = Rows {
             first,
@@ -116,7 +116,7 @@ impl<'a, T: Real> Job<'a, T> {
             writes: [a, b, c, d],
             whole: self.whole,
             factor,
-            base,
+            outer,
             reduces: self.reduces,
         };
         (self.twin)(&mut rows, self.params, self.scalars, &mut self.partials[0]);

@@ -24,8 +24,8 @@ pub struct CpuBackend<T: Real> {
     spectra: Vec<Vec<T>>,
     /// The field of factors on the law's tension.
     law_factor: Option<Field>,
-    /// Gap and residual of the base that is corrected.
-    base: Option<[Field; 2]>,
+    /// Gap and residual of the outer state that is corrected.
+    outer: Option<[Field; 2]>,
     /// Whether a state in double precision stands beside the fields.
     corrected: bool,
     params: Option<Params>,
@@ -96,7 +96,7 @@ impl<T: CpuReal> CpuBackend<T> {
             fields: Vec::new(),
             spectra: Vec::new(),
             law_factor: None,
-            base: None,
+            outer: None,
             corrected: false,
             params: None,
             scalars: Scalars::start(0.0, false),
@@ -133,14 +133,11 @@ impl<T: CpuReal> CpuBackend<T> {
         let twin = T::twin(kernel);
         // Written fields are lifted out, so that the others can be borrowed meanwhile.
         let mut lifted: [Vec<T>; 4] = Default::default();
-        for (slot, field) in fields[kernel.reads..kernel.reads + kernel.writes]
-            .iter()
-            .enumerate()
-        {
+        for (slot, field) in fields[kernel.written()].iter().enumerate() {
             lifted[slot] = std::mem::take(&mut self.fields[field.index]);
         }
         let mut reads: [&[T]; 4] = [&[]; 4];
-        for (slot, field) in fields[..kernel.reads].iter().enumerate() {
+        for (slot, field) in fields[..kernel.reads.len()].iter().enumerate() {
             reads[slot] = &self.fields[field.index];
         }
         let whole = match (kernel.whole, fields.last()) {
@@ -157,15 +154,17 @@ impl<T: CpuReal> CpuBackend<T> {
             Some(field) if field.level == level => &self.fields[field.index],
             _ => &[],
         };
-        let base: [&[T]; 2] = match self.base {
-            Some(base) if base[0].level == level => base.map(|field| &self.fields[field.index][..]),
+        let outer: [&[T]; 2] = match self.outer {
+            Some(outer) if outer[0].level == level => {
+                outer.map(|field| &self.fields[field.index][..])
+            }
             _ => [&[]; 2],
         };
         let share = self.share_of_first(level);
         let space = &mut self.levels[level.0];
         let blocks = space.shape.points[1].div_ceil(BLOCK);
         let mut neutral = [0.0; SUMS];
-        for (slot, reduce) in kernel.sums.iter().enumerate() {
+        for (slot, reduce) in kernel.reduces.iter().enumerate() {
             neutral[slot] = reduce.neutral();
         }
         let partials = &mut space.partials[..blocks];
@@ -178,13 +177,13 @@ impl<T: CpuReal> CpuBackend<T> {
             writes: [a, b, c, d],
             whole,
             factor,
-            base,
+            outer,
             partials,
             work: &mut [],
             work_per_block: 0,
             params: &params,
             scalars: &self.scalars,
-            reduces: kernel.sums,
+            reduces: kernel.reduces,
             twin,
         };
         match kernel.form {
@@ -196,15 +195,14 @@ impl<T: CpuReal> CpuBackend<T> {
             }
         }
         let partials = &self.levels[level.0].partials[..blocks];
-        for (slot, reduce) in kernel.sums.iter().enumerate() {
-            self.scalars.sums[slot] = partials
-                .iter()
-                .fold(reduce.neutral(), |sum, block| reduce.join(sum, block[slot]));
+        for (slot, &sum) in kernel.sums.iter().enumerate() {
+            let reduce = sum.reduce();
+            let total = partials.iter().fold(reduce.neutral(), |total, block| {
+                reduce.join(total, block[slot])
+            });
+            self.scalars.sums.set(sum, total);
         }
-        for (slot, field) in fields[kernel.reads..kernel.reads + kernel.writes]
-            .iter()
-            .enumerate()
-        {
+        for (slot, field) in fields[kernel.written()].iter().enumerate() {
             self.fields[field.index] = std::mem::take(&mut lifted[slot]);
         }
     }
@@ -262,8 +260,8 @@ impl<T: CpuReal> Backend for CpuBackend<T> {
         self.law_factor = Some(factor);
     }
 
-    fn set_base(&mut self, base: Option<[Field; 2]>) {
-        self.base = base;
+    fn set_outer_state(&mut self, outer: Option<[Field; 2]>) {
+        self.outer = outer;
     }
 
     fn clear(&mut self, field: Field) {
@@ -317,7 +315,7 @@ impl<T: CpuReal> Backend for CpuBackend<T> {
         self.run(kernel, level, fields);
     }
 
-    fn turn(&mut self, kernel: &'static Kernel, level: Level, fields: &[Field]) {
+    fn inverse_then_forward(&mut self, kernel: &'static Kernel, level: Level, fields: &[Field]) {
         self.run(kernel, level, fields);
     }
 

@@ -133,7 +133,7 @@ impl<T: CpuReal> Transform<T> {
                     );
                 }
             }
-            if form.takes_kept() {
+            if form.takes_retained() {
                 for (pair, kept) in lines.chunks_mut(2).zip(&*job.work) {
                     pair[0] = kept.re;
                     if let Some(second) = pair.get_mut(1) {
@@ -142,7 +142,7 @@ impl<T: CpuReal> Transform<T> {
                 }
             }
             job.call(lines);
-            if form == Form::Keep {
+            if form == Form::RetainRows {
                 for (pair, kept) in lines.chunks(2).zip(&mut *job.work) {
                     *kept = Complex::new(pair[0], pair.get(1).copied().unwrap_or(T::zero()));
                 }

@@ -1,6 +1,7 @@
 //! Adapters: what there are, what each allows, and which one is taken.
 
 use super::error::GpuError;
+use super::faults::Faults;
 use super::layout::Number;
 use super::level::LevelPlan;
 use super::plan::GroupLimits;
@@ -15,40 +16,19 @@ pub struct AdapterChoice {
     /// Whether a driver that computes on the processor will do. It is slower there than this
     /// program's own CPU backend, so only tests and explicit wishes want it.
     pub software: bool,
-    /// Whether the device is taken for one without double precision: for tests of what such devices do.
-    pub without_double: bool,
-    /// Bytes that may be bound at a time, where that is to be less than the adapter takes: for tests of
-    /// grids past the limits.
-    pub binding_limit: Option<u64>,
-    /// Bytes of a field that go into one buffer, where that is to be less than the adapter binds: for
-    /// tests of grids in several slabs.
-    pub slab_bytes: Option<u64>,
-    /// Points of a line that is transformed in one pass, where that is to be less than a workgroup
-    /// holds: for tests of longer ones.
-    pub longest_line: Option<usize>,
-    /// Dispatches after which the device is given up: for tests of its loss.
-    pub lost_after: Option<u64>,
-    /// Bytes after which it has no memory left: for tests of that.
-    pub memory: Option<u64>,
-    /// Dispatches after which some number of each field is none: for tests of that.
-    pub not_a_number_after: Option<u64>,
-    /// Milliseconds that a shader takes to compile besides: for tests of what waits for it.
-    pub compiling: Option<u64>,
-    /// Whether compensated sums are taken to come out wrong: for tests of plain ones.
-    pub plain_sums: bool,
+    /// What the device is made to do for tests.
+    #[cfg(feature = "fault-injection")]
+    pub faults: Faults,
 }
 
 impl AdapterChoice {
-    /// An adapter's limits, narrowed as the tests ask.
-    pub fn narrowed(&self, limits: Limits) -> Limits {
-        let binding = limits.binding.min(self.binding_limit.unwrap_or(u64::MAX));
-        let slab = binding.min(self.slab_bytes.unwrap_or(u64::MAX));
-        Limits {
-            binding,
-            slab,
-            longest_line: self.longest_line.unwrap_or(limits.longest_line),
-            ..limits
-        }
+    /// What the device is made to do; nothing but in tests.
+    pub(crate) fn faults(&self) -> Faults {
+        #[cfg(feature = "fault-injection")]
+        let faults = self.faults;
+        #[cfg(not(feature = "fault-injection"))]
+        let faults = Faults::default();
+        faults
     }
 }
 
@@ -76,7 +56,7 @@ pub enum AdapterKind {
     Discrete,
     /// A graphics processor that shares the memory.
     Integrated,
-    /// One lent by a host.
+    /// One shared by a host.
     Virtual,
     /// Something else.
     Other,

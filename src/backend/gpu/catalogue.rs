@@ -1,17 +1,16 @@
 //! Which WGSL belongs to which word of the catalogue.
 
 use super::layout::Number;
-use crate::law::Law;
+use crate::kernel::{Constraint, scalar};
+use crate::law::LawShader;
 
-/// The WGSL of a kernel: its own part and those it builds on, joined in this order.
+/// The WGSL of a kernel: what it builds on and its own part, joined in this order.
 #[derive(Clone, Copy)]
 pub struct Shader {
     /// The word of the catalogue.
     pub name: &'static str,
     /// Sources.
     pub parts: &'static [&'static str],
-    /// Whether it asks for the cohesive law.
-    pub law: bool,
 }
 
 macro_rules! part {
@@ -21,15 +20,11 @@ macro_rules! part {
 }
 
 macro_rules! shaders {
-    ($($name:literal $law:literal [$($part:literal),*];)*) => {
-        &[$(Shader { name: $name, parts: &[$(part!($part),)* part!($name)], law: $law }),*]
-    };
-}
-
-/// Kernels of a solid that flows, which are those of the wall with another part around them.
-macro_rules! over_flow {
-    ($($name:literal of $wall:literal [$($part:literal),*];)*) => {
-        &[$(Shader { name: $name, parts: &[part!("yielding"), $(part!($part),)* part!($wall)], law: true }),*]
+    ($($name:literal [$($part:literal),*];)*) => {
+        &[$(Shader {
+            name: $name,
+            parts: &[$(part!($part),)* part!($name)],
+        }),*]
     };
 }
 
@@ -67,71 +62,43 @@ pub const EXP_SINGLE: &str = part!("exp_single");
 pub const EXP_DOUBLE: &str = part!("exp_double");
 
 const SHADERS: &[Shader] = shaders! {
-    "load_displacement" false [];
-    "load_field" false [];
-    "store_pressure" false [];
-    "wall_residual" true ["wall"];
-    "wall_free" true ["wall"];
-    "wall_free_kept" true ["wall"];
-    "wall_descent" true ["wall", "descend"];
-    "wall_descent_held" true ["wall", "descend"];
-    "wall_trial" true ["wall"];
-    "wall_trial_held" true ["wall"];
-    "wall_search" true ["wall"];
-    "wall_turn" true ["wall", "step"];
-    "wall_turn_kept" true ["wall", "step"];
-    "wall_advance" true ["wall", "step"];
-    "wall_balance" true ["wall"];
-    "yield_direct" true ["yielding"];
-    "yield_trial_held" true ["yielding"];
-    "yield_search" true ["yielding"];
-    "yield_advance" true ["yielding", "step"];
-    "core_residual" true ["core"];
-    "core_free" true ["core"];
-    "core_descent" true ["core"];
-    "core_descent_held" true ["core"];
-    "core_direct" true ["core"];
-    "core_trial" true ["core"];
-    "core_trial_held" true ["core"];
-    "core_search" true ["core"];
-    "core_turn" true ["core"];
-    "core_advance" true ["core"];
-    "core_balance" true ["core"];
-    "two_band_descent" false ["descend", "neighbours"];
-    "two_band_descent_held" false ["descend", "neighbours"];
-    "base_total" true [];
-    "base_rigid" false [];
-    "base_add_wall" false [];
-    "base_add_core" true ["core"];
-    "base_hold_wall" false [];
-    "base_hold_core" true ["core"];
-    "coarse_restrict" false [];
-    "coarse_share" false [];
-    "coarse_weigh" false [];
-    "coarse_store" false [];
+    "load_displacement" [];
+    "load_field" [];
+    "store_field" [];
+    "residual" ["measure"];
+    "load_residual" ["measure"];
+    "descent" ["descent_terms"];
+    "trial" ["step", "trial_terms", "linear_trial_terms"];
+    "direction" ["step"];
+    "load_trial" ["step", "trial_terms"];
+    "search" [];
+    "update_state" ["step", "step_from", "measure"];
+    "advance" ["step", "step_from", "balance_terms"];
+    "balance" ["balance_terms"];
+    "coarsen" ["two_band"];
+    "weigh" [];
+    "store_weighted" [];
+    "two_band_descent" ["two_band", "descent_terms"];
+    "outer_residual" [];
+    "outer_pressure" [];
+    "add_correction" [];
+    "restore_outer_gap" [];
 };
 
-const OVER_FLOW: &[Shader] = over_flow! {
-    "yield_residual" of "wall_residual" [];
-    "yield_free" of "wall_free" [];
-    "yield_free_kept" of "wall_free_kept" [];
-    "yield_descent" of "wall_descent" ["descend"];
-    "yield_descent_held" of "wall_descent_held" ["descend"];
-    "yield_trial" of "wall_trial" [];
-    "yield_turn" of "wall_turn" ["step"];
-    "yield_turn_kept" of "wall_turn_kept" ["step"];
-    "yield_balance" of "wall_balance" [];
-};
+/// A point over a constraint of the gap.
+pub const CONSTRAINT: &str = part!("constraint");
 
-/// Parts of the scalar kernels: those of every law, of a wall, of its held mean gap, of the Lennard-Jones
-/// core, of the base of corrections.
-const SCALAR_PARTS: [&str; 5] = [
-    part!("scalar"),
-    part!("scalar_wall"),
-    part!("scalar_held"),
-    part!("scalar_core"),
-    part!("scalar_base"),
-];
+/// The functions of a constraint.
+pub fn constraint(constraint: Constraint) -> &'static str {
+    match constraint {
+        Constraint::Unilateral => part!("unilateral"),
+        Constraint::HardnessLimit => part!("hardness_limit"),
+        Constraint::Smooth => part!("smooth"),
+    }
+}
+
+/// Parts of the scalar kernels, the first of which the others build on.
+const SCALAR_PARTS: [&str; 3] = [part!("scalar"), part!("mean_gap"), part!("step_length")];
 
 /// The parts from which a scalar kernel is called, if one of them defines it.
 pub fn scalar(name: &str) -> Option<Vec<&'static str>> {
@@ -139,7 +106,7 @@ pub fn scalar(name: &str) -> Option<Vec<&'static str>> {
     let found = SCALAR_PARTS
         .iter()
         .position(|part| part.contains(&definition))?;
-    let mut parts = vec![SCALAR_PARTS[0]];
+    let mut parts = vec![scalar::CONSTANTS, SCALAR_PARTS[0]];
     if found > 0 {
         parts.push(SCALAR_PARTS[found]);
     }
@@ -148,50 +115,21 @@ pub fn scalar(name: &str) -> Option<Vec<&'static str>> {
 
 /// The shader of a kernel, if it has one.
 pub fn shader(name: &str) -> Option<&'static Shader> {
-    SHADERS
+    SHADERS.iter().find(|shader| shader.name == name)
+}
+
+/// The WGSL of a law for fields in this number, after what it builds on.
+pub fn law(law: LawShader, number: Number) -> Vec<&'static str> {
+    let mut parts = Vec::new();
+    if ["exponential(", "exp_less_one("]
         .iter()
-        .chain(OVER_FLOW)
-        .find(|shader| shader.name == name)
-}
-
-/// Whether a kernel asks for the cohesive law.
-pub fn asks_for_law(name: &str) -> bool {
-    shader(name).is_some_and(|shader| shader.law)
-}
-
-/// The laws as far as their WGSL differs.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
-pub enum LawPart {
-    /// No attraction.
-    HardWall,
-    /// Constant tension, tapered or not.
-    MaugisDugdale,
-    /// Exponential tension.
-    Exponential,
-    /// The 9-3 law.
-    LennardJones,
-}
-
-impl LawPart {
-    /// Which of them a law is.
-    pub fn of(law: &Law) -> Self {
-        match law {
-            Law::HardWall => LawPart::HardWall,
-            Law::MaugisDugdale(_) => LawPart::MaugisDugdale,
-            Law::Exponential(_) => LawPart::Exponential,
-            Law::LennardJones(_) => LawPart::LennardJones,
-        }
+        .any(|word| law.source.contains(word))
+    {
+        parts.push(match number {
+            Number::Single => EXP_SINGLE,
+            Number::Double => EXP_DOUBLE,
+        });
     }
-
-    /// Its WGSL: `law_traction`, `law_energy` and `law_slope` of a gap in this number, after what they
-    /// build on.
-    pub fn sources(self, number: Number) -> &'static [&'static str] {
-        match (self, number) {
-            (LawPart::HardWall, _) => &[part!("law_hard_wall")],
-            (LawPart::MaugisDugdale, _) => &[part!("law_maugis_dugdale")],
-            (LawPart::Exponential, Number::Single) => &[EXP_SINGLE, part!("law_exponential")],
-            (LawPart::Exponential, Number::Double) => &[EXP_DOUBLE, part!("law_exponential")],
-            (LawPart::LennardJones, _) => &[part!("law_lennard_jones")],
-        }
-    }
+    parts.push(law.source);
+    parts
 }

@@ -6,7 +6,7 @@
 use super::bindings::DECIDING;
 use super::level::Place;
 use super::source::{self, Decision, Reduction};
-use super::space::Key;
+use super::space::{self, Key};
 use super::{GpuBackend, GpuError};
 use crate::backend::Level;
 use crate::kernel::ScalarKernel;
@@ -25,7 +25,7 @@ enum Part {
 /// Sums to be put together.
 pub(super) struct Decided {
     /// What they are known by on their level.
-    pub name: &'static str,
+    pub of: space::Decided,
     pub level: Level,
     pub place: Place,
     pub reduction: Reduction,
@@ -69,10 +69,13 @@ impl GpuBackend {
         let mut level = Level(0);
         for part in &parts {
             names.push(match part {
-                Part::Scalar(kernel) => (kernel.name, None),
+                Part::Scalar(kernel) => {
+                    let place = std::ptr::from_ref(*kernel).addr();
+                    (space::Decided::Kernel(place), None)
+                }
                 Part::Sums(sums) => {
                     level = sums.level;
-                    (sums.name, Some(sums.level.0))
+                    (sums.of, Some(sums.level.0))
                 }
             });
         }

@@ -77,8 +77,9 @@ impl GpuDevice {
         let place = choose(&descriptions, &choice)?;
         let adapter = &found[place];
         let mut description = descriptions[place].clone();
-        description.limits = choice.narrowed(description.limits);
-        description.double &= !(choice.without_double || choice.plain_sums);
+        let faults = choice.faults();
+        description.limits = faults.narrowed(description.limits);
+        description.double &= !(faults.without_double || faults.plain_sums);
         // Timestamps cost nothing until they are asked for.
         let mut required_features = adapter.features() & wgpu::Features::TIMESTAMP_QUERY;
         if description.double {
@@ -112,14 +113,14 @@ impl GpuDevice {
                 pipelines: Mutex::new(HashMap::new()),
                 lost,
                 plain_sums: OnceLock::new(),
-                left: choice.lost_after.map(AtomicU64::new),
-                sound: choice.not_a_number_after.map(AtomicU64::new),
-                memory: choice.memory.map(AtomicU64::new),
-                compiling: choice.compiling.map(Duration::from_millis),
+                left: faults.lost_after.map(AtomicU64::new),
+                sound: faults.not_a_number_after.map(AtomicU64::new),
+                memory: faults.memory.map(AtomicU64::new),
+                compiling: faults.compiling.map(Duration::from_millis),
             }),
         };
         if device.wide() == Wide::Compensated {
-            let survive = !choice.plain_sums && GpuBackend::new(&device)?.sums_survive()?;
+            let survive = !faults.plain_sums && GpuBackend::new(&device)?.sums_survive()?;
             let _ = device.inner.plain_sums.set(!survive);
         }
         Ok(device)

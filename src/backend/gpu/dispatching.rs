@@ -6,8 +6,8 @@ use super::deciding::Decided;
 use super::level::Place;
 use super::recorder::Prepared;
 use super::source::{self, Reduction, Results};
-use super::space::{Key, LevelSpace};
-use super::{GpuBackend, GpuError, catalogue};
+use super::space::{self, Key, LevelSpace};
+use super::{GpuBackend, GpuError};
 use crate::backend::{Field, Level, Spectrum};
 use crate::kernel::{Form, Gate, Kernel};
 
@@ -92,7 +92,8 @@ impl GpuBackend {
             });
         }
         let indices = fields.iter().map(|field| field.index).collect();
-        let key = Key::Kernel(kernel.name, level.0, self.base.is_some(), indices);
+        let variant = std::ptr::from_ref(kernel).addr();
+        let key = Key::Kernel(variant, level.0, self.outer.is_some(), indices);
         let place = Place::of(kernel.form);
         if kernel.gate != Gate::Ahead {
             self.settle()?;
@@ -117,7 +118,7 @@ impl GpuBackend {
             gate: kernel.gate,
         };
         self.put_off(Decided {
-            name: kernel.name,
+            of: space::Decided::Kernel(variant),
             level,
             place,
             reduction,
@@ -137,12 +138,12 @@ impl GpuBackend {
         for &field in fields {
             bound.push(&self.field_space(field)?.slabs);
         }
-        let own = kernel.reads + kernel.writes;
+        let own = kernel.written().end;
         let whole = match (kernel.whole, fields.last()) {
             (true, Some(field)) => source::Whole::of(&self.level_space(field.level)?.plan),
             _ => source::Whole::default(),
         };
-        let mut accesses = bindings::fields(kernel.reads, kernel.writes, whole.slabs);
+        let mut accesses = bindings::fields(kernel.reads.len(), kernel.writes.len(), whole.slabs);
         let mut behind = Vec::new();
         let mut follow = |fields: &[Field]| -> Result<usize, GpuError> {
             let first = accesses.len();
@@ -153,19 +154,18 @@ impl GpuBackend {
             Ok(first)
         };
         // Bound behind the kernel's own fields.
-        let asks = catalogue::asks_for_law(kernel.name);
         let factor = match self.law_factor {
-            Some(field) if field.level == level && asks => Some(follow(&[field])?),
+            Some(field) if field.level == level && kernel.law => Some(follow(&[field])?),
             _ => None,
         };
-        let base = match self.base {
-            Some(base) if base[0].level == level && asks => Some(follow(&base)?),
+        let outer = match self.outer {
+            Some(outer) if outer[0].level == level && kernel.law => Some(follow(&outer)?),
             _ => None,
         };
         let law = source::LawSource {
-            part: self.law,
+            shader: self.law,
             factor,
-            base,
+            outer,
         };
         let text = source::kernel(kernel, &space.plan, whole, law, self.wide)?;
         let groups = space.plan.slab_groups(kernel.form);
@@ -184,7 +184,7 @@ impl GpuBackend {
             let mut prepared = self.prepare(kernel.name, text.clone(), &all, [groups, 1])?;
             let only_written = &buffers[own - kernel.fresh..own];
             prepared.bytes -= only_written.iter().map(|buffer| buffer.size()).sum::<u64>();
-            if matches!(kernel.form, Form::Load | Form::Store | Form::Peek) {
+            if matches!(kernel.form, Form::Load | Form::Store | Form::ReadRetained) {
                 prepared.bytes -= space.work[slab].size();
             }
             Ok(prepared)
@@ -253,7 +253,7 @@ impl GpuBackend {
             gate,
         };
         self.put_off(Decided {
-            name: word,
+            of: space::Decided::Gate(word),
             level: by.level,
             place: Place::Columns,
             reduction,

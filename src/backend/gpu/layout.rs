@@ -1,11 +1,11 @@
-//! The numbers of the algorithm as the device holds them: structs of plain members in one order,
-//! written once here for the WGSL and for the bytes.
+//! The numbers of the algorithm as the device holds them: the WGSL and the bytes of structs that are declared
+//! once, in [`kernel`](crate::kernel).
 //!
 //! `real` is the number of the fields; `wide` the one in which sums and scalars are kept: f64 where the
 //! device has it, else f32.
 
-use crate::kernel::{Params, REACHED, SUMS, Scalars, Status, scalar};
-use crate::law::Law;
+use crate::kernel::declare::{DeviceValue, FromDevice, Kind, Word, members};
+use crate::kernel::{Params, Scalars, Status};
 
 /// The number in which the fields of a level are kept, and all that is done to them.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
@@ -119,81 +119,22 @@ impl Wide {
     }
 }
 
-/// A struct member: so many wide numbers, or one u32 where the count is 0.
-type Member = (&'static str, usize);
+/// Members of the params on a device: besides those of [`Params`] infinity, which WGSL cannot write down,
+/// and a zero that no compiler knows to be one.
+pub fn params_members() -> Vec<(String, Kind)> {
+    let mut all = members(Params::KIND);
+    all.push(("infinity".to_owned(), Kind::Wide(1)));
+    all.push(("zero".to_owned(), Kind::Count));
+    all
+}
 
-const SCALARS: &[Member] = &[
-    ("sums", SUMS),
-    ("mean_pressure", 1),
-    ("offset", 1),
-    ("descent", 1),
-    ("memory", 1),
-    ("shift", 1),
-    ("trial", 1),
-    ("restore", 1),
-    ("slope", 1),
-    ("curvature", 1),
-    ("elastic_slope", 1),
-    ("up", 1),
-    ("down", 1),
-    ("step", 1),
-    ("length", 1),
-    ("step_first", 1),
-    ("largest", 1),
-    ("snap", 1),
-    ("carried", 2),
-    ("low", 3),
-    ("reached", REACHED),
-    ("high", 2),
-    ("slope_at_one", 1),
-    ("residual", 1),
-    ("numerator", 1),
-    ("residual_at_stall", 1),
-    ("least_gap", 1),
-    ("gap_norm", 1),
-    ("status", 0),
-    ("repeat", 0),
-    ("restart", 0),
-    ("accepted", 0),
-    ("truncated", 0),
-    ("searching", 0),
-    ("careful", 0),
-    ("evaluations", 0),
-    ("lost", 0),
-    ("stalls", 0),
-    ("at_floor", 0),
-    ("iterations", 0),
-];
-
-const PARAMS: &[Member] = &[
-    ("law_work", 1),
-    ("law_range", 1),
-    ("law_peak", 1),
-    ("law_taper", 1),
-    ("law_peak_gap", 1),
-    ("stiffness_max", 1),
-    ("pressure_floor", 1),
-    ("tolerance", 1),
-    ("heights_norm", 1),
-    ("core_stiffness", 1),
-    ("hardness", 1),
-    ("epsilon", 1),
-    ("infinity", 1),
-    ("snap_share", 1),
-    ("law_has_tail", 0),
-    ("fixed_gap", 0),
-    ("may_detach", 0),
-    // Zero, which no compiler knows.
-    ("zero", 0),
-];
-
-fn declaration(name: &str, members: &[Member]) -> String {
+fn declaration(name: &str, members: &[(String, Kind)]) -> String {
     let mut text = format!("struct {name} {{\n");
-    for (member, count) in members {
-        let kind = match count {
-            0 => "u32".to_string(),
-            1 => "wide".to_string(),
-            _ => format!("array<wide, {count}>"),
+    for (member, kind) in members {
+        let kind = match kind {
+            Kind::Wide(1) => "wide".to_string(),
+            Kind::Wide(count) => format!("array<wide, {count}>"),
+            Kind::Count | Kind::Group(_) => "u32".to_string(),
         };
         text.push_str(&format!("    {member}: {kind},\n"));
     }
@@ -201,281 +142,115 @@ fn declaration(name: &str, members: &[Member]) -> String {
     text
 }
 
-/// The WGSL of `Params`, `Scalars` and `wide`.
+/// The WGSL of `wide`, `Params`, `Scalars` and the names of a status.
 pub fn declarations(wide: Wide) -> String {
-    format!(
+    let mut text = format!(
         "alias wide = {};\n{}{}",
         wide.name(),
-        declaration("Params", PARAMS),
-        declaration("Scalars", SCALARS)
-    )
+        declaration("Params", &params_members()),
+        declaration("Scalars", &members(Scalars::KIND))
+    );
+    for (number, (_, name)) in Status::ALL.iter().enumerate() {
+        text.push_str(&format!("const {name}: u32 = {number}u;\n"));
+    }
+    text
 }
 
-fn length(members: &[Member], wide: Wide) -> usize {
-    let bytes: usize = members
-        .iter()
-        .map(|&(_, count)| if count == 0 { 4 } else { count * wide.bytes() })
-        .sum();
+fn length(members: &[(String, Kind)], wide: Wide) -> usize {
+    let end = members.iter().fold(0usize, |end, (_, kind)| match kind {
+        Kind::Wide(count) => end.next_multiple_of(wide.bytes()) + count * wide.bytes(),
+        Kind::Count | Kind::Group(_) => end + size_of::<u32>(),
+    });
     // A uniform buffer's length is a multiple of 16, which suits storage as well.
-    bytes.next_multiple_of(16)
+    end.next_multiple_of(16)
 }
 
 /// Bytes of the scalars on the device.
 pub fn scalars_length(wide: Wide) -> usize {
-    length(SCALARS, wide)
+    length(&members(Scalars::KIND), wide)
 }
 
 /// Bytes of the params on the device.
 pub fn params_length(wide: Wide) -> usize {
-    length(PARAMS, wide)
+    length(&params_members(), wide)
 }
 
-struct Writer {
-    bytes: Vec<u8>,
-    wide: Wide,
-}
-
-impl Writer {
-    fn number(&mut self, value: f64) {
-        match self.wide {
-            Wide::Single | Wide::Compensated => self.bytes.extend((value as f32).to_le_bytes()),
-            Wide::Double => self.bytes.extend(value.to_le_bytes()),
+/// Appends a word where WGSL has its member.
+fn append(bytes: &mut Vec<u8>, word: Word, wide: Wide) {
+    match word {
+        Word::Wide(value) => {
+            bytes.resize(bytes.len().next_multiple_of(wide.bytes()), 0);
+            match wide {
+                Wide::Single | Wide::Compensated => {
+                    bytes.extend(bytemuck::bytes_of(&(value as f32)));
+                }
+                Wide::Double => bytes.extend(bytemuck::bytes_of(&value)),
+            }
         }
-    }
-
-    fn count(&mut self, value: u32) {
-        self.bytes.extend(value.to_le_bytes());
-    }
-
-    fn finish(mut self, length: usize) -> Vec<u8> {
-        debug_assert!(self.bytes.len() <= length);
-        self.bytes.resize(length, 0);
-        self.bytes
+        Word::Count(value) => bytes.extend(bytemuck::bytes_of(&value)),
     }
 }
 
 /// The params as bytes.
 pub fn params_bytes(params: &Params, wide: Wide) -> Vec<u8> {
-    let (taper, peak_gap) = match params.law {
-        Law::MaugisDugdale(law) => (law.taper, 0.0),
-        Law::LennardJones(law) => (0.0, law.peak_gap()),
-        _ => (0.0, 0.0),
-    };
-    let mut writer = Writer {
-        bytes: Vec::new(),
-        wide,
-    };
-    for value in [
-        params.law.work_of_adhesion(),
-        params.law.range(),
-        params.law.peak_tension(),
-        taper,
-        peak_gap,
-        params.stiffness_max,
-        params.pressure_floor,
-        params.tolerance,
-        params.heights_norm,
-        params.core_stiffness,
-        params.hardness,
-        params.epsilon,
-        f64::INFINITY,
-        // Of the largest step: gaps below it after a step to first contact are rounding.
-        scalar::LEAST_SNAP.max(scalar::SNAP_ROUNDINGS * params.epsilon),
-    ] {
-        writer.number(value);
-    }
-    for value in [params.law.has_tail(), params.fixed_gap, params.may_detach] {
-        writer.count(u32::from(value));
-    }
-    writer.count(0);
-    writer.finish(params_length(wide))
-}
-
-/// The number by which a status is known in WGSL.
-fn status_number(status: Status) -> u32 {
-    match status {
-        Status::Running => 0,
-        Status::Converged => 1,
-        Status::Stalled => 2,
-        Status::PulledOff => 3,
-        Status::NotFinite => 4,
-    }
-}
-
-/// The status of a number; one that no shader writes means that memory was not what it should be.
-fn status_of(number: u32) -> Status {
-    match number {
-        0 => Status::Running,
-        1 => Status::Converged,
-        2 => Status::Stalled,
-        3 => Status::PulledOff,
-        _ => Status::NotFinite,
-    }
+    let mut bytes = Vec::new();
+    params.give(&mut |word| append(&mut bytes, word, wide));
+    append(&mut bytes, Word::Wide(f64::INFINITY), wide);
+    append(&mut bytes, Word::Count(0), wide);
+    bytes.resize(params_length(wide), 0);
+    bytes
 }
 
 /// The scalars as bytes.
 pub fn scalars_bytes(scalars: &Scalars, wide: Wide) -> Vec<u8> {
-    let mut writer = Writer {
-        bytes: Vec::new(),
-        wide,
-    };
-    let s = scalars;
-    let single = [
-        s.mean_pressure,
-        s.offset,
-        s.descent,
-        s.memory,
-        s.shift,
-        s.trial,
-        s.restore,
-        s.slope,
-        s.curvature,
-        s.elastic_slope,
-        s.up,
-        s.down,
-        s.step,
-        s.length,
-        s.step_first,
-        s.largest,
-        s.snap,
-    ];
-    let last = [
-        s.slope_at_one,
-        s.residual,
-        s.numerator,
-        s.residual_at_stall,
-        s.least_gap,
-        s.gap_norm,
-    ];
-    for value in s
-        .sums
-        .iter()
-        .chain(&single)
-        .chain(&s.carried)
-        .chain(&s.low)
-        .chain(&s.reached)
-        .chain(&s.high)
-        .chain(&last)
-    {
-        writer.number(*value);
-    }
-    writer.count(status_number(s.status));
-    for value in [
-        s.repeat,
-        s.restart,
-        s.accepted,
-        s.truncated,
-        s.searching,
-        s.careful,
-    ] {
-        writer.count(u32::from(value));
-    }
-    for value in [s.evaluations, s.lost, s.stalls, s.at_floor, s.iterations] {
-        writer.count(value);
-    }
-    writer.finish(scalars_length(wide))
+    let mut bytes = Vec::new();
+    scalars.give(&mut |word| append(&mut bytes, word, wide));
+    bytes.resize(scalars_length(wide), 0);
+    bytes
 }
 
-struct Reader<'a> {
-    bytes: &'a [u8],
-    wide: Wide,
-}
-
-impl Reader<'_> {
-    /// The next `N` bytes; zeros beyond the end, which `scalars_of` has excluded.
-    fn take<const N: usize>(&mut self) -> [u8; N] {
-        match self.bytes.split_first_chunk::<N>() {
-            Some((first, rest)) => {
-                self.bytes = rest;
-                *first
-            }
-            None => [0; N],
-        }
-    }
-
-    fn number(&mut self) -> f64 {
-        match self.wide {
-            Wide::Single | Wide::Compensated => f64::from(f32::from_le_bytes(self.take())),
-            Wide::Double => f64::from_le_bytes(self.take()),
-        }
-    }
-
-    fn numbers<const N: usize>(&mut self) -> [f64; N] {
-        std::array::from_fn(|_| self.number())
-    }
-
-    fn count(&mut self) -> u32 {
-        u32::from_le_bytes(self.take())
-    }
-
-    fn flag(&mut self) -> bool {
-        self.count() != 0
-    }
-}
-
-/// The scalars of bytes that the device gave back.
+/// The scalars of bytes that the device gave back; zeros beyond the end.
 pub fn scalars_of(bytes: &[u8], wide: Wide) -> Scalars {
     debug_assert!(bytes.len() >= scalars_length(wide));
-    let mut r = Reader { bytes, wide };
-    // Members are read in the order in which they are written here: that of `SCALARS`.
-    Scalars {
-        sums: r.numbers(),
-        mean_pressure: r.number(),
-        offset: r.number(),
-        descent: r.number(),
-        memory: r.number(),
-        shift: r.number(),
-        trial: r.number(),
-        restore: r.number(),
-        slope: r.number(),
-        curvature: r.number(),
-        elastic_slope: r.number(),
-        up: r.number(),
-        down: r.number(),
-        step: r.number(),
-        length: r.number(),
-        step_first: r.number(),
-        largest: r.number(),
-        snap: r.number(),
-        carried: r.numbers(),
-        low: r.numbers(),
-        reached: r.numbers(),
-        high: r.numbers(),
-        slope_at_one: r.number(),
-        residual: r.number(),
-        numerator: r.number(),
-        residual_at_stall: r.number(),
-        least_gap: r.number(),
-        gap_norm: r.number(),
-        status: status_of(r.count()),
-        repeat: r.flag(),
-        restart: r.flag(),
-        accepted: r.flag(),
-        truncated: r.flag(),
-        searching: r.flag(),
-        careful: r.flag(),
-        evaluations: r.count(),
-        lost: r.count(),
-        stalls: r.count(),
-        at_floor: r.count(),
-        iterations: r.count(),
-    }
+    let mut at = 0usize;
+    let mut part = |size: usize| -> &[u8] {
+        let start = at.next_multiple_of(size);
+        at = start + size;
+        bytes.get(start..at).unwrap_or(&[])
+    };
+    let single = size_of::<u32>();
+    Scalars::take(&mut |kind| match (kind, wide) {
+        (Kind::Wide(_), Wide::Double) => {
+            let value: Option<f64> = bytemuck::try_pod_read_unaligned(part(wide.bytes())).ok();
+            Word::Wide(value.unwrap_or(0.0))
+        }
+        (Kind::Wide(_), Wide::Single | Wide::Compensated) => {
+            let value: Option<f32> = bytemuck::try_pod_read_unaligned(part(single)).ok();
+            Word::Wide(f64::from(value.unwrap_or(0.0)))
+        }
+        (Kind::Count | Kind::Group(_), _) => {
+            Word::Count(bytemuck::try_pod_read_unaligned(part(single)).unwrap_or(0))
+        }
+    })
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
 
+    /// Every member has another value, and each comes back where it was.
     #[test]
     fn scalars_survive_the_way_there_and_back() {
-        let mut scalars = Scalars::start(0.25, true);
-        scalars.low = [1.0, 2.0, 3.0];
-        scalars.high = [4.0, f64::INFINITY];
-        scalars.gap_norm = 5.0;
-        scalars.status = Status::PulledOff;
-        scalars.iterations = 17;
-        scalars.at_floor = 3;
         for wide in [Wide::Single, Wide::Compensated, Wide::Double] {
+            let mut next = 0u32;
+            let scalars = Scalars::take(&mut |kind| {
+                next += 1;
+                match kind {
+                    Kind::Wide(_) => Word::Wide(f64::from(next) + 0.5),
+                    _ => Word::Count(next),
+                }
+            });
+            assert!(next > 70, "{next} words");
             let bytes = scalars_bytes(&scalars, wide);
             assert_eq!(bytes.len(), scalars_length(wide));
             let back = scalars_of(&bytes, wide);

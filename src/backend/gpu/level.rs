@@ -23,7 +23,7 @@ pub enum Place {
     /// Of a kernel.
     Kernel,
     /// Of a kernel whose lines are kept.
-    Kept,
+    Retained,
     /// Of the columns.
     Columns,
 }
@@ -32,7 +32,7 @@ impl Place {
     /// That of a kernel of the catalogue.
     pub fn of(form: Form) -> Place {
         match form {
-            Form::Keep => Place::Kept,
+            Form::RetainRows => Place::Retained,
             _ => Place::Kernel,
         }
     }
@@ -119,8 +119,8 @@ impl LevelPlan {
         let kernels = self.groups(Form::Sweep).max(self.groups(Form::Load)) * SUMS;
         match place {
             Place::Kernel => 0,
-            Place::Kept => kernels,
-            Place::Columns => kernels + self.groups(Form::Keep) * SUMS,
+            Place::Retained => kernels,
+            Place::Columns => kernels + self.groups(Form::RetainRows) * SUMS,
         }
     }
 }

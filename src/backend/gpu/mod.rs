@@ -14,16 +14,19 @@ mod deciding;
 mod device;
 mod dispatching;
 mod error;
+mod faults;
 mod fft;
 mod filling;
 mod layout;
-mod lending;
 mod level;
 mod long;
+#[cfg(feature = "fault-injection")]
+mod members;
 mod plan;
 mod quiet;
 mod reading;
 mod recorder;
+mod sharing;
 mod slabs;
 pub mod source;
 mod space;
@@ -37,19 +40,21 @@ use std::f64::consts::TAU;
 use super::cpu::CpuBackend;
 use super::{Backend, BackendError, Factors, Field, Level, Shape, Spectrum};
 use crate::kernel::{Gate, Kernel, Params, ScalarKernel, Scalars};
+use crate::law::{Law, LawShader};
 use deciding::Deciding;
 use recorder::{Prepared, Recorder};
 use space::{FieldSpace, Key, LevelSpace, SpectrumSpace};
 
 pub use adapter::{AdapterChoice, AdapterDescription, AdapterKind, adapters};
 pub use butterfly::Direction;
-pub use catalogue::LawPart;
 pub use device::{GpuDevice, keeps_waiting};
 pub use error::GpuError;
+#[cfg(feature = "fault-injection")]
+pub use faults::Faults;
 pub use layout::{Number, Wide};
-pub use lending::Lent;
 pub use plan::{Exchange, GroupLimits, LinePlan, radices};
 pub use quiet::{quietly, restore_standard_error};
+pub use sharing::SharedBuffer;
 pub use slabs::Limits;
 pub use source::OWN_FACTORS;
 pub use timing::{KernelTime, Stopwatch, Timings};
@@ -72,15 +77,15 @@ pub struct GpuBackend {
     /// What is decided after the last kernel over points, in one dispatch.
     deciding: Deciding,
     traffic: Traffic,
-    law: LawPart,
+    law: LawShader,
     /// The field of factors on the law's tension.
     law_factor: Option<Field>,
-    /// Gap and residual of the base that is corrected.
-    base: Option<[Field; 2]>,
+    /// Gap and residual of the outer state that is corrected.
+    outer: Option<[Field; 2]>,
     /// Whether a state in double precision stands beside the fields.
     corrected: bool,
     /// Whether scalars that are not finite are a failure.
-    expects_numbers: bool,
+    expects_finite: bool,
     /// The first thing that went wrong; told where the host waits.
     failure: Option<GpuError>,
     transforms: f64,
@@ -127,11 +132,11 @@ impl GpuBackend {
             prepared: HashMap::new(),
             deciding: Deciding::default(),
             traffic: Traffic::default(),
-            law: LawPart::HardWall,
+            law: Law::HardWall.shader(),
             law_factor: None,
-            base: None,
+            outer: None,
             corrected: false,
-            expects_numbers: false,
+            expects_finite: false,
             failure,
             transforms: 0.0,
             // Software idles through shut gates slower than it waits.
@@ -163,9 +168,9 @@ impl GpuBackend {
     }
 
     /// The same where numbers that are none are a failure of the device, not an answer.
-    pub fn expecting_numbers(self) -> Self {
+    pub fn expecting_finite(self) -> Self {
         GpuBackend {
-            expects_numbers: true,
+            expects_finite: true,
             ..self
         }
     }
@@ -354,8 +359,8 @@ impl Backend for GpuBackend {
         self.law_factor = Some(factor);
     }
 
-    fn set_base(&mut self, base: Option<[Field; 2]>) {
-        self.base = base;
+    fn set_outer_state(&mut self, outer: Option<[Field; 2]>) {
+        self.outer = outer;
     }
 
     fn clear(&mut self, field: Field) {
@@ -373,7 +378,7 @@ impl Backend for GpuBackend {
         self.corrected.then(|| -> Box<dyn Backend + Send> {
             match self.corrects_here(shape) {
                 true => Box::new(GpuBackend {
-                    expects_numbers: self.expects_numbers,
+                    expects_finite: self.expects_finite,
                     ..GpuBackend::on(&self.device).keeping(Number::Double)
                 }),
                 false => Box::new(CpuBackend::<f64>::new()),
@@ -381,27 +386,27 @@ impl Backend for GpuBackend {
         })
     }
 
-    fn take(
+    fn copy_from(
         &mut self,
         field: Field,
         from: &mut dyn Backend,
         source: Field,
     ) -> Result<(), BackendError> {
-        match from.lend(source) {
-            Some(lent) if self.takes_over(field, &lent) => {
-                self.attempt(|backend| backend.convert(field, &lent));
+        match from.share_buffer(source) {
+            Some(shared) if self.takes_over(field, &shared) => {
+                self.attempt(|backend| backend.convert(field, &shared));
             }
             _ => self.write(field, &from.read(source)?),
         }
         Ok(())
     }
 
-    fn lend(&mut self, field: Field) -> Option<Lent> {
+    fn share_buffer(&mut self, field: Field) -> Option<SharedBuffer> {
         self.attempt(|backend| backend.hand_out(field))
     }
 
     fn set_params(&mut self, params: &Params) {
-        let law = LawPart::of(&params.law);
+        let law = params.law.shader();
         if law != self.law {
             // Kernels of another law are others under the same name.
             self.prepared.clear();
@@ -450,7 +455,7 @@ impl Backend for GpuBackend {
         self.attempt(|backend| backend.run(kernel, level, fields));
     }
 
-    fn turn(&mut self, kernel: &'static Kernel, level: Level, fields: &[Field]) {
+    fn inverse_then_forward(&mut self, kernel: &'static Kernel, level: Level, fields: &[Field]) {
         self.attempt(|backend| backend.run(kernel, level, fields));
     }
 

@@ -34,7 +34,7 @@ impl GpuBackend {
         }
         self.transforms = transforms;
         let scalars = layout::scalars_of(&bytes[..length], self.wide);
-        if self.expects_numbers && scalars.status == Status::NotFinite {
+        if self.expects_finite && scalars.status == Status::NotFinite {
             let adapter = self.device.description().name.clone();
             return Err(GpuError::NotFinite(adapter));
         }

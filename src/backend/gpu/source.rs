@@ -2,57 +2,62 @@
 //!
 //! Group 0 binds the params, the scalars and the level's partial sums; group 1 the kernel's fields
 //! in declared order; group 2 the roots of unity and the work space of a transform. Each of them is
-//! bound whether a kernel uses it or not. A kernel's own part is a function of a point: `point` of a
-//! sweep, `load_point` where lines are filled, `store_point` where they are taken, `pass_point` where
-//! they are taken and others given.
+//! bound whether a kernel uses it or not. A kernel's own part is a function `at` of a point: of its index,
+//! whether it is of the domain, and the value of the row that the kernel takes; it returns that of the row
+//! which the kernel gives. Fields are read and written by functions named after them.
 
 mod convert;
 mod copy;
 mod deciding;
 mod factors;
 mod long;
+mod members;
 mod rows;
 mod slabs;
+mod snapshot;
 
 use std::fmt::Write;
 
 use super::butterfly::{Direction, literal};
-use super::catalogue::{self, LawPart, Shader};
+use super::catalogue::{self, Shader};
 use super::error::GpuError;
 use super::fft::LineWriter;
 use super::layout::{self, Number, Wide};
 pub use super::level::LevelPlan;
 use super::level::{Place, SWEEP_SUMS_AT_ONCE, SWEEP_THREADS};
 use super::plan::LinePlan;
-use crate::kernel::{Form, Gate, Kernel, Reduce, SUMS};
+use crate::kernel::{Form, Gate, Kernel, Reduce, SUMS, Sum};
+use crate::law::{Law, LawShader};
 pub use convert::convert;
 pub use copy::copy;
 pub use deciding::{Decision, PAIRS, Reduction, Results, decide, two_sums};
 pub use factors::{FactorSource, OWN_FACTORS};
 pub use long::{Pass, multiply_long, rows_then};
+pub use members::copy_members;
 use rows::rows_main;
 pub use slabs::Whole;
 use slabs::{Work, after_turns, first_turn};
+pub use snapshot::representative;
 
 /// The law of a kernel: its part, and where the factors on its tension are bound.
 #[derive(Clone, Copy, Debug)]
 pub struct LawSource {
     /// Which law.
-    pub part: LawPart,
+    pub shader: LawShader,
     /// Binding of the factors in group 1; `None` where the law is the same everywhere.
     pub factor: Option<usize>,
-    /// Binding of the base's gap in group 1, its residual in the next; `None` where the unknown is the
+    /// Binding of the outer gap in group 1, its residual in the next; `None` where the unknown is the
     /// gap itself.
-    pub base: Option<usize>,
+    pub outer: Option<usize>,
 }
 
-impl LawPart {
+impl LawSource {
     /// This law, the same everywhere.
-    pub fn uniform(self) -> LawSource {
+    pub fn uniform(shader: LawShader) -> LawSource {
         LawSource {
-            part: self,
+            shader,
             factor: None,
-            base: None,
+            outer: None,
         }
     }
 }
@@ -93,7 +98,6 @@ fn preamble(source: &mut String, wide: Wide, access: &str, sums: usize) {
         source,
         "@group(0) @binding(1) var<storage, {access}> scalars: Scalars;\n\
          const SUM_COUNT: u32 = {sums}u;\n\
-         // Parts shared between kernels name sums that not all of them have.\n\
          var<private> sums: array<wide, SUM_COUNT>;"
     );
     source.push_str(catalogue::GATE);
@@ -152,7 +156,7 @@ fn hand_in(
     );
 }
 
-fn on_surface(source: &mut String, plan: &LevelPlan) {
+fn in_domain(source: &mut String, plan: &LevelPlan) {
     let [width, _] = plan.shape;
     let [nx, ny] = plan.surface;
     let body = if plan.shape == plan.surface {
@@ -162,12 +166,19 @@ fn on_surface(source: &mut String, plan: &LevelPlan) {
     };
     let _ = writeln!(
         source,
-        "fn on_surface(index: u32) -> bool {{ return {body}; }}"
+        "fn in_domain(index: u32) -> bool {{ return {body}; }}"
     );
 }
 
 /// What happens as a thread comes to a point, before the kernel's own part.
-fn arrive(source: &mut String, law: LawSource) {
+fn arrive(source: &mut String, kernel: &Kernel, law: LawSource) {
+    if !kernel.law && kernel.constraint.is_none() {
+        let _ = writeln!(
+            source,
+            "fn arrive(index: u32) -> bool {{ return in_domain(index); }}"
+        );
+        return;
+    }
     let (factor, take) = match law.factor {
         Some(binding) => (
             format!(
@@ -178,22 +189,22 @@ fn arrive(source: &mut String, law: LawSource) {
         ),
         None => ("const law_factor: real = 1.0;\n".to_string(), ""),
     };
-    let (base, base_here) = match law.base {
+    let (outer, outer_here) = match law.outer {
         Some(gap) => (
             format!(
-                "@group(1) @binding({gap}) var<storage, read> base_gaps: array<real>;\n\
-                 @group(1) @binding({residual}) var<storage, read> base_residuals: array<real>;\n\
-                 var<private> base_gap: real;\n\
-                 var<private> base_residual: real;\n",
+                "@group(1) @binding({gap}) var<storage, read> outer_gaps: array<real>;\n\
+                 @group(1) @binding({residual}) var<storage, read> outer_residuals: array<real>;\n\
+                 var<private> outer_gap: real;\n\
+                 var<private> outer_residual: real;\n",
                 residual = gap + 1
             ),
-            "base_gap = base_gaps[index]; base_residual = base_residuals[index]; ",
+            "outer_gap = outer_gaps[index]; outer_residual = outer_residuals[index]; ",
         ),
         None => (String::new(), ""),
     };
     let _ = writeln!(
         source,
-        "{factor}{base}fn arrive(index: u32) -> bool {{ {take}{base_here}return on_surface(index); }}"
+        "{factor}{outer}fn arrive(index: u32) -> bool {{ {take}{outer_here}return in_domain(index); }}"
     );
 }
 
@@ -207,7 +218,7 @@ pub fn kernel(
 ) -> Result<String, GpuError> {
     let shader = catalogue::shader(kernel.name).ok_or(GpuError::NoShader(kernel.name))?;
     let mut source = plan.number.declaration();
-    preamble(&mut source, wide, "read", SUMS);
+    preamble(&mut source, wide, "read", kernel.sums.len() + 1);
     slabs::declare_turn(&mut source, plan);
     if !kernel.sums.is_empty() {
         let (threads, at_once) = match kernel.form {
@@ -215,25 +226,24 @@ pub fn kernel(
             _ => (plan.rows.group_threads(), plan.rows.sums_at_once),
         };
         let at_once = at_once.min(kernel.sums.len());
-        reduction(&mut source, kernel.sums, threads, at_once);
+        reduction(&mut source, kernel.reduces, threads, at_once);
         let first = plan.first_partial(Place::of(kernel.form));
         let groups = [plan.slabs, plan.slab_groups(kernel.form)];
-        hand_in(&mut source, kernel.sums, groups, first);
+        hand_in(&mut source, kernel.reduces, groups, first);
     }
     slabs::row_of(&mut source, plan);
-    on_surface(&mut source, plan);
-    arrive(&mut source, law);
+    in_domain(&mut source, plan);
+    arrive(&mut source, kernel, law);
+    fields(&mut source, kernel);
     let [width, height] = plan.shape;
     let _ = writeln!(
         source,
         "const WIDTH: u32 = {width}u;\nconst HEIGHT: u32 = {height}u;"
     );
     if kernel.whole {
-        whole
-            .into()
-            .declare(&mut source, kernel.reads + kernel.writes);
+        whole.into().declare(&mut source, kernel.written().end);
     }
-    join(&mut source, shader, law, plan.number);
+    join(&mut source, kernel, shader, law, plan.number);
     match kernel.form {
         Form::Sweep => sweep_main(&mut source, kernel, plan),
         _ => rows_main(&mut source, kernel, plan),
@@ -241,18 +251,70 @@ pub fn kernel(
     Ok(source)
 }
 
-fn join(source: &mut String, shader: &Shader, law: LawSource, number: Number) {
-    if shader.law {
-        for part in law.part.sources(number) {
-            source.push_str(part);
+/// The kernel's fields: bindings, and functions that read and write them; what only other variants bind is
+/// zero and written nowhere.
+fn fields(source: &mut String, kernel: &Kernel) {
+    let bound = kernel.reads.iter().chain(kernel.writes);
+    for (binding, name) in bound.enumerate() {
+        let written = kernel.written().contains(&binding);
+        let access = if written { "read_write" } else { "read" };
+        let _ = writeln!(
+            source,
+            "@group(1) @binding({binding}) var<storage, {access}> field_{name}: array<real>;\n\
+             fn read_{name}(index: u32) -> real {{ return field_{name}[index]; }}"
+        );
+        if written {
+            let _ = writeln!(
+                source,
+                "fn write_{name}(index: u32, value: real) {{ field_{name}[index] = value; }}"
+            );
         }
-        source.push_str(match law.base {
+    }
+    for name in kernel.unbound {
+        let _ = writeln!(
+            source,
+            "fn read_{name}(index: u32) -> real {{ return 0.0; }}\n\
+             fn write_{name}(index: u32, value: real) {{}}"
+        );
+    }
+}
+
+fn join(source: &mut String, kernel: &Kernel, shader: &Shader, law: LawSource, number: Number) {
+    if let Some((flag, set)) = kernel.flag {
+        let _ = writeln!(source, "const {flag}: bool = {set};");
+    }
+    let mut parts = Vec::new();
+    if kernel.law || kernel.constraint.is_some() {
+        let asked = if kernel.law {
+            law.shader
+        } else {
+            Law::HardWall.shader()
+        };
+        parts.extend(catalogue::law(asked, number));
+        parts.push(match law.outer {
             Some(_) => catalogue::CORRECTION,
             None => catalogue::WHOLE_GAP,
         });
     }
-    for part in shader.parts {
-        source.push_str(part);
+    if let Some(constraint) = kernel.constraint {
+        parts.push(catalogue::CONSTRAINT);
+        parts.push(catalogue::constraint(constraint));
+    }
+    parts.extend(shader.parts);
+    sum_places(source, kernel, &parts);
+    parts.into_iter().for_each(|part| source.push_str(part));
+}
+
+/// The places of the kernel's sums by their names. Those that only other variants have share a place beyond.
+fn sum_places(source: &mut String, kernel: &Kernel, parts: &[&str]) {
+    for &sum in Sum::ALL {
+        let name = sum.name().to_uppercase();
+        let place = kernel.sums.iter().position(|&own| own == sum);
+        let asked = format!("({name},");
+        if place.is_some() || parts.iter().any(|part| part.contains(&asked)) {
+            let place = place.unwrap_or(kernel.sums.len());
+            let _ = writeln!(source, "const {name}: u32 = {place}u;");
+        }
     }
 }
 
@@ -276,7 +338,7 @@ fn sweep_main(source: &mut String, kernel: &Kernel, plan: &LevelPlan) {
          fn {}(@builtin(workgroup_id) group: vec3<u32>, @builtin(local_invocation_index) index_in_group: u32) {{\n\
          {open}\
          for (var index = group.x * {SWEEP_THREADS}u + index_in_group; index < {points}u; index = index + {stride}u) {{\n\
-         point(index, arrive(index));\n\
+         at(index, arrive(index), 0.0);\n\
          }}\n\
          {close}}}\n",
         kernel.name,

@@ -63,14 +63,24 @@ pub fn buffer(
 /// What a prepared dispatch is found by.
 #[derive(Clone, PartialEq, Eq, Hash)]
 pub enum Key {
-    /// A kernel of the catalogue, its level, whether it works on corrections, and its fields.
-    Kernel(&'static str, usize, bool, Vec<usize>),
+    /// A variant of a kernel by its place in memory, its level, whether it works on corrections, and its fields.
+    Kernel(usize, usize, bool, Vec<usize>),
     /// The second pass over long rows of a level, forward or back, behind a gate.
     RowsThen(usize, bool, &'static str),
     /// The columns with a spectrum, with or without the energy, behind a gate.
     Multiply(usize, bool, &'static str),
-    /// Sums by their name and level, and scalar kernels.
-    Decide(Vec<(&'static str, Option<usize>)>),
+    /// Sums by what they are of and their level, and scalar kernels.
+    Decide(Vec<(Decided, Option<usize>)>),
+}
+
+/// What a part of a decision is known by: a variant of a kernel or a scalar kernel by its place in memory, a
+/// multiplication by its gate.
+#[derive(Clone, Copy, PartialEq, Eq, Hash)]
+pub enum Decided {
+    /// A kernel.
+    Kernel(usize),
+    /// A multiplication.
+    Gate(&'static str),
 }
 
 /// The number that four bytes from the device are.

@@ -7,23 +7,23 @@ use super::super::error::GpuError;
 use super::super::layout::Wide;
 use super::super::level::{SWEEP_SUMS_AT_ONCE, SWEEP_THREADS};
 use super::{gate_name, preamble, reduction};
-use crate::kernel::{Gate, Reduce, SUMS, ScalarKernel};
+use crate::kernel::{Gate, Reduce, SUMS, ScalarKernel, Sum};
 
 /// Where a reduction's results go.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Results {
     /// The scalars' sums, put together as the kernel says.
-    Sums(&'static [Reduce]),
+    Sums(&'static [Sum]),
     /// The curvature, over so many points.
     Curvature(usize),
 }
 
 impl Results {
     /// How they are put together.
-    fn reduces(self) -> &'static [Reduce] {
+    fn reduces(self) -> Vec<Reduce> {
         match self {
-            Results::Sums(reduces) => reduces,
-            Results::Curvature(_) => &[Reduce::Add],
+            Results::Sums(sums) => sums.iter().map(|sum| sum.reduce()).collect(),
+            Results::Curvature(_) => vec![Reduce::Add],
         }
     }
 }
@@ -66,7 +66,7 @@ pub fn decide(parts: &[Decision], wide: Wide) -> Result<String, GpuError> {
         .collect();
     let reduces: Vec<Reduce> = reductions
         .iter()
-        .flat_map(|reduction| reduction.results.reduces().iter().copied())
+        .flat_map(|reduction| reduction.results.reduces())
         .collect();
     preamble(&mut source, wide, "read_write", reduces.len().max(1));
     let mut shaders: Vec<&str> = Vec::new();
@@ -110,7 +110,9 @@ pub fn decide(parts: &[Decision], wide: Wide) -> Result<String, GpuError> {
                 for place in 0..count {
                     let total = format!("totals[{}]", slot + place);
                     let _ = match reduction.results {
-                        Results::Sums(_) => writeln!(source, "scalars.sums[{place}] = {total};"),
+                        Results::Sums(sums) => {
+                            writeln!(source, "scalars.sums_{} = {total};", sums[place].name())
+                        }
                         Results::Curvature(points) => {
                             writeln!(source, "scalars.curvature = {total} / wide({points}.0);")
                         }

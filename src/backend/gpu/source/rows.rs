@@ -70,26 +70,24 @@ pub fn rows_main(source: &mut String, kernel: &Kernel, plan: &LevelPlan) {
         take(&mut writer, last);
         long::row_turn(&mut writer, plan, Direction::Inverse);
         writer.transform(Direction::Inverse);
-    } else if form.takes_kept() {
+    } else if form.takes_retained() {
         take(&mut writer, first);
     }
     writer.source.push_str("if (inside) {\n");
     writer.butterflies(first, |source, each| {
         for leg in 0..each.radix {
             let name = each.name(leg);
-            let at = |part: &str, offset: usize| match form {
-                Form::Load => format!("load_point(index + {offset}u, arrive(index + {offset}u))"),
-                Form::Store | Form::Peek => format!(
-                    "store_point(index + {offset}u, arrive(index + {offset}u), {name}.{part})"
-                ),
-                _ => format!(
-                    "pass_point(index + {offset}u, arrive(index + {offset}u), {name}.{part})"
-                ),
+            let at = |part: &str, offset: usize| {
+                let line = match form {
+                    Form::Load => "0.0".to_owned(),
+                    _ => format!("{name}.{part}"),
+                };
+                format!("at(index + {offset}u, arrive(index + {offset}u), {line})")
             };
             let (upper, lower) = (at("x", 0), at("y", half));
             let index = long::row_index(plan, &each.position(leg));
             let _ = match form {
-                Form::Store | Form::Peek => {
+                Form::Store | Form::ReadRetained => {
                     writeln!(source, "{{ let index = {index};\n{upper};\n{lower}; }}")
                 }
                 _ => writeln!(
@@ -105,7 +103,7 @@ pub fn rows_main(source: &mut String, kernel: &Kernel, plan: &LevelPlan) {
         writer.transform(Direction::Forward);
         long::row_turn(&mut writer, plan, Direction::Forward);
         give(&mut writer, last);
-    } else if form == Form::Keep {
+    } else if form == Form::RetainRows {
         give(&mut writer, first);
     }
     source.push_str(&writer.source);

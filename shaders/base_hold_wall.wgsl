@@ -1,7 +1,0 @@
-// Brings the base's mean gap back to the one that is held, over a wall.
-@group(1) @binding(0) var<storage, read_write> gap: array<real>;
-
-fn point(index: u32, on_surface: bool) {
-    let g = gap[index];
-    gap[index] = g - real(scalars.restore) * g;
-}

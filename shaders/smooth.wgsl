@@ -1,0 +1,106 @@
+// A law that repels by itself: no constraint, and another variable in which its steep core is not stiff.
+// Below the gap of largest tension the iteration works in v = g - (sigma_max - sigma(g))/k, in which
+// the core is no stiffer than k. With D = max(sigma'(g), 0): dg = S2 dv, S2 = k/(k + D). Twins: kernel/smooth.rs.
+const STORES_STEP: bool = true;
+const NEWTON_STEPS: u32 = 25u;
+
+// D.
+fn hardening(gap: real) -> real {
+    return max(slope(gap), 0.0);
+}
+
+// S2.
+fn share(gap: real) -> real {
+    let stiffness = real(params.core_stiffness);
+    return stiffness / (stiffness + hardening(gap));
+}
+
+// v.
+fn variable(gap: real) -> real {
+    if (gap < real(params.law_peak_gap)) {
+        return gap - (law_factor * real(params.law_peak) - traction(gap)) / real(params.core_stiffness);
+    }
+    return gap;
+}
+
+// The gap at a value of v, by Newton's method from the tangent at `gap`.
+fn gap_at(goal: real, gap: real) -> real {
+    let peak_gap = real(params.law_peak_gap);
+    if (goal >= peak_gap) {
+        return goal;
+    }
+    // v is concave here: from the left every step stays on the left of the root, so only the start
+    // needs a bound, which the repulsive power alone gives.
+    let load = real(params.core_stiffness) * (peak_gap - goal) - law_factor * real(params.law_peak);
+    let bound = law_repelling_gap(load);
+    let nearness = real(wide(2.0) * params.epsilon) * real(params.law_range);
+    var x = min(max(gap + (goal - variable(gap)) * share(gap), bound), peak_gap);
+    for (var count = 0u; count < NEWTON_STEPS; count = count + 1u) {
+        let error = variable(x) - goal;
+        let next = min(max(x - error * share(x), bound), peak_gap);
+        let moved = abs(next - x);
+        x = next;
+        if (moved <= nearness) {
+            break;
+        }
+    }
+    return x;
+}
+
+fn state(gap: real, elastic: real) -> Here {
+    let pull = traction(gap);
+    let stiffness = real(params.core_stiffness);
+    let hardening_here = hardening(gap);
+    let weight = stiffness / (stiffness + hardening_here);
+    return Here(gap, open(gap), elastic, pull, elastic + pull, true, weight, hardening_here);
+}
+
+fn violation(here: Here) -> Violation {
+    return Violation(here.y, real(0.0), here.pull);
+}
+
+// z / S2: the long-range part, and the local part that the core's own stiffness answers.
+fn preconditioned(here: Here, line: real) -> real {
+    let stiffness = real(params.core_stiffness);
+    return line + here.hardening / stiffness * here.y / (here.hardening + stiffness);
+}
+
+fn goes_down(open: real, y: real) -> bool {
+    return false;
+}
+
+// The change of g as v moves.
+fn trial_step(here: Here, moved: real, correction: real) -> Tried {
+    if (corrects()) {
+        // A correction is short: v follows its slope.
+        return Tried(here.weight * moved, false);
+    }
+    return Tried(gap_at(variable(here.gap) + moved, here.gap) - here.gap, false);
+}
+
+fn corrected_step(here: Here, step: real, correction: real, in_domain: bool) -> real {
+    if (in_domain) {
+        return step - correction * share(here.gap + step);
+    }
+    return step - correction;
+}
+
+fn touches(open: real, step: real) -> bool {
+    return false;
+}
+
+fn land(here: Here, step: real, t: real) -> real {
+    return here.gap + t * step;
+}
+
+fn pressure_weight(here: Here) -> real {
+    return here.weight;
+}
+
+fn corrected_gap(gap: real, correction: real) -> real {
+    return gap + correction;
+}
+
+fn net_traction(here: Here) -> real {
+    return here.pull;
+}

@@ -1,7 +1,0 @@
-// The stopping measure of the present state.
-@group(1) @binding(0) var<storage, read> gap: array<real>;
-@group(1) @binding(1) var<storage, read> pressure: array<real>;
-
-fn point(index: u32, on_surface: bool) {
-    let unused = free_line(gap[index], pressure[index], on_surface);
-}

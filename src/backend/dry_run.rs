@@ -1,0 +1,222 @@
+//! Runs nothing and counts everything: what a scene costs before anything is allocated.
+
+use super::{Backend, BackendError, Factors, Field, Level, Shape, Spectrum, check_fields};
+use crate::kernel::{Gate, Kernel, Params, ScalarKernel, Scalars};
+
+/// One thing that would be held in memory.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Held {
+    /// Its name.
+    pub name: &'static str,
+    /// The level it lives on.
+    pub level: Level,
+    /// Bytes in the place that is counted for.
+    pub bytes: usize,
+}
+
+/// The place that is counted for.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Place {
+    /// The processor in double precision.
+    Double,
+    /// The processor in single precision.
+    Single,
+    /// A graphics processor in single precision.
+    Gpu,
+    /// A graphics processor in double precision.
+    GpuDouble,
+}
+
+impl Place {
+    /// Whether it is a graphics processor.
+    pub fn on_gpu(self) -> bool {
+        matches!(self, Place::Gpu | Place::GpuDouble)
+    }
+
+    /// Bytes of a number of its fields.
+    pub fn number(self) -> usize {
+        match self {
+            Place::Double | Place::GpuDouble => size_of::<f64>(),
+            Place::Single | Place::Gpu => size_of::<f32>(),
+        }
+    }
+
+    /// Bytes of the work space of a level's transforms.
+    fn work(self, shape: Shape) -> usize {
+        let [nx, ny] = shape.points;
+        match self {
+            // Once by rows and once by columns, complex.
+            Place::Double | Place::Single => {
+                let tiles = (nx / 2 + 1).div_ceil(TILE) * ny.div_ceil(TILE);
+                2 * tiles * TILE * TILE * 2 * self.number()
+            }
+            // Half as many complex numbers as points.
+            Place::Gpu | Place::GpuDouble => shape.len() * self.number(),
+        }
+    }
+}
+
+/// Counts what a solver asks of a backend.
+#[derive(Debug)]
+pub struct DryRun {
+    place: Place,
+    /// Levels and their shapes.
+    pub levels: Vec<Shape>,
+    /// Fields, in the order in which they were made.
+    pub fields: Vec<Held>,
+    /// Spectra that are tables.
+    pub spectra: Vec<Held>,
+    /// Work space of transforms, one entry a level.
+    pub work: Vec<Held>,
+    /// Names of the passes, in order: kernels, `multiply` for the columns of a convolution.
+    pub passes: Vec<&'static str>,
+    /// The first mistake in a field list.
+    pub mistake: Option<BackendError>,
+    scalars: Scalars,
+    spectra_made: usize,
+    transforms: f64,
+}
+
+/// Side of the tiles in which the CPU stores spectra.
+const TILE: usize = 8;
+
+impl Default for DryRun {
+    fn default() -> Self {
+        Self::new()
+    }
+}
+
+impl DryRun {
+    /// Nothing counted yet, for the processor in double precision.
+    pub fn new() -> Self {
+        DryRun::on(Place::Double)
+    }
+
+    /// Nothing counted yet, for this place.
+    pub fn on(place: Place) -> Self {
+        DryRun {
+            place,
+            levels: Vec::new(),
+            fields: Vec::new(),
+            spectra: Vec::new(),
+            work: Vec::new(),
+            passes: Vec::new(),
+            mistake: None,
+            scalars: Scalars::start(0.0, false),
+            spectra_made: 0,
+            transforms: 0.0,
+        }
+    }
+
+    fn pass(&mut self, kernel: &'static Kernel, fields: &[Field]) {
+        if self.mistake.is_none() {
+            self.mistake = check_fields(kernel, fields).err();
+        }
+        self.passes.push(kernel.name);
+        // One search of a step length is one pass here, whatever the numbers would say.
+        if kernel.gate == Gate::Searching {
+            self.scalars.searching = false;
+        }
+    }
+
+    fn share_of_first(&self, level: Level) -> f64 {
+        self.levels[level.0].len() as f64 / self.levels[0].len() as f64
+    }
+}
+
+impl Backend for DryRun {
+    fn level(&mut self, name: &'static str, shape: Shape) -> Level {
+        let level = Level(self.levels.len());
+        self.levels.push(shape);
+        self.work.push(Held {
+            name,
+            level,
+            bytes: self.place.work(shape),
+        });
+        level
+    }
+
+    fn field(&mut self, level: Level, name: &'static str) -> Field {
+        let bytes = self.levels[level.0].len() * self.place.number();
+        self.fields.push(Held { name, level, bytes });
+        Field {
+            level,
+            index: self.fields.len() - 1,
+        }
+    }
+
+    fn spectrum(&mut self, level: Level, name: &'static str, factors: Factors) -> Spectrum {
+        // A graphics processor computes those of a half-space in its registers.
+        if !(self.place.on_gpu() && matches!(factors, Factors::HalfSpace(..))) {
+            let bytes = self.levels[level.0].spectrum_len() * self.place.number();
+            self.spectra.push(Held { name, level, bytes });
+        }
+        self.spectra_made += 1;
+        Spectrum {
+            level,
+            index: self.spectra_made - 1,
+        }
+    }
+
+    fn set_zero_mode(&mut self, _spectrum: Spectrum, _value: f64) {}
+
+    fn write(&mut self, _field: Field, _values: &[f64]) {}
+
+    fn read(&mut self, field: Field) -> Result<Vec<f64>, BackendError> {
+        Ok(vec![0.0; self.levels[field.level.0].len()])
+    }
+
+    fn set_law_factor(&mut self, _factor: Field) {}
+
+    fn set_outer_state(&mut self, _outer: Option<[Field; 2]>) {}
+
+    fn clear(&mut self, _field: Field) {}
+
+    fn set_params(&mut self, _params: &Params) {}
+
+    fn set_scalars(&mut self, scalars: &Scalars) {
+        self.scalars = *scalars;
+    }
+
+    fn scalars(&mut self) -> Result<Scalars, BackendError> {
+        Ok(self.scalars)
+    }
+
+    fn sweep(&mut self, kernel: &'static Kernel, _level: Level, fields: &[Field]) {
+        self.pass(kernel, fields);
+    }
+
+    fn scalar(&mut self, kernel: &'static ScalarKernel) {
+        if kernel.name == "step_length" {
+            self.scalars.searching = true;
+        }
+    }
+
+    fn forward(&mut self, kernel: &'static Kernel, level: Level, fields: &[Field]) {
+        self.pass(kernel, fields);
+        self.transforms += 0.5 * self.share_of_first(level);
+    }
+
+    fn multiply(&mut self, by: Spectrum, _energy: bool, _gate: Gate) {
+        self.passes.push("multiply");
+        self.transforms += self.share_of_first(by.level);
+    }
+
+    fn backward(&mut self, kernel: &'static Kernel, level: Level, fields: &[Field]) {
+        self.pass(kernel, fields);
+        self.transforms += 0.5 * self.share_of_first(level);
+    }
+
+    fn inverse_then_forward(&mut self, kernel: &'static Kernel, level: Level, fields: &[Field]) {
+        self.pass(kernel, fields);
+        self.transforms += self.share_of_first(level);
+    }
+
+    fn epsilon(&self) -> f64 {
+        f64::EPSILON
+    }
+
+    fn transforms(&self) -> f64 {
+        self.transforms
+    }
+}

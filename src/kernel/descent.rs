@@ -1,0 +1,105 @@
+//! The preconditioned residual z, from which the direction is made.
+
+use super::constraint::{GapConstraint, HardnessLimit, Unilateral, here_at, projected_residual};
+use super::points::{Made, Point, PointKernel};
+use super::smooth::Smooth;
+use super::sums::sum_group;
+use super::{Params, Scalars, point_kernel, point_kernels};
+use crate::law::Cohesion;
+use crate::real::Real;
+
+sum_group! {
+    /// What beta is made of.
+    DescentSums { z_residual, z_change }
+}
+sum_group! {
+    /// What the direction adds to it, and what takes the means off, under a prescribed mean gap.
+    MeanGapDescentSums after DescentSums {
+        direction_change, direction_residual, weighted_z, free_weight, free_residual, free_change,
+        weighted_direction,
+    }
+}
+
+/// The terms of beta: of z, the projected residual and the one before it.
+#[inline(always)]
+pub(super) fn descent_terms<T: Real>(z: T, residual: T, previous: T) -> DescentSums {
+    let (z, r) = (z.double(), residual.double());
+    DescentSums {
+        z_residual: z * r,
+        z_change: z * (r - previous.double()),
+    }
+}
+
+/// Those that the direction enters too, in the measure `weight` of the free points.
+#[inline(always)]
+pub(super) fn mean_gap_descent_terms<T: Real>(
+    [z, residual, previous, direction, weight]: [T; 5],
+    free: bool,
+) -> MeanGapDescentSums {
+    let [z, r, d, w] = [z, residual, direction, weight].map(T::double);
+    let change = r - previous.double();
+    let on_free = |term: f64| if free { term } else { 0.0 };
+    MeanGapDescentSums {
+        direction_change: d * change,
+        direction_residual: on_free(d * r),
+        weighted_z: on_free(w * z),
+        free_weight: on_free(w),
+        free_residual: on_free(r),
+        free_change: on_free(change),
+        weighted_direction: on_free(w * d),
+    }
+}
+
+/// The preconditioned residual z on free points; `MEAN_GAP` where that is prescribed.
+#[derive(Clone, Copy)]
+pub(super) struct Descent<T, C, const MEAN_GAP: bool> {
+    constraint: C,
+    mean_pressure: T,
+}
+
+impl<T, C, const MEAN_GAP: bool, const READS: usize, const TERMS: usize>
+    PointKernel<T, READS, 0, TERMS> for Descent<T, C, MEAN_GAP>
+where
+    T: Real,
+    C: GapConstraint<T>,
+{
+    #[inline(always)]
+    fn new(params: &Params, scalars: &Scalars) -> Self {
+        Descent {
+            constraint: C::new(params),
+            mean_pressure: T::of(scalars.mean_pressure),
+        }
+    }
+
+    #[inline(always)]
+    fn at(&self, law: &impl Cohesion<T>, point: Point<T, READS, 0>) -> Made<T, 0, TERMS> {
+        let [gap, pressure, previous] = [point.reads[0], point.reads[1], point.reads[2]];
+        let elastic = pressure + self.mean_pressure;
+        let here = here_at(&self.constraint, law, gap, elastic, point.in_domain);
+        let residual = projected_residual(&here);
+        let z = self.constraint.preconditioned(&here, point.line);
+        let mut terms = [0.0; TERMS];
+        descent_terms(z, residual, previous).put(&mut terms);
+        if MEAN_GAP {
+            let direction = point.reads[3];
+            mean_gap_descent_terms([z, residual, previous, direction, here.weight], here.free)
+                .put(&mut terms);
+        }
+        Made {
+            writes: [],
+            line: z,
+            terms,
+        }
+    }
+}
+
+point_kernels!(
+    /// Step 2, the end of `Contact::precondition`: retains the rows of z. Its sums are those of step 3.
+    DESCENT, descent, RetainRows, gate Ahead, Descent [MEAN_GAP = false],
+    reads [gap, pressure, previous_residual], writes [], unbound [direction], sums [DescentSums]
+);
+point_kernels!(
+    /// The same under a prescribed mean gap, `Contact::without_mean`.
+    MEAN_GAP_DESCENT, descent, RetainRows, gate Ahead, Descent [MEAN_GAP = true],
+    reads [gap, pressure, previous_residual, direction], writes [], sums [DescentSums, MeanGapDescentSums]
+);

@@ -1,0 +1,396 @@
+//! The new direction and its trial step.
+
+use super::constraint::{GapConstraint, HardnessLimit, Here, Tried, Unilateral, here_at};
+use super::points::{Made, Point, PointKernel};
+use super::smooth::Smooth;
+use super::sums::sum_group;
+use super::{Kernel, Params, Scalars, point_kernel};
+use crate::law::Cohesion;
+use crate::real::Real;
+
+sum_group! {
+    /// What tells whether a trial is taken, and how far.
+    TrialSums { slope, first_touch, largest_step, least_step, cut }
+}
+sum_group! {
+    /// Step length 1 of a smooth law, as a search would evaluate it.
+    SmoothTrialSums after TrialSums { elastic_slope, change_at_first, energy_change, energy_size }
+}
+sum_group! {
+    /// Of the trial before the prescribed mean gap is restored: all from which the restored one follows.
+    LinearTrialSums {
+        slope, closing, largest_step, least_step, cut, step_sum, gap_sum, gap_slope,
+        step_gap_curvature, gap_curvature,
+    }
+}
+sum_group! {
+    /// What restores a mean gap on both sides of zero.
+    TwoSidedSums { step_sum, gap_sum, depth_sum }
+}
+sum_group! {
+    /// What restores the mean gap of a smooth law.
+    ComplianceSums { step_sum, compliance_sum }
+}
+/// The new direction of a point, from the scalars.
+#[derive(Clone, Copy)]
+struct Directing<T> {
+    descent_factor: T,
+    beta: T,
+    mean_gap_shift: T,
+}
+
+impl<T: Real> Directing<T> {
+    #[inline(always)]
+    fn new(scalars: &Scalars) -> Self {
+        Directing {
+            descent_factor: T::of(scalars.descent_factor),
+            beta: T::of(scalars.beta),
+            mean_gap_shift: T::of(scalars.mean_gap_shift),
+        }
+    }
+
+    /// Zero where the point is not free.
+    #[inline(always)]
+    fn new_direction(&self, z: T, direction: T, free: bool) -> T {
+        if free {
+            self.descent_factor * z + self.beta * direction + self.mean_gap_shift
+        } else {
+            T::zero()
+        }
+    }
+}
+
+/// The trial step of a point; a pad has no constraint.
+#[inline(always)]
+pub(super) fn step_at<T: Real>(
+    constraint: &impl GapConstraint<T>,
+    law: &impl Cohesion<T>,
+    here: &Here<T>,
+    [moved, correction]: [T; 2],
+    in_domain: bool,
+) -> Tried<T> {
+    if in_domain {
+        constraint.trial_step(law, here, moved, correction)
+    } else {
+        Tried {
+            step: moved,
+            cut: false,
+        }
+    }
+}
+
+/// The terms of a trial step.
+#[inline(always)]
+fn trial_terms<T: Real>(
+    constraint: &impl GapConstraint<T>,
+    tried: Tried<T>,
+    here: &Here<T>,
+    in_domain: bool,
+) -> TrialSums {
+    let s = tried.step.double();
+    let closes = constraint.touches(here.open, tried.step);
+    let ratio = here.open.double() / -s;
+    TrialSums {
+        slope: s * here.y.double(),
+        first_touch: if closes & in_domain {
+            ratio
+        } else {
+            f64::INFINITY
+        },
+        largest_step: s,
+        least_step: s,
+        cut: if tried.cut { 1.0 } else { 0.0 },
+    }
+}
+
+/// What a smooth law's trial asks besides.
+#[inline(always)]
+fn smooth_trial_terms<T: Real>(
+    law: &impl Cohesion<T>,
+    step: T,
+    here: &Here<T>,
+    in_domain: bool,
+) -> SmoothTrialSums {
+    let s = step.double();
+    if in_domain {
+        let [energy, size] = law.energy_change(here.gap, step);
+        SmoothTrialSums {
+            elastic_slope: s * here.elastic.double(),
+            change_at_first: law.change(here.gap, step).double() * s,
+            energy_change: energy.double(),
+            energy_size: size.double(),
+        }
+    } else {
+        // On a pad the residual of an outer state is no law's: the search will not count it.
+        SmoothTrialSums {
+            elastic_slope: s * here.y.double(),
+            change_at_first: 0.0,
+            energy_change: 0.0,
+            energy_size: 0.0,
+        }
+    }
+}
+
+/// The terms of a trial s0 before the mean gap is restored; `bent` is K g.
+#[inline(always)]
+fn linear_trial_terms<T: Real>(tried: Tried<T>, here: &Here<T>, bent: T) -> LinearTrialSums {
+    let closing = (-tried.step / here.open).double();
+    let [s, y, g, bent] = [tried.step, here.y, here.open, bent].map(T::double);
+    LinearTrialSums {
+        slope: s * y,
+        closing: if here.open > T::zero() {
+            closing
+        } else {
+            f64::NEG_INFINITY
+        },
+        largest_step: s,
+        least_step: s,
+        cut: if tried.cut { 1.0 } else { 0.0 },
+        step_sum: s,
+        gap_sum: g,
+        gap_slope: g * y,
+        step_gap_curvature: s * bent,
+        gap_curvature: g * bent,
+    }
+}
+
+/// The new direction and its trial step; `LINEAR` where the mean gap is prescribed, to which the trial is
+/// brought back by linearity.
+#[derive(Clone, Copy)]
+struct Trial<T, C, const LINEAR: bool> {
+    constraint: C,
+    mean_pressure: T,
+    directing: Directing<T>,
+    trial_length: T,
+}
+
+impl<T, C, const LINEAR: bool, const READS: usize, const WRITES: usize, const TERMS: usize>
+    PointKernel<T, READS, WRITES, TERMS> for Trial<T, C, LINEAR>
+where
+    T: Real,
+    C: GapConstraint<T>,
+{
+    #[inline(always)]
+    fn new(params: &Params, scalars: &Scalars) -> Self {
+        Trial {
+            constraint: C::new(params),
+            mean_pressure: T::of(scalars.mean_pressure),
+            directing: Directing::new(scalars),
+            trial_length: T::of(scalars.trial_length),
+        }
+    }
+
+    #[inline(always)]
+    fn at(&self, law: &impl Cohesion<T>, point: Point<T, READS, WRITES>) -> Made<T, WRITES, TERMS> {
+        let (gap, pressure, in_domain) = (point.reads[0], point.reads[1], point.in_domain);
+        let elastic = pressure + self.mean_pressure;
+        let here = here_at(&self.constraint, law, gap, elastic, in_domain);
+        let d = self
+            .directing
+            .new_direction(point.line, point.writes[0], here.free);
+        let way = [self.trial_length * d, T::zero()];
+        let tried = step_at(&self.constraint, law, &here, way, in_domain);
+        let mut terms = [0.0; TERMS];
+        if LINEAR {
+            linear_trial_terms(tried, &here, pressure - point.reads[2]).put(&mut terms);
+        } else {
+            trial_terms(&self.constraint, tried, &here, in_domain).put(&mut terms);
+        }
+        let mut writes = point.writes;
+        writes[0] = d;
+        if C::STORES_STEP {
+            writes[1] = tried.step;
+            smooth_trial_terms(law, tried.step, &here, in_domain).put(&mut terms);
+        }
+        Made {
+            writes,
+            line: tried.step,
+            terms,
+        }
+    }
+}
+
+/// Steps 3 and 4, the direction and `Contact::trial`: turns the direction by the retained rows of z and fills
+/// the rows of a transform with the trial step s.
+pub static TRIAL: [Kernel; 3] = [
+    point_kernel!(
+        trial, FromRetained, gate Running, Trial over Unilateral [LINEAR = false],
+        reads [gap, pressure], writes [direction], unbound [heights_pressure, step], sums [TrialSums]
+    ),
+    point_kernel!(
+        trial, FromRetained, gate Running, Trial over HardnessLimit [LINEAR = false],
+        reads [gap, pressure], writes [direction], unbound [heights_pressure, step], sums [TrialSums]
+    ),
+    point_kernel!(
+        trial, FromRetained, gate Running, Trial over Smooth [LINEAR = false],
+        reads [gap, pressure], writes [direction, step], fresh 1, unbound [heights_pressure],
+        sums [TrialSums, SmoothTrialSums]
+    ),
+];
+
+/// The same under a prescribed mean gap and a unilateral constraint: the trial step s0 as it is before the
+/// mean gap is restored, with all sums from which the restored one follows.
+pub static LINEAR_TRIAL: Kernel = point_kernel!(
+    trial, FromRetained, gate Running, Trial over Unilateral [LINEAR = true],
+    reads [gap, pressure, heights_pressure], writes [direction], unbound [step], sums [LinearTrialSums]
+);
+
+/// The new direction, with what its trial step takes off the mean gap.
+#[derive(Clone, Copy)]
+struct Direction<T, C> {
+    constraint: C,
+    mean_pressure: T,
+    directing: Directing<T>,
+    trial_length: T,
+}
+
+impl<T, C, const READS: usize, const WRITES: usize, const TERMS: usize>
+    PointKernel<T, READS, WRITES, TERMS> for Direction<T, C>
+where
+    T: Real,
+    C: GapConstraint<T>,
+{
+    #[inline(always)]
+    fn new(params: &Params, scalars: &Scalars) -> Self {
+        Direction {
+            constraint: C::new(params),
+            mean_pressure: T::of(scalars.mean_pressure),
+            directing: Directing::new(scalars),
+            trial_length: T::of(scalars.trial_length),
+        }
+    }
+
+    #[inline(always)]
+    fn at(&self, law: &impl Cohesion<T>, point: Point<T, READS, WRITES>) -> Made<T, WRITES, TERMS> {
+        let (gap, in_domain) = (point.reads[0], point.in_domain);
+        let pressure = if C::STORES_STEP {
+            T::zero()
+        } else {
+            point.reads[1]
+        };
+        let elastic = pressure + self.mean_pressure;
+        let here = here_at(&self.constraint, law, gap, elastic, in_domain);
+        let d = self
+            .directing
+            .new_direction(point.line, point.writes[0], here.free);
+        let way = [self.trial_length * d, T::zero()];
+        let step = step_at(&self.constraint, law, &here, way, in_domain).step;
+        let mut terms = [0.0; TERMS];
+        let mut writes = point.writes;
+        writes[0] = d;
+        if C::STORES_STEP {
+            writes[1] = step;
+            let after = here_at(&self.constraint, law, gap + step, elastic, in_domain);
+            ComplianceSums {
+                step_sum: step.double(),
+                compliance_sum: after.weight.double(),
+            }
+            .put(&mut terms);
+        } else {
+            let depth = (-(gap + step)).most(T::zero());
+            TwoSidedSums {
+                step_sum: step.double(),
+                gap_sum: gap.double(),
+                depth_sum: depth.double(),
+            }
+            .put(&mut terms);
+        }
+        Made {
+            writes,
+            line: point.line,
+            terms,
+        }
+    }
+}
+
+/// Steps 3 and 4 under a prescribed mean gap where the trial does not follow by linearity: turns the direction
+/// by the retained rows of z and sums what restores the mean gap.
+pub static TWO_SIDED_DIRECTION: Kernel = point_kernel!(
+    direction, ReadRetained, gate Running, Direction over HardnessLimit [],
+    reads [gap, pressure], writes [direction], unbound [step], sums [TwoSidedSums]
+);
+/// The same of a smooth law.
+pub static SMOOTH_DIRECTION: Kernel = point_kernel!(
+    direction, ReadRetained, gate Running, Direction over Smooth [],
+    reads [gap], writes [direction, step], fresh 1, unbound [pressure], sums [ComplianceSums]
+);
+
+/// The trial step brought back to the prescribed mean gap, unless nothing brings it back.
+#[derive(Clone, Copy)]
+struct LoadTrial<T, C> {
+    constraint: C,
+    mean_pressure: T,
+    trial_length: T,
+    correction: T,
+    /// Whether the trial is lost: one that moves and does not descend.
+    lost: bool,
+}
+
+impl<T, C, const READS: usize, const WRITES: usize, const TERMS: usize>
+    PointKernel<T, READS, WRITES, TERMS> for LoadTrial<T, C>
+where
+    T: Real,
+    C: GapConstraint<T>,
+{
+    #[inline(always)]
+    fn new(params: &Params, scalars: &Scalars) -> Self {
+        let correction = scalars.mean_gap_correction;
+        LoadTrial {
+            constraint: C::new(params),
+            mean_pressure: T::of(scalars.mean_pressure),
+            trial_length: T::of(scalars.trial_length),
+            correction: T::of(correction),
+            lost: !C::STORES_STEP && !(correction > -1.0 && correction < 1.0),
+        }
+    }
+
+    #[inline(always)]
+    fn at(&self, law: &impl Cohesion<T>, point: Point<T, READS, WRITES>) -> Made<T, WRITES, TERMS> {
+        let (gap, pressure, in_domain) = (point.reads[0], point.reads[1], point.in_domain);
+        let elastic = pressure + self.mean_pressure;
+        let here = here_at(&self.constraint, law, gap, elastic, in_domain);
+        let (mut writes, mut terms) = (point.writes, [0.0; TERMS]);
+        let tried = if C::STORES_STEP {
+            let (constraint, stored) = (&self.constraint, point.writes[0]);
+            let step = constraint.corrected_step(law, &here, stored, self.correction, in_domain);
+            writes[0] = step;
+            Tried { step, cut: false }
+        } else {
+            let way = [self.trial_length * point.reads[2], self.correction];
+            step_at(&self.constraint, law, &here, way, in_domain)
+        };
+        trial_terms(&self.constraint, tried, &here, in_domain).put(&mut terms);
+        if C::STORES_STEP {
+            smooth_trial_terms(law, tried.step, &here, in_domain).put(&mut terms);
+        }
+        if self.lost {
+            let (slope, cut, infinity) = (0.0, 0.0, f64::INFINITY);
+            let (first_touch, largest_step, least_step) = (infinity, 1.0, infinity);
+            TrialSums {
+                slope,
+                first_touch,
+                largest_step,
+                least_step,
+                cut,
+            }
+            .put(&mut terms);
+        }
+        Made {
+            writes,
+            line: if self.lost { T::zero() } else { tried.step },
+            terms,
+        }
+    }
+}
+
+/// Step 4 under a prescribed mean gap, the end of `Contact::trial`: fills the rows of a transform with the
+/// trial step brought back to the mean gap.
+pub static TWO_SIDED_LOAD_TRIAL: Kernel = point_kernel!(
+    load_trial, Load, gate Running, LoadTrial over HardnessLimit [],
+    reads [gap, pressure, direction], writes [], unbound [step], sums [TrialSums]
+);
+/// The same of a smooth law, in proportion to the local compliance.
+pub static SMOOTH_LOAD_TRIAL: Kernel = point_kernel!(
+    load_trial, Load, gate Running, LoadTrial over Smooth [],
+    reads [gap, pressure], writes [step], unbound [direction], sums [TrialSums, SmoothTrialSums]
+);

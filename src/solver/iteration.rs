@@ -1,0 +1,157 @@
+//! One iteration, recorded as a fixed list of kernels: each carries out a step of the plain text
+//! ([`plain`](super::plain)), which its comment in [`kernel`](crate::kernel) names.
+
+use super::contact::ContactSolver;
+use crate::backend::BackendError;
+use crate::kernel::{Gate, Scalars, Status, displacement, scalar, step_length};
+
+/// Evaluations that one search of a step length may take where each is looked at, the scalar kernels'
+/// own bounds included.
+const SEARCHES: usize = 48;
+/// Passes of a search in a round that is not looked at: most need no more, and one that does goes on in the
+/// next round, which does nothing else. Behind a wall a pass looks at several steps; with Lennard-Jones the
+/// first one rides in the trial.
+const SEARCHES_AT_ONCE: usize = 1;
+impl ContactSolver<'_> {
+    /// Loads and measures the residual of the present state: every round starts from its transformed rows.
+    pub(super) fn ready(&mut self) {
+        let (level, g, p) = (self.level, self.gap, self.pressure);
+        match &self.two_band {
+            Some(bands) => {
+                let fields = [g, p, bands.residual()];
+                let load_residual = bands.retain.load_residual;
+                self.backend.forward(load_residual, level, &fields);
+            }
+            None => self
+                .backend
+                .forward(self.kernels.load_residual, level, &[g, p]),
+        }
+        self.backend.scalar(&scalar::TEST_CONVERGENCE);
+    }
+
+    /// p = K*(g + h) afresh, and the mean pressure that goes with a held gap.
+    pub(super) fn refresh(&mut self) -> Result<(), BackendError> {
+        let fields = [self.gap, self.heights];
+        self.backend
+            .forward(&displacement::LOAD_DISPLACEMENT, self.level, &fields);
+        self.backend.multiply(self.stiffness, false, Gate::Always);
+        self.backend
+            .backward(&displacement::STORE_FIELD, self.level, &[self.pressure]);
+        self.balance();
+        Ok(())
+    }
+
+    /// One iteration.
+    pub fn iterate(&mut self) -> Result<Scalars, BackendError> {
+        self.record()?;
+        self.backend.scalars()
+    }
+
+    /// Up to `most` iterations, as many as the backend records before it looks; says how many,
+    /// those that idled after the end included.
+    pub fn advance(&mut self, most: usize) -> Result<(usize, Scalars), BackendError> {
+        let rounds = self.backend.look_every().min(most).max(1);
+        for _ in 0..rounds {
+            self.record()?;
+        }
+        Ok((rounds, self.backend.scalars()?))
+    }
+
+    /// Records one iteration, from the rows of the residual to those of the next one. All decisions are
+    /// taken by the scalar kernels; where looking is free a search is left when it is over.
+    fn record(&mut self) -> Result<(), BackendError> {
+        let (level, kernels) = (self.level, &self.kernels);
+        let (g, p, d) = (self.gap, self.pressure, self.direction);
+        let previous = self.previous_residual;
+        let mean_gap = self.params.fixed_gap;
+        let backend = &mut *self.backend;
+        match &self.two_band {
+            Some(bands) => {
+                bands.descend(
+                    backend,
+                    previous,
+                    mean_gap.then_some(d),
+                    self.preconditioner,
+                );
+            }
+            None => {
+                backend.multiply(self.preconditioner, false, Gate::Ahead);
+                if mean_gap {
+                    backend.backward(kernels.mean_gap.descent, level, &[g, p, previous, d]);
+                } else {
+                    backend.backward(kernels.descent, level, &[g, p, previous]);
+                }
+            }
+        }
+        backend.scalar(&scalar::CONJUGATE_DIRECTION);
+        if mean_gap {
+            self.try_at_mean_gap();
+        } else {
+            match self.step {
+                Some(step) => backend.forward(kernels.trial, level, &[g, p, d, step]),
+                None => backend.forward(kernels.trial, level, &[g, p, d]),
+            }
+            backend.scalar(&scalar::ACCEPT_TRIAL);
+            backend.multiply(self.stiffness, true, Gate::Accepted);
+        }
+        self.backend.scalar(&step_length::STEP_LENGTH);
+        if self.problem.law.has_tail() {
+            self.search()?;
+        }
+        self.backend.scalar(&step_length::SNAP_TO_CONTACT);
+        if mean_gap {
+            self.advance_at_mean_gap();
+            return Ok(());
+        }
+        let (backend, update) = (&mut *self.backend, self.kernels.update_state);
+        match (&self.two_band, self.step) {
+            (Some(bands), _) => {
+                let fields = [d, g, p, previous, bands.residual()];
+                backend.inverse_then_forward(bands.retain.update_state, level, &fields);
+            }
+            (None, Some(step)) => {
+                backend.inverse_then_forward(update, level, &[d, step, g, p, previous])
+            }
+            (None, None) => backend.inverse_then_forward(update, level, &[d, g, p, previous]),
+        }
+        backend.scalar(&step_length::ADAPT_TRIAL_LENGTH);
+        backend.scalar(&scalar::TEST_CONVERGENCE);
+        Ok(())
+    }
+
+    /// Records the search of the step length, or the part of it that belongs to a round.
+    fn search(&mut self) -> Result<(), BackendError> {
+        let search = self.kernels.search;
+        // To which side a closed point may move is told by its pressure.
+        let moved = self.step.unwrap_or(self.direction);
+        let fields = [self.gap, moved, self.pressure];
+        let fields = &fields[..search.fields()];
+        let looks = self.backend.look_every() == 1;
+        let most = if looks { SEARCHES } else { SEARCHES_AT_ONCE };
+        for _ in 0..most {
+            if looks && !self.backend.scalars()?.is_open(Gate::Searching) {
+                break;
+            }
+            self.backend.sweep(search, self.level, fields);
+            self.backend.scalar(&step_length::SEARCH);
+        }
+        Ok(())
+    }
+
+    /// The stopping measure of the present gap, from pressures evaluated afresh.
+    pub fn evaluate(&mut self) -> Result<Scalars, BackendError> {
+        let mut scalars = self.backend.scalars()?;
+        scalars.status = Status::Running;
+        scalars.repeat = false;
+        scalars.searching = false;
+        scalars.lost = 0;
+        scalars.stalls = 0;
+        self.backend.set_scalars(&scalars);
+        self.refresh()?;
+        let fields = [self.gap, self.pressure];
+        self.backend
+            .sweep(self.kernels.residual, self.level, &fields);
+        self.backend.scalar(&scalar::TEST_CONVERGENCE);
+        self.backend.scalars()
+    }
+}

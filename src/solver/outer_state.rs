@@ -1,0 +1,300 @@
+//! The state of a contact in double precision, beside a solver whose iterations run in single.
+
+use super::contact::{Hold, Load};
+use super::kernel_set::{KernelSet, fixed_params, rounded_beside_under};
+use super::mean_gap::HeightsPressure;
+use super::problem::Problem;
+use crate::backend::{Backend, BackendError, Field, Level, Response, Spectrum};
+use crate::kernel::{Gate, Params, Scalars, Status, displacement, mean_gap, refinement, scalar};
+
+/// Gap and pressure in double precision, and the evaluation of their residual.
+pub(super) struct OuterState {
+    backend: Box<dyn Backend + Send>,
+    places: Places,
+    /// K times the heights, where a mean gap is held by linearity.
+    heights_pressure: Option<HeightsPressure>,
+    kernels: KernelSet,
+    params: Params,
+    /// What a gap is rounded beside whatever the load.
+    heights_norm: f64,
+}
+
+/// What is held for it.
+#[derive(Clone, Copy)]
+struct Places {
+    level: Level,
+    law_factor: Option<Field>,
+    heights: Field,
+    gap: Field,
+    pressure: Field,
+    /// A residual on its way to the iterations, or a correction from there.
+    between: Field,
+    stiffness: Spectrum,
+    /// Gap and residual of the base, where the iterations run.
+    base: [Field; 2],
+}
+
+/// Plans what mixed precision holds besides: on `double` the state, beside the `iterating` fields of a
+/// solver that is planned there the base of its corrections. To count it for a load.
+pub fn plan_outer_state(
+    double: &mut dyn Backend,
+    iterating: &mut dyn Backend,
+    problem: &Problem,
+    load: &Load,
+) {
+    let places = Places::plan(double, iterating, Level(0), problem);
+    if matches!(load.hold, Hold::Gap(_)) && KernelSet::new(problem).is_linear() {
+        HeightsPressure::plan(double, places.level);
+    }
+}
+
+impl Places {
+    fn plan(
+        backend: &mut dyn Backend,
+        iterating: &mut dyn Backend,
+        fine: Level,
+        problem: &Problem,
+    ) -> Self {
+        let level = backend.level("fine", problem.shape);
+        let law_factor = problem.law_factor.as_ref().map(|factor| {
+            let field = backend.field(level, "law_factor");
+            backend.write(field, &problem.padded(factor, 0.0));
+            backend.set_law_factor(field);
+            field
+        });
+        Places {
+            level,
+            law_factor,
+            heights: backend.field(level, "heights"),
+            gap: backend.field(level, "gap"),
+            pressure: backend.field(level, "pressure"),
+            between: backend.field(level, "between"),
+            stiffness: problem.spectrum(backend, level, "stiffness", Response::Stiffness),
+            base: [
+                iterating.field(fine, "outer_gap"),
+                iterating.field(fine, "outer_residual"),
+            ],
+        }
+    }
+}
+
+impl OuterState {
+    /// Plans the state of a problem on a backend of double precision, and its base beside the
+    /// iterations on theirs.
+    pub fn new(
+        mut backend: Box<dyn Backend + Send>,
+        iterating: &mut dyn Backend,
+        fine: Level,
+        problem: &Problem,
+    ) -> Self {
+        let places = Places::plan(&mut *backend, iterating, fine, problem);
+        backend.write(places.heights, &problem.padded(&problem.heights, 0.0));
+        let params = fixed_params(problem, backend.epsilon());
+        OuterState {
+            places,
+            heights_pressure: None,
+            kernels: KernelSet::new(problem),
+            heights_norm: params.heights_norm,
+            params,
+            backend,
+        }
+    }
+
+    pub fn transforms(&self) -> f64 {
+        self.backend.transforms()
+    }
+
+    pub fn set_heights(&mut self, heights: &[f64]) {
+        self.backend.write(self.places.heights, heights);
+    }
+
+    /// Sets the factors on the law's tension, one a grid point.
+    pub fn set_law_factor(&mut self, problem: &Problem, factor: &[f64]) {
+        if let Some(field) = self.places.law_factor {
+            self.backend.write(field, &problem.padded(factor, 0.0));
+        }
+    }
+
+    pub fn set_gap(&mut self, gap: &[f64]) {
+        self.backend.write(self.places.gap, gap);
+    }
+
+    pub fn gap(&mut self) -> Result<Vec<f64>, BackendError> {
+        self.backend.read(self.places.gap)
+    }
+
+    /// K*(g + h), as last evaluated.
+    pub fn pressure(&mut self) -> Result<Vec<f64>, BackendError> {
+        self.backend.read(self.places.pressure)
+    }
+
+    /// Takes a load.
+    pub fn begin(&mut self, load: &Load, tolerance: f64, may_detach: bool) {
+        let (fixed_gap, mean_pressure, offset) = match load.hold {
+            Hold::Pressure(pressure) => (false, pressure, 0.0),
+            Hold::Gap(target) => (true, 0.0, target),
+        };
+        self.params.fixed_gap = fixed_gap;
+        self.params.tolerance = tolerance;
+        self.params.heights_norm = rounded_beside_under(self.heights_norm, &self.params, load);
+        self.params.may_detach = may_detach;
+        self.backend.set_params(&self.params);
+        self.backend
+            .set_zero_mode(self.places.stiffness, load.zero_stiffness);
+        if fixed_gap && self.kernels.is_linear() {
+            let fields = [self.places.heights, self.places.pressure];
+            self.heights_pressure
+                .get_or_insert_with(|| HeightsPressure::plan(&mut *self.backend, self.places.level))
+                .find(&mut *self.backend, fields, self.places.stiffness);
+        }
+        self.backend.set_scalars(&Scalars {
+            offset,
+            ..Scalars::start(mean_pressure, false)
+        });
+    }
+
+    /// Pressures and stopping measure of the present gap.
+    pub fn evaluate(&mut self) -> Result<Scalars, BackendError> {
+        let backend = &mut *self.backend;
+        let mut scalars = backend.scalars()?;
+        scalars.status = Status::Running;
+        backend.set_scalars(&scalars);
+        let fields = [self.places.gap, self.places.heights];
+        backend.forward(&displacement::LOAD_DISPLACEMENT, self.places.level, &fields);
+        backend.multiply(self.places.stiffness, false, Gate::Always);
+        backend.backward(
+            &displacement::STORE_FIELD,
+            self.places.level,
+            &[self.places.pressure],
+        );
+        let fields = [self.places.gap, self.places.pressure];
+        if self.params.fixed_gap {
+            backend.sweep(self.kernels.mean_gap.balance, self.places.level, &fields);
+            backend.scalar(&mean_gap::MEAN_PRESSURE);
+        }
+        backend.sweep(self.kernels.residual, self.places.level, &fields);
+        backend.scalar(&scalar::TEST_CONVERGENCE);
+        backend.scalars()
+    }
+
+    /// The numerator of the stopping measure that rounding in double precision leaves.
+    pub fn rounding_floor(&self, end: &Scalars) -> f64 {
+        scalar::rounding_floor(&self.params, end)
+    }
+
+    /// Takes the gap that iterations have found.
+    pub fn copy_gap(
+        &mut self,
+        iterating: &mut dyn Backend,
+        gap: Field,
+    ) -> Result<(), BackendError> {
+        self.backend.clear(self.places.gap);
+        self.add(iterating, gap)
+    }
+
+    /// Adds a correction that iterations have found, and brings the gap back to the mean that is held.
+    pub fn add(
+        &mut self,
+        iterating: &mut dyn Backend,
+        correction: Field,
+    ) -> Result<(), BackendError> {
+        let Places {
+            level,
+            gap,
+            between,
+            ..
+        } = self.places;
+        let backend = &mut *self.backend;
+        backend.copy_from(between, iterating, correction)?;
+        // A solid with a hardness has no outer state.
+        let Some(kernels) = self.kernels.outer else {
+            return Ok(());
+        };
+        backend.sweep(kernels.add_correction, level, &[between, gap]);
+        if self.params.fixed_gap {
+            backend.scalar(&mean_gap::RESTORE_OUTER_MEAN_GAP);
+            backend.sweep(kernels.restore_gap, level, &[gap]);
+        }
+        Ok(())
+    }
+
+    /// Hands the present gap and its residual, as last evaluated, to where the iterations run.
+    pub fn hand_outer_state(
+        &mut self,
+        iterating: &mut dyn Backend,
+    ) -> Result<[Field; 2], BackendError> {
+        let Places {
+            level,
+            gap,
+            pressure,
+            between,
+            base: there,
+            ..
+        } = self.places;
+        let backend = &mut *self.backend;
+        backend.sweep(
+            &refinement::OUTER_RESIDUAL,
+            level,
+            &[gap, pressure, between],
+        );
+        iterating.copy_from(there[0], backend, gap)?;
+        iterating.copy_from(there[1], backend, between)?;
+        Ok(there)
+    }
+
+    /// Hands minus the pressure that the present gap makes, as last evaluated, to where the iterations run:
+    /// in place of that of the heights it is what the pressure of a correction differs by from that of its
+    /// open gap. Taken from p - K h here it keeps the digits that single precision would lose.
+    pub fn hand_rigid(
+        &mut self,
+        iterating: &mut dyn Backend,
+        rigid: Field,
+    ) -> Result<(), BackendError> {
+        let Some(heights_pressure) = &self.heights_pressure else {
+            return Ok(());
+        };
+        let Places {
+            level,
+            pressure,
+            between,
+            ..
+        } = self.places;
+        let fields = [heights_pressure.field(), pressure, between];
+        self.backend
+            .sweep(&refinement::OUTER_PRESSURE, level, &fields);
+        iterating.copy_from(rigid, &mut *self.backend, between)
+    }
+
+    /// Has the iterations start from the present gap.
+    pub fn hand_gap(
+        &mut self,
+        iterating: &mut dyn Backend,
+        gap: Field,
+    ) -> Result<(), BackendError> {
+        iterating.copy_from(gap, &mut *self.backend, self.places.gap)
+    }
+
+    /// `<values, K*values>/2` with this value of K at the zero wavevector. The next solve sets it to
+    /// its load's again.
+    pub fn energy_of(&mut self, values: &[f64], zero_mode: f64) -> Result<f64, BackendError> {
+        let (gap, pressure) = (self.gap()?, self.pressure()?);
+        let backend = &mut *self.backend;
+        backend.set_zero_mode(self.places.stiffness, zero_mode);
+        backend.write(self.places.gap, values);
+        backend.forward(
+            &displacement::LOAD_FIELD,
+            self.places.level,
+            &[self.places.gap],
+        );
+        backend.multiply(self.places.stiffness, false, Gate::Always);
+        backend.backward(
+            &displacement::STORE_FIELD,
+            self.places.level,
+            &[self.places.pressure],
+        );
+        let answer = backend.read(self.places.pressure)?;
+        backend.write(self.places.gap, &gap);
+        backend.write(self.places.pressure, &pressure);
+        Ok(0.5 * values.iter().zip(&answer).map(|(u, p)| u * p).sum::<f64>())
+    }
+}
