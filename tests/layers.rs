@@ -4,9 +4,10 @@ use std::fs;
 use std::path::{Path, PathBuf};
 
 /// From the ground up, as the crate page lists them.
-const ORDER: [&str; 19] = [
-    "units", "grid", "real", "law", "elastic", "kernel", "backend", "scene", "surface", "solver",
-    "study", "effect", "output", "theory", "compare", "fit", "accuracy", "cli", "lib",
+const ORDER: [&str; 23] = [
+    "units", "clock", "grid", "real", "law", "elastic", "kernel", "backend", "scene", "surface",
+    "solver", "study", "effect", "output", "device", "run", "contact", "theory", "compare", "fit",
+    "accuracy", "cli", "lib",
 ];
 
 fn rust_files(folder: &Path, found: &mut Vec<PathBuf>) {

@@ -9,16 +9,17 @@ use clap::Args;
 use indicatif::{ProgressBar, ProgressDrawTarget, ProgressStyle};
 
 use super::interrupts::Interrupts;
-use super::machine::{Machine, may_take_adapters};
 use super::patience::Patience;
-use super::{Failure, drivers, key_and_value, note, read_scene, room, say, warn};
+use super::{Failure, key_and_value, note, read_scene, say, warn};
 use crate::accuracy::{
     AccuracyError, Bench, Listener, Report, Study, Workplace, duration, expect_place, picture,
     screen, write_csv,
 };
 use crate::backend::cpu::with_threads;
+use crate::device::SelectedDevice;
 use crate::grid::Grid;
 use crate::output::FolderLock;
+use crate::run::memory_check;
 use crate::scene::{BackendName, Precision, Scene};
 use crate::study::Setup;
 use crate::units::{Dimension, parse_quantity};
@@ -68,7 +69,7 @@ pub(super) fn accuracy(arguments: &AccuracyArguments) -> Result<(), Failure> {
     let _patience = (!arguments.quiet && !stderr().is_terminal())
         .then(|| Patience::new("--budget says how long it may take"));
     let scene = read_scene(&arguments.scene, &arguments.set)?;
-    room::refuse_scene(&scene)?;
+    memory_check::check_scene(&scene)?;
     let folder = match &arguments.out {
         Some(folder) => folder.clone(),
         None => {
@@ -143,8 +144,15 @@ impl Shop<'_> {
     /// where one can take the grid.
     fn found(&self) -> Vec<(BackendName, Precision)> {
         let arguments = self.arguments;
+        #[cfg_attr(
+            not(feature = "gpu"),
+            expect(unused_mut, reason = "there is the processor only")
+        )]
         let mut backends = vec![BackendName::Cpu];
-        if may_take_adapters(self.scene) && !drivers::list(arguments.verbose).is_empty() {
+        #[cfg(feature = "gpu")]
+        if crate::device::may_take_adapters(self.scene)
+            && !crate::device::list(arguments.verbose).is_empty()
+        {
             backends.push(BackendName::Gpu);
         }
         let precisions = [Precision::Double, Precision::Single, Precision::Mixed];
@@ -175,15 +183,15 @@ impl Workplace for Shop<'_> {
     }
 
     fn fits(&self, scene: &Scene, grid: Grid) -> Result<(), String> {
-        room::refuse(scene, grid).map_err(|error| error.to_string())
+        memory_check::check_grid(scene, grid).map_err(|error| Failure::from(error).to_string())
     }
 
     fn bench(&self, setup: &Setup) -> Result<Bench, String> {
-        let machine =
-            Machine::of(setup, self.arguments.verbose).map_err(|error| error.to_string())?;
+        let device = SelectedDevice::new(setup, self.arguments.verbose)
+            .map_err(|error| Failure::from(error).to_string())?;
         Ok(Bench {
-            remark: machine.remark.clone(),
-            make: Box::new(move || machine.backend()),
+            remark: device.remark.clone(),
+            make: Box::new(move || device.backend()),
         })
     }
 }

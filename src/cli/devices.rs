@@ -2,14 +2,14 @@
 
 use std::num::NonZero;
 
-use super::machine::best;
-use super::{Failure, drivers, print};
+use super::{Failure, print};
 use crate::backend::gpu::{AdapterDescription, Number};
+use crate::device::{best, list};
 use crate::scene::Precision;
 
 /// Prints the adapters and which one `auto` takes.
 pub(super) fn devices(verbose: bool) -> Result<(), Failure> {
-    print(&describe(&drivers::list(verbose)))
+    print(&describe(&list(verbose)))
 }
 
 fn describe(found: &[AdapterDescription]) -> String {

@@ -2,6 +2,8 @@
 
 use std::path::PathBuf;
 
+use super::GridValues;
+
 /// `[adhesion]`.
 #[derive(Clone, Debug, PartialEq)]
 pub struct AdhesionScene {
@@ -35,6 +37,8 @@ pub struct RateScene {
 pub enum AdhesionMap {
     /// A file of one factor a point; the path is resolved against the scene's folder.
     File(PathBuf),
+    /// One factor a point, given as an array.
+    Factors(GridValues),
     /// Two factors in turn, each for half a period.
     Pattern {
         /// How they take turns.

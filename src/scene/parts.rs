@@ -2,6 +2,8 @@
 
 use std::path::PathBuf;
 
+use super::GridValues;
+
 /// One `[[surface]]` part.
 #[derive(Clone, Debug, PartialEq)]
 pub enum SurfacePart {
@@ -32,6 +34,8 @@ pub enum SurfacePart {
     Flat,
     /// Heights read from a file.
     File(HeightFileScene),
+    /// Heights given as an array, m.
+    Heights(GridValues),
 }
 
 /// Self-affine roughness: spectrum flat from `longest` to `rolloff`, then falling as `q^(-2 hurst - 2)` to `shortest`.

@@ -10,7 +10,8 @@ impl Scene {
     ///
     /// Keys are those of the scene file, so that written as TOML it is a scene again, and the same
     /// one but for the last bit of an angle given in rad. What is off or left to tabor's choice by absence (an effect, a centre) is absent; a path
-    /// that is not UTF-8 has its odd bytes replaced.
+    /// that is not UTF-8 has its odd bytes replaced. Arrays of heights and factors, which a file cannot hold, are
+    /// told by their points and checksum.
     pub fn resolved_json(&self) -> Value {
         let mut scene = Map::new();
         if let Some(title) = &self.title {
@@ -45,6 +46,11 @@ impl Scene {
         scene.insert("output".into(), self.output.resolved());
         Value::Object(scene)
     }
+}
+
+/// What tells an array from others; no file says it.
+fn array(values: &GridValues) -> Value {
+    json!({ "points": values.points(), "checksum": values.checksum() })
 }
 
 /// Adds a key where it has a value.
@@ -100,6 +106,7 @@ impl SurfacePart {
             SurfacePart::Wavy { .. } => "wavy",
             SurfacePart::Flat => "flat",
             SurfacePart::File(_) => "file",
+            SurfacePart::Heights(_) => "array",
         }
     }
 
@@ -140,6 +147,7 @@ impl SurfacePart {
                 json!({ "kind": kind, "amplitude": amplitude, "wavelength": wavelength })
             }
             SurfacePart::Flat => json!({ "kind": kind }),
+            SurfacePart::Heights(heights) => with(array(heights), "kind", Some(json!(kind))),
             SurfacePart::File(part) => {
                 let table = json!({
                     "kind": kind,
@@ -187,6 +195,7 @@ impl AdhesionScene {
         let table = with(table, "treatment", Some(json!(self.treatment.name())));
         let map = self.map.as_ref().map(|map| match map {
             AdhesionMap::File(path) => json!(path.to_string_lossy()),
+            AdhesionMap::Factors(factors) => array(factors),
             AdhesionMap::Pattern {
                 kind,
                 period,

@@ -1,9 +1,8 @@
-//! Whether this machine has the room for a run or a surface: memory, asked before any of it is taken, and files.
+//! Whether the memory of this machine holds a run or a surface, asked before any of it is taken.
 
-use std::path::Path;
+use std::path::{Path, PathBuf};
 
-use super::Failure;
-use crate::backend::tally::Place;
+use crate::backend::{BackendError, tally::Place};
 use crate::grid::Grid;
 use crate::scene::{Boundary, Precision, Scene, SurfacePart};
 use crate::study::{Cost, Memory};
@@ -19,15 +18,102 @@ const READING: u64 = 24;
 /// Bytes of a complex number.
 const COMPLEX: u64 = 16;
 
+/// Single precision, as Rust asks for it.
+const SINGLE_PRECISION: &str = "Precision::Single";
+
+/// A run or a surface that the memory does not hold.
+#[derive(Debug, thiserror::Error)]
+#[non_exhaustive]
+pub enum MemoryError {
+    /// A run on a grid that is too large.
+    #[error(
+        "grid.points: {} x {} points need {} of memory and there are {}; {}",
+        points[0], points[1], gibibytes(*needed), gibibytes(*available), smaller(*largest, *single, *available)
+    )]
+    Grid {
+        /// Points along x and y.
+        points: [usize; 2],
+        /// Bytes that it needs.
+        needed: u64,
+        /// Bytes that there are.
+        available: u64,
+        /// The largest grid of this shape that fits.
+        largest: Option<[usize; 2]>,
+        /// Bytes in single precision, where the scene leaves the choice.
+        single: Option<u64>,
+    },
+    /// A height file that is longer than the memory.
+    #[error(
+        "{}: {} of heights are more than the memory, {}; take a coarser map", path.display(), gibibytes(*length), gibibytes(*available)
+    )]
+    File {
+        /// The file.
+        path: PathBuf,
+        /// Its length, bytes.
+        length: u64,
+        /// Bytes that there are.
+        available: u64,
+    },
+    /// A height map of too many points.
+    #[error(
+        "{}: {} x {} points need {} of memory and there are {}; take a coarser map", path.display(), points[0], points[1], gibibytes(*needed), gibibytes(*available)
+    )]
+    Map {
+        /// The height file or the scene.
+        path: PathBuf,
+        /// Points along x and y.
+        points: [usize; 2],
+        /// Bytes that it needs.
+        needed: u64,
+        /// Bytes that there are.
+        available: u64,
+    },
+    /// `TABOR_MEMORY` holds something else than a number of bytes.
+    #[error(
+        "{LIMIT}={text:?} is no number of bytes; write for example {LIMIT}=8000000000, or unset it"
+    )]
+    Limit {
+        /// What it holds.
+        text: String,
+    },
+    /// The cost could not be counted.
+    #[error(transparent)]
+    Cost(#[from] BackendError),
+}
+
+impl MemoryError {
+    /// The message for readers who ask for single precision in other words.
+    pub(crate) fn in_words(&self, single_precision: &str) -> String {
+        self.to_string().replace(SINGLE_PRECISION, single_precision)
+    }
+}
+
+/// The ways out of a grid that the memory does not hold.
+fn smaller(largest: Option<[usize; 2]>, single: Option<u64>, available: u64) -> String {
+    let fewer = match largest {
+        Some([nx, ny]) => format!("take at most {nx} x {ny} points"),
+        None => "no grid of this shape fits".to_owned(),
+    };
+    match single {
+        Some(needed) if needed <= available => {
+            format!("{fewer}, or {SINGLE_PRECISION} ({})", gibibytes(needed))
+        }
+        _ => fewer,
+    }
+}
+
+/// Bytes for people.
+fn gibibytes(bytes: u64) -> String {
+    format!("{:.2} GiB", bytes as f64 / f64::from(1 << 30))
+}
+
 /// Bytes that a run may take: what the machine has left, within the limits of its container and of its
 /// process, or what `TABOR_MEMORY` says. `None` where the system does not tell.
-fn available() -> Result<Option<u64>, Failure> {
+fn available() -> Result<Option<u64>, MemoryError> {
     if let Ok(text) = std::env::var(LIMIT) {
         return match text.trim().parse() {
             Ok(bytes) => Ok(Some(bytes)),
-            Err(_) => Err(Failure::Usage(format!(
-                "{LIMIT}={text:?} is no number of bytes; write for example {LIMIT}=8000000000, or unset it"
-            ))),
+            Err(_) => Err(MemoryError::Limit { text }),
         };
     }
     let mut system = sysinfo::System::new();
@@ -56,12 +142,12 @@ fn address_space_left() -> Option<u64> {
 }
 
 /// Refuses a run on `grid` that needs more memory than there is, with the largest grid that fits.
-pub(super) fn refuse(scene: &Scene, grid: Grid) -> Result<(), Failure> {
+pub(crate) fn check_grid(scene: &Scene, grid: Grid) -> Result<(), MemoryError> {
     let Some(available) = available()? else {
         return Ok(());
     };
     let place = Place::of(scene);
-    let need = |place: Place| -> Result<u64, Failure> {
+    let need = |place: Place| -> Result<u64, MemoryError> {
         let cost = Cost::of_scene(scene, grid, place)?;
         Ok(Memory::of(scene, grid, &cost).machine)
     };
@@ -69,7 +155,7 @@ pub(super) fn refuse(scene: &Scene, grid: Grid) -> Result<(), Failure> {
     if needed <= available {
         return Ok(());
     }
-    Err(Failure::Memory {
+    Err(MemoryError::Grid {
         points: [grid.nx, grid.ny],
         needed,
         available,
@@ -83,14 +169,14 @@ pub(super) fn refuse(scene: &Scene, grid: Grid) -> Result<(), Failure> {
     })
 }
 
-/// As [`refuse`], for a grid that the scene gives itself; one that a height file carries is checked
+/// As [`check_grid`], for a grid that the scene gives itself; one that a height file carries is checked
 /// once the file is read.
-pub(super) fn refuse_scene(scene: &Scene) -> Result<(), Failure> {
-    refuse_files(scene)?;
+pub(crate) fn check_scene(scene: &Scene) -> Result<(), MemoryError> {
+    check_files(scene)?;
     match (scene.grid.points, scene.grid.size) {
         // Counts past all grids are the surface's to refuse.
         (Some(points), Some(size)) if points[0].saturating_mul(points[1]) <= MOST_POINTS => {
-            refuse(scene, Grid::new(points, size))
+            check_grid(scene, Grid::new(points, size))
         }
         _ => Ok(()),
     }
@@ -98,59 +184,45 @@ pub(super) fn refuse_scene(scene: &Scene) -> Result<(), Failure> {
 
 /// Refuses height files that are longer than the memory, and those whose header claims more points than
 /// it holds: a small file may be a large image.
-pub(super) fn refuse_files(scene: &Scene) -> Result<(), Failure> {
+pub(crate) fn check_files(scene: &Scene) -> Result<(), MemoryError> {
     let files = scene.surfaces.iter().filter_map(|part| match part {
         SurfacePart::File(file) => Some(&file.path),
         _ => None,
     });
     for path in files {
-        refuse_file(path, |points| READING * count(points))?;
+        check_file(path, |points| READING * count(points))?;
     }
     Ok(())
 }
 
-/// Has the system refuse what goes beyond a limit on the length of files (`ulimit -f`), as it refuses what a full
-/// disk does not hold, in place of ending the program.
-#[cfg(unix)]
-pub(super) fn outlive_a_limit_on_files() {
-    use std::sync::Arc;
-    use std::sync::atomic::AtomicBool;
-    let noted = Arc::new(AtomicBool::new(false));
-    // Where it cannot be had, the signal ends the program as it would have.
-    let _ = signal_hook::flag::register(signal_hook::consts::SIGXFSZ, noted);
-}
-
-#[cfg(not(unix))]
-pub(super) fn outlive_a_limit_on_files() {}
-
 /// Refuses a height file whose statistics need more memory than there is, where its header tells.
-pub(super) fn refuse_map(path: &Path, boundary: Boundary) -> Result<(), Failure> {
-    refuse_file(path, |points| statistics(points, boundary))
+pub(crate) fn check_map(path: &Path, boundary: Boundary) -> Result<(), MemoryError> {
+    check_file(path, |points| statistics(points, boundary))
 }
 
 /// Refuses the statistics of `points` of the surface that `path` describes.
-pub(super) fn refuse_statistics(
+pub(crate) fn check_statistics(
     path: &Path,
     points: [usize; 2],
     boundary: Boundary,
-) -> Result<(), Failure> {
+) -> Result<(), MemoryError> {
     match available()? {
         // Counts past all grids are the surface's to refuse.
         Some(available) if points[0].saturating_mul(points[1]) <= MOST_POINTS => {
-            refuse_map_of(path, points, statistics(points, boundary), available)
+            check_map_of(path, points, statistics(points, boundary), available)
         }
         _ => Ok(()),
     }
 }
 
-fn refuse_file(path: &Path, need: impl Fn([usize; 2]) -> u64) -> Result<(), Failure> {
+fn check_file(path: &Path, need: impl Fn([usize; 2]) -> u64) -> Result<(), MemoryError> {
     // What cannot be asked for its length is the surface's to refuse.
     let length = std::fs::metadata(path).map_or(0, |metadata| metadata.len());
     let Some(available) = available()? else {
         return Ok(());
     };
     if length > available {
-        return Err(Failure::FileMemory {
+        return Err(MemoryError::File {
             path: path.to_path_buf(),
             length,
             available,
@@ -158,22 +230,22 @@ fn refuse_file(path: &Path, need: impl Fn([usize; 2]) -> u64) -> Result<(), Fail
     }
     match claimed_points(path) {
         Some(points) if points[0].saturating_mul(points[1]) <= MOST_POINTS => {
-            refuse_map_of(path, points, need(points).saturating_add(length), available)
+            check_map_of(path, points, need(points).saturating_add(length), available)
         }
         _ => Ok(()),
     }
 }
 
-fn refuse_map_of(
+fn check_map_of(
     path: &Path,
     points: [usize; 2],
     needed: u64,
     available: u64,
-) -> Result<(), Failure> {
+) -> Result<(), MemoryError> {
     if needed <= available {
         return Ok(());
     }
-    Err(Failure::MapMemory {
+    Err(MemoryError::Map {
         path: path.to_path_buf(),
         points,
         needed,
