@@ -19,6 +19,7 @@ mod front;
 mod grids;
 mod judge;
 mod measure;
+#[cfg(feature = "images")]
 mod picture;
 mod reference;
 mod report;
@@ -37,6 +38,7 @@ pub use front::{cheapest, pareto};
 pub use grids::LEAST_POINTS;
 pub use judge::Errors;
 pub use measure::{Measured, Point};
+#[cfg(feature = "images")]
 pub use picture::picture;
 pub use reference::Reference;
 pub use report::{LeftOut, Report, Row, duration};

@@ -1,7 +1,5 @@
 //! The study: a reference first, then each setting that the time allows, the cheapest next.
 
-use std::time::{Duration, Instant};
-
 use super::closed::closed;
 use super::error::AccuracyError;
 use super::forecast::{Forecast, Work};
@@ -14,6 +12,7 @@ use super::same_surface::SameSurface;
 use super::setting::{Setting, Varied, others};
 use super::steps::Steps;
 use super::workplace::{Listener, Workplace};
+use crate::clock::Clock;
 use crate::grid::Grid;
 use crate::kernel::Scalars;
 use crate::law::Law;
@@ -31,7 +30,8 @@ const TIGHTER: f64 = 0.1;
 pub struct Study<'a> {
     same: SameSurface,
     workplace: &'a dyn Workplace,
-    deadline: Instant,
+    /// Since the study was prepared.
+    clock: Clock,
     budget: f64,
     cells: [usize; 2],
     grids: Vec<[usize; 2]>,
@@ -72,7 +72,7 @@ impl<'a> Study<'a> {
         workplace: &'a dyn Workplace,
         budget: f64,
     ) -> Result<Study<'a>, AccuracyError> {
-        let started = Instant::now();
+        let clock = Clock::start();
         let mut same = SameSurface::of(scene)?;
         // The full law is what models are judged by, and double precision on the processor what
         // every other arithmetic is.
@@ -104,7 +104,7 @@ impl<'a> Study<'a> {
         Ok(Study {
             same,
             workplace,
-            deadline: started + Duration::from_secs_f64(budget),
+            clock,
             budget,
             cells,
             grids,
@@ -139,7 +139,7 @@ impl<'a> Study<'a> {
 
     /// Seconds that are left.
     fn left(&self) -> f64 {
-        (self.deadline - Instant::now().min(self.deadline)).as_secs_f64()
+        (self.budget - self.clock.seconds()).max(0.0)
     }
 
     /// Solves the reference grid by grid while the time allows, and says which grids are coarse
@@ -379,12 +379,11 @@ impl<'a> Study<'a> {
             listener.note(remark);
         }
         listener.begins(&setting.words(&self.report.scene), predicted);
-        let began = Instant::now();
-        let until = (began + Duration::from_secs_f64(allowed)).min(self.deadline);
+        let (began, clock, budget) = (Clock::start(), self.clock, self.budget);
         let mut interrupted = false;
         let mut watch = |step: usize, scalars: &Scalars| {
             interrupted = !listener.goes_on(step, scalars.iterations as usize, scalars.residual);
-            !interrupted && Instant::now() < until
+            !interrupted && began.seconds() < allowed && clock.seconds() < budget
         };
         let mut run = || {
             let own = &self.report.scene;
@@ -413,7 +412,7 @@ impl<'a> Study<'a> {
             }
             Err(Unfinished::Stopped) if interrupted => Err(Missed::Interrupted),
             Err(Unfinished::Stopped) => {
-                let took = began.elapsed().as_secs_f64();
+                let took = began.seconds();
                 // So much at least: what is like it will not be tried again.
                 self.forecast.learn(&work, took.max(predicted));
                 Err(Missed::OutOfTime(took))

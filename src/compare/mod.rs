@@ -6,6 +6,7 @@
 //! says what each is and where it leaves its range.
 
 mod asperities;
+#[cfg(feature = "images")]
 mod draw;
 mod field;
 mod ladder;
@@ -15,9 +16,9 @@ mod table;
 pub use table::Row;
 
 use std::path::Path;
-use std::time::Instant;
 
 use crate::backend::BackendError;
+use crate::clock::Clock;
 use crate::law::Law;
 use crate::output::OutputError;
 use crate::scene::{Boundary, Scene, SurfacePart};
@@ -86,7 +87,7 @@ impl Comparison {
     }
 }
 
-/// Compares and writes `compare.csv`, row by row, and `compare.png` into `folder`.
+/// Compares and writes `compare.csv`, row by row, and with the feature `images` `compare.png` into `folder`.
 ///
 /// # Errors
 /// A scene that does not suit ([`suits`]), a flat surface, files that cannot be written, a device that
@@ -128,19 +129,20 @@ pub fn compare(
     ];
     for (name, model) in models {
         table.begin(name);
-        let clock = Instant::now();
+        let clock = Clock::start();
         match model(&comparison, &mut table) {
             Ok(()) => {}
             Err(Left::Out(reason)) => notes.push(format!("{name} is left out: {reason}")),
             Err(Left::Theory(error)) => notes.push(format!(
                 "{name} ends here, after {:.1} s: {error}",
-                clock.elapsed().as_secs_f64()
+                clock.seconds()
             )),
             Err(Left::Output(error)) => return Err(error.into()),
         }
     }
     let (rows, more) = table.into_rows()?;
     notes.extend(more);
+    #[cfg(feature = "images")]
     draw::figure(&comparison, &rows).write(&folder.join("compare.png"))?;
     Ok(Compared { rows, notes })
 }

@@ -49,6 +49,7 @@ pub enum DeviceError {
     },
 }
 
+#[cfg(any(feature = "cli", feature = "gpu"))]
 impl DeviceError {
     /// The message for readers who ask for the processor in other words.
     pub(crate) fn in_words(&self, processor: &str) -> String {

@@ -18,6 +18,7 @@ mod least_squares;
 mod maugis_curve;
 mod measured;
 pub mod model;
+#[cfg(feature = "images")]
 mod picture;
 mod report;
 mod start;
@@ -31,6 +32,7 @@ pub use inversion::{Inversion, invert_curve};
 pub use law_error::LawError;
 pub use measured::{Freedom, Measured};
 pub use model::Model;
+#[cfg(feature = "images")]
 pub use picture::draw;
 pub use report::report;
 pub use ways::{Way, ways};

@@ -4,7 +4,7 @@ use std::path::{Path, PathBuf};
 
 use crate::backend::{BackendError, tally::Place};
 use crate::grid::Grid;
-use crate::scene::{Boundary, Precision, Scene, SurfacePart};
+use crate::scene::{Precision, Scene, SurfacePart};
 use crate::study::{Cost, Memory};
 use crate::surface::{MOST_POINTS, claimed_points};
 
@@ -15,8 +15,6 @@ const RESERVED: u64 = 64 << 20;
 
 /// Bytes a point that reading a map takes: shades or numbers of the file, and the heights.
 const READING: u64 = 24;
-/// Bytes of a complex number.
-const COMPLEX: u64 = 16;
 
 /// Single precision, as Rust asks for it.
 const SINGLE_PRECISION: &str = "Precision::Single";
@@ -81,6 +79,7 @@ pub enum MemoryError {
     Cost(#[from] BackendError),
 }
 
+#[cfg(feature = "cli")]
 impl MemoryError {
     /// The message for readers who ask for single precision in other words.
     pub(crate) fn in_words(&self, single_precision: &str) -> String {
@@ -109,7 +108,7 @@ fn gibibytes(bytes: u64) -> String {
 
 /// Bytes that a run may take: what the machine has left, within the limits of its container and of its
 /// process, or what `TABOR_MEMORY` says. `None` where the system does not tell.
-fn available() -> Result<Option<u64>, MemoryError> {
+pub(crate) fn available() -> Result<Option<u64>, MemoryError> {
     if let Ok(text) = std::env::var(LIMIT) {
         return match text.trim().parse() {
             Ok(bytes) => Ok(Some(bytes)),
@@ -195,27 +194,9 @@ pub(crate) fn check_files(scene: &Scene) -> Result<(), MemoryError> {
     Ok(())
 }
 
-/// Refuses a height file whose statistics need more memory than there is, where its header tells.
-pub(crate) fn check_map(path: &Path, boundary: Boundary) -> Result<(), MemoryError> {
-    check_file(path, |points| statistics(points, boundary))
-}
-
-/// Refuses the statistics of `points` of the surface that `path` describes.
-pub(crate) fn check_statistics(
-    path: &Path,
-    points: [usize; 2],
-    boundary: Boundary,
-) -> Result<(), MemoryError> {
-    match available()? {
-        // Counts past all grids are the surface's to refuse.
-        Some(available) if points[0].saturating_mul(points[1]) <= MOST_POINTS => {
-            check_map_of(path, points, statistics(points, boundary), available)
-        }
-        _ => Ok(()),
-    }
-}
-
-fn check_file(path: &Path, need: impl Fn([usize; 2]) -> u64) -> Result<(), MemoryError> {
+/// Refuses a height file that is longer than the memory, or whose header claims more points than it holds; `need`
+/// says how many bytes so many points take.
+pub(crate) fn check_file(path: &Path, need: impl Fn([usize; 2]) -> u64) -> Result<(), MemoryError> {
     // What cannot be asked for its length is the surface's to refuse.
     let length = std::fs::metadata(path).map_or(0, |metadata| metadata.len());
     let Some(available) = available()? else {
@@ -236,7 +217,8 @@ fn check_file(path: &Path, need: impl Fn([usize; 2]) -> u64) -> Result<(), Memor
     }
 }
 
-fn check_map_of(
+/// Refuses a map of so many points that needs more bytes than there are.
+pub(crate) fn check_map_of(
     path: &Path,
     points: [usize; 2],
     needed: u64,
@@ -253,20 +235,7 @@ fn check_map_of(
     })
 }
 
-fn count(points: [usize; 2]) -> u64 {
+/// Number of points.
+pub(crate) fn count(points: [usize; 2]) -> u64 {
     points[0] as u64 * points[1] as u64
-}
-
-/// Bytes that the statistics of a surface take, at most [`MOST_POINTS`]: the heights, and the
-/// autocorrelation's field with two half spectra, on a free grid of half as many points again a side. A
-/// transform has its table and a line for each thread.
-fn statistics(points: [usize; 2], boundary: Boundary) -> u64 {
-    let padded = match boundary {
-        Boundary::Periodic => points,
-        Boundary::Free => points.map(|side| side + side.div_ceil(2)),
-    };
-    let half = [padded[0] / 2 + 1, padded[1]];
-    let threads = std::thread::available_parallelism().map_or(1, |count| count.get() as u64);
-    let line = COMPLEX * padded[0].max(padded[1]) as u64;
-    8 * count(points) + 8 * count(padded) + 2 * COMPLEX * count(half) + (2 + threads) * line
 }

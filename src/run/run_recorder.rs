@@ -279,6 +279,7 @@ impl<'a> RunRecorder<'a> {
     /// There is nothing to draw with.
     #[cfg(not(feature = "images"))]
     fn refresh(&mut self, _: Option<&Summary>) -> Result<(), OutputError> {
+        debug_assert!(!self.draws);
         Ok(())
     }
 
@@ -370,6 +371,7 @@ impl<'a> RunRecorder<'a> {
     /// There is nothing to draw with.
     #[cfg(not(feature = "images"))]
     fn write_pictures(&mut self, _: usize, _: &Evaluation) -> Result<(), OutputError> {
+        debug_assert!(!self.draws);
         Ok(())
     }
 }

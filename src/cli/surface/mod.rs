@@ -1,5 +1,6 @@
 //! `tabor surface`: what a surface is like, and the self-affine scene that is like it.
 
+mod memory;
 mod report;
 
 use std::path::{Path, PathBuf};
@@ -174,7 +175,7 @@ fn of_scene(arguments: &SurfaceArguments) -> Result<(Surface, Boundary), Failure
     let scene = read_scene(&arguments.source, &set)?;
     memory_check::check_files(&scene)?;
     let boundary = scene.grid.boundary;
-    let refuse = |points| memory_check::check_statistics(&arguments.source, points, boundary);
+    let refuse = |points| memory::check_statistics(&arguments.source, points, boundary);
     if let Some(points) = scene.grid.points {
         refuse(points)?;
     }
@@ -197,7 +198,7 @@ fn of_file(arguments: &SurfaceArguments) -> Result<(Surface, Boundary), Failure>
     }
     let file = &arguments.file;
     let boundary = file.boundary.unwrap_or(Boundary::Free);
-    memory_check::check_map(&arguments.source, boundary)?;
+    memory::check_map(&arguments.source, boundary)?;
     let grid = GridScene {
         points: None,
         size: arguments.size,
@@ -225,7 +226,7 @@ fn of_file(arguments: &SurfaceArguments) -> Result<(Surface, Boundary), Failure>
         Failure::Usage(visible_line(&text))
     })?;
     let points = [surface.grid.nx, surface.grid.ny];
-    memory_check::check_statistics(&arguments.source, points, boundary)?;
+    memory::check_statistics(&arguments.source, points, boundary)?;
     Ok((surface, boundary))
 }
 
