@@ -8,8 +8,8 @@ use tabor::theory::gw_m;
 use tabor::theory::pastewka_robbins::{Edge, stickiness_ratio};
 use tabor::theory::persson::Persson;
 
-use crate::rows::{self, Case, MODULUS, RANGE, Row, WORK};
-use crate::sphere_claims;
+use super::rows::{self, Case, MODULUS, RANGE, Row, WORK};
+use super::sphere_claims;
 
 /// A claim with its numbers, and what is found.
 pub struct Claim {

@@ -4,7 +4,7 @@ use tabor::theory::dmt::{self, Method};
 use tabor::theory::lennard_jones_sphere::LennardJonesSphere;
 use tabor::theory::{Law, bradley, derjaguin};
 
-use crate::claims::Found;
+use super::claims::Found;
 
 /// T1: what each DMT theory attracts with.
 pub fn one_sphere() -> Found {

@@ -10,7 +10,7 @@ use super::model::Model;
 /// Greatest misses of the models on curves of a Lennard-Jones sphere (Tabor numbers 0.1 to 2, greatest
 /// loads of 0.4 to 15 pull-off forces) with noise of 0.2 %, rounded up: 16 % of w, and of E* 13 % where
 /// hardly pressed, 11, 8 and 5 % at 1.4, 5 and 15 pull-off forces. Exponential spheres stay within these: 15 % of w and 11 % of E* at
-/// 0.1. `tests/fit_light.rs` holds both laws to them.
+/// 0.1. `tests/theory/fit_light.rs` holds both laws to them.
 const WORK: f64 = 0.18;
 const MODULUS: f64 = 0.15;
 /// Greatest load over pull-off at which the miss of E* has halved.

@@ -5,6 +5,7 @@
 //! is the only place that names rayon.
 
 mod blocks;
+mod plans;
 mod transform;
 
 use rayon::ThreadPoolBuilder;
@@ -13,6 +14,7 @@ use super::{Backend, BackendError, Factors, Field, Level, Shape, Spectrum, check
 use crate::kernel::{Form, Gate, Kernel, Params, SUMS, ScalarKernel, Scalars, Twin, Whole};
 use crate::real::Real;
 use blocks::{BLOCK, Job, run_blocks};
+use plans::Plans;
 use transform::Transform;
 
 /// The CPU backend in one kind of number; `CpuBackend<f64>` is the reference.
@@ -37,21 +39,33 @@ struct LevelSpace<T: Real> {
     partials: Vec<[f64; SUMS]>,
 }
 
-/// Numbers that pick their own twin.
+/// Numbers that pick their own twins and transforms.
 pub trait CpuReal: Real {
     /// The twin of a kernel for this number.
     fn twin(kernel: &'static Kernel) -> Twin<Self>;
+    /// Transforms of a grid of `[nx, ny]` points.
+    fn plans(points: [usize; 2]) -> Plans<Self>;
 }
 
 impl CpuReal for f64 {
     fn twin(kernel: &'static Kernel) -> Twin<f64> {
         kernel.twin
     }
+
+    #[inline(never)]
+    fn plans(points: [usize; 2]) -> Plans<f64> {
+        Plans::new(points)
+    }
 }
 
 impl CpuReal for f32 {
     fn twin(kernel: &'static Kernel) -> Twin<f32> {
         kernel.twin_single
+    }
+
+    #[inline(never)]
+    fn plans(points: [usize; 2]) -> Plans<f32> {
+        Plans::new(points)
     }
 }
 

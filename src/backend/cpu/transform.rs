@@ -4,14 +4,15 @@
 //! transposition between rows and columns moves whole cache lines both ways and each thread writes
 //! only memory of its own.
 
-use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
+use std::sync::{Mutex, MutexGuard, PoisonError};
 
-use realfft::{ComplexToReal, RealFftPlanner, RealToComplex};
+use rustfft::Fft;
 use rustfft::num_complex::Complex;
 use rustfft::num_traits::Zero;
-use rustfft::{Fft, FftPlanner};
 
+use super::CpuReal;
 use super::blocks::{BLOCK, Job, run_blocks};
+use super::plans::Plans;
 use crate::backend::Shape;
 use crate::kernel::Form;
 use crate::real::Real;
@@ -25,10 +26,7 @@ pub(super) struct Transform<T: Real> {
     groups: usize,
     /// Blocks of rows.
     blocks: usize,
-    row_forward: Arc<dyn RealToComplex<T>>,
-    row_backward: Arc<dyn ComplexToReal<T>>,
-    column_forward: Arc<dyn Fft<T>>,
-    column_backward: Arc<dyn Fft<T>>,
+    plans: Plans<T>,
     /// Row spectra: block, column, row in the block.
     by_rows: Vec<Complex<T>>,
     /// The same after the columns: group, block, column in the group, row in the block.
@@ -46,23 +44,17 @@ struct Scratch<T> {
     transform: Vec<Complex<T>>,
 }
 
-impl<T: Real> Transform<T> {
+impl<T: CpuReal> Transform<T> {
     pub fn new(shape: Shape) -> Self {
         let [nx, ny] = shape.points;
         let columns = nx / 2 + 1;
         let groups = columns.div_ceil(BLOCK);
         let blocks = ny.div_ceil(BLOCK);
-        let mut real_planner = RealFftPlanner::<T>::new();
-        let mut planner = FftPlanner::<T>::new();
-        let row_forward = real_planner.plan_fft_forward(nx);
-        let row_backward = real_planner.plan_fft_inverse(nx);
-        let column_forward = planner.plan_fft_forward(ny);
-        let column_backward = planner.plan_fft_inverse(ny);
-        let transform_len = row_forward
-            .get_scratch_len()
-            .max(row_backward.get_scratch_len())
-            .max(column_forward.get_inplace_scratch_len())
-            .max(column_backward.get_inplace_scratch_len());
+        let plans = T::plans(shape.points);
+        let transform_len = (plans.row_forward.get_scratch_len())
+            .max(plans.row_backward.get_scratch_len())
+            .max(plans.column_forward.get_inplace_scratch_len())
+            .max(plans.column_backward.get_inplace_scratch_len());
         let zero = Complex::<T>::zero();
         let scratch = (0..rayon::current_num_threads().max(1))
             .map(|_| {
@@ -79,10 +71,7 @@ impl<T: Real> Transform<T> {
             columns,
             groups,
             blocks,
-            row_forward,
-            row_backward,
-            column_forward,
-            column_backward,
+            plans,
             by_rows: vec![zero; blocks * groups * BLOCK * BLOCK],
             by_columns: vec![zero; blocks * groups * BLOCK * BLOCK],
             energies: vec![0.0; groups],
@@ -97,8 +86,7 @@ impl<T: Real> Transform<T> {
             ref mut by_rows,
             ref by_columns,
             ref scratch,
-            ref row_forward,
-            ref row_backward,
+            ref plans,
             columns,
             groups,
             blocks,
@@ -138,7 +126,11 @@ impl<T: Real> Transform<T> {
                         spectrum[columns - 1].im = T::zero();
                     }
                     // Lengths are those of the plan, so this cannot fail.
-                    let _ = row_backward.process_with_scratch(spectrum, line, &mut guard.transform);
+                    let _ = plans.row_backward.process_with_scratch(
+                        spectrum,
+                        line,
+                        &mut guard.transform,
+                    );
                 }
             }
             if form.takes_kept() {
@@ -160,7 +152,11 @@ impl<T: Real> Transform<T> {
                     .chunks_exact_mut(nx)
                     .zip(guard.spectra.chunks_exact_mut(columns))
                 {
-                    let _ = row_forward.process_with_scratch(line, spectrum, &mut guard.transform);
+                    let _ = plans.row_forward.process_with_scratch(
+                        line,
+                        spectrum,
+                        &mut guard.transform,
+                    );
                 }
                 for (column, tile) in job.work.chunks_exact_mut(BLOCK).take(columns).enumerate() {
                     for (row, value) in tile[..count].iter_mut().enumerate() {
@@ -180,8 +176,8 @@ impl<T: Real> Transform<T> {
         let context = Columns {
             by_rows: &self.by_rows,
             scratch: &self.scratch,
-            forward: &*self.column_forward,
-            backward: &*self.column_backward,
+            forward: &*self.plans.column_forward,
+            backward: &*self.plans.column_backward,
             factors,
             scale,
             columns,

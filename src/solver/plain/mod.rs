@@ -1,7 +1,7 @@
 //! The method in one place: plain arrays, double precision, a formula beside each line.
 //!
 //! This is the specification. Nothing here is fused, recorded or run in parallel; the backends carry
-//! out the same steps in few passes, and `tests/iterates.rs` compares them with this text iterate by
+//! out the same steps in few passes, and `tests/solver/iterates.rs` compares them with this text iterate by
 //! iteration. `docs/solver.md` explains the steps, which have the same numbers there. This file is the
 //! iteration; beside it stand what it evaluates (`contact`), how far a step goes (`line_search`) and
 //! the convolutions (`waves`). A hardness and the rounds of mixed precision are not told here.

@@ -1,0 +1,172 @@
+//! `tabor compare` from outside: its table, its picture, and what it refuses.
+
+use std::fs;
+use std::path::Path;
+
+use crate::shared::binary::{errors, tabor};
+
+const HEAD: &str = "model,mean_pressure,contact_area_fraction,mean_gap,adhesive_pressure,pull_off_pressure,seconds,within_range,limit";
+
+const SMOOTH: &str = r#"
+title = "Smooth stiff surface"
+[grid]
+points = 64
+size = "24 um"
+[solid]
+contact_modulus = "1.33 TPa"
+[[surface]]
+kind = "self-affine"
+hurst = 0.8
+rms_height = "0.52 nm"
+longest = "24 um"
+rolloff = "6 um"
+shortest = "3 um"
+[adhesion]
+law = "lennard-jones"
+work_of_adhesion = "0.2 J/m^2"
+range = "1 nm"
+[loading]
+control = "pressure"
+path = ["10 MPa", "30 MPa", "60 MPa", "30 MPa"]
+"#;
+
+fn rows(path: &Path) -> Vec<Vec<String>> {
+    let text = fs::read_to_string(path).expect("there is a table");
+    let mut lines = text.lines();
+    assert_eq!(lines.next(), Some(HEAD));
+    lines
+        .map(|line| line.split(',').map(str::to_owned).collect())
+        .collect()
+}
+
+fn number(row: &[String], column: &str) -> Option<f64> {
+    let index = HEAD
+        .split(',')
+        .position(|name| name == column)
+        .expect("a column");
+    row[index].parse().ok()
+}
+
+fn of<'a>(rows: &'a [Vec<String>], model: &str) -> Vec<&'a Vec<String>> {
+    rows.iter().filter(|row| row[0] == model).collect()
+}
+
+#[test]
+fn every_model_answers_at_every_load() {
+    let folder = tempfile::tempdir().expect("a folder");
+    fs::write(folder.path().join("smooth.toml"), SMOOTH).expect("written");
+    let output = tabor(folder.path(), &["compare", "smooth.toml"]);
+    assert_eq!(output.status.code(), Some(0), "{}", errors(&output));
+    assert!(output.stdout.is_empty(), "standard output stays clean");
+    let results = folder.path().join("smooth_compare");
+    let rows = rows(&results.join("compare.csv"));
+    let loads = [10e6, 30e6, 60e6];
+    for model in ["full field", "DMT", "ICHA", "Persson", "GW-M", "BAM"] {
+        let found = of(&rows, model);
+        let pull_off = number(found[0], "pull_off_pressure").expect("a pull-off");
+        // First the state of greatest tension, then the loads; the path goes back at its end.
+        assert!(pull_off > 0.0, "{model}");
+        assert!((number(found[0], "mean_pressure").unwrap() / -pull_off - 1.0).abs() < 1e-6);
+        let asked = if model == "full field" { 4 } else { 3 };
+        assert_eq!(found.len(), 1 + asked, "{model}");
+        for (row, load) in found[1..].iter().zip(loads) {
+            assert_eq!(row.len(), 9);
+            assert!((number(row, "mean_pressure").unwrap() / load - 1.0).abs() < 1e-9);
+            assert_eq!(number(row, "pull_off_pressure"), Some(pull_off));
+            // GW-M pressed below its mean plane has none, and says that it is out of range.
+            let gap = number(row, "mean_gap");
+            assert!(gap.is_some_and(|gap| gap > 0.0) || model == "GW-M" && row[7] == "false");
+            assert!(number(row, "adhesive_pressure").unwrap() > 0.0);
+            assert!(number(row, "seconds").unwrap() >= 0.0);
+            assert_eq!(row[7] == "true", row[8].is_empty());
+        }
+    }
+    // The models know the same surface: areas at 30 MPa within a factor of two of the treatment of
+    // DMT, whose own kind they are (4 summit spacings a side make no better statistics).
+    let area = |model: &str| number(of(&rows, model)[2], "contact_area_fraction");
+    let judge = area("DMT").expect("an area");
+    for model in ["ICHA", "Persson"] {
+        let found = area(model).expect("an area") / judge;
+        assert!((0.5..2.0).contains(&found), "{model}: {found}");
+    }
+    assert_eq!(area("BAM"), None);
+    let picture = image::open(results.join("compare.png")).expect("a picture");
+    assert!(picture.width() > 600 && picture.height() > 600);
+    for model in ["full field", "ICHA"] {
+        assert!(
+            errors(&output).lines().any(|line| line.starts_with(model)),
+            "{model}"
+        );
+    }
+    // A second comparison takes the place of the first.
+    let again = tabor(
+        folder.path(),
+        &["compare", "smooth.toml", "--set", "loading.path=[3e7]"],
+    );
+    assert_eq!(again.status.code(), Some(0), "{}", errors(&again));
+}
+
+#[test]
+fn without_adhesion_and_from_a_file_the_models_that_can_answer_do() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let waves = (0..32).map(|y| {
+        let row = (0..32).map(|x| {
+            let at = |k: f64, l: f64, phase: f64| {
+                (2.0 * std::f64::consts::PI * (k * f64::from(x) + l * f64::from(y)) / 32.0 + phase)
+                    .cos()
+            };
+            let height = at(1.0, 1.0, 0.3) + 0.5 * at(2.0, -1.0, 1.0) + 0.2 * at(3.0, 4.0, 2.0);
+            format!("{:.6}", height)
+        });
+        row.collect::<Vec<_>>().join(" ")
+    });
+    let map: Vec<String> = waves.collect();
+    fs::write(folder.path().join("map.txt"), map.join("\n")).expect("written");
+    let scene = "[grid]\nsize = \"10 um\"\n[solid]\ncontact_modulus = \"1 GPa\"\n[[surface]]\nkind = \"file\"\npath = \"map.txt\"\nunit = \"nm\"\n[loading]\ncontrol = \"mean-gap\"\npath = [\"1 nm\", \"0.7 nm\"]\n";
+    fs::write(folder.path().join("map.toml"), scene).expect("written");
+    let output = tabor(folder.path(), &["compare", "map.toml", "--out", "here"]);
+    assert_eq!(output.status.code(), Some(0), "{}", errors(&output));
+    let rows = rows(&folder.path().join("here/compare.csv"));
+    assert!(of(&rows, "DMT").is_empty() && of(&rows, "BAM").is_empty());
+    assert!(
+        errors(&output).contains("no [adhesion]"),
+        "{}",
+        errors(&output)
+    );
+    let full = of(&rows, "full field");
+    assert_eq!(full.len(), 2);
+    // The loads that the field needed at those gaps are what the models are asked.
+    for model in ["ICHA", "GW-M"] {
+        let found = of(&rows, model);
+        assert_eq!(found.len(), 2, "{model}: {}", errors(&output));
+        let asked = number(full[1], "mean_pressure").unwrap();
+        assert!((number(found[1], "mean_pressure").unwrap() / asked - 1.0).abs() < 1e-9);
+        assert_eq!(number(found[0], "pull_off_pressure"), Some(0.0));
+    }
+}
+
+#[test]
+fn shapes_that_are_not_rough_are_refused_with_the_way_out() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let path = folder.path().join("scene.toml");
+    let refused = |scene: &str, words: &str| {
+        fs::write(&path, scene).expect("written");
+        let output = tabor(folder.path(), &["compare", "scene.toml"]);
+        assert_eq!(output.status.code(), Some(2), "{}", errors(&output));
+        assert!(errors(&output).contains(words), "{}", errors(&output));
+        assert!(!folder.path().join("scene_compare").exists());
+    };
+    let head = "[grid]\npoints = 32\nsize = 1e-5\n[solid]\ncontact_modulus = 1e9\n";
+    let load = "[loading]\ncontrol = \"pressure\"\npath = [1e6]\n";
+    let sphere = "[[surface]]\nkind = \"sphere\"\nradius = 1e-4\n";
+    refused(&format!("{head}{sphere}{load}"), "is a sphere");
+    refused(
+        &format!("{head}[[surface]]\nkind = \"flat\"\n{load}"),
+        "flat",
+    );
+    let free = SMOOTH.replace("size = \"24 um\"", "size = \"24 um\"\nboundary = \"free\"");
+    let free = free
+        .replace("control = \"pressure\"", "control = \"force\"")
+        .replace("MPa", "mN");
+    refused(&free, "periodic");
+}

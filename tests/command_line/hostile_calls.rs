@@ -1,0 +1,163 @@
+//! `fit`, `compare` and `accuracy` with curves and scenes that no author means: an answer or a refusal, never a
+//! panic, never a result that is not a number, never a long silence.
+//!
+//! `TABOR_MUTATIONS=100000 cargo test --release --test command_line hostile_calls` tries more than the usual few. The cases
+//! are the same in every run, more of them begin with the fewer.
+
+use std::fs;
+use std::path::Path;
+use std::time::{Duration, Instant};
+
+use crate::shared::binary::{command, errors, status, without_adapter};
+
+/// A call that takes longer has said that it is at work.
+const SILENCE: Duration = Duration::from_secs(10);
+
+/// Cases of a usual run, unless the environment asks for others.
+fn cases(usual: u64) -> u64 {
+    std::env::var("TABOR_MUTATIONS").map_or(usual, |text| {
+        text.parse().expect("TABOR_MUTATIONS is a number of cases")
+    })
+}
+
+/// Seeded numbers by splitmix64.
+struct Random(u64);
+
+impl Random {
+    fn share(&mut self) -> f64 {
+        self.0 = self.0.wrapping_add(0x9E37_79B9_7F4A_7C15);
+        let mut z = self.0;
+        z = (z ^ (z >> 30)).wrapping_mul(0xBF58_476D_1CE4_E5B9);
+        z = (z ^ (z >> 27)).wrapping_mul(0x94D0_49BB_1331_11EB);
+        ((z ^ (z >> 31)) >> 11) as f64 / (1u64 << 53) as f64
+    }
+
+    fn one_of<T: Copy>(&mut self, choices: &[T]) -> T {
+        choices[(self.share() * choices.len() as f64) as usize]
+    }
+
+    /// A positive number about a usual one; of any magnitude in a tenth of the cases.
+    fn about(&mut self, usual: f64) -> f64 {
+        let (decades, from) = match self.share() {
+            share if share < 0.1 => (35.0, 1.0),
+            share if share < 0.4 => (4.0, usual),
+            _ => (0.5, usual),
+        };
+        from * 10f64.powf(decades * (2.0 * self.share() - 1.0))
+    }
+}
+
+/// Calls tabor in a folder and judges the call. Returns whether it answered.
+fn call(name: &str, folder: &Path, arguments: &[&str]) -> bool {
+    let clock = Instant::now();
+    let mut command = command(folder, arguments);
+    let output = without_adapter(&mut command).output().expect("it runs");
+    let said = errors(&output);
+    let context = format!("{name}: {arguments:?}: {said}");
+    assert!([0, 2, 3].contains(&status(&output)), "{context}");
+    assert!(!said.contains("panicked"), "{context}");
+    let spoke = said.contains("at work") || said.contains("note:");
+    assert!(clock.elapsed() < SILENCE || spoke, "silent: {context}");
+    let mut texts = vec![String::from_utf8_lossy(&output.stdout).into_owned()];
+    if status(&output) == 0 {
+        texts.push(said);
+        for entry in fs::read_dir(folder.join("out")).into_iter().flatten() {
+            let path = entry.expect("an entry").path();
+            let kind = path.extension().and_then(|kind| kind.to_str());
+            if kind.is_some_and(|kind| ["csv", "json"].contains(&kind)) {
+                texts.push(fs::read_to_string(&path).expect("text"));
+            }
+        }
+    }
+    for text in &texts {
+        let number = |word: &str| ["nan", "inf", "-inf"].contains(&word.to_lowercase().as_str());
+        let words = text.split(|letter: char| !letter.is_alphanumeric() && letter != '-');
+        let wrong: Vec<&str> = words.filter(|word| number(word)).collect();
+        assert!(wrong.is_empty(), "{context}\n{text}");
+    }
+    status(&output) == 0
+}
+
+/// A force curve: contact with or without adhesion, noise, a line, or any numbers.
+fn curve(random: &mut Random) -> String {
+    let rows = random.one_of(&[3, 8, 30, 80]);
+    let (length, force) = (random.about(1e-7), random.about(1e-8));
+    let shape = random.one_of(&[0, 0, 1, 2, 3, 4]);
+    let noise = random.one_of(&[0.0, 0.01, 0.3]);
+    let mut text = String::from("approach,force\n");
+    for i in 0..rows {
+        let x = 2.0 * i as f64 / rows as f64 - 1.0;
+        let mut y = match shape {
+            0 => x.max(0.0).powf(1.5) - f64::from(u8::from(x > 0.0)) * 0.3,
+            1 => x.max(0.0).powf(1.5),
+            2 => -x,
+            3 => 2.0 * random.share() - 1.0,
+            _ => random.about(1.0),
+        };
+        y += noise * (2.0 * random.share() - 1.0);
+        text += &format!("{:e},{:e}\n", length * x, force * y);
+    }
+    text
+}
+
+#[test]
+fn no_hostile_curve_is_trouble() {
+    let mut answered = 0;
+    for case in 0..cases(24) {
+        let mut random = Random(case);
+        let folder = tempfile::tempdir().expect("a folder");
+        fs::write(folder.path().join("curve.csv"), curve(&mut random)).expect("written");
+        let radius = format!("{:e}", random.about(1e-6));
+        let mut arguments = vec!["fit", "curve.csv", "--radius", &radius, "--out", "out"];
+        if random.share() < 0.3 {
+            arguments.push("--baseline");
+        }
+        answered += u64::from(call(&format!("case {case}"), folder.path(), &arguments));
+    }
+    println!("{answered} of {} curves fitted", cases(24));
+    assert!(answered > 0);
+}
+
+/// A rough surface that sticks, with numbers about usual ones and far off them.
+fn scene(random: &mut Random) -> String {
+    let points = random.one_of(&[4, 8, 15, 16, 32]);
+    let size = random.about(1e-5);
+    let wave = |share: f64| size * share;
+    let shortest = wave(random.one_of(&[0.5, 0.25, 0.13]));
+    let (modulus, pressure) = (random.about(1e8), random.about(1e6));
+    let law = random.one_of(&["maugis-dugdale", "exponential", "lennard-jones"]);
+    let control = random.one_of(&["pressure", "pressure", "mean-gap", "force"]);
+    format!(
+        "[grid]\npoints = {points}\nsize = {size:e}\n[solid]\ncontact_modulus = {modulus:e}\n[[surface]]\nkind = \"self-affine\"\nhurst = {}\nrms_slope = {:e}\nlongest = {size:e}\nrolloff = {:e}\nshortest = {shortest:e}\n[adhesion]\nlaw = \"{law}\"\nwork_of_adhesion = {:e}\nrange = {:e}\n[loading]\ncontrol = \"{control}\"\npath = [{pressure:e}, {:e}]\n[solver]\nmax_iterations = 300\nbackend = \"cpu\"\n",
+        random.one_of(&[0.1, 0.8, 1.0]),
+        random.about(0.1),
+        wave(0.5),
+        random.about(0.05),
+        random.about(1e-9),
+        random.about(1e6) * random.one_of(&[1.0, -1.0]),
+    )
+}
+
+fn try_scenes(usual: u64, of: &[&str]) {
+    let mut answered = 0;
+    for case in 0..cases(usual) {
+        let folder = tempfile::tempdir().expect("a folder");
+        let text = scene(&mut Random(case));
+        fs::write(folder.path().join("scene.toml"), &text).expect("written");
+        let arguments = [&of[..1], &["scene.toml", "--out", "out"], &of[1..]].concat();
+        let name = format!("case {case}\n{text}");
+        answered += u64::from(call(&name, folder.path(), &arguments));
+    }
+    println!("{}: {answered} of {} answered", of[0], cases(usual));
+    assert!(answered > 0);
+}
+
+#[test]
+fn no_hostile_scene_is_trouble_to_compare() {
+    try_scenes(24, &["compare"]);
+}
+
+#[test]
+fn no_hostile_scene_is_trouble_to_accuracy() {
+    try_scenes(8, &["accuracy", "--budget", "1 s"]);
+}

@@ -1,0 +1,405 @@
+//! The report as a browser shows it, the picture of the curves, and the progress on a terminal.
+//!
+//! The browser is Chromium; where there is none the tests say `skipped`, unless
+//! `TABOR_REQUIRE_BROWSER=1` makes that a failure.
+
+use std::fs;
+use std::io::Read;
+use std::net::TcpListener;
+use std::path::{Path, PathBuf};
+use std::process::{Command, Stdio};
+use std::sync::{Arc, Mutex};
+
+use tempfile::TempDir;
+
+use crate::shared::binary::{self, errors, status, tabor};
+use crate::shared::run_folder::ROUGH;
+
+/// A browser, if there is one.
+fn browser() -> Option<&'static str> {
+    let found = ["chromium", "chromium-browser", "google-chrome"]
+        .into_iter()
+        .find(|name| {
+            Command::new(name)
+                .arg("--version")
+                .stdout(Stdio::null())
+                .stderr(Stdio::null())
+                .status()
+                .is_ok_and(|status| status.success())
+        });
+    if found.is_none() {
+        let required = std::env::var("TABOR_REQUIRE_BROWSER").is_ok_and(|value| value == "1");
+        assert!(
+            !required,
+            "TABOR_REQUIRE_BROWSER=1 and there is no chromium"
+        );
+        println!("skipped: no chromium");
+    }
+    found
+}
+
+/// What a script saw on the page, what the browser complained of, and whom it asked for something.
+struct Seen {
+    facts: serde_json::Value,
+    console: String,
+    requests: Vec<String>,
+}
+
+/// Where a browser calls by itself, whatever page it shows.
+const BROWSERS_OWN: [&str; 3] = [".google.com", ".googleapis.com", ".gvt1.com"];
+
+/// Opens `page` in a window of this width and asks the page about itself.
+///
+/// Only here a script runs on the page: a frame around it, the page itself unchanged in it, is
+/// measured from outside. Every request that leaves the machine's files goes to a proxy, which notes
+/// the host and answers none.
+fn look(browser: &str, page: &Path, width: usize) -> Seen {
+    let proxy = TcpListener::bind("127.0.0.1:0").expect("a port");
+    let address = proxy.local_addr().expect("an address");
+    let requests = Arc::new(Mutex::new(Vec::new()));
+    let noted = Arc::clone(&requests);
+    // It ends with the test.
+    std::thread::spawn(move || {
+        for mut stream in proxy.incoming().flatten() {
+            let mut first = [0u8; 256];
+            let length = stream.read(&mut first).unwrap_or(0);
+            let text = String::from_utf8_lossy(&first[..length]).into_owned();
+            // As in "GET http://host:80/path" or "CONNECT host:443".
+            let target = text.split_whitespace().nth(1).unwrap_or_default();
+            let target = target.split_once("://").map_or(target, |(_, rest)| rest);
+            let host = target.split(['/', ':']).next().unwrap_or_default();
+            if !BROWSERS_OWN.iter().any(|own| host.ends_with(own)) {
+                noted.lock().expect("no panic holds it").push(text);
+            }
+        }
+    });
+    let place = tempfile::tempdir().expect("a temporary folder");
+    // Measured in a frame, for a window has a least width of its own.
+    let html = format!(
+        r#"<!DOCTYPE html><html><head><meta charset="utf-8"></head><body style="margin:0">
+<iframe id="page" src="file://{}" style="border:0;width:{width}px;height:2000px"></iframe>
+<pre id="facts">not measured</pre>
+<script>
+addEventListener('load', () => setTimeout(() => {{
+  const inside = document.getElementById('page').contentDocument;
+  const root = inside.documentElement;
+  const facts = {{
+    images: [...inside.images].map(i => [i.complete, i.naturalWidth, i.naturalHeight, i.alt]),
+    curves: [...inside.querySelectorAll('svg')].map(s => {{ const b = s.getBoundingClientRect();
+      return [b.width, b.height, s.querySelectorAll('polyline').length, s.querySelectorAll('circle').length]; }}),
+    width: root.clientWidth, needed: root.scrollWidth, height: root.scrollHeight,
+    sticking_out: [...inside.querySelectorAll('svg text')].filter(t => {{
+      const a = t.getBoundingClientRect(), b = t.ownerSVGElement.getBoundingClientRect();
+      return a.left < b.left - 1 || a.right > b.right + 1; }}).map(t => t.textContent),
+    title: inside.title, heading: inside.querySelector('h1').textContent,
+    sections: [...inside.querySelectorAll('h2')].map(h => h.textContent),
+    text: inside.body.innerText,
+    outside: [...inside.querySelectorAll('[src],[href]')].map(e => e.src || e.href)
+      .filter(u => !u.startsWith('data:')),
+    scripts: inside.scripts.length,
+    loaded: document.getElementById('page').contentWindow.performance.getEntriesByType('resource')
+      .map(e => e.name).filter(u => !u.startsWith('data:')),
+  }};
+  document.getElementById('facts').textContent = JSON.stringify(facts);
+}}, 100));
+</script></body></html>"#,
+        page.display()
+    );
+    let frame = place.path().join("frame.html");
+    fs::write(&frame, html).expect("the frame is written");
+    let output = Command::new(browser)
+        .args(arguments(&place.path().join("profile"), width))
+        .arg("--allow-file-access-from-files")
+        .arg(format!("--proxy-server={address}"))
+        .args([
+            "--enable-logging=stderr",
+            "--virtual-time-budget=5000",
+            "--dump-dom",
+        ])
+        .arg(format!("file://{}", frame.display()))
+        .output()
+        .expect("the browser runs");
+    let dom = String::from_utf8_lossy(&output.stdout);
+    let console: String = String::from_utf8_lossy(&output.stderr)
+        .lines()
+        .filter(|line| line.contains("CONSOLE"))
+        .map(|line| format!("{line}\n"))
+        .collect();
+    let start = dom.find("<pre id=\"facts\">").expect("the facts") + "<pre id=\"facts\">".len();
+    let end = dom[start..].find("</pre>").expect("their end") + start;
+    let text = dom[start..end]
+        .replace("&lt;", "<")
+        .replace("&gt;", ">")
+        .replace("&amp;", "&");
+    let facts =
+        serde_json::from_str(&text).unwrap_or_else(|error| panic!("{error}: {text}\n{console}"));
+    Seen {
+        facts,
+        console,
+        requests: requests.lock().expect("no panic holds it").clone(),
+    }
+}
+
+/// Fails where the page complains, runs something, or asks anyone for anything.
+fn expect_alone(seen: &Seen) {
+    assert_eq!(seen.console, "", "the console is clean");
+    assert_eq!(seen.requests, Vec::<String>::new());
+    assert_eq!(seen.facts["loaded"], serde_json::json!([]));
+    assert_eq!(seen.facts["outside"], serde_json::json!([]));
+    assert_eq!(seen.facts["scripts"], 0);
+}
+
+fn arguments(profile: &Path, width: usize) -> Vec<String> {
+    [
+        "--headless",
+        "--no-sandbox",
+        "--disable-gpu",
+        "--disable-quic",
+        "--no-first-run",
+        "--disable-background-networking",
+        "--disable-component-update",
+        "--disable-sync",
+        "--hide-scrollbars",
+    ]
+    .map(str::to_owned)
+    .into_iter()
+    .chain([
+        format!("--user-data-dir={}", profile.display()),
+        format!("--window-size={},2000", width.max(500)),
+    ])
+    .collect()
+}
+
+/// A run of a scene; its folder.
+fn run(text: &str, extra: &[&str], expected: i32) -> (TempDir, PathBuf) {
+    let folder = binary::scene(text);
+    let call = [&["run", "scene.toml", "--out", "out"], extra].concat();
+    let output = tabor(folder.path(), &call);
+    assert_eq!(status(&output), expected, "{}", errors(&output));
+    let path = folder.path().join("out");
+    (folder, path)
+}
+
+#[test]
+fn a_browser_shows_the_whole_page_on_any_width_without_a_network() {
+    let Some(browser) = browser() else { return };
+    let (_folder, out) = run(ROUGH, &[], 0);
+    // 7 steps in contact, two pictures each; step 6 is separated.
+    let pictures = fs::read_dir(out.join("images")).expect("pictures").count();
+    assert_eq!(pictures, 14);
+    for width in [400, 1200] {
+        let seen = look(browser, &out.join("report.html"), width);
+        let facts = &seen.facts;
+        expect_alone(&seen);
+        let images = facts["images"].as_array().expect("a list");
+        assert_eq!(images.len(), pictures);
+        for image in images {
+            assert_eq!(image[0], true, "{image}");
+            assert!(
+                image[1].as_u64() > Some(64) && image[2].as_u64() > Some(64),
+                "{image}"
+            );
+            assert!(
+                image[3].as_str().is_some_and(|alt| alt.contains("step ")),
+                "{image}"
+            );
+        }
+        let curves = facts["curves"].as_array().expect("a list");
+        assert_eq!(curves.len(), 2);
+        for curve in curves {
+            assert!(
+                curve[0].as_f64() > Some(300.0) && curve[1].as_f64() > Some(200.0),
+                "{curve}"
+            );
+            // Seven points that carry their load; two of the legend.
+            assert_eq!(curve[3], 9, "{curve}");
+        }
+        assert_eq!(
+            facts["sticking_out"],
+            serde_json::json!([]),
+            "texts of the curves have room"
+        );
+        assert_eq!(facts["width"], width);
+        assert!(
+            facts["needed"].as_u64() <= Some(width as u64),
+            "the page is {} wide",
+            facts["needed"]
+        );
+        // A title of the scene is text, whatever is in it.
+        assert_eq!(facts["title"], "Rough & <small>");
+        assert_eq!(facts["heading"], "Rough & <small>");
+        let sections = [
+            "Curves",
+            "Snapshots",
+            "Effects",
+            "Scene",
+            "Solution",
+            "Steps",
+        ];
+        assert_eq!(facts["sections"], serde_json::json!(sections));
+        let text = facts["text"].as_str().expect("text");
+        for part in [
+            "Finished: 8 steps",
+            "step 6 is separated",
+            "dmt treatment",
+            "50 MPa",
+            "2 µm × 1.5 µm",
+            "Jumps apart",
+        ] {
+            assert!(text.contains(part), "{part} is missing in\n{text}");
+        }
+    }
+}
+
+#[test]
+fn runs_that_ended_early_and_runs_of_one_step_have_a_page() {
+    let Some(browser) = browser() else { return };
+    let failed = [
+        "--set",
+        "solver.max_iterations=2",
+        "--set",
+        "solver.tolerance=1e-9",
+    ];
+    let (_folder, out) = run(ROUGH, &failed, 3);
+    let seen = look(browser, &out.join("report.html"), 400);
+    expect_alone(&seen);
+    let text = seen.facts["text"].as_str().expect("text").to_owned();
+    assert!(text.contains("step 1 of 8 did not converge"), "{text}");
+    // Nothing converged, so there is no curve, but the fields as they stood are shown.
+    assert_eq!(seen.facts["curves"], serde_json::json!([]));
+    assert_eq!(seen.facts["images"].as_array().map(Vec::len), Some(2));
+
+    let one = ["--set", "loading.path=[1e6]", "--set", "output.steps=last"];
+    let (_folder, out) = run(ROUGH, &one, 0);
+    let seen = look(browser, &out.join("report.html"), 400);
+    expect_alone(&seen);
+    assert_eq!(seen.facts["curves"].as_array().map(Vec::len), Some(2));
+    assert!(seen.facts["needed"].as_u64() <= Some(400));
+}
+
+#[test]
+fn a_page_that_asks_or_complains_would_be_seen() {
+    let Some(browser) = browser() else { return };
+    let place = tempfile::tempdir().expect("a temporary folder");
+    let page = place.path().join("page.html");
+    let html =
+        "<h1>x</h1><img src=\"http://pictures.invalid/x.png\"><script>console.error('no')</script>";
+    fs::write(&page, html).expect("it is written");
+    let seen = look(browser, &page, 400);
+    assert!(
+        seen.requests.iter().any(|r| r.contains("pictures.invalid")),
+        "{:?}",
+        seen.requests
+    );
+    assert!(seen.console.contains("no"));
+    assert_eq!(seen.facts["scripts"], 1);
+    assert_eq!(seen.facts["outside"].as_array().map(Vec::len), Some(1));
+    assert_eq!(seen.facts["images"][0][1], 0, "it has not loaded");
+}
+
+/// Share of the pixels of a picture that are darker than a grey.
+fn darker(image: &image::GrayImage, than: u8) -> f64 {
+    let dark = image.pixels().filter(|pixel| pixel.0[0] < than).count();
+    dark as f64 / (image.width() * image.height()) as f64
+}
+
+#[test]
+fn a_screenshot_in_the_light_and_in_the_dark_is_as_asked() {
+    let Some(browser) = browser() else { return };
+    let (_folder, out) = run(ROUGH, &[], 0);
+    for (scheme, dark) in [("1", false), ("0", true)] {
+        let place = tempfile::tempdir().expect("a temporary folder");
+        let shot = place.path().join("shot.png");
+        let done = Command::new(browser)
+            .args(arguments(&place.path().join("profile"), 900))
+            .arg(format!("--blink-settings=preferredColorScheme={scheme}"))
+            .arg(format!("--screenshot={}", shot.display()))
+            .arg(format!("file://{}", out.join("report.html").display()))
+            .output()
+            .expect("the browser runs");
+        assert!(shot.exists(), "{}", String::from_utf8_lossy(&done.stderr));
+        let image = image::open(&shot).expect("a picture").to_luma8();
+        let share = darker(&image, 64);
+        // The pictures of fields are dark in part and on white in part, in either scheme.
+        assert!(
+            if dark { share > 0.4 } else { share < 0.3 },
+            "{share} is dark"
+        );
+        // Something is drawn: neither all one grey.
+        assert!(share > 0.005 && share < 0.99, "{share}");
+    }
+}
+
+#[test]
+fn the_picture_of_the_curves_has_both_directions() {
+    let (_folder, out) = run(ROUGH, &[], 0);
+    let image = image::open(out.join("curve.png"))
+        .expect("a picture")
+        .to_rgb8();
+    assert!(image.width() <= 2048 && image.height() <= 2048);
+    let near = |wanted: [i32; 3]| {
+        image
+            .pixels()
+            .filter(|pixel| (0..3).all(|c| (i32::from(pixel.0[c]) - wanted[c]).abs() < 24))
+            .count()
+    };
+    // Dark blue for loading, orange for unloading, each for more than its legend (some 200 pixels).
+    assert!(near([24, 66, 140]) > 1000 && near([216, 118, 24]) > 1000);
+}
+
+/// A terminal, made by `script` of util-linux.
+#[cfg(target_os = "linux")]
+#[test]
+fn a_terminal_shows_progress_and_the_table_at_the_end() {
+    let there = Command::new("script").arg("--version").output();
+    if !there.is_ok_and(|output| output.status.success()) {
+        println!("skipped: no script(1)");
+        return;
+    }
+    let folder = binary::scene(&ROUGH.replace("[64, 48]", "[256, 192]"));
+    let typed = |extra: &str| {
+        let call = format!("{} run scene.toml --out out {extra}", binary::BINARY);
+        let output = Command::new("script")
+            .args(["-qec", &call, "/dev/null"])
+            .env("TERM", "xterm")
+            .current_dir(folder.path())
+            .stdin(Stdio::null())
+            .output()
+            .expect("script runs");
+        assert!(output.status.success());
+        String::from_utf8_lossy(&output.stdout).into_owned()
+    };
+    let shown = typed("");
+    for part in [
+        "step 1/8",
+        "iteration ",
+        "residual ",
+        "approach",
+        "separated",
+    ] {
+        assert!(shown.contains(part), "{part} is missing in\n{shown}");
+    }
+    let quiet = typed("--quiet");
+    assert!(
+        !quiet.contains("step 1/8") && !quiet.contains("approach"),
+        "{quiet}"
+    );
+    assert!(quiet.contains("step 6 is separated"), "warnings stay");
+    // Not a terminal: no progress, but the table.
+    let output = tabor(folder.path(), &["run", "scene.toml", "--out", "out"]);
+    let said = errors(&output);
+    assert!(
+        !said.contains("step 1/8") && !said.contains('\u{1b}'),
+        "{said}"
+    );
+    let table: Vec<&str> = said
+        .lines()
+        .skip_while(|line| !line.contains("approach"))
+        .collect();
+    assert_eq!(table.len(), 9, "{said}");
+    assert!(
+        table[6].contains("separated") && table[8].contains("contact"),
+        "{said}"
+    );
+    assert!(output.stdout.is_empty());
+}

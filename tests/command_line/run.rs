@@ -1,0 +1,612 @@
+//! The binary from outside: exit status, messages, files written.
+
+use std::fs;
+use std::path::{Path, PathBuf};
+
+use tempfile::TempDir;
+
+use crate::shared::binary::{self, errors, status, summary, tabor};
+
+const HEAD: &str = "step,time,approach,mean_gap,force,mean_pressure,contact_area_fraction,attractive_area_fraction,elastic_energy,adhesive_energy,iterations,residual,converged,seconds,contact_area_fraction_corrected,state";
+
+/// A folder with a scene in it, and the scene.
+fn scene(text: &str) -> (TempDir, PathBuf) {
+    let folder = binary::scene(text);
+    let path = folder.path().join("scene.toml");
+    (folder, path)
+}
+
+const ROUGH: &str = r#"
+title = "Small rough surface"
+[grid]
+points = [64, 48]
+size = ["2 um", "1.5 um"]
+[solid]
+contact_modulus = "50 MPa"
+[[surface]]
+kind = "self-affine"
+hurst = 0.8
+rms_slope = 0.1
+longest = "2 um"
+rolloff = "1 um"
+shortest = "0.25 um"
+[adhesion]
+law = "maugis-dugdale"
+work_of_adhesion = "10 mJ/m^2"
+range = "10 nm"
+[loading]
+control = "pressure"
+path = ["0.2 MPa", "1 MPa", 0, "-5 MPa", "0.2 MPa"]
+[output]
+images = ["pressure", "gap", "displacement", "heights"]
+fields = ["pressure", "gap"]
+steps = [2, 4]
+"#;
+
+fn rows(folder: &Path) -> Vec<Vec<String>> {
+    let text = fs::read_to_string(folder.join("curve.csv")).expect("there is a curve");
+    let mut lines = text.lines();
+    assert_eq!(lines.next(), Some(HEAD));
+    lines
+        .map(|line| line.split(',').map(str::to_owned).collect())
+        .collect()
+}
+
+fn column(name: &str) -> usize {
+    HEAD.split(',')
+        .position(|other| other == name)
+        .expect("a column")
+}
+
+#[test]
+fn a_run_writes_what_the_contract_says() {
+    let (folder, _) = scene(ROUGH);
+    let output = tabor(folder.path(), &["run", "scene.toml"]);
+    assert_eq!(status(&output), 0, "{}", errors(&output));
+    assert!(output.stdout.is_empty(), "standard output stays clean");
+    let results = folder.path().join("scene");
+    let rows = rows(&results);
+    assert_eq!(rows.len(), 5);
+    for (index, row) in rows.iter().enumerate() {
+        assert_eq!(row.len(), 16);
+        assert_eq!(row[0], (index + 1).to_string());
+        assert_eq!(row[column("time")], "");
+        assert_eq!(row[column("converged")], "true");
+        let residual: f64 = row[column("residual")].parse().expect("a number");
+        assert!(residual <= 1e-6, "row {index}");
+    }
+    let number = |row: usize, name: &str| -> f64 {
+        rows[row][column(name)]
+            .parse()
+            .unwrap_or_else(|_| panic!("row {row}, {name}"))
+    };
+    // Asked loads stand as asked, force is pressure times the nominal area.
+    assert_eq!(number(0, "mean_pressure"), 0.2e6);
+    assert!((number(0, "force") / (0.2e6 * 2e-6 * 1.5e-6) - 1.0).abs() < 1e-12);
+    assert_eq!(rows[0][column("state")], "contact");
+    // Tension beyond pull-off: separated, converged, nothing carried; then brought back.
+    assert_eq!(rows[3][column("state")], "separated");
+    assert_eq!(number(3, "force"), 0.0);
+    assert_eq!(rows[3][column("approach")], "");
+    assert_eq!(rows[3][column("mean_gap")], "");
+    assert_eq!(rows[4][column("state")], "contact");
+    assert_eq!(number(4, "mean_pressure"), 0.2e6);
+    // More load, more contact; both shares within the nominal area.
+    assert!(number(1, "contact_area_fraction") > number(0, "contact_area_fraction"));
+    assert!(number(1, "contact_area_fraction") + number(1, "attractive_area_fraction") <= 1.0);
+    assert!(number(1, "adhesive_energy") < 0.0 && number(1, "elastic_energy") > 0.0);
+
+    let summary = summary(&results);
+    for key in [
+        "version",
+        "scene",
+        "effects",
+        "backend",
+        "adapter",
+        "precision",
+        "seconds",
+        "transforms",
+        "peak_memory_bytes",
+        "largest_contact_area_fraction",
+        "pull_off_force",
+        "pull_off_step",
+        "pull_off_lower",
+        "pull_off_upper",
+        "jump_in_steps",
+        "jump_off_steps",
+        "hysteresis_energy",
+        "warnings",
+    ] {
+        assert!(summary.get(key).is_some(), "no {key}");
+    }
+    assert_eq!(summary["backend"], "cpu");
+    assert_eq!(summary["precision"], "double");
+    assert_eq!(summary["effects"]["on"], serde_json::json!(["adhesion"]));
+    assert_eq!(summary["jump_off_steps"], serde_json::json!([4]));
+    assert_eq!(summary["jump_in_steps"], serde_json::json!([5]));
+    assert_eq!(
+        summary["largest_contact_area_fraction"].as_f64(),
+        Some(number(1, "contact_area_fraction"))
+    );
+
+    // Step 2 has its pictures and fields; step 4 is separated, and that is said.
+    for field in ["pressure", "gap", "displacement", "heights"] {
+        let picture = results.join(format!("images/step_0002_{field}.png"));
+        assert!(image::open(&picture).expect("a picture").width() > 64);
+        assert!(
+            !results
+                .join(format!("images/step_0004_{field}.png"))
+                .exists()
+        );
+    }
+    assert!(errors(&output).contains("step 4 is separated"));
+    let bytes = fs::read(results.join("fields/step_0002_pressure.npy")).expect("a field");
+    let file = npyz::NpyFile::new(&bytes[..]).expect("an npy file");
+    assert_eq!(file.shape(), [48, 64]);
+    let values: Vec<f64> = file.into_vec().expect("doubles");
+    let mean = values.iter().sum::<f64>() / values.len() as f64;
+    // The mean of the field meets the asked load to the residual.
+    assert!((mean / 1e6 - 1.0).abs() < 1e-5, "{mean}");
+}
+
+fn without_seconds(folder: &Path) -> Vec<Vec<String>> {
+    let mut rows = rows(folder);
+    for row in &mut rows {
+        row[column("seconds")].clear();
+    }
+    rows
+}
+
+#[test]
+fn the_same_scene_gives_the_same_bits() {
+    let (folder, _) = scene(ROUGH);
+    for (out, threads) in [("one", "1"), ("two", "2"), ("again", "2")] {
+        let arguments = [
+            "run",
+            "scene.toml",
+            "--out",
+            out,
+            "--threads",
+            threads,
+            "--quiet",
+        ];
+        assert_eq!(status(&tabor(folder.path(), &arguments)), 0);
+    }
+    let at = |name: &str| folder.path().join(name);
+    assert_eq!(without_seconds(&at("two")), without_seconds(&at("again")));
+    assert_eq!(without_seconds(&at("one")), without_seconds(&at("two")));
+    let field = "fields/step_0002_pressure.npy";
+    assert_eq!(
+        fs::read(at("two").join(field)).expect("a field"),
+        fs::read(at("again").join(field)).expect("a field")
+    );
+}
+
+#[test]
+fn folders_that_are_not_this_scenes_are_left_alone() {
+    let (folder, path) = scene(ROUGH);
+    let foreign = folder.path().join("foreign");
+    fs::create_dir(&foreign).expect("a folder");
+    fs::write(foreign.join("thesis.txt"), "mine").expect("a file");
+    let output = tabor(folder.path(), &["run", "scene.toml", "--out", "foreign"]);
+    assert_eq!(status(&output), 2);
+    assert!(errors(&output).contains("foreign"), "{}", errors(&output));
+    assert_eq!(
+        fs::read(foreign.join("thesis.txt")).expect("still there"),
+        b"mine"
+    );
+    assert_eq!(fs::read_dir(&foreign).expect("a folder").count(), 1);
+
+    // Of the same scene: its own files are replaced, others stay.
+    assert_eq!(status(&tabor(folder.path(), &["run", "scene.toml"])), 0);
+    fs::write(folder.path().join("scene/notes.txt"), "mine").expect("a file");
+    assert_eq!(status(&tabor(folder.path(), &["run", "scene.toml"])), 0);
+    assert!(folder.path().join("scene/notes.txt").exists());
+    // Of another scene: refused.
+    fs::write(&path, ROUGH.replace("0.8", "0.7")).expect("the scene is changed");
+    let output = tabor(folder.path(), &["run", "scene.toml"]);
+    assert_eq!(status(&output), 2);
+}
+
+#[test]
+fn a_file_in_the_way_and_an_unwritable_place() {
+    let (folder, _) = scene(ROUGH);
+    let output = tabor(folder.path(), &["run", "scene.toml", "--out", "scene.toml"]);
+    assert_eq!(status(&output), 2, "{}", errors(&output));
+    let output = tabor(
+        folder.path(),
+        &["run", "scene.toml", "--out", "/proc/nowhere"],
+    );
+    assert_eq!(status(&output), 1, "{}", errors(&output));
+    assert!(errors(&output).contains("/proc/nowhere"));
+}
+
+#[test]
+fn a_step_that_does_not_converge_is_written_and_ends_the_run() {
+    let (folder, _) = scene(ROUGH);
+    let arguments = [
+        "run",
+        "scene.toml",
+        "--set",
+        "solver.max_iterations=3",
+        "--set",
+        "solver.tolerance=1e-9",
+    ];
+    let output = tabor(folder.path(), &arguments);
+    assert_eq!(status(&output), 3);
+    let message = errors(&output);
+    assert!(
+        message.contains("step 1 did not converge") && message.contains("max_iterations"),
+        "{message}"
+    );
+    let rows = rows(&folder.path().join("scene"));
+    assert_eq!(rows.len(), 1);
+    assert_eq!(rows[0][column("converged")], "false");
+    let residual: f64 = rows[0][column("residual")].parse().expect("a number");
+    assert!(residual > 1e-9 && residual.is_finite());
+    assert!(folder.path().join("scene/summary.json").exists());
+}
+
+#[test]
+fn mistakes_are_named_all_at_once_with_their_lines() {
+    let (folder, _) = scene(
+        "[grid]\npoints = 64\nsize = \"2 kg\"\n[solid]\ncontact_modulu = 1e9\n[[surface]]\nkind = \"sphere\"\nradius = -1.0\n[loading]\ncontrol = \"pressure\"\npath = [1e3]\n",
+    );
+    for command in ["run", "check"] {
+        let output = tabor(folder.path(), &[command, "scene.toml"]);
+        assert_eq!(status(&output), 2);
+        assert!(output.stdout.is_empty());
+        let message = errors(&output);
+        for part in [
+            "scene.toml:3",
+            "size",
+            "scene.toml:5",
+            "contact_modulus",
+            "scene.toml:8",
+            "radius",
+        ] {
+            assert!(message.contains(part), "{part} is missing in:\n{message}");
+        }
+    }
+    assert!(
+        !folder.path().join("scene").exists(),
+        "nothing is written for a bad scene"
+    );
+}
+
+#[test]
+fn what_this_version_lacks_is_refused_by_name() {
+    let (folder, _) = scene(ROUGH);
+    let output = tabor(
+        folder.path(),
+        &["check", "scene.toml", "--set", "plastic={ hardness = 1 }"],
+    );
+    assert_eq!(status(&output), 2, "{}", errors(&output));
+    assert!(
+        errors(&output).contains("not in this version"),
+        "{}",
+        errors(&output)
+    );
+    assert_eq!(status(&tabor(folder.path(), &["run"])), 2);
+    assert_eq!(status(&tabor(folder.path(), &["run", "missing.toml"])), 2);
+}
+
+#[test]
+fn check_lists_effects_regime_and_resolution() {
+    let (folder, _) = scene(ROUGH);
+    let output = tabor(folder.path(), &["check", "scene.toml"]);
+    assert_eq!(status(&output), 0, "{}", errors(&output));
+    let text = String::from_utf8(output.stdout).expect("text");
+    for part in [
+        "effect on     adhesion",
+        "effect off    spring",
+        "effect off    free boundary",
+        "Tabor number",
+        "chi",
+        "pixels across the shortest",
+        "MiB",
+    ] {
+        assert!(text.contains(part), "{part} is missing in:\n{text}");
+    }
+    // Ten times the pixel: the grid no longer resolves the cohesive zone, and that is said.
+    let coarse = [
+        "check",
+        "scene.toml",
+        "--set",
+        "grid.points=[16, 12]",
+        "--set",
+        "adhesion.range=\"0.5 nm\"",
+    ];
+    let output = tabor(folder.path(), &coarse);
+    assert_eq!(status(&output), 0);
+    let message = errors(&output);
+    assert!(
+        message.contains("chi") && message.contains("range = \"auto\""),
+        "{message}"
+    );
+    assert!(message.contains("shortest wave"), "{message}");
+}
+
+#[test]
+fn overrides_reach_the_scene() {
+    let (folder, _) = scene(ROUGH);
+    let arguments = [
+        "run",
+        "scene.toml",
+        "--set",
+        "loading.path=[1e5]",
+        "--set",
+        "output.steps=last",
+        "--set",
+        "title=Changed",
+    ];
+    assert_eq!(status(&tabor(folder.path(), &arguments)), 0);
+    assert_eq!(rows(&folder.path().join("scene")).len(), 1);
+    let output = tabor(
+        folder.path(),
+        &["check", "scene.toml", "--set", "surface.3.hurst=0.4"],
+    );
+    assert_eq!(status(&output), 2);
+    assert!(errors(&output).contains("--set"), "{}", errors(&output));
+}
+
+#[test]
+fn single_precision_has_its_floor_and_its_fields() {
+    let (folder, path) = scene(ROUGH);
+    for tolerance in ["1e-5", "9.9e-5"] {
+        let set = format!("solver.tolerance={tolerance}");
+        let call = [
+            "run",
+            "scene.toml",
+            "--precision",
+            "single",
+            "--set",
+            set.as_str(),
+        ];
+        let output = tabor(folder.path(), &call);
+        assert_eq!(status(&output), 2);
+        let message = errors(&output);
+        assert!(
+            message.contains("solver.tolerance") && message.contains("1e-4"),
+            "{message}"
+        );
+        assert!(!folder.path().join("scene").exists());
+    }
+    for precision in ["double", "single"] {
+        let call = [
+            "run",
+            "scene.toml",
+            "--backend",
+            "cpu",
+            "--precision",
+            precision,
+            "--out",
+            precision,
+        ];
+        let output = tabor(folder.path(), &call);
+        assert_eq!(status(&output), 0, "{}", errors(&output));
+    }
+    let single = folder.path().join("single");
+    let summary = summary(&single);
+    assert_eq!(summary["precision"], "single");
+    assert_eq!(summary["backend"], "cpu");
+    assert_eq!(summary["scene"]["solver"]["tolerance"], 1e-4);
+    let bytes = fs::read(single.join("fields/step_0002_gap.npy")).expect("a field");
+    let file = npyz::NpyFile::new(&bytes[..]).expect("an npy file");
+    assert!(file.into_vec::<f32>().is_ok(), "fields are float32");
+    // The same physics: states alike, and areas and gaps within what the looser tolerance leaves.
+    let (one, two) = (rows(&single), rows(&folder.path().join("double")));
+    assert_eq!(one.len(), two.len());
+    for (one, two) in one.iter().zip(&two) {
+        assert_eq!(one[column("state")], two[column("state")]);
+        assert_eq!(one[column("converged")], "true");
+        assert_eq!(one[column("force")], two[column("force")]);
+        for (name, bound) in [("mean_gap", 1e-3), ("contact_area_fraction", 2e-2)] {
+            let (Ok(a), Ok(b)) = (
+                one[column(name)].parse::<f64>(),
+                two[column(name)].parse::<f64>(),
+            ) else {
+                assert_eq!(one[column(name)], two[column(name)]);
+                continue;
+            };
+            assert!((a - b).abs() <= bound * b.abs(), "{name}: {a} and {b}");
+        }
+    }
+
+    // The scene may say it too, and the call beats the scene.
+    let text = format!("{ROUGH}\n[solver]\nprecision = \"single\"\n");
+    fs::write(&path, text).expect("the scene is changed");
+    let output = tabor(folder.path(), &["check", "scene.toml"]);
+    assert_eq!(status(&output), 0, "{}", errors(&output));
+    let call = [
+        "run",
+        "scene.toml",
+        "--precision",
+        "double",
+        "--out",
+        "double",
+    ];
+    assert_eq!(status(&tabor(folder.path(), &call)), 0);
+}
+
+/// What a call says that is refused at once; it is ended where it is not.
+fn refused_at_once(folder: &Path, arguments: &[&str]) -> String {
+    let mut child = binary::command(folder, arguments)
+        .stdout(std::process::Stdio::null())
+        .stderr(std::process::Stdio::piped())
+        .spawn()
+        .expect("the binary runs");
+    let clock = std::time::Instant::now();
+    while child.try_wait().expect("a child").is_none() {
+        if clock.elapsed().as_secs() > 20 {
+            child.kill().expect("ended");
+            panic!("{arguments:?} is not refused");
+        }
+        std::thread::sleep(std::time::Duration::from_millis(5));
+    }
+    let output = child.wait_with_output().expect("an end");
+    assert_eq!(status(&output), 2, "{arguments:?}: {}", errors(&output));
+    errors(&output)
+}
+
+/// Devices never end and pipes wait for a writer: each place where a file is named says so.
+#[test]
+#[cfg(unix)]
+fn what_is_no_regular_file_is_refused() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let path = |name: &str| folder.path().join(name);
+    let made = std::process::Command::new("mkfifo")
+        .arg(path("pipe.txt"))
+        .status()
+        .expect("mkfifo runs");
+    assert!(made.success());
+    let _socket = std::os::unix::net::UnixListener::bind(path("socket.txt")).expect("a socket");
+    fs::create_dir(path("folder.txt")).expect("a folder");
+    for name in [
+        "/dev/zero",
+        "/dev/null",
+        "pipe.txt",
+        "socket.txt",
+        "folder.txt",
+    ] {
+        for command in ["check", "run", "compare", "accuracy"] {
+            let message = refused_at_once(folder.path(), &[command, name]);
+            assert!(
+                message.contains("it is no regular file (a folder, a pipe or a device); write the scene to a file and name that"),
+                "{command} {name}: {message}"
+            );
+        }
+        let message = refused_at_once(folder.path(), &["fit", name, "--radius", "1 um"]);
+        assert!(
+            message.contains("is no regular file (a folder, a pipe or a device); write the curve to a file and name that"),
+            "{name}: {message}"
+        );
+        let message = refused_at_once(folder.path(), &["surface", name, "--size", "1 um"]);
+        assert!(
+            message.contains("this is no regular file; copy the heights into one")
+                || message.contains("this is a folder; path must name one height file"),
+            "{name}: {message}"
+        );
+    }
+    // Too long for a scene, in name only: its bytes are never written.
+    let long = fs::File::create(path("long.toml")).expect("created");
+    long.set_len(1 << 40).expect("sparse");
+    let message = refused_at_once(folder.path(), &["check", "long.toml"]);
+    assert!(
+        message.contains("1099511627776 bytes are no scene"),
+        "{message}"
+    );
+}
+
+#[test]
+fn of_very_many_mistakes_the_first_and_their_number_are_said() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let keys: String = (0..200_000).map(|i| format!("key{i} = {i}\n")).collect();
+    fs::write(folder.path().join("scene.toml"), keys).expect("a scene");
+    let message = refused_at_once(folder.path(), &["check", "scene.toml"]);
+    let lines: Vec<&str> = message.lines().collect();
+    assert_eq!(lines.len(), 21, "{} lines", lines.len());
+    assert!(
+        lines[19].contains("scene.toml:20: key19: unknown key"),
+        "{}",
+        lines[19]
+    );
+    // Beside the keys [grid], [solid], [[surface]] and [loading] are missing.
+    assert_eq!(lines[20], "error: scene.toml: 199984 more mistakes");
+}
+
+/// At no load the attraction of this surface is below what single precision tells from nothing: its row is
+/// converged at the rounding, and the run says at what residual, in its messages and in its summary. In mixed
+/// precision there is nothing to say.
+#[test]
+fn steps_that_rounding_ends_are_warned_of() {
+    let (folder, _) = scene(
+        r#"
+        [grid]
+        points = 16
+        size = 1.0
+        [solid]
+        contact_modulus = 1.0
+        [[surface]]
+        kind = "self-affine"
+        hurst = 0.8
+        rms_height = 0.01
+        longest = 1.0
+        rolloff = 0.5
+        shortest = 0.125
+        seed = 1
+        [adhesion]
+        law = "exponential"
+        work_of_adhesion = 4.8e-10
+        range = 1e-4
+        [loading]
+        control = "pressure"
+        path = [3e-3, 0]
+        "#,
+    );
+    let warning = "rounding in single precision ends 1 of 2 steps, the first of them step 2";
+    for precision in ["single", "mixed"] {
+        let call = ["run", "scene.toml", "--backend", "cpu", "--quiet"];
+        let call = [&call[..], &["--precision", precision, "--out", precision]].concat();
+        let output = tabor(folder.path(), &call);
+        assert_eq!(status(&output), 0, "{}", errors(&output));
+        let summary = summary(&folder.path().join(precision)).to_string();
+        for said in [errors(&output), summary] {
+            assert_eq!(said.contains(warning), precision == "single", "{said}");
+            let remedy = said.contains("\"mixed\\\" or") || said.contains("\"mixed\" or");
+            assert_eq!(remedy, precision == "single", "{said}");
+        }
+    }
+}
+
+/// Under a load the pull-off of the README's scene lies between its steps of -30 and -60 kPa, and is narrowed down
+/// to a per cent; a path that does not let go has none, and says what held.
+#[test]
+fn pull_off_under_a_load() {
+    let rough = concat!(env!("CARGO_MANIFEST_DIR"), "/examples/scenes/rough.toml");
+    let folder = tempfile::tempdir().expect("a folder");
+    let run = |out: &str, set: &[&str]| {
+        let call = [
+            "run",
+            rough,
+            "--quiet",
+            "--out",
+            out,
+            "--set",
+            "grid.points=128",
+        ];
+        let output = tabor(folder.path(), &[&call[..], set].concat());
+        assert_eq!(status(&output), 0, "{}", errors(&output));
+        (summary(&folder.path().join(out)), errors(&output))
+    };
+    let (found, said) = run("whole", &[]);
+    let number = |key: &str| found[key].as_f64().unwrap_or_else(|| panic!("no {key}"));
+    let [force, lower, upper] = ["pull_off_force", "pull_off_lower", "pull_off_upper"].map(number);
+    assert_eq!(force, lower);
+    assert!(upper - lower <= 0.01 * upper, "{lower} {upper}");
+    // 20 um squared: between 12 and 24 uN, neither of them.
+    assert!(lower > 12.01e-6 && upper < 23.99e-6, "{lower} {upper}");
+    assert_eq!(found["pull_off_step"], 9);
+    assert!(!said.contains("pull-off"), "{said}");
+    let page = fs::read_to_string(folder.path().join("whole/report.html")).expect("a report");
+    assert!(
+        page.contains("<dt>Pull-off</dt>"),
+        "no pull-off on the page"
+    );
+
+    let path = "loading.path=[\"4 MPa\", 0, \"-30 kPa\"]";
+    let (found, said) = run("holds", &["--set", path, "--set", "output.steps=last"]);
+    for key in [
+        "pull_off_force",
+        "pull_off_step",
+        "pull_off_lower",
+        "pull_off_upper",
+    ] {
+        assert!(found[key].is_null(), "{key}: {}", found[key]);
+    }
+    let words = "the contact held 12 \u{b5}N in step 3, the greatest tension of the path: its pull-off is beyond";
+    let ascii = words.replace('\u{b5}', "u");
+    assert!(said.contains(words) || said.contains(&ascii), "{said}");
+    let warnings = found["warnings"].to_string();
+    assert!(warnings.contains("its pull-off is beyond"), "{warnings}");
+}

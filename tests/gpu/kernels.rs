@@ -1,0 +1,783 @@
+//! Each kernel of the catalogue against its twin, in single and in double precision, and each scalar
+//! kernel against its own, on seeded data.
+
+use tabor::backend::cpu::CpuBackend;
+use tabor::backend::gpu::{AdapterChoice, GpuDevice, Number, Wide};
+use tabor::backend::{Backend, Factors, Field, Level, Shape};
+use tabor::kernel::base::BASE_TOTAL;
+use tabor::kernel::common::{LOAD_FIELD, STORE_PRESSURE};
+use tabor::kernel::wall::{WALL_DESCENT, WALL_TRIAL};
+use tabor::kernel::{Form, Gate, Kernel, Params, Scalars, Status};
+use tabor::law::{Exponential, Law, LennardJones, MaugisDugdale};
+
+use crate::catalogue::{KERNELS, SCALAR_KERNELS};
+use crate::shared::device::{
+    Numbers, backend, device, device_with, device_with_double, device_without_double,
+    double_backend,
+};
+
+/// Fine and coarse points of the tests; neither is a power of two both ways.
+const FINE: [usize; 2] = [48, 64];
+const COARSE: [usize; 2] = [12, 16];
+/// The same in double precision, as few as keep more than one workgroup: long lines are slow to compile
+/// in software.
+const FINE_IN_DOUBLE: [usize; 2] = [24, 16];
+const COARSE_IN_DOUBLE: [usize; 2] = [6, 4];
+/// Difference at a point over the rounding error of the number, of values up to some units: the
+/// transforms around a load or store part cost 4 of their root mean square, the law's steepest slope
+/// (16) multiplies it.
+const POINT_ROUNDINGS: f64 = 170.0;
+/// Difference of a sum over its number of points, the same.
+const SUM_ROUNDINGS: f64 = 17.0;
+
+fn laws() -> [(&'static str, Law); 5] {
+    let dugdale = |taper| {
+        Law::MaugisDugdale(MaugisDugdale {
+            peak_tension: 0.4,
+            range: 0.2,
+            taper,
+        })
+    };
+    [
+        ("hard wall", Law::HardWall),
+        ("sharp Maugis-Dugdale", dugdale(0.0)),
+        ("tapered Maugis-Dugdale", dugdale(0.1)),
+        (
+            "exponential",
+            Law::Exponential(Exponential {
+                work_of_adhesion: 0.1,
+                range: 0.3,
+            }),
+        ),
+        (
+            "Lennard-Jones",
+            Law::LennardJones(LennardJones {
+                work_of_adhesion: 0.1,
+                range: 0.5,
+            }),
+        ),
+    ]
+}
+
+fn params(law: Law, fixed_gap: bool, number: Number) -> Params {
+    Params {
+        law,
+        stiffness_max: 2.0,
+        pressure_floor: 1e-3,
+        tolerance: 1e-4,
+        heights_norm: 3.0,
+        fixed_gap,
+        may_detach: !fixed_gap,
+        points: 1.0,
+        core_stiffness: 0.4,
+        hardness: 0.3,
+        epsilon: number.epsilon(),
+    }
+}
+
+/// A state in which this gate is open and every factor counts.
+fn open(gate: Gate) -> Scalars {
+    Scalars {
+        mean_pressure: 0.1,
+        descent: -1.0,
+        memory: 0.3,
+        shift: 0.05,
+        trial: 0.7,
+        restore: 0.1,
+        step: 0.6,
+        snap: 1e-3,
+        accepted: true,
+        searching: gate == Gate::Searching,
+        status: Status::Running,
+        ..Scalars::start(0.1, false)
+    }
+}
+
+/// What is bound beside a kernel's fields, and their number.
+#[derive(Clone, Copy, Debug)]
+struct Case {
+    patterned: bool,
+    based: bool,
+    number: Number,
+}
+
+/// What a kernel leaves behind: its written fields, its lines and its sums.
+struct Trace {
+    fields: Vec<Vec<f64>>,
+    sums: Vec<f64>,
+}
+
+/// Seeded values with all the digits that a field holds.
+fn drawn_field(numbers: &mut Numbers, count: usize, number: Number) -> Vec<f64> {
+    match number {
+        Number::Single => numbers.field(count),
+        Number::Double => numbers.doubles(count),
+    }
+}
+
+fn gap_like(values: Vec<f64>, law: &Law, flows: bool) -> Vec<f64> {
+    let least = if law.has_wall() { 0.0 } else { -0.05 };
+    let gap = |x: &f64| match flows {
+        // Open, closed and below zero.
+        true if x.abs() < 0.2 => 0.0,
+        true => *x,
+        false => x.max(least),
+    };
+    values.iter().map(gap).collect()
+}
+
+/// A state in which a wall's descent and trial pass lines on where all points are open.
+fn passing() -> Scalars {
+    Scalars {
+        descent: 1.0,
+        ..Scalars::start(0.0, false)
+    }
+}
+
+/// Runs a kernel on a fresh level with seeded fields; `poison` tells which of its written fields are
+/// filled with NaN.
+fn run(
+    backend: &mut dyn Backend,
+    kernel: &'static Kernel,
+    params: &Params,
+    shape: Shape,
+    poison: &[bool],
+    case: Case,
+) -> Trace {
+    let Case {
+        patterned,
+        based,
+        number,
+    } = case;
+    // The whole field lies on the other level: coarse for a fine kernel, fine for a coarse one.
+    let coarse_kernel = kernel.name.starts_with("coarse");
+    let [nx, ny] = match number {
+        Number::Single => COARSE,
+        Number::Double => COARSE_IN_DOUBLE,
+    };
+    let [own, other] = if coarse_kernel {
+        [Shape::whole(nx, ny), shape]
+    } else {
+        [shape, Shape::whole(nx, ny)]
+    };
+    let mut numbers = Numbers(kernel.name.len() as u64 * 7919);
+    let mut draw = |count: usize| drawn_field(&mut numbers, count, number);
+    let level = backend.level("own", own);
+    let second = backend.level("other", other);
+    let make = |backend: &mut dyn Backend, level: Level, values: &[f64]| -> Field {
+        let field = backend.field(level, "field");
+        backend.write(field, values);
+        field
+    };
+    let flows = kernel.name.starts_with("yield");
+    let mut fields = Vec::new();
+    for place in 0..kernel.reads + kernel.writes {
+        let written = place >= kernel.reads;
+        // Gaps are read first, or updated first.
+        let values = if place == 0 || place == kernel.reads {
+            gap_like(draw(own.len()), &params.law, flows)
+        } else {
+            draw(own.len())
+        };
+        let values = match written && poison[place - kernel.reads] {
+            true => vec![f64::NAN; own.len()],
+            false => values,
+        };
+        fields.push(make(backend, level, &values));
+    }
+    if kernel.whole {
+        let values = gap_like(draw(other.len()), &Law::HardWall, false);
+        fields.push(make(backend, second, &values));
+    }
+    let lines = make(backend, level, &draw(own.len()));
+    let ones = backend.spectrum(
+        level,
+        "ones",
+        Factors::Table(&vec![1.0; own.spectrum_len()]),
+    );
+    if patterned {
+        let factors: Vec<f64> = draw(own.len()).iter().map(|x| x.abs() + 0.1).collect();
+        let factors = make(backend, level, &factors);
+        backend.set_law_factor(factors);
+    }
+    if based {
+        let gaps = gap_like(draw(own.len()), &params.law, flows);
+        let residuals = draw(own.len());
+        let base = [&gaps, &residuals].map(|values| make(backend, level, values));
+        backend.set_base(Some(base));
+    }
+    backend.set_params(params);
+    backend.set_scalars(&passing());
+    let far = vec![1e3; own.len()];
+    let [open_gap, blank, other_blank] =
+        [&far[..], &draw(own.len()), &far].map(|values| make(backend, level, values));
+    if kernel.form != Form::Sweep && kernel.form != Form::Load {
+        backend.forward(&LOAD_FIELD, level, &[lines]);
+        backend.multiply(ones, false, Gate::Always);
+    }
+    if kernel.form.takes_kept() {
+        // Everywhere open, the descent keeps the lines as they are.
+        backend.backward(&WALL_DESCENT, level, &[open_gap, blank, other_blank]);
+    }
+    backend.set_scalars(&open(kernel.gate));
+    match kernel.form {
+        Form::Sweep | Form::Peek => backend.sweep(kernel, level, &fields),
+        Form::Load | Form::Resume => backend.forward(kernel, level, &fields),
+        Form::Store | Form::Keep => backend.backward(kernel, level, &fields),
+        Form::Turn => backend.turn(kernel, level, &fields),
+    }
+    let scalars = backend
+        .scalars()
+        .unwrap_or_else(|error| panic!("{}: {error}", kernel.name));
+    if kernel.form == Form::Keep {
+        // Everywhere open, the trial loads what was kept.
+        backend.set_scalars(&passing());
+        backend.forward(&WALL_TRIAL, level, &[open_gap, blank, other_blank]);
+    }
+    let gives = kernel.form.before_forward() || kernel.form == Form::Keep;
+    if gives {
+        backend.multiply(ones, false, Gate::Always);
+        backend.backward(&STORE_PRESSURE, level, &[lines]);
+    }
+    let written = fields[kernel.reads..kernel.reads + kernel.writes].to_vec();
+    let mut read = |field| {
+        backend
+            .read(field)
+            .unwrap_or_else(|error| panic!("{error}"))
+    };
+    let mut traces: Vec<_> = written.into_iter().map(&mut read).collect();
+    if gives {
+        traces.push(read(lines));
+    }
+    Trace {
+        fields: traces,
+        sums: scalars.sums[..kernel.sums.len()].to_vec(),
+    }
+}
+
+/// Whether there is no NaN; the least of nothing is infinite.
+fn is_number(trace: &Trace) -> bool {
+    trace
+        .fields
+        .iter()
+        .flatten()
+        .chain(&trace.sums)
+        .all(|x| !x.is_nan())
+}
+
+/// Runs a kernel as its twin and on the device, and compares; `worst` keeps the largest differences at a
+/// point and in a sum.
+fn compare(
+    kernel: &'static Kernel,
+    params: &Params,
+    shape: Shape,
+    case: Case,
+    cpu: &dyn Fn() -> Box<dyn Backend>,
+    gpu: &dyn Fn() -> Box<dyn Backend>,
+    worst: &mut [f64; 2],
+) {
+    // Fields that are only written are poisoned, so that what is left out shows.
+    let poison: Vec<bool> = (0..kernel.writes)
+        .map(|place| {
+            let mut one = vec![false; kernel.writes];
+            one[place] = true;
+            is_number(&run(&mut *cpu(), kernel, params, shape, &one, case))
+        })
+        .collect();
+    let fresh = poison.iter().filter(|&&only_written| only_written).count();
+    assert!(
+        fresh == kernel.fresh && poison.is_sorted(),
+        "{}: {poison:?}",
+        kernel.name
+    );
+    let twin = run(&mut *cpu(), kernel, params, shape, &poison, case);
+    let name = format!(
+        "{}, {:?}, surface {:?}, {case:?}",
+        kernel.name, params.law, shape.surface
+    );
+    assert!(is_number(&twin), "{name}");
+    let ours = run(&mut *gpu(), kernel, params, shape, &poison, case);
+    let epsilon = case.number.epsilon();
+    for (slot, (a, b)) in ours.sums.iter().zip(&twin.sums).enumerate() {
+        // The least of nothing is infinite on both.
+        let difference = if a == b { 0.0 } else { (a - b).abs() };
+        let error = difference / (shape.len() as f64).max(b.abs());
+        assert!(
+            error < SUM_ROUNDINGS * epsilon,
+            "{name}: sum {slot}: {a} against {b}"
+        );
+        worst[1] = worst[1].max(error);
+    }
+    for (slot, (ours, twin)) in ours.fields.iter().zip(&twin.fields).enumerate() {
+        for (index, (a, b)) in ours.iter().zip(twin).enumerate() {
+            let error = (a - b).abs();
+            assert!(
+                error < POINT_ROUNDINGS * epsilon,
+                "{name}: output {slot} at {index}: {a} against {b}"
+            );
+            worst[0] = worst[0].max(error);
+        }
+    }
+}
+
+#[test]
+fn kernels_agree_with_their_twins() {
+    let Some(device) = device() else { return };
+    let padded = Shape {
+        points: FINE,
+        surface: [30, 40],
+    };
+    let mut worst = [0.0f64; 2];
+    for &kernel in KERNELS {
+        for (_, law) in laws() {
+            let of_core = kernel.name.starts_with("core");
+            let flows = kernel.name.starts_with("yield");
+            let of_wall = kernel.name.starts_with("wall") || flows;
+            let of_base = kernel.name.starts_with("base");
+            let fits = match law {
+                // A floor asks any law for its traction and its change: one of them in all kernels, and
+                // another where both are asked.
+                Law::Exponential(_) => ["wall_search", "wall_turn"].contains(&kernel.name),
+                // The coarse level, for which yF is kept, belongs to the hard wall.
+                Law::MaugisDugdale(_) if kernel.name.ends_with("kept") => false,
+                // The base of corrections is kept in double precision, and asks for the traction alone.
+                Law::LennardJones(_) if of_base => kernel.name.ends_with("core"),
+                Law::HardWall if of_base => !kernel.name.ends_with("core"),
+                Law::MaugisDugdale(dugdale) if flows => dugdale.taper > 0.0,
+                Law::LennardJones(_) => of_core,
+                Law::HardWall => !of_core,
+                _ => of_wall,
+            };
+            if !fits {
+                continue;
+            }
+            let fine = Shape::whole(FINE[0], FINE[1]);
+            for (shape, fixed_gap, patterned, based) in [
+                (fine, true, false, false),
+                (padded, false, false, false),
+                (padded, false, true, true),
+                (fine, true, false, true),
+            ] {
+                // Each is a shader of its own, which software compiles slowly.
+                let skipped = match kernel.whole || law == Law::HardWall {
+                    true => patterned || (kernel.whole && shape == padded),
+                    false => !patterned && (based || shape == padded),
+                };
+                // A solid that flows is never corrected.
+                let corrects = of_core || kernel.name.starts_with("wall");
+                if skipped || (based && !corrects) {
+                    continue;
+                }
+                let case = Case {
+                    patterned,
+                    based,
+                    number: Number::Single,
+                };
+                compare(
+                    kernel,
+                    &params(law, fixed_gap, Number::Single),
+                    shape,
+                    case,
+                    &|| Box::new(CpuBackend::<f32>::new()),
+                    &|| Box::new(backend(device)),
+                    &mut worst,
+                );
+            }
+        }
+    }
+    println!(
+        "largest differences: at a point {:e}, in a sum {:e} a point",
+        worst[0], worst[1]
+    );
+}
+
+/// The same in double precision, each kernel with as few laws as reach all that is written for them:
+/// shaders in double are slow to compile in software. The exponential asks for exp, the core for powers.
+#[test]
+fn kernels_in_double_precision_agree_with_their_twins() {
+    let Some(device) = device_with_double() else {
+        return;
+    };
+    let number = Number::Double;
+    let padded = Shape {
+        points: FINE_IN_DOUBLE,
+        surface: [14, 10],
+    };
+    let [hard, _, tapered, exponential, lennard_jones] = laws().map(|(_, law)| law);
+    let mut worst = [0.0f64; 2];
+    for &kernel in KERNELS {
+        let of = |word: &str| kernel.name.starts_with(word);
+        let laws = match kernel.name {
+            "base_total" => vec![exponential, lennard_jones],
+            // Traction and its change, and its slope and energy in a core.
+            "wall_residual" | "wall_search" => vec![exponential, tapered],
+            name if of("core") || name.ends_with("core") => vec![lennard_jones],
+            _ if of("wall") => vec![exponential],
+            _ if of("yield") => vec![tapered],
+            _ => vec![hard],
+        };
+        for law in laws {
+            let case = Case {
+                patterned: law != hard && !kernel.whole,
+                based: false,
+                number,
+            };
+            let shape = match kernel.whole {
+                true => Shape::whole(FINE_IN_DOUBLE[0], FINE_IN_DOUBLE[1]),
+                false => padded,
+            };
+            compare(
+                kernel,
+                &params(law, true, number),
+                shape,
+                case,
+                &|| Box::new(CpuBackend::<f64>::new()),
+                &|| Box::new(double_backend(device)),
+                &mut worst,
+            );
+        }
+    }
+    println!(
+        "largest differences: at a point {:e}, in a sum {:e} a point",
+        worst[0], worst[1]
+    );
+}
+
+/// exp(-x) and exp(-x) - 1 at these values as the device has them: the tension of an exponential law of
+/// unit work and range, and its change from a base at zero gap.
+fn device_exponentials(device: &GpuDevice, values: &[f64], less_one: bool) -> Vec<f64> {
+    let mut backend = double_backend(device);
+    let level = backend.level("fine", Shape::whole(64, 64));
+    let mut make = |values: &[f64]| {
+        let field = backend.field(level, "field");
+        backend.write(field, values);
+        field
+    };
+    let zeros = vec![0.0; values.len()];
+    let [gap, pressure, base_gap, base_residual] = [values, &zeros, &zeros, &zeros].map(&mut make);
+    let result = make(&vec![f64::NAN; values.len()]);
+    let law = Law::Exponential(Exponential {
+        work_of_adhesion: 1.0,
+        range: 1.0,
+    });
+    backend.set_base(less_one.then_some([base_gap, base_residual]));
+    backend.set_params(&params(law, false, Number::Double));
+    backend.set_scalars(&Scalars::start(0.0, false));
+    backend.sweep(&BASE_TOTAL, level, &[gap, pressure, result]);
+    backend
+        .read(result)
+        .unwrap_or_else(|error| panic!("{error}"))
+}
+
+/// The device's own exp is not made for double precision, so it is put together from additions and
+/// multiplications. Reduced to |r| <= ln(2)/2, the last addition rounds by half a unit in the last place,
+/// the terms added and r itself by a quarter and an eighth of a unit of a result near 1, and twice that
+/// of one below 1: below 2 units, and the host's own is good to 1. Less one, beyond 1/2 from zero, that is
+/// multiplied by exp over exp less one, at most 2.6, and again by 2 where that loses a binary digit.
+#[test]
+fn exponentials_in_double_precision_are_good_to_the_last_digits() {
+    let Some(device) = device_with_double() else {
+        return;
+    };
+    let mut numbers = Numbers(3);
+    // Gaps of some ranges, where laws are asked, and all that have a normal result.
+    let mut values: Vec<f64> = (0..2048).map(|_| 20.0 * (numbers.next() + 0.5)).collect();
+    values.extend((0..1024).map(|_| 1400.0 * numbers.next()));
+    values.extend((0..1024).map(|i| numbers.next() * 2f64.powi(-(i % 60))));
+    values[..8].copy_from_slice(&[0.0, -0.0, 0.5, -0.5, 698.0, -709.0, 1e-300, 0.346_573_590_3]);
+    let ulps = |found: f64, exact: f64| {
+        let unit = exact.abs().next_up() - exact.abs();
+        match found == exact {
+            true => 0.0,
+            false => (found - exact).abs() / unit,
+        }
+    };
+    let mut worst = [0.0f64; 2];
+    let whole = device_exponentials(device, &values, false);
+    let less_one = device_exponentials(device, &values, true);
+    for (index, &value) in values.iter().enumerate() {
+        let errors = [
+            ulps(whole[index], (-value).exp()),
+            ulps(less_one[index], (-value).exp_m1()),
+        ];
+        assert!(errors[0] <= 3.0 && errors[1] <= 12.0, "{value}: {errors:?}");
+        worst = [worst[0].max(errors[0]), worst[1].max(errors[1])];
+    }
+    println!(
+        "units in the last place: exp {}, less one {}",
+        worst[0], worst[1]
+    );
+    // Beyond: none, and nothing that is no number.
+    let far: Vec<f64> = [750.0, 1e5, 1e300, f64::INFINITY, -710.0, -1e5, f64::NAN]
+        .into_iter()
+        .cycle()
+        .take(values.len())
+        .collect();
+    let found = device_exponentials(device, &far, false);
+    assert!(found[..4].iter().all(|&tension| tension == 0.0));
+    assert!(found[4..6].iter().all(|&tension| tension == f64::INFINITY));
+    assert!(found[6].is_nan());
+}
+
+/// A field taken over between single and double precision on the device is what the host would make of
+/// it, and nothing crosses the bus.
+#[test]
+fn fields_are_taken_over_on_the_device() {
+    let Some(device) = device_with_double() else {
+        return;
+    };
+    let shape = Shape::whole(48, 64);
+    let values = Numbers(9).doubles(shape.len());
+    let mut double = double_backend(device);
+    let mut single = backend(device);
+    let places: Vec<Field> = [&mut double, &mut single]
+        .map(|backend| {
+            let level = backend.level("fine", shape);
+            backend.field(level, "field")
+        })
+        .to_vec();
+    double.write(places[0], &values);
+    let before = [double.traffic(), single.traffic()];
+    single
+        .take(places[1], &mut double, places[0])
+        .unwrap_or_else(|error| panic!("{error}"));
+    // What is recorded after the loan does not reach the borrower.
+    double.clear(places[0]);
+    double
+        .take(places[0], &mut single, places[1])
+        .unwrap_or_else(|error| panic!("{error}"));
+    for (before, after) in before.iter().zip([double.traffic(), single.traffic()]) {
+        assert_eq!(
+            (before.fields_up, before.fields_down),
+            (after.fields_up, after.fields_down)
+        );
+    }
+    let rounded: Vec<f64> = values.iter().map(|&x| f64::from(x as f32)).collect();
+    assert_eq!(single.read(places[1]).expect("nothing has failed"), rounded);
+    assert_eq!(double.read(places[0]).expect("nothing has failed"), rounded);
+}
+
+/// Where a field takes more slabs in double than in single precision, iterations that are corrected lie as
+/// what corrects them.
+#[test]
+fn fields_in_slabs_are_taken_over_on_the_device() {
+    if device_with_double().is_none() {
+        return;
+    }
+    let shape = Shape::whole(48, 64);
+    let device = device_with(&AdapterChoice {
+        slab_bytes: Some(4 * shape.len() as u64),
+        ..AdapterChoice::default()
+    });
+    let Some(device) = device else { return };
+    let mut single = backend(&device).corrected();
+    let mut double = double_backend(&device);
+    assert_eq!(device.slabs(shape), Ok(1));
+    let values = Numbers(9).doubles(shape.len());
+    let [here, there] = [&mut single, &mut double].map(|backend| {
+        let level = backend.level("fine", shape);
+        backend.field(level, "field")
+    });
+    double.write(there, &values);
+    single
+        .take(here, &mut double, there)
+        .unwrap_or_else(|error| panic!("{error}"));
+    assert_eq!(single.traffic().fields_up + double.traffic().fields_down, 0);
+    let rounded: Vec<f64> = values.iter().map(|&x| f64::from(x as f32)).collect();
+    assert_eq!(single.read(here).expect("nothing has failed"), rounded);
+}
+
+/// All numbers of the scalars, flags and status included.
+fn numbers(s: &Scalars) -> Vec<(&'static str, f64)> {
+    let flag = |value: bool| f64::from(u8::from(value));
+    let mut all: Vec<_> = s.sums.iter().map(|&x| ("sums", x)).collect();
+    all.extend(s.low.iter().map(|&x| ("low", x)));
+    all.extend(s.reached.iter().map(|&x| ("reached", x)));
+    all.extend(s.high.iter().map(|&x| ("high", x)));
+    all.extend(s.carried.iter().map(|&x| ("carried", x)));
+    all.extend([
+        ("mean_pressure", s.mean_pressure),
+        ("descent", s.descent),
+        ("memory", s.memory),
+        ("shift", s.shift),
+        ("trial", s.trial),
+        ("restore", s.restore),
+        ("slope", s.slope),
+        ("curvature", s.curvature),
+        ("elastic_slope", s.elastic_slope),
+        ("up", s.up),
+        ("down", s.down),
+        ("step", s.step),
+        ("length", s.length),
+        ("step_first", s.step_first),
+        ("largest", s.largest),
+        ("snap", s.snap),
+        ("slope_at_one", s.slope_at_one),
+        ("residual", s.residual),
+        ("numerator", s.numerator),
+        ("residual_at_stall", s.residual_at_stall),
+        ("least_gap", s.least_gap),
+        ("gap_norm", s.gap_norm),
+        ("status", s.status as u32 as f64),
+        ("repeat", flag(s.repeat)),
+        ("restart", flag(s.restart)),
+        ("accepted", flag(s.accepted)),
+        ("truncated", flag(s.truncated)),
+        ("searching", flag(s.searching)),
+        ("careful", flag(s.careful)),
+        ("evaluations", f64::from(s.evaluations)),
+        ("lost", f64::from(s.lost)),
+        ("stalls", f64::from(s.stalls)),
+        ("at_floor", f64::from(s.at_floor)),
+        ("iterations", f64::from(s.iterations)),
+    ]);
+    all
+}
+
+/// A state drawn at random; some of its numbers are the special ones on which decisions turn.
+/// `searches` where the kernel is part of a search.
+fn drawn(random: &mut Numbers, searches: bool) -> Scalars {
+    let mut number = |special: &[f64]| {
+        let pick = ((random.next() + 0.5) * 12.0) as usize;
+        special
+            .get(pick)
+            .copied()
+            .unwrap_or(f64::from(2.0 * random.next() as f32))
+    };
+    let infinite = f64::INFINITY;
+    let mut scalars = Scalars::start(number(&[]), false);
+    for sum in &mut scalars.sums {
+        *sum = number(&[0.0, infinite, f64::NAN, 1e-9]);
+    }
+    scalars.sums[1] = scalars.sums[1].abs();
+    let [first, second] = &mut scalars.carried;
+    for value in [
+        first,
+        second,
+        &mut scalars.memory,
+        &mut scalars.shift,
+        &mut scalars.trial,
+        &mut scalars.slope,
+        &mut scalars.curvature,
+        &mut scalars.elastic_slope,
+        &mut scalars.up,
+        &mut scalars.down,
+        &mut scalars.slope_at_one,
+        &mut scalars.residual_at_stall,
+    ] {
+        *value = number(&[0.0, 1e-6]);
+    }
+    scalars.residual = number(&[1e-5]).abs();
+    scalars.step = number(&[1.0, 2.0]).abs();
+    scalars.length = number(&[1.0]).abs();
+    scalars.step_first = number(&[infinite, 1.0]).abs().max(scalars.step);
+    scalars.largest = number(&[0.0]).abs();
+    scalars.low = [number(&[0.0]).abs(), -number(&[]).abs(), number(&[])];
+    for reach in &mut scalars.reached {
+        *reach = number(&[1.0]).abs().min(scalars.step_first);
+    }
+    scalars.high = [number(&[infinite, infinite]).abs() + 1.0, number(&[]).abs()];
+    let mut flag = |share: f64| random.next() + 0.5 < share;
+    scalars.repeat = flag(0.2);
+    scalars.restart = flag(0.2);
+    scalars.accepted = flag(0.8);
+    scalars.truncated = flag(0.5);
+    scalars.searching = flag(if searches { 0.8 } else { 0.1 });
+    scalars.careful = flag(0.2);
+    scalars.status = if flag(0.1) {
+        Status::Converged
+    } else {
+        Status::Running
+    };
+    let mut count = |most: f64| ((random.next() + 0.5) * most) as u32;
+    scalars.evaluations = [count(8.0), 39][(count(8.0) == 0) as usize];
+    scalars.lost = [4, 24, count(5.0), 0, 0, 0][count(6.0) as usize];
+    scalars.stalls = count(5.0);
+    scalars.at_floor = [19, count(5.0)][count(2.0) as usize];
+    // On both sides of where careful steps end.
+    scalars.iterations = [1 + count(100.0), 1990 + count(20.0)][count(2.0) as usize];
+    scalars
+}
+
+#[test]
+fn scalar_kernels_agree_with_their_twins() {
+    let Some(device) = device() else { return };
+    let bound = match device.wide() {
+        Wide::Double => 1e-13,
+        Wide::Single | Wide::Compensated => 1e-5,
+    };
+    let mut backend = backend(device);
+    backend.level("fine", Shape::whole(4, 4));
+    for &kernel in SCALAR_KERNELS {
+        let mut random = Numbers(kernel.name.len() as u64);
+        for round in 0..60 {
+            let (_, law) = laws()[round % 5];
+            let params = params(law, round % 2 == 0, Number::Single);
+            let mut twin = drawn(&mut random, kernel.name.starts_with("search"));
+            backend.set_params(&params);
+            backend.set_scalars(&twin);
+            backend.scalar(kernel);
+            let ours = backend.scalars().unwrap_or_else(|error| panic!("{error}"));
+            let before = twin;
+            (kernel.run)(&params, &mut twin);
+            for ((name, a), (_, b)) in numbers(&ours).into_iter().zip(numbers(&twin)) {
+                // Drawn sums may be infinite or NaN on both sides.
+                let unknown = !a.is_finite() && !b.is_finite();
+                let same = a == b || unknown || (a - b).abs() <= bound * b.abs().max(1.0);
+                assert!(
+                    same,
+                    "{}, round {round}: {name} is {a}, twin {b}\n{before:?}\n{params:?}",
+                    kernel.name
+                );
+            }
+        }
+    }
+}
+
+/// Large numbers that cancel: plain sums in single precision keep nothing of what is left, which is
+/// some 1e-6 of them; compensated ones keep it to single precision.
+#[test]
+fn sums_without_double_precision_are_compensated() {
+    let Some(device) = device_without_double() else {
+        return;
+    };
+    assert_eq!(device.wide(), Wide::Compensated);
+    let shape = Shape::whole(96, 64);
+    let mut numbers = Numbers(5);
+    let large = numbers.field(shape.len() / 2);
+    // Each large number returns with the other sign, in the other order, a little changed.
+    let values: Vec<f64> = large
+        .iter()
+        .map(|x| 4096.0 * x)
+        .chain(
+            large
+                .iter()
+                .rev()
+                .map(|x| f64::from((1e-3 - 4096.0 * x) as f32)),
+        )
+        .collect();
+    let mut backend = backend(&device);
+    let level = backend.level("fine", shape);
+    let gap = backend.field(level, "gap");
+    let pressure = backend.field(level, "pressure");
+    backend.write(gap, &values);
+    backend.set_params(&params(Law::HardWall, true, Number::Single));
+    backend.set_scalars(&open(Gate::Running));
+    backend.sweep(&tabor::kernel::wall::WALL_BALANCE, level, &[gap, pressure]);
+    let sums = backend
+        .scalars()
+        .unwrap_or_else(|error| panic!("{error}"))
+        .sums;
+    let exact: f64 = values.iter().sum();
+    let plain = values.iter().fold(0.0f32, |sum, &x| sum + x as f32);
+    println!("{exact}: compensated {}, plain {plain}", sums[1]);
+    assert!(
+        (sums[1] - exact).abs() <= 1e-6 * exact.abs(),
+        "{} {exact}",
+        sums[1]
+    );
+    assert!(
+        (f64::from(plain) - exact).abs() > 1e-5 * exact.abs(),
+        "the test has teeth"
+    );
+}

@@ -1,0 +1,98 @@
+//! The paths on which cases run: a backend and an arithmetic, as many as the build has.
+
+use std::path::Path as FilePath;
+
+use tabor::scene::Scene;
+
+use crate::shared::device::device;
+
+/// One way to compute.
+#[derive(Debug)]
+pub struct Path {
+    /// What the table calls it.
+    pub name: &'static str,
+    /// `--backend`.
+    pub backend: &'static str,
+    /// `--precision`.
+    pub precision: &'static str,
+    /// Relative rounding error of the fields it writes.
+    pub epsilon: f64,
+    /// The tolerance asked of it: what `algorithms` were measured at, and the floor of `single`.
+    pub tolerance: f64,
+    /// How the names of the cases begin that it tries; none where it tries all.
+    only: &'static [&'static str],
+}
+
+/// Cases whose numbers are stretched. Shaders in double precision are slow to
+/// compile in software, and in all else they are single's.
+const STRETCHED: &[&str] = &[
+    "heights a million times",
+    "origin",
+    "rough, tolerance",
+    "units",
+];
+
+/// All that there may be. The first is the judge of the others.
+pub const PATHS: [Path; 6] = [
+    path("CPU double", "cpu", "double"),
+    path("CPU mixed", "cpu", "mixed"),
+    path("CPU single", "cpu", "single"),
+    Path {
+        only: STRETCHED,
+        ..path("GPU double", "gpu", "double")
+    },
+    path("GPU mixed", "gpu", "mixed"),
+    path("GPU single", "gpu", "single"),
+];
+
+const fn path(name: &'static str, backend: &'static str, precision: &'static str) -> Path {
+    let single = matches!(precision.as_bytes(), b"single");
+    Path {
+        name,
+        backend,
+        precision,
+        epsilon: if single {
+            f32::EPSILON as f64
+        } else {
+            f64::EPSILON
+        },
+        tolerance: if single { 1e-4 } else { 1e-8 },
+        only: &[],
+    }
+}
+
+const SMALLEST: &str = r#"
+    [grid]
+    points = 4
+    size = 1.0
+    [solid]
+    contact_modulus = 1.0
+    [[surface]]
+    kind = "flat"
+    [loading]
+    control = "pressure"
+    path = [1.0]
+"#;
+
+impl Path {
+    /// Whether the build accepts it: an arithmetic that a version lacks is refused in the scene.
+    pub fn is_built(&self) -> bool {
+        let settings = [("backend", self.backend), ("precision", self.precision)]
+            .map(|(key, word)| (format!("solver.{key}"), format!("\"{word}\"")));
+        Scene::parse(SMALLEST, "smallest.toml", FilePath::new("."), &settings).is_ok()
+    }
+
+    /// Whether this machine has what it takes; where it must and has not, the test fails.
+    pub fn is_here(&self) -> bool {
+        self.backend == "cpu" || device().is_some()
+    }
+
+    /// Whether it tries a case of this name.
+    pub fn tries(&self, case: &str) -> bool {
+        self.only.is_empty() || self.only.iter().any(|word| case.starts_with(word))
+    }
+
+    pub fn is_single(&self) -> bool {
+        self.precision == "single"
+    }
+}

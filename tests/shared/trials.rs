@@ -1,0 +1,68 @@
+//! A harness for tests that find out only when they run that they cannot: without an adapter, a browser or a
+//! table they are reported as ignored, with the reason. The compiler's own harness would say that they passed.
+//!
+//! A module lists its tests with [`tests!`], which stands where `#[test]` would, and the binary's `main` hands
+//! the lists to [`run`]. A function that no list names is unused code, which lints refuse.
+
+use std::panic::{UnwindSafe, catch_unwind, resume_unwind};
+use std::process::ExitCode;
+
+use libtest_mimic::{Arguments, Completion, Trial};
+
+/// Why a test cannot run; what [`ignore`] unwinds with.
+struct Ignored(String);
+
+/// Ends the running test, which is reported as ignored.
+pub fn ignore(reason: impl Into<String>) -> ! {
+    // Unlike `panic!`, this prints nothing.
+    resume_unwind(Box::new(Ignored(reason.into())))
+}
+
+/// Lists the tests of a module: functions without arguments.
+#[allow(unused_macros, reason = "not every binary needs this harness")]
+macro_rules! tests {
+    ($($(#[$attribute:meta])* $name:ident),* $(,)?) => {
+        /// The tests of this module.
+        pub fn tests() -> Vec<libtest_mimic::Trial> {
+            let mut listed = Vec::new();
+            $(
+                $(#[$attribute])*
+                listed.push($crate::shared::trials::trial(module_path!(), stringify!($name), $name));
+            )*
+            listed
+        }
+    };
+}
+#[allow(unused_imports, reason = "not every binary needs this harness")]
+pub(crate) use tests;
+
+/// A test by its module and name, as the compiler's harness would name it.
+pub fn trial(module: &str, name: &str, test: impl FnOnce() + Send + UnwindSafe + 'static) -> Trial {
+    let module = module.split_once("::").map_or("", |(_, below)| below);
+    Trial::ignorable_test(format!("{module}::{name}"), move || {
+        let Err(payload) = catch_unwind(test) else {
+            return Ok(Completion::Completed);
+        };
+        match payload.downcast::<Ignored>() {
+            Ok(ignored) => Ok(Completion::ignored_with(ignored.0)),
+            Err(failure) => resume_unwind(failure),
+        }
+    })
+}
+
+/// Runs a binary's tests as its arguments say.
+pub fn run<const N: usize>(modules: [Vec<Trial>; N]) -> ExitCode {
+    start(modules, Arguments::from_args())
+}
+
+/// The same with one test at a time.
+pub fn run_one_by_one<const N: usize>(modules: [Vec<Trial>; N]) -> ExitCode {
+    let mut arguments = Arguments::from_args();
+    arguments.test_threads = Some(1);
+    start(modules, arguments)
+}
+
+fn start<const N: usize>(modules: [Vec<Trial>; N], arguments: Arguments) -> ExitCode {
+    let tests = modules.into_iter().flatten().collect();
+    libtest_mimic::run(&arguments, tests).exit_code()
+}

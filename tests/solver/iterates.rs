@@ -1,0 +1,357 @@
+//! The processor and a graphics processor against the plain text of the method
+//! (`src/solver/plain`), iterate by iteration.
+
+use tabor::backend::Backend;
+use tabor::backend::cpu::CpuBackend;
+use tabor::elastic::{Base, Layer};
+use tabor::grid::Grid;
+use tabor::kernel::Status;
+use tabor::law::{Exponential, Law, LennardJones, MaugisDugdale};
+use tabor::scene::Boundary;
+use tabor::solver::{ContactSolver, Hold, Load, Problem, Start, plain};
+
+use crate::shared::device::{device_with_double, double_backend};
+
+/// Iterations that are compared one by one.
+const COMPARED: usize = 10;
+/// Tolerance of the solves.
+const TOLERANCE: f64 = 1e-8;
+const MOST: usize = 2000;
+
+struct Iterate {
+    gap: Vec<f64>,
+    step: f64,
+    residual: f64,
+}
+
+struct Walked {
+    iterates: Vec<Iterate>,
+    status: Status,
+    iterations: usize,
+    gap: Vec<f64>,
+    mean_pressure: f64,
+}
+
+fn by_plain(problem: &Problem, load: &Load, start: &[f64], careful: bool) -> Walked {
+    let mut iterates = Vec::new();
+    let solved = plain::solve(
+        problem,
+        load,
+        start,
+        TOLERANCE,
+        MOST,
+        careful,
+        &mut |seen| {
+            if iterates.len() < COMPARED {
+                iterates.push(Iterate {
+                    gap: seen.gap.to_vec(),
+                    step: seen.step,
+                    residual: seen.residual,
+                });
+            }
+        },
+    );
+    Walked {
+        iterates,
+        status: solved.outcome.status,
+        iterations: solved.outcome.iterations,
+        gap: solved.gap,
+        mean_pressure: solved.outcome.mean_pressure,
+    }
+}
+
+fn by_backend(
+    make: &dyn Fn() -> Box<dyn Backend + Send>,
+    problem: &Problem,
+    load: &Load,
+    start: &[f64],
+    careful: bool,
+) -> Walked {
+    let mut backend = make();
+    let mut solver = ContactSolver::new(&mut *backend, problem);
+    let start = Start::Gap(start.to_vec());
+    solver
+        .begin(load, &start, TOLERANCE, careful)
+        .expect("begins");
+    let mut iterates: Vec<Iterate> = Vec::new();
+    // Trials that are lost are rounds of their own here.
+    for _ in 0..4 * COMPARED {
+        let before = iterates.len();
+        let scalars = solver.iterate().expect("iterates");
+        if scalars.iterations as usize > before && scalars.accepted {
+            iterates.push(Iterate {
+                gap: solver.gap().expect("gap"),
+                step: scalars.step,
+                residual: scalars.residual,
+            });
+        }
+        if iterates.len() == COMPARED || scalars.status != Status::Running {
+            break;
+        }
+    }
+    let outcome = solver
+        .solve(load, &start, TOLERANCE, MOST, careful, make, &mut |_| true)
+        .expect("solves");
+    Walked {
+        iterates,
+        status: outcome.status,
+        iterations: outcome.iterations,
+        gap: solver.gap().expect("gap"),
+        mean_pressure: outcome.mean_pressure,
+    }
+}
+
+/// Seeded numbers between -1 and 1.
+fn seeded(count: usize) -> Vec<f64> {
+    let mut state = 0x9e37_79b9_7f4a_7c15_u64;
+    (0..count)
+        .map(|_| {
+            state ^= state << 13;
+            state ^= state >> 7;
+            state ^= state << 17;
+            (state >> 11) as f64 / (1u64 << 52) as f64 - 1.0
+        })
+        .collect()
+}
+
+/// A rough surface: random numbers smoothed over some pixels.
+fn rough(points: [usize; 2]) -> Vec<f64> {
+    let [nx, ny] = points;
+    let mut heights = seeded(nx * ny);
+    for _ in 0..12 {
+        heights = (0..nx * ny)
+            .map(|i| {
+                let (x, y) = (i % nx, i / nx);
+                let at = |x: usize, y: usize| heights[y % ny * nx + x % nx];
+                0.4 * at(x, y)
+                    + 0.15 * (at(x + 1, y) + at(x + nx - 1, y) + at(x, y + 1) + at(x, y + ny - 1))
+            })
+            .collect();
+    }
+    heights
+}
+
+fn problem(points: [usize; 2], boundary: Boundary, law: Law) -> Problem {
+    let grid = Grid::new(points, [1.0, points[1] as f64 / points[0] as f64]);
+    let heights: Vec<f64> = rough(points).iter().map(|h| 0.05 * h).collect();
+    Problem::new(grid, boundary, 1.0, &heights, 0.3, law)
+}
+
+fn laws(work: f64, range: f64) -> Vec<(&'static str, Law)> {
+    let dugdale = |taper: f64| {
+        Law::MaugisDugdale(MaugisDugdale {
+            peak_tension: work / range,
+            range,
+            taper,
+        })
+    };
+    let exponential = Exponential {
+        work_of_adhesion: work,
+        range,
+    };
+    let lennard_jones = LennardJones {
+        work_of_adhesion: work,
+        range,
+    };
+    vec![
+        ("hard wall", Law::HardWall),
+        ("sharp", dugdale(0.0)),
+        ("tapered", dugdale(0.5 * range)),
+        ("exponential", Law::Exponential(exponential)),
+        ("Lennard-Jones", Law::LennardJones(lennard_jones)),
+    ]
+}
+
+/// What is prescribed, in reduced units of a problem.
+fn loads(problem: &Problem) -> Vec<(&'static str, Load)> {
+    let softest = ContactSolver::pressure_compliance(problem, 0.0);
+    let pressure = 0.05 / problem.scales.pressure;
+    let zero = problem.stiffness.zero_mode();
+    if zero > 0.0 {
+        // A free boundary: a force, and an approach, which the half-space's own zero mode holds.
+        return vec![
+            (
+                "force",
+                Load {
+                    hold: Hold::Pressure(0.2 * pressure),
+                    zero_stiffness: 0.0,
+                    zero_compliance: 1.0 / zero,
+                },
+            ),
+            (
+                "approach",
+                Load {
+                    hold: Hold::Pressure(0.5 * zero),
+                    zero_stiffness: zero,
+                    zero_compliance: 1.0 / zero,
+                },
+            ),
+        ];
+    }
+    vec![
+        (
+            "pressure",
+            Load {
+                hold: Hold::Pressure(pressure),
+                zero_stiffness: 0.0,
+                zero_compliance: ContactSolver::pressure_compliance(problem, pressure),
+            },
+        ),
+        (
+            "mean gap",
+            Load {
+                hold: Hold::Gap(0.6),
+                zero_stiffness: 0.0,
+                zero_compliance: softest,
+            },
+        ),
+        (
+            "spring",
+            Load {
+                hold: Hold::Pressure(0.3 / softest),
+                zero_stiffness: 0.5 / softest,
+                zero_compliance: 2.0 * softest,
+            },
+        ),
+    ]
+}
+
+/// The undeformed surfaces at first touch, at the prescribed mean gap where there is one.
+fn start(problem: &Problem, load: &Load) -> Vec<f64> {
+    let highest = problem.highest();
+    let mut gap: Vec<f64> = problem.heights.iter().map(|h| highest - h).collect();
+    if let Hold::Gap(target) = load.hold {
+        let mean = gap.iter().sum::<f64>() / gap.len() as f64;
+        gap.iter_mut().for_each(|g| *g *= target / mean);
+    }
+    problem.padded(&gap, 0.0)
+}
+
+fn largest(values: &[f64]) -> f64 {
+    values.iter().fold(0.0, |most: f64, v| most.max(v.abs()))
+}
+
+fn apart(a: &[f64], b: &[f64]) -> f64 {
+    let off = a.iter().zip(b).map(|(a, b)| (a - b).abs());
+    off.fold(0.0, f64::max) / largest(b)
+}
+
+/// Compares one solve; says what it found.
+fn compare(name: &str, walked: &Walked, plain: &Walked, [rounding, floor]: [f64; 2]) {
+    let compared = walked.iterates.len().min(plain.iterates.len());
+    let mut worst = [0.0_f64; 3];
+    for (own, specified) in walked.iterates.iter().zip(&plain.iterates) {
+        let off = [
+            apart(&own.gap, &specified.gap),
+            (own.step - specified.step).abs() / specified.step.abs(),
+            ((own.residual - specified.residual).abs() - floor).max(0.0) / specified.residual,
+        ];
+        worst = [0, 1, 2].map(|i| worst[i].max(off[i]));
+    }
+    println!(
+        "{name}: {compared} iterates, gap {:.1e}, step {:.1e}, residual {:.1e}; iterations {} ({}), {:?}, mean pressure {} ({})",
+        worst[0],
+        worst[1],
+        worst[2],
+        walked.iterations,
+        plain.iterations,
+        walked.status,
+        walked.mean_pressure,
+        plain.mean_pressure
+    );
+    assert!(
+        walked.iterates.len() == plain.iterates.len() && compared > 0,
+        "{name}"
+    );
+    assert!(worst.iter().all(|&off| off < rounding), "{name}: {worst:?}");
+    assert_eq!(walked.status, plain.status, "{name}");
+    assert_eq!(walked.status, Status::Converged, "{name}");
+    assert!(walked.iterations.abs_diff(plain.iterations) <= 2, "{name}");
+    assert!(apart(&walked.gap, &plain.gap) < 1e-6, "{name}");
+}
+
+fn cases() -> Vec<(String, Problem)> {
+    let mut cases = Vec::new();
+    for (boundary, points, kind) in [
+        (Boundary::Periodic, [32, 48], "periodic"),
+        (Boundary::Free, [24, 20], "free"),
+    ] {
+        for (law, problem_law) in laws(2e-4, 5e-3) {
+            cases.push((
+                format!("{kind}, {law}"),
+                problem(points, boundary, problem_law),
+            ));
+        }
+    }
+    let tapered = laws(2e-4, 5e-3)[2].1;
+    let layer = Layer {
+        thickness: 0.1,
+        poisson_ratio: 0.4,
+        base: Base::Bonded,
+    };
+    for law in [Law::HardWall, tapered] {
+        let on_layer = problem([32, 32], Boundary::Periodic, law).on_layer(layer);
+        cases.push((format!("layer, {law:?}"), on_layer));
+    }
+    let factor: Vec<f64> = seeded(32 * 32).iter().map(|x| 1.0 + 0.5 * x).collect();
+    let mapped = problem([32, 32], Boundary::Periodic, tapered).patterned(factor);
+    cases.push(("map of adhesion".into(), mapped));
+    let factor: Vec<f64> = seeded(32 * 32).iter().map(|x| 1.0 + 0.5 * x).collect();
+    let smooth = laws(2e-4, 5e-3)[4].1;
+    let mapped = problem([32, 32], Boundary::Periodic, smooth).patterned(factor);
+    cases.push(("map of Lennard-Jones".into(), mapped));
+    // No coarse level: 27 and 25 cannot be halved.
+    cases.push((
+        "odd".into(),
+        problem([27, 25], Boundary::Periodic, Law::HardWall),
+    ));
+    cases
+}
+
+/// Compares every case on a backend, to a rounding and a floor of the residual.
+fn compare_all(make: &dyn Fn() -> Box<dyn Backend + Send>, bounds: [f64; 2]) {
+    for (name, problem) in cases() {
+        // A graphics processor takes sizes of small prime factors alone.
+        if !make().suits(problem.shape) {
+            println!("{name}: no transform of this size here");
+            continue;
+        }
+        for (control, load) in loads(&problem) {
+            let start = start(&problem, &load);
+            // The sharp law begins carefully in runs.
+            let sharp = problem.law.is_adhesive() && !problem.law.has_tail();
+            for careful in [false, true]
+                .into_iter()
+                .filter(|careful| sharp || !careful)
+            {
+                let name = format!(
+                    "{name}, {control}{}",
+                    if careful { ", careful" } else { "" }
+                );
+                let plain = by_plain(&problem, &load, &start, careful);
+                let walked = by_backend(make, &problem, &load, &start, careful);
+                compare(&name, &walked, &plain, bounds);
+            }
+        }
+    }
+}
+
+/// Gap, step length and residual of the first ten iterations, and the number of them all, for each
+/// law, control and boundary. Sums are added in another order and a prescribed mean gap is held by
+/// linearity: some hundred roundings, which ten iterations amplify by at most 1e4. A residual near the
+/// tolerance of 1e-8 is a difference of numbers near 1, so that its own rounding is absolute.
+#[test]
+fn the_processor_follows_the_plain_text() {
+    let make = || -> Box<dyn Backend + Send> { Box::new(CpuBackend::<f64>::new()) };
+    compare_all(&make, [1e-8, 1e-14]);
+}
+
+/// The same on a graphics processor in double precision, whose sums and transforms round elsewhere.
+#[test]
+fn the_graphics_processor_follows_the_plain_text() {
+    let Some(device) = device_with_double() else {
+        return;
+    };
+    let make = || -> Box<dyn Backend + Send> { Box::new(double_backend(device)) };
+    compare_all(&make, [1e-8, 1e-14]);
+}

@@ -1,0 +1,8 @@
+//! The solver's parts and its iterates: the elastic operator, each backend against the plain text of the
+//! method, and what one step of a path hands to the next.
+
+mod hand_over;
+mod iterates;
+mod operator;
+#[path = "../shared/mod.rs"]
+mod shared;

@@ -1,0 +1,8 @@
+//! Closed forms and models of contact against tables, studies and force curves.
+
+mod checks;
+mod dmt_study;
+mod fit;
+mod fit_light;
+#[path = "../shared/mod.rs"]
+mod shared;
