@@ -12,7 +12,6 @@ pub struct Clock {
 
 impl Clock {
     /// Starts it now.
-    #[allow(clippy::disallowed_methods, reason = "the one place that does")]
     pub fn start() -> Self {
         Clock {
             #[cfg(not(target_family = "wasm"))]

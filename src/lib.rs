@@ -111,32 +111,46 @@
 //! precision every kernel of a law reads two fields more. Under a mean gap the trial step is scaled back to
 //! it: by linearity, so that no pass comes between, but with Lennard-Jones and on a solid that flows, where
 //! the share that is added to a point is not linear in its step.
+//! Modules that are named here and not listed below are the solver's own. They are public for the tests and
+//! benches of this crate, which would otherwise build it twice (a feature for them makes another build of
+//! the crate than that of the program), and may change in every version.
 #![warn(missing_docs)]
 // Both macros panic where nobody reads; `cli` has one place for each stream.
 #![cfg_attr(not(test), deny(clippy::print_stdout, clippy::print_stderr))]
 
 pub mod accuracy;
+#[doc(hidden)]
 pub mod backend;
 #[cfg(feature = "cli")]
 mod cli;
 mod clock;
 pub mod compare;
 mod contact;
+#[doc(hidden)]
 pub mod device;
+#[doc(hidden)]
 pub mod effect;
+#[doc(hidden)]
 pub mod elastic;
 pub mod fit;
+#[doc(hidden)]
 pub mod grid;
+#[doc(hidden)]
 pub mod kernel;
+#[doc(hidden)]
 pub mod law;
 pub mod output;
+#[doc(hidden)]
 pub mod real;
 pub mod run;
 pub mod scene;
+#[doc(hidden)]
 pub mod solver;
+#[doc(hidden)]
 pub mod study;
 pub mod surface;
 pub mod theory;
+#[doc(hidden)]
 pub mod units;
 
 #[cfg(feature = "cli")]
@@ -154,7 +168,8 @@ pub use scene::{
     Range, Roughness, Scene, SelfAffineScene as SelfAffine, SurfacePart, Treatment,
 };
 
-pub use study::{Jump, State, StepRow};
+pub use study::{Jump, State, StepRow, Unreachable};
+pub use units::UnitError;
 
 /// The README's program is compiled and run like the one above.
 #[cfg(doctest)]

@@ -31,10 +31,13 @@ mod study;
 mod table;
 mod workplace;
 
+#[doc(hidden)]
 pub use cells::means;
+#[doc(hidden)]
 pub use closed::closed;
 pub use error::AccuracyError;
 pub use front::{cheapest, pareto};
+#[doc(hidden)]
 pub use grids::LEAST_POINTS;
 pub use judge::Errors;
 pub use measure::{Measured, Point};
@@ -42,10 +45,18 @@ pub use measure::{Measured, Point};
 pub use picture::picture;
 pub use reference::Reference;
 pub use report::{LeftOut, Report, Row, duration};
+#[doc(hidden)]
 pub use richardson::{Extrapolated, extrapolate};
+#[doc(hidden)]
 pub use same_surface::SameSurface;
-pub use setting::{Model, Setting, Taper, Varied, others};
+#[doc(hidden)]
+pub use setting::others;
+pub use setting::{Model, Setting, Taper, Varied};
+#[doc(hidden)]
 pub use steps::{Steps, Walk};
+#[doc(hidden)]
 pub use study::Study;
+#[doc(hidden)]
 pub use table::{LEVELS, csv, expect_place, screen, write_csv};
+#[doc(hidden)]
 pub use workplace::{Bench, Listener, Workplace};

@@ -16,7 +16,7 @@ use crate::accuracy::{
     screen, write_csv,
 };
 use crate::backend::cpu::with_threads;
-use crate::device::SelectedDevice;
+use crate::device::{SelectedDevice, has_adapter_for};
 use crate::grid::Grid;
 use crate::output::FolderLock;
 use crate::run::memory_check;
@@ -144,15 +144,8 @@ impl Shop<'_> {
     /// where one can take the grid.
     fn found(&self) -> Vec<(BackendName, Precision)> {
         let arguments = self.arguments;
-        #[cfg_attr(
-            not(feature = "gpu"),
-            expect(unused_mut, reason = "there is the processor only")
-        )]
         let mut backends = vec![BackendName::Cpu];
-        #[cfg(feature = "gpu")]
-        if crate::device::may_take_adapters(self.scene)
-            && !crate::device::list(arguments.verbose).is_empty()
-        {
+        if has_adapter_for(self.scene, arguments.verbose) {
             backends.push(BackendName::Gpu);
         }
         let precisions = [Precision::Double, Precision::Single, Precision::Mixed];

@@ -58,6 +58,7 @@ impl Control {
 
 /// A load of a path: what it prescribes, and how long it takes where that matters.
 #[derive(Clone, Copy, Debug, PartialEq)]
+#[non_exhaustive]
 pub struct Load {
     pub(super) control: Control,
     pub(super) duration: Option<f64>,

@@ -160,7 +160,7 @@ pub(super) fn best_for(setup: &Setup, verbose: bool) -> (Place, Option<String>) 
 }
 
 /// Whether an adapter could take the grid of a scene, as far as that is known before its surface is built.
-pub fn may_take_adapters(scene: &Scene) -> bool {
+pub(super) fn may_take_adapters(scene: &Scene) -> bool {
     let solved = |points: [usize; 2]| match scene.grid.boundary {
         Boundary::Periodic => points,
         Boundary::Free => points.map(|count| count.saturating_mul(2)),

@@ -8,13 +8,25 @@ mod error;
 mod selection;
 
 #[cfg(feature = "gpu")]
-pub use adapter_choice::{best, check_points, largest_here, may_take_adapters};
+pub use adapter_choice::{best, check_points, largest_here};
 #[cfg(feature = "gpu")]
 pub use adapters::list;
 pub use error::DeviceError;
 pub use selection::SelectedDevice;
 
-use crate::scene::BackendName;
+use crate::scene::{BackendName, Scene};
+
+/// Whether there is an adapter, and it could take the grid of a scene.
+#[cfg(feature = "gpu")]
+pub fn has_adapter_for(scene: &Scene, verbose: bool) -> bool {
+    adapter_choice::may_take_adapters(scene) && !list(verbose).is_empty()
+}
+
+/// There is none without the feature `gpu`.
+#[cfg(not(feature = "gpu"))]
+pub fn has_adapter_for(_scene: &Scene, _verbose: bool) -> bool {
+    false
+}
 
 /// Where the arithmetic of a solve is to run.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

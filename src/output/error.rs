@@ -12,6 +12,7 @@ pub(crate) const FRESH: &str =
 /// [`OutputError::Refused`] is a mistake in the call (exit status 2), everything else an output
 /// that cannot be written (exit status 1).
 #[derive(Debug, thiserror::Error)]
+#[non_exhaustive]
 pub enum OutputError {
     /// Writing there would touch files that are not this run's.
     #[error("{}: {reason}", path.display())]

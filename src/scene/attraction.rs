@@ -6,6 +6,7 @@ use super::GridValues;
 
 /// `[adhesion]`.
 #[derive(Clone, Debug, PartialEq)]
+#[non_exhaustive]
 pub struct AdhesionScene {
     /// Which cohesive law.
     pub law: LawName,
@@ -34,6 +35,7 @@ pub struct RateScene {
 
 /// Where the factors on a law's tension come from.
 #[derive(Clone, Debug, PartialEq)]
+#[non_exhaustive]
 pub enum AdhesionMap {
     /// A file of one factor a point; the path is resolved against the scene's folder.
     File(PathBuf),
@@ -100,6 +102,7 @@ pub enum Range {
 
 /// The names of the cohesive laws.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[non_exhaustive]
 pub enum LawName {
     /// Constant tension up to a range.
     MaugisDugdale,

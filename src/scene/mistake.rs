@@ -8,6 +8,7 @@ use crate::units::UnitError;
 
 /// What is wrong at one place of a scene, and what would be right.
 #[derive(Clone, Debug, PartialEq, Error)]
+#[non_exhaustive]
 pub enum SceneError {
     /// The file cannot be read.
     #[error("cannot be read: {reason}")]

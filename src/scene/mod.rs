@@ -43,6 +43,7 @@ pub use grid_values::GridValues;
 pub use laws::{Exponential, LennardJones, MaugisDugdale};
 pub use mistake::{Mistake, SceneError, SceneErrors};
 pub use parts::*;
+#[doc(hidden)]
 pub use time_steps::{DEFAULT_TOLERANCE as DEFAULT_TIME_TOLERANCE, Stretch};
 pub use types::*;
 

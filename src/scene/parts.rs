@@ -6,6 +6,7 @@ use super::GridValues;
 
 /// One `[[surface]]` part.
 #[derive(Clone, Debug, PartialEq)]
+#[non_exhaustive]
 pub enum SurfacePart {
     /// Self-affine roughness with a roll-off and a cut-off.
     SelfAffine(SelfAffineScene),

@@ -11,6 +11,7 @@ use crate::elastic::Layer;
 /// An effect that the scene does not name is `None`; nothing further down the line allocates,
 /// builds or runs anything for it.
 #[derive(Clone, Debug, PartialEq)]
+#[non_exhaustive]
 pub struct Scene {
     /// Title, for pictures and reports.
     pub title: Option<String>,
@@ -75,6 +76,7 @@ impl Boundary {
 
 /// `[solid]`: the elastic half-space.
 #[derive(Clone, Debug, PartialEq)]
+#[non_exhaustive]
 pub struct SolidScene {
     /// Contact modulus E*, Pa, with the counter-face's share where one is given.
     pub contact_modulus: f64,
@@ -131,6 +133,7 @@ pub struct WearScene {
 
 /// `[loading]`.
 #[derive(Clone, Debug, PartialEq)]
+#[non_exhaustive]
 pub struct LoadingScene {
     /// Which quantity the path prescribes.
     pub control: Control,
@@ -181,6 +184,7 @@ impl Control {
 
 /// `[solver]`.
 #[derive(Clone, Debug, PartialEq)]
+#[non_exhaustive]
 pub struct SolverScene {
     /// Largest accepted residual.
     pub tolerance: f64,
@@ -255,6 +259,7 @@ impl BackendName {
 
 /// `[output]`.
 #[derive(Clone, Debug, PartialEq)]
+#[non_exhaustive]
 pub struct OutputScene {
     /// Fields written as PNG.
     pub images: Vec<FieldName>,
@@ -266,6 +271,7 @@ pub struct OutputScene {
 
 /// A field that can be written.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+#[non_exhaustive]
 pub enum FieldName {
     /// Net normal traction, Pa, positive in compression.
     Pressure,

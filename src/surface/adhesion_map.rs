@@ -15,6 +15,7 @@ const ROUNDING: f64 = 1e-9;
 
 /// What is wrong with an adhesion map.
 #[derive(Debug, thiserror::Error)]
+#[non_exhaustive]
 pub enum MapError {
     /// The file cannot be read as a map.
     #[error(transparent)]

@@ -9,6 +9,7 @@ use crate::units::{cut, quoted};
 
 /// Why the heights of a scene cannot be built.
 #[derive(Debug, Error)]
+#[non_exhaustive]
 pub enum SurfaceError {
     /// The scene has no `[[surface]]`.
     #[error("the scene has no [[surface]]; for a flat one write kind = \"flat\"")]
@@ -75,6 +76,7 @@ pub enum SurfaceError {
 
 /// What is wrong with one `[[surface]]` part.
 #[derive(Debug, Error)]
+#[non_exhaustive]
 pub enum PartError {
     /// A length that must be positive and finite.
     #[error("{name} = {value} must be a positive, finite number")]
@@ -226,6 +228,7 @@ pub enum PartError {
 
 /// What is wrong with a height file. Lines, rows and columns count from 1.
 #[derive(Debug, Error)]
+#[non_exhaustive]
 pub enum FileError {
     /// A kind of file that this version does not read.
     #[error(

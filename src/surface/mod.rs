@@ -23,14 +23,18 @@ mod formats;
 pub(crate) mod fourier;
 mod matrix;
 mod outline;
+#[doc(hidden)]
 pub mod self_affine;
+#[doc(hidden)]
 pub mod shapes;
 pub mod spectrum;
 pub mod statistics;
 
 pub use adhesion_map::MapError;
 pub use error::{FileError, PartError, SurfaceError};
+#[doc(hidden)]
 pub use formats::claimed_points;
+#[doc(hidden)]
 pub use outline::{MapOutline, Outline, Source};
 
 use crate::grid::Grid;

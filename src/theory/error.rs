@@ -2,6 +2,7 @@
 
 /// Why a theory gives no number.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
+#[non_exhaustive]
 pub enum TheoryError {
     /// An input lies where the theory says nothing.
     #[error("{name} = {value:e} is out of range: it must be {allowed}")]

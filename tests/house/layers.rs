@@ -97,3 +97,41 @@ fn the_solver_names_neither_threads_nor_graphics() {
         }
     }
 }
+
+/// What a browser has not got: clocks, threads of our own, signals. Rayon does without threads where there are
+/// none, and `clock` without a clock.
+#[test]
+fn the_core_asks_for_no_clock_thread_or_signal() {
+    let source = Path::new(env!("CARGO_MANIFEST_DIR")).join("src");
+    let mut files = Vec::new();
+    rust_files(&source, &mut files);
+    let mut looked = 0;
+    for file in files {
+        let place = file.strip_prefix(&source).expect("below src");
+        if ["cli", "backend/gpu", "clock.rs"]
+            .iter()
+            .any(|outside| place.starts_with(outside))
+            || place.ends_with("tests.rs")
+        {
+            continue;
+        }
+        let text = fs::read_to_string(&file).expect("the file is readable");
+        let code = text.split("#[cfg(test)]").next().unwrap_or_default();
+        let lines = code.lines().map(str::trim_start);
+        for line in lines.filter(|line| !line.starts_with("//")) {
+            for word in [
+                "Instant",
+                "SystemTime",
+                "thread::spawn",
+                "thread::sleep",
+                "thread::Builder",
+                "signal_hook",
+                "ctrlc",
+            ] {
+                assert!(!line.contains(word), "{}: {line}", place.display());
+            }
+        }
+        looked += 1;
+    }
+    assert!(looked > 150, "only {looked} files");
+}

@@ -84,7 +84,7 @@ const OUT_OF_REACH: &[(&str, &str)] = &[
     ("Failure::Backend", "passes the device's failure on"),
     (
         "DeviceError::NotBuilt",
-        "needs a build without the feature `gpu`; tests/contact.rs asks for it there",
+        "needs a build without the feature `gpu`: src/contact asks for it there",
     ),
     ("MemoryError::Cost", "passes a wrong list of fields on"),
     (
@@ -116,6 +116,10 @@ const OUT_OF_REACH: &[(&str, &str)] = &[
     (
         "AccuracyError::Surface",
         "passes a surface's mistake on; the command line shows it with its scene",
+    ),
+    (
+        "CompareError::Run",
+        "passes on what keeps a run from beginning; the command line refuses it before",
     ),
     (
         "CompareError::Output",
