@@ -20,6 +20,28 @@ pub struct Grid {
     pub ly: f64,
 }
 
+/// What lies beyond the edge of the grid.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Boundary {
+    /// The cell repeats.
+    Periodic,
+    /// One isolated contact on an unbounded half-space.
+    Free,
+}
+
+impl Boundary {
+    /// Every one of them.
+    pub const ALL: &[Boundary] = &[Boundary::Periodic, Boundary::Free];
+
+    /// The word used in scenes.
+    pub fn name(self) -> &'static str {
+        match self {
+            Boundary::Periodic => "periodic",
+            Boundary::Free => "free",
+        }
+    }
+}
+
 impl Grid {
     /// A grid of `points` = (nx, ny) over `size` = (lx, ly) in metres.
     pub fn new(points: [usize; 2], size: [f64; 2]) -> Self {

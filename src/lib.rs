@@ -30,16 +30,15 @@
 //!
 //! # From where to go on
 //!
-//! | | |
-//! |---|---|
-//! | [`Contact`] | what touches what; everything that a scene file can say has a method |
-//! | [`Solution`], [`Path`] | a solved load as arrays; loads one after another |
-//! | [`run`](fn@run) | a [`Scene`], from a file or from [`Contact::scene`], solved into a folder of results |
-//! | [`Device`] | the processor, or a graphics processor |
-//! | [`scene`], [`surface`] | the tables of a scene; heights, their statistics and spectra |
-//! | [`theory`] | closed forms to compare with |
-//! | [`fit`], [`mod@compare`], [`accuracy`] | a force curve fitted; several models of one surface; what accuracy costs |
-//! | [`output`] | the files of a run, to read and to write |
+//! - [`Contact`]: what touches what; everything that a scene file can say has a method.
+//! - [`Solution`], [`Path`]: a solved load as arrays; loads one after another.
+//! - [`run`](fn@run): a [`Scene`], from a file or from [`Contact::scene`], solved into a folder of results.
+//! - [`Device`]: the processor, or a graphics processor.
+//! - [`scene`], [`surface`]: the tables of a scene; heights, their statistics and spectra.
+//! - [`theory`]: closed forms to compare with.
+//! - [`fit`], [`mod@compare`], [`accuracy`]: a force curve fitted; several models of one surface; what accuracy
+//!   costs.
+//! - [`output`]: the files of a run, to read and to write.
 //!
 //! # Features
 //!
@@ -62,11 +61,11 @@
 //! | [`elastic`] | stiffness of the half-space or of a layer at each wavevector, periodic or free |
 //! | [`kernel`] | the catalogue of passes over points, and the numbers of the algorithm |
 //! | [`backend`] | where the arithmetic runs: the trait, the processor, shaders through wgpu, the tally that only counts |
+//! | [`solver`] | the one algorithm, for every law and both boundaries |
 //! | [`scene`] | TOML to a checked scene, or every mistake of it with line, key and remedy |
 //! | [`surface`] | heights: self-affine, shapes, files; their statistics and the spectrum that fits |
-//! | [`solver`] | the one algorithm, for every law and both boundaries |
-//! | [`study`] | loading paths: what is held, jumps, energies, the rows of `curve.csv` |
-//! | [`effect`] | what a scene may ask for besides, and what each costs |
+//! | [`study`] | loading paths: what is prescribed, jumps, energies, the rows of `curve.csv`, the hooks of effects |
+//! | [`effect`] | what a scene may ask for besides, one file each, and what each costs |
 //! | [`output`] | the files of a run: curve, summary, fields, pictures, report, and the state to resume from |
 //! | [`device`] | where a run computes: the processor or a graphics processor, and in which arithmetic |
 //! | [`run`](mod@run) | a scene solved into its folder, or resumed; whether the memory holds it |
@@ -75,7 +74,7 @@
 //! | [`compare`] | one rough surface through the full field and the models of it, with seconds and ranges |
 //! | [`fit`] | work of adhesion and modulus from a measured force curve |
 //! | [`accuracy`] | error against seconds: a scene over grids, precisions, steps and models |
-//! | [`cli`] | the command line |
+//! | `cli` | the command line |
 //!
 //! # What an iteration does
 //!

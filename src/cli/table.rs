@@ -69,10 +69,7 @@ mod tests {
             seconds: 1.0,
             contact_area_fraction_corrected: None,
             state: State::Contact,
-            friction_force: None,
-            plastic_energy: None,
-            conductance: None,
-            wear_rate: None,
+            columns: Vec::new(),
         };
         let text = table(&(1..=30).map(row).collect::<Vec<_>>());
         let lines: Vec<&str> = text.lines().collect();

@@ -183,13 +183,13 @@ impl Contact {
 
     /// Asks for the friction force of a shear strength, Pa, of the area in contact.
     pub fn friction(mut self, shear_strength: f64) -> Self {
-        self.scene.friction = Some(FrictionScene { shear_strength });
+        self.scene.tables.friction = Some(FrictionScene { shear_strength });
         self
     }
 
     /// Asks for what the contact conducts between bodies of these conductivities, W/(m K); S/m for a current.
     pub fn conductance(mut self, solid: f64, counter_face: f64) -> Self {
-        self.scene.conductance = Some(ConductanceScene {
+        self.scene.tables.conductance = Some(ConductanceScene {
             conductivity: solid,
             counter_conductivity: counter_face,
         });
@@ -198,7 +198,7 @@ impl Contact {
 
     /// Asks for the volume that sliding wears off, of a specific wear rate, m^3/(N m).
     pub fn wear(mut self, specific_wear_rate: f64) -> Self {
-        self.scene.wear = Some(WearScene { specific_wear_rate });
+        self.scene.tables.wear = Some(WearScene { specific_wear_rate });
         self
     }
 

@@ -4,6 +4,7 @@
 //! that is `-work_of_adhesion` at zero gap and vanishes far away. The net pressure carries the
 //! traction with a minus sign. All numbers are in the caller's units; the solver uses reduced ones.
 
+mod balance;
 mod correction;
 mod exponential;
 mod lennard_jones;
@@ -11,6 +12,7 @@ mod maugis_dugdale;
 mod meniscus;
 mod pattern;
 
+pub use balance::{Support, imbalance, net_pressure};
 pub use correction::{CorrectedField, Correction};
 pub use exponential::Exponential;
 pub use lennard_jones::LennardJones;

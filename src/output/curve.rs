@@ -260,10 +260,7 @@ fn parse_row(line: &str, columns: &[Column]) -> Option<StepRow> {
         seconds: seconds.parse().ok()?,
         contact_area_fraction_corrected: optional(corrected)?,
         state: State::from_name(state)?,
-        friction_force: None,
-        plastic_energy: None,
-        conductance: None,
-        wear_rate: None,
+        columns: Vec::new(),
     };
     for (column, cell) in columns.iter().zip(more) {
         column.set(&mut row, optional(cell)?);
@@ -294,10 +291,7 @@ mod tests {
             seconds: 0.125,
             contact_area_fraction_corrected: None,
             state: State::Attracted,
-            friction_force: None,
-            plastic_energy: None,
-            conductance: None,
-            wear_rate: None,
+            columns: Vec::new(),
         }
     }
 

@@ -248,7 +248,7 @@ mod tests {
                 }],
                 points: Some(vec![
                     PointState::Contact,
-                    PointState::Apart,
+                    PointState::Separated,
                     PointState::Attracted,
                 ]),
                 jump_in_steps: vec![2],

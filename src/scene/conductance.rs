@@ -1,20 +1,12 @@
 //! `[conductance]`: what the contact conducts from one body to the other.
 
-use super::ConductanceScene;
-use super::allowed::Allowed;
-use super::keys;
+use super::SolidScene;
 use super::mistake::SceneError;
 use super::reader::Reader;
-use crate::units::Dimension;
 
-/// Reads `[conductance]`: `Some(None)` where the scene has none. `layered` tells whether the solid is
-/// a layer.
-pub(super) fn read(scene: &Reader, layered: bool) -> Option<Option<ConductanceScene>> {
-    if !scene.has("conductance") {
-        return Some(None);
-    }
-    let conductance = scene.table("conductance", &keys::CONDUCTANCE)?;
-    if layered {
+/// Notes a solid that a conductance cannot stand with. The tables have been read before.
+pub(super) fn check(scene: &Reader, solid: &SolidScene) {
+    if scene.has("conductance") && solid.layer.is_some() {
         // The current below a layer spreads by another law than the displacement does.
         scene.report(
             "conductance",
@@ -23,19 +15,5 @@ pub(super) fn read(scene: &Reader, layered: bool) -> Option<Option<ConductanceSc
                 instead: "leave the thickness out, or [conductance]".to_string(),
             },
         );
-    }
-    conductance.require(&["conductivity", "counter_conductivity"]);
-    let [conductivity, counter_conductivity] = ["conductivity", "counter_conductivity"]
-        .map(|key| conductance.quantity(key, Dimension::Conductivity, Allowed::POSITIVE));
-    Some(Some(ConductanceScene {
-        conductivity: conductivity?,
-        counter_conductivity: counter_conductivity?,
-    }))
-}
-
-impl ConductanceScene {
-    /// Harmonic mean of the two conductivities, W/(m K): one body after the other.
-    pub fn combined(&self) -> f64 {
-        2.0 / (1.0 / self.conductivity + 1.0 / self.counter_conductivity)
     }
 }

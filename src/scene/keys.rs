@@ -1,5 +1,7 @@
 //! The keys of each table, with a line that would do: the one list behind every message.
 
+use super::tables;
+
 /// A table of a scene, or one kind of `[[surface]]`.
 pub(super) struct Section {
     /// The table as messages name it.
@@ -25,22 +27,43 @@ impl Section {
     }
 }
 
+/// Keys of the scene itself before the tables that [`tables`] declares, and behind them.
+const FIRST: [(&str, &str); 6] = [
+    ("title", "title = \"Sphere on a flat\""),
+    ("grid", "[grid]"),
+    ("solid", "[solid]"),
+    ("surface", "[[surface]]"),
+    ("adhesion", "[adhesion]"),
+    ("capillary", "[capillary]"),
+];
+const LAST: [(&str, &str); 3] = [
+    ("loading", "[loading]"),
+    ("solver", "[solver]"),
+    ("output", "[output]"),
+];
+const COUNT: usize = FIRST.len() + tables::NAMES.len() + LAST.len();
+
+/// The keys of the scene itself in their order.
+const fn scene_keys() -> [(&'static str, &'static str); COUNT] {
+    let mut keys = [FIRST[0]; COUNT];
+    let behind = FIRST.len() + tables::NAMES.len();
+    let mut i = 0;
+    while i < COUNT {
+        keys[i] = if i < FIRST.len() {
+            FIRST[i]
+        } else if i < behind {
+            tables::NAMES[i - FIRST.len()]
+        } else {
+            LAST[i - behind]
+        };
+        i += 1;
+    }
+    keys
+}
+
 pub(super) const SCENE: Section = Section {
     title: "the scene itself",
-    keys: &[
-        ("title", "title = \"Sphere on a flat\""),
-        ("grid", "[grid]"),
-        ("solid", "[solid]"),
-        ("surface", "[[surface]]"),
-        ("adhesion", "[adhesion]"),
-        ("capillary", "[capillary]"),
-        ("friction", "[friction]"),
-        ("conductance", "[conductance]"),
-        ("wear", "[wear]"),
-        ("loading", "[loading]"),
-        ("solver", "[solver]"),
-        ("output", "[output]"),
-    ],
+    keys: &scene_keys(),
     later: &[("plastic", "plasticity")],
 };
 
@@ -201,33 +224,6 @@ pub(super) const CAPILLARY: Section = Section {
     later: &[],
 };
 
-pub(super) const FRICTION: Section = Section {
-    title: "[friction]",
-    keys: &[("shear_strength", "shear_strength = \"10 MPa\"")],
-    later: &[],
-};
-
-pub(super) const CONDUCTANCE: Section = Section {
-    title: "[conductance]",
-    keys: &[
-        ("conductivity", "conductivity = \"400 W/(m K)\""),
-        (
-            "counter_conductivity",
-            "counter_conductivity = \"1.4 W/(m K)\"",
-        ),
-    ],
-    later: &[],
-};
-
-pub(super) const WEAR: Section = Section {
-    title: "[wear]",
-    keys: &[(
-        "specific_wear_rate",
-        "specific_wear_rate = \"1e-6 mm^3/(N m)\"",
-    )],
-    later: &[],
-};
-
 pub(super) const LOADING: Section = Section {
     title: "[loading]",
     keys: &[
@@ -274,8 +270,8 @@ pub(super) const OUTPUT: Section = Section {
     later: &[],
 };
 
-/// Every section, to tell where a misplaced key belongs.
-pub(super) const ALL: &[&Section] = &[
+/// The sections before the tables that [`tables`] declares, and behind them.
+const BEFORE: &[&Section] = &[
     &SCENE,
     &GRID,
     &SOLID,
@@ -289,11 +285,13 @@ pub(super) const ALL: &[&Section] = &[
     &PATTERN,
     &RATE,
     &CAPILLARY,
-    &FRICTION,
-    &CONDUCTANCE,
-    &WEAR,
-    &LOADING,
-    &RAMP,
-    &SOLVER,
-    &OUTPUT,
 ];
+const BEHIND: &[&Section] = &[&LOADING, &RAMP, &SOLVER, &OUTPUT];
+
+/// Every section, to tell where a misplaced key belongs.
+pub(super) fn all() -> impl Iterator<Item = &'static Section> {
+    [BEFORE, tables::SECTIONS, BEHIND]
+        .into_iter()
+        .flatten()
+        .copied()
+}

@@ -13,7 +13,6 @@ mod check;
 mod conductance;
 mod constructors;
 mod document;
-mod friction;
 mod grid;
 mod grid_values;
 mod hardness;
@@ -30,9 +29,9 @@ mod resolved;
 mod solid;
 mod solver;
 mod surface;
+mod tables;
 mod time_steps;
 mod types;
-mod wear;
 
 use std::io::Read;
 use std::path::{Path, PathBuf};
@@ -43,6 +42,7 @@ pub use grid_values::GridValues;
 pub use laws::{Exponential, LennardJones, MaugisDugdale};
 pub use mistake::{Mistake, SceneError, SceneErrors};
 pub use parts::*;
+pub use tables::*;
 #[doc(hidden)]
 pub use time_steps::{DEFAULT_TOLERANCE as DEFAULT_TIME_TOLERANCE, Stretch};
 pub use types::*;
@@ -154,10 +154,10 @@ fn read_tables(root: &Table, folder: &Path, log: &Log) -> Option<Scene> {
         hardness::check(&scene, solid, law, loading.as_ref(), grid.as_ref());
         hardness::check_precision(&scene, solid, solver.as_ref());
     }
-    let friction = friction::read(&scene);
-    let layered = solid.as_ref().is_some_and(|solid| solid.layer.is_some());
-    let conductance = conductance::read(&scene, layered);
-    let wear = wear::read(&scene);
+    let tables = EffectTables::read(&scene);
+    if let Some(solid) = &solid {
+        conductance::check(&scene, solid);
+    }
     let path_length = loading.as_ref().map(|loading| loading.path.len());
     let output = output::read(&scene, path_length);
     Some(Scene {
@@ -167,9 +167,7 @@ fn read_tables(root: &Table, folder: &Path, log: &Log) -> Option<Scene> {
         surfaces: surfaces?,
         adhesion: adhesion?,
         capillary: capillary?,
-        friction: friction?,
-        conductance: conductance?,
-        wear: wear?,
+        tables: tables?,
         loading: loading?,
         solver: solver?,
         output: output?,

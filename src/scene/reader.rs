@@ -119,8 +119,7 @@ impl<'a> Reader<'a> {
         if likeness > 0.6 {
             self.misspelled.push(nearest);
         }
-        let elsewhere = keys::ALL
-            .iter()
+        let elsewhere = keys::all()
             .filter(|section| section.names().any(|known| known == name))
             .map(|section| section.title.to_string());
         let error = SceneError::UnknownKey {

@@ -26,20 +26,8 @@ impl Scene {
         } else if let Some(adhesion) = &self.adhesion {
             scene.insert("adhesion".into(), adhesion.resolved());
         }
-        if let Some(friction) = &self.friction {
-            let table = json!({ "shear_strength": friction.shear_strength });
-            scene.insert("friction".into(), table);
-        }
-        if let Some(conductance) = &self.conductance {
-            let table = json!({
-                "conductivity": conductance.conductivity,
-                "counter_conductivity": conductance.counter_conductivity,
-            });
-            scene.insert("conductance".into(), table);
-        }
-        if let Some(wear) = &self.wear {
-            let table = json!({ "specific_wear_rate": wear.specific_wear_rate });
-            scene.insert("wear".into(), table);
+        for (name, table) in self.tables.resolved() {
+            scene.insert(name.into(), table);
         }
         scene.insert("loading".into(), self.loading.resolved());
         scene.insert("solver".into(), self.solver.resolved());

@@ -4,7 +4,9 @@ use std::path::PathBuf;
 
 use super::attraction::{AdhesionScene, CapillaryScene};
 use super::parts::SurfacePart;
+use super::tables::EffectTables;
 use crate::elastic::Layer;
+pub use crate::grid::Boundary;
 
 /// A scene as its author wrote it: every value in SI units, defaults filled in.
 ///
@@ -25,12 +27,8 @@ pub struct Scene {
     pub adhesion: Option<AdhesionScene>,
     /// `[capillary]`, an effect.
     pub capillary: Option<CapillaryScene>,
-    /// `[friction]`, an effect.
-    pub friction: Option<FrictionScene>,
-    /// `[conductance]`, an effect.
-    pub conductance: Option<ConductanceScene>,
-    /// `[wear]`, an effect.
-    pub wear: Option<WearScene>,
+    /// Tables of effects that hold numbers alone.
+    pub tables: EffectTables,
     /// `[loading]`.
     pub loading: LoadingScene,
     /// `[solver]`.
@@ -52,28 +50,6 @@ pub struct GridScene {
     pub boundary: Boundary,
 }
 
-/// What lies beyond the edge of the grid.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Boundary {
-    /// The cell repeats.
-    Periodic,
-    /// One isolated contact on an unbounded half-space (an effect).
-    Free,
-}
-
-impl Boundary {
-    /// Every one of them.
-    pub const ALL: &[Boundary] = &[Boundary::Periodic, Boundary::Free];
-
-    /// The word used in scenes.
-    pub fn name(self) -> &'static str {
-        match self {
-            Boundary::Periodic => "periodic",
-            Boundary::Free => "free",
-        }
-    }
-}
-
 /// `[solid]`: the elastic half-space.
 #[derive(Clone, Debug, PartialEq)]
 #[non_exhaustive]
@@ -84,7 +60,7 @@ pub struct SolidScene {
     pub poisson_ratio: Option<f64>,
     /// A layer of this thickness on a rigid base in place of the half-space (an effect).
     pub layer: Option<Layer>,
-    /// Largest net pressure that the solid bears before it flows, Pa (an effect).
+    /// Largest net pressure, at which the solid yields, Pa (an effect).
     pub hardness: Option<f64>,
     /// Maxwell branches beside the contact modulus, which is then the relaxed one (an effect);
     /// empty for an elastic solid.
@@ -106,29 +82,6 @@ pub struct RelaxationScene {
     pub modulus: f64,
     /// Time in which its stress falls to 1/e, s.
     pub time: f64,
-}
-
-/// `[friction]`: what it takes to slide.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct FrictionScene {
-    /// Shear strength of the area in contact, Pa.
-    pub shear_strength: f64,
-}
-
-/// `[conductance]`: what the bodies conduct; heat, or a current with S/m in place of W/(m K).
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct ConductanceScene {
-    /// Conductivity of the solid, W/(m K).
-    pub conductivity: f64,
-    /// Conductivity of the counter-face, W/(m K).
-    pub counter_conductivity: f64,
-}
-
-/// `[wear]`: what sliding takes off.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct WearScene {
-    /// Volume worn off for each load and length of sliding, m^3/(N m).
-    pub specific_wear_rate: f64,
 }
 
 /// `[loading]`.

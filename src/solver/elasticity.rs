@@ -2,8 +2,8 @@
 
 use super::contact::ContactSolver;
 use crate::backend::{BackendError, Spectrum};
+use crate::grid::Boundary;
 use crate::kernel::{Gate, common};
-use crate::scene::Boundary;
 
 impl ContactSolver<'_> {
     /// `<values, K*values>/2` over all solved points, reduced: the elastic energy of a displacement.

@@ -2,9 +2,8 @@
 
 use crate::backend::{Backend, Factors, Level, Response, Shape, Spectrum};
 use crate::elastic::{HalfSpace, Layer, Stiffness, free_stiffness, periodic_stiffness};
-use crate::grid::Grid;
+use crate::grid::{Boundary, Grid};
 use crate::law::Law;
-use crate::scene::Boundary;
 
 /// What one reduced unit is worth in SI units.
 ///
@@ -43,7 +42,7 @@ pub struct Problem {
     pub law: Law,
     /// Factors on the law's tension, one a grid point; `None` where the law is the same everywhere.
     pub law_factor: Option<Vec<f64>>,
-    /// Largest net pressure before the solid flows, reduced; `None` for an elastic one.
+    /// Largest net pressure, at which the solid yields, reduced; `None` for an elastic one.
     pub hardness: Option<f64>,
     /// The layer in place of the half-space (periodic grids), SI.
     pub layer: Option<Layer>,
@@ -149,7 +148,7 @@ impl Problem {
         }
     }
 
-    /// The same problem on a solid that flows at a hardness (Pa).
+    /// The same problem on a perfectly plastic solid of a hardness (Pa).
     pub fn yielding(self, hardness: f64) -> Problem {
         Problem {
             hardness: Some(hardness / self.scales.pressure),
@@ -159,8 +158,13 @@ impl Problem {
 
     /// The same problem on a layer in place of the half-space (periodic grids).
     pub fn on_layer(self, layer: Layer) -> Problem {
+        let stiffness = if self.is_sketch() {
+            Stiffness::Table(vec![1.0])
+        } else {
+            layered_stiffness(self.grid, self.scales.lateral, Some(&layer))
+        };
         Problem {
-            stiffness: layered_stiffness(self.grid, self.scales.lateral, Some(&layer)),
+            stiffness,
             layer: Some(layer),
             ..self
         }
@@ -200,15 +204,7 @@ impl Problem {
 
     /// A problem that has its shape and the kind of its law and no values: no heights, and where its
     /// stiffness is a table one of 1. A solver planned on it says what the problem costs, and cannot solve it.
-    ///
-    /// `mapped` tells whether the law has a map of factors.
-    pub fn sketch(
-        grid: Grid,
-        boundary: Boundary,
-        law: Law,
-        mapped: bool,
-        layer: Option<Layer>,
-    ) -> Self {
+    pub fn sketch(grid: Grid, boundary: Boundary, law: Law) -> Self {
         Problem {
             grid,
             boundary,
@@ -222,13 +218,13 @@ impl Problem {
             height_origin: 0.0,
             rms_slope: 0.0,
             law,
-            stiffness: match (boundary, layer) {
-                (Boundary::Periodic, None) => layered_stiffness(grid, 1.0, None),
-                _ => Stiffness::Table(vec![1.0]),
+            stiffness: match boundary {
+                Boundary::Periodic => layered_stiffness(grid, 1.0, None),
+                Boundary::Free => Stiffness::Table(vec![1.0]),
             },
-            law_factor: mapped.then(Vec::new),
+            law_factor: None,
             hardness: None,
-            layer,
+            layer: None,
             conducts: false,
         }
     }
@@ -273,7 +269,7 @@ impl Problem {
             law: self.law,
             // Only a wall without a law is helped by coarser grids.
             law_factor: None,
-            // Where it would flow is found on the full grid.
+            // Where it yields is found on the full grid.
             hardness: None,
             conducts: false,
             ..*self

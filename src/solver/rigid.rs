@@ -81,9 +81,8 @@ impl Problem {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::grid::Grid;
+    use crate::grid::{Boundary, Grid};
     use crate::law::LennardJones;
-    use crate::scene::Boundary;
 
     /// Of 8 x 8 points, with a range that is short beside the heights.
     fn problem(law: Law) -> Problem {

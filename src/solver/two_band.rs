@@ -8,10 +8,9 @@
 use super::problem::Problem;
 use crate::backend::{Backend, Factors, Field, Level, Response, Shape, Spectrum};
 use crate::elastic::{Stiffness, wave_stiffness};
-use crate::grid::Grid;
+use crate::grid::{Boundary, Grid};
 use crate::kernel::{Gate, Kernel, coarse, wall, yielding};
 use crate::law::Law;
-use crate::scene::Boundary;
 
 /// Fewest coarse points each way for which the second band pays.
 const FEWEST_COARSE: usize = 8;

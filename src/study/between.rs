@@ -2,7 +2,7 @@
 //! solved from the state of the one or of another such load.
 
 use super::row::{State, StepRow};
-use super::walker::{Carried, Walker, met_problem};
+use super::walker::{Carried, Walker};
 use crate::backend::BackendError;
 use crate::kernel::Scalars;
 
@@ -82,14 +82,13 @@ impl Between<'_, '_> {
         let duration = (share - from.share) * self.duration;
         let setup = self.walker.setup();
         let mut watch = |scalars: &Scalars| (self.watch)(Watched::Iteration(scalars));
-        if setup.scene.solid.relaxation.is_empty() {
+        if !setup.effects.depend_on_duration() {
             self.walker.go_back(&from.carried);
             let tried = try_load(self.walker, value, duration, &mut watch)?;
             self.interrupted |= self.walker.is_interrupted();
             return Ok(tried);
         }
-        // In another time a solid that relaxes is another solid.
-        let problem = met_problem(setup, duration);
+        let problem = setup.effects.problem_over(setup, duration);
         let make_backend = self.walker.make_backend();
         let mut backend = make_backend();
         let mut walker = Walker::new(

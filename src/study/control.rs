@@ -2,7 +2,8 @@
 //! what the solver holds.
 
 use super::setup::Setup;
-use crate::scene::{Boundary, Control, LoadingScene};
+use crate::grid::Boundary;
+use crate::scene::Control;
 use crate::solver::{ContactSolver, Hold, Load, Problem};
 
 /// Rigid positions and total load of a solved state, SI.
@@ -31,16 +32,26 @@ impl<'s> Controller<'s> {
     /// The controller of a scene for one of its problems (with or without its law).
     pub fn new(setup: &Setup, problem: &'s Problem) -> Self {
         let highest = setup.surface.highest - problem.height_origin;
-        Controller::of(&setup.scene.loading, highest, problem)
+        Controller::with_spring(
+            setup.scene.loading.control,
+            setup.spring(),
+            highest,
+            problem,
+        )
     }
 
-    /// The controller of a path whose approach counts from `highest` (m) over the origin of the
-    /// reduced heights.
-    pub(super) fn of(loading: &LoadingScene, highest: f64, problem: &'s Problem) -> Self {
+    /// The controller of a path whose approach acts through a spring (N/m), if there is one, and counts
+    /// from `highest` (m) over the origin of the reduced heights.
+    pub(super) fn with_spring(
+        control: Control,
+        spring: Option<f64>,
+        highest: f64,
+        problem: &'s Problem,
+    ) -> Self {
         Controller {
             problem,
-            control: loading.control,
-            spring: loading.spring,
+            control,
+            spring,
             highest,
         }
     }
@@ -174,12 +185,12 @@ impl<'s> Controller<'s> {
 
     /// The undeformed gap over all solved points at a prescribed value, reduced: at first touch
     /// where a load is prescribed, cut at zero where the bodies would overlap. The heights are lowered
-    /// by depths over all solved points, none where nothing has flowed.
-    pub fn undeformed_gap(&self, value: f64, flowed: &[f64]) -> Vec<f64> {
+    /// by the plastic depths over all solved points, an empty slice where there are none.
+    pub fn undeformed_gap(&self, value: f64, plastic_depth: &[f64]) -> Vec<f64> {
         let problem = self.problem;
         let mut heights = problem.heights.clone();
-        if !flowed.is_empty() {
-            let depths = problem.surface_part(flowed);
+        if !plastic_depth.is_empty() {
+            let depths = problem.surface_part(plastic_depth);
             heights
                 .iter_mut()
                 .zip(depths)
@@ -198,21 +209,23 @@ impl<'s> Controller<'s> {
     }
 
     /// Position and load of a solved state, from the mean pressure that is held (reduced), the mean
-    /// of g + h over all solved points, and the mean gap over the grid with the mean depth that has
-    /// flowed (reduced).
+    /// of g + h over all solved points, and over the grid the mean gap with the mean plastic depth
+    /// (reduced).
     pub fn position(
         &self,
         load: &Load,
         held: f64,
         mean_displacement: f64,
-        [mean_gap, sunk]: [f64; 2],
+        [mean_gap, mean_depth]: [f64; 2],
     ) -> Position {
         let scales = self.problem.scales;
         let mean_pressure = held + load.zero_stiffness * mean_displacement;
         let yielded = self.mean_compliance() * mean_pressure;
         let approach = match self.problem.boundary {
             // The mean of the heights is the origin: mean gap and mean displacement are one.
-            Boundary::Periodic => self.highest + (yielded - (mean_gap - sunk)) * scales.length,
+            Boundary::Periodic => {
+                self.highest + (yielded - (mean_gap - mean_depth)) * scales.length
+            }
             Boundary::Free => self.highest + (yielded - mean_displacement) * scales.length,
         };
         Position {

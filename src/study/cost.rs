@@ -1,14 +1,18 @@
 //! What a scene costs: fields, bytes and passes, counted without running anything.
 
 use super::control::Controller;
-use super::setup::{Setup, resolve_law};
+use super::hooks::{Effects, HostBytes, Sizes};
+use super::regime::law_of;
+use super::setup::Setup;
 use crate::backend::{
     BackendError, Level,
     tally::{Held, Place, Tally},
 };
+use crate::elastic::Stiffness;
+use crate::grid::Boundary;
 use crate::grid::Grid;
 use crate::law::Law;
-use crate::scene::{BackendName, Precision, Scene, Treatment};
+use crate::scene::{BackendName, Precision, Scene};
 use crate::solver::{ContactSolver, Problem, Start, plan_reference};
 
 /// What a scene's solver holds and does, and what is kept between its steps.
@@ -31,6 +35,12 @@ pub struct Cost {
     pub passes: Vec<&'static str>,
     /// Solved points of the finest level.
     pub points: [usize; 2],
+    /// What effects take of the host's memory besides the history.
+    pub host: HostBytes,
+    /// Whether the stiffness of the waves is a table, and no formula.
+    pub(super) is_tabulated: bool,
+    /// Whether the first step may be helped by coarser grids.
+    pub(super) starts_coarse: bool,
 }
 
 impl Cost {
@@ -40,39 +50,24 @@ impl Cost {
     /// A kernel that is given fields which it does not take: a mistake in this crate.
     pub fn of(setup: &Setup) -> Result<Cost, BackendError> {
         let highest = setup.surface.highest - setup.problem.height_origin;
-        plan(
-            &setup.problem,
-            &setup.scene,
-            highest,
-            Place::of(&setup.scene),
-        )
+        let place = Place::of(&setup.scene);
+        plan(&setup.effects, &setup.problem, &setup.scene, highest, place)
     }
 
-    /// The same from the scene and its grid alone: without heights, and without memory for any.
-    ///
-    /// # Errors
-    /// As [`Cost::of`].
-    pub fn of_scene(scene: &Scene, grid: Grid, place: Place) -> Result<Cost, BackendError> {
-        let law = match &scene.adhesion {
-            Some(adhesion) if adhesion.treatment == Treatment::Full => {
-                let pixel = grid.dx().max(grid.dy());
-                // Which passes there are does not depend on how strong the law is.
-                resolve_law(adhesion, pixel, scene.solid.contact_modulus, 1.0)
-            }
-            _ => Law::HardWall,
-        };
-        let mapped = scene.adhesion.as_ref().is_some_and(|adhesion| {
-            (adhesion.map.is_some() || adhesion.rate.is_some())
-                && adhesion.treatment == Treatment::Full
-        });
-        let mut problem =
-            Problem::sketch(grid, scene.grid.boundary, law, mapped, scene.solid.layer);
-        problem.hardness = scene.solid.hardness;
-        let problem = match scene.conductance {
-            Some(_) => problem.conducting(),
-            None => problem,
-        };
-        plan(&problem, scene, 0.0, place)
+    /// The same from the scene, its effects and its grid alone: without heights, and without memory
+    /// for any.
+    pub(crate) fn with_effects(
+        effects: &Effects,
+        scene: &Scene,
+        grid: Grid,
+        place: Place,
+    ) -> Result<Cost, BackendError> {
+        let pixel = grid.dx().max(grid.dy());
+        // Which passes there are does not depend on how strong the law is.
+        let law = effects.solved_law(law_of(scene, pixel, 1.0));
+        let problem = Problem::sketch(grid, scene.grid.boundary, law);
+        let problem = effects.pose(problem, scene, None);
+        plan(effects, &problem, scene, 0.0, place)
     }
 
     /// Bytes that the host keeps between the steps.
@@ -108,12 +103,14 @@ impl Place {
 }
 
 fn plan(
+    effects: &Effects,
     problem: &Problem,
     scene: &Scene,
     highest: f64,
     place: Place,
 ) -> Result<Cost, BackendError> {
-    let controller = Controller::of(&scene.loading, highest, problem);
+    let spring = effects.spring(scene);
+    let controller = Controller::with_spring(scene.loading.control, spring, highest, problem);
     let value = scene.loading.path.first().copied().unwrap_or(0.0);
     let load = controller.load(value);
     let begin = |tally: &mut Tally, iterations: usize| -> Result<(), BackendError> {
@@ -137,29 +134,35 @@ fn plan(
             reference.extend(held);
         }
     }
-    let branches = scene.solid.relaxation.len();
-    let remembered = |name| Held {
+    let kept = effects.iter().flat_map(|effect| effect.kept_fields(scene));
+    let history = kept.map(|name| Held {
         name,
         level: Level(0),
         bytes: problem.shape.len() * size_of::<f64>(),
+    });
+    let is_tabulated = matches!(problem.stiffness, Stiffness::Table(_));
+    let sizes = Sizes {
+        points: problem.shape.surface_len() as u64,
+        solved: problem.shape.len() as u64,
+        table: if is_tabulated {
+            (size_of::<f64>() * problem.shape.spectrum_len()) as u64
+        } else {
+            0
+        },
     };
-    // The displacement and the spring of each branch.
-    let mut history = match branches {
-        0 => Vec::new(),
-        _ => vec![remembered("history"); branches + 1],
-    };
-    if scene.solid.hardness.is_some() {
-        // The depths that have flowed, kept for the path and for the solver.
-        history.extend([remembered("flowed"); 2]);
-    }
     Ok(Cost {
         place,
         fields: iterated.fields,
-        history,
+        history: history.collect(),
         spectra: iterated.spectra,
         work: iterated.work,
         reference,
         passes: iterated.passes.split_off(started.passes.len()),
         points: problem.shape.points,
+        host: effects.host_bytes(&sizes),
+        is_tabulated,
+        starts_coarse: problem.law == Law::HardWall
+            && problem.boundary == Boundary::Periodic
+            && spring.is_none(),
     })
 }

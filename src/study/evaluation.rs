@@ -5,11 +5,12 @@ use std::f64::consts::{LN_2, PI};
 use super::control::{Controller, Position};
 use super::row::State;
 use super::setup::Setup;
-use crate::law::Law;
-use crate::scene::{Boundary, FieldName};
+use crate::grid::Boundary;
+use crate::law::{Law, Support, net_pressure};
+use crate::scene::FieldName;
 use crate::solver::{Load, Problem};
 
-/// Attraction below this share of the law's peak counts as none.
+/// Attraction below this share of the law's peak does not count as attraction.
 const NEGLIGIBLE: f64 = 1e-9;
 
 /// What a point of the grid does.
@@ -17,7 +18,7 @@ const NEGLIGIBLE: f64 = 1e-9;
 #[repr(u8)]
 pub enum PointState {
     /// Beyond the range of the law.
-    Apart,
+    Separated,
     /// Not in contact, with a gap below the range.
     Attracted,
     /// In contact.
@@ -51,22 +52,22 @@ pub struct Evaluation {
     pub adhesive_energy: f64,
     /// Contact state.
     pub state: State,
-    /// Depths by which flow has lowered the heights, this step included, m, shape `[ny, nx]`; empty
-    /// where nothing can flow.
-    pub flowed: Vec<f64>,
+    /// Depth by which plastic indentation has lowered the heights, this step included, m, shape
+    /// `[ny, nx]`; empty for an elastic solid.
+    pub plastic_depth: Vec<f64>,
 }
 
 /// Solved fields over all solved points, reduced, and the mean pressure that is held.
 pub struct Solved<'a> {
-    /// Gap; below zero it is the depth that flows in this step.
+    /// Gap; below zero it is the plastic indentation of this step.
     pub gap: &'a [f64],
     /// K*(g + h).
     pub elastic: &'a [f64],
-    /// Mean over all solved points of what a relaxing solid's past adds to its displacement.
+    /// Mean over all solved points of what a viscoelastic solid's past adds to its displacement.
     pub mean_offset: f64,
-    /// Depths by which flow had lowered the heights before, over all solved points; empty where
-    /// nothing can flow.
-    pub flowed: &'a [f64],
+    /// Depth by which plastic indentation had lowered the heights before, over all solved points; empty
+    /// where there was none.
+    pub plastic_depth: &'a [f64],
     /// Held mean pressure.
     pub held: f64,
     /// The load it was solved for.
@@ -82,9 +83,13 @@ impl Evaluation {
     pub fn of(setup: &Setup, problem: &Problem, controller: &Controller, solved: &Solved) -> Self {
         let scales = problem.scales;
         let law = setup.law.reduced(scales.length, scales.pressure);
-        let summed_after = setup.dmt;
+        let closed_support = if setup.sums_attraction() {
+            Support::WallAlone
+        } else {
+            Support::Wall
+        };
         let mut padded = problem.padded(&problem.heights, 0.0);
-        for (height, depth) in padded.iter_mut().zip(solved.flowed) {
+        for (height, depth) in padded.iter_mut().zip(solved.plastic_depth) {
             *height -= depth;
         }
         let count_all = problem.shape.len() as f64;
@@ -100,33 +105,33 @@ impl Evaluation {
         let elastic = problem.surface_part(solved.elastic);
         let count = gap.len() as f64;
         let mut mean_gap = gap.iter().sum::<f64>() / count;
-        // What flows moves the bodies together and leaves no gap.
-        let mut sunk = 0.0;
-        let mut flowed = Vec::new();
-        let mut flows = Vec::new();
+        // Plastic indentation moves the bodies together and leaves no gap.
+        let mut mean_depth = 0.0;
+        let mut plastic_depth = Vec::new();
+        let mut is_indented = Vec::new();
         if problem.hardness.is_some() {
-            flowed = match solved.flowed {
+            plastic_depth = match solved.plastic_depth {
                 [] => vec![0.0; gap.len()],
                 before => problem.surface_part(before),
             };
-            flows = gap.iter().map(|g| *g < 0.0).collect();
-            for (depth, g) in flowed.iter_mut().zip(&mut gap) {
+            is_indented = gap.iter().map(|g| *g < 0.0).collect();
+            for (depth, g) in plastic_depth.iter_mut().zip(&mut gap) {
                 *depth -= g.min(0.0);
                 *g = g.max(0.0);
             }
             mean_gap = gap.iter().sum::<f64>() / count;
-            sunk = flowed.iter().sum::<f64>() / count;
+            mean_depth = plastic_depth.iter().sum::<f64>() / count;
         }
         let position = controller.position(
             &solved.load,
             solved.held,
             mean_displacement,
-            [mean_gap, sunk],
+            [mean_gap, mean_depth],
         );
         let offset = controller.offset(&position, mean_displacement);
 
         let mut net = vec![0.0; gap.len()];
-        let mut points = vec![PointState::Apart; gap.len()];
+        let mut points = vec![PointState::Separated; gap.len()];
         let mut adhesive = 0.0;
         let mut strongest: f64 = 0.0;
         let negative_is_contact = matches!(problem.law, Law::LennardJones(_));
@@ -140,17 +145,19 @@ impl Evaluation {
             let factor = setup.law_factor(i);
             let pulling = solved.law_factor.map_or(factor, |factors| factors[i]);
             let traction = pulling * law.traction(g);
-            let y = elastic[i] + solved.held;
-            // 0 - x, for the negative of zero prints as -0.
-            net[i] = if negative_is_contact {
-                0.0 - traction
-            } else if closed && summed_after {
-                y.max(0.0)
-            } else if closed {
-                (y + traction).max(0.0) - traction
+            let support = if is_indented.get(i) == Some(&true) {
+                Support::Indented
+            } else if closed && !negative_is_contact {
+                closed_support
             } else {
-                0.0 - traction
+                Support::Law
             };
+            net[i] = net_pressure(
+                support,
+                elastic[i] + solved.held,
+                traction,
+                problem.hardness,
+            );
             if closed {
                 points[i] = PointState::Contact;
             } else {
@@ -197,14 +204,6 @@ impl Evaluation {
             let edges = perimeter_edges(&points, problem.shape.surface, problem.boundary);
             contact - (PI - 1.0 + LN_2) / 24.0 * edges as f64 / count
         });
-        if let Some(hardness) = problem.hardness {
-            for (pressure, flows) in net.iter_mut().zip(&flows) {
-                *pressure = match flows {
-                    true => hardness,
-                    false => pressure.min(hardness),
-                };
-            }
-        }
         for pressure in &mut net {
             *pressure *= scales.pressure;
         }
@@ -222,7 +221,10 @@ impl Evaluation {
             elastic_energy: elastic_energy * energy_unit,
             adhesive_energy: adhesive * energy_unit,
             state,
-            flowed: flowed.iter().map(|depth| depth * scales.length).collect(),
+            plastic_depth: plastic_depth
+                .iter()
+                .map(|depth| depth * scales.length)
+                .collect(),
         }
     }
 
@@ -241,10 +243,10 @@ impl Evaluation {
         }
     }
 
-    /// The heights as flow has left them, m, of a surface that began with these.
+    /// The heights as plastic indentation has left them, m, of a surface that began with these.
     fn heights(&self, heights: &[f64]) -> Vec<f64> {
         let mut heights = heights.to_vec();
-        for (height, depth) in heights.iter_mut().zip(&self.flowed) {
+        for (height, depth) in heights.iter_mut().zip(&self.plastic_depth) {
             *height -= depth;
         }
         heights
@@ -280,7 +282,7 @@ mod tests {
 
     #[test]
     fn edges_wrap_on_a_periodic_grid_only() {
-        let mut points = vec![PointState::Apart; 12];
+        let mut points = vec![PointState::Separated; 12];
         points[0] = PointState::Contact;
         assert_eq!(perimeter_edges(&points, [4, 3], Boundary::Periodic), 4);
         assert_eq!(perimeter_edges(&points, [4, 3], Boundary::Free), 2);

@@ -40,9 +40,9 @@ const CLOSED: f64 = 1e-9;
 /// Which way a step jumped.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Jump {
-    /// More area sticks after it.
+    /// More area adheres after it.
     In,
-    /// Less area sticks after it.
+    /// Less area adheres after it.
     Off,
 }
 
@@ -53,7 +53,7 @@ pub(super) enum Verdict {
     Follows,
     /// It jumped.
     Jumped(Jump),
-    /// It jumped that way if what it lost stays when it is halved; losses below `least` (J) are none.
+    /// It jumped that way if what it lost stays when it is halved; losses below `least` (J) do not count.
     Perhaps { way: Jump, least: f64 },
 }
 
@@ -62,7 +62,7 @@ pub struct Jumps {
     /// Work of adhesion, J/m^2; `None` where nothing can jump.
     work: Option<f64>,
     pixel_area: f64,
-    loading: Prescribed,
+    prescribed: Prescribed,
     /// The solver's tolerance: the share of the energies that are known no better.
     tolerance: f64,
     /// Factors on the law's tension.
@@ -78,19 +78,14 @@ struct Before {
 }
 
 impl Jumps {
-    /// A watch for the steps of a setup. Without adhesion nothing jumps, and with attraction summed
-    /// afterwards loading and unloading are the same curve.
+    /// A watch for the steps of a setup. Without adhesion nothing jumps, and some effects hide jumps.
     pub fn new(setup: &Setup) -> Self {
-        // Nor can a jump be told from what a relaxing solid dissipates in the same step.
-        let relaxes = !setup.scene.solid.relaxation.is_empty();
-        // Or an edge that recedes at a rate.
-        let adhesion = setup.scene.adhesion.as_ref();
-        let rated = adhesion.is_some_and(|adhesion| adhesion.rate.is_some());
-        let adhesive = setup.law.is_adhesive() && !setup.dmt && !relaxes && !rated;
+        let hidden = setup.effects.iter().any(|effect| effect.hides_jumps());
+        let adhesive = setup.law.is_adhesive() && !hidden;
         Jumps {
             work: adhesive.then(|| setup.law.work_of_adhesion()),
             pixel_area: setup.surface.grid.pixel_area(),
-            loading: Prescribed::of(setup),
+            prescribed: Prescribed::of(setup),
             tolerance: setup.scene.solver.tolerance,
             law_factor: setup.surface.adhesion_map.clone(),
             before: None,
@@ -103,7 +98,7 @@ impl Jumps {
         if let (Some(_), [.., row]) = (self.work, rows) {
             let slope = match rows {
                 [.., before, row] if !jumped => {
-                    Piece::of(self.loading, before, row).and_then(|piece| piece.slope_after())
+                    Piece::of(self.prescribed, before, row).and_then(|piece| piece.slope_after())
                 }
                 _ => None,
             };
@@ -130,9 +125,9 @@ impl Jumps {
         let (Some(work), Some(before)) = (self.work, &self.before) else {
             return Verdict::Follows;
         };
-        let stuck = |row: &StepRow| row.contact_area_fraction + row.attractive_area_fraction;
-        let way = if stuck(row) > stuck(&before.row)
-            || (stuck(row) == stuck(&before.row)
+        let adhering = |row: &StepRow| row.contact_area_fraction + row.attractive_area_fraction;
+        let way = if adhering(row) > adhering(&before.row)
+            || (adhering(row) == adhering(&before.row)
                 && row.contact_area_fraction > before.row.contact_area_fraction)
         {
             Jump::In
@@ -142,20 +137,21 @@ impl Jumps {
         let points = evaluation.map(|evaluation| &evaluation.points);
         match (&before.points, points) {
             (Some(old), Some(new)) => {
-                // Points that changed, each by how strongly it sticks.
-                let sticks = |point: usize| self.law_factor.as_ref().map_or(1.0, |map| map[point]);
+                // Points that changed, each by how strongly it adheres.
+                let strength =
+                    |point: usize| self.law_factor.as_ref().map_or(1.0, |map| map[point]);
                 let changed = old
                     .iter()
                     .zip(new)
                     .enumerate()
                     .filter(|(_, (a, b))| a != b)
-                    .map(|(point, _)| sticks(point))
+                    .map(|(point, _)| strength(point))
                     .sum::<f64>();
                 let energies =
                     [&before.row, row].map(|row| row.elastic_energy - row.adhesive_energy);
                 let least = (LEAST_SHARE * work * changed * self.pixel_area)
                     .max(self.tolerance * (energies[0] + energies[1]));
-                match Piece::of(self.loading, &before.row, row) {
+                match Piece::of(self.prescribed, &before.row, row) {
                     Some(piece)
                         if changed > 0.0 && piece.lost > least && piece.bends(before.slope) =>
                     {
@@ -165,7 +161,7 @@ impl Jumps {
                 }
             }
             // Under a prescribed load the parted surfaces have no position, so no energy either:
-            // parting and meeting are jumps wherever something stuck.
+            // parting and meeting are jumps wherever something adhered.
             (Some(_), None) if before.row.state != State::Separated => Verdict::Jumped(Jump::Off),
             (None, Some(_)) if row.state != State::Separated => Verdict::Jumped(Jump::In),
             _ => Verdict::Follows,
@@ -180,7 +176,7 @@ impl Jumps {
         let before = self.before.take().filter(|_| !jumped);
         self.before = Some(Before {
             slope: before
-                .and_then(|before| Piece::of(self.loading, &before.row, row))
+                .and_then(|before| Piece::of(self.prescribed, &before.row, row))
                 .and_then(|piece| piece.slope_after()),
             row: row.clone(),
             points: evaluation.map(|evaluation| evaluation.points.clone()),
@@ -189,7 +185,7 @@ impl Jumps {
 
     /// Energy dissipated over a path of approach or mean gap that returns to its start.
     pub fn hysteresis(&self, rows: &[StepRow]) -> Option<f64> {
-        let place = |row: &StepRow| match self.loading.control {
+        let place = |row: &StepRow| match self.prescribed.control {
             Control::Approach => row.approach,
             Control::MeanGap => row.mean_gap.map(|gap| -gap),
             Control::Pressure | Control::Force => None,
@@ -224,10 +220,9 @@ struct Prescribed {
 
 impl Prescribed {
     fn of(setup: &Setup) -> Prescribed {
-        let loading = &setup.scene.loading;
         Prescribed {
-            control: loading.control,
-            spring: loading.spring,
+            control: setup.scene.loading.control,
+            spring: setup.spring(),
         }
     }
 }
@@ -239,7 +234,8 @@ struct Piece {
     moved: f64,
     /// Change of force, N.
     change: f64,
-    /// Work done less what is stored and what flows, J, where the force follows the straight line.
+    /// Work done less what is stored and what the solid dissipates, J, where the force follows the
+    /// straight line.
     lost: f64,
     /// What the work may be off by where the piece jumps at one of its ends, J: it falls with the length of
     /// the piece, whether force or position is prescribed.
@@ -248,14 +244,14 @@ struct Piece {
 
 impl Piece {
     /// The piece between two rows; `None` where one has no position.
-    fn of(loading: Prescribed, before: &StepRow, row: &StepRow) -> Option<Piece> {
+    fn of(prescribed: Prescribed, before: &StepRow, row: &StepRow) -> Option<Piece> {
         let moved = row.approach? - before.approach?;
         let change = row.force - before.force;
         Some(Piece {
             moved,
             change,
             lost: dissipation(before, row)?,
-            doubt: match (loading.control, loading.spring) {
+            doubt: match (prescribed.control, prescribed.spring) {
                 // What yields below the gap moves in a jump too, on its own straight line.
                 (Control::MeanGap, _) => change * (row.mean_gap? - before.mean_gap?),
                 // And so does what the far end of a spring holds.
@@ -301,7 +297,7 @@ impl Piece {
 }
 
 /// Whether a step between two rows jumped, found by halving it from the state before it. Losses below
-/// `least` (J) are none. `None` where the watch ended it.
+/// `least` (J) do not count. `None` if the watch ended it.
 pub(super) fn confirm(
     between: &mut Between,
     before: &StepRow,
@@ -309,8 +305,8 @@ pub(super) fn confirm(
     row: &StepRow,
     least: f64,
 ) -> Result<Option<bool>, BackendError> {
-    let loading = Prescribed::of(between.walker.setup());
-    let Some(mut whole) = Piece::of(loading, before, row) else {
+    let prescribed = Prescribed::of(between.walker.setup());
+    let Some(mut whole) = Piece::of(prescribed, before, row) else {
         return Ok(Some(true));
     };
     let mut start = (
@@ -332,10 +328,10 @@ pub(super) fn confirm(
         if !tried.row.converged {
             break;
         }
-        let pieces =
-            Piece::of(loading, &start.1, &tried.row).zip(Piece::of(loading, &tried.row, &end.1));
+        let pieces = Piece::of(prescribed, &start.1, &tried.row)
+            .zip(Piece::of(prescribed, &tried.row, &end.1));
         let Some((first, second)) = pieces else {
-            // Apart on the way from one place to another.
+            // Separated on the way from one place to another.
             return Ok(Some(true));
         };
         let is_first = first.size() > second.size();
@@ -373,13 +369,13 @@ pub(super) fn confirm(
     Ok(Some(keeping > 0))
 }
 
-/// Work done on the surfaces in a step less what they store and what flows, J.
+/// Work done on the surfaces in a step less what they store and what the solid dissipates, J.
 pub fn dissipation(before: &StepRow, row: &StepRow) -> Option<f64> {
     let moved = row.approach? - before.approach?;
     let work = 0.5 * (before.force + row.force) * moved;
     let stored =
         row.elastic_energy + row.adhesive_energy - before.elastic_energy - before.adhesive_energy;
-    // What has flowed has cost its own share, which no jump took.
-    let flowed = row.plastic_energy.unwrap_or(0.0) - before.plastic_energy.unwrap_or(0.0);
-    Some(work - stored - flowed)
+    // What the solid dissipates in every step no jump took.
+    let dissipated = row.dissipated_energy() - before.dissipated_energy();
+    Some(work - stored - dissipated)
 }

@@ -5,20 +5,17 @@
 //! compares them with the peak of real runs.
 
 use super::cost::Cost;
-use crate::backend::{BackendError, Shape, tally::Place};
-use crate::grid::Grid;
-use crate::scene::{Boundary, OutputScene, Scene, StepChoice, SurfacePart, Treatment};
-use crate::solver::good_size;
+use crate::backend::Shape;
+use crate::grid::{Boundary, Grid};
+use crate::scene::{OutputScene, Scene, StepChoice, SurfacePart};
 
 /// A double on the host.
-const DOUBLE: u64 = 8;
+pub(crate) const DOUBLE: u64 = 8;
 /// The program, its threads and the graphics drivers that it looks for, as measured on scenes of a
 /// few points.
 const PROGRAM: u64 = 72 << 20;
-/// Points that the sizes of a suggested grid are multiples of.
-const STRIDE: usize = 4;
-/// Fields in double precision of a step that is kept: gap and pressure, and a byte for the state.
-const EVALUATION: u64 = 2 * DOUBLE + 1;
+/// Bytes a point of the results of a step: gap and pressure, and a byte for the state.
+pub(crate) const EVALUATION: u64 = 2 * DOUBLE + 1;
 
 /// Bytes of a run, by where they are.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -41,10 +38,10 @@ impl Memory {
             surface: [grid.nx, grid.ny],
         };
         let solved = shape.len() as u64;
-        // A periodic half-space has a formula in its place.
-        let table = match (scene.grid.boundary, scene.solid.layer) {
-            (Boundary::Periodic, None) => 0,
-            _ => DOUBLE * shape.spectrum_len() as u64,
+        let table = if cost.is_tabulated {
+            DOUBLE * shape.spectrum_len() as u64
+        } else {
+            0
         };
         let solver = cost.bytes() as u64;
         let on_processor = !cost.place.on_gpu();
@@ -65,84 +62,29 @@ impl Memory {
         } else {
             0
         };
-        let evaluating = evaluating + EVALUATION * points * kept_steps(scene);
-        // A relaxing solid's history, what the past moves the surface by, and a problem of its own.
+        let results = kept_steps(scene) + cost.host.results;
+        let evaluating = evaluating + EVALUATION * points * results;
+        // Fields that effects keep from step to step, and whole states of the path.
         let history = cost.history_bytes() as u64;
-        // With adhesion a step keeps the state before it, and a search between the two three at most.
-        let state = match (&scene.adhesion, &scene.capillary) {
-            (None, None) => 0,
-            _ => DOUBLE * solved + history,
-        };
-        let evaluating = evaluating + 3 * state;
-        let (remembered, relaxing) = match scene.solid.relaxation.is_empty() {
-            true => (history, 0),
-            false => (
-                history + DOUBLE * (solved + points) + table,
-                // The displacement, padded heights, and a pressure of a spring as it is read.
-                3 * DOUBLE * solved + EVALUATION * points,
-            ),
-        };
-        // Pressure, residual, direction, two products and the contact, beside the results.
-        let conducting = match scene.conductance {
-            Some(_) => 6 * DOUBLE * solved + (DOUBLE + EVALUATION) * points,
-            None => 0,
-        };
+        let evaluating = evaluating + cost.host.states * (DOUBLE * solved + history);
         // Values of a field on their way to a file or a picture.
         let writing = (2 * EVALUATION + DOUBLE) * points;
         let solving = kept
-            + remembered
+            + history
+            + cost.host.kept
             + solver_here
             + reference
             + planning
-                .max(cold_start(scene, points, solver_here, table))
+                .max(coarse_start(cost, points, solver_here, table))
                 .max(evaluating)
                 .max(correcting)
-                .max(relaxing)
-                .max(conducting)
+                .max(cost.host.passing)
                 .max(writing);
         Memory {
             solver,
             machine: PROGRAM + building.max(solving),
             adapter: if on_processor { 0 } else { solver + reference },
         }
-    }
-
-    /// The grid of the same shape, to a few points, with the most of them whose run takes at most
-    /// `available` bytes of this machine's memory; `None` where not even the smallest does. Sizes
-    /// are multiples of 4, which a coarse grid halves, and transform well along x.
-    ///
-    /// # Errors
-    /// As [`Cost::of_scene`].
-    pub fn largest_grid(
-        scene: &Scene,
-        grid: Grid,
-        place: Place,
-        available: u64,
-    ) -> Result<Option<[usize; 2]>, BackendError> {
-        let scaled = |nx: usize| -> [usize; 2] {
-            let ny = nx as f64 * grid.ny as f64 / grid.nx as f64;
-            let ny = (ny / STRIDE as f64).round() as usize * STRIDE;
-            [nx, ny.max(STRIDE).min(grid.ny)]
-        };
-        let fits = |points: [usize; 2]| -> Result<bool, BackendError> {
-            let grid = Grid::new(points, [grid.lx, grid.ly]);
-            let cost = Cost::of_scene(scene, grid, place)?;
-            Ok(Memory::of(scene, grid, &cost).machine <= available)
-        };
-        let sizes: Vec<usize> = (STRIDE..=grid.nx)
-            .step_by(STRIDE)
-            .filter(|&size| good_size(size) == size)
-            .collect();
-        let (mut fitting, mut beyond) = (0, sizes.len());
-        while fitting < beyond {
-            let middle = (fitting + beyond) / 2;
-            if fits(scaled(sizes[middle]))? {
-                fitting = middle + 1;
-            } else {
-                beyond = middle;
-            }
-        }
-        Ok(fitting.checked_sub(1).map(|last| scaled(sizes[last])))
     }
 }
 
@@ -179,20 +121,12 @@ fn kept_steps(scene: &Scene) -> u64 {
         steps,
     } = &scene.output;
     let keeps_last = *steps == StepChoice::Last && !(images.is_empty() && fields.is_empty());
-    let brackets = match &scene.adhesion {
-        Some(adhesion) if adhesion.treatment == Treatment::Dmt => 2,
-        _ => 0,
-    };
-    u64::from(keeps_last) + brackets
+    u64::from(keeps_last)
 }
 
 /// Bytes of a first step that is helped by coarser grids, the solver itself aside.
-fn cold_start(scene: &Scene, points: u64, solver: u64, table: u64) -> u64 {
-    let hard = match &scene.adhesion {
-        None => true,
-        Some(adhesion) => adhesion.treatment == Treatment::Dmt,
-    };
-    if !hard || scene.grid.boundary == Boundary::Free || scene.loading.spring.is_some() {
+fn coarse_start(cost: &Cost, points: u64, solver: u64, table: u64) -> u64 {
+    if !cost.starts_coarse {
         return 0;
     }
     // Of each level a quarter of the one above: heights, stiffness, solver, gap; three levels.

@@ -1,39 +1,46 @@
 //! Many solves: the steps of a loading path.
+//!
+//! [`walk`] drives them and calls the hooks of the scene's effects; it knows none of them by name.
 
+mod across;
+mod attempt;
 mod between;
-mod conductance;
+mod checkpoint;
 pub mod control;
 mod cost;
-mod dmt;
-mod edge;
 mod evaluation;
-mod flow;
-mod hand_over;
+mod hooks;
 mod jumps;
 mod memory;
 mod observer;
 mod path;
 mod plan;
 mod pull_off;
-mod rate;
-mod relaxation;
+mod regime;
 mod row;
 mod setup;
+mod start;
 mod step;
 mod walker;
-mod wear;
 
+pub use across::attraction_across;
 pub use between::Search;
+pub use checkpoint::{Checkpoint as HandOver, CheckpointField as HandedField, Earlier};
 pub use cost::Cost;
-pub use dmt::attraction_across;
 pub use evaluation::{Evaluation, PointState, Solved};
-pub use hand_over::{Earlier, HandOver, HandedField};
+pub use hooks::HostBytes;
 pub use jumps::{Jump, dissipation};
 pub use memory::Memory;
 pub use observer::{FinishedStep, Observer, Unreachable, WalkEnd, WalkError};
 pub use path::{walk, walk_on};
-pub use plan::{Plan, Regime};
+pub use plan::Plan;
 pub use pull_off::{PullOff, Tension};
-pub use relaxation::{History, branch_coefficients, effective_modulus};
+pub use regime::{AUTO_TAPER, Regime, resolve_law};
 pub use row::{Column, State, StepRow};
-pub use setup::{AUTO_TAPER, Setup, resolve_law};
+pub use setup::Setup;
+
+pub(crate) use attempt::Attempt;
+pub(crate) use checkpoint::{Checkpoint, CheckpointField};
+pub(crate) use hooks::{Carry, Effects, Hooks, Sizes};
+pub(crate) use memory::{DOUBLE, EVALUATION};
+pub(crate) use step::{SolvedStep, separated};

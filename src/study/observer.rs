@@ -1,19 +1,19 @@
 //! Who keeps the steps of a path and watches its solver, and how the path ends.
 
 use super::between::Search;
+use super::checkpoint::Checkpoint;
 use super::evaluation::Evaluation;
-use super::hand_over::HandOver;
 use super::jumps::Jump;
 use super::pull_off::PullOff;
 use super::row::StepRow;
 use crate::backend::BackendError;
 use crate::kernel::Scalars;
 
-/// A finished step, handed to whoever keeps it.
+/// A finished step, passed to the observer.
 pub struct FinishedStep<'a> {
     /// The row of the table.
     pub row: &'a StepRow,
-    /// The fields; `None` where the surfaces are apart and no field belongs to the load.
+    /// The fields; `None` where the surfaces are separated and no field belongs to the load.
     pub evaluation: Option<Evaluation>,
     /// The jump that the step made, if it made one.
     pub jump: Option<Jump>,
@@ -34,8 +34,8 @@ pub trait Observer {
     fn wants_hand_over(&self) -> bool {
         false
     }
-    /// Keeps what a converged step hands to the next, once the step itself is kept.
-    fn hand_over(&mut self, _step: usize, _state: &HandOver) -> Result<(), Self::Error> {
+    /// Keeps the checkpoint after a converged step, once the step itself is kept.
+    fn hand_over(&mut self, _step: usize, _state: &Checkpoint) -> Result<(), Self::Error> {
         Ok(())
     }
 }
@@ -69,7 +69,7 @@ pub enum WalkError<E> {
 pub enum Unreachable {
     /// A position beyond that at which a periodic cell is closed everywhere.
     BeyondClosure,
-    /// A load beyond what the solid bears everywhere before it flows.
+    /// A load beyond what a solid of its hardness bears everywhere.
     BeyondHardness,
 }
 

@@ -3,16 +3,14 @@
 use std::ops::Range;
 
 use super::between::{Between, Watched};
-use super::conductance;
-use super::hand_over::{Earlier, HandOver};
+use super::checkpoint::{Checkpoint, Earlier};
 use super::jumps::{Jump, Jumps, Verdict, confirm};
 use super::observer::{FinishedStep, Observer, WalkEnd, WalkError};
 use super::pull_off;
-use super::relaxation::stretches;
 use super::row::{State, StepRow};
 use super::setup::Setup;
 use super::step::SolvedStep;
-use super::walker::{Carried, Walker, met_problem};
+use super::walker::{Carried, Walker};
 use crate::backend::BackendError;
 use crate::clock::Clock;
 use crate::solver::MakeBackend;
@@ -35,21 +33,24 @@ pub fn walk_on<O: Observer>(
     observer: &mut O,
     earlier: Earlier,
 ) -> Result<WalkEnd, WalkError<O::Error>> {
-    let Earlier { rows, hand_over } = earlier;
-    let mut carried = Carried::of(setup, &hand_over);
+    let Earlier {
+        rows,
+        hand_over: checkpoint,
+    } = earlier;
+    let mut carried = Carried::from_checkpoint(setup, &checkpoint);
     let mut end = WalkEnd {
-        jump_in_steps: hand_over.jump_in_steps,
-        jump_off_steps: hand_over.jump_off_steps,
-        pull_off: hand_over.pull_off,
-        transforms: hand_over.transforms,
+        jump_in_steps: checkpoint.jump_in_steps,
+        jump_off_steps: checkpoint.jump_off_steps,
+        pull_off: checkpoint.pull_off,
+        transforms: checkpoint.transforms,
         ..WalkEnd::default()
     };
     let done = rows.len();
     let last_jump = end.jump_in_steps.last().max(end.jump_off_steps.last());
     let mut jumps = Jumps::new(setup);
-    jumps.go_on(&rows, hand_over.points, last_jump == Some(&done));
+    jumps.go_on(&rows, checkpoint.points, last_jump == Some(&done));
     end.rows = rows;
-    for steps in stretches(&setup.scene, done) {
+    for steps in stretches(setup, done) {
         let stretch = Stretch {
             setup,
             make_backend,
@@ -64,7 +65,26 @@ pub fn walk_on<O: Observer>(
     Ok(end)
 }
 
-/// Steps of a path that meet one modulus, so that one solver takes them.
+/// The steps after the first `done`, cut where the problem that they meet changes: one stretch, or one a
+/// duration where the problem depends on it.
+fn stretches(setup: &Setup, done: usize) -> Vec<Range<usize>> {
+    let steps = done..setup.scene.loading.path.len();
+    match &setup.scene.loading.durations {
+        Some(durations) if setup.effects.depend_on_duration() => {
+            let mut stretches: Vec<Range<usize>> = Vec::new();
+            for step in steps {
+                match stretches.last_mut() {
+                    Some(last) if durations[last.start] == durations[step] => last.end = step + 1,
+                    _ => stretches.push(step..step + 1),
+                }
+            }
+            stretches
+        }
+        _ => vec![steps],
+    }
+}
+
+/// Steps of a path that meet one problem, so that one solver takes them.
 struct Stretch<'s> {
     setup: &'s Setup,
     make_backend: MakeBackend<'s>,
@@ -82,7 +102,8 @@ impl Stretch<'_> {
         carried: Carried,
     ) -> Result<Option<Carried>, WalkError<O::Error>> {
         let setup = self.setup;
-        let problem = met_problem(setup, self.duration(self.steps.start));
+        let duration = self.duration(self.steps.start);
+        let problem = setup.effects.problem_over(setup, duration);
         let mut backend = (self.make_backend)();
         let mut walker = Walker::new(setup, self.make_backend, &mut *backend, &problem, carried);
         // Transforms of earlier stretches, and of further solvers of this one.
@@ -115,18 +136,11 @@ impl Stretch<'_> {
                 end.interrupted = true;
                 return Ok(None);
             }
-            let conductance = match solved.converged {
-                true => conductance::of(setup, &mut walker.solver, solved.evaluation.as_ref())?,
-                false => None,
-            };
-            if setup.scene.conductance.is_some() && conductance.is_none() {
-                solved.converged = false;
-            }
+            walker.measure(&mut solved)?;
             if solved.converged {
                 walker.settle()?;
             }
             let mut row = walker.row(step, value, &solved);
-            row.conductance = conductance.filter(|conductance| conductance.is_finite());
             row.time = self.time(index, end.rows.last());
             let between = Between {
                 from: setup.scene.loading.path[index.saturating_sub(1)],
@@ -168,15 +182,15 @@ impl Stretch<'_> {
             }
             if observer.wants_hand_over() {
                 let left = walker.carried()?;
-                let handed = HandOver {
-                    fields: left.handed_fields(),
+                let checkpoint = Checkpoint {
+                    fields: left.checkpoint_fields(),
                     points: jumps.points().map(<[_]>::to_vec),
                     jump_in_steps: end.jump_in_steps.clone(),
                     jump_off_steps: end.jump_off_steps.clone(),
                     pull_off: end.pull_off,
                     transforms: end.transforms,
                 };
-                let kept = observer.hand_over(step, &handed);
+                let kept = observer.hand_over(step, &checkpoint);
                 kept.map_err(WalkError::Observer)?;
                 let needed = walker.is_loaded() && self.looks_back(index + 1, jumps);
                 standing = needed.then_some(left);

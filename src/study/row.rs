@@ -1,7 +1,5 @@
 //! One finished step, as it is written to `curve.csv`.
 
-use crate::scene::Scene;
-
 /// Contact state of a step.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum State {
@@ -66,76 +64,64 @@ pub struct StepRow {
     pub contact_area_fraction_corrected: Option<f64>,
     /// Contact state.
     pub state: State,
-    /// Friction force of the shear strength over the area in contact, N; `None` without friction.
-    pub friction_force: Option<f64>,
-    /// Energy that plastic flow has dissipated since the path began, J; `None` without a hardness.
-    pub plastic_energy: Option<f64>,
-    /// What the contact conducts, W/K; `None` without conductance, where the surfaces are closed
-    /// everywhere, or where the step did not converge.
-    pub conductance: Option<f64>,
-    /// Volume that a length of sliding wears off, m^3 per m; `None` without wear.
-    pub wear_rate: Option<f64>,
+    /// What effects add, in the order of their columns.
+    pub columns: Vec<(Column, Option<f64>)>,
+}
+
+impl StepRow {
+    /// The value of a column that an effect adds; `None` where it is not there or has no value.
+    pub fn column(&self, name: &str) -> Option<f64> {
+        let found = self.columns.iter().find(|(column, _)| column.name == name);
+        found.and_then(|(_, value)| *value)
+    }
+
+    /// Energy that the solid has dissipated since the path began, J.
+    pub(super) fn dissipated_energy(&self) -> f64 {
+        let dissipated = self
+            .columns
+            .iter()
+            .filter(|(column, _)| column.is_dissipated_energy);
+        dissipated.filter_map(|(_, value)| *value).sum()
+    }
 }
 
 /// A column that `curve.csv` has behind the others where an effect asks for it.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Column {
-    /// Friction force.
-    FrictionForce,
-    /// Energy that plastic flow has dissipated.
-    PlasticEnergy,
-    /// Conductance.
-    Conductance,
-    /// Volume worn off for each length of sliding.
-    WearRate,
+pub struct Column {
+    /// Its name in the head.
+    pub(crate) name: &'static str,
+    /// Its place among the columns of effects. A new one stands behind all that there were, so that
+    /// tables of before keep their order.
+    pub(crate) place: usize,
+    /// Whether it holds energy that the solid has dissipated since the path began, J.
+    pub(crate) is_dissipated_energy: bool,
 }
 
 impl Column {
-    /// Those that a scene asks for, in their order.
-    pub fn of(scene: &Scene) -> Vec<Column> {
-        let mut columns = Vec::new();
-        if scene.friction.is_some() {
-            columns.push(Column::FrictionForce);
+    /// A column of that name at a place among those of effects.
+    pub(crate) const fn new(name: &'static str, place: usize) -> Column {
+        Column {
+            name,
+            place,
+            is_dissipated_energy: false,
         }
-        if scene.solid.hardness.is_some() {
-            columns.push(Column::PlasticEnergy);
-        }
-        if scene.conductance.is_some() {
-            columns.push(Column::Conductance);
-        }
-        if scene.wear.is_some() {
-            columns.push(Column::WearRate);
-        }
-        columns
     }
 
     /// Its name in the head.
     pub fn name(self) -> &'static str {
-        match self {
-            Column::FrictionForce => "friction_force",
-            Column::PlasticEnergy => "plastic_energy",
-            Column::Conductance => "conductance",
-            Column::WearRate => "wear_rate",
-        }
+        self.name
     }
 
     /// Its value in a row.
     pub fn value(self, row: &StepRow) -> Option<f64> {
-        match self {
-            Column::FrictionForce => row.friction_force,
-            Column::PlasticEnergy => row.plastic_energy,
-            Column::Conductance => row.conductance,
-            Column::WearRate => row.wear_rate,
-        }
+        row.column(self.name)
     }
 
     /// Sets its value in a row.
     pub fn set(self, row: &mut StepRow, value: Option<f64>) {
-        match self {
-            Column::FrictionForce => row.friction_force = value,
-            Column::PlasticEnergy => row.plastic_energy = value,
-            Column::Conductance => row.conductance = value,
-            Column::WearRate => row.wear_rate = value,
+        match row.columns.iter_mut().find(|(column, _)| *column == self) {
+            Some((_, old)) => *old = value,
+            None => row.columns.push((self, value)),
         }
     }
 }

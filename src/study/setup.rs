@@ -1,8 +1,11 @@
 //! From a scene and its surface to the problem that is solved.
 
-use super::plan::{Plan, Regime};
-use crate::law::{Exponential, Law, LennardJones, MaugisDugdale};
-use crate::scene::{AdhesionScene, Boundary, LawName, Range, Scene, Treatment};
+use super::hooks::{Effects, Hooks};
+use super::plan::Plan;
+use super::regime::Regime;
+use super::row::Column;
+use crate::law::Law;
+use crate::scene::{Boundary, Scene};
 use crate::solver::Problem;
 use crate::surface::{MapOutline, Outline, Source, Surface, statistics::Statistics};
 
@@ -19,67 +22,19 @@ pub struct Setup {
     pub law: Law,
     /// The reduced problem; without the law where the attraction is summed afterwards.
     pub problem: Problem,
-    /// Whether attraction is summed over the gap of the solution without it.
-    pub dmt: bool,
     /// Regime and resolution of the adhesion, where there is any.
     pub regime: Option<Regime>,
     /// What the user should know.
     pub warnings: Vec<String>,
     /// Real two-dimensional transforms that the statistics took.
     pub transforms: f64,
-}
-
-/// Width of the automatic taper over `sigma0 dx/E*`, what a pixel of the peak tension opens.
-///
-/// The least at which a straight edge along the grid comes off within 1 % of the closed form; the table of
-/// `docs/solver.md`.
-pub const AUTO_TAPER: f64 = 6.0;
-
-/// The law of a scene on pixels of side `pixel` (m), with what `auto` stands for where the map's
-/// largest factor on the tension is `strongest`.
-pub fn resolve_law(
-    adhesion: &AdhesionScene,
-    pixel: f64,
-    contact_modulus: f64,
-    strongest: f64,
-) -> Law {
-    let work = adhesion.work_of_adhesion;
-    let resolved = (strongest * work * pixel / contact_modulus).sqrt();
-    let range = match (adhesion.range, adhesion.law) {
-        (Range::Length(range), _) => range,
-        // The shortest ranges at which pull-off is still within some per cent of JKR's.
-        (Range::Auto, LawName::MaugisDugdale) => 2f64.sqrt() * resolved,
-        (Range::Auto, LawName::Exponential) => resolved,
-        (Range::Auto, LawName::LennardJones) => 1.25 * resolved,
-    };
-    match adhesion.law {
-        LawName::MaugisDugdale => {
-            let peak_tension = work / range;
-            // Summed over a gap that does not feel it, the attraction traps nothing.
-            let auto = match adhesion.treatment {
-                Treatment::Full => AUTO_TAPER * strongest * peak_tension * pixel / contact_modulus,
-                Treatment::Dmt => 0.0,
-            };
-            Law::MaugisDugdale(MaugisDugdale {
-                peak_tension,
-                range,
-                taper: adhesion.taper.unwrap_or(auto).min(2.0 * range),
-            })
-        }
-        LawName::LennardJones => Law::LennardJones(LennardJones {
-            work_of_adhesion: work,
-            range,
-        }),
-        LawName::Exponential => Law::Exponential(Exponential {
-            work_of_adhesion: work,
-            range,
-        }),
-    }
+    /// The effects that the scene asks for.
+    pub(super) effects: Effects,
 }
 
 impl Setup {
-    /// Puts a scene and its surface together.
-    pub fn new(scene: Scene, surface: Surface) -> Self {
+    /// Puts a scene and its surface together, with those of a list of effects that the scene asks for.
+    pub(crate) fn with_effects(all: &[&'static dyn Hooks], scene: Scene, surface: Surface) -> Self {
         let grid = surface.grid;
         let statistics = Statistics::of(&grid, &surface.heights, scene.grid.boundary);
         let outline = Outline {
@@ -93,11 +48,11 @@ impl Setup {
         let Plan {
             scene,
             law,
-            dmt,
             regime,
             warnings,
+            effects,
             ..
-        } = Plan::new(scene, outline);
+        } = Plan::with_effects(all, scene, outline);
         let transforms = match scene.grid.boundary {
             Boundary::Periodic => 1.0,
             Boundary::Free => 0.0,
@@ -108,27 +63,9 @@ impl Setup {
             scene.solid.contact_modulus,
             &surface.heights,
             statistics.moments.rms_slope(),
-            if dmt { Law::HardWall } else { law },
+            effects.solved_law(law),
         );
-        let rated = scene.adhesion.as_ref().is_some_and(|a| a.rate.is_some());
-        let problem = match &surface.adhesion_map {
-            Some(factor) if !dmt => problem.patterned(factor.clone()),
-            // Where an edge recedes there will be a factor.
-            None if rated => problem.patterned(vec![1.0; grid.len()]),
-            _ => problem,
-        };
-        let problem = match scene.solid.layer {
-            Some(layer) => problem.on_layer(layer),
-            None => problem,
-        };
-        let problem = match scene.solid.hardness {
-            Some(hardness) => problem.yielding(hardness),
-            None => problem,
-        };
-        let problem = match scene.conductance {
-            Some(_) => problem.conducting(),
-            None => problem,
-        };
+        let problem = effects.pose(problem, &scene, surface.adhesion_map.as_deref());
         Setup {
             warnings,
             scene,
@@ -136,15 +73,30 @@ impl Setup {
             statistics,
             law,
             problem,
-            dmt,
             regime,
             transforms,
+            effects,
         }
     }
 
     /// The law that is solved for, SI; the hard wall where the attraction is summed afterwards.
     pub fn solved_law(&self) -> Law {
-        if self.dmt { Law::HardWall } else { self.law }
+        self.effects.solved_law(self.law)
+    }
+
+    /// Whether attraction is summed over the gap of the solution without it.
+    pub fn sums_attraction(&self) -> bool {
+        self.solved_law() != self.law
+    }
+
+    /// Columns of `curve.csv` that the scene's effects ask for, in their order.
+    pub fn columns(&self) -> Vec<Column> {
+        self.effects.columns()
+    }
+
+    /// Spring between a prescribed approach and the body, N/m.
+    pub(super) fn spring(&self) -> Option<f64> {
+        self.effects.spring(&self.scene)
     }
 
     /// Factor on the law's tension at a grid point.

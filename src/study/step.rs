@@ -3,6 +3,7 @@
 use super::control::Controller;
 use super::evaluation::{Evaluation, Solved};
 use super::observer::Unreachable;
+use super::row::Column;
 use super::setup::Setup;
 use crate::backend::BackendError;
 use crate::kernel::{Scalars, Status};
@@ -10,7 +11,7 @@ use crate::law::Law;
 use crate::solver::{ContactSolver, Hold, Load, MakeBackend, Outcome, Start};
 
 /// A step as solved.
-pub(super) struct SolvedStep {
+pub(crate) struct SolvedStep {
     /// Fields and sums; `None` where no equilibrium carries the load.
     pub evaluation: Option<Evaluation>,
     /// Whether the residual meets the tolerance.
@@ -21,16 +22,22 @@ pub(super) struct SolvedStep {
     pub residual: f64,
     /// Why there is nothing to solve for, where that is so.
     pub unreachable: Option<Unreachable>,
+    /// Whether the fields carry the load that was asked, where one was.
+    pub load_is_met: bool,
+    /// What effects measured on the solver.
+    pub measured: Vec<(Column, f64)>,
 }
 
 /// A load that the surfaces do not carry.
-pub(super) fn separated() -> SolvedStep {
+pub(crate) fn separated() -> SolvedStep {
     SolvedStep {
         evaluation: None,
         converged: true,
         iterations: 0,
         residual: 0.0,
         unreachable: None,
+        load_is_met: true,
+        measured: Vec::new(),
     }
 }
 
@@ -105,14 +112,14 @@ pub(super) fn finish(
         gap: &gap,
         elastic: &elastic,
         mean_offset: solver.mean_offset(),
-        flowed: solver.flowed(),
+        plastic_depth: solver.flowed(),
         held: outcome.mean_pressure,
         load: *load,
         law_factor: solver.law_factor(),
     };
     let problem = solver.problem();
     let evaluation = Evaluation::of(setup, problem, controller, &solved);
-    // What is no number has not converged, whatever the residual makes of it.
+    // Non-finite fields have not converged, whatever the residual is.
     let is_finite = evaluation.force.is_finite() && evaluation.position.mean_gap.is_finite();
     // Nor has a state on the constant that stands in the place of a core nearer than any load takes it.
     let nearest = problem.law.least_gap() * problem.scales.length;
@@ -129,5 +136,7 @@ pub(super) fn finish(
             outcome.residual
         },
         unreachable: None,
+        load_is_met: true,
+        measured: Vec::new(),
     })
 }

@@ -4,7 +4,7 @@
 
 use super::error::{TheoryError, not_negative, positive};
 use super::quadrature::integrate;
-use crate::study::branch_coefficients;
+use crate::effect::branch_coefficients;
 
 /// A standard linear solid.
 #[derive(Clone, Copy, Debug, PartialEq)]

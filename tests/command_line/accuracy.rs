@@ -11,6 +11,7 @@ use std::process::{Command, Stdio};
 use std::time::{Duration, Instant};
 
 use crate::shared::binary::{self, errors, number, scene, signal, table, tabor, without_adapter};
+use crate::shared::trials::tests;
 
 /// The columns that other programs rely on, in their order.
 const COLUMNS: &str = "points,backend,precision,tolerance,steps,treatment,taper,seconds,error_area,error_force,error_pressure,error_pull_off,reference_uncertainty,pareto";
@@ -71,7 +72,6 @@ fn rows(folder: &Path) -> Vec<HashMap<String, String>> {
     table(&path)
 }
 
-#[test]
 fn a_sphere_is_judged_by_its_closed_form() {
     let folder = scene(HERTZ);
     let output = command(folder.path(), &["--budget", "60 s"])
@@ -166,7 +166,6 @@ fn a_sphere_is_judged_by_its_closed_form() {
     assert!(cheapest["pareto"] == "true");
 }
 
-#[test]
 fn what_there_is_no_time_for_is_left_out_and_listed() {
     let folder = scene(ROUGH);
     let clock = Instant::now();
@@ -198,7 +197,6 @@ fn what_there_is_no_time_for_is_left_out_and_listed() {
     );
 }
 
-#[test]
 fn a_rough_surface_is_judged_by_finer_grids_and_an_interrupt_keeps_the_rows() {
     let folder = scene(ROUGH);
     let child = command(folder.path(), &["--budget", "10 min"])
@@ -237,7 +235,6 @@ fn a_rough_surface_is_judged_by_finer_grids_and_an_interrupt_keeps_the_rows() {
 
 /// A force held on a solid of two relaxation times: in equal steps, as the scene has them, and in those
 /// that `steps = "auto"` finds for several errors in time.
-#[test]
 fn the_error_of_adaptive_time_steps_is_shown_beside_that_of_equal_ones() {
     let folder = scene(
         r#"
@@ -335,7 +332,6 @@ steps = 40
 
 /// `range = "auto"` is judged by the limit that it stands for, JKR on a sphere, and beside a range
 /// that is given it is one of the settings, with its error.
-#[test]
 fn a_range_that_the_grid_stretches_has_its_error_shown() {
     // Tabor number 5: on 32 points the range of 100 nm is far below the pixel's.
     let sphere = r#"
@@ -430,7 +426,6 @@ steps = 48
 /// With the taper pull-off is right to 3 % at chi 0.65 (2.1 % was measured at most, on periodic spheres; 1 %
 /// is left for the free boundary and the steps). At 1.3 the contact itself is 10 to 25 pixels wide, whose
 /// edge counts too: 10 %, and that is warned of. What the taper does not mend at 2.6 is warned of as such.
-#[test]
 fn soft_spheres_are_right_or_warned_of() {
     for (tabor, chi) in [
         (2.0, 0.64),
@@ -494,7 +489,6 @@ fn soft_spheres_are_right_or_warned_of() {
 }
 
 /// A zone of three pixels does not help a contact that is five pixels wide itself, and that is said too.
-#[test]
 fn a_contact_of_few_pixels_is_warned_of() {
     for (chi, strength) in [
         (0.6, "10 % cannot be reached"),
@@ -509,7 +503,6 @@ fn a_contact_of_few_pixels_is_warned_of() {
 }
 
 /// The tables of the page are those of the committed measurements.
-#[test]
 fn the_page_shows_what_was_measured() {
     let root = Path::new(env!("CARGO_MANIFEST_DIR"));
     let page = fs::read_to_string(root.join("docs/accuracy.md")).expect("there is a page");
@@ -527,3 +520,14 @@ fn the_page_shows_what_was_measured() {
         assert!((1_000..150_000).contains(&bytes), "{}: {bytes} bytes", name);
     }
 }
+
+tests![
+    a_sphere_is_judged_by_its_closed_form,
+    what_there_is_no_time_for_is_left_out_and_listed,
+    a_rough_surface_is_judged_by_finer_grids_and_an_interrupt_keeps_the_rows,
+    the_error_of_adaptive_time_steps_is_shown_beside_that_of_equal_ones,
+    a_range_that_the_grid_stretches_has_its_error_shown,
+    soft_spheres_are_right_or_warned_of,
+    a_contact_of_few_pixels_is_warned_of,
+    the_page_shows_what_was_measured,
+];

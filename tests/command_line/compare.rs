@@ -4,6 +4,7 @@ use std::fs;
 use std::path::Path;
 
 use crate::shared::binary::{errors, tabor};
+use crate::shared::trials::tests;
 
 const HEAD: &str = "model,mean_pressure,contact_area_fraction,mean_gap,adhesive_pressure,pull_off_pressure,seconds,within_range,limit";
 
@@ -51,7 +52,6 @@ fn of<'a>(rows: &'a [Vec<String>], model: &str) -> Vec<&'a Vec<String>> {
     rows.iter().filter(|row| row[0] == model).collect()
 }
 
-#[test]
 fn every_model_answers_at_every_load() {
     let folder = tempfile::tempdir().expect("a folder");
     fs::write(folder.path().join("smooth.toml"), SMOOTH).expect("written");
@@ -106,7 +106,6 @@ fn every_model_answers_at_every_load() {
     assert_eq!(again.status.code(), Some(0), "{}", errors(&again));
 }
 
-#[test]
 fn without_adhesion_and_from_a_file_the_models_that_can_answer_do() {
     let folder = tempfile::tempdir().expect("a folder");
     let waves = (0..32).map(|y| {
@@ -145,7 +144,6 @@ fn without_adhesion_and_from_a_file_the_models_that_can_answer_do() {
     }
 }
 
-#[test]
 fn shapes_that_are_not_rough_are_refused_with_the_way_out() {
     let folder = tempfile::tempdir().expect("a folder");
     let path = folder.path().join("scene.toml");
@@ -170,3 +168,9 @@ fn shapes_that_are_not_rough_are_refused_with_the_way_out() {
         .replace("MPa", "mN");
     refused(&free, "periodic");
 }
+
+tests![
+    every_model_answers_at_every_load,
+    without_adhesion_and_from_a_file_the_models_that_can_answer_do,
+    shapes_that_are_not_rough_are_refused_with_the_way_out,
+];

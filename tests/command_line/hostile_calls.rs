@@ -9,6 +9,8 @@ use std::path::Path;
 use std::time::{Duration, Instant};
 
 use crate::shared::binary::{command, errors, status, without_adapter};
+use crate::shared::random::Random;
+use crate::shared::trials::tests;
 
 /// A call that takes longer has said that it is at work.
 const SILENCE: Duration = Duration::from_secs(10);
@@ -20,31 +22,14 @@ fn cases(usual: u64) -> u64 {
     })
 }
 
-/// Seeded numbers by splitmix64.
-struct Random(u64);
-
-impl Random {
-    fn share(&mut self) -> f64 {
-        self.0 = self.0.wrapping_add(0x9E37_79B9_7F4A_7C15);
-        let mut z = self.0;
-        z = (z ^ (z >> 30)).wrapping_mul(0xBF58_476D_1CE4_E5B9);
-        z = (z ^ (z >> 27)).wrapping_mul(0x94D0_49BB_1331_11EB);
-        ((z ^ (z >> 31)) >> 11) as f64 / (1u64 << 53) as f64
-    }
-
-    fn one_of<T: Copy>(&mut self, choices: &[T]) -> T {
-        choices[(self.share() * choices.len() as f64) as usize]
-    }
-
-    /// A positive number about a usual one; of any magnitude in a tenth of the cases.
-    fn about(&mut self, usual: f64) -> f64 {
-        let (decades, from) = match self.share() {
-            share if share < 0.1 => (35.0, 1.0),
-            share if share < 0.4 => (4.0, usual),
-            _ => (0.5, usual),
-        };
-        from * 10f64.powf(decades * (2.0 * self.share() - 1.0))
-    }
+/// A positive number about a usual one; of any magnitude in a tenth of the cases.
+fn about(random: &mut Random, usual: f64) -> f64 {
+    let (decades, from) = match random.share() {
+        share if share < 0.1 => (35.0, 1.0),
+        share if share < 0.4 => (4.0, usual),
+        _ => (0.5, usual),
+    };
+    from * 10f64.powf(decades * (2.0 * random.share() - 1.0))
 }
 
 /// Calls tabor in a folder and judges the call. Returns whether it answered.
@@ -81,7 +66,7 @@ fn call(name: &str, folder: &Path, arguments: &[&str]) -> bool {
 /// A force curve: contact with or without adhesion, noise, a line, or any numbers.
 fn curve(random: &mut Random) -> String {
     let rows = random.one_of(&[3, 8, 30, 80]);
-    let (length, force) = (random.about(1e-7), random.about(1e-8));
+    let (length, force) = (about(random, 1e-7), about(random, 1e-8));
     let shape = random.one_of(&[0, 0, 1, 2, 3, 4]);
     let noise = random.one_of(&[0.0, 0.01, 0.3]);
     let mut text = String::from("approach,force\n");
@@ -92,7 +77,7 @@ fn curve(random: &mut Random) -> String {
             1 => x.max(0.0).powf(1.5),
             2 => -x,
             3 => 2.0 * random.share() - 1.0,
-            _ => random.about(1.0),
+            _ => about(random, 1.0),
         };
         y += noise * (2.0 * random.share() - 1.0);
         text += &format!("{:e},{:e}\n", length * x, force * y);
@@ -100,14 +85,13 @@ fn curve(random: &mut Random) -> String {
     text
 }
 
-#[test]
 fn no_hostile_curve_is_trouble() {
     let mut answered = 0;
     for case in 0..cases(24) {
         let mut random = Random(case);
         let folder = tempfile::tempdir().expect("a folder");
         fs::write(folder.path().join("curve.csv"), curve(&mut random)).expect("written");
-        let radius = format!("{:e}", random.about(1e-6));
+        let radius = format!("{:e}", about(&mut random, 1e-6));
         let mut arguments = vec!["fit", "curve.csv", "--radius", &radius, "--out", "out"];
         if random.share() < 0.3 {
             arguments.push("--baseline");
@@ -121,20 +105,20 @@ fn no_hostile_curve_is_trouble() {
 /// A rough surface that sticks, with numbers about usual ones and far off them.
 fn scene(random: &mut Random) -> String {
     let points = random.one_of(&[4, 8, 15, 16, 32]);
-    let size = random.about(1e-5);
+    let size = about(random, 1e-5);
     let wave = |share: f64| size * share;
     let shortest = wave(random.one_of(&[0.5, 0.25, 0.13]));
-    let (modulus, pressure) = (random.about(1e8), random.about(1e6));
+    let (modulus, pressure) = (about(random, 1e8), about(random, 1e6));
     let law = random.one_of(&["maugis-dugdale", "exponential", "lennard-jones"]);
     let control = random.one_of(&["pressure", "pressure", "mean-gap", "force"]);
     format!(
         "[grid]\npoints = {points}\nsize = {size:e}\n[solid]\ncontact_modulus = {modulus:e}\n[[surface]]\nkind = \"self-affine\"\nhurst = {}\nrms_slope = {:e}\nlongest = {size:e}\nrolloff = {:e}\nshortest = {shortest:e}\n[adhesion]\nlaw = \"{law}\"\nwork_of_adhesion = {:e}\nrange = {:e}\n[loading]\ncontrol = \"{control}\"\npath = [{pressure:e}, {:e}]\n[solver]\nmax_iterations = 300\nbackend = \"cpu\"\n",
         random.one_of(&[0.1, 0.8, 1.0]),
-        random.about(0.1),
+        about(random, 0.1),
         wave(0.5),
-        random.about(0.05),
-        random.about(1e-9),
-        random.about(1e6) * random.one_of(&[1.0, -1.0]),
+        about(random, 0.05),
+        about(random, 1e-9),
+        about(random, 1e6) * random.one_of(&[1.0, -1.0]),
     )
 }
 
@@ -152,12 +136,16 @@ fn try_scenes(usual: u64, of: &[&str]) {
     assert!(answered > 0);
 }
 
-#[test]
 fn no_hostile_scene_is_trouble_to_compare() {
     try_scenes(24, &["compare"]);
 }
 
-#[test]
 fn no_hostile_scene_is_trouble_to_accuracy() {
     try_scenes(8, &["accuracy", "--budget", "1 s"]);
 }
+
+tests![
+    no_hostile_curve_is_trouble,
+    no_hostile_scene_is_trouble_to_compare,
+    no_hostile_scene_is_trouble_to_accuracy,
+];

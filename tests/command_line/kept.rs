@@ -10,6 +10,7 @@ use std::time::{Duration, Instant};
 use crate::shared::binary::{self, command, errors, scene, status, summary, tabor};
 use crate::shared::device::device;
 use crate::shared::run_folder::{ROUGH, expect_same, files, rows};
+use crate::shared::trials::tests;
 
 /// A run that is met in the middle for sure: each of its steps takes many iterations on a larger grid.
 fn long() -> String {
@@ -37,7 +38,6 @@ fn start(folder: &Path, count: usize) -> Child {
     child
 }
 
-#[test]
 fn a_second_run_into_a_folder_is_refused_and_told_of_the_first() {
     let folder = scene(&long());
     let folder = folder.path();
@@ -85,7 +85,6 @@ fn start_again(folder: &Path) -> Child {
 }
 
 /// Two that begin at the same moment: one of them writes the folder, whole.
-#[test]
 fn of_two_runs_at_once_one_keeps_out() {
     let folder = scene(ROUGH);
     let folder = folder.path();
@@ -112,7 +111,6 @@ fn of_two_runs_at_once_one_keeps_out() {
     }
 }
 
-#[test]
 fn a_curve_that_others_remove_or_change_is_written_anew() {
     let folder = scene(&long());
     let folder = folder.path();
@@ -160,7 +158,6 @@ fn a_curve_that_others_remove_or_change_is_written_anew() {
     }
 }
 
-#[test]
 fn going_on_names_files_of_finished_steps_that_are_lost() {
     let folder = scene(ROUGH);
     let folder = folder.path();
@@ -206,7 +203,6 @@ fn going_on_names_files_of_finished_steps_that_are_lost() {
     }
 }
 
-#[test]
 fn no_way_out_of_a_damaged_folder_costs_rows() {
     let folder = scene(ROUGH);
     let folder = folder.path();
@@ -256,11 +252,8 @@ fn no_way_out_of_a_damaged_folder_costs_rows() {
 
 /// A shader that compiles for a minute: a signal ends the run all the same, and the steps that were finished stay.
 #[cfg(unix)]
-#[test]
 fn a_signal_while_a_shader_compiles_ends_the_run_at_once() {
-    if device().is_none() {
-        return;
-    }
+    device();
     let folder = scene(ROUGH);
     let folder = folder.path();
     let call = ["run", "scene.toml", "--backend", "gpu", "--out", "out"];
@@ -325,7 +318,6 @@ fn a_signal_while_a_shader_compiles_ends_the_run_at_once() {
 }
 
 /// The other commands that write for a while hold their folders too.
-#[test]
 fn studies_and_surfaces_keep_out_of_folders_that_are_held() {
     let folder = scene(ROUGH);
     let folder = folder.path();
@@ -351,3 +343,14 @@ fn studies_and_surfaces_keep_out_of_folders_that_are_held() {
         fs::remove_dir_all(folder.join("held")).expect("it is removed");
     }
 }
+
+tests![
+    a_second_run_into_a_folder_is_refused_and_told_of_the_first,
+    of_two_runs_at_once_one_keeps_out,
+    a_curve_that_others_remove_or_change_is_written_anew,
+    going_on_names_files_of_finished_steps_that_are_lost,
+    no_way_out_of_a_damaged_folder_costs_rows,
+    #[cfg(unix)]
+    a_signal_while_a_shader_compiles_ends_the_run_at_once,
+    studies_and_surfaces_keep_out_of_folders_that_are_held,
+];

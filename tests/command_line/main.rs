@@ -1,5 +1,7 @@
 //! The program from outside: every command, its files and pictures, what it refuses and how, and how runs end.
 
+use std::process::ExitCode;
+
 mod accuracy;
 mod compare;
 mod hostile_calls;
@@ -15,3 +17,23 @@ mod shared;
 mod shell;
 mod surface;
 mod theory;
+
+fn main() -> ExitCode {
+    shared::trials::run([
+        accuracy::tests(),
+        compare::tests(),
+        hostile_calls::tests(),
+        kept::tests(),
+        mistakes::tests(),
+        mistakes::scenes::tests(),
+        mistakes::variants::tests(),
+        pictures::tests(),
+        report_page::tests(),
+        resume::tests(),
+        run::tests(),
+        scenes::tests(),
+        shell::tests(),
+        surface::tests(),
+        theory::tests(),
+    ])
+}

@@ -7,6 +7,8 @@ use tabor::grid::Grid;
 use tabor::output::{Load, Picture, RunFolder, Snapshot, TextLine, write_picture};
 use tabor::scene::{Control, FieldName};
 
+use crate::shared::trials::tests;
+
 const TITLE: &str = "Two humps and a tense dip";
 
 /// Asymmetric in x and y, so that a flip or a transposition shows; tension is much the smaller.
@@ -112,7 +114,6 @@ fn value_on_bar(drawn: &Drawn, colour: [u8; 3]) -> f64 {
     drawn.snapshot.scale.value(fraction)
 }
 
-#[test]
 fn colours_stand_for_the_values_of_the_bar() {
     let drawn = drawn();
     let layout = &drawn.snapshot.layout;
@@ -160,7 +161,6 @@ fn colours_stand_for_the_values_of_the_bar() {
     }
 }
 
-#[test]
 fn the_scale_bar_is_as_long_as_it_says() {
     let drawn = drawn();
     let layout = &drawn.snapshot.layout;
@@ -174,7 +174,6 @@ fn the_scale_bar_is_as_long_as_it_says() {
     assert!((pixels - 5e-6 / pixel_length).abs() <= 1.0);
 }
 
-#[test]
 fn title_step_and_load_can_be_read() {
     let drawn = drawn();
     let layout = &drawn.snapshot.layout;
@@ -190,7 +189,6 @@ fn title_step_and_load_can_be_read() {
     );
 }
 
-#[test]
 fn the_file_carries_its_numbers() {
     let drawn = drawn();
     let texts = texts(&drawn.bytes);
@@ -226,3 +224,10 @@ fn texts(png: &[u8]) -> Vec<(String, String)> {
     }
     found
 }
+
+tests![
+    colours_stand_for_the_values_of_the_bar,
+    the_scale_bar_is_as_long_as_it_says,
+    title_step_and_load_can_be_read,
+    the_file_carries_its_numbers,
+];

@@ -1,6 +1,6 @@
 //! The report as a browser shows it, the picture of the curves, and the progress on a terminal.
 //!
-//! The browser is Chromium; where there is none the tests say `skipped`, unless
+//! The browser is Chromium; where there is none these tests are ignored, unless
 //! `TABOR_REQUIRE_BROWSER=1` makes that a failure.
 
 use std::fs;
@@ -14,9 +14,10 @@ use tempfile::TempDir;
 
 use crate::shared::binary::{self, errors, status, tabor};
 use crate::shared::run_folder::ROUGH;
+use crate::shared::trials::{expect_ignored, ignore, tests};
 
-/// A browser, if there is one.
-fn browser() -> Option<&'static str> {
+/// A browser; without one the test that asks is ignored.
+fn browser() -> &'static str {
     let found = ["chromium", "chromium-browser", "google-chrome"]
         .into_iter()
         .find(|name| {
@@ -27,15 +28,14 @@ fn browser() -> Option<&'static str> {
                 .status()
                 .is_ok_and(|status| status.success())
         });
-    if found.is_none() {
+    found.unwrap_or_else(|| {
         let required = std::env::var("TABOR_REQUIRE_BROWSER").is_ok_and(|value| value == "1");
         assert!(
             !required,
             "TABOR_REQUIRE_BROWSER=1 and there is no chromium"
         );
-        println!("skipped: no chromium");
-    }
-    found
+        ignore("no chromium");
+    })
 }
 
 /// What a script saw on the page, what the browser complained of, and whom it asked for something.
@@ -180,9 +180,8 @@ fn run(text: &str, extra: &[&str], expected: i32) -> (TempDir, PathBuf) {
     (folder, path)
 }
 
-#[test]
 fn a_browser_shows_the_whole_page_on_any_width_without_a_network() {
-    let Some(browser) = browser() else { return };
+    let browser = browser();
     let (_folder, out) = run(ROUGH, &[], 0);
     // 7 steps in contact, two pictures each; step 6 is separated.
     let pictures = fs::read_dir(out.join("images")).expect("pictures").count();
@@ -251,9 +250,8 @@ fn a_browser_shows_the_whole_page_on_any_width_without_a_network() {
     }
 }
 
-#[test]
 fn runs_that_ended_early_and_runs_of_one_step_have_a_page() {
-    let Some(browser) = browser() else { return };
+    let browser = browser();
     let failed = [
         "--set",
         "solver.max_iterations=2",
@@ -277,9 +275,8 @@ fn runs_that_ended_early_and_runs_of_one_step_have_a_page() {
     assert!(seen.facts["needed"].as_u64() <= Some(400));
 }
 
-#[test]
 fn a_page_that_asks_or_complains_would_be_seen() {
-    let Some(browser) = browser() else { return };
+    let browser = browser();
     let place = tempfile::tempdir().expect("a temporary folder");
     let page = place.path().join("page.html");
     let html =
@@ -303,9 +300,8 @@ fn darker(image: &image::GrayImage, than: u8) -> f64 {
     dark as f64 / (image.width() * image.height()) as f64
 }
 
-#[test]
 fn a_screenshot_in_the_light_and_in_the_dark_is_as_asked() {
-    let Some(browser) = browser() else { return };
+    let browser = browser();
     let (_folder, out) = run(ROUGH, &[], 0);
     for (scheme, dark) in [("1", false), ("0", true)] {
         let place = tempfile::tempdir().expect("a temporary folder");
@@ -330,7 +326,6 @@ fn a_screenshot_in_the_light_and_in_the_dark_is_as_asked() {
     }
 }
 
-#[test]
 fn the_picture_of_the_curves_has_both_directions() {
     let (_folder, out) = run(ROUGH, &[], 0);
     let image = image::open(out.join("curve.png"))
@@ -349,12 +344,10 @@ fn the_picture_of_the_curves_has_both_directions() {
 
 /// A terminal, made by `script` of util-linux.
 #[cfg(target_os = "linux")]
-#[test]
 fn a_terminal_shows_progress_and_the_table_at_the_end() {
     let there = Command::new("script").arg("--version").output();
     if !there.is_ok_and(|output| output.status.success()) {
-        println!("skipped: no script(1)");
-        return;
+        ignore("no script(1)");
     }
     let folder = binary::scene(&ROUGH.replace("[64, 48]", "[256, 192]"));
     let typed = |extra: &str| {
@@ -403,3 +396,20 @@ fn a_terminal_shows_progress_and_the_table_at_the_end() {
     );
     assert!(output.stdout.is_empty());
 }
+
+/// A machine without programs has no browser.
+fn a_test_without_a_browser_is_ignored_with_its_reason() {
+    let test = "report_page::runs_that_ended_early_and_runs_of_one_step_have_a_page";
+    expect_ignored(test, &[("PATH", "")], "no chromium");
+}
+
+tests![
+    a_browser_shows_the_whole_page_on_any_width_without_a_network,
+    runs_that_ended_early_and_runs_of_one_step_have_a_page,
+    a_page_that_asks_or_complains_would_be_seen,
+    a_screenshot_in_the_light_and_in_the_dark_is_as_asked,
+    the_picture_of_the_curves_has_both_directions,
+    #[cfg(target_os = "linux")]
+    a_terminal_shows_progress_and_the_table_at_the_end,
+    a_test_without_a_browser_is_ignored_with_its_reason,
+];

@@ -9,15 +9,9 @@ use std::time::{Duration, Instant};
 
 use crate::shared::binary::{self, command, errors, scene, status, summary, tabor};
 use crate::shared::device::device;
+use crate::shared::random::Random;
 use crate::shared::run_folder::{ROUGH, expect_same, files, rows};
-
-/// A number from 0 to 1, the next of a fixed sequence (Knuth's MMIX generator).
-fn next_share(seed: &mut u64) -> f64 {
-    *seed = seed
-        .wrapping_mul(6364136223846793005)
-        .wrapping_add(1442695040888963407);
-    (*seed >> 11) as f64 / (1u64 << 53) as f64
-}
+use crate::shared::trials::{ignore, tests};
 
 fn run_whole(folder: &Path, extra: &[&str]) -> Duration {
     let clock = Instant::now();
@@ -44,7 +38,7 @@ fn kill_and_resume(text: &str, kills: usize, extra: &[&str]) -> usize {
     let folder = scene(text);
     let folder = folder.path();
     let duration = run_whole(folder, extra);
-    let mut seed = 20;
+    let mut random = Random(20);
     let mut midway = 0;
     for kill in 0..kills {
         let out = format!("killed{kill}");
@@ -53,7 +47,7 @@ fn kill_and_resume(text: &str, kills: usize, extra: &[&str]) -> usize {
             .stderr(Stdio::null())
             .spawn()
             .expect("the binary runs");
-        sleep(duration.mul_f64(next_share(&mut seed)));
+        sleep(duration.mul_f64(random.share()));
         child.kill().expect("it can be killed");
         child.wait().expect("it ended");
         let place = folder.join(&out);
@@ -66,14 +60,12 @@ fn kill_and_resume(text: &str, kills: usize, extra: &[&str]) -> usize {
     midway
 }
 
-#[test]
 fn twenty_killed_runs_go_on_and_end_with_the_same_files() {
     let midway = kill_and_resume(ROUGH, 20, &["--backend", "cpu"]);
     // The moments are spread over the run, so that most fall between two steps or within one.
     assert!(midway >= 3, "only {midway} of 20 were killed midway");
 }
 
-#[test]
 fn single_precision_and_the_last_step_alone() {
     let text = ROUGH.replace("steps = [1, 2, 3, 4, 5, 6, 7, 8]", "steps = \"last\"");
     kill_and_resume(&text, 4, &["--precision", "single", "--backend", "cpu"]);
@@ -81,7 +73,6 @@ fn single_precision_and_the_last_step_alone() {
 
 /// A solid that relaxes remembers more than its gap; both stretches of unlike durations go on, and so
 /// does the column of an effect.
-#[test]
 fn a_relaxing_solid_goes_on_with_what_it_remembers() {
     let text = ROUGH.replace(
         "[[surface]]",
@@ -97,11 +88,9 @@ fn a_relaxing_solid_goes_on_with_what_it_remembers() {
     kill_and_resume(&text, 3, &single);
 }
 
-#[test]
 fn killed_runs_on_the_graphics_processor() {
-    if device().is_some() {
-        kill_and_resume(ROUGH, 3, &["--backend", "gpu"]);
-    }
+    device();
+    kill_and_resume(ROUGH, 3, &["--backend", "gpu"]);
 }
 
 /// Starts a run and waits until `count` steps are in its curve.
@@ -127,7 +116,6 @@ fn long() -> String {
 }
 
 #[cfg(unix)]
-#[test]
 fn an_interrupt_ends_after_the_iteration_with_everything_written() {
     let folder = scene(&long());
     let folder = folder.path();
@@ -164,7 +152,6 @@ fn an_interrupt_ends_after_the_iteration_with_everything_written() {
     }
 }
 
-#[test]
 fn an_unconverged_step_is_solved_again_and_the_solver_may_change_then_only() {
     // A cold start at a low load takes the most iterations; here the fifth step is one.
     let (before, rest) = ROUGH.split_once("path = ").expect("a path");
@@ -213,7 +200,6 @@ fn an_unconverged_step_is_solved_again_and_the_solver_may_change_then_only() {
     expect_same(&folder.join("whole"), &place, "after the refusal");
 }
 
-#[test]
 fn other_scenes_and_damaged_states_are_refused_with_reasons() {
     let folder = scene(ROUGH);
     let folder = folder.path();
@@ -310,7 +296,6 @@ fn other_scenes_and_damaged_states_are_refused_with_reasons() {
     }
 }
 
-#[test]
 fn a_height_map_that_changed_is_another_scene() {
     let text = "[grid]\nboundary = \"free\"\nsize = 1e-6\n[solid]\ncontact_modulus = 1e9\n[[surface]]\nkind = \"file\"\npath = \"map.txt\"\n[loading]\ncontrol = \"approach\"\npath = [1e-9, 2e-9]\n";
     let folder = scene(text);
@@ -341,7 +326,6 @@ fn a_height_map_that_changed_is_another_scene() {
 }
 
 #[cfg(unix)]
-#[test]
 fn a_folder_that_vanishes_ends_the_run() {
     let folder = scene(&long());
     let folder = folder.path();
@@ -362,7 +346,6 @@ fn a_folder_that_vanishes_ends_the_run() {
     resume(folder, "elsewhere", &[]);
 }
 
-#[test]
 fn a_file_where_a_folder_should_be_ends_the_run() {
     let folder = scene(ROUGH);
     let folder = folder.path();
@@ -401,7 +384,6 @@ fn a_file_where_a_folder_should_be_ends_the_run() {
 /// A shell refuses files beyond a size, as a full disk would; the signal for it is ignored, so that
 /// the write fails instead.
 #[cfg(unix)]
-#[test]
 fn a_disk_without_room_keeps_what_was_finished() {
     let folder = scene(ROUGH);
     let folder = folder.path();
@@ -452,7 +434,6 @@ fn a_disk_without_room_keeps_what_was_finished() {
 
 /// A disk of a few kilobytes, where this machine lets a test mount one.
 #[cfg(target_os = "linux")]
-#[test]
 fn a_full_disk_keeps_what_was_finished() {
     let folder = scene(ROUGH);
     let folder = folder.path();
@@ -463,8 +444,7 @@ fn a_full_disk_keeps_what_was_finished() {
         .arg(&disk)
         .output();
     if !mounted.is_ok_and(|output| output.status.success()) {
-        println!("skipped: no disk can be mounted here");
-        return;
+        ignore("no disk can be mounted here");
     }
     let output = tabor(folder, &["run", "scene.toml", "--out", "disk/full"]);
     let kept = rows(&disk.join("full"));
@@ -485,3 +465,22 @@ fn a_full_disk_keeps_what_was_finished() {
     run_whole(folder, &[]);
     resume(folder, "room", &[]);
 }
+
+tests![
+    twenty_killed_runs_go_on_and_end_with_the_same_files,
+    single_precision_and_the_last_step_alone,
+    a_relaxing_solid_goes_on_with_what_it_remembers,
+    killed_runs_on_the_graphics_processor,
+    #[cfg(unix)]
+    an_interrupt_ends_after_the_iteration_with_everything_written,
+    an_unconverged_step_is_solved_again_and_the_solver_may_change_then_only,
+    other_scenes_and_damaged_states_are_refused_with_reasons,
+    a_height_map_that_changed_is_another_scene,
+    #[cfg(unix)]
+    a_folder_that_vanishes_ends_the_run,
+    a_file_where_a_folder_should_be_ends_the_run,
+    #[cfg(unix)]
+    a_disk_without_room_keeps_what_was_finished,
+    #[cfg(target_os = "linux")]
+    a_full_disk_keeps_what_was_finished,
+];

@@ -6,6 +6,7 @@ use std::path::{Path, PathBuf};
 use tempfile::TempDir;
 
 use crate::shared::binary::{self, errors, status, summary, tabor};
+use crate::shared::trials::tests;
 
 const HEAD: &str = "step,time,approach,mean_gap,force,mean_pressure,contact_area_fraction,attractive_area_fraction,elastic_energy,adhesive_energy,iterations,residual,converged,seconds,contact_area_fraction_corrected,state";
 
@@ -58,7 +59,6 @@ fn column(name: &str) -> usize {
         .expect("a column")
 }
 
-#[test]
 fn a_run_writes_what_the_contract_says() {
     let (folder, _) = scene(ROUGH);
     let output = tabor(folder.path(), &["run", "scene.toml"]);
@@ -157,7 +157,6 @@ fn without_seconds(folder: &Path) -> Vec<Vec<String>> {
     rows
 }
 
-#[test]
 fn the_same_scene_gives_the_same_bits() {
     let (folder, _) = scene(ROUGH);
     for (out, threads) in [("one", "1"), ("two", "2"), ("again", "2")] {
@@ -182,7 +181,6 @@ fn the_same_scene_gives_the_same_bits() {
     );
 }
 
-#[test]
 fn folders_that_are_not_this_scenes_are_left_alone() {
     let (folder, path) = scene(ROUGH);
     let foreign = folder.path().join("foreign");
@@ -208,7 +206,6 @@ fn folders_that_are_not_this_scenes_are_left_alone() {
     assert_eq!(status(&output), 2);
 }
 
-#[test]
 fn a_file_in_the_way_and_an_unwritable_place() {
     let (folder, _) = scene(ROUGH);
     let output = tabor(folder.path(), &["run", "scene.toml", "--out", "scene.toml"]);
@@ -221,7 +218,6 @@ fn a_file_in_the_way_and_an_unwritable_place() {
     assert!(errors(&output).contains("/proc/nowhere"));
 }
 
-#[test]
 fn a_step_that_does_not_converge_is_written_and_ends_the_run() {
     let (folder, _) = scene(ROUGH);
     let arguments = [
@@ -247,7 +243,6 @@ fn a_step_that_does_not_converge_is_written_and_ends_the_run() {
     assert!(folder.path().join("scene/summary.json").exists());
 }
 
-#[test]
 fn mistakes_are_named_all_at_once_with_their_lines() {
     let (folder, _) = scene(
         "[grid]\npoints = 64\nsize = \"2 kg\"\n[solid]\ncontact_modulu = 1e9\n[[surface]]\nkind = \"sphere\"\nradius = -1.0\n[loading]\ncontrol = \"pressure\"\npath = [1e3]\n",
@@ -274,7 +269,6 @@ fn mistakes_are_named_all_at_once_with_their_lines() {
     );
 }
 
-#[test]
 fn what_this_version_lacks_is_refused_by_name() {
     let (folder, _) = scene(ROUGH);
     let output = tabor(
@@ -291,7 +285,6 @@ fn what_this_version_lacks_is_refused_by_name() {
     assert_eq!(status(&tabor(folder.path(), &["run", "missing.toml"])), 2);
 }
 
-#[test]
 fn check_lists_effects_regime_and_resolution() {
     let (folder, _) = scene(ROUGH);
     let output = tabor(folder.path(), &["check", "scene.toml"]);
@@ -327,7 +320,6 @@ fn check_lists_effects_regime_and_resolution() {
     assert!(message.contains("shortest wave"), "{message}");
 }
 
-#[test]
 fn overrides_reach_the_scene() {
     let (folder, _) = scene(ROUGH);
     let arguments = [
@@ -350,7 +342,6 @@ fn overrides_reach_the_scene() {
     assert!(errors(&output).contains("--set"), "{}", errors(&output));
 }
 
-#[test]
 fn single_precision_has_its_floor_and_its_fields() {
     let (folder, path) = scene(ROUGH);
     for tolerance in ["1e-5", "9.9e-5"] {
@@ -450,7 +441,6 @@ fn refused_at_once(folder: &Path, arguments: &[&str]) -> String {
 }
 
 /// Devices never end and pipes wait for a writer: each place where a file is named says so.
-#[test]
 #[cfg(unix)]
 fn what_is_no_regular_file_is_refused() {
     let folder = tempfile::tempdir().expect("a folder");
@@ -498,7 +488,6 @@ fn what_is_no_regular_file_is_refused() {
     );
 }
 
-#[test]
 fn of_very_many_mistakes_the_first_and_their_number_are_said() {
     let folder = tempfile::tempdir().expect("a folder");
     let keys: String = (0..200_000).map(|i| format!("key{i} = {i}\n")).collect();
@@ -518,7 +507,6 @@ fn of_very_many_mistakes_the_first_and_their_number_are_said() {
 /// At no load the attraction of this surface is below what single precision tells from nothing: its row is
 /// converged at the rounding, and the run says at what residual, in its messages and in its summary. In mixed
 /// precision there is nothing to say.
-#[test]
 fn steps_that_rounding_ends_are_warned_of() {
     let (folder, _) = scene(
         r#"
@@ -561,7 +549,6 @@ fn steps_that_rounding_ends_are_warned_of() {
 
 /// Under a load the pull-off of the README's scene lies between its steps of -30 and -60 kPa, and is narrowed down
 /// to a per cent; a path that does not let go has none, and says what held.
-#[test]
 fn pull_off_under_a_load() {
     let rough = concat!(env!("CARGO_MANIFEST_DIR"), "/examples/scenes/rough.toml");
     let folder = tempfile::tempdir().expect("a folder");
@@ -610,3 +597,21 @@ fn pull_off_under_a_load() {
     let warnings = found["warnings"].to_string();
     assert!(warnings.contains("its pull-off is beyond"), "{warnings}");
 }
+
+tests![
+    a_run_writes_what_the_contract_says,
+    the_same_scene_gives_the_same_bits,
+    folders_that_are_not_this_scenes_are_left_alone,
+    a_file_in_the_way_and_an_unwritable_place,
+    a_step_that_does_not_converge_is_written_and_ends_the_run,
+    mistakes_are_named_all_at_once_with_their_lines,
+    what_this_version_lacks_is_refused_by_name,
+    check_lists_effects_regime_and_resolution,
+    overrides_reach_the_scene,
+    single_precision_has_its_floor_and_its_fields,
+    #[cfg(unix)]
+    what_is_no_regular_file_is_refused,
+    of_very_many_mistakes_the_first_and_their_number_are_said,
+    steps_that_rounding_ends_are_warned_of,
+    pull_off_under_a_load,
+];

@@ -4,11 +4,11 @@ use std::fs;
 use std::path::Path;
 
 use crate::shared::binary;
+use crate::shared::trials::tests;
 
 /// Points a side at most, so that all scenes together take seconds.
 const POINTS: u64 = 64;
 
-#[test]
 fn every_shipped_scene_runs() {
     let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("examples/scenes");
     let results = tempfile::tempdir().expect("a temporary folder");
@@ -54,7 +54,6 @@ fn every_shipped_scene_runs() {
 }
 
 /// Every scene has its section in docs/scenes.md, with pictures that are there and small.
-#[test]
 fn every_shipped_scene_is_shown() {
     let root = Path::new(env!("CARGO_MANIFEST_DIR"));
     let page = fs::read_to_string(root.join("docs/scenes.md")).expect("the page is there");
@@ -89,3 +88,5 @@ fn every_shipped_scene_is_shown() {
         }
     }
 }
+
+tests![every_shipped_scene_runs, every_shipped_scene_is_shown,];

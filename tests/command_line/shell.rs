@@ -5,6 +5,7 @@ use std::fs;
 use std::process::{Command, Stdio};
 
 use crate::shared::binary::{self, scene, tabor};
+use crate::shared::trials::{ignore, tests};
 
 const SCENE: &str = r#"[grid]
 points = 16
@@ -36,7 +37,6 @@ fn text(bytes: &[u8]) -> String {
     String::from_utf8(bytes.to_vec()).expect("text")
 }
 
-#[test]
 fn completions_name_every_command() {
     let folder = scene(SCENE);
     for shell in ["bash", "zsh", "fish", "powershell", "elvish"] {
@@ -54,23 +54,22 @@ fn completions_name_every_command() {
     let output = tabor(folder.path(), &["completions", "csh"]);
     assert_eq!(output.status.code(), Some(2));
     assert!(text(&output.stderr).contains("bash, elvish, fish, powershell, zsh"));
-    // The shell itself takes the script, where there is one.
+}
+
+/// The shell itself takes the script.
+fn bash_takes_its_completions() {
+    let folder = scene(SCENE);
     let script = tabor(folder.path(), &["completions", "bash"]).stdout;
     fs::write(folder.path().join("tabor.bash"), script).expect("a script");
-    match Command::new("bash")
+    let output = Command::new("bash")
         .current_dir(folder.path())
         .args(["-c", ". ./tabor.bash && complete -p tabor"])
         .output()
-    {
-        Ok(output) => {
-            assert!(output.status.success(), "{}", text(&output.stderr));
-            assert!(text(&output.stdout).contains("_tabor"));
-        }
-        Err(_) => println!("skipped: no bash"),
-    }
+        .unwrap_or_else(|_| ignore("no bash"));
+    assert!(output.status.success(), "{}", text(&output.stderr));
+    assert!(text(&output.stdout).contains("_tabor"));
 }
 
-#[test]
 fn man_pages_are_one_a_command() {
     let folder = scene(SCENE);
     let output = tabor(folder.path(), &["man"]);
@@ -96,7 +95,6 @@ fn man_pages_are_one_a_command() {
     assert!(text(&output.stderr).contains("cannot create the folder scene.toml"));
 }
 
-#[test]
 fn without_a_terminal_there_is_no_colour() {
     let folder = scene(SCENE);
     for arguments in [
@@ -113,7 +111,6 @@ fn without_a_terminal_there_is_no_colour() {
 }
 
 /// On a terminal of its own, as `script` of util-linux makes one.
-#[test]
 #[cfg(target_os = "linux")]
 fn on_a_terminal_colour_is_the_users_choice() {
     let folder = scene(SCENE);
@@ -136,8 +133,7 @@ fn on_a_terminal_colour_is_the_users_choice() {
         command.output().ok()
     };
     let Some(coloured) = on_a_terminal("check absent.toml", None) else {
-        println!("skipped: no script");
-        return;
+        ignore("no script(1)");
     };
     let message = text(&coloured.stdout);
     assert_eq!(coloured.status.code(), Some(2), "{message}");
@@ -189,7 +185,6 @@ fn acts(bytes: &[u8]) -> Option<String> {
         .map(|line| format!("{line:?}"))
 }
 
-#[test]
 #[cfg(target_os = "linux")]
 fn nothing_from_outside_acts_on_a_terminal_or_a_page() {
     let escaped: String = ACTING
@@ -254,6 +249,7 @@ fn nothing_from_outside_acts_on_a_terminal_or_a_page() {
         &["man", &scene_file],
     ];
     let mut wrong = Vec::new();
+    let mut no_terminal = false;
     for call in calls {
         // Off a terminal, and on one of its own as `script` of util-linux makes it.
         let piped = tabor(path, call);
@@ -275,7 +271,7 @@ fn nothing_from_outside_acts_on_a_terminal_or_a_page() {
             .stdin(Stdio::null())
             .output();
         let Ok(shown) = on_a_terminal else {
-            println!("skipped: no script");
+            no_terminal = true;
             continue;
         };
         assert_eq!(
@@ -306,6 +302,9 @@ fn nothing_from_outside_acts_on_a_terminal_or_a_page() {
     }
     assert!(texts > 0, "the title stands in a picture");
     assert!(wrong.is_empty(), "{}", wrong.join("\n"));
+    if no_terminal {
+        ignore("pages, pictures and pipes are well, but there is no script(1) to make a terminal");
+    }
 }
 
 /// The bytes of a word for `printf` of a shell.
@@ -318,7 +317,6 @@ fn text_of(bytes: &[u8]) -> String {
 }
 
 /// What drivers print at their start is not tabor's to say, in a shell that has nothing but its paths.
-#[test]
 fn nothing_but_tabor_speaks() {
     let folder = scene(SCENE);
     let path = folder.path();
@@ -375,7 +373,6 @@ fn nothing_but_tabor_speaks() {
 }
 
 /// The loader of Vulkan says on request what it does: where no adapter can be used it is not even loaded.
-#[test]
 #[cfg(target_os = "linux")]
 fn no_adapter_is_asked_for_where_none_can_be_used() {
     let folder = scene(SCENE);
@@ -388,8 +385,7 @@ fn no_adapter_is_asked_for_where_none_can_be_used() {
         said.contains("Vulkan Loader") || said.contains("LAYER:") || said.contains("DRIVER:")
     };
     if !loader_spoke(&["devices", "--verbose"]) {
-        println!("skipped: no loader of Vulkan that speaks");
-        return;
+        ignore("no loader of Vulkan that speaks");
     }
     assert!(!loader_spoke(&["devices"]), "heard without --verbose");
     for call in [
@@ -460,7 +456,6 @@ fn no_adapter_is_asked_for_where_none_can_be_used() {
 
 /// Nobody reads on: no panic, and no failure, for nothing is lost.
 #[cfg(unix)]
-#[test]
 fn a_reader_that_leaves_is_no_failure() {
     let folder = scene(SCENE);
     let path = folder.path();
@@ -473,8 +468,7 @@ fn a_reader_that_leaves_is_no_failure() {
             .output()
     };
     if shell("true").is_err() {
-        println!("skipped: no bash");
-        return;
+        ignore("no bash");
     }
     let hertz = "theory hertz --radius 1e-6 --contact_modulus 1e9";
     for line in [
@@ -503,7 +497,6 @@ fn a_reader_that_leaves_is_no_failure() {
 
 /// A limit on the length of files is met like a full disk: a sentence and 1, not an end by a signal.
 #[cfg(unix)]
-#[test]
 fn a_limit_on_files_ends_with_a_sentence() {
     let folder = scene(SCENE);
     let run = |limit: &str, line: &str| {
@@ -515,8 +508,7 @@ fn a_limit_on_files_ends_with_a_sentence() {
             .output()
     };
     if run("1000", "true").is_err() {
-        println!("skipped: no bash");
-        return;
+        ignore("no bash");
     }
     for (limit, line, named) in [
         (
@@ -548,7 +540,6 @@ fn a_limit_on_files_ends_with_a_sentence() {
     }
 }
 
-#[test]
 fn a_quiet_run_says_nothing_but_warnings_and_errors() {
     let folder = scene(SCENE);
     let loud = tabor(folder.path(), &["run", "scene.toml", "--out", "loud"]);
@@ -592,7 +583,6 @@ fn a_quiet_run_says_nothing_but_warnings_and_errors() {
 }
 
 /// A `--set`, and the line of the check that shows that it arrived.
-#[test]
 #[rustfmt::skip] // one call a line
 fn values_of_set_arrive_as_they_are_written() {
     let folder = scene(SCENE);
@@ -640,3 +630,23 @@ fn values_of_set_arrive_as_they_are_written() {
         assert!(found.contains(message), "{set} gave\n{found}\nand not {message}");
     }
 }
+
+tests![
+    completions_name_every_command,
+    bash_takes_its_completions,
+    man_pages_are_one_a_command,
+    without_a_terminal_there_is_no_colour,
+    #[cfg(target_os = "linux")]
+    on_a_terminal_colour_is_the_users_choice,
+    #[cfg(target_os = "linux")]
+    nothing_from_outside_acts_on_a_terminal_or_a_page,
+    nothing_but_tabor_speaks,
+    #[cfg(target_os = "linux")]
+    no_adapter_is_asked_for_where_none_can_be_used,
+    #[cfg(unix)]
+    a_reader_that_leaves_is_no_failure,
+    #[cfg(unix)]
+    a_limit_on_files_ends_with_a_sentence,
+    a_quiet_run_says_nothing_but_warnings_and_errors,
+    values_of_set_arrive_as_they_are_written,
+];

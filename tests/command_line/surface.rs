@@ -4,6 +4,7 @@ use std::fs;
 use std::path::Path;
 
 use crate::shared::binary::{errors, tabor};
+use crate::shared::trials::tests;
 
 /// Standard output of a call that ends well.
 fn report(folder: &Path, arguments: &[&str]) -> String {
@@ -52,7 +53,6 @@ fn self_affine(points: usize, size: f64, hurst: f64, waves: [f64; 3], seed: u32)
     )
 }
 
-#[test]
 fn the_statistics_of_an_egg_box_are_exact() {
     let folder = tempfile::tempdir().unwrap();
     let scene = format!(
@@ -83,7 +83,6 @@ fn the_statistics_of_an_egg_box_are_exact() {
     assert!(folder.path().join("box_surface/heights.png").exists());
 }
 
-#[test]
 fn a_scene_s_own_parameters_come_back_and_make_a_scene() {
     let folder = tempfile::tempdir().unwrap();
     // Tolerances are those of src/surface/fit_tests.rs, for the same reasons.
@@ -130,7 +129,6 @@ fn a_scene_s_own_parameters_come_back_and_make_a_scene() {
     }
 }
 
-#[test]
 fn a_measured_patch_leads_to_a_scene() {
     let folder = tempfile::tempdir().unwrap();
     let map = Path::new(env!("CARGO_MANIFEST_DIR")).join("examples/scenes/ground.txt");
@@ -170,7 +168,6 @@ fn a_measured_patch_leads_to_a_scene() {
     assert!(quantity(&tilted, "rms_slope") > quantity(&found, "rms_slope"));
 }
 
-#[test]
 fn a_flat_surface_has_statistics_and_no_fit() {
     let folder = tempfile::tempdir().unwrap();
     fs::write(folder.path().join("flat.txt"), "5 5 5\n5 5 5\n").unwrap();
@@ -199,7 +196,6 @@ fn a_flat_surface_has_statistics_and_no_fit() {
     assert!(text.contains("rings of the spectrum are too few"), "{text}");
 }
 
-#[test]
 fn folders_of_others_are_left_alone() {
     let folder = tempfile::tempdir().unwrap();
     fs::write(folder.path().join("a.txt"), "1 2\n4 1\n").unwrap();
@@ -227,3 +223,11 @@ fn folders_of_others_are_left_alone() {
         assert_eq!(output.status.code(), Some(1), "{}", errors(&output));
     }
 }
+
+tests![
+    the_statistics_of_an_egg_box_are_exact,
+    a_scene_s_own_parameters_come_back_and_make_a_scene,
+    a_measured_patch_leads_to_a_scene,
+    a_flat_surface_has_statistics_and_no_fit,
+    folders_of_others_are_left_alone,
+];

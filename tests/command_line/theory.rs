@@ -8,6 +8,7 @@ use std::process::{Output, Stdio};
 use serde_json::Value;
 
 use crate::shared::binary::{command, tabor};
+use crate::shared::trials::tests;
 
 /// Every model with its columns.
 const MODELS: [(&str, &str); 21] = [
@@ -164,7 +165,6 @@ fn expected_at(key: &str, name: &str) -> f64 {
     reference(key)[name].as_f64().expect("a number")
 }
 
-#[test]
 fn every_model_is_listed_and_its_example_tabulates() {
     let output = theory(&[]);
     assert!(output.status.success());
@@ -200,7 +200,6 @@ fn every_model_is_listed_and_its_example_tabulates() {
     }
 }
 
-#[test]
 fn numbers_read_back_as_they_are() {
     let table = Table::of(
         "hertz",
@@ -215,7 +214,6 @@ fn numbers_read_back_as_they_are() {
     assert_eq!(equals.rows, table.rows);
 }
 
-#[test]
 fn hard_contacts_have_the_reference_values() {
     let approach = expected_at("hertz", "delta");
     let call =
@@ -260,7 +258,6 @@ fn reduced_sphere() -> (String, f64) {
     (call, 2.0 * PI * work)
 }
 
-#[test]
 fn stiff_spheres_have_the_reference_values() {
     let (call, unit) = reduced_sphere();
     for (index, approach) in [0.5, 1.0, 2.0].into_iter().enumerate() {
@@ -301,7 +298,6 @@ fn stiff_spheres_have_the_reference_values() {
     );
 }
 
-#[test]
 fn jkr_lets_go_where_it_should() {
     let call = "--radius \"1 mm\" --contact_modulus \"1 MPa\" --work_of_adhesion \"50 mJ/m^2\"";
     let unit = PI * 0.05 * 1e-3;
@@ -343,7 +339,6 @@ fn jkr_lets_go_where_it_should() {
     close(together.column("force")[1], -4.0 / 3.0 * unit, 1e-12);
 }
 
-#[test]
 fn maugis_dugdale_has_the_reference_pull_off() {
     // With R = K = 1 and pi w = 1 the Maugis units are 1, and lambda is twice the tension.
     let work = 1.0 / PI;
@@ -396,7 +391,6 @@ fn maugis_dugdale_has_the_reference_pull_off() {
     close(force, -2.0 * 0.420082974643, 1e-5);
 }
 
-#[test]
 fn lennard_jones_spheres_have_the_reference_values() {
     let (call, unit) = reduced_sphere();
     let table = Table::of(
@@ -439,7 +433,6 @@ fn lennard_jones_spheres_have_the_reference_values() {
     assert!(apart.column("force")[0] < 2.0 * together.column("force")[0]);
 }
 
-#[test]
 fn the_map_of_theories_has_the_reference_values() {
     let at = |modulus: &str| {
         let call = format!(
@@ -478,7 +471,6 @@ fn the_map_of_theories_has_the_reference_values() {
     );
 }
 
-#[test]
 fn waves_have_the_reference_values() {
     // p* is pi E* amplitude/wavelength, here 1.
     let modulus = 1.0 / PI;
@@ -513,7 +505,6 @@ fn waves_have_the_reference_values() {
     close(table.note("closing_pressure"), extreme("jump_full"), 1e-8);
 }
 
-#[test]
 fn summits_have_the_reference_values() {
     let call = "--radius \"10 um\" --density \"1 1/um^2\" --rms_height \"1 nm\" --contact_modulus \"100 GPa\" --from \"1 nm\" --points 2";
     let table = Table::of("gw", call);
@@ -564,7 +555,6 @@ fn summits_have_the_reference_values() {
     );
 }
 
-#[test]
 fn spectra_have_the_reference_values() {
     // H = 0.8, N = 32 of the study, by wavelengths.
     let [longest, rolloff, shortest] = [2.5e5, 1e6, 32e6].map(|q: f64| 2.0 * PI / q);
@@ -649,7 +639,6 @@ fn spectra_have_the_reference_values() {
 
 const SPHERE: &str = "--radius 1e-6 --contact_modulus 1e9";
 
-#[test]
 fn bad_calls_say_what_is_wrong() {
     let maugis = format!("maugis-dugdale {SPHERE} --work_of_adhesion 0.05");
     let persson = "persson --hurst 0.8 --rolloff 1e-6 --shortest 1e-7 --contact_modulus 1e9";
@@ -713,7 +702,6 @@ fn bad_calls_say_what_is_wrong() {
     }
 }
 
-#[test]
 fn help_is_there_on_both_levels() {
     let general = theory(&["--help"]);
     assert!(general.status.success());
@@ -723,7 +711,6 @@ fn help_is_there_on_both_levels() {
     assert!(text(&of_model.stdout).contains("--work_of_adhesion"));
 }
 
-#[test]
 fn a_closed_pipe_is_no_failure() {
     let sphere = ["theory", "hertz", "--radius", "1", "--contact_modulus", "1"];
     let mut child = command(Path::new("."), &sphere)
@@ -740,3 +727,20 @@ fn a_closed_pipe_is_no_failure() {
     assert!(child.wait().expect("it ends").success(), "{errors}");
     assert!(errors.is_empty(), "{errors}");
 }
+
+tests![
+    every_model_is_listed_and_its_example_tabulates,
+    numbers_read_back_as_they_are,
+    hard_contacts_have_the_reference_values,
+    stiff_spheres_have_the_reference_values,
+    jkr_lets_go_where_it_should,
+    maugis_dugdale_has_the_reference_pull_off,
+    lennard_jones_spheres_have_the_reference_values,
+    the_map_of_theories_has_the_reference_values,
+    waves_have_the_reference_values,
+    summits_have_the_reference_values,
+    spectra_have_the_reference_values,
+    bad_calls_say_what_is_wrong,
+    help_is_there_on_both_levels,
+    a_closed_pipe_is_no_failure,
+];

@@ -9,7 +9,9 @@ use tabor::kernel::common::{LOAD_DISPLACEMENT, LOAD_FIELD, STORE_PRESSURE};
 use tabor::kernel::{Gate, Params, Scalars, Status, scalar};
 use tabor::law::Law;
 
-use crate::shared::device::{Numbers, backend, device, device_with_double, relative_difference};
+use crate::shared::device::{backend, device, device_with_double, relative_difference};
+use crate::shared::random::Random;
+use crate::shared::trials::{ignore, tests};
 
 /// Relative L2 error of a single-precision convolution: some ten roundings of 6e-8 in the root
 /// mean square (two transforms of at most twelve stages, and the inputs' own rounding).
@@ -97,22 +99,18 @@ fn convolve(
     Ok((backend.read(result)?, backend.read(sum)?, scalars))
 }
 
-#[test]
 fn convolution_agrees_with_the_processor() {
     agrees_with_the_processor(&SIZES, Number::Single);
 }
 
-#[test]
 fn convolution_in_double_precision_agrees_with_the_processor() {
     agrees_with_the_processor(&SIZES_IN_DOUBLE, Number::Double);
 }
 
 /// Lines that pass through workgroup memory in two and in four rounds.
-#[test]
 fn convolution_of_long_lines_agrees_with_the_processor() {
     if std::env::var_os("TABOR_LONG").is_none() {
-        println!("skipped: a software driver takes a minute to compile these; set TABOR_LONG=1");
-        return;
+        ignore("a software driver takes a minute to compile these; set TABOR_LONG=1");
     }
     agrees_with_the_processor(&[[16384, 2], [2, 8192]], Number::Single);
     agrees_with_the_processor(&[[8192, 2], [2, 8192]], Number::Double);
@@ -123,16 +121,15 @@ fn agrees_with_the_processor(sizes: &[[usize; 2]], number: Number) {
         Number::Single => (device(), BOUND),
         Number::Double => (device_with_double(), BOUND_IN_DOUBLE),
     };
-    let Some(device) = device else { return };
     // Short waves end at some pixels, as the solver has it.
     let short = Response::ShortCompliance(16.0);
     let computed = [short, Response::Compliance].into_iter().cycle().map(Some);
     let responses = std::iter::once(None).chain(computed);
     for (&size, response) in sizes.iter().zip(responses) {
-        let mut numbers = Numbers(size[0] as u64 * 4096 + size[1] as u64);
+        let mut numbers = Random(size[0] as u64 * 4096 + size[1] as u64);
         let count = size[0] * size[1];
         let fields = [(); 2].map(|()| match number {
-            Number::Single => numbers.field(count),
+            Number::Single => numbers.singles(count),
             Number::Double => numbers.doubles(count),
         });
         let mut cpu = CpuBackend::<f64>::new();
@@ -159,9 +156,8 @@ fn agrees_with_the_processor(sizes: &[[usize; 2]], number: Number) {
     }
 }
 
-#[test]
 fn a_shut_gate_leaves_everything_as_it_was() {
-    let Some(device) = device() else { return };
+    let device = device();
     let mut backend = backend(device);
     let level = backend.level("fine", Shape::whole(16, 16));
     let field = backend.field(level, "field");
@@ -171,7 +167,7 @@ fn a_shut_gate_leaves_everything_as_it_was() {
     scalars.curvature = 7.0;
     backend.set_params(&params());
     backend.set_scalars(&scalars);
-    let values = Numbers(1).field(256);
+    let values = Random(1).singles(256);
     backend.write(field, &values);
     backend.forward(&LOAD_FIELD, level, &[field]);
     backend.multiply(spectrum, true, Gate::Running);
@@ -184,9 +180,8 @@ fn a_shut_gate_leaves_everything_as_it_was() {
     assert_eq!(backend.read(field).expect("nothing has failed"), values);
 }
 
-#[test]
 fn what_cannot_be_done_is_an_error_where_the_host_waits() {
-    let Some(device) = device() else { return };
+    let device = device();
     let text = |error: BackendError| error.to_string();
     for size in [[22, 16], [16, 26], [15, 16], [16, 9]] {
         let mut backend = backend(device);
@@ -216,9 +211,8 @@ fn what_cannot_be_done_is_an_error_where_the_host_waits() {
     );
 }
 
-#[test]
 fn a_kernel_without_a_shader_is_an_error_where_the_host_waits() {
-    let Some(device) = device() else { return };
+    let device = device();
     let mut backend = backend(device);
     backend.level("fine", Shape::whole(16, 16));
     static ODD: scalar::ScalarKernel = scalar::ScalarKernel {
@@ -235,9 +229,8 @@ fn a_kernel_without_a_shader_is_an_error_where_the_host_waits() {
 
 /// Each kernel's dispatches and bytes as counted by hand, a time for each, and the same bits as untimed.
 /// A convolution with a half-space moves six fields: nothing else grows with the grid, but lines' roots.
-#[test]
 fn kernels_are_timed_on_the_device() {
-    let Some(device) = device() else { return };
+    let device = device();
     let [nx, ny] = [96, 64];
     let run = |backend: &mut dyn Backend| {
         let level = backend.level("fine", Shape::whole(nx, ny));
@@ -245,7 +238,7 @@ fn kernels_are_timed_on_the_device() {
         let half_space = HalfSpace::new(Grid::new([nx, ny], [1.0, 1.3]), 0.1);
         let factors = Factors::HalfSpace(half_space, Response::Stiffness);
         let stiffness = backend.spectrum(level, "stiffness", factors);
-        backend.write(from, &Numbers(4).field(nx * ny));
+        backend.write(from, &Random(4).singles(nx * ny));
         backend.set_params(&params());
         for _ in 0..3 {
             backend.forward(&LOAD_FIELD, level, &[from]);
@@ -256,8 +249,7 @@ fn kernels_are_timed_on_the_device() {
     };
     let (mut timed, watch) = backend(device).timed();
     let Some(watch) = watch else {
-        println!("skipped: no timestamps");
-        return;
+        ignore("the adapter has no timestamps");
     };
     let clock = std::time::Instant::now();
     let values = run(&mut timed);
@@ -297,3 +289,13 @@ fn kernels_are_timed_on_the_device() {
         "{rate:?}"
     );
 }
+
+tests![
+    convolution_agrees_with_the_processor,
+    convolution_in_double_precision_agrees_with_the_processor,
+    convolution_of_long_lines_agrees_with_the_processor,
+    a_shut_gate_leaves_everything_as_it_was,
+    what_cannot_be_done_is_an_error_where_the_host_waits,
+    a_kernel_without_a_shader_is_an_error_where_the_host_waits,
+    kernels_are_timed_on_the_device,
+];

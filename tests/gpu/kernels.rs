@@ -12,9 +12,10 @@ use tabor::law::{Exponential, Law, LennardJones, MaugisDugdale};
 
 use crate::catalogue::{KERNELS, SCALAR_KERNELS};
 use crate::shared::device::{
-    Numbers, backend, device, device_with, device_with_double, device_without_double,
-    double_backend,
+    backend, device, device_with, device_with_double, device_without_double, double_backend,
 };
+use crate::shared::random::Random;
+use crate::shared::trials::tests;
 
 /// Fine and coarse points of the tests; neither is a power of two both ways.
 const FINE: [usize; 2] = [48, 64];
@@ -108,9 +109,9 @@ struct Trace {
 }
 
 /// Seeded values with all the digits that a field holds.
-fn drawn_field(numbers: &mut Numbers, count: usize, number: Number) -> Vec<f64> {
+fn drawn_field(numbers: &mut Random, count: usize, number: Number) -> Vec<f64> {
     match number {
-        Number::Single => numbers.field(count),
+        Number::Single => numbers.singles(count),
         Number::Double => numbers.doubles(count),
     }
 }
@@ -160,7 +161,7 @@ fn run(
     } else {
         [shape, Shape::whole(nx, ny)]
     };
-    let mut numbers = Numbers(kernel.name.len() as u64 * 7919);
+    let mut numbers = Random(kernel.name.len() as u64 * 7919);
     let mut draw = |count: usize| drawn_field(&mut numbers, count, number);
     let level = backend.level("own", own);
     let second = backend.level("other", other);
@@ -320,9 +321,8 @@ fn compare(
     }
 }
 
-#[test]
 fn kernels_agree_with_their_twins() {
-    let Some(device) = device() else { return };
+    let device = device();
     let padded = Shape {
         points: FINE,
         surface: [30, 40],
@@ -393,11 +393,8 @@ fn kernels_agree_with_their_twins() {
 
 /// The same in double precision, each kernel with as few laws as reach all that is written for them:
 /// shaders in double are slow to compile in software. The exponential asks for exp, the core for powers.
-#[test]
 fn kernels_in_double_precision_agree_with_their_twins() {
-    let Some(device) = device_with_double() else {
-        return;
-    };
+    let device = device_with_double();
     let number = Number::Double;
     let padded = Shape {
         points: FINE_IN_DOUBLE,
@@ -474,16 +471,15 @@ fn device_exponentials(device: &GpuDevice, values: &[f64], less_one: bool) -> Ve
 /// the terms added and r itself by a quarter and an eighth of a unit of a result near 1, and twice that
 /// of one below 1: below 2 units, and the host's own is good to 1. Less one, beyond 1/2 from zero, that is
 /// multiplied by exp over exp less one, at most 2.6, and again by 2 where that loses a binary digit.
-#[test]
 fn exponentials_in_double_precision_are_good_to_the_last_digits() {
-    let Some(device) = device_with_double() else {
-        return;
-    };
-    let mut numbers = Numbers(3);
+    let device = device_with_double();
+    let mut numbers = Random(3);
     // Gaps of some ranges, where laws are asked, and all that have a normal result.
-    let mut values: Vec<f64> = (0..2048).map(|_| 20.0 * (numbers.next() + 0.5)).collect();
-    values.extend((0..1024).map(|_| 1400.0 * numbers.next()));
-    values.extend((0..1024).map(|i| numbers.next() * 2f64.powi(-(i % 60))));
+    let mut values: Vec<f64> = (0..2048)
+        .map(|_| 20.0 * (numbers.centred() + 0.5))
+        .collect();
+    values.extend((0..1024).map(|_| 1400.0 * numbers.centred()));
+    values.extend((0..1024).map(|i| numbers.centred() * 2f64.powi(-(i % 60))));
     values[..8].copy_from_slice(&[0.0, -0.0, 0.5, -0.5, 698.0, -709.0, 1e-300, 0.346_573_590_3]);
     let ulps = |found: f64, exact: f64| {
         let unit = exact.abs().next_up() - exact.abs();
@@ -521,13 +517,10 @@ fn exponentials_in_double_precision_are_good_to_the_last_digits() {
 
 /// A field taken over between single and double precision on the device is what the host would make of
 /// it, and nothing crosses the bus.
-#[test]
 fn fields_are_taken_over_on_the_device() {
-    let Some(device) = device_with_double() else {
-        return;
-    };
+    let device = device_with_double();
     let shape = Shape::whole(48, 64);
-    let values = Numbers(9).doubles(shape.len());
+    let values = Random(9).doubles(shape.len());
     let mut double = double_backend(device);
     let mut single = backend(device);
     let places: Vec<Field> = [&mut double, &mut single]
@@ -559,21 +552,17 @@ fn fields_are_taken_over_on_the_device() {
 
 /// Where a field takes more slabs in double than in single precision, iterations that are corrected lie as
 /// what corrects them.
-#[test]
 fn fields_in_slabs_are_taken_over_on_the_device() {
-    if device_with_double().is_none() {
-        return;
-    }
+    device_with_double();
     let shape = Shape::whole(48, 64);
     let device = device_with(&AdapterChoice {
         slab_bytes: Some(4 * shape.len() as u64),
         ..AdapterChoice::default()
     });
-    let Some(device) = device else { return };
     let mut single = backend(&device).corrected();
     let mut double = double_backend(&device);
     assert_eq!(device.slabs(shape), Ok(1));
-    let values = Numbers(9).doubles(shape.len());
+    let values = Random(9).doubles(shape.len());
     let [here, there] = [&mut single, &mut double].map(|backend| {
         let level = backend.level("fine", shape);
         backend.field(level, "field")
@@ -636,13 +625,13 @@ fn numbers(s: &Scalars) -> Vec<(&'static str, f64)> {
 
 /// A state drawn at random; some of its numbers are the special ones on which decisions turn.
 /// `searches` where the kernel is part of a search.
-fn drawn(random: &mut Numbers, searches: bool) -> Scalars {
+fn drawn(random: &mut Random, searches: bool) -> Scalars {
     let mut number = |special: &[f64]| {
-        let pick = ((random.next() + 0.5) * 12.0) as usize;
+        let pick = ((random.centred() + 0.5) * 12.0) as usize;
         special
             .get(pick)
             .copied()
-            .unwrap_or(f64::from(2.0 * random.next() as f32))
+            .unwrap_or(f64::from(2.0 * random.centred() as f32))
     };
     let infinite = f64::INFINITY;
     let mut scalars = Scalars::start(number(&[]), false);
@@ -677,7 +666,7 @@ fn drawn(random: &mut Numbers, searches: bool) -> Scalars {
         *reach = number(&[1.0]).abs().min(scalars.step_first);
     }
     scalars.high = [number(&[infinite, infinite]).abs() + 1.0, number(&[]).abs()];
-    let mut flag = |share: f64| random.next() + 0.5 < share;
+    let mut flag = |share: f64| random.centred() + 0.5 < share;
     scalars.repeat = flag(0.2);
     scalars.restart = flag(0.2);
     scalars.accepted = flag(0.8);
@@ -689,7 +678,7 @@ fn drawn(random: &mut Numbers, searches: bool) -> Scalars {
     } else {
         Status::Running
     };
-    let mut count = |most: f64| ((random.next() + 0.5) * most) as u32;
+    let mut count = |most: f64| ((random.centred() + 0.5) * most) as u32;
     scalars.evaluations = [count(8.0), 39][(count(8.0) == 0) as usize];
     scalars.lost = [4, 24, count(5.0), 0, 0, 0][count(6.0) as usize];
     scalars.stalls = count(5.0);
@@ -699,9 +688,8 @@ fn drawn(random: &mut Numbers, searches: bool) -> Scalars {
     scalars
 }
 
-#[test]
 fn scalar_kernels_agree_with_their_twins() {
-    let Some(device) = device() else { return };
+    let device = device();
     let bound = match device.wide() {
         Wide::Double => 1e-13,
         Wide::Single | Wide::Compensated => 1e-5,
@@ -709,7 +697,7 @@ fn scalar_kernels_agree_with_their_twins() {
     let mut backend = backend(device);
     backend.level("fine", Shape::whole(4, 4));
     for &kernel in SCALAR_KERNELS {
-        let mut random = Numbers(kernel.name.len() as u64);
+        let mut random = Random(kernel.name.len() as u64);
         for round in 0..60 {
             let (_, law) = laws()[round % 5];
             let params = params(law, round % 2 == 0, Number::Single);
@@ -736,15 +724,12 @@ fn scalar_kernels_agree_with_their_twins() {
 
 /// Large numbers that cancel: plain sums in single precision keep nothing of what is left, which is
 /// some 1e-6 of them; compensated ones keep it to single precision.
-#[test]
 fn sums_without_double_precision_are_compensated() {
-    let Some(device) = device_without_double() else {
-        return;
-    };
+    let device = device_without_double();
     assert_eq!(device.wide(), Wide::Compensated);
     let shape = Shape::whole(96, 64);
-    let mut numbers = Numbers(5);
-    let large = numbers.field(shape.len() / 2);
+    let mut numbers = Random(5);
+    let large = numbers.singles(shape.len() / 2);
     // Each large number returns with the other sign, in the other order, a little changed.
     let values: Vec<f64> = large
         .iter()
@@ -781,3 +766,13 @@ fn sums_without_double_precision_are_compensated() {
         "the test has teeth"
     );
 }
+
+tests![
+    kernels_agree_with_their_twins,
+    kernels_in_double_precision_agree_with_their_twins,
+    exponentials_in_double_precision_are_good_to_the_last_digits,
+    fields_are_taken_over_on_the_device,
+    fields_in_slabs_are_taken_over_on_the_device,
+    scalar_kernels_agree_with_their_twins,
+    sums_without_double_precision_are_compensated,
+];

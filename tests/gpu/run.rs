@@ -10,6 +10,7 @@ use crate::shared::binary::{
     command, errors, scene, summary, table, tabor, with_drivers, without_adapter,
 };
 use crate::shared::device::{device, device_with_double, relative_difference};
+use crate::shared::trials::{ignore, tests};
 
 const SPHERE: &str = r#"
 [grid]
@@ -87,7 +88,7 @@ fn field(folder: &Path, name: &str) -> npyz::NpyFile<std::io::Cursor<Vec<u8>>> {
 /// times that (both come out better); at 1e-4 a few points at the rim may be closed in one and open in
 /// the other.
 fn compare(text: &str, precision: &str, tolerance: f64) {
-    let Some(device) = device() else { return };
+    let device = device();
     let folder = scene(text);
     let set = format!("solver.tolerance={tolerance:e}");
     let asked = match precision {
@@ -158,35 +159,28 @@ fn compare(text: &str, precision: &str, tolerance: f64) {
     }
 }
 
-#[test]
 fn an_adhesive_sphere_agrees_with_the_processor() {
     compare(SPHERE, "mixed", 1e-9);
 }
 
-#[test]
 fn an_adhesive_sphere_in_double_precision_agrees_with_the_processor() {
-    if device_with_double().is_some() {
-        compare(SPHERE, "double", 1e-9);
-    }
+    device_with_double();
+    compare(SPHERE, "double", 1e-9);
 }
 
-#[test]
 fn a_solid_that_flows_is_solved_in_double_precision() {
     let flows = "contact_modulus = \"1 GPa\"\nhardness = \"60 MPa\"";
     let text = ROUGH.replace("contact_modulus = \"1 GPa\"", flows);
-    if device_with_double().is_some() {
-        compare(&text, "double", 1e-9);
-    }
+    device_with_double();
+    compare(&text, "double", 1e-9);
 }
 
-#[test]
 fn a_rough_surface_agrees_with_the_processor() {
     compare(ROUGH, "single", 1e-4);
 }
 
 /// Steps of many ranges, which taken rigidly drive points deep into the core of the law: single and mixed
 /// precision ended there after no iteration, at a residual of 1.
-#[test]
 fn steps_into_the_lennard_jones_core_agree_with_the_processor() {
     let text = |points: usize, shortest: f64, work: f64, range: f64, path: &str| {
         format!(
@@ -222,15 +216,13 @@ fields = ["gap", "pressure"]
     compare(&single, "single", 1e-4);
 }
 
-#[test]
 fn without_an_adapter_gpu_fails_and_auto_does_not() {
     let folder = scene(ROUGH);
     let nowhere = Some("/nonexistent");
     let gpu = run(folder.path(), "gpu", &["--backend", "gpu"], nowhere);
     // Drivers that are not Vulkan's do not listen.
     if gpu.status.success() {
-        eprintln!("skipped: there is an adapter without Vulkan");
-        return;
+        ignore("there is an adapter that Vulkan's drivers do not bring");
     }
     assert_eq!(gpu.status.code(), Some(4), "{}", errors(&gpu));
     let message = errors(&gpu);
@@ -250,7 +242,6 @@ fn without_an_adapter_gpu_fails_and_auto_does_not() {
     assert!(text.contains("none found"), "{text}");
 }
 
-#[test]
 fn sizes_without_a_transform_are_refused_with_the_nearest() {
     let folder = scene(ROUGH);
     for (points, parts) in [
@@ -276,9 +267,8 @@ fn sizes_without_a_transform_are_refused_with_the_nearest() {
     }
 }
 
-#[test]
 fn devices_names_the_adapter() {
-    let Some(device) = device() else { return };
+    let device = device();
     let output = tabor(Path::new("."), &["devices"]);
     assert_eq!(output.status.code(), Some(0));
     let text = String::from_utf8_lossy(&output.stdout);
@@ -289,11 +279,8 @@ fn devices_names_the_adapter() {
 
 /// With the adapter's double precision taken away: refused where it is asked for, left where the choice is
 /// free, and corrected by the processor in mixed.
-#[test]
 fn without_double_precision_it_is_refused_with_what_does_as_well() {
-    if device().is_none() {
-        return;
-    }
+    device();
     let folder = scene(ROUGH);
     let call = ["--backend", "gpu", "--precision", "double"];
     let output = run_tested(folder.path(), "gpu", &call, None, "nodouble");
@@ -315,11 +302,8 @@ fn without_double_precision_it_is_refused_with_what_does_as_well() {
 }
 
 /// Where the choice is free, double precision goes to an adapter that has it.
-#[test]
 fn double_precision_goes_to_an_adapter_that_has_it() {
-    if device_with_double().is_none() {
-        return;
-    }
+    device_with_double();
     let folder = scene(ROUGH);
     let call = ["--precision", "double"];
     let output = run_tested(folder.path(), "auto", &call, None, "software");
@@ -349,11 +333,8 @@ fn double_precision_goes_to_an_adapter_that_has_it() {
 
 /// A field of 64 x 64 points takes 16 KiB. One that binds 1 KiB holds it in sixteen slabs, but not the
 /// sums of their sixteen workgroups; 32 x 32 fit.
-#[test]
 fn a_grid_past_the_limits_is_refused_with_the_largest_and_auto_stays() {
-    if device().is_none() {
-        return;
-    }
+    device();
     let folder = scene(ROUGH);
     let gpu = ["--backend", "gpu"];
     let output = run_tested(folder.path(), "gpu", &gpu, None, "binding=1024");
@@ -375,22 +356,18 @@ fn a_grid_past_the_limits_is_refused_with_the_largest_and_auto_stays() {
 
 /// The device is given up amid the second step: what is solved is kept. Where the scene leaves the
 /// choice the processor goes on, to the same curve.
-#[test]
 fn a_lost_device_keeps_what_is_solved_and_auto_goes_on() {
     keeps_what_is_solved("lost", "error: the device failed");
 }
 
 /// The same where numbers on the device are none.
-#[test]
 fn a_number_that_is_none_keeps_what_is_solved_and_auto_goes_on() {
     keeps_what_is_solved("nan", "are no longer finite");
 }
 
 /// After so many dispatches as `fault` counts, the device fails with these words.
 fn keeps_what_is_solved(fault: &str, words: &str) {
-    if device().is_none() {
-        return;
-    }
+    device();
     let folder = scene(SPHERE);
     let whole = run(folder.path(), "cpu", &["--backend", "cpu"], None);
     assert_eq!(whole.status.code(), Some(0), "{}", errors(&whole));
@@ -431,11 +408,8 @@ fn keeps_what_is_solved(fault: &str, words: &str) {
 }
 
 /// Sixteen kilobytes of the fields, then no more.
-#[test]
 fn a_device_out_of_memory_says_so_and_auto_goes_on() {
-    if device().is_none() {
-        return;
-    }
+    device();
     let folder = scene(ROUGH);
     let gpu = ["--backend", "gpu"];
     let output = run_tested(folder.path(), "gpu", &gpu, None, "memory=40000");
@@ -454,11 +428,8 @@ fn a_device_out_of_memory_says_so_and_auto_goes_on() {
 }
 
 /// A buffer of 4 KiB holds a fourth of a field of 64 x 64; the coarse grid of the wall stays whole.
-#[test]
 fn a_run_in_slabs_gives_the_same_bytes() {
-    if device().is_none() {
-        return;
-    }
+    device();
     let folder = scene(ROUGH);
     let call = ["--backend", "gpu", "--set", "solver.tolerance=1e-4"];
     for (out, tested) in [("one", ""), ("four", "slab=4096")] {
@@ -478,11 +449,8 @@ fn a_run_in_slabs_gives_the_same_bytes() {
 
 /// Where the driver undoes compensated sums, plain ones do for a tolerance of single precision: their
 /// error over 64 x 64 points, added in halves, is below 1e-6.
-#[test]
 fn plain_sums_are_said_and_reach_the_tolerance() {
-    if device().is_none() {
-        return;
-    }
+    device();
     let folder = scene(ROUGH);
     let call = ["--backend", "gpu", "--set", "solver.tolerance=1e-4"];
     let output = run_tested(folder.path(), "gpu", &call, None, "plain-sums");
@@ -499,3 +467,22 @@ fn plain_sums_are_said_and_reach_the_tolerance() {
         assert!(row["residual"].parse::<f64>().expect("a number") <= 1e-4);
     }
 }
+
+tests![
+    an_adhesive_sphere_agrees_with_the_processor,
+    an_adhesive_sphere_in_double_precision_agrees_with_the_processor,
+    a_solid_that_flows_is_solved_in_double_precision,
+    a_rough_surface_agrees_with_the_processor,
+    steps_into_the_lennard_jones_core_agree_with_the_processor,
+    without_an_adapter_gpu_fails_and_auto_does_not,
+    sizes_without_a_transform_are_refused_with_the_nearest,
+    devices_names_the_adapter,
+    without_double_precision_it_is_refused_with_what_does_as_well,
+    double_precision_goes_to_an_adapter_that_has_it,
+    a_grid_past_the_limits_is_refused_with_the_largest_and_auto_stays,
+    a_lost_device_keeps_what_is_solved_and_auto_goes_on,
+    a_number_that_is_none_keeps_what_is_solved_and_auto_goes_on,
+    a_device_out_of_memory_says_so_and_auto_goes_on,
+    a_run_in_slabs_gives_the_same_bytes,
+    plain_sums_are_said_and_reach_the_tolerance,
+];

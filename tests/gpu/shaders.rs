@@ -11,6 +11,7 @@ use tabor::kernel::common::{LOAD_FIELD, STORE_PRESSURE};
 use tabor::kernel::{Gate, Reduce};
 
 use crate::catalogue::{KERNELS, SCALAR_KERNELS};
+use crate::shared::trials::tests;
 
 const LIMITS: GroupLimits = GroupLimits {
     threads: 1024,
@@ -22,9 +23,9 @@ const LAWS: [LawPart; 4] = [
     LawPart::Exponential,
     LawPart::LennardJones,
 ];
-/// Numbers of sums.
+/// Random of sums.
 const WIDES: [Wide; 3] = [Wide::Single, Wide::Compensated, Wide::Double];
-/// Numbers of fields and of sums that go together.
+/// Random of fields and of sums that go together.
 const NUMBERS: [(Number, Wide); 4] = [
     (Number::Single, Wide::Single),
     (Number::Single, Wide::Compensated),
@@ -77,7 +78,6 @@ fn plan(nx: usize, ny: usize, number: Number) -> LevelPlan {
     LevelPlan::new(Shape::whole(nx, ny), LIMITS, number).expect("a smooth size")
 }
 
-#[test]
 fn kernels_are_valid_and_bind_what_the_catalogue_declares() {
     let padded = Shape {
         points: [64, 48],
@@ -114,7 +114,6 @@ fn kernels_are_valid_and_bind_what_the_catalogue_declares() {
     }
 }
 
-#[test]
 fn transforms_of_many_lengths_are_valid() {
     for [nx, ny] in [
         [2, 2],
@@ -149,7 +148,6 @@ fn transforms_of_many_lengths_are_valid() {
 }
 
 /// The least that a device offers takes longer lines in rounds.
-#[test]
 fn rounds_are_valid() {
     let least = GroupLimits {
         threads: 256,
@@ -175,7 +173,6 @@ fn rounds_are_valid() {
 }
 
 /// The largest grids: sixteen slabs, spectra in parts, lines in two passes; and elongated ones.
-#[test]
 fn slabs_and_long_lines_are_valid() {
     let limits = Limits {
         group: LIMITS,
@@ -236,12 +233,10 @@ fn slabs_and_long_lines_are_valid() {
     }
 }
 
-#[test]
 fn the_check_of_sums_is_valid() {
     validate("check", &source::two_sums(), Wide::Compensated);
 }
 
-#[test]
 fn reductions_are_valid() {
     for wide in WIDES {
         for gate in GATES {
@@ -263,7 +258,6 @@ fn reductions_are_valid() {
     }
 }
 
-#[test]
 fn scalar_kernels_are_valid() {
     for wide in WIDES {
         for kernel in SCALAR_KERNELS {
@@ -273,3 +267,13 @@ fn scalar_kernels_are_valid() {
         }
     }
 }
+
+tests![
+    kernels_are_valid_and_bind_what_the_catalogue_declares,
+    transforms_of_many_lengths_are_valid,
+    rounds_are_valid,
+    slabs_and_long_lines_are_valid,
+    the_check_of_sums_is_valid,
+    reductions_are_valid,
+    scalar_kernels_are_valid,
+];

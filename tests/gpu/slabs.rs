@@ -16,10 +16,12 @@ use tabor::law::{Law, LennardJones, MaugisDugdale};
 use tabor::scene::Boundary;
 use tabor::solver::{ContactSolver, Hold, Load, Outcome, Problem, Start};
 
-use crate::shared::device::{Numbers, backend, device, device_with, relative_difference};
+use crate::shared::device::{backend, device, device_with, relative_difference};
+use crate::shared::random::Random;
+use crate::shared::trials::tests;
 
 /// A device that holds so many bytes of a field in one buffer.
-fn in_slabs(bytes: u64) -> Option<GpuDevice> {
+fn in_slabs(bytes: u64) -> GpuDevice {
     device_with(&AdapterChoice {
         slab_bytes: Some(bytes),
         ..AdapterChoice::default()
@@ -27,7 +29,7 @@ fn in_slabs(bytes: u64) -> Option<GpuDevice> {
 }
 
 /// A device whose workgroups hold lines of so many points, and slabs of so many bytes.
-fn with_lines(points: usize, bytes: u64) -> Option<GpuDevice> {
+fn with_lines(points: usize, bytes: u64) -> GpuDevice {
     device_with(&AdapterChoice {
         longest_line: Some(points),
         slab_bytes: Some(bytes),
@@ -57,9 +59,9 @@ fn convolve(backend: &mut dyn Backend, [nx, ny]: [usize; 2], tabulated: bool) ->
     let level = backend.level("fine", shape);
     let field = backend.field(level, "field");
     let result = backend.field(level, "result");
-    let mut numbers = Numbers(nx as u64 * 4096 + ny as u64);
+    let mut numbers = Random(nx as u64 * 4096 + ny as u64);
     // Different at each wavevector, so that a factor out of place shows.
-    let factors: Vec<f64> = numbers.field(shape.spectrum_len());
+    let factors: Vec<f64> = numbers.singles(shape.spectrum_len());
     let factors: Vec<f64> = factors.iter().map(|x| x + 1.0).collect();
     let half_space = HalfSpace::new(Grid::new([nx, ny], [1.0, 1.3]), 1.0 / nx as f64);
     let factors = match tabulated {
@@ -69,7 +71,7 @@ fn convolve(backend: &mut dyn Backend, [nx, ny]: [usize; 2], tabulated: bool) ->
     let spectrum = backend.spectrum(level, "factors", factors);
     backend.set_params(&params(Law::HardWall));
     backend.set_zero_mode(spectrum, 0.75);
-    backend.write(field, &numbers.field(nx * ny));
+    backend.write(field, &numbers.singles(nx * ny));
     backend.write(result, &vec![f64::NAN; nx * ny]);
     backend.forward(&LOAD_FIELD, level, &[field]);
     backend.multiply(spectrum, true, Gate::Always);
@@ -81,16 +83,15 @@ fn convolve(backend: &mut dyn Backend, [nx, ny]: [usize; 2], tabulated: bool) ->
 
 /// Slabs of a power of two and of other sizes, spectra in parts, legs of butterflies that lie in one
 /// slab and such that cross from one to the next.
-#[test]
 fn a_convolution_in_slabs_is_the_same_to_the_last_bit() {
-    let Some(device) = device() else { return };
+    let device = device();
     for (size, bytes, slabs, tabulated) in [
         ([256, 256], 64 << 10, 4, false),
         // 42 pairs: six slabs of seven. The table is in two parts.
         ([120, 84], 7 << 10, 6, true),
         ([16, 250], 4 << 10, 5, false),
     ] {
-        let Some(split) = in_slabs(bytes) else { return };
+        let split = in_slabs(bytes);
         assert_eq!(
             split.slabs(Shape::whole(size[0], size[1])),
             Ok(slabs),
@@ -114,7 +115,6 @@ fn a_convolution_in_slabs_is_the_same_to_the_last_bit() {
 const BOUND: f64 = 5e-7;
 
 /// Lines in two passes along x, along y, along both, of equal and of unequal shares, and in slabs.
-#[test]
 fn a_convolution_of_long_lines_agrees_with_the_processor() {
     for (size, points, bytes, tabulated) in [
         ([256, 256], 64, 1 << 20, false),
@@ -124,9 +124,7 @@ fn a_convolution_of_long_lines_agrees_with_the_processor() {
         ([98, 250], 30, 1 << 20, false),
         ([2, 96], 16, 256, false),
     ] {
-        let Some(long) = with_lines(points, bytes) else {
-            return;
-        };
+        let long = with_lines(points, bytes);
         let reference = convolve(&mut CpuBackend::<f64>::new(), size, tabulated);
         let ours = convolve(&mut backend(&long), size, tabulated);
         let error = relative_difference(&ours.0, &reference.0);
@@ -168,7 +166,7 @@ fn run(
         true => [coarse, shape],
         false => [shape, coarse],
     };
-    let mut numbers = Numbers(kernel.name.len() as u64 * 7919);
+    let mut numbers = Random(kernel.name.len() as u64 * 7919);
     let level = backend.level("own", own);
     let second = backend.level("other", other);
     let make = |backend: &mut dyn Backend, level: Level, values: &[f64]| -> Field {
@@ -177,23 +175,23 @@ fn run(
         field
     };
     // Gaps come first, read or updated.
-    let gaps = |numbers: &mut Numbers| -> Vec<f64> {
+    let gaps = |numbers: &mut Random| -> Vec<f64> {
         let closed = |x: &f64| x.max(0.0);
-        numbers.field(own.len()).iter().map(closed).collect()
+        numbers.singles(own.len()).iter().map(closed).collect()
     };
     let mut fields = Vec::new();
     for place in 0..kernel.reads + kernel.writes {
         let values = match place == 0 || place == kernel.reads {
             true => gaps(&mut numbers),
-            false => numbers.field(own.len()),
+            false => numbers.singles(own.len()),
         };
         fields.push(make(backend, level, &values));
     }
     if kernel.whole {
-        let values = numbers.field(other.len());
+        let values = numbers.singles(other.len());
         fields.push(make(backend, second, &values));
     }
-    let lines = make(backend, level, &numbers.field(own.len()));
+    let lines = make(backend, level, &numbers.singles(own.len()));
     let ones = backend.spectrum(
         level,
         "ones",
@@ -277,15 +275,10 @@ static KINDS: [&Kernel; 8] = [
     &coarse::COARSE_RESTRICT,
 ];
 
-#[test]
 fn every_kind_of_kernel_in_slabs_writes_the_same() {
-    let Some(device) = device() else { return };
-    let (Some(fine), Some(coarse)) = (in_slabs(SLAB), in_slabs(COARSE_SLAB)) else {
-        return;
-    };
-    let Some(long) = with_lines(LINE, SLAB) else {
-        return;
-    };
+    let device = device();
+    let (fine, coarse) = (in_slabs(SLAB), in_slabs(COARSE_SLAB));
+    let long = with_lines(LINE, SLAB);
     let padded = Shape {
         points: FINE,
         surface: [30, 40],
@@ -367,17 +360,12 @@ fn solve(device: &GpuDevice, problem: &Problem, load: &Load) -> (Outcome, Vec<f6
 
 /// The laws under what holds them, the two-band preconditioner of the wall and the pad of a free
 /// boundary among them.
-#[test]
 fn whole_solves_in_slabs_agree_with_those_in_one() {
-    let Some(device) = device() else { return };
+    let device = device();
     // 32 x 32 and 64 x 64 numbers of four bytes in slabs of 1 KiB: four and sixteen.
-    let Some(split) = in_slabs(1 << 10) else {
-        return;
-    };
+    let split = in_slabs(1 << 10);
     // Lines of 32 and 64 points take two passes, those of the coarse grid one.
-    let Some(long) = with_lines(8, 1 << 10) else {
-        return;
-    };
+    let long = with_lines(8, 1 << 10);
     let dugdale = Law::MaugisDugdale(MaugisDugdale {
         peak_tension: 0.05,
         range: 5e-3,
@@ -458,3 +446,10 @@ fn whole_solves_in_slabs_agree_with_those_in_one() {
         assert!(apart.iter().all(|&apart| apart < 1e-3), "{name}: {apart:?}");
     }
 }
+
+tests![
+    a_convolution_in_slabs_is_the_same_to_the_last_bit,
+    a_convolution_of_long_lines_agrees_with_the_processor,
+    every_kind_of_kernel_in_slabs_writes_the_same,
+    whole_solves_in_slabs_agree_with_those_in_one,
+];

@@ -1,7 +1,6 @@
 //! Whole solves on the graphics processor in single, mixed and double precision, and in mixed on the
 //! processor, against the CPU in double.
 
-
 use tabor::backend::Backend;
 use tabor::backend::cpu::CpuBackend;
 use tabor::backend::gpu::{GpuBackend, GpuDevice, Traffic, Wide};
@@ -16,6 +15,7 @@ use crate::catalogue::KERNELS;
 use crate::shared::device::{
     backend, device, device_with_double, device_without_double, double_backend, relative_difference,
 };
+use crate::shared::trials::tests;
 use crate::watching::Watching;
 
 struct Solution {
@@ -141,9 +141,8 @@ fn at_gap(problem: &Problem, gap: f64) -> Load {
     }
 }
 
-#[test]
 fn rough_hard_wall() {
-    let Some(device) = device() else { return };
+    let device = device();
     let surface = rough(128);
     let problem = Problem::new(
         surface.grid,
@@ -158,11 +157,8 @@ fn rough_hard_wall() {
 }
 
 /// Sums in single precision, halved in order, do as well at this tolerance.
-#[test]
 fn rough_hard_wall_without_double_precision() {
-    let Some(device) = device_without_double() else {
-        return;
-    };
+    let device = device_without_double();
     assert_eq!(device.wide(), Wide::Compensated);
     let surface = rough(64);
     let problem = Problem::new(
@@ -177,9 +173,8 @@ fn rough_hard_wall_without_double_precision() {
     compare(&device, "single sums", &problem, &load, 1e-3);
 }
 
-#[test]
 fn sphere_with_maugis_dugdale_on_a_free_boundary() {
-    let Some(device) = device() else { return };
+    let device = device();
     let (grid, heights) = sphere(32);
     let law = Law::MaugisDugdale(MaugisDugdale {
         peak_tension: 0.05,
@@ -191,9 +186,8 @@ fn sphere_with_maugis_dugdale_on_a_free_boundary() {
     compare(device, "sphere, Maugis-Dugdale", &problem, &load, 2e-3);
 }
 
-#[test]
 fn rough_lennard_jones_at_a_held_gap() {
-    let Some(device) = device() else { return };
+    let device = device();
     let surface = rough(64);
     let law = Law::LennardJones(LennardJones {
         work_of_adhesion: 5e-4,
@@ -211,9 +205,8 @@ fn rough_lennard_jones_at_a_held_gap() {
     compare(device, "rough, Lennard-Jones", &problem, &load, 2e-3);
 }
 
-#[test]
 fn rough_wall_with_tail_at_a_held_gap() {
-    let Some(device) = device() else { return };
+    let device = device();
     let surface = rough(64);
     let law = Law::MaugisDugdale(MaugisDugdale {
         peak_tension: 0.05,
@@ -234,9 +227,8 @@ fn rough_wall_with_tail_at_a_held_gap() {
 
 /// A solid that flows, alone under a pressure and sticking at a held gap; depths and gaps alike are
 /// bounded as gaps are above.
-#[test]
 fn rough_solid_that_flows() {
-    let Some(device) = device() else { return };
+    let device = device();
     let surface = rough(64);
     let problem = |law| {
         let (grid, heights) = (surface.grid, &surface.heights);
@@ -254,9 +246,8 @@ fn rough_solid_that_flows() {
     compare(device, "hardness at a held gap", &sticky, &load, 2e-3);
 }
 
-#[test]
 fn looking_less_often_changes_no_bit() {
-    let Some(device) = device() else { return };
+    let device = device();
     let (grid, heights) = sphere(32);
     let attraction = Law::MaugisDugdale(MaugisDugdale {
         peak_tension: 0.05,
@@ -403,7 +394,6 @@ fn tight(
     residual
 }
 
-#[test]
 fn mixed_precision_on_the_processor_reaches_the_tolerance_of_double() {
     let mixed = || -> Box<dyn Backend + Send> { Box::new(CpuBackend::<f32>::new().corrected()) };
     let mut worst = 0.0f64;
@@ -413,9 +403,8 @@ fn mixed_precision_on_the_processor_reaches_the_tolerance_of_double() {
     println!("worst residual {worst:.1e}");
 }
 
-#[test]
 fn mixed_precision_on_the_device_reaches_the_tolerance_of_double() {
-    let Some(device) = device() else { return };
+    let device = device();
     let mixed = || -> Box<dyn Backend + Send> { Box::new(backend(device).corrected()) };
     let mut worst = 0.0f64;
     // Every pair of a law and a boundary is a shader of its own, which software compiles slowly: all
@@ -432,11 +421,8 @@ fn mixed_precision_on_the_device_reaches_the_tolerance_of_double() {
 
 /// Solves to `TIGHT` in double precision on the device and on the processor: the same iterations, give or
 /// take a few where rounding decides whether one more is made, and the same gap to the tolerance.
-#[test]
 fn double_precision_on_the_device_solves_as_the_processor_does() {
-    let Some(device) = device_with_double() else {
-        return;
-    };
+    let device = device_with_double();
     let cpu = || -> Box<dyn Backend + Send> { Box::new(CpuBackend::<f64>::new()) };
     let gpu = || -> Box<dyn Backend + Send> { Box::new(double_backend(device)) };
     let surface = rough(32);
@@ -527,9 +513,8 @@ fn iterations(
 
 /// The table on the crate page: dispatches and fields moved by an iteration, with the evaluations of a step
 /// length that belong to it.
-#[test]
 fn an_iteration_costs_what_the_crate_page_says() {
-    let Some(device) = device() else { return };
+    let device = device();
     let page = include_str!("../../src/lib.rs");
     let mut missing = Vec::new();
     let surface = rough(64);
@@ -575,12 +560,9 @@ fn an_iteration_costs_what_the_crate_page_says() {
 /// A whole solve in mixed precision: every iteration is on the device, and so is all that corrects it where
 /// the device has double precision: then nothing crosses the bus after the start. Elsewhere the processor
 /// does that and nothing else, and fields cross the bus for the corrections alone.
-#[test]
 fn nothing_but_corrections_crosses_the_bus() {
-    let Some(device) = device() else { return };
-    let Some(without) = device_without_double() else {
-        return;
-    };
+    let device = device();
+    let without = device_without_double();
     // As the other tests here have it, whose shaders serve.
     let surface = rough(32);
     let load = |problem: &Problem, held: bool| match held {
@@ -658,12 +640,9 @@ fn nothing_but_corrections_crosses_the_bus() {
 }
 
 /// The same problem twice, sums in double or compensated in single, in all precisions.
-#[test]
 fn the_same_problem_twice_gives_the_same_bits() {
-    let Some(device) = device() else { return };
-    let Some(single_sums) = device_without_double() else {
-        return;
-    };
+    let device = device();
+    let single_sums = device_without_double();
     let (grid, heights) = sphere(32);
     let problem = Problem::new(grid, Boundary::Periodic, 1.0, &heights, 0.3, laws()[2].1);
     let load = at_gap(&problem, 0.05);
@@ -691,3 +670,19 @@ fn the_same_problem_twice_gives_the_same_bits() {
         }
     }
 }
+
+tests![
+    rough_hard_wall,
+    rough_hard_wall_without_double_precision,
+    sphere_with_maugis_dugdale_on_a_free_boundary,
+    rough_lennard_jones_at_a_held_gap,
+    rough_wall_with_tail_at_a_held_gap,
+    rough_solid_that_flows,
+    looking_less_often_changes_no_bit,
+    mixed_precision_on_the_processor_reaches_the_tolerance_of_double,
+    mixed_precision_on_the_device_reaches_the_tolerance_of_double,
+    double_precision_on_the_device_solves_as_the_processor_does,
+    an_iteration_costs_what_the_crate_page_says,
+    nothing_but_corrections_crosses_the_bus,
+    the_same_problem_twice_gives_the_same_bits,
+];

@@ -101,9 +101,9 @@ fn expected(scene: &Scene, grid: [usize; 2]) -> Expected {
     if two_band {
         fields.extend(["free", "restricted", "share", "weight", "long_waves"]);
     }
-    // What a relaxing solid remembers: its displacement and the spring of each branch.
+    // What a viscoelastic solid carries: its displacement and the spring of each branch.
     let branches = scene.solid.relaxation.len();
-    // What has flowed, as the path keeps it and as the solver does.
+    // The plastic depth, as the path keeps it and as the solver does.
     let history = if branches > 0 { branches + 1 } else { 0 } + if hard { 2 } else { 0 };
     let mut passes: Vec<&'static str> = Vec::new();
     if two_band {
@@ -145,7 +145,7 @@ fn expected(scene: &Scene, grid: [usize; 2]) -> Expected {
         (false, true, false) => passes.push("wall_turn_kept"),
     }
     if hard {
-        passes.iter_mut().for_each(|pass| *pass = over_flow(pass));
+        passes.iter_mut().for_each(|pass| *pass = on_hardness(pass));
     }
     Expected {
         fields,
@@ -155,8 +155,8 @@ fn expected(scene: &Scene, grid: [usize; 2]) -> Expected {
     }
 }
 
-/// The pass that takes a wall's place where the solid flows.
-fn over_flow(pass: &'static str) -> &'static str {
+/// The pass that takes a wall's place on a solid with a hardness.
+fn on_hardness(pass: &'static str) -> &'static str {
     match pass {
         "wall_free" => "yield_free",
         "wall_free_kept" => "yield_free_kept",
@@ -192,7 +192,7 @@ fn check(name: &str, scene: &Scene) {
     assert_eq!(cost.history_bytes(), history, "{name}");
     // The compliance of all waves is tabulated where a conductance is asked, and nowhere else.
     let tabulated = cost.spectra.iter().any(|held| held.name == "compliance");
-    assert_eq!(tabulated, scene.conductance.is_some(), "{name}");
+    assert_eq!(tabulated, scene.tables.conductance.is_some(), "{name}");
     let mut names: Vec<&str> = cost.fields.iter().map(|field| field.name).collect();
     let mut wanted = expected.fields.clone();
     names.sort_unstable();
@@ -227,7 +227,7 @@ fn every_shipped_scene_costs_what_its_effects_say() {
             if effect.is_on(&scene) {
                 check(
                     &format!("{name} without {}", effect.name()),
-                    &effect.taken_from(&scene),
+                    &effect.removed_from(&scene),
                 );
             }
         }
@@ -324,7 +324,8 @@ fn a_half_space_has_no_tables_on_a_graphics_processor() {
 #[test]
 fn no_adhesion_is_no_law() {
     for (_, scene) in shipped_scenes() {
-        let setup = setup(Effect::Adhesion.taken_from(&scene));
+        let adhesion = Effect::from_name("adhesion").expect("an effect");
+        let setup = setup(adhesion.removed_from(&scene));
         assert_eq!(setup.law, Law::HardWall);
         assert!(setup.regime.is_none());
     }

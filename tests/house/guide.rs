@@ -1,8 +1,8 @@
 //! Pages that follow the source: each passage of the one on adding an effect stands in the
-//! file that it names.
+//! file that it names, and the files that it names are all that an effect touches.
 
 use std::fs;
-use std::path::Path;
+use std::path::{Path, PathBuf};
 
 /// Passages of the page: the file that each names, and its text. Shell commands name none.
 fn passages(page: &str) -> Vec<(String, String)> {
@@ -35,7 +35,7 @@ fn every_passage_stands_in_its_file() {
     let root = Path::new(env!("CARGO_MANIFEST_DIR"));
     let page = fs::read_to_string(root.join("docs/add_an_effect.md")).expect("the page is there");
     let passages = passages(&page);
-    assert!(passages.len() >= 10, "only {} passages", passages.len());
+    assert!(passages.len() >= 7, "only {} passages", passages.len());
     for (file, text) in passages {
         let content = fs::read_to_string(root.join(&file)).expect("the file is there");
         // Line ends are the checkout's.
@@ -47,15 +47,154 @@ fn every_passage_stands_in_its_file() {
     }
 }
 
-/// The page of keys has the keys that scenes are read by, with the same lines, and no others.
+/// Files that friction needs: what a further effect such as friction touches.
+const NEEDED: [&str; 6] = [
+    "src/scene/tables.rs",
+    "src/effect/friction.rs",
+    "src/effect/mod.rs",
+    "docs/effects.md",
+    "/friction.rs",
+    "/main.rs",
+];
+
+/// Other files that name friction, and why an effect can do without each: told by the end of its path.
+const BESIDES: [(&str, &str); 17] = [
+    ("docs/add_an_effect.md", "shows how friction was added"),
+    ("/guide.rs", "counts"),
+    ("CHANGELOG.md", "has a line for every change"),
+    ("README.md", "says what another program does"),
+    (
+        "examples/scenes/ground.toml",
+        "a shipped scene may show an effect",
+    ),
+    ("docs/scenes.md", "and then says what comes out"),
+    ("src/theory/friction.rs", "a closed form to compare with"),
+    ("src/theory/mod.rs", "names that file"),
+    ("/sphere.rs", "checks that closed form"),
+    ("src/elastic/mod.rs", "a base without friction"),
+    ("src/elastic/layer.rs", "a base without friction"),
+    ("/layer.rs", "a layer on such a base"),
+    (
+        "/scenes.rs",
+        "mistakes of a declared table, for which friction stands",
+    ),
+    (
+        "/scene_mutations.rs",
+        "a word among those that scenes are mutated with",
+    ),
+    ("fuzz/scene.dict", "likewise"),
+    ("/layers.rs", "names effects that a path must not name"),
+    ("/resume.rs", "a scene that has many effects on"),
+];
+
+/// Text files below a folder.
+fn text_files(folder: &Path, found: &mut Vec<(PathBuf, String)>) {
+    for entry in fs::read_dir(folder).expect("a folder").flatten() {
+        let path = entry.path();
+        let is_corpus = path.file_name().is_some_and(|name| name == "corpus");
+        if path.is_dir() && !is_corpus {
+            text_files(&path, found);
+        } else if let Ok(text) = fs::read_to_string(&path) {
+            found.push((path, text));
+        }
+    }
+}
+
+/// A further effect touches few files: those that friction needs, among all that name it.
+#[test]
+fn a_further_effect_touches_six_files() {
+    let root = Path::new(env!("CARGO_MANIFEST_DIR"));
+    let mut files = Vec::new();
+    for folder in [
+        "src", "docs", "tests", "examples", "shaders", "fuzz", "benches",
+    ] {
+        text_files(&root.join(folder), &mut files);
+    }
+    for file in ["README.md", "CHANGELOG.md", "Cargo.toml"] {
+        let path = root.join(file);
+        files.push((path.clone(), fs::read_to_string(path).expect("a file")));
+    }
+    let (mut needed, mut besides, mut unknown) = (Vec::new(), 0, Vec::new());
+    for (path, text) in files {
+        let relative = path.strip_prefix(root).expect("it lies below").to_owned();
+        // Always with the separator of this page.
+        let name = relative.to_string_lossy().replace('\\', "/");
+        let is_table = name.ends_with(".csv") || name.ends_with(".json") || name.ends_with(".py");
+        let text = text.to_lowercase().replace("frictionless", "");
+        if is_table || !(text.contains("friction") || text.contains("shear_strength")) {
+            continue;
+        }
+        let is_test_list = name.starts_with("tests/physics/") && text.contains("mod friction;");
+        let is_test = name.starts_with("tests/") && name.ends_with("/friction.rs");
+        if NEEDED[..4].contains(&name.as_str()) || is_test || is_test_list {
+            needed.push(name);
+        } else if BESIDES.iter().any(|(other, _)| name.ends_with(other)) {
+            besides += 1;
+        } else {
+            unknown.push(name);
+        }
+    }
+    println!(
+        "a further effect touches {} files: {needed:?}",
+        needed.len()
+    );
+    println!("{besides} others name friction, which an effect can do without");
+    assert!(
+        unknown.is_empty(),
+        "not known to name friction: {unknown:?}"
+    );
+    assert_eq!(needed.len(), NEEDED.len(), "{needed:?}");
+    // The page shows the same files.
+    let page = fs::read_to_string(root.join("docs/add_an_effect.md")).expect("the page is there");
+    for name in needed {
+        assert!(
+            page.contains(&format!("| `{name}` |")),
+            "{name} is not on the page"
+        );
+    }
+}
+
+/// An effect is one file: none names another, but for those that vary the law of `[adhesion]`.
+#[test]
+fn no_effect_names_another() {
+    let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("src/effect");
+    let mut files = Vec::new();
+    text_files(&folder, &mut files);
+    assert!(files.len() >= 15, "{} files", files.len());
+    for (path, text) in files {
+        let name = path
+            .file_name()
+            .expect("a name")
+            .to_string_lossy()
+            .into_owned();
+        if name == "mod.rs" {
+            continue;
+        }
+        let named = text.lines().filter(|line| line.contains("super::"));
+        for line in named {
+            let allowed = [
+                "super::adhesion::",
+                "super::edge::Edge",
+                "super::LIST",
+                "super::*",
+            ];
+            assert!(
+                allowed.iter().any(|allowed| line.contains(allowed)),
+                "{name}: {line}"
+            );
+        }
+    }
+}
+
+/// The pages of keys have the keys that scenes are read by, with the same lines, and no others.
 #[test]
 fn every_key_of_a_scene_is_explained() {
     let root = Path::new(env!("CARGO_MANIFEST_DIR"));
     let read = |name: &str| fs::read_to_string(root.join(name)).expect("the file is there");
     // Pairs of texts in the source: a key, and a line that sets it.
     let source = read("src/scene/keys.rs");
-    let (_, listed) = source.split_once("pub(super) const SCENE").expect("a list");
-    let (listed, _) = listed.split_once("pub(super) const ALL").expect("its end");
+    let (_, listed) = source.split_once("const FIRST").expect("a list");
+    let (listed, _) = listed.split_once("const BEFORE").expect("its end");
     let listed: Vec<&str> = listed.split("later:").collect();
     let texts: Vec<String> = listed
         .iter()
@@ -69,9 +208,23 @@ fn every_key_of_a_scene_is_explained() {
         .chunks(2)
         .map(|pair| (pair[0].clone(), pair[1].clone()))
         .collect();
-    let page = read("docs/scene_file.md");
-    let mut shown: Vec<(String, String)> = page
-        .lines()
+    // Declared tables: `name: Type {` opens one, and `key: Dimension = "value",` is a key of it.
+    let source = read("src/scene/tables.rs");
+    let (_, declared) = source.split_once("\ntables! {").expect("declarations");
+    let lines = declared.lines().map(str::trim);
+    for line in lines.filter(|line| !line.starts_with("//")) {
+        let Some((name, rest)) = line.split_once(": ") else {
+            continue;
+        };
+        let example = match rest.split_once(" = ") {
+            Some((_, value)) => format!("{name} = {}", value.trim_end_matches(',')),
+            None => format!("[{name}]"),
+        };
+        expected.push((name.to_owned(), example));
+    }
+    let mut shown: Vec<(String, String)> = [read("docs/scene_file.md"), read("docs/effects.md")]
+        .iter()
+        .flat_map(|page| page.lines())
         .filter_map(|line| {
             let mut cells = line.strip_prefix("| `")?.split("` | `");
             let key = cells.next()?.to_owned();

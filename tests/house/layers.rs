@@ -5,12 +5,12 @@ use std::path::{Path, PathBuf};
 
 /// From the ground up, as the crate page lists them.
 const ORDER: [&str; 23] = [
-    "units", "clock", "grid", "real", "law", "elastic", "kernel", "backend", "scene", "surface",
-    "solver", "study", "effect", "output", "device", "run", "contact", "theory", "compare", "fit",
+    "units", "clock", "grid", "real", "law", "elastic", "kernel", "backend", "solver", "scene",
+    "surface", "study", "effect", "output", "device", "run", "contact", "theory", "compare", "fit",
     "accuracy", "cli", "lib",
 ];
 
-fn rust_files(folder: &Path, found: &mut Vec<PathBuf>) {
+pub fn rust_files(folder: &Path, found: &mut Vec<PathBuf>) {
     for entry in fs::read_dir(folder)
         .expect("the folder is readable")
         .flatten()
@@ -93,6 +93,59 @@ fn the_solver_names_neither_threads_nor_graphics() {
             let text = fs::read_to_string(&file).expect("the file is readable");
             for name in ["rayon", "wgpu"] {
                 assert!(!text.contains(name), "{} names {name}", file.display());
+            }
+        }
+    }
+}
+
+/// The crate page lists the modules in the same order.
+#[test]
+fn the_crate_page_has_the_same_order() {
+    let page = Path::new(env!("CARGO_MANIFEST_DIR")).join("src/lib.rs");
+    let page = fs::read_to_string(page).expect("the crate page");
+    let names = page.lines().filter_map(|line| {
+        // A private module has no page to link to.
+        let name = line
+            .strip_prefix("//! | [`")
+            .or(line.strip_prefix("//! | `"))?;
+        name.split_once('`').map(|(name, _)| name)
+    });
+    let names: Vec<&str> = names.collect();
+    assert_eq!(names, ORDER[..ORDER.len() - 1]);
+}
+
+/// A path calls the hooks of a list of effects: no file of it asks what a scene says of one. The law of a
+/// scene is found in `regime`.
+#[test]
+fn a_path_names_no_effect() {
+    let source = Path::new(env!("CARGO_MANIFEST_DIR")).join("src/study");
+    let mut files = Vec::new();
+    rust_files(&source, &mut files);
+    assert!(files.len() > 15, "too few files: {}", files.len());
+    for file in files {
+        if file.ends_with("regime.rs") {
+            continue;
+        }
+        let text = fs::read_to_string(&file).expect("the file is readable");
+        let code = text
+            .lines()
+            .filter(|line| !line.trim_start().starts_with("//"));
+        for line in code {
+            for name in [
+                "scene.tables",
+                "solid.relaxation",
+                "solid.hardness",
+                "solid.layer",
+                "scene.adhesion",
+                "scene.capillary",
+                "loading.spring",
+                "Treatment",
+                "friction",
+                "conductance",
+                "wear",
+                "plastic_energy",
+            ] {
+                assert!(!line.contains(name), "{}: {line}", file.display());
             }
         }
     }

@@ -4,3 +4,4 @@
 mod cost;
 mod guide;
 mod layers;
+mod tests;

@@ -7,6 +7,7 @@ use tabor::theory::maugis_dugdale::MaugisDugdale;
 use tabor::theory::tabor_map::{Sphere, maugis_parameter};
 
 use crate::bench::solve_table;
+use crate::shared::trials::tests;
 
 const RADIUS: f64 = 1e-6;
 
@@ -39,7 +40,6 @@ fn scene(modulus: f64, humidity: f64, size: f64, path: &[f64]) -> String {
 /// Pull-off of a hard and of a soft sphere at half humidity against Maugis' curve. The path is
 /// walked in steps of a fortieth of the meniscus' height, over which the force near its least
 /// changes by less than a part in a thousand; the pixels' error is that of the sphere tests, 5e-3.
-#[test]
 fn pull_off_at_half_humidity() {
     let meniscus =
         Meniscus::new(0.0728, 1.8e-5, 298.15, 0.5, 20f64.to_radians()).expect("a meniscus");
@@ -68,7 +68,6 @@ fn pull_off_at_half_humidity() {
 }
 
 /// Air too dry for a liquid surface: no attraction, and the scene says so.
-#[test]
 fn dry_air_bridges_nothing() {
     let solved = solve_table(&scene(70e9, 0.1, 2e-7, &[1e-10, 0.0, -1e-10]));
     assert!(
@@ -84,3 +83,5 @@ fn dry_air_bridges_nothing() {
             .any(|warning| warning.contains("no liquid bridges"))
     );
 }
+
+tests![pull_off_at_half_humidity, dry_air_bridges_nothing,];

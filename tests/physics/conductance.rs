@@ -4,13 +4,14 @@ use std::f64::consts::PI;
 
 use crate::bench::{Solved, solve_table};
 use crate::controls::{LAWS, adhesion, rough};
+use crate::shared::trials::tests;
 
 /// Conductivities whose harmonic mean is 1: with E* = 1 a conductance is a stiffness.
 const BODIES: &str = "[conductance]\nconductivity = 0.75\ncounter_conductivity = 1.5\n";
 
 fn conductance(solved: &Solved, step: usize) -> f64 {
     let row = &solved.steps[step].row;
-    row.conductance.expect("a conductance")
+    row.column("conductance").expect("a conductance")
 }
 
 fn sphere(boundary: &str, points: usize, size: f64, tables: &str, loading: &str) -> String {
@@ -21,7 +22,6 @@ fn sphere(boundary: &str, points: usize, size: f64, tables: &str, loading: &str)
 
 /// One circular spot conducts 2 a k: Hertz' circle at a given force. The contact of whole pixels, 16
 /// to 26 across the radius, is as wide as Hertz' to a hundredth of the radius.
-#[test]
 fn a_circle_conducts_by_its_radius() {
     let path = "control = \"approach\"\npath = [-0.1, 0.04, 0.1]";
     let solved = solve_table(&sphere("free", 128, 1.6, "", path));
@@ -35,7 +35,6 @@ fn a_circle_conducts_by_its_radius() {
 }
 
 /// What sticks conducts by its width too, not by the slope of its load curve, which at pull-off is 0.
-#[test]
 fn a_sphere_that_adheres_conducts_by_its_width() {
     for law in LAWS {
         let table = adhesion(law, 0.02, 0.02) + "\n";
@@ -58,7 +57,6 @@ fn a_sphere_that_adheres_conducts_by_its_width() {
 /// In a square lattice of spots each is hindered by the others: the displacement of a spot's own load
 /// less that of the uniform one, `1/(2a) - C/(pi L)` with the lattice's C = 3.900265 (Borwein et al. 1988,
 /// the square Wigner crystal), and from there on a term in (a/L)^3 below 0.4 (a/L)^3 sqrt(pi)^3, 2e-3 here.
-#[test]
 fn neighbours_hinder_a_spot() {
     let load = "control = \"force\"\npath = [1.333e-3]";
     let solved = solve_table(&sphere("periodic", 256, 1.0, "", load));
@@ -75,7 +73,6 @@ fn neighbours_hinder_a_spot() {
 
 /// Without adhesion the load curve of a discrete contact is straight while no point opens or closes,
 /// and its slope is the frozen stiffness; over longer steps the slope lies between those of the ends.
-#[test]
 fn the_slope_of_the_load_curve() {
     let gap = 0.008;
     let path: Vec<f64> = [0.0, 1e-6, 2e-6, 3e-6, 0.02, 0.04]
@@ -110,12 +107,19 @@ fn the_slope_of_the_load_curve() {
 
 /// What conducts does not depend on what holds it: the same surface closed everywhere has no
 /// constriction left, and its column is empty.
-#[test]
 fn full_contact_has_no_constriction() {
     let text = rough("", "control = \"pressure\"\npath = [0.01, 10.0]");
     let solved = solve_table(&text.replace("[loading]", &format!("{BODIES}[loading]")));
     assert!(conductance(&solved, 0) > 0.0);
     let row = &solved.steps[1].row;
     assert_eq!(row.contact_area_fraction, 1.0);
-    assert_eq!(row.conductance, None);
+    assert_eq!(row.column("conductance"), None);
 }
+
+tests![
+    a_circle_conducts_by_its_radius,
+    a_sphere_that_adheres_conducts_by_its_width,
+    neighbours_hinder_a_spot,
+    the_slope_of_the_load_curve,
+    full_contact_has_no_constriction,
+];

@@ -5,6 +5,7 @@ use tabor::study::{PointState, State};
 
 use crate::bench::{Solved, setup, solve, solve_table};
 use crate::rough::{MODULUS, Surface, scene};
+use crate::shared::trials::tests;
 
 /// Relative agreement of two solves to a residual of 1e-9: the smallest stiffness of a state is
 /// some thousandth of the largest, by which a residual turns into an error of position.
@@ -169,7 +170,6 @@ pub fn agree(
     }
 }
 
-#[test]
 fn all_controls_agree_on_a_periodic_cell() {
     for law in LAWS {
         agree(
@@ -193,7 +193,6 @@ fn all_controls_agree_on_a_periodic_cell() {
     );
 }
 
-#[test]
 fn all_controls_agree_on_a_free_boundary() {
     for law in LAWS {
         agree(
@@ -219,7 +218,6 @@ fn all_controls_agree_on_a_free_boundary() {
 
 /// Through a spring softer than the contact's fold a sphere jumps in and off, and force and stretch
 /// stay one number all the way.
-#[test]
 fn a_soft_spring_through_both_jumps() {
     for law in LAWS {
         let mut path: Vec<f64> = (0..12).map(|i| -3.0 + 0.6 * f64::from(i)).collect();
@@ -254,7 +252,6 @@ fn a_soft_spring_through_both_jumps() {
 
 /// A tension that nothing carries ends a step `separated`; the path goes on, and a compressive load
 /// brings the surfaces back.
-#[test]
 fn beyond_pull_off_and_back() {
     for law in LAWS {
         let cases = [
@@ -309,7 +306,6 @@ fn beyond_pull_off_and_back() {
 }
 
 /// A wall alone carries no tension, and at zero load it only touches.
-#[test]
 fn a_hard_wall_without_load_is_separated() {
     let periodic = solve_table(&rough(
         "",
@@ -346,7 +342,6 @@ fn a_hard_wall_without_load_is_separated() {
 
 /// With the attraction summed afterwards the net load is the one asked, and contact is the hard
 /// wall's at the load that the contact itself carries.
-#[test]
 fn dmt_is_a_hard_wall_under_a_larger_load() {
     let net = [2e-2, 5e-3, 0.0];
     for law in LAWS {
@@ -404,7 +399,6 @@ fn dmt_is_a_hard_wall_under_a_larger_load() {
 
 /// Rough surfaces of another boundary-element code: contact, mean gap, largest pressure, and the
 /// attraction of a Lennard-Jones law over the gap outside contact, all to that table's tolerance.
-#[test]
 fn attraction_summed_over_other_codes_gaps() {
     let file = std::env::var_os("TABOR_THEORY_CHECKS").map_or_else(
         || {
@@ -482,3 +476,13 @@ fn attraction_summed_over_other_codes_gaps() {
         }
     }
 }
+
+tests![
+    all_controls_agree_on_a_periodic_cell,
+    all_controls_agree_on_a_free_boundary,
+    a_soft_spring_through_both_jumps,
+    beyond_pull_off_and_back,
+    a_hard_wall_without_load_is_separated,
+    dmt_is_a_hard_wall_under_a_larger_load,
+    attraction_summed_over_other_codes_gaps,
+];

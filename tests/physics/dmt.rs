@@ -11,6 +11,7 @@ use tabor::study::{FinishedStep, Observer, PointState, Setup, StepRow, walk};
 use tabor::surface::Surface;
 
 use crate::shared::binary::{errors, tabor};
+use crate::shared::trials::tests;
 
 const LAWS: [&str; 3] = ["exponential", "lennard-jones", "maugis-dugdale"];
 
@@ -90,7 +91,6 @@ fn ladder(folder: &Path, law: &str) -> Vec<(f64, f64)> {
     net.collect()
 }
 
-#[test]
 fn pull_off_is_the_greatest_of_all_dips() {
     let folder = tempfile::tempdir().expect("a folder");
     fs::write(folder.path().join("map.txt"), spiked()).expect("written");
@@ -127,7 +127,6 @@ fn pull_off_is_the_greatest_of_all_dips() {
     }
 }
 
-#[test]
 fn a_load_is_met_on_the_closest_branch() {
     let folder = tempfile::tempdir().expect("a folder");
     fs::write(folder.path().join("map.txt"), spiked()).expect("written");
@@ -168,3 +167,8 @@ fn a_load_is_met_on_the_closest_branch() {
         }
     }
 }
+
+tests![
+    pull_off_is_the_greatest_of_all_dips,
+    a_load_is_met_on_the_closest_branch,
+];

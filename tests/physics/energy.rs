@@ -6,6 +6,7 @@ use tabor::solver::{ContactSolver, Hold, Load, Problem, Start};
 use tabor::study::{PointState, dissipation};
 
 use crate::bench::{Solved, setup, solve};
+use crate::shared::trials::tests;
 
 /// A rough cell of side 1 and modulus 1; `adhesion` and `loading` are the lines of those tables.
 pub fn rough(points: usize, adhesion: &str, loading: &str) -> String {
@@ -53,7 +54,6 @@ pub fn laws(work: f64, range: f64) -> [(&'static str, String); 4] {
 
 /// `<u,Ku>/2 + <V(g)>` never rises from one iteration to the next at a held mean gap, for any law,
 /// from nearly apart to nearly closed.
-#[test]
 fn a_solve_only_lowers_the_energy() {
     let mut cases = vec![("hard wall", String::new())];
     // chi = w dx/range^2 = 0.3: a cohesive zone of a few pixels.
@@ -231,7 +231,6 @@ fn check(name: &str, coarse: &Losses, fine: &Losses) {
 
 /// A step's work is a trapezium, wrong by the cube of its length, over an area that changes with
 /// its length: halved steps must lose four times less, here at least three.
-#[test]
 fn smooth_paths_lose_nothing() {
     let [coarse, fine] =
         [60, 120].map(|steps| losses(&sphere(0.5, 16.0, &loop_path(-3.0, 0.6, steps))));
@@ -251,7 +250,6 @@ fn smooth_paths_lose_nothing() {
 /// With folds the whole loop is the jump in and the jump off. (The order is asked of the path without
 /// folds: next to one the force is a square root of the approach, and what a step seems to lose
 /// depends on where the fold falls in it.)
-#[test]
 fn a_loop_is_the_sum_of_its_jumps() {
     let [coarse, fine] =
         [100, 200].map(|steps| losses(&sphere(2.0, 8.0, &loop_path(-3.8, -1.8, steps))));
@@ -265,7 +263,6 @@ fn a_loop_is_the_sum_of_its_jumps() {
 /// The same on a rough surface, in mean gap: a range so long and an attraction so weak that no
 /// asperity snaps, and a taper as wide as the range, for a step that crosses the whole of a narrow
 /// one sees its tension vanish within it.
-#[test]
 fn rough_loops() {
     for (name, adhesion) in &mut laws(2e-5, 3e-3)[1..] {
         if *name == "tapered" {
@@ -290,7 +287,6 @@ fn rough_loops() {
 }
 
 /// Without adhesion loading and unloading are one curve.
-#[test]
 fn no_adhesion_no_loop() {
     let path = loop_path(3.0 * RMS_HEIGHT, 0.5 * RMS_HEIGHT, 12);
     let solved = solve(&rough(
@@ -308,3 +304,11 @@ fn no_adhesion_no_loop() {
     assert!(enclosed.abs() < 1e-7 * work, "{enclosed:e} of {work:e}");
     assert!(solved.end.jump_in_steps.is_empty() && solved.end.jump_off_steps.is_empty());
 }
+
+tests![
+    a_solve_only_lowers_the_energy,
+    smooth_paths_lose_nothing,
+    a_loop_is_the_sum_of_its_jumps,
+    rough_loops,
+    no_adhesion_no_loop,
+];

@@ -7,11 +7,11 @@ use tabor::theory::maugis_dugdale::MaugisDugdale;
 use tabor::theory::tabor_map::{Sphere, maugis_parameter};
 
 use crate::bench::solve_table;
+use crate::shared::trials::tests;
 
 /// An adhesive sphere towards JKR's limit rubs at no load too: with the area of Maugis' contact of the
 /// same law, once the staircase of the pixels is taken off, to a tenth of a pixel of its radius of 47 pixels
 /// and the grid's first-order error, 1 % of the area. JKR's own is some per cent more.
-#[test]
 fn a_sphere_that_adheres_rubs_at_no_load() {
     let solved = solve_table(
         r#"
@@ -41,7 +41,7 @@ fn a_sphere_that_adheres_rubs_at_no_load() {
     // Maugis' unit of length, (pi w R^2/K)^(1/3).
     let length = (PI * 0.1 / sphere.maugis_modulus()).cbrt();
     for row in solved.rows() {
-        let found = row.friction_force.expect("a friction force");
+        let found = row.column("friction_force").expect("a friction force");
         let corrected = row.contact_area_fraction_corrected.expect("a wall");
         let area = corrected * 36.0;
         assert!((found - 0.3 * area).abs() < 1e-12);
@@ -61,13 +61,15 @@ fn a_sphere_that_adheres_rubs_at_no_load() {
     }
     // Hertz at the same load would rub a third less.
     let hertz = 0.3 * PI * (0.75f64 * 0.4).powf(2.0 / 3.0);
-    let loaded = solved.rows().next().and_then(|row| row.friction_force);
+    let loaded = solved
+        .rows()
+        .next()
+        .and_then(|row| row.column("friction_force"));
     assert!(loaded.expect("a friction force") > 1.3 * hertz);
 }
 
 /// Hertz' circles of 16 and 25 pixels of radius: the counted pixels have 1.9 and 1.2 % more area by their
 /// staircase alone.
-#[test]
 fn a_circle_rubs_by_its_area() {
     let solved = solve_table(
         r#"
@@ -88,7 +90,7 @@ fn a_circle_rubs_by_its_area() {
         "#,
     );
     for (row, approach) in solved.rows().zip([0.04, 0.1]) {
-        let found = row.friction_force.expect("a friction force");
+        let found = row.column("friction_force").expect("a friction force");
         let expected = 0.3 * PI * approach;
         let counted = 0.3 * row.contact_area_fraction * 1.6 * 1.6;
         println!("at {approach}: {found:.5} {expected:.5}, counted {counted:.5}");
@@ -96,3 +98,8 @@ fn a_circle_rubs_by_its_area() {
         assert!((counted / expected - 1.0).abs() > (found / expected - 1.0).abs());
     }
 }
+
+tests![
+    a_sphere_that_adheres_rubs_at_no_load,
+    a_circle_rubs_by_its_area,
+];

@@ -2,6 +2,7 @@
 
 use crate::bench::{Solved, solve_table};
 use crate::energy::{RMS_HEIGHT, laws, loop_path, rough, sphere};
+use crate::shared::trials::tests;
 
 /// Agreement of a force that both paths reach on one branch: each solve ends at a residual of 1e-9,
 /// which the softest state, some thousandth of the stiffest, turns into this.
@@ -98,7 +99,6 @@ fn compare(name: &str, coarse: &Loop, fine: &Loop, step: f64, stated: [f64; 2]) 
     );
 }
 
-#[test]
 fn a_sphere() {
     let steps = 120;
     let [from, to] = [-3.8, -1.0];
@@ -123,7 +123,6 @@ fn a_sphere() {
 
 /// chi = w dx/(E* range^2) = 0.46: where pixels trap the edge (beyond 0.65, of which a run warns) there are
 /// equilibria enough for two paths to end in two of them.
-#[test]
 fn a_rough_surface() {
     let steps = 150;
     let [from, to] = [3.5 * RMS_HEIGHT, 0.75 * RMS_HEIGHT];
@@ -139,3 +138,5 @@ fn a_rough_surface() {
     // A dozen jumps of a loop that is a few per cent of the work done: each lies anywhere within its step.
     compare("rough, tapered", &coarse, &fine, step, [0.5, 0.02]);
 }
+
+tests![a_sphere, a_rough_surface,];

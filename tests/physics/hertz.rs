@@ -1,6 +1,7 @@
 //! A sphere without adhesion on a free boundary: Hertz.
 
 use crate::bench::{Solved, solve};
+use crate::shared::trials::tests;
 
 /// Unit modulus, radius 1 m, contact radius 0.2 of the side.
 const RADIUS: f64 = 1.0;
@@ -39,7 +40,6 @@ fn force() -> f64 {
 /// Pixels of constant pressure miss the edge of the contact, where the pressure is a square root:
 /// measured apart from this code, the force at this radius is off by 3.8e-4, 6.7e-5 and 2.4e-5 at
 /// 64, 128 and 256 points. The bounds are half as much again.
-#[test]
 fn force_at_an_approach_and_its_order() {
     let mut errors = Vec::new();
     for (points, bound) in [(64, 5.7e-4), (128, 1e-4), (256, 3.6e-5)] {
@@ -55,7 +55,6 @@ fn force_at_an_approach_and_its_order() {
     assert!(errors[2] < errors[0] / 8.0, "{errors:?}");
 }
 
-#[test]
 fn approach_and_radius_at_a_force() {
     for (points, bound) in [(64, 4e-4), (256, 3e-5)] {
         let solved = sphere(points, "force", force());
@@ -78,7 +77,6 @@ fn approach_and_radius_at_a_force() {
 
 /// Inside 0.95 a, where the profile is smooth on the scale of a pixel, the pressure follows
 /// sqrt(1 - r^2/a^2); across the edge only the mean over a pixel is meaningful.
-#[test]
 fn pressure_profile() {
     let solved = sphere(256, "force", force());
     let grid = solved.setup.surface.grid;
@@ -103,10 +101,16 @@ fn pressure_profile() {
 }
 
 /// Energy: loading a Hertz contact stores 2/5 F delta.
-#[test]
 fn elastic_energy() {
     let solved = sphere(128, "approach", indentation());
     let stored = solved.steps[0].row.elastic_energy;
     let exact = 0.4 * force() * indentation();
     assert!((stored / exact - 1.0).abs() < 3e-4, "{stored} {exact}");
 }
+
+tests![
+    force_at_an_approach_and_its_order,
+    approach_and_radius_at_a_force,
+    pressure_profile,
+    elastic_energy,
+];

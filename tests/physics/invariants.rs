@@ -19,6 +19,7 @@ use tabor::solver::{ContactSolver, Hold, Load, Problem, Start};
 
 use crate::bench::cpu;
 use crate::energy;
+use crate::shared::trials::tests;
 
 /// Cases of a usual run, for each property.
 const CASES: u32 = 12;
@@ -272,7 +273,6 @@ where
     }
 }
 
-#[test]
 fn the_origin_of_heights() {
     check(
         (contacts(0..4), grids(), -1e3..1e3_f64),
@@ -291,7 +291,6 @@ fn the_origin_of_heights() {
     );
 }
 
-#[test]
 fn the_origin_of_places() {
     check(
         (contacts(0..4), grids(), 0..24_usize, 0..24_usize),
@@ -306,7 +305,6 @@ fn the_origin_of_places() {
     );
 }
 
-#[test]
 fn left_and_right() {
     check((contacts(0..4), grids()), |(contact, points)| {
         let nx = points[0];
@@ -318,7 +316,6 @@ fn left_and_right() {
     });
 }
 
-#[test]
 fn a_quarter_turn() {
     check((contacts(0..4), grids()), |(contact, [nx, ny])| {
         let heights = contact.heights([nx, ny]);
@@ -332,7 +329,6 @@ fn a_quarter_turn() {
     });
 }
 
-#[test]
 fn units() {
     let decades = || -12.0..12.0_f64;
     check(
@@ -353,7 +349,6 @@ fn units() {
 
 /// Twice the points: contact changes by no more than the points along its edge, the
 /// mean gap or the pressure by a pixel over the shortest wave.
-#[test]
 fn refinement() {
     check(contacts(0..4), |contact| {
         let [coarse, fine] =
@@ -402,7 +397,6 @@ fn refinement() {
     });
 }
 
-#[test]
 fn more_load_more_contact() {
     check(
         (contacts(0..1), grids(), 1.0..3.0_f64),
@@ -427,7 +421,6 @@ fn more_load_more_contact() {
     );
 }
 
-#[test]
 fn energy_never_rises() {
     check((contacts(0..4), grids()), |(contact, points)| {
         let contact = Contact {
@@ -443,7 +436,6 @@ fn energy_never_rises() {
 
 /// No overlap, no pulling wall, no tension beyond the law's, no reaction across a gap; and the
 /// pressures add up to the load.
-#[test]
 fn admissible_and_in_balance() {
     check((contacts(0..4), grids()), |(contact, points)| {
         let solution = contact.solve(points, &contact.heights(points), ONE);
@@ -478,3 +470,15 @@ fn admissible_and_in_balance() {
         Ok(())
     });
 }
+
+tests![
+    the_origin_of_heights,
+    the_origin_of_places,
+    left_and_right,
+    a_quarter_turn,
+    units,
+    refinement,
+    more_load_more_contact,
+    energy_never_rises,
+    admissible_and_in_balance,
+];

@@ -5,6 +5,7 @@ use std::f64::consts::PI;
 
 use crate::bench::{solve, solve_table};
 use crate::controls::{LAWS, adhesion, agree, rough};
+use crate::shared::trials::tests;
 use crate::tables::table;
 
 /// Bonded and frictionless compliance over that of the half-space at `k = q h`, written out as the
@@ -44,7 +45,6 @@ fn wave(base: &str, nu: f64, thickness: f64, pressure: f64) -> String {
 
 /// Pressed flat, a wave meets exactly its own stiffness: the pressure's amplitude, the energy and
 /// the approach are closed forms for either base and any Poisson ratio.
-#[test]
 fn a_flattened_wave() {
     let q = 2.0 * PI * (1.0f64 + (1.0f64 / 0.375).powi(2)).sqrt();
     for base in ["bonded", "frictionless"] {
@@ -102,11 +102,8 @@ fn a_flattened_wave() {
 /// The cell repeats every 16 thicknesses, over which a layer forgets a load (exp of -1.5 a
 /// thickness or faster). What is left is the grid: a Hertz contact of n pixels across its radius
 /// has a force error of about 0.05/n^1.5 at its worst, here below 2e-3 at the 11 pixels of the least.
-#[test]
 fn spheres_on_layers() {
-    let Some(table) = table("layer_sphere.csv") else {
-        return;
-    };
+    let table = table("layer_sphere.csv");
     for base in ["bonded", "frictionless"] {
         for nu in [0.3, 0.5] {
             let rows: Vec<usize> = (0..table.len())
@@ -161,7 +158,6 @@ fn spheres_on_layers() {
 }
 
 /// A layer ten times as thick as the cell is wide is a half-space, but for the mean displacement.
-#[test]
 fn a_thick_layer_is_a_half_space() {
     let loading = "control = \"pressure\"\npath = [0.004]";
     let half_space = solve(&rough("", loading));
@@ -182,7 +178,6 @@ fn on_layer(solid: &str, adhesion: &str, loading: &str) -> String {
     )
 }
 
-#[test]
 fn all_controls_agree_on_a_layer() {
     for solid in [
         "thickness = 0.2",
@@ -214,7 +209,6 @@ fn all_controls_agree_on_a_layer() {
 }
 
 /// Attraction summed afterwards does not yield the layer; the other controls find the same state.
-#[test]
 fn attraction_summed_over_the_gap_of_a_layer() {
     let table = format!(
         "{}\ntreatment = \"dmt\"",
@@ -238,3 +232,11 @@ fn attraction_summed_over_the_gap_of_a_layer() {
     assert!((found.mean_pressure - row.mean_pressure).abs() < 1e-5 * 5e-3);
     assert_eq!(found.contact_area_fraction, row.contact_area_fraction);
 }
+
+tests![
+    a_flattened_wave,
+    spheres_on_layers,
+    a_thick_layer_is_a_half_space,
+    all_controls_agree_on_a_layer,
+    attraction_summed_over_the_gap_of_a_layer,
+];

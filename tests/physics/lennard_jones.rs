@@ -11,6 +11,7 @@ use tabor::study::State;
 use tabor::theory::lennard_jones_sphere::LennardJonesSphere;
 
 use crate::bench::{Solved, solve_table};
+use crate::shared::trials::tests;
 use crate::tables::{parameters, slope, table, thinned};
 
 /// Side of the window in sqrt(R eps), at least.
@@ -94,16 +95,12 @@ impl Sphere {
 
 /// Force at tabulated approaches: inwards up to the fold at which the surfaces snap, outwards down
 /// to the one at which they part; the whole curve where there is none.
-#[test]
 fn curves() {
-    let Some(special) = table("lj_special_points.csv") else {
-        return;
-    };
+    let special = table("lj_special_points.csv");
     for (mu, name) in parameters("lj_curve_mu") {
-        let (Some(curve), Some(row)) = (table(&name), special.find("mu", mu)) else {
-            println!("skipped: no special points for {name}");
-            continue;
-        };
+        let curve = table(&name);
+        let row =
+            (special.find("mu", mu)).unwrap_or_else(|| panic!("no special points for {name}"));
         let (inwards, outwards) = (
             special.number(row, "jump_in_A"),
             special.number(row, "jump_off_A"),
@@ -163,11 +160,8 @@ fn curves() {
 
 /// Under a held force the sphere stays in contact a little below the tabulated pull-off and parts
 /// a little beyond it.
-#[test]
 fn pull_off() {
-    let Some(special) = table("lj_special_points.csv") else {
-        return;
-    };
+    let special = table("lj_special_points.csv");
     for row in 0..special.len() {
         let mu = special.number(row, "mu");
         let name = format!("pull-off at mu {mu}");
@@ -204,11 +198,8 @@ fn pull_off() {
 
 /// Where a held approach jumps: at the folds, to one step and the share by which pixels move them.
 /// Without folds it does not, and both ways are one curve.
-#[test]
 fn jumps() {
-    let Some(special) = table("lj_special_points.csv") else {
-        return;
-    };
+    let special = table("lj_special_points.csv");
     for row in 0..special.len() {
         let mu = special.number(row, "mu");
         let name = format!("jumps at mu {mu}");
@@ -288,7 +279,6 @@ fn no_jump(sphere: &Sphere) {
 
 /// A wave on a solid so stiff that it has one state for each gap presses and pulls along one curve, which has a
 /// hump: a step over it starts and ends at like forces, and yet nothing jumps, however coarse the path.
-#[test]
 fn no_jump_over_a_hump() {
     for (modulus, range) in [
         (0.5, 0.01),
@@ -322,7 +312,6 @@ fn no_jump_over_a_hump() {
 
 /// At Tabor number 1 the folds are 0.11 ranges apart and little is lost between them: one jump each way, in
 /// the step that passes the fold of the radial solution or in the next.
-#[test]
 fn jumps_between_close_folds() {
     let sphere = Sphere::resolved(1.0, 0.0, "close folds").expect("a small mu");
     let radial = LennardJonesSphere::new(sphere.mu, 0.0).expect("a sphere");
@@ -362,7 +351,6 @@ fn jumps_between_close_folds() {
 
 /// Between two folds that are only 0.025 ranges apart a held approach has two states, one for each
 /// way there; the radial solution names both.
-#[test]
 fn two_states_between_shallow_folds() {
     let sphere = Sphere::resolved(0.8, 0.0, "shallow folds").expect("a small mu");
     let radial = LennardJonesSphere::new(sphere.mu, 0.0).expect("a sphere");
@@ -401,7 +389,6 @@ fn two_states_between_shallow_folds() {
 /// The stiffer the solid, the nearer a rigid sphere: the force is 2 pi R times the energy per area
 /// at the least gap. At mu = 0.1 the tabulated pull-off is 1.6 % below it, and the difference falls
 /// faster than mu: less than 8e-4 at 0.005. The sum over pixels of a smooth traction adds nothing.
-#[test]
 fn bradley() {
     let sphere = Sphere::resolved(0.005, 0.0, "bradley").expect("a small mu");
     let law = LennardJones {
@@ -427,3 +414,13 @@ fn bradley() {
     assert_eq!(states[3], State::Separated);
     assert_eq!(solved.end.jump_off_steps, [4]);
 }
+
+tests![
+    curves,
+    pull_off,
+    jumps,
+    no_jump_over_a_hump,
+    jumps_between_close_folds,
+    two_states_between_shallow_folds,
+    bradley,
+];

@@ -1,5 +1,7 @@
 //! The full field against closed forms and independent tables.
 
+use std::process::ExitCode;
+
 mod bench;
 mod capillary;
 mod conductance;
@@ -31,3 +33,37 @@ mod taper;
 mod time_steps;
 mod waves;
 mod wear;
+
+fn main() -> ExitCode {
+    shared::trials::run([
+        capillary::tests(),
+        conductance::tests(),
+        controls::tests(),
+        dmt::tests(),
+        energy::tests(),
+        friction::tests(),
+        halving::tests(),
+        hard_cases::tests(),
+        hard_cases::extremes::tests(),
+        hardness::tests(),
+        hertz::tests(),
+        invariants::tests(),
+        layer::tests(),
+        lennard_jones::tests(),
+        maugis_dugdale::tests(),
+        pairs::tests(),
+        pattern::tests(),
+        plates::tests(),
+        precisions::tests(),
+        pull_off::tests(),
+        rate::tests(),
+        relaxation::tests(),
+        rough::tests(),
+        spring::tests(),
+        tables::tests(),
+        taper::tests(),
+        time_steps::tests(),
+        waves::tests(),
+        wear::tests(),
+    ])
+}

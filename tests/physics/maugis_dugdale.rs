@@ -9,6 +9,7 @@ use std::f64::consts::PI;
 use tabor::study::{AUTO_TAPER, Jump, State};
 
 use crate::bench::{Solved, solve_table};
+use crate::shared::trials::tests;
 use crate::tables::{Table, parameters, slope, table, thinned};
 
 const MODULUS: f64 = 0.75;
@@ -115,16 +116,12 @@ fn stable_rows(curve: &Table, special: &Table, row: usize) -> Vec<usize> {
 }
 
 /// Force, contact radius and cohesive radius at tabulated approaches, on the way out.
-#[test]
 fn curves() {
-    let Some(special) = table("md_special_points.csv") else {
-        return;
-    };
+    let special = table("md_special_points.csv");
     for (lambda, name) in parameters("md_curve_lambda") {
-        let (Some(curve), Some(row)) = (table(&name), special.find("lambda", lambda)) else {
-            println!("skipped: no special points for {name}");
-            continue;
-        };
+        let curve = table(&name);
+        let row = (special.find("lambda", lambda))
+            .unwrap_or_else(|| panic!("no special points for {name}"));
         // Heavy loads have a window of their own, so that pixels suit the contacts at pull-off.
         let (heavy, light): (Vec<usize>, Vec<usize>) = stable_rows(&curve, &special, row)
             .into_iter()
@@ -205,11 +202,8 @@ fn follow(curve: &Table, lambda: f64, name: &str, rows: &[usize], accuracy: &dyn
 
 /// The largest tension on the way out under force control is between the tabulated pull-off less
 /// one step and itself, both to the accuracy of the curve.
-#[test]
 fn pull_off() {
-    let Some(special) = table("md_special_points.csv") else {
-        return;
-    };
+    let special = table("md_special_points.csv");
     for row in 0..special.len() {
         let lambda = special.number(row, "lambda");
         let name = format!("pull-off at lambda {lambda}");
@@ -248,11 +242,8 @@ fn pull_off() {
 
 /// Where displacement control jumps: in where the surfaces first feel each other, off at the
 /// tabulated fold, each to one step and the share by which taper and pixels move it.
-#[test]
 fn jumps() {
-    let Some(special) = table("md_special_points.csv") else {
-        return;
-    };
+    let special = table("md_special_points.csv");
     for row in 0..special.len() {
         let lambda = special.number(row, "lambda");
         let name = format!("jumps at lambda {lambda}");
@@ -361,7 +352,6 @@ fn no_jump(sphere: &Sphere, first: f64, step: f64) {
 
 /// lambda -> 0 is DMT (pull-off 2 pi w R), lambda -> infinity JKR (1.5 pi w R): at 0.02 and 3 the
 /// closed form stands at 1.99518 and 1.51676 pi w R, and the sphere at the closed form.
-#[test]
 fn limits() {
     for (lambda, limit, expected, radius) in [(0.02, 2.0, 1.99518, 9.0), (3.0, 1.5, 1.51676, 1.95)]
     {
@@ -392,3 +382,5 @@ fn limits() {
         assert!((expected / limit - 1.0).abs() < 0.012);
     }
 }
+
+tests![curves, pull_off, jumps, limits,];

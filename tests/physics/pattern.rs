@@ -6,6 +6,7 @@ use tabor::scene::FieldName;
 
 use crate::bench::{Solved, solve, solve_table};
 use crate::controls::{LAWS, adhesion, rough};
+use crate::shared::trials::tests;
 
 const PATH: &str = "control = \"pressure\"\npath = [5e-3, 2e-2, 1e-3, -2e-4]";
 
@@ -25,7 +26,6 @@ fn same_bits(a: &Solved, b: &Solved) {
 }
 
 /// A map of ones is no map, bit for bit, and one of twos doubles the work of adhesion.
-#[test]
 fn uniform_maps() {
     for law in LAWS {
         let plain = solve_table(&rough(&adhesion(law, 2e-5, 3e-3), PATH));
@@ -43,7 +43,6 @@ fn uniform_maps() {
 
 /// A flat solid within the range of stripes: the tension is the pattern itself, the same whatever
 /// the gap, and each wave of it lifts the surface by its own compliance.
-#[test]
 fn stripes_lift_a_flat_surface() {
     for layer in ["", "poisson_ratio = 0.5\nthickness = 0.1\n"] {
         let solved = solve(&format!(
@@ -113,7 +112,6 @@ fn stripes_lift_a_flat_surface() {
 
 /// On a rough surface the map's places decide: low where it touches least changes least, and the
 /// treatment that sums the attraction afterwards sums the mapped one.
-#[test]
 fn a_map_changes_what_it_covers() {
     let table = |low: f64| {
         format!(
@@ -137,3 +135,9 @@ fn a_map_changes_what_it_covers() {
         wall.steps[0].row.contact_area_fraction
     );
 }
+
+tests![
+    uniform_maps,
+    stripes_lift_a_flat_surface,
+    a_map_changes_what_it_covers,
+];

@@ -21,6 +21,8 @@ use tabor::solver::{MOST_ROUNDS, ROUNDS_PER_ITERATION, TRIALS_PER_ITERATION};
 use tabor::study::{FinishedStep, Observer, State, StepRow, walk};
 
 use crate::bench::{Maker, cpu, setup, solve_on};
+use crate::shared::random::Random;
+use crate::shared::trials::tests;
 
 /// Error of a mean of 128 x 128 numbers added one by one in double precision, and as much again.
 const ROUNDING: f64 = 4e-12;
@@ -49,25 +51,6 @@ const SIZES: [[usize; 2]; 20] = [
     [128, 128],
 ];
 
-/// Seeded numbers (splitmix64).
-struct Seeded(u64);
-
-impl Seeded {
-    /// Between 0 and 1.
-    fn share(&mut self) -> f64 {
-        self.0 = self.0.wrapping_add(0x9e37_79b9_7f4a_7c15);
-        let mut z = self.0;
-        z = (z ^ (z >> 30)).wrapping_mul(0xbf58_476d_1ce4_e5b9);
-        z = (z ^ (z >> 27)).wrapping_mul(0x94d0_49bb_1331_11eb);
-        ((z ^ (z >> 31)) >> 11) as f64 / (1_u64 << 53) as f64
-    }
-
-    /// Between two positive numbers, evenly in their logarithm.
-    fn between(&mut self, low: f64, high: f64) -> f64 {
-        low * (high / low).powf(self.share())
-    }
-}
-
 #[derive(Clone, Copy, Debug, PartialEq)]
 enum Law {
     Wall,
@@ -94,7 +77,7 @@ struct Plates {
 
 impl Plates {
     /// Plates of a law with everything else drawn.
-    fn draw(random: &mut Seeded, points: [usize; 2], law: Law) -> Plates {
+    fn draw(random: &mut Random, points: [usize; 2], law: Law) -> Plates {
         let range = random.between(1e-10, 1e-6);
         let modulus = random.between(1e5, 1e11);
         let pixel = random.between(1e-9, 1e-5);
@@ -237,7 +220,7 @@ const LAWS: [Law; 5] = [
 ];
 
 /// A path in and out of the range, to contact and from it.
-fn gaps(random: &mut Seeded, plates: &Plates) -> Vec<f64> {
+fn gaps(random: &mut Random, plates: &Plates) -> Vec<f64> {
     let range = plates.range;
     let mut gaps = vec![0.9 * range, 1.2 * range];
     gaps.extend((0..4).map(|_| random.between(1e-3, 30.0) * range));
@@ -289,9 +272,8 @@ fn check_held(plates: &Plates, row: &StepRow, [before, gap]: [f64; 2], rounding:
     );
 }
 
-#[test]
 fn a_held_gap_is_kept_and_pulls_as_the_law_does() {
-    let mut random = Seeded(1);
+    let mut random = Random(1);
     for points in SIZES {
         for law in LAWS {
             for control in ["mean-gap", "approach"] {
@@ -314,9 +296,8 @@ fn a_held_gap_is_kept_and_pulls_as_the_law_does() {
 }
 
 /// A solid that flows does not where nothing presses.
-#[test]
 fn plates_that_could_flow_keep_a_held_gap() {
-    let mut random = Seeded(7);
+    let mut random = Random(7);
     for points in SIZES.into_iter().step_by(3) {
         for law in &LAWS[..4] {
             let mut plates = Plates::draw(&mut random, points, *law);
@@ -339,7 +320,6 @@ fn plates_that_could_flow_keep_a_held_gap() {
 
 /// The places at which they were lost: a checker's fields of 16 points on 128 x 128, out of the range in one
 /// step, over laws from narrow to wide ends and solids from soft to stiff.
-#[test]
 fn plates_with_a_checker_leave_the_range_together() {
     for (taper, modulus, side) in [
         (0.0, 1e8, 1e-6),
@@ -397,9 +377,8 @@ impl Observer for Looks {
 
 /// Whatever the start, a solve ends within the rounds that its constants name. A spring whose far end is
 /// drawn away from the plates starts with the whole force of it off balance and no pressure to measure that by.
-#[test]
 fn a_solve_ends_within_its_rounds() {
-    let mut random = Seeded(8);
+    let mut random = Random(8);
     for law in LAWS {
         for (max_iterations, far) in [(1, 7.2), (1, 0.5), (2, -0.5), (3, 60.0), (40, 7.2)] {
             for points in [[16, 16], [7, 7]] {
@@ -448,9 +427,8 @@ fn mixed() -> Box<dyn Backend + Send> {
 }
 
 /// Single precision keeps a gap to its rounding; mixed precision has that of double.
-#[test]
 fn other_precisions_keep_a_held_gap() {
-    let mut random = Seeded(2);
+    let mut random = Random(2);
     for (points, law) in [[1, 1], [7, 7], [24, 64], [31, 31]]
         .into_iter()
         .flat_map(|points| LAWS.map(|law| (points, law)))
@@ -477,9 +455,8 @@ fn other_precisions_keep_a_held_gap() {
 /// With a map the plates are flat where nothing pulls. Where the law is a plateau the tension is the map's,
 /// whatever the gap, and its mean is that of the map. In between the surface is lifted where the law pulls
 /// most, and the energy cannot be above that of plates kept flat, from which the first step starts.
-#[test]
 fn a_map_keeps_the_gap_and_pulls_by_its_mean() {
-    let mut random = Seeded(3);
+    let mut random = Random(3);
     for points in SIZES.into_iter().filter(|points| points[0] % 2 == 0) {
         for law in &LAWS[1..] {
             for control in ["mean-gap", "approach"] {
@@ -565,9 +542,8 @@ fn flat_energy(plates: &Plates, gap: f64) -> f64 {
 /// a wall at no gap, for Lennard-Jones below the gap of the largest tension. Where it falls with the gap a
 /// pressure cannot hold them, for a plate a little farther away is pulled less than the pressure pulls: they
 /// jump into contact or leave each other. Beyond the strength nothing holds them.
-#[test]
 fn a_held_pressure_has_the_stable_gap() {
-    let mut random = Seeded(4);
+    let mut random = Random(4);
     for points in SIZES {
         for law in LAWS {
             let plates = Plates::draw(&mut random, points, law);
@@ -634,9 +610,8 @@ fn a_held_pressure_has_the_stable_gap() {
 
 /// A spring stiffer than the law is steep has one gap for each place of its far end, at which it pulls as hard
 /// as the law. Beside a wall it presses once it would pull the plates through each other.
-#[test]
 fn a_stiff_spring_has_one_gap() {
-    let mut random = Seeded(5);
+    let mut random = Random(5);
     for points in SIZES {
         for law in LAWS {
             let plates = Plates::draw(&mut random, points, law);
@@ -707,9 +682,8 @@ fn sprung(plates: &Plates, stiffness: f64, end: f64) -> f64 {
 
 /// Within the plateau of a Dugdale law a patch of a free half-space is pulled evenly, with the force of its
 /// area, and beyond it not at all, where its gap is the one asked.
-#[test]
 fn a_free_patch_is_pulled_by_its_area() {
-    let mut random = Seeded(6);
+    let mut random = Random(6);
     for points in [[1, 1], [3, 2], [7, 7], [24, 16], [31, 20], [32, 32]] {
         for taper in [0.0, 0.05] {
             let mut plates = Plates::draw(&mut random, points, Law::Dugdale { taper: 0.0 });
@@ -742,3 +716,15 @@ fn a_free_patch_is_pulled_by_its_area() {
         }
     }
 }
+
+tests![
+    a_held_gap_is_kept_and_pulls_as_the_law_does,
+    plates_that_could_flow_keep_a_held_gap,
+    plates_with_a_checker_leave_the_range_together,
+    a_solve_ends_within_its_rounds,
+    other_precisions_keep_a_held_gap,
+    a_map_keeps_the_gap_and_pulls_by_its_mean,
+    a_held_pressure_has_the_stable_gap,
+    a_stiff_spring_has_one_gap,
+    a_free_patch_is_pulled_by_its_area,
+];

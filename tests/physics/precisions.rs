@@ -6,6 +6,7 @@ use tabor::backend::cpu::CpuBackend;
 use tabor::study::{StepRow, walk};
 
 use crate::bench::{cpu, setup};
+use crate::shared::trials::tests;
 
 const DOUBLE: &str = "double";
 const MIXED: &str = "mixed";
@@ -66,7 +67,6 @@ type Pressed = (usize, f64, u64, f64, f64, &'static str, &'static [f64]);
 /// iteration at all. A pixel is 0.05 to 0.5 of the cohesive zone, so that the states are the surface's own and
 /// not the pixels'. A net pressure is the difference of repulsion and attraction, down to a hundredth of them,
 /// so mixed is asked for 1e-6 of them at a tolerance of 1e-8, and single for 1e-2 at 1e-4.
-#[test]
 fn steps_of_many_ranges_into_the_core_end_where_double_does() {
     let scenes: [Pressed; 7] = [
         (16, 0.25, 5, 4e-3, 0.2, "mean-gap", &[0.03, 0.015]),
@@ -108,7 +108,6 @@ fn steps_of_many_ranges_into_the_core_end_where_double_does() {
 /// Let go to no load, a weak attraction holds some points by pressures below what single precision tells
 /// from nothing in K h: the residual ends at .001 to 1. It is converged at that floor, its gap rounded once and
 /// not in each of a hundred steps, and the position is double's to that rounding; mixed goes on to the tolerance.
-#[test]
 fn let_go_to_no_load_single_ends_at_its_rounding() {
     let scenes = [
         ("lennard-jones", 16, 0.125, 1e-4, 0.003, 3e-3),
@@ -153,7 +152,6 @@ fn let_go_to_no_load_single_ends_at_its_rounding() {
 
 /// Under a load that nearly lets go the careful steps of a sharp law crawl: 5000 of them left a residual of
 /// 1.9e-3. They end after 2000, long after the points in range have been chosen.
-#[test]
 fn a_sharp_law_that_is_let_go_ends() {
     let text = r#"
         [grid]
@@ -198,7 +196,6 @@ fn a_sharp_law_that_is_let_go_ends() {
 
 /// Nearer than a fiftieth of its range the law is evaluated no further: no state lies there, whatever the
 /// arithmetic. Flats there balance to the last digit, with a pressure of 5e15 w/eps: it was a converged row.
-#[test]
 fn no_state_lies_beyond_the_core() {
     let law = |work| rough(16, 0.25, 5, "lennard-jones", [work, 1e-3]);
     // The highest point is less than 0.04 above the mean.
@@ -213,3 +210,10 @@ fn no_state_lies_beyond_the_core() {
         }
     }
 }
+
+tests![
+    steps_of_many_ranges_into_the_core_end_where_double_does,
+    let_go_to_no_load_single_ends_at_its_rounding,
+    a_sharp_law_that_is_let_go_ends,
+    no_state_lies_beyond_the_core,
+];

@@ -6,6 +6,7 @@ use tabor::study::{PullOff, StepRow, Tension};
 use tabor::theory::maugis_dugdale::MaugisDugdale;
 
 use crate::bench::{Solved, solve_table};
+use crate::shared::trials::tests;
 
 /// A sphere in the units of Maugis (K = 4E*/3 = 1, R = 1, w = 1/pi), lambda 0.5, forces in pi w R. The taper
 /// is a length, 2 sigma0 dx/E*, so that the law is this one whatever its default.
@@ -37,7 +38,6 @@ fn bits(solved: &Solved) -> Vec<String> {
 
 /// The bounds are as near to each other as was asked, and hem in Maugis' closed form but for the grid's error:
 /// 2.5e-3 of 2 pi w R at this lambda on 256 points, and in proportion to the pixel here.
-#[test]
 fn bounds_hem_in_the_closed_form() {
     let exact = MaugisDugdale::new(0.5).and_then(|sphere| sphere.pull_off());
     let exact = -exact.expect("a pull-off").force;
@@ -86,7 +86,6 @@ fn bounds_hem_in_the_closed_form() {
 
 /// What lies between two steps leaves no trace in them: rows are the same bits with and without, whatever the
 /// solid remembers and the law depends on.
-#[test]
 fn rows_stay_as_they_are() {
     let relaxing = "[[solid.relaxation]]\nmodulus = 2.0\ntime = 1.0";
     let rate = "rate = { reference_speed = 1.0, exponent = 0.5 }";
@@ -120,7 +119,6 @@ fn rows_stay_as_they_are() {
 /// path of sixteen times as many steps finds between two of its own. That path's steps are short against the
 /// relaxation; those of the first are not, and the loads tried meet the solid in ever shorter ones: what
 /// implicit steps of a third of the time of relaxation are off by, some per cent of the pull-off.
-#[test]
 fn time_goes_with_the_load() {
     let relaxing = "[[solid.relaxation]]\nmodulus = 2.0\ntime = 1.0";
     let pulled = |steps: usize| {
@@ -138,7 +136,6 @@ fn time_goes_with_the_load() {
 }
 
 /// Without letting go there is no pull-off under a load; a held position shows it once it is passed.
-#[test]
 fn what_still_holds_is_no_pull_off() {
     let says = |loading: &str| {
         let solved = sphere("", "", loading);
@@ -176,3 +173,10 @@ fn what_still_holds_is_no_pull_off() {
     assert!(passed.pull_off().is_some(), "{passed:?}");
     assert_eq!(passed.bounds(), None);
 }
+
+tests![
+    bounds_hem_in_the_closed_form,
+    rows_stay_as_they_are,
+    time_goes_with_the_load,
+    what_still_holds_is_no_pull_off,
+];

@@ -10,6 +10,7 @@ use tabor::theory::maugis_dugdale::MaugisDugdale;
 use tabor::theory::rate::reduced_pull_off;
 
 use crate::bench::{Solved, solve_table};
+use crate::shared::trials::tests;
 
 const LAMBDA: f64 = 2.0;
 const EXPONENT: f64 = 0.5;
@@ -31,7 +32,6 @@ fn drawn_off(speed: f64, to: f64, steps: usize) -> Solved {
 /// Pull-off at a speed against the motion of JKR's edge, `dA/dt = -v* (G/w - 1)^(1/n)`, integrated apart
 /// (`theory::rate`). JKR's own pull-off is 1.5, Maugis' at this lambda 1.535 (2.3 % more, and less as the
 /// raised law draws nearer to JKR's); steps of the path are implicit Euler's, 2 % at these.
-#[test]
 fn pull_off_at_a_speed() {
     let still = MaugisDugdale::new(LAMBDA).and_then(|sphere| sphere.pull_off());
     let still = -still.expect("a pull-off").force;
@@ -90,7 +90,6 @@ fn pull_off_at_a_speed() {
 }
 
 /// An edge that advances has the plain law, to the bit.
-#[test]
 fn an_advancing_edge_has_the_plain_law() {
     let pressed = |rate: &str| {
         solve_table(&format!(
@@ -103,3 +102,5 @@ fn an_advancing_edge_has_the_plain_law() {
         assert_eq!((a.force, a.adhesive_energy), (b.force, b.adhesive_energy));
     }
 }
+
+tests![pull_off_at_a_speed, an_advancing_edge_has_the_plain_law,];

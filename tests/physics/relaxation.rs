@@ -5,6 +5,7 @@ use tabor::theory::viscoelastic::Solid;
 
 use crate::bench::{Solved, solve_table};
 use crate::controls::{LAWS, adhesion, rough};
+use crate::shared::trials::tests;
 
 /// Relaxed modulus, branch modulus; the branch's time is 1.
 const RELAXED: f64 = 0.1;
@@ -46,7 +47,6 @@ fn held(duration: f64, steps: usize) -> String {
 /// Lee & Radok 1960: under a constant force the approach grows as `(J E_0)^(2/3)`. The pixels make
 /// some 5e-4 of the approach (10 pixels across the radius), steps of a twentieth of the branch's
 /// time a tenth of that.
-#[test]
 fn a_sphere_creeps() {
     let theory = Solid::new(RELAXED, BRANCH, 1.0).expect("a solid");
     let solved = solve_table(&sphere("", &held(3.0, 60)));
@@ -64,7 +64,6 @@ fn a_sphere_creeps() {
 }
 
 /// Halving the step divides the error by four.
-#[test]
 fn second_order_in_the_time_step() {
     let approach = |steps: usize| {
         let solved = solve_table(&sphere("", &held(2.0, steps)));
@@ -86,7 +85,6 @@ fn second_order_in_the_time_step() {
 
 /// At once the solid is the sum of its springs, in the end the relaxed one: the same rows as those
 /// of elastic solids, for every law and both boundaries.
-#[test]
 fn instant_and_relaxed_limits() {
     let elastic = |modulus: f64, text: &str| {
         let (start, rest) = text.split_once("[[solid.relaxation]]").expect("a branch");
@@ -155,7 +153,6 @@ fn instant_and_relaxed_limits() {
 }
 
 /// Pull-off after a dwell and at a rate: both a longer dwell and a faster pull hold more.
-#[test]
 fn dwell_and_rate_raise_pull_off() {
     let pull_off = |law: &str, dwell: f64, duration: f64| {
         let solved = solve_table(&sphere(
@@ -177,7 +174,6 @@ fn dwell_and_rate_raise_pull_off() {
 }
 
 /// A loop costs work, whatever the law; none of it is called a jump.
-#[test]
 fn a_loop_dissipates() {
     for law in LAWS {
         let solved = solve_table(&sphere(
@@ -196,7 +192,6 @@ fn a_loop_dissipates() {
 
 /// Without pressure the surface comes back as the branch's spring relaxes through it: the sphere
 /// that touches again after a pause meets the same solid, after none a dented one.
-#[test]
 fn a_dent_recovers() {
     let again = |pause: f64| {
         let solved = solve_table(&sphere(
@@ -217,3 +212,12 @@ fn a_dent_recovers() {
     );
     assert!(at_once < 0.6 * first, "{at_once} {first}");
 }
+
+tests![
+    a_sphere_creeps,
+    second_order_in_the_time_step,
+    instant_and_relaxed_limits,
+    dwell_and_rate_raise_pull_off,
+    a_loop_dissipates,
+    a_dent_recovers,
+];

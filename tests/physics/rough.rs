@@ -1,6 +1,7 @@
 //! Self-affine surfaces without adhesion against an independent boundary-element code.
 
 use crate::bench::{setup, solve, solve_table};
+use crate::shared::trials::tests;
 
 pub const MODULUS: f64 = 1.33e12;
 
@@ -48,7 +49,6 @@ pub fn scene(surface: &Surface, adhesion: &str, path: &[f64], tolerance: f64) ->
 
 /// The number of contact pixels of each surface must be exactly that of the other code, and the
 /// mean gap its own to 1e-6, which the other code's tolerance of 1e-9 allows for.
-#[test]
 fn contact_pixels_of_four_surfaces() {
     for (ratio, points, seed, load, pixels, mean_gap) in [
         (32, 1024, 1, 0.0125, 28250, 1.4217969167162114),
@@ -80,7 +80,6 @@ fn contact_pixels_of_four_surfaces() {
 }
 
 /// Pressed flat the pressure is that of the surface's own waves: p_rms = E* h'_rms/2 about the mean.
-#[test]
 fn full_contact_at_a_large_load() {
     let surface = Surface {
         hurst: 0.8,
@@ -101,3 +100,8 @@ fn full_contact_at_a_large_load() {
     // Nothing is approximated here: rounding of the transforms, relative to the mean pressure.
     assert!((rms / (0.5 * MODULUS * slope) - 1.0).abs() < 1e-9, "{rms}");
 }
+
+tests![
+    contact_pixels_of_four_surfaces,
+    full_contact_at_a_large_load,
+];

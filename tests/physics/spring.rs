@@ -8,6 +8,7 @@ use std::f64::consts::PI;
 use tabor::study::Jump;
 
 use crate::bench::solve_table;
+use crate::shared::trials::tests;
 use crate::tables::table;
 
 /// Tabor number: without a spring this sphere follows its whole curve.
@@ -24,11 +25,8 @@ const FORCE_ERROR: f64 = 1.9e-3;
 /// where the line touches the curve to where it touches it again, and rises: a spring's far end that
 /// comes in snaps at the maximum, one that leaves at the minimum. Both are found to the error of a
 /// force over the stiffness and a step.
-#[test]
 fn snaps_where_the_line_touches_the_curve() {
-    let Some(curve) = table("lj_curve_mu0.5.csv") else {
-        return;
-    };
+    let curve = table("lj_curve_mu0.5.csv");
     for stiffness in [0.15, 0.3] {
         let far_end =
             |row: usize| curve.number(row, "A") + curve.number(row, "F_over_2piwR") / stiffness;
@@ -86,3 +84,5 @@ fn snaps_where_the_line_touches_the_curve() {
         );
     }
 }
+
+tests![snaps_where_the_line_touches_the_curve,];

@@ -3,6 +3,8 @@
 use std::collections::HashMap;
 use std::path::PathBuf;
 
+use crate::shared::trials::{expect_ignored, ignore, tests};
+
 /// A table by column; text cells are NaN.
 pub struct Table {
     head: HashMap<String, usize>,
@@ -42,18 +44,18 @@ pub fn folder() -> PathBuf {
     }
 }
 
-/// Reads a table; absent files are named and give `None`.
-pub fn table(name: &str) -> Option<Table> {
+/// Reads a table; the test that asks for one that is not there is ignored.
+pub fn table(name: &str) -> Table {
     let path = folder().join(name);
     let Ok(text) = std::fs::read_to_string(&path) else {
-        println!("skipped: no table {name}");
-        return None;
+        ignore(format!("no table {}", path.display()));
     };
     let mut lines = text
         .lines()
         .filter(|line| !line.starts_with('#') && !line.trim().is_empty());
     let head = lines
-        .next()?
+        .next()
+        .unwrap_or_else(|| panic!("{} is empty", path.display()))
         .split(',')
         .enumerate()
         .map(|(i, name)| (name.trim().to_string(), i))
@@ -65,10 +67,11 @@ pub fn table(name: &str) -> Option<Table> {
                 .collect()
         })
         .collect();
-    Some(Table { head, rows })
+    Table { head, rows }
 }
 
-/// The numbers in the names `prefixNUMBER.csv` of the folder, in order.
+/// The numbers in the names `prefixNUMBER.csv` of the folder, in order; the test that asks is ignored where
+/// there are none.
 pub fn parameters(prefix: &str) -> Vec<(f64, String)> {
     let mut found: Vec<(f64, String)> = std::fs::read_dir(folder())
         .map(|entries| {
@@ -86,6 +89,9 @@ pub fn parameters(prefix: &str) -> Vec<(f64, String)> {
                 .collect()
         })
         .unwrap_or_default();
+    if found.is_empty() {
+        ignore(format!("no table {}", folder().join(prefix).display()));
+    }
     found.sort_by(|a, b| a.0.total_cmp(&b.0));
     found
 }
@@ -107,3 +113,14 @@ pub fn thinned(rows: Vec<usize>, count: usize) -> Vec<usize> {
     };
     rows.into_iter().step_by(every).collect()
 }
+
+fn a_test_without_its_table_is_ignored_with_its_reason() {
+    let elsewhere = [("TABOR_REFERENCE", "/nonexistent")];
+    expect_ignored(
+        "maugis_dugdale::curves",
+        &elsewhere,
+        "no table /nonexistent/md_special_points.csv",
+    );
+}
+
+tests![a_test_without_its_table_is_ignored_with_its_reason];

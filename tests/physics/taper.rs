@@ -12,6 +12,7 @@ use tabor::theory::maugis_dugdale::{FOLD_LAMBDA, MaugisDugdale};
 use tabor::theory::westergaard::adhesive_extrema;
 
 use crate::bench::{Solved, solve_table};
+use crate::shared::trials::tests;
 
 const AMPLITUDE: f64 = 0.01;
 /// p* of a wave of length 1 on a solid of modulus 1.
@@ -117,7 +118,6 @@ const COUNT: usize = 80;
 
 /// Off and closed within 1.5 % of the closed form at chi 0.25 and 1 % at 0.1, which is what the width was
 /// chosen by; half a step besides. An exponential law, whose edge is free at these chi, is the control.
-#[test]
 fn straight_edges_are_free() {
     for (points, adhesion, chi, along_y, allowed) in [
         (1024, 0.1, 0.25, false, 0.015),
@@ -166,7 +166,6 @@ fn straight_edges_are_free() {
 
 /// Where the taper cannot be wide enough the run says by how much straight edges come off late, and where it says
 /// nothing they are right: to 3 % up to chi 0.65, to 11 % up to 1.3 and one step.
-#[test]
 fn trapped_edges_are_warned_of() {
     for (chi, warned, allowed) in [
         (0.5, false, 0.03),
@@ -197,7 +196,6 @@ fn trapped_edges_are_warned_of() {
 
 /// Between its two turns the wave has one state at a load, so loading and unloading have one area: to the pixel
 /// at each edge that lies on a point's boundary.
-#[test]
 fn a_wave_loads_and_unloads_alike() {
     for (adhesion, chi) in [(0.1, 0.25), (0.3, 0.25), (0.3, 0.1)] {
         let strip = Strip {
@@ -300,7 +298,6 @@ fn sphere_errors(lambda: f64, points: usize, narrow: bool) -> [f64; 2] {
 /// A wide taper changes what a sphere feels before it touches, and its contact hardly: on the same grid neither
 /// error is above 1.3 times that with a taper of 2 sigma0 dx/E*, which stood here before. What is found is
 /// recorded in `docs/solver.md`.
-#[test]
 fn spheres_lose_nothing_by_it() {
     for (lambda, points) in [(0.5, 64), (1.0, 64), (2.0, 64), (2.0, 48)] {
         let [wide, narrow] = [false, true].map(|narrow| sphere_errors(lambda, points, narrow));
@@ -320,3 +317,10 @@ fn spheres_lose_nothing_by_it() {
         }
     }
 }
+
+tests![
+    straight_edges_are_free,
+    trapped_edges_are_warned_of,
+    a_wave_loads_and_unloads_alike,
+    spheres_lose_nothing_by_it,
+];

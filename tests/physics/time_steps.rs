@@ -4,6 +4,7 @@ use tabor::theory::viscoelastic::Solid;
 
 use crate::bench::{Solved, solve_table};
 use crate::controls::adhesion;
+use crate::shared::trials::tests;
 
 /// Relaxed modulus, branch modulus; the branch's time is 1, that of creep 10.
 const RELAXED: f64 = 0.1;
@@ -96,7 +97,6 @@ fn held(keys: &str, steps: &str) -> Solved {
     )
 }
 
-#[test]
 fn creep_keeps_the_asked_error_with_fewer_steps() {
     for tolerance in [1e-2, 1e-3] {
         let auto = held(&format!("time_tolerance = {tolerance}"), "\"auto\"");
@@ -154,7 +154,6 @@ fn pressed_held_and_drawn(
 
 /// Every control, and a spring, at the times that all paths share, against equal steps that are
 /// several times as short as the shortest would have to be.
-#[test]
 fn ramps_keep_the_asked_error() {
     let attracts = adhesion("exponential", 2e-3, 0.1);
     let alone = |branches: &str, loading: &str| sphere(branches, "", loading);
@@ -190,3 +189,8 @@ fn ramps_keep_the_asked_error() {
         }
     }
 }
+
+tests![
+    creep_keeps_the_asked_error_with_fewer_steps,
+    ramps_keep_the_asked_error,
+];

@@ -3,6 +3,7 @@
 use std::f64::consts::PI;
 
 use crate::bench::{solve, solve_table};
+use crate::shared::trials::tests;
 use crate::tables::table;
 
 const POINTS: usize = 512;
@@ -29,11 +30,8 @@ fn wave(points: &str, size: &str, wavelength: &str, path: &[f64]) -> String {
 }
 
 /// Contact share and mean gap of every tabulated load, from first touch to full contact.
-#[test]
 fn westergaard() {
-    let Some(table) = table("westergaard_load_area.csv") else {
-        return;
-    };
+    let table = table("westergaard_load_area.csv");
     let full = PI * 0.01;
     let path: Vec<f64> = table
         .column("pbar_over_pstar")
@@ -77,7 +75,6 @@ fn westergaard() {
     }
 }
 
-#[test]
 fn westergaard_pressure_profile() {
     let share: f64 = 0.3;
     let mean = PI * 0.01 * (0.5 * PI * share).sin().powi(2);
@@ -104,7 +101,6 @@ fn westergaard_pressure_profile() {
 /// Crests touch as Hertz spheres: A -> pi (3 p/(8 pi p*))^(2/3) (Johnson, Greenwood & Higginson
 /// 1985). At 5e-4 of p* neighbouring crests raise the area by a few per mille; the pixels count
 /// 400 points to a few per cent without correction and to one with it.
-#[test]
 fn low_limit_of_the_two_dimensional_wave() {
     let full = 2f64.sqrt() * PI * 0.01;
     let load = 5e-4;
@@ -113,3 +109,9 @@ fn low_limit_of_the_two_dimensional_wave() {
     let limit = PI * (3.0 * load / (8.0 * PI)).powf(2.0 / 3.0);
     assert!((area / limit - 1.0).abs() < 0.03, "{area} {limit}");
 }
+
+tests![
+    westergaard,
+    westergaard_pressure_profile,
+    low_limit_of_the_two_dimensional_wave,
+];

@@ -7,6 +7,7 @@ use tabor::theory::maugis_dugdale::MaugisDugdale;
 use tabor::theory::tabor_map::{Sphere, maugis_parameter};
 
 use crate::bench::solve_table;
+use crate::shared::trials::tests;
 
 /// Worn volume for each load and length of sliding, in the units of these scenes.
 const SPECIFIC: f64 = 0.3;
@@ -21,13 +22,12 @@ fn sphere(points: usize, size: f64, adhesion: &str, loading: &str) -> String {
 /// Without adhesion everything presses, so the load is the net force: the same sum, so the same to the
 /// rounding of one product. Hertz' force of the sphere is met to its discretisation, as
 /// `hertz.rs` has it, and a surface that does not touch wears nothing.
-#[test]
 fn a_sphere_without_adhesion_wears_by_its_load() {
     let depths = [-0.1_f64, 0.02, 0.05];
     let loading = format!("control = \"approach\"\npath = {depths:?}");
     let solved = solve_table(&sphere(64, 1.0, "", &loading));
     for (row, depth) in solved.rows().zip(depths) {
-        let worn = row.wear_rate.expect("a wear rate");
+        let worn = row.column("wear_rate").expect("a wear rate");
         if depth < 0.0 {
             assert_eq!(worn, 0.0);
             continue;
@@ -40,13 +40,12 @@ fn a_sphere_without_adhesion_wears_by_its_load() {
     let solved = solve_table(&sphere(64, 1.0, "", "control = \"force\"\npath = [0.0]"));
     let row = solved.rows().next().expect("a row");
     assert_eq!(row.state, State::Separated);
-    assert_eq!(row.wear_rate, Some(0.0));
+    assert_eq!(row.column("wear_rate"), Some(0.0));
 }
 
 /// A sphere that sticks wears at no load too: by the part of Maugis' pressure (1992)
 /// that presses, integrated here. The contact is met to half a pixel of its radius of 47 pixels, and
 /// its load goes with the cube of that: 3 %.
-#[test]
 fn a_sphere_that_sticks_wears_at_no_load() {
     let adhesion = "[adhesion]\nlaw = \"maugis-dugdale\"\nwork_of_adhesion = 0.1\nrange = 0.07\n";
     let loading = "control = \"force\"\npath = [0.4, 0.0]";
@@ -78,7 +77,7 @@ fn a_sphere_that_sticks_wears_at_no_load() {
             .map(|ring| (f64::from(ring) + 0.5) * width)
             .map(|r| 2.0 * PI * r * width * net(r).max(0.0))
             .sum();
-        let worn = row.wear_rate.expect("a wear rate");
+        let worn = row.column("wear_rate").expect("a wear rate");
         let expected = SPECIFIC * pressing;
         println!("at {}: {worn:.5} {expected:.5}", row.force);
         assert!((worn / expected - 1.0).abs() < 0.03, "{worn} {expected}");
@@ -92,7 +91,6 @@ fn a_sphere_that_sticks_wears_at_no_load() {
 /// Derjaguin, Muller & Toporov have for a range that is far longer than the contact is deep. The ring of
 /// 46 pixels of radius is counted in whole pixels, to less than 1 % of its area; the finite range
 /// leaves some per cent more than the limit.
-#[test]
 fn without_its_own_deformation_attraction_presses_with_all_of_itself() {
     let (work, range) = (1e-5, 1e-2);
     let adhesion = format!(
@@ -122,7 +120,7 @@ fn without_its_own_deformation_attraction_presses_with_all_of_itself() {
     let load = |a: f64| 4.0 / 3.0 * a.powi(3);
     let pressing = load(bisect(1e-3, 0.2, &|a| load(a) - attraction(a)));
     let row = solved.rows().next().expect("a row");
-    let found = row.wear_rate.expect("a wear rate") / SPECIFIC;
+    let found = row.column("wear_rate").expect("a wear rate") / SPECIFIC;
     println!("{found:e} {pressing:e} {:e}", 2.0 * PI * work);
     assert!(
         (found / pressing - 1.0).abs() < 0.01,
@@ -130,3 +128,9 @@ fn without_its_own_deformation_attraction_presses_with_all_of_itself() {
     );
     assert!((found / (2.0 * PI * work) - 1.0).abs() < 0.1, "{found:e}");
 }
+
+tests![
+    a_sphere_without_adhesion_wears_by_its_load,
+    a_sphere_that_sticks_wears_at_no_load,
+    without_its_own_deformation_attraction_presses_with_all_of_itself,
+];

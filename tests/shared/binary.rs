@@ -28,9 +28,12 @@ pub fn tabor(folder: &Path, arguments: &[&str]) -> Output {
         .expect("the binary runs")
 }
 
+/// A file of graphics drivers that is not there.
+pub const NO_DRIVERS: &str = "/nonexistent";
+
 /// Leaves out the graphics processor, which may be software: for what does not ask about it.
 pub fn without_adapter(command: &mut Command) -> &mut Command {
-    with_drivers(command, "/nonexistent")
+    with_drivers(command, NO_DRIVERS)
 }
 
 /// Takes the graphics drivers of a file, and no others.

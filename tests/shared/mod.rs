@@ -4,5 +4,6 @@
 
 pub mod binary;
 pub mod device;
+pub mod random;
 pub mod run_folder;
 pub mod trials;

@@ -5,7 +5,7 @@
 //! the lists to [`run`]. A function that no list names is unused code, which lints refuse.
 
 use std::panic::{UnwindSafe, catch_unwind, resume_unwind};
-use std::process::ExitCode;
+use std::process::{Command, ExitCode};
 
 use libtest_mimic::{Arguments, Completion, Trial};
 
@@ -48,6 +48,27 @@ pub fn trial(module: &str, name: &str, test: impl FnOnce() + Send + UnwindSafe +
             Err(failure) => resume_unwind(failure),
         }
     })
+}
+
+/// Runs one test of this binary in a process of its own, with an environment, and fails unless it is ignored for
+/// a reason that holds `reason`.
+pub fn expect_ignored(test: &str, environment: &[(&str, &str)], reason: &str) {
+    let output = Command::new(std::env::current_exe().expect("this binary"))
+        .args(["--exact", test])
+        .env_remove("TABOR_REQUIRE_GPU")
+        .env_remove("TABOR_REQUIRE_BROWSER")
+        .envs(environment.iter().copied())
+        .output()
+        .expect("this binary runs");
+    let said = String::from_utf8_lossy(&output.stdout).into_owned();
+    assert!(output.status.success(), "{said}");
+    let line = said.lines().find(|line| line.starts_with("test "));
+    let line = line.unwrap_or_else(|| panic!("{test} is not run:\n{said}"));
+    assert!(
+        line.contains("ignored (") && line.contains(reason),
+        "{said}"
+    );
+    assert!(said.contains("0 passed; 0 failed; 1 ignored"), "{said}");
 }
 
 /// Runs a binary's tests as its arguments say.

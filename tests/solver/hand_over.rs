@@ -15,6 +15,7 @@ use tabor::study::{
 use tabor::surface::Surface;
 
 use crate::shared::device::device;
+use crate::shared::trials::tests;
 
 const ROUGH: &str = "[[surface]]\nkind = \"self-affine\"\nhurst = 0.8\nrms_slope = 0.1\nlongest = \"2 um\"\nrolloff = \"1 um\"\nshortest = \"0.25 um\"\n";
 const SPHERE: &str = "[[surface]]\nkind = \"sphere\"\nradius = \"5 um\"\n";
@@ -225,20 +226,17 @@ fn all(make: Make, single: bool, few: bool) -> usize {
     count
 }
 
-#[test]
 fn cut_and_gone_on_with_in_double_precision() {
     let make = || -> Box<dyn Backend + Send> { Box::new(CpuBackend::<f64>::new()) };
     assert_eq!(all(&make, false, false), 45);
 }
 
-#[test]
 fn cut_and_gone_on_with_in_single_precision() {
     let make = || -> Box<dyn Backend + Send> { Box::new(CpuBackend::<f32>::new()) };
     assert_eq!(all(&make, true, false), 45);
 }
 
 /// The state is kept in double precision, and iterations in single start from it.
-#[test]
 fn cut_and_gone_on_with_in_mixed_precision() {
     let make = mixed();
     assert_eq!(all(&make, false, false), 37);
@@ -248,17 +246,13 @@ fn mixed() -> impl Fn() -> Box<dyn Backend + Send> {
     || -> Box<dyn Backend + Send> { Box::new(CpuBackend::<f32>::new().corrected()) }
 }
 
-#[test]
 fn cut_and_gone_on_with_on_the_graphics_processor() {
-    let Some(device) = device() else {
-        return;
-    };
+    let device = device();
     let make = || -> Box<dyn Backend + Send> { Box::new(GpuBackend::on(device)) };
     assert_eq!(all(&make, true, true), 9);
 }
 
 /// The cold start on coarser grids and the two-band preconditioner, which small grids do without.
-#[test]
 fn cut_and_gone_on_with_where_coarse_grids_help() {
     let loading = "control = \"pressure\"\npath = [2e5, 1e6, 0, 2e5]";
     let mut scene = scene("periodic", ROUGH, "", loading, false);
@@ -275,7 +269,6 @@ type Column = (&'static str, Of);
 /// Every shipped scene, and with them every effect: mixed precision walks the path that double does.
 /// Both stop at a residual of 1e-9, so what they find differs by some 1e-9 of the largest on the path
 /// where a state is stable; near a jump the softest mode may be a thousand times as soft.
-#[test]
 fn mixed_precision_walks_the_path_of_double() {
     let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("examples/scenes");
     let double = || -> Box<dyn Backend + Send> { Box::new(CpuBackend::<f64>::new()) };
@@ -358,7 +351,6 @@ fn mixed_precision_walks_the_path_of_double() {
 
 /// An edge that costs more at speed, found from the state before each step; and what its contact
 /// conducts.
-#[test]
 fn cut_and_gone_on_with_where_an_edge_costs_more_at_speed() {
     let law = format!(
         "{}rate = {{ reference_speed = \"1 um/s\", exponent = 0.5 }}\n[conductance]\nconductivity = 1\ncounter_conductivity = 2\n",
@@ -371,7 +363,6 @@ fn cut_and_gone_on_with_where_an_edge_costs_more_at_speed() {
 }
 
 /// A solid that relaxes, over steps that grow with the time from each kink of the path.
-#[test]
 fn cut_and_gone_on_with_where_steps_grow() {
     let relaxes = "[[solid.relaxation]]\nmodulus = \"200 MPa\"\ntime = 1\n[[solid.relaxation]]\nmodulus = \"50 MPa\"\ntime = 0.05\n";
     let loading = "control = \"force\"\nstart = 1e-7\ntime_tolerance = 0.03\n[[loading.ramp]]\nto = 1e-6\nsteps = \"auto\"\nduration = 0.5\n[[loading.ramp]]\nhold = 5\nsteps = \"auto\"";
@@ -420,7 +411,6 @@ impl Observer for Stopper {
 
 /// A path ended amid what is looked for between two of its steps, pull-off or a jump, goes on from the step
 /// before and ends the same, whatever the solid remembers.
-#[test]
 fn ended_between_two_steps_and_gone_on_with() {
     let make = || -> Box<dyn Backend + Send> { Box::new(CpuBackend::<f64>::new()) };
     let law = adhesion("maugis-dugdale", "full");
@@ -479,3 +469,15 @@ fn ended_between_two_steps_and_gone_on_with() {
         println!("{name}: {} searches, {:?}", count.searches, whole.pull_off);
     }
 }
+
+tests![
+    cut_and_gone_on_with_in_double_precision,
+    cut_and_gone_on_with_in_single_precision,
+    cut_and_gone_on_with_in_mixed_precision,
+    cut_and_gone_on_with_on_the_graphics_processor,
+    cut_and_gone_on_with_where_coarse_grids_help,
+    mixed_precision_walks_the_path_of_double,
+    cut_and_gone_on_with_where_an_edge_costs_more_at_speed,
+    cut_and_gone_on_with_where_steps_grow,
+    ended_between_two_steps_and_gone_on_with,
+];

@@ -10,7 +10,9 @@ use tabor::law::{Exponential, Law, LennardJones, MaugisDugdale};
 use tabor::scene::Boundary;
 use tabor::solver::{ContactSolver, Hold, Load, Problem, Start, plain};
 
+use crate::operator::values;
 use crate::shared::device::{device_with_double, double_backend};
+use crate::shared::trials::tests;
 
 /// Iterations that are compared one by one.
 const COMPARED: usize = 10;
@@ -101,23 +103,10 @@ fn by_backend(
     }
 }
 
-/// Seeded numbers between -1 and 1.
-fn seeded(count: usize) -> Vec<f64> {
-    let mut state = 0x9e37_79b9_7f4a_7c15_u64;
-    (0..count)
-        .map(|_| {
-            state ^= state << 13;
-            state ^= state >> 7;
-            state ^= state << 17;
-            (state >> 11) as f64 / (1u64 << 52) as f64 - 1.0
-        })
-        .collect()
-}
-
 /// A rough surface: random numbers smoothed over some pixels.
 fn rough(points: [usize; 2]) -> Vec<f64> {
     let [nx, ny] = points;
-    let mut heights = seeded(nx * ny);
+    let mut heights = values(nx * ny, 1);
     for _ in 0..12 {
         heights = (0..nx * ny)
             .map(|i| {
@@ -293,10 +282,10 @@ fn cases() -> Vec<(String, Problem)> {
         let on_layer = problem([32, 32], Boundary::Periodic, law).on_layer(layer);
         cases.push((format!("layer, {law:?}"), on_layer));
     }
-    let factor: Vec<f64> = seeded(32 * 32).iter().map(|x| 1.0 + 0.5 * x).collect();
+    let factor: Vec<f64> = values(32 * 32, 1).iter().map(|x| 1.0 + 0.5 * x).collect();
     let mapped = problem([32, 32], Boundary::Periodic, tapered).patterned(factor);
     cases.push(("map of adhesion".into(), mapped));
-    let factor: Vec<f64> = seeded(32 * 32).iter().map(|x| 1.0 + 0.5 * x).collect();
+    let factor: Vec<f64> = values(32 * 32, 1).iter().map(|x| 1.0 + 0.5 * x).collect();
     let smooth = laws(2e-4, 5e-3)[4].1;
     let mapped = problem([32, 32], Boundary::Periodic, smooth).patterned(factor);
     cases.push(("map of Lennard-Jones".into(), mapped));
@@ -340,18 +329,19 @@ fn compare_all(make: &dyn Fn() -> Box<dyn Backend + Send>, bounds: [f64; 2]) {
 /// law, control and boundary. Sums are added in another order and a prescribed mean gap is held by
 /// linearity: some hundred roundings, which ten iterations amplify by at most 1e4. A residual near the
 /// tolerance of 1e-8 is a difference of numbers near 1, so that its own rounding is absolute.
-#[test]
 fn the_processor_follows_the_plain_text() {
     let make = || -> Box<dyn Backend + Send> { Box::new(CpuBackend::<f64>::new()) };
     compare_all(&make, [1e-8, 1e-14]);
 }
 
 /// The same on a graphics processor in double precision, whose sums and transforms round elsewhere.
-#[test]
 fn the_graphics_processor_follows_the_plain_text() {
-    let Some(device) = device_with_double() else {
-        return;
-    };
+    let device = device_with_double();
     let make = || -> Box<dyn Backend + Send> { Box::new(double_backend(device)) };
     compare_all(&make, [1e-8, 1e-14]);
 }
+
+tests![
+    the_processor_follows_the_plain_text,
+    the_graphics_processor_follows_the_plain_text,
+];

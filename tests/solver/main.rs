@@ -1,8 +1,14 @@
 //! The solver's parts and its iterates: the elastic operator, each backend against the plain text of the
 //! method, and what one step of a path hands to the next.
 
+use std::process::ExitCode;
+
 mod hand_over;
 mod iterates;
 mod operator;
 #[path = "../shared/mod.rs"]
 mod shared;
+
+fn main() -> ExitCode {
+    shared::trials::run([hand_over::tests(), iterates::tests(), operator::tests()])
+}

@@ -14,6 +14,8 @@ use tabor::law::{Exponential, Law, LennardJones};
 use tabor::scene::Boundary;
 use tabor::solver::{ContactSolver, Hold, Load, Problem, Start};
 
+use crate::shared::trials::tests;
+
 fn params() -> Params {
     Params {
         law: Law::HardWall,
@@ -49,7 +51,7 @@ fn apply<T: CpuReal>(points: [usize; 2], spectrum: &[f64], field: &[f64]) -> (Ve
 }
 
 /// Seeded values between -1 and 1.
-fn values(count: usize, seed: u64) -> Vec<f64> {
+pub fn values(count: usize, seed: u64) -> Vec<f64> {
     let mut state = seed.wrapping_mul(0x9e37_79b9_7f4a_7c15) | 1;
     (0..count)
         .map(|_| {
@@ -122,7 +124,6 @@ fn largest(spectrum: &[f64]) -> f64 {
 const ROUNDING: f64 = 1e-13;
 
 /// Odd, prime, rectangular, thin and tiny grids, and any factors (not only a half-space's).
-#[test]
 fn equals_a_plain_transform() {
     for points in [
         [1, 1],
@@ -169,7 +170,6 @@ fn equals_a_plain_transform() {
 }
 
 /// A cosine is an eigenvector: E* q/2 times itself.
-#[test]
 fn waves_are_eigenvectors() {
     let (nx, ny) = (48, 20);
     let grid = Grid::new([nx, ny], [1.0, 1.3]);
@@ -194,7 +194,6 @@ proptest! {
     #![proptest_config(ProptestConfig::with_cases(60))]
 
     /// `<a, Kb> = <b, Ka>`, `<a, Ka> >= 0` and as the energy sum says, K shifts with its field.
-    #[test]
     fn symmetric_positive_and_at_home_everywhere(
         nx in 1usize..40,
         ny in 1usize..40,
@@ -225,7 +224,6 @@ proptest! {
     }
 
     /// Single precision is the same operator to its own rounding.
-    #[test]
     fn the_single_twin_is_close(nx in 1usize..70, ny in 1usize..70, seed in 0u64..1000) {
         let points = [nx, ny];
         let spectrum = stiffness(points);
@@ -240,7 +238,6 @@ proptest! {
 }
 
 /// On the doubled grid the inverse operator is Love's sum over loaded pixels, pixel by pixel.
-#[test]
 fn the_free_boundary_is_loves_sum() {
     for (surface, pixel) in [
         ([6, 5], [1.0, 1.0]),
@@ -284,7 +281,6 @@ fn the_free_boundary_is_loves_sum() {
 }
 
 /// Rows are cut into the same blocks whatever the number of threads.
-#[test]
 fn bitwise_the_same_on_any_number_of_threads() {
     for points in [[64, 64], [50, 77], [9, 130]] {
         let spectrum = stiffness(points);
@@ -308,7 +304,6 @@ fn bitwise_the_same_on_any_number_of_threads() {
 }
 
 /// So a whole solve is, sums, decisions and coarse level included.
-#[test]
 fn a_solve_is_bitwise_the_same_on_any_number_of_threads() {
     let grid = Grid::new([96, 80], [1.0, 1.0]);
     let heights = values(grid.len(), 21);
@@ -360,3 +355,13 @@ fn a_solve_is_bitwise_the_same_on_any_number_of_threads() {
         assert!(one.iter().any(|gap| *gap != one[0]));
     }
 }
+
+tests![
+    equals_a_plain_transform,
+    waves_are_eigenvectors,
+    symmetric_positive_and_at_home_everywhere,
+    the_single_twin_is_close,
+    the_free_boundary_is_loves_sum,
+    bitwise_the_same_on_any_number_of_threads,
+    a_solve_is_bitwise_the_same_on_any_number_of_threads,
+];

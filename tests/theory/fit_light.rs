@@ -13,29 +13,13 @@ use tabor::study::{Setup, walk};
 use tabor::surface::Surface;
 use tabor::theory::lennard_jones_sphere::LennardJonesSphere;
 
+use crate::shared::random::Random;
+
 const FREE: Freedom = Freedom {
     approach_offset: true,
     force_offset: false,
     range: None,
 };
-
-/// Normal random numbers by splitmix64 and Box & Muller.
-struct Random(u64);
-
-impl Random {
-    fn uniform(&mut self) -> f64 {
-        self.0 = self.0.wrapping_add(0x9E37_79B9_7F4A_7C15);
-        let mut z = self.0;
-        z = (z ^ (z >> 30)).wrapping_mul(0xBF58_476D_1CE4_E5B9);
-        z = (z ^ (z >> 27)).wrapping_mul(0x94D0_49BB_1331_11EB);
-        ((z ^ (z >> 31)) >> 11) as f64 / (1u64 << 53) as f64
-    }
-
-    fn normal(&mut self) -> f64 {
-        let radius = (-2.0 * (1.0 - self.uniform()).ln()).sqrt();
-        radius * (TAU * self.uniform()).cos()
-    }
-}
 
 const RADIUS: f64 = 1e-6;
 const MODULUS: f64 = 1e7;

@@ -146,10 +146,7 @@ mod tests {
             seconds: 0.0,
             contact_area_fraction_corrected: None,
             state: State::Contact,
-            friction_force: None,
-            plastic_energy: None,
-            conductance: None,
-            wear_rate: None,
+            columns: Vec::new(),
         }
     }
 

@@ -5,7 +5,7 @@ use std::fmt::Write as _;
 use serde_json::{Value, json};
 
 use super::escape;
-use crate::scene::Control;
+use crate::scene::{Control, EffectTables};
 use crate::study::Setup;
 use crate::units::format_si;
 
@@ -123,17 +123,15 @@ fn unit<'u>(key: &str, path_unit: &'u str) -> Option<&'u str> {
     Some(match key {
         "size" | "radius" | "centre" | "amplitude" | "wavelength" | "rms_height" | "longest"
         | "rolloff" | "shortest" | "range" | "taper" | "thickness" | "period" => "m",
-        "contact_modulus" | "peak_tension" | "shear_strength" | "hardness" | "modulus" => "Pa",
+        "contact_modulus" | "peak_tension" | "hardness" | "modulus" => "Pa",
         "work_of_adhesion" => "J/m^2",
         "surface_tension" | "spring" => "N/m",
         "time" | "hold" | "duration" | "durations" => "s",
         "temperature" => "K",
         "reference_speed" => "m/s",
-        "conductivity" | "counter_conductivity" => "W/(m K)",
-        "specific_wear_rate" => "m^3/(N m)",
         "half_angle" | "contact_angle" => "°",
         "path" => path_unit,
-        _ => return None,
+        _ => return EffectTables::unit(key),
     })
 }
 

@@ -3,7 +3,7 @@
 use super::waves::{Fourier, LongWaves, long_share};
 use crate::elastic::Stiffness;
 use crate::kernel::Params;
-use crate::law::Cohesion;
+use crate::law::{Cohesion, imbalance};
 use crate::law::{Law, LennardJones};
 use crate::solver::contact::{Hold, Load};
 use crate::solver::kernel_set::{fixed_params, rounded_beside_under};
@@ -131,7 +131,7 @@ impl<'a> Contact<'a> {
 
     /// y = p + mean pressure + sigma(g).
     pub fn imbalance(&self, gap: &[f64], pressure: &[f64], mean_pressure: f64) -> Vec<f64> {
-        let at = |i: usize| pressure[i] + mean_pressure + self.traction(i, gap[i]);
+        let at = |i: usize| imbalance(pressure[i] + mean_pressure, self.traction(i, gap[i]));
         (0..gap.len()).map(at).collect()
     }
 

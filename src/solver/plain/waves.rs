@@ -6,9 +6,8 @@ use num_complex::Complex;
 use rustfft::{Fft, FftPlanner};
 
 use crate::elastic::wave_stiffness;
-use crate::grid::Grid;
+use crate::grid::{Boundary, Grid};
 use crate::law::Law;
-use crate::scene::Boundary;
 use crate::solver::problem::Problem;
 
 /// Pixels in the length beyond which waves count as long.

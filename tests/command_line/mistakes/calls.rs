@@ -293,7 +293,7 @@ fn interrupted_study(folder: &Path) -> Reached {
     }
 }
 
-/// An adapter asked for by a name that none has; skipped where there is no adapter at all.
+/// An adapter asked for by a name that none has; where there is no adapter at all it is that which is said.
 fn no_such_adapter(folder: &Path) -> Vec<Reached> {
     let output = tabor(
         folder,
@@ -301,7 +301,6 @@ fn no_such_adapter(folder: &Path) -> Vec<Reached> {
         &[("WGPU_ADAPTER_NAME", "no such one")],
     );
     let variant = if no_adapters() {
-        println!("skipped: no adapter");
         "GpuError::NoAdapter"
     } else {
         "GpuError::NoSuchAdapter"
@@ -320,7 +319,6 @@ fn no_adapters() -> bool {
 /// Grids that an adapter does not take: odd ones, and one past the limits of an adapter that binds little.
 fn past_the_adapter(folder: &Path) -> Vec<Reached> {
     if no_adapters() {
-        println!("skipped: no adapter");
         return Vec::new();
     }
     [

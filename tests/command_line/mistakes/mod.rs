@@ -9,10 +9,12 @@
 mod calls;
 mod curves;
 mod files;
-mod scenes;
-mod variants;
+pub mod scenes;
+pub mod variants;
 
 use std::collections::BTreeMap;
+
+use crate::shared::trials::tests;
 
 /// A mistake that was made and what came of it.
 pub struct Reached {
@@ -137,7 +139,6 @@ const OUT_OF_REACH: &[(&str, &str)] = &[
 /// The fewest bad scenes, files and calls that are held here.
 const FEWEST: usize = 200;
 
-#[test]
 fn every_variant_of_every_error_is_reached() {
     let edits = scenes::reached();
     let mut reached: Vec<Reached> = edits
@@ -209,3 +210,5 @@ fn head(error: &impl std::fmt::Debug) -> String {
         .take_while(|letter| letter.is_alphanumeric())
         .collect()
 }
+
+tests![every_variant_of_every_error_is_reached,];

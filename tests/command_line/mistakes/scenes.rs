@@ -5,6 +5,8 @@ use std::path::{Path, PathBuf};
 use proptest::prelude::*;
 use tabor::scene::*;
 
+use crate::shared::trials::tests;
+
 /// A scene that is right, without blank lines so that lines are easy to count.
 const GOOD: &str = r#"title = "good"
 [grid]
@@ -455,7 +457,6 @@ fn mistakes_in_capillary(tables: &mut Vec<Edits>) {
     ]});
 }
 
-#[test]
 fn dry_air_is_a_scene_without_attraction() {
     let dry = accepted(&edited(&damp(), "humidity = 0.5", "humidity = 0"));
     assert!(dry.adhesion.is_none() && dry.capillary.is_some());
@@ -486,7 +487,6 @@ fn mistakes_in_the_scene_itself(tables: &mut Vec<Edits>) {
     ]});
 }
 
-#[test]
 fn all_mistakes_come_at_once_in_the_order_of_lines() {
     let text = r#"titel = "bad"
 [grid]
@@ -540,7 +540,6 @@ steps = [4]
     }
 }
 
-#[test]
 fn an_empty_scene_names_every_table_it_needs() {
     let messages = refused("", &[]).join("\n");
     for table in ["grid", "solid", "surface", "loading"] {
@@ -551,7 +550,6 @@ fn an_empty_scene_names_every_table_it_needs() {
     }
 }
 
-#[test]
 fn mistakes_are_typed() {
     let errors = parse(&edited(GOOD, "points = 64", "points = 0")).expect_err("no points");
     assert_eq!(
@@ -569,7 +567,6 @@ fn mistakes_are_typed() {
     );
 }
 
-#[test]
 fn overrides_change_what_they_name() {
     let set = |key, value| parse_set(GOOD, &[(key, value)]).expect("a right override");
     assert_eq!(set("grid.points", "128").grid.points, Some([128, 128]));
@@ -643,7 +640,6 @@ fn hard() -> String {
     )
 }
 
-#[test]
 fn overrides_that_are_wrong_say_where_they_came_from() {
     let hard = hard();
     for (text, key, value, message) in [
@@ -765,7 +761,6 @@ fn overrides_that_are_wrong_say_where_they_came_from() {
     }
 }
 
-#[test]
 fn the_scene_of_the_manual_is_read() {
     let text = r#"
 title = "Self-affine surface with Maugis-Dugdale adhesion"
@@ -842,9 +837,7 @@ steps  = "last"
     expected.solid.hardness = None;
     expected.solid.relaxation = Vec::new();
     expected.capillary = None;
-    expected.friction = None;
-    expected.conductance = None;
-    expected.wear = None;
+    expected.tables = EffectTables::default();
     expected.loading.durations = None;
     expected.loading.spring = None;
     expected.loading.pull_off_tolerance = 0.01;
@@ -862,7 +855,6 @@ steps  = "last"
     assert_eq!(accepted(&bare), expected);
 }
 
-#[test]
 fn the_contact_modulus_follows_from_young_and_poisson() {
     let one = accepted(&young()).solid;
     assert_eq!(one.poisson_ratio, Some(0.3));
@@ -887,7 +879,6 @@ fn adhesion(text: &str) -> AdhesionScene {
     accepted(&with).adhesion.expect("adhesion is on")
 }
 
-#[test]
 fn two_numbers_of_a_law_give_the_third() {
     let close = |one: f64, other: f64| (one / other - 1.0).abs() < 1e-14;
     let lennard_jones = 16.0 / (9.0 * 3f64.sqrt());
@@ -911,7 +902,6 @@ fn two_numbers_of_a_law_give_the_third() {
     assert_eq!(auto.range, Range::Auto);
 }
 
-#[test]
 fn tapers_and_treatments_are_read() {
     let head = "law = \"maugis-dugdale\"\nwork_of_adhesion = 0.05\nrange = \"1 nm\"\n";
     let taper = |text: &str| adhesion(&format!("{head}{text}")).taper;
@@ -929,7 +919,6 @@ fn tapers_and_treatments_are_read() {
     assert_eq!(accepted(&hard()).adhesion, None);
 }
 
-#[test]
 fn every_kind_of_surface_is_read() {
     let first = |text: &str| accepted(text).surfaces.remove(0);
     assert_eq!(
@@ -988,7 +977,6 @@ fn every_kind_of_surface_is_read() {
     assert_eq!(sum.surfaces.len(), 2);
 }
 
-#[test]
 fn a_height_file_may_carry_the_grid() {
     let without_grid = height_file().replace("[grid]\npoints = 64\nsize = \"1 um\"\n", "");
     let scene = accepted(&without_grid);
@@ -1031,7 +1019,6 @@ fn a_height_file_may_carry_the_grid() {
     );
 }
 
-#[test]
 fn free_boundaries_take_any_wavelength_and_force_or_approach() {
     let free = |text: &str| {
         edited(
@@ -1055,7 +1042,6 @@ fn free_boundaries_take_any_wavelength_and_force_or_approach() {
     }
 }
 
-#[test]
 fn ramps_end_where_they_say() {
     assert_eq!(
         accepted(&ramps()).loading.path,
@@ -1070,7 +1056,6 @@ fn ramps_end_where_they_say() {
     assert_eq!(accepted(&spring()).loading.spring, Some(1.0));
 }
 
-#[test]
 fn a_mean_gap_below_zero_is_for_lennard_jones() {
     let gap = with_loading("control = \"mean-gap\"\npath = [\"0 nm\", \"-0.5 nm\"]");
     let lennard_jones = edited(&gap, "maugis-dugdale", "lennard-jones");
@@ -1096,7 +1081,6 @@ fn a_mean_gap_below_zero_is_for_lennard_jones() {
     );
 }
 
-#[test]
 fn outputs_are_read() {
     let output = |text: &str| accepted(&edited(GOOD, "images = []", text)).output;
     let found =
@@ -1108,7 +1092,6 @@ fn outputs_are_read() {
     assert_eq!(output("steps = \"last\""), OutputScene::default());
 }
 
-#[test]
 fn inline_tables_and_dotted_keys_do_as_well() {
     let scene = accepted(
         r#"grid = { points = 64, size = "1 um" }
@@ -1133,7 +1116,6 @@ loading.ramp = [{ to = "1 nm", steps = 1 }]
     );
 }
 
-#[test]
 fn a_resolved_scene_is_the_same_scene() {
     let every_part = edited(
         GOOD,
@@ -1169,7 +1151,6 @@ fn a_resolved_scene_is_the_same_scene() {
     assert!(accepted(&hard()).resolved_json().get("adhesion").is_none());
 }
 
-#[test]
 fn files_are_read_and_their_folder_is_kept() {
     let folder = tempfile::tempdir().expect("a folder");
     let path = folder.path().join("scene.toml");
@@ -1193,7 +1174,6 @@ fn files_are_read_and_their_folder_is_kept() {
     );
 }
 
-#[test]
 fn windows_line_ends_and_marks_are_harmless() {
     let text = format!("\u{feff}{}", GOOD.replace('\n', "\r\n"));
     assert_eq!(accepted(&text), accepted(GOOD));
@@ -1204,7 +1184,6 @@ fn windows_line_ends_and_marks_are_harmless() {
     );
 }
 
-#[test]
 fn deep_and_long_text_is_refused_in_short() {
     for text in [
         "a.".repeat(100_000) + "a = 1",
@@ -1223,7 +1202,6 @@ fn deep_and_long_text_is_refused_in_short() {
     assert!(refused(GOOD, &[("grid.points", &value)])[0].len() < 1000);
 }
 
-#[test]
 fn powers_of_ten_that_run_out_are_refused() {
     for (from, to, beginning) in [
         (
@@ -1307,7 +1285,6 @@ fn fragment() -> impl Strategy<Value = String> {
 }
 
 proptest! {
-    #[test]
     fn no_text_makes_the_reader_panic(
         from in 0usize..400,
         to in 0usize..400,
@@ -1335,3 +1312,29 @@ proptest! {
         }
     }
 }
+
+tests![
+    dry_air_is_a_scene_without_attraction,
+    all_mistakes_come_at_once_in_the_order_of_lines,
+    an_empty_scene_names_every_table_it_needs,
+    mistakes_are_typed,
+    overrides_change_what_they_name,
+    overrides_that_are_wrong_say_where_they_came_from,
+    the_scene_of_the_manual_is_read,
+    the_contact_modulus_follows_from_young_and_poisson,
+    two_numbers_of_a_law_give_the_third,
+    tapers_and_treatments_are_read,
+    every_kind_of_surface_is_read,
+    a_height_file_may_carry_the_grid,
+    free_boundaries_take_any_wavelength_and_force_or_approach,
+    ramps_end_where_they_say,
+    a_mean_gap_below_zero_is_for_lennard_jones,
+    outputs_are_read,
+    inline_tables_and_dotted_keys_do_as_well,
+    a_resolved_scene_is_the_same_scene,
+    files_are_read_and_their_folder_is_kept,
+    windows_line_ends_and_marks_are_harmless,
+    deep_and_long_text_is_refused_in_short,
+    powers_of_ten_that_run_out_are_refused,
+    no_text_makes_the_reader_panic,
+];

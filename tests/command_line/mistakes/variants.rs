@@ -3,6 +3,8 @@
 use std::fs;
 use std::path::{Path, PathBuf};
 
+use crate::shared::trials::tests;
+
 /// A variant of an error enum.
 #[derive(Debug)]
 pub struct Variant {
@@ -180,7 +182,6 @@ fn fixed_parts(attribute: &str) -> Vec<String> {
     parts
 }
 
-#[test]
 fn variants_are_found_with_their_messages() {
     let text = r##"
 /// An enum { with a brace in its comment.
@@ -218,3 +219,5 @@ enum NoError { Fifth }
     assert_eq!(found[2].fixed, ["a long message of "]);
     assert!(found[0].is_in("no scene here; a, b, \"x\" is") && !found[0].is_in("\" is here; "));
 }
+
+tests![variants_are_found_with_their_messages,];

@@ -4,6 +4,7 @@
 use std::fs;
 
 use crate::shared::binary::{errors, tabor};
+use crate::shared::trials::tests;
 
 const SCENE: &str = r#"[grid]
 points = 16
@@ -20,7 +21,6 @@ path = ["10 uN", "20 uN"]
 max_iterations = 300
 "#;
 
-#[test]
 fn a_converged_row_holds_numbers() {
     let folder = tempfile::tempdir().expect("a folder");
     fs::write(folder.path().join("scene.toml"), SCENE).expect("a scene");
@@ -87,3 +87,5 @@ fn a_converged_row_holds_numbers() {
     println!("{converged} rows converged, {failed} did not");
     assert!(converged > 20);
 }
+
+tests![a_converged_row_holds_numbers,];

@@ -5,6 +5,7 @@ use std::f64::consts::PI;
 use super::case::{Case, Contact, Law};
 use super::paths::Path;
 use super::truth::Fields;
+use crate::shared::random::Random;
 
 const FLAT: &str = "[[surface]]\nkind = \"flat\"\n";
 pub const FILE: &str = "[[surface]]\nkind = \"file\"\npath = \"heights.npy\"\n";
@@ -15,17 +16,10 @@ const WORK: f64 = 1e-3;
 const RANGE: f64 = 0.05;
 const PEAK: f64 = WORK / RANGE;
 
-/// Numbers in [0, 1) from a seed (splitmix64).
-pub fn noise(count: usize, mut seed: u64) -> Vec<f64> {
-    (0..count)
-        .map(|_| {
-            seed = seed.wrapping_add(0x9e37_79b9_7f4a_7c15);
-            let mut z = seed;
-            z = (z ^ (z >> 30)).wrapping_mul(0xbf58_476d_1ce4_e5b9);
-            z = (z ^ (z >> 27)).wrapping_mul(0x94d0_49bb_1331_11eb);
-            ((z ^ (z >> 31)) >> 11) as f64 / (1_u64 << 53) as f64
-        })
-        .collect()
+/// Numbers in [0, 1) from a seed.
+pub fn noise(count: usize, seed: u64) -> Vec<f64> {
+    let mut random = Random(seed);
+    (0..count).map(|_| random.share()).collect()
 }
 
 fn close(found: f64, expected: f64, path: &Path) {

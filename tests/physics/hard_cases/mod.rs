@@ -8,7 +8,7 @@
 
 mod case;
 mod cores;
-mod extremes;
+pub mod extremes;
 mod flats;
 mod grids;
 mod jumps;
@@ -28,6 +28,9 @@ use paths::{PATHS, Path};
 use run::Run;
 use table::Entry;
 use truth::Fields;
+
+use crate::shared::device::device;
+use crate::shared::trials::tests;
 
 /// Runs at a time: each takes one thread.
 const WORKERS: usize = 2;
@@ -106,7 +109,6 @@ fn try_case(case: &Case, paths: &[&'static Path]) -> Vec<Entry> {
     entries
 }
 
-#[test]
 fn every_case_is_right_or_says_that_it_is_not() {
     let only = std::env::var("TABOR_HARD_CASES_ONLY").ok();
     let some_only = only.is_some();
@@ -160,8 +162,17 @@ fn every_case_is_right_or_says_that_it_is_not() {
     }
 }
 
+/// Without an adapter the cases are tried on the processor alone, and this test says so.
+fn a_graphics_processor_tries_them_too() {
+    device();
+    assert!(
+        PATHS
+            .iter()
+            .any(|path| path.backend == "gpu" && path.is_built() && path.is_here())
+    );
+}
+
 /// A bound that nothing misses would show nothing: gaps that are off by a thousandth, and forces, are seen.
-#[test]
 fn a_wrong_answer_is_seen() {
     let named = |cases: Vec<Case>, name: &str| {
         cases
@@ -199,3 +210,9 @@ fn a_wrong_answer_is_seen() {
         }));
     }
 }
+
+tests![
+    every_case_is_right_or_says_that_it_is_not,
+    a_graphics_processor_tries_them_too,
+    a_wrong_answer_is_seen,
+];

@@ -4,7 +4,7 @@ use std::path::Path as FilePath;
 
 use tabor::scene::Scene;
 
-use crate::shared::device::device;
+use crate::shared::device;
 
 /// One way to compute.
 #[derive(Debug)]
@@ -84,7 +84,7 @@ impl Path {
 
     /// Whether this machine has what it takes; where it must and has not, the test fails.
     pub fn is_here(&self) -> bool {
-        self.backend == "cpu" || device().is_some()
+        self.backend == "cpu" || device::found().is_some()
     }
 
     /// Whether it tries a case of this name.

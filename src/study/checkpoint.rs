@@ -4,25 +4,25 @@ use super::evaluation::PointState;
 use super::pull_off::PullOff;
 use super::row::StepRow;
 
-/// The name of the gap among the fields that are handed on.
+/// The name of the gap among the fields of a checkpoint.
 pub(super) const GAP: &str = "gap";
 
 /// Values that the next step starts from.
 #[derive(Clone, Debug, PartialEq)]
-pub struct HandedField {
+pub struct CheckpointField {
     /// Which ones.
     pub name: String,
     /// Over all solved points, reduced, as precise as the backend holds them.
     pub values: Vec<f64>,
 }
 
-/// What a converged step hands to the next, and what the end of the path has to know of the steps
-/// up to it besides their rows.
+/// What the step after a converged one starts from, and what the end of the path has to know of the
+/// steps up to it besides their rows.
 #[derive(Clone, Debug, Default, PartialEq)]
-pub struct HandOver {
-    /// Fields of the solver; none where the surfaces are apart and the next step starts afresh.
-    /// The solver's directions are forgotten between steps and need no keeping.
-    pub fields: Vec<HandedField>,
+pub struct Checkpoint {
+    /// Fields of the solver and of effects; no gap where the surfaces are separated and the next step
+    /// starts afresh. The solver's directions are forgotten between steps and need no keeping.
+    pub fields: Vec<CheckpointField>,
     /// What each point of the grid does, where steps are watched for jumps.
     pub points: Option<Vec<PointState>>,
     /// Steps so far that jumped into contact.
@@ -40,12 +40,12 @@ pub struct HandOver {
 pub struct Earlier {
     /// Their rows.
     pub rows: Vec<StepRow>,
-    /// What the last of them hands on.
-    pub hand_over: HandOver,
+    /// The state after the last of them.
+    pub hand_over: Checkpoint,
 }
 
-impl HandOver {
-    /// The values of a field, if it was handed on.
+impl Checkpoint {
+    /// The values of a field, if it is there.
     pub fn field(&self, name: &str) -> Option<&[f64]> {
         let found = self.fields.iter().find(|field| field.name == name);
         found.map(|field| field.values.as_slice())
@@ -56,7 +56,7 @@ impl PointState {
     /// The state of a number that `as u8` made.
     pub fn from_byte(byte: u8) -> Option<PointState> {
         [
-            PointState::Apart,
+            PointState::Separated,
             PointState::Attracted,
             PointState::Contact,
         ]

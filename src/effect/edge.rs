@@ -2,8 +2,7 @@
 
 use std::f64::consts::FRAC_PI_4;
 
-use crate::grid::Grid;
-use crate::scene::Boundary;
+use crate::grid::{Boundary, Grid};
 
 /// Area in contact and the length of its edge.
 #[derive(Clone, Copy, Debug, PartialEq)]

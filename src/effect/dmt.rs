@@ -1,14 +1,14 @@
-//! The DMT force approach under a prescribed load: attraction summed over the gap of the solution
-//! without it, and the repulsive load sought that leaves the asked net load.
+//! `treatment = "dmt"`, the DMT force approach: attraction summed over the gap of the solution without it,
+//! and under a prescribed load the repulsive load sought that leaves the asked net load.
 
-use super::control::Controller;
-use super::evaluation::Evaluation;
-use super::setup::Setup;
-use super::step::{SolvedStep, finish, separated, solve};
 use crate::backend::BackendError;
-use crate::kernel::Scalars;
-use crate::scene::Boundary;
-use crate::solver::{ContactSolver, MakeBackend, Start};
+use crate::grid::Boundary;
+use crate::law::Law;
+use crate::scene::{Scene, Treatment};
+use crate::solver::Start;
+use crate::study::{
+    Attempt, Evaluation, Hooks, HostBytes, Plan, Setup, Sizes, SolvedStep, separated,
+};
 
 /// Most hard-wall solves in one step.
 const MOST_SOLVES: usize = 240;
@@ -42,7 +42,7 @@ const SAME: f64 = 1e-3;
 
 /// Whether the sum over a field (N) is the load asked (N), as far as the search goes; at a jump of the
 /// net load it is not.
-pub(super) fn meets(setup: &Setup, asked: f64, sum: f64) -> bool {
+fn meets(setup: &Setup, asked: f64, sum: f64) -> bool {
     let peak = setup.law.peak_tension() * setup.largest_law_factor();
     // What the search leaves: its tolerance, or the width of a bracket in which nothing jumps.
     let share = (setup.scene.solver.tolerance * 1e-3).max(10.0 * JUMP_WIDTH);
@@ -50,25 +50,80 @@ pub(super) fn meets(setup: &Setup, asked: f64, sum: f64) -> bool {
     (sum - asked).abs() <= SAME * asked.abs() + reached
 }
 
-/// The largest repulsive load whose net load is `value`; separated where none is.
+/// Attraction that does not deform the contact.
+pub(super) struct Dmt;
+
+impl Hooks for Dmt {
+    fn name(&self) -> &'static str {
+        "dmt treatment"
+    }
+
+    fn purpose(&self) -> &'static str {
+        "attraction is summed over the gap of the contact without it, which it does not deform"
+    }
+
+    fn is_on(&self, scene: &Scene) -> bool {
+        let adhesion = scene.adhesion.as_ref();
+        adhesion.is_some_and(|adhesion| adhesion.treatment == Treatment::Dmt)
+    }
+
+    fn remove_from(&self, scene: &mut Scene) {
+        if let Some(adhesion) = &mut scene.adhesion {
+            adhesion.treatment = Treatment::Full;
+        }
+    }
+
+    fn example(&self) -> &'static [(&'static str, &'static str)] {
+        &[super::adhesion::EXAMPLE, ("adhesion.treatment", "dmt")]
+    }
+
+    fn matters(&self, plan: &Plan) -> String {
+        let tabor = plan.regime.map_or(0.0, |regime| regime.tabor);
+        format!("holds at Tabor numbers well below 1: here {tabor:.3}")
+    }
+
+    fn solved_law(&self, _: Law) -> Law {
+        Law::HardWall
+    }
+
+    fn host_bytes(&self, _: &Sizes) -> HostBytes {
+        HostBytes {
+            // Both ends of a bracket.
+            results: 2,
+            ..HostBytes::default()
+        }
+    }
+
+    // Loading and unloading are the same curve.
+    fn hides_jumps(&self) -> bool {
+        true
+    }
+
+    fn solve_value(&self, attempt: &mut Attempt) -> Option<Result<SolvedStep, BackendError>> {
+        attempt.controller.is_load().then(|| {
+            let (setup, controller) = (attempt.setup, attempt.controller);
+            let asked = controller.force(controller.mean_pressure(attempt.value));
+            let mut solved = search(attempt)?;
+            if let Some(found) = &solved.evaluation {
+                solved.load_is_met = meets(setup, asked, found.force);
+            }
+            Ok(solved)
+        })
+    }
+}
+
+/// The largest repulsive load whose net load is the value asked; separated where none is.
 ///
 /// The net load is not monotone in the repulsive one. The search comes from above, where no attraction
 /// can hold, by steps that pass no balance, and by rungs of [`RUNG`] where there is no such step.
-pub(super) fn step(
-    setup: &Setup,
-    controller: &Controller,
-    solver: &mut ContactSolver,
-    value: f64,
-    loaded: bool,
-    make_backend: MakeBackend,
-    watch: &mut dyn FnMut(&Scalars) -> bool,
-) -> Result<SolvedStep, BackendError> {
-    let asked = controller.mean_pressure(value);
+fn search(attempt: &mut Attempt) -> Result<SolvedStep, BackendError> {
+    let (setup, controller) = (attempt.setup, attempt.controller);
+    let asked = controller.mean_pressure(attempt.value);
     let peak = setup.law.peak_tension() * setup.largest_law_factor();
     let covered = setup.surface.grid.len() as f64 / setup.problem.shape.len() as f64;
     let tolerance = setup.scene.solver.tolerance;
     let mut iterations = 0;
-    let mut loaded = loaded;
+    let mut loaded = attempt.loaded;
     let mut balance = |repulsive: f64| -> Result<Balance, BackendError> {
         let load = controller.pressure_load(repulsive);
         let start = match (loaded, setup.problem.boundary) {
@@ -76,10 +131,10 @@ pub(super) fn step(
             (false, Boundary::Periodic) => Start::Cold,
             (false, Boundary::Free) => Start::Gap(controller.undeformed_gap(0.0, &[])),
         };
-        let outcome = solve(setup, solver, &load, &start, make_backend, watch)?;
+        let outcome = attempt.solve(&load, &start)?;
         loaded = true;
         iterations += outcome.iterations;
-        let solved = finish(setup, controller, solver, &load, &outcome)?;
+        let solved = attempt.finish(&load, &outcome)?;
         let net = solved
             .evaluation
             .as_ref()
@@ -238,15 +293,4 @@ impl Dip {
         self.solves += 1;
         self.solves < DIP_SOLVES
     }
-}
-
-/// Mean attraction across a gap without contact, Pa: the undeformed surfaces at `clearance` (m) from
-/// first touch.
-pub fn attraction_across(setup: &Setup, clearance: f64) -> f64 {
-    let heights = &setup.surface.heights;
-    let highest = heights.iter().copied().fold(f64::NEG_INFINITY, f64::max);
-    let sum = heights.iter().enumerate().fold(0.0, |sum, (i, height)| {
-        sum + setup.law_factor(i) * setup.law.traction(highest - height + clearance)
-    });
-    sum / heights.len() as f64
 }

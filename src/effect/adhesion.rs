@@ -1,0 +1,160 @@
+//! `[adhesion]`: a cohesive law acts across the gap.
+
+use crate::law::Law;
+use crate::scene::{Range, Scene, Treatment};
+use crate::study::{Hooks, HostBytes, Plan, Regime, Sizes};
+use crate::units::format_si;
+
+/// Values of chi beyond which the contact edge feels the pixels: of the sharp Maugis-Dugdale law, of the
+/// tapered one, and of Lennard-Jones. Up to its own the tapered law lets an edge along the grid go within 3 %
+/// (the table of `docs/solver.md`); between 1/3, where its width reaches twice the range, and 0.65 the error swings.
+const SHARP_LIMIT: f64 = 0.02;
+const TAPERED_LIMIT: f64 = 0.65;
+const CORE_LIMIT: f64 = 0.64;
+/// Values beyond which pull-off is off by 10 % and more: of the sharp law, and of every other.
+const SHARP_LOST: f64 = 0.1;
+const LOST: f64 = 1.3;
+
+/// Radius of a contact that lets go, in Maugis' unit `(pi w R^2/K)^(1/3)`: JKR's `1.5^(1/3)`.
+const PULL_OFF_RADIUS: f64 = 1.145;
+/// Its width in pixels below which the pixels of its edge are 5 % and 10 % of pull-off, measured at Tabor number 1.
+const FEW_PIXELS: f64 = 10.0;
+const LOST_PIXELS: f64 = 6.0;
+/// Tabor number below which a contact closes to a point before it lets go, so that it has no width.
+const LEAST_TABOR: f64 = 0.8;
+
+/// An adhesion that other effects vary in their examples.
+pub(super) const EXAMPLE: (&str, &str) = (
+    "adhesion",
+    "{ law = \"exponential\", work_of_adhesion = 1e-4, range = 0.02 }",
+);
+
+/// A law between the surfaces.
+pub(super) struct Adhesion;
+
+impl Hooks for Adhesion {
+    fn name(&self) -> &'static str {
+        "adhesion"
+    }
+
+    fn purpose(&self) -> &'static str {
+        "the surfaces attract across the gap by a cohesive law"
+    }
+
+    fn is_on(&self, scene: &Scene) -> bool {
+        scene.adhesion.is_some() && scene.capillary.is_none()
+    }
+
+    fn remove_from(&self, scene: &mut Scene) {
+        scene.adhesion = None;
+    }
+
+    fn example(&self) -> &'static [(&'static str, &'static str)] {
+        &[EXAMPLE]
+    }
+
+    fn matters(&self, plan: &Plan) -> String {
+        let moments = &plan.outline.moments;
+        // |q| h^2 summed over waves is at most the product of the two root mean squares.
+        let flattening =
+            0.25 * plan.scene.solid.contact_modulus * moments.rms_slope() * moments.rms_height();
+        format!(
+            "matters where the work of adhesion is not far below the energy that flattens the roughness (at most E* rms slope rms height/4): here it is {:.2e} of it",
+            plan.law.work_of_adhesion() / flattening
+        )
+    }
+
+    fn warnings(&self, plan: &Plan) -> Vec<String> {
+        warnings_of_pixels(plan)
+    }
+
+    fn host_bytes(&self, _: &Sizes) -> HostBytes {
+        states_of_a_search()
+    }
+}
+
+/// A step keeps the state before it, and a search between the two three at most.
+pub(super) fn states_of_a_search() -> HostBytes {
+    HostBytes {
+        states: 3,
+        ..HostBytes::default()
+    }
+}
+
+/// Warnings by chi, with the errors that were measured on spheres and on straight edges.
+pub(super) fn warnings_of_pixels(plan: &Plan) -> Vec<String> {
+    let mut warnings = Vec::new();
+    let (Some(regime), Some(adhesion)) = (plan.regime, &plan.scene.adhesion) else {
+        return warnings;
+    };
+    if adhesion.range == Range::Auto {
+        warnings.push(format!(
+            "range = \"auto\" stands for {}: the shortest that this grid resolves at this work of adhesion",
+            format_si(plan.law.range(), "m")
+        ));
+    }
+    if adhesion.treatment == Treatment::Dmt {
+        return warnings;
+    }
+    let chi = regime.chi;
+    let measured = format!(
+        "a pixel is {chi:.2} of the cohesive zone (chi = w dx/(E* range^2)), {:.2} pixels across it",
+        regime.zone_pixels
+    );
+    let remedy = "take more points or a longer range (range = \"auto\" finds the shortest that the grid resolves)";
+    let beyond = "10 % cannot be reached on this grid";
+    let text = match plan.law {
+        Law::MaugisDugdale(law) if law.taper == 0.0 && chi > SHARP_LOST => Some(format!(
+            "{beyond}: {measured}: the sharp law traps the contact edge, pull-off comes out about 14 % too high at 0.16 and 44 % at 0.65; leave taper at \"auto\", or {remedy}"
+        )),
+        Law::MaugisDugdale(law) if law.taper == 0.0 && chi > SHARP_LIMIT => Some(format!(
+            "{measured}: beyond {SHARP_LIMIT} the sharp law traps the contact edge, pull-off {} too high; leave taper at \"auto\", or {remedy}",
+            if chi >= 0.04 {
+                "3 to 10 %"
+            } else {
+                "about 2 %"
+            }
+        )),
+        Law::MaugisDugdale(law) if law.taper > 0.0 && chi > LOST => Some(format!(
+            "{beyond}: {measured}: beyond {LOST} the taper no longer frees the contact edge, pull-off is about 30 % too high at 2.6 where the contact is wide, and 50 to 90 % where it is 10 pixels; at 1.3 it is 11 % where the edge lies straight along the grid; {remedy}"
+        )),
+        Law::MaugisDugdale(law) if law.taper > 0.0 && chi > TAPERED_LIMIT => Some(format!(
+            "{measured}: beyond {TAPERED_LIMIT} expect pull-off within 2 % where the contact is wide and round, within 7 % where it is 10 pixels, and 5 to 11 % too high where its edge lies straight along the grid, the energy of a loop up to 50 % low; {remedy}"
+        )),
+        Law::Exponential(_) if chi > LOST => Some(format!(
+            "{beyond}: {measured}: beyond {LOST} the contact edge is trapped between pixels, pull-off is about 40 % too high at 2.6 and 160 % at 5; {remedy}"
+        )),
+        Law::LennardJones(_) if chi > LOST => Some(format!(
+            "{beyond}: {measured}: beyond {LOST} the contact edge is trapped between pixels, pull-off is about 40 % too high at 2.5; {remedy}"
+        )),
+        Law::LennardJones(_) if chi > CORE_LIMIT => Some(format!(
+            "{measured}: beyond {CORE_LIMIT} the contact edge is trapped between pixels and pull-off comes out too high, by more than 4 %; {remedy}"
+        )),
+        _ => None,
+    };
+    warnings.extend(text);
+    warnings.extend(warning_of_small_contact(plan, regime));
+    warnings
+}
+
+/// The warning of a sphere whose contact is only a few pixels wide when it lets go, whatever its zone.
+fn warning_of_small_contact(plan: &Plan, regime: Regime) -> Option<String> {
+    let radius = plan.outline.sphere_radius?;
+    let pixel = plan.outline.grid.dx().max(plan.outline.grid.dy());
+    let stiffness = 4.0 / 3.0 * plan.scene.solid.contact_modulus;
+    // Maugis' unit of radius, in which a contact parts at 1.14 (JKR) to 0 (DMT).
+    let unit =
+        (std::f64::consts::PI * plan.law.work_of_adhesion() * radius * radius / stiffness).cbrt();
+    let pixels = 2.0 * PULL_OFF_RADIUS * unit / pixel;
+    if pixels >= FEW_PIXELS || regime.tabor < LEAST_TABOR {
+        return None;
+    }
+    let strength = if pixels < LOST_PIXELS {
+        "10 % cannot be reached on this grid: "
+    } else {
+        ""
+    };
+    Some(format!(
+        "{strength}the contact at pull-off is about {pixels:.1} pixels wide: pull-off is about 5 % off at 10 pixels and 12 % at 5; take more points"
+    ))
+}

@@ -1,0 +1,56 @@
+//! `map` in `[adhesion]`: a factor on the law's tension at each point.
+
+use crate::scene::Scene;
+use crate::solver::Problem;
+use crate::study::{Hooks, Plan};
+
+/// A tension that differs from point to point.
+pub(super) struct AdhesionMap;
+
+impl Hooks for AdhesionMap {
+    fn name(&self) -> &'static str {
+        "adhesion map"
+    }
+
+    fn purpose(&self) -> &'static str {
+        "a factor of its own multiplies the tension at each point"
+    }
+
+    fn is_on(&self, scene: &Scene) -> bool {
+        let adhesion = scene.adhesion.as_ref();
+        adhesion.is_some_and(|adhesion| adhesion.map.is_some())
+    }
+
+    fn remove_from(&self, scene: &mut Scene) {
+        if let Some(adhesion) = &mut scene.adhesion {
+            adhesion.map = None;
+        }
+    }
+
+    fn example(&self) -> &'static [(&'static str, &'static str)] {
+        &[
+            super::adhesion::EXAMPLE,
+            (
+                "adhesion.map",
+                "{ pattern = \"checker\", period = 0.5, low = 0.2, high = 1.5 }",
+            ),
+        ]
+    }
+
+    fn matters(&self, plan: &Plan) -> String {
+        let map = plan.outline.map;
+        let (mean, deviation) = map.map_or((1.0, 0.0), |map| (map.mean, map.deviation));
+        format!(
+            "matters where it varies over lengths of the contacts: here the factor is {mean:.3} on average, give or take {deviation:.3}"
+        )
+    }
+
+    fn pose(&self, problem: Problem, _: &Scene, map: Option<&[f64]>) -> Problem {
+        // A problem without a law has no tension to multiply.
+        if problem.law.is_adhesive() {
+            problem.patterned(map.unwrap_or_default().to_vec())
+        } else {
+            problem
+        }
+    }
+}

@@ -1,0 +1,107 @@
+//! `[conductance]`: what a solved contact conducts.
+//!
+//! Steady conduction across a set of spots and a further approach of the same spots, held, are one
+//! harmonic problem (Barber 2003, doi:10.1098/rspa.2002.1038), whatever holds the spots together:
+//! the conductance is the incremental stiffness over E*, times the harmonic mean of the conductivities.
+//! Nothing flows through the gap.
+
+use crate::backend::BackendError;
+use crate::scene::{ConductanceScene, Scene};
+use crate::solver::{ContactSolver, Problem};
+use crate::study::{
+    Column, DOUBLE, EVALUATION, Hooks, HostBytes, Plan, PointState, Setup, Sizes, SolvedStep,
+};
+use crate::units::format_si;
+
+/// What the contact conducts, W/K; empty where the surfaces are closed everywhere or the step did not
+/// converge.
+const CONDUCTANCE: Column = Column::new("conductance", 2);
+
+/// What flows through the area in contact.
+pub(super) struct Conductance;
+
+impl Hooks for Conductance {
+    fn name(&self) -> &'static str {
+        "conductance"
+    }
+
+    fn purpose(&self) -> &'static str {
+        "what the area in contact conducts, in a column of its own, by conjugate gradients after each step"
+    }
+
+    fn is_on(&self, scene: &Scene) -> bool {
+        scene.tables.conductance.is_some()
+    }
+
+    fn remove_from(&self, scene: &mut Scene) {
+        scene.tables.conductance = None;
+    }
+
+    fn example(&self) -> &'static [(&'static str, &'static str)] {
+        &[(
+            "conductance",
+            "{ conductivity = 1.0, counter_conductivity = 3.0 }",
+        )]
+    }
+
+    fn matters(&self, plan: &Plan) -> String {
+        let combined = plan.scene.tables.conductance.map_or(0.0, combined);
+        format!(
+            "matters where spots are few: closed everywhere they resist no more than the bodies do; here a spot as wide as a pixel conducts {}",
+            format_si(combined * plan.outline.grid.pixel_area().sqrt(), "W/K")
+        )
+    }
+
+    fn pose(&self, problem: Problem, _: &Scene, _: Option<&[f64]>) -> Problem {
+        problem.conducting()
+    }
+
+    fn host_bytes(&self, sizes: &Sizes) -> HostBytes {
+        HostBytes {
+            // Pressure, residual, direction, two products and the contact, beside the results.
+            passing: 6 * DOUBLE * sizes.solved + (DOUBLE + EVALUATION) * sizes.points,
+            ..HostBytes::default()
+        }
+    }
+
+    fn columns(&self) -> &'static [Column] {
+        &[CONDUCTANCE]
+    }
+
+    fn measure(
+        &self,
+        setup: &Setup,
+        solver: &mut ContactSolver,
+        solved: &mut SolvedStep,
+    ) -> Result<(), BackendError> {
+        let Some(bodies) = setup.scene.tables.conductance else {
+            return Ok(());
+        };
+        let Some(evaluation) = &solved.evaluation else {
+            solved.measured.push((CONDUCTANCE, 0.0));
+            return Ok(());
+        };
+        let touches = |point: &PointState| f64::from(u8::from(*point == PointState::Contact));
+        let contact: Vec<f64> = evaluation.points.iter().map(touches).collect();
+        let settings = &setup.scene.solver;
+        let stiffness =
+            solver.frozen_stiffness(&contact, settings.tolerance, settings.max_iterations)?;
+        let problem = solver.problem();
+        // A reduced load over a reduced length is so many areas of a pixel over its side of E*.
+        let side = problem.grid.pixel_area() / problem.scales.lateral;
+        match stiffness.map(|stiffness| combined(bodies) * stiffness * side) {
+            None => solved.converged = false,
+            // A periodic cell that is closed everywhere is infinitely stiff.
+            Some(conductance) if conductance.is_finite() => {
+                solved.measured.push((CONDUCTANCE, conductance));
+            }
+            Some(_) => {}
+        }
+        Ok(())
+    }
+}
+
+/// Harmonic mean of the two conductivities, W/(m K): one body after the other.
+fn combined(bodies: ConductanceScene) -> f64 {
+    2.0 / (1.0 / bodies.conductivity + 1.0 / bodies.counter_conductivity)
+}

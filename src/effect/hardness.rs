@@ -1,0 +1,170 @@
+//! `hardness` in `[solid]`, a perfectly plastic solid: what the heights of a path have lost for good.
+//!
+//! Within a step the solver lets the gap go below zero where the pressure has reached the hardness,
+//! see [`kernel::floor`](crate::kernel::floor). At its end that depth is taken off the heights, and
+//! the gap there is zero again: displacement and pressure stay as they are, and the next step starts
+//! from heights that do not come back. A step is thus the minimum of the stored energy and of the
+//! hardness times the volume of its plastic indentation.
+
+use crate::backend::BackendError;
+use crate::scene::{Control, Scene};
+use crate::solver::{ContactSolver, Hold, Load, Problem};
+use crate::study::{
+    Carry, Checkpoint, CheckpointField, Column, Hooks, Plan, Setup, Unreachable,
+    control::Controller,
+};
+
+/// Name of the depths among the fields of a checkpoint, as versions before wrote it.
+const DEPTHS: &str = "flowed";
+
+/// Energy that plastic indentation has dissipated since the path began, J.
+const ENERGY: Column = Column {
+    is_dissipated_energy: true,
+    ..Column::new("plastic_energy", 1)
+};
+
+/// A bound on the pressure.
+pub(super) struct Hardness;
+
+impl Hooks for Hardness {
+    fn name(&self) -> &'static str {
+        "hardness"
+    }
+
+    fn purpose(&self) -> &'static str {
+        "the pressure saturates at the hardness; plastic indentation there lowers the heights for good"
+    }
+
+    fn is_on(&self, scene: &Scene) -> bool {
+        scene.solid.hardness.is_some()
+    }
+
+    fn remove_from(&self, scene: &mut Scene) {
+        scene.solid.hardness = None;
+    }
+
+    fn example(&self) -> &'static [(&'static str, &'static str)] {
+        &[("solid.hardness", "0.05")]
+    }
+
+    fn matters(&self, plan: &Plan) -> String {
+        let scene = &plan.scene;
+        let hardness = scene.solid.hardness.unwrap_or(f64::INFINITY);
+        let flattening = 0.5 * scene.solid.contact_modulus * plan.outline.moments.rms_slope();
+        let largest = scene.loading.path.iter().copied().fold(0.0, f64::max);
+        let mean = match scene.loading.control {
+            Control::Pressure => Some(largest),
+            Control::Force => Some(largest / plan.outline.grid.area()),
+            Control::Approach | Control::MeanGap => None,
+        };
+        let path = mean.map_or(String::new(), |mean| {
+            format!(
+                ", and the largest mean pressure of the path {:.2e}",
+                mean / hardness
+            )
+        });
+        format!(
+            "matters where pressures reach it: here what flattens the roughness (E* rms slope/2) is {:.2e} of it{path}",
+            flattening / hardness
+        )
+    }
+
+    fn pose(&self, problem: Problem, scene: &Scene, _: Option<&[f64]>) -> Problem {
+        match scene.solid.hardness {
+            Some(hardness) => problem.yielding(hardness),
+            None => problem,
+        }
+    }
+
+    fn kept_fields(&self, _: &Scene) -> Vec<&'static str> {
+        // The depths, kept for the path and for the solver.
+        vec!["plastic_depth"; 2]
+    }
+
+    fn refuses(&self, controller: &Controller, value: f64) -> Option<Unreachable> {
+        let is_beyond = controller.is_beyond_hardness(value);
+        is_beyond.then_some(Unreachable::BeyondHardness)
+    }
+
+    fn columns(&self) -> &'static [Column] {
+        &[ENERGY]
+    }
+
+    fn carry(&self, setup: &Setup, checkpoint: &Checkpoint) -> Option<Box<dyn Carry>> {
+        let hardness = setup.scene.solid.hardness?;
+        Some(Box::new(Indentation {
+            depths: checkpoint.field(DEPTHS).unwrap_or_default().to_vec(),
+            unit: hardness * setup.problem.scales.length * setup.problem.grid.pixel_area(),
+        }))
+    }
+}
+
+/// Depths by which plastic indentation has lowered the heights, reduced, one a solved point.
+#[derive(Clone)]
+struct Indentation {
+    /// Empty until the solid yields anywhere.
+    depths: Vec<f64>,
+    /// Hardness times the volume that a unit of depth over a pixel holds, J.
+    unit: f64,
+}
+
+impl Carry for Indentation {
+    fn copy(&self) -> Box<dyn Carry> {
+        Box::new(self.clone())
+    }
+
+    fn checkpoint_fields(&self) -> Vec<CheckpointField> {
+        let depths = (!self.depths.is_empty()).then(|| CheckpointField {
+            name: DEPTHS.to_owned(),
+            values: self.depths.clone(),
+        });
+        depths.into_iter().collect()
+    }
+
+    fn restore(&self, solver: &mut ContactSolver) {
+        if !(self.depths.is_empty() && solver.flowed().is_empty()) {
+            solver.set_flowed(&self.depths);
+        }
+    }
+
+    /// A mean gap is wider by what the heights have lost.
+    fn load(&self, solver: &ContactSolver, load: Load) -> Load {
+        let depths = solver.flowed();
+        match load.hold {
+            Hold::Gap(target) if !depths.is_empty() => Load {
+                hold: Hold::Gap(target + depths.iter().sum::<f64>() / depths.len() as f64),
+                ..load
+            },
+            _ => load,
+        }
+    }
+
+    /// What the gap has below zero is taken off the heights.
+    fn settle(&mut self, solver: &mut ContactSolver) -> Result<(), BackendError> {
+        let shape = solver.problem().shape;
+        let mut gap = solver.gap()?;
+        let mut is_indented = false;
+        let lines = gap.chunks_exact_mut(shape.points[0]).take(shape.surface[1]);
+        for (row, line) in lines.enumerate() {
+            for (column, gap) in line[..shape.surface[0]].iter_mut().enumerate() {
+                if *gap < 0.0 {
+                    if self.depths.is_empty() {
+                        self.depths = vec![0.0; shape.len()];
+                    }
+                    self.depths[row * shape.points[0] + column] -= *gap;
+                    *gap = 0.0;
+                    is_indented = true;
+                }
+            }
+        }
+        if is_indented {
+            solver.set_flowed(&self.depths);
+            solver.set_gap(&gap);
+        }
+        Ok(())
+    }
+
+    fn values(&self) -> Vec<(Column, f64)> {
+        vec![(ENERGY, self.unit * self.depths.iter().sum::<f64>())]
+    }
+}

@@ -1,0 +1,197 @@
+//! Effects: what a scene may ask for beyond hard, frictionless, elastic contact of a periodic cell.
+//!
+//! Each is one file, which implements the hooks of `study`, and one entry in the list here. An effect
+//! that the scene does not name is not there: it holds no field and makes no pass. What one costs is
+//! found by planning the scene with and without it.
+
+mod adhesion;
+mod adhesion_map;
+mod capillary;
+mod conductance;
+mod dmt;
+mod edge;
+mod free_boundary;
+mod friction;
+mod hardness;
+mod layer;
+mod planning;
+mod rate;
+mod relaxation;
+mod spring;
+mod wear;
+
+pub use relaxation::branch_coefficients;
+
+use std::fmt;
+
+use crate::backend::BackendError;
+use crate::grid::Grid;
+use crate::scene::Scene;
+use crate::study::{Cost, Hooks, Plan};
+
+/// Every effect of this version, in the order in which they are called and shown. A new one stands last.
+const LIST: [&dyn Hooks; 13] = [
+    &adhesion::Adhesion,
+    &dmt::Dmt,
+    &adhesion_map::AdhesionMap,
+    &rate::Rate,
+    &capillary::Capillary,
+    &layer::LayerEffect,
+    &hardness::Hardness,
+    &relaxation::Relaxation,
+    &free_boundary::FreeBoundary,
+    &spring::Spring,
+    &friction::Friction,
+    &conductance::Conductance,
+    &wear::Wear,
+];
+
+/// An effect of this version.
+#[derive(Clone, Copy)]
+pub struct Effect(&'static dyn Hooks);
+
+/// What an effect adds to a scene's cost and what it takes away.
+#[derive(Clone, Debug, Default, PartialEq, Eq)]
+pub struct EffectCost {
+    /// Fields that are there because of it.
+    pub fields_added: Vec<&'static str>,
+    /// Fields that are not there because of it.
+    pub fields_spared: Vec<&'static str>,
+    /// Passes of an iteration that are there because of it.
+    pub passes_added: Vec<&'static str>,
+    /// Passes that are not there because of it.
+    pub passes_spared: Vec<&'static str>,
+    /// Bytes more, or less.
+    pub bytes: i128,
+}
+
+impl Effect {
+    /// Every effect of this version.
+    pub const ALL: [Effect; LIST.len()] = {
+        let mut all = [Effect(LIST[0]); LIST.len()];
+        let mut i = 0;
+        while i < LIST.len() {
+            all[i] = Effect(LIST[i]);
+            i += 1;
+        }
+        all
+    };
+
+    /// The effect of a name, if there is one.
+    pub fn from_name(name: &str) -> Option<Effect> {
+        Effect::ALL.into_iter().find(|effect| effect.name() == name)
+    }
+
+    /// Its name in summaries.
+    pub fn name(self) -> &'static str {
+        self.0.name()
+    }
+
+    /// What it does, in a line.
+    pub fn purpose(self) -> &'static str {
+        self.0.purpose()
+    }
+
+    /// Whether a scene asks for it.
+    pub fn is_on(self, scene: &Scene) -> bool {
+        self.0.is_on(scene)
+    }
+
+    /// When it matters, with the number of a scene that asks for it.
+    pub fn matters(self, plan: &Plan) -> String {
+        self.0.matters(plan)
+    }
+
+    /// The scene without it.
+    pub fn removed_from(self, scene: &Scene) -> Scene {
+        let mut scene = scene.clone();
+        self.0.remove_from(&mut scene);
+        scene
+    }
+
+    /// Keys and values that ask for it, as `--set` takes them, in a scene whose grid has the size 1 and
+    /// whose contact modulus is 1.
+    pub fn example(self) -> &'static [(&'static str, &'static str)] {
+        self.0.example()
+    }
+
+    /// Names of its columns of `curve.csv`.
+    pub fn columns(self) -> impl Iterator<Item = &'static str> {
+        self.0.columns().iter().map(|column| column.name)
+    }
+
+    /// What it costs in a scene that asks for it, of which `with` is the cost on `grid`.
+    ///
+    /// # Errors
+    /// As [`Cost::of_scene`].
+    pub fn cost(self, scene: &Scene, with: &Cost, grid: Grid) -> Result<EffectCost, BackendError> {
+        let without = Cost::of_scene(&self.removed_from(scene), grid, with.place)?;
+        let names = |cost: &Cost| {
+            cost.fields
+                .iter()
+                .chain(&cost.history)
+                .map(|field| field.name)
+                .collect::<Vec<_>>()
+        };
+        let bytes = |cost: &Cost| (cost.bytes() + cost.history_bytes()) as i128;
+        Ok(EffectCost {
+            fields_added: difference(&names(with), &names(&without)),
+            fields_spared: difference(&names(&without), &names(with)),
+            passes_added: difference(&with.passes, &without.passes),
+            passes_spared: difference(&without.passes, &with.passes),
+            bytes: bytes(with) - bytes(&without),
+        })
+    }
+}
+
+impl PartialEq for Effect {
+    fn eq(&self, other: &Effect) -> bool {
+        self.name() == other.name()
+    }
+}
+
+impl Eq for Effect {}
+
+impl fmt::Debug for Effect {
+    fn fmt(&self, f: &mut fmt::Formatter) -> fmt::Result {
+        f.debug_tuple("Effect").field(&self.name()).finish()
+    }
+}
+
+/// What is in `left` more often than in `right`.
+fn difference(left: &[&'static str], right: &[&'static str]) -> Vec<&'static str> {
+    let mut rest = right.to_vec();
+    left.iter()
+        .copied()
+        .filter(|name| match rest.iter().position(|other| other == name) {
+            Some(place) => {
+                rest.swap_remove(place);
+                false
+            }
+            None => true,
+        })
+        .collect()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn differences_count() {
+        assert_eq!(difference(&["a", "b", "a"], &["a", "c"]), ["b", "a"]);
+        assert!(difference(&["a"], &["a", "a"]).is_empty());
+    }
+
+    #[test]
+    fn names_and_columns_are_told_apart() {
+        for (i, effect) in LIST.iter().enumerate() {
+            assert!(LIST[..i].iter().all(|other| other.name() != effect.name()));
+        }
+        // The places of the columns are 0, 1, 2, ... in the order in which versions added them.
+        let columns = LIST.iter().flat_map(|effect| effect.columns());
+        let mut places: Vec<usize> = columns.map(|column| column.place).collect();
+        places.sort_unstable();
+        assert!(places.iter().copied().eq(0..places.len()), "{places:?}");
+    }
+}

@@ -1,0 +1,92 @@
+//! Plans, setups and costs with the effects of this version: what `study` does for any list of effects.
+
+use super::LIST;
+use crate::backend::{BackendError, tally::Place};
+use crate::grid::Grid;
+use crate::scene::Scene;
+use crate::solver::good_size;
+use crate::study::{Column, Cost, Effects, Memory, Plan, Setup};
+use crate::surface::{Outline, Surface, SurfaceError};
+
+/// Points that the sizes of a suggested grid are multiples of.
+const STRIDE: usize = 4;
+
+impl Plan {
+    /// Looks at a scene. Only a height file makes it build heights.
+    ///
+    /// # Errors
+    /// A surface that cannot be built.
+    pub fn of(scene: Scene) -> Result<Plan, SurfaceError> {
+        let outline = Outline::of(&scene)?;
+        Ok(Plan::new(scene, outline))
+    }
+
+    /// Puts a scene and the outline of its surface together.
+    pub fn new(scene: Scene, outline: Outline) -> Plan {
+        Plan::with_effects(&LIST, scene, outline)
+    }
+}
+
+impl Setup {
+    /// Puts a scene and its surface together.
+    pub fn new(scene: Scene, surface: Surface) -> Setup {
+        Setup::with_effects(&LIST, scene, surface)
+    }
+}
+
+impl Column {
+    /// Columns that the effects of a scene ask for, in their order.
+    pub fn of(scene: &Scene) -> Vec<Column> {
+        Effects::on(&LIST, scene).columns()
+    }
+}
+
+impl Cost {
+    /// The cost of a scene on a grid: without heights, and without memory for any.
+    ///
+    /// # Errors
+    /// As [`Cost::of`].
+    pub fn of_scene(scene: &Scene, grid: Grid, place: Place) -> Result<Cost, BackendError> {
+        Cost::with_effects(&Effects::on(&LIST, scene), scene, grid, place)
+    }
+}
+
+impl Memory {
+    /// The grid of the same shape, to a few points, with the most of them whose run takes at most
+    /// `available` bytes of this machine's memory; `None` where not even the smallest does. Sizes
+    /// are multiples of 4, which a coarse grid halves, and transform well along x.
+    ///
+    /// # Errors
+    /// As [`Cost::of_scene`].
+    pub fn largest_grid(
+        scene: &Scene,
+        grid: Grid,
+        place: Place,
+        available: u64,
+    ) -> Result<Option<[usize; 2]>, BackendError> {
+        let scaled = |nx: usize| -> [usize; 2] {
+            let ny = nx as f64 * grid.ny as f64 / grid.nx as f64;
+            let ny = (ny / STRIDE as f64).round() as usize * STRIDE;
+            [nx, ny.max(STRIDE).min(grid.ny)]
+        };
+        let fits = |points: [usize; 2]| -> Result<bool, BackendError> {
+            let grid = Grid::new(points, [grid.lx, grid.ly]);
+            let cost = Cost::of_scene(scene, grid, place)?;
+            Ok(Memory::of(scene, grid, &cost).machine <= available)
+        };
+        let sizes: Vec<usize> = (STRIDE..=grid.nx)
+            .step_by(STRIDE)
+            .filter(|&size| good_size(size) == size)
+            .collect();
+        let (mut fitting, mut beyond) = (0, sizes.len());
+        while fitting < beyond {
+            let middle = (fitting + beyond) / 2;
+            if fits(scaled(sizes[middle]))? {
+                fitting = middle + 1;
+            } else {
+                beyond = middle;
+            }
+        }
+        Ok(fitting.checked_sub(1).map(|last| scaled(sizes[last])))
+    }
+}

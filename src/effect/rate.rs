@@ -1,0 +1,203 @@
+//! `rate` in `[adhesion]`: a receding edge costs more the faster it recedes.
+//!
+//! The tension is raised by `1 + (v/v*)^n` on the points that held when the step began, and v is the
+//! mean speed at which the edge recedes in the step. The faster it is, the more the raised tension
+//! slows it, so factor and speed meet in one place, which is bracketed and found. An edge that advances
+//! has the plain law, and so have points that only come to hold in the step.
+//!
+//! Each trial starts from the state before the step, so that the result depends on nothing else.
+
+use super::edge::Edge;
+use crate::backend::BackendError;
+use crate::scene::{RateScene, Scene};
+use crate::solver::{Load, Problem, Start};
+use crate::study::{Attempt, Hooks, Plan, PointState, SolvedStep};
+use crate::units::format_si;
+
+/// Relative error up to which factor and speed agree.
+const AGREE: f64 = 2e-3;
+/// Solves of one step at most; halving alone narrows a factor of 1000 to the agreement within 20.
+const MOST_SOLVES: usize = 30;
+/// How far the present end of a bracket is from a corner of it at least, as a share of it.
+const CORNER: f64 = 0.05;
+
+/// Share of its area that a contact keeps unless it lets go by itself.
+const LET_GO: f64 = 0.5;
+
+/// The rate of a scene's adhesion.
+fn rate_of(scene: &Scene) -> Option<RateScene> {
+    scene.adhesion.as_ref().and_then(|adhesion| adhesion.rate)
+}
+
+/// A work of adhesion that grows with the speed of a receding edge.
+pub(super) struct Rate;
+
+impl Hooks for Rate {
+    fn name(&self) -> &'static str {
+        "rate"
+    }
+
+    fn purpose(&self) -> &'static str {
+        "the work of adhesion grows with the speed at which the contact recedes, found in several solves a step"
+    }
+
+    fn is_on(&self, scene: &Scene) -> bool {
+        rate_of(scene).is_some()
+    }
+
+    fn remove_from(&self, scene: &mut Scene) {
+        if let Some(adhesion) = &mut scene.adhesion {
+            adhesion.rate = None;
+        }
+    }
+
+    fn example(&self) -> &'static [(&'static str, &'static str)] {
+        &[
+            super::adhesion::EXAMPLE,
+            (
+                "adhesion.rate",
+                "{ reference_speed = 0.05, exponent = 0.5 }",
+            ),
+        ]
+    }
+
+    fn matters(&self, plan: &Plan) -> String {
+        let grid = plan.outline.grid;
+        let path: f64 = plan.scene.loading.durations.iter().flatten().sum();
+        let reference = rate_of(&plan.scene).map_or(0.0, |rate| rate.reference_speed);
+        format!(
+            "matters where contacts recede at speeds not far below the reference: half the cell within the path's {} would be {:.2e} of it; one speed stands for the whole edge",
+            format_si(path, "s"),
+            0.5 * grid.lx.min(grid.ly) / path / reference
+        )
+    }
+
+    fn pose(&self, problem: Problem, _: &Scene, _: Option<&[f64]>) -> Problem {
+        if problem.law_factor.is_some() {
+            return problem;
+        }
+        // Where an edge recedes there will be a factor.
+        let ones = vec![1.0; problem.heights.len()];
+        problem.patterned(ones)
+    }
+
+    // What the edge loses to its speed cannot be told from what a jump loses.
+    fn hides_jumps(&self) -> bool {
+        true
+    }
+
+    fn solve_load(
+        &self,
+        attempt: &mut Attempt,
+        load: &Load,
+        start: &Start,
+    ) -> Option<Result<SolvedStep, BackendError>> {
+        let rate = rate_of(&attempt.setup.scene)?;
+        Some(solve(rate, attempt, load, start))
+    }
+}
+
+/// Solves a load from a start at the speed that its edge has then.
+fn solve(
+    rate: RateScene,
+    attempt: &mut Attempt,
+    load: &Load,
+    start: &Start,
+) -> Result<SolvedStep, BackendError> {
+    let setup = attempt.setup;
+    let duration = attempt.duration;
+    let problem = attempt.solver.problem();
+    let before = if attempt.loaded {
+        Some(problem.surface_part(&attempt.solver.gap()?))
+    } else {
+        None
+    };
+    let start = match start {
+        Start::Present => Start::Gap(attempt.solver.gap()?),
+        other => other.clone(),
+    };
+    let mut iterations = 0;
+    let mut trial = |factor: f64| -> Result<SolvedStep, BackendError> {
+        let raised = before.as_ref().filter(|_| factor > 1.0).map(|gap| {
+            let range = problem.law.range();
+            let own = |point: usize| setup.law_factor(point);
+            gap.iter()
+                .enumerate()
+                .map(|(point, &g)| {
+                    if g < range {
+                        factor * own(point)
+                    } else {
+                        own(point)
+                    }
+                })
+                .collect()
+        });
+        attempt.solver.set_law_factor(raised);
+        let outcome = attempt.solve(load, &start)?;
+        iterations += outcome.iterations;
+        let mut solved = attempt.finish(load, &outcome)?;
+        solved.iterations = iterations;
+        Ok(solved)
+    };
+    let plain = trial(1.0)?;
+    let Some(gap) = &before else {
+        return Ok(plain);
+    };
+    let touched: Vec<bool> = gap.iter().map(|&g| g <= 0.0).collect();
+    let edge = Edge::of(&touched, &problem.grid, problem.boundary);
+    let later = |solved: &SolvedStep| {
+        let touches: Vec<bool> = match &solved.evaluation {
+            Some(found) => found
+                .points
+                .iter()
+                .map(|p| *p == PointState::Contact)
+                .collect(),
+            None => vec![false; touched.len()],
+        };
+        Edge::of(&touches, &problem.grid, problem.boundary)
+    };
+    // By how much the factor of the speed that a trial had is above the trial's own.
+    let excess = |later: &Edge, factor: f64| rate.factor(edge.recession(later, duration)) - factor;
+    let left = later(&plain);
+    let first = excess(&left, 1.0);
+    if !plain.converged || first <= AGREE {
+        return Ok(plain);
+    }
+    let (mut low, mut low_excess, mut low_area) = (1.0, first, left.area);
+    let (mut high, mut high_excess) = (1.0 + first, None);
+    let mut factor = high;
+    for solves in 1.. {
+        let solved = trial(factor)?;
+        let left = later(&solved);
+        let found = excess(&left, factor);
+        let narrow = high - low <= AGREE * high && found <= 0.0;
+        if narrow && low_area < LET_GO * left.area {
+            // The last equilibrium of the raised law: beyond it the contact lets go by itself.
+            return trial(low);
+        }
+        // Where pixels let go one by one there may be no speed between; the edge waits for the next.
+        if !solved.converged || found.abs() <= AGREE * factor || narrow || solves == MOST_SOLVES {
+            return Ok(SolvedStep {
+                converged: solved.converged && solves < MOST_SOLVES,
+                ..solved
+            });
+        }
+        if found > 0.0 {
+            (low, low_excess, low_area) = (factor, found, left.area);
+        } else {
+            (high, high_excess) = (factor, Some(found));
+        }
+        let share = match high_excess {
+            Some(most) => (low_excess / (low_excess - most)).clamp(CORNER, 1.0 - CORNER),
+            None => 1.0,
+        };
+        // Every third trial halves, where the straight line gets on slowly; at the end it is the
+        // upper side that is solved last.
+        factor = match high - low <= AGREE * high {
+            true => high,
+            false if solves % 3 == 0 => 0.5 * (low + high),
+            false => low + share * (high - low),
+        };
+    }
+    Ok(plain)
+}

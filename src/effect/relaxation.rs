@@ -1,0 +1,299 @@
+//! `[[solid.relaxation]]`, a viscoelastic solid: what its Maxwell branches carry from step to step.
+//!
+//! The pressure of a wave is its stiffness times `E_inf u + sum E_k m_k`, and each branch follows
+//! `dm/dt + m/tau = du/dt`. Over a step of constant rate that is exactly
+//! `m' = alpha m + beta (u' - u)` with `alpha = exp(-dt/tau)`, `beta = (tau/dt)(1 - alpha)`. So a
+//! step is the elastic contact of a solid of modulus `E_inf + sum E_k beta_k` whose surface has
+//! been moved by `sum E_k (alpha_k m_k - beta_k u)/E`, point by point.
+//!
+//! # Source
+//! Taylor, Pister & Goudreau 1970; Simo & Hughes 1998, sec. 10.3.
+
+use crate::backend::BackendError;
+use crate::scene::{RelaxationScene, Scene, SolidScene};
+use crate::solver::{ContactSolver, Problem};
+use crate::study::{
+    Carry, Checkpoint, CheckpointField, DOUBLE, EVALUATION, Hooks, HostBytes, Plan, Setup, Sizes,
+    SolvedStep,
+};
+use crate::units::format_si;
+
+/// Name of the displacement among the fields of a checkpoint.
+const DISPLACEMENT: &str = "displacement";
+
+/// Name of a branch's spring among them; the branch counts from 1.
+fn spring_name(branch: usize) -> String {
+    format!("spring {branch}")
+}
+
+/// A viscoelastic solid.
+pub(super) struct Relaxation;
+
+impl Hooks for Relaxation {
+    fn name(&self) -> &'static str {
+        "relaxation"
+    }
+
+    fn purpose(&self) -> &'static str {
+        "the solid is viscoelastic: stiff to what is fast, soft to what is slow, and it dissipates"
+    }
+
+    fn is_on(&self, scene: &Scene) -> bool {
+        !scene.solid.relaxation.is_empty()
+    }
+
+    fn remove_from(&self, scene: &mut Scene) {
+        scene.solid.relaxation.clear();
+    }
+
+    fn example(&self) -> &'static [(&'static str, &'static str)] {
+        &[("solid.relaxation", "[{ modulus = 1.0, time = 1.0 }]")]
+    }
+
+    fn matters(&self, plan: &Plan) -> String {
+        let path: f64 = plan.scene.loading.durations.iter().flatten().sum();
+        let branches = plan.scene.solid.relaxation.iter();
+        let deborah: Vec<String> = branches
+            .map(|branch| format!("{:.2e}", branch.time / path))
+            .collect();
+        format!(
+            "matters where a branch relaxes neither much faster nor much slower than the load: here their times are {} of the path's {} (Deborah numbers)",
+            deborah.join(", "),
+            format_si(path, "s")
+        )
+    }
+
+    fn kept_fields(&self, scene: &Scene) -> Vec<&'static str> {
+        // The displacement and the spring of each branch.
+        vec!["history"; scene.solid.relaxation.len() + 1]
+    }
+
+    fn host_bytes(&self, sizes: &Sizes) -> HostBytes {
+        HostBytes {
+            // What the past moves the surface by, and the problem of a duration.
+            kept: DOUBLE * (sizes.solved + sizes.points) + sizes.table,
+            // The displacement, padded heights, and a pressure of a spring as it is read.
+            passing: 3 * DOUBLE * sizes.solved + EVALUATION * sizes.points,
+            ..HostBytes::default()
+        }
+    }
+
+    // A jump cannot be told from what the springs dissipate in the same step.
+    fn hides_jumps(&self) -> bool {
+        true
+    }
+
+    fn depends_on_duration(&self) -> bool {
+        true
+    }
+
+    fn problem_over(&self, setup: &Setup, duration: f64) -> Option<Problem> {
+        let modulus = effective_modulus(&setup.scene.solid, duration);
+        Some(setup.problem.stiffened(modulus, setup.solved_law()))
+    }
+
+    fn carry(&self, setup: &Setup, checkpoint: &Checkpoint) -> Option<Box<dyn Carry>> {
+        let solid = &setup.scene.solid;
+        let mut history = History::at_rest(solid, setup.problem.shape.len());
+        if let Some(values) = checkpoint.field(DISPLACEMENT) {
+            history.displacement.copy_from_slice(values);
+        }
+        for (branch, spring) in history.springs.iter_mut().enumerate() {
+            if let Some(values) = checkpoint.field(&spring_name(branch + 1)) {
+                spring.copy_from_slice(values);
+            }
+        }
+        Some(Box::new(history))
+    }
+}
+
+/// `(alpha, beta)` of a branch over a step, for the step's share of its relaxation time.
+pub fn branch_coefficients(ratio: f64) -> (f64, f64) {
+    // A step in no time meets the whole branch.
+    let beta = if ratio > 0.0 {
+        -(-ratio).exp_m1() / ratio
+    } else {
+        1.0
+    };
+    ((-ratio).exp(), beta)
+}
+
+/// Contact modulus that a step of `duration` (s) meets, Pa: from that at once to the relaxed one.
+fn effective_modulus(solid: &SolidScene, duration: f64) -> f64 {
+    solid
+        .relaxation
+        .iter()
+        .fold(solid.contact_modulus, |modulus, branch| {
+            modulus + branch.modulus * branch_coefficients(duration / branch.time).1
+        })
+}
+
+/// The state of a viscoelastic solid: its displacement and that of each branch's spring.
+///
+/// Displacements are reduced and hold one value a solved point.
+#[derive(Clone)]
+struct History {
+    /// Displacement at the end of the last step.
+    displacement: Vec<f64>,
+    /// Displacement of the spring of each branch, in the order of the scene.
+    springs: Vec<Vec<f64>>,
+    /// What the past moves the surface by in the step that is being solved.
+    offset: Vec<f64>,
+}
+
+impl History {
+    /// A solid at rest.
+    fn at_rest(solid: &SolidScene, points: usize) -> History {
+        History {
+            displacement: vec![0.0; points],
+            springs: vec![vec![0.0; points]; solid.relaxation.len()],
+            offset: Vec::new(),
+        }
+    }
+
+    /// What the past moves the surface by over a step of `duration` (s), reduced: the pressure is
+    /// that of the effective modulus on the displacement plus this.
+    fn offset_over(&self, solid: &SolidScene, duration: f64) -> Vec<f64> {
+        let mut offset = vec![0.0; self.displacement.len()];
+        let modulus = effective_modulus(solid, duration);
+        for (branch, spring) in self.branches(solid) {
+            let (alpha, beta) = branch_coefficients(duration / branch.time);
+            let weight = branch.modulus / modulus;
+            for ((value, m), u) in offset.iter_mut().zip(spring).zip(&self.displacement) {
+                *value += weight * (alpha * m - beta * u);
+            }
+        }
+        offset
+    }
+
+    /// Ends a step of `duration` (s) at a displacement.
+    fn advance(&mut self, solid: &SolidScene, duration: f64, displacement: Vec<f64>) {
+        for (branch, spring) in solid.relaxation.iter().zip(&mut self.springs) {
+            let (alpha, beta) = branch_coefficients(duration / branch.time);
+            let steps = displacement.iter().zip(&self.displacement);
+            for (m, (new, old)) in spring.iter_mut().zip(steps) {
+                *m = alpha * *m + beta * (new - old);
+            }
+        }
+        self.displacement = displacement;
+    }
+
+    /// The branches with their springs.
+    fn branches<'a>(
+        &'a self,
+        solid: &'a SolidScene,
+    ) -> impl Iterator<Item = (&'a RelaxationScene, &'a Vec<f64>)> {
+        solid.relaxation.iter().zip(&self.springs)
+    }
+}
+
+impl Carry for History {
+    fn copy(&self) -> Box<dyn Carry> {
+        Box::new(self.clone())
+    }
+
+    fn checkpoint_fields(&self) -> Vec<CheckpointField> {
+        let springs = self.springs.iter().enumerate();
+        let mut fields: Vec<CheckpointField> = springs
+            .map(|(branch, values)| CheckpointField {
+                name: spring_name(branch + 1),
+                values: values.clone(),
+            })
+            .collect();
+        fields.push(CheckpointField {
+            name: DISPLACEMENT.to_owned(),
+            values: self.displacement.clone(),
+        });
+        fields
+    }
+
+    fn before_step(&mut self, setup: &Setup, solver: &mut ContactSolver, duration: f64) {
+        self.offset = self.offset_over(&setup.scene.solid, duration);
+        solver.set_offset(&self.offset);
+    }
+
+    /// The displacement goes to the history, and what the springs store to the step.
+    fn after_step(
+        &mut self,
+        setup: &Setup,
+        solver: &mut ContactSolver,
+        solved: &mut SolvedStep,
+        duration: f64,
+    ) -> Result<(), BackendError> {
+        let solid = &setup.scene.solid;
+        let offset = std::mem::take(&mut self.offset);
+        let Some(evaluation) = &mut solved.evaluation else {
+            // Free of pressure it recovers: the displacement is what undoes the past.
+            let displacement = offset.into_iter().map(|moved| -moved).collect();
+            self.advance(solid, duration, displacement);
+            return Ok(());
+        };
+        drop(offset);
+        let problem = solver.problem();
+        let rigid =
+            (evaluation.displacement_offset + problem.height_origin) / problem.scales.length;
+        let mut displacement = solver.gap()?;
+        let heights = problem.padded(&problem.heights, 0.0);
+        for (u, h) in displacement.iter_mut().zip(heights) {
+            *u += h + rigid;
+        }
+        for (u, depth) in displacement.iter_mut().zip(solver.flowed()) {
+            *u -= depth;
+        }
+        self.advance(solid, duration, displacement);
+        let mut energy = 0.0;
+        let modulus = effective_modulus(solid, duration);
+        energy += solid.contact_modulus / modulus * solver.energy_of(&self.displacement)?;
+        for (branch, spring) in self.branches(solid) {
+            energy += branch.modulus / modulus * solver.energy_of(spring)?;
+        }
+        let unit = problem.scales.length * problem.scales.pressure * problem.grid.pixel_area();
+        evaluation.elastic_energy = energy * unit;
+        Ok(())
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn solid() -> SolidScene {
+        SolidScene {
+            contact_modulus: 1.0,
+            poisson_ratio: None,
+            layer: None,
+            hardness: None,
+            relaxation: vec![RelaxationScene {
+                modulus: 9.0,
+                time: 0.1,
+            }],
+        }
+    }
+
+    /// One point under a constant pressure creeps as it was computed apart.
+    #[test]
+    fn creep_under_a_constant_pressure() {
+        let solid = solid();
+        let mut history = History::at_rest(&solid, 1);
+        let step = |history: &mut History, duration: f64| {
+            let displacement = 1.0 / effective_modulus(&solid, duration)
+                - history.offset_over(&solid, duration)[0];
+            history.advance(&solid, duration, vec![displacement]);
+            displacement
+        };
+        assert!((step(&mut history, 0.0) - 0.1).abs() < 1e-15);
+        let mut found = 0.0;
+        for _ in 0..50 {
+            found = step(&mut history, 0.01);
+        }
+        assert!((found - 0.454101941).abs() < 1e-9, "{found}");
+    }
+
+    #[test]
+    fn modulus_from_instant_to_relaxed() {
+        assert_eq!(effective_modulus(&solid(), 0.0), 10.0);
+        // (1 - exp(-1e9))/1e9 of the branch is left.
+        assert!((effective_modulus(&solid(), 1e8) - 1.0 - 9e-9).abs() < 1e-15);
+        assert!((effective_modulus(&solid(), 1e-12) - 10.0).abs() < 1e-9);
+    }
+}

@@ -1,0 +1,120 @@
+//! Tables of effects that hold numbers alone: declared here, and read, shown and refused alike.
+//!
+//! An entry is the table's name, its type, and a line for each key: what it measures, and a value
+//! that would do. Every key is required, and its value is above 0.
+
+use serde_json::{Value, json};
+
+use super::allowed::Allowed;
+use super::keys::Section;
+use super::reader::Reader;
+use crate::units::Dimension;
+
+/// Declares the tables: their types, keys and reader, and how a summary shows them.
+macro_rules! tables {
+    ($(
+        $(#[$doc:meta])*
+        $table:ident: $Table:ident {
+            $( $(#[$key_doc:meta])* $key:ident: $dimension:ident = $example:literal, )+
+        }
+    )+) => {
+        $(
+            $(#[$doc])*
+            #[derive(Clone, Copy, Debug, PartialEq)]
+            pub struct $Table {
+                $( $(#[$key_doc])* pub $key: f64, )+
+            }
+
+            impl $Table {
+                const SECTION: &'static Section = &Section {
+                    title: concat!("[", stringify!($table), "]"),
+                    keys: &[$(
+                        (stringify!($key), concat!(stringify!($key), " = \"", $example, "\"")),
+                    )+],
+                    later: &[],
+                };
+
+                /// Reads the table: `Some(None)` where the scene has none.
+                fn read(scene: &Reader) -> Option<Option<Self>> {
+                    if !scene.has(stringify!($table)) {
+                        return Some(None);
+                    }
+                    let table = scene.table(stringify!($table), Self::SECTION)?;
+                    table.require(&[$( stringify!($key) ),+]);
+                    // Each key is read before the table is given up, so that all mistakes are noted.
+                    $( let $key = table.quantity(
+                        stringify!($key), Dimension::$dimension, Allowed::POSITIVE,
+                    ); )+
+                    Some(Some($Table { $( $key: $key? ),+ }))
+                }
+
+                fn resolved(&self) -> Value {
+                    json!({ $( stringify!($key): self.$key ),+ })
+                }
+            }
+        )+
+
+        /// Tables of effects that hold numbers alone; one that the scene does not name is `None`.
+        #[derive(Clone, Copy, Debug, Default, PartialEq)]
+        pub struct EffectTables {
+            $( $(#[$doc])* pub $table: Option<$Table>, )+
+        }
+
+        /// The names of the tables as keys of a scene, each with a line that would do.
+        pub(super) const NAMES: &[(&str, &str)] = &[$(
+            (stringify!($table), concat!("[", stringify!($table), "]")),
+        )+];
+
+        /// The keys of each table.
+        pub(super) const SECTIONS: &[&Section] = &[$( $Table::SECTION ),+];
+
+        impl EffectTables {
+            /// Reads every table before any is given up.
+            pub(super) fn read(scene: &Reader) -> Option<EffectTables> {
+                $( let $table = $Table::read(scene); )+
+                Some(EffectTables { $( $table: $table? ),+ })
+            }
+
+            /// The tables that are there, with their names.
+            pub(super) fn resolved(&self) -> Vec<(&'static str, Value)> {
+                let tables = [$(
+                    (stringify!($table), self.$table.as_ref().map($Table::resolved)),
+                )+];
+                tables
+                    .into_iter()
+                    .filter_map(|(name, table)| Some((name, table?)))
+                    .collect()
+            }
+
+            /// The SI unit of a key of one of the tables; `None` for other keys.
+            pub fn unit(key: &str) -> Option<&'static str> {
+                $( $(
+                    if key == stringify!($key) {
+                        return Some(Dimension::$dimension.unit());
+                    }
+                )+ )+
+                None
+            }
+        }
+    };
+}
+
+tables! {
+    /// `[friction]`: what it takes to slide.
+    friction: FrictionScene {
+        /// Shear strength of the area in contact, Pa.
+        shear_strength: Pressure = "10 MPa",
+    }
+    /// `[conductance]`: what the bodies conduct; heat, or a current with S/m in place of W/(m K).
+    conductance: ConductanceScene {
+        /// Conductivity of the solid, W/(m K).
+        conductivity: Conductivity = "400 W/(m K)",
+        /// Conductivity of the counter-face, W/(m K).
+        counter_conductivity: Conductivity = "1.4 W/(m K)",
+    }
+    /// `[wear]`: what sliding takes off.
+    wear: WearScene {
+        /// Volume worn off for each load and length of sliding, m^3/(N m).
+        specific_wear_rate: SpecificWear = "1e-6 mm^3/(N m)",
+    }
+}

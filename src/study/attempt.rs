@@ -1,0 +1,53 @@
+//! A value of a path on its way to a solved step, as an effect finds it that solves in its own way.
+
+use super::control::Controller;
+use super::setup::Setup;
+use super::step::{SolvedStep, finish, solve};
+use crate::backend::BackendError;
+use crate::kernel::Scalars;
+use crate::solver::{ContactSolver, Load, MakeBackend, Outcome, Start};
+
+/// What is asked of a step, and what it is solved with.
+pub(crate) struct Attempt<'a, 's, 'b> {
+    /// The scene that is walked.
+    pub setup: &'s Setup,
+    /// Translates values of the path to loads.
+    pub controller: &'a Controller<'s>,
+    /// The solver.
+    pub solver: &'a mut ContactSolver<'b>,
+    /// The prescribed value.
+    pub value: f64,
+    /// How long the step takes, s.
+    pub duration: f64,
+    /// Whether the solver's gap belongs to a solved step.
+    pub loaded: bool,
+    /// Where solvers on coarser grids get their backends from.
+    pub make_backend: MakeBackend<'s>,
+    /// Sees each iteration and says whether to go on.
+    pub watch: &'a mut dyn FnMut(&Scalars) -> bool,
+}
+
+impl Attempt<'_, '_, '_> {
+    /// Solves a load from a start with the scene's own settings.
+    pub fn solve(&mut self, load: &Load, start: &Start) -> Result<Outcome, BackendError> {
+        solve(
+            self.setup,
+            self.solver,
+            load,
+            start,
+            self.make_backend,
+            self.watch,
+        )
+    }
+
+    /// Reads the solved fields and evaluates them.
+    pub fn finish(&mut self, load: &Load, outcome: &Outcome) -> Result<SolvedStep, BackendError> {
+        finish(self.setup, self.controller, self.solver, load, outcome)
+    }
+
+    /// Both.
+    pub fn solved(&mut self, load: &Load, start: &Start) -> Result<SolvedStep, BackendError> {
+        let outcome = self.solve(load, start)?;
+        self.finish(load, &outcome)
+    }
+}

@@ -1,0 +1,271 @@
+//! What an effect may do in a run: the hooks that the plan, the setup and the steps of a path call.
+//!
+//! An effect is a value of [`Hooks`]. What it carries from step to step, if anything, is a [`Carry`].
+//! Nothing here knows which effects there are: `effect` lists them and passes the list in.
+
+use std::borrow::Cow;
+use std::fmt;
+
+use super::attempt::Attempt;
+use super::checkpoint::{Checkpoint, CheckpointField};
+use super::control::Controller;
+use super::evaluation::Evaluation;
+use super::observer::Unreachable;
+use super::plan::Plan;
+use super::row::Column;
+use super::setup::Setup;
+use super::step::SolvedStep;
+use crate::backend::BackendError;
+use crate::law::Law;
+use crate::scene::Scene;
+use crate::solver::{ContactSolver, Load, Problem, Start};
+
+/// An effect: what it says of itself, and what it does at each place of a run. What it leaves out is
+/// done without it.
+pub(crate) trait Hooks: Sync {
+    /// Its name in summaries.
+    fn name(&self) -> &'static str;
+    /// What it does, in a line.
+    fn purpose(&self) -> &'static str;
+    /// Whether a scene asks for it.
+    fn is_on(&self, scene: &Scene) -> bool;
+    /// When it matters, with the number of a scene that asks for it.
+    fn matters(&self, plan: &Plan) -> String;
+    /// Takes it out of a scene.
+    fn remove_from(&self, scene: &mut Scene);
+    /// Keys and values of a scene that ask for it, as `--set` takes them, where the grid is of size 1
+    /// and the contact modulus is 1.
+    fn example(&self) -> &'static [(&'static str, &'static str)];
+
+    // Before the heights are made.
+
+    /// What the user should know.
+    fn warnings(&self, _plan: &Plan) -> Vec<String> {
+        Vec::new()
+    }
+    /// The law that is solved for in place of the scene's.
+    fn solved_law(&self, law: Law) -> Law {
+        law
+    }
+    /// The problem with the effect. `map` holds the factors on the law's tension where the scene has
+    /// some and the problem is no [sketch](Problem::sketch), which takes an empty vector for any field.
+    fn pose(&self, problem: Problem, _scene: &Scene, _map: Option<&[f64]>) -> Problem {
+        problem
+    }
+    /// Names of the fields that it keeps on the host from step to step, in double precision, one
+    /// number a solved point each.
+    fn kept_fields(&self, _scene: &Scene) -> Vec<&'static str> {
+        Vec::new()
+    }
+    /// What it takes of the host's memory besides.
+    fn host_bytes(&self, _sizes: &Sizes) -> HostBytes {
+        HostBytes::default()
+    }
+
+    // On the way along a path.
+
+    /// Spring between a prescribed approach and the body, N/m.
+    fn spring(&self, _scene: &Scene) -> Option<f64> {
+        None
+    }
+    /// Whether it loses energy in every step, or keeps no branch, so that no jump can be told.
+    fn hides_jumps(&self) -> bool {
+        false
+    }
+    /// Whether the problem of a step depends on how long the step takes.
+    fn depends_on_duration(&self) -> bool {
+        false
+    }
+    /// The problem that steps of `duration` (s) meet, where that is not the setup's.
+    fn problem_over(&self, _setup: &Setup, _duration: f64) -> Option<Problem> {
+        None
+    }
+    /// Why no contact can have a prescribed value.
+    fn refuses(&self, _controller: &Controller, _value: f64) -> Option<Unreachable> {
+        None
+    }
+    /// Solves a prescribed value in its own way, and not by one load.
+    fn solve_value(&self, _attempt: &mut Attempt) -> Option<Result<SolvedStep, BackendError>> {
+        None
+    }
+    /// Solves a load from a start in its own way, and not by one solve.
+    fn solve_load(
+        &self,
+        _attempt: &mut Attempt,
+        _load: &Load,
+        _start: &Start,
+    ) -> Option<Result<SolvedStep, BackendError>> {
+        None
+    }
+    /// What it carries from step to step, as a checkpoint has it or as it is at first.
+    fn carry(&self, _setup: &Setup, _checkpoint: &Checkpoint) -> Option<Box<dyn Carry>> {
+        None
+    }
+    /// Measures a converged step of the path on its solver, once; loads that are tried between two
+    /// steps are not measured. What does not converge takes the step's convergence with it.
+    fn measure(
+        &self,
+        _setup: &Setup,
+        _solver: &mut ContactSolver,
+        _solved: &mut SolvedStep,
+    ) -> Result<(), BackendError> {
+        Ok(())
+    }
+
+    // In the tables.
+
+    /// Its columns of `curve.csv`.
+    fn columns(&self) -> &'static [Column] {
+        &[]
+    }
+    /// Values of its columns that are sums over a solved state, which is `None` where the surfaces are
+    /// separated.
+    fn values(&self, _setup: &Setup, _evaluation: Option<&Evaluation>) -> Vec<(Column, f64)> {
+        Vec::new()
+    }
+}
+
+/// What an effect carries from step to step of a path.
+pub(crate) trait Carry {
+    /// A copy, to which a path can go back.
+    fn copy(&self) -> Box<dyn Carry>;
+    /// Its fields of a checkpoint.
+    fn checkpoint_fields(&self) -> Vec<CheckpointField>;
+    /// Puts a solver into the state that is carried, before any step of it.
+    fn restore(&self, _solver: &mut ContactSolver) {}
+    /// Prepares a solver for a step of `duration` (s).
+    fn before_step(&mut self, _setup: &Setup, _solver: &mut ContactSolver, _duration: f64) {}
+    /// The load to solve for in place of one that is asked for.
+    fn load(&self, _solver: &ContactSolver, load: Load) -> Load {
+        load
+    }
+    /// Takes a solved step of `duration` (s), converged or not.
+    fn after_step(
+        &mut self,
+        _setup: &Setup,
+        _solver: &mut ContactSolver,
+        _solved: &mut SolvedStep,
+        _duration: f64,
+    ) -> Result<(), BackendError> {
+        Ok(())
+    }
+    /// Ends a load that converged with the surfaces loaded: what it leaves for good.
+    fn settle(&mut self, _solver: &mut ContactSolver) -> Result<(), BackendError> {
+        Ok(())
+    }
+    /// Values of its columns.
+    fn values(&self) -> Vec<(Column, f64)> {
+        Vec::new()
+    }
+}
+
+/// Sizes that bytes are counted by.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Sizes {
+    /// Points of the grid.
+    pub points: u64,
+    /// Solved points, those of a pad included.
+    pub solved: u64,
+    /// Bytes of a table over the wavevectors; 0 where a formula stands in its place.
+    pub table: u64,
+}
+
+/// Bytes of the host's memory that effects take, their kept fields aside.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub struct HostBytes {
+    /// Held throughout.
+    pub kept: u64,
+    /// Held for a moment of a step that no other moment shares; the largest counts.
+    pub passing: u64,
+    /// Results of solves that are held beside the one that is evaluated.
+    pub results: u64,
+    /// States of the path that a step holds beside its own.
+    pub states: u64,
+}
+
+impl HostBytes {
+    /// Both together.
+    fn with(self, other: HostBytes) -> HostBytes {
+        HostBytes {
+            kept: self.kept + other.kept,
+            passing: self.passing.max(other.passing),
+            results: self.results + other.results,
+            states: self.states.max(other.states),
+        }
+    }
+}
+
+/// The effects that a scene asks for, in the order in which they are called.
+#[derive(Clone)]
+pub(crate) struct Effects(Vec<&'static dyn Hooks>);
+
+impl Effects {
+    /// Those of a list that are on in a scene.
+    pub fn on(all: &[&'static dyn Hooks], scene: &Scene) -> Effects {
+        Effects(
+            all.iter()
+                .copied()
+                .filter(|effect| effect.is_on(scene))
+                .collect(),
+        )
+    }
+
+    /// One after the other.
+    pub fn iter(&self) -> impl Iterator<Item = &'static dyn Hooks> {
+        self.0.iter().copied()
+    }
+
+    /// Columns of `curve.csv` in their order.
+    pub fn columns(&self) -> Vec<Column> {
+        let mut columns: Vec<Column> = self
+            .iter()
+            .flat_map(|effect| effect.columns())
+            .copied()
+            .collect();
+        columns.sort_by_key(|column| column.place);
+        columns
+    }
+
+    /// The law that is solved for, of a scene's law.
+    pub fn solved_law(&self, law: Law) -> Law {
+        self.iter().fold(law, |law, effect| effect.solved_law(law))
+    }
+
+    /// A problem with all of them.
+    pub fn pose(&self, problem: Problem, scene: &Scene, map: Option<&[f64]>) -> Problem {
+        self.iter()
+            .fold(problem, |problem, effect| effect.pose(problem, scene, map))
+    }
+
+    /// Spring between a prescribed approach and the body, N/m.
+    pub fn spring(&self, scene: &Scene) -> Option<f64> {
+        self.iter().find_map(|effect| effect.spring(scene))
+    }
+
+    /// Whether the problem of a step depends on how long the step takes.
+    pub fn depend_on_duration(&self) -> bool {
+        self.iter().any(|effect| effect.depends_on_duration())
+    }
+
+    /// The problem that steps of `duration` (s) meet.
+    pub fn problem_over<'s>(&self, setup: &'s Setup, duration: f64) -> Cow<'s, Problem> {
+        self.iter()
+            .find_map(|effect| effect.problem_over(setup, duration))
+            .map_or(Cow::Borrowed(&setup.problem), Cow::Owned)
+    }
+
+    /// What they take of the host's memory besides their kept fields.
+    pub fn host_bytes(&self, sizes: &Sizes) -> HostBytes {
+        self.iter().fold(HostBytes::default(), |bytes, effect| {
+            bytes.with(effect.host_bytes(sizes))
+        })
+    }
+}
+
+impl fmt::Debug for Effects {
+    fn fmt(&self, f: &mut fmt::Formatter) -> fmt::Result {
+        f.debug_list()
+            .entries(self.iter().map(Hooks::name))
+            .finish()
+    }
+}

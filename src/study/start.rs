@@ -1,0 +1,60 @@
+//! Where the solve of a step starts: from the gap of the last one, moved to where it is prescribed.
+
+use super::attempt::Attempt;
+use crate::backend::BackendError;
+use crate::grid::Boundary;
+use crate::solver::{Hold, Load, Start};
+
+/// Share of the mean gap below which a point moved by it is closed: the rounding of that mean in
+/// double precision.
+const CLOSED: f64 = 1e-13;
+
+/// The mean, taken about the first of the values: that of equal ones is exact on any grid.
+fn mean_of(values: &[f64]) -> f64 {
+    let first = values[0];
+    first + values.iter().map(|value| value - first).sum::<f64>() / values.len() as f64
+}
+
+/// The last gap, moved to a new mean gap where that is prescribed; the undeformed gap at the beginning.
+pub(super) fn start(attempt: &mut Attempt, load: &Load) -> Result<Start, BackendError> {
+    let problem = &attempt.setup.problem;
+    let controller = attempt.controller;
+    if !attempt.loaded {
+        return Ok(
+            if problem.boundary == Boundary::Free || controller.is_sprung() {
+                let depths = attempt.solver.flowed();
+                Start::Gap(controller.undeformed_gap(attempt.value, depths))
+            } else {
+                Start::Cold
+            },
+        );
+    }
+    let Hold::Gap(target) = load.hold else {
+        return Ok(Start::Present);
+    };
+    let mut gap = attempt.solver.gap()?;
+    let mean = mean_of(&gap);
+    let least = gap.iter().copied().fold(f64::INFINITY, f64::min);
+    // Open surfaces move rigidly; a wall in contact stays where it is and the rest scales.
+    if !problem.law.has_wall() {
+        gap = attempt.solver.problem().moved_to(gap, target);
+    } else if least > 0.0 && least + target - mean >= 0.0 {
+        let moved = target - mean;
+        // Surfaces that meet in this very step meet everywhere they should.
+        let rounding = CLOSED.max(8.0 * attempt.solver.epsilon()) * mean.abs();
+        for g in &mut gap {
+            *g += moved;
+            if *g <= rounding {
+                *g = 0.0;
+            }
+        }
+    } else if target <= 0.0 && problem.hardness.is_some() {
+        // Pressed in beyond closure: the solid is indented everywhere.
+        gap.fill(target);
+    } else if mean > 0.0 {
+        gap.iter_mut().for_each(|g| *g *= target / mean);
+    } else {
+        return Ok(Start::Cold);
+    }
+    Ok(Start::Gap(gap))
+}
