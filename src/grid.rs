@@ -53,6 +53,16 @@ impl Grid {
         }
     }
 
+    /// Points along x and y.
+    pub fn points(&self) -> [usize; 2] {
+        [self.nx, self.ny]
+    }
+
+    /// Lengths along x and y, m.
+    pub fn size(&self) -> [f64; 2] {
+        [self.lx, self.ly]
+    }
+
     /// Number of points, nx times ny.
     pub fn len(&self) -> usize {
         self.nx * self.ny

@@ -3,27 +3,49 @@
 //!
 //! tabor answers with the whole pressure field. The counter-face is rigid and carries the composite
 //! roughness, the solid is an elastic half-space of contact modulus E*, and a cohesive law acts
-//! across the gap, in contact and out of it. A scene says what is there:
+//! across the gap, in contact and out of it. Heights go in as an array, gap and pressure come out as
+//! arrays, everything in SI units:
 //!
 //! ```
-//! use tabor::backend::{Backend, cpu::CpuBackend};
-//! use tabor::study::{Setup, walk};
-//! use tabor::{scene::Scene, surface::Surface};
+//! use tabor::{Contact, Control, Grid, MaugisDugdale, Roughness, SelfAffine};
 //!
 //! # fn main() -> Result<(), Box<dyn std::error::Error>> {
-//! let smaller = [("grid.points".to_owned(), "128".to_owned())]; // as --set on the command line
-//! let scene = Scene::read("examples/scenes/rough.toml".as_ref(), &smaller)?;
-//! let setup = Setup::new(scene.clone(), Surface::build(&scene)?);
-//! let cpu = || -> Box<dyn Backend + Send> { Box::new(CpuBackend::<f64>::new()) };
-//! let end = walk(&setup, &cpu, &mut ())?; // an `Observer` in place of `()` gets the fields
-//! for row in &end.rows {
-//!     println!("{:.2e} Pa: {:.4} in contact", row.mean_pressure, row.contact_area_fraction);
+//! let grid = Grid::new([128, 128], [20e-6, 20e-6]); // points and metres, x first
+//! let rough = SelfAffine {
+//!     hurst: 0.8, roughness: Roughness::RmsSlope(0.12),
+//!     longest: 20e-6, rolloff: 5e-6, shortest: 1.6e-6, seed: 1,
+//! };
+//! let contact = Contact::new(rough.heights(grid)?, grid.points(), grid.size())
+//!     .contact_modulus(100e6)
+//!     .law(MaugisDugdale::new(0.05, 20e-9));
+//! for solution in contact.path([1e6, 4e6, 0.0].map(Control::MeanPressure)) {
+//!     let solution = solution?; // solution.gap, .pressure, .displacement: one number a point
+//!     println!("{:.1e} Pa: {:.4} in contact", solution.mean_pressure, solution.contact_area_fraction);
+//!     # assert!(solution.converged);
+//!     # assert!(solution.contact_area_fraction > 0.05);
 //! }
-//! # assert!(end.rows.iter().all(|row| row.converged));
-//! # assert!(end.rows[3].contact_area_fraction > end.rows[0].contact_area_fraction);
 //! # Ok(())
 //! # }
 //! ```
+//!
+//! # From where to go on
+//!
+//! - [`Contact`]: what touches what; everything that a scene file can say has a method.
+//! - [`Solution`], [`Path`]: a solved load as arrays; loads one after another.
+//! - [`run`](fn@run): a [`Scene`], from a file or from [`Contact::scene`], solved into a folder of results.
+//! - [`Device`]: the processor, or a graphics processor.
+//! - [`scene`], [`surface`]: the tables of a scene; heights, their statistics and spectra.
+//! - [`theory`]: closed forms to compare with.
+//! - [`fit`], [`mod@compare`], [`accuracy`]: a force curve fitted; several models of one surface; what accuracy
+//!   costs.
+//! - [`output`]: the files of a run, to read and to write.
+//!
+//! # Features
+//!
+//! `cli` (default) is the program `tabor`, `gpu` (default) the graphics processor, `images`, which `cli` brings
+//! with it, pictures, reports and height maps from PNG and TIFF. Without any of them remains the solver on the
+//! processor with everything above, which depends on no graphics, no fonts and no command line, and compiles
+//! for `wasm32-unknown-unknown` (there seconds are 0 and threads one).
 //!
 //! # The map
 //!
@@ -32,6 +54,7 @@
 //! | module | what it holds |
 //! |---|---|
 //! | [`units`] | text with units to SI and back; the one place that knows unit names |
+//! | `clock` | time that passes; the one place that asks the system for it |
 //! | [`grid`] | points, sizes, wavevectors, the order of a field, what the transforms are scaled by |
 //! | [`real`] | the two kinds of number that kernels run in |
 //! | [`law`] | how strongly surfaces attract across a gap, one file a law |
@@ -43,12 +66,15 @@
 //! | [`surface`] | heights: self-affine, shapes, files; their statistics and the spectrum that fits |
 //! | [`study`] | loading paths: what is prescribed, jumps, energies, the rows of `curve.csv`, the hooks of effects |
 //! | [`effect`] | what a scene may ask for besides, one file each, and what each costs |
-//! | [`output`] | the folder of a run: curve, summary, fields, pictures, report, and the state to go on from |
+//! | [`output`] | the files of a run: curve, summary, fields, pictures, report, and the state to resume from |
+//! | [`device`] | where a run computes: the processor or a graphics processor, and in which arithmetic |
+//! | [`run`](mod@run) | a scene solved into its folder, or resumed; whether the memory holds it |
+//! | `contact` | [`Contact`]: arrays in, arrays out |
 //! | [`theory`] | closed forms and models to compare with: Hertz, JKR, Maugis, Persson and others |
 //! | [`compare`] | one rough surface through the full field and the models of it, with seconds and ranges |
 //! | [`fit`] | work of adhesion and modulus from a measured force curve |
 //! | [`accuracy`] | error against seconds: a scene over grids, precisions, steps and models |
-//! | [`cli`] | the command line |
+//! | `cli` | the command line |
 //!
 //! # What an iteration does
 //!
@@ -84,28 +110,65 @@
 //! precision every kernel of a law reads two fields more. Under a mean gap the trial step is scaled back to
 //! it: by linearity, so that no pass comes between, but with Lennard-Jones and with a hardness, where
 //! the share that is added to a point is not linear in its step.
+//! Modules that are named here and not listed below are the solver's own. They are public for the tests and
+//! benches of this crate, which would otherwise build it twice (a feature for them makes another build of
+//! the crate than that of the program), and may change in every version.
 #![warn(missing_docs)]
 // Both macros panic where nobody reads; `cli` has one place for each stream.
 #![cfg_attr(not(test), deny(clippy::print_stdout, clippy::print_stderr))]
 
 pub mod accuracy;
+#[doc(hidden)]
 pub mod backend;
-pub mod cli;
+#[cfg(feature = "cli")]
+mod cli;
+mod clock;
 pub mod compare;
+mod contact;
+#[doc(hidden)]
+pub mod device;
+#[doc(hidden)]
 pub mod effect;
+#[doc(hidden)]
 pub mod elastic;
 pub mod fit;
+#[doc(hidden)]
 pub mod grid;
+#[doc(hidden)]
 pub mod kernel;
+#[doc(hidden)]
 pub mod law;
 pub mod output;
+#[doc(hidden)]
 pub mod real;
+pub mod run;
 pub mod scene;
+#[doc(hidden)]
 pub mod solver;
+#[doc(hidden)]
 pub mod study;
 pub mod surface;
 pub mod theory;
+#[doc(hidden)]
 pub mod units;
+
+#[cfg(feature = "cli")]
+#[doc(hidden)]
+pub use cli::main as command_line;
+pub use contact::{
+    Contact, ContactError, ContactMistake, ContactMistakes, Control, Load, Path, Solution,
+};
+pub use device::{Device, DeviceError};
+pub use elastic::{Base, Layer};
+pub use grid::Grid;
+pub use run::{RunEnd, RunError, RunObserver, RunOptions, RunStatus, run, run_with};
+pub use scene::{
+    AdhesionMap, Boundary, Exponential, GridValues, LennardJones, MaugisDugdale, Precision, Ramp,
+    Range, Roughness, Scene, SelfAffineScene as SelfAffine, SurfacePart, Treatment,
+};
+
+pub use study::{Jump, State, StepRow, Unreachable};
+pub use units::UnitError;
 
 /// The README's program is compiled and run like the one above.
 #[cfg(doctest)]

@@ -3,5 +3,5 @@
 use std::process::ExitCode;
 
 fn main() -> ExitCode {
-    tabor::cli::main()
+    tabor::command_line()
 }

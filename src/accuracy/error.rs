@@ -5,6 +5,7 @@ use crate::surface::SurfaceError;
 
 /// Why the accuracy of a scene cannot be measured.
 #[derive(Debug, thiserror::Error)]
+#[non_exhaustive]
 pub enum AccuracyError {
     /// The surface cannot be built.
     #[error(transparent)]

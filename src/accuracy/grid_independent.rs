@@ -35,7 +35,8 @@ impl GridIndependentSurface {
     /// A height file that cannot be read; a height file on a free boundary or an adhesion map from
     /// a file, which belong to one grid.
     pub fn new(scene: &Scene) -> Result<GridIndependentSurface, AccuracyError> {
-        let is_file = |part: &SurfacePart| matches!(part, SurfacePart::File(_));
+        let is_file =
+            |part: &SurfacePart| matches!(part, SurfacePart::File(_) | SurfacePart::Heights(_));
         let has_file = scene.surfaces.iter().any(is_file);
         if has_file && scene.grid.boundary == Boundary::Free {
             return Err(AccuracyError::OneGrid {
@@ -44,7 +45,7 @@ impl GridIndependentSurface {
             });
         }
         let map = scene.adhesion.as_ref().and_then(|law| law.map.as_ref());
-        if let Some(AdhesionMap::File(_)) = map {
+        if let Some(AdhesionMap::File(_) | AdhesionMap::Factors(_)) = map {
             return Err(AccuracyError::OneGrid {
                 what: "adhesion.map from a file",
                 remedy: "give it as a pattern, or leave it out",

@@ -1,10 +1,9 @@
 //! Runs one setting and measures it.
 
-use std::time::Instant;
-
 use super::cells;
 use super::steps::{PathVariant, StepPosition, Steps};
 use crate::backend::BackendError;
+use crate::clock::Clock;
 use crate::kernel::Scalars;
 use crate::scene::{Boundary, Control, Scene};
 use crate::solver::MakeBackend;
@@ -92,13 +91,13 @@ pub fn measure(
         profile: None,
         watch,
     };
-    let clock = Instant::now();
+    let clock = Clock::start();
     let end = match walk(setup, make_backend, &mut observer) {
         Ok(end) => end,
         Err(WalkError::Backend(error)) => return Err(Unfinished::Backend(error)),
         Err(WalkError::Observer(never)) => match never {},
     };
-    let seconds = clock.elapsed().as_secs_f64();
+    let seconds = clock.seconds();
     let profile = observer.profile;
     if end.interrupted {
         return Err(Unfinished::Stopped);

@@ -1,7 +1,5 @@
 //! Runs the reference first, then each setting that the time allows, the cheapest first.
 
-use std::time::{Duration, Instant};
-
 use super::closed_form::closed_form;
 use super::error::AccuracyError;
 use super::errors::{Errors, change, relative_errors};
@@ -14,6 +12,7 @@ use super::reference::Reference;
 use super::report::{LeftOut, Report, Row, duration};
 use super::setting::{Setting, Varied, others};
 use super::steps::Steps;
+use crate::clock::Clock;
 use crate::grid::Grid;
 use crate::kernel::Scalars;
 use crate::law::Law;
@@ -31,7 +30,8 @@ const TIGHTER: f64 = 0.1;
 pub struct Study<'a> {
     same: GridIndependentSurface,
     provider: &'a dyn BackendProvider,
-    deadline: Instant,
+    /// Since the study was prepared.
+    clock: Clock,
     budget: f64,
     cells: [usize; 2],
     grids: Vec<[usize; 2]>,
@@ -72,7 +72,7 @@ impl<'a> Study<'a> {
         provider: &'a dyn BackendProvider,
         budget: f64,
     ) -> Result<Study<'a>, AccuracyError> {
-        let started = Instant::now();
+        let clock = Clock::start();
         let mut same = GridIndependentSurface::new(scene)?;
         // Models are compared with the full law, and other precisions with double precision on the
         // processor.
@@ -104,7 +104,7 @@ impl<'a> Study<'a> {
         Ok(Study {
             same,
             provider,
-            deadline: started + Duration::from_secs_f64(budget),
+            clock,
             budget,
             cells,
             grids,
@@ -139,7 +139,7 @@ impl<'a> Study<'a> {
 
     /// Remaining seconds.
     fn left(&self) -> f64 {
-        (self.deadline - Instant::now().min(self.deadline)).as_secs_f64()
+        (self.budget - self.clock.seconds()).max(0.0)
     }
 
     /// Solves the reference grid by grid while time allows; returns the grids coarse enough to be
@@ -384,12 +384,11 @@ impl<'a> Study<'a> {
             listener.note(remark);
         }
         listener.begins(&setting.words(&self.report.scene), predicted);
-        let began = Instant::now();
-        let until = (began + Duration::from_secs_f64(allowed)).min(self.deadline);
+        let (began, clock, budget) = (Clock::start(), self.clock, self.budget);
         let mut interrupted = false;
         let mut watch = |step: usize, scalars: &Scalars| {
             interrupted = !listener.goes_on(step, scalars.iterations as usize, scalars.residual);
-            !interrupted && Instant::now() < until
+            !interrupted && began.seconds() < allowed && clock.seconds() < budget
         };
         let mut run = || {
             let own = &self.report.scene;
@@ -419,7 +418,7 @@ impl<'a> Study<'a> {
             }
             Err(Unfinished::Stopped) if interrupted => Err(Skipped::Interrupted),
             Err(Unfinished::Stopped) => {
-                let took = began.elapsed().as_secs_f64();
+                let took = began.seconds();
                 // It takes at least this long; similar settings will not be tried again.
                 self.forecast.learn(&work, took.max(predicted));
                 Err(Skipped::OutOfTime(took))

@@ -11,7 +11,15 @@
 pub mod cpu;
 pub mod dry_run;
 mod factors;
+#[cfg(feature = "gpu")]
 pub mod gpu;
+/// What remains of graphics processors without the feature `gpu`: a buffer that nobody can have.
+#[cfg(not(feature = "gpu"))]
+mod gpu {
+    /// A field on a device that another backend may copy.
+    #[derive(Debug)]
+    pub enum SharedBuffer {}
+}
 
 use crate::kernel::{Gate, Kernel, Params, ScalarKernel, Scalars};
 pub use factors::{Factors, Response};

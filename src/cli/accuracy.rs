@@ -9,16 +9,17 @@ use clap::Args;
 use indicatif::{ProgressBar, ProgressDrawTarget, ProgressStyle};
 
 use super::interrupts::Interrupts;
-use super::machine::{Machine, may_take_adapters};
 use super::patience::Patience;
-use super::{Failure, drivers, key_and_value, note, read_scene, room, say, warn};
+use super::{Failure, key_and_value, note, read_scene, say, warn};
 use crate::accuracy::{
     AccuracyError, BackendProvider, Listener, ProvidedBackend, Report, Study, duration,
     expect_place, picture, screen, write_csv,
 };
 use crate::backend::cpu::with_threads;
+use crate::device::{SelectedDevice, has_adapter_for};
 use crate::grid::Grid;
 use crate::output::FolderLock;
+use crate::run::memory_check;
 use crate::scene::{BackendName, Precision, Scene};
 use crate::study::Setup;
 use crate::units::{Dimension, parse_quantity};
@@ -68,7 +69,7 @@ pub(super) fn accuracy(arguments: &AccuracyArguments) -> Result<(), Failure> {
     let _patience = (!arguments.quiet && !stderr().is_terminal())
         .then(|| Patience::new("--budget says how long it may take"));
     let scene = read_scene(&arguments.scene, &arguments.set)?;
-    room::refuse_scene(&scene)?;
+    memory_check::check_scene(&scene)?;
     let folder = match &arguments.out {
         Some(folder) => folder.clone(),
         None => {
@@ -144,7 +145,7 @@ impl Shop<'_> {
     fn found(&self) -> Vec<(BackendName, Precision)> {
         let arguments = self.arguments;
         let mut backends = vec![BackendName::Cpu];
-        if may_take_adapters(self.scene) && !drivers::list(arguments.verbose).is_empty() {
+        if has_adapter_for(self.scene, arguments.verbose) {
             backends.push(BackendName::Gpu);
         }
         let precisions = [Precision::Double, Precision::Single, Precision::Mixed];
@@ -175,15 +176,15 @@ impl BackendProvider for Shop<'_> {
     }
 
     fn fits(&self, scene: &Scene, grid: Grid) -> Result<(), String> {
-        room::refuse(scene, grid).map_err(|error| error.to_string())
+        memory_check::check_grid(scene, grid).map_err(|error| Failure::from(error).to_string())
     }
 
     fn provide(&self, setup: &Setup) -> Result<ProvidedBackend, String> {
-        let machine =
-            Machine::of(setup, self.arguments.verbose).map_err(|error| error.to_string())?;
+        let device = SelectedDevice::new(setup, self.arguments.verbose)
+            .map_err(|error| Failure::from(error).to_string())?;
         Ok(ProvidedBackend {
-            remark: machine.remark.clone(),
-            make: Box::new(move || machine.backend()),
+            remark: device.remark.clone(),
+            make: Box::new(move || device.backend()),
         })
     }
 }

@@ -1,10 +1,10 @@
 //! `tabor check`: physics, accuracy, memory and cost of a scene, without solving it.
 
-use super::machine::{largest_here, refuse_size};
-use super::{CheckArguments, Failure, print, read_scene, room, warn};
+use super::{CheckArguments, Failure, print, read_scene, warn};
 use crate::backend::dry_run::Place;
 use crate::effect::Effect;
 use crate::law::Law;
+use crate::run::memory_check;
 use crate::study::{Cost, Memory, Plan};
 use crate::surface::Source;
 use crate::units::format_si;
@@ -12,23 +12,24 @@ use crate::units::format_si;
 /// Reads and validates a scene and prints a report.
 pub(super) fn check(arguments: &CheckArguments) -> Result<(), Failure> {
     let scene = read_scene(&arguments.scene, &arguments.set)?;
-    room::refuse_files(&scene)?;
+    memory_check::check_files(&scene)?;
     let plan = Plan::of(scene).map_err(|error| Failure::Surface {
         path: arguments.scene.clone(),
         error,
     })?;
     let place = Place::of(&plan.scene);
     let cost = plan.cost(place)?;
+    #[cfg(feature = "gpu")]
     if place.on_gpu() {
-        refuse_size(cost.points)?;
+        crate::device::check_points(cost.points)?;
     }
     print(&describe(&plan, &cost, arguments.verbose)?)?;
     for warning in &plan.warnings {
         warn(warning);
     }
     // A scene may be looked at here and run elsewhere.
-    if let Err(error) = room::refuse(&plan.scene, plan.outline.grid) {
-        warn(&error.to_string());
+    if let Err(error) = memory_check::check_grid(&plan.scene, plan.outline.grid) {
+        warn(&Failure::from(error).to_string());
     }
     Ok(())
 }
@@ -211,12 +212,15 @@ fn resources(plan: &Plan, cost: &Cost, verbose: bool) -> Vec<String> {
             Place::GpuDouble => "double precision on the GPU",
         }
     ));
+    #[cfg(feature = "gpu")]
     if cost.place == Place::Gpu {
         lines.push(format!(
             "largest grid  {}",
-            largest_here(scene.grid.boundary, verbose)
+            crate::device::largest_here(scene.grid.boundary, verbose)
         ));
     }
+    #[cfg(not(feature = "gpu"))]
+    let _ = verbose;
     lines
 }
 

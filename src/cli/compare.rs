@@ -2,10 +2,11 @@
 
 use std::path::PathBuf;
 
-use super::machine::Machine;
 use super::patience::Patience;
-use super::{CompareArguments, Failure, note, read_scene, room, say, warn};
+use super::{CompareArguments, Failure, note, read_scene, say, warn};
 use crate::compare::{self, CompareError, Row};
+use crate::device::SelectedDevice;
+use crate::run::memory_check;
 use crate::study::Setup;
 use crate::surface::Surface;
 use crate::units::format_si;
@@ -16,19 +17,19 @@ pub(super) fn compare(arguments: &CompareArguments) -> Result<(), Failure> {
     let scene = read_scene(&arguments.scene, &arguments.set)?;
     // Before a surface is built of which nothing could be said.
     compare::check_scene(&scene)?;
-    room::refuse_scene(&scene)?;
+    memory_check::check_scene(&scene)?;
     let surface = Surface::build(&scene).map_err(|error| Failure::Surface {
         path: arguments.scene.clone(),
         error,
     })?;
     // Of a grid that a height file carries.
-    room::refuse(&scene, surface.grid)?;
+    memory_check::check_grid(&scene, surface.grid)?;
     let setup = Setup::new(scene, surface);
     for warning in &setup.warnings {
         warn(warning);
     }
-    let machine = Machine::of(&setup, arguments.verbose)?;
-    if let Some(remark) = &machine.remark {
+    let device = SelectedDevice::new(&setup, arguments.verbose)?;
+    if let Some(remark) = &device.remark {
         note(remark);
     }
     let folder = match &arguments.out {
@@ -38,7 +39,7 @@ pub(super) fn compare(arguments: &CompareArguments) -> Result<(), Failure> {
             PathBuf::from(format!("{}_compare", stem.to_string_lossy()))
         }
     };
-    let compared = compare::compare(setup, &|| machine.backend(), &folder)?;
+    let compared = compare::compare(setup, &|| device.backend(), &folder)?;
     for text in &compared.notes {
         note(text);
     }
@@ -52,6 +53,7 @@ impl From<CompareError> for Failure {
             CompareError::Unsuited(text) => Failure::Usage(text),
             CompareError::Output(error) => error.into(),
             CompareError::Backend(error) => error.into(),
+            CompareError::Run(error) => error.into(),
         }
     }
 }

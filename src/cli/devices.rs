@@ -2,23 +2,42 @@
 
 use std::num::NonZero;
 
-use super::machine::best;
-use super::{Failure, drivers, print};
+use super::{Failure, print};
+#[cfg(feature = "gpu")]
 use crate::backend::gpu::{AdapterDescription, Number};
+#[cfg(feature = "gpu")]
+use crate::device::{best, list};
+#[cfg(feature = "gpu")]
 use crate::scene::Precision;
 
 /// Prints the adapters and which one `auto` takes.
+#[cfg(feature = "gpu")]
 pub(super) fn devices(verbose: bool) -> Result<(), Failure> {
-    print(&describe(&drivers::list(verbose)))
+    print(&describe(&list(verbose)))
 }
 
-fn describe(found: &[AdapterDescription]) -> String {
+/// Prints the processor.
+#[cfg(not(feature = "gpu"))]
+pub(super) fn devices(_verbose: bool) -> Result<(), Failure> {
+    print(&format!(
+        "{}\nadapter       none looked for: this build is without the feature `gpu`\nauto          the processor\n",
+        processor()
+    ))
+}
+
+/// The processor, in words.
+fn processor() -> String {
     let threads = std::thread::available_parallelism().map_or(1, NonZero::get);
-    let mut lines = vec![format!(
+    format!(
         "processor     {threads} threads\n\
          \x20 precision   single, mixed, double\n\
          \x20 largest     any grid that the memory holds"
-    )];
+    )
+}
+
+#[cfg(feature = "gpu")]
+fn describe(found: &[AdapterDescription]) -> String {
+    let mut lines = vec![processor()];
     for (index, adapter) in found.iter().enumerate() {
         let side = adapter.largest_side(Number::Single);
         let in_double = adapter.largest_side(Number::Double);

@@ -4,8 +4,9 @@ use std::sync::atomic::{AtomicBool, Ordering};
 use std::sync::{Arc, Mutex, OnceLock, PoisonError};
 use std::time::{Duration, Instant};
 
-use super::{drivers, fail, say};
-use crate::backend::gpu::keeps_waiting;
+use super::{fail, say};
+#[cfg(feature = "gpu")]
+use crate::backend::gpu::{keeps_waiting, restore_standard_error};
 
 /// Exit status of what a signal ended.
 pub(super) const INTERRUPTED: u8 = 130;
@@ -97,7 +98,8 @@ impl Asked {
     /// Ends the process. Every file is whole or under its hidden name, and each finished step is on the disk, so that
     /// nothing is lost but what a run writes at its end.
     fn end(&self, why: &str) {
-        drivers::hear();
+        #[cfg(feature = "gpu")]
+        restore_standard_error();
         let kept = self.kept.lock().unwrap_or_else(PoisonError::into_inner);
         if !kept.is_empty() {
             say(&kept);
@@ -105,6 +107,12 @@ impl Asked {
         fail(why);
         leave(INTERRUPTED);
     }
+}
+
+/// Nothing but a graphics processor keeps a run from hearing of a signal.
+#[cfg(not(feature = "gpu"))]
+fn keeps_waiting() -> bool {
+    false
 }
 
 /// Leaves without the cleaning up of libraries, which would wait for the driver or pull its memory from

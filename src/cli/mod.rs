@@ -6,15 +6,11 @@ mod busy;
 mod check;
 mod compare;
 mod devices;
-mod drivers;
+mod file_limit;
 mod fit;
 mod interrupts;
-mod keeper;
-mod leftovers;
-mod machine;
-mod opening;
 mod patience;
-mod room;
+mod progress;
 mod run;
 mod shell;
 mod surface;
@@ -29,9 +25,10 @@ use clap::{Args, Parser, Subcommand, ValueEnum};
 
 use crate::accuracy::AccuracyError;
 use crate::backend::BackendError;
-use crate::backend::gpu::GpuError;
+use crate::device::DeviceError;
 use crate::fit::FitError;
 use crate::output::{OutputError, visible, visible_line};
+use crate::run::{MemoryError, RunError};
 use crate::scene::{BackendName, Precision, Scene, SceneErrors};
 use crate::surface::SurfaceError;
 use crate::theory::TheoryError;
@@ -248,39 +245,10 @@ enum Failure {
     Output(#[from] OutputError),
     #[error(transparent)]
     Backend(#[from] BackendError),
-    #[error("the GPU cannot be used: {0}; --backend cpu does without")]
-    Gpu(GpuError),
-    #[error(
-        "grid.points: {} x {} points need {} of memory and there are {}; {}",
-        points[0], points[1], gibibytes(*needed), gibibytes(*available), smaller(*largest, *single, *available)
-    )]
-    Memory {
-        points: [usize; 2],
-        needed: u64,
-        available: u64,
-        /// The largest grid of this shape that fits.
-        largest: Option<[usize; 2]>,
-        /// Bytes in single precision, where the scene leaves the choice.
-        single: Option<u64>,
-    },
-    #[error(
-        "{}: {} of heights are more than the memory, {}; take a coarser map", path.display(), gibibytes(*length), gibibytes(*available)
-    )]
-    FileMemory {
-        path: PathBuf,
-        length: u64,
-        available: u64,
-    },
-    #[error(
-        "{}: {} x {} points need {} of memory and there are {}; take a coarser map", path.display(), points[0], points[1], gibibytes(*needed), gibibytes(*available)
-    )]
-    MapMemory {
-        /// The height file or the scene.
-        path: PathBuf,
-        points: [usize; 2],
-        needed: u64,
-        available: u64,
-    },
+    #[error("{}", .0.in_words("--backend cpu"))]
+    Device(DeviceError),
+    #[error("{}", .0.in_words("--precision single"))]
+    Memory(MemoryError),
     #[error("{0}")]
     Usage(String),
     #[error(
@@ -309,22 +277,33 @@ enum Failure {
     Print(std::io::Error),
 }
 
-/// Bytes for people.
-fn gibibytes(bytes: u64) -> String {
-    format!("{:.2} GiB", bytes as f64 / f64::from(1 << 30))
+impl From<DeviceError> for Failure {
+    fn from(error: DeviceError) -> Self {
+        Failure::Device(error)
+    }
 }
 
-/// The ways out of a grid that the memory does not hold.
-fn smaller(largest: Option<[usize; 2]>, single: Option<u64>, available: u64) -> String {
-    let fewer = match largest {
-        Some([nx, ny]) => format!("take at most {nx} x {ny} points"),
-        None => "no grid of this shape fits".to_owned(),
-    };
-    match single {
-        Some(needed) if needed <= available => {
-            format!("{fewer}, or --precision single ({})", gibibytes(needed))
+impl From<MemoryError> for Failure {
+    fn from(error: MemoryError) -> Self {
+        match error {
+            MemoryError::Cost(error) => Failure::Backend(error),
+            other => Failure::Memory(other),
         }
-        _ => fewer,
+    }
+}
+
+impl From<RunError> for Failure {
+    fn from(error: RunError) -> Self {
+        match error {
+            RunError::Surface(error) => Failure::Surface {
+                path: PathBuf::new(),
+                error,
+            },
+            RunError::Memory(error) => error.into(),
+            RunError::Device(error) => error.into(),
+            RunError::Backend(error) => error.into(),
+            RunError::Output(error) => error.into(),
+        }
     }
 }
 
@@ -334,12 +313,13 @@ impl Failure {
             Failure::Output(OutputError::Refused { .. }) => 2,
             Failure::Output(_) | Failure::Print(_) => 1,
             Failure::Scene(_) | Failure::Surface { .. } | Failure::Usage(_) => 2,
-            Failure::Memory { .. } | Failure::FileMemory { .. } | Failure::MapMemory { .. } => 2,
+            Failure::Memory(_)
+            | Failure::Device(DeviceError::Points { .. } | DeviceError::Limits { .. }) => 2,
             Failure::NotConverged { .. }
             | Failure::Theory(TheoryError::NotConverged { .. })
             | Failure::Fit(FitError::Theory(TheoryError::NotConverged { .. })) => 3,
             Failure::Theory(_) | Failure::Fit(_) => 2,
-            Failure::Backend(_) | Failure::Gpu(_) => 4,
+            Failure::Backend(_) | Failure::Device(_) => 4,
             Failure::Accuracy(AccuracyError::Output(OutputError::Refused { .. })) => 2,
             Failure::Accuracy(AccuracyError::Output(_)) => 1,
             Failure::Accuracy(_) => 2,
@@ -360,7 +340,7 @@ pub fn theory_table(words: &[String]) -> Result<String, String> {
 
 /// Runs the command line and says how it ended.
 pub fn main() -> ExitCode {
-    room::outlive_a_limit_on_files();
+    file_limit::survive();
     let arguments = match Arguments::try_parse() {
         Ok(arguments) => arguments,
         Err(error) => refuse_call(error),

@@ -1,11 +1,12 @@
 //! One rough surface through several models, with the seconds that each takes.
 //!
-//! [`compare`] computes contact area, mean gap, attraction and pull-off under the same loads by the
+//! [`compare_scene`] computes contact area, mean gap, attraction and pull-off under the same loads by the
 //! full field, the field without adhesion with the attraction added afterwards (DMT), interacting
 //! asperities, Persson's theory, independent summits (GW-M) and the bearing-area model;
 //! `docs/compare.md` describes each and its range.
 
 mod asperities;
+#[cfg(feature = "images")]
 mod draw;
 mod field;
 mod load_scan;
@@ -15,14 +16,17 @@ mod table;
 pub use table::Row;
 
 use std::path::Path;
-use std::time::Instant;
 
 use crate::backend::BackendError;
+use crate::clock::Clock;
+use crate::device::SelectedDevice;
 use crate::law::Law;
 use crate::output::OutputError;
+use crate::run::{RunError, memory_check};
 use crate::scene::{Boundary, Scene, SurfacePart};
 use crate::solver::MakeBackend;
 use crate::study::Setup;
+use crate::surface::Surface;
 use crate::theory::TheoryError;
 use crate::theory::tabor_map::FORCE_DMT_LIMIT;
 use table::Table;
@@ -51,6 +55,7 @@ pub struct Compared {
 
 /// Why a comparison is impossible.
 #[derive(Debug, thiserror::Error)]
+#[non_exhaustive]
 pub enum CompareError {
     /// A scene outside the models: the part and the remedy.
     #[error("{0}")]
@@ -61,6 +66,9 @@ pub enum CompareError {
     /// A device that failed.
     #[error(transparent)]
     Backend(#[from] BackendError),
+    /// A surface that cannot be built, a memory that does not hold it, or a device that cannot be used.
+    #[error(transparent)]
+    Run(#[from] RunError),
 }
 
 /// A scene with its surface, and the loads for the models.
@@ -86,11 +94,30 @@ impl Comparison {
     }
 }
 
-/// Compares and writes `compare.csv`, row by row, and `compare.png` into `folder`.
+/// Compares a scene on the device that it names and writes `compare.csv`, row by row, and with the feature
+/// `images` `compare.png` into `folder`.
+///
+/// # Errors
+/// A scene that does not suit ([`check_scene`]), a flat surface, a surface that cannot be built, a memory that does
+/// not hold it, files that cannot be written, a device that cannot be used or fails. A model that has nothing
+/// to say is no error: a note tells why.
+pub fn compare_scene(scene: Scene, folder: &Path) -> Result<Compared, CompareError> {
+    // Before a surface is built of which nothing could be said.
+    check_scene(&scene)?;
+    memory_check::check_scene(&scene).map_err(RunError::from)?;
+    let surface = Surface::build(&scene).map_err(RunError::from)?;
+    memory_check::check_grid(&scene, surface.grid).map_err(RunError::from)?;
+    let setup = Setup::new(scene, surface);
+    let device = SelectedDevice::new(&setup, false).map_err(RunError::from)?;
+    compare(setup, &|| device.backend(), folder)
+}
+
+/// Compares and writes `compare.csv`, row by row, and with the feature `images` `compare.png` into `folder`.
 ///
 /// # Errors
 /// A scene that does not suit ([`check_scene`]), a flat surface, files that cannot be written, a device
 /// that fails. A model without results is not an error: a note gives the reason.
+#[doc(hidden)]
 pub fn compare(
     setup: Setup,
     make_backend: MakeBackend,
@@ -128,19 +155,20 @@ pub fn compare(
     ];
     for (name, model) in models {
         table.begin(name);
-        let clock = Instant::now();
+        let clock = Clock::start();
         match model(&comparison, &mut table) {
             Ok(()) => {}
             Err(Stopped::Out(reason)) => notes.push(format!("{name} is left out: {reason}")),
             Err(Stopped::Theory(error)) => notes.push(format!(
                 "{name} ends here, after {:.1} s: {error}",
-                clock.elapsed().as_secs_f64()
+                clock.seconds()
             )),
             Err(Stopped::Output(error)) => return Err(error.into()),
         }
     }
     let (rows, more) = table.into_rows()?;
     notes.extend(more);
+    #[cfg(feature = "images")]
     draw::figure(&comparison, &rows).write(&folder.join("compare.png"))?;
     Ok(Compared { rows, notes })
 }

@@ -2,9 +2,9 @@
 
 use std::fs;
 use std::path::Path;
-use std::time::Instant;
 
 use super::State;
+use crate::clock::Clock;
 use crate::output::{FolderLock, GrowingTable, OutputError};
 
 /// First line of `compare.csv`.
@@ -31,7 +31,7 @@ pub(super) struct Table {
     lock: FolderLock,
     rows: Vec<Row>,
     model: &'static str,
-    clock: Instant,
+    clock: Clock,
 }
 
 impl Table {
@@ -56,14 +56,14 @@ impl Table {
             lock,
             rows: Vec::new(),
             model: "",
-            clock: Instant::now(),
+            clock: Clock::start(),
         })
     }
 
     /// The following rows belong to this model.
     pub fn begin(&mut self, model: &'static str) {
         self.model = model;
-        self.clock = Instant::now();
+        self.clock = Clock::start();
     }
 
     /// Adds a row of the current model and waits until it is on the disk.
@@ -77,10 +77,10 @@ impl Table {
             model: self.model,
             state,
             pull_off,
-            seconds: self.clock.elapsed().as_secs_f64(),
+            seconds: self.clock.seconds(),
             limit,
         };
-        self.clock = Instant::now();
+        self.clock = Clock::start();
         let cell = |value: Option<f64>| value.map_or(String::new(), |value| format!("{value:e}"));
         let line = format!(
             "{},{:e},{},{},{},{},{:.6},{},{}\n",

@@ -9,6 +9,7 @@ use crate::units::UnitError;
 
 /// Why a force curve gives no work of adhesion and no modulus.
 #[derive(Debug, thiserror::Error)]
+#[non_exhaustive]
 pub enum FitError {
     /// The file cannot be read.
     #[error("cannot read {path}: {cause}", path = path.display())]

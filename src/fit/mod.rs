@@ -18,7 +18,9 @@ mod law_error;
 mod least_squares;
 mod maugis_curve;
 mod measured;
+#[doc(hidden)]
 pub mod model;
+#[cfg(feature = "images")]
 mod picture;
 mod report;
 mod segments;
@@ -28,10 +30,15 @@ pub use choice::{FitResult, fit_curve};
 pub use curve_file::{ForceCurve, Sample};
 pub use error::FitError;
 pub use estimate::{ModelFit, Uncertainties};
+#[doc(hidden)]
 pub use inversion::{Inversion, invert_curve};
 pub use law_error::LawError;
-pub use measured::{Freedom, Measured};
+pub use measured::Freedom;
+#[doc(hidden)]
+pub use measured::Measured;
 pub use model::Model;
+#[cfg(feature = "images")]
 pub use picture::draw;
 pub use report::report;
+#[doc(hidden)]
 pub use segments::{Segment, segments};

@@ -12,6 +12,7 @@ pub(crate) const FRESH: &str =
 /// [`OutputError::Refused`] is a mistake in the call (exit status 2); every other variant is an
 /// output that cannot be written (exit status 1).
 #[derive(Debug, thiserror::Error)]
+#[non_exhaustive]
 pub enum OutputError {
     /// The target contains files that do not belong to this run.
     #[error("{}: {reason}", path.display())]

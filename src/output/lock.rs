@@ -6,9 +6,9 @@
 use std::fs::{File, TryLockError};
 use std::io::{Read as _, Write as _};
 use std::path::Path;
-use std::time::{SystemTime, UNIX_EPOCH};
 
 use super::error::OutputError;
+use crate::clock::seconds_since_epoch;
 
 /// Most bytes of a lock file that are read.
 const LONGEST: u64 = 512;
@@ -72,11 +72,6 @@ impl Drop for FolderLock {
     fn drop(&mut self) {
         let _ = self.file.set_len(0);
     }
-}
-
-fn seconds_since_epoch() -> u64 {
-    let since = SystemTime::now().duration_since(UNIX_EPOCH);
-    since.map_or(0, |since| since.as_secs())
 }
 
 /// Process, moment and machine of this run.

@@ -4,46 +4,91 @@
 //! Files appear under their names only when they are complete; only `curve.csv` grows, one row a
 //! step.
 
+#[cfg(feature = "images")]
 pub(crate) mod canvas;
+#[cfg(feature = "images")]
+#[doc(hidden)]
 pub mod chart;
+#[cfg(feature = "images")]
+#[doc(hidden)]
 pub mod colour_scale;
 mod cpu_time;
+#[doc(hidden)]
 pub mod curve;
 mod difference;
 mod error;
+#[doc(hidden)]
 pub mod fields;
+#[doc(hidden)]
 pub mod folder;
+#[doc(hidden)]
 pub mod growing;
+#[cfg(feature = "images")]
+#[doc(hidden)]
 pub mod layout;
+#[doc(hidden)]
 pub mod lock;
+#[cfg(feature = "images")]
+#[doc(hidden)]
 pub mod palette;
+#[cfg(feature = "images")]
+#[doc(hidden)]
 pub mod panels;
+#[cfg(feature = "images")]
 pub(crate) mod pen;
+#[cfg(feature = "images")]
+#[doc(hidden)]
 pub mod picture;
+#[cfg(feature = "images")]
 mod png_text;
-pub mod progress;
+#[cfg(feature = "images")]
+#[doc(hidden)]
 pub mod report;
+#[cfg(feature = "images")]
 mod resample;
+#[cfg(feature = "images")]
 pub(crate) mod si;
+#[cfg(feature = "images")]
+#[doc(hidden)]
 pub mod spectrum_plot;
+#[doc(hidden)]
 pub mod state;
+#[doc(hidden)]
 pub mod summary;
 mod visible;
+#[doc(hidden)]
 pub mod volume;
 
+#[cfg(feature = "images")]
+#[doc(hidden)]
 pub use canvas::{Font, TextLine};
+#[doc(hidden)]
 pub use cpu_time::cpu_seconds;
-pub use curve::{Curve, CurveWriter};
+pub use curve::Curve;
+#[doc(hidden)]
+pub use curve::CurveWriter;
 pub(crate) use error::FRESH;
 pub use error::OutputError;
 pub use fields::{write_field, write_field_single};
+#[doc(hidden)]
 pub use folder::{RunFolder, set_aside, write_atomically, write_within};
+#[doc(hidden)]
 pub use growing::GrowingTable;
+#[doc(hidden)]
 pub use lock::FolderLock;
-pub use picture::{Load, Picture, Snapshot, write_picture};
-pub use progress::Progress;
+#[cfg(feature = "images")]
+#[doc(hidden)]
+pub use picture::Snapshot;
+#[cfg(feature = "images")]
+pub use picture::{Load, Picture, write_picture};
+#[cfg(feature = "images")]
+#[doc(hidden)]
 pub use spectrum_plot::SpectrumPlot;
+#[doc(hidden)]
 pub use state::SavedState;
 pub use summary::{Effects, Seconds, Summary, peak_memory_bytes};
+#[doc(hidden)]
 pub use visible::{visible, visible_line};
 pub use volume::write_volume;
+
+pub use crate::study::Column;

@@ -11,6 +11,7 @@ use super::folder::write_within;
 
 /// Content of `summary.json`, SI units; `None` is written as `null`.
 #[derive(Clone, Debug, PartialEq, Serialize)]
+#[non_exhaustive]
 pub struct Summary {
     /// Version of tabor.
     pub version: String,

@@ -2,10 +2,12 @@
 
 use std::path::PathBuf;
 
+use super::GridValues;
 use crate::law::{Exponential, Law, LennardJones, MaugisDugdale};
 
 /// `[adhesion]`.
 #[derive(Clone, Debug, PartialEq)]
+#[non_exhaustive]
 pub struct AdhesionScene {
     /// Which cohesive law.
     pub law: LawName,
@@ -34,9 +36,12 @@ pub struct RateScene {
 
 /// Source of the factors on a law's tension.
 #[derive(Clone, Debug, PartialEq)]
+#[non_exhaustive]
 pub enum AdhesionMap {
     /// A file with one factor a point; the path is resolved against the scene's folder.
     File(PathBuf),
+    /// One factor a point, given as an array.
+    Factors(GridValues),
     /// Two factors that alternate every half period.
     Pattern {
         /// The shape of the pattern.
@@ -98,6 +103,7 @@ pub enum Range {
 
 /// The names of the cohesive laws.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[non_exhaustive]
 pub enum LawName {
     /// Constant tension up to a range.
     MaugisDugdale,

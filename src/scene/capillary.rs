@@ -12,9 +12,9 @@ use crate::units::Dimension;
 /// Water at 298.15 K: surface tension (N/m) and molar volume (m^3/mol).
 ///
 /// Source: IAPWS R1-76(2014); IAPWS-95 density 997.05 kg/m^3.
-const WATER: (f64, f64) = (0.07199, 1.8069e-5);
+pub(super) const WATER: (f64, f64) = (0.07199, 1.8069e-5);
 /// Temperature where the scene gives none, K.
-const ROOM: f64 = 298.15;
+pub(super) const ROOM: f64 = 298.15;
 
 const HUMIDITY: Allowed = Allowed::new(
     |humidity| (0.0..1.0).contains(&humidity),

@@ -8,6 +8,7 @@ use crate::units::UnitError;
 
 /// A mistake at one place of a scene, with its remedy.
 #[derive(Clone, Debug, PartialEq, Error)]
+#[non_exhaustive]
 pub enum SceneError {
     /// The file cannot be read.
     #[error("cannot be read: {reason}")]

@@ -8,11 +8,15 @@ mod adhesion;
 mod allowed;
 mod attraction;
 mod capillary;
+mod check;
 mod conductance;
+mod constructors;
 mod document;
 mod grid;
+mod grid_values;
 mod hardness;
 mod keys;
+mod laws;
 mod loading;
 mod mistake;
 mod output;
@@ -32,9 +36,13 @@ use std::io::Read;
 use std::path::{Path, PathBuf};
 
 pub use attraction::*;
+pub use check::Ramp;
+pub use grid_values::GridValues;
+pub use laws::{Exponential, LennardJones, MaugisDugdale};
 pub use mistake::{Mistake, SceneError, SceneErrors};
 pub use parts::*;
 pub use tables::*;
+#[doc(hidden)]
 pub use time_steps::{DEFAULT_TOLERANCE as DEFAULT_TIME_TOLERANCE, Stretch};
 pub use types::*;
 

@@ -2,8 +2,11 @@
 
 use std::path::PathBuf;
 
+use super::GridValues;
+
 /// One `[[surface]]` part.
 #[derive(Clone, Debug, PartialEq)]
+#[non_exhaustive]
 pub enum SurfacePart {
     /// Self-affine roughness with a roll-off and a cut-off.
     SelfAffine(SelfAffineScene),
@@ -32,6 +35,8 @@ pub enum SurfacePart {
     Flat,
     /// Heights read from a file.
     File(HeightFileScene),
+    /// Heights given as an array, m.
+    Heights(GridValues),
 }
 
 /// Self-affine roughness: spectrum flat from `longest` to `rolloff`, then falling as `q^(-2 hurst - 2)` to `shortest`.

@@ -11,7 +11,8 @@ impl Scene {
     /// Keys are those of the scene file, so that it can be written as TOML and read again; the
     /// result is the same scene except for the last bit of an angle given in rad. Absent effects
     /// and automatic choices (such as a centre) are absent; invalid bytes of a path that is not
-    /// UTF-8 are replaced.
+    /// UTF-8 are replaced. Arrays of heights and factors, which a file cannot hold, are given by
+    /// their points and checksum.
     pub fn resolved_json(&self) -> Value {
         let mut scene = Map::new();
         if let Some(title) = &self.title {
@@ -34,6 +35,11 @@ impl Scene {
         scene.insert("output".into(), self.output.resolved());
         Value::Object(scene)
     }
+}
+
+/// Identifies an array; no file holds it.
+fn array(values: &GridValues) -> Value {
+    json!({ "points": values.points(), "checksum": values.checksum() })
 }
 
 /// Adds a key if it has a value.
@@ -89,6 +95,7 @@ impl SurfacePart {
             SurfacePart::Wavy { .. } => "wavy",
             SurfacePart::Flat => "flat",
             SurfacePart::File(_) => "file",
+            SurfacePart::Heights(_) => "array",
         }
     }
 
@@ -129,6 +136,7 @@ impl SurfacePart {
                 json!({ "kind": kind, "amplitude": amplitude, "wavelength": wavelength })
             }
             SurfacePart::Flat => json!({ "kind": kind }),
+            SurfacePart::Heights(heights) => with(array(heights), "kind", Some(json!(kind))),
             SurfacePart::File(part) => {
                 let table = json!({
                     "kind": kind,
@@ -176,6 +184,7 @@ impl AdhesionScene {
         let table = with(table, "treatment", Some(json!(self.treatment.name())));
         let map = self.map.as_ref().map(|map| match map {
             AdhesionMap::File(path) => json!(path.to_string_lossy()),
+            AdhesionMap::Factors(factors) => array(factors),
             AdhesionMap::Pattern {
                 kind,
                 period,

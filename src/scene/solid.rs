@@ -178,7 +178,7 @@ fn read_relaxation(solid: &Reader, layer: Option<Layer>) -> Option<Vec<Relaxatio
 }
 
 /// A body's share of `1/E*`: `(1 - nu^2)/E`, 1/Pa.
-fn plane_compliance(young_modulus: f64, poisson_ratio: f64) -> f64 {
+pub(super) fn plane_compliance(young_modulus: f64, poisson_ratio: f64) -> f64 {
     (1.0 - poisson_ratio * poisson_ratio) / young_modulus
 }
 

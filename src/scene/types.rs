@@ -13,6 +13,7 @@ pub use crate::grid::Boundary;
 /// An effect that the scene does not name is `None`; later code neither allocates nor runs anything
 /// for it.
 #[derive(Clone, Debug, PartialEq)]
+#[non_exhaustive]
 pub struct Scene {
     /// Title, for pictures and reports.
     pub title: Option<String>,
@@ -51,6 +52,7 @@ pub struct GridScene {
 
 /// `[solid]`: the elastic half-space.
 #[derive(Clone, Debug, PartialEq)]
+#[non_exhaustive]
 pub struct SolidScene {
     /// Contact modulus E*, Pa, with the counter-face's share where one is given.
     pub contact_modulus: f64,
@@ -84,6 +86,7 @@ pub struct RelaxationScene {
 
 /// `[loading]`.
 #[derive(Clone, Debug, PartialEq)]
+#[non_exhaustive]
 pub struct LoadingScene {
     /// Which quantity the path prescribes.
     pub control: Control,
@@ -134,6 +137,7 @@ impl Control {
 
 /// `[solver]`.
 #[derive(Clone, Debug, PartialEq)]
+#[non_exhaustive]
 pub struct SolverScene {
     /// Tolerance of the residual.
     pub tolerance: f64,
@@ -208,6 +212,7 @@ impl BackendName {
 
 /// `[output]`.
 #[derive(Clone, Debug, PartialEq)]
+#[non_exhaustive]
 pub struct OutputScene {
     /// Fields written as PNG.
     pub images: Vec<FieldName>,
@@ -219,6 +224,7 @@ pub struct OutputScene {
 
 /// A field that can be written.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+#[non_exhaustive]
 pub enum FieldName {
     /// Net normal traction, Pa, positive in compression.
     Pressure,

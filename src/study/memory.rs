@@ -99,7 +99,7 @@ fn building(scene: &Scene, grid: Grid) -> u64 {
     let files = scene
         .surfaces
         .iter()
-        .filter(|part| matches!(part, SurfacePart::File(_)))
+        .filter(|part| matches!(part, SurfacePart::File(_) | SurfacePart::Heights(_)))
         .count() as u64;
     let part = scene.surfaces.iter().map(|part| match part {
         SurfacePart::SelfAffine(rough) => DOUBLE * points + held_columns(rough.shortest),

@@ -1,7 +1,6 @@
 //! A loading path, step after step, each from the state of the one before.
 
 use std::ops::Range;
-use std::time::Instant;
 
 use super::between::{Between, Watched};
 use super::checkpoint::{Checkpoint, Earlier};
@@ -13,6 +12,7 @@ use super::setup::Setup;
 use super::step::SolvedStep;
 use super::walker::{Carried, Walker};
 use crate::backend::BackendError;
+use crate::clock::Clock;
 use crate::solver::MakeBackend;
 
 /// Walks a path from its first step. Ends at the first step that does not converge, which is handed
@@ -107,7 +107,7 @@ impl Stretch<'_> {
         let mut others = end.transforms;
         let mut standing: Option<Carried> = None;
         for index in self.steps.clone() {
-            let clock = Instant::now();
+            let clock = Clock::start();
             let step = index + 1;
             let value = setup.scene.loading.path[index];
             let duration = self.duration(index);
@@ -164,7 +164,7 @@ impl Stretch<'_> {
                 None => {}
             }
             jumps.take(&row, solved.evaluation.as_ref(), found.jump.is_some());
-            row.seconds = clock.elapsed().as_secs_f64();
+            row.seconds = clock.seconds();
             let finished = FinishedStep {
                 row: &row,
                 evaluation: solved.evaluation,

@@ -2,7 +2,8 @@
 
 use std::path::{Path, PathBuf};
 
-use super::error::{FileError, SurfaceError};
+use super::array;
+use super::error::{FileError, PartError, SurfaceError};
 use super::file;
 use crate::grid::Grid;
 use crate::scene::{
@@ -14,10 +15,14 @@ const ROUNDING: f64 = 1e-9;
 
 /// What is wrong with an adhesion map.
 #[derive(Debug, thiserror::Error)]
+#[non_exhaustive]
 pub enum MapError {
     /// The file cannot be read as a map.
     #[error(transparent)]
     File(#[from] FileError),
+    /// An array of another number of points than the grid.
+    #[error(transparent)]
+    Array(#[from] Box<PartError>),
     /// A factor that the law cannot take.
     #[error("row {row}, column {column}: a factor of {value:e}; {remedy}")]
     Factor {
@@ -45,6 +50,12 @@ pub(super) fn build(scene: &Scene, grid: &Grid) -> Result<Option<Vec<f64>>, Surf
     };
     let (path, factors) = match map {
         AdhesionMap::File(path) => (path.clone(), read(path, grid)),
+        AdhesionMap::Factors(factors) => (
+            PathBuf::from("array"),
+            array::values(factors, grid)
+                .map(<[f64]>::to_vec)
+                .map_err(|problem| Box::new(problem).into()),
+        ),
         AdhesionMap::Pattern {
             kind,
             period,

@@ -9,6 +9,7 @@ use crate::units::{cut, quoted};
 
 /// Why the heights of a scene cannot be built.
 #[derive(Debug, Error)]
+#[non_exhaustive]
 pub enum SurfaceError {
     /// The scene has no `[[surface]]`.
     #[error("the scene has no [[surface]]; for a flat one write kind = \"flat\"")]
@@ -75,6 +76,7 @@ pub enum SurfaceError {
 
 /// What is wrong with one `[[surface]]` part.
 #[derive(Debug, Error)]
+#[non_exhaustive]
 pub enum PartError {
     /// A length that must be positive and finite.
     #[error("{name} = {value} must be a positive, finite number")]
@@ -183,6 +185,37 @@ pub enum PartError {
         /// Pixel length along y, m.
         dy: f64,
     },
+    /// An array of another number of points than the grid.
+    #[error(
+        "an array of {found} numbers for {} x {} points (x, y), where the grid has {} x {}, which are {}",
+        array[0], array[1], points[0], points[1], points[0].saturating_mul(points[1])
+    )]
+    ArrayPoints {
+        /// Numbers in the array.
+        found: usize,
+        /// Points that it is said to have, along x and y.
+        array: [usize; 2],
+        /// Points of the grid, along x and y.
+        points: [usize; 2],
+    },
+    /// A height in an array that is no number.
+    #[error("the height at row {row}, column {column} (counted from 1) is {value}")]
+    ArrayNotFinite {
+        /// What stands there.
+        value: f64,
+        /// Row (y), from 1.
+        row: usize,
+        /// Column (x), from 1.
+        column: usize,
+    },
+    /// Heights in an array with which one cannot compute.
+    #[error(
+        "the largest height is {largest:e} m; heights must be 0 or between 1e-30 and 1e30 m: check the unit"
+    )]
+    ArrayExtreme {
+        /// Largest magnitude of a height, m.
+        largest: f64,
+    },
     /// A height file.
     #[error("{}: {problem}", path.display())]
     File {
@@ -195,6 +228,7 @@ pub enum PartError {
 
 /// What is wrong with a height file. Lines, rows and columns count from 1.
 #[derive(Debug, Error)]
+#[non_exhaustive]
 pub enum FileError {
     /// An unsupported kind of file.
     #[error(

@@ -11,6 +11,7 @@
 //! ```
 
 mod adhesion_map;
+mod array;
 mod band_estimate;
 pub mod correlation;
 mod detrend;
@@ -22,18 +23,22 @@ mod formats;
 pub(crate) mod fourier;
 mod matrix;
 mod outline;
+#[doc(hidden)]
 pub mod self_affine;
+#[doc(hidden)]
 pub mod shapes;
 pub mod spectrum;
 pub mod statistics;
 
 pub use adhesion_map::MapError;
 pub use error::{FileError, PartError, SurfaceError};
+#[doc(hidden)]
 pub use formats::claimed_points;
+#[doc(hidden)]
 pub use outline::{MapOutline, Outline, Source};
 
 use crate::grid::Grid;
-use crate::scene::{Boundary, GridScene, Scene, SurfacePart};
+use crate::scene::{Boundary, GridScene, Scene, SelfAffineScene, SurfacePart};
 use crate::units::{LARGEST, in_range};
 use file::HeightMap;
 use shapes::ApexPosition;
@@ -251,8 +256,50 @@ fn add_part(
             add(heights, &rough);
             Ok(())
         }
+        SurfacePart::Heights(array) => {
+            add(heights, array::heights(array, grid)?);
+            Ok(())
+        }
         // A file's heights were read and added before.
         SurfacePart::File(_) => Ok(()),
+    }
+}
+
+impl SelfAffineScene {
+    /// Heights of the surface on a grid, m, shape `[ny, nx]`, row-major: the same surface on every grid that
+    /// holds its waves, with every number of threads.
+    ///
+    /// ```
+    /// use tabor::{Grid, Roughness, SelfAffine};
+    ///
+    /// let rough = SelfAffine {
+    ///     hurst: 0.8,
+    ///     roughness: Roughness::RmsHeight(10e-9),
+    ///     longest: 20e-6,
+    ///     rolloff: 5e-6,
+    ///     shortest: 1e-6,
+    ///     seed: 1,
+    /// };
+    /// let heights = rough.heights(Grid::new([64, 32], [20e-6, 10e-6]))?;
+    /// assert_eq!(heights.len(), 32 * 64);
+    /// # Ok::<(), tabor::surface::SurfaceError>(())
+    /// ```
+    ///
+    /// # Errors
+    /// As [`Surface::build`]: values out of range, and a band of which the grid holds nothing.
+    pub fn heights(&self, grid: Grid) -> Result<Vec<f64>, SurfaceError> {
+        SurfacePart::from(self.clone()).heights(grid, Boundary::Periodic)
+    }
+}
+
+impl SurfacePart {
+    /// Heights of the part on a grid, m, shape `[ny, nx]`, row-major, positive towards the solid.
+    ///
+    /// # Errors
+    /// As [`Surface::build`].
+    pub fn heights(&self, grid: Grid, boundary: Boundary) -> Result<Vec<f64>, SurfaceError> {
+        let scene = GridScene::new([grid.nx, grid.ny], [grid.lx, grid.ly]).boundary(boundary);
+        Ok(Surface::from_parts(&scene, std::slice::from_ref(self))?.heights)
     }
 }
 

@@ -95,7 +95,7 @@ impl Outline {
         let parts = &scene.surfaces;
         if parts
             .iter()
-            .any(|part| matches!(part, SurfacePart::File(_)))
+            .any(|part| matches!(part, SurfacePart::File(_) | SurfacePart::Heights(_)))
         {
             return Ok(Outline::from_heights(
                 &Surface::build(scene)?,
@@ -176,7 +176,7 @@ fn part_outline(
 ) -> Result<PartOutline, PartError> {
     let place = |centre: Option<[f64; 2]>| ApexPosition { centre, boundary };
     match part {
-        SurfacePart::Flat | SurfacePart::File(_) => Ok(PartOutline {
+        SurfacePart::Flat | SurfacePart::File(_) | SurfacePart::Heights(_) => Ok(PartOutline {
             mean_squares: [0.0; 3],
             source: Source::Spectrum,
             warnings: Vec::new(),

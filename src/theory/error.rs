@@ -2,6 +2,7 @@
 
 /// Why a theory gives no result.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
+#[non_exhaustive]
 pub enum TheoryError {
     /// An input outside the theory's range.
     #[error("{name} = {value:e} is out of range: it must be {allowed}")]

@@ -20,9 +20,12 @@
 
 mod block_solve;
 pub mod error;
+#[doc(hidden)]
 pub mod quadrature;
 mod ring;
+#[doc(hidden)]
 pub mod roots;
+#[doc(hidden)]
 pub mod special;
 
 pub mod laws;
@@ -43,6 +46,7 @@ pub mod gw_m;
 pub mod hertz;
 pub mod icha;
 pub mod jkr;
+#[doc(hidden)]
 pub mod kernel_eigenvalue;
 pub mod layer;
 mod lennard_jones_curve;

@@ -1,8 +1,6 @@
 //! Whole solves on the graphics processor in single, mixed and double precision, and in mixed on the
 //! processor, against the CPU in double.
 
-use std::path::PathBuf;
-
 use tabor::backend::Backend;
 use tabor::backend::cpu::CpuBackend;
 use tabor::backend::gpu::{GpuBackend, GpuDevice, Traffic, Wide};
@@ -93,52 +91,20 @@ fn compare(device: &GpuDevice, name: &str, problem: &Problem, load: &Load, bound
 }
 
 fn rough(points: usize) -> Surface {
-    let scene = Scene {
-        title: None,
-        grid: GridScene {
-            points: Some([points, points]),
-            size: Some([1.0, 1.0]),
-            boundary: Boundary::Periodic,
-        },
-        solid: SolidScene {
-            contact_modulus: 1.0,
-            poisson_ratio: None,
-            layer: None,
-            hardness: None,
-            relaxation: Vec::new(),
-        },
-        surfaces: vec![SurfacePart::SelfAffine(SelfAffineScene {
-            hurst: 0.8,
-            roughness: Roughness::RmsSlope(1.0),
-            longest: 1.0,
-            rolloff: 0.25,
-            shortest: 8.0 / points as f64,
-            seed: 1,
-        })],
-        capillary: None,
-        tables: EffectTables::default(),
-        adhesion: None,
-        loading: LoadingScene {
-            control: Control::Pressure,
-            durations: None,
-            path: vec![0.05],
-            spring: None,
-            pull_off_tolerance: 0.01,
-        },
-        solver: SolverScene {
-            tolerance: 1e-4,
-            max_iterations: 1000,
-            precision: Precision::Auto,
-            backend: BackendName::Auto,
-        },
-        output: OutputScene {
-            images: vec![],
-            fields: vec![],
-            steps: StepChoice::Last,
-        },
-        folder: PathBuf::new(),
+    let grid = GridScene {
+        points: Some([points, points]),
+        size: Some([1.0, 1.0]),
+        boundary: Boundary::Periodic,
     };
-    Surface::build(&scene).unwrap_or_else(|error| panic!("{error:?}"))
+    let part = SurfacePart::SelfAffine(SelfAffineScene {
+        hurst: 0.8,
+        roughness: Roughness::RmsSlope(1.0),
+        longest: 1.0,
+        rolloff: 0.25,
+        shortest: 8.0 / points as f64,
+        seed: 1,
+    });
+    Surface::from_parts(&grid, &[part]).unwrap_or_else(|error| panic!("{error:?}"))
 }
 
 /// A paraboloid of unit radius over the unit square; slopes up to `1/2` at its sides.

@@ -4,9 +4,10 @@ use std::fs;
 use std::path::{Path, PathBuf};
 
 /// From the ground up, as the crate page lists them.
-const ORDER: [&str; 19] = [
-    "units", "grid", "real", "law", "elastic", "kernel", "backend", "solver", "scene", "surface",
-    "study", "effect", "output", "theory", "compare", "fit", "accuracy", "cli", "lib",
+const ORDER: [&str; 23] = [
+    "units", "clock", "grid", "real", "law", "elastic", "kernel", "backend", "solver", "scene",
+    "surface", "study", "effect", "output", "device", "run", "contact", "theory", "compare", "fit",
+    "accuracy", "cli", "lib",
 ];
 
 pub fn rust_files(folder: &Path, found: &mut Vec<PathBuf>) {
@@ -103,7 +104,10 @@ fn the_crate_page_has_the_same_order() {
     let page = Path::new(env!("CARGO_MANIFEST_DIR")).join("src/lib.rs");
     let page = fs::read_to_string(page).expect("the crate page");
     let names = page.lines().filter_map(|line| {
-        let name = line.strip_prefix("//! | [`")?;
+        // A private module has no page to link to.
+        let name = line
+            .strip_prefix("//! | [`")
+            .or(line.strip_prefix("//! | `"))?;
         name.split_once('`').map(|(name, _)| name)
     });
     let names: Vec<&str> = names.collect();
@@ -145,4 +149,42 @@ fn a_path_names_no_effect() {
             }
         }
     }
+}
+
+/// What a browser has not got: clocks, threads of our own, signals. Rayon does without threads where there are
+/// none, and `clock` without a clock.
+#[test]
+fn the_core_asks_for_no_clock_thread_or_signal() {
+    let source = Path::new(env!("CARGO_MANIFEST_DIR")).join("src");
+    let mut files = Vec::new();
+    rust_files(&source, &mut files);
+    let mut looked = 0;
+    for file in files {
+        let place = file.strip_prefix(&source).expect("below src");
+        if ["cli", "backend/gpu", "clock.rs"]
+            .iter()
+            .any(|outside| place.starts_with(outside))
+            || place.ends_with("tests.rs")
+        {
+            continue;
+        }
+        let text = fs::read_to_string(&file).expect("the file is readable");
+        let code = text.split("#[cfg(test)]").next().unwrap_or_default();
+        let lines = code.lines().map(str::trim_start);
+        for line in lines.filter(|line| !line.starts_with("//")) {
+            for word in [
+                "Instant",
+                "SystemTime",
+                "thread::spawn",
+                "thread::sleep",
+                "thread::Builder",
+                "signal_hook",
+                "ctrlc",
+            ] {
+                assert!(!line.contains(word), "{}: {line}", place.display());
+            }
+        }
+        looked += 1;
+    }
+    assert!(looked > 150, "only {looked} files");
 }

@@ -1,14 +1,16 @@
 //! `tabor surface`: what a surface is like, and the self-affine scene that is like it.
 
+mod memory;
 mod report;
 
 use std::path::{Path, PathBuf};
 
 use super::patience::Patience;
-use super::{Failure, key_and_value, print, read_scene, room, warn};
+use super::{Failure, key_and_value, print, read_scene, warn};
 use crate::output::{
     OutputError, Picture, RunFolder, SpectrumPlot, visible_line, write_atomically, write_picture,
 };
+use crate::run::memory_check;
 use crate::scene::{Boundary, Detrend, FieldName, Fill, GridScene, HeightFileScene, SurfacePart};
 use crate::surface::{Surface, SurfaceError};
 use crate::units::{Dimension, RANGE_WORDS, in_range, parse_quantity};
@@ -171,9 +173,9 @@ fn of_scene(arguments: &SurfaceArguments) -> Result<(Surface, Boundary), Failure
         set.push(("grid.size".to_owned(), format!("[{x:e}, {y:e}]")));
     }
     let scene = read_scene(&arguments.source, &set)?;
-    room::refuse_files(&scene)?;
+    memory_check::check_files(&scene)?;
     let boundary = scene.grid.boundary;
-    let refuse = |points| room::refuse_statistics(&arguments.source, points, boundary);
+    let refuse = |points| memory::check_statistics(&arguments.source, points, boundary);
     if let Some(points) = scene.grid.points {
         refuse(points)?;
     }
@@ -196,7 +198,7 @@ fn of_file(arguments: &SurfaceArguments) -> Result<(Surface, Boundary), Failure>
     }
     let file = &arguments.file;
     let boundary = file.boundary.unwrap_or(Boundary::Free);
-    room::refuse_map(&arguments.source, boundary)?;
+    memory::check_map(&arguments.source, boundary)?;
     let grid = GridScene {
         points: None,
         size: arguments.size,
@@ -224,7 +226,7 @@ fn of_file(arguments: &SurfaceArguments) -> Result<(Surface, Boundary), Failure>
         Failure::Usage(visible_line(&text))
     })?;
     let points = [surface.grid.nx, surface.grid.ny];
-    room::refuse_statistics(&arguments.source, points, boundary)?;
+    memory::check_statistics(&arguments.source, points, boundary)?;
     Ok((surface, boundary))
 }
 

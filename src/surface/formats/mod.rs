@@ -8,12 +8,16 @@ mod gsf;
 mod gwy;
 mod length;
 mod npy;
+#[cfg(feature = "images")]
 mod png;
 mod sdf;
 mod sur;
 mod surfer;
 mod text;
+#[cfg(feature = "images")]
 mod tiff;
+#[cfg(not(feature = "images"))]
+mod without_images;
 mod xyz;
 
 use std::fs::{self, File};
@@ -22,6 +26,8 @@ use std::path::Path;
 
 use super::error::FileError;
 use super::matrix::Matrix;
+#[cfg(not(feature = "images"))]
+use without_images::{png, tiff};
 
 /// Longest file that is read whole, 16 GiB: the largest grid in doubles, twice.
 const LONGEST: u64 = 1 << 34;

@@ -9,8 +9,8 @@ use tabor::backend::gpu::{adapters, quietly};
 use tabor::grid::Grid;
 use tabor::output::{Load, Picture, write_picture};
 use tabor::scene::{
-    Boundary, Control, Detrend, FieldName, Fill, GridScene, HeightFileScene, Roughness, Scene,
-    SelfAffineScene, SurfacePart,
+    AdhesionMap, Boundary, Control, Detrend, FieldName, Fill, GridScene, GridValues,
+    HeightFileScene, Roughness, Scene, SelfAffineScene, SurfacePart,
 };
 use tabor::surface::{Surface, fit::fit};
 use tabor::theory::roots::root;
@@ -112,9 +112,10 @@ const CALLS: &[BadCall] = &[
     call(&["theory", "maugis-dugdale", "--radius", "1e-6", "--contact_modulus", "1e6", "--work_of_adhesion", "0.05", "--range", "1e-25"], "Failure::Theory", "is out of range: it must be between 1e-6 and 1e6"),
     call(&["theory", "maugis-dugdale", "--radius", "1e-6", "--contact_modulus", "1e6", "--work_of_adhesion", "0.05", "--range", "1e-25"], "TheoryError::OutOfRange", "is out of range: it must be between 1e-6 and 1e6"),
     BadCall { environment: &[("TABOR_MEMORY", "1000000000")], ..call(&["run", "good.toml", "--set", "grid.points=8192"], "Failure::Memory", "grid.points: 8192 x 8192 points need ") },
-    BadCall { environment: &[("TABOR_MEMORY", "much")], ..call(&["run", "good.toml"], "Failure::Usage", "TABOR_MEMORY=\"much\" is no number of bytes; write for example TABOR_MEMORY=8000000000, or unset it") },
-    BadCall { environment: &[("TABOR_MEMORY", "1000000")], ..call(&["surface", "good.toml", "--set", "grid.points=512"], "Failure::MapMemory", "good.toml: 512 x 512 points need ") },
-    BadCall { environment: &[("TABOR_MEMORY", "100")], ..call(&["check", "map.toml"], "Failure::FileMemory", "map.txt: ") },
+    BadCall { environment: &[("TABOR_MEMORY", "1000000000")], ..call(&["run", "good.toml", "--set", "grid.points=8192"], "MemoryError::Grid", " of memory and there are ") },
+    BadCall { environment: &[("TABOR_MEMORY", "much")], ..call(&["run", "good.toml"], "MemoryError::Limit", "TABOR_MEMORY=\"much\" is no number of bytes; write for example TABOR_MEMORY=8000000000, or unset it") },
+    BadCall { environment: &[("TABOR_MEMORY", "1000000")], ..call(&["surface", "good.toml", "--set", "grid.points=512"], "MemoryError::Map", "good.toml: 512 x 512 points need ") },
+    BadCall { environment: &[("TABOR_MEMORY", "100")], ..call(&["check", "map.toml"], "MemoryError::File", "map.txt: ") },
     BadCall { status: 3, ..call(&["run", "good.toml", "--quiet", "--out", "three", "--set", "solver.max_iterations=1", "--set", "solver.tolerance=1e-12"], "Failure::NotConverged", "step 1 did not converge: residual ") },
     BadCall { status: 2, ..call(&["check", "good.toml", "--set", "grid.points=0"], "Failure::Scene", "good.toml, from --set: grid.points: 0 is out of range") },
     BadCall { status: 2, ..call(&["check", "sizeless.toml"], "Failure::Surface", "sizeless.toml: [grid] size is missing") },
@@ -141,7 +142,8 @@ const ON_LINUX: &[BadCall] = &[
     BadCall { status: 1, ..call(&["run", "good.toml", "--out", "/proc/nowhere"], "OutputError::Write", "cannot create the folder /proc/nowhere") },
     BadCall { status: 1, ..call(&["man", "/proc/nowhere"], "OutputError::Write", "cannot create the folder /proc/nowhere") },
     BadCall { status: 4, environment: NO_DRIVER, ..call(&["run", "good.toml", "--backend", "gpu", "--out", "gpu"], "GpuError::NoAdapter", "no graphics adapter found") },
-    BadCall { status: 4, environment: NO_DRIVER, ..call(&["run", "good.toml", "--backend", "gpu", "--out", "gpu"], "Failure::Gpu", "the GPU cannot be used: ") },
+    BadCall { status: 4, environment: NO_DRIVER, ..call(&["run", "good.toml", "--backend", "gpu", "--out", "gpu"], "Failure::Device", "the GPU cannot be used: ") },
+    BadCall { status: 4, environment: NO_DRIVER, ..call(&["run", "good.toml", "--backend", "gpu", "--out", "gpu"], "DeviceError::Unusable", "; --backend cpu does without") },
 ];
 
 const NO_DRIVER: &[(&str, &str)] = &[
@@ -321,16 +323,18 @@ fn past_the_adapter(folder: &Path) -> Vec<Reached> {
     }
     [
         (
+            "DeviceError::Limits",
             "grid.points=[64, 64]",
             "64 x 64 points are past the limits of ",
         ),
         (
+            "DeviceError::Points",
             "grid.points=[16, 11]",
             "16 x 11 points have no transform on the GPU",
         ),
     ]
     .into_iter()
-    .map(|(set, expected)| {
+    .map(|(variant, set, expected)| {
         let call = [
             "run",
             "good.toml",
@@ -342,7 +346,7 @@ fn past_the_adapter(folder: &Path) -> Vec<Reached> {
             set,
         ];
         Reached {
-            variant: "Failure::Usage".to_owned(),
+            variant: variant.to_owned(),
             message: one_line(
                 &tabor(folder, &call, &[("TABOR_TEST_GPU", "binding=1024")]),
                 2,
@@ -388,6 +392,10 @@ fn library() -> Vec<Reached> {
         reached("PartError::WavesDoNotClose", of_part(SurfacePart::Wavy { amplitude: 1.0, wavelength: [0.4, f64::INFINITY] }), "does not divide the periodic size 1e0 m: 2.500000 waves; the nearest that does is 3"),
         reached("PartError::Hurst", rough(&|scene| scene.hurst = 1.5), "hurst = 1.5 must lie between 0 and 1"),
         reached("PartError::BandOrder", rough(&|scene| scene.rolloff = 2.0), "needed is longest >= rolloff >= shortest"),
+        reached("PartError::ArrayPoints", of_part(SurfacePart::from_heights([0.0; 9], [3, 3])), "an array of 9 numbers for 3 x 3 points (x, y), where the grid has 8 x 8, which are 64"),
+        reached("PartError::ArrayNotFinite", of_part(SurfacePart::from_heights([f64::NAN; 64], [8, 8])), "the height at row 1, column 1 (counted from 1) is NaN"),
+        reached("PartError::ArrayExtreme", of_part(SurfacePart::from_heights([1e-40; 64], [8, 8])), "the largest height is 1e-40 m"),
+        reached("MapError::Array", factors([1.0; 9], [3, 3]), "[adhesion] map array: an array of 9 numbers for 3 x 3 points"),
         reached("PartError::File", of_part(file(1.0)), "[[surface]] 1: map.txt: there is no such file"),
         reached("FileError::Factor", of_part(file(0.0)), "scale = 0e0 must be between 1e-30 and 1e30, or minus that; check the powers of ten"),
         reached("FileError::TooLong", long_text(), "bytes are too many to read; save the heights as .npy"),
@@ -396,6 +404,18 @@ fn library() -> Vec<Reached> {
         reached("OutputError::NotFinite", write_picture(&nowhere, &picture).expect_err("no picture").to_string(), "cannot draw the gap: 64 of 64 points are not finite numbers"),
         reached("TheoryError::NoSolution", root("a zero", |x| x * x + 1.0, -1.0, 1.0, 1e-12).expect_err("no zero").to_string(), "a zero does not exist for these values"),
     ]
+}
+
+/// Why an array of factors on the adhesion does not suit a grid of 8 x 8 points.
+fn factors(values: [f64; 9], points: [usize; 2]) -> String {
+    let contact = tabor::Contact::from_parts([SurfacePart::Flat], [8, 8], [1e-6, 1e-6])
+        .contact_modulus(1e9)
+        .law(tabor::MaugisDugdale::new(0.05, 1e-9))
+        .adhesion_map(AdhesionMap::Factors(GridValues::new(values, points)));
+    let scene = contact
+        .scene([tabor::Control::MeanPressure(1e6)])
+        .expect("the map is looked at with the surface");
+    Surface::build(&scene).expect_err("a wrong map").to_string()
 }
 
 /// Why a map of a few points has no self-affine fit.

@@ -85,6 +85,31 @@ const OUT_OF_REACH: &[(&str, &str)] = &[
     ),
     ("Failure::Backend", "passes the device's failure on"),
     (
+        "DeviceError::NotBuilt",
+        "needs a build without the feature `gpu`: src/contact asks for it there",
+    ),
+    ("MemoryError::Cost", "passes a wrong list of fields on"),
+    (
+        "RunError::Surface",
+        "passes a surface's mistake on; the command line shows it with its scene",
+    ),
+    (
+        "RunError::Memory",
+        "passes on what the memory does not hold; the command line shows what is inside",
+    ),
+    (
+        "RunError::Device",
+        "passes the choice of a device on; the command line shows what is inside",
+    ),
+    (
+        "RunError::Backend",
+        "passes the device's failure on; the command line shows what is inside",
+    ),
+    (
+        "RunError::Output",
+        "passes an output's failure on; the command line shows what is inside",
+    ),
+    (
         "FileError::Memory",
         "the system promises memory and then refuses it: the count before it refuses first",
     ),
@@ -93,6 +118,10 @@ const OUT_OF_REACH: &[(&str, &str)] = &[
     (
         "AccuracyError::Surface",
         "passes a surface's mistake on; the command line shows it with its scene",
+    ),
+    (
+        "CompareError::Run",
+        "passes on what keeps a run from beginning; the command line refuses it before",
     ),
     (
         "CompareError::Output",

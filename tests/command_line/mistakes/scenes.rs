@@ -807,50 +807,43 @@ fields = []
 steps  = "last"
 "#;
     let scene = accepted(text);
-    let expected = Scene {
-        title: Some("Self-affine surface with Maugis-Dugdale adhesion".into()),
-        grid: GridScene {
+    let rough = SelfAffineScene {
+        hurst: 0.8,
+        roughness: Roughness::RmsHeight(0.52e-9),
+        longest: 25e-6,
+        rolloff: 6.25e-6,
+        shortest: 195e-9,
+        seed: 1,
+    };
+    let mut expected = Scene::new(
+        GridScene {
             points: Some([1024, 1024]),
             size: Some([25e-6, 25e-6]),
             boundary: Boundary::Periodic,
         },
-        solid: SolidScene {
-            contact_modulus: 1.33e12,
-            poisson_ratio: None,
-            layer: None,
-            hardness: None,
-            relaxation: Vec::new(),
-        },
-        surfaces: vec![SurfacePart::SelfAffine(SelfAffineScene {
-            hurst: 0.8,
-            roughness: Roughness::RmsHeight(0.52e-9),
-            longest: 25e-6,
-            rolloff: 6.25e-6,
-            shortest: 195e-9,
-            seed: 1,
-        })],
-        capillary: None,
-        tables: EffectTables::default(),
-        adhesion: Some(AdhesionScene {
-            law: LawName::MaugisDugdale,
-            work_of_adhesion: 0.2,
-            range: Range::Length(1e-9),
-            taper: None,
-            treatment: Treatment::Full,
-            map: None,
-            rate: None,
-        }),
-        loading: LoadingScene {
-            control: Control::Pressure,
-            durations: None,
-            path: vec![1e6, 1e7, 1e8, 1e7, 1e6],
-            spring: None,
-            pull_off_tolerance: 0.01,
-        },
-        solver: SolverScene::default(),
-        output: OutputScene::default(),
-        folder: PathBuf::from("/scenes"),
-    };
+        SolidScene::new(1.33e12),
+        vec![SurfacePart::SelfAffine(rough)],
+        LoadingScene::new(Control::Pressure, [1e6, 1e7, 1e8, 1e7, 1e6]),
+    );
+    expected.title = Some("Self-affine surface with Maugis-Dugdale adhesion".into());
+    let mut law = AdhesionScene::new(LawName::MaugisDugdale, 0.2, Range::Length(1e-9));
+    law.taper = None;
+    law.treatment = Treatment::Full;
+    law.map = None;
+    law.rate = None;
+    expected.adhesion = Some(law);
+    expected.solid.poisson_ratio = None;
+    expected.solid.layer = None;
+    expected.solid.hardness = None;
+    expected.solid.relaxation = Vec::new();
+    expected.capillary = None;
+    expected.tables = EffectTables::default();
+    expected.loading.durations = None;
+    expected.loading.spring = None;
+    expected.loading.pull_off_tolerance = 0.01;
+    expected.solver = SolverScene::default();
+    expected.output = OutputScene::default();
+    expected.folder = PathBuf::from("/scenes");
     assert_eq!(scene, expected);
 
     // What the manual shows for boundary, seed, taper, treatment, solver and output is the default.

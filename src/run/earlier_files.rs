@@ -1,4 +1,4 @@
-//! What an earlier run left in a folder that is resumed: whether the files of its finished steps are whole.
+//! Files of an earlier run in a folder that is resumed: whether those of its finished steps are whole.
 
 use std::fs::File;
 use std::io::{Read, Seek, SeekFrom};
@@ -23,14 +23,15 @@ pub(super) fn separated_words(step: usize) -> String {
 }
 
 /// A warning of fields and pictures of the first `finished` steps that are not there or cut short; `None` where
-/// all are whole. `warnings` are those of the run so far.
+/// all are whole. `warnings` are those of the run so far; pictures are looked for if it `draws`.
 pub(super) fn lost(
     folder: &RunFolder,
     setup: &Setup,
     finished: usize,
     warnings: &[String],
+    draws: bool,
 ) -> Option<String> {
-    let found: Vec<PathBuf> = expected(folder, setup, finished, warnings)
+    let found: Vec<PathBuf> = expected(folder, setup, finished, warnings, draws)
         .into_iter()
         .filter(|path| !is_whole(path))
         .collect();
@@ -57,6 +58,7 @@ fn expected(
     setup: &Setup,
     finished: usize,
     warnings: &[String],
+    draws: bool,
 ) -> Vec<PathBuf> {
     let output = &setup.scene.output;
     let total = setup.scene.loading.path.len();
@@ -73,6 +75,7 @@ fn expected(
             output
                 .images
                 .iter()
+                .filter(|_| draws)
                 .map(|&field| folder.image_path(step, field)),
         );
         paths.extend(

@@ -1,18 +1,17 @@
-//! The folder of a run, opened at its first step or after the last finished one.
+//! The folder of a run, opened for its first step or to resume after the last finished one.
 
 use std::borrow::Cow;
 use std::fs;
 use std::path::Path;
 
-use super::Failure;
-use super::leftovers::lost;
-use super::machine::Machine;
+use super::earlier_files::lost;
+use crate::device::SelectedDevice;
 use crate::output::{Curve, CurveWriter, FRESH, OutputError, RunFolder, SavedState, set_aside};
 use crate::scene::{Precision, Scene};
 use crate::study::{Checkpoint, Column, Earlier, Setup};
 
 /// A folder ready to be written, and what is in it already.
-pub(super) struct Opening {
+pub(super) struct RunDirectory {
     pub folder: RunFolder,
     pub curve: CurveWriter,
     /// Steps done already.
@@ -47,25 +46,48 @@ pub(super) fn solver(scene: &Scene) -> serde_json::Value {
     scene.resolved_json()["solver"].take()
 }
 
-/// Opens the folder at `path`.
-pub(super) fn open(
-    path: &Path,
-    setup: &Setup,
-    machine: &Machine,
-    resume: bool,
-) -> Result<Opening, Failure> {
-    let scene = fingerprint(setup);
-    let (folder, there) = match resume {
-        true => RunFolder::resume(path, &scene)?,
-        false => RunFolder::take(path, &scene)?,
-    };
-    let mut opening = match go_on(&folder, &scene, setup, machine, resume && there)? {
-        Some(opening) => opening,
-        None => start(folder, there, scene, setup, machine, resume)?,
-    };
-    let unheld = opening.folder.warning().map(str::to_owned);
-    opening.lost.extend(unheld);
-    Ok(opening)
+/// What becomes of a run of the same scene that is in the folder already.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum ExistingRun {
+    /// It goes on after its last finished step.
+    Resume,
+    /// Its files are removed.
+    Overwrite,
+    /// It stays, and no other one is begun.
+    Refuse,
+}
+
+impl RunDirectory {
+    /// Opens the folder at `path`. Pictures of an earlier run are looked for if this one `draws`.
+    pub fn open(
+        path: &Path,
+        setup: &Setup,
+        device: &SelectedDevice,
+        existing: ExistingRun,
+        draws: bool,
+    ) -> Result<RunDirectory, OutputError> {
+        let resume = existing == ExistingRun::Resume;
+        let scene = fingerprint(setup);
+        let (folder, there) = if resume {
+            RunFolder::resume(path, &scene)?
+        } else {
+            RunFolder::take(path, &scene)?
+        };
+        if there && existing == ExistingRun::Refuse {
+            return Err(OutputError::refused(
+                path,
+                "holds a run of this scene; resume it, overwrite it, or name another folder",
+            ));
+        }
+        let resumed = resume_from(&folder, &scene, setup, device, resume && there, draws)?;
+        let mut opened = match resumed {
+            Some(opened) => opened,
+            None => start(folder, there, scene, setup, device, resume)?,
+        };
+        let unheld = opened.folder.warning().map(str::to_owned);
+        opened.lost.extend(unheld);
+        Ok(opened)
+    }
 }
 
 /// Begins at the first step.
@@ -74,9 +96,9 @@ fn start(
     there: bool,
     scene: String,
     setup: &Setup,
-    machine: &Machine,
+    device: &SelectedDevice,
     resume: bool,
-) -> Result<Opening, Failure> {
+) -> Result<RunDirectory, OutputError> {
     let mut remarks = Vec::new();
     if resume {
         let path = folder.path().display();
@@ -90,15 +112,15 @@ fn start(
     SavedState {
         scene,
         solver: solver(&setup.scene),
-        machine: machine.words(),
+        machine: device.words(),
         finished: 0,
         curve: curve.checksum(),
         warnings: Vec::new(),
-        single: machine.precision() == Precision::Single && !setup.scene.solid.remembers(),
+        single: device.precision() == Precision::Single && !setup.scene.solid.remembers(),
         checkpoint: Cow::Owned(Checkpoint::default()),
     }
     .write(&folder.state_path(STATE))?;
-    Ok(Opening {
+    Ok(RunDirectory {
         folder,
         curve,
         earlier: Earlier::default(),
@@ -111,8 +133,8 @@ fn start(
 /// The file that holds the state, after its prefix.
 pub(super) const STATE: &str = "step.bin";
 
-/// Sets the curve aside before a run from the first step takes its name, where the steps in it cannot be gone
-/// on with; of others `--resume` would have kept the rows. Says so.
+/// Sets the curve aside before a run from the first step takes its name, where the steps in it cannot be
+/// resumed; of others `--resume` would have kept the rows. Says so.
 fn keep_rows(
     folder: &RunFolder,
     scene: &str,
@@ -178,13 +200,14 @@ fn sound(
 
 /// What is in a folder of this scene, if it is `there` to be resumed; `None` where the run ended before it
 /// came to its first step.
-fn go_on(
+fn resume_from(
     folder: &RunFolder,
     scene: &str,
     setup: &Setup,
-    machine: &Machine,
+    device: &SelectedDevice,
     there: bool,
-) -> Result<Option<Opening>, Failure> {
+    draws: bool,
+) -> Result<Option<RunDirectory>, OutputError> {
     if !there {
         return Ok(None);
     }
@@ -200,20 +223,20 @@ fn go_on(
     let said = |solver: &serde_json::Value| {
         let mut solver = solver.clone();
         if let Some(table) = solver.as_object_mut()
-            && state.machine == machine.words()
+            && state.machine == device.words()
         {
             table.retain(|key, _| key != "backend" && key != "precision");
         }
         solver
     };
     if said(&state.solver) != said(&now) && state.finished > 0 && !failed {
-        return Err(Failure::Output(OutputError::Refused {
+        return Err(OutputError::Refused {
             path: folder.state_path(STATE),
             reason: format!(
                 "was solved with [solver] {}, and here it is {now}: it may change only where a step did not converge; put it back, or name another folder with --out",
                 state.solver
             ),
-        }));
+        });
     }
     let mut remarks = Vec::new();
     let mut warnings = state.warnings;
@@ -223,17 +246,17 @@ fn go_on(
         finished if finished == total => format!("all {total} steps were finished"),
         finished => format!("{finished} of {total} steps were finished, goes on after them"),
     });
-    if state.finished > 0 && state.machine != machine.words() {
+    if state.finished > 0 && state.machine != device.words() {
         let text = format!(
             "steps 1 to {} were solved on {}, the others on {}",
             state.finished,
             state.machine,
-            machine.words()
+            device.words()
         );
         remarks.push(text.clone());
         warnings.push(text);
     }
-    let lost = lost(folder, setup, state.finished, &warnings);
+    let lost = lost(folder, setup, state.finished, &warnings, draws);
     warnings.extend(
         lost.iter()
             .filter(|text| !warnings.contains(text))
@@ -241,7 +264,7 @@ fn go_on(
             .collect::<Vec<_>>(),
     );
     let (curve, rows) = curve.go_on(state.finished, state.curve)?;
-    Ok(Some(Opening {
+    Ok(Some(RunDirectory {
         folder: folder.clone(),
         curve,
         earlier: Earlier {

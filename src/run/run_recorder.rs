@@ -1,38 +1,40 @@
-//! Keeps each step of a run as it ends: row, fields, pictures, state, report.
+//! Records each step of a run as it ends: row, fields, pictures, state, report.
 
 use std::borrow::Cow;
-use std::time::{Duration, Instant};
 
-use super::interrupts::Interrupts;
-use super::leftovers::separated_words;
-use super::machine::Machine;
-use super::opening::{STATE, fingerprint, solver};
+use super::RunObserver;
+use super::earlier_files::separated_words;
+use super::run_directory::{RunDirectory, STATE, fingerprint, solver};
+use crate::clock::Clock;
+use crate::device::SelectedDevice;
 use crate::kernel::Scalars;
 use crate::output::{
-    CurveWriter, Load, OutputError, Picture, Progress, RunFolder, SavedState, Seconds, Summary,
-    chart, report::Report, write_field, write_field_single, write_picture, write_volume,
-    write_within,
+    CurveWriter, OutputError, RunFolder, SavedState, Seconds, Summary, write_field,
+    write_field_single, write_volume,
 };
+#[cfg(feature = "images")]
+use crate::output::{Load, Picture, chart, report::Report, write_picture, write_within};
 use crate::scene::{Control, FieldName, LoadingScene, Precision, StepChoice};
 use crate::study::{
-    Checkpoint, Earlier, Evaluation, FinishedStep, Observer, PullOff, Search, Setup, State,
-    StepRow, Tension, WalkEnd,
+    Checkpoint, Evaluation, FinishedStep, Observer, PullOff, Search, Setup, State, StepRow, Tension,
+    WalkEnd,
 };
 use crate::units::format_si;
 
-/// Least time between two refreshed reports.
-const REFRESH: Duration = Duration::from_secs(2);
+/// Least time between two refreshed reports, s.
+const REFRESH: f64 = 2.0;
 /// A report is refreshed only after so many times what the last one took.
-const REFRESH_COST: u32 = 20;
+const REFRESH_COST: f64 = 20.0;
 
-/// Keeps the steps of one run.
-pub(super) struct Keeper<'a> {
+/// Records the steps of one run in its folder.
+pub(super) struct RunRecorder<'a> {
     setup: &'a Setup,
-    machine: &'a Machine,
-    folder: &'a RunFolder,
+    device: &'a SelectedDevice,
+    observer: &'a mut dyn RunObserver,
+    folder: RunFolder,
     curve: CurveWriter,
-    progress: Progress,
-    interrupts: Interrupts,
+    /// Whether pictures and the report are written.
+    draws: bool,
     /// The last step's fields, where only those are asked for.
     last: Option<(usize, Evaluation)>,
     rows: Vec<StepRow>,
@@ -45,58 +47,58 @@ pub(super) struct Keeper<'a> {
     /// Whether pictures and fields of a run that ended early are still to be cleared away.
     stale: bool,
     seconds: Seconds,
-    started: Instant,
+    clock: Clock,
     output_seconds: f64,
     scene: String,
     solver: serde_json::Value,
-    refreshed: Option<(Instant, Duration)>,
+    /// When the report was written last, and the seconds that it took.
+    refreshed: Option<(Clock, f64)>,
 }
 
-impl<'a> Keeper<'a> {
-    #[allow(clippy::too_many_arguments)]
+impl<'a> RunRecorder<'a> {
+    /// A recorder of what follows the steps that the directory has; `seconds` have passed by phase.
     pub fn new(
         setup: &'a Setup,
-        machine: &'a Machine,
-        folder: &'a RunFolder,
-        curve: CurveWriter,
-        progress: Progress,
-        interrupts: Interrupts,
-        earlier: &Earlier,
-        warnings: Vec<String>,
+        device: &'a SelectedDevice,
+        directory: RunDirectory,
         seconds: Seconds,
+        draws: bool,
+        observer: &'a mut dyn RunObserver,
     ) -> Self {
-        let keeper = Keeper {
+        let earlier = directory.earlier;
+        let recorder = RunRecorder {
             setup,
-            machine,
-            folder,
-            curve,
-            progress,
-            interrupts,
+            device,
+            folder: directory.folder,
+            curve: directory.curve,
+            draws,
             last: None,
-            rows: earlier.rows.clone(),
-            warnings,
             tallies: tallies(&earlier.checkpoint),
             committed: earlier.rows.len(),
+            rows: earlier.rows,
+            warnings: directory.warnings,
             stale: true,
             seconds,
-            started: Instant::now(),
+            clock: Clock::start(),
             output_seconds: 0.0,
             scene: fingerprint(setup),
             solver: solver(&setup.scene),
             refreshed: None,
+            observer,
         };
-        keeper.interrupts.keep(keeper.kept());
-        keeper
+        let kept = recorder.kept();
+        recorder.observer.kept(&kept);
+        recorder
     }
 
     fn single(&self) -> bool {
-        self.machine.precision() == Precision::Single
+        self.device.precision() == Precision::Single
     }
 
     /// Seconds of earlier runs and of this one, by phase.
     fn seconds_so_far(&self) -> Seconds {
         let mut seconds = self.seconds.clone();
-        let solve = self.started.elapsed().as_secs_f64() - self.output_seconds;
+        let solve = self.clock.seconds() - self.output_seconds;
         seconds.add("solve", solve);
         seconds.add("output", self.output_seconds);
         seconds
@@ -116,8 +118,14 @@ impl<'a> Keeper<'a> {
         }
     }
 
+    /// Tells the observer what an early end leaves.
+    pub fn say_kept(&mut self) {
+        let kept = self.kept();
+        self.observer.ended_early(&kept);
+    }
+
     /// What an early end leaves, in words.
-    pub fn kept(&self) -> String {
+    fn kept(&self) -> String {
         let place = self.folder.path().display();
         match (self.folder.expect_present(), self.committed) {
             (Err(_), _) => format!("note: {place} is gone, and the steps in it"),
@@ -132,7 +140,7 @@ impl<'a> Keeper<'a> {
     }
 
     fn warn(&mut self, text: String) {
-        self.progress.say(&format!("warning: {text}"));
+        self.observer.warning(&text);
         self.warnings.push(text);
     }
 
@@ -153,7 +161,7 @@ impl<'a> Keeper<'a> {
         };
         let most = short.iter().map(|row| row.residual).fold(0.0, f64::max);
         let (count, first) = (short.len(), first.step);
-        let precision = self.machine.precision();
+        let precision = self.device.precision();
         let remedy = match precision {
             Precision::Single => "; precision = \"mixed\" or \"double\" goes on from there",
             _ => "",
@@ -202,7 +210,7 @@ impl<'a> Keeper<'a> {
         self.mend_curve(false)?;
         self.curve.append(step.row)?;
         self.rows.push(step.row.clone());
-        self.progress.finished_steps(number);
+        self.observer.step(step.row);
         Ok(())
     }
 
@@ -219,7 +227,7 @@ impl<'a> Keeper<'a> {
         SavedState {
             scene: self.scene.clone(),
             solver: self.solver.clone(),
-            machine: self.machine.words(),
+            machine: self.device.words(),
             finished: step,
             curve: self.curve.checksum(),
             warnings: self.warnings.clone(),
@@ -228,11 +236,12 @@ impl<'a> Keeper<'a> {
         }
         .write(&self.folder.state_path(STATE))?;
         self.committed = step;
-        self.interrupts.keep(self.kept());
+        let kept = self.kept();
+        self.observer.kept(&kept);
         self.tallies = tallies(state);
         let due = self
             .refreshed
-            .is_none_or(|(when, cost)| when.elapsed() > REFRESH.max(REFRESH_COST * cost));
+            .is_none_or(|(when, cost)| when.seconds() > REFRESH.max(REFRESH_COST * cost));
         if due && step < self.setup.scene.loading.path.len() {
             self.refresh(None)?;
         }
@@ -240,8 +249,12 @@ impl<'a> Keeper<'a> {
     }
 
     /// Writes the report anew, and with the summary of an ended run the picture of the curve.
+    #[cfg(feature = "images")]
     fn refresh(&mut self, summary: Option<&Summary>) -> Result<(), OutputError> {
-        let clock = Instant::now();
+        if !self.draws {
+            return Ok(());
+        }
+        let clock = Clock::start();
         if summary.is_some() {
             let bytes = chart::picture(&self.setup.scene, &self.rows).map_err(
                 OutputError::write("write", &self.folder.curve_picture_path()),
@@ -250,7 +263,7 @@ impl<'a> Keeper<'a> {
         }
         let text = Report {
             setup: self.setup,
-            machine: self.machine.words(),
+            machine: self.device.words(),
             rows: &self.rows,
             tallies: &self.tallies,
             warnings: &self.all_warnings(),
@@ -259,7 +272,14 @@ impl<'a> Keeper<'a> {
         }
         .html();
         write_within(&self.folder.report_path(), text.as_bytes())?;
-        self.refreshed = Some((Instant::now(), clock.elapsed()));
+        self.refreshed = Some((Clock::start(), clock.seconds()));
+        Ok(())
+    }
+
+    /// There is nothing to draw with.
+    #[cfg(not(feature = "images"))]
+    fn refresh(&mut self, _: Option<&Summary>) -> Result<(), OutputError> {
+        debug_assert!(!self.draws);
         Ok(())
     }
 
@@ -268,15 +288,15 @@ impl<'a> Keeper<'a> {
         &mut self,
         end: &WalkEnd,
         summarise: impl FnOnce(Seconds, Vec<String>) -> Summary,
-    ) -> Result<(), OutputError> {
-        let clock = Instant::now();
+    ) -> Result<Summary, OutputError> {
+        let clock = Clock::start();
         self.folder.expect_present()?;
         self.mend_curve(true)?;
         if let Some((step, evaluation)) = self.last.take() {
             self.write_fields(step, &evaluation)?;
         }
         self.at_rounding();
-        self.output_seconds += clock.elapsed().as_secs_f64();
+        self.output_seconds += clock.seconds();
         let is_whole = end.rows.len() == self.setup.scene.loading.path.len();
         if is_whole
             && end.rows.last().is_some_and(|row| row.converged)
@@ -293,7 +313,8 @@ impl<'a> Keeper<'a> {
         };
         let summary = summarise(self.seconds_so_far(), self.all_warnings());
         summary.write(&self.folder.summary_path())?;
-        self.refresh(Some(&summary))
+        self.refresh(Some(&summary))?;
+        Ok(summary)
     }
 
     fn write_fields(&mut self, step: usize, evaluation: &Evaluation) -> Result<(), OutputError> {
@@ -305,18 +326,28 @@ impl<'a> Keeper<'a> {
         for &field in &output.fields {
             let path = self.folder.field_path(step, field);
             let values = values(field);
-            match self.single() {
-                true => write_field_single(&path, &grid, &values)?,
-                false => write_field(&path, &grid, &values)?,
+            if self.single() {
+                write_field_single(&path, &grid, &values)?;
+            } else {
+                write_field(&path, &grid, &values)?;
             }
             named.push((field, values));
         }
         if !named.is_empty() {
             write_volume(&self.folder.volume_path(step), &grid, &named, self.single())?;
         }
+        self.write_pictures(step, evaluation)
+    }
+
+    #[cfg(feature = "images")]
+    fn write_pictures(&mut self, step: usize, evaluation: &Evaluation) -> Result<(), OutputError> {
+        if !self.draws {
+            return Ok(());
+        }
+        let setup = self.setup;
         let loading = &setup.scene.loading;
-        for &field in &output.images {
-            let values = values(field);
+        for &field in &setup.scene.output.images {
+            let values = evaluation.field(field, &setup.surface.heights);
             let picture = Picture {
                 title: setup.scene.title.as_deref(),
                 field,
@@ -325,7 +356,7 @@ impl<'a> Keeper<'a> {
                     .path
                     .get(step - 1)
                     .map(|&value| Load::new(loading.control, value)),
-                grid,
+                grid: setup.surface.grid,
                 values: &values,
             };
             match write_picture(&self.folder.image_path(step, field), &picture) {
@@ -334,6 +365,13 @@ impl<'a> Keeper<'a> {
                 other => other?,
             }
         }
+        Ok(())
+    }
+
+    /// There is nothing to draw with.
+    #[cfg(not(feature = "images"))]
+    fn write_pictures(&mut self, _: usize, _: &Evaluation) -> Result<(), OutputError> {
+        debug_assert!(!self.draws);
         Ok(())
     }
 }
@@ -375,34 +413,34 @@ fn tallies(state: &Checkpoint) -> Checkpoint {
     }
 }
 
-impl Observer for Keeper<'_> {
+impl Observer for RunRecorder<'_> {
     type Error = OutputError;
 
     fn step(&mut self, step: FinishedStep) -> Result<(), OutputError> {
-        let clock = Instant::now();
+        let clock = Clock::start();
         let kept = self.keep_step(step);
-        self.output_seconds += clock.elapsed().as_secs_f64();
+        self.output_seconds += clock.seconds();
         kept
     }
 
-    fn iteration(&mut self, _step: usize, scalars: &Scalars) -> bool {
-        self.progress
-            .iteration(scalars.iterations as usize, scalars.residual);
-        !self.interrupts.raised()
+    fn iteration(&mut self, step: usize, scalars: &Scalars) -> bool {
+        self.observer
+            .iteration(step, scalars.iterations as usize, scalars.residual)
     }
 
-    fn search(&mut self, _step: usize, search: Search) {
+    fn search(&mut self, step: usize, search: Search) {
         let unit = match self.setup.scene.loading.control {
             Control::Pressure => "Pa",
             _ => "N",
         };
         let tension = |load: f64| format_si(-load, unit);
-        self.progress.search(match search {
+        let words = match search {
             Search::PullOff { held, parted } => {
                 format!("pull-off between {} and {}", tension(held), tension(parted))
             }
             Search::Jump => "looks for a jump".to_owned(),
-        });
+        };
+        self.observer.search(step, &words);
     }
 
     fn wants_checkpoint(&self) -> bool {
@@ -410,9 +448,9 @@ impl Observer for Keeper<'_> {
     }
 
     fn checkpoint(&mut self, step: usize, state: &Checkpoint) -> Result<(), OutputError> {
-        let clock = Instant::now();
+        let clock = Clock::start();
         let kept = self.commit(step, state);
-        self.output_seconds += clock.elapsed().as_secs_f64();
+        self.output_seconds += clock.seconds();
         kept
     }
 }

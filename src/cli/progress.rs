@@ -6,11 +6,11 @@ use std::time::{Duration, Instant};
 
 use indicatif::{ProgressBar, ProgressDrawTarget, ProgressStyle};
 
-use super::visible::visible;
+use crate::output::visible;
 
 /// A progress line; silent if standard error is not a terminal.
 #[derive(Debug)]
-pub struct Progress {
+pub(super) struct Progress {
     line: Option<Line>,
 }
 

@@ -1,133 +1,45 @@
-//! Where a run computes: the processor or a graphics processor, and in which arithmetic.
+//! Which graphics processor is taken, and whether it takes the grid.
 
-use super::{Failure, drivers};
-use crate::backend::Backend;
-use crate::backend::cpu::CpuBackend;
+use super::adapters;
+use super::error::DeviceError;
+use super::selection::Place;
 use crate::backend::gpu::{
-    AdapterChoice, AdapterDescription, GpuBackend, GpuDevice, GpuError, Number, Wide, radices,
+    AdapterChoice, AdapterDescription, GpuDevice, GpuError, Number, Wide, radices,
 };
-use crate::scene::{BackendName, Boundary, Precision, Scene};
+use crate::scene::{Boundary, Precision, Scene};
 use crate::study::Setup;
 
-/// What a run computes on.
-pub(super) struct Machine {
-    place: Place,
-    precision: Precision,
-    /// What the user should know about the choice.
-    pub remark: Option<String>,
-}
+/// What the command line calls the processor, in remarks on the choice.
+const PROCESSOR: &str = "--backend cpu";
 
-enum Place {
-    Processor,
-    Gpu(GpuDevice),
-}
-
-impl Machine {
-    /// Takes what a scene asks for. What drivers say at their start is heard if `verbose`.
-    pub fn of(setup: &Setup, verbose: bool) -> Result<Machine, Failure> {
-        let settings = &setup.scene.solver;
-        let (place, remark) = match settings.backend {
-            BackendName::Cpu => (Place::Processor, None),
-            BackendName::Gpu => {
-                refuse_size(setup.problem.shape.points)?;
-                let choice = AdapterChoice {
-                    software: true,
-                    ..choice()
-                };
-                let device = drivers::device(&choice, verbose).map_err(Failure::Gpu)?;
-                let found = device.description();
-                let precision = setup.scene.arithmetic_on(true);
-                if precision == Precision::Double && !found.double {
-                    return Err(Failure::Gpu(GpuError::Precision(found.name.clone())));
-                }
-                refuse_limits(setup, found, number(precision))?;
-                let remark = found.software().then(|| {
-                    format!(
-                        "on {}, which is software on the processor: --backend cpu is faster",
-                        found.name
-                    )
-                });
-                (Place::Gpu(device), remark)
-            }
-            BackendName::Auto => auto(setup, verbose),
-        };
-        let precision = setup.scene.arithmetic_on(matches!(place, Place::Gpu(_)));
-        let sums = match &place {
-            Place::Gpu(device) => plain_sums(device),
-            Place::Processor => None,
-        };
-        let remarks: Vec<String> = remark.into_iter().chain(sums).collect();
-        Ok(Machine {
-            place,
-            precision,
-            remark: (!remarks.is_empty()).then(|| remarks.join("; ")),
-        })
+/// The graphics processor that a scene asks for by name, with a remark.
+///
+/// # Errors
+/// None that can be used, or none that takes the grid in the scene's precision.
+pub(super) fn asked(setup: &Setup, verbose: bool) -> Result<(Place, Option<String>), DeviceError> {
+    check_points(setup.problem.shape.points)?;
+    let choice = AdapterChoice {
+        software: true,
+        ..choice()
+    };
+    let device = adapters::open(&choice, verbose)?;
+    let found = device.description();
+    let precision = setup.scene.arithmetic_on(true);
+    if precision == Precision::Double && !found.double {
+        return Err(GpuError::Precision(found.name.clone()).into());
     }
-
-    /// The processor, where the scene leaves the choice and the graphics processor has failed.
-    pub fn instead(&self, setup: &Setup) -> Option<Machine> {
-        let settings = &setup.scene.solver;
-        let may = settings.backend == BackendName::Auto && matches!(self.place, Place::Gpu(_));
-        may.then(|| Machine {
-            place: Place::Processor,
-            precision: setup.scene.arithmetic_on(false),
-            remark: None,
-        })
-    }
-
-    /// A backend on it.
-    pub fn backend(&self) -> Box<dyn Backend + Send> {
-        match (&self.place, self.precision) {
-            (Place::Gpu(device), Precision::Mixed) => {
-                Box::new(GpuBackend::on(device).expecting_finite().corrected())
-            }
-            (Place::Gpu(device), precision) => Box::new(
-                GpuBackend::on(device)
-                    .expecting_finite()
-                    .keeping(number(precision)),
-            ),
-            (Place::Processor, Precision::Single) => Box::new(CpuBackend::<f32>::new()),
-            (Place::Processor, Precision::Mixed) => Box::new(CpuBackend::<f32>::new().corrected()),
-            (Place::Processor, _) => Box::new(CpuBackend::<f64>::new()),
-        }
-    }
-
-    /// `cpu` or `gpu`.
-    pub fn name(&self) -> &'static str {
-        match self.place {
-            Place::Processor => BackendName::Cpu.name(),
-            Place::Gpu(_) => BackendName::Gpu.name(),
-        }
-    }
-
-    /// Name of the adapter, on a graphics processor.
-    pub fn adapter(&self) -> Option<String> {
-        match &self.place {
-            Place::Processor => None,
-            Place::Gpu(device) => Some(device.description().name.clone()),
-        }
-    }
-
-    /// Where it is and in which arithmetic, in words.
-    pub fn words(&self) -> String {
-        let adapter = self
-            .adapter()
-            .map_or_else(String::new, |name| format!(" ({name})"));
+    check_limits(setup, found, number(precision))?;
+    let remark = found.software().then(|| {
         format!(
-            "{}{adapter}, {} precision",
-            self.name(),
-            self.precision.name()
+            "on {}, which is software on the processor: {PROCESSOR} is faster",
+            found.name
         )
-    }
-
-    /// Its arithmetic.
-    pub fn precision(&self) -> Precision {
-        self.precision
-    }
+    });
+    Ok((Place::Gpu(device), remark))
 }
 
 /// The number of the fields on a graphics processor.
-fn number(precision: Precision) -> Number {
+pub(super) fn number(precision: Precision) -> Number {
     match precision {
         Precision::Double => Number::Double,
         // What corrects in mixed precision goes where it fits.
@@ -175,7 +87,7 @@ fn choice() -> AdapterChoice {
 }
 
 /// What is to be said of a device whose compiler undoes compensated sums.
-fn plain_sums(device: &GpuDevice) -> Option<String> {
+pub(super) fn plain_sums(device: &GpuDevice) -> Option<String> {
     (device.wide() == Wide::Single).then(|| {
         format!(
             "{} adds in plain single precision: it has no double, and its driver undoes the compensation of sums",
@@ -192,30 +104,32 @@ const FEWEST_POINTS_IN_DOUBLE: usize = 512 * 512;
 
 /// A graphics processor that is one, where the grid is worth it; else the processor. Says why only
 /// where there is a choice.
-fn auto(setup: &Setup, verbose: bool) -> (Place, Option<String>) {
+pub(super) fn best_for(setup: &Setup, verbose: bool) -> (Place, Option<String>) {
     let settings = &setup.scene.solver;
     let choice = choice();
     let precision = setup.scene.arithmetic_on(true);
     let in_double = precision == Precision::Double;
-    let fewest = match in_double {
-        true => FEWEST_POINTS_IN_DOUBLE,
-        false => FEWEST_POINTS,
+    let fewest = if in_double {
+        FEWEST_POINTS_IN_DOUBLE
+    } else {
+        FEWEST_POINTS
     };
     if !choice.software && setup.problem.shape.len() < fewest {
         return (Place::Processor, None);
     }
     // No adapter transforms these points, so none is asked for.
-    if refuse_size(setup.problem.shape.points).is_err() {
+    if check_points(setup.problem.shape.points).is_err() {
         return (Place::Processor, None);
     }
-    let mut found = drivers::list(verbose);
+    let mut found = adapters::list(verbose);
     for adapter in &mut found {
         adapter.limits = choice.faults().narrowed(adapter.limits);
         adapter.double &= !choice.faults().without_double;
     }
-    let chosen = match choice.software {
-        true => found.first(),
-        false => best(&found),
+    let chosen = if choice.software {
+        found.first()
+    } else {
+        best(&found)
     };
     let Some(best) = chosen else {
         return (Place::Processor, None);
@@ -227,10 +141,10 @@ fn auto(setup: &Setup, verbose: bool) -> (Place, Option<String>) {
     if in_double && !best.double {
         return stays("it has no double precision".to_owned());
     }
-    if let Err(error) = refuse_limits(setup, best, number(precision)) {
-        return stays(error.to_string());
+    if let Err(error) = check_limits(setup, best, number(precision)) {
+        return stays(error.in_words(PROCESSOR));
     }
-    match drivers::device(&choice, verbose) {
+    match adapters::open(&choice, verbose) {
         Ok(device) if device.description().software() && !choice.software => {
             stays("WGPU_ADAPTER_NAME names one that computes on the processor".to_owned())
         }
@@ -269,7 +183,7 @@ pub(super) fn may_take_adapters(scene: &Scene) -> bool {
 }
 
 /// The adapter that `auto` takes where it can: the best one that is no software.
-pub(super) fn best(found: &[AdapterDescription]) -> Option<&AdapterDescription> {
+pub fn best(found: &[AdapterDescription]) -> Option<&AdapterDescription> {
     found
         .iter()
         .filter(|adapter| !adapter.software())
@@ -277,8 +191,8 @@ pub(super) fn best(found: &[AdapterDescription]) -> Option<&AdapterDescription> 
 }
 
 /// The largest grid of the adapter that `--backend gpu` takes here, in words.
-pub(super) fn largest_here(boundary: Boundary, verbose: bool) -> String {
-    let found = drivers::list(verbose);
+pub fn largest_here(boundary: Boundary, verbose: bool) -> String {
+    let found = adapters::list(verbose);
     match best(&found).or(found.first()) {
         None => "no adapter here".to_owned(),
         Some(adapter) => {
@@ -306,30 +220,28 @@ fn largest_with(adapter: &AdapterDescription, boundary: Boundary, number: Number
 }
 
 /// Refuses grids that are past what an adapter transforms and binds.
-fn refuse_limits(
+fn check_limits(
     setup: &Setup,
     adapter: &AdapterDescription,
     number: Number,
-) -> Result<(), Failure> {
+) -> Result<(), DeviceError> {
     let shape = setup.problem.shape;
     if adapter.takes(shape.points, number) {
         return Ok(());
     }
-    let side = largest_with(adapter, setup.scene.grid.boundary, number);
-    Err(Failure::Usage(format!(
-        "grid.points: {} x {} points are past the limits of {}, which takes up to {side} x {side} here{}: take fewer points, or --backend cpu",
-        shape.surface[0],
-        shape.surface[1],
-        adapter.name,
-        match number {
-            Number::Single => "",
-            Number::Double => " in double precision",
-        }
-    )))
+    Err(DeviceError::Limits {
+        points: shape.surface,
+        adapter: adapter.name.clone(),
+        side: largest_with(adapter, setup.scene.grid.boundary, number),
+        in_double: number == Number::Double,
+    })
 }
 
 /// Refuses solved points that have no transform on a graphics processor.
-pub(super) fn refuse_size(points: [usize; 2]) -> Result<(), Failure> {
+///
+/// # Errors
+/// The nearest points that have one.
+pub fn check_points(points: [usize; 2]) -> Result<(), DeviceError> {
     let is_good = |points: usize| radices(points).is_some();
     if points.into_iter().all(is_good) {
         return Ok(());
@@ -351,9 +263,7 @@ pub(super) fn refuse_size(points: [usize; 2]) -> Result<(), Failure> {
     } else {
         format!("{} along x, {} along y", near(nx), near(ny))
     };
-    Err(Failure::Usage(format!(
-        "grid.points: {nx} x {ny} points have no transform on the GPU, which takes even numbers without a prime factor above 7: take {instead}, or --backend cpu"
-    )))
+    Err(DeviceError::Points { points, instead })
 }
 
 #[cfg(test)]

@@ -1,0 +1,97 @@
+//! A solved load as arrays.
+
+use crate::scene::FieldName;
+use crate::study::{Evaluation, Jump, Setup, State, StepRow};
+
+/// A solved load, SI. Arrays have shape `[ny, nx]`, row-major: point (ix, iy) is element `iy * nx + ix`.
+///
+/// A load that no equilibrium carries leaves the surfaces apart: then [`approach`](Solution::approach) is
+/// `None`, the gap is infinite, the pressure 0, and the displacement 0 (NaN on a solid that relaxes, whose
+/// past still moves it).
+#[derive(Clone, Debug, PartialEq)]
+#[non_exhaustive]
+pub struct Solution {
+    /// Points along x and y: arrays hold `points[1]` rows of `points[0]`.
+    pub points: [usize; 2],
+    /// Lengths along x and y, m.
+    pub size: [f64; 2],
+    /// Distance between the surfaces, m; 0 in contact, and negative only inside the core of Lennard-Jones.
+    pub gap: Vec<f64>,
+    /// Net normal traction, Pa, positive in compression.
+    pub pressure: Vec<f64>,
+    /// Normal displacement of the solid's surface, m, positive into it.
+    pub displacement: Vec<f64>,
+    /// Heights, m, as plastic flow has left them; those given where the surfaces are apart.
+    pub heights: Vec<f64>,
+    /// Share of the points that are in contact.
+    pub contact_area_fraction: f64,
+    /// Force, N, positive in compression.
+    pub force: f64,
+    /// Force over the area of the grid, Pa.
+    pub mean_pressure: f64,
+    /// Rigid displacement of the bodies towards each other since they first touched, m.
+    pub approach: Option<f64>,
+    /// Mean of the gap over the grid, m.
+    pub mean_gap: Option<f64>,
+    /// What decides whether it converged; defined in `docs/solver.md`.
+    pub residual: f64,
+    /// Iterations of the solver.
+    pub iterations: usize,
+    /// Whether the residual meets the tolerance. The fields of a load that did not converge are those of its
+    /// last iteration, and a path ends there.
+    pub converged: bool,
+    /// Whether something touches, attracts, or nothing of both.
+    pub state: State,
+    /// The jump between this load and the one before, if there was one.
+    pub jump: Option<Jump>,
+    /// The row of `curve.csv`: energies, areas, and what effects add.
+    pub row: StepRow,
+}
+
+impl Solution {
+    /// A step as it was handed over, of which `evaluation` is missing where the surfaces are apart.
+    pub(super) fn new(
+        setup: &Setup,
+        row: StepRow,
+        evaluation: Option<Evaluation>,
+        jump: Option<Jump>,
+    ) -> Self {
+        let grid = setup.surface.grid;
+        let heights = &setup.surface.heights;
+        let [gap, pressure, displacement, heights] = match evaluation {
+            Some(found) => {
+                let displacement = found.field(FieldName::Displacement, heights);
+                let heights = found.field(FieldName::Heights, heights);
+                [found.gap, found.pressure, displacement, heights]
+            }
+            None => {
+                let moved = if setup.scene.solid.relaxation.is_empty() {
+                    0.0
+                } else {
+                    f64::NAN
+                };
+                let all = |value: f64| vec![value; grid.len()];
+                [all(f64::INFINITY), all(0.0), all(moved), heights.clone()]
+            }
+        };
+        Solution {
+            points: grid.points(),
+            size: grid.size(),
+            gap,
+            pressure,
+            displacement,
+            heights,
+            contact_area_fraction: row.contact_area_fraction,
+            force: row.force,
+            mean_pressure: row.mean_pressure,
+            approach: row.approach,
+            mean_gap: row.mean_gap,
+            residual: row.residual,
+            iterations: row.iterations,
+            converged: row.converged,
+            state: row.state,
+            jump,
+            row,
+        }
+    }
+}

@@ -1,0 +1,143 @@
+//! How a run ends.
+
+use super::memory_check::MemoryError;
+use crate::backend::BackendError;
+use crate::device::{DeviceError, SelectedDevice};
+use crate::effect::Effect;
+use crate::output::{Effects, OutputError, Seconds, Summary, peak_memory_bytes};
+use crate::study::{Setup, StepRow, Tension, Unreachable, WalkEnd};
+use crate::surface::SurfaceError;
+
+/// Why a run could not begin or go on.
+#[derive(Debug, thiserror::Error)]
+#[non_exhaustive]
+pub enum RunError {
+    /// The surface cannot be built.
+    #[error(transparent)]
+    Surface(#[from] SurfaceError),
+    /// The memory does not hold it.
+    #[error(transparent)]
+    Memory(#[from] MemoryError),
+    /// The device that it asks for cannot be used.
+    #[error(transparent)]
+    Device(#[from] DeviceError),
+    /// The device failed.
+    #[error(transparent)]
+    Backend(#[from] BackendError),
+    /// The folder is not this run's, or cannot be written.
+    #[error(transparent)]
+    Output(#[from] OutputError),
+}
+
+/// How far a run came.
+#[derive(Clone, Copy, Debug, PartialEq)]
+#[non_exhaustive]
+pub enum RunStatus {
+    /// Every step is solved.
+    Finished,
+    /// The last row did not reach the tolerance, and the steps after it were not begun.
+    NotConverged {
+        /// The step, from 1.
+        step: usize,
+        /// The residual that it ended with.
+        residual: f64,
+        /// Its iterations.
+        iterations: usize,
+        /// The residual asked for.
+        tolerance: f64,
+        /// Why no contact can have what it asks for, if none can.
+        unreachable: Option<Unreachable>,
+    },
+    /// The observer ended it.
+    Interrupted {
+        /// Steps that are finished.
+        finished: usize,
+        /// Steps of the path.
+        steps: usize,
+    },
+}
+
+/// What a run leaves besides its folder.
+#[derive(Clone, Debug, PartialEq)]
+#[non_exhaustive]
+pub struct RunEnd {
+    /// One row a step, those of a resumed run included, SI.
+    pub rows: Vec<StepRow>,
+    /// Content of `summary.json`.
+    pub summary: Summary,
+    /// How far it came.
+    pub status: RunStatus,
+}
+
+impl RunEnd {
+    /// The end of a path.
+    pub(super) fn new(setup: &Setup, end: WalkEnd, summary: Summary) -> Self {
+        let status = match end.rows.last() {
+            _ if end.interrupted => RunStatus::Interrupted {
+                finished: end.rows.len(),
+                steps: setup.scene.loading.path.len(),
+            },
+            Some(row) if !row.converged => RunStatus::NotConverged {
+                step: row.step,
+                residual: row.residual,
+                iterations: row.iterations,
+                tolerance: setup.scene.solver.tolerance,
+                unreachable: end.unreachable,
+            },
+            _ => RunStatus::Finished,
+        };
+        RunEnd {
+            rows: end.rows,
+            summary,
+            status,
+        }
+    }
+}
+
+/// The summary of a path that ended.
+pub(super) fn summary(
+    setup: &Setup,
+    device: &SelectedDevice,
+    end: &WalkEnd,
+    seconds: Seconds,
+    warnings: Vec<String>,
+) -> Summary {
+    let names = |on: bool| -> Vec<String> {
+        Effect::ALL
+            .iter()
+            .filter(|effect| effect.is_on(&setup.scene) == on)
+            .map(|effect| effect.name().to_owned())
+            .collect()
+    };
+    let tension = Tension::of(&setup.scene.loading, end);
+    let [lower, upper] = tension
+        .bounds()
+        .map_or([None; 2], |bounds| bounds.map(Some));
+    Summary {
+        version: env!("CARGO_PKG_VERSION").to_owned(),
+        scene: setup.scene.resolved_json(),
+        effects: Effects {
+            on: names(true),
+            off: names(false),
+        },
+        backend: device.name().to_owned(),
+        adapter: device.adapter(),
+        precision: device.precision().name().to_owned(),
+        seconds,
+        transforms: end.transforms + setup.transforms,
+        peak_memory_bytes: peak_memory_bytes(),
+        largest_contact_area_fraction: end
+            .rows
+            .iter()
+            .map(|row| row.contact_area_fraction)
+            .reduce(f64::max),
+        pull_off_force: tension.pull_off(),
+        pull_off_step: tension.step(),
+        pull_off_lower: lower,
+        pull_off_upper: upper,
+        jump_in_steps: end.jump_in_steps.clone(),
+        jump_off_steps: end.jump_off_steps.clone(),
+        hysteresis_energy: end.hysteresis_energy,
+        warnings,
+    }
+}

@@ -1,0 +1,182 @@
+//! A scene solved into a folder of results, as `tabor run` does it.
+//!
+//! [`run`] solves every step of a scene and writes its folder, which `docs/results.md` explains file by file;
+//! [`RunOptions`] say how, and a [`RunObserver`] hears how far it is and may end it. A run that was ended is
+//! resumed after its last finished step, to the same bits.
+//!
+//! ```
+//! use tabor::{RunOptions, Scene};
+//!
+//! # fn main() -> Result<(), Box<dyn std::error::Error>> {
+//! let smaller = [("grid.points".to_owned(), "64".to_owned())]; // as --set on the command line
+//! let scene = Scene::read("examples/scenes/rough.toml".as_ref(), &smaller)?;
+//! let folder = tempfile::tempdir()?;
+//! let end = tabor::run(scene, folder.path(), &mut ())?;
+//! assert_eq!(end.rows.len(), 12);
+//! assert!(folder.path().join("curve.csv").exists());
+//! # Ok(())
+//! # }
+//! ```
+
+mod earlier_files;
+mod end;
+pub(crate) mod memory_check;
+mod observer;
+mod options;
+mod run_directory;
+mod run_recorder;
+
+pub use end::{RunEnd, RunError, RunStatus};
+pub use memory_check::MemoryError;
+pub use observer::RunObserver;
+pub use options::RunOptions;
+
+use std::path::Path;
+
+use crate::backend::BackendError;
+use crate::backend::cpu::with_threads;
+use crate::clock::Clock;
+use crate::device::SelectedDevice;
+use crate::output::Seconds;
+use crate::scene::Scene;
+use crate::study::{Setup, WalkError, walk_on};
+use crate::surface::Surface;
+use run_directory::{ExistingRun, RunDirectory};
+use run_recorder::RunRecorder;
+
+/// Solves every step of a scene and writes `folder`, which is made where it is missing; one with files in it
+/// is taken only if tabor wrote it for the same scene, and then its files are replaced.
+///
+/// A step that does not converge, and a run that the observer ends, are results: [`RunEnd::status`] tells.
+///
+/// # Errors
+/// A surface that cannot be built, a run that the memory does not hold, a device that cannot be used or
+/// fails, a folder that is not this scene's, files that cannot be written. What is solved until then is
+/// kept for [`RunOptions::resume`].
+pub fn run(
+    scene: Scene,
+    folder: &Path,
+    observer: &mut dyn RunObserver,
+) -> Result<RunEnd, RunError> {
+    run_with(scene, folder, &RunOptions::default(), observer)
+}
+
+/// As [`run`], with options.
+///
+/// # Errors
+/// As [`run`].
+pub fn run_with(
+    mut scene: Scene,
+    folder: &Path,
+    options: &RunOptions,
+    observer: &mut dyn RunObserver,
+) -> Result<RunEnd, RunError> {
+    if let Some(device) = options.device {
+        scene.solver.backend = device.backend();
+    }
+    let mut seconds = Seconds::default();
+    seconds.add("scene", options.reading_seconds);
+    let clock = Clock::start();
+    memory_check::check_scene(&scene)?;
+    let surface = Surface::build(&scene)?;
+    // Of a grid that a height file carries.
+    memory_check::check_grid(&scene, surface.grid)?;
+    let setup = Setup::new(scene, surface);
+    seconds.add("surface", clock.seconds());
+    let clock = Clock::start();
+    let hears_drivers = options.device.is_some_and(|device| device.hears_drivers());
+    let device = SelectedDevice::new(&setup, hears_drivers)?;
+    seconds.add("device", clock.seconds());
+    let existing = match (options.resume, options.overwrite) {
+        (true, _) => ExistingRun::Resume,
+        (false, true) => ExistingRun::Overwrite,
+        (false, false) => ExistingRun::Refuse,
+    };
+    let work = Work {
+        setup: &setup,
+        folder,
+        threads: options.threads,
+        draws: options.draws(),
+    };
+    match work.walk(&device, existing, seconds.clone(), observer)? {
+        Walked::Ended(end) => Ok(*end),
+        // The device failed and another may go on: what is solved is kept.
+        Walked::Failed(error, fallback) => {
+            observer.warning(&format!(
+                "{error}; the processor goes on after the last finished step"
+            ));
+            match work.walk(&fallback, ExistingRun::Resume, seconds, observer)? {
+                Walked::Ended(end) => Ok(*end),
+                Walked::Failed(error, _) => Err(error.into()),
+            }
+        }
+    }
+}
+
+/// What a path is solved with, on any device.
+struct Work<'a> {
+    setup: &'a Setup,
+    folder: &'a Path,
+    threads: Option<usize>,
+    draws: bool,
+}
+
+/// How a path ended on a device.
+enum Walked {
+    Ended(Box<RunEnd>),
+    /// The device failed, and another may go on.
+    Failed(BackendError, SelectedDevice),
+}
+
+impl Work<'_> {
+    /// Walks the path on a device and writes its folder.
+    fn walk(
+        &self,
+        device: &SelectedDevice,
+        existing: ExistingRun,
+        mut seconds: Seconds,
+        observer: &mut dyn RunObserver,
+    ) -> Result<Walked, RunError> {
+        let setup = self.setup;
+        observer.starts(&device.words());
+        let directory = RunDirectory::open(self.folder, setup, device, existing, self.draws)?;
+        for remark in device.remark.iter().chain(&directory.remarks) {
+            observer.note(remark);
+        }
+        for warning in setup.warnings.iter().chain(&directory.lost) {
+            observer.warning(warning);
+        }
+        let earlier = directory.earlier.clone();
+        seconds.add("solve", earlier.rows.iter().map(|row| row.seconds).sum());
+        let steps = setup.scene.loading.path.len();
+        observer.begins(steps, earlier.rows.len(), setup.scene.solver.tolerance);
+        let mut recorder =
+            RunRecorder::new(setup, device, directory, seconds, self.draws, observer);
+        let make_backend = || device.backend();
+        let walked = with_threads(self.threads, || {
+            walk_on(setup, &make_backend, &mut recorder, earlier)
+        })?;
+        let (end, failure) = match walked {
+            Ok(end) => (end, None),
+            Err(WalkError::Backend(error)) if let Some(fallback) = device.fallback(setup) => {
+                return Ok(Walked::Failed(error, fallback));
+            }
+            // What is solved stands: it is summed up like any other end.
+            Err(WalkError::Backend(error)) => (recorder.end_so_far(), Some(error)),
+            Err(WalkError::Observer(error)) => {
+                recorder.say_kept();
+                return Err(error.into());
+            }
+        };
+        let written = recorder.finish(&end, |seconds, warnings| {
+            end::summary(setup, device, &end, seconds, warnings)
+        });
+        if failure.is_some() || end.interrupted || written.is_err() {
+            recorder.say_kept();
+        }
+        match (failure, written) {
+            (Some(error), _) => Err(error.into()),
+            (None, written) => Ok(Walked::Ended(Box::new(RunEnd::new(setup, end, written?)))),
+        }
+    }
+}

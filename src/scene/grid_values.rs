@@ -1,0 +1,53 @@
+//! Values on the grid that are given as an array.
+
+use std::fmt;
+use std::sync::Arc;
+
+/// One number a point of the grid, shape `[ny, nx]`, row-major: point (ix, iy) is element `iy * nx + ix`.
+///
+/// Copies share the numbers.
+#[derive(Clone, PartialEq)]
+pub struct GridValues {
+    points: [usize; 2],
+    values: Arc<[f64]>,
+}
+
+impl GridValues {
+    /// The values of `points` = (nx, ny) points. That there are as many, and that they are finite, is checked
+    /// where they are used.
+    pub fn new(values: impl AsRef<[f64]>, points: [usize; 2]) -> Self {
+        GridValues {
+            points,
+            values: Arc::from(values.as_ref()),
+        }
+    }
+
+    /// Points along x and y.
+    pub fn points(&self) -> [usize; 2] {
+        self.points
+    }
+
+    /// The numbers.
+    pub fn values(&self) -> &[f64] {
+        &self.values
+    }
+
+    /// CRC-32 of the numbers, by which they are told from others.
+    pub(super) fn checksum(&self) -> u32 {
+        let mut checksum = crc32fast::Hasher::new();
+        for value in self.values.iter() {
+            checksum.update(&value.to_le_bytes());
+        }
+        checksum.finalize()
+    }
+}
+
+impl fmt::Debug for GridValues {
+    fn fmt(&self, formatter: &mut fmt::Formatter<'_>) -> fmt::Result {
+        // Not millions of numbers.
+        formatter
+            .debug_struct("GridValues")
+            .field("points", &self.points)
+            .finish_non_exhaustive()
+    }
+}
