@@ -7,7 +7,7 @@ use std::path::Path;
 
 use serde_json::{Value as Json, json};
 
-use super::document::{Entry, Node, Place, Table, Value};
+use super::document::{Entry, Location, Node, Table, Value};
 use super::mistake::SceneErrors;
 use super::reader::Log;
 use super::{AdhesionMap, Control, LoadingScene, Scene, SurfacePart, read_tables};
@@ -165,7 +165,7 @@ fn node(json: Json) -> Node {
                 .into_iter()
                 .map(|(name, value)| Entry {
                     name,
-                    place: Place::Nowhere,
+                    place: Location::Nowhere,
                     node: node(value),
                 })
                 .collect(),
@@ -179,6 +179,6 @@ fn node(json: Json) -> Node {
     };
     Node {
         value,
-        place: Place::Nowhere,
+        place: Location::Nowhere,
     }
 }

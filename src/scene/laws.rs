@@ -1,6 +1,5 @@
 //! The cohesive laws as they are given in Rust, each with what it cannot do without.
 
-use super::adhesion::shape;
 use super::{AdhesionMap, AdhesionScene, LawName, Range, RateScene, Treatment};
 
 /// Constant tension up to a range, with a wall behind it: the law of Maugis and Dugdale.
@@ -62,7 +61,7 @@ impl LennardJones {
 
     /// The law of a work of adhesion (J/m^2) and its greatest tension (Pa).
     pub fn from_peak_tension(work_of_adhesion: f64, peak_tension: f64) -> Self {
-        let range = work_of_adhesion * shape(LawName::LennardJones) / peak_tension;
+        let range = work_of_adhesion * LawName::LennardJones.shape() / peak_tension;
         LennardJones::new(work_of_adhesion, range)
     }
 }
