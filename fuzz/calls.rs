@@ -6,7 +6,7 @@ use std::fs;
 use std::path::Path;
 
 use tabor::backend::{Backend, cpu::CpuBackend};
-use tabor::compare::{compare as compare_models, suits};
+use tabor::compare::{check_scene, compare as compare_models};
 use tabor::fit::{ForceCurve, Freedom, fit_curve, report};
 use tabor::scene::{Scene, SurfacePart};
 use tabor::study::{Plan, Setup};
@@ -93,7 +93,7 @@ pub fn theory(bytes: &[u8]) -> bool {
     if words.iter().any(slow) {
         return false;
     }
-    match tabor::cli::theory_table(&words) {
+    match tabor::theory_table(&words) {
         Ok(table) => {
             let help = words.iter().any(|word| word == "--help" || word == "-h");
             assert!(
@@ -127,7 +127,7 @@ pub fn compare(bytes: &[u8], folder: &Path) -> bool {
         _ => true,
     });
     let few = grid.len() <= FEW_POINTS && scene.loading.path.len() <= FEW_STEPS;
-    if !few || !few_waves || suits(&scene).is_err() {
+    if !few || !few_waves || check_scene(&scene).is_err() {
         return false;
     }
     scene.solver.max_iterations = scene.solver.max_iterations.min(ITERATIONS);

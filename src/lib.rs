@@ -154,7 +154,7 @@ pub mod units;
 
 #[cfg(feature = "cli")]
 #[doc(hidden)]
-pub use cli::main as command_line;
+pub use cli::{main as command_line, theory_table};
 pub use contact::{
     Contact, ContactError, ContactMistake, ContactMistakes, Control, Load, Path, Solution,
 };
