@@ -1,85 +1,44 @@
-//! Draws the pressure of a rough contact.
+//! A rough contact as a picture of its pressure.
 //!
 //! `cargo run --release --example pressure_picture [FILE]` presses a self-affine surface against a
 //! half-space and writes the pressure field as a PNG (default `pressure.png`), with colour bar,
 //! scale bar and load.
 
 use std::error::Error;
-use std::path::{Path, PathBuf};
+use std::path::PathBuf;
 
-use tabor::backend::Backend;
-use tabor::backend::cpu::CpuBackend;
-use tabor::kernel::Scalars;
-use tabor::output::{Load, OutputError, Picture, write_picture};
-use tabor::scene::{FieldName, Scene};
-use tabor::study::{FinishedStep, Observer, Setup, walk};
-use tabor::surface::Surface;
-
-const SCENE: &str = r#"
-title = "Rough surface without adhesion"
-[grid]
-points = 512
-size = "20 um"
-[solid]
-contact_modulus = "100 MPa"
-[[surface]]
-kind = "self-affine"
-hurst = 0.8
-rms_slope = 0.12
-longest = "20 um"
-rolloff = "5 um"
-shortest = "0.4 um"
-[loading]
-control = "pressure"
-path = ["1 MPa"]
-"#;
-
-/// Draws each step.
-struct Draw<'a> {
-    setup: &'a Setup,
-    path: PathBuf,
-}
-
-impl Observer for Draw<'_> {
-    type Error = OutputError;
-
-    fn step(&mut self, step: FinishedStep) -> Result<(), OutputError> {
-        // Separated surfaces have no field to draw.
-        let Some(fields) = step.evaluation else {
-            return Ok(());
-        };
-        let scene = &self.setup.scene;
-        let picture = Picture {
-            title: scene.title.as_deref(),
-            field: FieldName::Pressure,
-            step: None,
-            load: Some(Load::new(scene.loading.control, step.row.mean_pressure)),
-            grid: self.setup.surface.grid,
-            values: &fields.pressure,
-        };
-        write_picture(&self.path, &picture)
-    }
-
-    fn iteration(&mut self, _: usize, _: &Scalars) -> bool {
-        true
-    }
-}
+use tabor::output::{Load, Picture, write_picture};
+use tabor::scene::FieldName;
+use tabor::{Contact, Control, Grid, Roughness, SelfAffine};
 
 fn main() -> Result<(), Box<dyn Error>> {
     let path = PathBuf::from(std::env::args_os().nth(1).unwrap_or("pressure.png".into()));
-    let scene = Scene::parse(SCENE, "pressure_picture", Path::new("."), &[])?;
-    let surface = Surface::build(&scene)?;
-    let setup = Setup::new(scene, surface);
-    let make_backend = || -> Box<dyn Backend + Send> { Box::new(CpuBackend::<f64>::new()) };
-    let mut draw = Draw {
-        setup: &setup,
-        path,
+    let grid = Grid::new([512, 512], [20e-6, 20e-6]);
+    let rough = SelfAffine {
+        hurst: 0.8,
+        roughness: Roughness::RmsSlope(0.12),
+        longest: 20e-6,
+        rolloff: 5e-6,
+        shortest: 0.4e-6,
+        seed: 1,
     };
-    let end = walk(&setup, &make_backend, &mut draw)?;
+    let load = Control::MeanPressure(1e6);
+    let solution = Contact::new(rough.heights(grid)?, grid.points(), grid.size())
+        .contact_modulus(100e6)
+        .solve(load)?;
+    let picture = Picture {
+        title: Some("Rough surface without adhesion"),
+        field: FieldName::Pressure,
+        step: None,
+        load: Some(Load::new(load.kind(), load.value())),
+        grid,
+        values: &solution.pressure,
+    };
+    write_picture(&path, &picture)?;
     println!(
         "{}: {:.1} % in contact",
-        draw.path.display(),
-        100.0 * end.rows[0].contact_area_fraction
+        path.display(),
+        100.0 * solution.contact_area_fraction
     );
     Ok(())
 }

@@ -129,6 +129,10 @@ impl Scene {
                 *table = json!({ "kind": "flat" });
             }
         }
+        // A single load with a time, of which ramps know only from the second on: it stands for a hold.
+        if let ([value], Some(_)) = (&self.loading.path[..], &self.loading.durations) {
+            tree["loading"]["ramp"] = json!([{ "to": value, "steps": 1, "duration": 1.0 }]);
+        }
         let is_array =
             |adhesion: &super::AdhesionScene| matches!(adhesion.map, Some(AdhesionMap::Factors(_)));
         if self.adhesion.as_ref().is_some_and(is_array)

@@ -4,6 +4,7 @@ use std::process::ExitCode;
 
 mod accuracy;
 mod compare;
+mod contact;
 mod hostile_calls;
 mod kept;
 mod mistakes;
@@ -22,6 +23,7 @@ fn main() -> ExitCode {
     shared::trials::run([
         accuracy::tests(),
         compare::tests(),
+        contact::tests(),
         hostile_calls::tests(),
         kept::tests(),
         mistakes::tests(),

@@ -5,6 +5,7 @@ use std::fs;
 use std::path::Path;
 use std::process::Command;
 
+use crate::shared::trials::tests;
 use tabor::scene::{
     AdhesionScene, CapillaryScene, PatternKind, RelaxationScene, Scene, SolidScene,
 };
@@ -266,7 +267,6 @@ fn field(folder: &Path, step: usize, name: &str, single: bool) -> Option<Vec<u64
     })
 }
 
-#[test]
 fn contacts_in_rust_and_scenes_on_the_command_line_give_the_same_bits() {
     for case in cases() {
         let Case {
@@ -334,7 +334,6 @@ fn contacts_in_rust_and_scenes_on_the_command_line_give_the_same_bits() {
     }
 }
 
-#[test]
 fn scenes_from_files_are_contacts_too() {
     let Case { scene, contact, .. } = cases().swap_remove(1);
     let scene = Scene::parse(&scene, "scene.toml", Path::new("."), &[]).expect("a scene");
@@ -349,7 +348,6 @@ fn scenes_from_files_are_contacts_too() {
     }
 }
 
-#[test]
 fn arrays_have_the_shape_and_order_that_are_promised() {
     // Highest at (ix, iy) = (3, 10) of 16 x 12 points.
     let (points, size) = ([16, 12], [1.6e-6, 1.2e-6]);
@@ -387,7 +385,6 @@ fn arrays_have_the_shape_and_order_that_are_promised() {
     }
 }
 
-#[test]
 fn paths_are_solved_as_they_are_asked_for() {
     let mut asked = 0;
     let mut path = contact().path([1e5, 5e5, 1e6, 2e6].into_iter().map(|p| {
@@ -414,7 +411,6 @@ fn paths_are_solved_as_they_are_asked_for() {
     assert!(contact().path([Control::Force(0.0); 0]).next().is_none());
 }
 
-#[test]
 fn parted_surfaces_leave_whole_arrays() {
     let parted = contact()
         .law(MaugisDugdale::new(0.01, 10e-9))
@@ -428,7 +424,6 @@ fn parted_surfaces_leave_whole_arrays() {
     assert_eq!(parted.displacement, vec![0.0; count]);
 }
 
-#[test]
 fn threads_change_no_bit() {
     let solve = |threads| {
         let contact = contact().law(Exponential::new(0.01, 20e-9));
@@ -439,7 +434,6 @@ fn threads_change_no_bit() {
     assert_eq!(one.pressure, three.pressure);
 }
 
-#[test]
 fn runs_of_the_library_are_resumed_refused_and_quiet_about_pictures() {
     let place = tempfile::tempdir().expect("a folder");
     let folder = place.path().join("run");
@@ -484,7 +478,6 @@ fn refused(contact: Contact, loads: impl IntoIterator<Item = impl Into<Load>>) -
     error.expect("a mistake").to_string()
 }
 
-#[test]
 #[rustfmt::skip] // one mistake a line
 fn mistakes_name_the_method_and_no_line_of_a_scene() {
     let pressure = || [Control::MeanPressure(1e6)];
@@ -556,7 +549,6 @@ fn mistakes_name_the_method_and_no_line_of_a_scene() {
     }
 }
 
-#[test]
 fn all_mistakes_are_told_at_once_and_typed() {
     let wrong = contact()
         .contact_modulus(-1.0)
@@ -578,7 +570,6 @@ fn all_mistakes_are_told_at_once_and_typed() {
     assert_eq!(mistakes.to_string().lines().count(), 3);
 }
 
-#[test]
 fn laws_by_their_tension_are_those_of_scenes() {
     for (law, name) in [
         (
@@ -603,7 +594,6 @@ fn laws_by_their_tension_are_those_of_scenes() {
 }
 
 /// A graphics processor is asked for and may not be there: then the way out is named.
-#[test]
 fn devices_are_chosen_or_refused_in_words() {
     match contact()
         .device(Device::gpu())
@@ -627,3 +617,17 @@ fn devices_are_chosen_or_refused_in_words() {
     assert!(said.contains("have no transform on the GPU"), "{said}");
     assert!(said.ends_with("or Device::cpu()"), "{said}");
 }
+
+tests![
+    contacts_in_rust_and_scenes_on_the_command_line_give_the_same_bits,
+    scenes_from_files_are_contacts_too,
+    arrays_have_the_shape_and_order_that_are_promised,
+    paths_are_solved_as_they_are_asked_for,
+    parted_surfaces_leave_whole_arrays,
+    threads_change_no_bit,
+    runs_of_the_library_are_resumed_refused_and_quiet_about_pictures,
+    mistakes_name_the_method_and_no_line_of_a_scene,
+    all_mistakes_are_told_at_once_and_typed,
+    laws_by_their_tension_are_those_of_scenes,
+    devices_are_chosen_or_refused_in_words,
+];
