@@ -267,7 +267,9 @@ fn every_combination_of_effects() {
                     }
                     Err(errors) => assert!(
                         errors.to_string().contains("not in this version")
-                            || errors.to_string().contains("does not fix how deep"),
+                            || errors
+                                .to_string()
+                                .contains("does not determine the plastic depth"),
                         "{errors}"
                     ),
                 }

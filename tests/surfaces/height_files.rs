@@ -476,7 +476,7 @@ fn bad_files_are_refused_in_a_sentence() {
         ("steps_7.grd", patched(&grd_7, 20 + 8 + 16, &[0; 8]), "are not positive"),
         // Columns.
         ("pairs.xyz", text("1 2\n3 4\n"), "the points x, y, z do not form a grid: its lines have 2 numbers; x, y and z are expected"),
-        ("twice.xyz", text("0 0 1\n1 0 2\n0 1 3\n0 1 4\n"), "row 4 stands at x = 0, y = 1, as a row above"),
+        ("twice.xyz", text("0 0 1\n1 0 2\n0 1 3\n0 1 4\n"), "row 4 lies at x = 0, y = 1, as a row above"),
         ("uneven.xyz", text("0 0 1\n1 0 2\n5 0 3\n0 1 4\n1 1 5\n5 1 6\n"), "x: 1 is not evenly spaced; place 2 of 3 from 0 to 5 is 2.5"),
         ("cloud.xyz", text("0 0 1\n1 3 2\n2 1 3\n3 2 4\n4 4 5\n"), "its 5 points have 5 different x and 5 different y"),
         ("hole.xyz", text("0 0 1\nnan 0 2\n0 1 3\n1 1 4\n"), "x: row 2 has none"),

@@ -55,8 +55,8 @@ enum Reader {
     Whole(fn(&[u8]) -> Result<Matrix, FileError>),
 }
 
-/// All supported formats.
-const FORMATS: &[Format] = &[
+/// All supported formats. A static, not a constant: formats are compared by address.
+static FORMATS: &[Format] = &[
     Format {
         name: "NumPy array (.npy)",
         extensions: &["npy"],
