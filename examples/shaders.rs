@@ -1,6 +1,6 @@
 //! Writes the assembled WGSL of every kernel into a folder, to be read:
-//! `cargo run --release --example shaders -- shaders_out`. The copies that tests compare with are renewed by
-//! `cargo run --release --example shaders -- tests/reference/shaders`.
+//! `cargo run --release --example shaders -- shaders_out`. Tests keep copies of some and show what a change makes
+//! of them.
 
 use std::error::Error;
 use std::fs;

@@ -2,25 +2,25 @@
 // known: differences are taken without cancellation, so that all is relative to the correction. Twins:
 // law/correction.rs.
 fn open(correction: real) -> real {
-    return outer_gap + correction;
+    return known_gap + correction;
 }
 
 // The value of the unknown at which the surfaces touch.
 fn closed_gap() -> real {
-    return -outer_gap;
+    return -known_gap;
 }
 
 // All of y that does not come from the correction's own pressure.
 fn traction(correction: real) -> real {
-    return outer_residual + law_difference(outer_gap, correction);
+    return known_residual + law_difference(known_gap, correction);
 }
 
 fn pad_traction() -> real {
-    return outer_residual;
+    return known_residual;
 }
 
 fn slope(correction: real) -> real {
-    return law_slope(outer_gap + correction);
+    return law_slope(known_gap + correction);
 }
 
 // The scale of the stopping measure is the outer state's.
@@ -33,7 +33,7 @@ fn corrects() -> bool {
 }
 
 fn change(correction: real, moved: real) -> real {
-    return law_difference(outer_gap + correction, moved);
+    return law_difference(known_gap + correction, moved);
 }
 
 // The change of the energy to first order exactly, the rest by Simpson's rule over the step, which

@@ -8,9 +8,7 @@ fn linear_trial_terms(tried: Tried, here: Here, bent: real) {
     }
     most(LARGEST_STEP, s);
     least(LEAST_STEP, s);
-    if (tried.cut) {
-        most(CUT, wide(1.0));
-    }
+    most(CUT, select(wide(0.0), wide(1.0), tried.cut));
     add_sum(STEP_SUM, s);
     add_sum(GAP_SUM, g);
     add_sum(GAP_SLOPE, g * wide(here.y));

@@ -7,9 +7,7 @@ fn trial_terms(tried: Tried, here: Here, in_domain: bool) {
     }
     most(LARGEST_STEP, s);
     least(LEAST_STEP, s);
-    if (tried.cut) {
-        most(CUT, wide(1.0));
-    }
+    most(CUT, select(wide(0.0), wide(1.0), tried.cut));
 }
 
 // What a smooth law's trial asks besides: step length 1, as a search would evaluate it.

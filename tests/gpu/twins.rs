@@ -157,14 +157,43 @@ fn laws_share_the_names_of_functions() {
     }
 }
 
+/// Whether a shader is kept: one of each kernel, and the other constraints where they differ most.
+fn is_kept(name: &str) -> bool {
+    let other = name.contains("-hardness_limit") || name.contains("-smooth");
+    let differ = [
+        "trial",
+        "direction",
+        "load_trial",
+        "search",
+        "add_correction",
+    ];
+    !other || differ.contains(&name.split('-').next().unwrap_or_default())
+}
+
+/// The variable that has the copies renewed.
+const RENEW: &str = "TABOR_RENEW_SHADERS";
+
 /// What a shader is now against what it was, line by line. Where a difference is meant the copies are renewed
-/// by `cargo run --release --example shaders -- tests/reference/shaders`, and the difference is then git's.
+/// by `TABOR_RENEW_SHADERS=1 cargo test --release --test gpu twins::`, and the difference is then git's.
 fn assembled_shaders_are_those_that_are_kept() {
     let folder = root().join("tests/reference/shaders");
     let now: BTreeMap<String, String> = representative()
         .unwrap_or_else(|error| panic!("{error}"))
         .into_iter()
+        .filter(|(name, _)| is_kept(name))
         .collect();
+    // Each kernel is among them.
+    for kernel in variants() {
+        let is_of = |name: &String| name.split('-').next() == Some(kernel.name);
+        assert!(now.keys().any(is_of), "{}", kernel.name);
+    }
+    if std::env::var(RENEW).is_ok_and(|value| value == "1") {
+        let _ = fs::remove_dir_all(&folder);
+        fs::create_dir_all(&folder).expect("a folder");
+        for (name, text) in &now {
+            fs::write(folder.join(format!("{name}.wgsl")), text).expect("a file");
+        }
+    }
     let kept: BTreeMap<String, String> = fs::read_dir(&folder)
         .expect("a folder")
         .flatten()
@@ -203,7 +232,7 @@ fn assembled_shaders_are_those_that_are_kept() {
     }
     assert!(
         differences.is_empty(),
-        "{differences}\nIf this is meant: cargo run --release --example shaders -- tests/reference/shaders"
+        "{differences}\nIf this is meant: {RENEW}=1 cargo test --release --test gpu twins::"
     );
 }
 

@@ -66,7 +66,7 @@ fn a_further_law_touches_four_files() {
     // No other file of the source has to tell one law with a constraint from another: none matches the
     // exponential law but those that say more of it where they can.
     let says_more = [
-        "src/study/plan.rs",
+        "src/effect/adhesion.rs",
         "src/compare/spectrum.rs",
         "src/scene/adhesion.rs",
     ];

@@ -194,11 +194,11 @@ fn arrive(source: &mut String, kernel: &Kernel, law: LawSource) {
             format!(
                 "@group(1) @binding({gap}) var<storage, read> outer_gaps: array<real>;\n\
                  @group(1) @binding({residual}) var<storage, read> outer_residuals: array<real>;\n\
-                 var<private> outer_gap: real;\n\
-                 var<private> outer_residual: real;\n",
+                 var<private> known_gap: real;\n\
+                 var<private> known_residual: real;\n",
                 residual = gap + 1
             ),
-            "outer_gap = outer_gaps[index]; outer_residual = outer_residuals[index]; ",
+            "known_gap = outer_gaps[index]; known_residual = outer_residuals[index]; ",
         ),
         None => (String::new(), ""),
     };

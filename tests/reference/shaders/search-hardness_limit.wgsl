@@ -1,0 +1,319 @@
+alias real = f32;
+// declarations.wgsl
+// common.wgsl
+@group(0) @binding(1) var<storage, read> scalars: Scalars;
+const SUM_COUNT: u32 = 5u;
+var<private> sums: array<wide, SUM_COUNT>;
+// gate.wgsl
+// sums.wgsl
+const GROUP_THREADS: u32 = 256u;
+const GROUP_HALF: u32 = 128u;
+const SUMS_AT_ONCE: u32 = 4u;
+const GROUP_VALUES: u32 = 1024u;
+// reduce.wgsl
+fn join_slot(slot: u32, a: part, b: part) -> part {
+switch slot {
+default: { return join_add(a, b); }
+}
+}
+fn start_sums() {
+sums[0] = wide(0.0);
+sums[1] = wide(0.0);
+sums[2] = wide(0.0);
+sums[3] = wide(0.0);
+}
+fn hand_in(group: u32, thread: u32) {
+for (var first = 0u; first < 4u; first = first + SUMS_AT_ONCE) {
+gather(first, thread);
+if (thread < SUMS_AT_ONCE && first + thread < 4u) {
+partials.values[0u + (first + thread) * 1u + group] = group_values[thread * GROUP_THREADS];
+}
+}
+}
+fn row_of(index: u32) -> u32 {
+return index / 8u;
+}
+fn in_domain(index: u32) -> bool { return true; }
+const law_factor: real = 1.0;
+fn arrive(index: u32) -> bool { return in_domain(index); }
+@group(1) @binding(0) var<storage, read> field_gap: array<real>;
+fn read_gap(index: u32) -> real { return field_gap[index]; }
+@group(1) @binding(1) var<storage, read> field_direction: array<real>;
+fn read_direction(index: u32) -> real { return field_direction[index]; }
+@group(1) @binding(2) var<storage, read> field_pressure: array<real>;
+fn read_pressure(index: u32) -> real { return field_pressure[index]; }
+fn read_step(index: u32) -> real { return 0.0; }
+fn write_step(index: u32, value: real) {}
+const WIDTH: u32 = 8u;
+const HEIGHT: u32 = 8u;
+const CHANGE_AT_FIRST: u32 = 0u;
+const CHANGE_AT_SECOND: u32 = 1u;
+const CHANGE_AT_THIRD: u32 = 2u;
+const CHANGE_AT_FOURTH: u32 = 3u;
+const ENERGY_CHANGE: u32 = 4u;
+const ENERGY_SIZE: u32 = 4u;
+// Constant tension up to about the range, then linear to zero over the width `taper` centred on it.
+fn law_traction(gap_here: real) -> real {
+    let peak = law_factor * real(params.law_peak);
+    let range = real(params.law_range);
+    let taper = real(params.law_taper);
+    if (taper > 0.0) {
+        return peak * clamp((range - gap_here) / taper + 0.5, 0.0, 1.0);
+    }
+    return select(0.0, peak, gap_here < range);
+}
+
+fn law_energy(gap_here: real) -> real {
+    let peak = law_factor * real(params.law_peak);
+    let range = real(params.law_range);
+    let taper = real(params.law_taper);
+    let half = 0.5 * taper;
+    if (gap_here <= range - half) {
+        return -peak * (range - gap_here);
+    }
+    if (gap_here < range + half) {
+        let left = range + half - gap_here;
+        return -peak * left * left / (2.0 * taper);
+    }
+    return 0.0;
+}
+
+fn law_slope(gap_here: real) -> real {
+    let range = real(params.law_range);
+    let taper = real(params.law_taper);
+    let half = 0.5 * taper;
+    if (gap_here > range - half && gap_here < range + half) {
+        return -law_factor * real(params.law_peak) / taper;
+    }
+    return 0.0;
+}
+
+// The gain of the traction over a step, to the rounding of the gain itself: only the part of the way
+// that lies on the taper counts.
+fn law_difference(gap_here: real, step: real) -> real {
+    let taper = real(params.law_taper);
+    if (taper <= 0.0) {
+        return law_traction(gap_here + step) - law_traction(gap_here);
+    }
+    let left = (real(params.law_range) - gap_here) / taper + 0.5;
+    let moved = step / taper;
+    var lost = min(max(moved, left - 1.0), left);
+    if (left > 1.0) {
+        lost = clamp(moved - (left - 1.0), 0.0, 1.0);
+    } else if (left < 0.0) {
+        lost = -clamp(left - moved, 0.0, 1.0);
+    }
+    return -law_factor * real(params.law_peak) * lost;
+}
+
+// A law with a wall has no repulsion of its own.
+fn law_repelling_gap(pressure: real) -> real {
+    return 0.0;
+}
+// How kernels see the law where the unknown is the gap itself. Twins: law/mod.rs,
+// law/adhesion_map.rs.
+fn open(gap: real) -> real {
+    return gap;
+}
+
+// The value of the unknown at which the surfaces touch.
+fn closed_gap() -> real {
+    return 0.0;
+}
+
+fn traction(gap: real) -> real {
+    return law_traction(gap);
+}
+
+// What stands in the traction's place on a pad, which has no law.
+fn pad_traction() -> real {
+    return 0.0;
+}
+
+fn slope(gap: real) -> real {
+    return law_slope(gap);
+}
+
+// What of a pressure enters the scale of the stopping measure.
+fn weighed(pressure: real) -> real {
+    return pressure;
+}
+
+fn corrects() -> bool {
+    return false;
+}
+
+fn change(gap: real, moved: real) -> real {
+    return law_traction(gap + moved) - law_traction(gap);
+}
+
+// The change of the energy of adhesion, and the size of what it was taken from.
+fn energy_change(gap: real, moved: real) -> vec2<real> {
+    let energy = law_energy(gap);
+    return vec2<real>(law_energy(gap + moved) - energy, abs(energy));
+}
+// A point as the kernels see it. Twins: kernel/constraint.rs.
+struct Here {
+    // The unknown, and the gap itself.
+    gap: real,
+    open: real,
+    // p + mean_pressure.
+    elastic: real,
+    // The attraction.
+    pull: real,
+    // The slope of the energy to the side to which the point may move.
+    y: real,
+    free: bool,
+    // By how much the unknown changes with the variable of the iteration.
+    weight: real,
+    // D.
+    hardening: real,
+}
+
+// A point of its gap and p + mean_pressure; those of a pad have neither constraint nor law.
+fn here_at(gap: real, elastic: real, in_domain: bool) -> Here {
+    if (in_domain) {
+        return state(gap, elastic);
+    }
+    let pull = pad_traction();
+    return Here(gap, open(gap), elastic, pull, elastic + pull, true, real(1.0), real(0.0));
+}
+
+// y on free points in the measure of the iteration's variable, 0 elsewhere.
+fn projected_residual(here: Here) -> real {
+    return select(real(0.0), here.weight * here.y, here.free);
+}
+
+// What a point adds to the stopping measure.
+struct Violation {
+    violation: real,
+    reaction: real,
+    traction: real,
+}
+
+// A trial step, and whether the constraint cut it.
+struct Tried {
+    step: real,
+    cut: bool,
+}
+
+// max(y, 0) where the point is closed.
+fn reaction(open: real, y: real) -> real {
+    return select(max(y, 0.0), real(0.0), open > 0.0);
+}
+// A pressure that is limited by the hardness. Below zero a gap is the depth of plastic indentation. Twins:
+// kernel/constraint.rs, HardnessLimit.
+const STORES_STEP: bool = false;
+
+fn state(gap: real, elastic: real) -> Here {
+    let pull = traction(max(gap, 0.0));
+    let excess = elastic - real(params.hardness);
+    let y = elastic + pull;
+    let above = gap > 0.0 || y < 0.0;
+    let yields = gap < 0.0 || (!above && excess > 0.0);
+    let rests = select(real(0.0), y, above);
+    return Here(gap, gap, elastic, pull, select(rests, excess, yields), yields || above, real(1.0), real(0.0));
+}
+
+fn violation(here: Here) -> Violation {
+    let y = here.elastic + here.pull;
+    // The middle one of the two slopes and the gap.
+    let off = max(min(y, here.gap * real(params.stiffness_max)), here.elastic - real(params.hardness));
+    return Violation(off, reaction(here.gap, y), here.pull);
+}
+
+fn preconditioned(here: Here, line: real) -> real {
+    return select(real(0.0), line, here.free);
+}
+
+// Whether a point is below zero or may only go there.
+fn goes_down(open: real, y: real) -> bool {
+    return open < 0.0 || (open == 0.0 && y > 0.0);
+}
+
+// s = s0 + correction (g + s0) with s0 the way to clip(g + moved); below zero with the opposite sign of
+// the correction, so that a prescribed mean is kept on either side.
+fn trial_step(here: Here, moved: real, correction: real) -> Tried {
+    if (goes_down(here.open, here.y)) {
+        let down = min(moved, -here.open);
+        return Tried(down - correction * (here.open + down), here.open + moved > 0.0);
+    }
+    let up = max(moved, -here.open);
+    return Tried(up + correction * (here.open + up), here.open + moved < 0.0);
+}
+
+fn corrected_step(here: Here, step: real, correction: real, in_domain: bool) -> real {
+    return step;
+}
+
+fn touches(open: real, step: real) -> bool {
+    return (open >= 0.0 && step < 0.0) || (open < 0.0 && step > 0.0);
+}
+
+// The gap after t of a step: no point crosses zero.
+fn land(here: Here, step: real, t: real) -> real {
+    let moved = here.gap + t * step;
+    let snap = real(scalars.snap);
+    if (goes_down(here.gap, here.y)) {
+        return select(moved, closed_gap(), moved > 0.0 || (step > 0.0 && moved > -snap));
+    }
+    return select(moved, closed_gap(), moved < 0.0 || (step < 0.0 && moved < snap));
+}
+
+fn pressure_weight(here: Here) -> real {
+    return abs(here.gap);
+}
+
+fn corrected_gap(gap: real, correction: real) -> real {
+    return gap + correction;
+}
+
+fn net_traction(here: Here) -> real {
+    return select(here.pull, -real(params.hardness), here.gap < 0.0);
+}
+// Change of the traction along a step at each length tried.
+fn changes(gap: real, step: real) {
+    let s = wide(step);
+    add_sum(CHANGE_AT_FIRST, wide(change(gap, real(scalars.tried[0]) * step)) * s);
+    add_sum(CHANGE_AT_SECOND, wide(change(gap, real(scalars.tried[1]) * step)) * s);
+    add_sum(CHANGE_AT_THIRD, wide(change(gap, real(scalars.tried[2]) * step)) * s);
+    add_sum(CHANGE_AT_FOURTH, wide(change(gap, real(scalars.tried[3]) * step)) * s);
+}
+
+// Change of traction and energy of a smooth law.
+fn energies(gap: real, step: real) {
+    let moved = real(scalars.step) * step;
+    let energy = energy_change(gap, moved);
+    add_sum(CHANGE_AT_FIRST, wide(change(gap, moved)) * wide(step));
+    add_sum(ENERGY_CHANGE, wide(energy.x));
+    add_sum(ENERGY_SIZE, wide(energy.y));
+}
+
+// What the step lengths that one pass tries change of the traction, of a smooth law of the energy.
+fn at(index: u32, in_domain: bool, line: real) -> real {
+    if (!in_domain) {
+        return line;
+    }
+    let gap = read_gap(index);
+    if (STORES_STEP) {
+        energies(gap, read_step(index));
+        return line;
+    }
+    // To which side a closed point may move is told by its pressure, where there are two.
+    let here = here_at(gap, read_pressure(index) + real(scalars.mean_pressure), true);
+    let moved = real(scalars.trial_length) * read_direction(index);
+    // Below zero the pressure does not change.
+    if (!goes_down(gap, here.y)) {
+        changes(gap, trial_step(here, moved, real(scalars.mean_gap_correction)).step);
+    }
+    return line;
+}
+@compute @workgroup_size(256)
+fn search(@builtin(workgroup_id) group: vec3<u32>, @builtin(local_invocation_index) index_in_group: u32) {
+if (!gate_searching()) { return; }
+start_sums();
+for (var index = group.x * 256u + index_in_group; index < 64u; index = index + 256u) {
+at(index, arrive(index), 0.0);
+}
+hand_in(group.x, index_in_group);
+}
