@@ -84,6 +84,12 @@ const BESIDES: [(&str, &str); 17] = [
     ),
     ("fuzz/scene.dict", "likewise"),
     ("/layers.rs", "names effects that a path must not name"),
+    (
+        "contact/builder.rs",
+        "a method of its own; Contact::tables sets every table",
+    ),
+    ("contact/phrases.rs", "names that method in mistakes"),
+    ("command_line/contact.rs", "tries that method"),
     ("/resume.rs", "a scene that has many effects on"),
 ];
 
