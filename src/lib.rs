@@ -22,7 +22,8 @@
 //!     let solution = solution?; // solution.gap, .pressure, .displacement: one number a point
 //!     println!("{:.1e} Pa: {:.4} in contact", solution.mean_pressure, solution.contact_area_fraction);
 //!     # assert!(solution.converged);
-//!     # assert!(solution.contact_area_fraction > 0.05);
+//!     # let pressed = solution.mean_pressure > 0.0; // without load few spots hold on such a coarse grid
+//!     # assert!(!pressed || solution.contact_area_fraction > 0.05);
 //! }
 //! # Ok(())
 //! # }

@@ -7,9 +7,9 @@ use super::solution::Solution;
 use crate::device::Device;
 use crate::elastic::Layer;
 use crate::scene::{
-    AdhesionMap, AdhesionScene, Boundary, CapillaryScene, ConductanceScene, FrictionScene,
-    GridScene, LoadingScene, OutputScene, Precision, Ramp, RateScene, RelaxationScene, Scene,
-    SceneError, SolidScene, SurfacePart, Treatment, WearScene,
+    AdhesionMap, AdhesionScene, Boundary, CapillaryScene, ConductanceScene, EffectTables,
+    FrictionScene, GridScene, LoadingScene, OutputScene, Precision, Ramp, RateScene,
+    RelaxationScene, Scene, SceneError, SolidScene, SurfacePart, Treatment, WearScene,
 };
 
 /// A rough, rigid counter-face over an elastic solid, in SI units.
@@ -178,6 +178,13 @@ impl Contact {
     /// at all, 0.01 by default.
     pub fn pull_off_tolerance(mut self, tolerance: f64) -> Self {
         self.scene.loading.pull_off_tolerance = tolerance;
+        self
+    }
+
+    /// Asks for the effects of these tables, which hold numbers alone; [`friction`](Contact::friction),
+    /// [`conductance`](Contact::conductance) and [`wear`](Contact::wear) set one each.
+    pub fn tables(mut self, tables: EffectTables) -> Self {
+        self.scene.tables = tables;
         self
     }
 

@@ -51,7 +51,7 @@ mod tests {
     fn graphics_processors_are_refused_where_none_is_built_in() {
         let contact = Contact::new([0.0; 16], [4, 4], [1e-6, 1e-6]).contact_modulus(1e9);
         let error = contact
-            .device(crate::Device::gpu())
+            .device(crate::device::Device::gpu())
             .solve(Control::MeanPressure(1e6))
             .expect_err("no GPU");
         let expected = "without the feature `gpu`); Device::cpu() does without";

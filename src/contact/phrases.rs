@@ -144,7 +144,7 @@ pub(super) fn method_of(key: &str) -> &'static str {
     METHODS
         .iter()
         .find(|(start, _)| key.starts_with(start))
-        .map_or("Contact", |(_, method)| *method)
+        .map_or("Contact::tables", |(_, method)| *method)
 }
 
 /// A message about a scene in the words of Rust.
