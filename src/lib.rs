@@ -85,8 +85,8 @@
 //! where a gap would close, and asks what pressure the step takes (two transforms); then gap and
 //! pressure move, and the rows of the new residual go into the next iteration's first transform at once.
 //! The work on points rides in the rows of those transforms, so a field is read while it is in cache, and
-//! what one pass leaves for the next stays in their work space. With adhesion the coarse grid goes and a search for the step length comes, point by
-//! point, without transforms. An effect that the scene does not name has no field and no pass;
+//! what one pass leaves for the next stays in their work space. With adhesion there is no coarse-grid
+//! preconditioner, and a line search is added, point by point, without transforms. An effect that the scene does not name has no field and no pass;
 //! `tabor check` lists both. The residual that ends a solve is defined in `docs/solver.md`.
 //!
 //! On a graphics processor an iteration takes so many dispatches and moves so many fields, in numbers
@@ -111,6 +111,7 @@
 //! precision every kernel of a law reads two fields more. Under a mean gap the trial step is scaled back to
 //! it: by linearity, so that no pass comes between, but with Lennard-Jones and with a hardness, where
 //! the share that is added to a point is not linear in its step.
+//!
 //! Modules that are named here and not listed below are the solver's own. They are public for the tests and
 //! benches of this crate, which would otherwise build it twice (a feature for them makes another build of
 //! the crate than that of the program), and may change in every version.
