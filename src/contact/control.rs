@@ -16,7 +16,7 @@ pub enum Control {
 }
 
 impl Control {
-    /// The load that takes so long to come to, s, from the load before. A path on a solid that relaxes, or of
+    /// The load that takes so long to come to, s, from the load before. A path on a viscoelastic solid, or of
     /// an adhesion that grows with speed, must say so of every load but its first.
     pub fn after(self, seconds: f64) -> Load {
         Load {

@@ -10,7 +10,7 @@ use crate::kernel::Scalars;
 use crate::run::memory_check;
 use crate::scene::Scene;
 use crate::study::{
-    Earlier, Evaluation, FinishedStep, Checkpoint, Jump, Observer, Setup, WalkError, walk_on,
+    Checkpoint, Earlier, Evaluation, FinishedStep, Jump, Observer, Setup, WalkError, walk_on,
 };
 use crate::surface::Surface;
 

@@ -6,7 +6,7 @@ use crate::study::{Evaluation, Jump, Setup, State, StepRow};
 /// A solved load, SI. Arrays have shape `[ny, nx]`, row-major: point (ix, iy) is element `iy * nx + ix`.
 ///
 /// A load that no equilibrium carries leaves the surfaces apart: then [`approach`](Solution::approach) is
-/// `None`, the gap is infinite, the pressure 0, and the displacement 0 (NaN on a solid that relaxes, whose
+/// `None`, the gap is infinite, the pressure 0, and the displacement 0 (NaN on a viscoelastic solid, whose
 /// past still moves it).
 #[derive(Clone, Debug, PartialEq)]
 #[non_exhaustive]

@@ -16,8 +16,8 @@ use crate::output::{
 use crate::output::{Load, Picture, chart, report::Report, write_picture, write_within};
 use crate::scene::{Control, FieldName, LoadingScene, Precision, StepChoice};
 use crate::study::{
-    Checkpoint, Evaluation, FinishedStep, Observer, PullOff, Search, Setup, State, StepRow, Tension,
-    WalkEnd,
+    Checkpoint, Evaluation, FinishedStep, Observer, PullOff, Search, Setup, State, StepRow,
+    Tension, WalkEnd,
 };
 use crate::units::format_si;
 

@@ -50,7 +50,7 @@ impl Ramp {
         }
     }
 
-    /// Leaves the steps to the time tolerance of the path, on a solid that relaxes: short after each kink,
+    /// Leaves the steps to the time tolerance of the path, on a viscoelastic solid: short after each kink,
     /// longer after.
     pub fn auto_steps(self) -> Self {
         Ramp {

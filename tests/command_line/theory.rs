@@ -672,7 +672,7 @@ fn bad_calls_say_what_is_wrong() {
         (format!("hertz {SPHERE} --to="), &["--to is empty; give a length in m"]),
         ("cone --half_angle 95 --contact_modulus 1".into(), &["--half_angle \"95\" is out of range: it must be between 0 and 90 deg", "cone needs --to"]),
         (format!("jkr {SPHERE} --work_of_adhesion 0"), &["--work_of_adhesion \"0\" is out of range"]),
-        (format!("jkr {SPHERE} --work_of_adhesion 1 --direction appart"), &["--direction \"appart\" is none of apart, together; did you mean apart?"]),
+        (format!("jkr {SPHERE} --work_of_adhesion 1 --direction appart"), &["--direction \"appart\" is not one of apart, together; did you mean apart?"]),
         (format!("dmt-f {SPHERE} --work_of_adhesion 1 --range 1e-9 --law dugdale"), &["did you mean maugis-dugdale?"]),
         (maugis.clone(), &["maugis-dugdale needs --range or --peak_tension"]),
         (format!("{maugis} --range 1e-9 --peak_tension 1e6"), &["--range and --peak_tension are both given; give one of the two"]),

@@ -484,7 +484,7 @@ fn bad_files_are_refused_in_a_sentence() {
         ("missing.xyz", text("0 0 1\n1 0 2\n0 1 3\n"), "1 of 4 pixels are missing (0 of them infinite), the first at row 2, column 2"),
         // Images.
         ("cut.png", png[..100].to_vec(), "broken PNG image: "),
-        ("colour.png", colour_png(), "images other than grey ones of 8 or 16 bits are not in this version; colours are no heights"),
+        ("colour.png", colour_png(), "images other than grey ones of 8 or 16 bits are not in this version; colours are not heights"),
         ("grey.png", png.clone(), "this is a grey image: write black and white, the heights of its ends"),
         ("cut.tif", tif[..100].to_vec(), "broken TIFF image: "),
         ("cut_pixels.tif", tif[..tif.len() - 20].to_vec(), "broken TIFF image: "),
