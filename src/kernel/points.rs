@@ -87,26 +87,6 @@ pub fn each_point_without_law<T, K, const READS: usize, const WRITES: usize, con
     side_by_side(K::new(params, scalars), AdhesionMap(HardWall), rows, sums);
 }
 
-/// Runs a kernel over the points with sums in the order of the points: where each takes as many Newton steps
-/// as it needs there is nothing to do side by side.
-pub(super) fn one_by_one<T, K, const READS: usize, const WRITES: usize, const TERMS: usize>(
-    kernel: K,
-    law: impl LawField<T>,
-    rows: &mut Rows<T>,
-    sums: &mut [f64; SUMS],
-) where
-    T: Real,
-    K: PointKernel<T, READS, WRITES, TERMS>,
-{
-    Walk::<T, _, _, true, READS, WRITES, TERMS> {
-        kernel,
-        law,
-        rows,
-        sums,
-    }
-    .with_simd(pulp::Scalar);
-}
-
 /// Runs a kernel over several points side by side, with the best that the processor has.
 pub(super) fn side_by_side<T, K, const READS: usize, const WRITES: usize, const TERMS: usize>(
     kernel: K,
@@ -117,7 +97,7 @@ pub(super) fn side_by_side<T, K, const READS: usize, const WRITES: usize, const 
     T: Real,
     K: PointKernel<T, READS, WRITES, TERMS>,
 {
-    Arch::new().dispatch(Walk::<T, _, _, false, READS, WRITES, TERMS> {
+    Arch::new().dispatch(Walk {
         kernel,
         law,
         rows,
@@ -125,26 +105,16 @@ pub(super) fn side_by_side<T, K, const READS: usize, const WRITES: usize, const 
     });
 }
 
-/// A kernel's walk over the points of some rows; `IN_ORDER` where its sums are those of one point after another.
-struct Walk<
-    'a,
-    'b,
-    T,
-    K,
-    L,
-    const IN_ORDER: bool,
-    const READS: usize,
-    const WRITES: usize,
-    const TERMS: usize,
-> {
+/// A kernel's walk over the points of some rows.
+struct Walk<'a, 'b, T, K, L, const READS: usize, const WRITES: usize, const TERMS: usize> {
     kernel: K,
     law: L,
     rows: &'a mut Rows<'b, T>,
     sums: &'a mut [f64; SUMS],
 }
 
-impl<T, K, L, const IN_ORDER: bool, const READS: usize, const WRITES: usize, const TERMS: usize>
-    WithSimd for Walk<'_, '_, T, K, L, IN_ORDER, READS, WRITES, TERMS>
+impl<T, K, L, const READS: usize, const WRITES: usize, const TERMS: usize> WithSimd
+    for Walk<'_, '_, T, K, L, READS, WRITES, TERMS>
 where
     T: Real,
     K: PointKernel<T, READS, WRITES, TERMS>,
@@ -179,15 +149,6 @@ where
                 for ((total, terms), reduce) in
                     totals.iter_mut().zip(&group.terms).zip(rows.reduces)
                 {
-                    if IN_ORDER {
-                        let terms = terms[..here.len()].iter();
-                        total[0] = match reduce {
-                            Reduce::Add => terms.fold(total[0], |a, b| a + b),
-                            Reduce::Min => terms.fold(total[0], |a, &b| a.least(b)),
-                            Reduce::Max => terms.fold(total[0], |a, &b| a.most(b)),
-                        };
-                        continue;
-                    }
                     match reduce {
                         Reduce::Add => add(total, &terms[..here.len()], |a, b| a + b),
                         Reduce::Min => add(total, &terms[..here.len()], f64::least),

@@ -48,14 +48,13 @@ impl<T: Real, C: GapConstraint<T>> Search<T, C> {
 
     /// Change of traction and energy of a smooth law.
     #[inline(always)]
-    fn energies(&self, law: &impl Cohesion<T>, gap: T, step: T, counts: bool) -> EnergySums {
+    fn energies(&self, law: &impl Cohesion<T>, gap: T, step: T) -> EnergySums {
         let moved = self.step * step;
         let [energy, size] = law.energy_change(gap, moved);
-        let counted = |term: f64| if counts { term } else { 0.0 };
         EnergySums {
-            change_at_first: counted(law.change(gap, moved).double() * step.double()),
-            energy_change: counted(energy.double()),
-            energy_size: counted(size.double()),
+            change_at_first: law.change(gap, moved).double() * step.double(),
+            energy_change: energy.double(),
+            energy_size: size.double(),
         }
     }
 }
@@ -82,7 +81,10 @@ where
         let (gap, moved, in_domain) = (point.reads[0], point.reads[1], point.in_domain);
         let mut terms = [0.0; TERMS];
         if C::STORES_STEP {
-            self.energies(law, gap, moved, in_domain).put(&mut terms);
+            // A pad has no law: most points of a free boundary are spared its powers.
+            if in_domain {
+                self.energies(law, gap, moved).put(&mut terms);
+            }
         } else {
             // To which side a closed point may move is told by its pressure, where there are two.
             let pressure = if READS > 2 { point.reads[2] } else { T::zero() };

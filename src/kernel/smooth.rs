@@ -5,7 +5,7 @@
 //! dg = S2 dv, S2 = k/(k + D). Points of a pad have no law: S2 = 1.
 
 use super::constraint::{GapConstraint, Here, Tried, Violation};
-use super::points::{PointKernel, one_by_one};
+use super::points::{PointKernel, side_by_side};
 use super::{Params, Rows, SUMS};
 use crate::law::{AdhesionMap, Cohesion, CorrectedField, Law, LennardJones, imbalance};
 use crate::real::Real;
@@ -197,9 +197,9 @@ impl<T: Real> GapConstraint<T> for Smooth<T> {
         };
         let law = law.cast::<T>();
         if rows.outer[0].is_empty() {
-            one_by_one(kernel, AdhesionMap(law), rows, sums);
+            side_by_side(kernel, AdhesionMap(law), rows, sums);
         } else {
-            one_by_one(kernel, CorrectedField(law), rows, sums);
+            side_by_side(kernel, CorrectedField(law), rows, sums);
         }
     }
 }
