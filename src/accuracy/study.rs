@@ -316,6 +316,7 @@ impl<'a> Study<'a> {
                     })
             })
             .collect();
+        // Each round takes one away.
         while !waiting.is_empty() {
             let cost = |setting: &Setting| self.seconds(setting);
             let next =

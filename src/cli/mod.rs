@@ -350,6 +350,14 @@ impl Failure {
     }
 }
 
+/// What `tabor theory` prints for the words of a call.
+///
+/// # Errors
+/// What it says of a wrong call, or of a model that has no answer.
+pub fn theory_table(words: &[String]) -> Result<String, String> {
+    theory::text(words).map_err(|failure| failure.to_string())
+}
+
 /// Runs the command line and says how it ended.
 pub fn main() -> ExitCode {
     room::outlive_a_limit_on_files();

@@ -9,7 +9,7 @@ use crate::output::OutputError;
 use crate::scene::{AdhesionScene, Control, Scene, Treatment};
 use crate::solver::MakeBackend;
 use crate::study::{
-    Evaluation, FinishedStep, Observer, PointState, Setup, WalkError, attraction_across, walk,
+    Evaluation, FinishedStep, Observer, PointState, Setup, WalkError, greatest_across, walk,
 };
 
 /// Mean gaps at which pull-off is looked for on the way out, and around the greatest tension found.
@@ -17,12 +17,6 @@ const WAY_OUT: usize = 32;
 const CLOSER: usize = 8;
 /// Tension over the greatest one below which the way out ends.
 const OVER: f64 = 0.3;
-
-/// Gaps without contact at which the attraction is summed, their factor, and the first of them in ranges
-/// of the law: up to some fifteen ranges, where an attraction is a thousandth of its peak.
-const CLEARANCES: i32 = 24;
-const CLEARANCE_RUNG: f64 = 1.5;
-const CLOSEST: f64 = 1e-3;
 
 /// Sees the state of each step; may end the path.
 struct Watch<F: FnMut(State, &Evaluation, bool) -> Result<bool, OutputError>>(F);
@@ -254,34 +248,14 @@ pub(super) fn dmt(
     )
 }
 
-/// The state of greatest tension without contact: the undeformed surfaces, from first touch outwards.
+/// The state of greatest tension without contact: the undeformed surfaces at their best clearance.
 fn across_a_gap(setup: &Setup) -> State {
-    let law = setup.law;
-    let tension = |clearance: f64| attraction_across(setup, clearance);
-    // With a wall a point pulls less the wider its gap, so first touch is the greatest.
-    let mut best = (0.0, tension(0.0));
-    if !law.has_wall() {
-        let rungs = (0..=CLEARANCES).map(|i| CLOSEST * CLEARANCE_RUNG.powi(i) * law.range());
-        for clearance in rungs {
-            let pull = tension(clearance);
-            if pull > best.1 {
-                best = (clearance, pull);
-            }
-        }
-        let ends = [best.0 / CLEARANCE_RUNG, best.0 * CLEARANCE_RUNG];
-        for i in 0..=CLEARANCES {
-            let clearance = ends[0] + (ends[1] - ends[0]) * f64::from(i) / f64::from(CLEARANCES);
-            let pull = tension(clearance);
-            if pull > best.1 {
-                best = (clearance, pull);
-            }
-        }
-    }
+    let (clearance, tension) = greatest_across(setup);
     let statistics = setup.statistics;
     State {
-        mean_pressure: -best.1,
+        mean_pressure: -tension,
         contact_area_fraction: Some(0.0),
-        mean_gap: Some(statistics.highest - statistics.mean + best.0),
-        adhesive_pressure: Some(best.1),
+        mean_gap: Some(statistics.highest - statistics.mean + clearance),
+        adhesive_pressure: Some(tension),
     }
 }

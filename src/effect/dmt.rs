@@ -7,7 +7,7 @@ use crate::law::Law;
 use crate::scene::{Scene, Treatment};
 use crate::solver::Start;
 use crate::study::{
-    Attempt, Evaluation, Hooks, HostBytes, Plan, Setup, Sizes, SolvedStep, separated,
+    Attempt, Evaluation, Hooks, HostBytes, Plan, Setup, Sizes, SolvedStep, held_across, separated,
 };
 
 /// Most hard-wall solves in one step.
@@ -194,10 +194,18 @@ fn search(attempt: &mut Attempt) -> Result<SolvedStep, BackendError> {
             }
         };
         if lower.is_none() && next <= TOUCH * peak {
-            return Ok(SolvedStep {
-                iterations,
-                ..separated()
-            });
+            let Some(clearance) = held_across(setup, -asked / covered) else {
+                return Ok(SolvedStep {
+                    iterations,
+                    ..separated()
+                });
+            };
+            let load = controller.clearance_load(clearance);
+            let start = Start::Gap(controller.gap_at_clearance(clearance));
+            let outcome = attempt.solve(&load, &start)?;
+            let mut solved = attempt.finish(&load, &outcome)?;
+            solved.iterations += iterations;
+            return Ok(solved);
         }
         let found = balance(next)?;
         if !found.solved.converged || done(found.excess) {

@@ -8,6 +8,8 @@ use super::palette::Rgb;
 const WIDTH: f64 = 2.0;
 /// Length of a dash and of the space after it, pixels.
 const DASH: [f64; 2] = [7.0, 5.0];
+/// Longest line that is dashed, far more than a page: a place off all pages is no end of a line to walk to.
+pub(super) const LONGEST_DASHED: f64 = 1e5;
 /// Half the size of a mark, pixels.
 const MARK: f64 = 4.5;
 
@@ -26,7 +28,7 @@ impl<'a> Pen<'a> {
     pub fn line(&mut self, from: [f64; 2], to: [f64; 2], dashed: bool) {
         let along = [to[0] - from[0], to[1] - from[1]];
         let length = along[0].hypot(along[1]);
-        if !dashed {
+        if !dashed || length > LONGEST_DASHED {
             self.stroke(from, to, WIDTH);
             return;
         }
@@ -86,7 +88,7 @@ impl<'a> Pen<'a> {
         let range = |axis: usize, size: u32| {
             let low = (from[axis].min(to[axis]) - reach).floor().max(0.0) as u32;
             let high = (from[axis].max(to[axis]) + reach).ceil().max(0.0) as u32;
-            low..(high + 1).min(size)
+            low..high.saturating_add(1).min(size)
         };
         let (width, height) = self.page.dimensions();
         for y in range(1, height) {

@@ -54,19 +54,19 @@ pub struct Problem {
 
 /// Smallest even size of at least `points` whose prime factors are 2, 3, 5 and 7.
 pub fn good_size(points: usize) -> usize {
-    let mut size = points.max(2).next_multiple_of(2);
-    loop {
-        let mut rest = size;
+    let is_good = |size: &usize| {
+        let mut rest = *size;
         for prime in [2, 3, 5, 7] {
             while rest.is_multiple_of(prime) {
                 rest /= prime;
             }
         }
-        if rest == 1 {
-            return size;
-        }
-        size += 2;
-    }
+        rest == 1
+    };
+    let least = points.max(2).next_multiple_of(2);
+    // A power of two is one, so the search ends there at the latest.
+    let most = least.next_power_of_two();
+    (least..most).step_by(2).find(is_good).unwrap_or(most)
 }
 
 /// The points that are solved for: on a free boundary with a pad that keeps the images apart.

@@ -147,6 +147,26 @@ impl<'s> Controller<'s> {
         }
     }
 
+    /// Height of the other body over the origin of the reduced heights, m, where its undeformed surface is
+    /// at a clearance (m) from the highest point of the grid.
+    fn level_at(&self, clearance: f64) -> f64 {
+        let heights = self.problem.heights.iter().copied();
+        heights.fold(f64::NEG_INFINITY, f64::max) * self.problem.scales.length + clearance
+    }
+
+    /// The load that holds the undeformed surfaces at a clearance (m), where the path prescribes a load.
+    pub fn clearance_load(&self, clearance: f64) -> Load {
+        self.approach_load(self.highest - self.level_at(clearance))
+    }
+
+    /// The gap of the undeformed surfaces at a clearance (m) over all solved points, reduced.
+    pub fn gap_at_clearance(&self, clearance: f64) -> Vec<f64> {
+        let problem = self.problem;
+        let level = self.level_at(clearance) / problem.scales.length;
+        let gap: Vec<f64> = problem.heights.iter().map(|h| level - h).collect();
+        problem.padded(&gap, 0.0)
+    }
+
     fn gap_load(&self, mean_gap: f64) -> Load {
         Load {
             hold: Hold::Gap(mean_gap / self.problem.scales.length),

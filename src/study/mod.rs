@@ -23,7 +23,8 @@ mod start;
 mod step;
 mod walker;
 
-pub use across::attraction_across;
+pub(crate) use across::held_across;
+pub use across::{attraction_across, greatest_across};
 pub use between::Search;
 pub use checkpoint::{Checkpoint as HandOver, CheckpointField as HandedField, Earlier};
 pub use cost::Cost;

@@ -121,6 +121,7 @@ pub(crate) fn scaled_tail(n: i32, t: f64) -> Result<f64, TheoryError> {
     let end = (100.0 / (t + t.hypot(10.0))).sqrt() + 2.0 * step;
     let mut sum = 0.0;
     let mut s = step;
+    // At most 440 terms, at the least t, and 70 far out.
     while s < end {
         sum += s.powi(n) * exponent(s).exp();
         s += step;
@@ -136,6 +137,7 @@ fn scaled_tail_by_logarithm(k: f64, t: f64) -> f64 {
     let step = 0.05;
     let mut sum = 0.0;
     let mut log = -(40.0 + t.ln());
+    // At most 15 000 terms, at the largest number.
     while log < 3.0 {
         let y = f64::exp(log);
         sum += ((k + 1.0) * log - y * (t + 0.5 * y)).exp();

@@ -33,6 +33,7 @@ impl Rings {
             .map(|i| fine * i as f64 / count)
             .collect();
         let (mut end, mut wide) = (fine, fine / count);
+        // Twice as wide each time: `far` is met after no more panels than its logarithm over that of `wide`.
         while end < far {
             wide *= 2.0;
             end += wide;
@@ -122,8 +123,9 @@ impl Rings {
         let mut parts = vec![(from, to)];
         while let Some((a, b)) = parts.pop() {
             let distance = (a - r).max(r - b).max(0.0);
-            if b - a > distance.max(smallest) {
-                let cut = if a < r && r < b { r } else { 0.5 * (a + b) };
+            let cut = if a < r && r < b { r } else { 0.5 * (a + b) };
+            // Between neighbouring numbers there is nothing to cut.
+            if b - a > distance.max(smallest) && a < cut && cut < b {
                 parts.extend([(a, cut), (cut, b)]);
                 continue;
             }

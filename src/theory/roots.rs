@@ -88,6 +88,7 @@ pub fn positive_root(
     let (mut low, mut high) = (guess, guess);
     let (mut at_low, mut at_high) = (function(guess), function(guess));
     let mut factor = 2.0;
+    // The factor grows too: some 80 rounds reach both ends from any number.
     while at_low * at_high > 0.0 && low > 1e-250 && high < 1e250 {
         low /= factor;
         high *= factor;

@@ -11,6 +11,7 @@ pub fn erf(x: f64) -> f64 {
         // All terms have one sign, so nothing cancels (Abramowitz & Stegun 7.1.6).
         let square = x * x;
         let (mut term, mut sum, mut n) = (x, x, 0.0);
+        // Some 40 terms at the largest x here.
         while term.abs() > 1e-17 * sum.abs() {
             n += 1.0;
             term *= 2.0 * square / (2.0 * n + 1.0);
@@ -47,6 +48,7 @@ pub fn exponential_integral(x: f64) -> f64 {
         f64::INFINITY
     } else if x <= 1.5 {
         let (mut term, mut sum, mut n) = (-1.0, 0.0, 0.0);
+        // Some 25 terms, by the factorial.
         while f64::abs(term) > 1e-18 {
             n += 1.0;
             term *= -x / n;

@@ -2,7 +2,11 @@
 //! panic, never a result that is not a number, never a long silence.
 //!
 //! `TABOR_MUTATIONS=100000 cargo test --release --test command_line hostile_calls` tries more than the usual few. The cases
-//! are the same in every run, more of them begin with the fewer.
+//! are the same in every run, more of them begin with the fewer. Those in this process take no time to start: of
+//! them more are tried.
+
+#[path = "../../fuzz/calls.rs"]
+mod calls;
 
 use std::fs;
 use std::path::Path;
@@ -102,6 +106,54 @@ fn no_hostile_curve_is_trouble() {
     assert!(answered > 0);
 }
 
+/// Bytes of a curve, and of what is asked of it, of which some are spoiled.
+fn spoiled(random: &mut Random) -> Vec<u8> {
+    let text = curve(random);
+    let mut bytes = vec![
+        (256.0 * random.share()) as u8,
+        (256.0 * random.share()) as u8,
+    ];
+    bytes.extend(text.bytes());
+    if random.share() < 0.3 {
+        for _ in 0..1 + (4.0 * random.share()) as usize {
+            let place = (bytes.len() as f64 * random.share()) as usize;
+            bytes[place] = random.one_of(b"0123456789eE+-.,;\t \n\"nai\0\xff");
+        }
+    }
+    bytes
+}
+
+/// Runs cases in this process, each within the time that a call may be silent.
+fn in_process(name: &str, usual: u64, each: &dyn Fn(u64) -> bool) {
+    let (mut answered, mut slowest) = (0, Duration::ZERO);
+    for case in 0..cases(usual) {
+        let clock = Instant::now();
+        answered += u64::from(each(case));
+        slowest = slowest.max(clock.elapsed());
+        assert!(clock.elapsed() < SILENCE, "{name}, case {case} is silent");
+    }
+    println!(
+        "{name}: {answered} of {} answered, the slowest took {slowest:?}",
+        cases(usual)
+    );
+    assert!(answered > 0);
+}
+
+fn no_hostile_curve_is_trouble_in_this_process() {
+    let folder = tempfile::tempdir().expect("a folder");
+    in_process("fit", 100, &|case| {
+        calls::curve(&spoiled(&mut Random(1 << 32 | case)), folder.path())
+    });
+}
+
+fn no_hostile_scene_is_trouble_to_compare_in_this_process() {
+    let folder = tempfile::tempdir().expect("a folder");
+    in_process("compare", 12, &|case| {
+        let text = scene(&mut Random(1 << 32 | case));
+        calls::compare(text.as_bytes(), folder.path())
+    });
+}
+
 /// A rough surface that sticks, with numbers about usual ones and far off them.
 fn scene(random: &mut Random) -> String {
     let points = random.one_of(&[4, 8, 15, 16, 32]);
@@ -140,12 +192,24 @@ fn no_hostile_scene_is_trouble_to_compare() {
     try_scenes(24, &["compare"]);
 }
 
+/// The words that the fuzz target takes are those of a shell, a line each.
+fn words_of_a_call_of_theory_are_lines() {
+    assert!(calls::theory(
+        b"hertz\n--radius\n1 um\n--contact_modulus\n1 GPa"
+    ));
+    assert!(!calls::theory(b"hertz\n--radius\n1 Pa"));
+    assert!(!calls::theory(b"\xff"));
+}
+
 fn no_hostile_scene_is_trouble_to_accuracy() {
     try_scenes(8, &["accuracy", "--budget", "1 s"]);
 }
 
 tests![
     no_hostile_curve_is_trouble,
+    no_hostile_curve_is_trouble_in_this_process,
     no_hostile_scene_is_trouble_to_compare,
+    no_hostile_scene_is_trouble_to_compare_in_this_process,
     no_hostile_scene_is_trouble_to_accuracy,
+    words_of_a_call_of_theory_are_lines,
 ];

@@ -4,11 +4,15 @@ use std::f64::consts::PI;
 use std::io::Read;
 use std::path::Path;
 use std::process::{Output, Stdio};
+use std::time::Instant;
 
 use serde_json::Value;
 
 use crate::shared::binary::{command, tabor};
 use crate::shared::trials::tests;
+
+/// Seconds after which a call says that it is at work.
+const SILENCE: f64 = 5.0;
 
 /// Every model with its columns.
 const MODELS: [(&str, &str); 21] = [
@@ -80,12 +84,16 @@ impl Table {
         let arguments: Vec<&str> = std::iter::once(model)
             .chain(words.iter().map(String::as_str))
             .collect();
+        let clock = Instant::now();
         let output = theory(&arguments);
         assert!(output.status.success(), "{model}: {}", text(&output.stderr));
-        // On a busy machine a sphere under Lennard-Jones takes long enough to be told of.
+        // A call says no more than that it is at work: one line at 5 s, and one each time that has doubled.
         let said = text(&output.stderr);
         let at_work = |line: &str| line.starts_with("note: at work for ");
         assert!(said.lines().all(at_work), "{said}");
+        let doublings = (clock.elapsed().as_secs_f64() / SILENCE).log2();
+        let most = (doublings.floor() + 1.0).max(0.0) as usize;
+        assert!(said.lines().count() <= most, "{model}: {said}");
         let all = text(&output.stdout);
         let is_comment = |line: &&str| line.starts_with('#');
         let comments = all.lines().take_while(is_comment).map(str::to_owned);

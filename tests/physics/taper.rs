@@ -225,8 +225,8 @@ fn a_wave_loads_and_unloads_alike() {
 }
 
 /// Errors of a sphere in Maugis' units on a window of `points`: pull-off, and the largest of the force on the
-/// way out in 2 pi w R, against the closed form.
-fn sphere_errors(lambda: f64, points: usize, narrow: bool) -> [f64; 2] {
+/// way out in 2 pi w R, against the closed form; and chi.
+fn sphere_errors(lambda: f64, points: usize, narrow: bool) -> ([f64; 2], f64) {
     let theory = MaugisDugdale::new(lambda).expect("a number");
     let pull_off = -theory.pull_off().expect("a fold").force;
     // Below the lambda of the fold a contact closes to a point first.
@@ -238,12 +238,11 @@ fn sphere_errors(lambda: f64, points: usize, narrow: bool) -> [f64; 2] {
     let zero = theory.states_at_force(0.0).expect("states");
     let zero = zero.last().expect("one holds");
     let side = 2.3 * zero.cohesive_radius;
+    // sigma0 dx/(E* h0), sigma0 being lambda/2 and E* 3/4.
+    let pixel = side / points as f64;
+    let chi = 0.5 * lambda * pixel / (0.75 * theory.range());
     let taper = if narrow {
-        // sigma0 = lambda/2 and E* = 3/4.
-        format!(
-            "taper = {:e}",
-            2.0 * 0.5 * lambda * side / points as f64 / 0.75
-        )
+        format!("taper = {:e}", 2.0 * 0.5 * lambda * pixel / 0.75)
     } else {
         String::new()
     };
@@ -273,7 +272,7 @@ fn sphere_errors(lambda: f64, points: usize, narrow: bool) -> [f64; 2] {
         ))
     };
     let mut path = vec![0.0, -0.6 * pull_off, -0.9 * pull_off];
-    path.extend((0..40).map(|i| -pull_off * (0.96 + 0.0025 * f64::from(i))));
+    path.extend((0..40).map(|i| -pull_off * (0.96 + LOAD_STEP * f64::from(i))));
     let held = solve("force", &path)
         .rows()
         .filter(|row| row.state != State::Separated)
@@ -281,8 +280,9 @@ fn sphere_errors(lambda: f64, points: usize, narrow: bool) -> [f64; 2] {
         .fold(0.0, f64::max);
     let start = zero.approach + 0.3;
     let end = least.approach + 0.05;
-    let path: Vec<f64> = (0..=16)
-        .map(|i| start + (end - start) * f64::from(i) / 16.0)
+    // The edge moves from pixel to pixel, and a force swings with it: 16 steps find the greatest error by chance.
+    let path: Vec<f64> = (0..=80)
+        .map(|i| start + (end - start) * f64::from(i) / 80.0)
         .collect();
     let force = solve("approach", &path)
         .rows()
@@ -292,26 +292,37 @@ fn sphere_errors(lambda: f64, points: usize, narrow: bool) -> [f64; 2] {
             0.5 * (row.force - states.last().expect("one holds").force).abs()
         })
         .fold(0.0, f64::max);
-    [(held / pull_off - 1.0 + 0.00125).abs(), force]
+    (
+        [(held / pull_off - 1.0 + 0.5 * LOAD_STEP).abs(), force],
+        chi,
+    )
 }
 
+/// Step of the load around pull-off, as a share of it.
+const LOAD_STEP: f64 = 0.0025;
+
 /// A wide taper changes what a sphere feels before it touches, and its contact hardly: on the same grid neither
-/// error is above 1.3 times that with a taper of 2 sigma0 dx/E*, which stood here before. What is found is
-/// recorded in `docs/solver.md`.
+/// error is above 1.3 times that with a taper of 2 sigma0 dx/E*, which stood here before, at chi 0.5 and below.
+/// What is found is recorded in `docs/solver.md`.
 fn spheres_lose_nothing_by_it() {
-    for (lambda, points) in [(0.5, 64), (1.0, 64), (2.0, 64), (2.0, 48)] {
-        let [wide, narrow] = [false, true].map(|narrow| sphere_errors(lambda, points, narrow));
+    for (lambda, points) in [(0.5, 64), (1.0, 64), (2.0, 96), (2.0, 64), (2.0, 48)] {
+        let [(wide, chi), (narrow, _)] =
+            [false, true].map(|narrow| sphere_errors(lambda, points, narrow));
+        assert!(chi <= 0.5, "chi {chi}");
         println!(
-            "lambda {lambda}, {points} points: pull-off {:.2} % ({:.2} %), force {:.2} % ({:.2} %) of 2 pi w R",
+            "lambda {lambda}, {points} points, chi {chi:.2}: pull-off {:.2} % ({:.2} %), force {:.2} % ({:.2} %) of 2 pi w R",
             100.0 * wide[0],
             100.0 * narrow[0],
             100.0 * wide[1],
             100.0 * narrow[1]
         );
-        for (wide, narrow) in wide.iter().zip(narrow) {
-            // Half a step of the load besides.
+        // A pull-off is known to half a step of the load; a force is what it is.
+        for (wide, narrow, known) in [
+            (wide[0], narrow[0], 0.5 * LOAD_STEP),
+            (wide[1], narrow[1], 0.0),
+        ] {
             assert!(
-                *wide < 1.3 * narrow + 0.00125,
+                wide <= 1.3 * narrow + known,
                 "lambda {lambda}, {points} points: {wide} for {narrow}"
             );
         }

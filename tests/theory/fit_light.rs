@@ -213,6 +213,8 @@ fn law_is_stated(name: &str, samples: Vec<Sample>, modulus: f64) {
         .iter()
         .any(|text| text.contains("another shape"));
     for i in 0..2 {
+        // More than the number itself would say nothing.
+        assert!(stated[i] < [1.0, modulus][i], "{name}");
         assert!(off[i] <= left[i].max(3.0 * stated[i]), "{name}");
         assert!(said || stated[i] >= left[i], "{name}");
     }

@@ -296,6 +296,7 @@ impl GpuDevice {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::backend::gpu::quietly;
 
     /// More than any device has, in one buffer and in a kernel's text: wgpu's own errors come back as
     /// ours.
@@ -305,7 +306,9 @@ mod tests {
             software: true,
             ..AdapterChoice::default()
         };
-        let Ok(device) = GpuDevice::new(&choice) else {
+        // Without what its driver prints at its start.
+        let made = quietly(|| GpuDevice::new(&choice)).expect("no panic");
+        let Ok(device) = made else {
             let required = std::env::var("TABOR_REQUIRE_GPU").is_ok_and(|value| value == "1");
             assert!(!required, "TABOR_REQUIRE_GPU is set");
             return;

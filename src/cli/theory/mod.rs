@@ -34,7 +34,7 @@ pub(super) fn theory(arguments: &TheoryArguments) -> Result<(), Failure> {
 }
 
 /// What is printed for the words of a call.
-fn text(words: &[String]) -> Result<String, Failure> {
+pub(super) fn text(words: &[String]) -> Result<String, Failure> {
     let asks = |word: &String| word == "--help" || word == "-h";
     let Some((name, rest)) = words.split_first() else {
         return Ok(print::list(MODELS));

@@ -7,7 +7,7 @@ use noto_sans_mono_bitmap::{FontWeight, RasterHeight};
 
 use super::super::canvas::{self, Font, WHITE, printable};
 use super::super::palette::Rgb;
-use super::super::pen::Pen;
+use super::super::pen::{LONGEST_DASHED, Pen};
 use super::super::png_text::{software, with_texts};
 use super::{Anchor, Chart, DASHES, Ink, Mark, Panel};
 
@@ -138,6 +138,10 @@ fn dashes(points: &[[f64; 2]], [dash, space]: [f64; 2]) -> Vec<[[f64; 2]; 2]> {
                 from[1] + share * (to[1] - from[1]),
             ]
         };
+        if length > LONGEST_DASHED {
+            pieces.push([from, to]);
+            continue;
+        }
         let mut way = 0.0;
         while way < length {
             let next = (way + left).min(length);
@@ -185,6 +189,11 @@ mod tests {
         let pieces = dashes(&points, [1.2, 0.9]);
         // A dash in 2.1 of length, and at most one corner more each.
         assert!((pieces.len() as f64) < way / 2.1 + 3001.0);
+        // Nor is a line walked along whose end is off all pages.
+        for end in [1e9, f64::INFINITY, f64::NAN] {
+            let pieces = dashes(&[[0.0, 0.0], [end, 0.0]], [1.2, 0.9]);
+            assert!(pieces.len() <= 1, "{end}");
+        }
     }
 
     #[test]

@@ -20,6 +20,9 @@ const LONGEST_CELL: f64 = 1e4;
 
 /// Factor between two loads below which a step that does not settle is given up.
 const SMALLEST_STEP: f64 = 1.0005;
+/// Loads that [`Loading::press`] may try on one way up, those that do not settle included. In steps of
+/// [`LOAD_STEP`] the way from the first load takes 39, and over all numbers that a scene may hold 800.
+pub const MOST_LOADS: usize = 4000;
 
 /// A cell of a rough surface, with its asperities.
 #[derive(Clone, Debug)]
@@ -80,7 +83,8 @@ impl<'a> Icha<'a> {
         self.loading_in_steps(rule, LOAD_STEP)
     }
 
-    /// As [`Icha::loading`], with another factor (above 1) between the loads of the way up.
+    /// As [`Icha::loading`], with another factor (above 1) between the loads of the way up, which takes
+    /// [`MOST_LOADS`] of them at most.
     pub fn loading_in_steps(&self, rule: MergeRule, step: f64) -> Loading<'_> {
         Loading {
             surface: self,
@@ -115,7 +119,8 @@ impl Loading<'_> {
     /// Presses to a mean pressure over the contact modulus, not below the one before.
     ///
     /// # Errors
-    /// A load that falls, asperities that do not settle, and contacts that merge over all of the cell.
+    /// A load that falls, asperities that do not settle, a way up of more than [`MOST_LOADS`] loads, and
+    /// contacts that merge over all of the cell.
     pub fn press(&mut self, pressure_over_modulus: f64) -> Result<Pressed, TheoryError> {
         let target = positive("pressure over modulus", pressure_over_modulus)?;
         within(
@@ -130,7 +135,14 @@ impl Loading<'_> {
             FIRST_LOAD * target / self.step
         };
         let mut factor = self.step;
+        let mut tried = 0;
         while self.pressure < target {
+            if tried == MOST_LOADS {
+                return Err(TheoryError::NotConverged {
+                    what: "the way up in load",
+                });
+            }
+            tried += 1;
             let next = (pressure * factor).min(target);
             match self.press_at_once(next) {
                 Ok(()) => {
@@ -237,5 +249,32 @@ impl Pressed {
     /// The gap over the whole map, m; see [`GapField`].
     pub fn gap(&self, surface: &Icha) -> GapField {
         gap::gap_field(&surface.grid, surface.heights, self.plane, &self.contacts)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// Loads that rounding keeps from rising end the way up, as do too many small ones.
+    #[test]
+    fn a_way_up_ends() {
+        let grid = Grid::new([8, 8], [1.0, 1.0]);
+        let heights: Vec<f64> = (0..64)
+            .map(|i| {
+                let place = |i: usize| (std::f64::consts::TAU * i as f64 / 8.0).cos();
+                1e-3 * (place(i % 8) + place(i / 8))
+            })
+            .collect();
+        let surface = Icha::new(grid, &heights).expect("a summit");
+        for step in [0.0, 1.0, 1.0 + 1e-12] {
+            let mut loading = surface.loading_in_steps(MergeRule::Volume, step);
+            let error = loading.press(1e-4).expect_err("too long a way");
+            assert!(error.to_string().contains("the way up in load"), "{error}");
+        }
+        // The shortest steps that get there.
+        let step = (1.01 / FIRST_LOAD).powf(1.0 / MOST_LOADS as f64);
+        let mut loading = surface.loading_in_steps(MergeRule::Volume, step);
+        loading.press(1e-4).expect("a state");
     }
 }

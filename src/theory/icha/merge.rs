@@ -109,6 +109,7 @@ fn overlapping(contacts: &[Contact]) -> Vec<[usize; 2]> {
 /// The connected parts of `count` things joined two and two, those of a single one left out.
 fn connected(count: usize, pairs: &[[usize; 2]]) -> Vec<Vec<usize>> {
     fn root(parents: &mut [usize], mut i: usize) -> usize {
+        // A parent is never above its child, so the way to the root falls.
         while parents[i] != i {
             parents[i] = parents[parents[i]];
             i = parents[i];

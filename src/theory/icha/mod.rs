@@ -18,7 +18,7 @@ mod set;
 mod summits;
 
 pub use gap::GapField;
-pub use loading::{Icha, Loading, Pressed};
+pub use loading::{Icha, Loading, MOST_LOADS, Pressed};
 pub use merge::{MergeRule, clusters, merged, merged_contacts};
 pub use summits::find_summits;
 
