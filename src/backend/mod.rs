@@ -6,7 +6,7 @@
 //! A convolution is three calls, so that what happens to a point as it enters the first row
 //! transform and as it leaves the last one is fused into those rows:
 //! [`forward`](Backend::forward), [`multiply`](Backend::multiply), [`backward`](Backend::backward).
-//! Where one convolution ends in the rows in which the next one starts, [`turn`](Backend::turn) is both.
+//! Where one convolution ends in the rows in which the next one starts, [`inverse_then_forward`](Backend::inverse_then_forward) is both.
 
 pub mod cpu;
 pub mod dry_run;

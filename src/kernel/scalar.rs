@@ -25,6 +25,7 @@ macro_rules! constants {
     ($(#[$list:meta])* $wgsl:ident: $($(#[$doc:meta])* $name:ident: $kind:ident = $value:literal,)*) => {
         $($(#[$doc])* pub(crate) const $name: constants!(@rust $kind) = $value;)*
         $(#[$list])*
+        #[cfg(feature = "gpu")]
         pub(crate) const $wgsl: &str =
             concat!($("const ", stringify!($name), ": ", stringify!($kind), " = ", stringify!($value), ";\n"),*);
     };

@@ -340,7 +340,7 @@ where
             mean_pressure: T::of(scalars.mean_pressure),
             trial_length: T::of(scalars.trial_length),
             correction: T::of(correction),
-            lost: !C::STORES_STEP && !(correction > -1.0 && correction < 1.0),
+            lost: !(C::STORES_STEP || correction > -1.0 && correction < 1.0),
         }
     }
 

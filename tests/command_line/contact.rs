@@ -378,8 +378,8 @@ fn arrays_have_the_shape_and_order_that_are_promised() {
     assert!((sum / solution.force - 1.0).abs() < 1e-5, "{sum:e}");
     // u = gap + heights - (what the bodies came together by, from the highest point).
     let approach = solution.approach.expect("in contact");
-    for point in 0..heights.len() {
-        let together = solution.gap[point] + heights[point] + approach;
+    for (point, height) in heights.iter().enumerate() {
+        let together = solution.gap[point] + height + approach;
         let difference = (solution.displacement[point] - together).abs();
         assert!(difference < 1e-12 * 1e-7, "{difference:e}");
     }

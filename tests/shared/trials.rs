@@ -23,6 +23,7 @@ pub fn ignore(reason: impl Into<String>) -> ! {
 macro_rules! tests {
     ($($(#[$attribute:meta])* $name:ident),* $(,)?) => {
         /// The tests of this module.
+        #[allow(clippy::vec_init_then_push, reason = "an attribute may leave a push out, but no element of a list")]
         pub fn tests() -> Vec<libtest_mimic::Trial> {
             let mut listed = Vec::new();
             $(

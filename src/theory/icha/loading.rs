@@ -21,7 +21,7 @@ const LONGEST_CELL: f64 = 1e4;
 /// Ratio of successive loads below which a step that does not converge is abandoned.
 const SMALLEST_STEP: f64 = 1.0005;
 /// Loads that [`Loading::press`] may try on one way up, those that do not settle included. In steps of
-/// [`LOAD_STEP`] the way from the first load takes 39, and over all numbers that a scene may hold 800.
+/// `LOAD_STEP` the way from the first load takes 39, and over all numbers that a scene may hold 800.
 pub const MOST_LOADS: usize = 4000;
 
 /// A periodic cell of a rough surface with its asperities.
