@@ -131,9 +131,9 @@ const OUT_OF_REACH: &[(&str, &str)] = &[
         "CompareError::Backend",
         "passes the device's failure on; the command line shows what is inside",
     ),
-    ("Left::Out", "a model of compare ends; a note says why"),
-    ("Left::Theory", "passes a theory's own range on"),
-    ("Left::Output", "passes an output's failure on"),
+    ("Stopped::Out", "a model of compare ends; a note says why"),
+    ("Stopped::Theory", "passes a theory's own range on"),
+    ("Stopped::Output", "passes an output's failure on"),
 ];
 
 /// The fewest bad scenes, files and calls that are held here.
