@@ -45,10 +45,10 @@ impl Place {
     fn work(self, shape: Shape) -> usize {
         let [nx, ny] = shape.points;
         match self {
-            // Once by rows and once by columns, complex.
+            // Tiles of complex numbers, each with its lock.
             Place::Double | Place::Single => {
                 let tiles = (nx / 2 + 1).div_ceil(TILE) * ny.div_ceil(TILE);
-                2 * tiles * TILE * TILE * 2 * self.number()
+                tiles * (TILE * TILE * 2 * self.number() + LOCK)
             }
             // Half as many complex numbers as points.
             Place::Gpu | Place::GpuDouble => shape.len() * self.number(),
@@ -79,6 +79,8 @@ pub struct DryRun {
 
 /// Side of the tiles in which the CPU stores spectra.
 const TILE: usize = 8;
+/// Bytes of the lock on one, as far as it needs.
+const LOCK: usize = 8;
 
 impl Default for DryRun {
     fn default() -> Self {
