@@ -71,7 +71,7 @@ impl Solution {
                     f64::NAN
                 };
                 let all = |value: f64| vec![value; grid.len()];
-                [all(f64::INFINITY), all(0.0), all(moved), heights.clone()]
+                [all(f64::INFINITY), all(0.0), all(moved), heights.to_vec()]
             }
         };
         Solution {

@@ -237,8 +237,7 @@ impl Carry for History {
         let rigid =
             (evaluation.displacement_offset + problem.height_origin) / problem.scales.length;
         let mut displacement = solver.gap()?;
-        let heights = problem.padded(&problem.heights, 0.0);
-        for (u, h) in displacement.iter_mut().zip(heights) {
+        for (u, h) in displacement.iter_mut().zip(problem.padded_heights()) {
             *u += h + rigid;
         }
         for (u, depth) in displacement.iter_mut().zip(solver.plastic_depths()) {

@@ -68,11 +68,13 @@ fn refine(
     }
     transforms += solver.transforms();
     let mut displacement = solver.gap()?;
-    for (u, h) in displacement.iter_mut().zip(&coarse.heights) {
+    drop(solver);
+    drop(backend);
+    for (u, h) in displacement.iter_mut().zip(coarse.heights.iter()) {
         *u += h;
     }
     let mut gap = interpolate(&displacement, [nx / 2, ny / 2]);
-    for (g, h) in gap.iter_mut().zip(&problem.heights) {
+    for (g, h) in gap.iter_mut().zip(problem.heights.iter()) {
         *g = (*g - h).max(0.0);
     }
     if let Hold::Gap(target) = load.hold {

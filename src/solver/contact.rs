@@ -9,6 +9,7 @@ use super::outer_state::OuterState;
 use super::problem::Problem;
 use super::two_band::TwoBand;
 use crate::backend::{Backend, BackendError, Field, Level, Response, Spectrum};
+use crate::grid::Boundary;
 use crate::kernel::{Params, Scalars, Status, scalar};
 use crate::law::{Cohesion, Law};
 
@@ -150,7 +151,9 @@ impl<'a> ContactSolver<'a> {
         let compliance = problem
             .conducts
             .then(|| problem.spectrum(backend, level, "compliance", Response::Compliance));
-        backend.write(heights, &problem.padded(&problem.heights, 0.0));
+        let reduced: Vec<f64> = problem.padded_heights().collect();
+        backend.write(heights, &reduced);
+        drop(reduced);
         let params = fixed_params(problem, backend.epsilon());
         ContactSolver {
             backend,
@@ -240,7 +243,7 @@ impl<'a> ContactSolver<'a> {
     }
 
     fn write_heights(&mut self) {
-        let mut moved = self.problem.padded(&self.problem.heights, 0.0);
+        let mut moved: Vec<f64> = self.problem.padded_heights().collect();
         for (height, depth) in moved.iter_mut().zip(&self.plastic_depths) {
             *height -= depth;
         }
@@ -281,7 +284,7 @@ impl<'a> ContactSolver<'a> {
 
     /// The gap at which the undeformed surfaces first touch, scaled or shifted to a held mean gap.
     fn undeformed(&self, load: &Load) -> Vec<f64> {
-        let mut heights = self.problem.heights.clone();
+        let mut heights: Vec<f64> = self.problem.heights.iter().collect();
         if !self.plastic_depths.is_empty() {
             let depths = self.problem.surface_part(&self.plastic_depths);
             heights
@@ -290,7 +293,8 @@ impl<'a> ContactSolver<'a> {
                 .for_each(|(h, depth)| *h -= depth);
         }
         let highest = heights.iter().copied().fold(f64::NEG_INFINITY, f64::max);
-        let mut gap: Vec<f64> = heights.iter().map(|h| highest - h).collect();
+        let mut gap = heights;
+        gap.iter_mut().for_each(|h| *h = highest - *h);
         if let Hold::Gap(target) = load.hold {
             let mean = gap.iter().sum::<f64>() / gap.len() as f64;
             if target >= mean {
@@ -351,7 +355,11 @@ impl<'a> ContactSolver<'a> {
             Start::Present => {}
             Start::Gap(gap) => self.backend.write(self.gap, gap),
             Start::Cold => {
-                let gap = self.problem.padded(&self.undeformed(load), 0.0);
+                let gap = self.undeformed(load);
+                let gap = match self.problem.boundary {
+                    Boundary::Periodic => gap,
+                    Boundary::Free => self.problem.padded(&gap, 0.0),
+                };
                 self.backend.write(self.gap, &gap);
             }
         }

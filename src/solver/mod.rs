@@ -11,6 +11,7 @@ mod coarse_start;
 mod contact;
 mod correction;
 mod elasticity;
+mod heights;
 mod incremental_stiffness;
 mod iteration;
 mod kernel_set;
@@ -23,6 +24,7 @@ mod two_band;
 
 pub use contact::{ContactSolver, Hold, Load, Outcome, ROUNDS_PER_ITERATION, Start};
 pub use correction::{MOST_ROUNDS, TRIALS_PER_ITERATION};
+pub use heights::Heights;
 pub use outer_state::plan_outer_state;
 pub use problem::{Problem, Scales, good_size};
 

@@ -88,7 +88,8 @@ impl OuterState {
         problem: &Problem,
     ) -> Self {
         let places = Places::plan(&mut *backend, iterating, fine, problem);
-        backend.write(places.heights, &problem.padded(&problem.heights, 0.0));
+        let heights: Vec<f64> = problem.padded_heights().collect();
+        backend.write(places.heights, &heights);
         let params = fixed_params(problem, backend.epsilon());
         OuterState {
             places,

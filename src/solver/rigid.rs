@@ -62,7 +62,7 @@ impl Problem {
         let (lowest, highest) = self
             .heights
             .iter()
-            .fold((f64::INFINITY, f64::NEG_INFINITY), |(low, high), &h| {
+            .fold((f64::INFINITY, f64::NEG_INFINITY), |(low, high), h| {
                 (low.min(h), high.max(h))
             });
         // As much as a wave of all the roughness can take, and what flats at this mean gap take.

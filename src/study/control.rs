@@ -150,8 +150,7 @@ impl<'s> Controller<'s> {
     /// Height of the other body over the origin of the reduced heights, m, where its undeformed surface is
     /// at a clearance (m) from the highest point of the grid.
     fn level_at(&self, clearance: f64) -> f64 {
-        let heights = self.problem.heights.iter().copied();
-        heights.fold(f64::NEG_INFINITY, f64::max) * self.problem.scales.length + clearance
+        self.problem.highest() * self.problem.scales.length + clearance
     }
 
     /// The load that holds the undeformed surfaces at a clearance (m), where the path prescribes a load.
@@ -208,7 +207,7 @@ impl<'s> Controller<'s> {
     /// by the plastic depths over all solved points, an empty slice where there are none.
     pub fn undeformed_gap(&self, value: f64, plastic_depth: &[f64]) -> Vec<f64> {
         let problem = self.problem;
-        let mut heights = problem.heights.clone();
+        let mut heights: Vec<f64> = problem.heights.iter().collect();
         if !plastic_depth.is_empty() {
             let depths = problem.surface_part(plastic_depth);
             heights

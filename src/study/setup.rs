@@ -1,5 +1,7 @@
 //! From a scene and its surface to the problem that is solved.
 
+use std::sync::Arc;
+
 use super::hooks::{Effects, Hooks};
 use super::plan::Plan;
 use super::regime::Regime;
@@ -60,11 +62,11 @@ impl Setup {
             Boundary::Periodic => 1.0,
             Boundary::Free => 0.0,
         };
-        let problem = Problem::new(
+        let problem = Problem::sharing(
             grid,
             scene.grid.boundary,
             scene.solid.contact_modulus,
-            &surface.heights,
+            Arc::clone(&surface.heights),
             statistics.moments.rms_slope(),
             effects.solved_law(law),
         );

@@ -107,10 +107,12 @@ pub(super) fn finish(
         });
     }
     let gap = solver.gap()?;
+    // What is not at the position asked has not converged, however well it is balanced there.
+    let is_there = keeps_gap(solver, load, &gap);
     let elastic = solver.elastic_pressure()?;
     let solved = Solved {
-        gap: &gap,
-        elastic: &elastic,
+        gap,
+        elastic,
         mean_offset: solver.mean_offset(),
         plastic_depth: solver.plastic_depths(),
         held: outcome.mean_pressure,
@@ -118,14 +120,12 @@ pub(super) fn finish(
         law_factor: solver.law_factor(),
     };
     let problem = solver.problem();
-    let evaluation = Evaluation::of(setup, problem, controller, &solved);
+    let evaluation = Evaluation::of(setup, problem, controller, solved);
     // Non-finite fields have not converged, whatever the residual is.
     let is_finite = evaluation.force.is_finite() && evaluation.position.mean_gap.is_finite();
     // Nor has a state on the constant that stands in the place of a core nearer than any load takes it.
     let nearest = problem.law.least_gap() * problem.scales.length;
     let is_beyond = !problem.law.has_wall() && evaluation.gap.iter().any(|gap| *gap <= nearest);
-    // Nor has what is not at the position asked, however well it is balanced there.
-    let is_there = keeps_gap(solver, load, &gap);
     Ok(SolvedStep {
         evaluation: Some(evaluation),
         converged: is_finite && is_there && !is_beyond && outcome.status == Status::Converged,

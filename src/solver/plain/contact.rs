@@ -97,7 +97,7 @@ impl<'a> Contact<'a> {
         let params: Params = fixed_params(problem, f64::EPSILON);
         Contact {
             problem,
-            heights: problem.padded(&problem.heights, 0.0),
+            heights: problem.padded_heights().collect(),
             in_domain: (0..width * rows)
                 .map(|i| i % width < nx && i / width < ny)
                 .collect(),
