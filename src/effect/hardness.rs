@@ -6,6 +6,8 @@
 //! from heights that do not come back. A step is thus the minimum of the stored energy and of the
 //! hardness times the volume of its plastic indentation.
 
+use std::sync::Arc;
+
 use crate::backend::BackendError;
 use crate::scene::{Control, Scene};
 use crate::solver::{ContactSolver, Hold, Load, Problem};
@@ -116,7 +118,7 @@ impl Carry for Indentation {
     fn checkpoint_fields(&self) -> Vec<CheckpointField> {
         let depths = (!self.depths.is_empty()).then(|| CheckpointField {
             name: DEPTHS.to_owned(),
-            values: self.depths.clone(),
+            values: Arc::new(self.depths.clone()),
         });
         depths.into_iter().collect()
     }

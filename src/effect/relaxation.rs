@@ -9,6 +9,8 @@
 //! # Source
 //! Taylor, Pister & Goudreau 1970; Simo & Hughes 1998, sec. 10.3.
 
+use std::sync::Arc;
+
 use crate::backend::BackendError;
 use crate::scene::{RelaxationScene, Scene, SolidScene};
 use crate::solver::{ContactSolver, Problem};
@@ -201,12 +203,12 @@ impl Carry for History {
         let mut fields: Vec<CheckpointField> = springs
             .map(|(branch, values)| CheckpointField {
                 name: spring_name(branch + 1),
-                values: values.clone(),
+                values: Arc::new(values.clone()),
             })
             .collect();
         fields.push(CheckpointField {
             name: DISPLACEMENT.to_owned(),
-            values: self.displacement.clone(),
+            values: Arc::new(self.displacement.clone()),
         });
         fields
     }

@@ -1,5 +1,7 @@
 //! Checkpoint of a path, from which another process resumes.
 
+use std::sync::Arc;
+
 use super::evaluation::PointState;
 use super::pull_off::PullOff;
 use super::row::StepRow;
@@ -13,7 +15,7 @@ pub struct CheckpointField {
     /// Which ones.
     pub name: String,
     /// Over all solved points, reduced, as precise as the backend holds them.
-    pub values: Vec<f64>,
+    pub values: Arc<Vec<f64>>,
 }
 
 /// What the step after a converged one starts from, and what the end of the path has to know of the
@@ -49,6 +51,12 @@ impl Checkpoint {
     pub fn field(&self, name: &str) -> Option<&[f64]> {
         let found = self.fields.iter().find(|field| field.name == name);
         found.map(|field| field.values.as_slice())
+    }
+
+    /// The same without a copy, for who keeps them.
+    pub(super) fn shared(&self, name: &str) -> Option<Arc<Vec<f64>>> {
+        let found = self.fields.iter().find(|field| field.name == name);
+        found.map(|field| Arc::clone(&field.values))
     }
 }
 

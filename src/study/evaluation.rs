@@ -105,7 +105,10 @@ impl Evaluation {
             (true, before) => problem.surface_part(before),
         };
         // Plastic indentation moves the bodies together and leaves no gap.
-        for (depth, g) in plastic_depth.iter_mut().zip(problem.on_surface(&solved.gap)) {
+        for (depth, g) in plastic_depth
+            .iter_mut()
+            .zip(problem.on_surface(&solved.gap))
+        {
             *depth -= g.min(0.0);
         }
         let open = |g: f64| if yields { g.max(0.0) } else { g };

@@ -69,8 +69,9 @@ impl Memory {
         // Fields that effects keep from step to step, and whole states of the path.
         let history = cost.history_bytes() as u64;
         let evaluating = evaluating + cost.host.states * (DOUBLE * solved + history);
-        // A result with values of a field on their way to a file, a picture or the state.
-        let writing = (EVALUATION + 2 * DOUBLE) * points;
+        // A result with values of a field on their way to a file or a picture.
+        let writes = !(scene.output.images.is_empty() && scene.output.fields.is_empty());
+        let writing = u64::from(writes) * (EVALUATION + 2 * DOUBLE) * points;
         let solving = kept
             + history
             + cost.host.kept

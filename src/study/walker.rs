@@ -1,5 +1,7 @@
 //! One solver on its way along a path: it solves a load from the state that the last one left.
 
+use std::sync::Arc;
+
 use super::attempt::Attempt;
 use super::checkpoint::{Checkpoint, CheckpointField, GAP};
 use super::control::Controller;
@@ -18,7 +20,7 @@ use crate::solver::{ContactSolver, MakeBackend, Problem};
 /// What one load leaves for the next.
 pub(super) struct Carried {
     /// Gap over all solved points, reduced; `None` where the surfaces are separated.
-    gap: Option<Vec<f64>>,
+    gap: Option<Arc<Vec<f64>>>,
     /// What effects carry, in their order.
     effects: Vec<Box<dyn Carry>>,
 }
@@ -41,7 +43,7 @@ impl Carried {
     pub fn from_checkpoint(setup: &Setup, checkpoint: &Checkpoint) -> Carried {
         let effects = setup.effects.iter();
         Carried {
-            gap: checkpoint.field(GAP).map(<[f64]>::to_vec),
+            gap: checkpoint.shared(GAP),
             effects: effects
                 .filter_map(|effect| effect.carry(setup, checkpoint))
                 .collect(),
@@ -57,7 +59,7 @@ impl Carried {
         if let Some(gap) = &self.gap {
             fields.push(CheckpointField {
                 name: GAP.to_owned(),
-                values: gap.clone(),
+                values: Arc::clone(gap),
             });
         }
         fields
@@ -137,7 +139,7 @@ impl<'s> Walker<'s> {
     /// What the next load starts from.
     pub fn carried(&mut self) -> Result<Carried, BackendError> {
         let gap = if self.loaded {
-            Some(self.solver.gap()?)
+            Some(Arc::new(self.solver.gap()?))
         } else {
             None
         };
