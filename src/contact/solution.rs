@@ -60,8 +60,8 @@ impl Solution {
         let heights = &setup.surface.heights;
         let [gap, pressure, displacement, heights] = match evaluation {
             Some(found) => {
-                let displacement = found.field(FieldName::Displacement, heights);
-                let heights = found.field(FieldName::Heights, heights);
+                let displacement = found.field(FieldName::Displacement, heights).into_owned();
+                let heights = found.field(FieldName::Heights, heights).into_owned();
                 [found.gap, found.pressure, displacement, heights]
             }
             None => {

@@ -1,5 +1,6 @@
 //! What a solved state says: fields in SI units, area fractions, energies.
 
+use std::borrow::Cow;
 use std::f64::consts::{LN_2, PI};
 
 use super::control::{Controller, Position};
@@ -218,27 +219,28 @@ impl Evaluation {
     }
 
     /// Values of a field in SI units, shape `[ny, nx]`, of a surface that began with these heights.
-    pub fn field(&self, name: FieldName, heights: &[f64]) -> Vec<f64> {
+    pub fn field<'a>(&'a self, name: FieldName, heights: &'a [f64]) -> Cow<'a, [f64]> {
         match name {
-            FieldName::Pressure => self.pressure.clone(),
-            FieldName::Gap => self.gap.clone(),
+            FieldName::Pressure => Cow::Borrowed(&self.pressure),
+            FieldName::Gap => Cow::Borrowed(&self.gap),
             FieldName::Heights => self.heights(heights),
-            FieldName::Displacement => self
-                .gap
-                .iter()
-                .zip(self.heights(heights))
-                .map(|(g, h)| g + h + self.displacement_offset)
-                .collect(),
+            FieldName::Displacement => {
+                let heights = self.heights(heights);
+                let points = self.gap.iter().zip(heights.iter());
+                points
+                    .map(|(g, h)| g + h + self.displacement_offset)
+                    .collect()
+            }
         }
     }
 
     /// The heights as plastic indentation has left them, m, of a surface that began with these.
-    fn heights(&self, heights: &[f64]) -> Vec<f64> {
-        let mut heights = heights.to_vec();
-        for (height, depth) in heights.iter_mut().zip(&self.plastic_depth) {
-            *height -= depth;
+    fn heights<'a>(&self, heights: &'a [f64]) -> Cow<'a, [f64]> {
+        if self.plastic_depth.is_empty() {
+            return Cow::Borrowed(heights);
         }
-        heights
+        let lowered = heights.iter().zip(&self.plastic_depth);
+        lowered.map(|(height, depth)| height - depth).collect()
     }
 }
 

@@ -29,6 +29,7 @@ fn heights(solved: &Solved, step: usize) -> Vec<f64> {
     solved
         .fields(step)
         .field(FieldName::Heights, &solved.setup.surface.heights)
+        .into_owned()
 }
 
 fn plastic_energy(row: &StepRow) -> f64 {
