@@ -3,6 +3,7 @@
 use std::path::PathBuf;
 
 use super::GridValues;
+use super::words::words;
 use crate::law::{Exponential, Law, LennardJones, MaugisDugdale};
 
 /// `[adhesion]`.
@@ -55,25 +56,13 @@ pub enum AdhesionMap {
     },
 }
 
-/// Shape of a pattern of two factors.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum PatternKind {
-    /// A checkerboard: alternating along x and y.
-    Checker,
-    /// Stripes: alternating along x.
-    Stripe,
-}
-
-impl PatternKind {
-    /// Every pattern.
-    pub const ALL: &[PatternKind] = &[PatternKind::Checker, PatternKind::Stripe];
-
-    /// The word used in scenes.
-    pub fn name(self) -> &'static str {
-        match self {
-            PatternKind::Checker => "checker",
-            PatternKind::Stripe => "stripe",
-        }
+words! {
+    /// Shape of a pattern of two factors.
+    PatternKind {
+        /// A checkerboard: alternating along x and y.
+        Checker = "checker",
+        /// Stripes: alternating along x.
+        Stripe = "stripe",
     }
 }
 
@@ -101,35 +90,20 @@ pub enum Range {
     Auto,
 }
 
-/// The names of the cohesive laws.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-#[non_exhaustive]
-pub enum LawName {
-    /// Constant tension up to a range.
-    MaugisDugdale,
-    /// The 9-3 surface law with its own repulsion.
-    LennardJones,
-    /// Tension falling exponentially.
-    Exponential,
+words! {
+    /// The names of the cohesive laws.
+    #[non_exhaustive]
+    LawName {
+        /// Constant tension up to a range.
+        MaugisDugdale = "maugis-dugdale",
+        /// The 9-3 surface law with its own repulsion.
+        LennardJones = "lennard-jones",
+        /// Tension falling exponentially.
+        Exponential = "exponential",
+    }
 }
 
 impl LawName {
-    /// Every law.
-    pub const ALL: &[LawName] = &[
-        LawName::MaugisDugdale,
-        LawName::LennardJones,
-        LawName::Exponential,
-    ];
-
-    /// The word used in scenes.
-    pub fn name(self) -> &'static str {
-        match self {
-            LawName::MaugisDugdale => "maugis-dugdale",
-            LawName::LennardJones => "lennard-jones",
-            LawName::Exponential => "exponential",
-        }
-    }
-
     /// `peak_tension * range / work_of_adhesion` of the law.
     ///
     /// Lennard-Jones: the traction `(8 w / 3 eps)(s^3 - s^9)` is largest at `s^6 = 1/3`.
@@ -170,24 +144,12 @@ impl LawName {
     }
 }
 
-/// How the attraction is computed.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Treatment {
-    /// Solved together with the contact.
-    Full,
-    /// Summed over the gap of the solution without adhesion (DMT force approach).
-    Dmt,
-}
-
-impl Treatment {
-    /// Every treatment.
-    pub const ALL: &[Treatment] = &[Treatment::Full, Treatment::Dmt];
-
-    /// The word used in scenes.
-    pub fn name(self) -> &'static str {
-        match self {
-            Treatment::Full => "full",
-            Treatment::Dmt => "dmt",
-        }
+words! {
+    /// How the attraction is computed.
+    Treatment {
+        /// Solved together with the contact.
+        Full = "full",
+        /// Summed over the gap of the solution without adhesion (DMT force approach).
+        Dmt = "dmt",
     }
 }

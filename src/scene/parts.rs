@@ -3,6 +3,7 @@
 use std::path::PathBuf;
 
 use super::GridValues;
+use super::words::words;
 
 /// One `[[surface]]` part.
 #[derive(Clone, Debug, PartialEq)]
@@ -84,57 +85,26 @@ pub struct HeightFileScene {
     pub fill: Fill,
 }
 
-/// The trend subtracted from a measured height map.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Detrend {
-    /// Nothing.
-    None,
-    /// The mean.
-    Mean,
-    /// The least-squares plane.
-    Plane,
-    /// The least-squares quadratic surface.
-    Quadratic,
-}
-
-impl Detrend {
-    /// Every trend.
-    pub const ALL: &[Detrend] = &[
-        Detrend::None,
-        Detrend::Mean,
-        Detrend::Plane,
-        Detrend::Quadratic,
-    ];
-
-    /// The word used in scenes.
-    pub fn name(self) -> &'static str {
-        match self {
-            Detrend::None => "none",
-            Detrend::Mean => "mean",
-            Detrend::Plane => "plane",
-            Detrend::Quadratic => "quadratic",
-        }
+words! {
+    /// The trend subtracted from a measured height map.
+    Detrend {
+        /// Nothing.
+        None = "none",
+        /// The mean.
+        Mean = "mean",
+        /// The least-squares plane.
+        Plane = "plane",
+        /// The least-squares quadratic surface.
+        Quadratic = "quadratic",
     }
 }
 
-/// How missing (NaN) pixels are treated.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Fill {
-    /// Refuse them and report their number.
-    None,
-    /// Interpolate from the neighbours.
-    Interpolate,
-}
-
-impl Fill {
-    /// Every treatment.
-    pub const ALL: &[Fill] = &[Fill::None, Fill::Interpolate];
-
-    /// The word used in scenes.
-    pub fn name(self) -> &'static str {
-        match self {
-            Fill::None => "none",
-            Fill::Interpolate => "interpolate",
-        }
+words! {
+    /// How missing (NaN) pixels are treated.
+    Fill {
+        /// Refuse them and report their number.
+        None = "none",
+        /// Interpolate from the neighbours.
+        Interpolate = "interpolate",
     }
 }

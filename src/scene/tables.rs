@@ -6,7 +6,7 @@
 use serde_json::{Value, json};
 
 use super::allowed::Allowed;
-use super::keys::Section;
+use super::keys::{Key, Section};
 use super::reader::Reader;
 use crate::units::Dimension;
 
@@ -26,13 +26,10 @@ macro_rules! tables {
             }
 
             impl $Table {
-                const SECTION: &'static Section = &Section {
-                    title: concat!("[", stringify!($table), "]"),
-                    keys: &[$(
-                        (stringify!($key), concat!(stringify!($key), " = \"", $example, "\"")),
-                    )+],
-                    later: &[],
-                };
+                const SECTION: &'static Section = &Section::new(
+                    concat!("[", stringify!($table), "]"),
+                    &[$( (stringify!($key), concat!("\"", $example, "\"")) ),+],
+                );
 
                 /// Reads the table: `Some(None)` if the scene has none, `None` after a mistake.
                 fn read(scene: &Reader) -> Option<Option<Self>> {
@@ -60,8 +57,8 @@ macro_rules! tables {
             $( $(#[$doc])* pub $table: Option<$Table>, )+
         }
 
-        /// The names of the tables as keys of a scene, each with a line that would do.
-        pub(super) const NAMES: &[(&str, &str)] = &[$(
+        /// The names of the tables as keys of a scene.
+        pub(super) const NAMES: &[Key] = &[$(
             (stringify!($table), concat!("[", stringify!($table), "]")),
         )+];
 

@@ -5,6 +5,7 @@ use std::path::PathBuf;
 use super::attraction::{AdhesionScene, CapillaryScene};
 use super::parts::SurfacePart;
 use super::tables::EffectTables;
+use super::words::words;
 use crate::elastic::Layer;
 pub use crate::grid::Boundary;
 
@@ -102,36 +103,17 @@ pub struct LoadingScene {
     pub pull_off_tolerance: f64,
 }
 
-/// Which quantity a loading path prescribes.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Control {
-    /// Mean pressure, Pa.
-    Pressure,
-    /// Total force, N.
-    Force,
-    /// Approach, m.
-    Approach,
-    /// Mean gap, m.
-    MeanGap,
-}
-
-impl Control {
-    /// Every control.
-    pub const ALL: &[Control] = &[
-        Control::Pressure,
-        Control::Force,
-        Control::Approach,
-        Control::MeanGap,
-    ];
-
-    /// The word used in scenes.
-    pub fn name(self) -> &'static str {
-        match self {
-            Control::Pressure => "pressure",
-            Control::Force => "force",
-            Control::Approach => "approach",
-            Control::MeanGap => "mean-gap",
-        }
+words! {
+    /// Which quantity a loading path prescribes.
+    Control {
+        /// Mean pressure, Pa.
+        Pressure = "pressure",
+        /// Total force, N.
+        Force = "force",
+        /// Approach, m.
+        Approach = "approach",
+        /// Mean gap, m.
+        MeanGap = "mean-gap",
     }
 }
 
@@ -149,64 +131,34 @@ pub struct SolverScene {
     pub backend: BackendName,
 }
 
-/// Precision of a solve.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Precision {
-    /// Chosen by tabor.
-    Auto,
-    /// 32 bit.
-    Single,
-    /// 32-bit iterations corrected in 64 bit.
-    Mixed,
-    /// 64 bit.
-    Double,
+words! {
+    /// Precision of a solve.
+    Precision {
+        /// Chosen by tabor.
+        Auto = "auto",
+        /// 32 bit.
+        Single = "single",
+        /// 32-bit iterations corrected in 64 bit.
+        Mixed = "mixed",
+        /// 64 bit.
+        Double = "double",
+    }
 }
 
 impl Precision {
     /// Least tolerance that single precision reaches on every scene.
     pub const SINGLE_FLOOR: f64 = 1e-4;
-
-    /// Every precision.
-    pub const ALL: &[Precision] = &[
-        Precision::Auto,
-        Precision::Single,
-        Precision::Mixed,
-        Precision::Double,
-    ];
-
-    /// The word used in scenes.
-    pub fn name(self) -> &'static str {
-        match self {
-            Precision::Auto => "auto",
-            Precision::Single => "single",
-            Precision::Mixed => "mixed",
-            Precision::Double => "double",
-        }
-    }
 }
 
-/// The processor or a graphics processor.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum BackendName {
-    /// Chosen by tabor.
-    Auto,
-    /// Threads of this machine's processor.
-    Cpu,
-    /// A graphics processor.
-    Gpu,
-}
-
-impl BackendName {
-    /// Every backend.
-    pub const ALL: &[BackendName] = &[BackendName::Auto, BackendName::Cpu, BackendName::Gpu];
-
-    /// The word used in scenes.
-    pub fn name(self) -> &'static str {
-        match self {
-            BackendName::Auto => "auto",
-            BackendName::Cpu => "cpu",
-            BackendName::Gpu => "gpu",
-        }
+words! {
+    /// The processor or a graphics processor.
+    BackendName {
+        /// Chosen by tabor.
+        Auto = "auto",
+        /// Threads of this machine's processor.
+        Cpu = "cpu",
+        /// A graphics processor.
+        Gpu = "gpu",
     }
 }
 
@@ -222,39 +174,23 @@ pub struct OutputScene {
     pub steps: StepChoice,
 }
 
-/// A field that can be written.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
-#[non_exhaustive]
-pub enum FieldName {
-    /// Net normal traction, Pa, positive in compression.
-    Pressure,
-    /// Gap, m.
-    Gap,
-    /// Normal surface displacement, m, positive into the solid.
-    Displacement,
-    /// Heights, m.
-    Heights,
+words! {
+    /// A field that can be written.
+    #[derive(Hash)]
+    #[non_exhaustive]
+    FieldName {
+        /// Net normal traction, Pa, positive in compression.
+        Pressure = "pressure",
+        /// Gap, m.
+        Gap = "gap",
+        /// Normal surface displacement, m, positive into the solid.
+        Displacement = "displacement",
+        /// Heights, m.
+        Heights = "heights",
+    }
 }
 
 impl FieldName {
-    /// Every field.
-    pub const ALL: &[FieldName] = &[
-        FieldName::Pressure,
-        FieldName::Gap,
-        FieldName::Displacement,
-        FieldName::Heights,
-    ];
-
-    /// The name used in scenes and file names.
-    pub fn name(self) -> &'static str {
-        match self {
-            FieldName::Pressure => "pressure",
-            FieldName::Gap => "gap",
-            FieldName::Displacement => "displacement",
-            FieldName::Heights => "heights",
-        }
-    }
-
     /// The SI unit of its values.
     pub fn unit(self) -> &'static str {
         match self {
