@@ -63,12 +63,9 @@ impl Header {
         let [x, y, z] = self.scales;
         let y = if rows == 1 { x } else { y };
         Matrix {
-            values,
-            rows,
-            columns,
             size: Some(Size::Metres([x * columns as f64, y * rows as f64])),
             unit: Some(z),
-            ..Matrix::default()
+            ..Matrix::new(values, [rows, columns])
         }
     }
 }

@@ -132,14 +132,11 @@ fn finished(
         if rows == 1 { dx } else { dy } * rows as f64,
     ];
     Matrix {
-        values,
-        rows,
-        columns,
         size: sides
             .iter()
             .all(|side| side.is_finite() && *side > 0.0)
             .then_some(Size::LikeHeights(sides)),
-        ..Matrix::default()
+        ..Matrix::new(values, [rows, columns])
     }
 }
 
