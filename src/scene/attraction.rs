@@ -2,8 +2,10 @@
 
 use std::path::PathBuf;
 
-use super::GridValues;
+use serde::Serialize;
+
 use super::words::words;
+use super::{GridValues, resolved};
 use crate::law::{Exponential, Law, LennardJones, MaugisDugdale};
 
 /// `[adhesion]`.
@@ -27,7 +29,7 @@ pub struct AdhesionScene {
 }
 
 /// Work of adhesion of an edge that recedes at a speed v: `w (1 + (v/v*)^n)`.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Copy, Debug, PartialEq, Serialize)]
 pub struct RateScene {
     /// Speed v* at which it doubles, m/s.
     pub reference_speed: f64,
@@ -36,16 +38,18 @@ pub struct RateScene {
 }
 
 /// Source of the factors on a law's tension.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq, Serialize)]
+#[serde(untagged)]
 #[non_exhaustive]
 pub enum AdhesionMap {
     /// A file with one factor a point; the path is resolved against the scene's folder.
-    File(PathBuf),
+    File(#[serde(serialize_with = "resolved::path")] PathBuf),
     /// One factor a point, given as an array.
     Factors(GridValues),
     /// Two factors that alternate every half period.
     Pattern {
         /// The shape of the pattern.
+        #[serde(rename = "pattern")]
         kind: PatternKind,
         /// Period, m.
         period: f64,
@@ -67,7 +71,7 @@ words! {
 }
 
 /// `[capillary]`: a liquid that condenses between the surfaces.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct CapillaryScene {
     /// Relative humidity, from 0 to below 1.
     pub humidity: f64,
@@ -78,16 +82,19 @@ pub struct CapillaryScene {
     /// Temperature, K.
     pub temperature: f64,
     /// Contact angle on both surfaces, rad.
+    #[serde(serialize_with = "resolved::degrees")]
     pub contact_angle: f64,
 }
 
 /// The range of a cohesive law: a length, or `auto`.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Copy, Debug, PartialEq, Serialize)]
+#[serde(rename_all = "lowercase")]
 pub enum Range {
-    /// A length, m.
-    Length(f64),
     /// The shortest range that the grid resolves at this work of adhesion.
     Auto,
+    /// A length, m.
+    #[serde(untagged)]
+    Length(f64),
 }
 
 words! {

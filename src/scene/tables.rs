@@ -20,7 +20,7 @@ macro_rules! tables {
     )+) => {
         $(
             $(#[$doc])*
-            #[derive(Clone, Copy, Debug, PartialEq)]
+            #[derive(Clone, Copy, Debug, PartialEq, serde::Serialize)]
             pub struct $Table {
                 $( $(#[$key_doc])* pub $key: f64, )+
             }
@@ -43,10 +43,6 @@ macro_rules! tables {
                         stringify!($key), Dimension::$dimension, Allowed::POSITIVE,
                     ); )+
                     Some(Some($Table { $( $key: $key? ),+ }))
-                }
-
-                fn resolved(&self) -> Value {
-                    json!({ $( stringify!($key): self.$key ),+ })
                 }
             }
         )+
@@ -75,7 +71,7 @@ macro_rules! tables {
             /// The tables that are there, with their names.
             pub(super) fn resolved(&self) -> Vec<(&'static str, Value)> {
                 let tables = [$(
-                    (stringify!($table), self.$table.as_ref().map($Table::resolved)),
+                    (stringify!($table), self.$table.map(|table| json!(table))),
                 )+];
                 tables
                     .into_iter()

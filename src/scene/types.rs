@@ -2,8 +2,11 @@
 
 use std::path::PathBuf;
 
+use serde::Serialize;
+
 use super::attraction::{AdhesionScene, CapillaryScene};
 use super::parts::SurfacePart;
+use super::resolved;
 use super::tables::EffectTables;
 use super::words::words;
 use crate::elastic::Layer;
@@ -41,14 +44,17 @@ pub struct Scene {
 }
 
 /// `[grid]`: points and size may be left out if a height file provides them.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct GridScene {
+    /// The boundary condition.
+    #[serde(serialize_with = "resolved::word")]
+    pub boundary: Boundary,
     /// Points along x and y.
+    #[serde(skip_serializing_if = "Option::is_none")]
     pub points: Option<[usize; 2]>,
     /// Size along x and y, m.
+    #[serde(skip_serializing_if = "Option::is_none")]
     pub size: Option<[f64; 2]>,
-    /// The boundary condition.
-    pub boundary: Boundary,
 }
 
 /// `[solid]`: the elastic half-space.
@@ -77,7 +83,7 @@ impl SolidScene {
 }
 
 /// One Maxwell branch of `[[solid.relaxation]]`.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Copy, Debug, PartialEq, Serialize)]
 pub struct RelaxationScene {
     /// Contact modulus of the branch, Pa.
     pub modulus: f64,
@@ -118,7 +124,7 @@ words! {
 }
 
 /// `[solver]`.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq, Serialize)]
 #[non_exhaustive]
 pub struct SolverScene {
     /// Tolerance of the residual.
@@ -163,7 +169,7 @@ words! {
 }
 
 /// `[output]`.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq, Serialize)]
 #[non_exhaustive]
 pub struct OutputScene {
     /// Fields written as PNG.
@@ -201,12 +207,14 @@ impl FieldName {
 }
 
 /// Selects the steps whose images and fields are written.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq, Serialize)]
+#[serde(rename_all = "lowercase")]
 pub enum StepChoice {
     /// The last one.
     Last,
     /// Every one.
     All,
     /// These, numbered from 1.
+    #[serde(untagged)]
     List(Vec<usize>),
 }

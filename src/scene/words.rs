@@ -51,6 +51,12 @@ macro_rules! words {
             }
         }
 
+        impl serde::Serialize for $Name {
+            fn serialize<S: serde::Serializer>(&self, to: S) -> Result<S::Ok, S::Error> {
+                to.serialize_str(self.name())
+            }
+        }
+
         impl $crate::scene::words::Word for $Name {
             const WORDS: &'static [Self] = $Name::ALL;
             fn word(self) -> &'static str {
