@@ -99,6 +99,7 @@ impl fmt::Display for Dimension {
 
 /// Why a text is not a value of the required dimension.
 #[derive(Clone, Debug, PartialEq, Error)]
+#[non_exhaustive]
 pub enum UnitError {
     /// The text does not begin with a number.
     #[error("{text} does not begin with a number; give {expected}, such as {}", expected.example())]

@@ -40,6 +40,7 @@ type Number = fn(&Parameters, &Uncertainties) -> (f64, Option<f64>);
 
 /// Results of a fit.
 #[derive(Clone, Debug)]
+#[non_exhaustive]
 pub struct FitResult {
     /// The curve with its segments.
     pub measured: Measured,

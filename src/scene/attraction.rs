@@ -72,6 +72,7 @@ words! {
 
 /// `[capillary]`: a liquid that condenses between the surfaces.
 #[derive(Clone, Debug, PartialEq, Serialize)]
+#[non_exhaustive]
 pub struct CapillaryScene {
     /// Relative humidity, from 0 to below 1.
     pub humidity: f64,

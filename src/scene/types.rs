@@ -209,6 +209,7 @@ impl FieldName {
 /// Selects the steps whose images and fields are written.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 #[serde(rename_all = "lowercase")]
+#[non_exhaustive]
 pub enum StepChoice {
     /// The last one.
     Last,
