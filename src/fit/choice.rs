@@ -105,7 +105,7 @@ pub fn fit_curve(
     let zero_known = knows_zero(&measured, &fits[chosen]);
     if !zero_known {
         warnings.push(
-            format!("fewer than {ZERO_POINTS} points lie where no force acts, so that a fitted baseline cannot be distinguished from adhesion and no uncertainty is given: leave --baseline out if the zero of the force is known, or measure until the sphere is free"),
+            format!("fewer than {ZERO_POINTS} points lie where no force acts, so that a fitted baseline cannot be distinguished from adhesion and no uncertainty is given: do not fit the baseline if the zero of the force is known, or measure until the sphere is free"),
         );
     }
     let stated = |number: Number| deviation(&fits, chosen, number).filter(|_| zero_known);

@@ -115,10 +115,10 @@ pub struct Mistake {
     pub file: String,
     /// Line in the file, from 1; `None` if no line of the file is concerned.
     pub line: Option<usize>,
-    /// The key, dotted as in `--set`, tables of an array counted from 0: `surface.0.hurst`. Empty
+    /// The key, dotted as in an override, tables of an array counted from 0: `surface.0.hurst`. Empty
     /// for the whole file.
     pub key: String,
-    /// Whether the value came from `--set` and not from the file.
+    /// Whether the value came from an override and not from the file.
     pub from_set: bool,
     /// The mistake and its remedy.
     #[source]
@@ -127,7 +127,7 @@ pub struct Mistake {
 
 fn place(from_set: bool, line: Option<usize>) -> String {
     match line {
-        _ if from_set => ", from --set".to_string(),
+        _ if from_set => ", from an override".to_string(),
         Some(line) => format!(":{line}"),
         None => String::new(),
     }
