@@ -2,29 +2,24 @@
 
 use std::time::{Duration, Instant};
 
-use crate::output::cpu_seconds;
+use cpu_time::ProcessTime;
 
 /// Began with some work.
 pub(super) struct Clock {
     began: Instant,
-    worked: Option<f64>,
+    worked: ProcessTime,
 }
 
 impl Clock {
     pub fn start() -> Self {
         Clock {
             began: Instant::now(),
-            worked: cpu_seconds(),
+            worked: ProcessTime::now(),
         }
     }
 
-    /// Processor time of the process where the system tells, which other tests only lengthen, or the time
-    /// passed where that is less.
+    /// Processor time of the process, which other tests only lengthen, or the time passed where that is less.
     pub fn elapsed(&self) -> Duration {
-        let passed = self.began.elapsed();
-        let worked = self.worked.zip(cpu_seconds());
-        worked.map_or(passed, |(before, now)| {
-            passed.min(Duration::from_secs_f64((now - before).max(0.0)))
-        })
+        self.began.elapsed().min(self.worked.elapsed())
     }
 }

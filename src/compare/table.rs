@@ -5,6 +5,7 @@ use std::path::Path;
 
 use super::State;
 use crate::clock::Clock;
+use crate::output::csv_line::{csv_line, csv_number};
 use crate::output::{FolderLock, GrowingTable, OutputError};
 
 /// First line of `compare.csv`.
@@ -81,19 +82,17 @@ impl Table {
             limit,
         };
         self.clock = Clock::start();
-        let cell = |value: Option<f64>| value.map_or(String::new(), |value| format!("{value:e}"));
-        let line = format!(
-            "{},{:e},{},{},{},{},{:.6},{},{}\n",
-            row.model,
-            state.mean_pressure,
-            cell(state.contact_area_fraction),
-            cell(state.mean_gap),
-            cell(state.adhesive_pressure),
-            cell(pull_off),
-            row.seconds,
-            limit.is_none(),
-            limit.unwrap_or_default()
-        );
+        let line = csv_line([
+            row.model.to_owned(),
+            csv_number(Some(state.mean_pressure)),
+            csv_number(state.contact_area_fraction),
+            csv_number(state.mean_gap),
+            csv_number(state.adhesive_pressure),
+            csv_number(pull_off),
+            format!("{:.6}", row.seconds),
+            limit.is_none().to_string(),
+            limit.unwrap_or_default().to_owned(),
+        ]);
         self.table.append(&line)?;
         self.rows.push(row);
         Ok(())

@@ -64,6 +64,11 @@ pub(super) enum Cell {
     Word(&'static str),
 }
 
+/// A row of numbers.
+pub(super) fn numbers<const N: usize>(numbers: [f64; N]) -> Vec<Cell> {
+    numbers.map(Cell::Number).to_vec()
+}
+
 impl From<f64> for Cell {
     fn from(number: f64) -> Self {
         Cell::Number(number)

@@ -5,9 +5,9 @@ use std::f64::consts::PI;
 use super::catalogue::{Model, Table};
 use super::dmt::LAST_APPROACH;
 use super::parameters::{
-    CONTACT_MODULUS, DIRECTION, Need, POINTS, Parameter, RADIUS, RANGE, WORK_OF_ADHESION,
+    Allowed, CONTACT_MODULUS, DIRECTION, POINTS, Parameter, RADIUS, RANGE, WORK_OF_ADHESION,
 };
-use super::soft::{ATTRACTED, CONTACT, from, row, sphere, to};
+use super::soft::{ATTRACTED, CONTACT, row, sphere};
 use super::values::Values;
 use crate::cli::Failure;
 use crate::theory::TheoryError;
@@ -24,12 +24,12 @@ pub(super) const LENNARD_JONES_SPHERE: Model = Model {
         WORK_OF_ADHESION,
         RANGE,
         DIRECTION,
-        from("minus 4 ranges and 2 Tabor parameters more"),
-        to("4 (pi^2 w^2 R/K^2)^(1/3), K = 4 E*/3, but no more than 20 ranges"),
-        Parameter {
-            need: Need::Default("61"),
-            ..POINTS
-        },
+        Parameter::from_approach(Allowed::Any, "minus 4 ranges and 2 Tabor parameters more"),
+        Parameter::to_approach(
+            Allowed::Any,
+            "4 (pi^2 w^2 R/K^2)^(1/3), K = 4 E*/3, but no more than 20 ranges",
+        ),
+        POINTS.or("61"),
     ],
     columns: &[
         ("approach", "m"),

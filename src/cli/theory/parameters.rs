@@ -145,9 +145,26 @@ impl Parameter {
         }
     }
 
+    /// The approach of the first row.
+    pub const fn from_approach(allowed: Allowed, chosen: &'static str) -> Self {
+        let meaning = "approach of the first row";
+        Parameter::from(Dimension::Length, allowed, chosen, meaning)
+    }
+
+    /// The approach of the last row.
+    pub const fn to_approach(allowed: Allowed, chosen: &'static str) -> Self {
+        let meaning = "approach of the last row";
+        Parameter::to(Dimension::Length, allowed, chosen, meaning)
+    }
+
     /// The same with another need.
     pub const fn needed(self, need: Need) -> Self {
         Parameter { need, ..self }
+    }
+
+    /// The same with a default.
+    pub const fn or(self, default: &'static str) -> Self {
+        self.needed(Need::Default(default))
     }
 }
 

@@ -5,6 +5,7 @@ use std::fmt::Write;
 use super::catalogue::{Cell, Model, Table};
 use super::parameters::{Kind, Need, Parameter};
 use super::values::Values;
+use crate::output::csv_line::csv_line;
 use crate::units::Dimension;
 
 /// The table as CSV: comments on where it comes from, a head of names, the rows.
@@ -25,13 +26,9 @@ pub(super) fn csv(model: &Model, values: &Values, table: &Table) -> String {
         comment(note);
     }
     comment(&format!("columns: {}", columns_with_units(model)));
-    let names: Vec<&str> = model.columns.iter().map(|(name, _)| *name).collect();
-    text.push_str(&names.join(","));
-    text.push('\n');
+    text += &csv_line(model.columns.iter().map(|(name, _)| name));
     for row in &table.rows {
-        let cells: Vec<String> = row.iter().map(shown).collect();
-        text.push_str(&cells.join(","));
-        text.push('\n');
+        text += &csv_line(row.iter().map(shown));
     }
     text
 }

@@ -6,7 +6,7 @@
 use std::f64::consts::PI;
 
 use super::catalogue::{Cell, Model, Table};
-use super::dmt::LAST_APPROACH;
+use super::dmt::{LAST_APPROACH, LAST_APPROACH_WORDS};
 use super::parameters::{
     Allowed, CONTACT_MODULUS, DIRECTION, Need, POINTS, Parameter, RADIUS, RANGE, WORK_OF_ADHESION,
 };
@@ -23,27 +23,7 @@ pub(super) const ATTRACTED: &str = "attracted";
 /// In contact.
 pub(super) const CONTACT: &str = "contact";
 
-/// The first approach, any.
-pub(super) const fn from(chosen: &'static str) -> Parameter {
-    Parameter::from(
-        Dimension::Length,
-        Allowed::Any,
-        chosen,
-        "approach of the first row",
-    )
-}
-
-/// The last approach, any.
-pub(super) const fn to(chosen: &'static str) -> Parameter {
-    Parameter::to(
-        Dimension::Length,
-        Allowed::Any,
-        chosen,
-        "approach of the last row",
-    )
-}
-
-const TO: Parameter = to("4 (pi^2 w^2 R/K^2)^(1/3), K = 4 E*/3");
+const TO: Parameter = Parameter::to_approach(Allowed::Any, LAST_APPROACH_WORDS);
 
 /// The sphere of the three parameters that all of them have.
 pub(super) fn sphere(values: &Values) -> Result<Sphere, Failure> {
@@ -63,7 +43,7 @@ pub(super) const JKR: Model = Model {
         CONTACT_MODULUS,
         WORK_OF_ADHESION,
         DIRECTION,
-        from("where a held approach lets go"),
+        Parameter::from_approach(Allowed::Any, "where a held approach lets go"),
         TO,
         POINTS,
     ],
@@ -133,7 +113,7 @@ pub(super) const MAUGIS_DUGDALE: Model = Model {
         )
         .needed(Need::Either("range")),
         DIRECTION,
-        from("where the attraction is first or last felt"),
+        Parameter::from_approach(Allowed::Any, "where the attraction is first or last felt"),
         TO,
         POINTS,
     ],
