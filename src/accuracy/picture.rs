@@ -26,18 +26,14 @@ const KINDS: [&str; 10] = [
 
 /// Index of a row in [`KINDS`].
 fn kind(row: &Row) -> usize {
-    match (row.varied, row.setting.taper) {
-        (Varied::Nothing, _) => 0,
-        (Varied::Tolerance, _) => 1,
-        (Varied::Precision, _) => 2,
-        (Varied::Taper, Taper::Half) => 8,
-        (Varied::Taper, _) => 3,
-        (Varied::Steps, _) => 4,
-        (Varied::Range, _) => 5,
-        (Varied::Dmt, _) => 6,
-        (Varied::NoAdhesion, _) => 7,
-        (Varied::TimeTolerance, _) => 9,
-    }
+    let name = match (row.varied, row.setting.taper) {
+        (Varied::Taper, Taper::Half) => "half the taper",
+        (Varied::Taper, _) => "no taper",
+        (varied, _) => varied.name(),
+    };
+    let known = KINDS.iter().position(|kind| *kind == name);
+    debug_assert!(known.is_some(), "{name} has a colour");
+    known.unwrap_or(0)
 }
 
 /// The picture of a report. Colour and mark show what a setting varies; the line joins the Pareto

@@ -1,7 +1,6 @@
 //! `accuracy.csv`, and the table on the terminal.
 
 use std::fmt::Write;
-use std::fs;
 use std::path::Path;
 
 use super::errors::Errors;
@@ -10,7 +9,7 @@ use super::report::{Report, Row, duration};
 use super::setting::Varied;
 use super::steps::Steps;
 use crate::output::csv_line::{csv_line, csv_number};
-use crate::output::{OutputError, write_atomically};
+use crate::output::{OutputError, expect_table, write_atomically};
 
 /// First columns of every `accuracy.csv`, including those of older versions.
 const FIRST_COLUMNS: &str = "points,backend,precision,tolerance,steps,treatment,taper,seconds,error_area,error_force,error_pressure,error_pull_off,reference_uncertainty,pareto";
@@ -84,19 +83,7 @@ pub fn write_csv(path: &Path, report: &Report) -> Result<(), OutputError> {
 /// # Errors
 /// [`OutputError::Refused`] in that case.
 pub fn expect_place(path: &Path) -> Result<(), OutputError> {
-    let refused = |reason: &str| OutputError::Refused {
-        path: path.to_path_buf(),
-        reason: reason.to_owned(),
-    };
-    if path.parent().is_some_and(Path::is_file) {
-        return Err(refused("its folder is a file; name a folder with --out"));
-    }
-    if fs::read(path).is_ok_and(|old| !old.starts_with(FIRST_COLUMNS.as_bytes())) {
-        return Err(refused(
-            "is not a table that tabor wrote; name another folder with --out",
-        ));
-    }
-    Ok(())
+    expect_table(path, FIRST_COLUMNS)
 }
 
 /// `256`, or `256x128`.

@@ -3,13 +3,14 @@
 use std::io::{IsTerminal, stderr};
 use std::path::PathBuf;
 use std::sync::OnceLock;
-use std::time::{Duration, Instant};
+use std::time::Instant;
 
 use clap::Args;
-use indicatif::{ProgressBar, ProgressDrawTarget, ProgressStyle};
+use indicatif::ProgressBar;
 
 use super::interrupts::Interrupts;
 use super::patience::Patience;
+use super::progress::bar;
 use super::quantity::positive;
 use super::{Failure, SceneArguments, folder_or_default, note, say, warn};
 use crate::accuracy::{
@@ -94,7 +95,11 @@ pub(super) fn accuracy(arguments: &AccuracyArguments) -> Result<(), Failure> {
     ));
     let mut keeper = Keeper {
         folder: folder.clone(),
-        bar: bar(arguments.quiet, arguments.budget),
+        bar: bar(
+            "{bar:24} {pos}/{len} s  {wide_msg}",
+            arguments.budget.ceil() as u64,
+            arguments.quiet,
+        ),
         began: Instant::now(),
         running: String::new(),
         said: Vec::new(),
@@ -174,19 +179,6 @@ impl BackendProvider for Shop<'_> {
             make: Box::new(move || device.backend()),
         })
     }
-}
-
-/// Seconds of the budget, where somebody watches.
-fn bar(quiet: bool, budget: f64) -> Option<ProgressBar> {
-    if quiet || !stderr().is_terminal() {
-        return None;
-    }
-    let style = ProgressStyle::with_template("{bar:24} {pos}/{len} s  {wide_msg}")
-        .expect("the template is fixed and valid");
-    let target = ProgressDrawTarget::stderr_with_hz(10);
-    let bar = ProgressBar::with_draw_target(Some(budget.ceil() as u64), target).with_style(style);
-    bar.enable_steady_tick(Duration::from_millis(200));
-    Some(bar)
 }
 
 /// Keeps the rows, shows how far the study is, and ends it where the user wants.

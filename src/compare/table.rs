@@ -1,12 +1,11 @@
 //! `compare.csv`, on the disk row by row.
 
-use std::fs;
 use std::path::Path;
 
 use super::State;
 use crate::clock::Clock;
 use crate::output::csv_line::{csv_line, csv_number};
-use crate::output::{FolderLock, GrowingTable, OutputError};
+use crate::output::{FolderLock, GrowingTable, OutputError, expect_table};
 
 /// First line of `compare.csv`.
 const HEADER: &str = "model,mean_pressure,contact_area_fraction,mean_gap,adhesive_pressure,pull_off_pressure,seconds,within_range,limit";
@@ -39,18 +38,7 @@ impl Table {
     /// Starts `compare.csv` in a folder, in place of an earlier one.
     pub fn create(folder: &Path) -> Result<Table, OutputError> {
         let path = folder.join("compare.csv");
-        let refused = |reason: &str| OutputError::Refused {
-            path: path.clone(),
-            reason: reason.to_owned(),
-        };
-        if folder.is_file() {
-            return Err(refused("its folder is a file; name a folder with --out"));
-        }
-        if fs::read(&path).is_ok_and(|old| !old.starts_with(HEADER.as_bytes())) {
-            return Err(refused(
-                "is not a table that tabor wrote; name another folder with --out",
-            ));
-        }
+        expect_table(&path, HEADER)?;
         let lock = FolderLock::take(&folder.join(FolderLock::HIDDEN), folder)?;
         Ok(Table {
             table: GrowingTable::create(&path, format!("{HEADER}\n"))?,

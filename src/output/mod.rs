@@ -59,7 +59,7 @@ pub(crate) use error::FRESH;
 pub use error::OutputError;
 pub use fields::{write_field, write_field_single};
 #[doc(hidden)]
-pub use folder::{RunFolder, set_aside, write_atomically, write_within};
+pub use folder::{RunFolder, expect_table, set_aside, write_atomically, write_within};
 #[doc(hidden)]
 pub use growing::GrowingTable;
 #[doc(hidden)]

@@ -8,9 +8,8 @@ use std::cell::Cell;
 use std::time::Duration;
 
 use proptest::prelude::*;
-use proptest::test_runner::{Config, RngAlgorithm, TestRng, TestRunner};
 
-use super::super::busy::Clock;
+use super::super::busy::{Clock, cases};
 use super::catalogue::{MODELS, Model};
 use super::parameters::{Allowed, Kind, Need, Parameter};
 use super::text;
@@ -181,17 +180,7 @@ fn is_no_number(text: &str) -> bool {
 
 #[test]
 fn no_hostile_argument_of_a_theory_is_trouble() {
-    let cases = std::env::var("TABOR_MUTATIONS").map_or(CASES, |text| {
-        text.parse().expect("TABOR_MUTATIONS is a number of cases")
-    });
-    let config = Config {
-        cases,
-        failure_persistence: None,
-        max_shrink_iters: 200,
-        ..Config::default()
-    };
-    let rng = TestRng::deterministic_rng(RngAlgorithm::ChaCha);
-    let mut runner = TestRunner::new_with_rng(config, rng);
+    let (cases, mut runner) = cases(CASES);
     let [answered, refused, empty] = [const { Cell::new(0_u32) }; 3];
     let slowest = Cell::new(Duration::ZERO);
     let strategy = (
