@@ -16,6 +16,7 @@ const STYLE: Style = Style {
     heights: &[500, 170],
     stroke: 1.5,
     mark: 2.0,
+    ticks: 8,
     ..LARGE
 };
 

@@ -137,7 +137,7 @@ fn is_given(parameter: &Parameter, pick: &Pick, given: &[&str]) -> bool {
 fn words(model: &Model, picks: &[Pick]) -> Vec<String> {
     let mut words = vec![model.name.to_owned()];
     let mut given: Vec<&str> = Vec::new();
-    for (parameter, pick) in model.parameters.iter().zip(picks) {
+    for (parameter, pick) in model.parameters().zip(picks) {
         if is_given(parameter, pick, &given) {
             given.push(parameter.name);
             words.push(format!(
@@ -148,7 +148,7 @@ fn words(model: &Model, picks: &[Pick]) -> Vec<String> {
         }
     }
     // Many rows of a model take time that has nothing to do with the numbers.
-    if !given.contains(&"points") && model.parameters.iter().any(|p| p.name == "points") {
+    if !given.contains(&"points") && model.parameters().any(|p| p.name == "points") {
         words.push("--points=5".to_owned());
     }
     words

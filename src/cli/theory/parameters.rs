@@ -177,6 +177,8 @@ pub(super) const WORK_OF_ADHESION: Parameter = Parameter::positive(
     Dimension::EnergyPerArea,
     "energy per area to separate the surfaces",
 );
+/// What every adhesive sphere has.
+pub(super) const ADHESIVE_SPHERE: &[Parameter] = &[RADIUS, CONTACT_MODULUS, WORK_OF_ADHESION];
 pub(super) const RANGE: Parameter = Parameter::positive(
     "range",
     Dimension::Length,

@@ -18,14 +18,8 @@ pub(super) const HERTZ: Model = Model {
     name: "hertz",
     about: "sphere on an elastic half-space, no adhesion",
     source: "Hertz 1882; Johnson 1985",
-    parameters: &[RADIUS, CONTACT_MODULUS, FROM, TO, POINTS],
-    columns: &[
-        ("approach", "m"),
-        ("force", "N"),
-        ("contact_radius", "m"),
-        ("peak_pressure", "Pa"),
-        ("stiffness", "N/m"),
-    ],
+    parameters: &[&[RADIUS, CONTACT_MODULUS, FROM, TO, POINTS]],
+    columns: "approach [m], force [N], contact_radius [m], peak_pressure [Pa], stiffness [N/m]",
     example: "--radius \"1 mm\" --contact_modulus \"1 GPa\" --to \"100 nm\"",
     table: hertz_table,
 };
@@ -53,7 +47,7 @@ pub(super) const CONE: Model = Model {
     name: "cone",
     about: "cone on an elastic half-space, no adhesion",
     source: "Sneddon 1965",
-    parameters: &[
+    parameters: &[&[
         Parameter {
             name: "half_angle",
             kind: Kind::Quantity(Dimension::Angle, Allowed::Inside(0.0, FRAC_PI_2)),
@@ -70,13 +64,8 @@ pub(super) const CONE: Model = Model {
         )
         .needed(Need::Required),
         POINTS,
-    ],
-    columns: &[
-        ("approach", "m"),
-        ("force", "N"),
-        ("contact_radius", "m"),
-        ("contact_pressure", "Pa"),
-    ],
+    ]],
+    columns: "approach [m], force [N], contact_radius [m], contact_pressure [Pa]",
     example: "--half_angle \"85 deg\" --contact_modulus \"1 GPa\" --to \"200 nm\"",
     table: cone_table,
 };
@@ -96,18 +85,14 @@ pub(super) const FLAT_PUNCH: Model = Model {
     name: "flat-punch",
     about: "rigid flat circular punch on an elastic half-space, no adhesion",
     source: "Sneddon 1965",
-    parameters: &[
+    parameters: &[&[
         Parameter::positive("radius", Dimension::Length, "radius of the punch"),
         CONTACT_MODULUS,
         FROM,
         TO,
         POINTS,
-    ],
-    columns: &[
-        ("approach", "m"),
-        ("force", "N"),
-        ("contact_pressure", "Pa"),
-    ],
+    ]],
+    columns: "approach [m], force [N], contact_pressure [Pa]",
     example: "--radius \"1 um\" --contact_modulus \"1 GPa\"",
     table: punch_table,
 };

@@ -19,6 +19,7 @@ const PAGE: Style = Style {
     width: 460,
     heights: &[300],
     mark: 3.4,
+    ticks: 6,
     ..SMALL
 };
 
