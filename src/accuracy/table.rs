@@ -235,7 +235,7 @@ fn cheapest(report: &Report, of: Quantity, level: f64) -> Option<String> {
             )
         }
         None if uncertainty > level => format!(
-            "unknown: the reference itself is accurate only to {}; a longer --budget gives a better one",
+            "unknown: the reference itself is accurate only to {}; a longer budget gives a better one",
             percent(Some(uncertainty))
         ),
         None => format!(

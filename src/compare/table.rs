@@ -12,6 +12,7 @@ const HEADER: &str = "model,mean_pressure,contact_area_fraction,mean_gap,adhesiv
 
 /// A row of the comparison.
 #[derive(Clone, Debug, PartialEq)]
+#[non_exhaustive]
 pub struct Row {
     /// Name of the model.
     pub model: &'static str,

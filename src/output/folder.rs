@@ -250,9 +250,9 @@ impl Inside<'_> {
             }
             Ok(found) => Ok(found.is_empty()),
             Err(error) if error.kind() == io::ErrorKind::NotFound => Ok(true),
-            Err(error) if error.kind() == io::ErrorKind::NotADirectory => Err(
-                OutputError::refused(self.path, "is a file; name a folder with --out"),
-            ),
+            Err(error) if error.kind() == io::ErrorKind::NotADirectory => {
+                Err(OutputError::refused(self.path, "is a file; name a folder"))
+            }
             Err(error) => Err(OutputError::write("read the folder", self.path)(error)),
         }
     }
@@ -269,12 +269,12 @@ impl Inside<'_> {
         match marker {
             None => Err(OutputError::refused(
                 self.path,
-                "holds files that tabor did not write (state/scene.json is not there or damaged); name an empty or new folder with --out",
+                "holds files that tabor did not write (state/scene.json is not there or damaged); name an empty or new folder",
             )),
             Some(marker) if marker.fingerprint != fingerprint => Err(OutputError::refused(
                 self.path,
                 format!(
-                    "holds the results of another scene{}; name another folder with --out, or move this one away",
+                    "holds the results of another scene{}; name another folder, or move this one away",
                     difference(&marker.fingerprint, fingerprint)
                 ),
             )),
@@ -351,11 +351,11 @@ fn remove_files(folder: &Path, own: impl Fn(&str, bool) -> bool) -> Result<(), O
 /// is a file.
 pub fn expect_table(path: &Path, head: &str) -> Result<(), OutputError> {
     if path.parent().is_some_and(Path::is_file) {
-        let reason = "its folder is a file; name a folder with --out";
+        let reason = "its folder is a file; name a folder";
         return Err(OutputError::refused(path, reason));
     }
     if fs::read(path).is_ok_and(|old| !old.starts_with(head.as_bytes())) {
-        let reason = "is not a table that tabor wrote; name another folder with --out";
+        let reason = "is not a table that tabor wrote; name another folder";
         return Err(OutputError::refused(path, reason));
     }
     Ok(())

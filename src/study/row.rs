@@ -5,6 +5,7 @@ use serde::Deserialize;
 /// Contact state of a step.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Deserialize)]
 #[serde(rename_all = "lowercase")]
+#[non_exhaustive]
 pub enum State {
     /// Something touches.
     Contact,
@@ -27,6 +28,7 @@ impl State {
 
 /// One row of `curve.csv`, SI units; `None` is written as an empty cell.
 #[derive(Clone, Debug, PartialEq, Deserialize)]
+#[non_exhaustive]
 pub struct StepRow {
     /// Number of the step, from 1.
     pub step: usize,

@@ -62,6 +62,11 @@ impl Table {
     }
 }
 
+/// A row of numbers.
+pub(super) fn numbers<const COLUMNS: usize>(row: [f64; COLUMNS]) -> Result<Vec<Cell>, Failure> {
+    Ok(row.map(Cell::Number).to_vec())
+}
+
 /// One value of a table.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) enum Cell {
@@ -69,11 +74,6 @@ pub(super) enum Cell {
     Number(f64),
     /// A word.
     Word(&'static str),
-}
-
-/// A row of numbers.
-pub(super) fn numbers<const N: usize>(numbers: [f64; N]) -> Vec<Cell> {
-    numbers.map(Cell::Number).to_vec()
 }
 
 impl From<f64> for Cell {

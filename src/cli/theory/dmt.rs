@@ -61,7 +61,7 @@ fn bradley_table(values: &Values) -> Result<Table, Failure> {
     let mut table = Table::over(&places, |approach| {
         let gap = -approach;
         let force = bradley::force(&sphere, values.law(), range, gap)?;
-        Ok(numbers([approach, force, gap]))
+        numbers([approach, force, gap])
     })?;
     let most = 2.0 * PI * sphere.work_of_adhesion() * sphere.radius();
     table.note("pull_off_force", -most, "N");
@@ -101,12 +101,12 @@ fn constant(values: &Values, force: &dyn Fn(&Sphere, f64) -> f64) -> Result<Tabl
     let mut table = Table::over(&places, |approach| {
         let radius = hertz::contact_radius_at_approach(&sphere, approach)?;
         let force = force(&sphere, radius);
-        Ok(numbers([
+        numbers([
             approach,
             force,
             radius,
-            (hertz::force(&sphere, radius) - force),
-        ]))
+            hertz::force(&sphere, radius) - force,
+        ])
     })?;
     table.note("pull_off_force", force(&sphere, 0.0), "N");
     Ok(table)
@@ -158,12 +158,7 @@ fn ranged(values: &Values, method: Method, law: Law) -> Result<Table, Failure> {
         let force = dmt::force(method, law, reduced, mu)?;
         let hertz = dmt::hertz_force(reduced.max(0.0), mu)?;
         let radius = (sphere.radius() * approach.max(0.0)).sqrt();
-        Ok(numbers([
-            approach,
-            (unit * force),
-            radius,
-            (unit * (hertz - force)),
-        ]))
+        numbers([approach, unit * force, radius, unit * (hertz - force)])
     })?;
     table.note("tabor_parameter", mu, "");
     let (_, pull_off) = dmt::pull_off(method, law, mu)?;

@@ -111,14 +111,14 @@ fn persson_table(values: &Values) -> Result<Table, Failure> {
         let attraction = adhesion
             .as_ref()
             .map_or(Ok(0.0), |adhesion| contact.attraction(adhesion, pressure))?;
-        Ok(numbers([
-            (pressure - attraction),
+        numbers([
+            pressure - attraction,
             contact.area_fraction(pressure)?,
             contact.mean_gap(pressure)?,
             contact.stiffness(pressure)?,
             attraction,
             pressure,
-        ]))
+        ])
     })?;
     table.note("rms_height", spectrum.rms_height(), "m");
     table.note("rms_slope", spectrum.rms_slope(), "");
@@ -178,7 +178,7 @@ fn bam_table(values: &Values) -> Result<Table, Failure> {
     let places = values.places(0.0, 4.0 * height + range)?;
     let mut table = Table::over(&places, |gap| {
         let pressure = tension * model.pressure(gap / height);
-        Ok(numbers([gap, pressure]))
+        numbers([gap, pressure])
     })?;
     let (gap, pull_off) = model.pull_off()?;
     table.note("pull_off_pressure", -tension * pull_off, "Pa");

@@ -33,13 +33,13 @@ fn hertz_table(values: &Values) -> Result<Table, Failure> {
     let places = values.places(0.0, 0.01 * sphere.radius())?;
     Table::over(&places, |approach| {
         let radius = hertz::contact_radius_at_approach(&sphere, approach)?;
-        Ok(numbers([
+        numbers([
             approach,
             hertz::force(&sphere, radius),
             radius,
             hertz::pressure(&sphere, radius, 0.0),
             hertz::stiffness(&sphere, radius),
-        ]))
+        ])
     })
 }
 
@@ -77,7 +77,7 @@ fn cone_table(values: &Values) -> Result<Table, Failure> {
     Table::over(&places, |approach| {
         let radius = approach / cone.approach(1.0);
         let force = cone.force(radius);
-        Ok(numbers([approach, force, radius, cone.mean_pressure()]))
+        numbers([approach, force, radius, cone.mean_pressure()])
     })
 }
 
@@ -102,6 +102,6 @@ fn punch_table(values: &Values) -> Result<Table, Failure> {
     let places = values.places(0.0, 0.01 * radius)?;
     Table::over(&places, |approach| {
         let force = punch_force(radius, modulus, approach)?;
-        Ok(numbers([approach, force, (force / (PI * radius * radius))]))
+        numbers([approach, force, (force / (PI * radius * radius))])
     })
 }

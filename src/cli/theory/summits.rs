@@ -72,12 +72,12 @@ pub(super) const GW: Model = Model {
         let (summits, places) = summits(values)?;
         Table::over(&places, |separation| {
             let reduced = separation / summits.rms_height();
-            Ok(numbers([
+            numbers([
                 separation,
                 summits.pressure(reduced)?,
                 summits.contact_area_fraction(reduced),
                 summits.contact_density(reduced),
-            ]))
+            ])
         })
     },
 };
@@ -102,12 +102,12 @@ pub(super) const GW_M: Model = Model {
         let (summits, places) = summits(values)?;
         let mut table = Table::over(&places, |separation| {
             let reduced = separation / summits.rms_height();
-            Ok(numbers([
+            numbers([
                 separation,
                 gw_m::pressure(&summits, reduced)?,
                 summits.contact_area_fraction(reduced),
                 summits.contact_density(reduced),
-            ]))
+            ])
         })?;
         table.note("adhesion_parameter", summits.adhesion_parameter()?, "");
         table.note("pull_off_pressure", -gw_m::pull_off(&summits)?, "Pa");
@@ -148,7 +148,7 @@ fn fuller_tabor_table(values: &Values) -> Result<Table, Failure> {
     let mut table = Table::over(&places, |separation| {
         let reduced = separation / summits.rms_height();
         let pressure = fuller_tabor::reduced_pressure(theta, reduced, path)?;
-        Ok(numbers([separation, (unit * pressure)]))
+        numbers([separation, (unit * pressure)])
     })?;
     table.note("adhesion_parameter", theta, "");
     let (_, pull_off) = fuller_tabor::reduced_pull_off(theta)?;

@@ -58,12 +58,12 @@ fn westergaard_table(values: &Values) -> Result<Table, Failure> {
     let mut table = Table::over(&places, |pressure| {
         let reduced = pressure / full;
         let half_width = westergaard::half_width(reduced)?;
-        Ok(numbers([
+        numbers([
             pressure,
-            (2.0 * half_width),
-            (values.number("amplitude") * westergaard::mean_gap(reduced)?),
-            (full * westergaard::pressure(half_width, 0.0)?),
-        ]))
+            2.0 * half_width,
+            values.number("amplitude") * westergaard::mean_gap(reduced)?,
+            full * westergaard::pressure(half_width, 0.0)?,
+        ])
     })?;
     table.note("full_contact_pressure", full, "Pa");
     Ok(table)
@@ -107,7 +107,7 @@ fn adhesive_table(values: &Values) -> Result<Table, Failure> {
     let places = values.places(0.0, 0.99)?;
     let mut table = Table::over(&places, |share| {
         let pressure = westergaard::adhesive_mean_pressure(0.5 * share, adhesion)?;
-        Ok(numbers([share, (full * pressure)]))
+        numbers([share, full * pressure])
     })?;
     table.note("full_contact_pressure", full, "Pa");
     table.note("adhesion_parameter", adhesion, "");
