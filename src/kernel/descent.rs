@@ -94,12 +94,12 @@ where
 }
 
 point_kernels!(
-    /// Step 2, the end of `Contact::precondition`: retains the rows of z. Its sums are those of step 3.
+    /// Step 2, the end of `plain::precondition`: retains the rows of z. Its sums are those of step 3.
     DESCENT, descent, RetainRows, gate Ahead, Descent [MEAN_GAP = false],
     reads [gap, pressure, previous_residual], writes [], unbound [direction], sums [DescentSums]
 );
 point_kernels!(
-    /// The same under a prescribed mean gap, `Contact::without_mean`.
+    /// The same under a prescribed mean gap, `plain::project`.
     MEAN_GAP_DESCENT, descent, RetainRows, gate Ahead, Descent [MEAN_GAP = true],
     reads [gap, pressure, previous_residual, direction], writes [], sums [DescentSums, MeanGapDescentSums]
 );

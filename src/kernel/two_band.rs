@@ -1,6 +1,6 @@
 //! Kernels of the two-band preconditioner: long waves are corrected on a coarse grid, where the
 //! share of free points weighs them, so that they do not reach across contacts. Together they are
-//! `LongWaves::times` of the plain text.
+//! `plain::precondition`.
 
 use super::descent::{DescentSums, MeanGapDescentSums, descent_terms, mean_gap_descent_terms};
 use super::points::{Made, Point, PointKernel, each_point_without_law};
@@ -221,7 +221,7 @@ fn two_band_descent<T: Real, const MEAN_GAP: bool, const READS: usize, const TER
     );
 }
 
-/// Step 2, the end of `Contact::precondition` with two bands: as `descent`, with the long waves added from the
+/// Step 2, the end of `plain::precondition` with two bands: as `descent`, with the long waves added from the
 /// coarse level.
 pub static TWO_BAND_DESCENT: Kernel = rows_kernel!(
     two_band_descent [MEAN_GAP = false, 2, 2], RetainRows, gate Ahead, law false,

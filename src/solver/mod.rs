@@ -17,6 +17,7 @@ mod kernel_set;
 mod mean_gap;
 mod outer_state;
 pub mod plain;
+mod plain_setup;
 mod problem;
 mod rigid;
 mod two_band;

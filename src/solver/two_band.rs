@@ -14,10 +14,13 @@ use crate::kernel::{Gate, displacement, two_band};
 use crate::law::Law;
 
 /// Fewest coarse points each way for which the second band pays.
-const FEWEST_COARSE: usize = 8;
+pub(super) const FEWEST_COARSE: usize = 8;
 
 /// Pixels in the length beyond which waves count as long.
-const LONG_WAVES: f64 = 8.0;
+pub(super) const LONG_WAVES: f64 = 8.0;
+
+/// Pixels over which the share of free points is smoothed.
+pub(super) const SMOOTHED: f64 = 4.0;
 
 /// The coarse level of the preconditioner and its fields.
 pub(super) struct TwoBand {
@@ -68,7 +71,7 @@ impl TwoBand {
                 .map(|(kx, ky)| value(grid.wavenumber(kx, ky)))
                 .collect()
         };
-        let smoothing = tabulate(&|q| (-(4.0 * q * pixel).powi(2)).exp());
+        let smoothing = tabulate(&|q| (-(SMOOTHED * q * pixel).powi(2)).exp());
         let compliance = tabulate(&|q| {
             if q > 0.0 {
                 long_share(q, pixel) / (wave_stiffness(q, problem.layer.as_ref()) * pixel)
