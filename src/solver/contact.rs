@@ -2,11 +2,11 @@
 
 use super::MakeBackend;
 use super::coarse_start;
-use super::correction::FIRST_TOLERANCE;
 use super::kernel_set::{KernelSet, params_of_problem, params_under};
 use super::mean_gap::HeightsPressure;
 use super::outer_state::OuterState;
 use super::problem::Problem;
+use super::refinement::FIRST_TOLERANCE;
 use super::two_band::TwoBand;
 use crate::backend::{Backend, BackendError, Field, Level, Response, Spectrum};
 use crate::kernel::{Params, Scalars, Status, scalar};
@@ -319,12 +319,12 @@ impl<'a> ContactSolver<'a> {
         tolerance: f64,
         careful: bool,
     ) -> Result<(), BackendError> {
-        let (fixed_gap, mean_pressure) = match load.hold {
+        let (prescribed_mean_gap, mean_pressure) = match load.hold {
             Hold::Pressure(pressure) => (false, pressure),
             Hold::Gap(_) => (true, 0.0),
         };
         // K takes the mean of the heights away, by which the pressure of the heights counts.
-        debug_assert!(!fixed_gap || load.zero_stiffness == 0.0);
+        debug_assert!(!prescribed_mean_gap || load.zero_stiffness == 0.0);
         self.backend.set_outer_state(None);
         self.params = params_under(self.problem, load, self.params.epsilon);
         self.params.tolerance = tolerance;
@@ -337,7 +337,7 @@ impl<'a> ContactSolver<'a> {
                 .backend
                 .set_zero_mode(self.preconditioner, load.zero_compliance),
         }
-        if fixed_gap {
+        if prescribed_mean_gap {
             self.begin_mean_gap();
         }
         let mut scalars = Scalars::start(mean_pressure, careful);

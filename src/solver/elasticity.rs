@@ -50,10 +50,10 @@ impl ContactSolver<'_> {
         let work = self.direction;
         self.backend.write(work, values);
         self.backend
-            .forward(&displacement::LOAD_FIELD, self.level, &[work]);
+            .run(&displacement::LOAD_FIELD, self.level, &[work]);
         self.backend.multiply(by, false, Gate::Always);
         self.backend
-            .backward(&displacement::STORE_FIELD, self.level, &[work]);
+            .run(&displacement::STORE_FIELD, self.level, &[work]);
         self.backend.read(work)
     }
 }

@@ -20,11 +20,9 @@ impl ContactSolver<'_> {
             Some(bands) => {
                 let fields = [g, p, bands.residual()];
                 let load_residual = bands.retain.load_residual;
-                self.backend.forward(load_residual, level, &fields);
+                self.backend.run(load_residual, level, &fields);
             }
-            None => self
-                .backend
-                .forward(self.kernels.load_residual, level, &[g, p]),
+            None => self.backend.run(self.kernels.load_residual, level, &[g, p]),
         }
         self.backend.scalar(&scalar::TEST_CONVERGENCE);
     }
@@ -33,10 +31,10 @@ impl ContactSolver<'_> {
     pub(super) fn refresh(&mut self) -> Result<(), BackendError> {
         let fields = [self.gap, self.heights];
         self.backend
-            .forward(&displacement::LOAD_DISPLACEMENT, self.level, &fields);
+            .run(&displacement::LOAD_DISPLACEMENT, self.level, &fields);
         self.backend.multiply(self.stiffness, false, Gate::Always);
         self.backend
-            .backward(&displacement::STORE_FIELD, self.level, &[self.pressure]);
+            .run(&displacement::STORE_FIELD, self.level, &[self.pressure]);
         self.balance();
         Ok(())
     }
@@ -63,7 +61,7 @@ impl ContactSolver<'_> {
         let (level, kernels) = (self.level, &self.kernels);
         let (g, p, d) = (self.gap, self.pressure, self.direction);
         let previous = self.previous_residual;
-        let mean_gap = self.params.fixed_gap;
+        let mean_gap = self.params.prescribed_mean_gap;
         let backend = &mut *self.backend;
         match &self.two_band {
             Some(bands) => {
@@ -77,9 +75,9 @@ impl ContactSolver<'_> {
             None => {
                 backend.multiply(self.preconditioner, false, Gate::Ahead);
                 if mean_gap {
-                    backend.backward(kernels.mean_gap.descent, level, &[g, p, previous, d]);
+                    backend.run(kernels.mean_gap.descent, level, &[g, p, previous, d]);
                 } else {
-                    backend.backward(kernels.descent, level, &[g, p, previous]);
+                    backend.run(kernels.descent, level, &[g, p, previous]);
                 }
             }
         }
@@ -88,8 +86,8 @@ impl ContactSolver<'_> {
             self.try_at_mean_gap();
         } else {
             match self.step {
-                Some(step) => backend.forward(kernels.trial, level, &[g, p, d, step]),
-                None => backend.forward(kernels.trial, level, &[g, p, d]),
+                Some(step) => backend.run(kernels.trial, level, &[g, p, d, step]),
+                None => backend.run(kernels.trial, level, &[g, p, d]),
             }
             backend.scalar(&scalar::ACCEPT_TRIAL);
             backend.multiply(self.stiffness, true, Gate::Accepted);
@@ -107,12 +105,10 @@ impl ContactSolver<'_> {
         match (&self.two_band, self.step) {
             (Some(bands), _) => {
                 let fields = [d, g, p, previous, bands.residual()];
-                backend.inverse_then_forward(bands.retain.update_state, level, &fields);
+                backend.run(bands.retain.update_state, level, &fields);
             }
-            (None, Some(step)) => {
-                backend.inverse_then_forward(update, level, &[d, step, g, p, previous])
-            }
-            (None, None) => backend.inverse_then_forward(update, level, &[d, g, p, previous]),
+            (None, Some(step)) => backend.run(update, level, &[d, step, g, p, previous]),
+            (None, None) => backend.run(update, level, &[d, g, p, previous]),
         }
         backend.scalar(&step_length::ADAPT_TRIAL_LENGTH);
         backend.scalar(&scalar::TEST_CONVERGENCE);
@@ -132,7 +128,7 @@ impl ContactSolver<'_> {
             if looks && !self.backend.scalars()?.is_open(Gate::Searching) {
                 break;
             }
-            self.backend.sweep(search, self.level, fields);
+            self.backend.run(search, self.level, fields);
             self.backend.scalar(&step_length::SEARCH);
         }
         Ok(())
@@ -149,8 +145,7 @@ impl ContactSolver<'_> {
         self.backend.set_scalars(&scalars);
         self.refresh()?;
         let fields = [self.gap, self.pressure];
-        self.backend
-            .sweep(self.kernels.residual, self.level, &fields);
+        self.backend.run(self.kernels.residual, self.level, &fields);
         self.backend.scalar(&scalar::TEST_CONVERGENCE);
         self.backend.scalars()
     }

@@ -119,7 +119,7 @@ impl KernelSet {
 pub(super) fn params_under(problem: &Problem, load: &Load, epsilon: f64) -> Params {
     let mut params = params_of_problem(problem, epsilon);
     match load.hold {
-        Hold::Gap(_) => params.fixed_gap = true,
+        Hold::Gap(_) => params.prescribed_mean_gap = true,
         Hold::Pressure(pressure) if load.zero_stiffness > 0.0 => {
             // A spring presses with the whole pressure of its far end, and takes most of it back.
             let pressed = pressure.abs() * params.points.sqrt() / params.stiffness_max;
@@ -144,10 +144,10 @@ pub(super) fn params_of_problem(problem: &Problem, epsilon: f64) -> Params {
             * points.sqrt(),
         tolerance: 0.0,
         heights_norm: rounded_beside(problem),
-        fixed_gap: false,
+        prescribed_mean_gap: false,
         may_detach: false,
         points,
-        core_stiffness: 0.2 * stiffness_max,
+        smooth_stiffness: 0.2 * stiffness_max,
         hardness: problem.hardness.unwrap_or(f64::INFINITY),
         epsilon,
     }

@@ -38,13 +38,13 @@ impl HeightsPressure {
         backend.set_scalars(&Scalars::start(0.0, false));
         backend.clear(pressure);
         let level = heights.level;
-        backend.forward(
+        backend.run(
             &displacement::LOAD_DISPLACEMENT,
             level,
             &[pressure, heights],
         );
         backend.multiply(stiffness, false, Gate::Always);
-        backend.backward(&displacement::STORE_FIELD, level, &[self.field]);
+        backend.run(&displacement::STORE_FIELD, level, &[self.field]);
     }
 }
 
@@ -68,10 +68,10 @@ impl ContactSolver<'_> {
 
     /// The mean pressure that goes with a prescribed gap.
     pub(super) fn balance(&mut self) {
-        if self.params.fixed_gap {
+        if self.params.prescribed_mean_gap {
             let fields = [self.gap, self.pressure];
             self.backend
-                .sweep(self.kernels.mean_gap.balance, self.level, &fields);
+                .run(self.kernels.mean_gap.balance, self.level, &fields);
             self.backend.scalar(&mean_gap::MEAN_PRESSURE);
         }
     }
@@ -83,7 +83,7 @@ impl ContactSolver<'_> {
         match self.kernels.mean_gap.trial {
             MeanGapTrial::Linear(trial) => {
                 let rigid = self.heights_pressure();
-                self.backend.forward(trial, level, &[g, p, rigid, d]);
+                self.backend.run(trial, level, &[g, p, rigid, d]);
                 self.backend.scalar(&mean_gap::RESTORE_MEAN_GAP);
             }
             MeanGapTrial::TwoPasses {
@@ -91,12 +91,12 @@ impl ContactSolver<'_> {
                 load_trial,
             } => {
                 match self.step {
-                    Some(step) => self.backend.sweep(direction, level, &[g, d, step]),
-                    None => self.backend.sweep(direction, level, &[g, p, d]),
+                    Some(step) => self.backend.run(direction, level, &[g, d, step]),
+                    None => self.backend.run(direction, level, &[g, p, d]),
                 }
                 self.backend.scalar(&mean_gap::RESTORE_MEAN_GAP);
                 let moved = self.step.unwrap_or(d);
-                self.backend.forward(load_trial, level, &[g, p, moved]);
+                self.backend.run(load_trial, level, &[g, p, moved]);
             }
         }
         self.backend.scalar(&scalar::ACCEPT_TRIAL);
@@ -113,10 +113,9 @@ impl ContactSolver<'_> {
         let moved = self.step.unwrap_or(self.direction);
         if self.kernels.is_linear() {
             let fields = [moved, self.heights_pressure(), g, p, previous];
-            self.backend.backward(advance, level, &fields);
+            self.backend.run(advance, level, &fields);
         } else {
-            self.backend
-                .backward(advance, level, &[moved, g, p, previous]);
+            self.backend.run(advance, level, &[moved, g, p, previous]);
         }
         self.backend.scalar(&step_length::ADAPT_TRIAL_LENGTH);
         self.backend.scalar(&mean_gap::MEAN_PRESSURE);

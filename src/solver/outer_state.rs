@@ -127,7 +127,7 @@ impl OuterState {
 
     /// Takes a load, with the numbers of the iterations under it.
     pub fn begin(&mut self, load: &Load, tolerance: f64, iterating: &Params) {
-        let (fixed_gap, mean_pressure, offset) = match load.hold {
+        let (prescribed_mean_gap, mean_pressure, offset) = match load.hold {
             Hold::Pressure(pressure) => (false, pressure, 0.0),
             Hold::Gap(target) => (true, 0.0, target),
         };
@@ -139,7 +139,7 @@ impl OuterState {
         self.backend.set_params(&self.params);
         self.backend
             .set_zero_mode(self.places.stiffness, load.zero_stiffness);
-        if fixed_gap && self.kernels.is_linear() {
+        if prescribed_mean_gap && self.kernels.is_linear() {
             let fields = [self.places.heights, self.places.pressure];
             self.heights_pressure
                 .get_or_insert_with(|| HeightsPressure::plan(&mut *self.backend, self.places.level))
@@ -158,19 +158,19 @@ impl OuterState {
         scalars.status = Status::Running;
         backend.set_scalars(&scalars);
         let fields = [self.places.gap, self.places.heights];
-        backend.forward(&displacement::LOAD_DISPLACEMENT, self.places.level, &fields);
+        backend.run(&displacement::LOAD_DISPLACEMENT, self.places.level, &fields);
         backend.multiply(self.places.stiffness, false, Gate::Always);
-        backend.backward(
+        backend.run(
             &displacement::STORE_FIELD,
             self.places.level,
             &[self.places.pressure],
         );
         let fields = [self.places.gap, self.places.pressure];
-        if self.params.fixed_gap {
-            backend.sweep(self.kernels.mean_gap.balance, self.places.level, &fields);
+        if self.params.prescribed_mean_gap {
+            backend.run(self.kernels.mean_gap.balance, self.places.level, &fields);
             backend.scalar(&mean_gap::MEAN_PRESSURE);
         }
-        backend.sweep(self.kernels.residual, self.places.level, &fields);
+        backend.run(self.kernels.residual, self.places.level, &fields);
         backend.scalar(&scalar::TEST_CONVERGENCE);
         backend.scalars()
     }
@@ -208,10 +208,10 @@ impl OuterState {
         let Some(kernels) = self.kernels.outer else {
             return Ok(());
         };
-        backend.sweep(kernels.add_correction, level, &[between, gap]);
-        if self.params.fixed_gap {
+        backend.run(kernels.add_correction, level, &[between, gap]);
+        if self.params.prescribed_mean_gap {
             backend.scalar(&mean_gap::RESTORE_OUTER_MEAN_GAP);
-            backend.sweep(kernels.restore_gap, level, &[gap]);
+            backend.run(kernels.restore_gap, level, &[gap]);
         }
         Ok(())
     }
@@ -230,7 +230,7 @@ impl OuterState {
             ..
         } = self.places;
         let backend = &mut *self.backend;
-        backend.sweep(
+        backend.run(
             &refinement::OUTER_RESIDUAL,
             level,
             &[gap, pressure, between],
@@ -259,7 +259,7 @@ impl OuterState {
         } = self.places;
         let fields = [heights_pressure.field(), pressure, between];
         self.backend
-            .sweep(&refinement::OUTER_PRESSURE, level, &fields);
+            .run(&refinement::OUTER_PRESSURE, level, &fields);
         iterating.copy_from(rigid, &mut *self.backend, between)
     }
 
@@ -279,13 +279,13 @@ impl OuterState {
         let backend = &mut *self.backend;
         backend.set_zero_mode(self.places.stiffness, zero_mode);
         backend.write(self.places.gap, values);
-        backend.forward(
+        backend.run(
             &displacement::LOAD_FIELD,
             self.places.level,
             &[self.places.gap],
         );
         backend.multiply(self.places.stiffness, false, Gate::Always);
-        backend.backward(
+        backend.run(
             &displacement::STORE_FIELD,
             self.places.level,
             &[self.places.pressure],

@@ -152,7 +152,7 @@ impl<'a> Contact<'a> {
     /// k: below the gap of its largest tension sigma_max the smooth law works in the variable
     /// v = g - (sigma_max - sigma(g))/k, in which it is no steeper than k.
     pub(super) fn k(&self) -> f64 {
-        self.params.core_stiffness
+        self.params.smooth_stiffness
     }
 
     /// D = max(0, sigma'(g)) of the smooth law; 0 at a wall.

@@ -142,24 +142,24 @@ impl TwoBand {
     ) {
         let level = self.level;
         let fields = [self.restricted, self.share, self.residual];
-        backend.sweep(&two_band::COARSEN, level, &fields);
-        backend.forward(&displacement::LOAD_FIELD_AHEAD, level, &[self.share]);
+        backend.run(&two_band::COARSEN, level, &fields);
+        backend.run(&displacement::LOAD_FIELD_AHEAD, level, &[self.share]);
         backend.multiply(self.smoothing, false, Gate::Ahead);
         let fields = [self.restricted, self.weight];
-        backend.inverse_then_forward(&two_band::WEIGH, level, &fields);
+        backend.run(&two_band::WEIGH, level, &fields);
         backend.multiply(self.compliance, false, Gate::Ahead);
         let fields = [self.weight, self.long_waves];
-        backend.backward(&two_band::STORE_WEIGHTED, level, &fields);
+        backend.run(&two_band::STORE_WEIGHTED, level, &fields);
         backend.multiply(short_waves, false, Gate::Ahead);
         let own = [self.residual, previous_residual];
         match direction {
             Some(direction) => {
                 let fields = [own[0], own[1], direction, self.long_waves];
-                backend.backward(&two_band::MEAN_GAP_TWO_BAND_DESCENT, self.fine, &fields);
+                backend.run(&two_band::MEAN_GAP_TWO_BAND_DESCENT, self.fine, &fields);
             }
             None => {
                 let fields = [own[0], own[1], self.long_waves];
-                backend.backward(&two_band::TWO_BAND_DESCENT, self.fine, &fields);
+                backend.run(&two_band::TWO_BAND_DESCENT, self.fine, &fields);
             }
         }
     }

@@ -435,28 +435,16 @@ impl Backend for GpuBackend {
         Ok(result?)
     }
 
-    fn sweep(&mut self, kernel: &'static Kernel, level: Level, fields: &[Field]) {
-        self.attempt(|backend| backend.run(kernel, level, fields));
+    fn run(&mut self, kernel: &'static Kernel, level: Level, fields: &[Field]) {
+        self.attempt(|backend| backend.dispatch_kernel(kernel, level, fields));
     }
 
     fn scalar(&mut self, kernel: &'static ScalarKernel) {
         self.deciding.decide(kernel);
     }
 
-    fn forward(&mut self, kernel: &'static Kernel, level: Level, fields: &[Field]) {
-        self.attempt(|backend| backend.run(kernel, level, fields));
-    }
-
     fn multiply(&mut self, by: Spectrum, energy: bool, gate: Gate) {
         self.attempt(|backend| backend.columns(by, energy, gate));
-    }
-
-    fn backward(&mut self, kernel: &'static Kernel, level: Level, fields: &[Field]) {
-        self.attempt(|backend| backend.run(kernel, level, fields));
-    }
-
-    fn inverse_then_forward(&mut self, kernel: &'static Kernel, level: Level, fields: &[Field]) {
-        self.attempt(|backend| backend.run(kernel, level, fields));
     }
 
     fn epsilon(&self) -> f64 {

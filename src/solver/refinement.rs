@@ -169,7 +169,9 @@ impl ContactSolver<'_> {
         watch: &mut dyn FnMut(&Scalars) -> bool,
     ) -> Result<(Scalars, bool), BackendError> {
         let base = self.refer(|outer, iterating, _| outer.hand_outer_state(iterating))?;
-        if let (true, Some(heights_pressure)) = (self.params.fixed_gap, &self.heights_pressure) {
+        if let (true, Some(heights_pressure)) =
+            (self.params.prescribed_mean_gap, &self.heights_pressure)
+        {
             let rigid = heights_pressure.field();
             self.refer(|outer, iterating, _| outer.hand_rigid(iterating, rigid))?;
         }
