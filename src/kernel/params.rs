@@ -184,7 +184,7 @@ device_struct! {
         snap: f64,
         /// Lower end of the search: step length, slope and energy there.
         low: [f64; 3],
-        /// Upper end of the search: step length and slope; infinite while there is none.
+        /// Upper end of the search: step length and slope; infinite until one is found.
         high: [f64; 2],
         /// Step lengths that the next pass of a search tries where the gap is constrained, rising.
         tried: [f64; TRIED],
@@ -212,7 +212,7 @@ device_struct! {
         cut: bool,
         /// Whether the step length is being searched.
         searching: bool,
-        /// Small plain steps instead of conjugate ones, to stay on the branch of a sharp law.
+        /// Small steps along -z instead of conjugate ones, to stay on the branch of a sharp law.
         careful: bool,
         /// Evaluations in this search; where the gap is constrained, passes.
         evaluations: u32,

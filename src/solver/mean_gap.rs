@@ -8,33 +8,33 @@ use super::kernel_set::MeanGapTrial;
 use crate::backend::{Backend, Field, Level, Spectrum};
 use crate::kernel::{Gate, Scalars, displacement, mean_gap, scalar, step_length};
 
-/// K h in a field of its own. It is found anew for each load, so that what a step takes does not depend on
-/// which steps the same process has done before it.
+/// K h in a field of its own. It is computed anew for each load, so that a resumed path repeats the work of
+/// the original one.
 pub(super) struct HeightsPressure {
     field: Field,
 }
 
 impl HeightsPressure {
-    /// Plans its field.
+    /// Makes its field.
     pub fn plan(backend: &mut dyn Backend, level: Level) -> Self {
         HeightsPressure {
             field: backend.field(level, "heights_pressure"),
         }
     }
 
-    /// The field, whatever it holds.
+    /// The field.
     pub fn field(&self) -> Field {
         self.field
     }
 
-    /// Has the field hold K h; `pressure` is work space, and the scalars are set anew afterwards.
+    /// Computes K h into the field; `pressure` is work space, and the scalars are to be set afterwards.
     pub fn find(
         &self,
         backend: &mut dyn Backend,
         [heights, pressure]: [Field; 2],
         stiffness: Spectrum,
     ) {
-        // The heights alone: no gap, and no offset, which K takes away and whose rounding it keeps.
+        // The heights alone: no gap, and no offset, which K removes but whose rounding would stay.
         backend.set_scalars(&Scalars::start(0.0, false));
         backend.clear(pressure);
         let level = heights.level;
@@ -49,14 +49,14 @@ impl HeightsPressure {
 }
 
 impl ContactSolver<'_> {
-    /// K h, planned where it is first asked for.
+    /// K h, made at its first use.
     fn heights_pressure(&mut self) -> Field {
         self.heights_pressure
             .get_or_insert_with(|| HeightsPressure::plan(self.backend, self.level))
             .field()
     }
 
-    /// Readies what a prescribed mean gap takes, before the scalars of a solve are set.
+    /// Prepares a prescribed mean gap, before the scalars of a solve are set.
     pub(super) fn begin_mean_gap(&mut self) {
         if self.kernels.is_linear() {
             let fields = [self.heights, self.pressure];
@@ -66,7 +66,7 @@ impl ContactSolver<'_> {
         }
     }
 
-    /// The mean pressure that goes with a prescribed gap.
+    /// The mean pressure that a prescribed mean gap takes.
     pub(super) fn balance(&mut self) {
         if self.params.prescribed_mean_gap {
             let fields = [self.gap, self.pressure];

@@ -11,13 +11,13 @@ use crate::kernel::{Gate, Params, Scalars, Status, displacement, mean_gap, refin
 pub(super) struct OuterState {
     backend: Box<dyn Backend + Send>,
     places: Places,
-    /// K times the heights, where a mean gap is held by linearity.
+    /// K times the heights, where a mean gap is kept by linearity.
     heights_pressure: Option<HeightsPressure>,
     kernels: KernelSet,
     params: Params,
 }
 
-/// What is held for it.
+/// Its fields and spectra.
 #[derive(Clone, Copy)]
 struct Places {
     level: Level,
@@ -28,12 +28,12 @@ struct Places {
     /// A residual on its way to the iterations, or a correction from there.
     between: Field,
     stiffness: Spectrum,
-    /// Gap and residual of the base, where the iterations run.
+    /// Gap and residual of the outer state, where the iterations run.
     base: [Field; 2],
 }
 
-/// Plans what mixed precision holds besides: on `double` the state, beside the `iterating` fields of a
-/// solver that is planned there the base of its corrections. To count it for a load.
+/// Plans the further fields of mixed precision, to count them: the outer state on `double`, and gap and
+/// residual of it beside the fields of a solver planned on `iterating`.
 pub fn plan_outer_state(
     double: &mut dyn Backend,
     iterating: &mut dyn Backend,
@@ -77,8 +77,8 @@ impl Places {
 }
 
 impl OuterState {
-    /// Plans the state of a problem on a backend of double precision, and its base beside the
-    /// iterations on theirs.
+    /// Plans the outer state of a problem on a backend of double precision, and copies of its gap and
+    /// residual where the iterations run.
     pub fn new(
         mut backend: Box<dyn Backend + Send>,
         iterating: &mut dyn Backend,
@@ -125,7 +125,7 @@ impl OuterState {
         self.backend.read(self.places.pressure)
     }
 
-    /// Takes a load, with the numbers of the iterations under it.
+    /// Begins a load, with the params of the iterations.
     pub fn begin(&mut self, load: &Load, tolerance: f64, iterating: &Params) {
         let (prescribed_mean_gap, mean_pressure, offset) = match load.hold {
             Hold::Pressure(pressure) => (false, pressure, 0.0),
@@ -190,7 +190,7 @@ impl OuterState {
         self.add(iterating, gap)
     }
 
-    /// Adds a correction that iterations have found, and brings the gap back to the mean that is held.
+    /// Adds a correction that iterations have found, and brings the gap back to the prescribed mean.
     pub fn add(
         &mut self,
         iterating: &mut dyn Backend,
@@ -240,9 +240,9 @@ impl OuterState {
         Ok(there)
     }
 
-    /// Hands minus the pressure that the present gap makes, as last evaluated, to where the iterations run:
-    /// in place of that of the heights it is what the pressure of a correction differs by from that of its
-    /// open gap. Taken from p - K h here it keeps the digits that single precision would lose.
+    /// Hands K h - p, minus the pressure of the present gap, to where the iterations run. There it takes the
+    /// place of K h: the pressure of a correction c and K (g + c) differ by it. The difference taken in
+    /// double precision keeps the digits that single precision would lose.
     pub fn hand_rigid(
         &mut self,
         iterating: &mut dyn Backend,
@@ -263,7 +263,7 @@ impl OuterState {
         iterating.copy_from(rigid, &mut *self.backend, between)
     }
 
-    /// Has the iterations start from the present gap.
+    /// Copies the present gap to the iterations.
     pub fn hand_gap(
         &mut self,
         iterating: &mut dyn Backend,
@@ -272,8 +272,8 @@ impl OuterState {
         iterating.copy_from(gap, &mut *self.backend, self.places.gap)
     }
 
-    /// `<values, K*values>/2` with this value of K at the zero wavevector. The next solve sets it to
-    /// its load's again.
+    /// `<values, K*values>/2` with this value of K at the zero wavevector. The next solve sets that of its
+    /// load again.
     pub fn energy_of(&mut self, values: &[f64], zero_mode: f64) -> Result<f64, BackendError> {
         let (gap, pressure) = (self.gap()?, self.pressure()?);
         let backend = &mut *self.backend;

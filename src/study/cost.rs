@@ -15,7 +15,7 @@ use crate::law::Law;
 use crate::scene::{BackendName, Precision, Scene};
 use crate::solver::{ContactSolver, Problem, Start, plan_outer_state};
 
-/// What a scene's solver holds and does, and what is kept between its steps.
+/// Fields, tables and passes of a scene's solver, and what is kept between its steps.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Cost {
     /// Where it would run.
@@ -63,7 +63,7 @@ impl Cost {
         place: Place,
     ) -> Result<Cost, BackendError> {
         let pixel = grid.dx().max(grid.dy());
-        // Which passes there are does not depend on how strong the law is.
+        // The passes do not depend on the strength of the law.
         let law = effects.solved_law(law_of(scene, pixel, 1.0));
         let problem = Problem::sketch(grid, scene.grid.boundary, law);
         let problem = effects.pose(problem, scene, None);
