@@ -89,26 +89,6 @@ impl<T: Real, C: GapConstraint<T>> Numbers<T, C> {
         let elastic = pressure + self.mean_pressure;
         here_at(&self.constraint, law, gap, elastic, in_domain)
     }
-
-    /// The trial step of a point along a direction; a pad has no constraint.
-    #[inline(always)]
-    pub fn step_at(
-        &self,
-        law: &impl Cohesion<T>,
-        here: &Here<T>,
-        [direction, correction]: [T; 2],
-        in_domain: bool,
-    ) -> Tried<T> {
-        let moved = self.trial_length * direction;
-        if in_domain {
-            self.constraint.trial_step(law, here, moved, correction)
-        } else {
-            Tried {
-                step: moved,
-                cut: false,
-            }
-        }
-    }
 }
 
 /// r: y on free points in the measure of the iteration's variable, 0 elsewhere.

@@ -41,6 +41,26 @@ impl<T: Real, C: GapConstraint<T>> Numbers<T, C> {
             T::zero()
         }
     }
+
+    /// The trial step of a point along a direction; a pad has no constraint.
+    #[inline(always)]
+    pub(super) fn step_at(
+        &self,
+        law: &impl Cohesion<T>,
+        here: &Here<T>,
+        [direction, correction]: [T; 2],
+        in_domain: bool,
+    ) -> Tried<T> {
+        let moved = self.trial_length * direction;
+        if in_domain {
+            self.constraint.trial_step(law, here, moved, correction)
+        } else {
+            Tried {
+                step: moved,
+                cut: false,
+            }
+        }
+    }
 }
 
 /// The terms of a trial step.
