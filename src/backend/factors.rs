@@ -36,7 +36,7 @@ impl Response {
         }
     }
 
-    /// The a of short waves; 0 where there is none.
+    /// The a of short waves; 0 for other responses.
     pub fn scale(self) -> f64 {
         match self {
             Response::Stiffness | Response::Compliance => 0.0,

@@ -1,10 +1,10 @@
 //! The preconditioned residual z, from which the direction is made.
 
-use super::constraint::{GapConstraint, HardnessLimit, Unilateral, here_at, projected_residual};
-use super::points::{Made, Point, PointKernel};
+use super::constraint::{GapConstraint, HardnessLimit, Unilateral, projected_residual};
+use super::points::{Numbers, Point, PointKernel};
 use super::smooth::Smooth;
 use super::sums::sum_group;
-use super::{Params, Scalars, point_kernel, point_kernels};
+use super::{point_kernel, point_kernels};
 use crate::law::Cohesion;
 use crate::real::Real;
 
@@ -51,45 +51,27 @@ pub(super) fn mean_gap_descent_terms<T: Real>(
 }
 
 /// The preconditioned residual z on free points; `MEAN_GAP` where that is prescribed.
-#[derive(Clone, Copy)]
-pub(super) struct Descent<T, C, const MEAN_GAP: bool> {
-    constraint: C,
-    mean_pressure: T,
-}
+pub(super) struct Descent<const MEAN_GAP: bool>;
 
 impl<T, C, const MEAN_GAP: bool, const READS: usize, const TERMS: usize>
-    PointKernel<T, READS, 0, TERMS> for Descent<T, C, MEAN_GAP>
+    PointKernel<T, C, READS, 0, TERMS> for Descent<MEAN_GAP>
 where
     T: Real,
     C: GapConstraint<T>,
 {
     #[inline(always)]
-    fn new(params: &Params, scalars: &Scalars) -> Self {
-        Descent {
-            constraint: C::new(params),
-            mean_pressure: T::of(scalars.mean_pressure),
-        }
-    }
-
-    #[inline(always)]
-    fn at(&self, law: &impl Cohesion<T>, point: Point<T, READS, 0>) -> Made<T, 0, TERMS> {
+    fn at(numbers: &Numbers<T, C>, law: &impl Cohesion<T>, point: &mut Point<T, READS, 0, TERMS>) {
         let [gap, pressure, previous] = [point.reads[0], point.reads[1], point.reads[2]];
-        let elastic = pressure + self.mean_pressure;
-        let here = here_at(&self.constraint, law, gap, elastic, point.in_domain);
+        let here = numbers.here_at(law, [gap, pressure], point.in_domain);
         let residual = projected_residual(&here);
-        let z = self.constraint.preconditioned(&here, point.line);
-        let mut terms = [0.0; TERMS];
-        descent_terms(z, residual, previous).put(&mut terms);
+        let z = numbers.constraint.preconditioned(&here, point.line);
+        descent_terms(z, residual, previous).put(&mut point.terms);
         if MEAN_GAP {
             let direction = point.reads[3];
             mean_gap_descent_terms([z, residual, previous, direction, here.weight], here.free)
-                .put(&mut terms);
+                .put(&mut point.terms);
         }
-        Made {
-            writes: [],
-            line: z,
-            terms,
-        }
+        point.line = z;
     }
 }
 

@@ -2,8 +2,9 @@
 //! share of free points weighs them, so that they do not reach across contacts. Together they are
 //! `plain::precondition`.
 
+use super::constraint::Unilateral;
 use super::descent::{DescentSums, MeanGapDescentSums, descent_terms, mean_gap_descent_terms};
-use super::points::{Made, Point, PointKernel, each_point_without_law};
+use super::points::{Numbers, Point, PointKernel, each_point_without_law};
 use crate::kernel::{Kernel, Params, Rows, SUMS, Scalars, rows_kernel};
 use crate::law::Cohesion;
 use crate::real::Real;
@@ -178,34 +179,23 @@ pub static STORE_WEIGHTED: Kernel = rows_kernel!(
 );
 
 /// z on free points, which are those where the projected residual is not zero.
-#[derive(Clone, Copy)]
 struct BandDescent<const MEAN_GAP: bool>;
 
-impl<T: Real, const MEAN_GAP: bool, const READS: usize, const TERMS: usize>
-    PointKernel<T, READS, 0, TERMS> for BandDescent<MEAN_GAP>
+impl<T: Real, C, const MEAN_GAP: bool, const READS: usize, const TERMS: usize>
+    PointKernel<T, C, READS, 0, TERMS> for BandDescent<MEAN_GAP>
 {
     #[inline(always)]
-    fn new(_: &Params, _: &Scalars) -> Self {
-        BandDescent
-    }
-
-    #[inline(always)]
-    fn at(&self, _: &impl Cohesion<T>, point: Point<T, READS, 0>) -> Made<T, 0, TERMS> {
+    fn at(_: &Numbers<T, C>, _: &impl Cohesion<T>, point: &mut Point<T, READS, 0, TERMS>) {
         let [residual, previous] = [point.reads[0], point.reads[1]];
         let free = residual != T::zero();
         let z = if free { point.line } else { T::zero() };
-        let mut terms = [0.0; TERMS];
-        descent_terms(z, residual, previous).put(&mut terms);
+        descent_terms(z, residual, previous).put(&mut point.terms);
         if MEAN_GAP {
             let direction = point.reads[2];
             mean_gap_descent_terms([z, residual, previous, direction, T::one()], free)
-                .put(&mut terms);
+                .put(&mut point.terms);
         }
-        Made {
-            writes: [],
-            line: z,
-            terms,
-        }
+        point.line = z;
     }
 }
 
@@ -216,7 +206,7 @@ fn two_band_descent<T: Real, const MEAN_GAP: bool, const READS: usize, const TER
     sums: &mut [f64; SUMS],
 ) {
     add_interpolated(rows);
-    each_point_without_law::<T, BandDescent<MEAN_GAP>, READS, 0, TERMS>(
+    each_point_without_law::<T, Unilateral<T>, BandDescent<MEAN_GAP>, READS, 0, TERMS>(
         rows, params, scalars, sums,
     );
 }

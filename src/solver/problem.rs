@@ -11,8 +11,8 @@ use crate::law::Law;
 /// What one reduced unit is worth in SI units.
 ///
 /// Vertical lengths are in units of the roughness, lateral ones in pixels, pressures in what a
-/// vertical unit of displacement over a pixel takes: so that all numbers stay near 1 whatever the
-/// scene's own, and the eigenvalues of the stiffness lie below pi.
+/// vertical unit of displacement over a pixel takes, so that all numbers are near 1 and the
+/// eigenvalues of the stiffness lie below pi.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Scales {
     /// Vertical length, m.
@@ -36,8 +36,8 @@ pub struct Problem {
     pub scales: Scales,
     /// Heights on the grid less `height_origin`, reduced.
     pub heights: Heights,
-    /// Their mean (periodic) or highest value (free), m: taken off in double precision, so that
-    /// the solution does not feel where heights are measured from.
+    /// Their mean (periodic) or highest value (free), m: subtracted in double precision, so that the
+    /// solution does not depend on the origin of the heights.
     pub height_origin: f64,
     /// Root mean square slope.
     pub rms_slope: f64,
@@ -51,7 +51,7 @@ pub struct Problem {
     pub layer: Option<Layer>,
     /// Stiffness at each wavevector; its zero mode is 0 (periodic) or the free half-space's.
     pub stiffness: Stiffness,
-    /// Whether the conductance of its contacts is asked.
+    /// Whether the conductance of its contacts is computed.
     pub conducts: bool,
 }
 
@@ -183,7 +183,7 @@ impl Problem {
         }
     }
 
-    /// The same problem with the conductance of its contacts asked.
+    /// The same problem with the conductance of its contacts.
     pub fn with_conductance(self) -> Problem {
         Problem {
             conducts: true,
@@ -215,8 +215,8 @@ impl Problem {
         }
     }
 
-    /// A problem that has its shape and the kind of its law and no values: no heights, and where its
-    /// stiffness is a table one of 1. A solver planned on it says what the problem costs, and cannot solve it.
+    /// A problem with a shape and the kind of its law but no values: no heights, and a table of stiffness
+    /// that holds 1 only. A solver planned on it counts the cost of the problem and cannot solve it.
     pub fn sketch(grid: Grid, boundary: Boundary, law: Law) -> Self {
         Problem {
             grid,
@@ -280,9 +280,9 @@ impl Problem {
             heights: Heights::from_reduced(heights),
             stiffness: layered_stiffness(grid, self.scales.lateral, self.layer.as_ref()),
             law: self.law,
-            // Only a wall without a law is helped by coarser grids.
+            // Coarse starts are for the hard wall only.
             law_factor: None,
-            // Where it yields is found on the full grid.
+            // The full grid finds where the solid yields.
             hardness: None,
             conducts: false,
             ..*self

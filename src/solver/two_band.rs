@@ -1,8 +1,9 @@
-//! The two-band preconditioner of the hard wall: its count is nearly free of the grid.
+//! The two-band preconditioner of the hard wall, with which the number of iterations hardly depends on the
+//! grid.
 //!
-//! The inverse of the stiffness carries long waves across contacts, where they do not belong. So
-//! short waves are answered by the inverse stiffness as it is, and long ones on a coarse grid,
-//! weighed by the share of free points there:
+//! The inverse stiffness carries long waves across contacts, where the solid cannot move. So it is
+//! applied as it is to short waves only; long waves are taken on a coarse grid, weighted by the share of
+//! free points there:
 //! `z = ((1-l)/K)*yF + P[Wc ((l/K)*(Wc R yF))]`, with `l = exp(-(8 q dx)^2)`.
 
 use super::kernel_set::{KernelSet, RetainSet};
@@ -13,7 +14,7 @@ use crate::grid::{Boundary, Grid};
 use crate::kernel::{Gate, displacement, two_band};
 use crate::law::Law;
 
-/// Fewest coarse points each way for which the second band pays.
+/// Fewest coarse points each way for which the second band saves time.
 pub(super) const FEWEST_COARSE: usize = 8;
 
 /// Pixels in the length beyond which waves count as long.
@@ -34,7 +35,7 @@ pub(super) struct TwoBand {
     long_waves: Field,
     smoothing: Spectrum,
     compliance: Spectrum,
-    /// What retains the projected residual.
+    /// The kernels that retain the projected residual.
     pub retain: RetainSet,
 }
 
@@ -142,24 +143,24 @@ impl TwoBand {
     ) {
         let level = self.level;
         let fields = [self.restricted, self.share, self.residual];
-        backend.sweep(&two_band::COARSEN, level, &fields);
-        backend.forward(&displacement::LOAD_FIELD_AHEAD, level, &[self.share]);
+        backend.run(&two_band::COARSEN, level, &fields);
+        backend.run(&displacement::LOAD_FIELD_AHEAD, level, &[self.share]);
         backend.multiply(self.smoothing, false, Gate::Ahead);
         let fields = [self.restricted, self.weight];
-        backend.inverse_then_forward(&two_band::WEIGH, level, &fields);
+        backend.run(&two_band::WEIGH, level, &fields);
         backend.multiply(self.compliance, false, Gate::Ahead);
         let fields = [self.weight, self.long_waves];
-        backend.backward(&two_band::STORE_WEIGHTED, level, &fields);
+        backend.run(&two_band::STORE_WEIGHTED, level, &fields);
         backend.multiply(short_waves, false, Gate::Ahead);
         let own = [self.residual, previous_residual];
         match direction {
             Some(direction) => {
                 let fields = [own[0], own[1], direction, self.long_waves];
-                backend.backward(&two_band::MEAN_GAP_TWO_BAND_DESCENT, self.fine, &fields);
+                backend.run(&two_band::MEAN_GAP_TWO_BAND_DESCENT, self.fine, &fields);
             }
             None => {
                 let fields = [own[0], own[1], self.long_waves];
-                backend.backward(&two_band::TWO_BAND_DESCENT, self.fine, &fields);
+                backend.run(&two_band::TWO_BAND_DESCENT, self.fine, &fields);
             }
         }
     }

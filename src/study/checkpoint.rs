@@ -18,12 +18,12 @@ pub struct CheckpointField {
     pub values: Arc<Vec<f64>>,
 }
 
-/// What the step after a converged one starts from, and what the end of the path has to know of the
-/// steps up to it besides their rows.
+/// The state from which the step after a converged one starts, and the totals of the steps so far that are
+/// not in their rows.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Checkpoint {
-    /// Fields of the solver and of effects; no gap where the surfaces are separated and the next step
-    /// starts afresh. The solver's directions are forgotten between steps and need no keeping.
+    /// Fields of the solver and of effects; no gap where the surfaces are separated and the next step starts
+    /// from undeformed heights. The solver keeps no direction between steps.
     pub fields: Vec<CheckpointField>,
     /// What each point of the grid does, where steps are watched for jumps.
     pub points: Option<Vec<PointState>>,

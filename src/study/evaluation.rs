@@ -1,4 +1,4 @@
-//! What a solved state says: fields in SI units, area fractions, energies.
+//! Evaluation of a solved state: fields in SI units, area fractions, energies.
 
 use std::borrow::Cow;
 use std::f64::consts::{LN_2, PI};
@@ -64,17 +64,17 @@ pub struct Solved<'a> {
     pub gap: Vec<f64>,
     /// K*(g + h). The net pressure takes its place.
     pub elastic: Vec<f64>,
-    /// Mean over all solved points of what a viscoelastic solid's past adds to its displacement.
+    /// Mean over all solved points of the offset by the history of a viscoelastic solid.
     pub mean_offset: f64,
     /// Depth by which plastic indentation had lowered the heights before, over all solved points; empty
     /// where there was none.
     pub plastic_depth: &'a [f64],
-    /// Held mean pressure.
+    /// Mean pressure.
     pub held: f64,
     /// The load it was solved for.
     pub load: Load,
     /// Factors on the law's tension where they are not the setup's own, one a grid point. The energy of
-    /// adhesion goes by the setup's own: what a receding edge costs more is lost, not stored.
+    /// adhesion uses the setup's own: the further work of a receding edge is dissipated, not stored.
     pub law_factor: Option<&'a [f64]>,
 }
 

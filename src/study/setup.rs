@@ -26,7 +26,7 @@ pub struct Setup {
     pub problem: Problem,
     /// Regime and resolution of the adhesion, where there is any.
     pub regime: Option<Regime>,
-    /// What the user should know.
+    /// Warnings.
     pub warnings: Vec<String>,
     /// Real two-dimensional transforms that the statistics took.
     pub transforms: f64,

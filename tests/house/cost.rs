@@ -4,7 +4,7 @@
 use std::fs;
 use std::path::Path;
 
-use tabor::backend::dry_run::{Held, Place};
+use tabor::backend::dry_run::{Allocation, Place};
 use tabor::effect::Effect;
 use tabor::grid::Grid;
 use tabor::law::Law;
@@ -189,7 +189,7 @@ fn check(name: &str, scene: &Scene) {
     mixed.solver.precision = Precision::Mixed;
     let beside = Cost::of_scene(&mixed, grid, Place::Single)
         .unwrap_or_else(|error| panic!("{name}: {error}"));
-    let taken = |held: &[Held]| held.iter().any(|held| held.name == "heights_pressure");
+    let taken = |held: &[Allocation]| held.iter().any(|held| held.name == "heights_pressure");
     assert!(!beside.reference.is_empty() || scene.solid.hardness.is_some());
     assert_eq!(taken(&beside.reference), taken(&cost.fields), "{name}");
     for field in &cost.fields {
