@@ -7,7 +7,6 @@
 //! follows from the number of places alone, so that results are the same bits whatever a processor can do
 //! at once.
 
-use std::array::from_fn;
 use std::marker::PhantomData;
 use std::ops::Range;
 
@@ -169,8 +168,12 @@ where
     /// The same source for each kind of processor; the compiler finds the vectors.
     #[inline(always)]
     fn with_simd<S: Simd>(self, _: S) {
-        let (numbers, law, rows) = (self.numbers, self.law, self.rows);
-        let mut totals: [Lanes<f64>; TERMS] = from_fn(|slot| [rows.reduces[slot].neutral(); LANES]);
+        let (numbers, law, rows, sums) = (self.numbers, self.law, self.rows, self.sums);
+        let reduces = &rows.reduces[..TERMS];
+        let mut totals = [[0.0; LANES]; TERMS];
+        for slot in 0..TERMS {
+            totals[slot] = [reduces[slot].neutral(); LANES];
+        }
         let mut group = Group {
             reads: [[T::zero(); LANES]; READS],
             writes: [[T::zero(); LANES]; WRITES],
@@ -185,38 +188,43 @@ where
                 group.gather(rows, &here);
                 group.work::<C, K, L>(&numbers, &law, in_domain);
                 group.scatter(rows, &here);
-                for ((total, terms), reduce) in
-                    totals.iter_mut().zip(&group.terms).zip(rows.reduces)
-                {
-                    match reduce {
-                        Reduce::Add => add(total, &terms[..here.len()], |a, b| a + b),
-                        Reduce::Min => add(total, &terms[..here.len()], f64::least),
-                        Reduce::Max => add(total, &terms[..here.len()], f64::most),
+                for slot in 0..TERMS {
+                    let (total, terms) = (&mut totals[slot], &group.terms[slot]);
+                    match reduces[slot] {
+                        Reduce::Add if here.len() == LANES => {
+                            for lane in 0..LANES {
+                                total[lane] += terms[lane];
+                            }
+                        }
+                        reduce => join(total, &terms[..here.len()], reduce),
                     }
                 }
             }
         }
-        for ((sum, total), reduce) in self.sums.iter_mut().zip(&totals).zip(rows.reduces) {
-            *sum = total.iter().fold(*sum, |sum, &lane| reduce.join(sum, lane));
+        for slot in 0..TERMS {
+            sums[slot] = joined(sums[slot], &totals[slot], reduces[slot]);
         }
     }
 }
 
+// What follows is compiled once, and not with each kernel, law and number: it runs once a block, or where a
+// group is not full.
+
 /// Puts what a group adds to a sum to what its places hold already.
-#[inline(always)]
-fn add(total: &mut Lanes<f64>, terms: &[f64], join: impl Fn(f64, f64) -> f64) {
-    match <&Lanes<f64>>::try_from(terms) {
-        Ok(all) => {
-            for lane in 0..LANES {
-                total[lane] = join(total[lane], all[lane]);
-            }
-        }
-        Err(_) => {
-            for (total, &term) in total.iter_mut().zip(terms) {
-                *total = join(*total, term);
-            }
-        }
+#[inline(never)]
+fn join(total: &mut Lanes<f64>, terms: &[f64], reduce: Reduce) {
+    let each = total.iter_mut().zip(terms);
+    match reduce {
+        Reduce::Add => each.for_each(|(total, &term)| *total += term),
+        Reduce::Min => each.for_each(|(total, &term)| *total = total.least(term)),
+        Reduce::Max => each.for_each(|(total, &term)| *total = total.most(term)),
     }
+}
+
+/// A sum with what its places hold.
+#[inline(never)]
+fn joined(sum: f64, total: &Lanes<f64>, reduce: Reduce) -> f64 {
+    total.iter().fold(sum, |sum, &lane| reduce.join(sum, lane))
 }
 
 /// The numbers of a group of points.
@@ -248,6 +256,10 @@ impl<T: Real, const READS: usize, const WRITES: usize, const TERMS: usize>
     }
 
     /// Places without a point work on what they held before; nothing of them is kept.
+    #[allow(
+        clippy::needless_range_loop,
+        reason = "iterators and closures would be compiled with each kernel, law and number"
+    )]
     #[inline(always)]
     fn work<C, K, L>(&mut self, numbers: &Numbers<T, C>, law: &L, in_domain: bool)
     where
@@ -259,9 +271,16 @@ impl<T: Real, const READS: usize, const WRITES: usize, const TERMS: usize>
                 self.factor[lane],
                 [self.outer[0][lane], self.outer[1][lane]],
             );
+            let (mut reads, mut writes) = ([T::zero(); READS], [T::zero(); WRITES]);
+            for place in 0..READS {
+                reads[place] = self.reads[place][lane];
+            }
+            for place in 0..WRITES {
+                writes[place] = self.writes[place][lane];
+            }
             let mut point = Point {
-                reads: from_fn(|place| self.reads[place][lane]),
-                writes: from_fn(|place| self.writes[place][lane]),
+                reads,
+                writes,
                 line: self.line[lane],
                 in_domain,
                 terms: [0.0; TERMS],
