@@ -168,7 +168,7 @@ where
     /// The same source for each kind of processor; the compiler finds the vectors.
     #[inline(always)]
     fn with_simd<S: Simd>(self, _: S) {
-        let (numbers, law, rows) = (self.numbers, self.law, self.rows);
+        let (numbers, law, rows, sums) = (self.numbers, self.law, self.rows, self.sums);
         let reduces = &rows.reduces[..TERMS];
         let mut totals = [[0.0; LANES]; TERMS];
         for slot in 0..TERMS {
@@ -202,7 +202,7 @@ where
             }
         }
         for slot in 0..TERMS {
-            self.sums[slot] = joined(self.sums[slot], &totals[slot], reduces[slot]);
+            sums[slot] = joined(sums[slot], &totals[slot], reduces[slot]);
         }
     }
 }
@@ -271,19 +271,20 @@ impl<T: Real, const READS: usize, const WRITES: usize, const TERMS: usize>
                 self.factor[lane],
                 [self.outer[0][lane], self.outer[1][lane]],
             );
+            let (mut reads, mut writes) = ([T::zero(); READS], [T::zero(); WRITES]);
+            for place in 0..READS {
+                reads[place] = self.reads[place][lane];
+            }
+            for place in 0..WRITES {
+                writes[place] = self.writes[place][lane];
+            }
             let mut point = Point {
-                reads: [T::zero(); READS],
-                writes: [T::zero(); WRITES],
+                reads,
+                writes,
                 line: self.line[lane],
                 in_domain,
                 terms: [0.0; TERMS],
             };
-            for place in 0..READS {
-                point.reads[place] = self.reads[place][lane];
-            }
-            for place in 0..WRITES {
-                point.writes[place] = self.writes[place][lane];
-            }
             K::at(numbers, &law, &mut point);
             for place in 0..WRITES {
                 self.writes[place][lane] = point.writes[place];
