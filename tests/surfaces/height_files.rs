@@ -570,7 +570,7 @@ fn bad_calls_are_refused_in_a_sentence() {
         ),
         (
             &["map.gsf", "--detrend", "linear"],
-            "write none, mean, plane, quadratic",
+            "[possible values: none, mean, plane, quadratic]",
         ),
         (&["map.gsf", "--size", "1 kg"], "a mass"),
         (&["map.gsf", "--size", "1,2,3"], "give one length, or two"),
