@@ -82,10 +82,15 @@ fn physics(plan: &Plan) -> Vec<String> {
             }
         ),
         format!(
-            "loading       {}, {} steps{}",
+            "loading       {}, {} steps{}{}",
             scene.loading.control.name(),
             scene.loading.path.len(),
-            step_times(scene.loading.durations.as_deref())
+            step_times(scene.loading.durations.as_deref()),
+            if scene.loading.until_apart {
+                ", then on until the surfaces are apart"
+            } else {
+                ""
+            }
         ),
     ];
     let Some(regime) = &plan.regime else {

@@ -120,11 +120,13 @@ pub fn compare_scene(scene: Scene, folder: &Path) -> Result<Compared, CompareErr
 /// that fails. A model without results is not an error: a note gives the reason.
 #[doc(hidden)]
 pub fn compare(
-    setup: Setup,
+    mut setup: Setup,
     make_backend: MakeBackend,
     folder: &Path,
 ) -> Result<Compared, CompareError> {
     check_scene(&setup.scene)?;
+    // The steps of the path itself are compared.
+    setup.scene.loading.until_apart = false;
     if setup.statistics.moments.rms_slope() == 0.0 {
         return Err(CompareError::Unsuited(
             "the surface is flat: there is no roughness to compare models of".to_owned(),

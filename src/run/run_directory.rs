@@ -8,7 +8,7 @@ use super::earlier_files::lost;
 use crate::device::SelectedDevice;
 use crate::output::{Curve, CurveWriter, FRESH, OutputError, RunFolder, SavedState, set_aside};
 use crate::scene::{Precision, Scene};
-use crate::study::{Checkpoint, Column, Earlier, Setup};
+use crate::study::{Checkpoint, Column, Earlier, Planned, Setup};
 
 /// A folder ready to be written, and what is in it already.
 pub(super) struct RunDirectory {
@@ -183,7 +183,8 @@ fn sound(
     }
     let points = setup.problem.shape.len();
     let handed = &state.checkpoint;
-    if state.finished > setup.scene.loading.path.len()
+    let loading = &setup.scene.loading;
+    if (state.finished > loading.path.len() && !loading.until_apart)
         || handed
             .fields
             .iter()
@@ -239,9 +240,15 @@ fn resume_from(
     let mut remarks = Vec::new();
     let mut warnings = state.warnings;
     let total = setup.scene.loading.path.len();
+    let rows = &curve.rows()[..state.finished];
     remarks.push(match state.finished {
         0 => "no step was finished, starts at step 1".to_owned(),
-        finished if finished == total => format!("all {total} steps were finished"),
+        finished if Planned::after(setup, rows).is_none() => {
+            format!("all {finished} steps were finished")
+        }
+        finished if finished >= total => {
+            format!("{finished} steps were finished, goes on after them")
+        }
         finished => format!("{finished} of {total} steps were finished, goes on after them"),
     });
     if state.finished > 0 && state.machine != device.words() {
@@ -254,7 +261,7 @@ fn resume_from(
         remarks.push(text.clone());
         warnings.push(text);
     }
-    let lost = lost(folder, setup, state.finished, &warnings, draws);
+    let lost = lost(folder, setup, rows, &warnings, draws);
     warnings.extend(
         lost.iter()
             .filter(|text| !warnings.contains(text))

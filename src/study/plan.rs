@@ -3,6 +3,7 @@
 use super::cost::Cost;
 use super::hooks::{Effects, Hooks};
 use super::memory::Memory;
+use super::plausible;
 use super::regime::{Regime, law_of};
 use crate::backend::{BackendError, dry_run::Place};
 use crate::law::Law;
@@ -52,6 +53,7 @@ impl Plan {
         let of_effects: Vec<String> = of_effects.collect();
         plan.warnings.extend(of_effects);
         plan.warn_of_waves();
+        plan.warnings.extend(plausible::warnings(&plan));
         plan
     }
 

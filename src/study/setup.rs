@@ -96,7 +96,7 @@ impl Setup {
 
     /// Columns of `curve.csv` that the scene's effects ask for, in their order.
     pub fn columns(&self) -> Vec<Column> {
-        self.effects.columns()
+        self.effects.columns(&self.scene)
     }
 
     /// Spring between a prescribed approach and the body, N/m.

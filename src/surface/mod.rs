@@ -23,6 +23,8 @@ mod formats;
 pub(crate) mod fourier;
 mod matrix;
 mod outline;
+mod prepare;
+mod resample;
 #[doc(hidden)]
 pub mod self_affine;
 #[doc(hidden)]
@@ -193,7 +195,12 @@ fn read_maps(
             let path = file.path.clone();
             part_error(index, PartError::File { path, problem })
         };
-        let map = file::read(file, scene.boundary).map_err(of_file)?;
+        let mut map = file::read(file, scene.boundary).map_err(of_file)?;
+        if file.preparation.profile
+            && let Some([_, rows]) = scene.points
+        {
+            map.repeat(rows);
+        }
         if let Some((points, against)) = points {
             map.compare_points(points, against).map_err(of_file)?;
         }

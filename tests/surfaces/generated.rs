@@ -31,6 +31,7 @@ fn six() -> Vec<u8> {
 
 fn file_part(path: &Path) -> HeightFileScene {
     HeightFileScene {
+        preparation: tabor::scene::Preparation::default(),
         path: path.to_owned(),
         unit: 1.0,
         scale: 1.0,

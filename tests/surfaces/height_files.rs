@@ -37,6 +37,7 @@ fn is_image(name: &str) -> bool {
 fn build(name: &str, fill: Fill, size: Option<[f64; 2]>) -> Result<Surface, String> {
     let ends = is_image(name).then_some([0.0, 1.0]);
     let part = HeightFileScene {
+        preparation: tabor::scene::Preparation::default(),
         path: files().join(name),
         unit: unit(name),
         scale: 1.0,
