@@ -93,6 +93,12 @@ fn physics(plan: &Plan) -> Vec<String> {
             }
         ),
     ];
+    if plan.outline.flat_topped {
+        lines.push(
+            "model         pillars are rigid, as the whole counter-face is: they do not bend, and only the solid deforms"
+                .to_owned(),
+        );
+    }
     let Some(regime) = &plan.regime else {
         return lines;
     };
@@ -116,16 +122,14 @@ fn physics(plan: &Plan) -> Vec<String> {
             format_si(law.range, "m"),
         ));
     }
-    let radius = if regime.radius.is_finite() {
-        format!("radius {}", format_si(regime.radius, "m"))
-    } else {
-        "flat surface".to_owned()
-    };
-    lines.push(format!(
-        "regime        Tabor number {:.3} ({radius}): {}",
-        regime.tabor,
-        regime.name()
-    ));
+    lines.push(match regime.tabor {
+        Some(tabor) => format!(
+            "regime        Tabor number {tabor:.3} (radius {}): {}",
+            format_si(regime.radius, "m"),
+            regime.name()
+        ),
+        None => "regime        flat where it touches: no curvature, and no Tabor number".to_owned(),
+    });
     lines
 }
 

@@ -90,7 +90,7 @@ impl Comparison {
 
     /// Why the DMT force approach is out of its range here, if it is.
     fn beyond_dmt(&self) -> Option<&'static str> {
-        let tabor = self.setup.regime?.tabor;
+        let tabor = self.setup.regime?.tabor?;
         (tabor > FORCE_DMT_LIMIT).then_some("Tabor number above 0.237")
     }
 }

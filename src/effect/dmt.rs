@@ -78,7 +78,7 @@ impl Hooks for Dmt {
     }
 
     fn matters(&self, plan: &Plan) -> String {
-        let tabor = plan.regime.map_or(0.0, |regime| regime.tabor);
+        let tabor = plan.regime.and_then(|regime| regime.tabor).unwrap_or(0.0);
         format!("holds at Tabor numbers well below 1: here {tabor:.3}")
     }
 

@@ -11,7 +11,7 @@ use crate::scene::{Scene, SurfacePart};
 use crate::surface::Outline;
 
 /// Pixels that the shortest wave of a surface should have.
-const PIXELS_A_WAVE: f64 = 8.0;
+pub(crate) const PIXELS_A_WAVE: f64 = 8.0;
 
 /// A planned scene, without any array of the size of its grid.
 #[derive(Clone, Debug)]

@@ -15,7 +15,7 @@ const FORCE_CHANGE: f64 = 0.05;
 /// Points of the grid by which the contact may always change.
 const LEAST_POINTS: f64 = 2.0;
 /// Share of the greatest compression of the path below which a tension is not followed more closely.
-const LEAST_TENSION: f64 = 0.02;
+const LEAST_TENSION: f64 = 0.2;
 /// A further step is at most and at least so many times as long as the one before it.
 const LONGER: f64 = 1.5;
 const SHORTER: f64 = 0.1;
@@ -125,6 +125,8 @@ fn allowed(setup: &Setup, rows: &[StepRow], moved: f64) -> f64 {
     let by_area = (AREA_CHANGE * area(row)).max(least) / (area(row) - area(before)).abs();
     let by_force = match setup.scene.loading.control {
         Control::Pressure | Control::Force => f64::INFINITY,
+        // The area alone is followed on the way to tension.
+        _ if row.force > 0.0 => f64::INFINITY,
         Control::Approach | Control::MeanGap => {
             let forces = || rows.iter().map(|row| row.force);
             let tension = forces().fold(0.0, |most: f64, force| most.max(-force));

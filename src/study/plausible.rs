@@ -21,7 +21,7 @@ pub(super) fn warnings(plan: &Plan) -> Vec<String> {
     let tip = plan
         .outline
         .sphere_radius
-        .filter(|_| scene.loading.spring.is_some());
+        .filter(|_| plan.effects.spring(scene).is_some());
     let slope = plan.outline.moments.rms_slope();
     let mut found = Vec::new();
     if let Some(work) = work.filter(|work| *work > WORK) {

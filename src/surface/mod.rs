@@ -26,6 +26,8 @@ mod outline;
 mod prepare;
 mod resample;
 #[doc(hidden)]
+pub mod roughness;
+#[doc(hidden)]
 pub mod self_affine;
 #[doc(hidden)]
 pub mod shapes;
@@ -36,6 +38,7 @@ pub use adhesion_map::MapError;
 pub use error::{FileError, PartError, SurfaceError};
 #[doc(hidden)]
 pub use formats::claimed_points;
+pub(crate) use outline::is_flat_topped;
 #[doc(hidden)]
 pub use outline::{MapOutline, Outline, Source};
 

@@ -14,6 +14,11 @@ use crate::scene::{AdhesionMap, Boundary, Scene, SurfacePart};
 /// Points a side of the sample that gives the slope and curvature of a shape.
 const SAMPLE: usize = 128;
 
+/// Points within this share of all heights of the highest are level with it,
+const LEVEL: f64 = 1e-6;
+/// and form a flat if they are more than this share of all points.
+const FLAT: f64 = 0.01;
+
 /// How the moments of an outline were found.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Source {
@@ -38,6 +43,8 @@ pub struct Outline {
     pub source: Source,
     /// Radius, m, if the surface is exactly one sphere.
     pub sphere_radius: Option<f64>,
+    /// Whether the highest points form flats, as of pillars and punches, so that no curvature is meant.
+    pub flat_topped: bool,
     /// Summary of the adhesion map; `None` without one.
     pub map: Option<MapOutline>,
     /// Warnings for the user, one sentence each, naming the part.
@@ -77,6 +84,17 @@ impl MapOutline {
             deviation: 0.5 * (high - low).abs(),
         }
     }
+}
+
+/// Whether the highest points are a flat.
+pub(crate) fn is_flat_topped(heights: &[f64]) -> bool {
+    let ends = |ends: [f64; 2], height: &f64| [ends[0].min(*height), ends[1].max(*height)];
+    let [lowest, highest] = heights
+        .iter()
+        .fold([f64::INFINITY, f64::NEG_INFINITY], ends);
+    let top = highest - LEVEL * (highest - lowest);
+    let count = heights.iter().filter(|height| **height >= top).count();
+    highest > lowest && count as f64 > FLAT * heights.len() as f64
 }
 
 /// Contribution of one part.
@@ -139,6 +157,7 @@ impl Outline {
                 Some(SurfacePart::Sphere { radius, .. }) => Some(*radius),
                 _ => None,
             },
+            flat_topped: false,
             map: match scene
                 .adhesion
                 .as_ref()
@@ -162,6 +181,7 @@ impl Outline {
             moments: surface.statistics(boundary).moments,
             source: Source::Heights,
             sphere_radius: surface.sphere_radius,
+            flat_topped: is_flat_topped(&surface.heights),
             map: surface
                 .adhesion_map
                 .as_deref()

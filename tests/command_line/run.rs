@@ -817,7 +817,7 @@ fn implausible_quantities_are_warned_of_with_the_likely_slip() {
         assert_eq!(status(&output), 0, "{}", errors(&output));
         errors(&output)
     };
-    assert_eq!(said(&[]), "");
+    assert!(!said(&[]).contains("was it meant"));
     for (set, warning) in [
         (
             &["adhesion.work_of_adhesion=50"][..],

@@ -161,8 +161,32 @@ fn a_measured_patch_leads_to_a_scene() {
         assert!(found.contains(&format!("{number:.5e}")), "{row}");
         assert!(fields[1].parse::<f64>().unwrap() >= 0.0);
     }
+    // The scene resolves its shortest wave and has the rms height of the map.
     let check = tabor(folder.path(), &["check", "out/scene.toml"]);
     assert!(check.status.success(), "{}", errors(&check));
+    assert_eq!(errors(&check), "");
+    let like = report(
+        folder.path(),
+        &["surface", "out/scene.toml", "--out", "like"],
+    );
+    close(
+        quantity(&like, "rms_height"),
+        quantity(&found, "rms_height"),
+        0.02,
+    );
+    let few = [
+        "run",
+        "out/scene.toml",
+        "--out",
+        "run",
+        "--set",
+        "loading.path=[1e6]",
+        "--set",
+        "output.images=[]",
+    ];
+    let run = tabor(folder.path(), &few);
+    assert!(run.status.success(), "{}", errors(&run));
+    assert!(!errors(&run).contains("warning"), "{}", errors(&run));
     // Of a patch the mean slope of all is what a tilt adds.
     let tilted = report(folder.path(), &["surface", map, "--out", "tilted"]);
     assert!(quantity(&tilted, "rms_slope") > quantity(&found, "rms_slope"));
@@ -365,12 +389,12 @@ fn maps_are_cropped_cleaned_closed_and_resampled() {
             "--crop",
             "4, 2, 8, 12",
             "--out",
-            "out",
+            "sized",
         ],
     );
     close(quantity(&found, "size_x"), 1e-6, 1e-9);
     close(quantity(&found, "size_y"), 1.5e-6, 1e-9);
-    let (shape, values) = written(&out);
+    let (shape, values) = written(&folder.join("sized"));
     assert_eq!(shape, [12, 8]);
     for (index, value) in values.iter().enumerate() {
         let expected = height(2 + index / 8, 4 + index % 8);
@@ -437,7 +461,7 @@ fn maps_are_cropped_cleaned_closed_and_resampled() {
             "--outliers",
             "20",
             "--out",
-            "out",
+            "spiked",
         ],
     );
     assert!(
@@ -445,7 +469,7 @@ fn maps_are_cropped_cleaned_closed_and_resampled() {
         "{}",
         errors(&output)
     );
-    let (_, values) = written(&out);
+    let (_, values) = written(&folder.join("spiked"));
     assert!(
         (values[5 * 32 + 9] - height(5, 9)).abs() < 2e-9,
         "{}",
@@ -465,7 +489,7 @@ fn maps_are_cropped_cleaned_closed_and_resampled() {
             "--detrend",
             "lines",
             "--out",
-            "out",
+            "lines",
         ],
     );
     close(quantity(&found, "rms_height"), 1e-8, 1e-4);
@@ -499,7 +523,80 @@ fn maps_are_cropped_cleaned_closed_and_resampled() {
     );
 }
 
+fn height_parameters_distribution_and_scales_of_a_sine() {
+    let place = tempfile::tempdir().unwrap();
+    let folder = place.path();
+    let tau = std::f64::consts::TAU;
+    matrix(folder, "sine.txt", [4, 256], |_, x| {
+        1e-8 * ((x as f64 + 0.5) / 128.0 * tau).sin()
+    });
+    let call = [
+        "surface",
+        "sine.txt",
+        "--size",
+        "4 um, 1 um",
+        "--boundary",
+        "periodic",
+        "--out",
+        "out",
+    ];
+    let found = report(folder, &call);
+    // Sa = 2 A/pi, Sq = A/sqrt 2, Sz = 2 A, Ssk = 0, Sku = 3/2; sums over 128 points a wave.
+    close(quantity(&found, "Sa"), 2e-8 / std::f64::consts::PI, 1e-3);
+    close(quantity(&found, "Sq"), 1e-8 / 2_f64.sqrt(), 1e-5);
+    close(quantity(&found, "Sz"), 2e-8, 1e-3);
+    close(quantity(&found, "Sku"), 1.5, 1e-5);
+    assert!(quantity(&found, "Ssk").abs() < 1e-9);
+    // Wavelengths between which the spectrum is that of the surface: the map and four pixels.
+    close(quantity(&found, "psd_longest"), 4e-6, 1e-5);
+    close(quantity(&found, "psd_shortest"), 1e-6, 1e-5);
+    let columns = |name: &str, head: &str| -> Vec<Vec<f64>> {
+        let text = fs::read_to_string(folder.join("out").join(name)).expect(name);
+        let mut lines = text.lines();
+        assert_eq!(lines.next(), Some(head), "{name}");
+        let cells = |line: &str| {
+            line.split(',')
+                .map(|cell| cell.parse().expect("a number"))
+                .collect()
+        };
+        lines.map(cells).collect()
+    };
+    let classes = columns("distribution.csv", "height [m],density [1/m]");
+    let width = classes[1][0] - classes[0][0];
+    close(
+        classes.iter().map(|class| class[1] * width).sum(),
+        1.0,
+        1e-9,
+    );
+    let scales = columns("scales.csv", "distance [m],slope,curvature [1/m]");
+    let distance = 4e-6 / 256.0 * 8.0;
+    let at = scales
+        .iter()
+        .find(|row| (row[0] / distance - 1.0).abs() < 1e-9)
+        .expect("8 points");
+    let half = (tau / 2e-6 * distance / 2.0).sin();
+    close(at[1], 2e-8 * half / distance / 2_f64.sqrt(), 1e-9);
+    let correlation = columns("autocorrelation.csv", "distance [m],autocorrelation");
+    close(correlation[0][1], 1.0, 1e-12);
+    for name in ["psd.svg", "statistics.svg"] {
+        let text = fs::read_to_string(folder.join("out").join(name)).expect(name);
+        assert!(
+            text.starts_with("<svg xmlns=")
+                && text.contains("<circle")
+                && !text.contains("stroke=\"\""),
+            "{name}"
+        );
+    }
+    assert!(
+        image::open(folder.join("out/statistics.png"))
+            .expect("a picture")
+            .width()
+            > 600
+    );
+}
+
 tests![
+    height_parameters_distribution_and_scales_of_a_sine,
     a_line_scan_is_refused_or_taken_as_a_profile,
     a_tilted_map_is_told,
     maps_are_cropped_cleaned_closed_and_resampled,

@@ -303,7 +303,15 @@ fn write_pictures(folder: &RunFolder, report: &Report) -> Result<(), OutputError
             values: &report.surface.heights,
         },
     )?;
-    report.spectrum().write(&folder.path().join("psd.png"))?;
+    let spectrum = report.spectrum();
+    spectrum.write(&folder.path().join("psd.png"))?;
+    spectrum.write_svg(&folder.path().join("psd.svg"))?;
+    let (tables, figure) = report.distributions();
+    figure.write(&folder.path().join("statistics.png"))?;
+    figure.write_svg(&folder.path().join("statistics.svg"))?;
+    for (name, table) in tables {
+        write_atomically(&folder.path().join(name), table.as_bytes())?;
+    }
     write_atomically(&folder.path().join("psd.csv"), report.table().as_bytes())?;
     if let Some(scene) = report.scene() {
         write_atomically(&folder.path().join("scene.toml"), scene.as_bytes())?;

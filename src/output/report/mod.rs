@@ -171,6 +171,15 @@ impl Report<'_> {
                 by_distance: false,
             })
             .collect();
+        if let Some(spring) = self.setup.scene.loading.spring {
+            let base = |row: &StepRow| row.approach.map(|approach| approach + row.force / spring);
+            found.push(Quantity {
+                name: "base position".to_owned(),
+                unit: "m",
+                values: self.rows.iter().map(base).collect(),
+                by_distance: true,
+            });
+        }
         if self
             .summary
             .is_some_and(|summary| summary.hysteresis_energy.is_some())
@@ -260,9 +269,11 @@ impl Report<'_> {
             let note = "lost over the loop".to_owned();
             found.push(("Hysteresis", format_si(energy, "J"), note));
         }
-        if let Some(regime) = &self.setup.regime {
+        if let Some(regime) = &self.setup.regime
+            && let Some(tabor) = regime.tabor
+        {
             let name = regime.name().split(':').next().unwrap_or_default();
-            let value = format!("{:.3}", regime.tabor);
+            let value = format!("{tabor:.3}");
             found.push(("Tabor number", value, name.to_owned()));
         }
         found
@@ -298,7 +309,13 @@ impl Report<'_> {
             div.grid {
                 @for figure in &figures { figure { (figure.svg(&figure.panels[0].title)) } "\n" }
             }
-            p.status { "Force and pressure are positive in compression, approach is positive towards the solid." }
+            p.status {
+                "Force and pressure are positive in compression, approach is positive towards the solid"
+                @if self.setup.scene.loading.spring.is_some() {
+                    " and is that of the probe; the base position is that of the spring's far end, which the path prescribes"
+                }
+                "."
+            }
         };
         section("Curves", curves)
     }

@@ -355,7 +355,7 @@ fn mistakes_in_adhesion(tables: &mut Vec<Edits>) {
         (r#"range = "1 nm""#, "range = \"1 nm\"\nmap = { pattern = \"dots\", period = \"1 um\", low = 0, high = 1 }", "s.toml:14: adhesion.map.pattern: \"dots\" is not one of \"checker\", \"stripe\"", "\"stripe\""),
         (r#"range = "1 nm""#, "range = \"1 nm\"\nmap = { pattern = \"stripe\", period = \"1 um\", low = -1, high = 1 }", "s.toml:14: adhesion.map.low: -1 is out of range", "at least 0"),
         (r#"range = "1 nm""#, "range = \"1 nm\"\nmap = { pattern = \"stripe\", period = \"1 um\", low = 0.5 }", "s.toml:14: adhesion.map.high: missing", "`high = 1`"),
-        (r#"range = "1 nm""#, "range = \"1 nm\"\nenabled = false", "s.toml:14: adhesion.enabled: unknown key in [adhesion]", "It takes law, work_of_adhesion, range, peak_tension, taper, treatment"),
+        (r#"range = "1 nm""#, "range = \"1 nm\"\nenabled = false", "s.toml:14: adhesion.enabled: unknown key in [adhesion]", "; it takes law, work_of_adhesion, range, peak_tension, taper, treatment"),
     ]});
 }
 
