@@ -86,7 +86,11 @@ pub(super) fn read(bytes: &[u8]) -> Result<Matrix, FileError> {
         matrix.warnings.push(format!(
             "the file holds {} images of heights; the first, {}, is read",
             others + 1,
-            image.find("@2:image data").unwrap_or("without a name")
+            // `S [ZSensor] "Height Sensor"`
+            image
+                .find("@2:image data")
+                .and_then(|name| name.split('"').nth(1))
+                .unwrap_or("without a name")
         ));
     }
     Ok(matrix)

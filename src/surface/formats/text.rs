@@ -330,7 +330,9 @@ impl Remarks {
 
 /// A positive length with its unit, m.
 fn length(text: &str) -> Option<f64> {
-    let text = text.trim().replacen(',', ".", usize::from(!text.contains('.')));
+    let text = text
+        .trim()
+        .replacen(',', ".", usize::from(!text.contains('.')));
     let text = text.as_str();
     // For supported units this is the double nearest to the digits.
     if let Ok(length) = parse_quantity(text, Dimension::Length) {
