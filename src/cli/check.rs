@@ -93,7 +93,7 @@ fn physics(plan: &Plan) -> Vec<String> {
             }
         ),
     ];
-    if plan.outline.flat_topped {
+    if plan.outline.has_flats {
         lines.push(
             "model         pillars are rigid, as the whole counter-face is: they do not bend, and only the solid deforms"
                 .to_owned(),
@@ -128,7 +128,7 @@ fn physics(plan: &Plan) -> Vec<String> {
             format_si(regime.radius, "m"),
             regime.name()
         ),
-        None => "regime        flat where it touches: no curvature, and no Tabor number".to_owned(),
+        None => "regime        flats and walls: no curvature, and no Tabor number".to_owned(),
     });
     lines
 }

@@ -79,7 +79,7 @@ impl Regime {
             let distance = 1.0264 * work / peak;
             Regime {
                 radius,
-                tabor: (radius.is_finite() && !outline.flat_topped).then(|| {
+                tabor: (radius.is_finite() && !outline.has_flats).then(|| {
                     (radius * work * work / (modulus * modulus * distance.powi(3))).cbrt()
                 }),
                 chi: work * pixel / (modulus * law.range() * law.range()),

@@ -9,9 +9,7 @@ use super::row::Column;
 use crate::law::Law;
 use crate::scene::{Boundary, Scene};
 use crate::solver::Problem;
-use crate::surface::{
-    MapOutline, Outline, Source, Surface, is_flat_topped, statistics::Statistics,
-};
+use crate::surface::{MapOutline, Outline, Source, Surface, has_flats, statistics::Statistics};
 
 /// Everything that the steps of a path share.
 #[derive(Clone, Debug)]
@@ -46,7 +44,7 @@ impl Setup {
             moments: statistics.moments,
             source: Source::Heights,
             sphere_radius: surface.sphere_radius,
-            flat_topped: is_flat_topped(&surface.heights),
+            has_flats: has_flats(&surface.heights),
             map: surface
                 .adhesion_map
                 .as_deref()

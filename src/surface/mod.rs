@@ -38,7 +38,7 @@ pub use adhesion_map::MapError;
 pub use error::{FileError, PartError, SurfaceError};
 #[doc(hidden)]
 pub use formats::claimed_points;
-pub(crate) use outline::is_flat_topped;
+pub(crate) use outline::has_flats;
 #[doc(hidden)]
 pub use outline::{MapOutline, Outline, Source};
 

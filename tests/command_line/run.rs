@@ -841,7 +841,33 @@ fn implausible_quantities_are_warned_of_with_the_likely_slip() {
     }
 }
 
+/// A punch with flat pillars has no curvature, so no Tabor number; what a model of it leaves out is said.
+fn a_tabor_number_is_given_only_where_a_curvature_is_meant() {
+    let root = Path::new(env!("CARGO_MANIFEST_DIR"));
+    let check = |name: &str| {
+        let output = tabor(root, &["check", &format!("examples/scenes/{name}.toml")]);
+        assert_eq!(status(&output), 0, "{}", errors(&output));
+        String::from_utf8_lossy(&output.stdout).into_owned()
+    };
+    let punch = check("patterned_punch");
+    assert!(!punch.contains("Tabor number "), "{punch}");
+    assert!(
+        punch.contains("no curvature, and no Tabor number"),
+        "{punch}"
+    );
+    assert!(
+        punch.contains("pillars are rigid, as the whole counter-face is"),
+        "{punch}"
+    );
+    let sphere = check("sphere_pull_off");
+    assert!(
+        sphere.contains("Tabor number 2.5") && !sphere.contains("pillars"),
+        "{sphere}"
+    );
+}
+
 tests![
+    a_tabor_number_is_given_only_where_a_curvature_is_meant,
     implausible_quantities_are_warned_of_with_the_likely_slip,
     until_apart_pulls_in_finer_steps_until_the_surfaces_separate,
     the_last_words_and_the_first_line_of_the_report_state_the_result,
