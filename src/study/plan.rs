@@ -13,6 +13,10 @@ use crate::surface::Outline;
 /// Pixels that the shortest wave of a surface should have.
 pub(crate) const PIXELS_A_WAVE: f64 = 8.0;
 
+/// Advice that a height file takes by another key.
+const MORE_POINTS: &str = "take more points";
+const MORE_OF_FILE: &str = "take more points (resample of the height file)";
+
 /// A planned scene, without any array of the size of its grid.
 #[derive(Clone, Debug)]
 pub struct Plan {
@@ -54,6 +58,12 @@ impl Plan {
         plan.warnings.extend(of_effects);
         plan.warn_of_waves();
         plan.warnings.extend(plausible::warnings(&plan));
+        let is_file = |part: &SurfacePart| matches!(part, SurfacePart::File(_));
+        if plan.scene.surfaces.iter().any(is_file) {
+            for warning in &mut plan.warnings {
+                *warning = warning.replace(MORE_POINTS, MORE_OF_FILE);
+            }
+        }
         plan
     }
 

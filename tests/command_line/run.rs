@@ -861,7 +861,7 @@ fn a_tabor_number_is_given_only_where_a_curvature_is_meant() {
     );
     let sphere = check("sphere_pull_off");
     assert!(
-        sphere.contains("Tabor number 2.5") && !sphere.contains("pillars"),
+        sphere.contains("Tabor number 2.4") && !sphere.contains("pillars"),
         "{sphere}"
     );
 }

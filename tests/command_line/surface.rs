@@ -509,6 +509,17 @@ fn maps_are_cropped_cleaned_closed_and_resampled() {
     fs::write(folder.join("a.toml"), &scene).unwrap();
     let found = report(folder, &["surface", "a.toml"]);
     assert_eq!(quantity(&found, "points_y"), 64.0);
+    // Advice to take more points names the key of the file.
+    let adhesive = format!(
+        "{scene}[adhesion]\nlaw = \"maugis-dugdale\"\nwork_of_adhesion = 0.1\nrange = \"1 nm\"\n"
+    );
+    fs::write(folder.join("c.toml"), adhesive).unwrap();
+    let output = tabor(folder, &["check", "c.toml"]);
+    assert!(
+        errors(&output).contains("take more points (resample of the height file)"),
+        "{}",
+        errors(&output)
+    );
     fs::write(
         folder.join("b.toml"),
         scene.replace("resample = [64, 64]\n", ""),
