@@ -71,6 +71,7 @@ impl Leg {
 
 impl LoadingScene {
     /// Intervals of constant rate with their numbers of steps; empty if the path takes no time.
+    #[doc(hidden)]
     pub fn stretches(&self) -> Vec<Stretch> {
         let Some(durations) = &self.durations else {
             return Vec::new();
