@@ -119,7 +119,6 @@ const OUT_OF_REACH: &[(&str, &str)] = &[
         "AccuracyError::Surface",
         "passes a surface's mistake on; the command line shows it with its scene",
     ),
-    ("passes on what keeps a run from beginning; the command line refuses it before",),
     (
         "CompareError::Output",
         "passes an output's failure on; the command line shows what is inside",
