@@ -22,7 +22,7 @@ const MORE_OF_FILE: &str = "take more points (resample of the height file)";
 pub struct Plan {
     /// The scene.
     pub scene: Scene,
-    /// What is known of its surface.
+    /// Outline of its surface, known before it is built.
     pub outline: Outline,
     /// The law in SI units; the hard wall without adhesion.
     pub law: Law,

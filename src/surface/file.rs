@@ -87,6 +87,11 @@ impl HeightMap {
 /// # Errors
 /// See [`FileError`]; a line scan is one unless the scene takes it as a profile.
 pub(super) fn read(scene: &HeightFileScene, boundary: Boundary) -> Result<HeightMap, FileError> {
+    for (name, value) in [("unit", scene.unit), ("scale", scene.scale)] {
+        if value == 0.0 || !in_range(value) {
+            return Err(FileError::Factor { name, value });
+        }
+    }
     let mut matrix = formats::read(&scene.path)?;
     if scene.preparation.profile {
         prepare::to_profile(&mut matrix)?;
@@ -109,11 +114,6 @@ fn heights_of(
     boundary: Boundary,
     mut matrix: Matrix,
 ) -> Result<HeightMap, FileError> {
-    for (name, value) in [("unit", scene.unit), ("scale", scene.scale)] {
-        if value == 0.0 || !in_range(value) {
-            return Err(FileError::Factor { name, value });
-        }
-    }
     let asked = &scene.preparation;
     if let Some(crop) = asked.crop {
         prepare::crop(&mut matrix, crop)?;
