@@ -50,15 +50,17 @@ pub(super) fn mean_gap_descent_terms<T: Real>(
     }
 }
 
-/// The preconditioned residual z on free points; `MEAN_GAP` where that is prescribed.
+/// The preconditioned residual z on free points; `MEAN_GAP` where that is prescribed, `LEVELS` where the lines
+/// are z of the coarser levels alone.
 #[derive(Clone, Copy)]
-pub(super) struct Descent<T, C, const MEAN_GAP: bool> {
+pub(super) struct Descent<T, C, const MEAN_GAP: bool, const LEVELS: bool> {
     constraint: C,
     mean_pressure: T,
+    level_compliance: T,
 }
 
-impl<T, C, const MEAN_GAP: bool, const READS: usize, const TERMS: usize>
-    PointKernel<T, READS, 0, TERMS> for Descent<T, C, MEAN_GAP>
+impl<T, C, const MEAN_GAP: bool, const LEVELS: bool, const READS: usize, const TERMS: usize>
+    PointKernel<T, READS, 0, TERMS> for Descent<T, C, MEAN_GAP, LEVELS>
 where
     T: Real,
     C: GapConstraint<T>,
@@ -68,6 +70,7 @@ where
         Descent {
             constraint: C::new(params),
             mean_pressure: T::of(scalars.mean_pressure),
+            level_compliance: T::of(params.level_compliance),
         }
     }
 
@@ -77,7 +80,12 @@ where
         let elastic = pressure + self.mean_pressure;
         let here = here_at(&self.constraint, law, gap, elastic, point.in_domain);
         let residual = projected_residual(&here);
-        let z = self.constraint.preconditioned(&here, point.line);
+        let carried = if LEVELS {
+            point.line + self.level_compliance * residual
+        } else {
+            point.line
+        };
+        let z = self.constraint.preconditioned(&here, carried);
         let mut terms = [0.0; TERMS];
         descent_terms(z, residual, previous).put(&mut terms);
         if MEAN_GAP {
@@ -93,13 +101,16 @@ where
     }
 }
 
+/// All waves at once, where a grid cannot be coarsened.
+type WholeDescent<T, C, const MEAN_GAP: bool> = Descent<T, C, MEAN_GAP, false>;
+
 point_kernels!(
-    /// Step 2, the end of `Contact::precondition`: retains the rows of z. Its sums are those of step 3.
-    DESCENT, descent, RetainRows, gate Ahead, Descent [MEAN_GAP = false],
+    /// Step 2, the end of `Contact::precondition` without levels: retains the rows of z. Its sums are those of step 3.
+    DESCENT, descent, RetainRows, gate Ahead, WholeDescent [MEAN_GAP = false],
     reads [gap, pressure, previous_residual], writes [], unbound [direction], sums [DescentSums]
 );
 point_kernels!(
     /// The same under a prescribed mean gap, `Contact::without_mean`.
-    MEAN_GAP_DESCENT, descent, RetainRows, gate Ahead, Descent [MEAN_GAP = true],
+    MEAN_GAP_DESCENT, descent, RetainRows, gate Ahead, WholeDescent [MEAN_GAP = true],
     reads [gap, pressure, previous_residual, direction], writes [], sums [DescentSums, MeanGapDescentSums]
 );

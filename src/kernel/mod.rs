@@ -15,13 +15,13 @@ pub mod descent;
 pub mod displacement;
 pub mod mean_gap;
 pub mod measure;
+pub mod multilevel;
 pub mod refinement;
 pub mod scalar;
 pub mod search;
 pub mod smooth;
 pub mod step_length;
 pub mod trial;
-pub mod two_band;
 pub mod update;
 
 mod catalogue;
@@ -83,6 +83,8 @@ pub enum Form {
     Store,
     /// Takes the lines of an inverse transform and leaves others to be kept.
     RetainRows,
+    /// Makes lines to be kept, with no transform before them.
+    Retain,
     /// Takes the lines that were kept; they stay.
     ReadRetained,
     /// Takes the lines that were kept and fills those of a forward transform.
@@ -106,6 +108,11 @@ impl Form {
             self,
             Form::Load | Form::FromRetained | Form::InverseThenForward
         )
+    }
+
+    /// Whether it leaves lines to be kept.
+    pub fn retains(self) -> bool {
+        matches!(self, Form::RetainRows | Form::Retain)
     }
 
     /// Whether it takes lines that were kept.

@@ -5,9 +5,9 @@ use super::coarse_start;
 use super::correction::FIRST_TOLERANCE;
 use super::kernel_set::{KernelSet, fixed_params, rounded_beside_under};
 use super::mean_gap::HeightsPressure;
+use super::multilevel::Multilevel;
 use super::outer_state::OuterState;
 use super::problem::Problem;
-use super::two_band::TwoBand;
 use crate::backend::{Backend, BackendError, Field, Level, Response, Spectrum};
 use crate::kernel::{Params, Scalars, Status, scalar};
 use crate::law::{Cohesion, Law};
@@ -92,10 +92,10 @@ pub struct ContactSolver<'a> {
     /// The trial step of a law whose change of variable makes it costly.
     pub(super) step: Option<Field>,
     pub(super) stiffness: Spectrum,
-    pub(super) preconditioner: Spectrum,
+    pub(super) preconditioner: Option<Spectrum>,
     /// The compliance of all waves, where the contact's conductance is asked.
     pub(super) compliance: Option<Spectrum>,
-    pub(super) two_band: Option<TwoBand>,
+    pub(super) levels: Option<Multilevel>,
     pub(super) kernels: KernelSet,
     pub(super) params: Params,
     /// What a gap is rounded beside whatever the load.
@@ -142,10 +142,10 @@ impl<'a> ContactSolver<'a> {
             field
         });
         let stiffness = problem.spectrum(backend, level, "stiffness", Response::Stiffness);
-        let two_band = TwoBand::plan(backend, level, problem);
-        let preconditioner = match &two_band {
-            Some(bands) => bands.short_waves(backend, "preconditioner", problem),
-            None => problem.spectrum(backend, level, "preconditioner", Response::Compliance),
+        let levels = Multilevel::plan(backend, level, problem);
+        let preconditioner = match &levels {
+            Some(_) => None,
+            None => Some(problem.spectrum(backend, level, "preconditioner", Response::Compliance)),
         };
         let compliance = problem
             .conducts
@@ -168,7 +168,7 @@ impl<'a> ContactSolver<'a> {
             stiffness,
             preconditioner,
             compliance,
-            two_band,
+            levels,
             kernels: KernelSet::new(problem),
             heights_norm: params.heights_norm,
             params,
@@ -333,11 +333,10 @@ impl<'a> ContactSolver<'a> {
         self.backend.set_params(&self.params);
         self.backend
             .set_zero_mode(self.stiffness, load.zero_stiffness);
-        match &self.two_band {
-            Some(bands) => bands.set_zero_mode(self.backend, load.zero_compliance),
-            None => self
-                .backend
-                .set_zero_mode(self.preconditioner, load.zero_compliance),
+        match (&self.levels, self.preconditioner) {
+            (Some(levels), _) => levels.set_zero_mode(self.backend, load.zero_compliance),
+            (None, Some(spectrum)) => self.backend.set_zero_mode(spectrum, load.zero_compliance),
+            (None, None) => {}
         }
         if fixed_gap {
             self.begin_mean_gap();

@@ -15,16 +15,12 @@ const SEARCHES_AT_ONCE: usize = 1;
 impl ContactSolver<'_> {
     /// Loads and measures the residual of the present state: every round starts from its transformed rows.
     pub(super) fn ready(&mut self) {
-        let (level, g, p) = (self.level, self.gap, self.pressure);
-        match &self.two_band {
-            Some(bands) => {
-                let fields = [g, p, bands.residual()];
-                let load_residual = bands.retain.load_residual;
-                self.backend.forward(load_residual, level, &fields);
-            }
+        let state = [self.gap, self.pressure];
+        match &self.levels {
+            Some(levels) => levels.load_residual(self.backend, state),
             None => self
                 .backend
-                .forward(self.kernels.load_residual, level, &[g, p]),
+                .forward(self.kernels.load_residual, self.level, &state),
         }
         self.backend.scalar(&scalar::TEST_CONVERGENCE);
     }
@@ -65,17 +61,12 @@ impl ContactSolver<'_> {
         let previous = self.previous_residual;
         let mean_gap = self.params.fixed_gap;
         let backend = &mut *self.backend;
-        match &self.two_band {
-            Some(bands) => {
-                bands.descend(
-                    backend,
-                    previous,
-                    mean_gap.then_some(d),
-                    self.preconditioner,
-                );
-            }
+        match &self.levels {
+            Some(levels) => levels.descend(backend, [g, p, previous], mean_gap.then_some(d)),
             None => {
-                backend.multiply(self.preconditioner, false, Gate::Ahead);
+                if let Some(preconditioner) = self.preconditioner {
+                    backend.multiply(preconditioner, false, Gate::Ahead);
+                }
                 if mean_gap {
                     backend.backward(kernels.mean_gap.descent, level, &[g, p, previous, d]);
                 } else {
@@ -103,16 +94,13 @@ impl ContactSolver<'_> {
             self.advance_at_mean_gap();
             return Ok(());
         }
-        let (backend, update) = (&mut *self.backend, self.kernels.update_state);
-        match (&self.two_band, self.step) {
-            (Some(bands), _) => {
-                let fields = [d, g, p, previous, bands.residual()];
-                backend.inverse_then_forward(bands.retain.update_state, level, &fields);
-            }
-            (None, Some(step)) => {
-                backend.inverse_then_forward(update, level, &[d, step, g, p, previous])
-            }
-            (None, None) => backend.inverse_then_forward(update, level, &[d, g, p, previous]),
+        let backend = &mut *self.backend;
+        let without_step = [d, g, p, previous];
+        let with_step = self.step.map(|step| [d, step, g, p, previous]);
+        let state = with_step.as_ref().map_or(&without_step[..], |fields| fields);
+        match &self.levels {
+            Some(levels) => levels.update_state(backend, state),
+            None => backend.inverse_then_forward(self.kernels.update_state, level, state),
         }
         backend.scalar(&step_length::ADAPT_TRIAL_LENGTH);
         backend.scalar(&scalar::TEST_CONVERGENCE);

@@ -2,9 +2,10 @@
 //! stay fixed.
 
 use super::contact::{Hold, Load};
+use super::multilevel::level_compliance;
 use super::problem::Problem;
 use crate::kernel::{Constraint, Kernel, Params};
-use crate::kernel::{descent, measure, refinement, search, trial, update};
+use crate::kernel::{descent, measure, multilevel, refinement, search, trial, update};
 
 /// The kernels of one constraint. Those under `mean_gap` are asked where that is prescribed; in their place
 /// without it stand `descent`, `trial` and `update_state`.
@@ -16,8 +17,8 @@ pub(super) struct KernelSet {
     pub search: &'static Kernel,
     pub update_state: &'static Kernel,
     pub mean_gap: MeanGapSet,
-    /// Those that retain the projected residual for the coarse level; of a smooth law none.
-    pub retain: Option<RetainSet>,
+    /// Those that take the place of their namesakes where the preconditioner has levels.
+    pub levels: LevelSet,
     /// What is done to the outer state; nothing under a hardness.
     pub outer: Option<OuterSet>,
 }
@@ -41,11 +42,13 @@ pub(super) enum MeanGapTrial {
     },
 }
 
-/// What retains the projected residual: from a state as it is and after a step.
+/// What stores the projected residual, from a state as it is and after a step, and what ends with z.
 #[derive(Clone, Copy)]
-pub(super) struct RetainSet {
-    pub load_residual: &'static Kernel,
+pub(super) struct LevelSet {
+    pub store_residual: &'static Kernel,
     pub update_state: &'static Kernel,
+    pub descent: &'static Kernel,
+    pub mean_gap_descent: &'static Kernel,
 }
 
 /// What adds a correction to the outer state, and what restores its mean gap.
@@ -96,12 +99,12 @@ impl KernelSet {
                 advance: &update::ADVANCE[at],
                 balance: &update::BALANCE[at],
             },
-            retain: update::UPDATE_AND_RETAIN
-                .get(at)
-                .map(|update_state| RetainSet {
-                    load_residual: &measure::LOAD_AND_RETAIN_RESIDUAL[at],
-                    update_state,
-                }),
+            levels: LevelSet {
+                store_residual: &measure::STORE_RESIDUAL[at],
+                update_state: &update::UPDATE_AND_STORE[at],
+                descent: &multilevel::LEVEL_DESCENT[at],
+                mean_gap_descent: &multilevel::MEAN_GAP_LEVEL_DESCENT[at],
+            },
             outer: outer.map(|at| OuterSet {
                 add_correction: &refinement::ADD_CORRECTION[at],
                 restore_gap: &refinement::RESTORE_OUTER_GAP[at],
@@ -131,6 +134,7 @@ pub(super) fn fixed_params(problem: &Problem, epsilon: f64) -> Params {
         may_detach: false,
         points,
         core_stiffness: 0.2 * stiffness_max,
+        level_compliance: level_compliance(problem),
         hardness: problem.hardness.unwrap_or(f64::INFINITY),
         epsilon,
     }

@@ -15,11 +15,11 @@ mod incremental_stiffness;
 mod iteration;
 mod kernel_set;
 mod mean_gap;
+mod multilevel;
 mod outer_state;
 pub mod plain;
 mod problem;
 mod rigid;
-mod two_band;
 
 pub use contact::{ContactSolver, Hold, Load, Outcome, ROUNDS_PER_ITERATION, Start};
 pub use correction::{MOST_ROUNDS, TRIALS_PER_ITERATION};

@@ -142,7 +142,7 @@ impl<T: CpuReal> Transform<T> {
                 }
             }
             job.call(lines);
-            if form == Form::RetainRows {
+            if form.retains() {
                 for (pair, kept) in lines.chunks(2).zip(&mut *job.work) {
                     *kept = Complex::new(pair[0], pair.get(1).copied().unwrap_or(T::zero()));
                 }

@@ -75,10 +75,12 @@ const SHADERS: &[Shader] = shaders! {
     "update_state" ["step", "step_from", "measure"];
     "advance" ["step", "step_from", "balance_terms"];
     "balance" ["balance_terms"];
-    "coarsen" ["two_band"];
+    "coarsen" ["interpolation"];
+    "free_share" [];
     "weigh" [];
     "store_weighted" [];
-    "two_band_descent" ["two_band", "descent_terms"];
+    "refine" ["interpolation", "interpolated"];
+    "level_descent" ["interpolation", "interpolated", "descent_terms"];
     "outer_residual" [];
     "outer_pressure" [];
     "add_correction" [];
