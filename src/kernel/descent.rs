@@ -105,12 +105,12 @@ where
 type WholeDescent<T, C, const MEAN_GAP: bool> = Descent<T, C, MEAN_GAP, false>;
 
 point_kernels!(
-    /// Step 2, the end of `Contact::precondition` without levels: retains the rows of z. Its sums are those of step 3.
+    /// Step 2, the end of `plain::precondition` without levels: retains the rows of z. Its sums are those of step 3.
     DESCENT, descent, RetainRows, gate Ahead, WholeDescent [MEAN_GAP = false],
     reads [gap, pressure, previous_residual], writes [], unbound [direction], sums [DescentSums]
 );
 point_kernels!(
-    /// The same under a prescribed mean gap, `Contact::without_mean`.
+    /// The same under a prescribed mean gap, `plain::project`.
     MEAN_GAP_DESCENT, descent, RetainRows, gate Ahead, WholeDescent [MEAN_GAP = true],
     reads [gap, pressure, previous_residual, direction], writes [], sums [DescentSums, MeanGapDescentSums]
 );

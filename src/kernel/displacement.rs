@@ -17,7 +17,7 @@ fn load_displacement<T: Real>(
     }
 }
 
-/// Fills the rows of a transform with g + h less the offset: the beginning of `Contact::elastic_pressure`.
+/// Fills the rows of a transform with g + h less the offset: the beginning of `plain::fresh_state`.
 pub static LOAD_DISPLACEMENT: Kernel = rows_kernel!(
     load_displacement, Load, gate Always, law false,
     reads [gap, heights], writes []
@@ -29,7 +29,7 @@ fn store_field<T: Real>(rows: &mut Rows<T>, _: &Params, _: &Scalars, _: &mut [f6
     rows.writes[0][..count].copy_from_slice(lines);
 }
 
-/// Stores the rows of a transform as they are: the end of `Contact::elastic_pressure`.
+/// Stores the rows of a transform as they are: the end of `plain::fresh_state`.
 pub static STORE_FIELD: Kernel = rows_kernel!(
     store_field, Store, gate Always, law false,
     reads [], writes [field], fresh 1
@@ -40,7 +40,7 @@ fn load_field<T: Real>(rows: &mut Rows<T>, _: &Params, _: &Scalars, _: &mut [f64
     rows.lines[..count].copy_from_slice(&rows.reads[0][..count]);
 }
 
-/// Fills the rows of a transform with a field as it is: the beginning of `Contact::stiffness_times`.
+/// Fills the rows of a transform with a field as it is: the beginning of K*s in `plain::trial`.
 pub static LOAD_FIELD: Kernel = rows_kernel!(
     load_field, Load, gate Always, law false,
     reads [field], writes []

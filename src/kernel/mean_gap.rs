@@ -26,7 +26,7 @@ fn restore_mean_gap(params: &Params, scalars: &mut Scalars) {
     }
 }
 scalar_kernel!(
-    /// Step 4, the end of `Contact::trial`: the share of each trial gap that brings the mean back to the
+    /// Step 4, the end of `plain::trial`: the share of each trial gap that brings the mean back to the
     /// prescribed one.
     RESTORE_MEAN_GAP, restore_mean_gap
 );
@@ -124,7 +124,7 @@ fn mean_pressure(_: &Params, scalars: &mut Scalars) {
     }
 }
 scalar_kernel!(
-    /// `Contact::mean_pressure`: the one that a prescribed mean gap takes, minus the weighted mean of p + sigma.
+    /// `plain::state`: the one that a prescribed mean gap takes, minus the weighted mean of p + sigma.
     MEAN_PRESSURE, mean_pressure
 );
 

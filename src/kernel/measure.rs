@@ -84,12 +84,12 @@ impl<T: Real, C: GapConstraint<T>, const WRITES: usize> PointKernel<T, 2, WRITES
 }
 
 point_kernels!(
-    /// The stopping measure of the present state, `Contact::measure` of the plain text.
+    /// The stopping measure of the present state, `plain::state`.
     RESIDUAL, residual, Sweep, gate Always, Residual [],
     reads [gap, pressure], writes [], sums [ResidualSums]
 );
 point_kernels!(
-    /// Step 1, `Contact::imbalance`, `Contact::free` and `Contact::measure`: fills the rows of a transform
+    /// Step 1, `plain::state`: fills the rows of a transform
     /// with the projected residual and takes the stopping measure on the way.
     LOAD_RESIDUAL, load_residual, Load, gate Fresh, Residual [],
     reads [gap, pressure], writes [], unbound [projected_residual], sums [ResidualSums]

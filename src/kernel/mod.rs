@@ -186,7 +186,7 @@ impl Kernel {
             name += &flag.to_lowercase();
         }
         if self.writes.last() == Some(&"projected_residual") {
-            name += "-retain";
+            name += "-stored";
         }
         if self.gate == Gate::Ahead && self.name == "load_field" {
             name += "-ahead";

@@ -1,6 +1,6 @@
 //! Kernels of the multilevel preconditioner: each level answers the waves that the next one cannot hold by a
 //! compliance of its own, and the coarsest one all others, weighed by the share of free points there, so that
-//! they do not reach across contacts. Together they are `Levels::times` of the plain text.
+//! they do not reach across contacts. Together they are `plain::precondition`.
 //!
 //! A residual is scaled as it is restricted, so that the compliance of a level is the same number on all of them.
 
@@ -12,7 +12,7 @@ use crate::kernel::{Kernel, Params, Rows, SUMS, Scalars, Whole, point_kernel, ro
 use crate::real::Real;
 
 /// Largest number of finer points in a cell along one axis.
-const LARGEST_RATIO: usize = 2;
+const LARGEST_RATIO: usize = 4;
 
 /// Share of the neighbouring cell in the value at place `place` of a cell of `ratio` points:
 /// bilinear between cell centres. The neighbour is the cell before for the first half of the
@@ -161,12 +161,12 @@ fn weigh<T: Real>(rows: &mut Rows<T>, _: &Params, _: &Scalars, _: &mut [f64; SUM
     let weight = &mut *rows.writes[0];
     for (i, line) in rows.lines.iter_mut().enumerate() {
         let m = line.max(T::zero()).min(T::one());
-        weight[i] = m * m;
+        weight[i] = m * m * m;
         *line = restricted[i] * weight[i];
     }
 }
 
-/// Takes the smoothed share of free points, stores its square, clipped to [0, 1], as the weight,
+/// Takes the smoothed share of free points, stores its cube, clipped to [0, 1], as the weight,
 /// and fills the rows of a transform with the restricted residual times it.
 pub static WEIGH: Kernel = rows_kernel!(
     weigh, InverseThenForward, gate Ahead, law false,
@@ -248,12 +248,22 @@ macro_rules! level_descents {
 /// The points of it, z of the level below being in the lines.
 type LevelDescent<T, C, const MEAN_GAP: bool> = Descent<T, C, MEAN_GAP, true>;
 
-/// Step 2, the end of `Contact::precondition` with levels: as `descent`, with z of the first coarser level
+/// Step 2, the end of `plain::precondition` with levels: as `descent`, with z of the first coarser level
 /// interpolated and the finest level's own compliance. Retains the rows of z.
 pub static LEVEL_DESCENT: [Kernel; 3] = level_descents!(
-    false, 3, 2, [gap, pressure, previous_residual], [direction], [DescentSums]
+    false,
+    3,
+    2,
+    [gap, pressure, previous_residual],
+    [direction],
+    [DescentSums]
 );
 /// The same under a prescribed mean gap.
 pub static MEAN_GAP_LEVEL_DESCENT: [Kernel; 3] = level_descents!(
-    true, 4, 9, [gap, pressure, previous_residual, direction], [], [DescentSums, MeanGapDescentSums]
+    true,
+    4,
+    9,
+    [gap, pressure, previous_residual, direction],
+    [],
+    [DescentSums, MeanGapDescentSums]
 );

@@ -40,7 +40,7 @@ fn outer_residual<T: Real>(
     }));
 }
 
-/// y = p + mean_pressure + sigma(g) of the outer state, without a law on the pad: `Contact::imbalance`.
+/// y = p + mean_pressure + sigma(g) of the outer state, without a law on the pad: `plain::state`.
 pub static OUTER_RESIDUAL: Kernel = rows_kernel!(
     outer_residual, Sweep, gate Always, law true,
     reads [gap, pressure], writes [residual], fresh 1

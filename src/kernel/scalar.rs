@@ -170,7 +170,7 @@ fn test_convergence(params: &Params, scalars: &mut Scalars) {
     }
 }
 scalar_kernel!(
-    /// Step 1 of the plain text, `Contact::measure`: the stopping measure from its sums, and what follows
+    /// Step 1, `plain::state`: the stopping measure from its sums, and what follows
     /// from it.
     TEST_CONVERGENCE, test_convergence
 );

@@ -107,7 +107,7 @@ where
     }
 }
 
-/// Step 6, `Contact::along`: sums `<sigma(g + t s) - sigma(g), s>` of each t that a pass tries.
+/// Step 6, `plain::slope_at`: sums `<sigma(g + t s) - sigma(g), s>` of each t that a pass tries.
 pub static SEARCH: [Kernel; 3] = [
     point_kernel!(
         search, Sweep, gate Searching, Search over Unilateral [],

@@ -74,7 +74,7 @@ fn step_length(params: &Params, scalars: &mut Scalars) {
     reach(scalars, scalars.step);
 }
 scalar_kernel!(
-    /// Step 5, `Contact::length`: the step length by the curvature; of a smooth law the start of its search.
+    /// Step 5, `plain::step_length`: the step length by the curvature; of a smooth law the start of its search.
     STEP_LENGTH, step_length
 );
 
@@ -104,7 +104,7 @@ scalar_kernel!(
     SEARCH, search
 );
 
-/// `Contact::lengthened`: takes the largest tried step at which the energy still falls, or one that is
+/// `plain::lengthen`: takes the largest tried step at which the energy still falls, or one that is
 /// guaranteed to.
 fn lengthen(scalars: &mut Scalars) {
     let first = scalars.slope;
@@ -163,7 +163,7 @@ fn start_bracket(params: &Params, scalars: &mut Scalars) {
     bracket(params, scalars);
 }
 
-/// `Contact::bracketed`: brackets the step length at which the slope is small and the energy has fallen.
+/// `plain::bracket`: brackets the step length at which the slope is small and the energy has fallen.
 fn bracket(params: &Params, scalars: &mut Scalars) {
     let t = scalars.step;
     let first = scalars.slope;

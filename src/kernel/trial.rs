@@ -210,7 +210,7 @@ where
     }
 }
 
-/// Steps 3 and 4, the direction and `Contact::trial`: turns the direction by the retained rows of z and fills
+/// Steps 3 and 4, the direction and `plain::trial`: turns the direction by the retained rows of z and fills
 /// the rows of a transform with the trial step s.
 pub static TRIAL: [Kernel; 3] = [
     point_kernel!(
@@ -383,7 +383,7 @@ where
     }
 }
 
-/// Step 4 under a prescribed mean gap, the end of `Contact::trial`: fills the rows of a transform with the
+/// Step 4 under a prescribed mean gap, the end of `plain::trial`: fills the rows of a transform with the
 /// trial step brought back to the mean gap.
 pub static TWO_SIDED_LOAD_TRIAL: Kernel = point_kernel!(
     load_trial, Load, gate Running, LoadTrial over HardnessLimit [],

@@ -152,7 +152,7 @@ where
     }
 }
 
-/// Step 7, `Contact::advance`, and step 1 of the next iteration: takes K s and steps, g += t s, p += t K s; then
+/// Step 7, `plain::advance`, and step 1 of the next iteration: takes K s and steps, g += t s, p += t K s; then
 /// fills the rows of a transform with the new projected residual, with the sums of the step's direction.
 pub static UPDATE_STATE: [Kernel; 3] = [
     point_kernel!(
@@ -260,7 +260,7 @@ where
     }
 }
 
-/// Step 7 under a prescribed mean gap, `Contact::advance`: takes K s (of a unilateral constraint K s0) and steps;
+/// Step 7 under a prescribed mean gap, `plain::advance`: takes K s (of a unilateral constraint K s0) and steps;
 /// sums as `balance`.
 pub static ADVANCE: [Kernel; 3] = [
     point_kernel!(
@@ -309,7 +309,7 @@ impl<T: Real, C: GapConstraint<T>> PointKernel<T, 2, 0, 3> for Balance<T, C> {
 }
 
 point_kernels!(
-    /// `Contact::mean_pressure`: the sums that give the mean pressure under a prescribed mean gap.
+    /// `plain::state`: the sums that give the mean pressure under a prescribed mean gap.
     BALANCE, balance, Sweep, gate Running, Balance [],
     reads [gap, pressure], writes [], sums [PressureSums]
 );

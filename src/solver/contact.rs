@@ -3,7 +3,7 @@
 use super::MakeBackend;
 use super::coarse_start;
 use super::correction::FIRST_TOLERANCE;
-use super::kernel_set::{KernelSet, fixed_params, rounded_beside_under};
+use super::kernel_set::{KernelSet, params_of_problem, params_under};
 use super::mean_gap::HeightsPressure;
 use super::multilevel::Multilevel;
 use super::outer_state::OuterState;
@@ -57,18 +57,23 @@ pub struct Outcome {
 }
 
 impl Outcome {
-    /// The end of a solve, whose last evaluation is `end`: the one place where it is said to have converged.
-    /// Without a finite residual none has, whatever the iterations made of it.
-    pub(super) fn of(status: Status, iterations: usize, end: &Scalars) -> Outcome {
+    /// The end of a solve, with the residual and the mean pressure of its last evaluation. Without a finite
+    /// residual it has not converged, whatever the iterations say.
+    pub(super) fn new(
+        status: Status,
+        iterations: usize,
+        residual: f64,
+        mean_pressure: f64,
+    ) -> Outcome {
         let status = match status {
-            Status::Converged if !end.residual.is_finite() => Status::Stalled,
+            Status::Converged if !residual.is_finite() => Status::Stalled,
             status => status,
         };
         Outcome {
             status,
             iterations,
-            residual: end.residual,
-            mean_pressure: end.mean_pressure,
+            residual,
+            mean_pressure,
         }
     }
 }
@@ -98,8 +103,6 @@ pub struct ContactSolver<'a> {
     pub(super) levels: Option<Multilevel>,
     pub(super) kernels: KernelSet,
     pub(super) params: Params,
-    /// What a gap is rounded beside whatever the load.
-    heights_norm: f64,
     /// The state in double precision, where iterations here are to be corrected by it; made when it
     /// is first asked for.
     pub(super) outer: Option<OuterState>,
@@ -151,7 +154,7 @@ impl<'a> ContactSolver<'a> {
             .conducts
             .then(|| problem.spectrum(backend, level, "compliance", Response::Compliance));
         backend.write(heights, &problem.padded(&problem.heights, 0.0));
-        let params = fixed_params(problem, backend.epsilon());
+        let params = params_of_problem(problem, backend.epsilon());
         ContactSolver {
             backend,
             problem,
@@ -170,7 +173,6 @@ impl<'a> ContactSolver<'a> {
             compliance,
             levels,
             kernels: KernelSet::new(problem),
-            heights_norm: params.heights_norm,
             params,
             outer: None,
             helped_by: 0.0,
@@ -324,12 +326,8 @@ impl<'a> ContactSolver<'a> {
         // K takes the mean of the heights away, by which the pressure of the heights counts.
         debug_assert!(!fixed_gap || load.zero_stiffness == 0.0);
         self.backend.set_outer_state(None);
-        self.params.fixed_gap = fixed_gap;
+        self.params = params_under(self.problem, load, self.params.epsilon);
         self.params.tolerance = tolerance;
-        self.params.heights_norm = rounded_beside_under(self.heights_norm, &self.params, load);
-        self.params.may_detach = !fixed_gap
-            && load.zero_stiffness == 0.0
-            && (mean_pressure < 0.0 || (mean_pressure == 0.0 && self.problem.law.is_adhesive()));
         self.backend.set_params(&self.params);
         self.backend
             .set_zero_mode(self.stiffness, load.zero_stiffness);
@@ -442,7 +440,12 @@ impl<'a> ContactSolver<'a> {
                 }
                 _ => {}
             }
-            return Ok(Outcome::of(status, end.iterations as usize, &end));
+            return Ok(Outcome::new(
+                status,
+                end.iterations as usize,
+                end.residual,
+                end.mean_pressure,
+            ));
         }
     }
 

@@ -76,12 +76,12 @@ impl ContactSolver<'_> {
         max_iterations: usize,
         watch: &mut dyn FnMut(&Scalars) -> bool,
     ) -> Result<Outcome, BackendError> {
-        let may_detach = self.params.may_detach;
+        let params = self.params;
         let (first, mut stopped) = self.run_out(0, max_iterations, watch)?;
         let mut iterations = first.iterations as usize;
         let mut status = first.status;
         let mut end = self.refer(|outer, iterating, gap| {
-            outer.begin(load, tolerance, may_detach);
+            outer.begin(load, tolerance, &params);
             outer.copy_gap(iterating, gap)?;
             outer.evaluate()
         })?;
@@ -127,7 +127,12 @@ impl ContactSolver<'_> {
                 false => lost + 1,
             };
         }
-        Ok(Outcome::of(status, iterations, &end))
+        Ok(Outcome::new(
+            status,
+            iterations,
+            end.residual,
+            end.mean_pressure,
+        ))
     }
 
     /// The numerator that rounding in double precision leaves, of a pad's points too, which have no

@@ -97,7 +97,9 @@ impl ContactSolver<'_> {
         let backend = &mut *self.backend;
         let without_step = [d, g, p, previous];
         let with_step = self.step.map(|step| [d, step, g, p, previous]);
-        let state = with_step.as_ref().map_or(&without_step[..], |fields| fields);
+        let state = with_step
+            .as_ref()
+            .map_or(&without_step[..], |fields| fields);
         match &self.levels {
             Some(levels) => levels.update_state(backend, state),
             None => backend.inverse_then_forward(self.kernels.update_state, level, state),

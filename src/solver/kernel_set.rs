@@ -118,8 +118,25 @@ impl KernelSet {
     }
 }
 
+/// The numbers of a problem under a load, for fields of a relative rounding error.
+pub(super) fn params_under(problem: &Problem, load: &Load, epsilon: f64) -> Params {
+    let mut params = params_of_problem(problem, epsilon);
+    match load.hold {
+        Hold::Gap(_) => params.fixed_gap = true,
+        Hold::Pressure(pressure) if load.zero_stiffness > 0.0 => {
+            // A spring presses with the whole pressure of its far end, and takes most of it back.
+            let pressed = pressure.abs() * params.points.sqrt() / params.stiffness_max;
+            params.heights_norm = params.heights_norm.max(pressed);
+        }
+        Hold::Pressure(pressure) => {
+            params.may_detach = pressure < 0.0 || (pressure == 0.0 && problem.law.is_adhesive());
+        }
+    }
+    params
+}
+
 /// The numbers of a problem that stay fixed whatever the load.
-pub(super) fn fixed_params(problem: &Problem, epsilon: f64) -> Params {
+pub(super) fn params_of_problem(problem: &Problem, epsilon: f64) -> Params {
     let points = problem.shape.surface_len() as f64;
     let stiffness_max = problem.stiffness_max();
     Params {
@@ -154,15 +171,4 @@ fn rounded_beside(problem: &Problem) -> f64 {
     let steep = problem.law.slope(0.0).abs() / problem.stiffness_max();
     let points = problem.shape.surface_len() as f64;
     heights.max(CORE_ROUNDINGS * problem.law.range() * steep.max(1.0) * points.sqrt())
-}
-
-/// The same under a load: what holds the mean displacement presses with its far end's whole pressure, and
-/// takes most of it back.
-pub(super) fn rounded_beside_under(own: f64, params: &Params, load: &Load) -> f64 {
-    match load.hold {
-        Hold::Pressure(far_end) if load.zero_stiffness > 0.0 => {
-            own.max(far_end.abs() * params.points.sqrt() / params.stiffness_max)
-        }
-        _ => own,
-    }
 }

@@ -18,6 +18,7 @@ mod mean_gap;
 mod multilevel;
 mod outer_state;
 pub mod plain;
+mod plain_setup;
 mod problem;
 mod rigid;
 

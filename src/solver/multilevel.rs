@@ -7,6 +7,8 @@
 //! The inverse of the stiffness would carry waves across contacts, where they do not belong: interpolation
 //! reaches no further than its cells, and the coarsest level is weighed by the share of free points there.
 
+use std::f64::consts::TAU;
+
 use super::kernel_set::{KernelSet, LevelSet};
 use super::problem::Problem;
 use crate::backend::{Backend, Factors, Field, Level, Shape, Spectrum};
@@ -25,7 +27,7 @@ const LEAST_GROWTH: f64 = 1.5;
 /// Sides of a pixel over each other from which one number does not stand for its shortest waves.
 const LONGEST_PIXEL: f64 = 2.0;
 /// Fine pixels over which the share of free points is smoothed.
-const SMOOTHED: f64 = 4.0;
+const SMOOTHED: f64 = 3.0;
 
 /// The stiffness at a wavevector of the solved points.
 fn stiffness_at(problem: &Problem, kx: usize, ky: usize) -> f64 {
@@ -62,9 +64,11 @@ pub(super) fn halvings(problem: &Problem) -> usize {
         return 0;
     }
     let fits = |level: &usize| {
-        problem.shape.points.iter().all(|points| {
-            points.is_multiple_of(2 << level) && points >> level >= FEWEST_COARSE
-        })
+        problem
+            .shape
+            .points
+            .iter()
+            .all(|points| points.is_multiple_of(2 << level) && points >> level >= FEWEST_COARSE)
     };
     // A sketch has no values by which to tell a thin layer.
     let grows = |level: &usize| {
@@ -77,35 +81,23 @@ pub(super) fn halvings(problem: &Problem) -> usize {
         .count()
 }
 
-/// What the coarsest level answers: the whole compliance, in the measure of its scaled residual. `[kx, ky]` runs
-/// over its half spectrum; 0 at the zero wavevector. To take off what the finer levels answer saves nothing.
-pub(super) fn coarsest_compliance(problem: &Problem, halvings: usize) -> Vec<f64> {
-    let cell = (1_usize << halvings) as f64;
-    let [nx, ny] = problem.shape.points.map(|points| points >> halvings);
-    let at = |kx: usize, ky: usize| {
-        let stiffness = stiffness_at(problem, kx, ky);
-        if kx + ky > 0 && stiffness > 0.0 {
-            1.0 / (stiffness * cell)
-        } else {
-            0.0
-        }
-    };
-    let waves = (0..=nx / 2).flat_map(|kx| (0..=ny / 2).map(move |ky| (kx, ky)));
-    waves.map(|(kx, ky)| at(kx, ky)).collect()
+/// The factor of a wave that smooths the share of free points.
+pub(super) fn smoothing(problem: &Problem, waves: [usize; 2]) -> f64 {
+    // Their phases from one fine pixel to the next.
+    let points = problem.shape.points;
+    let phase = |axis: usize| TAU * waves[axis] as f64 / points[axis] as f64;
+    (-SMOOTHED * SMOOTHED * (phase(0).powi(2) + phase(1).powi(2))).exp()
 }
 
-/// Factors that smooth the share of free points on the coarsest level.
-pub(super) fn smoothing(problem: &Problem, halvings: usize) -> Vec<f64> {
-    let points = problem.shape.points;
-    let [nx, ny] = points.map(|points| points >> halvings);
-    // Waves by their phase from one fine pixel to the next.
-    let phase = |k: usize, points: usize| std::f64::consts::TAU * k as f64 / points as f64;
-    let at = |kx: usize, ky: usize| {
-        let square = phase(kx, points[0]).powi(2) + phase(ky, points[1]).powi(2);
-        (-SMOOTHED * SMOOTHED * square).exp()
-    };
-    let waves = (0..=nx / 2).flat_map(|kx| (0..=ny / 2).map(move |ky| (kx, ky)));
-    waves.map(|(kx, ky)| at(kx, ky)).collect()
+/// What the coarsest level answers a wave with: the whole compliance, in the measure of its scaled residual; 0 at
+/// the zero wavevector. To take off what the finer levels answer saves nothing.
+fn coarsest_compliance(problem: &Problem, [kx, ky]: [usize; 2], halvings: usize) -> f64 {
+    let stiffness = stiffness_at(problem, kx, ky);
+    if kx + ky > 0 && stiffness > 0.0 {
+        1.0 / (stiffness * (1_usize << halvings) as f64)
+    } else {
+        0.0
+    }
 }
 
 /// The levels and their fields.
@@ -143,14 +135,16 @@ impl Multilevel {
         }
         let level = backend.level("coarsest", halved(halvings));
         restricted.push(backend.field(level, "restricted"));
-        let tabulate = |table: &dyn Fn(&Problem, usize) -> Vec<f64>| {
+        let [nx, ny] = halved(halvings).points;
+        let tabulate = |factor: &dyn Fn([usize; 2]) -> f64| -> Vec<f64> {
             if problem.is_sketch() {
-                Vec::new()
-            } else {
-                table(problem, halvings)
+                return Vec::new();
             }
+            let waves = (0..=nx / 2).flat_map(|kx| (0..=ny / 2).map(move |ky| [kx, ky]));
+            waves.map(factor).collect()
         };
-        let (smoothing, compliance) = (tabulate(&smoothing), tabulate(&coarsest_compliance));
+        let smoothing = tabulate(&|waves| smoothing(problem, waves));
+        let compliance = tabulate(&|waves| coarsest_compliance(problem, waves, halvings));
         Some(Multilevel {
             fine,
             halvings,
@@ -185,12 +179,7 @@ impl Multilevel {
 
     /// Records the preconditioned residual z of the projected one; `state` is gap, pressure and the residual
     /// before, `direction` where the mean gap is prescribed.
-    pub fn descend(
-        &self,
-        backend: &mut dyn Backend,
-        state: [Field; 3],
-        direction: Option<Field>,
-    ) {
+    pub fn descend(&self, backend: &mut dyn Backend, state: [Field; 3], direction: Option<Field>) {
         let mut finer = self.residual;
         for &restricted in &self.restricted {
             backend.sweep(&multilevel::COARSEN, restricted.level, &[restricted, finer]);

@@ -1,7 +1,7 @@
 //! The state of a contact in double precision, beside a solver whose iterations run in single.
 
 use super::contact::{Hold, Load};
-use super::kernel_set::{KernelSet, fixed_params, rounded_beside_under};
+use super::kernel_set::{KernelSet, params_of_problem};
 use super::mean_gap::HeightsPressure;
 use super::problem::Problem;
 use crate::backend::{Backend, BackendError, Field, Level, Response, Spectrum};
@@ -15,8 +15,6 @@ pub(super) struct OuterState {
     heights_pressure: Option<HeightsPressure>,
     kernels: KernelSet,
     params: Params,
-    /// What a gap is rounded beside whatever the load.
-    heights_norm: f64,
 }
 
 /// What is held for it.
@@ -89,12 +87,11 @@ impl OuterState {
     ) -> Self {
         let places = Places::plan(&mut *backend, iterating, fine, problem);
         backend.write(places.heights, &problem.padded(&problem.heights, 0.0));
-        let params = fixed_params(problem, backend.epsilon());
+        let params = params_of_problem(problem, backend.epsilon());
         OuterState {
             places,
             heights_pressure: None,
             kernels: KernelSet::new(problem),
-            heights_norm: params.heights_norm,
             params,
             backend,
         }
@@ -128,16 +125,17 @@ impl OuterState {
         self.backend.read(self.places.pressure)
     }
 
-    /// Takes a load.
-    pub fn begin(&mut self, load: &Load, tolerance: f64, may_detach: bool) {
+    /// Takes a load, with the numbers of the iterations under it.
+    pub fn begin(&mut self, load: &Load, tolerance: f64, iterating: &Params) {
         let (fixed_gap, mean_pressure, offset) = match load.hold {
             Hold::Pressure(pressure) => (false, pressure, 0.0),
             Hold::Gap(target) => (true, 0.0, target),
         };
-        self.params.fixed_gap = fixed_gap;
-        self.params.tolerance = tolerance;
-        self.params.heights_norm = rounded_beside_under(self.heights_norm, &self.params, load);
-        self.params.may_detach = may_detach;
+        self.params = Params {
+            epsilon: self.params.epsilon,
+            tolerance,
+            ..*iterating
+        };
         self.backend.set_params(&self.params);
         self.backend
             .set_zero_mode(self.places.stiffness, load.zero_stiffness);

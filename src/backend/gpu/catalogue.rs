@@ -54,8 +54,6 @@ pub const HALF_SPACE: &str = part!("half_space");
 pub const FACTOR_STIFFNESS: &str = part!("factor_stiffness");
 /// The compliance.
 pub const FACTOR_COMPLIANCE: &str = part!("factor_compliance");
-/// The compliance to short waves.
-pub const FACTOR_SHORT_COMPLIANCE: &str = part!("factor_short_compliance");
 /// exp in single precision.
 pub const EXP_SINGLE: &str = part!("exp_single");
 /// exp in double precision.
