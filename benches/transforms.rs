@@ -13,6 +13,7 @@ use std::time::Instant;
 
 use tabor::backend::Backend;
 use tabor::backend::cpu::{CpuBackend, with_threads};
+use tabor::kernel::Scalars;
 use tabor::output::cpu_seconds;
 use tabor::scene::{Scene, SurfacePart};
 use tabor::study::{FinishedStep, Observer, Setup, walk};
@@ -40,6 +41,10 @@ impl Observer for Silent {
 
     fn step(&mut self, _: FinishedStep) -> Result<(), Infallible> {
         Ok(())
+    }
+
+    fn iteration(&mut self, _: usize, _: &Scalars) -> bool {
+        true
     }
 }
 

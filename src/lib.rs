@@ -80,13 +80,13 @@
 //! # What an iteration does
 //!
 //! The unknown is the gap. Without adhesion, under a mean pressure, an iteration takes the residual on
-//! the points that may move, smooths it with the half-space's compliance (two transforms, and about
-//! a quarter of one on a coarse grid for the long waves), makes it a conjugate direction, cuts it
+//! the points that may move, smooths it with about the half-space's compliance (on three halved grids, a tenth
+//! of a transform in all), makes it a conjugate direction, cuts it
 //! where a gap would close, and asks what pressure the step takes (two transforms); then gap and
-//! pressure move, and the rows of the new residual go into the next iteration's first transform at once.
+//! pressure move.
 //! The work on points rides in the rows of those transforms, so a field is read while it is in cache, and
-//! what one pass leaves for the next stays in their work space. With adhesion there is no coarse-grid
-//! preconditioner, and a line search is added, point by point, without transforms. An effect that the scene does not name has no field and no pass;
+//! what one pass leaves for the next stays in their work space. With adhesion
+//! a line search is added, point by point, without transforms. An effect that the scene does not name has no field and no pass;
 //! `tabor check` lists both. The residual that ends a solve is defined in `docs/solver.md`.
 //!
 //! On a graphics processor an iteration takes so many dispatches and moves so many fields, in numbers

@@ -20,7 +20,9 @@ const MOST_LEVELS: usize = 3;
 /// Fewest points each way of the coarsest level.
 const FEWEST_COARSE: usize = 8;
 /// Compliance of a level over that of the shortest wave along an axis there.
-const OVER_SHORTEST: f64 = 1.8;
+const OVER_SHORTEST: f64 = 0.8;
+/// Share of the compliance of long waves that the coarsest level answers; the finer ones answer them too.
+pub(super) const COARSEST_SHARE: f64 = 0.5;
 /// Growth of the compliance from a level's shortest wave to the next one's, twofold on a half-space, from
 /// which another level pays: a thin layer answers all long waves alike.
 const LEAST_GROWTH: f64 = 1.5;
@@ -89,12 +91,12 @@ pub(super) fn smoothing(problem: &Problem, waves: [usize; 2]) -> f64 {
     (-SMOOTHED * SMOOTHED * (phase(0).powi(2) + phase(1).powi(2))).exp()
 }
 
-/// What the coarsest level answers a wave with: the whole compliance, in the measure of its scaled residual; 0 at
-/// the zero wavevector. To take off what the finer levels answer saves nothing.
+/// What the coarsest level answers a wave with: a share of the compliance, in the measure of its scaled residual;
+/// 0 at the zero wavevector. To take off what the finer levels answer saves nothing.
 fn coarsest_compliance(problem: &Problem, [kx, ky]: [usize; 2], halvings: usize) -> f64 {
     let stiffness = stiffness_at(problem, kx, ky);
     if kx + ky > 0 && stiffness > 0.0 {
-        1.0 / (stiffness * (1_usize << halvings) as f64)
+        COARSEST_SHARE / (stiffness * (1_usize << halvings) as f64)
     } else {
         0.0
     }

@@ -240,7 +240,7 @@ impl Contact<'_> {
 
     /// M r: 1/K where the grid cannot be halved. Else each grid answers the waves that the next one, of half the
     /// points, cannot hold by one number, in proportion to its pixel: z_k = 2^k c r_k + P z_(k+1), with
-    /// r_(k+1) = R r_k, P the interpolation and R the restriction. The coarsest one answers by W (1/K) W, W being
+    /// r_(k+1) = R r_k, P the interpolation and R the restriction. The coarsest one answers by W (1/2K) W, W being
     /// the share of free points there, smoothed, to the third power: long waves do not reach across contacts.
     fn compliance_times(&self, r: &[f64]) -> Vec<f64> {
         let Some(coarsest) = self.coarser.last() else {
@@ -256,7 +256,7 @@ impl Contact<'_> {
         let w = each(share.len(), |i| share[i].clamp(0.0, 1.0).powi(3));
         let last = &residuals[self.coarser.len()];
         let weighed = each(w.len(), |i| w[i] * last[i]);
-        let long = (coarsest.fourier).filter(&weighed, |q| self.compliance(q));
+        let long = (coarsest.fourier).filter(&weighed, |q| self.long_compliance(q));
         let mut z = each(w.len(), |i| w[i] * long[i]);
         for (k, grid) in self.coarser.iter().enumerate().rev() {
             let own = self.params.level_compliance * f64::from(1 << k);

@@ -130,6 +130,12 @@ impl<'a> Contact<'a> {
         }
     }
 
+    /// 1/2K at a wave of the coarsest grid; at q = 0 the compliance of the control.
+    pub(super) fn long_compliance(&self, q: [usize; 2]) -> f64 {
+        let share = choose(q == [0, 0], 1.0, multilevel::COARSEST_SHARE);
+        share * self.compliance(q)
+    }
+
     /// The factor of a wave that smooths the share of free points.
     pub(super) fn smoothing(&self, q: [usize; 2]) -> f64 {
         multilevel::smoothing(self.problem, q)
