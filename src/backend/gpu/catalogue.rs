@@ -77,8 +77,8 @@ const SHADERS: &[Shader] = shaders! {
     "free_share" [];
     "weigh" [];
     "store_weighted" [];
-    "refine" ["interpolation", "interpolated"];
-    "level_descent" ["interpolation", "interpolated", "descent_terms"];
+    "refine" ["interpolation", "add_interpolated"];
+    "level_descent" ["interpolation", "add_interpolated", "descent_terms"];
     "outer_residual" [];
     "outer_pressure" [];
     "add_correction" [];

@@ -13,6 +13,7 @@ struct Params {
     heights_norm: wide,
     points: wide,
     core_stiffness: wide,
+    level_compliance: wide,
     hardness: wide,
     epsilon: wide,
     fixed_gap: u32,
