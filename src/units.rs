@@ -15,115 +15,72 @@ use std::fmt;
 
 use thiserror::Error;
 
-/// The dimension of a value, which determines its units.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
-pub enum Dimension {
+/// Declares the dimensions, each with its SI unit, words for messages, and an example value.
+macro_rules! dimensions {
+    ($( $(#[$doc:meta])* $Name:ident: $unit:literal, $words:literal, $example:literal; )+) => {
+        /// The dimension of a value, which determines its units.
+        #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+        pub enum Dimension {
+            $( $(#[$doc])* $Name, )+
+        }
+
+        impl Dimension {
+            /// The SI unit in messages; empty for a pure number.
+            pub fn unit(self) -> &'static str {
+                match self { $( Dimension::$Name => $unit, )+ }
+            }
+
+            /// The dimension with its units, for messages: `a length in m`.
+            pub fn words(self) -> &'static str {
+                match self { $( Dimension::$Name => $words, )+ }
+            }
+
+            /// An example value for messages.
+            pub fn example(self) -> &'static str {
+                match self { $( Dimension::$Name => $example, )+ }
+            }
+        }
+    };
+}
+
+dimensions! {
     /// A pure number, without a unit.
-    Dimensionless,
+    Dimensionless: "", "a number without a unit", "0.5";
     /// m.
-    Length,
+    Length: "m", "a length in m", "\"25 um\"";
     /// Pa.
-    Pressure,
+    Pressure: "Pa", "a pressure in Pa", "\"1.5 GPa\"";
     /// N.
-    Force,
+    Force: "N", "a force in N", "\"20 nN\"";
     /// J.
-    Energy,
+    Energy: "J", "an energy in J", "\"1 fJ\"";
     /// J/m^2, which is N/m: the same dimension as [`Dimension::ForcePerLength`].
-    EnergyPerArea,
+    EnergyPerArea: "J/m^2", "an energy per area in J/m^2 or N/m", "\"50 mJ/m^2\"";
     /// N/m, which is J/m^2: the same dimension as [`Dimension::EnergyPerArea`].
-    ForcePerLength,
+    ForcePerLength: "N/m", "a force per length in N/m or J/m^2", "\"0.2 N/m\"";
     /// s, or min.
-    Time,
+    Time: "s", "a time in s or min", "\"10 ms\"";
     /// Hz.
-    Frequency,
+    Frequency: "Hz", "a frequency in Hz", "\"5 kHz\"";
     /// K.
-    Temperature,
+    Temperature: "K", "a temperature in K", "\"298.15 K\"";
     /// m^3/mol.
-    MolarVolume,
+    MolarVolume: "m^3/mol", "a molar volume in m^3/mol", "\"18e-6 m^3/mol\"";
     /// m/s.
-    Speed,
+    Speed: "m/s", "a speed in m/s", "\"1 um/s\"";
     /// W/(m K); an electrical conductivity is given as a bare number in S/m.
-    Conductivity,
+    Conductivity: "W/(m K)", "a conductivity in W/(m K)", "\"400 W/(m K)\"";
     /// m^3/(N m), which is 1/Pa: the volume worn off per load and length of sliding.
-    SpecificWear,
+    SpecificWear: "m^3/(N m)", "a specific wear rate in m^3/(N m) or 1/Pa", "\"1e-6 mm^3/(N m)\"";
     /// 1/m: a curvature, a wave number.
-    PerLength,
+    PerLength: "1/m", "a reciprocal length in 1/m", "\"0.1 1/um\"";
     /// 1/m^2: a count per area.
-    PerArea,
-    /// rad or deg; the SI value is in radians, but see [`parse_angle`] and [`angle_from_number`].
-    Angle,
+    PerArea: "1/m^2", "a count per area in 1/m^2", "\"10 1/um^2\"";
+    /// rad or deg; the SI value is in radians, but see [`angle_from_number`].
+    Angle: "rad", "an angle in deg or rad", "\"70 deg\"";
 }
 
 impl Dimension {
-    /// The SI unit in messages; empty for a pure number.
-    pub fn unit(self) -> &'static str {
-        match self {
-            Dimension::Dimensionless => "",
-            Dimension::Length => "m",
-            Dimension::Pressure => "Pa",
-            Dimension::Force => "N",
-            Dimension::Energy => "J",
-            Dimension::EnergyPerArea => "J/m^2",
-            Dimension::ForcePerLength => "N/m",
-            Dimension::Time => "s",
-            Dimension::Frequency => "Hz",
-            Dimension::Temperature => "K",
-            Dimension::MolarVolume => "m^3/mol",
-            Dimension::Speed => "m/s",
-            Dimension::Conductivity => "W/(m K)",
-            Dimension::SpecificWear => "m^3/(N m)",
-            Dimension::PerLength => "1/m",
-            Dimension::PerArea => "1/m^2",
-            Dimension::Angle => "rad",
-        }
-    }
-
-    /// The dimension with its units, for messages: `a length in m`.
-    pub fn words(self) -> &'static str {
-        match self {
-            Dimension::Dimensionless => "a number without a unit",
-            Dimension::Length => "a length in m",
-            Dimension::Pressure => "a pressure in Pa",
-            Dimension::Force => "a force in N",
-            Dimension::Energy => "an energy in J",
-            Dimension::EnergyPerArea => "an energy per area in J/m^2 or N/m",
-            Dimension::ForcePerLength => "a force per length in N/m or J/m^2",
-            Dimension::Time => "a time in s or min",
-            Dimension::Frequency => "a frequency in Hz",
-            Dimension::Temperature => "a temperature in K",
-            Dimension::MolarVolume => "a molar volume in m^3/mol",
-            Dimension::Speed => "a speed in m/s",
-            Dimension::Conductivity => "a conductivity in W/(m K)",
-            Dimension::SpecificWear => "a specific wear rate in m^3/(N m) or 1/Pa",
-            Dimension::PerLength => "a reciprocal length in 1/m",
-            Dimension::PerArea => "a count per area in 1/m^2",
-            Dimension::Angle => "an angle in deg or rad",
-        }
-    }
-
-    /// An example value for messages.
-    pub fn example(self) -> &'static str {
-        match self {
-            Dimension::Dimensionless => "0.5",
-            Dimension::Length => "\"25 um\"",
-            Dimension::Pressure => "\"1.5 GPa\"",
-            Dimension::Force => "\"20 nN\"",
-            Dimension::Energy => "\"1 fJ\"",
-            Dimension::EnergyPerArea => "\"50 mJ/m^2\"",
-            Dimension::ForcePerLength => "\"0.2 N/m\"",
-            Dimension::Time => "\"10 ms\"",
-            Dimension::Frequency => "\"5 kHz\"",
-            Dimension::Temperature => "\"298.15 K\"",
-            Dimension::MolarVolume => "\"18e-6 m^3/mol\"",
-            Dimension::Speed => "\"1 um/s\"",
-            Dimension::Conductivity => "\"400 W/(m K)\"",
-            Dimension::SpecificWear => "\"1e-6 mm^3/(N m)\"",
-            Dimension::PerLength => "\"0.1 1/um\"",
-            Dimension::PerArea => "\"10 1/um^2\"",
-            Dimension::Angle => "\"70 deg\"",
-        }
-    }
-
     /// Whether values of the two dimensions are interchangeable.
     pub fn is_same_as(self, other: Dimension) -> bool {
         let canonical = |dimension| match dimension {
@@ -142,6 +99,7 @@ impl fmt::Display for Dimension {
 
 /// Why a text is not a value of the required dimension.
 #[derive(Clone, Debug, PartialEq, Error)]
+#[non_exhaustive]
 pub enum UnitError {
     /// The text does not begin with a number.
     #[error("{text} does not begin with a number; give {expected}, such as {}", expected.example())]
@@ -251,6 +209,16 @@ struct Unit {
     dimension: Dimension,
 }
 
+impl Unit {
+    fn new(dimension: Dimension, power: i32, factor: f64) -> Self {
+        Unit {
+            power,
+            factor,
+            dimension,
+        }
+    }
+}
+
 /// Units that take a prefix on their first letter.
 const PREFIXED: &[(&str, Dimension)] = &[
     ("m", Dimension::Length),
@@ -283,13 +251,14 @@ const PLAIN: &[(&str, Dimension, i32, f64)] = &[
     ("rad", Dimension::Angle, 0, 1.0),
 ];
 
-/// Prefixes with their powers of ten; both code points of the Greek letter are in use.
+/// Prefixes with their powers of ten, the one that is written first; both code points of the Greek letter
+/// are in use.
 const PREFIXES: &[(char, i32)] = &[
     ('f', -15),
     ('p', -12),
     ('n', -9),
-    ('u', -6),
     ('\u{b5}', -6),
+    ('u', -6),
     ('\u{3bc}', -6),
     ('m', -3),
     ('k', 3),
@@ -300,21 +269,11 @@ const PREFIXES: &[(char, i32)] = &[
 
 fn find_unit(name: &str) -> Option<Unit> {
     if let Some(&(_, dimension, power, factor)) = PLAIN.iter().find(|(plain, ..)| *plain == name) {
-        return Some(Unit {
-            power,
-            factor,
-            dimension,
-        });
+        return Some(Unit::new(dimension, power, factor));
     }
     let prefixed = |name: &str, power| {
-        PREFIXED
-            .iter()
-            .find(|(unit, _)| *unit == name)
-            .map(|&(_, dimension)| Unit {
-                power,
-                factor: 1.0,
-                dimension,
-            })
+        let known = PREFIXED.iter().find(|(unit, _)| *unit == name);
+        known.map(|&(_, dimension)| Unit::new(dimension, power, 1.0))
     };
     let whole = |name: &str| {
         prefixed(name, 0).or_else(|| {
@@ -333,11 +292,7 @@ fn find_unit(name: &str) -> Option<Unit> {
             Some(_) => (2, Dimension::PerArea),
             None => (1, Dimension::PerLength),
         };
-        Some(Unit {
-            power: -times * length.power,
-            factor: 1.0,
-            dimension,
-        })
+        Some(Unit::new(dimension, -times * length.power, 1.0))
     })
 }
 
@@ -373,55 +328,30 @@ pub fn unit_factor(name: &str, expected: Dimension) -> Result<f64, UnitError> {
 /// The value is the double nearest to the written decimal: `25 um` is `25e-6` to the last bit. A
 /// pure number has no unit, every other dimension requires one. Angles are returned in radians.
 ///
+/// # Errors
 /// [`UnitError`] with the expected unit: a missing number or unit, an unknown unit or one of
 /// another dimension, or a number beyond the largest double.
 pub fn parse_quantity(text: &str, expected: Dimension) -> Result<f64, UnitError> {
     let trimmed = text.trim();
-    let quoted_text = || quoted(text);
+    let text = quoted(text);
     let Some((digits, exponent, rest)) = split_number(trimmed) else {
-        return Err(UnitError::NoNumber {
-            text: quoted_text(),
-            expected,
-        });
+        return Err(UnitError::NoNumber { text, expected });
     };
     if rest.starts_with(',') {
-        return Err(UnitError::DecimalComma {
-            text: quoted_text(),
-            expected,
-        });
+        return Err(UnitError::DecimalComma { text, expected });
     }
     let name = rest.trim_start();
     let unit = match (name.is_empty(), expected) {
-        (true, Dimension::Dimensionless) => Unit {
-            power: 0,
-            factor: 1.0,
-            dimension: expected,
-        },
-        (true, _) => {
-            return Err(UnitError::NoUnit {
-                text: quoted_text(),
-                expected,
-            });
-        }
+        (true, Dimension::Dimensionless) => Unit::new(expected, 0, 1.0),
+        (true, _) => return Err(UnitError::NoUnit { text, expected }),
         (false, _) => expect_unit(name, expected)?,
     };
     let value = scale(digits, exponent, unit);
     if value.is_finite() {
         Ok(value)
     } else {
-        Err(UnitError::NotFinite {
-            text: quoted_text(),
-            expected,
-        })
+        Err(UnitError::NotFinite { text, expected })
     }
-}
-
-/// Angle in radians of a text with `deg` or `rad`.
-///
-/// # Errors
-/// Those of [`parse_quantity`]; a number in a text needs its unit, see [`angle_from_number`].
-pub fn parse_angle(text: &str) -> Result<f64, UnitError> {
-    parse_quantity(text, Dimension::Angle)
 }
 
 /// Angle in radians of a bare number, which is in degrees.
@@ -495,36 +425,20 @@ pub fn format_si(value: f64, unit: &str) -> String {
         }
     };
     if value == 0.0 || !value.is_finite() {
-        return with_unit(
-            if value == 0.0 {
-                "0".into()
-            } else {
-                value.to_string()
-            },
-            "",
-        );
+        // Minus zero is shown as zero.
+        return with_unit((value + 0.0).to_string(), "");
     }
     // Round to four digits first, so that 999.96 becomes 1 k and not 1000.
     let rounded = format!("{value:.3e}");
     let (mantissa, exponent) = rounded.split_once('e').unwrap_or((&rounded, "0"));
     let exponent: i32 = exponent.parse().unwrap_or(0);
     let group = exponent.div_euclid(3) * 3;
-    let prefix = match group {
-        -15 => "f",
-        -12 => "p",
-        -9 => "n",
-        -6 => "µ",
-        -3 => "m",
-        0 => "",
-        3 => "k",
-        6 => "M",
-        9 => "G",
-        12 => "T",
-        _ => return with_unit(format!("{}e{exponent}", trim_zeros(mantissa)), ""),
-    };
-    if takes_prefix(unit) {
-        with_unit(plain_number(mantissa, exponent - group), prefix)
-    } else if (-3..4).contains(&exponent) {
+    let prefix = PREFIXES.iter().find(|(_, power)| *power == group);
+    let within = prefix.is_some() || group == 0;
+    if within && takes_prefix(unit) {
+        let prefix = prefix.map_or_else(String::new, |(letter, _)| letter.to_string());
+        with_unit(plain_number(mantissa, exponent - group), &prefix)
+    } else if within && (-3..4).contains(&exponent) {
         with_unit(plain_number(mantissa, exponent), "")
     } else {
         with_unit(format!("{}e{exponent}", trim_zeros(mantissa)), "")
@@ -686,9 +600,12 @@ mod tests {
     #[test]
     fn bare_angles_are_degrees() {
         assert_eq!(angle_from_number(180.0), std::f64::consts::PI);
-        assert_eq!(parse_angle("1 rad"), Ok(1.0));
-        assert_eq!(parse_angle("90°"), parse_angle("90 deg"));
-        assert!(parse_angle("90 m").is_err());
+        assert_eq!(parse_quantity("1 rad", Angle), Ok(1.0));
+        assert_eq!(
+            parse_quantity("90°", Angle),
+            parse_quantity("90 deg", Angle)
+        );
+        assert!(parse_quantity("90 m", Angle).is_err());
     }
 
     #[test]

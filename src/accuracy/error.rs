@@ -3,6 +3,9 @@
 use crate::output::OutputError;
 use crate::surface::SurfaceError;
 
+/// What helps where the time does not suffice.
+const LONGER: &str = "a longer budget";
+
 /// Why the accuracy of a scene cannot be measured.
 #[derive(Debug, thiserror::Error)]
 #[non_exhaustive]
@@ -31,7 +34,7 @@ pub enum AccuracyError {
     },
     /// Not even the coarsest reference was solved.
     #[error(
-        "no reference was solved: {reason}; give a longer --budget, a shorter path or more max_iterations"
+        "no reference was solved: {reason}; give {LONGER}, a shorter path or more max_iterations"
     )]
     NoReference {
         /// Why the first solve ended.

@@ -90,11 +90,11 @@ pub fn expect_place(path: &Path) -> Result<(), OutputError> {
         reason: reason.to_owned(),
     };
     if path.parent().is_some_and(Path::is_file) {
-        return Err(refused("its folder is a file; name a folder with --out"));
+        return Err(refused("its folder is a file; name a folder"));
     }
     if fs::read(path).is_ok_and(|old| !old.starts_with(FIRST_COLUMNS.as_bytes())) {
         return Err(refused(
-            "is not a table that tabor wrote; name another folder with --out",
+            "is not a table that tabor wrote; name another folder",
         ));
     }
     Ok(())
@@ -249,7 +249,7 @@ fn cheapest(report: &Report, of: Quantity, level: f64) -> Option<String> {
             )
         }
         None if uncertainty > level => format!(
-            "unknown: the reference itself is accurate only to {}; a longer --budget gives a better one",
+            "unknown: the reference itself is accurate only to {}; a longer budget gives a better one",
             percent(Some(uncertainty))
         ),
         None => format!(

@@ -8,6 +8,7 @@ mod compare;
 mod devices;
 mod file_limit;
 mod fit;
+mod flags;
 mod interrupts;
 mod patience;
 mod progress;
@@ -414,7 +415,7 @@ fn fail(text: &str) {
 }
 
 fn write_lines(head: &str, text: &str) {
-    let text = visible(text).replace('\n', "\n  ");
+    let text = visible(&flags::with_options(text)).replace('\n', "\n  ");
     let _ = writeln!(anstream::stderr(), "{head}{}", text.trim_end());
 }
 

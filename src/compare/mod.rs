@@ -46,6 +46,7 @@ pub struct State {
 
 /// Results of a comparison.
 #[derive(Clone, Debug, PartialEq)]
+#[non_exhaustive]
 pub struct Compared {
     /// The rows of `compare.csv`, model by model.
     pub rows: Vec<Row>,

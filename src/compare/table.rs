@@ -12,6 +12,7 @@ const HEADER: &str = "model,mean_pressure,contact_area_fraction,mean_gap,adhesiv
 
 /// A row of the comparison.
 #[derive(Clone, Debug, PartialEq)]
+#[non_exhaustive]
 pub struct Row {
     /// Name of the model.
     pub model: &'static str,
@@ -43,11 +44,11 @@ impl Table {
             reason: reason.to_owned(),
         };
         if folder.is_file() {
-            return Err(refused("its folder is a file; name a folder with --out"));
+            return Err(refused("its folder is a file; name a folder"));
         }
         if fs::read(&path).is_ok_and(|old| !old.starts_with(HEADER.as_bytes())) {
             return Err(refused(
-                "is not a table that tabor wrote; name another folder with --out",
+                "is not a table that tabor wrote; name another folder",
             ));
         }
         let lock = FolderLock::take(&folder.join(FolderLock::HIDDEN), folder)?;

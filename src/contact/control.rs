@@ -4,6 +4,7 @@ use crate::scene;
 
 /// What a load prescribes, SI.
 #[derive(Clone, Copy, Debug, PartialEq)]
+#[non_exhaustive]
 pub enum Control {
     /// Mean pressure over the grid, Pa; negative pulls. Periodic grids only.
     MeanPressure(f64),

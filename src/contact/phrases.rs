@@ -148,10 +148,10 @@ pub(super) fn method_of(key: &str) -> &'static str {
 }
 
 /// A message about a scene in the words of Rust.
-pub(super) fn in_rust(message: &str) -> String {
+pub(super) fn in_rust(message: &impl ToString) -> String {
     PHRASES
         .iter()
-        .fold(message.to_owned(), |text, (toml, rust)| {
+        .fold(message.to_string(), |text, (toml, rust)| {
             text.replace(toml, rust)
         })
 }

@@ -2,7 +2,7 @@
 
 use std::path::Path;
 
-use super::curve_file::ForceCurve;
+use super::curve_file::{ForceCurve, name};
 use super::error::FitError;
 use super::estimate::{ModelFit, ProfilePoint, Uncertainties, fit_model};
 use super::inversion::{Inversion, invert_curve};
@@ -40,6 +40,7 @@ type Number = fn(&Parameters, &Uncertainties) -> (f64, Option<f64>);
 
 /// Results of a fit.
 #[derive(Clone, Debug)]
+#[non_exhaustive]
 pub struct FitResult {
     /// The curve with its segments.
     pub measured: Measured,
@@ -89,9 +90,7 @@ pub fn fit_curve(
     // Refuses an invalid radius.
     Sphere::new(radius, 1.0, 0.0)?;
     let measured = Measured::new(curve.samples.clone(), radius, freedom);
-    let no_fit = || FitError::NoFit {
-        path: path.to_path_buf(),
-    };
+    let no_fit = || FitError::NoFit { path: name(path) };
     let fits: Vec<ModelFit> = Model::ALL
         .into_iter()
         .filter_map(|model| fit_model(&measured, model))
@@ -106,7 +105,7 @@ pub fn fit_curve(
     let zero_known = knows_zero(&measured, &fits[chosen]);
     if !zero_known {
         warnings.push(
-            format!("fewer than {ZERO_POINTS} points lie where no force acts, so that a fitted baseline cannot be distinguished from adhesion and no uncertainty is given: leave --baseline out if the zero of the force is known, or measure until the sphere is free"),
+            format!("fewer than {ZERO_POINTS} points lie where no force acts, so that a fitted baseline cannot be distinguished from adhesion and no uncertainty is given: do not fit the baseline if the zero of the force is known, or measure until the sphere is free"),
         );
     }
     let stated = |number: Number| deviation(&fits, chosen, number).filter(|_| zero_known);
@@ -123,9 +122,7 @@ pub fn fit_curve(
     let grows = closest - least.approach < CLOSEST * measured.approach_span;
     let uncertain = modulus_uncertainty.is_none_or(|deviation| deviation > UNCERTAIN * stiff);
     if !pressed && (grows || uncertain) {
-        return Err(FitError::NoCompression {
-            path: path.to_path_buf(),
-        });
+        return Err(FitError::NoCompression { path: name(path) });
     }
     let law_error = law_error(&measured, &fits[chosen]);
     if let Some(error) = law_error {
@@ -211,7 +208,7 @@ fn check_signs(measured: &Measured, fits: &[ModelFit], path: &Path) -> Result<()
         let fitted = simple.iter().filter_map(|model| fit_model(&other, *model));
         let least = fitted.map(|fit| fit.aic).fold(f64::INFINITY, f64::min);
         if least < best.aic - DECISIVE_AIC {
-            let path = path.to_path_buf();
+            let path = name(path);
             return Err(if pressed {
                 FitError::WrongWay { path }
             } else {

@@ -45,20 +45,18 @@ impl ForceCurve {
     /// A file that cannot be read, with the line; fewer than ten rows; columns that never change.
     pub fn read(path: &Path) -> Result<Self, FitError> {
         let unreadable = |cause| FitError::Unreadable {
-            path: path.to_path_buf(),
+            path: name(path),
             cause,
         };
         let metadata = fs::metadata(path).map_err(unreadable)?;
         if !metadata.is_file() {
             // A device never ends, and a pipe has no known length.
-            return Err(FitError::NotRegular {
-                path: path.to_path_buf(),
-            });
+            return Err(FitError::NotRegular { path: name(path) });
         }
         let bytes = metadata.len();
         if bytes > MOST_BYTES {
             return Err(FitError::TooLarge {
-                path: path.to_path_buf(),
+                path: name(path),
                 bytes,
             });
         }
@@ -83,16 +81,12 @@ impl ForceCurve {
         let text = std::str::from_utf8(bytes)
             .ok()
             .filter(|text| !text.contains('\0'))
-            .ok_or_else(|| FitError::NotText {
-                path: path.to_path_buf(),
-            })?;
+            .ok_or_else(|| FitError::NotText { path: name(path) })?;
         let mut lines = (1..)
             .zip(text.lines())
             .map(|(number, line)| (number, line.trim()))
             .filter(|(_, line)| !line.is_empty() && !line.starts_with('#'));
-        let no_head = || FitError::NoHead {
-            path: path.to_path_buf(),
-        };
+        let no_head = || FitError::NoHead { path: name(path) };
         let (line, head) = lines.next().ok_or_else(no_head)?;
         let separator = [';', '\t'].into_iter().find(|s| head.contains(*s));
         let separator = separator.unwrap_or(',');
@@ -110,7 +104,7 @@ impl ForceCurve {
             let cells: Vec<&str> = text.split(separator).map(unquoted).collect();
             if cells.len() != head.names.len() {
                 return Err(FitError::Ragged {
-                    path: path.to_path_buf(),
+                    path: name(path),
                     line,
                     found: cells.len(),
                     expected: head.names.len(),
@@ -143,14 +137,14 @@ impl ForceCurve {
                 return Ok(());
             }
             Err(FitError::Extreme {
-                path: path.to_path_buf(),
+                path: name(path),
                 column,
                 largest,
             })
         };
         if self.samples.len() < LEAST_ROWS {
             return Err(FitError::TooFewRows {
-                path: path.to_path_buf(),
+                path: name(path),
                 rows: self.samples.len(),
             });
         }
@@ -160,7 +154,7 @@ impl ForceCurve {
         let constant = |column, same: fn(&Sample, &Sample) -> bool| {
             if self.samples.iter().all(|sample| same(sample, &first)) {
                 return Err(FitError::Constant {
-                    path: path.to_path_buf(),
+                    path: name(path),
                     column,
                 });
             }
@@ -169,6 +163,11 @@ impl ForceCurve {
         constant(APPROACH.0, |a, b| a.approach == b.approach)?;
         constant(FORCE.0, |a, b| a.force == b.force)
     }
+}
+
+/// The name of a file in messages.
+pub(super) fn name(path: &Path) -> String {
+    path.display().to_string()
 }
 
 /// The header with the names of the columns.
@@ -188,38 +187,38 @@ struct Column {
 impl Head<'_> {
     fn column(
         &self,
-        (name, dimension, example): (&'static str, Dimension, &'static str),
+        (column, dimension, example): (&'static str, Dimension, &'static str),
     ) -> Result<Column, FitError> {
         let mut found = None;
         for (place, text) in self.names.iter().enumerate() {
             let (word, unit) = name_and_unit(text);
-            if !word.eq_ignore_ascii_case(name) {
+            if !word.eq_ignore_ascii_case(column) {
                 continue;
             }
             if found.is_some() {
                 return Err(FitError::TwoColumns {
-                    path: self.path.to_path_buf(),
+                    path: name(self.path),
                     line: self.line,
-                    column: name,
+                    column,
                 });
             }
             let factor = unit.map_or(Ok(1.0), |unit| unit_factor(unit, dimension));
             let factor = factor.map_err(|cause| FitError::Unit {
-                path: self.path.to_path_buf(),
+                path: name(self.path),
                 line: self.line,
-                column: name,
+                column,
                 cause,
             })?;
             found = Some(Column {
-                name,
+                name: column,
                 place,
                 factor,
             });
         }
         found.ok_or_else(|| FitError::NoColumn {
-            path: self.path.to_path_buf(),
+            path: name(self.path),
             line: self.line,
-            column: name,
+            column,
             example,
             found: quoted(&self.names.join(", ")),
         })
@@ -245,7 +244,7 @@ impl Column {
             .filter(|value| value.is_finite())
             .map(Some)
             .ok_or_else(|| FitError::NotANumber {
-                path: path.to_path_buf(),
+                path: name(path),
                 line,
                 column: self.name,
                 text: quoted(text),

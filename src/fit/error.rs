@@ -1,7 +1,6 @@
 //! Errors of force curves.
 
 use std::io;
-use std::path::PathBuf;
 
 use super::curve_file::{LEAST_ROWS, MOST_BYTES};
 use crate::theory::TheoryError;
@@ -12,59 +11,50 @@ use crate::units::UnitError;
 #[non_exhaustive]
 pub enum FitError {
     /// The file cannot be read.
-    #[error("cannot read {path}: {cause}", path = path.display())]
+    #[error("cannot read {path}: {cause}")]
     Unreadable {
         /// The file.
-        path: PathBuf,
+        path: String,
         /// The system's message.
         cause: io::Error,
     },
     /// A folder, device, pipe or socket in place of a file.
     #[error(
-        "{path} is not a regular file (but a folder, a pipe or a device); save the curve to a file and name that",
-        path = path.display()
+        "{path} is not a regular file (but a folder, a pipe or a device); save the curve to a file and name that"
     )]
     NotRegular {
         /// The path.
-        path: PathBuf,
+        path: String,
     },
     /// The file is too large.
-    #[error(
-        "{path} has {bytes} bytes; a force curve may have {MOST_BYTES}, so thin its rows out",
-        path = path.display()
-    )]
+    #[error("{path} has {bytes} bytes; a force curve may have {MOST_BYTES}, so thin its rows out")]
     TooLarge {
         /// The file.
-        path: PathBuf,
+        path: String,
         /// Its size.
         bytes: u64,
     },
     /// The file is not text.
-    #[error(
-        "{path} is not text in UTF-8; save it as CSV with the columns approach and force",
-        path = path.display()
-    )]
+    #[error("{path} is not text in UTF-8; save it as CSV with the columns approach and force")]
     NotText {
         /// The file.
-        path: PathBuf,
+        path: String,
     },
     /// The header is missing.
     #[error(
-        "{path} has no header; its first line must name the columns, as in `approach [nm], force [nN]`",
-        path = path.display()
+        "{path} has no header; its first line must name the columns, as in `approach [nm], force [nN]`"
     )]
     NoHead {
         /// The file.
-        path: PathBuf,
+        path: String,
     },
     /// A column is missing.
     #[error(
-        "{path}, line {line}: no column `{column}` among {found}; name it `{column}` (SI) or with its unit, `{column} {example}`",
-        path = path.display()
+        "{path}, line {line}: no column `{column}` among {found}; name it `{column}` (SI) or with its unit, `{column} {example}`"
     )]
     NoColumn {
         /// The file.
-        path: PathBuf,
+        path: String,
         /// The line of the head, from 1.
         line: usize,
         /// The name of the missing column.
@@ -76,22 +66,21 @@ pub enum FitError {
     },
     /// A column occurs twice.
     #[error(
-        "{path}, line {line}: there are two columns `{column}`; leave one, or name the other differently",
-        path = path.display()
+        "{path}, line {line}: there are two columns `{column}`; leave one, or name the other differently"
     )]
     TwoColumns {
         /// The file.
-        path: PathBuf,
+        path: String,
         /// The line of the head, from 1.
         line: usize,
         /// The column.
         column: &'static str,
     },
     /// A unit in the header is unknown or of the wrong dimension.
-    #[error("{path}, line {line}, column `{column}`: {cause}", path = path.display())]
+    #[error("{path}, line {line}, column `{column}`: {cause}")]
     Unit {
         /// The file.
-        path: PathBuf,
+        path: String,
         /// The line of the head, from 1.
         line: usize,
         /// The column.
@@ -101,12 +90,11 @@ pub enum FitError {
     },
     /// A row has another number of values than the header has names.
     #[error(
-        "{path}, line {line}: {found} values where the header names {expected} columns; decimal commas need semicolons or tabs between the columns",
-        path = path.display()
+        "{path}, line {line}: {found} values where the header names {expected} columns; decimal commas need semicolons or tabs between the columns"
     )]
     Ragged {
         /// The file.
-        path: PathBuf,
+        path: String,
         /// The line, from 1.
         line: usize,
         /// Values found.
@@ -116,12 +104,11 @@ pub enum FitError {
     },
     /// A value is not a number.
     #[error(
-        "{path}, line {line}, column `{column}`: {text} is not a number; leave the cell empty where the value is missing",
-        path = path.display()
+        "{path}, line {line}, column `{column}`: {text} is not a number; leave the cell empty where the value is missing"
     )]
     NotANumber {
         /// The file.
-        path: PathBuf,
+        path: String,
         /// The line, from 1.
         line: usize,
         /// The column.
@@ -131,65 +118,53 @@ pub enum FitError {
     },
     /// Numbers outside the supported magnitudes.
     #[error(
-        "{path}, column `{column}`: its largest number is {largest:e}; it must be between 1e-30 and 1e30 in SI units: check the unit in the headerer",
-        path = path.display()
+        "{path}, column `{column}`: its largest number is {largest:e}; it must be between 1e-30 and 1e30 in SI units: check the unit in the header"
     )]
     Extreme {
         /// The file.
-        path: PathBuf,
+        path: String,
         /// The column.
         column: &'static str,
         /// Its largest magnitude, SI.
         largest: f64,
     },
     /// Too few rows with both numbers.
-    #[error(
-        "{path}: {rows} rows with an approach and a force, of {LEAST_ROWS} that a fit needs",
-        path = path.display()
-    )]
+    #[error("{path}: {rows} rows with an approach and a force, of {LEAST_ROWS} that a fit needs")]
     TooFewRows {
         /// The file.
-        path: PathBuf,
+        path: String,
         /// Rows found.
         rows: usize,
     },
     /// The approach or the force never changes.
-    #[error(
-        "{path}: the {column} is the same in every row, so there is no curve to fit",
-        path = path.display()
-    )]
+    #[error("{path}: the {column} is the same in every row, so there is no curve to fit")]
     Constant {
         /// The file.
-        path: PathBuf,
+        path: String,
         /// The column.
         column: &'static str,
     },
     /// No row is in compression.
     #[error(
-        "{path}: no row is in compression (force > 0), so the modulus cannot be determined; force must be positive in compression, tension negative",
-        path = path.display()
+        "{path}: no row is in compression (force > 0), so the modulus cannot be determined; force must be positive in compression, tension negative"
     )]
     NoCompression {
         /// The file.
-        path: PathBuf,
+        path: String,
     },
     /// The greatest force lies on the far side.
     #[error(
-        "{path}: the force grows as the surfaces separate; approach must be positive closer (turn its sign, or that of the force)",
-        path = path.display()
+        "{path}: the force grows as the surfaces separate; approach must be positive closer (turn its sign, or that of the force)"
     )]
     WrongWay {
         /// The file.
-        path: PathBuf,
+        path: String,
     },
     /// No model fits the data.
-    #[error(
-        "no model of a sphere could be fitted to {path}: check units, signs and the radius",
-        path = path.display()
-    )]
+    #[error("no model of a sphere could be fitted to {path}: check units, signs and the radius")]
     NoFit {
         /// The file.
-        path: PathBuf,
+        path: String,
     },
     /// A model refuses the values.
     #[error(transparent)]

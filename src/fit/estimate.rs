@@ -36,6 +36,7 @@ const FLOOR: f64 = 1e-14;
 
 /// Uncertainties: one standard deviation each, `None` if the curve does not determine the number.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
+#[non_exhaustive]
 pub struct Uncertainties {
     /// Of E*, Pa.
     pub contact_modulus: Option<f64>,
@@ -55,6 +56,7 @@ pub struct Uncertainties {
 
 /// A model with its best-fitting numbers.
 #[derive(Clone, Debug)]
+#[non_exhaustive]
 pub struct ModelFit {
     /// Which model.
     pub model: Model,

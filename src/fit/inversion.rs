@@ -17,6 +17,7 @@ const LEAST_POINTS: usize = 5;
 
 /// The two numbers, and the JKR result.
 #[derive(Clone, Copy, Debug, PartialEq)]
+#[non_exhaustive]
 pub struct Inversion {
     /// Greatest tension, N, positive.
     pub pull_off_force: f64,

@@ -21,6 +21,7 @@ const MODULUS_JKR: f64 = 0.02;
 
 /// Possible errors of the numbers if the law has another shape than the model's.
 #[derive(Clone, Copy, Debug, PartialEq)]
+#[non_exhaustive]
 pub struct LawError {
     /// Of the work of adhesion, J/m^2.
     pub work_of_adhesion: f64,

@@ -41,6 +41,7 @@ impl ReversedSigns {
 
 /// A curve prepared for fitting.
 #[derive(Clone, Debug)]
+#[non_exhaustive]
 pub struct Measured {
     /// Points in the order of the file.
     pub samples: Vec<Sample>,

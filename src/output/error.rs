@@ -5,7 +5,7 @@ use std::path::{Path, PathBuf};
 
 /// The remedy for a run that cannot be resumed; it never loses rows.
 pub(crate) const FRESH: &str =
-    "run without --resume to start afresh, which keeps the rows of curve.csv in curve.csv.before";
+    "run without resuming to start afresh, which keeps the rows of curve.csv in curve.csv.before";
 
 /// Why an output was not written.
 ///

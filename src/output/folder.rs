@@ -262,9 +262,9 @@ impl Inside<'_> {
             }
             Ok(found) => Ok(found.is_empty()),
             Err(error) if error.kind() == io::ErrorKind::NotFound => Ok(true),
-            Err(error) if error.kind() == io::ErrorKind::NotADirectory => Err(
-                OutputError::refused(self.path, "is a file; name a folder with --out"),
-            ),
+            Err(error) if error.kind() == io::ErrorKind::NotADirectory => {
+                Err(OutputError::refused(self.path, "is a file; name a folder"))
+            }
             Err(error) => Err(OutputError::write("read the folder", self.path)(error)),
         }
     }
@@ -281,12 +281,12 @@ impl Inside<'_> {
         match marker {
             None => Err(OutputError::refused(
                 self.path,
-                "holds files that tabor did not write (state/scene.json is not there or damaged); name an empty or new folder with --out",
+                "holds files that tabor did not write (state/scene.json is not there or damaged); name an empty or new folder",
             )),
             Some(marker) if marker.fingerprint != fingerprint => Err(OutputError::refused(
                 self.path,
                 format!(
-                    "holds the results of another scene{}; name another folder with --out, or move this one away",
+                    "holds the results of another scene{}; name another folder, or move this one away",
                     difference(&marker.fingerprint, fingerprint)
                 ),
             )),

@@ -43,7 +43,7 @@ impl FolderLock {
             Ok(()) => None,
             Err(TryLockError::WouldBlock) => {
                 let reason = format!(
-                    "another run is writing it{}; wait for its end, or name another folder with --out",
+                    "another run is writing it{}; wait for its end, or name another folder",
                     holder(&mut file)
                 );
                 return Err(OutputError::refused(folder, reason));

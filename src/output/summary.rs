@@ -55,6 +55,7 @@ pub struct Summary {
 
 /// Names of the effects that the scene switched on, and of the others.
 #[derive(Clone, Debug, Default, PartialEq, Eq, Serialize)]
+#[non_exhaustive]
 pub struct Effects {
     /// Named by the scene.
     pub on: Vec<String>,
@@ -64,6 +65,7 @@ pub struct Effects {
 
 /// Wall-clock seconds by phase, in order of first use.
 #[derive(Clone, Debug, Default, PartialEq)]
+#[non_exhaustive]
 pub struct Seconds {
     phases: Vec<(String, f64)>,
 }

@@ -46,7 +46,7 @@ pub(super) fn lost(
     };
     (!found.is_empty()).then(|| {
         format!(
-            "files of finished steps are missing or cut short: {}{more}; their steps are not solved again: a run into another folder (--out) writes them",
+            "files of finished steps are missing or cut short: {}{more}; their steps are not solved again: a run into another folder writes them",
             names.join(", ")
         )
     })

@@ -4,6 +4,7 @@ use crate::device::Device;
 
 /// How a scene is run; the default is what `tabor run` does without options.
 #[derive(Clone, Debug, PartialEq)]
+#[non_exhaustive]
 pub struct RunOptions {
     pub(super) resume: bool,
     pub(super) overwrite: bool,

@@ -233,7 +233,7 @@ fn resume_from(
         return Err(OutputError::Refused {
             path: folder.state_path(STATE),
             reason: format!(
-                "was solved with [solver] {}, and here it is {now}: it may change only where a step did not converge; put it back, or name another folder with --out",
+                "was solved with [solver] {}, and here it is {now}: it may change only where a step did not converge; put it back, or name another folder",
                 state.solver
             ),
         });

@@ -130,11 +130,11 @@ impl<'a> RunRecorder<'a> {
         match (self.folder.expect_present(), self.committed) {
             (Err(_), _) => format!("note: {place} is gone, and the steps in it"),
             (Ok(()), 0) => {
-                format!("note: no step was finished; --resume starts at step 1 in {place}")
+                format!("note: no step was finished; resuming starts at step 1 in {place}")
             }
-            (Ok(()), 1) => format!("note: step 1 is kept in {place}; --resume goes on after it"),
+            (Ok(()), 1) => format!("note: step 1 is kept in {place}; resuming goes on after it"),
             (Ok(()), steps) => {
-                format!("note: steps 1 to {steps} are kept in {place}; --resume goes on after them")
+                format!("note: steps 1 to {steps} are kept in {place}; resuming goes on after them")
             }
         }
     }

@@ -5,7 +5,6 @@ use std::path::Path;
 use super::allowed::{Allowed, in_range};
 use super::document::Value;
 use super::keys;
-use super::mistake::SceneError;
 use super::rate;
 use super::reader::Reader;
 use super::{
@@ -26,22 +25,16 @@ pub(super) fn read(
     }
     let adhesion = scene.table("adhesion", &keys::ADHESION)?;
     adhesion.require(&["law"]);
-    let law = adhesion.choice("law", LawName::ALL, LawName::name);
+    let law = adhesion.word("law");
     let numbers = numbers(&adhesion, law);
     let taper = taper(&adhesion, law, numbers.as_ref().map(|(_, range)| *range));
-    let treatment = if adhesion.has("treatment") {
-        adhesion.choice("treatment", Treatment::ALL, Treatment::name)
-    } else {
-        Some(Treatment::Full)
-    };
+    let treatment = adhesion.word_or("treatment", Treatment::Full);
     if relaxes && treatment == Some(Treatment::Dmt) {
         // The search for the net load tries loads that a viscoelastic solid would have to remember.
-        adhesion.report(
+        adhesion.not_in_this_version(
             "treatment",
-            SceneError::NotInThisVersion {
-                what: "treatment = \"dmt\" on a viscoelastic solid".to_string(),
-                instead: "take treatment = \"full\", or leave [[solid.relaxation]] out".to_string(),
-            },
+            "treatment = \"dmt\" on a viscoelastic solid",
+            "take treatment = \"full\", or leave [[solid.relaxation]] out",
         );
     }
     let map = map(&adhesion, law, grid, folder);
@@ -85,7 +78,7 @@ fn map(
     }
     let pattern = adhesion.table("map", &keys::PATTERN)?;
     pattern.require(&["pattern", "period", "low", "high"]);
-    let kind = pattern.choice("pattern", PatternKind::ALL, PatternKind::name);
+    let kind = pattern.word("pattern");
     let period = pattern.quantity("period", Dimension::Length, Allowed::POSITIVE);
     let factors = ["low", "high"]
         .map(|key| pattern.quantity(key, Dimension::Dimensionless, Allowed::NOT_NEGATIVE));
@@ -131,10 +124,6 @@ fn map(
     }))
 }
 
-fn is_auto(adhesion: &Reader, key: &str) -> bool {
-    matches!(adhesion.node(key), Some(node) if matches!(&node.value, Value::Text(text) if text == "auto"))
-}
-
 /// Work of adhesion and range from exactly two of the three parameters.
 fn numbers(adhesion: &Reader, law: Option<LawName>) -> Option<(f64, Range)> {
     let work = adhesion.quantity(
@@ -142,13 +131,12 @@ fn numbers(adhesion: &Reader, law: Option<LawName>) -> Option<(f64, Range)> {
         Dimension::EnergyPerArea,
         Allowed::POSITIVE,
     );
-    let auto = is_auto(adhesion, "range");
+    let auto = adhesion.is_text("range", "auto");
     let range = if auto {
         Some(Range::Auto)
     } else {
-        adhesion
-            .quantity("range", Dimension::Length, Allowed::POSITIVE)
-            .map(Range::Length)
+        let length = adhesion.quantity("range", Dimension::Length, Allowed::POSITIVE);
+        length.map(Range::Length)
     };
     let peak = adhesion.quantity("peak_tension", Dimension::Pressure, Allowed::POSITIVE);
     let given = ["work_of_adhesion", "range", "peak_tension"].map(|key| adhesion.has(key));
@@ -226,7 +214,7 @@ fn taper(adhesion: &Reader, law: Option<LawName>, range: Option<Range>) -> Optio
         );
         return None;
     }
-    if is_auto(adhesion, "taper") {
+    if adhesion.is_text("taper", "auto") {
         return Some(None);
     }
     let taper = adhesion.quantity("taper", Dimension::Length, Allowed::NOT_NEGATIVE)?;

@@ -2,7 +2,10 @@
 
 use std::path::PathBuf;
 
-use super::GridValues;
+use serde::Serialize;
+
+use super::words::words;
+use super::{GridValues, resolved};
 use crate::law::{Exponential, Law, LennardJones, MaugisDugdale};
 
 /// `[adhesion]`.
@@ -26,7 +29,7 @@ pub struct AdhesionScene {
 }
 
 /// Work of adhesion of an edge that recedes at a speed v: `w (1 + (v/v*)^n)`.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Copy, Debug, PartialEq, Serialize)]
 pub struct RateScene {
     /// Speed v* at which it doubles, m/s.
     pub reference_speed: f64,
@@ -35,16 +38,18 @@ pub struct RateScene {
 }
 
 /// Source of the factors on a law's tension.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq, Serialize)]
+#[serde(untagged)]
 #[non_exhaustive]
 pub enum AdhesionMap {
     /// A file with one factor a point; the path is resolved against the scene's folder.
-    File(PathBuf),
+    File(#[serde(serialize_with = "resolved::path")] PathBuf),
     /// One factor a point, given as an array.
     Factors(GridValues),
     /// Two factors that alternate every half period.
     Pattern {
         /// The shape of the pattern.
+        #[serde(rename = "pattern")]
         kind: PatternKind,
         /// Period, m.
         period: f64,
@@ -55,30 +60,19 @@ pub enum AdhesionMap {
     },
 }
 
-/// Shape of a pattern of two factors.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum PatternKind {
-    /// A checkerboard: alternating along x and y.
-    Checker,
-    /// Stripes: alternating along x.
-    Stripe,
-}
-
-impl PatternKind {
-    /// Every pattern.
-    pub const ALL: &[PatternKind] = &[PatternKind::Checker, PatternKind::Stripe];
-
-    /// The word used in scenes.
-    pub fn name(self) -> &'static str {
-        match self {
-            PatternKind::Checker => "checker",
-            PatternKind::Stripe => "stripe",
-        }
+words! {
+    /// Shape of a pattern of two factors.
+    PatternKind {
+        /// A checkerboard: alternating along x and y.
+        Checker = "checker",
+        /// Stripes: alternating along x.
+        Stripe = "stripe",
     }
 }
 
 /// `[capillary]`: a liquid that condenses between the surfaces.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq, Serialize)]
+#[non_exhaustive]
 pub struct CapillaryScene {
     /// Relative humidity, from 0 to below 1.
     pub humidity: f64,
@@ -89,47 +83,35 @@ pub struct CapillaryScene {
     /// Temperature, K.
     pub temperature: f64,
     /// Contact angle on both surfaces, rad.
+    #[serde(serialize_with = "resolved::degrees")]
     pub contact_angle: f64,
 }
 
 /// The range of a cohesive law: a length, or `auto`.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Copy, Debug, PartialEq, Serialize)]
+#[serde(rename_all = "lowercase")]
 pub enum Range {
-    /// A length, m.
-    Length(f64),
     /// The shortest range that the grid resolves at this work of adhesion.
     Auto,
+    /// A length, m.
+    #[serde(untagged)]
+    Length(f64),
 }
 
-/// The names of the cohesive laws.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-#[non_exhaustive]
-pub enum LawName {
-    /// Constant tension up to a range.
-    MaugisDugdale,
-    /// The 9-3 surface law with its own repulsion.
-    LennardJones,
-    /// Tension falling exponentially.
-    Exponential,
+words! {
+    /// The names of the cohesive laws.
+    #[non_exhaustive]
+    LawName {
+        /// Constant tension up to a range.
+        MaugisDugdale = "maugis-dugdale",
+        /// The 9-3 surface law with its own repulsion.
+        LennardJones = "lennard-jones",
+        /// Tension falling exponentially.
+        Exponential = "exponential",
+    }
 }
 
 impl LawName {
-    /// Every law.
-    pub const ALL: &[LawName] = &[
-        LawName::MaugisDugdale,
-        LawName::LennardJones,
-        LawName::Exponential,
-    ];
-
-    /// The word used in scenes.
-    pub fn name(self) -> &'static str {
-        match self {
-            LawName::MaugisDugdale => "maugis-dugdale",
-            LawName::LennardJones => "lennard-jones",
-            LawName::Exponential => "exponential",
-        }
-    }
-
     /// `peak_tension * range / work_of_adhesion` of the law.
     ///
     /// Lennard-Jones: the traction `(8 w / 3 eps)(s^3 - s^9)` is largest at `s^6 = 1/3`.
@@ -170,24 +152,12 @@ impl LawName {
     }
 }
 
-/// How the attraction is computed.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Treatment {
-    /// Solved together with the contact.
-    Full,
-    /// Summed over the gap of the solution without adhesion (DMT force approach).
-    Dmt,
-}
-
-impl Treatment {
-    /// Every treatment.
-    pub const ALL: &[Treatment] = &[Treatment::Full, Treatment::Dmt];
-
-    /// The word used in scenes.
-    pub fn name(self) -> &'static str {
-        match self {
-            Treatment::Full => "full",
-            Treatment::Dmt => "dmt",
-        }
+words! {
+    /// How the attraction is computed.
+    Treatment {
+        /// Solved together with the contact.
+        Full = "full",
+        /// Summed over the gap of the solution without adhesion (DMT force approach).
+        Dmt = "dmt",
     }
 }

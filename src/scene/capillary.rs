@@ -5,7 +5,7 @@ use std::f64::consts::FRAC_PI_2;
 use super::allowed::{Allowed, in_range};
 use super::keys;
 use super::reader::Reader;
-use super::{AdhesionScene, CapillaryScene, LawName, Range, Treatment};
+use super::{AdhesionScene, CapillaryScene, LawName};
 use crate::law::{Meniscus, least_humidity};
 use crate::units::Dimension;
 
@@ -36,32 +36,32 @@ pub(super) fn read(scene: &Reader) -> Option<Option<CapillaryScene>> {
     }
     capillary.require(&["humidity"]);
     let humidity = capillary.quantity("humidity", Dimension::Dimensionless, HUMIDITY);
-    let or = |key: &str, dimension, default: f64, allowed| {
-        if capillary.has(key) {
+    let [surface_tension, molar_volume, temperature, contact_angle] = [
+        (
+            "surface_tension",
+            WATER.0,
+            Dimension::ForcePerLength,
+            Allowed::POSITIVE,
+        ),
+        (
+            "molar_volume",
+            WATER.1,
+            Dimension::MolarVolume,
+            Allowed::POSITIVE,
+        ),
+        (
+            "temperature",
+            ROOM,
+            Dimension::Temperature,
+            Allowed::POSITIVE,
+        ),
+        ("contact_angle", 0.0, Dimension::Angle, ANGLE),
+    ]
+    .map(|(key, default, dimension, allowed)| {
+        capillary.or(key, default, |key| {
             capillary.quantity(key, dimension, allowed)
-        } else {
-            Some(default)
-        }
-    };
-    let surface_tension = or(
-        "surface_tension",
-        Dimension::ForcePerLength,
-        WATER.0,
-        Allowed::POSITIVE,
-    );
-    let molar_volume = or(
-        "molar_volume",
-        Dimension::MolarVolume,
-        WATER.1,
-        Allowed::POSITIVE,
-    );
-    let temperature = or(
-        "temperature",
-        Dimension::Temperature,
-        ROOM,
-        Allowed::POSITIVE,
-    );
-    let contact_angle = or("contact_angle", Dimension::Angle, 0.0, ANGLE);
+        })
+    });
     let found = CapillaryScene {
         humidity: humidity?,
         surface_tension: surface_tension?,
@@ -110,14 +110,9 @@ impl CapillaryScene {
     /// The equivalent cohesive law; `None` if the air is too dry for a liquid.
     pub fn adhesion(&self) -> Option<AdhesionScene> {
         let meniscus = self.meniscus();
-        self.bridges().then(|| AdhesionScene {
-            law: LawName::MaugisDugdale,
-            work_of_adhesion: meniscus.work_of_adhesion(),
-            range: Range::Length(meniscus.range()),
-            taper: None,
-            treatment: Treatment::Full,
-            map: None,
-            rate: None,
+        self.bridges().then(|| {
+            let (work, range) = (meniscus.work_of_adhesion(), meniscus.range());
+            AdhesionScene::new(LawName::MaugisDugdale, work, range)
         })
     }
 }

@@ -54,6 +54,11 @@ pub(super) struct Entry {
 }
 
 impl Node {
+    /// Whether the value is this text.
+    pub fn is_text(&self, text: &str) -> bool {
+        matches!(&self.value, Value::Text(found) if found == text)
+    }
+
     /// The value as messages show it.
     pub fn shown(&self) -> String {
         match &self.value {
@@ -110,7 +115,7 @@ impl Table {
 
 /// Parses the text of a scene.
 ///
-/// The first syntax error, with its line.
+/// # Errors
 /// The first place where the text is no TOML, with its line.
 pub(super) fn parse(text: &str) -> Result<Table, (Option<usize>, SceneError)> {
     let lines = Lines::new(text);

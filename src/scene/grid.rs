@@ -14,11 +14,7 @@ const MOST_POINTS: i64 = 65536;
 pub(super) fn read(scene: &Reader, surface_from_file: bool) -> Option<GridScene> {
     if !scene.has("grid") {
         if surface_from_file {
-            return Some(GridScene {
-                points: None,
-                size: None,
-                boundary: Boundary::Periodic,
-            });
+            return Some(GridScene::from_file());
         }
         scene.require_as("grid", "[grid] with points = 1024 and size = \"25 um\"");
         return None;
@@ -34,11 +30,7 @@ pub(super) fn read(scene: &Reader, surface_from_file: bool) -> Option<GridScene>
     let size = grid.one_or_two("size", |node, name| {
         grid.quantity_in(node, "size", name, Dimension::Length, Allowed::POSITIVE)
     });
-    let boundary = if grid.has("boundary") {
-        grid.choice("boundary", Boundary::ALL, Boundary::name)?
-    } else {
-        Boundary::Periodic
-    };
+    let boundary = grid.word_or("boundary", Boundary::Periodic)?;
     // An absent value is allowed here, a wrong one is not.
     if points.is_none() && grid.has("points") || size.is_none() && grid.has("size") {
         return None;
@@ -58,7 +50,7 @@ pub(super) fn has_height_file(scene: &Table) -> bool {
     parts.iter().any(|part| match &part.value {
         Value::Table(table) => table
             .get("kind")
-            .is_some_and(|kind| matches!(&kind.node.value, Value::Text(text) if text == "file")),
+            .is_some_and(|kind| kind.node.is_text("file")),
         _ => false,
     })
 }

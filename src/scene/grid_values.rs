@@ -3,6 +3,8 @@
 use std::fmt;
 use std::sync::Arc;
 
+use serde::ser::{Serialize, SerializeStruct, Serializer};
+
 /// One number a point of the grid, shape `[ny, nx]`, row-major: point (ix, iy) is element `iy * nx + ix`.
 ///
 /// Copies share the numbers.
@@ -33,12 +35,22 @@ impl GridValues {
     }
 
     /// CRC-32 of the numbers, by which they are told from others.
-    pub(super) fn checksum(&self) -> u32 {
+    fn checksum(&self) -> u32 {
         let mut checksum = crc32fast::Hasher::new();
         for value in self.values.iter() {
             checksum.update(&value.to_le_bytes());
         }
         checksum.finalize()
+    }
+}
+
+/// Identified by points and checksum: no file of a scene holds an array.
+impl Serialize for GridValues {
+    fn serialize<S: Serializer>(&self, to: S) -> Result<S::Ok, S::Error> {
+        let mut table = to.serialize_struct("GridValues", 2)?;
+        table.serialize_field("points", &self.points)?;
+        table.serialize_field("checksum", &self.checksum())?;
+        table.end()
     }
 }
 

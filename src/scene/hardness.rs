@@ -2,7 +2,6 @@
 //! with.
 
 use super::keys;
-use super::mistake::SceneError;
 use super::reader::Reader;
 use super::{
     AdhesionScene, Control, GridScene, LawName, LoadingScene, Precision, SolidScene, SolverScene,
@@ -17,14 +16,10 @@ pub(super) fn check_precision(scene: &Reader, solid: &SolidScene, solver: Option
         return;
     }
     if let Some(solid) = scene.table_again("solid", &keys::SOLID) {
-        solid.report(
+        solid.not_in_this_version(
             "hardness",
-            SceneError::NotInThisVersion {
-                what: "a hardness in mixed precision".to_string(),
-                instead:
-                    "take precision = \"single\", or \"double\", with backend = \"cpu\" where the adapter has none"
-                        .to_string(),
-            },
+            "a hardness in mixed precision",
+            "take precision = \"single\", or \"double\", with backend = \"cpu\" where the adapter has none",
         );
     }
 }
@@ -43,26 +38,19 @@ pub(super) fn check(
     let Some(solid) = scene.table_again("solid", &keys::SOLID) else {
         return;
     };
-    let not_yet = |what: &str, instead: &str| {
-        solid.report(
-            "hardness",
-            SceneError::NotInThisVersion {
-                what: what.to_string(),
-                instead: instead.to_string(),
-            },
-        );
-    };
     match adhesion {
         Some(adhesion) if adhesion.treatment == Treatment::Dmt => {
             // The search for the net load tries larger loads, which would indent the solid.
-            not_yet(
+            solid.not_in_this_version(
+                "hardness",
                 "a hardness with treatment = \"dmt\"",
                 "take treatment = \"full\", or leave the hardness out",
             );
         }
         Some(adhesion) if adhesion.law == LawName::LennardJones => {
             // Its repulsion has no contact at which the pressure could saturate.
-            not_yet(
+            solid.not_in_this_version(
+                "hardness",
                 "a hardness with the Lennard-Jones law",
                 "take law = \"maugis-dugdale\" or \"exponential\", or leave the hardness out",
             );

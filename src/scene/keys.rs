@@ -1,24 +1,35 @@
-//! The keys of each table with an example line: the one list behind every message.
+//! The keys of each table with an example value: the one list behind every message.
 
 use super::tables;
+
+/// A key, and an example of its value; the head of a table stands for a table.
+pub(super) type Key = (&'static str, &'static str);
 
 /// A table of a scene, or one kind of `[[surface]]`.
 pub(super) struct Section {
     /// The table's name in messages.
     pub title: &'static str,
-    /// Keys, each with an example line, in the order of the documentation.
-    pub keys: &'static [(&'static str, &'static str)],
+    /// Keys in the order of the documentation.
+    pub keys: &'static [Key],
     /// Keys of effects that this version lacks, each with the name of the effect.
-    pub later: &'static [(&'static str, &'static str)],
+    pub later: &'static [Key],
 }
 
 impl Section {
+    /// The section of these keys.
+    pub const fn new(title: &'static str, keys: &'static [Key]) -> Self {
+        let later = &[];
+        Section { title, keys, later }
+    }
+
     /// An example line for a key.
     pub fn example(&self, key: &str) -> String {
-        self.keys
-            .iter()
-            .find(|(name, _)| *name == key)
-            .map_or_else(|| format!("{key} = ..."), |(_, line)| (*line).to_string())
+        let known = self.keys.iter().find(|(name, _)| *name == key);
+        match known {
+            None => format!("{key} = ..."),
+            Some((_, value)) if is_head(value) => (*value).to_string(),
+            Some((_, value)) => format!("{key} = {value}"),
+        }
     }
 
     /// The keys of the table; those of later versions come last.
@@ -27,16 +38,33 @@ impl Section {
     }
 }
 
+/// Whether a text is `[table]` or `[[table]]`, and no list.
+fn is_head(text: &str) -> bool {
+    text.starts_with('[') && !text.starts_with("[\"")
+}
+
+/// Declares sections by their title and a line for each key.
+macro_rules! sections {
+    ($( $NAME:ident $title:literal { $( $key:ident = $value:tt, )+ } )+) => {
+        $(
+            pub(super) const $NAME: Section = Section::new(
+                $title,
+                &[$( (stringify!($key), stringify!($value)) ),+],
+            );
+        )+
+    };
+}
+
 /// Keys of the scene itself before the tables that [`tables`] declares, and behind them.
-const FIRST: [(&str, &str); 6] = [
-    ("title", "title = \"Sphere on a flat\""),
+const FIRST: [Key; 6] = [
+    ("title", "\"Sphere on a flat\""),
     ("grid", "[grid]"),
     ("solid", "[solid]"),
     ("surface", "[[surface]]"),
     ("adhesion", "[adhesion]"),
     ("capillary", "[capillary]"),
 ];
-const LAST: [(&str, &str); 3] = [
+const LAST: [Key; 3] = [
     ("loading", "[loading]"),
     ("solver", "[solver]"),
     ("output", "[output]"),
@@ -44,7 +72,7 @@ const LAST: [(&str, &str); 3] = [
 const COUNT: usize = FIRST.len() + tables::NAMES.len() + LAST.len();
 
 /// The keys of the scene itself in their order.
-const fn scene_keys() -> [(&'static str, &'static str); COUNT] {
+const fn scene_keys() -> [Key; COUNT] {
     let mut keys = [FIRST[0]; COUNT];
     let behind = FIRST.len() + tables::NAMES.len();
     let mut i = 0;
@@ -62,213 +90,129 @@ const fn scene_keys() -> [(&'static str, &'static str); COUNT] {
 }
 
 pub(super) const SCENE: Section = Section {
-    title: "the scene itself",
-    keys: &scene_keys(),
     later: &[("plastic", "plasticity")],
+    ..Section::new("the scene itself", &scene_keys())
 };
 
-pub(super) const GRID: Section = Section {
-    title: "[grid]",
-    keys: &[
-        ("points", "points = 1024"),
-        ("size", "size = \"25 um\""),
-        ("boundary", "boundary = \"periodic\""),
-    ],
-    later: &[],
-};
+sections! {
+    GRID "[grid]" {
+        points = 1024,
+        size = "25 um",
+        boundary = "periodic",
+    }
+    SOLID "[solid]" {
+        contact_modulus = "1.33 TPa",
+        young_modulus = "70 GPa",
+        poisson_ratio = 0.3,
+        counter_young_modulus = "210 GPa",
+        counter_poisson_ratio = 0.3,
+        thickness = "5 um",
+        base = "bonded",
+        hardness = "10 GPa",
+        relaxation = [[solid.relaxation]],
+    }
+    RELAXATION "[[solid.relaxation]]" {
+        modulus = "1 MPa",
+        time = "10 ms",
+    }
+    ADHESION "[adhesion]" {
+        law = "maugis-dugdale",
+        work_of_adhesion = "50 mJ/m^2",
+        range = "1 nm",
+        peak_tension = "50 MPa",
+        taper = "auto",
+        treatment = "full",
+        map = "w.npy",
+        rate = { reference_speed = "1 um/s", exponent = 0.5 },
+    }
+    RATE "the rate of [adhesion]" {
+        reference_speed = "1 um/s",
+        exponent = 0.5,
+    }
+    PATTERN "the pattern of [adhesion] map" {
+        pattern = "checker",
+        period = "1 um",
+        low = 0,
+        high = 1,
+    }
+    CAPILLARY "[capillary]" {
+        humidity = 0.5,
+        surface_tension = "72 mN/m",
+        molar_volume = "1.8e-5 m^3/mol",
+        temperature = "298 K",
+        contact_angle = "20 deg",
+    }
+    LOADING "[loading]" {
+        control = "pressure",
+        path = ["1 MPa", "10 MPa"],
+        start = "1 MPa",
+        ramp = [[loading.ramp]],
+        spring = "0.2 N/m",
+        time_tolerance = 1e-3,
+        pull_off_tolerance = 0.01,
+    }
+    RAMP "[[loading.ramp]]" {
+        to = "10 MPa",
+        steps = 10,
+        duration = "1 s",
+        hold = "1 s",
+    }
+    SOLVER "[solver]" {
+        tolerance = 1e-6,
+        max_iterations = 5000,
+        precision = "auto",
+        backend = "auto",
+    }
+    OUTPUT "[output]" {
+        images = ["pressure"],
+        fields = ["gap"],
+        steps = "last",
+    }
+}
 
-pub(super) const SOLID: Section = Section {
-    title: "[solid]",
-    keys: &[
-        ("contact_modulus", "contact_modulus = \"1.33 TPa\""),
-        ("young_modulus", "young_modulus = \"70 GPa\""),
-        ("poisson_ratio", "poisson_ratio = 0.3"),
-        (
-            "counter_young_modulus",
-            "counter_young_modulus = \"210 GPa\"",
-        ),
-        ("counter_poisson_ratio", "counter_poisson_ratio = 0.3"),
-        ("thickness", "thickness = \"5 um\""),
-        ("base", "base = \"bonded\""),
-        ("hardness", "hardness = \"10 GPa\""),
-        ("relaxation", "[[solid.relaxation]]"),
-    ],
-    later: &[],
-};
-
-pub(super) const RELAXATION: Section = Section {
-    title: "[[solid.relaxation]]",
-    keys: &[
-        ("modulus", "modulus = \"1 MPa\""),
-        ("time", "time = \"10 ms\""),
-    ],
-    later: &[],
-};
-
-const KIND: (&str, &str) = ("kind", "kind = \"sphere\"");
-const CENTRE: (&str, &str) = ("centre", "centre = [\"1 um\", \"1 um\"]");
-const HURST: (&str, &str) = ("hurst", "hurst = 0.8");
-const RMS_HEIGHT: (&str, &str) = ("rms_height", "rms_height = \"0.52 nm\"");
-const RMS_SLOPE: (&str, &str) = ("rms_slope", "rms_slope = 0.1");
-const LONGEST: (&str, &str) = ("longest", "longest = \"25 um\"");
-const ROLLOFF: (&str, &str) = ("rolloff", "rolloff = \"6.25 um\"");
-const SHORTEST: (&str, &str) = ("shortest", "shortest = \"195 nm\"");
-const SEED: (&str, &str) = ("seed", "seed = 1");
-const RADIUS: (&str, &str) = ("radius", "radius = \"1 um\"");
-const HALF_ANGLE: (&str, &str) = ("half_angle", "half_angle = \"70 deg\"");
-const AMPLITUDE: (&str, &str) = ("amplitude", "amplitude = \"1 nm\"");
-const WAVELENGTH: (&str, &str) = ("wavelength", "wavelength = \"1 um\"");
-const PATH: (&str, &str) = ("path", "path = \"heights.npy\"");
-const UNIT: (&str, &str) = ("unit", "unit = \"nm\"");
-const SCALE: (&str, &str) = ("scale", "scale = 1.0");
-const DETREND: (&str, &str) = ("detrend", "detrend = \"plane\"");
-const FILL: (&str, &str) = ("fill", "fill = \"interpolate\"");
-const BLACK: (&str, &str) = ("black", "black = 0.0");
-const WHITE: (&str, &str) = ("white", "white = \"1 um\"");
+const KIND: Key = ("kind", "\"sphere\"");
+const CENTRE: Key = ("centre", "[\"1 um\", \"1 um\"]");
+const HURST: Key = ("hurst", "0.8");
+const RMS_HEIGHT: Key = ("rms_height", "\"0.52 nm\"");
+const RMS_SLOPE: Key = ("rms_slope", "0.1");
+const LONGEST: Key = ("longest", "\"25 um\"");
+const ROLLOFF: Key = ("rolloff", "\"6.25 um\"");
+const SHORTEST: Key = ("shortest", "\"195 nm\"");
+const SEED: Key = ("seed", "1");
+const RADIUS: Key = ("radius", "\"1 um\"");
+const HALF_ANGLE: Key = ("half_angle", "\"70 deg\"");
+const AMPLITUDE: Key = ("amplitude", "\"1 nm\"");
+const WAVELENGTH: Key = ("wavelength", "\"1 um\"");
+const PATH: Key = ("path", "\"heights.npy\"");
+const UNIT: Key = ("unit", "\"nm\"");
+const SCALE: Key = ("scale", "1.0");
+const DETREND: Key = ("detrend", "\"plane\"");
+const FILL: Key = ("fill", "\"interpolate\"");
+const BLACK: Key = ("black", "0.0");
+const WHITE: Key = ("white", "\"1 um\"");
 
 /// A `[[surface]]` of unknown kind: the keys of every kind.
-pub(super) const SURFACE: Section = Section {
-    title: "[[surface]]",
-    keys: &[
+pub(super) const SURFACE: Section = Section::new(
+    "[[surface]]",
+    &[
         KIND, HURST, RMS_HEIGHT, RMS_SLOPE, LONGEST, ROLLOFF, SHORTEST, SEED, RADIUS, HALF_ANGLE,
         CENTRE, AMPLITUDE, WAVELENGTH, PATH, UNIT, SCALE, BLACK, WHITE, DETREND, FILL,
     ],
-    later: &[],
-};
-
-pub(super) const SELF_AFFINE: Section = Section {
-    title: "a self-affine [[surface]]",
-    keys: &[
+);
+pub(super) const SELF_AFFINE: Section = Section::new(
+    "a self-affine [[surface]]",
+    &[
         KIND, HURST, RMS_HEIGHT, RMS_SLOPE, LONGEST, ROLLOFF, SHORTEST, SEED,
     ],
-    later: &[],
-};
-
-pub(super) const SPHERE: Section = Section {
-    title: "a sphere [[surface]]",
-    keys: &[KIND, RADIUS, CENTRE],
-    later: &[],
-};
-
-pub(super) const CONE: Section = Section {
-    title: "a cone [[surface]]",
-    keys: &[KIND, HALF_ANGLE, CENTRE],
-    later: &[],
-};
-
-pub(super) const WAVY: Section = Section {
-    title: "a wavy [[surface]]",
-    keys: &[KIND, AMPLITUDE, WAVELENGTH],
-    later: &[],
-};
-
-pub(super) const FLAT: Section = Section {
-    title: "a flat [[surface]]",
-    keys: &[KIND],
-    later: &[],
-};
-
-pub(super) const FILE: Section = Section {
-    title: "a file [[surface]]",
-    keys: &[KIND, PATH, UNIT, SCALE, BLACK, WHITE, DETREND, FILL],
-    later: &[],
-};
-
-pub(super) const ADHESION: Section = Section {
-    title: "[adhesion]",
-    keys: &[
-        ("law", "law = \"maugis-dugdale\""),
-        ("work_of_adhesion", "work_of_adhesion = \"50 mJ/m^2\""),
-        ("range", "range = \"1 nm\""),
-        ("peak_tension", "peak_tension = \"50 MPa\""),
-        ("taper", "taper = \"auto\""),
-        ("treatment", "treatment = \"full\""),
-        ("map", "map = \"w.npy\""),
-        (
-            "rate",
-            "rate = { reference_speed = \"1 um/s\", exponent = 0.5 }",
-        ),
-    ],
-    later: &[],
-};
-
-pub(super) const RATE: Section = Section {
-    title: "the rate of [adhesion]",
-    keys: &[
-        ("reference_speed", "reference_speed = \"1 um/s\""),
-        ("exponent", "exponent = 0.5"),
-    ],
-    later: &[],
-};
-
-pub(super) const PATTERN: Section = Section {
-    title: "the pattern of [adhesion] map",
-    keys: &[
-        ("pattern", "pattern = \"checker\""),
-        ("period", "period = \"1 um\""),
-        ("low", "low = 0"),
-        ("high", "high = 1"),
-    ],
-    later: &[],
-};
-
-pub(super) const CAPILLARY: Section = Section {
-    title: "[capillary]",
-    keys: &[
-        ("humidity", "humidity = 0.5"),
-        ("surface_tension", "surface_tension = \"72 mN/m\""),
-        ("molar_volume", "molar_volume = \"1.8e-5 m^3/mol\""),
-        ("temperature", "temperature = \"298 K\""),
-        ("contact_angle", "contact_angle = \"20 deg\""),
-    ],
-    later: &[],
-};
-
-pub(super) const LOADING: Section = Section {
-    title: "[loading]",
-    keys: &[
-        ("control", "control = \"pressure\""),
-        ("path", "path = [\"1 MPa\", \"10 MPa\"]"),
-        ("start", "start = \"1 MPa\""),
-        ("ramp", "[[loading.ramp]]"),
-        ("spring", "spring = \"0.2 N/m\""),
-        ("time_tolerance", "time_tolerance = 1e-3"),
-        ("pull_off_tolerance", "pull_off_tolerance = 0.01"),
-    ],
-    later: &[],
-};
-
-pub(super) const RAMP: Section = Section {
-    title: "[[loading.ramp]]",
-    keys: &[
-        ("to", "to = \"10 MPa\""),
-        ("steps", "steps = 10"),
-        ("duration", "duration = \"1 s\""),
-        ("hold", "hold = \"1 s\""),
-    ],
-    later: &[],
-};
-
-pub(super) const SOLVER: Section = Section {
-    title: "[solver]",
-    keys: &[
-        ("tolerance", "tolerance = 1e-6"),
-        ("max_iterations", "max_iterations = 5000"),
-        ("precision", "precision = \"auto\""),
-        ("backend", "backend = \"auto\""),
-    ],
-    later: &[],
-};
-
-pub(super) const OUTPUT: Section = Section {
-    title: "[output]",
-    keys: &[
-        ("images", "images = [\"pressure\"]"),
-        ("fields", "fields = [\"gap\"]"),
-        ("steps", "steps = \"last\""),
-    ],
-    later: &[],
-};
+);
+pub(super) const SPHERE: Section = Section::new("a sphere [[surface]]", &[KIND, RADIUS, CENTRE]);
+pub(super) const CONE: Section = Section::new("a cone [[surface]]", &[KIND, HALF_ANGLE, CENTRE]);
+pub(super) const WAVY: Section = Section::new("a wavy [[surface]]", &[KIND, AMPLITUDE, WAVELENGTH]);
+pub(super) const FLAT: Section = Section::new("a flat [[surface]]", &[KIND]);
+pub(super) const FILE: Section = Section::new(
+    "a file [[surface]]",
+    &[KIND, PATH, UNIT, SCALE, BLACK, WHITE, DETREND, FILL],
+);
 
 /// The sections before the tables that [`tables`] declares, and behind them.
 const BEFORE: &[&Section] = &[

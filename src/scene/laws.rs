@@ -42,50 +42,50 @@ impl MaugisDugdale {
     }
 }
 
-/// The 9-3 law between surfaces, with its own repulsion: gaps are measured from where it pulls and pushes
-/// equally, and may be negative.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct LennardJones {
-    work_of_adhesion: f64,
-    range: Range,
+/// Laws of a work of adhesion and a range alone.
+macro_rules! laws {
+    ($( $(#[$doc:meta])* $Name:ident($(#[$range_doc:meta])*); )+) => {
+        $(
+            $(#[$doc])*
+            #[derive(Clone, Copy, Debug, PartialEq)]
+            pub struct $Name {
+                work_of_adhesion: f64,
+                range: Range,
+            }
+
+            impl $Name {
+                $(#[$range_doc])*
+                pub fn new(work_of_adhesion: f64, range: impl Into<Range>) -> Self {
+                    let range = range.into();
+                    $Name { work_of_adhesion, range }
+                }
+
+                /// The law of a work of adhesion (J/m^2) and its greatest tension (Pa).
+                pub fn from_peak_tension(work_of_adhesion: f64, peak_tension: f64) -> Self {
+                    let range = work_of_adhesion * LawName::$Name.shape() / peak_tension;
+                    $Name::new(work_of_adhesion, range)
+                }
+            }
+
+            impl From<$Name> for AdhesionScene {
+                fn from(law: $Name) -> Self {
+                    AdhesionScene::new(LawName::$Name, law.work_of_adhesion, law.range)
+                }
+            }
+        )+
+    };
 }
 
-impl LennardJones {
-    /// The law of a work of adhesion (J/m^2) and the distance of equilibrium (m).
-    pub fn new(work_of_adhesion: f64, range: impl Into<Range>) -> Self {
-        LennardJones {
-            work_of_adhesion,
-            range: range.into(),
-        }
-    }
-
-    /// The law of a work of adhesion (J/m^2) and its greatest tension (Pa).
-    pub fn from_peak_tension(work_of_adhesion: f64, peak_tension: f64) -> Self {
-        let range = work_of_adhesion * LawName::LennardJones.shape() / peak_tension;
-        LennardJones::new(work_of_adhesion, range)
-    }
-}
-
-/// Tension that falls as `exp(-gap/range)`, with a wall behind it.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Exponential {
-    work_of_adhesion: f64,
-    range: Range,
-}
-
-impl Exponential {
-    /// The law of a work of adhesion (J/m^2) and a range (m), which is the work over the greatest tension.
-    pub fn new(work_of_adhesion: f64, range: impl Into<Range>) -> Self {
-        Exponential {
-            work_of_adhesion,
-            range: range.into(),
-        }
-    }
-
-    /// The law of a work of adhesion (J/m^2) and its greatest tension (Pa).
-    pub fn from_peak_tension(work_of_adhesion: f64, peak_tension: f64) -> Self {
-        Exponential::new(work_of_adhesion, work_of_adhesion / peak_tension)
-    }
+laws! {
+    /// The 9-3 law between surfaces, with its own repulsion: gaps are measured from where it pulls and pushes
+    /// equally, and may be negative.
+    LennardJones(
+        /// The law of a work of adhesion (J/m^2) and the distance of equilibrium (m).
+    );
+    /// Tension that falls as `exp(-gap/range)`, with a wall behind it.
+    Exponential(
+        /// The law of a work of adhesion (J/m^2) and a range (m), which is the work over the greatest tension.
+    );
 }
 
 impl From<f64> for Range {
@@ -137,17 +137,5 @@ impl From<MaugisDugdale> for AdhesionScene {
             taper: law.taper,
             ..AdhesionScene::new(LawName::MaugisDugdale, law.work_of_adhesion, law.range)
         }
-    }
-}
-
-impl From<LennardJones> for AdhesionScene {
-    fn from(law: LennardJones) -> Self {
-        AdhesionScene::new(LawName::LennardJones, law.work_of_adhesion, law.range)
-    }
-}
-
-impl From<Exponential> for AdhesionScene {
-    fn from(law: Exponential) -> Self {
-        AdhesionScene::new(LawName::Exponential, law.work_of_adhesion, law.range)
     }
 }

@@ -3,7 +3,6 @@
 use super::allowed::Allowed;
 use super::document::Value;
 use super::keys;
-use super::mistake::SceneError;
 use super::reader::Reader;
 use super::time_steps::{Cutter, DEFAULT_TOLERANCE, Leg};
 use super::{
@@ -53,7 +52,7 @@ pub(super) fn read(
     );
     let loading = scene.table("loading", &keys::LOADING)?;
     loading.require(&["control"]);
-    let control = loading.choice("control", Control::ALL, Control::name);
+    let control = loading.word("control");
     if boundary == Some(Boundary::Free)
         && matches!(control, Some(Control::Pressure | Control::MeanGap))
     {
@@ -62,44 +61,32 @@ pub(super) fn read(
             "a free boundary has no nominal area to average over; take \"force\" or \"approach\", or boundary = \"periodic\"",
         );
     }
-    let spring = if loading.has("spring") {
+    let spring = loading.optional("spring", |key| {
         if control.is_some_and(|control| control != Control::Approach) {
             loading.conflict(
-                "spring",
+                key,
                 "a spring needs a prescribed far end; take control = \"approach\", or leave the spring out",
             );
         }
         if adhesion.is_some_and(|adhesion| adhesion.treatment == Treatment::Dmt) {
             // The spring would have to balance a load that the solver does not know.
-            loading.report(
-                "spring",
-                SceneError::NotInThisVersion {
-                    what: "a spring with treatment = \"dmt\"".to_string(),
-                    instead: "take treatment = \"full\", or leave the spring out".to_string(),
-                },
+            loading.not_in_this_version(
+                key,
+                "a spring with treatment = \"dmt\"",
+                "take treatment = \"full\", or leave the spring out",
             );
         }
-        loading
-            .quantity("spring", Dimension::ForcePerLength, Allowed::POSITIVE)
-            .map(Some)
-    } else {
-        Some(None)
-    };
-    let pull_off_tolerance = if loading.has("pull_off_tolerance") {
+        loading.quantity(key, Dimension::ForcePerLength, Allowed::POSITIVE)
+    });
+    let pull_off_tolerance = loading.or("pull_off_tolerance", PULL_OFF_TOLERANCE, |key| {
         if matches!(control, Some(Control::Approach | Control::MeanGap)) {
             loading.conflict(
-                "pull_off_tolerance",
+                key,
                 "applies to a prescribed load; take control = \"pressure\" or \"force\", or leave the tolerance out",
             );
         }
-        loading.quantity(
-            "pull_off_tolerance",
-            Dimension::Dimensionless,
-            PULL_OFF_TOLERANCES,
-        )
-    } else {
-        Some(PULL_OFF_TOLERANCE)
-    };
+        loading.quantity(key, Dimension::Dimensionless, PULL_OFF_TOLERANCES)
+    });
     let relaxes = solid.is_some_and(|solid| !solid.relaxation.is_empty());
     let timed = path(&loading, control, adhesion, solid);
     if let Some(timed) = &timed
@@ -235,7 +222,7 @@ fn ramp(ramp: &Reader, value: Option<&PathValue>, solid: Option<&SolidScene>) ->
         }
     }
     ramp.require(&["steps"]);
-    let steps = if is_auto(ramp) {
+    let steps = if ramp.is_text("steps", AUTO) {
         may_be_auto(ramp, solid).map(|()| None)
     } else {
         whole_steps(ramp).map(Some)
@@ -255,7 +242,7 @@ fn ramp(ramp: &Reader, value: Option<&PathValue>, solid: Option<&SolidScene>) ->
 
 /// Whether a ramp has `steps = "auto"`.
 fn is_auto(ramp: &Reader) -> bool {
-    matches!(ramp.node("steps"), Some(node) if matches!(&node.value, Value::Text(text) if text == AUTO))
+    ramp.is_text("steps", AUTO)
 }
 
 /// The number of steps of a ramp that gives one.
@@ -336,11 +323,9 @@ fn ramps(
         return None;
     }
     no_auto_ramp(loading, &readers)?;
-    let tolerance = if loading.has("time_tolerance") {
-        loading.quantity("time_tolerance", Dimension::Dimensionless, TIME_TOLERANCE)?
-    } else {
-        DEFAULT_TOLERANCE
-    };
+    let tolerance = loading.or("time_tolerance", DEFAULT_TOLERANCE, |key| {
+        loading.quantity(key, Dimension::Dimensionless, TIME_TOLERANCE)
+    })?;
     let takes_time = |ramp: &Reader| ramp.has("hold") || ramp.has("duration");
     if readers.iter().any(takes_time) {
         for reader in readers.iter().filter(|ramp| !takes_time(ramp)) {

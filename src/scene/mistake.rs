@@ -1,7 +1,5 @@
 //! Mistakes of a scene, in terms of the scene file.
 
-use std::fmt;
-
 use thiserror::Error;
 
 use crate::units::UnitError;
@@ -110,39 +108,36 @@ fn elsewhere_hint(tables: &[String]) -> String {
 }
 
 /// One mistake with its location.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq, Error)]
+#[error("{file}{}{}: {error}", place(*.from_set, *.line), key_after_colon(.key))]
 pub struct Mistake {
     /// The scene file as the caller named it.
     pub file: String,
     /// Line in the file, from 1; `None` if no line of the file is concerned.
     pub line: Option<usize>,
-    /// The key, dotted as in `--set`, tables of an array counted from 0: `surface.0.hurst`. Empty
+    /// The key, dotted as in an override, tables of an array counted from 0: `surface.0.hurst`. Empty
     /// for the whole file.
     pub key: String,
-    /// Whether the value came from `--set` and not from the file.
+    /// Whether the value came from an override and not from the file.
     pub from_set: bool,
     /// The mistake and its remedy.
+    #[source]
     pub error: SceneError,
 }
 
-impl fmt::Display for Mistake {
-    fn fmt(&self, formatter: &mut fmt::Formatter<'_>) -> fmt::Result {
-        formatter.write_str(&self.file)?;
-        if self.from_set {
-            formatter.write_str(", from --set")?;
-        } else if let Some(line) = self.line {
-            write!(formatter, ":{line}")?;
-        }
-        if !self.key.is_empty() {
-            write!(formatter, ": {}", self.key)?;
-        }
-        write!(formatter, ": {}", self.error)
+fn place(from_set: bool, line: Option<usize>) -> String {
+    match line {
+        _ if from_set => ", from an override".to_string(),
+        Some(line) => format!(":{line}"),
+        None => String::new(),
     }
 }
 
-impl std::error::Error for Mistake {
-    fn source(&self) -> Option<&(dyn std::error::Error + 'static)> {
-        Some(&self.error)
+fn key_after_colon(key: &str) -> String {
+    if key.is_empty() {
+        String::new()
+    } else {
+        format!(": {key}")
     }
 }
 
@@ -151,7 +146,8 @@ const MOST_SHOWN: usize = 20;
 
 /// All mistakes of a scene in the order of its lines; displays the first 20, one a line, and the
 /// number of the others.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq, Error)]
+#[error("{}", self.lines().collect::<Vec<_>>().join("\n"))]
 pub struct SceneErrors(pub Vec<Mistake>);
 
 impl SceneErrors {
@@ -166,12 +162,3 @@ impl SceneErrors {
         shown.chain(left_out)
     }
 }
-
-impl fmt::Display for SceneErrors {
-    fn fmt(&self, formatter: &mut fmt::Formatter<'_>) -> fmt::Result {
-        let lines: Vec<String> = self.lines().collect();
-        formatter.write_str(&lines.join("\n"))
-    }
-}
-
-impl std::error::Error for SceneErrors {}

@@ -31,6 +31,7 @@ mod surface;
 mod tables;
 mod time_steps;
 mod types;
+mod words;
 
 use std::io::Read;
 use std::path::{Path, PathBuf};

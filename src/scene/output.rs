@@ -23,8 +23,8 @@ pub(super) fn read(scene: &Reader, path_length: Option<usize>) -> Option<OutputS
         return Some(default);
     }
     let output = scene.table("output", &keys::OUTPUT)?;
-    let images = fields(&output, "images", default.images);
-    let fields = fields(&output, "fields", default.fields);
+    let images = output.or("images", default.images, |key| fields(&output, key));
+    let fields = output.or("fields", default.fields, |key| fields(&output, key));
     let steps = steps(&output, path_length, default.steps);
     Some(OutputScene {
         images: images?,
@@ -33,10 +33,7 @@ pub(super) fn read(scene: &Reader, path_length: Option<usize>) -> Option<OutputS
     })
 }
 
-fn fields(output: &Reader, key: &str, default: Vec<FieldName>) -> Option<Vec<FieldName>> {
-    if !output.has(key) {
-        return Some(default);
-    }
+fn fields(output: &Reader, key: &str) -> Option<Vec<FieldName>> {
     let list = output.list(key, "a list of names")?;
     let read: Vec<Option<FieldName>> = list
         .iter()
@@ -76,14 +73,11 @@ fn steps(output: &Reader, path_length: Option<usize>, default: StepChoice) -> Op
                     let step = usize::try_from(step).ok()?;
                     match path_length {
                         Some(length) if step > length => {
-                            output.report_at(
-                                node.place,
-                                name,
-                                SceneError::OutOfRange {
-                                    found: step.to_string(),
-                                    allowed: format!("a step of the path, 1 to {length}"),
-                                },
-                            );
+                            let error = SceneError::OutOfRange {
+                                found: step.to_string(),
+                                allowed: format!("a step of the path, 1 to {length}"),
+                            };
+                            output.report_at(node.place, name, error);
                             None
                         }
                         _ => Some(step),
@@ -93,14 +87,12 @@ fn steps(output: &Reader, path_length: Option<usize>, default: StepChoice) -> Op
             Some(StepChoice::List(read.into_iter().collect::<Option<_>>()?))
         }
         _ => {
-            output.report(
-                "steps",
-                SceneError::WrongType {
-                    found: node.described(),
-                    expected: "\"last\", \"all\" or a list of step numbers".into(),
-                    example: "steps = [1, 5]".into(),
-                },
-            );
+            let error = SceneError::WrongType {
+                found: node.described(),
+                expected: "\"last\", \"all\" or a list of step numbers".into(),
+                example: "steps = [1, 5]".into(),
+            };
+            output.report("steps", error);
             None
         }
     }

@@ -26,8 +26,7 @@ fn set(root: &mut Table, key: &str, node: Node) -> Result<(), SceneError> {
     let names: Vec<&str> = key.split('.').map(str::trim).collect();
     let Some((last, tables)) = names.split_last().filter(|_| !names.contains(&"")) else {
         return Err(refuse(
-            "not a key; write it with dots between the names, such as --set surface.0.hurst=0.4"
-                .into(),
+            "not a key; write it with dots between the names, such as surface.0.hurst=0.4".into(),
         ));
     };
     if let Some(first) = tables.first()
@@ -68,7 +67,7 @@ fn absent_table(name: &str) -> SceneError {
         refuse("the scene has no [[surface]]; add one to the file first".into())
     } else {
         refuse(format!(
-            "the scene has no [{name}]; add the table to the file first, or set all of it with --set '{name}={{ ... }}'"
+            "the scene has no [{name}]; add the table to the file first, or override all of it with '{name}={{ ... }}'"
         ))
     }
 }

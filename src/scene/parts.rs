@@ -2,10 +2,14 @@
 
 use std::path::PathBuf;
 
-use super::GridValues;
+use serde::Serialize;
+
+use super::words::words;
+use super::{GridValues, resolved};
 
 /// One `[[surface]]` part.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq, Serialize)]
+#[serde(tag = "kind", rename_all = "kebab-case")]
 #[non_exhaustive]
 pub enum SurfacePart {
     /// Self-affine roughness with a roll-off and a cut-off.
@@ -15,13 +19,16 @@ pub enum SurfacePart {
         /// Radius of curvature, m.
         radius: f64,
         /// Apex (x, y), m; `None` is the middle of the grid.
+        #[serde(skip_serializing_if = "Option::is_none")]
         centre: Option<[f64; 2]>,
     },
     /// Cone `-r / tan(half_angle)`.
     Cone {
         /// Angle between axis and flank, rad.
+        #[serde(serialize_with = "resolved::degrees")]
         half_angle: f64,
         /// Apex (x, y), m; `None` is the middle of the grid.
+        #[serde(skip_serializing_if = "Option::is_none")]
         centre: Option<[f64; 2]>,
     },
     /// `amplitude cos(2 pi x / wavelength_x) cos(2 pi y / wavelength_y)`; an infinite wavelength gives 1.
@@ -29,6 +36,7 @@ pub enum SurfacePart {
         /// Amplitude, m.
         amplitude: f64,
         /// Wavelengths along x and y, m; `f64::INFINITY` for none.
+        #[serde(serialize_with = "resolved::wavelengths")]
         wavelength: [f64; 2],
     },
     /// A flat part.
@@ -36,15 +44,17 @@ pub enum SurfacePart {
     /// Heights read from a file.
     File(HeightFileScene),
     /// Heights given as an array, m.
+    #[serde(rename = "array")]
     Heights(GridValues),
 }
 
 /// Self-affine roughness: spectrum flat from `longest` to `rolloff`, then falling as `q^(-2 hurst - 2)` to `shortest`.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct SelfAffineScene {
     /// Hurst exponent, between 0 and 1.
     pub hurst: f64,
     /// What fixes the amplitude.
+    #[serde(flatten)]
     pub roughness: Roughness,
     /// Longest wavelength, m.
     pub longest: f64,
@@ -57,7 +67,8 @@ pub struct SelfAffineScene {
 }
 
 /// The moment that fixes a self-affine amplitude.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Copy, Debug, PartialEq, Serialize)]
+#[serde(rename_all = "snake_case")]
 pub enum Roughness {
     /// Root mean square height, m.
     RmsHeight(f64),
@@ -66,75 +77,47 @@ pub enum Roughness {
 }
 
 /// A height map from a file.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct HeightFileScene {
     /// Path, already resolved against the scene's folder.
+    #[serde(serialize_with = "resolved::path")]
     pub path: PathBuf,
     /// Metres per unit of the file's numbers.
     pub unit: f64,
     /// Further factor on the heights.
     pub scale: f64,
-    /// Height of black in a grey image, m.
-    pub black: Option<f64>,
-    /// Height of white in a grey image, m.
-    pub white: Option<f64>,
     /// The trend to subtract.
     pub detrend: Detrend,
     /// How to treat missing pixels.
     pub fill: Fill,
+    /// Height of black in a grey image, m.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub black: Option<f64>,
+    /// Height of white in a grey image, m.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub white: Option<f64>,
 }
 
-/// The trend subtracted from a measured height map.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Detrend {
-    /// Nothing.
-    None,
-    /// The mean.
-    Mean,
-    /// The least-squares plane.
-    Plane,
-    /// The least-squares quadratic surface.
-    Quadratic,
-}
-
-impl Detrend {
-    /// Every trend.
-    pub const ALL: &[Detrend] = &[
-        Detrend::None,
-        Detrend::Mean,
-        Detrend::Plane,
-        Detrend::Quadratic,
-    ];
-
-    /// The word used in scenes.
-    pub fn name(self) -> &'static str {
-        match self {
-            Detrend::None => "none",
-            Detrend::Mean => "mean",
-            Detrend::Plane => "plane",
-            Detrend::Quadratic => "quadratic",
-        }
+words! {
+    /// The trend subtracted from a measured height map.
+    Detrend {
+        /// Nothing.
+        None = "none",
+        /// The mean.
+        Mean = "mean",
+        /// The least-squares plane.
+        Plane = "plane",
+        /// The least-squares quadratic surface.
+        Quadratic = "quadratic",
     }
 }
 
-/// How missing (NaN) pixels are treated.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Fill {
-    /// Refuse them and report their number.
-    None,
-    /// Interpolate from the neighbours.
-    Interpolate,
-}
-
-impl Fill {
-    /// Every treatment.
-    pub const ALL: &[Fill] = &[Fill::None, Fill::Interpolate];
-
-    /// The word used in scenes.
-    pub fn name(self) -> &'static str {
-        match self {
-            Fill::None => "none",
-            Fill::Interpolate => "interpolate",
-        }
+words! {
+    /// How missing (NaN) pixels are treated.
+    Fill {
+        /// Refuse them and report their number.
+        None = "none",
+        /// Interpolate from the neighbours.
+        Interpolate = "interpolate",
     }
 }

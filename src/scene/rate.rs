@@ -2,7 +2,6 @@
 
 use super::allowed::Allowed;
 use super::keys;
-use super::mistake::SceneError;
 use super::reader::Reader;
 use super::{LawName, RateScene, Treatment};
 use crate::units::Dimension;
@@ -32,12 +31,10 @@ pub(super) fn read(
     }
     if treatment == Some(Treatment::Dmt) {
         // The searches for the net load and for the speed would have to be combined.
-        adhesion.report(
+        adhesion.not_in_this_version(
             "rate",
-            SceneError::NotInThisVersion {
-                what: "a rate with treatment = \"dmt\"".to_string(),
-                instead: "take treatment = \"full\", or leave the rate out".to_string(),
-            },
+            "a rate with treatment = \"dmt\"",
+            "take treatment = \"full\", or leave the rate out",
         );
         return None;
     }

@@ -9,6 +9,7 @@ use super::allowed::{Allowed, RANGE_WORDS, in_range};
 use super::document::{Entry, Location, Node, Table, Value};
 use super::keys::{self, Section};
 use super::mistake::{Mistake, SceneError, SceneErrors};
+use super::words::Word;
 use crate::units::{self, Dimension, UnitError};
 
 /// The mistakes found so far in one scene.
@@ -96,9 +97,10 @@ impl<'a> Reader<'a> {
             log,
             misspelled: Vec::new(),
         };
-        for entry in &table.entries {
-            reader.check_key(entry);
-        }
+        table
+            .entries
+            .iter()
+            .for_each(|entry| reader.check_key(entry));
         reader
     }
 
@@ -108,11 +110,7 @@ impl<'a> Reader<'a> {
             return;
         }
         if let Some((_, what)) = self.section.later.iter().find(|(later, _)| *later == name) {
-            let error = SceneError::NotInThisVersion {
-                what: (*what).into(),
-                instead: "take it out of the scene".into(),
-            };
-            self.report_at(entry.place, name, error);
+            self.not_in_this_version(name, what, "take it out of the scene");
             return;
         }
         let (nearest, likeness) = nearest(name, self.section.names());
@@ -122,15 +120,11 @@ impl<'a> Reader<'a> {
         let elsewhere = keys::all()
             .filter(|section| section.names().any(|known| known == name))
             .map(|section| section.title.to_string());
+        let known = self.section.keys.iter();
         let error = SceneError::UnknownKey {
             section: self.section.title.into(),
             nearest: nearest.into(),
-            known: self
-                .section
-                .keys
-                .iter()
-                .map(|(known, _)| (*known).into())
-                .collect(),
+            known: known.map(|(known, _)| (*known).into()).collect(),
             elsewhere: elsewhere.collect(),
         };
         self.report_at(entry.place, name, error);
@@ -168,12 +162,14 @@ impl<'a> Reader<'a> {
 
     /// Notes that a key cannot be combined with others.
     pub fn conflict(&self, key: &str, reason: impl Into<String>) {
-        self.report(
-            key,
-            SceneError::Conflict {
-                reason: reason.into(),
-            },
-        );
+        let reason = reason.into();
+        self.report(key, SceneError::Conflict { reason });
+    }
+
+    /// Notes that a key asks for what this version lacks, with the remedy.
+    pub fn not_in_this_version(&self, key: &str, what: &str, instead: &str) {
+        let (what, instead) = (what.to_string(), instead.to_string());
+        self.report(key, SceneError::NotInThisVersion { what, instead });
     }
 
     /// Notes each of these keys that is absent.
@@ -187,36 +183,49 @@ impl<'a> Reader<'a> {
     pub fn require_as(&self, key: &str, example: &str) {
         // A misspelled key has been noted already and does not count as missing.
         if !self.has(key) && !self.misspelled.contains(&key) {
-            self.report(
-                key,
-                SceneError::Missing {
-                    example: example.into(),
-                },
-            );
+            let example = example.into();
+            self.report(key, SceneError::Missing { example });
         }
     }
 
+    /// What `read` makes of a key, or the default where the key is absent.
+    pub fn or<T>(&self, key: &str, default: T, read: impl FnOnce(&str) -> Option<T>) -> Option<T> {
+        if self.has(key) {
+            read(key)
+        } else {
+            Some(default)
+        }
+    }
+
+    /// What `read` makes of a key: `Some(None)` where the key is absent, `None` after a mistake.
+    pub fn optional<T>(
+        &self,
+        key: &str,
+        read: impl FnOnce(&str) -> Option<T>,
+    ) -> Option<Option<T>> {
+        self.or(key, None, |key| read(key).map(Some))
+    }
+
+    /// Whether a key has this text.
+    pub fn is_text(&self, key: &str, text: &str) -> bool {
+        self.node(key).is_some_and(|node| node.is_text(text))
+    }
+
     fn wrong_type(&self, node: &Node, key: &str, name: &str, expected: &str) {
-        self.report_at(
-            node.place,
-            name,
-            SceneError::WrongType {
-                found: node.described(),
-                expected: expected.into(),
-                example: self.section.example(key),
-            },
-        );
+        let error = SceneError::WrongType {
+            found: node.described(),
+            expected: expected.into(),
+            example: self.section.example(key),
+        };
+        self.report_at(node.place, name, error);
     }
 
     fn out_of_range(&self, node: &Node, name: &str, allowed: &str) {
-        self.report_at(
-            node.place,
-            name,
-            SceneError::OutOfRange {
-                found: node.shown(),
-                allowed: allowed.into(),
-            },
-        );
+        let error = SceneError::OutOfRange {
+            found: node.shown(),
+            allowed: allowed.into(),
+        };
+        self.report_at(node.place, name, error);
     }
 
     /// A dimensional value in SI units; a pure number if `dimension` has no unit.
@@ -284,6 +293,16 @@ impl<'a> Reader<'a> {
                 None
             }
         }
+    }
+
+    /// One of the words of a choice.
+    pub fn word<T: Word>(&self, key: &str) -> Option<T> {
+        self.choice(key, T::WORDS, T::word)
+    }
+
+    /// One of the words of a choice, or the default where the key is absent.
+    pub fn word_or<T: Word>(&self, key: &str, default: T) -> Option<T> {
+        self.or(key, default, |key| self.word(key))
     }
 
     /// A text.
@@ -399,17 +418,17 @@ impl<'a> Reader<'a> {
     /// Opens a table that has been read, to note conflicts between tables.
     pub fn table_again(&self, key: &str, section: &'static Section) -> Option<Reader<'a>> {
         let node = self.node(key)?;
-        let Value::Table(table) = &node.value else {
-            return None;
-        };
-        Some(Reader {
-            table,
-            place: node.place,
-            path: self.dotted(key),
-            section,
-            log: self.log,
-            misspelled: Vec::new(),
-        })
+        match &node.value {
+            Value::Table(table) => Some(Reader {
+                table,
+                place: node.place,
+                path: self.dotted(key),
+                section,
+                log: self.log,
+                misspelled: Vec::new(),
+            }),
+            _ => None,
+        }
     }
 
     /// The tables of an array of tables inside this one; `section` picks the keys of each.

@@ -2,7 +2,6 @@
 
 use super::allowed::{Allowed, in_range};
 use super::keys;
-use super::mistake::SceneError;
 use super::reader::Reader;
 use super::{Boundary, RelaxationScene, SolidScene};
 use crate::elastic::{Base, Layer};
@@ -18,7 +17,7 @@ const POISSON: Allowed = Allowed::new(
 pub(super) fn read(scene: &Reader, boundary: Option<Boundary>) -> Option<SolidScene> {
     scene.require_as("solid", "[solid] with contact_modulus = \"1.33 TPa\"");
     let solid = scene.table("solid", &keys::SOLID)?;
-    let modulus = |key| solid.quantity(key, Dimension::Pressure, Allowed::POSITIVE);
+    let modulus = |key: &str| solid.quantity(key, Dimension::Pressure, Allowed::POSITIVE);
     let poisson = |key| solid.quantity(key, Dimension::Dimensionless, POISSON);
     let [direct, young, counter] = [
         modulus("contact_modulus"),
@@ -27,11 +26,7 @@ pub(super) fn read(scene: &Reader, boundary: Option<Boundary>) -> Option<SolidSc
     ];
     let [ratio, counter_ratio] = [poisson("poisson_ratio"), poisson("counter_poisson_ratio")];
     let layer = read_layer(&solid, ratio, boundary);
-    let hardness = if solid.has("hardness") {
-        modulus("hardness").map(Some)
-    } else {
-        Some(None)
-    };
+    let hardness = solid.optional("hardness", modulus);
     let relaxation = read_relaxation(&solid, layer.flatten());
     let has_counter = solid.has("counter_young_modulus") || solid.has("counter_poisson_ratio");
 
@@ -101,7 +96,7 @@ fn read_layer(
     boundary: Option<Boundary>,
 ) -> Option<Option<Layer>> {
     let thickness = solid.quantity("thickness", Dimension::Length, Allowed::POSITIVE);
-    let base = solid.choice("base", Base::ALL, Base::name);
+    let base = solid.word_or("base", Base::Bonded);
     if !solid.has("thickness") {
         if solid.has("base") {
             solid.require(&["thickness"]);
@@ -129,14 +124,10 @@ fn read_layer(
         );
         return None;
     }
-    let base = match base {
-        None if solid.has("base") => return None,
-        base => base.unwrap_or(Base::Bonded),
-    };
     Some(Some(Layer {
         thickness: thickness?,
         poisson_ratio: poisson_ratio?,
-        base,
+        base: base?,
     }))
 }
 
@@ -154,12 +145,10 @@ fn read_relaxation(solid: &Reader, layer: Option<Layer>) -> Option<Vec<Relaxatio
         return None;
     }
     if layer.is_some_and(|layer| layer.uniform_compliance() > 0.0) {
-        solid.report(
+        solid.not_in_this_version(
             "relaxation",
-            SceneError::NotInThisVersion {
-                what: "relaxation of a compressible layer".into(),
-                instead: "take poisson_ratio = 0.5, or leave the thickness out".into(),
-            },
+            "relaxation of a compressible layer",
+            "take poisson_ratio = 0.5, or leave the thickness out",
         );
     }
     let branches: Vec<Option<RelaxationScene>> = tables

@@ -62,30 +62,14 @@ pub(super) fn read(scene: &Reader) -> Option<SolverScene> {
         return Some(default);
     }
     let solver = scene.table("solver", &keys::SOLVER)?;
-    let tolerance = if solver.has("tolerance") {
-        solver
-            .quantity("tolerance", Dimension::Dimensionless, ALLOWED)
-            .map(Some)
-    } else {
-        Some(None)
-    };
-    let max_iterations = if solver.has("max_iterations") {
-        solver
-            .whole_number("max_iterations", 1, i64::MAX)
-            .and_then(|count| usize::try_from(count).ok())
-    } else {
-        Some(default.max_iterations)
-    };
-    let precision = if solver.has("precision") {
-        solver.choice("precision", Precision::ALL, Precision::name)
-    } else {
-        Some(default.precision)
-    };
-    let backend = if solver.has("backend") {
-        solver.choice("backend", BackendName::ALL, BackendName::name)
-    } else {
-        Some(default.backend)
-    };
+    let tolerance = solver.optional("tolerance", |key| {
+        solver.quantity(key, Dimension::Dimensionless, ALLOWED)
+    });
+    let max_iterations = solver.or("max_iterations", default.max_iterations, |key| {
+        usize::try_from(solver.whole_number(key, 1, i64::MAX)?).ok()
+    });
+    let precision = solver.word_or("precision", default.precision);
+    let backend = solver.word_or("backend", default.backend);
     let mut settings = SolverScene {
         tolerance: TOLERANCE,
         max_iterations: max_iterations?,

@@ -46,10 +46,10 @@ pub(super) fn read(
 
 /// The keys of a part by its kind; those of every kind if it is missing or unknown.
 fn section_of(table: &Table) -> &'static Section {
-    let kind = table.get("kind").map(|entry| &entry.node.value);
+    let kind = table.get("kind");
     KINDS
         .iter()
-        .find(|(name, _)| matches!(kind, Some(Value::Text(text)) if text == name))
+        .find(|(name, _)| kind.is_some_and(|entry| entry.node.is_text(name)))
         .map_or(&keys::SURFACE, |(_, section)| section)
 }
 
@@ -92,13 +92,11 @@ fn length(part: &Reader, key: &str) -> Option<f64> {
 
 /// The apex: `Some(None)` is the middle of the grid.
 fn centre(part: &Reader) -> Option<Option<[f64; 2]>> {
-    if !part.has("centre") {
-        return Some(None);
-    }
-    let centre = part.two("centre", |node, name| {
-        part.quantity_in(node, "centre", name, Dimension::Length, Allowed::FINITE)
-    });
-    centre.map(Some)
+    part.optional("centre", |key| {
+        part.two(key, |node, name| {
+            part.quantity_in(node, key, name, Dimension::Length, Allowed::FINITE)
+        })
+    })
 }
 
 fn self_affine(part: &Reader) -> Option<SurfacePart> {
@@ -129,36 +127,28 @@ fn self_affine(part: &Reader) -> Option<SurfacePart> {
     part.require(&["longest", "rolloff", "shortest"]);
     let [longest, rolloff, shortest] =
         ["longest", "rolloff", "shortest"].map(|key| length(part, key));
+    let misplaced = |key: &str, length: f64, how: &str, other: f64| {
+        let [length, other] = [length, other].map(metres);
+        part.conflict(
+            key,
+            format!(
+                "{length} is {how} = {other}; wavelengths must be ordered shortest < rolloff <= longest"
+            ),
+        );
+    };
     if let (Some(longest), Some(rolloff)) = (longest, rolloff)
         && rolloff > longest
     {
-        part.conflict(
-            "rolloff",
-            format!(
-                "{} is longer than longest = {}; wavelengths must be ordered shortest < rolloff <= longest",
-                metres(rolloff),
-                metres(longest)
-            ),
-        );
+        misplaced("rolloff", rolloff, "longer than longest", longest);
     }
     if let (Some(shortest), Some(rolloff)) = (shortest, rolloff)
         && shortest >= rolloff
     {
-        part.conflict(
-            "shortest",
-            format!(
-                "{} is not shorter than rolloff = {}; wavelengths must be ordered shortest < rolloff <= longest",
-                metres(shortest),
-                metres(rolloff)
-            ),
-        );
+        misplaced("shortest", shortest, "not shorter than rolloff", rolloff);
     }
-    let seed = if part.has("seed") {
-        part.whole_number("seed", 0, i64::MAX)
-            .and_then(|seed| u64::try_from(seed).ok())
-    } else {
-        Some(1)
-    };
+    let seed = part.or("seed", 1, |key| {
+        u64::try_from(part.whole_number(key, 0, i64::MAX)?).ok()
+    });
     Some(SurfacePart::SelfAffine(SelfAffineScene {
         hurst: hurst?,
         roughness: roughness?,
@@ -177,12 +167,8 @@ fn wavy(part: &Reader, grid: Option<&GridScene>) -> Option<SurfacePart> {
     part.require(&["amplitude", "wavelength"]);
     let amplitude = length(part, "amplitude");
     let one = |node: &Node, name: &str| {
-        let none = match &node.value {
-            Value::Text(text) => text == "inf",
-            Value::Float(value) => *value == f64::INFINITY,
-            _ => false,
-        };
-        if none {
+        let is_infinite = matches!(node.value, Value::Float(value) if value == f64::INFINITY);
+        if is_infinite || node.is_text("inf") {
             Some(f64::INFINITY)
         } else {
             part.quantity_in(node, "wavelength", name, Dimension::Length, WAVELENGTH)
@@ -258,20 +244,14 @@ fn file(part: &Reader, folder: &Path) -> Option<SurfacePart> {
         }
         Some(_) => length(part, "unit"),
     };
-    let scale = if part.has("scale") {
-        part.quantity("scale", Dimension::Dimensionless, SCALE)
-    } else {
-        Some(1.0)
-    };
-    let grey_end = |key: &str| {
-        if part.has(key) {
+    let scale = part.or("scale", 1.0, |key| {
+        part.quantity(key, Dimension::Dimensionless, SCALE)
+    });
+    let [black, white] = ["black", "white"].map(|key| {
+        part.optional(key, |key| {
             part.quantity(key, Dimension::Length, Allowed::FINITE)
-                .map(Some)
-        } else {
-            Some(None)
-        }
-    };
-    let (black, white) = (grey_end("black"), grey_end("white"));
+        })
+    });
     for (given, other) in [("black", "white"), ("white", "black")] {
         if part.has(given) && !part.has(other) {
             part.conflict(
@@ -280,16 +260,8 @@ fn file(part: &Reader, folder: &Path) -> Option<SurfacePart> {
             );
         }
     }
-    let detrend = if part.has("detrend") {
-        part.choice("detrend", Detrend::ALL, Detrend::name)
-    } else {
-        Some(Detrend::None)
-    };
-    let fill = if part.has("fill") {
-        part.choice("fill", Fill::ALL, Fill::name)
-    } else {
-        Some(Fill::None)
-    };
+    let detrend = part.word_or("detrend", Detrend::None);
+    let fill = part.word_or("fill", Fill::None);
     Some(SurfacePart::File(HeightFileScene {
         path: folder.join(path?),
         unit: unit?,

@@ -6,7 +6,7 @@
 use serde_json::{Value, json};
 
 use super::allowed::Allowed;
-use super::keys::Section;
+use super::keys::{Key, Section};
 use super::reader::Reader;
 use crate::units::Dimension;
 
@@ -20,19 +20,16 @@ macro_rules! tables {
     )+) => {
         $(
             $(#[$doc])*
-            #[derive(Clone, Copy, Debug, PartialEq)]
+            #[derive(Clone, Copy, Debug, PartialEq, serde::Serialize)]
             pub struct $Table {
                 $( $(#[$key_doc])* pub $key: f64, )+
             }
 
             impl $Table {
-                const SECTION: &'static Section = &Section {
-                    title: concat!("[", stringify!($table), "]"),
-                    keys: &[$(
-                        (stringify!($key), concat!(stringify!($key), " = \"", $example, "\"")),
-                    )+],
-                    later: &[],
-                };
+                const SECTION: &'static Section = &Section::new(
+                    concat!("[", stringify!($table), "]"),
+                    &[$( (stringify!($key), concat!("\"", $example, "\"")) ),+],
+                );
 
                 /// Reads the table: `Some(None)` if the scene has none, `None` after a mistake.
                 fn read(scene: &Reader) -> Option<Option<Self>> {
@@ -47,10 +44,6 @@ macro_rules! tables {
                     ); )+
                     Some(Some($Table { $( $key: $key? ),+ }))
                 }
-
-                fn resolved(&self) -> Value {
-                    json!({ $( stringify!($key): self.$key ),+ })
-                }
             }
         )+
 
@@ -60,8 +53,8 @@ macro_rules! tables {
             $( $(#[$doc])* pub $table: Option<$Table>, )+
         }
 
-        /// The names of the tables as keys of a scene, each with a line that would do.
-        pub(super) const NAMES: &[(&str, &str)] = &[$(
+        /// The names of the tables as keys of a scene.
+        pub(super) const NAMES: &[Key] = &[$(
             (stringify!($table), concat!("[", stringify!($table), "]")),
         )+];
 
@@ -78,7 +71,7 @@ macro_rules! tables {
             /// The tables that are there, with their names.
             pub(super) fn resolved(&self) -> Vec<(&'static str, Value)> {
                 let tables = [$(
-                    (stringify!($table), self.$table.as_ref().map($Table::resolved)),
+                    (stringify!($table), self.$table.map(|table| json!(table))),
                 )+];
                 tables
                     .into_iter()

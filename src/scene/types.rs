@@ -2,9 +2,13 @@
 
 use std::path::PathBuf;
 
+use serde::Serialize;
+
 use super::attraction::{AdhesionScene, CapillaryScene};
 use super::parts::SurfacePart;
+use super::resolved;
 use super::tables::EffectTables;
+use super::words::words;
 use crate::elastic::Layer;
 pub use crate::grid::Boundary;
 
@@ -40,14 +44,17 @@ pub struct Scene {
 }
 
 /// `[grid]`: points and size may be left out if a height file provides them.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct GridScene {
+    /// The boundary condition.
+    #[serde(serialize_with = "resolved::word")]
+    pub boundary: Boundary,
     /// Points along x and y.
+    #[serde(skip_serializing_if = "Option::is_none")]
     pub points: Option<[usize; 2]>,
     /// Size along x and y, m.
+    #[serde(skip_serializing_if = "Option::is_none")]
     pub size: Option<[f64; 2]>,
-    /// The boundary condition.
-    pub boundary: Boundary,
 }
 
 /// `[solid]`: the elastic half-space.
@@ -76,7 +83,7 @@ impl SolidScene {
 }
 
 /// One Maxwell branch of `[[solid.relaxation]]`.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Copy, Debug, PartialEq, Serialize)]
 pub struct RelaxationScene {
     /// Contact modulus of the branch, Pa.
     pub modulus: f64,
@@ -102,41 +109,22 @@ pub struct LoadingScene {
     pub pull_off_tolerance: f64,
 }
 
-/// Which quantity a loading path prescribes.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Control {
-    /// Mean pressure, Pa.
-    Pressure,
-    /// Total force, N.
-    Force,
-    /// Approach, m.
-    Approach,
-    /// Mean gap, m.
-    MeanGap,
-}
-
-impl Control {
-    /// Every control.
-    pub const ALL: &[Control] = &[
-        Control::Pressure,
-        Control::Force,
-        Control::Approach,
-        Control::MeanGap,
-    ];
-
-    /// The word used in scenes.
-    pub fn name(self) -> &'static str {
-        match self {
-            Control::Pressure => "pressure",
-            Control::Force => "force",
-            Control::Approach => "approach",
-            Control::MeanGap => "mean-gap",
-        }
+words! {
+    /// Which quantity a loading path prescribes.
+    Control {
+        /// Mean pressure, Pa.
+        Pressure = "pressure",
+        /// Total force, N.
+        Force = "force",
+        /// Approach, m.
+        Approach = "approach",
+        /// Mean gap, m.
+        MeanGap = "mean-gap",
     }
 }
 
 /// `[solver]`.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq, Serialize)]
 #[non_exhaustive]
 pub struct SolverScene {
     /// Tolerance of the residual.
@@ -149,69 +137,39 @@ pub struct SolverScene {
     pub backend: BackendName,
 }
 
-/// Precision of a solve.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Precision {
-    /// Chosen by tabor.
-    Auto,
-    /// 32 bit.
-    Single,
-    /// 32-bit iterations corrected in 64 bit.
-    Mixed,
-    /// 64 bit.
-    Double,
+words! {
+    /// Precision of a solve.
+    Precision {
+        /// Chosen by tabor.
+        Auto = "auto",
+        /// 32 bit.
+        Single = "single",
+        /// 32-bit iterations corrected in 64 bit.
+        Mixed = "mixed",
+        /// 64 bit.
+        Double = "double",
+    }
 }
 
 impl Precision {
     /// Least tolerance that single precision reaches on every scene.
     pub const SINGLE_FLOOR: f64 = 1e-4;
-
-    /// Every precision.
-    pub const ALL: &[Precision] = &[
-        Precision::Auto,
-        Precision::Single,
-        Precision::Mixed,
-        Precision::Double,
-    ];
-
-    /// The word used in scenes.
-    pub fn name(self) -> &'static str {
-        match self {
-            Precision::Auto => "auto",
-            Precision::Single => "single",
-            Precision::Mixed => "mixed",
-            Precision::Double => "double",
-        }
-    }
 }
 
-/// The processor or a graphics processor.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum BackendName {
-    /// Chosen by tabor.
-    Auto,
-    /// Threads of this machine's processor.
-    Cpu,
-    /// A graphics processor.
-    Gpu,
-}
-
-impl BackendName {
-    /// Every backend.
-    pub const ALL: &[BackendName] = &[BackendName::Auto, BackendName::Cpu, BackendName::Gpu];
-
-    /// The word used in scenes.
-    pub fn name(self) -> &'static str {
-        match self {
-            BackendName::Auto => "auto",
-            BackendName::Cpu => "cpu",
-            BackendName::Gpu => "gpu",
-        }
+words! {
+    /// The processor or a graphics processor.
+    BackendName {
+        /// Chosen by tabor.
+        Auto = "auto",
+        /// Threads of this machine's processor.
+        Cpu = "cpu",
+        /// A graphics processor.
+        Gpu = "gpu",
     }
 }
 
 /// `[output]`.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq, Serialize)]
 #[non_exhaustive]
 pub struct OutputScene {
     /// Fields written as PNG.
@@ -222,39 +180,23 @@ pub struct OutputScene {
     pub steps: StepChoice,
 }
 
-/// A field that can be written.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
-#[non_exhaustive]
-pub enum FieldName {
-    /// Net normal traction, Pa, positive in compression.
-    Pressure,
-    /// Gap, m.
-    Gap,
-    /// Normal surface displacement, m, positive into the solid.
-    Displacement,
-    /// Heights, m.
-    Heights,
+words! {
+    /// A field that can be written.
+    #[derive(Hash)]
+    #[non_exhaustive]
+    FieldName {
+        /// Net normal traction, Pa, positive in compression.
+        Pressure = "pressure",
+        /// Gap, m.
+        Gap = "gap",
+        /// Normal surface displacement, m, positive into the solid.
+        Displacement = "displacement",
+        /// Heights, m.
+        Heights = "heights",
+    }
 }
 
 impl FieldName {
-    /// Every field.
-    pub const ALL: &[FieldName] = &[
-        FieldName::Pressure,
-        FieldName::Gap,
-        FieldName::Displacement,
-        FieldName::Heights,
-    ];
-
-    /// The name used in scenes and file names.
-    pub fn name(self) -> &'static str {
-        match self {
-            FieldName::Pressure => "pressure",
-            FieldName::Gap => "gap",
-            FieldName::Displacement => "displacement",
-            FieldName::Heights => "heights",
-        }
-    }
-
     /// The SI unit of its values.
     pub fn unit(self) -> &'static str {
         match self {
@@ -265,12 +207,15 @@ impl FieldName {
 }
 
 /// Selects the steps whose images and fields are written.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq, Serialize)]
+#[serde(rename_all = "lowercase")]
+#[non_exhaustive]
 pub enum StepChoice {
     /// The last one.
     Last,
     /// Every one.
     All,
     /// These, numbered from 1.
+    #[serde(untagged)]
     List(Vec<usize>),
 }

@@ -2,6 +2,7 @@
 
 /// Contact state of a step.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[non_exhaustive]
 pub enum State {
     /// Something touches.
     Contact,
@@ -31,6 +32,7 @@ impl State {
 
 /// One row of `curve.csv`, SI units; `None` is written as an empty cell.
 #[derive(Clone, Debug, PartialEq)]
+#[non_exhaustive]
 pub struct StepRow {
     /// Number of the step, from 1.
     pub step: usize,

@@ -6,9 +6,7 @@ use super::array;
 use super::error::{FileError, PartError, SurfaceError};
 use super::file;
 use crate::grid::Grid;
-use crate::scene::{
-    AdhesionMap, Boundary, Detrend, Fill, HeightFileScene, LawName, PatternKind, Scene,
-};
+use crate::scene::{AdhesionMap, Boundary, HeightFileScene, LawName, PatternKind, Scene};
 
 /// Rounding tolerance of a point's position in a pattern, in half periods.
 const ROUNDING: f64 = 1e-9;
@@ -77,15 +75,7 @@ pub(super) fn build(scene: &Scene, grid: &Grid) -> Result<Option<Vec<f64>>, Surf
 }
 
 fn read(path: &Path, grid: &Grid) -> Result<Vec<f64>, MapError> {
-    let plain = HeightFileScene {
-        path: path.to_path_buf(),
-        unit: 1.0,
-        scale: 1.0,
-        detrend: Detrend::None,
-        fill: Fill::None,
-        black: None,
-        white: None,
-    };
+    let plain = HeightFileScene::new(path);
     // A map need not be periodic, so mismatched edges are not reported.
     let map = match file::read(&plain, Boundary::Free) {
         // Grey images: black means no attraction, white the full law.

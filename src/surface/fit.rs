@@ -48,6 +48,7 @@ const ROLLOFF_SEEN: f64 = 1.2;
 
 /// The self-affine spectrum fitted to a height map.
 #[derive(Clone, Copy, Debug, PartialEq)]
+#[non_exhaustive]
 pub struct SelfAffineFit {
     /// The spectrum.
     pub spectrum: SelfAffineSpectrum,
@@ -66,6 +67,7 @@ pub struct SelfAffineFit {
 
 /// Why a map has no self-affine fit.
 #[derive(Clone, Copy, Debug, PartialEq, Error)]
+#[non_exhaustive]
 pub enum BandFitError {
     /// A map without roughness.
     #[error("the surface is flat")]

@@ -19,6 +19,18 @@ pub(super) struct Matrix {
     pub(super) warnings: Vec<String>,
 }
 
+impl Matrix {
+    /// Numbers of shape `[rows, columns]` of which nothing else is known.
+    pub(super) fn new(values: Vec<f64>, [rows, columns]: [usize; 2]) -> Self {
+        Matrix {
+            values,
+            rows,
+            columns,
+            ..Matrix::default()
+        }
+    }
+}
+
 /// Size of a map along x and y.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) enum Size {

@@ -49,6 +49,7 @@ pub const MOST_POINTS: usize = 1 << 30;
 
 /// Heights on a grid, with their reference height and adhesion map.
 #[derive(Clone, Debug, PartialEq)]
+#[non_exhaustive]
 pub struct Surface {
     /// The grid, from the scene or from a height file.
     pub grid: Grid,

@@ -28,6 +28,7 @@ pub enum Source {
 
 /// Grid, moments and warnings of a surface.
 #[derive(Clone, Debug, PartialEq)]
+#[non_exhaustive]
 pub struct Outline {
     /// The grid, from the scene or from a height file.
     pub grid: Grid,
@@ -45,6 +46,7 @@ pub struct Outline {
 
 /// Summary of an adhesion map, the factors on the law's tension.
 #[derive(Clone, Copy, Debug, PartialEq)]
+#[non_exhaustive]
 pub struct MapOutline {
     /// The largest factor.
     pub largest: f64,

@@ -15,6 +15,7 @@ const RINGS_A_DECADE: f64 = 20.0;
 
 /// Statistics of a height map.
 #[derive(Clone, Copy, Debug, PartialEq)]
+#[non_exhaustive]
 pub struct Statistics {
     /// Mean height, m.
     pub mean: f64,
@@ -59,6 +60,7 @@ impl Statistics {
 
 /// One ring of a radial power spectrum.
 #[derive(Clone, Copy, Debug, PartialEq)]
+#[non_exhaustive]
 pub struct SpectrumRing {
     /// Mean wave number of its modes, 1/m.
     pub wavenumber: f64,

@@ -5,7 +5,7 @@
 //! Gaussian bearing area. Slope and curvature of the roughness do not enter.
 
 use super::error::{TheoryError, positive};
-use super::roots::{minimum, root};
+use super::roots::{root, scanned_minimum};
 use super::special::erfc;
 use std::f64::consts::SQRT_2;
 
@@ -53,13 +53,7 @@ impl BearingArea {
 
     /// Mean gap (in `h_rms`) and magnitude (in sigma0) of the greatest tension.
     pub fn pull_off(&self) -> Result<(f64, f64), TheoryError> {
-        let high = self.farthest();
-        let scan = 200;
-        let place = |i: usize| high * i as f64 / scan as f64;
-        let best = (1..scan)
-            .min_by(|&i, &j| self.pressure(place(i)).total_cmp(&self.pressure(place(j))))
-            .unwrap_or(1);
-        let (gap, least) = minimum(|u| self.pressure(u), place(best - 1), place(best + 1));
+        let (gap, least) = scanned_minimum(|u| self.pressure(u), 0.0, self.farthest(), 200);
         Ok((gap, positive("pull-off", -least)?))
     }
 }

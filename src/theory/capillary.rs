@@ -1,7 +1,7 @@
 //! Liquid bridge between a sphere and a flat, and the equivalent Dugdale law. Israelachvili 2011,
 //! for a small meniscus at the humidity of the vapour.
 
-use super::error::{TheoryError, not_negative, positive, within};
+use super::error::{TheoryError, between, not_negative, positive, within};
 use std::f64::consts::{FRAC_PI_2, PI};
 
 pub use crate::law::{GAS_CONSTANT, LEAST_KELVIN_RADIUS};
@@ -32,12 +32,7 @@ impl Meniscus {
                 relative_humidity > 0.0 && relative_humidity < 1.0,
                 "between 0 and 1",
             )?,
-            within(
-                "contact_angle",
-                contact_angle,
-                (0.0..FRAC_PI_2).contains(&contact_angle),
-                "between 0 and pi/2",
-            )?,
+            between!(contact_angle in 0.0..FRAC_PI_2, "between 0 and pi/2")?,
         );
         within(
             "relative_humidity",
@@ -71,7 +66,6 @@ impl Meniscus {
     /// Attraction of a rigid sphere of `radius` (m) at a least `gap` (m), N, positive:
     /// `4 pi R gamma cos(theta) (1 - gap/range)`, 0 beyond the range.
     /// A soft sphere has three quarters of it at most, depending on its Tabor parameter.
-    /// A soft sphere gives three quarters of it at most; its Tabor parameter decides.
     pub fn rigid_force(&self, radius: f64, gap: f64) -> Result<f64, TheoryError> {
         let fade = (1.0 - not_negative("gap", gap)? / self.range()).max(0.0);
         Ok(2.0 * PI * positive("radius", radius)? * self.work_of_adhesion() * fade)

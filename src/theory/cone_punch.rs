@@ -1,7 +1,7 @@
 //! Cone and flat punch on a half-space without adhesion. Sneddon 1965.
 
 use super::error::{TheoryError, not_negative, positive, within};
-use std::f64::consts::{FRAC_PI_2, PI};
+use std::f64::consts::FRAC_PI_2;
 
 /// A cone `r tan(slope_angle)` on a half-space; the angle is between flank and surface.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -63,22 +63,11 @@ pub fn punch_force(radius: f64, contact_modulus: f64, approach: f64) -> Result<f
     )
 }
 
-/// Pressure under a flat punch at distance `r` from its axis, Pa: `F/(2 pi a sqrt(a^2 - r^2))`;
-/// infinite at the edge, 0 outside.
-pub fn punch_pressure(radius: f64, force: f64, r: f64) -> Result<f64, TheoryError> {
-    let radius = positive("radius", radius)?;
-    let inside = (radius - r) * (radius + r);
-    Ok(if inside < 0.0 {
-        0.0
-    } else {
-        force / (2.0 * PI * radius * inside.sqrt())
-    })
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
     use crate::theory::quadrature::integrate;
+    use std::f64::consts::PI;
 
     #[test]
     fn pressure_sums_to_the_force() {

@@ -53,6 +53,19 @@ pub(crate) fn finite(name: &'static str, value: f64) -> Result<f64, TheoryError>
     within(name, value, value.is_finite(), "finite")
 }
 
+/// A variable if it lies in a range; with its name and the range in words.
+macro_rules! between {
+    ($name:ident in $range:expr, $allowed:literal) => {
+        $crate::theory::error::within(
+            stringify!($name),
+            $name,
+            ($range).contains(&$name),
+            $allowed,
+        )
+    };
+}
+pub(crate) use between;
+
 /// `value` if `accepted` holds.
 pub(crate) fn within(
     name: &'static str,

@@ -6,7 +6,7 @@
 use super::error::{TheoryError, finite, positive};
 use super::jkr;
 use super::quadrature::integrate;
-use super::roots::minimum;
+use super::roots::scanned_minimum;
 use super::special::normal_density;
 use std::f64::consts::PI;
 
@@ -53,16 +53,7 @@ pub fn reduced_pull_off(theta: f64) -> Result<(f64, f64), TheoryError> {
     // The summit of mean height jumps off 0.91 delta* above it; a rough surface is held by its
     // highest summits.
     let (low, high) = (-4.0, 8.0 + unit + 0.5 * theta.cbrt().powi(2));
-    let scan = 60;
-    let place = |i: usize| low + (high - low) * i as f64 / scan as f64;
-    let mut best = (1, f64::INFINITY);
-    for i in 1..scan {
-        let value = at(place(i));
-        if value < best.1 {
-            best = (i, value);
-        }
-    }
-    let (separation, least) = minimum(at, place(best.0 - 1), place(best.0 + 1));
+    let (separation, least) = scanned_minimum(at, low, high, 60);
     positive("pull-off", -least)?;
     Ok((separation, -least / 1.5))
 }

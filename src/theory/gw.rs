@@ -4,7 +4,6 @@
 use super::error::{TheoryError, positive, within};
 use super::hertz;
 use super::special::{erfc, normal_density};
-use super::spectrum::Spectrum;
 use super::tabor_map::Sphere;
 use std::f64::consts::{PI, SQRT_2};
 
@@ -25,23 +24,6 @@ impl Summits {
             density: positive("density", density)?,
             rms_height: positive("rms_height", rms_height)?,
         })
-    }
-
-    /// Summits of a spectrum by its moments: radius `(3/8) sqrt(pi/m4)`, height variance
-    /// `(1 - 0.8968/alpha) m0`, Nayak's density. McCool 1986.
-    pub fn from_spectrum(
-        spectrum: &Spectrum,
-        contact_modulus: f64,
-        work_of_adhesion: f64,
-    ) -> Result<Self, TheoryError> {
-        let (m0, _, m4) = spectrum.profile_moments();
-        let radius = 0.375 * (PI / m4).sqrt();
-        let variance = (1.0 - 0.8968 / spectrum.nayak_parameter()) * m0;
-        Summits::new(
-            Sphere::new(radius, contact_modulus, work_of_adhesion)?,
-            spectrum.summit_density(),
-            variance.sqrt(),
-        )
     }
 
     /// One summit.

@@ -3,17 +3,12 @@
 //! `displacement = (2/(E* q)) M(q h) pressure` for a layer of thickness h with `E* = E/(1-nu^2)`.
 //! The solver uses the inverse of the same functions.
 
-use super::error::{TheoryError, positive, within};
+use super::error::{TheoryError, between, positive};
 use crate::elastic::{bonded_compliance, frictionless_compliance};
 
 /// `M(k)` of a layer of `poisson_ratio` (-1 to 1/2) that is bonded to its base, `k = q h`.
 pub fn bonded(k: f64, poisson_ratio: f64) -> Result<f64, TheoryError> {
-    let nu = within(
-        "poisson_ratio",
-        poisson_ratio,
-        (-1.0..=0.5).contains(&poisson_ratio),
-        "between -1 and 0.5",
-    )?;
+    let nu = between!(poisson_ratio in -1.0..=0.5, "between -1 and 0.5")?;
     Ok(bonded_compliance(positive("k", k)?, nu))
 }
 

@@ -7,7 +7,7 @@
 //! Tabor's.
 
 use super::block_solve;
-use super::error::{TheoryError, finite, within};
+use super::error::{TheoryError, between, finite};
 use super::laws::Law;
 use super::ring::Rings;
 use super::roots::root;
@@ -77,18 +77,8 @@ impl LennardJonesSphere {
     /// The contact edge sharpens with the Tabor parameter: a curve takes a fraction of a second at
     /// 1, about ten seconds at 3, minutes at 5.
     pub fn new(tabor_parameter: f64, deepest: f64) -> Result<Self, TheoryError> {
-        let mu = within(
-            "tabor_parameter",
-            tabor_parameter,
-            (0.01..=5.0).contains(&tabor_parameter),
-            "between 0.01 and 5",
-        )?;
-        within(
-            "deepest",
-            deepest,
-            (0.0..=20.0).contains(&deepest),
-            "between 0 and 20",
-        )?;
+        let mu = between!(tabor_parameter in 0.01..=5.0, "between 0.01 and 5")?;
+        between!(deepest in 0.0..=20.0, "between 0 and 20")?;
         // The contact edge is as wide as the cohesive length, 0.75 mu^(-3/2), or as the law.
         let width = (0.45 * mu.powf(-1.5)).min(0.35);
         // No contact is wider than that of JKR at the deepest approach; the attraction extends

@@ -2,6 +2,7 @@
 
 use super::error::{TheoryError, not_negative, positive};
 use super::special::{elliptic, elliptic_complement};
+use crate::elastic::love_displacement;
 use std::f64::consts::PI;
 
 /// Displacement at (x, y) under unit pressure on `|x| < a, |y| < b`, times E*; a length.
@@ -11,17 +12,7 @@ use std::f64::consts::PI;
 pub fn rectangle(x: f64, y: f64, half_sides: (f64, f64)) -> Result<f64, TheoryError> {
     let a = positive("half_sides", half_sides.0)?;
     let b = positive("half_sides", half_sides.1)?;
-    // Along a side of the rectangle the factor is zero where the logarithm diverges.
-    let term = |factor: f64, from: f64, to: f64| {
-        if factor == 0.0 {
-            0.0
-        } else {
-            factor * ((to / factor.abs()).asinh() - (from / factor.abs()).asinh())
-        }
-    };
-    let sum = term(x + a, y - b, y + b) - term(x - a, y - b, y + b) + term(y + b, x - a, x + a)
-        - term(y - b, x - a, x + a);
-    Ok(sum / PI)
+    Ok(love_displacement(x, y, a, b))
 }
 
 /// Displacement at distance `r` from the centre of a disc of `radius` under unit pressure, times

@@ -4,7 +4,7 @@
 //! lambda is DMT with a constant attraction of `2 pi w R`, large lambda is JKR. Before first
 //! contact there is a cohesive disc without contact, the *open* branch.
 
-use super::error::{TheoryError, not_negative, positive, within};
+use super::error::{TheoryError, between, not_negative, positive, within};
 use super::hertz::reduced_gap;
 use super::roots::{minimum, positive_root, root};
 use std::f64::consts::{FRAC_PI_2, PI};
@@ -45,12 +45,7 @@ pub struct MaugisDugdale {
 impl MaugisDugdale {
     /// A sphere with Maugis parameter `lambda` (see [`super::tabor_map::maugis_parameter`]).
     pub fn new(lambda: f64) -> Result<Self, TheoryError> {
-        within(
-            "lambda",
-            lambda,
-            (1e-6..=1e6).contains(&lambda),
-            "between 1e-6 and 1e6",
-        )?;
+        between!(lambda in 1e-6..=1e6, "between 1e-6 and 1e6")?;
         Ok(MaugisDugdale { lambda })
     }
 

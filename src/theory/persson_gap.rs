@@ -190,18 +190,6 @@ impl RoughContact {
         Ok(cells)
     }
 
-    /// Density of the gap distribution, 1/m, at a `gap` of zero or more (m), without the contact.
-    pub fn gap_density(cells: &[GapCell], gap: f64) -> f64 {
-        cells
-            .iter()
-            .filter(|cell| cell.width > 0.0)
-            .map(|cell| {
-                let normal = |u: f64| super::special::normal_density(u / cell.width) / cell.width;
-                cell.weight * (normal(gap - cell.mean) + normal(gap + cell.mean))
-            })
-            .sum()
-    }
-
     /// Attraction over the gaps at a repulsive nominal `pressure` (Pa), Pa, positive.
     pub fn attraction(&self, adhesion: &Adhesion, pressure: f64) -> Result<f64, TheoryError> {
         let range = positive("range", adhesion.range)?;

@@ -2,11 +2,9 @@
 //!
 //! The speed is that of the receding edge; an advancing edge costs the static work of adhesion.
 
-use super::error::{TheoryError, not_negative, positive, within};
+use super::error::{TheoryError, between, not_negative, positive};
 use super::jkr;
 use super::roots::root;
-use super::tabor_map::Sphere;
-use std::f64::consts::PI;
 
 /// `w (1 + (v/v*)^n)` at a `speed` v of the receding edge (m/s), J/m^2. Gent & Schultz 1972,
 /// Maugis & Barquins 1978.
@@ -34,28 +32,15 @@ pub fn logarithmic_law(
     Ok(work_of_adhesion + not_negative("slope", slope)? * ratio.max(1.0).ln())
 }
 
-/// Pull-off force at an edge speed given by its fracture energy (J/m^2), N, positive:
-/// `1.5 pi R Gamma`.
-pub fn quasi_static_pull_off(sphere: &Sphere, fracture_energy: f64) -> Result<f64, TheoryError> {
-    Ok(1.5 * PI * sphere.radius() * not_negative("fracture_energy", fracture_energy)?)
-}
-
 /// Greatest tension, in `pi w R`, of a JKR sphere with the power law that is pulled off at a steady
 /// speed from zero load.
 ///
 /// `speed` is the rate of approach in `v* delta*/a*`. With the opening `y = -approach` as the
 /// variable the edge obeys `dA/dy = -(g - 1)^(1/n)/speed`, `g = 3 (A^2 + y)^2/(8 A)` (the energy
 /// release rate of [`jkr::energy_release_rate`] over w). As the speed goes to 0 this is 1.5.
-/// release rate of [`jkr::energy_release_rate`] over w). As the speed goes to 0 this is 1.5.
 pub fn reduced_pull_off(speed: f64, exponent: f64) -> Result<f64, TheoryError> {
     let speed = positive("speed", speed)?;
-    let power = 1.0
-        / within(
-            "exponent",
-            exponent,
-            (0.1..=2.0).contains(&exponent),
-            "between 0.1 and 2",
-        )?;
+    let power = 1.0 / between!(exponent in 0.1..=2.0, "between 0.1 and 2")?;
     let rate = |y: f64, radius: f64| {
         let opening = radius * radius + y;
         let excess = 0.375 * opening * opening / radius.max(1e-9) - 1.0;

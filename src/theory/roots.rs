@@ -172,6 +172,24 @@ pub fn minimum(mut function: impl FnMut(f64) -> f64, low: f64, high: f64) -> (f6
     (x, fx)
 }
 
+/// As [`minimum`] around the least of the values at the inner points of `parts` even parts.
+pub fn scanned_minimum(
+    function: impl Fn(f64) -> f64,
+    low: f64,
+    high: f64,
+    parts: usize,
+) -> (f64, f64) {
+    let place = |i: usize| low + (high - low) * i as f64 / parts as f64;
+    let mut best = (1, f64::INFINITY);
+    for i in 1..parts {
+        let value = function(place(i));
+        if value < best.1 {
+            best = (i, value);
+        }
+    }
+    minimum(function, place(best.0 - 1), place(best.0 + 1))
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;

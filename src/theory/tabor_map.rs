@@ -4,16 +4,12 @@
 //! `a* = (pi w R^2/K)^(1/3)`, force `pi w R`, approach `a*^2/R`. *Lennard-Jones units*: heights in
 //! the range of the law, radii in `sqrt(R range)`, traction in `w/range`, force in `2 pi w R`.
 
-use super::error::{TheoryError, finite, not_negative, positive, within};
+use super::error::{TheoryError, between, finite, not_negative, positive, within};
 use std::f64::consts::PI;
 
 /// Approach in Lennard-Jones units over `tabor_parameter` times approach in Maugis units,
 /// `(9 pi^2/16)^(1/3)`.
 pub const LJ_PER_MAUGIS_APPROACH: f64 = 1.770_682_754_000_227;
-
-/// Radius in Lennard-Jones units over `sqrt(tabor_parameter)` times radius in Maugis units,
-/// `(3 pi/4)^(1/3)`.
-pub const LJ_PER_MAUGIS_RADIUS: f64 = 1.330_670_039_491_468_8;
 
 /// Maugis' lambda over Tabor's mu for a Dugdale law with the work and the peak tension of a
 /// Lennard-Jones law, `2 (16/(9 sqrt 3)) (9/(16 pi))^(1/3)` (Johnson & Greenwood 1997).
@@ -115,24 +111,10 @@ pub fn contact_modulus(first: (f64, f64), second: (f64, f64)) -> Result<f64, The
             young_modulus > 0.0,
             "greater than zero",
         )?;
-        within(
-            "poisson_ratio",
-            poisson_ratio,
-            (-1.0..=0.5).contains(&poisson_ratio),
-            "between -1 and 0.5",
-        )?;
+        between!(poisson_ratio in -1.0..=0.5, "between -1 and 0.5")?;
         compliance += (1.0 - poisson_ratio * poisson_ratio) / young_modulus;
     }
     positive("contact modulus of the pair", 1.0 / compliance)
-}
-
-/// Radius of the equivalent sphere of a pair, `1/R = 1/R1 + 1/R2`, m; an infinite radius is a flat,
-/// a negative one concave.
-pub fn combined_radius(first: f64, second: f64) -> Result<f64, TheoryError> {
-    positive(
-        "combined radius of the pair",
-        1.0 / (1.0 / first + 1.0 / second),
-    )
 }
 
 /// Dupre's work of adhesion `gamma1 + gamma2 - gamma12`, J/m^2; twice the surface energy for a
@@ -176,16 +158,6 @@ pub fn maugis_from_lj_approach(approach: f64, tabor_parameter: f64) -> f64 {
     approach / (LJ_PER_MAUGIS_APPROACH * tabor_parameter)
 }
 
-/// Radius in units of `sqrt(R range)`, from Maugis units.
-pub fn lj_from_maugis_radius(radius: f64, tabor_parameter: f64) -> f64 {
-    LJ_PER_MAUGIS_RADIUS * tabor_parameter.sqrt() * radius
-}
-
-/// Radius in Maugis units, from units of `sqrt(R range)`.
-pub fn maugis_from_lj_radius(radius: f64, tabor_parameter: f64) -> f64 {
-    radius / (LJ_PER_MAUGIS_RADIUS * tabor_parameter.sqrt())
-}
-
 /// The valid theory of a sphere at a Tabor parameter (Johnson & Greenwood 1997).
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Regime {
@@ -219,7 +191,6 @@ mod tests {
     fn constants_follow_from_their_formulas() {
         let close = |got: f64, formula: f64| assert!((got / formula - 1.0).abs() < 1e-14);
         close(LJ_PER_MAUGIS_APPROACH, (9.0 * PI * PI / 16.0).cbrt());
-        close(LJ_PER_MAUGIS_RADIUS, (0.75 * PI).cbrt());
         let peak = 16.0 / (9.0 * 3.0_f64.sqrt());
         close(
             LAMBDA_PER_MU_MATCHED,

@@ -5,7 +5,7 @@
 //! widths `a` around its crests. Pressures are in units of `p* = pi E* D/wavelength`, the mean
 //! pressure of full contact, gaps in units of the amplitude D, lengths in wavelengths.
 
-use super::error::{TheoryError, not_negative, positive, within};
+use super::error::{TheoryError, between, not_negative, positive};
 use super::roots::root;
 use std::f64::consts::PI;
 
@@ -38,12 +38,7 @@ pub fn adhesion_parameter(
 }
 
 fn checked(half_width: f64) -> Result<f64, TheoryError> {
-    within(
-        "half_width",
-        half_width,
-        (0.0..=0.5).contains(&half_width),
-        "between 0 and half a wavelength",
-    )
+    between!(half_width in 0.0..=0.5, "between 0 and half a wavelength")
 }
 
 /// Mean pressure at a `half_width` of contact, in p*: `sin^2(pi a)`.
@@ -53,12 +48,7 @@ pub fn mean_pressure(half_width: f64) -> Result<f64, TheoryError> {
 
 /// Half width of contact at a `mean_pressure` (in p*, 0 to 1), in wavelengths.
 pub fn half_width(mean_pressure: f64) -> Result<f64, TheoryError> {
-    within(
-        "mean_pressure",
-        mean_pressure,
-        (0.0..=1.0).contains(&mean_pressure),
-        "between 0 and 1",
-    )?;
+    between!(mean_pressure in 0.0..=1.0, "between 0 and 1")?;
     Ok(mean_pressure.sqrt().asin() / PI)
 }
 
@@ -154,12 +144,7 @@ pub fn egg_box_area_low(mean_pressure: f64) -> Result<f64, TheoryError> {
 /// The same near full contact: `1 - (3/(2 pi)) (1 - p)`. As printed in the source, not derived
 /// again.
 pub fn egg_box_area_high(mean_pressure: f64) -> Result<f64, TheoryError> {
-    within(
-        "mean_pressure",
-        mean_pressure,
-        (0.0..=1.0).contains(&mean_pressure),
-        "between 0 and 1",
-    )?;
+    between!(mean_pressure in 0.0..=1.0, "between 0 and 1")?;
     Ok(1.0 - 3.0 / (2.0 * PI) * (1.0 - mean_pressure))
 }
 

@@ -246,23 +246,30 @@ fn no_effect_names_another() {
 fn every_key_of_a_scene_is_explained() {
     let root = Path::new(env!("CARGO_MANIFEST_DIR"));
     let read = |name: &str| fs::read_to_string(root.join(name)).expect("the file is there");
-    // Pairs of texts in the source: a key, and a line that sets it.
+    // `("key", "value")`, or a line `key = value,` of a section; a table's head stands for itself.
     let source = read("src/scene/keys.rs");
     let (_, listed) = source.split_once("const FIRST").expect("a list");
     let (listed, _) = listed.split_once("const BEFORE").expect("its end");
-    let listed: Vec<&str> = listed.split("later:").collect();
-    let texts: Vec<String> = listed
-        .iter()
-        // What stands for a later version is one line, before the next section.
-        .enumerate()
-        .flat_map(|(index, part)| part.lines().skip(usize::from(index > 0)))
-        .filter(|line| !line.trim_start().starts_with("//") && !line.contains("title:"))
-        .flat_map(quoted)
-        .collect();
-    let mut expected: Vec<(String, String)> = texts
-        .chunks(2)
-        .map(|pair| (pair[0].clone(), pair[1].clone()))
-        .collect();
+    let mut expected: Vec<(String, String)> = Vec::new();
+    for line in listed.lines().map(str::trim) {
+        let (key, value) = match (quoted(line).as_slice(), line.split_once(" = ")) {
+            ([key, value], _) if line.contains("(\"") => (key.clone(), value.clone()),
+            (_, Some((key, value))) if !key.contains(' ') && line.ends_with(',') => {
+                (key.to_owned(), value.trim_end_matches(',').to_owned())
+            }
+            _ => continue,
+        };
+        let is_head = value.starts_with('[') && !value.starts_with("[\"");
+        let example = if is_head {
+            value
+        } else {
+            format!("{key} = {value}")
+        };
+        // What stands for a later version is no key yet.
+        if !line.starts_with("later:") {
+            expected.push((key, example));
+        }
+    }
     // Declared tables: `name: Type {` opens one, and `key: Dimension = "value",` is a key of it.
     let source = read("src/scene/tables.rs");
     let (_, declared) = source.split_once("\ntables! {").expect("declarations");

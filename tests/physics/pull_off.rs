@@ -27,10 +27,8 @@ fn found(solved: &Solved) -> PullOff {
 /// Rows but for their seconds, bit by bit.
 fn bits(solved: &Solved) -> Vec<String> {
     let plain = |row: &StepRow| {
-        let row = StepRow {
-            seconds: 0.0,
-            ..row.clone()
-        };
+        let mut row = row.clone();
+        row.seconds = 0.0;
         format!("{row:?}")
     };
     solved.rows().map(plain).collect()

@@ -107,9 +107,10 @@ impl Observer for Cutter {
 
 /// Rows without their seconds, bit by bit.
 fn bits(rows: &[StepRow]) -> Vec<String> {
-    let plain = |row: &StepRow| StepRow {
-        seconds: 0.0,
-        ..row.clone()
+    let plain = |row: &StepRow| {
+        let mut row = row.clone();
+        row.seconds = 0.0;
+        row
     };
     // Debug prints numbers so that they read back to the same bits.
     rows.iter().map(|row| format!("{:?}", plain(row))).collect()

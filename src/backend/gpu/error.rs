@@ -66,7 +66,7 @@ pub enum GpuError {
     },
     /// A buffer for which the device has no memory left.
     #[error(
-        "out of memory on {adapter}: there is no room for `{name}`, of {bytes} bytes; take fewer points, or --backend cpu"
+        "out of memory on {adapter}: there is no room for `{name}`, of {bytes} bytes; take fewer points, or Device::cpu()"
     )]
     OutOfMemory {
         /// The adapter's name.
@@ -78,7 +78,7 @@ pub enum GpuError {
     },
     /// Numbers on the device that are none.
     #[error(
-        "numbers on {0} are no longer finite: the device erred, or single precision does not hold this scene; --backend cpu tells which"
+        "numbers on {0} are no longer finite: the device erred, or single precision does not hold this scene; Device::cpu() tells which"
     )]
     NotFinite(String),
     /// The device refused or failed.

@@ -55,6 +55,11 @@ impl Table {
     }
 }
 
+/// A row of numbers.
+pub(super) fn numbers<const COLUMNS: usize>(row: [f64; COLUMNS]) -> Result<Vec<Cell>, Failure> {
+    Ok(row.map(Cell::Number).to_vec())
+}
+
 /// One value of a table.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) enum Cell {

@@ -2,7 +2,7 @@
 
 use std::f64::consts::PI;
 
-use super::catalogue::{Model, Table};
+use super::catalogue::{Model, Table, numbers};
 use super::parameters::{
     Allowed, CONTACT_MODULUS, LAW, POINTS, Parameter, RADIUS, RANGE, WORK_OF_ADHESION,
 };
@@ -27,25 +27,11 @@ const FROM_FAR: Parameter = Parameter::from(
     "minus 5 ranges",
     "approach of the first row; before contact the sphere is rigid",
 );
-const FROM_CONTACT: Parameter = Parameter::from(
-    Dimension::Length,
-    Allowed::NotNegative,
-    "0",
-    "approach of the first row",
-);
-const TO: Parameter = Parameter::to(
-    Dimension::Length,
-    Allowed::Any,
-    "4 (pi^2 w^2 R/K^2)^(1/3), K = 4 E*/3",
-    "approach of the last row",
-);
+const FROM_CONTACT: Parameter = Parameter::from_approach(Allowed::NotNegative, "0");
+const TO: Parameter = Parameter::to_approach(Allowed::Any, "4 (pi^2 w^2 R/K^2)^(1/3), K = 4 E*/3");
 
-const TO_CONTACT: Parameter = Parameter::to(
-    Dimension::Length,
-    Allowed::NotNegative,
-    "4 (pi^2 w^2 R/K^2)^(1/3), K = 4 E*/3",
-    "approach of the last row",
-);
+const TO_CONTACT: Parameter =
+    Parameter::to_approach(Allowed::NotNegative, "4 (pi^2 w^2 R/K^2)^(1/3), K = 4 E*/3");
 
 /// The default of the last approach, in Maugis' unit of it.
 pub(super) const LAST_APPROACH: f64 = 4.0;
@@ -59,18 +45,8 @@ pub(super) const BRADLEY: Model = Model {
         WORK_OF_ADHESION,
         RANGE,
         LAW,
-        Parameter::from(
-            Dimension::Length,
-            Allowed::NotPositive,
-            "minus 10 ranges",
-            "approach of the first row",
-        ),
-        Parameter::to(
-            Dimension::Length,
-            Allowed::NotPositive,
-            "0",
-            "approach of the last row",
-        ),
+        Parameter::from_approach(Allowed::NotPositive, "minus 10 ranges"),
+        Parameter::to_approach(Allowed::NotPositive, "0"),
         POINTS,
     ],
     columns: &[("approach", "m"), ("force", "N"), ("gap", "m")],
@@ -90,7 +66,7 @@ fn bradley_table(values: &Values) -> Result<Table, Failure> {
     let mut table = Table::over(&places, |approach| {
         let gap = -approach;
         let force = bradley::force(&sphere, values.law(), range, gap)?;
-        Ok(vec![approach.into(), force.into(), gap.into()])
+        numbers([approach, force, gap])
     })?;
     let most = 2.0 * PI * sphere.work_of_adhesion() * sphere.radius();
     table.note("pull_off_force", -most, "N");
@@ -137,11 +113,11 @@ fn constant(values: &Values, force: &dyn Fn(&Sphere, f64) -> f64) -> Result<Tabl
     let mut table = Table::over(&places, |approach| {
         let radius = hertz::contact_radius_at_approach(&sphere, approach)?;
         let force = force(&sphere, radius);
-        Ok(vec![
-            approach.into(),
-            force.into(),
-            radius.into(),
-            (hertz::force(&sphere, radius) - force).into(),
+        numbers([
+            approach,
+            force,
+            radius,
+            hertz::force(&sphere, radius) - force,
         ])
     })?;
     table.note("pull_off_force", force(&sphere, 0.0), "N");
@@ -211,12 +187,7 @@ fn ranged(values: &Values, method: Method, law: Law) -> Result<Table, Failure> {
         let force = dmt::force(method, law, reduced, mu)?;
         let hertz = dmt::hertz_force(reduced.max(0.0), mu)?;
         let radius = (sphere.radius() * approach.max(0.0)).sqrt();
-        Ok(vec![
-            approach.into(),
-            (unit * force).into(),
-            radius.into(),
-            (unit * (hertz - force)).into(),
-        ])
+        numbers([approach, unit * force, radius, unit * (hertz - force)])
     })?;
     table.note("tabor_parameter", mu, "");
     let (_, pull_off) = dmt::pull_off(method, law, mu)?;

@@ -5,7 +5,7 @@ use std::f64::consts::PI;
 use super::catalogue::{Model, Table};
 use super::dmt::LAST_APPROACH;
 use super::parameters::{
-    CONTACT_MODULUS, DIRECTION, Need, POINTS, Parameter, RADIUS, RANGE, WORK_OF_ADHESION,
+    CONTACT_MODULUS, DIRECTION, Need, POINTS, RADIUS, RANGE, WORK_OF_ADHESION,
 };
 use super::soft::{ATTRACTED, CONTACT, from, row, sphere, to};
 use super::values::Values;
@@ -26,10 +26,7 @@ pub(super) const LENNARD_JONES_SPHERE: Model = Model {
         DIRECTION,
         from("minus 4 ranges and 2 Tabor parameters more"),
         to("4 (pi^2 w^2 R/K^2)^(1/3), K = 4 E*/3, but no more than 20 ranges"),
-        Parameter {
-            need: Need::Default("61"),
-            ..POINTS
-        },
+        POINTS.needed(Need::Default("61")),
     ],
     columns: &[
         ("approach", "m"),

@@ -145,6 +145,26 @@ impl Parameter {
         }
     }
 
+    /// The approach of the first row.
+    pub const fn from_approach(allowed: Allowed, chosen: &'static str) -> Self {
+        Parameter::from(
+            Dimension::Length,
+            allowed,
+            chosen,
+            "approach of the first row",
+        )
+    }
+
+    /// The approach of the last row.
+    pub const fn to_approach(allowed: Allowed, chosen: &'static str) -> Self {
+        Parameter::to(
+            Dimension::Length,
+            allowed,
+            chosen,
+            "approach of the last row",
+        )
+    }
+
     /// The same with another need.
     pub const fn needed(self, need: Need) -> Self {
         Parameter { need, ..self }

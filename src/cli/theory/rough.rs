@@ -2,7 +2,7 @@
 
 use std::f64::consts::PI;
 
-use super::catalogue::{Model, Table};
+use super::catalogue::{Model, Table, numbers};
 use super::parameters::{
     Allowed, CONTACT_MODULUS, Kind, LAW, Need, POINTS, Parameter, RANGE, WORK_OF_ADHESION,
 };
@@ -65,10 +65,7 @@ pub(super) const PERSSON: Model = Model {
             "contact modulus times rms slope",
             "repulsive pressure of the last row",
         ),
-        Parameter {
-            need: Need::Default("31"),
-            ..POINTS
-        },
+        POINTS.needed(Need::Default("31")),
     ],
     columns: &[
         ("mean_pressure", "Pa"),
@@ -121,13 +118,13 @@ fn persson_table(values: &Values) -> Result<Table, Failure> {
         let attraction = adhesion
             .as_ref()
             .map_or(Ok(0.0), |adhesion| contact.attraction(adhesion, pressure))?;
-        Ok(vec![
-            (pressure - attraction).into(),
-            contact.area_fraction(pressure)?.into(),
-            contact.mean_gap(pressure)?.into(),
-            contact.stiffness(pressure)?.into(),
-            attraction.into(),
-            pressure.into(),
+        numbers([
+            pressure - attraction,
+            contact.area_fraction(pressure)?,
+            contact.mean_gap(pressure)?,
+            contact.stiffness(pressure)?,
+            attraction,
+            pressure,
         ])
     })?;
     table.note("rms_height", spectrum.rms_height(), "m");
@@ -188,7 +185,7 @@ fn bam_table(values: &Values) -> Result<Table, Failure> {
     let places = values.places(0.0, 4.0 * height + range)?;
     let mut table = Table::over(&places, |gap| {
         let pressure = tension * model.pressure(gap / height);
-        Ok(vec![gap.into(), pressure.into()])
+        numbers([gap, pressure])
     })?;
     let (gap, pull_off) = model.pull_off()?;
     table.note("pull_off_pressure", -tension * pull_off, "Pa");
@@ -229,10 +226,7 @@ pub(super) const PASTEWKA_ROBBINS: Model = Model {
             "100 of it",
             "range of the last row",
         ),
-        Parameter {
-            need: Need::Default("31"),
-            ..POINTS
-        },
+        POINTS.needed(Need::Default("31")),
     ],
     columns: &[("range", "m"), ("stickiness_ratio", ""), ("sticky", "")],
     example: "--rms_slope 0.00115 --rms_curvature \"9e3 1/m\" --contact_modulus \"1.33 TPa\" --work_of_adhesion \"0.2 J/m^2\"",

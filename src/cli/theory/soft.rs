@@ -25,22 +25,12 @@ pub(super) const CONTACT: &str = "contact";
 
 /// The first approach, any.
 pub(super) const fn from(chosen: &'static str) -> Parameter {
-    Parameter::from(
-        Dimension::Length,
-        Allowed::Any,
-        chosen,
-        "approach of the first row",
-    )
+    Parameter::from_approach(Allowed::Any, chosen)
 }
 
 /// The last approach, any.
 pub(super) const fn to(chosen: &'static str) -> Parameter {
-    Parameter::to(
-        Dimension::Length,
-        Allowed::Any,
-        chosen,
-        "approach of the last row",
-    )
+    Parameter::to_approach(Allowed::Any, chosen)
 }
 
 const TO: Parameter = to("4 (pi^2 w^2 R/K^2)^(1/3), K = 4 E*/3");

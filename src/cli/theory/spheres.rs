@@ -2,7 +2,7 @@
 
 use std::f64::consts::{FRAC_PI_2, PI};
 
-use super::catalogue::{Model, Table};
+use super::catalogue::{Model, Table, numbers};
 use super::parameters::{Allowed, CONTACT_MODULUS, Kind, Need, POINTS, Parameter, RADIUS};
 use super::values::Values;
 use crate::cli::Failure;
@@ -11,20 +11,10 @@ use crate::theory::{Sphere, hertz};
 use crate::units::Dimension;
 
 /// First approach of a contact that touches from 0 on.
-const FROM: Parameter = Parameter::from(
-    Dimension::Length,
-    Allowed::NotNegative,
-    "0",
-    "approach of the first row",
-);
+const FROM: Parameter = Parameter::from_approach(Allowed::NotNegative, "0");
 
 const fn to(chosen: &'static str) -> Parameter {
-    Parameter::to(
-        Dimension::Length,
-        Allowed::NotNegative,
-        chosen,
-        "approach of the last row",
-    )
+    Parameter::to_approach(Allowed::NotNegative, chosen)
 }
 
 pub(super) const HERTZ: Model = Model {
@@ -58,12 +48,12 @@ fn hertz_table(values: &Values) -> Result<Table, Failure> {
     let places = values.places(0.0, 0.01 * sphere.radius())?;
     Table::over(&places, |approach| {
         let radius = hertz::contact_radius_at_approach(&sphere, approach)?;
-        Ok(vec![
-            approach.into(),
-            hertz::force(&sphere, radius).into(),
-            radius.into(),
-            hertz::pressure(&sphere, radius, 0.0).into(),
-            hertz::stiffness(&sphere, radius).into(),
+        numbers([
+            approach,
+            hertz::force(&sphere, radius),
+            radius,
+            hertz::pressure(&sphere, radius, 0.0),
+            hertz::stiffness(&sphere, radius),
         ])
     })
 }
@@ -107,12 +97,7 @@ fn cone_table(values: &Values) -> Result<Table, Failure> {
     Table::over(&places, |approach| {
         let radius = approach / cone.approach(1.0);
         let force = cone.force(radius);
-        Ok(vec![
-            approach.into(),
-            force.into(),
-            radius.into(),
-            cone.mean_pressure().into(),
-        ])
+        numbers([approach, force, radius, cone.mean_pressure()])
     })
 }
 
@@ -141,10 +126,6 @@ fn punch_table(values: &Values) -> Result<Table, Failure> {
     let places = values.places(0.0, 0.01 * radius)?;
     Table::over(&places, |approach| {
         let force = punch_force(radius, modulus, approach)?;
-        Ok(vec![
-            approach.into(),
-            force.into(),
-            (force / (PI * radius * radius)).into(),
-        ])
+        numbers([approach, force, force / (PI * radius * radius)])
     })
 }

@@ -2,7 +2,7 @@
 
 use std::f64::consts::PI;
 
-use super::catalogue::{Model, Table};
+use super::catalogue::{Model, Table, numbers};
 use super::parameters::{Allowed, CONTACT_MODULUS, DIRECTION, POINTS, Parameter, WORK_OF_ADHESION};
 use super::values::Values;
 use crate::cli::Failure;
@@ -77,11 +77,11 @@ pub(super) const GW: Model = Model {
         let (summits, places) = summits(values)?;
         Table::over(&places, |separation| {
             let reduced = separation / summits.rms_height();
-            Ok(vec![
-                separation.into(),
-                summits.pressure(reduced)?.into(),
-                summits.contact_area_fraction(reduced).into(),
-                summits.contact_density(reduced).into(),
+            numbers([
+                separation,
+                summits.pressure(reduced)?,
+                summits.contact_area_fraction(reduced),
+                summits.contact_density(reduced),
             ])
         })
     },
@@ -107,11 +107,11 @@ pub(super) const GW_M: Model = Model {
         let (summits, places) = summits(values)?;
         let mut table = Table::over(&places, |separation| {
             let reduced = separation / summits.rms_height();
-            Ok(vec![
-                separation.into(),
-                gw_m::pressure(&summits, reduced)?.into(),
-                summits.contact_area_fraction(reduced).into(),
-                summits.contact_density(reduced).into(),
+            numbers([
+                separation,
+                gw_m::pressure(&summits, reduced)?,
+                summits.contact_area_fraction(reduced),
+                summits.contact_density(reduced),
             ])
         })?;
         table.note("adhesion_parameter", summits.adhesion_parameter()?, "");
@@ -153,7 +153,7 @@ fn fuller_tabor_table(values: &Values) -> Result<Table, Failure> {
     let mut table = Table::over(&places, |separation| {
         let reduced = separation / summits.rms_height();
         let pressure = fuller_tabor::reduced_pressure(theta, reduced, path)?;
-        Ok(vec![separation.into(), (unit * pressure).into()])
+        numbers([separation, unit * pressure])
     })?;
     table.note("adhesion_parameter", theta, "");
     let (_, pull_off) = fuller_tabor::reduced_pull_off(theta)?;

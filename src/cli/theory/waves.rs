@@ -1,6 +1,6 @@
 //! A line wave on a half-space.
 
-use super::catalogue::{Model, Table};
+use super::catalogue::{Model, Table, numbers};
 use super::parameters::{
     Allowed, CONTACT_MODULUS, Kind, Need, POINTS, Parameter, WORK_OF_ADHESION,
 };
@@ -63,11 +63,11 @@ fn westergaard_table(values: &Values) -> Result<Table, Failure> {
     let mut table = Table::over(&places, |pressure| {
         let reduced = pressure / full;
         let half_width = westergaard::half_width(reduced)?;
-        Ok(vec![
-            pressure.into(),
-            (2.0 * half_width).into(),
-            (values.number("amplitude") * westergaard::mean_gap(reduced)?).into(),
-            (full * westergaard::pressure(half_width, 0.0)?).into(),
+        numbers([
+            pressure,
+            2.0 * half_width,
+            values.number("amplitude") * westergaard::mean_gap(reduced)?,
+            full * westergaard::pressure(half_width, 0.0)?,
         ])
     })?;
     table.note("full_contact_pressure", full, "Pa");
@@ -112,7 +112,7 @@ fn adhesive_table(values: &Values) -> Result<Table, Failure> {
     let places = values.places(0.0, 0.99)?;
     let mut table = Table::over(&places, |share| {
         let pressure = westergaard::adhesive_mean_pressure(0.5 * share, adhesion)?;
-        Ok(vec![share.into(), (full * pressure).into()])
+        numbers([share, full * pressure])
     })?;
     table.note("full_contact_pressure", full, "Pa");
     table.note("adhesion_parameter", adhesion, "");

@@ -72,12 +72,9 @@ pub(super) fn read(bytes: &[u8]) -> Result<Matrix, FileError> {
         }
     })?;
     Ok(Matrix {
-        values,
-        rows,
-        columns,
         size: Some(Size::Metres(sides)),
         unit: Some(1.0),
-        ..Matrix::default()
+        ..Matrix::new(values, [rows, columns])
     })
 }
 

@@ -34,6 +34,18 @@ impl<'a> Bytes<'a> {
 
     little_endian!(u8: u8, u16: u16, i16: i16, u32: u32, i32: i32, f32: f32, f64: f64);
 
+    /// The next doubles; `what` names them in messages.
+    pub(super) fn doubles<const COUNT: usize>(
+        &mut self,
+        what: &str,
+    ) -> Result<[f64; COUNT], FileError> {
+        let mut numbers = [0.0; COUNT];
+        for number in &mut numbers {
+            *number = self.f64(what)?;
+        }
+        Ok(numbers)
+    }
+
     /// Offset of the next byte, from 0.
     pub(super) fn offset(&self) -> usize {
         self.at
@@ -187,6 +199,23 @@ pub(super) fn checked_shape(rows: i64, columns: i64) -> Result<[usize; 2], FileE
             points: product.map_or(u64::MAX, |points| points as u64),
         }),
     }
+}
+
+/// Refuses a text of `length` bytes with fewer numbers than a shape has.
+pub(super) fn refuse_short_text(
+    [rows, columns]: [usize; 2],
+    length: usize,
+) -> Result<(), FileError> {
+    // Each number takes at least a digit and a blank.
+    if rows * columns <= length / 2 + 1 {
+        return Ok(());
+    }
+    Err(FileError::Truncated {
+        rows,
+        columns,
+        expected: 2 * (rows * columns) as u64 - 1,
+        found: length as u64,
+    })
 }
 
 /// Decodes Latin-1.

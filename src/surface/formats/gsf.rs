@@ -34,13 +34,10 @@ pub(super) fn read(bytes: &[u8]) -> Result<Matrix, FileError> {
     let mut warnings = Vec::new();
     file.warn_of_rest(&mut warnings);
     Ok(Matrix {
-        values,
-        rows: shape[0],
-        columns: shape[1],
         size,
         unit: stated_unit(header.text("ZUnits"), "heights")?,
         warnings,
-        ..Matrix::default()
+        ..Matrix::new(values, shape)
     })
 }
 

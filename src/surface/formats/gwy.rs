@@ -161,12 +161,9 @@ impl Object {
             _ => None,
         };
         Ok(Matrix {
-            values,
-            rows: shape[0],
-            columns: shape[1],
             size,
             unit: self.unit("si_unit_z").and_then(length_unit),
-            ..Matrix::default()
+            ..Matrix::new(values, shape)
         })
     }
 }

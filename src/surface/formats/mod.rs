@@ -55,6 +55,28 @@ enum Reader {
     Whole(fn(&[u8]) -> Result<Matrix, FileError>),
 }
 
+impl Format {
+    /// A format that is read whole; text, which may begin with anything, has no first bytes.
+    const fn new(
+        name: &'static str,
+        extensions: &'static [&'static str],
+        magic: &'static [&'static [u8]],
+        read: fn(&[u8]) -> Result<Matrix, FileError>,
+    ) -> Self {
+        Format {
+            name,
+            extensions,
+            magic,
+            longest: if magic.is_empty() {
+                LONGEST_TEXT
+            } else {
+                LONGEST
+            },
+            read: Reader::Whole(read),
+        }
+    }
+}
+
 /// All supported formats. A static, not a constant: formats are compared by address.
 static FORMATS: &[Format] = &[
     Format {
@@ -64,76 +86,41 @@ static FORMATS: &[Format] = &[
         longest: u64::MAX,
         read: Reader::Stream(npy::read),
     },
-    Format {
-        name: "PNG image",
-        extensions: &["png"],
-        magic: &[png::MAGIC],
-        longest: LONGEST,
-        read: Reader::Whole(png::read),
-    },
-    Format {
-        name: "TIFF image",
-        extensions: &["tif", "tiff"],
-        magic: &tiff::MAGIC,
-        longest: LONGEST,
-        read: Reader::Whole(tiff::read),
-    },
-    Format {
-        name: "Gwyddion simple field (.gsf)",
-        extensions: &["gsf"],
-        magic: &[gsf::MAGIC],
-        longest: LONGEST,
-        read: Reader::Whole(gsf::read),
-    },
-    Format {
-        name: "Gwyddion file (.gwy)",
-        extensions: &["gwy"],
-        magic: &[gwy::MAGIC],
-        longest: LONGEST,
-        read: Reader::Whole(gwy::read),
-    },
-    Format {
-        name: "Surfer grid (.grd)",
-        extensions: &["grd"],
-        magic: &[surfer::TEXT, surfer::BINARY, surfer::BINARY_7],
-        longest: LONGEST,
-        read: Reader::Whole(surfer::read),
-    },
-    Format {
-        name: "surface data file (.sdf)",
-        extensions: &["sdf"],
-        magic: &sdf::MAGIC,
-        longest: LONGEST,
-        read: Reader::Whole(sdf::read),
-    },
-    Format {
-        name: "Digital Surf surface (.sur)",
-        extensions: &["sur"],
-        magic: &[sur::MAGIC, sur::COMPRESSED],
-        longest: LONGEST,
-        read: Reader::Whole(sur::read),
-    },
-    Format {
-        name: "Alicona height map (.al3d)",
-        extensions: &["al3d"],
-        magic: &[al3d::MAGIC],
-        longest: LONGEST,
-        read: Reader::Whole(al3d::read),
-    },
-    Format {
-        name: "columns x y z (.xyz)",
-        extensions: &["xyz"],
-        magic: &[],
-        longest: LONGEST_TEXT,
-        read: Reader::Whole(xyz::read),
-    },
-    Format {
-        name: "text",
-        extensions: &["txt", "csv", "tsv", "dat", "asc"],
-        magic: &[],
-        longest: LONGEST_TEXT,
-        read: Reader::Whole(text::read),
-    },
+    Format::new("PNG image", &["png"], &[png::MAGIC], png::read),
+    Format::new("TIFF image", &["tif", "tiff"], &tiff::MAGIC, tiff::read),
+    Format::new(
+        "Gwyddion simple field (.gsf)",
+        &["gsf"],
+        &[gsf::MAGIC],
+        gsf::read,
+    ),
+    Format::new("Gwyddion file (.gwy)", &["gwy"], &[gwy::MAGIC], gwy::read),
+    Format::new(
+        "Surfer grid (.grd)",
+        &["grd"],
+        &[surfer::TEXT, surfer::BINARY, surfer::BINARY_7],
+        surfer::read,
+    ),
+    Format::new("surface data file (.sdf)", &["sdf"], &sdf::MAGIC, sdf::read),
+    Format::new(
+        "Digital Surf surface (.sur)",
+        &["sur"],
+        &[sur::MAGIC, sur::COMPRESSED],
+        sur::read,
+    ),
+    Format::new(
+        "Alicona height map (.al3d)",
+        &["al3d"],
+        &[al3d::MAGIC],
+        al3d::read,
+    ),
+    Format::new("columns x y z (.xyz)", &["xyz"], &[], xyz::read),
+    Format::new(
+        "text",
+        &["txt", "csv", "tsv", "dat", "asc"],
+        &[],
+        text::read,
+    ),
 ];
 
 /// Reads only the numbers of columns and rows from a header.

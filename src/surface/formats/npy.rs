@@ -100,15 +100,13 @@ pub(super) fn read(mut file: impl BufRead, length: u64) -> Result<Matrix, FileEr
             });
         }
     }?;
+    let values = match order {
+        Order::C => values,
+        Order::Fortran => transposed(&values, rows, columns),
+    };
     Ok(Matrix {
-        values: match order {
-            Order::C => values,
-            Order::Fortran => transposed(&values, rows, columns),
-        },
-        rows,
-        columns,
         warnings,
-        ..Matrix::default()
+        ..Matrix::new(values, [rows, columns])
     })
 }
 

@@ -58,11 +58,8 @@ pub(super) fn read(bytes: &[u8]) -> Result<Matrix, FileError> {
         }));
     }
     Ok(Matrix {
-        values,
-        rows: shape[0],
-        columns: shape[1],
         grey: true,
-        ..Matrix::default()
+        ..Matrix::new(values, shape)
     })
 }
 

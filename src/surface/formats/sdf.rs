@@ -6,7 +6,7 @@
 //! # Source
 //! ISO 25178-71:2017, clause 5; its forerunner in Stout et al. 1993, report EUR 15178 EN.
 
-use super::bytes::{Bytes, checked_shape, latin_1, with_capacity};
+use super::bytes::{Bytes, checked_shape, latin_1, refuse_short_text, with_capacity};
 use crate::surface::error::FileError;
 use crate::surface::matrix::{Matrix, Size};
 
@@ -63,12 +63,9 @@ impl Header {
         let [x, y, z] = self.scales;
         let y = if rows == 1 { x } else { y };
         Matrix {
-            values,
-            rows,
-            columns,
             size: Some(Size::Metres([x * columns as f64, y * rows as f64])),
             unit: Some(z),
-            ..Matrix::default()
+            ..Matrix::new(values, [rows, columns])
         }
     }
 }
@@ -89,14 +86,11 @@ fn read_binary(bytes: &[u8]) -> Result<Matrix, FileError> {
         )
     };
     let place = file.offset();
-    let mut numbers = [0.0; 4];
-    for number in &mut numbers {
-        *number = file.f64("the scales")?;
-    }
+    let [x, y, z, _] = file.doubles("the scales")?;
     let header = Header {
         columns,
         rows,
-        scales: [numbers[0], numbers[1], numbers[2]],
+        scales: [x, y, z],
         compression: file.u8("the compression")?.into(),
         data_type: file.u8("the type of the data")?.into(),
     };
@@ -105,37 +99,24 @@ fn read_binary(bytes: &[u8]) -> Result<Matrix, FileError> {
     }
     file.take(1, "the checksum's type")?;
     let shape = header.shape()?;
-    let unless = |missing: bool, value: f64| if missing { f64::NAN } else { value };
+    /// Numbers of a type, of which one marks missing points.
+    macro_rules! marked {
+        ($Number:ident::$MISSING:ident) => {
+            file.packed(shape, |element| match $Number::from_le_bytes(element) {
+                $Number::$MISSING => f64::NAN,
+                value => value.into(),
+            })
+        };
+    }
     let values = match header.data_type {
         0 => file.packed(shape, |[byte]| f64::from(byte)),
-        1 => file.packed(shape, |element| {
-            let value = u16::from_le_bytes(element);
-            unless(value == u16::MAX, value.into())
-        }),
-        2 => file.packed(shape, |element| {
-            let value = u32::from_le_bytes(element);
-            unless(value == u32::MAX, value.into())
-        }),
-        3 => file.packed(shape, |element| {
-            let value = f32::from_le_bytes(element);
-            unless(value == f32::MIN, value.into())
-        }),
-        4 => file.packed(shape, |[byte]| {
-            let value = byte.cast_signed();
-            unless(value == i8::MIN, value.into())
-        }),
-        5 => file.packed(shape, |element| {
-            let value = i16::from_le_bytes(element);
-            unless(value == i16::MIN, value.into())
-        }),
-        6 => file.packed(shape, |element| {
-            let value = i32::from_le_bytes(element);
-            unless(value == i32::MIN, value.into())
-        }),
-        7 => file.packed(shape, |element| {
-            let value = f64::from_le_bytes(element);
-            unless(value == f64::MIN, value)
-        }),
+        1 => marked!(u16::MAX),
+        2 => marked!(u32::MAX),
+        3 => marked!(f32::MIN),
+        4 => marked!(i8::MIN),
+        5 => marked!(i16::MIN),
+        6 => marked!(i32::MIN),
+        7 => marked!(f64::MIN),
         other => {
             return Err(file.broken(place + 33, format!("type {other} of data is not known")));
         }
@@ -198,15 +179,7 @@ fn read_text(bytes: &[u8]) -> Result<Matrix, FileError> {
     }
     let shape = header.shape()?;
     let points = shape[0] * shape[1];
-    // Each number takes at least a digit and a blank.
-    if points > bytes.len() / 2 + 1 {
-        return Err(FileError::Truncated {
-            rows: shape[0],
-            columns: shape[1],
-            expected: 2 * points as u64 - 1,
-            found: bytes.len() as u64,
-        });
-    }
+    refuse_short_text(shape, bytes.len())?;
     let mut values = with_capacity(shape)?;
     let mut last = end;
     'lines: for (line, number) in lines {

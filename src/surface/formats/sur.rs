@@ -54,12 +54,9 @@ pub(super) fn read(bytes: &[u8]) -> Result<Matrix, FileError> {
     let [rows, columns] = header.shape;
     let [dx, dy] = header.pixel;
     Ok(Matrix {
-        values,
-        rows,
-        columns,
         size: Some(Size::Metres([dx * columns as f64, dy * rows as f64])),
         unit: header.unit,
-        ..Matrix::default()
+        ..Matrix::new(values, [rows, columns])
     })
 }
 

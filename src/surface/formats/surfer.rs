@@ -7,7 +7,7 @@
 //! Golden Software, Surfer user's guide, "ASCII grid file format", "Surfer 6 grid file format" and
 //! "Surfer 7 grid file format".
 
-use super::bytes::{Bytes, checked_shape, latin_1, with_capacity};
+use super::bytes::{Bytes, checked_shape, latin_1, refuse_short_text, with_capacity};
 use crate::surface::error::FileError;
 use crate::surface::matrix::{Matrix, Size};
 
@@ -59,16 +59,7 @@ fn read_text(bytes: &[u8]) -> Result<Matrix, FileError> {
     let columns = number("the number of columns")?;
     let rows = number("the number of rows")?;
     let shape = checked_shape(whole(rows), whole(columns))?;
-    // Each number takes at least a digit and a blank.
-    let points = shape[0] * shape[1];
-    if points > bytes.len() / 2 + 1 {
-        return Err(FileError::Truncated {
-            rows: shape[0],
-            columns: shape[1],
-            expected: 2 * points as u64 - 1,
-            found: bytes.len() as u64,
-        });
-    }
+    refuse_short_text(shape, bytes.len())?;
     let mut ends = [0.0; 6];
     for (end, what) in ends.iter_mut().zip([
         "the least x",
@@ -81,7 +72,7 @@ fn read_text(bytes: &[u8]) -> Result<Matrix, FileError> {
         *end = number(what)?;
     }
     let mut values = with_capacity(shape)?;
-    for index in 0..points {
+    for index in 0..shape[0] * shape[1] {
         let (row, column) = (index / shape[1] + 1, index % shape[1] + 1);
         values.push(number(&format!(
             "the height of row {row}, column {column}"
@@ -132,14 +123,11 @@ fn finished(
         if rows == 1 { dx } else { dy } * rows as f64,
     ];
     Matrix {
-        values,
-        rows,
-        columns,
         size: sides
             .iter()
             .all(|side| side.is_finite() && *side > 0.0)
             .then_some(Size::LikeHeights(sides)),
-        ..Matrix::default()
+        ..Matrix::new(values, [rows, columns])
     }
 }
 
@@ -150,10 +138,7 @@ fn read_binary(bytes: &[u8]) -> Result<Matrix, FileError> {
     let rows = file.i16("the number of rows")?;
     let shape = checked_shape(rows.into(), columns.into())?;
     let start = file.offset();
-    let mut ends = [0.0; 6];
-    for end in &mut ends {
-        *end = file.f64("the limits of x, y and z")?;
-    }
+    let ends = file.doubles("the limits of x, y and z")?;
     let steps = steps(ends, shape).ok_or_else(|| file.broken(start, REVERSED))?;
     let values = file.packed(shape, |element| f64::from(f32::from_le_bytes(element)))?;
     let mut matrix = finished(values, shape, steps, |height| height >= BLANK);
@@ -212,11 +197,7 @@ fn describe(file: &mut Bytes) -> Result<Description, FileError> {
     let columns = file.i32("the number of columns")?;
     let shape = checked_shape(rows.into(), columns.into())?;
     let start = file.offset();
-    let mut numbers = [0.0; 8];
-    for number in &mut numbers {
-        *number = file.f64("the description of the grid")?;
-    }
-    let [_, _, dx, dy, _, _, _, blank] = numbers;
+    let [_, _, dx, dy, _, _, _, blank] = file.doubles("the description of the grid")?;
     if ![dx, dy].iter().all(|step| step.is_finite() && *step > 0.0) {
         return Err(file.broken(
             start,

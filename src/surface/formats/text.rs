@@ -108,12 +108,9 @@ pub(super) fn read_columns(bytes: &[u8]) -> Result<(Matrix, Remarks), FileError>
     let remarks = Remarks::from_body(&body);
     let size = remarks.width.zip(remarks.height);
     let matrix = Matrix {
-        values,
-        rows,
-        columns,
         size: size.map(|(x, y)| Size::Metres([x, y])),
         unit: remarks.unit,
-        ..Matrix::default()
+        ..Matrix::new(values, [rows, columns])
     };
     Ok((matrix, remarks))
 }

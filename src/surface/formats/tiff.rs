@@ -77,12 +77,9 @@ pub(super) fn read(bytes: &[u8]) -> Result<Matrix, FileError> {
         warnings.push("the file holds several images; the first is read".to_owned());
     }
     Ok(Matrix {
-        values,
-        rows: shape[0],
-        columns: shape[1],
         grey,
         warnings,
-        ..Matrix::default()
+        ..Matrix::new(values, shape)
     })
 }
 

@@ -94,12 +94,9 @@ fn gridded(points: &Matrix, lateral_unit: Option<f64>) -> Result<Matrix, String>
         None => Size::LikeHeights(sides),
     });
     Ok(Matrix {
-        values,
-        rows: y.count,
-        columns: x.count,
         size,
         unit: points.unit,
-        ..Matrix::default()
+        ..Matrix::new(values, [y.count, x.count])
     })
 }
 

@@ -93,7 +93,7 @@ pub fn reached() -> Vec<Reached> {
         (
             "Extreme",
             rows(head, 20, |i| format!("{i}e-9,{}e40", i as f64 - 5.0)),
-            "column `force`: its largest number is 1.4e41; it must be between 1e-30 and 1e30 in SI units: check the unit in the headerer",
+            "column `force`: its largest number is 1.4e41; it must be between 1e-30 and 1e30 in SI units: check the unit in the header",
         ),
         (
             "Extreme",

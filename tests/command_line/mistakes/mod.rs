@@ -131,6 +131,20 @@ const OUT_OF_REACH: &[(&str, &str)] = &[
         "CompareError::Backend",
         "passes the device's failure on; the command line shows what is inside",
     ),
+    (
+        "ContactError::Mistakes",
+        "passes mistakes of a scene on, which tests/command_line/contact.rs reads",
+    ),
+    ("ContactError::Surface", "passes a surface's mistake on"),
+    (
+        "ContactError::Memory",
+        "passes on what the memory does not hold",
+    ),
+    (
+        "ContactError::Device",
+        "passes the choice of a device on: tests/command_line/contact.rs reads it",
+    ),
+    ("ContactError::Backend", "passes the device's failure on"),
     ("Stopped::Out", "a model of compare ends; a note says why"),
     ("Stopped::Theory", "passes a theory's own range on"),
     ("Stopped::Output", "passes an output's failure on"),

@@ -1,0 +1,39 @@
+//! The options of the command line in place of what the library says in words.
+
+/// Phrases of the library, and the same with the option.
+const OPTIONS: &[(&str, &str)] = &[
+    ("file; name a folder", "file; name a folder with --out"),
+    (
+        "name an empty or new folder",
+        "name an empty or new folder with --out",
+    ),
+    ("name another folder", "name another folder with --out"),
+    (
+        "into another folder writes",
+        "into another folder (--out) writes",
+    ),
+    (
+        "without resuming to start afresh",
+        "without --resume to start afresh",
+    ),
+    ("resuming starts at step", "--resume starts at step"),
+    ("resuming goes on after", "--resume goes on after"),
+    ("give a longer budget", "give a longer --budget"),
+    ("do not fit the baseline if", "leave --baseline out if"),
+    ("Device::cpu()", "--backend cpu"),
+    (", from an override", ", from --set"),
+    (
+        "such as surface.0.hurst=0.4",
+        "such as --set surface.0.hurst=0.4",
+    ),
+    ("override all of it with", "set all of it with --set"),
+];
+
+/// A message of the library for those who call the program.
+pub(super) fn with_options(message: &str) -> String {
+    OPTIONS
+        .iter()
+        .fold(message.to_owned(), |text, (words, option)| {
+            text.replace(words, option)
+        })
+}
