@@ -12,7 +12,7 @@ use std::path::Path;
 use std::time::Instant;
 
 use tabor::backend::gpu::{AdapterChoice, GpuBackend, GpuDevice, KernelTime, Timings};
-use tabor::output::panels::{Axis, Figure, Panel, PlotPoint, Series};
+use tabor::output::plot::{Axis, Figure, Panel, PlotPoint, Series};
 use tabor::scene::Scene;
 use tabor::solver::{ContactSolver, Hold, Load, Start};
 use tabor::study::Setup;
@@ -175,40 +175,22 @@ fn print(measured: &Measured) {
 fn figure(device: &str, software: bool, all: &[Measured]) -> Figure {
     let panels = LAWS.iter().enumerate().map(|(law, (title, _))| {
         let of_law = || all.iter().filter(move |measured| measured.law == law);
-        let point = |measured: &Measured, rate: f64| PlotPoint {
-            x: measured.points as f64,
-            y: rate / 1e9,
-            hollow: false,
-        };
+        let point =
+            |measured: &Measured, rate: f64| PlotPoint::new(measured.points as f64, rate / 1e9);
         let copies = of_law().map(|measured| point(measured, measured.copy_rate));
-        let mut series = vec![Series {
-            name: 0,
-            points: copies.collect(),
-            line: true,
-            marks: true,
-        }];
+        let mut series = vec![Series::marked_line(0, copies.collect())];
         for (index, (end, _)) in SHOWN.iter().enumerate() {
             let found = of_law().filter_map(|measured| {
                 let kernels = &measured.timings.kernels;
                 let kernel = kernels.iter().find(|kernel| kernel.name.ends_with(end))?;
                 Some(point(measured, kernel.rate()))
             });
-            series.push(Series {
-                name: index + 1,
-                points: found.collect(),
-                line: true,
-                marks: true,
-            });
+            series.push(Series::marked_line(index + 1, found.collect()));
         }
-        let axis = |name: &str, unit: &str| Axis {
-            name: name.to_owned(),
-            unit: unit.to_owned(),
-            logarithmic: true,
-        };
         Panel {
             title: (*title).to_owned(),
-            x: axis("points along a side", ""),
-            y: axis("bytes moved a second", "GB/s"),
+            x: Axis::logarithmic("points along a side", ""),
+            y: Axis::logarithmic("bytes moved a second", "GB/s"),
             series,
         }
     });
@@ -225,6 +207,7 @@ fn figure(device: &str, software: bool, all: &[Measured]) -> Figure {
             .collect(),
         panels: panels.collect(),
         columns: 3,
+        ..Figure::default()
     }
 }
 

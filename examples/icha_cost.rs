@@ -6,11 +6,10 @@
 
 use std::error::Error;
 use std::path::Path;
-use std::time::Instant;
 
+use cpu_time::ProcessTime;
 use tabor::backend::Backend;
 use tabor::backend::cpu::CpuBackend;
-use tabor::output::cpu_seconds;
 use tabor::scene::Scene;
 use tabor::study::{Setup, walk};
 use tabor::surface::Surface;
@@ -46,9 +45,8 @@ fn main() -> Result<(), Box<dyn Error>> {
     );
     let mut scene = Scene::parse(&scene, "icha_cost", Path::new("."), &[])?;
     let surface = Surface::build(&scene)?;
-    let clock = Instant::now();
-    // If the system does not report CPU time, wall-clock time is used.
-    let now = || cpu_seconds().unwrap_or_else(|| clock.elapsed().as_secs_f64());
+    let clock = ProcessTime::now();
+    let now = || clock.elapsed().as_secs_f64();
     let before = now();
     let asperities = Icha::new(surface.grid, &surface.heights)?;
     println!(

@@ -5,7 +5,7 @@ use std::f64::consts::PI;
 use std::fmt::Write as _;
 use std::path::Path;
 
-use tabor::output::panels::{Axis, Figure, Panel, PlotPoint, Series};
+use tabor::output::plot::{Axis, Figure, Panel, PlotPoint, Series};
 use tabor::theory::dmt::{self, Method};
 use tabor::theory::lennard_jones_sphere::LennardJonesSphere;
 use tabor::theory::{Law, bradley, derjaguin, jkr};
@@ -36,11 +36,7 @@ fn axis(name: &str, unit: &str, logarithmic: bool) -> Axis {
 }
 
 fn point(x: f64, y: f64) -> PlotPoint {
-    PlotPoint {
-        x,
-        y,
-        hollow: false,
-    }
+    PlotPoint::new(x, y)
 }
 
 /// The mean over seeds of a number of a model's rows; `None` without rows.
@@ -160,7 +156,7 @@ fn area_load(table: &[Row]) -> Figure {
         note: "seed 1; hollow: GW-M beyond 5 % contact, where its summits would meet".into(),
         names: MODELS.map(str::to_owned).to_vec(),
         panels,
-        columns: 2,
+        ..Figure::default()
     }
 }
 
@@ -198,6 +194,7 @@ fn pull_off(table: &[Row]) -> Result<Figure, Box<dyn Error>> {
             series,
         }],
         columns: 1,
+        ..Figure::default()
     })
 }
 
@@ -286,6 +283,6 @@ fn spheres() -> Result<Figure, Box<dyn Error>> {
                 series: curves(force),
             },
         ],
-        columns: 2,
+        ..Figure::default()
     })
 }

@@ -26,6 +26,20 @@ impl Errors {
         [self.area, self.force, self.pressure, self.pull_off]
     }
 
+    /// The errors that `of` makes of each of two.
+    pub(super) fn both(
+        self,
+        other: Errors,
+        of: impl Fn(Option<f64>, Option<f64>) -> Option<f64>,
+    ) -> Errors {
+        Errors {
+            area: of(self.area, other.area),
+            force: of(self.force, other.force),
+            pressure: of(self.pressure, other.pressure),
+            pull_off: of(self.pull_off, other.pull_off),
+        }
+    }
+
     /// The largest of those that are known.
     pub fn largest(&self) -> Option<f64> {
         self.all().into_iter().flatten().reduce(f64::max)
@@ -51,9 +65,8 @@ pub fn relative_errors(found: &Measured, reference: &Reference) -> Errors {
 
 /// Difference of a run from another run of the same steps.
 pub fn change(found: &Measured, base: &Measured) -> Errors {
-    let steps: Vec<Option<Point>> = base.steps.clone();
     distance(
-        [&found.steps, &steps],
+        [&found.steps, &base.steps],
         [found.pull_off, base.pull_off],
         [found.profile.as_deref(), base.profile.as_deref()],
     )

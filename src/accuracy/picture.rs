@@ -3,7 +3,7 @@
 use super::errors::Errors;
 use super::report::{Report, Row};
 use super::setting::{Taper, Varied};
-use crate::output::panels::{Axis, Figure, Panel, PlotPoint, Series};
+use crate::output::plot::{Axis, Figure, Panel, PlotPoint, Series};
 
 /// Smaller errors are drawn at this value: a logarithmic axis has no zero.
 const LEAST: f64 = 1e-7;
@@ -26,18 +26,14 @@ const KINDS: [&str; 10] = [
 
 /// Index of a row in [`KINDS`].
 fn kind(row: &Row) -> usize {
-    match (row.varied, row.setting.taper) {
-        (Varied::Nothing, _) => 0,
-        (Varied::Tolerance, _) => 1,
-        (Varied::Precision, _) => 2,
-        (Varied::Taper, Taper::Half) => 8,
-        (Varied::Taper, _) => 3,
-        (Varied::Steps, _) => 4,
-        (Varied::Range, _) => 5,
-        (Varied::Dmt, _) => 6,
-        (Varied::NoAdhesion, _) => 7,
-        (Varied::TimeTolerance, _) => 9,
-    }
+    let name = match (row.varied, row.setting.taper) {
+        (Varied::Taper, Taper::Half) => "half the taper",
+        (Varied::Taper, _) => "no taper",
+        (varied, _) => varied.name(),
+    };
+    let known = KINDS.iter().position(|kind| *kind == name);
+    debug_assert!(known.is_some(), "{name} has a colour");
+    known.unwrap_or(0)
 }
 
 /// The picture of a report. Colour and mark show what a setting varies; the line joins the Pareto
@@ -81,28 +77,18 @@ pub fn picture(report: &Report) -> Figure {
             })
             .collect(),
         panels,
-        columns: 2,
+        ..Figure::default()
     }
 }
 
 fn panel(report: &Report, title: &str, of: fn(&Errors) -> Option<f64>) -> Panel {
     let place = |row: &Row| {
-        Some(PlotPoint {
-            x: row.measured.seconds,
-            y: of(&row.errors)?.max(LEAST),
-            hollow: false,
-        })
+        let error = of(&row.errors)?.max(LEAST);
+        Some(PlotPoint::new(row.measured.seconds, error))
     };
     let pareto = report.pareto(of);
-    let mut series = vec![Series {
-        name: 0,
-        points: pareto
-            .iter()
-            .filter_map(|index| place(&report.rows[*index]))
-            .collect(),
-        line: true,
-        marks: false,
-    }];
+    let front = pareto.iter().map(|index| &report.rows[*index]);
+    let mut series = vec![Series::line(0, front.filter_map(place).collect())];
     let seconds = report.rows.iter().map(|row| row.measured.seconds);
     let (first, last) = seconds.fold((f64::INFINITY, 0.0_f64), |(low, high), seconds| {
         (low.min(seconds), high.max(seconds))
@@ -114,18 +100,13 @@ fn panel(report: &Report, title: &str, of: fn(&Errors) -> Option<f64>) -> Panel 
             y: uncertainty.max(LEAST),
             hollow: true,
         };
-        series.push(Series {
-            name: 0,
-            points: vec![at(first), at(last)],
-            line: true,
-            marks: false,
-        });
+        series.push(Series::line(0, vec![at(first), at(last)]));
     }
     series.extend(marks(report, place));
     Panel {
         title: title.to_owned(),
-        x: axis("seconds", "s"),
-        y: axis(title, ""),
+        x: Axis::logarithmic("seconds", "s"),
+        y: Axis::logarithmic(title, ""),
         series,
     }
 }
@@ -135,16 +116,13 @@ fn panel(report: &Report, title: &str, of: fn(&Errors) -> Option<f64>) -> Panel 
 fn in_time(report: &Report) -> Panel {
     let title = "error in time of force or gap, same grid";
     let place = |row: &Row| {
-        Some(PlotPoint {
-            x: row.measured.steps_solved as f64,
-            y: row.in_time?.force?.max(LEAST),
-            hollow: false,
-        })
+        let error = row.in_time?.force?.max(LEAST);
+        Some(PlotPoint::new(row.measured.steps_solved as f64, error))
     };
     Panel {
         title: title.to_owned(),
-        x: axis("steps", ""),
-        y: axis(title, ""),
+        x: Axis::logarithmic("steps", ""),
+        y: Axis::logarithmic(title, ""),
         series: marks(report, place),
     }
 }
@@ -153,19 +131,6 @@ fn in_time(report: &Report) -> Panel {
 fn marks(report: &Report, place: impl Fn(&Row) -> Option<PlotPoint>) -> Vec<Series> {
     let of_kind = |index: usize| report.rows.iter().filter(move |row| kind(row) == index);
     (0..KINDS.len())
-        .map(|name| Series {
-            name,
-            points: of_kind(name).filter_map(&place).collect(),
-            line: false,
-            marks: true,
-        })
+        .map(|name| Series::marks(name, of_kind(name).filter_map(&place).collect()))
         .collect()
-}
-
-fn axis(name: &str, unit: &str) -> Axis {
-    Axis {
-        name: name.to_owned(),
-        unit: unit.to_owned(),
-        logarithmic: true,
-    }
 }

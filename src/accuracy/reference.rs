@@ -89,14 +89,9 @@ impl Reference {
     /// grid. Still finer steps would change no more than that.
     pub fn add_steps(&mut self, coarser: &Measured, finer: &Measured) {
         let change = change(coarser, finer);
-        let add =
-            |known: Option<f64>, more: Option<f64>| known.map(|known| known + more.unwrap_or(0.0));
-        self.uncertainty = Errors {
-            area: add(self.uncertainty.area, change.area),
-            force: add(self.uncertainty.force, change.force),
-            pressure: add(self.uncertainty.pressure, change.pressure),
-            pull_off: add(self.uncertainty.pull_off, change.pull_off),
-        };
+        self.uncertainty = self.uncertainty.both(change, |known, more| {
+            known.map(|known| known + more.unwrap_or(0.0))
+        });
     }
 }
 

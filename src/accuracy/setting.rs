@@ -119,33 +119,15 @@ impl Setting {
 
     /// What differs from [`Setting::own`] on the same grid.
     pub fn varied(&self, scene: &Scene) -> Varied {
-        match self {
-            Setting {
-                model: Model::NoAdhesion,
-                ..
-            } => Varied::NoAdhesion,
-            Setting {
-                model: Model::Dmt, ..
-            } => Varied::Dmt,
-            Setting {
-                model: Model::AutoRange,
-                ..
-            } => Varied::Range,
-            Setting {
-                taper: Taper::Sharp | Taper::Half,
-                ..
-            } => Varied::Taper,
-            Setting {
-                steps: Steps::Auto(_),
-                ..
-            } => Varied::TimeTolerance,
-            Setting {
-                steps: Steps::Halved | Steps::Doubled | Steps::Equal | Steps::Finest,
-                ..
-            } => Varied::Steps,
-            _ if self.backend != BackendName::Cpu || self.precision != Precision::Double => {
-                Varied::Precision
-            }
+        let elsewhere = self.backend != BackendName::Cpu || self.precision != Precision::Double;
+        match (self.model, self.taper, self.steps) {
+            (Model::NoAdhesion, ..) => Varied::NoAdhesion,
+            (Model::Dmt, ..) => Varied::Dmt,
+            (Model::AutoRange, ..) => Varied::Range,
+            (_, Taper::Sharp | Taper::Half, _) => Varied::Taper,
+            (.., Steps::Auto(_)) => Varied::TimeTolerance,
+            (.., Steps::Halved | Steps::Doubled | Steps::Equal | Steps::Finest) => Varied::Steps,
+            _ if elsewhere => Varied::Precision,
             _ if self.tolerance != scene.solver.tolerance => Varied::Tolerance,
             _ => Varied::Nothing,
         }

@@ -1,7 +1,6 @@
 //! `accuracy.csv`, and the table on the terminal.
 
 use std::fmt::Write;
-use std::fs;
 use std::path::Path;
 
 use super::errors::Errors;
@@ -9,7 +8,8 @@ use super::pareto;
 use super::report::{Report, Row, duration};
 use super::setting::Varied;
 use super::steps::Steps;
-use crate::output::{OutputError, write_atomically};
+use crate::output::csv_line::{csv_line, csv_number};
+use crate::output::{OutputError, expect_table, write_atomically};
 
 /// First columns of every `accuracy.csv`, including those of older versions.
 const FIRST_COLUMNS: &str = "points,backend,precision,tolerance,steps,treatment,taper,seconds,error_area,error_force,error_pressure,error_pull_off,reference_uncertainty,pareto";
@@ -36,7 +36,6 @@ const QUANTITIES: [(&str, Quantity); 5] = [
 pub fn csv(report: &Report) -> String {
     let mut text = format!("{FIRST_COLUMNS},{MORE_COLUMNS}\n");
     let pareto = report.pareto(Errors::largest);
-    let cell = |value: Option<f64>| value.map_or(String::new(), |value| format!("{value:e}"));
     let uncertainty = report.reference.as_ref().map(|found| found.uncertainty);
     for (index, row) in report.rows.iter().enumerate() {
         let setting = &row.setting;
@@ -47,26 +46,25 @@ pub fn csv(report: &Report) -> String {
             format!("{:e}", setting.tolerance),
             row.measured.steps_solved.to_string(),
             setting.treatment(&report.scene).to_owned(),
-            cell(row.taper),
+            csv_number(row.taper),
             format!("{:.6}", row.measured.seconds),
         ];
-        cells.extend(row.errors.all().map(cell));
-        cells.push(cell(uncertainty.and_then(|known| known.largest())));
+        cells.extend(row.errors.all().map(csv_number));
+        cells.push(csv_number(uncertainty.and_then(|known| known.largest())));
         cells.push(pareto.contains(&index).to_string());
-        cells.push(cell(row.errors.largest()));
+        cells.push(csv_number(row.errors.largest()));
         cells.push(row.varied.name().to_owned());
-        cells.extend([row.range, row.chi, row.zone_pixels, row.change].map(cell));
+        cells.extend([row.range, row.chi, row.zone_pixels, row.change].map(csv_number));
         cells.push(row.measured.iterations.to_string());
         cells.push(format!("{:e}", row.measured.transforms));
         cells.push(row.measured.converged.to_string());
-        cells.extend(uncertainty.unwrap_or_default().all().map(cell));
+        cells.extend(uncertainty.unwrap_or_default().all().map(csv_number));
         let time_tolerance = match setting.steps {
             Steps::Auto(tolerance) => Some(tolerance),
             _ => None,
         };
-        cells.extend([time_tolerance, row.in_time.and_then(|errors| errors.force)].map(cell));
-        text.push_str(&cells.join(","));
-        text.push('\n');
+        cells.extend([time_tolerance, row.in_time.and_then(|errors| errors.force)].map(csv_number));
+        text += &csv_line(cells);
     }
     text
 }
@@ -85,19 +83,7 @@ pub fn write_csv(path: &Path, report: &Report) -> Result<(), OutputError> {
 /// # Errors
 /// [`OutputError::Refused`] in that case.
 pub fn expect_place(path: &Path) -> Result<(), OutputError> {
-    let refused = |reason: &str| OutputError::Refused {
-        path: path.to_path_buf(),
-        reason: reason.to_owned(),
-    };
-    if path.parent().is_some_and(Path::is_file) {
-        return Err(refused("its folder is a file; name a folder"));
-    }
-    if fs::read(path).is_ok_and(|old| !old.starts_with(FIRST_COLUMNS.as_bytes())) {
-        return Err(refused(
-            "is not a table that tabor wrote; name another folder",
-        ));
-    }
-    Ok(())
+    expect_table(path, FIRST_COLUMNS)
 }
 
 /// `256`, or `256x128`.

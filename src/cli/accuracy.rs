@@ -3,14 +3,16 @@
 use std::io::{IsTerminal, stderr};
 use std::path::PathBuf;
 use std::sync::OnceLock;
-use std::time::{Duration, Instant};
+use std::time::Instant;
 
 use clap::Args;
-use indicatif::{ProgressBar, ProgressDrawTarget, ProgressStyle};
+use indicatif::ProgressBar;
 
 use super::interrupts::Interrupts;
 use super::patience::Patience;
-use super::{Failure, key_and_value, note, read_scene, say, warn};
+use super::progress::bar;
+use super::quantity::positive;
+use super::{Failure, SceneArguments, folder_or_default, note, say, warn};
 use crate::accuracy::{
     AccuracyError, BackendProvider, Listener, ProvidedBackend, Report, Study, duration,
     expect_place, picture, screen, write_csv,
@@ -22,15 +24,15 @@ use crate::output::FolderLock;
 use crate::run::memory_check;
 use crate::scene::{BackendName, Precision, Scene};
 use crate::study::Setup;
-use crate::units::{Dimension, parse_quantity};
+use crate::units::Dimension;
 
 /// The rows of a study.
 const TABLE: &str = "accuracy.csv";
 
 #[derive(Debug, Args)]
 pub(super) struct AccuracyArguments {
-    /// The scene, a TOML file
-    scene: PathBuf,
+    #[command(flatten)]
+    scene: SceneArguments,
     /// How long it may take, as in "90 s"; what there is no time for is left out and listed
     #[arg(long, value_name = "TIME", default_value = "5 min", value_parser = time)]
     budget: f64,
@@ -46,20 +48,13 @@ pub(super) struct AccuracyArguments {
     /// Let graphics drivers say what they say at their start
     #[arg(long)]
     verbose: bool,
-    /// Override a key of the scene, as in surface.0.hurst=0.4; may be repeated
-    #[arg(long, value_name = "KEY=VALUE", value_parser = key_and_value)]
-    set: Vec<(String, String)>,
 }
 
-/// A positive time: with a unit, or in seconds.
+/// A budget: a time with a unit, or in seconds.
 fn time(text: &str) -> Result<f64, String> {
-    let seconds = match text.trim().parse::<f64>() {
-        Ok(seconds) => seconds,
-        Err(_) => parse_quantity(text, Dimension::Time).map_err(|error| error.to_string())?,
-    };
-    match seconds > 0.0 && seconds < 1e9 {
-        true => Ok(seconds),
-        false => Err("give a time above 0, such as \"5 min\"".to_owned()),
+    match positive(text, Dimension::Time) {
+        Ok(seconds) if seconds < 1e9 => Ok(seconds),
+        _ => Err("give a time above 0, such as \"5 min\"".to_owned()),
     }
 }
 
@@ -68,15 +63,9 @@ pub(super) fn accuracy(arguments: &AccuracyArguments) -> Result<(), Failure> {
     // On a terminal a bar says so.
     let _patience = (!arguments.quiet && !stderr().is_terminal())
         .then(|| Patience::new("--budget says how long it may take"));
-    let scene = read_scene(&arguments.scene, &arguments.set)?;
+    let scene = arguments.scene.read()?;
     memory_check::check_scene(&scene)?;
-    let folder = match &arguments.out {
-        Some(folder) => folder.clone(),
-        None => {
-            let stem = arguments.scene.file_stem().unwrap_or_default();
-            PathBuf::from(format!("{}_accuracy", stem.to_string_lossy()))
-        }
-    };
+    let folder = folder_or_default(arguments.out.as_deref(), &arguments.scene.path, "_accuracy");
     if let Some(adhesion) = &scene.adhesion
         && adhesion.treatment == crate::scene::Treatment::Dmt
     {
@@ -89,8 +78,7 @@ pub(super) fn accuracy(arguments: &AccuracyArguments) -> Result<(), Failure> {
     };
     let study = match Study::new(&scene, &shop, arguments.budget) {
         Err(AccuracyError::Surface(error)) => {
-            let path = arguments.scene.clone();
-            return Err(Failure::Surface { path, error });
+            return Err(arguments.scene.surface_failure(error));
         }
         study => study?,
     };
@@ -107,7 +95,11 @@ pub(super) fn accuracy(arguments: &AccuracyArguments) -> Result<(), Failure> {
     ));
     let mut keeper = Keeper {
         folder: folder.clone(),
-        bar: bar(arguments.quiet, arguments.budget),
+        bar: bar(
+            "{bar:24} {pos}/{len} s  {wide_msg}",
+            arguments.budget.ceil() as u64,
+            arguments.quiet,
+        ),
         began: Instant::now(),
         running: String::new(),
         said: Vec::new(),
@@ -151,7 +143,7 @@ impl Shop<'_> {
         let precisions = [Precision::Double, Precision::Single, Precision::Mixed];
         let is_here = |backend: BackendName, precision: Precision| {
             let word = |name: &str| format!("\"{name}\"");
-            let mut set = arguments.set.clone();
+            let mut set = arguments.scene.set.clone();
             set.extend([
                 ("solver.backend".to_owned(), word(backend.name())),
                 ("solver.precision".to_owned(), word(precision.name())),
@@ -160,7 +152,7 @@ impl Shop<'_> {
                     Precision::SINGLE_FLOOR.to_string(),
                 ),
             ]);
-            Scene::read(&arguments.scene, &set).is_ok()
+            Scene::read(&arguments.scene.path, &set).is_ok()
         };
         backends
             .into_iter()
@@ -187,19 +179,6 @@ impl BackendProvider for Shop<'_> {
             make: Box::new(move || device.backend()),
         })
     }
-}
-
-/// Seconds of the budget, where somebody watches.
-fn bar(quiet: bool, budget: f64) -> Option<ProgressBar> {
-    if quiet || !stderr().is_terminal() {
-        return None;
-    }
-    let style = ProgressStyle::with_template("{bar:24} {pos}/{len} s  {wide_msg}")
-        .expect("the template is fixed and valid");
-    let target = ProgressDrawTarget::stderr_with_hz(10);
-    let bar = ProgressBar::with_draw_target(Some(budget.ceil() as u64), target).with_style(style);
-    bar.enable_steady_tick(Duration::from_millis(200));
-    Some(bar)
 }
 
 /// Keeps the rows, shows how far the study is, and ends it where the user wants.

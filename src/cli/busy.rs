@@ -1,30 +1,43 @@
-//! Time of a test's work on a machine that is busy with other things.
+//! What tests of many chance calls share: their number, and the time of one on a machine that is busy with other
+//! things.
 
 use std::time::{Duration, Instant};
 
-use crate::output::cpu_seconds;
+use cpu_time::ProcessTime;
+use proptest::test_runner::{Config, RngAlgorithm, TestRng, TestRunner};
+
+/// The number of cases, `usual` or what `TABOR_MUTATIONS` says, and what runs them: the same in every run, more of them
+/// begin with the fewer.
+pub(super) fn cases(usual: u32) -> (u32, TestRunner) {
+    let cases = std::env::var("TABOR_MUTATIONS").map_or(usual, |text| {
+        text.parse().expect("TABOR_MUTATIONS is a number of cases")
+    });
+    let config = Config {
+        cases,
+        failure_persistence: None,
+        max_shrink_iters: 200,
+        ..Config::default()
+    };
+    let rng = TestRng::deterministic_rng(RngAlgorithm::ChaCha);
+    (cases, TestRunner::new_with_rng(config, rng))
+}
 
 /// Began with some work.
 pub(super) struct Clock {
     began: Instant,
-    worked: Option<f64>,
+    worked: ProcessTime,
 }
 
 impl Clock {
     pub fn start() -> Self {
         Clock {
             began: Instant::now(),
-            worked: cpu_seconds(),
+            worked: ProcessTime::now(),
         }
     }
 
-    /// Processor time of the process where the system tells, which other tests only lengthen, or the time
-    /// passed where that is less.
+    /// Processor time of the process, which other tests only lengthen, or the time passed where that is less.
     pub fn elapsed(&self) -> Duration {
-        let passed = self.began.elapsed();
-        let worked = self.worked.zip(cpu_seconds());
-        worked.map_or(passed, |(before, now)| {
-            passed.min(Duration::from_secs_f64((now - before).max(0.0)))
-        })
+        self.began.elapsed().min(self.worked.elapsed())
     }
 }

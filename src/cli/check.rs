@@ -1,6 +1,6 @@
 //! `tabor check`: physics, accuracy, memory and cost of a scene, without solving it.
 
-use super::{CheckArguments, Failure, print, read_scene, warn};
+use super::{CheckArguments, Failure, print, warn};
 use crate::backend::dry_run::Place;
 use crate::effect::Effect;
 use crate::law::Law;
@@ -11,12 +11,9 @@ use crate::units::format_si;
 
 /// Reads and validates a scene and prints a report.
 pub(super) fn check(arguments: &CheckArguments) -> Result<(), Failure> {
-    let scene = read_scene(&arguments.scene, &arguments.set)?;
+    let scene = arguments.scene.read()?;
     memory_check::check_files(&scene)?;
-    let plan = Plan::of(scene).map_err(|error| Failure::Surface {
-        path: arguments.scene.clone(),
-        error,
-    })?;
+    let plan = Plan::of(scene).map_err(|error| arguments.scene.surface_failure(error))?;
     let place = Place::of(&plan.scene);
     let cost = plan.cost(place)?;
     #[cfg(feature = "gpu")]

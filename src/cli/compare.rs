@@ -1,9 +1,7 @@
 //! `tabor compare`: one rough surface through several models.
 
-use std::path::PathBuf;
-
 use super::patience::Patience;
-use super::{CompareArguments, Failure, note, read_scene, say, warn};
+use super::{CompareArguments, Failure, folder_or_default, note, say, warn};
 use crate::compare::{self, CompareError, Row};
 use crate::device::SelectedDevice;
 use crate::run::memory_check;
@@ -14,14 +12,11 @@ use crate::units::format_si;
 /// Compares and writes `compare.csv` and `compare.png`.
 pub(super) fn compare(arguments: &CompareArguments) -> Result<(), Failure> {
     let _patience = Patience::new("compare.csv has the rows so far; a coarser grid takes less");
-    let scene = read_scene(&arguments.scene, &arguments.set)?;
+    let scene = arguments.scene.read()?;
     // Before a surface is built of which nothing could be said.
     compare::check_scene(&scene)?;
     memory_check::check_scene(&scene)?;
-    let surface = Surface::build(&scene).map_err(|error| Failure::Surface {
-        path: arguments.scene.clone(),
-        error,
-    })?;
+    let surface = Surface::build(&scene).map_err(|error| arguments.scene.surface_failure(error))?;
     // Of a grid that a height file carries.
     memory_check::check_grid(&scene, surface.grid)?;
     let setup = Setup::new(scene, surface);
@@ -32,13 +27,7 @@ pub(super) fn compare(arguments: &CompareArguments) -> Result<(), Failure> {
     if let Some(remark) = &device.remark {
         note(remark);
     }
-    let folder = match &arguments.out {
-        Some(folder) => folder.clone(),
-        None => {
-            let stem = arguments.scene.file_stem().unwrap_or_default();
-            PathBuf::from(format!("{}_compare", stem.to_string_lossy()))
-        }
-    };
+    let folder = folder_or_default(arguments.out.as_deref(), &arguments.scene.path, "_compare");
     let compared = compare::compare(setup, &|| device.backend(), &folder)?;
     for text in &compared.notes {
         note(text);

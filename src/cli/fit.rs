@@ -5,11 +5,12 @@ use std::path::{Path, PathBuf};
 use clap::Args;
 
 use super::patience::Patience;
-use super::{Failure, print, say, warn};
-use crate::fit::{FitResult, ForceCurve, Freedom, ModelFit, draw, fit_curve, report};
-use crate::output::{OutputError, write_atomically};
+use super::quantity::{positive, quantity};
+use super::{Failure, folder_or_default, print, say, warn};
+use crate::fit::{FitResult, ForceCurve, Freedom, ModelFit, figure, fit_curve, report};
+use crate::output::write_atomically;
 use crate::theory::jkr;
-use crate::units::{Dimension, RANGE_WORDS, format_si, in_range, parse_quantity};
+use crate::units::{Dimension, format_si};
 
 /// What `tabor fit` takes.
 #[derive(Debug, Args)]
@@ -18,7 +19,7 @@ pub(super) struct FitArguments {
     #[arg(value_name = "CURVE.csv", required_unless_present = "pull_off")]
     curve: Option<PathBuf>,
     /// Radius of the sphere, as in "10 um"
-    #[arg(long, value_name = "R", value_parser = length)]
+    #[arg(long, value_name = "R", value_parser = |text: &str| positive(text, Dimension::Length))]
     radius: f64,
     /// Folder for fit.json and fit.png [default: the curve's name, in the current folder]
     #[arg(long, value_name = "DIR")]
@@ -30,16 +31,16 @@ pub(super) struct FitArguments {
     #[arg(long)]
     baseline: bool,
     /// Range of the attraction (work of adhesion over its tension), where it is known
-    #[arg(long, value_name = "LENGTH", value_parser = length)]
+    #[arg(long, value_name = "LENGTH", value_parser = |text: &str| positive(text, Dimension::Length))]
     range: Option<f64>,
     /// In place of a curve, with --stiffness: the pull-off force, for JKR
-    #[arg(long, value_name = "FORCE", value_parser = force, requires = "stiffness", conflicts_with = "curve")]
+    #[arg(long, value_name = "FORCE", value_parser = |text: &str| positive(text, Dimension::Force), requires = "stiffness", conflicts_with = "curve")]
     pull_off: Option<f64>,
     /// Slope of force by approach on the way apart
-    #[arg(long, value_name = "N/M", value_parser = stiffness, requires = "pull_off")]
+    #[arg(long, value_name = "N/M", value_parser = |text: &str| positive(text, Dimension::ForcePerLength), requires = "pull_off")]
     stiffness: Option<f64>,
     /// Force at which the stiffness was taken, positive in compression
-    #[arg(long, value_name = "FORCE", value_parser = any_force, default_value = "0", requires = "pull_off", allow_hyphen_values = true)]
+    #[arg(long, value_name = "FORCE", value_parser = |text: &str| quantity(text, Dimension::Force), default_value = "0", requires = "pull_off", allow_hyphen_values = true)]
     load: f64,
 }
 
@@ -66,25 +67,16 @@ fn fit_file(arguments: &FitArguments, path: &Path) -> Result<(), Failure> {
         range: arguments.range,
     };
     let result = fit_curve(&curve, path, arguments.radius, freedom)?;
-    let folder = arguments
-        .out
-        .clone()
-        .unwrap_or_else(|| PathBuf::from(path.file_stem().unwrap_or(path.as_os_str())));
+    let folder = folder_or_default(arguments.out.as_deref(), path, "");
     let title = path.file_name().unwrap_or_default().to_string_lossy();
     let mut text = format!("{:#}", report(&result, path));
     text.push('\n');
-    let picture = folder.join("fit.png");
-    let drawn = draw(&result, &title).map_err(|cause| OutputError::Write {
-        action: "draw",
-        path: picture.clone(),
-        cause,
-    })?;
     table(&result).lines().for_each(say);
     for warning in &result.warnings {
         warn(warning);
     }
     write_atomically(&folder.join("fit.json"), text.as_bytes())?;
-    write_atomically(&picture, &drawn)?;
+    figure(&result, &title).write(&folder.join("fit.png"))?;
     say(&format!(
         "{} and fit.png written",
         folder.join("fit.json").display()
@@ -165,43 +157,4 @@ fn line(fit: &ModelFit, least: f64) -> String {
         ),
         fit.aic - least,
     )
-}
-
-/// A number in SI, or text with its unit.
-fn quantity(text: &str, dimension: Dimension) -> Result<f64, String> {
-    let bare = text.trim().parse::<f64>().ok();
-    let value = match bare {
-        Some(value) => value,
-        None => parse_quantity(text, dimension).map_err(|error| error.to_string())?,
-    };
-    if in_range(value) {
-        Ok(value)
-    } else {
-        Err(format!("must be {RANGE_WORDS}; give {dimension}"))
-    }
-}
-
-fn positive(text: &str, dimension: Dimension) -> Result<f64, String> {
-    let value = quantity(text, dimension)?;
-    if value > 0.0 {
-        Ok(value)
-    } else {
-        Err(format!("must be greater than zero; give {dimension}"))
-    }
-}
-
-fn length(text: &str) -> Result<f64, String> {
-    positive(text, Dimension::Length)
-}
-
-fn force(text: &str) -> Result<f64, String> {
-    positive(text, Dimension::Force)
-}
-
-fn any_force(text: &str) -> Result<f64, String> {
-    quantity(text, Dimension::Force)
-}
-
-fn stiffness(text: &str) -> Result<f64, String> {
-    positive(text, Dimension::ForcePerLength)
 }

@@ -12,6 +12,7 @@ mod flags;
 mod interrupts;
 mod patience;
 mod progress;
+mod quantity;
 mod run;
 mod shell;
 mod surface;
@@ -19,10 +20,11 @@ mod table;
 mod theory;
 
 use std::io::Write;
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 use std::process::ExitCode;
 
-use clap::{Args, Parser, Subcommand, ValueEnum};
+use clap::builder::PossibleValuesParser;
+use clap::{Args, Parser, Subcommand};
 
 use crate::accuracy::AccuracyError;
 use crate::backend::BackendError;
@@ -103,19 +105,44 @@ enum Command {
     },
 }
 
+/// The scene of a call.
+#[derive(Clone, Debug, Args)]
+struct SceneArguments {
+    /// The scene, a TOML file
+    #[arg(value_name = "SCENE")]
+    path: PathBuf,
+    /// Override a key of the scene, as in surface.0.hurst=0.4; may be repeated
+    // After the other options in the help.
+    #[arg(long, value_name = "KEY=VALUE", value_parser = key_and_value, display_order = 900)]
+    set: Vec<(String, String)>,
+}
+
+impl SceneArguments {
+    /// Reads the scene with its overrides.
+    fn read(&self) -> Result<Scene, Failure> {
+        Ok(Scene::read(&self.path, &self.set)?)
+    }
+
+    /// A surface of this scene that cannot be built.
+    fn surface_failure(&self, error: SurfaceError) -> Failure {
+        let path = self.path.clone();
+        Failure::Surface { path, error }
+    }
+}
+
 #[derive(Clone, Debug, Args)]
 struct RunArguments {
-    /// The scene, a TOML file
-    scene: PathBuf,
+    #[command(flatten)]
+    scene: SceneArguments,
     /// Folder for the results [default: the scene's name, in the current folder]
     #[arg(long, value_name = "DIR")]
     out: Option<PathBuf>,
     /// Where the arithmetic runs
-    #[arg(long, value_enum)]
-    backend: Option<BackendChoice>,
+    #[arg(long, value_parser = one_of(BackendName::ALL, BackendName::name))]
+    backend: Option<String>,
     /// Arithmetic
-    #[arg(long, value_enum)]
-    precision: Option<PrecisionChoice>,
+    #[arg(long, value_parser = one_of(Precision::ALL, Precision::name))]
+    precision: Option<String>,
     /// Threads [default: one a core]
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u16).range(1..=1024))]
     threads: Option<u16>,
@@ -128,36 +155,27 @@ struct RunArguments {
     /// Let graphics drivers say what they say at their start
     #[arg(long)]
     verbose: bool,
-    /// Override a key of the scene, as in surface.0.hurst=0.4; may be repeated
-    #[arg(long, value_name = "KEY=VALUE", value_parser = key_and_value)]
-    set: Vec<(String, String)>,
 }
 
 #[derive(Debug, Args)]
 struct CheckArguments {
-    /// The scene, a TOML file
-    scene: PathBuf,
+    #[command(flatten)]
+    scene: SceneArguments,
     /// Also list the solver's fields and kernels, the effects that are off, and messages of graphics drivers
     #[arg(long)]
     verbose: bool,
-    /// Override a key of the scene, as in surface.0.hurst=0.4; may be repeated
-    #[arg(long, value_name = "KEY=VALUE", value_parser = key_and_value)]
-    set: Vec<(String, String)>,
 }
 
 #[derive(Debug, Args)]
 struct CompareArguments {
-    /// The scene, a TOML file
-    scene: PathBuf,
+    #[command(flatten)]
+    scene: SceneArguments,
     /// Folder for compare.csv and compare.png [default: the scene's name with _compare]
     #[arg(long, value_name = "DIR")]
     out: Option<PathBuf>,
     /// Let graphics drivers say what they say at their start
     #[arg(long)]
     verbose: bool,
-    /// Override a key of the scene, as in surface.0.hurst=0.4; may be repeated
-    #[arg(long, value_name = "KEY=VALUE", value_parser = key_and_value)]
-    set: Vec<(String, String)>,
 }
 
 #[derive(Debug, Args)]
@@ -172,58 +190,35 @@ struct TheoryArguments {
     words: Vec<String>,
 }
 
-#[derive(Clone, Copy, Debug, ValueEnum)]
-enum BackendChoice {
-    Auto,
-    Cpu,
-    Gpu,
-}
-
-#[derive(Clone, Copy, Debug, ValueEnum)]
-enum PrecisionChoice {
-    Auto,
-    Single,
-    Mixed,
-    Double,
-}
-
-impl BackendChoice {
-    fn name(self) -> &'static str {
-        match self {
-            BackendChoice::Auto => BackendName::Auto,
-            BackendChoice::Cpu => BackendName::Cpu,
-            BackendChoice::Gpu => BackendName::Gpu,
-        }
-        .name()
-    }
-}
-
-impl PrecisionChoice {
-    fn name(self) -> &'static str {
-        match self {
-            PrecisionChoice::Auto => Precision::Auto,
-            PrecisionChoice::Single => Precision::Single,
-            PrecisionChoice::Mixed => Precision::Mixed,
-            PrecisionChoice::Double => Precision::Double,
-        }
-        .name()
-    }
-}
-
 impl RunArguments {
-    /// All that the call changes in the scene.
-    fn overrides(&self) -> Vec<(String, String)> {
-        let mut set = self.set.clone();
-        let mut add = |key: &str, word: Option<&str>| {
-            set.extend(word.map(|word| (key.to_owned(), format!("\"{word}\""))));
-        };
-        add("solver.backend", self.backend.map(BackendChoice::name));
-        add(
-            "solver.precision",
-            self.precision.map(PrecisionChoice::name),
-        );
-        set
+    /// The scene with all that the call changes in it.
+    fn read(&self) -> Result<Scene, Failure> {
+        let mut scene = self.scene.clone();
+        for (key, word) in [("backend", &self.backend), ("precision", &self.precision)] {
+            let word = word.iter().map(|word| format!("\"{word}\""));
+            scene
+                .set
+                .extend(word.map(|word| (format!("solver.{key}"), word)));
+        }
+        scene.read()
     }
+}
+
+/// One of the words of a list, as clap takes it.
+fn one_of<T: Copy>(all: &[T], name: fn(T) -> &'static str) -> PossibleValuesParser {
+    PossibleValuesParser::new(all.iter().map(|one| name(*one)))
+}
+
+/// The folder of the call, or the name of the file that it is about with `suffix`, in the current folder.
+fn folder_or_default(asked: Option<&Path>, file: &Path, suffix: &str) -> PathBuf {
+    asked.map_or_else(
+        || {
+            let mut name = file.file_stem().unwrap_or(file.as_os_str()).to_owned();
+            name.push(suffix);
+            PathBuf::from(name)
+        },
+        Path::to_path_buf,
+    )
 }
 
 fn key_and_value(text: &str) -> Result<(String, String), String> {
@@ -247,7 +242,7 @@ enum Failure {
     #[error(transparent)]
     Backend(#[from] BackendError),
     #[error("{}", .0.in_words("--backend cpu"))]
-    Device(DeviceError),
+    Device(#[from] DeviceError),
     #[error("{}", .0.in_words("--precision single"))]
     Memory(MemoryError),
     #[error("{0}")]
@@ -276,12 +271,6 @@ enum Failure {
     Theory(#[from] TheoryError),
     #[error("cannot print: {0}")]
     Print(std::io::Error),
-}
-
-impl From<DeviceError> for Failure {
-    fn from(error: DeviceError) -> Self {
-        Failure::Device(error)
-    }
 }
 
 impl From<MemoryError> for Failure {
@@ -431,9 +420,4 @@ fn print_bytes(bytes: &[u8]) -> Result<(), Failure> {
         Err(error) if error.kind() == std::io::ErrorKind::BrokenPipe => Ok(()),
         done => done.map_err(Failure::Print),
     }
-}
-
-/// Reads a scene with its overrides.
-fn read_scene(path: &std::path::Path, set: &[(String, String)]) -> Result<Scene, Failure> {
-    Ok(Scene::read(path, set)?)
 }

@@ -8,6 +8,18 @@ use indicatif::{ProgressBar, ProgressDrawTarget, ProgressStyle};
 
 use crate::output::visible;
 
+/// A bar of so many parts; none with `quiet` or if standard error is not a terminal.
+pub(super) fn bar(template: &str, length: u64, quiet: bool) -> Option<ProgressBar> {
+    if quiet || !stderr().is_terminal() {
+        return None;
+    }
+    let style = ProgressStyle::with_template(template).ok()?;
+    let target = ProgressDrawTarget::stderr_with_hz(10);
+    let bar = ProgressBar::with_draw_target(Some(length), target).with_style(style);
+    bar.enable_steady_tick(Duration::from_millis(200));
+    Some(bar)
+}
+
 /// A progress line; silent if standard error is not a terminal.
 #[derive(Debug)]
 pub(super) struct Progress {
@@ -33,19 +45,12 @@ impl Progress {
     /// A line for `steps` steps of which `finished` are done, each solved to `tolerance`; silent
     /// with `quiet` or if standard error is not a terminal.
     pub fn new(steps: usize, finished: usize, tolerance: f64, quiet: bool) -> Progress {
-        if quiet || !stderr().is_terminal() {
+        let template = "{bar:24} step {prefix}/{len}  {wide_msg}";
+        let Some(bar) = bar(template, steps as u64, quiet) else {
             return Progress { line: None };
-        }
-        let style = ProgressStyle::with_template("{bar:24} step {prefix}/{len}  {wide_msg}")
-            .expect("the template is fixed and valid");
-        let bar = ProgressBar::with_draw_target(
-            Some(steps as u64),
-            ProgressDrawTarget::stderr_with_hz(10),
-        )
-        .with_style(style);
+        };
         bar.set_position(finished as u64);
         bar.set_prefix((finished + 1).min(steps).to_string());
-        bar.enable_steady_tick(Duration::from_millis(200));
         let line = Line {
             bar,
             started: Instant::now(),

@@ -1,10 +1,8 @@
 //! `tabor run`: the main job.
 
-use std::path::{Path, PathBuf};
-
 use super::interrupts::Interrupts;
 use super::progress::Progress;
-use super::{Failure, RunArguments, note, read_scene, say, table, warn};
+use super::{Failure, RunArguments, folder_or_default, note, say, table, warn};
 use crate::clock::Clock;
 use crate::device::Device;
 use crate::run::{RunEnd, RunError, RunObserver, RunOptions, RunStatus, run_with};
@@ -13,7 +11,7 @@ use crate::study::{StepRow, Unreachable};
 /// Solves a scene and writes its folder.
 pub(super) fn run(arguments: &RunArguments) -> Result<(), Failure> {
     let clock = Clock::start();
-    let scene = read_scene(&arguments.scene, &arguments.overrides())?;
+    let scene = arguments.read()?;
     let device = Device::from(scene.solver.backend);
     let mut options = RunOptions::new()
         .resume(arguments.resume)
@@ -26,10 +24,7 @@ pub(super) fn run(arguments: &RunArguments) -> Result<(), Failure> {
     if let Some(threads) = arguments.threads {
         options = options.threads(threads.into());
     }
-    let folder = match &arguments.out {
-        Some(folder) => folder.clone(),
-        None => default_folder(&arguments.scene),
-    };
+    let folder = folder_or_default(arguments.out.as_deref(), &arguments.scene.path, "");
     let mut terminal = Terminal {
         quiet: arguments.quiet,
         progress: None,
@@ -38,21 +33,13 @@ pub(super) fn run(arguments: &RunArguments) -> Result<(), Failure> {
     let ended = run_with(scene, &folder, &options, &mut terminal);
     drop(terminal);
     let end = ended.map_err(|error| match error {
-        RunError::Surface(error) => Failure::Surface {
-            path: arguments.scene.clone(),
-            error,
-        },
+        RunError::Surface(error) => arguments.scene.surface_failure(error),
         other => other.into(),
     })?;
     if !arguments.quiet {
         table::print(&end.rows);
     }
     judge(&end)
-}
-
-/// The scene's name without `.toml`, in the current folder.
-fn default_folder(scene: &Path) -> PathBuf {
-    PathBuf::from(scene.file_stem().unwrap_or(scene.as_os_str()))
 }
 
 /// Shows a run on the terminal, and ends it where the user wants.

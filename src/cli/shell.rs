@@ -1,6 +1,6 @@
 //! What a shell and a reader of manuals want: completions and man pages, made from the arguments.
 
-use std::path::{Path, PathBuf};
+use std::path::Path;
 
 use clap::CommandFactory;
 
@@ -22,16 +22,7 @@ pub(super) fn man(folder: Option<&Path>) -> Result<(), Failure> {
     let Some(folder) = folder else {
         return print_bytes(&page(&command)?);
     };
-    let cannot = |action: &'static str, path: PathBuf| {
-        move |cause| {
-            Failure::Output(OutputError::Write {
-                action,
-                path,
-                cause,
-            })
-        }
-    };
-    std::fs::create_dir_all(folder).map_err(cannot("create the folder", folder.to_owned()))?;
+    std::fs::create_dir_all(folder).map_err(OutputError::write("create the folder", folder))?;
     let shown = |command: &&clap::Command| command.get_name() != "help" && !command.is_hide_set();
     for command in std::iter::once(&command).chain(command.get_subcommands().filter(shown)) {
         let name = command
@@ -39,7 +30,7 @@ pub(super) fn man(folder: Option<&Path>) -> Result<(), Failure> {
             .unwrap_or_else(|| command.get_name())
             .replace(' ', "-");
         let path = folder.join(format!("{name}.1"));
-        std::fs::write(&path, page(command)?).map_err(cannot("write", path))?;
+        std::fs::write(&path, page(command)?).map_err(OutputError::write("write", &path))?;
     }
     Ok(())
 }

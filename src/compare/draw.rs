@@ -2,7 +2,7 @@
 
 use super::Comparison;
 use super::table::Row;
-use crate::output::panels::{Axis, Figure, Panel, PlotPoint, Series};
+use crate::output::plot::{Axis, Figure, Panel, PlotPoint, Series};
 
 /// The figure of all rows.
 pub(super) fn figure(comparison: &Comparison, rows: &[Row]) -> Figure {
@@ -24,8 +24,8 @@ pub(super) fn figure(comparison: &Comparison, rows: &[Row]) -> Figure {
         .collect();
     let panel = |title: &str, unit: &str, value: fn(&Row) -> Option<f64>| Panel {
         title: title.to_owned(),
-        x: axis("mean pressure", "Pa"),
-        y: axis(title, unit),
+        x: Axis::linear("mean pressure", "Pa"),
+        y: Axis::linear(title, unit),
         series: models
             .iter()
             .enumerate()
@@ -39,12 +39,7 @@ pub(super) fn figure(comparison: &Comparison, rows: &[Row]) -> Figure {
                         hollow: row.limit.is_some(),
                     })
                 });
-                Series {
-                    name,
-                    points: points.collect(),
-                    line: true,
-                    marks: true,
-                }
+                Series::marked_line(name, points.collect())
             })
             .collect(),
     };
@@ -59,14 +54,6 @@ pub(super) fn figure(comparison: &Comparison, rows: &[Row]) -> Figure {
             panel("adhesive pressure", "Pa", |row| row.state.adhesive_pressure),
             panel("pull-off pressure", "Pa", |row| row.pull_off),
         ],
-        columns: 2,
-    }
-}
-
-fn axis(name: &str, unit: &str) -> Axis {
-    Axis {
-        name: name.to_owned(),
-        unit: unit.to_owned(),
-        logarithmic: false,
+        ..Figure::default()
     }
 }

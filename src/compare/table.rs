@@ -1,11 +1,11 @@
 //! `compare.csv`, on the disk row by row.
 
-use std::fs;
 use std::path::Path;
 
 use super::State;
 use crate::clock::Clock;
-use crate::output::{FolderLock, GrowingTable, OutputError};
+use crate::output::csv_line::{csv_line, csv_number};
+use crate::output::{FolderLock, GrowingTable, OutputError, expect_table};
 
 /// First line of `compare.csv`.
 const HEADER: &str = "model,mean_pressure,contact_area_fraction,mean_gap,adhesive_pressure,pull_off_pressure,seconds,within_range,limit";
@@ -39,18 +39,7 @@ impl Table {
     /// Starts `compare.csv` in a folder, in place of an earlier one.
     pub fn create(folder: &Path) -> Result<Table, OutputError> {
         let path = folder.join("compare.csv");
-        let refused = |reason: &str| OutputError::Refused {
-            path: path.clone(),
-            reason: reason.to_owned(),
-        };
-        if folder.is_file() {
-            return Err(refused("its folder is a file; name a folder"));
-        }
-        if fs::read(&path).is_ok_and(|old| !old.starts_with(HEADER.as_bytes())) {
-            return Err(refused(
-                "is not a table that tabor wrote; name another folder",
-            ));
-        }
+        expect_table(&path, HEADER)?;
         let lock = FolderLock::take(&folder.join(FolderLock::HIDDEN), folder)?;
         Ok(Table {
             table: GrowingTable::create(&path, format!("{HEADER}\n"))?,
@@ -82,19 +71,17 @@ impl Table {
             limit,
         };
         self.clock = Clock::start();
-        let cell = |value: Option<f64>| value.map_or(String::new(), |value| format!("{value:e}"));
-        let line = format!(
-            "{},{:e},{},{},{},{},{:.6},{},{}\n",
-            row.model,
-            state.mean_pressure,
-            cell(state.contact_area_fraction),
-            cell(state.mean_gap),
-            cell(state.adhesive_pressure),
-            cell(pull_off),
-            row.seconds,
-            limit.is_none(),
-            limit.unwrap_or_default()
-        );
+        let line = csv_line([
+            row.model.to_owned(),
+            csv_number(Some(state.mean_pressure)),
+            csv_number(state.contact_area_fraction),
+            csv_number(state.mean_gap),
+            csv_number(state.adhesive_pressure),
+            csv_number(pull_off),
+            format!("{:.6}", row.seconds),
+            limit.is_none().to_string(),
+            limit.unwrap_or_default().to_owned(),
+        ]);
         self.table.append(&line)?;
         self.rows.push(row);
         Ok(())

@@ -38,7 +38,7 @@ pub use measured::Freedom;
 pub use measured::Measured;
 pub use model::Model;
 #[cfg(feature = "images")]
-pub use picture::draw;
+pub use picture::figure;
 pub use report::report;
 #[doc(hidden)]
 pub use segments::{Segment, segments};

@@ -2,12 +2,15 @@
 
 use std::io;
 
-use image::{ExtendedColorType, ImageEncoder, RgbImage, codecs::png::PngEncoder};
+use image::RgbImage;
 use noto_sans_mono_bitmap::{FontWeight, RasterHeight, get_raster, get_raster_width};
 
 use super::layout::Rect;
 use super::palette::Rgb;
+use super::visible::visible;
 
+/// The name of this program in a PNG file.
+const SOFTWARE: &str = concat!("tabor ", env!("CARGO_PKG_VERSION"));
 /// The page.
 pub(crate) const WHITE: Rgb = [255, 255, 255];
 /// Text, ticks and the scale bar.
@@ -47,11 +50,6 @@ impl Font {
 pub(crate) const TEXT: Font = Font {
     weight: FontWeight::Regular,
     size: RasterHeight::Size16,
-};
-/// Emphasised text of plots.
-pub(crate) const BOLD: Font = Font {
-    weight: FontWeight::Bold,
-    ..TEXT
 };
 /// Titles of plots.
 pub(crate) const HEADING: Font = Font {
@@ -102,23 +100,27 @@ pub(crate) fn say(page: &mut RgbImage, font: Font, ink: Rgb, [x, y]: [u32; 2], t
     write(page, &TextLine { text, font, x, y }, ink);
 }
 
-/// The part of a text that fits into `width` pixels.
-pub(crate) fn cut(text: &str, font: Font, width: u32) -> String {
-    let most = (width / font.advance()) as usize;
-    printable(text).chars().take(most).collect()
-}
-
-/// The page as a PNG file: 8-bit sRGB.
-pub(crate) fn png(page: &RgbImage) -> io::Result<Vec<u8>> {
+/// The page as a PNG file, 8-bit sRGB, with the name of this program and a text for each keyword. Control characters
+/// are escaped: programs print these texts.
+pub(crate) fn png(page: &RgbImage, texts: &[(&str, String)]) -> io::Result<Vec<u8>> {
     let mut bytes = Vec::new();
-    PngEncoder::new(&mut bytes)
-        .write_image(
-            page.as_raw(),
-            page.width(),
-            page.height(),
-            ExtendedColorType::Rgb8,
-        )
-        .map_err(io::Error::other)?;
+    let mut encoder = png::Encoder::new(&mut bytes, page.width(), page.height());
+    encoder.set_color(png::ColorType::Rgb);
+    encoder.set_depth(png::BitDepth::Eight);
+    encoder.set_compression(png::Compression::Fast);
+    encoder.set_filter(png::Filter::Adaptive);
+    encoder.add_text_chunk("Software".to_owned(), SOFTWARE.to_owned())?;
+    for (keyword, text) in texts {
+        let (keyword, text) = ((*keyword).to_owned(), visible(text).into_owned());
+        if text.is_ascii() {
+            encoder.add_text_chunk(keyword, text)?;
+        } else {
+            encoder.add_itxt_chunk(keyword, text)?;
+        }
+    }
+    let mut writer = encoder.write_header()?;
+    writer.write_image_data(page.as_raw())?;
+    writer.finish()?;
     Ok(bytes)
 }
 

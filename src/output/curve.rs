@@ -1,13 +1,15 @@
 //! `curve.csv`: one row a step, on the disk as soon as the step ends.
 
-use std::fmt::Write as _;
 use std::fs;
 use std::io;
 use std::path::{Path, PathBuf};
 
+use csv::StringRecord;
+
+use super::csv_line::csv_line;
 use super::error::{FRESH, OutputError};
 use super::growing::GrowingTable;
-use crate::study::{Column, State, StepRow};
+use crate::study::{Column, StepRow};
 
 /// First line of `curve.csv` where no effect adds a column.
 pub const HEADER: &str = "step,time,approach,mean_gap,force,mean_pressure,contact_area_fraction,attractive_area_fraction,elastic_energy,adhesive_energy,iterations,residual,converged,seconds,contact_area_fraction_corrected,state";
@@ -45,14 +47,16 @@ impl Curve {
         let mut lines = text
             .split_inclusive('\n')
             .filter(|line| line.ends_with('\n'));
-        if lines.next().map(str::trim_end) != Some(header(&curve.columns).as_str()) {
+        let head = header(&curve.columns);
+        if lines.next().map(str::trim_end) != Some(head.as_str()) {
             return Err(OutputError::refused(
                 path,
                 format!("is not a curve that this version of tabor wrote; {FRESH}"),
             ));
         }
+        let head: StringRecord = head.split(',').collect();
         for (index, line) in lines.enumerate() {
-            let row = parse_row(line, &curve.columns).filter(|row| row.step == index + 1);
+            let row = parse_row(line, &head, &curve.columns).filter(|row| row.step == index + 1);
             let row = row.ok_or_else(|| {
                 let reason = format!(
                     "line {} is not row {} of a curve; {FRESH}",
@@ -171,35 +175,28 @@ impl CurveWriter {
 ///
 /// Numbers are the shortest that read back to the same bits; what is not defined is empty.
 pub fn format_row(row: &StepRow, columns: &[Column]) -> String {
-    let optional = |value: Option<f64>| value.map(|value| format!("{value:?}")).unwrap_or_default();
-    let mut line = String::new();
-    write!(
-        line,
-        "{},{},{},{},{:?},{:?},{:?},{:?},{:?},{:?},{},{:?},{},{:?},{},{}",
-        row.step,
+    let number = |value: f64| format!("{value:?}");
+    let optional = |value: Option<f64>| value.map(number).unwrap_or_default();
+    let mut cells = vec![
+        row.step.to_string(),
         optional(row.time),
         optional(row.approach),
         optional(row.mean_gap),
-        row.force,
-        row.mean_pressure,
-        row.contact_area_fraction,
-        row.attractive_area_fraction,
-        row.elastic_energy,
-        row.adhesive_energy,
-        row.iterations,
-        row.residual,
-        row.converged,
-        row.seconds,
+        number(row.force),
+        number(row.mean_pressure),
+        number(row.contact_area_fraction),
+        number(row.attractive_area_fraction),
+        number(row.elastic_energy),
+        number(row.adhesive_energy),
+        row.iterations.to_string(),
+        number(row.residual),
+        row.converged.to_string(),
+        number(row.seconds),
         optional(row.contact_area_fraction_corrected),
-        row.state.name(),
-    )
-    .expect("writing to a string cannot fail");
-    for column in columns {
-        line.push(',');
-        line.push_str(&optional(column.value(row)));
-    }
-    line.push('\n');
-    line
+        row.state.name().to_owned(),
+    ];
+    cells.extend(columns.iter().map(|column| optional(column.value(row))));
+    csv_line(cells)
 }
 
 /// Adds a row to a checksum. Its seconds are left out, so that the same run has the same one.
@@ -211,59 +208,23 @@ fn add_row(checksum: &mut crc32fast::Hasher, row: &StepRow, columns: &[Column]) 
     checksum.update(format_row(&row, columns).as_bytes());
 }
 
-/// The row of a line that [`format_row`] made.
-fn parse_row(line: &str, columns: &[Column]) -> Option<StepRow> {
-    fn optional(cell: &str) -> Option<Option<f64>> {
-        match cell {
-            "" => Some(None),
-            number => number.parse().ok().map(Some),
-        }
-    }
-    let cells: Vec<&str> = line.trim_end().split(',').collect();
-    let behind = cells.len().checked_sub(columns.len())?;
-    let (cells, more) = cells.split_at(behind);
-    let [
-        step,
-        time,
-        approach,
-        mean_gap,
-        force,
-        mean_pressure,
-        contact,
-        attracted,
-        elastic,
-        adhesive,
-        iterations,
-        residual,
-        converged,
-        seconds,
-        corrected,
-        state,
-    ] = *cells
-    else {
+/// The row of a line that [`format_row`] made below this head.
+fn parse_row(line: &str, head: &StringRecord, columns: &[Column]) -> Option<StepRow> {
+    let mut reader = csv::ReaderBuilder::new()
+        .has_headers(false)
+        .from_reader(line.as_bytes());
+    let cells = reader.records().next()?.ok()?;
+    if cells.len() != head.len() {
         return None;
-    };
-    let mut row = StepRow {
-        step: step.parse().ok()?,
-        time: optional(time)?,
-        approach: optional(approach)?,
-        mean_gap: optional(mean_gap)?,
-        force: force.parse().ok()?,
-        mean_pressure: mean_pressure.parse().ok()?,
-        contact_area_fraction: contact.parse().ok()?,
-        attractive_area_fraction: attracted.parse().ok()?,
-        elastic_energy: elastic.parse().ok()?,
-        adhesive_energy: adhesive.parse().ok()?,
-        iterations: iterations.parse().ok()?,
-        residual: residual.parse().ok()?,
-        converged: converged.parse().ok()?,
-        seconds: seconds.parse().ok()?,
-        contact_area_fraction_corrected: optional(corrected)?,
-        state: State::from_name(state)?,
-        columns: Vec::new(),
-    };
-    for (column, cell) in columns.iter().zip(more) {
-        column.set(&mut row, optional(cell)?);
+    }
+    let mut row: StepRow = cells.deserialize(Some(head)).ok()?;
+    let behind = cells.len() - columns.len();
+    for (column, cell) in columns.iter().zip(cells.iter().skip(behind)) {
+        let value = match cell {
+            "" => None,
+            number => Some(number.parse().ok()?),
+        };
+        column.set(&mut row, value);
     }
     Some(row)
 }
@@ -271,6 +232,7 @@ fn parse_row(line: &str, columns: &[Column]) -> Option<StepRow> {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::study::State;
     use proptest::prelude::*;
 
     fn row(step: usize, value: f64) -> StepRow {
@@ -382,7 +344,8 @@ mod tests {
             let cells: Vec<&str> = line.trim_end().split(',').collect();
             prop_assert_eq!(cells.len(), HEADER.split(',').count());
             prop_assert_eq!(cells[4].parse::<f64>().unwrap().to_bits(), value.to_bits());
-            let read = parse_row(&line, &[]).unwrap();
+            let head = HEADER.split(',').collect();
+            let read = parse_row(&line, &head, &[]).unwrap();
             prop_assert_eq!(read.mean_pressure.to_bits(), (-value).to_bits());
             prop_assert_eq!(read, row(7, value));
         }

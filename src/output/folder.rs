@@ -134,27 +134,15 @@ impl RunFolder {
 
     /// The pictures that there are: step, name of the field and file, in the order of steps.
     pub fn pictures(&self) -> Vec<(usize, &'static str, PathBuf)> {
-        let mut found = Vec::new();
-        for entry in fs::read_dir(self.path.join("images"))
-            .into_iter()
+        let entries = fs::read_dir(self.path.join("images")).into_iter().flatten();
+        let mut found: Vec<(usize, usize, PathBuf)> = entries
             .flatten()
-            .flatten()
-        {
-            let name = entry.file_name();
-            let Some(name) = name.to_str().filter(|name| name.ends_with(".png")) else {
-                continue;
-            };
-            let field = FieldName::ALL.iter().position(|field| {
-                name.strip_suffix(".png").is_some_and(|name| {
-                    name.split_once('_')
-                        .and_then(|(_, rest)| rest.split_once('_'))
-                        .is_some_and(|(_, word)| word == field.name())
-                })
-            });
-            if let (Some(step), Some(field)) = (step_of(name), field) {
-                found.push((step, field, entry.path()));
-            }
-        }
+            .filter_map(|entry| {
+                let name = entry.file_name();
+                let (step, field) = step_and_field(name.to_str()?.strip_suffix(".png")?)?;
+                Some((step, field?, entry.path()))
+            })
+            .collect();
         found.sort();
         found
             .into_iter()
@@ -307,18 +295,32 @@ fn marker_path(folder: &Path) -> PathBuf {
 
 /// The step of `step_DIGITS_FIELD.png`, `step_DIGITS_FIELD.npy` or `step_DIGITS.vti`.
 fn step_of(name: &str) -> Option<usize> {
-    let rest = name.strip_prefix("step_")?;
-    let digits = match rest.strip_suffix(".vti") {
-        Some(digits) => digits,
-        None => {
-            let rest = rest.strip_suffix(".png").or(rest.strip_suffix(".npy"))?;
-            let (digits, field) = rest.split_once('_')?;
-            FieldName::ALL.iter().find(|known| known.name() == field)?;
-            digits
+    let (stem, extension) = name.rsplit_once('.')?;
+    let (step, field) = step_and_field(stem)?;
+    let fits = match extension {
+        "vti" => field.is_none(),
+        "png" | "npy" => field.is_some(),
+        _ => false,
+    };
+    fits.then_some(step)
+}
+
+/// The step and the index of the field in `step_DIGITS_FIELD` or `step_DIGITS`.
+fn step_and_field(stem: &str) -> Option<(usize, Option<usize>)> {
+    let rest = stem.strip_prefix("step_")?;
+    let (digits, field) = match rest.split_once('_') {
+        None => (rest, None),
+        Some((digits, word)) => {
+            let mut names = FieldName::ALL.iter().map(|field| field.name());
+            (digits, Some(names.position(|name| name == word)?))
         }
     };
     let is_number = digits.len() >= 4 && digits.bytes().all(|byte| byte.is_ascii_digit());
-    digits.parse().ok().filter(|_| is_number)
+    digits
+        .parse()
+        .ok()
+        .filter(|_| is_number)
+        .map(|step| (step, field))
 }
 
 /// Removes the files of `folder` that `own` picks by their name and by whether they were being
@@ -341,6 +343,20 @@ fn remove_files(folder: &Path, own: impl Fn(&str, bool) -> bool) -> Result<(), O
             let path = entry.path();
             fs::remove_file(&path).map_err(OutputError::write("remove", &path))?;
         }
+    }
+    Ok(())
+}
+
+/// Refuses a file at `path` that does not begin with `head`, the first line of a table of tabor, and a folder of it that
+/// is a file.
+pub fn expect_table(path: &Path, head: &str) -> Result<(), OutputError> {
+    if path.parent().is_some_and(Path::is_file) {
+        let reason = "its folder is a file; name a folder";
+        return Err(OutputError::refused(path, reason));
+    }
+    if fs::read(path).is_ok_and(|old| !old.starts_with(head.as_bytes())) {
+        let reason = "is not a table that tabor wrote; name another folder";
+        return Err(OutputError::refused(path, reason));
     }
     Ok(())
 }

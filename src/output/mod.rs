@@ -8,11 +8,8 @@
 pub(crate) mod canvas;
 #[cfg(feature = "images")]
 #[doc(hidden)]
-pub mod chart;
-#[cfg(feature = "images")]
-#[doc(hidden)]
 pub mod colour_scale;
-mod cpu_time;
+pub(crate) mod csv_line;
 #[doc(hidden)]
 pub mod curve;
 mod difference;
@@ -33,14 +30,10 @@ pub mod lock;
 pub mod palette;
 #[cfg(feature = "images")]
 #[doc(hidden)]
-pub mod panels;
-#[cfg(feature = "images")]
-pub(crate) mod pen;
-#[cfg(feature = "images")]
-#[doc(hidden)]
 pub mod picture;
 #[cfg(feature = "images")]
-mod png_text;
+#[doc(hidden)]
+pub mod plot;
 #[cfg(feature = "images")]
 #[doc(hidden)]
 pub mod report;
@@ -48,9 +41,6 @@ pub mod report;
 mod resample;
 #[cfg(feature = "images")]
 pub(crate) mod si;
-#[cfg(feature = "images")]
-#[doc(hidden)]
-pub mod spectrum_plot;
 #[doc(hidden)]
 pub mod state;
 #[doc(hidden)]
@@ -62,8 +52,6 @@ pub mod volume;
 #[cfg(feature = "images")]
 #[doc(hidden)]
 pub use canvas::{Font, TextLine};
-#[doc(hidden)]
-pub use cpu_time::cpu_seconds;
 pub use curve::Curve;
 #[doc(hidden)]
 pub use curve::CurveWriter;
@@ -71,7 +59,7 @@ pub(crate) use error::FRESH;
 pub use error::OutputError;
 pub use fields::{write_field, write_field_single};
 #[doc(hidden)]
-pub use folder::{RunFolder, set_aside, write_atomically, write_within};
+pub use folder::{RunFolder, expect_table, set_aside, write_atomically, write_within};
 #[doc(hidden)]
 pub use growing::GrowingTable;
 #[doc(hidden)]
@@ -81,9 +69,6 @@ pub use lock::FolderLock;
 pub use picture::Snapshot;
 #[cfg(feature = "images")]
 pub use picture::{Load, Picture, write_picture};
-#[cfg(feature = "images")]
-#[doc(hidden)]
-pub use spectrum_plot::SpectrumPlot;
 #[doc(hidden)]
 pub use state::SavedState;
 pub use summary::{Effects, Seconds, Summary, peak_memory_bytes};

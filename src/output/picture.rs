@@ -10,7 +10,6 @@ use super::colour_scale::ColourScale;
 use super::error::OutputError;
 use super::folder::write_within;
 use super::layout::{Contents, LONGEST_FIELD, Layout, Rect, tick_mark};
-use super::png_text::{software, with_texts};
 use super::resample::{drawn_size, resample};
 use crate::grid::Grid;
 use crate::scene::{Control, FieldName};
@@ -146,7 +145,7 @@ impl Picture<'_> {
             } = rect;
             format!("{x} {y} {width} {height}")
         };
-        let mut texts = vec![software()];
+        let mut texts = Vec::new();
         texts.extend(self.title.map(|title| ("Title", title.to_owned())));
         texts.push(("tabor field", self.field.name().to_owned()));
         texts.extend(self.step.map(|step| ("tabor step", step.to_string())));
@@ -174,7 +173,7 @@ impl Picture<'_> {
 impl Snapshot {
     /// The PNG file: 8-bit sRGB, with its texts.
     pub fn encode(&self) -> io::Result<Vec<u8>> {
-        Ok(with_texts(&canvas::png(&self.image)?, &self.texts))
+        canvas::png(&self.image, &self.texts)
     }
 }
 

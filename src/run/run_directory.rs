@@ -169,10 +169,8 @@ fn sound(
     let path = folder.state_path(STATE);
     let curve = Curve::read(&folder.curve_path(), Column::of(&setup.scene))?;
     let refuse = |reason: String| {
-        Err(OutputError::Refused {
-            path: path.clone(),
-            reason: format!("{reason}; {FRESH}"),
-        })
+        let reason = format!("{reason}; {FRESH}");
+        Err(OutputError::refused(&path, reason))
     };
     let Some(state) = SavedState::read(&path)? else {
         return match curve.rows().len() {
@@ -230,13 +228,13 @@ fn resume_from(
         solver
     };
     if said(&state.solver) != said(&now) && state.finished > 0 && !failed {
-        return Err(OutputError::Refused {
-            path: folder.state_path(STATE),
-            reason: format!(
+        return Err(OutputError::refused(
+            &folder.state_path(STATE),
+            format!(
                 "was solved with [solver] {}, and here it is {now}: it may change only where a step did not converge; put it back, or name another folder",
                 state.solver
             ),
-        });
+        ));
     }
     let mut remarks = Vec::new();
     let mut warnings = state.warnings;

@@ -13,7 +13,7 @@ use crate::output::{
     write_field_single, write_volume,
 };
 #[cfg(feature = "images")]
-use crate::output::{Load, Picture, chart, report::Report, write_picture, write_within};
+use crate::output::{Load, Picture, plot, report::Report, write_picture, write_within};
 use crate::scene::{Control, FieldName, LoadingScene, Precision, StepChoice};
 use crate::study::{
     Checkpoint, Evaluation, FinishedStep, Observer, PullOff, Search, Setup, State, StepRow,
@@ -256,7 +256,7 @@ impl<'a> RunRecorder<'a> {
         }
         let clock = Clock::start();
         if summary.is_some() {
-            let bytes = chart::picture(&self.setup.scene, &self.rows).map_err(
+            let bytes = plot::picture(&self.setup.scene, &self.rows).map_err(
                 OutputError::write("write", &self.folder.curve_picture_path()),
             )?;
             write_within(&self.folder.curve_picture_path(), &bytes)?;

@@ -1,7 +1,10 @@
 //! One finished step, as it is written to `curve.csv`.
 
+use serde::Deserialize;
+
 /// Contact state of a step.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Deserialize)]
+#[serde(rename_all = "lowercase")]
 #[non_exhaustive]
 pub enum State {
     /// Something touches.
@@ -21,17 +24,10 @@ impl State {
             State::Separated => "separated",
         }
     }
-
-    /// The state of a word that [`State::name`] gave.
-    pub fn from_name(name: &str) -> Option<State> {
-        [State::Contact, State::Attracted, State::Separated]
-            .into_iter()
-            .find(|state| state.name() == name)
-    }
 }
 
 /// One row of `curve.csv`, SI units; `None` is written as an empty cell.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq, Deserialize)]
 #[non_exhaustive]
 pub struct StepRow {
     /// Number of the step, from 1.
@@ -67,6 +63,7 @@ pub struct StepRow {
     /// Contact state.
     pub state: State,
     /// What effects add, in the order of their columns.
+    #[serde(skip)]
     pub columns: Vec<(Column, Option<f64>)>,
 }
 

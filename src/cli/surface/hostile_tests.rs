@@ -9,9 +9,8 @@ use std::fs;
 use std::time::Duration;
 
 use proptest::prelude::*;
-use proptest::test_runner::{Config, RngAlgorithm, TestRng, TestRunner};
 
-use super::super::busy::Clock;
+use super::super::busy::{Clock, cases};
 use super::*;
 
 /// Cases of a usual run.
@@ -100,17 +99,7 @@ fn map() -> impl Strategy<Value = Map> {
 
 #[test]
 fn no_hostile_map_is_trouble() {
-    let cases = std::env::var("TABOR_MUTATIONS").map_or(CASES, |text| {
-        text.parse().expect("TABOR_MUTATIONS is a number of cases")
-    });
-    let config = Config {
-        cases,
-        failure_persistence: None,
-        max_shrink_iters: 200,
-        ..Config::default()
-    };
-    let rng = TestRng::deterministic_rng(RngAlgorithm::ChaCha);
-    let mut runner = TestRunner::new_with_rng(config, rng);
+    let (cases, mut runner) = cases(CASES);
     let [tried, reported, fitted] = [const { Cell::new(0_u32) }; 3];
     let slowest = Cell::new(Duration::ZERO);
     let folder = tempfile::tempdir().expect("a folder");

@@ -3,17 +3,20 @@
 mod memory;
 mod report;
 
-use std::path::{Path, PathBuf};
+use std::path::PathBuf;
+
+use clap::builder::TypedValueParser;
 
 use super::patience::Patience;
-use super::{Failure, key_and_value, print, read_scene, warn};
+use super::quantity::quantity;
+use super::{Failure, SceneArguments, folder_or_default, key_and_value, one_of, print, warn};
 use crate::output::{
-    OutputError, Picture, RunFolder, SpectrumPlot, visible_line, write_atomically, write_picture,
+    OutputError, Picture, RunFolder, visible_line, write_atomically, write_picture,
 };
 use crate::run::memory_check;
 use crate::scene::{Boundary, Detrend, FieldName, Fill, GridScene, HeightFileScene, SurfacePart};
 use crate::surface::{Surface, SurfaceError};
-use crate::units::{Dimension, RANGE_WORDS, in_range, parse_quantity};
+use crate::units::{Dimension, RANGE_WORDS, in_range};
 use report::Report;
 
 /// Extension of scenes; every other file holds heights.
@@ -53,13 +56,13 @@ struct FileArguments {
     #[arg(long, value_name = "H", value_parser = length, allow_hyphen_values = true)]
     white: Option<f64>,
     /// What to take off: none, mean, plane or quadratic [default: none]
-    #[arg(long, value_name = "KIND", value_parser = detrend)]
+    #[arg(long, value_name = "KIND", value_parser = word(Detrend::ALL, Detrend::name))]
     detrend: Option<Detrend>,
     /// Missing pixels: none or interpolate [default: none]
-    #[arg(long, value_name = "HOW", value_parser = fill)]
+    #[arg(long, value_name = "HOW", value_parser = word(Fill::ALL, Fill::name))]
     fill: Option<Fill>,
     /// Edges: free for a patch, periodic for a map that repeats [default: free]
-    #[arg(long, value_name = "KIND", value_parser = boundary)]
+    #[arg(long, value_name = "KIND", value_parser = word(Boundary::ALL, Boundary::name))]
     boundary: Option<Boundary>,
 }
 
@@ -73,19 +76,12 @@ impl FileArguments {
 }
 
 fn length(text: &str) -> Result<f64, String> {
-    let value = text
-        .parse()
-        .or_else(|_| parse_quantity(text, Dimension::Length))
-        .map_err(|error| error.to_string())?;
-    sane(value)
+    quantity(text, Dimension::Length)
 }
 
 /// A number without a unit.
 fn factor(text: &str) -> Result<f64, String> {
-    sane(text.parse().map_err(|_| "write a number".to_owned())?)
-}
-
-fn sane(value: f64) -> Result<f64, String> {
+    let value = text.parse().map_err(|_| "write a number".to_owned())?;
     if in_range(value) {
         Ok(value)
     } else {
@@ -110,27 +106,15 @@ fn size(text: &str) -> Result<[f64; 2], String> {
     }
 }
 
-/// One of some words.
-fn word<T: Copy>(text: &str, all: &[T], name: impl Fn(T) -> &'static str) -> Result<T, String> {
-    all.iter()
-        .copied()
-        .find(|one| name(*one) == text)
-        .ok_or_else(|| {
-            let names: Vec<&str> = all.iter().copied().map(name).collect();
-            format!("write {}", names.join(", "))
-        })
-}
-
-fn detrend(text: &str) -> Result<Detrend, String> {
-    word(text, Detrend::ALL, Detrend::name)
-}
-
-fn fill(text: &str) -> Result<Fill, String> {
-    word(text, Fill::ALL, Fill::name)
-}
-
-fn boundary(text: &str) -> Result<Boundary, String> {
-    word(text, Boundary::ALL, Boundary::name)
+/// One of some words, as the thing that it names.
+fn word<T: Copy + Send + Sync + 'static>(
+    all: &'static [T],
+    name: fn(T) -> &'static str,
+) -> impl TypedValueParser<Value = T> {
+    one_of(all, name).map(move |word| {
+        let found = all.iter().find(|one| name(**one) == word);
+        *found.expect("clap takes the words of the list alone")
+    })
 }
 
 /// Prints the report and writes the pictures.
@@ -145,10 +129,7 @@ pub(super) fn surface(arguments: &SurfaceArguments) -> Result<(), Failure> {
     } else {
         of_file(arguments)?
     };
-    let path = match &arguments.out {
-        Some(path) => path.clone(),
-        None => default_folder(source),
-    };
+    let path = folder_or_default(arguments.out.as_deref(), source, "_surface");
     let folder = RunFolder::open(&path, &format!("surface of {}", source.display()))?;
     for warning in &surface.warnings {
         warn(plain(warning, is_scene));
@@ -172,17 +153,16 @@ fn of_scene(arguments: &SurfaceArguments) -> Result<(Surface, Boundary), Failure
     if let Some([x, y]) = arguments.size {
         set.push(("grid.size".to_owned(), format!("[{x:e}, {y:e}]")));
     }
-    let scene = read_scene(&arguments.source, &set)?;
+    let path = arguments.source.clone();
+    let described = SceneArguments { path, set };
+    let scene = described.read()?;
     memory_check::check_files(&scene)?;
     let boundary = scene.grid.boundary;
     let refuse = |points| memory::check_statistics(&arguments.source, points, boundary);
     if let Some(points) = scene.grid.points {
         refuse(points)?;
     }
-    let surface = Surface::build(&scene).map_err(|error| Failure::Surface {
-        path: arguments.source.clone(),
-        error,
-    })?;
+    let surface = Surface::build(&scene).map_err(|error| described.surface_failure(error))?;
     // Of a grid that a height file carries.
     refuse([surface.grid.nx, surface.grid.ny])?;
     Ok((surface, boundary))
@@ -252,24 +232,12 @@ fn write_pictures(folder: &RunFolder, report: &Report) -> Result<(), OutputError
             values: &report.surface.heights,
         },
     )?;
-    let plot = SpectrumPlot {
-        title: &title,
-        points: &report.points(),
-        line: &report.line(),
-    };
-    plot.write(&folder.path().join("psd.png"))?;
+    report.spectrum().write(&folder.path().join("psd.png"))?;
     write_atomically(&folder.path().join("psd.csv"), report.table().as_bytes())?;
     if let Some(scene) = report.scene() {
         write_atomically(&folder.path().join("scene.toml"), scene.as_bytes())?;
     }
     Ok(())
-}
-
-/// The file's name with `_surface` for its extension, in the current folder.
-fn default_folder(source: &Path) -> PathBuf {
-    let mut name = source.file_stem().unwrap_or(source.as_os_str()).to_owned();
-    name.push("_surface");
-    PathBuf::from(name)
 }
 
 #[cfg(test)]

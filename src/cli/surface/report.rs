@@ -3,6 +3,8 @@
 use std::fmt::Write;
 use std::path::Path;
 
+use crate::output::csv_line::{csv_line, csv_number};
+use crate::output::plot::{Axis, Figure, LARGE, Panel, PlotPoint, Series};
 use crate::scene::Boundary;
 use crate::surface::Surface;
 use crate::surface::correlation::correlation_length;
@@ -11,6 +13,43 @@ use crate::surface::statistics::{SpectrumRing, Statistics, radial_spectrum};
 
 /// Points of the line that stands for the fit in the plot.
 const LINE_POINTS: usize = 200;
+
+/// Start of the names of counts.
+const COUNT: &str = "points_";
+/// Name, unit and meaning of each number.
+const QUANTITIES: [(&str, &str, &str); 19] = [
+    ("points_x", "", "points along x"),
+    ("points_y", "", "points along y"),
+    ("size_x", "m", "size along x"),
+    ("size_y", "m", "size along y"),
+    ("pixel_x", "m", "distance of points along x"),
+    ("pixel_y", "m", "distance of points along y"),
+    ("mean_height", "m", "mean of the heights"),
+    ("lowest", "m", "lowest point"),
+    ("highest", "m", "highest point"),
+    ("rms_height", "m", "about the mean"),
+    ("rms_slope", "", "of the gradient"),
+    ("rms_curvature", "1/m", "of the Laplacian"),
+    ("m0", "m^2", "spectral moment: mean square height"),
+    ("m2", "", "spectral moment: mean square slope of a profile"),
+    (
+        "m4",
+        "1/m^2",
+        "spectral moment: mean square curvature of a profile",
+    ),
+    ("nayak", "", "Nayak number m0 m4 / m2^2"),
+    (
+        "summit_density",
+        "1/m^2",
+        "of a Gaussian surface with these moments",
+    ),
+    ("summit_radius", "m", "2 / rms_curvature"),
+    (
+        "correlation_length",
+        "m",
+        "where the autocorrelation falls to 1/e",
+    ),
+];
 
 /// What is known of a surface.
 pub(super) struct Report<'a> {
@@ -48,7 +87,11 @@ impl<'a> Report<'a> {
         line(self.title());
         line(String::new());
         line(row("quantity", "value", "unit", "what it is"));
-        for (name, value, unit, what) in self.quantities() {
+        for ((name, unit, what), value) in QUANTITIES.into_iter().zip(self.values()) {
+            let value = match value {
+                Some(count) if name.starts_with(COUNT) => count.to_string(),
+                value => value.map_or_else(|| "-".to_owned(), number),
+            };
             line(row(name, &value, unit, what));
         }
         line(String::new());
@@ -89,97 +132,31 @@ impl<'a> Report<'a> {
         format!("Surface of {name}")
     }
 
-    /// Name, value, unit and meaning of each number.
-    fn quantities(&self) -> Vec<(&'static str, String, &'static str, &'static str)> {
+    /// The numbers of [`QUANTITIES`].
+    fn values(&self) -> [Option<f64>; 19] {
         let grid = &self.surface.grid;
         let found = &self.statistics;
         let moments = &found.moments;
-        let or_none = |value: Option<f64>| value.map_or_else(|| "-".to_owned(), number);
-        vec![
-            ("points_x", grid.nx.to_string(), "", "points along x"),
-            ("points_y", grid.ny.to_string(), "", "points along y"),
-            ("size_x", number(grid.lx), "m", "size along x"),
-            ("size_y", number(grid.ly), "m", "size along y"),
-            (
-                "pixel_x",
-                number(grid.dx()),
-                "m",
-                "distance of points along x",
-            ),
-            (
-                "pixel_y",
-                number(grid.dy()),
-                "m",
-                "distance of points along y",
-            ),
-            (
-                "mean_height",
-                number(found.mean),
-                "m",
-                "mean of the heights",
-            ),
-            ("lowest", number(found.lowest), "m", "lowest point"),
-            ("highest", number(found.highest), "m", "highest point"),
-            (
-                "rms_height",
-                number(moments.rms_height()),
-                "m",
-                "about the mean",
-            ),
-            (
-                "rms_slope",
-                number(moments.rms_slope()),
-                "",
-                "of the gradient",
-            ),
-            (
-                "rms_curvature",
-                number(moments.rms_curvature()),
-                "1/m",
-                "of the Laplacian",
-            ),
-            (
-                "m0",
-                number(moments.m0),
-                "m^2",
-                "spectral moment: mean square height",
-            ),
-            (
-                "m2",
-                number(moments.m2),
-                "",
-                "spectral moment: mean square slope of a profile",
-            ),
-            (
-                "m4",
-                number(moments.m4),
-                "1/m^2",
-                "spectral moment: mean square curvature of a profile",
-            ),
-            (
-                "nayak",
-                or_none(moments.nayak()),
-                "",
-                "Nayak number m0 m4 / m2^2",
-            ),
-            (
-                "summit_density",
-                or_none(moments.summit_density()),
-                "1/m^2",
-                "of a Gaussian surface with these moments",
-            ),
-            (
-                "summit_radius",
-                or_none(moments.mean_radius()),
-                "m",
-                "2 / rms_curvature",
-            ),
-            (
-                "correlation_length",
-                or_none(self.correlation_length),
-                "m",
-                "where the autocorrelation falls to 1/e",
-            ),
+        [
+            Some(grid.nx as f64),
+            Some(grid.ny as f64),
+            Some(grid.lx),
+            Some(grid.ly),
+            Some(grid.dx()),
+            Some(grid.dy()),
+            Some(found.mean),
+            Some(found.lowest),
+            Some(found.highest),
+            Some(moments.rms_height()),
+            Some(moments.rms_slope()),
+            Some(moments.rms_curvature()),
+            Some(moments.m0),
+            Some(moments.m2),
+            Some(moments.m4),
+            moments.nayak(),
+            moments.summit_density(),
+            moments.mean_radius(),
+            self.correlation_length,
         ]
     }
 
@@ -253,18 +230,14 @@ impl<'a> Report<'a> {
 
     /// The radial spectrum as CSV.
     pub fn table(&self) -> String {
-        let mut text = "wavenumber [1/m],density [m^4],modes,fit [m^4]\n".to_owned();
+        let mut text = csv_line(["wavenumber [1/m]", "density [m^4]", "modes", "fit [m^4]"]);
         for ring in &self.rings {
-            let fitted = self.fitted(ring.wavenumber);
-            let fitted = fitted.map(|density| format!("{density:e}"));
-            let _ = writeln!(
-                text,
-                "{:e},{:e},{},{}",
-                ring.wavenumber,
-                ring.density,
-                ring.modes,
-                fitted.unwrap_or_default()
-            );
+            text += &csv_line([
+                csv_number(Some(ring.wavenumber)),
+                csv_number(Some(ring.density)),
+                ring.modes.to_string(),
+                csv_number(self.fitted(ring.wavenumber)),
+            ]);
         }
         text
     }
@@ -277,17 +250,36 @@ impl<'a> Report<'a> {
             .then(|| spectrum.density(wavenumber))
     }
 
-    /// The rings that have power, for the plot.
-    pub fn points(&self) -> Vec<[f64; 2]> {
-        let points = self
+    /// The radial spectrum and its fit as a plot.
+    pub fn spectrum(&self) -> Figure {
+        let points = |points: &mut dyn Iterator<Item = [f64; 2]>| -> Vec<PlotPoint> {
+            points.map(|[x, y]| PlotPoint::new(x, y)).collect()
+        };
+        let mut rings = self
             .rings
             .iter()
             .map(|ring| [ring.wavenumber, ring.density]);
-        points.filter(|[_, density]| *density > 0.0).collect()
+        let rings = points(&mut rings);
+        let fit = points(&mut self.fit_line().into_iter());
+        // The first pen is that of models.
+        let mut names = vec!["", "map, averaged over directions"];
+        names.extend((!fit.is_empty()).then_some("self-affine fit"));
+        Figure {
+            title: self.title(),
+            names: names.into_iter().map(str::to_owned).collect(),
+            panels: vec![Panel {
+                title: "power spectral density (m^4)".to_owned(),
+                x: Axis::logarithmic("wave number (1/m)", ""),
+                y: Axis::logarithmic("density", ""),
+                series: vec![Series::marks(1, rings), Series::line(2, fit)],
+            }],
+            style: LARGE,
+            ..Figure::default()
+        }
     }
 
-    /// The fit, for the plot.
-    pub fn line(&self) -> Vec<[f64; 2]> {
+    /// The fit within its band.
+    fn fit_line(&self) -> Vec<[f64; 2]> {
         let Ok(fit) = &self.fit else {
             return Vec::new();
         };

@@ -13,14 +13,21 @@ pub(super) struct Model {
     pub about: &'static str,
     /// Authors and year.
     pub source: &'static str,
-    /// What it takes, in the order in which it is listed.
-    pub parameters: &'static [Parameter],
-    /// What it gives: names and SI units, empty for numbers without one and for words.
-    pub columns: &'static [(&'static str, &'static str)],
+    /// What it takes, in the order in which it is listed, in groups that models share.
+    pub parameters: &'static [&'static [Parameter]],
+    /// What it gives: names, with SI units in brackets but for numbers without one and for words.
+    pub columns: &'static str,
     /// Parameters of a call that works, for the help.
     pub example: &'static str,
     /// Fills the table.
     pub table: fn(&Values) -> Result<Table, Failure>,
+}
+
+impl Model {
+    /// All that it takes.
+    pub fn parameters(&self) -> impl Iterator<Item = &'static Parameter> + Clone {
+        self.parameters.iter().copied().flatten()
+    }
 }
 
 /// Rows of a model, in SI, and what else it has to say.

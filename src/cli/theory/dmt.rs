@@ -4,7 +4,7 @@ use std::f64::consts::PI;
 
 use super::catalogue::{Model, Table, numbers};
 use super::parameters::{
-    Allowed, CONTACT_MODULUS, LAW, POINTS, Parameter, RADIUS, RANGE, WORK_OF_ADHESION,
+    ADHESIVE_SPHERE, Allowed, LAW, POINTS, Parameter, RADIUS, RANGE, WORK_OF_ADHESION,
 };
 use super::soft::sphere;
 use super::values::Values;
@@ -14,12 +14,7 @@ use crate::theory::tabor_map::{FORCE_DMT_LIMIT, tabor_parameter};
 use crate::theory::{Law, Sphere, bradley, derjaguin, hertz};
 use crate::units::Dimension;
 
-const APPROACH_FORCE: &[(&str, &str)] = &[
-    ("approach", "m"),
-    ("force", "N"),
-    ("contact_radius", "m"),
-    ("attraction", "N"),
-];
+const APPROACH_FORCE: &str = "approach [m], force [N], contact_radius [m], attraction [N]";
 
 const FROM_FAR: Parameter = Parameter::from(
     Dimension::Length,
@@ -28,19 +23,19 @@ const FROM_FAR: Parameter = Parameter::from(
     "approach of the first row; before contact the sphere is rigid",
 );
 const FROM_CONTACT: Parameter = Parameter::from_approach(Allowed::NotNegative, "0");
-const TO: Parameter = Parameter::to_approach(Allowed::Any, "4 (pi^2 w^2 R/K^2)^(1/3), K = 4 E*/3");
-
-const TO_CONTACT: Parameter =
-    Parameter::to_approach(Allowed::NotNegative, "4 (pi^2 w^2 R/K^2)^(1/3), K = 4 E*/3");
+const TO: Parameter = Parameter::to_approach(Allowed::Any, LAST_APPROACH_WORDS);
+const TO_CONTACT: Parameter = Parameter::to_approach(Allowed::NotNegative, LAST_APPROACH_WORDS);
 
 /// The default of the last approach, in Maugis' unit of it.
 pub(super) const LAST_APPROACH: f64 = 4.0;
+/// That in words.
+pub(super) const LAST_APPROACH_WORDS: &str = "4 (pi^2 w^2 R/K^2)^(1/3), K = 4 E*/3";
 
 pub(super) const BRADLEY: Model = Model {
     name: "bradley",
     about: "rigid sphere at a gap from a rigid flat; approach is minus the gap",
     source: "Bradley 1932, in the approximation of Derjaguin 1934",
-    parameters: &[
+    parameters: &[&[
         RADIUS,
         WORK_OF_ADHESION,
         RANGE,
@@ -48,8 +43,8 @@ pub(super) const BRADLEY: Model = Model {
         Parameter::from_approach(Allowed::NotPositive, "minus 10 ranges"),
         Parameter::to_approach(Allowed::NotPositive, "0"),
         POINTS,
-    ],
-    columns: &[("approach", "m"), ("force", "N"), ("gap", "m")],
+    ]],
+    columns: "approach [m], force [N], gap [m]",
     example: "--radius \"1 um\" --work_of_adhesion \"50 mJ/m^2\" --range \"0.3 nm\"",
     table: bradley_table,
 };
@@ -77,14 +72,7 @@ pub(super) const DERJAGUIN: Model = Model {
     name: "derjaguin",
     about: "Hertz contact that gains the energy of its area only: attraction pi w R",
     source: "Derjaguin 1934",
-    parameters: &[
-        RADIUS,
-        CONTACT_MODULUS,
-        WORK_OF_ADHESION,
-        FROM_CONTACT,
-        TO_CONTACT,
-        POINTS,
-    ],
+    parameters: &[ADHESIVE_SPHERE, &[FROM_CONTACT, TO_CONTACT, POINTS]],
     columns: APPROACH_FORCE,
     example: "--radius \"1 um\" --contact_modulus \"100 GPa\" --work_of_adhesion \"50 mJ/m^2\"",
     table: |values| constant(values, &derjaguin::force),
@@ -124,15 +112,7 @@ fn constant(values: &Values, force: &dyn Fn(&Sphere, f64) -> f64) -> Result<Tabl
     Ok(table)
 }
 
-const WITH_RANGE: &[Parameter] = &[
-    RADIUS,
-    CONTACT_MODULUS,
-    WORK_OF_ADHESION,
-    RANGE,
-    FROM_FAR,
-    TO,
-    POINTS,
-];
+const WITH_RANGE: &[&[Parameter]] = &[ADHESIVE_SPHERE, &[RANGE, FROM_FAR, TO, POINTS]];
 const STIFF: &str = "--radius \"1 um\" --contact_modulus \"100 GPa\" --work_of_adhesion \"50 mJ/m^2\" --range \"0.3 nm\"";
 
 pub(super) const DMT_T: Model = Model {
@@ -159,16 +139,7 @@ pub(super) const DMT_F: Model = Model {
     name: "dmt-f",
     about: "Hertz contact, attraction summed over the gap outside it",
     source: "Muller, Yushchenko & Derjaguin 1983",
-    parameters: &[
-        RADIUS,
-        CONTACT_MODULUS,
-        WORK_OF_ADHESION,
-        RANGE,
-        LAW,
-        FROM_FAR,
-        TO,
-        POINTS,
-    ],
+    parameters: &[ADHESIVE_SPHERE, &[RANGE, LAW, FROM_FAR, TO, POINTS]],
     columns: APPROACH_FORCE,
     example: STIFF,
     table: |values| ranged(values, Method::Force, values.law()),

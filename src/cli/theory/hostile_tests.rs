@@ -8,9 +8,8 @@ use std::cell::Cell;
 use std::time::Duration;
 
 use proptest::prelude::*;
-use proptest::test_runner::{Config, RngAlgorithm, TestRng, TestRunner};
 
-use super::super::busy::Clock;
+use super::super::busy::{Clock, cases};
 use super::catalogue::{MODELS, Model};
 use super::parameters::{Allowed, Kind, Need, Parameter};
 use super::text;
@@ -138,7 +137,7 @@ fn is_given(parameter: &Parameter, pick: &Pick, given: &[&str]) -> bool {
 fn words(model: &Model, picks: &[Pick]) -> Vec<String> {
     let mut words = vec![model.name.to_owned()];
     let mut given: Vec<&str> = Vec::new();
-    for (parameter, pick) in model.parameters.iter().zip(picks) {
+    for (parameter, pick) in model.parameters().zip(picks) {
         if is_given(parameter, pick, &given) {
             given.push(parameter.name);
             words.push(format!(
@@ -149,7 +148,7 @@ fn words(model: &Model, picks: &[Pick]) -> Vec<String> {
         }
     }
     // Many rows of a model take time that has nothing to do with the numbers.
-    if !given.contains(&"points") && model.parameters.iter().any(|p| p.name == "points") {
+    if !given.contains(&"points") && model.parameters().any(|p| p.name == "points") {
         words.push("--points=5".to_owned());
     }
     words
@@ -181,17 +180,7 @@ fn is_no_number(text: &str) -> bool {
 
 #[test]
 fn no_hostile_argument_of_a_theory_is_trouble() {
-    let cases = std::env::var("TABOR_MUTATIONS").map_or(CASES, |text| {
-        text.parse().expect("TABOR_MUTATIONS is a number of cases")
-    });
-    let config = Config {
-        cases,
-        failure_persistence: None,
-        max_shrink_iters: 200,
-        ..Config::default()
-    };
-    let rng = TestRng::deterministic_rng(RngAlgorithm::ChaCha);
-    let mut runner = TestRunner::new_with_rng(config, rng);
+    let (cases, mut runner) = cases(CASES);
     let [answered, refused, empty] = [const { Cell::new(0_u32) }; 3];
     let slowest = Cell::new(Duration::ZERO);
     let strategy = (

@@ -4,10 +4,8 @@ use std::f64::consts::PI;
 
 use super::catalogue::{Model, Table};
 use super::dmt::LAST_APPROACH;
-use super::parameters::{
-    CONTACT_MODULUS, DIRECTION, Need, POINTS, RADIUS, RANGE, WORK_OF_ADHESION,
-};
-use super::soft::{ATTRACTED, CONTACT, from, row, sphere, to};
+use super::parameters::{ADHESIVE_SPHERE, Allowed, DIRECTION, POINTS, Parameter, RANGE};
+use super::soft::{ATTRACTED, CONTACT, row, sphere};
 use super::values::Values;
 use crate::cli::Failure;
 use crate::theory::TheoryError;
@@ -19,22 +17,19 @@ pub(super) const LENNARD_JONES_SPHERE: Model = Model {
     about: "elastic sphere with Lennard-Jones attraction and repulsion, solved numerically; Tabor parameter 0.01 to 5, slow beyond 2",
     source: "Muller, Yushchenko & Derjaguin 1980; Greenwood 1997; Feng 2001",
     parameters: &[
-        RADIUS,
-        CONTACT_MODULUS,
-        WORK_OF_ADHESION,
-        RANGE,
-        DIRECTION,
-        from("minus 4 ranges and 2 Tabor parameters more"),
-        to("4 (pi^2 w^2 R/K^2)^(1/3), K = 4 E*/3, but no more than 20 ranges"),
-        POINTS.needed(Need::Default("61")),
+        ADHESIVE_SPHERE,
+        &[
+            RANGE,
+            DIRECTION,
+            Parameter::from_approach(Allowed::Any, "minus 4 ranges and 2 Tabor parameters more"),
+            Parameter::to_approach(
+                Allowed::Any,
+                "4 (pi^2 w^2 R/K^2)^(1/3), K = 4 E*/3, but no more than 20 ranges",
+            ),
+            POINTS.or("61"),
+        ],
     ],
-    columns: &[
-        ("approach", "m"),
-        ("force", "N"),
-        ("contact_radius", "m"),
-        ("central_gap", "m"),
-        ("state", ""),
-    ],
+    columns: "approach [m], force [N], contact_radius [m], central_gap [m], state",
     example: "--radius \"1 um\" --contact_modulus \"50 GPa\" --work_of_adhesion \"50 mJ/m^2\" --range \"0.3 nm\" --points 21",
     table: lennard_jones_table,
 };

@@ -3,7 +3,7 @@
 use std::f64::consts::PI;
 
 use super::catalogue::{Model, Table};
-use super::parameters::{CONTACT_MODULUS, RADIUS, RANGE, WORK_OF_ADHESION};
+use super::parameters::{ADHESIVE_SPHERE, RANGE};
 use super::soft::sphere;
 use super::values::Values;
 use crate::cli::Failure;
@@ -15,15 +15,8 @@ pub(super) const TABOR_MAP: Model = Model {
     name: "tabor-map",
     about: "Tabor and Maugis parameters of a sphere and the theory that holds, a row for each law",
     source: "Tabor 1977; Maugis 1992; Johnson & Greenwood 1997, doi:10.1006/jcis.1997.4984",
-    parameters: &[RADIUS, CONTACT_MODULUS, WORK_OF_ADHESION, RANGE],
-    columns: &[
-        ("law", ""),
-        ("tabor_parameter", ""),
-        ("maugis_parameter", ""),
-        ("peak_tension", "Pa"),
-        ("pull_off_force", "N"),
-        ("advice", ""),
-    ],
+    parameters: &[ADHESIVE_SPHERE, &[RANGE]],
+    columns: "law, tabor_parameter, maugis_parameter, peak_tension [Pa], pull_off_force [N], advice",
     example: "--radius \"1 um\" --contact_modulus \"100 GPa\" --work_of_adhesion \"50 mJ/m^2\" --range \"0.3 nm\"",
     table: map_table,
 };

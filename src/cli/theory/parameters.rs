@@ -147,27 +147,24 @@ impl Parameter {
 
     /// The approach of the first row.
     pub const fn from_approach(allowed: Allowed, chosen: &'static str) -> Self {
-        Parameter::from(
-            Dimension::Length,
-            allowed,
-            chosen,
-            "approach of the first row",
-        )
+        let meaning = "approach of the first row";
+        Parameter::from(Dimension::Length, allowed, chosen, meaning)
     }
 
     /// The approach of the last row.
     pub const fn to_approach(allowed: Allowed, chosen: &'static str) -> Self {
-        Parameter::to(
-            Dimension::Length,
-            allowed,
-            chosen,
-            "approach of the last row",
-        )
+        let meaning = "approach of the last row";
+        Parameter::to(Dimension::Length, allowed, chosen, meaning)
     }
 
     /// The same with another need.
     pub const fn needed(self, need: Need) -> Self {
         Parameter { need, ..self }
+    }
+
+    /// The same with a default.
+    pub const fn or(self, default: &'static str) -> Self {
+        self.needed(Need::Default(default))
     }
 }
 
@@ -180,6 +177,8 @@ pub(super) const WORK_OF_ADHESION: Parameter = Parameter::positive(
     Dimension::EnergyPerArea,
     "energy per area to separate the surfaces",
 );
+/// What every adhesive sphere has.
+pub(super) const ADHESIVE_SPHERE: &[Parameter] = &[RADIUS, CONTACT_MODULUS, WORK_OF_ADHESION];
 pub(super) const RANGE: Parameter = Parameter::positive(
     "range",
     Dimension::Length,

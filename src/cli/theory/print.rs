@@ -5,6 +5,7 @@ use std::fmt::Write;
 use super::catalogue::{Cell, Model, Table};
 use super::parameters::{Kind, Need, Parameter};
 use super::values::Values;
+use crate::output::csv_line::csv_line;
 use crate::units::Dimension;
 
 /// The table as CSV: comments on where it comes from, a head of names, the rows.
@@ -24,14 +25,11 @@ pub(super) fn csv(model: &Model, values: &Values, table: &Table) -> String {
     for note in &table.notes {
         comment(note);
     }
-    comment(&format!("columns: {}", columns_with_units(model)));
-    let names: Vec<&str> = model.columns.iter().map(|(name, _)| *name).collect();
-    text.push_str(&names.join(","));
-    text.push('\n');
+    comment(&format!("columns: {}", model.columns));
+    let names = model.columns.split(", ");
+    text += &csv_line(names.map(|column| column.split(" [").next().unwrap_or(column)));
     for row in &table.rows {
-        let cells: Vec<String> = row.iter().map(shown).collect();
-        text.push_str(&cells.join(","));
-        text.push('\n');
+        text += &csv_line(row.iter().map(shown));
     }
     text
 }
@@ -43,17 +41,6 @@ fn shown(cell: &Cell) -> String {
         Cell::Number(_) => String::new(),
         Cell::Word(word) => (*word).to_owned(),
     }
-}
-
-fn columns_with_units(model: &Model) -> String {
-    let one = |(name, unit): &(&str, &str)| {
-        if unit.is_empty() {
-            (*name).to_owned()
-        } else {
-            format!("{name} [{unit}]")
-        }
-    };
-    model.columns.iter().map(one).collect::<Vec<_>>().join(", ")
 }
 
 /// Every model with its parameters.
@@ -81,7 +68,7 @@ pub(super) fn help(model: &Model) -> String {
 
 fn entry(model: &Model) -> String {
     let mut text = format!("{}: {}\n", model.name, model.about);
-    for parameter in model.parameters {
+    for parameter in model.parameters() {
         let _ = writeln!(
             text,
             "  {:<22} {:<7} {}{}",
@@ -91,7 +78,7 @@ fn entry(model: &Model) -> String {
             need(parameter)
         );
     }
-    let _ = writeln!(text, "  gives {}", columns_with_units(model));
+    let _ = writeln!(text, "  gives {}", model.columns);
     text
 }
 

@@ -30,7 +30,7 @@ pub(super) const PERSSON: Model = Model {
     name: "persson",
     about: "area, mean gap, stiffness and attraction of a self-affine surface, by repulsive pressure",
     source: "Persson 2001, 2008; Yang & Persson 2008; Afferrante et al. 2018; Persson & Scaraggi 2014",
-    parameters: &[
+    parameters: &[&[
         Parameter {
             name: "hurst",
             kind: Kind::Quantity(Dimension::Dimensionless, Allowed::Inside(0.0, 1.0)),
@@ -65,16 +65,9 @@ pub(super) const PERSSON: Model = Model {
             "contact modulus times rms slope",
             "repulsive pressure of the last row",
         ),
-        POINTS.needed(Need::Default("31")),
-    ],
-    columns: &[
-        ("mean_pressure", "Pa"),
-        ("contact_area_fraction", ""),
-        ("mean_gap", "m"),
-        ("stiffness", "Pa/m"),
-        ("adhesive_pressure", "Pa"),
-        ("repulsive_pressure", "Pa"),
-    ],
+        POINTS.or("31"),
+    ]],
+    columns: "mean_pressure [Pa], contact_area_fraction, mean_gap [m], stiffness [Pa/m], adhesive_pressure [Pa], repulsive_pressure [Pa]",
     example: "--hurst 0.8 --rms_height \"0.52 nm\" --longest \"25 um\" --rolloff \"6.3 um\" --shortest \"0.2 um\" --contact_modulus \"1.33 TPa\" --work_of_adhesion \"0.2 J/m^2\" --range \"1 nm\" --points 5",
     table: persson_table,
 };
@@ -147,7 +140,7 @@ pub(super) const BAM: Model = Model {
     name: "bam",
     about: "bearing-area model of a self-affine surface with constant tension within the range",
     source: "Ciavarella 2018",
-    parameters: &[
+    parameters: &[&[
         RMS_HEIGHT,
         Parameter::positive(
             "rolloff",
@@ -170,8 +163,8 @@ pub(super) const BAM: Model = Model {
             "mean gap of the last row",
         ),
         POINTS,
-    ],
-    columns: &[("mean_gap", "m"), ("mean_pressure", "Pa")],
+    ]],
+    columns: "mean_gap [m], mean_pressure [Pa]",
     example: "--rms_height \"0.52 nm\" --rolloff \"6.3 um\" --contact_modulus \"1.33 TPa\" --work_of_adhesion \"0.2 J/m^2\" --range \"1 nm\"",
     table: bam_table,
 };
@@ -197,7 +190,7 @@ pub(super) const PASTEWKA_ROBBINS: Model = Model {
     name: "pastewka-robbins",
     about: "whether a rough surface sticks, by the range of the attraction: repulsion over attraction, below 1 it does",
     source: "Pastewka & Robbins 2014, doi:10.1073/pnas.1320846111",
-    parameters: &[
+    parameters: &[&[
         RMS_SLOPE,
         Parameter::positive(
             "rms_curvature",
@@ -206,14 +199,12 @@ pub(super) const PASTEWKA_ROBBINS: Model = Model {
         ),
         CONTACT_MODULUS,
         WORK_OF_ADHESION,
-        Parameter {
-            need: Need::Default("2"),
-            ..Parameter::positive(
-                "area_coefficient",
-                Dimension::Dimensionless,
-                "contact area over load/(E* rms slope)",
-            )
-        },
+        Parameter::positive(
+            "area_coefficient",
+            Dimension::Dimensionless,
+            "contact area over load/(E* rms slope)",
+        )
+        .or("2"),
         Parameter::from(
             Dimension::Length,
             Allowed::Positive,
@@ -226,9 +217,9 @@ pub(super) const PASTEWKA_ROBBINS: Model = Model {
             "100 of it",
             "range of the last row",
         ),
-        POINTS.needed(Need::Default("31")),
-    ],
-    columns: &[("range", "m"), ("stickiness_ratio", ""), ("sticky", "")],
+        POINTS.or("31"),
+    ]],
+    columns: "range [m], stickiness_ratio, sticky",
     example: "--rms_slope 0.00115 --rms_curvature \"9e3 1/m\" --contact_modulus \"1.33 TPa\" --work_of_adhesion \"0.2 J/m^2\"",
     table: pastewka_robbins_table,
 };

@@ -6,10 +6,8 @@
 use std::f64::consts::PI;
 
 use super::catalogue::{Cell, Model, Table};
-use super::dmt::LAST_APPROACH;
-use super::parameters::{
-    Allowed, CONTACT_MODULUS, DIRECTION, Need, POINTS, Parameter, RADIUS, RANGE, WORK_OF_ADHESION,
-};
+use super::dmt::{LAST_APPROACH, LAST_APPROACH_WORDS};
+use super::parameters::{ADHESIVE_SPHERE, Allowed, DIRECTION, Need, POINTS, Parameter, RANGE};
 use super::values::Values;
 use crate::cli::Failure;
 use crate::theory::maugis_dugdale::{MaugisDugdale, State};
@@ -23,17 +21,7 @@ pub(super) const ATTRACTED: &str = "attracted";
 /// In contact.
 pub(super) const CONTACT: &str = "contact";
 
-/// The first approach, any.
-pub(super) const fn from(chosen: &'static str) -> Parameter {
-    Parameter::from_approach(Allowed::Any, chosen)
-}
-
-/// The last approach, any.
-pub(super) const fn to(chosen: &'static str) -> Parameter {
-    Parameter::to_approach(Allowed::Any, chosen)
-}
-
-const TO: Parameter = to("4 (pi^2 w^2 R/K^2)^(1/3), K = 4 E*/3");
+const TO: Parameter = Parameter::to_approach(Allowed::Any, LAST_APPROACH_WORDS);
 
 /// The sphere of the three parameters that all of them have.
 pub(super) fn sphere(values: &Values) -> Result<Sphere, Failure> {
@@ -49,20 +37,15 @@ pub(super) const JKR: Model = Model {
     about: "soft sphere, attraction of no range",
     source: "Johnson, Kendall & Roberts 1971, doi:10.1098/rspa.1971.0141",
     parameters: &[
-        RADIUS,
-        CONTACT_MODULUS,
-        WORK_OF_ADHESION,
-        DIRECTION,
-        from("where a held approach lets go"),
-        TO,
-        POINTS,
+        ADHESIVE_SPHERE,
+        &[
+            DIRECTION,
+            Parameter::from_approach(Allowed::Any, "where a held approach lets go"),
+            TO,
+            POINTS,
+        ],
     ],
-    columns: &[
-        ("approach", "m"),
-        ("force", "N"),
-        ("contact_radius", "m"),
-        ("state", ""),
-    ],
+    columns: "approach [m], force [N], contact_radius [m], state",
     example: "--radius \"1 um\" --contact_modulus \"1 MPa\" --work_of_adhesion \"50 mJ/m^2\"",
     table: jkr_table,
 };
@@ -112,28 +95,22 @@ pub(super) const MAUGIS_DUGDALE: Model = Model {
     about: "sphere with a cohesive zone of constant tension, from DMT to JKR",
     source: "Maugis 1992, doi:10.1016/0021-9797(92)90285-T",
     parameters: &[
-        RADIUS,
-        CONTACT_MODULUS,
-        WORK_OF_ADHESION,
-        RANGE.needed(Need::Either("peak_tension")),
-        Parameter::positive(
-            "peak_tension",
-            Dimension::Pressure,
-            "tension of the cohesive zone, w/range",
-        )
-        .needed(Need::Either("range")),
-        DIRECTION,
-        from("where the attraction is first or last felt"),
-        TO,
-        POINTS,
+        ADHESIVE_SPHERE,
+        &[
+            RANGE.needed(Need::Either("peak_tension")),
+            Parameter::positive(
+                "peak_tension",
+                Dimension::Pressure,
+                "tension of the cohesive zone, w/range",
+            )
+            .needed(Need::Either("range")),
+            DIRECTION,
+            Parameter::from_approach(Allowed::Any, "where the attraction is first or last felt"),
+            TO,
+            POINTS,
+        ],
     ],
-    columns: &[
-        ("approach", "m"),
-        ("force", "N"),
-        ("contact_radius", "m"),
-        ("cohesive_radius", "m"),
-        ("state", ""),
-    ],
+    columns: "approach [m], force [N], contact_radius [m], cohesive_radius [m], state",
     example: "--radius \"1 um\" --contact_modulus \"1 MPa\" --work_of_adhesion \"50 mJ/m^2\" --range \"50 nm\"",
     table: maugis_table,
 };

@@ -10,31 +10,16 @@ use crate::theory::cone_punch::{Cone, punch_force};
 use crate::theory::{Sphere, hertz};
 use crate::units::Dimension;
 
-/// First approach of a contact that touches from 0 on.
+/// First approach of a contact that touches from 0 on, and its last.
 const FROM: Parameter = Parameter::from_approach(Allowed::NotNegative, "0");
-
-const fn to(chosen: &'static str) -> Parameter {
-    Parameter::to_approach(Allowed::NotNegative, chosen)
-}
+const TO: Parameter = Parameter::to_approach(Allowed::NotNegative, "1 % of the radius");
 
 pub(super) const HERTZ: Model = Model {
     name: "hertz",
     about: "sphere on an elastic half-space, no adhesion",
     source: "Hertz 1882; Johnson 1985",
-    parameters: &[
-        RADIUS,
-        CONTACT_MODULUS,
-        FROM,
-        to("1 % of the radius"),
-        POINTS,
-    ],
-    columns: &[
-        ("approach", "m"),
-        ("force", "N"),
-        ("contact_radius", "m"),
-        ("peak_pressure", "Pa"),
-        ("stiffness", "N/m"),
-    ],
+    parameters: &[&[RADIUS, CONTACT_MODULUS, FROM, TO, POINTS]],
+    columns: "approach [m], force [N], contact_radius [m], peak_pressure [Pa], stiffness [N/m]",
     example: "--radius \"1 mm\" --contact_modulus \"1 GPa\" --to \"100 nm\"",
     table: hertz_table,
 };
@@ -62,7 +47,7 @@ pub(super) const CONE: Model = Model {
     name: "cone",
     about: "cone on an elastic half-space, no adhesion",
     source: "Sneddon 1965",
-    parameters: &[
+    parameters: &[&[
         Parameter {
             name: "half_angle",
             kind: Kind::Quantity(Dimension::Angle, Allowed::Inside(0.0, FRAC_PI_2)),
@@ -79,13 +64,8 @@ pub(super) const CONE: Model = Model {
         )
         .needed(Need::Required),
         POINTS,
-    ],
-    columns: &[
-        ("approach", "m"),
-        ("force", "N"),
-        ("contact_radius", "m"),
-        ("contact_pressure", "Pa"),
-    ],
+    ]],
+    columns: "approach [m], force [N], contact_radius [m], contact_pressure [Pa]",
     example: "--half_angle \"85 deg\" --contact_modulus \"1 GPa\" --to \"200 nm\"",
     table: cone_table,
 };
@@ -105,18 +85,14 @@ pub(super) const FLAT_PUNCH: Model = Model {
     name: "flat-punch",
     about: "rigid flat circular punch on an elastic half-space, no adhesion",
     source: "Sneddon 1965",
-    parameters: &[
+    parameters: &[&[
         Parameter::positive("radius", Dimension::Length, "radius of the punch"),
         CONTACT_MODULUS,
         FROM,
-        to("1 % of the radius"),
+        TO,
         POINTS,
-    ],
-    columns: &[
-        ("approach", "m"),
-        ("force", "N"),
-        ("contact_pressure", "Pa"),
-    ],
+    ]],
+    columns: "approach [m], force [N], contact_pressure [Pa]",
     example: "--radius \"1 um\" --contact_modulus \"1 GPa\"",
     table: punch_table,
 };
@@ -126,6 +102,6 @@ fn punch_table(values: &Values) -> Result<Table, Failure> {
     let places = values.places(0.0, 0.01 * radius)?;
     Table::over(&places, |approach| {
         let force = punch_force(radius, modulus, approach)?;
-        numbers([approach, force, force / (PI * radius * radius)])
+        numbers([approach, force, (force / (PI * radius * radius))])
     })
 }

@@ -57,7 +57,7 @@ pub(super) const GW: Model = Model {
     name: "gw",
     about: "rough surface as independent Hertz summits, no adhesion",
     source: "Greenwood & Williamson 1966, doi:10.1098/rspa.1966.0242",
-    parameters: &[
+    parameters: &[&[
         SUMMIT_RADIUS,
         DENSITY,
         RMS_HEIGHT,
@@ -65,13 +65,8 @@ pub(super) const GW: Model = Model {
         FROM,
         TO,
         POINTS,
-    ],
-    columns: &[
-        ("separation", "m"),
-        ("mean_pressure", "Pa"),
-        ("contact_area_fraction", ""),
-        ("contact_density", "1/m^2"),
-    ],
+    ]],
+    columns: "separation [m], mean_pressure [Pa], contact_area_fraction, contact_density [1/m^2]",
     example: EXAMPLE,
     table: |values| {
         let (summits, places) = summits(values)?;
@@ -91,7 +86,7 @@ pub(super) const GW_M: Model = Model {
     name: "gw-m",
     about: "as gw, where each summit in contact pulls with 2 pi w R",
     source: "Maugis 1996",
-    parameters: &[
+    parameters: &[&[
         SUMMIT_RADIUS,
         DENSITY,
         RMS_HEIGHT,
@@ -100,7 +95,7 @@ pub(super) const GW_M: Model = Model {
         FROM,
         TO,
         POINTS,
-    ],
+    ]],
     columns: GW.columns,
     example: EXAMPLE_ADHESIVE,
     table: |values| {
@@ -124,7 +119,7 @@ pub(super) const FULLER_TABOR: Model = Model {
     name: "fuller-tabor",
     about: "rough surface as independent JKR summits",
     source: "Fuller & Tabor 1975, doi:10.1098/rspa.1975.0138",
-    parameters: &[
+    parameters: &[&[
         SUMMIT_RADIUS,
         DENSITY,
         RMS_HEIGHT,
@@ -134,8 +129,8 @@ pub(super) const FULLER_TABOR: Model = Model {
         FROM,
         TO,
         POINTS,
-    ],
-    columns: &[("separation", "m"), ("mean_pressure", "Pa")],
+    ]],
+    columns: "separation [m], mean_pressure [Pa]",
     example: EXAMPLE_ADHESIVE,
     table: fuller_tabor_table,
 };
@@ -153,7 +148,7 @@ fn fuller_tabor_table(values: &Values) -> Result<Table, Failure> {
     let mut table = Table::over(&places, |separation| {
         let reduced = separation / summits.rms_height();
         let pressure = fuller_tabor::reduced_pressure(theta, reduced, path)?;
-        numbers([separation, unit * pressure])
+        numbers([separation, (unit * pressure)])
     })?;
     table.note("adhesion_parameter", theta, "");
     let (_, pull_off) = fuller_tabor::reduced_pull_off(theta)?;

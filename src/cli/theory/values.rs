@@ -29,7 +29,7 @@ impl Values {
         let mut problems = Vec::new();
         let given = pairs(model, words, &mut problems);
         let mut values = Values::default();
-        for parameter in model.parameters {
+        for parameter in model.parameters() {
             let text = match (given.get(parameter.name), parameter.need) {
                 (Some(text), _) => text.as_deref(),
                 (None, Need::Default(text)) => Some(text),
@@ -206,6 +206,6 @@ impl Values {
             }
             .map(|text| (name, text))
         };
-        model.parameters.iter().filter_map(show).collect()
+        model.parameters().filter_map(show).collect()
     }
 }

@@ -21,7 +21,7 @@ pub(super) const WESTERGAARD: Model = Model {
     name: "westergaard",
     about: "line wave pressed flat, no adhesion",
     source: "Westergaard 1939",
-    parameters: &[
+    parameters: &[&[
         AMPLITUDE,
         WAVELENGTH,
         CONTACT_MODULUS,
@@ -38,13 +38,8 @@ pub(super) const WESTERGAARD: Model = Model {
             "mean pressure of the last row",
         ),
         POINTS,
-    ],
-    columns: &[
-        ("mean_pressure", "Pa"),
-        ("contact_area_fraction", ""),
-        ("mean_gap", "m"),
-        ("peak_pressure", "Pa"),
-    ],
+    ]],
+    columns: "mean_pressure [Pa], contact_area_fraction, mean_gap [m], peak_pressure [Pa]",
     example: "--amplitude \"10 nm\" --wavelength \"1 um\" --contact_modulus \"1 GPa\"",
     table: westergaard_table,
 };
@@ -78,7 +73,7 @@ pub(super) const WAVY_ADHESIVE: Model = Model {
     name: "wavy-adhesive",
     about: "line wave with attraction of no range, all equilibria from no to nearly full contact",
     source: "Johnson 1995",
-    parameters: &[
+    parameters: &[&[
         AMPLITUDE,
         WAVELENGTH,
         CONTACT_MODULUS,
@@ -86,8 +81,8 @@ pub(super) const WAVY_ADHESIVE: Model = Model {
         share("from", "0", "contact area fraction of the first row"),
         share("to", "0.99", "contact area fraction of the last row"),
         POINTS,
-    ],
-    columns: &[("contact_area_fraction", ""), ("mean_pressure", "Pa")],
+    ]],
+    columns: "contact_area_fraction, mean_pressure [Pa]",
     example: "--amplitude \"10 nm\" --wavelength \"1 um\" --contact_modulus \"10 MPa\" --work_of_adhesion \"0.2 mJ/m^2\"",
     table: adhesive_table,
 };

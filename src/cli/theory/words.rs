@@ -21,7 +21,7 @@ pub(super) fn pairs(
             problems.push(format!(
                 "{} stands where a parameter is due, such as --{}; a value with a space in it needs quotes",
                 quoted(word),
-                model.parameters[0].name
+                model.parameters[0][0].name
             ));
             continue;
         };
@@ -30,12 +30,12 @@ pub(super) fn pairs(
             None => (rest, words.next_if(|next| !next.starts_with("--")).cloned()),
         };
         let spelled = key.replace('-', "_");
-        let Some(parameter) = model.parameters.iter().find(|known| known.name == spelled) else {
+        let Some(parameter) = model.parameters().find(|known| known.name == spelled) else {
             problems.push(format!(
                 "{} has no parameter {}; did you mean --{}? It takes {}",
                 model.name,
                 quoted(&format!("--{key}")),
-                nearest(&spelled, model.parameters.iter().map(|known| known.name)),
+                nearest(&spelled, model.parameters().map(|known| known.name)),
                 names(model)
             ));
             continue;
@@ -57,8 +57,7 @@ pub(super) fn pairs(
 
 fn names(model: &Model) -> String {
     let names: Vec<String> = model
-        .parameters
-        .iter()
+        .parameters()
         .map(|parameter| format!("--{}", parameter.name))
         .collect();
     names.join(", ")
@@ -100,12 +99,7 @@ pub(super) fn misses(
 }
 
 fn comes_first(model: &Model, name: &str, other: &str) -> bool {
-    let place = |wanted: &str| {
-        model
-            .parameters
-            .iter()
-            .position(|known| known.name == wanted)
-    };
+    let place = |wanted: &str| model.parameters().position(|known| known.name == wanted);
     place(name) < place(other)
 }
 

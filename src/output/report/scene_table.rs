@@ -1,10 +1,9 @@
 //! The scene on the report: a table, and the equivalent scene file.
 
-use std::fmt::Write as _;
-
+use maud::{Markup, html};
 use serde_json::{Value, json};
 
-use super::escape;
+use super::facts;
 use crate::scene::{Control, EffectTables};
 use crate::study::Setup;
 use crate::units::format_si;
@@ -14,8 +13,8 @@ const SHOWN_VALUES: usize = 16;
 /// Longest scene file that is put on a page, bytes.
 const LONGEST_FILE: usize = 200_000;
 
-/// The section of the scene.
-pub(super) fn html(setup: &Setup) -> String {
+/// The scene as a table of its keys, and as a file.
+pub(super) fn html(setup: &Setup) -> Markup {
     let scene = setup.scene.resolved_json();
     let mut shown = scene.clone();
     if let (Some(durations), Some(loading)) = (
@@ -43,28 +42,17 @@ pub(super) fn html(setup: &Setup) -> String {
             }
         }
     }
-    let mut text =
-        String::from("<section>\n<h2>Scene</h2>\n<div class=\"scroll\"><table>\n<tbody>\n");
-    for (key, value) in rows {
-        let _ = writeln!(
-            text,
-            "<tr><th scope=\"row\">{}</th><td>{}</td></tr>",
-            escape(&key),
-            escape(&value)
-        );
+    let file = toml::to_string(&scene).ok();
+    let file = file.filter(|file| file.len() <= LONGEST_FILE);
+    html! {
+        (facts(&rows))
+        @if let Some(file) = file {
+            details {
+                summary { "As a scene file, defaults filled in, SI units" }
+                pre { (file) }
+            }
+        }
     }
-    text.push_str("</tbody>\n</table></div>\n");
-    if let Ok(file) = toml::to_string(&scene)
-        && file.len() <= LONGEST_FILE
-    {
-        let _ = writeln!(
-            text,
-            "<details><summary>As a scene file, defaults filled in, SI units</summary>\n<pre>{}</pre></details>",
-            escape(&file)
-        );
-    }
-    text.push_str("</section>\n");
-    text
 }
 
 /// Adds a line for each value below `key`.
