@@ -6,17 +6,15 @@
 //! shipped scenes takes on average. `--seed` replaces the seeds of all random surfaces. A transform on a coarser grid
 //! counts in proportion to its points.
 
-use std::convert::Infallible;
 use std::error::Error;
 use std::path::{Path, PathBuf};
 use std::time::Instant;
 
+use cpu_time::ProcessTime;
 use tabor::backend::Backend;
 use tabor::backend::cpu::{CpuBackend, with_threads};
-use tabor::kernel::Scalars;
-use tabor::output::cpu_seconds;
 use tabor::scene::{Scene, SurfacePart};
-use tabor::study::{FinishedStep, Observer, Setup, walk};
+use tabor::study::{Setup, walk};
 use tabor::surface::Surface;
 
 type Failure = Box<dyn Error + Send + Sync>;
@@ -33,20 +31,6 @@ const STEPS_OF: [&str; 5] = [
     "ground",
     "contact_challenge",
 ];
-
-struct Silent;
-
-impl Observer for Silent {
-    type Error = Infallible;
-
-    fn step(&mut self, _: FinishedStep) -> Result<(), Infallible> {
-        Ok(())
-    }
-
-    fn iteration(&mut self, _: usize, _: &Scalars) -> bool {
-        true
-    }
-}
 
 /// What a scene took.
 struct Taken {
@@ -67,13 +51,12 @@ fn run(scene: &Scene) -> Result<Taken, Failure> {
             let surface = Surface::build(scene)?;
             let setup = Setup::new(scene.clone(), surface);
             let make = || -> Box<dyn Backend + Send> { Box::new(CpuBackend::<f64>::new()) };
-            let (clock, before) = (Instant::now(), cpu_seconds().unwrap_or(f64::NAN));
-            let end = walk(&setup, &make, &mut Silent)?;
-            let cpu = cpu_seconds().unwrap_or(f64::NAN) - before;
+            let (clock, cpu) = (Instant::now(), ProcessTime::now());
+            let end = walk(&setup, &make, &mut ())?;
             Ok((
                 end.rows.len(),
                 end.transforms,
-                [cpu, clock.elapsed().as_secs_f64()],
+                [cpu.elapsed().as_secs_f64(), clock.elapsed().as_secs_f64()],
             ))
         })??;
         (taken.steps, taken.transforms) = (walked.0, walked.1);
