@@ -47,9 +47,9 @@ fn operator(criterion: &mut Criterion) {
             backend.write(displacement, &waves);
             group.bench_function(BenchmarkId::new(name, points), |bencher| {
                 bencher.iter(|| {
-                    backend.forward(&displacement::LOAD_FIELD, level, &[displacement]);
+                    backend.run(&displacement::LOAD_FIELD, level, &[displacement]);
                     backend.multiply(stiffness, false, Gate::Always);
-                    backend.backward(&displacement::STORE_FIELD, level, &[pressure]);
+                    backend.run(&displacement::STORE_FIELD, level, &[pressure]);
                     // Waits: a backend that records must run what it recorded.
                     black_box(backend.scalars().expect("no backend fails here"))
                 });

@@ -93,7 +93,7 @@ fn conjugate_direction() {
     var d_mean = ZERO;
     var residual_sum = ZERO;
     var change_sum = ZERO;
-    if (params.fixed_gap != 0u) {
+    if (params.prescribed_mean_gap != 0u) {
         z_mean = quotient(scalars.sums_weighted_z, scalars.sums_free_weight);
         d_mean = quotient(scalars.sums_weighted_direction, scalars.sums_free_weight);
         residual_sum = scalars.sums_free_residual;

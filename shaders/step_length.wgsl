@@ -9,7 +9,7 @@ fn rigid_motion() -> bool {
         scalars.status = NOT_FINITE;
     } else if (scalars.least_step > ZERO && params.may_detach != 0u) {
         scalars.status = PULLED_OFF;
-    } else if (scalars.largest_step < ZERO && is_finite(scalars.first_touch) && params.fixed_gap == 0u) {
+    } else if (scalars.largest_step < ZERO && is_finite(scalars.first_touch) && params.prescribed_mean_gap == 0u) {
         scalars.step = scalars.first_touch;
         scalars.length = scalars.step;
     } else {

@@ -5,6 +5,8 @@
 //! stays where the scene's own grid has it. A periodic height file is interpolated by its Fourier
 //! series. Surfaces that belong to one grid are refused.
 
+use std::sync::Arc;
+
 use num_complex::Complex;
 
 use super::error::AccuracyError;
@@ -63,7 +65,7 @@ impl GridIndependentSurface {
                 .collect();
             let read = Surface::from_parts(&scene.grid, &parts)?;
             files = Some(fourier::analyse(&read.grid, &read.heights));
-            sampled = read.heights;
+            sampled = Arc::unwrap_or_clone(read.heights);
             warnings = read.warnings;
             read.grid
         } else {
@@ -113,7 +115,7 @@ impl GridIndependentSurface {
         } else {
             fourier::synthesise(&surface.grid, resized(&self.grid, series, &surface.grid))
         };
-        for (height, more) in surface.heights.iter_mut().zip(more) {
+        for (height, more) in Arc::make_mut(&mut surface.heights).iter_mut().zip(more) {
             *height += more;
         }
         surface.highest = surface

@@ -5,7 +5,7 @@ use crate::kernel::{Gate, Kernel, Params, ScalarKernel, Scalars};
 
 /// One thing that would be held in memory.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub struct Held {
+pub struct Allocation {
     /// Its name.
     pub name: &'static str,
     /// The level it lives on.
@@ -45,10 +45,10 @@ impl Place {
     fn work(self, shape: Shape) -> usize {
         let [nx, ny] = shape.points;
         match self {
-            // Once by rows and once by columns, complex.
+            // Tiles of complex numbers, each with its lock.
             Place::Double | Place::Single => {
                 let tiles = (nx / 2 + 1).div_ceil(TILE) * ny.div_ceil(TILE);
-                2 * tiles * TILE * TILE * 2 * self.number()
+                tiles * (TILE * TILE * 2 * self.number() + LOCK)
             }
             // Half as many complex numbers as points.
             Place::Gpu | Place::GpuDouble => shape.len() * self.number(),
@@ -63,11 +63,11 @@ pub struct DryRun {
     /// Levels and their shapes.
     pub levels: Vec<Shape>,
     /// Fields, in the order in which they were made.
-    pub fields: Vec<Held>,
+    pub fields: Vec<Allocation>,
     /// Spectra that are tables.
-    pub spectra: Vec<Held>,
+    pub spectra: Vec<Allocation>,
     /// Work space of transforms, one entry a level.
-    pub work: Vec<Held>,
+    pub work: Vec<Allocation>,
     /// Names of the passes, in order: kernels, `multiply` for the columns of a convolution.
     pub passes: Vec<&'static str>,
     /// The first mistake in a field list.
@@ -79,6 +79,8 @@ pub struct DryRun {
 
 /// Side of the tiles in which the CPU stores spectra.
 const TILE: usize = 8;
+/// Bytes of the lock on one, as far as it needs.
+const LOCK: usize = 8;
 
 impl Default for DryRun {
     fn default() -> Self {
@@ -108,17 +110,6 @@ impl DryRun {
         }
     }
 
-    fn pass(&mut self, kernel: &'static Kernel, fields: &[Field]) {
-        if self.mistake.is_none() {
-            self.mistake = check_fields(kernel, fields).err();
-        }
-        self.passes.push(kernel.name);
-        // One search of a step length is one pass here, whatever the numbers would say.
-        if kernel.gate == Gate::Searching {
-            self.scalars.searching = false;
-        }
-    }
-
     fn share_of_first(&self, level: Level) -> f64 {
         self.levels[level.0].len() as f64 / self.levels[0].len() as f64
     }
@@ -128,7 +119,7 @@ impl Backend for DryRun {
     fn level(&mut self, name: &'static str, shape: Shape) -> Level {
         let level = Level(self.levels.len());
         self.levels.push(shape);
-        self.work.push(Held {
+        self.work.push(Allocation {
             name,
             level,
             bytes: self.place.work(shape),
@@ -146,7 +137,7 @@ impl Backend for DryRun {
 
     fn field(&mut self, level: Level, name: &'static str) -> Field {
         let bytes = self.levels[level.0].len() * self.place.number();
-        self.fields.push(Held { name, level, bytes });
+        self.fields.push(Allocation { name, level, bytes });
         Field {
             level,
             index: self.fields.len() - 1,
@@ -157,7 +148,7 @@ impl Backend for DryRun {
         // A graphics processor computes those of a half-space in its registers.
         if !(self.place.on_gpu() && matches!(factors, Factors::HalfSpace(..))) {
             let bytes = self.levels[level.0].spectrum_len() * self.place.number();
-            self.spectra.push(Held { name, level, bytes });
+            self.spectra.push(Allocation { name, level, bytes });
         }
         self.spectra_made += 1;
         Spectrum {
@@ -190,8 +181,16 @@ impl Backend for DryRun {
         Ok(self.scalars)
     }
 
-    fn sweep(&mut self, kernel: &'static Kernel, _level: Level, fields: &[Field]) {
-        self.pass(kernel, fields);
+    fn run(&mut self, kernel: &'static Kernel, level: Level, fields: &[Field]) {
+        if self.mistake.is_none() {
+            self.mistake = check_fields(kernel, fields).err();
+        }
+        self.passes.push(kernel.name);
+        self.transforms += kernel.form.transforms() * self.share_of_first(level);
+        // One search of a step length is one pass here, whatever the numbers would say.
+        if kernel.gate == Gate::Searching {
+            self.scalars.searching = false;
+        }
     }
 
     fn scalar(&mut self, kernel: &'static ScalarKernel) {
@@ -200,24 +199,9 @@ impl Backend for DryRun {
         }
     }
 
-    fn forward(&mut self, kernel: &'static Kernel, level: Level, fields: &[Field]) {
-        self.pass(kernel, fields);
-        self.transforms += 0.5 * self.share_of_first(level);
-    }
-
     fn multiply(&mut self, by: Spectrum, _energy: bool, _gate: Gate) {
         self.passes.push("multiply");
         self.transforms += self.share_of_first(by.level);
-    }
-
-    fn backward(&mut self, kernel: &'static Kernel, level: Level, fields: &[Field]) {
-        self.pass(kernel, fields);
-        self.transforms += 0.5 * self.share_of_first(level);
-    }
-
-    fn inverse_then_forward(&mut self, kernel: &'static Kernel, level: Level, fields: &[Field]) {
-        self.pass(kernel, fields);
-        self.transforms += self.share_of_first(level);
     }
 
     fn epsilon(&self) -> f64 {

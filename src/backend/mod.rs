@@ -3,10 +3,11 @@
 //! A backend holds fields (one number a point) and spectra (one real factor a wavevector), runs
 //! the catalogue's kernels over them, and keeps the algorithm's [`Scalars`] beside them. The
 //! solver is written against this trait alone: it names no thread and no graphics library.
-//! A convolution is three calls, so that what happens to a point as it enters the first row
-//! transform and as it leaves the last one is fused into those rows:
-//! [`forward`](Backend::forward), [`multiply`](Backend::multiply), [`backward`](Backend::backward).
-//! Where one convolution ends in the rows in which the next one starts, [`inverse_then_forward`](Backend::inverse_then_forward) is both.
+//! A convolution is three calls, so that what happens to a point as it enters the first row transform
+//! and as it leaves the last one is fused into those rows: [`run`](Backend::run) with a kernel that fills
+//! the rows of a forward transform, [`multiply`](Backend::multiply), `run` with a kernel that takes the
+//! rows of the inverse one. Where one convolution ends in the rows in which the next one starts, one kernel
+//! does both. Its [`Form`](crate::kernel::Form) says which.
 
 pub mod cpu;
 pub mod dry_run;
@@ -177,21 +178,15 @@ pub trait Backend {
     fn set_scalars(&mut self, scalars: &Scalars);
     /// Waits, and reads the scalars.
     fn scalars(&mut self) -> Result<Scalars, BackendError>;
-    /// Runs a kernel over points, those of kept lines included; its sums go to the scalars.
-    fn sweep(&mut self, kernel: &'static Kernel, level: Level, fields: &[Field]);
+    /// Runs a kernel over the points of a level, with the transforms of rows before and after it that its
+    /// form asks for; its sums go to the scalars.
+    fn run(&mut self, kernel: &'static Kernel, level: Level, fields: &[Field]);
     /// Runs a scalar kernel.
     fn scalar(&mut self, kernel: &'static ScalarKernel);
-    /// Transforms what a kernel makes of the fields, and of the lines that were kept if it takes them,
-    /// into the level's work space.
-    fn forward(&mut self, kernel: &'static Kernel, level: Level, fields: &[Field]);
     /// Multiplies the work space by a spectrum. With `energy`, `sum K |s_q|^2` over all
     /// wavevectors, divided by the number of points, goes to `scalars.curvature`. It changes no field,
     /// so a backend may run it before it knows that the gate shuts.
     fn multiply(&mut self, by: Spectrum, energy: bool, gate: Gate);
-    /// Transforms the work space back and hands it to a kernel that stores or keeps it.
-    fn backward(&mut self, kernel: &'static Kernel, level: Level, fields: &[Field]);
-    /// Transforms the work space back, hands it to a kernel, and transforms what this makes of it.
-    fn inverse_then_forward(&mut self, kernel: &'static Kernel, level: Level, fields: &[Field]);
     /// Relative rounding error of the fields' numbers.
     fn epsilon(&self) -> f64;
     /// Real two-dimensional transforms run so far, forward and inverse one each, those of other

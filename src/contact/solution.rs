@@ -60,8 +60,8 @@ impl Solution {
         let heights = &setup.surface.heights;
         let [gap, pressure, displacement, heights] = match evaluation {
             Some(found) => {
-                let displacement = found.field(FieldName::Displacement, heights);
-                let heights = found.field(FieldName::Heights, heights);
+                let displacement = found.field(FieldName::Displacement, heights).into_owned();
+                let heights = found.field(FieldName::Heights, heights).into_owned();
                 [found.gap, found.pressure, displacement, heights]
             }
             None => {
@@ -71,7 +71,7 @@ impl Solution {
                     f64::NAN
                 };
                 let all = |value: f64| vec![value; grid.len()];
-                [all(f64::INFINITY), all(0.0), all(moved), heights.clone()]
+                [all(f64::INFINITY), all(0.0), all(moved), heights.to_vec()]
             }
         };
         Solution {

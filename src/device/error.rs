@@ -10,7 +10,7 @@ const PROCESSOR: &str = "Device::cpu()";
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
 #[non_exhaustive]
 pub enum DeviceError {
-    /// There is none, or it failed.
+    /// This machine has no graphics processor, or it failed.
     #[error("the GPU cannot be used: {reason}; {PROCESSOR} does without")]
     Unusable {
         /// What is wrong with it.

@@ -22,7 +22,7 @@ pub fn has_adapter_for(scene: &Scene, verbose: bool) -> bool {
     adapter_choice::may_take_adapters(scene) && !list(verbose).is_empty()
 }
 
-/// There is none without the feature `gpu`.
+/// A build without the feature `gpu` has no adapter.
 #[cfg(not(feature = "gpu"))]
 pub fn has_adapter_for(_scene: &Scene, _verbose: bool) -> bool {
     false
@@ -47,7 +47,7 @@ impl Device {
     }
 
     /// A graphics processor, through Vulkan, Metal or Direct3D 12; software drivers will do. A solve fails
-    /// with a [`DeviceError`] where there is none.
+    /// with a [`DeviceError`] on a machine without an adapter.
     pub fn gpu() -> Self {
         Device::from(BackendName::Gpu)
     }

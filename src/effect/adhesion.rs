@@ -5,25 +5,26 @@ use crate::scene::{Range, Scene, Treatment};
 use crate::study::{Hooks, HostBytes, Plan, Regime, Sizes};
 use crate::units::format_si;
 
-/// Values of chi beyond which the contact edge feels the pixels: of the sharp Maugis-Dugdale law, of the
-/// tapered one, and of Lennard-Jones. Up to its own the tapered law lets an edge along the grid go within 3 %
-/// (the table of `docs/solver.md`); between 1/3, where its width reaches twice the range, and 0.65 the error swings.
+/// Values of chi (grid spacing over the length of the cohesive zone) above which the pixels influence the
+/// contact edge: for the sharp Maugis-Dugdale law, for the tapered one, and for Lennard-Jones. Up to its value
+/// the tapered law gives the pull-off of an edge along the grid to 3 % (table of `docs/solver.md`); between 1/3,
+/// where the width of the taper reaches twice the range, and 0.65 the error oscillates.
 const SHARP_LIMIT: f64 = 0.02;
 const TAPERED_LIMIT: f64 = 0.65;
 const CORE_LIMIT: f64 = 0.64;
-/// Values beyond which pull-off is off by 10 % and more: of the sharp law, and of every other.
+/// Values above which the error of pull-off is 10 % or more: for the sharp law, and for every other.
 const SHARP_LOST: f64 = 0.1;
 const LOST: f64 = 1.3;
 
-/// Radius of a contact that lets go, in Maugis' unit `(pi w R^2/K)^(1/3)`: JKR's `1.5^(1/3)`.
+/// Radius of a contact at pull-off in Maugis' unit `(pi w R^2/K)^(1/3)`: JKR's `1.5^(1/3)`.
 const PULL_OFF_RADIUS: f64 = 1.145;
-/// Its width in pixels below which the pixels of its edge are 5 % and 10 % of pull-off, measured at Tabor number 1.
+/// Its width in pixels below which the pixels of its edge change pull-off by 5 % and 10 %, measured at Tabor number 1.
 const FEW_PIXELS: f64 = 10.0;
 const LOST_PIXELS: f64 = 6.0;
-/// Tabor number below which a contact closes to a point before it lets go, so that it has no width.
+/// Tabor number below which a contact shrinks to a point before pull-off, so that it has no width.
 const LEAST_TABOR: f64 = 0.8;
 
-/// An adhesion that other effects vary in their examples.
+/// The adhesion of the examples of other effects.
 pub(super) const EXAMPLE: (&str, &str) = (
     "adhesion",
     "{ law = \"exponential\", work_of_adhesion = 1e-4, range = 0.02 }",
@@ -137,7 +138,7 @@ pub(super) fn warnings_of_pixels(plan: &Plan) -> Vec<String> {
     warnings
 }
 
-/// The warning of a sphere whose contact is only a few pixels wide when it lets go, whatever its zone.
+/// The warning for a sphere whose contact is only a few pixels wide at pull-off, whatever its cohesive zone.
 fn warning_of_small_contact(plan: &Plan, regime: Regime) -> Option<String> {
     let radius = plan.outline.sphere_radius?;
     let pixel = plan.outline.grid.dx().max(plan.outline.grid.dy());

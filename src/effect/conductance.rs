@@ -1,9 +1,9 @@
-//! `[conductance]`: what a solved contact conducts.
+//! `[conductance]`: the thermal or electrical conductance of a solved contact.
 //!
 //! Steady conduction across a set of spots and a further approach of the same spots, held, are one
 //! harmonic problem (Barber 2003, doi:10.1098/rspa.2002.1038), whatever holds the spots together:
 //! the conductance is the incremental stiffness over E*, times the harmonic mean of the conductivities.
-//! Nothing flows through the gap.
+//! The gap does not conduct.
 
 use crate::backend::BackendError;
 use crate::scene::{ConductanceScene, Scene};
@@ -17,7 +17,7 @@ use crate::units::format_si;
 /// converge.
 const CONDUCTANCE: Column = Column::new("conductance", 2);
 
-/// What flows through the area in contact.
+/// Conduction through the area in contact.
 pub(super) struct Conductance;
 
 impl Hooks for Conductance {

@@ -1,5 +1,5 @@
 //! `treatment = "dmt"`, the DMT force approach: attraction summed over the gap of the solution without it,
-//! and under a prescribed load the repulsive load sought that leaves the asked net load.
+//! and under a prescribed load a search for the repulsive load with that net load.
 
 use crate::backend::BackendError;
 use crate::grid::Boundary;
@@ -14,16 +14,16 @@ use crate::study::{
 const MOST_SOLVES: usize = 240;
 /// Repulsive loads below this share of the law's peak are a first touch.
 const TOUCH: f64 = 1e-9;
-/// Factor between repulsive loads of the way down, where no bound allows a longer step: two balances
-/// closer to each other than this may be missed together.
+/// Factor between successive repulsive loads of the search from above, where no bound allows a longer step:
+/// two solutions closer to each other than this may both be missed.
 const RUNG: f64 = 1.15;
 /// The same below the share of the peak at which few summits touch.
 const LIGHT_RUNG: f64 = 1.5;
 const LIGHT: f64 = 1e-3;
-/// Solves that look for the bottom of a dip between three rungs.
+/// Solves that look for a minimum of the net load between three repulsive loads.
 const DIP_SOLVES: usize = 12;
 
-/// Width of a bracket, over the largest repulsive load, at which the net load is taken to jump.
+/// Width of a bracket, over the largest repulsive load, below which the net load counts as jumping.
 const JUMP_WIDTH: f64 = 1e-10;
 
 /// One repulsive load and what is left of it.
@@ -37,14 +37,14 @@ struct Balance {
     solved: SolvedStep,
 }
 
-/// Share of an asked load within which the sum over the field is the load asked.
+/// Relative difference up to which the sum over the field equals the prescribed load.
 const SAME: f64 = 1e-3;
 
-/// Whether the sum over a field (N) is the load asked (N), as far as the search goes; at a jump of the
-/// net load it is not.
+/// Whether the sum over a field (N) is the prescribed load (N), to what the search resolves; at a jump of
+/// the net load it is not.
 fn meets(setup: &Setup, asked: f64, sum: f64) -> bool {
     let peak = setup.law.peak_tension() * setup.largest_law_factor();
-    // What the search leaves: its tolerance, or the width of a bracket in which nothing jumps.
+    // The error of the search: its tolerance, or the width of a bracket without a jump.
     let share = (setup.scene.solver.tolerance * 1e-3).max(10.0 * JUMP_WIDTH);
     let reached = share * peak * setup.surface.grid.area();
     (sum - asked).abs() <= SAME * asked.abs() + reached
@@ -112,10 +112,10 @@ impl Hooks for Dmt {
     }
 }
 
-/// The largest repulsive load whose net load is the value asked; separated where none is.
+/// The largest repulsive load with the prescribed net load; separated if there is none.
 ///
 /// The net load is not monotone in the repulsive one. The search comes from above, where no attraction
-/// can hold, by steps that pass no balance, and by rungs of [`RUNG`] where there is no such step.
+/// suffices, by steps that cannot pass a solution, and by factors of [`RUNG`] where there is no such step.
 fn search(attempt: &mut Attempt) -> Result<SolvedStep, BackendError> {
     let (setup, controller) = (attempt.setup, attempt.controller);
     let asked = controller.mean_pressure(attempt.value);
@@ -149,18 +149,18 @@ fn search(attempt: &mut Attempt) -> Result<SolvedStep, BackendError> {
             solved,
         })
     };
-    // From above: no attraction exceeds the peak everywhere, so here the net load is too large.
+    // From above: the attraction is at most the peak everywhere, so here the net load is too large.
     let mut upper = balance((asked + peak * covered).max(TOUCH * peak))?;
     let scale = upper.repulsive;
     let mut lower: Option<Balance> = None;
-    // The rung above `upper`, while it is not known whether the net load dips between rungs.
+    // The repulsive load above `upper`, while the net load may have a minimum between the two.
     let mut above: Option<(f64, f64)> = None;
     let mut dip: Option<Dip> = None;
     let mut width = f64::INFINITY;
     for _ in 0..MOST_SOLVES {
         let done = |excess: f64| excess.abs() <= tolerance * (asked.abs() + scale * 1e-3);
         // A law with tension at zero gap makes the net load jump as a point leaves the contact;
-        // where the asked load lies within such a jump, the two sides of it are one state.
+        // where the prescribed load lies within such a jump, its two sides are one state.
         let at_a_jump = width <= JUMP_WIDTH * scale;
         if !upper.solved.converged || done(upper.excess) || at_a_jump {
             upper.solved.iterations = iterations;
@@ -169,8 +169,8 @@ fn search(attempt: &mut Attempt) -> Result<SolvedStep, BackendError> {
         let next = match &lower {
             None => match &dip {
                 Some(dip) => dip.next(),
-                // No balance lies above what the most attraction of any lesser load would bring; where
-                // that is no progress, a rung down.
+                // No solution lies above the bound from the greatest attraction of any lesser load; where that
+                // is no progress, one factor down.
                 None => {
                     let factor = if upper.repulsive < LIGHT * peak {
                         LIGHT_RUNG
@@ -225,7 +225,7 @@ fn search(attempt: &mut Attempt) -> Result<SolvedStep, BackendError> {
             upper = found;
         } else if let Some(searched) = &mut dip {
             if !searched.narrow((found.repulsive, found.excess)) {
-                // Nothing in it: the way goes on below.
+                // The minimum holds no solution: the search continues below it.
                 let below = searched.after;
                 dip = None;
                 upper = balance(below)?;
@@ -244,8 +244,8 @@ fn search(attempt: &mut Attempt) -> Result<SolvedStep, BackendError> {
     Ok(upper.solved)
 }
 
-/// Force of the attraction that no state of a lesser repulsive load exceeds, N: each point pulls by
-/// the most that it may as its gap widens, and what touches by the most of all.
+/// Upper bound of the attraction in all states of a lesser repulsive load, N: each point pulls by the most
+/// that it can as its gap widens, and points in contact by the peak.
 fn most_attraction(setup: &Setup, evaluation: &Evaluation) -> f64 {
     let law = setup.law;
     let sum = evaluation
@@ -261,14 +261,14 @@ fn most_attraction(setup: &Setup, evaluation: &Evaluation) -> f64 {
 /// Three repulsive loads from above, with the excess of each, of which the middle one has the least.
 struct Dip {
     places: [(f64, f64); 3],
-    /// The rung at which the way down goes on where the dip holds no balance.
+    /// The repulsive load at which the search continues if the minimum holds no solution.
     after: f64,
     solves: usize,
 }
 
 impl Dip {
-    /// A dip that may reach a balance: its middle lies below both others by more than a quarter of
-    /// what is left.
+    /// A minimum that may reach a solution: its middle lies below both others by more than a quarter of its
+    /// excess.
     fn of(places: [(f64, f64); 3]) -> Option<Dip> {
         let [(_, left), (_, middle), (after, right)] = places;
         let depth = left.min(right) - middle;
@@ -289,7 +289,7 @@ impl Dip {
         }
     }
 
-    /// Takes a state between the three; whether it is worth going on.
+    /// Takes a state between the three; says whether to continue.
     fn narrow(&mut self, found: (f64, f64)) -> bool {
         let [left, middle, right] = self.places;
         self.places = match (found.0 > middle.0, found.1 < middle.1) {

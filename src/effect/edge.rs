@@ -16,7 +16,7 @@ pub(super) struct Edge {
 impl Edge {
     /// The edge of the points of a grid that touch.
     ///
-    /// The staircase of pixels is 4/pi times as long as an edge that runs all ways alike.
+    /// The staircase of pixels is 4/pi times as long as an isotropic edge.
     pub fn of(touches: &[bool], grid: &Grid, boundary: Boundary) -> Edge {
         let (nx, ny) = (grid.nx, grid.ny);
         let wraps = boundary == Boundary::Periodic;

@@ -1,5 +1,5 @@
-//! `boundary = "free"`: one isolated contact on an unbounded half-space. The grid says what lies beyond
-//! its edge, and the problem is posed on it; there is nothing to do on the way.
+//! `boundary = "free"`: one isolated contact on an unbounded half-space. The problem contains it; no step
+//! of a path has to do anything for it.
 
 use crate::grid::Boundary;
 use crate::scene::Scene;

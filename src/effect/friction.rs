@@ -6,7 +6,7 @@ use crate::study::{Column, Evaluation, Hooks, Plan, Setup};
 /// Friction force of the shear strength over the area in contact, N.
 const FORCE: Column = Column::new("friction_force", 0);
 
-/// What it takes to slide the area in contact.
+/// Friction of the area in contact.
 pub(super) struct Friction;
 
 impl Hooks for Friction {

@@ -1,10 +1,12 @@
-//! `hardness` in `[solid]`, a perfectly plastic solid: what the heights of a path have lost for good.
+//! `hardness` in `[solid]`, a perfectly plastic solid: the permanent indentation of the heights.
 //!
 //! Within a step the solver lets the gap go below zero where the pressure has reached the hardness,
-//! see [`kernel::floor`](crate::kernel::floor). At its end that depth is taken off the heights, and
+//! see [`kernel::constraint`](crate::kernel::constraint). At its end that depth is taken off the heights, and
 //! the gap there is zero again: displacement and pressure stay as they are, and the next step starts
-//! from heights that do not come back. A step is thus the minimum of the stored energy and of the
-//! hardness times the volume of its plastic indentation.
+//! from the indented heights. A step thus minimises the stored energy plus the hardness times the volume
+//! of its plastic indentation.
+
+use std::sync::Arc;
 
 use crate::backend::BackendError;
 use crate::scene::{Control, Scene};
@@ -104,7 +106,7 @@ impl Hooks for Hardness {
 struct Indentation {
     /// Empty until the solid yields anywhere.
     depths: Vec<f64>,
-    /// Hardness times the volume that a unit of depth over a pixel holds, J.
+    /// Hardness times the volume of a unit of depth over a pixel, J.
     unit: f64,
 }
 
@@ -116,7 +118,7 @@ impl Carry for Indentation {
     fn checkpoint_fields(&self) -> Vec<CheckpointField> {
         let depths = (!self.depths.is_empty()).then(|| CheckpointField {
             name: DEPTHS.to_owned(),
-            values: self.depths.clone(),
+            values: Arc::new(self.depths.clone()),
         });
         depths.into_iter().collect()
     }
@@ -127,7 +129,7 @@ impl Carry for Indentation {
         }
     }
 
-    /// A mean gap is wider by what the heights have lost.
+    /// The plastic depths widen a mean gap.
     fn load(&self, solver: &ContactSolver, load: Load) -> Load {
         let depths = solver.plastic_depths();
         match load.hold {
@@ -139,7 +141,7 @@ impl Carry for Indentation {
         }
     }
 
-    /// What the gap has below zero is taken off the heights.
+    /// Takes the part of the gap below zero off the heights.
     fn settle(&mut self, solver: &mut ContactSolver) -> Result<(), BackendError> {
         let shape = solver.problem().shape;
         let mut gap = solver.gap()?;

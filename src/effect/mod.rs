@@ -1,8 +1,8 @@
 //! Effects: what a scene may ask for beyond hard, frictionless, elastic contact of a periodic cell.
 //!
 //! Each is one file, which implements the hooks of `study`, and one entry in the list here. An effect
-//! that the scene does not name is not there: it holds no field and makes no pass. What one costs is
-//! found by planning the scene with and without it.
+//! that the scene does not name has no field and no pass. Its cost is the difference of the scene planned
+//! with and without it.
 
 mod adhesion;
 mod adhesion_map;
@@ -50,18 +50,18 @@ const LIST: [&dyn Hooks; 13] = [
 #[derive(Clone, Copy)]
 pub struct Effect(&'static dyn Hooks);
 
-/// What an effect adds to a scene's cost and what it takes away.
+/// The fields, passes and bytes that an effect adds to a scene and removes from it.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub struct EffectCost {
-    /// Fields that are there because of it.
+    /// Fields that it adds.
     pub fields_added: Vec<&'static str>,
-    /// Fields that are not there because of it.
+    /// Fields that it removes.
     pub fields_spared: Vec<&'static str>,
-    /// Passes of an iteration that are there because of it.
+    /// Passes of an iteration that it adds.
     pub passes_added: Vec<&'static str>,
-    /// Passes that are not there because of it.
+    /// Passes that it removes.
     pub passes_spared: Vec<&'static str>,
-    /// Bytes more, or less.
+    /// Bytes that it adds; negative if it removes more.
     pub bytes: i128,
 }
 

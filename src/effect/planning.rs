@@ -1,4 +1,4 @@
-//! Plans, setups and costs with the effects of this version: what `study` does for any list of effects.
+//! Plans, setups and costs with the effects of this version: the functions of `study`, called with their list.
 
 use super::LIST;
 use crate::backend::{BackendError, dry_run::Place};
@@ -12,7 +12,7 @@ use crate::surface::{Outline, Surface, SurfaceError};
 const STRIDE: usize = 4;
 
 impl Plan {
-    /// Looks at a scene. Only a height file makes it build heights.
+    /// Plans a scene. Heights are built for a height file only.
     ///
     /// # Errors
     /// A surface that cannot be built.

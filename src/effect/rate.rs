@@ -1,9 +1,9 @@
-//! `rate` in `[adhesion]`: a receding edge costs more the faster it recedes.
+//! `rate` in `[adhesion]`: the work of adhesion of a receding edge grows with its speed.
 //!
-//! The tension is raised by `1 + (v/v*)^n` on the points that held when the step began, and v is the
-//! mean speed at which the edge recedes in the step. The faster it is, the more the raised tension
-//! slows it, so factor and speed meet in one place, which is bracketed and found. An edge that advances
-//! has the plain law, and so have points that only come to hold in the step.
+//! The tension is raised by the factor `1 + (v/v*)^n` on the points that were in contact or attracted when the
+//! step began; v is the mean speed at which the edge recedes in the step. A greater factor slows the edge,
+//! so factor and speed agree at one value, which is bracketed and found. Where an edge advances, and on
+//! points that come into contact in the step, the law is unchanged.
 //!
 //! Each trial starts from the state before the step, so that the result depends on nothing else.
 
@@ -18,10 +18,10 @@ use crate::units::format_si;
 const AGREE: f64 = 2e-3;
 /// Solves of one step at most; halving alone narrows a factor of 1000 to the agreement within 20.
 const MOST_SOLVES: usize = 30;
-/// How far the present end of a bracket is from a corner of it at least, as a share of it.
+/// Least distance of a trial from the ends of its bracket, as a share of the bracket.
 const CORNER: f64 = 0.05;
 
-/// Share of its area that a contact keeps unless it lets go by itself.
+/// Share of its area below which a contact counts as separating by itself.
 const LET_GO: f64 = 0.5;
 
 /// The rate of a scene's adhesion.
@@ -76,12 +76,12 @@ impl Hooks for Rate {
         if problem.law_factor.is_some() {
             return problem;
         }
-        // Where an edge recedes there will be a factor.
+        // A receding edge has a factor.
         let ones = vec![1.0; problem.heights.len()];
         problem.with_adhesion_map(ones)
     }
 
-    // What the edge loses to its speed cannot be told from what a jump loses.
+    // The dissipation of a moving edge cannot be told from that of a jump.
     fn hides_jumps(&self) -> bool {
         true
     }
@@ -97,7 +97,7 @@ impl Hooks for Rate {
     }
 }
 
-/// Solves a load from a start at the speed that its edge has then.
+/// Solves a load from a start, with the factor of the speed that its edge then has.
 fn solve(
     rate: RateScene,
     attempt: &mut Attempt,
@@ -156,7 +156,7 @@ fn solve(
         };
         Edge::of(&touches, &problem.grid, problem.boundary)
     };
-    // By how much the factor of the speed that a trial had is above the trial's own.
+    // The factor of the speed found in a trial, less the factor of the trial.
     let excess = |later: &Edge, factor: f64| rate.factor(edge.recession(later, duration)) - factor;
     let left = later(&plain);
     let first = excess(&left, 1.0);
@@ -172,10 +172,10 @@ fn solve(
         let found = excess(&left, factor);
         let narrow = high - low <= AGREE * high && found <= 0.0;
         if narrow && low_area < LET_GO * left.area {
-            // The last equilibrium of the raised law: beyond it the contact lets go by itself.
+            // The last equilibrium of the raised law: beyond it the contact separates by itself.
             return trial(low);
         }
-        // Where pixels let go one by one there may be no speed between; the edge waits for the next.
+        // Where pixels separate one by one no factor may agree; the edge waits for the next pixel.
         if !solved.converged || found.abs() <= AGREE * factor || narrow || solves == MOST_SOLVES {
             return Ok(SolvedStep {
                 converged: solved.converged && solves < MOST_SOLVES,
@@ -191,8 +191,8 @@ fn solve(
             Some(most) => (low_excess / (low_excess - most)).clamp(CORNER, 1.0 - CORNER),
             None => 1.0,
         };
-        // Every third trial halves, where the straight line gets on slowly; at the end it is the
-        // upper side that is solved last.
+        // Every third trial halves the bracket, in case the straight line converges slowly; the upper side is
+        // solved last.
         factor = match high - low <= AGREE * high {
             true => high,
             false if solves % 3 == 0 => 0.5 * (low + high),

@@ -1,4 +1,4 @@
-//! `[[solid.relaxation]]`, a viscoelastic solid: what its Maxwell branches carry from step to step.
+//! `[[solid.relaxation]]`, a viscoelastic solid: the state of its Maxwell branches from step to step.
 //!
 //! The pressure of a wave is its stiffness times `E_inf u + sum E_k m_k`, and each branch follows
 //! `dm/dt + m/tau = du/dt`. Over a step of constant rate that is exactly
@@ -8,6 +8,8 @@
 //!
 //! # Source
 //! Taylor, Pister & Goudreau 1970; Simo & Hughes 1998, sec. 10.3.
+
+use std::sync::Arc;
 
 use crate::backend::BackendError;
 use crate::scene::{RelaxationScene, Scene, SolidScene};
@@ -57,7 +59,7 @@ impl Hooks for Relaxation {
             .map(|branch| format!("{:.2e}", branch.time / path))
             .collect();
         format!(
-            "matters where a branch relaxes neither much faster nor much slower than the load: here their times are {} of the path's {} (Deborah numbers)",
+            "matters where the relaxation times of the branches are near the time of loading: here their times are {} of the path's {} (Deborah numbers)",
             deborah.join(", "),
             format_si(path, "s")
         )
@@ -70,7 +72,7 @@ impl Hooks for Relaxation {
 
     fn host_bytes(&self, sizes: &Sizes) -> HostBytes {
         HostBytes {
-            // What the past moves the surface by, and the problem of a duration.
+            // The offset of the surface by its history, and the problem of a duration.
             kept: DOUBLE * (sizes.solved + sizes.points) + sizes.table,
             // The displacement, padded heights, and a pressure of a spring as it is read.
             passing: 3 * DOUBLE * sizes.solved + EVALUATION * sizes.points,
@@ -78,7 +80,7 @@ impl Hooks for Relaxation {
         }
     }
 
-    // A jump cannot be told from what the springs dissipate in the same step.
+    // Viscous dissipation cannot be told from that of a jump.
     fn hides_jumps(&self) -> bool {
         true
     }
@@ -113,7 +115,7 @@ impl Hooks for Relaxation {
 
 /// `(alpha, beta)` of a branch over a step, for the step's share of its relaxation time.
 pub fn branch_coefficients(ratio: f64) -> (f64, f64) {
-    // A step in no time meets the whole branch.
+    // A step in no time loads the whole branch.
     let beta = if ratio > 0.0 {
         -(-ratio).exp_m1() / ratio
     } else {
@@ -122,7 +124,7 @@ pub fn branch_coefficients(ratio: f64) -> (f64, f64) {
     ((-ratio).exp(), beta)
 }
 
-/// Contact modulus that a step of `duration` (s) meets, Pa: from that at once to the relaxed one.
+/// Effective contact modulus of a step of `duration` (s), Pa: between the instantaneous and the relaxed one.
 fn effective_modulus(solid: &SolidScene, duration: f64) -> f64 {
     solid
         .relaxation
@@ -141,7 +143,7 @@ struct History {
     displacement: Vec<f64>,
     /// Displacement of the spring of each branch, in the order of the scene.
     springs: Vec<Vec<f64>>,
-    /// What the past moves the surface by in the step that is being solved.
+    /// Offset of the surface by its history in the present step.
     offset: Vec<f64>,
 }
 
@@ -155,8 +157,8 @@ impl History {
         }
     }
 
-    /// What the past moves the surface by over a step of `duration` (s), reduced: the pressure is
-    /// that of the effective modulus on the displacement plus this.
+    /// Offset of the surface by its history over a step of `duration` (s), reduced: the pressure is the
+    /// effective stiffness times the displacement plus this.
     fn offset_over(&self, solid: &SolidScene, duration: f64) -> Vec<f64> {
         let mut offset = vec![0.0; self.displacement.len()];
         let modulus = effective_modulus(solid, duration);
@@ -201,12 +203,12 @@ impl Carry for History {
         let mut fields: Vec<CheckpointField> = springs
             .map(|(branch, values)| CheckpointField {
                 name: spring_name(branch + 1),
-                values: values.clone(),
+                values: Arc::new(values.clone()),
             })
             .collect();
         fields.push(CheckpointField {
             name: DISPLACEMENT.to_owned(),
-            values: self.displacement.clone(),
+            values: Arc::new(self.displacement.clone()),
         });
         fields
     }
@@ -216,7 +218,7 @@ impl Carry for History {
         solver.set_offset(&self.offset);
     }
 
-    /// The displacement goes to the history, and what the springs store to the step.
+    /// Adds the displacement to the history, and the energy of the springs to the step.
     fn after_step(
         &mut self,
         setup: &Setup,
@@ -227,7 +229,7 @@ impl Carry for History {
         let solid = &setup.scene.solid;
         let offset = std::mem::take(&mut self.offset);
         let Some(evaluation) = &mut solved.evaluation else {
-            // Free of pressure it recovers: the displacement is what undoes the past.
+            // Without pressure the solid recovers: its displacement cancels the offset.
             let displacement = offset.into_iter().map(|moved| -moved).collect();
             self.advance(solid, duration, displacement);
             return Ok(());
@@ -237,8 +239,7 @@ impl Carry for History {
         let rigid =
             (evaluation.displacement_offset + problem.height_origin) / problem.scales.length;
         let mut displacement = solver.gap()?;
-        let heights = problem.padded(&problem.heights, 0.0);
-        for (u, h) in displacement.iter_mut().zip(heights) {
+        for (u, h) in displacement.iter_mut().zip(problem.padded_heights()) {
             *u += h + rigid;
         }
         for (u, depth) in displacement.iter_mut().zip(solver.plastic_depths()) {

@@ -8,7 +8,7 @@ use crate::units::format_si;
 /// Volume worn off for each length of sliding, m^3/m.
 const RATE: Column = Column::new("wear_rate", 3);
 
-/// What sliding takes off.
+/// Wear by sliding.
 pub(super) struct Wear;
 
 impl Hooks for Wear {
@@ -61,8 +61,8 @@ impl Hooks for Wear {
 
 /// Volume worn off for each length of sliding, m^3/m, where a point of the grid has `pixel_area`, m^2.
 ///
-/// The load is what presses, not the net one: attraction presses the spots together beyond what is
-/// put on from outside. A net pressure above 0 is that of a point in contact, all others pull.
+/// The load is the repulsive one, not the net one: attraction presses the spots together beyond the external
+/// load. Net pressures above 0 are those of points in contact; all others are tensions.
 fn rate(wear: WearScene, evaluation: Option<&Evaluation>, pixel_area: f64) -> f64 {
     let pressing = evaluation.map_or(0.0, |evaluation| {
         let pressures = evaluation.pressure.iter().filter(|p| **p > 0.0);

@@ -13,7 +13,7 @@
 
 use std::marker::PhantomData;
 
-use super::points::{PointKernel, side_by_side};
+use super::points::{Numbers, PointKernel, side_by_side};
 use super::{Params, Rows, SUMS};
 use crate::law::{AdhesionMap, Cohesion, CorrectedField, imbalance};
 use crate::real::Real;
@@ -62,18 +62,32 @@ pub fn here_at<T: Real>(
     in_domain: bool,
 ) -> Here<T> {
     if in_domain {
-        constraint.state(law, gap, elastic)
-    } else {
-        Here {
-            gap,
-            open: law.open(gap),
-            elastic,
-            pull: law.pad_traction(),
-            y: imbalance(elastic, law.pad_traction()),
-            free: true,
-            weight: T::one(),
-            hardening: T::zero(),
-        }
+        return constraint.state(law, gap, elastic);
+    }
+    let pull = law.pad_traction();
+    Here {
+        gap,
+        open: law.open(gap),
+        elastic,
+        pull,
+        y: imbalance(elastic, pull),
+        free: true,
+        weight: T::one(),
+        hardening: T::zero(),
+    }
+}
+
+impl<T: Real, C: GapConstraint<T>> Numbers<T, C> {
+    /// A point of its gap and elastic pressure.
+    #[inline(always)]
+    pub fn here_at(
+        &self,
+        law: &impl Cohesion<T>,
+        [gap, pressure]: [T; 2],
+        in_domain: bool,
+    ) -> Here<T> {
+        let elastic = pressure + self.mean_pressure;
+        here_at(&self.constraint, law, gap, elastic, in_domain)
     }
 }
 
@@ -118,9 +132,15 @@ pub trait GapConstraint<T: Real>: Copy {
     /// What it adds to the stopping measure.
     fn violation(&self, here: &Here<T>, stiffness_max: T) -> Violation<T>;
     /// z of a point, of its line of the preconditioned residual; also on a pad.
-    fn preconditioned(&self, here: &Here<T>, line: T) -> T;
+    #[inline(always)]
+    fn preconditioned(&self, here: &Here<T>, line: T) -> T {
+        if here.free { line } else { T::zero() }
+    }
     /// Whether the point is below zero or may only go there.
-    fn goes_down(&self, open: T, y: T) -> bool;
+    #[inline(always)]
+    fn goes_down(&self, _open: T, _y: T) -> bool {
+        false
+    }
     /// s of a move along the direction, with this share of the gap after it added.
     fn trial_step(
         &self,
@@ -129,15 +149,18 @@ pub trait GapConstraint<T: Real>: Copy {
         moved: T,
         correction: T,
     ) -> Tried<T>;
-    /// A kept s with this multiple of the local compliance taken off; also on a pad.
+    /// A kept s with this multiple of the local compliance taken off; also on a pad. Where none is kept, s.
+    #[inline(always)]
     fn corrected_step(
         &self,
-        law: &impl Cohesion<T>,
-        here: &Here<T>,
+        _law: &impl Cohesion<T>,
+        _here: &Here<T>,
         step: T,
-        correction: T,
-        in_domain: bool,
-    ) -> T;
+        _correction: T,
+        _in_domain: bool,
+    ) -> T {
+        step
+    }
     /// Whether a step takes a point at this gap towards its constraint.
     fn touches(&self, open: T, step: T) -> bool;
     /// The gap after t of a step; what a step closes to less than `snap` is closed, at the unknown `closed`.
@@ -145,17 +168,23 @@ pub trait GapConstraint<T: Real>: Copy {
     /// The weight of a point in the mean pressure that a prescribed gap asks for.
     fn pressure_weight(&self, here: &Here<T>) -> T;
     /// The outer gap with a correction of it that was found in single precision.
-    fn corrected_gap(&self, gap: T, correction: T) -> T;
+    #[inline(always)]
+    fn corrected_gap(&self, gap: T, correction: T) -> T {
+        gap + correction
+    }
     /// Attraction on the side of zero on which the point is, less the hardness below.
-    fn net_traction(&self, here: &Here<T>) -> T;
+    #[inline(always)]
+    fn net_traction(&self, here: &Here<T>) -> T {
+        here.pull
+    }
     /// Runs a kernel over some rows with each law as a concrete type.
     fn run<K, const READS: usize, const WRITES: usize, const TERMS: usize>(
-        kernel: K,
+        numbers: Numbers<T, Self>,
         params: &Params,
         rows: &mut Rows<T>,
         sums: &mut [f64; SUMS],
     ) where
-        K: PointKernel<T, READS, WRITES, TERMS>;
+        K: PointKernel<T, Self, READS, WRITES, TERMS>;
 }
 
 /// max(y, 0) where the point is closed.
@@ -169,7 +198,7 @@ fn reaction<T: Real>(open: T, y: T) -> T {
 }
 
 /// A gap that is not negative: whatever presses is carried.
-#[derive(Clone, Copy)]
+#[derive(Clone, Copy, Default)]
 pub struct Unilateral<T>(PhantomData<T>);
 
 impl<T: Real> GapConstraint<T> for Unilateral<T> {
@@ -203,16 +232,6 @@ impl<T: Real> GapConstraint<T> for Unilateral<T> {
         }
     }
 
-    #[inline(always)]
-    fn preconditioned(&self, here: &Here<T>, line: T) -> T {
-        if here.free { line } else { T::zero() }
-    }
-
-    #[inline(always)]
-    fn goes_down(&self, _: T, _: T) -> bool {
-        false
-    }
-
     /// s = s0 + correction (g + s0) with s0 = max(-g, moved). The correction is small and kept as itself, not
     /// as a factor near one, which would cost it its digits.
     #[inline(always)]
@@ -228,18 +247,6 @@ impl<T: Real> GapConstraint<T> for Unilateral<T> {
             step: step + correction * (here.open + step),
             cut: here.open + moved < T::zero(),
         }
-    }
-
-    #[inline(always)]
-    fn corrected_step(
-        &self,
-        _: &impl Cohesion<T>,
-        _: &Here<T>,
-        step: T,
-        _: T,
-        _in_domain: bool,
-    ) -> T {
-        step
     }
 
     #[inline(always)]
@@ -272,23 +279,18 @@ impl<T: Real> GapConstraint<T> for Unilateral<T> {
         }
     }
 
-    #[inline(always)]
-    fn net_traction(&self, here: &Here<T>) -> T {
-        here.pull
-    }
-
     fn run<K, const READS: usize, const WRITES: usize, const TERMS: usize>(
-        kernel: K,
+        numbers: Numbers<T, Self>,
         params: &Params,
         rows: &mut Rows<T>,
         sums: &mut [f64; SUMS],
     ) where
-        K: PointKernel<T, READS, WRITES, TERMS>,
+        K: PointKernel<T, Self, READS, WRITES, TERMS>,
     {
         if rows.outer[0].is_empty() {
-            with_wall_law!(params.law, T, law => side_by_side(kernel, AdhesionMap(law), rows, sums));
+            with_wall_law!(params.law, T, law => side_by_side::<_, _, K, READS, WRITES, TERMS>(numbers, AdhesionMap(law), rows, sums));
         } else {
-            with_wall_law!(params.law, T, law => side_by_side(kernel, CorrectedField(law), rows, sums));
+            with_wall_law!(params.law, T, law => side_by_side::<_, _, K, READS, WRITES, TERMS>(numbers, CorrectedField(law), rows, sums));
         }
     }
 }
@@ -344,11 +346,6 @@ impl<T: Real> GapConstraint<T> for HardnessLimit<T> {
     }
 
     #[inline(always)]
-    fn preconditioned(&self, here: &Here<T>, line: T) -> T {
-        if here.free { line } else { T::zero() }
-    }
-
-    #[inline(always)]
     fn goes_down(&self, open: T, y: T) -> bool {
         // A closed point that is free and does not open has a positive y, that of the hardness.
         (open < T::zero()) | ((open == T::zero()) & (y > T::zero()))
@@ -381,18 +378,6 @@ impl<T: Real> GapConstraint<T> for HardnessLimit<T> {
     }
 
     #[inline(always)]
-    fn corrected_step(
-        &self,
-        _: &impl Cohesion<T>,
-        _: &Here<T>,
-        step: T,
-        _: T,
-        _in_domain: bool,
-    ) -> T {
-        step
-    }
-
-    #[inline(always)]
     fn touches(&self, open: T, step: T) -> bool {
         ((open >= T::zero()) & (step < T::zero())) | ((open < T::zero()) & (step > T::zero()))
     }
@@ -415,11 +400,6 @@ impl<T: Real> GapConstraint<T> for HardnessLimit<T> {
     }
 
     #[inline(always)]
-    fn corrected_gap(&self, gap: T, correction: T) -> T {
-        gap + correction
-    }
-
-    #[inline(always)]
     fn net_traction(&self, here: &Here<T>) -> T {
         if here.gap < T::zero() {
             -self.hardness
@@ -429,13 +409,13 @@ impl<T: Real> GapConstraint<T> for HardnessLimit<T> {
     }
 
     fn run<K, const READS: usize, const WRITES: usize, const TERMS: usize>(
-        kernel: K,
+        numbers: Numbers<T, Self>,
         params: &Params,
         rows: &mut Rows<T>,
         sums: &mut [f64; SUMS],
     ) where
-        K: PointKernel<T, READS, WRITES, TERMS>,
+        K: PointKernel<T, Self, READS, WRITES, TERMS>,
     {
-        with_wall_law!(params.law, T, law => side_by_side(kernel, AdhesionMap(law), rows, sums));
+        with_wall_law!(params.law, T, law => side_by_side::<_, _, K, READS, WRITES, TERMS>(numbers, AdhesionMap(law), rows, sums));
     }
 }

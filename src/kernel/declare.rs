@@ -126,7 +126,7 @@ impl FromDevice for bool {
 macro_rules! device_struct {
     ($(#[$doc:meta])* pub struct $name:ident and back { $($(#[$about:meta])* $member:ident: $kind:ty,)* }) => {
         $crate::kernel::declare::device_struct! {
-            $(#[$doc])* pub struct $name { $($(#[$about])* $member: $kind,)* }
+            $(#[$doc])* #[derive(Default)] pub struct $name { $($(#[$about])* $member: $kind,)* }
         }
         impl $crate::kernel::declare::FromDevice for $name {
             fn take(

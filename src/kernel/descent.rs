@@ -1,10 +1,10 @@
 //! The preconditioned residual z, from which the direction is made.
 
-use super::constraint::{GapConstraint, HardnessLimit, Unilateral, here_at, projected_residual};
-use super::points::{Made, Point, PointKernel};
+use super::constraint::{GapConstraint, HardnessLimit, Unilateral, projected_residual};
+use super::points::{Numbers, Point, PointKernel};
 use super::smooth::Smooth;
 use super::sums::sum_group;
-use super::{Params, Scalars, point_kernel, point_kernels};
+use super::{point_kernel, point_kernels};
 use crate::law::Cohesion;
 use crate::real::Real;
 
@@ -52,57 +52,37 @@ pub(super) fn mean_gap_descent_terms<T: Real>(
 
 /// The preconditioned residual z on free points; `MEAN_GAP` where that is prescribed, `LEVELS` where the lines
 /// are z of the coarser levels alone.
-#[derive(Clone, Copy)]
-pub(super) struct Descent<T, C, const MEAN_GAP: bool, const LEVELS: bool> {
-    constraint: C,
-    mean_pressure: T,
-    level_compliance: T,
-}
+pub(super) struct Descent<const MEAN_GAP: bool, const LEVELS: bool>;
 
 impl<T, C, const MEAN_GAP: bool, const LEVELS: bool, const READS: usize, const TERMS: usize>
-    PointKernel<T, READS, 0, TERMS> for Descent<T, C, MEAN_GAP, LEVELS>
+    PointKernel<T, C, READS, 0, TERMS> for Descent<MEAN_GAP, LEVELS>
 where
     T: Real,
     C: GapConstraint<T>,
 {
     #[inline(always)]
-    fn new(params: &Params, scalars: &Scalars) -> Self {
-        Descent {
-            constraint: C::new(params),
-            mean_pressure: T::of(scalars.mean_pressure),
-            level_compliance: T::of(params.level_compliance),
-        }
-    }
-
-    #[inline(always)]
-    fn at(&self, law: &impl Cohesion<T>, point: Point<T, READS, 0>) -> Made<T, 0, TERMS> {
+    fn at(numbers: &Numbers<T, C>, law: &impl Cohesion<T>, point: &mut Point<T, READS, 0, TERMS>) {
         let [gap, pressure, previous] = [point.reads[0], point.reads[1], point.reads[2]];
-        let elastic = pressure + self.mean_pressure;
-        let here = here_at(&self.constraint, law, gap, elastic, point.in_domain);
+        let here = numbers.here_at(law, [gap, pressure], point.in_domain);
         let residual = projected_residual(&here);
-        let carried = if LEVELS {
-            point.line + self.level_compliance * residual
+        let compliant = if LEVELS {
+            point.line + numbers.level_compliance * residual
         } else {
             point.line
         };
-        let z = self.constraint.preconditioned(&here, carried);
-        let mut terms = [0.0; TERMS];
-        descent_terms(z, residual, previous).put(&mut terms);
+        let z = numbers.constraint.preconditioned(&here, compliant);
+        descent_terms(z, residual, previous).put(&mut point.terms);
         if MEAN_GAP {
             let direction = point.reads[3];
             mean_gap_descent_terms([z, residual, previous, direction, here.weight], here.free)
-                .put(&mut terms);
+                .put(&mut point.terms);
         }
-        Made {
-            writes: [],
-            line: z,
-            terms,
-        }
+        point.line = z;
     }
 }
 
 /// All waves at once, where a grid cannot be coarsened.
-type WholeDescent<T, C, const MEAN_GAP: bool> = Descent<T, C, MEAN_GAP, false>;
+type WholeDescent<const MEAN_GAP: bool> = Descent<MEAN_GAP, false>;
 
 point_kernels!(
     /// Step 2, the end of `plain::precondition` without levels: retains the rows of z. Its sums are those of step 3.

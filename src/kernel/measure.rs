@@ -1,12 +1,10 @@
 //! Kernels that take the stopping measure of the present state.
 
-use super::constraint::{
-    GapConstraint, HardnessLimit, Here, Unilateral, here_at, projected_residual,
-};
-use super::points::{Made, Point, PointKernel};
+use super::constraint::{GapConstraint, HardnessLimit, Here, Unilateral, projected_residual};
+use super::points::{Numbers, Point, PointKernel};
 use super::smooth::Smooth;
 use super::sums::sum_group;
-use super::{Params, Scalars, point_kernel, point_kernels};
+use super::{point_kernel, point_kernels};
 use crate::law::Cohesion;
 use crate::real::Real;
 
@@ -15,13 +13,12 @@ sum_group! {
     ResidualSums { violation, pressures, least_gap, gap_squares }
 }
 
-/// The terms of the stopping measure at one point, with the largest stiffness.
+/// The terms of the stopping measure at one point.
 #[inline(always)]
 pub(super) fn residual_terms<T: Real>(
-    constraint: &impl GapConstraint<T>,
+    numbers: &Numbers<T, impl GapConstraint<T>>,
     law: &impl Cohesion<T>,
     here: &Here<T>,
-    stiffness_max: T,
     in_domain: bool,
 ) -> ResidualSums {
     if !in_domain {
@@ -33,7 +30,7 @@ pub(super) fn residual_terms<T: Real>(
             gap_squares: 0.0,
         };
     }
-    let found = constraint.violation(here, stiffness_max);
+    let found = numbers.constraint.violation(here, numbers.stiffness_max);
     let violation = found.violation.double();
     let reaction = law.weighed(found.reaction).double();
     let traction = law.weighed(found.traction).double();
@@ -47,39 +44,18 @@ pub(super) fn residual_terms<T: Real>(
 }
 
 /// The stopping measure, and the projected residual on the way.
-#[derive(Clone, Copy)]
-pub(super) struct Residual<T, C> {
-    constraint: C,
-    mean_pressure: T,
-    stiffness_max: T,
-}
+pub(super) struct Residual;
 
-impl<T: Real, C: GapConstraint<T>, const WRITES: usize> PointKernel<T, 2, WRITES, 4>
-    for Residual<T, C>
+impl<T: Real, C: GapConstraint<T>, const WRITES: usize> PointKernel<T, C, 2, WRITES, 4>
+    for Residual
 {
     #[inline(always)]
-    fn new(params: &Params, scalars: &Scalars) -> Self {
-        Residual {
-            constraint: C::new(params),
-            mean_pressure: T::of(scalars.mean_pressure),
-            stiffness_max: T::of(params.stiffness_max),
-        }
-    }
-
-    #[inline(always)]
-    fn at(&self, law: &impl Cohesion<T>, point: Point<T, 2, WRITES>) -> Made<T, WRITES, 4> {
-        let ([gap, pressure], in_domain) = (point.reads, point.in_domain);
-        let elastic = pressure + self.mean_pressure;
-        let here = here_at(&self.constraint, law, gap, elastic, in_domain);
-        let residual = projected_residual(&here);
-        let mut terms = [0.0; 4];
-        residual_terms(&self.constraint, law, &here, self.stiffness_max, in_domain).put(&mut terms);
-        Made {
-            // Where it is kept, it is the one field written.
-            writes: [residual; WRITES],
-            line: residual,
-            terms,
-        }
+    fn at(numbers: &Numbers<T, C>, law: &impl Cohesion<T>, point: &mut Point<T, 2, WRITES, 4>) {
+        let here = numbers.here_at(law, point.reads, point.in_domain);
+        residual_terms(numbers, law, &here, point.in_domain).put(&mut point.terms);
+        point.line = projected_residual(&here);
+        // Where it is kept, it is the one field written.
+        point.writes = [point.line; WRITES];
     }
 }
 

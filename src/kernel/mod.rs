@@ -25,8 +25,6 @@ pub mod trial;
 pub mod update;
 
 mod catalogue;
-#[cfg(test)]
-mod mean_gap_tests;
 mod params;
 mod points;
 mod rows;
@@ -115,6 +113,12 @@ impl Form {
         matches!(self, Form::RetainRows | Form::Retain)
     }
 
+    /// One-dimensional transforms of all rows that go with it, in two-dimensional ones.
+    pub fn transforms(self) -> f64 {
+        let rows = u8::from(self.after_inverse()) + u8::from(self.before_forward());
+        0.5 * f64::from(rows)
+    }
+
     /// Whether it takes lines that were kept.
     pub fn takes_retained(self) -> bool {
         matches!(self, Form::ReadRetained | Form::FromRetained)
@@ -195,11 +199,16 @@ impl Kernel {
     }
 }
 
-/// A catalogue entry whose twins are one generic function over rows.
-macro_rules! rows_kernel {
-    ($twin:ident $([$flag:ident = $set:literal, $($size:literal),*])?, $form:ident, gate $gate:ident, law $law:literal,
+/// A catalogue entry. Its twins may name the lengths of its lists, `READS`, `WRITES` and `TERMS`.
+macro_rules! catalogue_entry {
+    ($name:ident, $form:ident, gate $gate:ident, law $law:literal, constraint $constraint:expr,
+     flag [$($flag:ident = $set:literal)?], twins [$twin:expr, $twin_single:expr],
      reads [$($read:ident),*], writes [$($write:ident),*] $(, fresh $fresh:literal)? $(, whole $whole:literal)?
      $(, unbound [$($unbound:ident),*])? $(, sums [$($group:ident),*])?) => {{
+        #[allow(dead_code)]
+        const READS: usize = <[&str]>::len(&[$(stringify!($read)),*]);
+        #[allow(dead_code)]
+        const WRITES: usize = <[&str]>::len(&[$(stringify!($write)),*]);
         const TERMS: usize = 0 $($(+ $group::SUMS.len())*)?;
         const SUMS_OF_IT: [$crate::kernel::Sum; TERMS] =
             $crate::kernel::sums::joined(&[$($($group::SUMS),*)?]);
@@ -209,9 +218,9 @@ macro_rules! rows_kernel {
             &[0 $($(, $group::END)*)?],
         ));
         $crate::kernel::Kernel {
-            name: stringify!($twin),
+            name: stringify!($name),
             file: file!(),
-            constraint: None,
+            constraint: $constraint,
             flag: $crate::kernel::first(&[$((stringify!($flag), $set))?]),
             form: $crate::kernel::Form::$form,
             reads: &[$(stringify!($read)),*],
@@ -223,12 +232,12 @@ macro_rules! rows_kernel {
             reduces: &REDUCES,
             gate: $crate::kernel::Gate::$gate,
             law: $law,
-            twin: $twin::<f64 $(, $set, $($size),*)?>,
-            twin_single: $twin::<f32 $(, $set, $($size),*)?>,
+            twin: $twin,
+            twin_single: $twin_single,
         }
     }};
 }
-pub(crate) use rows_kernel;
+pub(crate) use catalogue_entry;
 
 /// The flag of a variant, if it has one.
 pub(crate) const fn first(flags: &[(&'static str, bool)]) -> Option<(&'static str, bool)> {
@@ -238,54 +247,42 @@ pub(crate) const fn first(flags: &[(&'static str, bool)]) -> Option<(&'static st
     }
 }
 
+/// A catalogue entry whose twins are one generic function over rows.
+macro_rules! rows_kernel {
+    ($twin:ident $([$flag:ident = $set:literal, $($size:literal),*])?, $form:ident, gate $gate:ident,
+     law $law:literal, $($rest:tt)*) => {
+        $crate::kernel::catalogue_entry!(
+            $twin, $form, gate $gate, law $law, constraint None, flag [$($flag = $set)?],
+            twins [$twin::<f64 $(, $set, $($size),*)?>, $twin::<f32 $(, $set, $($size),*)?>],
+            $($rest)*
+        )
+    };
+}
+pub(crate) use rows_kernel;
+
 /// A catalogue entry of a kernel that looks at one point at a time, over a constraint of the gap.
 macro_rules! point_kernel {
     ($name:ident, $form:ident, gate $gate:ident,
-     $kernel:ident over $constraint:ident [$($flag:ident = $set:literal)?] $(without $law:ident)?,
-     reads [$($read:ident),*], writes [$($write:ident),*], $(fresh $fresh:literal,)?
-     $(unbound [$($unbound:ident),*],)? sums [$($group:ident),*]) => {{
-        const READS: &[&str] = &[$(stringify!($read)),*];
-        const WRITES: &[&str] = &[$(stringify!($write)),*];
-        const TERMS: usize = 0 $(+ $group::SUMS.len())*;
-        const SUMS_OF_IT: [$crate::kernel::Sum; TERMS] =
-            $crate::kernel::sums::joined(&[$($group::SUMS),*]);
-        const REDUCES: [$crate::kernel::Reduce; TERMS] = $crate::kernel::sums::reduces(&SUMS_OF_IT);
-        const _: () = assert!($crate::kernel::sums::contiguous(
-            &[$($group::FIRST,)* TERMS],
-            &[0 $(, $group::END)*],
-        ));
-        $crate::kernel::Kernel {
-            name: stringify!($name),
-            file: file!(),
-            constraint: Some($crate::kernel::Constraint::$constraint),
-            flag: $crate::kernel::first(&[$((stringify!($flag), $set))?]),
-            form: $crate::kernel::Form::$form,
-            reads: READS,
-            writes: WRITES,
-            fresh: 0 $(+ $fresh)?,
-            whole: false,
-            unbound: &[$($(stringify!($unbound)),*)?],
-            sums: &SUMS_OF_IT,
-            reduces: &REDUCES,
-            gate: $crate::kernel::Gate::$gate,
-            law: point_kernel!(@law $($law)?),
-            twin: point_kernel!(@twin f64, $kernel, $constraint, [$($set)?], $($law)?),
-            twin_single: point_kernel!(@twin f32, $kernel, $constraint, [$($set)?], $($law)?),
-        }
-    }};
-    (@law) => { true };
-    (@law law) => { false };
-    (@twin $number:ty, $kernel:ident, $constraint:ident, [$($set:literal)?],) => {
-        $crate::kernel::points::each_point::<
-            $number, $constraint<$number>, $kernel<$number, $constraint<$number> $(, $set)?>,
-            { READS.len() }, { WRITES.len() }, TERMS,
-        >
+     $kernel:ident over $constraint:ident [$($flag:ident = $set:literal)?] without law, $($rest:tt)*) => {
+        point_kernel!(@entry $name, $form, $gate, $constraint, [$($flag = $set)?], law false,
+            each_point_without_law, $kernel $(<$set>)?, $($rest)*)
     };
-    (@twin $number:ty, $kernel:ident, $constraint:ident, [$($set:literal)?], law) => {
-        $crate::kernel::points::each_point_without_law::<
-            $number, $kernel<$number, $constraint<$number> $(, $set)?>,
-            { READS.len() }, { WRITES.len() }, TERMS,
-        >
+    ($name:ident, $form:ident, gate $gate:ident,
+     $kernel:ident over $constraint:ident [$($flag:ident = $set:literal)?], $($rest:tt)*) => {
+        point_kernel!(@entry $name, $form, $gate, $constraint, [$($flag = $set)?], law true,
+            each_point, $kernel $(<$set>)?, $($rest)*)
+    };
+    (@entry $name:ident, $form:ident, $gate:ident, $constraint:ident, $flags:tt, law $law:literal,
+     $walk:ident, $kernel:ty, $($rest:tt)*) => {
+        $crate::kernel::catalogue_entry!(
+            $name, $form, gate $gate, law $law,
+            constraint Some($crate::kernel::Constraint::$constraint), flag $flags,
+            twins [
+                $crate::kernel::points::$walk::<f64, $constraint<f64>, $kernel, READS, WRITES, TERMS>,
+                $crate::kernel::points::$walk::<f32, $constraint<f32>, $kernel, READS, WRITES, TERMS>
+            ],
+            $($rest)*
+        )
     };
 }
 pub(crate) use point_kernel;

@@ -8,7 +8,9 @@ use super::constraint::{GapConstraint, HardnessLimit, Unilateral};
 use super::descent::{Descent, DescentSums, MeanGapDescentSums};
 use super::points::{PointKernel, each_point};
 use super::smooth::Smooth;
-use crate::kernel::{Kernel, Params, Rows, SUMS, Scalars, Whole, point_kernel, rows_kernel};
+use crate::kernel::{
+    Constraint, Kernel, Params, Rows, SUMS, Scalars, Whole, catalogue_entry, rows_kernel,
+};
 use crate::real::Real;
 
 /// Largest number of finer points in a cell along one axis.
@@ -210,60 +212,48 @@ fn level_descent<T, C, const MEAN_GAP: bool, const READS: usize, const TERMS: us
 ) where
     T: Real,
     C: GapConstraint<T>,
-    Descent<T, C, MEAN_GAP, true>: PointKernel<T, READS, 0, TERMS>,
+    Descent<MEAN_GAP, true>: PointKernel<T, C, READS, 0, TERMS>,
 {
     let (whole, width, first) = (rows.whole, rows.width, rows.first);
     let lines = &mut rows.lines[..width * rows.count];
     lines.fill(T::zero());
     add_interpolated(lines, whole, width, first);
-    each_point::<T, C, Descent<T, C, MEAN_GAP, true>, READS, 0, TERMS>(rows, params, scalars, sums);
+    each_point::<T, C, Descent<MEAN_GAP, true>, READS, 0, TERMS>(rows, params, scalars, sums);
 }
 
 /// The variants of the end of the preconditioner for each constraint.
 macro_rules! level_descents {
-    ($mean_gap:literal, $reads:literal, $terms:literal, $fields:tt, $unbound:tt, $sums:tt) => {
-        [
-            level_descents!(@one Unilateral, $mean_gap, $reads, $terms, $fields, $unbound, $sums),
-            level_descents!(@one HardnessLimit, $mean_gap, $reads, $terms, $fields, $unbound, $sums),
-            level_descents!(@one Smooth, $mean_gap, $reads, $terms, $fields, $unbound, $sums),
-        ]
+    ($(#[$doc:meta])* $constant:ident [MEAN_GAP = $set:literal], $($rest:tt)*) => {
+        $(#[$doc])*
+        pub static $constant: [Kernel; 3] = [
+            level_descents!(@over Unilateral, $set, $($rest)*),
+            level_descents!(@over HardnessLimit, $set, $($rest)*),
+            level_descents!(@over Smooth, $set, $($rest)*),
+        ];
     };
-    (@one $constraint:ident, $mean_gap:literal, $reads:literal, $terms:literal,
-     $fields:tt, $unbound:tt, $sums:tt) => {
-        Kernel {
-            whole: true,
-            twin: level_descent::<f64, $constraint<f64>, $mean_gap, $reads, $terms>,
-            twin_single: level_descent::<f32, $constraint<f32>, $mean_gap, $reads, $terms>,
-            ..level_descents!(@points $constraint, $mean_gap, $fields, $unbound, $sums)
-        }
-    };
-    (@points $constraint:ident, $mean_gap:literal, $fields:tt, $unbound:tt, $sums:tt) => {
-        point_kernel!(
-            level_descent, Retain, gate Ahead, LevelDescent over $constraint [MEAN_GAP = $mean_gap],
-            reads $fields, writes [], unbound $unbound, sums $sums
+    (@over $constraint:ident, $set:literal, $($rest:tt)*) => {
+        catalogue_entry!(
+            level_descent, Retain, gate Ahead, law true,
+            constraint Some(Constraint::$constraint), flag [MEAN_GAP = $set],
+            twins [
+                level_descent::<f64, $constraint<f64>, $set, READS, TERMS>,
+                level_descent::<f32, $constraint<f32>, $set, READS, TERMS>
+            ],
+            $($rest)*
         )
     };
 }
 
-/// The points of it, z of the level below being in the lines.
-type LevelDescent<T, C, const MEAN_GAP: bool> = Descent<T, C, MEAN_GAP, true>;
-
-/// Step 2, the end of `plain::precondition` with levels: as `descent`, with z of the first coarser level
-/// interpolated and the finest level's own compliance. Retains the rows of z.
-pub static LEVEL_DESCENT: [Kernel; 3] = level_descents!(
-    false,
-    3,
-    2,
-    [gap, pressure, previous_residual],
-    [direction],
-    [DescentSums]
+level_descents!(
+    /// Step 2, the end of `plain::precondition` with levels: as `descent`, with z of the first coarser level
+    /// interpolated and the finest level's own compliance. Retains the rows of z.
+    LEVEL_DESCENT [MEAN_GAP = false],
+    reads [gap, pressure, previous_residual], writes [], whole true, unbound [direction],
+    sums [DescentSums]
 );
-/// The same under a prescribed mean gap.
-pub static MEAN_GAP_LEVEL_DESCENT: [Kernel; 3] = level_descents!(
-    true,
-    4,
-    9,
-    [gap, pressure, previous_residual, direction],
-    [],
-    [DescentSums, MeanGapDescentSums]
+level_descents!(
+    /// The same under a prescribed mean gap.
+    MEAN_GAP_LEVEL_DESCENT [MEAN_GAP = true],
+    reads [gap, pressure, previous_residual, direction], writes [], whole true,
+    sums [DescentSums, MeanGapDescentSums]
 );

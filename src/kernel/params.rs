@@ -25,7 +25,7 @@ device_struct! {
         /// Surface points.
         points: f64,
         /// Stiffness k that a smooth law's change of variable works with.
-        core_stiffness: f64,
+        smooth_stiffness: f64,
         /// Compliance by which the preconditioner answers the finest waves of a level.
         level_compliance: f64,
         /// Largest net pressure that the solid bears, its hardness; infinite for an elastic one.
@@ -33,7 +33,7 @@ device_struct! {
         /// Relative rounding error of the fields.
         epsilon: f64,
         /// Whether the mean gap is prescribed instead of the mean pressure.
-        fixed_gap: bool,
+        prescribed_mean_gap: bool,
         /// Whether surfaces may leave each other: mean pressure fixed, no spring, and not pressed.
         may_detach: bool,
     }
@@ -82,9 +82,10 @@ impl DeviceValue for Law {
 }
 
 /// How a solve stands.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum Status {
     /// Iterating.
+    #[default]
     Running,
     /// The stopping measure is met.
     Converged,
@@ -185,7 +186,7 @@ device_struct! {
         snap: f64,
         /// Lower end of the search: step length, slope and energy there.
         low: [f64; 3],
-        /// Upper end of the search: step length and slope; infinite while there is none.
+        /// Upper end of the search: step length and slope; infinite until one is found.
         high: [f64; 2],
         /// Step lengths that the next pass of a search tries where the gap is constrained, rising.
         tried: [f64; TRIED],
@@ -213,7 +214,7 @@ device_struct! {
         cut: bool,
         /// Whether the step length is being searched.
         searching: bool,
-        /// Small plain steps instead of conjugate ones, to stay on the branch of a sharp law.
+        /// Small steps along -z instead of conjugate ones, to stay on the branch of a sharp law.
         careful: bool,
         /// Evaluations in this search; where the gap is constrained, passes.
         evaluations: u32,
@@ -232,45 +233,16 @@ impl Scalars {
     /// The state in which a solve starts.
     pub fn start(mean_pressure: f64, careful: bool) -> Self {
         Scalars {
-            sums: Sums::ZERO,
             mean_pressure,
-            offset: 0.0,
             descent_factor: -1.0,
-            beta: 0.0,
-            mean_gap_shift: 0.0,
             trial_length: 1.0,
-            mean_gap_correction: 0.0,
-            slope: 0.0,
-            curvature: 0.0,
-            elastic_slope: 0.0,
-            largest_step: 0.0,
-            least_step: 0.0,
-            largest_move: 0.0,
-            step: 0.0,
-            length: 0.0,
-            first_touch: 0.0,
-            snap: 0.0,
-            low: [0.0; 3],
             high: [f64::INFINITY; 2],
-            tried: [0.0; TRIED],
-            slope_at_one: 0.0,
             residual: f64::INFINITY,
             numerator: f64::INFINITY,
             residual_at_stall: f64::INFINITY,
-            least_gap: 0.0,
-            gap_norm: 0.0,
-            status: Status::Running,
-            repeat: false,
             restart: true,
-            accepted: false,
-            cut: false,
-            searching: false,
             careful,
-            evaluations: 0,
-            lost: 0,
-            stalls: 0,
-            at_floor: 0,
-            iterations: 0,
+            ..Scalars::default()
         }
     }
 

@@ -7,13 +7,13 @@
 //! follows from the number of places alone, so that results are the same bits whatever a processor can do
 //! at once.
 
-use std::array::from_fn;
+use std::marker::PhantomData;
 use std::ops::Range;
 
 use pulp::{Arch, Simd, WithSimd};
 
 use super::constraint::GapConstraint;
-use super::{Params, Reduce, Rows, SUMS, Scalars};
+use super::{Params, Reduce, Rows, SUMS, Scalars, TRIED};
 use crate::law::{AdhesionMap, Cohesion, HardWall, LawField};
 use crate::real::Real;
 
@@ -23,10 +23,51 @@ const LANES: usize = 32;
 /// One number a point of a group.
 type Lanes<T> = [T; LANES];
 
-/// What a kernel finds at a point.
+/// The constraint of the gap and the numbers of a solve as it stands, in the kernel's number: what `params`
+/// and `scalars` are to a shader.
+#[derive(Clone, Copy, Default)]
+pub struct Numbers<T, C> {
+    pub constraint: C,
+    pub stiffness_max: T,
+    pub level_compliance: T,
+    pub offset: f64,
+    pub mean_pressure: T,
+    pub descent_factor: T,
+    pub beta: T,
+    pub mean_gap_shift: T,
+    pub trial_length: T,
+    pub mean_gap_correction: T,
+    pub step: T,
+    pub snap: T,
+    pub tried: [T; TRIED],
+    pub accepted: bool,
+}
+
+impl<T: Real, C: GapConstraint<T>> Numbers<T, C> {
+    fn new(params: &Params, scalars: &Scalars) -> Self {
+        Numbers {
+            constraint: C::new(params),
+            stiffness_max: T::of(params.stiffness_max),
+            level_compliance: T::of(params.level_compliance),
+            offset: scalars.offset,
+            mean_pressure: T::of(scalars.mean_pressure),
+            descent_factor: T::of(scalars.descent_factor),
+            beta: T::of(scalars.beta),
+            mean_gap_shift: T::of(scalars.mean_gap_shift),
+            trial_length: T::of(scalars.trial_length),
+            mean_gap_correction: T::of(scalars.mean_gap_correction),
+            step: T::of(scalars.step),
+            snap: T::of(scalars.snap),
+            tried: scalars.tried.map(T::of),
+            accepted: scalars.accepted,
+        }
+    }
+}
+
+/// A point with its values, of which a kernel changes what it writes.
 #[derive(Clone, Copy)]
-pub struct Point<T, const READS: usize, const WRITES: usize> {
-    /// The fields that it reads.
+pub struct Point<T, const READS: usize, const WRITES: usize, const TERMS: usize> {
+    /// The fields that the kernel reads.
     pub reads: [T; READS],
     /// The fields that it writes, as they were.
     pub writes: [T; WRITES],
@@ -34,30 +75,21 @@ pub struct Point<T, const READS: usize, const WRITES: usize> {
     pub line: T,
     /// Whether the point is of the surface; else it is of the pad.
     pub in_domain: bool,
-}
-
-/// What a kernel makes of a point.
-#[derive(Clone, Copy)]
-pub struct Made<T, const WRITES: usize, const TERMS: usize> {
-    /// The fields that it writes.
-    pub writes: [T; WRITES],
-    /// The line.
-    pub line: T,
-    /// What it adds to each sum.
+    /// What it adds to each sum, zero at first.
     pub terms: [f64; TERMS],
 }
 
-/// A kernel that looks at one point at a time, with all that is the same at every point.
+/// A kernel that looks at one point at a time.
 ///
 /// What it does at a point is always inlined, and it chooses between values rather than between ways, so
 /// that a processor may do it at several points at once.
-pub trait PointKernel<T: Real, const READS: usize, const WRITES: usize, const TERMS: usize>:
-    Copy
-{
-    /// The kernel of a solve as it stands.
-    fn new(params: &Params, scalars: &Scalars) -> Self;
+pub trait PointKernel<T: Real, C, const READS: usize, const WRITES: usize, const TERMS: usize> {
     /// What becomes of a point.
-    fn at(&self, law: &impl Cohesion<T>, point: Point<T, READS, WRITES>) -> Made<T, WRITES, TERMS>;
+    fn at(
+        numbers: &Numbers<T, C>,
+        law: &impl Cohesion<T>,
+        point: &mut Point<T, READS, WRITES, TERMS>,
+    );
 }
 
 /// The twin that is made of such a kernel, over a constraint.
@@ -69,36 +101,48 @@ pub fn each_point<T, C, K, const READS: usize, const WRITES: usize, const TERMS:
 ) where
     T: Real,
     C: GapConstraint<T>,
-    K: PointKernel<T, READS, WRITES, TERMS>,
+    K: PointKernel<T, C, READS, WRITES, TERMS>,
 {
-    C::run(K::new(params, scalars), params, rows, sums);
+    C::run::<K, READS, WRITES, TERMS>(Numbers::new(params, scalars), params, rows, sums);
 }
 
 /// The same of a kernel that asks for no law.
-pub fn each_point_without_law<T, K, const READS: usize, const WRITES: usize, const TERMS: usize>(
+pub fn each_point_without_law<
+    T,
+    C,
+    K,
+    const READS: usize,
+    const WRITES: usize,
+    const TERMS: usize,
+>(
     rows: &mut Rows<T>,
     params: &Params,
     scalars: &Scalars,
     sums: &mut [f64; SUMS],
 ) where
     T: Real,
-    K: PointKernel<T, READS, WRITES, TERMS>,
+    C: GapConstraint<T>,
+    K: PointKernel<T, C, READS, WRITES, TERMS>,
 {
-    side_by_side(K::new(params, scalars), AdhesionMap(HardWall), rows, sums);
+    let numbers = Numbers::<T, C>::new(params, scalars);
+    side_by_side::<T, C, K, READS, WRITES, TERMS>(numbers, AdhesionMap(HardWall), rows, sums);
 }
 
 /// Runs a kernel over several points side by side, with the best that the processor has.
-pub(super) fn side_by_side<T, K, const READS: usize, const WRITES: usize, const TERMS: usize>(
-    kernel: K,
+pub(super) fn side_by_side<T, C, K, const READS: usize, const WRITES: usize, const TERMS: usize>(
+    numbers: Numbers<T, C>,
     law: impl LawField<T>,
     rows: &mut Rows<T>,
     sums: &mut [f64; SUMS],
 ) where
     T: Real,
-    K: PointKernel<T, READS, WRITES, TERMS>,
+    C: Copy,
+    K: PointKernel<T, C, READS, WRITES, TERMS>,
 {
-    Arch::new().dispatch(Walk {
+    let kernel = PhantomData::<K>;
+    Arch::new().dispatch(Walk::<_, _, _, _, READS, WRITES, TERMS> {
         kernel,
+        numbers,
         law,
         rows,
         sums,
@@ -106,18 +150,19 @@ pub(super) fn side_by_side<T, K, const READS: usize, const WRITES: usize, const 
 }
 
 /// A kernel's walk over the points of some rows.
-struct Walk<'a, 'b, T, K, L, const READS: usize, const WRITES: usize, const TERMS: usize> {
-    kernel: K,
+struct Walk<'a, 'b, T, C, K, L, const READS: usize, const WRITES: usize, const TERMS: usize> {
+    kernel: PhantomData<K>,
+    numbers: Numbers<T, C>,
     law: L,
     rows: &'a mut Rows<'b, T>,
     sums: &'a mut [f64; SUMS],
 }
 
-impl<T, K, L, const READS: usize, const WRITES: usize, const TERMS: usize> WithSimd
-    for Walk<'_, '_, T, K, L, READS, WRITES, TERMS>
+impl<T, C, K, L, const READS: usize, const WRITES: usize, const TERMS: usize> WithSimd
+    for Walk<'_, '_, T, C, K, L, READS, WRITES, TERMS>
 where
     T: Real,
-    K: PointKernel<T, READS, WRITES, TERMS>,
+    K: PointKernel<T, C, READS, WRITES, TERMS>,
     L: LawField<T>,
 {
     type Output = ();
@@ -125,13 +170,12 @@ where
     /// The same source for each kind of processor; the compiler finds the vectors.
     #[inline(always)]
     fn with_simd<S: Simd>(self, _: S) {
-        let Walk {
-            kernel,
-            law,
-            rows,
-            sums,
-        } = self;
-        let mut totals: [Lanes<f64>; TERMS] = from_fn(|slot| [rows.reduces[slot].neutral(); LANES]);
+        let (numbers, law, rows, sums) = (self.numbers, self.law, self.rows, self.sums);
+        let reduces = &rows.reduces[..TERMS];
+        let mut totals = [[0.0; LANES]; TERMS];
+        for slot in 0..TERMS {
+            totals[slot] = [reduces[slot].neutral(); LANES];
+        }
         let mut group = Group {
             reads: [[T::zero(); LANES]; READS],
             writes: [[T::zero(); LANES]; WRITES],
@@ -144,40 +188,45 @@ where
             for start in points.clone().step_by(LANES) {
                 let here = start..points.end.min(start + LANES);
                 group.gather(rows, &here);
-                group.work(&kernel, &law, in_domain);
+                group.work::<C, K, L>(&numbers, &law, in_domain);
                 group.scatter(rows, &here);
-                for ((total, terms), reduce) in
-                    totals.iter_mut().zip(&group.terms).zip(rows.reduces)
-                {
-                    match reduce {
-                        Reduce::Add => add(total, &terms[..here.len()], |a, b| a + b),
-                        Reduce::Min => add(total, &terms[..here.len()], f64::least),
-                        Reduce::Max => add(total, &terms[..here.len()], f64::most),
+                for slot in 0..TERMS {
+                    let (total, terms) = (&mut totals[slot], &group.terms[slot]);
+                    match reduces[slot] {
+                        Reduce::Add if here.len() == LANES => {
+                            for lane in 0..LANES {
+                                total[lane] += terms[lane];
+                            }
+                        }
+                        reduce => join(total, &terms[..here.len()], reduce),
                     }
                 }
             }
         }
-        for ((sum, total), reduce) in sums.iter_mut().zip(&totals).zip(rows.reduces) {
-            *sum = total.iter().fold(*sum, |sum, &lane| reduce.join(sum, lane));
+        for slot in 0..TERMS {
+            sums[slot] = joined(sums[slot], &totals[slot], reduces[slot]);
         }
     }
 }
 
+// What follows is compiled once, and not with each kernel, law and number: it runs once a block, or where a
+// group is not full.
+
 /// Puts what a group adds to a sum to what its places hold already.
-#[inline(always)]
-fn add(total: &mut Lanes<f64>, terms: &[f64], join: impl Fn(f64, f64) -> f64) {
-    match <&Lanes<f64>>::try_from(terms) {
-        Ok(all) => {
-            for lane in 0..LANES {
-                total[lane] = join(total[lane], all[lane]);
-            }
-        }
-        Err(_) => {
-            for (total, &term) in total.iter_mut().zip(terms) {
-                *total = join(*total, term);
-            }
-        }
+#[inline(never)]
+fn join(total: &mut Lanes<f64>, terms: &[f64], reduce: Reduce) {
+    let each = total.iter_mut().zip(terms);
+    match reduce {
+        Reduce::Add => each.for_each(|(total, &term)| *total += term),
+        Reduce::Min => each.for_each(|(total, &term)| *total = total.least(term)),
+        Reduce::Max => each.for_each(|(total, &term)| *total = total.most(term)),
     }
+}
+
+/// A sum with what its places hold.
+#[inline(never)]
+fn joined(sum: f64, total: &Lanes<f64>, reduce: Reduce) -> f64 {
+    total.iter().fold(sum, |sum, &lane| reduce.join(sum, lane))
 }
 
 /// The numbers of a group of points.
@@ -209,10 +258,14 @@ impl<T: Real, const READS: usize, const WRITES: usize, const TERMS: usize>
     }
 
     /// Places without a point work on what they held before; nothing of them is kept.
+    #[allow(
+        clippy::needless_range_loop,
+        reason = "iterators and closures would be compiled with each kernel, law and number"
+    )]
     #[inline(always)]
-    fn work<K, L>(&mut self, kernel: &K, law: &L, in_domain: bool)
+    fn work<C, K, L>(&mut self, numbers: &Numbers<T, C>, law: &L, in_domain: bool)
     where
-        K: PointKernel<T, READS, WRITES, TERMS>,
+        K: PointKernel<T, C, READS, WRITES, TERMS>,
         L: LawField<T>,
     {
         for lane in 0..LANES {
@@ -220,21 +273,27 @@ impl<T: Real, const READS: usize, const WRITES: usize, const TERMS: usize>
                 self.factor[lane],
                 [self.outer[0][lane], self.outer[1][lane]],
             );
-            let made = kernel.at(
-                &law,
-                Point {
-                    reads: from_fn(|place| self.reads[place][lane]),
-                    writes: from_fn(|place| self.writes[place][lane]),
-                    line: self.line[lane],
-                    in_domain,
-                },
-            );
-            for place in 0..WRITES {
-                self.writes[place][lane] = made.writes[place];
+            let (mut reads, mut writes) = ([T::zero(); READS], [T::zero(); WRITES]);
+            for place in 0..READS {
+                reads[place] = self.reads[place][lane];
             }
-            self.line[lane] = made.line;
+            for place in 0..WRITES {
+                writes[place] = self.writes[place][lane];
+            }
+            let mut point = Point {
+                reads,
+                writes,
+                line: self.line[lane],
+                in_domain,
+                terms: [0.0; TERMS],
+            };
+            K::at(numbers, &law, &mut point);
+            for place in 0..WRITES {
+                self.writes[place][lane] = point.writes[place];
+            }
+            self.line[lane] = point.line;
             for slot in 0..TERMS {
-                self.terms[slot][lane] = made.terms[slot];
+                self.terms[slot][lane] = point.terms[slot];
             }
         }
     }
@@ -282,27 +341,26 @@ fn store<T: Real>(field: &mut [T], from: &Lanes<T>, here: &Range<usize>) {
 mod tests {
     use super::*;
     use crate::kernel::Whole;
+    use crate::kernel::constraint::Unilateral;
 
     /// Reads one field, updates another and the line, and adds to one sum of each kind.
-    #[derive(Clone, Copy)]
     struct Probe;
 
-    impl PointKernel<f64, 1, 1, 3> for Probe {
-        fn new(_: &Params, _: &Scalars) -> Self {
-            Probe
-        }
-        fn at(&self, law: &impl Cohesion<f64>, point: Point<f64, 1, 1>) -> Made<f64, 1, 3> {
-            let ([read], [write]) = (point.reads, point.writes);
+    impl PointKernel<f64, Unilateral<f64>, 1, 1, 3> for Probe {
+        fn at(
+            _: &Numbers<f64, Unilateral<f64>>,
+            law: &impl Cohesion<f64>,
+            point: &mut Point<f64, 1, 1, 3>,
+        ) {
+            let [read] = point.reads;
             let pull = if point.in_domain {
                 law.traction(read)
             } else {
                 -1.0
             };
-            Made {
-                writes: [write + read],
-                line: point.line * pull,
-                terms: [read * pull, read, read],
-            }
+            point.writes[0] += read;
+            point.line *= pull;
+            point.terms = [read * pull, read, read];
         }
     }
 
@@ -343,7 +401,8 @@ mod tests {
             };
             let mut sums = [0.0; SUMS];
             (sums[1], sums[2]) = (f64::INFINITY, f64::NEG_INFINITY);
-            side_by_side(Probe, AdhesionMap(law), &mut rows, &mut sums);
+            let numbers = Numbers::<f64, Unilateral<f64>>::default();
+            side_by_side::<_, _, Probe, 1, 1, 3>(numbers, AdhesionMap(law), &mut rows, &mut sums);
             let mut expected = 0.0;
             for i in 0..points {
                 let in_domain = i % width < surface[0] && i / width < surface[1];

@@ -5,7 +5,7 @@
 //! to their gap, with a smooth law all points in proportion to their compliance.
 
 use super::constraint::{GapConstraint, Unilateral, here_at};
-use super::points::{Made, Point, PointKernel};
+use super::points::{Numbers, Point, PointKernel};
 use super::smooth::Smooth;
 use super::sums::sum_group;
 use super::{Kernel, Params, Rows, SUMS, Scalars, point_kernel, rows_kernel};
@@ -61,43 +61,24 @@ pub static OUTER_PRESSURE: Kernel = rows_kernel!(
 );
 
 /// The outer gap with a correction that was found in single precision.
-#[derive(Clone, Copy)]
-struct AddCorrection<T, C> {
-    constraint: C,
-    zero: T,
-    offset: f64,
-}
+struct AddCorrection;
 
-impl<T: Real, C: GapConstraint<T>> PointKernel<T, 1, 1, 2> for AddCorrection<T, C> {
+impl<T: Real, C: GapConstraint<T>> PointKernel<T, C, 1, 1, 2> for AddCorrection {
     #[inline(always)]
-    fn new(params: &Params, scalars: &Scalars) -> Self {
-        AddCorrection {
-            constraint: C::new(params),
-            zero: T::zero(),
-            offset: scalars.offset,
-        }
-    }
-
-    #[inline(always)]
-    fn at(&self, law: &impl Cohesion<T>, point: Point<T, 1, 1>) -> Made<T, 1, 2> {
-        let ([correction], [gap]) = (point.reads, point.writes);
+    fn at(numbers: &Numbers<T, C>, law: &impl Cohesion<T>, point: &mut Point<T, 1, 1, 2>) {
+        let ([correction], [gap], constraint) = (point.reads, point.writes, &numbers.constraint);
         let gap = if point.in_domain {
-            self.constraint.corrected_gap(gap, correction)
+            constraint.corrected_gap(gap, correction)
         } else {
             gap + correction
         };
-        let here = here_at(&self.constraint, law, gap, self.zero, point.in_domain);
-        let mut terms = [0.0; 2];
+        let here = here_at(constraint, law, gap, T::zero(), point.in_domain);
         RestoringSums {
-            gap_excess: gap.double() - self.offset,
-            restoring_weight: self.constraint.pressure_weight(&here).double(),
+            gap_excess: gap.double() - numbers.offset,
+            restoring_weight: constraint.pressure_weight(&here).double(),
         }
-        .put(&mut terms);
-        Made {
-            writes: [gap],
-            line: point.line,
-            terms,
-        }
+        .put(&mut point.terms);
+        point.writes = [gap];
     }
 }
 
@@ -114,30 +95,14 @@ pub static ADD_CORRECTION: [Kernel; 2] = [
 ];
 
 /// The outer gap brought back to the prescribed mean.
-#[derive(Clone, Copy)]
-struct RestoreOuterGap<T, C> {
-    constraint: C,
-    correction: T,
-}
+struct RestoreOuterGap;
 
-impl<T: Real, C: GapConstraint<T>> PointKernel<T, 0, 1, 0> for RestoreOuterGap<T, C> {
+impl<T: Real, C: GapConstraint<T>> PointKernel<T, C, 0, 1, 0> for RestoreOuterGap {
     #[inline(always)]
-    fn new(params: &Params, scalars: &Scalars) -> Self {
-        RestoreOuterGap {
-            constraint: C::new(params),
-            correction: T::of(scalars.mean_gap_correction),
-        }
-    }
-
-    #[inline(always)]
-    fn at(&self, law: &impl Cohesion<T>, point: Point<T, 0, 1>) -> Made<T, 1, 0> {
-        let [gap] = point.writes;
-        let here = here_at(&self.constraint, law, gap, T::zero(), point.in_domain);
-        Made {
-            writes: [gap - self.correction * self.constraint.pressure_weight(&here)],
-            line: point.line,
-            terms: [],
-        }
+    fn at(numbers: &Numbers<T, C>, law: &impl Cohesion<T>, point: &mut Point<T, 0, 1, 0>) {
+        let ([gap], constraint) = (point.writes, &numbers.constraint);
+        let here = here_at(constraint, law, gap, T::zero(), point.in_domain);
+        point.writes = [gap - numbers.mean_gap_correction * constraint.pressure_weight(&here)];
     }
 }
 

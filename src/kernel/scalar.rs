@@ -183,7 +183,7 @@ fn conjugate_direction(params: &Params, scalars: &mut Scalars) {
     // Under a prescribed mean gap z and d carry no mean over the free points (in the measure of the
     // local compliance, for a smooth law).
     let (mut z_mean, mut d_mean, mut residual_sum, mut change_sum) = (0.0, 0.0, 0.0, 0.0);
-    if params.fixed_gap {
+    if params.prescribed_mean_gap {
         z_mean = quotient(sums.weighted_z, sums.free_weight);
         d_mean = quotient(sums.weighted_direction, sums.free_weight);
         residual_sum = sums.free_residual;

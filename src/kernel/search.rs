@@ -1,10 +1,10 @@
 //! The search for the step length along a trial step, point by point and without transforms.
 
-use super::constraint::{GapConstraint, HardnessLimit, Unilateral, here_at};
-use super::points::{Made, Point, PointKernel};
+use super::constraint::{GapConstraint, HardnessLimit, Unilateral};
+use super::points::{Numbers, Point, PointKernel};
 use super::smooth::Smooth;
 use super::sums::sum_group;
-use super::{Kernel, Params, Scalars, TRIED, point_kernel};
+use super::{Kernel, point_kernel};
 use crate::law::Cohesion;
 use crate::real::Real;
 
@@ -17,18 +17,7 @@ sum_group! {
     EnergySums { change_at_first, energy_change, energy_size }
 }
 
-/// What the step lengths that one line-search pass tries change of the traction, of a smooth law of the energy.
-#[derive(Clone, Copy)]
-struct Search<T, C> {
-    constraint: C,
-    mean_pressure: T,
-    trial_length: T,
-    correction: T,
-    step: T,
-    tried: [T; TRIED],
-}
-
-impl<T: Real, C: GapConstraint<T>> Search<T, C> {
+impl<T: Real, C: GapConstraint<T>> Numbers<T, C> {
     /// Change of the traction along a step at each length tried, at a point that counts. Written out, since
     /// the compiler makes no vectors of a loop in here.
     #[inline(always)]
@@ -59,50 +48,35 @@ impl<T: Real, C: GapConstraint<T>> Search<T, C> {
     }
 }
 
-impl<T, C, const READS: usize, const TERMS: usize> PointKernel<T, READS, 0, TERMS> for Search<T, C>
+/// Change of the traction at each step length that one line-search pass tries; of a smooth law at one, with
+/// that of the energy.
+struct Search;
+
+impl<T, C, const READS: usize, const TERMS: usize> PointKernel<T, C, READS, 0, TERMS> for Search
 where
     T: Real,
     C: GapConstraint<T>,
 {
     #[inline(always)]
-    fn new(params: &Params, scalars: &Scalars) -> Self {
-        Search {
-            constraint: C::new(params),
-            mean_pressure: T::of(scalars.mean_pressure),
-            trial_length: T::of(scalars.trial_length),
-            correction: T::of(scalars.mean_gap_correction),
-            step: T::of(scalars.step),
-            tried: scalars.tried.map(T::of),
-        }
-    }
-
-    #[inline(always)]
-    fn at(&self, law: &impl Cohesion<T>, point: Point<T, READS, 0>) -> Made<T, 0, TERMS> {
+    fn at(numbers: &Numbers<T, C>, law: &impl Cohesion<T>, point: &mut Point<T, READS, 0, TERMS>) {
         let (gap, moved, in_domain) = (point.reads[0], point.reads[1], point.in_domain);
-        let mut terms = [0.0; TERMS];
         if C::STORES_STEP {
             // A pad has no law: most points of a free boundary are spared its powers.
             if in_domain {
-                self.energies(law, gap, moved).put(&mut terms);
+                let energies = numbers.energies(law, gap, moved);
+                energies.put(&mut point.terms);
             }
         } else {
             // To which side a closed point may move is told by its pressure, where there are two.
             let pressure = if READS > 2 { point.reads[2] } else { T::zero() };
-            let elastic = pressure + self.mean_pressure;
-            let here = here_at(&self.constraint, law, gap, elastic, in_domain);
-            let moved = self.trial_length * moved;
-            let step = self
-                .constraint
-                .trial_step(law, &here, moved, self.correction)
-                .step;
+            let here = numbers.here_at(law, [gap, pressure], in_domain);
+            let (constraint, correction) = (&numbers.constraint, numbers.mean_gap_correction);
+            let moved = numbers.trial_length * moved;
+            let step = constraint.trial_step(law, &here, moved, correction).step;
             // Below zero the pressure does not change.
-            let counts = in_domain & !self.constraint.goes_down(gap, here.y);
-            self.changes(law, gap, step, counts).put(&mut terms);
-        }
-        Made {
-            writes: [],
-            line: point.line,
-            terms,
+            let counts = in_domain & !constraint.goes_down(gap, here.y);
+            let changes = numbers.changes(law, gap, step, counts);
+            changes.put(&mut point.terms);
         }
     }
 }

@@ -5,7 +5,7 @@
 //! dg = S2 dv, S2 = k/(k + D). Points of a pad have no law: S2 = 1.
 
 use super::constraint::{GapConstraint, Here, Tried, Violation};
-use super::points::{PointKernel, side_by_side};
+use super::points::{Numbers, PointKernel, side_by_side};
 use super::{Params, Rows, SUMS};
 use crate::law::{AdhesionMap, Cohesion, CorrectedField, Law, LennardJones, imbalance};
 use crate::real::Real;
@@ -81,7 +81,7 @@ impl<T: Real> GapConstraint<T> for Smooth<T> {
     #[inline(always)]
     fn new(params: &Params) -> Self {
         Smooth {
-            stiffness: T::of(params.core_stiffness),
+            stiffness: T::of(params.smooth_stiffness),
             peak: T::of(params.law.peak_tension()),
             peak_gap: T::of(params.law.peak_gap()),
             precision: T::of(2.0 * params.epsilon * params.law.range()),
@@ -118,11 +118,6 @@ impl<T: Real> GapConstraint<T> for Smooth<T> {
     fn preconditioned(&self, here: &Here<T>, line: T) -> T {
         let hardening = here.hardening;
         line + hardening / self.stiffness * here.y / (hardening + self.stiffness)
-    }
-
-    #[inline(always)]
-    fn goes_down(&self, _: T, _: T) -> bool {
-        false
     }
 
     /// The change of g as v moves.
@@ -169,23 +164,13 @@ impl<T: Real> GapConstraint<T> for Smooth<T> {
         here.weight
     }
 
-    #[inline(always)]
-    fn corrected_gap(&self, gap: T, correction: T) -> T {
-        gap + correction
-    }
-
-    #[inline(always)]
-    fn net_traction(&self, here: &Here<T>) -> T {
-        here.pull
-    }
-
     fn run<K, const READS: usize, const WRITES: usize, const TERMS: usize>(
-        kernel: K,
+        numbers: Numbers<T, Self>,
         params: &Params,
         rows: &mut Rows<T>,
         sums: &mut [f64; SUMS],
     ) where
-        K: PointKernel<T, READS, WRITES, TERMS>,
+        K: PointKernel<T, Self, READS, WRITES, TERMS>,
     {
         let law = match params.law {
             Law::LennardJones(law) => law,
@@ -197,9 +182,9 @@ impl<T: Real> GapConstraint<T> for Smooth<T> {
         };
         let law = law.cast::<T>();
         if rows.outer[0].is_empty() {
-            side_by_side(kernel, AdhesionMap(law), rows, sums);
+            side_by_side::<_, _, K, READS, WRITES, TERMS>(numbers, AdhesionMap(law), rows, sums);
         } else {
-            side_by_side(kernel, CorrectedField(law), rows, sums);
+            side_by_side::<_, _, K, READS, WRITES, TERMS>(numbers, CorrectedField(law), rows, sums);
         }
     }
 }

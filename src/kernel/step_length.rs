@@ -16,7 +16,10 @@ fn rigid_motion(params: &Params, scalars: &mut Scalars) -> bool {
         scalars.status = Status::NotFinite;
     } else if scalars.least_step > 0.0 && params.may_detach {
         scalars.status = Status::PulledOff;
-    } else if scalars.largest_step < 0.0 && scalars.first_touch.is_finite() && !params.fixed_gap {
+    } else if scalars.largest_step < 0.0
+        && scalars.first_touch.is_finite()
+        && !params.prescribed_mean_gap
+    {
         scalars.step = scalars.first_touch;
         scalars.length = scalars.step;
     } else {

@@ -44,9 +44,6 @@ macro_rules! sum_table {
         }
 
         impl Sums {
-            /// All zero.
-            pub const ZERO: Sums = Sums { $($name: 0.0,)* };
-
             /// The value of a sum.
             pub fn get(&self, sum: Sum) -> f64 {
                 match sum {

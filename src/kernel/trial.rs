@@ -1,10 +1,10 @@
 //! The new direction and its trial step.
 
-use super::constraint::{GapConstraint, HardnessLimit, Here, Tried, Unilateral, here_at};
-use super::points::{Made, Point, PointKernel};
+use super::constraint::{GapConstraint, HardnessLimit, Here, Tried, Unilateral};
+use super::points::{Numbers, Point, PointKernel};
 use super::smooth::Smooth;
 use super::sums::sum_group;
-use super::{Kernel, Params, Scalars, point_kernel};
+use super::{Kernel, point_kernel};
 use crate::law::Cohesion;
 use crate::real::Real;
 
@@ -31,25 +31,8 @@ sum_group! {
     /// What restores the mean gap of a smooth law.
     ComplianceSums { step_sum, compliance_sum }
 }
-/// The new direction of a point, from the scalars.
-#[derive(Clone, Copy)]
-struct Directing<T> {
-    descent_factor: T,
-    beta: T,
-    mean_gap_shift: T,
-}
-
-impl<T: Real> Directing<T> {
-    #[inline(always)]
-    fn new(scalars: &Scalars) -> Self {
-        Directing {
-            descent_factor: T::of(scalars.descent_factor),
-            beta: T::of(scalars.beta),
-            mean_gap_shift: T::of(scalars.mean_gap_shift),
-        }
-    }
-
-    /// Zero where the point is not free.
+impl<T: Real, C: GapConstraint<T>> Numbers<T, C> {
+    /// The new direction: zero where the point is not free.
     #[inline(always)]
     fn new_direction(&self, z: T, direction: T, free: bool) -> T {
         if free {
@@ -58,23 +41,24 @@ impl<T: Real> Directing<T> {
             T::zero()
         }
     }
-}
 
-/// The trial step of a point; a pad has no constraint.
-#[inline(always)]
-pub(super) fn step_at<T: Real>(
-    constraint: &impl GapConstraint<T>,
-    law: &impl Cohesion<T>,
-    here: &Here<T>,
-    [moved, correction]: [T; 2],
-    in_domain: bool,
-) -> Tried<T> {
-    if in_domain {
-        constraint.trial_step(law, here, moved, correction)
-    } else {
-        Tried {
-            step: moved,
-            cut: false,
+    /// The trial step of a point along a direction; a pad has no constraint.
+    #[inline(always)]
+    pub(super) fn step_at(
+        &self,
+        law: &impl Cohesion<T>,
+        here: &Here<T>,
+        [direction, correction]: [T; 2],
+        in_domain: bool,
+    ) -> Tried<T> {
+        let moved = self.trial_length * direction;
+        if in_domain {
+            self.constraint.trial_step(law, here, moved, correction)
+        } else {
+            Tried {
+                step: moved,
+                cut: false,
+            }
         }
     }
 }
@@ -156,57 +140,35 @@ fn linear_trial_terms<T: Real>(tried: Tried<T>, here: &Here<T>, bent: T) -> Line
 
 /// The new direction and its trial step; `LINEAR` where the mean gap is prescribed, to which the trial is
 /// brought back by linearity.
-#[derive(Clone, Copy)]
-struct Trial<T, C, const LINEAR: bool> {
-    constraint: C,
-    mean_pressure: T,
-    directing: Directing<T>,
-    trial_length: T,
-}
+struct Trial<const LINEAR: bool>;
 
 impl<T, C, const LINEAR: bool, const READS: usize, const WRITES: usize, const TERMS: usize>
-    PointKernel<T, READS, WRITES, TERMS> for Trial<T, C, LINEAR>
+    PointKernel<T, C, READS, WRITES, TERMS> for Trial<LINEAR>
 where
     T: Real,
     C: GapConstraint<T>,
 {
     #[inline(always)]
-    fn new(params: &Params, scalars: &Scalars) -> Self {
-        Trial {
-            constraint: C::new(params),
-            mean_pressure: T::of(scalars.mean_pressure),
-            directing: Directing::new(scalars),
-            trial_length: T::of(scalars.trial_length),
-        }
-    }
-
-    #[inline(always)]
-    fn at(&self, law: &impl Cohesion<T>, point: Point<T, READS, WRITES>) -> Made<T, WRITES, TERMS> {
+    fn at(
+        numbers: &Numbers<T, C>,
+        law: &impl Cohesion<T>,
+        point: &mut Point<T, READS, WRITES, TERMS>,
+    ) {
         let (gap, pressure, in_domain) = (point.reads[0], point.reads[1], point.in_domain);
-        let elastic = pressure + self.mean_pressure;
-        let here = here_at(&self.constraint, law, gap, elastic, in_domain);
-        let d = self
-            .directing
-            .new_direction(point.line, point.writes[0], here.free);
-        let way = [self.trial_length * d, T::zero()];
-        let tried = step_at(&self.constraint, law, &here, way, in_domain);
-        let mut terms = [0.0; TERMS];
+        let here = numbers.here_at(law, [gap, pressure], in_domain);
+        let d = numbers.new_direction(point.line, point.writes[0], here.free);
+        let tried = numbers.step_at(law, &here, [d, T::zero()], in_domain);
         if LINEAR {
-            linear_trial_terms(tried, &here, pressure - point.reads[2]).put(&mut terms);
+            linear_trial_terms(tried, &here, pressure - point.reads[2]).put(&mut point.terms);
         } else {
-            trial_terms(&self.constraint, tried, &here, in_domain).put(&mut terms);
+            trial_terms(&numbers.constraint, tried, &here, in_domain).put(&mut point.terms);
         }
-        let mut writes = point.writes;
-        writes[0] = d;
+        point.writes[0] = d;
         if C::STORES_STEP {
-            writes[1] = tried.step;
-            smooth_trial_terms(law, tried.step, &here, in_domain).put(&mut terms);
+            point.writes[1] = tried.step;
+            smooth_trial_terms(law, tried.step, &here, in_domain).put(&mut point.terms);
         }
-        Made {
-            writes,
-            line: tried.step,
-            terms,
-        }
+        point.line = tried.step;
     }
 }
 
@@ -236,56 +198,38 @@ pub static LINEAR_TRIAL: Kernel = point_kernel!(
 );
 
 /// The new direction, with what its trial step takes off the mean gap.
-#[derive(Clone, Copy)]
-struct Direction<T, C> {
-    constraint: C,
-    mean_pressure: T,
-    directing: Directing<T>,
-    trial_length: T,
-}
+struct Direction;
 
 impl<T, C, const READS: usize, const WRITES: usize, const TERMS: usize>
-    PointKernel<T, READS, WRITES, TERMS> for Direction<T, C>
+    PointKernel<T, C, READS, WRITES, TERMS> for Direction
 where
     T: Real,
     C: GapConstraint<T>,
 {
     #[inline(always)]
-    fn new(params: &Params, scalars: &Scalars) -> Self {
-        Direction {
-            constraint: C::new(params),
-            mean_pressure: T::of(scalars.mean_pressure),
-            directing: Directing::new(scalars),
-            trial_length: T::of(scalars.trial_length),
-        }
-    }
-
-    #[inline(always)]
-    fn at(&self, law: &impl Cohesion<T>, point: Point<T, READS, WRITES>) -> Made<T, WRITES, TERMS> {
+    fn at(
+        numbers: &Numbers<T, C>,
+        law: &impl Cohesion<T>,
+        point: &mut Point<T, READS, WRITES, TERMS>,
+    ) {
         let (gap, in_domain) = (point.reads[0], point.in_domain);
         let pressure = if C::STORES_STEP {
             T::zero()
         } else {
             point.reads[1]
         };
-        let elastic = pressure + self.mean_pressure;
-        let here = here_at(&self.constraint, law, gap, elastic, in_domain);
-        let d = self
-            .directing
-            .new_direction(point.line, point.writes[0], here.free);
-        let way = [self.trial_length * d, T::zero()];
-        let step = step_at(&self.constraint, law, &here, way, in_domain).step;
-        let mut terms = [0.0; TERMS];
-        let mut writes = point.writes;
-        writes[0] = d;
+        let here = numbers.here_at(law, [gap, pressure], in_domain);
+        let d = numbers.new_direction(point.line, point.writes[0], here.free);
+        let step = numbers.step_at(law, &here, [d, T::zero()], in_domain).step;
+        point.writes[0] = d;
         if C::STORES_STEP {
-            writes[1] = step;
-            let after = here_at(&self.constraint, law, gap + step, elastic, in_domain);
+            point.writes[1] = step;
+            let after = numbers.here_at(law, [gap + step, pressure], in_domain);
             ComplianceSums {
                 step_sum: step.double(),
                 compliance_sum: after.weight.double(),
             }
-            .put(&mut terms);
+            .put(&mut point.terms);
         } else {
             let depth = (-(gap + step)).most(T::zero());
             TwoSidedSums {
@@ -293,12 +237,7 @@ where
                 gap_sum: gap.double(),
                 depth_sum: depth.double(),
             }
-            .put(&mut terms);
-        }
-        Made {
-            writes,
-            line: point.line,
-            terms,
+            .put(&mut point.terms);
         }
     }
 }
@@ -315,71 +254,52 @@ pub static SMOOTH_DIRECTION: Kernel = point_kernel!(
     reads [gap], writes [direction, step], fresh 1, unbound [pressure], sums [ComplianceSums]
 );
 
-/// The trial step brought back to the prescribed mean gap, unless nothing brings it back.
-#[derive(Clone, Copy)]
-struct LoadTrial<T, C> {
-    constraint: C,
-    mean_pressure: T,
-    trial_length: T,
-    correction: T,
-    /// Whether the trial is lost: one that moves and does not descend.
-    lost: bool,
-}
+/// The trial step brought back to the prescribed mean gap.
+struct LoadTrial;
 
 impl<T, C, const READS: usize, const WRITES: usize, const TERMS: usize>
-    PointKernel<T, READS, WRITES, TERMS> for LoadTrial<T, C>
+    PointKernel<T, C, READS, WRITES, TERMS> for LoadTrial
 where
     T: Real,
     C: GapConstraint<T>,
 {
     #[inline(always)]
-    fn new(params: &Params, scalars: &Scalars) -> Self {
-        let correction = scalars.mean_gap_correction;
-        LoadTrial {
-            constraint: C::new(params),
-            mean_pressure: T::of(scalars.mean_pressure),
-            trial_length: T::of(scalars.trial_length),
-            correction: T::of(correction),
-            lost: !(C::STORES_STEP || correction > -1.0 && correction < 1.0),
-        }
-    }
-
-    #[inline(always)]
-    fn at(&self, law: &impl Cohesion<T>, point: Point<T, READS, WRITES>) -> Made<T, WRITES, TERMS> {
+    fn at(
+        numbers: &Numbers<T, C>,
+        law: &impl Cohesion<T>,
+        point: &mut Point<T, READS, WRITES, TERMS>,
+    ) {
         let (gap, pressure, in_domain) = (point.reads[0], point.reads[1], point.in_domain);
-        let elastic = pressure + self.mean_pressure;
-        let here = here_at(&self.constraint, law, gap, elastic, in_domain);
-        let (mut writes, mut terms) = (point.writes, [0.0; TERMS]);
-        let tried = if C::STORES_STEP {
-            let (constraint, stored) = (&self.constraint, point.writes[0]);
-            let step = constraint.corrected_step(law, &here, stored, self.correction, in_domain);
-            writes[0] = step;
+        let correction = numbers.mean_gap_correction;
+        let here = numbers.here_at(law, [gap, pressure], in_domain);
+        let mut tried = if C::STORES_STEP {
+            let (constraint, stored) = (&numbers.constraint, point.writes[0]);
+            let step = constraint.corrected_step(law, &here, stored, correction, in_domain);
+            point.writes[0] = step;
             Tried { step, cut: false }
         } else {
-            let way = [self.trial_length * point.reads[2], self.correction];
-            step_at(&self.constraint, law, &here, way, in_domain)
+            numbers.step_at(law, &here, [point.reads[2], correction], in_domain)
         };
-        trial_terms(&self.constraint, tried, &here, in_domain).put(&mut terms);
-        if C::STORES_STEP {
-            smooth_trial_terms(law, tried.step, &here, in_domain).put(&mut terms);
-        }
-        if self.lost {
+        let mut terms = trial_terms(&numbers.constraint, tried, &here, in_domain);
+        // A trial that nothing brings back is lost: one that moves and does not descend.
+        let lost = !(C::STORES_STEP || correction > -T::one() && correction < T::one());
+        if lost {
             let (slope, cut, infinity) = (0.0, 0.0, f64::INFINITY);
             let (first_touch, largest_step, least_step) = (infinity, 1.0, infinity);
-            TrialSums {
+            terms = TrialSums {
                 slope,
                 first_touch,
                 largest_step,
                 least_step,
                 cut,
-            }
-            .put(&mut terms);
+            };
+            tried.step = T::zero();
         }
-        Made {
-            writes,
-            line: if self.lost { T::zero() } else { tried.step },
-            terms,
+        terms.put(&mut point.terms);
+        if C::STORES_STEP {
+            smooth_trial_terms(law, tried.step, &here, in_domain).put(&mut point.terms);
         }
+        point.line = tried.step;
     }
 }
 

@@ -1,14 +1,11 @@
 //! Kernels that take the step along a direction, and with it the mean pressure or the residual that follows.
 
-use std::marker::PhantomData;
-
 use super::constraint::{GapConstraint, HardnessLimit, Unilateral, here_at, projected_residual};
 use super::measure::{ResidualSums, residual_terms};
-use super::points::{Made, Point, PointKernel};
+use super::points::{Numbers, Point, PointKernel};
 use super::smooth::Smooth;
 use super::sums::sum_group;
-use super::trial::step_at;
-use super::{Kernel, Params, Scalars, point_kernel, point_kernels};
+use super::{Kernel, point_kernel, point_kernels};
 use crate::law::Cohesion;
 use crate::real::Real;
 
@@ -21,18 +18,6 @@ sum_group! {
     PressureSums { weighted_pressure, pressure_weight, least_pressure }
 }
 
-/// What a step is made of, from the scalars.
-#[derive(Clone, Copy)]
-struct Step<T> {
-    /// Whether there is one: a lost trial leaves all as it is.
-    taken: bool,
-    mean_pressure: T,
-    trial_length: T,
-    correction: T,
-    length: T,
-    snap: T,
-}
-
 /// A point after a step, and its projected residual before it.
 struct Moved<T> {
     gap: T,
@@ -40,115 +25,73 @@ struct Moved<T> {
     previous: T,
 }
 
-impl<T: Real> Step<T> {
-    #[inline(always)]
-    fn new(scalars: &Scalars) -> Self {
-        Step {
-            taken: scalars.accepted,
-            mean_pressure: T::of(scalars.mean_pressure),
-            trial_length: T::of(scalars.trial_length),
-            correction: T::of(scalars.mean_gap_correction),
-            length: T::of(scalars.step),
-            snap: T::of(scalars.snap),
-        }
-    }
-
+impl<T: Real, C: GapConstraint<T>> Numbers<T, C> {
     /// A point after the step along a direction, or by the kept trial step, which the elastic pressure
     /// `answer`s.
     #[inline(always)]
-    fn step_from<C: GapConstraint<T>>(
+    fn step_from(
         &self,
-        constraint: &C,
         law: &impl Cohesion<T>,
         [gap, pressure]: [T; 2],
         [moved, answer]: [T; 2],
         in_domain: bool,
     ) -> Moved<T> {
-        let here = here_at(
-            constraint,
-            law,
-            gap,
-            pressure + self.mean_pressure,
-            in_domain,
-        );
+        let here = self.here_at(law, [gap, pressure], in_domain);
         let step = if C::STORES_STEP {
             moved
         } else {
-            let way = [self.trial_length * moved, self.correction];
-            step_at(constraint, law, &here, way, in_domain).step
+            let way = [moved, self.mean_gap_correction];
+            self.step_at(law, &here, way, in_domain).step
         };
-        let t = self.length;
+        let t = self.step;
         let after = if in_domain {
-            constraint.land(&here, step, t, self.snap, law.closed_gap())
+            let closed = law.closed_gap();
+            self.constraint.land(&here, step, t, self.snap, closed)
         } else {
             gap + t * step
         };
         let pushed = pressure + t * answer;
+        // A lost trial leaves all as it is.
         Moved {
-            gap: if self.taken { after } else { gap },
-            pressure: if self.taken { pushed } else { pressure },
+            gap: if self.accepted { after } else { gap },
+            pressure: if self.accepted { pushed } else { pressure },
             previous: projected_residual(&here),
         }
     }
 }
 
 /// The step, and the projected residual after it.
-#[derive(Clone, Copy)]
-struct UpdateState<T, C> {
-    constraint: C,
-    step: Step<T>,
-    stiffness_max: T,
-}
+struct UpdateState;
 
-impl<T, C, const READS: usize, const WRITES: usize> PointKernel<T, READS, WRITES, 6>
-    for UpdateState<T, C>
+impl<T, C, const READS: usize, const WRITES: usize> PointKernel<T, C, READS, WRITES, 6>
+    for UpdateState
 where
     T: Real,
     C: GapConstraint<T>,
 {
     #[inline(always)]
-    fn new(params: &Params, scalars: &Scalars) -> Self {
-        UpdateState {
-            constraint: C::new(params),
-            step: Step::new(scalars),
-            stiffness_max: T::of(params.stiffness_max),
-        }
-    }
-
-    #[inline(always)]
-    fn at(&self, law: &impl Cohesion<T>, point: Point<T, READS, WRITES>) -> Made<T, WRITES, 6> {
+    fn at(numbers: &Numbers<T, C>, law: &impl Cohesion<T>, point: &mut Point<T, READS, WRITES, 6>) {
         let (direction, in_domain) = (point.reads[0], point.in_domain);
         // The kept step, where there is one, else the direction again.
         let way = [point.reads[READS - 1], point.line];
         let state = [point.writes[0], point.writes[1]];
-        let Moved {
-            gap,
-            pressure,
-            previous,
-        } = self
-            .step
-            .step_from(&self.constraint, law, state, way, in_domain);
-        let elastic = pressure + self.step.mean_pressure;
-        let here = here_at(&self.constraint, law, gap, elastic, in_domain);
+        let moved = numbers.step_from(law, state, way, in_domain);
+        let here = numbers.here_at(law, [moved.gap, moved.pressure], in_domain);
         let residual = projected_residual(&here);
-        let mut terms = [0.0; 6];
-        residual_terms(&self.constraint, law, &here, self.stiffness_max, in_domain).put(&mut terms);
+        residual_terms(numbers, law, &here, in_domain).put(&mut point.terms);
         let [d, r] = [direction, residual].map(T::double);
         AlongSums {
-            direction_change: d * (r - previous.double()),
+            direction_change: d * (r - moved.previous.double()),
             direction_residual: d * r,
         }
-        .put(&mut terms);
-        let mut writes = point.writes;
-        (writes[0], writes[1], writes[2]) = (gap, pressure, previous);
+        .put(&mut point.terms);
+        point.writes[0] = moved.gap;
+        point.writes[1] = moved.pressure;
+        point.writes[2] = moved.previous;
         if WRITES > 3 {
-            writes[3] = residual;
+            point.writes[3] = residual;
         }
-        Made {
-            writes,
-            line: residual,
-            terms,
-        }
+        point.line = residual;
     }
 }
 
@@ -216,47 +159,28 @@ fn balance_terms<T: Real>(
 }
 
 /// The step, where the mean gap is prescribed.
-#[derive(Clone, Copy)]
-struct Advance<T, C, const LINEAR: bool> {
-    constraint: C,
-    step: Step<T>,
-}
+struct Advance<const LINEAR: bool>;
 
-impl<T, C, const LINEAR: bool, const READS: usize> PointKernel<T, READS, 3, 3>
-    for Advance<T, C, LINEAR>
+impl<T, C, const LINEAR: bool, const READS: usize> PointKernel<T, C, READS, 3, 3>
+    for Advance<LINEAR>
 where
     T: Real,
     C: GapConstraint<T>,
 {
     #[inline(always)]
-    fn new(params: &Params, scalars: &Scalars) -> Self {
-        Advance {
-            constraint: C::new(params),
-            step: Step::new(scalars),
-        }
-    }
-
-    #[inline(always)]
-    fn at(&self, law: &impl Cohesion<T>, point: Point<T, READS, 3>) -> Made<T, 3, 3> {
-        let [gap, pressure, _] = point.writes;
+    fn at(numbers: &Numbers<T, C>, law: &impl Cohesion<T>, point: &mut Point<T, READS, 3, 3>) {
+        let ([gap, pressure, _], in_domain) = (point.writes, point.in_domain);
         let mut answer = point.line;
         if LINEAR {
             // K s from K s0 and K g, see `mean_gap`.
             let bent = pressure - point.reads[1];
-            answer = answer + self.step.correction * (answer + bent);
+            answer = answer + numbers.mean_gap_correction * (answer + bent);
         }
         let way = [point.reads[0], answer];
-        let moved =
-            self.step
-                .step_from(&self.constraint, law, [gap, pressure], way, point.in_domain);
+        let moved = numbers.step_from(law, [gap, pressure], way, in_domain);
         let state = [moved.gap, moved.pressure];
-        let mut terms = [0.0; 3];
-        balance_terms(&self.constraint, law, state, point.in_domain).put(&mut terms);
-        Made {
-            writes: [moved.gap, moved.pressure, moved.previous],
-            line: point.line,
-            terms,
-        }
+        balance_terms(&numbers.constraint, law, state, in_domain).put(&mut point.terms);
+        point.writes = [moved.gap, moved.pressure, moved.previous];
     }
 }
 
@@ -281,30 +205,12 @@ pub static ADVANCE: [Kernel; 3] = [
 ];
 
 /// What gives the mean pressure under a prescribed mean gap.
-#[derive(Clone, Copy)]
-struct Balance<T, C> {
-    constraint: C,
-    number: PhantomData<T>,
-}
+struct Balance;
 
-impl<T: Real, C: GapConstraint<T>> PointKernel<T, 2, 0, 3> for Balance<T, C> {
+impl<T: Real, C: GapConstraint<T>> PointKernel<T, C, 2, 0, 3> for Balance {
     #[inline(always)]
-    fn new(params: &Params, _: &Scalars) -> Self {
-        Balance {
-            constraint: C::new(params),
-            number: PhantomData,
-        }
-    }
-
-    #[inline(always)]
-    fn at(&self, law: &impl Cohesion<T>, point: Point<T, 2, 0>) -> Made<T, 0, 3> {
-        let mut terms = [0.0; 3];
-        balance_terms(&self.constraint, law, point.reads, point.in_domain).put(&mut terms);
-        Made {
-            writes: [],
-            line: point.line,
-            terms,
-        }
+    fn at(numbers: &Numbers<T, C>, law: &impl Cohesion<T>, point: &mut Point<T, 2, 0, 3>) {
+        balance_terms(&numbers.constraint, law, point.reads, point.in_domain).put(&mut point.terms);
     }
 }
 

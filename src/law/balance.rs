@@ -1,11 +1,15 @@
-//! The balance of a point: one definition for the solver, the evaluation and the kernels.
+//! The governing equation, point by point: one definition for the solver, the evaluation and the kernels.
 //!
-//! With p = K*(g + h) the elastic pressure, pbar the mean pressure and sigma(g) the attraction,
+//! The unknown is the gap g over the rigid heights h. With p = K*(g + h) the elastic pressure of the
+//! half-space (a convolution), pbar the mean pressure and sigma(g) the attraction of the law, every
+//! point of an equilibrium has
 //!
 //! ```text
-//! y            = (p + pbar) + sigma          the wall's reaction where the gap is closed, 0 where it is open
-//! net pressure = max(y, 0) - sigma           closed
-//!              = -sigma                      open, and everywhere for a law that repels by itself
+//! y            = (p + pbar) + sigma
+//! g >= 0,  y >= 0,  g y = 0                  with a wall; y is its reaction
+//! y = 0                                      for Lennard-Jones, which repels by itself
+//! net pressure = max(y, 0) - sigma           closed (g = 0, with a wall)
+//!              = -sigma                      open, and everywhere for Lennard-Jones
 //! ```
 //!
 //! A hardness bounds the net pressure from above; where the solid is indented it is the hardness.

@@ -16,7 +16,7 @@ pub struct LennardJones<T> {
 }
 
 /// Smallest distance over `range` at which the powers are evaluated: nearer, r^9 would overflow
-/// what any load can balance, and the law goes on as a constant.
+/// what any load can balance, and the law is constant.
 const NEAREST: f64 = 0.02;
 
 impl LennardJones<f64> {
@@ -41,7 +41,7 @@ impl LennardJones<f64> {
         }
     }
 
-    /// Gap down to which the law is the 9-3 law; no state goes on below.
+    /// Gap down to which the law is the 9-3 law; no state lies below.
     pub fn least_gap(&self) -> f64 {
         (NEAREST - 1.0) * self.range
     }

@@ -5,44 +5,39 @@ use std::path::Path;
 use npyz::WriterBuilder;
 
 use super::error::OutputError;
-use super::folder::write_within;
+use super::folder::stream_within;
 use crate::grid::Grid;
 
 /// Writes a field as a float64 array of shape `[ny, nx]`, row-major, in SI units.
 ///
 /// `values` has one value a point of `grid`.
 pub fn write_field(path: &Path, grid: &Grid, values: &[f64]) -> Result<(), OutputError> {
-    write_array(path, grid, values)
+    write_array(path, grid, values.iter().copied())
 }
 
 /// The same in float32, the precision of a run in single precision.
 pub fn write_field_single(path: &Path, grid: &Grid, values: &[f64]) -> Result<(), OutputError> {
-    let values: Vec<f32> = values.iter().map(|value| *value as f32).collect();
-    write_array(path, grid, &values)
+    write_array(path, grid, values.iter().map(|value| *value as f32))
 }
 
-fn write_array<T>(path: &Path, grid: &Grid, values: &[T]) -> Result<(), OutputError>
+/// Fails where the number of values is not that of the points.
+fn write_array<T>(
+    path: &Path,
+    grid: &Grid,
+    values: impl Iterator<Item = T>,
+) -> Result<(), OutputError>
 where
-    T: npyz::AutoSerialize + Copy,
+    T: npyz::AutoSerialize,
 {
-    debug_assert_eq!(values.len(), grid.len(), "one value a point");
-    let mut bytes = Vec::with_capacity(size_of_val(values) + 128);
-    encode(&mut bytes, grid, values).map_err(OutputError::write("write", path))?;
-    write_within(path, &bytes)
-}
-
-/// The bytes of the file; fails where the number of values is not that of the points.
-fn encode<T>(bytes: &mut Vec<u8>, grid: &Grid, values: &[T]) -> std::io::Result<()>
-where
-    T: npyz::AutoSerialize + Copy,
-{
-    let mut writer = npyz::WriteOptions::new()
-        .default_dtype()
-        .shape(&[grid.ny as u64, grid.nx as u64])
-        .writer(bytes)
-        .begin_nd()?;
-    writer.extend(values.iter().copied())?;
-    writer.finish()
+    stream_within(path, |file| {
+        let mut writer = npyz::WriteOptions::new()
+            .default_dtype()
+            .shape(&[grid.ny as u64, grid.nx as u64])
+            .writer(file)
+            .begin_nd()?;
+        writer.extend(values)?;
+        writer.finish()
+    })
 }
 
 #[cfg(test)]

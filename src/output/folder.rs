@@ -1,7 +1,7 @@
 //! The folder of a run: who may write where, and files that appear whole or not at all.
 
 use std::fs::{self, File};
-use std::io::{self, Write};
+use std::io::{self, BufWriter, Write};
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
@@ -389,12 +389,20 @@ pub fn write_atomically(path: &Path, bytes: &[u8]) -> Result<(), OutputError> {
     if !folder.as_os_str().is_empty() {
         fs::create_dir_all(folder).map_err(OutputError::write("create the folder", folder))?;
     }
-    replace(path, folder, bytes)
+    replace(path, folder, |file| file.write_all(bytes))
 }
 
 /// As [`write_atomically`] into the folder of a run, which is there or was taken away: only a folder
 /// within it is created, so that no half of a run is made anew.
 pub fn write_within(path: &Path, bytes: &[u8]) -> Result<(), OutputError> {
+    stream_within(path, |file| file.write_all(bytes))
+}
+
+/// The same of what `content` writes, piece by piece.
+pub fn stream_within(
+    path: &Path,
+    content: impl FnOnce(&mut BufWriter<File>) -> io::Result<()>,
+) -> Result<(), OutputError> {
     let folder = path.parent().unwrap_or(Path::new(""));
     let within = folder.file_name().and_then(|name| name.to_str());
     if within.is_some_and(|name| PARTS.contains(&name)) {
@@ -405,19 +413,26 @@ pub fn write_within(path: &Path, bytes: &[u8]) -> Result<(), OutputError> {
             _ => {}
         }
     }
-    replace(path, folder, bytes)
+    replace(path, folder, content)
 }
 
-/// Puts `bytes` into a hidden file of the folder, which then takes the name.
-fn replace(path: &Path, folder: &Path, bytes: &[u8]) -> Result<(), OutputError> {
+/// Puts `content` into a hidden file of the folder, which then takes the name.
+fn replace(
+    path: &Path,
+    folder: &Path,
+    content: impl FnOnce(&mut BufWriter<File>) -> io::Result<()>,
+) -> Result<(), OutputError> {
     let mut hidden_name = std::ffi::OsString::from(".");
     hidden_name.push(path.file_name().unwrap_or_default());
     hidden_name.push(UNFINISHED);
     let hidden = folder.join(hidden_name);
     let written = File::create(&hidden)
-        .and_then(|mut file| {
-            file.write_all(bytes)?;
-            file.sync_all()
+        .and_then(|file| {
+            let mut file = BufWriter::new(file);
+            content(&mut file)?;
+            file.into_inner()
+                .map_err(io::IntoInnerError::into_error)?
+                .sync_all()
         })
         .and_then(|()| fs::rename(&hidden, path));
     if written.is_err() {

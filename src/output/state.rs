@@ -7,20 +7,24 @@
 
 use std::borrow::Cow;
 use std::fs;
-use std::io;
+use std::io::{self, Write};
 use std::path::Path;
+use std::sync::Arc;
 
+use crc32fast::Hasher;
 use serde::{Deserialize, Serialize};
 use serde_json::Value;
 
 use super::error::{FRESH, OutputError};
-use super::folder::write_within;
+use super::folder::stream_within;
 use crate::study::{Checkpoint, CheckpointField, PointState, PullOff};
 
 /// First line of the file. A change of the form changes the number.
 const FORM: &[u8] = b"tabor state 2\n";
 /// Bytes of the head's length.
 const LENGTH_BYTES: usize = 8;
+/// Numbers that are put into bytes at once.
+const PIECE: usize = 1 << 14;
 /// Bytes of the checksum.
 const CHECKSUM_BYTES: usize = 4;
 
@@ -71,13 +75,12 @@ struct Head {
 impl SavedState<'_> {
     /// Writes the state to `path`, whole or not at all.
     pub fn write(&self, path: &Path) -> Result<(), OutputError> {
-        let bytes = self
-            .encode()
-            .map_err(|error| OutputError::write("write", path)(error.into()))?;
-        write_within(path, &bytes)
+        stream_within(path, |file| self.encode(file))
     }
 
-    fn encode(&self) -> serde_json::Result<Vec<u8>> {
+    /// Writes the form to `out`, numbers one after another: a field is large, and a second one of bytes would be
+    /// held for no more than this.
+    fn encode(&self, out: &mut impl Write) -> io::Result<()> {
         let state = &self.checkpoint;
         let head = serde_json::to_vec(&Head {
             tabor: env!("CARGO_PKG_VERSION").to_owned(),
@@ -102,27 +105,36 @@ impl SavedState<'_> {
                 .collect(),
             points: state.points.as_ref().map(Vec::len),
         })?;
-        let numbers: usize = state.fields.iter().map(|field| field.values.len()).sum();
-        let points = state.points.as_ref().map_or(0, Vec::len);
-        let mut bytes = Vec::with_capacity(
-            FORM.len() + LENGTH_BYTES + head.len() + 8 * numbers + points + CHECKSUM_BYTES,
-        );
-        bytes.extend(FORM);
-        bytes.extend((head.len() as u64).to_le_bytes());
-        bytes.extend(head);
-        for field in &state.fields {
-            if self.single {
-                let values = field.values.iter();
-                bytes.extend(values.flat_map(|value| (*value as f32).to_le_bytes()));
-            } else {
-                bytes.extend(field.values.iter().flat_map(|value| value.to_le_bytes()));
+        let mut checked = Hasher::new();
+        let mut write = |bytes: &[u8]| {
+            checked.update(bytes);
+            out.write_all(bytes)
+        };
+        write(FORM)?;
+        write(&(head.len() as u64).to_le_bytes())?;
+        write(&head)?;
+        let mut piece = Vec::with_capacity(PIECE * size_of::<f64>());
+        for values in state
+            .fields
+            .iter()
+            .flat_map(|field| field.values.chunks(PIECE))
+        {
+            piece.clear();
+            for value in values {
+                if self.single {
+                    piece.extend((*value as f32).to_le_bytes());
+                } else {
+                    piece.extend(value.to_le_bytes());
+                }
             }
+            write(&piece)?;
         }
-        if let Some(points) = &state.points {
-            bytes.extend(points.iter().map(|point| *point as u8));
+        for points in state.points.iter().flat_map(|points| points.chunks(PIECE)) {
+            piece.clear();
+            piece.extend(points.iter().map(|point| *point as u8));
+            write(&piece)?;
         }
-        bytes.extend(crc32fast::hash(&bytes).to_le_bytes());
-        Ok(bytes)
+        out.write_all(&checked.finalize().to_le_bytes())
     }
 
     /// Reads the state at `path`; `None` where there is none.
@@ -180,7 +192,10 @@ fn decode(bytes: &[u8]) -> Result<SavedState<'static>, String> {
         } else {
             numbers(part, f64::from_le_bytes)
         };
-        fields.push(CheckpointField { name, values });
+        fields.push(CheckpointField {
+            name,
+            values: Arc::new(values),
+        });
     }
     let points = match head.points {
         None => None,
@@ -246,7 +261,7 @@ mod tests {
             checkpoint: Cow::Owned(Checkpoint {
                 fields: vec![CheckpointField {
                     name: "gap".into(),
-                    values,
+                    values: Arc::new(values),
                 }],
                 points: Some(vec![
                     PointState::Contact,
@@ -263,6 +278,12 @@ mod tests {
                 transforms: 1234.5625,
             }),
         }
+    }
+
+    fn bytes_of(state: &SavedState) -> Vec<u8> {
+        let mut bytes = Vec::new();
+        state.encode(&mut bytes).unwrap();
+        bytes
     }
 
     #[test]
@@ -285,7 +306,7 @@ mod tests {
 
     #[test]
     fn every_cut_and_every_flipped_bit_is_noticed() {
-        let bytes = state(false).encode().unwrap();
+        let bytes = bytes_of(&state(false));
         assert!(decode(&bytes).is_ok());
         for end in 0..bytes.len() {
             assert!(decode(&bytes[..end]).is_err(), "cut at {end}");
@@ -302,7 +323,7 @@ mod tests {
 
     #[test]
     fn a_state_of_another_version_says_so() {
-        let mut bytes = state(false).encode().unwrap();
+        let mut bytes = bytes_of(&state(false));
         bytes.truncate(bytes.len() - CHECKSUM_BYTES);
         let version = format!("\"tabor\":\"{}\"", env!("CARGO_PKG_VERSION"));
         let at = bytes
@@ -314,7 +335,7 @@ mod tests {
         let reason = decode(&bytes).unwrap_err();
         assert!(reason.contains("written by tabor 7"), "{reason}");
         // Well formed, but announcing more than the file holds: no allocation of that size.
-        let mut huge = state(false).encode().unwrap();
+        let mut huge = bytes_of(&state(false));
         huge.truncate(huge.len() - CHECKSUM_BYTES);
         let text = b"[\"gap\",5]";
         let at = huge.windows(text.len()).position(|w| w == text).unwrap();

@@ -1,10 +1,11 @@
 //! The fields of a step as VTK image data (`.vti`) for ParaView.
 
-use std::io;
+use std::borrow::Cow;
+use std::io::{self, Write};
 use std::path::Path;
 
 use super::error::OutputError;
-use super::folder::write_within;
+use super::folder::stream_within;
 use crate::grid::Grid;
 use crate::scene::FieldName;
 
@@ -22,18 +23,22 @@ const LENGTH_BYTES: usize = 8;
 pub fn write_volume(
     path: &Path,
     grid: &Grid,
-    fields: &[(FieldName, Vec<f64>)],
+    fields: &[(FieldName, Cow<[f64]>)],
     single: bool,
 ) -> Result<(), OutputError> {
     debug_assert!(fields.iter().all(|(_, values)| values.len() == grid.len()));
-    let bytes = encode(grid, fields, single).map_err(OutputError::write("write", path))?;
-    write_within(path, &bytes)
+    stream_within(path, |file| encode(file, grid, fields, single))
 }
 
 /// The last bytes of every volume.
 pub const VOLUME_END: &[u8] = b"\n</VTKFile>\n";
 
-fn encode(grid: &Grid, fields: &[(FieldName, Vec<f64>)], single: bool) -> io::Result<Vec<u8>> {
+fn encode(
+    out: &mut impl Write,
+    grid: &Grid,
+    fields: &[(FieldName, Cow<[f64]>)],
+    single: bool,
+) -> io::Result<()> {
     let (kind, width) = if single {
         ("Float32", 4)
     } else {
@@ -60,23 +65,19 @@ fn encode(grid: &Grid, fields: &[(FieldName, Vec<f64>)], single: bool) -> io::Re
     head.push_str(
         "      </PointData>\n      <CellData/>\n    </Piece>\n  </ImageData>\n  <AppendedData encoding=\"raw\">\n_",
     );
-    let mut bytes = Vec::with_capacity(head.len() + fields.len() * (LENGTH_BYTES + array) + 64);
-    bytes.extend(head.into_bytes());
+    out.write_all(head.as_bytes())?;
     for (_, values) in fields {
-        bytes.extend((array as u64).to_le_bytes());
-        if single {
-            bytes.extend(
-                values
-                    .iter()
-                    .flat_map(|value| (*value as f32).to_le_bytes()),
-            );
-        } else {
-            bytes.extend(values.iter().flat_map(|value| value.to_le_bytes()));
+        out.write_all(&(array as u64).to_le_bytes())?;
+        for value in values.iter() {
+            if single {
+                out.write_all(&(*value as f32).to_le_bytes())?;
+            } else {
+                out.write_all(&value.to_le_bytes())?;
+            }
         }
     }
-    bytes.extend(b"\n  </AppendedData>");
-    bytes.extend(VOLUME_END);
-    Ok(bytes)
+    out.write_all(b"\n  </AppendedData>")?;
+    out.write_all(VOLUME_END)
 }
 
 #[cfg(test)]
@@ -141,14 +142,17 @@ mod tests {
         let gap = vec![0.0, -1.5, 2e-9, f64::MIN_POSITIVE, tricky, 5.1];
         let pressure = vec![1.0, 2.0, 3.0, 4.0, 5.0, 6.1];
         let fields = [
-            (FieldName::Gap, gap.clone()),
-            (FieldName::Pressure, pressure.clone()),
+            (FieldName::Gap, Cow::Borrowed(&gap[..])),
+            (FieldName::Pressure, Cow::Borrowed(&pressure[..])),
         ];
         write_volume(&path, &grid, &fields, false).unwrap();
         let bytes = std::fs::read(&path).unwrap();
         assert_eq!(
             parse(&bytes),
-            [("gap".to_owned(), gap), ("pressure".to_owned(), pressure)]
+            [
+                ("gap".to_owned(), gap.clone()),
+                ("pressure".to_owned(), pressure.clone())
+            ]
         );
         let head = String::from_utf8_lossy(&bytes);
         assert!(head.contains("WholeExtent=\"0 2 0 1 0 0\""));

@@ -30,7 +30,7 @@ pub(super) fn fingerprint(setup: &Setup) -> String {
     if let Some(table) = resolved.as_object_mut() {
         table.remove("solver");
         let mut checksum = crc32fast::Hasher::new();
-        for height in &setup.surface.heights {
+        for height in setup.surface.heights.iter() {
             checksum.update(&height.to_le_bytes());
         }
         table.insert(

@@ -10,16 +10,16 @@ use crate::law::Law;
 const TOLERANCE: f64 = 1e-3;
 /// Iterations on the coarser grids.
 const MAX_ITERATIONS: usize = 200;
-/// Fewest points each way of the finest grid that is helped.
+/// Fewest points each way of a grid with a coarse start.
 const FEWEST_HELPED: usize = 128;
 /// Fewest points each way of the coarsest grid.
 const FEWEST_COARSEST: usize = 32;
 /// Halvings.
 const LEVELS: usize = 3;
 
-/// A gap to start from and the transforms it took, in those of the full grid; `None` where a cold
-/// start does as well (small grids), or where coarse grids might choose another equilibrium
-/// (adhesion). `watch` may end it early, as it may end the solve.
+/// A gap to start from and its cost in transforms of the full grid; `None` where a cold start is as
+/// good (small grids) or coarse grids might lead to another equilibrium (adhesion). `watch` may end it
+/// early, as it may end the solve.
 pub(super) fn gap(
     problem: &Problem,
     load: &Load,
@@ -68,11 +68,13 @@ fn refine(
     }
     transforms += solver.transforms();
     let mut displacement = solver.gap()?;
-    for (u, h) in displacement.iter_mut().zip(&coarse.heights) {
+    drop(solver);
+    drop(backend);
+    for (u, h) in displacement.iter_mut().zip(coarse.heights.iter()) {
         *u += h;
     }
     let mut gap = interpolate(&displacement, [nx / 2, ny / 2]);
-    for (g, h) in gap.iter_mut().zip(&problem.heights) {
+    for (g, h) in gap.iter_mut().zip(problem.heights.iter()) {
         *g = (*g - h).max(0.0);
     }
     if let Hold::Gap(target) = load.hold {

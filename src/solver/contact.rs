@@ -2,17 +2,18 @@
 
 use super::MakeBackend;
 use super::coarse_start;
-use super::correction::FIRST_TOLERANCE;
 use super::kernel_set::{KernelSet, params_of_problem, params_under};
 use super::mean_gap::HeightsPressure;
 use super::multilevel::Multilevel;
 use super::outer_state::OuterState;
 use super::problem::Problem;
+use super::refinement::FIRST_TOLERANCE;
 use crate::backend::{Backend, BackendError, Field, Level, Response, Spectrum};
+use crate::grid::Boundary;
 use crate::kernel::{Params, Scalars, Status, scalar};
 use crate::law::{Cohesion, Law};
 
-/// What is held fixed, reduced units.
+/// What is prescribed, reduced units.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Hold {
     /// The mean pressure over all solved points.
@@ -21,10 +22,10 @@ pub enum Hold {
     Gap(f64),
 }
 
-/// A load: what is held, and how stiffly the mean displacement is held besides.
+/// A load: what is prescribed, and the stiffness of a spring on the mean displacement.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Load {
-    /// What is held fixed.
+    /// What is prescribed.
     pub hold: Hold,
     /// Stiffness of the zero mode: 0 without a spring, and where the mean gap is held.
     pub zero_stiffness: f64,
@@ -88,42 +89,42 @@ pub struct ContactSolver<'a> {
     pub(super) pressure: Field,
     pub(super) direction: Field,
     pub(super) previous_residual: Field,
-    /// K times the heights, where a mean gap is held by linearity.
+    /// K times the heights, where a mean gap is kept by linearity.
     pub(super) heights_pressure: Option<HeightsPressure>,
-    /// Factors on the law's tension, where it is not the same everywhere and always.
+    /// Factors on the law's tension, where it varies from point to point or with time.
     law_factor: Option<Field>,
-    /// Those factors over the grid, where they are not the problem's own.
+    /// These factors over the grid, unless they are the problem's own.
     present_factor: Option<Vec<f64>>,
     /// The trial step of a law whose change of variable makes it costly.
     pub(super) step: Option<Field>,
     pub(super) stiffness: Spectrum,
     pub(super) preconditioner: Option<Spectrum>,
-    /// The compliance of all waves, where the contact's conductance is asked.
+    /// The compliance of all waves, for a scene with conductance.
     pub(super) compliance: Option<Spectrum>,
     pub(super) levels: Option<Multilevel>,
     pub(super) kernels: KernelSet,
     pub(super) params: Params,
-    /// The state in double precision, where iterations here are to be corrected by it; made when it
-    /// is first asked for.
+    /// The outer state in double precision of iterative refinement; made at its first use.
     pub(super) outer: Option<OuterState>,
-    /// Transforms of the solvers on coarser grids that this one asked for help.
+    /// Transforms of the coarse starts.
     helped_by: f64,
-    /// What a relaxing solid's past adds to its displacement, over all solved points; empty where the
-    /// solid has none.
+    /// What the history of a viscoelastic solid adds to its displacement, over all solved points; empty for
+    /// an elastic solid.
     offset: Vec<f64>,
     /// Mean of it.
     mean_offset: f64,
-    /// Depths by which flow has lowered the heights, over all solved points; empty where it has not.
+    /// Depths by which plastic indentation has lowered the heights, over all solved points; empty if it has
+    /// not.
     plastic_depths: Vec<f64>,
 }
 
 /// Rounds, lost trials and long searches included, that a solve may take for each iteration allowed.
 pub const ROUNDS_PER_ITERATION: usize = 4;
 
-/// A solve has stalled on rounding alone where the residual carried along is below this share of the fresh
-/// one.
+/// A solve has stalled by drift of the pressures if the residual that is carried along is below this share
+/// of the fresh one.
 const DRIFTED: f64 = 0.5;
-/// Times that a solve goes on from fresh pressures after such a stall.
+/// Restarts from fresh pressures after such a stall.
 const REFRESHES: usize = 4;
 
 impl<'a> ContactSolver<'a> {
@@ -153,7 +154,9 @@ impl<'a> ContactSolver<'a> {
         let compliance = problem
             .conducts
             .then(|| problem.spectrum(backend, level, "compliance", Response::Compliance));
-        backend.write(heights, &problem.padded(&problem.heights, 0.0));
+        let reduced: Vec<f64> = problem.padded_heights().collect();
+        backend.write(heights, &reduced);
+        drop(reduced);
         let params = params_of_problem(problem, backend.epsilon());
         ContactSolver {
             backend,
@@ -222,27 +225,28 @@ impl<'a> ContactSolver<'a> {
         }
     }
 
-    /// Moves the rigid heights by what a relaxing solid's past adds to its displacement (reduced, all
-    /// solved points).
+    /// Moves the rigid heights by what the history of a viscoelastic solid adds to its displacement (reduced,
+    /// all solved points).
     pub fn set_offset(&mut self, offset: &[f64]) {
         self.mean_offset = offset.iter().sum::<f64>() / offset.len() as f64;
         self.offset = offset.to_vec();
         self.write_heights();
     }
 
-    /// Lowers the rigid heights by the depths that have flowed (reduced, all solved points).
+    /// Lowers the rigid heights by the plastic depths (reduced, all solved points).
     pub fn set_plastic_depths(&mut self, depths: &[f64]) {
         self.plastic_depths = depths.to_vec();
         self.write_heights();
     }
 
-    /// Depths by which flow has lowered the heights, over all solved points; empty where it has not.
+    /// Depths by which plastic indentation has lowered the heights, over all solved points; empty if it has
+    /// not.
     pub fn plastic_depths(&self) -> &[f64] {
         &self.plastic_depths
     }
 
     fn write_heights(&mut self) {
-        let mut moved = self.problem.padded(&self.problem.heights, 0.0);
+        let mut moved: Vec<f64> = self.problem.padded_heights().collect();
         for (height, depth) in moved.iter_mut().zip(&self.plastic_depths) {
             *height -= depth;
         }
@@ -271,7 +275,7 @@ impl<'a> ContactSolver<'a> {
         }
     }
 
-    /// The factors set, where they are not the problem's own.
+    /// The factors that were set; `None` if they are the problem's own.
     pub fn law_factor(&self) -> Option<&[f64]> {
         self.present_factor.as_deref()
     }
@@ -281,9 +285,9 @@ impl<'a> ContactSolver<'a> {
         self.mean_offset
     }
 
-    /// The gap at which the undeformed surfaces first touch, scaled or shifted to a held mean gap.
+    /// The gap at which the undeformed surfaces first touch, scaled or shifted to a prescribed mean gap.
     fn undeformed(&self, load: &Load) -> Vec<f64> {
-        let mut heights = self.problem.heights.clone();
+        let mut heights: Vec<f64> = self.problem.heights.iter().collect();
         if !self.plastic_depths.is_empty() {
             let depths = self.problem.surface_part(&self.plastic_depths);
             heights
@@ -292,7 +296,8 @@ impl<'a> ContactSolver<'a> {
                 .for_each(|(h, depth)| *h -= depth);
         }
         let highest = heights.iter().copied().fold(f64::NEG_INFINITY, f64::max);
-        let mut gap: Vec<f64> = heights.iter().map(|h| highest - h).collect();
+        let mut gap = heights;
+        gap.iter_mut().for_each(|h| *h = highest - *h);
         if let Hold::Gap(target) = load.hold {
             let mean = gap.iter().sum::<f64>() / gap.len() as f64;
             if target >= mean {
@@ -300,7 +305,8 @@ impl<'a> ContactSolver<'a> {
             } else if target <= 0.0
                 && (self.problem.hardness.is_some() || !self.problem.law.has_wall())
             {
-                // Pressed in beyond closure: the solid flows all over, or stands parallel in the core.
+                // Pressed in beyond closure: the solid is indented everywhere, or the Lennard-Jones surfaces
+                // stand parallel where they repel.
                 gap.fill(target);
             } else {
                 gap.iter_mut().for_each(|g| *g *= target / mean);
@@ -309,9 +315,9 @@ impl<'a> ContactSolver<'a> {
         gap
     }
 
-    /// Readies a solve: the load, the start, and the pressures that belong to it.
+    /// Prepares a solve: the load, the start, and the pressures that belong to it.
     ///
-    /// Around an outer state the present gap is that state's, which [`ContactSolver::solve`] hands in.
+    /// With an outer state the present gap is that state's, which [`ContactSolver::solve`] hands in.
     pub fn begin(
         &mut self,
         load: &Load,
@@ -319,12 +325,12 @@ impl<'a> ContactSolver<'a> {
         tolerance: f64,
         careful: bool,
     ) -> Result<(), BackendError> {
-        let (fixed_gap, mean_pressure) = match load.hold {
+        let (prescribed_mean_gap, mean_pressure) = match load.hold {
             Hold::Pressure(pressure) => (false, pressure),
             Hold::Gap(_) => (true, 0.0),
         };
-        // K takes the mean of the heights away, by which the pressure of the heights counts.
-        debug_assert!(!fixed_gap || load.zero_stiffness == 0.0);
+        // A prescribed mean gap needs K h without the mean of the heights, hence K = 0 at q = 0.
+        debug_assert!(!prescribed_mean_gap || load.zero_stiffness == 0.0);
         self.backend.set_outer_state(None);
         self.params = params_under(self.problem, load, self.params.epsilon);
         self.params.tolerance = tolerance;
@@ -336,7 +342,7 @@ impl<'a> ContactSolver<'a> {
             (None, Some(spectrum)) => self.backend.set_zero_mode(spectrum, load.zero_compliance),
             (None, None) => {}
         }
-        if fixed_gap {
+        if prescribed_mean_gap {
             self.begin_mean_gap();
         }
         let mut scalars = Scalars::start(mean_pressure, careful);
@@ -348,7 +354,11 @@ impl<'a> ContactSolver<'a> {
             Start::Present => {}
             Start::Gap(gap) => self.backend.write(self.gap, gap),
             Start::Cold => {
-                let gap = self.problem.padded(&self.undeformed(load), 0.0);
+                let gap = self.undeformed(load);
+                let gap = match self.problem.boundary {
+                    Boundary::Periodic => gap,
+                    Boundary::Free => self.problem.padded(&gap, 0.0),
+                };
                 self.backend.write(self.gap, &gap);
             }
         }
@@ -379,7 +389,7 @@ impl<'a> ContactSolver<'a> {
             false => tolerance,
         };
         let helped = match start {
-            // Coarse grids know nothing of what has flowed.
+            // The coarse grids do not have the plastic depths.
             Start::Cold if self.plastic_depths.is_empty() => {
                 coarse_start::gap(self.problem, load, make_backend, watch)?
             }
@@ -410,8 +420,8 @@ impl<'a> ContactSolver<'a> {
             let end = self.evaluate()?;
             let at_floor = end.numerator <= scalar::rounding_floor(&self.params, &end);
             match status {
-                // The measure carried along says converged, the fresh one not yet: go on, unless
-                // rounding of the gap, which only the fresh one sees, is all that is left.
+                // The residual that is carried along has converged, the fresh one has not: continue, unless
+                // only rounding of the gap is left, which the fresh one alone contains.
                 Status::Converged if end.status != Status::Converged && !at_floor => {
                     if !out_of_iterations && !stopped && end.status == Status::Running {
                         self.ready();
@@ -419,8 +429,8 @@ impl<'a> ContactSolver<'a> {
                     }
                     status = end.status;
                 }
-                // Pressures carried along balance, those of the gap do not: each step has rounded both for
-                // itself. From the fresh ones it goes on, to what one rounding leaves.
+                // The pressures that are carried along balance, those of the gap do not: each step rounds
+                // both. Restarting from fresh pressures leaves the error of a single rounding.
                 Status::Stalled
                     if !at_floor
                         && scalars.residual <= DRIFTED * end.residual
@@ -449,15 +459,15 @@ impl<'a> ContactSolver<'a> {
         }
     }
 
-    /// The preconditioner's zero mode for a mean pressure that is held without a spring.
+    /// The preconditioner's zero mode under a prescribed mean pressure without a spring.
     pub fn pressure_compliance(problem: &Problem, mean_pressure: f64) -> f64 {
         let softest = 1.0 / problem.stiffness_min();
         match problem.law {
             Law::HardWall if mean_pressure != 0.0 => (problem.rms_height() / mean_pressure.abs())
                 .min(100.0 * softest)
                 .max(softest),
-            // Between flat surfaces a pressure meets the slope of the law, which is far stiffer than a wave: a
-            // step by the wave's compliance would cross the gap of the largest tension and leave the branch.
+            // Between flat surfaces the slope of the law takes up a pressure. It is far stiffer than a wave: a
+            // step by the wave's compliance would pass the gap of the largest tension and leave the branch.
             Law::LennardJones(law) if problem.rms_height() == 0.0 => {
                 softest.min(1.0 / Cohesion::slope(&law, 0.0))
             }

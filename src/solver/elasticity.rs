@@ -7,7 +7,7 @@ use crate::kernel::{Gate, displacement};
 
 impl ContactSolver<'_> {
     /// `<values, K*values>/2` over all solved points, reduced: the elastic energy of a displacement.
-    /// Between solves, since it takes their directions for work space.
+    /// Between solves only: it uses their directions as work space.
     pub fn energy_of(&mut self, values: &[f64]) -> Result<f64, BackendError> {
         let own = self.own_zero_mode();
         if let Some(outer) = &mut self.outer {
@@ -31,14 +31,14 @@ impl ContactSolver<'_> {
     }
 
     /// `K*values` over all solved points, reduced, with the half-space's own zero mode. Between
-    /// solves, since it takes their directions for work space.
+    /// solves only: it uses their directions as work space.
     pub(super) fn stiffness_times(&mut self, values: &[f64]) -> Result<Vec<f64>, BackendError> {
         let own = self.own_zero_mode();
         self.backend.set_zero_mode(self.stiffness, own);
         self.convolve(self.stiffness, values)
     }
 
-    /// `S*values`, S the inverse of that stiffness; 0 where the problem does not conduct.
+    /// `S*values`, S the inverse of that stiffness; 0 for a problem without conductance.
     pub(super) fn compliance_times(&mut self, values: &[f64]) -> Result<Vec<f64>, BackendError> {
         match self.compliance {
             Some(compliance) => self.convolve(compliance, values),
@@ -50,10 +50,10 @@ impl ContactSolver<'_> {
         let work = self.direction;
         self.backend.write(work, values);
         self.backend
-            .forward(&displacement::LOAD_FIELD, self.level, &[work]);
+            .run(&displacement::LOAD_FIELD, self.level, &[work]);
         self.backend.multiply(by, false, Gate::Always);
         self.backend
-            .backward(&displacement::STORE_FIELD, self.level, &[work]);
+            .run(&displacement::STORE_FIELD, self.level, &[work]);
         self.backend.read(work)
     }
 }

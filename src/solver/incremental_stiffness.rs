@@ -1,10 +1,10 @@
-//! The stiffness of a contact whose points are held: what a further approach meets while no point
-//! opens or closes.
+//! The incremental stiffness of a contact: its response to a further approach while no point opens or
+//! closes.
 //!
 //! On the contact C the displacement is 1 and off it the pressure is 0: `P_C S p = 1` with S the
-//! compliance, found by conjugate gradients. The stiffness K, cut to C, undoes S but near the edge
-//! and between spots, so it preconditions. The load `sum p` is what is wanted; its error is of
-//! second order in that of p.
+//! compliance, found by conjugate gradients. The stiffness K, cut to C, is the preconditioner: it inverts S
+//! except near the edge and between spots. The result is the load `sum p`, whose error is of second
+//! order in that of p.
 
 use super::contact::ContactSolver;
 use crate::backend::BackendError;
@@ -21,8 +21,8 @@ impl ContactSolver<'_> {
     ///
     /// `contact` is 1 on the points of the grid that are in contact and 0 elsewhere. On a periodic
     /// cell the displacement counts from its mean, so that the solid far below adds nothing.
-    /// Between solves, since it takes their directions for work space; the problem must be one
-    /// that [conducts](super::Problem::conducting).
+    /// Between solves only: it uses their directions as work space. The problem must be one
+    /// [with conductance](super::Problem::with_conductance).
     pub fn incremental_stiffness(
         &mut self,
         contact: &[f64],

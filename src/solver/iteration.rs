@@ -5,12 +5,12 @@ use super::contact::ContactSolver;
 use crate::backend::BackendError;
 use crate::kernel::{Gate, Scalars, Status, displacement, scalar, step_length};
 
-/// Evaluations that one search of a step length may take where each is looked at, the scalar kernels'
-/// own bounds included.
+/// Most evaluations of one line search on a backend that looks at each, above the scalar kernels' own
+/// bounds.
 const SEARCHES: usize = 48;
-/// Passes of a search in a round that is not looked at: most need no more, and one that does goes on in the
-/// next round, which does nothing else. Behind a wall a pass looks at several steps; with Lennard-Jones the
-/// first one rides in the trial.
+/// Passes of a line search in one round on a backend that does not look: most need no more, and one that
+/// does continues in the next round, which does nothing else. At a wall a pass tries several steps; with
+/// Lennard-Jones the trial evaluates the first.
 const SEARCHES_AT_ONCE: usize = 1;
 impl ContactSolver<'_> {
     /// Loads and measures the residual of the present state: every round starts from its transformed rows.
@@ -20,19 +20,19 @@ impl ContactSolver<'_> {
             Some(levels) => levels.load_residual(self.backend, state),
             None => self
                 .backend
-                .forward(self.kernels.load_residual, self.level, &state),
+                .run(self.kernels.load_residual, self.level, &state),
         }
         self.backend.scalar(&scalar::TEST_CONVERGENCE);
     }
 
-    /// p = K*(g + h) afresh, and the mean pressure that goes with a held gap.
+    /// p = K*(g + h) afresh, and the mean pressure that a prescribed mean gap takes.
     pub(super) fn refresh(&mut self) -> Result<(), BackendError> {
         let fields = [self.gap, self.heights];
         self.backend
-            .forward(&displacement::LOAD_DISPLACEMENT, self.level, &fields);
+            .run(&displacement::LOAD_DISPLACEMENT, self.level, &fields);
         self.backend.multiply(self.stiffness, false, Gate::Always);
         self.backend
-            .backward(&displacement::STORE_FIELD, self.level, &[self.pressure]);
+            .run(&displacement::STORE_FIELD, self.level, &[self.pressure]);
         self.balance();
         Ok(())
     }
@@ -43,8 +43,8 @@ impl ContactSolver<'_> {
         self.backend.scalars()
     }
 
-    /// Up to `most` iterations, as many as the backend records before it looks; says how many,
-    /// those that idled after the end included.
+    /// Up to `most` iterations, as many as the backend records before it looks. Returns how many, including
+    /// those that did nothing after the end.
     pub fn advance(&mut self, most: usize) -> Result<(usize, Scalars), BackendError> {
         let rounds = self.backend.look_every().min(most).max(1);
         for _ in 0..rounds {
@@ -54,12 +54,12 @@ impl ContactSolver<'_> {
     }
 
     /// Records one iteration, from the rows of the residual to those of the next one. All decisions are
-    /// taken by the scalar kernels; where looking is free a search is left when it is over.
+    /// taken by the scalar kernels; where looking is free a search stops when it is over.
     fn record(&mut self) -> Result<(), BackendError> {
         let (level, kernels) = (self.level, &self.kernels);
         let (g, p, d) = (self.gap, self.pressure, self.direction);
         let previous = self.previous_residual;
-        let mean_gap = self.params.fixed_gap;
+        let mean_gap = self.params.prescribed_mean_gap;
         let backend = &mut *self.backend;
         match &self.levels {
             Some(levels) => levels.descend(backend, [g, p, previous], mean_gap.then_some(d)),
@@ -68,9 +68,9 @@ impl ContactSolver<'_> {
                     backend.multiply(preconditioner, false, Gate::Ahead);
                 }
                 if mean_gap {
-                    backend.backward(kernels.mean_gap.descent, level, &[g, p, previous, d]);
+                    backend.run(kernels.mean_gap.descent, level, &[g, p, previous, d]);
                 } else {
-                    backend.backward(kernels.descent, level, &[g, p, previous]);
+                    backend.run(kernels.descent, level, &[g, p, previous]);
                 }
             }
         }
@@ -79,8 +79,8 @@ impl ContactSolver<'_> {
             self.try_at_mean_gap();
         } else {
             match self.step {
-                Some(step) => backend.forward(kernels.trial, level, &[g, p, d, step]),
-                None => backend.forward(kernels.trial, level, &[g, p, d]),
+                Some(step) => backend.run(kernels.trial, level, &[g, p, d, step]),
+                None => backend.run(kernels.trial, level, &[g, p, d]),
             }
             backend.scalar(&scalar::ACCEPT_TRIAL);
             backend.multiply(self.stiffness, true, Gate::Accepted);
@@ -102,17 +102,17 @@ impl ContactSolver<'_> {
             .map_or(&without_step[..], |fields| fields);
         match &self.levels {
             Some(levels) => levels.update_state(backend, state),
-            None => backend.inverse_then_forward(self.kernels.update_state, level, state),
+            None => backend.run(self.kernels.update_state, level, state),
         }
         backend.scalar(&step_length::ADAPT_TRIAL_LENGTH);
         backend.scalar(&scalar::TEST_CONVERGENCE);
         Ok(())
     }
 
-    /// Records the search of the step length, or the part of it that belongs to a round.
+    /// Records the line search, or the part of it that belongs to a round.
     fn search(&mut self) -> Result<(), BackendError> {
         let search = self.kernels.search;
-        // To which side a closed point may move is told by its pressure.
+        // The pressure tells to which side a closed point may move.
         let moved = self.step.unwrap_or(self.direction);
         let fields = [self.gap, moved, self.pressure];
         let fields = &fields[..search.fields()];
@@ -122,7 +122,7 @@ impl ContactSolver<'_> {
             if looks && !self.backend.scalars()?.is_open(Gate::Searching) {
                 break;
             }
-            self.backend.sweep(search, self.level, fields);
+            self.backend.run(search, self.level, fields);
             self.backend.scalar(&step_length::SEARCH);
         }
         Ok(())
@@ -139,8 +139,7 @@ impl ContactSolver<'_> {
         self.backend.set_scalars(&scalars);
         self.refresh()?;
         let fields = [self.gap, self.pressure];
-        self.backend
-            .sweep(self.kernels.residual, self.level, &fields);
+        self.backend.run(self.kernels.residual, self.level, &fields);
         self.backend.scalar(&scalar::TEST_CONVERGENCE);
         self.backend.scalars()
     }

@@ -1,5 +1,4 @@
-//! What a problem asks of the solver: the variants of the kernels for its constraint, and the numbers that
-//! stay fixed.
+//! The kernel variants for the constraint of a problem, and the numbers that stay fixed during a solve.
 
 use super::contact::{Hold, Load};
 use super::multilevel::level_compliance;
@@ -7,8 +6,8 @@ use super::problem::Problem;
 use crate::kernel::{Constraint, Kernel, Params};
 use crate::kernel::{descent, measure, multilevel, refinement, search, trial, update};
 
-/// The kernels of one constraint. Those under `mean_gap` are asked where that is prescribed; in their place
-/// without it stand `descent`, `trial` and `update_state`.
+/// The kernels of one constraint. Under a prescribed mean gap those of `mean_gap` replace `descent`, `trial`
+/// and `update_state`.
 pub(super) struct KernelSet {
     pub residual: &'static Kernel,
     pub load_residual: &'static Kernel,
@@ -17,13 +16,13 @@ pub(super) struct KernelSet {
     pub search: &'static Kernel,
     pub update_state: &'static Kernel,
     pub mean_gap: MeanGapSet,
-    /// Those that take the place of their namesakes where the preconditioner has levels.
+    /// Those that replace their namesakes with a multilevel preconditioner.
     pub levels: LevelSet,
-    /// What is done to the outer state; nothing under a hardness.
+    /// The kernels of the outer state; `None` under a hardness.
     pub outer: Option<OuterSet>,
 }
 
-/// What a prescribed mean gap asks.
+/// The kernels under a prescribed mean gap.
 pub(super) struct MeanGapSet {
     pub descent: &'static Kernel,
     pub trial: MeanGapTrial,
@@ -35,14 +34,15 @@ pub(super) struct MeanGapSet {
 pub(super) enum MeanGapTrial {
     /// By linearity, in one pass.
     Linear(&'static Kernel),
-    /// By one pass that sums how far it is off, and one that brings it back.
+    /// By one pass that sums the deviation, and one that corrects it.
     TwoPasses {
         direction: &'static Kernel,
         load_trial: &'static Kernel,
     },
 }
 
-/// What stores the projected residual, from a state as it is and after a step, and what ends with z.
+/// The kernels that store the projected residual, of the present state and after a step, and those that end
+/// with z.
 #[derive(Clone, Copy)]
 pub(super) struct LevelSet {
     pub store_residual: &'static Kernel,
@@ -51,7 +51,7 @@ pub(super) struct LevelSet {
     pub mean_gap_descent: &'static Kernel,
 }
 
-/// What adds a correction to the outer state, and what restores its mean gap.
+/// The kernels that add a correction to the outer state and restore its mean gap.
 #[derive(Clone, Copy)]
 pub(super) struct OuterSet {
     pub add_correction: &'static Kernel,
@@ -122,7 +122,7 @@ impl KernelSet {
 pub(super) fn params_under(problem: &Problem, load: &Load, epsilon: f64) -> Params {
     let mut params = params_of_problem(problem, epsilon);
     match load.hold {
-        Hold::Gap(_) => params.fixed_gap = true,
+        Hold::Gap(_) => params.prescribed_mean_gap = true,
         Hold::Pressure(pressure) if load.zero_stiffness > 0.0 => {
             // A spring presses with the whole pressure of its far end, and takes most of it back.
             let pressed = pressure.abs() * params.points.sqrt() / params.stiffness_max;
@@ -147,22 +147,22 @@ pub(super) fn params_of_problem(problem: &Problem, epsilon: f64) -> Params {
             * points.sqrt(),
         tolerance: 0.0,
         heights_norm: rounded_beside(problem),
-        fixed_gap: false,
+        prescribed_mean_gap: false,
         may_detach: false,
         points,
-        core_stiffness: 0.2 * stiffness_max,
+        smooth_stiffness: 0.2 * stiffness_max,
         level_compliance: level_compliance(problem),
         hardness: problem.hardness.unwrap_or(f64::INFINITY),
         epsilon,
     }
 }
 
-/// Roundings of its range that a Lennard-Jones gap is found to: those of the inversion of its variable.
+/// Rounding errors, of its range, in a Lennard-Jones gap: those of the inversion v(g).
 const CORE_ROUNDINGS: f64 = 2.0;
 
-/// Norm over the surface points of what a gap is rounded beside, whatever the load. A gap of the
-/// Lennard-Jones law counts from a range away, and where its traction vanishes it is a difference of two
-/// parts, whose rounding is that of the range times the slope there, 16 w/range^2.
+/// Norm over the surface points of what sets the rounding of a gap, whatever the load: the heights. A
+/// Lennard-Jones law evaluates g + range, and where its traction vanishes that is a difference of two
+/// parts, rounded like the range times the slope there, 16 w/range^2.
 fn rounded_beside(problem: &Problem) -> f64 {
     let heights = problem.heights.iter().map(|h| h * h).sum::<f64>().sqrt();
     if problem.law.has_wall() {

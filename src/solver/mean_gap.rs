@@ -8,55 +8,55 @@ use super::kernel_set::MeanGapTrial;
 use crate::backend::{Backend, Field, Level, Spectrum};
 use crate::kernel::{Gate, Scalars, displacement, mean_gap, scalar, step_length};
 
-/// K h in a field of its own. It is found anew for each load, so that what a step takes does not depend on
-/// which steps the same process has done before it.
+/// K h in a field of its own. It is computed anew for each load, so that a resumed path repeats the work of
+/// the original one.
 pub(super) struct HeightsPressure {
     field: Field,
 }
 
 impl HeightsPressure {
-    /// Plans its field.
+    /// Makes its field.
     pub fn plan(backend: &mut dyn Backend, level: Level) -> Self {
         HeightsPressure {
             field: backend.field(level, "heights_pressure"),
         }
     }
 
-    /// The field, whatever it holds.
+    /// The field.
     pub fn field(&self) -> Field {
         self.field
     }
 
-    /// Has the field hold K h; `pressure` is work space, and the scalars are set anew afterwards.
+    /// Computes K h into the field; `pressure` is work space, and the scalars are to be set afterwards.
     pub fn find(
         &self,
         backend: &mut dyn Backend,
         [heights, pressure]: [Field; 2],
         stiffness: Spectrum,
     ) {
-        // The heights alone: no gap, and no offset, which K takes away and whose rounding it keeps.
+        // The heights alone: no gap, and no offset, which K removes but whose rounding would stay.
         backend.set_scalars(&Scalars::start(0.0, false));
         backend.clear(pressure);
         let level = heights.level;
-        backend.forward(
+        backend.run(
             &displacement::LOAD_DISPLACEMENT,
             level,
             &[pressure, heights],
         );
         backend.multiply(stiffness, false, Gate::Always);
-        backend.backward(&displacement::STORE_FIELD, level, &[self.field]);
+        backend.run(&displacement::STORE_FIELD, level, &[self.field]);
     }
 }
 
 impl ContactSolver<'_> {
-    /// K h, planned where it is first asked for.
+    /// K h, made at its first use.
     fn heights_pressure(&mut self) -> Field {
         self.heights_pressure
             .get_or_insert_with(|| HeightsPressure::plan(self.backend, self.level))
             .field()
     }
 
-    /// Readies what a prescribed mean gap takes, before the scalars of a solve are set.
+    /// Prepares a prescribed mean gap, before the scalars of a solve are set.
     pub(super) fn begin_mean_gap(&mut self) {
         if self.kernels.is_linear() {
             let fields = [self.heights, self.pressure];
@@ -66,12 +66,12 @@ impl ContactSolver<'_> {
         }
     }
 
-    /// The mean pressure that goes with a prescribed gap.
+    /// The mean pressure that a prescribed mean gap takes.
     pub(super) fn balance(&mut self) {
-        if self.params.fixed_gap {
+        if self.params.prescribed_mean_gap {
             let fields = [self.gap, self.pressure];
             self.backend
-                .sweep(self.kernels.mean_gap.balance, self.level, &fields);
+                .run(self.kernels.mean_gap.balance, self.level, &fields);
             self.backend.scalar(&mean_gap::MEAN_PRESSURE);
         }
     }
@@ -83,7 +83,7 @@ impl ContactSolver<'_> {
         match self.kernels.mean_gap.trial {
             MeanGapTrial::Linear(trial) => {
                 let rigid = self.heights_pressure();
-                self.backend.forward(trial, level, &[g, p, rigid, d]);
+                self.backend.run(trial, level, &[g, p, rigid, d]);
                 self.backend.scalar(&mean_gap::RESTORE_MEAN_GAP);
             }
             MeanGapTrial::TwoPasses {
@@ -91,12 +91,12 @@ impl ContactSolver<'_> {
                 load_trial,
             } => {
                 match self.step {
-                    Some(step) => self.backend.sweep(direction, level, &[g, d, step]),
-                    None => self.backend.sweep(direction, level, &[g, p, d]),
+                    Some(step) => self.backend.run(direction, level, &[g, d, step]),
+                    None => self.backend.run(direction, level, &[g, p, d]),
                 }
                 self.backend.scalar(&mean_gap::RESTORE_MEAN_GAP);
                 let moved = self.step.unwrap_or(d);
-                self.backend.forward(load_trial, level, &[g, p, moved]);
+                self.backend.run(load_trial, level, &[g, p, moved]);
             }
         }
         self.backend.scalar(&scalar::ACCEPT_TRIAL);
@@ -113,10 +113,9 @@ impl ContactSolver<'_> {
         let moved = self.step.unwrap_or(self.direction);
         if self.kernels.is_linear() {
             let fields = [moved, self.heights_pressure(), g, p, previous];
-            self.backend.backward(advance, level, &fields);
+            self.backend.run(advance, level, &fields);
         } else {
-            self.backend
-                .backward(advance, level, &[moved, g, p, previous]);
+            self.backend.run(advance, level, &[moved, g, p, previous]);
         }
         self.backend.scalar(&step_length::ADAPT_TRIAL_LENGTH);
         self.backend.scalar(&mean_gap::MEAN_PRESSURE);

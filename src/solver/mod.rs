@@ -9,8 +9,8 @@
 
 mod coarse_start;
 mod contact;
-mod correction;
 mod elasticity;
+mod heights;
 mod incremental_stiffness;
 mod iteration;
 mod kernel_set;
@@ -20,12 +20,14 @@ mod outer_state;
 pub mod plain;
 mod plain_setup;
 mod problem;
+mod refinement;
 mod rigid;
 
 pub use contact::{ContactSolver, Hold, Load, Outcome, ROUNDS_PER_ITERATION, Start};
-pub use correction::{MOST_ROUNDS, TRIALS_PER_ITERATION};
+pub use heights::Heights;
 pub use outer_state::plan_outer_state;
 pub use problem::{Problem, Scales, good_size};
+pub use refinement::{MOST_ROUNDS, TRIALS_PER_ITERATION};
 
 /// Where solvers get their backends from; one a level of a coarse start.
 pub type MakeBackend<'a> = &'a dyn Fn() -> Box<dyn crate::backend::Backend + Send>;

@@ -13,6 +13,7 @@ use super::kernel_set::{KernelSet, LevelSet};
 use super::problem::Problem;
 use crate::backend::{Backend, Factors, Field, Level, Shape, Spectrum};
 use crate::elastic::Stiffness;
+use crate::grid::Boundary;
 use crate::kernel::{Gate, displacement, multilevel};
 
 /// Halvings of the grid at most.
@@ -61,6 +62,10 @@ pub(super) fn level_compliance(problem: &Problem) -> f64 {
 
 /// Halvings of the grid that pay for a problem; none where it cannot be halved.
 pub(super) fn halvings(problem: &Problem) -> usize {
+    // Long waves over the pad make most of a step there, which the levels answer too roughly.
+    if problem.boundary == Boundary::Free {
+        return 0;
+    }
     let pixel = [problem.grid.dx(), problem.grid.dy()];
     if pixel[0].max(pixel[1]) > LONGEST_PIXEL * pixel[0].min(pixel[1]) {
         return 0;
@@ -170,13 +175,13 @@ impl Multilevel {
     /// Records the projected residual of a state, with its measure.
     pub fn load_residual(&self, backend: &mut dyn Backend, [gap, pressure]: [Field; 2]) {
         let fields = [gap, pressure, self.residual];
-        backend.sweep(self.kernels.store_residual, self.fine, &fields);
+        backend.run(self.kernels.store_residual, self.fine, &fields);
     }
 
     /// Records the step and the projected residual after it; `state` is what the kernel takes before it.
     pub fn update_state(&self, backend: &mut dyn Backend, state: &[Field]) {
         let fields = [state, &[self.residual]].concat();
-        backend.backward(self.kernels.update_state, self.fine, &fields);
+        backend.run(self.kernels.update_state, self.fine, &fields);
     }
 
     /// Records the preconditioned residual z of the projected one; `state` is gap, pressure and the residual
@@ -184,32 +189,32 @@ impl Multilevel {
     pub fn descend(&self, backend: &mut dyn Backend, state: [Field; 3], direction: Option<Field>) {
         let mut finer = self.residual;
         for &restricted in &self.restricted {
-            backend.sweep(&multilevel::COARSEN, restricted.level, &[restricted, finer]);
+            backend.run(&multilevel::COARSEN, restricted.level, &[restricted, finer]);
             finer = restricted;
         }
         let (level, residual) = (finer.level, self.residual);
-        backend.sweep(&multilevel::FREE_SHARE, level, &[self.share, residual]);
-        backend.forward(&displacement::LOAD_FIELD_AHEAD, level, &[self.share]);
+        backend.run(&multilevel::FREE_SHARE, level, &[self.share, residual]);
+        backend.run(&displacement::LOAD_FIELD_AHEAD, level, &[self.share]);
         backend.multiply(self.smoothing, false, Gate::Ahead);
         let fields = [finer, self.weight];
-        backend.inverse_then_forward(&multilevel::WEIGH, level, &fields);
+        backend.run(&multilevel::WEIGH, level, &fields);
         backend.multiply(self.compliance, false, Gate::Ahead);
         let fields = [self.weight, self.coarsest_z];
-        backend.backward(&multilevel::STORE_WEIGHTED, level, &fields);
+        backend.run(&multilevel::STORE_WEIGHTED, level, &fields);
         let mut coarser = self.coarsest_z;
         for &z in self.restricted.iter().rev().skip(1) {
-            backend.sweep(&multilevel::REFINE, z.level, &[z, coarser]);
+            backend.run(&multilevel::REFINE, z.level, &[z, coarser]);
             coarser = z;
         }
         let [gap, pressure, previous] = state;
         match direction {
             Some(direction) => {
                 let fields = [gap, pressure, previous, direction, coarser];
-                backend.backward(self.kernels.mean_gap_descent, self.fine, &fields);
+                backend.run(self.kernels.mean_gap_descent, self.fine, &fields);
             }
             None => {
                 let fields = [gap, pressure, previous, coarser];
-                backend.backward(self.kernels.descent, self.fine, &fields);
+                backend.run(self.kernels.descent, self.fine, &fields);
             }
         }
     }

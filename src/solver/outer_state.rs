@@ -11,13 +11,13 @@ use crate::kernel::{Gate, Params, Scalars, Status, displacement, mean_gap, refin
 pub(super) struct OuterState {
     backend: Box<dyn Backend + Send>,
     places: Places,
-    /// K times the heights, where a mean gap is held by linearity.
+    /// K times the heights, where a mean gap is kept by linearity.
     heights_pressure: Option<HeightsPressure>,
     kernels: KernelSet,
     params: Params,
 }
 
-/// What is held for it.
+/// Its fields and spectra.
 #[derive(Clone, Copy)]
 struct Places {
     level: Level,
@@ -28,12 +28,12 @@ struct Places {
     /// A residual on its way to the iterations, or a correction from there.
     between: Field,
     stiffness: Spectrum,
-    /// Gap and residual of the base, where the iterations run.
+    /// Gap and residual of the outer state, where the iterations run.
     base: [Field; 2],
 }
 
-/// Plans what mixed precision holds besides: on `double` the state, beside the `iterating` fields of a
-/// solver that is planned there the base of its corrections. To count it for a load.
+/// Plans the further fields of mixed precision, to count them: the outer state on `double`, and gap and
+/// residual of it beside the fields of a solver planned on `iterating`.
 pub fn plan_outer_state(
     double: &mut dyn Backend,
     iterating: &mut dyn Backend,
@@ -77,8 +77,8 @@ impl Places {
 }
 
 impl OuterState {
-    /// Plans the state of a problem on a backend of double precision, and its base beside the
-    /// iterations on theirs.
+    /// Plans the outer state of a problem on a backend of double precision, and copies of its gap and
+    /// residual where the iterations run.
     pub fn new(
         mut backend: Box<dyn Backend + Send>,
         iterating: &mut dyn Backend,
@@ -86,7 +86,8 @@ impl OuterState {
         problem: &Problem,
     ) -> Self {
         let places = Places::plan(&mut *backend, iterating, fine, problem);
-        backend.write(places.heights, &problem.padded(&problem.heights, 0.0));
+        let heights: Vec<f64> = problem.padded_heights().collect();
+        backend.write(places.heights, &heights);
         let params = params_of_problem(problem, backend.epsilon());
         OuterState {
             places,
@@ -125,9 +126,9 @@ impl OuterState {
         self.backend.read(self.places.pressure)
     }
 
-    /// Takes a load, with the numbers of the iterations under it.
+    /// Begins a load, with the params of the iterations.
     pub fn begin(&mut self, load: &Load, tolerance: f64, iterating: &Params) {
-        let (fixed_gap, mean_pressure, offset) = match load.hold {
+        let (prescribed_mean_gap, mean_pressure, offset) = match load.hold {
             Hold::Pressure(pressure) => (false, pressure, 0.0),
             Hold::Gap(target) => (true, 0.0, target),
         };
@@ -139,7 +140,7 @@ impl OuterState {
         self.backend.set_params(&self.params);
         self.backend
             .set_zero_mode(self.places.stiffness, load.zero_stiffness);
-        if fixed_gap && self.kernels.is_linear() {
+        if prescribed_mean_gap && self.kernels.is_linear() {
             let fields = [self.places.heights, self.places.pressure];
             self.heights_pressure
                 .get_or_insert_with(|| HeightsPressure::plan(&mut *self.backend, self.places.level))
@@ -158,19 +159,19 @@ impl OuterState {
         scalars.status = Status::Running;
         backend.set_scalars(&scalars);
         let fields = [self.places.gap, self.places.heights];
-        backend.forward(&displacement::LOAD_DISPLACEMENT, self.places.level, &fields);
+        backend.run(&displacement::LOAD_DISPLACEMENT, self.places.level, &fields);
         backend.multiply(self.places.stiffness, false, Gate::Always);
-        backend.backward(
+        backend.run(
             &displacement::STORE_FIELD,
             self.places.level,
             &[self.places.pressure],
         );
         let fields = [self.places.gap, self.places.pressure];
-        if self.params.fixed_gap {
-            backend.sweep(self.kernels.mean_gap.balance, self.places.level, &fields);
+        if self.params.prescribed_mean_gap {
+            backend.run(self.kernels.mean_gap.balance, self.places.level, &fields);
             backend.scalar(&mean_gap::MEAN_PRESSURE);
         }
-        backend.sweep(self.kernels.residual, self.places.level, &fields);
+        backend.run(self.kernels.residual, self.places.level, &fields);
         backend.scalar(&scalar::TEST_CONVERGENCE);
         backend.scalars()
     }
@@ -190,7 +191,7 @@ impl OuterState {
         self.add(iterating, gap)
     }
 
-    /// Adds a correction that iterations have found, and brings the gap back to the mean that is held.
+    /// Adds a correction that iterations have found, and brings the gap back to the prescribed mean.
     pub fn add(
         &mut self,
         iterating: &mut dyn Backend,
@@ -208,10 +209,10 @@ impl OuterState {
         let Some(kernels) = self.kernels.outer else {
             return Ok(());
         };
-        backend.sweep(kernels.add_correction, level, &[between, gap]);
-        if self.params.fixed_gap {
+        backend.run(kernels.add_correction, level, &[between, gap]);
+        if self.params.prescribed_mean_gap {
             backend.scalar(&mean_gap::RESTORE_OUTER_MEAN_GAP);
-            backend.sweep(kernels.restore_gap, level, &[gap]);
+            backend.run(kernels.restore_gap, level, &[gap]);
         }
         Ok(())
     }
@@ -230,7 +231,7 @@ impl OuterState {
             ..
         } = self.places;
         let backend = &mut *self.backend;
-        backend.sweep(
+        backend.run(
             &refinement::OUTER_RESIDUAL,
             level,
             &[gap, pressure, between],
@@ -240,9 +241,9 @@ impl OuterState {
         Ok(there)
     }
 
-    /// Hands minus the pressure that the present gap makes, as last evaluated, to where the iterations run:
-    /// in place of that of the heights it is what the pressure of a correction differs by from that of its
-    /// open gap. Taken from p - K h here it keeps the digits that single precision would lose.
+    /// Hands K h - p, minus the pressure of the present gap, to where the iterations run. There it takes the
+    /// place of K h: the pressure of a correction c and K (g + c) differ by it. The difference taken in
+    /// double precision keeps the digits that single precision would lose.
     pub fn hand_rigid(
         &mut self,
         iterating: &mut dyn Backend,
@@ -259,11 +260,11 @@ impl OuterState {
         } = self.places;
         let fields = [heights_pressure.field(), pressure, between];
         self.backend
-            .sweep(&refinement::OUTER_PRESSURE, level, &fields);
+            .run(&refinement::OUTER_PRESSURE, level, &fields);
         iterating.copy_from(rigid, &mut *self.backend, between)
     }
 
-    /// Has the iterations start from the present gap.
+    /// Copies the present gap to the iterations.
     pub fn hand_gap(
         &mut self,
         iterating: &mut dyn Backend,
@@ -272,20 +273,20 @@ impl OuterState {
         iterating.copy_from(gap, &mut *self.backend, self.places.gap)
     }
 
-    /// `<values, K*values>/2` with this value of K at the zero wavevector. The next solve sets it to
-    /// its load's again.
+    /// `<values, K*values>/2` with this value of K at the zero wavevector. The next solve sets that of its
+    /// load again.
     pub fn energy_of(&mut self, values: &[f64], zero_mode: f64) -> Result<f64, BackendError> {
         let (gap, pressure) = (self.gap()?, self.pressure()?);
         let backend = &mut *self.backend;
         backend.set_zero_mode(self.places.stiffness, zero_mode);
         backend.write(self.places.gap, values);
-        backend.forward(
+        backend.run(
             &displacement::LOAD_FIELD,
             self.places.level,
             &[self.places.gap],
         );
         backend.multiply(self.places.stiffness, false, Gate::Always);
-        backend.backward(
+        backend.run(
             &displacement::STORE_FIELD,
             self.places.level,
             &[self.places.pressure],

@@ -84,7 +84,7 @@ impl<'a> Contact<'a> {
         let finer = |k: usize| problem.shape.points.map(|points| points >> k);
         Contact {
             params: params_under(problem, load, f64::EPSILON),
-            heights: problem.padded(&problem.heights, 0.0),
+            heights: problem.padded_heights().collect(),
             wall: in_domain.iter().map(|&inside| inside && wall).collect(),
             in_domain,
             factor: problem.padded(factor, 0.0),
@@ -143,18 +143,26 @@ impl<'a> Contact<'a> {
 
     /// sigma(g) at a point.
     pub(super) fn traction(&self, i: usize, gap: f64) -> f64 {
-        self.factor[i] * self.problem.law.traction(gap)
+        choose(
+            self.in_domain[i],
+            self.factor[i] * self.problem.law.traction(gap),
+            0.0,
+        )
     }
 
     /// V(g) at a point.
     pub(super) fn energy(&self, i: usize, gap: f64) -> f64 {
-        self.factor[i] * self.problem.law.energy(gap)
+        choose(
+            self.in_domain[i],
+            self.factor[i] * self.problem.law.energy(gap),
+            0.0,
+        )
     }
 
     /// k: below the gap of its largest tension sigma_max the smooth law works in the variable
     /// v = g - (sigma_max - sigma(g))/k, in which it is no steeper than k.
     pub(super) fn k(&self) -> f64 {
-        self.params.core_stiffness
+        self.params.smooth_stiffness
     }
 
     /// D = max(0, sigma'(g)) of the smooth law; 0 at a wall.

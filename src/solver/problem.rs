@@ -1,5 +1,8 @@
 //! A contact problem in reduced units, ready to be solved.
 
+use std::sync::Arc;
+
+use super::heights::Heights;
 use crate::backend::{Backend, Factors, Level, Response, Shape, Spectrum};
 use crate::elastic::{HalfSpace, Layer, Stiffness, free_stiffness, periodic_stiffness};
 use crate::grid::{Boundary, Grid};
@@ -8,8 +11,8 @@ use crate::law::Law;
 /// What one reduced unit is worth in SI units.
 ///
 /// Vertical lengths are in units of the roughness, lateral ones in pixels, pressures in what a
-/// vertical unit of displacement over a pixel takes: so that all numbers stay near 1 whatever the
-/// scene's own, and the eigenvalues of the stiffness lie below pi.
+/// vertical unit of displacement over a pixel takes, so that all numbers are near 1 and the
+/// eigenvalues of the stiffness lie below pi.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Scales {
     /// Vertical length, m.
@@ -32,9 +35,9 @@ pub struct Problem {
     /// Units.
     pub scales: Scales,
     /// Heights on the grid less `height_origin`, reduced.
-    pub heights: Vec<f64>,
-    /// Their mean (periodic) or highest value (free), m: taken off in double precision, so that
-    /// the solution does not feel where heights are measured from.
+    pub heights: Heights,
+    /// Their mean (periodic) or highest value (free), m: subtracted in double precision, so that the
+    /// solution does not depend on the origin of the heights.
     pub height_origin: f64,
     /// Root mean square slope.
     pub rms_slope: f64,
@@ -48,7 +51,7 @@ pub struct Problem {
     pub layer: Option<Layer>,
     /// Stiffness at each wavevector; its zero mode is 0 (periodic) or the free half-space's.
     pub stiffness: Stiffness,
-    /// Whether the conductance of its contacts is asked.
+    /// Whether the conductance of its contacts is computed.
     pub conducts: bool,
 }
 
@@ -99,6 +102,19 @@ impl Problem {
         rms_slope: f64,
         law: Law,
     ) -> Self {
+        let heights = Arc::new(heights.to_vec());
+        Problem::sharing(grid, boundary, contact_modulus, heights, rms_slope, law)
+    }
+
+    /// The same of heights that somebody else holds too.
+    pub fn sharing(
+        grid: Grid,
+        boundary: Boundary,
+        contact_modulus: f64,
+        heights: Arc<Vec<f64>>,
+        rms_slope: f64,
+        law: Law,
+    ) -> Self {
         let count = heights.len() as f64;
         let mean = heights.iter().sum::<f64>() / count;
         let rms = (heights.iter().map(|h| (h - mean) * (h - mean)).sum::<f64>() / count).sqrt();
@@ -133,10 +149,7 @@ impl Problem {
             boundary,
             shape,
             scales,
-            heights: heights
-                .iter()
-                .map(|h| (h - height_origin) / length)
-                .collect(),
+            heights: Heights::new(heights, height_origin, length),
             height_origin,
             rms_slope,
             law: law.reduced(length, scales.pressure),
@@ -170,7 +183,7 @@ impl Problem {
         }
     }
 
-    /// The same problem with the conductance of its contacts asked.
+    /// The same problem with the conductance of its contacts.
     pub fn with_conductance(self) -> Problem {
         Problem {
             conducts: true,
@@ -202,8 +215,8 @@ impl Problem {
         }
     }
 
-    /// A problem that has its shape and the kind of its law and no values: no heights, and where its
-    /// stiffness is a table one of 1. A solver planned on it says what the problem costs, and cannot solve it.
+    /// A problem with a shape and the kind of its law but no values: no heights, and a table of stiffness
+    /// that holds 1 only. A solver planned on it counts the cost of the problem and cannot solve it.
     pub fn sketch(grid: Grid, boundary: Boundary, law: Law) -> Self {
         Problem {
             grid,
@@ -214,7 +227,7 @@ impl Problem {
                 lateral: 1.0,
                 pressure: 1.0,
             },
-            heights: Vec::new(),
+            heights: Heights::from_reduced(Vec::new()),
             height_origin: 0.0,
             rms_slope: 0.0,
             law,
@@ -255,21 +268,21 @@ impl Problem {
             for (column, height) in line.iter_mut().enumerate() {
                 let at = 2 * row * nx + 2 * column;
                 *height = 0.25
-                    * (self.heights[at]
-                        + self.heights[at + 1]
-                        + self.heights[at + nx]
-                        + self.heights[at + nx + 1]);
+                    * (self.heights.at(at)
+                        + self.heights.at(at + 1)
+                        + self.heights.at(at + nx)
+                        + self.heights.at(at + nx + 1));
             }
         }
         Some(Problem {
             grid,
             shape: Shape::whole(grid.nx, grid.ny),
-            heights,
+            heights: Heights::from_reduced(heights),
             stiffness: layered_stiffness(grid, self.scales.lateral, self.layer.as_ref()),
             law: self.law,
-            // Only a wall without a law is helped by coarser grids.
+            // Coarse starts are for the hard wall only.
             law_factor: None,
-            // Where it yields is found on the full grid.
+            // The full grid finds where the solid yields.
             hardness: None,
             conducts: false,
             ..*self
@@ -278,10 +291,7 @@ impl Problem {
 
     /// Highest reduced height, as sampled.
     pub fn highest(&self) -> f64 {
-        self.heights
-            .iter()
-            .copied()
-            .fold(f64::NEG_INFINITY, f64::max)
+        self.heights.highest()
     }
 
     /// Root mean square of the reduced heights about their mean.
@@ -356,15 +366,42 @@ impl Problem {
         padded
     }
 
+    /// The heights over all solved points, 0 on a pad; none of a sketch.
+    pub fn padded_heights(&self) -> impl Iterator<Item = f64> + '_ {
+        let [width, rows] = self.shape.points;
+        let rows = if self.is_sketch() { 0 } else { rows };
+        let [nx, ny] = self.shape.surface;
+        (0..rows).flat_map(move |y| {
+            (0..width).map(move |x| {
+                if x < nx && y < ny {
+                    self.heights.at(y * nx + x)
+                } else {
+                    0.0
+                }
+            })
+        })
+    }
+
     /// The grid's values out of those over all solved points.
-    pub fn surface_part(&self, values: &[f64]) -> Vec<f64> {
+    pub fn on_surface<'a>(&self, values: &'a [f64]) -> impl Iterator<Item = f64> + 'a {
         let [width, _] = self.shape.points;
         let [nx, ny] = self.shape.surface;
-        values
-            .chunks_exact(width)
-            .take(ny)
-            .flat_map(|line| line[..nx].iter().copied())
-            .collect()
+        let lines = values.chunks_exact(width).take(ny);
+        lines.flat_map(move |line| line[..nx].iter().copied())
+    }
+
+    /// The same as a field of its own.
+    pub fn surface_part(&self, values: &[f64]) -> Vec<f64> {
+        self.on_surface(values).collect()
+    }
+
+    /// The same in the place of the values.
+    pub fn cut_to_surface(&self, values: Vec<f64>) -> Vec<f64> {
+        if self.shape.points == self.shape.surface {
+            values
+        } else {
+            self.surface_part(&values)
+        }
     }
 }
 

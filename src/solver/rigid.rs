@@ -1,21 +1,20 @@
-//! A gap moved rigidly to a mean that is held, without driving points into a steep core.
+//! A gap moved rigidly to a prescribed mean, without driving points deep into the repulsion of Lennard-Jones.
 //!
-//! A law without a wall repels like r^9. A step of the mean gap as long as its range would take the points
-//! that press deep into the core, where their traction is that of no solid: in single precision nothing
-//! else of the residual has a digit beside it, and no descent finds its way out. Such points are left
-//! where the repulsion answers the largest pressure that the solid can be pressed to, and the others move
-//! further, so that the mean is the one that is held.
+//! A law without a wall repels like r^9. A step of the mean gap as long as its range would take points in
+//! contact to tractions that no solid can carry: in single precision no other part of the residual has
+//! a digit beside them, and no descent leads out. Such points stop where the repulsion equals the largest
+//! pressure that the solid can be pressed to, and the others move further, so that the mean is kept.
 
 use super::problem::Problem;
 use crate::law::{Cohesion, Law};
 
-/// Newton steps that find how far the others move. Each but the last leaves more points behind, and
-/// on gaps of rough surfaces five or so are enough.
+/// Newton steps that find how far the others move. Each but the last stops more points; on rough surfaces
+/// about five are enough.
 const NEWTON_STEPS: usize = 60;
 
 impl Problem {
-    /// This gap over all solved points of a periodic grid, reduced, moved rigidly to this mean; of a law
-    /// without a wall, points that would come nearer than any pressure takes them are left there.
+    /// This gap over all solved points of a periodic grid, reduced, moved rigidly to this mean; for a law
+    /// without a wall, points stop at the least gap that any pressure reaches.
     pub fn moved_to(&self, mut gap: Vec<f64>, target: f64) -> Vec<f64> {
         let mean = gap.iter().sum::<f64>() / gap.len() as f64;
         let mut moved = target - mean;
@@ -53,8 +52,8 @@ impl Problem {
         gap
     }
 
-    /// The gaps below which no pressure of this contact takes a point whose mean gap is held at `target`:
-    /// one a point where the law differs from point to point, else one for all; `None` of a law with a wall.
+    /// The least gaps that any pressure of this contact reaches at a mean gap of `target`: one for each point
+    /// if the law varies from point to point, else one for all; `None` for a law with a wall.
     fn nearest_gaps(&self, target: f64) -> Option<Vec<f64>> {
         let Law::LennardJones(law) = self.law else {
             return None;
@@ -62,10 +61,10 @@ impl Problem {
         let (lowest, highest) = self
             .heights
             .iter()
-            .fold((f64::INFINITY, f64::NEG_INFINITY), |(low, high), &h| {
+            .fold((f64::INFINITY, f64::NEG_INFINITY), |(low, high), h| {
                 (low.min(h), high.max(h))
             });
-        // As much as a wave of all the roughness can take, and what flats at this mean gap take.
+        // The pressure of the stiffest wave with all the roughness, plus that of flats at this mean gap.
         let pressure = self.stiffness_max() * (highest - lowest);
         let at = |factor: f64| {
             let law = law.times(factor);

@@ -7,7 +7,7 @@ use super::setup::Setup;
 const CLEARANCES: i32 = 24;
 const CLEARANCE_RUNG: f64 = 1.5;
 const CLOSEST: f64 = 1e-3;
-/// Halvings of a clearance between two of these: to the last digits.
+/// Halvings of a clearance between two of these, to rounding.
 const CLEARANCE_HALVINGS: usize = 60;
 
 /// Mean attraction across a gap without contact, Pa: the undeformed surfaces at `clearance` (m) from
@@ -23,8 +23,8 @@ pub fn attraction_across(setup: &Setup, clearance: f64) -> f64 {
 
 /// The clearance (m) at which surfaces without contact attract most, and that mean attraction, Pa.
 ///
-/// With a wall a point pulls less the wider its gap, so it is met at first touch. Lennard-Jones pulls most at a
-/// gap of its own: nearly flat surfaces are held best just out of contact.
+/// At a wall the attraction falls with the gap, so this is first touch. Lennard-Jones attracts most at a finite
+/// gap: nearly flat surfaces carry the greatest tension just out of contact.
 pub fn greatest_across(setup: &Setup) -> (f64, f64) {
     let tension = |clearance: f64| attraction_across(setup, clearance);
     let mut best = (0.0, tension(0.0));

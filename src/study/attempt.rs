@@ -1,4 +1,4 @@
-//! A value of a path on its way to a solved step, as an effect finds it that solves in its own way.
+//! A prescribed value about to be solved, as passed to an effect that solves it in its own way.
 
 use super::control::Controller;
 use super::setup::Setup;
@@ -7,9 +7,9 @@ use crate::backend::BackendError;
 use crate::kernel::Scalars;
 use crate::solver::{ContactSolver, Load, MakeBackend, Outcome, Start};
 
-/// What is asked of a step, and what it is solved with.
+/// A step to be solved, with its solver.
 pub(crate) struct Attempt<'a, 's, 'b> {
-    /// The scene that is walked.
+    /// The scene.
     pub setup: &'s Setup,
     /// Translates values of the path to loads.
     pub controller: &'a Controller<'s>,
@@ -23,7 +23,7 @@ pub(crate) struct Attempt<'a, 's, 'b> {
     pub loaded: bool,
     /// Where solvers on coarser grids get their backends from.
     pub make_backend: MakeBackend<'s>,
-    /// Sees each iteration and says whether to go on.
+    /// Sees each iteration and says whether to continue.
     pub watch: &'a mut dyn FnMut(&Scalars) -> bool,
 }
 

@@ -1,5 +1,5 @@
-//! States between two steps of a path, which have no rows: a load on the way from one step to the next,
-//! solved from the state of the one or of another such load.
+//! States between two steps of a path, which have no rows: loads between those of the two steps, solved from
+//! the state of the first step or of another such load.
 
 use super::row::{State, StepRow};
 use super::walker::{Carried, Walker};
@@ -9,18 +9,18 @@ use crate::kernel::Scalars;
 /// What is looked for between two steps.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Search {
-    /// The load at which the surfaces part, between a value of the path that held and one that did not.
+    /// The load of pull-off, between a value of the path that held and one that did not.
     PullOff {
         /// The last that held.
         held: f64,
         /// The first that did not.
         parted: f64,
     },
-    /// Whether the step lost its equilibrium on the way.
+    /// Whether the step passed the end of a branch of equilibria.
     Jump,
 }
 
-/// What whoever watches a search is told.
+/// Progress of a search.
 pub(super) enum Watched<'a> {
     /// An iteration of a solve.
     Iteration(&'a Scalars),
@@ -48,7 +48,7 @@ impl Tried {
     }
 }
 
-/// The way from one step to the next.
+/// The interval from one step to the next.
 pub(super) struct Between<'b, 's> {
     pub walker: &'b mut Walker<'s>,
     /// Values of the path.
@@ -56,7 +56,7 @@ pub(super) struct Between<'b, 's> {
     pub to: f64,
     /// How long the step takes, s.
     pub duration: f64,
-    /// Sees each iteration and says whether to go on.
+    /// Sees each iteration and says whether to continue.
     pub watch: &'b mut dyn FnMut(Watched) -> bool,
     /// Transforms of other solvers than the walker's own.
     pub transforms: f64,

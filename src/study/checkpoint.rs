@@ -1,5 +1,7 @@
 //! Checkpoint of a path, from which another process resumes.
 
+use std::sync::Arc;
+
 use super::evaluation::PointState;
 use super::pull_off::PullOff;
 use super::row::StepRow;
@@ -13,15 +15,15 @@ pub struct CheckpointField {
     /// Which ones.
     pub name: String,
     /// Over all solved points, reduced, as precise as the backend holds them.
-    pub values: Vec<f64>,
+    pub values: Arc<Vec<f64>>,
 }
 
-/// What the step after a converged one starts from, and what the end of the path has to know of the
-/// steps up to it besides their rows.
+/// The state from which the step after a converged one starts, and the totals of the steps so far that are
+/// not in their rows.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Checkpoint {
-    /// Fields of the solver and of effects; no gap where the surfaces are separated and the next step
-    /// starts afresh. The solver's directions are forgotten between steps and need no keeping.
+    /// Fields of the solver and of effects; no gap where the surfaces are separated and the next step starts
+    /// from undeformed heights. The solver keeps no direction between steps.
     pub fields: Vec<CheckpointField>,
     /// What each point of the grid does, where steps are watched for jumps.
     pub points: Option<Vec<PointState>>,
@@ -49,6 +51,12 @@ impl Checkpoint {
     pub fn field(&self, name: &str) -> Option<&[f64]> {
         let found = self.fields.iter().find(|field| field.name == name);
         found.map(|field| field.values.as_slice())
+    }
+
+    /// The same without a copy, for who keeps them.
+    pub(super) fn shared(&self, name: &str) -> Option<Arc<Vec<f64>>> {
+        let found = self.fields.iter().find(|field| field.name == name);
+        found.map(|field| Arc::clone(&field.values))
     }
 }
 

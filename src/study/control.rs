@@ -1,5 +1,5 @@
-//! Between what a scene prescribes (pressure, force, approach, mean gap, a spring's far end) and
-//! what the solver holds.
+//! Translates what a scene prescribes (pressure, force, approach, mean gap, a spring's far end) into the loads
+//! of the solver.
 
 use super::setup::Setup;
 use crate::grid::Boundary;
@@ -84,8 +84,8 @@ impl<'s> Controller<'s> {
         1.0 / self.problem.stiffness.zero_mode()
     }
 
-    /// Stiffness with which a prescribed approach holds the mean displacement, reduced: that of all
-    /// that yields between the mean and where the approach is prescribed. `None` where nothing does.
+    /// Stiffness between the mean displacement and the point where the approach is prescribed, reduced: spring,
+    /// layer and free half-space in series. `None` if it is infinite.
     fn approach_stiffness(&self) -> Option<f64> {
         let scales = self.problem.scales;
         let spring = self.spring.map_or(0.0, |spring| {
@@ -104,8 +104,8 @@ impl<'s> Controller<'s> {
         }
     }
 
-    /// Whether something yields between the mean displacement and a prescribed approach, so that
-    /// any approach can be reached.
+    /// Whether there is a compliance between the mean displacement and a prescribed approach, so that any
+    /// approach can be reached.
     pub fn is_sprung(&self) -> bool {
         self.control == Control::Approach && self.approach_stiffness().is_some()
     }
@@ -150,8 +150,7 @@ impl<'s> Controller<'s> {
     /// Height of the other body over the origin of the reduced heights, m, where its undeformed surface is
     /// at a clearance (m) from the highest point of the grid.
     fn level_at(&self, clearance: f64) -> f64 {
-        let heights = self.problem.heights.iter().copied();
-        heights.fold(f64::NEG_INFINITY, f64::max) * self.problem.scales.length + clearance
+        self.problem.highest() * self.problem.scales.length + clearance
     }
 
     /// The load that holds the undeformed surfaces at a clearance (m), where the path prescribes a load.
@@ -208,7 +207,7 @@ impl<'s> Controller<'s> {
     /// by the plastic depths over all solved points, an empty slice where there are none.
     pub fn undeformed_gap(&self, value: f64, plastic_depth: &[f64]) -> Vec<f64> {
         let problem = self.problem;
-        let mut heights = problem.heights.clone();
+        let mut heights: Vec<f64> = problem.heights.iter().collect();
         if !plastic_depth.is_empty() {
             let depths = problem.surface_part(plastic_depth);
             heights
@@ -223,7 +222,7 @@ impl<'s> Controller<'s> {
             Control::MeanGap => value / problem.scales.length,
             Control::Approach => (self.highest - value) / problem.scales.length,
         };
-        // With a spring, a layer or on a free boundary an overlap is left to the solver to push out.
+        // With a spring, a layer or on a free boundary the solver removes the overlap.
         let gap: Vec<f64> = heights.iter().map(|h| (level - h).max(0.0)).collect();
         problem.padded(&gap, 0.0)
     }

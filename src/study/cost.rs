@@ -6,7 +6,7 @@ use super::regime::law_of;
 use super::setup::Setup;
 use crate::backend::{
     BackendError, Level,
-    dry_run::{DryRun, Held, Place},
+    dry_run::{Allocation, DryRun, Place},
 };
 use crate::elastic::Stiffness;
 use crate::grid::Boundary;
@@ -15,22 +15,22 @@ use crate::law::Law;
 use crate::scene::{BackendName, Precision, Scene};
 use crate::solver::{ContactSolver, Problem, Start, plan_outer_state};
 
-/// What a scene's solver holds and does, and what is kept between its steps.
+/// Fields, tables and passes of a scene's solver, and what is kept between its steps.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Cost {
     /// Where it would run.
     pub place: Place,
     /// Fields, one number a solved point each.
-    pub fields: Vec<Held>,
+    pub fields: Vec<Allocation>,
     /// What the host keeps between the steps, in double precision.
-    pub history: Vec<Held>,
+    pub history: Vec<Allocation>,
     /// Tables of factors, one a wavevector; a graphics processor has none of a periodic half-space.
-    pub spectra: Vec<Held>,
+    pub spectra: Vec<Allocation>,
     /// Work space of the transforms.
-    pub work: Vec<Held>,
+    pub work: Vec<Allocation>,
     /// The state in double precision beside iterations in single (mixed precision): on an adapter that has
     /// double precision, else on the processor.
-    pub reference: Vec<Held>,
+    pub reference: Vec<Allocation>,
     /// Passes of one iteration, in order; `multiply` stands for the columns of a convolution.
     pub passes: Vec<&'static str>,
     /// Solved points of the finest level.
@@ -63,7 +63,7 @@ impl Cost {
         place: Place,
     ) -> Result<Cost, BackendError> {
         let pixel = grid.dx().max(grid.dy());
-        // Which passes there are does not depend on how strong the law is.
+        // The passes do not depend on the strength of the law.
         let law = effects.solved_law(law_of(scene, pixel, 1.0));
         let problem = Problem::sketch(grid, scene.grid.boundary, law);
         let problem = effects.pose(problem, scene, None);
@@ -135,7 +135,7 @@ fn plan(
         }
     }
     let kept = effects.iter().flat_map(|effect| effect.kept_fields(scene));
-    let history = kept.map(|name| Held {
+    let history = kept.map(|name| Allocation {
         name,
         level: Level(0),
         bytes: problem.shape.len() * size_of::<f64>(),

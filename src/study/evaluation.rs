@@ -1,5 +1,6 @@
-//! What a solved state says: fields in SI units, area fractions, energies.
+//! Evaluation of a solved state: fields in SI units, area fractions, energies.
 
+use std::borrow::Cow;
 use std::f64::consts::{LN_2, PI};
 
 use super::control::{Controller, Position};
@@ -59,28 +60,28 @@ pub struct Evaluation {
 
 /// Solved fields over all solved points, reduced, and the mean pressure that is held.
 pub struct Solved<'a> {
-    /// Gap; below zero it is the plastic indentation of this step.
-    pub gap: &'a [f64],
-    /// K*(g + h).
-    pub elastic: &'a [f64],
-    /// Mean over all solved points of what a viscoelastic solid's past adds to its displacement.
+    /// Gap; below zero it is the plastic indentation of this step. The result takes its place.
+    pub gap: Vec<f64>,
+    /// K*(g + h). The net pressure takes its place.
+    pub elastic: Vec<f64>,
+    /// Mean over all solved points of the offset by the history of a viscoelastic solid.
     pub mean_offset: f64,
     /// Depth by which plastic indentation had lowered the heights before, over all solved points; empty
     /// where there was none.
     pub plastic_depth: &'a [f64],
-    /// Held mean pressure.
+    /// Mean pressure.
     pub held: f64,
     /// The load it was solved for.
     pub load: Load,
     /// Factors on the law's tension where they are not the setup's own, one a grid point. The energy of
-    /// adhesion goes by the setup's own: what a receding edge costs more is lost, not stored.
+    /// adhesion uses the setup's own: the further work of a receding edge is dissipated, not stored.
     pub law_factor: Option<&'a [f64]>,
 }
 
 impl Evaluation {
     /// Evaluates a solved state of `problem`. The law is the setup's own, also where the problem was
     /// solved without it: then attraction is summed outside the contact of the hard wall.
-    pub fn of(setup: &Setup, problem: &Problem, controller: &Controller, solved: &Solved) -> Self {
+    pub fn of(setup: &Setup, problem: &Problem, controller: &Controller, solved: Solved) -> Self {
         let scales = problem.scales;
         let law = setup.law.reduced(scales.length, scales.pressure);
         let closed_support = if setup.sums_attraction() {
@@ -88,40 +89,32 @@ impl Evaluation {
         } else {
             Support::Wall
         };
-        let mut padded = problem.padded(&problem.heights, 0.0);
-        for (height, depth) in padded.iter_mut().zip(solved.plastic_depth) {
-            *height -= depth;
-        }
-        let count_all = problem.shape.len() as f64;
-        let mean_displacement = solved
-            .gap
-            .iter()
-            .zip(&padded)
-            .map(|(g, h)| g + h)
-            .sum::<f64>()
-            / count_all
-            + solved.mean_offset;
-        let mut gap = problem.surface_part(solved.gap);
-        let elastic = problem.surface_part(solved.elastic);
-        let count = gap.len() as f64;
-        let mut mean_gap = gap.iter().sum::<f64>() / count;
+        // The heights as earlier indentation has left them.
+        let lowered = || {
+            let depths = solved.plastic_depth;
+            let heights = problem.padded_heights().enumerate();
+            heights.map(move |(i, h)| h - depths.get(i).copied().unwrap_or(0.0))
+        };
+        let displacement = solved.gap.iter().zip(lowered()).map(|(g, h)| g + h);
+        let mean_displacement =
+            displacement.sum::<f64>() / problem.shape.len() as f64 + solved.mean_offset;
+        let count = problem.grid.len() as f64;
+        let yields = problem.hardness.is_some();
+        let mut plastic_depth = match (yields, solved.plastic_depth) {
+            (false, _) => Vec::new(),
+            (true, []) => vec![0.0; problem.grid.len()],
+            (true, before) => problem.surface_part(before),
+        };
         // Plastic indentation moves the bodies together and leaves no gap.
-        let mut mean_depth = 0.0;
-        let mut plastic_depth = Vec::new();
-        let mut is_indented = Vec::new();
-        if problem.hardness.is_some() {
-            plastic_depth = match solved.plastic_depth {
-                [] => vec![0.0; gap.len()],
-                before => problem.surface_part(before),
-            };
-            is_indented = gap.iter().map(|g| *g < 0.0).collect();
-            for (depth, g) in plastic_depth.iter_mut().zip(&mut gap) {
-                *depth -= g.min(0.0);
-                *g = g.max(0.0);
-            }
-            mean_gap = gap.iter().sum::<f64>() / count;
-            mean_depth = plastic_depth.iter().sum::<f64>() / count;
+        for (depth, g) in plastic_depth
+            .iter_mut()
+            .zip(problem.on_surface(&solved.gap))
+        {
+            *depth -= g.min(0.0);
         }
+        let open = |g: f64| if yields { g.max(0.0) } else { g };
+        let mean_gap = problem.on_surface(&solved.gap).map(open).sum::<f64>() / count;
+        let mean_depth = plastic_depth.iter().fold(0.0, |sum, depth| sum + depth) / count;
         let position = controller.position(
             &solved.load,
             solved.held,
@@ -130,44 +123,6 @@ impl Evaluation {
         );
         let offset = controller.offset(&position, mean_displacement);
 
-        let mut net = vec![0.0; gap.len()];
-        let mut points = vec![PointState::Separated; gap.len()];
-        let mut adhesive = 0.0;
-        let mut strongest: f64 = 0.0;
-        let negative_is_contact = matches!(problem.law, Law::LennardJones(_));
-        for i in 0..gap.len() {
-            let g = gap[i];
-            let closed = if negative_is_contact {
-                g < 0.0
-            } else {
-                g <= 0.0
-            };
-            let factor = setup.law_factor(i);
-            let pulling = solved.law_factor.map_or(factor, |factors| factors[i]);
-            let traction = pulling * law.traction(g);
-            let support = if is_indented.get(i) == Some(&true) {
-                Support::Indented
-            } else if closed && !negative_is_contact {
-                closed_support
-            } else {
-                Support::Law
-            };
-            net[i] = net_pressure(
-                support,
-                elastic[i] + solved.held,
-                traction,
-                problem.hardness,
-            );
-            if closed {
-                points[i] = PointState::Contact;
-            } else {
-                strongest = strongest.max(traction);
-                if g < law.range() {
-                    points[i] = PointState::Attracted;
-                }
-            }
-            adhesive += factor * law.energy(g);
-        }
         let energy_unit = scales.length * scales.pressure * problem.grid.pixel_area();
         // <u, Ku>/2 over all solved points; the zero mode of a spring is not elastic energy.
         let spring = match problem.boundary {
@@ -183,10 +138,51 @@ impl Evaluation {
             * solved
                 .gap
                 .iter()
-                .zip(&padded)
-                .zip(solved.elastic)
+                .zip(lowered())
+                .zip(&solved.elastic)
                 .map(|((g, h), p)| (p - spring + elastic_part) * (g + h + shift))
                 .sum::<f64>();
+
+        // From here on these are the results, in their own places.
+        let mut gap = problem.cut_to_surface(solved.gap);
+        let mut pressure = problem.cut_to_surface(solved.elastic);
+        let mut points = vec![PointState::Separated; gap.len()];
+        let mut adhesive = 0.0;
+        let mut strongest: f64 = 0.0;
+        let negative_is_contact = matches!(problem.law, Law::LennardJones(_));
+        for (i, (gap, pressure)) in gap.iter_mut().zip(&mut pressure).enumerate() {
+            let g = open(*gap);
+            let closed = if negative_is_contact {
+                g < 0.0
+            } else {
+                g <= 0.0
+            };
+            let factor = setup.law_factor(i);
+            let pulling = solved.law_factor.map_or(factor, |factors| factors[i]);
+            let traction = pulling * law.traction(g);
+            let support = if yields && *gap < 0.0 {
+                Support::Indented
+            } else if closed && !negative_is_contact {
+                closed_support
+            } else {
+                Support::Law
+            };
+            *pressure = scales.pressure
+                * net_pressure(support, *pressure + solved.held, traction, problem.hardness);
+            if closed {
+                points[i] = PointState::Contact;
+            } else {
+                strongest = strongest.max(traction);
+                if g < law.range() {
+                    points[i] = PointState::Attracted;
+                }
+            }
+            adhesive += factor * law.energy(g);
+            *gap = g * scales.length;
+        }
+        plastic_depth
+            .iter_mut()
+            .for_each(|depth| *depth *= scales.length);
         let contact = points.iter().filter(|&&p| p == PointState::Contact).count() as f64 / count;
         let attracted = points
             .iter()
@@ -204,13 +200,10 @@ impl Evaluation {
             let edges = perimeter_edges(&points, problem.shape.surface, problem.boundary);
             contact - (PI - 1.0 + LN_2) / 24.0 * edges as f64 / count
         });
-        for pressure in &mut net {
-            *pressure *= scales.pressure;
-        }
-        let force = net.iter().fold(0.0, |sum, p| sum + p) * problem.grid.pixel_area();
+        let force = pressure.iter().fold(0.0, |sum, p| sum + p) * problem.grid.pixel_area();
         Evaluation {
-            gap: gap.iter().map(|g| g * scales.length).collect(),
-            pressure: net,
+            gap,
+            pressure,
             displacement_offset: offset * scales.length - problem.height_origin,
             points,
             position,
@@ -221,35 +214,33 @@ impl Evaluation {
             elastic_energy: elastic_energy * energy_unit,
             adhesive_energy: adhesive * energy_unit,
             state,
-            plastic_depth: plastic_depth
-                .iter()
-                .map(|depth| depth * scales.length)
-                .collect(),
+            plastic_depth,
         }
     }
 
     /// Values of a field in SI units, shape `[ny, nx]`, of a surface that began with these heights.
-    pub fn field(&self, name: FieldName, heights: &[f64]) -> Vec<f64> {
+    pub fn field<'a>(&'a self, name: FieldName, heights: &'a [f64]) -> Cow<'a, [f64]> {
         match name {
-            FieldName::Pressure => self.pressure.clone(),
-            FieldName::Gap => self.gap.clone(),
+            FieldName::Pressure => Cow::Borrowed(&self.pressure),
+            FieldName::Gap => Cow::Borrowed(&self.gap),
             FieldName::Heights => self.heights(heights),
-            FieldName::Displacement => self
-                .gap
-                .iter()
-                .zip(self.heights(heights))
-                .map(|(g, h)| g + h + self.displacement_offset)
-                .collect(),
+            FieldName::Displacement => {
+                let heights = self.heights(heights);
+                let points = self.gap.iter().zip(heights.iter());
+                points
+                    .map(|(g, h)| g + h + self.displacement_offset)
+                    .collect()
+            }
         }
     }
 
     /// The heights as plastic indentation has left them, m, of a surface that began with these.
-    fn heights(&self, heights: &[f64]) -> Vec<f64> {
-        let mut heights = heights.to_vec();
-        for (height, depth) in heights.iter_mut().zip(&self.plastic_depth) {
-            *height -= depth;
+    fn heights<'a>(&self, heights: &'a [f64]) -> Cow<'a, [f64]> {
+        if self.plastic_depth.is_empty() {
+            return Cow::Borrowed(heights);
         }
-        heights
+        let lowered = heights.iter().zip(&self.plastic_depth);
+        lowered.map(|(height, depth)| height - depth).collect()
     }
 }
 

@@ -20,8 +20,8 @@ use crate::law::Law;
 use crate::scene::Scene;
 use crate::solver::{ContactSolver, Load, Problem, Start};
 
-/// An effect: what it says of itself, and what it does at each place of a run. What it leaves out is
-/// done without it.
+/// An effect: its description, and what it does at each place of a run. A hook that it does not implement
+/// does nothing.
 pub(crate) trait Hooks: Sync {
     /// Its name in summaries.
     fn name(&self) -> &'static str;
@@ -39,7 +39,7 @@ pub(crate) trait Hooks: Sync {
 
     // Before the heights are made.
 
-    /// What the user should know.
+    /// Warnings.
     fn warnings(&self, _plan: &Plan) -> Vec<String> {
         Vec::new()
     }
@@ -57,18 +57,18 @@ pub(crate) trait Hooks: Sync {
     fn kept_fields(&self, _scene: &Scene) -> Vec<&'static str> {
         Vec::new()
     }
-    /// What it takes of the host's memory besides.
+    /// Further memory of the host.
     fn host_bytes(&self, _sizes: &Sizes) -> HostBytes {
         HostBytes::default()
     }
 
-    // On the way along a path.
+    // Along a path.
 
     /// Spring between a prescribed approach and the body, N/m.
     fn spring(&self, _scene: &Scene) -> Option<f64> {
         None
     }
-    /// Whether it loses energy in every step, or keeps no branch, so that no jump can be told.
+    /// Whether it dissipates energy in every step, or follows no branch, so that jumps cannot be detected.
     fn hides_jumps(&self) -> bool {
         false
     }
@@ -76,7 +76,7 @@ pub(crate) trait Hooks: Sync {
     fn depends_on_duration(&self) -> bool {
         false
     }
-    /// The problem that steps of `duration` (s) meet, where that is not the setup's.
+    /// The problem of steps of `duration` (s), if it is not the setup's.
     fn problem_over(&self, _setup: &Setup, _duration: f64) -> Option<Problem> {
         None
     }
@@ -101,8 +101,8 @@ pub(crate) trait Hooks: Sync {
     fn carry(&self, _setup: &Setup, _checkpoint: &Checkpoint) -> Option<Box<dyn Carry>> {
         None
     }
-    /// Measures a converged step of the path on its solver, once; loads that are tried between two
-    /// steps are not measured. What does not converge takes the step's convergence with it.
+    /// Measures a converged step of the path on its solver, once; loads between two steps are not measured. If
+    /// the measurement does not converge, neither has the step.
     fn measure(
         &self,
         _setup: &Setup,
@@ -149,7 +149,7 @@ pub(crate) trait Carry {
     ) -> Result<(), BackendError> {
         Ok(())
     }
-    /// Ends a load that converged with the surfaces loaded: what it leaves for good.
+    /// Ends a load that converged, with the surfaces loaded: makes its permanent changes.
     fn settle(&mut self, _solver: &mut ContactSolver) -> Result<(), BackendError> {
         Ok(())
     }
@@ -173,9 +173,9 @@ pub(crate) struct Sizes {
 /// Bytes of the host's memory that effects take, their kept fields aside.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct HostBytes {
-    /// Held throughout.
+    /// Throughout.
     pub kept: u64,
-    /// Held for a moment of a step that no other moment shares; the largest counts.
+    /// During one part of a step only; the largest counts.
     pub passing: u64,
     /// Results of solves that are held beside the one that is evaluated.
     pub results: u64,
@@ -247,14 +247,14 @@ impl Effects {
         self.iter().any(|effect| effect.depends_on_duration())
     }
 
-    /// The problem that steps of `duration` (s) meet.
+    /// The problem of steps of `duration` (s).
     pub fn problem_over<'s>(&self, setup: &'s Setup, duration: f64) -> Cow<'s, Problem> {
         self.iter()
             .find_map(|effect| effect.problem_over(setup, duration))
             .map_or(Cow::Borrowed(&setup.problem), Cow::Owned)
     }
 
-    /// What they take of the host's memory besides their kept fields.
+    /// Memory of the host beyond their kept fields.
     pub fn host_bytes(&self, sizes: &Sizes) -> HostBytes {
         self.iter().fold(HostBytes::default(), |bytes, effect| {
             bytes.with(effect.host_bytes(sizes))

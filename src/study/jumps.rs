@@ -1,10 +1,10 @@
-//! Jumps: steps on whose way an equilibrium ends, so that the surfaces leave it for another.
+//! Jumps: steps in which a branch of equilibria ends, so that the surfaces move to another.
 //!
 //! Along a branch of equilibria the force is the slope of the energy. So forces and energies at the ends
-//! of a step say how steep the force is there, and the step before says it too. Where the two agree the
-//! step is a piece of one smooth curve. Where they do not, and energy is missing, the step is halved, and
-//! the half that is worse again: what a curve seems to lose falls with the third power of the piece's
-//! length, what a jump loses stays.
+//! of a step give the slope of the force there, and so does the step before. Where the two agree the step
+//! is part of one smooth curve. Where they do not, and energy is missing, the step is halved, and then its
+//! worse half: the apparent loss of a smooth curve falls with the third power of its length, that of a jump
+//! stays.
 
 use super::between::{Between, Place, Search};
 use super::evaluation::{Evaluation, PointState};
@@ -14,23 +14,23 @@ use super::walker::Carried;
 use crate::backend::BackendError;
 use crate::scene::Control;
 
-/// Losses below this share of w times the area that changed state are not looked into: contact edges move
-/// from pixel to pixel, and the force on a grid is bumpy by as much.
+/// Losses below this share of w times the area that changed state are ignored: contact edges move from pixel
+/// to pixel, which makes the force uneven by as much.
 const LEAST_SHARE: f64 = 0.01;
 /// A curve has a kink where its slopes on the two sides differ by more than this share of the steeper.
 const KINK: f64 = 0.3;
-/// A half with less than this share of the whole's size shrinks as a curve does: to a quarter, or to a third
-/// beside the end of a branch.
+/// A half with less than this share of the whole's loss is smooth: it falls to a quarter, or to a third beside
+/// the end of a branch.
 const SHRINKS: f64 = 0.45;
-/// Halvings in a row that shrink so after which nothing is looked for any more.
+/// Such halvings in a row that end the search.
 const SHRINKING: usize = 3;
-/// A half that loses more than this share of what the whole does loses it by a jump: a curve's half loses an
+/// A half with more than this share of the whole's loss contains a jump: half of a smooth curve has an
 /// eighth.
 const KEEPS: f64 = 0.3;
 /// Halvings in a row that must keep the loss.
 const KEEPING: usize = 2;
-/// One halving is enough where the half keeps this share of the loss, and loses so many times what it may be
-/// misjudged by.
+/// One halving suffices if the half keeps this share of the loss, and the loss is so many times its
+/// uncertainty.
 const SURE: [f64; 2] = [0.7, 2.0];
 /// Halvings of a step at most.
 const MOST_HALVINGS: usize = 8;
@@ -46,14 +46,14 @@ pub enum Jump {
     Off,
 }
 
-/// What a step is, as far as its ends say.
+/// What the ends of a step say about it.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) enum Verdict {
     /// It follows a branch.
     Follows,
     /// It jumped.
     Jumped(Jump),
-    /// It jumped that way if what it lost stays when it is halved; losses below `least` (J) do not count.
+    /// It jumped that way if its loss stays when it is halved; losses below `least` (J) do not count.
     Perhaps { way: Jump, least: f64 },
 }
 
@@ -63,7 +63,7 @@ pub struct Jumps {
     work: Option<f64>,
     pixel_area: f64,
     prescribed: Prescribed,
-    /// The solver's tolerance: the share of the energies that are known no better.
+    /// The solver's tolerance: the relative error of the energies.
     tolerance: f64,
     /// Factors on the law's tension.
     law_factor: Option<Vec<f64>>,
@@ -94,7 +94,7 @@ impl Jumps {
 
     /// Takes the steps that another process did: their rows, the points after the last one, and whether
     /// that one jumped.
-    pub fn go_on(&mut self, rows: &[StepRow], points: Option<Vec<PointState>>, jumped: bool) {
+    pub fn resume(&mut self, rows: &[StepRow], points: Option<Vec<PointState>>, jumped: bool) {
         if let (Some(_), [.., row]) = (self.work, rows) {
             let slope = match rows {
                 [.., before, row] if !jumped => {
@@ -120,7 +120,7 @@ impl Jumps {
         self.before.as_ref()?.points.as_deref()
     }
 
-    /// Looks at a step that converged, before it is taken.
+    /// Classifies a converged step before it is taken.
     pub(super) fn judge(&self, row: &StepRow, evaluation: Option<&Evaluation>) -> Verdict {
         let (Some(work), Some(before)) = (self.work, &self.before) else {
             return Verdict::Follows;
@@ -237,8 +237,8 @@ struct Piece {
     /// Work done less what is stored and what the solid dissipates, J, where the force follows the
     /// straight line.
     lost: f64,
-    /// What the work may be off by where the piece jumps at one of its ends, J: it falls with the length of
-    /// the piece, whether force or position is prescribed.
+    /// Error of the work if the piece jumps at one of its ends, J: it falls with the length of the piece,
+    /// whether force or position is prescribed.
     doubt: f64,
 }
 
@@ -252,9 +252,9 @@ impl Piece {
             change,
             lost: dissipation(before, row)?,
             doubt: match (prescribed.control, prescribed.spring) {
-                // What yields below the gap moves in a jump too, on its own straight line.
+                // The compliance below the gap moves in a jump too, on its own straight line.
                 (Control::MeanGap, _) => change * (row.mean_gap? - before.mean_gap?),
-                // And so does what the far end of a spring holds.
+                // And so does a spring.
                 (_, Some(spring)) => moved * change.abs().min((change + spring * moved).abs()),
                 (_, None) => change * moved,
             }
@@ -266,8 +266,8 @@ impl Piece {
         self.lost.abs() + self.doubt
     }
 
-    /// Slope of the force over the approach where the piece begins, if it is a piece of one parabola:
-    /// what the straight line is off by is what the energies lack.
+    /// Slope of the force over the approach at the beginning of the piece, if it is a parabola: the missing
+    /// energy is the area between it and the straight line.
     fn slope_before(&self) -> Option<f64> {
         let slope = (self.change - 6.0 * self.lost / self.moved) / self.moved;
         slope.is_finite().then_some(slope)
@@ -279,7 +279,7 @@ impl Piece {
         slope.is_finite().then_some(slope)
     }
 
-    /// Whether the piece does not go on as the one before ended.
+    /// Whether the slope differs from that at the end of the piece before.
     fn bends(&self, slope: Option<f64>) -> bool {
         match (slope, self.slope_before()) {
             (Some(slope), Some(own)) => {
@@ -289,7 +289,7 @@ impl Piece {
                     .max((self.change / self.moved).abs());
                 (own - slope).abs() > KINK * steepest
             }
-            // A parabola loses up to a sixth of the doubt, when it starts level.
+            // A parabola that starts level loses up to a sixth of the uncertainty.
             (None, Some(_)) => self.lost > self.doubt / 6.0,
             (_, None) => false,
         }
@@ -331,7 +331,7 @@ pub(super) fn confirm(
         let pieces = Piece::of(prescribed, &start.1, &tried.row)
             .zip(Piece::of(prescribed, &tried.row, &end.1));
         let Some((first, second)) = pieces else {
-            // Separated on the way from one place to another.
+            // Separated between the two places.
             return Ok(Some(true));
         };
         let is_first = first.size() > second.size();
@@ -375,7 +375,7 @@ pub fn dissipation(before: &StepRow, row: &StepRow) -> Option<f64> {
     let work = 0.5 * (before.force + row.force) * moved;
     let stored =
         row.elastic_energy + row.adhesive_energy - before.elastic_energy - before.adhesive_energy;
-    // What the solid dissipates in every step no jump took.
+    // The dissipation of the solid is no jump's.
     let dissipated = row.dissipated_energy() - before.dissipated_energy();
     Some(work - stored - dissipated)
 }

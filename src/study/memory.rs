@@ -48,12 +48,14 @@ impl Memory {
         let solver_here = if on_processor { solver } else { 0 };
 
         let building = building(scene, grid);
-        // The surface keeps its heights, the problem reduced ones and the table of its stiffness.
-        let kept = 2 * DOUBLE * points + table;
+        // The heights, which surface and problem share, and the table of the stiffness.
+        let kept = DOUBLE * points + table;
         // Compliance and padded heights on their way to the backend.
         let planning = table + DOUBLE * solved;
-        // Gap and elastic pressure as read, padded heights, their parts on the grid, the results.
-        let evaluating = 3 * DOUBLE * solved + (3 * DOUBLE + EVALUATION) * points;
+        // Gap and elastic pressure as read, which become the results, and the states. What is cut off a
+        // larger grid is a field of its own for a moment.
+        let cut = if solved > points { DOUBLE * points } else { 0 };
+        let evaluating = 2 * DOUBLE * solved + cut + points;
         // In mixed precision the state in double, and a field on its way between it and the iterations. On
         // an adapter without double precision it is here, on others there: both are counted.
         let reference = cost.reference_bytes() as u64;
@@ -67,8 +69,9 @@ impl Memory {
         // Fields that effects keep from step to step, and whole states of the path.
         let history = cost.history_bytes() as u64;
         let evaluating = evaluating + cost.host.states * (DOUBLE * solved + history);
-        // Values of a field on their way to a file or a picture.
-        let writing = (2 * EVALUATION + DOUBLE) * points;
+        // A result with values of a field on their way to a file or a picture.
+        let writes = !(scene.output.images.is_empty() && scene.output.fields.is_empty());
+        let writing = u64::from(writes) * (EVALUATION + 2 * DOUBLE) * points;
         let solving = kept
             + history
             + cost.host.kept
@@ -129,8 +132,9 @@ fn coarse_start(cost: &Cost, points: u64, solver: u64, table: u64) -> u64 {
     if !cost.starts_coarse {
         return 0;
     }
-    // Of each level a quarter of the one above: heights, stiffness, solver, gap; three levels.
-    let levels = (2 * DOUBLE * points + 2 * table + solver) * 21 / 64;
-    // The gap that comes back, and its copy on the way to the backend.
-    levels + 2 * DOUBLE * points
+    // One after another, the largest of a quarter of the points: its heights, also on their way to its
+    // backend, a gap, two tables and a solver; and the heights of the grids below while these are solved.
+    let level = (3 * DOUBLE * points + 2 * table + solver) / 4 + DOUBLE * points / 12;
+    // Heights and displacement of that grid, and the gap that comes back.
+    level.max(DOUBLE * points * 3 / 2)
 }

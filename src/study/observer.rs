@@ -1,4 +1,4 @@
-//! Who keeps the steps of a path and watches its solver, and how the path ends.
+//! The observer of a path, which keeps its steps and watches its solver, and the end of the path.
 
 use super::between::Search;
 use super::checkpoint::Checkpoint;
@@ -25,7 +25,7 @@ pub trait Observer {
     type Error;
     /// Keeps a finished step.
     fn step(&mut self, step: FinishedStep) -> Result<(), Self::Error>;
-    /// Sees each iteration; returns whether to go on.
+    /// Sees each iteration; returns whether to continue.
     fn iteration(&mut self, step: usize, scalars: &Scalars) -> bool;
     /// Is told what is looked for between a step and the one before, each time that more is known. The
     /// iterations that follow are of loads in between, which have no rows.
@@ -64,7 +64,7 @@ pub enum WalkError<E> {
     Observer(E),
 }
 
-/// What a step asks for that no contact can have.
+/// A prescribed value that no contact can have.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Unreachable {
     /// A position beyond that at which a periodic cell is closed everywhere.
@@ -89,7 +89,7 @@ pub struct WalkEnd {
     pub hysteresis_energy: Option<f64>,
     /// Whether the observer ended it.
     pub interrupted: bool,
-    /// Why its last step, which did not converge, could not: what it asks for no contact can have.
+    /// Why its last step could not converge, if no contact can have the prescribed value.
     pub unreachable: Option<Unreachable>,
     /// Real two-dimensional transforms.
     pub transforms: f64,

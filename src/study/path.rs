@@ -45,7 +45,7 @@ pub fn walk_on<O: Observer>(
     let done = rows.len();
     let last_jump = end.jump_in_steps.last().max(end.jump_off_steps.last());
     let mut jumps = Jumps::new(setup);
-    jumps.go_on(&rows, checkpoint.points, last_jump == Some(&done));
+    jumps.resume(&rows, checkpoint.points, last_jump == Some(&done));
     end.rows = rows;
     for steps in stretches(setup, done) {
         let stretch = Stretch {
@@ -62,8 +62,8 @@ pub fn walk_on<O: Observer>(
     Ok(end)
 }
 
-/// The steps after the first `done`, cut where the problem that they meet changes: one stretch, or one a
-/// duration where the problem depends on it.
+/// The steps after the first `done`, in stretches with the same problem: one, or one for each duration where
+/// the problem depends on it.
 fn stretches(setup: &Setup, done: usize) -> Vec<Range<usize>> {
     let steps = done..setup.scene.loading.path.len();
     match &setup.scene.loading.durations {
@@ -81,7 +81,7 @@ fn stretches(setup: &Setup, done: usize) -> Vec<Range<usize>> {
     }
 }
 
-/// Steps of a path that meet one problem, so that one solver takes them.
+/// Steps of a path with the same problem, which one solver takes.
 struct Stretch<'s> {
     setup: &'s Setup,
     make_backend: MakeBackend<'s>,
@@ -89,8 +89,8 @@ struct Stretch<'s> {
 }
 
 impl Stretch<'_> {
-    /// Walks the steps from what the path carries. Returns what it carries then, or nothing where it does
-    /// not go on.
+    /// Walks the steps from the state that the path carries. Returns that after them, or `None` if the path
+    /// ends.
     fn walk<O: Observer>(
         &self,
         observer: &mut O,

@@ -1,4 +1,4 @@
-//! What is known of a run before its heights are made: law, regime, warnings, cost, memory.
+//! The plan of a run, made before its heights: law, regime, warnings, cost, memory.
 
 use super::cost::Cost;
 use super::hooks::{Effects, Hooks};
@@ -12,7 +12,7 @@ use crate::surface::Outline;
 /// Pixels that the shortest wave of a surface should have.
 const PIXELS_A_WAVE: f64 = 8.0;
 
-/// A scene that has been looked at, with nothing of the size of its grid in memory.
+/// A planned scene, without any array of the size of its grid.
 #[derive(Clone, Debug)]
 pub struct Plan {
     /// The scene.
@@ -23,7 +23,7 @@ pub struct Plan {
     pub law: Law,
     /// Regime and resolution of the adhesion, where there is any.
     pub regime: Option<Regime>,
-    /// What the user should know.
+    /// Warnings.
     pub warnings: Vec<String>,
     /// The effects that the scene asks for.
     pub(super) effects: Effects,
@@ -55,7 +55,7 @@ impl Plan {
         plan
     }
 
-    /// What its solver holds and does in a place.
+    /// Fields, tables and passes of its solver in a place.
     ///
     /// # Errors
     /// As [`Cost::of`].

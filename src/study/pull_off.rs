@@ -1,4 +1,4 @@
-//! The tension at which a contact lets go.
+//! Pull-off: the greatest tension that a contact carries.
 //!
 //! Where the load is prescribed it lies between the last step that holds and the first that does not,
 //! and is narrowed down by loads between the two, each solved from the last one that held. Where a
@@ -15,7 +15,7 @@ use crate::scene::{Control, LoadingScene};
 /// Loads tried for one pull-off at most. Halving gains a thousand in ten, and the least tolerance is 1e-6.
 const MOST_TRIALS: usize = 60;
 
-/// A contact that let go under a prescribed load: the tensions that hem in its pull-off, N.
+/// A contact that separated under a prescribed load, with the tensions that bracket its pull-off, N.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct PullOff {
     /// The last step that held.
@@ -27,7 +27,7 @@ pub struct PullOff {
 }
 
 impl PullOff {
-    /// The greater of two: what the contact of a path can carry at most.
+    /// The greater of two pull-offs of a path.
     pub(super) fn greater(self, other: Option<PullOff>) -> PullOff {
         match other {
             Some(other) if other.lower >= self.lower => other,
@@ -110,7 +110,7 @@ fn is_load(loading: &LoadingScene) -> bool {
     matches!(loading.control, Control::Pressure | Control::Force)
 }
 
-/// Whether a step may end with the surfaces let go by tension, so that the state before it is needed.
+/// Whether a step may end in pull-off, so that the state before it is needed.
 pub(super) fn may_let_go(setup: &Setup, value: f64) -> bool {
     is_load(&setup.scene.loading) && setup.law.is_adhesive() && value < 0.0
 }
@@ -132,7 +132,7 @@ pub(super) fn find(
         share: 0.0,
         carried: held,
     };
-    // A load that eases off lets go in time: the one before is the greatest that it carried.
+    // Separation under a falling tension is delayed: the tension before is the greatest carried.
     let mut upper = if between.to < between.from { 1.0 } else { 0.0 };
     for _ in 0..MOST_TRIALS {
         let (held, parted) = (between.value(lower.share), between.value(upper));
@@ -140,7 +140,7 @@ pub(super) fn find(
         if loading.pull_off_tolerance == 0.0 || !wide {
             break;
         }
-        // From compression first to no load at all: pull-off may be far less than what was asked.
+        // From compression first to no load: pull-off may be far below the prescribed tension.
         let share = match held > 0.0 {
             true => between.from / (between.from - between.to),
             false => 0.5 * (lower.share + upper),

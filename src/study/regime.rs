@@ -1,12 +1,12 @@
-//! The law of a scene, and where it stands between DMT and JKR and on its grid.
+//! The law of a scene, its regime between DMT and JKR, and its resolution by the grid.
 
 use crate::law::Law;
 use crate::scene::{AdhesionScene, Range, Scene, Treatment};
 use crate::surface::Outline;
 
-/// Width of the automatic taper over `sigma0 dx/E*`, what a pixel of the peak tension opens.
+/// Width of the automatic taper over `sigma0 dx/E*`, the opening of a pixel under the peak tension.
 ///
-/// The least at which a straight edge along the grid comes off within 1 % of the closed form; the table of
+/// The least at which the pull-off of a straight edge along the grid is within 1 % of the closed form; table of
 /// `docs/solver.md`.
 pub const AUTO_TAPER: f64 = 6.0;
 
@@ -24,7 +24,7 @@ pub fn resolve_law(
         Range::Length(range) => range,
         Range::Auto => adhesion.law.shortest_range() * resolved,
     };
-    // Summed over a gap that does not feel it, the attraction traps nothing.
+    // Attraction that does not deform the contact cannot pin its edge.
     let auto = match adhesion.treatment {
         Treatment::Full => AUTO_TAPER * strongest * (work / range) * pixel / contact_modulus,
         Treatment::Dmt => 0.0,
@@ -42,14 +42,14 @@ pub(super) fn law_of(scene: &Scene, pixel: f64, strongest: f64) -> Law {
     }
 }
 
-/// Where a scene's adhesion stands between DMT and JKR, and on its grid.
+/// The regime of a scene's adhesion between DMT and JKR, and its resolution by the grid.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Regime {
     /// Radius of the sphere, else 2 over the rms curvature, m; infinite for a flat surface.
     pub radius: f64,
     /// Tabor number with `eps = 1.0264 w / peak tension`.
     pub tabor: f64,
-    /// Pixel over cohesive zone: `sigma0 dx / (E* h0)`, for Lennard-Jones `w dx / (E* eps^2)`.
+    /// chi, grid spacing over the length of the cohesive zone: `sigma0 dx / (E* h0)`, for Lennard-Jones `w dx / (E* eps^2)`.
     pub chi: f64,
     /// Pixels across the cohesive zone of a crack, `(pi/4) E* w / sigma_max^2` over the pixel.
     pub zone_pixels: f64,

@@ -1,5 +1,7 @@
 //! From a scene and its surface to the problem that is solved.
 
+use std::sync::Arc;
+
 use super::hooks::{Effects, Hooks};
 use super::plan::Plan;
 use super::regime::Regime;
@@ -24,7 +26,7 @@ pub struct Setup {
     pub problem: Problem,
     /// Regime and resolution of the adhesion, where there is any.
     pub regime: Option<Regime>,
-    /// What the user should know.
+    /// Warnings.
     pub warnings: Vec<String>,
     /// Real two-dimensional transforms that the statistics took.
     pub transforms: f64,
@@ -60,11 +62,11 @@ impl Setup {
             Boundary::Periodic => 1.0,
             Boundary::Free => 0.0,
         };
-        let problem = Problem::new(
+        let problem = Problem::sharing(
             grid,
             scene.grid.boundary,
             scene.solid.contact_modulus,
-            &surface.heights,
+            Arc::clone(&surface.heights),
             statistics.moments.rms_slope(),
             effects.solved_law(law),
         );

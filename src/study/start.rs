@@ -1,4 +1,4 @@
-//! Where the solve of a step starts: from the gap of the last one, moved to where it is prescribed.
+//! The start of the solve of a step: the gap of the last one, moved to a prescribed mean gap.
 
 use super::attempt::Attempt;
 use crate::backend::BackendError;
@@ -40,7 +40,7 @@ pub(super) fn start(attempt: &mut Attempt, load: &Load) -> Result<Start, Backend
         gap = attempt.solver.problem().moved_to(gap, target);
     } else if least > 0.0 && least + target - mean >= 0.0 {
         let moved = target - mean;
-        // Surfaces that meet in this very step meet everywhere they should.
+        // Points that this move closes are set to exactly zero.
         let rounding = CLOSED.max(8.0 * attempt.solver.epsilon()) * mean.abs();
         for g in &mut gap {
             *g += moved;

@@ -20,7 +20,7 @@ pub(crate) struct SolvedStep {
     pub iterations: usize,
     /// The stopping measure.
     pub residual: f64,
-    /// Why there is nothing to solve for, where that is so.
+    /// Why there is nothing to solve for, if so.
     pub unreachable: Option<Unreachable>,
     /// Whether the fields carry the load that was asked, where one was.
     pub load_is_met: bool,
@@ -41,7 +41,7 @@ pub(crate) fn separated() -> SolvedStep {
     }
 }
 
-/// What is asked for and no contact can have.
+/// A prescribed value that no contact can have.
 pub(super) fn unreachable(why: Unreachable) -> SolvedStep {
     SolvedStep {
         converged: false,
@@ -51,13 +51,13 @@ pub(super) fn unreachable(why: Unreachable) -> SolvedStep {
     }
 }
 
-/// Share of itself, of the roughness and of the range by which a mean gap may miss the one that is held: well
-/// above what sums over large grids round to, and far below what a wrong position is off by.
+/// Relative deviation from a prescribed mean gap that is allowed, with respect to it, to the roughness and to
+/// the range: well above the rounding of sums over large grids, far below the error of a wrong position.
 const MISSED: f64 = 1e-6;
 /// The same in roundings of the fields, where these are larger: each of some hundred iterations adds a few.
 const MISSED_ROUNDINGS: f64 = 1e4;
 
-/// Whether a mean gap that is held was kept, beside itself and the roughness.
+/// Whether a prescribed mean gap was kept.
 fn keeps_gap(solver: &ContactSolver, load: &Load, gap: &[f64]) -> bool {
     let Hold::Gap(target) = load.hold else {
         return true;
@@ -68,8 +68,8 @@ fn keeps_gap(solver: &ContactSolver, load: &Load, gap: &[f64]) -> bool {
     (mean - target).abs() <= MISSED.max(MISSED_ROUNDINGS * solver.epsilon()) * scale
 }
 
-/// Solves with the scene's own settings. A sharp law is walked in careful steps first, from a state
-/// that is a branch's.
+/// Solves with the scene's own settings. A sharp law begins with careful steps from the state of the last
+/// solved step.
 pub(super) fn solve(
     setup: &Setup,
     solver: &mut ContactSolver,
@@ -107,10 +107,12 @@ pub(super) fn finish(
         });
     }
     let gap = solver.gap()?;
+    // A balanced state at another position than the prescribed one has not converged.
+    let is_there = keeps_gap(solver, load, &gap);
     let elastic = solver.elastic_pressure()?;
     let solved = Solved {
-        gap: &gap,
-        elastic: &elastic,
+        gap,
+        elastic,
         mean_offset: solver.mean_offset(),
         plastic_depth: solver.plastic_depths(),
         held: outcome.mean_pressure,
@@ -118,14 +120,12 @@ pub(super) fn finish(
         law_factor: solver.law_factor(),
     };
     let problem = solver.problem();
-    let evaluation = Evaluation::of(setup, problem, controller, &solved);
+    let evaluation = Evaluation::of(setup, problem, controller, solved);
     // Non-finite fields have not converged, whatever the residual is.
     let is_finite = evaluation.force.is_finite() && evaluation.position.mean_gap.is_finite();
-    // Nor has a state on the constant that stands in the place of a core nearer than any load takes it.
+    // Nor has a state below the least gap, where the law is replaced by a constant.
     let nearest = problem.law.least_gap() * problem.scales.length;
     let is_beyond = !problem.law.has_wall() && evaluation.gap.iter().any(|gap| *gap <= nearest);
-    // Nor has what is not at the position asked, however well it is balanced there.
-    let is_there = keeps_gap(solver, load, &gap);
     Ok(SolvedStep {
         evaluation: Some(evaluation),
         converged: is_finite && is_there && !is_beyond && outcome.status == Status::Converged,

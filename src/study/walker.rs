@@ -1,4 +1,6 @@
-//! One solver on its way along a path: it solves a load from the state that the last one left.
+//! A solver along a path: it solves each load from the state of the last one.
+
+use std::sync::Arc;
 
 use super::attempt::Attempt;
 use super::checkpoint::{Checkpoint, CheckpointField, GAP};
@@ -15,10 +17,10 @@ use crate::law::Law;
 use crate::scene::Control;
 use crate::solver::{ContactSolver, MakeBackend, Problem};
 
-/// What one load leaves for the next.
+/// The state that one load leaves for the next.
 pub(super) struct Carried {
     /// Gap over all solved points, reduced; `None` where the surfaces are separated.
-    gap: Option<Vec<f64>>,
+    gap: Option<Arc<Vec<f64>>>,
     /// What effects carry, in their order.
     effects: Vec<Box<dyn Carry>>,
 }
@@ -37,11 +39,11 @@ fn copies(effects: &[Box<dyn Carry>]) -> Vec<Box<dyn Carry>> {
 }
 
 impl Carried {
-    /// What a path resumes from.
+    /// The state of a checkpoint.
     pub fn from_checkpoint(setup: &Setup, checkpoint: &Checkpoint) -> Carried {
         let effects = setup.effects.iter();
         Carried {
-            gap: checkpoint.field(GAP).map(<[f64]>::to_vec),
+            gap: checkpoint.shared(GAP),
             effects: effects
                 .filter_map(|effect| effect.carry(setup, checkpoint))
                 .collect(),
@@ -57,14 +59,14 @@ impl Carried {
         if let Some(gap) = &self.gap {
             fields.push(CheckpointField {
                 name: GAP.to_owned(),
-                values: gap.clone(),
+                values: Arc::clone(gap),
             });
         }
         fields
     }
 }
 
-/// A solver with what its loads leave.
+/// A solver with the state of its last load.
 pub(super) struct Walker<'s> {
     pub solver: ContactSolver<'s>,
     setup: &'s Setup,
@@ -98,7 +100,7 @@ impl<'s> Walker<'s> {
         walker
     }
 
-    /// The scene that is walked.
+    /// The scene.
     pub fn setup(&self) -> &'s Setup {
         self.setup
     }
@@ -137,7 +139,7 @@ impl<'s> Walker<'s> {
     /// What the next load starts from.
     pub fn carried(&mut self) -> Result<Carried, BackendError> {
         let gap = if self.loaded {
-            Some(self.solver.gap()?)
+            Some(Arc::new(self.solver.gap()?))
         } else {
             None
         };
@@ -232,7 +234,7 @@ impl<'s> Walker<'s> {
         Ok(())
     }
 
-    /// Ends a load that converged: what it leaves for good.
+    /// Ends a load that converged: effects make their permanent changes.
     pub fn settle(&mut self) -> Result<(), BackendError> {
         if self.loaded {
             for carry in &mut self.effects {
@@ -242,11 +244,11 @@ impl<'s> Walker<'s> {
         Ok(())
     }
 
-    /// The row of a load that is settled.
+    /// The row of a finished load.
     pub fn row(&self, step: usize, value: f64, solved: &SolvedStep) -> StepRow {
         let area = self.setup.surface.grid.area();
         let evaluation = solved.evaluation.as_ref();
-        // Where a load was asked the residual was met at that load, so that load it is.
+        // A prescribed load is met to the residual, so the row has the prescribed one.
         let (force, mean_pressure) = match (self.setup.scene.loading.control, evaluation) {
             (_, None) => (0.0, 0.0),
             (Control::Force, Some(_)) if solved.load_is_met => (value, value / area),

@@ -37,6 +37,8 @@ pub use formats::claimed_points;
 #[doc(hidden)]
 pub use outline::{MapOutline, Outline, Source};
 
+use std::sync::Arc;
+
 use crate::grid::Grid;
 use crate::scene::{Boundary, GridScene, Scene, SelfAffineScene, SurfacePart};
 use crate::units::{LARGEST, in_range};
@@ -54,7 +56,8 @@ pub struct Surface {
     /// The grid, from the scene or from a height file.
     pub grid: Grid,
     /// Heights, m, shape `[ny, nx]`, row-major, positive towards the solid.
-    pub heights: Vec<f64>,
+    /// Whoever needs them shares them.
+    pub heights: Arc<Vec<f64>>,
     /// Height from which the approach counts, m: the true apex if the surface is exactly one sphere
     /// or one cone, else the highest sampled point.
     pub highest: f64,
@@ -118,7 +121,7 @@ impl Surface {
         let single = single_part(parts);
         Ok(Surface {
             grid,
-            heights,
+            heights: Arc::new(heights),
             highest: match single {
                 Some(SurfacePart::Sphere { .. } | SurfacePart::Cone { .. }) => 0.0,
                 _ => sampled,
@@ -300,7 +303,8 @@ impl SurfacePart {
     /// As [`Surface::build`].
     pub fn heights(&self, grid: Grid, boundary: Boundary) -> Result<Vec<f64>, SurfaceError> {
         let scene = GridScene::new([grid.nx, grid.ny], [grid.lx, grid.ly]).boundary(boundary);
-        Ok(Surface::from_parts(&scene, std::slice::from_ref(self))?.heights)
+        let surface = Surface::from_parts(&scene, std::slice::from_ref(self))?;
+        Ok(Arc::unwrap_or_clone(surface.heights))
     }
 }
 

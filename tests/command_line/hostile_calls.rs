@@ -189,7 +189,7 @@ fn try_scenes(usual: u64, of: &[&str]) {
 }
 
 fn no_hostile_scene_is_trouble_to_compare() {
-    try_scenes(24, &["compare"]);
+    try_scenes(12, &["compare"]);
 }
 
 /// The words that the fuzz target takes are those of a shell, a line each.

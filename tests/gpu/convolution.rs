@@ -40,10 +40,10 @@ fn params() -> Params {
         pressure_floor: 1.0,
         tolerance: 1e-4,
         heights_norm: 1.0,
-        fixed_gap: false,
+        prescribed_mean_gap: false,
         may_detach: false,
         points: 1.0,
-        core_stiffness: 1.0,
+        smooth_stiffness: 1.0,
         level_compliance: 0.8,
         hardness: f64::INFINITY,
         epsilon: f64::EPSILON,
@@ -89,12 +89,12 @@ fn convolve(
     // Whatever is not written shows.
     backend.write(result, &vec![f64::NAN; nx * ny]);
     backend.write(sum, &vec![f64::NAN; nx * ny]);
-    backend.forward(&LOAD_FIELD, level, &[field]);
+    backend.run(&LOAD_FIELD, level, &[field]);
     backend.multiply(spectrum, true, Gate::Always);
-    backend.backward(&STORE_FIELD, level, &[result]);
-    backend.forward(&LOAD_DISPLACEMENT, level, &[field, heights]);
+    backend.run(&STORE_FIELD, level, &[result]);
+    backend.run(&LOAD_DISPLACEMENT, level, &[field, heights]);
     backend.multiply(other, false, Gate::Always);
-    backend.backward(&STORE_FIELD, level, &[sum]);
+    backend.run(&STORE_FIELD, level, &[sum]);
     let scalars = backend.scalars()?;
     assert_eq!(backend.transforms(), 4.0, "{nx} x {ny}");
     Ok((backend.read(result)?, backend.read(sum)?, scalars))
@@ -169,7 +169,7 @@ fn a_shut_gate_leaves_everything_as_it_was() {
     backend.set_scalars(&scalars);
     let values = Random(1).singles(256);
     backend.write(field, &values);
-    backend.forward(&LOAD_FIELD, level, &[field]);
+    backend.run(&LOAD_FIELD, level, &[field]);
     backend.multiply(spectrum, true, Gate::Running);
     backend.multiply(spectrum, true, Gate::Fresh);
     backend.multiply(spectrum, true, Gate::Accepted);
@@ -188,7 +188,7 @@ fn what_cannot_be_done_is_an_error_where_the_host_waits() {
         let level = backend.level("fine", Shape::whole(size[0], size[1]));
         let field = backend.field(level, "field");
         backend.write(field, &[0.0; 4]);
-        backend.forward(&LOAD_FIELD, level, &[field]);
+        backend.run(&LOAD_FIELD, level, &[field]);
         let error = text(backend.scalars().expect_err("a size without a transform"));
         assert!(error.contains("no prime factor above 7"), "{error}");
         assert_eq!(text(backend.read(field).expect_err("the same")), error);
@@ -196,7 +196,7 @@ fn what_cannot_be_done_is_an_error_where_the_host_waits() {
     let mut backend = backend(device);
     let level = backend.level("fine", Shape::whole(16, 16));
     let field = backend.field(level, "field");
-    backend.forward(&LOAD_DISPLACEMENT, level, &[field]);
+    backend.run(&LOAD_DISPLACEMENT, level, &[field]);
     let error = backend.scalars().expect_err("a field too few");
     assert!(
         matches!(
@@ -241,10 +241,10 @@ fn kernels_are_timed_on_the_device() {
         backend.write(from, &Random(4).singles(nx * ny));
         backend.set_params(&params());
         for _ in 0..3 {
-            backend.forward(&LOAD_FIELD, level, &[from]);
+            backend.run(&LOAD_FIELD, level, &[from]);
             backend.multiply(stiffness, false, Gate::Always);
         }
-        backend.backward(&STORE_FIELD, level, &[to]);
+        backend.run(&STORE_FIELD, level, &[to]);
         backend.read(to).unwrap_or_else(|error| panic!("{error}"))
     };
     let (mut timed, watch) = backend(device).timed();

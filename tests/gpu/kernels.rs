@@ -63,17 +63,17 @@ fn laws() -> [(&'static str, Law); 5] {
     ]
 }
 
-fn params(law: Law, fixed_gap: bool, number: Number) -> Params {
+fn params(law: Law, prescribed_mean_gap: bool, number: Number) -> Params {
     Params {
         law,
         stiffness_max: 2.0,
         pressure_floor: 1e-3,
         tolerance: 1e-4,
         heights_norm: 3.0,
-        fixed_gap,
-        may_detach: !fixed_gap,
+        prescribed_mean_gap,
+        may_detach: !prescribed_mean_gap,
         points: 1.0,
-        core_stiffness: 0.4,
+        smooth_stiffness: 0.4,
         level_compliance: 0.8,
         hardness: 0.3,
         epsilon: number.epsilon(),
@@ -225,32 +225,27 @@ fn run(
     let [open_gap, blank, other_blank] =
         [&far[..], &draw(own.len()), &far].map(|values| make(backend, level, values));
     if kernel.form != Form::Sweep && kernel.form != Form::Load {
-        backend.forward(&LOAD_FIELD, level, &[lines]);
+        backend.run(&LOAD_FIELD, level, &[lines]);
         backend.multiply(ones, false, Gate::Always);
     }
     if kernel.form.takes_retained() {
         // Everywhere open, the descent keeps the lines as they are.
-        backend.backward(&DESCENT[0], level, &[open_gap, blank, other_blank]);
+        backend.run(&DESCENT[0], level, &[open_gap, blank, other_blank]);
     }
     backend.set_scalars(&open(kernel.gate));
-    match kernel.form {
-        Form::Sweep | Form::ReadRetained => backend.sweep(kernel, level, &fields),
-        Form::Load | Form::FromRetained => backend.forward(kernel, level, &fields),
-        Form::Store | Form::RetainRows | Form::Retain => backend.backward(kernel, level, &fields),
-        Form::InverseThenForward => backend.inverse_then_forward(kernel, level, &fields),
-    }
+    backend.run(kernel, level, &fields);
     let scalars = backend
         .scalars()
         .unwrap_or_else(|error| panic!("{}: {error}", kernel.name));
     if kernel.form.retains() {
         // Everywhere open, the trial loads what was kept.
         backend.set_scalars(&passing());
-        backend.forward(&TRIAL[0], level, &[open_gap, blank, other_blank]);
+        backend.run(&TRIAL[0], level, &[open_gap, blank, other_blank]);
     }
     let gives = kernel.form.before_forward() || kernel.form.retains();
     if gives {
         backend.multiply(ones, false, Gate::Always);
-        backend.backward(&STORE_FIELD, level, &[lines]);
+        backend.run(&STORE_FIELD, level, &[lines]);
     }
     let written = fields[kernel.written()].to_vec();
     let mut read = |field| {
@@ -370,7 +365,7 @@ fn kernels_agree_with_their_twins() {
                 continue;
             }
             let fine = Shape::whole(FINE[0], FINE[1]);
-            for (shape, fixed_gap, patterned, based) in [
+            for (shape, prescribed_mean_gap, patterned, based) in [
                 (fine, true, false, false),
                 (padded, false, false, false),
                 (padded, false, true, true),
@@ -393,7 +388,7 @@ fn kernels_agree_with_their_twins() {
                 };
                 compare(
                     kernel,
-                    &params(law, fixed_gap, Number::Single),
+                    &params(law, prescribed_mean_gap, Number::Single),
                     shape,
                     case,
                     &|| Box::new(CpuBackend::<f32>::new()),
@@ -479,7 +474,7 @@ fn device_exponentials(device: &GpuDevice, values: &[f64], less_one: bool) -> Ve
     backend.set_outer_state(less_one.then_some([outer_gap, outer_residual]));
     backend.set_params(&params(law, false, Number::Double));
     backend.set_scalars(&Scalars::start(0.0, false));
-    backend.sweep(&OUTER_RESIDUAL, level, &[gap, pressure, result]);
+    backend.run(&OUTER_RESIDUAL, level, &[gap, pressure, result]);
     backend
         .read(result)
         .unwrap_or_else(|error| panic!("{error}"))
@@ -737,11 +732,11 @@ fn every_member_is_where_a_shader_reads_it() {
                 tolerance: 4.125,
                 heights_norm: 5.125,
                 points: 6.125,
-                core_stiffness: 7.125,
+                smooth_stiffness: 7.125,
                 level_compliance: 7.625,
                 hardness: 8.125,
                 epsilon: 9.125,
-                fixed_gap: true,
+                prescribed_mean_gap: true,
                 may_detach: false,
             };
             let mut next = 10;
@@ -806,7 +801,7 @@ fn sums_without_double_precision_are_compensated() {
     backend.write(gap, &values);
     backend.set_params(&params(Law::HardWall, true, Number::Single));
     backend.set_scalars(&open(Gate::Running));
-    backend.sweep(&BALANCE[0], level, &[gap, pressure]);
+    backend.run(&BALANCE[0], level, &[gap, pressure]);
     let sums = backend
         .scalars()
         .unwrap_or_else(|error| panic!("{error}"))

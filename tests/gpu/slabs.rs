@@ -50,10 +50,10 @@ fn params(law: Law) -> Params {
         pressure_floor: 1e-3,
         tolerance: 1e-4,
         heights_norm: 3.0,
-        fixed_gap: true,
+        prescribed_mean_gap: true,
         may_detach: false,
         points: 1.0,
-        core_stiffness: 0.4,
+        smooth_stiffness: 0.4,
         level_compliance: 0.8,
         hardness: 0.3,
         epsilon: f64::from(f32::EPSILON),
@@ -80,9 +80,9 @@ fn convolve(backend: &mut dyn Backend, [nx, ny]: [usize; 2], tabulated: bool) ->
     backend.set_zero_mode(spectrum, 0.75);
     backend.write(field, &numbers.singles(nx * ny));
     backend.write(result, &vec![f64::NAN; nx * ny]);
-    backend.forward(&LOAD_FIELD, level, &[field]);
+    backend.run(&LOAD_FIELD, level, &[field]);
     backend.multiply(spectrum, true, Gate::Always);
-    backend.backward(&STORE_FIELD, level, &[result]);
+    backend.run(&STORE_FIELD, level, &[result]);
     let energy = backend.scalars().expect("nothing fails").curvature;
     assert_eq!(backend.transforms(), 2.0, "{nx} x {ny}");
     (backend.read(result).expect("nothing fails"), energy)
@@ -214,11 +214,11 @@ fn run(
     let far = vec![1e3; own.len()];
     let spare = [&far[..], &far, &far].map(|values| make(backend, level, values));
     if kernel.form != Form::Sweep && kernel.form != Form::Load {
-        backend.forward(&LOAD_FIELD, level, &[lines]);
+        backend.run(&LOAD_FIELD, level, &[lines]);
         backend.multiply(ones, false, Gate::Always);
     }
     if kernel.form.takes_retained() {
-        backend.backward(&descent::DESCENT[0], level, &spare);
+        backend.run(&descent::DESCENT[0], level, &spare);
     }
     backend.set_scalars(&Scalars {
         mean_pressure: 0.1,
@@ -234,29 +234,24 @@ fn run(
         ..Scalars::start(0.1, false)
     });
     if kernel.form != Form::Sweep && kernel.form != Form::Load {
-        backend.forward(&LOAD_FIELD, level, &[lines]);
+        backend.run(&LOAD_FIELD, level, &[lines]);
         backend.multiply(ones, false, Gate::Always);
     }
     let own_gap = fields[0];
     if kernel.form.takes_retained() {
-        backend.backward(&descent::DESCENT[0], level, &[own_gap; 3]);
+        backend.run(&descent::DESCENT[0], level, &[own_gap; 3]);
     }
-    match kernel.form {
-        Form::Sweep | Form::ReadRetained => backend.sweep(kernel, level, &fields),
-        Form::Load | Form::FromRetained => backend.forward(kernel, level, &fields),
-        Form::Store | Form::RetainRows | Form::Retain => backend.backward(kernel, level, &fields),
-        Form::InverseThenForward => backend.inverse_then_forward(kernel, level, &fields),
-    }
+    backend.run(kernel, level, &fields);
     let scalars = backend
         .scalars()
         .unwrap_or_else(|error| panic!("{}: {error}", kernel.name));
     if kernel.form.retains() {
         backend.set_scalars(&passing);
-        backend.forward(&trial::TRIAL[0], level, &spare);
+        backend.run(&trial::TRIAL[0], level, &spare);
     }
     if kernel.form.before_forward() || kernel.form.retains() {
         backend.multiply(ones, false, Gate::Always);
-        backend.backward(&STORE_FIELD, level, &[lines]);
+        backend.run(&STORE_FIELD, level, &[lines]);
     }
     let mut traces = fields[kernel.written()].to_vec();
     traces.push(lines);

@@ -127,16 +127,12 @@ macro_rules! passed_on {
         fn scalars(&mut self) -> Result<Scalars, BackendError> {
             self.inner.scalars()
         }
-        fn sweep(&mut self, kernel: &'static Kernel, level: Level, fields: &[Field]) {
+        fn run(&mut self, kernel: &'static Kernel, level: Level, fields: &[Field]) {
             self.note(kernel.variant());
-            self.inner.sweep(kernel, level, fields);
+            self.inner.run(kernel, level, fields);
         }
         fn scalar(&mut self, kernel: &'static ScalarKernel) {
             self.inner.scalar(kernel);
-        }
-        fn forward(&mut self, kernel: &'static Kernel, level: Level, fields: &[Field]) {
-            self.note(kernel.variant());
-            self.inner.forward(kernel, level, fields);
         }
         fn multiply(&mut self, by: Spectrum, energy: bool, gate: Gate) {
             let tabulated = self.tables[by.index];
@@ -147,19 +143,6 @@ macro_rules! passed_on {
             };
             self.note(name.to_owned());
             self.inner.multiply(by, energy, gate);
-        }
-        fn backward(&mut self, kernel: &'static Kernel, level: Level, fields: &[Field]) {
-            self.note(kernel.variant());
-            self.inner.backward(kernel, level, fields);
-        }
-        fn inverse_then_forward(
-            &mut self,
-            kernel: &'static Kernel,
-            level: Level,
-            fields: &[Field],
-        ) {
-            self.note(kernel.variant());
-            self.inner.inverse_then_forward(kernel, level, fields);
         }
         fn epsilon(&self) -> f64 {
             self.inner.epsilon()

@@ -91,7 +91,7 @@ pub fn falls(name: &str, problem: &Problem, load: &Load, tolerance: f64) {
             solver.elastic_pressure().expect("cpu"),
         );
         let (mut energy, mut square) = (0.0, 0.0);
-        for ((g, h), p) in gap.iter().zip(&problem.heights).zip(&elastic) {
+        for ((g, h), p) in gap.iter().zip(problem.heights.iter()).zip(&elastic) {
             energy += 0.5 * p * (g + h) + problem.law.energy(*g);
             square += (g + h) * (g + h);
         }

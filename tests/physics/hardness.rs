@@ -29,6 +29,7 @@ fn heights(solved: &Solved, step: usize) -> Vec<f64> {
     solved
         .fields(step)
         .field(FieldName::Heights, &solved.setup.surface.heights)
+        .into_owned()
 }
 
 fn plastic_energy(row: &StepRow) -> f64 {
@@ -166,7 +167,7 @@ fn load_unload_load_again_against_a_dense_solution() {
     let loading = format!("control = \"pressure\"\npath = {path:?}");
     let solved = solve(&rough(16, "hardness = 0.04", "", &loading));
     let matrix = compliance(16);
-    let mut surface = solved.setup.surface.heights.clone();
+    let mut surface = solved.setup.surface.heights.to_vec();
     let mut energy = 0.0;
     for (step, mean) in path.into_iter().enumerate() {
         let (pressure, gap) = dense(&matrix, &surface, hardness, mean);
@@ -287,7 +288,7 @@ fn fully_plastic_contact_is_the_bearing_area() {
             excess >= -1e-6 && excess <= between + 1e-6,
             "{excess} {between}"
         );
-        let mut sorted = solved.setup.surface.heights.clone();
+        let mut sorted = solved.setup.surface.heights.to_vec();
         sorted.sort_by(|a, b| b.total_cmp(a));
         // Between the last point that is cut and the first that is not.
         let upper = sorted[(share * points).ceil() as usize - 1];
@@ -300,7 +301,7 @@ fn fully_plastic_contact_is_the_bearing_area() {
         assert!(found > least - elastic && found < most + elastic);
         for (h, start) in heights(&solved, step)
             .iter()
-            .zip(&solved.setup.surface.heights)
+            .zip(solved.setup.surface.heights.iter())
         {
             let [low, high] = [lower, upper].map(|level| start.min(level));
             assert!(

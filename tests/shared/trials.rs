@@ -12,6 +12,11 @@ use libtest_mimic::{Arguments, Completion, Trial};
 /// Why a test cannot run; what [`ignore`] unwinds with.
 struct Ignored(String);
 
+/// Whether every claim is tried on all that it is about (`TABOR_LONG=1`), which takes some minutes more.
+pub fn is_long() -> bool {
+    std::env::var("TABOR_LONG").is_ok_and(|value| value == "1")
+}
+
 /// Ends the running test, which is reported as ignored.
 pub fn ignore(reason: impl Into<String>) -> ! {
     // Unlike `panic!`, this prints nothing.

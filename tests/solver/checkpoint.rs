@@ -15,7 +15,7 @@ use tabor::study::{
 use tabor::surface::Surface;
 
 use crate::shared::device::device;
-use crate::shared::trials::tests;
+use crate::shared::trials::{is_long, tests};
 
 const ROUGH: &str = "[[surface]]\nkind = \"self-affine\"\nhurst = 0.8\nrms_slope = 0.1\nlongest = \"2 um\"\nrolloff = \"1 um\"\nshortest = \"0.25 um\"\n";
 const SPHERE: &str = "[[surface]]\nkind = \"sphere\"\nradius = \"5 um\"\n";
@@ -129,9 +129,22 @@ fn expect_same(one: &WalkEnd, other: &WalkEnd, what: &str) {
     );
 }
 
-/// Walks a scene whole and from each of its cuts, or every other one; returns the steps that parted
-/// or jumped.
-fn cut(scene: Scene, make: Make, single: bool, few: bool, what: &str) -> usize {
+/// Every so many steps of a path are cuts, from the first one on.
+#[derive(Clone, Copy)]
+struct Cuts {
+    first: usize,
+    stride: usize,
+}
+
+impl Cuts {
+    const ALL: Cuts = Cuts {
+        first: 0,
+        stride: 1,
+    };
+}
+
+/// Walks a scene whole and from each of its cuts; returns the steps that parted or jumped.
+fn cut(scene: Scene, make: Make, single: bool, cuts: Cuts, what: &str) -> usize {
     // What such a solid remembers is known in double precision.
     let remembers = scene.solid.remembers();
     let surface = Surface::build(&scene).expect("a surface");
@@ -146,8 +159,8 @@ fn cut(scene: Scene, make: Make, single: bool, few: bool, what: &str) -> usize {
     let converged = whole.rows.iter().filter(|row| row.converged).count();
     assert_eq!(cutter.states.len(), converged, "{what}");
     assert!(converged > 2, "{what}: only {converged} steps converge");
-    let stride = if few { 2 } else { 1 };
-    for (index, state) in cutter.states.into_iter().enumerate().step_by(stride) {
+    let states = cutter.states.into_iter().enumerate();
+    for (index, state) in states.skip(cuts.first).step_by(cuts.stride) {
         let earlier = Earlier {
             rows: whole.rows[..=index].to_vec(),
             checkpoint: state,
@@ -167,8 +180,15 @@ fn cut(scene: Scene, make: Make, single: bool, few: bool, what: &str) -> usize {
     parted + whole.jump_in_steps.len() + whole.jump_off_steps.len()
 }
 
-/// All combinations that a scene may ask for; returns how many.
-fn all(make: Make, single: bool, few: bool) -> usize {
+/// All combinations that a scene may ask for; returns how many. Each is cut at every so many of its steps, the
+/// next at the steps after those, so that a path is cut at each of its steps under one law or another;
+/// `TABOR_LONG=1` cuts every path at each.
+fn all(make: Make, single: bool, few: bool, stride: usize) -> usize {
+    let stride = if is_long() { 1 } else { stride };
+    let cuts = |count: usize| Cuts {
+        first: count % stride,
+        stride,
+    };
     let laws = [
         String::new(),
         adhesion("maugis-dugdale", "full"),
@@ -188,7 +208,7 @@ fn all(make: Make, single: bool, few: bool) -> usize {
             let surface = if boundary == "free" { SPHERE } else { ROUGH };
             let what = format!("{loading} {law}");
             let scene = scene(boundary, surface, law, loading, single);
-            events += cut(scene, make, single, few, &what);
+            events += cut(scene, make, single, cuts(count), &what);
             count += 1;
         }
     }
@@ -197,7 +217,13 @@ fn all(make: Make, single: bool, few: bool) -> usize {
     for (boundary, surface) in [("free", SPHERE), ("periodic", ROUGH)] {
         let law = adhesion("maugis-dugdale", "full");
         let scene = scene(boundary, surface, &law, spring, single);
-        events += cut(scene, make, single, few, &format!("spring, {boundary}"));
+        events += cut(
+            scene,
+            make,
+            single,
+            cuts(count),
+            &format!("spring, {boundary}"),
+        );
         count += 1;
     }
     // A solid with a hardness, whose plastic depth is in the checkpoint; mixed precision does not know it.
@@ -214,7 +240,7 @@ fn all(make: Make, single: bool, few: bool) -> usize {
                 scene,
                 make,
                 single,
-                few,
+                cuts(count),
                 &format!("hardness, {loading} {law}"),
             );
             count += 1;
@@ -229,18 +255,18 @@ fn all(make: Make, single: bool, few: bool) -> usize {
 
 fn resume_in_double_precision() {
     let make = || -> Box<dyn Backend + Send> { Box::new(CpuBackend::<f64>::new()) };
-    assert_eq!(all(&make, false, false), 45);
+    assert_eq!(all(&make, false, false, 2), 45);
 }
 
 fn resume_in_single_precision() {
     let make = || -> Box<dyn Backend + Send> { Box::new(CpuBackend::<f32>::new()) };
-    assert_eq!(all(&make, true, false), 45);
+    assert_eq!(all(&make, true, false, 3), 45);
 }
 
 /// The state is kept in double precision, and iterations in single start from it.
 fn resume_in_mixed_precision() {
     let make = mixed();
-    assert_eq!(all(&make, false, false), 37);
+    assert_eq!(all(&make, false, false, 3), 37);
 }
 
 fn mixed() -> impl Fn() -> Box<dyn Backend + Send> {
@@ -250,7 +276,7 @@ fn mixed() -> impl Fn() -> Box<dyn Backend + Send> {
 fn resume_on_the_graphics_processor() {
     let device = device();
     let make = || -> Box<dyn Backend + Send> { Box::new(GpuBackend::on(device)) };
-    assert_eq!(all(&make, true, true), 9);
+    assert_eq!(all(&make, true, true, 2), 9);
 }
 
 /// The cold start on coarser grids, which small grids do without.
@@ -259,7 +285,7 @@ fn resume_with_a_coarse_start() {
     let mut scene = scene("periodic", ROUGH, "", loading, false);
     scene.grid.points = Some([128, 128]);
     let make = || -> Box<dyn Backend + Send> { Box::new(CpuBackend::<f64>::new()) };
-    cut(scene, &make, false, false, "coarse start");
+    cut(scene, &make, false, Cuts::ALL, "coarse start");
 }
 
 /// A number of a step.
@@ -267,9 +293,34 @@ type Of = fn(&StepRow) -> f64;
 /// The same with its name.
 type Column = (&'static str, Of);
 
+/// What a scene is overridden with to walk its ramps of twenty steps and more in half as many.
+fn half_as_many_steps(text: &str) -> Vec<(String, String)> {
+    let loading = text.split("\n[output]").next().unwrap_or(text);
+    let steps = loading.lines().filter_map(|line| {
+        let count = line.strip_prefix("steps = ")?;
+        Some(count.split_whitespace().next()?.parse::<usize>().ok())
+    });
+    let mut set: Vec<_> = steps
+        .enumerate()
+        .filter_map(|(ramp, count)| Some((ramp, count.filter(|count| *count >= 20)?)))
+        .map(|(ramp, count)| {
+            (
+                format!("loading.ramp.{ramp}.steps"),
+                (count / 2).to_string(),
+            )
+        })
+        .collect();
+    if !set.is_empty() {
+        // Its pictures are of steps that there may no longer be.
+        set.push(("output.steps".to_owned(), "\"last\"".to_owned()));
+    }
+    set
+}
+
 /// Every shipped scene, and with them every effect: mixed precision walks the path that double does.
 /// Both stop at a residual of 1e-9, so what they find differs by some 1e-9 of the largest on the path
 /// where a state is stable; near a jump the softest mode may be a thousand times as soft.
+/// Long ramps are walked in half their steps, with `TABOR_LONG=1` in all.
 fn mixed_precision_walks_the_path_of_double() {
     let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("examples/scenes");
     let double = || -> Box<dyn Backend + Send> { Box::new(CpuBackend::<f64>::new()) };
@@ -290,6 +341,9 @@ fn mixed_precision_walks_the_path_of_double() {
         let mut set = vec![("solver.tolerance".to_owned(), "1e-9".to_owned())];
         if !text.contains("kind = \"file\"") {
             set.push(("grid.points".to_owned(), "48".to_owned()));
+        }
+        if !is_long() {
+            set.extend(half_as_many_steps(&text));
         }
         let scene = Scene::read(&path, &set).unwrap_or_else(|errors| panic!("{errors}"));
         if scene.solid.hardness.is_some() {
@@ -360,7 +414,7 @@ fn resume_with_rate_dependent_adhesion() {
     let loading = "control = \"approach\"\nstart = \"20 nm\"\n[[loading.ramp]]\nto = \"-20 nm\"\nsteps = 5\nduration = 0.1\n[[loading.ramp]]\nto = \"10 nm\"\nsteps = 2\nduration = 1";
     let make = || -> Box<dyn Backend + Send> { Box::new(CpuBackend::<f64>::new()) };
     let scene = scene("free", SPHERE, &law, loading, false);
-    cut(scene, &make, false, false, "rate");
+    cut(scene, &make, false, Cuts::ALL, "rate");
 }
 
 /// A solid that relaxes, over steps that grow with the time from each kink of the path.
@@ -372,7 +426,7 @@ fn resume_with_automatic_time_steps() {
     let durations = scene.loading.durations.clone().expect("it is timed");
     let longest = durations.iter().copied().fold(0.0, f64::max);
     assert!(longest > 8.0 * durations[1], "they grow: {durations:?}");
-    cut(scene, &make, false, false, "growing steps");
+    cut(scene, &make, false, Cuts::ALL, "growing steps");
 }
 
 /// Ends a path in its n-th search between two steps, with the rows and the state of the steps before it.

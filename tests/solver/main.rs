@@ -5,10 +5,16 @@ use std::process::ExitCode;
 
 mod checkpoint;
 mod iterates;
+mod mean_gap;
 mod operator;
 #[path = "../shared/mod.rs"]
 mod shared;
 
 fn main() -> ExitCode {
-    shared::trials::run([checkpoint::tests(), iterates::tests(), operator::tests()])
+    shared::trials::run([
+        checkpoint::tests(),
+        iterates::tests(),
+        mean_gap::tests(),
+        operator::tests(),
+    ])
 }

@@ -23,10 +23,10 @@ fn params() -> Params {
         pressure_floor: 1.0,
         tolerance: 0.0,
         heights_norm: 1.0,
-        fixed_gap: false,
+        prescribed_mean_gap: false,
         may_detach: false,
         points: 1.0,
-        core_stiffness: 1.0,
+        smooth_stiffness: 1.0,
         level_compliance: 1.0,
         hardness: f64::INFINITY,
         epsilon: f64::EPSILON,
@@ -44,9 +44,9 @@ fn apply<T: CpuReal>(points: [usize; 2], spectrum: &[f64], field: &[f64]) -> (Ve
     let spectrum = backend.spectrum(level, "stiffness", Factors::Table(spectrum));
     backend.set_params(&params());
     backend.write(source, field);
-    backend.forward(&LOAD_FIELD, level, &[source]);
+    backend.run(&LOAD_FIELD, level, &[source]);
     backend.multiply(spectrum, true, Gate::Always);
-    backend.backward(&STORE_FIELD, level, &[result]);
+    backend.run(&STORE_FIELD, level, &[result]);
     let curvature = backend.scalars().expect("cpu").curvature;
     (backend.read(result).expect("cpu"), curvature)
 }

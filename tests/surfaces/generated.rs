@@ -278,7 +278,7 @@ fn every_type_and_order_of_npy_gives_the_same_heights() {
             &npy(&description(kind, "False", "(2, 3)"), &bytes),
         );
         let surface = build(file_part(&path)).unwrap_or_else(|error| panic!("{kind}: {error}"));
-        assert_eq!(surface.heights, expected, "{kind}");
+        assert_eq!(*surface.heights, expected, "{kind}");
         assert_eq!((surface.grid.nx, surface.grid.ny), (3, 2));
         assert_eq!(surface.highest, 5.0);
     }
@@ -292,13 +292,13 @@ fn every_type_and_order_of_npy_gives_the_same_heights() {
         "f.npy",
         &npy(&description("<f8", "True", "(2, 3)"), &bytes),
     );
-    assert_eq!(build(file_part(&path)).unwrap().heights, expected);
+    assert_eq!(*build(file_part(&path)).unwrap().heights, expected);
     // What follows the array is not read, and said.
     let mut longer = npy(&description("<f8", "False", "(2, 3)"), &six());
     longer.extend([0; 7]);
     let path = write(folder.path(), "longer.npy", &longer);
     let surface = build(file_part(&path)).unwrap();
-    assert_eq!(surface.heights, expected);
+    assert_eq!(*surface.heights, expected);
     assert!(surface.warnings[0].contains("[[surface]] 1: the file holds 7 bytes after its array"));
 }
 

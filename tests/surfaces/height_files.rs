@@ -162,7 +162,7 @@ fn the_same_heights_come_from_every_format() {
         let surface = build(name, Fill::Interpolate, None).expect(name);
         assert_relative_eq!(surface.grid.lx, 6e-7, max_relative = 1e-6);
         assert_relative_eq!(surface.grid.ly, 7.2e-7, max_relative = 1e-6);
-        for (index, (here, there)) in surface.heights.iter().zip(&first.heights).enumerate() {
+        for (index, (here, there)) in surface.heights.iter().zip(first.heights.iter()).enumerate() {
             // Row 2, column 3 and row 8, column 0 are missing in some of them.
             if index != 27 && index != 96 {
                 assert!((here - there).abs() < 5.1e-12, "{name}, {index}");
@@ -261,7 +261,7 @@ fn heights_of(name: &str, bytes: &[u8]) -> Vec<f64> {
     fs::write(&path, bytes).unwrap();
     // A path from the root replaces that of the collection.
     let surface = build(path.to_str().unwrap(), Fill::Interpolate, None);
-    surface.expect(name).heights
+    surface.expect(name).heights.to_vec()
 }
 
 #[test]
@@ -570,7 +570,7 @@ fn bad_calls_are_refused_in_a_sentence() {
         ),
         (
             &["map.gsf", "--detrend", "linear"],
-            "write none, mean, plane, quadratic",
+            "[possible values: none, mean, plane, quadratic]",
         ),
         (&["map.gsf", "--size", "1 kg"], "a mass"),
         (&["map.gsf", "--size", "1,2,3"], "give one length, or two"),

@@ -1,6 +1,9 @@
 //! The claims of the DMT study (Violano, Demelio & Afferrante 2018), with its numbers, and the models
 //! of a rough contact judged by the full field of the same surface.
 
+use std::collections::BTreeMap;
+use std::sync::{Mutex, PoisonError};
+
 #[path = "../../examples/dmt_study/claims.rs"]
 mod claims;
 #[path = "../../examples/dmt_study/rows.rs"]
@@ -268,8 +271,16 @@ fn t4_t5_area_by_hurst_exponent_and_band() {
     assert!(0.09274 < middle && middle < 0.15621, "{middle}");
 }
 
-/// Persson's pull-off in w/range, the Fuller-Tabor parameter, and GW-M's pull-off.
+/// Persson's pull-off in w/range, the Fuller-Tabor parameter, and GW-M's pull-off, found once a surface.
 fn pull_offs(hurst: f64, ratio: usize) -> [f64; 3] {
+    static FOUND: Mutex<BTreeMap<(u64, usize), [f64; 3]>> = Mutex::new(BTreeMap::new());
+    let mut found = FOUND.lock().unwrap_or_else(PoisonError::into_inner);
+    *found
+        .entry((hurst.to_bits(), ratio))
+        .or_insert_with(|| pull_offs_of(hurst, ratio))
+}
+
+fn pull_offs_of(hurst: f64, ratio: usize) -> [f64; 3] {
     let contact = rows::persson(hurst, ratio).expect("a contact");
     let summits = rows::summits(contact.spectrum(), WORK).expect("summits");
     [

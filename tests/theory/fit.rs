@@ -80,11 +80,15 @@ fn made(model: Model, lambda: f64, noise: f64, seed: u64) -> Vec<Sample> {
         .collect()
 }
 
-/// Two standard deviations hold the truth 95 times of 100. Of 24 curves at most 5 may then miss
-/// (fewer than once in 500 such tests), and not all may lie on one side (once in 8 million).
+/// Curves with noise of their own that a claim about uncertainties is asked of: two standard deviations hold the
+/// truth 95 times of 100, so that more than [`MISSES`] of them miss once in 1166 such tests, and all lie on
+/// one side once in 33 thousand.
+const CURVES: u64 = 16;
+const MISSES: usize = 4;
+
+/// Each model's curves.
 #[test]
 fn stated_uncertainties_cover_the_truth() {
-    const CURVES: u64 = 24;
     for (model, lambda) in [
         (Model::Hertz, 1.0),
         (Model::Dmt, 1.0),
@@ -117,7 +121,7 @@ fn stated_uncertainties_cover_the_truth() {
             let above = each().filter(|(off, _)| *off > 0.0).count();
             println!("{model:?} {lambda}: {missed} of {CURVES} missed, {above} above");
             assert!(
-                missed <= 5,
+                missed <= MISSES,
                 "{model:?} {lambda}: {missed} of {CURVES} missed"
             );
             assert!(above > 0 && above < CURVES as usize, "{model:?} {lambda}");
@@ -240,12 +244,10 @@ fn field_samples(text: &str) -> Vec<Sample> {
 }
 
 /// Full fields from DMT to JKR with noise of 5 % of pi w R: two stated standard deviations hold work and
-/// modulus 95 times of 100, so that of 24 curves at most 5 miss (see
-/// `stated_uncertainties_cover_the_truth`). The grids leave 0.3 % of either, a fifth of the scatter.
+/// modulus 95 times of 100. The grids leave 0.3 % of either, a fifth of the scatter.
 /// From lambda 1 on the models differ by less than that noise but for their jumps, and the fit says so.
 #[test]
 fn stated_uncertainties_cover_full_fields_from_dmt_to_jkr() {
-    const CURVES: u64 = 24;
     for (lambda, text) in FIELDS {
         let modulus = 0.75 * ((2.0 / lambda).powi(3) / PI).sqrt();
         let samples = field_samples(text);
@@ -269,8 +271,14 @@ fn stated_uncertainties_cover_full_fields_from_dmt_to_jkr() {
             warned += usize::from(result.warnings.iter().any(says));
         }
         println!("lambda {lambda}: w, E* missed {missed:?}, warned {warned} of {CURVES}");
-        assert!(missed[0] <= 5 && missed[1] <= 5, "{lambda}: {missed:?}");
-        assert!(lambda < 1.0 || warned >= 20, "{lambda}: warned {warned}");
+        assert!(
+            missed[0] <= MISSES && missed[1] <= MISSES,
+            "{lambda}: {missed:?}"
+        );
+        assert!(
+            lambda < 1.0 || 6 * warned >= 5 * CURVES as usize,
+            "{lambda}: warned {warned}"
+        );
     }
 }
 
@@ -278,7 +286,6 @@ fn stated_uncertainties_cover_full_fields_from_dmt_to_jkr() {
 /// uncertainty, and no curve is fitted much worse than its neighbours.
 #[test]
 fn uncertainties_hold_where_lambda_is_not_told() {
-    const CURVES: u64 = 24;
     for lambda in [1.2, 1.5, 2.0, 3.0] {
         for noise in [0.05, 0.01] {
             let mut missed = [0; 2];
@@ -295,7 +302,7 @@ fn uncertainties_hold_where_lambda_is_not_told() {
             }
             println!("lambda {lambda}, noise {noise}: w, E* missed {missed:?} of {CURVES}");
             assert!(
-                missed[0] <= 5 && missed[1] <= 5,
+                missed[0] <= MISSES && missed[1] <= MISSES,
                 "{lambda} {noise}: {missed:?}"
             );
         }

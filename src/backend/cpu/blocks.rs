@@ -1,6 +1,7 @@
 //! Rows in blocks: the unit in which work is cut, summed and handed to threads.
 
 use std::ops::Range;
+use std::sync::Mutex;
 
 use rustfft::num_complex::Complex;
 
@@ -11,6 +12,11 @@ use crate::real::Real;
 /// Rows in a block; also the side of the tiles in which spectra are transposed. Eight complex
 /// doubles are two cache lines, so a tile is read and written in whole lines.
 pub(super) const BLOCK: usize = 8;
+
+/// Spectra of eight rows at eight columns, column by column. Who works on rows has whole blocks of tiles for
+/// itself; who works on columns has tiles from all blocks, which only a lock on each can say: it costs some
+/// percent of the column's transform, and a second set of tiles would cost a field.
+pub(super) type Tile<T> = Mutex<[Complex<T>; BLOCK * BLOCK]>;
 
 /// A kernel over a range of blocks, with what it reads and the parts that it alone may write.
 pub(super) struct Job<'a, T: Real> {
@@ -30,9 +36,9 @@ pub(super) struct Job<'a, T: Real> {
     pub outer: [&'a [T]; 2],
     /// One set of sums a block.
     pub partials: &'a mut [[f64; SUMS]],
-    /// Spectra of these blocks, `work_per_block` values each.
-    pub work: &'a mut [Complex<T>],
-    /// Length of one block's spectra.
+    /// Spectra of these blocks, `work_per_block` tiles each.
+    pub work: &'a mut [Tile<T>],
+    /// Tiles of one block's spectra.
     pub work_per_block: usize,
     /// Fixed numbers.
     pub params: &'a Params,

@@ -128,7 +128,7 @@ impl<T: CpuReal> CpuBackend<T> {
     }
 
     /// Runs a kernel over the blocks of a level, with the transform's work space where it has one.
-    fn run(&mut self, kernel: &'static Kernel, level: Level, fields: &[Field]) {
+    fn run_blocks(&mut self, kernel: &'static Kernel, level: Level, fields: &[Field]) {
         if !self.scalars.is_open(kernel.gate) {
             return;
         }
@@ -202,8 +202,7 @@ impl<T: CpuReal> CpuBackend<T> {
             (_, None) => debug_assert!(false, "{} on a level without transforms", kernel.name),
             (form, Some(transform)) => {
                 transform.rows(job, form);
-                let transforms = u8::from(form.after_inverse()) + u8::from(form.before_forward());
-                self.transforms += 0.5 * share * f64::from(transforms);
+                self.transforms += share * form.transforms();
             }
         }
         let partials = &self.levels[level.0].partials[..blocks];
@@ -296,18 +295,14 @@ impl<T: CpuReal> Backend for CpuBackend<T> {
         Ok(self.scalars)
     }
 
-    fn sweep(&mut self, kernel: &'static Kernel, level: Level, fields: &[Field]) {
-        self.run(kernel, level, fields);
+    fn run(&mut self, kernel: &'static Kernel, level: Level, fields: &[Field]) {
+        self.run_blocks(kernel, level, fields);
     }
 
     fn scalar(&mut self, kernel: &'static ScalarKernel) {
         if let Some(params) = &self.params {
             (kernel.run)(params, &mut self.scalars);
         }
-    }
-
-    fn forward(&mut self, kernel: &'static Kernel, level: Level, fields: &[Field]) {
-        self.run(kernel, level, fields);
     }
 
     fn multiply(&mut self, by: Spectrum, energy: bool, gate: Gate) {
@@ -324,14 +319,6 @@ impl<T: CpuReal> Backend for CpuBackend<T> {
         if energy {
             self.scalars.curvature = curvature;
         }
-    }
-
-    fn backward(&mut self, kernel: &'static Kernel, level: Level, fields: &[Field]) {
-        self.run(kernel, level, fields);
-    }
-
-    fn inverse_then_forward(&mut self, kernel: &'static Kernel, level: Level, fields: &[Field]) {
-        self.run(kernel, level, fields);
     }
 
     fn epsilon(&self) -> f64 {

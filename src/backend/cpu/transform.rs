@@ -1,8 +1,8 @@
 //! Real two-dimensional transforms in three parts: rows, columns with the factor between, rows.
 //!
 //! Spectra of a block of rows are stored in tiles of eight columns by eight rows, so that the
-//! transposition between rows and columns moves whole cache lines both ways and each thread writes
-//! only memory of its own.
+//! transposition between rows and columns moves whole cache lines both ways, and columns go back to the
+//! places from which they came.
 
 use std::sync::{Mutex, MutexGuard, PoisonError};
 
@@ -11,7 +11,7 @@ use rustfft::num_complex::Complex;
 use rustfft::num_traits::Zero;
 
 use super::CpuReal;
-use super::blocks::{BLOCK, Job, run_blocks};
+use super::blocks::{BLOCK, Job, Tile, run_blocks};
 use super::plans::Plans;
 use crate::backend::Shape;
 use crate::kernel::Form;
@@ -24,13 +24,9 @@ pub(super) struct Transform<T: Real> {
     columns: usize,
     /// Groups of `BLOCK` columns.
     groups: usize,
-    /// Blocks of rows.
-    blocks: usize,
     plans: Plans<T>,
-    /// Row spectra: block, column, row in the block.
-    by_rows: Vec<Complex<T>>,
-    /// The same after the columns: group, block, column in the group, row in the block.
-    by_columns: Vec<Complex<T>>,
+    /// Spectra of the rows, then of the columns too: block, group, column in the group, row in the block.
+    tiles: Vec<Tile<T>>,
     /// Energy of each group.
     energies: Vec<f64>,
     scratch: Vec<Mutex<Scratch<T>>>,
@@ -70,10 +66,10 @@ impl<T: CpuReal> Transform<T> {
             shape,
             columns,
             groups,
-            blocks,
             plans,
-            by_rows: vec![zero; blocks * groups * BLOCK * BLOCK],
-            by_columns: vec![zero; blocks * groups * BLOCK * BLOCK],
+            tiles: std::iter::repeat_with(|| Mutex::new([zero; BLOCK * BLOCK]))
+                .take(blocks * groups)
+                .collect(),
             energies: vec![0.0; groups],
             scratch,
         }
@@ -83,35 +79,31 @@ impl<T: CpuReal> Transform<T> {
     /// kept in the place of the row spectra; keeps what it makes of them there, or transforms it.
     pub fn rows(&mut self, job: Job<T>, form: Form) {
         let Transform {
-            ref mut by_rows,
-            ref by_columns,
+            ref mut tiles,
             ref scratch,
             ref plans,
             columns,
             groups,
-            blocks,
             ..
         } = *self;
         let nx = self.shape.points[0];
         let job = Job {
-            work: by_rows,
-            work_per_block: groups * BLOCK * BLOCK,
+            work: tiles,
+            work_per_block: groups,
             ..job
         };
         run_blocks(job, &|mut job| {
             let guard = &mut *lock(scratch);
-            let block = job.blocks.start;
-            let (_, count) = job.rows_of(block);
+            let (_, count) = job.rows_of(job.blocks.start);
             let lines = &mut guard.lines[..count * nx];
             if form.after_inverse() {
-                for group in 0..groups {
-                    let start = (group * blocks + block) * BLOCK * BLOCK;
-                    let tiles = &by_columns[start..start + BLOCK * BLOCK];
+                for (group, tile) in job.work.iter_mut().enumerate() {
+                    let tile = alone(tile);
                     let first = group * BLOCK;
                     for row in 0..count {
                         let spectrum = &mut guard.spectra[row * columns..(row + 1) * columns];
                         for (place, value) in spectrum[first..].iter_mut().take(BLOCK).enumerate() {
-                            *value = tiles[place * BLOCK + row];
+                            *value = tile[place * BLOCK + row];
                         }
                     }
                 }
@@ -134,7 +126,8 @@ impl<T: CpuReal> Transform<T> {
                 }
             }
             if form.takes_retained() {
-                for (pair, kept) in lines.chunks_mut(2).zip(&*job.work) {
+                let kept = job.work.iter_mut().flat_map(alone);
+                for (pair, kept) in lines.chunks_mut(2).zip(kept) {
                     pair[0] = kept.re;
                     if let Some(second) = pair.get_mut(1) {
                         *second = kept.im;
@@ -143,7 +136,8 @@ impl<T: CpuReal> Transform<T> {
             }
             job.call(lines);
             if form.retains() {
-                for (pair, kept) in lines.chunks(2).zip(&mut *job.work) {
+                let kept = job.work.iter_mut().flat_map(alone);
+                for (pair, kept) in lines.chunks(2).zip(kept) {
                     *kept = Complex::new(pair[0], pair.get(1).copied().unwrap_or(T::zero()));
                 }
             }
@@ -158,9 +152,12 @@ impl<T: CpuReal> Transform<T> {
                         &mut guard.transform,
                     );
                 }
-                for (column, tile) in job.work.chunks_exact_mut(BLOCK).take(columns).enumerate() {
-                    for (row, value) in tile[..count].iter_mut().enumerate() {
-                        *value = guard.spectra[row * columns + column];
+                for (group, tile) in job.work.iter_mut().enumerate() {
+                    let lines = alone(tile).chunks_exact_mut(BLOCK);
+                    for (column, line) in (group * BLOCK..columns).zip(lines) {
+                        for (row, value) in line[..count].iter_mut().enumerate() {
+                            *value = guard.spectra[row * columns + column];
+                        }
                     }
                 }
             }
@@ -172,9 +169,9 @@ impl<T: CpuReal> Transform<T> {
     pub fn multiply(&mut self, factors: &[T], energy: bool) -> f64 {
         let [nx, ny] = self.shape.points;
         let scale = T::of(1.0 / self.shape.len() as f64);
-        let (columns, groups, blocks) = (self.columns, self.groups, self.blocks);
+        let (columns, groups) = (self.columns, self.groups);
         let context = Columns {
-            by_rows: &self.by_rows,
+            tiles: &self.tiles,
             scratch: &self.scratch,
             forward: &*self.plans.column_forward,
             backward: &*self.plans.column_backward,
@@ -182,14 +179,18 @@ impl<T: CpuReal> Transform<T> {
             scale,
             columns,
             groups,
-            blocks,
             nx,
             ny,
             energy,
         };
-        context.run(0..groups, &mut self.by_columns, &mut self.energies);
+        context.run(0..groups, &mut self.energies);
         self.energies.iter().sum::<f64>() / self.shape.len() as f64
     }
+}
+
+/// A tile that nobody else can reach.
+fn alone<T>(tile: &mut Tile<T>) -> &mut [Complex<T>; BLOCK * BLOCK] {
+    tile.get_mut().unwrap_or_else(PoisonError::into_inner)
 }
 
 /// This thread's buffers. Two threads of different pools may meet here; then one waits.
@@ -202,7 +203,7 @@ fn lock<T>(scratch: &[Mutex<Scratch<T>>]) -> MutexGuard<'_, Scratch<T>> {
 
 /// The column part, shared by all its threads.
 struct Columns<'a, T: Real> {
-    by_rows: &'a [Complex<T>],
+    tiles: &'a [Tile<T>],
     scratch: &'a [Mutex<Scratch<T>>],
     forward: &'a dyn Fft<T>,
     backward: &'a dyn Fft<T>,
@@ -210,47 +211,44 @@ struct Columns<'a, T: Real> {
     scale: T,
     columns: usize,
     groups: usize,
-    blocks: usize,
     nx: usize,
     ny: usize,
     energy: bool,
 }
 
 impl<T: Real> Columns<'_, T> {
-    fn run(&self, range: std::ops::Range<usize>, out: &mut [Complex<T>], energies: &mut [f64]) {
+    fn run(&self, range: std::ops::Range<usize>, energies: &mut [f64]) {
         let count = range.len();
         if count == 0 {
             return;
         }
         if count == 1 {
-            energies[0] = self.group(range.start, out);
+            energies[0] = self.group(range.start);
             return;
         }
         let half = count / 2;
         let middle = range.start + half;
-        let (out_left, out_right) = out.split_at_mut(half * self.blocks * BLOCK * BLOCK);
         let (left, right) = energies.split_at_mut(half);
         rayon::join(
-            || self.run(range.start..middle, out_left, left),
-            || self.run(middle..range.end, out_right, right),
+            || self.run(range.start..middle, left),
+            || self.run(middle..range.end, right),
         );
     }
 
-    /// One group of columns; `out` is its tiles, block by block.
-    fn group(&self, group: usize, out: &mut [Complex<T>]) -> f64 {
+    /// One group of columns, in the tiles that hold it.
+    fn group(&self, group: usize) -> f64 {
         let guard = &mut *lock(self.scratch);
         let ny = self.ny;
         let half = ny / 2 + 1;
         let first = group * BLOCK;
         let count = BLOCK.min(self.columns - first);
-        let stride = self.groups * BLOCK * BLOCK;
-        for block in 0..self.blocks {
+        let tiles = || self.tiles[group..].iter().step_by(self.groups).enumerate();
+        for (block, tile) in tiles() {
             let rows = BLOCK.min(ny - block * BLOCK);
-            let start = block * stride + first * BLOCK;
-            let tiles = &self.by_rows[start..start + count * BLOCK];
-            for (place, tile) in tiles.chunks_exact(BLOCK).enumerate() {
+            let tile = tile.lock().unwrap_or_else(PoisonError::into_inner);
+            for (place, line) in tile.chunks_exact(BLOCK).take(count).enumerate() {
                 let at = place * ny + block * BLOCK;
-                guard.column[at..at + rows].copy_from_slice(&tile[..rows]);
+                guard.column[at..at + rows].copy_from_slice(&line[..rows]);
             }
         }
         let mut energy = 0.0;
@@ -282,15 +280,12 @@ impl<T: Real> Columns<'_, T> {
             self.backward
                 .process_with_scratch(column, &mut guard.transform);
         }
-        for block in 0..self.blocks {
+        for (block, tile) in tiles() {
             let rows = BLOCK.min(ny - block * BLOCK);
-            let start = block * BLOCK * BLOCK;
-            for (place, tile) in out[start..start + count * BLOCK]
-                .chunks_exact_mut(BLOCK)
-                .enumerate()
-            {
+            let mut tile = tile.lock().unwrap_or_else(PoisonError::into_inner);
+            for (place, line) in tile.chunks_exact_mut(BLOCK).take(count).enumerate() {
                 let at = place * ny + block * BLOCK;
-                tile[..rows].copy_from_slice(&guard.column[at..at + rows]);
+                line[..rows].copy_from_slice(&guard.column[at..at + rows]);
             }
         }
         energy

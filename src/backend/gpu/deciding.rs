@@ -1,7 +1,7 @@
 //! Decisions between kernels over points: sums put together and scalar kernels, in one dispatch.
 //!
-//! They wait until a kernel comes that asks what was decided. Kernels and multiplications that run ahead
-//! of them leave their sums in places of their own and are decided on with the next ones.
+//! They wait until a kernel needs their result. Kernels and multiplications that run ahead of them leave their
+//! sums in separate places, which the next dispatch takes.
 
 use super::bindings::DECIDING;
 use super::level::Place;
@@ -11,7 +11,7 @@ use super::{GpuBackend, GpuError};
 use crate::backend::Level;
 use crate::kernel::ScalarKernel;
 
-/// What is decided together, in this order.
+/// Sums and scalar kernels of one dispatch, in this order.
 #[derive(Default)]
 pub(super) struct Deciding {
     parts: Vec<Part>,
@@ -24,7 +24,7 @@ enum Part {
 
 /// Sums to be put together.
 pub(super) struct Decided {
-    /// What they are known by on their level.
+    /// Their place on their level.
     pub of: space::Decided,
     pub level: Level,
     pub place: Place,
@@ -46,7 +46,7 @@ impl Deciding {
 }
 
 impl GpuBackend {
-    /// Sees to it that sums of this place may be handed in.
+    /// Records what waits if sums of this place could not wait beside it.
     pub(super) fn make_room(&mut self, level: Level, place: Place) -> Result<(), GpuError> {
         match self.deciding.has_room(level, place) {
             true => Ok(()),
@@ -54,12 +54,12 @@ impl GpuBackend {
         }
     }
 
-    /// Lets sums wait.
+    /// Adds sums to those that wait.
     pub(super) fn put_off(&mut self, sums: Decided) {
         self.deciding.parts.push(Part::Sums(sums));
     }
 
-    /// Records what waits to be decided.
+    /// Records what waits.
     pub(super) fn settle(&mut self) -> Result<(), GpuError> {
         if self.deciding.parts.is_empty() {
             return Ok(());

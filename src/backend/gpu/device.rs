@@ -53,18 +53,18 @@ struct Inner {
     lost: Arc<OnceLock<String>>,
     /// Whether the compiler undoes compensated sums.
     plain_sums: OnceLock<bool>,
-    /// Dispatches left before the device is given up, where it is to be.
+    /// Dispatches left before the device is lost, for tests.
     left: Option<AtomicU64>,
-    /// Dispatches left before numbers are none, where they are to be.
+    /// Dispatches left before fields are set to NaN, for tests.
     sound: Option<AtomicU64>,
-    /// Bytes left, where they are counted.
+    /// Bytes left, for tests.
     memory: Option<AtomicU64>,
-    /// How long a shader takes to compile besides, where that is asked for.
+    /// Added time of compiling a shader, for tests.
     compiling: Option<Duration>,
 }
 
 impl GpuDevice {
-    /// Takes an adapter and readies its device.
+    /// Opens the device of an adapter.
     pub fn new(choice: &AdapterChoice) -> Result<Self, GpuError> {
         let mut choice = choice.clone();
         if choice.name.is_none() {
@@ -158,7 +158,7 @@ impl GpuDevice {
         LevelPlan::laid_out(shape, &self.limits(), Number::Single).map(|plan| plan.slabs)
     }
 
-    /// Counts a dispatch, and gives the device up where it is to be lost.
+    /// Counts a dispatch, and destroys the device if it is to be lost now.
     pub(super) fn count_dispatch(&self) {
         if let Some(left) = &self.inner.left
             && left.fetch_sub(1, Ordering::Relaxed) == 1
@@ -167,7 +167,7 @@ impl GpuDevice {
         }
     }
 
-    /// Counts a dispatch towards that after which numbers are none; whether this is the one.
+    /// Counts a dispatch; says whether fields are to be set to NaN after it.
     pub(super) fn poisons(&self) -> bool {
         let sound = self.inner.sound.as_ref();
         sound.is_some_and(|sound| sound.fetch_sub(1, Ordering::Relaxed) == 1)
@@ -199,7 +199,7 @@ impl GpuDevice {
         &self.inner.queue
     }
 
-    /// What ended the device, if it is no more.
+    /// Why the device was lost, if it was.
     pub(super) fn loss(&self) -> Option<GpuError> {
         self.inner
             .lost
@@ -207,7 +207,7 @@ impl GpuDevice {
             .map(|reason| GpuError::Device(reason.clone()))
     }
 
-    /// Does something with the device and catches what it has to say against it.
+    /// Calls a function with the device and catches its errors.
     pub(super) fn guarded<R>(&self, work: impl FnOnce(&wgpu::Device) -> R) -> Result<R, GpuError> {
         match self.watched(work) {
             (_, Some(error)) => Err(error),
@@ -215,7 +215,7 @@ impl GpuDevice {
         }
     }
 
-    /// The same, with what came of it; handles to what could not be made are not to be used.
+    /// The same, with the result; handles to what could not be made are not to be used.
     pub(super) fn watched<R>(
         &self,
         work: impl FnOnce(&wgpu::Device) -> R,
@@ -306,7 +306,7 @@ mod tests {
             software: true,
             ..AdapterChoice::default()
         };
-        // Without what its driver prints at its start.
+        // Without the output of its driver.
         let made = quietly(|| GpuDevice::new(&choice)).expect("no panic");
         let Ok(device) = made else {
             let required = std::env::var("TABOR_REQUIRE_GPU").is_ok_and(|value| value == "1");

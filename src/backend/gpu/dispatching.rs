@@ -78,7 +78,7 @@ impl GpuBackend {
     }
 
     /// Records a kernel of the catalogue and the reduction of its sums.
-    pub(super) fn run(
+    pub(super) fn dispatch_kernel(
         &mut self,
         kernel: &'static Kernel,
         level: Level,

@@ -76,7 +76,7 @@ pub enum GpuError {
         /// Its length.
         bytes: u64,
     },
-    /// Numbers on the device that are none.
+    /// Non-finite numbers on the device.
     #[error(
         "numbers on {0} are no longer finite: the device erred, or single precision does not hold this scene; Device::cpu() tells which"
     )]

@@ -1,4 +1,4 @@
-//! What a device is made to do for tests of what no sound one does. A release has none of it: the feature
+//! Injected faults of a device, for tests. A release has none: the feature
 //! `fault-injection` lets an [`AdapterChoice`](super::AdapterChoice) ask for it.
 
 use super::slabs::Limits;
@@ -10,19 +10,19 @@ pub struct Faults {
     pub without_double: bool,
     /// Whether compensated sums are taken to come out wrong.
     pub plain_sums: bool,
-    /// Bytes that may be bound at a time, where that is to be less than the adapter takes.
+    /// Bytes that may be bound at a time, if less than the adapter takes.
     pub binding_limit: Option<u64>,
-    /// Bytes of a field that go into one buffer, where that is to be less than the adapter binds.
+    /// Bytes of a field that go into one buffer, if less than the adapter binds.
     pub slab_bytes: Option<u64>,
-    /// Points of a line that is transformed in one pass, where that is to be less than a workgroup holds.
+    /// Points of a line that is transformed in one pass, if less than a workgroup holds.
     pub longest_line: Option<usize>,
-    /// Dispatches after which the device is given up.
+    /// Dispatches after which the device is lost.
     pub lost_after: Option<u64>,
     /// Bytes after which it has no memory left.
     pub memory: Option<u64>,
-    /// Dispatches after which some number of each field is NaN.
+    /// Dispatches after which each field has a NaN.
     pub not_a_number_after: Option<u64>,
-    /// Milliseconds that a shader takes to compile besides.
+    /// Milliseconds added to the compilation of a shader.
     pub compiling: Option<u64>,
 }
 

@@ -139,7 +139,7 @@ impl GpuBackend {
             expects_finite: false,
             failure,
             transforms: 0.0,
-            // Software idles through shut gates slower than it waits.
+            // A software driver skips shut gates more slowly than it waits.
             look_every: match device.description().software() {
                 true => 1,
                 false => LOOK_EVERY,
@@ -167,7 +167,7 @@ impl GpuBackend {
         GpuBackend { number, ..self }
     }
 
-    /// The same where numbers that are none are a failure of the device, not an answer.
+    /// Treats non-finite scalars as a failure of the device.
     pub fn expecting_finite(self) -> Self {
         GpuBackend {
             expects_finite: true,
@@ -435,28 +435,16 @@ impl Backend for GpuBackend {
         Ok(result?)
     }
 
-    fn sweep(&mut self, kernel: &'static Kernel, level: Level, fields: &[Field]) {
-        self.attempt(|backend| backend.run(kernel, level, fields));
+    fn run(&mut self, kernel: &'static Kernel, level: Level, fields: &[Field]) {
+        self.attempt(|backend| backend.dispatch_kernel(kernel, level, fields));
     }
 
     fn scalar(&mut self, kernel: &'static ScalarKernel) {
         self.deciding.decide(kernel);
     }
 
-    fn forward(&mut self, kernel: &'static Kernel, level: Level, fields: &[Field]) {
-        self.attempt(|backend| backend.run(kernel, level, fields));
-    }
-
     fn multiply(&mut self, by: Spectrum, energy: bool, gate: Gate) {
         self.attempt(|backend| backend.columns(by, energy, gate));
-    }
-
-    fn backward(&mut self, kernel: &'static Kernel, level: Level, fields: &[Field]) {
-        self.attempt(|backend| backend.run(kernel, level, fields));
-    }
-
-    fn inverse_then_forward(&mut self, kernel: &'static Kernel, level: Level, fields: &[Field]) {
-        self.attempt(|backend| backend.run(kernel, level, fields));
     }
 
     fn epsilon(&self) -> f64 {

@@ -7,36 +7,36 @@
 use std::panic::{AssertUnwindSafe, catch_unwind};
 use std::thread;
 
-/// Does something that makes drivers print, and returns it without their words. Whatever else prints to
-/// standard error meanwhile is not heard either; of a panic its payload is returned.
+/// Calls a function during which drivers print, with standard error discarded, other output to it included.
+/// Returns its result or the payload of its panic.
 ///
 /// # Errors
-/// The payload of a panic, which nobody has seen.
+/// The payload of a panic, whose message was discarded.
 pub fn quietly<R>(work: impl FnOnce() -> R) -> thread::Result<R> {
-    door::close();
-    // Nothing of what was half done is looked at again.
+    redirect::discard();
+    // Nothing that the panic left half done is used again.
     let done = catch_unwind(AssertUnwindSafe(work));
-    door::open();
+    redirect::restore();
     done
 }
 
-/// Makes sure that standard error leads where it led when the program began.
+/// Restores standard error if it is discarded at present.
 pub fn restore_standard_error() {
-    door::open();
+    redirect::restore();
 }
 
 #[cfg(unix)]
-mod door {
+mod redirect {
     use std::fs::File;
     use std::os::fd::OwnedFd;
     use std::sync::{Mutex, PoisonError};
 
-    /// Where standard error leads, while it is led elsewhere.
-    static KEPT: Mutex<Option<OwnedFd>> = Mutex::new(None);
+    /// The original standard error, while it is discarded.
+    static ORIGINAL: Mutex<Option<OwnedFd>> = Mutex::new(None);
 
-    /// Leads standard error to nowhere. Where the system refuses, it stays what it is.
-    pub fn close() {
-        let mut kept = KEPT.lock().unwrap_or_else(PoisonError::into_inner);
+    /// Discards standard error; without effect where the system refuses.
+    pub fn discard() {
+        let mut kept = ORIGINAL.lock().unwrap_or_else(PoisonError::into_inner);
         let Ok(nowhere) = File::options().write(true).open("/dev/null") else {
             return;
         };
@@ -49,11 +49,11 @@ mod door {
         }
     }
 
-    /// Leads it back.
-    pub fn open() {
-        let mut kept = KEPT.lock().unwrap_or_else(PoisonError::into_inner);
+    /// Restores it.
+    pub fn restore() {
+        let mut kept = ORIGINAL.lock().unwrap_or_else(PoisonError::into_inner);
         if let Some(stderr) = kept.take() {
-            // What was open a moment ago can be opened again, or nothing can be said of it.
+            // Opening it again fails only where no message could be printed either.
             let _ = rustix::stdio::dup2_stderr(&stderr);
         }
     }
@@ -61,7 +61,7 @@ mod door {
 
 /// Elsewhere drivers have no standard error of ours to print to.
 #[cfg(not(unix))]
-mod door {
-    pub fn close() {}
-    pub fn open() {}
+mod redirect {
+    pub fn discard() {}
+    pub fn restore() {}
 }

@@ -14,7 +14,7 @@ pub const DISPATCHES: usize = 256;
 /// A compiled kernel with everything bound that it works on.
 #[derive(Clone)]
 pub struct Prepared {
-    /// What it is known by where it is timed.
+    /// Its name in timings.
     pub name: String,
     /// Bytes of the fields, tables and work space that it moves.
     pub bytes: u64,

@@ -5,6 +5,7 @@ use std::path::Path as FilePath;
 use tabor::scene::Scene;
 
 use crate::shared::device;
+use crate::shared::trials::is_long;
 
 /// One way to compute.
 #[derive(Debug)]
@@ -87,9 +88,17 @@ impl Path {
         self.backend == "cpu" || device::found().is_some()
     }
 
-    /// Whether it tries a case of this name.
-    pub fn tries(&self, case: &str) -> bool {
-        self.only.is_empty() || self.only.iter().any(|word| case.starts_with(word))
+    /// Whether it tries a case of this name, at this place in the list.
+    ///
+    /// A run on a software driver builds its shaders anew, which takes longer than all else here. So on the
+    /// graphics processor the cases take turns: one in mixed precision, the next in single.
+    pub fn tries(&self, case: &str, place: usize) -> bool {
+        let turn = match (self.backend, self.precision) {
+            ("gpu", "mixed") => is_long() || place.is_multiple_of(2),
+            ("gpu", "single") => is_long() || !place.is_multiple_of(2),
+            _ => true,
+        };
+        turn && (self.only.is_empty() || self.only.iter().any(|word| case.starts_with(word)))
     }
 
     pub fn is_single(&self) -> bool {

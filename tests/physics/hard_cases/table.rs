@@ -3,6 +3,7 @@
 use std::fs;
 
 use super::paths::{PATHS, Path};
+use crate::shared::trials::is_long;
 
 const PAGE: &str = concat!(env!("CARGO_MANIFEST_DIR"), "/docs/hard_cases.md");
 const HEAD: &str = "| case | path | outcome | iterations |\n|---|---|---|---:|\n";
@@ -53,13 +54,15 @@ impl Entry {
     }
 }
 
-/// Writes the table, or compares it: every case on every path that is here, and nothing else.
-pub fn keep(entries: &[Entry], here: &[&Path]) {
+/// Writes the table, or compares it: every case on every path that is here, and nothing else. A case `waits` on a
+/// path where it is another's turn.
+pub fn keep(entries: &[Entry], here: &[&Path], waits: impl Fn(&str, &Path) -> bool) {
     let page = fs::read_to_string(PAGE).expect("the page");
     let (before, rest) = page.split_once(HEAD).expect("the page has the table");
     let end = rest.find("\n\n").map_or(rest.len(), |at| at + 1);
     let (rows, after) = rest.split_at(end);
     if std::env::var("TABOR_HARD_CASES").is_ok_and(|word| word == "write") {
+        assert!(is_long(), "the table is written with TABOR_LONG=1");
         let built = PATHS.iter().filter(|path| path.is_built()).count();
         assert_eq!(
             here.len(),
@@ -71,8 +74,7 @@ pub fn keep(entries: &[Entry], here: &[&Path]) {
         return;
     }
     let written: Vec<Entry> = rows.lines().map(Entry::of).collect();
-    let again =
-        "TABOR_HARD_CASES=write cargo test --release --test physics hard_cases writes it anew";
+    let again = "TABOR_LONG=1 TABOR_HARD_CASES=write cargo test --release --test physics hard_cases writes it anew";
     for entry in entries {
         let found = written
             .iter()
@@ -85,7 +87,8 @@ pub fn keep(entries: &[Entry], here: &[&Path]) {
     }
     for row in &written {
         let path = PATHS.iter().find(|path| path.name == row.path);
-        let absent = path.is_some_and(|path| path.is_built() && !path.is_here());
+        let absent =
+            path.is_some_and(|path| (path.is_built() && !path.is_here()) || waits(&row.case, path));
         let tried = entries
             .iter()
             .any(|entry| (&row.case, &row.path) == (&entry.case, &entry.path));

@@ -3,8 +3,7 @@
 
 use std::f64::consts::PI;
 
-use rustfft::FftPlanner;
-use rustfft::num_complex::Complex;
+use num_complex::Complex;
 
 use super::case::{Case, Contact, Law};
 use super::paths::Path;
@@ -79,24 +78,48 @@ pub fn stiffest_and_softest(contact: &Contact) -> [f64; 2] {
     [most, waves().fold(most, f64::min)]
 }
 
+/// The Fourier transform of a line, split by the factors of its length; `roots` are those of unity for the line
+/// that was split first.
+fn transform(line: &[Complex<f64>], roots: &[Complex<f64>]) -> Vec<Complex<f64>> {
+    let length = line.len();
+    let Some(factor) = (2..=length).find(|factor| length.is_multiple_of(*factor)) else {
+        return line.to_vec();
+    };
+    let parts: Vec<Vec<Complex<f64>>> = (0..factor)
+        .map(|first| {
+            let part: Vec<_> = line[first..].iter().step_by(factor).copied().collect();
+            transform(&part, roots)
+        })
+        .collect();
+    let stride = roots.len() / length;
+    let root = |first: usize, wave: usize| roots[first * wave % length * stride];
+    (0..length)
+        .map(|wave| {
+            let terms = parts.iter().enumerate();
+            terms
+                .map(|(first, part)| root(first, wave) * part[wave % part.len()])
+                .sum()
+        })
+        .collect()
+}
+
 /// K*u on the periodic cell.
 pub fn elastic_pressure(contact: &Contact, displacement: &[f64]) -> Vec<f64> {
     let [nx, ny] = contact.points;
-    let mut planner = FftPlanner::new();
     let mut field: Vec<Complex<f64>> = displacement.iter().map(|u| Complex::new(*u, 0.0)).collect();
     let stiffness = stiffness(contact);
     for forward in [true, false] {
         for (length, stride) in [(nx, 1), (ny, nx)] {
-            let transform = match forward {
-                true => planner.plan_fft_forward(length),
-                false => planner.plan_fft_inverse(length),
-            };
+            let turn = if forward { -2.0 * PI } else { 2.0 * PI };
+            let roots: Vec<Complex<f64>> = (0..length)
+                .map(|i| Complex::cis(turn * i as f64 / length as f64))
+                .collect();
             let mut line = vec![Complex::default(); length];
             for start in 0..nx * ny / length {
                 let first = if stride == 1 { start * nx } else { start };
                 (0..length).for_each(|i| line[i] = field[first + i * stride]);
-                transform.process(&mut line);
-                (0..length).for_each(|i| field[first + i * stride] = line[i]);
+                let waves = transform(&line, &roots);
+                (0..length).for_each(|i| field[first + i * stride] = waves[i]);
             }
         }
         if forward {

@@ -123,7 +123,7 @@ fn conjugate_direction() {
     var d_mean = ZERO;
     var residual_sum = ZERO;
     var change_sum = ZERO;
-    if (params.fixed_gap != 0u) {
+    if (params.prescribed_mean_gap != 0u) {
         z_mean = quotient(scalars.sums_weighted_z, scalars.sums_free_weight);
         d_mean = quotient(scalars.sums_weighted_direction, scalars.sums_free_weight);
         residual_sum = scalars.sums_free_residual;
@@ -304,7 +304,7 @@ fn rigid_motion() -> bool {
         scalars.status = NOT_FINITE;
     } else if (scalars.least_step > ZERO && params.may_detach != 0u) {
         scalars.status = PULLED_OFF;
-    } else if (scalars.largest_step < ZERO && is_finite(scalars.first_touch) && params.fixed_gap == 0u) {
+    } else if (scalars.largest_step < ZERO && is_finite(scalars.first_touch) && params.prescribed_mean_gap == 0u) {
         scalars.step = scalars.first_touch;
         scalars.length = scalars.step;
     } else {

@@ -225,7 +225,8 @@ fn reaction(open: real, y: real) -> real {
 }
 // A law that repels by itself: no constraint, and another variable in which its steep core is not stiff.
 // Below the gap of largest tension the iteration works in v = g - (sigma_max - sigma(g))/k, in which
-// the core is no stiffer than k. With D = max(sigma'(g), 0): dg = S2 dv, S2 = k/(k + D). Twins: kernel/smooth.rs.
+// the core is no stiffer than k. With D = max(sigma'(g), 0): dg = S2 dv, S2 = k/(k + D).
+// Twins: kernel/smooth.rs, kernel/constraint.rs.
 const STORES_STEP: bool = true;
 const NEWTON_STEPS: u32 = 25u;
 
@@ -236,14 +237,14 @@ fn hardening(gap: real) -> real {
 
 // S2.
 fn share(gap: real) -> real {
-    let stiffness = real(params.core_stiffness);
+    let stiffness = real(params.smooth_stiffness);
     return stiffness / (stiffness + hardening(gap));
 }
 
 // v.
 fn variable(gap: real) -> real {
     if (gap < real(params.law_peak_gap)) {
-        return gap - (law_factor * real(params.law_peak) - traction(gap)) / real(params.core_stiffness);
+        return gap - (law_factor * real(params.law_peak) - traction(gap)) / real(params.smooth_stiffness);
     }
     return gap;
 }
@@ -256,7 +257,7 @@ fn gap_at(goal: real, gap: real) -> real {
     }
     // v is concave here: from the left every step stays on the left of the root, so only the start
     // needs a bound, which the repulsive power alone gives.
-    let load = real(params.core_stiffness) * (peak_gap - goal) - law_factor * real(params.law_peak);
+    let load = real(params.smooth_stiffness) * (peak_gap - goal) - law_factor * real(params.law_peak);
     let bound = law_repelling_gap(load);
     let nearness = real(wide(2.0) * params.epsilon) * real(params.law_range);
     var x = min(max(gap + (goal - variable(gap)) * share(gap), bound), peak_gap);
@@ -274,7 +275,7 @@ fn gap_at(goal: real, gap: real) -> real {
 
 fn state(gap: real, elastic: real) -> Here {
     let pull = traction(gap);
-    let stiffness = real(params.core_stiffness);
+    let stiffness = real(params.smooth_stiffness);
     let hardening_here = hardening(gap);
     let weight = stiffness / (stiffness + hardening_here);
     return Here(gap, open(gap), elastic, pull, elastic + pull, true, weight, hardening_here);
@@ -286,7 +287,7 @@ fn violation(here: Here) -> Violation {
 
 // z / S2: the long-range part, and the local part that the core's own stiffness answers.
 fn preconditioned(here: Here, line: real) -> real {
-    let stiffness = real(params.core_stiffness);
+    let stiffness = real(params.smooth_stiffness);
     return line + here.hardening / stiffness * here.y / (here.hardening + stiffness);
 }
 

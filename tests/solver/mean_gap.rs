@@ -2,12 +2,14 @@
 
 use std::f64::consts::TAU;
 
-use super::mean_gap::{CURVATURE_BY_LINEARITY, RESTORE_MEAN_GAP};
-use super::scalar::ACCEPT_TRIAL;
-use super::trial::LINEAR_TRIAL;
-use super::update::ADVANCE;
-use super::{Kernel, Params, Rows, SUMS, Scalars, Whole};
-use crate::law::Law;
+use tabor::kernel::mean_gap::{CURVATURE_BY_LINEARITY, RESTORE_MEAN_GAP};
+use tabor::kernel::scalar::ACCEPT_TRIAL;
+use tabor::kernel::trial::LINEAR_TRIAL;
+use tabor::kernel::update::ADVANCE;
+use tabor::kernel::{Kernel, Params, Rows, SUMS, Scalars, Whole};
+use tabor::law::Law;
+
+use crate::shared::trials::tests;
 
 const POINTS: usize = 48;
 
@@ -28,10 +30,10 @@ fn params() -> Params {
         pressure_floor: 0.0,
         tolerance: 0.0,
         heights_norm: 1.0,
-        fixed_gap: true,
+        prescribed_mean_gap: true,
         may_detach: false,
         points: POINTS as f64,
-        core_stiffness: 1.0,
+        smooth_stiffness: 1.0,
         level_compliance: 1.0,
         hardness: f64::INFINITY,
         epsilon: f64::EPSILON,
@@ -205,8 +207,7 @@ impl State {
 /// those taken from s itself; and the pressure after a step along s against K of the gap there. All of
 /// it in double precision, in which sums of 48 terms, or of 48 squared, err by some tens of roundings of
 /// their size.
-#[test]
-fn what_is_asked_of_the_restored_step_follows_from_the_step_before_it() {
+fn restored_step_follows_by_linearity_from_the_step_before_it() {
     let rounding = 500.0 * f64::EPSILON;
     // Cut, uncut and lost trials; shares to restore above and below zero.
     let mut met = [0; 5];
@@ -317,3 +318,5 @@ fn what_is_asked_of_the_restored_step_follows_from_the_step_before_it() {
     println!("cut, uncut, c above and below 0, lost: {met:?}");
     assert!(met.iter().all(|&count| count >= 30), "{met:?}");
 }
+
+tests![restored_step_follows_by_linearity_from_the_step_before_it];

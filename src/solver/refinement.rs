@@ -2,8 +2,8 @@
 //!
 //! A first solve in single precision brings the residual near what its rounding allows. Then come
 //! rounds: the residual y of the gap g is taken in double precision, and the same iteration, in
-//! single, looks for the correction c that removes it, with c >= -g at a wall. All that it works
-//! with is relative to c, so each round gains some digits, whatever the law.
+//! single, finds the correction c that removes it, with c >= -g at a wall. Its rounding is relative to c,
+//! so each round gains some digits, whatever the law.
 
 use super::contact::{ContactSolver, Load, Outcome};
 use super::outer_state::OuterState;
@@ -12,17 +12,17 @@ use crate::kernel::{Scalars, Status};
 
 /// Tolerance of the first solve: what single precision reaches on every scene.
 pub(super) const FIRST_TOLERANCE: f64 = 1e-4;
-/// Share of a round's first residual at which it ends: what single precision gains in one.
+/// Share of its first residual at which a round ends: what single precision can gain.
 const GAIN: f64 = 3e-4;
-/// Share of the tolerance that a round aims at, for what its rounding leaves besides.
+/// Share of the tolerance that a round aims at, which leaves room for rounding.
 const AIM: f64 = 0.5;
 /// Iterations of a round.
 const ROUND_ITERATIONS: usize = 100;
-/// A round that leaves more than this share of the residual has gained nothing. Where gaps lie on a kink of
-/// the law to the rounding of single precision, rounds take it for the other side's and gain a third each.
+/// A round that leaves more than this share of the residual has gained nothing. Rounds gain only a third
+/// each where gaps lie on a kink of the law, on whose other side single precision sees them.
 const NO_GAIN: f64 = 0.8;
-/// Rounds that a solve may take. One that gains takes a fifth of the residual away at least, and three digits as
-/// a rule, of the sixteen there are.
+/// Rounds that a solve may take. A round removes a fifth of the residual at least, and three digits of
+/// sixteen as a rule.
 pub const MOST_ROUNDS: usize = 60;
 /// Rounds without gain, in a row, that end a solve.
 const LOST_ROUNDS: usize = 4;
@@ -30,10 +30,10 @@ const LOST_ROUNDS: usize = 4;
 pub const TRIALS_PER_ITERATION: usize = 4;
 
 impl ContactSolver<'_> {
-    /// The state in double precision, made when it is first asked for; `None` where the backend's own
-    /// numbers will do.
+    /// The state in double precision, made at its first use; `None` where the backend's own numbers
+    /// suffice.
     pub(super) fn outer(&mut self) -> Option<&mut OuterState> {
-        // The corrections are those of a wall; what flows is left to the backend's own numbers.
+        // A hardness has no corrections: it is solved in the backend's own numbers.
         if self.outer.is_none() && self.problem.hardness.is_none() {
             let double = self.backend.in_double(self.problem.shape)?;
             self.outer = Some(OuterState::new(
@@ -46,8 +46,8 @@ impl ContactSolver<'_> {
         self.outer.as_mut()
     }
 
-    /// Iterates until the end that the scalars say, for at most so many iterations after those
-    /// `before`, or until `watch` has enough. Returns the last scalars and whether `watch` had enough.
+    /// Iterates until the scalars say that the solve has ended, for at most `most` iterations after those
+    /// `before`, or until `watch` ends it. Returns the last scalars and whether `watch` ended it.
     fn run_out(
         &mut self,
         before: usize,
@@ -60,10 +60,10 @@ impl ContactSolver<'_> {
             let (recorded, scalars) = self.advance(most.saturating_sub(done).max(1))?;
             tried += recorded;
             done = (scalars.iterations as usize).saturating_sub(before);
-            let goes_on = watch(&scalars);
+            let continues = watch(&scalars);
             let over = done >= most || tried >= TRIALS_PER_ITERATION * most.max(1);
-            if scalars.status != Status::Running || over || !goes_on {
-                return Ok((scalars, !goes_on));
+            if scalars.status != Status::Running || over || !continues {
+                return Ok((scalars, !continues));
             }
         }
     }
@@ -80,7 +80,7 @@ impl ContactSolver<'_> {
         let (first, mut stopped) = self.run_out(0, max_iterations, watch)?;
         let mut iterations = first.iterations as usize;
         let mut status = first.status;
-        let mut end = self.refer(|outer, iterating, gap| {
+        let mut end = self.with_outer(|outer, iterating, gap| {
             outer.begin(load, tolerance, &params);
             outer.copy_gap(iterating, gap)?;
             outer.evaluate()
@@ -91,7 +91,7 @@ impl ContactSolver<'_> {
             let at_floor = end.numerator <= self.rounding_floor(&end);
             let over = stopped || iterations >= max_iterations;
             if status == Status::PulledOff || end.status != Status::Running {
-                // What the surfaces did in single precision they did; all else is judged in double.
+                // A pull-off in single precision counts; all else is judged in double.
                 status = match status {
                     Status::PulledOff => status,
                     _ => end.status,
@@ -107,14 +107,14 @@ impl ContactSolver<'_> {
                 break;
             }
             rounds += 1;
-            // By the numerator, where there is no pressure yet to measure it by.
+            // The numerator alone if there is no pressure yet.
             let before = [end.residual, end.numerator];
             let most = ROUND_ITERATIONS.min(max_iterations - iterations);
             let round = self.correct(&end, tolerance, most, iterations, watch)?;
             iterations = round.0.iterations as usize;
             status = round.0.status;
             stopped = round.1;
-            end = self.refer(|outer, iterating, correction| {
+            end = self.with_outer(|outer, iterating, correction| {
                 outer.add(iterating, correction)?;
                 outer.evaluate()
             })?;
@@ -135,8 +135,7 @@ impl ContactSolver<'_> {
         ))
     }
 
-    /// The numerator that rounding in double precision leaves, of a pad's points too, which have no
-    /// gap of their own to be measured by.
+    /// The numerator that rounding in double precision leaves, which the points of the pad add to.
     fn rounding_floor(&self, end: &Scalars) -> f64 {
         let shape = self.problem.shape;
         let padded = shape.len() as f64 / shape.surface_len() as f64;
@@ -146,20 +145,19 @@ impl ContactSolver<'_> {
             * padded.sqrt()
     }
 
-    /// Does something with the state in double precision, the backend of the iterations and the field
-    /// that these work on.
-    fn refer<R>(
+    /// Calls a function with the outer state, the backend of the iterations and the field of their gap.
+    fn with_outer<R>(
         &mut self,
         work: impl FnOnce(&mut OuterState, &mut dyn Backend, Field) -> Result<R, BackendError>,
     ) -> Result<R, BackendError> {
         match &mut self.outer {
             Some(outer) => work(outer, self.backend, self.gap),
-            // Only solvers with one come here.
+            // Only solvers with an outer state come here.
             None => Err(BackendError::Device("no state in double precision".into())),
         }
     }
 
-    /// One round: looks for the correction of the base, whose evaluation is `end`.
+    /// One round: finds the correction of the outer state, whose evaluation is `end`.
     fn correct(
         &mut self,
         end: &Scalars,
@@ -168,10 +166,12 @@ impl ContactSolver<'_> {
         iterations: usize,
         watch: &mut dyn FnMut(&Scalars) -> bool,
     ) -> Result<(Scalars, bool), BackendError> {
-        let base = self.refer(|outer, iterating, _| outer.hand_outer_state(iterating))?;
-        if let (true, Some(heights_pressure)) = (self.params.fixed_gap, &self.heights_pressure) {
+        let outer = self.with_outer(|outer, iterating, _| outer.hand_outer_state(iterating))?;
+        if let (true, Some(heights_pressure)) =
+            (self.params.prescribed_mean_gap, &self.heights_pressure)
+        {
             let rigid = heights_pressure.field();
-            self.refer(|outer, iterating, _| outer.hand_rigid(iterating, rigid))?;
+            self.with_outer(|outer, iterating, _| outer.hand_rigid(iterating, rigid))?;
         }
         for field in [
             self.gap,
@@ -181,9 +181,9 @@ impl ContactSolver<'_> {
         ] {
             self.backend.clear(field);
         }
-        self.backend.set_outer_state(Some(base));
+        self.backend.set_outer_state(Some(outer));
         let mut params = self.params;
-        // The scale of the base's residual; where that has no pressure, what is off balance itself.
+        // The scale of the outer residual; without a pressure there, its numerator.
         let residual = match end.residual.is_finite() {
             true => end.residual,
             false => 1.0,
