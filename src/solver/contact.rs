@@ -4,7 +4,7 @@ use super::MakeBackend;
 use super::coarse_start;
 use super::kernel_set::{KernelSet, params_of_problem, params_under};
 use super::mean_gap::HeightsPressure;
-use super::multilevel::Multilevel;
+use super::multilevel::{Multilevel, begins_exact};
 use super::outer_state::OuterState;
 use super::problem::Problem;
 use super::refinement::FIRST_TOLERANCE;
@@ -98,10 +98,13 @@ pub struct ContactSolver<'a> {
     /// The trial step of a law whose change of variable makes it costly.
     pub(super) step: Option<Field>,
     pub(super) stiffness: Spectrum,
+    /// 1/K as the preconditioner: without levels, and far from a solution with adhesion.
     pub(super) preconditioner: Option<Spectrum>,
     /// The compliance of all waves, for a scene with conductance.
     pub(super) compliance: Option<Spectrum>,
     pub(super) levels: Option<Multilevel>,
+    /// Whether the preconditioner is 1/K for now.
+    pub(super) exact: bool,
     pub(super) kernels: KernelSet,
     pub(super) params: Params,
     /// The outer state in double precision of iterative refinement; made at its first use.
@@ -147,10 +150,9 @@ impl<'a> ContactSolver<'a> {
         });
         let stiffness = problem.spectrum(backend, level, "stiffness", Response::Stiffness);
         let levels = Multilevel::plan(backend, level, problem);
-        let preconditioner = match &levels {
-            Some(_) => None,
-            None => Some(problem.spectrum(backend, level, "preconditioner", Response::Compliance)),
-        };
+        let exact = levels.is_none() || begins_exact(problem);
+        let preconditioner =
+            exact.then(|| problem.spectrum(backend, level, "preconditioner", Response::Compliance));
         let compliance = problem
             .conducts
             .then(|| problem.spectrum(backend, level, "compliance", Response::Compliance));
@@ -175,6 +177,7 @@ impl<'a> ContactSolver<'a> {
             preconditioner,
             compliance,
             levels,
+            exact,
             kernels: KernelSet::new(problem),
             params,
             outer: None,
@@ -337,11 +340,13 @@ impl<'a> ContactSolver<'a> {
         self.backend.set_params(&self.params);
         self.backend
             .set_zero_mode(self.stiffness, load.zero_stiffness);
-        match (&self.levels, self.preconditioner) {
-            (Some(levels), _) => levels.set_zero_mode(self.backend, load.zero_compliance),
-            (None, Some(spectrum)) => self.backend.set_zero_mode(spectrum, load.zero_compliance),
-            (None, None) => {}
+        if let Some(levels) = &self.levels {
+            levels.set_zero_mode(self.backend, load.zero_compliance);
         }
+        if let Some(spectrum) = self.preconditioner {
+            self.backend.set_zero_mode(spectrum, load.zero_compliance);
+        }
+        self.exact = self.preconditioner.is_some();
         if prescribed_mean_gap {
             self.begin_mean_gap();
         }

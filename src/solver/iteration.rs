@@ -2,6 +2,7 @@
 //! ([`plain`](super::plain)), which its comment in [`kernel`](crate::kernel) names.
 
 use super::contact::ContactSolver;
+use super::multilevel::{EXACT_UNTIL, Multilevel};
 use crate::backend::BackendError;
 use crate::kernel::{Gate, Scalars, Status, displacement, scalar, step_length};
 
@@ -12,11 +13,12 @@ const SEARCHES: usize = 48;
 /// does continues in the next round, which does nothing else. At a wall a pass tries several steps; with
 /// Lennard-Jones the trial evaluates the first.
 const SEARCHES_AT_ONCE: usize = 1;
+
 impl ContactSolver<'_> {
     /// Loads and measures the residual of the present state: every round starts from its transformed rows.
     pub(super) fn ready(&mut self) {
         let state = [self.gap, self.pressure];
-        match &self.levels {
+        match in_use(&self.levels, self.exact) {
             Some(levels) => levels.load_residual(self.backend, state),
             None => self
                 .backend
@@ -40,17 +42,42 @@ impl ContactSolver<'_> {
     /// One iteration.
     pub fn iterate(&mut self) -> Result<Scalars, BackendError> {
         self.record()?;
-        self.backend.scalars()
+        let scalars = self.backend.scalars()?;
+        self.leave_exact(&scalars);
+        Ok(scalars)
     }
 
-    /// Up to `most` iterations, as many as the backend records before it looks. Returns how many, including
-    /// those that did nothing after the end.
+    /// Continues with the levels, as iterations near a solution do.
+    pub fn precondition_by_levels(&mut self) {
+        if let Some(levels) = &self.levels {
+            self.exact = false;
+            levels.load_residual(self.backend, [self.gap, self.pressure]);
+        }
+    }
+
+    /// Continues with the levels once a step has come near a solution.
+    fn leave_exact(&mut self, scalars: &Scalars) {
+        let stepped = scalars.accepted && !scalars.repeat && !scalars.waits();
+        if self.exact && stepped && scalars.residual < EXACT_UNTIL {
+            self.precondition_by_levels();
+        }
+    }
+
+    /// Up to `most` iterations, as many as the backend records before it looks; one while the preconditioner may
+    /// change after it. Returns how many, including those that did nothing after the end.
     pub fn advance(&mut self, most: usize) -> Result<(usize, Scalars), BackendError> {
-        let rounds = self.backend.look_every().min(most).max(1);
+        let may_change = self.exact && self.levels.is_some();
+        let rounds = if may_change {
+            1
+        } else {
+            self.backend.look_every().min(most).max(1)
+        };
         for _ in 0..rounds {
             self.record()?;
         }
-        Ok((rounds, self.backend.scalars()?))
+        let scalars = self.backend.scalars()?;
+        self.leave_exact(&scalars);
+        Ok((rounds, scalars))
     }
 
     /// Records one iteration, from the rows of the residual to those of the next one. All decisions are
@@ -61,7 +88,7 @@ impl ContactSolver<'_> {
         let previous = self.previous_residual;
         let mean_gap = self.params.prescribed_mean_gap;
         let backend = &mut *self.backend;
-        match &self.levels {
+        match in_use(&self.levels, self.exact) {
             Some(levels) => levels.descend(backend, [g, p, previous], mean_gap.then_some(d)),
             None => {
                 if let Some(preconditioner) = self.preconditioner {
@@ -100,7 +127,7 @@ impl ContactSolver<'_> {
         let state = with_step
             .as_ref()
             .map_or(&without_step[..], |fields| fields);
-        match &self.levels {
+        match in_use(&self.levels, self.exact) {
             Some(levels) => levels.update_state(backend, state),
             None => backend.run(self.kernels.update_state, level, state),
         }
@@ -143,4 +170,9 @@ impl ContactSolver<'_> {
         self.backend.scalar(&scalar::TEST_CONVERGENCE);
         self.backend.scalars()
     }
+}
+
+/// The levels, unless the preconditioner is 1/K for now.
+fn in_use(levels: &Option<Multilevel>, exact: bool) -> Option<&Multilevel> {
+    levels.as_ref().filter(|_| !exact)
 }

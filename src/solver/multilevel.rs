@@ -13,7 +13,6 @@ use super::kernel_set::{KernelSet, LevelSet};
 use super::problem::Problem;
 use crate::backend::{Backend, Factors, Field, Level, Shape, Spectrum};
 use crate::elastic::Stiffness;
-use crate::grid::Boundary;
 use crate::kernel::{Gate, displacement, multilevel};
 
 /// Halvings of the grid at most.
@@ -29,6 +28,9 @@ pub(super) const COARSEST_SHARE: f64 = 0.5;
 const LEAST_GROWTH: f64 = 1.5;
 /// Sides of a pixel over each other from which one number does not stand for its shortest waves.
 const LONGEST_PIXEL: f64 = 2.0;
+/// Residual below which the levels take over with adhesion. Above it fronts move, and the compliance itself leads
+/// more straightly to the nearest of several solutions: points that a detour closes would stick.
+pub(super) const EXACT_UNTIL: f64 = 1e-2;
 /// Fine pixels over which the share of free points is smoothed.
 const SMOOTHED: f64 = 3.0;
 
@@ -62,10 +64,6 @@ pub(super) fn level_compliance(problem: &Problem) -> f64 {
 
 /// Halvings of the grid that pay for a problem; none where it cannot be halved.
 pub(super) fn halvings(problem: &Problem) -> usize {
-    // Long waves over the pad make most of a step there, which the levels answer too roughly.
-    if problem.boundary == Boundary::Free {
-        return 0;
-    }
     let pixel = [problem.grid.dx(), problem.grid.dy()];
     if pixel[0].max(pixel[1]) > LONGEST_PIXEL * pixel[0].min(pixel[1]) {
         return 0;
@@ -86,6 +84,11 @@ pub(super) fn halvings(problem: &Problem) -> usize {
     (1..=MOST_LEVELS)
         .take_while(|level| fits(level) && grows(level))
         .count()
+}
+
+/// Whether solves of a problem have several solutions, and so begin with the compliance itself.
+pub(super) fn begins_exact(problem: &Problem) -> bool {
+    problem.law.is_adhesive()
 }
 
 /// The factor of a wave that smooths the share of free points.

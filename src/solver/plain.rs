@@ -14,6 +14,7 @@
 //! neither wall nor law.
 
 use super::contact::{Load, Outcome};
+use super::multilevel::{EXACT_UNTIL, begins_exact};
 use super::plain_setup::{Contact, choose, dot, each, largest, least, most, norm, sum};
 use super::problem::Problem;
 use crate::kernel::Status;
@@ -38,6 +39,7 @@ pub fn solve(
     let (mut restart, mut trial_length, mut largest_move) = (true, 1.0, f64::INFINITY);
     let (mut iterations, mut at_floor, mut stalls) = (0, 0, 0);
     let mut residual_at_stall = f64::INFINITY;
+    let mut exact = begins_exact(problem);
 
     let status = loop {
         // Step 1. Is the present state the solution?
@@ -70,7 +72,7 @@ pub fn solve(
 
         // Step 2. The residual r = S y on F, and z = M r.
         let residual = each(n, |i| now.weight[i] * now.y[i]);
-        let z = contact.project(&contact.precondition(&residual, &now), &now);
+        let z = contact.project(&contact.precondition(&residual, &now, exact), &now);
 
         // Step 3. beta = max(0, <z, r - r_old> / <d_old, r - r_old>) (Polak-Ribiere); the direction
         // d = -z + beta d_old, or -z if that would not descend.
@@ -115,6 +117,7 @@ pub fn solve(
                     now = contact.state(gap, pressure);
                     trial_length *= lengthen;
                     iterations += 1;
+                    exact &= now.residual >= EXACT_UNTIL;
                     watch(&now.gap, t, now.residual);
                     continue;
                 }
@@ -232,18 +235,19 @@ impl Contact<'_> {
     }
 
     /// Step 2: z = M r; the smooth law answers its part by its own slope, + D/k y/(D + k).
-    fn precondition(&self, r: &[f64], now: &State) -> Vec<f64> {
+    fn precondition(&self, r: &[f64], now: &State, exact: bool) -> Vec<f64> {
         let (k, d) = (self.k(), each(r.len(), |i| self.hardening(i, now.gap[i])));
-        let z = self.compliance_times(r);
+        let z = self.compliance_times(r, exact);
         each(r.len(), |i| z[i] + d[i] / k * now.y[i] / (d[i] + k))
     }
 
-    /// M r: 1/K where the grid cannot be halved. Else each grid answers the waves that the next one, of half the
+    /// M r: 1/K where the grid cannot be halved, and with adhesion until the residual is small, since fronts that
+    /// move by another way may end in another solution. Else each grid answers the waves that the next one, of half the
     /// points, cannot hold by one number, in proportion to its pixel: z_k = 2^k c r_k + P z_(k+1), with
     /// r_(k+1) = R r_k, P the interpolation and R the restriction. The coarsest one answers by W (1/2K) W, W being
     /// the share of free points there, smoothed, to the third power: long waves do not reach across contacts.
-    fn compliance_times(&self, r: &[f64]) -> Vec<f64> {
-        let Some(coarsest) = self.coarser.last() else {
+    fn compliance_times(&self, r: &[f64], exact: bool) -> Vec<f64> {
+        let Some(coarsest) = self.coarser.last().filter(|_| !exact) else {
             return self.fourier.filter(r, |q| self.compliance(q));
         };
         let mut residuals = vec![r.to_vec()];

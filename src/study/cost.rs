@@ -117,6 +117,7 @@ fn plan(
         let mut solver = ContactSolver::new(dry_run, problem);
         // What is counted does not depend on the tolerance.
         solver.begin(&load, &Start::Present, 0.0, false)?;
+        solver.precondition_by_levels();
         (0..iterations).try_for_each(|_| solver.iterate().map(drop))
     };
     let mut started = DryRun::on(place);

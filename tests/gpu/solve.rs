@@ -495,7 +495,8 @@ fn fields_moved(passes: &[String]) -> f64 {
     moved
 }
 
-/// Dispatches and passes of so many iterations from cold that are not looked at, with what readies them.
+/// Dispatches and passes of so many iterations that are not looked at, with what readies them: those near a
+/// solution, where the preconditioner has its levels.
 fn iterations(
     device: &GpuDevice,
     problem: &Problem,
@@ -506,7 +507,10 @@ fn iterations(
     let mut solver = ContactSolver::new(&mut watching, problem);
     solver
         .begin(load, &Start::Cold, 0.0, false)
-        .and_then(|()| solver.advance(count))
+        .and_then(|()| {
+            solver.precondition_by_levels();
+            solver.advance(count)
+        })
         .unwrap_or_else(|error| panic!("{error}"));
     let passes = watching.here.lock().expect("nobody panics here").clone();
     (watching.inner.traffic(), passes)

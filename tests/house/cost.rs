@@ -152,11 +152,8 @@ fn expected(scene: &Scene, grid: [usize; 2]) -> Expected {
 }
 
 /// Points of the coarser levels of the preconditioner: halved while an even number remains, eight at
-/// least, three times at most; none on a free boundary.
+/// least, three times at most.
 fn levels(points: [usize; 2], scene: &Scene) -> Vec<[usize; 2]> {
-    if scene.grid.boundary == Boundary::Free {
-        return Vec::new();
-    }
     // None of these scenes has pixels more than twice as long as wide, and none a thin layer.
     assert!(scene.solid.layer.is_none_or(|layer| layer.thickness > 0.0));
     let halved = (1..=3).map(|times| points.map(|n| n >> times));
@@ -285,7 +282,7 @@ fn every_combination_of_effects() {
 }
 
 /// On a graphics processor a periodic half-space has no tables but those of the coarsest level; a
-/// layer has that of its stiffness too, and a free boundary those of its stiffness and of the inverse.
+/// layer and a free boundary have that of their stiffness, and with adhesion of its inverse.
 #[test]
 fn a_half_space_has_no_tables_on_a_graphics_processor() {
     let tables = |grid: &str, solid: &str, adhesion: &str, place: Place| -> Vec<&'static str> {
@@ -301,12 +298,18 @@ fn a_half_space_has_no_tables_on_a_graphics_processor() {
     let adhesion = "[adhesion]\nlaw = \"exponential\"\nwork_of_adhesion = 0.01\nrange = 0.1\n";
     let layer = "poisson_ratio = 0.3\nthickness = 1.0\n";
     let free = "boundary = \"free\"\n";
-    let all = ["stiffness", "smoothing", "coarsest_compliance"];
+    let all = [
+        "stiffness",
+        "smoothing",
+        "coarsest_compliance",
+        "preconditioner",
+    ];
     for place in [Place::Gpu, Place::GpuDouble] {
-        assert_eq!(tables("", "", adhesion, place), all[1..]);
-        assert_eq!(tables("", "", "", place), all[1..]);
+        assert_eq!(tables("", "", adhesion, place), all[1..3]);
+        assert_eq!(tables("", "", "", place), all[1..3]);
+        assert_eq!(tables("", layer, "", place), all[..3]);
         assert_eq!(tables("", layer, adhesion, place), all);
-        assert_eq!(tables(free, "", adhesion, place), ["stiffness", "preconditioner"]);
+        assert_eq!(tables(free, "", adhesion, place), all);
     }
     assert_eq!(tables("", "", adhesion, Place::Single), all);
 }
