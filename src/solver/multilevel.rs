@@ -34,6 +34,9 @@ pub(super) const EXACT_UNTIL: f64 = 1e-2;
 /// Fine pixels over which the share of free points is smoothed.
 const SMOOTHED: f64 = 3.0;
 
+/// Most fields of a step's update: direction, step, gap, pressure, and the residuals before and after.
+const MOST_UPDATED: usize = 6;
+
 /// The stiffness at a wavevector of the solved points.
 fn stiffness_at(problem: &Problem, kx: usize, ky: usize) -> f64 {
     match &problem.stiffness {
@@ -183,8 +186,14 @@ impl Multilevel {
 
     /// Records the step and the projected residual after it; `state` is what the kernel takes before it.
     pub fn update_state(&self, backend: &mut dyn Backend, state: &[Field]) {
-        let fields = [state, &[self.residual]].concat();
-        backend.run(self.kernels.update_state, self.fine, &fields);
+        // The residual comes last; an array, since an iteration allocates nothing.
+        let mut fields = [self.residual; MOST_UPDATED];
+        fields[..state.len()].copy_from_slice(state);
+        backend.run(
+            self.kernels.update_state,
+            self.fine,
+            &fields[..=state.len()],
+        );
     }
 
     /// Records the preconditioned residual z of the projected one; `state` is gap, pressure and the residual
