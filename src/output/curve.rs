@@ -14,6 +14,9 @@ use crate::study::{Column, StepRow};
 /// First line of `curve.csv` where no effect adds a column.
 pub const HEADER: &str = "step,time,approach,mean_gap,force,mean_pressure,contact_area_fraction,attractive_area_fraction,elastic_energy,adhesive_energy,iterations,residual,converged,seconds,contact_area_fraction_corrected,state";
 
+/// Checksum (CRC-32) of a curve without rows.
+pub(crate) const EMPTY_CHECKSUM: u32 = 0;
+
 /// First line of `curve.csv` with the columns that effects add.
 fn header(columns: &[Column]) -> String {
     let names = columns.iter().map(|column| format!(",{}", column.name()));
@@ -306,6 +309,7 @@ mod tests {
     fn missing_and_changed_rows_are_refused() {
         let place = tempfile::tempdir().unwrap();
         let path = place.path().join("curve.csv");
+        assert_eq!(crc32fast::Hasher::new().finalize(), EMPTY_CHECKSUM);
         // No curve yet: fine where no step is finished.
         assert!(refused(Curve::read(&path, Vec::new()).unwrap().go_on(1, 0)));
         assert!(!path.exists());

@@ -53,7 +53,10 @@ impl RunFolder {
     /// `fingerprint`; then the files of that run are removed and no others.
     pub fn open(path: &Path, fingerprint: &str) -> Result<RunFolder, OutputError> {
         let (folder, there) = RunFolder::take(path, fingerprint)?;
-        folder.start_afresh(fingerprint, there)?;
+        if there {
+            folder.remove_own_files(&[])?;
+        }
+        folder.write_marker(fingerprint)?;
         Ok(folder)
     }
 
@@ -81,15 +84,6 @@ impl RunFolder {
         Ok((RunFolder { path, lock }, there))
     }
 
-    /// Makes the folder that of a run from its first step: the files of a run that is `there` are removed and
-    /// no others.
-    pub fn start_afresh(&self, fingerprint: &str, there: bool) -> Result<(), OutputError> {
-        if there {
-            self.remove_own_files()?;
-        }
-        self.write_marker(fingerprint)
-    }
-
     /// What is to be said of a folder that cannot be held.
     pub fn warning(&self) -> Option<&str> {
         self.lock.warning()
@@ -103,7 +97,7 @@ impl RunFolder {
     pub fn resume(path: &Path, fingerprint: &str) -> Result<(RunFolder, bool), OutputError> {
         let (folder, there) = RunFolder::take(path, fingerprint)?;
         if !there {
-            folder.start_afresh(fingerprint, false)?;
+            folder.write_marker(fingerprint)?;
             return Ok((folder, false));
         }
         for part in [""].into_iter().chain(PARTS) {
@@ -203,7 +197,8 @@ impl RunFolder {
             .join(format!("{STATE_PREFIX}{name}"))
     }
 
-    fn write_marker(&self, fingerprint: &str) -> Result<(), OutputError> {
+    /// Marks the folder as that of a run of this `fingerprint`.
+    pub fn write_marker(&self, fingerprint: &str) -> Result<(), OutputError> {
         let marker = Marker {
             tabor: env!("CARGO_PKG_VERSION").to_owned(),
             fingerprint: fingerprint.to_owned(),
@@ -214,12 +209,18 @@ impl RunFolder {
         write_atomically(&marker_path(&self.path), text.as_bytes())
     }
 
-    /// Removes what a run writes: known names only, so that a note left beside them stays.
-    fn remove_own_files(&self) -> Result<(), OutputError> {
-        remove_files(&self.path, |name, _| TOP_FILES.contains(&name))?;
+    /// Removes what a run writes, but for the files `kept`: known names only, so that a note left beside them
+    /// stays.
+    pub fn remove_own_files(&self, kept: &[&Path]) -> Result<(), OutputError> {
+        let remove = |folder: &Path, own: &dyn Fn(&str) -> bool| {
+            remove_files(folder, |name, unfinished| {
+                own(name) && (unfinished || !kept.contains(&folder.join(name).as_path()))
+            })
+        };
+        remove(&self.path, &|name| TOP_FILES.contains(&name))?;
         self.remove_steps(|_| true)?;
         // The marker stays until it is replaced: a run that ends in between is still recognised.
-        remove_files(&self.path.join("state"), |name, _| {
+        remove(&self.path.join("state"), &|name| {
             name.starts_with(STATE_PREFIX)
         })
     }
@@ -341,6 +342,7 @@ fn remove_files(folder: &Path, own: impl Fn(&str, bool) -> bool) -> Result<(), O
         let is_folder = entry.file_type().is_ok_and(|kind| kind.is_dir());
         if own(unfinished.unwrap_or(name), unfinished.is_some()) && !is_folder {
             let path = entry.path();
+            crash_point();
             fs::remove_file(&path).map_err(OutputError::write("remove", &path))?;
         }
     }
@@ -376,9 +378,26 @@ pub fn set_aside(path: &Path) -> Result<PathBuf, OutputError> {
         .map(named)
         .find(|name| fs::symlink_metadata(name).is_err())
         .expect("names do not run out");
+    crash_point();
     fs::rename(path, &free).map_err(OutputError::write("move away", path))?;
     Ok(free)
 }
+
+/// Where a kill would find a folder between two of its changes. Ends the process there if the environment asks
+/// for it: `TABOR_TEST_CRASH`, for tests, is the number of changes that are still made.
+#[cfg(feature = "fault-injection")]
+fn crash_point() {
+    use std::sync::atomic::{AtomicU64, Ordering};
+    static MADE: AtomicU64 = AtomicU64::new(0);
+    let made = MADE.fetch_add(1, Ordering::Relaxed);
+    let asked = std::env::var("TABOR_TEST_CRASH").unwrap_or_default();
+    if asked.parse() == Ok(made) {
+        std::process::abort();
+    }
+}
+
+#[cfg(not(feature = "fault-injection"))]
+fn crash_point() {}
 
 /// Writes `bytes` to `path` so that a reader finds the old file or the new one, never half of it.
 ///
@@ -434,7 +453,10 @@ fn replace(
                 .map_err(io::IntoInnerError::into_error)?
                 .sync_all()
         })
-        .and_then(|()| fs::rename(&hidden, path));
+        .and_then(|()| {
+            crash_point();
+            fs::rename(&hidden, path)
+        });
     if written.is_err() {
         // Best effort: the failure to report is the first one.
         let _ = fs::remove_file(&hidden);

@@ -55,6 +55,7 @@ pub use canvas::{Font, TextLine};
 pub use curve::Curve;
 #[doc(hidden)]
 pub use curve::CurveWriter;
+pub(crate) use curve::EMPTY_CHECKSUM;
 pub(crate) use error::FRESH;
 pub use error::OutputError;
 pub use fields::{write_field, write_field_single};

@@ -6,7 +6,9 @@ use std::path::Path;
 
 use super::earlier_files::lost;
 use crate::device::SelectedDevice;
-use crate::output::{Curve, CurveWriter, FRESH, OutputError, RunFolder, SavedState, set_aside};
+use crate::output::{
+    Curve, CurveWriter, EMPTY_CHECKSUM, FRESH, OutputError, RunFolder, SavedState, set_aside,
+};
 use crate::scene::{Precision, Scene};
 use crate::study::{Checkpoint, Column, Earlier, Setup};
 
@@ -105,21 +107,24 @@ fn start(
         remarks.push(format!("{path}: nothing to resume, starts at step 1"));
     } else {
         remarks.extend(keep_rows(&folder, &scene, setup, there)?);
-        folder.start_afresh(&scene, there)?;
     }
-    let curve = CurveWriter::create(&folder.curve_path(), Column::of(&setup.scene))?;
-    // A state of no steps: from here on a missing one is a lost one.
+    // In this order, each change leaves a folder that can be resumed: the state of no steps fits any curve, the
+    // old one until the new one takes its name. From here on a missing state is a lost one.
+    folder.write_marker(&scene)?;
+    let (state, curve) = (folder.state_path(STATE), folder.curve_path());
     SavedState {
         scene,
         solver: solver(&setup.scene),
         machine: device.words(),
         finished: 0,
-        curve: curve.checksum(),
+        curve: EMPTY_CHECKSUM,
         warnings: Vec::new(),
         single: device.precision() == Precision::Single && !setup.scene.solid.remembers(),
         checkpoint: Cow::Owned(Checkpoint::default()),
     }
-    .write(&folder.state_path(STATE))?;
+    .write(&state)?;
+    folder.remove_own_files(&[&state, &curve])?;
+    let curve = CurveWriter::create(&curve, Column::of(&setup.scene))?;
     Ok(RunDirectory {
         folder,
         curve,
@@ -212,6 +217,10 @@ fn resume_from(
     let Some((state, curve)) = sound(folder, scene, setup)? else {
         return Ok(None);
     };
+    if state.finished == 0 {
+        // Of an earlier run, where the one that was to replace it ended before it had removed them.
+        folder.remove_own_files(&[&folder.state_path(STATE), &folder.curve_path()])?;
+    }
     let failed = curve
         .rows()
         .get(state.finished)

@@ -232,8 +232,8 @@ pub enum PartError {
 pub enum FileError {
     /// An unsupported kind of file.
     #[error(
-        "height files of kind .{extension} are not in this version; save the heights as .npy, as text \
-         (.txt, .csv, .xyz), or as .gsf, .gwy, .grd, .sdf, .sur, .al3d, grey .png or .tif"
+        "height files of kind .{extension} are not in this version; docs/surfaces.md lists those that are, and has \
+         one line of Python that converts what SurfaceTopography reads to .npy, which tabor reads"
     )]
     NotInThisVersion {
         /// The extension, lower case.

@@ -87,6 +87,48 @@ fn start_again(folder: &Path) -> Child {
     child
 }
 
+/// A run from the first step over a whole one, killed before each of the changes that it makes to the folder until
+/// it has rows of its own: `--resume` then solves all of it.
+fn a_run_over_a_whole_one_can_be_resumed_wherever_it_is_killed() {
+    let folder = scene(&ROUGH.replace("steps = [1, 2, 3, 4, 5, 6, 7, 8]", "steps = \"last\""));
+    let folder = folder.path();
+    run_whole(folder);
+    let whole = rows(&folder.join("whole"));
+    let out = folder.join("out");
+    for changes in 0.. {
+        let output = tabor(folder, &["run", "scene.toml", "--out", "out"]);
+        assert_eq!(status(&output), 0, "{}", errors(&output));
+        let killed = command(folder, &["run", "scene.toml", "--out", "out"])
+            .env("TABOR_TEST_CRASH", changes.to_string())
+            .output()
+            .expect("the binary runs");
+        assert_eq!(
+            killed.status.code(),
+            None,
+            "it is killed: {}",
+            errors(&killed)
+        );
+        let left = rows(&out).len();
+        let output = tabor(folder, &["run", "scene.toml", "--out", "out", "--resume"]);
+        assert_eq!(
+            status(&output),
+            0,
+            "after {changes} changes: {}",
+            errors(&output)
+        );
+        expect_same(
+            &folder.join("whole"),
+            &out,
+            &format!("after {changes} changes"),
+        );
+        if (1..whole.len()).contains(&left) {
+            // Marker, state, pictures, fields, summary, report, the two drawn curves and the curve itself.
+            assert!(changes >= 8, "only {changes} changes before the first row");
+            return;
+        }
+    }
+}
+
 /// Two that begin at the same moment: one of them writes the folder, whole.
 fn of_two_runs_at_once_one_keeps_out() {
     let folder = scene(ROUGH);
@@ -349,6 +391,7 @@ fn studies_and_surfaces_keep_out_of_folders_that_are_held() {
 
 tests![
     a_second_run_into_a_folder_is_refused_and_told_of_the_first,
+    a_run_over_a_whole_one_can_be_resumed_wherever_it_is_killed,
     of_two_runs_at_once_one_keeps_out,
     a_curve_that_others_remove_or_change_is_written_anew,
     going_on_names_files_of_finished_steps_that_are_lost,

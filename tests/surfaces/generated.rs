@@ -88,7 +88,7 @@ fn bad_files_are_refused_in_a_sentence() {
         ("wide.txt", b"\xFF\xFE1\0 \0".to_vec(), "the text is in UTF-16; save it as UTF-8"),
         ("map.png", b"\x89PNG\r\n\x1a\n".to_vec(), "broken PNG image: "),
         ("map.gsf", b"Gwyddion Simple Field 1.0\n".to_vec(), "broken .gsf file at byte 26: no zero byte ends the header"),
-        ("map.vtk", b"# vtk\n".to_vec(), "height files of kind .vtk are not in this version; save the heights as .npy, as text"),
+        ("map.vtk", b"# vtk\n".to_vec(), "height files of kind .vtk are not in this version; docs/surfaces.md lists those that are"),
         ("map.TIF", b"II*\0".to_vec(), "broken TIFF image: "),
         ("map", b"1 2\n".to_vec(), "the name has no extension"),
         ("image.txt", b"\x89PNG\r\n\x1a\n".to_vec(), "the name says .txt, but the file holds a PNG image"),

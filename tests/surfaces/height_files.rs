@@ -364,6 +364,8 @@ fn bad_files_are_refused_in_a_sentence() {
     let [sdf_binary, al3d] = ["surfalize_binary.sdf", "surfalize.al3d"].map(good);
     let [grd, grd_6, grd_7] = ["gdal_text.grd", "gdal_6.grd", "gdal_7.grd"].map(good);
     let [png, tif, mask] = ["pillow_16.png", "tifffile_16.tif", "gwyfile_mask.gwy"].map(good);
+    let [spm, ibw, nid, zygo] = ["bruker_5.spm", "asylum.ibw", "nanosurf.nid", "zygo.dat"].map(good);
+    let [opd, plu, vk4, x3p] = ["wyko.opd", "sensofar.plu", "description.vk4", "mountains.x3p"].map(good);
     let text = |text: &str| text.as_bytes().to_vec();
     // Rows of the table: name, bytes, part of the message.
     let files: Vec<(&str, Vec<u8>, &str)> = vec![
@@ -374,7 +376,7 @@ fn bad_files_are_refused_in_a_sentence() {
         ("image.xyz", png.clone(), "the name says .xyz, but the file holds a PNG image"),
         ("surface.txt", sdf.clone(), "the name says .txt, but the file holds a surface data file (.sdf)"),
         ("archive.sur", b"PK\x03\x04....".to_vec(), "the name says .sur, but the file holds a ZIP archive"),
-        ("map.opd", b"\x01\0Directory".to_vec(), "height files of kind .opd are not in this version"),
+        ("map.mnt", text("1 2"), "height files of kind .mnt are not in this version; docs/surfaces.md lists those that are, and has one line of Python"),
         ("map", b"1 2".to_vec(), "the name has no extension and the first bytes are those of no known kind"),
         ("empty.gwy", vec![], "the file is empty (0 bytes)"),
         // Gwyddion simple fields.
@@ -409,6 +411,26 @@ fn bad_files_are_refused_in_a_sentence() {
             let at = mask.windows(6).rposition(|window| window == b"yres\0i").expect("a mask") + 6;
             patched(&turned, at, &[12])
         }, "a mask has another shape than its image"),
+        // Instruments.
+        ("no_image.spm", text("\\*File list\r\n\\Version: 1\r\n\\*File list end\r\n"), "its header names no image"),
+        ("phase.spm", with(&with(&spm, b"V [Sens. Zsens]", b"V [Sens. Xsens]"), b"V [Sens. Zsens]", b"V [Sens. Xsens]"), "which is not a length"),
+        ("cut.spm", spm[..6100].to_vec(), "9 rows of 12 columns need 216 bytes, there are 100"),
+        ("points.spm", with(&spm, b"Samps/line: 12", b"Samps/line: xx"), "an image has no whole number as \"samps/line\""),
+        ("type.ibw", patched(&ibw, 80, &[1]), "broken .ibw file at byte 80: numbers of the unknown type 1"),
+        ("points.ibw", patched(&ibw, 132, &[13]), "324 numbers as 13 x 9 x 3 x 0 points"),
+        ("volts.ibw", patched(&ibw, 212, b"V"), "the file gives its heights in \"V\", which is not a length"),
+        ("cut.ibw", ibw[..400].to_vec(), "9 rows of 12 columns need 432 bytes, there are 16"),
+        ("endless.nid", with(&nid, b"#!", b"##"), "its header has no end"),
+        ("bits.nid", with(&nid, b"Dim2Unit=m\r\nDim2Range=1.0152e-05", b"Dim2Unit=m\r\nDim2Rnage=1.0152e-05"), "has no such number as Dim2Range"),
+        ("phase.dat", patched(&zygo, 218, &[0, 9]), "a phase resolution of 9; 0 to 2 are known"),
+        ("cut.dat", zygo[..zygo.len() - 1].to_vec(), "9 rows of 12 columns need 432 bytes, there are 431"),
+        ("wave.opd", with(&opd, b"Wavelength", b"Wavelangth"), "it has no block of heights, or no wavelength"),
+        ("cut.opd", opd[..100].to_vec(), "broken .opd file at byte 100: the file ends within the directory"),
+        ("kind.plu", patched(&plu, 428, &[1]), "a measurement of kind 1; 3 is a topography"),
+        ("pixel.plu", patched(&plu, 404, &[0; 4]), "broken .plu file at byte 404: pixels of 0 x"),
+        ("heights.vk4", patched(&vk4, 36, &[0; 4]), "broken .vk4 file at byte 36: it holds no heights"),
+        ("bits.vk4", patched(&vk4, 84 + 4 * 76 + 8, &[24]), "heights of 24 bits; 8, 16 and 32 are known"),
+        ("cut.x3p", x3p[..x3p.len() - 30].to_vec(), "its archive is not whole"),
         // Surface data files.
         ("cut.sdf", sdf[..700].to_vec(), "broken .sdf file, line"),
         ("endless.sdf", text("aISO-1.0\nNumPoints = 2\n"), "broken .sdf file, line 1: no line with an asterisk ends the header"),

@@ -12,12 +12,12 @@ pub(super) struct Bytes<'a> {
 }
 
 /// Reads a number of fixed width.
-macro_rules! little_endian {
-    ($($name:ident: $kind:ty),*) => {
+macro_rules! numbers {
+    ($order:literal, $from:ident: $($name:ident: $kind:ty),*) => {
         $(
-            #[doc = concat!("The next little-endian `", stringify!($kind), "`; `what` names it in messages.")]
+            #[doc = concat!("The next ", $order, "-endian `", stringify!($kind), "`; `what` names it in messages.")]
             pub(super) fn $name(&mut self, what: &str) -> Result<$kind, FileError> {
-                self.array(what).map(<$kind>::from_le_bytes)
+                self.array(what).map(<$kind>::$from)
             }
         )*
     };
@@ -32,7 +32,8 @@ impl<'a> Bytes<'a> {
         }
     }
 
-    little_endian!(u8: u8, u16: u16, i16: i16, u32: u32, i32: i32, f32: f32, f64: f64);
+    numbers!("little", from_le_bytes: u8: u8, u16: u16, i16: i16, u32: u32, i32: i32, f32: f32, f64: f64);
+    numbers!("big", from_be_bytes: big_u16: u16, big_i16: i16, big_u32: u32, big_f32: f32);
 
     /// The next doubles; `what` names them in messages.
     pub(super) fn doubles<const COUNT: usize>(

@@ -6,8 +6,14 @@ mod al3d;
 mod bytes;
 mod gsf;
 mod gwy;
+mod ibw;
 mod length;
+mod metropro;
+mod nanoscope;
+mod nid;
 mod npy;
+mod opd;
+mod plu;
 #[cfg(feature = "images")]
 mod png;
 mod sdf;
@@ -16,8 +22,11 @@ mod surfer;
 mod text;
 #[cfg(feature = "images")]
 mod tiff;
+mod vk4;
 #[cfg(not(feature = "images"))]
 mod without_images;
+#[cfg(feature = "images")]
+mod x3p;
 mod xyz;
 
 use std::fs::{self, File};
@@ -27,7 +36,7 @@ use std::path::Path;
 use super::error::FileError;
 use super::matrix::Matrix;
 #[cfg(not(feature = "images"))]
-use without_images::{png, tiff};
+use without_images::{png, tiff, x3p};
 
 /// Longest file that is read whole, 16 GiB: the largest grid in doubles, twice.
 const LONGEST: u64 = 1 << 34;
@@ -77,7 +86,7 @@ impl Format {
     }
 }
 
-/// All supported formats. A static, not a constant: formats are compared by address.
+/// All supported formats.
 static FORMATS: &[Format] = &[
     Format {
         name: "NumPy array (.npy)",
@@ -114,6 +123,37 @@ static FORMATS: &[Format] = &[
         &[al3d::MAGIC],
         al3d::read,
     ),
+    Format::new(
+        "Nanoscope image (.spm, .001)",
+        &["spm", "000", "001", "002", "003", "004", "005", "di"],
+        &[nanoscope::MAGIC],
+        nanoscope::read,
+    ),
+    Format::new(
+        "binary wave of Igor (.ibw)",
+        &["ibw"],
+        &[ibw::MAGIC],
+        ibw::read,
+    ),
+    Format::new("Nanosurf image (.nid)", &["nid"], &[nid::MAGIC], nid::read),
+    Format::new(
+        "Keyence map (.vk4)",
+        &["vk3", "vk4"],
+        &vk4::MAGIC,
+        vk4::read,
+    ),
+    Format::new(
+        "MetroPro map (.dat)",
+        &["dat"],
+        &metropro::MAGIC,
+        metropro::read,
+    ),
+    Format::new("Wyko map (.opd)", &["opd"], &[opd::MAGIC], opd::read),
+    Format::new("ZIP archive (.x3p)", &["x3p"], &[x3p::MAGIC], x3p::read),
+    Format {
+        longest: LONGEST,
+        ..Format::new("Sensofar topography (.plu)", &["plu"], &[], plu::read)
+    },
     Format::new("columns x y z (.xyz)", &["xyz"], &[], xyz::read),
     Format::new(
         "text",
@@ -128,8 +168,9 @@ type Claim = fn(BufReader<File>) -> Option<[usize; 2]>;
 
 /// Formats whose length does not tell how much memory their numbers take: compressed ones, and
 /// those that may store one byte a number.
-const CLAIMS: [(&[&[u8]], Claim); 3] = [
+const CLAIMS: [(&[&[u8]], Claim); 4] = [
     (&[npy::MAGIC], npy::claimed_points),
+    (&[x3p::MAGIC], x3p::claimed_points),
     (&[png::MAGIC], png::claimed_points),
     (&tiff::MAGIC, tiff::claimed_points),
 ];
@@ -150,8 +191,7 @@ pub fn claimed_points(path: &Path) -> Option<[usize; 2]> {
 }
 
 /// First bytes of unsupported files that may carry a supported extension, with their names.
-const UNSUPPORTED: [(&[u8], &str); 4] = [
-    (b"PK\x03\x04", "ZIP archive (.npz, .xlsx, .x3p)"),
+const UNSUPPORTED: [(&[u8], &str); 3] = [
     (b"\x89HDF", "HDF5 file"),
     (b"\xFF\xD8\xFF", "JPEG image"),
     (b"\x1F\x8B", "gzip-compressed file"),
@@ -205,7 +245,8 @@ pub(super) fn read(path: &Path) -> Result<Matrix, FileError> {
 
 /// The format of a file that begins with `start`; its extension must agree.
 ///
-/// An unknown extension is accepted where the first bytes identify the format.
+/// An unknown extension is accepted where the first bytes identify the format. Of formats with the same
+/// extension the first bytes decide, and the last of them may begin with anything.
 fn find(start: &[u8], extension: Option<&str>) -> Result<&'static Format, FileError> {
     let begins = |magic: &&[u8]| start.starts_with(magic);
     let by_content = FORMATS
@@ -214,16 +255,15 @@ fn find(start: &[u8], extension: Option<&str>) -> Result<&'static Format, FileEr
     let by_name = extension.and_then(|extension| {
         FORMATS
             .iter()
-            .find(|format| format.extensions.contains(&extension))
+            .rfind(|format| format.extensions.contains(&extension))
     });
+    let agrees = |format: &Format| extension.is_some_and(|said| format.extensions.contains(&said));
     let other = |found: String| FileError::OtherContent {
         extension: extension.unwrap_or_default().to_owned(),
         found,
     };
     match (by_content, by_name) {
-        (Some(found), Some(said)) if !std::ptr::eq(found, said) => {
-            Err(other(format!("a {}", found.name)))
-        }
+        (Some(found), Some(_)) if !agrees(found) => Err(other(format!("a {}", found.name))),
         (Some(found), _) => Ok(found),
         (None, Some(said)) => {
             let stranger = UNSUPPORTED.iter().find(|(magic, _)| begins(magic));
@@ -248,7 +288,7 @@ mod tests {
     use proptest::prelude::*;
 
     /// A file of another program for each format that is read whole.
-    const GOOD: [&[u8]; 14] = [
+    const GOOD: [&[u8]; 22] = [
         include_bytes!("../../../tests/files/pillow_16.png"),
         include_bytes!("../../../tests/files/tifffile_16.tif"),
         include_bytes!("../../../tests/files/tifffile_deflate.tif"),
@@ -262,8 +302,19 @@ mod tests {
         include_bytes!("../../../tests/files/surfalize_binary.sdf"),
         include_bytes!("../../../tests/files/surfalize_holes.sur"),
         include_bytes!("../../../tests/files/surfalize.al3d"),
+        include_bytes!("../../../tests/files/bruker_5.spm"),
+        include_bytes!("../../../tests/files/bruker_10.spm"),
+        include_bytes!("../../../tests/files/asylum.ibw"),
+        include_bytes!("../../../tests/files/nanosurf.nid"),
+        include_bytes!("../../../tests/files/zygo.dat"),
+        include_bytes!("../../../tests/files/wyko.opd"),
+        include_bytes!("../../../tests/files/mountains.x3p"),
         include_bytes!("../../../tests/files/gdal.xyz"),
+        include_bytes!("../../../tests/files/sensofar.plu"),
     ];
+
+    /// Extensions of those that no first bytes tell.
+    const NAMED: [&str; 2] = ["xyz", "plu"];
 
     proptest! {
         #![proptest_config(ProptestConfig::with_cases(4000))]
@@ -276,7 +327,9 @@ mod tests {
             kept in prop_oneof![3 => Just(1.0), 1 => 0.0..1.0_f64],
         ) {
             let mut bytes = GOOD[which].to_vec();
-            let format = find(&bytes, Some("xyz").filter(|_| which + 1 == GOOD.len())).unwrap();
+            let told = GOOD.len() - NAMED.len();
+            let extension = which.checked_sub(told).map(|index| NAMED[index]);
+            let format = find(&bytes, extension).unwrap();
             for (place, near_start, byte) in changes {
                 // Two of three changes hit the header, where lengths and counts stand.
                 let reach = if near_start == 0 { bytes.len() } else { bytes.len().min(400) };
@@ -295,8 +348,14 @@ mod tests {
     fn extensions_and_first_bytes_are_unique() {
         for (index, format) in FORMATS.iter().enumerate() {
             for other in &FORMATS[index + 1..] {
+                // Of two with one extension the first bytes of one, or its lack of any, must tell.
                 let shared = |extension| other.extensions.contains(extension);
-                assert!(!format.extensions.iter().any(shared), "{}", format.name);
+                let told_apart = !format.magic.is_empty();
+                assert!(
+                    told_apart || !format.extensions.iter().any(shared),
+                    "{}",
+                    format.name
+                );
                 for magic in format.magic {
                     let clash =
                         |other: &&[u8]| magic.starts_with(other) || other.starts_with(magic);

@@ -267,8 +267,15 @@ fn number(field: &str, separator: Separator) -> Option<f64> {
     other.parse().ok()
 }
 
+/// Name and value of a comment.
+fn entry(comment: &str) -> Option<(&str, &str)> {
+    comment
+        .trim_start_matches(['#', '%', '/', ' '])
+        .split_once(':')
+}
+
 /// Lengths stated in the comments, in the form of Gwyddion's text export.
-#[derive(Default)]
+#[derive(Clone, Copy, Default)]
 pub(super) struct Remarks {
     width: Option<f64>,
     height: Option<f64>,
@@ -281,21 +288,36 @@ impl Remarks {
     /// All comments of a file.
     fn from_body(body: &Body) -> Self {
         let mut remarks = Remarks::default();
+        // The values of the last three comments of the form `name: value`.
+        let mut last = [""; 3];
         for line in body.text.split(body.line_end) {
-            remarks.take(split_comment(line).1);
+            let Some((name, value)) = entry(split_comment(line).1) else {
+                continue;
+            };
+            remarks.take(name, value);
+            last = [last[1], last[2], value];
+            remarks.take_by_order(last);
         }
         remarks
     }
 
-    /// Reads `# Width: 5.0 um`, `# Height: 5.0 um`, `# Value units: m`, `# Lateral units: um` from
-    /// a comment.
-    fn take(&mut self, comment: &str) {
-        let Some((name, value)) = comment
-            .trim_start_matches(['#', '%', '/', ' '])
-            .split_once(':')
-        else {
-            return;
-        };
+    /// Gwyddion writes width, height and unit in this order, with names in the language of its user.
+    fn take_by_order(&mut self, [width, height, unit]: [&str; 3]) {
+        if let (None, None, Some(width), Some(height)) =
+            (self.width, self.height, length(width), length(height))
+            && let Some(unit) = length_unit(unit)
+        {
+            *self = Remarks {
+                width: Some(width),
+                height: Some(height),
+                unit: Some(unit),
+                ..*self
+            };
+        }
+    }
+
+    /// Reads `# Width: 5.0 um`, `# Height: 5.0 um`, `# Value units: m`, `# Lateral units: um`.
+    fn take(&mut self, name: &str, value: &str) {
         match name.trim().to_ascii_lowercase().as_str() {
             "width" => self.width = length(value),
             "height" => self.height = length(value),
@@ -308,7 +330,10 @@ impl Remarks {
 
 /// A positive length with its unit, m.
 fn length(text: &str) -> Option<f64> {
-    let text = text.trim();
+    let text = text
+        .trim()
+        .replacen(',', ".", usize::from(!text.contains('.')));
+    let text = text.as_str();
     // For supported units this is the double nearest to the digits.
     if let Ok(length) = parse_quantity(text, Dimension::Length) {
         return (length > 0.0).then_some(length);

@@ -148,3 +148,21 @@ proptest::proptest! {
         }
     }
 }
+
+/// Gwyddion's export in other languages than English, and one with a size but no length for its values.
+#[test]
+fn sizes_are_read_in_any_language() {
+    for head in [
+        "# Kanal: Topo\n# Breite: 5,0 \u{b5}m\n# H\u{f6}he: 8 nm\n# Value units: nm\n",
+        "# Kan\u{e1}l: Topo\n# \u{160}\u{ed}\u{159}ka: 5.0 um\n# V\u{fd}\u{161}ka: 8 nm\n# Jednotky hodnot: nm\n",
+        "# \u{41a}\u{430}\u{43d}\u{430}\u{43b}: a: b\n# x: 5 \u{b5}m\n# y: 8.0 nm\n# z: nm\n",
+        "# Canal: 3 um\n# Largeur: 5 \u{b5}m\n# Hauteur: 8 nm\n# Unit\u{e9}s: nm\n",
+    ] {
+        let matrix = read(format!("{head}1 2\n3 4\n").as_bytes()).unwrap();
+        assert_eq!(matrix.size, Some(Size::Metres([5e-6, 8e-9])), "{head}");
+        assert_eq!(matrix.unit, Some(1e-9), "{head}");
+    }
+    let other = "# Kanal: Topo\n# Breite: 5 um\n# H\u{f6}he: 8 nm\n# Value units: V\n1 2\n3 4\n";
+    let matrix = read(other.as_bytes()).unwrap();
+    assert_eq!((matrix.size, matrix.unit), (None, None));
+}

@@ -1,4 +1,4 @@
-//! Grey images in a build without the feature `images`: they are known, and not read.
+//! Grey images and archives in a build without the feature `images`: they are known, and not read.
 
 use super::FileError;
 use super::Matrix;
@@ -36,6 +36,24 @@ pub(super) mod tiff {
     /// Refuses the image.
     pub fn read(_: &[u8]) -> Result<Matrix, FileError> {
         Err(not_built("TIFF images"))
+    }
+}
+
+/// X3P archives.
+pub(super) mod x3p {
+    use super::*;
+
+    /// First bytes of a file.
+    pub const MAGIC: &[u8] = b"PK\x03\x04";
+
+    /// Its description is not read.
+    pub fn claimed_points<R>(_: R) -> Option<[usize; 2]> {
+        None
+    }
+
+    /// Refuses the archive.
+    pub fn read(_: &[u8]) -> Result<Matrix, FileError> {
+        Err(not_built("X3P surfaces"))
     }
 }
 

@@ -1,0 +1,103 @@
+//! Wyko's maps (.opd) of Veeco's and Bruker's interferometers: a directory of named blocks, then the blocks.
+//!
+//! # Source
+//! Veeco, "Wyko Vision data file formats", the OPD format.
+
+use super::bytes::{Bytes, checked_shape};
+use crate::surface::error::FileError;
+use crate::surface::matrix::{Matrix, Size};
+
+/// First bytes of a file.
+pub(super) const MAGIC: &[u8] = b"\x01\0Directory";
+
+/// Bytes of an entry of the directory, and of its name.
+const ENTRY: usize = 24;
+const NAME: usize = 16;
+
+/// Names of blocks of heights.
+const HEIGHTS: [&str; 4] = ["RAW DATA", "RAW_DATA", "OPD", "Raw"];
+
+/// Numbers from here on are missing heights: in 16 bits, and in single precision.
+const MISSING_INTEGER: i16 = 32766;
+const MISSING: f32 = 1e38;
+
+/// Reads the first block of heights.
+pub(super) fn read(bytes: &[u8]) -> Result<Matrix, FileError> {
+    let mut file = Bytes::new(".opd", bytes);
+    file.take(2, "the header")?;
+    let (_, length) = entry(&mut file)?;
+    let mut blocks = Vec::new();
+    for _ in 1..length / ENTRY {
+        blocks.push(entry(&mut file)?);
+    }
+    let (mut wavelength, mut multiplier, mut aspect, mut pixel) = (None, 1.0, 1.0, None);
+    let mut heights = None;
+    for (name, length) in blocks.iter().filter(|(_, length)| *length > 0) {
+        let start = file.offset();
+        let what = "a block";
+        match name.as_str() {
+            "Wavelength" => wavelength = Some(f64::from(file.f32(what)?)),
+            "Mult" => multiplier = f64::from(file.u16(what)?),
+            "Aspect" => aspect = f64::from(file.f32(what)?),
+            "Pixel_size" => pixel = Some(f64::from(file.f32(what)?)),
+            name if HEIGHTS.contains(&name) && heights.is_none() => heights = Some(start),
+            _ => {}
+        }
+        file.seek(start.saturating_add(*length), "the next block")?;
+    }
+    let (Some(start), Some(wavelength)) = (heights, wavelength) else {
+        return Err(file.broken(0, "it has no block of heights, or no wavelength"));
+    };
+    file.seek(start, "the heights")?;
+    let columns = file.u16("the number of columns")?;
+    let rows = file.u16("the number of rows")?;
+    let place = file.offset();
+    let bytes_of_a_number = file.u16("the bytes of a number")?;
+    let [rows, columns] = checked_shape(rows.into(), columns.into())?;
+    // Heights in nm; a column is stored at a time.
+    let step = 1e-9 * wavelength / multiplier;
+    let by_column = match bytes_of_a_number {
+        2 => file.packed([columns, rows], |number| match i16::from_le_bytes(number) {
+            MISSING_INTEGER.. => f64::NAN,
+            number => step * f64::from(number),
+        })?,
+        4 => file.packed([columns, rows], |number| {
+            let number = f32::from_le_bytes(number);
+            if number < MISSING {
+                step * f64::from(number)
+            } else {
+                f64::NAN
+            }
+        })?,
+        other => {
+            let what = format!("numbers of {other} bytes; 2 and 4 are known");
+            return Err(file.broken(place, what));
+        }
+    };
+    let mut values = by_column.clone();
+    for (index, value) in values.iter_mut().enumerate() {
+        *value = by_column[index % columns * rows + index / columns];
+    }
+    let is_length = |length: &f64| length.is_finite() && *length > 0.0;
+    let pixel = pixel.map(|pixel| [1e-3 * pixel, 1e-3 * pixel * aspect]);
+    let size = pixel
+        .filter(|sides| sides.iter().all(is_length))
+        .map(|[dx, dy]| Size::Metres([dx * columns as f64, dy * rows as f64]));
+    Ok(Matrix {
+        size,
+        unit: Some(1.0),
+        ..Matrix::new(values, [rows, columns])
+    })
+}
+
+/// Name and length of a block, from the directory.
+fn entry(file: &mut Bytes) -> Result<(String, usize), FileError> {
+    let name = file.text(NAME, "the directory")?;
+    file.take(2, "the directory")?;
+    let place = file.offset();
+    let length = file.i32("the directory")?;
+    file.take(2, "the directory")?;
+    let length = usize::try_from(length)
+        .map_err(|_| file.broken(place, format!("a block of {length} bytes")))?;
+    Ok((name, length))
+}

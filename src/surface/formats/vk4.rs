@@ -1,0 +1,64 @@
+//! Keyence's maps (.vk3, .vk4): a table of offsets, the settings, images; heights as unsigned integers.
+//!
+//! # Source
+//! Keyence, "VK4 file format", as in Walker, "vk4-driver", OSTI 1419732 (2017).
+
+use super::bytes::{Bytes, checked_shape};
+use crate::surface::error::FileError;
+use crate::surface::matrix::{Matrix, Size};
+
+/// First bytes of a file.
+pub(super) const MAGIC: [&[u8]; 2] = [b"VK3_", b"VK4_"];
+
+/// Offsets of the table, and of the entry for heights in it.
+const TABLE: usize = 12;
+const HEIGHTS: usize = TABLE + 6 * 4;
+
+/// Offset of the lengths of a pixel and of a step of the heights in the settings, pm.
+const LENGTHS: usize = 42 * 4;
+
+/// Metres in the format's unit of length.
+const PICOMETRE: f64 = 1e-12;
+
+/// Bytes of the palette before the heights.
+const PALETTE: usize = 768;
+
+/// Reads the first map of heights.
+pub(super) fn read(bytes: &[u8]) -> Result<Matrix, FileError> {
+    let mut file = Bytes::new(".vk4", bytes);
+    file.seek(TABLE, "the table of offsets")?;
+    let settings = file.u32("the offset of the settings")? as usize;
+    file.seek(HEIGHTS, "the table of offsets")?;
+    let heights = file.u32("the offset of the heights")? as usize;
+    if heights == 0 {
+        return Err(file.broken(HEIGHTS, "it holds no heights"));
+    }
+    file.seek(settings.saturating_add(LENGTHS), "the settings")?;
+    let mut lengths = [0.0; 3];
+    for length in &mut lengths {
+        *length = f64::from(file.u32("the settings")?) * PICOMETRE;
+    }
+    let [dx, dy, step] = lengths;
+    file.seek(heights, "the heights")?;
+    let columns = file.u32("the number of columns")?;
+    let rows = file.u32("the number of rows")?;
+    let place = file.offset();
+    let bits = file.u32("the bits of a height")?;
+    let shape = checked_shape(rows.into(), columns.into())?;
+    file.take(4 * 4 + PALETTE, "the palette")?;
+    let values = match bits {
+        8 => file.packed(shape, |number| u8::from_le_bytes(number).into())?,
+        16 => file.packed(shape, |number| u16::from_le_bytes(number).into())?,
+        32 => file.packed(shape, |number| u32::from_le_bytes(number).into())?,
+        other => {
+            let what = format!("heights of {other} bits; 8, 16 and 32 are known");
+            return Err(file.broken(place, what));
+        }
+    };
+    let size = [dx * f64::from(columns), dy * f64::from(rows)];
+    Ok(Matrix {
+        size: (dx > 0.0 && dy > 0.0).then_some(Size::Metres(size)),
+        unit: (step > 0.0).then_some(step),
+        ..Matrix::new(values, shape)
+    })
+}

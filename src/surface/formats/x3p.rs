@@ -1,0 +1,167 @@
+//! X3P (ISO 25178-72): a ZIP archive of a description in XML and of the heights in metres, x fastest.
+//!
+//! # Source
+//! ISO 25178-72:2017; OpenGPS, "X3P", <https://sourceforge.net/p/open-gps/mwiki/X3p/>.
+
+use std::fs::File;
+use std::io::{BufReader, Cursor, Read, Seek};
+
+use roxmltree::{Document, Node};
+use zip::ZipArchive;
+
+use super::bytes::{Bytes, checked_shape};
+use crate::surface::error::FileError;
+use crate::surface::matrix::{Matrix, Size};
+
+/// First bytes of a file.
+pub(super) const MAGIC: &[u8] = b"PK\x03\x04";
+
+/// Name of the format in messages.
+const FORMAT: &str = ".x3p";
+
+/// The description within the archive, and the longest one read.
+const DESCRIPTION: &str = "main.xml";
+const LONGEST_DESCRIPTION: u64 = 1 << 24;
+
+/// What the description says.
+struct Description {
+    shape: [usize; 2],
+    /// Pixel lengths along x and y, m.
+    pixel: [f64; 2],
+    /// Metres per unit of the numbers.
+    unit: f64,
+    number: Number,
+    /// Name of the file of the numbers.
+    numbers: String,
+}
+
+/// How numbers are stored.
+#[derive(Clone, Copy)]
+enum Number {
+    Int16,
+    Int32,
+    Single,
+    Double,
+}
+
+/// Reads the heights.
+pub(super) fn read(bytes: &[u8]) -> Result<Matrix, FileError> {
+    let mut archive = open(Cursor::new(bytes))?;
+    let description = describe(&mut archive)?;
+    let [rows, columns] = description.shape;
+    let size_of_number = match description.number {
+        Number::Int16 => 2,
+        Number::Int32 | Number::Single => 4,
+        Number::Double => 8,
+    };
+    let length = rows * columns * size_of_number;
+    let mut numbers = Vec::new();
+    numbers
+        .try_reserve_exact(length)
+        .map_err(|_| FileError::Memory {
+            bytes: length as u64,
+        })?;
+    let entry = archive.by_name(&description.numbers).map_err(broken)?;
+    entry
+        .take(length as u64)
+        .read_to_end(&mut numbers)
+        .map_err(broken)?;
+    let mut numbers = Bytes::new(FORMAT, &numbers);
+    let shape = description.shape;
+    let values = match description.number {
+        Number::Int16 => numbers.packed(shape, |number| i16::from_le_bytes(number).into())?,
+        Number::Int32 => numbers.packed(shape, |number| i32::from_le_bytes(number).into())?,
+        Number::Single => numbers.packed(shape, |number| f32::from_le_bytes(number).into())?,
+        Number::Double => numbers.packed(shape, f64::from_le_bytes)?,
+    };
+    let [dx, dy] = description.pixel;
+    Ok(Matrix {
+        size: Some(Size::Metres([dx * columns as f64, dy * rows as f64])),
+        unit: Some(description.unit),
+        ..Matrix::new(values, shape)
+    })
+}
+
+/// Points along x and y, from the description alone.
+pub(super) fn claimed_points(file: BufReader<File>) -> Option<[usize; 2]> {
+    let [rows, columns] = describe(&mut open(file).ok()?).ok()?.shape;
+    Some([columns, rows])
+}
+
+fn open<R: Read + Seek>(file: R) -> Result<ZipArchive<R>, FileError> {
+    ZipArchive::new(file).map_err(broken)
+}
+
+/// An archive that cannot be read.
+fn broken(problem: impl std::fmt::Display) -> FileError {
+    FileError::Broken {
+        format: FORMAT,
+        offset: 0,
+        what: format!("its archive is not whole ({problem})"),
+    }
+}
+
+/// Reads the description.
+fn describe<R: Read + Seek>(archive: &mut ZipArchive<R>) -> Result<Description, FileError> {
+    let wrong = |what: String| FileError::Broken {
+        format: FORMAT,
+        offset: 0,
+        what: format!("{DESCRIPTION}: {what}"),
+    };
+    let Ok(entry) = archive.by_name(DESCRIPTION) else {
+        return Err(wrong("is not in the archive, which is no .x3p".to_owned()));
+    };
+    let mut text = Vec::new();
+    entry
+        .take(LONGEST_DESCRIPTION)
+        .read_to_end(&mut text)
+        .map_err(broken)?;
+    let text = String::from_utf8_lossy(&text);
+    let document = Document::parse(&text).map_err(|error| wrong(error.to_string()))?;
+    let find = |path: &[&str]| -> Option<&str> {
+        let mut node: Node = document.root_element();
+        for name in path {
+            node = node
+                .children()
+                .find(|child| child.tag_name().name() == *name)?;
+        }
+        node.text().map(str::trim)
+    };
+    let read =
+        |path: &[&str]| find(path).ok_or_else(|| wrong(format!("{} is missing", path.join("/"))));
+    let count = |name: &str| {
+        let path = ["Record3", "MatrixDimension", name];
+        let text = read(&path)?;
+        let count = text.parse::<i64>();
+        count.map_err(|_| wrong(format!("{name} = {text:?} is not a count")))
+    };
+    let length = |axis: &str| {
+        let path = ["Record1", "Axes", axis, "Increment"];
+        let length = read(&path)?.parse().ok();
+        let length = length.filter(|length: &f64| length.is_finite() && *length > 0.0);
+        length.ok_or_else(|| wrong(format!("{} is not a length", path.join("/"))))
+    };
+    if find(&["Record1", "FeatureType"]).is_some_and(|kind| kind != "SUR") || count("SizeZ")? != 1 {
+        return Err(FileError::NotSupported {
+            what: ".x3p files of profiles, point clouds or several layers",
+            instead: "save one surface on a grid",
+        });
+    }
+    let data = read(&["Record1", "Axes", "CZ", "DataType"])?;
+    Ok(Description {
+        shape: checked_shape(count("SizeY")?, count("SizeX")?)?,
+        pixel: [length("CX")?, length("CY")?],
+        unit: match find(&["Record1", "Axes", "CZ", "Increment"]) {
+            None => 1.0,
+            Some(_) => length("CZ")?,
+        },
+        number: match data {
+            "I" => Number::Int16,
+            "L" => Number::Int32,
+            "F" => Number::Single,
+            "D" => Number::Double,
+            other => return Err(wrong(format!("numbers of the unknown type {other:?}"))),
+        },
+        numbers: read(&["Record3", "DataLink", "PointDataLink"])?.to_owned(),
+    })
+}
