@@ -76,6 +76,10 @@ dimensions! {
     PerLength: "1/m", "a reciprocal length in 1/m", "\"0.1 1/um\"";
     /// 1/m^2: a count per area.
     PerArea: "1/m^2", "a count per area in 1/m^2", "\"10 1/um^2\"";
+    /// V.
+    Voltage: "V", "a voltage in V", "\"0.5 V\"";
+    /// m/V.
+    LengthPerVoltage: "m/V", "a length per voltage in m/V", "\"50 nm/V\"";
     /// rad or deg; the SI value is in radians, but see [`angle_from_number`].
     Angle: "rad", "an angle in deg or rad", "\"70 deg\"";
 }
@@ -231,6 +235,8 @@ const PREFIXED: &[(&str, Dimension)] = &[
     ("J/m^2", Dimension::EnergyPerArea),
     ("J/m²", Dimension::EnergyPerArea),
     ("m/s", Dimension::Speed),
+    ("V", Dimension::Voltage),
+    ("m/V", Dimension::LengthPerVoltage),
     ("W/(m K)", Dimension::Conductivity),
     ("W/m/K", Dimension::Conductivity),
 ];

@@ -4,10 +4,14 @@ use std::path::{Path, PathBuf};
 
 use clap::Args;
 
+use super::fit_folder::fit_folder;
 use super::patience::Patience;
-use super::quantity::{positive, quantity};
+use super::quantity::{positive, quantity, share};
 use super::{Failure, folder_or_default, print, say, warn};
-use crate::fit::{FitResult, ForceCurve, Freedom, ModelFit, figure, fit_curve, report};
+use crate::fit::{
+    Calibration, ColumnChoice, CurveColumns, FitError, FitResult, ForceCurve, Freedom, ModelFit,
+    figure, fit_curve, fit_with_slope, report,
+};
 use crate::output::write_atomically;
 use crate::theory::jkr;
 use crate::units::{Dimension, format_si};
@@ -15,13 +19,13 @@ use crate::units::{Dimension, format_si};
 /// What `tabor fit` takes.
 #[derive(Debug, Args)]
 pub(super) struct FitArguments {
-    /// The curve: CSV with the columns approach and force, in SI or with the unit in the head
+    /// The curve: CSV with the columns approach and force, in SI or with the unit in the head; or a folder of curves
     #[arg(value_name = "CURVE.csv", required_unless_present = "pull_off")]
     curve: Option<PathBuf>,
     /// Radius of the sphere, as in "10 um"
     #[arg(long, value_name = "R", value_parser = |text: &str| positive(text, Dimension::Length))]
     radius: f64,
-    /// Folder for fit.json and fit.png [default: the curve's name, in the current folder]
+    /// Folder for fit.json and fit.png [default: the curve's name, in the current folder; for a folder with _fits]
     #[arg(long, value_name = "DIR")]
     out: Option<PathBuf>,
     /// Approach 0 is where the undeformed surfaces first touch; else that place is fitted
@@ -30,6 +34,25 @@ pub(super) struct FitArguments {
     /// Fit the force where nothing acts; else it is 0
     #[arg(long)]
     baseline: bool,
+    /// Fit the slope of that force too
+    #[arg(long)]
+    baseline_slope: bool,
+    /// Columns of an instrument, as in "position=Z [um],deflection=Defl [V]": approach or position (of the cantilever's
+    /// base), force or deflection, each by its name or number; - before it turns its sign
+    #[arg(long, value_name = "QUANTITY=COLUMN", value_delimiter = ',', value_parser = ColumnChoice::parse)]
+    columns: Vec<ColumnChoice>,
+    /// Deflection per volt, as in "50 nm/V"
+    #[arg(long, value_name = "M/V", value_parser = |text: &str| positive(text, Dimension::LengthPerVoltage), requires = "curve")]
+    sensitivity: Option<f64>,
+    /// Spring constant of the cantilever, as in "0.2 N/m"
+    #[arg(long, value_name = "N/M", value_parser = |text: &str| positive(text, Dimension::ForcePerLength), requires = "curve")]
+    spring: Option<f64>,
+    /// Relative standard deviation of the spring constant, as in 10%
+    #[arg(long, value_name = "SHARE", value_parser = share, default_value = "0", hide_default_value = true, requires = "curve")]
+    spring_error: f64,
+    /// Relative standard deviation of the radius
+    #[arg(long, value_name = "SHARE", value_parser = share, default_value = "0", hide_default_value = true, requires = "curve")]
+    radius_error: f64,
     /// Range of the attraction (work of adhesion over its tension), where it is known
     #[arg(long, value_name = "LENGTH", value_parser = |text: &str| positive(text, Dimension::Length))]
     range: Option<f64>,
@@ -59,14 +82,35 @@ pub(super) fn fit(arguments: &FitArguments) -> Result<(), Failure> {
     }
 }
 
+impl FitArguments {
+    /// Fits one curve.
+    pub(super) fn fit_curve(&self, path: &Path) -> Result<FitResult, FitError> {
+        let mut columns = CurveColumns::default();
+        columns.choices.clone_from(&self.columns);
+        (columns.sensitivity, columns.spring) = (self.sensitivity, self.spring);
+        let curve = ForceCurve::read_columns(path, &columns)?;
+        let freedom = Freedom {
+            approach_offset: !self.contact_at_zero,
+            force_offset: self.baseline,
+            range: self.range,
+        };
+        let fit = if self.baseline_slope {
+            fit_with_slope
+        } else {
+            fit_curve
+        };
+        let mut result = fit(&curve, path, self.radius, freedom)?;
+        Calibration::new(self.radius_error, self.spring_error).widen(&mut result);
+        Ok(result)
+    }
+}
+
 fn fit_file(arguments: &FitArguments, path: &Path) -> Result<(), Failure> {
-    let curve = ForceCurve::read(path)?;
-    let freedom = Freedom {
-        approach_offset: !arguments.contact_at_zero,
-        force_offset: arguments.baseline,
-        range: arguments.range,
-    };
-    let result = fit_curve(&curve, path, arguments.radius, freedom)?;
+    if path.is_dir() {
+        let out = folder_or_default(arguments.out.as_deref(), path, "_fits");
+        return fit_folder(arguments, path, &out);
+    }
+    let result = arguments.fit_curve(path)?;
     let folder = folder_or_default(arguments.out.as_deref(), path, "");
     let title = path.file_name().unwrap_or_default().to_string_lossy();
     let mut text = format!("{:#}", report(&result, path));

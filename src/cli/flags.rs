@@ -20,6 +20,16 @@ const OPTIONS: &[(&str, &str)] = &[
     ("resuming goes on after", "--resume goes on after"),
     ("give a longer budget", "give a longer --budget"),
     ("do not fit the baseline if", "leave --baseline out if"),
+    ("or do not fit the slope", "or leave --baseline-slope out"),
+    (
+        "choose one of these, or a number from 1",
+        "choose one of these with --columns, or a number from 1",
+    ),
+    (
+        "needs the spring constant of the cantilever",
+        "needs the spring constant of the cantilever (--spring)",
+    ),
+    ("give its sensitivity,", "give its --sensitivity,"),
     ("Device::cpu()", "--backend cpu"),
     (", from an override", ", from --set"),
     (

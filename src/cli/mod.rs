@@ -8,6 +8,7 @@ mod compare;
 mod devices;
 mod file_limit;
 mod fit;
+mod fit_folder;
 mod flags;
 mod interrupts;
 mod patience;

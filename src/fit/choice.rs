@@ -9,6 +9,7 @@ use super::inversion::{Inversion, invert_curve};
 use super::law_error::{LawError, law_error};
 use super::measured::{Freedom, Measured, ReversedSigns};
 use super::model::{Model, Parameters};
+use super::slope::BaselineSlope;
 use crate::theory::Law;
 use crate::theory::tabor_map::{
     FORCE_DMT_LIMIT, JKR_LIMIT, LAMBDA_PER_MU_MATCHED, Regime, Sphere, regime, tabor_parameter,
@@ -61,6 +62,8 @@ pub struct FitResult {
     pub law_error: Option<LawError>,
     /// Work and modulus from pull-off and one stiffness alone, by JKR.
     pub inversion: Option<Inversion>,
+    /// Slope of the baseline, if it was fitted.
+    pub baseline_slope: Option<BaselineSlope>,
     /// Warnings for the user.
     pub warnings: Vec<String>,
 }
@@ -147,6 +150,7 @@ pub fn fit_curve(
         fits,
         chosen,
         tabor_parameter,
+        baseline_slope: None,
         warnings,
     })
 }

@@ -4,8 +4,9 @@ use std::fs;
 use std::io::Read;
 use std::path::Path;
 
+use super::columns::{CurveColumns, Head, number};
 use super::error::FitError;
-use crate::units::{Dimension, in_range, quoted, unit_factor};
+use crate::units::in_range;
 
 /// Largest file that is read.
 pub const MOST_BYTES: u64 = 256 << 20;
@@ -32,18 +33,23 @@ pub struct ForceCurve {
     pub unconverged: Vec<usize>,
 }
 
-/// A required column: its name, its dimension, and a unit for messages.
-const APPROACH: (&str, Dimension, &str) = ("approach", Dimension::Length, "[nm]");
-const FORCE: (&str, Dimension, &str) = ("force", Dimension::Force, "[nN]");
 /// An optional column that tabor writes.
 const CONVERGED: &str = "converged";
 
 impl ForceCurve {
-    /// Reads a file.
+    /// Reads a file with the columns approach and force.
     ///
     /// # Errors
     /// A file that cannot be read, with the line; fewer than ten rows; columns that never change.
     pub fn read(path: &Path) -> Result<Self, FitError> {
+        ForceCurve::read_columns(path, &CurveColumns::default())
+    }
+
+    /// Reads a file with columns of an instrument.
+    ///
+    /// # Errors
+    /// As [`ForceCurve::read`]; a column that is not there, or a spring constant or a sensitivity that it needs.
+    pub fn read_columns(path: &Path, columns: &CurveColumns) -> Result<Self, FitError> {
         let unreadable = |cause| FitError::Unreadable {
             path: name(path),
             cause,
@@ -66,17 +72,18 @@ impl ForceCurve {
         file.take(bytes)
             .read_to_end(&mut text)
             .map_err(unreadable)?;
-        Self::parse(&text, path)
+        Self::parse(&text, path, columns)
     }
 
     /// Reads the bytes of a file; `path` is for messages.
     ///
     /// Columns are separated by commas, semicolons or tabs, whichever the header has; with the last
-    /// two a comma may be the decimal mark. Lines that begin with `#` are comments.
+    /// two a comma may be the decimal mark. A table without a header may be separated by blanks, and its columns
+    /// are chosen by their numbers. Lines that begin with `#` are comments.
     ///
     /// # Errors
-    /// As [`ForceCurve::read`].
-    pub fn parse(bytes: &[u8], path: &Path) -> Result<Self, FitError> {
+    /// As [`ForceCurve::read_columns`].
+    pub fn parse(bytes: &[u8], path: &Path, columns: &CurveColumns) -> Result<Self, FitError> {
         let bytes = bytes.strip_prefix(b"\xEF\xBB\xBF").unwrap_or(bytes);
         let text = std::str::from_utf8(bytes)
             .ok()
@@ -88,20 +95,39 @@ impl ForceCurve {
             .filter(|(_, line)| !line.is_empty() && !line.starts_with('#'));
         let no_head = || FitError::NoHead { path: name(path) };
         let (line, head) = lines.next().ok_or_else(no_head)?;
-        let separator = [';', '\t'].into_iter().find(|s| head.contains(*s));
-        let separator = separator.unwrap_or(',');
-        let names: Vec<&str> = head.split(separator).map(unquoted).collect();
-        if names.iter().any(|name| number(name, separator).is_some()) {
+        let separator = [';', '\t', ','].into_iter().find(|s| head.contains(*s));
+        let separator = separator.unwrap_or(if head.contains(' ') { ' ' } else { ',' });
+        let names: Vec<&str> = split(head, separator);
+        let is_number = |name: &&str| number(name, separator).is_some();
+        let has_head = !names.iter().any(is_number);
+        // Numbers name columns only where all of them do.
+        let are_numbered = |columns: &CurveColumns| {
+            let mut choices = columns.choices.iter();
+            columns.choices.len() >= 2
+                && choices.all(|choice| choice.column.parse::<usize>().is_ok())
+        };
+        if !has_head && !are_numbered(columns) {
             return Err(no_head());
         }
+        // A header of words between single blanks cannot be told from words of several parts.
+        let separator = if has_head && separator == ' ' {
+            ','
+        } else {
+            separator
+        };
+        let names = match (has_head, separator) {
+            (true, _) => split(head, separator),
+            // Empty names, so that no number is taken for the name of a column.
+            (false, _) => vec![""; names.len()],
+        };
+        let head_row = (!has_head).then_some((line, head));
         let head = Head { path, line, names };
-        let approach = head.column(APPROACH)?;
-        let force = head.column(FORCE)?;
+        let columns = head.columns(columns)?;
         let converged = head.names.iter().position(|name| *name == CONVERGED);
 
         let mut curve = ForceCurve::default();
-        for (line, text) in lines {
-            let cells: Vec<&str> = text.split(separator).map(unquoted).collect();
+        for (line, text) in head_row.into_iter().chain(lines) {
+            let cells = split(text, separator);
             if cells.len() != head.names.len() {
                 return Err(FitError::Ragged {
                     path: name(path),
@@ -114,10 +140,9 @@ impl ForceCurve {
                 curve.unconverged.push(line);
                 continue;
             }
-            let value = |column: &Column| column.value(path, line, &cells, separator);
-            match (value(&approach)?, value(&force)?) {
-                (Some(approach), Some(force)) => curve.samples.push(Sample { approach, force }),
-                _ => curve.incomplete.push(line),
+            match columns.sample(path, line, &cells, separator)? {
+                Some((approach, force)) => curve.samples.push(Sample { approach, force }),
+                None => curve.incomplete.push(line),
             }
         }
         curve.check(path)?;
@@ -148,8 +173,8 @@ impl ForceCurve {
                 rows: self.samples.len(),
             });
         }
-        extreme(APPROACH.0, |sample| sample.approach)?;
-        extreme(FORCE.0, |sample| sample.force)?;
+        extreme("approach", |sample| sample.approach)?;
+        extreme("force", |sample| sample.force)?;
         let first = self.samples[0];
         let constant = |column, same: fn(&Sample, &Sample) -> bool| {
             if self.samples.iter().all(|sample| same(sample, &first)) {
@@ -160,8 +185,8 @@ impl ForceCurve {
             }
             Ok(())
         };
-        constant(APPROACH.0, |a, b| a.approach == b.approach)?;
-        constant(FORCE.0, |a, b| a.force == b.force)
+        constant("approach", |a, b| a.approach == b.approach)?;
+        constant("force", |a, b| a.force == b.force)
     }
 }
 
@@ -170,113 +195,16 @@ pub(super) fn name(path: &Path) -> String {
     path.display().to_string()
 }
 
-/// The header with the names of the columns.
-struct Head<'a> {
-    path: &'a Path,
-    line: usize,
-    names: Vec<&'a str>,
-}
-
-/// Index of a column and the factor to SI.
-struct Column {
-    name: &'static str,
-    place: usize,
-    factor: f64,
-}
-
-impl Head<'_> {
-    fn column(
-        &self,
-        (column, dimension, example): (&'static str, Dimension, &'static str),
-    ) -> Result<Column, FitError> {
-        let mut found = None;
-        for (place, text) in self.names.iter().enumerate() {
-            let (word, unit) = name_and_unit(text);
-            if !word.eq_ignore_ascii_case(column) {
-                continue;
-            }
-            if found.is_some() {
-                return Err(FitError::TwoColumns {
-                    path: name(self.path),
-                    line: self.line,
-                    column,
-                });
-            }
-            let factor = unit.map_or(Ok(1.0), |unit| unit_factor(unit, dimension));
-            let factor = factor.map_err(|cause| FitError::Unit {
-                path: name(self.path),
-                line: self.line,
-                column,
-                cause,
-            })?;
-            found = Some(Column {
-                name: column,
-                place,
-                factor,
-            });
-        }
-        found.ok_or_else(|| FitError::NoColumn {
-            path: name(self.path),
-            line: self.line,
-            column,
-            example,
-            found: quoted(&self.names.join(", ")),
-        })
+/// The cells of a line.
+fn split(line: &str, separator: char) -> Vec<&str> {
+    match separator {
+        ' ' => line.split_whitespace().map(unquoted).collect(),
+        _ => line.split(separator).map(unquoted).collect(),
     }
-}
-
-impl Column {
-    /// The value in SI; `None` where it is missing.
-    fn value(
-        &self,
-        path: &Path,
-        line: usize,
-        cells: &[&str],
-        separator: char,
-    ) -> Result<Option<f64>, FitError> {
-        let text = cells[self.place];
-        let missing = ["", "nan", "na", "n/a"];
-        if missing.iter().any(|word| text.eq_ignore_ascii_case(word)) {
-            return Ok(None);
-        }
-        number(text, separator)
-            .map(|value| value * self.factor)
-            .filter(|value| value.is_finite())
-            .map(Some)
-            .ok_or_else(|| FitError::NotANumber {
-                path: name(path),
-                line,
-                column: self.name,
-                text: quoted(text),
-            })
-    }
-}
-
-/// `force [nN]` or `force (nN)` as name and unit.
-fn name_and_unit(text: &str) -> (&str, Option<&str>) {
-    for (open, close) in [('[', ']'), ('(', ')')] {
-        if let Some((name, rest)) = text.split_once(open) {
-            return (name.trim(), Some(rest.trim_end().trim_end_matches(close)));
-        }
-    }
-    (text, None)
 }
 
 fn unquoted(cell: &str) -> &str {
     cell.trim().trim_matches('"').trim()
-}
-
-/// A number, with a decimal comma if commas do not separate.
-fn number(text: &str, separator: char) -> Option<f64> {
-    // `parse` accepts these words, but instruments do not mean them as numbers.
-    let worded = |c: char| c.is_ascii_alphabetic() && !matches!(c, 'e' | 'E');
-    if text.contains(worded) {
-        return None;
-    }
-    if separator != ',' && text.matches(',').count() == 1 && !text.contains('.') {
-        return text.replace(',', ".").parse().ok();
-    }
-    text.parse().ok()
 }
 
 #[cfg(test)]
@@ -292,7 +220,12 @@ mod tests {
             .map_or(2, |head| head.split(separator).count());
         let filler = vec!["7"; columns].join(separator) + "\n";
         let text = format!("{text}{}", filler.repeat(LEAST_ROWS));
-        let curve = ForceCurve::parse(text.as_bytes(), Path::new("curve.csv")).unwrap();
+        let curve = ForceCurve::parse(
+            text.as_bytes(),
+            Path::new("curve.csv"),
+            &CurveColumns::default(),
+        )
+        .unwrap();
         let pairs = curve.samples.iter().map(|s| (s.approach, s.force));
         pairs.take(curve.samples.len() - LEAST_ROWS).collect()
     }
@@ -333,7 +266,12 @@ mod tests {
         for row in 0..LEAST_ROWS {
             text += &format!("{row},{row},true\n");
         }
-        let curve = ForceCurve::parse(text.as_bytes(), Path::new("curve.csv")).unwrap();
+        let curve = ForceCurve::parse(
+            text.as_bytes(),
+            Path::new("curve.csv"),
+            &CurveColumns::default(),
+        )
+        .unwrap();
         assert_eq!(curve.incomplete, [2, 3]);
         assert_eq!(curve.unconverged, [4]);
         assert_eq!(curve.samples.len(), LEAST_ROWS);

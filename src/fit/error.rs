@@ -64,6 +64,40 @@ pub enum FitError {
         /// The columns present.
         found: String,
     },
+    /// A chosen column is missing.
+    #[error(
+        "{path}, line {line}: no column {column} for the {quantity} among {found}; choose one of these, or a number from 1"
+    )]
+    NoChosenColumn {
+        /// The file.
+        path: String,
+        /// The line of the head, from 1.
+        line: usize,
+        /// The name of the missing column, quoted.
+        column: String,
+        /// What it was chosen for.
+        quantity: &'static str,
+        /// The columns present.
+        found: String,
+    },
+    /// A spring constant is needed.
+    #[error(
+        "{path}: the {column} needs the spring constant of the cantilever to give approach and force"
+    )]
+    NoSpring {
+        /// The file.
+        path: String,
+        /// The column that needs it.
+        column: &'static str,
+    },
+    /// The sensitivity of a deflection in volts is needed.
+    #[error(
+        "{path}: the deflection is in volts; give its sensitivity, the length that a volt is, as in 50 nm/V"
+    )]
+    NoSensitivity {
+        /// The file.
+        path: String,
+    },
     /// A column occurs twice.
     #[error(
         "{path}, line {line}: there are two columns `{column}`; leave one, or name the other differently"
@@ -74,7 +108,7 @@ pub enum FitError {
         /// The line of the head, from 1.
         line: usize,
         /// The column.
-        column: &'static str,
+        column: String,
     },
     /// A unit in the header is unknown or of the wrong dimension.
     #[error("{path}, line {line}, column `{column}`: {cause}")]
@@ -143,6 +177,16 @@ pub enum FitError {
         path: String,
         /// The column.
         column: &'static str,
+    },
+    /// Too few points to know the slope of the baseline.
+    #[error(
+        "{path}: {points} points lie where no force acts, too few for the slope of the baseline; measure farther apart, or do not fit the slope"
+    )]
+    NoBaseline {
+        /// The file.
+        path: String,
+        /// Points without force.
+        points: usize,
     },
     /// No row is in compression.
     #[error(

@@ -7,9 +7,10 @@
 //!
 //! Signs are those of the results: force is positive in compression, approach is positive closer.
 //! Everything is in SI. `docs/fit.md` describes the method and its limits.
-//! positive closer. Everything is in SI. How it works, with its limits, is told in `docs/fit.md`.
 
+mod calibration;
 mod choice;
+mod columns;
 mod curve_file;
 mod error;
 mod estimate;
@@ -24,9 +25,12 @@ pub mod model;
 mod picture;
 mod report;
 mod segments;
+mod slope;
 mod start;
 
+pub use calibration::Calibration;
 pub use choice::{FitResult, fit_curve};
+pub use columns::{ColumnChoice, CurveColumns, CurveQuantity};
 pub use curve_file::{ForceCurve, Sample};
 pub use error::FitError;
 pub use estimate::{ModelFit, Uncertainties};
@@ -42,3 +46,4 @@ pub use picture::figure;
 pub use report::report;
 #[doc(hidden)]
 pub use segments::{Segment, segments};
+pub use slope::{BaselineSlope, fit_with_slope};

@@ -35,6 +35,12 @@ pub fn report(result: &FitResult, path: &Path) -> Value {
         "contact_modulus",
         measurement(best.parameters.contact_modulus, result.modulus_uncertainty),
     );
+    put(
+        "baseline_slope",
+        result.baseline_slope.map_or(Value::Null, |slope| {
+            measurement(slope.value, Some(slope.uncertainty))
+        }),
+    );
     put("tabor_parameter", json!(result.tabor_parameter));
     put(
         "law_error",

@@ -5,6 +5,7 @@ use std::process::ExitCode;
 mod accuracy;
 mod compare;
 mod contact;
+mod force_curves;
 mod hostile_calls;
 mod kept;
 mod mistakes;
@@ -24,6 +25,7 @@ fn main() -> ExitCode {
         accuracy::tests(),
         compare::tests(),
         contact::tests(),
+        force_curves::tests(),
         hostile_calls::tests(),
         kept::tests(),
         mistakes::tests(),

@@ -2,7 +2,9 @@
 
 use std::fs;
 
-use tabor::fit::{FitError, ForceCurve, Freedom, Sample, fit_curve};
+use tabor::fit::{
+    ColumnChoice, CurveColumns, FitError, ForceCurve, Freedom, Sample, fit_curve, fit_with_slope,
+};
 
 use super::Reached;
 
@@ -133,6 +135,69 @@ pub fn reached() -> Vec<Reached> {
         assert!(message.contains("curve.csv"), "{variant}: {message}");
         reach(variant, &error);
     }
+    // Columns of an instrument.
+    let raw = |row: &str| rows("Z [um],Defl [V],F [nN]", 20, |_| row.to_owned());
+    for (variant, choices, text, expected) in [
+        (
+            "NoChosenColumn",
+            "position=height,deflection=Defl",
+            raw("1,2,3"),
+            "line 1: no column \"height\" for the position among \"Z [um], Defl [V], F [nN]\"; choose one of these",
+        ),
+        (
+            "NoChosenColumn",
+            "position=4,deflection=Defl",
+            raw("1,2,3"),
+            "no column \"4\" for the position",
+        ),
+        (
+            "NoSensitivity",
+            "position=Z,deflection=Defl",
+            raw("1,2,3"),
+            "the deflection is in volts; give its sensitivity",
+        ),
+        (
+            "NoSpring",
+            "position=Z,force=F",
+            raw("1,2,3"),
+            "the position needs the spring constant",
+        ),
+        (
+            "NoSpring",
+            "approach=Z,deflection=Defl [nm]",
+            raw("1,2,3"),
+            "the deflection needs the spring constant",
+        ),
+    ] {
+        fs::write(&path, text).expect("written");
+        let mut columns = CurveColumns::default();
+        let choices = choices.split(',').map(ColumnChoice::parse);
+        columns.choices = choices.collect::<Result<_, _>>().expect("choices");
+        let error = ForceCurve::read_columns(&path, &columns).expect_err(variant);
+        let message = error.to_string();
+        assert!(message.contains(expected), "{variant}: {message}");
+        reach(variant, &error);
+    }
+    for text in ["position", "height=Z", "position=", "position=-"] {
+        let said = ColumnChoice::parse(text).expect_err(text);
+        assert!(said.contains("QUANTITY=COLUMN"), "{text}: {said}");
+    }
+    // Contact up to the farthest point: there is no baseline.
+    let pressed = rows(head, 40, |i| {
+        format!("{i}e-9,{:e}", 1e-9 * (i as f64).powf(1.5))
+    });
+    fs::write(&path, pressed).expect("written");
+    let curve = ForceCurve::read(&path).expect("a curve");
+    let known = Freedom {
+        approach_offset: false,
+        ..FREE
+    };
+    let error = fit_with_slope(&curve, &path, 1e-6, known).expect_err("no baseline");
+    assert!(
+        error.to_string().contains("too few for the slope"),
+        "{error}"
+    );
+    reach("NoBaseline", &error);
     for bytes in [&b"approach,force\n1,\xff\n"[..], b"approach,force\n1,2\0\n"] {
         fs::write(&path, bytes).expect("written");
         let error = ForceCurve::read(&path).expect_err("no text");

@@ -42,7 +42,7 @@ fn table() -> Vec<BadFile> {
     let bad = |name, bytes: &[u8], variant, expected| BadFile { name, bytes: bytes.to_vec(), more: "", variant, expected };
     let good = |more, variant, expected| BadFile { name: "map.txt", bytes: b"1 2 3\n4 5 6\n".to_vec(), more, variant, expected };
     vec![
-        bad("map.stl", b"solid", "FileError::NotInThisVersion", "height files of kind .stl are not in this version; save the heights as"),
+        bad("map.stl", b"solid", "FileError::NotInThisVersion", "height files of kind .stl are not in this version; docs/surfaces.md lists those that are"),
         bad("map", b"1 2\n", "FileError::NoExtension", "the name has no extension and the first bytes are those of no known kind; name it .txt"),
         bad("empty.npy", b"", "FileError::Empty", "the file is empty (0 bytes)"),
         bad("empty.txt", b"", "FileError::Empty", "the file is empty (0 bytes)"),

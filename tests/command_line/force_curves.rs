@@ -1,0 +1,257 @@
+//! `tabor fit` with curves as instruments write them: piezo position and deflection in volts, a baseline that is not
+//! level, errors of spring and radius, folders of curves.
+
+use std::fs;
+use std::path::Path;
+
+use serde_json::Value;
+use tabor::theory::jkr;
+use tabor::theory::tabor_map::Sphere;
+
+use crate::shared::binary::{errors, status, tabor};
+use crate::shared::random::Random;
+use crate::shared::trials::tests;
+
+const RADIUS: f64 = 5e-6;
+const WORK: f64 = 0.04;
+const MODULUS: f64 = 2e6;
+/// Cantilever: N/m, and m/V.
+const SPRING: f64 = 0.3;
+const SENSITIVITY: f64 = 60e-9;
+
+/// Approach and force of a JKR sphere that is pressed and pulled off, with noise of 1 % of the pull-off force.
+fn curve(seed: u64) -> Vec<[f64; 2]> {
+    let sphere = Sphere::new(RADIUS, MODULUS, WORK).expect("a sphere");
+    let (nearest, count) = (600e-9, 200);
+    let step = |i: usize| -nearest / 2.0 + 1.5 * nearest * i as f64 / count as f64;
+    // The approach at which a sphere held by its approach lets go.
+    let mut grip = 0.0;
+    while jkr::contact_radius_at_approach(&sphere, grip - 1e-9).is_ok() {
+        grip -= 1e-9;
+    }
+    let force = |approach: f64, from: f64| {
+        let radius = (approach >= from).then(|| jkr::contact_radius_at_approach(&sphere, approach));
+        radius.map_or(0.0, |radius| {
+            jkr::force(&sphere, radius.expect("in contact"))
+        })
+    };
+    let noise = 0.01 * jkr::pull_off_force(&sphere).abs();
+    let mut random = Random(seed);
+    let mut disturbed =
+        |approach: f64, from: f64| [approach, force(approach, from) + noise * random.normal()];
+    let mut points: Vec<[f64; 2]> = (0..count).map(|i| disturbed(step(i), 0.0)).collect();
+    points.extend((0..count).rev().map(|i| disturbed(step(i), grip)));
+    points
+}
+
+fn table(head: &str, rows: &[[f64; 2]], line: impl Fn([f64; 2]) -> String) -> String {
+    let lines: String = rows.iter().map(|row| line(*row) + "\n").collect();
+    format!("{head}{lines}")
+}
+
+/// What `tabor fit` says of a file with these options.
+fn fit(folder: &Path, text: &str, options: &[&str]) -> Value {
+    fs::write(folder.join("curve.txt"), text).expect("written");
+    let call = [
+        &["fit", "curve.txt", "--radius", "5 um", "--out", "out"],
+        options,
+    ]
+    .concat();
+    let output = tabor(folder, &call);
+    assert_eq!(status(&output), 0, "{options:?}: {}", errors(&output));
+    let found = fs::read(folder.join("out/fit.json")).expect("a result");
+    serde_json::from_slice(&found).expect("JSON")
+}
+
+/// Value and uncertainty of a quantity.
+fn quantity(found: &Value, name: &str) -> [f64; 2] {
+    ["value", "uncertainty"].map(|key| {
+        found[name][key]
+            .as_f64()
+            .unwrap_or_else(|| panic!("{name}: {found}"))
+    })
+}
+
+fn position_and_deflection_give_what_approach_and_force_give() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let rows = curve(1);
+    let plain = table("approach,force\n", &rows, |[x, f]| format!("{x:e},{f:e}"));
+    let plain = fit(folder.path(), &plain, &[]);
+    let volts = |force: f64| force / SPRING / SENSITIVITY;
+    let position = |[approach, force]: [f64; 2]| approach + force / SPRING;
+    // The piezo's height falls as the surfaces come closer.
+    let raw = table("Time;Height (um);Defl [mV]\n", &rows, |row| {
+        format!("0;{:e};{:e}", -1e6 * position(row), 1e3 * volts(row[1]))
+    });
+    let spring = ["--spring", "0.3 N/m"];
+    let sensitivity = ["--sensitivity", "60 nm/V"];
+    let columns = ["--columns", "position=-height,deflection=defl"];
+    let by_name = [&columns[..], &spring, &sensitivity].concat();
+    let bare = table("# volts and metres\n", &rows, |row| {
+        format!("{:e}  {:e}", volts(row[1]), position(row))
+    });
+    let by_number = [
+        &["--columns", "position=2,deflection=1"][..],
+        &spring,
+        &sensitivity,
+    ]
+    .concat();
+    let forces = table("z [nm]\tforce [nN]\n", &rows, |row| {
+        format!("{:e}\t{:e}", 1e9 * position(row), 1e9 * row[1])
+    });
+    let with_force = [&["--columns", "position=z"][..], &spring].concat();
+    for (text, options) in [(raw, by_name), (bare, by_number), (forces, with_force)] {
+        let found = fit(folder.path(), &text, &options);
+        assert_eq!(found["model"], plain["model"], "{options:?}");
+        for name in ["work_of_adhesion", "contact_modulus", "approach_offset"] {
+            let (here, there) = (quantity(&found, name), quantity(&plain, name));
+            // The same numbers but for their last digits; the search ends within a hundredth of the uncertainty.
+            assert!(
+                (here[0] - there[0]).abs() < 0.01 * there[1],
+                "{name}: {here:?} {there:?}"
+            );
+        }
+    }
+    // Three deviations contain what the curve was made of.
+    for (name, truth) in [("work_of_adhesion", WORK), ("contact_modulus", MODULUS)] {
+        let [value, deviation] = quantity(&plain, name);
+        assert!(
+            (value - truth).abs() < 3.0 * deviation,
+            "{name}: {value:e} {deviation:e}"
+        );
+    }
+}
+
+fn errors_of_spring_and_radius_are_carried_into_the_result() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let text = table("approach,force\n", &curve(2), |[x, f]| {
+        format!("{x:e},{f:e}")
+    });
+    let plain = fit(folder.path(), &text, &[]);
+    let wide = fit(
+        folder.path(),
+        &text,
+        &["--spring-error", "8%", "--radius-error", "0.06"],
+    );
+    // w goes with k/R, E* with k/sqrt(R).
+    for (name, error) in [
+        ("work_of_adhesion", 0.1),
+        ("contact_modulus", 0.08_f64.hypot(0.03)),
+    ] {
+        let (before, after) = (quantity(&plain, name), quantity(&wide, name));
+        assert_eq!(before[0], after[0]);
+        let expected = before[1].hypot(error * before[0]);
+        assert!(
+            (after[1] / expected - 1.0).abs() < 1e-9,
+            "{name}: {after:?} {expected:e}"
+        );
+    }
+    for wrong in ["-1%", "150%", "ten"] {
+        let call = [
+            "fit",
+            "curve.txt",
+            "--radius",
+            "5 um",
+            "--spring-error",
+            wrong,
+        ];
+        let output = tabor(folder.path(), &call);
+        assert_eq!(status(&output), 2, "{wrong}");
+    }
+}
+
+fn a_baseline_with_a_slope_is_levelled() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let mut missed = 0;
+    for seed in 0..4 {
+        let (slope, offset) = (2e-2 * (1.0 + seed as f64), 3e-8);
+        let text = table("approach,force\n", &curve(10 + seed), |[x, f]| {
+            format!("{x:e},{:e}", f + offset + slope * x)
+        });
+        let found = fit(folder.path(), &text, &["--baseline-slope"]);
+        for (name, truth) in [
+            ("work_of_adhesion", WORK),
+            ("contact_modulus", MODULUS),
+            ("baseline_slope", slope),
+            ("force_offset", offset),
+        ] {
+            let [value, deviation] = quantity(&found, name);
+            let away = (value - truth).abs() / deviation;
+            missed += usize::from(away > 2.0);
+            assert!(
+                away < 4.0,
+                "{seed}, {name}: {value:e} +- {deviation:e}, is {truth:e}"
+            );
+        }
+    }
+    // One of twenty in the mean; five of sixteen happen once in a thousand.
+    assert!(missed < 5, "{missed} of 16 beyond two deviations");
+}
+
+fn a_folder_of_curves_gives_a_table_a_histogram_and_the_failures() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let curves = folder.path().join("map");
+    fs::create_dir(&curves).expect("made");
+    for seed in 0..6 {
+        let text = table("approach,force\n", &curve(20 + seed), |[x, f]| {
+            format!("{x:e},{f:e}")
+        });
+        fs::write(curves.join(format!("point_{seed}.csv")), text).expect("written");
+    }
+    fs::write(curves.join("broken.csv"), "approach,force\n1,much\n").expect("written");
+    fs::write(curves.join("notes.md"), "no curve").expect("written");
+    let call = ["fit", "map", "--radius", "5 um"];
+    let output = tabor(folder.path(), &call);
+    let said = errors(&output);
+    assert_eq!(status(&output), 0, "{said}");
+    assert!(
+        said.contains("6 of 7 curves fitted") && said.contains("work of adhesion: median"),
+        "{said}"
+    );
+    assert!(said.contains("broken.csv, line 2"), "{said}");
+    let out = folder.path().join("map_fits");
+    let table = fs::read_to_string(out.join("fits.csv")).expect("a table");
+    let rows: Vec<Vec<&str>> = table
+        .lines()
+        .map(|line| line.split(',').collect())
+        .collect();
+    assert_eq!(rows.len(), 8, "{table}");
+    assert!(
+        rows[1][0] == "broken.csv" && table.contains("is not a number"),
+        "{table}"
+    );
+    for row in &rows[2..] {
+        let work: f64 = row[2].parse().expect("a number");
+        let deviation: f64 = row[3].parse().expect("a number");
+        assert!((work - WORK).abs() < 4.0 * deviation, "{row:?}");
+        for end in ["json", "png"] {
+            assert!(out.join(format!("{}.{end}", row[0])).is_file());
+        }
+    }
+    assert!(fs::metadata(out.join("fits.png")).expect("a picture").len() > 1000);
+    // The same table again, byte by byte, and a folder of others is left alone.
+    assert_eq!(status(&tabor(folder.path(), &call)), 0);
+    assert_eq!(
+        fs::read_to_string(out.join("fits.csv")).expect("a table"),
+        table
+    );
+    fs::write(out.join("fits.csv"), "mine\n").expect("written");
+    assert_eq!(status(&tabor(folder.path(), &call)), 2);
+    let empty = tabor(
+        folder.path(),
+        &["fit", "map_fits", "--radius", "5 um", "--out", "x"],
+    );
+    assert_eq!(status(&empty), 2);
+    assert!(
+        errors(&empty).contains("no curve in this folder"),
+        "{}",
+        errors(&empty)
+    );
+}
+
+tests![
+    position_and_deflection_give_what_approach_and_force_give,
+    errors_of_spring_and_radius_are_carried_into_the_result,
+    a_baseline_with_a_slope_is_levelled,
+    a_folder_of_curves_gives_a_table_a_histogram_and_the_failures,
+];
