@@ -33,7 +33,7 @@ fn main() -> Result<(), Box<dyn Error>> {
         let jump = match solution.jump {
             Some(Jump::In) => "in",
             Some(Jump::Off) => "off",
-            None => "",
+            _ => "",
         };
         println!(
             "{approach:.6e},{:.6e},{:.6},{},{jump}",

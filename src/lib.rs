@@ -29,7 +29,7 @@
 //! # }
 //! ```
 //!
-//! # From where to go on
+//! # Where to look next
 //!
 //! - [`Contact`]: what touches what; everything that a scene file can say has a method.
 //! - [`Solution`], [`Path`]: a solved load as arrays; loads one after another.
@@ -37,8 +37,7 @@
 //! - [`Device`]: the processor, or a graphics processor.
 //! - [`scene`], [`surface`]: the tables of a scene; heights, their statistics and spectra.
 //! - [`theory`]: closed forms to compare with.
-//! - [`fit`], [`mod@compare`], [`accuracy`]: a force curve fitted; several models of one surface; what accuracy
-//!   costs.
+//! - [`fit`]: work of adhesion and modulus from a measured force curve.
 //! - [`output`]: the files of a run, to read and to write.
 //!
 //! # Features
@@ -74,7 +73,7 @@
 //! | [`theory`] | closed forms and models to compare with: Hertz, JKR, Maugis, Persson and others |
 //! | [`compare`] | one rough surface through the full field and the models of it, with seconds and ranges |
 //! | [`fit`] | work of adhesion and modulus from a measured force curve |
-//! | [`accuracy`] | error against seconds: a scene over grids, precisions, steps and models |
+//! | `accuracy` | error against seconds: a scene over grids, precisions, steps and models |
 //! | `cli` | the command line |
 //!
 //! # What an iteration does
@@ -109,7 +108,7 @@
 //! ten dispatches and 0.8 fields less. Of the dispatches and fields
 //! of a law with a tail two each are a pass of the search for the step length, which behind a wall looks at four
 //! steps; of Lennard-Jones the first step rides in the trial. A pass that is not needed moves nothing; a
-//! search that needs more goes on in the next round, which does nothing else. In the rounds of mixed
+//! search that needs more continues in the next round, which does nothing else. In the rounds of mixed
 //! precision every kernel of a law reads two fields more. Under a mean gap the trial step is scaled back to
 //! it: by linearity, so that no pass comes between, but with Lennard-Jones and with a hardness, where
 //! the share that is added to a point is not linear in its step.
@@ -121,12 +120,14 @@
 // Both macros panic where nobody reads; `cli` has one place for each stream.
 #![cfg_attr(not(test), deny(clippy::print_stdout, clippy::print_stderr))]
 
-pub mod accuracy;
+#[cfg(feature = "cli")]
+mod accuracy;
 #[doc(hidden)]
 pub mod backend;
 #[cfg(feature = "cli")]
 mod cli;
 mod clock;
+#[doc(hidden)]
 pub mod compare;
 mod contact;
 #[doc(hidden)]

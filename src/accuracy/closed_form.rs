@@ -120,7 +120,7 @@ fn sphere(
     };
     let area = size[0] * size[1];
     let most_compressed_step = most_compressed_step(scene);
-    let mut branch = Branch::Apart;
+    let mut branch = Branch::Separated;
     let mut steps = Vec::with_capacity(scene.loading.path.len());
     let mut profile = None;
     let mut touched = false;
@@ -172,7 +172,7 @@ fn sphere(
 /// The branch of equilibria of the sphere.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 enum Branch {
-    Apart,
+    Separated,
     /// Attracted without contact.
     Open,
     Touching,
@@ -200,14 +200,14 @@ impl Theory {
         by_force: bool,
     ) -> Result<(Branch, Option<Held>), TheoryError> {
         let touching = self.touching(value, by_force)?;
-        let apart = Ok((Branch::Apart, None));
+        let separated = Ok((Branch::Separated, None));
         let (theory, scales) = match self {
             Theory::Hertz(_) | Theory::Jkr(_) => {
                 // Without a range there is no attraction before contact.
                 let meets = from == Branch::Touching || value >= 0.0;
                 return match touching.filter(|_| meets) {
                     Some(held) => Ok((Branch::Touching, Some(held))),
-                    None => apart,
+                    None => separated,
                 };
             }
             Theory::Maugis(theory, scales) => (theory, scales),
@@ -217,12 +217,12 @@ impl Theory {
             let meets = from == Branch::Touching || value > 0.0;
             return match touching.filter(|_| meets) {
                 Some(held) => Ok((Branch::Touching, Some(held))),
-                None => apart,
+                None => separated,
             };
         }
         let approach = value / scales.approach;
-        if from == Branch::Apart && approach < -theory.range() {
-            return apart;
+        if from == Branch::Separated && approach < -theory.range() {
+            return separated;
         }
         let fold = 8.0 / (3.0 * PI) * theory.lambda();
         let open = theory
@@ -234,9 +234,9 @@ impl Theory {
         let touching = touching.map(|held| (Branch::Touching, Some(held)));
         let found = match from {
             Branch::Touching => touching.or(open),
-            Branch::Open | Branch::Apart => open.or(touching),
+            Branch::Open | Branch::Separated => open.or(touching),
         };
-        found.map_or(apart, Ok)
+        found.map_or(separated, Ok)
     }
 
     /// The stable touching state at an approach or under a force.

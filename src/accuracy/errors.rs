@@ -18,9 +18,6 @@ pub struct Errors {
 }
 
 impl Errors {
-    /// Their names in tables, in the order of [`Errors::all`].
-    pub const NAMES: [&str; 4] = ["area", "force", "pressure", "pull_off"];
-
     /// All four.
     pub fn all(&self) -> [Option<f64>; 4] {
         [self.area, self.force, self.pressure, self.pull_off]

@@ -20,7 +20,6 @@ mod grid_independent;
 mod grids;
 mod measure;
 mod pareto;
-#[cfg(feature = "images")]
 mod picture;
 mod provider;
 mod reference;
@@ -31,31 +30,10 @@ mod steps;
 mod study;
 mod table;
 
-#[doc(hidden)]
-pub use cells::means;
-#[doc(hidden)]
-pub use closed_form::closed_form;
 pub use error::AccuracyError;
-pub use errors::Errors;
-#[doc(hidden)]
-pub use grid_independent::GridIndependentSurface;
-#[doc(hidden)]
-pub use grids::LEAST_POINTS;
-pub use measure::{Measured, Point};
-pub use pareto::{cheapest, pareto};
-#[cfg(feature = "images")]
+pub use pareto::pareto;
 pub use picture::picture;
 pub use provider::{BackendProvider, Listener, ProvidedBackend};
-pub use reference::Reference;
-pub use report::{LeftOut, Report, Row, duration};
-#[doc(hidden)]
-pub use richardson::{Extrapolated, extrapolate};
-#[doc(hidden)]
-pub use setting::others;
-pub use setting::{Model, Setting, Taper, Varied};
-#[doc(hidden)]
-pub use steps::{PathVariant, Steps};
-#[doc(hidden)]
+pub use report::{Report, duration};
 pub use study::Study;
-#[doc(hidden)]
-pub use table::{LEVELS, csv, expect_place, screen, write_csv};
+pub use table::{expect_place, screen, write_csv};

@@ -36,7 +36,7 @@ pub trait Listener: Send {
     /// A run begins; it will take about this many seconds.
     fn begins(&mut self, words: &str, seconds: f64);
     /// Called at each iteration; `false` ends the study.
-    fn goes_on(&mut self, step: usize, iteration: usize, residual: f64) -> bool;
+    fn iteration(&mut self, step: usize, iteration: usize, residual: f64) -> bool;
     /// A note for the user.
     fn note(&mut self, text: &str);
     /// A row is finished; the report contains all rows so far.

@@ -55,19 +55,6 @@ pub enum Varied {
 }
 
 impl Varied {
-    /// Every kind.
-    pub const ALL: [Varied; 9] = [
-        Varied::Nothing,
-        Varied::Tolerance,
-        Varied::Precision,
-        Varied::Taper,
-        Varied::Steps,
-        Varied::TimeTolerance,
-        Varied::Range,
-        Varied::Dmt,
-        Varied::NoAdhesion,
-    ];
-
     /// Its name in tables and legends.
     pub fn name(self) -> &'static str {
         match self {

@@ -387,7 +387,7 @@ impl<'a> Study<'a> {
         let (began, clock, budget) = (Clock::start(), self.clock, self.budget);
         let mut interrupted = false;
         let mut watch = |step: usize, scalars: &Scalars| {
-            interrupted = !listener.goes_on(step, scalars.iterations as usize, scalars.residual);
+            interrupted = !listener.iteration(step, scalars.iterations as usize, scalars.residual);
             !interrupted && began.seconds() < allowed && clock.seconds() < budget
         };
         let mut run = || {

@@ -196,7 +196,7 @@ impl Listener for Keeper {
         self.running = format!("{words}, about {}", duration(seconds));
     }
 
-    fn goes_on(&mut self, step: usize, iteration: usize, residual: f64) -> bool {
+    fn iteration(&mut self, step: usize, iteration: usize, residual: f64) -> bool {
         if let Some(bar) = &self.bar {
             bar.set_position(self.began.elapsed().as_secs());
             bar.set_message(format!(

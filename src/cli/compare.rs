@@ -42,7 +42,6 @@ impl From<CompareError> for Failure {
             CompareError::Unsuited(text) => Failure::Usage(text),
             CompareError::Output(error) => error.into(),
             CompareError::Backend(error) => error.into(),
-            CompareError::Run(error) => error.into(),
         }
     }
 }

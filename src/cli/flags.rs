@@ -17,7 +17,7 @@ const OPTIONS: &[(&str, &str)] = &[
         "without --resume to start afresh",
     ),
     ("resuming starts at step", "--resume starts at step"),
-    ("resuming goes on after", "--resume goes on after"),
+    ("resuming continues after", "--resume continues after"),
     ("give a longer budget", "give a longer --budget"),
     ("do not fit the baseline if", "leave --baseline out if"),
     ("or do not fit the slope", "or leave --baseline-slope out"),

@@ -147,7 +147,7 @@ struct RunArguments {
     /// Threads [default: one a core]
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u16).range(1..=1024))]
     threads: Option<u16>,
-    /// Go on after the last finished step of an earlier run in this folder
+    /// Continue after the last finished step of an earlier run in this folder
     #[arg(long)]
     resume: bool,
     /// No progress; warnings and errors are still said

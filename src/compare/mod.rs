@@ -1,6 +1,6 @@
 //! One rough surface through several models, with the seconds that each takes.
 //!
-//! [`compare_scene`] computes contact area, mean gap, attraction and pull-off under the same loads by the
+//! [`compare`] computes contact area, mean gap, attraction and pull-off under the same loads by the
 //! full field, the field without adhesion with the attraction added afterwards (DMT), interacting
 //! asperities, Persson's theory, independent summits (GW-M) and the bearing-area model;
 //! `docs/compare.md` describes each and its range.
@@ -19,14 +19,11 @@ use std::path::Path;
 
 use crate::backend::BackendError;
 use crate::clock::Clock;
-use crate::device::SelectedDevice;
 use crate::law::Law;
 use crate::output::OutputError;
-use crate::run::{RunError, memory_check};
 use crate::scene::{Boundary, Scene, SurfacePart};
 use crate::solver::MakeBackend;
 use crate::study::Setup;
-use crate::surface::Surface;
 use crate::theory::TheoryError;
 use crate::theory::tabor_map::FORCE_DMT_LIMIT;
 use table::Table;
@@ -67,9 +64,6 @@ pub enum CompareError {
     /// A device that failed.
     #[error(transparent)]
     Backend(#[from] BackendError),
-    /// A surface that cannot be built, a memory that does not hold it, or a device that cannot be used.
-    #[error(transparent)]
-    Run(#[from] RunError),
 }
 
 /// A scene with its surface, and the loads for the models.
@@ -95,30 +89,11 @@ impl Comparison {
     }
 }
 
-/// Compares a scene on the device that it names and writes `compare.csv`, row by row, and with the feature
-/// `images` `compare.png` into `folder`.
-///
-/// # Errors
-/// A scene that does not suit ([`check_scene`]), a flat surface, a surface that cannot be built, a memory that does
-/// not hold it, files that cannot be written, a device that cannot be used or fails. A model that has nothing
-/// to say is no error: a note tells why.
-pub fn compare_scene(scene: Scene, folder: &Path) -> Result<Compared, CompareError> {
-    // Before a surface is built of which nothing could be said.
-    check_scene(&scene)?;
-    memory_check::check_scene(&scene).map_err(RunError::from)?;
-    let surface = Surface::build(&scene).map_err(RunError::from)?;
-    memory_check::check_grid(&scene, surface.grid).map_err(RunError::from)?;
-    let setup = Setup::new(scene, surface);
-    let device = SelectedDevice::new(&setup, false).map_err(RunError::from)?;
-    compare(setup, &|| device.backend(), folder)
-}
-
 /// Compares and writes `compare.csv`, row by row, and with the feature `images` `compare.png` into `folder`.
 ///
 /// # Errors
 /// A scene that does not suit ([`check_scene`]), a flat surface, files that cannot be written, a device
 /// that fails. A model without results is not an error: a note gives the reason.
-#[doc(hidden)]
 pub fn compare(
     setup: Setup,
     make_backend: MakeBackend,

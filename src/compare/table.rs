@@ -90,7 +90,10 @@ impl Table {
     /// All rows, once they are in the file, with warnings about it.
     pub fn into_rows(mut self) -> Result<(Vec<Row>, Vec<String>), OutputError> {
         let unheld = self.lock.warning().map(str::to_owned);
-        let notes = unheld.into_iter().chain(self.table.mend(true)?).collect();
+        let notes = unheld
+            .into_iter()
+            .chain(self.table.restore(true)?)
+            .collect();
         Ok((self.rows, notes))
     }
 }

@@ -1,4 +1,4 @@
-//! What touches what, put together in SI units.
+//! A contact assembled in SI units: heights, solid, law, boundary.
 
 use super::control::{Control, Load};
 use super::error::{ContactError, ContactMistake};
@@ -292,7 +292,7 @@ impl Contact {
         Path::new(self.clone(), loads.into_iter())
     }
 
-    /// The loads of the scene that this contact was made from; none of a contact that was put together.
+    /// The loads of the scene that this contact was made from; empty for a contact built with methods.
     pub fn loads(&self) -> Vec<Load> {
         loads_of(&self.scene.loading)
     }

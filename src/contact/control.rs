@@ -47,7 +47,7 @@ impl Control {
     }
 
     /// A value of what a scene prescribes.
-    pub fn from_kind(kind: scene::Control, value: f64) -> Self {
+    pub(crate) fn from_kind(kind: scene::Control, value: f64) -> Self {
         match kind {
             scene::Control::Pressure => Control::MeanPressure(value),
             scene::Control::Force => Control::Force(value),

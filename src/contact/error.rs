@@ -48,7 +48,7 @@ impl From<ContactMistake> for ContactError {
 #[error("{}", one_a_line(.0))]
 pub struct ContactMistakes(pub Vec<ContactMistake>);
 
-/// What is wrong with a value, and the method that it was given to.
+/// A mistake in a value, and the method that it was given to.
 #[derive(Clone, Debug, PartialEq, Error)]
 #[error("{method}, {}: {}", key.rsplit('.').next().unwrap_or_default(), in_rust(.error))]
 #[non_exhaustive]
@@ -57,7 +57,7 @@ pub struct ContactMistake {
     pub method: &'static str,
     /// The key of the value in a scene, such as `solid.hardness`.
     pub key: String,
-    /// What is wrong, as a scene file says it.
+    /// The mistake, as a scene file words it.
     #[source]
     pub error: SceneError,
 }

@@ -41,7 +41,7 @@ impl<I> Path<I> {
         }
     }
 
-    /// What is to be known of the contact, one sentence each, from the first load on: waves that the grid
+    /// Warnings of the contact, one sentence each, from the first load on: waves that the grid
     /// does not resolve, a cohesive zone of too few pixels, and on which device it is solved.
     pub fn warnings(&self) -> Vec<String> {
         match &self.walk {
@@ -101,14 +101,15 @@ impl Walk {
         })
     }
 
-    /// Solves the last load of the path. Where the device fails and another may go on, that one does.
+    /// Solves the last load of the path. Where the device fails and another can continue, that one does.
     fn step(&mut self, threads: Option<usize>) -> Result<Solution, ContactError> {
         let earlier = std::mem::take(&mut self.earlier);
         let fallback = self.device.fallback(&self.setup);
         let again = fallback.map(|device| (device, earlier.clone()));
         match (self.solve(earlier, threads), again) {
             (Err(ContactError::Backend(error)), Some((device, earlier))) => {
-                let remark = format!("{error}; the processor goes on after the last finished load");
+                let remark =
+                    format!("{error}; the processor continues after the last finished load");
                 self.remarks.push(remark);
                 self.device = device;
                 self.solve(earlier, threads)

@@ -5,7 +5,7 @@ use crate::study::{Evaluation, Jump, Setup, State, StepRow};
 
 /// A solved load, SI. Arrays have shape `[ny, nx]`, row-major: point (ix, iy) is element `iy * nx + ix`.
 ///
-/// A load that no equilibrium carries leaves the surfaces apart: then [`approach`](Solution::approach) is
+/// A load without equilibrium leaves the surfaces separated: then [`approach`](Solution::approach) is
 /// `None`, the gap is infinite, the pressure 0, and the displacement 0 (NaN on a viscoelastic solid, whose
 /// past still moves it).
 #[derive(Clone, Debug, PartialEq)]
@@ -21,7 +21,7 @@ pub struct Solution {
     pub pressure: Vec<f64>,
     /// Normal displacement of the solid's surface, m, positive into it.
     pub displacement: Vec<f64>,
-    /// Heights, m, as plastic flow has left them; those given where the surfaces are apart.
+    /// Heights, m, with the plastic depth subtracted; those given where the surfaces are separated.
     pub heights: Vec<f64>,
     /// Share of the points that are in contact.
     pub contact_area_fraction: f64,
@@ -33,7 +33,7 @@ pub struct Solution {
     pub approach: Option<f64>,
     /// Mean of the gap over the grid, m.
     pub mean_gap: Option<f64>,
-    /// What decides whether it converged; defined in `docs/solver.md`.
+    /// Residual, compared with the tolerance; defined in `docs/solver.md`.
     pub residual: f64,
     /// Iterations of the solver.
     pub iterations: usize,
@@ -49,7 +49,7 @@ pub struct Solution {
 }
 
 impl Solution {
-    /// A step as it was handed over, of which `evaluation` is missing where the surfaces are apart.
+    /// A finished step; `evaluation` is missing where the surfaces are separated.
     pub(super) fn new(
         setup: &Setup,
         row: StepRow,

@@ -53,7 +53,7 @@ fn choice() -> AdapterChoice {
     AdapterChoice::default()
 }
 
-/// What the environment asks of the adapter: `TABOR_TEST_GPU`, for tests of what no sound adapter
+/// The adapter that the environment asks for: `TABOR_TEST_GPU`, for tests of what no sound adapter
 /// does, is a list of `software` (`auto` takes it for a graphics processor), `nodouble` (it has no
 /// double precision), `binding=BYTES` (it binds no more), `slab=BYTES` (a buffer holds no more of a
 /// field), `line=POINTS` (a workgroup holds no longer line), `memory=BYTES` (it has no more),
@@ -86,7 +86,7 @@ fn choice() -> AdapterChoice {
     }
 }
 
-/// What is to be said of a device whose compiler undoes compensated sums.
+/// The remark on a device whose compiler undoes compensated sums.
 pub(super) fn plain_sums(device: &GpuDevice) -> Option<String> {
     (device.wide() == Wide::Single).then(|| {
         format!(

@@ -1,4 +1,4 @@
-//! What may be wrong with the choice of a device.
+//! Errors in the choice of a device.
 
 #[cfg(feature = "gpu")]
 use crate::backend::gpu::GpuError;
@@ -13,7 +13,7 @@ pub enum DeviceError {
     /// This machine has no graphics processor, or it failed.
     #[error("the GPU cannot be used: {reason}; {PROCESSOR} does without")]
     Unusable {
-        /// What is wrong with it.
+        /// The reason.
         reason: String,
     },
     /// tabor was built without the feature `gpu`.

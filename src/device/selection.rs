@@ -14,7 +14,7 @@ use crate::study::Setup;
 pub struct SelectedDevice {
     place: Place,
     precision: Precision,
-    /// What the user should know about the choice.
+    /// A remark on the choice, for the user.
     pub remark: Option<String>,
 }
 

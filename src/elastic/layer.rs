@@ -4,6 +4,7 @@
 
 /// Boundary condition at the rigid base.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[non_exhaustive]
 pub enum Base {
     /// No displacement.
     Bonded,

@@ -13,6 +13,7 @@ pub const LAMBDAS: (f64, f64) = (0.01, 20.0);
 
 /// A model of a sphere on a half-space.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[non_exhaustive]
 pub enum Model {
     /// No adhesion. [`crate::theory::hertz`].
     Hertz,

@@ -104,10 +104,10 @@ impl Curve {
         found
     }
 
-    /// Goes on after the first `finished` rows, whose checksum is known; later ones are dropped.
+    /// Resumes after the first `finished` rows, whose checksum is known; later rows are dropped.
     ///
     /// Refused where [`expect`](Curve::expect) refuses.
-    pub fn go_on(
+    pub fn resume(
         mut self,
         finished: usize,
         checksum: u32,
@@ -140,7 +140,7 @@ impl CurveWriter {
         CurveWriter::write(path, columns, text, crc32fast::Hasher::new())
     }
 
-    /// Writes the file at `path` anew, with rows that gave this checksum.
+    /// Creates or replaces the file at `path`, with rows of this checksum.
     fn write(
         path: &Path,
         columns: Vec<Column>,
@@ -154,10 +154,10 @@ impl CurveWriter {
         })
     }
 
-    /// Writes the curve anew from memory where something else has removed or changed it; see
-    /// [`GrowingTable::mend`].
-    pub fn mend(&mut self, whole: bool) -> Result<Option<String>, OutputError> {
-        self.table.mend(whole)
+    /// Writes the curve again from memory if another program removed or changed it; see
+    /// [`GrowingTable::restore`].
+    pub fn restore(&mut self, whole: bool) -> Result<Option<String>, OutputError> {
+        self.table.restore(whole)
     }
 
     /// Appends one row and waits until it is on the disk.
@@ -167,8 +167,8 @@ impl CurveWriter {
         Ok(())
     }
 
-    /// Checksum (CRC-32) of the rows so far but for their seconds, by which [`Curve::go_on`] knows
-    /// them again.
+    /// Checksum (CRC-32) of the rows so far but for their seconds, by which [`Curve::resume`]
+    /// recognises them.
     pub fn checksum(&self) -> u32 {
         self.checksum.clone().finalize()
     }
@@ -176,7 +176,7 @@ impl CurveWriter {
 
 /// One line of `curve.csv`, with its line end.
 ///
-/// Numbers are the shortest that read back to the same bits; what is not defined is empty.
+/// Numbers are the shortest that read back to the same bits; undefined values are empty.
 pub fn format_row(row: &StepRow, columns: &[Column]) -> String {
     let number = |value: f64| format!("{value:?}");
     let optional = |value: Option<f64>| value.map(number).unwrap_or_default();
@@ -293,7 +293,7 @@ mod tests {
         let whole = fs::read_to_string(&path).unwrap();
         let curve = Curve::read(&path, Vec::new()).unwrap();
         assert_eq!(curve.rows(), [row(1, 1.0), row(2, 2.0), row(3, 3.0)]);
-        let (mut writer, rows) = curve.go_on(2, checksum).unwrap();
+        let (mut writer, rows) = curve.resume(2, checksum).unwrap();
         assert_eq!(rows, [row(1, 1.0), row(2, 2.0)]);
         assert_eq!(writer.checksum(), checksum);
         writer.append(&row(3, 3.0)).unwrap();
@@ -311,19 +311,24 @@ mod tests {
         let path = place.path().join("curve.csv");
         assert_eq!(crc32fast::Hasher::new().finalize(), EMPTY_CHECKSUM);
         // No curve yet: fine where no step is finished.
-        assert!(refused(Curve::read(&path, Vec::new()).unwrap().go_on(1, 0)));
+        assert!(refused(
+            Curve::read(&path, Vec::new()).unwrap().resume(1, 0)
+        ));
         assert!(!path.exists());
-        Curve::read(&path, Vec::new()).unwrap().go_on(0, 0).unwrap();
+        Curve::read(&path, Vec::new())
+            .unwrap()
+            .resume(0, 0)
+            .unwrap();
         assert_eq!(fs::read_to_string(&path).unwrap(), format!("{HEADER}\n"));
 
         let checksum = torn(&path);
         assert!(refused(
-            Curve::read(&path, Vec::new()).unwrap().go_on(4, checksum)
+            Curve::read(&path, Vec::new()).unwrap().resume(4, checksum)
         ));
         let changed = fs::read_to_string(&path).unwrap().replace("2.0", "2.5");
         fs::write(&path, changed).unwrap();
         assert!(refused(
-            Curve::read(&path, Vec::new()).unwrap().go_on(2, checksum)
+            Curve::read(&path, Vec::new()).unwrap().resume(2, checksum)
         ));
     }
 

@@ -20,7 +20,7 @@ const PARTS: [&str; 3] = ["images", "fields", "state"];
 /// Files that a run writes at the top of its folder.
 const TOP_FILES: [&str; 4] = ["curve.csv", "curve.png", "summary.json", "report.html"];
 
-/// Start of the names of the files that one step hands to the next.
+/// Prefix of the files of the state after the last step.
 const STATE_PREFIX: &str = "last_";
 
 /// The file that says that tabor wrote this folder, and for which scene.
@@ -34,12 +34,12 @@ const LOCK: &str = "lock";
 struct Marker {
     /// Version of tabor that opened the folder.
     tabor: String,
-    /// What identifies the scene, as the caller made it.
+    /// Identifies the scene, as the caller made it.
     fingerprint: String,
 }
 
-/// The folder that one run of one scene writes, held against other runs until the last copy of this is
-/// dropped or the process ends, however it ends.
+/// The folder that one run of one scene writes. It is locked against other runs until the last copy of this
+/// value is dropped or the process ends.
 #[derive(Clone, Debug)]
 pub struct RunFolder {
     path: PathBuf,
@@ -84,12 +84,12 @@ impl RunFolder {
         Ok((RunFolder { path, lock }, there))
     }
 
-    /// What is to be said of a folder that cannot be held.
+    /// The warning of a folder that cannot be locked.
     pub fn warning(&self) -> Option<&str> {
         self.lock.warning()
     }
 
-    /// Opens `path` to go on with the run that it holds; says whether there is one. Results stay,
+    /// Opens `path` to resume the run that it holds; says whether there is one. Results stay,
     /// files that were being written when the run ended go.
     ///
     /// A folder that is missing or empty is opened for a run from its first step; one that tabor
@@ -108,7 +108,7 @@ impl RunFolder {
         Ok((folder, true))
     }
 
-    /// Fails where the folder is no longer there, so that nothing makes half of it anew.
+    /// Fails if the folder was removed, so that no half of it is created again.
     pub fn expect_present(&self) -> Result<(), OutputError> {
         match fs::metadata(marker_path(&self.path)) {
             Ok(_) => Ok(()),
@@ -188,7 +188,7 @@ impl RunFolder {
         self.path.join("fields").join(format!("step_{step:04}.vti"))
     }
 
-    /// A file that one step hands to the next: `state/last_NAME`.
+    /// A file of the state after the last step: `state/last_NAME`.
     ///
     /// The prefix marks it as tabor's own, to be removed when the run starts afresh.
     pub fn state_path(&self, name: &str) -> PathBuf {
@@ -412,7 +412,7 @@ pub fn write_atomically(path: &Path, bytes: &[u8]) -> Result<(), OutputError> {
 }
 
 /// As [`write_atomically`] into the folder of a run, which is there or was taken away: only a folder
-/// within it is created, so that no half of a run is made anew.
+/// within it is created, so that no half of a run is created again.
 pub fn write_within(path: &Path, bytes: &[u8]) -> Result<(), OutputError> {
     stream_within(path, |file| file.write_all(bytes))
 }

@@ -1,4 +1,4 @@
-//! A table that grows on the disk by whole lines, and stays what was written whatever others do to it.
+//! A table that grows on the disk by whole lines and is restored if another program changes it.
 
 use std::fs::{self, File, OpenOptions};
 use std::io::{self, Write as _};
@@ -16,7 +16,7 @@ pub struct GrowingTable {
 }
 
 impl GrowingTable {
-    /// Writes the file at `path` anew, in one piece, with this text.
+    /// Creates or replaces the file at `path`, in one piece, with this text.
     pub fn create(path: &Path, text: String) -> Result<GrowingTable, OutputError> {
         Ok(GrowingTable {
             path: path.to_path_buf(),
@@ -36,16 +36,16 @@ impl GrowingTable {
         Ok(())
     }
 
-    /// Writes the file anew from memory where the one under its name is another than this, or has another
-    /// length; with `whole` its content is compared too. Returns what was found, in words.
-    pub fn mend(&mut self, whole: bool) -> Result<Option<String>, OutputError> {
+    /// Writes the file again from memory if it was removed, replaced, or has another length; with `whole` its
+    /// content is compared too. Returns a description of the change, if any.
+    pub fn restore(&mut self, whole: bool) -> Result<Option<String>, OutputError> {
         let here = match fs::metadata(&self.path) {
             Ok(found) => Some(found),
             Err(error) if error.kind() == io::ErrorKind::NotFound => None,
             Err(error) => return Err(OutputError::write("read", &self.path)(error)),
         };
         let found = match here {
-            None => "was removed while the run went on; its rows are written anew".to_owned(),
+            None => "was removed while the run was active; its rows are written again".to_owned(),
             Some(here) => {
                 let same = here.len() == self.text.len() as u64
                     && is_one_file(&here, &self.file)
@@ -54,7 +54,7 @@ impl GrowingTable {
                     return Ok(None);
                 }
                 format!(
-                    "was changed by another program while the run went on; its rows are written anew, and what was there is kept in {}",
+                    "was changed by another program while the run was active; its rows are written again, and the changed file is kept as {}",
                     set_aside(&self.path)?.display()
                 )
             }
@@ -82,7 +82,7 @@ fn written(path: &Path, text: &str) -> Result<File, OutputError> {
 fn is_one_file(found: &fs::Metadata, open: &File) -> bool {
     use std::os::unix::fs::MetadataExt;
     let place = |data: &fs::Metadata| (data.dev(), data.ino());
-    // What cannot be asked is not taken for another.
+    // If the system does not tell, the file counts as the same.
     open.metadata()
         .map_or(true, |open| place(&open) == place(found))
 }

@@ -1,7 +1,7 @@
-//! A folder that is being written is held against a second writer.
+//! A lock on a folder that is being written, against a second writer.
 //!
 //! The system holds the lock for the process and releases it when the process ends, however it ends: there is none
-//! to be left behind. Who holds it stands in the file, for whoever is refused.
+//! to be left behind. The file names its holder, for the message to a second writer.
 
 use std::fs::{File, TryLockError};
 use std::io::{Read as _, Write as _};
@@ -29,7 +29,7 @@ impl FolderLock {
     /// Where the file system knows no locks the folder is not held, and [`warning`](FolderLock::warning) says so.
     ///
     /// # Errors
-    /// Refused where another process holds it, with what is known of that one.
+    /// Refused if another process holds it; the message names that process.
     pub fn take(path: &Path, folder: &Path) -> Result<FolderLock, OutputError> {
         std::fs::create_dir_all(folder).map_err(OutputError::write("create the folder", folder))?;
         let mut file = File::options()
@@ -53,14 +53,14 @@ impl FolderLock {
                 folder.display()
             )),
         };
-        // It is held with or without these words.
+        // The lock holds with or without these words.
         let _ = file
             .set_len(0)
             .and_then(|()| file.write_all(own_words().as_bytes()));
         Ok(FolderLock { file, warning })
     }
 
-    /// What is to be said where the folder is not held.
+    /// The warning if the folder is not locked.
     pub fn warning(&self) -> Option<&str> {
         self.warning.as_deref()
     }

@@ -1,4 +1,4 @@
-//! `state/last_step.bin`: what the last finished step hands to the next, on the disk.
+//! `state/last_step.bin`: the checkpoint after the last finished step, on the disk.
 //!
 //! One file, so that one rename makes a step finished: a line that names the form, the length of a
 //! JSON head as eight bytes, the head, the numbers that it announces (little-endian), and a CRC-32
@@ -31,7 +31,7 @@ const CHECKSUM_BYTES: usize = 4;
 /// A run as it stands after its last finished step.
 #[derive(Clone, Debug, PartialEq)]
 pub struct SavedState<'a> {
-    /// What identifies the scene.
+    /// Identifies the scene.
     pub scene: String,
     /// `[solver]` of the scene, as resolved.
     pub solver: Value,
@@ -41,11 +41,11 @@ pub struct SavedState<'a> {
     pub finished: usize,
     /// Checksum of the rows up to the last finished step, as the curve's writer has it.
     pub curve: u32,
-    /// What the run warned of so far, besides what its scene gives rise to.
+    /// Warnings of the run so far, besides those of its scene.
     pub warnings: Vec<String>,
     /// Whether fields are known in single precision only.
     pub single: bool,
-    /// What the next step starts from.
+    /// Start of the next step.
     pub checkpoint: Cow<'a, Checkpoint>,
 }
 

@@ -15,7 +15,7 @@ const PNG_END: &[u8] = b"\0\0\0\0IEND\xae\x42\x60\x82";
 /// Most files that a warning names.
 const NAMED: usize = 8;
 
-/// What is warned of a step that no equilibrium carries.
+/// The warning of a step whose load has no equilibrium.
 pub(super) fn separated_words(step: usize) -> String {
     format!(
         "step {step} is separated: the load has no equilibrium, so there are no fields to write"
@@ -65,7 +65,7 @@ fn expected(
     let asked = |step: &usize| match &output.steps {
         StepChoice::All => true,
         StepChoice::List(list) => list.contains(step),
-        // Those of an earlier end are cleared away when the run goes on.
+        // Those of an earlier end are cleared away when the run is resumed.
         StepChoice::Last => *step == total,
     };
     let has_fields = |step: &usize| !warnings.contains(&separated_words(*step));
@@ -92,7 +92,7 @@ fn expected(
 }
 
 /// Whether a file is there to its end. Pictures and volumes end in marks of their own; an array of NumPy
-/// says in its head how long it is. What stands between is not looked at: whole folders are gigabytes.
+/// gives its length in its head. The bytes between are not read: whole folders are gigabytes.
 fn is_whole(path: &Path) -> bool {
     let Ok(mut file) = File::open(path) else {
         return false;

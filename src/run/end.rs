@@ -8,7 +8,7 @@ use crate::output::{Effects, OutputError, Seconds, Summary, peak_memory_bytes};
 use crate::study::{Setup, StepRow, Tension, Unreachable, WalkEnd};
 use crate::surface::SurfaceError;
 
-/// Why a run could not begin or go on.
+/// Why a run could not begin or continue.
 #[derive(Debug, thiserror::Error)]
 #[non_exhaustive]
 pub enum RunError {
@@ -57,7 +57,7 @@ pub enum RunStatus {
     },
 }
 
-/// What a run leaves besides its folder.
+/// Results of a run besides its folder.
 #[derive(Clone, Debug, PartialEq)]
 #[non_exhaustive]
 pub struct RunEnd {

@@ -126,7 +126,7 @@ pub(crate) fn available() -> Result<Option<u64>, MemoryError> {
 }
 
 /// Bytes of address space that this process may still take where it is limited (Linux, `ulimit -v`): past
-/// them nothing can be allocated, and nobody asks again.
+/// them every allocation fails and ends the process.
 fn address_space_left() -> Option<u64> {
     let number = |file: &str, key: &str| -> Option<u64> {
         let text = std::fs::read_to_string(file).ok()?;

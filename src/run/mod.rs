@@ -51,7 +51,7 @@ use run_recorder::RunRecorder;
 ///
 /// # Errors
 /// A surface that cannot be built, a run that the memory does not hold, a device that cannot be used or
-/// fails, a folder that is not this scene's, files that cannot be written. What is solved until then is
+/// fails, a folder that is not this scene's, files that cannot be written. Steps solved until then are
 /// kept for [`RunOptions::resume`].
 pub fn run(
     scene: Scene,
@@ -100,10 +100,10 @@ pub fn run_with(
     };
     match work.walk(&device, existing, seconds.clone(), observer)? {
         Walked::Ended(end) => Ok(*end),
-        // The device failed and another may go on: what is solved is kept.
+        // The device failed and another can continue: the solved steps are kept.
         Walked::Failed(error, fallback) => {
             observer.warning(&format!(
-                "{error}; the processor goes on after the last finished step"
+                "{error}; the processor continues after the last finished step"
             ));
             match work.walk(&fallback, ExistingRun::Resume, seconds, observer)? {
                 Walked::Ended(end) => Ok(*end),
@@ -113,7 +113,7 @@ pub fn run_with(
     }
 }
 
-/// What a path is solved with, on any device.
+/// Everything a path is solved with but its device.
 struct Work<'a> {
     setup: &'a Setup,
     folder: &'a Path,
@@ -124,7 +124,7 @@ struct Work<'a> {
 /// How a path ended on a device.
 enum Walked {
     Ended(Box<RunEnd>),
-    /// The device failed, and another may go on.
+    /// The device failed, and another can continue.
     Failed(BackendError, SelectedDevice),
 }
 
@@ -161,10 +161,10 @@ impl Work<'_> {
             Err(WalkError::Backend(error)) if let Some(fallback) = device.fallback(setup) => {
                 return Ok(Walked::Failed(error, fallback));
             }
-            // What is solved stands: it is summed up like any other end.
+            // The solved steps stay: they are summed up like any other end.
             Err(WalkError::Backend(error)) => (recorder.end_so_far(), Some(error)),
             Err(WalkError::Observer(error)) => {
-                recorder.say_kept();
+                recorder.report_kept();
                 return Err(error.into());
             }
         };
@@ -172,7 +172,7 @@ impl Work<'_> {
             end::summary(setup, device, &end, seconds, warnings)
         });
         if failure.is_some() || end.interrupted || written.is_err() {
-            recorder.say_kept();
+            recorder.report_kept();
         }
         match (failure, written) {
             (Some(error), _) => Err(error.into()),

@@ -34,7 +34,7 @@ impl RunOptions {
         RunOptions::default()
     }
 
-    /// Goes on after the last finished step of an earlier run of the same scene; by default a run begins at
+    /// Continues after the last finished step of an earlier run of the same scene; by default a run begins at
     /// its first step. The results are those of one run, to the last bit.
     pub fn resume(self, resume: bool) -> Self {
         RunOptions { resume, ..self }

@@ -18,15 +18,15 @@ pub(super) struct RunDirectory {
     pub curve: CurveWriter,
     /// Steps done already.
     pub earlier: Earlier,
-    /// What the run warned of so far.
+    /// Warnings of the run so far.
     pub warnings: Vec<String>,
-    /// What the user should know.
+    /// Remarks for the user.
     pub remarks: Vec<String>,
-    /// What the user is warned of at once.
+    /// Warnings that are shown before the first step.
     pub lost: Vec<String>,
 }
 
-/// What makes a scene the same scene: all but how it is solved, heights read from files included.
+/// Identifies a scene: everything but how it is solved, heights read from files included.
 pub(super) fn fingerprint(setup: &Setup) -> String {
     let mut resolved = setup.scene.resolved_json();
     if let Some(table) = resolved.as_object_mut() {
@@ -48,14 +48,14 @@ pub(super) fn solver(scene: &Scene) -> serde_json::Value {
     scene.resolved_json()["solver"].take()
 }
 
-/// What becomes of a run of the same scene that is in the folder already.
+/// Treatment of an earlier run of the same scene in the folder.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum ExistingRun {
-    /// It goes on after its last finished step.
+    /// It is resumed after its last finished step.
     Resume,
     /// Its files are removed.
     Overwrite,
-    /// It stays, and no other one is begun.
+    /// It stays, and the new run is refused.
     Refuse,
 }
 
@@ -251,7 +251,7 @@ fn resume_from(
     remarks.push(match state.finished {
         0 => "no step was finished, starts at step 1".to_owned(),
         finished if finished == total => format!("all {total} steps were finished"),
-        finished => format!("{finished} of {total} steps were finished, goes on after them"),
+        finished => format!("{finished} of {total} steps were finished, continues after them"),
     });
     if state.finished > 0 && state.machine != device.words() {
         let text = format!(
@@ -270,7 +270,7 @@ fn resume_from(
             .cloned()
             .collect::<Vec<_>>(),
     );
-    let (curve, rows) = curve.go_on(state.finished, state.curve)?;
+    let (curve, rows) = curve.resume(state.finished, state.curve)?;
     Ok(Some(RunDirectory {
         folder: folder.clone(),
         curve,

@@ -38,7 +38,7 @@ pub(super) struct RunRecorder<'a> {
     /// The last step's fields, where only those are asked for.
     last: Option<(usize, Evaluation)>,
     rows: Vec<StepRow>,
-    /// What the run warned of, besides what its scene gives rise to.
+    /// Warnings of the run, besides those of its scene.
     warnings: Vec<String>,
     /// Jumps and transforms up to the last finished step.
     tallies: Checkpoint,
@@ -56,7 +56,7 @@ pub(super) struct RunRecorder<'a> {
 }
 
 impl<'a> RunRecorder<'a> {
-    /// A recorder of what follows the steps that the directory has; `seconds` have passed by phase.
+    /// A recorder of the steps after those in the directory; `seconds` have passed by phase.
     pub fn new(
         setup: &'a Setup,
         device: &'a SelectedDevice,
@@ -104,7 +104,7 @@ impl<'a> RunRecorder<'a> {
         seconds
     }
 
-    /// What is known of a path that the device's failure cut short.
+    /// The results so far of a path that a failure of the device cut short.
     pub fn end_so_far(&self) -> WalkEnd {
         WalkEnd {
             rows: self.rows.clone(),
@@ -118,13 +118,13 @@ impl<'a> RunRecorder<'a> {
         }
     }
 
-    /// Tells the observer what an early end leaves.
-    pub fn say_kept(&mut self) {
+    /// Tells the observer which steps an early end keeps.
+    pub fn report_kept(&mut self) {
         let kept = self.kept();
         self.observer.ended_early(&kept);
     }
 
-    /// What an early end leaves, in words.
+    /// The steps that an early end keeps, in words.
     fn kept(&self) -> String {
         let place = self.folder.path().display();
         match (self.folder.expect_present(), self.committed) {
@@ -132,9 +132,11 @@ impl<'a> RunRecorder<'a> {
             (Ok(()), 0) => {
                 format!("note: no step was finished; resuming starts at step 1 in {place}")
             }
-            (Ok(()), 1) => format!("note: step 1 is kept in {place}; resuming goes on after it"),
+            (Ok(()), 1) => format!("note: step 1 is kept in {place}; resuming continues after it"),
             (Ok(()), steps) => {
-                format!("note: steps 1 to {steps} are kept in {place}; resuming goes on after them")
+                format!(
+                    "note: steps 1 to {steps} are kept in {place}; resuming continues after them"
+                )
             }
         }
     }
@@ -144,12 +146,12 @@ impl<'a> RunRecorder<'a> {
         self.warnings.push(text);
     }
 
-    fn no_fields(&mut self, step: usize) {
+    fn warn_no_fields(&mut self, step: usize) {
         self.warn(separated_words(step));
     }
 
-    /// Says of the steps that stand at the rounding of their arithmetic how far that is from what was asked.
-    fn at_rounding(&mut self) {
+    /// Warns of steps whose residual stays above the tolerance because of rounding.
+    fn warn_of_rounding(&mut self) {
         let asked = self.setup.scene.solver.tolerance;
         let short: Vec<&StepRow> = self
             .rows
@@ -163,7 +165,7 @@ impl<'a> RunRecorder<'a> {
         let (count, first) = (short.len(), first.step);
         let precision = self.device.precision();
         let remedy = match precision {
-            Precision::Single => "; precision = \"mixed\" or \"double\" goes on from there",
+            Precision::Single => "; precision = \"mixed\" or \"double\" continues from there",
             _ => "",
         };
         self.warn(format!(
@@ -174,13 +176,13 @@ impl<'a> RunRecorder<'a> {
         ));
     }
 
-    /// Everything that is warned of.
+    /// Warnings of the scene and of the run.
     fn all_warnings(&self) -> Vec<String> {
         [self.setup.warnings.as_slice(), &self.warnings].concat()
     }
 
     fn keep_step(&mut self, step: FinishedStep) -> Result<(), OutputError> {
-        // A folder that was removed is not made anew with half of a run in it.
+        // A folder that was removed is not created again with half of a run in it.
         self.folder.expect_present()?;
         let number = step.row.step;
         let output = &self.setup.scene.output;
@@ -192,7 +194,7 @@ impl<'a> RunRecorder<'a> {
         let is_end = number == self.setup.scene.loading.path.len() || !step.row.converged;
         let asked = !(output.images.is_empty() && output.fields.is_empty());
         match (&output.steps, step.evaluation) {
-            (StepChoice::Last, None) if is_end && asked => self.no_fields(number),
+            (StepChoice::Last, None) if is_end && asked => self.warn_no_fields(number),
             (StepChoice::Last, Some(evaluation)) if is_end => {
                 self.last = None;
                 self.write_fields(number, &evaluation)?;
@@ -204,19 +206,19 @@ impl<'a> RunRecorder<'a> {
             (StepChoice::List(list), Some(evaluation)) if list.contains(&number) => {
                 self.write_fields(number, &evaluation)?;
             }
-            (StepChoice::List(list), None) if list.contains(&number) => self.no_fields(number),
+            (StepChoice::List(list), None) if list.contains(&number) => self.warn_no_fields(number),
             _ => {}
         }
-        self.mend_curve(false)?;
+        self.restore_curve(false)?;
         self.curve.append(step.row)?;
         self.rows.push(step.row.clone());
         self.observer.step(step.row);
         Ok(())
     }
 
-    /// Writes the curve anew where something other than this run has changed it.
-    fn mend_curve(&mut self, whole: bool) -> Result<(), OutputError> {
-        if let Some(text) = self.curve.mend(whole)? {
+    /// Writes the curve again if another program changed it.
+    fn restore_curve(&mut self, whole: bool) -> Result<(), OutputError> {
+        if let Some(text) = self.curve.restore(whole)? {
             self.warn(text);
         }
         Ok(())
@@ -248,7 +250,7 @@ impl<'a> RunRecorder<'a> {
         Ok(())
     }
 
-    /// Writes the report anew, and with the summary of an ended run the picture of the curve.
+    /// Writes the report again, and with the summary of an ended run the picture of the curve.
     #[cfg(feature = "images")]
     fn refresh(&mut self, summary: Option<&Summary>) -> Result<(), OutputError> {
         if !self.draws {
@@ -283,7 +285,7 @@ impl<'a> RunRecorder<'a> {
         Ok(())
     }
 
-    /// Writes what belongs to the end of a run, whichever end it came to.
+    /// Writes the files of the end of a run, finished or not.
     pub fn finish(
         &mut self,
         end: &WalkEnd,
@@ -291,11 +293,11 @@ impl<'a> RunRecorder<'a> {
     ) -> Result<Summary, OutputError> {
         let clock = Clock::start();
         self.folder.expect_present()?;
-        self.mend_curve(true)?;
+        self.restore_curve(true)?;
         if let Some((step, evaluation)) = self.last.take() {
             self.write_fields(step, &evaluation)?;
         }
-        self.at_rounding();
+        self.warn_of_rounding();
         self.output_seconds += clock.seconds();
         let is_whole = end.rows.len() == self.setup.scene.loading.path.len();
         if is_whole
@@ -376,13 +378,13 @@ impl<'a> RunRecorder<'a> {
     }
 }
 
-/// What a user who looks for the pull-off of a path that has ended should know.
+/// A warning if the pull-off of a finished path is not known to the tolerance.
 fn pull_off_warning(loading: &LoadingScene, end: &WalkEnd) -> Option<String> {
     let newtons = |force: f64| format_si(force, "N");
     match Tension::of(loading, end) {
         Tension::Holds { step, force } if end.rows[step - 1].state == State::Contact => {
             Some(format!(
-                "the contact held {} in step {step}, the greatest tension of the path: its pull-off is beyond; let the path go on until it lets go",
+                "the contact held {} in step {step}, the greatest tension of the path: its pull-off is beyond; extend the path until it lets go",
                 newtons(force)
             ))
         }
@@ -401,7 +403,7 @@ fn pull_off_warning(loading: &LoadingScene, end: &WalkEnd) -> Option<String> {
     }
 }
 
-/// What a hand-over says besides its fields.
+/// A checkpoint without its fields.
 fn tallies(state: &Checkpoint) -> Checkpoint {
     Checkpoint {
         fields: Vec::new(),

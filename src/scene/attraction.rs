@@ -100,7 +100,6 @@ pub enum Range {
 
 words! {
     /// The names of the cohesive laws.
-    #[non_exhaustive]
     LawName {
         /// Constant tension up to a range.
         MaugisDugdale = "maugis-dugdale",
@@ -115,6 +114,7 @@ impl LawName {
     /// `peak_tension * range / work_of_adhesion` of the law.
     ///
     /// Lennard-Jones: the traction `(8 w / 3 eps)(s^3 - s^9)` is largest at `s^6 = 1/3`.
+    #[doc(hidden)]
     pub fn shape(self) -> f64 {
         match self {
             LawName::MaugisDugdale | LawName::Exponential => 1.0,
@@ -124,7 +124,7 @@ impl LawName {
 
     /// The shortest range at which pull-off is still within some per cent of JKR's, over
     /// `sqrt(w dx / E*)`.
-    pub fn shortest_range(self) -> f64 {
+    pub(crate) fn shortest_range(self) -> f64 {
         match self {
             LawName::MaugisDugdale => 2f64.sqrt(),
             LawName::Exponential => 1.0,

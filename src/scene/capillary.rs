@@ -87,6 +87,7 @@ pub(super) fn read(scene: &Reader) -> Option<Option<CapillaryScene>> {
 impl CapillaryScene {
     /// The meniscus at this humidity; meaningless unless it [bridges](CapillaryScene::bridges) the
     /// gap.
+    #[doc(hidden)]
     pub fn meniscus(&self) -> Meniscus {
         Meniscus::at_humidity(
             self.surface_tension,
@@ -98,11 +99,12 @@ impl CapillaryScene {
     }
 
     /// Humidity below which no liquid bridges the gap.
-    pub fn least_humidity(&self) -> f64 {
+    pub(crate) fn least_humidity(&self) -> f64 {
         least_humidity(self.surface_tension, self.molar_volume, self.temperature)
     }
 
     /// Whether the air is damp enough for a liquid to bridge the gap.
+    #[doc(hidden)]
     pub fn bridges(&self) -> bool {
         self.humidity > 0.0 && self.meniscus().bridges()
     }

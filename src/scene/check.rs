@@ -91,7 +91,7 @@ impl Scene {
     ///
     /// # Errors
     /// As [`Scene::check`].
-    pub fn loading_of_ramps(
+    pub(crate) fn loading_of_ramps(
         &self,
         control: Control,
         start: f64,

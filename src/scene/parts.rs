@@ -69,6 +69,7 @@ pub struct SelfAffineScene {
 /// The moment that fixes a self-affine amplitude.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize)]
 #[serde(rename_all = "snake_case")]
+#[non_exhaustive]
 pub enum Roughness {
     /// Root mean square height, m.
     RmsHeight(f64),

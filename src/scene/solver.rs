@@ -40,12 +40,13 @@ impl SolverScene {
 
 impl Scene {
     /// The precision of a solve on a graphics processor or on the processor.
-    pub fn arithmetic_on(&self, gpu: bool) -> Precision {
+    pub(crate) fn arithmetic_on(&self, gpu: bool) -> Precision {
         let has_hardness = self.solid.hardness.is_some();
         self.solver.arithmetic_on(gpu, has_hardness)
     }
 
     /// The same on the scene's backend; `auto` counts as the processor here.
+    #[doc(hidden)]
     pub fn arithmetic(&self) -> Precision {
         self.arithmetic_on(self.solver.backend == BackendName::Gpu)
     }

@@ -71,6 +71,7 @@ impl Leg {
 
 impl LoadingScene {
     /// Intervals of constant rate with their numbers of steps; empty if the path takes no time.
+    #[doc(hidden)]
     pub fn stretches(&self) -> Vec<Stretch> {
         let Some(durations) = &self.durations else {
             return Vec::new();
@@ -82,13 +83,13 @@ impl LoadingScene {
             let step = pair[1] - pair[0];
             if let Some(last) = found.last_mut() {
                 let time = last.duration + duration;
-                let goes_on = if time > 0.0 {
+                let continues = if time > 0.0 {
                     let off = (step * last.duration - change * duration).abs();
                     off <= SAME_RATE * scale * time
                 } else {
                     step * change >= 0.0
                 };
-                if goes_on {
+                if continues {
                     *last = Stretch {
                         to: pair[1],
                         duration: time,

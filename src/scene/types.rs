@@ -153,6 +153,7 @@ words! {
 
 impl Precision {
     /// Least tolerance that single precision reaches on every scene.
+    #[doc(hidden)]
     pub const SINGLE_FLOOR: f64 = 1e-4;
 }
 
@@ -183,7 +184,6 @@ pub struct OutputScene {
 words! {
     /// A field that can be written.
     #[derive(Hash)]
-    #[non_exhaustive]
     FieldName {
         /// Net normal traction, Pa, positive in compression.
         Pressure = "pressure",

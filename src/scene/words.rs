@@ -35,6 +35,7 @@ macro_rules! words {
     ) => {
         $(#[$meta])*
         #[derive(Clone, Copy, Debug, PartialEq, Eq)]
+        #[non_exhaustive]
         pub enum $Name {
             $( $(#[$doc])* $Value, )+
         }

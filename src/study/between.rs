@@ -6,7 +6,7 @@ use super::walker::{Carried, Walker};
 use crate::backend::BackendError;
 use crate::kernel::Scalars;
 
-/// What is looked for between two steps.
+/// The search between two steps.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Search {
     /// The load of pull-off, between a value of the path that held and one that did not.

@@ -25,7 +25,7 @@ pub struct Checkpoint {
     /// Fields of the solver and of effects; no gap where the surfaces are separated and the next step starts
     /// from undeformed heights. The solver keeps no direction between steps.
     pub fields: Vec<CheckpointField>,
-    /// What each point of the grid does, where steps are watched for jumps.
+    /// State of each point of the grid, where steps are watched for jumps.
     pub points: Option<Vec<PointState>>,
     /// Steps so far that jumped into contact.
     pub jump_in_steps: Vec<usize>,

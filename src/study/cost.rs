@@ -1,4 +1,4 @@
-//! What a scene costs: fields, bytes and passes, counted without running anything.
+//! The cost of a scene: fields, bytes and passes, counted without running anything.
 
 use super::control::Controller;
 use super::hooks::{Effects, HostBytes, Sizes};
@@ -22,7 +22,7 @@ pub struct Cost {
     pub place: Place,
     /// Fields, one number a solved point each.
     pub fields: Vec<Allocation>,
-    /// What the host keeps between the steps, in double precision.
+    /// Bytes that the host keeps between the steps, in double precision.
     pub history: Vec<Allocation>,
     /// Tables of factors, one a wavevector; a graphics processor has none of a periodic half-space.
     pub spectra: Vec<Allocation>,
@@ -35,7 +35,7 @@ pub struct Cost {
     pub passes: Vec<&'static str>,
     /// Solved points of the finest level.
     pub points: [usize; 2],
-    /// What effects take of the host's memory besides the history.
+    /// Bytes of the host's memory that effects take besides the history.
     pub host: HostBytes,
     /// Whether the stiffness of the waves is a table, and no formula.
     pub(super) is_tabulated: bool,
@@ -115,7 +115,7 @@ fn plan(
     let load = controller.load(value);
     let begin = |dry_run: &mut DryRun, iterations: usize| -> Result<(), BackendError> {
         let mut solver = ContactSolver::new(dry_run, problem);
-        // What is counted does not depend on the tolerance.
+        // The counts do not depend on the tolerance.
         solver.begin(&load, &Start::Present, 0.0, false)?;
         solver.precondition_by_levels();
         (0..iterations).try_for_each(|_| solver.iterate().map(drop))

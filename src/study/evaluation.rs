@@ -14,7 +14,7 @@ use crate::solver::{Load, Problem};
 /// Attraction below this share of the law's peak does not count as attraction.
 const NEGLIGIBLE: f64 = 1e-9;
 
-/// What a point of the grid does.
+/// State of a point of the grid.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 #[repr(u8)]
 pub enum PointState {
@@ -35,7 +35,7 @@ pub struct Evaluation {
     pub pressure: Vec<f64>,
     /// Constant that turns gap + heights into the displacement, m.
     pub displacement_offset: f64,
-    /// What each point does.
+    /// State of each point.
     pub points: Vec<PointState>,
     /// Rigid positions.
     pub position: Position,

@@ -1,4 +1,4 @@
-//! What an effect may do in a run: the hooks that the plan, the setup and the steps of a path call.
+//! The hooks of an effect, which the plan, the setup and the steps of a path call.
 //!
 //! An effect is a value of [`Hooks`]. What it carries from step to step, if anything, is a [`Carry`].
 //! Nothing here knows which effects there are: `effect` lists them and passes the list in.
@@ -97,7 +97,7 @@ pub(crate) trait Hooks: Sync {
     ) -> Option<Result<SolvedStep, BackendError>> {
         None
     }
-    /// What it carries from step to step, as a checkpoint has it or as it is at first.
+    /// Its state from step to step, from a checkpoint or as it is at first.
     fn carry(&self, _setup: &Setup, _checkpoint: &Checkpoint) -> Option<Box<dyn Carry>> {
         None
     }
@@ -125,7 +125,7 @@ pub(crate) trait Hooks: Sync {
     }
 }
 
-/// What an effect carries from step to step of a path.
+/// State of an effect from step to step of a path.
 pub(crate) trait Carry {
     /// A copy, to which a path can go back.
     fn copy(&self) -> Box<dyn Carry>;

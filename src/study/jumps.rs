@@ -39,6 +39,7 @@ const CLOSED: f64 = 1e-9;
 
 /// Which way a step jumped.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[non_exhaustive]
 pub enum Jump {
     /// More area adheres after it.
     In,
@@ -46,7 +47,7 @@ pub enum Jump {
     Off,
 }
 
-/// What the ends of a step say about it.
+/// Whether a step jumped, judged from its two ends.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) enum Verdict {
     /// It follows a branch.
@@ -115,7 +116,7 @@ impl Jumps {
         self.work.is_some()
     }
 
-    /// What the points did in the last step, where it had fields.
+    /// States of the points in the last step, where it had fields.
     pub fn points(&self) -> Option<&[PointState]> {
         self.before.as_ref()?.points.as_deref()
     }
@@ -210,7 +211,7 @@ impl Jumps {
     }
 }
 
-/// What a path prescribes.
+/// The quantity that a path prescribes.
 #[derive(Clone, Copy, Debug)]
 struct Prescribed {
     control: Control,

@@ -25,12 +25,12 @@ pub struct Memory {
     /// The most that this machine's own memory holds at once; with the solver where it runs on the
     /// processor.
     pub machine: u64,
-    /// What the adapter holds; 0 on the processor.
+    /// Bytes on the adapter; 0 on the processor.
     pub adapter: u64,
 }
 
 impl Memory {
-    /// What a scene on `grid` takes in the place of its cost.
+    /// Bytes that a scene of this cost takes on `grid`.
     pub fn of(scene: &Scene, grid: Grid, cost: &Cost) -> Memory {
         let points = grid.len() as u64;
         let shape = Shape {

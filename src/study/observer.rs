@@ -19,9 +19,9 @@ pub struct FinishedStep<'a> {
     pub jump: Option<Jump>,
 }
 
-/// What keeps the steps and watches the solver.
+/// Receives the steps and watches the solver.
 pub trait Observer {
-    /// What may go wrong in keeping a step.
+    /// Why a step could not be kept.
     type Error;
     /// Keeps a finished step.
     fn step(&mut self, step: FinishedStep) -> Result<(), Self::Error>;
@@ -66,6 +66,7 @@ pub enum WalkError<E> {
 
 /// A prescribed value that no contact can have.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[non_exhaustive]
 pub enum Unreachable {
     /// A position beyond that at which a periodic cell is closed everywhere.
     BeyondClosure,

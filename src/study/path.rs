@@ -224,7 +224,7 @@ impl Stretch<'_> {
     }
 }
 
-/// What was found between two steps.
+/// Result of a search between two steps.
 #[derive(Default)]
 struct Found {
     jump: Option<Jump>,

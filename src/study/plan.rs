@@ -17,7 +17,7 @@ const PIXELS_A_WAVE: f64 = 8.0;
 pub struct Plan {
     /// The scene.
     pub scene: Scene,
-    /// What is known of its surface.
+    /// Outline of its surface, known before it is built.
     pub outline: Outline,
     /// The law in SI units; the hard wall without adhesion.
     pub law: Law,

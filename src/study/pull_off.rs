@@ -36,7 +36,7 @@ impl PullOff {
     }
 }
 
-/// What the tensions of a path say about pull-off; forces in N, tension positive.
+/// Pull-off from the tensions of a path; forces in N, tension positive.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Tension {
     /// No step is under tension.

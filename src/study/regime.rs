@@ -44,6 +44,7 @@ pub(super) fn law_of(scene: &Scene, pixel: f64, strongest: f64) -> Law {
 
 /// The regime of a scene's adhesion between DMT and JKR, and its resolution by the grid.
 #[derive(Clone, Copy, Debug, PartialEq)]
+#[non_exhaustive]
 pub struct Regime {
     /// Radius of the sphere, else 2 over the rms curvature, m; infinite for a flat surface.
     pub radius: f64,

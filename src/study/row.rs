@@ -62,7 +62,7 @@ pub struct StepRow {
     pub contact_area_fraction_corrected: Option<f64>,
     /// Contact state.
     pub state: State,
-    /// What effects add, in the order of their columns.
+    /// Values of the effects' columns, in their order.
     #[serde(skip)]
     pub columns: Vec<(Column, Option<f64>)>,
 }

@@ -24,7 +24,7 @@ pub(crate) struct SolvedStep {
     pub unreachable: Option<Unreachable>,
     /// Whether the fields carry the load that was asked, where one was.
     pub load_is_met: bool,
-    /// What effects measured on the solver.
+    /// Values that effects measured on the solver.
     pub measured: Vec<(Column, f64)>,
 }
 

@@ -21,7 +21,7 @@ use crate::solver::{ContactSolver, MakeBackend, Problem};
 pub(super) struct Carried {
     /// Gap over all solved points, reduced; `None` where the surfaces are separated.
     gap: Option<Arc<Vec<f64>>>,
-    /// What effects carry, in their order.
+    /// States of the effects, in their order.
     effects: Vec<Box<dyn Carry>>,
 }
 
@@ -136,7 +136,7 @@ impl<'s> Walker<'s> {
         }
     }
 
-    /// What the next load starts from.
+    /// Start of the next load.
     pub fn carried(&mut self) -> Result<Carried, BackendError> {
         let gap = if self.loaded {
             Some(Arc::new(self.solver.gap()?))

@@ -47,6 +47,7 @@ use shapes::ApexPosition;
 use statistics::Statistics;
 
 /// Most points of a grid: 8 GiB of heights.
+#[doc(hidden)]
 pub const MOST_POINTS: usize = 1 << 30;
 
 /// Heights on a grid, with their reference height and adhesion map.
@@ -60,8 +61,10 @@ pub struct Surface {
     pub heights: Arc<Vec<f64>>,
     /// Height from which the approach counts, m: the true apex if the surface is exactly one sphere
     /// or one cone, else the highest sampled point.
+    #[doc(hidden)]
     pub highest: f64,
     /// Radius, m, if the surface is exactly one sphere.
+    #[doc(hidden)]
     pub sphere_radius: Option<f64>,
     /// Factors on the tension of the scene's law, shape `[ny, nx]`; `None` without a map.
     pub adhesion_map: Option<Vec<f64>>,

@@ -84,7 +84,7 @@ pub fn radial_spectrum(grid: &Grid, heights: &[f64], boundary: Boundary) -> Vec<
 }
 
 /// As [`radial_spectrum`], over rings as wide as the first wave number, each around a multiple of it.
-pub fn fine_spectrum(grid: &Grid, heights: &[f64], boundary: Boundary) -> Vec<SpectrumRing> {
+pub(crate) fn fine_spectrum(grid: &Grid, heights: &[f64], boundary: Boundary) -> Vec<SpectrumRing> {
     let first = first_wavenumber(grid);
     rings(grid, heights, boundary, |wavenumber| {
         (wavenumber / first).round() as usize
@@ -92,7 +92,7 @@ pub fn fine_spectrum(grid: &Grid, heights: &[f64], boundary: Boundary) -> Vec<Sp
 }
 
 /// Wave number of the longest wave of a map, 1/m.
-pub fn first_wavenumber(grid: &Grid) -> f64 {
+pub(crate) fn first_wavenumber(grid: &Grid) -> f64 {
     2.0 * PI / grid.lx.max(grid.ly)
 }
 
@@ -240,7 +240,7 @@ fn sum_over_rows(
 /// Root mean square jump between opposite edges, and between neighbours, along x and along y.
 ///
 /// On a periodic map the two are similar. Along an axis of one point both are 0.
-pub fn edge_jumps(grid: &Grid, heights: &[f64]) -> [(f64, f64); 2] {
+pub(crate) fn edge_jumps(grid: &Grid, heights: &[f64]) -> [(f64, f64); 2] {
     let (nx, ny) = (grid.nx, grid.ny);
     let root = |sum: f64, count: usize| (sum / count.max(1) as f64).sqrt();
     let across_x = sum_over_rows(grid, heights, |_, row| (row[0] - row[nx - 1]).powi(2));

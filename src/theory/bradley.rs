@@ -9,6 +9,7 @@ use super::tabor_map::Sphere;
 use std::f64::consts::PI;
 
 /// Force at a least `gap` in units of the range, in `2 pi w R`; negative attracts.
+#[doc(hidden)]
 pub fn reduced_force(law: Law, gap: f64) -> f64 {
     law.energy(gap)
 }

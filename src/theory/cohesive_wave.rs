@@ -27,6 +27,7 @@ pub struct CohesiveWave {
 
 /// An equilibrium of the wave.
 #[derive(Clone, Copy, Debug, PartialEq)]
+#[non_exhaustive]
 pub struct WaveState {
     /// `sin(pi a/wavelength)`, with a the half width of the contact.
     pub contact: f64,

@@ -14,6 +14,7 @@ pub fn force(sphere: &Sphere, contact_radius: f64) -> f64 {
 }
 
 /// Force at an `approach` of zero or more in units of the range, in `2 pi w R`.
+#[doc(hidden)]
 pub fn reduced_force(approach: f64, tabor_parameter: f64) -> Result<f64, TheoryError> {
     positive("tabor_parameter", tabor_parameter)?;
     Ok(super::dmt::hertz_force(approach, tabor_parameter)? - 0.5)

@@ -14,10 +14,12 @@ use std::f64::consts::PI;
 
 /// `i0 = (4/3) (B(-1/2, 7/2) - B(-1/2, 19/2))` of the Lennard-Jones law, which determines how the
 /// attraction of the force method increases from point contact.
+#[doc(hidden)]
 pub const POINT_CONTACT_INTEGRAL: f64 = 6.130_170_723_587_996;
 
 /// How the attraction outside the contact is computed.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[non_exhaustive]
 pub enum Method {
     /// The derivative of the energy at fixed profile (DMT-T; with Lennard-Jones IDMT-T).
     Thermodynamic,
@@ -28,7 +30,7 @@ pub enum Method {
 }
 
 /// Hertz force at an `approach` of zero or more: `(2/(3 pi)) (approach/tabor_parameter)^(3/2)`.
-pub fn hertz_force(approach: f64, tabor_parameter: f64) -> Result<f64, TheoryError> {
+pub(crate) fn hertz_force(approach: f64, tabor_parameter: f64) -> Result<f64, TheoryError> {
     let ratio = not_negative("approach", approach)? / positive("tabor_parameter", tabor_parameter)?;
     Ok(2.0 / (3.0 * PI) * ratio.powf(1.5))
 }
@@ -52,6 +54,7 @@ pub fn attraction(method: Method, law: Law, contact_radius: f64) -> Result<f64, 
 ///
 /// Its derivative with the approach is the thermodynamic attraction. There is no further `pi w R`:
 /// the moving edge compensates for the gain of the contact area.
+#[doc(hidden)]
 pub fn energy_gain(law: Law, contact_radius: f64) -> Result<f64, TheoryError> {
     let a = not_negative("contact_radius", contact_radius)?;
     Ok(0.5 * a * a + outside(law, a, |_, gap| -law.energy(gap))?)
@@ -92,6 +95,7 @@ pub fn pull_off(method: Method, law: Law, tabor_parameter: f64) -> Result<(f64, 
 /// `lim attraction/radius^(2/3)` of the force method with Lennard-Jones far from point contact.
 ///
 /// Near the edge the gap is `(8 sqrt2/(3 pi)) sqrt(a) (r-a)^(3/2)`; the rest is a beta function.
+#[doc(hidden)]
 pub fn force_method_large_radius() -> f64 {
     use super::special::beta;
     let edge = (3.0 * PI / (8.0 * 2.0_f64.sqrt())).cbrt().powi(2);
@@ -99,6 +103,7 @@ pub fn force_method_large_radius() -> f64 {
 }
 
 /// `lim (attraction - 1)/radius^3` of the force method with Lennard-Jones at point contact.
+#[doc(hidden)]
 pub fn force_method_small_radius() -> f64 {
     2.0 * 2.0_f64.sqrt() / (3.0 * PI) * POINT_CONTACT_INTEGRAL
 }

@@ -20,13 +20,14 @@ pub enum Path {
 }
 
 /// Standard deviation of the heights in units of `delta*`: `(4 theta/(3 pi))^(2/3)`.
-pub fn reduced_height(theta: f64) -> Result<f64, TheoryError> {
+pub(crate) fn reduced_height(theta: f64) -> Result<f64, TheoryError> {
     Ok((4.0 * positive("theta", theta)? / (3.0 * PI))
         .cbrt()
         .powi(2))
 }
 
 /// Net force per area at a `separation`, in `n pi w R`.
+#[doc(hidden)]
 pub fn reduced_pressure(theta: f64, separation: f64, path: Path) -> Result<f64, TheoryError> {
     let unit = 1.0 / reduced_height(theta)?;
     let separation = finite("separation", separation)?;
@@ -47,6 +48,7 @@ pub fn reduced_pressure(theta: f64, separation: f64, path: Path) -> Result<f64, 
 }
 
 /// Separation and magnitude (in `n 1.5 pi w R`) of the greatest tension on unloading.
+#[doc(hidden)]
 pub fn reduced_pull_off(theta: f64) -> Result<(f64, f64), TheoryError> {
     let unit = 1.0 / reduced_height(theta)?;
     let at = |h: f64| reduced_pressure(theta, h, Path::Unloading).unwrap_or(f64::NAN);

@@ -67,11 +67,13 @@ impl Summits {
 }
 
 /// `F_0(t) = int_t^inf phi(z) dz`, phi the normal density.
+#[doc(hidden)]
 pub fn tail_zero(t: f64) -> f64 {
     0.5 * erfc(t / SQRT_2)
 }
 
 /// `F_1(t) = int_t^inf (z-t) phi(z) dz`.
+#[doc(hidden)]
 pub fn tail_one(t: f64) -> f64 {
     if t < 3.0 {
         normal_density(t) - t * tail_zero(t)
@@ -82,6 +84,7 @@ pub fn tail_one(t: f64) -> f64 {
 }
 
 /// `F_(3/2)(t) = int_t^inf (z-t)^(3/2) phi(z) dz`, for t of -30 or more.
+#[doc(hidden)]
 pub fn tail_three_halves(t: f64) -> Result<f64, TheoryError> {
     Ok(normal_density(t) * scaled_tail(4, t)?)
 }

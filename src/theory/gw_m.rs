@@ -11,6 +11,7 @@ use super::special::normal_density;
 use std::f64::consts::PI;
 
 /// Net pressure at a `separation`: `(2/(3 pi)) theta F_(3/2) - F_0`.
+#[doc(hidden)]
 pub fn reduced_pressure(theta: f64, separation: f64) -> Result<f64, TheoryError> {
     let theta = not_negative("theta", theta)?;
     Ok(2.0 / (3.0 * PI) * theta * tail_three_halves(separation)? - tail_zero(separation))
@@ -19,6 +20,7 @@ pub fn reduced_pressure(theta: f64, separation: f64) -> Result<f64, TheoryError>
 /// Separation and magnitude of the greatest tension.
 ///
 /// There `(theta/pi) F_(1/2)` equals the density; their ratio decreases with the separation.
+#[doc(hidden)]
 pub fn reduced_pull_off(theta: f64) -> Result<(f64, f64), TheoryError> {
     let theta = positive("theta", theta)?;
     // In logarithms, since the ratio spans many decades.

@@ -10,15 +10,17 @@ use super::tabor_map::Sphere;
 use std::f64::consts::PI;
 
 /// Reduced load at which the sphere jumps off under load control.
-pub const PULL_OFF_FORCE: f64 = -1.5;
+pub(crate) const PULL_OFF_FORCE: f64 = -1.5;
 
 /// Reduced force at a reduced contact radius: `A^3 - sqrt(6 A^3)`.
+#[doc(hidden)]
 pub fn reduced_force(radius: f64) -> f64 {
     let cube = radius.powi(3);
     cube - (6.0 * cube).sqrt()
 }
 
 /// Reduced approach at a reduced contact radius: `A^2 - (2/3) sqrt(6 A)`.
+#[doc(hidden)]
 pub fn reduced_approach(radius: f64) -> f64 {
     radius * radius - 2.0 / 3.0 * (6.0 * radius).sqrt()
 }
@@ -26,6 +28,7 @@ pub fn reduced_approach(radius: f64) -> f64 {
 /// Reduced slope of force against approach along the equilibria, in `K a*`.
 ///
 /// `(9/2) A (1-x)/(3-x)` with `x = (A_c/A)^(3/2)`: 0 at [`pull_off`], infinite at [`grip`].
+#[doc(hidden)]
 pub fn reduced_stiffness(radius: f64) -> f64 {
     let x = (1.5 / radius.powi(3)).sqrt();
     4.5 * radius * (1.0 - x) / (3.0 - x)
@@ -38,6 +41,7 @@ pub fn pull_off() -> f64 {
 
 /// Reduced contact radius at pull-off under displacement control (fixed grips), the least approach:
 /// `6^(-1/3)`.
+#[doc(hidden)]
 pub fn grip() -> f64 {
     6.0_f64.cbrt().recip()
 }
@@ -53,6 +57,7 @@ pub fn zero_approach() -> f64 {
 }
 
 /// Stable reduced contact radius at a reduced approach, at or above that of [`grip`].
+#[doc(hidden)]
 pub fn reduced_radius_at_approach(approach: f64) -> Result<f64, TheoryError> {
     let least = reduced_approach(grip());
     within(
@@ -107,20 +112,6 @@ pub fn approach(sphere: &Sphere, contact_radius: f64) -> f64 {
 pub fn force(sphere: &Sphere, contact_radius: f64) -> f64 {
     hertz::force(sphere, contact_radius)
         - hertz::stiffness(sphere, contact_radius) * opening(sphere, contact_radius)
-}
-
-/// Force at any `contact_radius` and `approach` (m), not necessarily in equilibrium, N: `2 E* (a
-/// delta - a^3/(3R))`.
-pub fn force_at(sphere: &Sphere, contact_radius: f64, approach: f64) -> f64 {
-    let a = contact_radius;
-    2.0 * sphere.contact_modulus() * (a * approach - a.powi(3) / (3.0 * sphere.radius()))
-}
-
-/// Energy released per area as the edge recedes, `G = E* (a^2/R - delta)^2/(2 pi a)`, J/m^2;
-/// equal to w at equilibrium.
-pub fn energy_release_rate(sphere: &Sphere, contact_radius: f64, approach: f64) -> f64 {
-    let opening = hertz::approach(sphere, contact_radius) - approach;
-    sphere.contact_modulus() * opening * opening / (2.0 * PI * contact_radius)
 }
 
 /// Displacement of a flat punch of the contact radius away from the surface at equilibrium, m.
@@ -203,8 +194,14 @@ mod tests {
         for load in [-2e-4, 0.0, 3e-4] {
             let a = contact_radius(&sphere, load).unwrap();
             let delta = approach(&sphere, a);
-            assert!((energy_release_rate(&sphere, a, delta) / 0.05 - 1.0).abs() < 1e-12);
-            assert!((force_at(&sphere, a, delta) - load).abs() < 1e-17);
+            // Energy released per area as the edge recedes, E* (a^2/R - delta)^2/(2 pi a).
+            let retreat = hertz::approach(&sphere, a) - delta;
+            let released = sphere.contact_modulus() * retreat * retreat / (2.0 * PI * a);
+            assert!((released / 0.05 - 1.0).abs() < 1e-12);
+            // The load at any radius and approach, 2 E* (a delta - a^3/(3R)).
+            let carried =
+                2.0 * sphere.contact_modulus() * (a * delta - a.powi(3) / (3.0 * sphere.radius()));
+            assert!((carried - load).abs() < 1e-17);
             assert!((force(&sphere, a) - load).abs() < 1e-17);
             assert!((contact_radius_at_approach(&sphere, delta).unwrap() / a - 1.0).abs() < 1e-13);
             let step = 1e-6 * a;

@@ -6,6 +6,7 @@
 
 /// How the attraction decreases with the gap.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[non_exhaustive]
 pub enum Law {
     /// Lennard-Jones 9-3, gap measured from zero traction; repulsive at gaps in (-1, 0).
     ///
@@ -21,6 +22,7 @@ pub enum Law {
 
 impl Law {
     /// Every law.
+    #[doc(hidden)]
     pub const ALL: [Law; 4] = [
         Law::LennardJones,
         Law::Cubic,
@@ -78,6 +80,7 @@ impl Law {
     }
 
     /// Gap of the greatest traction, in units of the range.
+    #[doc(hidden)]
     pub fn peak_gap(self) -> f64 {
         match self {
             Law::LennardJones => 3.0_f64.powf(1.0 / 6.0) - 1.0,
@@ -87,6 +90,7 @@ impl Law {
 
     /// Gap at which the traction decreases fastest, and its slope there, which limits the mesh
     /// size.
+    #[doc(hidden)]
     pub fn steepest(self) -> (f64, f64) {
         let gap = match self {
             Law::LennardJones => 7.5_f64.powf(1.0 / 6.0) - 1.0,

@@ -29,6 +29,7 @@ pub struct LennardJonesSphere {
 
 /// An equilibrium.
 #[derive(Clone, Debug)]
+#[non_exhaustive]
 pub struct State {
     /// Approach of the undeformed apex.
     pub approach: f64,

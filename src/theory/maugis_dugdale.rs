@@ -16,6 +16,7 @@ pub const FOLD_LAMBDA: f64 = 0.937_947_457_210_712_3;
 
 /// An equilibrium of the sphere, reduced.
 #[derive(Clone, Copy, Debug, PartialEq)]
+#[non_exhaustive]
 pub struct State {
     /// Contact radius A; 0 out of contact.
     pub contact_radius: f64,
@@ -87,6 +88,7 @@ impl MaugisDugdale {
     }
 
     /// Cohesive radius at which the open disc just touches, the limit of zero contact radius.
+    #[doc(hidden)]
     pub fn touching_radius(&self) -> f64 {
         // lambda (pi/4) c^2 + (4/3) lambda^2 (pi/2 - 1) c = 1, solved without cancellation.
         let square = 0.25 * PI * self.lambda;
@@ -95,6 +97,7 @@ impl MaugisDugdale {
     }
 
     /// The open disc of radius `cohesive_radius`, from zero to [`Self::touching_radius`].
+    #[doc(hidden)]
     pub fn open_state(&self, cohesive_radius: f64) -> Result<State, TheoryError> {
         let c = not_negative("cohesive_radius", cohesive_radius)?;
         within(
@@ -123,6 +126,7 @@ impl MaugisDugdale {
     ///
     /// Above [`FOLD_LAMBDA`] it is in contact; below it is an open disc of radius `8 lambda/(3
     /// pi)`.
+    #[doc(hidden)]
     pub fn grip(&self) -> Result<State, TheoryError> {
         if self.lambda > FOLD_LAMBDA {
             self.least(|state| state.approach)
@@ -159,6 +163,7 @@ impl MaugisDugdale {
 
     /// Open discs at `approach`, the smaller first; one at or above the radius of the fold, `8
     /// lambda/(3 pi)`, is stable under a prescribed approach.
+    #[doc(hidden)]
     pub fn open_states_at_approach(&self, approach: f64) -> Result<Vec<State>, TheoryError> {
         let centre = 8.0 / (3.0 * PI) * self.lambda;
         let square = centre * centre + 2.0 * (self.range() + approach);
@@ -244,6 +249,7 @@ fn punch_gap(t: f64) -> f64 {
 
 /// Fit of the Maugis-Dugdale curves to 2 % by Carpick, Ogletree & Salmeron 1999.
 #[derive(Clone, Copy, Debug, PartialEq)]
+#[non_exhaustive]
 pub struct CarpickFit {
     /// Transition parameter, 0 for DMT and 1 for JKR.
     pub alpha: f64,

@@ -19,7 +19,7 @@
 //! | the elastic body | [`love`], [`kernel_eigenvalue`], [`layer`] |
 
 mod block_solve;
-pub mod error;
+pub(crate) mod error;
 #[doc(hidden)]
 pub mod quadrature;
 mod ring;

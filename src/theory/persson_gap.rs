@@ -23,7 +23,7 @@ pub struct RoughContact {
 
 /// Part of the surface that loses contact between two magnifications.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct GapCell {
+pub(crate) struct GapCell {
     /// Its share of the nominal area.
     pub weight: f64,
     /// Its mean gap, m.
@@ -45,6 +45,7 @@ pub struct Adhesion {
 
 /// The state of greatest tension.
 #[derive(Clone, Copy, Debug, PartialEq)]
+#[non_exhaustive]
 pub struct PullOff {
     /// Greatest net tension, Pa, positive.
     pub tension: f64,
@@ -68,6 +69,7 @@ impl RoughContact {
     }
 
     /// The spectrum.
+    #[doc(hidden)]
     pub fn spectrum(&self) -> &Spectrum {
         &self.spectrum
     }
@@ -100,6 +102,7 @@ impl RoughContact {
 
     /// Normal stiffness per area `-dp/d(mean gap)` at a nominal `pressure` (Pa), Pa/m; times the
     /// conductivity over the modulus it is the thermal contact conductance.
+    #[doc(hidden)]
     pub fn stiffness(&self, pressure: f64) -> Result<f64, TheoryError> {
         let pressure = positive("pressure", pressure)?;
         let gamma = self.theory.gamma();
@@ -146,7 +149,7 @@ impl RoughContact {
     /// The weights and the contact area add up to 1, and the weighted means to the mean gap: both
     /// are differences of the remaining contact, so that no derivative is needed. The width
     /// combines the roughness at higher magnifications with the mean (Afferrante et al. 2018).
-    pub fn gap_cells(&self, pressure: f64) -> Result<Vec<GapCell>, TheoryError> {
+    pub(crate) fn gap_cells(&self, pressure: f64) -> Result<Vec<GapCell>, TheoryError> {
         let pressure = positive("pressure", pressure)?;
         let (first, last) = (
             self.spectrum.smallest_wavenumber(),
@@ -202,7 +205,11 @@ impl RoughContact {
     }
 
     /// Net nominal pressure `pressure - attraction` at a repulsive `pressure` (Pa), Pa.
-    pub fn net_pressure(&self, adhesion: &Adhesion, pressure: f64) -> Result<f64, TheoryError> {
+    pub(crate) fn net_pressure(
+        &self,
+        adhesion: &Adhesion,
+        pressure: f64,
+    ) -> Result<f64, TheoryError> {
         Ok(pressure - self.attraction(adhesion, pressure)?)
     }
 

@@ -37,7 +37,7 @@ pub fn logarithmic_law(
 ///
 /// `speed` is the rate of approach in `v* delta*/a*`. With the opening `y = -approach` as the
 /// variable the edge obeys `dA/dy = -(g - 1)^(1/n)/speed`, `g = 3 (A^2 + y)^2/(8 A)` (the energy
-/// release rate of [`jkr::energy_release_rate`] over w). As the speed goes to 0 this is 1.5.
+/// release rate `E* (a^2/R - delta)^2/(2 pi a)` over w). As the speed goes to 0 this is 1.5.
 pub fn reduced_pull_off(speed: f64, exponent: f64) -> Result<f64, TheoryError> {
     let speed = positive("speed", speed)?;
     let power = 1.0 / between!(exponent in 0.1..=2.0, "between 0.1 and 2")?;

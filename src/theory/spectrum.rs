@@ -100,7 +100,7 @@ impl Spectrum {
     }
 
     /// `I_k` of the wave numbers between `from` and `to`; 0 for an empty interval.
-    pub fn moment_between(&self, order: i32, from: f64, to: f64) -> f64 {
+    pub(crate) fn moment_between(&self, order: i32, from: f64, to: f64) -> f64 {
         let order = f64::from(order);
         let power = 2.0 * (self.hurst_exponent + 1.0);
         let (from, to) = (from.max(self.smallest), to.min(self.largest));

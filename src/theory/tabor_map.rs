@@ -9,20 +9,22 @@ use std::f64::consts::PI;
 
 /// Approach in Lennard-Jones units over `tabor_parameter` times approach in Maugis units,
 /// `(9 pi^2/16)^(1/3)`.
-pub const LJ_PER_MAUGIS_APPROACH: f64 = 1.770_682_754_000_227;
+pub(crate) const LJ_PER_MAUGIS_APPROACH: f64 = 1.770_682_754_000_227;
 
 /// Maugis' lambda over Tabor's mu for a Dugdale law with the work and the peak tension of a
 /// Lennard-Jones law, `2 (16/(9 sqrt 3)) (9/(16 pi))^(1/3)` (Johnson & Greenwood 1997).
+#[doc(hidden)]
 pub const LAMBDA_PER_MU_MATCHED: f64 = 1.157_011_634_850_799_5;
 
 /// Tabor parameter below which the pull-off of the DMT force method is at point contact, so that
 /// its magnitude is correct: `(sqrt2 i0)^(-2/3)`, `i0 = (4/3)(B(-1/2, 7/2) - B(-1/2, 19/2))`.
 ///
 /// The 0.24 of Pashley 1984 and Greenwood 2007.
+#[doc(hidden)]
 pub const FORCE_DMT_LIMIT: f64 = 0.236_959_952_979_233_6;
 
 /// Tabor parameter above which the pull-off agrees with JKR within 2 %.
-pub const JKR_LIMIT: f64 = 5.0;
+pub(crate) const JKR_LIMIT: f64 = 5.0;
 
 /// A paraboloid `r^2/(2 radius)` against a half-space, with or without adhesion.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -82,6 +84,7 @@ impl Sphere {
 
 /// Units in which JKR has no parameter and Maugis-Dugdale one (Maugis 1992).
 #[derive(Clone, Copy, Debug, PartialEq)]
+#[non_exhaustive]
 pub struct MaugisScales {
     /// `a* = (pi w R^2/K)^(1/3)`, m.
     pub radius: f64,
@@ -149,17 +152,20 @@ pub fn maugis_parameter(sphere: &Sphere, peak_tension: f64) -> Result<f64, Theor
 }
 
 /// Approach in units of the range, from Maugis units.
+#[doc(hidden)]
 pub fn lj_from_maugis_approach(approach: f64, tabor_parameter: f64) -> f64 {
     LJ_PER_MAUGIS_APPROACH * tabor_parameter * approach
 }
 
 /// Approach in Maugis units, from units of the range.
+#[doc(hidden)]
 pub fn maugis_from_lj_approach(approach: f64, tabor_parameter: f64) -> f64 {
     approach / (LJ_PER_MAUGIS_APPROACH * tabor_parameter)
 }
 
 /// The valid theory of a sphere at a Tabor parameter (Johnson & Greenwood 1997).
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[non_exhaustive]
 pub enum Regime {
     /// Stiff, small, long-ranged: Hertz profile with the attraction summed outside it
     /// ([`super::dmt`]).

@@ -16,6 +16,7 @@ pub struct Solid {
 
 /// Time integration of a branch.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[doc(hidden)]
 pub enum Scheme {
     /// First order in the step.
     BackwardEuler,
@@ -27,6 +28,7 @@ pub enum Scheme {
 impl Scheme {
     /// `(alpha, beta)` of the branch update `m' = alpha m + beta (u' - u)`, for `ratio` = step over
     /// relaxation time.
+    #[doc(hidden)]
     pub fn coefficients(self, ratio: f64) -> (f64, f64) {
         match self {
             Scheme::BackwardEuler => (1.0 / (1.0 + ratio), 1.0 / (1.0 + ratio)),
@@ -80,6 +82,7 @@ impl Solid {
     ///
     /// The branch starts with the strain of the instantaneous response. The exact value is `2
     /// pressure creep(t)/wavenumber`.
+    #[doc(hidden)]
     pub fn stepped_creep(
         &self,
         wavenumber: f64,

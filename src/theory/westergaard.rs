@@ -10,6 +10,7 @@ use super::roots::root;
 use std::f64::consts::PI;
 
 /// Adhesion parameter above which the line wave closes completely without load: `3^(3/4)/4`.
+#[doc(hidden)]
 pub const CRITICAL_ADHESION: f64 = 0.569_876_764_238_694_4;
 
 /// `p* = pi E* D/wavelength` of the line wave, Pa.
@@ -99,6 +100,7 @@ pub fn adhesive_mean_pressure(half_width: f64, adhesion: f64) -> Result<f64, The
 
 /// Extrema of the adhesive wave: pull-off and closure.
 #[derive(Clone, Copy, Debug, PartialEq)]
+#[non_exhaustive]
 pub struct AdhesiveExtrema {
     /// Greatest tension, in p*, positive.
     pub pull_off: f64,
@@ -136,6 +138,7 @@ pub fn adhesive_extrema(adhesion: f64) -> Result<AdhesiveExtrema, TheoryError> {
 
 /// Contact area fraction of the egg-box `D cos cos` at low `mean_pressure`, in units of
 /// `sqrt2 pi E* D/wavelength`: `pi (3 p/(8 pi))^(2/3)`, which is Hertz on its two crests.
+#[doc(hidden)]
 pub fn egg_box_area_low(mean_pressure: f64) -> Result<f64, TheoryError> {
     let mean_pressure = not_negative("mean_pressure", mean_pressure)?;
     Ok(PI * (3.0 * mean_pressure / (8.0 * PI)).cbrt().powi(2))
@@ -143,6 +146,7 @@ pub fn egg_box_area_low(mean_pressure: f64) -> Result<f64, TheoryError> {
 
 /// The same near full contact: `1 - (3/(2 pi)) (1 - p)`. As printed in the source, not derived
 /// again.
+#[doc(hidden)]
 pub fn egg_box_area_high(mean_pressure: f64) -> Result<f64, TheoryError> {
     between!(mean_pressure in 0.0..=1.0, "between 0 and 1")?;
     Ok(1.0 - 3.0 / (2.0 * PI) * (1.0 - mean_pressure))

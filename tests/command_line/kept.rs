@@ -349,7 +349,7 @@ fn a_signal_while_a_shader_compiles_ends_the_run_at_once() {
         assert!(waited < Duration::from_secs(2), "{waited:?}: {said}");
         assert_eq!(said.contains("twice"), twice, "{said}");
         assert!(
-            said.contains("error: interrupted") && said.contains("--resume goes on after"),
+            said.contains("error: interrupted") && said.contains("--resume continues after"),
             "{said}"
         );
         let kept = rows(&out);

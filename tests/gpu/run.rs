@@ -355,7 +355,7 @@ fn a_grid_past_the_limits_is_refused_with_the_largest_and_auto_stays() {
 }
 
 /// The device is given up amid the second step: what is solved is kept. Where the scene leaves the
-/// choice the processor goes on, to the same curve.
+/// choice the processor continues, to the same curve.
 fn a_lost_device_keeps_what_is_solved_and_auto_goes_on() {
     keeps_what_is_solved("lost", "error: the device failed");
 }
@@ -389,7 +389,7 @@ fn keeps_what_is_solved(fault: &str, words: &str) {
     let output = run_tested(folder.path(), "auto", &[], None, &tested);
     let message = errors(&output);
     assert_eq!(output.status.code(), Some(0), "{message}");
-    assert!(message.contains("the processor goes on"), "{message}");
+    assert!(message.contains("the processor continues"), "{message}");
     assert!(!message.contains("panicked"), "{message}");
     let said = summary(&folder.path().join("auto"));
     assert_eq!(said["backend"], "cpu");
@@ -422,7 +422,7 @@ fn a_device_out_of_memory_says_so_and_auto_goes_on() {
     let output = run_tested(folder.path(), "auto", &[], None, "software,memory=40000");
     let message = errors(&output);
     assert_eq!(output.status.code(), Some(0), "{message}");
-    assert!(message.contains("the processor goes on"), "{message}");
+    assert!(message.contains("the processor continues"), "{message}");
     let said = summary(&folder.path().join("auto"));
     assert_eq!(said["backend"], "cpu");
 }

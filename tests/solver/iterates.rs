@@ -386,8 +386,8 @@ fn surfaces_leave_each_other_on_the_graphics_processor() {
 }
 
 tests![
-    the_processor_follows_the_plain_text,
-    surfaces_leave_each_other_on_the_processor,
-    surfaces_leave_each_other_on_the_graphics_processor,
     the_graphics_processor_follows_the_plain_text,
+    the_processor_follows_the_plain_text,
+    surfaces_leave_each_other_on_the_graphics_processor,
+    surfaces_leave_each_other_on_the_processor,
 ];

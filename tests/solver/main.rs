@@ -11,9 +11,10 @@ mod operator;
 mod shared;
 
 fn main() -> ExitCode {
+    // The longest first: nothing else is left to do beside it at the end.
     shared::trials::run([
-        checkpoint::tests(),
         iterates::tests(),
+        checkpoint::tests(),
         mean_gap::tests(),
         operator::tests(),
     ])

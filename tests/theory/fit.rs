@@ -58,6 +58,7 @@ fn made(model: Model, lambda: f64, noise: f64, seed: u64) -> Vec<Sample> {
             let sphere = MaugisDugdale::new(lambda).expect("a sphere");
             (-sphere.range(), sphere.grip().expect("a grip").approach)
         }
+        other => panic!("no curve of {other:?} is made here"),
     };
     let sphere = SphereModel::new(model, RADIUS);
     let mut random = Random(seed);

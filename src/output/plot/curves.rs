@@ -69,7 +69,7 @@ fn figure(panels: Vec<Panel>) -> Figure {
 struct Stretch {
     loading: bool,
     /// Whether it begins at the last point of the one before.
-    goes_on: bool,
+    continues: bool,
     points: Vec<[f64; 2]>,
 }
 
@@ -133,7 +133,7 @@ fn series(stretches: &[Stretch]) -> Vec<Series> {
     let marks = stretches
         .iter()
         .filter(|_| count <= MARKED)
-        .map(|it| Series::marks(name(it), points(it, usize::from(it.goes_on))));
+        .map(|it| Series::marks(name(it), points(it, usize::from(it.continues))));
     lines.chain(marks).collect()
 }
 
@@ -178,7 +178,7 @@ fn stretches(rows: &[StepRow], points: &[Option<[f64; 2]>], loading: &[bool]) ->
             (Some(last), Some(_)) if last.loading == loading[index] => last.points.push(at),
             (_, before) => found.push(Stretch {
                 loading: loading[index],
-                goes_on: before.is_some(),
+                continues: before.is_some(),
                 points: before.into_iter().chain([at]).collect(),
             }),
         }

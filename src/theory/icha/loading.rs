@@ -4,7 +4,8 @@ use super::lattice::Lattice;
 use super::merge::solve_with_merging;
 use super::newton::{Equilibrium, Prescribed, Tolerances};
 use super::set::Set;
-use super::{Asperity, Contact, GapField, MergeRule, find_summits, gap};
+use super::summits::find_summits;
+use super::{Asperity, Contact, GapField, MergeRule, gap};
 use crate::grid::Grid;
 use crate::theory::TheoryError;
 use crate::theory::error::{positive, within};
@@ -22,7 +23,7 @@ const LONGEST_CELL: f64 = 1e4;
 const SMALLEST_STEP: f64 = 1.0005;
 /// Loads that [`Loading::press`] may try on one way up, those that do not settle included. In steps of
 /// `LOAD_STEP` the way from the first load takes 39, and over all numbers that a scene may hold 800.
-pub const MOST_LOADS: usize = 4000;
+const MOST_LOADS: usize = 4000;
 
 /// A periodic cell of a rough surface with its asperities.
 #[derive(Clone, Debug)]
@@ -64,16 +65,19 @@ impl<'a> Icha<'a> {
     }
 
     /// The asperities before any merged.
+    #[doc(hidden)]
     pub fn summits(&self) -> &[Asperity] {
         &self.summits
     }
 
     /// The grid of the map.
+    #[doc(hidden)]
     pub fn grid(&self) -> Grid {
         self.grid
     }
 
     /// The map, m.
+    #[doc(hidden)]
     pub fn heights(&self) -> &'a [f64] {
         self.heights
     }
@@ -84,7 +88,8 @@ impl<'a> Icha<'a> {
     }
 
     /// As [`Icha::loading`], with another ratio (above 1) between successive loads, at most
-    /// [`MOST_LOADS`] of them.
+    /// 4000 of them.
+    #[doc(hidden)]
     pub fn loading_in_steps(&self, rule: MergeRule, step: f64) -> Loading<'_> {
         Loading {
             surface: self,
@@ -119,7 +124,7 @@ impl Loading<'_> {
     /// Increases the load to a mean pressure over the contact modulus, not below the previous one.
     ///
     /// # Errors
-    /// A decreasing load, asperities that do not converge, more than [`MOST_LOADS`] loads, and contacts
+    /// A decreasing load, asperities that do not converge, more than 4000 loads, and contacts
     /// that merge over the whole cell.
     pub fn press(&mut self, pressure_over_modulus: f64) -> Result<Pressed, TheoryError> {
         let target = positive("pressure over modulus", pressure_over_modulus)?;
@@ -242,6 +247,7 @@ impl Pressed {
     }
 
     /// Mean pressure over the contact modulus.
+    #[doc(hidden)]
     pub fn pressure_over_modulus(&self) -> f64 {
         let load: f64 = self.contacts.iter().map(Contact::load_over_modulus).sum();
         load / self.nominal_area

@@ -17,6 +17,7 @@ const MOST_SETTLES: usize = 100;
 
 /// What is conserved when overlapping contacts merge, besides their area.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[non_exhaustive]
 pub enum MergeRule {
     /// The volume of their caps.
     Volume,
@@ -31,7 +32,7 @@ pub enum MergeRule {
 /// merged.
 ///
 /// The sources define area and centroid only; `docs/dmt_study.md` compares the conserved volumes.
-pub fn merged(
+pub(super) fn merged(
     cluster: &[Contact],
     plane: f64,
     others: impl Fn([f64; 2]) -> f64,
@@ -84,27 +85,6 @@ fn lift(cluster: &[Contact]) -> f64 {
         }
     }
     sum
-}
-
-/// Clusters of contacts whose circles overlap, as lists of indices into `contacts`, without single
-/// contacts.
-pub fn clusters(contacts: &[Contact]) -> Vec<Vec<usize>> {
-    connected(contacts.len(), &overlapping(contacts))
-}
-
-fn overlapping(contacts: &[Contact]) -> Vec<[usize; 2]> {
-    let mut pairs = Vec::new();
-    for (i, one) in contacts.iter().enumerate() {
-        for (j, other) in contacts[..i].iter().enumerate() {
-            let touch = one.contact_radius > 0.0 && other.contact_radius > 0.0;
-            let [x, y] =
-                [0, 1].map(|axis| one.asperity.position[axis] - other.asperity.position[axis]);
-            if touch && x.hypot(y) < one.contact_radius + other.contact_radius {
-                pairs.push([j, i]);
-            }
-        }
-    }
-    pairs
 }
 
 /// Connected components of `count` elements joined in pairs, without single elements.

@@ -18,9 +18,10 @@ mod set;
 mod summits;
 
 pub use gap::GapField;
-pub use loading::{Icha, Loading, MOST_LOADS, Pressed};
-pub use merge::{MergeRule, clusters, merged, merged_contacts};
-pub use summits::find_summits;
+pub use loading::{Icha, Loading, Pressed};
+pub use merge::MergeRule;
+#[doc(hidden)]
+pub use merge::merged_contacts;
 
 use super::error::{TheoryError, finite, positive};
 use lattice::Lattice;
@@ -72,6 +73,7 @@ impl Contact {
 
 /// Contacts of all asperities with a plane at height `plane` (m), each displaced by the others:
 /// `delta_i + sum_j U(r_ij; a_j, R_j) = z_i - plane` in contact.
+#[doc(hidden)]
 pub fn contacts(asperities: &[Asperity], plane: f64) -> Result<Vec<Contact>, TheoryError> {
     check(asperities, plane)?;
     let lattice = Lattice::infinite();
@@ -93,6 +95,7 @@ fn check(asperities: &[Asperity], plane: f64) -> Result<(), TheoryError> {
 
 #[cfg(test)]
 mod tests {
+    use super::merge::merged;
     use super::*;
 
     fn at(x: f64, height: f64, radius: f64) -> Asperity {

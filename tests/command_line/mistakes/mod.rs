@@ -120,10 +120,6 @@ const OUT_OF_REACH: &[(&str, &str)] = &[
         "passes a surface's mistake on; the command line shows it with its scene",
     ),
     (
-        "CompareError::Run",
-        "passes on what keeps a run from beginning; the command line refuses it before",
-    ),
-    (
         "CompareError::Output",
         "passes an output's failure on; the command line shows what is inside",
     ),
