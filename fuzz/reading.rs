@@ -83,6 +83,7 @@ pub fn heights(bytes: &[u8], folder: &Path) {
         Boundary::Periodic
     };
     let part = SurfacePart::File(HeightFileScene {
+        preparation: tabor::scene::Preparation::default(),
         path: path.clone(),
         unit: if bit(6) { 1e-9 } else { 1.0 },
         scale: if bit(7) { -2.0 } else { 1.0 },

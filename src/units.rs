@@ -68,8 +68,8 @@ dimensions! {
     MolarVolume: "m^3/mol", "a molar volume in m^3/mol", "\"18e-6 m^3/mol\"";
     /// m/s.
     Speed: "m/s", "a speed in m/s", "\"1 um/s\"";
-    /// W/(m K); an electrical conductivity is given as a bare number in S/m.
-    Conductivity: "W/(m K)", "a conductivity in W/(m K)", "\"400 W/(m K)\"";
+    /// W/(m K), or S/m.
+    Conductivity: "W/(m K)", "a conductivity in W/(m K) or S/m", "\"400 W/(m K)\"";
     /// m^3/(N m), which is 1/Pa: the volume worn off per load and length of sliding.
     SpecificWear: "m^3/(N m)", "a specific wear rate in m^3/(N m) or 1/Pa", "\"1e-6 mm^3/(N m)\"";
     /// 1/m: a curvature, a wave number.
@@ -239,7 +239,11 @@ const PREFIXED: &[(&str, Dimension)] = &[
     ("m/V", Dimension::LengthPerVoltage),
     ("W/(m K)", Dimension::Conductivity),
     ("W/m/K", Dimension::Conductivity),
+    ("S/m", Dimension::Conductivity),
 ];
+
+/// Units of results that are shown with a prefix and never read.
+const SHOWN: [&str; 3] = ["W/K", "S", "ohm"];
 
 /// Units without prefixes, with their size in SI: a power of ten and a factor.
 const PLAIN: &[(&str, Dimension, i32, f64)] = &[
@@ -453,7 +457,7 @@ pub fn format_si(value: f64, unit: &str) -> String {
 
 /// Whether a prefix may stand before a unit: not before a power, where it would be squared too.
 fn takes_prefix(unit: &str) -> bool {
-    PREFIXED.iter().any(|(known, _)| *known == unit)
+    PREFIXED.iter().any(|(known, _)| *known == unit) || SHOWN.contains(&unit)
 }
 
 /// `mantissa * 10^exponent` of a four-digit mantissa, without an exponent or trailing zeros.

@@ -306,6 +306,7 @@ mod tests {
             durations,
             spring: None,
             pull_off_tolerance: 0.01,
+            until_apart: false,
         }
     }
 

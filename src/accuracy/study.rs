@@ -74,6 +74,8 @@ impl<'a> Study<'a> {
     ) -> Result<Study<'a>, AccuracyError> {
         let clock = Clock::start();
         let mut same = GridIndependentSurface::new(scene)?;
+        // The steps of the path itself are compared.
+        same.scene.loading.until_apart = false;
         // Models are compared with the full law, and other precisions with double precision on the
         // processor.
         if let Some(adhesion) = &mut same.scene.adhesion {

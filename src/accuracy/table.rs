@@ -20,6 +20,9 @@ const MORE_COLUMNS: &str = "error_largest,varied,range,chi,zone_pixels,change,it
 /// Errors for which the cheapest setting is named.
 pub const LEVELS: [f64; 3] = [0.1, 0.01, 0.001];
 
+/// A setting is named for one quantity only if the others are wrong by at most so many times its level.
+const OTHERS: f64 = 10.0;
+
 /// A quantity of [`Errors`].
 type Quantity = fn(&Errors) -> Option<f64>;
 
@@ -220,10 +223,18 @@ fn cells(words: &str, seconds: &str, errors: &Errors) -> String {
     format!("{words:<58} {seconds:>8} {area:>9} {force:>9} {pressure:>9} {pull_off:>9}")
 }
 
+/// An error, unless another quantity is wrong by more than [`OTHERS`] times the level.
+fn sound(errors: &Errors, of: Quantity, level: f64) -> Option<f64> {
+    let largest = errors.largest()?;
+    of(errors).filter(|_| largest <= OTHERS * level)
+}
+
 /// The cheapest setting for a level, or a note that none reached it; `None` without errors.
 fn cheapest(report: &Report, of: Quantity, level: f64) -> Option<String> {
-    let costs = report.costs(of);
-    let best = costs.iter().filter_map(|cost| cost.1).reduce(f64::min)?;
+    let least =
+        |costs: &[(f64, Option<f64>)]| costs.iter().filter_map(|cost| cost.1).reduce(f64::min);
+    let best = least(&report.costs(of))?;
+    let costs = report.costs(|errors| sound(errors, of, level));
     let uncertainty = report.uncertainty(of);
     Some(match pareto::cheapest(&costs, uncertainty, level) {
         Some(index) => {
@@ -238,6 +249,10 @@ fn cheapest(report: &Report, of: Quantity, level: f64) -> Option<String> {
             "unknown: the reference itself is accurate only to {}; a longer budget gives a better one",
             percent(Some(uncertainty))
         ),
+        None if best + uncertainty <= level => format!(
+            "none: those that reached it are off by more than {} in another quantity",
+            percent(Some(OTHERS * level))
+        ),
         None => format!(
             "none reached it; the least error is {}",
             percent(Some(best))
@@ -248,6 +263,19 @@ fn cheapest(report: &Report, of: Quantity, level: f64) -> Option<String> {
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn a_setting_whose_other_quantities_are_wrong_is_not_named() {
+        let errors = |pull_off: f64| Errors {
+            area: Some(0.005),
+            pull_off: Some(pull_off),
+            ..Errors::default()
+        };
+        assert_eq!(sound(&errors(0.09), |e| e.area, 0.01), Some(0.005));
+        assert_eq!(sound(&errors(0.11), |e| e.area, 0.01), None);
+        assert_eq!(sound(&errors(0.11), |e| e.area, 0.1), Some(0.005));
+        assert_eq!(sound(&errors(0.11), |e| e.force, 0.1), None);
+    }
 
     #[test]
     fn shares_have_two_digits() {

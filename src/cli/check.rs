@@ -79,12 +79,23 @@ fn physics(plan: &Plan) -> Vec<String> {
             }
         ),
         format!(
-            "loading       {}, {} steps{}",
+            "loading       {}, {} steps{}{}",
             scene.loading.control.name(),
             scene.loading.path.len(),
-            step_times(scene.loading.durations.as_deref())
+            step_times(scene.loading.durations.as_deref()),
+            if scene.loading.until_apart {
+                ", then on until the surfaces are apart"
+            } else {
+                ""
+            }
         ),
     ];
+    if plan.outline.has_flats {
+        lines.push(
+            "model         pillars are rigid, as the whole counter-face is: they do not bend, and only the solid deforms"
+                .to_owned(),
+        );
+    }
     let Some(regime) = &plan.regime else {
         return lines;
     };
@@ -108,16 +119,14 @@ fn physics(plan: &Plan) -> Vec<String> {
             format_si(law.range, "m"),
         ));
     }
-    let radius = if regime.radius.is_finite() {
-        format!("radius {}", format_si(regime.radius, "m"))
-    } else {
-        "flat surface".to_owned()
-    };
-    lines.push(format!(
-        "regime        Tabor number {:.3} ({radius}): {}",
-        regime.tabor,
-        regime.name()
-    ));
+    lines.push(match regime.tabor {
+        Some(tabor) => format!(
+            "regime        Tabor number {tabor:.3} (radius {}): {}",
+            format_si(regime.radius, "m"),
+            regime.name()
+        ),
+        None => "regime        flats and walls: no curvature, and no Tabor number".to_owned(),
+    });
     lines
 }
 

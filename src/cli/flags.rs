@@ -47,3 +47,36 @@ pub(super) fn with_options(message: &str) -> String {
             text.replace(words, option)
         })
 }
+
+/// Keys of a height file in messages, and the options of `tabor surface`.
+const FILE_OPTIONS: &[(&str, &str)] = &[
+    ("write profile = true", "give --profile"),
+    ("write fill = \"interpolate\"", "give --fill interpolate"),
+    (
+        "write black and white, the heights of its ends (black = 0, white = \"1 um\")",
+        "give --black and --white, the heights of its ends (--black 0 --white \"1 um\")",
+    ),
+    (
+        "black and white are for grey images",
+        "--black and --white are for grey images",
+    ),
+    ("detrend = \"plane\"", "--detrend plane"),
+    (
+        "edges = \"window\" or \"mirror\"",
+        "--edges window or --edges mirror",
+    ),
+    ("boundary = \"free\"", "--boundary free"),
+    ("crop = [", "--crop ["),
+    ("resample = [nx, ny]", "--resample \"nx, ny\""),
+    ("[grid] size", "--size"),
+    ("leave size out", "leave --size out"),
+];
+
+/// A message about a height file for those who gave it to `tabor surface`.
+pub(super) fn with_file_options(message: &str) -> String {
+    FILE_OPTIONS
+        .iter()
+        .fold(message.to_owned(), |text, (words, option)| {
+            text.replace(words, option)
+        })
+}

@@ -131,11 +131,16 @@ fn time_left(seconds: f64, done: f64, left: f64) -> String {
     if !estimate.is_finite() || done <= 0.0 || seconds < 1.0 {
         return String::new();
     }
-    let whole = estimate.max(0.0).round() as u64;
+    format!("about {} left", time(estimate))
+}
+
+/// A time in words.
+pub(super) fn time(seconds: f64) -> String {
+    let whole = seconds.max(0.0).round() as u64;
     match whole {
-        0..60 => format!("about {whole} s left"),
-        60..3600 => format!("about {} min {:02} s left", whole / 60, whole % 60),
-        _ => format!("about {} h {:02} min left", whole / 3600, whole % 3600 / 60),
+        0..60 => format!("{whole} s"),
+        60..3600 => format!("{} min {:02} s", whole / 60, whole % 60),
+        _ => format!("{} h {:02} min", whole / 3600, whole % 3600 / 60),
     }
 }
 

@@ -1,10 +1,11 @@
 //! `tabor run`: the main job.
 
 use super::interrupts::Interrupts;
-use super::progress::Progress;
+use super::progress::{Progress, time};
 use super::{Failure, RunArguments, folder_or_default, note, say, table, warn};
 use crate::clock::Clock;
 use crate::device::Device;
+use crate::output::sentence;
 use crate::run::{RunEnd, RunError, RunObserver, RunOptions, RunStatus, run_with};
 use crate::study::{StepRow, Unreachable};
 
@@ -38,6 +39,12 @@ pub(super) fn run(arguments: &RunArguments) -> Result<(), Failure> {
     })?;
     if !arguments.quiet {
         table::print(&end.rows);
+        say(&format!(
+            "{} Solved in {}; the report is {}",
+            sentence(&end.summary, &end.rows),
+            time(clock.seconds()),
+            folder.join("report.html").display()
+        ));
     }
     judge(&end)
 }

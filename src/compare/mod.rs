@@ -84,7 +84,7 @@ impl Comparison {
 
     /// Why the DMT force approach is out of its range here, if it is.
     fn beyond_dmt(&self) -> Option<&'static str> {
-        let tabor = self.setup.regime?.tabor;
+        let tabor = self.setup.regime?.tabor?;
         (tabor > FORCE_DMT_LIMIT).then_some("Tabor number above 0.237")
     }
 }
@@ -95,11 +95,13 @@ impl Comparison {
 /// A scene that does not suit ([`check_scene`]), a flat surface, files that cannot be written, a device
 /// that fails. A model without results is not an error: a note gives the reason.
 pub fn compare(
-    setup: Setup,
+    mut setup: Setup,
     make_backend: MakeBackend,
     folder: &Path,
 ) -> Result<Compared, CompareError> {
     check_scene(&setup.scene)?;
+    // The steps of the path itself are compared.
+    setup.scene.loading.until_apart = false;
     if setup.statistics.moments.rms_slope() == 0.0 {
         return Err(CompareError::Unsuited(
             "the surface is flat: there is no roughness to compare models of".to_owned(),

@@ -7,8 +7,8 @@ use super::solution::Solution;
 use crate::device::Device;
 use crate::elastic::Layer;
 use crate::scene::{
-    AdhesionMap, AdhesionScene, Boundary, CapillaryScene, ConductanceScene, EffectTables,
-    FrictionScene, GridScene, LoadingScene, OutputScene, Precision, Ramp, RateScene,
+    AdhesionMap, AdhesionScene, Boundary, CapillaryScene, ConductanceScene, Conduction,
+    EffectTables, FrictionScene, GridScene, LoadingScene, OutputScene, Precision, Ramp, RateScene,
     RelaxationScene, Scene, SceneError, SolidScene, SurfacePart, Treatment, WearScene,
 };
 
@@ -199,6 +199,7 @@ impl Contact {
         self.scene.tables.conductance = Some(ConductanceScene {
             conductivity: solid,
             counter_conductivity: counter_face,
+            kind: Conduction::Thermal,
         });
         self
     }

@@ -147,7 +147,7 @@ fn warning_of_small_contact(plan: &Plan, regime: Regime) -> Option<String> {
     let unit =
         (std::f64::consts::PI * plan.law.work_of_adhesion() * radius * radius / stiffness).cbrt();
     let pixels = 2.0 * PULL_OFF_RADIUS * unit / pixel;
-    if pixels >= FEW_PIXELS || regime.tabor < LEAST_TABOR {
+    if pixels >= FEW_PIXELS || regime.tabor.is_some_and(|tabor| tabor < LEAST_TABOR) {
         return None;
     }
     let strength = if pixels < LOST_PIXELS {

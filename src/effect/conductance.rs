@@ -6,16 +6,22 @@
 //! The gap does not conduct.
 
 use crate::backend::BackendError;
-use crate::scene::{ConductanceScene, Scene};
+use crate::scene::{ConductanceScene, Conduction, Scene};
 use crate::solver::{ContactSolver, Problem};
 use crate::study::{
     Column, DOUBLE, EVALUATION, Hooks, HostBytes, Plan, PointState, Setup, Sizes, SolvedStep,
 };
 use crate::units::format_si;
 
-/// What the contact conducts, W/K; empty where the surfaces are closed everywhere or the step did not
-/// converge.
-const CONDUCTANCE: Column = Column::new("conductance", 2);
+/// What the contact conducts; empty where the surfaces are closed everywhere or the step did not converge.
+const CONDUCTANCE: Column = Column::new("conductance", "W/K", 2);
+/// The same of a current.
+const ELECTRICAL: Column = Column {
+    unit: "S",
+    ..CONDUCTANCE
+};
+/// Resistance to a current; empty without contact too.
+const RESISTANCE: Column = Column::new("resistance", "ohm", 4);
 
 /// Conduction through the area in contact.
 pub(super) struct Conductance;
@@ -46,9 +52,18 @@ impl Hooks for Conductance {
 
     fn matters(&self, plan: &Plan) -> String {
         let combined = plan.scene.tables.conductance.map_or(0.0, combined);
+        let spot = combined * plan.outline.grid.pixel_area().sqrt();
         format!(
             "matters where spots are few: closed everywhere they resist no more than the bodies do; here a spot as wide as a pixel conducts {}",
-            format_si(combined * plan.outline.grid.pixel_area().sqrt(), "W/K")
+            if is_electrical(&plan.scene) {
+                format!(
+                    "{} ({})",
+                    format_si(spot, ELECTRICAL.unit),
+                    format_si(1.0 / spot, RESISTANCE.unit)
+                )
+            } else {
+                format_si(spot, CONDUCTANCE.unit)
+            }
         )
     }
 
@@ -65,7 +80,15 @@ impl Hooks for Conductance {
     }
 
     fn columns(&self) -> &'static [Column] {
-        &[CONDUCTANCE]
+        &[CONDUCTANCE, RESISTANCE]
+    }
+
+    fn columns_of(&self, scene: &Scene) -> Vec<Column> {
+        if is_electrical(scene) {
+            vec![ELECTRICAL, RESISTANCE]
+        } else {
+            vec![CONDUCTANCE]
+        }
     }
 
     fn measure(
@@ -94,6 +117,9 @@ impl Hooks for Conductance {
             // A periodic cell that is closed everywhere is infinitely stiff.
             Some(conductance) if conductance.is_finite() => {
                 solved.measured.push((CONDUCTANCE, conductance));
+                if is_electrical(&setup.scene) && conductance > 0.0 {
+                    solved.measured.push((RESISTANCE, 1.0 / conductance));
+                }
             }
             Some(_) => {}
         }
@@ -101,7 +127,12 @@ impl Hooks for Conductance {
     }
 }
 
-/// Harmonic mean of the two conductivities, W/(m K): one body after the other.
+fn is_electrical(scene: &Scene) -> bool {
+    let carrier = scene.tables.conductance.map(|bodies| bodies.kind);
+    carrier == Some(Conduction::Electrical)
+}
+
+/// Harmonic mean of the two conductivities, W/(m K) or S/m: one body after the other.
 fn combined(bodies: ConductanceScene) -> f64 {
     2.0 / (1.0 / bodies.conductivity + 1.0 / bodies.counter_conductivity)
 }

@@ -78,8 +78,11 @@ impl Hooks for Dmt {
     }
 
     fn matters(&self, plan: &Plan) -> String {
-        let tabor = plan.regime.map_or(0.0, |regime| regime.tabor);
-        format!("holds at Tabor numbers well below 1: here {tabor:.3}")
+        let holds = "holds at Tabor numbers well below 1";
+        match plan.regime.and_then(|regime| regime.tabor) {
+            Some(tabor) => format!("{holds}: here {tabor:.3}"),
+            None => holds.to_owned(),
+        }
     }
 
     fn solved_law(&self, _: Law) -> Law {

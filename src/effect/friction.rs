@@ -4,7 +4,7 @@ use crate::scene::Scene;
 use crate::study::{Column, Evaluation, Hooks, Plan, Setup};
 
 /// Friction force of the shear strength over the area in contact, N.
-const FORCE: Column = Column::new("friction_force", 0);
+const FORCE: Column = Column::new("friction_force", "N", 0);
 
 /// Friction of the area in contact.
 pub(super) struct Friction;

@@ -22,7 +22,7 @@ const DEPTHS: &str = "flowed";
 /// Energy that plastic indentation has dissipated since the path began, J.
 const ENERGY: Column = Column {
     is_dissipated_energy: true,
-    ..Column::new("plastic_energy", 1)
+    ..Column::new("plastic_energy", "J", 1)
 };
 
 /// A bound on the pressure.

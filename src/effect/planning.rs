@@ -37,7 +37,7 @@ impl Setup {
 impl Column {
     /// Columns that the effects of a scene ask for, in their order.
     pub fn of(scene: &Scene) -> Vec<Column> {
-        Effects::on(&LIST, scene).columns()
+        Effects::on(&LIST, scene).columns(scene)
     }
 }
 

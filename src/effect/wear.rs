@@ -6,7 +6,7 @@ use crate::study::{Column, Evaluation, Hooks, Plan, Setup};
 use crate::units::format_si;
 
 /// Volume worn off for each length of sliding, m^3/m.
-const RATE: Column = Column::new("wear_rate", 3);
+const RATE: Column = Column::new("wear_rate", "m^3/m", 3);
 
 /// Wear by sliding.
 pub(super) struct Wear;

@@ -40,6 +40,8 @@ pub mod report;
 #[cfg(feature = "images")]
 mod resample;
 #[cfg(feature = "images")]
+mod sentence;
+#[cfg(feature = "images")]
 pub(crate) mod si;
 #[doc(hidden)]
 pub mod state;
@@ -70,6 +72,8 @@ pub use lock::FolderLock;
 pub use picture::Snapshot;
 #[cfg(feature = "images")]
 pub use picture::{Load, Picture, write_picture};
+#[cfg(feature = "images")]
+pub(crate) use sentence::sentence;
 #[doc(hidden)]
 pub use state::SavedState;
 pub use summary::{Effects, Seconds, Summary, peak_memory_bytes};

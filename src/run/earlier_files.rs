@@ -7,7 +7,7 @@ use std::path::{Path, PathBuf};
 use crate::output::RunFolder;
 use crate::output::volume::VOLUME_END;
 use crate::scene::StepChoice;
-use crate::study::Setup;
+use crate::study::{Planned, Setup, StepRow};
 
 /// The last bytes of every PNG file: the chunk that ends it.
 const PNG_END: &[u8] = b"\0\0\0\0IEND\xae\x42\x60\x82";
@@ -22,12 +22,12 @@ pub(super) fn separated_words(step: usize) -> String {
     )
 }
 
-/// A warning of fields and pictures of the first `finished` steps that are not there or cut short; `None` where
-/// all are whole. `warnings` are those of the run so far; pictures are looked for if it `draws`.
+/// A warning of fields and pictures of the finished steps with these rows that are not there or cut short; `None`
+/// where all are whole. `warnings` are those of the run so far; pictures are looked for if it `draws`.
 pub(super) fn lost(
     folder: &RunFolder,
     setup: &Setup,
-    finished: usize,
+    finished: &[StepRow],
     warnings: &[String],
     draws: bool,
 ) -> Option<String> {
@@ -56,17 +56,18 @@ pub(super) fn lost(
 fn expected(
     folder: &RunFolder,
     setup: &Setup,
-    finished: usize,
+    finished: &[StepRow],
     warnings: &[String],
     draws: bool,
 ) -> Vec<PathBuf> {
     let output = &setup.scene.output;
-    let total = setup.scene.loading.path.len();
+    let is_over = Planned::after(setup, finished).is_none();
+    let finished = finished.len();
     let asked = |step: &usize| match &output.steps {
         StepChoice::All => true,
         StepChoice::List(list) => list.contains(step),
         // Those of an earlier end are cleared away when the run is resumed.
-        StepChoice::Last => *step == total,
+        StepChoice::Last => is_over && *step == finished,
     };
     let has_fields = |step: &usize| !warnings.contains(&separated_words(*step));
     let mut paths = Vec::new();

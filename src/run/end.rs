@@ -75,7 +75,7 @@ impl RunEnd {
         let status = match end.rows.last() {
             _ if end.interrupted => RunStatus::Interrupted {
                 finished: end.rows.len(),
-                steps: setup.scene.loading.path.len(),
+                steps: setup.scene.loading.path.len().max(end.rows.len()),
             },
             Some(row) if !row.converged => RunStatus::NotConverged {
                 step: row.step,

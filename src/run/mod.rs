@@ -148,8 +148,9 @@ impl Work<'_> {
         }
         let earlier = directory.earlier.clone();
         seconds.add("solve", earlier.rows.iter().map(|row| row.seconds).sum());
-        let steps = setup.scene.loading.path.len();
-        observer.begins(steps, earlier.rows.len(), setup.scene.solver.tolerance);
+        let finished = earlier.rows.len();
+        let steps = setup.scene.loading.path.len().max(finished);
+        observer.begins(steps, finished, setup.scene.solver.tolerance);
         let mut recorder =
             RunRecorder::new(setup, device, directory, seconds, self.draws, observer);
         let make_backend = || device.backend();

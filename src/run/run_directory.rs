@@ -10,7 +10,7 @@ use crate::output::{
     Curve, CurveWriter, EMPTY_CHECKSUM, FRESH, OutputError, RunFolder, SavedState, set_aside,
 };
 use crate::scene::{Precision, Scene};
-use crate::study::{Checkpoint, Column, Earlier, Setup};
+use crate::study::{Checkpoint, Column, Earlier, Planned, Setup};
 
 /// A folder ready to be written, and what is in it already.
 pub(super) struct RunDirectory {
@@ -188,7 +188,8 @@ fn sound(
     }
     let points = setup.problem.shape.len();
     let handed = &state.checkpoint;
-    if state.finished > setup.scene.loading.path.len()
+    let loading = &setup.scene.loading;
+    if (state.finished > loading.path.len() && !loading.until_apart)
         || handed
             .fields
             .iter()
@@ -248,9 +249,15 @@ fn resume_from(
     let mut remarks = Vec::new();
     let mut warnings = state.warnings;
     let total = setup.scene.loading.path.len();
+    let rows = &curve.rows()[..state.finished];
     remarks.push(match state.finished {
         0 => "no step was finished, starts at step 1".to_owned(),
-        finished if finished == total => format!("all {total} steps were finished"),
+        finished if Planned::after(setup, rows).is_none() => {
+            format!("all {finished} steps were finished")
+        }
+        finished if finished >= total => {
+            format!("{finished} steps were finished, continues after them")
+        }
         finished => format!("{finished} of {total} steps were finished, continues after them"),
     });
     if state.finished > 0 && state.machine != device.words() {
@@ -263,7 +270,7 @@ fn resume_from(
         remarks.push(text.clone());
         warnings.push(text);
     }
-    let lost = lost(folder, setup, state.finished, &warnings, draws);
+    let lost = lost(folder, setup, rows, &warnings, draws);
     warnings.extend(
         lost.iter()
             .filter(|text| !warnings.contains(text))

@@ -16,8 +16,8 @@ use crate::output::{
 use crate::output::{Load, Picture, plot, report::Report, write_picture, write_within};
 use crate::scene::{Control, FieldName, LoadingScene, Precision, StepChoice};
 use crate::study::{
-    Checkpoint, Evaluation, FinishedStep, Observer, PullOff, Search, Setup, State, StepRow,
-    Tension, WalkEnd,
+    Checkpoint, Evaluation, FinishedStep, Observer, Planned, PullOff, Search, Setup, State,
+    StepRow, Tension, WalkEnd,
 };
 use crate::units::format_si;
 
@@ -42,6 +42,8 @@ pub(super) struct RunRecorder<'a> {
     warnings: Vec<String>,
     /// Jumps and transforms up to the last finished step.
     tallies: Checkpoint,
+    /// Whether the last recorded step ends the path.
+    is_over: bool,
     /// Steps whose state is on the disk.
     committed: usize,
     /// Whether pictures and fields of a run that ended early are still to be cleared away.
@@ -74,6 +76,7 @@ impl<'a> RunRecorder<'a> {
             draws,
             last: None,
             tallies: tallies(&earlier.checkpoint),
+            is_over: false,
             committed: earlier.rows.len(),
             rows: earlier.rows,
             warnings: directory.warnings,
@@ -191,7 +194,8 @@ impl<'a> RunRecorder<'a> {
             self.folder
                 .remove_steps(|step| only_last || step >= number)?;
         }
-        let is_end = number == self.setup.scene.loading.path.len() || !step.row.converged;
+        let is_end = step.is_last;
+        self.is_over = is_end;
         let asked = !(output.images.is_empty() && output.fields.is_empty());
         match (&output.steps, step.evaluation) {
             (StepChoice::Last, None) if is_end && asked => self.warn_no_fields(number),
@@ -244,7 +248,7 @@ impl<'a> RunRecorder<'a> {
         let due = self
             .refreshed
             .is_none_or(|(when, cost)| when.seconds() > REFRESH.max(REFRESH_COST * cost));
-        if due && step < self.setup.scene.loading.path.len() {
+        if due && !self.is_over {
             self.refresh(None)?;
         }
         Ok(())
@@ -299,7 +303,7 @@ impl<'a> RunRecorder<'a> {
         }
         self.warn_of_rounding();
         self.output_seconds += clock.seconds();
-        let is_whole = end.rows.len() == self.setup.scene.loading.path.len();
+        let is_whole = Planned::after(self.setup, &end.rows).is_none();
         if is_whole
             && end.rows.last().is_some_and(|row| row.converged)
             && let Some(text) = pull_off_warning(&self.setup.scene.loading, end)
@@ -348,16 +352,14 @@ impl<'a> RunRecorder<'a> {
         }
         let setup = self.setup;
         let loading = &setup.scene.loading;
+        let value = Planned::of_step(setup, &self.rows, step);
         for &field in &setup.scene.output.images {
             let values = evaluation.field(field, &setup.surface.heights);
             let picture = Picture {
                 title: setup.scene.title.as_deref(),
                 field,
                 step: Some(step),
-                load: loading
-                    .path
-                    .get(step - 1)
-                    .map(|&value| Load::new(loading.control, value)),
+                load: value.map(|value| Load::new(loading.control, value)),
                 grid: setup.surface.grid,
                 values: &values,
             };
@@ -397,6 +399,17 @@ fn pull_off_warning(loading: &LoadingScene, end: &WalkEnd) -> Option<String> {
                 "pull-off lies between {} and {}, and is known no better: a load between them did not converge; allow more max_iterations",
                 newtons(lower),
                 newtons(upper)
+            ))
+        }
+        _ if loading.until_apart
+            && end
+                .rows
+                .last()
+                .is_some_and(|row| row.state != State::Separated) =>
+        {
+            Some(format!(
+                "the surfaces still hold together after {} steps; let the path go on from nearer to its pull-off",
+                end.rows.len()
             ))
         }
         _ => None,

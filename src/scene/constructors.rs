@@ -121,6 +121,7 @@ impl LoadingScene {
             durations: None,
             spring: None,
             pull_off_tolerance: PULL_OFF_TOLERANCE,
+            until_apart: false,
         }
     }
 }
@@ -136,6 +137,7 @@ impl HeightFileScene {
             white: None,
             detrend: Detrend::None,
             fill: Fill::None,
+            preparation: Preparation::default(),
         }
     }
 }

@@ -150,6 +150,7 @@ sections! {
         spring = "0.2 N/m",
         time_tolerance = 1e-3,
         pull_off_tolerance = 0.01,
+        until = "apart",
     }
     RAMP "[[loading.ramp]]" {
         to = "10 MPa",
@@ -189,6 +190,11 @@ const SCALE: Key = ("scale", "1.0");
 const DETREND: Key = ("detrend", "\"plane\"");
 const FILL: Key = ("fill", "\"interpolate\"");
 const BLACK: Key = ("black", "0.0");
+const PROFILE: Key = ("profile", "true");
+const CROP: Key = ("crop", "[0, 0, 256, 256]");
+const OUTLIERS: Key = ("outliers", "6.0");
+const EDGES: Key = ("edges", "\"window\"");
+const RESAMPLE: Key = ("resample", "512");
 const WHITE: Key = ("white", "\"1 um\"");
 
 /// A `[[surface]]` of unknown kind: the keys of every kind.
@@ -196,7 +202,8 @@ pub(super) const SURFACE: Section = Section::new(
     "[[surface]]",
     &[
         KIND, HURST, RMS_HEIGHT, RMS_SLOPE, LONGEST, ROLLOFF, SHORTEST, SEED, RADIUS, HALF_ANGLE,
-        CENTRE, AMPLITUDE, WAVELENGTH, PATH, UNIT, SCALE, BLACK, WHITE, DETREND, FILL,
+        CENTRE, AMPLITUDE, WAVELENGTH, PATH, UNIT, SCALE, BLACK, WHITE, DETREND, FILL, PROFILE,
+        CROP, OUTLIERS, EDGES, RESAMPLE,
     ],
 );
 pub(super) const SELF_AFFINE: Section = Section::new(
@@ -211,7 +218,10 @@ pub(super) const WAVY: Section = Section::new("a wavy [[surface]]", &[KIND, AMPL
 pub(super) const FLAT: Section = Section::new("a flat [[surface]]", &[KIND]);
 pub(super) const FILE: Section = Section::new(
     "a file [[surface]]",
-    &[KIND, PATH, UNIT, SCALE, BLACK, WHITE, DETREND, FILL],
+    &[
+        KIND, PATH, UNIT, SCALE, BLACK, WHITE, DETREND, FILL, PROFILE, CROP, OUTLIERS, EDGES,
+        RESAMPLE,
+    ],
 );
 
 /// The sections before the tables that [`tables`] declares, and behind them.

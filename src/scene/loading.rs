@@ -23,6 +23,9 @@ const TIME_TOLERANCE: Allowed = Allowed::new(
     "from 1e-6 to 0.1",
 );
 
+/// The word for a path that pulls on until the surfaces separate.
+pub(super) const APART: &str = "apart";
+
 /// Default of `pull_off_tolerance`.
 pub(super) const PULL_OFF_TOLERANCE: f64 = 0.01;
 
@@ -87,6 +90,9 @@ pub(super) fn read(
         }
         loading.quantity(key, Dimension::Dimensionless, PULL_OFF_TOLERANCES)
     });
+    let until = loading.optional("until", |key| {
+        loading.choice(key, &[APART], |word| word).map(drop)
+    });
     let relaxes = solid.is_some_and(|solid| !solid.relaxation.is_empty());
     let timed = path(&loading, control, adhesion, solid);
     if let Some(timed) = &timed
@@ -112,12 +118,24 @@ pub(super) fn read(
         );
         return None;
     }
+    if loading.has("until")
+        && let Some(durations) = &timed.durations
+        && !(timed.path.windows(2).zip(&durations[1..]))
+            .any(|(pair, duration)| pair[0] != pair[1] && *duration > 0.0)
+    {
+        loading.conflict(
+            "until",
+            "pulls on at the speed of the last [[loading.ramp]] that moves, and none does; give one with a duration above 0",
+        );
+        return None;
+    }
     Some(LoadingScene {
         control: control?,
         path: timed.path,
         durations: timed.durations,
         spring: spring?,
         pull_off_tolerance: pull_off_tolerance?,
+        until_apart: until?.is_some(),
     })
 }
 

@@ -21,12 +21,12 @@ pub enum SceneError {
         reason: String,
     },
     /// A key or table that does not exist.
-    #[error("unknown key in {section}; did you mean `{nearest}`? It takes {}{}", known.join(", "), elsewhere_hint(.elsewhere))]
+    #[error("unknown key in {section}{}{}{}", meant(.nearest, '`'), takes(.nearest, known), elsewhere_hint(.elsewhere))]
     UnknownKey {
         /// The table's name.
         section: String,
-        /// The most similar known key.
-        nearest: String,
+        /// A known key of almost the same spelling.
+        nearest: Option<String>,
         /// All keys of the table.
         known: Vec<String>,
         /// Tables that have a key of this name.
@@ -60,12 +60,12 @@ pub enum SceneError {
         allowed: String,
     },
     /// A word that is not among those allowed.
-    #[error("{found} is not one of {}; did you mean \"{nearest}\"?", quoted_list(.allowed))]
+    #[error("{found} is not one of {}{}", quoted_list(.allowed), meant(.nearest, '"'))]
     UnknownWord {
         /// The word as written.
         found: String,
-        /// The most similar allowed word.
-        nearest: String,
+        /// An allowed word of almost the same spelling.
+        nearest: Option<String>,
         /// All allowed words.
         allowed: Vec<String>,
     },
@@ -97,6 +97,18 @@ fn quoted_list(words: &[String]) -> String {
         .map(|word| format!("\"{word}\""))
         .collect::<Vec<_>>()
         .join(", ")
+}
+
+fn meant(nearest: &Option<String>, quote: char) -> String {
+    let nearest = nearest.as_ref();
+    nearest.map_or_else(String::new, |nearest| {
+        format!("; did you mean {quote}{nearest}{quote}?")
+    })
+}
+
+fn takes(nearest: &Option<String>, known: &[String]) -> String {
+    let begins = if nearest.is_some() { " It" } else { "; it" };
+    format!("{begins} takes {}", known.join(", "))
 }
 
 fn elsewhere_hint(tables: &[String]) -> String {

@@ -27,6 +27,7 @@ mod reader;
 mod resolved;
 mod solid;
 mod solver;
+mod suggestion;
 mod surface;
 mod tables;
 mod time_steps;
@@ -38,10 +39,13 @@ use std::path::{Path, PathBuf};
 
 pub use attraction::*;
 pub use check::Ramp;
+pub use conductance::Conduction;
 pub use grid_values::GridValues;
 pub use laws::{Exponential, LennardJones, MaugisDugdale};
 pub use mistake::{Mistake, SceneError, SceneErrors};
 pub use parts::*;
+#[cfg(feature = "cli")]
+pub(crate) use suggestion::suggestion;
 pub use tables::*;
 #[doc(hidden)]
 pub use time_steps::{DEFAULT_TOLERANCE as DEFAULT_TIME_TOLERANCE, Stretch};
@@ -159,7 +163,8 @@ fn read_tables(root: &Table, folder: &Path, log: &Log) -> Option<Scene> {
     if let Some(solid) = &solid {
         conductance::check(&scene, solid);
     }
-    let path_length = loading.as_ref().map(|loading| loading.path.len());
+    let planned = loading.as_ref().filter(|loading| !loading.until_apart);
+    let path_length = planned.map(|loading| loading.path.len());
     let output = output::read(&scene, path_length);
     Some(Scene {
         title: title?,

@@ -97,6 +97,49 @@ pub struct HeightFileScene {
     /// Height of white in a grey image, m.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub white: Option<f64>,
+    /// What else is done to the map.
+    #[serde(flatten)]
+    pub preparation: Preparation,
+}
+
+/// What is done to a measured map besides, in this order; by default nothing.
+#[derive(Clone, Debug, Default, PartialEq, Serialize)]
+pub struct Preparation {
+    /// Whether the file is a line scan, and the surface the profile that repeats across it.
+    #[serde(skip_serializing_if = "std::ops::Not::not")]
+    pub profile: bool,
+    /// The part that is kept: x and y of its first point, points along x and y.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub crop: Option<[usize; 4]>,
+    /// Points that stand out of their neighbours by more than so many standard deviations are interpolated.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub outliers: Option<f64>,
+    /// How a map that is not periodic is made so.
+    #[serde(skip_serializing_if = "Edges::is_none")]
+    pub edges: Edges,
+    /// Points along x and y that the map is brought to.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub resample: Option<[usize; 2]>,
+}
+
+words! {
+    /// How a map that is not periodic is made so.
+    #[derive(Default)]
+    Edges {
+        /// It is not.
+        #[default]
+        None = "none",
+        /// Heights go to their mean over an eighth of each side.
+        Window = "window",
+        /// The map and its mirror images, twice as long along both sides.
+        Mirror = "mirror",
+    }
+}
+
+impl Edges {
+    fn is_none(&self) -> bool {
+        *self == Edges::None
+    }
 }
 
 words! {
@@ -110,6 +153,8 @@ words! {
         Plane = "plane",
         /// The least-squares quadratic surface.
         Quadratic = "quadratic",
+        /// The mean of each row.
+        Lines = "lines",
     }
 }
 

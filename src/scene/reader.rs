@@ -9,6 +9,7 @@ use super::allowed::{Allowed, RANGE_WORDS, in_range};
 use super::document::{Entry, Location, Node, Table, Value};
 use super::keys::{self, Section};
 use super::mistake::{Mistake, SceneError, SceneErrors};
+use super::suggestion::suggestion;
 use super::words::Word;
 use crate::units::{self, Dimension, UnitError};
 
@@ -113,17 +114,15 @@ impl<'a> Reader<'a> {
             self.not_in_this_version(name, what, "take it out of the scene");
             return;
         }
-        let (nearest, likeness) = nearest(name, self.section.names());
-        if likeness > 0.6 {
-            self.misspelled.push(nearest);
-        }
+        let meant = suggestion(name, self.section.names());
+        self.misspelled.extend(meant);
         let elsewhere = keys::all()
             .filter(|section| section.names().any(|known| known == name))
             .map(|section| section.title.to_string());
         let known = self.section.keys.iter();
         let error = SceneError::UnknownKey {
             section: self.section.title.into(),
-            nearest: nearest.into(),
+            nearest: meant.map(str::to_owned),
             known: known.map(|(known, _)| (*known).into()).collect(),
             elsewhere: elsewhere.collect(),
         };
@@ -295,6 +294,16 @@ impl<'a> Reader<'a> {
         }
     }
 
+    /// True or false.
+    pub fn truth(&self, key: &str) -> Option<bool> {
+        let node = self.node(key)?;
+        if let Value::Boolean(truth) = node.value {
+            return Some(truth);
+        }
+        self.wrong_type(node, key, key, "true or false");
+        None
+    }
+
     /// One of the words of a choice.
     pub fn word<T: Word>(&self, key: &str) -> Option<T> {
         self.choice(key, T::WORDS, T::word)
@@ -345,7 +354,7 @@ impl<'a> Reader<'a> {
             let allowed = choices.iter().map(|choice| name(*choice));
             let error = SceneError::UnknownWord {
                 found: units::quoted(text),
-                nearest: nearest(text, allowed.clone()).0.into(),
+                nearest: suggestion(text, allowed.clone()).map(str::to_owned),
                 allowed: allowed.map(str::to_string).collect(),
             };
             self.report_at(node.place, at, error);
@@ -460,35 +469,6 @@ fn numbered<'a>(key: &str, list: &'a [Node]) -> Vec<(String, &'a Node)> {
         .enumerate()
         .map(|(index, node)| (format!("{key}.{index}"), node))
         .collect()
-}
-
-/// The most similar candidate, with its similarity from 0 to 1.
-pub(super) fn nearest(
-    word: &str,
-    candidates: impl Iterator<Item = &'static str>,
-) -> (&'static str, f64) {
-    candidates
-        .map(|candidate| (candidate, likeness(word, candidate)))
-        .fold(
-            ("", -1.0),
-            |best, next| if next.1 > best.1 { next } else { best },
-        )
-}
-
-fn likeness(word: &str, candidate: &str) -> f64 {
-    // The edit distance finds typing errors, the common prefix finds abbreviations.
-    const LONGEST: usize = 64;
-    let word: String = word.to_lowercase().chars().take(LONGEST).collect();
-    let edits = strsim::normalized_damerau_levenshtein(&word, candidate);
-    let beginning = strsim::jaro_winkler(&word, candidate);
-    let share = 0.5 * (edits + beginning);
-    // `pressure_tolerance` means `tolerance`, and `modulus` means `contact_modulus`.
-    let holds = |outer: &str, inner: &str| inner.len() > 3 && outer.contains(inner);
-    if holds(&word, candidate) || holds(candidate, &word) {
-        0.5 * (1.0 + share)
-    } else {
-        share
-    }
 }
 
 /// A key as TOML shows it: in quotes unless it is a bare word.

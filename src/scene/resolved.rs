@@ -5,6 +5,7 @@ use std::path::Path;
 use serde::{Serialize, Serializer};
 use serde_json::{Map, Value, json};
 
+use super::loading::APART;
 use super::words::Word;
 use super::*;
 
@@ -143,6 +144,7 @@ impl LoadingScene {
             }
         };
         let table = with(table, "spring", self.spring);
+        let table = with(table, "until", self.until_apart.then_some(APART));
         let is_load = matches!(self.control, Control::Pressure | Control::Force);
         with(
             table,

@@ -7,7 +7,8 @@ use super::document::{Node, Table, Value};
 use super::keys::{self, Section};
 use super::reader::Reader;
 use super::{
-    Boundary, Detrend, Fill, GridScene, HeightFileScene, Roughness, SelfAffineScene, SurfacePart,
+    Boundary, Detrend, Edges, Fill, GridScene, HeightFileScene, Preparation, Roughness,
+    SelfAffineScene, SurfacePart,
 };
 use crate::units::{self, Dimension};
 
@@ -262,6 +263,7 @@ fn file(part: &Reader, folder: &Path) -> Option<SurfacePart> {
     }
     let detrend = part.word_or("detrend", Detrend::None);
     let fill = part.word_or("fill", Fill::None);
+    let preparation = preparation(part);
     Some(SurfacePart::File(HeightFileScene {
         path: folder.join(path?),
         unit: unit?,
@@ -270,7 +272,49 @@ fn file(part: &Reader, folder: &Path) -> Option<SurfacePart> {
         white: white?,
         detrend: detrend?,
         fill: fill?,
+        preparation: preparation?,
     }))
+}
+
+/// Reads what is done to a map besides.
+fn preparation(part: &Reader) -> Option<Preparation> {
+    const MOST: i64 = 65536;
+    const TIMES: Allowed = Allowed::new(|times| times >= 1.0, "at least 1");
+    let profile = part.or("profile", false, |key| part.truth(key));
+    let count = |key: &str, node: &Node, name: &str, least: i64| {
+        let number = part.whole_number_in(node, key, name, least, MOST)?;
+        usize::try_from(number).ok()
+    };
+    let crop = part.optional("crop", |key| {
+        let list = part.list(key, "a list of x, y, points along x and points along y")?;
+        let numbers = list.iter().enumerate();
+        let numbers: Vec<Option<usize>> = numbers
+            .map(|(index, (name, node))| count(key, node, name, i64::from(index >= 2)))
+            .collect();
+        let numbers: Vec<usize> = numbers.into_iter().collect::<Option<_>>()?;
+        let Ok(crop) = numbers.try_into() else {
+            part.conflict(
+                key,
+                "has four numbers: x and y of the first point, points along x and y",
+            );
+            return None;
+        };
+        Some(crop)
+    });
+    let outliers = part.optional("outliers", |key| {
+        part.quantity(key, Dimension::Dimensionless, TIMES)
+    });
+    let edges = part.word_or("edges", Edges::None);
+    let resample = part.optional("resample", |key| {
+        part.one_or_two(key, |node, name| count(key, node, name, 1))
+    });
+    Some(Preparation {
+        profile: profile?,
+        crop: crop?,
+        outliers: outliers?,
+        edges: edges?,
+        resample: resample?,
+    })
 }
 
 fn starts_like_a_number(text: &str) -> bool {

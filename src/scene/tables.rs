@@ -1,14 +1,19 @@
 //! Tables of effects that contain numbers only: one declaration gives type, keys, reader and summary.
 //!
-//! An entry has the table's name, its type, and for each key its dimension and an example. Every key is
-//! required, and its value is above 0.
+//! An entry has the table's name, its type, and for each key its dimension and an example. Every such key is
+//! required, and its value is above 0. A word in brackets, read by its type, need not be given.
 
 use serde_json::{Value, json};
 
 use super::allowed::Allowed;
+use super::conductance::Conduction;
 use super::keys::{Key, Section};
 use super::reader::Reader;
 use crate::units::Dimension;
+
+fn is_default<T: Default + PartialEq>(value: &T) -> bool {
+    *value == T::default()
+}
 
 /// Declares the tables: their types, keys and reader, and how a summary shows them.
 macro_rules! tables {
@@ -16,6 +21,7 @@ macro_rules! tables {
         $(#[$doc:meta])*
         $table:ident: $Table:ident {
             $( $(#[$key_doc:meta])* $key:ident: $dimension:ident = $example:literal, )+
+            $( [$(#[$word_doc:meta])* $word:ident: $Word:ident = $word_example:literal] )?
         }
     )+) => {
         $(
@@ -23,12 +29,20 @@ macro_rules! tables {
             #[derive(Clone, Copy, Debug, PartialEq, serde::Serialize)]
             pub struct $Table {
                 $( $(#[$key_doc])* pub $key: f64, )+
+                $(
+                    $(#[$word_doc])*
+                    #[serde(skip_serializing_if = "is_default")]
+                    pub $word: $Word,
+                )?
             }
 
             impl $Table {
                 const SECTION: &'static Section = &Section::new(
                     concat!("[", stringify!($table), "]"),
-                    &[$( (stringify!($key), concat!("\"", $example, "\"")) ),+],
+                    &[
+                        $( (stringify!($key), concat!("\"", $example, "\"")), )+
+                        $( (stringify!($word), concat!("\"", $word_example, "\"")), )?
+                    ],
                 );
 
                 /// Reads the table: `Some(None)` if the scene has none, `None` after a mistake.
@@ -37,12 +51,14 @@ macro_rules! tables {
                         return Some(None);
                     }
                     let table = scene.table(stringify!($table), Self::SECTION)?;
-                    table.require(&[$( stringify!($key) ),+]);
+                    let keys = &[$( stringify!($key) ),+];
+                    table.require(keys);
                     // Each key is read before the table is given up, so that all mistakes are noted.
                     $( let $key = table.quantity(
                         stringify!($key), Dimension::$dimension, Allowed::POSITIVE,
                     ); )+
-                    Some(Some($Table { $( $key: $key? ),+ }))
+                    $( let $word = $Word::read(&table, keys); )?
+                    Some(Some($Table { $( $key: $key?, )+ $( $word: $word?, )? }))
                 }
             }
         )+
@@ -98,12 +114,16 @@ tables! {
         /// Shear strength of the area in contact, Pa.
         shear_strength: Pressure = "10 MPa",
     }
-    /// `[conductance]`: conductivities for heat, or for a current with S/m in place of W/(m K).
+    /// `[conductance]`: conductivities for heat or for a current.
     conductance: ConductanceScene {
-        /// Conductivity of the solid, W/(m K).
+        /// Conductivity of the solid, W/(m K) or S/m.
         conductivity: Conductivity = "400 W/(m K)",
-        /// Conductivity of the counter-face, W/(m K).
+        /// Conductivity of the counter-face, W/(m K) or S/m.
         counter_conductivity: Conductivity = "1.4 W/(m K)",
+        [
+            /// Whether heat is conducted or a current; units say it too.
+            kind: Conduction = "electrical"
+        ]
     }
     /// `[wear]`.
     wear: WearScene {

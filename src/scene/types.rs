@@ -107,6 +107,8 @@ pub struct LoadingScene {
     /// How closely pull-off is bracketed under a prescribed load: the greatest relative difference
     /// between a tension that the contact does not carry and one that it does; 0 for no bracketing.
     pub pull_off_tolerance: f64,
+    /// Whether further steps behind the path pull until the surfaces separate.
+    pub until_apart: bool,
 }
 
 words! {

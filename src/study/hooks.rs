@@ -118,6 +118,10 @@ pub(crate) trait Hooks: Sync {
     fn columns(&self) -> &'static [Column] {
         &[]
     }
+    /// Those of them that a scene asks for.
+    fn columns_of(&self, _scene: &Scene) -> Vec<Column> {
+        self.columns().to_vec()
+    }
     /// Values of its columns that are sums over a solved state, which is `None` where the surfaces are
     /// separated.
     fn values(&self, _setup: &Setup, _evaluation: Option<&Evaluation>) -> Vec<(Column, f64)> {
@@ -216,12 +220,9 @@ impl Effects {
     }
 
     /// Columns of `curve.csv` in their order.
-    pub fn columns(&self) -> Vec<Column> {
-        let mut columns: Vec<Column> = self
-            .iter()
-            .flat_map(|effect| effect.columns())
-            .copied()
-            .collect();
+    pub fn columns(&self, scene: &Scene) -> Vec<Column> {
+        let columns = self.iter().flat_map(|effect| effect.columns_of(scene));
+        let mut columns: Vec<Column> = columns.collect();
         columns.sort_by_key(|column| column.place);
         columns
     }

@@ -17,6 +17,8 @@ pub struct FinishedStep<'a> {
     pub evaluation: Option<Evaluation>,
     /// The jump that the step made, if it made one.
     pub jump: Option<Jump>,
+    /// Whether no step follows.
+    pub is_last: bool,
 }
 
 /// Receives the steps and watches the solver.

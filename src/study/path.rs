@@ -6,6 +6,7 @@ use super::between::{Between, Watched};
 use super::checkpoint::{Checkpoint, Earlier};
 use super::jumps::{Jump, Jumps, Verdict, confirm};
 use super::observer::{FinishedStep, Observer, WalkEnd, WalkError};
+use super::planned::Planned;
 use super::pull_off;
 use super::row::{State, StepRow};
 use super::setup::Setup;
@@ -53,6 +54,9 @@ pub fn walk_on<O: Observer>(
             make_backend,
             steps,
         };
+        if Planned::after(setup, &end.rows).is_none() {
+            break;
+        }
         match stretch.walk(observer, &mut end, &mut jumps, carried)? {
             Some(left) => carried = left,
             None => break,
@@ -63,21 +67,24 @@ pub fn walk_on<O: Observer>(
 }
 
 /// The steps after the first `done`, in stretches with the same problem: one, or one for each duration where
-/// the problem depends on it.
-fn stretches(setup: &Setup, done: usize) -> Vec<Range<usize>> {
-    let steps = done..setup.scene.loading.path.len();
-    match &setup.scene.loading.durations {
+/// the problem depends on it. The last ones may hold steps that the path does not come to.
+fn stretches(setup: &Setup, done: usize) -> Box<dyn Iterator<Item = Range<usize>>> {
+    let loading = &setup.scene.loading;
+    let planned = loading.path.len().max(done);
+    match &loading.durations {
         Some(durations) if setup.effects.depend_on_duration() => {
             let mut stretches: Vec<Range<usize>> = Vec::new();
-            for step in steps {
+            for step in done..loading.path.len() {
                 match stretches.last_mut() {
                     Some(last) if durations[last.start] == durations[step] => last.end = step + 1,
                     _ => stretches.push(step..step + 1),
                 }
             }
-            stretches
+            // Further steps have durations of their own.
+            let further = (planned..usize::MAX).map(|step| step..step + 1);
+            Box::new(stretches.into_iter().chain(further))
         }
-        _ => vec![steps],
+        _ => Box::new(std::iter::once(done..usize::MAX)),
     }
 }
 
@@ -99,7 +106,8 @@ impl Stretch<'_> {
         carried: Carried,
     ) -> Result<Option<Carried>, WalkError<O::Error>> {
         let setup = self.setup;
-        let duration = self.duration(self.steps.start);
+        let planned = Planned::after(setup, &end.rows);
+        let duration = planned.map_or(0.0, |planned| planned.duration);
         let problem = setup.effects.problem_over(setup, duration);
         let mut backend = (self.make_backend)();
         let mut walker = Walker::new(setup, self.make_backend, &mut *backend, &problem, carried);
@@ -109,11 +117,12 @@ impl Stretch<'_> {
         for index in self.steps.clone() {
             let clock = Clock::start();
             let step = index + 1;
-            let value = setup.scene.loading.path[index];
-            let duration = self.duration(index);
+            let Some(Planned { value, duration }) = Planned::after(setup, &end.rows) else {
+                break;
+            };
             let state = match standing.take() {
                 Some(state) => Some(state),
-                None if self.looks_back(index, jumps) && walker.is_loaded() => {
+                None if self.looks_back(index, &end.rows, jumps) && walker.is_loaded() => {
                     Some(walker.carried()?)
                 }
                 None => None,
@@ -138,9 +147,9 @@ impl Stretch<'_> {
                 walker.settle()?;
             }
             let mut row = walker.row(step, value, &solved);
-            row.time = self.time(index, end.rows.last());
+            row.time = self.time(duration, end.rows.last());
             let between = Between {
-                from: setup.scene.loading.path[index.saturating_sub(1)],
+                from: Planned::of_step(setup, &end.rows, index).unwrap_or(value),
                 to: value,
                 duration,
                 walker: &mut walker,
@@ -165,15 +174,16 @@ impl Stretch<'_> {
             }
             jumps.take(&row, solved.evaluation.as_ref(), found.jump.is_some());
             row.seconds = clock.seconds();
+            end.rows.push(row);
+            let row = &end.rows[index];
             let finished = FinishedStep {
-                row: &row,
+                row,
                 evaluation: solved.evaluation,
                 jump: found.jump,
+                is_last: !row.converged || Planned::after(setup, &end.rows).is_none(),
             };
             observer.step(finished).map_err(WalkError::Observer)?;
-            let converged = row.converged;
-            end.rows.push(row);
-            if !converged {
+            if !row.converged {
                 end.unreachable = solved.unreachable;
                 return Ok(None);
             }
@@ -189,7 +199,7 @@ impl Stretch<'_> {
                 };
                 let kept = observer.checkpoint(step, &checkpoint);
                 kept.map_err(WalkError::Observer)?;
-                let needed = walker.is_loaded() && self.looks_back(index + 1, jumps);
+                let needed = walker.is_loaded() && self.looks_back(index + 1, &end.rows, jumps);
                 standing = needed.then_some(left);
             }
         }
@@ -199,28 +209,19 @@ impl Stretch<'_> {
         }))
     }
 
-    /// Whether the state before a step may be needed, to look between the two.
-    fn looks_back(&self, index: usize, jumps: &Jumps) -> bool {
-        let value = self.setup.scene.loading.path.get(index);
+    /// Whether the state before the step after these rows may be needed, to look between the two.
+    fn looks_back(&self, index: usize, rows: &[StepRow], jumps: &Jumps) -> bool {
+        let lets_go = |planned: Planned| pull_off::may_let_go(self.setup, planned.value);
         self.steps.contains(&index)
-            && (jumps.watches()
-                || value.is_some_and(|value| pull_off::may_let_go(self.setup, *value)))
+            && Planned::after(self.setup, rows)
+                .is_some_and(|planned| jumps.watches() || lets_go(planned))
     }
 
-    /// How long a step takes, s; 0 where the path has no durations.
-    fn duration(&self, index: usize) -> f64 {
-        let durations = self.setup.scene.loading.durations.as_ref();
-        // A run resumed after its last step has no step here.
-        durations
-            .and_then(|durations| durations.get(index).copied())
-            .unwrap_or(0.0)
-    }
-
-    /// Time at the end of a step, s, where the path has durations.
-    fn time(&self, index: usize, before: Option<&StepRow>) -> Option<f64> {
+    /// Time at the end of a step of a duration, s, where the path has durations.
+    fn time(&self, duration: f64, before: Option<&StepRow>) -> Option<f64> {
         self.setup.scene.loading.durations.as_ref()?;
         let before = before.and_then(|row| row.time).unwrap_or(0.0);
-        Some(before + self.duration(index))
+        Some(before + duration)
     }
 }
 

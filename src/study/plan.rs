@@ -3,6 +3,7 @@
 use super::cost::Cost;
 use super::hooks::{Effects, Hooks};
 use super::memory::Memory;
+use super::plausible;
 use super::regime::{Regime, law_of};
 use crate::backend::{BackendError, dry_run::Place};
 use crate::law::Law;
@@ -10,7 +11,11 @@ use crate::scene::{Scene, SurfacePart};
 use crate::surface::Outline;
 
 /// Pixels that the shortest wave of a surface should have.
-const PIXELS_A_WAVE: f64 = 8.0;
+pub(crate) const PIXELS_A_WAVE: f64 = 8.0;
+
+/// Advice that a height file takes by another key.
+const MORE_POINTS: &str = "take more points";
+const MORE_OF_FILE: &str = "take more points (resample of the height file)";
 
 /// A planned scene, without any array of the size of its grid.
 #[derive(Clone, Debug)]
@@ -52,6 +57,13 @@ impl Plan {
         let of_effects: Vec<String> = of_effects.collect();
         plan.warnings.extend(of_effects);
         plan.warn_of_waves();
+        plan.warnings.extend(plausible::warnings(&plan));
+        let is_file = |part: &SurfacePart| matches!(part, SurfacePart::File(_));
+        if plan.scene.surfaces.iter().any(is_file) {
+            for warning in &mut plan.warnings {
+                *warning = warning.replace(MORE_POINTS, MORE_OF_FILE);
+            }
+        }
         plan
     }
 

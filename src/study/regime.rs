@@ -48,8 +48,9 @@ pub(super) fn law_of(scene: &Scene, pixel: f64, strongest: f64) -> Law {
 pub struct Regime {
     /// Radius of the sphere, else 2 over the rms curvature, m; infinite for a flat surface.
     pub radius: f64,
-    /// Tabor number with `eps = 1.0264 w / peak tension`.
-    pub tabor: f64,
+    /// Tabor number with `eps = 1.0264 w / peak tension`; `None` where no curvature is meant: of flat surfaces and
+    /// of flat pillars and punches.
+    pub tabor: Option<f64>,
     /// chi, grid spacing over the length of the cohesive zone: `sigma0 dx / (E* h0)`, for Lennard-Jones `w dx / (E* eps^2)`.
     pub chi: f64,
     /// Pixels across the cohesive zone of a crack, `(pi/4) E* w / sigma_max^2` over the pixel.
@@ -59,7 +60,7 @@ pub struct Regime {
 impl Regime {
     /// The regime in words.
     pub fn name(&self) -> &'static str {
-        match self.tabor {
+        match self.tabor.unwrap_or(f64::INFINITY) {
             mu if mu < 0.24 => "DMT: the attraction hardly deforms the stiff solid",
             mu if mu < 5.0 => "between DMT and JKR: the full field or Maugis' theory",
             _ => "JKR: the short-ranged attraction acts like a crack at the contact edge",
@@ -79,7 +80,9 @@ impl Regime {
             let distance = 1.0264 * work / peak;
             Regime {
                 radius,
-                tabor: (radius * work * work / (modulus * modulus * distance.powi(3))).cbrt(),
+                tabor: (radius.is_finite() && !outline.has_flats).then(|| {
+                    (radius * work * work / (modulus * modulus * distance.powi(3))).cbrt()
+                }),
                 chi: work * pixel / (modulus * law.range() * law.range()),
                 zone_pixels: std::f64::consts::FRAC_PI_4 * modulus * work / (peak * peak) / pixel,
             }

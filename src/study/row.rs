@@ -89,6 +89,8 @@ impl StepRow {
 pub struct Column {
     /// Its name in the head.
     pub(crate) name: &'static str,
+    /// Its unit.
+    pub(crate) unit: &'static str,
     /// Its place among the columns of effects. A new one stands behind all that there were, so that
     /// tables of before keep their order.
     pub(crate) place: usize,
@@ -97,10 +99,11 @@ pub struct Column {
 }
 
 impl Column {
-    /// A column of that name at a place among those of effects.
-    pub(crate) const fn new(name: &'static str, place: usize) -> Column {
+    /// A column of that name and unit at a place among those of effects.
+    pub(crate) const fn new(name: &'static str, unit: &'static str, place: usize) -> Column {
         Column {
             name,
+            unit,
             place,
             is_dissipated_energy: false,
         }
@@ -118,7 +121,8 @@ impl Column {
 
     /// Sets its value in a row.
     pub fn set(self, row: &mut StepRow, value: Option<f64>) {
-        match row.columns.iter_mut().find(|(column, _)| *column == self) {
+        let same = |(column, _): &&mut (Column, _)| column.name == self.name;
+        match row.columns.iter_mut().find(same) {
             Some((_, old)) => *old = value,
             None => row.columns.push((self, value)),
         }

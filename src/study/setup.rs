@@ -9,7 +9,7 @@ use super::row::Column;
 use crate::law::Law;
 use crate::scene::{Boundary, Scene};
 use crate::solver::Problem;
-use crate::surface::{MapOutline, Outline, Source, Surface, statistics::Statistics};
+use crate::surface::{MapOutline, Outline, Source, Surface, has_flats, statistics::Statistics};
 
 /// Everything that the steps of a path share.
 #[derive(Clone, Debug)]
@@ -44,6 +44,7 @@ impl Setup {
             moments: statistics.moments,
             source: Source::Heights,
             sphere_radius: surface.sphere_radius,
+            has_flats: has_flats(&surface.heights),
             map: surface
                 .adhesion_map
                 .as_deref()
@@ -96,7 +97,7 @@ impl Setup {
 
     /// Columns of `curve.csv` that the scene's effects ask for, in their order.
     pub fn columns(&self) -> Vec<Column> {
-        self.effects.columns()
+        self.effects.columns(&self.scene)
     }
 
     /// Spring between a prescribed approach and the body, N/m.

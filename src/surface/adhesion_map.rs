@@ -77,9 +77,9 @@ pub(super) fn build(scene: &Scene, grid: &Grid) -> Result<Option<Vec<f64>>, Surf
 fn read(path: &Path, grid: &Grid) -> Result<Vec<f64>, MapError> {
     let plain = HeightFileScene::new(path);
     // A map need not be periodic, so mismatched edges are not reported.
-    let map = match file::read(&plain, Boundary::Free) {
+    let map = match file::read_numbers(&plain, Boundary::Free) {
         // Grey images: black means no attraction, white the full law.
-        Err(FileError::GreyEndsMissing) => file::read(
+        Err(FileError::GreyEndsMissing) => file::read_numbers(
             &HeightFileScene {
                 black: Some(0.0),
                 white: Some(1.0),

@@ -18,7 +18,11 @@ const ONE_OVER_E: f64 = 0.367_879_441_171_442_33;
 /// 1/e within half the shorter side, and for a flat map. Costs one transform each way, of 9/4 as
 /// many points on a free grid.
 pub fn correlation_length(grid: &Grid, heights: &[f64], boundary: Boundary) -> Option<f64> {
-    let rings = autocorrelation(grid, heights, boundary);
+    length_of(&autocorrelation(grid, heights, boundary))
+}
+
+/// Correlation length of the rings of an autocorrelation, m.
+pub(crate) fn length_of(rings: &[(f64, f64)]) -> Option<f64> {
     let (_, whole) = *rings.first()?;
     if !(whole.is_finite() && whole > 0.0) {
         return None;
@@ -31,7 +35,7 @@ pub fn correlation_length(grid: &Grid, heights: &[f64], boundary: Boundary) -> O
 
 /// Mean distance (m) and mean product of heights (m^2) of rings a pixel wide, from distance 0 to half
 /// the shorter side.
-fn autocorrelation(grid: &Grid, heights: &[f64], boundary: Boundary) -> Vec<(f64, f64)> {
+pub(crate) fn autocorrelation(grid: &Grid, heights: &[f64], boundary: Boundary) -> Vec<(f64, f64)> {
     let mean = heights.iter().sum::<f64>() / grid.len() as f64;
     // With half a side of zeros no pair of points within half a side wraps round.
     let padded = match boundary {

@@ -1,4 +1,4 @@
-//! Removes the mean, a plane or a quadratic from a measured height map by least squares.
+//! Removes the mean, a plane or a quadratic from a measured height map by least squares, or the mean of each row.
 
 use nalgebra::{DMatrix, DVector};
 
@@ -12,6 +12,13 @@ use crate::scene::Detrend;
 pub(super) fn detrend(heights: &mut [f64], rows: usize, columns: usize, kind: Detrend) {
     let terms = match kind {
         Detrend::None => return,
+        Detrend::Lines => {
+            for row in heights.chunks_exact_mut(columns) {
+                let mean = row.iter().sum::<f64>() / columns as f64;
+                row.iter_mut().for_each(|height| *height -= mean);
+            }
+            return;
+        }
         Detrend::Mean => 1,
         Detrend::Plane => 3,
         Detrend::Quadratic => 6,
@@ -47,6 +54,31 @@ pub(super) fn detrend(heights: &mut [f64], rows: usize, columns: usize, kind: De
             .map(|(b, c)| b * c)
             .sum();
         *height -= trend;
+    }
+}
+
+/// Rms height of the least-squares plane over that of the map, about the mean; 0 of a flat map.
+pub(super) fn tilt(heights: &[f64], rows: usize, columns: usize) -> f64 {
+    let mean = heights.iter().sum::<f64>() / heights.len() as f64;
+    // x and y are orthogonal, and each has the mean 0.
+    let (mut square, mut products, mut lengths) = (0.0, [0.0; 2], [0.0; 2]);
+    for (index, height) in heights.iter().enumerate() {
+        let [_, x, y, ..] = basis(index, rows, columns);
+        let height = height - mean;
+        square += height * height;
+        for (axis, place) in [x, y].into_iter().enumerate() {
+            products[axis] += place * height;
+            lengths[axis] += place * place;
+        }
+    }
+    let plane: f64 = (0..2)
+        .filter(|axis| lengths[*axis] > 0.0)
+        .map(|axis| products[axis].powi(2) / lengths[axis])
+        .sum();
+    if square > 0.0 {
+        (plane / square).sqrt()
+    } else {
+        0.0
     }
 }
 
@@ -113,6 +145,21 @@ mod tests {
             let product: f64 = (0..63).map(|i| basis(i, 9, 7)[term] * heights[i]).sum();
             assert_abs_diff_eq!(product, 0.0, epsilon = 1e-10);
         }
+    }
+
+    #[test]
+    fn lines_lose_their_means_and_a_tilt_is_measured() {
+        let mut heights = quadratic(3);
+        assert_abs_diff_eq!(tilt(&heights, 9, 7), 1.0, epsilon = 1e-9);
+        detrend(&mut heights, 9, 7, Detrend::Lines);
+        for (index, height) in heights.iter().enumerate() {
+            assert_abs_diff_eq!(*height, 2.0 * basis(index, 9, 7)[1], epsilon = 1e-8);
+        }
+        // A plane of rms height 1 under noise of rms height 1 is orthogonal to what remains without it.
+        let mut noise: Vec<f64> = (0..63).map(|i| ((i * 37) % 11) as f64).collect();
+        detrend(&mut noise, 9, 7, Detrend::Plane);
+        assert_abs_diff_eq!(tilt(&noise, 9, 7), 0.0, epsilon = 1e-12);
+        assert_eq!(tilt(&[2.0; 6], 2, 3), 0.0);
     }
 
     #[test]

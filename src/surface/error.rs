@@ -440,6 +440,30 @@ pub enum FileError {
         /// Its text, cut to 40 characters.
         text: String,
     },
+    /// A line scan in place of a map. Points along x and y.
+    #[error(
+        "{columns} x {rows} points (x, y) are a line scan and no map; write profile = true to take it as a profile \
+         that repeats across, or give a map"
+    )]
+    LineScan {
+        /// Points along x.
+        columns: usize,
+        /// Points along y.
+        rows: usize,
+    },
+    /// A part that is not in the map.
+    #[error(
+        "crop = [{}, {}, {}, {}] (x, y of the first point, points along x and y) is not within the {columns} x {rows} points of the map",
+        crop[0], crop[1], crop[2], crop[3]
+    )]
+    Crop {
+        /// First point along x and y, points along x and y.
+        crop: [usize; 4],
+        /// Points of the map along x.
+        columns: usize,
+        /// Points of the map along y.
+        rows: usize,
+    },
     /// Missing pixels without `fill = "interpolate"`.
     #[error(
         "{count} of {points} pixels are missing ({infinite} of them infinite), the first at row {row}, \

@@ -3,9 +3,9 @@
 use super::error::FileError;
 use super::matrix::{Matrix, Size};
 use super::statistics::edge_jumps;
-use super::{detrend, fill, formats};
+use super::{detrend, fill, formats, prepare, resample};
 use crate::grid::Grid;
-use crate::scene::{Boundary, Fill, HeightFileScene};
+use crate::scene::{Boundary, Detrend, Edges, Fill, HeightFileScene};
 use crate::units::in_range;
 
 /// Relative difference up to which two sizes agree: files store few digits.
@@ -16,6 +16,9 @@ const SIZE_MARGIN: f64 = 1e-3;
 ///
 /// A single wave whose steepest flank lies on the edge reaches 1.4.
 const EDGE_JUMP: f64 = 3.0;
+
+/// Share of the rms height from which a plane through a map is a tilt.
+const TILTED: f64 = 0.1;
 
 /// Heights read from a file, ready to be added.
 #[derive(Clone, Debug, PartialEq)]
@@ -31,6 +34,12 @@ pub(super) struct HeightMap {
 }
 
 impl HeightMap {
+    /// Repeats the one row of a profile.
+    pub(super) fn repeat(&mut self, rows: usize) {
+        self.heights = self.heights.repeat(rows);
+        self.points[1] = rows;
+    }
+
     /// Refuses a map whose number of points differs from `points` (x, y).
     pub(super) fn compare_points(
         &self,
@@ -49,7 +58,7 @@ impl HeightMap {
             hint: if [rows, columns] == points {
                 "; rows of a file are y and columns x: transpose it, or swap the two numbers"
             } else {
-                "; leave points out to take those of the file"
+                "; leave points out to take those of the file, or give the file resample = [nx, ny]"
             },
         })
     }
@@ -73,18 +82,43 @@ impl HeightMap {
     }
 }
 
-/// Reads the height map of a scene and applies fill, unit, scale and detrending.
+/// Reads the height map of a scene and applies all that the scene asks of it.
 ///
 /// # Errors
-/// See [`FileError`].
+/// See [`FileError`]; a line scan is one unless the scene takes it as a profile.
 pub(super) fn read(scene: &HeightFileScene, boundary: Boundary) -> Result<HeightMap, FileError> {
     for (name, value) in [("unit", scene.unit), ("scale", scene.scale)] {
         if value == 0.0 || !in_range(value) {
             return Err(FileError::Factor { name, value });
         }
     }
-    let matrix = formats::read(&scene.path)?;
-    let (rows, columns) = (matrix.rows, matrix.columns);
+    let mut matrix = formats::read(&scene.path)?;
+    if scene.preparation.profile {
+        prepare::to_profile(&mut matrix)?;
+    } else {
+        prepare::expect_map(&matrix)?;
+    }
+    heights_of(scene, boundary, matrix)
+}
+
+/// The same of numbers that need not be heights, where a single row is a map too.
+pub(super) fn read_numbers(
+    scene: &HeightFileScene,
+    boundary: Boundary,
+) -> Result<HeightMap, FileError> {
+    heights_of(scene, boundary, formats::read(&scene.path)?)
+}
+
+fn heights_of(
+    scene: &HeightFileScene,
+    boundary: Boundary,
+    mut matrix: Matrix,
+) -> Result<HeightMap, FileError> {
+    let asked = &scene.preparation;
+    if let Some(crop) = asked.crop {
+        prepare::crop(&mut matrix, crop)?;
+    }
+    let (mut rows, mut columns) = (matrix.rows, matrix.columns);
     let unit = matrix.unit.unwrap_or(scene.unit);
     let [factor, zero] = factor_and_zero(&matrix, scene, unit)?;
     let mut heights = matrix.values;
@@ -97,6 +131,17 @@ pub(super) fn read(scene: &HeightFileScene, boundary: Boundary) -> Result<Height
         boundary,
         &mut warnings,
     )?;
+
+    let is_periodic = boundary == Boundary::Periodic;
+    if let Some(times) = asked.outliers {
+        let found = prepare::remove_outliers(&mut heights, rows, columns, times, is_periodic);
+        if found > 0 {
+            warnings.push(format!(
+                "{found} of {} points stand out of their neighbours by more than {times} standard deviations and are interpolated",
+                heights.len()
+            ));
+        }
+    }
 
     if unit != scene.unit && scene.unit != 1.0 {
         warnings.push(format!(
@@ -113,16 +158,50 @@ pub(super) fn read(scene: &HeightFileScene, boundary: Boundary) -> Result<Height
         return Err(FileError::Extreme { largest });
     }
     detrend::detrend(&mut heights, rows, columns, scene.detrend);
-    if boundary == Boundary::Periodic {
-        warn_of_edges(&heights, [columns, rows], &mut warnings);
+    let mut size = matrix.size.map(|size| match size {
+        Size::Metres(size) => size,
+        Size::LikeHeights(size) => size.map(|side| side * unit.abs()),
+    });
+    let mut closes = edges(&heights, [columns, rows]).is_empty();
+    if !closes && matches!(scene.detrend, Detrend::None | Detrend::Mean) {
+        let tilt = detrend::tilt(&heights, rows, columns);
+        if tilt > TILTED {
+            warnings.push(format!(
+                "the map is tilted: a plane is {:.0} % of its rms height; detrend = \"plane\" takes it off",
+                100.0 * tilt
+            ));
+        }
+    }
+    match asked.edges {
+        Edges::None => {}
+        Edges::Window => {
+            prepare::window(&mut heights, rows, columns);
+            closes = true;
+        }
+        Edges::Mirror => {
+            let before = [columns, rows];
+            (heights, [columns, rows]) = prepare::mirror(&heights, rows, columns);
+            let longer = |side: f64, i: usize| side * ([columns, rows][i] / before[i]) as f64;
+            size = size.map(|[x, y]| [longer(x, 0), longer(y, 1)]);
+            closes = true;
+        }
+    }
+    if let Some([nx, ny]) = asked.resample {
+        let (from, points) = ([columns, rows], [nx, if asked.profile { 1 } else { ny }]);
+        heights = if is_periodic && closes {
+            resample::by_waves(&heights, from, points)
+        } else {
+            resample::by_cubics(&heights, from, points)
+        };
+        [columns, rows] = points;
+    }
+    if is_periodic && asked.edges == Edges::None {
+        warnings.extend(edges(&heights, [columns, rows]));
     }
     Ok(HeightMap {
         heights,
         points: [columns, rows],
-        size: matrix.size.map(|size| match size {
-            Size::Metres(size) => size,
-            Size::LikeHeights(size) => size.map(|side| side * unit.abs()),
-        }),
+        size,
         warnings,
     })
 }
@@ -179,8 +258,9 @@ fn fill_missing(
     }
 }
 
-/// Warns of a map whose opposite edges do not match.
-fn warn_of_edges(heights: &[f64], points: [usize; 2], warnings: &mut Vec<String>) {
+/// What is warned of a map whose opposite edges do not match.
+fn edges(heights: &[f64], points: [usize; 2]) -> Vec<String> {
+    let mut warnings = Vec::new();
     // Jumps are compared with steps of the same map, so lengths do not matter.
     let grid = Grid::new(points, [1.0, 1.0]);
     for (axis, (jump, step)) in ["x", "y"].into_iter().zip(edge_jumps(&grid, heights)) {
@@ -189,9 +269,10 @@ fn warn_of_edges(heights: &[f64], points: [usize; 2], warnings: &mut Vec<String>
         if jump > EDGE_JUMP * step && jump > noise {
             warnings.push(format!(
                 "the edges across {axis} do not match: rms jump {jump:.3e} m against {step:.3e} m between \
-                 neighbours; on a periodic grid this is a step in the surface (detrend, window the map, or \
-                 take boundary = \"free\")"
+                 neighbours; on a periodic grid this is a step in the surface (detrend = \"plane\", \
+                 edges = \"window\" or \"mirror\", or boundary = \"free\")"
             ));
         }
     }
+    warnings
 }

@@ -23,6 +23,10 @@ mod formats;
 pub(crate) mod fourier;
 mod matrix;
 mod outline;
+mod prepare;
+mod resample;
+#[doc(hidden)]
+pub mod roughness;
 #[doc(hidden)]
 pub mod self_affine;
 #[doc(hidden)]
@@ -34,6 +38,7 @@ pub use adhesion_map::MapError;
 pub use error::{FileError, PartError, SurfaceError};
 #[doc(hidden)]
 pub use formats::claimed_points;
+pub(crate) use outline::has_flats;
 #[doc(hidden)]
 pub use outline::{MapOutline, Outline, Source};
 
@@ -196,7 +201,12 @@ fn read_maps(
             let path = file.path.clone();
             part_error(index, PartError::File { path, problem })
         };
-        let map = file::read(file, scene.boundary).map_err(of_file)?;
+        let mut map = file::read(file, scene.boundary).map_err(of_file)?;
+        if file.preparation.profile
+            && let Some([_, rows]) = scene.points
+        {
+            map.repeat(rows);
+        }
         if let Some((points, against)) = points {
             map.compare_points(points, against).map_err(of_file)?;
         }

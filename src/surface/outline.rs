@@ -14,6 +14,12 @@ use crate::scene::{AdhesionMap, Boundary, Scene, SurfacePart};
 /// Points a side of the sample that gives the slope and curvature of a shape.
 const SAMPLE: usize = 128;
 
+/// Points within this share of all heights of an end are level with it.
+const LEVEL: f64 = 1e-6;
+/// Share of points that form a flat at the top, and on the ground.
+const TOP: f64 = 0.01;
+const GROUND: f64 = 0.1;
+
 /// How the moments of an outline were found.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Source {
@@ -38,6 +44,8 @@ pub struct Outline {
     pub source: Source,
     /// Radius, m, if the surface is exactly one sphere.
     pub sphere_radius: Option<f64>,
+    /// Whether the surface consists of flats, as of pillars and punches, so that no curvature is meant.
+    pub has_flats: bool,
     /// Summary of the adhesion map; `None` without one.
     pub map: Option<MapOutline>,
     /// Warnings for the user, one sentence each, naming the part.
@@ -77,6 +85,24 @@ impl MapOutline {
             deviation: 0.5 * (high - low).abs(),
         }
     }
+}
+
+/// Whether many points are level with the highest, as of flat pillars and punches, or with the lowest, as between
+/// pillars.
+pub(crate) fn has_flats(heights: &[f64]) -> bool {
+    let ends = |ends: [f64; 2], height: &f64| [ends[0].min(*height), ends[1].max(*height)];
+    let [lowest, highest] = heights
+        .iter()
+        .fold([f64::INFINITY, f64::NEG_INFINITY], ends);
+    let level = LEVEL * (highest - lowest);
+    let share = |end: f64| {
+        let count = heights
+            .iter()
+            .filter(|height| (**height - end).abs() <= level)
+            .count();
+        count as f64 / heights.len() as f64
+    };
+    highest > lowest && (share(highest) > TOP || share(lowest) > GROUND)
 }
 
 /// Contribution of one part.
@@ -139,6 +165,7 @@ impl Outline {
                 Some(SurfacePart::Sphere { radius, .. }) => Some(*radius),
                 _ => None,
             },
+            has_flats: false,
             map: match scene
                 .adhesion
                 .as_ref()
@@ -162,6 +189,7 @@ impl Outline {
             moments: surface.statistics(boundary).moments,
             source: Source::Heights,
             sphere_radius: surface.sphere_radius,
+            has_flats: has_flats(&surface.heights),
             map: surface
                 .adhesion_map
                 .as_deref()
@@ -257,5 +285,23 @@ fn waves(amplitude: f64, wavelength: [f64; 2], boundary: Boundary) -> PartOutlin
             Boundary::Free => Source::Estimate,
         },
         warnings: Vec::new(),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn pillars_have_flats_and_rough_surfaces_have_none() {
+        let pillars: Vec<f64> = (0..400).map(|i| f64::from(u8::from(i % 20 < 4))).collect();
+        assert!(has_flats(&pillars));
+        let round: Vec<f64> = (0..400)
+            .map(|i| (1.0 - 0.1 * f64::from(i % 20 - 3).powi(2)).max(0.0))
+            .collect();
+        assert!(has_flats(&round));
+        let rough: Vec<f64> = (0..400).map(|i| f64::from((i * 37) % 211)).collect();
+        assert!(!has_flats(&rough));
+        assert!(!has_flats(&[1.0; 9]));
     }
 }

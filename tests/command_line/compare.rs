@@ -6,7 +6,7 @@ use std::path::Path;
 use crate::shared::binary::{errors, tabor};
 use crate::shared::trials::tests;
 
-const HEAD: &str = "model,mean_pressure,contact_area_fraction,mean_gap,adhesive_pressure,pull_off_pressure,seconds,within_range,limit";
+const HEAD: &str = "model,mean_pressure,contact_area_fraction,mean_gap,adhesive_pressure,pull_off_pressure,seconds,within_range,limit,branch";
 
 const SMOOTH: &str = r#"
 title = "Smooth stiff surface"
@@ -70,7 +70,7 @@ fn every_model_answers_at_every_load() {
         let asked = if model == "full field" { 4 } else { 3 };
         assert_eq!(found.len(), 1 + asked, "{model}");
         for (row, load) in found[1..].iter().zip(loads) {
-            assert_eq!(row.len(), 9);
+            assert_eq!(row.len(), 10);
             assert!((number(row, "mean_pressure").unwrap() / load - 1.0).abs() < 1e-9);
             assert_eq!(number(row, "pull_off_pressure"), Some(pull_off));
             // GW-M pressed below its mean plane has none, and says that it is out of range.
@@ -81,6 +81,13 @@ fn every_model_answers_at_every_load() {
             assert_eq!(row[7] == "true", row[8].is_empty());
         }
     }
+    // The path of the field goes up and back; models answer each load once.
+    let branches = |model: &str| -> Vec<String> {
+        of(&rows, model).iter().map(|row| row[9].clone()).collect()
+    };
+    let up = ["pull-off", "loading", "loading", "loading"];
+    assert_eq!(branches("full field"), [&up[..], &["unloading"]].concat());
+    assert_eq!(branches("ICHA"), up);
     // The models know the same surface: areas at 30 MPa within a factor of two of the treatment of
     // DMT, whose own kind they are (4 summit spacings a side make no better statistics).
     let area = |model: &str| number(of(&rows, model)[2], "contact_area_fraction");

@@ -10,6 +10,7 @@ use std::path::{Path, PathBuf};
 use std::process::{Command, Stdio};
 use std::sync::{Arc, Mutex};
 
+use tabor::units::format_si;
 use tempfile::TempDir;
 
 use crate::shared::binary::{self, errors, status, tabor};
@@ -240,7 +241,6 @@ fn a_browser_shows_the_whole_page_on_any_width_without_a_network() {
         for part in [
             "Finished: 8 steps",
             "step 6 is separated",
-            "dmt treatment",
             "50 MPa",
             "2 µm × 1.5 µm",
             "Jumps out of contact",
@@ -389,12 +389,117 @@ fn a_terminal_shows_progress_and_the_table_at_the_end() {
         .lines()
         .skip_while(|line| !line.contains("approach"))
         .collect();
-    assert_eq!(table.len(), 9, "{said}");
+    // The heads, a row a step, and the result.
+    assert_eq!(table.len(), 10, "{said}");
     assert!(
         table[6].contains("separated") && table[8].contains("contact"),
         "{said}"
     );
     assert!(output.stdout.is_empty());
+}
+
+/// A sphere that is pressed and taken off, with every effect that only adds columns.
+const EFFECTS: &str = r#"
+[grid]
+points = 32
+size = "60 um"
+boundary = "free"
+[solid]
+contact_modulus = "1 MPa"
+[[surface]]
+kind = "sphere"
+radius = "100 um"
+[adhesion]
+law = "maugis-dugdale"
+work_of_adhesion = "50 mJ/m^2"
+range = "500 nm"
+[friction]
+shear_strength = "10 kPa"
+[wear]
+specific_wear_rate = "1e-6 mm^3/(N m)"
+[conductance]
+conductivity = "59.6 MS/m"
+counter_conductivity = "45 MS/m"
+[loading]
+control = "approach"
+path = ["-1.6 um", "2 um", "-0.3 um", "-1.6 um"]
+[output]
+images = []
+"#;
+
+fn results_of_effects_have_a_card_a_curve_and_a_column() {
+    let (_folder, out) = run(EFFECTS, &[], 0);
+    let page = fs::read_to_string(out.join("report.html")).expect("a page");
+    let rows = binary::table(&out.join("curve.csv"));
+    for (name, column, unit) in [
+        ("friction force", "friction_force", "N"),
+        ("conductance", "conductance", "S"),
+        ("resistance", "resistance", "ohm"),
+        ("wear rate", "wear_rate", "m^3/m"),
+    ] {
+        let mut card = name.to_owned();
+        card[..1].make_ascii_uppercase();
+        let value = format_si(binary::number(&rows[1], column).expect("a value"), unit);
+        for part in [
+            format!("<dt>{card}</dt><dd>{value}<small>at the largest contact, step 2; "),
+            format!("{name} against force"),
+            format!(">{name}</th>"),
+            format!("<td class=\"number\">{value}</td>"),
+        ] {
+            assert!(page.contains(&part), "{part} is missing in {page}");
+        }
+    }
+    // The resistance is that of the conductance, and there is none without contact.
+    let [conductance, resistance] =
+        ["conductance", "resistance"].map(|name| binary::number(&rows[1], name).expect("a number"));
+    assert!((conductance * resistance - 1.0).abs() < 1e-12);
+    assert_eq!(binary::number(&rows[0], "resistance"), None);
+    // The work of the loop ends at what it loses.
+    let lost = binary::summary(&out)["hysteresis_energy"]
+        .as_f64()
+        .expect("a loop");
+    let lost = format_si(lost, "J");
+    for part in [
+        "work done against approach",
+        &format!("<dt>Hysteresis</dt><dd>{lost}<"),
+        &format!("<td class=\"number\">{lost}</td><td>separated"),
+    ] {
+        assert!(page.contains(part), "{part} is missing in {page}");
+    }
+    // What still touches without load.
+    assert!(page.contains("<dt>Left at zero load</dt>"), "{page}");
+    // Effects that are off are not there.
+    assert!(page.contains("<th scope=\"row\">wear</th>"));
+    for off in ["dmt treatment", "hardness", "viscoelasticity"] {
+        assert!(
+            !page.contains(&format!("<th scope=\"row\">{off}</th>")),
+            "{off}"
+        );
+    }
+
+    // Heat has no resistance in ohm, and a plastic solid has lost energy at the end.
+    let thermal = EFFECTS
+        .replace("59.6 MS/m", "400 W/(m K)")
+        .replace("\"45 MS/m\"", "16")
+        .replace("contact_modulus", "hardness = \"100 kPa\"\ncontact_modulus");
+    let (_folder, out) = run(&thermal, &[], 0);
+    let rows = binary::table(&out.join("curve.csv"));
+    assert!(!rows[0].contains_key("resistance"));
+    let page = fs::read_to_string(out.join("report.html")).expect("a page");
+    let value = |row: usize, column: &str| binary::number(&rows[row], column).expect("a value");
+    let heat = format_si(value(1, "conductance"), "W/K");
+    let energy = format_si(value(3, "plastic_energy"), "J");
+    for part in [
+        format!("<dt>Conductance</dt><dd>{heat}<"),
+        format!("<dt>Plastic energy</dt><dd>{energy}<small>lost up to step 4"),
+    ] {
+        assert!(page.contains(&part), "{part} is missing in {page}");
+    }
+    let mixed = EFFECTS.replace("45 MS/m", "16 W/(m K)");
+    let folder = binary::scene(&mixed);
+    let output = tabor(folder.path(), &["check", "scene.toml"]);
+    assert_eq!(status(&output), 2);
+    assert!(errors(&output).contains("give both conductivities in W/(m K), or both in S/m"));
 }
 
 /// A machine without programs has no browser.
@@ -409,6 +514,7 @@ tests![
     a_page_that_asks_or_complains_would_be_seen,
     a_screenshot_in_the_light_and_in_the_dark_is_as_asked,
     the_picture_of_the_curves_has_both_directions,
+    results_of_effects_have_a_card_a_curve_and_a_column,
     #[cfg(target_os = "linux")]
     a_terminal_shows_progress_and_the_table_at_the_end,
     a_test_without_a_browser_is_ignored_with_its_reason,

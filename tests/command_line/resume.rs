@@ -71,6 +71,18 @@ fn single_precision_and_the_last_step_alone() {
     kill_and_resume(&text, 4, &["--precision", "single", "--backend", "cpu"]);
 }
 
+/// Further steps follow from the rows.
+fn a_pull_until_apart_goes_on_with_the_same_steps() {
+    let start = ROUGH.find("[loading]").expect("a table");
+    let end = ROUGH.find("[output]").expect("a table");
+    let loading =
+        "[loading]\ncontrol = \"mean-gap\"\npath = [\"20 nm\", \"10 nm\"]\nuntil = \"apart\"\n";
+    let output = "[output]\nimages = [\"gap\"]\nfields = [\"gap\"]\n";
+    let text = format!("{}{loading}{output}", &ROUGH[..start]);
+    assert!(end > start);
+    kill_and_resume(&text, 5, &["--backend", "cpu"]);
+}
+
 /// A solid that relaxes remembers more than its gap; both stretches of unlike durations go on, and so
 /// does the column of an effect.
 fn a_relaxing_solid_goes_on_with_what_it_remembers() {
@@ -469,6 +481,7 @@ fn a_full_disk_keeps_what_was_finished() {
 tests![
     twenty_killed_runs_go_on_and_end_with_the_same_files,
     single_precision_and_the_last_step_alone,
+    a_pull_until_apart_goes_on_with_the_same_steps,
     a_relaxing_solid_goes_on_with_what_it_remembers,
     killed_runs_on_the_graphics_processor,
     #[cfg(unix)]

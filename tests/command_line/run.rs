@@ -3,6 +3,7 @@
 use std::fs;
 use std::path::{Path, PathBuf};
 
+use tabor::units::format_si;
 use tempfile::TempDir;
 
 use crate::shared::binary::{self, errors, status, summary, tabor};
@@ -612,7 +613,264 @@ fn pull_off_under_a_load() {
     assert!(warnings.contains("its pull-off is beyond"), "{warnings}");
 }
 
+/// A stiff sphere that jumps into contact, is pressed, and jumps off; the loop closes.
+const LOOP: &str = r#"
+[grid]
+points = 48
+size = "60 um"
+boundary = "free"
+[solid]
+contact_modulus = "1 MPa"
+[[surface]]
+kind = "sphere"
+radius = "100 um"
+[adhesion]
+law = "maugis-dugdale"
+work_of_adhesion = "50 mJ/m^2"
+range = "250 nm"
+[loading]
+control = "approach"
+path = ["-1.6 um", "-0.3 um", "0.5 um", "-0.5 um", "-1.6 um"]
+[output]
+images = []
+"#;
+
+/// The last line on standard error, and the first paragraph of the report.
+fn last_words(folder: &Path, out: &str, arguments: &[&str]) -> (String, String) {
+    let call = [&["run", "scene.toml", "--out", out], arguments].concat();
+    let output = tabor(folder, &call);
+    assert_eq!(status(&output), 0, "{}", errors(&output));
+    let page = fs::read_to_string(folder.join(out).join("report.html")).expect("a page");
+    let (_, behind) = page.split_once("<p").expect("a paragraph");
+    let (first, _) = behind.split_once("</p>").expect("its end");
+    let (_, first) = first.split_once('>').expect("its text");
+    let last = errors(&output)
+        .lines()
+        .last()
+        .unwrap_or_default()
+        .to_owned();
+    (last, first.to_owned())
+}
+
+fn the_last_words_and_the_first_line_of_the_report_state_the_result() {
+    let (folder, _) = scene(LOOP);
+    let (said, shown) = last_words(folder.path(), "out", &[]);
+    let summary = summary(&folder.path().join("out"));
+    let number = |key: &str| summary[key].as_f64().unwrap_or_else(|| panic!("no {key}"));
+    let share = 100.0 * number("largest_contact_area_fraction");
+    for part in [
+        format!("The largest contact area is {share:.3} % of the nominal area (step 3)"),
+        format!(
+            "the pull-off force is {} (step {})",
+            format_si(number("pull_off_force"), "N"),
+            summary["pull_off_step"]
+        ),
+        "the surfaces jump out of contact in step 5".to_owned(),
+        format!(
+            "and the loop loses {}.",
+            format_si(number("hysteresis_energy"), "J")
+        ),
+    ] {
+        assert!(said.contains(&part), "{part} is missing in {said}");
+        assert!(shown.contains(&part), "{part} is missing in {shown}");
+    }
+    assert!(said.starts_with(&shown), "{said}\n{shown}");
+    let rest = &said[shown.len()..];
+    assert!(
+        rest.starts_with(" Solved in ") && rest.ends_with(" s; the report is out/report.html"),
+        "{rest}"
+    );
+
+    // Taken off to zero load it sticks.
+    let stuck = [
+        "--set",
+        "loading.control=force",
+        "--set",
+        "loading.path=[1e-5, 0]",
+    ];
+    let (said, shown) = last_words(folder.path(), "stuck", &stuck);
+    let rows = rows(&folder.path().join("stuck"));
+    let left: f64 = rows[1][column("contact_area_fraction")]
+        .parse()
+        .expect("a number");
+    let part = format!(
+        "and the surfaces stick at zero load, {:.3} % of the area in contact.",
+        100.0 * left
+    );
+    assert!(
+        left > 0.0 && said.contains(&part),
+        "{part} is missing in {said}"
+    );
+    assert!(shown.contains(&part), "{shown}");
+}
+
+/// Forces and states of the rows of a run of the sphere with a loading.
+fn pulled(loading: &str, extra: &[&str]) -> (Vec<(f64, String)>, serde_json::Value) {
+    let start = LOOP.find("[loading]").expect("a table");
+    let text = format!(
+        "{}[loading]\n{loading}\n[output]\nimages = []\n",
+        &LOOP[..start]
+    );
+    let (folder, _) = scene(&text);
+    let call = [&["run", "scene.toml", "--out", "out"], extra].concat();
+    let output = tabor(folder.path(), &call);
+    assert_eq!(status(&output), 0, "{}", errors(&output));
+    let out = folder.path().join("out");
+    let found = rows(&out).into_iter().map(|row| {
+        let force = row[column("force")].parse().expect("a number");
+        (force, row[column("state")].clone())
+    });
+    (found.collect(), summary(&out))
+}
+
+/// One pull-off, whatever is prescribed: between two tensions under a force, the greatest tension under an
+/// approach. Steps aim at 5 % of it, so the sampled maximum, where the curve is level, is within a per cent.
+fn until_apart_pulls_in_finer_steps_until_the_surfaces_separate() {
+    let (held, summary) = pulled(
+        "control = \"force\"\npath = [1e-5, 0]\nuntil = \"apart\"",
+        &[],
+    );
+    let lower = summary["pull_off_lower"].as_f64().expect("a pull-off");
+    let upper = summary["pull_off_upper"].as_f64().expect("a pull-off");
+    assert!(
+        lower <= upper && upper <= 1.0101 * lower,
+        "{lower:e} {upper:e}"
+    );
+    assert!(held.len() > 10, "{held:?}");
+    assert_eq!(summary["scene"]["loading"]["until"], "apart");
+
+    let moved = [
+        (
+            "control = \"approach\"\npath = [\"0.3 um\", \"0.2 um\"]\nuntil = \"apart\"",
+            0.01,
+        ),
+        // A soft spring snaps off the branch before the maximum under an approach, at that of a force.
+        (
+            "control = \"approach\"\nspring = \"0.1 N/m\"\npath = [\"100 um\", \"50 um\"]\nuntil = \"apart\"",
+            0.06,
+        ),
+    ];
+    for (loading, tolerance) in moved {
+        let (rows, summary) = pulled(loading, &[]);
+        let pull_off = summary["pull_off_force"].as_f64().expect("a pull-off");
+        assert!(
+            (pull_off / lower - 1.0).abs() < 0.01 + tolerance,
+            "{loading}: {pull_off:e} {lower:e}"
+        );
+        let states: Vec<&str> = rows.iter().map(|(_, state)| state.as_str()).collect();
+        assert!(rows.len() < 150, "{loading}: {} steps", rows.len());
+        assert_eq!(
+            states.iter().position(|state| *state == "separated"),
+            Some(rows.len() - 1),
+            "{states:?}"
+        );
+        assert_eq!(rows[rows.len() - 1].0, 0.0);
+        // Up to the greatest tension no step changes the force by more than twice its aim. Behind it the
+        // branch falls ever more steeply to its end, and a step follows the slope of the one before.
+        let contact = rows.iter().take_while(|(_, state)| state == "contact");
+        let forces: Vec<f64> = contact.map(|(force, _)| *force).collect();
+        for pair in forces.windows(2).filter(|pair| pair[0] < 0.0) {
+            let aim = if pair[1] < pair[0] { 0.05 } else { 0.15 };
+            assert!(
+                (pair[1] - pair[0]).abs() < 2.0 * aim * pull_off,
+                "{loading}: {pair:?}"
+            );
+        }
+    }
+
+    // Without adhesion the first load that is not above zero ends it; its last step is the one with pictures.
+    let extra = [
+        "--set",
+        "adhesion.work_of_adhesion=1e-9",
+        "--set",
+        "output.images=[\"gap\"]",
+    ];
+    let (rows, _) = pulled(
+        "control = \"force\"\npath = [1e-5, 5e-6]\nuntil = \"apart\"",
+        &extra,
+    );
+    assert_eq!(
+        rows.last().map(|(_, state)| state.as_str()),
+        Some("separated")
+    );
+
+    // A hold alone has no speed to go on at.
+    let (folder, _) = scene(&LOOP.replace(
+        "path = [\"-1.6 um\", \"-0.3 um\", \"0.5 um\", \"-0.5 um\", \"-1.6 um\"]",
+        "start = 0\nuntil = \"apart\"\n[[loading.ramp]]\nhold = 1\nsteps = 2",
+    ));
+    let output = tabor(folder.path(), &["check", "scene.toml"]);
+    assert_eq!(status(&output), 2);
+    assert!(
+        errors(&output).contains("pulls on at the speed of the last"),
+        "{}",
+        errors(&output)
+    );
+}
+
+fn implausible_quantities_are_warned_of_with_the_likely_slip() {
+    let (folder, _) = scene(LOOP);
+    let said = |set: &[&str]| {
+        let set = set.iter().flat_map(|set| ["--set", set]);
+        let call: Vec<&str> = ["check", "scene.toml"].into_iter().chain(set).collect();
+        let output = tabor(folder.path(), &call);
+        assert_eq!(status(&output), 0, "{}", errors(&output));
+        errors(&output)
+    };
+    assert!(!said(&[]).contains("was it meant"));
+    for (set, warning) in [
+        (
+            &["adhesion.work_of_adhesion=50"][..],
+            "a work of adhesion of 50 J/m^2 is more than solids have: was it meant in mJ/m^2?",
+        ),
+        (
+            &["grid.size=60", "surface.0.radius=100"],
+            "a map 60 m wide is no surface that touches: was the size meant in um or nm?",
+        ),
+        (
+            &["loading.spring=0.2", "surface.0.radius=1.5", "grid.size=1"],
+            "a radius of 1.5 m at the tip of a cantilever: was it meant in um or nm?",
+        ),
+        (
+            &["surface.0.radius=1e-7"],
+            "degrees, is steeper than surfaces are: were the heights meant in another unit than the size?",
+        ),
+    ] {
+        let told = said(set);
+        assert!(told.contains(warning), "{warning} is missing in {told}");
+    }
+}
+
+/// A punch with flat pillars has no curvature, so no Tabor number; what a model of it leaves out is said.
+fn a_tabor_number_is_given_only_where_a_curvature_is_meant() {
+    let root = Path::new(env!("CARGO_MANIFEST_DIR"));
+    let check = |name: &str| {
+        let output = tabor(root, &["check", &format!("examples/scenes/{name}.toml")]);
+        assert_eq!(status(&output), 0, "{}", errors(&output));
+        String::from_utf8_lossy(&output.stdout).into_owned()
+    };
+    let punch = check("patterned_punch");
+    assert!(!punch.contains("Tabor number "), "{punch}");
+    assert!(
+        punch.contains("no curvature, and no Tabor number"),
+        "{punch}"
+    );
+    assert!(
+        punch.contains("pillars are rigid, as the whole counter-face is"),
+        "{punch}"
+    );
+    let sphere = check("sphere_pull_off");
+    assert!(
+        sphere.contains("Tabor number 2.4") && !sphere.contains("pillars"),
+        "{sphere}"
+    );
+}
+
 tests![
+    a_tabor_number_is_given_only_where_a_curvature_is_meant,
+    implausible_quantities_are_warned_of_with_the_likely_slip,
+    until_apart_pulls_in_finer_steps_until_the_surfaces_separate,
+    the_last_words_and_the_first_line_of_the_report_state_the_result,
     a_run_writes_what_the_contract_says,
     the_same_scene_gives_the_same_bits,
     folders_that_are_not_this_scenes_are_left_alone,

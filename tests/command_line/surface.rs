@@ -161,8 +161,32 @@ fn a_measured_patch_leads_to_a_scene() {
         assert!(found.contains(&format!("{number:.5e}")), "{row}");
         assert!(fields[1].parse::<f64>().unwrap() >= 0.0);
     }
+    // The scene resolves its shortest wave and has the rms height of the map.
     let check = tabor(folder.path(), &["check", "out/scene.toml"]);
     assert!(check.status.success(), "{}", errors(&check));
+    assert_eq!(errors(&check), "");
+    let like = report(
+        folder.path(),
+        &["surface", "out/scene.toml", "--out", "like"],
+    );
+    close(
+        quantity(&like, "rms_height"),
+        quantity(&found, "rms_height"),
+        0.02,
+    );
+    let few = [
+        "run",
+        "out/scene.toml",
+        "--out",
+        "run",
+        "--set",
+        "loading.path=[1e6]",
+        "--set",
+        "output.images=[]",
+    ];
+    let run = tabor(folder.path(), &few);
+    assert!(run.status.success(), "{}", errors(&run));
+    assert!(!errors(&run).contains("warning"), "{}", errors(&run));
     // Of a patch the mean slope of all is what a tilt adds.
     let tilted = report(folder.path(), &["surface", map, "--out", "tilted"]);
     assert!(quantity(&tilted, "rms_slope") > quantity(&found, "rms_slope"));
@@ -224,7 +248,369 @@ fn folders_of_others_are_left_alone() {
     }
 }
 
+/// A file of so many rows and columns.
+fn matrix(
+    folder: &Path,
+    name: &str,
+    [rows, columns]: [usize; 2],
+    value: impl Fn(usize, usize) -> f64,
+) {
+    let line = |y| {
+        (0..columns)
+            .map(|x| format!("{:e}", value(y, x)))
+            .collect::<Vec<_>>()
+            .join(" ")
+    };
+    let text: Vec<String> = (0..rows).map(line).collect();
+    fs::write(folder.join(name), text.join("\n") + "\n").expect("it is written");
+}
+
+/// Heights that `surface` has written.
+fn written(folder: &Path) -> (Vec<u64>, Vec<f64>) {
+    let bytes = fs::read(folder.join("heights.npy")).expect("heights");
+    let file = npyz::NpyFile::new(&bytes[..]).expect("an npy file");
+    (file.shape().to_vec(), file.into_vec().expect("doubles"))
+}
+
+fn a_line_scan_is_refused_or_taken_as_a_profile() {
+    let place = tempfile::tempdir().unwrap();
+    let folder = place.path();
+    let height = |at: usize| 1e-8 * (at as f64 / 40.0 * std::f64::consts::TAU).cos();
+    matrix(folder, "scan.txt", [40, 2], |y, x| {
+        if x == 0 { 1e-7 * y as f64 } else { height(y) }
+    });
+    matrix(folder, "long.txt", [3, 3000], |_, x| height(x % 40));
+    for (file, points) in [("scan.txt", "2 x 40"), ("long.txt", "3000 x 3")] {
+        let output = tabor(folder, &["surface", file, "--size", "1 um"]);
+        assert_eq!(output.status.code(), Some(2));
+        let said = errors(&output);
+        assert!(
+            said.contains(&format!(
+                "{points} points (x, y) are a line scan and no map; give --profile"
+            )),
+            "{said}"
+        );
+    }
+    // Places and heights: the file has its size.
+    let found = report(
+        folder,
+        &["surface", "scan.txt", "--profile", "--boundary", "periodic"],
+    );
+    close(quantity(&found, "size_x"), 4e-6, 1e-6);
+    assert_eq!(
+        [quantity(&found, "points_x"), quantity(&found, "points_y")],
+        [40.0, 1.0]
+    );
+    close(quantity(&found, "rms_height"), 1e-8 / 2_f64.sqrt(), 1e-5);
+    // In a scene the key is named, and the profile repeats across.
+    let scene = |keys: &str| {
+        format!(
+            "[grid]\npoints = [40, 8]\n[[surface]]\nkind = \"file\"\npath = \"scan.txt\"\n{keys}{REST}"
+        )
+    };
+    fs::write(folder.join("a.toml"), scene("")).unwrap();
+    let output = tabor(folder, &["check", "a.toml"]);
+    assert_eq!(output.status.code(), Some(2));
+    assert!(
+        errors(&output).contains("write profile = true"),
+        "{}",
+        errors(&output)
+    );
+    fs::write(folder.join("b.toml"), scene("profile = true\n")).unwrap();
+    let found = report(folder, &["surface", "b.toml"]);
+    assert_eq!(
+        [quantity(&found, "points_x"), quantity(&found, "points_y")],
+        [40.0, 8.0]
+    );
+    // <h^2> of a cosine, and no slope across.
+    close(quantity(&found, "rms_height"), 1e-8 / 2_f64.sqrt(), 1e-5);
+    let slope = 1e-8 * std::f64::consts::TAU / 4e-6 / 2_f64.sqrt();
+    close(quantity(&found, "rms_slope"), slope, 1e-5);
+}
+
+fn a_tilted_map_is_told() {
+    let place = tempfile::tempdir().unwrap();
+    let folder = place.path();
+    let rough = |y: usize, x: usize| ((y * 31 + x * 17) % 13) as f64 * 1e-9;
+    matrix(folder, "tilted.txt", [20, 20], |y, x| {
+        rough(y, x) + 1e-9 * x as f64
+    });
+    matrix(folder, "wavy.txt", [20, 20], |_, x| {
+        (x as f64 / 20.0 * std::f64::consts::TAU).sin() * 1e-9
+    });
+    let said = |arguments: &[&str]| {
+        let output = tabor(folder, arguments);
+        assert!(output.status.success(), "{}", errors(&output));
+        errors(&output)
+    };
+    let call = ["surface", "tilted.txt", "--size", "1 um"];
+    let told = said(&call);
+    assert!(
+        told.contains("the map is tilted: a plane is 8")
+            && told.contains("; --detrend plane takes it off"),
+        "{told}"
+    );
+    assert!(!said(&[&call[..], &["--detrend", "plane"]].concat()).contains("tilted"));
+    // A wave over the whole map follows a plane too, but its edges meet.
+    let wavy = [
+        "surface",
+        "wavy.txt",
+        "--size",
+        "1 um",
+        "--boundary",
+        "periodic",
+    ];
+    assert_eq!(said(&wavy), "");
+    let scene = format!(
+        "[grid]\nsize = \"1 um\"\n[[surface]]\nkind = \"file\"\npath = \"tilted.txt\"\n{REST}"
+    );
+    fs::write(folder.join("a.toml"), scene).unwrap();
+    assert!(said(&["check", "a.toml"]).contains("; detrend = \"plane\" takes it off"));
+}
+
+fn maps_are_cropped_cleaned_closed_and_resampled() {
+    let place = tempfile::tempdir().unwrap();
+    let folder = place.path();
+    let tau = std::f64::consts::TAU;
+    let wave = move |y: f64, x: f64| 1e-8 * ((tau * (x + 2.0 * y)).cos() + (tau * x).sin());
+    let height = move |y: usize, x: usize| wave(y as f64 / 24.0, x as f64 / 32.0);
+    matrix(folder, "map.txt", [24, 32], height);
+    let call = ["surface", "map.txt", "--size", "4 um, 3 um", "--out", "out"];
+    let out = folder.join("out");
+    // The part, with its part of the size.
+    let sized = "# Width: 4 um\n# Height: 3 um\n".to_owned();
+    let text = sized + &fs::read_to_string(folder.join("map.txt")).unwrap();
+    fs::write(folder.join("sized.txt"), text).unwrap();
+    let found = report(
+        folder,
+        &[
+            "surface",
+            "sized.txt",
+            "--crop",
+            "4, 2, 8, 12",
+            "--out",
+            "sized",
+        ],
+    );
+    close(quantity(&found, "size_x"), 1e-6, 1e-9);
+    close(quantity(&found, "size_y"), 1.5e-6, 1e-9);
+    let (shape, values) = written(&folder.join("sized"));
+    assert_eq!(shape, [12, 8]);
+    for (index, value) in values.iter().enumerate() {
+        let expected = height(2 + index / 8, 4 + index % 8);
+        assert!(
+            (value - expected).abs() < 1e-15,
+            "{index}: {value} {expected}"
+        );
+    }
+    // Waves go on between the points of a periodic map.
+    let periodic = [
+        &call[..],
+        &["--boundary", "periodic", "--resample", "64, 36"],
+    ]
+    .concat();
+    report(folder, &periodic);
+    let (shape, values) = written(&out);
+    assert_eq!(shape, [36, 64]);
+    for (index, value) in values.iter().enumerate() {
+        let expected = wave((index / 64) as f64 / 36.0, (index % 64) as f64 / 64.0);
+        assert!(
+            (value - expected).abs() < 1e-20,
+            "{index}: {value} {expected}"
+        );
+    }
+    // Of a patch cubics do, to the third power of the waves' points: 16 of them leave 1e-3 or less inside.
+    report(folder, &[&call[..], &["--resample", "64, 48"]].concat());
+    let (_, values) = written(&out);
+    for (index, value) in values.iter().enumerate() {
+        let (y, x) = (index / 64, index % 64);
+        if (8..40).contains(&y) && (8..56).contains(&x) {
+            let expected = wave(
+                (y as f64 + 0.5) / 48.0 - 0.5 / 24.0,
+                (x as f64 + 0.5) / 64.0 - 0.5 / 32.0,
+            );
+            assert!(
+                (value - expected).abs() < 2e-10,
+                "{index}: {value} {expected}"
+            );
+        }
+    }
+    // Mirror images close a map and double it; a window brings its edges to the mean.
+    let found = report(
+        folder,
+        &[&call[..4], &["--out", "out", "--edges", "mirror"]].concat(),
+    );
+    close(quantity(&found, "size_y"), 3e-6, 1e-9);
+    assert_eq!(
+        [quantity(&found, "points_x"), quantity(&found, "points_y")],
+        [64.0, 48.0]
+    );
+    report(folder, &[&call[..], &["--edges", "window"]].concat());
+    assert!(written(&out).1[0].abs() < 0.1 * height(0, 0).abs());
+    // A spike goes, with a word about it.
+    matrix(folder, "spiked.txt", [24, 32], |y, x| {
+        height(y, x) + if [y, x] == [5, 9] { 1e-6 } else { 0.0 }
+    });
+    let output = tabor(
+        folder,
+        &[
+            "surface",
+            "spiked.txt",
+            "--size",
+            "4 um, 3 um",
+            "--outliers",
+            "20",
+            "--out",
+            "spiked",
+        ],
+    );
+    assert!(
+        errors(&output).contains("1 of 768 points stand out"),
+        "{}",
+        errors(&output)
+    );
+    let (_, values) = written(&folder.join("spiked"));
+    assert!(
+        (values[5 * 32 + 9] - height(5, 9)).abs() < 2e-9,
+        "{}",
+        values[5 * 32 + 9]
+    );
+    // Line by line.
+    matrix(folder, "lines.txt", [24, 32], |y, x| {
+        height(0, x) + 1e-7 * ((y * 7) % 5) as f64
+    });
+    let found = report(
+        folder,
+        &[
+            "surface",
+            "lines.txt",
+            "--size",
+            "1 um",
+            "--detrend",
+            "lines",
+            "--out",
+            "lines",
+        ],
+    );
+    close(quantity(&found, "rms_height"), 1e-8, 1e-4);
+    let output = tabor(folder, &[&call[..], &["--crop", "30, 0, 8, 8"]].concat());
+    assert_eq!(output.status.code(), Some(2));
+    assert!(
+        errors(&output).contains("is not within the 32 x 24 points"),
+        "{}",
+        errors(&output)
+    );
+
+    // The same in a scene, which then takes more points than its file.
+    let scene = format!(
+        "[grid]\npoints = 64\nsize = \"4 um\"\n[[surface]]\nkind = \"file\"\npath = \"map.txt\"\ncrop = [0, 0, 32, 24]\n\
+         outliers = 20\nedges = \"window\"\nresample = [64, 64]\n{REST}"
+    );
+    fs::write(folder.join("a.toml"), &scene).unwrap();
+    let found = report(folder, &["surface", "a.toml"]);
+    assert_eq!(quantity(&found, "points_y"), 64.0);
+    // Advice to take more points names the key of the file.
+    let adhesive = format!(
+        "{scene}[adhesion]\nlaw = \"maugis-dugdale\"\nwork_of_adhesion = 0.1\nrange = \"1 nm\"\n"
+    );
+    fs::write(folder.join("c.toml"), adhesive).unwrap();
+    let output = tabor(folder, &["check", "c.toml"]);
+    assert!(
+        errors(&output).contains("take more points (resample of the height file)"),
+        "{}",
+        errors(&output)
+    );
+    fs::write(
+        folder.join("b.toml"),
+        scene.replace("resample = [64, 64]\n", ""),
+    )
+    .unwrap();
+    let output = tabor(folder, &["check", "b.toml"]);
+    assert_eq!(output.status.code(), Some(2));
+    assert!(
+        errors(&output).contains("or give the file resample = [nx, ny]"),
+        "{}",
+        errors(&output)
+    );
+}
+
+fn height_parameters_distribution_and_scales_of_a_sine() {
+    let place = tempfile::tempdir().unwrap();
+    let folder = place.path();
+    let tau = std::f64::consts::TAU;
+    matrix(folder, "sine.txt", [4, 256], |_, x| {
+        1e-8 * ((x as f64 + 0.5) / 128.0 * tau).sin()
+    });
+    let call = [
+        "surface",
+        "sine.txt",
+        "--size",
+        "4 um, 1 um",
+        "--boundary",
+        "periodic",
+        "--out",
+        "out",
+    ];
+    let found = report(folder, &call);
+    // Sa = 2 A/pi, Sq = A/sqrt 2, Sz = 2 A, Ssk = 0, Sku = 3/2; sums over 128 points a wave.
+    close(quantity(&found, "Sa"), 2e-8 / std::f64::consts::PI, 1e-3);
+    close(quantity(&found, "Sq"), 1e-8 / 2_f64.sqrt(), 1e-5);
+    close(quantity(&found, "Sz"), 2e-8, 1e-3);
+    close(quantity(&found, "Sku"), 1.5, 1e-5);
+    assert!(quantity(&found, "Ssk").abs() < 1e-9);
+    // Wavelengths between which the spectrum is that of the surface: the map and four pixels.
+    close(quantity(&found, "psd_longest"), 4e-6, 1e-5);
+    close(quantity(&found, "psd_shortest"), 1e-6, 1e-5);
+    let columns = |name: &str, head: &str| -> Vec<Vec<f64>> {
+        let text = fs::read_to_string(folder.join("out").join(name)).expect(name);
+        let mut lines = text.lines();
+        assert_eq!(lines.next(), Some(head), "{name}");
+        let cells = |line: &str| {
+            line.split(',')
+                .map(|cell| cell.parse().expect("a number"))
+                .collect()
+        };
+        lines.map(cells).collect()
+    };
+    let classes = columns("distribution.csv", "height [m],density [1/m]");
+    let width = classes[1][0] - classes[0][0];
+    close(
+        classes.iter().map(|class| class[1] * width).sum(),
+        1.0,
+        1e-9,
+    );
+    let scales = columns("scales.csv", "distance [m],slope,curvature [1/m]");
+    let distance = 4e-6 / 256.0 * 8.0;
+    let at = scales
+        .iter()
+        .find(|row| (row[0] / distance - 1.0).abs() < 1e-9)
+        .expect("8 points");
+    let half = (tau / 2e-6 * distance / 2.0).sin();
+    close(at[1], 2e-8 * half / distance / 2_f64.sqrt(), 1e-9);
+    let correlation = columns("autocorrelation.csv", "distance [m],autocorrelation");
+    close(correlation[0][1], 1.0, 1e-12);
+    for name in ["psd.svg", "statistics.svg"] {
+        let text = fs::read_to_string(folder.join("out").join(name)).expect(name);
+        assert!(
+            text.starts_with("<svg xmlns=")
+                && text.contains("<circle")
+                && !text.contains("stroke=\"\""),
+            "{name}"
+        );
+    }
+    assert!(
+        image::open(folder.join("out/statistics.png"))
+            .expect("a picture")
+            .width()
+            > 600
+    );
+}
+
 tests![
+    height_parameters_distribution_and_scales_of_a_sine,
+    a_line_scan_is_refused_or_taken_as_a_profile,
+    a_tilted_map_is_told,
+    maps_are_cropped_cleaned_closed_and_resampled,
     the_statistics_of_an_egg_box_are_exact,
     a_scene_s_own_parameters_come_back_and_make_a_scene,
     a_measured_patch_leads_to_a_scene,

@@ -37,6 +37,7 @@ fn is_image(name: &str) -> bool {
 fn build(name: &str, fill: Fill, size: Option<[f64; 2]>) -> Result<Surface, String> {
     let ends = is_image(name).then_some([0.0, 1.0]);
     let part = HeightFileScene {
+        preparation: tabor::scene::Preparation::default(),
         path: files().join(name),
         unit: unit(name),
         scale: 1.0,
@@ -507,7 +508,7 @@ fn bad_files_are_refused_in_a_sentence() {
         // Images.
         ("cut.png", png[..100].to_vec(), "broken PNG image: "),
         ("colour.png", colour_png(), "images other than grey ones of 8 or 16 bits are not in this version; colours are not heights"),
-        ("grey.png", png.clone(), "this is a grey image: write black and white, the heights of its ends"),
+        ("grey.png", png.clone(), "this is a grey image: give --black and --white, the heights of its ends"),
         ("cut.tif", tif[..100].to_vec(), "broken TIFF image: "),
         ("cut_pixels.tif", tif[..tif.len() - 20].to_vec(), "broken TIFF image: "),
     ];
@@ -558,19 +559,19 @@ fn bad_calls_are_refused_in_a_sentence() {
         ),
         (
             &["map.gsf", "--size", "1 um"],
-            "map.gsf: the map says it is 6e-7 x 7.2e-7 m (x, y), but [grid] size says 1e-6 x 1e-6 m",
+            "map.gsf: the map says it is 6e-7 x 7.2e-7 m (x, y), but --size says 1e-6 x 1e-6 m",
         ),
         (
             &["map.gsf", "--black", "0", "--white", "1 um"],
-            "black and white are for grey images; this file holds heights",
+            "--black and --white are for grey images; this file holds heights",
         ),
         (
             &["map.gsf", "--black", "0"],
-            "black and white are for grey images",
+            "--black and --white are for grey images",
         ),
         (
             &["grey.png", "--size", "1 um", "--black", "0"],
-            "this is a grey image: write black and white",
+            "this is a grey image: give --black and --white",
         ),
         (
             &[
@@ -592,7 +593,7 @@ fn bad_calls_are_refused_in_a_sentence() {
         ),
         (
             &["map.gsf", "--detrend", "linear"],
-            "[possible values: none, mean, plane, quadratic]",
+            "[possible values: none, mean, plane, quadratic, lines]",
         ),
         (&["map.gsf", "--size", "1 kg"], "a mass"),
         (&["map.gsf", "--size", "1,2,3"], "give one length, or two"),

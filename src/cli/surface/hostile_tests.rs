@@ -128,6 +128,7 @@ fn no_hostile_map_is_trouble() {
             boundary,
         };
         let part = SurfacePart::File(HeightFileScene {
+            preparation: crate::scene::Preparation::default(),
             path: path.clone(),
             unit: 1.0,
             scale,

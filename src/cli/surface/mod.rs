@@ -7,20 +7,25 @@ use std::path::PathBuf;
 
 use clap::builder::TypedValueParser;
 
+use super::flags::with_file_options;
 use super::patience::Patience;
 use super::quantity::quantity;
 use super::{Failure, SceneArguments, folder_or_default, key_and_value, one_of, print, warn};
 use crate::output::{
-    OutputError, Picture, RunFolder, visible_line, write_atomically, write_picture,
+    OutputError, Picture, RunFolder, visible_line, write_atomically, write_field, write_picture,
 };
 use crate::run::memory_check;
-use crate::scene::{Boundary, Detrend, FieldName, Fill, GridScene, HeightFileScene, SurfacePart};
+use crate::scene::{
+    Boundary, Detrend, Edges, FieldName, Fill, GridScene, HeightFileScene, Preparation, SurfacePart,
+};
 use crate::surface::{Surface, SurfaceError};
 use crate::units::{Dimension, RANGE_WORDS, in_range};
 use report::Report;
 
 /// Extension of scenes; every other file holds heights.
 const SCENE: &str = "toml";
+/// Most points of a side.
+const MOST_SIDE: usize = 65536;
 
 #[derive(Debug, clap::Args)]
 pub(super) struct SurfaceArguments {
@@ -55,12 +60,27 @@ struct FileArguments {
     /// Height of white in a grey image
     #[arg(long, value_name = "H", value_parser = length, allow_hyphen_values = true)]
     white: Option<f64>,
-    /// What to take off: none, mean, plane or quadratic [default: none]
+    /// What to take off: none, mean, plane, quadratic, or lines, the mean of each row [default: none]
     #[arg(long, value_name = "KIND", value_parser = word(Detrend::ALL, Detrend::name))]
     detrend: Option<Detrend>,
     /// Missing pixels: none or interpolate [default: none]
     #[arg(long, value_name = "HOW", value_parser = word(Fill::ALL, Fill::name))]
     fill: Option<Fill>,
+    /// Take a line scan as a profile that repeats across
+    #[arg(long)]
+    profile: bool,
+    /// Keep a part: x and y of its first point, points along x and y, as "0, 0, 256, 256"
+    #[arg(long, value_name = "X,Y,NX,NY", value_parser = whole::<4>)]
+    crop: Option<[usize; 4]>,
+    /// Interpolate points that stand out of their neighbours by more than so many standard deviations
+    #[arg(long, value_name = "N", value_parser = times)]
+    outliers: Option<f64>,
+    /// Make a map periodic: none, window or mirror [default: none]
+    #[arg(long, value_name = "HOW", value_parser = word(Edges::ALL, Edges::name))]
+    edges: Option<Edges>,
+    /// Bring the map to so many points, as "512" or "512, 256" (x, y)
+    #[arg(long, value_name = "N", value_parser = points)]
+    resample: Option<[usize; 2]>,
     /// Edges: free for a patch, periodic for a map that repeats [default: free]
     #[arg(long, value_name = "KIND", value_parser = word(Boundary::ALL, Boundary::name))]
     boundary: Option<Boundary>,
@@ -72,7 +92,48 @@ impl FileArguments {
             && self.detrend.is_none()
             && self.fill.is_none()
             && self.boundary.is_none()
+            && self.preparation() == Preparation::default()
     }
+
+    fn preparation(&self) -> Preparation {
+        Preparation {
+            profile: self.profile,
+            crop: self.crop,
+            outliers: self.outliers,
+            edges: self.edges.unwrap_or_default(),
+            resample: self.resample,
+        }
+    }
+}
+
+/// So many whole numbers up to the most points of a side.
+fn whole<const N: usize>(text: &str) -> Result<[usize; N], String> {
+    let numbers = text.split(',').map(|number| number.trim().parse());
+    let numbers: Result<Vec<usize>, _> = numbers.collect();
+    let numbers = numbers
+        .ok()
+        .filter(|numbers| numbers.iter().all(|one| *one <= MOST_SIDE));
+    numbers
+        .and_then(|numbers| numbers.try_into().ok())
+        .ok_or_else(|| {
+            format!("give {N} whole numbers up to {MOST_SIDE}, with commas between them")
+        })
+}
+
+fn points(text: &str) -> Result<[usize; 2], String> {
+    let points = whole::<2>(text).or_else(|_| whole::<1>(text).map(|[side]| [side; 2]));
+    points
+        .ok()
+        .filter(|points| !points.contains(&0))
+        .ok_or_else(|| format!("give one or two whole numbers from 1 to {MOST_SIDE}"))
+}
+
+/// A number of standard deviations.
+fn times(text: &str) -> Result<f64, String> {
+    factor(text)
+        .ok()
+        .filter(|times| *times >= 1.0)
+        .ok_or_else(|| "write a number of at least 1".to_owned())
 }
 
 fn length(text: &str) -> Result<f64, String> {
@@ -132,12 +193,24 @@ pub(super) fn surface(arguments: &SurfaceArguments) -> Result<(), Failure> {
     let path = folder_or_default(arguments.out.as_deref(), source, "_surface");
     let folder = RunFolder::open(&path, &format!("surface of {}", source.display()))?;
     for warning in &surface.warnings {
-        warn(plain(warning, is_scene));
+        if is_scene {
+            warn(warning);
+        } else {
+            warn(&with_file_options(plain(warning)));
+        }
     }
     let report = Report::of(source, &surface, boundary);
     // The table first: it stands even where no picture can be written.
     print(&report.text())?;
     write_pictures(&folder, &report)?;
+    // The heights themselves, where the call has changed those of the file.
+    if arguments.file.preparation() != Preparation::default() {
+        write_field(
+            &folder.path().join("heights.npy"),
+            &surface.grid,
+            &surface.heights,
+        )?;
+    }
     Ok(())
 }
 
@@ -145,7 +218,7 @@ pub(super) fn surface(arguments: &SurfaceArguments) -> Result<(), Failure> {
 fn of_scene(arguments: &SurfaceArguments) -> Result<(Surface, Boundary), Failure> {
     if !arguments.file.is_empty() {
         return Err(Failure::Usage(
-            "--unit, --scale, --black, --white, --detrend, --fill and --boundary are for files of heights; a scene says them itself (or --set surface.0.unit=...)"
+            "options such as --unit, --detrend and --boundary are for files of heights; a scene says them itself (or --set surface.0.unit=...)"
                 .to_owned(),
         ));
     }
@@ -192,6 +265,7 @@ fn of_file(arguments: &SurfaceArguments) -> Result<(Surface, Boundary), Failure>
         white: file.white,
         detrend: file.detrend.unwrap_or(Detrend::None),
         fill: file.fill.unwrap_or(Fill::None),
+        preparation: file.preparation(),
     });
     let surface = Surface::from_parts(&grid, &[part]).map_err(|error| {
         let text = match error {
@@ -203,7 +277,7 @@ fn of_file(arguments: &SurfaceArguments) -> Result<(Surface, Boundary), Failure>
             ),
             other => format!("{}: {other}", arguments.source.display()),
         };
-        Failure::Usage(visible_line(&text))
+        Failure::Usage(visible_line(&with_file_options(&text)))
     })?;
     let points = [surface.grid.nx, surface.grid.ny];
     memory::check_statistics(&arguments.source, points, boundary)?;
@@ -211,11 +285,8 @@ fn of_file(arguments: &SurfaceArguments) -> Result<(Surface, Boundary), Failure>
 }
 
 /// A warning without the number of the one part that a file is.
-fn plain(warning: &str, is_scene: bool) -> &str {
-    match warning.split_once(": ") {
-        Some((_, rest)) if !is_scene => rest,
-        _ => warning,
-    }
+fn plain(warning: &str) -> &str {
+    warning.split_once(": ").map_or(warning, |(_, rest)| rest)
 }
 
 /// `heights.png`, `psd.png`, `psd.csv` and `scene.toml`.
@@ -232,7 +303,15 @@ fn write_pictures(folder: &RunFolder, report: &Report) -> Result<(), OutputError
             values: &report.surface.heights,
         },
     )?;
-    report.spectrum().write(&folder.path().join("psd.png"))?;
+    let spectrum = report.spectrum();
+    spectrum.write(&folder.path().join("psd.png"))?;
+    spectrum.write_svg(&folder.path().join("psd.svg"))?;
+    let (tables, figure) = report.distributions();
+    figure.write(&folder.path().join("statistics.png"))?;
+    figure.write_svg(&folder.path().join("statistics.svg"))?;
+    for (name, table) in tables {
+        write_atomically(&folder.path().join(name), table.as_bytes())?;
+    }
     write_atomically(&folder.path().join("psd.csv"), report.table().as_bytes())?;
     if let Some(scene) = report.scene() {
         write_atomically(&folder.path().join("scene.toml"), scene.as_bytes())?;

@@ -6,18 +6,24 @@ use std::path::Path;
 use crate::output::csv_line::{csv_line, csv_number};
 use crate::output::plot::{Axis, Figure, LARGE, Panel, PlotPoint, Series};
 use crate::scene::Boundary;
+use crate::solver::good_size;
+use crate::study::PIXELS_A_WAVE;
 use crate::surface::Surface;
-use crate::surface::correlation::correlation_length;
+use crate::surface::correlation::{autocorrelation, length_of};
 use crate::surface::fit::{BandFitError, SelfAffineFit, fit};
+use crate::surface::roughness::{HeightParameters, distribution, scale_dependence};
 use crate::surface::statistics::{SpectrumRing, Statistics, radial_spectrum};
 
+/// Most points a side of the scene that is written, unless the map has more.
+const MOST_POINTS: usize = 4096;
 /// Points of the line that stands for the fit in the plot.
 const LINE_POINTS: usize = 200;
 
 /// Start of the names of counts.
 const COUNT: &str = "points_";
+const COUNTED: usize = 26;
 /// Name, unit and meaning of each number.
-const QUANTITIES: [(&str, &str, &str); 19] = [
+const QUANTITIES: [(&str, &str, &str); COUNTED] = [
     ("points_x", "", "points along x"),
     ("points_y", "", "points along y"),
     ("size_x", "m", "size along x"),
@@ -49,7 +55,18 @@ const QUANTITIES: [(&str, &str, &str); 19] = [
         "m",
         "where the autocorrelation falls to 1/e",
     ),
+    ("Sa", "m", "ISO 25178: mean distance from the mean height"),
+    ("Sq", "m", "ISO 25178: rms height"),
+    ("Sz", "m", "ISO 25178: from the lowest to the highest point"),
+    ("Ssk", "", "ISO 25178: skewness of the heights"),
+    ("Sku", "", "ISO 25178: kurtosis of the heights, 3 if normal"),
+    ("psd_longest", "m", "longest wave whose density is reliable"),
+    ("psd_shortest", "m", "shortest such wave: four pixels"),
 ];
+/// Classes of the distribution of heights.
+const CLASSES: usize = 64;
+/// Pixels of the shortest wave whose density sampling does not change.
+const RELIABLE_PIXELS: f64 = 4.0;
 
 /// What is known of a surface.
 pub(super) struct Report<'a> {
@@ -57,7 +74,8 @@ pub(super) struct Report<'a> {
     pub surface: &'a Surface,
     pub boundary: Boundary,
     pub statistics: Statistics,
-    pub correlation_length: Option<f64>,
+    /// Distance and mean product of heights.
+    pub correlation: Vec<(f64, f64)>,
     pub rings: Vec<SpectrumRing>,
     pub fit: Result<SelfAffineFit, BandFitError>,
 }
@@ -71,7 +89,7 @@ impl<'a> Report<'a> {
             surface,
             boundary,
             statistics: surface.statistics(boundary),
-            correlation_length: correlation_length(grid, heights, boundary),
+            correlation: autocorrelation(grid, heights, boundary),
             rings: radial_spectrum(grid, heights, boundary),
             fit: fit(grid, heights, boundary),
         }
@@ -133,10 +151,12 @@ impl<'a> Report<'a> {
     }
 
     /// The numbers of [`QUANTITIES`].
-    fn values(&self) -> [Option<f64>; 19] {
+    fn values(&self) -> [Option<f64>; COUNTED] {
         let grid = &self.surface.grid;
         let found = &self.statistics;
         let moments = &found.moments;
+        let found_heights = HeightParameters::new(&self.surface.heights);
+        let [longest, shortest] = self.reliable();
         [
             Some(grid.nx as f64),
             Some(grid.ny as f64),
@@ -156,7 +176,14 @@ impl<'a> Report<'a> {
             moments.nayak(),
             moments.summit_density(),
             moments.mean_radius(),
-            self.correlation_length,
+            length_of(&self.correlation),
+            Some(found_heights.mean_deviation),
+            Some(found_heights.rms_height),
+            Some(found_heights.range),
+            found_heights.skewness,
+            found_heights.kurtosis,
+            Some(longest),
+            Some(shortest),
         ]
     }
 
@@ -200,19 +227,20 @@ impl<'a> Report<'a> {
                 rounded(length)
             }
         };
+        let shortest = rounded(wavelength(spectrum.short));
+        let ([nx, ny], coarse) = resolving([grid.nx, grid.ny], [grid.lx, grid.ly], shortest);
         Some(format!(
-            "[grid]\npoints = [{}, {}]\nsize = [{:e}, {:e}]\nboundary = \"periodic\"\n\n\
+            "{coarse}[grid]\npoints = [{nx}, {ny}]\nsize = [{:e}, {:e}]\nboundary = \"periodic\"\n\n\
              [[surface]]\nkind = \"self-affine\"\nhurst = {}\nrms_height = {:e}\nlongest = {:e}\n\
              rolloff = {:e}\nshortest = {:e}\nseed = 1\n",
-            grid.nx,
-            grid.ny,
             grid.lx,
             grid.ly,
             (spectrum.hurst * 1e4).round() / 1e4,
-            rounded(fit.sums.height.sqrt()),
+            // The heights' own: that of the fit follows the rings only on average.
+            rounded(self.statistics.moments.rms_height()),
             exact(wavelength(spectrum.long)),
             exact(wavelength(spectrum.rolloff)),
-            rounded(wavelength(spectrum.short)),
+            shortest,
         ))
     }
 
@@ -278,6 +306,103 @@ impl<'a> Report<'a> {
         }
     }
 
+    /// Longest and shortest wavelength whose density is that of the surface: a window smears the first modes of a
+    /// patch, and sampling folds waves of a few pixels back.
+    fn reliable(&self) -> [f64; 2] {
+        let grid = &self.surface.grid;
+        let longest = match self.boundary {
+            Boundary::Periodic => grid.lx.max(grid.ly),
+            Boundary::Free => 0.5 * grid.lx.min(grid.ly),
+        };
+        [longest, RELIABLE_PIXELS * grid.dx().max(grid.dy())]
+    }
+
+    /// Distribution of heights, autocorrelation, and slope and curvature by distance: names, tables, and a figure.
+    pub fn distributions(&self) -> ([(&'static str, String); 3], Figure) {
+        let (grid, heights) = (&self.surface.grid, &self.surface.heights);
+        let classes = distribution(heights, CLASSES);
+        let whole = self
+            .correlation
+            .first()
+            .map_or(f64::NAN, |(_, whole)| *whole);
+        let correlation = self.correlation.iter();
+        let correlation: Vec<[f64; 2]> = correlation
+            .map(|(distance, product)| [*distance, product / whole])
+            .collect();
+        let scales = scale_dependence(grid, heights, self.boundary);
+        let table = |head: &[&str], rows: Vec<Vec<Option<f64>>>| {
+            let rows = rows
+                .into_iter()
+                .map(|row| csv_line(row.into_iter().map(csv_number)));
+            csv_line(head.iter().copied()) + &rows.collect::<String>()
+        };
+        let pairs = |pairs: &[[f64; 2]]| pairs.iter().map(|pair| pair.map(Some).to_vec()).collect();
+        let tables = [
+            (
+                "distribution.csv",
+                table(&["height [m]", "density [1/m]"], pairs(&classes)),
+            ),
+            (
+                "autocorrelation.csv",
+                table(&["distance [m]", "autocorrelation"], pairs(&correlation)),
+            ),
+            (
+                "scales.csv",
+                table(
+                    &["distance [m]", "slope", "curvature [1/m]"],
+                    scales
+                        .iter()
+                        .map(|at| vec![Some(at.distance), Some(at.slope), at.curvature])
+                        .collect(),
+                ),
+            ),
+        ];
+        let points =
+            |pairs: &[[f64; 2]]| pairs.iter().map(|[x, y]| PlotPoint::new(*x, *y)).collect();
+        let slopes: Vec<[f64; 2]> = scales.iter().map(|at| [at.distance, at.slope]).collect();
+        let curvatures = scales
+            .iter()
+            .filter_map(|at| Some([at.distance, at.curvature?]));
+        let curvatures: Vec<[f64; 2]> = curvatures.collect();
+        let panel = |title: &str, x: Axis, y: Axis, values: &[[f64; 2]]| Panel {
+            title: title.to_owned(),
+            x,
+            y,
+            series: vec![Series::marked_line(1, points(values))],
+        };
+        let figure = Figure {
+            title: self.title(),
+            panels: vec![
+                panel(
+                    "distribution of heights (1/m)",
+                    Axis::linear("height", "m"),
+                    Axis::linear("density", ""),
+                    &classes,
+                ),
+                panel(
+                    "autocorrelation",
+                    Axis::linear("distance", "m"),
+                    Axis::linear("autocorrelation", ""),
+                    &correlation,
+                ),
+                panel(
+                    "rms slope over a distance along x",
+                    Axis::logarithmic("distance (m)", ""),
+                    Axis::logarithmic("slope", ""),
+                    &slopes,
+                ),
+                panel(
+                    "rms curvature over a distance along x (1/m)",
+                    Axis::logarithmic("distance (m)", ""),
+                    Axis::logarithmic("curvature", ""),
+                    &curvatures,
+                ),
+            ],
+            ..Figure::default()
+        };
+        (tables, figure)
+    }
+
     /// The fit within its band.
     fn fit_line(&self) -> Vec<[f64; 2]> {
         let Ok(fit) = &self.fit else {
@@ -290,6 +415,29 @@ impl<'a> Report<'a> {
             .map(|wavenumber| [wavenumber, spectrum.density(wavenumber)])
             .collect()
     }
+}
+
+/// Points of a scene that resolve the shortest wave, at least those of the map, and a comment where that would take
+/// too many.
+fn resolving(points: [usize; 2], size: [f64; 2], shortest: f64) -> ([usize; 2], String) {
+    let needed = |side: f64| (PIXELS_A_WAVE * side / shortest).ceil() as usize;
+    let enough = |axis: usize| {
+        let needed = good_size(needed(size[axis]));
+        needed.min(MOST_POINTS).max(points[axis])
+    };
+    let found = [enough(0), enough(1)];
+    let pixels = (0..2).map(|axis| shortest * found[axis] as f64 / size[axis]);
+    let pixels = pixels.fold(f64::INFINITY, f64::min);
+    let comment = if pixels < PIXELS_A_WAVE {
+        format!(
+            "# The shortest wave has {pixels:.1} pixels, and a run warns of fewer than {PIXELS_A_WAVE}: that would take {} x {} points.\n",
+            needed(size[0]),
+            needed(size[1])
+        )
+    } else {
+        String::new()
+    };
+    (found, comment)
 }
 
 /// A row of a table of four columns.

@@ -22,6 +22,7 @@ use clap::CommandFactory;
 use super::patience::Patience;
 use super::{Arguments, Failure, TheoryArguments, print};
 use crate::output::visible_line;
+use crate::scene::suggestion;
 use catalogue::{MODELS, Model};
 use values::Values;
 
@@ -61,9 +62,10 @@ fn find(name: &str) -> Result<&'static Model, Failure> {
             "{shown} stands where a model's name is due, as in tabor theory jkr --radius \"1 um\"; tabor theory lists the models"
         )));
     }
-    let nearest = nearest(name, MODELS.iter().map(|model| model.name));
+    let meant = meant(name, "", MODELS.iter().map(|model| model.name));
+    let then = if meant.is_empty() { ";" } else { "" };
     Err(Failure::Usage(format!(
-        "there is no model {shown}; did you mean {nearest}? tabor theory lists the models"
+        "there is no model {shown}{meant}{then} tabor theory lists the models"
     )))
 }
 
@@ -81,25 +83,11 @@ fn usage(messages: &[String]) -> Failure {
     Failure::Usage(lines.join("\n"))
 }
 
-/// The candidate spelled most alike.
-fn nearest(word: &str, candidates: impl Iterator<Item = &'static str>) -> &'static str {
-    const LONGEST: usize = 64;
-    let word: String = word.to_lowercase().chars().take(LONGEST).collect();
-    let likeness = |candidate: &str| {
-        let edits = strsim::normalized_damerau_levenshtein(&word, candidate);
-        // Edits find slips of the finger, the common beginning finds words cut short.
-        let share = 0.5 * (edits + strsim::jaro_winkler(&word, candidate));
-        // `modulus` means `contact_modulus`.
-        let holds = word.len() > 3 && candidate.contains(&word);
-        if holds { 0.5 * (1.0 + share) } else { share }
-    };
-    candidates
-        .map(|candidate| (candidate, likeness(candidate)))
-        .fold(
-            ("", -1.0),
-            |best, next| if next.1 > best.1 { next } else { best },
-        )
-        .0
+/// As in `; did you mean --to?`, where a candidate is almost spelled like the word.
+fn meant(word: &str, head: &str, candidates: impl Iterator<Item = &'static str>) -> String {
+    suggestion(word, candidates).map_or_else(String::new, |meant| {
+        format!("; did you mean {head}{meant}?")
+    })
 }
 
 #[cfg(test)]

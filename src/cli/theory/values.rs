@@ -3,7 +3,7 @@
 use std::collections::BTreeMap;
 
 use super::catalogue::Model;
-use super::nearest;
+use super::meant;
 use super::parameters::{Kind, Need, Parameter};
 use super::words::{misses, pairs, quantity};
 use crate::cli::Failure;
@@ -58,10 +58,10 @@ impl Values {
             Kind::Word(words) => {
                 let known = words.iter().find(|word| **word == text).ok_or_else(|| {
                     format!(
-                        "--{name} {} is not one of {}; did you mean {}?",
+                        "--{name} {} is not one of {}{}",
                         quoted(text),
                         words.join(", "),
-                        nearest(text, words.iter().copied())
+                        meant(text, "", words.iter().copied())
                     )
                 })?;
                 self.words.insert(name, known);

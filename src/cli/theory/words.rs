@@ -3,7 +3,7 @@
 use std::collections::BTreeMap;
 
 use super::catalogue::Model;
-use super::nearest;
+use super::meant;
 use super::parameters::{Allowed, Kind, Need, Parameter};
 use crate::units::{Dimension, RANGE_WORDS, angle_from_number, in_range, parse_quantity, quoted};
 
@@ -31,11 +31,13 @@ pub(super) fn pairs(
         };
         let spelled = key.replace('-', "_");
         let Some(parameter) = model.parameters().find(|known| known.name == spelled) else {
+            let known = model.parameters().map(|known| known.name);
+            let meant = meant(&spelled, "--", known);
+            let it = if meant.is_empty() { "; it" } else { " It" };
             problems.push(format!(
-                "{} has no parameter {}; did you mean --{}? It takes {}",
+                "{} has no parameter {}{meant}{it} takes {}",
                 model.name,
                 quoted(&format!("--{key}")),
-                nearest(&spelled, model.parameters().map(|known| known.name)),
                 names(model)
             ));
             continue;

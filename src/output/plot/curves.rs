@@ -36,13 +36,36 @@ pub fn picture(scene: &Scene, rows: &[StepRow]) -> io::Result<Vec<u8>> {
     .png()
 }
 
-/// A figure for each curve of a run.
-pub(in crate::output) fn figures(scene: &Scene, rows: &[StepRow]) -> Vec<Figure> {
+/// A further quantity of the steps.
+pub(in crate::output) struct Quantity {
+    /// Its name.
+    pub name: String,
+    /// Its unit.
+    pub unit: &'static str,
+    /// Its value in each row, where it has one.
+    pub values: Vec<Option<f64>>,
+    /// Whether it is drawn against the distance, in place of the load.
+    pub by_distance: bool,
+}
+
+/// A figure for each curve of a run, and one for each further quantity that has values.
+pub(in crate::output) fn figures(
+    scene: &Scene,
+    rows: &[StepRow],
+    quantities: &[Quantity],
+) -> Vec<Figure> {
     let alone = |panel| Figure {
         style: PAGE,
         ..figure(vec![panel])
     };
-    panels(scene, rows).into_iter().map(alone).collect()
+    let curves = Curves::new(scene, rows);
+    let with_values = |quantity: &&Quantity| quantity.values.iter().any(Option::is_some);
+    let further = quantities.iter().filter(with_values);
+    panels(scene, rows)
+        .into_iter()
+        .chain(further.map(|quantity| curves.quantity(quantity)))
+        .map(alone)
+        .collect()
 }
 
 /// Panels whose directions are named where there are two.
@@ -73,47 +96,101 @@ struct Stretch {
     points: Vec<[f64; 2]>,
 }
 
-/// The curves of the finished rows of a path.
+/// The finished rows of a path as curves.
 ///
 /// Rows without an equilibrium interrupt a curve; rows that did not converge are left out.
-fn panels(scene: &Scene, rows: &[StepRow]) -> Vec<Panel> {
-    let control = scene.loading.control;
-    let by_gap = matches!(control, Control::Pressure | Control::MeanGap);
-    let by_force = scene.grid.boundary == Boundary::Free
-        || matches!(control, Control::Force | Control::Approach);
-    let distance = |row: &StepRow| if by_gap { row.mean_gap } else { row.approach };
-    let (load_name, load_unit) = if by_force {
-        ("force", "N")
-    } else {
-        ("mean pressure", "Pa")
-    };
-    let load = |row: &StepRow| {
-        if by_force {
+struct Curves<'a> {
+    rows: &'a [StepRow],
+    loading: Vec<bool>,
+    by_gap: bool,
+    by_force: bool,
+}
+
+impl<'a> Curves<'a> {
+    fn new(scene: &Scene, rows: &'a [StepRow]) -> Self {
+        let control = scene.loading.control;
+        Curves {
+            rows,
+            loading: directions(scene, rows.len()),
+            by_gap: matches!(control, Control::Pressure | Control::MeanGap),
+            by_force: scene.grid.boundary == Boundary::Free
+                || matches!(control, Control::Force | Control::Approach),
+        }
+    }
+
+    /// Name and unit of the load.
+    fn load_name(&self) -> [&'static str; 2] {
+        if self.by_force {
+            ["force", "N"]
+        } else {
+            ["mean pressure", "Pa"]
+        }
+    }
+
+    fn load(&self, row: &StepRow) -> f64 {
+        if self.by_force {
             row.force
         } else {
             row.mean_pressure
         }
-    };
-    let distance_name = if by_gap { "mean gap" } else { "approach" };
-    let loading = directions(scene, rows.len());
-    let panel = |y: &str, x: &str, units: [&str; 2], point: &dyn Fn(&StepRow, f64) -> [f64; 2]| {
+    }
+
+    /// Name and unit of the distance.
+    fn distance_name(&self) -> [&'static str; 2] {
+        [if self.by_gap { "mean gap" } else { "approach" }, "m"]
+    }
+
+    fn distance(&self, row: &StepRow) -> Option<f64> {
+        if self.by_gap {
+            row.mean_gap
+        } else {
+            row.approach
+        }
+    }
+
+    /// A panel of `y` against `x`, each a name and a unit; `point` gives both of a row by its index.
+    fn panel(
+        &self,
+        y: [&str; 2],
+        x: [&str; 2],
+        point: impl Fn(usize, &StepRow) -> Option<[f64; 2]>,
+    ) -> Panel {
+        let rows = self.rows.iter().enumerate();
         let points: Vec<Option<[f64; 2]>> = rows
-            .iter()
-            .map(|row| distance(row).map(|distance| point(row, distance)))
+            .map(|(index, row)| self.distance(row).and_then(|_| point(index, row)))
             .collect();
         Panel {
-            title: format!("{y} against {x}"),
-            x: Axis::linear(x, units[0]),
-            y: Axis::linear(y, units[1]),
-            series: series(&stretches(rows, &points, &loading)),
+            title: format!("{} against {}", y[0], x[0]),
+            x: Axis::linear(x[0], x[1]),
+            y: Axis::linear(y[0], y[1]),
+            series: series(&stretches(self.rows, &points, &self.loading)),
         }
-    };
+    }
+
+    fn quantity(&self, quantity: &Quantity) -> Panel {
+        let y = [quantity.name.as_str(), quantity.unit];
+        if quantity.by_distance {
+            self.panel(y, self.distance_name(), |index, row| {
+                Some([self.distance(row)?, quantity.values[index]?])
+            })
+        } else {
+            self.panel(y, self.load_name(), |index, row| {
+                Some([self.load(row), quantity.values[index]?])
+            })
+        }
+    }
+}
+
+/// Load against distance, and contact area against load.
+fn panels(scene: &Scene, rows: &[StepRow]) -> Vec<Panel> {
+    let curves = Curves::new(scene, rows);
+    let [load, distance] = [curves.load_name(), curves.distance_name()];
     vec![
-        panel(load_name, distance_name, ["m", load_unit], &|row, x| {
-            [x, load(row)]
+        curves.panel(load, distance, |_, row| {
+            Some([curves.distance(row)?, curves.load(row)])
         }),
-        panel("contact area", load_name, [load_unit, "%"], &|row, _| {
-            [load(row), row.contact_area_fraction]
+        curves.panel(["contact area", "%"], load, |_, row| {
+            Some([curves.load(row), row.contact_area_fraction])
         }),
     ]
 }
@@ -153,6 +230,11 @@ fn directions(scene: &Scene, count: usize) -> Vec<bool> {
             change > 0.0
         };
     }
+    // Steps behind the path pull.
+    loading
+        .iter_mut()
+        .skip(path.len())
+        .for_each(|step| *step = false);
     // The first step has the direction of the second.
     if count > 1 {
         loading[0] = loading[1];

@@ -1,15 +1,53 @@
 //! Renders a figure as SVG within a page whose style sheet sets the colours.
 
-use maud::{Markup, html};
+use std::path::Path;
+
+use maud::{Markup, PreEscaped, html};
 
 use super::Figure;
 use super::drawing::{Anchor, Drawing, Face, Ink, Mark};
 use super::raster::DASHES;
+use crate::output::error::OutputError;
+use crate::output::folder::write_atomically;
 
 /// From the middle of a line of text to its baseline, in heights of the line.
 const BASELINE: f64 = 0.3;
 
+/// Style of a figure that stands in a file of its own.
+const STYLE: &str = "polyline{fill:none} text{font:14px sans-serif} .bold{font-weight:600} .quiet{fill:#5c5f66} \
+    .grid{stroke:#e4e6ea} .zero{stroke:#a4a7ae} .frame{stroke:#5c5f66} .open{stroke-width:1.6}";
+
 impl Figure {
+    /// Writes the figure to `path` as an SVG file, in one piece.
+    ///
+    /// # Errors
+    /// What the system says.
+    pub fn write_svg(&self, path: &Path) -> Result<(), OutputError> {
+        let Drawing {
+            size: [width, height],
+            marks,
+        } = Drawing::new(self);
+        let text = html! {
+            svg xmlns="http://www.w3.org/2000/svg" width=(width) height=(height)
+                viewBox={ "0 0 " (width) " " (height) } {
+                style { (PreEscaped(STYLE)) }
+                rect width="100%" height="100%" fill="#fff" {}
+                @for mark in &marks { (self.element(mark)) }
+            }
+        };
+        write_atomically(path, text.into_string().as_bytes())
+    }
+
+    /// The colour of a curve, unless the page chooses it.
+    fn colour(&self, ink: Ink) -> Option<String> {
+        let Ink::Curve(name) = ink else {
+            return None;
+        };
+        let [red, green, blue] = self.pen(name).colour;
+        let is_own = self.pen(name).class.is_empty();
+        is_own.then(|| format!("#{red:02x}{green:02x}{blue:02x}"))
+    }
+
     /// The figure as an `svg` element that is named `label`.
     pub(in crate::output) fn svg(&self, label: &str) -> Markup {
         let Drawing {
@@ -47,7 +85,7 @@ impl Figure {
                 let [dash, space] = DASHES.map(|length| length * width);
                 let dashes = dashed.then(|| format!("{dash} {space}"));
                 html! {
-                    polyline class=(self.class(*ink)) stroke-width=(width) stroke-dasharray=[dashes]
+                    polyline class=(self.class(*ink)) stroke=[self.colour(*ink)] stroke-width=(width) stroke-dasharray=[dashes]
                         points=(places.join(" ")) {}
                 }
             }
@@ -58,9 +96,13 @@ impl Figure {
             } => {
                 let class = self.pen(*name).class;
                 let fill = if *hollow { "open" } else { "full" };
+                let colour = self.colour(Ink::Curve(*name));
+                let inside = colour
+                    .as_deref()
+                    .map(|own| if *hollow { "#fff" } else { own });
                 html! {
                     circle class={ (class) " " (fill) } cx=(format!("{x:.1}")) cy=(format!("{y:.1}"))
-                        r=(self.style.mark) {}
+                        r=(self.style.mark) stroke=[&colour] fill=[inside] {}
                 }
             }
             Mark::Text {

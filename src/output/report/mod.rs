@@ -12,11 +12,13 @@ use base64::{Engine as _, engine::general_purpose::STANDARD};
 use maud::{DOCTYPE, Markup, PreEscaped, html};
 
 use super::picture::Load;
-use super::plot::curves;
+use super::plot::curves::{self, Quantity};
+use super::sentence::{AtZeroLoad, per_cent, sentence, step_words};
 use super::summary::Summary;
 use super::visible::visible;
 use crate::effect::Effect;
-use crate::study::{Checkpoint, Setup, StepRow};
+use crate::scene::Control;
+use crate::study::{Checkpoint, Planned, Setup, StepRow};
 use crate::units::format_si;
 
 /// Most pictures on a page.
@@ -93,7 +95,11 @@ impl Report<'_> {
                     style { (style) }
                 }
                 body { main {
-                    header { h1 { (title) } (self.status()) }
+                    header {
+                        h1 { (title) }
+                        @if let Some(summary) = self.summary { p.result { (sentence(summary, self.rows)) } }
+                        (self.status())
+                    }
                     (self.figures())
                     (self.warnings())
                     (self.curves())
@@ -124,7 +130,9 @@ impl Report<'_> {
 
     /// The progress of the run.
     fn status(&self) -> Markup {
-        let (done, steps) = (self.rows.len(), self.setup.scene.loading.path.len());
+        let done = self.rows.len();
+        let is_over = Planned::after(self.setup, self.rows).is_none();
+        let steps = self.setup.scene.loading.path.len().max(done);
         let tolerance = self.setup.scene.solver.tolerance;
         let plural = if steps == 1 { "" } else { "s" };
         let resume =
@@ -137,7 +145,7 @@ impl Report<'_> {
                     "). The steps before it stand; this one is shown as it was."
                 }
             },
-            (_, Some(_)) if done == steps => html! {
+            (_, Some(_)) if is_over => html! {
                 p.status { "Finished: " (steps) " step" (plural) ", converged to " (format!("{tolerance:e}")) "." }
             },
             (_, Some(_)) => html! {
@@ -150,6 +158,72 @@ impl Report<'_> {
                 }
             },
         }
+    }
+
+    /// What effects add to the rows, and the work of a loop.
+    fn quantities(&self) -> Vec<Quantity> {
+        let columns = self.setup.columns().into_iter();
+        let mut found: Vec<Quantity> = columns
+            .map(|column| Quantity {
+                name: column.name().replace('_', " "),
+                unit: column.unit,
+                values: self.rows.iter().map(|row| column.value(row)).collect(),
+                by_distance: false,
+            })
+            .collect();
+        if let Some(spring) = self.setup.scene.loading.spring {
+            let base = |row: &StepRow| row.approach.map(|approach| approach + row.force / spring);
+            found.push(Quantity {
+                name: "base position".to_owned(),
+                unit: "m",
+                values: self.rows.iter().map(base).collect(),
+                by_distance: true,
+            });
+        }
+        if self
+            .summary
+            .is_some_and(|summary| summary.hysteresis_energy.is_some())
+        {
+            found.push(Quantity {
+                name: "work done".to_owned(),
+                unit: "J",
+                values: work_done(self.setup.scene.loading.control, self.rows),
+                by_distance: true,
+            });
+        }
+        found
+    }
+
+    /// Results that effects add: those that grow along the path at its end, the others at the largest contact.
+    fn results_of_effects(&self) -> Vec<(String, String, String)> {
+        let area = |row: &&StepRow| row.contact_area_fraction;
+        let largest = self.rows.iter().max_by(|a, b| area(a).total_cmp(&area(b)));
+        let at_zero = AtZeroLoad::of(self.rows);
+        let mut found = Vec::new();
+        for column in self.setup.columns() {
+            let grows = column.is_dissipated_energy;
+            let row = if grows { self.rows.last() } else { largest };
+            let Some((row, value)) = row.and_then(|row| Some((row, column.value(row)?))) else {
+                continue;
+            };
+            let left = at_zero
+                .map(|place| place.value(self.rows, |row| column.value(row).unwrap_or(f64::NAN)));
+            let note = match left.filter(|left| left.is_finite()) {
+                _ if grows => format!("lost up to step {}", row.step),
+                Some(left) => {
+                    let left = format_si(left, column.unit);
+                    format!(
+                        "at the largest contact, step {}; {left} at zero load",
+                        row.step
+                    )
+                }
+                None => format!("at the largest contact, step {}", row.step),
+            };
+            let mut name = column.name().replace('_', " ");
+            name[..1].make_ascii_uppercase();
+            found.push((name, format_si(value, column.unit), note));
+        }
+        found
     }
 
     /// The main results: name, value and note.
@@ -178,6 +252,11 @@ impl Report<'_> {
             let note = format!("step {}", row.step);
             found.push(("Largest tension", format_si(-row.force, "N"), note));
         }
+        if let Some(place) = AtZeroLoad::of(self.rows) {
+            let left = place.value(self.rows, |row| row.contact_area_fraction);
+            let note = "in contact, of the nominal area".to_owned();
+            found.push(("Left at zero load", per_cent(left), note));
+        }
         for (name, at) in [
             ("Jumps into contact", &self.tallies.jump_in_steps),
             ("Jumps out of contact", &self.tallies.jump_off_steps),
@@ -190,16 +269,20 @@ impl Report<'_> {
             let note = "lost over the loop".to_owned();
             found.push(("Hysteresis", format_si(energy, "J"), note));
         }
-        if let Some(regime) = &self.setup.regime {
+        if let Some(regime) = &self.setup.regime
+            && let Some(tabor) = regime.tabor
+        {
             let name = regime.name().split(':').next().unwrap_or_default();
-            let value = format!("{:.3}", regime.tabor);
+            let value = format!("{tabor:.3}");
             found.push(("Tabor number", value, name.to_owned()));
         }
         found
     }
 
     fn figures(&self) -> Markup {
-        let found = self.main_results();
+        let own = self.main_results().into_iter();
+        let own = own.map(|(name, value, note)| (name.to_owned(), value, note));
+        let found: Vec<_> = own.chain(self.results_of_effects()).collect();
         html! {
             @if !found.is_empty() {
                 dl.figures {
@@ -221,12 +304,18 @@ impl Report<'_> {
         if !self.rows.iter().any(|row| row.converged) {
             return html! {};
         }
-        let figures = curves::figures(&self.setup.scene, self.rows);
+        let figures = curves::figures(&self.setup.scene, self.rows, &self.quantities());
         let curves = html! {
             div.grid {
                 @for figure in &figures { figure { (figure.svg(&figure.panels[0].title)) } "\n" }
             }
-            p.status { "Force and pressure are positive in compression, approach is positive towards the solid." }
+            p.status {
+                "Force and pressure are positive in compression, approach is positive towards the solid"
+                @if self.setup.scene.loading.spring.is_some() {
+                    " and is that of the probe; the base position is that of the spring's far end, which the path prescribes"
+                }
+                "."
+            }
         };
         section("Curves", curves)
     }
@@ -242,10 +331,8 @@ impl Report<'_> {
             if !shown.is_empty() && bytes_shown + bytes.len() > MOST_PICTURE_BYTES {
                 continue;
             }
-            let load = loading
-                .path
-                .get(step.wrapping_sub(1))
-                .map(|&value| format!(", {}", Load::new(loading.control, value).words()));
+            let load = Planned::of_step(self.setup, self.rows, *step)
+                .map(|value| format!(", {}", Load::new(loading.control, value).words()));
             let words = format!("{field}, step {step}{}", load.unwrap_or_default());
             let [width, height] = png_size(&bytes).map_or([None; 2], |size| size.map(Some));
             let source = format!("data:image/png;base64,{}", STANDARD.encode(&bytes));
@@ -275,25 +362,15 @@ impl Report<'_> {
     }
 
     fn effects(&self) -> Markup {
-        let effects = Effect::ALL.iter().map(|effect| {
-            let on = effect.is_on(&self.setup.scene);
-            (effect, if on { "on" } else { "off" })
-        });
-        let table = html! {
-            div.scroll { table {
-                thead { tr {
-                    th scope="col" { "Effect" } th scope="col" {} th scope="col" { "What it does" }
-                } }
-                tbody { @for (effect, word) in effects {
-                    tr {
-                        th scope="row" { (effect.name()) } td class=(word) { (word) }
-                        td class=(word) { (effect.purpose()) }
-                    }
-                } }
-            } }
-            p.status { "An effect that is off takes no memory and no time." }
-        };
-        section("Effects", table)
+        let scene = &self.setup.scene;
+        let effects = Effect::ALL.iter().filter(|effect| effect.is_on(scene));
+        let effects: Vec<(&str, String)> = effects
+            .map(|effect| (effect.name(), effect.purpose().to_owned()))
+            .collect();
+        if effects.is_empty() {
+            return html! {};
+        }
+        section("Effects", facts(&effects))
     }
 
     /// How the run was solved.
@@ -332,18 +409,23 @@ impl Report<'_> {
                 &self.rows[SHOWN_STEPS + left_out..],
             ),
         };
+        let quantities = self.quantities();
+        let names = quantities.iter().map(|quantity| quantity.name.as_str());
+        let heads: Vec<&str> = STEP_HEADS.into_iter().chain(names).collect();
         let steps = html! {
             div.scroll { table.steps {
                 thead { tr {
-                    @for head in STEP_HEADS { th scope="col" .number { (head) } }
+                    @for head in &heads { th scope="col" .number { (head) } }
                     th scope="col" { "state" }
                 } }
                 tbody {
-                    @for row in first { (step(row)) }
+                    @for (index, row) in first.iter().enumerate() { (step(row, &quantities, index)) }
                     @if left_out > 0 {
-                        tr { td colspan="9" { (left_out) " steps more are in " code { "curve.csv" } } }
+                        tr { td colspan=(heads.len() + 1) { (left_out) " steps more are in " code { "curve.csv" } } }
                     }
-                    @for row in last { (step(row)) }
+                    @for (index, row) in last.iter().enumerate() {
+                        (step(row, &quantities, SHOWN_STEPS + left_out + index))
+                    }
                 }
             } }
         };
@@ -351,9 +433,32 @@ impl Report<'_> {
     }
 }
 
-/// A row of the table of steps.
-fn step(row: &StepRow) -> Markup {
-    let length = |value: Option<f64>| value.map_or("–".to_owned(), |v| format_si(v, "m"));
+/// Work done on the surfaces up to each step of a path of approach or mean gap, J.
+fn work_done(control: Control, rows: &[StepRow]) -> Vec<Option<f64>> {
+    let place = |row: &StepRow| match control {
+        Control::MeanGap => row.mean_gap.map(|gap| -gap),
+        _ => row.approach,
+    };
+    let mut work = Some(0.0);
+    let mut before: Option<&StepRow> = None;
+    let mut after = |row| {
+        if let Some(before) = before.replace(row) {
+            let moved = place(row).zip(place(before)).map(|(to, from)| to - from);
+            work = work
+                .zip(moved)
+                .map(|(work, moved)| work + 0.5 * (before.force + row.force) * moved);
+        }
+        work
+    };
+    rows.iter().map(|row| after(row)).collect()
+}
+
+/// A row of the table of steps, with the further quantities at its index.
+fn step(row: &StepRow, quantities: &[Quantity], index: usize) -> Markup {
+    let shown = |value: Option<f64>, unit: &str| {
+        value.map_or("–".to_owned(), |value| format_si(value, unit))
+    };
+    let length = |value: Option<f64>| shown(value, "m");
     let cells = [
         row.step.to_string(),
         length(row.approach),
@@ -367,24 +472,11 @@ fn step(row: &StepRow) -> Markup {
     html! {
         tr {
             @for cell in cells { td.number { (cell) } }
+            @for quantity in quantities { td.number { (shown(quantity.values[index], quantity.unit)) } }
             td { (row.state.name()) @if !row.converged { ", not converged" } }
         }
         "\n"
     }
-}
-
-fn per_cent(share: f64) -> String {
-    format!("{:.3} %", 100.0 * share)
-}
-
-/// As in `steps 3, 5`; of many the first ones.
-fn step_words(steps: &[usize]) -> String {
-    if let [step] = steps {
-        return format!("step {step}");
-    }
-    let shown: Vec<String> = steps.iter().take(6).map(usize::to_string).collect();
-    let more = if steps.len() > 6 { " ..." } else { "" };
-    format!("steps {}{more}", shown.join(", "))
 }
 
 /// At most `most` of `count` indices, evenly spread, including both ends.

@@ -4,7 +4,7 @@ use maud::{Markup, html};
 use serde_json::{Value, json};
 
 use super::facts;
-use crate::scene::{Control, EffectTables};
+use crate::scene::{Conduction, Control, EffectTables};
 use crate::study::Setup;
 use crate::units::format_si;
 
@@ -27,6 +27,16 @@ pub(super) fn html(setup: &Setup) -> Markup {
         loading.remove("ramp");
         loading.insert("path".into(), json!(setup.scene.loading.path));
         loading.insert("durations".into(), json!(durations));
+    }
+    if let Some(bodies) = setup.scene.tables.conductance
+        && bodies.kind == Conduction::Electrical
+        && let Some(table) = shown["conductance"].as_object_mut()
+    {
+        for value in table.values_mut() {
+            if let Some(number) = value.as_f64() {
+                *value = json!(format_si(number, "S/m"));
+            }
+        }
     }
     let path_unit = match setup.scene.loading.control {
         Control::Pressure => "Pa",

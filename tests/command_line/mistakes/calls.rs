@@ -376,7 +376,7 @@ fn library() -> Vec<Reached> {
         of_part(SurfacePart::SelfAffine(scene))
     };
     let file = |scale: f64| {
-        SurfacePart::File(HeightFileScene { path: "map.txt".into(), unit: 1.0, scale, detrend: Detrend::None, fill: Fill::None, black: None, white: None })
+        SurfacePart::File(HeightFileScene { path: "map.txt".into(), unit: 1.0, scale, detrend: Detrend::None, fill: Fill::None, black: None, white: None, preparation: tabor::scene::Preparation::default() })
     };
     let values = [f64::NAN; 64];
     let picture = Picture { title: None, field: FieldName::Gap, step: None, load: Some(Load::new(Control::Force, 1.0)), grid: Grid::new([8, 8], [1.0, 1.0]), values: &values };

@@ -1,0 +1,107 @@
+//! The result of a run in a sentence: the last words of `tabor run` and the first line of a report.
+
+use super::summary::Summary;
+use crate::study::{State, StepRow};
+use crate::units::format_si;
+
+/// Most steps that are named.
+const NAMED: usize = 6;
+
+/// The result of the rows of a run: contact area, pull-off or what still sticks, jumps, lost energy.
+pub(crate) fn sentence(summary: &Summary, rows: &[StepRow]) -> String {
+    let area = |row: &&StepRow| row.contact_area_fraction;
+    let Some(largest) = rows.iter().max_by(|a, b| area(a).total_cmp(&area(b))) else {
+        return "No step is finished.".to_owned();
+    };
+    let mut clauses = vec![if largest.contact_area_fraction > 0.0 {
+        let share = per_cent(largest.contact_area_fraction);
+        format!(
+            "The largest contact area is {share} of the nominal area (step {})",
+            largest.step
+        )
+    } else {
+        "The surfaces do not touch".to_owned()
+    }];
+    let stuck = AtZeroLoad::of(rows);
+    if let (Some(force), Some(step)) = (summary.pull_off_force, summary.pull_off_step) {
+        clauses.push(format!(
+            "the pull-off force is {} (step {step})",
+            format_si(force, "N")
+        ));
+    } else if let Some(left) = stuck.map(|place| place.value(rows, |row| row.contact_area_fraction))
+        && left > 0.0
+    {
+        clauses.push(format!(
+            "the surfaces stick at zero load, {} of the area in contact",
+            per_cent(left)
+        ));
+    }
+    let jumps: Vec<String> = [
+        ("into", &summary.jump_in_steps),
+        ("out of", &summary.jump_off_steps),
+    ]
+    .into_iter()
+    .filter(|(_, steps)| !steps.is_empty())
+    .map(|(way, steps)| format!("{way} contact in {}", step_words(steps)))
+    .collect();
+    if !jumps.is_empty() {
+        clauses.push(format!("the surfaces jump {}", jumps.join(" and ")));
+    }
+    if let Some(energy) = summary.hysteresis_energy {
+        clauses.push(format!("the loop loses {}", format_si(energy, "J")));
+    }
+    let last = clauses.pop().unwrap_or_default();
+    if clauses.is_empty() {
+        format!("{last}.")
+    } else {
+        format!("{}, and {last}.", clauses.join(", "))
+    }
+}
+
+/// Where the load of a path falls back to zero after its greatest and the surfaces still hold together.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) struct AtZeroLoad {
+    /// Index of the row at or beyond zero load.
+    index: usize,
+    /// How far zero lies from the row before to that row, from 0 to 1.
+    share: f64,
+}
+
+impl AtZeroLoad {
+    /// That place of a path, if it has one.
+    pub fn of(rows: &[StepRow]) -> Option<AtZeroLoad> {
+        let greatest = rows
+            .iter()
+            .enumerate()
+            .max_by(|a, b| a.1.force.total_cmp(&b.1.force))?
+            .0;
+        let unloaded = |row: &StepRow| row.converged && row.force <= 0.0;
+        let index = greatest + rows[greatest..].iter().position(unloaded)?;
+        let [before, row] = [&rows[index.checked_sub(1)?], &rows[index]];
+        let holds = row.state != State::Separated && index > greatest && before.force > 0.0;
+        holds.then(|| AtZeroLoad {
+            index,
+            share: before.force / (before.force - row.force),
+        })
+    }
+
+    /// A value there, on the straight line between the two rows.
+    pub fn value(self, rows: &[StepRow], value: impl Fn(&StepRow) -> f64) -> f64 {
+        let [before, row] = [&rows[self.index - 1], &rows[self.index]].map(value);
+        before + (row - before) * self.share
+    }
+}
+
+pub(super) fn per_cent(share: f64) -> String {
+    format!("{:.3} %", 100.0 * share)
+}
+
+/// As in `steps 3, 5`; of many the first ones.
+pub(super) fn step_words(steps: &[usize]) -> String {
+    if let [step] = steps {
+        return format!("step {step}");
+    }
+    let shown: Vec<String> = steps.iter().take(NAMED).map(usize::to_string).collect();
+    let more = if steps.len() > NAMED { " ..." } else { "" };
+    format!("steps {}{more}", shown.join(", "))
+}

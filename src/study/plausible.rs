@@ -1,0 +1,52 @@
+//! Quantities beyond what solids and instruments have, with the slip of units that makes them.
+
+use super::plan::Plan;
+use crate::units::format_si;
+
+/// Largest work of adhesion, J/m^2: clean metals have a few.
+const WORK: f64 = 10.0;
+/// Largest side of a map, m.
+const SIDE: f64 = 10.0;
+/// Radius of a tip on a cantilever, m, which no probe comes near to.
+const TIP: f64 = 1.0;
+/// Largest rms slope: steeper than 84 degrees.
+const SLOPE: f64 = 10.0;
+
+/// A warning of each implausible quantity.
+pub(super) fn warnings(plan: &Plan) -> Vec<String> {
+    let scene = &plan.scene;
+    let grid = plan.outline.grid;
+    let work = plan.law.is_adhesive().then(|| plan.law.work_of_adhesion());
+    let side = grid.lx.max(grid.ly);
+    let tip = plan
+        .outline
+        .sphere_radius
+        .filter(|_| plan.effects.spring(scene).is_some());
+    let slope = plan.outline.moments.rms_slope();
+    let mut found = Vec::new();
+    if let Some(work) = work.filter(|work| *work > WORK) {
+        found.push(format!(
+            "a work of adhesion of {} is more than solids have: was it meant in mJ/m^2?",
+            format_si(work, "J/m^2")
+        ));
+    }
+    if side > SIDE {
+        found.push(format!(
+            "a map {} wide is no surface that touches: was the size meant in um or nm?",
+            format_si(side, "m")
+        ));
+    }
+    if let Some(radius) = tip.filter(|radius| *radius >= TIP) {
+        found.push(format!(
+            "a radius of {} at the tip of a cantilever: was it meant in um or nm?",
+            format_si(radius, "m")
+        ));
+    }
+    if slope > SLOPE {
+        found.push(format!(
+            "an rms slope of {slope:.3}, {:.0} degrees, is steeper than surfaces are: were the heights meant in another unit than the size?",
+            slope.atan().to_degrees()
+        ));
+    }
+    found
+}
