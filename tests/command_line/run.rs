@@ -297,7 +297,7 @@ fn check_lists_effects_regime_and_resolution() {
         "chi = ",
         "pixels across the shortest",
         "MiB",
-        "cost          2 convolutions",
+        "cost          2.4 Fourier transforms an iteration",
     ] {
         assert!(text.contains(part), "{part} is missing in:\n{text}");
     }

@@ -374,7 +374,7 @@ fn edges_that_do_not_match_get_a_warning_on_a_periodic_grid() {
     assert_eq!(surface.warnings, Vec::<String>::new());
     part.detrend = Detrend::None;
     let surface = build(part).unwrap();
-    assert_eq!(surface.warnings, [tilted.clone()]);
+    assert_eq!(surface.warnings, std::slice::from_ref(tilted));
 }
 
 #[test]

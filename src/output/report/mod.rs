@@ -441,7 +441,7 @@ fn work_done(control: Control, rows: &[StepRow]) -> Vec<Option<f64>> {
     };
     let mut work = Some(0.0);
     let mut before: Option<&StepRow> = None;
-    let mut after = |row| {
+    let after = |row| {
         if let Some(before) = before.replace(row) {
             let moved = place(row).zip(place(before)).map(|(to, from)| to - from);
             work = work
@@ -450,7 +450,7 @@ fn work_done(control: Control, rows: &[StepRow]) -> Vec<Option<f64>> {
         }
         work
     };
-    rows.iter().map(|row| after(row)).collect()
+    rows.iter().map(after).collect()
 }
 
 /// A row of the table of steps, with the further quantities at its index.
