@@ -105,6 +105,7 @@ fn measure(
     let mut solver = ContactSolver::new(&mut timed, problem);
     // No residual is small enough, so that none of the iterations idles.
     solver.begin(&load, &Start::Cold, 0.0, false)?;
+    solver.precondition_by_levels();
     solver.advance(ROUNDS[0])?;
     watch.take();
     solver.advance(rounds)?;
@@ -116,6 +117,7 @@ fn measure(
     let mut untimed = GpuBackend::on(device).looking_every(rounds);
     let mut solver = ContactSolver::new(&mut untimed, problem);
     solver.begin(&load, &Start::Cold, 0.0, false)?;
+    solver.precondition_by_levels();
     solver.advance(ROUNDS[0])?;
     let clock = Instant::now();
     solver.advance(rounds)?;

@@ -1,12 +1,11 @@
-// Restricts the projected residual of the fine level and the share of free points: the transpose of the
-// bilinear interpolation, over the number of fine points in a coarse cell. `whole_at` reads the fine field.
+// Restricts the residual of a level: the transpose of the bilinear interpolation, over the number of finer
+// points along a cell. `whole_at` reads the finer field.
 fn at(index: u32, in_domain: bool, line: real) -> real {
     let ratio = WHOLE_WIDTH / WIDTH;
     let half = ratio / 2u;
     let first_x = index % WIDTH * ratio + WHOLE_WIDTH - half;
     let first_y = row_of(index) * ratio + WHOLE_HEIGHT - half;
     var sum: real = 0.0;
-    var free: real = 0.0;
     // This cell's own points, and the nearer halves of the cells around it.
     for (var row = 0u; row < 2u * ratio; row = row + 1u) {
         let fine_row = (first_y + row) % WHOLE_HEIGHT;
@@ -18,13 +17,8 @@ fn at(index: u32, in_domain: bool, line: real) -> real {
             let own_column = column >= half && column < half + ratio;
             let far_x = neighbour_share((column + half) % ratio, ratio);
             sum = sum + weight * select(far_x, 1.0 - far_x, own_column) * value;
-            if (own_row && own_column && value != 0.0) {
-                free = free + 1.0;
-            }
         }
     }
-    let scale = 1.0 / real(ratio * ratio);
-    write_restricted(index, scale * sum);
-    write_share(index, scale * free);
+    write_restricted(index, sum / real(ratio));
     return line;
 }

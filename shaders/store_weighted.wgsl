@@ -1,5 +1,5 @@
-// Stores the rows of a transform times the weight: the long-wave part of z.
+// Stores the rows of a transform times the weight: z of the coarsest level.
 fn at(index: u32, in_domain: bool, line: real) -> real {
-    write_long_waves(index, read_weight(index) * line);
+    write_coarsest_z(index, read_weight(index) * line);
     return line;
 }

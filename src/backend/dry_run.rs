@@ -127,6 +127,14 @@ impl Backend for DryRun {
         level
     }
 
+    fn sweep_level(&mut self, name: &'static str, shape: Shape) -> Level {
+        if self.place.on_gpu() {
+            return self.level(name, shape);
+        }
+        self.levels.push(shape);
+        Level(self.levels.len() - 1)
+    }
+
     fn field(&mut self, level: Level, name: &'static str) -> Field {
         let bytes = self.levels[level.0].len() * self.place.number();
         self.fields.push(Allocation { name, level, bytes });

@@ -19,8 +19,6 @@ pub enum Response {
     Stiffness,
     /// 1/K.
     Compliance,
-    /// `(1 - exp(-(a K)^2))/K` for this a: the compliance of short waves alone.
-    ShortCompliance(f64),
 }
 
 impl Response {
@@ -30,17 +28,6 @@ impl Response {
             Response::Stiffness => stiffness,
             _ if stiffness <= 0.0 => 0.0,
             Response::Compliance => 1.0 / stiffness,
-            Response::ShortCompliance(scale) => {
-                (1.0 - (-(scale * stiffness).powi(2)).exp()) / stiffness
-            }
-        }
-    }
-
-    /// The a of short waves; 0 for other responses.
-    pub fn scale(self) -> f64 {
-        match self {
-            Response::Stiffness | Response::Compliance => 0.0,
-            Response::ShortCompliance(scale) => scale,
         }
     }
 }
@@ -86,8 +73,5 @@ mod tests {
         let pi = std::f64::consts::PI;
         assert!((first(Response::Stiffness) - pi).abs() < 1e-15);
         assert!((first(Response::Compliance) - 1.0 / pi).abs() < 1e-15);
-        // 1 - exp(-1) = 0.6321205588285577.
-        let short = first(Response::ShortCompliance(1.0 / pi));
-        assert!((short - 0.6321205588285577 / pi).abs() < 1e-15);
     }
 }

@@ -125,6 +125,11 @@ pub trait Backend {
     }
     /// Makes a level and the work space of its transforms.
     fn level(&mut self, name: &'static str, shape: Shape) -> Level;
+    /// Makes a level on which nothing is transformed, and which takes no work space where a backend can do
+    /// without.
+    fn sweep_level(&mut self, name: &'static str, shape: Shape) -> Level {
+        self.level(name, shape)
+    }
     /// Makes a field of zeros.
     fn field(&mut self, level: Level, name: &'static str) -> Field;
     /// Makes a spectrum of these factors. Those of a half-space are 0 at the zero wavevector until it is set.

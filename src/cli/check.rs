@@ -31,9 +31,6 @@ pub(super) fn check(arguments: &CheckArguments) -> Result<(), Failure> {
     Ok(())
 }
 
-/// Pass that stands for a convolution: a forward and an inverse transform.
-const CONVOLUTION: &str = "multiply";
-
 fn mebibytes(bytes: u64) -> String {
     format!("{:.1} MiB", bytes as f64 / f64::from(1 << 20))
 }
@@ -205,10 +202,9 @@ fn resources(plan: &Plan, cost: &Cost, verbose: bool) -> Vec<String> {
             mebibytes(cost.reference_bytes() as u64)
         ));
     }
-    let convolutions = cost.passes.iter().filter(|name| **name == CONVOLUTION);
     lines.push(format!(
-        "cost          {} convolutions (two Fourier transforms each) an iteration on up to {} x {} points, in {}",
-        convolutions.count(),
+        "cost          {:.1} Fourier transforms an iteration near a solution on {} x {} points, in {}",
+        cost.transforms,
         cost.points[0],
         cost.points[1],
         match cost.place {

@@ -2,8 +2,8 @@
 
 use super::{Kernel, ScalarKernel};
 use super::{
-    descent, displacement, mean_gap, measure, refinement, scalar, search, step_length, trial,
-    two_band, update,
+    descent, displacement, mean_gap, measure, multilevel, refinement, scalar, search, step_length,
+    trial, update,
 };
 
 /// Every kernel over points, variant by variant.
@@ -14,7 +14,7 @@ pub static KERNELS: &[&[Kernel]] = &[
     one(&displacement::STORE_FIELD),
     &measure::RESIDUAL,
     &measure::LOAD_RESIDUAL,
-    &measure::LOAD_AND_RETAIN_RESIDUAL,
+    &measure::STORE_RESIDUAL,
     &descent::DESCENT,
     &descent::MEAN_GAP_DESCENT,
     &trial::TRIAL,
@@ -25,14 +25,16 @@ pub static KERNELS: &[&[Kernel]] = &[
     one(&trial::SMOOTH_LOAD_TRIAL),
     &search::SEARCH,
     &update::UPDATE_STATE,
-    &update::UPDATE_AND_RETAIN,
+    &update::UPDATE_AND_STORE,
     &update::ADVANCE,
     &update::BALANCE,
-    one(&two_band::COARSEN),
-    one(&two_band::WEIGH),
-    one(&two_band::STORE_WEIGHTED),
-    one(&two_band::TWO_BAND_DESCENT),
-    one(&two_band::MEAN_GAP_TWO_BAND_DESCENT),
+    one(&multilevel::COARSEN),
+    one(&multilevel::FREE_SHARE),
+    one(&multilevel::WEIGH),
+    one(&multilevel::STORE_WEIGHTED),
+    one(&multilevel::REFINE),
+    &multilevel::LEVEL_DESCENT,
+    &multilevel::MEAN_GAP_LEVEL_DESCENT,
     one(&refinement::OUTER_RESIDUAL),
     one(&refinement::OUTER_PRESSURE),
     &refinement::ADD_CORRECTION,

@@ -71,7 +71,7 @@ point_kernels!(
     reads [gap, pressure], writes [], unbound [projected_residual], sums [ResidualSums]
 );
 point_kernels!(
-    /// The same, which retains the projected residual in a field for the coarse level.
-    LOAD_AND_RETAIN_RESIDUAL, load_residual, Load, gate Fresh, Residual [],
+    /// The same, which stores the projected residual for the levels of the preconditioner.
+    STORE_RESIDUAL, load_residual, Sweep, gate Fresh, Residual [],
     reads [gap, pressure], writes [projected_residual], fresh 1, sums [ResidualSums]
 );

@@ -15,13 +15,13 @@ pub mod descent;
 pub mod displacement;
 pub mod mean_gap;
 pub mod measure;
+pub mod multilevel;
 pub mod refinement;
 pub mod scalar;
 pub mod search;
 pub mod smooth;
 pub mod step_length;
 pub mod trial;
-pub mod two_band;
 pub mod update;
 
 mod catalogue;
@@ -81,6 +81,8 @@ pub enum Form {
     Store,
     /// Takes the lines of an inverse transform and leaves others to be kept.
     RetainRows,
+    /// Makes lines to be kept, with no transform before them.
+    Retain,
     /// Takes the lines that were kept; they stay.
     ReadRetained,
     /// Takes the lines that were kept and fills those of a forward transform.
@@ -104,6 +106,11 @@ impl Form {
             self,
             Form::Load | Form::FromRetained | Form::InverseThenForward
         )
+    }
+
+    /// Whether it leaves lines to be kept.
+    pub fn retains(self) -> bool {
+        matches!(self, Form::RetainRows | Form::Retain)
     }
 
     /// One-dimensional transforms of all rows that go with it, in two-dimensional ones.
@@ -183,7 +190,7 @@ impl Kernel {
             name += &flag.to_lowercase();
         }
         if self.writes.last() == Some(&"projected_residual") {
-            name += "-retain";
+            name += "-stored";
         }
         if self.gate == Gate::Ahead && self.name == "load_field" {
             name += "-ahead";

@@ -26,6 +26,8 @@ device_struct! {
         points: f64,
         /// Stiffness k that a smooth law's change of variable works with.
         smooth_stiffness: f64,
+        /// Compliance by which the preconditioner answers the finest waves of a level.
+        level_compliance: f64,
         /// Largest net pressure that the solid bears, its hardness; infinite for an elastic one.
         hardness: f64,
         /// Relative rounding error of the fields.

@@ -29,6 +29,7 @@ type Lanes<T> = [T; LANES];
 pub struct Numbers<T, C> {
     pub constraint: C,
     pub stiffness_max: T,
+    pub level_compliance: T,
     pub offset: f64,
     pub mean_pressure: T,
     pub descent_factor: T,
@@ -47,6 +48,7 @@ impl<T: Real, C: GapConstraint<T>> Numbers<T, C> {
         Numbers {
             constraint: C::new(params),
             stiffness_max: T::of(params.stiffness_max),
+            level_compliance: T::of(params.level_compliance),
             offset: scalars.offset,
             mean_pressure: T::of(scalars.mean_pressure),
             descent_factor: T::of(scalars.descent_factor),

@@ -115,17 +115,22 @@ pub static UPDATE_STATE: [Kernel; 3] = [
     ),
 ];
 
-/// The same, which retains the new projected residual in a field for the coarse level, a hard wall's.
-pub static UPDATE_AND_RETAIN: [Kernel; 2] = [
+/// The same, which stores the new projected residual for the levels of the preconditioner.
+pub static UPDATE_AND_STORE: [Kernel; 3] = [
     point_kernel!(
-        update_state, InverseThenForward, gate Running, UpdateState over Unilateral [],
+        update_state, Store, gate Running, UpdateState over Unilateral [],
         reads [direction], writes [gap, pressure, previous_residual, projected_residual], fresh 2,
         unbound [step], sums [ResidualSums, AlongSums]
     ),
     point_kernel!(
-        update_state, InverseThenForward, gate Running, UpdateState over HardnessLimit [],
+        update_state, Store, gate Running, UpdateState over HardnessLimit [],
         reads [direction], writes [gap, pressure, previous_residual, projected_residual], fresh 2,
         unbound [step], sums [ResidualSums, AlongSums]
+    ),
+    point_kernel!(
+        update_state, Store, gate Running, UpdateState over Smooth [],
+        reads [direction, step], writes [gap, pressure, previous_residual, projected_residual], fresh 2,
+        unbound [], sums [ResidualSums, AlongSums]
     ),
 ];
 

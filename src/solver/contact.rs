@@ -4,10 +4,10 @@ use super::MakeBackend;
 use super::coarse_start;
 use super::kernel_set::{KernelSet, params_of_problem, params_under};
 use super::mean_gap::HeightsPressure;
+use super::multilevel::{Multilevel, begins_exact};
 use super::outer_state::OuterState;
 use super::problem::Problem;
 use super::refinement::FIRST_TOLERANCE;
-use super::two_band::TwoBand;
 use crate::backend::{Backend, BackendError, Field, Level, Response, Spectrum};
 use crate::grid::Boundary;
 use crate::kernel::{Params, Scalars, Status, scalar};
@@ -98,10 +98,13 @@ pub struct ContactSolver<'a> {
     /// The trial step of a law whose change of variable makes it costly.
     pub(super) step: Option<Field>,
     pub(super) stiffness: Spectrum,
-    pub(super) preconditioner: Spectrum,
+    /// 1/K as the preconditioner: without levels, and far from a solution with adhesion.
+    pub(super) preconditioner: Option<Spectrum>,
     /// The compliance of all waves, for a scene with conductance.
     pub(super) compliance: Option<Spectrum>,
-    pub(super) two_band: Option<TwoBand>,
+    pub(super) levels: Option<Multilevel>,
+    /// Whether the preconditioner is 1/K for now.
+    pub(super) exact: bool,
     pub(super) kernels: KernelSet,
     pub(super) params: Params,
     /// The outer state in double precision of iterative refinement; made at its first use.
@@ -146,11 +149,10 @@ impl<'a> ContactSolver<'a> {
             field
         });
         let stiffness = problem.spectrum(backend, level, "stiffness", Response::Stiffness);
-        let two_band = TwoBand::plan(backend, level, problem);
-        let preconditioner = match &two_band {
-            Some(bands) => bands.short_waves(backend, "preconditioner", problem),
-            None => problem.spectrum(backend, level, "preconditioner", Response::Compliance),
-        };
+        let levels = Multilevel::plan(backend, level, problem);
+        let exact = levels.is_none() || begins_exact(problem);
+        let preconditioner =
+            exact.then(|| problem.spectrum(backend, level, "preconditioner", Response::Compliance));
         let compliance = problem
             .conducts
             .then(|| problem.spectrum(backend, level, "compliance", Response::Compliance));
@@ -174,7 +176,8 @@ impl<'a> ContactSolver<'a> {
             stiffness,
             preconditioner,
             compliance,
-            two_band,
+            levels,
+            exact,
             kernels: KernelSet::new(problem),
             params,
             outer: None,
@@ -337,12 +340,13 @@ impl<'a> ContactSolver<'a> {
         self.backend.set_params(&self.params);
         self.backend
             .set_zero_mode(self.stiffness, load.zero_stiffness);
-        match &self.two_band {
-            Some(bands) => bands.set_zero_mode(self.backend, load.zero_compliance),
-            None => self
-                .backend
-                .set_zero_mode(self.preconditioner, load.zero_compliance),
+        if let Some(levels) = &self.levels {
+            levels.set_zero_mode(self.backend, load.zero_compliance);
         }
+        if let Some(spectrum) = self.preconditioner {
+            self.backend.set_zero_mode(spectrum, load.zero_compliance);
+        }
+        self.exact = self.preconditioner.is_some();
         if prescribed_mean_gap {
             self.begin_mean_gap();
         }

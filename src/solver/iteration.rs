@@ -2,6 +2,7 @@
 //! ([`plain`](super::plain)), which its comment in [`kernel`](crate::kernel) names.
 
 use super::contact::ContactSolver;
+use super::multilevel::{EXACT_UNTIL, Multilevel};
 use crate::backend::BackendError;
 use crate::kernel::{Gate, Scalars, Status, displacement, scalar, step_length};
 
@@ -12,17 +13,16 @@ const SEARCHES: usize = 48;
 /// does continues in the next round, which does nothing else. At a wall a pass tries several steps; with
 /// Lennard-Jones the trial evaluates the first.
 const SEARCHES_AT_ONCE: usize = 1;
+
 impl ContactSolver<'_> {
     /// Loads and measures the residual of the present state: every round starts from its transformed rows.
     pub(super) fn ready(&mut self) {
-        let (level, g, p) = (self.level, self.gap, self.pressure);
-        match &self.two_band {
-            Some(bands) => {
-                let fields = [g, p, bands.residual()];
-                let load_residual = bands.retain.load_residual;
-                self.backend.run(load_residual, level, &fields);
-            }
-            None => self.backend.run(self.kernels.load_residual, level, &[g, p]),
+        let state = [self.gap, self.pressure];
+        match in_use(&self.levels, self.exact) {
+            Some(levels) => levels.load_residual(self.backend, state),
+            None => self
+                .backend
+                .run(self.kernels.load_residual, self.level, &state),
         }
         self.backend.scalar(&scalar::TEST_CONVERGENCE);
     }
@@ -42,17 +42,42 @@ impl ContactSolver<'_> {
     /// One iteration.
     pub fn iterate(&mut self) -> Result<Scalars, BackendError> {
         self.record()?;
-        self.backend.scalars()
+        let scalars = self.backend.scalars()?;
+        self.leave_exact(&scalars);
+        Ok(scalars)
     }
 
-    /// Up to `most` iterations, as many as the backend records before it looks. Returns how many, including
-    /// those that did nothing after the end.
+    /// Continues with the levels, as iterations near a solution do.
+    pub fn precondition_by_levels(&mut self) {
+        if let Some(levels) = &self.levels {
+            self.exact = false;
+            levels.load_residual(self.backend, [self.gap, self.pressure]);
+        }
+    }
+
+    /// Continues with the levels once a step has come near a solution.
+    fn leave_exact(&mut self, scalars: &Scalars) {
+        let stepped = scalars.accepted && !scalars.repeat && !scalars.waits();
+        if self.exact && stepped && scalars.residual < EXACT_UNTIL {
+            self.precondition_by_levels();
+        }
+    }
+
+    /// Up to `most` iterations, as many as the backend records before it looks; one while the preconditioner may
+    /// change after it. Returns how many, including those that did nothing after the end.
     pub fn advance(&mut self, most: usize) -> Result<(usize, Scalars), BackendError> {
-        let rounds = self.backend.look_every().min(most).max(1);
+        let may_change = self.exact && self.levels.is_some();
+        let rounds = if may_change {
+            1
+        } else {
+            self.backend.look_every().min(most).max(1)
+        };
         for _ in 0..rounds {
             self.record()?;
         }
-        Ok((rounds, self.backend.scalars()?))
+        let scalars = self.backend.scalars()?;
+        self.leave_exact(&scalars);
+        Ok((rounds, scalars))
     }
 
     /// Records one iteration, from the rows of the residual to those of the next one. All decisions are
@@ -63,17 +88,12 @@ impl ContactSolver<'_> {
         let previous = self.previous_residual;
         let mean_gap = self.params.prescribed_mean_gap;
         let backend = &mut *self.backend;
-        match &self.two_band {
-            Some(bands) => {
-                bands.descend(
-                    backend,
-                    previous,
-                    mean_gap.then_some(d),
-                    self.preconditioner,
-                );
-            }
+        match in_use(&self.levels, self.exact) {
+            Some(levels) => levels.descend(backend, [g, p, previous], mean_gap.then_some(d)),
             None => {
-                backend.multiply(self.preconditioner, false, Gate::Ahead);
+                if let Some(preconditioner) = self.preconditioner {
+                    backend.multiply(preconditioner, false, Gate::Ahead);
+                }
                 if mean_gap {
                     backend.run(kernels.mean_gap.descent, level, &[g, p, previous, d]);
                 } else {
@@ -101,14 +121,15 @@ impl ContactSolver<'_> {
             self.advance_at_mean_gap();
             return Ok(());
         }
-        let (backend, update) = (&mut *self.backend, self.kernels.update_state);
-        match (&self.two_band, self.step) {
-            (Some(bands), _) => {
-                let fields = [d, g, p, previous, bands.residual()];
-                backend.run(bands.retain.update_state, level, &fields);
-            }
-            (None, Some(step)) => backend.run(update, level, &[d, step, g, p, previous]),
-            (None, None) => backend.run(update, level, &[d, g, p, previous]),
+        let backend = &mut *self.backend;
+        let without_step = [d, g, p, previous];
+        let with_step = self.step.map(|step| [d, step, g, p, previous]);
+        let state = with_step
+            .as_ref()
+            .map_or(&without_step[..], |fields| fields);
+        match in_use(&self.levels, self.exact) {
+            Some(levels) => levels.update_state(backend, state),
+            None => backend.run(self.kernels.update_state, level, state),
         }
         backend.scalar(&step_length::ADAPT_TRIAL_LENGTH);
         backend.scalar(&scalar::TEST_CONVERGENCE);
@@ -149,4 +170,9 @@ impl ContactSolver<'_> {
         self.backend.scalar(&scalar::TEST_CONVERGENCE);
         self.backend.scalars()
     }
+}
+
+/// The levels, unless the preconditioner is 1/K for now.
+fn in_use(levels: &Option<Multilevel>, exact: bool) -> Option<&Multilevel> {
+    levels.as_ref().filter(|_| !exact)
 }

@@ -1,9 +1,10 @@
 //! The kernel variants for the constraint of a problem, and the numbers that stay fixed during a solve.
 
 use super::contact::{Hold, Load};
+use super::multilevel::level_compliance;
 use super::problem::Problem;
 use crate::kernel::{Constraint, Kernel, Params};
-use crate::kernel::{descent, measure, refinement, search, trial, update};
+use crate::kernel::{descent, measure, multilevel, refinement, search, trial, update};
 
 /// The kernels of one constraint. Under a prescribed mean gap those of `mean_gap` replace `descent`, `trial`
 /// and `update_state`.
@@ -15,8 +16,8 @@ pub(super) struct KernelSet {
     pub search: &'static Kernel,
     pub update_state: &'static Kernel,
     pub mean_gap: MeanGapSet,
-    /// Those that retain the projected residual for the coarse level; `None` for a smooth law.
-    pub retain: Option<RetainSet>,
+    /// Those that replace their namesakes with a multilevel preconditioner.
+    pub levels: LevelSet,
     /// The kernels of the outer state; `None` under a hardness.
     pub outer: Option<OuterSet>,
 }
@@ -40,11 +41,14 @@ pub(super) enum MeanGapTrial {
     },
 }
 
-/// The kernels that retain the projected residual: of the present state, and after a step.
+/// The kernels that store the projected residual, of the present state and after a step, and those that end
+/// with z.
 #[derive(Clone, Copy)]
-pub(super) struct RetainSet {
-    pub load_residual: &'static Kernel,
+pub(super) struct LevelSet {
+    pub store_residual: &'static Kernel,
     pub update_state: &'static Kernel,
+    pub descent: &'static Kernel,
+    pub mean_gap_descent: &'static Kernel,
 }
 
 /// The kernels that add a correction to the outer state and restore its mean gap.
@@ -95,12 +99,12 @@ impl KernelSet {
                 advance: &update::ADVANCE[at],
                 balance: &update::BALANCE[at],
             },
-            retain: update::UPDATE_AND_RETAIN
-                .get(at)
-                .map(|update_state| RetainSet {
-                    load_residual: &measure::LOAD_AND_RETAIN_RESIDUAL[at],
-                    update_state,
-                }),
+            levels: LevelSet {
+                store_residual: &measure::STORE_RESIDUAL[at],
+                update_state: &update::UPDATE_AND_STORE[at],
+                descent: &multilevel::LEVEL_DESCENT[at],
+                mean_gap_descent: &multilevel::MEAN_GAP_LEVEL_DESCENT[at],
+            },
             outer: outer.map(|at| OuterSet {
                 add_correction: &refinement::ADD_CORRECTION[at],
                 restore_gap: &refinement::RESTORE_OUTER_GAP[at],
@@ -147,6 +151,7 @@ pub(super) fn params_of_problem(problem: &Problem, epsilon: f64) -> Params {
         may_detach: false,
         points,
         smooth_stiffness: 0.2 * stiffness_max,
+        level_compliance: level_compliance(problem),
         hardness: problem.hardness.unwrap_or(f64::INFINITY),
         epsilon,
     }

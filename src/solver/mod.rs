@@ -15,13 +15,13 @@ mod incremental_stiffness;
 mod iteration;
 mod kernel_set;
 mod mean_gap;
+mod multilevel;
 mod outer_state;
 pub mod plain;
 mod plain_setup;
 mod problem;
 mod refinement;
 mod rigid;
-mod two_band;
 
 pub use contact::{ContactSolver, Hold, Load, Outcome, ROUNDS_PER_ITERATION, Start};
 pub use heights::Heights;

@@ -14,9 +14,9 @@
 //! neither wall nor law.
 
 use super::contact::{Load, Outcome};
+use super::multilevel::{EXACT_UNTIL, begins_exact};
 use super::plain_setup::{Contact, choose, dot, each, largest, least, most, norm, sum};
 use super::problem::Problem;
-use super::two_band::{LONG_WAVES, SMOOTHED};
 use crate::kernel::Status;
 use crate::kernel::scalar::*;
 
@@ -39,6 +39,7 @@ pub fn solve(
     let (mut restart, mut trial_length, mut largest_move) = (true, 1.0, f64::INFINITY);
     let (mut iterations, mut at_floor, mut stalls) = (0, 0, 0);
     let mut residual_at_stall = f64::INFINITY;
+    let mut exact = begins_exact(problem);
 
     let status = loop {
         // Step 1. Is the present state the solution?
@@ -71,7 +72,7 @@ pub fn solve(
 
         // Step 2. The residual r = S y on F, and z = M r.
         let residual = each(n, |i| now.weight[i] * now.y[i]);
-        let z = contact.project(&contact.precondition(&residual, &now), &now);
+        let z = contact.project(&contact.precondition(&residual, &now, exact), &now);
 
         // Step 3. beta = max(0, <z, r - r_old> / <d_old, r - r_old>) (Polak-Ribiere); the direction
         // d = -z + beta d_old, or -z if that would not descend.
@@ -116,6 +117,7 @@ pub fn solve(
                     now = contact.state(gap, pressure);
                     trial_length *= lengthen;
                     iterations += 1;
+                    exact &= now.residual >= EXACT_UNTIL;
                     watch(&now.gap, t, now.residual);
                     continue;
                 }
@@ -232,27 +234,40 @@ impl Contact<'_> {
         }
     }
 
-    /// Step 2: z = M r.
-    fn precondition(&self, r: &[f64], now: &State) -> Vec<f64> {
-        let n = r.len();
-        let Some(bands) = &self.two_bands else {
-            // M = 1/K; the smooth law answers its part by its own slope: + D/k y/(D + k).
-            let z = self.fourier.filter(r, |q| self.compliance(q));
-            let (k, d) = (self.k(), each(n, |i| self.hardening(i, now.gap[i])));
-            return each(n, |i| z[i] + d[i] / k * now.y[i] / (d[i] + k));
+    /// Step 2: z = M r; the smooth law answers its part by its own slope, + D/k y/(D + k).
+    fn precondition(&self, r: &[f64], now: &State, exact: bool) -> Vec<f64> {
+        let (k, d) = (self.k(), each(r.len(), |i| self.hardening(i, now.gap[i])));
+        let z = self.compliance_times(r, exact);
+        each(r.len(), |i| z[i] + d[i] / k * now.y[i] / (d[i] + k))
+    }
+
+    /// M r: 1/K where the grid cannot be halved, and with adhesion until the residual is small, since fronts that
+    /// move by another way may end in another solution. Else each grid answers the waves that the next one, of half the
+    /// points, cannot hold by one number, in proportion to its pixel: z_k = 2^k c r_k + P z_(k+1), with
+    /// r_(k+1) = R r_k, P the interpolation and R the restriction. The coarsest one answers by W (1/2K) W, W being
+    /// the share of free points there, smoothed, to the third power: long waves do not reach across contacts.
+    fn compliance_times(&self, r: &[f64], exact: bool) -> Vec<f64> {
+        let Some(coarsest) = self.coarser.last().filter(|_| !exact) else {
+            return self.fourier.filter(r, |q| self.compliance(q));
         };
-        // Two bands: M = (1 - l)/K + P W (l/K) W R, with l = exp(-(8 q dx)^2) the long share of a wave, R
-        // the restriction to a coarse grid, P the interpolation back, W the smoothed share of F, squared.
-        let l = |q| self.gauss(q, LONG_WAVES);
-        let short = (self.fourier).filter(r, |q| (1.0 - l(q)) * self.compliance(q));
-        let free = bands.average(&each(n, |i| choose(now.weight[i] > 0.0, 1.0, 0.0)));
-        let share = (bands.fourier).filter(&free, |q| self.gauss(q, SMOOTHED));
-        let w = each(share.len(), |i| share[i].clamp(0.0, 1.0).powi(2));
-        let restricted = bands.restrict(r);
-        let weighed = each(w.len(), |i| w[i] * restricted[i]);
-        let long = (bands.fourier).filter(&weighed, |q| l(q) * self.compliance(q));
-        let long = bands.interpolate(&each(w.len(), |i| w[i] * long[i]));
-        each(n, |i| short[i] + long[i])
+        let mut residuals = vec![r.to_vec()];
+        let mut free = each(r.len(), |i| choose(r[i] != 0.0, 1.0, 0.0));
+        for (k, grid) in self.coarser.iter().enumerate() {
+            residuals.push(grid.restrict(&residuals[k]));
+            free = grid.average(&free);
+        }
+        let share = (coarsest.fourier).filter(&free, |q| self.smoothing(q));
+        let w = each(share.len(), |i| share[i].clamp(0.0, 1.0).powi(3));
+        let last = &residuals[self.coarser.len()];
+        let weighed = each(w.len(), |i| w[i] * last[i]);
+        let long = (coarsest.fourier).filter(&weighed, |q| self.long_compliance(q));
+        let mut z = each(w.len(), |i| w[i] * long[i]);
+        for (k, grid) in self.coarser.iter().enumerate().rev() {
+            let own = self.params.level_compliance * f64::from(1 << k);
+            let coarser = grid.interpolate(&z);
+            z = each(coarser.len(), |i| own * residuals[k][i] + coarser[i]);
+        }
+        z
     }
 
     /// Values on F; under a prescribed mean gap less their mean, weighted by S.

@@ -1,5 +1,5 @@
 //! What the [`plain`](super::plain) text works with and is no step of it: arrays, the law at a point, Fourier
-//! transforms, a coarse grid.
+//! transforms, coarser grids.
 
 use std::sync::Arc;
 
@@ -8,10 +8,9 @@ use rustfft::{Fft, FftPlanner};
 
 use super::contact::{Hold, Load};
 use super::kernel_set::params_under;
+use super::multilevel;
 use super::problem::Problem;
-use super::two_band::FEWEST_COARSE;
 use crate::elastic::Stiffness;
-use crate::grid::Boundary;
 use crate::kernel::Params;
 
 /// `yes` if a condition holds, else `no`.
@@ -68,8 +67,8 @@ pub(super) struct Contact<'a> {
     /// Factor on the law: that of an adhesion map, 0 on the pad.
     factor: Vec<f64>,
     pub(super) fourier: Fourier,
-    /// The coarse grid, where the preconditioner has two bands.
-    pub(super) two_bands: Option<Coarse>,
+    /// The coarser grids of the preconditioner, each of half the points each way.
+    pub(super) coarser: Vec<Coarse>,
     /// The prescribed mean pressure; `None` under a prescribed mean gap.
     pub(super) mean_pressure: Option<f64>,
 }
@@ -81,10 +80,8 @@ impl<'a> Contact<'a> {
         let inside = problem.padded(&ones, 0.0);
         let in_domain: Vec<bool> = inside.iter().map(|&inside| inside > 0.0).collect();
         let wall = problem.law.has_wall();
-        let periodic = problem.boundary == Boundary::Periodic;
-        let two_bands = (periodic && !problem.law.is_adhesive())
-            .then(|| Coarse::new(problem.shape.points))
-            .flatten();
+        let halvings = multilevel::halvings(problem);
+        let finer = |k: usize| problem.shape.points.map(|points| points >> k);
         Contact {
             params: params_under(problem, load, f64::EPSILON),
             heights: problem.padded_heights().collect(),
@@ -92,7 +89,7 @@ impl<'a> Contact<'a> {
             in_domain,
             factor: problem.padded(factor, 0.0),
             fourier: Fourier::new(problem.shape.points),
-            two_bands,
+            coarser: (0..halvings).map(|k| Coarse::new(finer(k))).collect(),
             mean_pressure: match load.hold {
                 Hold::Pressure(mean_pressure) => Some(mean_pressure),
                 Hold::Gap(_) => None,
@@ -133,10 +130,15 @@ impl<'a> Contact<'a> {
         }
     }
 
-    /// exp(-(n q dx)^2) of a number n of pixels.
-    pub(super) fn gauss(&self, q: [usize; 2], pixels: f64) -> f64 {
-        let dx = self.problem.scales.lateral;
-        (-(pixels * self.problem.grid.wavenumber(q[0], q[1]) * dx).powi(2)).exp()
+    /// 1/2K at a wave of the coarsest grid; at q = 0 the compliance of the control.
+    pub(super) fn long_compliance(&self, q: [usize; 2]) -> f64 {
+        let share = choose(q == [0, 0], 1.0, multilevel::COARSEST_SHARE);
+        share * self.compliance(q)
+    }
+
+    /// The factor of a wave that smooths the share of free points.
+    pub(super) fn smoothing(&self, q: [usize; 2]) -> f64 {
+        multilevel::smoothing(self.problem, q)
     }
 
     /// sigma(g) at a point.
@@ -248,26 +250,23 @@ impl Fourier {
     }
 }
 
-/// The coarse grid of the two-band preconditioner: a quarter, or half, of the points each way.
+/// A grid of half the points of a finer one each way.
 pub(super) struct Coarse {
     /// Its transforms.
     pub(super) fourier: Fourier,
     fine: [usize; 2],
-    ratio: usize,
 }
 
+/// Finer points along a cell.
+const RATIO: usize = 2;
+
 impl Coarse {
-    /// The coarse grid of a fine one; `None` where that cannot be coarsened.
-    pub(super) fn new(fine: [usize; 2]) -> Option<Self> {
-        let divides = |ratio: &usize| fine.iter().all(|n| n.is_multiple_of(*ratio));
-        let ratio = [4, 2].into_iter().find(divides)?;
-        let points = fine.map(|n| n / ratio);
-        let large = points.iter().all(|n| *n >= FEWEST_COARSE);
-        large.then(|| Coarse {
-            fourier: Fourier::new(points),
+    /// The coarse grid of a fine one.
+    pub(super) fn new(fine: [usize; 2]) -> Self {
+        Coarse {
+            fourier: Fourier::new(fine.map(|n| n / RATIO)),
             fine,
-            ratio,
-        })
+        }
     }
 
     /// Mean of the fine values in each cell.
@@ -285,8 +284,8 @@ impl Coarse {
         fine: &[f64],
         weights: impl Fn([(usize, f64); 4]) -> Vec<(usize, f64)>,
     ) -> Vec<f64> {
-        let cell_area = (self.ratio * self.ratio) as f64;
-        let mut coarse = vec![0.0; fine.len() / (self.ratio * self.ratio)];
+        let cell_area = (RATIO * RATIO) as f64;
+        let mut coarse = vec![0.0; fine.len() / (RATIO * RATIO)];
         for (i, value) in fine.iter().enumerate() {
             for (cell, weight) in weights(self.neighbours(i)) {
                 coarse[cell] += weight * value / cell_area;
@@ -309,11 +308,11 @@ impl Coarse {
     /// The four cells around a fine point with their bilinear weights, its own first.
     fn neighbours(&self, i: usize) -> [(usize, f64); 4] {
         let [nx, ny] = self.fine;
-        let width = nx / self.ratio;
+        let width = nx / RATIO;
         let along = |place: usize, points: usize| {
-            let cells = points / self.ratio;
-            let (own, within) = (place / self.ratio, place % self.ratio);
-            let from_centre = (within as f64 + 0.5) / self.ratio as f64 - 0.5;
+            let cells = points / RATIO;
+            let (own, within) = (place / RATIO, place % RATIO);
+            let from_centre = (within as f64 + 0.5) / RATIO as f64 - 0.5;
             let step = if from_centre < 0.0 { cells - 1 } else { 1 };
             let other = (own + step) % cells;
             [(own, 1.0 - from_centre.abs()), (other, from_centre.abs())]

@@ -5,7 +5,7 @@ use super::hooks::{Effects, HostBytes, Sizes};
 use super::regime::law_of;
 use super::setup::Setup;
 use crate::backend::{
-    BackendError, Level,
+    Backend, BackendError, Level,
     dry_run::{Allocation, DryRun, Place},
 };
 use crate::elastic::Stiffness;
@@ -16,7 +16,7 @@ use crate::scene::{BackendName, Precision, Scene};
 use crate::solver::{ContactSolver, Problem, Start, plan_outer_state};
 
 /// Fields, tables and passes of a scene's solver, and what is kept between its steps.
-#[derive(Clone, Debug, PartialEq, Eq)]
+#[derive(Clone, Debug, PartialEq)]
 pub struct Cost {
     /// Where it would run.
     pub place: Place,
@@ -33,6 +33,8 @@ pub struct Cost {
     pub reference: Vec<Allocation>,
     /// Passes of one iteration, in order; `multiply` stands for the columns of a convolution.
     pub passes: Vec<&'static str>,
+    /// Real two-dimensional transforms of one iteration, those of coarser levels in proportion to their points.
+    pub transforms: f64,
     /// Solved points of the finest level.
     pub points: [usize; 2],
     /// Bytes of the host's memory that effects take besides the history.
@@ -117,6 +119,7 @@ fn plan(
         let mut solver = ContactSolver::new(dry_run, problem);
         // The counts do not depend on the tolerance.
         solver.begin(&load, &Start::Present, 0.0, false)?;
+        solver.precondition_by_levels();
         (0..iterations).try_for_each(|_| solver.iterate().map(drop))
     };
     let mut started = DryRun::on(place);
@@ -150,6 +153,7 @@ fn plan(
             0
         },
     };
+    let transforms = iterated.transforms() - started.transforms();
     Ok(Cost {
         place,
         fields: iterated.fields,
@@ -157,6 +161,7 @@ fn plan(
         spectra: iterated.spectra,
         work: iterated.work,
         reference,
+        transforms,
         passes: iterated.passes.split_off(started.passes.len()),
         points: problem.shape.points,
         host: effects.host_bytes(&sizes),

@@ -14,26 +14,28 @@ pub fn variants() -> impl Iterator<Item = &'static Kernel> {
 /// Every kernel over points by name. Each is compared with its twin by `kernels.rs`, which goes through the
 /// catalogue: a kernel that is not named here makes a test fail until somebody has looked that its variants are
 /// met there.
-const NAMES: [&str; 21] = [
+const NAMES: [&str; 23] = [
     "add_correction",
     "advance",
     "balance",
     "coarsen",
     "descent",
     "direction",
+    "free_share",
+    "level_descent",
     "load_displacement",
     "load_field",
     "load_residual",
     "load_trial",
     "outer_pressure",
     "outer_residual",
+    "refine",
     "residual",
     "restore_outer_gap",
     "search",
     "store_field",
     "store_weighted",
     "trial",
-    "two_band_descent",
     "update_state",
     "weigh",
 ];

@@ -44,6 +44,7 @@ fn params() -> Params {
         may_detach: false,
         points: 1.0,
         smooth_stiffness: 1.0,
+        level_compliance: 0.8,
         hardness: f64::INFINITY,
         epsilon: f64::EPSILON,
     }
@@ -121,9 +122,8 @@ fn agrees_with_the_processor(sizes: &[[usize; 2]], number: Number) {
         Number::Single => (device(), BOUND),
         Number::Double => (device_with_double(), BOUND_IN_DOUBLE),
     };
-    // Short waves end at some pixels, as the solver has it.
-    let short = Response::ShortCompliance(16.0);
-    let computed = [short, Response::Compliance].into_iter().cycle().map(Some);
+    let both = [Response::Stiffness, Response::Compliance];
+    let computed = both.into_iter().cycle().map(Some);
     let responses = std::iter::once(None).chain(computed);
     for (&size, response) in sizes.iter().zip(responses) {
         let mut numbers = Random(size[0] as u64 * 4096 + size[1] as u64);

@@ -74,6 +74,7 @@ fn params(law: Law, prescribed_mean_gap: bool, number: Number) -> Params {
         may_detach: !prescribed_mean_gap,
         points: 1.0,
         smooth_stiffness: 0.4,
+        level_compliance: 0.8,
         hardness: 0.3,
         epsilon: number.epsilon(),
     }
@@ -162,7 +163,7 @@ fn run(
         number,
     } = case;
     // The whole field lies on the other level: coarse for a fine kernel, fine for a coarse one.
-    let coarse_kernel = ["coarsen", "weigh", "store_weighted"].contains(&kernel.name);
+    let coarse_kernel = ["coarsen", "free_share", "weigh", "store_weighted"].contains(&kernel.name);
     let [nx, ny] = match number {
         Number::Single => COARSE,
         Number::Double => COARSE_IN_DOUBLE,
@@ -236,12 +237,12 @@ fn run(
     let scalars = backend
         .scalars()
         .unwrap_or_else(|error| panic!("{}: {error}", kernel.name));
-    if kernel.form == Form::RetainRows {
+    if kernel.form.retains() {
         // Everywhere open, the trial loads what was kept.
         backend.set_scalars(&passing());
         backend.run(&TRIAL[0], level, &[open_gap, blank, other_blank]);
     }
-    let gives = kernel.form.before_forward() || kernel.form == Form::RetainRows;
+    let gives = kernel.form.before_forward() || kernel.form.retains();
     if gives {
         backend.multiply(ones, false, Gate::Always);
         backend.run(&STORE_FIELD, level, &[lines]);
@@ -344,16 +345,14 @@ fn kernels_agree_with_their_twins() {
             let hardness = kernel.constraint == Some(Constraint::HardnessLimit);
             let outer = OUTER.contains(&kernel.name);
             let constrained = !outer && kernel.constraint.is_some() && !smooth;
-            let retains = kernel.variant().ends_with("-retain");
+            let stores_residual = kernel.writes.last() == Some(&"projected_residual");
             let fits = match law {
                 // A constraint asks any law for its traction and its change: one of them in all kernels, and
                 // another where both are asked.
                 Law::Exponential(_) => {
                     let both = ["search", "update_state"].contains(&kernel.name);
-                    both && constrained && !hardness && !retains
+                    both && constrained && !hardness && !stores_residual
                 }
-                // The coarse level, for which the projected residual is retained, belongs to the hard wall.
-                Law::MaugisDugdale(_) if retains => false,
                 // The outer state is kept in double precision, and asks for the traction alone.
                 Law::LennardJones(_) if outer => smooth,
                 Law::HardWall if outer => !smooth,
@@ -734,6 +733,7 @@ fn every_member_is_where_a_shader_reads_it() {
                 heights_norm: 5.125,
                 points: 6.125,
                 smooth_stiffness: 7.125,
+                level_compliance: 7.625,
                 hardness: 8.125,
                 epsilon: 9.125,
                 prescribed_mean_gap: true,

@@ -7,7 +7,7 @@ use tabor::backend::gpu::source::{
 };
 use tabor::backend::gpu::{Direction, Exchange, GroupLimits, Limits, Number, Wide};
 use tabor::kernel::displacement::{LOAD_FIELD, STORE_FIELD};
-use tabor::kernel::two_band::COARSEN;
+use tabor::kernel::multilevel::COARSEN;
 use tabor::kernel::{Gate, Sum};
 use tabor::law::{Exponential, Law, LennardJones, MaugisDugdale};
 
@@ -158,7 +158,7 @@ fn transforms_of_many_lengths_are_valid() {
                 validate(&format!("{} {nx} x {ny}", kernel.name), &text, wide);
             }
             for (factors, energy) in [
-                (FactorSource::ShortCompliance, false),
+                (FactorSource::Compliance, false),
                 (FactorSource::Stiffness, true),
             ] {
                 let text = source::multiply(&plan, factors, energy, Gate::Accepted, wide);

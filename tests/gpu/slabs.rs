@@ -11,7 +11,7 @@ use tabor::elastic::HalfSpace;
 use tabor::grid::Grid;
 use tabor::kernel::displacement::{LOAD_DISPLACEMENT, LOAD_FIELD, STORE_FIELD};
 use tabor::kernel::{Constraint, Form, Gate, Kernel, Params, Reduce, Scalars, Status};
-use tabor::kernel::{descent, measure, trial, two_band, update};
+use tabor::kernel::{descent, measure, multilevel, trial, update};
 use tabor::law::{Law, LennardJones, MaugisDugdale};
 use tabor::scene::Boundary;
 use tabor::solver::{ContactSolver, Hold, Load, Outcome, Problem, Start};
@@ -54,6 +54,7 @@ fn params(law: Law) -> Params {
         may_detach: false,
         points: 1.0,
         smooth_stiffness: 0.4,
+        level_compliance: 0.8,
         hardness: 0.3,
         epsilon: f64::from(f32::EPSILON),
     }
@@ -244,11 +245,11 @@ fn run(
     let scalars = backend
         .scalars()
         .unwrap_or_else(|error| panic!("{}: {error}", kernel.name));
-    if kernel.form == Form::RetainRows {
+    if kernel.form.retains() {
         backend.set_scalars(&passing);
         backend.run(&trial::TRIAL[0], level, &spare);
     }
-    if kernel.form.before_forward() || kernel.form == Form::RetainRows {
+    if kernel.form.before_forward() || kernel.form.retains() {
         backend.multiply(ones, false, Gate::Always);
         backend.run(&STORE_FIELD, level, &[lines]);
     }
@@ -268,13 +269,13 @@ fn run(
 /// whole solves run the others.
 static KINDS: [&Kernel; 8] = [
     &LOAD_DISPLACEMENT,
-    &two_band::TWO_BAND_DESCENT,
+    &multilevel::LEVEL_DESCENT[0],
     &trial::SMOOTH_DIRECTION,
     &trial::TRIAL[0],
-    &update::UPDATE_AND_RETAIN[0],
+    &update::UPDATE_AND_STORE[0],
     &update::ADVANCE[0],
     &measure::RESIDUAL[0],
-    &two_band::COARSEN,
+    &multilevel::COARSEN,
 ];
 
 fn every_kind_of_kernel_in_slabs_writes_the_same() {
@@ -360,7 +361,7 @@ fn solve(device: &GpuDevice, problem: &Problem, load: &Load) -> (Outcome, Vec<f6
     )
 }
 
-/// The laws under what holds them, the two-band preconditioner of the wall and the pad of a free
+/// The laws under what holds them, the levels of the preconditioner and the pad of a free
 /// boundary among them.
 fn whole_solves_in_slabs_agree_with_those_in_one() {
     let device = device();

@@ -458,43 +458,45 @@ fn double_precision_on_the_device_solves_as_the_processor_does() {
 /// updated, and the work space, which a multiplication updates, beside its table where it has one.
 fn fields_moved(passes: &[String]) -> f64 {
     let mut moved = 0.0;
-    // A quarter of the points each way.
-    let (fine, coarse) = (1.0, 1.0 / 16.0);
-    let mut level = fine;
+    // Points of the level over those of the fine one; a halving leaves a quarter.
+    let (fine, mut level) = (1.0, 1.0);
     for name in passes {
         if name.starts_with("multiply") {
             moved += level * if name == "multiply" { 2.0 } else { 2.25 };
-            // The fine columns wait for the coarse ones, which come in two turns.
             continue;
         }
         let kernel = variants()
             .find(|kernel| kernel.variant() == *name)
             .unwrap_or_else(|| panic!("{name} is in no catalogue"));
-        let on_coarse = ["coarsen", "load_field-ahead", "weigh", "store_weighted"];
-        let own = if on_coarse.contains(&name.as_str()) {
-            coarse
-        } else {
-            fine
-        };
-        let written = 2 * kernel.writes.len() - kernel.fresh;
-        moved += own * (kernel.reads.len() + written) as f64;
-        if kernel.whole {
-            moved += if own == coarse { fine } else { coarse };
+        let before = level;
+        match kernel.name {
+            "coarsen" => level /= 4.0,
+            "refine" | "level_descent" => level *= 4.0,
+            _ => {}
         }
-        moved += own
+        let written = 2 * kernel.writes.len() - kernel.fresh;
+        moved += level * (kernel.reads.len() + written) as f64;
+        if kernel.whole {
+            moved += if kernel.name == "free_share" {
+                fine
+            } else {
+                before
+            };
+        }
+        moved += level
             * match kernel.form {
                 Form::Sweep => 0.0,
-                Form::Load | Form::Store | Form::ReadRetained => 1.0,
+                Form::Load | Form::Store | Form::ReadRetained | Form::Retain => 1.0,
                 // The work space is read and written.
                 Form::RetainRows | Form::FromRetained | Form::InverseThenForward => 2.0,
             };
-        // The last store on the coarse level hands over to the fine columns.
-        level = if name == "store_weighted" { fine } else { own };
     }
+    assert_eq!(level, fine);
     moved
 }
 
-/// Dispatches and passes of so many iterations from cold that are not looked at, with what readies them.
+/// Dispatches and passes of so many iterations that are not looked at, with what readies them: those near a
+/// solution, where the preconditioner has its levels.
 fn iterations(
     device: &GpuDevice,
     problem: &Problem,
@@ -505,7 +507,10 @@ fn iterations(
     let mut solver = ContactSolver::new(&mut watching, problem);
     solver
         .begin(load, &Start::Cold, 0.0, false)
-        .and_then(|()| solver.advance(count))
+        .and_then(|()| {
+            solver.precondition_by_levels();
+            solver.advance(count)
+        })
         .unwrap_or_else(|error| panic!("{error}"));
     let passes = watching.here.lock().expect("nobody panics here").clone();
     (watching.inner.traffic(), passes)
@@ -611,7 +616,7 @@ fn nothing_but_corrections_crosses_the_bus() {
             .filter(|&name| name == "load_displacement")
             .count();
         println!("{outcome:?} {traffic:?}, {evaluations} evaluations");
-        // As the crate page has it, an iteration of these laws takes 7 at least.
+        // An iteration takes seven passes at least, levels of the preconditioner aside.
         assert!(traffic.dispatches >= 7 * outcome.iterations as u64);
         // What stands beside evaluates and corrects, and does not iterate.
         let of_outer = |name: &String| {

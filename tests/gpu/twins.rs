@@ -52,13 +52,12 @@ fn twins(text: &str) -> Vec<PathBuf> {
 }
 
 /// Parts of the frame around kernels, which the processor has no twin of.
-const FRAME: [&str; 12] = [
+const FRAME: [&str; 11] = [
     "common",
     "copy",
     "exp_double",
     "exp_single",
     "factor_compliance",
-    "factor_short_compliance",
     "factor_stiffness",
     "factor_table",
     "fft",

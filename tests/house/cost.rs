@@ -82,7 +82,8 @@ fn expected(scene: &Scene, grid: [usize; 2]) -> Expected {
             }
             _ => false,
         };
-    let two_band = solved_law.is_none() && !free && coarse(points).is_some();
+    let levels = levels(points, scene);
+    let depth = levels.len();
 
     let mut fields = vec![
         "heights",
@@ -104,36 +105,30 @@ fn expected(scene: &Scene, grid: [usize; 2]) -> Expected {
     if solved_law.is_some() && scene.adhesion.as_ref().is_some_and(factored) {
         fields.push("law_factor");
     }
-    if two_band {
-        fields.extend([
-            "projected_residual",
-            "restricted",
-            "share",
-            "weight",
-            "long_waves",
-        ]);
+    if depth > 0 {
+        fields.extend(["projected_residual", "share", "weight", "coarsest_z"]);
+        fields.extend(vec!["restricted"; depth]);
     }
     // What a viscoelastic solid carries: its displacement and the spring of each branch.
     let branches = scene.solid.relaxation.len();
     // The plastic depth, as the path keeps it and as the solver does.
     let history = if branches > 0 { branches + 1 } else { 0 } + if hard { 2 } else { 0 };
     let mut passes: Vec<&'static str> = Vec::new();
-    if two_band {
+    if depth > 0 {
+        passes.extend(vec!["coarsen"; depth]);
         passes.extend([
-            "coarsen",
+            "free_share",
             "load_field",
             "multiply",
             "weigh",
             "multiply",
             "store_weighted",
         ]);
-    }
-    passes.push("multiply");
-    passes.push(if two_band {
-        "two_band_descent"
+        passes.extend(vec!["refine"; depth - 1]);
+        passes.push("level_descent");
     } else {
-        "descent"
-    });
+        passes.extend(["multiply", "descent"]);
+    }
     if held && (core || hard) {
         passes.extend(["direction", "load_trial"]);
     } else {
@@ -156,13 +151,19 @@ fn expected(scene: &Scene, grid: [usize; 2]) -> Expected {
     }
 }
 
-/// Points of the preconditioner's coarse level.
-fn coarse(points: [usize; 2]) -> Option<[usize; 2]> {
-    let ratio = [4, 2]
-        .into_iter()
-        .find(|r| points.iter().all(|n| n % r == 0))?;
-    let coarse = points.map(|n| n / ratio);
-    coarse.iter().all(|&n| n >= 8).then_some(coarse)
+/// Points of the coarser levels of the preconditioner: halved while an even number remains, eight at
+/// least, three times at most.
+fn levels(points: [usize; 2], scene: &Scene) -> Vec<[usize; 2]> {
+    // None of these scenes has pixels more than twice as long as wide, and none a thin layer.
+    assert!(scene.solid.layer.is_none_or(|layer| layer.thickness > 0.0));
+    let halved = (1..=3).map(|times| points.map(|n| n >> times));
+    let fits = |level: &[usize; 2]| level.iter().all(|n| n % 2 == 0 && *n >= 8);
+    let exact = |times: usize| points.iter().all(|n| n % (1 << times) == 0);
+    (1..)
+        .zip(halved)
+        .take_while(|(times, level)| exact(*times) && fits(level))
+        .map(|(_, level)| level)
+        .collect()
 }
 
 fn check(name: &str, scene: &Scene) {
@@ -183,7 +184,9 @@ fn check(name: &str, scene: &Scene) {
     wanted.sort_unstable();
     assert_eq!(names, wanted, "{name}");
     let fine = expected.points[0] * expected.points[1] * 8;
-    let small = coarse(expected.points).map_or(0, |points| points[0] * points[1] * 8);
+    let coarser = levels(expected.points, scene);
+    let bytes = |points: &[usize; 2]| points[0] * points[1] * 8;
+    let mut restricted = coarser.iter().map(bytes);
     // Beside iterations in single precision the state in double takes it too.
     let mut mixed = scene.clone();
     mixed.solver.precision = Precision::Mixed;
@@ -193,13 +196,12 @@ fn check(name: &str, scene: &Scene) {
     assert!(!beside.reference.is_empty() || scene.solid.hardness.is_some());
     assert_eq!(taken(&beside.reference), taken(&cost.fields), "{name}");
     for field in &cost.fields {
-        let on_coarse = ["restricted", "share", "weight", "long_waves"].contains(&field.name);
-        assert_eq!(
-            field.bytes,
-            if on_coarse { small } else { fine },
-            "{name}: {}",
-            field.name
-        );
+        let expected = match field.name {
+            "restricted" => restricted.next().unwrap_or(0),
+            "share" | "weight" | "coarsest_z" => coarser.last().map_or(0, bytes),
+            _ => fine,
+        };
+        assert_eq!(field.bytes, expected, "{name}: {}", field.name);
     }
 }
 
@@ -279,8 +281,8 @@ fn every_combination_of_effects() {
     assert!(count >= 90, "{count}");
 }
 
-/// On a graphics processor a periodic half-space has no tables but those of the hard wall's coarse level; a
-/// layer and a free boundary have theirs, of the stiffness and of its inverse.
+/// On a graphics processor a periodic half-space has no tables but those of the coarsest level; a
+/// layer and a free boundary have that of their stiffness, and with adhesion of its inverse.
 #[test]
 fn a_half_space_has_no_tables_on_a_graphics_processor() {
     let tables = |grid: &str, solid: &str, adhesion: &str, place: Place| -> Vec<&'static str> {
@@ -296,14 +298,20 @@ fn a_half_space_has_no_tables_on_a_graphics_processor() {
     let adhesion = "[adhesion]\nlaw = \"exponential\"\nwork_of_adhesion = 0.01\nrange = 0.1\n";
     let layer = "poisson_ratio = 0.3\nthickness = 1.0\n";
     let free = "boundary = \"free\"\n";
-    let both = ["stiffness", "preconditioner"];
+    let all = [
+        "stiffness",
+        "smoothing",
+        "coarsest_compliance",
+        "preconditioner",
+    ];
     for place in [Place::Gpu, Place::GpuDouble] {
-        assert!(tables("", "", adhesion, place).is_empty());
-        assert_eq!(tables("", "", "", place), ["smoothing", "long_compliance"]);
-        assert_eq!(tables("", layer, adhesion, place), both);
-        assert_eq!(tables(free, "", adhesion, place), both);
+        assert_eq!(tables("", "", adhesion, place), all[1..3]);
+        assert_eq!(tables("", "", "", place), all[1..3]);
+        assert_eq!(tables("", layer, "", place), all[..3]);
+        assert_eq!(tables("", layer, adhesion, place), all);
+        assert_eq!(tables(free, "", adhesion, place), all);
     }
-    assert_eq!(tables("", "", adhesion, Place::Single), both);
+    assert_eq!(tables("", "", adhesion, Place::Single), all);
 }
 
 /// The law of a scene without adhesion is the hard wall, not a law of zero strength.

@@ -3,7 +3,7 @@
 
 use tabor::backend::Backend;
 use tabor::backend::cpu::CpuBackend;
-use tabor::study::{StepRow, walk};
+use tabor::study::{State, StepRow, walk};
 
 use crate::bench::{cpu, setup};
 use crate::shared::trials::tests;
@@ -133,7 +133,15 @@ fn let_go_to_no_load_single_ends_at_its_rounding() {
             let what = format!("{precision}: {rows:?}\n{double:?}{text}");
             assert!(rows.len() == 2 && rows[1].converged, "{what}");
             let (row, judge) = (&rows[1], &double[1]);
-            assert_eq!(row.state, judge.state, "{what}");
+            // Without load the tractions of the last points cancel, so in single precision their rounding decides
+            // whether a point is pressed or pulled.
+            let holds = [State::Contact, State::Attracted];
+            let undecided = precision == SINGLE
+                && row.residual > 1e-4
+                && [row.state, judge.state]
+                    .iter()
+                    .all(|state| holds.contains(state));
+            assert!(undecided || row.state == judge.state, "{what}");
             assert!(precision == SINGLE || row.residual <= 1e-8, "{what}");
             at_floor += usize::from(row.residual > 1e-4);
             let gaps = [row, judge].map(|row| row.mean_gap.expect("a position"));

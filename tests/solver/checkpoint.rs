@@ -279,7 +279,7 @@ fn resume_on_the_graphics_processor() {
     assert_eq!(all(&make, true, true, 2), 9);
 }
 
-/// The cold start on coarser grids and the two-band preconditioner, which small grids do without.
+/// The cold start on coarser grids, which small grids do without.
 fn resume_with_a_coarse_start() {
     let loading = "control = \"pressure\"\npath = [2e5, 1e6, 0, 2e5]";
     let mut scene = scene("periodic", ROUGH, "", loading, false);

@@ -34,6 +34,7 @@ fn params() -> Params {
         may_detach: false,
         points: POINTS as f64,
         smooth_stiffness: 1.0,
+        level_compliance: 1.0,
         hardness: f64::INFINITY,
         epsilon: f64::EPSILON,
     }

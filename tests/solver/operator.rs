@@ -27,6 +27,7 @@ fn params() -> Params {
         may_detach: false,
         points: 1.0,
         smooth_stiffness: 1.0,
+        level_compliance: 1.0,
         hardness: f64::INFINITY,
         epsilon: f64::EPSILON,
     }

@@ -135,7 +135,7 @@ impl<T: CpuReal> Transform<T> {
                 }
             }
             job.call(lines);
-            if form == Form::RetainRows {
+            if form.retains() {
                 let kept = job.work.iter_mut().flat_map(alone);
                 for (pair, kept) in lines.chunks(2).zip(kept) {
                     *kept = Complex::new(pair[0], pair.get(1).copied().unwrap_or(T::zero()));

@@ -54,8 +54,6 @@ pub const HALF_SPACE: &str = part!("half_space");
 pub const FACTOR_STIFFNESS: &str = part!("factor_stiffness");
 /// The compliance.
 pub const FACTOR_COMPLIANCE: &str = part!("factor_compliance");
-/// The compliance to short waves.
-pub const FACTOR_SHORT_COMPLIANCE: &str = part!("factor_short_compliance");
 /// exp in single precision.
 pub const EXP_SINGLE: &str = part!("exp_single");
 /// exp in double precision.
@@ -75,10 +73,12 @@ const SHADERS: &[Shader] = shaders! {
     "update_state" ["step", "step_from", "measure"];
     "advance" ["step", "step_from", "balance_terms"];
     "balance" ["balance_terms"];
-    "coarsen" ["two_band"];
+    "coarsen" ["interpolation"];
+    "free_share" [];
     "weigh" [];
     "store_weighted" [];
-    "two_band_descent" ["two_band", "descent_terms"];
+    "refine" ["interpolation", "add_interpolated"];
+    "level_descent" ["interpolation", "add_interpolated", "descent_terms"];
     "outer_residual" [];
     "outer_pressure" [];
     "add_correction" [];

@@ -184,7 +184,10 @@ impl GpuBackend {
             let mut prepared = self.prepare(kernel.name, text.clone(), &all, [groups, 1])?;
             let only_written = &buffers[own - kernel.fresh..own];
             prepared.bytes -= only_written.iter().map(|buffer| buffer.size()).sum::<u64>();
-            if matches!(kernel.form, Form::Load | Form::Store | Form::ReadRetained) {
+            if matches!(
+                kernel.form,
+                Form::Load | Form::Store | Form::ReadRetained | Form::Retain
+            ) {
                 prepared.bytes -= space.work[slab].size();
             }
             Ok(prepared)

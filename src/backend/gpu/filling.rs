@@ -101,9 +101,9 @@ impl GpuBackend {
                     (1..plan.parts).map(part).collect::<Result<_, _>>()?,
                 )
             }
-            Factors::HalfSpace(half_space, response) => {
+            Factors::HalfSpace(half_space, _) => {
                 let [x, y] = half_space.steps();
-                let own: [f64; OWN_FACTORS] = [0.0, x, y, response.scale()];
+                let own: [f64; OWN_FACTORS] = [0.0, x, y];
                 (buffer(OWN_FACTORS, &own)?, Vec::new())
             }
         };

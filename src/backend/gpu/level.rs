@@ -32,7 +32,7 @@ impl Place {
     /// That of a kernel of the catalogue.
     pub fn of(form: Form) -> Place {
         match form {
-            Form::RetainRows => Place::Retained,
+            form if form.retains() => Place::Retained,
             _ => Place::Kernel,
         }
     }

@@ -14,18 +14,15 @@ fn arrive(index: u32) -> bool { return in_domain(index); }
 @group(1) @binding(0) var<storage, read_write> field_restricted: array<real>;
 fn read_restricted(index: u32) -> real { return field_restricted[index]; }
 fn write_restricted(index: u32, value: real) { field_restricted[index] = value; }
-@group(1) @binding(1) var<storage, read_write> field_share: array<real>;
-fn read_share(index: u32) -> real { return field_share[index]; }
-fn write_share(index: u32, value: real) { field_share[index] = value; }
 const WIDTH: u32 = 8u;
 const HEIGHT: u32 = 8u;
-@group(1) @binding(2) var<storage, read> whole_0: array<real>;
+@group(1) @binding(1) var<storage, read> whole_0: array<real>;
 const WHOLE_WIDTH: u32 = 16u;
 const WHOLE_HEIGHT: u32 = 16u;
 fn whole_at(column: u32, row: u32) -> real {
 return whole_0[row * WHOLE_WIDTH + column];
 }
-// Interpolation between the fine level and the coarse one. Twins: kernel/two_band.rs.
+// Interpolation between a level and the next coarser one. Twins: kernel/multilevel.rs.
 
 // Share of the neighbouring cell in the value at a place of a cell of `ratio` points.
 fn neighbour_share(place: u32, ratio: u32) -> real {
@@ -39,15 +36,14 @@ fn neighbour(cell: u32, place: u32, ratio: u32, cells: u32) -> u32 {
     }
     return select(cell + 1u, 0u, cell + 1u == cells);
 }
-// Restricts the projected residual of the fine level and the share of free points: the transpose of the
-// bilinear interpolation, over the number of fine points in a coarse cell. `whole_at` reads the fine field.
+// Restricts the residual of a level: the transpose of the bilinear interpolation, over the number of finer
+// points along a cell. `whole_at` reads the finer field.
 fn at(index: u32, in_domain: bool, line: real) -> real {
     let ratio = WHOLE_WIDTH / WIDTH;
     let half = ratio / 2u;
     let first_x = index % WIDTH * ratio + WHOLE_WIDTH - half;
     let first_y = row_of(index) * ratio + WHOLE_HEIGHT - half;
     var sum: real = 0.0;
-    var free: real = 0.0;
     // This cell's own points, and the nearer halves of the cells around it.
     for (var row = 0u; row < 2u * ratio; row = row + 1u) {
         let fine_row = (first_y + row) % WHOLE_HEIGHT;
@@ -59,14 +55,9 @@ fn at(index: u32, in_domain: bool, line: real) -> real {
             let own_column = column >= half && column < half + ratio;
             let far_x = neighbour_share((column + half) % ratio, ratio);
             sum = sum + weight * select(far_x, 1.0 - far_x, own_column) * value;
-            if (own_row && own_column && value != 0.0) {
-                free = free + 1.0;
-            }
         }
     }
-    let scale = 1.0 / real(ratio * ratio);
-    write_restricted(index, scale * sum);
-    write_share(index, scale * free);
+    write_restricted(index, sum / real(ratio));
     return line;
 }
 @compute @workgroup_size(256)

@@ -14,6 +14,7 @@ struct Params {
     heights_norm: wide,
     points: wide,
     smooth_stiffness: wide,
+    level_compliance: wide,
     hardness: wide,
     epsilon: wide,
     prescribed_mean_gap: u32,

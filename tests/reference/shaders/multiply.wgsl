@@ -38,7 +38,7 @@ fn turn_back(value: vec2<real>, root: vec2<real>) -> vec2<real> {
     return vec2<real>(value.x * root.x + value.y * root.y, value.y * root.x - value.x * root.y);
 }
 // The stiffness of a half-space at a wavevector: the length of (column, row) in steps of the stiffness of
-// the longest waves. `factors` holds the zero wavevector's factor, these two steps, and a scale.
+// the longest waves. `factors` holds the zero wavevector's factor and these two steps.
 fn wave_stiffness(column: u32, row: u32) -> real {
     let x = factors[1] * real(column);
     let y = factors[2] * real(row);

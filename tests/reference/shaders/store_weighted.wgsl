@@ -13,14 +13,14 @@ fn in_domain(index: u32) -> bool { return true; }
 fn arrive(index: u32) -> bool { return in_domain(index); }
 @group(1) @binding(0) var<storage, read> field_weight: array<real>;
 fn read_weight(index: u32) -> real { return field_weight[index]; }
-@group(1) @binding(1) var<storage, read_write> field_long_waves: array<real>;
-fn read_long_waves(index: u32) -> real { return field_long_waves[index]; }
-fn write_long_waves(index: u32, value: real) { field_long_waves[index] = value; }
+@group(1) @binding(1) var<storage, read_write> field_coarsest_z: array<real>;
+fn read_coarsest_z(index: u32) -> real { return field_coarsest_z[index]; }
+fn write_coarsest_z(index: u32, value: real) { field_coarsest_z[index] = value; }
 const WIDTH: u32 = 8u;
 const HEIGHT: u32 = 8u;
-// Stores the rows of a transform times the weight: the long-wave part of z.
+// Stores the rows of a transform times the weight: z of the coarsest level.
 fn at(index: u32, in_domain: bool, line: real) -> real {
-    write_long_waves(index, read_weight(index) * line);
+    write_coarsest_z(index, read_weight(index) * line);
     return line;
 }
 var<workgroup> exchange: array<vec2<real>, 32>;

@@ -3,13 +3,12 @@
 use std::fmt::Write;
 
 use super::super::catalogue;
-use super::super::layout::Number;
 use super::super::level::LevelPlan;
 use crate::backend::{Factors, Response};
 
-/// Numbers that a spectrum without a table binds in its place: the factor of the zero wavevector, the
-/// half-space's two steps, and the scale of short waves.
-pub const OWN_FACTORS: usize = 4;
+/// Numbers that a spectrum without a table binds in its place: the factor of the zero wavevector and
+/// the half-space's two steps.
+pub const OWN_FACTORS: usize = 3;
 
 /// What a spectrum's factors are to a shader.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
@@ -20,17 +19,14 @@ pub enum FactorSource {
     Stiffness,
     /// Its compliance.
     Compliance,
-    /// Its compliance to short waves.
-    ShortCompliance,
 }
 
 impl FactorSource {
     /// All of them.
-    pub const ALL: [FactorSource; 4] = [
+    pub const ALL: [FactorSource; 3] = [
         FactorSource::Table,
         FactorSource::Stiffness,
         FactorSource::Compliance,
-        FactorSource::ShortCompliance,
     ];
 
     /// That of a spectrum.
@@ -39,7 +35,6 @@ impl FactorSource {
             Factors::Table(_) => FactorSource::Table,
             Factors::HalfSpace(_, Response::Stiffness) => FactorSource::Stiffness,
             Factors::HalfSpace(_, Response::Compliance) => FactorSource::Compliance,
-            Factors::HalfSpace(_, Response::ShortCompliance(_)) => FactorSource::ShortCompliance,
         }
     }
 
@@ -61,14 +56,6 @@ impl FactorSource {
             }
             FactorSource::Stiffness => &[catalogue::HALF_SPACE, catalogue::FACTOR_STIFFNESS],
             FactorSource::Compliance => &[catalogue::HALF_SPACE, catalogue::FACTOR_COMPLIANCE],
-            FactorSource::ShortCompliance => &[
-                match plan.number {
-                    Number::Single => catalogue::EXP_SINGLE,
-                    Number::Double => catalogue::EXP_DOUBLE,
-                },
-                catalogue::HALF_SPACE,
-                catalogue::FACTOR_SHORT_COMPLIANCE,
-            ],
         };
         parts.iter().for_each(|part| source.push_str(part));
     }

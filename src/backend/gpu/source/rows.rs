@@ -79,7 +79,7 @@ pub fn rows_main(source: &mut String, kernel: &Kernel, plan: &LevelPlan) {
             let name = each.name(leg);
             let at = |part: &str, offset: usize| {
                 let line = match form {
-                    Form::Load => "0.0".to_owned(),
+                    Form::Load | Form::Retain => "0.0".to_owned(),
                     _ => format!("{name}.{part}"),
                 };
                 format!("at(index + {offset}u, arrive(index + {offset}u), {line})")
@@ -103,7 +103,7 @@ pub fn rows_main(source: &mut String, kernel: &Kernel, plan: &LevelPlan) {
         writer.transform(Direction::Forward);
         long::row_turn(&mut writer, plan, Direction::Forward);
         give(&mut writer, last);
-    } else if form == Form::RetainRows {
+    } else if form.retains() {
         give(&mut writer, first);
     }
     source.push_str(&writer.source);

@@ -348,7 +348,7 @@ if (!gate_running()) { return; }
 start_sums();
 let line = place.x;
 let thread = place.y;
-if (group.x == 0u && index_in_group == 0u) { partials.transforms = partials.transforms + 2u; }
+if (group.x == 0u && index_in_group == 0u) { partials.transforms = partials.transforms + 1u; }
 let pair = group.x * LINES + line;
 let inside = pair < 4u;
 var v0 = vec2<real>(0.0, 0.0);
@@ -419,86 +419,29 @@ v7 = high_3;
 if (inside) {
 { let j = thread + 0u;
 { let index = pair * 8u + (j + 0u);
-let upper = at(index + 0u, arrive(index + 0u), v0.x);
-v0 = vec2<real>(upper, at(index + 32u, arrive(index + 32u), v0.y)); }
+at(index + 0u, arrive(index + 0u), v0.x);
+at(index + 32u, arrive(index + 32u), v0.y); }
 { let index = pair * 8u + (j + 1u);
-let upper = at(index + 0u, arrive(index + 0u), v1.x);
-v1 = vec2<real>(upper, at(index + 32u, arrive(index + 32u), v1.y)); }
+at(index + 0u, arrive(index + 0u), v1.x);
+at(index + 32u, arrive(index + 32u), v1.y); }
 { let index = pair * 8u + (j + 2u);
-let upper = at(index + 0u, arrive(index + 0u), v2.x);
-v2 = vec2<real>(upper, at(index + 32u, arrive(index + 32u), v2.y)); }
+at(index + 0u, arrive(index + 0u), v2.x);
+at(index + 32u, arrive(index + 32u), v2.y); }
 { let index = pair * 8u + (j + 3u);
-let upper = at(index + 0u, arrive(index + 0u), v3.x);
-v3 = vec2<real>(upper, at(index + 32u, arrive(index + 32u), v3.y)); }
+at(index + 0u, arrive(index + 0u), v3.x);
+at(index + 32u, arrive(index + 32u), v3.y); }
 { let index = pair * 8u + (j + 4u);
-let upper = at(index + 0u, arrive(index + 0u), v4.x);
-v4 = vec2<real>(upper, at(index + 32u, arrive(index + 32u), v4.y)); }
+at(index + 0u, arrive(index + 0u), v4.x);
+at(index + 32u, arrive(index + 32u), v4.y); }
 { let index = pair * 8u + (j + 5u);
-let upper = at(index + 0u, arrive(index + 0u), v5.x);
-v5 = vec2<real>(upper, at(index + 32u, arrive(index + 32u), v5.y)); }
+at(index + 0u, arrive(index + 0u), v5.x);
+at(index + 32u, arrive(index + 32u), v5.y); }
 { let index = pair * 8u + (j + 6u);
-let upper = at(index + 0u, arrive(index + 0u), v6.x);
-v6 = vec2<real>(upper, at(index + 32u, arrive(index + 32u), v6.y)); }
+at(index + 0u, arrive(index + 0u), v6.x);
+at(index + 32u, arrive(index + 32u), v6.y); }
 { let index = pair * 8u + (j + 7u);
-let upper = at(index + 0u, arrive(index + 0u), v7.x);
-v7 = vec2<real>(upper, at(index + 32u, arrive(index + 32u), v7.y)); }
-}
-}
-{ let j = thread + 0u;
-{
-{
-let even_sum = v0 + v4;
-let even_difference = v0 - v4;
-let odd_sum = v2 + v6;
-let odd_difference = v2 - v6;
-let turned = vec2<real>(odd_difference.y, -odd_difference.x);
-v0 = even_sum + odd_sum;
-v2 = even_difference + turned;
-v4 = even_sum - odd_sum;
-v6 = even_difference - turned;
-}
-{
-let even_sum = v1 + v5;
-let even_difference = v1 - v5;
-let odd_sum = v3 + v7;
-let odd_difference = v3 - v7;
-let turned = vec2<real>(odd_difference.y, -odd_difference.x);
-v1 = even_sum + odd_sum;
-v3 = even_difference + turned;
-v5 = even_sum - odd_sum;
-v7 = even_difference - turned;
-}
-let first = 7.071067811865476e-1 * vec2<real>(v3.x + v3.y, v3.y - v3.x);
-let second = vec2<real>(v5.y, -v5.x);
-let third = 7.071067811865476e-1 * vec2<real>(-v7.x + v7.y, -v7.y - v7.x);
-let low_0 = v0 + v1;
-let high_0 = v0 - v1;
-let low_1 = v2 + first;
-let high_1 = v2 - first;
-let low_2 = v4 + second;
-let high_2 = v4 - second;
-let low_3 = v6 + third;
-let high_3 = v6 - third;
-v0 = low_0;
-v4 = high_0;
-v1 = low_1;
-v5 = high_1;
-v2 = low_2;
-v6 = high_2;
-v3 = low_3;
-v7 = high_3;
-}
-}
-if (inside) {
-{ let j = thread + 0u;
-work[(j + 0u) * 4u + pair] = v0;
-work[(j + 1u) * 4u + pair] = v1;
-work[(j + 2u) * 4u + pair] = v2;
-work[(j + 3u) * 4u + pair] = v3;
-work[(j + 4u) * 4u + pair] = v4;
-work[(j + 5u) * 4u + pair] = v5;
-work[(j + 6u) * 4u + pair] = v6;
-work[(j + 7u) * 4u + pair] = v7;
+at(index + 0u, arrive(index + 0u), v7.x);
+at(index + 32u, arrive(index + 32u), v7.y); }
 }
 }
 hand_in(group.x, index_in_group);

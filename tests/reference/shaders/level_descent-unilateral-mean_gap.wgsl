@@ -2,32 +2,36 @@ alias real = f32;
 // declarations.wgsl
 // common.wgsl
 @group(0) @binding(1) var<storage, read> scalars: Scalars;
-const SUM_COUNT: u32 = 5u;
+const SUM_COUNT: u32 = 10u;
 var<private> sums: array<wide, SUM_COUNT>;
 // gate.wgsl
 // sums.wgsl
 const GROUP_THREADS: u32 = 4u;
 const GROUP_HALF: u32 = 2u;
-const SUMS_AT_ONCE: u32 = 4u;
-const GROUP_VALUES: u32 = 16u;
+const SUMS_AT_ONCE: u32 = 9u;
+const GROUP_VALUES: u32 = 36u;
 // reduce.wgsl
 fn join_slot(slot: u32, a: part, b: part) -> part {
 switch slot {
-case 2u: { return join_min(a, b); }
 default: { return join_add(a, b); }
 }
 }
 fn start_sums() {
 sums[0] = wide(0.0);
 sums[1] = wide(0.0);
-sums[2] = params.infinity;
+sums[2] = wide(0.0);
 sums[3] = wide(0.0);
+sums[4] = wide(0.0);
+sums[5] = wide(0.0);
+sums[6] = wide(0.0);
+sums[7] = wide(0.0);
+sums[8] = wide(0.0);
 }
 fn hand_in(group: u32, thread: u32) {
-for (var first = 0u; first < 4u; first = first + SUMS_AT_ONCE) {
+for (var first = 0u; first < 9u; first = first + SUMS_AT_ONCE) {
 gather(first, thread);
-if (thread < SUMS_AT_ONCE && first + thread < 4u) {
-partials.values[0u + (first + thread) * 1u + group] = group_values[thread * GROUP_THREADS];
+if (thread < SUMS_AT_ONCE && first + thread < 9u) {
+partials.values[10u + (first + thread) * 1u + group] = group_values[thread * GROUP_THREADS];
 }
 }
 }
@@ -41,15 +45,28 @@ fn arrive(index: u32) -> bool { return in_domain(index); }
 fn read_gap(index: u32) -> real { return field_gap[index]; }
 @group(1) @binding(1) var<storage, read> field_pressure: array<real>;
 fn read_pressure(index: u32) -> real { return field_pressure[index]; }
-@group(1) @binding(2) var<storage, read_write> field_projected_residual: array<real>;
-fn read_projected_residual(index: u32) -> real { return field_projected_residual[index]; }
-fn write_projected_residual(index: u32, value: real) { field_projected_residual[index] = value; }
+@group(1) @binding(2) var<storage, read> field_previous_residual: array<real>;
+fn read_previous_residual(index: u32) -> real { return field_previous_residual[index]; }
+@group(1) @binding(3) var<storage, read> field_direction: array<real>;
+fn read_direction(index: u32) -> real { return field_direction[index]; }
 const WIDTH: u32 = 8u;
 const HEIGHT: u32 = 8u;
-const VIOLATION: u32 = 0u;
-const PRESSURES: u32 = 1u;
-const LEAST_GAP: u32 = 2u;
-const GAP_SQUARES: u32 = 3u;
+@group(1) @binding(4) var<storage, read> whole_0: array<real>;
+const WHOLE_WIDTH: u32 = 4u;
+const WHOLE_HEIGHT: u32 = 4u;
+fn whole_at(column: u32, row: u32) -> real {
+return whole_0[row * WHOLE_WIDTH + column];
+}
+const MEAN_GAP: bool = true;
+const Z_RESIDUAL: u32 = 0u;
+const Z_CHANGE: u32 = 1u;
+const DIRECTION_CHANGE: u32 = 2u;
+const DIRECTION_RESIDUAL: u32 = 3u;
+const WEIGHTED_Z: u32 = 4u;
+const FREE_WEIGHT: u32 = 5u;
+const FREE_RESIDUAL: u32 = 6u;
+const FREE_CHANGE: u32 = 7u;
+const WEIGHTED_DIRECTION: u32 = 8u;
 // exp in single precision, where the device has it.
 fn exponential(x: f32) -> f32 {
     return exp(x);
@@ -244,28 +261,69 @@ fn corrected_gap(gap: real, correction: real) -> real {
 fn net_traction(here: Here) -> real {
     return here.pull;
 }
-// Twins: kernel/measure.rs.
-fn residual_terms(here: Here, in_domain: bool) {
-    if (!in_domain) {
-        add_sum(VIOLATION, wide(here.y) * wide(here.y));
-        return;
-    }
-    let found = violation(here);
-    let off = wide(found.violation);
-    let pressed = wide(weighed(found.reaction));
-    let pulled = wide(weighed(found.traction));
-    add_sum(VIOLATION, off * off);
-    add_sum(PRESSURES, (pressed * pressed + pulled * pulled));
-    least(LEAST_GAP, wide(here.open));
-    add_sum(GAP_SQUARES, wide(here.gap) * wide(here.gap));
+// Interpolation between a level and the next coarser one. Twins: kernel/multilevel.rs.
+
+// Share of the neighbouring cell in the value at a place of a cell of `ratio` points.
+fn neighbour_share(place: u32, ratio: u32) -> real {
+    return abs(real(2u * place + 1u) / real(2u * ratio) - 0.5);
 }
-// Fills the rows of a transform with the projected residual and takes the stopping measure on the way.
+
+// The cell before or after `cell` on a ring, for a place in the first or second half of `cell`.
+fn neighbour(cell: u32, place: u32, ratio: u32, cells: u32) -> u32 {
+    if (place < ratio / 2u) {
+        return select(cell - 1u, cells - 1u, cell == 0u);
+    }
+    return select(cell + 1u, 0u, cell + 1u == cells);
+}
+// Adds a field of the next coarser level, which `whole_at` reads, interpolated. Twins: kernel/multilevel.rs.
+fn add_interpolated(index: u32, value: real) -> real {
+    let ratio = WIDTH / WHOLE_WIDTH;
+    let x = index % WIDTH;
+    let y = row_of(index);
+    let column = x / ratio;
+    let row = y / ratio;
+    let beside = neighbour(column, x % ratio, ratio, WHOLE_WIDTH);
+    let other = neighbour(row, y % ratio, ratio, WHOLE_HEIGHT);
+    let far_x = neighbour_share(x % ratio, ratio);
+    let far_y = neighbour_share(y % ratio, ratio);
+    let here = (1.0 - far_x) * whole_at(column, row) + far_x * whole_at(beside, row);
+    let there = (1.0 - far_x) * whole_at(column, other) + far_x * whole_at(beside, other);
+    return value + ((1.0 - far_y) * here + far_y * there);
+}
+// What beta is made of. Twins: kernel/descent.rs.
+fn descent_terms(z: real, residual: real, previous: real) {
+    add_sum(Z_RESIDUAL, wide(z) * wide(residual));
+    add_sum(Z_CHANGE, wide(z) * (wide(residual) - wide(previous)));
+}
+
+// What the direction adds to it, and what takes the means off, in the measure `weight` of the free points.
+fn mean_gap_descent_terms(z: real, residual: real, previous: real, direction: real, weight: real, free: bool) {
+    let d = wide(direction);
+    let r = wide(residual);
+    let w = wide(weight);
+    let change_here = r - wide(previous);
+    add_sum(DIRECTION_CHANGE, d * change_here);
+    if (free) {
+        add_sum(DIRECTION_RESIDUAL, d * r);
+        add_sum(WEIGHTED_Z, w * wide(z));
+        add_sum(FREE_WEIGHT, w);
+        add_sum(FREE_RESIDUAL, r);
+        add_sum(FREE_CHANGE, change_here);
+        add_sum(WEIGHTED_DIRECTION, w * d);
+    }
+}
+// Retains the rows of z: that of the first coarser level interpolated, and the finest level's own compliance.
 fn at(index: u32, in_domain: bool, line: real) -> real {
     let here = here_at(read_gap(index), read_pressure(index) + real(scalars.mean_pressure), in_domain);
-    residual_terms(here, in_domain);
     let residual = projected_residual(here);
-    write_projected_residual(index, residual);
-    return residual;
+    let previous = read_previous_residual(index);
+    let carried = add_interpolated(index, real(params.level_compliance) * residual);
+    let z = preconditioned(here, carried);
+    descent_terms(z, residual, previous);
+    if (MEAN_GAP) {
+        mean_gap_descent_terms(z, residual, previous, read_direction(index), here.weight, here.free);
+    }
+    return z;
 }
 var<workgroup> exchange: array<vec2<real>, 32>;
 const LINES: u32 = 4u;
@@ -280,12 +338,12 @@ fn turn_back(value: vec2<real>, root: vec2<real>) -> vec2<real> {
 @group(2) @binding(0) var<storage, read> roots: array<vec2<real>>;
 @group(2) @binding(1) var<storage, read_write> work: array<vec2<real>>;
 @compute @workgroup_size(4, 1)
-fn load_residual(@builtin(workgroup_id) group: vec3<u32>, @builtin(local_invocation_id) place: vec3<u32>, @builtin(local_invocation_index) index_in_group: u32) {
+fn level_descent(@builtin(workgroup_id) group: vec3<u32>, @builtin(local_invocation_id) place: vec3<u32>, @builtin(local_invocation_index) index_in_group: u32) {
 if (!gate_fresh()) { return; }
 start_sums();
 let line = place.x;
 let thread = place.y;
-if (group.x == 0u && index_in_group == 0u) { partials.transforms = partials.transforms + 1u; }
+if (group.x == 0u && index_in_group == 0u) { partials.transforms = partials.transforms + 0u; }
 let pair = group.x * LINES + line;
 let inside = pair < 4u;
 var v0 = vec2<real>(0.0, 0.0);
@@ -322,51 +380,6 @@ v6 = vec2<real>(upper, at(index + 32u, arrive(index + 32u), 0.0)); }
 { let index = pair * 8u + (j + 7u);
 let upper = at(index + 0u, arrive(index + 0u), 0.0);
 v7 = vec2<real>(upper, at(index + 32u, arrive(index + 32u), 0.0)); }
-}
-}
-{ let j = thread + 0u;
-{
-{
-let even_sum = v0 + v4;
-let even_difference = v0 - v4;
-let odd_sum = v2 + v6;
-let odd_difference = v2 - v6;
-let turned = vec2<real>(odd_difference.y, -odd_difference.x);
-v0 = even_sum + odd_sum;
-v2 = even_difference + turned;
-v4 = even_sum - odd_sum;
-v6 = even_difference - turned;
-}
-{
-let even_sum = v1 + v5;
-let even_difference = v1 - v5;
-let odd_sum = v3 + v7;
-let odd_difference = v3 - v7;
-let turned = vec2<real>(odd_difference.y, -odd_difference.x);
-v1 = even_sum + odd_sum;
-v3 = even_difference + turned;
-v5 = even_sum - odd_sum;
-v7 = even_difference - turned;
-}
-let first = 7.071067811865476e-1 * vec2<real>(v3.x + v3.y, v3.y - v3.x);
-let second = vec2<real>(v5.y, -v5.x);
-let third = 7.071067811865476e-1 * vec2<real>(-v7.x + v7.y, -v7.y - v7.x);
-let low_0 = v0 + v1;
-let high_0 = v0 - v1;
-let low_1 = v2 + first;
-let high_1 = v2 - first;
-let low_2 = v4 + second;
-let high_2 = v4 - second;
-let low_3 = v6 + third;
-let high_3 = v6 - third;
-v0 = low_0;
-v4 = high_0;
-v1 = low_1;
-v5 = high_1;
-v2 = low_2;
-v6 = high_2;
-v3 = low_3;
-v7 = high_3;
 }
 }
 if (inside) {

@@ -1,4 +1,4 @@
-// Interpolation between the fine level and the coarse one. Twins: kernel/two_band.rs.
+// Interpolation between a level and the next coarser one. Twins: kernel/multilevel.rs.
 
 // Share of the neighbouring cell in the value at a place of a cell of `ratio` points.
 fn neighbour_share(place: u32, ratio: u32) -> real {

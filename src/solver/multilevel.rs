@@ -1,0 +1,233 @@
+//! The multilevel preconditioner, which takes a tenth of a transform and keeps the count of iterations nearly
+//! free of the grid.
+//!
+//! The compliance of an elastic solid is in proportion to the length of a wave. So the waves that only the
+//! full grid holds are answered by one number, those that half the points each way hold by twice that number,
+//! and so on, point by point, without transforms; what is left of the compliance is a convolution on the coarsest level.
+//! The inverse of the stiffness would carry waves across contacts, where they do not belong: interpolation
+//! reaches no further than its cells, and the coarsest level is weighed by the share of free points there.
+
+use std::f64::consts::TAU;
+
+use super::kernel_set::{KernelSet, LevelSet};
+use super::problem::Problem;
+use crate::backend::{Backend, Factors, Field, Level, Shape, Spectrum};
+use crate::elastic::Stiffness;
+use crate::kernel::{Gate, displacement, multilevel};
+
+/// Halvings of the grid at most.
+const MOST_LEVELS: usize = 3;
+/// Fewest points each way of the coarsest level.
+const FEWEST_COARSE: usize = 8;
+/// Compliance of a level over that of the shortest wave along an axis there.
+const OVER_SHORTEST: f64 = 0.8;
+/// Share of the compliance of long waves that the coarsest level answers; the finer ones answer them too.
+pub(super) const COARSEST_SHARE: f64 = 0.5;
+/// Growth of the compliance from a level's shortest wave to the next one's, twofold on a half-space, from
+/// which another level pays: a thin layer answers all long waves alike.
+const LEAST_GROWTH: f64 = 1.5;
+/// Sides of a pixel over each other from which one number does not stand for its shortest waves.
+const LONGEST_PIXEL: f64 = 2.0;
+/// Residual below which the levels take over with adhesion. Above it fronts move, and the compliance itself leads
+/// more straightly to the nearest of several solutions: points that a detour closes would stick.
+pub(super) const EXACT_UNTIL: f64 = 1e-2;
+/// Fine pixels over which the share of free points is smoothed.
+const SMOOTHED: f64 = 3.0;
+
+/// Most fields of a step's update: direction, step, gap, pressure, and the residuals before and after.
+const MOST_UPDATED: usize = 6;
+
+/// The stiffness at a wavevector of the solved points.
+fn stiffness_at(problem: &Problem, kx: usize, ky: usize) -> f64 {
+    match &problem.stiffness {
+        Stiffness::HalfSpace(half_space) => half_space.stiffness(kx, ky),
+        Stiffness::Table(values) => values[kx * (problem.shape.points[1] / 2 + 1) + ky],
+    }
+}
+
+/// Stiffness of the shortest wave along an axis after so many halvings, the larger one.
+fn shortest(problem: &Problem, halvings: usize) -> f64 {
+    let [nx, ny] = problem.shape.points.map(|points| (points >> halvings) / 2);
+    stiffness_at(problem, nx, 0).max(stiffness_at(problem, 0, ny))
+}
+
+/// Compliance by which each level of a problem answers its own waves, in the measure of its scaled residual.
+pub(super) fn level_compliance(problem: &Problem) -> f64 {
+    let stiffness = if problem.is_sketch() {
+        0.0
+    } else {
+        shortest(problem, 0)
+    };
+    if stiffness > 0.0 {
+        OVER_SHORTEST / stiffness
+    } else {
+        0.0
+    }
+}
+
+/// Halvings of the grid that pay for a problem; none where it cannot be halved.
+pub(super) fn halvings(problem: &Problem) -> usize {
+    let pixel = [problem.grid.dx(), problem.grid.dy()];
+    if pixel[0].max(pixel[1]) > LONGEST_PIXEL * pixel[0].min(pixel[1]) {
+        return 0;
+    }
+    let fits = |level: &usize| {
+        problem
+            .shape
+            .points
+            .iter()
+            .all(|points| points.is_multiple_of(2 << level) && points >> level >= FEWEST_COARSE)
+    };
+    // A sketch has no values by which to tell a thin layer.
+    let grows = |level: &usize| {
+        *level == 1
+            || problem.is_sketch()
+            || shortest(problem, level - 2) >= LEAST_GROWTH * shortest(problem, level - 1)
+    };
+    (1..=MOST_LEVELS)
+        .take_while(|level| fits(level) && grows(level))
+        .count()
+}
+
+/// Whether solves of a problem have several solutions, and so begin with the compliance itself.
+pub(super) fn begins_exact(problem: &Problem) -> bool {
+    problem.law.is_adhesive()
+}
+
+/// The factor of a wave that smooths the share of free points.
+pub(super) fn smoothing(problem: &Problem, waves: [usize; 2]) -> f64 {
+    // Their phases from one fine pixel to the next.
+    let points = problem.shape.points;
+    let phase = |axis: usize| TAU * waves[axis] as f64 / points[axis] as f64;
+    (-SMOOTHED * SMOOTHED * (phase(0).powi(2) + phase(1).powi(2))).exp()
+}
+
+/// What the coarsest level answers a wave with: a share of the compliance, in the measure of its scaled residual;
+/// 0 at the zero wavevector. To take off what the finer levels answer saves nothing.
+fn coarsest_compliance(problem: &Problem, [kx, ky]: [usize; 2], halvings: usize) -> f64 {
+    let stiffness = stiffness_at(problem, kx, ky);
+    if kx + ky > 0 && stiffness > 0.0 {
+        COARSEST_SHARE / (stiffness * (1_usize << halvings) as f64)
+    } else {
+        0.0
+    }
+}
+
+/// The levels and their fields.
+pub(super) struct Multilevel {
+    fine: Level,
+    halvings: usize,
+    /// The projected residual on the fine level.
+    residual: Field,
+    /// Restricted residuals on the levels, the coarsest one last; on those before it z comes in their place.
+    restricted: Vec<Field>,
+    share: Field,
+    weight: Field,
+    coarsest_z: Field,
+    smoothing: Spectrum,
+    compliance: Spectrum,
+    kernels: LevelSet,
+}
+
+impl Multilevel {
+    /// Plans the levels of a problem; `None` where its grid cannot be halved.
+    pub fn plan(backend: &mut dyn Backend, fine: Level, problem: &Problem) -> Option<Self> {
+        let halved = |times: usize| {
+            let [nx, ny] = problem.shape.points.map(|points| points >> times);
+            Shape::whole(nx, ny)
+        };
+        let halvings = halvings(problem);
+        if halvings == 0 || !(1..=halvings).all(|times| backend.suits(halved(times))) {
+            return None;
+        }
+        let residual = backend.field(fine, "projected_residual");
+        let mut restricted = Vec::new();
+        for times in 1..halvings {
+            let level = backend.sweep_level("between", halved(times));
+            restricted.push(backend.field(level, "restricted"));
+        }
+        let level = backend.level("coarsest", halved(halvings));
+        restricted.push(backend.field(level, "restricted"));
+        let [nx, ny] = halved(halvings).points;
+        let tabulate = |factor: &dyn Fn([usize; 2]) -> f64| -> Vec<f64> {
+            if problem.is_sketch() {
+                return Vec::new();
+            }
+            let waves = (0..=nx / 2).flat_map(|kx| (0..=ny / 2).map(move |ky| [kx, ky]));
+            waves.map(factor).collect()
+        };
+        let smoothing = tabulate(&|waves| smoothing(problem, waves));
+        let compliance = tabulate(&|waves| coarsest_compliance(problem, waves, halvings));
+        Some(Multilevel {
+            fine,
+            halvings,
+            residual,
+            restricted,
+            share: backend.field(level, "share"),
+            weight: backend.field(level, "weight"),
+            coarsest_z: backend.field(level, "coarsest_z"),
+            smoothing: backend.spectrum(level, "smoothing", Factors::Table(&smoothing)),
+            compliance: backend.spectrum(level, "coarsest_compliance", Factors::Table(&compliance)),
+            kernels: KernelSet::new(problem).levels,
+        })
+    }
+
+    /// Sets the compliance of the zero mode.
+    pub fn set_zero_mode(&self, backend: &mut dyn Backend, value: f64) {
+        let cell = (1_usize << self.halvings) as f64;
+        backend.set_zero_mode(self.compliance, value / cell);
+    }
+
+    /// Records the projected residual of a state, with its measure.
+    pub fn load_residual(&self, backend: &mut dyn Backend, [gap, pressure]: [Field; 2]) {
+        let fields = [gap, pressure, self.residual];
+        backend.run(self.kernels.store_residual, self.fine, &fields);
+    }
+
+    /// Records the step and the projected residual after it; `state` is what the kernel takes before it.
+    pub fn update_state(&self, backend: &mut dyn Backend, state: &[Field]) {
+        // The residual comes last; an array, since an iteration allocates nothing.
+        let mut fields = [self.residual; MOST_UPDATED];
+        fields[..state.len()].copy_from_slice(state);
+        backend.run(
+            self.kernels.update_state,
+            self.fine,
+            &fields[..=state.len()],
+        );
+    }
+
+    /// Records the preconditioned residual z of the projected one; `state` is gap, pressure and the residual
+    /// before, `direction` where the mean gap is prescribed.
+    pub fn descend(&self, backend: &mut dyn Backend, state: [Field; 3], direction: Option<Field>) {
+        let mut finer = self.residual;
+        for &restricted in &self.restricted {
+            backend.run(&multilevel::COARSEN, restricted.level, &[restricted, finer]);
+            finer = restricted;
+        }
+        let (level, residual) = (finer.level, self.residual);
+        backend.run(&multilevel::FREE_SHARE, level, &[self.share, residual]);
+        backend.run(&displacement::LOAD_FIELD_AHEAD, level, &[self.share]);
+        backend.multiply(self.smoothing, false, Gate::Ahead);
+        let fields = [finer, self.weight];
+        backend.run(&multilevel::WEIGH, level, &fields);
+        backend.multiply(self.compliance, false, Gate::Ahead);
+        let fields = [self.weight, self.coarsest_z];
+        backend.run(&multilevel::STORE_WEIGHTED, level, &fields);
+        let mut coarser = self.coarsest_z;
+        for &z in self.restricted.iter().rev().skip(1) {
+            backend.run(&multilevel::REFINE, z.level, &[z, coarser]);
+            coarser = z;
+        }
+        let [gap, pressure, previous] = state;
+        match direction {
+            Some(direction) => {
+                let fields = [gap, pressure, previous, direction, coarser];
+                backend.run(self.kernels.mean_gap_descent, self.fine, &fields);
+            }
+            None => {
+                let fields = [gap, pressure, previous, coarser];
+                backend.run(self.kernels.descent, self.fine, &fields);
+            }
+        }
+    }
+}
