@@ -21,7 +21,7 @@ pub enum SceneError {
         reason: String,
     },
     /// A key or table that does not exist.
-    #[error("unknown key in {section}{}{}{}", meant(.nearest, '`'), takes(.nearest, known), elsewhere_hint(.elsewhere))]
+    #[error("unknown key in {section}{}{}{}", meant(.nearest, "`"), takes(.nearest, known), elsewhere_hint(.elsewhere))]
     UnknownKey {
         /// The table's name.
         section: String,
@@ -60,7 +60,7 @@ pub enum SceneError {
         allowed: String,
     },
     /// A word that is not among those allowed.
-    #[error("{found} is not one of {}{}", quoted_list(.allowed), meant(.nearest, '"'))]
+    #[error("{found} is not one of {}{}", quoted_list(.allowed), meant(.nearest, "\""))]
     UnknownWord {
         /// The word as written.
         found: String,
@@ -99,7 +99,7 @@ fn quoted_list(words: &[String]) -> String {
         .join(", ")
 }
 
-fn meant(nearest: &Option<String>, quote: char) -> String {
+fn meant(nearest: &Option<String>, quote: &str) -> String {
     let nearest = nearest.as_ref();
     nearest.map_or_else(String::new, |nearest| {
         format!("; did you mean {quote}{nearest}{quote}?")

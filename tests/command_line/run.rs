@@ -297,7 +297,7 @@ fn check_lists_effects_regime_and_resolution() {
         "chi = ",
         "pixels across the shortest",
         "MiB",
-        "cost          2.4 Fourier transforms an iteration",
+        "cost          2.2 Fourier transforms an iteration near a solution",
     ] {
         assert!(text.contains(part), "{part} is missing in:\n{text}");
     }
