@@ -85,8 +85,12 @@ impl HeightMap {
 /// Reads the height map of a scene and applies all that the scene asks of it.
 ///
 /// # Errors
-/// See [`FileError`]; a line scan is one unless the scene takes it as a profile.
-pub(super) fn read(scene: &HeightFileScene, boundary: Boundary) -> Result<HeightMap, FileError> {
+/// See [`FileError`]; a line scan is one unless the scene takes it as a profile, or its grid has the same `points`.
+pub(super) fn read(
+    scene: &HeightFileScene,
+    boundary: Boundary,
+    points: Option<[usize; 2]>,
+) -> Result<HeightMap, FileError> {
     for (name, value) in [("unit", scene.unit), ("scale", scene.scale)] {
         if value == 0.0 || !in_range(value) {
             return Err(FileError::Factor { name, value });
@@ -95,7 +99,7 @@ pub(super) fn read(scene: &HeightFileScene, boundary: Boundary) -> Result<Height
     let mut matrix = formats::read(&scene.path)?;
     if scene.preparation.profile {
         prepare::to_profile(&mut matrix)?;
-    } else {
+    } else if points != Some([matrix.columns, matrix.rows]) {
         prepare::expect_map(&matrix)?;
     }
     heights_of(scene, boundary, matrix)

@@ -201,7 +201,7 @@ fn read_maps(
             let path = file.path.clone();
             part_error(index, PartError::File { path, problem })
         };
-        let mut map = file::read(file, scene.boundary).map_err(of_file)?;
+        let mut map = file::read(file, scene.boundary, scene.points).map_err(of_file)?;
         if file.preparation.profile
             && let Some([_, rows]) = scene.points
         {

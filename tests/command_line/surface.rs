@@ -316,6 +316,15 @@ fn a_line_scan_is_refused_or_taken_as_a_profile() {
         "{}",
         errors(&output)
     );
+    // A grid of the same points says that such a strip is meant.
+    let strip = scene("").replace("[40, 8]", "[2, 40]");
+    let strip = strip.replace(
+        "points = [2, 40]\n",
+        "points = [2, 40]\nsize = [\"0.2 um\", \"4 um\"]\n",
+    );
+    fs::write(folder.join("strip.toml"), strip).unwrap();
+    let output = tabor(folder, &["check", "strip.toml"]);
+    assert!(output.status.success(), "{}", errors(&output));
     fs::write(folder.join("b.toml"), scene("profile = true\n")).unwrap();
     let found = report(folder, &["surface", "b.toml"]);
     assert_eq!(
