@@ -72,7 +72,7 @@ pub use lock::FolderLock;
 pub use picture::Snapshot;
 #[cfg(feature = "images")]
 pub use picture::{Load, Picture, write_picture};
-#[cfg(feature = "images")]
+#[cfg(feature = "cli")]
 pub(crate) use sentence::sentence;
 #[doc(hidden)]
 pub use state::SavedState;

@@ -36,6 +36,7 @@ pub use jumps::{Jump, dissipation};
 pub use memory::Memory;
 pub use observer::{FinishedStep, Observer, Unreachable, WalkEnd, WalkError};
 pub use path::{walk, walk_on};
+#[cfg(feature = "cli")]
 pub(crate) use plan::PIXELS_A_WAVE;
 pub use plan::Plan;
 pub use pull_off::{PullOff, Tension};
