@@ -77,6 +77,8 @@ fn table() -> Vec<BadFile> {
         BadFile { name: "far.txt", bytes: b"9e29 2 3\n4 5 6\n".to_vec(), more: "[[surface]]\nkind = \"file\"\npath = \"far.txt\"", variant: "SurfaceError::NotFinite", expected: "the heights are not finite, or exceed 1e30 m, at row 1, column 1" },
         bad("farther.txt", b"1e300 2 3\n4 5 6\n", "FileError::Extreme", "the largest height is 1e300 m; heights must be 0 or between 1e-30 and 1e30 m: check the unit and the powers of ten"),
         bad("nearer.txt", b"1e-300 2e-299 0\n0 0 0\n", "FileError::Extreme", "the largest height is 2e-299 m; heights must be 0 or"),
+        bad("scan.txt", &b"1 2\n".repeat(20), "FileError::LineScan", "2 x 20 points (x, y) are a line scan and no map; write profile = true"),
+        good("crop = [0, 0, 4, 2]", "FileError::Crop", "crop = [0, 0, 4, 2] (x, y of the first point, points along x and y) is not within the 3 x 2 points of the map"),
         bad("magic.gwy", b"GWYP", "FileError::Broken", "broken .gwy file at byte 4: the file ends within the name of an object"),
         bad("word.grd", b"DSAA\n2 2\n0 1\n0 1\n0 1\n1 2\n3 x\n", "FileError::BrokenText", "broken .grd file, line 7: \"x\" is not a number"),
         bad("nothing.grd", b"DSAA\n2.5 2\n", "FileError::Counts", "the file says it has 2 rows of 0 columns; both must be at least 1"),
