@@ -128,7 +128,7 @@ fn a_sphere_is_judged_by_its_closed_form() {
         );
     }
 
-    // No row beats one on the front.
+    // No row beats one on the front. Seconds are printed to a millionth: of equal ones either may be the faster.
     let place = |row: &HashMap<String, String>| {
         let error = number(row, "error_largest").expect("judged");
         (number(row, "seconds").expect("timed"), error)
@@ -139,7 +139,7 @@ fn a_sphere_is_judged_by_its_closed_form() {
         let (seconds, error) = place(chosen);
         let beats = |row: &&HashMap<String, String>| {
             let (other, least) = place(row);
-            (other < seconds && least <= error) || (other <= seconds && least < error)
+            other < seconds && least <= error
         };
         assert!(!rows.iter().any(|row| beats(&row)), "{chosen:?}");
     }
