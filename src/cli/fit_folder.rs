@@ -93,7 +93,7 @@ pub(super) fn fit_folder(arguments: &FitArguments, path: &Path, out: &Path) -> R
     Ok(())
 }
 
-/// The curves in a folder, by name. A table that tabor wrote there is none.
+/// The curves in a folder, by name, without a table that tabor wrote there.
 fn curves(folder: &Path) -> Result<Vec<PathBuf>, OutputError> {
     let unreadable = || OutputError::write("read the folder", folder);
     let mut found = Vec::new();

@@ -22,7 +22,7 @@ pub(crate) fn sentence(summary: &Summary, rows: &[StepRow]) -> String {
     } else {
         "The surfaces do not touch".to_owned()
     }];
-    let stuck = AtZeroLoad::of(rows);
+    let stuck = AtZeroLoad::from_rows(rows);
     if let (Some(force), Some(step)) = (summary.pull_off_force, summary.pull_off_step) {
         clauses.push(format!(
             "the pull-off force is {} (step {step})",
@@ -69,7 +69,7 @@ pub(super) struct AtZeroLoad {
 
 impl AtZeroLoad {
     /// That place of a path, if it has one.
-    pub fn of(rows: &[StepRow]) -> Option<AtZeroLoad> {
+    pub fn from_rows(rows: &[StepRow]) -> Option<AtZeroLoad> {
         let greatest = rows
             .iter()
             .enumerate()

@@ -1,4 +1,4 @@
-//! What a scene asks of a measured map before its heights are taken: a part of it, a profile, outliers, edges.
+//! Preparation of a measured map: crop, profile, outliers, edges.
 
 use std::f64::consts::FRAC_PI_2;
 

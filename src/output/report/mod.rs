@@ -198,7 +198,7 @@ impl Report<'_> {
     fn results_of_effects(&self) -> Vec<(String, String, String)> {
         let area = |row: &&StepRow| row.contact_area_fraction;
         let largest = self.rows.iter().max_by(|a, b| area(a).total_cmp(&area(b)));
-        let at_zero = AtZeroLoad::of(self.rows);
+        let at_zero = AtZeroLoad::from_rows(self.rows);
         let mut found = Vec::new();
         for column in self.setup.columns() {
             let grows = column.is_dissipated_energy;
@@ -252,7 +252,7 @@ impl Report<'_> {
             let note = format!("step {}", row.step);
             found.push(("Largest tension", format_si(-row.force, "N"), note));
         }
-        if let Some(place) = AtZeroLoad::of(self.rows) {
+        if let Some(place) = AtZeroLoad::from_rows(self.rows) {
             let left = place.value(self.rows, |row| row.contact_area_fraction);
             let note = "in contact, of the nominal area".to_owned();
             found.push(("Left at zero load", per_cent(left), note));

@@ -96,7 +96,7 @@ pub(super) fn read(bytes: &[u8]) -> Result<Matrix, FileError> {
     Ok(matrix)
 }
 
-/// The sections of the header, up to its end or to the first line that is none of it.
+/// The sections of the header, up to its end or the first line that does not belong to it.
 fn sections(bytes: &[u8]) -> Vec<Section> {
     let mut sections: Vec<Section> = Vec::new();
     for line in bytes.split(|byte| *byte == b'\n') {
