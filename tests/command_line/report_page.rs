@@ -449,7 +449,7 @@ fn results_of_effects_have_a_card_a_curve_and_a_column() {
             assert!(page.contains(&part), "{part} is missing in {page}");
         }
     }
-    // The resistance is that of the conductance, and there is none without contact.
+    // The resistance is the inverse of the conductance; a row without contact has no value.
     let [conductance, resistance] =
         ["conductance", "resistance"].map(|name| binary::number(&rows[1], name).expect("a number"));
     assert!((conductance * resistance - 1.0).abs() < 1e-12);

@@ -192,8 +192,8 @@ fn a_load_is_met_on_the_closest_branch() {
                 assert_eq!(row.mean_pressure, 0.0);
                 continue;
             };
-            // What is written is what the field sums to, as far as the search goes: to a thousandth of the load and
-            // 1e-9 of the law's peak, tolerance 1e-6, which is 0.05 Pa.
+            // The row states the sum of the field. The search meets the load to a thousandth, and to 1e-9 of the
+            // law's peak, which is 0.05 Pa.
             let scale = mean.abs().max(asked.abs());
             assert!(
                 (row.mean_pressure - mean).abs() <= 1e-3 * scale + 1e-9 * PEAK,
