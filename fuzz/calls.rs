@@ -118,7 +118,7 @@ pub fn compare(bytes: &[u8], folder: &Path) -> bool {
     let Ok(mut scene) = Scene::parse(text, "scene.toml", folder, &[]) else {
         return false;
     };
-    let Ok(plan) = Plan::of(scene.clone()) else {
+    let Ok(plan) = Plan::for_scene(scene.clone()) else {
         return false;
     };
     let grid = plan.outline.grid;

@@ -36,10 +36,10 @@ pub fn scene(bytes: &[u8], folder: &Path) {
             return;
         }
     };
-    let Ok(plan) = Plan::of(scene.clone()) else {
+    let Ok(plan) = Plan::for_scene(scene.clone()) else {
         return;
     };
-    plan.memory(Place::of(&plan.scene)).expect("a count");
+    plan.memory(Place::for_scene(&plan.scene)).expect("a count");
     let grid = plan.outline.grid;
     let few_waves = plan.scene.surfaces.iter().all(|part| match part {
         SurfacePart::SelfAffine(rough) => grid.lx.max(grid.ly) / rough.shortest < FEW_WAVES,

@@ -6,7 +6,7 @@ use rustfft::num_traits::{Float, NumAssign};
 /// A floating-point type of fields: `f64` or `f32`.
 pub trait Real: FftNum + Float + NumAssign + Default + Send + Sync + 'static {
     /// Rounds a double to this type.
-    fn of(value: f64) -> Self;
+    fn from_double(value: f64) -> Self;
     /// Converts to double.
     fn double(self) -> f64;
     /// Relative rounding error of this type.
@@ -25,7 +25,7 @@ pub trait Real: FftNum + Float + NumAssign + Default + Send + Sync + 'static {
 
 impl Real for f64 {
     #[inline(always)]
-    fn of(value: f64) -> Self {
+    fn from_double(value: f64) -> Self {
         value
     }
     #[inline(always)]
@@ -37,7 +37,7 @@ impl Real for f64 {
 
 impl Real for f32 {
     #[inline(always)]
-    fn of(value: f64) -> Self {
+    fn from_double(value: f64) -> Self {
         value as f32
     }
     #[inline(always)]

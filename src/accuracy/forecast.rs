@@ -79,7 +79,7 @@ impl Work {
             (_, Precision::Single) => Place::Single,
             _ => Place::Double,
         };
-        let cost = Cost::of_scene(scene, grid, place);
+        let cost = Cost::for_scene(scene, grid, place);
         // A scene that cannot be planned reports its error when it is run.
         let (passes, points) = cost.map_or((1, grid.len()), |cost| {
             (cost.passes.len(), cost.points[0] * cost.points[1])

@@ -168,7 +168,7 @@ pub fn compared(scene: &Scene) -> Vec<bool> {
 /// prescribed load has separated the contact. The second number is the additional tension that was
 /// not carried.
 fn pull_off(end: &WalkEnd, scene: &Scene) -> Option<(f64, f64)> {
-    let tension = Tension::of(&scene.loading, end);
+    let tension = Tension::at_end(&scene.loading, end);
     let more = tension.bounds().map_or(0.0, |[lower, upper]| upper - lower);
     Some((tension.pull_off()?, more))
 }

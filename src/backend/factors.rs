@@ -23,7 +23,7 @@ pub enum Response {
 
 impl Response {
     /// The factor of a wave of this stiffness; 0 where that is 0.
-    pub fn of(self, stiffness: f64) -> f64 {
+    pub fn factor(self, stiffness: f64) -> f64 {
         match self {
             Response::Stiffness => stiffness,
             _ if stiffness <= 0.0 => 0.0,
@@ -45,7 +45,7 @@ impl Factors<'_> {
                 let mut values = Vec::with_capacity(shape.spectrum_len());
                 for kx in 0..=nx / 2 {
                     for ky in 0..=ny / 2 {
-                        values.push(number(response.of(half_space.stiffness(kx, ky))));
+                        values.push(number(response.factor(half_space.stiffness(kx, ky))));
                     }
                 }
                 values

@@ -13,8 +13,8 @@ use crate::units::format_si;
 pub(super) fn check(arguments: &CheckArguments) -> Result<(), Failure> {
     let scene = arguments.scene.read()?;
     memory_check::check_files(&scene)?;
-    let plan = Plan::of(scene).map_err(|error| arguments.scene.surface_failure(error))?;
-    let place = Place::of(&plan.scene);
+    let plan = Plan::for_scene(scene).map_err(|error| arguments.scene.surface_failure(error))?;
+    let place = Place::for_scene(&plan.scene);
     let cost = plan.cost(place)?;
     #[cfg(feature = "gpu")]
     if place.on_gpu() {
@@ -181,7 +181,7 @@ fn accuracy(plan: &Plan) -> Vec<String> {
 /// Memory, precision and the work of an iteration.
 fn resources(plan: &Plan, cost: &Cost, verbose: bool) -> Vec<String> {
     let scene = &plan.scene;
-    let memory = Memory::of(scene, plan.outline.grid, cost);
+    let memory = Memory::new(scene, plan.outline.grid, cost);
     let adapter = if memory.adapter > 0 {
         format!(", {} on the adapter", mebibytes(memory.adapter))
     } else {
@@ -228,7 +228,7 @@ fn resources(plan: &Plan, cost: &Cost, verbose: bool) -> Vec<String> {
 
 /// Fields and kernels of the solver.
 fn internals(plan: &Plan, cost: &Cost) -> Vec<String> {
-    let memory = Memory::of(&plan.scene, plan.outline.grid, cost);
+    let memory = Memory::new(&plan.scene, plan.outline.grid, cost);
     vec![
         format!(
             "solver        {} in {} fields, {} tables and the work space of the transforms",

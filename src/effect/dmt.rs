@@ -239,7 +239,7 @@ fn search(attempt: &mut Attempt) -> Result<SolvedStep, BackendError> {
             let places = above.map(|above| [above, here, (found.repulsive, found.excess)]);
             above = Some(here);
             upper = found;
-            dip = places.and_then(Dip::of);
+            dip = places.and_then(Dip::from_places);
         }
     }
     upper.solved.iterations = iterations;
@@ -272,7 +272,7 @@ struct Dip {
 impl Dip {
     /// A minimum that may reach a solution: its middle lies below both others by more than a quarter of its
     /// excess.
-    fn of(places: [(f64, f64); 3]) -> Option<Dip> {
+    fn from_places(places: [(f64, f64); 3]) -> Option<Dip> {
         let [(_, left), (_, middle), (after, right)] = places;
         let depth = left.min(right) - middle;
         (depth > 0.0 && 4.0 * depth > middle).then_some(Dip {

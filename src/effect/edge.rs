@@ -17,7 +17,7 @@ impl Edge {
     /// The edge of the points of a grid that touch.
     ///
     /// The staircase of pixels is 4/pi times as long as an isotropic edge.
-    pub fn of(touches: &[bool], grid: &Grid, boundary: Boundary) -> Edge {
+    pub fn new(touches: &[bool], grid: &Grid, boundary: Boundary) -> Edge {
         let (nx, ny) = (grid.nx, grid.ny);
         let wraps = boundary == Boundary::Periodic;
         let at = |x: usize, y: usize| touches[y * nx + x];
@@ -67,7 +67,7 @@ mod tests {
                 .collect()
         };
         let [large, small] =
-            [40.0, 36.0].map(|radius| Edge::of(&disc(radius), &grid, Boundary::Free));
+            [40.0, 36.0].map(|radius| Edge::new(&disc(radius), &grid, Boundary::Free));
         assert!((large.length / (0.8 * std::f64::consts::PI) - 1.0).abs() < 0.02);
         let speed = large.recession(&small, 2.0);
         assert!((speed / 0.02 - 1.0).abs() < 0.03, "{speed}");

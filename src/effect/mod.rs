@@ -123,9 +123,9 @@ impl Effect {
     /// What it costs in a scene that asks for it, of which `with` is the cost on `grid`.
     ///
     /// # Errors
-    /// As [`Cost::of_scene`].
+    /// As [`Cost::for_scene`].
     pub fn cost(self, scene: &Scene, with: &Cost, grid: Grid) -> Result<EffectCost, BackendError> {
-        let without = Cost::of_scene(&self.removed_from(scene), grid, with.place)?;
+        let without = Cost::for_scene(&self.removed_from(scene), grid, with.place)?;
         let names = |cost: &Cost| {
             cost.fields
                 .iter()

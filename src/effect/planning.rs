@@ -16,7 +16,7 @@ impl Plan {
     ///
     /// # Errors
     /// A surface that cannot be built.
-    pub fn of(scene: Scene) -> Result<Plan, SurfaceError> {
+    pub fn for_scene(scene: Scene) -> Result<Plan, SurfaceError> {
         let outline = Outline::from_scene(&scene)?;
         Ok(Plan::new(scene, outline))
     }
@@ -36,7 +36,7 @@ impl Setup {
 
 impl Column {
     /// Columns that the effects of a scene ask for, in their order.
-    pub fn of(scene: &Scene) -> Vec<Column> {
+    pub fn for_scene(scene: &Scene) -> Vec<Column> {
         Effects::on(&LIST, scene).columns(scene)
     }
 }
@@ -45,8 +45,8 @@ impl Cost {
     /// The cost of a scene on a grid: without heights, and without memory for any.
     ///
     /// # Errors
-    /// As [`Cost::of`].
-    pub fn of_scene(scene: &Scene, grid: Grid, place: Place) -> Result<Cost, BackendError> {
+    /// As [`Cost::for_setup`].
+    pub fn for_scene(scene: &Scene, grid: Grid, place: Place) -> Result<Cost, BackendError> {
         Cost::with_effects(&Effects::on(&LIST, scene), scene, grid, place)
     }
 }
@@ -57,7 +57,7 @@ impl Memory {
     /// are multiples of 4, which a coarse grid halves, and transform well along x.
     ///
     /// # Errors
-    /// As [`Cost::of_scene`].
+    /// As [`Cost::for_scene`].
     pub fn largest_grid(
         scene: &Scene,
         grid: Grid,
@@ -71,8 +71,8 @@ impl Memory {
         };
         let fits = |points: [usize; 2]| -> Result<bool, BackendError> {
             let grid = Grid::new(points, [grid.lx, grid.ly]);
-            let cost = Cost::of_scene(scene, grid, place)?;
-            Ok(Memory::of(scene, grid, &cost).machine <= available)
+            let cost = Cost::for_scene(scene, grid, place)?;
+            Ok(Memory::new(scene, grid, &cost).machine <= available)
         };
         let sizes: Vec<usize> = (STRIDE..=grid.nx)
             .step_by(STRIDE)

@@ -144,7 +144,7 @@ fn solve(
         return Ok(plain);
     };
     let touched: Vec<bool> = gap.iter().map(|&g| g <= 0.0).collect();
-    let edge = Edge::of(&touched, &problem.grid, problem.boundary);
+    let edge = Edge::new(&touched, &problem.grid, problem.boundary);
     let later = |solved: &SolvedStep| {
         let touches: Vec<bool> = match &solved.evaluation {
             Some(found) => found
@@ -154,7 +154,7 @@ fn solve(
                 .collect(),
             None => vec![false; touched.len()],
         };
-        Edge::of(&touches, &problem.grid, problem.boundary)
+        Edge::new(&touches, &problem.grid, problem.boundary)
     };
     // The factor of the speed found in a trial, less the factor of the trial.
     let excess = |later: &Edge, factor: f64| rate.factor(edge.recession(later, duration)) - factor;

@@ -270,7 +270,7 @@ impl<T: Real> GapConstraint<T> for Unilateral<T> {
     #[inline(always)]
     fn corrected_gap(&self, gap: T, correction: T) -> T {
         // A correction closes the points where it undoes the outer gap as single precision has it.
-        let undone = -T::of(f64::from(gap.double() as f32));
+        let undone = -T::from_double(f64::from(gap.double() as f32));
         let moved = gap + correction;
         if (correction <= undone) | (moved < T::zero()) {
             T::zero()
@@ -307,7 +307,7 @@ impl<T: Real> GapConstraint<T> for HardnessLimit<T> {
     #[inline(always)]
     fn new(params: &Params) -> Self {
         HardnessLimit {
-            hardness: T::of(params.hardness),
+            hardness: T::from_double(params.hardness),
         }
     }
 

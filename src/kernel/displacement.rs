@@ -11,7 +11,7 @@ fn load_displacement<T: Real>(
 ) {
     let count = rows.len();
     let (gap, heights) = (&rows.reads[0][..count], &rows.reads[1][..count]);
-    let offset = T::of(scalars.offset);
+    let offset = T::from_double(scalars.offset);
     for (i, line) in rows.lines[..count].iter_mut().enumerate() {
         *line = (gap[i] - offset) + heights[i];
     }

@@ -40,7 +40,7 @@ fn neighbour(cell: usize, place: usize, ratio: usize, cells: usize) -> usize {
 fn shares<T: Real>(ratio: usize) -> [T; LARGEST_RATIO] {
     let mut shares = [T::zero(); LARGEST_RATIO];
     for (place, share) in shares.iter_mut().enumerate().take(ratio) {
-        *share = T::of(neighbour_share(place, ratio));
+        *share = T::from_double(neighbour_share(place, ratio));
     }
     shares
 }
@@ -85,7 +85,7 @@ fn coarsen<T: Real>(rows: &mut Rows<T>, _: &Params, _: &Scalars, _: &mut [f64; S
     let ratio = fine_x / width;
     let half = ratio / 2;
     let shares = shares::<T>(ratio);
-    let scale = T::one() / T::of(ratio as f64);
+    let scale = T::one() / T::from_double(ratio as f64);
     let restricted = &mut rows.writes[0][..width * rows.count];
     for (row, out) in restricted.chunks_exact_mut(width).enumerate() {
         out.fill(T::zero());
@@ -114,7 +114,7 @@ fn free_share<T: Real>(rows: &mut Rows<T>, _: &Params, _: &Scalars, _: &mut [f64
     let (width, first) = (rows.width, rows.first);
     let ratio = fine_x / width;
     debug_assert_eq!(fine_y % ratio, 0);
-    let scale = T::one() / T::of((ratio * ratio) as f64);
+    let scale = T::one() / T::from_double((ratio * ratio) as f64);
     let share = &mut rows.writes[0][..width * rows.count];
     for (row, out) in share.chunks_exact_mut(width).enumerate() {
         out.fill(T::zero());
@@ -122,7 +122,7 @@ fn free_share<T: Real>(rows: &mut Rows<T>, _: &Params, _: &Scalars, _: &mut [f64
         for line in whole.values[start * fine_x..(start + ratio) * fine_x].chunks_exact(fine_x) {
             for (free, chunk) in out.iter_mut().zip(line.chunks_exact(ratio)) {
                 let count = chunk.iter().filter(|value| **value != T::zero()).count();
-                *free += scale * T::of(count as f64);
+                *free += scale * T::from_double(count as f64);
             }
         }
     }
@@ -190,7 +190,7 @@ pub static STORE_WEIGHTED: Kernel = rows_kernel!(
 );
 
 fn refine<T: Real>(rows: &mut Rows<T>, params: &Params, _: &Scalars, _: &mut [f64; SUMS]) {
-    let compliance = T::of(params.level_compliance);
+    let compliance = T::from_double(params.level_compliance);
     let (whole, width, first) = (rows.whole, rows.width, rows.first);
     let z = &mut rows.writes[0][..width * rows.count];
     z.iter_mut().for_each(|z| *z = compliance * *z);

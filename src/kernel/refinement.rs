@@ -27,7 +27,7 @@ fn outer_residual<T: Real>(
     let layout = rows.layout();
     let [gap, pressure, ..] = rows.reads;
     let residual = &mut *rows.writes[0];
-    let mean_pressure = T::of(scalars.mean_pressure);
+    let mean_pressure = T::from_double(scalars.mean_pressure);
     let factor = rows.factor;
     with_law!(params.law, T, law => layout.points(|i, in_domain| {
         let elastic = pressure[i] + mean_pressure;

@@ -81,10 +81,10 @@ impl<T: Real> GapConstraint<T> for Smooth<T> {
     #[inline(always)]
     fn new(params: &Params) -> Self {
         Smooth {
-            stiffness: T::of(params.smooth_stiffness),
-            peak: T::of(params.law.peak_tension()),
-            peak_gap: T::of(params.law.peak_gap()),
-            precision: T::of(2.0 * params.epsilon * params.law.range()),
+            stiffness: T::from_double(params.smooth_stiffness),
+            peak: T::from_double(params.law.peak_tension()),
+            peak_gap: T::from_double(params.law.peak_gap()),
+            precision: T::from_double(2.0 * params.epsilon * params.law.range()),
         }
     }
 

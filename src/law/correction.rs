@@ -70,8 +70,9 @@ impl<T: Real, L: Cohesion<T>> Cohesion<T> for Correction<L, T> {
     #[inline(always)]
     fn energy_change(&self, correction: T, step: T) -> [T; 2] {
         let first = step * self.traction(correction);
-        let middle = self.difference(correction, T::of(0.5) * step);
-        let rest = step / T::of(6.0) * (T::of(4.0) * middle + self.difference(correction, step));
+        let middle = self.difference(correction, T::from_double(0.5) * step);
+        let rest = step / T::from_double(6.0)
+            * (T::from_double(4.0) * middle + self.difference(correction, step));
         [first + rest, first.abs()]
     }
 

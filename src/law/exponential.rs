@@ -20,8 +20,8 @@ impl Exponential<f64> {
     /// The same constants in the kernel's number.
     pub fn cast<T: Real>(self) -> Exponential<T> {
         Exponential {
-            work_of_adhesion: T::of(self.work_of_adhesion),
-            range: T::of(self.range),
+            work_of_adhesion: T::from_double(self.work_of_adhesion),
+            range: T::from_double(self.range),
         }
     }
 }
@@ -35,7 +35,7 @@ impl<T: Real> Cohesion<T> for Exponential<T> {
     #[inline(always)]
     fn difference(&self, gap: T, step: T) -> T {
         let ranges = -step / self.range;
-        if ranges > T::of(MOST_RANGES) {
+        if ranges > T::from_double(MOST_RANGES) {
             return self.traction(gap + step) - self.traction(gap);
         }
         self.traction(gap) * ranges.exp_m1()

@@ -23,8 +23,8 @@ impl LennardJones<f64> {
     /// The same constants in the kernel's number.
     pub fn cast<T: Real>(self) -> LennardJones<T> {
         LennardJones {
-            work_of_adhesion: T::of(self.work_of_adhesion),
-            range: T::of(self.range),
+            work_of_adhesion: T::from_double(self.work_of_adhesion),
+            range: T::from_double(self.range),
         }
     }
 
@@ -57,15 +57,17 @@ impl<T: Real> LennardJones<T> {
     /// from the repulsive power alone: `r^9 = 1.3 P + 2.5` in units of `8 w / 3 eps` leaves P after r^3.
     #[inline]
     pub fn repelling(&self, pressure: T) -> T {
-        let load =
-            (pressure * T::of(3.0 / 8.0) * self.range / self.work_of_adhesion).max(T::zero());
-        self.range * ((T::of(1.3) * load + T::of(2.5)).powf(T::of(-1.0 / 9.0)) - T::one())
+        let load = (pressure * T::from_double(3.0 / 8.0) * self.range / self.work_of_adhesion)
+            .max(T::zero());
+        self.range
+            * ((T::from_double(1.3) * load + T::from_double(2.5)).powf(T::from_double(-1.0 / 9.0))
+                - T::one())
     }
 
     /// eps over the distance.
     #[inline]
     fn ratio(&self, gap: T) -> T {
-        self.range / (gap + self.range).max(T::of(NEAREST) * self.range)
+        self.range / (gap + self.range).max(T::from_double(NEAREST) * self.range)
     }
 }
 
@@ -74,25 +76,25 @@ impl<T: Real> Cohesion<T> for LennardJones<T> {
     fn traction(&self, gap: T) -> T {
         let r = self.ratio(gap);
         let cube = r * r * r;
-        T::of(8.0 / 3.0) * self.work_of_adhesion / self.range * (cube - cube * cube * cube)
+        T::from_double(8.0 / 3.0) * self.work_of_adhesion / self.range * (cube - cube * cube * cube)
     }
 
     #[inline]
     fn difference(&self, gap: T, step: T) -> T {
         let distance = gap + self.range;
-        let nearest = T::of(NEAREST) * self.range;
+        let nearest = T::from_double(NEAREST) * self.range;
         if distance <= nearest || distance + step <= nearest {
             return self.traction(gap + step) - self.traction(gap);
         }
         // By how much r^3 and r^9 grow, as shares of themselves.
         let x = step / distance;
-        let (one, three) = (T::one(), T::of(3.0));
+        let (one, three) = (T::one(), T::from_double(3.0));
         let cubes = (one + x) * (one + x) * (one + x);
         let third = -x * (three + x * (three + x)) / cubes;
         let ninth = third * (three + third * (three + third));
         let r = self.ratio(gap);
         let cube = r * r * r;
-        T::of(8.0 / 3.0) * self.work_of_adhesion / self.range
+        T::from_double(8.0 / 3.0) * self.work_of_adhesion / self.range
             * (cube * third - cube * cube * cube * ninth)
     }
 
@@ -106,7 +108,8 @@ impl<T: Real> Cohesion<T> for LennardJones<T> {
         let r = self.ratio(gap);
         let square = r * r;
         let eighth = square * square * square * square;
-        -self.work_of_adhesion * (T::of(4.0 / 3.0) * square - T::of(1.0 / 3.0) * eighth)
+        -self.work_of_adhesion
+            * (T::from_double(4.0 / 3.0) * square - T::from_double(1.0 / 3.0) * eighth)
     }
 
     #[inline]
@@ -114,8 +117,8 @@ impl<T: Real> Cohesion<T> for LennardJones<T> {
         let r = self.ratio(gap);
         let fourth = r * r * r * r;
         let tenth = fourth * fourth * r * r;
-        T::of(8.0 / 3.0) * self.work_of_adhesion / (self.range * self.range)
-            * (T::of(9.0) * tenth - T::of(3.0) * fourth)
+        T::from_double(8.0 / 3.0) * self.work_of_adhesion / (self.range * self.range)
+            * (T::from_double(9.0) * tenth - T::from_double(3.0) * fourth)
     }
 }
 

@@ -29,9 +29,9 @@ impl MaugisDugdale<f64> {
     /// The same constants in the kernel's number.
     pub fn cast<T: Real>(self) -> MaugisDugdale<T> {
         MaugisDugdale {
-            peak_tension: T::of(self.peak_tension),
-            range: T::of(self.range),
-            taper: T::of(self.taper),
+            peak_tension: T::from_double(self.peak_tension),
+            range: T::from_double(self.range),
+            taper: T::from_double(self.taper),
         }
     }
 }
@@ -40,7 +40,7 @@ impl<T: Real> Cohesion<T> for MaugisDugdale<T> {
     #[inline(always)]
     fn traction(&self, gap: T) -> T {
         if self.taper > T::zero() {
-            let left = (self.range - gap) / self.taper + T::of(0.5);
+            let left = (self.range - gap) / self.taper + T::from_double(0.5);
             self.peak_tension * left.most(T::zero()).least(T::one())
         } else if gap < self.range {
             self.peak_tension
@@ -55,7 +55,7 @@ impl<T: Real> Cohesion<T> for MaugisDugdale<T> {
             return self.traction(gap + step) - self.traction(gap);
         }
         let (zero, one) = (T::zero(), T::one());
-        let left = (self.range - gap) / self.taper + T::of(0.5);
+        let left = (self.range - gap) / self.taper + T::from_double(0.5);
         let moved = step / self.taper;
         // Only the part of the way that lies on the taper counts.
         let lost = if left > one {
@@ -70,12 +70,12 @@ impl<T: Real> Cohesion<T> for MaugisDugdale<T> {
 
     #[inline(always)]
     fn energy(&self, gap: T) -> T {
-        let half = T::of(0.5) * self.taper;
+        let half = T::from_double(0.5) * self.taper;
         if gap <= self.range - half {
             -self.peak_tension * (self.range - gap)
         } else if gap < self.range + half {
             let left = self.range + half - gap;
-            -self.peak_tension * left * left / (T::of(2.0) * self.taper)
+            -self.peak_tension * left * left / (T::from_double(2.0) * self.taper)
         } else {
             T::zero()
         }
@@ -83,7 +83,7 @@ impl<T: Real> Cohesion<T> for MaugisDugdale<T> {
 
     #[inline(always)]
     fn slope(&self, gap: T) -> T {
-        let half = T::of(0.5) * self.taper;
+        let half = T::from_double(0.5) * self.taper;
         if gap > self.range - half && gap < self.range + half {
             -self.peak_tension / self.taper
         } else {

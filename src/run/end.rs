@@ -109,7 +109,7 @@ pub(super) fn summary(
             .map(|effect| effect.name().to_owned())
             .collect()
     };
-    let tension = Tension::of(&setup.scene.loading, end);
+    let tension = Tension::at_end(&setup.scene.loading, end);
     let [lower, upper] = tension
         .bounds()
         .map_or([None; 2], |bounds| bounds.map(Some));

@@ -145,10 +145,10 @@ pub(crate) fn check_grid(scene: &Scene, grid: Grid) -> Result<(), MemoryError> {
     let Some(available) = available()? else {
         return Ok(());
     };
-    let place = Place::of(scene);
+    let place = Place::for_scene(scene);
     let need = |place: Place| -> Result<u64, MemoryError> {
-        let cost = Cost::of_scene(scene, grid, place)?;
-        Ok(Memory::of(scene, grid, &cost).machine)
+        let cost = Cost::for_scene(scene, grid, place)?;
+        Ok(Memory::new(scene, grid, &cost).machine)
     };
     let needed = need(place)?;
     if needed <= available {

@@ -124,7 +124,7 @@ fn start(
     }
     .write(&state)?;
     folder.remove_own_files(&[&state, &curve])?;
-    let curve = CurveWriter::create(&curve, Column::of(&setup.scene))?;
+    let curve = CurveWriter::create(&curve, Column::for_scene(&setup.scene))?;
     Ok(RunDirectory {
         folder,
         curve,
@@ -172,7 +172,7 @@ fn sound(
     setup: &Setup,
 ) -> Result<Option<(SavedState<'static>, Curve)>, OutputError> {
     let path = folder.state_path(STATE);
-    let curve = Curve::read(&folder.curve_path(), Column::of(&setup.scene))?;
+    let curve = Curve::read(&folder.curve_path(), Column::for_scene(&setup.scene))?;
     let refuse = |reason: String| {
         let reason = format!("{reason}; {FRESH}");
         Err(OutputError::refused(&path, reason))

@@ -383,7 +383,7 @@ impl<'a> RunRecorder<'a> {
 /// A warning if the pull-off of a finished path is not known to the tolerance.
 fn pull_off_warning(loading: &LoadingScene, end: &WalkEnd) -> Option<String> {
     let newtons = |force: f64| format_si(force, "N");
-    match Tension::of(loading, end) {
+    match Tension::at_end(loading, end) {
         Tension::Holds { step, force } if end.rows[step - 1].state == State::Contact => {
             Some(format!(
                 "the contact held {} in step {step}, the greatest tension of the path: its pull-off is beyond; extend the path until it lets go",

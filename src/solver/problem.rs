@@ -334,7 +334,7 @@ impl Problem {
                 backend.spectrum(level, name, Factors::Table(values))
             }
             (Stiffness::Table(values), _) => {
-                let values: Vec<f64> = values.iter().map(|&k| response.of(k)).collect();
+                let values: Vec<f64> = values.iter().map(|&k| response.factor(k)).collect();
                 backend.spectrum(level, name, Factors::Table(&values))
             }
         }

@@ -50,9 +50,9 @@ impl Cost {
     ///
     /// # Errors
     /// A kernel that is given fields which it does not take: a mistake in this crate.
-    pub fn of(setup: &Setup) -> Result<Cost, BackendError> {
+    pub fn for_setup(setup: &Setup) -> Result<Cost, BackendError> {
         let highest = setup.surface.highest - setup.problem.height_origin;
-        let place = Place::of(&setup.scene);
+        let place = Place::for_scene(&setup.scene);
         plan(&setup.effects, &setup.problem, &setup.scene, highest, place)
     }
 
@@ -94,7 +94,7 @@ impl Cost {
 
 impl Place {
     /// Where a scene runs; `auto` is the processor, since only a look at the machine says more.
-    pub fn of(scene: &Scene) -> Place {
+    pub fn for_scene(scene: &Scene) -> Place {
         match (scene.solver.backend, scene.arithmetic()) {
             (BackendName::Gpu, Precision::Double) => Place::GpuDouble,
             (BackendName::Gpu, _) => Place::Gpu,

@@ -81,7 +81,7 @@ pub struct Solved<'a> {
 impl Evaluation {
     /// Evaluates a solved state of `problem`. The law is the setup's own, also where the problem was
     /// solved without it: then attraction is summed outside the contact of the hard wall.
-    pub fn of(setup: &Setup, problem: &Problem, controller: &Controller, solved: Solved) -> Self {
+    pub fn new(setup: &Setup, problem: &Problem, controller: &Controller, solved: Solved) -> Self {
         let scales = problem.scales;
         let law = setup.law.reduced(scales.length, scales.pressure);
         let closed_support = if setup.sums_attraction() {

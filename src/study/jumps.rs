@@ -86,7 +86,7 @@ impl Jumps {
         Jumps {
             work: adhesive.then(|| setup.law.work_of_adhesion()),
             pixel_area: setup.surface.grid.pixel_area(),
-            prescribed: Prescribed::of(setup),
+            prescribed: Prescribed::for_setup(setup),
             tolerance: setup.scene.solver.tolerance,
             law_factor: setup.surface.adhesion_map.clone(),
             before: None,
@@ -98,9 +98,8 @@ impl Jumps {
     pub fn resume(&mut self, rows: &[StepRow], points: Option<Vec<PointState>>, jumped: bool) {
         if let (Some(_), [.., row]) = (self.work, rows) {
             let slope = match rows {
-                [.., before, row] if !jumped => {
-                    Piece::of(self.prescribed, before, row).and_then(|piece| piece.slope_after())
-                }
+                [.., before, row] if !jumped => Piece::between(self.prescribed, before, row)
+                    .and_then(|piece| piece.slope_after()),
                 _ => None,
             };
             self.before = Some(Before {
@@ -152,7 +151,7 @@ impl Jumps {
                     [&before.row, row].map(|row| row.elastic_energy - row.adhesive_energy);
                 let least = (LEAST_SHARE * work * changed * self.pixel_area)
                     .max(self.tolerance * (energies[0] + energies[1]));
-                match Piece::of(self.prescribed, &before.row, row) {
+                match Piece::between(self.prescribed, &before.row, row) {
                     Some(piece)
                         if changed > 0.0 && piece.lost > least && piece.bends(before.slope) =>
                     {
@@ -177,7 +176,7 @@ impl Jumps {
         let before = self.before.take().filter(|_| !jumped);
         self.before = Some(Before {
             slope: before
-                .and_then(|before| Piece::of(self.prescribed, &before.row, row))
+                .and_then(|before| Piece::between(self.prescribed, &before.row, row))
                 .and_then(|piece| piece.slope_after()),
             row: row.clone(),
             points: evaluation.map(|evaluation| evaluation.points.clone()),
@@ -220,7 +219,7 @@ struct Prescribed {
 }
 
 impl Prescribed {
-    fn of(setup: &Setup) -> Prescribed {
+    fn for_setup(setup: &Setup) -> Prescribed {
         Prescribed {
             control: setup.scene.loading.control,
             spring: setup.spring(),
@@ -245,7 +244,7 @@ struct Piece {
 
 impl Piece {
     /// The piece between two rows; `None` where one has no position.
-    fn of(prescribed: Prescribed, before: &StepRow, row: &StepRow) -> Option<Piece> {
+    fn between(prescribed: Prescribed, before: &StepRow, row: &StepRow) -> Option<Piece> {
         let moved = row.approach? - before.approach?;
         let change = row.force - before.force;
         Some(Piece {
@@ -306,8 +305,8 @@ pub(super) fn confirm(
     row: &StepRow,
     least: f64,
 ) -> Result<Option<bool>, BackendError> {
-    let prescribed = Prescribed::of(between.walker.setup());
-    let Some(mut whole) = Piece::of(prescribed, before, row) else {
+    let prescribed = Prescribed::for_setup(between.walker.setup());
+    let Some(mut whole) = Piece::between(prescribed, before, row) else {
         return Ok(Some(true));
     };
     let mut start = (
@@ -329,8 +328,8 @@ pub(super) fn confirm(
         if !tried.row.converged {
             break;
         }
-        let pieces = Piece::of(prescribed, &start.1, &tried.row)
-            .zip(Piece::of(prescribed, &tried.row, &end.1));
+        let pieces = Piece::between(prescribed, &start.1, &tried.row)
+            .zip(Piece::between(prescribed, &tried.row, &end.1));
         let Some((first, second)) = pieces else {
             // Separated between the two places.
             return Ok(Some(true));

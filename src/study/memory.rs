@@ -31,7 +31,7 @@ pub struct Memory {
 
 impl Memory {
     /// Bytes that a scene of this cost takes on `grid`.
-    pub fn of(scene: &Scene, grid: Grid, cost: &Cost) -> Memory {
+    pub fn new(scene: &Scene, grid: Grid, cost: &Cost) -> Memory {
         let points = grid.len() as u64;
         let shape = Shape {
             points: cost.points,

@@ -70,7 +70,7 @@ impl Plan {
     /// Fields, tables and passes of its solver in a place.
     ///
     /// # Errors
-    /// As [`Cost::of`].
+    /// As [`Cost::for_setup`].
     pub fn cost(&self, place: Place) -> Result<Cost, BackendError> {
         Cost::with_effects(&self.effects, &self.scene, self.outline.grid, place)
     }
@@ -78,10 +78,10 @@ impl Plan {
     /// The memory that a run of it takes in a place.
     ///
     /// # Errors
-    /// As [`Cost::of`].
+    /// As [`Cost::for_setup`].
     pub fn memory(&self, place: Place) -> Result<Memory, BackendError> {
         let cost = self.cost(place)?;
-        Ok(Memory::of(&self.scene, self.outline.grid, &cost))
+        Ok(Memory::new(&self.scene, self.outline.grid, &cost))
     }
 
     fn warn_of_waves(&mut self) {

@@ -61,7 +61,7 @@ pub enum Tension {
 
 impl Tension {
     /// Of the end of a path.
-    pub fn of(loading: &LoadingScene, end: &WalkEnd) -> Tension {
+    pub fn at_end(loading: &LoadingScene, end: &WalkEnd) -> Tension {
         let under_tension = end.rows.iter().filter(|row| row.force < 0.0);
         let greatest = under_tension.min_by(|a, b| a.force.total_cmp(&b.force));
         let held = greatest.map_or(0.0, |row| -row.force);

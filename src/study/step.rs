@@ -120,7 +120,7 @@ pub(super) fn finish(
         law_factor: solver.law_factor(),
     };
     let problem = solver.problem();
-    let evaluation = Evaluation::of(setup, problem, controller, solved);
+    let evaluation = Evaluation::new(setup, problem, controller, solved);
     // Non-finite fields have not converged, whatever the residual is.
     let is_finite = evaluation.force.is_finite() && evaluation.position.mean_gap.is_finite();
     // Nor has a state below the least gap, where the law is replaced by a constant.

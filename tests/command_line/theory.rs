@@ -79,7 +79,7 @@ struct Table {
 }
 
 impl Table {
-    fn of(model: &str, call: &str) -> Self {
+    fn from_example(model: &str, call: &str) -> Self {
         let words = shell_words(call);
         let arguments: Vec<&str> = std::iter::once(model)
             .chain(words.iter().map(String::as_str))
@@ -190,7 +190,7 @@ fn every_model_is_listed_and_its_example_tabulates() {
         let help = text(&help.stdout);
         let call = format!("  tabor theory {name} ");
         let example = help.lines().find_map(|line| line.strip_prefix(&call));
-        let table = Table::of(name, example.unwrap_or_else(|| panic!("{name}: {help}")));
+        let table = Table::from_example(name, example.unwrap_or_else(|| panic!("{name}: {help}")));
         assert_eq!(table.head.join(","), columns, "{name}");
         assert!(table.rows.len() >= 2, "{name}");
         for row in &table.rows {
@@ -209,13 +209,13 @@ fn every_model_is_listed_and_its_example_tabulates() {
 }
 
 fn numbers_read_back_as_they_are() {
-    let table = Table::of(
+    let table = Table::from_example(
         "hertz",
         "--radius \"1 mm\" --contact_modulus 1e9 --from 0 --to \"25 nm\" --points 3",
     );
     assert_eq!(table.words("approach"), ["0.0", "1.25e-8", "2.5e-8"]);
     assert_eq!(table.words("force")[0], "0.0");
-    let equals = Table::of(
+    let equals = Table::from_example(
         "hertz",
         "--radius=1mm --contact-modulus=1GPa --from=0 --to=25nm --points=3",
     );
@@ -226,7 +226,7 @@ fn hard_contacts_have_the_reference_values() {
     let approach = expected_at("hertz", "delta");
     let call =
         format!("--radius \"1 mm\" --contact_modulus \"1 GPa\" --to {approach:e} --points 2");
-    let table = Table::of("hertz", &call);
+    let table = Table::from_example("hertz", &call);
     close(table.column("force")[1], 1e-3, 1e-12);
     close(
         table.column("contact_radius")[1],
@@ -247,11 +247,11 @@ fn hard_contacts_have_the_reference_values() {
     // The half angle is from the axis, the reference's from the surface.
     let approach = expected_at("cone", "delta");
     let call = format!("--half_angle 85 --contact_modulus \"1 GPa\" --to {approach:e} --points 2");
-    let cone = Table::of("cone", &call);
+    let cone = Table::from_example("cone", &call);
     close(cone.column("force")[1], expected_at("cone", "F"), 1e-11);
     close(cone.column("contact_radius")[1], 1e-6, 1e-11);
 
-    let punch = Table::of(
+    let punch = Table::from_example(
         "flat-punch",
         "--radius \"2 um\" --contact_modulus \"1 GPa\" --to \"3 nm\" --points 2",
     );
@@ -281,7 +281,8 @@ fn stiff_spheres_have_the_reference_values() {
             } else {
                 "--range 1"
             };
-            let table = Table::of(model, &format!("{call} {range} --to {approach} --points 2"));
+            let table =
+                Table::from_example(model, &format!("{call} {range} --to {approach} --points 2"));
             let key = format!("fig2_models#{}", index + 1);
             close(
                 table.column("force")[1] / unit,
@@ -291,11 +292,11 @@ fn stiff_spheres_have_the_reference_values() {
         }
     }
     let rigid = "--radius 1 --work_of_adhesion 1 --range 1 --from -0.5 --points 2";
-    let bradley = Table::of("bradley", rigid).column("force");
+    let bradley = Table::from_example("bradley", rigid).column("force");
     close(bradley[0], -2.0 * PI * expected("bradley_lj#2"), 1e-12);
     close(bradley[1], -2.0 * PI * expected("bradley_lj#1"), 1e-12);
     // Past its limit the force method says so.
-    let soft = Table::of(
+    let soft = Table::from_example(
         "dmt-f",
         "--radius 1 --contact_modulus 1 --work_of_adhesion 1 --range 1",
     );
@@ -309,7 +310,7 @@ fn stiff_spheres_have_the_reference_values() {
 fn jkr_lets_go_where_it_should() {
     let call = "--radius \"1 mm\" --contact_modulus \"1 MPa\" --work_of_adhesion \"50 mJ/m^2\"";
     let unit = PI * 0.05 * 1e-3;
-    let table = Table::of("jkr", &format!("{call} --points 2001"));
+    let table = Table::from_example("jkr", &format!("{call} --points 2001"));
     close(table.note("pull_off_force"), -1.5 * unit, 1e-13);
     let least = table.column("force").into_iter().fold(0.0, f64::min);
     // The minimum is flat: a row beside it is 1e-6 away.
@@ -328,7 +329,7 @@ fn jkr_lets_go_where_it_should() {
     );
 
     let at = expected_at("jkr_SI#1", "delta");
-    let held = Table::of(
+    let held = Table::from_example(
         "jkr",
         &format!("{call} --from=-1e-6 --to {at:e} --points 2"),
     );
@@ -339,7 +340,7 @@ fn jkr_lets_go_where_it_should() {
         1e-11,
     );
     // Coming together nothing is felt before touch.
-    let together = Table::of(
+    let together = Table::from_example(
         "jkr",
         &format!("{call} --direction together --from -1e-6 --to 0 --points 2"),
     );
@@ -355,7 +356,7 @@ fn maugis_dugdale_has_the_reference_pull_off() {
             "--radius 1 --contact_modulus 0.75 --work_of_adhesion {work:e} --peak_tension {:e} --points 1001",
             0.5 * lambda
         );
-        let table = Table::of("maugis-dugdale", &call);
+        let table = Table::from_example("maugis-dugdale", &call);
         let key = format!("md_pulloff#{}", index + 1);
         close(table.note("maugis_parameter"), lambda, 1e-12);
         close(
@@ -366,7 +367,8 @@ fn maugis_dugdale_has_the_reference_pull_off() {
         let least = table.column("force").into_iter().fold(0.0, f64::min);
         close(least, expected_at(&key, "F_bar"), 1e-3);
         // Together, the first contact comes later than the last one going apart.
-        let together = Table::of("maugis-dugdale", &format!("{call} --direction together"));
+        let together =
+            Table::from_example("maugis-dugdale", &format!("{call} --direction together"));
         let touches = |table: &Table| {
             table
                 .words("state")
@@ -381,7 +383,7 @@ fn maugis_dugdale_has_the_reference_pull_off() {
         let call = format!(
             "--radius 1 --contact_modulus 0.75 --work_of_adhesion {work:e} --peak_tension {tension:e}"
         );
-        let table = Table::of("maugis-dugdale", &call);
+        let table = Table::from_example("maugis-dugdale", &call);
         (
             table.words("state")[0].to_owned(),
             table.column("approach")[0],
@@ -401,7 +403,7 @@ fn maugis_dugdale_has_the_reference_pull_off() {
 
 fn lennard_jones_spheres_have_the_reference_values() {
     let (call, unit) = reduced_sphere();
-    let table = Table::of(
+    let table = Table::from_example(
         "lennard-jones-sphere",
         &format!("{call} --range 1 --from -1 --to 1 --points 3"),
     );
@@ -422,8 +424,8 @@ fn lennard_jones_spheres_have_the_reference_values() {
     let call = format!(
         "--radius 1 --contact_modulus 1 --work_of_adhesion {work:e} --range 1 --from -3 --to -1.6580750978 --points 2"
     );
-    let apart = Table::of("lennard-jones-sphere", &call);
-    let together = Table::of(
+    let apart = Table::from_example("lennard-jones-sphere", &call);
+    let together = Table::from_example(
         "lennard-jones-sphere",
         &format!("{call} --direction together"),
     );
@@ -446,7 +448,7 @@ fn the_map_of_theories_has_the_reference_values() {
         let call = format!(
             "--radius \"10 um\" --work_of_adhesion \"50 mJ/m^2\" --range \"0.3 nm\" --contact_modulus \"{modulus}\""
         );
-        Table::of("tabor-map", &call)
+        Table::from_example("tabor-map", &call)
     };
     let stiff = at("100 GPa");
     assert_eq!(stiff.words("law")[0], "lennard-jones");
@@ -468,7 +470,7 @@ fn the_map_of_theories_has_the_reference_values() {
         -1.5 * PI * 0.05 * 1e-5,
         1e-6,
     );
-    let lambda = Table::of(
+    let lambda = Table::from_example(
         "tabor-map",
         "--radius \"1 um\" --work_of_adhesion \"50 mJ/m^2\" --range \"1 nm\" --contact_modulus \"1 GPa\"",
     );
@@ -484,7 +486,7 @@ fn waves_have_the_reference_values() {
     let modulus = 1.0 / PI;
     let pressure = expected_at("westergaard#1", "pbar_over_pstar");
     let wave = format!("--amplitude 1 --wavelength 1 --contact_modulus {modulus:e}");
-    let table = Table::of(
+    let table = Table::from_example(
         "westergaard",
         &format!("{wave} --to {pressure:e} --points 2"),
     );
@@ -497,7 +499,7 @@ fn waves_have_the_reference_values() {
     // alpha = 0.2 = sqrt(2 w/(pi^2 E*)).
     let work = 0.04 * PI * PI * modulus / 2.0;
     let call = format!("{wave} --work_of_adhesion {work:e} --from 0.2 --to 0.6 --points 2");
-    let table = Table::of("wavy-adhesive", &call);
+    let table = Table::from_example("wavy-adhesive", &call);
     close(
         table.column("mean_pressure")[0],
         expected("wavy_adhesive#1"),
@@ -515,7 +517,7 @@ fn waves_have_the_reference_values() {
 
 fn summits_have_the_reference_values() {
     let call = "--radius \"10 um\" --density \"1 1/um^2\" --rms_height \"1 nm\" --contact_modulus \"100 GPa\" --from \"1 nm\" --points 2";
-    let table = Table::of("gw", call);
+    let table = Table::from_example("gw", call);
     close(
         table.column("mean_pressure")[0],
         expected_at("gw", "p"),
@@ -535,7 +537,7 @@ fn summits_have_the_reference_values() {
         )
     };
     for (index, theta) in [1.0, 5.0, 10.0, 20.0].into_iter().enumerate() {
-        let table = Table::of("gw-m", &at(theta));
+        let table = Table::from_example("gw-m", &at(theta));
         let pull_off = expected(&format!("gwm_pulloff#{}", index + 1));
         close(
             table.note("pull_off_pressure"),
@@ -544,8 +546,9 @@ fn summits_have_the_reference_values() {
         );
     }
     let unit = PI / 2.0;
-    let apart = Table::of("fuller-tabor", &at(2.0));
-    let together = Table::of("fuller-tabor", &format!("{} --direction together", at(2.0)));
+    let apart = Table::from_example("fuller-tabor", &at(2.0));
+    let together =
+        Table::from_example("fuller-tabor", &format!("{} --direction together", at(2.0)));
     close(
         apart.column("mean_pressure")[0] / unit,
         expected_at("fuller_tabor_force", "unload"),
@@ -570,14 +573,14 @@ fn spectra_have_the_reference_values() {
     let surface = format!(
         "--hurst 0.8 --longest {longest:e} --rolloff {rolloff:e} --shortest {shortest:e} --contact_modulus {modulus:e}"
     );
-    let hard = Table::of(
+    let hard = Table::from_example(
         "persson",
         &format!("{surface} --rms_height \"0.52 nm\" --points 2"),
     );
     let unit = modulus * hard.note("rms_slope");
     let pressure = 0.02 * unit;
     let rows = format!("--from {pressure:e} --to {:e} --points 2", 50.0 * pressure);
-    let loaded = Table::of(
+    let loaded = Table::from_example(
         "persson",
         &format!("{surface} --rms_height \"0.52 nm\" {rows}"),
     );
@@ -598,7 +601,7 @@ fn spectra_have_the_reference_values() {
         loaded.column("mean_pressure"),
         loaded.column("repulsive_pressure")
     );
-    let sticky = Table::of(
+    let sticky = Table::from_example(
         "persson",
         &format!(
             "{surface} --rms_height \"0.52 nm\" --work_of_adhesion 0.2 --range \"1 nm\" {rows}"
@@ -613,7 +616,7 @@ fn spectra_have_the_reference_values() {
     close(sticky.note("pull_off_pressure"), -0.037247 * unit, 3e-3);
     // The same surface by its slope.
     let slope = hard.note("rms_slope");
-    let sloped = Table::of(
+    let sloped = Table::from_example(
         "persson",
         &format!("{surface} --rms_slope {slope:e} --points 2"),
     );
@@ -621,7 +624,7 @@ fn spectra_have_the_reference_values() {
 
     // h/h0 = 0.52 and q0 h E*/sigma0 = 3.458 with sigma0 = 1.
     let modulus = 3.458 / (2.0 * PI * 0.52);
-    let bam = Table::of(
+    let bam = Table::from_example(
         "bam",
         &format!(
             "--rms_height 0.52 --rolloff 1 --contact_modulus {modulus:e} --work_of_adhesion 1 --range 1"
@@ -633,7 +636,7 @@ fn spectra_have_the_reference_values() {
         1e-8,
     );
 
-    let sticks = Table::of(
+    let sticks = Table::from_example(
         "pastewka-robbins",
         "--rms_slope 0.00115155 --rms_curvature \"8967.86 1/m\" --contact_modulus \"1.33 TPa\" --work_of_adhesion \"0.2 J/m^2\" --from \"0.5 nm\" --to \"1 nm\" --points 2",
     );

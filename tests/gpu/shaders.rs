@@ -222,7 +222,7 @@ fn slabs_and_long_lines_are_valid() {
             );
             let name = format!("{nx} x {ny}");
             for kernel in [&LOAD_FIELD, &STORE_FIELD, &COARSEN] {
-                let whole = source::Whole::of(&plan);
+                let whole = source::Whole::new(&plan);
                 let text = source::kernel(kernel, &plan, whole, uniform(Law::HardWall), wide)
                     .unwrap_or_else(|error| panic!("{error}"));
                 validate(&name, &text, wide);

@@ -168,7 +168,7 @@ fn levels(points: [usize; 2], scene: &Scene) -> Vec<[usize; 2]> {
 
 fn check(name: &str, scene: &Scene) {
     let setup = setup(scene.clone());
-    let cost = Cost::of(&setup).unwrap_or_else(|error| panic!("{name}: {error}"));
+    let cost = Cost::for_setup(&setup).unwrap_or_else(|error| panic!("{name}: {error}"));
     let grid = setup.surface.grid;
     let expected = expected(scene, [grid.nx, grid.ny]);
     assert_eq!(cost.points, expected.points, "{name}");
@@ -190,7 +190,7 @@ fn check(name: &str, scene: &Scene) {
     // Beside iterations in single precision the state in double takes it too.
     let mut mixed = scene.clone();
     mixed.solver.precision = Precision::Mixed;
-    let beside = Cost::of_scene(&mixed, grid, Place::Single)
+    let beside = Cost::for_scene(&mixed, grid, Place::Single)
         .unwrap_or_else(|error| panic!("{name}: {error}"));
     let taken = |held: &[Allocation]| held.iter().any(|held| held.name == "heights_pressure");
     assert!(!beside.reference.is_empty() || scene.solid.hardness.is_some());
@@ -292,7 +292,7 @@ fn a_half_space_has_no_tables_on_a_graphics_processor() {
         let scene = Scene::parse(&text, "test.toml", Path::new("."), &[])
             .unwrap_or_else(|errors| panic!("{errors}"));
         let grid = Grid::new([40, 40], [4.0, 4.0]);
-        let cost = Cost::of_scene(&scene, grid, place).unwrap_or_else(|error| panic!("{error}"));
+        let cost = Cost::for_scene(&scene, grid, place).unwrap_or_else(|error| panic!("{error}"));
         cost.spectra.iter().map(|held| held.name).collect()
     };
     let adhesion = "[adhesion]\nlaw = \"exponential\"\nwork_of_adhesion = 0.01\nrange = 0.1\n";

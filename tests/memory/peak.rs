@@ -50,7 +50,7 @@ fn tabor(folder: &Path, arguments: &[&str], memory: Option<u64>) -> Output {
 fn plan(text: &str) -> Plan {
     let scene = Scene::parse(text, "scene.toml", Path::new("."), &[])
         .unwrap_or_else(|errors| panic!("{errors}"));
-    Plan::of(scene).unwrap_or_else(|error| panic!("{error}"))
+    Plan::for_scene(scene).unwrap_or_else(|error| panic!("{error}"))
 }
 
 /// Peak of the process against the count. It must not be above the count by more than the
@@ -101,7 +101,7 @@ fn a_run_takes_what_was_counted() {
         let peak = summary["peak_memory_bytes"].as_f64().expect("a peak");
         let plan = plan(&text);
         let counted = plan
-            .memory(Place::of(&plan.scene))
+            .memory(Place::for_scene(&plan.scene))
             .expect("a count")
             .machine as f64;
         let share = peak / counted;

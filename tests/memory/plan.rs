@@ -49,8 +49,8 @@ fn has_file(scene: &Scene) -> bool {
 /// All that a check does, and the bytes that it asked for in all, freed ones included.
 fn check(path: &Path, points: usize) -> (Plan, usize) {
     let region = Region::new(ALLOCATOR);
-    let plan = Plan::of(read(path, Some(points))).unwrap_or_else(|error| panic!("{error}"));
-    let place = Place::of(&plan.scene);
+    let plan = Plan::for_scene(read(path, Some(points))).unwrap_or_else(|error| panic!("{error}"));
+    let place = Place::for_scene(&plan.scene);
     let cost = plan.cost(place).expect("a plan");
     for effect in Effect::ALL {
         if effect.is_on(&plan.scene) {
@@ -94,12 +94,12 @@ fn a_check_takes_no_field_and_says_what_the_heights_say() {
         } else {
             read(&path, Some(192))
         };
-        let plan = Plan::of(scene.clone()).unwrap_or_else(|error| panic!("{name}: {error}"));
+        let plan = Plan::for_scene(scene.clone()).unwrap_or_else(|error| panic!("{name}: {error}"));
         let surface = Surface::build(&scene).unwrap_or_else(|error| panic!("{name}: {error}"));
         let setup = Setup::new(scene, surface);
         // The same cost, warnings and law with heights and without.
-        let cost = plan.cost(Place::of(&plan.scene)).expect("a plan");
-        assert_eq!(cost, Cost::of(&setup).expect("a plan"), "{name}");
+        let cost = plan.cost(Place::for_scene(&plan.scene)).expect("a plan");
+        assert_eq!(cost, Cost::for_setup(&setup).expect("a plan"), "{name}");
         assert_eq!(plan.warnings, setup.warnings, "{name}");
         assert_eq!(plan.law, setup.law, "{name}");
         let (found, exact) = (plan.outline.moments, setup.statistics.moments);

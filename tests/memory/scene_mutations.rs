@@ -247,7 +247,7 @@ fn is_small(plan: &Plan) -> bool {
         SurfacePart::SelfAffine(rough) => grid.lx.max(grid.ly) / rough.shortest < FEW_WAVES,
         _ => true,
     });
-    let memory = plan.memory(Place::of(&plan.scene)).expect("a count");
+    let memory = plan.memory(Place::for_scene(&plan.scene)).expect("a count");
     few_waves && memory.machine < SMALL
 }
 
@@ -280,7 +280,7 @@ fn read_and_plan(bytes: &[u8], path: &Path) -> Result<End, TestCaseError> {
             return Ok(End::Refused);
         }
     };
-    let Ok(plan) = Plan::of(scene.clone()) else {
+    let Ok(plan) = Plan::for_scene(scene.clone()) else {
         return Ok(End::NoSurface);
     };
     if !is_small(&plan) {

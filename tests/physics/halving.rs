@@ -17,7 +17,7 @@ struct Loop {
 }
 
 impl Loop {
-    fn of(solved: &Solved) -> Loop {
+    fn from_solved(solved: &Solved) -> Loop {
         let forces: Vec<f64> = solved.rows().map(|row| row.force).collect();
         let end = &solved.end;
         Loop {
@@ -102,8 +102,8 @@ fn compare(name: &str, coarse: &Loop, fine: &Loop, step: f64, stated: [f64; 2]) 
 fn a_sphere() {
     let steps = 120;
     let [from, to] = [-3.8, -1.0];
-    let [coarse, fine] =
-        [steps, 2 * steps].map(|steps| Loop::of(&sphere(2.0, 8.0, &loop_path(from, to, steps))));
+    let [coarse, fine] = [steps, 2 * steps]
+        .map(|steps| Loop::from_solved(&sphere(2.0, 8.0, &loop_path(from, to, steps))));
     compare(
         "sphere, Lennard-Jones, mu 2",
         &coarse,
@@ -132,7 +132,7 @@ fn a_rough_surface() {
     let [coarse, fine] = [steps, 2 * steps].map(|steps| {
         let path = loop_path(from, to, steps);
         let loading = format!("control = \"mean-gap\"\npath = {path:?}");
-        Loop::of(&solve_table(&rough(48, &adhesion, &loading)))
+        Loop::from_solved(&solve_table(&rough(48, &adhesion, &loading)))
     });
     let step = (from - to) / steps as f64;
     // A dozen jumps of a loop that is a few per cent of the work done: each lies anywhere within its step.

@@ -18,7 +18,7 @@ fn sphere(solid: &str, adhesion: &str, loading: &str) -> Solved {
 }
 
 fn found(solved: &Solved) -> PullOff {
-    match Tension::of(&solved.setup.scene.loading, &solved.end) {
+    match Tension::at_end(&solved.setup.scene.loading, &solved.end) {
         Tension::LetGo(found) => found,
         other => panic!("{other:?}"),
     }
@@ -137,7 +137,7 @@ fn time_goes_with_the_load() {
 fn what_still_holds_is_no_pull_off() {
     let says = |loading: &str| {
         let solved = sphere("", "", loading);
-        Tension::of(&solved.setup.scene.loading, &solved.end)
+        Tension::at_end(&solved.setup.scene.loading, &solved.end)
     };
     let ends = says("control = \"force\"\npath = [0.5, -0.5, -1.0]");
     assert_eq!(

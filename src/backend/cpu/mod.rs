@@ -240,7 +240,7 @@ impl<T: CpuReal> Backend for CpuBackend<T> {
     fn spectrum(&mut self, level: Level, _name: &'static str, factors: Factors) -> Spectrum {
         // A table is read faster than roots are taken.
         let shape = self.levels[level.0].shape;
-        self.spectra.push(factors.tabulated(shape, T::of));
+        self.spectra.push(factors.tabulated(shape, T::from_double));
         Spectrum {
             level,
             index: self.spectra.len() - 1,
@@ -248,14 +248,14 @@ impl<T: CpuReal> Backend for CpuBackend<T> {
     }
 
     fn set_zero_mode(&mut self, spectrum: Spectrum, value: f64) {
-        self.spectra[spectrum.index][0] = T::of(value);
+        self.spectra[spectrum.index][0] = T::from_double(value);
     }
 
     fn write(&mut self, field: Field, values: &[f64]) {
         let stored = &mut self.fields[field.index];
         debug_assert_eq!(values.len(), stored.len());
         for (stored, &value) in stored.iter_mut().zip(values) {
-            *stored = T::of(value);
+            *stored = T::from_double(value);
         }
     }
 

@@ -168,7 +168,7 @@ impl<T: CpuReal> Transform<T> {
     /// back. Returns `sum K |s_q|^2 / points` over all wavevectors.
     pub fn multiply(&mut self, factors: &[T], energy: bool) -> f64 {
         let [nx, ny] = self.shape.points;
-        let scale = T::of(1.0 / self.shape.len() as f64);
+        let scale = T::from_double(1.0 / self.shape.len() as f64);
         let (columns, groups) = (self.columns, self.groups);
         let context = Columns {
             tiles: &self.tiles,

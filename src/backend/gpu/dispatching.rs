@@ -94,7 +94,7 @@ impl GpuBackend {
         let indices = fields.iter().map(|field| field.index).collect();
         let variant = std::ptr::from_ref(kernel).addr();
         let key = Key::Kernel(variant, level.0, self.outer.is_some(), indices);
-        let place = Place::of(kernel.form);
+        let place = Place::for_form(kernel.form);
         if kernel.gate != Gate::Ahead {
             self.settle()?;
         } else if !kernel.sums.is_empty() {
@@ -140,7 +140,7 @@ impl GpuBackend {
         }
         let own = kernel.written().end;
         let whole = match (kernel.whole, fields.last()) {
-            (true, Some(field)) => source::Whole::of(&self.level_space(field.level)?.plan),
+            (true, Some(field)) => source::Whole::new(&self.level_space(field.level)?.plan),
             _ => source::Whole::default(),
         };
         let mut accesses = bindings::fields(kernel.reads.len(), kernel.writes.len(), whole.slabs);

@@ -83,7 +83,7 @@ impl GpuBackend {
         plan: &LevelPlan,
         factors: &Factors,
     ) -> Result<SpectrumSpace, GpuError> {
-        let source = FactorSource::of(factors);
+        let source = FactorSource::new(factors);
         let mut buffer = |numbers: usize, values: &[f64]| -> Result<wgpu::Buffer, GpuError> {
             let buffer = self.storage(name, self.number.bytes() * numbers)?;
             let bytes = self.number.bytes_of(values.iter().copied());

@@ -30,7 +30,7 @@ pub enum Place {
 
 impl Place {
     /// That of a kernel of the catalogue.
-    pub fn of(form: Form) -> Place {
+    pub fn for_form(form: Form) -> Place {
         match form {
             form if form.retains() => Place::Retained,
             _ => Place::Kernel,

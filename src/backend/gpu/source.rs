@@ -227,7 +227,7 @@ pub fn kernel(
         };
         let at_once = at_once.min(kernel.sums.len());
         reduction(&mut source, kernel.reduces, threads, at_once);
-        let first = plan.first_partial(Place::of(kernel.form));
+        let first = plan.first_partial(Place::for_form(kernel.form));
         let groups = [plan.slabs, plan.slab_groups(kernel.form)];
         hand_in(&mut source, kernel.reduces, groups, first);
     }
@@ -369,7 +369,7 @@ pub fn multiply(
     let columns = &plan.columns;
     let [width, height] = plan.shape;
     let pairs = plan.slab_pairs();
-    let work = Work::of(plan);
+    let work = Work::new(plan);
     let mut source = plan.number.declaration();
     preamble(&mut source, wide, "read", SUMS);
     slabs::declare_turn(&mut source, plan);

@@ -141,7 +141,7 @@ fn no_hostile_map_is_trouble() {
         let Ok(surface) = Surface::from_parts(&grid, &[part]) else {
             return Ok(());
         };
-        let report = Report::of(&path, &surface, boundary);
+        let report = Report::new(&path, &surface, boundary);
         for text in [
             report.text(),
             report.table(),

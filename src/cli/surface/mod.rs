@@ -186,7 +186,7 @@ pub(super) fn surface(arguments: &SurfaceArguments) -> Result<(), Failure> {
         .extension()
         .is_some_and(|extension| extension == SCENE);
     let (surface, boundary) = if is_scene {
-        of_scene(arguments)?
+        surface_of_scene(arguments)?
     } else {
         of_file(arguments)?
     };
@@ -199,7 +199,7 @@ pub(super) fn surface(arguments: &SurfaceArguments) -> Result<(), Failure> {
             warn(&with_file_options(plain(warning)));
         }
     }
-    let report = Report::of(source, &surface, boundary);
+    let report = Report::new(source, &surface, boundary);
     // The table first: it stands even where no picture can be written.
     print(&report.text())?;
     write_pictures(&folder, &report)?;
@@ -215,7 +215,7 @@ pub(super) fn surface(arguments: &SurfaceArguments) -> Result<(), Failure> {
 }
 
 /// The surface of a scene, with its own boundary.
-fn of_scene(arguments: &SurfaceArguments) -> Result<(Surface, Boundary), Failure> {
+fn surface_of_scene(arguments: &SurfaceArguments) -> Result<(Surface, Boundary), Failure> {
     if !arguments.file.is_empty() {
         return Err(Failure::Usage(
             "options such as --unit, --detrend and --boundary are for files of heights; a scene says them itself (or --set surface.0.unit=...)"

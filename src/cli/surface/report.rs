@@ -82,7 +82,7 @@ pub(super) struct Report<'a> {
 
 impl<'a> Report<'a> {
     /// Everything about a surface that came from `source`.
-    pub fn of(source: &'a Path, surface: &'a Surface, boundary: Boundary) -> Self {
+    pub fn new(source: &'a Path, surface: &'a Surface, boundary: Boundary) -> Self {
         let (grid, heights) = (&surface.grid, &surface.heights);
         Report {
             source,

@@ -124,7 +124,7 @@ fn punch() -> Case {
         .under("pressure", [0.01])
         .so_that(|run, _| {
             assert_eq!(run.rows[0].contact, 0.5);
-            let fields = Fields::of(run, 1).expect("fields");
+            let fields = Fields::at_step(run, 1).expect("fields");
             for i in 24..40 {
                 let x = (i as f64 + 0.5) / 64.0 - 0.5;
                 let room = (PI * 0.25).sin().powi(2) - (PI * x).sin().powi(2);

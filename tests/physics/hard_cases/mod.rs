@@ -78,7 +78,7 @@ fn try_case(case: &Case, place: usize, paths: &[&'static Path]) -> Vec<Entry> {
         };
         for (index, row) in run.rows.iter().enumerate() {
             let what = format!("{} on {}, step {}", case.name, path.name, index + 1);
-            let Some(fields) = Fields::of(run, index + 1) else {
+            let Some(fields) = Fields::at_step(run, index + 1) else {
                 continue;
             };
             if !row.converged {
@@ -92,7 +92,7 @@ fn try_case(case: &Case, place: usize, paths: &[&'static Path]) -> Vec<Entry> {
                 .filter(|_| run.status == 0 && case.compared)
             {
                 assert_eq!(row.state, judged.state, "{what}");
-                let judge_fields = Fields::of(&judge, index + 1).expect("the judge's fields");
+                let judge_fields = Fields::at_step(&judge, index + 1).expect("the judge's fields");
                 truth::compare(case, path, [row, judged], [&fields, &judge_fields], &what);
             }
         }
@@ -192,7 +192,10 @@ fn a_wrong_answer_is_seen() {
         let run = run::run(&case, path);
         let heights = run.field(1, "heights").expect("heights");
         let seen = |change: &dyn Fn(&mut run::Row, &mut Fields)| {
-            let (mut row, mut fields) = (run.rows[0].clone(), Fields::of(&run, 1).expect("fields"));
+            let (mut row, mut fields) = (
+                run.rows[0].clone(),
+                Fields::at_step(&run, 1).expect("fields"),
+            );
             change(&mut row, &mut fields);
             let tried = std::panic::AssertUnwindSafe(|| {
                 truth::check(&case, path, &row, &fields, &heights, "changed");

@@ -31,7 +31,7 @@ impl Entry {
         )
     }
 
-    fn of(line: &str) -> Entry {
+    fn from_line(line: &str) -> Entry {
         let cells: Vec<&str> = line.trim_matches('|').split('|').map(str::trim).collect();
         let [case, path, outcome, iterations] = cells[..] else {
             panic!("a row of four cells: {line}");
@@ -73,7 +73,7 @@ pub fn keep(entries: &[Entry], here: &[&Path], waits: impl Fn(&str, &Path) -> bo
         fs::write(PAGE, [before, HEAD, &rows, after].concat()).expect("the page");
         return;
     }
-    let written: Vec<Entry> = rows.lines().map(Entry::of).collect();
+    let written: Vec<Entry> = rows.lines().map(Entry::from_line).collect();
     let again = "TABOR_LONG=1 TABOR_HARD_CASES=write cargo test --release --test physics hard_cases writes it anew";
     for entry in entries {
         let found = written

@@ -20,7 +20,7 @@ pub struct Fields {
 }
 
 impl Fields {
-    pub fn of(run: &Run, step: usize) -> Option<Fields> {
+    pub fn at_step(run: &Run, step: usize) -> Option<Fields> {
         Some(Fields {
             gap: run.field(step, "gap")?,
             pressure: run.field(step, "pressure")?,

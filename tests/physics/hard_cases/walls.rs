@@ -116,7 +116,7 @@ fn flattened(run: &Run, path: &Path) {
     assert_eq!(row.contact, 1.0);
     let contact = Contact::cell(64, Law::Wall);
     let heights = run.field(1, "heights").expect("heights");
-    let fields = Fields::of(run, 1).expect("fields");
+    let fields = Fields::at_step(run, 1).expect("fields");
     let waves = truth::elastic_pressure(&contact, &heights);
     let off = truth::norm(
         fields
@@ -143,7 +143,7 @@ fn one_pixel() -> Case {
     )
     .under("force", [load])
     .so_that(move |run, path| {
-        let fields = Fields::of(run, 1).expect("fields");
+        let fields = Fields::at_step(run, 1).expect("fields");
         let apex = 16 * 32 + 16;
         let touching = (0..1024)
             .filter(|i| fields.gap[*i] == 0.0)

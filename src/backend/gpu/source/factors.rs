@@ -30,7 +30,7 @@ impl FactorSource {
     ];
 
     /// That of a spectrum.
-    pub fn of(factors: &Factors) -> Self {
+    pub fn new(factors: &Factors) -> Self {
         match factors {
             Factors::Table(_) => FactorSource::Table,
             Factors::HalfSpace(_, Response::Stiffness) => FactorSource::Stiffness,

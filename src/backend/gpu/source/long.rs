@@ -203,7 +203,7 @@ pub fn multiply_long(
     };
     let [width, _] = plan.shape;
     let pairs = plan.pairs();
-    let work = Work::of(plan);
+    let work = Work::new(plan);
     let mut source = plan.number.declaration();
     preamble(&mut source, wide, "read", SUMS);
     slabs::declare_turn(&mut source, plan);

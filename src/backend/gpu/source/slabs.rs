@@ -22,7 +22,7 @@ impl From<[usize; 2]> for Whole {
 
 impl Whole {
     /// A field of a level.
-    pub fn of(plan: &LevelPlan) -> Self {
+    pub fn new(plan: &LevelPlan) -> Self {
         Whole {
             shape: plan.shape,
             slabs: plan.slabs,
@@ -115,7 +115,7 @@ pub(super) struct Work {
 }
 
 impl Work {
-    pub(super) fn of(plan: &LevelPlan) -> Self {
+    pub(super) fn new(plan: &LevelPlan) -> Self {
         Work {
             slabs: plan.slabs,
             slab_pairs: plan.slab_pairs(),
