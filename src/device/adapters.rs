@@ -4,8 +4,10 @@
 //! [`restore_standard_error`](crate::backend::gpu::restore_standard_error) first. With `verbose` nothing is
 //! redirected, so that even a driver that aborts is heard.
 
+use std::sync::{Mutex, PoisonError};
+
 use crate::backend::gpu::{
-    AdapterChoice, AdapterDescription, GpuDevice, GpuError, adapters, quietly,
+    AdapterChoice, AdapterDescription, Faults, GpuDevice, GpuError, adapters, quietly,
 };
 
 /// All adapters that drivers offer here. Drivers that print while they start are heard if `verbose`.
@@ -13,12 +15,26 @@ pub fn list(verbose: bool) -> Vec<AdapterDescription> {
     quietly_unless(verbose, adapters)
 }
 
-/// A device on the adapter of a choice.
+/// A device on the adapter of a choice: the one that this process has opened for the same choice, with the
+/// kernels that it has compiled, or a new one. A device that is made to fail is always new.
 ///
 /// # Errors
 /// As [`GpuDevice::new`].
 pub fn open(choice: &AdapterChoice, verbose: bool) -> Result<GpuDevice, GpuError> {
-    quietly_unless(verbose, || GpuDevice::new(choice))
+    let new = || quietly_unless(verbose, || GpuDevice::new(choice));
+    if choice.faults() != Faults::default() {
+        return new();
+    }
+    static OPEN: Mutex<Vec<(AdapterChoice, GpuDevice)>> = Mutex::new(Vec::new());
+    let mut open = OPEN.lock().unwrap_or_else(PoisonError::into_inner);
+    // A device that was lost stays lost.
+    open.retain(|(_, device)| !device.is_lost());
+    if let Some((_, device)) = open.iter().find(|(made_for, _)| made_for == choice) {
+        return Ok(device.clone());
+    }
+    let device = new()?;
+    open.push((choice.clone(), device.clone()));
+    Ok(device)
 }
 
 /// Does something that makes drivers talk.

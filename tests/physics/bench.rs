@@ -3,7 +3,7 @@
 use std::path::Path;
 
 use tabor::backend::Backend;
-use tabor::backend::cpu::{CpuBackend, with_threads};
+use tabor::backend::cpu::CpuBackend;
 use tabor::kernel::Scalars;
 use tabor::scene::Scene;
 use tabor::study::{Evaluation, FinishedStep, Jump, Observer, Setup, StepRow, WalkEnd, walk};
@@ -77,16 +77,16 @@ pub type Maker<'a> = &'a (dyn Fn() -> Box<dyn Backend + Send> + Sync);
 
 fn run(text: &str, fields: bool, backend: Maker) -> Solved {
     let setup = setup(text);
-    let (steps, end) = with_threads(None, || {
-        let mut keep = Keep {
-            fields,
-            ..Keep::default()
-        };
-        let end = walk(&setup, &|| backend(), &mut keep).unwrap_or_else(|error| panic!("{error}"));
-        (keep.steps, end)
-    })
-    .expect("threads");
-    Solved { setup, steps, end }
+    let mut keep = Keep {
+        fields,
+        ..Keep::default()
+    };
+    let end = walk(&setup, &|| backend(), &mut keep).unwrap_or_else(|error| panic!("{error}"));
+    Solved {
+        setup,
+        steps: keep.steps,
+        end,
+    }
 }
 
 /// Solves a scene on backends of a kind and keeps every step's fields, whether the last step converges or not.

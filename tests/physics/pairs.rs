@@ -3,7 +3,6 @@
 
 use std::path::Path;
 
-use tabor::backend::cpu::with_threads;
 use tabor::effect::Effect;
 use tabor::scene::{Scene, SceneErrors};
 use tabor::study::{Setup, StepRow, walk};
@@ -36,7 +35,7 @@ fn solve(effects: &[Effect]) -> Vec<StepRow> {
     );
     let surface = Surface::build(&scene).unwrap_or_else(|error| panic!("{error}"));
     let setup = Setup::new(scene, surface);
-    let end = with_threads(None, || walk(&setup, &cpu, &mut ())).expect("threads");
+    let end = walk(&setup, &cpu, &mut ());
     let rows = end.unwrap_or_else(|error| panic!("{error}")).rows;
     assert!(
         rows.len() == 5 && rows.iter().all(|row| row.converged),

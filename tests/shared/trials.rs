@@ -8,6 +8,7 @@ use std::panic::{UnwindSafe, catch_unwind, resume_unwind};
 use std::process::{Command, ExitCode};
 
 use libtest_mimic::{Arguments, Completion, Trial};
+use tabor::backend::cpu::with_threads;
 
 /// Why a test cannot run; what [`ignore`] unwinds with.
 struct Ignored(String);
@@ -43,10 +44,13 @@ macro_rules! tests {
 pub(crate) use tests;
 
 /// A test by its module and name, as the compiler's harness would name it.
+///
+/// It runs on a pool of one thread: tests run side by side already, and a solve from outside of a pool wakes
+/// another thread for each of its kernels. Results have the same bits on any number of threads.
 pub fn trial(module: &str, name: &str, test: impl FnOnce() + Send + UnwindSafe + 'static) -> Trial {
     let module = module.split_once("::").map_or("", |(_, below)| below);
     Trial::ignorable_test(format!("{module}::{name}"), move || {
-        let Err(payload) = catch_unwind(test) else {
+        let Err(payload) = catch_unwind(|| with_threads(Some(1), test).expect("a thread")) else {
             return Ok(Completion::Completed);
         };
         match payload.downcast::<Ignored>() {

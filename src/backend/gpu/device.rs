@@ -199,6 +199,11 @@ impl GpuDevice {
         &self.inner.queue
     }
 
+    /// Whether the device was lost: nothing computes on it any more.
+    pub fn is_lost(&self) -> bool {
+        self.loss().is_some()
+    }
+
     /// Why the device was lost, if it was.
     pub(super) fn loss(&self) -> Option<GpuError> {
         self.inner

@@ -1,6 +1,6 @@
 //! The hard cases: each converges to the right answer within its bound, or says that it did not.
 //!
-//! Every case runs through the binary on every path that the build has, on the graphics processor in mixed or
+//! Every case runs on every path that the build has, on the graphics processor in mixed or
 //! single precision in turn (with `TABOR_LONG=1` in both). What comes out is asked of
 //! the files: an equilibrium, in double precision, by transforms and laws of the test's own; a closed form where
 //! there is one; and the numbers of the processor in double precision for the other paths. The table

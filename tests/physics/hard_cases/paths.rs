@@ -78,9 +78,19 @@ const SMALLEST: &str = r#"
 impl Path {
     /// Whether the build accepts it: an arithmetic that a version lacks is refused in the scene.
     pub fn is_built(&self) -> bool {
-        let settings = [("backend", self.backend), ("precision", self.precision)]
-            .map(|(key, word)| (format!("solver.{key}"), format!("\"{word}\"")));
-        Scene::parse(SMALLEST, "smallest.toml", FilePath::new("."), &settings).is_ok()
+        Scene::parse(
+            SMALLEST,
+            "smallest.toml",
+            FilePath::new("."),
+            &self.settings(),
+        )
+        .is_ok()
+    }
+
+    /// What it sets in a scene.
+    pub fn settings(&self) -> [(String, String); 2] {
+        [("backend", self.backend), ("precision", self.precision)]
+            .map(|(key, word)| (format!("solver.{key}"), format!("\"{word}\"")))
     }
 
     /// Whether this machine has what it takes; where it must and has not, the test fails.
@@ -90,8 +100,8 @@ impl Path {
 
     /// Whether it tries a case of this name, at this place in the list.
     ///
-    /// A run on a software driver builds its shaders anew, which takes longer than all else here. So on the
-    /// graphics processor the cases take turns: one in mixed precision, the next in single.
+    /// A software driver takes longer to compile the shaders of a case than all else here. So on the graphics
+    /// processor the cases take turns: one in mixed precision, the next in single.
     pub fn tries(&self, case: &str, place: usize) -> bool {
         let turn = match (self.backend, self.precision) {
             ("gpu", "mixed") => is_long() || place.is_multiple_of(2),

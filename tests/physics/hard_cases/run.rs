@@ -1,10 +1,13 @@
-//! A scene through the binary, as its user sees it: exit status, messages, curve and fields.
+//! A scene as its user sees it: exit status, messages, curve and fields.
 
 use std::collections::HashMap;
 use std::fs::{self, File};
+use std::path::Path as FilePath;
 use std::process::Stdio;
 use std::time::{Duration, Instant};
 
+use tabor::scene::Scene;
+use tabor::{RunError, RunObserver, RunOptions, RunStatus};
 use tempfile::TempDir;
 
 use super::case::Case;
@@ -37,21 +40,37 @@ pub struct Run {
     folder: TempDir,
 }
 
-/// Runs a case on a path.
+/// Runs a case on a path: through the binary on the processor, through the library on the graphics processor,
+/// since a software driver compiles shaders anew in each process, which takes longer than all else here.
 pub fn run(case: &Case, path: &Path) -> Run {
     let folder = tempfile::tempdir().expect("a folder");
     fs::write(folder.path().join("scene.toml"), case.scene(path)).expect("a scene");
     for (name, heights) in &case.files {
         write_npy(&folder.path().join(name), case.contact.points, heights);
     }
-    let messages = File::create(folder.path().join("messages")).expect("a file");
+    let (status, messages) = match path.backend {
+        "gpu" => run_library(path, folder.path()),
+        _ => run_binary(case, path, folder.path()),
+    };
+    let curve = fs::read_to_string(folder.path().join("out/curve.csv")).unwrap_or_default();
+    let run = Run {
+        status,
+        rows: rows(&curve),
+        messages,
+        folder,
+    };
+    check(case, path, &run, &curve);
+    run
+}
+
+/// The exit status and the messages of the binary.
+fn run_binary(case: &Case, path: &Path, folder: &FilePath) -> (i32, String) {
+    let messages = folder.join("messages");
     let call = ["run", "scene.toml", "--out", "out", "--threads", "1"];
-    let mut child = command(folder.path(), &call)
+    let mut child = command(folder, &call)
         .args(["--backend", path.backend, "--precision", path.precision])
-        // A software driver brings threads of its own.
-        .env("LP_NUM_THREADS", "1")
         .stdout(Stdio::null())
-        .stderr(messages)
+        .stderr(File::create(&messages).expect("a file"))
         .spawn()
         .expect("the binary runs");
     let begun = Instant::now();
@@ -65,16 +84,55 @@ pub fn run(case: &Case, path: &Path) -> Run {
         }
         std::thread::sleep(Duration::from_millis(3));
     };
-    let text = |name: &str| fs::read_to_string(folder.path().join(name)).unwrap_or_default();
-    let (messages, curve) = (text("messages"), text("out/curve.csv"));
-    let status = status.code().unwrap_or(-1);
-    let run = Run {
-        status,
-        rows: rows(&curve),
-        messages,
-        folder,
+    let said = fs::read_to_string(messages).unwrap_or_default();
+    (status.code().unwrap_or(-1), said)
+}
+
+/// Keeps what a run says, and ends one that takes too long.
+struct Listener {
+    begun: Instant,
+    said: String,
+}
+
+impl RunObserver for Listener {
+    fn warning(&mut self, text: &str) {
+        self.said.push_str(&format!("warning: {text}\n"));
+    }
+
+    fn iteration(&mut self, _step: usize, _iteration: usize, _residual: f64) -> bool {
+        self.begun.elapsed() < LONGEST
+    }
+}
+
+/// The status that the binary would exit with, and the same messages.
+fn run_library(path: &Path, folder: &FilePath) -> (i32, String) {
+    let scene = match Scene::read(&folder.join("scene.toml"), &path.settings()) {
+        Ok(scene) => scene,
+        Err(errors) => return (2, errors.to_string()),
     };
+    let mut listener = Listener {
+        begun: Instant::now(),
+        said: String::new(),
+    };
+    let options = RunOptions::new().threads(1);
+    match tabor::run_with(scene, &folder.join("out"), &options, &mut listener) {
+        Ok(end) => match end.status {
+            RunStatus::Finished => (0, listener.said),
+            // What the binary makes its last message of.
+            RunStatus::NotConverged { residual, .. } => {
+                (3, format!("{}residual {residual:.3e}", listener.said))
+            }
+            other => panic!("{other:?} after {LONGEST:?}"),
+        },
+        Err(error @ (RunError::Surface(_) | RunError::Device(_))) => (2, error.to_string()),
+        Err(error) => panic!("{}: {error}", path.name),
+    }
+}
+
+/// What holds of every run: a status, finite numbers, and a message where it ends early.
+fn check(case: &Case, path: &Path, run: &Run, curve: &str) {
     let what = format!("{} on {}: {}", case.name, path.name, run.messages);
+    let status = run.status;
     assert!(matches!(status, 0 | 2 | 3), "{what}: status {status}");
     assert!(!run.messages.contains("panicked"), "{what}");
     for word in ["NaN", "nan", "inf"] {
@@ -110,9 +168,15 @@ pub fn run(case: &Case, path: &Path) -> Run {
                 !row.converged && row.residual.is_finite() && row.residual > case.tolerance(path)
             });
             assert!(missed && run.messages.contains("residual"), "{what}");
+            let residual = last.map_or(f64::NAN, |row| row.residual);
+            if path.backend == "gpu" {
+                assert!(
+                    run.messages.contains(&format!("residual {residual:.3e}")),
+                    "{what}"
+                );
+            }
         }
     }
-    run
 }
 
 impl Run {
@@ -169,7 +233,7 @@ fn rows(curve: &str) -> Vec<Row> {
         .collect()
 }
 
-fn write_npy(path: &std::path::Path, [nx, ny]: [usize; 2], values: &[f64]) {
+fn write_npy(path: &FilePath, [nx, ny]: [usize; 2], values: &[f64]) {
     use npyz::WriterBuilder;
     let file = File::create(path).expect("a file");
     let mut writer = npyz::WriteOptions::new()
