@@ -24,6 +24,8 @@ pub struct Persson {
     log_variance: Vec<f64>,
     /// `J(x)` in steps of `GAP_STEP` from 0.
     repulsion: Vec<f64>,
+    /// `GAP_STEP` times its derivative.
+    repulsion_slopes: Vec<f64>,
 }
 
 /// Contact area fraction by the first version: `erf(sqrt2 P)`. Persson 2001.
@@ -42,6 +44,9 @@ impl Persson {
             gamma,
             log_variance: Vec::with_capacity(LOG_ENTRIES),
             repulsion: vec![0.0; GAP_ENTRIES],
+            repulsion_slopes: (0..GAP_ENTRIES)
+                .map(|i| -repulsion_rate(i as f64 * GAP_STEP) * GAP_STEP)
+                .collect(),
         };
         // Up to v = 0.01 the contact is complete (the error function is 1 to all digits).
         let mut now = LOG_START;
@@ -129,11 +134,7 @@ impl Persson {
             0.0
         } else {
             let i = place as usize;
-            let at = i as f64 * GAP_STEP;
-            let slopes = (
-                -repulsion_rate(at) * GAP_STEP,
-                -repulsion_rate(at + GAP_STEP) * GAP_STEP,
-            );
+            let slopes = (self.repulsion_slopes[i], self.repulsion_slopes[i + 1]);
             let values = (self.repulsion[i], self.repulsion[i + 1]);
             hermite(place - i as f64, values, slopes)
         };

@@ -1,43 +1,18 @@
 //! Special functions, to nearly full precision for real arguments.
 
-use std::f64::consts::{FRAC_2_SQRT_PI, PI};
+use std::f64::consts::PI;
 
 /// Euler's constant.
 const EULER: f64 = 0.577_215_664_901_532_9;
 
 /// Error function, `2/sqrt(pi) int_0^x exp(-t^2) dt`.
 pub fn erf(x: f64) -> f64 {
-    if x.abs() < 2.5 {
-        // All terms have the same sign, so there is no cancellation (Abramowitz & Stegun 7.1.6).
-        let square = x * x;
-        let (mut term, mut sum, mut n) = (x, x, 0.0);
-        // Some 40 terms at the largest x here.
-        while term.abs() > 1e-17 * sum.abs() {
-            n += 1.0;
-            term *= 2.0 * square / (2.0 * n + 1.0);
-            sum += term;
-        }
-        FRAC_2_SQRT_PI * (-square).exp() * sum
-    } else {
-        (1.0 - erfc(x.abs())).copysign(x)
-    }
+    libm::erf(x)
 }
 
 /// Complementary error function, `1 - erf(x)`, with a small relative error also for large x.
 pub fn erfc(x: f64) -> f64 {
-    if x < 1.0 {
-        1.0 - if x < -2.5 { -1.0 + erfc(-x) } else { erf(x) }
-    } else if x > 28.0 {
-        0.0
-    } else {
-        // Continued fraction, Abramowitz & Stegun 7.1.14, from the far end.
-        let terms = (30.0 + 250.0 / x) as usize;
-        let mut tail = x;
-        for k in (1..=terms).rev() {
-            tail = x + 0.5 * k as f64 / tail;
-        }
-        0.5 * FRAC_2_SQRT_PI * (-x * x).exp() / tail
-    }
+    libm::erfc(x)
 }
 
 /// Exponential integral `E1(x) = int_x^inf exp(-t)/t dt` for x > 0; infinite at 0.

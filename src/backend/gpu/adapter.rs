@@ -1,4 +1,4 @@
-//! Adapters: what there are, what each allows, and which one is taken.
+//! Adapters: listing them, their limits, and the choice of one.
 
 use super::error::GpuError;
 use super::faults::Faults;
@@ -13,16 +13,16 @@ use crate::backend::Shape;
 pub struct AdapterChoice {
     /// Part of its name, in any case; also from the environment variable `WGPU_ADAPTER_NAME`.
     pub name: Option<String>,
-    /// Whether a driver that computes on the processor will do. It is slower there than this
-    /// program's own CPU backend, so only tests and explicit wishes want it.
+    /// Whether a software driver, which computes on the processor, is accepted. It is slower than the CPU
+    /// backend, so only tests and explicit requests want it.
     pub software: bool,
-    /// What the device is made to do for tests.
+    /// Faults injected by tests.
     #[cfg(feature = "fault-injection")]
     pub faults: Faults,
 }
 
 impl AdapterChoice {
-    /// What the device is made to do; nothing but in tests.
+    /// Faults injected by tests; none in a release.
     pub(crate) fn faults(&self) -> Faults {
         #[cfg(feature = "fault-injection")]
         let faults = self.faults;
@@ -32,31 +32,31 @@ impl AdapterChoice {
     }
 }
 
-/// An adapter in words.
+/// Description of an adapter.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct AdapterDescription {
     /// Its name.
     pub name: String,
     /// The interface through which it is reached, as `Vulkan`.
     pub interface: String,
-    /// The driver and its version, as it says.
+    /// Name and version of its driver.
     pub driver: String,
-    /// What computes behind it.
+    /// The kind of processor behind it.
     pub kind: AdapterKind,
     /// Whether it has double precision.
     pub double: bool,
-    /// What it binds and what a workgroup may hold.
+    /// Limits of its bindings and workgroups.
     pub limits: Limits,
 }
 
-/// What computes behind an adapter, best first.
+/// The kind of processor behind an adapter, best first.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub enum AdapterKind {
-    /// A graphics card of its own memory.
+    /// A graphics card with its own memory.
     Discrete,
-    /// A graphics processor that shares the memory.
+    /// A graphics processor that shares the machine's memory.
     Integrated,
-    /// One shared by a host.
+    /// A virtual one, shared by a host.
     Virtual,
     /// Something else.
     Other,
@@ -65,7 +65,7 @@ pub enum AdapterKind {
 }
 
 impl AdapterKind {
-    /// The kind in words.
+    /// Its name.
     pub fn name(self) -> &'static str {
         match self {
             AdapterKind::Discrete => "discrete GPU",
@@ -83,14 +83,14 @@ impl AdapterDescription {
         self.kind == AdapterKind::Software
     }
 
-    /// Whether its transforms and bindings take fields of so many points each way in this number.
+    /// Whether its transforms and bindings take fields of this many points along x and y in this number type.
     pub fn takes(&self, points: [usize; 2], number: Number) -> bool {
         let shape = Shape::whole(points[0], points[1]);
         LevelPlan::laid_out(shape, &self.limits, number).is_ok()
     }
 
-    /// Points along the side of the largest square grid whose fields in this number its transforms and
-    /// bindings take.
+    /// Points along the side of the largest square grid whose fields fit its transforms and bindings in this
+    /// number type.
     pub fn largest_side(&self, number: Number) -> usize {
         self.limits.largest_side(number)
     }
@@ -152,7 +152,7 @@ pub(super) fn enumerate(instance: &wgpu::Instance) -> Vec<wgpu::Adapter> {
     pollster::block_on(instance.enumerate_adapters(wgpu::Backends::all()))
 }
 
-/// The place of the adapter to take among those there are.
+/// Index of the adapter to use.
 pub(super) fn choose(
     found: &[AdapterDescription],
     choice: &AdapterChoice,

@@ -1,20 +1,20 @@
-//! Layouts of what is bound to a kernel, written out: automatic ones drop what a kernel happens
-//! not to use, and then differ between kernels.
+//! Bind group layouts, written out: automatic layouts drop bindings that a kernel does not use, and
+//! so differ between kernels.
 
-/// What a binding is to its kernel.
+/// How a kernel uses a binding.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Access {
-    /// The fixed numbers.
+    /// A uniform buffer of constants.
     Uniform,
-    /// A buffer that is read.
+    /// A storage buffer, read only.
     Read,
-    /// A buffer that is written or updated.
+    /// A storage buffer, read and written.
     Write,
 }
 
 /// Group 0 of the kernels that work on points: params, scalars, partial sums.
 pub const WORKING: &[Access] = &[Access::Uniform, Access::Read, Access::Write];
-/// The same where there are several slabs or parts of a spectrum: the number of this one besides.
+/// The same with the index of the slab or of the part of a spectrum, where there are several.
 pub const WORKING_IN_TURNS: &[Access] = &[
     Access::Uniform,
     Access::Read,

@@ -1,13 +1,13 @@
-//! Which WGSL belongs to which word of the catalogue.
+//! The WGSL of each kernel of the catalogue.
 
 use super::layout::Number;
 use crate::kernel::{Constraint, scalar};
 use crate::law::LawShader;
 
-/// The WGSL of a kernel: what it builds on and its own part, joined in this order.
+/// The WGSL of a kernel: shared parts, then its own, joined in this order.
 #[derive(Clone, Copy)]
 pub struct Shader {
-    /// The word of the catalogue.
+    /// The kernel's name.
     pub name: &'static str,
     /// Sources.
     pub parts: &'static [&'static str],
@@ -28,27 +28,27 @@ macro_rules! shaders {
     };
 }
 
-/// What every kernel sees.
+/// Included in every kernel.
 pub const COMMON: &str = part!("common");
 /// Sums over a workgroup.
 pub const REDUCE: &str = part!("reduce");
-/// Sums as they are.
+/// Plain sums.
 pub const SUMS: &str = part!("sums");
-/// Sums with what rounding takes from them.
+/// Compensated sums.
 pub const SUMS_COMPENSATED: &str = part!("sums_compensated");
-/// One function a gate.
+/// One function for each gate.
 pub const GATE: &str = part!("gate");
-/// How kernels see a law where the unknown is the gap.
+/// Access to a law where the unknown is the gap.
 pub const WHOLE_GAP: &str = part!("whole_gap");
-/// How they see it where the unknown is a correction of a base gap.
+/// Access to a law where the unknown is a correction of an outer state's gap.
 pub const CORRECTION: &str = part!("correction");
 /// Copies a buffer.
 pub const COPY: &str = part!("copy");
 /// Products of complex numbers.
 pub const FFT: &str = part!("fft");
-/// Factors out of a table.
+/// Factors from a table.
 pub const FACTOR_TABLE: &str = part!("factor_table");
-/// The stiffness of a half-space, and the factors that are made of it.
+/// The stiffness of a half-space, and factors computed from it.
 pub const HALF_SPACE: &str = part!("half_space");
 /// The stiffness.
 pub const FACTOR_STIFFNESS: &str = part!("factor_stiffness");

@@ -1,7 +1,7 @@
-//! Decisions between kernels over points: sums put together and scalar kernels, in one dispatch.
+//! Scalar kernels and the final sums that they need, run between field kernels in one dispatch.
 //!
-//! They wait until a kernel needs their result. Kernels and multiplications that run ahead of them leave their
-//! sums in separate places, which the next dispatch takes.
+//! They are recorded when a kernel needs their result. Kernels and products that run before then write their
+//! partial sums to separate places, which the next such dispatch adds up.
 
 use super::bindings::DECIDING;
 use super::level::Place;
@@ -22,7 +22,7 @@ enum Part {
     Scalar(&'static ScalarKernel),
 }
 
-/// Sums to be put together.
+/// Partial sums to add up.
 pub(super) struct Decided {
     /// Their place on their level.
     pub of: space::Decided,
@@ -36,7 +36,7 @@ impl Deciding {
         self.parts.push(Part::Scalar(kernel));
     }
 
-    /// Whether sums of this place on this level may wait beside those that do.
+    /// Whether partial sums in this place on this level may wait beside those already waiting.
     fn has_room(&self, level: Level, place: Place) -> bool {
         self.parts.iter().all(|part| match part {
             Part::Sums(sums) => sums.level == level && sums.place != place,
@@ -46,7 +46,7 @@ impl Deciding {
 }
 
 impl GpuBackend {
-    /// Records what waits if sums of this place could not wait beside it.
+    /// Records the waiting work if partial sums in this place cannot wait beside it.
     pub(super) fn make_room(&mut self, level: Level, place: Place) -> Result<(), GpuError> {
         match self.deciding.has_room(level, place) {
             true => Ok(()),
@@ -54,12 +54,12 @@ impl GpuBackend {
         }
     }
 
-    /// Adds sums to those that wait.
+    /// Adds partial sums to those that wait.
     pub(super) fn put_off(&mut self, sums: Decided) {
         self.deciding.parts.push(Part::Sums(sums));
     }
 
-    /// Records what waits.
+    /// Records the waiting work.
     pub(super) fn settle(&mut self) -> Result<(), GpuError> {
         if self.deciding.parts.is_empty() {
             return Ok(());

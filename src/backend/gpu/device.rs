@@ -1,4 +1,4 @@
-//! Devices: what one allows, and how its failures are caught.
+//! Devices: their limits, and how their failures are caught.
 
 use std::collections::HashMap;
 use std::sync::atomic::{AtomicU64, AtomicUsize, Ordering};
@@ -14,16 +14,16 @@ use super::slabs::Limits;
 use super::space;
 use crate::backend::Shape;
 
-/// Threads of this process that are in a driver.
+/// Threads of this process that are inside a driver.
 static IN_DRIVERS: AtomicUsize = AtomicUsize::new(0);
 
-/// Whether some thread waits for a device or its driver, as while a shader is compiled: such a wait cannot
-/// be given up, and may take as long as the driver likes.
+/// Whether a thread waits for a device or its driver, for example to compile a shader. Such a wait cannot
+/// be cancelled and has no time limit.
 pub fn keeps_waiting() -> bool {
     IN_DRIVERS.load(Ordering::Relaxed) > 0
 }
 
-/// A thread in a driver, while this is held.
+/// Counts a thread as inside a driver while it lives.
 struct InDriver;
 
 impl InDriver {
@@ -126,12 +126,12 @@ impl GpuDevice {
         Ok(device)
     }
 
-    /// The adapter in words.
+    /// The adapter's description.
     pub fn description(&self) -> &AdapterDescription {
         &self.inner.description
     }
 
-    /// The number in which sums are kept here.
+    /// The number type of sums on this device.
     pub fn wide(&self) -> Wide {
         let features = self.inner.device.features();
         if features.contains(wgpu::Features::SHADER_F64) {
@@ -143,17 +143,17 @@ impl GpuDevice {
         }
     }
 
-    /// Whether both are one.
+    /// Whether both are the same device.
     pub(super) fn is(&self, other: &GpuDevice) -> bool {
         Arc::ptr_eq(&self.inner, &other.inner)
     }
 
-    /// What it binds and what a workgroup may hold.
+    /// Limits of its bindings and workgroups.
     pub fn limits(&self) -> Limits {
         self.inner.description.limits
     }
 
-    /// Buffers that a field of this shape in single precision is cut into.
+    /// Number of buffers that a field of this shape is split into in single precision.
     pub fn slabs(&self, shape: Shape) -> Result<usize, GpuError> {
         LevelPlan::laid_out(shape, &self.limits(), Number::Single).map(|plan| plan.slabs)
     }
@@ -212,7 +212,7 @@ impl GpuDevice {
             .map(|reason| GpuError::Device(reason.clone()))
     }
 
-    /// Calls a function with the device and catches its errors.
+    /// Calls a function with the device and returns its errors.
     pub(super) fn guarded<R>(&self, work: impl FnOnce(&wgpu::Device) -> R) -> Result<R, GpuError> {
         match self.watched(work) {
             (_, Some(error)) => Err(error),
@@ -220,7 +220,7 @@ impl GpuDevice {
         }
     }
 
-    /// The same, with the result; handles to what could not be made are not to be used.
+    /// The same, with the result; a handle to an object that could not be made must not be used.
     pub(super) fn watched<R>(
         &self,
         work: impl FnOnce(&wgpu::Device) -> R,
@@ -251,7 +251,7 @@ impl GpuDevice {
         (result, failure.or_else(|| self.loss()))
     }
 
-    /// Compiles a shader, or finds it among those compiled before.
+    /// Compiles a shader, or reuses its pipeline.
     pub(super) fn pipeline(
         &self,
         name: &str,
@@ -303,8 +303,8 @@ mod tests {
     use super::*;
     use crate::backend::gpu::quietly;
 
-    /// More than any device has, in one buffer and in a kernel's text: wgpu's own errors come back as
-    /// ours.
+    /// A buffer larger than any device's memory and a shader that is not WGSL: wgpu's errors come back as
+    /// tabor's.
     #[test]
     fn what_a_device_cannot_do_is_an_error() {
         let choice = AdapterChoice {

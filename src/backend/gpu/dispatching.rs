@@ -1,4 +1,4 @@
-//! Kernels bound to their buffers, a dispatch a slab, and recorded.
+//! Binds kernels to their buffers and records them, one dispatch for each slab.
 
 use super::bindings::{self, Access, ROWS, WORKING, WORKING_IN_TURNS};
 use super::butterfly::Direction;
@@ -52,7 +52,7 @@ impl GpuBackend {
         })
     }
 
-    /// Finds what is prepared, a dispatch each slab, or prepares it, and records it.
+    /// Records a kernel's dispatches, one for each slab, prepared once and reused.
     pub(super) fn dispatch(
         &mut self,
         key: Key,
@@ -126,7 +126,7 @@ impl GpuBackend {
         Ok(())
     }
 
-    /// The dispatches of a kernel, one a slab.
+    /// The dispatches of a kernel, one for each slab.
     pub(super) fn kernel(
         &self,
         kernel: &'static Kernel,
@@ -153,7 +153,7 @@ impl GpuBackend {
             }
             Ok(first)
         };
-        // Bound behind the kernel's own fields.
+        // Bound after the kernel's own fields.
         let factor = match self.law_factor {
             Some(field) if field.level == level && kernel.law => Some(follow(&[field])?),
             _ => None,
@@ -195,7 +195,7 @@ impl GpuBackend {
         (0..space.plan.slabs).map(in_slab).collect()
     }
 
-    /// Group 0 of a kernel in one of its turns over slabs or parts of a spectrum.
+    /// Group 0 of a kernel for one slab or one part of a spectrum.
     pub(super) fn shared<'a>(
         &'a self,
         space: &'a LevelSpace,
@@ -212,7 +212,7 @@ impl GpuBackend {
         energy: bool,
         gate: Gate,
     ) -> Result<(), GpuError> {
-        // It changes the work space alone, so it need not wait for the decision whether to run.
+        // It changes only the work space, so it need not wait for its gate.
         let gate = match gate {
             Gate::Accepted => Gate::Running,
             other => other,
@@ -237,7 +237,7 @@ impl GpuBackend {
                     let all: [(&[Access], &[&wgpu::Buffer]); 2] =
                         [(working(&shared), &shared), (&accesses, &buffers)];
                     let mut each = backend.prepare("multiply", text.clone(), &all, workgroups)?;
-                    // Each part goes through its own columns of the work space alone.
+                    // Each part uses only its own columns of the work space.
                     let work: u64 = space.work.iter().map(|slab| slab.size()).sum();
                     each.bytes -= 2 * (work - work / space.plan.parts as u64);
                     prepared.push(each);
@@ -265,7 +265,7 @@ impl GpuBackend {
     }
 }
 
-/// What group 0 is to a kernel over points, by what is bound.
+/// Layout of group 0 of a field kernel.
 pub(super) fn working(shared: &[&wgpu::Buffer]) -> &'static [Access] {
     match shared.len() == WORKING.len() {
         true => WORKING,

@@ -1,4 +1,4 @@
-//! What may go wrong between this program and a graphics processor.
+//! Errors of the graphics processor.
 
 use crate::backend::BackendError;
 
@@ -8,12 +8,12 @@ pub enum GpuError {
     /// No driver, or no driver of the kind asked for.
     #[error("no graphics adapter found{0}")]
     NoAdapter(String),
-    /// An adapter was asked for by name and none has it.
+    /// No adapter has the name asked for.
     #[error("no graphics adapter has `{wanted}` in its name; there are: {found}")]
     NoSuchAdapter {
-        /// What was asked for.
+        /// The name asked for.
         wanted: String,
-        /// The names of those there are.
+        /// Names of the adapters found.
         found: String,
     },
     /// The adapter does not give a device.
@@ -21,7 +21,7 @@ pub enum GpuError {
     NoDevice {
         /// Its name.
         adapter: String,
-        /// Its own words.
+        /// The driver's message.
         reason: String,
     },
     /// A grid that the transforms do not take.
@@ -54,7 +54,7 @@ pub enum GpuError {
     /// A kernel that has no shader.
     #[error("kernel `{0}` has no shader")]
     NoShader(&'static str),
-    /// A kernel that was given a wrong number of fields.
+    /// A kernel was given the wrong number of fields.
     #[error("kernel `{kernel}` takes {expected} fields and was given {given}")]
     Fields {
         /// The kernel.
@@ -64,7 +64,7 @@ pub enum GpuError {
         /// How many it was given.
         given: usize,
     },
-    /// A buffer for which the device has no memory left.
+    /// The device has no memory left for a buffer.
     #[error(
         "out of memory on {adapter}: there is no room for `{name}`, of {bytes} bytes; take fewer points, or Device::cpu()"
     )]

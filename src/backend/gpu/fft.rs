@@ -1,9 +1,9 @@
 //! The transform of a line by a workgroup, written out in WGSL for one length.
 //!
 //! Stockham's self-sorting scheme: at each stage a thread takes the values `j + k n/r` of its
-//! butterflies `j`, turns them by the roots of unity, transforms them over `k` and hands them to
-//! the places where the next stage looks for them. Everything whose number is known is unrolled
-//! into named variables, since an array with a computed index would leave the registers.
+//! butterflies `j`, multiplies them by roots of unity, transforms them over `k` and stores them
+//! where the next stage reads them. All loops of known length are unrolled into named variables,
+//! since an array with a computed index would leave the registers.
 //!
 //! The code refers to `thread` and `line` (this thread's place in its line, and the line's place in
 //! the workgroup), `exchange` (workgroup memory) and `roots` (`exp(-2 pi i m / n)`, a table).
@@ -26,7 +26,7 @@ pub struct LineWriter<'a> {
 
 /// A thread's butterfly at one stage.
 pub struct Butterfly {
-    /// Which of the thread's butterflies.
+    /// Index among the thread's butterflies.
     round: usize,
     /// Values in it.
     pub radix: usize,
@@ -168,7 +168,7 @@ impl<'a> LineWriter<'a> {
         });
     }
 
-    /// Hands one part of the values from their places after a stage to those before the next.
+    /// Moves the real or imaginary parts from their places after a stage to those before the next.
     fn pass(&mut self, radix: usize, before: usize, next: usize, part: &str) {
         let (length, lines, interleaved) = (self.plan.length, self.plan.lines, self.interleaved);
         let address = move |place: &str| {
@@ -202,8 +202,8 @@ impl<'a> LineWriter<'a> {
         self.occupied = true;
     }
 
-    /// As `pass`, for a part of the line at a time, which is all that workgroup memory holds. What
-    /// arrives waits in variables of its own, since values of later rounds have yet to leave.
+    /// As `pass`, for a part of the line at a time where workgroup memory holds no more. Received values
+    /// wait in separate variables, since values of later rounds have yet to be sent.
     fn pass_in_rounds(
         &mut self,
         radix: usize,

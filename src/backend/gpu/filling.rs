@@ -1,4 +1,4 @@
-//! Buffers of slabs: made, written and sized.
+//! Buffers of slabs: their sizes, creation and writing.
 
 use super::layout::Number;
 use super::level::LevelPlan;
@@ -24,7 +24,7 @@ impl GpuBackend {
         Ok(LevelPlan { slabs, ..own })
     }
 
-    /// A number a point, zero, in slabs.
+    /// A field of zeros, in slabs.
     pub(super) fn slabs(
         &self,
         name: &str,
@@ -34,7 +34,7 @@ impl GpuBackend {
         (0..plan.slabs).map(|_| self.storage(name, bytes)).collect()
     }
 
-    /// The numbers by which kernels know their slab or part, where there is more than one.
+    /// Indices that tell a kernel its slab or part, where there are several.
     pub(super) fn turns(&mut self, plan: &LevelPlan) -> Result<Vec<wgpu::Buffer>, GpuError> {
         let count = match plan.turns() {
             1 => 0,
@@ -51,7 +51,7 @@ impl GpuBackend {
             .collect()
     }
 
-    /// Makes the first number of every field none: for tests of what follows.
+    /// Sets the first number of every field to NaN, for tests.
     pub(super) fn poison(&mut self) -> Result<(), GpuError> {
         let first = |field: &FieldSpace| field.slabs[0].clone();
         let buffers: Vec<_> = self.fields.iter().flatten().map(first).collect();
@@ -76,7 +76,7 @@ impl GpuBackend {
         Ok(())
     }
 
-    /// A spectrum: its table in parts, or the few numbers that its factors are computed from.
+    /// A spectrum: its table in parts, or the few constants that its factors are computed from.
     pub(super) fn write_factors(
         &mut self,
         name: &str,

@@ -1,13 +1,13 @@
-//! The numbers of the algorithm as the device holds them: the WGSL and the bytes of structs that are declared
-//! once, in [`kernel`](crate::kernel).
+//! Params and scalars on the device: WGSL and bytes of the structs that are declared once, in
+//! [`kernel`](crate::kernel).
 //!
-//! `real` is the number of the fields; `wide` the one in which sums and scalars are kept: f64 where the
-//! device has it, else f32.
+//! `real` is the number type of the fields, `wide` that of sums and scalars: f64 where the device has it,
+//! else f32.
 
 use crate::kernel::declare::{DeviceValue, FromDevice, Kind, Word, members};
 use crate::kernel::{Params, Scalars, Status};
 
-/// The number in which the fields of a level are kept, and all that is done to them.
+/// The number type of the fields of a level and of the arithmetic on them.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub enum Number {
     /// Single precision.
@@ -25,7 +25,7 @@ impl Number {
         }
     }
 
-    /// What a shader calls it.
+    /// Its name in a shader.
     pub fn declaration(self) -> String {
         format!("alias real = {};\n", self.name())
     }
@@ -46,7 +46,7 @@ impl Number {
         }
     }
 
-    /// Doubles as the bytes of these.
+    /// Converts doubles to bytes of this type.
     pub fn bytes_of(self, values: impl IntoIterator<Item = f64>) -> impl Iterator<Item = u8> {
         values.into_iter().flat_map(move |value| {
             let (bytes, count) = match self {
@@ -61,7 +61,7 @@ impl Number {
         })
     }
 
-    /// The numbers that bytes from the device are.
+    /// Converts bytes of this type to doubles.
     pub fn values_of(self, bytes: &[u8]) -> Vec<f64> {
         match self {
             Number::Single => {
@@ -82,12 +82,12 @@ impl Number {
     }
 }
 
-/// The kind of number that sums and scalars are kept in.
+/// The number type of sums and scalars.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub enum Wide {
-    /// Single precision, sums plain: where the device undoes compensation.
+    /// Single precision, plain sums: where the compiler undoes compensation.
     Single,
-    /// Single precision, sums with what rounding takes from them: where the device has no other.
+    /// Single precision, compensated sums: where the device has no double precision.
     Compensated,
     /// Double precision.
     Double,
@@ -110,7 +110,7 @@ impl Wide {
         }
     }
 
-    /// Bytes of what passes between threads of a sum.
+    /// Bytes that a thread passes to others in a sum.
     pub fn part_bytes(self) -> usize {
         match self {
             Wide::Single => 4,
@@ -119,8 +119,8 @@ impl Wide {
     }
 }
 
-/// Members of the params on a device: besides those of [`Params`] infinity, which WGSL cannot write down,
-/// and a zero that no compiler knows to be one.
+/// Members of the params on a device: those of [`Params`], infinity, which WGSL cannot write as a literal,
+/// and a zero that the compiler does not know to be zero.
 pub fn params_members() -> Vec<(String, Kind)> {
     let mut all = members(Params::KIND);
     all.push(("infinity".to_owned(), Kind::Wide(1)));
@@ -209,7 +209,7 @@ pub fn scalars_bytes(scalars: &Scalars, wide: Wide) -> Vec<u8> {
     bytes
 }
 
-/// The scalars of bytes that the device gave back; zeros beyond the end.
+/// The scalars from bytes read back; zeros beyond the end.
 pub fn scalars_of(bytes: &[u8], wide: Wide) -> Scalars {
     debug_assert!(bytes.len() >= scalars_length(wide));
     let mut at = 0usize;

@@ -1,4 +1,4 @@
-//! How the work on a level is cut into workgroups.
+//! How the work on a level is split into workgroups.
 
 use super::error::GpuError;
 use super::layout::Number;
@@ -13,23 +13,23 @@ pub const SWEEP_GROUPS: usize = 1024;
 /// Sums that a sweep's workgroup reduces together; their memory is below the least that adapters
 /// have.
 pub const SWEEP_SUMS_AT_ONCE: usize = 5;
-/// Work done in a level's transforms is counted in these: transforms of all its rows.
+/// Unit in which a level's transforms are counted: transforms of all its rows.
 pub const ROW_TRANSFORMS_PER_TRANSFORM: f64 = 2.0;
 
-/// Where partial sums wait to be put together, so that those of kernels which run ahead of a decision do
-/// not meet those that it waits for.
+/// Where partial sums wait to be added up: kernels that run before a decision write elsewhere than those
+/// whose sums it needs.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub enum Place {
     /// Of a kernel.
     Kernel,
-    /// Of a kernel whose lines are kept.
+    /// Of a kernel that retains transformed rows.
     Retained,
     /// Of the columns.
     Columns,
 }
 
 impl Place {
-    /// That of a kernel of the catalogue.
+    /// The place for a kernel of the catalogue.
     pub fn for_form(form: Form) -> Place {
         match form {
             form if form.retains() => Place::Retained,
@@ -38,14 +38,14 @@ impl Place {
     }
 }
 
-/// How a level is cut into workgroups.
+/// How a level is split into workgroups.
 #[derive(Clone, Debug, PartialEq, Eq, Hash)]
 pub struct LevelPlan {
-    /// The number of its fields.
+    /// Number type of its fields.
     pub number: Number,
     /// Its points.
     pub shape: [usize; 2],
-    /// Those of them that are surface.
+    /// Those of them inside the domain, without the pad.
     pub surface: [usize; 2],
     /// Transforms along x of ny/2 pairs of rows.
     pub rows: LinePlan,

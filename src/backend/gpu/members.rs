@@ -1,4 +1,4 @@
-//! What a shader reads in the params and the scalars, for a test of both layouts.
+//! Params and scalars as a shader reads them, for a test of both layouts.
 
 use super::bindings::{Access, WORKING};
 use super::layout::Wide;

@@ -63,7 +63,7 @@ pub use traffic::Traffic;
 /// The GPU backend.
 pub struct GpuBackend {
     device: GpuDevice,
-    /// The number of the fields.
+    /// Number type of the fields.
     number: Number,
     wide: Wide,
     recorder: Recorder,
@@ -74,7 +74,7 @@ pub struct GpuBackend {
     spectra: Vec<Option<SpectrumSpace>>,
     roots: HashMap<usize, wgpu::Buffer>,
     prepared: HashMap<Key, Vec<Prepared>>,
-    /// What is decided after the last kernel over points, in one dispatch.
+    /// Sums and scalar kernels to run after the last field kernel, in one dispatch.
     deciding: Deciding,
     traffic: Traffic,
     law: LawShader,
@@ -86,7 +86,7 @@ pub struct GpuBackend {
     corrected: bool,
     /// Whether scalars that are not finite are a failure.
     expects_finite: bool,
-    /// The first thing that went wrong; told where the host waits.
+    /// The first failure; returned where the host waits.
     failure: Option<GpuError>,
     transforms: f64,
     look_every: usize,
@@ -100,7 +100,7 @@ impl GpuBackend {
         Ok(backend)
     }
 
-    /// The same for where nothing may fail yet: what goes wrong is told where the host waits.
+    /// The same without a `Result`: a failure is returned where the host waits.
     pub fn on(device: &GpuDevice) -> Self {
         let wide = device.wide();
         let ((params, scalars), failure) = device.watched(|device| {
@@ -149,7 +149,7 @@ impl GpuBackend {
         backend
     }
 
-    /// The same, looking after so many rounds.
+    /// The same with this many rounds between two waits.
     pub fn looking_every(self, rounds: usize) -> Self {
         GpuBackend {
             look_every: rounds.max(1),
@@ -157,8 +157,8 @@ impl GpuBackend {
         }
     }
 
-    /// The same with its fields in this number, before there are any. Where the device lacks it that is
-    /// told where the host waits.
+    /// The same with fields of this number type, chosen before any is made. A device without it fails
+    /// where the host waits.
     pub fn keeping(mut self, number: Number) -> Self {
         if number == Number::Double && !self.device.description().double {
             let name = self.device.description().name.clone();
@@ -183,7 +183,7 @@ impl GpuBackend {
         }
     }
 
-    /// What went over the bus and to the device so far.
+    /// Bytes and dispatches sent to the device so far.
     pub fn traffic(&self) -> Traffic {
         self.traffic
     }
@@ -201,7 +201,7 @@ impl GpuBackend {
         }
     }
 
-    /// Does something unless something has failed before, and remembers its failure.
+    /// Does something unless an earlier call failed, and keeps its failure.
     fn attempt<R>(&mut self, work: impl FnOnce(&mut Self) -> Result<R, GpuError>) -> Option<R> {
         if self.failure.is_some() {
             return None;
@@ -264,7 +264,7 @@ impl GpuBackend {
             .ok_or_else(|| GpuError::Device("a spectrum that was not made".to_string()))
     }
 
-    /// Hands over what waits, then overwrites the beginning of a buffer.
+    /// Submits the recorded work, then overwrites the beginning of a buffer.
     fn overwrite(
         &mut self,
         buffer: &wgpu::Buffer,

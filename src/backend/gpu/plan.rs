@@ -4,7 +4,7 @@
 use super::layout::Number;
 use crate::kernel::SUMS;
 
-/// What the adapter allows a workgroup.
+/// Limits of a workgroup on an adapter.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub struct GroupLimits {
     /// Threads in a workgroup.
@@ -15,7 +15,7 @@ pub struct GroupLimits {
 
 /// Values that one thread may hold at a time; more of them would spill out of its registers.
 const MOST_VALUES: usize = 16;
-/// Threads at which a workgroup is full enough, so that no further line is set beside the first.
+/// Threads from which a workgroup takes only one line.
 const ENOUGH_THREADS: usize = 128;
 /// Lines side by side in a workgroup: four complex numbers are one sector of memory.
 const MOST_LINES: usize = 4;

@@ -1,4 +1,4 @@
-//! Graphics drivers kept from printing while they start.
+//! Keeps graphics drivers from printing while they start.
 //!
 //! Drivers, and the layers that a loader puts before them, print to standard error as they like: that there is
 //! no desktop, that an option is unknown. Neither wgpu nor Vulkan has a switch for it, so while adapters are
@@ -14,7 +14,7 @@ use std::thread;
 /// The payload of a panic, whose message was discarded.
 pub fn quietly<R>(work: impl FnOnce() -> R) -> thread::Result<R> {
     redirect::discard();
-    // Nothing that the panic left half done is used again.
+    // Nothing that the panic left unfinished is used again.
     let done = catch_unwind(AssertUnwindSafe(work));
     redirect::restore();
     done

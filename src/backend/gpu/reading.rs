@@ -1,4 +1,4 @@
-//! Where the host waits: scalars and fields read back.
+//! Reads scalars and fields back; the host waits here.
 
 use super::level::ROW_TRANSFORMS_PER_TRANSFORM;
 use super::recorder::Part;

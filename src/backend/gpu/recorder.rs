@@ -1,4 +1,4 @@
-//! Dispatches recorded in order, handed to the device together, and the one place that waits.
+//! Records dispatches in order, submits them together, and waits for them.
 
 use std::sync::mpsc;
 
@@ -6,12 +6,12 @@ use super::device::GpuDevice;
 use super::error::GpuError;
 use super::timing::Timer;
 
-/// Bytes that are written or read at a time, since each way needs a copy of them.
+/// Bytes written or read at a time; each transfer needs a copy of them.
 const PIECE: usize = 64 << 20;
 /// Dispatches after which a submission is due, so that the device does not wait for the host.
 pub const DISPATCHES: usize = 256;
 
-/// A compiled kernel with everything bound that it works on.
+/// A compiled kernel with all its bindings.
 #[derive(Clone)]
 pub struct Prepared {
     /// Its name in timings.
@@ -48,12 +48,12 @@ pub struct Part<'a> {
     pub length: usize,
 }
 
-/// Work that waits to be handed to the device.
+/// Work that waits to be submitted.
 pub struct Recorder {
     device: GpuDevice,
     waiting: Vec<Prepared>,
     staging: Option<wgpu::Buffer>,
-    /// Takes the time of each dispatch, where that is asked.
+    /// Times each dispatch, if asked.
     pub timer: Option<Timer>,
 }
 
@@ -77,7 +77,7 @@ impl Recorder {
         Ok(())
     }
 
-    /// Hands the waiting work to the device, then copies the parts one after another to `staging`.
+    /// Submits the waiting work, then copies the parts one after another to `staging`.
     fn submit(&mut self, parts: &[Part]) -> Result<(), GpuError> {
         if self.waiting.is_empty() && parts.is_empty() {
             return Ok(());
@@ -91,7 +91,7 @@ impl Recorder {
             if let Some(timer) = timer {
                 timer.passes(&mut encoder, &waiting);
             } else if !waiting.is_empty() {
-                // One pass for all: a pass each costs the host three times as much.
+                // One pass for all: one pass for each dispatch costs the host three times as much.
                 let mut pass = encoder.begin_compute_pass(&Default::default());
                 for prepared in &waiting {
                     prepared.record(&mut pass);
@@ -119,7 +119,7 @@ impl Recorder {
         }
     }
 
-    /// Hands the waiting work to the device.
+    /// Submits the waiting work.
     pub fn hand_over(&mut self) -> Result<(), GpuError> {
         self.submit(&[])
     }
@@ -191,7 +191,7 @@ impl Recorder {
         let (sender, receiver) = mpsc::channel();
         self.device.guarded(|device| {
             staging.map_async(wgpu::MapMode::Read, 0..size, move |result| {
-                // Nobody listens any more only where the wait below has failed.
+                // The receiver is gone only if the wait below has failed.
                 let _ = sender.send(result);
             });
             device

@@ -1,4 +1,4 @@
-//! Fields taken over from another backend on the same device, in this one's number.
+//! Fields copied from another backend on the same device, converted to this one's number type.
 
 use super::bindings::Access;
 use super::device::GpuDevice;
@@ -17,26 +17,26 @@ pub struct SharedBuffer {
 }
 
 impl SharedBuffer {
-    /// Whether it lies on this device, in slabs of so many points.
+    /// Whether it is on this device, in slabs of this many points.
     pub(super) fn suits(&self, device: &GpuDevice, points: usize) -> bool {
         self.device.is(device) && self.points == points
     }
 }
 
 impl GpuBackend {
-    /// Whether what corrects this backend's state in double precision keeps it on the same device.
+    /// Whether the outer state in double precision that this backend corrects is on the same device.
     pub(super) fn corrects_here(&self, shape: Shape) -> bool {
         let adapter = self.device.description();
         self.corrected && adapter.double && adapter.takes(shape.points, Number::Double)
     }
 
-    /// Whether a shared field lies as one of this backend's does.
+    /// Whether a shared field has the layout of this backend's fields.
     pub(super) fn takes_over(&self, field: Field, shared: &SharedBuffer) -> bool {
         self.level_space(field.level)
             .is_ok_and(|level| shared.suits(&self.device, level.plan.slab_points()))
     }
 
-    /// Hands a field out, with all that was recorded for it on its way to the device.
+    /// Shares a field after submitting all work recorded for it.
     pub(super) fn hand_out(&mut self, field: Field) -> Result<SharedBuffer, GpuError> {
         self.settle()?;
         self.recorder.hand_over()?;
@@ -48,8 +48,8 @@ impl GpuBackend {
         })
     }
 
-    /// Overwrites a field with a shared one. It is handed to the device at once: what the lender records
-    /// next may change the field again.
+    /// Overwrites a field with a shared one. Submitted at once, since the owner's next work may change the
+    /// shared field.
     pub(super) fn convert(&mut self, field: Field, shared: &SharedBuffer) -> Result<(), GpuError> {
         self.settle()?;
         let (text, workgroups) = source::convert(shared.number, self.number, shared.points);

@@ -1,10 +1,9 @@
-//! Grids whose fields are larger than one binding, cut into slabs of a buffer each.
+//! Grids whose fields are larger than one binding, split into slabs of one buffer each.
 //!
-//! A slab holds so many pairs of rows, the same number as any other: first the rows y of its pairs,
-//! then their partners y + ny/2. So to a kernel that works on rows or points a slab is a level of
-//! its own, of fewer rows, in one dispatch, and the work space of that slab is transposed within
-//! it. Only the columns bind the work space of all slabs at once. The factors of a spectrum lie
-//! column by column and are cut between columns.
+//! All slabs hold the same number of pairs of rows: first the rows y of its pairs, then their partners
+//! y + ny/2. A kernel on rows or points treats a slab as a level with fewer rows, in one dispatch, with a
+//! transposed work space of its own. Only the columns bind the work space of all slabs at once. The factors
+//! of a spectrum are stored column by column and split between columns.
 
 use std::ops::Range;
 
@@ -15,24 +14,24 @@ use super::plan::GroupLimits;
 use crate::backend::Shape;
 use crate::kernel::Form;
 
-/// Storage buffers that the columns bind besides the slabs: scalars, partial sums, roots, factors; the
-/// spare halves of long ones come on top. The kernel that restricts a field of all slabs binds as many.
+/// Storage buffers that the columns bind besides the slabs: scalars, partial sums, roots, factors, without
+/// the spare halves of long columns. The kernel that restricts a field of all slabs binds as many.
 const BOUND_BESIDES: usize = 4;
-/// Longest binding that wgpu makes, whatever the adapter says.
+/// Longest binding that wgpu allows, whatever the adapter's limit.
 pub const LONGEST_BINDING: u64 = (1 << 31) - 1;
 /// Most workgroups of a dispatch along one dimension, which every adapter takes.
 const MOST_GROUPS: usize = 65535;
 
-/// What decides how a grid is laid out on a device.
+/// The limits that decide how a grid is laid out on a device.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub struct Limits {
-    /// What a workgroup may hold.
+    /// Limits of a workgroup.
     pub group: GroupLimits,
     /// Bytes of one binding.
     pub binding: u64,
     /// Bytes of a slab at most, no more than a binding.
     pub slab: u64,
-    /// Storage buffers that one kernel may bind.
+    /// Most storage buffers that one kernel may bind.
     pub bindings: usize,
     /// Points of a line that is transformed in one pass, at most.
     pub longest_line: usize,
@@ -57,7 +56,7 @@ impl Limits {
 }
 
 impl LevelPlan {
-    /// The plan of a shape in as few slabs as the limits ask for; most grids take one.
+    /// The plan of a shape in as few slabs as the limits allow; most grids need one.
     pub fn laid_out(shape: Shape, limits: &Limits, number: Number) -> Result<Self, GpuError> {
         let plan = LevelPlan::with_lines(shape, limits.group, number, limits.longest_line)?;
         let number_bytes = number.bytes() as u64;
@@ -70,7 +69,7 @@ impl LevelPlan {
         };
         let most = limits.most_slabs(&plan);
         let least = field.div_ceil(limits.slab.max(1)).max(1);
-        // Slabs alike, so that one shader serves them all.
+        // Equal slabs, so that one shader serves all.
         let slabs = (least..=most as u64)
             .find(|&slabs| pairs.is_multiple_of(slabs))
             .ok_or_else(|| too_large(field, most as u64 * limits.slab))?;

@@ -1,10 +1,10 @@
-//! Whole shaders, joined from parts: a kernel of the catalogue with what its form needs around it.
+//! Whole shaders, joined from parts: a kernel of the catalogue inside the code that its form needs.
 //!
 //! Group 0 binds the params, the scalars and the level's partial sums; group 1 the kernel's fields
-//! in declared order; group 2 the roots of unity and the work space of a transform. Each of them is
-//! bound whether a kernel uses it or not. A kernel's own part is a function `at` of a point: of its index,
-//! whether it is of the domain, and the value of the row that the kernel takes; it returns that of the row
-//! which the kernel gives. Fields are read and written by functions named after them.
+//! in declared order; group 2 the roots of unity and the work space of a transform. All are
+//! bound whether a kernel uses them or not. A kernel's own part is a function `at` of a point: its index,
+//! whether it is in the domain, and the value of the row that the kernel reads; it returns the value of the
+//! row that the kernel writes. Fields are read and written by functions named after them.
 
 mod convert;
 mod copy;
@@ -39,7 +39,7 @@ pub use slabs::Whole;
 use slabs::{Work, after_turns, first_turn};
 pub use snapshot::representative;
 
-/// The law of a kernel: its part, and where the factors on its tension are bound.
+/// The law of a kernel: its WGSL, and where the factors on its tension are bound.
 #[derive(Clone, Copy, Debug)]
 pub struct LawSource {
     /// Which law.
@@ -52,7 +52,7 @@ pub struct LawSource {
 }
 
 impl LawSource {
-    /// This law, the same everywhere.
+    /// This law with the same tension everywhere.
     pub fn uniform(shader: LawShader) -> LawSource {
         LawSource {
             shader,
@@ -67,7 +67,7 @@ pub fn gate_name(gate: Gate) -> &'static str {
     match gate {
         Gate::Always => "gate_always",
         Gate::Running => "gate_running",
-        // Ahead of decisions it is what it was after the last ones.
+        // Before the next decisions the gate is that after the last ones.
         Gate::Fresh | Gate::Ahead => "gate_fresh",
         Gate::Accepted => "gate_accepted",
         Gate::Searching => "gate_searching",
@@ -90,7 +90,7 @@ fn neutral(reduce: Reduce) -> &'static str {
     }
 }
 
-/// The parts before a kernel: numbers and gates.
+/// The parts before a kernel: number types and gates.
 fn preamble(source: &mut String, wide: Wide, access: &str, sums: usize) {
     source.push_str(&layout::declarations(wide));
     source.push_str(catalogue::COMMON);
@@ -107,7 +107,7 @@ fn preamble(source: &mut String, wide: Wide, access: &str, sums: usize) {
     });
 }
 
-/// What starts a kernel's sums and reduces them over a workgroup; `at_once` of them together.
+/// Code that clears a kernel's sums and reduces them over a workgroup, `at_once` of them together.
 fn reduction(source: &mut String, reduces: &[Reduce], threads: usize, at_once: usize) {
     // The largest power of two below the number of threads.
     let half = threads.next_power_of_two() / 2;
@@ -134,8 +134,8 @@ fn reduction(source: &mut String, reduces: &[Reduce], threads: usize, at_once: u
     source.push_str("}\n");
 }
 
-/// How a workgroup hands in its sums, after `reduction`: so many workgroups in each of some turns, whose
-/// sums begin at `first_partial`.
+/// Code that stores a workgroup's sums after `reduction`, at `first_partial` and beyond, for this many
+/// workgroups in each dispatch.
 fn hand_in(
     source: &mut String,
     reduces: &[Reduce],
@@ -170,7 +170,7 @@ fn in_domain(source: &mut String, plan: &LevelPlan) {
     );
 }
 
-/// What happens as a thread comes to a point, before the kernel's own part.
+/// Code that a thread runs at each point before the kernel's own part.
 fn arrive(source: &mut String, kernel: &Kernel, law: LawSource) {
     if !kernel.law && kernel.constraint.is_none() {
         let _ = writeln!(
@@ -208,7 +208,7 @@ fn arrive(source: &mut String, kernel: &Kernel, law: LawSource) {
     );
 }
 
-/// The shader of a kernel on a level, for all its slabs. `whole` is the field that it reads anywhere.
+/// The shader of a kernel on a level, for all its slabs. `whole` is the field that it reads at any point.
 pub fn kernel(
     kernel: &Kernel,
     plan: &LevelPlan,
@@ -251,8 +251,8 @@ pub fn kernel(
     Ok(source)
 }
 
-/// The kernel's fields: bindings, and functions that read and write them; what only other variants bind is
-/// zero and written nowhere.
+/// The kernel's fields: bindings, and functions that read and write them. A field that only other variants
+/// bind reads as zero and is not written.
 fn fields(source: &mut String, kernel: &Kernel) {
     let bound = kernel.reads.iter().chain(kernel.writes);
     for (binding, name) in bound.enumerate() {
@@ -305,7 +305,8 @@ fn join(source: &mut String, kernel: &Kernel, shader: &Shader, law: LawSource, n
     parts.into_iter().for_each(|part| source.push_str(part));
 }
 
-/// The places of the kernel's sums by their names. Those that only other variants have share a place beyond.
+/// The places of the kernel's sums by their names. Sums that only other variants have share a place at the
+/// end.
 fn sum_places(source: &mut String, kernel: &Kernel, parts: &[&str]) {
     for &sum in Sum::ALL {
         let name = sum.name().to_uppercase();
@@ -318,7 +319,7 @@ fn sum_places(source: &mut String, kernel: &Kernel, parts: &[&str]) {
     }
 }
 
-/// What a kernel does before and after its points.
+/// Code of a kernel before and after its points.
 fn frame(kernel: &Kernel) -> (String, &'static str) {
     let mut open = format!("if (!{}()) {{ return; }}\n", gate_name(kernel.gate));
     if kernel.sums.is_empty() {

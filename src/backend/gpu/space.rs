@@ -1,10 +1,10 @@
-//! What the backend keeps on the device.
+//! Objects that the backend keeps on the device.
 
 use super::source::{FactorSource, LevelPlan};
 
 /// A level: its plan, its partial sums and the work space of its transforms.
 pub struct LevelSpace {
-    /// How it is cut into workgroups.
+    /// How it is split into workgroups.
     pub plan: LevelPlan,
     /// A count of transforms, then partial sums.
     pub partials: wgpu::Buffer,
@@ -12,7 +12,7 @@ pub struct LevelSpace {
     pub work: Vec<wgpu::Buffer>,
     /// Halves of long columns that are their own mirror images.
     pub spare: Option<wgpu::Buffer>,
-    /// For each slab or part of a spectrum its number; empty where there is one of each.
+    /// The index of each slab or part of a spectrum; empty where there is one of each.
     pub turns: Vec<wgpu::Buffer>,
     /// Roots of unity of nx.
     pub row_roots: wgpu::Buffer,
@@ -20,24 +20,24 @@ pub struct LevelSpace {
     pub column_roots: wgpu::Buffer,
 }
 
-/// One number a point.
+/// A field.
 pub struct FieldSpace {
-    /// Its numbers, a buffer each slab.
+    /// Its values, one buffer for each slab.
     pub slabs: Vec<wgpu::Buffer>,
 }
 
-/// One factor a wavevector.
+/// A spectrum: one factor for each wavevector.
 pub struct SpectrumSpace {
-    /// Where they come from.
+    /// How its factors are obtained.
     pub source: FactorSource,
-    /// The first part of its table, or what stands for all of it; the zero wavevector's factor first.
+    /// The first part of its table, or the constants in place of the table; the zero wavevector's factor first.
     pub first: wgpu::Buffer,
     /// The other parts of its table.
     pub others: Vec<wgpu::Buffer>,
 }
 
 impl SpectrumSpace {
-    /// What the columns of a part bind.
+    /// The table that the columns of a part bind.
     pub fn part(&self, part: usize) -> &wgpu::Buffer {
         let other = part.checked_sub(1).and_then(|other| self.others.get(other));
         other.unwrap_or(&self.first)
@@ -53,14 +53,14 @@ pub fn buffer(
 ) -> wgpu::Buffer {
     device.create_buffer(&wgpu::BufferDescriptor {
         label: Some(name),
-        // Copies count in fours.
+        // Lengths of copies are multiples of 4.
         size: (bytes as u64).next_multiple_of(4),
         usage: usage | wgpu::BufferUsages::COPY_DST | wgpu::BufferUsages::COPY_SRC,
         mapped_at_creation: false,
     })
 }
 
-/// What a prepared dispatch is found by.
+/// Key of a prepared dispatch.
 #[derive(Clone, PartialEq, Eq, Hash)]
 pub enum Key {
     /// A variant of a kernel by its place in memory, its level, whether it works on corrections, and its fields.
@@ -73,7 +73,7 @@ pub enum Key {
     Decide(Vec<(Decided, Option<usize>)>),
 }
 
-/// What a part of a decision is known by: a variant of a kernel or a scalar kernel by its place in memory, a
+/// Key of a part of a decision: a variant of a kernel or a scalar kernel by its place in memory, a
 /// multiplication by its gate.
 #[derive(Clone, Copy, PartialEq, Eq, Hash)]
 pub enum Decided {
@@ -83,7 +83,7 @@ pub enum Decided {
     Gate(&'static str),
 }
 
-/// The number that four bytes from the device are.
+/// Four bytes from the device as a number.
 pub fn single_of(bytes: &[u8]) -> f32 {
     bytes.try_into().map_or(f32::NAN, f32::from_le_bytes)
 }

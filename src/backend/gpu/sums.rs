@@ -1,8 +1,8 @@
 //! Whether compensated sums survive a device's compiler.
 //!
 //! WGSL has no way to forbid that `(a + b) - a` becomes `b`. The compensated sums hide their steps
-//! from a compiler; some are said to look through it. So a device without double precision is asked
-//! once for some sums whose rounding errors are known.
+//! from the compiler, but a compiler may see through it. A device without double precision is therefore
+//! tested once with sums whose rounding errors are known.
 
 use super::bindings::{Access, WORKING};
 use super::recorder::Part;
@@ -24,7 +24,7 @@ fn pairs() -> [[f32; 2]; PAIRS] {
 }
 
 impl GpuBackend {
-    /// Whether sums and their rounding errors come out right to the last bit.
+    /// Whether sums and their rounding errors are right to the last bit.
     pub(super) fn sums_survive(&mut self) -> Result<bool, GpuError> {
         let values = self.storage("sums", 8 + 8 * PAIRS)?;
         let given = self.storage("pairs", 8 * PAIRS)?;
@@ -46,7 +46,7 @@ impl GpuBackend {
         let found = bytes.chunks_exact(4).map(space::single_of);
         let right = pairs().into_iter().flat_map(|[a, b]| {
             let sum = a + b;
-            // Exact: both have few digits beside a double's.
+            // Exact in double precision: both have few digits.
             let lost = f64::from(a) + f64::from(b) - f64::from(sum);
             [sum, lost as f32]
         });

@@ -1,8 +1,8 @@
 //! Device times of each kernel, by the device's own timestamps, and the rate at which it copies.
 //!
-//! Nothing here costs anything unless it is asked for. Where it is, each dispatch becomes a pass of its
-//! own with a timestamp at either end, and the host waits for each submission: the times are those of
-//! the kernels alone, without what lies between them, and the run as a whole is slower.
+//! Timing costs nothing unless it is on. When it is, each dispatch is a pass of its own with a timestamp at
+//! either end, and the host waits for each submission: the times are those of the kernels alone, and the
+//! run as a whole is slower.
 
 use std::sync::{Arc, Mutex, MutexGuard, PoisonError, mpsc};
 
@@ -14,12 +14,12 @@ use super::{GpuBackend, source};
 
 /// Threads in a workgroup of the copy kernel.
 const COPY_THREADS: usize = 256;
-/// Copies of which the fastest counts; the first one pays for memory that is touched first.
+/// Number of copies, of which the fastest counts; the first also pays for mapping the memory.
 const COPIES: usize = 6;
 /// Bytes of one timestamp.
 const STAMP: u64 = 8;
 
-/// What one kernel took.
+/// Time of one kernel.
 #[derive(Clone, Debug, PartialEq)]
 pub struct KernelTime {
     /// Its name in the catalogue, or `multiply` of the columns, `decide` of the decisions.
@@ -39,7 +39,7 @@ impl KernelTime {
     }
 }
 
-/// What the kernels of a backend took, in the order in which they first ran.
+/// Times of a backend's kernels, in the order in which they first ran.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Timings {
     /// Each kernel.
@@ -47,7 +47,7 @@ pub struct Timings {
 }
 
 impl Timings {
-    /// Adds to what is known of a kernel.
+    /// Adds a measurement of a kernel.
     fn add(&mut self, more: KernelTime) {
         match self
             .kernels
@@ -80,17 +80,17 @@ impl Timings {
     }
 }
 
-/// Queries of a submission, and what came of them so far.
+/// Queries of a submission, and the times found so far.
 pub(super) struct Timer {
     set: wgpu::QuerySet,
     resolved: wgpu::Buffer,
     staging: wgpu::Buffer,
-    /// Seconds a tick.
+    /// Seconds per tick.
     period: f64,
     watch: Stopwatch,
 }
 
-/// What the kernels of a timed backend took, to be read while the backend is in other hands.
+/// Times of a timed backend's kernels, readable while a solver owns the backend.
 #[derive(Clone, Debug, Default)]
 pub struct Stopwatch {
     timings: Arc<Mutex<Timings>>,
@@ -101,8 +101,7 @@ impl Stopwatch {
         self.timings.lock().unwrap_or_else(PoisonError::into_inner)
     }
 
-    /// What the kernels took since this was last asked: all that was recorded before the host last
-    /// looked.
+    /// Times since the last call, of all work that was recorded before the host last waited.
     pub fn take(&self) -> Timings {
         std::mem::take(&mut *self.timings())
     }
@@ -161,7 +160,7 @@ impl Timer {
         }
     }
 
-    /// Waits for the submission of these dispatches and adds what they took.
+    /// Waits for the submission of these dispatches and adds their times.
     pub fn add(&mut self, device: &GpuDevice, waiting: &[Prepared]) -> Result<(), GpuError> {
         if waiting.is_empty() {
             return Ok(());
@@ -172,7 +171,7 @@ impl Timer {
         device.guarded(|device| {
             self.staging
                 .map_async(wgpu::MapMode::Read, 0..bytes, move |result| {
-                    // Nobody listens any more only where the wait below has failed.
+                    // The receiver is gone only if the wait below has failed.
                     let _ = sender.send(result);
                 });
             device
@@ -206,9 +205,9 @@ impl Timer {
 }
 
 impl GpuBackend {
-    /// The same with its kernels timed on the device, and the stopwatch that tells; without one where the
-    /// device has no timestamps. Each dispatch then is a pass of its own, and each submission is waited
-    /// for: the times are the kernels' own, and the whole is slower.
+    /// The same with its kernels timed on the device, and the stopwatch that reads the times; `None` if the
+    /// device has no timestamps. Each dispatch is then a pass of its own, and the host waits for each
+    /// submission: the times are the kernels' own, and the whole is slower.
     pub fn timed(mut self) -> (Self, Option<Stopwatch>) {
         let watch = self
             .attempt(|backend| {
@@ -225,9 +224,9 @@ impl GpuBackend {
 }
 
 impl GpuDevice {
-    /// Bytes a second that the device reads and writes together as it copies a buffer of so many bytes
-    /// (rounded up to 16; at most what it binds) by a kernel: the fastest of some runs after the first.
-    /// `None` where the device has no timestamps.
+    /// Bytes per second, read and written together, at which a kernel copies a buffer of this many bytes
+    /// (rounded up to 16, at most one binding): the fastest of some runs after the first. `None` if the
+    /// device has no timestamps.
     pub fn copy_rate(&self, bytes: u64) -> Result<Option<f64>, GpuError> {
         let (mut backend, watch) = GpuBackend::new(self)?.timed();
         backend.checked()?;

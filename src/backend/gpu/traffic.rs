@@ -1,4 +1,4 @@
-//! What a solve costs besides arithmetic: dispatches, and what crosses the bus.
+//! Costs of a solve besides arithmetic: dispatches, waits and transfers.
 
 /// Counts since a backend was made.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]

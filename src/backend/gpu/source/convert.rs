@@ -1,10 +1,9 @@
-//! The shader that takes a field over in another number.
+//! The shader that converts a field to another number type.
 
 use super::super::layout::Number;
 use super::super::level::{SWEEP_GROUPS, SWEEP_THREADS};
 
-/// The shader, and its workgroups. Group 0 binds the field there and the one here; its entry point is
-/// `convert`.
+/// The shader, and its workgroups. Group 0 binds the source and the target; the entry point is `convert`.
 pub fn convert(there: Number, here: Number, points: usize) -> (String, usize) {
     let groups = points.div_ceil(SWEEP_THREADS).min(SWEEP_GROUPS);
     let (from, to) = (there.name(), here.name());

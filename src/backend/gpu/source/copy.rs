@@ -1,11 +1,11 @@
-//! The shader that copies a buffer, to see how fast that goes.
+//! The shader that copies a buffer, to measure its rate.
 
 use super::super::catalogue;
 
 /// Most workgroups; each of their threads copies several numbers beyond.
 const GROUPS: usize = 32768;
 
-/// The shader that copies so many groups of four numbers, and its workgroups. Its entry point is `copy`.
+/// The shader that copies this many groups of four numbers, and its workgroups. The entry point is `copy`.
 pub fn copy(count: usize, threads: usize) -> (String, usize) {
     let groups = count.div_ceil(threads).min(GROUPS);
     let stride = groups * threads;

@@ -1,4 +1,4 @@
-//! Shaders of the decisions: partial sums put together, then scalar kernels.
+//! Shaders of the decisions: adding up partial sums, then scalar kernels.
 
 use std::fmt::Write;
 
@@ -12,14 +12,14 @@ use crate::kernel::{Gate, Reduce, SUMS, ScalarKernel, Sum};
 /// Where a reduction's results go.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Results {
-    /// The scalars' sums, put together as the kernel says.
+    /// The scalars' sums, combined as the kernel declares.
     Sums(&'static [Sum]),
-    /// The curvature, over so many points.
+    /// The curvature, over this many points.
     Curvature(usize),
 }
 
 impl Results {
-    /// How they are put together.
+    /// How they are combined.
     fn reduces(self) -> Vec<Reduce> {
         match self {
             Results::Sums(sums) => sums.iter().map(|sum| sum.reduce()).collect(),
@@ -28,13 +28,12 @@ impl Results {
     }
 }
 
-/// A reduction: what it puts together, of how many workgroups, from which partial sum on, behind which
-/// gate.
+/// A reduction of the partial sums of some workgroups, behind a gate.
 #[derive(Clone, Copy, Debug)]
 pub struct Reduction {
     /// Where its results go.
     pub results: Results,
-    /// Workgroups that handed in partial sums.
+    /// Number of workgroups with partial sums.
     pub groups: usize,
     /// The first of their partial sums.
     pub first: usize,
@@ -45,16 +44,15 @@ pub struct Reduction {
 /// One part of a decision.
 #[derive(Clone, Copy)]
 pub enum Decision {
-    /// Partial sums put together and handed to the scalars.
+    /// Partial sums, added up and stored in the scalars.
     Sums(Reduction),
     /// A scalar kernel.
     Scalar(&'static ScalarKernel),
 }
 
-/// One dispatch that decides: puts all partial sums together in a fixed order, then goes through its
-/// parts one after another: hands a reduction's results over if the gate of the kernel that wrote them
-/// is open, or runs a scalar kernel. An error where one of them has no shader. Its entry point is
-/// `decide`.
+/// One dispatch that adds up all partial sums in a fixed order, then runs its parts one after another: a
+/// reduction's results are stored if the gate of the kernel that wrote them is open; a scalar kernel is run.
+/// An error if a scalar kernel has no shader. The entry point is `decide`.
 pub fn decide(parts: &[Decision], wide: Wide) -> Result<String, GpuError> {
     let mut source = String::new();
     let reductions: Vec<Reduction> = parts
@@ -127,7 +125,7 @@ pub fn decide(parts: &[Decision], wide: Wide) -> Result<String, GpuError> {
     Ok(source)
 }
 
-/// Writes the function that puts partial sums together, slot by slot of all reductions.
+/// Writes the function that adds up partial sums, slot by slot of all reductions.
 fn put_together(source: &mut String, reductions: &[Reduction], reduces: &[Reduce]) {
     let count = reduces.len();
     let at_once = SWEEP_SUMS_AT_ONCE.min(count);
@@ -165,8 +163,7 @@ fn put_together(source: &mut String, reductions: &[Reduction], reduces: &[Reduce
     );
 }
 
-/// Sums of 64 pairs with what rounding took from them, to see whether that survives a compiler. Its
-/// entry point is `check`.
+/// Compensated sums of 64 pairs, to test whether they survive the compiler. The entry point is `check`.
 pub fn two_sums() -> String {
     let mut source = String::new();
     preamble(&mut source, Wide::Compensated, "read", SUMS);

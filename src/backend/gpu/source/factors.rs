@@ -1,4 +1,4 @@
-//! How the columns come by their factors: out of a table, or computed where they are wanted.
+//! The factors of the columns: read from a table, or computed where they are used.
 
 use std::fmt::Write;
 
@@ -6,14 +6,14 @@ use super::super::catalogue;
 use super::super::level::LevelPlan;
 use crate::backend::{Factors, Response};
 
-/// Numbers that a spectrum without a table binds in its place: the factor of the zero wavevector and
-/// the half-space's two steps.
+/// Constants that a spectrum without a table binds in its place: the factor of the zero wavevector and
+/// the two steps of the half-space's wavevectors.
 pub const OWN_FACTORS: usize = 3;
 
-/// What a spectrum's factors are to a shader.
+/// How a shader obtains a spectrum's factors.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub enum FactorSource {
-    /// One number each, in a table.
+    /// From a table, one number for each wavevector.
     Table,
     /// The stiffness of a half-space.
     Stiffness,
@@ -22,14 +22,14 @@ pub enum FactorSource {
 }
 
 impl FactorSource {
-    /// All of them.
+    /// All variants.
     pub const ALL: [FactorSource; 3] = [
         FactorSource::Table,
         FactorSource::Stiffness,
         FactorSource::Compliance,
     ];
 
-    /// That of a spectrum.
+    /// The source of a spectrum's factors.
     pub fn new(factors: &Factors) -> Self {
         match factors {
             Factors::Table(_) => FactorSource::Table,

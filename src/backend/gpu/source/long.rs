@@ -1,7 +1,7 @@
 //! Shaders of lines that are too long for a workgroup: the second pass of rows, and columns in three.
 //!
-//! A column's `ny` complex numbers lie where its own `ny/2` and those of its mirror image lay; the two
-//! columns that are their own mirror images have a spare half.
+//! A column's `ny` complex numbers are stored in its own `ny/2` places and those of its mirror image; the
+//! two columns that are their own mirror images have a spare half.
 
 use std::fmt::Write;
 
@@ -27,7 +27,7 @@ pub enum Pass {
 }
 
 impl Pass {
-    /// All of them, in order.
+    /// All passes, in order.
     pub const ALL: [Pass; 3] = [Pass::First, Pass::Middle, Pass::Last];
 }
 

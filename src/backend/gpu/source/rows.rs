@@ -1,8 +1,8 @@
-//! Kernels that work on the lines of a transform: their shader around the kernel's own part.
+//! Kernels on the lines of a transform: the shader around the kernel's own part.
 //!
 //! A workgroup works on some pairs of rows. Before the first stage of a forward transform and after the
 //! last one of an inverse, a thread holds the values of a pair at places that are the same for both;
-//! there the kernel's own part comes in, and lines that are kept lie in the work space by those places.
+//! the kernel's own part runs there, and retained rows are stored in the work space in that order.
 
 use std::fmt::Write;
 
@@ -14,7 +14,7 @@ use super::slabs::first_turn;
 use super::{ends, frame, long};
 use crate::kernel::{Form, Kernel};
 
-/// The head of a kernel that works on pairs of rows; `pair` is this thread's.
+/// The beginning of a kernel on pairs of rows; `pair` is this thread's pair.
 fn head(source: &mut String, kernel: &Kernel, plan: &LevelPlan, open: &str) {
     source.push_str(&LineWriter::declarations(&plan.rows));
     source.push_str(catalogue::FFT);

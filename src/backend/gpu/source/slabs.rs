@@ -1,11 +1,11 @@
-//! What shaders of grids in several slabs have besides: where a point of a slab lies in the grid,
-//! where a place of a column lies among the slabs, and fields read as a whole.
+//! Shader code for grids in several slabs: the place in the grid of a slab's point, the slab of a
+//! column's place, and fields read as a whole.
 
 use std::fmt::Write;
 
 use super::super::level::LevelPlan;
 
-/// A field that a kernel reads at points of its own choice.
+/// A field that a kernel reads at any point.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct Whole {
     /// Its points along x and y.
@@ -29,7 +29,7 @@ impl Whole {
         }
     }
 
-    /// Declares the field from a binding of group 1 on, and how it is read.
+    /// Declares the field's bindings in group 1, from one on, and the function that reads it.
     pub(super) fn declare(self, source: &mut String, binding: usize) {
         let [width, height] = self.shape;
         for slab in 0..self.slabs {
@@ -64,7 +64,7 @@ impl Whole {
     }
 }
 
-/// Declares the number of this slab or part, where there are several, and the row in the grid of a
+/// Declares the index of this slab or part, where there are several, and the row in the grid of a
 /// point of the slab.
 pub(super) fn declare_turn(source: &mut String, plan: &LevelPlan) {
     if plan.turns() > 1 {
@@ -163,7 +163,7 @@ impl Work {
         (slab == last && slab < self.slabs).then_some(slab)
     }
 
-    /// Reads a pair of the column at `base`, in whichever slab.
+    /// Reads a pair of the column at `base`, in any slab.
     pub(super) fn read_at(&self, base: &str, pair: &str) -> String {
         match self.slabs {
             1 => format!("work[{base} + {pair}]"),

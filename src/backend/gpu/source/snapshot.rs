@@ -1,4 +1,4 @@
-//! Assembled shaders to be looked at: every kernel, as `examples/shaders.rs` writes them out and
+//! Assembled shaders of every kernel, as `examples/shaders.rs` writes them and
 //! `tests/reference/shaders` keeps them.
 
 use super::super::catalogue;
@@ -10,13 +10,13 @@ use crate::backend::Shape;
 use crate::kernel::{Constraint, Gate, KERNELS, Kernel, SCALAR_KERNELS};
 use crate::law::{Exponential, Law, LennardJones, MaugisDugdale};
 
-/// What every adapter offers.
+/// Limits that every adapter offers.
 const LIMITS: GroupLimits = GroupLimits {
     threads: 256,
     memory: 16384,
 };
 
-/// The law with which a kernel is shown.
+/// The law in a kernel's snapshot.
 fn law_of(kernel: &Kernel) -> Law {
     match kernel.constraint {
         Some(Constraint::Smooth) => Law::LennardJones(LennardJones {
@@ -35,9 +35,9 @@ fn law_of(kernel: &Kernel) -> Law {
     }
 }
 
-/// Every kernel in all its variants on a small level in single precision with sums in double, by name, with the
-/// parts that all have in files of their own; the decisions; a multiplication; and the forms that a kernel takes
-/// around an outer state, with a map of adhesion, a pad, compensated sums, and in double precision.
+/// Every kernel in all its variants on a small level in single precision with sums in double, by name; the
+/// parts that all share; the decisions; a multiplication; and kernels around an outer state, with a map of
+/// adhesion, a pad, compensated sums, and in double precision.
 ///
 /// # Errors
 /// A kernel without a shader.
