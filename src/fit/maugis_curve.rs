@@ -22,6 +22,8 @@ pub(super) struct MaugisCurve {
     /// fold.
     roots: Vec<f64>,
     forces: Vec<f64>,
+    /// For each four neighbouring nodes the cubic through them, by Newton's divided differences.
+    cubics: Vec<[f64; 4]>,
     /// Approach of the first node: the fold, or the first touch.
     first: f64,
     /// Greatest tension.
@@ -40,13 +42,13 @@ impl MaugisCurve {
         let stretch = ((end - begin) / EVEN).asinh();
         let mut roots = Vec::with_capacity(NODES);
         let mut forces = Vec::with_capacity(NODES);
-        let mut first = f64::NAN;
+        let state = model.state(begin)?;
+        let first = state.approach;
+        let mut zone = (state.ratio().powi(2) - 1.0).max(0.0).sqrt();
         for i in 0..NODES {
             let share = i as f64 / (NODES - 1) as f64;
-            let state = model.state(begin + EVEN * (share * stretch).sinh())?;
-            if i == 0 {
-                first = state.approach;
-            }
+            let state;
+            (state, zone) = model.state_near(begin + EVEN * (share * stretch).sinh(), zone)?;
             let root = (state.approach - first).max(0.0).sqrt();
             // Rounding near the fold.
             if roots.last().is_none_or(|last| root > *last) {
@@ -55,10 +57,16 @@ impl MaugisCurve {
             }
         }
         let pull_off = model.pull_off()?;
+        let cubics = roots
+            .windows(4)
+            .zip(forces.windows(4))
+            .map(|(x, y)| divided_differences(x, y))
+            .collect();
         Ok(MaugisCurve {
             model,
             roots,
             forces,
+            cubics,
             first,
             pull_off: (pull_off.approach, pull_off.force),
         })
@@ -82,18 +90,21 @@ impl MaugisCurve {
     /// The cubic through the four nodes around a place.
     fn interpolated(&self, root: f64) -> f64 {
         let after = self.roots.partition_point(|node| *node <= root);
-        let from = after.saturating_sub(2).min(self.roots.len() - 4);
-        let (x, y) = (&self.roots[from..from + 4], &self.forces[from..from + 4]);
-        (0..4)
-            .map(|i| {
-                let weight: f64 = (0..4)
-                    .filter(|j| *j != i)
-                    .map(|j| (root - x[j]) / (x[i] - x[j]))
-                    .product();
-                weight * y[i]
-            })
-            .sum()
+        let from = after.saturating_sub(2).min(self.cubics.len() - 1);
+        let (x, c) = (&self.roots[from..from + 3], &self.cubics[from]);
+        c[0] + (root - x[0]) * (c[1] + (root - x[1]) * (c[2] + (root - x[2]) * c[3]))
     }
+}
+
+/// Newton's coefficients of the cubic through four points.
+fn divided_differences(x: &[f64], y: &[f64]) -> [f64; 4] {
+    let mut c = [y[0], y[1], y[2], y[3]];
+    for order in 1..4 {
+        for i in (order..4).rev() {
+            c[i] = (c[i] - c[i - 1]) / (x[i] - x[i - order]);
+        }
+    }
+    c
 }
 
 #[cfg(test)]

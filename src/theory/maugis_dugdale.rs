@@ -14,6 +14,9 @@ use std::f64::consts::{FRAC_PI_2, PI};
 /// 1997. Below it the contact shrinks to a point first, and the jump is from the open branch.
 pub const FOLD_LAMBDA: f64 = 0.937_947_457_210_712_3;
 
+/// Steps of Newton's method for a cohesive zone near a known one; a handful suffices, and bracketing follows.
+const NEWTON_STEPS: usize = 12;
+
 /// An equilibrium of the sphere, reduced.
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[non_exhaustive]
@@ -71,20 +74,55 @@ impl MaugisDugdale {
     /// shrinks; its left side increases with t, so there is one root.
     pub fn state(&self, contact_radius: f64) -> Result<State, TheoryError> {
         let a = positive("contact_radius", contact_radius)?;
+        let guess = 1.0 / (self.lambda * a);
+        let t = positive_root("the cohesive zone", |t| self.opened(a, t), guess)?;
+        Ok(self.state_with_zone(a, t))
+    }
+
+    /// The same from the root `t` at a contact radius close by, by Newton's method; also returns the root.
+    pub(crate) fn state_near(&self, a: f64, t_near: f64) -> Result<(State, f64), TheoryError> {
+        let mut t = t_near;
+        for _ in 0..NEWTON_STEPS {
+            let step = self.opened(a, t) / self.opened_slope(a, t);
+            // From the convex side a step may go beyond zero.
+            let next = (t - step).max(0.1 * t);
+            if (next - t).abs() <= 2.0 * f64::EPSILON * t {
+                return Ok((self.state_with_zone(a, next), next));
+            }
+            t = next;
+        }
+        let guess = 1.0 / (self.lambda * a);
+        let t = positive_root("the cohesive zone", |t| self.opened(a, t), guess)?;
+        Ok((self.state_with_zone(a, t), t))
+    }
+
+    /// Opening at the edge of the cohesive zone over the range, less 1.
+    fn opened(&self, a: f64, t: f64) -> f64 {
         let lambda = self.lambda;
-        let opened = |t: f64| {
-            let first = 0.5 * PI * lambda * a * a * reduced_gap(t);
-            first + 4.0 / 3.0 * lambda * lambda * a * punch_gap(t) - 1.0
-        };
-        let t = positive_root("the cohesive zone", opened, 1.0 / (lambda * a))?;
+        let first = 0.5 * PI * lambda * a * a * reduced_gap(t);
+        first + 4.0 / 3.0 * lambda * lambda * a * punch_gap(t) - 1.0
+    }
+
+    /// Derivative of [`Self::opened`] by t.
+    fn opened_slope(&self, a: f64, t: f64) -> f64 {
+        let lambda = self.lambda;
+        let (m, angle) = (t.hypot(1.0), t.atan());
+        let gap = 2.0 * t * (t / (m * m) + angle) / PI;
+        // atan t + t/m^2 - t/m, whose last two terms are t (1 - m)/m^2.
+        let punch = angle - t * t * t / (m * m * (m + 1.0));
+        0.5 * PI * lambda * a * a * gap + 4.0 / 3.0 * lambda * lambda * a * punch
+    }
+
+    fn state_with_zone(&self, a: f64, t: f64) -> State {
+        let lambda = self.lambda;
         let ratio = t.hypot(1.0);
-        Ok(State {
+        State {
             contact_radius: a,
             cohesive_radius: ratio * a,
             force: a.powi(3) - lambda * a * a * (t + ratio * ratio * t.atan()),
             approach: a * a - 4.0 / 3.0 * lambda * a * t,
             central_gap: 0.0,
-        })
+        }
     }
 
     /// Cohesive radius at which the open disc just touches, the limit of zero contact radius.
@@ -299,6 +337,22 @@ mod tests {
         let soft = MaugisDugdale::new(1e3).unwrap().state(1.3).unwrap();
         assert!((soft.force - jkr::reduced_force(1.3)).abs() < 1e-4);
         assert!((soft.approach - jkr::reduced_approach(1.3)).abs() < 1e-4);
+    }
+
+    #[test]
+    fn a_state_is_the_same_from_its_neighbour() {
+        for lambda in [0.01, 0.3, 2.0, 20.0] {
+            let sphere = MaugisDugdale::new(lambda).unwrap();
+            let mut zone = (sphere.state(1e-6).unwrap().ratio().powi(2) - 1.0).sqrt();
+            for i in 0..200 {
+                let radius = 1e-6 + 5.0 * (f64::from(i) / 199.0).powi(2);
+                let state;
+                (state, zone) = sphere.state_near(radius, zone).unwrap();
+                let known = sphere.state(radius).unwrap();
+                assert!((state.force - known.force).abs() < 1e-12 * (1.0 + known.force.abs()));
+                assert!((state.approach - known.approach).abs() < 1e-12 * (1.0 + known.approach));
+            }
+        }
     }
 
     #[test]
