@@ -432,6 +432,7 @@ fn results_of_effects_have_a_card_a_curve_and_a_column() {
     let page = fs::read_to_string(out.join("report.html")).expect("a page");
     let rows = binary::table(&out.join("curve.csv"));
     for (name, column, unit) in [
+        ("attractive force", "attractive_force", "N"),
         ("friction force", "friction_force", "N"),
         ("conductance", "conductance", "S"),
         ("resistance", "resistance", "ohm"),
@@ -466,8 +467,21 @@ fn results_of_effects_have_a_card_a_curve_and_a_column() {
     ] {
         assert!(page.contains(part), "{part} is missing in {page}");
     }
-    // What still touches without load.
+    // What still touches without load, and with what force it attracts: on the straight line between steps 2 and 3,
+    // where the force changes its sign.
     assert!(page.contains("<dt>Left at zero load</dt>"), "{page}");
+    let [force, attraction] = ["force", "attractive_force"]
+        .map(|name| [1, 2].map(|row: usize| binary::number(&rows[row], name).expect("a number")));
+    let share = force[0] / (force[0] - force[1]);
+    let left = attraction[0] + (attraction[1] - attraction[0]) * share;
+    let card = format!(
+        "<dt>Attraction left at zero load</dt><dd>{}<",
+        format_si(left, "N")
+    );
+    assert!(page.contains(&card), "{card} is missing in {page}");
+    // It is no less than the net tension, and nothing once the surfaces are apart.
+    assert!(attraction[1] >= -force[1] && force[1] < 0.0);
+    assert_eq!(binary::number(&rows[3], "attractive_force"), Some(0.0));
     // Effects that are off are not there.
     assert!(page.contains("<th scope=\"row\">wear</th>"));
     for off in ["dmt treatment", "hardness", "viscoelasticity"] {
@@ -476,6 +490,18 @@ fn results_of_effects_have_a_card_a_curve_and_a_column() {
             "{off}"
         );
     }
+
+    // Without adhesion nothing attracts, and nothing is said of it.
+    let plain = EFFECTS
+        .split("[adhesion]")
+        .next()
+        .expect("its beginning")
+        .to_owned()
+        + "[loading]\ncontrol = \"approach\"\npath = [\"2 um\", \"0 um\"]\n[output]\nimages = []\n";
+    let (_folder, out) = run(&plain, &[], 0);
+    let page = fs::read_to_string(out.join("report.html")).expect("a page");
+    assert!(!page.contains("ttracti"), "{page}");
+    assert!(!binary::table(&out.join("curve.csv"))[0].contains_key("attractive_force"));
 
     // Heat has no resistance in ohm, and a plastic solid has lost energy at the end.
     let thermal = EFFECTS

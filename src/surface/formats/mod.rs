@@ -7,6 +7,7 @@ mod bytes;
 mod gsf;
 mod gwy;
 mod ibw;
+pub(crate) mod instrument_header;
 mod length;
 mod metropro;
 mod nanoscope;
