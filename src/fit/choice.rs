@@ -39,6 +39,9 @@ const CLOSEST: f64 = 0.05;
 /// Most iterations of model choice and Tabor number.
 const ROUNDS: usize = 4;
 
+/// Standard deviations of the Tabor number within which a limit may hold.
+const DEVIATIONS: f64 = 2.0;
+
 /// A fitted number with its standard deviation.
 type Number = fn(&Parameters, &Uncertainties) -> (f64, Option<f64>);
 
@@ -59,6 +62,8 @@ pub struct FitResult {
     /// Tabor number that the chosen model implies; `None` without adhesion, or if the range is
     /// unknown.
     pub tabor_parameter: Option<f64>,
+    /// Standard deviation of the Tabor number, where lambda is determined.
+    pub tabor_uncertainty: Option<f64>,
     /// Standard deviation of the work of adhesion, or the spread over indistinguishable models if
     /// that is larger, J/m^2.
     pub work_uncertainty: Option<f64>,
@@ -145,6 +150,8 @@ pub fn fit_curve(
     if !pressed && (grows || uncertain) {
         return Err(FitError::NoCompression { path: name(path) });
     }
+    let general = fits.iter().find(|fit| fit.model == Model::MaugisDugdale);
+    let tabor_uncertainty = general.and_then(tabor_deviation);
     let law_error = law_error(&measured, &fits[chosen]);
     if let Some(error) = law_error {
         // Nothing to add for a number that the curve does not determine.
@@ -169,6 +176,7 @@ pub fn fit_curve(
         measured,
         fits,
         chosen,
+        tabor_uncertainty: tabor_parameter.and(tabor_uncertainty),
         tabor_parameter,
         relaxation: None,
         baseline_slope: None,
@@ -327,17 +335,14 @@ fn choose(
         taken = general;
     }
     // Maugis-Dugdale holds at any number.
-    let outside = number(taken).filter(|mu| !holds(fits[taken].model, *mu));
+    let spread = tabor_deviation(&fits[general]).unwrap_or(0.0);
+    let outside = number(taken).filter(|mu| !holds(fits[taken].model, *mu, DEVIATIONS * spread));
     if let Some(mu) = outside {
         warnings.push(format!(
             "{} suffices by Akaike's criterion, but the curve gives a Tabor number of {mu:.2}, and {} holds {}: the result is that of Maugis-Dugdale, the next model that holds",
             fits[taken].model.title(),
             fits[taken].model.title(),
-            if fits[taken].model == Model::Jkr {
-                format!("above {JKR_LIMIT}")
-            } else {
-                format!("below {FORCE_DMT_LIMIT:.2}")
-            },
+            range_words(fits[taken].model),
         ));
         taken = general;
     }
@@ -374,13 +379,27 @@ fn choose(
     Some((taken, number(taken)))
 }
 
-/// Whether a model holds at a Tabor number.
-fn holds(model: Model, mu: f64) -> bool {
+/// Whether a model holds at a Tabor number, or so far from it.
+pub(super) fn holds(model: Model, mu: f64, within: f64) -> bool {
     match model {
-        Model::Dmt => mu <= FORCE_DMT_LIMIT,
-        Model::Jkr => mu >= JKR_LIMIT,
+        Model::Dmt => mu - within <= FORCE_DMT_LIMIT,
+        Model::Jkr => mu + within >= JKR_LIMIT,
         Model::Hertz | Model::MaugisDugdale => true,
     }
+}
+
+/// The Tabor numbers at which a limit holds, in words.
+pub(super) fn range_words(model: Model) -> String {
+    match model {
+        Model::Dmt => format!("below {FORCE_DMT_LIMIT:.2}"),
+        Model::Jkr => format!("above {JKR_LIMIT}"),
+        Model::Hertz | Model::MaugisDugdale => "at any".to_owned(),
+    }
+}
+
+/// Standard deviation of the Tabor number of a general fit.
+fn tabor_deviation(fit: &ModelFit) -> Option<f64> {
+    Some(fit.uncertainties.maugis_parameter? / LAMBDA_PER_MU_MATCHED)
 }
 
 /// Whether a fit without adhesion takes a tension for the baseline, with no point that shows the
@@ -394,12 +413,9 @@ fn hides_adhesion(measured: &Measured, hertz: &ModelFit) -> bool {
 fn simpler(fits: &[ModelFit], general: usize) -> Option<usize> {
     let fit = &fits[general];
     let number = fit.tabor_parameter()?;
-    let spread = fit.uncertainties.maugis_parameter.unwrap_or(0.0) / LAMBDA_PER_MU_MATCHED;
-    let reaches = |model: Model| match model {
-        Model::Dmt => number - 2.0 * spread < FORCE_DMT_LIMIT,
-        Model::Jkr => number + 2.0 * spread > JKR_LIMIT,
-        Model::Hertz | Model::MaugisDugdale => false,
-    };
+    let spread = tabor_deviation(fit).unwrap_or(0.0);
+    let is_limit = |model: Model| matches!(model, Model::Dmt | Model::Jkr);
+    let reaches = |model| is_limit(model) && holds(model, number, DEVIATIONS * spread);
     (0..fits.len())
         .filter(|i| reaches(fits[*i].model) && fits[*i].aic - fit.aic < DECISIVE_AIC)
         .min_by(|a, b| fits[*a].aic.total_cmp(&fits[*b].aic))

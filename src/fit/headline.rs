@@ -1,6 +1,6 @@
 //! The result of a fit in a line.
 
-use super::choice::FitResult;
+use super::choice::{FitResult, holds, range_words};
 use crate::units::format_si;
 
 /// The chosen model with work of adhesion, modulus and their uncertainties, or that no model describes the curve.
@@ -20,7 +20,19 @@ pub fn headline(result: &FitResult) -> String {
     let deviation = result.modulus_uncertainty;
     parts.push(quantity("E*", numbers.contact_modulus, deviation, "Pa"));
     if let Some(mu) = result.tabor_parameter {
-        parts.push(format!("Tabor number {mu:.3}"));
+        let spread = result.tabor_uncertainty;
+        let spread = spread.map(|spread| format!(" +- {spread:.2}"));
+        let model = best.model;
+        let beside = if holds(model, mu, 0.0) {
+            String::new()
+        } else {
+            let range = range_words(model);
+            format!(" ({} holds {range}, within two deviations)", model.title())
+        };
+        parts.push(format!(
+            "Tabor number {mu:.3}{}{beside}",
+            spread.unwrap_or_default()
+        ));
     }
     let title = best.model.title();
     let parts = parts.join(", ");

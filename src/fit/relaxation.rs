@@ -26,7 +26,7 @@ const PLACES: [f64; 7] = [-0.2, -0.1, -0.05, 0.0, 0.05, 0.1, 0.2];
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[non_exhaustive]
 pub struct Relaxation {
-    /// Contact modulus after long times, Pa, with its standard deviation.
+    /// Contact modulus after long times, Pa, with its standard deviation; NaN where the curve does not determine it.
     pub relaxed_modulus: (f64, f64),
     /// Contact modulus of sudden loads, Pa.
     pub instantaneous_modulus: (f64, f64),
@@ -40,6 +40,10 @@ pub struct Relaxation {
 
 impl fmt::Display for Relaxation {
     fn fmt(&self, f: &mut fmt::Formatter) -> fmt::Result {
+        let is_known = self.time.1 < self.time.0;
+        if !is_known {
+            return write!(f, "the loading determines no relaxation time");
+        }
         let with = |(value, deviation): (f64, f64), unit: &str| {
             format!(
                 "{} +- {}",
@@ -73,6 +77,17 @@ pub fn fit_relaxation(
     };
     let loading = measured.segments.iter().rfind(|segment| segment.loading);
     let points = loading.ok_or_else(|| no_loading(0))?.points.clone();
+    // The contact grows up to the deepest point.
+    let deeper = |a: &usize, b: &usize| {
+        let [a, b] = [*a, *b].map(|at| measured.approaches[at]);
+        a.total_cmp(&b)
+    };
+    let last = points
+        .clone()
+        .rev()
+        .max_by(deeper)
+        .ok_or_else(|| no_loading(0))?;
+    let points = points.start..last + 1;
     let times = curve.times.get(points.clone()).unwrap_or_default();
     let increase = times.windows(2).all(|pair| pair[0] < pair[1]);
     if times.len() != points.len() || !increase || !times.iter().all(|time| time.is_finite()) {
@@ -115,14 +130,14 @@ pub fn fit_relaxation(
     let variance = minimum.sum() / degrees as f64;
     let known = covariance(&minimum.jacobian, variance);
     let solid = fit.solid(&minimum.variables);
-    let deviation = |place: usize| known[(place, place)].max(0.0).sqrt();
+    let deviation = |place: usize| known[(place, place)].sqrt();
     let [relaxed, rest] = solid.moduli;
     let both = known[(0, 0)] * relaxed * relaxed
         + known[(1, 1)] * rest * rest
         + 2.0 * known[(0, 1)] * relaxed * rest;
     Ok(Relaxation {
         relaxed_modulus: (relaxed, deviation(0) * relaxed),
-        instantaneous_modulus: (relaxed + rest, both.max(0.0).sqrt()),
+        instantaneous_modulus: (relaxed + rest, both.sqrt()),
         time: (solid.time, deviation(2) * solid.time),
         noise: variance.sqrt() * fit.scale,
         points: times.len(),

@@ -63,6 +63,7 @@ pub fn report(result: &FitResult, path: &Path) -> Value {
         }),
     );
     put("tabor_parameter", json!(result.tabor_parameter));
+    put("tabor_uncertainty", json!(result.tabor_uncertainty));
     put(
         "law_error",
         result.law_error.map_or(Value::Null, |error| {

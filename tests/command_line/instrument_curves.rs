@@ -232,7 +232,7 @@ fn a_relaxation_time_is_found_beside() {
             1e9 * (force + noise * random.normal())
         );
     }
-    for i in (0..400).rev() {
+    for i in (0..399).rev() {
         let approach = speed * (f64::from(i) - 100.0) * 2e-3;
         let force = 4.0 / 3.0 * radius.sqrt() * solid[0] * approach.max(0.0).powf(1.5);
         rows += &format!(

@@ -205,7 +205,7 @@ fn a_browser_shows_the_whole_page_on_any_width_without_a_network() {
             );
         }
         let curves = facts["curves"].as_array().expect("a list");
-        assert_eq!(curves.len(), 2);
+        assert_eq!(curves.len(), 3);
         for curve in curves {
             assert!(
                 curve[0].as_f64() > Some(300.0) && curve[1].as_f64() > Some(200.0),
@@ -271,7 +271,7 @@ fn runs_that_ended_early_and_runs_of_one_step_have_a_page() {
     let (_folder, out) = run(ROUGH, &one, 0);
     let seen = look(browser, &out.join("report.html"), 400);
     expect_alone(&seen);
-    assert_eq!(seen.facts["curves"].as_array().map(Vec::len), Some(2));
+    assert_eq!(seen.facts["curves"].as_array().map(Vec::len), Some(3));
     assert!(seen.facts["needed"].as_u64() <= Some(400));
 }
 

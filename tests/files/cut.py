@@ -169,6 +169,14 @@ def vk4(_):
     return b"".join(parts) + heights.tobytes()
 
 
+def vk6(_):
+    """The same in an archive behind a prefix."""
+    archive = io.BytesIO()
+    with zipfile.ZipFile(archive, "w", zipfile.ZIP_DEFLATED) as new:
+        new.writestr(zipfile.ZipInfo("Vk4File"), vk4(None), zipfile.ZIP_DEFLATED)
+    return b"VK6\0" + bytes(60) + archive.getvalue()
+
+
 FILES = {
     "bruker_5.spm": ("di-1.di", nanoscope),
     "bruker_10.spm": ("di-5.di", nanoscope),
@@ -179,6 +187,7 @@ FILES = {
     "sensofar.plu": ("plu-1.plu", plu),
     "mountains.x3p": ("x3p-2.x3p", x3p),
     "description.vk4": (None, vk4),
+    "description.vk6": (None, vk6),
 }
 
 # Larger maps for whole studies, with the lengths of their part.

@@ -155,13 +155,9 @@ mod tests {
         let mut scene = json!({ "surface": [{ "kind": "file" }], "solid": {} });
         put(&mut scene, "surface.0.scale", parsed("2.5"));
         put(&mut scene, "solid.contact_modulus", parsed("2 GPa"));
-        put(
-            &mut scene,
-            "friction",
-            parsed("{ shear_strength = \"1 MPa\" }"),
-        );
+        put(&mut scene, "capillary", parsed("{ humidity = 0.5 }"));
         assert_eq!(scene["surface"][0]["scale"], 2.5);
         assert_eq!(scene["solid"]["contact_modulus"], "2 GPa");
-        assert_eq!(scene["friction"]["shear_strength"], "1 MPa");
+        assert_eq!(scene["capillary"]["humidity"], 0.5);
     }
 }

@@ -256,7 +256,9 @@ fn surface_of_scene(arguments: &SurfaceArguments) -> Result<(Surface, Boundary),
 }
 
 /// The surface of a file, as a patch with free edges unless the call says otherwise.
-fn surface_of_file(arguments: &SurfaceArguments) -> Result<(Surface, Boundary, HeightFileScene), Failure> {
+fn surface_of_file(
+    arguments: &SurfaceArguments,
+) -> Result<(Surface, Boundary, HeightFileScene), Failure> {
     let file = &arguments.file;
     let boundary = file.boundary.unwrap_or(Boundary::Free);
     memory::check_map(&arguments.source, boundary)?;
