@@ -59,7 +59,7 @@ fn a_map_leads_to_its_pull_off_and_how_far_it_is_converged() {
     let force = found["pull_off_force"].as_f64().expect("a pull-off force");
     // Less than the law could hold on the whole of the map, 93.75 nm wide.
     assert!(
-        force > 0.0 && force < 0.05 / 1e-10 * 93.75e-9 * 93.75e-9,
+        force > 0.0 && force < 0.05 / 0.5e-9 * 93.75e-9 * 93.75e-9,
         "{force:e}"
     );
     assert!(said.contains("the pull-off force is"), "{said}");
