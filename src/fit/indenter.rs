@@ -126,7 +126,7 @@ impl Indenter {
     }
 
     /// Work of adhesion, J/m^2, and contact modulus, Pa, that make these units.
-    pub(super) fn from_units(self, force: f64, approach: f64) -> (f64, f64) {
+    pub(super) fn work_and_modulus(self, force: f64, approach: f64) -> (f64, f64) {
         if let Indenter::Sphere { radius } = self {
             let work = force / (PI * radius);
             return (work, 0.75 * PI * work * (radius / approach.powi(3)).sqrt());
@@ -254,7 +254,7 @@ mod tests {
             Indenter::from(2e-6),
         ] {
             let (force, approach) = tip.units(3e6, 0.04);
-            let (work, modulus) = tip.from_units(force, approach);
+            let (work, modulus) = tip.work_and_modulus(force, approach);
             assert_relative_eq!(work, 0.04, max_relative = 1e-12);
             assert_relative_eq!(modulus, 3e6, max_relative = 1e-12);
         }

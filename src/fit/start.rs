@@ -84,7 +84,8 @@ pub(super) fn scale_grid(measured: &Measured, tip: &IndenterModel, lambda: f64) 
                 let Some((force_unit, force_offset)) = linear_scale(measured, force) else {
                     continue;
                 };
-                let (work_of_adhesion, contact_modulus) = tip.indenter.from_units(force_unit, unit);
+                let (work_of_adhesion, contact_modulus) =
+                    tip.indenter.work_and_modulus(force_unit, unit);
                 if contact_modulus.is_finite() && contact_modulus > 0.0 {
                     grid.push(Parameters {
                         contact_modulus,
@@ -168,7 +169,7 @@ fn pull_off_start(
         .approach_at(lambda, (greatest.force - baseline) / unit)
         .ok()?;
     let approach_unit = segment / (deepest - place);
-    let (work_of_adhesion, contact_modulus) = tip.indenter.from_units(unit, approach_unit);
+    let (work_of_adhesion, contact_modulus) = tip.indenter.work_and_modulus(unit, approach_unit);
     contact_modulus.is_finite().then_some(Parameters {
         contact_modulus,
         work_of_adhesion,
