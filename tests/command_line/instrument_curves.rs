@@ -305,12 +305,12 @@ fn the_relaxation_of_a_solved_sphere_comes_back() {
     assert_eq!(status(&output), 0, "{}", errors(&output));
     let options = ["--radius", "10 um", "--contact-at-zero", "--relaxation"];
     let (found, _) = fit(folder.path(), "creep/curve.csv", &options);
-    // The grid has 8 to 16 pixels in the contact's radius, whose forces are within 2 % (README: Hertz 5.7e-4 at 13 pixels);
-    // the time follows from a change of slope of a third and is known to a tenth as well as the moduli are to 3 %.
+    // The pixels are what is left: on 48 points the moduli come out 0.3 % high and the time 0.7 % low, on 96 points by
+    // 0.1 % and 0.15 %.
     for (name, truth, share) in [
-        ("relaxed_modulus", 1e6, 0.1),
-        ("instantaneous_modulus", 3e6, 0.05),
-        ("time", 0.1, 0.15),
+        ("relaxed_modulus", 1e6, 0.005),
+        ("instantaneous_modulus", 3e6, 0.005),
+        ("time", 0.1, 0.01),
     ] {
         let [value, _] = quantity(&found["relaxation"][name]);
         assert!((value / truth - 1.0).abs() < share, "{name}: {value:e}");
