@@ -3,8 +3,6 @@
 use std::borrow::Cow;
 use std::f64::consts::{LN_2, PI};
 
-use rayon::prelude::*;
-
 use super::control::{Controller, Position};
 use super::row::State;
 use super::setup::Setup;
@@ -15,9 +13,6 @@ use crate::solver::{Load, Problem};
 
 /// Attraction below this share of the law's peak does not count as attraction.
 const NEGLIGIBLE: f64 = 1e-9;
-
-/// Points in a part of a sum.
-const PART: usize = 4096;
 
 /// State of a point of the grid.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -152,19 +147,18 @@ impl Evaluation {
         let mut gap = problem.cut_to_surface(solved.gap);
         let mut pressure = problem.cut_to_surface(solved.elastic);
         let mut points = vec![PointState::Separated; gap.len()];
+        let mut adhesive = 0.0;
+        let mut strongest: f64 = 0.0;
         let negative_is_contact = matches!(problem.law, Law::LennardJones(_));
-        let map = setup.surface.adhesion_map.as_deref();
-        let (held, present) = (solved.held, solved.law_factor);
-        // One point: its energy of adhesion, and its tension where it is open.
-        let point = |i: usize, gap: &mut f64, pressure: &mut f64, state: &mut PointState| {
+        for (i, (gap, pressure)) in gap.iter_mut().zip(&mut pressure).enumerate() {
             let g = open(*gap);
             let closed = if negative_is_contact {
                 g < 0.0
             } else {
                 g <= 0.0
             };
-            let factor = map.map_or(1.0, |map| map[i]);
-            let pulling = present.map_or(factor, |factors| factors[i]);
+            let factor = setup.law_factor(i);
+            let pulling = solved.law_factor.map_or(factor, |factors| factors[i]);
             let traction = pulling * law.traction(g);
             let support = if yields && *gap < 0.0 {
                 Support::Indented
@@ -174,36 +168,18 @@ impl Evaluation {
                 Support::Law
             };
             *pressure = scales.pressure
-                * net_pressure(support, *pressure + held, traction, problem.hardness);
+                * net_pressure(support, *pressure + solved.held, traction, problem.hardness);
             if closed {
-                *state = PointState::Contact;
-            } else if g < law.range() {
-                *state = PointState::Attracted;
-            }
-            *gap = g * scales.length;
-            (factor * law.energy(g), if closed { 0.0 } else { traction })
-        };
-        // Parts of a fixed length are added in order: the sum does not depend on the number of threads.
-        let fields = (gap.par_chunks_mut(PART))
-            .zip(pressure.par_chunks_mut(PART))
-            .zip(points.par_chunks_mut(PART));
-        let parts: Vec<(f64, f64)> = fields
-            .enumerate()
-            .map(|(part, ((gap, pressure), points))| {
-                let (mut energy, mut strongest) = (0.0, 0.0_f64);
-                let each = gap.iter_mut().zip(pressure).zip(points).enumerate();
-                for (i, ((gap, pressure), state)) in each {
-                    let (adhesive, traction) = point(part * PART + i, gap, pressure, state);
-                    energy += adhesive;
-                    strongest = strongest.max(traction);
+                points[i] = PointState::Contact;
+            } else {
+                strongest = strongest.max(traction);
+                if g < law.range() {
+                    points[i] = PointState::Attracted;
                 }
-                (energy, strongest)
-            })
-            .collect();
-        let adhesive: f64 = parts.iter().map(|(energy, _)| energy).sum();
-        let strongest = parts
-            .iter()
-            .fold(0.0, |most, (_, one)| f64::max(most, *one));
+            }
+            adhesive += factor * law.energy(g);
+            *gap = g * scales.length;
+        }
         plastic_depth
             .iter_mut()
             .for_each(|depth| *depth *= scales.length);
