@@ -112,6 +112,28 @@ fn a_nanoscope_curve_gives_the_modulus_it_was_made_of() {
     assert!((touch - 180e-9).abs() < 1e-9, "{touch:e}");
 }
 
+/// A folder takes files of instruments beside text, and lists what it cannot read.
+fn a_folder_takes_files_of_instruments() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let curves = folder.path().join("curves");
+    fs::create_dir(&curves).expect("made");
+    for name in ["nanoscope_force.spm", "jpk_shared.jpk-force"] {
+        fs::copy(sample(name), curves.join(name)).expect("copied");
+    }
+    // An image is no curve.
+    fs::copy(sample("bruker_5.spm"), curves.join("image.spm")).expect("copied");
+    let call = ["fit", "curves", "--cone", "20 deg", "--out", "out"];
+    let output = tabor(folder.path(), &call);
+    let said = errors(&output);
+    assert_eq!(status(&output), 0, "{said}");
+    assert!(said.contains("1 of 3 curves fitted"), "{said}");
+    assert!(
+        said.contains("image.spm") && said.contains("(--spring)"),
+        "{said}"
+    );
+    assert!(folder.path().join("out/nanoscope_force.spm.json").is_file());
+}
+
 /// Force by approach of a cone with adhesion in parametric form, Maugis & Barquins 1981.
 fn cone_state(radius: f64, [modulus, work, slope]: [f64; 3]) -> [f64; 2] {
     use std::f64::consts::{FRAC_PI_2, PI};
@@ -305,12 +327,12 @@ fn the_relaxation_of_a_solved_sphere_comes_back() {
     assert_eq!(status(&output), 0, "{}", errors(&output));
     let options = ["--radius", "10 um", "--contact-at-zero", "--relaxation"];
     let (found, _) = fit(folder.path(), "creep/curve.csv", &options);
-    // The grid has 8 to 16 pixels in the contact's radius, whose forces are within 2 % (README: Hertz 5.7e-4 at 13 pixels);
-    // the time follows from a change of slope of a third and is known to a tenth as well as the moduli are to 3 %.
+    // The pixels are what is left: on 48 points the moduli come out 0.3 % high and the time 0.7 % low, on 96 points by
+    // 0.1 % and 0.15 %.
     for (name, truth, share) in [
-        ("relaxed_modulus", 1e6, 0.1),
-        ("instantaneous_modulus", 3e6, 0.05),
-        ("time", 0.1, 0.15),
+        ("relaxed_modulus", 1e6, 0.005),
+        ("instantaneous_modulus", 3e6, 0.005),
+        ("time", 0.1, 0.01),
     ] {
         let [value, _] = quantity(&found["relaxation"][name]);
         assert!((value / truth - 1.0).abs() < share, "{name}: {value:e}");
@@ -320,6 +342,7 @@ fn the_relaxation_of_a_solved_sphere_comes_back() {
 tests![
     jpk_curves_are_read_as_another_program_reads_them,
     a_nanoscope_curve_gives_the_modulus_it_was_made_of,
+    a_folder_takes_files_of_instruments,
     cones_and_pyramids_give_back_work_of_adhesion_and_modulus,
     a_relaxation_time_is_found_beside,
     the_relaxation_of_a_solved_sphere_comes_back,
