@@ -4,7 +4,7 @@ use super::MakeBackend;
 use super::coarse_start;
 use super::kernel_set::{KernelSet, params_of_problem, params_under};
 use super::mean_gap::HeightsPressure;
-use super::multilevel::{Multilevel, begins_exact};
+use super::multilevel::{Multilevel, sticks};
 use super::outer_state::OuterState;
 use super::problem::Problem;
 use super::refinement::FIRST_TOLERANCE;
@@ -98,7 +98,7 @@ pub struct ContactSolver<'a> {
     /// The trial step of a law whose change of variable makes it costly.
     pub(super) step: Option<Field>,
     pub(super) stiffness: Spectrum,
-    /// 1/K as the preconditioner: without levels, and far from a solution with adhesion.
+    /// 1/K as the preconditioner: without levels, and far from a solution with adhesion over a wall.
     pub(super) preconditioner: Option<Spectrum>,
     /// The compliance of all waves, for a scene with conductance.
     pub(super) compliance: Option<Spectrum>,
@@ -150,7 +150,7 @@ impl<'a> ContactSolver<'a> {
         });
         let stiffness = problem.spectrum(backend, level, "stiffness", Response::Stiffness);
         let levels = Multilevel::plan(backend, level, problem);
-        let exact = levels.is_none() || begins_exact(problem);
+        let exact = levels.is_none() || sticks(problem);
         let preconditioner =
             exact.then(|| problem.spectrum(backend, level, "preconditioner", Response::Compliance));
         let compliance = problem
@@ -346,7 +346,7 @@ impl<'a> ContactSolver<'a> {
         if let Some(spectrum) = self.preconditioner {
             self.backend.set_zero_mode(spectrum, load.zero_compliance);
         }
-        self.exact = self.preconditioner.is_some();
+        self.exact = self.levels.is_none();
         if prescribed_mean_gap {
             self.begin_mean_gap();
         }
@@ -369,7 +369,7 @@ impl<'a> ContactSolver<'a> {
         }
         self.refresh()?;
         self.ready();
-        Ok(())
+        self.choose_preconditioner()
     }
 
     /// Solves a load. `watch` sees the scalars whenever the host looks and may end the solve by
