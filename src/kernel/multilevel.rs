@@ -57,7 +57,7 @@ impl<T: Real, const ADDS: bool> WithSimd for Interpolation<'_, T, ADDS> {
         for (row, line) in self.lines.chunks_exact_mut(self.width).enumerate() {
             let fine = self.first + row;
             let cell = fine / RATIO;
-            let other = if fine % RATIO == 0 {
+            let other = if fine.is_multiple_of(RATIO) {
                 before(cell, cell_rows)
             } else {
                 after(cell, cell_rows)
@@ -116,8 +116,7 @@ impl<T: Real> WithSimd for Restriction<'_, T> {
             let own = (self.first + row) * RATIO;
             let fine = [before(own, fine_y), own, own + 1, after(own + 1, fine_y)];
             let [a, b, c, d] = fine.map(|y| &self.whole.values[y * fine_x..(y + 1) * fine_x]);
-            let across =
-                |x: usize| scale * (far * (a[x] + d[x]) + near * (b[x] + c[x]));
+            let across = |x: usize| scale * (far * (a[x] + d[x]) + near * (b[x] + c[x]));
             for (tile, out) in line.chunks_mut(TILE).enumerate() {
                 let start = RATIO * tile * TILE;
                 let count = RATIO * out.len();
@@ -126,7 +125,12 @@ impl<T: Real> WithSimd for Restriction<'_, T> {
                 columns[0] = across(before(start, fine_x));
                 columns[count + 1] = across(after(start + count - 1, fine_x));
                 let end = start + count;
-                let (a, b, c, d) = (&a[start..end], &b[start..end], &c[start..end], &d[start..end]);
+                let (a, b, c, d) = (
+                    &a[start..end],
+                    &b[start..end],
+                    &c[start..end],
+                    &d[start..end],
+                );
                 for (x, column) in columns[1..=count].iter_mut().enumerate() {
                     *column = scale * (far * (a[x] + d[x]) + near * (b[x] + c[x]));
                 }
@@ -173,7 +177,7 @@ impl<T: Real> WithSimd for FreeShare<'_, T> {
     fn with_simd<S: Simd>(self, _: S) {
         let [fine_x, fine_y] = self.whole.points;
         let ratio = fine_x / self.width;
-        debug_assert!(fine_y % ratio == 0 && COUNTED % ratio == 0);
+        debug_assert!(fine_y.is_multiple_of(ratio) && COUNTED.is_multiple_of(ratio));
         let scale = T::one() / T::from_double((ratio * ratio) as f64);
         for (row, line) in self.share.chunks_exact_mut(self.width).enumerate() {
             let start = (self.first + row) * ratio * fine_x;
@@ -183,7 +187,11 @@ impl<T: Real> WithSimd for FreeShare<'_, T> {
                 let mut counts = [T::zero(); COUNTED];
                 for line in fine.chunks_exact(fine_x) {
                     for (count, &value) in counts.iter_mut().zip(&line[columns.clone()]) {
-                        *count += if value == T::zero() { T::zero() } else { T::one() };
+                        *count += if value == T::zero() {
+                            T::zero()
+                        } else {
+                            T::one()
+                        };
                     }
                 }
                 for (share, counts) in out.iter_mut().zip(counts.chunks_exact(ratio)) {
