@@ -248,14 +248,30 @@ pub static STORE_WEIGHTED: Kernel = rows_kernel!(
     reads [weight], writes [coarsest_z], fresh 1
 );
 
-fn refine<T: Real>(rows: &mut Rows<T>, params: &Params, _: &Scalars, _: &mut [f64; SUMS]) {
-    Arch::new().dispatch(Interpolation::<_, true> {
-        lines: &mut rows.writes[0][..rows.width * rows.count],
-        whole: rows.whole,
-        width: rows.width,
-        first: rows.first,
-        factor: T::from_double(params.level_compliance),
+/// Adds a whole coarser field, interpolated, to lines of so many points, `first` that of the first row, or takes it
+/// in their place.
+fn add_interpolated<T: Real, const ADDS: bool>(
+    lines: &mut [T],
+    whole: Whole<T>,
+    [width, first]: [usize; 2],
+    factor: T,
+) {
+    Arch::new().dispatch(Interpolation::<_, ADDS> {
+        lines,
+        whole,
+        width,
+        first,
+        factor,
     });
+}
+
+fn refine<T: Real>(rows: &mut Rows<T>, params: &Params, _: &Scalars, _: &mut [f64; SUMS]) {
+    add_interpolated::<T, true>(
+        &mut rows.writes[0][..rows.width * rows.count],
+        rows.whole,
+        [rows.width, rows.first],
+        T::from_double(params.level_compliance),
+    );
 }
 
 /// z of a level in the place of the restricted residual: the level's own compliance of it, and z of the next
@@ -275,13 +291,12 @@ fn level_descent<T, C, const MEAN_GAP: bool, const READS: usize, const TERMS: us
     C: GapConstraint<T>,
     Descent<MEAN_GAP, true>: PointKernel<T, C, READS, 0, TERMS>,
 {
-    Arch::new().dispatch(Interpolation::<_, false> {
-        lines: &mut rows.lines[..rows.width * rows.count],
-        whole: rows.whole,
-        width: rows.width,
-        first: rows.first,
-        factor: T::zero(),
-    });
+    add_interpolated::<T, false>(
+        &mut rows.lines[..rows.width * rows.count],
+        rows.whole,
+        [rows.width, rows.first],
+        T::zero(),
+    );
     each_point::<T, C, Descent<MEAN_GAP, true>, READS, 0, TERMS>(rows, params, scalars, sums);
 }
 

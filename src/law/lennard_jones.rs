@@ -57,26 +57,23 @@ impl LennardJones<f64> {
     }
 }
 
-impl<T: Real> LennardJones<T> {
-    /// A gap, just below that of zero force or deeper, at which the law repels by at least this pressure,
-    /// from the repulsive power alone: `r^9 = 1.3 P + 2.5` in units of `8 w / 3 eps` leaves P after r^3.
-    ///
-    /// The ninth root is taken by Newton's method from the eighth, so that several points go side by side. Each
-    /// step leaves it above the root, and the gap below.
-    #[inline(always)]
-    pub fn repelling(&self, pressure: T) -> T {
-        let load = pressure * T::from_double(3.0 / 8.0) * self.range / self.work_of_adhesion;
-        let load = load.most(T::zero()).least(T::from_double(MOST_PRESSURE));
-        let ninth_power = T::from_double(1.3) * load + T::from_double(2.5);
-        let nearer = |r: T, rest: T| (T::from_double(8.0) * r + rest) * T::from_double(1.0 / 9.0);
-        let mut r = nearer(ninth_power.sqrt().sqrt().sqrt(), T::one());
-        for _ in 0..ROOT_STEPS {
-            let fourth = r * r * r * r;
-            r = nearer(r, ninth_power / (fourth * fourth));
-        }
-        self.range * (T::one() / r - T::one())
-    }
+/// `r^9` from which the law repels by at least a pressure, in units of `8 w / 3 eps`, from the repulsive power
+/// alone: `1.3 P + 2.5` leaves P after r^3.
+#[inline(always)]
+fn ninth_power<T: Real>(load: T) -> T {
+    T::from_double(1.3) * load + T::from_double(2.5)
+}
 
+impl LennardJones<f64> {
+    /// A gap, just below that of zero force or deeper, at which the law repels by at least this pressure, and by
+    /// no more than a third beyond it.
+    pub fn repelling(&self, pressure: f64) -> f64 {
+        let load = (pressure * (3.0 / 8.0) * self.range / self.work_of_adhesion).max(0.0);
+        self.range * (ninth_power(load).powf(-1.0 / 9.0) - 1.0)
+    }
+}
+
+impl<T: Real> LennardJones<T> {
     /// eps over the distance.
     #[inline(always)]
     fn ratio(&self, gap: T) -> T {
@@ -120,9 +117,20 @@ impl<T: Real> Cohesion<T> for LennardJones<T> {
         }
     }
 
+    /// As `repelling`, by Newton's method for the ninth root from the eighth, so that several points
+    /// go side by side. Each step leaves the root too large, and the gap below.
     #[inline(always)]
     fn repelling_gap(&self, pressure: T) -> T {
-        self.repelling(pressure)
+        let load = pressure * T::from_double(3.0 / 8.0) * self.range / self.work_of_adhesion;
+        let load = load.most(T::zero()).least(T::from_double(MOST_PRESSURE));
+        let power = ninth_power(load);
+        let nearer = |r: T, rest: T| (T::from_double(8.0) * r + rest) * T::from_double(1.0 / 9.0);
+        let mut r = nearer(power.sqrt().sqrt().sqrt(), T::one());
+        for _ in 0..ROOT_STEPS {
+            let fourth = r * r * r * r;
+            r = nearer(r, power / (fourth * fourth));
+        }
+        self.range * (T::one() / r - T::one())
     }
 
     #[inline(always)]
