@@ -17,9 +17,8 @@ use crate::real::Real;
 
 /// Finer points along a cell of the next level.
 const RATIO: usize = 2;
-/// Share of the neighbouring cell in a finer value: bilinear between cell centres, from which it is a quarter of
-/// a cell away. The neighbour is the cell before for the first point of a cell, the cell after for the second.
-const NEIGHBOUR: f64 = 0.25;
+/// [`neighbour_share`] of both points of a cell.
+const NEIGHBOUR: f64 = neighbour_share(0, RATIO);
 /// Cells that are worked on side by side.
 const TILE: usize = 32;
 
@@ -33,6 +32,22 @@ fn before(place: usize, places: usize) -> usize {
 #[inline(always)]
 fn after(place: usize, places: usize) -> usize {
     if place + 1 == places { 0 } else { place + 1 }
+}
+
+/// Share of the neighbouring cell in the value at a place of a cell of `ratio` points: bilinear between cell
+/// centres.
+const fn neighbour_share(place: usize, ratio: usize) -> f64 {
+    ((2 * place + 1) as f64 / (2 * ratio) as f64 - 0.5).abs()
+}
+
+/// The cell before or after `cell` on a ring, for a place in the first or second half of `cell`.
+#[inline(always)]
+fn neighbour(cell: usize, place: usize, ratio: usize, cells: usize) -> usize {
+    if place < ratio / 2 {
+        before(cell, cells)
+    } else {
+        after(cell, cells)
+    }
 }
 
 /// A whole coarser field, interpolated to lines of so many points, `first` that of the first row: in their place,
@@ -57,11 +72,7 @@ impl<T: Real, const ADDS: bool> WithSimd for Interpolation<'_, T, ADDS> {
         for (row, line) in self.lines.chunks_exact_mut(self.width).enumerate() {
             let fine = self.first + row;
             let cell = fine / RATIO;
-            let other = if fine.is_multiple_of(RATIO) {
-                before(cell, cell_rows)
-            } else {
-                after(cell, cell_rows)
-            };
+            let other = neighbour(cell, fine % RATIO, RATIO, cell_rows);
             let here = &self.whole.values[cell * cells..(cell + 1) * cells];
             let there = &self.whole.values[other * cells..(other + 1) * cells];
             let blend = |x: usize| near * here[x] + far * there[x];
