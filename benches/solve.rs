@@ -7,6 +7,9 @@
 //! one by its name, as in `WGPU_ADAPTER_NAME=llvmpipe`). Sizes go from 256 to 2048, or to what
 //! `BENCH_POINTS` says; with adhesion to 512.
 
+#[path = "shared/rough.rs"]
+mod rough;
+
 use std::path::Path;
 use std::time::Duration;
 
@@ -17,6 +20,8 @@ use tabor::scene::Scene;
 use tabor::study::{Setup, walk};
 use tabor::surface::Surface;
 
+use rough::rough;
+
 /// Tabor number about 1, a pixel 0.1 of the cohesive zone at 512 points.
 const ADHESION: &str = r#"
     [adhesion]
@@ -26,27 +31,7 @@ const ADHESION: &str = r#"
 "#;
 
 fn setup(points: usize, adhesion: &str) -> Setup {
-    let text = format!(
-        r#"
-        [grid]
-        points = {points}
-        size = 1.0
-        [solid]
-        contact_modulus = 1.0
-        [[surface]]
-        kind = "self-affine"
-        hurst = 0.8
-        rms_slope = 1.0
-        longest = 1.0
-        rolloff = 0.25
-        shortest = {:e}
-        {adhesion}
-        [loading]
-        control = "pressure"
-        path = [0.05]
-        "#,
-        8.0 / points as f64
-    );
+    let text = rough(points, "", adhesion);
     let scene = Scene::parse(&text, "bench", Path::new("."), &[]).expect("a right scene");
     let surface = Surface::build(&scene).expect("a surface of the scene");
     Setup::new(scene, surface)

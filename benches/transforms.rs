@@ -6,6 +6,9 @@
 //! shipped scenes takes on average. `--seed` replaces the seeds of all random surfaces. A transform on a coarser grid
 //! counts in proportion to its points.
 
+#[path = "shared/rough.rs"]
+mod rough;
+
 use std::error::Error;
 use std::path::{Path, PathBuf};
 use std::time::Instant;
@@ -16,6 +19,8 @@ use tabor::backend::cpu::{CpuBackend, with_threads};
 use tabor::scene::{Scene, SurfacePart};
 use tabor::study::{Setup, walk};
 use tabor::surface::Surface;
+
+use rough::rough;
 
 type Failure = Box<dyn Error + Send + Sync>;
 
@@ -74,29 +79,8 @@ fn print(name: &str, count: f64, taken: &Taken) {
 }
 
 fn wall(points: usize, seed: u64) -> Result<Scene, Failure> {
-    let shortest = 8.0 / points as f64;
-    let text = format!(
-        r#"
-        [grid]
-        points = {points}
-        size = 1.0
-        [solid]
-        contact_modulus = 1.0
-        [[surface]]
-        kind = "self-affine"
-        hurst = 0.8
-        rms_slope = 1.0
-        longest = 1.0
-        rolloff = 0.25
-        shortest = {shortest:e}
-        seed = {seed}
-        [loading]
-        control = "pressure"
-        path = [0.05]
-        [solver]
-        tolerance = 5e-9
-        "#
-    );
+    let seed = format!("seed = {seed}");
+    let text = rough(points, &seed, "[solver]\ntolerance = 5e-9");
     Ok(Scene::parse(&text, "wall", Path::new("."), &[])?)
 }
 
