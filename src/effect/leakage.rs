@@ -15,7 +15,7 @@ const FLOW: Column = Column::new("flow_conductance", "m^3/(s Pa)", 6);
 const CONSTRICTION: Column = Column::new("critical_constriction", "m", 7);
 /// Bytes a point of the clusters, of the equations and their coarse grids (2.2 times the links of the points), and of
 /// the vectors of the iteration, as measured.
-const BYTES: u64 = 200;
+const BYTES: u64 = 220;
 
 /// Flow of a thin film through the gap.
 pub(super) struct Leakage;

@@ -146,10 +146,9 @@ impl Graph {
         let mut joined = Graph::with_capacity(count);
         // Where the link to a coarse node stands, while the links of another one are put together.
         let mut place = vec![usize::MAX; count];
-        for node in 0..count {
+        for (node, mut member) in first.into_iter().enumerate() {
             let begun = joined.to.len();
             let mut ground = 0.0;
-            let mut member = first[node];
             while member != NONE {
                 ground += self.ground[member as usize];
                 for (to, g) in self.links(member as usize) {
@@ -276,12 +275,12 @@ impl Levels {
     fn correct(&self, at: usize, residual: &[f64], correction: &mut [f64]) {
         let graph = &self.graphs[at];
         correction.fill(0.0);
-        if at + 1 == self.graphs.len() {
-            if let Some(direct) = &self.direct {
-                let solved = direct.solve(&DVector::from_column_slice(residual));
-                correction.copy_from_slice(solved.as_slice());
-                return;
-            }
+        if at + 1 == self.graphs.len()
+            && let Some(direct) = &self.direct
+        {
+            let solved = direct.solve(&DVector::from_column_slice(residual));
+            correction.copy_from_slice(solved.as_slice());
+            return;
         }
         for node in 0..graph.len() {
             graph.relax(node, residual, correction);

@@ -137,7 +137,7 @@ tables! {
         viscosity: Viscosity = "1 mPa s",
         [
             /// Where it flows to.
-            axis: Axis = "x"
+            axis: Axis = "y"
         ]
     }
 }

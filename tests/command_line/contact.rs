@@ -543,7 +543,7 @@ fn mistakes_name_the_method_and_no_line_of_a_scene() {
         (refused(contact(), [Control::MeanPressure(f64::NAN)]), "Contact::path, 0: nan is out of range"),
         (refused(contact().friction(0.0), pressure()), "Contact::friction, shear_strength: 0.0 is out of range"),
         (refused(contact().wear(-1.0), pressure()), "Contact::wear, specific_wear_rate: -1.0 is out of range"),
-        (refused(contact().leakage(f64::INFINITY, Axis::X), pressure()), "Contact::leakage, viscosity: inf is out of range"),
+        (refused(contact().leakage(-1e-3, Axis::X), pressure()), "Contact::leakage, viscosity: -0.001 is out of range"),
         (refused(affine(&|rough| rough.hurst = 2.0), pressure()), "Contact::from_parts, hurst: 2.0 is out of range"),
         (refused(affine(&|rough| rough.shortest = 1.0), pressure()), "wavelengths must be ordered shortest < rolloff <= longest"),
         (refused(part(SurfacePart::Wavy { amplitude: 1e-9, wavelength: [0.3e-6, f64::INFINITY] }), pressure()), "does not divide the periodic size 2 µm; the nearest that does is"),
