@@ -80,7 +80,7 @@ fn a_board_of_chess() {
     let errors = [16, 32, 64].map(|square: usize| {
         let grid = Grid::new([2 * square; 2], [1.0; 2]);
         let gap = field(grid, |ix, iy| {
-            if (ix / square + iy / square) % 2 == 0 {
+            if (ix / square + iy / square).is_multiple_of(2) {
                 1.0
             } else {
                 2.0
@@ -134,9 +134,8 @@ fn walls() {
 fn a_winding_channel() {
     let grid = Grid::new([9, 9], [9.0, 9.0]);
     // Along row 1, up column 4, along row 6, and up again to row 1 of the next cell: through 8, down to 1.
-    let is_open = |ix: usize, iy: usize| match (ix, iy) {
-        (0..=4, 1) | (4, 1..=6) | (4..=8, 6) | (8, 1..=6) => true,
-        _ => false,
+    let is_open = |ix: usize, iy: usize| {
+        matches!((ix, iy), (0..=4, 1) | (4, 1..=6) | (4..=8, 6) | (8, 1..=6))
     };
     let gap = field(grid, |ix, iy| if is_open(ix, iy) { 0.5 } else { 0.0 });
     let length = gap.iter().filter(|gap| **gap > 0.0).count() as f64;
