@@ -459,7 +459,7 @@ pub fn format_si(value: f64, unit: &str) -> String {
 }
 
 /// Whether a prefix may stand before a unit: not before a power, where it would be squared too.
-fn takes_prefix(unit: &str) -> bool {
+pub(crate) fn takes_prefix(unit: &str) -> bool {
     PREFIXED.iter().any(|(known, _)| *known == unit) || SHOWN.contains(&unit)
 }
 

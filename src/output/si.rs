@@ -1,5 +1,7 @@
 //! Prefixed units of axes, and the digits of their ticks.
 
+use crate::units::takes_prefix;
+
 /// Prefixes with their powers of ten, rising.
 const PREFIXES: [(i32, &str); 10] = [
     (-15, "f"),
@@ -23,7 +25,8 @@ pub(crate) struct ScaledUnit {
     pub name: String,
 }
 
-/// The prefixed `unit` in which `value` lies between 1 and 1000, within the range of prefixes.
+/// The prefixed `unit` in which `value` lies between 1 and 1000, within the range of prefixes. A unit that takes no
+/// prefix, such as m^3/m, has a power of ten before it.
 pub(crate) fn scaled_unit(value: f64, unit: &str) -> ScaledUnit {
     let digits = if value == 0.0 || !value.is_finite() {
         0
@@ -35,9 +38,14 @@ pub(crate) fn scaled_unit(value: f64, unit: &str) -> ScaledUnit {
         .rev()
         .find(|(power, _)| *power <= digits)
         .unwrap_or(&PREFIXES[0]);
+    let name = if *power == 0 || unit.is_empty() || takes_prefix(unit) {
+        format!("{prefix}{unit}")
+    } else {
+        format!("1e{power} {unit}")
+    };
     ScaledUnit {
         factor: 10f64.powi(*power),
-        name: format!("{prefix}{unit}"),
+        name,
     }
 }
 
@@ -74,9 +82,16 @@ mod tests {
             (0.0, "Pa", 1.0),
             (2.5e-17, "fm", 1e-15),
             (1e-3, "mm", 1e-3),
+            // A prefix would be cubed.
+            (3e-15, "1e-15 m^3/(s Pa)", 1e-15),
+            (3.0, "m^3/(s Pa)", 1.0),
         ];
         for (value, name, factor) in cases {
-            let unit = if name.ends_with('m') { "m" } else { "Pa" };
+            let unit = match name {
+                _ if name.contains('^') => "m^3/(s Pa)",
+                _ if name.ends_with('m') => "m",
+                _ => "Pa",
+            };
             let scaled = scaled_unit(value, unit);
             assert_eq!(scaled.name, name);
             assert!((scaled.factor / factor - 1.0).abs() < 1e-12);

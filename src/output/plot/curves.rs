@@ -169,7 +169,7 @@ impl<'a> Curves<'a> {
 
     fn quantity(&self, quantity: &Quantity) -> Panel {
         let y = [quantity.name.as_str(), quantity.unit];
-        if quantity.by_distance {
+        let mut panel = if quantity.by_distance {
             self.panel(y, self.distance_name(), |index, row| {
                 Some([self.distance(row)?, quantity.values[index]?])
             })
@@ -177,8 +177,23 @@ impl<'a> Curves<'a> {
             self.panel(y, self.load_name(), |index, row| {
                 Some([self.load(row), quantity.values[index]?])
             })
-        }
+        };
+        panel.y.logarithmic = spans_decades(quantity.values.iter().flatten());
+        panel
     }
+}
+
+/// Share of the greatest value below which one is lost on a linear axis.
+const LOST: f64 = 1.0 / 30.0;
+
+/// Whether a linear axis would lose most of the values, none of which is below 0.
+fn spans_decades<'v>(values: impl Iterator<Item = &'v f64>) -> bool {
+    let mut values: Vec<f64> = values.copied().filter(|value| *value != 0.0).collect();
+    values.sort_by(f64::total_cmp);
+    let (Some(least), Some(greatest)) = (values.first(), values.last()) else {
+        return false;
+    };
+    *least > 0.0 && values[values.len() / 2] < LOST * greatest
 }
 
 /// Load against distance, and contact area against load.
@@ -273,6 +288,16 @@ fn stretches(rows: &[StepRow], points: &[Option<[f64; 2]>], loading: &[bool]) ->
 mod tests {
     use super::*;
     use crate::study::State;
+
+    #[test]
+    fn what_falls_by_decades_has_a_logarithmic_axis() {
+        let flows = [3e-15, 2e-16, 1e-17, 2e-19, 0.0];
+        assert!(spans_decades(flows.iter()));
+        assert!(!spans_decades([-1e-9, 3e-15, 1e-17].iter()));
+        // Few small values, or none at all.
+        assert!(!spans_decades([1.0, 0.9, 0.7, 1e-6].iter()));
+        assert!(!spans_decades([0.0, 0.0].iter()));
+    }
 
     fn scene(loading: &str) -> Scene {
         let text = format!(
