@@ -30,6 +30,11 @@ impl AdapterChoice {
         let faults = Faults::default();
         faults
     }
+
+    /// Whether its device is made to fail.
+    pub(crate) fn injects_faults(&self) -> bool {
+        self.faults() != Faults::default()
+    }
 }
 
 /// Description of an adapter.
