@@ -7,7 +7,7 @@
 use std::f64::consts::{PI, TAU};
 
 use tabor::fit::Model;
-use tabor::fit::model::{Parameters, SphereModel};
+use tabor::fit::model::{IndenterModel, Parameters};
 
 const RADIUS: f64 = 10e-6;
 /// Points of one direction.
@@ -51,7 +51,7 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
     let ways = (0..POINTS)
         .map(|i| (place(i), -range))
         .chain((0..POINTS - 1).rev().map(|i| (place(i), -grip)));
-    let model = SphereModel::new(Model::MaugisDugdale, RADIUS);
+    let model = IndenterModel::new(Model::MaugisDugdale, RADIUS);
     let mut random = Random(7);
     println!("# sphere of radius 10 um; made by `cargo run --release --example force_curve`");
     println!("approach [nm],force [nN]");

@@ -37,10 +37,10 @@ const LAWS: [(&str, &str); 3] = [
 /// Kernels in the picture, by what they do: the end of their name, and what they are called there.
 const SHOWN: [(&str, &str); 5] = [
     ("multiply", "columns"),
-    ("descent", "rows back, residual smoothed"),
-    ("trial", "trial, rows"),
-    ("turn", "rows back, step, rows"),
-    ("turn_kept", "the same, residual kept"),
+    ("coarsen", "residual restricted"),
+    ("level_descent", "residual preconditioned, rows"),
+    ("trial", "rows back, trial, rows"),
+    ("update_state", "rows back, step"),
 ];
 
 /// A law on one grid.

@@ -85,7 +85,7 @@
 //! pressure the step takes (two transforms); then gap and pressure move.
 //! The work on points rides in the rows of those transforms, so a field is read while it is in cache, and
 //! what one pass leaves for the next stays in their work space. With adhesion a line search is added, point by
-//! point, without transforms, and far from a solution the compliance is a convolution (two more transforms). An
+//! point, without transforms, and over a wall far from a solution the compliance is a convolution (two more transforms). An
 //! effect that the scene does not name has no field and no pass;
 //! `tabor check` lists both. The residual that ends a solve is defined in `docs/solver.md`.
 //!
@@ -105,7 +105,7 @@
 //!
 //! Of these fields a convolution takes six: the half-space's stiffness is computed in registers. A solid
 //! with a table in its place (a layer, a free boundary) moves a quarter of a field more. Eleven of the dispatches
-//! are those of the halved grids; far from a solution with adhesion, where these have no part, an iteration takes
+//! are those of the halved grids; far from a solution with adhesion over a wall, where these have no part, an iteration takes
 //! ten dispatches and 0.8 fields less. Of the dispatches and fields
 //! of a law with a tail two each are a pass of the search for the step length, which behind a wall looks at four
 //! steps; of Lennard-Jones the first step rides in the trial. A pass that is not needed moves nothing; a

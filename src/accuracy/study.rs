@@ -16,8 +16,8 @@ use crate::clock::Clock;
 use crate::grid::Grid;
 use crate::kernel::Scalars;
 use crate::law::Law;
-use crate::scene::{BackendName, Precision, Scene, Treatment};
-use crate::study::Setup;
+use crate::scene::{AdhesionMap, BackendName, Control, Precision, Scene, Treatment};
+use crate::study::{Setup, resolve_law};
 
 /// Share of the budget for the reference.
 const REFERENCE_SHARE: f64 = 0.6;
@@ -74,8 +74,13 @@ impl<'a> Study<'a> {
     ) -> Result<Study<'a>, AccuracyError> {
         let clock = Clock::start();
         let mut same = GridIndependentSurface::new(scene)?;
-        // The steps of the path itself are compared.
-        same.scene.loading.until_apart = false;
+        // The steps of the path itself are compared, and pull-off by a load that nothing carries.
+        if std::mem::take(&mut same.scene.loading.until_apart) {
+            same.scene
+                .loading
+                .path
+                .extend(unbearable_load(&same.scene, &same.grid));
+        }
         // Models are compared with the full law, and other precisions with double precision on the
         // processor.
         if let Some(adhesion) = &mut same.scene.adhesion {
@@ -477,6 +482,26 @@ impl<'a> Study<'a> {
         });
         listener.row(&self.report)
     }
+}
+
+/// A tension beyond the law's own on every grid of a study, in the unit of the control; `None` where a position is
+/// prescribed, a step takes time, or nothing attracts.
+fn unbearable_load(scene: &Scene, grid: &Grid) -> Option<f64> {
+    let adhesion = scene.adhesion.as_ref()?;
+    let area = match scene.loading.control {
+        Control::Pressure => 1.0,
+        Control::Force => grid.area(),
+        Control::Approach | Control::MeanGap => return None,
+    };
+    let strongest = match &adhesion.map {
+        Some(AdhesionMap::Pattern { low, high, .. }) => low.max(*high),
+        _ => 1.0,
+    };
+    // The finest grid, that of the reference, has the greatest tension if the range is "auto".
+    let pixel = 0.5 * grid.dx().max(grid.dy());
+    let law = resolve_law(adhesion, pixel, scene.solid.contact_modulus, strongest);
+    let tension = strongest * law.peak_tension();
+    scene.loading.durations.is_none().then(|| -tension * area)
 }
 
 impl Skipped {

@@ -183,6 +183,9 @@ pub fn screen(report: &Report) -> String {
     for words in in_time(report) {
         line(words);
     }
+    if let Some(words) = own_setting(report) {
+        line(words);
+    }
     if !report.left_out.is_empty() {
         line(format!("left out, {} settings:", report.left_out.len()));
         for left in &report.left_out {
@@ -190,6 +193,30 @@ pub fn screen(report: &Report) -> String {
         }
     }
     text
+}
+
+/// How far the scene as it stands is converged: the error of each quantity with that of the reference.
+fn own_setting(report: &Report) -> Option<String> {
+    let own = |row: &&Row| {
+        row.varied == Varied::Nothing && Some(row.setting.points) == report.scene.grid.points
+    };
+    let row = report.rows.iter().find(own)?;
+    let within = QUANTITIES[..QUANTITIES.len() - 1]
+        .iter()
+        .filter_map(|(name, of)| {
+            let error = of(&row.errors)? + report.uncertainty(of);
+            error
+                .is_finite()
+                .then(|| format!("{name} {}", percent(Some(error))))
+        });
+    let within: Vec<String> = within.collect();
+    (!within.is_empty()).then(|| {
+        format!(
+            "the scene as it is, {} points, is converged to: {}",
+            points(row.setting.points),
+            within.join(", ")
+        )
+    })
 }
 
 /// Error in time of the finest grid that has both numbered steps and `steps = "auto"`.

@@ -1,5 +1,6 @@
 //! `tabor fit`: work of adhesion and modulus from a force curve.
 
+use std::f64::consts::FRAC_PI_2;
 use std::path::{Path, PathBuf};
 
 use clap::Args;
@@ -9,23 +10,31 @@ use super::patience::Patience;
 use super::quantity::{positive, quantity, share};
 use super::{Failure, folder_or_default, print, say, warn};
 use crate::fit::{
-    Calibration, ColumnChoice, CurveColumns, FitError, FitResult, ForceCurve, Freedom, ModelFit,
-    figure, fit_curve, fit_with_slope, report,
+    Calibration, ColumnChoice, CurveColumns, FitError, FitResult, ForceCurve, Freedom, Indenter,
+    ModelFit, figure, fit_curve, fit_relaxation, fit_with_slope, headline, report,
+    table as curve_table,
 };
 use crate::output::write_atomically;
 use crate::theory::jkr;
-use crate::units::{Dimension, format_si};
+use crate::units::{Dimension, angle_from_number, parse_quantity};
 
 /// What `tabor fit` takes.
 #[derive(Debug, Args)]
 pub(super) struct FitArguments {
-    /// The curve: CSV with the columns approach and force, in SI or with the unit in the head; or a folder of curves
+    /// The curve: CSV with the columns approach and force, in SI or with the unit in the head; a force curve of JPK or
+    /// Nanoscope; or a folder of curves
     #[arg(value_name = "CURVE.csv", required_unless_present = "pull_off")]
     curve: Option<PathBuf>,
     /// Radius of the sphere, as in "10 um"
-    #[arg(long, value_name = "R", value_parser = |text: &str| positive(text, Dimension::Length))]
-    radius: f64,
-    /// Folder for fit.json and fit.png [default: the curve's name, in the current folder; for a folder with _fits]
+    #[arg(long, value_name = "R", value_parser = |text: &str| positive(text, Dimension::Length), required_unless_present_any = ["cone", "pyramid"])]
+    radius: Option<f64>,
+    /// In place of a sphere: a cone, by the angle between axis and flank, as in "20 deg"
+    #[arg(long, value_name = "ANGLE", value_parser = half_angle, conflicts_with_all = ["radius", "pyramid", "range"])]
+    cone: Option<f64>,
+    /// A pyramid of four sides, by the angle between axis and face
+    #[arg(long, value_name = "ANGLE", value_parser = half_angle, conflicts_with_all = ["radius", "range"])]
+    pyramid: Option<f64>,
+    /// Folder for fit.json, fit.csv and fit.png [default: the curve's name, in the current folder; for a folder with _fits]
     #[arg(long, value_name = "DIR")]
     out: Option<PathBuf>,
     /// Approach 0 is where the undeformed surfaces first touch; else that place is fitted
@@ -38,7 +47,7 @@ pub(super) struct FitArguments {
     #[arg(long)]
     baseline_slope: bool,
     /// Columns of an instrument, as in "position=Z [um],deflection=Defl [V]": approach or position (of the cantilever's
-    /// base), force or deflection, each by its name or number; - before it turns its sign
+    /// base), force or deflection, time, each by its name or number; - before it turns its sign
     #[arg(long, value_name = "QUANTITY=COLUMN", value_delimiter = ',', value_parser = ColumnChoice::parse)]
     columns: Vec<ColumnChoice>,
     /// Deflection per volt, as in "50 nm/V"
@@ -51,13 +60,16 @@ pub(super) struct FitArguments {
     #[arg(long, value_name = "SHARE", value_parser = share, default_value = "0", hide_default_value = true, requires = "curve")]
     spring_error: f64,
     /// Relative standard deviation of the radius
-    #[arg(long, value_name = "SHARE", value_parser = share, default_value = "0", hide_default_value = true, requires = "curve")]
+    #[arg(long, value_name = "SHARE", value_parser = share, default_value = "0", hide_default_value = true, requires = "curve", conflicts_with_all = ["cone", "pyramid"])]
     radius_error: f64,
+    /// Fit one relaxation time of the solid to the loading beside; the curve needs a column time
+    #[arg(long, requires = "curve")]
+    relaxation: bool,
     /// Range of the attraction (work of adhesion over its tension), where it is known
     #[arg(long, value_name = "LENGTH", value_parser = |text: &str| positive(text, Dimension::Length))]
     range: Option<f64>,
     /// In place of a curve, with --stiffness: the pull-off force, for JKR
-    #[arg(long, value_name = "FORCE", value_parser = |text: &str| positive(text, Dimension::Force), requires = "stiffness", conflicts_with = "curve")]
+    #[arg(long, value_name = "FORCE", value_parser = |text: &str| positive(text, Dimension::Force), requires = "stiffness", requires = "radius", conflicts_with = "curve")]
     pull_off: Option<f64>,
     /// Slope of force by approach on the way apart
     #[arg(long, value_name = "N/M", value_parser = |text: &str| positive(text, Dimension::ForcePerLength), requires = "pull_off")]
@@ -73,7 +85,9 @@ pub(super) fn fit(arguments: &FitArguments) -> Result<(), Failure> {
     match (&arguments.curve, arguments.pull_off, arguments.stiffness) {
         (Some(curve), ..) => fit_file(arguments, curve),
         (None, Some(pull_off), Some(stiffness)) => {
-            two_numbers(arguments.radius, pull_off, arguments.load, stiffness)
+            // clap asks for the radius of a sphere here.
+            let radius = arguments.radius.unwrap_or(f64::NAN);
+            two_numbers(radius, pull_off, arguments.load, stiffness)
         }
         // clap asks for one of the two.
         _ => Err(Failure::Usage(
@@ -82,7 +96,27 @@ pub(super) fn fit(arguments: &FitArguments) -> Result<(), Failure> {
     }
 }
 
+/// An angle of a tip, in rad; a bare number is in degrees.
+fn half_angle(text: &str) -> Result<f64, String> {
+    let angle = match text.trim().parse() {
+        Ok(degrees) => angle_from_number(degrees),
+        Err(_) => parse_quantity(text, Dimension::Angle).map_err(|error| error.to_string())?,
+    };
+    Some(angle)
+        .filter(|angle| *angle > 0.0 && *angle < FRAC_PI_2)
+        .ok_or_else(|| "must lie between 0 and 90 deg".to_owned())
+}
+
 impl FitArguments {
+    /// The tip; clap asks for one of the three.
+    fn indenter(&self) -> Indenter {
+        match (self.cone, self.pyramid) {
+            (Some(half_angle), _) => Indenter::Cone { half_angle },
+            (None, Some(half_angle)) => Indenter::Pyramid { half_angle },
+            (None, None) => Indenter::from(self.radius.unwrap_or(f64::NAN)),
+        }
+    }
+
     /// Fits one curve.
     pub(super) fn fit_curve(&self, path: &Path) -> Result<FitResult, FitError> {
         let mut columns = CurveColumns::default();
@@ -99,8 +133,11 @@ impl FitArguments {
         } else {
             fit_curve
         };
-        let mut result = fit(&curve, path, self.radius, freedom)?;
+        let mut result = fit(&curve, path, self.indenter(), freedom)?;
         Calibration::new(self.radius_error, self.spring_error).widen(&mut result);
+        if self.relaxation {
+            result.relaxation = Some(fit_relaxation(&curve, path, &result)?);
+        }
         Ok(result)
     }
 }
@@ -120,9 +157,10 @@ fn fit_file(arguments: &FitArguments, path: &Path) -> Result<(), Failure> {
         warn(warning);
     }
     write_atomically(&folder.join("fit.json"), text.as_bytes())?;
+    write_atomically(&folder.join("fit.csv"), curve_table(&result).as_bytes())?;
     figure(&result, &title).write(&folder.join("fit.png"))?;
     say(&format!(
-        "{} and fit.png written",
+        "{}, fit.csv and fit.png written",
         folder.join("fit.json").display()
     ));
     Ok(())
@@ -139,7 +177,7 @@ fn two_numbers(radius: f64, pull_off: f64, load: f64, stiffness: f64) -> Result<
     print(&text)
 }
 
-/// Every model with its numbers, the one that is taken marked, and what it comes to.
+/// Every model with its numbers, the chosen one marked, and the result.
 fn table(result: &FitResult) -> String {
     let mut text = format!(
         "  {:<15} {:>24} {:>24} {:>18} {:>9}\n",
@@ -150,25 +188,11 @@ fn table(result: &FitResult) -> String {
         let mark = if fit.model == best.model { '>' } else { ' ' };
         text += &format!("{mark} {}\n", line(fit, best.aic));
     }
-    let taken = |value: f64, deviation: Option<f64>, unit: &str| match deviation {
-        Some(deviation) => format!(
-            "{} +- {}",
-            format_si(value, unit),
-            format_si(deviation, unit)
-        ),
-        None => format_si(value, unit),
-    };
-    text += &format!("{}:", best.model.title());
-    if best.model.adheres() {
-        let work = best.parameters.work_of_adhesion;
-        text += &format!(" w = {},", taken(work, result.work_uncertainty, "J/m^2"));
+    text += &format!("{}\n", headline(result));
+    if let Some(solid) = &result.relaxation {
+        text += &format!("{solid}\n");
     }
-    let modulus = best.parameters.contact_modulus;
-    text += &format!(" E* = {}", taken(modulus, result.modulus_uncertainty, "Pa"));
-    if let Some(mu) = result.tabor_parameter {
-        text += &format!(", Tabor number {mu:.3}");
-    }
-    text + "\n"
+    text
 }
 
 fn line(fit: &ModelFit, least: f64) -> String {

@@ -19,7 +19,7 @@ const TABLE: &str = "fits.csv";
 /// First line of the table.
 const HEADER: &str = "curve,model,work_of_adhesion,work_uncertainty,contact_modulus,modulus_uncertainty,tabor_parameter,points,warnings,error\n";
 /// Extensions of files that are taken for curves.
-const EXTENSIONS: [&str; 5] = ["csv", "txt", "tsv", "dat", "asc"];
+const EXTENSIONS: [&str; 7] = ["csv", "txt", "tsv", "dat", "asc", "jpk-force", "spm"];
 /// Curves that are fitted at a time; their rows are then on the disk.
 const BATCH: usize = 32;
 /// Most failures that are told one by one.

@@ -26,6 +26,11 @@ const OPTIONS: &[(&str, &str)] = &[
         "choose one of these with --columns, or a number from 1",
     ),
     (
+        "fit a relaxation time beside",
+        "--relaxation fits a relaxation time beside",
+    ),
+    ("choose none", "leave --columns out"),
+    (
         "needs the spring constant of the cantilever",
         "needs the spring constant of the cantilever (--spring)",
     ),

@@ -62,7 +62,7 @@ enum Command {
     Check(CheckArguments),
     /// Statistics of a scene's surface or of a height file, and the self-affine surface like it
     #[command(
-        after_help = "Prints a table that is also the beginning of a scene, and writes heights.png, psd.png, psd.csv and scene.toml.\n\nExample:\n  tabor surface examples/scenes/ground.toml --out ground_surface\n  tabor surface map.gwy --detrend plane > scene.toml"
+        after_help = "Prints a table that is also the beginning of a scene, and writes pictures, tables and scene.toml; of a file also measured.toml, a scene of the map itself, with what --set says.\n\nExample:\n  tabor surface examples/scenes/ground.toml --out ground_surface\n  tabor surface map.gwy --detrend plane > scene.toml"
     )]
     Surface(surface::SurfaceArguments),
     /// Tabulate an analytic model as CSV; alone, list the models with their parameters

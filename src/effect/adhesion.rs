@@ -2,7 +2,7 @@
 
 use crate::law::Law;
 use crate::scene::{Range, Scene, Treatment};
-use crate::study::{Hooks, HostBytes, Plan, Regime, Sizes};
+use crate::study::{Column, Evaluation, Hooks, HostBytes, Plan, Regime, Setup, Sizes};
 use crate::units::format_si;
 
 /// Values of chi (grid spacing over the length of the cohesive zone) above which the pixels influence the
@@ -29,6 +29,9 @@ pub(super) const EXAMPLE: (&str, &str) = (
     "adhesion",
     "{ law = \"exponential\", work_of_adhesion = 1e-4, range = 0.02 }",
 );
+
+/// Sum of the net tension over the points under tension, N: at zero load the pressure of the others balances it.
+pub(super) const ATTRACTION: Column = Column::new("attractive_force", "N", 5);
 
 /// A law between the surfaces.
 pub(super) struct Adhesion;
@@ -72,6 +75,21 @@ impl Hooks for Adhesion {
     fn host_bytes(&self, _: &Sizes) -> HostBytes {
         states_of_a_search()
     }
+
+    fn columns(&self) -> &'static [Column] {
+        &[ATTRACTION]
+    }
+
+    fn values(&self, setup: &Setup, evaluation: Option<&Evaluation>) -> Vec<(Column, f64)> {
+        vec![attraction(setup, evaluation)]
+    }
+}
+
+/// The attractive force of a solved state.
+pub(super) fn attraction(setup: &Setup, evaluation: Option<&Evaluation>) -> (Column, f64) {
+    let pressures = evaluation.map_or(&[][..], |evaluation| &evaluation.pressure);
+    let tension = pressures.iter().fold(0.0, |sum, p| sum + (-p).max(0.0));
+    (ATTRACTION, tension * setup.surface.grid.pixel_area())
 }
 
 /// A step keeps the state before it, and a search between the two three at most.

@@ -40,11 +40,18 @@ impl Calibration {
     /// Adds the errors to the uncertainties of a result; a number that the curve does not determine stays so.
     pub fn widen(&self, result: &mut FitResult) {
         let best = result.best().parameters;
-        let [work, modulus] = self.relative_errors();
+        let [work, modulus] = match result.measured.indenter.radius() {
+            Some(_) => self.relative_errors(),
+            // Both are proportional to the spring constant for cones too.
+            None => [self.spring_error; 2],
+        };
         let with = |deviation: Option<f64>, error: f64| Some(deviation?.hypot(error));
         result.work_uncertainty = with(result.work_uncertainty, work * best.work_of_adhesion);
         result.modulus_uncertainty =
             with(result.modulus_uncertainty, modulus * best.contact_modulus);
+        let stated = &mut result.fits[result.chosen].uncertainties;
+        stated.contact_modulus = result.modulus_uncertainty;
+        stated.work_of_adhesion = stated.work_of_adhesion.and(result.work_uncertainty);
     }
 }
 

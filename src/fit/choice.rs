@@ -5,10 +5,13 @@ use std::path::Path;
 use super::curve_file::{ForceCurve, name};
 use super::error::FitError;
 use super::estimate::{ModelFit, ProfilePoint, Uncertainties, fit_model};
+use super::hysteresis;
+use super::indenter::Indenter;
 use super::inversion::{Inversion, invert_curve};
 use super::law_error::{LawError, law_error};
 use super::measured::{Freedom, Measured, ReversedSigns};
 use super::model::{Model, Parameters};
+use super::relaxation::Relaxation;
 use super::slope::BaselineSlope;
 use crate::theory::Law;
 use crate::theory::tabor_map::{
@@ -36,6 +39,9 @@ const CLOSEST: f64 = 0.05;
 /// Most iterations of model choice and Tabor number.
 const ROUNDS: usize = 4;
 
+/// Standard deviations of the Tabor number within which a limit may hold.
+const DEVIATIONS: f64 = 2.0;
+
 /// A fitted number with its standard deviation.
 type Number = fn(&Parameters, &Uncertainties) -> (f64, Option<f64>);
 
@@ -47,11 +53,17 @@ pub struct FitResult {
     pub measured: Measured,
     /// Every fitted model, from the simplest.
     pub fits: Vec<ModelFit>,
-    /// The chosen one.
+    /// The chosen one. Its uncertainties of w and E* are those of the result.
     pub chosen: usize,
+    /// Whether the chosen model describes the curve: its residuals look like noise.
+    pub describes_curve: bool,
+    /// Spring constant of the cantilever, N/m, where the curve was read with one.
+    pub spring: Option<f64>,
     /// Tabor number that the chosen model implies; `None` without adhesion, or if the range is
     /// unknown.
     pub tabor_parameter: Option<f64>,
+    /// Standard deviation of the Tabor number, where lambda is determined.
+    pub tabor_uncertainty: Option<f64>,
     /// Standard deviation of the work of adhesion, or the spread over indistinguishable models if
     /// that is larger, J/m^2.
     pub work_uncertainty: Option<f64>,
@@ -62,6 +74,8 @@ pub struct FitResult {
     pub law_error: Option<LawError>,
     /// Work and modulus from pull-off and one stiffness alone, by JKR.
     pub inversion: Option<Inversion>,
+    /// One relaxation time of the solid, if it was fitted.
+    pub relaxation: Option<Relaxation>,
     /// Slope of the baseline, if it was fitted.
     pub baseline_slope: Option<BaselineSlope>,
     /// Warnings for the user.
@@ -80,28 +94,28 @@ impl FitResult {
     }
 }
 
-/// Fits all models to a curve of a sphere of `radius` (m) and chooses one; `path` is for messages.
+/// Fits all models of a sphere of a radius (m), or of another tip, to a curve and chooses one; `path` is for messages.
 ///
 /// # Errors
 /// A curve without compression or with wrong signs, and one that no model fits.
 pub fn fit_curve(
     curve: &ForceCurve,
     path: &Path,
-    radius: f64,
+    indenter: impl Into<Indenter>,
     freedom: Freedom,
 ) -> Result<FitResult, FitError> {
-    // Refuses an invalid radius.
-    Sphere::new(radius, 1.0, 0.0)?;
-    let measured = Measured::new(curve.samples.clone(), radius, freedom);
+    let indenter = indenter.into();
+    indenter.check()?;
+    let measured = Measured::new(curve.samples.clone(), indenter, freedom);
     let no_fit = || FitError::NoFit { path: name(path) };
-    let fits: Vec<ModelFit> = Model::ALL
-        .into_iter()
-        .filter_map(|model| fit_model(&measured, model))
+    let mut fits: Vec<ModelFit> = indenter
+        .models()
+        .iter()
+        .filter_map(|model| fit_model(&measured, *model))
         .collect();
     check_signs(&measured, &fits, path)?;
     let mut warnings = left_out(curve);
     let (chosen, tabor_parameter) = choose(&measured, &fits, &mut warnings).ok_or_else(no_fit)?;
-    add_warnings(&measured, &fits[chosen], &mut warnings);
     let work: Number = |p, u| (p.work_of_adhesion, u.work_of_adhesion);
     let modulus: Number = |p, u| (p.contact_modulus, u.contact_modulus);
     // If the baseline is fitted but not measured, tension may be an offset.
@@ -113,6 +127,15 @@ pub fn fit_curve(
     }
     let stated = |number: Number| deviation(&fits, chosen, number).filter(|_| zero_known);
     let (work_uncertainty, modulus_uncertainty) = (stated(work), stated(modulus));
+    fits[chosen].uncertainties.contact_modulus = modulus_uncertainty;
+    if fits[chosen].model.adheres() {
+        fits[chosen].uncertainties.work_of_adhesion = work_uncertainty;
+    }
+    add_warnings(&measured, &fits[chosen], &mut warnings);
+    warnings.extend(hysteresis::warning(
+        &measured,
+        fits[chosen].parameters.force_offset,
+    ));
     let stiff = fits[chosen].parameters.contact_modulus;
     let (least, greatest) = measured.extremes();
     let pressed = greatest.force > measured.baseline();
@@ -127,6 +150,8 @@ pub fn fit_curve(
     if !pressed && (grows || uncertain) {
         return Err(FitError::NoCompression { path: name(path) });
     }
+    let general = fits.iter().find(|fit| fit.model == Model::MaugisDugdale);
+    let tabor_uncertainty = general.and_then(tabor_deviation);
     let law_error = law_error(&measured, &fits[chosen]);
     if let Some(error) = law_error {
         // Nothing to add for a number that the curve does not determine.
@@ -146,10 +171,14 @@ pub fn fit_curve(
         modulus_uncertainty,
         law_error,
         inversion: invert_curve(&measured, &fits[chosen]),
+        describes_curve: !misses(&measured, &fits[chosen]),
+        spring: curve.spring,
         measured,
         fits,
         chosen,
+        tabor_uncertainty: tabor_parameter.and(tabor_uncertainty),
         tabor_parameter,
+        relaxation: None,
         baseline_slope: None,
         warnings,
     })
@@ -206,10 +235,13 @@ fn check_signs(measured: &Measured, fits: &[ModelFit], path: &Path) -> Result<()
     if pressed && !presses_from_afar && !misses(measured, best) {
         return Ok(());
     }
-    let simple = [Model::Hertz, Model::Dmt, Model::Jkr];
+    let models = measured.indenter.models();
+    let simple = models
+        .iter()
+        .filter(|model| **model != Model::MaugisDugdale);
     for reversed in ReversedSigns::ALL {
         let other = measured.with_reversed(reversed);
-        let fitted = simple.iter().filter_map(|model| fit_model(&other, *model));
+        let fitted = simple.clone().filter_map(|model| fit_model(&other, *model));
         let least = fitted.map(|fit| fit.aic).fold(f64::INFINITY, f64::min);
         if least < best.aic - DECISIVE_AIC {
             let path = name(path);
@@ -263,8 +295,9 @@ fn choose(
         let least = |a: &usize, b: &usize| fits[*a].aic.total_cmp(&fits[*b].aic);
         return (0..fits.len()).min_by(least).map(|taken| (taken, None));
     };
-    let range = fits[general].range(measured.radius);
-    let number = |taken: usize| tabor_of(measured.radius, &fits[taken], range);
+    let radius = measured.indenter.radius().unwrap_or(f64::NAN);
+    let range = fits[general].range(radius);
+    let number = |taken: usize| tabor_of(radius, &fits[taken], range);
     let mut taken = general;
     let mut closed = false;
     for _ in 0..ROUNDS {
@@ -301,6 +334,18 @@ fn choose(
         ));
         taken = general;
     }
+    // Maugis-Dugdale holds at any number.
+    let spread = tabor_deviation(&fits[general]).unwrap_or(0.0);
+    let outside = number(taken).filter(|mu| !holds(fits[taken].model, *mu, DEVIATIONS * spread));
+    if let Some(mu) = outside {
+        warnings.push(format!(
+            "{} suffices by Akaike's criterion, but the curve gives a Tabor number of {mu:.2}, and {} holds {}: the result is that of Maugis-Dugdale, the next model that holds",
+            fits[taken].model.title(),
+            fits[taken].model.title(),
+            range_words(fits[taken].model),
+        ));
+        taken = general;
+    }
     for other in fits.iter().filter(|fit| fit.model != fits[taken].model) {
         let difference = other.aic - fits[taken].aic;
         if difference.abs() < DECISIVE_AIC {
@@ -334,6 +379,29 @@ fn choose(
     Some((taken, number(taken)))
 }
 
+/// Whether a model holds at a Tabor number, or so far from it.
+pub(super) fn holds(model: Model, mu: f64, within: f64) -> bool {
+    match model {
+        Model::Dmt => mu - within <= FORCE_DMT_LIMIT,
+        Model::Jkr => mu + within >= JKR_LIMIT,
+        Model::Hertz | Model::MaugisDugdale => true,
+    }
+}
+
+/// The Tabor numbers at which a limit holds, in words.
+pub(super) fn range_words(model: Model) -> String {
+    match model {
+        Model::Dmt => format!("below {FORCE_DMT_LIMIT:.2}"),
+        Model::Jkr => format!("above {JKR_LIMIT}"),
+        Model::Hertz | Model::MaugisDugdale => "at any".to_owned(),
+    }
+}
+
+/// Standard deviation of the Tabor number of a general fit.
+fn tabor_deviation(fit: &ModelFit) -> Option<f64> {
+    Some(fit.uncertainties.maugis_parameter? / LAMBDA_PER_MU_MATCHED)
+}
+
 /// Whether a fit without adhesion takes a tension for the baseline, with no point that shows the
 /// baseline.
 fn hides_adhesion(measured: &Measured, hertz: &ModelFit) -> bool {
@@ -345,12 +413,9 @@ fn hides_adhesion(measured: &Measured, hertz: &ModelFit) -> bool {
 fn simpler(fits: &[ModelFit], general: usize) -> Option<usize> {
     let fit = &fits[general];
     let number = fit.tabor_parameter()?;
-    let spread = fit.uncertainties.maugis_parameter.unwrap_or(0.0) / LAMBDA_PER_MU_MATCHED;
-    let reaches = |model: Model| match model {
-        Model::Dmt => number - 2.0 * spread < FORCE_DMT_LIMIT,
-        Model::Jkr => number + 2.0 * spread > JKR_LIMIT,
-        Model::Hertz | Model::MaugisDugdale => false,
-    };
+    let spread = tabor_deviation(fit).unwrap_or(0.0);
+    let is_limit = |model: Model| matches!(model, Model::Dmt | Model::Jkr);
+    let reaches = |model| is_limit(model) && holds(model, number, DEVIATIONS * spread);
     (0..fits.len())
         .filter(|i| reaches(fits[*i].model) && fits[*i].aic - fit.aic < DECISIVE_AIC)
         .min_by(|a, b| fits[*a].aic.total_cmp(&fits[*b].aic))

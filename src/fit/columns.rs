@@ -18,15 +18,18 @@ pub enum CurveQuantity {
     Force,
     /// Deflection of the cantilever, positive in compression, as a length or in volts.
     Deflection,
+    /// Time, for solids that relax.
+    Time,
 }
 
 impl CurveQuantity {
     /// All of them.
-    pub const ALL: [CurveQuantity; 4] = [
+    pub const ALL: [CurveQuantity; 5] = [
         CurveQuantity::Approach,
         CurveQuantity::Position,
         CurveQuantity::Force,
         CurveQuantity::Deflection,
+        CurveQuantity::Time,
     ];
 
     /// Its name in the header and in calls.
@@ -36,12 +39,14 @@ impl CurveQuantity {
             CurveQuantity::Position => "position",
             CurveQuantity::Force => "force",
             CurveQuantity::Deflection => "deflection",
+            CurveQuantity::Time => "time",
         }
     }
 
     fn dimension(self) -> Dimension {
         match self {
             CurveQuantity::Force => Dimension::Force,
+            CurveQuantity::Time => Dimension::Time,
             _ => Dimension::Length,
         }
     }
@@ -75,7 +80,7 @@ impl ColumnChoice {
     /// # Errors
     /// What is wrong with the text, in words.
     pub fn parse(text: &str) -> Result<ColumnChoice, String> {
-        let expected = "give QUANTITY=COLUMN, as in \"position=Z [um]\"; quantities are approach, position, force and deflection";
+        let expected = "give QUANTITY=COLUMN, as in \"position=Z [um]\"; quantities are approach, position, force, deflection and time";
         let (quantity, column) = text.split_once('=').ok_or(expected)?;
         let quantity = CurveQuantity::ALL
             .into_iter()
@@ -114,6 +119,7 @@ pub(super) struct Columns {
     along: Column,
     /// Force, or deflection.
     across: Column,
+    time: Option<Column>,
     spring: Option<f64>,
 }
 
@@ -138,7 +144,7 @@ impl Head<'_> {
     /// # Errors
     /// A column that is missing or there twice, a wrong unit, and a spring constant or a sensitivity that is needed.
     pub(super) fn columns(&self, how: &CurveColumns) -> Result<Columns, FitError> {
-        use CurveQuantity::{Approach, Deflection, Force, Position};
+        use CurveQuantity::{Approach, Deflection, Force, Position, Time};
         let first_of = |usual: CurveQuantity, other: CurveQuantity| {
             let column = match self.column(usual, how)? {
                 Some(column) => Some(column),
@@ -166,9 +172,17 @@ impl Head<'_> {
                 column: column.name(),
             });
         }
+        // A column of the name that holds something else, such as a date, is not asked for.
+        let is_chosen = how.choices.iter().any(|choice| choice.quantity == Time);
+        let time = self.column(Time, how).or_else(
+            |error| {
+                if is_chosen { Err(error) } else { Ok(None) }
+            },
+        )?;
         Ok(Columns {
             along,
             across,
+            time,
             spring: how.spring,
         })
     }
@@ -182,9 +196,12 @@ impl Head<'_> {
         let mut choices = how.choices.iter();
         let choice = choices.find(|choice| choice.quantity == quantity);
         // Where the other of a pair was chosen, a column that happens to have this name is not meant.
-        let along =
-            |quantity| matches!(quantity, CurveQuantity::Approach | CurveQuantity::Position);
-        let has_other = |choice: &ColumnChoice| along(choice.quantity) == along(quantity);
+        let kind = |quantity| match quantity {
+            CurveQuantity::Approach | CurveQuantity::Position => CurveQuantity::Approach,
+            CurveQuantity::Force | CurveQuantity::Deflection => CurveQuantity::Force,
+            CurveQuantity::Time => CurveQuantity::Time,
+        };
+        let has_other = |choice: &ColumnChoice| kind(choice.quantity) == kind(quantity);
         if choice.is_none() && how.choices.iter().any(has_other) {
             return Ok(None);
         }
@@ -289,6 +306,13 @@ impl Columns {
             _ => along,
         };
         Ok(Some((approach, force)))
+    }
+
+    /// Time of a row, s; `None` without such a column, NaN where it holds no number.
+    pub(super) fn time(&self, cells: &[&str], separator: char) -> Option<f64> {
+        let column = self.time.as_ref()?;
+        let time = number(cells[column.place], separator).unwrap_or(f64::NAN);
+        Some(column.factor * time)
     }
 }
 

@@ -1,4 +1,4 @@
-//! Force curves as text: one row a point, the columns named in the header.
+//! Force curves: text with one row a point and the columns named in the header, or a file of an instrument.
 
 use std::fs;
 use std::io::Read;
@@ -6,6 +6,9 @@ use std::path::Path;
 
 use super::columns::{CurveColumns, Head, number};
 use super::error::FitError;
+#[cfg(feature = "images")]
+use super::jpk;
+use super::nanoscope;
 use crate::units::in_range;
 
 /// Largest file that is read.
@@ -31,6 +34,10 @@ pub struct ForceCurve {
     pub incomplete: Vec<usize>,
     /// Skipped lines marked as not converged, from 1.
     pub unconverged: Vec<usize>,
+    /// Time of each point, s; empty where it is not known.
+    pub times: Vec<f64>,
+    /// Spring constant of the cantilever, N/m, where it is known.
+    pub spring: Option<f64>,
 }
 
 /// An optional column that tabor writes.
@@ -75,7 +82,8 @@ impl ForceCurve {
         Self::parse(&text, path, columns)
     }
 
-    /// Reads the bytes of a file; `path` is for messages.
+    /// Reads the bytes of a file; `path` is for messages. Files of JPK (with the feature `images`) and Nanoscope are known by
+    /// their first bytes.
     ///
     /// Columns are separated by commas, semicolons or tabs, whichever the header has; with the last
     /// two a comma may be the decimal mark. A table without a header may be separated by blanks, and its columns
@@ -84,6 +92,11 @@ impl ForceCurve {
     /// # Errors
     /// As [`ForceCurve::read_columns`].
     pub fn parse(bytes: &[u8], path: &Path, columns: &CurveColumns) -> Result<Self, FitError> {
+        if let Some(read) = instrument(bytes) {
+            let curve = read(bytes, path, columns)?;
+            curve.check(path)?;
+            return Ok(curve);
+        }
         let bytes = bytes.strip_prefix(b"\xEF\xBB\xBF").unwrap_or(bytes);
         let text = std::str::from_utf8(bytes)
             .ok()
@@ -122,10 +135,14 @@ impl ForceCurve {
         };
         let head_row = (!has_head).then_some((line, head));
         let head = Head { path, line, names };
+        let spring = columns.spring;
         let columns = head.columns(columns)?;
         let converged = head.names.iter().position(|name| *name == CONVERGED);
 
-        let mut curve = ForceCurve::default();
+        let mut curve = ForceCurve {
+            spring,
+            ..ForceCurve::default()
+        };
         for (line, text) in head_row.into_iter().chain(lines) {
             let cells = split(text, separator);
             if cells.len() != head.names.len() {
@@ -141,7 +158,10 @@ impl ForceCurve {
                 continue;
             }
             match columns.sample(path, line, &cells, separator)? {
-                Some((approach, force)) => curve.samples.push(Sample { approach, force }),
+                Some((approach, force)) => {
+                    curve.samples.push(Sample { approach, force });
+                    curve.times.extend(columns.time(&cells, separator));
+                }
                 None => curve.incomplete.push(line),
             }
         }
@@ -188,6 +208,21 @@ impl ForceCurve {
         constant("approach", |a, b| a.approach == b.approach)?;
         constant("force", |a, b| a.force == b.force)
     }
+}
+
+/// Reads a file of an instrument.
+type Reader = fn(&[u8], &Path, &CurveColumns) -> Result<ForceCurve, FitError>;
+
+/// The reader of a file that begins as those of an instrument do.
+fn instrument(bytes: &[u8]) -> Option<Reader> {
+    if bytes.starts_with(nanoscope::MAGIC) {
+        return Some(nanoscope::read);
+    }
+    #[cfg(feature = "images")]
+    if bytes.starts_with(jpk::MAGIC) {
+        return Some(jpk::read);
+    }
+    None
 }
 
 /// The name of a file in messages.

@@ -40,6 +40,32 @@ pub enum FitError {
         /// The file.
         path: String,
     },
+    /// A file of an instrument that cannot be read.
+    #[error("{path} is not a whole {format} force curve: {what}")]
+    Broken {
+        /// The file.
+        path: String,
+        /// Name of the format.
+        format: &'static str,
+        /// What is wrong.
+        what: String,
+    },
+    /// A relaxation time needs time.
+    #[error(
+        "{path}: a relaxation time needs the time of each row, increasing; name its column `time` (s) or with its unit, `time [ms]`"
+    )]
+    NoTime {
+        /// The file.
+        path: String,
+    },
+    /// Too few points of loading in contact for a relaxation time.
+    #[error("{path}: {points} points of loading in contact, too few for a relaxation time")]
+    NoLoading {
+        /// The file.
+        path: String,
+        /// Points found.
+        points: usize,
+    },
     /// The header is missing.
     #[error(
         "{path} has no header; its first line must name the columns, as in `approach [nm], force [nN]`"
@@ -205,7 +231,7 @@ pub enum FitError {
         path: String,
     },
     /// No model fits the data.
-    #[error("no model of a sphere could be fitted to {path}: check units, signs and the radius")]
+    #[error("no model could be fitted to {path}: check units, signs and the tip")]
     NoFit {
         /// The file.
         path: String,

@@ -5,9 +5,10 @@ use std::f64::consts::PI;
 use nalgebra::{DMatrix, DVector};
 
 use super::curve_file::Sample;
+use super::indenter::Indenter;
 use super::least_squares::{Minimum, Problem, covariance, minimise};
 use super::measured::Measured;
-use super::model::{LAMBDAS, Model, Parameters, SphereModel};
+use super::model::{IndenterModel, LAMBDAS, Model, Parameters};
 use super::segments::Segment;
 use super::start::{scale_grid, starts};
 use crate::theory::tabor_map::{LAMBDA_PER_MU_MATCHED, Sphere, maugis_parameter};
@@ -82,7 +83,7 @@ pub struct ModelFit {
     pub autocorrelation: f64,
     /// Force of the model at each point, N.
     pub fitted: Vec<f64>,
-    /// For each point, whether the sphere interacts with the flat; else it is free.
+    /// For each point, whether the tip interacts with the flat; else it is free.
     pub interacting: Vec<bool>,
     /// Other states of the model, each with the least sum of squares at its lambda.
     pub(super) profile: Vec<ProfilePoint>,
@@ -198,7 +199,7 @@ impl Variable {
 /// as shares of the ranges.
 struct Search<'a> {
     measured: &'a Measured,
-    sphere: SphereModel,
+    tip: IndenterModel,
     variables: Vec<Variable>,
     start: Parameters,
 }
@@ -221,7 +222,7 @@ impl Search<'_> {
             }
         }
         if let Some(range) = self.measured.freedom.range {
-            found.maugis_parameter = lambda_of(&found, self.sphere.radius, range);
+            found.maugis_parameter = lambda_of(&found, self.tip.indenter, range);
         }
         found
     }
@@ -237,7 +238,7 @@ impl Search<'_> {
 
     fn interacting(&self, values: &DVector<f64>) -> Option<(Vec<f64>, f64)> {
         let parameters = self.parameters(values);
-        let forces = self.sphere.forces(&parameters, &self.measured.approaches);
+        let forces = self.tip.forces(&parameters, &self.measured.approaches);
         let forces = forces.ok()?;
         let finite = forces.iter().all(|force| force.is_finite());
         finite.then_some((forces, parameters.force_offset))
@@ -249,10 +250,10 @@ impl Search<'_> {
 }
 
 impl Problem for Search<'_> {
-    /// For each point, whether the sphere interacts with the flat; else it is free.
+    /// For each point, whether the tip interacts with the flat; else it is free.
     type Choice = Vec<bool>;
 
-    /// On loading the sphere is free first and interacts later, on unloading the reverse; the jump
+    /// On loading the tip is free first and interacts later, on unloading the reverse; the jump
     /// is placed where it fits the forces best.
     fn choose(&self, values: &DVector<f64>) -> Option<(Vec<bool>, DVector<f64>)> {
         let interacting = self.interacting(values)?;
@@ -303,9 +304,9 @@ impl Search<'_> {
 }
 
 /// Maugis' lambda of a range; 0 if the numbers are out of bounds.
-fn lambda_of(parameters: &Parameters, radius: f64, range: f64) -> f64 {
+fn lambda_of(parameters: &Parameters, indenter: Indenter, range: f64) -> f64 {
     Sphere::new(
-        radius,
+        indenter.radius().unwrap_or(f64::NAN),
         parameters.contact_modulus,
         parameters.work_of_adhesion,
     )
@@ -332,7 +333,7 @@ pub(super) fn fit_model(measured: &Measured, model: Model) -> Option<ModelFit> {
     let search_from = |start: Parameters, variables: &[Variable]| {
         let search = Search {
             measured,
-            sphere: SphereModel::new(model, measured.radius),
+            tip: IndenterModel::new(model, measured.indenter),
             variables: variables.to_vec(),
             start,
         };
@@ -385,11 +386,11 @@ fn best_of_grid(
     lambda: f64,
     variables: &[Variable],
 ) -> Vec<Parameters> {
-    let sphere = SphereModel::new(model, measured.radius);
-    let grid = scale_grid(measured, &sphere, lambda);
+    let tip = IndenterModel::new(model, measured.indenter);
+    let grid = scale_grid(measured, &tip, lambda);
     let mut search = Search {
         measured,
-        sphere,
+        tip,
         variables: variables.to_vec(),
         start: Parameters::default(),
     };
@@ -468,7 +469,7 @@ fn fit_at(search: &Search, minimum: &Minimum) -> ModelFit {
         .collect();
     let floor = sum.max(FLOOR * points as f64);
     ModelFit {
-        model: search.sphere.model,
+        model: search.tip.model,
         parameters,
         uncertainties: uncertainties(search, &parameters, &covariance),
         correlations: correlations(&search.variables, &covariance),
@@ -507,7 +508,7 @@ fn uncertainties(
     };
     let alone = |variable| of(&[(variable, 1.0)]);
     let scaled = |deviation: Option<f64>, by: Option<f64>| Some(deviation? * by?);
-    let model = search.sphere.model;
+    let model = search.tip.model;
     // ln tension = ln lambda + (1/3) ln w + (2/3) ln E*, and the range is w over it.
     use Variable::{ApproachOffset, ContactModulus, ForceOffset, MaugisParameter, WorkOfAdhesion};
     let third = 1.0 / 3.0;
@@ -527,7 +528,8 @@ fn uncertainties(
     let adhesive = model == Model::MaugisDugdale;
     let peak = adhesive.then(|| {
         let modulus = 4.0 * parameters.contact_modulus / 3.0;
-        let cube = PI * parameters.work_of_adhesion * modulus * modulus / search.sphere.radius;
+        let cube = PI * parameters.work_of_adhesion * modulus * modulus
+            / search.tip.indenter.radius().unwrap_or(f64::NAN);
         0.5 * parameters.maugis_parameter * cube.cbrt()
     });
     let reach = peak.map(|peak| parameters.work_of_adhesion / peak);

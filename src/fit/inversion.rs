@@ -35,9 +35,10 @@ pub struct Inversion {
     pub modulus_uncertainty: f64,
 }
 
-/// The inversion of a curve, with force offset and noise of `fit`; `None` if the curve has no
+/// The inversion of a curve, with force offset and noise of `fit`; `None` if the tip is no sphere, or the curve has no
 /// tension or too few points of compression on unloading.
 pub fn invert_curve(measured: &Measured, fit: &ModelFit) -> Option<Inversion> {
+    let radius = measured.indenter.radius()?;
     let zero = fit.parameters.force_offset;
     let (least, greatest) = measured.extremes();
     let (pull_off, most) = (zero - least.force, greatest.force - zero);
@@ -69,7 +70,7 @@ pub fn invert_curve(measured: &Measured, fit: &ModelFit) -> Option<Inversion> {
     let slope_noise = fit.noise / square.sqrt();
     let load = AT * most;
     let invert = |pull_off: f64, stiffness: f64| {
-        jkr::from_measurement(measured.radius, pull_off, load, stiffness).ok()
+        jkr::from_measurement(radius, pull_off, load, stiffness).ok()
     };
     let sphere = invert(pull_off, stiffness)?;
     let moved = [

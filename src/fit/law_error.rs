@@ -31,6 +31,8 @@ pub struct LawError {
 
 /// The error of a fit; `None` without adhesion.
 pub(super) fn law_error(measured: &Measured, fit: &ModelFit) -> Option<LawError> {
+    // Not known of cones.
+    measured.indenter.radius()?;
     let (work, modulus) = match fit.model {
         Model::Hertz => return None,
         Model::Jkr => (WORK_JKR, MODULUS_JKR),

@@ -44,7 +44,7 @@ impl MaugisCurve {
         let mut forces = Vec::with_capacity(NODES);
         let state = model.state(begin)?;
         let first = state.approach;
-        let mut zone = (state.ratio().powi(2) - 1.0).max(0.0).sqrt();
+        let mut zone = state.zone();
         for i in 0..NODES {
             let share = i as f64 / (NODES - 1) as f64;
             let state;

@@ -1,6 +1,7 @@
 //! A curve prepared for fitting.
 
 use super::curve_file::Sample;
+use super::indenter::Indenter;
 use super::segments::{Segment, segments};
 
 /// Numbers that are fitted in addition to those of the model.
@@ -47,8 +48,8 @@ pub struct Measured {
     pub samples: Vec<Sample>,
     /// Loading and unloading segments.
     pub segments: Vec<Segment>,
-    /// R, m.
-    pub radius: f64,
+    /// The tip.
+    pub indenter: Indenter,
     /// The fitted offsets.
     pub freedom: Freedom,
     pub(super) approaches: Vec<f64>,
@@ -59,8 +60,8 @@ pub struct Measured {
 }
 
 impl Measured {
-    /// A curve of a sphere of `radius` (m).
-    pub fn new(samples: Vec<Sample>, radius: f64, freedom: Freedom) -> Self {
+    /// A curve of a sphere of a radius (m), or of another tip.
+    pub fn new(samples: Vec<Sample>, indenter: impl Into<Indenter>, freedom: Freedom) -> Self {
         let span = |of: fn(&Sample) -> f64| {
             let ends = samples
                 .iter()
@@ -72,7 +73,7 @@ impl Measured {
         };
         Measured {
             segments: segments(&samples),
-            radius,
+            indenter: indenter.into(),
             freedom,
             approaches: samples.iter().map(|sample| sample.approach).collect(),
             force_span: span(|sample| sample.force),
@@ -88,7 +89,7 @@ impl Measured {
             approach: sign(reversed.approach) * sample.approach,
             force: sign(reversed.force) * sample.force,
         });
-        Measured::new(samples.collect(), self.radius, self.freedom)
+        Measured::new(samples.collect(), self.indenter, self.freedom)
     }
 
     /// Estimated baseline force: the median of the tenth of the points that are farthest apart; 0

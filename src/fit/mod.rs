@@ -1,7 +1,7 @@
-//! Work of adhesion and contact modulus from a measured force curve of a sphere.
+//! Work of adhesion and contact modulus from a measured force curve of a sphere, a cone or a pyramid.
 //!
 //! A [`ForceCurve`] is read from a file, divided into loading and unloading segments, and fitted by
-//! four models of a sphere ([`model`]): Hertz, DMT, JKR and Maugis-Dugdale. The right model depends
+//! four models of a sphere ([`model`]): Hertz, DMT, JKR and Maugis-Dugdale; of a cone or pyramid by two. The right model depends
 //! on the Tabor number, which only the fit can tell, so [`fit_curve`] iterates until both agree.
 //! The numbers of every model are returned, so that the choice can be checked.
 //!
@@ -14,15 +14,22 @@ mod columns;
 mod curve_file;
 mod error;
 mod estimate;
+mod headline;
+mod hysteresis;
+mod indenter;
 mod inversion;
+#[cfg(feature = "images")]
+mod jpk;
 mod law_error;
 mod least_squares;
 mod maugis_curve;
 mod measured;
 #[doc(hidden)]
 pub mod model;
+mod nanoscope;
 #[cfg(feature = "images")]
 mod picture;
+mod relaxation;
 mod report;
 mod segments;
 mod slope;
@@ -34,6 +41,8 @@ pub use columns::{ColumnChoice, CurveColumns, CurveQuantity};
 pub use curve_file::{ForceCurve, Sample};
 pub use error::FitError;
 pub use estimate::{ModelFit, Uncertainties};
+pub use headline::headline;
+pub use indenter::Indenter;
 #[doc(hidden)]
 pub use inversion::{Inversion, invert_curve};
 pub use law_error::LawError;
@@ -43,7 +52,8 @@ pub use measured::Measured;
 pub use model::Model;
 #[cfg(feature = "images")]
 pub use picture::figure;
-pub use report::report;
+pub use relaxation::{Relaxation, fit_relaxation};
+pub use report::{report, table};
 #[doc(hidden)]
 pub use segments::{Segment, segments};
 pub use slope::{BaselineSlope, fit_with_slope};

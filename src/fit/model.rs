@@ -1,9 +1,9 @@
-//! The models of a sphere that are fitted to a curve.
+//! The models of an indenter that are fitted to a curve.
 
 use std::cell::RefCell;
-use std::f64::consts::PI;
 use std::rc::Rc;
 
+use super::indenter::{Indenter, adhesive_cone};
 use super::maugis_curve::MaugisCurve;
 use crate::theory::{TheoryError, jkr};
 
@@ -11,15 +11,15 @@ use crate::theory::{TheoryError, jkr};
 /// thousandth.
 pub const LAMBDAS: (f64, f64) = (0.01, 20.0);
 
-/// A model of a sphere on a half-space.
+/// A model of a rigid indenter on a half-space.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 #[non_exhaustive]
 pub enum Model {
-    /// No adhesion. [`crate::theory::hertz`].
+    /// No adhesion: [`crate::theory::hertz`]; of a cone Sneddon's, [`crate::theory::cone_punch`].
     Hertz,
     /// Hertz less `2 pi w R` in contact, no force out of contact: stiff and small. Maugis 1992.
     Dmt,
-    /// Attraction without range: soft and large. [`crate::theory::jkr`].
+    /// Attraction without range: soft and large. [`crate::theory::jkr`]; of a cone that of Maugis & Barquins.
     Jkr,
     /// Attraction of any range. [`crate::theory::maugis_dugdale`].
     MaugisDugdale,
@@ -73,33 +73,33 @@ pub struct Parameters {
 /// Force as a function of approach.
 pub(super) type ForceByApproach = Box<dyn Fn(f64) -> Result<f64, TheoryError>>;
 
-/// A model of a sphere of a given radius, with its most recent tables.
+/// A model of an indenter, with its most recent tables.
 #[derive(Clone, Debug)]
-pub struct SphereModel {
+pub struct IndenterModel {
     /// The model.
     pub model: Model,
-    /// R, m.
-    pub radius: f64,
+    /// The tip.
+    pub indenter: Indenter,
     tables: RefCell<Vec<(f64, f64, Rc<MaugisCurve>)>>,
 }
 
 /// Number of stored tables: the state, and two near it for a derivative.
 const TABLES: usize = 4;
 
-impl SphereModel {
-    /// A model of a sphere of `radius` (m).
-    pub fn new(model: Model, radius: f64) -> Self {
-        SphereModel {
+impl IndenterModel {
+    /// A model of a sphere of a radius (m), or of another tip.
+    pub fn new(model: Model, indenter: impl Into<Indenter>) -> Self {
+        IndenterModel {
             model,
-            radius,
+            indenter: indenter.into(),
             tables: RefCell::new(Vec::new()),
         }
     }
 
-    /// Force of a sphere that interacts with the flat, at each of `approaches` (m, as measured), N.
+    /// Force of a tip that interacts with the flat, at each of `approaches` (m, as measured), N.
     ///
     /// Beyond the fold where a prescribed approach jumps off, the force at the fold is returned:
-    /// the model has no state there, and the sphere is free.
+    /// the model has no state there, and the tip is free.
     pub fn forces(
         &self,
         parameters: &Parameters,
@@ -113,10 +113,12 @@ impl SphereModel {
             force_offset,
         } = *parameters;
         let force: ForceByApproach = if self.model == Model::Hertz {
-            let stiffness = 4.0 / 3.0 * contact_modulus * self.radius.sqrt();
-            Box::new(move |place: f64| Ok(stiffness * place.max(0.0).powf(1.5)))
+            let stiffness = contact_modulus * self.indenter.stiffness();
+            let power = self.indenter.power();
+            Box::new(move |place: f64| Ok(stiffness * place.max(0.0).powf(power)))
         } else {
-            let (force_unit, approach_unit) = units(self.radius, contact_modulus, work_of_adhesion);
+            let (force_unit, approach_unit) =
+                self.indenter.units(contact_modulus, work_of_adhesion);
             let deepest = approaches.iter().fold(0.0_f64, |most, approach| {
                 most.max((approach - approach_offset) / approach_unit)
             });
@@ -129,7 +131,7 @@ impl SphereModel {
             .collect()
     }
 
-    /// Force by approach in Maugis units, up to an approach.
+    /// Force by approach in the units of the indenter, up to an approach. Without adhesion a cone is not reduced.
     pub(super) fn reduced(
         &self,
         lambda: f64,
@@ -138,6 +140,9 @@ impl SphereModel {
         Ok(match self.model {
             Model::Hertz => Box::new(|approach: f64| Ok(approach.max(0.0).powf(1.5))),
             Model::Dmt => Box::new(|approach: f64| Ok(approach.max(0.0).powf(1.5) - 2.0)),
+            Model::Jkr if self.is_sharp() => {
+                Box::new(|approach: f64| Ok(adhesive_cone::force(approach)))
+            }
             Model::Jkr => Box::new(|approach: f64| {
                 let least = jkr::reduced_approach(jkr::grip());
                 let radius = jkr::reduced_radius_at_approach(approach.max(least))?;
@@ -150,20 +155,30 @@ impl SphereModel {
         })
     }
 
-    /// Approach and force of the greatest tension, in Maugis units.
+    /// Whether the tip is a cone or a pyramid.
+    fn is_sharp(&self) -> bool {
+        self.indenter.radius().is_none()
+    }
+
+    /// Approach and force of the greatest tension, in the units of the indenter.
     pub(super) fn pull_off(&self, lambda: f64) -> Result<(f64, f64), TheoryError> {
         Ok(match self.model {
             Model::Hertz | Model::Dmt => (0.0, -2.0),
+            Model::Jkr if self.is_sharp() => adhesive_cone::PULL_OFF,
             Model::Jkr => (jkr::reduced_approach(jkr::pull_off()), jkr::PULL_OFF_FORCE),
             Model::MaugisDugdale => self.table(lambda, 0.0)?.pull_off,
         })
     }
 
-    /// Approach in contact at a force, beyond pull-off, in Maugis units.
+    /// Approach in contact at a force, beyond pull-off, in the units of the indenter.
     pub(super) fn approach_at(&self, lambda: f64, force: f64) -> Result<f64, TheoryError> {
         let (low, _) = self.pull_off(lambda)?;
         // The attraction is less than 2.2 in these units, for every model.
-        let high = 4.0 + (force.max(0.0) + 2.2).powf(2.0 / 3.0);
+        let high = if self.is_sharp() {
+            adhesive_cone::approach_beyond(force)
+        } else {
+            4.0 + (force.max(0.0) + 2.2).powf(2.0 / 3.0)
+        };
         let reduced = self.reduced(lambda, high)?;
         let excess = |approach: f64| reduced(approach).map_or(f64::NAN, |at| at - force);
         crate::theory::roots::root("a contact at this force", excess, low, high, 1e-9)
@@ -185,12 +200,4 @@ impl SphereModel {
         tables.insert(0, (lambda, to, Rc::clone(&table)));
         Ok(table)
     }
-}
-
-/// Maugis' units of force, N, and approach, m.
-pub(super) fn units(radius: f64, contact_modulus: f64, work_of_adhesion: f64) -> (f64, f64) {
-    let force = PI * work_of_adhesion * radius;
-    let modulus = 4.0 * contact_modulus / 3.0;
-    let contact = (force * radius / modulus).cbrt();
-    (force, contact * contact / radius)
 }

@@ -1,9 +1,9 @@
 //! `fit.png`: the curve with the fitted model, and the residuals.
 
 use super::choice::FitResult;
+use super::headline::headline;
 use super::segments::Segment;
 use crate::output::plot::{Axis, DIRECTIONS, Figure, LARGE, Panel, PlotPoint, Series, Style};
-use crate::units::format_si;
 
 /// Indices into [`DIRECTIONS`], and their names.
 const LOADING: usize = 0;
@@ -39,14 +39,14 @@ pub fn figure(result: &FitResult, title: &str) -> Figure {
         let lines = segments.map(|segment| Series::line(MODEL, points(segment, model)));
         Panel {
             title: title.to_owned(),
-            x: Axis::linear("approach", "m"),
+            x: Axis::linear("approach of the probe", "m"),
             y: Axis::linear(title, "N"),
             series: marks.chain(lines).collect(),
         }
     };
     Figure {
         title: title.to_owned(),
-        note: note(result),
+        note: headline(result),
         names: NAMES.map(str::to_owned).to_vec(),
         pens: DIRECTIONS,
         panels: vec![
@@ -60,19 +60,4 @@ pub fn figure(result: &FitResult, title: &str) -> Figure {
         columns: 1,
         style: STYLE,
     }
-}
-
-/// The model with its numbers.
-fn note(result: &FitResult) -> String {
-    let fit = result.best();
-    let mut says = format!("{}: ", fit.model.title());
-    if fit.model.adheres() {
-        let work = format_si(fit.parameters.work_of_adhesion, "J/m^2");
-        says += &format!("w = {work}, ");
-    }
-    says += &format!("E* = {}", format_si(fit.parameters.contact_modulus, "Pa"));
-    if let Some(mu) = result.tabor_parameter {
-        says += &format!(", Tabor number {mu:.2}");
-    }
-    says
 }

@@ -1,4 +1,4 @@
-//! `fit.json`. `docs/fit.md` describes its keys.
+//! `fit.json` and `fit.csv`. `docs/fit.md` describes their keys and columns.
 
 use std::path::Path;
 
@@ -6,21 +6,29 @@ use serde_json::{Map, Value, json};
 
 use super::choice::FitResult;
 use super::estimate::ModelFit;
+use crate::output::csv_line::{csv_line, csv_number};
 
 /// The results of a fit, SI; a number that the curve does not determine is null.
 pub fn report(result: &FitResult, path: &Path) -> Value {
     let best = result.best();
     let measured = &result.measured;
-    let radius = measured.radius;
+    let indenter = measured.indenter;
+    let radius = indenter.radius().unwrap_or(f64::NAN);
     let mut report = Map::new();
     let mut put = |key: &str, value: Value| {
         report.insert(key.to_owned(), value);
     };
     put("version", json!(env!("CARGO_PKG_VERSION")));
     put("curve", json!(path.display().to_string()));
-    put("radius", json!(radius));
+    put("indenter", json!(indenter.name()));
+    put("radius", json!(indenter.radius()));
+    put(
+        "half_angle",
+        json!(indenter.half_angle().map(f64::to_degrees)),
+    );
     put("points", json!(measured.samples.len()));
     put("model", json!(best.model.name()));
+    put("describes_curve", json!(result.describes_curve));
     for (key, value) in numbers(best, radius) {
         put(&key, value);
     }
@@ -41,7 +49,21 @@ pub fn report(result: &FitResult, path: &Path) -> Value {
             measurement(slope.value, Some(slope.uncertainty))
         }),
     );
+    put(
+        "relaxation",
+        result.relaxation.map_or(Value::Null, |solid| {
+            let quantity = |(value, deviation)| measurement(value, Some(deviation));
+            json!({
+                "relaxed_modulus": quantity(solid.relaxed_modulus),
+                "instantaneous_modulus": quantity(solid.instantaneous_modulus),
+                "time": quantity(solid.time),
+                "noise": solid.noise,
+                "points": solid.points,
+            })
+        }),
+    );
     put("tabor_parameter", json!(result.tabor_parameter));
+    put("tabor_uncertainty", json!(result.tabor_uncertainty));
     put(
         "law_error",
         result.law_error.map_or(Value::Null, |error| {
@@ -71,6 +93,46 @@ pub fn report(result: &FitResult, path: &Path) -> Value {
     );
     put("warnings", json!(result.warnings));
     Value::Object(report)
+}
+
+/// First line of `fit.csv`.
+const HEADER: [&str; 6] = [
+    "approach",
+    "position",
+    "force",
+    "model_force",
+    "segment",
+    "interacting",
+];
+
+/// The curve with the fitted model, one row a point, SI: approach of the probe and position of the base of the
+/// cantilever (empty without a spring constant), both as measured.
+pub fn table(result: &FitResult) -> String {
+    let fit = result.best();
+    let slope = result.baseline_slope.map_or(0.0, |slope| slope.value);
+    let mut text = csv_line(HEADER);
+    for segment in &result.measured.segments {
+        for at in segment.points.clone() {
+            let sample = result.measured.samples[at];
+            let baseline = slope * sample.approach;
+            let force = sample.force + baseline;
+            let position = result.spring.map(|spring| sample.approach + force / spring);
+            text += &csv_line([
+                csv_number(Some(sample.approach)),
+                csv_number(position),
+                csv_number(Some(force)),
+                csv_number(Some(fit.fitted[at] + baseline)),
+                if segment.loading {
+                    "loading"
+                } else {
+                    "unloading"
+                }
+                .to_owned(),
+                fit.interacting[at].to_string(),
+            ]);
+        }
+    }
+    text
 }
 
 fn model(fit: &ModelFit, radius: f64) -> Value {

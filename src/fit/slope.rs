@@ -6,6 +6,7 @@ use std::path::Path;
 use super::choice::{FitResult, fit_curve};
 use super::curve_file::{ForceCurve, Sample};
 use super::error::FitError;
+use super::indenter::Indenter;
 use super::measured::Freedom;
 
 /// Share of the points, the farthest apart, that the first estimate is made of.
@@ -35,13 +36,14 @@ pub struct BaselineSlope {
 pub fn fit_with_slope(
     curve: &ForceCurve,
     path: &Path,
-    radius: f64,
+    indenter: impl Into<Indenter>,
     freedom: Freedom,
 ) -> Result<FitResult, FitError> {
     let freedom = Freedom {
         force_offset: true,
         ..freedom
     };
+    let indenter = indenter.into();
     let mut far: Vec<Sample> = curve.samples.clone();
     far.sort_by(|a, b| a.approach.total_cmp(&b.approach));
     far.truncate(LEAST_POINTS.max((FAR * far.len() as f64) as usize));
@@ -56,7 +58,7 @@ pub fn fit_with_slope(
             samples: curve.samples.iter().map(level).collect(),
             ..curve.clone()
         };
-        let mut result = fit_curve(&levelled, path, radius, freedom)?;
+        let mut result = fit_curve(&levelled, path, indenter, freedom)?;
         let free: Vec<Sample> = free(&result).map(|at| curve.samples[at]).collect();
         if free.len() < LEAST_POINTS {
             return Err(FitError::NoBaseline {

@@ -1,12 +1,10 @@
 //! Starting points of the search for a model's numbers.
 
-use std::f64::consts::PI;
-
 use nalgebra::{Matrix2, Vector2};
 
 use super::curve_file::Sample;
 use super::measured::Measured;
-use super::model::{Model, Parameters, SphereModel, units};
+use super::model::{IndenterModel, Model, Parameters};
 
 /// Starting parameters: from pull-off and indentation, and from Hertz.
 pub(super) fn starts(measured: &Measured, model: Model, lambda: f64) -> Vec<Parameters> {
@@ -14,16 +12,17 @@ pub(super) fn starts(measured: &Measured, model: Model, lambda: f64) -> Vec<Para
     let (least, greatest) = measured.extremes();
     let mut starts = Vec::new();
     let hertz = hertz_start(measured, baseline, greatest);
-    let sphere = SphereModel::new(model, measured.radius);
+    let tip = IndenterModel::new(model, measured.indenter);
     if model.adheres()
-        && let Some(start) = pull_off_start(&sphere, lambda, baseline, (least, greatest))
+        && let Some(start) = pull_off_start(&tip, lambda, baseline, (least, greatest))
     {
         starts.push(start);
     }
     let tension = (baseline - least.force).max(1e-3 * (greatest.force - baseline));
     starts.push(Parameters {
         work_of_adhesion: if model.adheres() {
-            tension / (1.75 * PI * measured.radius)
+            let indenter = measured.indenter;
+            indenter.work_of(tension, hertz.contact_modulus)
         } else {
             0.0
         },
@@ -51,12 +50,8 @@ const DEPTHS: [f64; 7] = [0.25, 0.5, 1.0, 2.0, 4.0, 8.0, 16.0];
 ///
 /// On a lightly loaded curve neither the greatest nor the least force determines the scale of the
 /// approach, and the sum of squares has more than one minimum.
-pub(super) fn scale_grid(
-    measured: &Measured,
-    sphere: &SphereModel,
-    lambda: f64,
-) -> Vec<Parameters> {
-    let Ok((pull_off, _)) = sphere.pull_off(lambda) else {
+pub(super) fn scale_grid(measured: &Measured, tip: &IndenterModel, lambda: f64) -> Vec<Parameters> {
+    let Ok((pull_off, _)) = tip.pull_off(lambda) else {
         return Vec::new();
     };
     let deepest = measured
@@ -65,8 +60,8 @@ pub(super) fn scale_grid(
         .copied()
         .fold(f64::NEG_INFINITY, f64::max);
     let mut grid = Vec::with_capacity(SHARES.len() * DEPTHS.len());
-    for depth in DEPTHS {
-        let Ok(reduced) = sphere.reduced(lambda, pull_off + depth) else {
+    for depth in DEPTHS.map(|depth| depth * tip.indenter.depth_unit()) {
+        let Ok(reduced) = tip.reduced(lambda, pull_off + depth) else {
             continue;
         };
         for share in SHARES {
@@ -89,8 +84,8 @@ pub(super) fn scale_grid(
                 let Some((force_unit, force_offset)) = linear_scale(measured, force) else {
                     continue;
                 };
-                let work_of_adhesion = force_unit / (PI * sphere.radius);
-                let contact_modulus = modulus_of(sphere.radius, work_of_adhesion, unit);
+                let (work_of_adhesion, contact_modulus) =
+                    tip.indenter.work_and_modulus(force_unit, unit);
                 if contact_modulus.is_finite() && contact_modulus > 0.0 {
                     grid.push(Parameters {
                         contact_modulus,
@@ -125,19 +120,15 @@ fn linear_scale(measured: &Measured, reduced: impl Fn(f64) -> Option<f64>) -> Op
     (unit.is_finite() && unit > 0.0).then_some((unit, offset))
 }
 
-/// E* from the unit of approach, `(pi^2 w^2 R/K^2)^(1/3)` with `K = 4 E*/3`.
-fn modulus_of(radius: f64, work_of_adhesion: f64, approach_unit: f64) -> f64 {
-    0.75 * PI * work_of_adhesion * (radius / approach_unit.powi(3)).sqrt()
-}
-
-/// A straight line through the approach against the force to the power 2/3.
+/// A straight line through the approach against the force to the inverse of its power.
 fn hertz_start(measured: &Measured, baseline: f64, greatest: Sample) -> Parameters {
     let least = 0.05 * (greatest.force - baseline);
+    let power = measured.indenter.power();
     let pressed = measured
         .samples
         .iter()
         .filter(|sample| sample.force - baseline > least)
-        .map(|sample| ((sample.force - baseline).powf(2.0 / 3.0), sample.approach));
+        .map(|sample| ((sample.force - baseline).powf(1.0 / power), sample.approach));
     let (mut n, mut x, mut y, mut xx, mut xy) = (0.0, 0.0, 0.0, 0.0, 0.0);
     for (force, approach) in pressed {
         n += 1.0;
@@ -149,10 +140,10 @@ fn hertz_start(measured: &Measured, baseline: f64, greatest: Sample) -> Paramete
     let spread = n * xx - x * x;
     let mut slope = (n * xy - x * y) / spread;
     if !slope.is_finite() || slope <= 0.0 {
-        slope = 0.5 * measured.approach_span / (greatest.force - baseline).powf(2.0 / 3.0);
+        slope = 0.5 * measured.approach_span / (greatest.force - baseline).powf(1.0 / power);
     }
     Parameters {
-        contact_modulus: 0.75 * slope.powf(-1.5) / measured.radius.sqrt(),
+        contact_modulus: slope.powf(-power) / measured.indenter.stiffness(),
         work_of_adhesion: 0.0,
         maugis_parameter: 1.0,
         approach_offset: (y - slope * x) / n.max(1.0),
@@ -162,28 +153,23 @@ fn hertz_start(measured: &Measured, baseline: f64, greatest: Sample) -> Paramete
 
 /// Pull-off gives w; the displacement from there to the greatest force gives the modulus.
 fn pull_off_start(
-    sphere: &SphereModel,
+    tip: &IndenterModel,
     lambda: f64,
     baseline: f64,
     (least, greatest): (Sample, Sample),
 ) -> Option<Parameters> {
-    let (place, force) = sphere.pull_off(lambda).ok()?;
+    let (place, force) = tip.pull_off(lambda).ok()?;
     let tension = baseline - least.force;
     let unit = tension / -force;
     let segment = greatest.approach - least.approach;
     if unit <= 0.0 || segment <= 0.0 {
         return None;
     }
-    let deepest = sphere
+    let deepest = tip
         .approach_at(lambda, (greatest.force - baseline) / unit)
         .ok()?;
     let approach_unit = segment / (deepest - place);
-    let work_of_adhesion = unit / (PI * sphere.radius);
-    let contact_modulus = modulus_of(sphere.radius, work_of_adhesion, approach_unit);
-    debug_assert!(
-        (units(sphere.radius, contact_modulus, work_of_adhesion).1 / approach_unit - 1.0).abs()
-            < 1e-6
-    );
+    let (work_of_adhesion, contact_modulus) = tip.indenter.work_and_modulus(unit, approach_unit);
     contact_modulus.is_finite().then_some(Parameters {
         contact_modulus,
         work_of_adhesion,

@@ -14,6 +14,7 @@
 use std::marker::PhantomData;
 
 use super::points::{Numbers, PointKernel, side_by_side};
+use super::seek::Variable;
 use super::{Params, Rows, SUMS};
 use crate::law::{AdhesionMap, Cohesion, CorrectedField, imbalance};
 use crate::real::Real;
@@ -121,8 +122,19 @@ pub struct Tried<T> {
     pub cut: bool,
 }
 
+/// A move along the direction.
+#[derive(Clone, Copy)]
+pub struct Move<T> {
+    /// By how much the iteration's variable changes.
+    pub moved: T,
+    /// The share of the gap after it that is added.
+    pub correction: T,
+    /// Of a smooth law the gap after it, if it was sought.
+    pub found: T,
+}
+
 /// A constraint of the gap, point by point of the surface.
-pub trait GapConstraint<T: Real>: Copy {
+pub trait GapConstraint<T: Real>: Variable<T> {
     /// Whether trial steps are kept in a field, since they cost too much to be found twice.
     const STORES_STEP: bool = false;
     /// The constraint of a solve.
@@ -141,14 +153,8 @@ pub trait GapConstraint<T: Real>: Copy {
     fn goes_down(&self, _open: T, _y: T) -> bool {
         false
     }
-    /// s of a move along the direction, with this share of the gap after it added.
-    fn trial_step(
-        &self,
-        law: &impl Cohesion<T>,
-        here: &Here<T>,
-        moved: T,
-        correction: T,
-    ) -> Tried<T>;
+    /// s of a move along the direction.
+    fn trial_step(&self, law: &impl Cohesion<T>, here: &Here<T>, way: Move<T>) -> Tried<T>;
     /// A kept s with this multiple of the local compliance taken off; also on a pad. Where none is kept, s.
     #[inline(always)]
     fn corrected_step(
@@ -201,6 +207,8 @@ fn reaction<T: Real>(open: T, y: T) -> T {
 #[derive(Clone, Copy, Default)]
 pub struct Unilateral<T>(PhantomData<T>);
 
+impl<T: Real> Variable<T> for Unilateral<T> {}
+
 impl<T: Real> GapConstraint<T> for Unilateral<T> {
     #[inline(always)]
     fn new(_: &Params) -> Self {
@@ -235,13 +243,10 @@ impl<T: Real> GapConstraint<T> for Unilateral<T> {
     /// s = s0 + correction (g + s0) with s0 = max(-g, moved). The correction is small and kept as itself, not
     /// as a factor near one, which would cost it its digits.
     #[inline(always)]
-    fn trial_step(
-        &self,
-        _: &impl Cohesion<T>,
-        here: &Here<T>,
-        moved: T,
-        correction: T,
-    ) -> Tried<T> {
+    fn trial_step(&self, _: &impl Cohesion<T>, here: &Here<T>, way: Move<T>) -> Tried<T> {
+        let Move {
+            moved, correction, ..
+        } = way;
         let step = moved.most(-here.open);
         Tried {
             step: step + correction * (here.open + step),
@@ -303,6 +308,8 @@ pub struct HardnessLimit<T> {
     hardness: T,
 }
 
+impl<T: Real> Variable<T> for HardnessLimit<T> {}
+
 impl<T: Real> GapConstraint<T> for HardnessLimit<T> {
     #[inline(always)]
     fn new(params: &Params) -> Self {
@@ -354,13 +361,10 @@ impl<T: Real> GapConstraint<T> for HardnessLimit<T> {
     /// s = s0 + correction (g + s0) with s0 the way to clip(g + moved); below zero with the opposite sign of
     /// the correction, so that a prescribed mean is kept on either side.
     #[inline(always)]
-    fn trial_step(
-        &self,
-        _: &impl Cohesion<T>,
-        here: &Here<T>,
-        moved: T,
-        correction: T,
-    ) -> Tried<T> {
+    fn trial_step(&self, _: &impl Cohesion<T>, here: &Here<T>, way: Move<T>) -> Tried<T> {
+        let Move {
+            moved, correction, ..
+        } = way;
         let open = here.open;
         if self.goes_down(open, here.y) {
             let step = moved.least(-open);

@@ -22,23 +22,21 @@ sum_group! {
 
 /// The terms of beta: of z, the projected residual and the one before it.
 #[inline(always)]
-pub(super) fn descent_terms<T: Real>(z: T, residual: T, previous: T) -> DescentSums {
-    let (z, r) = (z.double(), residual.double());
+pub(super) fn descent_terms<T: Real>(z: T, residual: T, previous: T) -> DescentSums<T> {
     DescentSums {
-        z_residual: z * r,
-        z_change: z * (r - previous.double()),
+        z_residual: z * residual,
+        z_change: z * (residual - previous),
     }
 }
 
 /// Those that the direction enters too, in the measure `weight` of the free points.
 #[inline(always)]
 pub(super) fn mean_gap_descent_terms<T: Real>(
-    [z, residual, previous, direction, weight]: [T; 5],
+    [z, r, previous, d, w]: [T; 5],
     free: bool,
-) -> MeanGapDescentSums {
-    let [z, r, d, w] = [z, residual, direction, weight].map(T::double);
-    let change = r - previous.double();
-    let on_free = |term: f64| if free { term } else { 0.0 };
+) -> MeanGapDescentSums<T> {
+    let change = r - previous;
+    let on_free = |term: T| if free { term } else { T::zero() };
     MeanGapDescentSums {
         direction_change: d * change,
         direction_residual: on_free(d * r),

@@ -20,26 +20,23 @@ pub(super) fn residual_terms<T: Real>(
     law: &impl Cohesion<T>,
     here: &Here<T>,
     in_domain: bool,
-) -> ResidualSums {
+) -> ResidualSums<T> {
     if !in_domain {
-        let y = here.y.double();
         return ResidualSums {
-            violation: y * y,
-            pressures: 0.0,
-            least_gap: f64::INFINITY,
-            gap_squares: 0.0,
+            violation: here.y * here.y,
+            pressures: T::zero(),
+            least_gap: T::infinity(),
+            gap_squares: T::zero(),
         };
     }
     let found = numbers.constraint.violation(here, numbers.stiffness_max);
-    let violation = found.violation.double();
-    let reaction = law.weighed(found.reaction).double();
-    let traction = law.weighed(found.traction).double();
-    let gap = here.gap.double();
+    let reaction = law.weighed(found.reaction);
+    let traction = law.weighed(found.traction);
     ResidualSums {
-        violation: violation * violation,
+        violation: found.violation * found.violation,
         pressures: reaction * reaction + traction * traction,
-        least_gap: here.open.double(),
-        gap_squares: gap * gap,
+        least_gap: here.open,
+        gap_squares: here.gap * here.gap,
     }
 }
 

@@ -28,6 +28,7 @@ mod catalogue;
 mod params;
 mod points;
 mod rows;
+mod seek;
 mod sums;
 
 pub use catalogue::{KERNELS, SCALAR_KERNELS};
@@ -209,13 +210,13 @@ macro_rules! catalogue_entry {
         const READS: usize = <[&str]>::len(&[$(stringify!($read)),*]);
         #[allow(dead_code)]
         const WRITES: usize = <[&str]>::len(&[$(stringify!($write)),*]);
-        const TERMS: usize = 0 $($(+ $group::SUMS.len())*)?;
+        const TERMS: usize = 0 $($(+ $group::<()>::SUMS.len())*)?;
         const SUMS_OF_IT: [$crate::kernel::Sum; TERMS] =
-            $crate::kernel::sums::joined(&[$($($group::SUMS),*)?]);
+            $crate::kernel::sums::joined(&[$($($group::<()>::SUMS),*)?]);
         const REDUCES: [$crate::kernel::Reduce; TERMS] = $crate::kernel::sums::reduces(&SUMS_OF_IT);
         const _: () = assert!($crate::kernel::sums::contiguous(
-            &[$($($group::FIRST,)*)? TERMS],
-            &[0 $($(, $group::END)*)?],
+            &[$($($group::<()>::FIRST,)*)? TERMS],
+            &[0 $($(, $group::<()>::END)*)?],
         ));
         $crate::kernel::Kernel {
             name: stringify!($name),

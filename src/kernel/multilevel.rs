@@ -4,6 +4,8 @@
 //!
 //! A residual is scaled as it is restricted, so that the compliance of a level is the same number on all of them.
 
+use pulp::{Arch, Simd, WithSimd};
+
 use super::constraint::{GapConstraint, HardnessLimit, Unilateral};
 use super::descent::{Descent, DescentSums, MeanGapDescentSums};
 use super::points::{PointKernel, each_point};
@@ -13,93 +15,153 @@ use crate::kernel::{
 };
 use crate::real::Real;
 
-/// Largest number of finer points in a cell along one axis.
-const LARGEST_RATIO: usize = 4;
+/// Finer points along a cell of the next level.
+const RATIO: usize = 2;
+/// [`neighbour_share`] of both points of a cell.
+const NEIGHBOUR: f64 = neighbour_share(0, RATIO);
+/// Cells that are worked on side by side.
+const TILE: usize = 32;
 
-/// Share of the neighbouring cell in the value at place `place` of a cell of `ratio` points:
-/// bilinear between cell centres. The neighbour is the cell before for the first half of the
-/// places, the cell after for the second half.
-fn neighbour_share(place: usize, ratio: usize) -> f64 {
-    let from_centre = ((2 * place + 1) as f64 / (2 * ratio) as f64 - 0.5).abs();
-    debug_assert!(from_centre < 0.5);
-    from_centre
+/// The place before one on a ring.
+#[inline(always)]
+fn before(place: usize, places: usize) -> usize {
+    if place == 0 { places - 1 } else { place - 1 }
+}
+
+/// The place after one on a ring.
+#[inline(always)]
+fn after(place: usize, places: usize) -> usize {
+    if place + 1 == places { 0 } else { place + 1 }
+}
+
+/// Share of the neighbouring cell in the value at a place of a cell of `ratio` points: bilinear between cell
+/// centres.
+const fn neighbour_share(place: usize, ratio: usize) -> f64 {
+    ((2 * place + 1) as f64 / (2 * ratio) as f64 - 0.5).abs()
 }
 
 /// The cell before or after `cell` on a ring, for a place in the first or second half of `cell`.
+#[inline(always)]
 fn neighbour(cell: usize, place: usize, ratio: usize, cells: usize) -> usize {
     if place < ratio / 2 {
-        if cell == 0 { cells - 1 } else { cell - 1 }
-    } else if cell + 1 == cells {
-        0
+        before(cell, cells)
     } else {
-        cell + 1
+        after(cell, cells)
     }
 }
 
-/// `neighbour_share` of each place.
-fn shares<T: Real>(ratio: usize) -> [T; LARGEST_RATIO] {
-    let mut shares = [T::zero(); LARGEST_RATIO];
-    for (place, share) in shares.iter_mut().enumerate().take(ratio) {
-        *share = T::from_double(neighbour_share(place, ratio));
-    }
-    shares
+/// A whole coarser field, interpolated to lines of so many points, `first` that of the first row: in their place,
+/// or beside what a factor leaves of them.
+struct Interpolation<'a, T, const ADDS: bool> {
+    lines: &'a mut [T],
+    whole: Whole<'a, T>,
+    width: usize,
+    first: usize,
+    factor: T,
 }
 
-/// Adds a whole coarser field, interpolated, to lines of so many points, `first` that of the first row.
-fn add_interpolated<T: Real>(lines: &mut [T], whole: Whole<T>, width: usize, first: usize) {
-    let [cells, cell_rows] = whole.points;
-    let ratio = width / cells;
-    let shares = shares::<T>(ratio);
-    for (row, line) in lines.chunks_exact_mut(width).enumerate() {
-        let fine = first + row;
-        let (cell, place) = (fine / ratio, fine % ratio);
-        let other = neighbour(cell, place, ratio, cell_rows);
-        let far = shares[place];
+impl<T: Real, const ADDS: bool> WithSimd for Interpolation<'_, T, ADDS> {
+    type Output = ();
+
+    #[inline(always)]
+    fn with_simd<S: Simd>(self, _: S) {
+        let [cells, cell_rows] = self.whole.points;
+        debug_assert_eq!(self.width, RATIO * cells);
+        let far = T::from_double(NEIGHBOUR);
         let near = T::one() - far;
-        let here = &whole.values[cell * cells..(cell + 1) * cells];
-        let there = &whole.values[other * cells..(other + 1) * cells];
-        let blend = |x: usize| near * here[x] + far * there[x];
-        let mut before = blend(cells - 1);
-        let mut present = blend(0);
-        for (x, chunk) in line.chunks_exact_mut(ratio).enumerate() {
-            let after = blend(if x + 1 == cells { 0 } else { x + 1 });
-            let (left, right) = chunk.split_at_mut(ratio / 2);
-            for (value, share) in left.iter_mut().zip(shares) {
-                *value += present + share * (before - present);
+        for (row, line) in self.lines.chunks_exact_mut(self.width).enumerate() {
+            let fine = self.first + row;
+            let cell = fine / RATIO;
+            let other = neighbour(cell, fine % RATIO, RATIO, cell_rows);
+            let here = &self.whole.values[cell * cells..(cell + 1) * cells];
+            let there = &self.whole.values[other * cells..(other + 1) * cells];
+            let blend = |x: usize| near * here[x] + far * there[x];
+            for (tile, out) in line.chunks_mut(RATIO * TILE).enumerate() {
+                let start = tile * TILE;
+                let count = out.len() / RATIO;
+                // Those of the tile, between the ones beside it.
+                let mut blended = [T::zero(); TILE + 2];
+                blended[0] = blend(before(start, cells));
+                blended[count + 1] = blend(after(start + count - 1, cells));
+                let sources = here[start..start + count].iter().zip(&there[start..]);
+                for (value, (&here, &there)) in blended[1..].iter_mut().zip(sources) {
+                    *value = near * here + far * there;
+                }
+                for (x, pair) in out.chunks_exact_mut(RATIO).enumerate() {
+                    let [left, own, right] = [blended[x], blended[x + 1], blended[x + 2]];
+                    let values = [own + far * (left - own), own + far * (right - own)];
+                    for (value, interpolated) in pair.iter_mut().zip(values) {
+                        *value = if ADDS {
+                            self.factor * *value + interpolated
+                        } else {
+                            interpolated
+                        };
+                    }
+                }
             }
-            for (value, &share) in right.iter_mut().zip(&shares[ratio / 2..]) {
-                *value += present + share * (after - present);
-            }
-            before = present;
-            present = after;
         }
     }
 }
 
 /// The transpose of the interpolation, over the number of finer points along a cell: a mean would be over
 /// their square, and the compliance of a level is in proportion to the length of its cells.
-fn coarsen<T: Real>(rows: &mut Rows<T>, _: &Params, _: &Scalars, _: &mut [f64; SUMS]) {
-    let whole = rows.whole;
-    let [fine_x, fine_y] = whole.points;
-    let (width, first) = (rows.width, rows.first);
-    let ratio = fine_x / width;
-    let half = ratio / 2;
-    let shares = shares::<T>(ratio);
-    let scale = T::one() / T::from_double(ratio as f64);
-    let restricted = &mut rows.writes[0][..width * rows.count];
-    for (row, out) in restricted.chunks_exact_mut(width).enumerate() {
-        out.fill(T::zero());
-        // This cell's own rows, and the nearer halves of the cells before and after.
-        let start = (first + row) * ratio + fine_y - half;
-        for offset in 0..2 * ratio {
-            let fine = (start + offset) % fine_y;
-            let line = &whole.values[fine * fine_x..(fine + 1) * fine_x];
-            let far = shares[fine % ratio];
-            let own = offset >= half && offset < half + ratio;
-            let weight = scale * if own { T::one() - far } else { far };
-            gather(out, line, &shares[..ratio], weight);
+struct Restriction<'a, T> {
+    restricted: &'a mut [T],
+    whole: Whole<'a, T>,
+    width: usize,
+    first: usize,
+}
+
+impl<T: Real> WithSimd for Restriction<'_, T> {
+    type Output = ();
+
+    #[inline(always)]
+    fn with_simd<S: Simd>(self, _: S) {
+        let [fine_x, fine_y] = self.whole.points;
+        debug_assert_eq!(fine_x, RATIO * self.width);
+        let far = T::from_double(NEIGHBOUR);
+        let near = T::one() - far;
+        let scale = T::one() / T::from_double(RATIO as f64);
+        for (row, line) in self.restricted.chunks_exact_mut(self.width).enumerate() {
+            // This cell's own rows, and the nearer ones of the cells before and after.
+            let own = (self.first + row) * RATIO;
+            let fine = [before(own, fine_y), own, own + 1, after(own + 1, fine_y)];
+            let [a, b, c, d] = fine.map(|y| &self.whole.values[y * fine_x..(y + 1) * fine_x]);
+            let across = |x: usize| scale * (far * (a[x] + d[x]) + near * (b[x] + c[x]));
+            for (tile, out) in line.chunks_mut(TILE).enumerate() {
+                let start = RATIO * tile * TILE;
+                let count = RATIO * out.len();
+                // Those of the tile, between the ones beside it.
+                let mut columns = [T::zero(); RATIO * TILE + 2];
+                columns[0] = across(before(start, fine_x));
+                columns[count + 1] = across(after(start + count - 1, fine_x));
+                let end = start + count;
+                let (a, b, c, d) = (
+                    &a[start..end],
+                    &b[start..end],
+                    &c[start..end],
+                    &d[start..end],
+                );
+                for (x, column) in columns[1..=count].iter_mut().enumerate() {
+                    *column = scale * (far * (a[x] + d[x]) + near * (b[x] + c[x]));
+                }
+                for (x, value) in out.iter_mut().enumerate() {
+                    let at = RATIO * x;
+                    *value = near * (columns[at + 1] + columns[at + 2])
+                        + far * (columns[at] + columns[at + 3]);
+                }
+            }
         }
     }
+}
+
+fn coarsen<T: Real>(rows: &mut Rows<T>, _: &Params, _: &Scalars, _: &mut [f64; SUMS]) {
+    Arch::new().dispatch(Restriction {
+        restricted: &mut rows.writes[0][..rows.width * rows.count],
+        whole: rows.whole,
+        width: rows.width,
+        first: rows.first,
+    });
 }
 
 /// Restricts the projected residual of a level to the next coarser one.
@@ -108,24 +170,56 @@ pub static COARSEN: Kernel = rows_kernel!(
     reads [], writes [restricted], fresh 1, whole true
 );
 
-fn free_share<T: Real>(rows: &mut Rows<T>, _: &Params, _: &Scalars, _: &mut [f64; SUMS]) {
-    let whole = rows.whole;
-    let [fine_x, fine_y] = whole.points;
-    let (width, first) = (rows.width, rows.first);
-    let ratio = fine_x / width;
-    debug_assert_eq!(fine_y % ratio, 0);
-    let scale = T::one() / T::from_double((ratio * ratio) as f64);
-    let share = &mut rows.writes[0][..width * rows.count];
-    for (row, out) in share.chunks_exact_mut(width).enumerate() {
-        out.fill(T::zero());
-        let start = (first + row) * ratio;
-        for line in whole.values[start * fine_x..(start + ratio) * fine_x].chunks_exact(fine_x) {
-            for (free, chunk) in out.iter_mut().zip(line.chunks_exact(ratio)) {
-                let count = chunk.iter().filter(|value| **value != T::zero()).count();
-                *free += scale * T::from_double(count as f64);
+/// The share of values that are not zero in each cell of so many finer points each way.
+struct FreeShare<'a, T> {
+    share: &'a mut [T],
+    whole: Whole<'a, T>,
+    width: usize,
+    first: usize,
+}
+
+/// Finer points of a row that are counted side by side, a multiple of those in any cell.
+const COUNTED: usize = 64;
+
+impl<T: Real> WithSimd for FreeShare<'_, T> {
+    type Output = ();
+
+    #[inline(always)]
+    fn with_simd<S: Simd>(self, _: S) {
+        let [fine_x, fine_y] = self.whole.points;
+        let ratio = fine_x / self.width;
+        debug_assert!(fine_y.is_multiple_of(ratio) && COUNTED.is_multiple_of(ratio));
+        let scale = T::one() / T::from_double((ratio * ratio) as f64);
+        for (row, line) in self.share.chunks_exact_mut(self.width).enumerate() {
+            let start = (self.first + row) * ratio * fine_x;
+            let fine = &self.whole.values[start..start + ratio * fine_x];
+            for (tile, out) in line.chunks_mut(COUNTED / ratio).enumerate() {
+                let columns = tile * COUNTED..tile * COUNTED + out.len() * ratio;
+                let mut counts = [T::zero(); COUNTED];
+                for line in fine.chunks_exact(fine_x) {
+                    for (count, &value) in counts.iter_mut().zip(&line[columns.clone()]) {
+                        *count += if value == T::zero() {
+                            T::zero()
+                        } else {
+                            T::one()
+                        };
+                    }
+                }
+                for (share, counts) in out.iter_mut().zip(counts.chunks_exact(ratio)) {
+                    *share = scale * counts.iter().fold(T::zero(), |sum, &count| sum + count);
+                }
             }
         }
     }
+}
+
+fn free_share<T: Real>(rows: &mut Rows<T>, _: &Params, _: &Scalars, _: &mut [f64; SUMS]) {
+    Arch::new().dispatch(FreeShare {
+        share: &mut rows.writes[0][..rows.width * rows.count],
+        whole: rows.whole,
+        width: rows.width,
+        first: rows.first,
+    });
 }
 
 /// The share of free points of the fine level in each cell: those where the projected residual is not zero.
@@ -133,30 +227,6 @@ pub static FREE_SHARE: Kernel = rows_kernel!(
     free_share, Sweep, gate Ahead, law false,
     reads [], writes [share], fresh 1, whole true
 );
-
-/// Adds `weight` times the horizontal restriction of a fine line.
-#[inline(always)]
-fn gather<T: Real>(out: &mut [T], line: &[T], shares: &[T], weight: T) {
-    let ratio = shares.len();
-    let cells = out.len();
-    let mut carried = T::zero();
-    for (x, chunk) in line.chunks_exact(ratio).enumerate() {
-        let (mut before, mut here, mut after) = (T::zero(), T::zero(), T::zero());
-        for (place, (&value, &share)) in chunk.iter().zip(shares).enumerate() {
-            let far = share * value;
-            here += value - far;
-            if place < ratio / 2 {
-                before += far;
-            } else {
-                after += far;
-            }
-        }
-        out[if x == 0 { cells - 1 } else { x - 1 }] += weight * before;
-        out[x] += weight * (here + carried);
-        carried = after;
-    }
-    out[0] += weight * carried;
-}
 
 fn weigh<T: Real>(rows: &mut Rows<T>, _: &Params, _: &Scalars, _: &mut [f64; SUMS]) {
     let restricted = rows.reads[0];
@@ -189,12 +259,30 @@ pub static STORE_WEIGHTED: Kernel = rows_kernel!(
     reads [weight], writes [coarsest_z], fresh 1
 );
 
+/// Adds a whole coarser field, interpolated, to lines of so many points, `first` that of the first row, or takes it
+/// in their place.
+fn add_interpolated<T: Real, const ADDS: bool>(
+    lines: &mut [T],
+    whole: Whole<T>,
+    [width, first]: [usize; 2],
+    factor: T,
+) {
+    Arch::new().dispatch(Interpolation::<_, ADDS> {
+        lines,
+        whole,
+        width,
+        first,
+        factor,
+    });
+}
+
 fn refine<T: Real>(rows: &mut Rows<T>, params: &Params, _: &Scalars, _: &mut [f64; SUMS]) {
-    let compliance = T::from_double(params.level_compliance);
-    let (whole, width, first) = (rows.whole, rows.width, rows.first);
-    let z = &mut rows.writes[0][..width * rows.count];
-    z.iter_mut().for_each(|z| *z = compliance * *z);
-    add_interpolated(z, whole, width, first);
+    add_interpolated::<T, true>(
+        &mut rows.writes[0][..rows.width * rows.count],
+        rows.whole,
+        [rows.width, rows.first],
+        T::from_double(params.level_compliance),
+    );
 }
 
 /// z of a level in the place of the restricted residual: the level's own compliance of it, and z of the next
@@ -214,10 +302,12 @@ fn level_descent<T, C, const MEAN_GAP: bool, const READS: usize, const TERMS: us
     C: GapConstraint<T>,
     Descent<MEAN_GAP, true>: PointKernel<T, C, READS, 0, TERMS>,
 {
-    let (whole, width, first) = (rows.whole, rows.width, rows.first);
-    let lines = &mut rows.lines[..width * rows.count];
-    lines.fill(T::zero());
-    add_interpolated(lines, whole, width, first);
+    add_interpolated::<T, false>(
+        &mut rows.lines[..rows.width * rows.count],
+        rows.whole,
+        [rows.width, rows.first],
+        T::zero(),
+    );
     each_point::<T, C, Descent<MEAN_GAP, true>, READS, 0, TERMS>(rows, params, scalars, sums);
 }
 

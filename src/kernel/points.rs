@@ -13,6 +13,7 @@ use std::ops::Range;
 use pulp::{Arch, Simd, WithSimd};
 
 use super::constraint::GapConstraint;
+use super::seek::{SOUGHT, gap_at};
 use super::{Params, Reduce, Rows, SUMS, Scalars, TRIED};
 use crate::law::{AdhesionMap, Cohesion, HardWall, LawField};
 use crate::real::Real;
@@ -30,7 +31,7 @@ pub struct Numbers<T, C> {
     pub constraint: C,
     pub stiffness_max: T,
     pub level_compliance: T,
-    pub offset: f64,
+    pub offset: T,
     pub mean_pressure: T,
     pub descent_factor: T,
     pub beta: T,
@@ -49,7 +50,7 @@ impl<T: Real, C: GapConstraint<T>> Numbers<T, C> {
             constraint: C::new(params),
             stiffness_max: T::from_double(params.stiffness_max),
             level_compliance: T::from_double(params.level_compliance),
-            offset: scalars.offset,
+            offset: T::from_double(scalars.offset),
             mean_pressure: T::from_double(scalars.mean_pressure),
             descent_factor: T::from_double(scalars.descent_factor),
             beta: T::from_double(scalars.beta),
@@ -75,8 +76,11 @@ pub struct Point<T, const READS: usize, const WRITES: usize, const TERMS: usize>
     pub line: T,
     /// Whether the point is of the surface; else it is of the pad.
     pub in_domain: bool,
-    /// What it adds to each sum, zero at first.
-    pub terms: [f64; TERMS],
+    /// The gap that was found for the kernel's goal, of a kernel that seeks one.
+    pub found: T,
+    /// What it adds to each sum, zero at first: in the kernel's number, so that all numbers of a group have the
+    /// same width, and those in single precision go twice as many at a time. They are summed in double.
+    pub terms: [T; TERMS],
 }
 
 /// A kernel that looks at one point at a time.
@@ -84,6 +88,16 @@ pub struct Point<T, const READS: usize, const WRITES: usize, const TERMS: usize>
 /// What it does at a point is always inlined, and it chooses between values rather than between ways, so
 /// that a processor may do it at several points at once.
 pub trait PointKernel<T: Real, C, const READS: usize, const WRITES: usize, const TERMS: usize> {
+    /// Whether it needs the gap at a value of the iteration's variable, which takes repetitions: a group makes
+    /// them together, before the kernel looks at each of its points.
+    const SEEKS: bool = false;
+
+    /// The value of the iteration's variable for which the gap is sought.
+    #[inline(always)]
+    fn goal(_: &Numbers<T, C>, _: &impl Cohesion<T>, _: &Point<T, READS, WRITES, TERMS>) -> T {
+        T::zero()
+    }
+
     /// What becomes of a point.
     fn at(
         numbers: &Numbers<T, C>,
@@ -136,7 +150,7 @@ pub(super) fn side_by_side<T, C, K, const READS: usize, const WRITES: usize, con
     sums: &mut [f64; SUMS],
 ) where
     T: Real,
-    C: Copy,
+    C: GapConstraint<T>,
     K: PointKernel<T, C, READS, WRITES, TERMS>,
 {
     let kernel = PhantomData::<K>;
@@ -162,6 +176,7 @@ impl<T, C, K, L, const READS: usize, const WRITES: usize, const TERMS: usize> Wi
     for Walk<'_, '_, T, C, K, L, READS, WRITES, TERMS>
 where
     T: Real,
+    C: GapConstraint<T>,
     K: PointKernel<T, C, READS, WRITES, TERMS>,
     L: LawField<T>,
 {
@@ -173,8 +188,10 @@ where
         let (numbers, law, rows, sums) = (self.numbers, self.law, self.rows, self.sums);
         let reduces = &rows.reduces[..TERMS];
         let mut totals = [[0.0; LANES]; TERMS];
+        // The least and the largest are exact in the kernel's own number.
+        let mut extremes = [[T::zero(); LANES]; TERMS];
         for slot in 0..TERMS {
-            totals[slot] = [reduces[slot].neutral(); LANES];
+            extremes[slot] = [T::from_double(reduces[slot].neutral()); LANES];
         }
         let mut group = Group {
             reads: [[T::zero(); LANES]; READS],
@@ -182,29 +199,44 @@ where
             line: [T::zero(); LANES],
             factor: [T::one(); LANES],
             outer: [[T::zero(); LANES]; 2],
-            terms: [[0.0; LANES]; TERMS],
+            found: [T::zero(); LANES],
+            terms: [[T::zero(); LANES]; TERMS],
         };
         for (points, in_domain) in rows.layout().runs() {
             for start in points.clone().step_by(LANES) {
                 let here = start..points.end.min(start + LANES);
                 group.gather(rows, &here);
+                if K::SEEKS && in_domain {
+                    group.seek::<C, K, L>(&numbers, &law);
+                }
                 group.work::<C, K, L>(&numbers, &law, in_domain);
                 group.scatter(rows, &here);
                 for slot in 0..TERMS {
-                    let (total, terms) = (&mut totals[slot], &group.terms[slot]);
+                    let (total, extreme) = (&mut totals[slot], &mut extremes[slot]);
+                    let terms = &group.terms[slot];
                     match reduces[slot] {
                         Reduce::Add if here.len() == LANES => {
                             for lane in 0..LANES {
-                                total[lane] += terms[lane];
+                                total[lane] += terms[lane].double();
                             }
                         }
-                        reduce => join(total, &terms[..here.len()], reduce),
+                        Reduce::Min if here.len() == LANES => {
+                            for lane in 0..LANES {
+                                extreme[lane] = extreme[lane].least(terms[lane]);
+                            }
+                        }
+                        Reduce::Max if here.len() == LANES => {
+                            for lane in 0..LANES {
+                                extreme[lane] = extreme[lane].most(terms[lane]);
+                            }
+                        }
+                        reduce => join(total, extreme, &terms[..here.len()], reduce),
                     }
                 }
             }
         }
         for slot in 0..TERMS {
-            sums[slot] = joined(sums[slot], &totals[slot], reduces[slot]);
+            sums[slot] = joined(sums[slot], &totals[slot], &extremes[slot], reduces[slot]);
         }
     }
 }
@@ -214,19 +246,27 @@ where
 
 /// Puts what a group adds to a sum to what its places hold already.
 #[inline(never)]
-fn join(total: &mut Lanes<f64>, terms: &[f64], reduce: Reduce) {
-    let each = total.iter_mut().zip(terms);
+fn join<T: Real>(total: &mut Lanes<f64>, extreme: &mut Lanes<T>, terms: &[T], reduce: Reduce) {
+    let extremes = extreme.iter_mut().zip(terms);
     match reduce {
-        Reduce::Add => each.for_each(|(total, &term)| *total += term),
-        Reduce::Min => each.for_each(|(total, &term)| *total = total.least(term)),
-        Reduce::Max => each.for_each(|(total, &term)| *total = total.most(term)),
+        Reduce::Add => {
+            let totals = total.iter_mut().zip(terms);
+            totals.for_each(|(total, &term)| *total += term.double());
+        }
+        Reduce::Min => extremes.for_each(|(least, &term)| *least = least.least(term)),
+        Reduce::Max => extremes.for_each(|(most, &term)| *most = most.most(term)),
     }
 }
 
 /// A sum with what its places hold.
 #[inline(never)]
-fn joined(sum: f64, total: &Lanes<f64>, reduce: Reduce) -> f64 {
-    total.iter().fold(sum, |sum, &lane| reduce.join(sum, lane))
+fn joined<T: Real>(sum: f64, total: &Lanes<f64>, extreme: &Lanes<T>, reduce: Reduce) -> f64 {
+    if reduce == Reduce::Add {
+        total.iter().fold(sum, |sum, &lane| sum + lane)
+    } else {
+        let lanes = extreme.iter().map(|lane| lane.double());
+        lanes.fold(sum, |sum, lane| reduce.join(sum, lane))
+    }
 }
 
 /// The numbers of a group of points.
@@ -236,7 +276,8 @@ struct Group<T, const READS: usize, const WRITES: usize, const TERMS: usize> {
     line: Lanes<T>,
     factor: Lanes<T>,
     outer: [Lanes<T>; 2],
-    terms: [Lanes<f64>; TERMS],
+    found: Lanes<T>,
+    terms: [Lanes<T>; TERMS],
 }
 
 impl<T: Real, const READS: usize, const WRITES: usize, const TERMS: usize>
@@ -257,6 +298,64 @@ impl<T: Real, const READS: usize, const WRITES: usize, const TERMS: usize>
         }
     }
 
+    /// The law at a point.
+    #[inline(always)]
+    fn law<L: LawField<T>>(&self, law: &L, lane: usize) -> L::Here {
+        let outer = [self.outer[0][lane], self.outer[1][lane]];
+        law.here(self.factor[lane], outer)
+    }
+
+    /// A point as its numbers are.
+    #[allow(
+        clippy::needless_range_loop,
+        reason = "iterators and closures would be compiled with each kernel, law and number"
+    )]
+    #[inline(always)]
+    fn point(&self, lane: usize, in_domain: bool) -> Point<T, READS, WRITES, TERMS> {
+        let (mut reads, mut writes) = ([T::zero(); READS], [T::zero(); WRITES]);
+        for place in 0..READS {
+            reads[place] = self.reads[place][lane];
+        }
+        for place in 0..WRITES {
+            writes[place] = self.writes[place][lane];
+        }
+        Point {
+            reads,
+            writes,
+            line: self.line[lane],
+            in_domain,
+            found: self.found[lane],
+            terms: [T::zero(); TERMS],
+        }
+    }
+
+    /// Finds the gap at each point's goal.
+    #[allow(
+        clippy::needless_range_loop,
+        reason = "iterators and closures would be compiled with each kernel, law and number"
+    )]
+    #[inline(always)]
+    fn seek<C, K, L>(&mut self, numbers: &Numbers<T, C>, law: &L)
+    where
+        C: GapConstraint<T>,
+        K: PointKernel<T, C, READS, WRITES, TERMS>,
+        L: LawField<T>,
+    {
+        for lane in 0..LANES {
+            self.found[lane] = K::goal(numbers, &self.law(law, lane), &self.point(lane, true));
+        }
+        let (gaps, _) = self.reads[0].as_chunks::<SOUGHT>();
+        let (found, _) = self.found.as_chunks_mut::<SOUGHT>();
+        for (part, (gaps, found)) in gaps.iter().zip(found).enumerate() {
+            let laws = |place: usize| {
+                let lane = part * SOUGHT + place;
+                let outer = [self.outer[0][lane], self.outer[1][lane]];
+                law.here(self.factor[lane], outer)
+            };
+            gap_at(&numbers.constraint, laws, gaps, found);
+        }
+    }
+
     /// Places without a point work on what they held before; nothing of them is kept.
     #[allow(
         clippy::needless_range_loop,
@@ -269,24 +368,8 @@ impl<T: Real, const READS: usize, const WRITES: usize, const TERMS: usize>
         L: LawField<T>,
     {
         for lane in 0..LANES {
-            let law = law.here(
-                self.factor[lane],
-                [self.outer[0][lane], self.outer[1][lane]],
-            );
-            let (mut reads, mut writes) = ([T::zero(); READS], [T::zero(); WRITES]);
-            for place in 0..READS {
-                reads[place] = self.reads[place][lane];
-            }
-            for place in 0..WRITES {
-                writes[place] = self.writes[place][lane];
-            }
-            let mut point = Point {
-                reads,
-                writes,
-                line: self.line[lane],
-                in_domain,
-                terms: [0.0; TERMS],
-            };
+            let law = self.law(law, lane);
+            let mut point = self.point(lane, in_domain);
             K::at(numbers, &law, &mut point);
             for place in 0..WRITES {
                 self.writes[place][lane] = point.writes[place];

@@ -74,8 +74,8 @@ impl<T: Real, C: GapConstraint<T>> PointKernel<T, C, 1, 1, 2> for AddCorrection 
         };
         let here = here_at(constraint, law, gap, T::zero(), point.in_domain);
         RestoringSums {
-            gap_excess: gap.double() - numbers.offset,
-            restoring_weight: constraint.pressure_weight(&here).double(),
+            gap_excess: gap - numbers.offset,
+            restoring_weight: constraint.pressure_weight(&here),
         }
         .put(&mut point.terms);
         point.writes = [gap];

@@ -1,6 +1,6 @@
 //! The search for the step length along a trial step, point by point and without transforms.
 
-use super::constraint::{GapConstraint, HardnessLimit, Unilateral};
+use super::constraint::{GapConstraint, HardnessLimit, Move, Unilateral};
 use super::points::{Numbers, Point, PointKernel};
 use super::smooth::Smooth;
 use super::sums::sum_group;
@@ -21,10 +21,10 @@ impl<T: Real, C: GapConstraint<T>> Numbers<T, C> {
     /// Change of the traction along a step at each length tried, at a point that counts. Written out, since
     /// the compiler makes no vectors of a loop in here.
     #[inline(always)]
-    fn changes(&self, law: &impl Cohesion<T>, gap: T, step: T, counts: bool) -> ChangeSums {
+    fn changes(&self, law: &impl Cohesion<T>, gap: T, step: T, counts: bool) -> ChangeSums<T> {
         let change = |t: T| {
-            let change = law.change(gap, t * step).double() * step.double();
-            if counts { change } else { 0.0 }
+            let change = law.change(gap, t * step) * step;
+            if counts { change } else { T::zero() }
         };
         let [first, second, third, fourth] = self.tried;
         ChangeSums {
@@ -37,13 +37,13 @@ impl<T: Real, C: GapConstraint<T>> Numbers<T, C> {
 
     /// Change of traction and energy of a smooth law.
     #[inline(always)]
-    fn energies(&self, law: &impl Cohesion<T>, gap: T, step: T) -> EnergySums {
+    fn energies(&self, law: &impl Cohesion<T>, gap: T, step: T) -> EnergySums<T> {
         let moved = self.step * step;
         let [energy, size] = law.energy_change(gap, moved);
         EnergySums {
-            change_at_first: law.change(gap, moved).double() * step.double(),
-            energy_change: energy.double(),
-            energy_size: size.double(),
+            change_at_first: law.change(gap, moved) * step,
+            energy_change: energy,
+            energy_size: size,
         }
     }
 }
@@ -71,8 +71,12 @@ where
             let pressure = if READS > 2 { point.reads[2] } else { T::zero() };
             let here = numbers.here_at(law, [gap, pressure], in_domain);
             let (constraint, correction) = (&numbers.constraint, numbers.mean_gap_correction);
-            let moved = numbers.trial_length * moved;
-            let step = constraint.trial_step(law, &here, moved, correction).step;
+            let way = Move {
+                moved: numbers.trial_length * moved,
+                correction,
+                found: gap,
+            };
+            let step = constraint.trial_step(law, &here, way).step;
             // Below zero the pressure does not change.
             let counts = in_domain & !constraint.goes_down(gap, here.y);
             let changes = numbers.changes(law, gap, step, counts);

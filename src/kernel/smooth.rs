@@ -4,24 +4,29 @@
 //! in which the core is no stiffer than `k`. With D = max(sigma'(g), 0) the change of variable is
 //! dg = S2 dv, S2 = k/(k + D). Points of a pad have no law: S2 = 1.
 
-use super::constraint::{GapConstraint, Here, Tried, Violation};
+use super::constraint::{GapConstraint, Here, Move, Tried, Violation};
 use super::points::{Numbers, PointKernel, side_by_side};
+use super::seek::{Sought, Variable};
 use super::{Params, Rows, SUMS};
 use crate::law::{AdhesionMap, Cohesion, CorrectedField, Law, LennardJones, imbalance};
 use crate::real::Real;
 
-/// Largest number of Newton steps in the inversion of v(g).
-const NEWTON_STEPS: usize = 25;
+/// Ranges of the law within which Newton's method needs some steps more and no bound.
+const NEARBY: f64 = 0.1;
 
 /// The variable v and its constants in the kernel's number.
 #[derive(Clone, Copy)]
 pub struct Smooth<T> {
     /// k.
     stiffness: T,
+    /// 1/k.
+    compliance: T,
     /// sigma_max.
     peak: T,
     /// Gap of the largest tension.
     peak_gap: T,
+    /// How far from the gap a start needs no bound.
+    nearby: T,
     /// Where the inversion stops.
     precision: T,
 }
@@ -30,7 +35,7 @@ impl<T: Real> Smooth<T> {
     /// D at a value of the unknown.
     #[inline(always)]
     fn hardening(&self, law: &impl Cohesion<T>, gap: T) -> T {
-        law.slope(gap).max(T::zero())
+        law.slope(gap).most(T::zero())
     }
 
     /// S2 at a value of the unknown.
@@ -42,36 +47,89 @@ impl<T: Real> Smooth<T> {
     /// v.
     #[inline(always)]
     fn variable(&self, law: &impl Cohesion<T>, gap: T) -> T {
-        if gap < self.peak_gap {
-            gap - (law.factored(self.peak) - law.traction(gap)) / self.stiffness
+        let core = (law.factored(self.peak) - law.traction(gap)) * self.compliance;
+        if gap < self.peak_gap { gap - core } else { gap }
+    }
+
+    /// One step of Newton's method from a gap to that at a value of v, within the core.
+    #[inline(always)]
+    fn newton(&self, law: &impl Cohesion<T>, goal: T, gap: T, bound: T) -> T {
+        let error = self.variable(law, gap) - goal;
+        let next = gap - error * self.share(law, gap);
+        next.most(bound).least(self.peak_gap)
+    }
+}
+
+impl<T: Real> Variable<T> for Smooth<T> {
+    #[inline(always)]
+    fn goal(&self, law: &impl Cohesion<T>, gap: T, moved: T) -> T {
+        if law.corrects() {
+            // Nothing is sought.
+            T::infinity()
         } else {
-            gap
+            self.variable(law, gap) + moved
         }
     }
 
-    /// The gap at a value of v, by Newton's method from the tangent at `gap`.
-    fn gap_at(&self, law: &impl Cohesion<T>, goal: T, gap: T) -> T {
-        if goal >= self.peak_gap {
-            return goal;
+    #[inline(always)]
+    fn is_bent(&self, goal: T) -> bool {
+        goal < self.peak_gap
+    }
+
+    /// From the tangent at the gap. v is concave in the core: from the left every step of Newton's method stays on
+    /// the left of the root, so that the start bounds the others, and only one that is far needs a bound itself, which
+    /// the repulsive power alone gives.
+    #[inline(always)]
+    fn sought(&self, law: &impl Cohesion<T>, goal: T, gap: T) -> Sought<T> {
+        let bent = self.is_bent(goal);
+        let start = self.newton(law, goal, gap, T::neg_infinity());
+        let start = if bent { start } else { goal };
+        Sought {
+            goal,
+            gap: start,
+            bound: start,
+            left: if bent { T::infinity() } else { T::zero() },
         }
-        // v is concave here: from the left every step stays on the left of the root, so only the
-        // start needs a bound, which the repulsive power alone gives.
-        let load = self.stiffness * (self.peak_gap - goal) - law.factored(self.peak);
+    }
+
+    #[inline(always)]
+    fn is_far(&self, sought: &Sought<T>, gap: T) -> bool {
+        sought.gap < gap.least(self.peak_gap) - self.nearby
+    }
+
+    #[inline(always)]
+    fn bounded(&self, law: &impl Cohesion<T>, sought: Sought<T>, gap: T) -> Sought<T> {
+        let load = self.stiffness * (self.peak_gap - sought.goal) - law.factored(self.peak);
         let bound = law.repelling_gap(load);
-        let mut x = gap + (goal - self.variable(law, gap)) * self.share(law, gap);
-        x = x.max(bound).min(self.peak_gap);
-        for _ in 0..NEWTON_STEPS {
-            let error = self.variable(law, x) - goal;
-            let next = (x - error * self.share(law, x))
-                .max(bound)
-                .min(self.peak_gap);
-            let moved = (next - x).abs();
-            x = next;
-            if moved <= self.precision {
-                break;
-            }
+        let start = sought.gap.most(bound).least(self.peak_gap);
+        let far = self.is_far(&sought, gap);
+        Sought {
+            gap: if far { start } else { sought.gap },
+            bound: if far { bound } else { sought.bound },
+            ..sought
         }
-        x
+    }
+
+    #[inline(always)]
+    fn is_open(&self, left: T) -> bool {
+        left > self.precision
+    }
+
+    #[inline(always)]
+    fn nearer(&self, law: &impl Cohesion<T>, sought: Sought<T>) -> Sought<T> {
+        let Sought {
+            goal,
+            gap,
+            bound,
+            left,
+        } = sought;
+        let next = self.newton(law, goal, gap, bound);
+        let open = self.is_open(left);
+        Sought {
+            gap: if open { next } else { gap },
+            left: if open { (next - gap).abs() } else { left },
+            ..sought
+        }
     }
 }
 
@@ -82,8 +140,10 @@ impl<T: Real> GapConstraint<T> for Smooth<T> {
     fn new(params: &Params) -> Self {
         Smooth {
             stiffness: T::from_double(params.smooth_stiffness),
+            compliance: T::from_double(1.0 / params.smooth_stiffness),
             peak: T::from_double(params.law.peak_tension()),
             peak_gap: T::from_double(params.law.peak_gap()),
+            nearby: T::from_double(NEARBY * params.law.range()),
             precision: T::from_double(2.0 * params.epsilon * params.law.range()),
         }
     }
@@ -117,17 +177,17 @@ impl<T: Real> GapConstraint<T> for Smooth<T> {
     #[inline(always)]
     fn preconditioned(&self, here: &Here<T>, line: T) -> T {
         let hardening = here.hardening;
-        line + hardening / self.stiffness * here.y / (hardening + self.stiffness)
+        line + hardening * self.compliance * here.y / (hardening + self.stiffness)
     }
 
     /// The change of g as v moves.
     #[inline(always)]
-    fn trial_step(&self, law: &impl Cohesion<T>, here: &Here<T>, moved: T, _: T) -> Tried<T> {
+    fn trial_step(&self, law: &impl Cohesion<T>, here: &Here<T>, way: Move<T>) -> Tried<T> {
         let step = if law.corrects() {
             // A correction is short: v follows its slope.
-            here.weight * moved
+            here.weight * way.moved
         } else {
-            self.gap_at(law, self.variable(law, here.gap) + moved, here.gap) - here.gap
+            way.found - here.gap
         };
         Tried { step, cut: false }
     }

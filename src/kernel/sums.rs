@@ -146,28 +146,30 @@ macro_rules! sum_group {
     ($(#[$doc:meta])* $name:ident $(after $before:ident)? { $($sum:ident),* $(,)? }) => {
         $(#[$doc])*
         #[derive(Clone, Copy)]
-        pub(crate) struct $name {
-            $(pub $sum: f64,)*
+        pub(crate) struct $name<T> {
+            $(pub $sum: T,)*
         }
 
-        impl $name {
+        impl $name<()> {
             /// Its sums.
             pub const SUMS: &'static [$crate::kernel::Sum] = &[$($crate::kernel::Sum::$sum),*];
             /// Where its sums begin among those of a kernel.
-            pub const FIRST: usize = 0 $(+ $before::END)?;
+            pub const FIRST: usize = 0 $(+ $before::<()>::END)?;
             /// Where they end.
             pub const END: usize = Self::FIRST + Self::SUMS.len();
+        }
 
+        impl<T> $name<T> {
             /// Lays its values down among a kernel's terms.
             #[inline(always)]
-            pub fn put<const TERMS: usize>(self, terms: &mut [f64; TERMS]) {
+            pub fn put<const TERMS: usize>(self, terms: &mut [T; TERMS]) {
                 // One after another, so that every place is a constant: the compiler makes no vectors of a loop.
-                let place = Self::FIRST;
+                let place = $name::<()>::FIRST;
                 $(
                     terms[place] = self.$sum;
                     let place = place + 1;
                 )*
-                debug_assert!(place == Self::END);
+                debug_assert!(place == $name::<()>::END);
             }
         }
     };

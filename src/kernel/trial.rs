@@ -1,6 +1,6 @@
 //! The new direction and its trial step.
 
-use super::constraint::{GapConstraint, HardnessLimit, Here, Tried, Unilateral};
+use super::constraint::{GapConstraint, HardnessLimit, Here, Move, Tried, Unilateral};
 use super::points::{Numbers, Point, PointKernel};
 use super::smooth::Smooth;
 use super::sums::sum_group;
@@ -42,24 +42,40 @@ impl<T: Real, C: GapConstraint<T>> Numbers<T, C> {
         }
     }
 
-    /// The trial step of a point along a direction; a pad has no constraint.
+    /// The move along a direction by the trial length.
+    #[inline(always)]
+    pub(super) fn way(&self, direction: T, correction: T, found: T) -> Move<T> {
+        Move {
+            moved: self.trial_length * direction,
+            correction,
+            found,
+        }
+    }
+
+    /// The trial step of a point by a move; a pad has no constraint.
     #[inline(always)]
     pub(super) fn step_at(
         &self,
         law: &impl Cohesion<T>,
         here: &Here<T>,
-        [direction, correction]: [T; 2],
+        way: Move<T>,
         in_domain: bool,
     ) -> Tried<T> {
-        let moved = self.trial_length * direction;
         if in_domain {
-            self.constraint.trial_step(law, here, moved, correction)
+            self.constraint.trial_step(law, here, way)
         } else {
             Tried {
-                step: moved,
+                step: way.moved,
                 cut: false,
             }
         }
+    }
+
+    /// The iteration's variable after the trial step of a point that is always free.
+    #[inline(always)]
+    fn goal(&self, law: &impl Cohesion<T>, gap: T, [z, direction]: [T; 2]) -> T {
+        let moved = self.trial_length * self.new_direction(z, direction, true);
+        self.constraint.goal(law, gap, moved)
     }
 }
 
@@ -70,20 +86,20 @@ fn trial_terms<T: Real>(
     tried: Tried<T>,
     here: &Here<T>,
     in_domain: bool,
-) -> TrialSums {
-    let s = tried.step.double();
+) -> TrialSums<T> {
+    let s = tried.step;
     let closes = constraint.touches(here.open, tried.step);
-    let ratio = here.open.double() / -s;
+    let ratio = here.open / -s;
     TrialSums {
-        slope: s * here.y.double(),
+        slope: s * here.y,
         first_touch: if closes & in_domain {
             ratio
         } else {
-            f64::INFINITY
+            T::infinity()
         },
         largest_step: s,
         least_step: s,
-        cut: if tried.cut { 1.0 } else { 0.0 },
+        cut: if tried.cut { T::one() } else { T::zero() },
     }
 }
 
@@ -94,42 +110,40 @@ fn smooth_trial_terms<T: Real>(
     step: T,
     here: &Here<T>,
     in_domain: bool,
-) -> SmoothTrialSums {
-    let s = step.double();
+) -> SmoothTrialSums<T> {
     if in_domain {
         let [energy, size] = law.energy_change(here.gap, step);
         SmoothTrialSums {
-            elastic_slope: s * here.elastic.double(),
-            change_at_first: law.change(here.gap, step).double() * s,
-            energy_change: energy.double(),
-            energy_size: size.double(),
+            elastic_slope: step * here.elastic,
+            change_at_first: law.change(here.gap, step) * step,
+            energy_change: energy,
+            energy_size: size,
         }
     } else {
         // On a pad the residual of an outer state is no law's: the search will not count it.
         SmoothTrialSums {
-            elastic_slope: s * here.y.double(),
-            change_at_first: 0.0,
-            energy_change: 0.0,
-            energy_size: 0.0,
+            elastic_slope: step * here.y,
+            change_at_first: T::zero(),
+            energy_change: T::zero(),
+            energy_size: T::zero(),
         }
     }
 }
 
 /// The terms of a trial s0 before the mean gap is restored; `bent` is K g.
 #[inline(always)]
-fn linear_trial_terms<T: Real>(tried: Tried<T>, here: &Here<T>, bent: T) -> LinearTrialSums {
-    let closing = (-tried.step / here.open).double();
-    let [s, y, g, bent] = [tried.step, here.y, here.open, bent].map(T::double);
+fn linear_trial_terms<T: Real>(tried: Tried<T>, here: &Here<T>, bent: T) -> LinearTrialSums<T> {
+    let (s, y, g) = (tried.step, here.y, here.open);
     LinearTrialSums {
         slope: s * y,
-        closing: if here.open > T::zero() {
-            closing
+        closing: if g > T::zero() {
+            -s / g
         } else {
-            f64::NEG_INFINITY
+            T::neg_infinity()
         },
         largest_step: s,
         least_step: s,
-        cut: if tried.cut { 1.0 } else { 0.0 },
+        cut: if tried.cut { T::one() } else { T::zero() },
         step_sum: s,
         gap_sum: g,
         gap_slope: g * y,
@@ -148,6 +162,17 @@ where
     T: Real,
     C: GapConstraint<T>,
 {
+    const SEEKS: bool = C::STORES_STEP;
+
+    #[inline(always)]
+    fn goal(
+        numbers: &Numbers<T, C>,
+        law: &impl Cohesion<T>,
+        point: &Point<T, READS, WRITES, TERMS>,
+    ) -> T {
+        numbers.goal(law, point.reads[0], [point.line, point.writes[0]])
+    }
+
     #[inline(always)]
     fn at(
         numbers: &Numbers<T, C>,
@@ -157,7 +182,8 @@ where
         let (gap, pressure, in_domain) = (point.reads[0], point.reads[1], point.in_domain);
         let here = numbers.here_at(law, [gap, pressure], in_domain);
         let d = numbers.new_direction(point.line, point.writes[0], here.free);
-        let tried = numbers.step_at(law, &here, [d, T::zero()], in_domain);
+        let way = numbers.way(d, T::zero(), point.found);
+        let tried = numbers.step_at(law, &here, way, in_domain);
         if LINEAR {
             linear_trial_terms(tried, &here, pressure - point.reads[2]).put(&mut point.terms);
         } else {
@@ -206,6 +232,17 @@ where
     T: Real,
     C: GapConstraint<T>,
 {
+    const SEEKS: bool = C::STORES_STEP;
+
+    #[inline(always)]
+    fn goal(
+        numbers: &Numbers<T, C>,
+        law: &impl Cohesion<T>,
+        point: &Point<T, READS, WRITES, TERMS>,
+    ) -> T {
+        numbers.goal(law, point.reads[0], [point.line, point.writes[0]])
+    }
+
     #[inline(always)]
     fn at(
         numbers: &Numbers<T, C>,
@@ -220,22 +257,23 @@ where
         };
         let here = numbers.here_at(law, [gap, pressure], in_domain);
         let d = numbers.new_direction(point.line, point.writes[0], here.free);
-        let step = numbers.step_at(law, &here, [d, T::zero()], in_domain).step;
+        let way = numbers.way(d, T::zero(), point.found);
+        let step = numbers.step_at(law, &here, way, in_domain).step;
         point.writes[0] = d;
         if C::STORES_STEP {
             point.writes[1] = step;
             let after = numbers.here_at(law, [gap + step, pressure], in_domain);
             ComplianceSums {
-                step_sum: step.double(),
-                compliance_sum: after.weight.double(),
+                step_sum: step,
+                compliance_sum: after.weight,
             }
             .put(&mut point.terms);
         } else {
             let depth = (-(gap + step)).most(T::zero());
             TwoSidedSums {
-                step_sum: step.double(),
-                gap_sum: gap.double(),
-                depth_sum: depth.double(),
+                step_sum: step,
+                gap_sum: gap,
+                depth_sum: depth,
             }
             .put(&mut point.terms);
         }
@@ -278,14 +316,15 @@ where
             point.writes[0] = step;
             Tried { step, cut: false }
         } else {
-            numbers.step_at(law, &here, [point.reads[2], correction], in_domain)
+            let way = numbers.way(point.reads[2], correction, gap);
+            numbers.step_at(law, &here, way, in_domain)
         };
         let mut terms = trial_terms(&numbers.constraint, tried, &here, in_domain);
         // A trial that nothing brings back is lost: one that moves and does not descend.
         let lost = !(C::STORES_STEP || correction > -T::one() && correction < T::one());
         if lost {
-            let (slope, cut, infinity) = (0.0, 0.0, f64::INFINITY);
-            let (first_touch, largest_step, least_step) = (infinity, 1.0, infinity);
+            let (slope, cut, infinity) = (T::zero(), T::zero(), T::infinity());
+            let (first_touch, largest_step, least_step) = (infinity, T::one(), infinity);
             terms = TrialSums {
                 slope,
                 first_touch,

@@ -40,7 +40,7 @@ impl<T: Real, C: GapConstraint<T>> Numbers<T, C> {
         let step = if C::STORES_STEP {
             moved
         } else {
-            let way = [moved, self.mean_gap_correction];
+            let way = self.way(moved, self.mean_gap_correction, gap);
             self.step_at(law, &here, way, in_domain).step
         };
         let t = self.step;
@@ -79,10 +79,9 @@ where
         let here = numbers.here_at(law, [moved.gap, moved.pressure], in_domain);
         let residual = projected_residual(&here);
         residual_terms(numbers, law, &here, in_domain).put(&mut point.terms);
-        let [d, r] = [direction, residual].map(T::double);
         AlongSums {
-            direction_change: d * (r - moved.previous.double()),
-            direction_residual: d * r,
+            direction_change: direction * (residual - moved.previous),
+            direction_residual: direction * residual,
         }
         .put(&mut point.terms);
         point.writes[0] = moved.gap;
@@ -141,7 +140,7 @@ fn balance_terms<T: Real>(
     law: &impl Cohesion<T>,
     [gap, pressure]: [T; 2],
     in_domain: bool,
-) -> PressureSums {
+) -> PressureSums<T> {
     // The mean pressure is what these terms are to give.
     let here = here_at(constraint, law, gap, pressure, in_domain);
     let traction = if in_domain {
@@ -149,8 +148,8 @@ fn balance_terms<T: Real>(
     } else {
         here.pull
     };
-    let y = (pressure + traction).double();
-    let weight = constraint.pressure_weight(&here).double();
+    let y = pressure + traction;
+    let weight = constraint.pressure_weight(&here);
     PressureSums {
         weighted_pressure: weight * y,
         pressure_weight: weight,

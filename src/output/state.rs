@@ -20,7 +20,7 @@ use super::folder::stream_within;
 use crate::study::{Checkpoint, CheckpointField, PointState, PullOff};
 
 /// First line of the file. A change of the form changes the number.
-const FORM: &[u8] = b"tabor state 2\n";
+const FORM: &[u8] = b"tabor state 3\n";
 /// Bytes of the head's length.
 const LENGTH_BYTES: usize = 8;
 /// Numbers that are put into bytes at once.
@@ -61,6 +61,8 @@ struct Head {
     warnings: Vec<String>,
     /// Text, because a number of JSON need not come back to the last bit.
     transforms: String,
+    /// Text, like these.
+    evaluated_under: Option<String>,
     jump_in_steps: Vec<usize>,
     jump_off_steps: Vec<usize>,
     /// Step, lower and upper tension, as text like the transforms.
@@ -91,6 +93,9 @@ impl SavedState<'_> {
             curve: self.curve,
             warnings: self.warnings.clone(),
             transforms: format!("{:?}", state.transforms),
+            evaluated_under: state
+                .evaluated_under
+                .map(|stiffness| format!("{stiffness:?}")),
             jump_in_steps: state.jump_in_steps.clone(),
             jump_off_steps: state.jump_off_steps.clone(),
             pull_off: state.pull_off.map(|found| {
@@ -217,6 +222,10 @@ fn decode(bytes: &[u8]) -> Result<SavedState<'static>, String> {
         single: head.single,
         checkpoint: Cow::Owned(Checkpoint {
             fields,
+            evaluated_under: match head.evaluated_under {
+                None => None,
+                Some(stiffness) => Some(stiffness.parse().map_err(|_| damaged())?),
+            },
             points,
             jump_in_steps: head.jump_in_steps,
             jump_off_steps: head.jump_off_steps,
@@ -263,6 +272,7 @@ mod tests {
                     name: "gap".into(),
                     values: Arc::new(values),
                 }],
+                evaluated_under: Some(0.1),
                 points: Some(vec![
                     PointState::Contact,
                     PointState::Separated,

@@ -420,6 +420,7 @@ fn pull_off_warning(loading: &LoadingScene, end: &WalkEnd) -> Option<String> {
 fn tallies(state: &Checkpoint) -> Checkpoint {
     Checkpoint {
         fields: Vec::new(),
+        evaluated_under: state.evaluated_under,
         points: None,
         jump_in_steps: state.jump_in_steps.clone(),
         jump_off_steps: state.jump_off_steps.clone(),

@@ -4,7 +4,7 @@ use super::MakeBackend;
 use super::coarse_start;
 use super::kernel_set::{KernelSet, params_of_problem, params_under};
 use super::mean_gap::HeightsPressure;
-use super::multilevel::{Multilevel, begins_exact};
+use super::multilevel::{Multilevel, sticks};
 use super::outer_state::OuterState;
 use super::problem::Problem;
 use super::refinement::FIRST_TOLERANCE;
@@ -79,6 +79,15 @@ impl Outcome {
     }
 }
 
+/// An evaluation of K*(g + h) that holds as long as gap and heights stay as they are.
+#[derive(Clone, Copy, Debug)]
+struct Evaluated {
+    /// The stiffness of the zero mode.
+    zero_stiffness: f64,
+    /// Whether the solver holds its pressure; else that of another process did.
+    held: bool,
+}
+
 /// Solves one problem, load after load.
 pub struct ContactSolver<'a> {
     pub(super) backend: &'a mut dyn Backend,
@@ -98,7 +107,7 @@ pub struct ContactSolver<'a> {
     /// The trial step of a law whose change of variable makes it costly.
     pub(super) step: Option<Field>,
     pub(super) stiffness: Spectrum,
-    /// 1/K as the preconditioner: without levels, and far from a solution with adhesion.
+    /// 1/K as the preconditioner: without levels, and far from a solution with adhesion over a wall.
     pub(super) preconditioner: Option<Spectrum>,
     /// The compliance of all waves, for a scene with conductance.
     pub(super) compliance: Option<Spectrum>,
@@ -109,7 +118,9 @@ pub struct ContactSolver<'a> {
     pub(super) params: Params,
     /// The outer state in double precision of iterative refinement; made at its first use.
     pub(super) outer: Option<OuterState>,
-    /// Transforms of the coarse starts.
+    /// The pressure of the present gap, if it has been evaluated.
+    evaluated: Option<Evaluated>,
+    /// Transforms of the coarse starts, less those that another process counted.
     helped_by: f64,
     /// What the history of a viscoelastic solid adds to its displacement, over all solved points; empty for
     /// an elastic solid.
@@ -124,6 +135,8 @@ pub struct ContactSolver<'a> {
 /// Rounds, lost trials and long searches included, that a solve may take for each iteration allowed.
 pub const ROUNDS_PER_ITERATION: usize = 4;
 
+/// Transforms of an evaluation of K*(g + h).
+const EVALUATION_TRANSFORMS: f64 = 2.0;
 /// A solve has stalled by drift of the pressures if the residual that is carried along is below this share
 /// of the fresh one.
 const DRIFTED: f64 = 0.5;
@@ -150,7 +163,7 @@ impl<'a> ContactSolver<'a> {
         });
         let stiffness = problem.spectrum(backend, level, "stiffness", Response::Stiffness);
         let levels = Multilevel::plan(backend, level, problem);
-        let exact = levels.is_none() || begins_exact(problem);
+        let exact = levels.is_none() || sticks(problem);
         let preconditioner =
             exact.then(|| problem.spectrum(backend, level, "preconditioner", Response::Compliance));
         let compliance = problem
@@ -181,6 +194,7 @@ impl<'a> ContactSolver<'a> {
             kernels: KernelSet::new(problem),
             params,
             outer: None,
+            evaluated: None,
             helped_by: 0.0,
             offset: Vec::new(),
             mean_offset: 0.0,
@@ -217,7 +231,22 @@ impl<'a> ContactSolver<'a> {
         if let Some(outer) = self.outer() {
             outer.set_gap(gap);
         }
+        self.evaluated = None;
         self.backend.write(self.gap, gap);
+    }
+
+    /// The stiffness of the zero mode under which the pressure of the present gap has been evaluated; `None` if
+    /// a start from it evaluates anew.
+    pub fn evaluated_under(&self) -> Option<f64> {
+        self.evaluated.map(|evaluated| evaluated.zero_stiffness)
+    }
+
+    /// Says that another process had evaluated the pressure of the gap that was set, which counted its transforms.
+    pub fn set_evaluated_under(&mut self, zero_stiffness: Option<f64>) {
+        self.evaluated = zero_stiffness.map(|zero_stiffness| Evaluated {
+            zero_stiffness,
+            held: false,
+        });
     }
 
     /// The elastic pressure K*(g + h) over all solved points, reduced, without the mean pressure.
@@ -256,6 +285,7 @@ impl<'a> ContactSolver<'a> {
         for (height, offset) in moved.iter_mut().zip(&self.offset) {
             *height += offset;
         }
+        self.evaluated = None;
         self.backend.write(self.heights, &moved);
         if let Some(outer) = self.outer() {
             outer.set_heights(&moved);
@@ -346,7 +376,7 @@ impl<'a> ContactSolver<'a> {
         if let Some(spectrum) = self.preconditioner {
             self.backend.set_zero_mode(spectrum, load.zero_compliance);
         }
-        self.exact = self.preconditioner.is_some();
+        self.exact = self.levels.is_none();
         if prescribed_mean_gap {
             self.begin_mean_gap();
         }
@@ -367,9 +397,23 @@ impl<'a> ContactSolver<'a> {
                 self.backend.write(self.gap, &gap);
             }
         }
-        self.refresh()?;
+        self.evaluate_start(load, start)?;
         self.ready();
-        Ok(())
+        self.choose_preconditioner()
+    }
+
+    /// The pressure of the gap from which a solve starts. The last solve has evaluated that of its own gap.
+    fn evaluate_start(&mut self, load: &Load, start: &Start) -> Result<(), BackendError> {
+        let stays = matches!((start, load.hold), (Start::Present, Hold::Pressure(_)));
+        let evaluated = self.evaluated.take();
+        match evaluated.filter(|last| stays && last.zero_stiffness == load.zero_stiffness) {
+            None => self.refresh(),
+            Some(last) if last.held => Ok(()),
+            Some(_) => {
+                self.helped_by -= EVALUATION_TRANSFORMS;
+                self.refresh()
+            }
+        }
     }
 
     /// Solves a load. `watch` sees the scalars whenever the host looks and may end the solve by
@@ -455,6 +499,10 @@ impl<'a> ContactSolver<'a> {
                 }
                 _ => {}
             }
+            self.evaluated = Some(Evaluated {
+                zero_stiffness: load.zero_stiffness,
+                held: true,
+            });
             return Ok(Outcome::new(
                 status,
                 end.iterations as usize,

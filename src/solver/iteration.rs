@@ -47,6 +47,20 @@ impl ContactSolver<'_> {
         Ok(scalars)
     }
 
+    /// Takes 1/K for a state that is far from a solution, if the levels might lead elsewhere from there.
+    pub(super) fn choose_preconditioner(&mut self) -> Result<(), BackendError> {
+        if self.levels.is_none() || self.preconditioner.is_none() {
+            return Ok(());
+        }
+        if self.backend.scalars()?.residual >= EXACT_UNTIL {
+            self.exact = true;
+            let state = [self.gap, self.pressure];
+            let load = self.kernels.load_residual;
+            self.backend.run(load, self.level, &state);
+        }
+        Ok(())
+    }
+
     /// Continues with the levels, as iterations near a solution do.
     pub fn precondition_by_levels(&mut self) {
         if let Some(levels) = &self.levels {

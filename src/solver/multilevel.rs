@@ -28,8 +28,8 @@ pub(super) const COARSEST_SHARE: f64 = 0.5;
 const LEAST_GROWTH: f64 = 1.5;
 /// Sides of a pixel over each other from which one number does not stand for its shortest waves.
 const LONGEST_PIXEL: f64 = 2.0;
-/// Residual below which the levels take over with adhesion. Above it fronts move, and the compliance itself leads
-/// more straightly to the nearest of several solutions: points that a detour closes would stick.
+/// Residual below which the levels precondition with adhesion over a wall. Above it fronts move, and the compliance
+/// itself leads more straightly to the nearest of several solutions: points that a detour closes would stick.
 pub(super) const EXACT_UNTIL: f64 = 1e-2;
 /// Fine pixels over which the share of free points is smoothed.
 const SMOOTHED: f64 = 3.0;
@@ -89,9 +89,10 @@ pub(super) fn halvings(problem: &Problem) -> usize {
         .count()
 }
 
-/// Whether solves of a problem have several solutions, and so begin with the compliance itself.
-pub(super) fn begins_exact(problem: &Problem) -> bool {
-    problem.law.is_adhesive()
+/// Whether solves of a problem take the compliance itself far from a solution: if there are several solutions and
+/// a wall to which points stick. Where a law repels by itself, nothing sticks.
+pub(super) fn sticks(problem: &Problem) -> bool {
+    problem.law.is_adhesive() && problem.law.has_wall()
 }
 
 /// The factor of a wave that smooths the share of free points.

@@ -14,7 +14,7 @@
 //! neither wall nor law.
 
 use super::contact::{Load, Outcome};
-use super::multilevel::{EXACT_UNTIL, begins_exact};
+use super::multilevel::{EXACT_UNTIL, sticks};
 use super::plain_setup::{Contact, choose, dot, each, largest, least, most, norm, sum};
 use super::problem::Problem;
 use crate::kernel::Status;
@@ -39,7 +39,7 @@ pub fn solve(
     let (mut restart, mut trial_length, mut largest_move) = (true, 1.0, f64::INFINITY);
     let (mut iterations, mut at_floor, mut stalls) = (0, 0, 0);
     let mut residual_at_stall = f64::INFINITY;
-    let mut exact = begins_exact(problem);
+    let mut exact = sticks(problem) && now.residual >= EXACT_UNTIL;
 
     let status = loop {
         // Step 1. Is the present state the solution?
@@ -241,8 +241,8 @@ impl Contact<'_> {
         each(r.len(), |i| z[i] + d[i] / k * now.y[i] / (d[i] + k))
     }
 
-    /// M r: 1/K where the grid cannot be halved, and with adhesion until the residual is small, since fronts that
-    /// move by another way may end in another solution. Else each grid answers the waves that the next one, of half the
+    /// M r: 1/K where the grid cannot be halved, and with adhesion over a wall until the residual is small, since fronts
+    /// that move by another way may end in another solution. Else each grid answers the waves that the next one, of half the
     /// points, cannot hold by one number, in proportion to its pixel: z_k = 2^k c r_k + P z_(k+1), with
     /// r_(k+1) = R r_k, P the interpolation and R the restriction. The coarsest one answers by W (1/2K) W, W being
     /// the share of free points there, smoothed, to the third power: long waves do not reach across contacts.

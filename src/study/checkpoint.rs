@@ -25,6 +25,9 @@ pub struct Checkpoint {
     /// Fields of the solver and of effects; no gap where the surfaces are separated and the next step starts
     /// from undeformed heights. The solver keeps no direction between steps.
     pub fields: Vec<CheckpointField>,
+    /// The stiffness of the zero mode under which the pressure of the gap has been evaluated, if the next step
+    /// needs no evaluation of it.
+    pub evaluated_under: Option<f64>,
     /// State of each point of the grid, where steps are watched for jumps.
     pub points: Option<Vec<PointState>>,
     /// Steps so far that jumped into contact.

@@ -191,6 +191,7 @@ impl Stretch<'_> {
                 let left = walker.carried()?;
                 let checkpoint = Checkpoint {
                     fields: left.checkpoint_fields(),
+                    evaluated_under: walker.solver.evaluated_under(),
                     points: jumps.points().map(<[_]>::to_vec),
                     jump_in_steps: end.jump_in_steps.clone(),
                     jump_off_steps: end.jump_off_steps.clone(),

@@ -71,9 +71,13 @@ fn pulled(setup: &Setup, rows: &[StepRow]) -> Option<Planned> {
     let mut before = loading.path.iter().rev().nth(1).copied();
     let mut value = *loading.path.last()?;
     let mut length = first;
+    let mut greatest = Greatest::default();
+    let mut seen = 0;
     for done in loading.path.len()..=rows.len() {
         let moved = before.map_or(0.0, |before| (value - before).abs());
-        let allowed = allowed(setup, &rows[..done], moved);
+        rows[seen..done].iter().for_each(|row| greatest.add(row));
+        seen = done;
+        let allowed = allowed(setup, &rows[..done], greatest, moved);
         length = if done == loading.path.len() {
             allowed.min(first)
         } else {
@@ -112,8 +116,22 @@ fn first_length(setup: &Setup) -> f64 {
     }
 }
 
-/// How far the next step may move, as the last one did by `moved`.
-fn allowed(setup: &Setup, rows: &[StepRow], moved: f64) -> f64 {
+/// The greatest forces of a path so far, N.
+#[derive(Clone, Copy, Debug, Default)]
+struct Greatest {
+    tension: f64,
+    compression: f64,
+}
+
+impl Greatest {
+    fn add(&mut self, row: &StepRow) {
+        self.tension = self.tension.max(-row.force);
+        self.compression = self.compression.max(row.force);
+    }
+}
+
+/// How far the next step after these rows may move, as the last one did by `moved`.
+fn allowed(setup: &Setup, rows: &[StepRow], greatest: Greatest, moved: f64) -> f64 {
     let [.., before, row] = rows else {
         return f64::INFINITY;
     };
@@ -128,10 +146,7 @@ fn allowed(setup: &Setup, rows: &[StepRow], moved: f64) -> f64 {
         // The area alone is followed on the way to tension.
         _ if row.force > 0.0 => f64::INFINITY,
         Control::Approach | Control::MeanGap => {
-            let forces = || rows.iter().map(|row| row.force);
-            let tension = forces().fold(0.0, |most: f64, force| most.max(-force));
-            let compression = forces().fold(0.0, f64::max);
-            FORCE_CHANGE * tension.max(LEAST_TENSION * compression)
+            FORCE_CHANGE * greatest.tension.max(LEAST_TENSION * greatest.compression)
                 / (row.force - before.force).abs()
         }
     };

@@ -21,6 +21,8 @@ use crate::solver::{ContactSolver, MakeBackend, Problem};
 pub(super) struct Carried {
     /// Gap over all solved points, reduced; `None` where the surfaces are separated.
     gap: Option<Arc<Vec<f64>>>,
+    /// Of another process: the stiffness of the zero mode under which it evaluated the pressure of that gap.
+    evaluated_under: Option<f64>,
     /// States of the effects, in their order.
     effects: Vec<Box<dyn Carry>>,
 }
@@ -29,6 +31,7 @@ impl Clone for Carried {
     fn clone(&self) -> Carried {
         Carried {
             gap: self.gap.clone(),
+            evaluated_under: self.evaluated_under,
             effects: copies(&self.effects),
         }
     }
@@ -44,6 +47,7 @@ impl Carried {
         let effects = setup.effects.iter();
         Carried {
             gap: checkpoint.shared(GAP),
+            evaluated_under: checkpoint.evaluated_under,
             effects: effects
                 .filter_map(|effect| effect.carry(setup, checkpoint))
                 .collect(),
@@ -134,6 +138,7 @@ impl<'s> Walker<'s> {
         for carry in &self.effects {
             carry.restore(&mut self.solver);
         }
+        self.solver.set_evaluated_under(carried.evaluated_under);
     }
 
     /// Start of the next load.
@@ -145,6 +150,7 @@ impl<'s> Walker<'s> {
         };
         Ok(Carried {
             gap,
+            evaluated_under: None,
             effects: copies(&self.effects),
         })
     }

@@ -38,6 +38,7 @@ pub use adhesion_map::MapError;
 pub use error::{FileError, PartError, SurfaceError};
 #[doc(hidden)]
 pub use formats::claimed_points;
+pub(crate) use formats::instrument_header;
 pub(crate) use outline::has_flats;
 #[doc(hidden)]
 pub use outline::{MapOutline, Outline, Source};

@@ -38,6 +38,11 @@ impl State {
     pub fn ratio(&self) -> f64 {
         self.cohesive_radius / self.contact_radius
     }
+
+    /// `t = sqrt(m^2 - 1)`.
+    pub(crate) fn zone(&self) -> f64 {
+        (self.ratio().powi(2) - 1.0).max(0.0).sqrt()
+    }
 }
 
 /// Maugis-Dugdale sphere of a given lambda.
@@ -174,8 +179,16 @@ impl MaugisDugdale {
     }
 
     fn least(&self, of: impl Fn(&State) -> f64) -> Result<State, TheoryError> {
+        // Each radius tried is near one tried before.
+        let mut zone = self.state(1.0)?.zone();
+        let at = |radius: f64| match self.state_near(radius, zone) {
+            Ok((state, near)) => {
+                zone = near;
+                of(&state)
+            }
+            Err(_) => f64::INFINITY,
+        };
         // Both minima lie at or inside the JKR radii, which are below 1.15.
-        let at = |radius: f64| self.state(radius).map_or(f64::INFINITY, |state| of(&state));
         let (radius, _) = minimum(at, 1e-9, 2.0);
         self.state(radius)
     }
@@ -343,7 +356,7 @@ mod tests {
     fn a_state_is_the_same_from_its_neighbour() {
         for lambda in [0.01, 0.3, 2.0, 20.0] {
             let sphere = MaugisDugdale::new(lambda).unwrap();
-            let mut zone = (sphere.state(1e-6).unwrap().ratio().powi(2) - 1.0).sqrt();
+            let mut zone = sphere.state(1e-6).unwrap().zone();
             for i in 0..200 {
                 let radius = 1e-6 + 5.0 * (f64::from(i) / 199.0).powi(2);
                 let state;

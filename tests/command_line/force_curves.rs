@@ -7,8 +7,9 @@ use std::path::Path;
 use serde_json::Value;
 use tabor::theory::jkr;
 use tabor::theory::tabor_map::Sphere;
+use tabor::units::format_si;
 
-use crate::shared::binary::{errors, status, tabor};
+use crate::shared::binary::{self, errors, status, tabor};
 use crate::shared::random::Random;
 use crate::shared::trials::tests;
 
@@ -160,6 +161,123 @@ fn errors_of_spring_and_radius_are_carried_into_the_result() {
     }
 }
 
+/// The table's row of the chosen model, the headline and `fit.json` state the same numbers, for a curve with noise and
+/// errors of spring and radius.
+fn one_headline_states_one_uncertainty() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let rows = curve(3);
+    let text = table("approach,force\n", &rows, |[x, f]| {
+        // More noise, so that the models are not told apart and the uncertainty is that of all of them.
+        format!("{x:e},{:e}", f + 1.5e-8 * (x * 7.3e10).sin())
+    });
+    fs::write(folder.path().join("curve.csv"), text).expect("written");
+    let call = [
+        "fit",
+        "curve.csv",
+        "--radius",
+        "5 um",
+        "--out",
+        "out",
+        "--spring-error",
+        "10%",
+    ];
+    let output = tabor(folder.path(), &call);
+    let said = errors(&output);
+    assert_eq!(status(&output), 0, "{said}");
+    let found = fs::read(folder.path().join("out/fit.json")).expect("a result");
+    let found: Value = serde_json::from_slice(&found).expect("JSON");
+    let chosen: Vec<&str> = said.lines().filter(|line| line.starts_with('>')).collect();
+    let [row] = chosen[..] else {
+        panic!("one chosen model: {said}");
+    };
+    let headlines = said
+        .lines()
+        .filter(|line| line.contains("w = ") && line.contains("E* = "));
+    let headlines: Vec<&str> = headlines
+        .filter(|line| !line.starts_with("warning"))
+        .collect();
+    let [headline] = headlines[..] else {
+        panic!("one headline: {said}");
+    };
+    let model = found["model"].as_str().expect("a model");
+    let entry = found["models"].as_array().expect("models").iter();
+    let entry = entry
+        .clone()
+        .find(|entry| entry["model"] == model)
+        .expect("the model");
+    for (name, unit) in [("work_of_adhesion", "J/m^2"), ("contact_modulus", "Pa")] {
+        let [value, deviation] = quantity(&found, name);
+        assert!(
+            row.contains(&format!("{value:.4e} +- {deviation:.1e}")),
+            "{name}: {row}"
+        );
+        let stated = format!(
+            "{} +- {}",
+            format_si(value, unit),
+            format_si(deviation, unit)
+        );
+        assert!(headline.contains(&stated), "{stated}: {headline}");
+        assert_eq!(quantity(entry, name), [value, deviation]);
+    }
+}
+
+/// A force that no contact has.
+fn a_curve_that_no_model_describes_is_said_so() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let text = table("approach,force\n", &curve(4), |[x, f]| {
+        format!("{x:e},{:e}", f + 3e-7 * (x * 5e7).sin())
+    });
+    fs::write(folder.path().join("curve.csv"), text).expect("written");
+    let output = tabor(folder.path(), &["fit", "curve.csv", "--radius", "5 um"]);
+    let said = errors(&output);
+    assert_eq!(status(&output), 0, "{said}");
+    assert!(
+        said.contains("none of these models describes the curve; "),
+        "{said}"
+    );
+    let found = fs::read_to_string(folder.path().join("curve/fit.json")).expect("a result");
+    assert!(found.contains("\"describes_curve\": false"), "{found}");
+}
+
+fn both_approaches_are_columns() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let rows = curve(5);
+    let slope = 0.02;
+    let text = table("position,deflection\n", &rows, |[x, f]| {
+        let force = f + slope * x;
+        format!("{:e},{:e}", x + force / SPRING, force / SPRING)
+    });
+    let options = ["--spring", "0.3 N/m", "--baseline-slope"];
+    fit(folder.path(), &text, &options);
+    let written = binary::table(&folder.path().join("out/fit.csv"));
+    assert_eq!(written.len(), rows.len());
+    let noise = 0.01 * 1.5 * std::f64::consts::PI * WORK * RADIUS;
+    for (row, [approach, force]) in written.iter().zip(rows) {
+        let value = |name: &str| binary::number(row, name).expect("a number");
+        let force = force + slope * approach;
+        // Rounding of the numbers in the file, of the size of the largest.
+        assert!((value("approach") - approach).abs() < 1e-20);
+        assert!((value("position") - approach - force / SPRING).abs() < 1e-20);
+        assert!((value("force") - force).abs() < 1e-20);
+        assert!(
+            (value("model_force") - force).abs() < 6.0 * noise,
+            "{row:?}"
+        );
+        assert!(["loading", "unloading"].contains(&row["segment"].as_str()));
+    }
+    // Without a spring there is no base.
+    let plain = table("approach,force\n", &curve(5), |[x, f]| {
+        format!("{x:e},{f:e}")
+    });
+    fit(folder.path(), &plain, &[]);
+    let written = binary::table(&folder.path().join("out/fit.csv"));
+    assert!(
+        written
+            .iter()
+            .all(|row| binary::number(row, "position").is_none())
+    );
+}
+
 fn a_baseline_with_a_slope_is_levelled() {
     let folder = tempfile::tempdir().expect("a folder");
     let mut missed = 0;
@@ -250,6 +368,9 @@ fn a_folder_of_curves_gives_a_table_a_histogram_and_the_failures() {
 }
 
 tests![
+    one_headline_states_one_uncertainty,
+    a_curve_that_no_model_describes_is_said_so,
+    both_approaches_are_columns,
     position_and_deflection_give_what_approach_and_force_give,
     errors_of_spring_and_radius_are_carried_into_the_result,
     a_baseline_with_a_slope_is_levelled,

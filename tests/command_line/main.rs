@@ -7,9 +7,12 @@ mod compare;
 mod contact;
 mod force_curves;
 mod hostile_calls;
+mod instrument_curves;
 mod kept;
 mod mistakes;
 mod pictures;
+#[cfg(unix)]
+mod recipes;
 mod report_page;
 mod resume;
 mod run;
@@ -27,11 +30,14 @@ fn main() -> ExitCode {
         contact::tests(),
         force_curves::tests(),
         hostile_calls::tests(),
+        instrument_curves::tests(),
         kept::tests(),
         mistakes::tests(),
         mistakes::scenes::tests(),
         mistakes::variants::tests(),
         pictures::tests(),
+        #[cfg(unix)]
+        recipes::tests(),
         report_page::tests(),
         resume::tests(),
         run::tests(),

@@ -205,7 +205,7 @@ fn a_browser_shows_the_whole_page_on_any_width_without_a_network() {
             );
         }
         let curves = facts["curves"].as_array().expect("a list");
-        assert_eq!(curves.len(), 2);
+        assert_eq!(curves.len(), 3);
         for curve in curves {
             assert!(
                 curve[0].as_f64() > Some(300.0) && curve[1].as_f64() > Some(200.0),
@@ -271,7 +271,7 @@ fn runs_that_ended_early_and_runs_of_one_step_have_a_page() {
     let (_folder, out) = run(ROUGH, &one, 0);
     let seen = look(browser, &out.join("report.html"), 400);
     expect_alone(&seen);
-    assert_eq!(seen.facts["curves"].as_array().map(Vec::len), Some(2));
+    assert_eq!(seen.facts["curves"].as_array().map(Vec::len), Some(3));
     assert!(seen.facts["needed"].as_u64() <= Some(400));
 }
 
@@ -432,6 +432,7 @@ fn results_of_effects_have_a_card_a_curve_and_a_column() {
     let page = fs::read_to_string(out.join("report.html")).expect("a page");
     let rows = binary::table(&out.join("curve.csv"));
     for (name, column, unit) in [
+        ("attractive force", "attractive_force", "N"),
         ("friction force", "friction_force", "N"),
         ("conductance", "conductance", "S"),
         ("resistance", "resistance", "ohm"),
@@ -466,8 +467,21 @@ fn results_of_effects_have_a_card_a_curve_and_a_column() {
     ] {
         assert!(page.contains(part), "{part} is missing in {page}");
     }
-    // What still touches without load.
+    // What still touches without load, and with what force it attracts: on the straight line between steps 2 and 3,
+    // where the force changes its sign.
     assert!(page.contains("<dt>Left at zero load</dt>"), "{page}");
+    let [force, attraction] = ["force", "attractive_force"]
+        .map(|name| [1, 2].map(|row: usize| binary::number(&rows[row], name).expect("a number")));
+    let share = force[0] / (force[0] - force[1]);
+    let left = attraction[0] + (attraction[1] - attraction[0]) * share;
+    let card = format!(
+        "<dt>Attraction left at zero load</dt><dd>{}<",
+        format_si(left, "N")
+    );
+    assert!(page.contains(&card), "{card} is missing in {page}");
+    // It is no less than the net tension, and nothing once the surfaces are apart.
+    assert!(attraction[1] >= -force[1] && force[1] < 0.0);
+    assert_eq!(binary::number(&rows[3], "attractive_force"), Some(0.0));
     // Effects that are off are not there.
     assert!(page.contains("<th scope=\"row\">wear</th>"));
     for off in ["dmt treatment", "hardness", "viscoelasticity"] {
@@ -476,6 +490,18 @@ fn results_of_effects_have_a_card_a_curve_and_a_column() {
             "{off}"
         );
     }
+
+    // Without adhesion nothing attracts, and nothing is said of it.
+    let plain = EFFECTS
+        .split("[adhesion]")
+        .next()
+        .expect("its beginning")
+        .to_owned()
+        + "[loading]\ncontrol = \"approach\"\npath = [\"2 um\", \"0 um\"]\n[output]\nimages = []\n";
+    let (_folder, out) = run(&plain, &[], 0);
+    let page = fs::read_to_string(out.join("report.html")).expect("a page");
+    assert!(!page.contains("ttracti"), "{page}");
+    assert!(!binary::table(&out.join("curve.csv"))[0].contains_key("attractive_force"));
 
     // Heat has no resistance in ohm, and a plastic solid has lost energy at the end.
     let thermal = EFFECTS

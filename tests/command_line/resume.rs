@@ -277,11 +277,7 @@ fn other_scenes_and_damaged_states_are_refused_with_reasons() {
     assert_eq!(code, 2, "{said}");
     assert!(said.contains("is missing"), "{said}");
     fs::write(&state, &good).expect("it is written");
-    fs::write(
-        &curve,
-        rows_before.replacen(",contact\n", ",attracted\n", 1),
-    )
-    .expect("it is written");
+    fs::write(&curve, rows_before.replacen(",contact,", ",attracted,", 1)).expect("it is written");
     let (code, said) = again(&[]);
     assert_eq!(code, 2, "{said}");
     assert!(

@@ -601,19 +601,19 @@ fn spectra_have_the_reference_values() {
         loaded.column("mean_pressure"),
         loaded.column("repulsive_pressure")
     );
-    let sticky = Table::from_example(
+    let adhesive = Table::from_example(
         "persson",
         &format!(
             "{surface} --rms_height \"0.52 nm\" --work_of_adhesion 0.2 --range \"1 nm\" {rows}"
         ),
     );
     close(
-        sticky.column("adhesive_pressure")[0],
+        adhesive.column("adhesive_pressure")[0],
         unit * state("p_ad_over_Ehp"),
         2e-3,
     );
     // The pull-off of the study in E* h'_rms, by a sum over magnifications: 0.3 %.
-    close(sticky.note("pull_off_pressure"), -0.037247 * unit, 3e-3);
+    close(adhesive.note("pull_off_pressure"), -0.037247 * unit, 3e-3);
     // The same surface by its slope.
     let slope = hard.note("rms_slope");
     let sloped = Table::from_example(

@@ -20,6 +20,8 @@ import SurfaceTopography as st
 
 out = os.path.dirname(os.path.abspath(__file__))
 NX, NY = 12, 9
+# Images of a Nanoscope file that are kept.
+IMAGES = 2
 
 
 def nanoscope(raw):
@@ -34,10 +36,10 @@ def nanoscope(raw):
             sections[-1].append(line)
     sections = [s for s in sections if s[0][2:].lower() in kept]
     images = [s for s in sections if b"image list" in s[0].lower()]
-    sections = [s for s in sections if s not in images] + images[:2]
+    sections = [s for s in sections if s not in images] + images[:IMAGES]
     get = lambda s, key: int(re.search(key + rb": (\d+)", b"\n".join(s))[1])
     blocks, start = [], 6000
-    for s in images[:2]:
+    for s in images[:IMAGES]:
         offset, length, columns = get(s, rb"Data offset"), get(s, rb"Data length"), get(s, rb"Samps/line")
         size = length // columns // get(s, rb"Number of lines")
         rows = [raw[offset + i * columns * size:][: NX * size] for i in range(NY)]
@@ -167,6 +169,14 @@ def vk4(_):
     return b"".join(parts) + heights.tobytes()
 
 
+def vk6(_):
+    """The same in an archive behind a prefix."""
+    archive = io.BytesIO()
+    with zipfile.ZipFile(archive, "w", zipfile.ZIP_DEFLATED) as new:
+        new.writestr(zipfile.ZipInfo("Vk4File"), vk4(None), zipfile.ZIP_DEFLATED)
+    return b"VK6\0" + bytes(60) + archive.getvalue()
+
+
 FILES = {
     "bruker_5.spm": ("di-1.di", nanoscope),
     "bruker_10.spm": ("di-5.di", nanoscope),
@@ -177,6 +187,24 @@ FILES = {
     "sensofar.plu": ("plu-1.plu", plu),
     "mountains.x3p": ("x3p-2.x3p", x3p),
     "description.vk4": (None, vk4),
+    "description.vk6": (None, vk6),
+}
+
+# Larger maps for whole studies, with the lengths of their part.
+SIDE = 48
+
+
+def scanned(raw):
+    """The first image alone."""
+    share = SIDE / int(re.search(rb"Samps/line: (\d+)", raw)[1])
+    size = lambda found: b"\\Scan Size: " + re.sub(rb"[\d.]+", lambda side: b"%g" % (float(side[0]) * share), found[1])
+    text = nanoscope(raw)
+    return re.sub(rb"\\Scan Size: ([^\r]*)", size, text[:6000]).rstrip(b"\0").ljust(6000, b"\0") + text[6000:]
+
+
+MAPS = {
+    "bruker_map.spm": ("di-5.di", scanned),
+    "zygo_map.dat": ("metropro-1.dat", metropro),
 }
 
 # Formats whose first row this reader takes as the greatest y.
@@ -204,3 +232,9 @@ if __name__ == "__main__":
         lines.append(",".join(map(str, row(name))) + "\n")
     with open(table, "w") as file:
         file.writelines(lines)
+    NX, NY, IMAGES = SIDE, SIDE, 1
+    for name, (original, cut) in MAPS.items():
+        with open(os.path.join(sys.argv[1], original), "rb") as file:
+            raw = file.read()
+        with open(os.path.join(out, name), "wb") as file:
+            file.write(cut(raw))

@@ -22,11 +22,13 @@ use crate::shared::trials::tests;
 
 /// Fine and coarse points of the tests; neither is a power of two both ways.
 const FINE: [usize; 2] = [48, 64];
-const COARSE: [usize; 2] = [12, 16];
+const COARSE: [usize; 2] = [24, 32];
 /// The same in double precision, as few as keep more than one workgroup: long lines are slow to compile
 /// in software.
 const FINE_IN_DOUBLE: [usize; 2] = [24, 16];
-const COARSE_IN_DOUBLE: [usize; 2] = [6, 4];
+const COARSE_IN_DOUBLE: [usize; 2] = [12, 8];
+/// Halvings more of the level on which the share of free points is counted.
+const SHARE_HALVINGS: usize = 1;
 /// Difference at a point over the rounding error of the number, of values up to some units: the
 /// transforms around a load or store part cost 4 of their root mean square, the law's steepest slope
 /// (16) multiplies it.
@@ -167,6 +169,11 @@ fn run(
     let [nx, ny] = match number {
         Number::Single => COARSE,
         Number::Double => COARSE_IN_DOUBLE,
+    };
+    let [nx, ny] = if kernel.name == "free_share" {
+        [nx, ny].map(|points| points >> SHARE_HALVINGS)
+    } else {
+        [nx, ny]
     };
     let [own, other] = if coarse_kernel {
         [Shape::whole(nx, ny), shape]

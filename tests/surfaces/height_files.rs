@@ -583,10 +583,7 @@ fn bad_calls_are_refused_in_a_sentence() {
             &["wide.tif", "--size", "1 um"],
             "wide.tif: broken TIFF image: ",
         ),
-        (
-            &["map.gsf", "--set", "grid.points=8"],
-            "--set overrides keys of a scene",
-        ),
+        (&["map.gsf", "--set", "grid.pionts=8"], "grid.pionts"),
         (
             &["scene.toml", "--fill", "interpolate"],
             "are for files of heights",

@@ -6,7 +6,7 @@ use std::path::Path;
 
 use serde_json::Value;
 use tabor::backend::{Backend, cpu::CpuBackend};
-use tabor::fit::model::{Parameters, SphereModel};
+use tabor::fit::model::{IndenterModel, Parameters};
 use tabor::fit::{FitResult, ForceCurve, Freedom, Model, Sample, fit_curve};
 use tabor::scene::Scene;
 use tabor::study::{Setup, walk};
@@ -60,7 +60,7 @@ fn made(model: Model, lambda: f64, noise: f64, seed: u64) -> Vec<Sample> {
         }
         other => panic!("no curve of {other:?} is made here"),
     };
-    let sphere = SphereModel::new(model, RADIUS);
+    let sphere = IndenterModel::new(model, RADIUS);
     let mut random = Random(seed);
     let place = |i: usize| -2.5 + 6.5 * i as f64 / (POINTS - 1) as f64;
     (0..POINTS)
@@ -300,6 +300,16 @@ fn uncertainties_hold_where_lambda_is_not_told() {
                     (found.contact_modulus - MODULUS) / result.modulus_uncertainty.expect("known");
                 missed[0] += usize::from(work.abs() > 2.0);
                 missed[1] += usize::from(stiff.abs() > 2.0);
+                // No result is that of a model whose range of Tabor numbers it leaves.
+                if let Some(mu) = result.tabor_parameter {
+                    let within = 2.0 * result.tabor_uncertainty.unwrap_or(0.0);
+                    let holds = match result.best().model {
+                        Model::Dmt => mu - within < 0.24,
+                        Model::Jkr => mu + within >= 5.0,
+                        _ => true,
+                    };
+                    assert!(holds, "{:?} at {mu}", result.best().model);
+                }
             }
             println!("lambda {lambda}, noise {noise}: w, E* missed {missed:?} of {CURVES}");
             assert!(

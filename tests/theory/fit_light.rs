@@ -6,7 +6,7 @@ use std::path::Path;
 
 use tabor::backend::Backend;
 use tabor::backend::cpu::CpuBackend;
-use tabor::fit::model::{Parameters, SphereModel};
+use tabor::fit::model::{IndenterModel, Parameters};
 use tabor::fit::{FitError, FitResult, ForceCurve, Freedom, Model, Sample, fit_curve};
 use tabor::scene::Scene;
 use tabor::study::{Setup, walk};
@@ -53,7 +53,7 @@ fn made(model: Model, load: Load, share: f64, both_ways: bool, seed: u64) -> Vec
         Model::Dmt => (2.0, 0.0),
         _ => (1.5, -3.0 / 6.0_f64.powf(2.0 / 3.0)),
     };
-    let sphere = SphereModel::new(model, RADIUS);
+    let sphere = IndenterModel::new(model, RADIUS);
     let force = |reduced: f64| {
         let forces = sphere.forces(&truth, &[OFFSET + unit * reduced]);
         forces.expect("a force")[0] / force_unit

@@ -12,11 +12,13 @@ use crate::real::Real;
 /// Rows in a block; also the side of the tiles in which spectra are transposed. Eight complex
 /// doubles are two cache lines, so a tile is read and written in whole lines.
 pub(super) const BLOCK: usize = 8;
+/// Values of a tile.
+pub(super) const TILE: usize = BLOCK * BLOCK;
 
 /// Spectra of eight rows at eight columns, column by column. Who works on rows has whole blocks of tiles for
 /// itself; who works on columns has tiles from all blocks, which only a lock on each can say: it costs some
 /// percent of the column's transform, and a second set of tiles would cost a field.
-pub(super) type Tile<T> = Mutex<[Complex<T>; BLOCK * BLOCK]>;
+pub(super) type Tile<T> = Mutex<[Complex<T>; TILE]>;
 
 /// A kernel over a range of blocks, with what it reads and the parts that it alone may write.
 pub(super) struct Job<'a, T: Real> {

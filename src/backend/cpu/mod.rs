@@ -9,6 +9,7 @@ mod plans;
 mod transform;
 
 use rayon::ThreadPoolBuilder;
+use rayon::prelude::*;
 
 use super::{Backend, BackendError, Factors, Field, Level, Shape, Spectrum, check_fields};
 use crate::kernel::{Form, Gate, Kernel, Params, SUMS, ScalarKernel, Scalars, Twin, Whole};
@@ -254,16 +255,15 @@ impl<T: CpuReal> Backend for CpuBackend<T> {
     fn write(&mut self, field: Field, values: &[f64]) {
         let stored = &mut self.fields[field.index];
         debug_assert_eq!(values.len(), stored.len());
-        for (stored, &value) in stored.iter_mut().zip(values) {
-            *stored = T::from_double(value);
-        }
+        stored
+            .par_iter_mut()
+            .zip(values)
+            .for_each(|(stored, &value)| *stored = T::from_double(value));
     }
 
     fn read(&mut self, field: Field) -> Result<Vec<f64>, BackendError> {
-        Ok(self.fields[field.index]
-            .iter()
-            .map(|value| value.double())
-            .collect())
+        let stored = self.fields[field.index].par_iter();
+        Ok(stored.map(|value| value.double()).collect())
     }
 
     fn set_law_factor(&mut self, factor: Field) {

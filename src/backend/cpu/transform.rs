@@ -6,12 +6,13 @@
 
 use std::sync::{Mutex, MutexGuard, PoisonError};
 
+use pulp::{Arch, Simd, WithSimd};
 use rustfft::Fft;
 use rustfft::num_complex::Complex;
 use rustfft::num_traits::Zero;
 
 use super::CpuReal;
-use super::blocks::{BLOCK, Job, Tile, run_blocks};
+use super::blocks::{BLOCK, Job, TILE, Tile, run_blocks};
 use super::plans::Plans;
 use crate::backend::Shape;
 use crate::kernel::Form;
@@ -37,6 +38,8 @@ struct Scratch<T> {
     lines: Vec<T>,
     spectra: Vec<Complex<T>>,
     column: Vec<Complex<T>>,
+    /// Factors of one column.
+    factors: Vec<T>,
     transform: Vec<Complex<T>>,
 }
 
@@ -58,6 +61,7 @@ impl<T: CpuReal> Transform<T> {
                     lines: vec![T::zero(); BLOCK * nx],
                     spectra: vec![zero; BLOCK * columns],
                     column: vec![zero; BLOCK * ny],
+                    factors: vec![T::zero(); ny],
                     transform: vec![zero; transform_len],
                 })
             })
@@ -67,7 +71,7 @@ impl<T: CpuReal> Transform<T> {
             columns,
             groups,
             plans,
-            tiles: std::iter::repeat_with(|| Mutex::new([zero; BLOCK * BLOCK]))
+            tiles: std::iter::repeat_with(|| Mutex::new([zero; TILE]))
                 .take(blocks * groups)
                 .collect(),
             energies: vec![0.0; groups],
@@ -98,14 +102,9 @@ impl<T: CpuReal> Transform<T> {
             let lines = &mut guard.lines[..count * nx];
             if form.after_inverse() {
                 for (group, tile) in job.work.iter_mut().enumerate() {
-                    let tile = alone(tile);
                     let first = group * BLOCK;
-                    for row in 0..count {
-                        let spectrum = &mut guard.spectra[row * columns..(row + 1) * columns];
-                        for (place, value) in spectrum[first..].iter_mut().take(BLOCK).enumerate() {
-                            *value = tile[place * BLOCK + row];
-                        }
-                    }
+                    let spectra = guard.spectra.chunks_exact_mut(columns).take(count);
+                    tile_to_rows(alone(tile), spectra.map(|spectrum| &mut spectrum[first..]));
                 }
                 for (line, spectrum) in lines
                     .chunks_exact_mut(nx)
@@ -126,19 +125,21 @@ impl<T: CpuReal> Transform<T> {
                 }
             }
             if form.takes_retained() {
-                let kept = job.work.iter_mut().flat_map(alone);
-                for (pair, kept) in lines.chunks_mut(2).zip(kept) {
-                    pair[0] = kept.re;
-                    if let Some(second) = pair.get_mut(1) {
-                        *second = kept.im;
+                for (lines, tile) in lines.chunks_mut(2 * TILE).zip(&mut *job.work) {
+                    for (pair, kept) in lines.chunks_mut(2).zip(alone(tile)) {
+                        pair[0] = kept.re;
+                        if let Some(second) = pair.get_mut(1) {
+                            *second = kept.im;
+                        }
                     }
                 }
             }
             job.call(lines);
             if form.retains() {
-                let kept = job.work.iter_mut().flat_map(alone);
-                for (pair, kept) in lines.chunks(2).zip(kept) {
-                    *kept = Complex::new(pair[0], pair.get(1).copied().unwrap_or(T::zero()));
+                for (lines, tile) in lines.chunks(2 * TILE).zip(&mut *job.work) {
+                    for (pair, kept) in lines.chunks(2).zip(alone(tile)) {
+                        *kept = Complex::new(pair[0], pair.get(1).copied().unwrap_or(T::zero()));
+                    }
                 }
             }
             if form.before_forward() {
@@ -153,12 +154,9 @@ impl<T: CpuReal> Transform<T> {
                     );
                 }
                 for (group, tile) in job.work.iter_mut().enumerate() {
-                    let lines = alone(tile).chunks_exact_mut(BLOCK);
-                    for (column, line) in (group * BLOCK..columns).zip(lines) {
-                        for (row, value) in line[..count].iter_mut().enumerate() {
-                            *value = guard.spectra[row * columns + column];
-                        }
-                    }
+                    let first = group * BLOCK;
+                    let spectra = guard.spectra.chunks_exact(columns).take(count);
+                    rows_to_tile(spectra.map(|spectrum| &spectrum[first..]), alone(tile));
                 }
             }
         });
@@ -184,12 +182,61 @@ impl<T: CpuReal> Transform<T> {
             energy,
         };
         context.run(0..groups, &mut self.energies);
-        self.energies.iter().sum::<f64>() / self.shape.len() as f64
+        self.energies.iter().sum()
+    }
+}
+
+/// Takes the spectra of rows out of a tile, each from the tile's first column on.
+///
+/// Whole rows of a tile have a fixed length, which the compiler moves without a loop; only the last tile has others.
+fn tile_to_rows<'a, T: Real>(
+    tile: &[Complex<T>; TILE],
+    rows: impl Iterator<Item = &'a mut [Complex<T>]>,
+) {
+    for (row, spectrum) in (0..BLOCK).zip(rows) {
+        if let Some(part) = spectrum.first_chunk_mut::<BLOCK>() {
+            for (place, value) in part.iter_mut().enumerate() {
+                *value = tile[place * BLOCK + row];
+            }
+        } else {
+            for (place, value) in spectrum.iter_mut().enumerate() {
+                *value = tile[place * BLOCK + row];
+            }
+        }
+    }
+}
+
+/// Puts the spectra of rows into a tile, each from the tile's first column on.
+fn rows_to_tile<'a, T: Real>(
+    rows: impl Iterator<Item = &'a [Complex<T>]>,
+    tile: &mut [Complex<T>; TILE],
+) {
+    for (row, spectrum) in (0..BLOCK).zip(rows) {
+        if let Some(part) = spectrum.first_chunk::<BLOCK>() {
+            for (place, value) in part.iter().enumerate() {
+                tile[place * BLOCK + row] = *value;
+            }
+        } else {
+            for (place, value) in spectrum.iter().enumerate() {
+                tile[place * BLOCK + row] = *value;
+            }
+        }
+    }
+}
+
+/// Copies some rows of a column, a whole block of them by a fixed length.
+fn copy_rows<T: Real>(from: &[Complex<T>], to: &mut [Complex<T>]) {
+    match (from.first_chunk::<BLOCK>(), to.first_chunk_mut::<BLOCK>()) {
+        (Some(from), Some(to)) => *to = *from,
+        _ => {
+            let rows = from.len().min(to.len());
+            to[..rows].copy_from_slice(&from[..rows]);
+        }
     }
 }
 
 /// A tile that nobody else can reach.
-fn alone<T>(tile: &mut Tile<T>) -> &mut [Complex<T>; BLOCK * BLOCK] {
+fn alone<T>(tile: &mut Tile<T>) -> &mut [Complex<T>; TILE] {
     tile.get_mut().unwrap_or_else(PoisonError::into_inner)
 }
 
@@ -248,7 +295,7 @@ impl<T: Real> Columns<'_, T> {
             let tile = tile.lock().unwrap_or_else(PoisonError::into_inner);
             for (place, line) in tile.chunks_exact(BLOCK).take(count).enumerate() {
                 let at = place * ny + block * BLOCK;
-                guard.column[at..at + rows].copy_from_slice(&line[..rows]);
+                copy_rows(line, &mut guard.column[at..at + rows]);
             }
         }
         let mut energy = 0.0;
@@ -257,23 +304,20 @@ impl<T: Real> Columns<'_, T> {
             let column = &mut guard.column[place * ny..(place + 1) * ny];
             self.forward
                 .process_with_scratch(column, &mut guard.transform);
+            // Factors of both signs of ky.
             let factors = &self.factors[kx * half..(kx + 1) * half];
-            let (low, high) = column.split_at_mut(half);
-            let mut sum = 0.0;
-            if self.energy {
-                for (value, &factor) in low.iter().zip(factors) {
-                    sum += (value.norm_sqr() * factor).double();
-                }
-                for (value, &factor) in high.iter().rev().zip(&factors[1..]) {
-                    sum += (value.norm_sqr() * factor).double();
-                }
+            let (low, high) = guard.factors.split_at_mut(half);
+            for (to, &factor) in low.iter_mut().zip(factors) {
+                *to = factor * self.scale;
             }
-            for (value, &factor) in low.iter_mut().zip(factors) {
-                *value = value.scale(factor * self.scale);
+            for (to, &factor) in high.iter_mut().rev().zip(&factors[1..]) {
+                *to = factor * self.scale;
             }
-            for (value, &factor) in high.iter_mut().rev().zip(&factors[1..]) {
-                *value = value.scale(factor * self.scale);
-            }
+            let sum = Arch::new().dispatch(Scaling {
+                column: &mut *column,
+                factors: &guard.factors,
+                energy: self.energy,
+            });
             // A half spectrum stands for both signs of kx, but for the two that are their own.
             let own = kx == 0 || (self.nx.is_multiple_of(2) && kx == self.nx / 2);
             energy += if own { sum } else { 2.0 * sum };
@@ -285,9 +329,49 @@ impl<T: Real> Columns<'_, T> {
             let mut tile = tile.lock().unwrap_or_else(PoisonError::into_inner);
             for (place, line) in tile.chunks_exact_mut(BLOCK).take(count).enumerate() {
                 let at = place * ny + block * BLOCK;
-                line[..rows].copy_from_slice(&guard.column[at..at + rows]);
+                copy_rows(&guard.column[at..at + rows], line);
             }
         }
         energy
+    }
+}
+
+/// Values of a column that are worked on side by side.
+const LANES: usize = 16;
+
+/// A column times its factors.
+struct Scaling<'a, T> {
+    column: &'a mut [Complex<T>],
+    factors: &'a [T],
+    energy: bool,
+}
+
+impl<T: Real> WithSimd for Scaling<'_, T> {
+    /// The sum of `factor |value|^2` before, if it is asked for.
+    type Output = f64;
+
+    /// The same source for each kind of processor; the order of all additions is that of the lanes.
+    #[inline(always)]
+    fn with_simd<S: Simd>(self, _: S) -> f64 {
+        let mut sums = [0.0; LANES];
+        let (columns, column_rest) = self.column.as_chunks_mut::<LANES>();
+        let (factors, factor_rest) = self.factors.as_chunks::<LANES>();
+        for (values, factors) in columns.iter_mut().zip(factors) {
+            if self.energy {
+                for ((sum, value), &factor) in sums.iter_mut().zip(&*values).zip(factors) {
+                    *sum += (value.norm_sqr() * factor).double();
+                }
+            }
+            for (value, &factor) in values.iter_mut().zip(factors) {
+                *value = value.scale(factor);
+            }
+        }
+        for (lane, (value, &factor)) in column_rest.iter_mut().zip(factor_rest).enumerate() {
+            if self.energy {
+                sums[lane] += (value.norm_sqr() * factor).double();
+            }
+            *value = value.scale(factor);
+        }
+        sums.iter().sum()
     }
 }

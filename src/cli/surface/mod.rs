@@ -1,5 +1,6 @@
 //! `tabor surface`: what a surface is like, and the self-affine scene that is like it.
 
+mod measured;
 mod memory;
 mod report;
 
@@ -20,6 +21,7 @@ use crate::scene::{
 };
 use crate::surface::{Surface, SurfaceError};
 use crate::units::{Dimension, RANGE_WORDS, in_range};
+use measured::measured_scene;
 use report::Report;
 
 /// Extension of scenes; every other file holds heights.
@@ -37,7 +39,7 @@ pub(super) struct SurfaceArguments {
     /// Folder for the pictures [default: the file's name with _surface, in the current folder]
     #[arg(long, value_name = "DIR")]
     out: Option<PathBuf>,
-    /// Override a key of the scene, as in surface.0.hurst=0.4; may be repeated
+    /// Override a key of the scene, as in surface.0.hurst=0.4, or set one in the scene that is written of a file; may be repeated
     #[arg(long, value_name = "KEY=VALUE", value_parser = key_and_value)]
     set: Vec<(String, String)>,
     #[command(flatten)]
@@ -185,12 +187,22 @@ pub(super) fn surface(arguments: &SurfaceArguments) -> Result<(), Failure> {
     let is_scene = source
         .extension()
         .is_some_and(|extension| extension == SCENE);
-    let (surface, boundary) = if is_scene {
-        surface_of_scene(arguments)?
+    let (surface, boundary, part) = if is_scene {
+        let (surface, boundary) = surface_of_scene(arguments)?;
+        (surface, boundary, None)
     } else {
-        of_file(arguments)?
+        let (surface, boundary, part) = surface_of_file(arguments)?;
+        (surface, boundary, Some(part))
     };
     let path = folder_or_default(arguments.out.as_deref(), source, "_surface");
+    let report = Report::new(source, &surface, boundary);
+    let measured = match &part {
+        None => None,
+        Some(part) => {
+            let slope = report.statistics.moments.rms_slope();
+            Some(measured_scene(arguments, part, &surface, slope, &path)?)
+        }
+    };
     let folder = RunFolder::open(&path, &format!("surface of {}", source.display()))?;
     for warning in &surface.warnings {
         if is_scene {
@@ -199,10 +211,12 @@ pub(super) fn surface(arguments: &SurfaceArguments) -> Result<(), Failure> {
             warn(&with_file_options(plain(warning)));
         }
     }
-    let report = Report::new(source, &surface, boundary);
     // The table first: it stands even where no picture can be written.
     print(&report.text())?;
     write_pictures(&folder, &report)?;
+    if let Some(measured) = measured {
+        write_atomically(&folder.path().join(measured::NAME), measured.as_bytes())?;
+    }
     // The heights themselves, where the call has changed those of the file.
     if arguments.file.preparation() != Preparation::default() {
         write_field(
@@ -242,13 +256,9 @@ fn surface_of_scene(arguments: &SurfaceArguments) -> Result<(Surface, Boundary),
 }
 
 /// The surface of a file, as a patch with free edges unless the call says otherwise.
-fn of_file(arguments: &SurfaceArguments) -> Result<(Surface, Boundary), Failure> {
-    if !arguments.set.is_empty() {
-        return Err(Failure::Usage(
-            "--set overrides keys of a scene, and this is a file of heights; it has options of its own, see --help"
-                .to_owned(),
-        ));
-    }
+fn surface_of_file(
+    arguments: &SurfaceArguments,
+) -> Result<(Surface, Boundary, HeightFileScene), Failure> {
     let file = &arguments.file;
     let boundary = file.boundary.unwrap_or(Boundary::Free);
     memory::check_map(&arguments.source, boundary)?;
@@ -257,7 +267,7 @@ fn of_file(arguments: &SurfaceArguments) -> Result<(Surface, Boundary), Failure>
         size: arguments.size,
         boundary,
     };
-    let part = SurfacePart::File(HeightFileScene {
+    let part = HeightFileScene {
         path: arguments.source.clone(),
         unit: file.unit.unwrap_or(1.0),
         scale: file.scale.unwrap_or(1.0),
@@ -266,8 +276,9 @@ fn of_file(arguments: &SurfaceArguments) -> Result<(Surface, Boundary), Failure>
         detrend: file.detrend.unwrap_or(Detrend::None),
         fill: file.fill.unwrap_or(Fill::None),
         preparation: file.preparation(),
-    });
-    let surface = Surface::from_parts(&grid, &[part]).map_err(|error| {
+    };
+    let parts = [SurfacePart::File(part.clone())];
+    let surface = Surface::from_parts(&grid, &parts).map_err(|error| {
         let text = match error {
             // There are no parts to count here.
             SurfaceError::Part { problem, .. } => problem.to_string(),
@@ -281,7 +292,7 @@ fn of_file(arguments: &SurfaceArguments) -> Result<(Surface, Boundary), Failure>
     })?;
     let points = [surface.grid.nx, surface.grid.ny];
     memory::check_statistics(&arguments.source, points, boundary)?;
-    Ok((surface, boundary))
+    Ok((surface, boundary, part))
 }
 
 /// A warning without the number of the one part that a file is.

@@ -38,6 +38,8 @@ const STEP_HEADS: [&str; 8] = [
     "iterations",
     "residual",
 ];
+/// Column of the force with which the surfaces attract each other.
+const ATTRACTION: &str = "attractive_force";
 const VERSION: &str = env!("CARGO_PKG_VERSION");
 /// Nothing is loaded, and no script runs.
 const POLICY: &str = "default-src 'none'; img-src data:; style-src 'unsafe-inline'";
@@ -256,6 +258,12 @@ impl Report<'_> {
             let left = place.value(self.rows, |row| row.contact_area_fraction);
             let note = "in contact, of the nominal area".to_owned();
             found.push(("Left at zero load", per_cent(left), note));
+            let force = |row: &StepRow| row.column(ATTRACTION).unwrap_or(f64::NAN);
+            let left = place.value(self.rows, force);
+            if left.is_finite() {
+                let note = "balanced by the pressure of the contact".to_owned();
+                found.push(("Attraction left at zero load", format_si(left, "N"), note));
+            }
         }
         for (name, at) in [
             ("Jumps into contact", &self.tallies.jump_in_steps),

@@ -7,6 +7,7 @@ mod bytes;
 mod gsf;
 mod gwy;
 mod ibw;
+pub(crate) mod instrument_header;
 mod length;
 mod metropro;
 mod nanoscope;
@@ -137,8 +138,8 @@ static FORMATS: &[Format] = &[
     ),
     Format::new("Nanosurf image (.nid)", &["nid"], &[nid::MAGIC], nid::read),
     Format::new(
-        "Keyence map (.vk4)",
-        &["vk3", "vk4"],
+        "Keyence map (.vk4, .vk6)",
+        &["vk3", "vk4", "vk6", "vk7"],
         &vk4::MAGIC,
         vk4::read,
     ),

@@ -5,37 +5,22 @@
 //! # Source
 //! Digital Instruments, "Nanoscope file formats", and the headers of files of versions 5 to 10.
 
-use super::bytes::{Bytes, checked_shape, latin_1};
+use super::bytes::{Bytes, checked_shape};
+use super::instrument_header::{NANOSCOPE_IMAGES, Section, nanoscope_sections, sensitivity, volts};
 use super::length::length_unit;
 use crate::surface::error::FileError;
 use crate::surface::matrix::{Matrix, Size};
 
 /// First bytes of a file of images.
-pub(super) const MAGIC: &[u8] = b"\\*File list";
+pub(super) const MAGIC: &[u8] = NANOSCOPE_IMAGES;
 
 /// Name of the format in messages.
 const FORMAT: &str = "Nanoscope";
 
-/// End of the header.
-const END: &str = "\\*file list end";
-
-/// A section of the header: its name, and its keys and values, names in lower case.
-struct Section {
-    name: String,
-    entries: Vec<(String, String)>,
-}
-
-impl Section {
-    fn find(&self, key: &str) -> Option<&str> {
-        let entry = self.entries.iter().find(|(name, _)| name == key);
-        entry.map(|(_, value)| value.as_str())
-    }
-}
-
 /// Reads the first image of heights.
 pub(super) fn read(bytes: &[u8]) -> Result<Matrix, FileError> {
     let mut file = Bytes::new(FORMAT, bytes);
-    let sections = sections(bytes);
+    let sections = nanoscope_sections(bytes);
     let images: Vec<&Section> = sections
         .iter()
         .filter(|section| section.name == "ciao image list")
@@ -96,61 +81,13 @@ pub(super) fn read(bytes: &[u8]) -> Result<Matrix, FileError> {
     Ok(matrix)
 }
 
-/// The sections of the header, up to its end or the first line that does not belong to it.
-fn sections(bytes: &[u8]) -> Vec<Section> {
-    let mut sections: Vec<Section> = Vec::new();
-    for line in bytes.split(|byte| *byte == b'\n') {
-        let line = latin_1(line.trim_ascii());
-        if line.to_ascii_lowercase() == END {
-            break;
-        }
-        let Some(line) = line.strip_prefix('\\') else {
-            break;
-        };
-        if let Some(name) = line.strip_prefix('*') {
-            let name = name.to_ascii_lowercase();
-            let entries = Vec::new();
-            sections.push(Section { name, entries });
-        } else if let (Some(section), Some((key, value))) =
-            (sections.last_mut(), line.split_once(": "))
-        {
-            let entry = (key.to_ascii_lowercase(), value.trim().to_owned());
-            section.entries.push(entry);
-        }
-    }
-    sections
-}
-
-/// Height of the whole range of an image's integers, m: `V [Sens. Zsens] (0.0067 V/LSB) 440 V` times
-/// `V 20.8 nm/V` of the sensitivity that it names. `None` where that is no length.
+/// Height of the whole range of an image's integers, m: `V [Sens. Zsens] (0.0067 V/LSB) 440 V`, of which the last number is
+/// the range. `None` where that is no length.
 fn height_step(image: &Section, sections: &[Section]) -> Option<f64> {
     let scale = image.find("@2:z scale")?;
-    let (name, rest) = scale.split_once('[')?.1.split_once(']')?;
-    let range = volts(rest.rsplit_once(')')?.1)?;
-    let key = format!("@{}", name.to_ascii_lowercase());
-    // A later section replaces what an earlier one says.
-    let sensitivity = sections
-        .iter()
-        .filter(|section| ["scanner list", "ciao scan list"].contains(&section.name.as_str()))
-        .filter_map(|section| section.find(&key))
-        .next_back()?;
-    let (value, unit) = sensitivity.strip_prefix('V')?.trim().split_once(' ')?;
-    let (length, per) = unit.split_once('/')?;
-    let value: f64 = value.parse().ok()?;
-    let step = range * value * length_unit(length)? / volts(&format!("1 {per}"))?;
+    let range = volts(scale.rsplit_once(')')?.1)?;
+    let step = range * sensitivity(scale, sections)?;
     step.is_finite().then_some(step)
-}
-
-/// A voltage such as `329.99 mV`, in volts.
-fn volts(text: &str) -> Option<f64> {
-    let (number, unit) = text.trim().split_once(' ')?;
-    let factor = match unit.trim() {
-        "V" => 1.0,
-        "mV" => 1e-3,
-        "uV" | "~V" | "\u{b5}V" => 1e-6,
-        _ => return None,
-    };
-    Some(number.parse::<f64>().ok()? * factor)
 }
 
 /// Sides of a scan, m: `500 500 nm`, or `500 nm` for both.

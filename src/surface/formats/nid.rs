@@ -5,7 +5,8 @@
 //! # Source
 //! Nanosurf, "NID file format", and the headers of version 2.
 
-use super::bytes::{Bytes, checked_shape, latin_1};
+use super::bytes::{Bytes, checked_shape};
+use super::instrument_header::{Section, bracketed_sections};
 use super::length::length_unit;
 use crate::surface::error::FileError;
 use crate::surface::matrix::{Matrix, Size};
@@ -19,34 +20,31 @@ const FORMAT: &str = ".nid";
 /// What stands between the header and the numbers.
 const END: &[u8] = b"#!";
 
-/// A section of the header: its name, and its keys and values.
-struct Section {
-    name: String,
-    entries: Vec<(String, String)>,
+/// A number of a section.
+fn number<T: std::str::FromStr>(
+    section: &Section,
+    file: &Bytes,
+    key: &str,
+) -> Result<T, FileError> {
+    let value = section
+        .find(key)
+        .and_then(|value| value.trim().parse().ok());
+    let what = || format!("[{}] has no such number as {key}", section.name);
+    value.ok_or_else(|| file.broken(0, what()))
 }
 
-impl Section {
-    fn text(&self, key: &str) -> Option<&str> {
-        let entry = self.entries.iter().find(|(name, _)| name == key);
-        entry.map(|(_, value)| value.as_str())
+/// Bits of a number, and the shape.
+fn layout(section: &Section, file: &Bytes) -> Result<(u32, [usize; 2]), FileError> {
+    let bits: u32 = number(section, file, "SaveBits")?;
+    if ![8, 16, 32].contains(&bits) {
+        let what = format!("numbers of {bits} bits; 8, 16 and 32 are known");
+        return Err(file.broken(0, what));
     }
-
-    fn number<T: std::str::FromStr>(&self, file: &Bytes, key: &str) -> Result<T, FileError> {
-        let value = self.text(key).and_then(|value| value.trim().parse().ok());
-        let what = || format!("[{}] has no such number as {key}", self.name);
-        value.ok_or_else(|| file.broken(0, what()))
-    }
-
-    /// Bits of a number, and the shape.
-    fn layout(&self, file: &Bytes) -> Result<(u32, [usize; 2]), FileError> {
-        let bits: u32 = self.number(file, "SaveBits")?;
-        if ![8, 16, 32].contains(&bits) {
-            let what = format!("numbers of {bits} bits; 8, 16 and 32 are known");
-            return Err(file.broken(0, what));
-        }
-        let shape = checked_shape(self.number(file, "Lines")?, self.number(file, "Points")?)?;
-        Ok((bits, shape))
-    }
+    let shape = checked_shape(
+        number(section, file, "Lines")?,
+        number(section, file, "Points")?,
+    )?;
+    Ok((bits, shape))
 }
 
 /// Reads the first channel of heights.
@@ -56,16 +54,16 @@ pub(super) fn read(bytes: &[u8]) -> Result<Matrix, FileError> {
     let Some(end) = end else {
         return Err(file.broken(bytes.len(), "its header has no end (\"#!\")"));
     };
-    let sections = sections(&bytes[..end]);
+    let sections = bracketed_sections(&bytes[..end]);
     let channels = channels(&sections);
-    let length = |channel: &&Section| channel.text("Dim2Unit").and_then(length_unit);
+    let length = |channel: &&Section| channel.find("Dim2Unit").and_then(length_unit);
     let Some(first) = channels
         .iter()
         .position(|channel| length(channel).is_some())
     else {
         let unit = channels
             .first()
-            .and_then(|channel| channel.text("Dim2Unit"));
+            .and_then(|channel| channel.find("Dim2Unit"));
         return Err(match unit {
             None => file.broken(end, "it holds no channel"),
             Some(unit) => FileError::NotALength {
@@ -76,19 +74,19 @@ pub(super) fn read(bytes: &[u8]) -> Result<Matrix, FileError> {
     };
     let mut start = end + END.len();
     for before in &channels[..first] {
-        let (bits, [rows, columns]) = before.layout(&file)?;
+        let (bits, [rows, columns]) = layout(before, &file)?;
         start = start.saturating_add(bits as usize / 8 * rows * columns);
     }
     file.seek(start, "the heights")?;
     let channel = channels[first];
-    let (bits, shape) = channel.layout(&file)?;
+    let (bits, shape) = layout(channel, &file)?;
     let [rows, columns] = shape;
     let (least, range): (f64, f64) = (
-        channel.number(&file, "Dim2Min")?,
-        channel.number(&file, "Dim2Range")?,
+        number(channel, &file, "Dim2Min")?,
+        number(channel, &file, "Dim2Range")?,
     );
     // The least integer is the least height, one more than the greatest the end of the range.
-    let signed = channel.text("SaveSign") != Some("Unsigned");
+    let signed = channel.find("SaveSign") != Some("Unsigned");
     let zero = if signed {
         2_f64.powi(bits as i32 - 1)
     } else {
@@ -108,9 +106,9 @@ pub(super) fn read(bytes: &[u8]) -> Result<Matrix, FileError> {
     };
     let side = |axis: usize| {
         let unit = channel
-            .text(&format!("Dim{axis}Unit"))
+            .find(&format!("Dim{axis}Unit"))
             .and_then(length_unit)?;
-        let side: f64 = channel.number(&file, &format!("Dim{axis}Range")).ok()?;
+        let side: f64 = number(channel, &file, &format!("Dim{axis}Range")).ok()?;
         let side = side.abs() * unit;
         (side.is_finite() && side > 0.0).then_some(side)
     };
@@ -124,7 +122,7 @@ pub(super) fn read(bytes: &[u8]) -> Result<Matrix, FileError> {
         .filter(|channel| length(channel).is_some())
         .count();
     if others > 1 {
-        let word = |key: &str| channel.text(key).unwrap_or_default();
+        let word = |key: &str| channel.find(key).unwrap_or_default();
         matrix.warnings.push(format!(
             "the file holds {others} channels of heights; the first, {} of {}, is read",
             word("Dim2Name"),
@@ -134,29 +132,9 @@ pub(super) fn read(bytes: &[u8]) -> Result<Matrix, FileError> {
     Ok(matrix)
 }
 
-/// The sections of the header.
-fn sections(header: &[u8]) -> Vec<Section> {
-    let mut sections: Vec<Section> = Vec::new();
-    for line in header.split(|byte| *byte == b'\n') {
-        let line = latin_1(line.trim_ascii());
-        if let Some(name) = line
-            .strip_prefix('[')
-            .and_then(|name| name.strip_suffix(']'))
-        {
-            let (name, entries) = (name.to_owned(), Vec::new());
-            sections.push(Section { name, entries });
-        } else if let (Some(section), Some((key, value))) =
-            (sections.last_mut(), line.split_once('='))
-        {
-            section.entries.push((key.to_owned(), value.to_owned()));
-        }
-    }
-    sections
-}
-
 /// The channels in the order of their numbers: that of the groups in the first section.
 fn channels(sections: &[Section]) -> Vec<&Section> {
-    let listed = sections.first().map_or(&[][..], |first| &first.entries);
+    let listed = sections.first().map_or(&[][..], |first| first.entries());
     listed
         .iter()
         .filter(|(key, _)| key.starts_with("Gr") && key.contains("-Ch"))

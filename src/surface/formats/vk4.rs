@@ -1,4 +1,5 @@
-//! Keyence's maps (.vk3, .vk4): a table of offsets, the settings, images; heights as unsigned integers.
+//! Keyence's maps (.vk3, .vk4): a table of offsets, the settings, images; heights as unsigned integers. Those of .vk6 and
+//! .vk7 are the same in a ZIP archive behind a prefix.
 //!
 //! # Source
 //! Keyence, "VK4 file format", as in Walker, "vk4-driver", OSTI 1419732 (2017).
@@ -8,7 +9,13 @@ use crate::surface::error::FileError;
 use crate::surface::matrix::{Matrix, Size};
 
 /// First bytes of a file.
-pub(super) const MAGIC: [&[u8]; 2] = [b"VK3_", b"VK4_"];
+pub(super) const MAGIC: [&[u8]; 4] = [b"VK3_", b"VK4_", b"VK6", b"VK7"];
+
+/// The map within an archive, and the longest one read.
+#[cfg(feature = "images")]
+const MEMBER: &str = "Vk4File";
+#[cfg(feature = "images")]
+const LONGEST: u64 = 1 << 31;
 
 /// Offsets of the table, and of the entry for heights in it.
 const TABLE: usize = 12;
@@ -25,6 +32,40 @@ const PALETTE: usize = 768;
 
 /// Reads the first map of heights.
 pub(super) fn read(bytes: &[u8]) -> Result<Matrix, FileError> {
+    if bytes.starts_with(MAGIC[2]) || bytes.starts_with(MAGIC[3]) {
+        return read_map(&member(bytes)?);
+    }
+    read_map(bytes)
+}
+
+/// The map within an archive.
+#[cfg(feature = "images")]
+fn member(bytes: &[u8]) -> Result<Vec<u8>, FileError> {
+    use std::io::{Cursor, Read};
+
+    let broken = |what: String| Bytes::new(".vk6", bytes).broken(0, what);
+    let archive = zip::ZipArchive::new(Cursor::new(bytes));
+    let mut archive =
+        archive.map_err(|error| broken(format!("its archive is not whole ({error})")))?;
+    let entry = archive.by_name(MEMBER);
+    let entry =
+        entry.map_err(|error| broken(format!("{MEMBER} is not in its archive ({error})")))?;
+    let mut map = Vec::new();
+    let read = entry.take(LONGEST).read_to_end(&mut map);
+    read.map_err(|error| broken(format!("{MEMBER} cannot be read ({error})")))?;
+    Ok(map)
+}
+
+#[cfg(not(feature = "images"))]
+fn member(_: &[u8]) -> Result<Vec<u8>, FileError> {
+    Err(FileError::NotSupported {
+        what: "Keyence archives (.vk6, .vk7) in a build without images",
+        instead: "save the map as .vk4",
+    })
+}
+
+/// Reads the first map of heights of a file that is no archive.
+fn read_map(bytes: &[u8]) -> Result<Matrix, FileError> {
     let mut file = Bytes::new(".vk4", bytes);
     file.seek(TABLE, "the table of offsets")?;
     let settings = file.u32("the offset of the settings")? as usize;

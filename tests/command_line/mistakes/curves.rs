@@ -3,7 +3,8 @@
 use std::fs;
 
 use tabor::fit::{
-    ColumnChoice, CurveColumns, FitError, ForceCurve, Freedom, Sample, fit_curve, fit_with_slope,
+    ColumnChoice, CurveColumns, FitError, ForceCurve, Freedom, Sample, fit_curve, fit_relaxation,
+    fit_with_slope,
 };
 
 use super::Reached;
@@ -101,6 +102,16 @@ pub fn reached() -> Vec<Reached> {
             "Extreme",
             rows(head, 20, |i| format!("{i}e-40,{}e-9", i as f64 - 5.0)),
             "column `approach`: its largest number is 1.9e-39; it must be",
+        ),
+        (
+            "Broken",
+            "\\*Force file list\r\n\\*File list end\r\n".to_owned(),
+            "is not a whole Nanoscope force curve: it holds no deflection of a force curve",
+        ),
+        (
+            "Broken",
+            "PK\u{3}\u{4} and nothing more".to_owned(),
+            "is not a whole .jpk-force force curve: its archive is not whole",
         ),
         (
             "Constant",
@@ -216,6 +227,43 @@ pub fn reached() -> Vec<Reached> {
     reach("TooLarge", &error);
     fs::write(&path, rows(head, 20, good)).expect("written");
     let curve = ForceCurve::read(&path).expect("a curve");
+    // Without time, and without a loading in contact.
+    let pressed = |touch: usize, times: Vec<f64>| {
+        let sample = |i: usize| Sample {
+            approach: i as f64 * 1e-9,
+            force: (i.saturating_sub(touch) as f64).powf(1.5) * 1e-9,
+        };
+        let samples = (0..40).map(sample).collect();
+        ForceCurve {
+            samples,
+            times,
+            ..ForceCurve::default()
+        }
+    };
+    let seconds = || (0..40).map(|i| i as f64);
+    for (variant, curve, expected) in [
+        (
+            "NoTime",
+            pressed(10, Vec::new()),
+            "needs the time of each row, increasing",
+        ),
+        (
+            "NoTime",
+            pressed(10, seconds().rev().collect()),
+            "name its column `time` (s)",
+        ),
+        (
+            "NoLoading",
+            pressed(35, seconds().collect()),
+            "points of loading in contact, too few",
+        ),
+    ] {
+        let result = fit_curve(&curve, &path, 1e-6, FREE).expect("a fit");
+        let error = fit_relaxation(&curve, &path, &result).expect_err(variant);
+        assert!(error.to_string().contains(expected), "{variant}: {error}");
+        reach(variant, &error);
+    }
+
     let error = fit_curve(&curve, &path, -1.0, FREE).expect_err("no radius");
     assert!(matches!(error, FitError::Theory(_)), "{error}");
     reach("Theory", &error);

@@ -226,7 +226,7 @@ fn reaction(open: real, y: real) -> real {
 // A law that repels by itself: no constraint, and another variable in which its steep core is not stiff.
 // Below the gap of largest tension the iteration works in v = g - (sigma_max - sigma(g))/k, in which
 // the core is no stiffer than k. With D = max(sigma'(g), 0): dg = S2 dv, S2 = k/(k + D).
-// Twins: kernel/smooth.rs, kernel/constraint.rs.
+// Twins: kernel/smooth.rs, kernel/constraint.rs, kernel/seek.rs.
 const STORES_STEP: bool = true;
 const NEWTON_STEPS: u32 = 25u;
 

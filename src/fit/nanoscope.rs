@@ -1,0 +1,160 @@
+//! Force curves of Bruker's Nanoscope (.spm, .000 and so on): a header of text in sections, then blocks of integers.
+//!
+//! A block holds the extension and the retraction of a ramp of the piezo, whose length the header states. Reads the
+//! deflection.
+//!
+//! # Source
+//! Bruker, "NanoScope Software 8.10 User Guide" (D 004-1025-000), on CIAO parameters and force files, and public readers of
+//! such files.
+
+use std::path::Path;
+
+use super::columns::CurveColumns;
+use super::curve_file::{ForceCurve, Sample, name};
+use super::error::FitError;
+use crate::surface::instrument_header::{
+    NANOSCOPE_FORCE, Section, nanoscope_sections, sensitivity, volts,
+};
+
+/// First bytes of a file of one curve.
+pub(super) const MAGIC: &[u8] = NANOSCOPE_FORCE;
+/// The sections of channels.
+const CHANNELS: &str = "ciao force image list";
+
+/// Reads the curve.
+pub(super) fn read(bytes: &[u8], path: &Path, how: &CurveColumns) -> Result<ForceCurve, FitError> {
+    let broken = |what: String| FitError::Broken {
+        path: name(path),
+        format: "Nanoscope",
+        what,
+    };
+    if !how.choices.is_empty() {
+        return Err(broken("its columns are known; choose none".to_owned()));
+    }
+    let sections = nanoscope_sections(bytes);
+    let channels = sections.iter().filter(|section| section.name == CHANNELS);
+    let is_deflection = |section: &&Section| {
+        let kind = section.find("@4:image data").unwrap_or_default();
+        kind.to_ascii_lowercase().contains("deflection")
+    };
+    let Some(channel) = channels.clone().find(is_deflection) else {
+        return Err(broken("it holds no deflection of a force curve".to_owned()));
+    };
+    let text = |key: &str| {
+        let own = channel.find(key);
+        let any = || sections.iter().rev().find_map(|section| section.find(key));
+        own.or_else(any)
+            .ok_or_else(|| broken(format!("its header has no {key:?}")))
+    };
+    let whole = |key: &str| {
+        let number = text(key)?.split_whitespace().next();
+        let number = number.and_then(|number| number.parse::<usize>().ok());
+        number.ok_or_else(|| broken(format!("{key:?} is not a count")))
+    };
+    let (offset, length, size) = (
+        whole("data offset")?,
+        whole("data length")?,
+        whole("bytes/pixel")?,
+    );
+    // "512 512": of the retraction and of the extension.
+    let counts: Vec<usize> = text("samps/line")?
+        .split_whitespace()
+        .filter_map(|count| count.parse().ok())
+        .collect();
+    let counts = match counts[..] {
+        [both] if both > 0 => [both; 2],
+        [retraction, extension] if retraction > 0 && extension > 0 => [extension, retraction],
+        _ => return Err(broken("\"samps/line\" is not one count or two".to_owned())),
+    };
+    let points = counts[0].saturating_add(counts[1]);
+    let block = offset
+        .checked_add(length)
+        .and_then(|end| bytes.get(offset..end))
+        .ok_or_else(|| broken("it ends within its numbers".to_owned()))?;
+    // From version 9.2 on two bytes of resolution are stored in four.
+    let stored = if length / points.max(1) >= 4 { 4 } else { 2 };
+    if length / stored < points || !(size == 2 || size == 4) {
+        return Err(broken(format!(
+            "{length} bytes hold no {points} numbers of {size} bytes"
+        )));
+    }
+    // `V [Sens. DeflSens] (0.000375 V/LSB) 24.576 V`: what an integer is.
+    let scale = text("@4:z scale")?;
+    let step = scale
+        .split_once('(')
+        .and_then(|(_, rest)| rest.split_once("/LSB)"))
+        .and_then(|(step, _)| volts(step))
+        .ok_or_else(|| broken("\"@4:z scale\" states no volts of an integer".to_owned()))?;
+    let to_length = match how.sensitivity {
+        Some(own) => own,
+        None => sensitivity(scale, &sections)
+            .ok_or_else(|| FitError::NoSensitivity { path: name(path) })?,
+    };
+    let own = channel
+        .find("spring constant")
+        .and_then(|text| text.parse().ok());
+    let spring = how.spring.or(own).filter(|spring| *spring > 0.0);
+    let spring = spring.ok_or_else(|| FitError::NoSpring {
+        path: name(path),
+        column: "deflection",
+    })?;
+    // `V [Sens. Zsens] (0.006713867 V/LSB) 7.5 V`: the ramp.
+    let ramp = text("@4:ramp size")?;
+    let ramp = ramp
+        .rsplit_once(')')
+        .and_then(|(_, size)| volts(size))
+        .zip(sensitivity(ramp, &sections))
+        .map(|(volts, per_volt)| volts * per_volt)
+        .filter(|length| *length > 0.0)
+        .ok_or_else(|| broken("\"@4:ramp size\" states no length".to_owned()))?;
+    let deflection: Vec<f64> = block
+        .chunks_exact(stored)
+        .take(points)
+        .map(|chunk| {
+            let integer = match *chunk {
+                [a, b] => i32::from(i16::from_le_bytes([a, b])),
+                [a, b, c, d] => i32::from_le_bytes([a, b, c, d]),
+                _ => 0,
+            };
+            f64::from(integer) * step * to_length
+        })
+        .collect();
+    let (extension, retraction) = deflection.split_at(counts[0]);
+    let (mut extension, mut retraction) = (extension.to_vec(), retraction.to_vec());
+    turn(&mut extension, &mut retraction);
+    let mut curve = ForceCurve {
+        spring: Some(spring),
+        ..ForceCurve::default()
+    };
+    let mut add = |deflections: &[f64], is_extension: bool| {
+        let last = (deflections.len().max(2) - 1) as f64;
+        for (index, deflection) in deflections.iter().enumerate() {
+            let share = index as f64 / last;
+            let position = ramp * if is_extension { share } else { 1.0 - share };
+            curve.samples.push(Sample {
+                approach: position - deflection,
+                force: spring * deflection,
+            });
+        }
+    };
+    add(&extension, true);
+    add(&retraction, false);
+    Ok(curve)
+}
+
+/// Brings both parts into the order of time: they meet where the ramp turns. Versions store the extension in either order.
+fn turn(extension: &mut [f64], retraction: &mut [f64]) {
+    let [Some(first), Some(last)] = [extension.first(), extension.last()] else {
+        return;
+    };
+    let [Some(begin), Some(end)] = [retraction.first(), retraction.last()] else {
+        return;
+    };
+    // The deflection is largest where the ramp turns; the far ends lie on the baseline.
+    if first > last {
+        extension.reverse();
+    }
+    if end > begin {
+        retraction.reverse();
+    }
+}
