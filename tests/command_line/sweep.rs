@@ -56,14 +56,20 @@ fn folder(study: &str) -> tempfile::TempDir {
 /// Rows of a table by the names of their columns.
 fn rows(path: &Path) -> Vec<std::collections::HashMap<String, String>> {
     let mut reader = csv::Reader::from_path(path).expect("a table");
-    reader.deserialize().map(|row| row.expect("a row")).collect()
+    reader
+        .deserialize()
+        .map(|row| row.expect("a row"))
+        .collect()
 }
 
 /// A table without its seconds.
 fn without_seconds(path: &Path) -> Vec<Vec<(String, String)>> {
     let mut all = Vec::new();
     for row in rows(path) {
-        let mut row: Vec<_> = row.into_iter().filter(|(name, _)| name != "seconds").collect();
+        let mut row: Vec<_> = row
+            .into_iter()
+            .filter(|(name, _)| name != "seconds")
+            .collect();
         row.sort();
         all.push(row);
     }
@@ -74,7 +80,11 @@ fn a_study_is_one_tidy_table() {
     let place = folder(STUDY);
     let output = tabor(place.path(), &["sweep", "study.toml", "--out", "out"]);
     assert_eq!(output.status.code(), Some(0), "{}", errors(&output));
-    assert!(errors(&output).contains("12 of 12 cases solved"), "{}", errors(&output));
+    assert!(
+        errors(&output).contains("12 of 12 cases solved"),
+        "{}",
+        errors(&output)
+    );
     let out = place.path().join("out");
     let steps = rows(&out.join("sweep.csv"));
     assert_eq!(steps.len(), 36);
@@ -109,18 +119,34 @@ fn a_study_is_one_tidy_table() {
         summary["pull_off_force"].as_f64()
     );
     // The picture has a size, and its SVG is text.
-    assert!(fs::metadata(out.join("sweep.png")).expect("a picture").len() > 1000);
+    assert!(
+        fs::metadata(out.join("sweep.png"))
+            .expect("a picture")
+            .len()
+            > 1000
+    );
     let svg = fs::read_to_string(out.join("sweep.svg")).expect("a picture");
     assert!(svg.contains("<svg") && svg.contains("rms slope"), "{svg}");
 }
 
 fn shares_join_to_the_whole() {
     let place = folder(STUDY);
-    let whole = tabor(place.path(), &["sweep", "study.toml", "--out", "whole", "--quiet"]);
+    let whole = tabor(
+        place.path(),
+        &["sweep", "study.toml", "--out", "whole", "--quiet"],
+    );
     assert_eq!(whole.status.code(), Some(0), "{}", errors(&whole));
     // Two shares in one folder, the third in one of its own.
     for (share, out) in [("1/3", "joined"), ("2/3", "joined"), ("3/3", "third")] {
-        let call = ["sweep", "study.toml", "--out", out, "--only", share, "--quiet"];
+        let call = [
+            "sweep",
+            "study.toml",
+            "--out",
+            out,
+            "--only",
+            share,
+            "--quiet",
+        ];
         let output = tabor(place.path(), &call);
         assert_eq!(output.status.code(), Some(0), "{}", errors(&output));
     }
@@ -132,10 +158,19 @@ fn shares_join_to_the_whole() {
         assert_eq!(without_seconds(&whole), without_seconds(&joined), "{table}");
     }
     // A line of the list is a command for one case.
-    let list = tabor(place.path(), &["sweep", "study.toml", "--out", "listed", "--list"]);
+    let list = tabor(
+        place.path(),
+        &["sweep", "study.toml", "--out", "listed", "--list"],
+    );
     let lines = String::from_utf8(list.stdout).expect("text");
     assert_eq!(lines.lines().count(), 12);
-    let words: Vec<&str> = lines.lines().nth(4).expect("a line").split(' ').skip(1).collect();
+    let words: Vec<&str> = lines
+        .lines()
+        .nth(4)
+        .expect("a line")
+        .split(' ')
+        .skip(1)
+        .collect();
     let one = tabor(place.path(), &words);
     assert_eq!(one.status.code(), Some(0), "{}", errors(&one));
     let runs = rows(&place.path().join("listed/runs.csv"));
@@ -145,7 +180,15 @@ fn shares_join_to_the_whole() {
 
 fn a_killed_study_repeats_no_finished_case() {
     let place = folder(STUDY);
-    let call = ["sweep", "study.toml", "--out", "out", "--jobs", "1", "--quiet"];
+    let call = [
+        "sweep",
+        "study.toml",
+        "--out",
+        "out",
+        "--jobs",
+        "1",
+        "--quiet",
+    ];
     let cases = place.path().join("out/cases.jsonl");
     let finished = || fs::read_to_string(&cases).unwrap_or_default();
     let mut child = command(place.path(), &call).spawn().expect("it runs");
@@ -176,7 +219,11 @@ fn a_case_that_fails_is_listed_and_the_others_are_solved() {
     let place = folder(&study);
     let output = tabor(place.path(), &["sweep", "study.toml", "--out", "out"]);
     assert_eq!(output.status.code(), Some(3), "{}", errors(&output));
-    assert!(errors(&output).contains("4 of 8 cases did not end well"), "{}", errors(&output));
+    assert!(
+        errors(&output).contains("4 of 8 cases did not end well"),
+        "{}",
+        errors(&output)
+    );
     let runs = rows(&place.path().join("out/runs.csv"));
     for run in &runs {
         let expected = match run["solver.max_iterations"].as_str() {
@@ -184,7 +231,10 @@ fn a_case_that_fails_is_listed_and_the_others_are_solved() {
             _ => "finished",
         };
         assert_eq!(run["status"], expected);
-        assert_eq!(run["message"].contains("did not converge"), expected == "not-converged");
+        assert_eq!(
+            run["message"].contains("did not converge"),
+            expected == "not-converged"
+        );
     }
 }
 
@@ -193,12 +243,26 @@ fn what_is_no_study_is_refused_in_one_message() {
     for (study, expected) in [
         ("scene = 3", "study.toml"),
         ("scene = \"scene.toml\"\n", "there is no [[axis]]"),
-        (&format!("{axis}key = \"surface.0.seed\"\nvalues = []\n"), "no values"),
-        (&format!("{axis}key = \"surface.0.sed\"\nvalues = [1]\n"), "sed"),
-        (&format!("{axis}key = \"surface.0.hurst\"\nvalues = [0.5, 7]\n"), "hurst"),
-        (&format!("{axis}key = \"surface.0.seed\"\nvalues = [1]\nvalue = 2\n"), "value"),
         (
-            &format!("{axis}key = \"surface.0.seed\"\nfrom = 1\nto = 100000\ncount = 100000\n[[axis]]\nkey = \"grid.points\"\nfrom = 1\nto = 2\ncount = 100\n"),
+            &format!("{axis}key = \"surface.0.seed\"\nvalues = []\n"),
+            "no values",
+        ),
+        (
+            &format!("{axis}key = \"surface.0.sed\"\nvalues = [1]\n"),
+            "sed",
+        ),
+        (
+            &format!("{axis}key = \"surface.0.hurst\"\nvalues = [0.5, 7]\n"),
+            "hurst",
+        ),
+        (
+            &format!("{axis}key = \"surface.0.seed\"\nvalues = [1]\nvalue = 2\n"),
+            "value",
+        ),
+        (
+            &format!(
+                "{axis}key = \"surface.0.seed\"\nfrom = 1\nto = 100000\ncount = 100000\n[[axis]]\nkey = \"grid.points\"\nfrom = 1\nto = 2\ncount = 100\n"
+            ),
             "cases are more than",
         ),
         (
@@ -212,8 +276,17 @@ fn what_is_no_study_is_refused_in_one_message() {
     ] {
         let place = folder(study);
         let output = tabor(place.path(), &["sweep", "study.toml", "--out", "out"]);
-        assert_eq!(output.status.code(), Some(2), "{study}: {}", errors(&output));
-        assert!(errors(&output).contains(expected), "{study}: {}", errors(&output));
+        assert_eq!(
+            output.status.code(),
+            Some(2),
+            "{study}: {}",
+            errors(&output)
+        );
+        assert!(
+            errors(&output).contains(expected),
+            "{study}: {}",
+            errors(&output)
+        );
         assert!(!place.path().join("out").exists(), "{study}");
     }
     let place = folder(STUDY);
@@ -222,12 +295,28 @@ fn what_is_no_study_is_refused_in_one_message() {
     fs::write(place.path().join("mine/notes.txt"), "mine").expect("written");
     let output = tabor(place.path(), &["sweep", "study.toml", "--out", "mine"]);
     assert_eq!(output.status.code(), Some(2), "{}", errors(&output));
-    let call = ["sweep", "study.toml", "--out", "out", "--only", "1/12", "--quiet"];
+    let call = [
+        "sweep",
+        "study.toml",
+        "--out",
+        "out",
+        "--only",
+        "1/12",
+        "--quiet",
+    ];
     assert_eq!(tabor(place.path(), &call).status.code(), Some(0));
-    fs::write(place.path().join("study.toml"), STUDY.replace("[1, 2, 3]", "[1, 2]")).expect("written");
+    fs::write(
+        place.path().join("study.toml"),
+        STUDY.replace("[1, 2, 3]", "[1, 2]"),
+    )
+    .expect("written");
     let output = tabor(place.path(), &["sweep", "study.toml", "--out", "out"]);
     assert_eq!(output.status.code(), Some(2), "{}", errors(&output));
-    assert!(errors(&output).contains("another study"), "{}", errors(&output));
+    assert!(
+        errors(&output).contains("another study"),
+        "{}",
+        errors(&output)
+    );
 }
 
 tests![
