@@ -21,6 +21,7 @@ mod scenes;
 mod shared;
 mod shell;
 mod surface;
+mod sweep;
 mod theory;
 
 fn main() -> ExitCode {
@@ -44,6 +45,7 @@ fn main() -> ExitCode {
         scenes::tests(),
         shell::tests(),
         surface::tests(),
+        sweep::tests(),
         theory::tests(),
     ])
 }

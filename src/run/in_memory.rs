@@ -1,0 +1,73 @@
+//! A scene solved without a folder: rows and summary, nothing on the disk.
+
+use std::convert::Infallible;
+
+use super::end::{self, RunEnd, RunError};
+use super::memory_check;
+use super::{RunObserver, RunOptions};
+use crate::backend::cpu::with_threads;
+use crate::clock::Clock;
+use crate::device::SelectedDevice;
+use crate::kernel::Scalars;
+use crate::output::Seconds;
+use crate::scene::Scene;
+use crate::study::{FinishedStep, Observer, Setup, WalkError, walk};
+use crate::surface::Surface;
+
+/// Solves every step of a scene as [`run_with`](super::run_with) does, and writes nothing.
+///
+/// # Errors
+/// A surface that cannot be built, a run that the memory does not hold, a device that cannot be used or fails.
+pub fn solve_with(
+    mut scene: Scene,
+    options: &RunOptions,
+    observer: &mut dyn RunObserver,
+) -> Result<RunEnd, RunError> {
+    if let Some(device) = options.device {
+        scene.solver.backend = device.backend();
+    }
+    let mut seconds = Seconds::default();
+    let clock = Clock::start();
+    memory_check::check_scene(&scene)?;
+    let surface = Surface::build(&scene)?;
+    memory_check::check_grid(&scene, surface.grid)?;
+    let setup = Setup::new(scene, surface);
+    seconds.add("surface", clock.seconds());
+    let device = SelectedDevice::new(&setup, false)?;
+    observer.starts(&device.words());
+    for warning in &setup.warnings {
+        observer.warning(warning);
+    }
+    let steps = setup.scene.loading.path.len();
+    observer.begins(steps, 0, setup.scene.solver.tolerance);
+    let clock = Clock::start();
+    let mut steps = Steps { observer };
+    let make_backend = || device.backend();
+    let walked = with_threads(options.threads, || walk(&setup, &make_backend, &mut steps))?;
+    let end = walked.map_err(|error| match error {
+        WalkError::Backend(error) => error,
+        WalkError::Observer(never) => match never {},
+    })?;
+    seconds.add("solve", clock.seconds());
+    let summary = end::summary(&setup, &device, &end, seconds, setup.warnings.clone());
+    Ok(RunEnd::new(&setup, end, summary))
+}
+
+/// Passes steps and iterations on.
+struct Steps<'a> {
+    observer: &'a mut dyn RunObserver,
+}
+
+impl Observer for Steps<'_> {
+    type Error = Infallible;
+
+    fn step(&mut self, step: FinishedStep) -> Result<(), Infallible> {
+        self.observer.step(step.row);
+        Ok(())
+    }
+
+    fn iteration(&mut self, step: usize, scalars: &Scalars) -> bool {
+        self.observer
+            .iteration(step, scalars.iterations as usize, scalars.residual)
+    }
+}
