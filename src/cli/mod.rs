@@ -87,7 +87,7 @@ enum Command {
     Fit(fit::FitArguments),
     /// Many runs: a scene over values of its keys, into one table
     #[command(
-        after_help = "Writes sweep.csv (one row a case and step), runs.csv (one row a case), sweep.png and sweep.svg. A study that was interrupted continues where it was. More in docs/sweep.md.\n\nExample:\n  tabor sweep examples/studies/roughness.toml --out roughness --jobs 2\n  tabor sweep examples/studies/roughness.toml --list"
+        after_help = "Writes sweep.csv (one row a case and step), runs.csv (one row a case), and means.csv, means.png and means.svg. A study that was interrupted continues where it was. More in docs/sweep.md.\n\nExample:\n  tabor sweep examples/studies/roughness.toml --out roughness --jobs 2\n  tabor sweep examples/studies/roughness.toml --list"
     )]
     Sweep(sweep::SweepArguments),
     /// Adapters found, what each can do, and which one `auto` takes

@@ -9,7 +9,7 @@ use indicatif::ProgressBar;
 use super::interrupts::Interrupts;
 use super::progress::{bar, time};
 use super::{Failure, folder_or_default, key_and_value, print, say, warn};
-use crate::sweep::{Jobs, Listener, Outcome, Share, Status, Study, SweepFolder, command, solve};
+use crate::sweep::{Jobs, Listener, Outcome, Share, Study, SweepFolder, command, solve};
 
 /// Most failures that are told one by one.
 const TOLD: usize = 10;
@@ -19,7 +19,7 @@ pub(super) struct SweepArguments {
     /// The study, a TOML file: a scene and its axes
     #[arg(value_name = "STUDY")]
     path: PathBuf,
-    /// Folder for the tables and the picture [default: the study's name]
+    /// Folder for the tables and pictures [default: the study's name]
     #[arg(long, value_name = "DIR")]
     out: Option<PathBuf>,
     /// Cases at a time [default: one a core]
@@ -28,7 +28,7 @@ pub(super) struct SweepArguments {
     /// Threads of each case [default: an equal share of the cores]
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u16).range(1..=1024))]
     threads: Option<u16>,
-    /// Solve share i of n alone, as one of n processes in one folder or in several
+    /// Solve share i of n alone, as one of n processes, in one folder or in several; --merge joins them
     #[arg(long, value_name = "i/n")]
     only: Option<Share>,
     /// Print one command for each case, and solve nothing
@@ -56,6 +56,7 @@ pub(super) fn sweep(arguments: &SweepArguments) -> Result<(), Failure> {
             .map(|case| command(&arguments.path, &path, &case, study.count(), set) + "\n");
         return print(&lines.collect::<String>());
     }
+    let interrupts = Interrupts::watch();
     let mut folder = SweepFolder::open(&path, &study, arguments.only)?;
     if let Some(warning) = folder.warning() {
         warn(warning);
@@ -66,7 +67,6 @@ pub(super) fn sweep(arguments: &SweepArguments) -> Result<(), Failure> {
             folder.merge(other, &study)?;
         }
     } else {
-        let interrupts = Interrupts::watch();
         interrupts.keep(format!(
             "note: finished cases are kept in {}; the same command continues with the others",
             path.display()
@@ -83,7 +83,10 @@ pub(super) fn sweep(arguments: &SweepArguments) -> Result<(), Failure> {
         };
         interrupted = solve(&study, &mut folder, arguments.only, jobs, &mut progress)?;
     }
-    folder.write_tables(&study)?;
+    // Shares run side by side: --merge joins them.
+    if arguments.only.is_none() {
+        folder.write_tables(&study)?;
+    }
     report(arguments, &study, &folder, interrupted)
 }
 
@@ -94,50 +97,52 @@ fn report(
     folder: &SweepFolder,
     interrupted: bool,
 ) -> Result<(), Failure> {
-    let own = |number: usize| {
-        let share = arguments.only;
-        share.is_none_or(|share| (number - 1) % share.of == share.number - 1)
+    let is_own = |number: usize| arguments.only.is_none_or(|share| share.has(number));
+    let cases = (1..=study.count()).filter(|number| is_own(*number)).count();
+    let ended = || folder.outcomes().filter(|it| is_own(it.number));
+    let failed: Vec<&Outcome> = ended().filter(|it| !it.is_finished()).collect();
+    let finished = ended().count() - failed.len();
+    let table = match arguments.only {
+        None => folder.path().join("runs.csv"),
+        Some(_) => folder.path().to_path_buf(),
     };
-    let failed: Vec<&Outcome> = folder
-        .outcomes()
-        .filter(|outcome| own(outcome.number) && outcome.status != Status::Finished)
-        .collect();
-    let wanted = (1..=study.count()).filter(|number| own(*number)).count();
-    let finished = folder
-        .outcomes()
-        .filter(|outcome| own(outcome.number))
-        .count();
-    let table = folder.path().join("runs.csv");
     for outcome in failed.iter().take(TOLD) {
         warn(&format!("case {}: {}", outcome.number, outcome.message));
     }
     if failed.len() > TOLD {
-        warn(&format!(
-            "{} more cases failed; {} has the reasons",
-            failed.len() - TOLD,
-            table.display()
-        ));
+        let more = failed.len() - TOLD;
+        warn(&format!("{more} more cases did not end well"));
     }
     if interrupted {
         return Err(Failure::InterruptedSweep {
             finished,
-            cases: wanted,
+            cases,
             folder: folder.path().to_path_buf(),
         });
     }
-    if !arguments.quiet {
-        say(&format!(
-            "{} of {wanted} cases solved; the tables are {} and sweep.csv",
-            finished - failed.len(),
-            table.display()
+    let doubtful = ended().filter(|it| it.is_finished() && !it.message.is_empty());
+    let doubtful = doubtful.count();
+    if doubtful > 0 {
+        warn(&format!(
+            "{doubtful} finished cases have warnings: see the column message of runs.csv"
         ));
+    }
+    if !arguments.quiet {
+        let place = match arguments.only {
+            None => format!("the tables are {} and sweep.csv", table.display()),
+            Some(share) => format!(
+                "those of share {share} are kept in {}, and --merge joins all",
+                folder.path().display()
+            ),
+        };
+        say(&format!("{finished} of {cases} cases solved; {place}"));
     }
     if failed.is_empty() {
         Ok(())
     } else {
         Err(Failure::FailedCases {
             failed: failed.len(),
-            cases: wanted,
+            cases,
             table,
         })
     }

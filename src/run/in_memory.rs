@@ -4,14 +4,16 @@ use std::convert::Infallible;
 
 use super::end::{self, RunEnd, RunError};
 use super::memory_check;
+use super::warnings::warnings_at_end;
 use super::{RunObserver, RunOptions};
+use crate::backend::BackendError;
 use crate::backend::cpu::with_threads;
 use crate::clock::Clock;
 use crate::device::SelectedDevice;
 use crate::kernel::Scalars;
 use crate::output::Seconds;
 use crate::scene::Scene;
-use crate::study::{FinishedStep, Observer, Setup, WalkError, walk};
+use crate::study::{FinishedStep, Observer, Setup, WalkEnd, WalkError, walk};
 use crate::surface::Surface;
 
 /// Solves every step of a scene as [`run_with`](super::run_with) does, and writes nothing.
@@ -38,19 +40,43 @@ pub fn solve_with(
     for warning in &setup.warnings {
         observer.warning(warning);
     }
+    let clock = Clock::start();
+    let (end, device) = match walk_on_device(&setup, &device, options, observer) {
+        Ok(end) => (end, device),
+        Err(error) => {
+            let Some(fallback) = device.fallback(&setup) else {
+                return Err(error.into());
+            };
+            observer.warning(&format!("{error}; the processor begins again"));
+            (
+                walk_on_device(&setup, &fallback, options, observer)?,
+                fallback,
+            )
+        }
+    };
+    seconds.add("solve", clock.seconds());
+    let mut warnings = setup.warnings.clone();
+    warnings.extend(warnings_at_end(&setup, &device, &end));
+    let summary = end::summary(&setup, &device, &end, seconds, warnings);
+    Ok(RunEnd::new(&setup, end, summary))
+}
+
+/// Walks the whole path on a device.
+fn walk_on_device(
+    setup: &Setup,
+    device: &SelectedDevice,
+    options: &RunOptions,
+    observer: &mut dyn RunObserver,
+) -> Result<WalkEnd, BackendError> {
     let steps = setup.scene.loading.path.len();
     observer.begins(steps, 0, setup.scene.solver.tolerance);
-    let clock = Clock::start();
     let mut steps = Steps { observer };
     let make_backend = || device.backend();
-    let walked = with_threads(options.threads, || walk(&setup, &make_backend, &mut steps))?;
-    let end = walked.map_err(|error| match error {
+    let walked = with_threads(options.threads, || walk(setup, &make_backend, &mut steps))?;
+    walked.map_err(|error| match error {
         WalkError::Backend(error) => error,
         WalkError::Observer(never) => match never {},
-    })?;
-    seconds.add("solve", clock.seconds());
-    let summary = end::summary(&setup, &device, &end, seconds, setup.warnings.clone());
-    Ok(RunEnd::new(&setup, end, summary))
+    })
 }
 
 /// Passes steps and iterations on.

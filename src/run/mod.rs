@@ -26,6 +26,7 @@ mod observer;
 mod options;
 mod run_directory;
 mod run_recorder;
+mod warnings;
 
 pub use end::{RunEnd, RunError, RunStatus};
 #[doc(hidden)]

@@ -3,6 +3,8 @@
 use serde::Deserialize;
 use toml::Value;
 
+use crate::units::number_and_rest;
+
 /// Most values of a range.
 const MOST_VALUES: usize = 100_000;
 
@@ -106,31 +108,28 @@ impl AxisTable {
             return Err("a logarithmic range needs positive ends".into());
         }
         let whole = first.is_whole && last.is_whole;
-        let at = |index: usize| {
-            if index + 1 == count && count > 1 {
-                return last.number;
-            }
-            let share = if count > 1 {
-                index as f64 / (count - 1) as f64
-            } else {
-                0.0
-            };
-            match self.spacing {
-                Spacing::Linear => first.number + share * (last.number - first.number),
-                Spacing::Log => first.number * (last.number / first.number).powf(share),
+        let at = |index: usize| match index {
+            0 => first.number,
+            index if index + 1 == count => last.number,
+            index => {
+                let share = index as f64 / (count - 1) as f64;
+                without_rounding(match self.spacing {
+                    Spacing::Linear => first.number + share * (last.number - first.number),
+                    Spacing::Log => first.number * (last.number / first.number).powf(share),
+                })
             }
         };
-        Ok((0..count)
-            .map(|index| {
-                let number = at(index);
-                match first.unit.as_str() {
-                    // Between whole numbers lie whole ones: points, seeds.
-                    "" if whole => format!("{}", number.round() as i64),
-                    "" => format!("{number:?}"),
-                    unit => format!("\"{number:?} {unit}\""),
-                }
-            })
-            .collect())
+        let text = |number: f64| match first.unit.as_str() {
+            // Between whole numbers lie whole ones: points, seeds.
+            "" if whole => format!("{}", number.round() as i64),
+            "" => format!("{number:?}"),
+            unit => format!("\"{number:?} {unit}\""),
+        };
+        let texts: Vec<String> = (0..count).map(|index| text(at(index))).collect();
+        if let Some(pair) = texts.windows(2).find(|pair| pair[0] == pair[1]) {
+            return Err(format!("{} comes twice; take a smaller count", pair[0]));
+        }
+        Ok(texts)
     }
 }
 
@@ -162,7 +161,7 @@ impl End {
             Value::Integer(number) => (*number as f64, String::new(), true),
             Value::Float(number) => (*number, String::new(), false),
             Value::String(text) => {
-                let (number, unit) = split(text).ok_or_else(|| {
+                let (number, unit) = number_and_rest(text).ok_or_else(|| {
                     format!("\"{text}\" is not a number with a unit, such as \"25 um\"")
                 })?;
                 (number, unit.to_owned(), false)
@@ -187,19 +186,9 @@ impl End {
     }
 }
 
-/// The number and the unit of a quantity.
-fn split(text: &str) -> Option<(f64, &str)> {
-    let text = text.trim();
-    // The longest beginning that is a number: `1e3 Pa` is not 1 of the unit `e3 Pa`.
-    (1..=text.len())
-        .rev()
-        .filter(|end| text.is_char_boundary(*end))
-        .find_map(|end| {
-            Some((
-                text[..end].trim_end().parse().ok()?,
-                text[end..].trim_start(),
-            ))
-        })
+/// A number without what rounding adds behind the twelfth digit: 0.15, not 0.15000000000000002.
+fn without_rounding(number: f64) -> f64 {
+    format!("{number:.11e}").parse().unwrap_or(number)
 }
 
 #[cfg(test)]
@@ -238,6 +227,10 @@ mod tests {
             of_one("key = \"k\"\nfrom = 0.1\nto = 0.3\ncount = 1"),
             ["0.1"]
         );
+        assert_eq!(
+            of_one("key = \"k\"\nfrom = 0.1\nto = 0.2\ncount = 3"),
+            ["0.1", "0.15", "0.2"]
+        );
     }
 
     #[test]
@@ -273,6 +266,7 @@ mod tests {
                 "with a unit",
             ),
             ("key = \"k\"\nfrom = nan\nto = 1.0\ncount = 2", "finite"),
+            ("key = \"k\"\nfrom = 1\nto = 3\ncount = 5", "comes twice"),
             ("keys = [\"a\", \"b\"]\nvalues = [[1]]", "list of 2"),
             (
                 "keys = [\"a\", \"b\"]\nfrom = 1\nto = 2\ncount = 2",

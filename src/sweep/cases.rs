@@ -1,5 +1,6 @@
 //! The cases of a study: every combination of the values of its axes.
 
+use std::fmt;
 use std::path::Path;
 use std::str::FromStr;
 
@@ -57,9 +58,15 @@ pub struct Share {
 }
 
 impl Share {
-    /// Whether a case belongs to it.
-    pub fn has(self, case: &Case) -> bool {
-        (case.number - 1) % self.of == self.number - 1
+    /// Whether the case of this number belongs to it.
+    pub fn has(self, case: usize) -> bool {
+        (case - 1) % self.of == self.number - 1
+    }
+}
+
+impl fmt::Display for Share {
+    fn fmt(&self, formatter: &mut fmt::Formatter<'_>) -> fmt::Result {
+        write!(formatter, "{}/{}", self.number, self.of)
     }
 }
 
@@ -140,7 +147,10 @@ mod tests {
             .map(|text| text.parse().expect("a share"))
             .into();
         for case in &all {
-            assert_eq!(shares.iter().filter(|share| share.has(case)).count(), 1);
+            assert_eq!(
+                shares.iter().filter(|share| share.has(case.number)).count(),
+                1
+            );
         }
         for wrong in ["", "1", "0/2", "3/2", "1/0", "a/b", "-1/2"] {
             assert!(wrong.parse::<Share>().is_err(), "{wrong}");

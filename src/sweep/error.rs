@@ -3,7 +3,6 @@
 use std::path::PathBuf;
 
 use crate::output::OutputError;
-use crate::scene::SceneErrors;
 
 /// Why a study cannot be read or carried out.
 #[derive(Debug, thiserror::Error)]
@@ -18,7 +17,7 @@ pub enum SweepError {
         reason: String,
     },
     /// The file is not a study.
-    #[error("{}: {reason}", path.display())]
+    #[error("{}: not a study: {reason}", path.display())]
     Syntax {
         /// The study.
         path: PathBuf,
@@ -43,15 +42,23 @@ pub enum SweepError {
         /// What is wrong, and how to mend it.
         reason: String,
     },
+    /// A key that an axis changes and something else too.
+    #[error("{}: {key} is the key of an axis, and given once more {place}; leave one of them out", path.display())]
+    Twice {
+        /// The study.
+        path: PathBuf,
+        /// The key.
+        key: String,
+        /// Where it is given besides.
+        place: &'static str,
+    },
     /// A key or value that the scene does not take.
-    #[error("{}: {case} is not a scene:\n{errors}", path.display())]
+    #[error("{}: {reason}", path.display())]
     Scene {
         /// The study.
         path: PathBuf,
-        /// The case, by its keys and values.
-        case: String,
-        /// Every mistake of it.
-        errors: SceneErrors,
+        /// Every mistake of the scene, one a line, with the values of the axes.
+        reason: String,
     },
     /// A key of `[plot]` that names nothing.
     #[error("{}: plot.{key}: {reason}", path.display())]
@@ -62,6 +69,16 @@ pub enum SweepError {
         key: &'static str,
         /// What is wrong, and how to mend it.
         reason: String,
+    },
+    /// A case in `folders` that the study does not have.
+    #[error("{}: folders: there is no case {case}; the study has {count}", path.display())]
+    Folders {
+        /// The study.
+        path: PathBuf,
+        /// The case.
+        case: usize,
+        /// The number of cases.
+        count: usize,
     },
     /// Too many cases.
     #[error("{}: {count} cases are more than {most}; take fewer values, or several studies", path.display())]

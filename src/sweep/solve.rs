@@ -1,5 +1,6 @@
 //! Runs the cases of a study that are not finished, some at a time.
 
+use std::path::Path;
 use std::sync::atomic::{AtomicBool, AtomicUsize, Ordering};
 use std::sync::mpsc::{RecvTimeoutError, channel};
 use std::time::Duration;
@@ -64,8 +65,8 @@ impl RunObserver for Watcher<'_> {
     }
 }
 
-/// Solves the cases of a share, or of all, that the folder does not hold yet, and keeps each as it ends. Returns
-/// whether the listener ended it.
+/// Solves the cases of a share, or of all, that are not finished in the folder, and keeps each as it ends. Returns
+/// whether the listener ended it before its last case.
 ///
 /// # Errors
 /// A folder that cannot be written; a case that fails is an outcome.
@@ -76,7 +77,7 @@ pub fn solve(
     jobs: Jobs,
     listener: &mut dyn Listener,
 ) -> Result<bool, SweepError> {
-    let own = |case: &Case| share.is_none_or(|share| share.has(case));
+    let own = |case: &Case| share.is_none_or(|share| share.has(case.number));
     let all = study.cases().filter(own).count();
     let open: Vec<Case> = study
         .cases()
@@ -85,7 +86,7 @@ pub fn solve(
     listener.begins(open.len(), all - open.len());
     let (stop, next) = (AtomicBool::new(false), AtomicUsize::new(0));
     let path = folder.path().to_path_buf();
-    let mut failure = None;
+    let (mut failure, mut ended) = (None, 0);
     std::thread::scope(|scope| {
         let (sender, receiver) = channel();
         for _ in 0..jobs.jobs.clamp(1, open.len().max(1)) {
@@ -110,6 +111,7 @@ pub fn solve(
             match receiver.recv_timeout(LOOK) {
                 Ok(outcome) => {
                     listener.ended(&outcome);
+                    ended += 1;
                     if failure.is_none()
                         && let Err(error) = folder.keep(outcome)
                     {
@@ -127,7 +129,7 @@ pub fn solve(
     });
     match failure {
         Some(error) => Err(error),
-        None => Ok(stop.load(Ordering::Relaxed)),
+        None => Ok(ended < open.len()),
     }
 }
 
@@ -135,7 +137,7 @@ pub fn solve(
 fn solve_case(
     study: &Study,
     case: &Case,
-    folder: &std::path::Path,
+    folder: &Path,
     threads: usize,
     stop: &AtomicBool,
 ) -> Option<Outcome> {
@@ -146,7 +148,7 @@ fn solve_case(
             return Some(Outcome::failed(
                 case,
                 None,
-                errors.to_string(),
+                study.mistakes(case, &errors),
                 clock.seconds(),
             ));
         }

@@ -4,11 +4,14 @@ use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
 
 use serde::Deserialize;
+use serde_json::json;
 
 use super::axis::{Axis, AxisTable};
 use super::cases::{Case, cases};
 use super::error::SweepError;
-use crate::scene::{Scene, SceneErrors};
+use super::outcome::QUANTITIES;
+use crate::scene::{AdhesionMap, Scene, SceneError, SceneErrors, SurfacePart, unit_of};
+use crate::units::parse_any_quantity;
 
 /// Most cases of a study.
 const MOST_CASES: usize = 1_000_000;
@@ -22,7 +25,7 @@ struct StudyTable {
     title: Option<String>,
     scene: PathBuf,
     #[serde(default)]
-    set: BTreeMap<String, toml::Value>,
+    set: toml::Table,
     #[serde(default)]
     axis: Vec<AxisTable>,
     #[serde(default)]
@@ -33,7 +36,10 @@ struct StudyTable {
 
 /// The cases whose folders are kept.
 #[derive(Clone, Debug, Deserialize, PartialEq, Eq)]
-#[serde(untagged)]
+#[serde(
+    untagged,
+    expecting = "folders is \"none\", \"all\" or a list of cases, such as [1, 12]"
+)]
 enum Folders {
     Word(FolderWord),
     Numbers(Vec<usize>),
@@ -74,13 +80,12 @@ pub struct Study {
     axes: Vec<Axis>,
     folders: Folders,
     pub(super) plot: PlotTable,
-    /// Identifies the study: the scene of its first case and all its axes.
+    /// Identifies the study: the scene of its first case, all its axes, and the content of the files that they name.
     fingerprint: String,
 }
 
 impl Study {
-    /// Reads a study file and checks each value of each axis in a scene; `overrides` are those of `--set`, and come
-    /// before the axes.
+    /// Reads a study file and checks each value of each axis in a scene; `overrides` are those of `--set`.
     ///
     /// # Errors
     /// A file that is not a study, an axis without values, a key or value that the scene does not take.
@@ -114,94 +119,147 @@ impl Study {
                 most: MOST_CASES,
             });
         }
-        let folder = path.parent().unwrap_or(Path::new(""));
-        let set = table
-            .set
-            .iter()
-            .map(|(key, value)| (key.clone(), value.to_string()));
+        let mut set = Vec::new();
+        flatten("", &table.set, &mut set);
+        let own = set.len();
+        set.extend(overrides.iter().cloned());
         let mut study = Study {
+            scene: path.parent().unwrap_or(Path::new("")).join(table.scene),
             path: path.to_path_buf(),
             title: table.title,
-            scene: folder.join(table.scene),
-            set: set.chain(overrides.iter().cloned()).collect(),
+            set,
             axes,
             folders: table.folders,
             plot: table.plot,
             fingerprint: String::new(),
         };
-        study.fingerprint = study.check()?;
+        study.check_keys(own)?;
+        study.check_folders()?;
+        study.check_plot()?;
+        study.fingerprint = study.check_scenes()?;
         Ok(study)
     }
 
-    /// Reads the scene with each value of each axis, the others at their first; returns the fingerprint.
-    fn check(&self) -> Result<String, SweepError> {
-        let mut first: Vec<usize> = vec![0; self.axes.len()];
-        let scene = self.checked(&first)?;
-        for axis in 0..self.axes.len() {
-            for value in 1..self.axes[axis].values.len() {
-                first[axis] = value;
-                self.checked(&first)?;
-            }
-            first[axis] = 0;
-        }
-        for (key, name) in [("x", &self.plot.x), ("series", &self.plot.series)] {
-            if let Some(name) = name
-                && !self.keys().any(|known| known == name)
-            {
-                let known: Vec<&str> = self.keys().collect();
-                return Err(SweepError::Plot {
-                    path: self.path.clone(),
-                    key,
-                    reason: format!(
-                        "{name} is not the key of an axis; these are: {}",
-                        known.join(", ")
-                    ),
-                });
-            }
-        }
-        if let Some(y) = &self.plot.y
-            && !super::outcome::QUANTITIES.contains(&y.as_str())
-        {
-            return Err(SweepError::Plot {
+    /// Refuses a key that is given twice; the first `own` settings are those of the file.
+    fn check_keys(&self, own: usize) -> Result<(), SweepError> {
+        let keys: Vec<&str> = self.keys().collect();
+        for (index, key) in keys.iter().enumerate() {
+            let set = self.set.iter().position(|(set, _)| set == key);
+            let place = match set {
+                _ if keys[..index].contains(key) => "in an axis",
+                Some(place) if place < own => "in [set]",
+                Some(_) => "with --set",
+                None => continue,
+            };
+            return Err(SweepError::Twice {
                 path: self.path.clone(),
-                key: "y",
-                reason: format!(
-                    "{y} is not a quantity of a run; these are: {}",
-                    super::outcome::QUANTITIES.join(", ")
-                ),
+                key: (*key).to_owned(),
+                place,
             });
         }
-        let axes: Vec<serde_json::Value> = self
-            .axes
-            .iter()
-            .map(|axis| serde_json::json!({ "keys": axis.keys, "values": axis.values }))
-            .collect();
-        let mut resolved = scene.resolved_json();
-        resolved["study"] = serde_json::json!(axes);
-        Ok(resolved.to_string())
+        Ok(())
     }
 
-    fn checked(&self, indices: &[usize]) -> Result<Scene, SweepError> {
-        let settings = self
-            .axes
-            .iter()
-            .zip(indices)
-            .flat_map(|(axis, index)| {
-                axis.keys
-                    .iter()
-                    .cloned()
-                    .zip(axis.values[*index].iter().cloned())
-            })
-            .collect();
-        let case = Case {
-            number: 0,
-            settings,
+    fn check_folders(&self) -> Result<(), SweepError> {
+        let Folders::Numbers(numbers) = &self.folders else {
+            return Ok(());
         };
+        let count = self.count();
+        match numbers.iter().find(|case| !(1..=count).contains(*case)) {
+            None => Ok(()),
+            Some(case) => Err(SweepError::Folders {
+                path: self.path.clone(),
+                case: *case,
+                count,
+            }),
+        }
+    }
+
+    fn check_plot(&self) -> Result<(), SweepError> {
+        let keys: Vec<&str> = self.keys().collect();
+        let wrong = |key, reason| SweepError::Plot {
+            path: self.path.clone(),
+            key,
+            reason,
+        };
+        for (place, key) in [("x", &self.plot.x), ("series", &self.plot.series)] {
+            if let Some(key) = key
+                && !keys.contains(&key.as_str())
+            {
+                let reason = format!(
+                    "{key} is not the key of an axis; these are: {}",
+                    keys.join(", ")
+                );
+                return Err(wrong(place, reason));
+            }
+        }
+        match &self.plot.y {
+            Some(y) if !QUANTITIES.iter().any(|quantity| quantity.name == y) => {
+                let names = QUANTITIES.map(|quantity| quantity.name).join(", ");
+                let reason = format!("{y} is not a quantity of a run; these are: {names}");
+                Err(wrong("y", reason))
+            }
+            _ => Ok(()),
+        }
+    }
+
+    /// Reads the scene with each value of each axis, the others at their first; returns the fingerprint.
+    fn check_scenes(&self) -> Result<String, SweepError> {
+        let mut files = BTreeMap::new();
+        let mut indices: Vec<usize> = vec![0; self.axes.len()];
+        let first = self.check_scene(&indices)?;
+        add_files(&first, &mut files);
+        for axis in 0..self.axes.len() {
+            for value in 1..self.axes[axis].values.len() {
+                indices[axis] = value;
+                add_files(&self.check_scene(&indices)?, &mut files);
+            }
+            indices[axis] = 0;
+        }
+        let mut study = first.resolved_json();
+        // Neither changes what a finished case found.
+        if let Some(scene) = study.as_object_mut() {
+            scene.remove("title");
+        }
+        if let Some(solver) = study["solver"].as_object_mut() {
+            solver.remove("max_iterations");
+        }
+        let axes = self.axes.iter();
+        study["axis"] = axes
+            .map(|axis| json!({ "keys": axis.keys, "values": axis.values }))
+            .collect();
+        study["checksums of files"] = json!(files);
+        Ok(study.to_string())
+    }
+
+    fn check_scene(&self, indices: &[usize]) -> Result<Scene, SweepError> {
+        let mut case = Case {
+            number: 0,
+            settings: Vec::new(),
+        };
+        for (axis, index) in self.axes.iter().zip(indices) {
+            let values = axis.values[*index].iter().cloned();
+            case.settings.extend(axis.keys.iter().cloned().zip(values));
+        }
         self.scene(&case).map_err(|errors| SweepError::Scene {
             path: self.path.clone(),
-            case: case.words(),
-            errors,
+            reason: self.mistakes(&case, &errors),
         })
+    }
+
+    /// The mistakes of the scene of a case, one a line.
+    pub(super) fn mistakes(&self, case: &Case, errors: &SceneErrors) -> String {
+        let value = |key: &str| {
+            let mut all = case.settings.iter().chain(&self.set);
+            let found = all.find(|(known, _)| known == key);
+            found.map_or_else(String::new, |(_, value)| format!("={value}"))
+        };
+        let lines = errors.0.iter().map(|mistake| match &mistake.error {
+            error if mistake.from_set => format!("{}{}: {error}", mistake.key, value(&mistake.key)),
+            SceneError::Unreadable { .. } | SceneError::Syntax { .. } => mistake.to_string(),
+            _ => format!("{mistake} (with {})", case.words()),
+        });
+        lines.collect::<Vec<_>>().join("\n")
     }
 
     /// The scene of a case.
@@ -230,6 +288,19 @@ impl Study {
             .flat_map(|axis| axis.keys.iter().map(String::as_str))
     }
 
+    /// The unit of a key in the tables: that of its values, or what the scene takes; empty where it has none.
+    pub(super) fn unit(&self, key: &str) -> &'static str {
+        let mut texts = self.axes.iter().flat_map(|axis| {
+            let place = axis.keys.iter().position(|known| known == key);
+            place.map(|place| axis.values[0][place].as_str())
+        });
+        let written = texts.next().unwrap_or_default().trim_matches('"');
+        match parse_any_quantity(written) {
+            Some((_, dimension)) => dimension.unit_in_scenes(),
+            None => unit_of(key),
+        }
+    }
+
     /// Whether the folder of a case is kept.
     pub fn keeps(&self, case: &Case) -> bool {
         match &self.folders {
@@ -241,11 +312,8 @@ impl Study {
     /// The title, or the name of the file.
     pub fn title(&self) -> String {
         let stem = || {
-            self.path
-                .file_stem()
-                .unwrap_or_default()
-                .to_string_lossy()
-                .into_owned()
+            let stem = self.path.file_stem().unwrap_or_default();
+            stem.to_string_lossy().into_owned()
         };
         self.title.clone().unwrap_or_else(stem)
     }
@@ -253,6 +321,36 @@ impl Study {
     /// Identifies the study.
     pub(super) fn fingerprint(&self) -> &str {
         &self.fingerprint
+    }
+}
+
+/// Adds the settings of a table of `[set]`; tables within it are parts of a key.
+fn flatten(before: &str, table: &toml::Table, set: &mut Vec<(String, String)>) {
+    for (name, value) in table {
+        let key = format!("{before}{name}");
+        match value {
+            toml::Value::Table(deeper) => flatten(&format!("{key}."), deeper, set),
+            value => set.push((key, value.to_string())),
+        }
+    }
+}
+
+/// Adds the checksums of the files that a scene reads; one that cannot be read is a case's to report.
+fn add_files(scene: &Scene, files: &mut BTreeMap<PathBuf, u32>) {
+    let heights = scene.surfaces.iter().filter_map(|part| match part {
+        SurfacePart::File(file) => Some(&file.path),
+        _ => None,
+    });
+    let map = scene.adhesion.as_ref().and_then(|it| match &it.map {
+        Some(AdhesionMap::File(path)) => Some(path),
+        _ => None,
+    });
+    for path in heights.chain(map) {
+        if !files.contains_key(path)
+            && let Ok(bytes) = std::fs::read(path)
+        {
+            files.insert(path.clone(), crc32fast::hash(&bytes));
+        }
     }
 }
 

@@ -1,17 +1,7 @@
 //! `sweep.csv`, one row a case and step, and `runs.csv`, one row a case.
 
-use serde_json::Value;
-
 use super::outcome::{Outcome, QUANTITIES};
 use crate::output::csv_line::csv_line;
-
-/// A value as a cell.
-fn cell(value: &Value) -> String {
-    match value {
-        Value::String(text) => text.clone(),
-        other => other.to_string(),
-    }
-}
 
 /// One row a case and step: the case's number, the values of all keys, and the columns of `curve.csv`.
 pub(super) fn steps_table(keys: &[&str], outcomes: &[&Outcome]) -> String {
@@ -31,16 +21,15 @@ pub(super) fn steps_table(keys: &[&str], outcomes: &[&Outcome]) -> String {
             .map(|name| own.iter().position(|known| known == name))
             .collect();
         let first: Vec<String> = std::iter::once(outcome.number.to_string())
-            .chain(outcome.values.iter().map(cell))
+            .chain(outcome.values.iter().cloned())
             .collect();
         for row in &outcome.rows {
+            // Numbers and words without commas.
             let cells: Vec<&str> = row.split(',').collect();
-            let values = places.iter().map(|place| {
-                place
-                    .and_then(|place| cells.get(place))
-                    .copied()
-                    .unwrap_or_default()
-            });
+            let values = places
+                .iter()
+                .map(|place| place.and_then(|place| cells.get(place).copied()))
+                .map(Option::unwrap_or_default);
             text.push_str(&csv_line(first.iter().map(String::as_str).chain(values)));
         }
     }
@@ -49,24 +38,23 @@ pub(super) fn steps_table(keys: &[&str], outcomes: &[&Outcome]) -> String {
 
 /// One row a case: its number, the values of all keys, how it ended, and the quantities of the whole run.
 pub(super) fn runs_table(keys: &[&str], outcomes: &[&Outcome]) -> String {
+    let names = QUANTITIES.map(|quantity| quantity.name);
     let mut text = csv_line(
         ["case"]
             .iter()
             .chain(keys)
             .chain(&["status", "steps"])
-            .chain(&QUANTITIES)
+            .chain(&names)
             .chain(&["seconds", "message"]),
     );
     for outcome in outcomes {
-        let number =
-            |value: &Option<f64>| value.map(|value| format!("{value:?}")).unwrap_or_default();
         let mut cells = vec![outcome.number.to_string()];
-        cells.extend(outcome.values.iter().map(cell));
+        cells.extend(outcome.values.iter().cloned());
         cells.push(outcome.status.name().to_owned());
         cells.push(outcome.rows.len().to_string());
-        cells.extend(outcome.quantities.iter().map(number));
+        cells.extend(outcome.quantities.iter().cloned());
         cells.push(format!("{:?}", outcome.seconds));
-        cells.push(outcome.message.replace('\n', " "));
+        cells.push(outcome.message.replace('\n', "; "));
         text.push_str(&csv_line(cells));
     }
     text

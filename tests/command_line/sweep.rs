@@ -1,10 +1,11 @@
 //! `tabor sweep` from outside: cases, tables, shares, what a kill leaves, and what it refuses.
 
+use std::collections::HashMap;
 use std::fs;
 use std::path::Path;
 use std::time::{Duration, Instant};
 
-use crate::shared::binary::{command, errors, tabor};
+use crate::shared::binary::{BINARY, command, errors, tabor};
 use crate::shared::trials::tests;
 
 const SCENE: &str = r#"
@@ -54,7 +55,7 @@ fn folder(study: &str) -> tempfile::TempDir {
 }
 
 /// Rows of a table by the names of their columns.
-fn rows(path: &Path) -> Vec<std::collections::HashMap<String, String>> {
+fn rows(path: &Path) -> Vec<HashMap<String, String>> {
     let mut reader = csv::Reader::from_path(path).expect("a table");
     reader
         .deserialize()
@@ -120,23 +121,59 @@ fn a_study_is_one_tidy_table() {
     );
     // The picture has a size, and its SVG is text.
     assert!(
-        fs::metadata(out.join("sweep.png"))
+        fs::metadata(out.join("means.png"))
             .expect("a picture")
             .len()
             > 1000
     );
-    let svg = fs::read_to_string(out.join("sweep.svg")).expect("a picture");
-    assert!(svg.contains("<svg") && svg.contains("rms slope"), "{svg}");
+    let svg = fs::read_to_string(out.join("means.svg")).expect("a picture");
+    assert!(svg.contains("<svg") && svg.contains(">rms slope<"), "{svg}");
+    assert!(svg.contains(">work of adhesion 5 mJ/m^2<"), "{svg}");
+    // Mean and standard deviation over the seeds, from the column of the runs.
+    let means = rows(&out.join("means.csv"));
+    assert_eq!(means.len(), 4);
+    for mean in &means {
+        let keys = ["surface.0.rms_slope", "adhesion.work_of_adhesion"];
+        let own = |run: &&HashMap<String, String>| {
+            keys.iter()
+                .all(|key| run[*key].parse::<f64>() == mean[*key].parse::<f64>())
+        };
+        let forces = runs
+            .iter()
+            .filter(own)
+            .map(|run| run["pull_off_force"].parse::<f64>().expect("a number"));
+        let forces: Vec<f64> = forces.collect();
+        assert_eq!(mean["runs"], "3");
+        assert_eq!(forces.len(), 3);
+        let expected = forces.iter().sum::<f64>() / 3.0;
+        let squares = forces.iter().map(|force| (force - expected).powi(2));
+        let spread = (squares.sum::<f64>() / 2.0).sqrt();
+        // The same three numbers: rounding alone may differ.
+        let number = |name: &str| mean[name].parse::<f64>().expect("a number");
+        assert!((number("pull_off_force") - expected).abs() <= 1e-14 * expected);
+        assert!((number("standard_deviation") - spread).abs() <= 1e-12 * expected);
+        assert!(spread > 0.0, "seeds differ");
+    }
 }
 
 fn shares_join_to_the_whole() {
     let place = folder(STUDY);
     let whole = tabor(
         place.path(),
-        &["sweep", "study.toml", "--out", "whole", "--quiet"],
+        &[
+            "sweep",
+            "study.toml",
+            "--out",
+            "whole",
+            "--quiet",
+            "--jobs",
+            "3",
+            "--threads",
+            "1",
+        ],
     );
     assert_eq!(whole.status.code(), Some(0), "{}", errors(&whole));
-    // Two shares in one folder, the third in one of its own.
+    // Two shares in one folder, the third in one of its own; on other threads, with the same bits.
     for (share, out) in [("1/3", "joined"), ("2/3", "joined"), ("3/3", "third")] {
         let call = [
             "sweep",
@@ -146,6 +183,10 @@ fn shares_join_to_the_whole() {
             "--only",
             share,
             "--quiet",
+            "--jobs",
+            "1",
+            "--threads",
+            "2",
         ];
         let output = tabor(place.path(), &call);
         assert_eq!(output.status.code(), Some(0), "{}", errors(&output));
@@ -173,6 +214,9 @@ fn shares_join_to_the_whole() {
         .collect();
     let one = tabor(place.path(), &words);
     assert_eq!(one.status.code(), Some(0), "{}", errors(&one));
+    let call = ["sweep", "study.toml", "--out", "listed", "--merge"];
+    let output = tabor(place.path(), &call);
+    assert_eq!(output.status.code(), Some(0), "{}", errors(&output));
     let runs = rows(&place.path().join("listed/runs.csv"));
     assert_eq!(runs.len(), 1);
     assert_eq!(runs[0]["case"], "5");
@@ -211,7 +255,7 @@ fn a_killed_study_repeats_no_finished_case() {
 }
 
 fn a_case_that_fails_is_listed_and_the_others_are_solved() {
-    // The range of a scene must be below its heights' grid: one iteration is too few for the adhesive cases.
+    // One iteration is too few for any of these cases.
     let study = STUDY.replace(
         "key = \"surface.0.seed\"\nvalues = [1, 2, 3]",
         "key = \"solver.max_iterations\"\nvalues = [1, 2000]",
@@ -238,6 +282,141 @@ fn a_case_that_fails_is_listed_and_the_others_are_solved() {
     }
 }
 
+fn a_case_that_did_not_converge_is_solved_again() {
+    let place =
+        folder("scene = \"scene.toml\"\naxis = [{ key = \"surface.0.seed\", values = [1, 2] }]\n");
+    let call = ["sweep", "study.toml", "--out", "out", "--only", "1/2"];
+    assert_eq!(tabor(place.path(), &call).status.code(), Some(0));
+    let first = fs::read_to_string(place.path().join("out/cases_1of2.jsonl")).expect("a case");
+    let hasty = [
+        "sweep",
+        "study.toml",
+        "--out",
+        "out",
+        "--set",
+        "solver.max_iterations=3",
+    ];
+    let output = tabor(place.path(), &hasty);
+    assert_eq!(output.status.code(), Some(3), "{}", errors(&output));
+    assert!(errors(&output).contains("case 2: step 1 did not converge"));
+    let output = tabor(place.path(), &["sweep", "study.toml", "--out", "out"]);
+    assert_eq!(output.status.code(), Some(0), "{}", errors(&output));
+    let runs = rows(&place.path().join("out/runs.csv"));
+    assert_eq!(runs.len(), 2);
+    assert!(runs.iter().all(|run| run["status"] == "finished"));
+    // The first case stands as it was.
+    let kept = fs::read_to_string(place.path().join("out/cases_1of2.jsonl")).expect("a case");
+    assert_eq!(first, kept);
+}
+
+/// Crops of a map, files, values that change together, and folders of chosen cases.
+fn axes_take_lists_files_and_several_keys() {
+    let place = folder(
+        r#"
+scene = "map.toml"
+folders = [4]
+set.solver.tolerance = 1e-5
+[[axis]]
+keys = ["surface.0.crop", "solid.young_modulus"]
+values = [[[0, 0, 16, 16], "1 MPa"], [[16, 0, 16, 16], "2 MPa"], [[0, 16, 16, 16], "3 MPa"]]
+[[axis]]
+key = "loading.path.0"
+from = "1 kPa"
+to = "4 kPa"
+count = 3
+spacing = "log"
+"#,
+    );
+    let map: String = (0..32)
+        .map(|y| {
+            let row = (0..32).map(|x| format!("{} ", (x * 7 + y * 11) % 13));
+            row.collect::<String>() + "\n"
+        })
+        .collect();
+    fs::write(place.path().join("map.txt"), &map).expect("written");
+    let scene = "[grid]\nsize = \"3.2 um\"\n[solid]\nyoung_modulus = \"1 MPa\"\npoisson_ratio = 0.3\n[[surface]]\nkind = \"file\"\npath = \"map.txt\"\nunit = \"nm\"\n[loading]\ncontrol = \"pressure\"\npath = [1e3]\n";
+    fs::write(place.path().join("map.toml"), scene).expect("written");
+    let call = ["sweep", "study.toml", "--out", "out", "--quiet"];
+    let output = tabor(place.path(), &call);
+    assert_eq!(output.status.code(), Some(0), "{}", errors(&output));
+    let runs = rows(&place.path().join("out/runs.csv"));
+    assert_eq!(runs.len(), 9);
+    let cells = |name: &str| -> Vec<&str> { runs.iter().map(|run| run[name].as_str()).collect() };
+    assert_eq!(cells("loading.path.0")[..3], ["1000", "2000", "4000"]);
+    assert_eq!(cells("surface.0.crop")[3], "[16, 0, 16, 16]");
+    assert_eq!(cells("solid.young_modulus")[3], "2000000");
+    // The folder of a case is that of its run.
+    let set = [
+        "surface.0.crop=[16, 0, 16, 16]",
+        "solid.young_modulus=2 MPa",
+        "loading.path.0=1 kPa",
+        "solver.tolerance=1e-5",
+    ];
+    let mut call = vec!["run", "map.toml", "--out", "one", "--quiet"];
+    set.iter().for_each(|set| call.extend(["--set", set]));
+    let one = tabor(place.path(), &call);
+    assert_eq!(one.status.code(), Some(0), "{}", errors(&one));
+    let [kept, alone] = ["out/case_0004", "one"]
+        .map(|folder| without_seconds(&place.path().join(folder).join("curve.csv")));
+    assert_eq!(kept, alone);
+    assert!(!place.path().join("out/case_0001").exists());
+    let areas: std::collections::BTreeSet<&str> =
+        cells("last_contact_area_fraction").into_iter().collect();
+    assert!(areas.len() > 6, "places and loads differ: {areas:?}");
+    // Another content of the map is another study; a map that is not there is a case that failed.
+    fs::write(place.path().join("map.txt"), map.replacen('1', "2", 1)).expect("written");
+    let call = ["sweep", "study.toml", "--out", "out", "--quiet"];
+    let output = tabor(place.path(), &call);
+    assert_eq!(output.status.code(), Some(2), "{}", errors(&output));
+    assert!(
+        errors(&output).contains("checksums of files"),
+        "{}",
+        errors(&output)
+    );
+    let study = "scene = \"map.toml\"\naxis = [{ key = \"surface.0.path\", values = [\"map.txt\", \"absent.txt\"] }]\n";
+    fs::write(place.path().join("study.toml"), study).expect("written");
+    let output = tabor(place.path(), &["sweep", "study.toml", "--out", "paths"]);
+    assert_eq!(output.status.code(), Some(3), "{}", errors(&output));
+    assert!(errors(&output).contains("case 2: ") && errors(&output).contains("absent.txt"));
+    let runs = rows(&place.path().join("paths/runs.csv"));
+    assert_eq!(
+        [&runs[0]["status"], &runs[1]["status"]],
+        ["finished", "failed"]
+    );
+}
+
+/// A limit on the length of files stands in for a full disk.
+#[cfg(target_os = "linux")]
+fn a_full_disk_ends_a_study_and_keeps_what_is_finished() {
+    let place = folder(STUDY);
+    // In units of 1024 bytes: the study is identified in about 2 of them, a case takes 1.
+    let script = "ulimit -f 5; exec \"$0\" sweep study.toml --out out --jobs 1 --quiet";
+    let limited = std::process::Command::new("bash")
+        .current_dir(place.path())
+        .args(["-c", script, BINARY])
+        .output()
+        .expect("there is a shell");
+    assert_eq!(limited.status.code(), Some(1), "{}", errors(&limited));
+    let said = errors(&limited);
+    assert_eq!(said.lines().count(), 1, "{said}");
+    assert!(said.contains("cannot write out/cases.jsonl: "), "{said}");
+    let cases = place.path().join("out/cases.jsonl");
+    let before = fs::read_to_string(&cases).expect("cases");
+    let whole = before.lines().filter(|line| line.ends_with('}')).count();
+    assert!((1..12).contains(&whole), "{before}");
+    let output = tabor(place.path(), &["sweep", "study.toml", "--out", "out"]);
+    assert_eq!(output.status.code(), Some(0), "{}", errors(&output));
+    assert!(errors(&output).contains(&format!(
+        "{whole} cases are finished already; {} are left",
+        12 - whole
+    )));
+    assert_eq!(rows(&place.path().join("out/runs.csv")).len(), 12);
+}
+
+/// Other systems have no such limit.
+#[cfg(not(target_os = "linux"))]
+fn a_full_disk_ends_a_study_and_keeps_what_is_finished() {}
+
 fn what_is_no_study_is_refused_in_one_message() {
     let axis = "scene = \"scene.toml\"\n[[axis]]\n";
     for (study, expected) in [
@@ -261,7 +440,7 @@ fn what_is_no_study_is_refused_in_one_message() {
         ),
         (
             &format!(
-                "{axis}key = \"surface.0.seed\"\nfrom = 1\nto = 100000\ncount = 100000\n[[axis]]\nkey = \"grid.points\"\nfrom = 1\nto = 2\ncount = 100\n"
+                "{axis}key = \"surface.0.seed\"\nfrom = 1\nto = 100000\ncount = 100000\n[[axis]]\nkey = \"grid.points\"\nfrom = 1\nto = 100\ncount = 100\n"
             ),
             "cases are more than",
         ),
@@ -324,5 +503,8 @@ tests![
     shares_join_to_the_whole,
     a_killed_study_repeats_no_finished_case,
     a_case_that_fails_is_listed_and_the_others_are_solved,
+    a_case_that_did_not_converge_is_solved_again,
+    axes_take_lists_files_and_several_keys,
+    a_full_disk_ends_a_study_and_keeps_what_is_finished,
     what_is_no_study_is_refused_in_one_message,
 ];
