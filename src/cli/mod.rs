@@ -11,7 +11,9 @@ mod fit;
 mod fit_folder;
 mod flags;
 mod interrupts;
+mod new;
 mod patience;
+mod plot;
 mod progress;
 mod quantity;
 mod run;
@@ -52,6 +54,9 @@ struct Arguments {
 
 #[derive(Debug, Subcommand)]
 enum Command {
+    /// Write a commented scene to begin with
+    #[command(after_help = "Example:\n  tabor new rough mine\n  tabor run mine/scene.toml")]
+    New(new::NewArguments),
     /// Solve every step of a scene and write its results
     #[command(
         after_help = "Example:\n  tabor run examples/scenes/sphere_pull_off.toml --out pull_off --set grid.points=256\n  tabor run examples/scenes/sphere_pull_off.toml --out pull_off --set grid.points=256 --resume"
@@ -90,6 +95,11 @@ enum Command {
         after_help = "Writes sweep.csv (one row a case and step), runs.csv (one row a case), and means.csv, means.png and means.svg. A study that was interrupted continues where it was. More in docs/sweep.md.\n\nExample:\n  tabor sweep examples/studies/roughness.toml --out roughness --jobs 2\n  tabor sweep examples/studies/roughness.toml --list"
     )]
     Sweep(sweep::SweepArguments),
+    /// Several runs in one picture, as PNG, SVG and CSV
+    #[command(
+        after_help = "Example:\n  tabor plot rough smooth --out rough_and_smooth.png\n  tabor plot rough/curve.csv smooth/curve.csv --x mean_pressure --y contact_area_fraction"
+    )]
+    Plot(plot::PlotArguments),
     /// Adapters found, what each can do, and which one `auto` takes
     #[command(after_help = "Example:\n  tabor devices")]
     Devices {
@@ -364,6 +374,7 @@ pub fn main() -> ExitCode {
         Err(error) => refuse_call(error),
     };
     let done = match arguments.command {
+        Command::New(arguments) => new::new(&arguments),
         Command::Run(arguments) => run::run(&arguments),
         Command::Check(arguments) => check::check(&arguments),
         Command::Surface(arguments) => surface::surface(&arguments),
@@ -372,6 +383,7 @@ pub fn main() -> ExitCode {
         Command::Accuracy(arguments) => accuracy::accuracy(&arguments),
         Command::Fit(arguments) => fit::fit(&arguments),
         Command::Sweep(arguments) => sweep::sweep(&arguments),
+        Command::Plot(arguments) => plot::plot(&arguments),
         Command::Devices { verbose } => devices::devices(verbose),
         Command::Completions { shell } => shell::completions(shell),
         Command::Man { folder } => shell::man(folder.as_deref()),

@@ -16,7 +16,8 @@ use crate::scene::Scene;
 use crate::study::{FinishedStep, Observer, Setup, WalkEnd, WalkError, walk};
 use crate::surface::Surface;
 
-/// Solves every step of a scene as [`run_with`](super::run_with) does, and writes nothing.
+/// Solves every step of a scene as [`run_with`](super::run_with) does, and writes nothing. Without a number of threads
+/// in the options it takes those of its caller, so that many scenes share one pool.
 ///
 /// # Errors
 /// A surface that cannot be built, a run that the memory does not hold, a device that cannot be used or fails.
@@ -72,7 +73,11 @@ fn walk_on_device(
     observer.begins(steps, 0, setup.scene.solver.tolerance);
     let mut steps = Steps { observer };
     let make_backend = || device.backend();
-    let walked = with_threads(options.threads, || walk(setup, &make_backend, &mut steps))?;
+    let mut work = || walk(setup, &make_backend, &mut steps);
+    let walked = match options.threads {
+        Some(threads) => with_threads(Some(threads), &mut work)?,
+        None => work(),
+    };
     walked.map_err(|error| match error {
         WalkError::Backend(error) => error,
         WalkError::Observer(never) => match never {},

@@ -236,10 +236,12 @@ impl<'a> RunRecorder<'a> {
         }
         let clock = Clock::start();
         if summary.is_some() {
-            let bytes = plot::picture(&self.setup.scene, &self.rows).map_err(
-                OutputError::write("write", &self.folder.curve_picture_path()),
-            )?;
-            write_within(&self.folder.curve_picture_path(), &bytes)?;
+            let figure = plot::run_figure(&self.setup.scene, &self.rows);
+            let path = self.folder.curve_picture_path();
+            let bytes = figure.png().map_err(OutputError::write("write", &path))?;
+            write_within(&path, &bytes)?;
+            let path = self.folder.curve_vector_path();
+            write_within(&path, figure.svg_file().as_bytes())?;
         }
         let text = Report {
             setup: self.setup,

@@ -147,9 +147,7 @@ impl SweepFolder {
         write("runs.csv", runs_table(&keys, &outcomes))?;
         if let Some(means) = Means::new(study, &outcomes) {
             write("means.csv", means.table())?;
-            let figure = picture(study, &means);
-            figure.write(&self.path.join("means.png"))?;
-            figure.write_svg(&self.path.join("means.svg"))?;
+            picture(study, &means).write(&self.path.join("means.png"))?;
         }
         Ok(())
     }

@@ -10,6 +10,7 @@ use super::error::SweepError;
 use super::folder::SweepFolder;
 use super::outcome::Outcome;
 use super::study::Study;
+use crate::backend::cpu::with_threads;
 use crate::clock::Clock;
 use crate::run::{RunError, RunObserver, RunOptions, RunStatus, run_with, solve_with};
 
@@ -93,16 +94,23 @@ pub fn solve(
             let sender = sender.clone();
             let (stop, next, open, path) = (&stop, &next, &open, &path);
             scope.spawn(move || {
-                while !stop.load(Ordering::Relaxed) {
-                    let Some(case) = open.get(next.fetch_add(1, Ordering::Relaxed)) else {
-                        break;
-                    };
-                    let Some(outcome) = solve_case(study, case, path, jobs.threads, stop) else {
-                        break;
-                    };
-                    if sender.send(outcome).is_err() {
-                        break;
+                let mut work = || {
+                    while !stop.load(Ordering::Relaxed) {
+                        let Some(case) = open.get(next.fetch_add(1, Ordering::Relaxed)) else {
+                            break;
+                        };
+                        let Some(outcome) = solve_case(study, case, path, jobs.threads, stop)
+                        else {
+                            break;
+                        };
+                        if sender.send(outcome).is_err() {
+                            break;
+                        }
                     }
+                };
+                // One pool for all cases of this job; where the system has no threads left, that of all jobs.
+                if with_threads(Some(jobs.threads), &mut work).is_err() {
+                    work();
                 }
             });
         }
@@ -153,13 +161,13 @@ fn solve_case(
             ));
         }
     };
-    let options = RunOptions::new().threads(threads);
     let mut watcher = Watcher { stop };
     let solved: Result<_, RunError> = if study.keeps(case) {
         let folder = folder.join(format!("case_{:04}", case.number));
+        let options = RunOptions::new().threads(threads);
         run_with(scene.clone(), &folder, &options, &mut watcher)
     } else {
-        solve_with(scene.clone(), &options, &mut watcher)
+        solve_with(scene.clone(), &RunOptions::new(), &mut watcher)
     };
     match solved {
         Ok(end) if matches!(end.status, RunStatus::Interrupted { .. }) => None,

@@ -10,7 +10,9 @@ mod hostile_calls;
 mod instrument_curves;
 mod kept;
 mod mistakes;
+mod new_scene;
 mod pictures;
+mod plot;
 #[cfg(unix)]
 mod recipes;
 mod report_page;
@@ -36,7 +38,9 @@ fn main() -> ExitCode {
         mistakes::tests(),
         mistakes::scenes::tests(),
         mistakes::variants::tests(),
+        new_scene::tests(),
         pictures::tests(),
+        plot::tests(),
         #[cfg(unix)]
         recipes::tests(),
         report_page::tests(),
