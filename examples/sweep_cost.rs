@@ -1,11 +1,13 @@
-//! What a sweep costs beside its solves: the CPU seconds of `tabor sweep` over 200 seeds of a rough scene on 128 x 128
-//! points, over the sum of those of the same solves alone, both on one thread. Linux.
+//! What a sweep costs beside its solves: the CPU seconds of `tabor sweep` over 200 seeds on 128 x 128 points, over the
+//! sum of those of the same solves alone, each on one thread. Linux.
 //!
-//! `cargo run --release --example sweep_cost` after `cargo build --release`.
+//! `cargo build --release && cargo run --release --example sweep_cost`: the scene of the shipped study, a load and the
+//! search for its pull-off; and under one load alone, so that each solve is short.
 
 use std::error::Error;
 use std::path::Path;
 use std::process::Command;
+use std::time::Instant;
 
 use cpu_time::ProcessTime;
 use tabor::backend::Backend;
@@ -18,92 +20,79 @@ use tabor::surface::Surface;
 const RUNS: usize = 200;
 /// Clock ticks a second in /proc.
 const TICKS: f64 = 100.0;
-
-const SCENE: &str = r#"
-[grid]
-points = 128
-size = "20 um"
-[solid]
-contact_modulus = "10 MPa"
-[[surface]]
-kind = "self-affine"
-hurst = 0.8
-rms_height = "50 nm"
-longest = "20 um"
-rolloff = "10 um"
-shortest = "1.6 um"
-[adhesion]
-law = "maugis-dugdale"
-work_of_adhesion = "50 mJ/m^2"
-range = "60 nm"
-[loading]
-control = "pressure"
-path = ["0.5 MPa", "2 MPa", 0]
-"#;
-
-/// CPU seconds of the children of this process that have ended.
-fn children_seconds() -> Result<f64, Box<dyn Error>> {
-    let text = std::fs::read_to_string("/proc/self/stat")?;
-    // The name may have spaces; the fields behind its bracket have none. User and system time of children are the
-    // 16th and 17th.
-    let fields: Vec<&str> = text
-        .rsplit(')')
-        .next()
-        .unwrap_or("")
-        .split_whitespace()
-        .collect();
-    let ticks: f64 = fields[13].parse::<f64>()? + fields[14].parse::<f64>()?;
-    Ok(ticks / TICKS)
-}
+/// The scene of the shipped study.
+const SCENE: &str = concat!(env!("CARGO_MANIFEST_DIR"), "/examples/studies/rubber.toml");
+/// Names and paths of loads.
+const PATHS: [(&str, &str); 2] = [
+    ("a load and its pull-off", "[\"2 MPa\", \"-5 MPa\"]"),
+    ("one load", "[\"2 MPa\"]"),
+];
 
 fn main() -> Result<(), Box<dyn Error>> {
+    for (name, path) in PATHS {
+        compare(name, path)?;
+    }
+    Ok(())
+}
+
+/// Prints the cost of a sweep under a path of loads.
+fn compare(name: &str, path: &str) -> Result<(), Box<dyn Error>> {
+    let [solves, surfaces] = alone(path)?;
+    println!("{name}: solves alone {solves:.2} CPU seconds, their surfaces {surfaces:.2}");
     let folder = tempfile::tempdir()?;
-    std::fs::write(folder.path().join("scene.toml"), SCENE)?;
     let study = format!(
-        "scene = \"scene.toml\"\n[[axis]]\nkey = \"surface.0.seed\"\nfrom = 1\nto = {RUNS}\ncount = {RUNS}\n"
+        "scene = {SCENE:?}\nset.loading.path = {path}\n[[axis]]\nkey = \"surface.0.seed\"\nfrom = 1\nto = {RUNS}\ncount = {RUNS}\n"
     );
     std::fs::write(folder.path().join("study.toml"), study)?;
-    let binary = std::env::current_exe()?.with_file_name("../tabor");
     for jobs in ["1", "2"] {
         let before = children_seconds()?;
-        let clock = std::time::Instant::now();
-        let out = format!("out_{jobs}");
-        let status = Command::new(&binary)
+        let clock = Instant::now();
+        let status = Command::new(std::env::current_exe()?.with_file_name("../tabor"))
             .current_dir(folder.path())
-            .args([
-                "sweep",
-                "study.toml",
-                "--out",
-                &out,
-                "--quiet",
-                "--threads",
-                "1",
-                "--jobs",
-                jobs,
-            ])
+            .args(["sweep", "study.toml", "--quiet", "--threads", "1"])
+            .args(["--jobs", jobs, "--out", jobs])
             .status()?;
-        assert!(status.success(), "{status}");
+        if !status.success() {
+            return Err(format!("the sweep ended with {status}").into());
+        }
+        let seconds = children_seconds()? - before;
         println!(
-            "sweep, {jobs} at a time: {:.2} CPU seconds in {:.2} s",
-            children_seconds()? - before,
+            "  sweep, {jobs} at a time: {seconds:.2} CPU seconds, {:.3} of the solves alone, in {:.2} s",
+            seconds / solves,
             clock.elapsed().as_secs_f64()
         );
     }
-    // Alone: the heights and all that a solve needs are there, and only the solve is timed.
-    let mut solves = 0.0;
-    let mut surfaces = 0.0;
+    Ok(())
+}
+
+/// CPU seconds of all solves, one by one, and those of their surfaces.
+fn alone(path: &str) -> Result<[f64; 2], Box<dyn Error>> {
+    let [mut solves, mut surfaces] = [0.0; 2];
     for seed in 1..=RUNS {
         let clock = ProcessTime::now();
-        let set = [("surface.0.seed".to_owned(), seed.to_string())];
-        let scene = Scene::parse(SCENE, "scene.toml", Path::new("."), &set)?;
+        let set = [
+            ("surface.0.seed".to_owned(), seed.to_string()),
+            ("loading.path".to_owned(), path.to_owned()),
+        ];
+        let scene = Scene::read(Path::new(SCENE), &set)?;
         let surface = Surface::build(&scene)?;
-        surfaces += clock.elapsed().as_secs_f64();
         let setup = Setup::new(scene, surface);
+        surfaces += clock.elapsed().as_secs_f64();
         let backend = || -> Box<dyn Backend + Send> { Box::new(CpuBackend::<f64>::new()) };
         let clock = ProcessTime::now();
         with_threads(Some(1), || walk(&setup, &backend, &mut ()))??;
         solves += clock.elapsed().as_secs_f64();
     }
-    println!("solves alone: {solves:.2} CPU seconds; their surfaces {surfaces:.2}");
-    Ok(())
+    Ok([solves, surfaces])
+}
+
+/// CPU seconds of the children of this process that have ended.
+fn children_seconds() -> Result<f64, Box<dyn Error>> {
+    let text = std::fs::read_to_string("/proc/self/stat")?;
+    // The name of the program may have spaces; no field behind its bracket has. The 14th and 15th of these are user and
+    // system time of children.
+    let (_, fields) = text.rsplit_once(')').ok_or("no name")?;
+    let fields: Vec<&str> = fields.split_whitespace().collect();
+    let ticks = fields[13].parse::<f64>()? + fields[14].parse::<f64>()?;
+    Ok(ticks / TICKS)
 }

@@ -27,4 +27,6 @@ keep humid_tip 0011_pressure humid_tip
 keep patterned_punch 0055_pressure patterned_punch
 # On fewer points than the scene has, for a small picture.
 keep contact_challenge 0001_pressure contact_challenge "--set grid.points=512"
+"$tabor" sweep examples/studies/roughness.toml --out "$out/roughness" --quiet
+cp "$out/roughness/means.png" docs/pictures/sweep_roughness.png
 rm -r "$out"

@@ -6,20 +6,19 @@ use clap::Args;
 use csv::StringRecord;
 
 use super::{Failure, say};
+use crate::effect::Effect;
 use crate::output::csv_line::csv_line;
 use crate::output::plot::{Axis, DISTINCT, Figure, LARGE, Panel, PlotPoint, Series};
 use crate::output::write_atomically;
 
 /// Points of a curve up to which each is marked.
 const MARKED: usize = 60;
-/// Columns of `curve.csv` with their SI units; a share is shown in per cent. Columns of effects are shown without.
-const UNITS: [(&str, &str); 13] = [
+/// Columns that every `curve.csv` has with their SI units; a share is shown in per cent.
+const UNITS: [(&str, &str); 11] = [
     ("time", "s"),
     ("approach", "m"),
     ("mean_gap", "m"),
     ("force", "N"),
-    ("attractive_force", "N"),
-    ("friction_force", "N"),
     ("mean_pressure", "Pa"),
     ("contact_area_fraction", "%"),
     ("contact_area_fraction_corrected", "%"),
@@ -184,8 +183,10 @@ fn names(runs: &[PathBuf]) -> Vec<String> {
 
 fn panel(pair: &[String; 2], runs: &[Table]) -> Panel {
     let [x, y] = pair.each_ref().map(|name| {
-        let unit = UNITS.iter().find(|(known, _)| known == name);
-        Axis::linear(&name.replace('_', " "), unit.map_or("", |(_, unit)| unit))
+        let common = UNITS.iter().find(|(known, _)| known == name);
+        let unit = common.map(|(_, unit)| *unit);
+        let unit = unit.or_else(|| Effect::unit_of_column(name));
+        Axis::linear(&name.replace('_', " "), unit.unwrap_or_default())
     });
     let series = (runs.iter().enumerate()).flat_map(|(name, run)| {
         let points = run.points(pair);

@@ -16,8 +16,10 @@ use crate::output::{
 #[cfg(feature = "images")]
 use crate::output::{Load, Picture, plot, report::Report, write_picture, write_within};
 use crate::scene::{Control, FieldName, Precision, StepChoice};
+#[cfg(feature = "images")]
+use crate::study::Planned;
 use crate::study::{
-    Checkpoint, Evaluation, FinishedStep, Observer, Planned, Search, Setup, StepRow, WalkEnd,
+    Checkpoint, Evaluation, FinishedStep, Observer, Search, Setup, StepRow, WalkEnd,
 };
 use crate::units::format_si;
 

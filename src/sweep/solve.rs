@@ -94,7 +94,7 @@ pub fn solve(
             let sender = sender.clone();
             let (stop, next, open, path) = (&stop, &next, &open, &path);
             scope.spawn(move || {
-                let mut work = || {
+                let work = || {
                     while !stop.load(Ordering::Relaxed) {
                         let Some(case) = open.get(next.fetch_add(1, Ordering::Relaxed)) else {
                             break;
@@ -109,7 +109,7 @@ pub fn solve(
                     }
                 };
                 // One pool for all cases of this job; where the system has no threads left, that of all jobs.
-                if with_threads(Some(jobs.threads), &mut work).is_err() {
+                if with_threads(Some(jobs.threads), work).is_err() {
                     work();
                 }
             });

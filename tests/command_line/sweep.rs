@@ -417,6 +417,35 @@ fn a_full_disk_ends_a_study_and_keeps_what_is_finished() {
 #[cfg(not(target_os = "linux"))]
 fn a_full_disk_ends_a_study_and_keeps_what_is_finished() {}
 
+/// The shipped study has the cases that its page tells of, and the last of them runs.
+fn the_shipped_study_runs() {
+    let study = Path::new(env!("CARGO_MANIFEST_DIR")).join("examples/studies/roughness.toml");
+    let study = study.to_str().expect("a name");
+    let place = tempfile::tempdir().expect("a folder");
+    let list = tabor(place.path(), &["sweep", study, "--list"]);
+    assert_eq!(list.status.code(), Some(0), "{}", errors(&list));
+    assert_eq!(
+        list.stdout.iter().filter(|byte| **byte == b'\n').count(),
+        210
+    );
+    let mut call = vec![
+        "sweep",
+        study,
+        "--only",
+        "210/210",
+        "--set",
+        "grid.points=64",
+    ];
+    call.extend(["--set", "surface.0.shortest=3.2 um"]);
+    let output = tabor(place.path(), &call);
+    assert_eq!(output.status.code(), Some(0), "{}", errors(&output));
+    let said = errors(&output);
+    assert!(
+        said.contains("1 of 1 cases solved; those of share 210/210"),
+        "{said}"
+    );
+}
+
 fn what_is_no_study_is_refused_in_one_message() {
     let axis = "scene = \"scene.toml\"\n[[axis]]\n";
     for (study, expected) in [
@@ -506,5 +535,6 @@ tests![
     a_case_that_did_not_converge_is_solved_again,
     axes_take_lists_files_and_several_keys,
     a_full_disk_ends_a_study_and_keeps_what_is_finished,
+    the_shipped_study_runs,
     what_is_no_study_is_refused_in_one_message,
 ];
