@@ -8,7 +8,7 @@ use csv::StringRecord;
 use super::{Failure, say};
 use crate::effect::Effect;
 use crate::output::csv_line::csv_line;
-use crate::output::plot::{Axis, DISTINCT, Figure, LARGE, Panel, PlotPoint, Series};
+use crate::output::plot::{Axis, DISTINCT, Figure, Panel, PlotPoint, Series};
 use crate::output::write_atomically;
 
 /// Points of a curve up to which each is marked.
@@ -68,7 +68,6 @@ pub(super) fn plot(arguments: &PlotArguments) -> Result<(), Failure> {
     let figure = Figure {
         names: names(&arguments.runs),
         panels: pairs.iter().map(|pair| panel(pair, &runs)).collect(),
-        style: LARGE,
         ..Figure::default()
     };
     let picture = arguments.out.with_extension("png");

@@ -242,6 +242,11 @@ impl<'a> RunRecorder<'a> {
             let path = self.folder.curve_picture_path();
             let bytes = figure.png().map_err(OutputError::write("write", &path))?;
             write_within(&path, &bytes)?;
+            // Two panels side by side as wide as a page.
+            let figure = plot::Figure {
+                style: plot::SMALL,
+                ..figure
+            };
             let path = self.folder.curve_vector_path();
             write_within(&path, figure.svg_file().as_bytes())?;
         }

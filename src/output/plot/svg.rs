@@ -10,10 +10,10 @@ use super::raster::DASHES;
 const BASELINE: f64 = 0.3;
 
 /// Pixels in a millimetre of a figure in a file of its own: a large panel is 156 mm wide, two small ones are 170 mm,
-/// the width of a page, and text has 7 to 8 points.
+/// the width of a page, and text has 7 to 9 points.
 const PIXELS_PER_MILLIMETRE: f64 = 6.2;
 /// Size of a font of that file in heights of a line of the PNG's.
-const FONT: f64 = 0.85;
+const FONT: f64 = 0.95;
 /// Style of a figure that stands in a file of its own, but for the size of its font.
 const STYLE: &str = "polyline{fill:none} .bold{font-weight:600} .quiet{fill:#5c5f66} \
     .grid{stroke:#e4e6ea} .zero{stroke:#a4a7ae} .frame{stroke:#5c5f66} .open{stroke-width:1.6}";
