@@ -17,6 +17,7 @@ mod grid_values;
 mod hardness;
 mod keys;
 mod laws;
+mod leakage;
 mod loading;
 mod mistake;
 mod output;
@@ -44,6 +45,7 @@ pub use grid_values::GridValues;
 #[cfg(feature = "cli")]
 pub(crate) use keys::unit_of;
 pub use laws::{Exponential, LennardJones, MaugisDugdale};
+pub use leakage::Axis;
 pub use mistake::{Mistake, SceneError, SceneErrors};
 pub use parts::*;
 #[cfg(feature = "cli")]

@@ -41,7 +41,7 @@ enum Kind {
     Afm,
     /// Pillars of a height map on a soft solid, which let go one by one
     Pillars,
-    /// A rubber seal on a machined surface: contact and gaps under pressure
+    /// A rubber seal on a machined face: how much leaks through its gaps
     Seal,
     /// Two surfaces of a micromachine in humid air: stiction
     Mems,
