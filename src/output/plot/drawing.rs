@@ -8,6 +8,9 @@ const SAMPLE: u32 = 28;
 /// Space between that sample and its name, and behind the name.
 const SPACE: [u32; 2] = [8, 24];
 
+/// Most letters of a unit that stands beside the title of its panel.
+const LONGEST_UNIT: usize = 11;
+
 /// The role of a mark; the renderer chooses the colour.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Ink {
@@ -183,7 +186,14 @@ impl Drawing {
         let x = Scale::new(&panel.x, values(|point| point.x));
         let y = Scale::new(&panel.y, values(|point| point.y));
         let above = frame.y - 0.5 * text - 5.0;
-        let title = cut(&panel.title, style.width / style.text.advance());
+        // The vertical axis is named by the title; its unit stands above the numbers, or there if it is too long.
+        let has_room = y.unit().chars().count() <= LONGEST_UNIT;
+        let title = if has_room {
+            panel.title.clone()
+        } else {
+            format!("{} ({})", panel.title, y.unit())
+        };
+        let title = cut(&title, style.width / style.text.advance());
         self.write(
             [frame.x, above],
             &title,
@@ -209,9 +219,10 @@ impl Drawing {
         let middle = frame.x + 0.5 * frame.width;
         let below = [middle, frame.bottom() + 1.5 * text + 12.0];
         self.write(below, &x.label(), Anchor::Middle, Face::Text, Ink::Quiet);
-        // The vertical axis is named by the title; its unit stands above the numbers.
-        let beside = [frame.x - 8.0, above];
-        self.write(beside, y.unit(), Anchor::End, Face::Text, Ink::Quiet);
+        if has_room {
+            let beside = [frame.x - 8.0, above];
+            self.write(beside, y.unit(), Anchor::End, Face::Text, Ink::Quiet);
+        }
         let place = |point: &PlotPoint| {
             let (across, up) = x.share(point.x).zip(y.share(point.y))?;
             Some([frame.across(across), frame.down(up)])
