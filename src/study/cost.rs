@@ -39,6 +39,8 @@ pub struct Cost {
     pub points: [usize; 2],
     /// Bytes of the host's memory that effects take besides the history.
     pub host: HostBytes,
+    /// Bytes of the fields and of the work space that the solver lets go of between its iterations and the next solve.
+    pub(super) resting: usize,
     /// Whether the stiffness of the waves is a table, and no formula.
     pub(super) is_tabulated: bool,
     /// Whether the first step may be helped by coarser grids.
@@ -120,7 +122,9 @@ fn plan(
         // The counts do not depend on the tolerance.
         solver.begin(&load, &Start::Present, 0.0, false)?;
         solver.precondition_by_levels();
-        (0..iterations).try_for_each(|_| solver.iterate().map(drop))
+        (0..iterations).try_for_each(|_| solver.iterate().map(drop))?;
+        solver.rest();
+        Ok(())
     };
     let mut started = DryRun::on(place);
     begin(&mut started, 0)?;
@@ -154,6 +158,7 @@ fn plan(
         },
     };
     let transforms = iterated.transforms() - started.transforms();
+    let resting = iterated.released_bytes();
     Ok(Cost {
         place,
         fields: iterated.fields,
@@ -165,6 +170,7 @@ fn plan(
         passes: iterated.passes.split_off(started.passes.len()),
         points: problem.shape.points,
         host: effects.host_bytes(&sizes),
+        resting,
         is_tabulated,
         starts_coarse: problem.law == Law::HardWall
             && problem.boundary == Boundary::Periodic
