@@ -72,6 +72,8 @@ dimensions! {
     Conductivity: "W/(m K)", "a conductivity in W/(m K) or S/m", "\"400 W/(m K)\"";
     /// m^3/(N m), which is 1/Pa: the volume worn off per load and length of sliding.
     SpecificWear: "m^3/(N m)", "a specific wear rate in m^3/(N m) or 1/Pa", "\"1e-6 mm^3/(N m)\"";
+    /// Pa s.
+    Viscosity: "Pa s", "a viscosity in Pa s", "\"1 mPa s\"";
     /// 1/m: a curvature, a wave number.
     PerLength: "1/m", "a reciprocal length in 1/m", "\"0.1 1/um\"";
     /// 1/m^2: a count per area.
@@ -237,6 +239,7 @@ const PREFIXED: &[(&str, Dimension)] = &[
     ("m/s", Dimension::Speed),
     ("V", Dimension::Voltage),
     ("m/V", Dimension::LengthPerVoltage),
+    ("Pa s", Dimension::Viscosity),
     ("W/(m K)", Dimension::Conductivity),
     ("W/m/K", Dimension::Conductivity),
     ("S/m", Dimension::Conductivity),
@@ -521,6 +524,7 @@ mod tests {
             ("0.3mm³ / (N m)", SpecificWear, 3e-10),
             ("3e-15 m^3/(N m)", SpecificWear, 3e-15),
             ("3e-15 1/Pa", SpecificWear, 3e-15),
+            ("3 mPa s", Viscosity, 3e-3),
             ("0.1 1/um", PerLength, 1e5),
             ("9e3/m", PerLength, 9e3),
             ("10 1/um^2", PerArea, 1e13),

@@ -22,6 +22,7 @@ keep striped 0015_pressure striped
 keep viscoelastic 0026_pressure viscoelastic
 keep yielding 0003_pressure yielding
 keep joint 0004_pressure joint
+keep seal 0005_gap seal
 keep fast_pull_off 0018_pressure fast_pull_off
 keep humid_tip 0011_pressure humid_tip
 keep patterned_punch 0055_pressure patterned_punch

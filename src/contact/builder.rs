@@ -7,9 +7,10 @@ use super::solution::Solution;
 use crate::device::Device;
 use crate::elastic::Layer;
 use crate::scene::{
-    AdhesionMap, AdhesionScene, Boundary, CapillaryScene, ConductanceScene, Conduction,
-    EffectTables, FrictionScene, GridScene, LoadingScene, OutputScene, Precision, Ramp, RateScene,
-    RelaxationScene, Scene, SceneError, SolidScene, SurfacePart, Treatment, WearScene,
+    AdhesionMap, AdhesionScene, Axis, Boundary, CapillaryScene, ConductanceScene, Conduction,
+    EffectTables, FrictionScene, GridScene, LeakageScene, LoadingScene, OutputScene, Precision,
+    Ramp, RateScene, RelaxationScene, Scene, SceneError, SolidScene, SurfacePart, Treatment,
+    WearScene,
 };
 
 /// A rough, rigid counter-face over an elastic solid, in SI units.
@@ -182,7 +183,7 @@ impl Contact {
     }
 
     /// Asks for the effects of these tables, which hold numbers alone; [`friction`](Contact::friction),
-    /// [`conductance`](Contact::conductance) and [`wear`](Contact::wear) set one each.
+    /// [`conductance`](Contact::conductance), [`wear`](Contact::wear) and [`leakage`](Contact::leakage) set one each.
     pub fn tables(mut self, tables: EffectTables) -> Self {
         self.scene.tables = tables;
         self
@@ -207,6 +208,12 @@ impl Contact {
     /// Asks for the volume that sliding wears off, of a specific wear rate, m^3/(N m).
     pub fn wear(mut self, specific_wear_rate: f64) -> Self {
         self.scene.tables.wear = Some(WearScene { specific_wear_rate });
+        self
+    }
+
+    /// Asks for the flow of a fluid of a viscosity, Pa s, through the gap along an axis.
+    pub fn leakage(mut self, viscosity: f64, axis: Axis) -> Self {
+        self.scene.tables.leakage = Some(LeakageScene { viscosity, axis });
         self
     }
 

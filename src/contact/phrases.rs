@@ -21,6 +21,7 @@ const METHODS: &[(&str, &str)] = &[
     ("friction", "Contact::friction"),
     ("conductance", "Contact::conductance"),
     ("wear", "Contact::wear"),
+    ("leakage", "Contact::leakage"),
     ("loading.spring", "Contact::spring"),
     ("loading.pull_off_tolerance", "Contact::pull_off_tolerance"),
     ("loading.ramp", "Contact::ramps"),

@@ -14,6 +14,7 @@ mod free_boundary;
 mod friction;
 mod hardness;
 mod layer;
+mod leakage;
 mod planning;
 mod rate;
 mod relaxation;
@@ -30,7 +31,7 @@ use crate::scene::Scene;
 use crate::study::{Cost, Hooks, Plan};
 
 /// Every effect of this version, in the order in which they are called and shown. A new one stands last.
-const LIST: [&dyn Hooks; 13] = [
+const LIST: [&dyn Hooks; 14] = [
     &adhesion::Adhesion,
     &dmt::Dmt,
     &adhesion_map::AdhesionMap,
@@ -44,6 +45,7 @@ const LIST: [&dyn Hooks; 13] = [
     &friction::Friction,
     &conductance::Conductance,
     &wear::Wear,
+    &leakage::Leakage,
 ];
 
 /// An effect of this version.

@@ -17,6 +17,7 @@ mod grid_values;
 mod hardness;
 mod keys;
 mod laws;
+mod leakage;
 mod loading;
 mod mistake;
 mod output;
@@ -42,6 +43,7 @@ pub use check::Ramp;
 pub use conductance::Conduction;
 pub use grid_values::GridValues;
 pub use laws::{Exponential, LennardJones, MaugisDugdale};
+pub use leakage::Axis;
 pub use mistake::{Mistake, SceneError, SceneErrors};
 pub use parts::*;
 #[cfg(feature = "cli")]

@@ -8,6 +8,7 @@ use serde_json::{Value, json};
 use super::allowed::Allowed;
 use super::conductance::Conduction;
 use super::keys::{Key, Section};
+use super::leakage::Axis;
 use super::reader::Reader;
 use crate::units::Dimension;
 
@@ -129,5 +130,14 @@ tables! {
     wear: WearScene {
         /// Volume worn off per load and length of sliding, m^3/(N m).
         specific_wear_rate: SpecificWear = "1e-6 mm^3/(N m)",
+    }
+    /// `[leakage]`: a fluid between the surfaces.
+    leakage: LeakageScene {
+        /// Viscosity of the fluid, Pa s.
+        viscosity: Viscosity = "1 mPa s",
+        [
+            /// Where it flows to.
+            axis: Axis = "y"
+        ]
     }
 }

@@ -7,7 +7,7 @@ use std::process::Command;
 
 use crate::shared::trials::tests;
 use tabor::scene::{
-    AdhesionScene, CapillaryScene, PatternKind, RelaxationScene, Scene, SolidScene,
+    AdhesionScene, Axis, CapillaryScene, PatternKind, RelaxationScene, Scene, SolidScene,
 };
 use tabor::{
     AdhesionMap, Base, Boundary, Contact, ContactError, Control, Device, Exponential, Grid,
@@ -164,6 +164,14 @@ fn cases() -> Vec<Case> {
             pressures(&[1e6, 2e6]),
             format!(
                 "{ROUGH}{solid}thickness = 1e-6\npoisson_ratio = 0.4\n{sharp}treatment = \"dmt\"\nmap = {{ pattern = \"stripe\", period = 0.5e-6, low = 0.5, high = 1.0 }}\n[loading]\ncontrol = \"pressure\"\npath = [1e6, 2e6]\n"
+            ),
+        ),
+        case(
+            "leakage along y",
+            contact().leakage(1e-3, Axis::Y),
+            pressures(&[1e6, 2e6]),
+            format!(
+                "{ROUGH}{solid}[leakage]\nviscosity = \"1 mPa s\"\naxis = \"y\"\n[loading]\ncontrol = \"pressure\"\npath = [1e6, 2e6]\n"
             ),
         ),
         case(
@@ -535,6 +543,7 @@ fn mistakes_name_the_method_and_no_line_of_a_scene() {
         (refused(contact(), [Control::MeanPressure(f64::NAN)]), "Contact::path, 0: nan is out of range"),
         (refused(contact().friction(0.0), pressure()), "Contact::friction, shear_strength: 0.0 is out of range"),
         (refused(contact().wear(-1.0), pressure()), "Contact::wear, specific_wear_rate: -1.0 is out of range"),
+        (refused(contact().leakage(-1e-3, Axis::X), pressure()), "Contact::leakage, viscosity: -0.001 is out of range"),
         (refused(affine(&|rough| rough.hurst = 2.0), pressure()), "Contact::from_parts, hurst: 2.0 is out of range"),
         (refused(affine(&|rough| rough.shortest = 1.0), pressure()), "wavelengths must be ordered shortest < rolloff <= longest"),
         (refused(part(SurfacePart::Wavy { amplitude: 1e-9, wavelength: [0.3e-6, f64::INFINITY] }), pressure()), "does not divide the periodic size 2 µm; the nearest that does is"),

@@ -15,6 +15,7 @@ mod hardness;
 mod hertz;
 mod invariants;
 mod layer;
+mod leakage;
 mod lennard_jones;
 mod maugis_dugdale;
 mod pairs;
@@ -50,6 +51,7 @@ fn main() -> ExitCode {
         hertz::tests(),
         invariants::tests(),
         layer::tests(),
+        leakage::tests(),
         lennard_jones::tests(),
         maugis_dugdale::tests(),
         pairs::tests(),

@@ -6,6 +6,7 @@
 
 use std::panic::{UnwindSafe, catch_unwind, resume_unwind};
 use std::process::{Command, ExitCode};
+use std::time::Instant;
 
 use libtest_mimic::{Arguments, Completion, Trial};
 use tabor::backend::cpu::with_threads;
@@ -16,6 +17,11 @@ struct Ignored(String);
 /// Whether every claim is tried on all that it is about (`TABOR_LONG=1`), which takes some minutes more.
 pub fn is_long() -> bool {
     std::env::var("TABOR_LONG").is_ok_and(|value| value == "1")
+}
+
+/// Whether the seconds of each test are printed (`TABOR_TEST_SECONDS=1`).
+fn tells_seconds() -> bool {
+    std::env::var("TABOR_TEST_SECONDS").is_ok_and(|value| value == "1")
 }
 
 /// Ends the running test, which is reported as ignored.
@@ -49,8 +55,14 @@ pub(crate) use tests;
 /// another thread for each of its kernels. Results have the same bits on any number of threads.
 pub fn trial(module: &str, name: &str, test: impl FnOnce() + Send + UnwindSafe + 'static) -> Trial {
     let module = module.split_once("::").map_or("", |(_, below)| below);
-    Trial::ignorable_test(format!("{module}::{name}"), move || {
-        let Err(payload) = catch_unwind(|| with_threads(Some(1), test).expect("a thread")) else {
+    let name = format!("{module}::{name}");
+    Trial::ignorable_test(name.clone(), move || {
+        let begun = Instant::now();
+        let end = catch_unwind(|| with_threads(Some(1), test).expect("a thread"));
+        if tells_seconds() {
+            eprintln!("{:7.2} s  {name}", begun.elapsed().as_secs_f64());
+        }
+        let Err(payload) = end else {
             return Ok(Completion::Completed);
         };
         match payload.downcast::<Ignored>() {

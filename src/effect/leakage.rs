@@ -1,0 +1,110 @@
+//! `[leakage]`: whether a fluid gets through the gap, its narrowest passage, and how much flows.
+//!
+//! The fluid fills what is open and presses on nothing: the contact is that of dry surfaces.
+
+use crate::backend::BackendError;
+use crate::flow::Film;
+use crate::scene::{LeakageScene, Scene};
+use crate::solver::ContactSolver;
+use crate::study::{Column, Hooks, HostBytes, Plan, PointState, Setup, Sizes, SolvedStep};
+use crate::units::format_si;
+
+/// Flow for each pascal between the two ends of the grid; empty where nothing holds the surfaces together.
+const FLOW: Column = Column::new("flow_conductance", "m^3/(s Pa)", 6);
+/// Narrowest passage on the widest way through; 0 where there is none.
+const CONSTRICTION: Column = Column::new("critical_constriction", "m", 7);
+/// Bytes a point of the clusters, of the equations and their coarse grids (2.2 times the links of the points), and of
+/// the vectors of the iteration, as measured.
+const BYTES: u64 = 220;
+
+/// Flow of a thin film through the gap.
+pub(super) struct Leakage;
+
+impl Hooks for Leakage {
+    fn name(&self) -> &'static str {
+        "leakage"
+    }
+
+    fn purpose(&self) -> &'static str {
+        "whether a fluid gets through the gap, and how much, in columns of their own, by multigrid after each step"
+    }
+
+    fn is_on(&self, scene: &Scene) -> bool {
+        scene.tables.leakage.is_some()
+    }
+
+    fn remove_from(&self, scene: &mut Scene) {
+        scene.tables.leakage = None;
+    }
+
+    fn example(&self) -> &'static [(&'static str, &'static str)] {
+        &[("leakage", "{ viscosity = 0.1, axis = \"y\" }")]
+    }
+
+    fn matters(&self, plan: &Plan) -> String {
+        let height = plan.outline.moments.rms_height();
+        let viscosity = plan
+            .scene
+            .tables
+            .leakage
+            .map_or(1.0, |fluid| fluid.viscosity);
+        format!(
+            "matters until the contact area closes every way through, at some 0.4 of the nominal one where it is rough alike in all directions; here a square gap as wide as the rms height, {}, passes {:.2e} {}",
+            format_si(height, "m"),
+            height.powi(3) / (12.0 * viscosity),
+            FLOW.unit
+        )
+    }
+
+    fn host_bytes(&self, sizes: &Sizes) -> HostBytes {
+        HostBytes {
+            passing: BYTES * sizes.points,
+            ..HostBytes::default()
+        }
+    }
+
+    fn columns(&self) -> &'static [Column] {
+        &[FLOW, CONSTRICTION]
+    }
+
+    fn measure(
+        &self,
+        setup: &Setup,
+        _: &mut ContactSolver,
+        solved: &mut SolvedStep,
+    ) -> Result<(), BackendError> {
+        let (Some(LeakageScene { viscosity, axis }), Some(evaluation)) =
+            (setup.scene.tables.leakage, &solved.evaluation)
+        else {
+            return Ok(());
+        };
+        // A law that repels across a gap leaves some in contact, where nothing flows.
+        let open = |(gap, point): (&f64, &PointState)| {
+            if *point == PointState::Contact {
+                0.0
+            } else {
+                *gap
+            }
+        };
+        let gap: Vec<f64> = evaluation
+            .gap
+            .iter()
+            .zip(&evaluation.points)
+            .map(open)
+            .collect();
+        let film = Film {
+            gap: &gap,
+            grid: setup.surface.grid,
+            boundary: setup.scene.grid.boundary,
+            axis,
+        };
+        let settings = &setup.scene.solver;
+        let flow = film.flow(settings.tolerance, settings.max_iterations);
+        solved.converged &= flow.converged;
+        solved
+            .measured
+            .push((FLOW, flow.permeance / (12.0 * viscosity)));
+        solved.measured.push((CONSTRICTION, flow.critical_gap));
+        Ok(())
+    }
+}
