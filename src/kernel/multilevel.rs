@@ -345,10 +345,10 @@ impl<T: Real> WithSimd for Neighbours<'_, T> {
             let across = above[1..last].iter().zip(&below[1..last]);
             let along = own[..last - 1].iter().zip(&own[2..]);
             for ((line, (above, below)), (left, right)) in inner.zip(across).zip(along) {
-                *line = *line + compliance * ((*above + *below) + (*left + *right));
+                *line += compliance * ((*above + *below) + (*left + *right));
             }
             for (x, beside) in beside {
-                line[x] = line[x] + compliance * ((above[x] + below[x]) + beside);
+                line[x] += compliance * ((above[x] + below[x]) + beside);
             }
         }
     }
