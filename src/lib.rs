@@ -75,6 +75,7 @@
 //! | [`compare`] | one rough surface through the full field and the models of it, with seconds and ranges |
 //! | [`fit`] | work of adhesion and modulus from a measured force curve |
 //! | `accuracy` | error against seconds: a scene over grids, precisions, steps and models |
+//! | `sweep` | a study: a scene over values of its keys, into one table |
 //! | `cli` | the command line |
 //!
 //! # What an iteration does
@@ -155,6 +156,8 @@ pub mod solver;
 #[doc(hidden)]
 pub mod study;
 pub mod surface;
+#[cfg(feature = "cli")]
+mod sweep;
 pub mod theory;
 #[doc(hidden)]
 pub mod units;

@@ -87,6 +87,16 @@ dimensions! {
 }
 
 impl Dimension {
+    /// The unit of a bare number in a scene: degrees for an angle, SI for all else.
+    #[cfg(feature = "cli")]
+    pub(crate) fn unit_in_scenes(self) -> &'static str {
+        if self == Dimension::Angle {
+            "deg"
+        } else {
+            self.unit()
+        }
+    }
+
     /// Whether values of the two dimensions are interchangeable.
     pub fn is_same_as(self, other: Dimension) -> bool {
         let canonical = |dimension| match dimension {
@@ -365,6 +375,27 @@ pub fn parse_quantity(text: &str, expected: Dimension) -> Result<f64, UnitError>
     } else {
         Err(UnitError::NotFinite { text, expected })
     }
+}
+
+/// SI value and dimension of a text with a unit of any dimension; `None` for other texts.
+#[cfg(feature = "cli")]
+pub(crate) fn parse_any_quantity(text: &str) -> Option<(f64, Dimension)> {
+    let (digits, exponent, rest) = split_number(text.trim())?;
+    let unit = find_unit(rest.trim())?;
+    let value = scale(digits, exponent, unit);
+    value.is_finite().then_some((value, unit.dimension))
+}
+
+/// The number that a text begins with, and the text behind it; `None` if it does not begin with a finite number.
+#[cfg(feature = "cli")]
+pub(crate) fn number_and_rest(text: &str) -> Option<(f64, &str)> {
+    let (digits, exponent, rest) = split_number(text.trim())?;
+    let number = scale(
+        digits,
+        exponent,
+        Unit::new(Dimension::Dimensionless, 0, 1.0),
+    );
+    number.is_finite().then_some((number, rest.trim()))
 }
 
 /// Angle in radians of a bare number, which is in degrees.

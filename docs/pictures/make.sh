@@ -28,4 +28,11 @@ keep humid_tip 0011_pressure humid_tip
 keep patterned_punch 0055_pressure patterned_punch
 # On fewer points than the scene has, for a small picture.
 keep contact_challenge 0001_pressure contact_challenge "--set grid.points=512"
+for w in 50 20; do
+    "$tabor" run examples/scenes/sphere_pull_off.toml --out "$out/$w mJ per m^2" --quiet --set "adhesion.work_of_adhesion=$w mJ/m^2"
+done
+"$tabor" plot "$out/50 mJ per m^2" "$out/20 mJ per m^2" --out "$out/two_runs.png"
+cp "$out/two_runs.png" docs/pictures/
+"$tabor" sweep examples/studies/roughness.toml --out "$out/roughness" --quiet
+cp "$out/roughness/means.png" docs/pictures/sweep_roughness.png
 rm -r "$out"

@@ -11,12 +11,15 @@ mod fit;
 mod fit_folder;
 mod flags;
 mod interrupts;
+mod new;
 mod patience;
+mod plot;
 mod progress;
 mod quantity;
 mod run;
 mod shell;
 mod surface;
+mod sweep;
 mod table;
 mod theory;
 
@@ -35,6 +38,7 @@ use crate::output::{OutputError, visible, visible_line};
 use crate::run::{MemoryError, RunError};
 use crate::scene::{BackendName, Precision, Scene, SceneErrors};
 use crate::surface::SurfaceError;
+use crate::sweep::SweepError;
 use crate::theory::TheoryError;
 
 /// Adhesive contact of rough surfaces, solved as a full field.
@@ -50,6 +54,9 @@ struct Arguments {
 
 #[derive(Debug, Subcommand)]
 enum Command {
+    /// Write a commented scene to begin with
+    #[command(after_help = "Example:\n  tabor new rough mine\n  tabor run mine/scene.toml")]
+    New(new::NewArguments),
     /// Solve every step of a scene and write its results
     #[command(
         after_help = "Example:\n  tabor run examples/scenes/sphere_pull_off.toml --out pull_off --set grid.points=256\n  tabor run examples/scenes/sphere_pull_off.toml --out pull_off --set grid.points=256 --resume"
@@ -83,6 +90,16 @@ enum Command {
         after_help = "The curve has columns approach (positive closer) and force (positive in compression), in SI or\nwith the unit in the head: `approach [nm], force [nN]`. More in docs/fit.md.\n\nExamples:\n  tabor fit examples/force_curve.csv --radius \"10 um\" --out fit\n  tabor fit --radius \"10 um\" --pull-off \"2 uN\" --stiffness \"30 N/m\""
     )]
     Fit(fit::FitArguments),
+    /// Many runs: a scene over values of its keys, into one table
+    #[command(
+        after_help = "Writes sweep.csv (one row a case and step), runs.csv (one row a case), and means.csv, means.png and means.svg. A study that was interrupted continues where it was. More in docs/sweep.md.\n\nExample:\n  tabor sweep examples/studies/roughness.toml --out roughness --jobs 2\n  tabor sweep examples/studies/roughness.toml --list"
+    )]
+    Sweep(sweep::SweepArguments),
+    /// Several runs in one picture, as PNG, SVG and CSV
+    #[command(
+        after_help = "Example:\n  tabor plot rough smooth --out rough_and_smooth.png\n  tabor plot rough/curve.csv smooth/curve.csv --x mean_pressure --y contact_area_fraction"
+    )]
+    Plot(plot::PlotArguments),
     /// Adapters found, what each can do, and which one `auto` takes
     #[command(after_help = "Example:\n  tabor devices")]
     Devices {
@@ -264,6 +281,22 @@ enum Failure {
         "interrupted after {rows} settings, which are kept in {}", folder.display()
     )]
     InterruptedStudy { rows: usize, folder: PathBuf },
+    #[error(
+        "interrupted after {finished} of {cases} cases, which are kept in {}; the same command continues with the others", folder.display()
+    )]
+    InterruptedSweep {
+        finished: usize,
+        cases: usize,
+        folder: PathBuf,
+    },
+    #[error("{failed} of {cases} cases did not end well; {} has the reasons", table.display())]
+    FailedCases {
+        failed: usize,
+        cases: usize,
+        table: PathBuf,
+    },
+    #[error(transparent)]
+    Sweep(#[from] SweepError),
     #[error(transparent)]
     Accuracy(#[from] AccuracyError),
     #[error(transparent)]
@@ -307,6 +340,7 @@ impl Failure {
             Failure::Memory(_)
             | Failure::Device(DeviceError::Points { .. } | DeviceError::Limits { .. }) => 2,
             Failure::NotConverged { .. }
+            | Failure::FailedCases { .. }
             | Failure::Theory(TheoryError::NotConverged { .. })
             | Failure::Fit(FitError::Theory(TheoryError::NotConverged { .. })) => 3,
             Failure::Theory(_) | Failure::Fit(_) => 2,
@@ -314,9 +348,12 @@ impl Failure {
             Failure::Accuracy(AccuracyError::Output(OutputError::Refused { .. })) => 2,
             Failure::Accuracy(AccuracyError::Output(_)) => 1,
             Failure::Accuracy(_) => 2,
-            Failure::Interrupted { .. } | Failure::InterruptedStudy { .. } => {
-                interrupts::INTERRUPTED
-            }
+            Failure::Sweep(SweepError::Output(OutputError::Refused { .. })) => 2,
+            Failure::Sweep(SweepError::Output(_)) => 1,
+            Failure::Sweep(_) => 2,
+            Failure::Interrupted { .. }
+            | Failure::InterruptedStudy { .. }
+            | Failure::InterruptedSweep { .. } => interrupts::INTERRUPTED,
         }
     }
 }
@@ -337,6 +374,7 @@ pub fn main() -> ExitCode {
         Err(error) => refuse_call(error),
     };
     let done = match arguments.command {
+        Command::New(arguments) => new::new(&arguments),
         Command::Run(arguments) => run::run(&arguments),
         Command::Check(arguments) => check::check(&arguments),
         Command::Surface(arguments) => surface::surface(&arguments),
@@ -344,6 +382,8 @@ pub fn main() -> ExitCode {
         Command::Compare(arguments) => compare::compare(&arguments),
         Command::Accuracy(arguments) => accuracy::accuracy(&arguments),
         Command::Fit(arguments) => fit::fit(&arguments),
+        Command::Sweep(arguments) => sweep::sweep(&arguments),
+        Command::Plot(arguments) => plot::plot(&arguments),
         Command::Devices { verbose } => devices::devices(verbose),
         Command::Completions { shell } => shell::completions(shell),
         Command::Man { folder } => shell::man(folder.as_deref()),

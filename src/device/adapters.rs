@@ -10,9 +10,15 @@ use crate::backend::gpu::{
     AdapterChoice, AdapterDescription, GpuDevice, GpuError, adapters, quietly,
 };
 
-/// All adapters that drivers offer here. Drivers that print while they start are heard if `verbose`.
+/// All adapters that drivers offer here, as this process found them when it first asked: many runs in one process ask
+/// for the same. Drivers that print while they start are heard if `verbose`.
 pub fn list(verbose: bool) -> Vec<AdapterDescription> {
-    quietly_unless(verbose, adapters)
+    static FOUND: Mutex<Option<Vec<AdapterDescription>>> = Mutex::new(None);
+    let mut found = FOUND.lock().unwrap_or_else(PoisonError::into_inner);
+    match &*found {
+        Some(found) if !verbose => found.clone(),
+        _ => found.insert(quietly_unless(verbose, adapters)).clone(),
+    }
 }
 
 /// A device on the adapter of a choice: the one that this process has opened for the same choice, with the
@@ -37,8 +43,10 @@ pub fn open(choice: &AdapterChoice, verbose: bool) -> Result<GpuDevice, GpuError
     Ok(device)
 }
 
-/// Does something that makes drivers talk.
+/// Does something that makes drivers talk; one thread at a time, since standard error is the whole process's.
 fn quietly_unless<R>(verbose: bool, work: impl FnOnce() -> R) -> R {
+    static QUIET: Mutex<()> = Mutex::new(());
+    let _only = QUIET.lock().unwrap_or_else(PoisonError::into_inner);
     if verbose {
         return work();
     }

@@ -122,6 +122,15 @@ impl Effect {
         self.0.columns().iter().map(|column| column.name)
     }
 
+    /// The unit of a column of any effect; `None` where no effect has it.
+    #[cfg(feature = "cli")]
+    pub(crate) fn unit_of_column(name: &str) -> Option<&'static str> {
+        let mut columns = Effect::ALL.iter().flat_map(|effect| effect.0.columns());
+        columns
+            .find(|column| column.name == name)
+            .map(|column| column.unit)
+    }
+
     /// What it costs in a scene that asks for it, of which `with` is the cost on `grid`.
     ///
     /// # Errors

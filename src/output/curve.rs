@@ -18,7 +18,7 @@ pub const HEADER: &str = "step,time,approach,mean_gap,force,mean_pressure,contac
 pub(crate) const EMPTY_CHECKSUM: u32 = 0;
 
 /// First line of `curve.csv` with the columns that effects add.
-fn header(columns: &[Column]) -> String {
+pub(crate) fn header(columns: &[Column]) -> String {
     let names = columns.iter().map(|column| format!(",{}", column.name()));
     names.fold(HEADER.to_owned(), |line, name| line + &name)
 }

@@ -1,10 +1,10 @@
-//! Finds the first difference of two resolved scenes, for messages.
+//! Finds the first difference of two resolved scenes or studies, for messages.
 
 use serde_json::Value;
 
 /// The first key in which two scenes differ, to follow "another scene"; empty if they cannot be
 /// compared.
-pub(super) fn difference(there: &str, here: &str) -> String {
+pub(crate) fn difference(there: &str, here: &str) -> String {
     let read = |text: &str| serde_json::from_str::<Value>(text).ok();
     let (Some(there), Some(here)) = (read(there), read(here)) else {
         return String::new();

@@ -18,7 +18,13 @@ const UNFINISHED: &str = ".tabor-unfinished";
 const PARTS: [&str; 3] = ["images", "fields", "state"];
 
 /// Files that a run writes at the top of its folder.
-const TOP_FILES: [&str; 4] = ["curve.csv", "curve.png", "summary.json", "report.html"];
+const TOP_FILES: [&str; 5] = [
+    "curve.csv",
+    "curve.png",
+    "curve.svg",
+    "summary.json",
+    "report.html",
+];
 
 /// Prefix of the files of the state after the last step.
 const STATE_PREFIX: &str = "last_";
@@ -181,6 +187,11 @@ impl RunFolder {
     /// `curve.png`.
     pub fn curve_picture_path(&self) -> PathBuf {
         self.path.join("curve.png")
+    }
+
+    /// `curve.svg`.
+    pub fn curve_vector_path(&self) -> PathBuf {
+        self.path.join("curve.svg")
     }
 
     /// The fields of a step for ParaView, such as `fields/step_0003.vti`.
@@ -552,6 +563,7 @@ mod tests {
             folder.field_path(12345, FieldName::Gap),
             folder.volume_path(3),
             folder.curve_picture_path(),
+            folder.curve_vector_path(),
             folder.state_path("step.json"),
             place
                 .path()

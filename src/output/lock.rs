@@ -31,14 +31,7 @@ impl FolderLock {
     /// # Errors
     /// Refused if another process holds it; the message names that process.
     pub fn take(path: &Path, folder: &Path) -> Result<FolderLock, OutputError> {
-        std::fs::create_dir_all(folder).map_err(OutputError::write("create the folder", folder))?;
-        let mut file = File::options()
-            .read(true)
-            .write(true)
-            .create(true)
-            .truncate(false)
-            .open(path)
-            .map_err(OutputError::write("write", path))?;
+        let mut file = open(path, folder)?;
         let warning = match file.try_lock() {
             Ok(()) => None,
             Err(TryLockError::WouldBlock) => {
@@ -60,6 +53,18 @@ impl FolderLock {
         Ok(FolderLock { file, warning })
     }
 
+    /// The same, but waits while another process holds it: for what is done in moments. A file system that knows no
+    /// locks holds nobody up.
+    ///
+    /// # Errors
+    /// A folder or a file that cannot be written.
+    pub fn wait(path: &Path, folder: &Path) -> Result<FolderLock, OutputError> {
+        let file = open(path, folder)?;
+        let _ = file.lock();
+        let warning = None;
+        Ok(FolderLock { file, warning })
+    }
+
     /// The warning if the folder is not locked.
     pub fn warning(&self) -> Option<&str> {
         self.warning.as_deref()
@@ -72,6 +77,18 @@ impl Drop for FolderLock {
     fn drop(&mut self) {
         let _ = self.file.set_len(0);
     }
+}
+
+/// Opens the lock file of a folder; both are made where they are missing.
+fn open(path: &Path, folder: &Path) -> Result<File, OutputError> {
+    std::fs::create_dir_all(folder).map_err(OutputError::write("create the folder", folder))?;
+    File::options()
+        .read(true)
+        .write(true)
+        .create(true)
+        .truncate(false)
+        .open(path)
+        .map_err(OutputError::write("write", path))
 }
 
 /// Process, moment and machine of this run.

@@ -58,6 +58,8 @@ pub use curve::Curve;
 #[doc(hidden)]
 pub use curve::CurveWriter;
 pub(crate) use curve::EMPTY_CHECKSUM;
+#[cfg(feature = "cli")]
+pub(crate) use difference::difference;
 pub(crate) use error::FRESH;
 pub use error::OutputError;
 pub use fields::{write_field, write_field_single};

@@ -20,13 +20,17 @@
 
 mod earlier_files;
 mod end;
+mod in_memory;
 pub(crate) mod memory_check;
 mod observer;
 mod options;
 mod run_directory;
 mod run_recorder;
+mod warnings;
 
 pub use end::{RunEnd, RunError, RunStatus};
+#[doc(hidden)]
+pub use in_memory::solve_with;
 pub use memory_check::MemoryError;
 pub use observer::RunObserver;
 pub use options::RunOptions;

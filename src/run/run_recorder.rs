@@ -5,6 +5,7 @@ use std::borrow::Cow;
 use super::RunObserver;
 use super::earlier_files::separated_words;
 use super::run_directory::{RunDirectory, STATE, fingerprint, solver};
+use super::warnings::warnings_at_end;
 use crate::clock::Clock;
 use crate::device::SelectedDevice;
 use crate::kernel::Scalars;
@@ -14,10 +15,11 @@ use crate::output::{
 };
 #[cfg(feature = "images")]
 use crate::output::{Load, Picture, plot, report::Report, write_picture, write_within};
-use crate::scene::{Control, FieldName, LoadingScene, Precision, StepChoice};
+use crate::scene::{Control, FieldName, Precision, StepChoice};
+#[cfg(feature = "images")]
+use crate::study::Planned;
 use crate::study::{
-    Checkpoint, Evaluation, FinishedStep, Observer, Planned, PullOff, Search, Setup, State,
-    StepRow, Tension, WalkEnd,
+    Checkpoint, Evaluation, FinishedStep, Observer, Search, Setup, StepRow, WalkEnd,
 };
 use crate::units::format_si;
 
@@ -153,32 +155,6 @@ impl<'a> RunRecorder<'a> {
         self.warn(separated_words(step));
     }
 
-    /// Warns of steps whose residual stays above the tolerance because of rounding.
-    fn warn_of_rounding(&mut self) {
-        let asked = self.setup.scene.solver.tolerance;
-        let short: Vec<&StepRow> = self
-            .rows
-            .iter()
-            .filter(|row| row.converged && row.residual.is_finite() && row.residual > asked)
-            .collect();
-        let Some(first) = short.first() else {
-            return;
-        };
-        let most = short.iter().map(|row| row.residual).fold(0.0, f64::max);
-        let (count, first) = (short.len(), first.step);
-        let precision = self.device.precision();
-        let remedy = match precision {
-            Precision::Single => "; precision = \"mixed\" or \"double\" continues from there",
-            _ => "",
-        };
-        self.warn(format!(
-            "rounding in {} precision ends {count} of {} steps, the first of them step {first}, at a residual of \
-             up to {most:.1e}, asked {asked:.1e}{remedy}",
-            precision.name(),
-            self.rows.len(),
-        ));
-    }
-
     /// Warnings of the scene and of the run.
     fn all_warnings(&self) -> Vec<String> {
         [self.setup.warnings.as_slice(), &self.warnings].concat()
@@ -262,10 +238,17 @@ impl<'a> RunRecorder<'a> {
         }
         let clock = Clock::start();
         if summary.is_some() {
-            let bytes = plot::picture(&self.setup.scene, &self.rows).map_err(
-                OutputError::write("write", &self.folder.curve_picture_path()),
-            )?;
-            write_within(&self.folder.curve_picture_path(), &bytes)?;
+            let figure = plot::run_figure(&self.setup.scene, &self.rows);
+            let path = self.folder.curve_picture_path();
+            let bytes = figure.png().map_err(OutputError::write("write", &path))?;
+            write_within(&path, &bytes)?;
+            // Two panels side by side as wide as a page.
+            let figure = plot::Figure {
+                style: plot::SMALL,
+                ..figure
+            };
+            let path = self.folder.curve_vector_path();
+            write_within(&path, figure.svg_file().as_bytes())?;
         }
         let text = Report {
             setup: self.setup,
@@ -301,13 +284,8 @@ impl<'a> RunRecorder<'a> {
         if let Some((step, evaluation)) = self.last.take() {
             self.write_fields(step, &evaluation)?;
         }
-        self.warn_of_rounding();
         self.output_seconds += clock.seconds();
-        let is_whole = Planned::after(self.setup, &end.rows).is_none();
-        if is_whole
-            && end.rows.last().is_some_and(|row| row.converged)
-            && let Some(text) = pull_off_warning(&self.setup.scene.loading, end)
-        {
+        for text in warnings_at_end(self.setup, self.device, end) {
             self.warn(text);
         }
         self.tallies = Checkpoint {
@@ -377,42 +355,6 @@ impl<'a> RunRecorder<'a> {
     fn write_pictures(&mut self, _: usize, _: &Evaluation) -> Result<(), OutputError> {
         debug_assert!(!self.draws);
         Ok(())
-    }
-}
-
-/// A warning if the pull-off of a finished path is not known to the tolerance.
-fn pull_off_warning(loading: &LoadingScene, end: &WalkEnd) -> Option<String> {
-    let newtons = |force: f64| format_si(force, "N");
-    match Tension::at_end(loading, end) {
-        Tension::Holds { step, force } if end.rows[step - 1].state == State::Contact => {
-            Some(format!(
-                "the contact held {} in step {step}, the greatest tension of the path: its pull-off is beyond; extend the path until it lets go",
-                newtons(force)
-            ))
-        }
-        Tension::LetGo(PullOff { lower, upper, .. })
-            if loading.pull_off_tolerance > 0.0
-                && lower > 0.0
-                && upper - lower > loading.pull_off_tolerance * upper * (1.0 + f64::EPSILON) =>
-        {
-            Some(format!(
-                "pull-off lies between {} and {}, and is known no better: a load between them did not converge; allow more max_iterations",
-                newtons(lower),
-                newtons(upper)
-            ))
-        }
-        _ if loading.until_apart
-            && end
-                .rows
-                .last()
-                .is_some_and(|row| row.state != State::Separated) =>
-        {
-            Some(format!(
-                "the surfaces still hold together after {} steps; let the path go on from nearer to its pull-off",
-                end.rows.len()
-            ))
-        }
-        _ => None,
     }
 }
 

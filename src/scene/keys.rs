@@ -1,6 +1,8 @@
 //! The keys of each table with an example value: the one list behind every message.
 
 use super::tables;
+#[cfg(feature = "cli")]
+use crate::units::parse_any_quantity;
 
 /// A key, and an example of its value; the head of a table stands for a table.
 pub(super) type Key = (&'static str, &'static str);
@@ -36,6 +38,16 @@ impl Section {
     pub fn names(&self) -> impl Iterator<Item = &'static str> {
         self.keys.iter().chain(self.later).map(|(name, _)| *name)
     }
+}
+
+/// The unit of a key such as `surface.0.rms_height` in a resolved scene, by the example of its value; empty where it has none.
+#[cfg(feature = "cli")]
+pub(crate) fn unit_of(key: &str) -> &'static str {
+    let name = key.rsplit('.').next().unwrap_or(key).trim();
+    let mut keys = all().flat_map(|section| section.keys);
+    keys.find(|(known, _)| *known == name)
+        .and_then(|(_, example)| parse_any_quantity(example.trim_matches('"')))
+        .map_or("", |(_, dimension)| dimension.unit_in_scenes())
 }
 
 /// Whether a text is `[table]` or `[[table]]`, and no list.

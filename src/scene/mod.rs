@@ -42,6 +42,8 @@ pub use attraction::*;
 pub use check::Ramp;
 pub use conductance::Conduction;
 pub use grid_values::GridValues;
+#[cfg(feature = "cli")]
+pub(crate) use keys::unit_of;
 pub use laws::{Exponential, LennardJones, MaugisDugdale};
 pub use leakage::Axis;
 pub use mistake::{Mistake, SceneError, SceneErrors};

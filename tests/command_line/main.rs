@@ -10,7 +10,9 @@ mod hostile_calls;
 mod instrument_curves;
 mod kept;
 mod mistakes;
+mod new_scene;
 mod pictures;
+mod plot;
 #[cfg(unix)]
 mod recipes;
 mod report_page;
@@ -21,6 +23,7 @@ mod scenes;
 mod shared;
 mod shell;
 mod surface;
+mod sweep;
 mod theory;
 
 fn main() -> ExitCode {
@@ -35,7 +38,9 @@ fn main() -> ExitCode {
         mistakes::tests(),
         mistakes::scenes::tests(),
         mistakes::variants::tests(),
+        new_scene::tests(),
         pictures::tests(),
+        plot::tests(),
         #[cfg(unix)]
         recipes::tests(),
         report_page::tests(),
@@ -44,6 +49,7 @@ fn main() -> ExitCode {
         scenes::tests(),
         shell::tests(),
         surface::tests(),
+        sweep::tests(),
         theory::tests(),
     ])
 }

@@ -20,7 +20,7 @@ control = "pressure"
 path = ["1 MPa", "2 MPa"]
 "#;
 
-const COMMANDS: [&str; 10] = [
+const COMMANDS: [&str; 13] = [
     "run",
     "check",
     "surface",
@@ -31,6 +31,9 @@ const COMMANDS: [&str; 10] = [
     "devices",
     "completions",
     "man",
+    "new",
+    "sweep",
+    "plot",
 ];
 
 fn text(bytes: &[u8]) -> String {

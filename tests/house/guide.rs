@@ -319,3 +319,11 @@ fn quoted(line: &str) -> Vec<String> {
     }
     found
 }
+
+#[test]
+fn the_citation_has_the_version_of_the_crate() {
+    let root = Path::new(env!("CARGO_MANIFEST_DIR"));
+    let text = fs::read_to_string(root.join("CITATION.cff")).expect("the file is there");
+    let line = format!("version: {}", env!("CARGO_PKG_VERSION"));
+    assert!(text.lines().any(|known| known == line), "{line}");
+}

@@ -316,10 +316,8 @@ fn write_pictures(folder: &RunFolder, report: &Report) -> Result<(), OutputError
     )?;
     let spectrum = report.spectrum();
     spectrum.write(&folder.path().join("psd.png"))?;
-    spectrum.write_svg(&folder.path().join("psd.svg"))?;
     let (tables, figure) = report.distributions();
     figure.write(&folder.path().join("statistics.png"))?;
-    figure.write_svg(&folder.path().join("statistics.svg"))?;
     for (name, table) in tables {
         write_atomically(&folder.path().join(name), table.as_bytes())?;
     }

@@ -1,7 +1,5 @@
 //! The curves of a run: load against distance, contact area against load.
 
-use std::io;
-
 use super::{Axis, DIRECTIONS, Figure, LARGE, Panel, PlotPoint, SMALL, Series, Style};
 use crate::scene::{Boundary, Control, Scene};
 use crate::study::StepRow;
@@ -23,17 +21,13 @@ const PAGE: Style = Style {
     ..SMALL
 };
 
-/// The curves of a run as a PNG file, side by side.
-///
-/// # Errors
-/// What the encoder says.
-pub fn picture(scene: &Scene, rows: &[StepRow]) -> io::Result<Vec<u8>> {
+/// The curves of a run side by side.
+pub fn run_figure(scene: &Scene, rows: &[StepRow]) -> Figure {
     Figure {
         title: scene.title.clone().unwrap_or_default(),
         style: LARGE,
         ..figure(panels(scene, rows))
     }
-    .png()
 }
 
 /// A further quantity of the steps.

@@ -16,7 +16,7 @@ use super::canvas::{self, Font, HEADING, TEXT};
 use super::error::OutputError;
 use super::folder::write_atomically;
 use super::palette::Rgb;
-pub use curves::picture;
+pub use curves::run_figure;
 pub use scale::Axis;
 
 /// A point of a curve.
@@ -262,13 +262,14 @@ impl Figure {
         canvas::png(&self.draw(), title.as_slice())
     }
 
-    /// Draws the figure and writes it to `path` as a PNG, in one piece.
+    /// Draws the figure and writes it to `path` as a PNG and beside it as an SVG, each in one piece.
     ///
     /// # Errors
     /// What the system says.
     pub fn write(&self, path: &Path) -> Result<(), OutputError> {
         let png = self.png().map_err(OutputError::write("write", path))?;
-        write_atomically(path, &png)
+        write_atomically(path, &png)?;
+        write_atomically(&path.with_extension("svg"), self.svg_file().as_bytes())
     }
 
     fn pen(&self, name: usize) -> &'static Pen {

@@ -1,41 +1,49 @@
 //! Renders a figure as SVG within a page whose style sheet sets the colours.
 
-use std::path::Path;
-
 use maud::{Markup, PreEscaped, html};
 
 use super::Figure;
 use super::drawing::{Anchor, Drawing, Face, Ink, Mark};
 use super::raster::DASHES;
-use crate::output::error::OutputError;
-use crate::output::folder::write_atomically;
 
 /// From the middle of a line of text to its baseline, in heights of the line.
 const BASELINE: f64 = 0.3;
 
-/// Style of a figure that stands in a file of its own.
-const STYLE: &str = "polyline{fill:none} text{font:14px sans-serif} .bold{font-weight:600} .quiet{fill:#5c5f66} \
+/// Pixels in a millimetre of a figure in a file of its own: a large panel is 156 mm wide, two small ones are 170 mm,
+/// the width of a page, and text has 7 to 9 points.
+const PIXELS_PER_MILLIMETRE: f64 = 6.2;
+/// Size of a font of that file in heights of a line of the PNG's.
+const FONT: f64 = 0.95;
+/// Style of a figure that stands in a file of its own, but for the size of its font.
+const STYLE: &str = "polyline{fill:none} .bold{font-weight:600} .quiet{fill:#5c5f66} \
     .grid{stroke:#e4e6ea} .zero{stroke:#a4a7ae} .frame{stroke:#5c5f66} .open{stroke-width:1.6}";
 
 impl Figure {
-    /// Writes the figure to `path` as an SVG file, in one piece.
-    ///
-    /// # Errors
-    /// What the system says.
-    pub fn write_svg(&self, path: &Path) -> Result<(), OutputError> {
+    /// The figure as an SVG file, with vector text, in the size of a paper's.
+    pub fn svg_file(&self) -> String {
         let Drawing {
             size: [width, height],
             marks,
         } = Drawing::new(self);
+        let millimetres =
+            |pixels: u32| format!("{:.1}mm", f64::from(pixels) / PIXELS_PER_MILLIMETRE);
+        let font = FONT * f64::from(self.style.text.height());
+        // No page gives these pens their colours.
+        let pens = self.pens.iter().filter(|pen| !pen.class.is_empty());
+        let pens: String = pens.map(|pen| {
+            let ([red, green, blue], class) = (pen.colour, pen.class);
+            let colour = format!("#{red:02x}{green:02x}{blue:02x}");
+            format!(".{class}{{stroke:{colour}}} circle.{class}.full{{fill:{colour}}} circle.{class}.open{{fill:#fff}} ")
+        }).collect();
         let text = html! {
-            svg xmlns="http://www.w3.org/2000/svg" width=(width) height=(height)
+            svg xmlns="http://www.w3.org/2000/svg" width=(millimetres(width)) height=(millimetres(height))
                 viewBox={ "0 0 " (width) " " (height) } {
-                style { (PreEscaped(STYLE)) }
+                style { (PreEscaped(STYLE)) " " (pens) " text{font-size:" (font) "px;font-family:Helvetica,Arial,sans-serif}" }
                 rect width="100%" height="100%" fill="#fff" {}
                 @for mark in &marks { (self.element(mark)) }
             }
         };
-        write_atomically(path, text.into_string().as_bytes())
+        text.into_string()
     }
 
     /// The colour of a curve, unless the page chooses it.

@@ -107,6 +107,18 @@ const CALLS: &[BadCall] = &[
     call(&["accuracy", "map.toml", "--set", "grid.boundary=free", "--set", "loading.control=force", "--set", "loading.path=[1e-6]"], "AccuracyError::OneGrid", "a height file on a free boundary belongs to one grid; accuracy needs the same surface on several: give the surface as shapes"),
     call(&["accuracy", "good.toml", "--set", "adhesion={law='exponential', work_of_adhesion=0.05, range='1 nm', map='w.npy'}"], "AccuracyError::OneGrid", "adhesion.map from a file belongs to one grid"),
     call(&["accuracy", "sizeless.toml"], "Failure::Surface", "sizeless.toml: [grid] size is missing"),
+    call(&["sweep", "absent.toml"], "SweepError::Unreadable", "absent.toml: cannot be read: "),
+    call(&["sweep", "good.toml"], "SweepError::Syntax", "good.toml: not a study: TOML parse error at line "),
+    call(&["sweep", "no_axis.toml"], "SweepError::NoAxis", "no_axis.toml: there is no [[axis]]; add one with a key of the scene"),
+    call(&["sweep", "empty_axis.toml"], "SweepError::Axis", "empty_axis.toml: axis 1 (surface.0.radius): has no values"),
+    call(&["sweep", "study.toml", "--set", "surface.0.radius=1e-6"], "SweepError::Twice", "study.toml: surface.0.radius is the key of an axis, and given once more with --set"),
+    call(&["sweep", "unknown_key.toml"], "SweepError::Scene", "unknown_key.toml: surface.0.radios=1: unknown key in a sphere [[surface]]; did you mean `radius`?"),
+    call(&["sweep", "no_plot.toml"], "SweepError::Plot", "no_plot.toml: plot.y: pull is not a quantity of a run; these are: largest_contact_area_fraction, "),
+    call(&["sweep", "no_case.toml"], "SweepError::Folders", "no_case.toml: folders: there is no case 3; the study has 2"),
+    call(&["sweep", "too_many.toml"], "SweepError::TooMany", "too_many.toml: 4000000 cases are more than 1000000; take fewer values, or several studies"),
+    call(&["sweep", "study.toml", "--out", "foreign"], "SweepError::Output", "foreign: holds files that tabor sweep did not write"),
+    call(&["sweep", "study.toml", "--out", "good.toml"], "Failure::Sweep", "good.toml: is a file; name a folder"),
+    BadCall { status: 3, ..call(&["sweep", "study.toml", "--quiet", "--out", "hard", "--set", "solver.max_iterations=1", "--set", "solver.tolerance=1e-12"], "Failure::FailedCases", "2 of 2 cases did not end well; hard/runs.csv has the reasons") },
     call(&["theory", "hertz", "--contact_modulus", "1 GPa", "--radius", "3 Pa"], "Failure::Usage", "--radius: \"Pa\" is a pressure in Pa; give a length in m"),
     call(&["theory", "herz"], "Failure::Usage", "there is no model \"herz\"; did you mean hertz?"),
     call(&["theory", "maugis-dugdale", "--radius", "1e-6", "--contact_modulus", "1e6", "--work_of_adhesion", "0.05", "--range", "1e-25"], "Failure::Theory", "is out of range: it must be between 1e-6 and 1e6"),
@@ -176,6 +188,26 @@ fn folder() -> tempfile::TempDir {
             "sizeless.toml",
             part(map).replace("points = 16\nsize = \"1 um\"\n", ""),
         ),
+        ("study.toml", study("", "radius", "[1e-6, 2e-6]")),
+        ("no_axis.toml", "scene = \"good.toml\"\n".to_owned()),
+        ("empty_axis.toml", study("", "radius", "[]")),
+        ("unknown_key.toml", study("", "radios", "[1]")),
+        (
+            "no_plot.toml",
+            study("plot.y = \"pull\"\n", "radius", "[1e-6]"),
+        ),
+        (
+            "no_case.toml",
+            study("folders = [3]\n", "radius", "[1e-6, 2e-6]"),
+        ),
+        (
+            "too_many.toml",
+            study("", "radius", &format!("[{}]", "1e-6, ".repeat(2000)))
+                + &format!(
+                    "[[axis]]\nkey = \"grid.points\"\nvalues = [{}]\n",
+                    "16, ".repeat(2000)
+                ),
+        ),
         ("map.txt", "1 2 3\n4 5 6\n".repeat(20)),
     ] {
         fs::write(folder.path().join(name), text).expect("a file");
@@ -184,6 +216,11 @@ fn folder() -> tempfile::TempDir {
     fs::create_dir(folder.path().join("foreign")).expect("a folder");
     fs::write(folder.path().join("foreign/thesis.txt"), "mine").expect("a file");
     folder
+}
+
+/// A study of `good.toml` over a key of its sphere.
+fn study(more: &str, key: &str, values: &str) -> String {
+    format!("scene = \"good.toml\"\n{more}[[axis]]\nkey = \"surface.0.{key}\"\nvalues = {values}\n")
 }
 
 /// Makes every call and returns what was reached.
@@ -213,6 +250,7 @@ pub fn reached() -> Vec<Reached> {
         reached.push(full_disk(folder.path()));
         reached.push(interrupted(folder.path()));
         reached.push(interrupted_study(folder.path()));
+        reached.push(interrupted_sweep(folder.path()));
         reached.extend(no_such_adapter(folder.path()));
         reached.extend(past_the_adapter(folder.path()));
     }
@@ -290,6 +328,36 @@ fn interrupted_study(folder: &Path) -> Reached {
     Reached {
         variant: "Failure::InterruptedStudy".to_owned(),
         message: one_line(&output, 130, " settings, which are kept in study"),
+    }
+}
+
+/// Ctrl-C amid the cases of a study: exit status 130, and its table is there, without rows.
+fn interrupted_sweep(folder: &Path) -> Reached {
+    let sweep = binary::command(folder, &["sweep", "study.toml", "--out", "swept"])
+        .args(["--set", "grid.points=512"])
+        .args([
+            "--set",
+            "solver.tolerance=1e-30",
+            "--set",
+            "solver.max_iterations=1000000",
+        ])
+        .stdout(Stdio::piped())
+        .stderr(Stdio::piped())
+        .spawn()
+        .expect("the binary runs");
+    // The file of cases is there once the study watches for the signal.
+    while !folder.join("swept/cases.jsonl").exists() {
+        std::thread::sleep(std::time::Duration::from_millis(20));
+    }
+    assert!(binary::signal(&sweep, "-INT"));
+    let output = sweep.wait_with_output().expect("the study ends");
+    Reached {
+        variant: "Failure::InterruptedSweep".to_owned(),
+        message: one_line(
+            &output,
+            130,
+            "interrupted after 0 of 2 cases, which are kept in swept; the same command continues with the others",
+        ),
     }
 }
 

@@ -1,0 +1,98 @@
+//! What a sweep costs beside its solves: the CPU seconds of `tabor sweep` over 200 seeds on 128 x 128 points, over the
+//! sum of those of the same solves alone, each on one thread. Linux.
+//!
+//! `cargo build --release && cargo run --release --example sweep_cost`: the scene of the shipped study, a load and the
+//! search for its pull-off; and under one load alone, so that each solve is short.
+
+use std::error::Error;
+use std::path::Path;
+use std::process::Command;
+use std::time::Instant;
+
+use cpu_time::ProcessTime;
+use tabor::backend::Backend;
+use tabor::backend::cpu::{CpuBackend, with_threads};
+use tabor::scene::Scene;
+use tabor::study::{Setup, walk};
+use tabor::surface::Surface;
+
+/// Runs of the sweep.
+const RUNS: usize = 200;
+/// Clock ticks a second in /proc.
+const TICKS: f64 = 100.0;
+/// The scene of the shipped study.
+const SCENE: &str = concat!(env!("CARGO_MANIFEST_DIR"), "/examples/studies/rubber.toml");
+/// Names and paths of loads.
+const PATHS: [(&str, &str); 2] = [
+    ("a load and its pull-off", "[\"2 MPa\", \"-5 MPa\"]"),
+    ("one load", "[\"2 MPa\"]"),
+];
+
+fn main() -> Result<(), Box<dyn Error>> {
+    for (name, path) in PATHS {
+        compare(name, path)?;
+    }
+    Ok(())
+}
+
+/// Prints the cost of a sweep under a path of loads.
+fn compare(name: &str, path: &str) -> Result<(), Box<dyn Error>> {
+    let [solves, surfaces] = alone(path)?;
+    println!("{name}: solves alone {solves:.2} CPU seconds, their surfaces {surfaces:.2}");
+    let folder = tempfile::tempdir()?;
+    let study = format!(
+        "scene = {SCENE:?}\nset.loading.path = {path}\n[[axis]]\nkey = \"surface.0.seed\"\nfrom = 1\nto = {RUNS}\ncount = {RUNS}\n"
+    );
+    std::fs::write(folder.path().join("study.toml"), study)?;
+    for jobs in ["1", "2"] {
+        let before = children_seconds()?;
+        let clock = Instant::now();
+        let status = Command::new(std::env::current_exe()?.with_file_name("../tabor"))
+            .current_dir(folder.path())
+            .args(["sweep", "study.toml", "--quiet", "--threads", "1"])
+            .args(["--jobs", jobs, "--out", jobs])
+            .status()?;
+        if !status.success() {
+            return Err(format!("the sweep ended with {status}").into());
+        }
+        let seconds = children_seconds()? - before;
+        println!(
+            "  sweep, {jobs} at a time: {seconds:.2} CPU seconds, {:.3} of the solves alone, in {:.2} s",
+            seconds / solves,
+            clock.elapsed().as_secs_f64()
+        );
+    }
+    Ok(())
+}
+
+/// CPU seconds of all solves, one by one, and those of their surfaces.
+fn alone(path: &str) -> Result<[f64; 2], Box<dyn Error>> {
+    let [mut solves, mut surfaces] = [0.0; 2];
+    for seed in 1..=RUNS {
+        let clock = ProcessTime::now();
+        let set = [
+            ("surface.0.seed".to_owned(), seed.to_string()),
+            ("loading.path".to_owned(), path.to_owned()),
+        ];
+        let scene = Scene::read(Path::new(SCENE), &set)?;
+        let surface = Surface::build(&scene)?;
+        let setup = Setup::new(scene, surface);
+        surfaces += clock.elapsed().as_secs_f64();
+        let backend = || -> Box<dyn Backend + Send> { Box::new(CpuBackend::<f64>::new()) };
+        let clock = ProcessTime::now();
+        with_threads(Some(1), || walk(&setup, &backend, &mut ()))??;
+        solves += clock.elapsed().as_secs_f64();
+    }
+    Ok([solves, surfaces])
+}
+
+/// CPU seconds of the children of this process that have ended.
+fn children_seconds() -> Result<f64, Box<dyn Error>> {
+    let text = std::fs::read_to_string("/proc/self/stat")?;
+    // The name of the program may have spaces; no field behind its bracket has. The 14th and 15th of these are user and
+    // system time of children.
+    let (_, fields) = text.rsplit_once(')').ok_or("no name")?;
+    let fields: Vec<&str> = fields.split_whitespace().collect();
+    let ticks = fields[13].parse::<f64>()? + fields[14].parse::<f64>()?;
+    Ok(ticks / TICKS)
+}

@@ -1,0 +1,82 @@
+//! What a run that ended warns of.
+
+use crate::device::SelectedDevice;
+use crate::scene::{LoadingScene, Precision};
+use crate::study::{Planned, PullOff, Setup, State, StepRow, Tension, WalkEnd};
+use crate::units::format_si;
+
+/// Warnings of a path that ended: steps that rounding ended, and a pull-off that is not known.
+pub(super) fn warnings_at_end(
+    setup: &Setup,
+    device: &SelectedDevice,
+    end: &WalkEnd,
+) -> Vec<String> {
+    let is_whole = Planned::after(setup, &end.rows).is_none()
+        && end.rows.last().is_some_and(|row| row.converged);
+    let pull_off = is_whole
+        .then(|| pull_off(&setup.scene.loading, end))
+        .flatten();
+    rounding(setup, device, &end.rows)
+        .into_iter()
+        .chain(pull_off)
+        .collect()
+}
+
+/// A warning if rounding ended steps above the tolerance.
+fn rounding(setup: &Setup, device: &SelectedDevice, rows: &[StepRow]) -> Option<String> {
+    let asked = setup.scene.solver.tolerance;
+    let short: Vec<&StepRow> = rows
+        .iter()
+        .filter(|row| row.converged && row.residual.is_finite() && row.residual > asked)
+        .collect();
+    let first = short.first()?.step;
+    let most = short.iter().map(|row| row.residual).fold(0.0, f64::max);
+    let precision = device.precision();
+    let remedy = match precision {
+        Precision::Single => "; precision = \"mixed\" or \"double\" continues from there",
+        _ => "",
+    };
+    Some(format!(
+        "rounding in {} precision ends {} of {} steps, the first of them step {first}, at a residual of \
+         up to {most:.1e}, asked {asked:.1e}{remedy}",
+        precision.name(),
+        short.len(),
+        rows.len(),
+    ))
+}
+
+/// A warning if the pull-off of a finished path is not known to the tolerance.
+fn pull_off(loading: &LoadingScene, end: &WalkEnd) -> Option<String> {
+    let newtons = |force: f64| format_si(force, "N");
+    match Tension::at_end(loading, end) {
+        Tension::Holds { step, force } if end.rows[step - 1].state == State::Contact => {
+            Some(format!(
+                "the contact held {} in step {step}, the greatest tension of the path: its pull-off is beyond; extend the path until it lets go",
+                newtons(force)
+            ))
+        }
+        Tension::LetGo(PullOff { lower, upper, .. })
+            if loading.pull_off_tolerance > 0.0
+                && lower > 0.0
+                && upper - lower > loading.pull_off_tolerance * upper * (1.0 + f64::EPSILON) =>
+        {
+            Some(format!(
+                "pull-off lies between {} and {}, and is known no better: a load between them did not converge; allow more max_iterations",
+                newtons(lower),
+                newtons(upper)
+            ))
+        }
+        _ if loading.until_apart
+            && end
+                .rows
+                .last()
+                .is_some_and(|row| row.state != State::Separated) =>
+        {
+            Some(format!(
+                "the surfaces still hold together after {} steps; let the path go on from nearer to its pull-off",
+                end.rows.len()
+            ))
+        }
+        _ => None,
+    }
+}

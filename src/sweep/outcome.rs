@@ -1,0 +1,201 @@
+//! What is kept of a case.
+
+use serde::{Deserialize, Serialize};
+use serde_json::Value;
+
+use super::cases::{Case, value_at};
+use crate::output::curve::{format_row, header};
+use crate::run::{RunEnd, RunStatus};
+use crate::scene::Scene;
+use crate::study::Column;
+use crate::units::{Dimension, parse_any_quantity};
+
+/// A quantity of a whole run.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Quantity {
+    /// Its column in `runs.csv`.
+    pub name: &'static str,
+    /// Its SI unit; `%` for a share that a picture shows in per cent.
+    pub unit: &'static str,
+    value: fn(&RunEnd) -> Option<f64>,
+}
+
+const fn quantity(
+    name: &'static str,
+    unit: &'static str,
+    value: fn(&RunEnd) -> Option<f64>,
+) -> Quantity {
+    Quantity { name, unit, value }
+}
+
+/// Quantities of a whole run, in the order of `runs.csv`, SI.
+pub(super) const QUANTITIES: [Quantity; 11] = [
+    quantity("largest_contact_area_fraction", "%", |end| {
+        end.summary.largest_contact_area_fraction
+    }),
+    quantity("pull_off_force", "N", |end| end.summary.pull_off_force),
+    quantity("pull_off_lower", "N", |end| end.summary.pull_off_lower),
+    quantity("pull_off_upper", "N", |end| end.summary.pull_off_upper),
+    quantity("hysteresis_energy", "J", |end| {
+        end.summary.hysteresis_energy
+    }),
+    quantity("jumps_in", "", |end| {
+        Some(end.summary.jump_in_steps.len() as f64)
+    }),
+    quantity("jumps_off", "", |end| {
+        Some(end.summary.jump_off_steps.len() as f64)
+    }),
+    quantity("last_force", "N", |end| {
+        end.rows.last().map(|row| row.force)
+    }),
+    quantity("last_contact_area_fraction", "%", |end| {
+        end.rows.last().map(|row| row.contact_area_fraction)
+    }),
+    quantity("iterations", "", |end| {
+        Some(end.rows.iter().map(|row| row.iterations as f64).sum())
+    }),
+    quantity("transforms", "", |end| Some(end.summary.transforms)),
+];
+
+/// How a case ended.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "kebab-case")]
+pub enum Status {
+    /// Every step is solved.
+    Finished,
+    /// The last row did not reach the tolerance.
+    NotConverged,
+    /// There is no result.
+    Failed,
+}
+
+impl Status {
+    /// Its word in `runs.csv`.
+    pub fn name(self) -> &'static str {
+        match self {
+            Status::Finished => "finished",
+            Status::NotConverged => "not-converged",
+            Status::Failed => "failed",
+        }
+    }
+}
+
+/// The result of a case: one line of the file of cases.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct Outcome {
+    /// The case's number, from 1.
+    pub number: usize,
+    /// For each key its value, as a cell of a table: a number in SI where the scene takes one, else its text.
+    pub values: Vec<String>,
+    /// How it ended.
+    pub status: Status,
+    /// Why it did not end well, or its warnings.
+    pub message: String,
+    /// Seconds that it took.
+    pub seconds: f64,
+    /// Quantities of the whole run as cells, since JSON may lose the last bit of a number; empty where it has none.
+    pub quantities: Vec<String>,
+    /// Names of the columns of the rows.
+    pub header: String,
+    /// Rows, one a step, as in `curve.csv`.
+    pub rows: Vec<String>,
+}
+
+impl Outcome {
+    /// The outcome of a case that ran to an end.
+    pub(super) fn ended(case: &Case, scene: &Scene, end: &RunEnd, seconds: f64) -> Outcome {
+        let columns = Column::for_scene(scene);
+        let (status, message) = match end.status {
+            RunStatus::NotConverged {
+                step,
+                residual,
+                iterations,
+                tolerance,
+                ..
+            } => (
+                Status::NotConverged,
+                format!(
+                    "step {step} did not converge: residual {residual:.1e} after {iterations} iterations, asked {tolerance:.1e}"
+                ),
+            ),
+            _ => (Status::Finished, end.summary.warnings.join("; ")),
+        };
+        let rows = end.rows.iter().map(|row| format_row(row, &columns));
+        Outcome {
+            number: case.number,
+            values: values(case, Some(scene)),
+            status,
+            message,
+            seconds,
+            quantities: QUANTITIES
+                .map(|quantity| (quantity.value)(end).map(number_cell).unwrap_or_default())
+                .into(),
+            header: header(&columns),
+            rows: rows.map(|row| row.trim_end().to_owned()).collect(),
+        }
+    }
+
+    /// The outcome of a case that has no result.
+    pub(super) fn failed(
+        case: &Case,
+        scene: Option<&Scene>,
+        message: String,
+        seconds: f64,
+    ) -> Outcome {
+        Outcome {
+            number: case.number,
+            values: values(case, scene),
+            status: Status::Failed,
+            message,
+            seconds,
+            quantities: vec![String::new(); QUANTITIES.len()],
+            header: String::new(),
+            rows: Vec::new(),
+        }
+    }
+
+    /// Whether every step is solved, so that the case is not solved again.
+    pub fn is_finished(&self) -> bool {
+        self.status == Status::Finished
+    }
+
+    /// A quantity by its name.
+    pub(super) fn quantity(&self, name: &str) -> Option<f64> {
+        let place = QUANTITIES.iter().position(|known| known.name == name)?;
+        self.quantities.get(place)?.parse().ok()
+    }
+}
+
+/// A number as a cell, to the last bit; a count without a decimal point.
+fn number_cell(value: f64) -> String {
+    /// Whole numbers below this one have all their digits in a double.
+    const EXACT: f64 = 1e15;
+    if value.fract() == 0.0 && value.abs() < EXACT {
+        format!("{value:.0}")
+    } else {
+        format!("{value:?}")
+    }
+}
+
+/// The value of each key as a cell, as the scene understood it.
+fn values(case: &Case, scene: Option<&Scene>) -> Vec<String> {
+    let resolved = scene.map(Scene::resolved_json);
+    let value = |(key, text): &(String, String)| {
+        let understood = resolved.as_ref().and_then(|scene| value_at(scene, key));
+        match understood.and_then(Value::as_f64) {
+            Some(number) => number_cell(number),
+            None => written(text),
+        }
+    };
+    case.settings.iter().map(value).collect()
+}
+
+/// A value as it is written, in SI where it is a quantity: the resolved scene has another key in its place.
+fn written(text: &str) -> String {
+    let text = text.trim_matches('"');
+    match parse_any_quantity(text) {
+        Some((radians, Dimension::Angle)) => number_cell(radians.to_degrees()),
+        Some((value, _)) => number_cell(value),
+        None => text.to_owned(),
+    }
+}
