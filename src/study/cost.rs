@@ -12,7 +12,7 @@ use crate::elastic::Stiffness;
 use crate::grid::Boundary;
 use crate::grid::Grid;
 use crate::law::Law;
-use crate::scene::{BackendName, Precision, Scene};
+use crate::scene::{BackendName, Control, Precision, Scene};
 use crate::solver::{ContactSolver, Problem, Start, plan_outer_state};
 
 /// Fields, tables and passes of a scene's solver, and what is kept between its steps.
@@ -43,6 +43,8 @@ pub struct Cost {
     pub(super) resting: usize,
     /// Whether the stiffness of the waves is a table, and no formula.
     pub(super) is_tabulated: bool,
+    /// Whether solves start from a gap that the host holds.
+    pub(super) starts_from_gap: bool,
     /// Whether the first step may be helped by coarser grids.
     pub(super) starts_coarse: bool,
 }
@@ -172,6 +174,9 @@ fn plan(
         host: effects.host_bytes(&sizes),
         resting,
         is_tabulated,
+        starts_from_gap: spring.is_some()
+            || problem.boundary == Boundary::Free
+            || matches!(scene.loading.control, Control::MeanGap | Control::Approach),
         starts_coarse: problem.law == Law::HardWall
             && problem.boundary == Boundary::Periodic
             && spring.is_none(),

@@ -7,7 +7,7 @@
 use super::cost::Cost;
 use crate::backend::Shape;
 use crate::grid::{Boundary, Grid};
-use crate::scene::{Control, OutputScene, Scene, StepChoice, SurfacePart};
+use crate::scene::{OutputScene, Scene, StepChoice, SurfacePart};
 
 /// A double on the host.
 pub(crate) const DOUBLE: u64 = 8;
@@ -78,9 +78,9 @@ impl Memory {
         // A result with values of a field on their way to a file or a picture.
         let writes = !(scene.output.images.is_empty() && scene.output.fields.is_empty());
         let writing = u64::from(writes) * (EVALUATION + 2 * DOUBLE) * points;
-        let iterating = solver_here
-            + starting(scene, solved)
-            + searching.max(correcting).max(cost.host.passing);
+        // A gap from which a solve starts is the host's until it ends; under a pressure on a periodic grid the solver has it.
+        let start = u64::from(cost.starts_from_gap) * DOUBLE * solved;
+        let iterating = solver_here + start + searching.max(correcting).max(cost.host.passing);
         let resting = at_rest
             + planning
                 .max(coarse_start(cost, points, solver_here, table))
@@ -93,14 +93,6 @@ impl Memory {
             adapter: if on_processor { 0 } else { solver + reference },
         }
     }
-}
-
-/// Bytes of a gap from which a solve starts, which the host holds until it ends; under a prescribed pressure on a
-/// periodic grid the solver has it.
-fn starting(scene: &Scene, solved: u64) -> u64 {
-    let position = matches!(scene.loading.control, Control::MeanGap | Control::Approach);
-    let is_free = scene.grid.boundary == Boundary::Free;
-    u64::from(position || is_free || scene.loading.spring.is_some()) * DOUBLE * solved
 }
 
 /// Bytes while the heights are made and their statistics taken.
