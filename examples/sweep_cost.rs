@@ -5,9 +5,9 @@
 //! search for its pull-off; and under one load alone, so that each solve is short.
 
 use std::error::Error;
+use std::ops::RangeInclusive;
 use std::path::Path;
 use std::process::Command;
-use std::time::Instant;
 
 use cpu_time::ProcessTime;
 use tabor::backend::Backend;
@@ -16,8 +16,10 @@ use tabor::scene::Scene;
 use tabor::study::{Setup, walk};
 use tabor::surface::Surface;
 
-/// Runs of the sweep.
-const RUNS: usize = 200;
+/// Rounds of a sweep and of its solves alone, one after the other, so that both meet the same machine.
+const ROUNDS: usize = 10;
+/// Runs of a round.
+const RUNS: usize = 20;
 /// Clock ticks a second in /proc.
 const TICKS: f64 = 100.0;
 /// The scene of the shipped study.
@@ -37,38 +39,59 @@ fn main() -> Result<(), Box<dyn Error>> {
 
 /// Prints the cost of a sweep under a path of loads.
 fn compare(name: &str, path: &str) -> Result<(), Box<dyn Error>> {
-    let [solves, surfaces] = alone(path)?;
-    println!("{name}: solves alone {solves:.2} CPU seconds, their surfaces {surfaces:.2}");
-    let folder = tempfile::tempdir()?;
-    let study = format!(
-        "scene = {SCENE:?}\nset.loading.path = {path}\n[[axis]]\nkey = \"surface.0.seed\"\nfrom = 1\nto = {RUNS}\ncount = {RUNS}\n"
-    );
-    std::fs::write(folder.path().join("study.toml"), study)?;
-    for jobs in ["1", "2"] {
-        let before = children_seconds()?;
-        let clock = Instant::now();
-        let status = Command::new(std::env::current_exe()?.with_file_name("../tabor"))
-            .current_dir(folder.path())
-            .args(["sweep", "study.toml", "--quiet", "--threads", "1"])
-            .args(["--jobs", jobs, "--out", jobs])
-            .status()?;
-        if !status.success() {
-            return Err(format!("the sweep ended with {status}").into());
-        }
-        let seconds = children_seconds()? - before;
-        println!(
-            "  sweep, {jobs} at a time: {seconds:.2} CPU seconds, {:.3} of the solves alone, in {:.2} s",
-            seconds / solves,
-            clock.elapsed().as_secs_f64()
-        );
+    let [mut solves, mut surfaces, mut swept] = [0.0; 3];
+    let mut ratios = Vec::new();
+    for round in 0..ROUNDS {
+        let seeds = round * RUNS + 1..=(round + 1) * RUNS;
+        let [solve, surface] = alone(path, seeds.clone())?;
+        let sweep = sweep(path, seeds)?;
+        solves += solve;
+        surfaces += surface;
+        swept += sweep;
+        ratios.push(sweep / solve);
     }
+    ratios.sort_by(f64::total_cmp);
+    println!(
+        "{name}: {} solves alone {solves:.2} CPU seconds, their surfaces {surfaces:.2}; swept {swept:.2}: {:.3} times the solves, median {:.3}",
+        ROUNDS * RUNS,
+        swept / solves,
+        ratios[ROUNDS / 2]
+    );
     Ok(())
 }
 
+/// CPU seconds of a sweep, its start included.
+fn sweep(path: &str, seeds: RangeInclusive<usize>) -> Result<f64, Box<dyn Error>> {
+    let folder = tempfile::tempdir()?;
+    let study = format!(
+        "scene = {SCENE:?}\nset.loading.path = {path}\n[[axis]]\nkey = \"surface.0.seed\"\nfrom = {}\nto = {}\ncount = {RUNS}\n",
+        seeds.start(),
+        seeds.end()
+    );
+    std::fs::write(folder.path().join("study.toml"), study)?;
+    let before = children_seconds()?;
+    let status = Command::new(std::env::current_exe()?.with_file_name("../tabor"))
+        .current_dir(folder.path())
+        .args([
+            "sweep",
+            "study.toml",
+            "--quiet",
+            "--threads",
+            "1",
+            "--jobs",
+            "1",
+        ])
+        .status()?;
+    if !status.success() {
+        return Err(format!("the sweep ended with {status}").into());
+    }
+    Ok(children_seconds()? - before)
+}
+
 /// CPU seconds of all solves, one by one, and those of their surfaces.
-fn alone(path: &str) -> Result<[f64; 2], Box<dyn Error>> {
+fn alone(path: &str, seeds: RangeInclusive<usize>) -> Result<[f64; 2], Box<dyn Error>> {
     let [mut solves, mut surfaces] = [0.0; 2];
-    for seed in 1..=RUNS {
+    for seed in seeds {
         let clock = ProcessTime::now();
         let set = [
             ("surface.0.seed".to_owned(), seed.to_string()),
