@@ -70,6 +70,9 @@ pub struct DryRun {
     pub work: Vec<Allocation>,
     /// Names of the passes, in order: kernels, `multiply` for the columns of a convolution.
     pub passes: Vec<&'static str>,
+    /// Places of the fields whose memory was let go, and levels of work space.
+    released: Vec<usize>,
+    released_work: Vec<usize>,
     /// The first mistake in a field list.
     pub mistake: Option<BackendError>,
     scalars: Scalars,
@@ -103,11 +106,21 @@ impl DryRun {
             spectra: Vec::new(),
             work: Vec::new(),
             passes: Vec::new(),
+            released: Vec::new(),
+            released_work: Vec::new(),
             mistake: None,
             scalars: Scalars::start(0.0, false),
             spectra_made: 0,
             transforms: 0.0,
         }
+    }
+
+    /// Bytes of the fields and of the work space that were released.
+    pub fn released_bytes(&self) -> usize {
+        let fields = self.released.iter().map(|&index| self.fields[index].bytes);
+        let work = self.work.iter();
+        let work = work.filter(|held| self.released_work.contains(&held.level.0));
+        fields.chain(work.map(|held| held.bytes)).sum()
     }
 
     fn share_of_first(&self, level: Level) -> f64 {
@@ -170,6 +183,18 @@ impl Backend for DryRun {
     fn set_outer_state(&mut self, _outer: Option<[Field; 2]>) {}
 
     fn clear(&mut self, _field: Field) {}
+
+    fn release(&mut self, field: Field) {
+        if !self.place.on_gpu() && !self.released.contains(&field.index) {
+            self.released.push(field.index);
+        }
+    }
+
+    fn release_work(&mut self, level: Level) {
+        if !self.place.on_gpu() && !self.released_work.contains(&level.0) {
+            self.released_work.push(level.0);
+        }
+    }
 
     fn set_params(&mut self, _params: &Params) {}
 

@@ -148,6 +148,11 @@ pub trait Backend {
     fn set_outer_state(&mut self, outer: Option<[Field; 2]>);
     /// Sets a field to zero where it is.
     fn clear(&mut self, field: Field);
+    /// Lets go of the memory of a field whose values nobody needs any more, where it is the host's. The field
+    /// takes memory again, and begins with zeros, as soon as it is used.
+    fn release(&mut self, _field: Field) {}
+    /// The same of the work space of a level's transforms, and of the rows that were kept there.
+    fn release_work(&mut self, _level: Level) {}
     /// An empty backend in double precision for a level of this shape, where the solver is asked to keep
     /// its state in double precision and to iterate here on corrections of it. `None` where this one's
     /// numbers will do.

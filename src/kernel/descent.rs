@@ -64,7 +64,7 @@ where
         let here = numbers.here_at(law, [gap, pressure], point.in_domain);
         let residual = projected_residual(&here);
         let compliant = if LEVELS {
-            point.line + numbers.level_compliance * residual
+            point.line + numbers.own_compliance * residual
         } else {
             point.line
         };

@@ -129,7 +129,7 @@ impl Form {
 /// A twin: a serial loop over the points of some rows.
 pub type Twin<T> = fn(&mut Rows<T>, &Params, &Scalars, &mut [f64; SUMS]);
 
-/// One kernel of the catalogue, or a variant of one. Fields are bound in the order read, written, whole.
+/// One kernel of the catalogue, or a variant of one. Fields are bound in the order read, written, around, whole.
 pub struct Kernel {
     /// The word under which it is found everywhere; the same of all its variants.
     pub name: &'static str,
@@ -147,6 +147,8 @@ pub struct Kernel {
     pub writes: &'static [&'static str],
     /// How many of these, the last ones, it writes without reading what was there.
     pub fresh: usize,
+    /// A field of its level that it also reads at the neighbours of each point.
+    pub around: Option<&'static str>,
     /// Whether it also reads one field, of any level, at points of its own choice.
     pub whole: bool,
     /// Fields that other variants bind; here they are zero and written nowhere.
@@ -168,7 +170,10 @@ pub struct Kernel {
 impl Kernel {
     /// How many fields it is given.
     pub fn fields(&self) -> usize {
-        self.reads.len() + self.writes.len() + usize::from(self.whole)
+        self.reads.len()
+            + self.writes.len()
+            + usize::from(self.around.is_some())
+            + usize::from(self.whole)
     }
 
     /// Which of the fields that it is given are written.
@@ -204,7 +209,7 @@ impl Kernel {
 macro_rules! catalogue_entry {
     ($name:ident, $form:ident, gate $gate:ident, law $law:literal, constraint $constraint:expr,
      flag [$($flag:ident = $set:literal)?], twins [$twin:expr, $twin_single:expr],
-     reads [$($read:ident),*], writes [$($write:ident),*] $(, fresh $fresh:literal)? $(, whole $whole:literal)?
+     reads [$($read:ident),*], writes [$($write:ident),*] $(, fresh $fresh:literal)? $(, around $around:ident)? $(, whole $whole:literal)?
      $(, unbound [$($unbound:ident),*])? $(, sums [$($group:ident),*])?) => {{
         #[allow(dead_code)]
         const READS: usize = <[&str]>::len(&[$(stringify!($read)),*]);
@@ -227,6 +232,7 @@ macro_rules! catalogue_entry {
             reads: &[$(stringify!($read)),*],
             writes: &[$(stringify!($write)),*],
             fresh: 0 $(+ $fresh)?,
+            around: $crate::kernel::first(&[$(stringify!($around))?]),
             whole: false $(| $whole)?,
             unbound: &[$($(stringify!($unbound)),*)?],
             sums: &SUMS_OF_IT,
@@ -240,10 +246,10 @@ macro_rules! catalogue_entry {
 }
 pub(crate) use catalogue_entry;
 
-/// The flag of a variant, if it has one.
-pub(crate) const fn first(flags: &[(&'static str, bool)]) -> Option<(&'static str, bool)> {
-    match flags {
-        [flag, ..] => Some(*flag),
+/// What a list of at most one holds.
+pub(crate) const fn first<T: Copy>(list: &[T]) -> Option<T> {
+    match list {
+        [first, ..] => Some(*first),
         [] => None,
     }
 }

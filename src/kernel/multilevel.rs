@@ -308,7 +308,50 @@ fn level_descent<T, C, const MEAN_GAP: bool, const READS: usize, const TERMS: us
         [rows.width, rows.first],
         T::zero(),
     );
+    Arch::new().dispatch(Neighbours {
+        lines: &mut rows.lines[..rows.width * rows.count],
+        residual: rows.around,
+        first: rows.first,
+        compliance: T::from_double(params.neighbour_compliance),
+    });
     each_point::<T, C, Descent<MEAN_GAP, true>, READS, 0, TERMS>(rows, params, scalars, sums);
+}
+
+/// Adds to lines what the finest level answers each point with of the residual at its four neighbours.
+struct Neighbours<'a, T> {
+    lines: &'a mut [T],
+    residual: Whole<'a, T>,
+    first: usize,
+    compliance: T,
+}
+
+impl<T: Real> WithSimd for Neighbours<'_, T> {
+    type Output = ();
+
+    #[inline(always)]
+    fn with_simd<S: Simd>(self, _: S) {
+        let ([width, rows], compliance) = (self.residual.points, self.compliance);
+        for (row, line) in self.lines.chunks_exact_mut(width).enumerate() {
+            let here = self.first + row;
+            let [above, own, below] = [before(here, rows), here, after(here, rows)]
+                .map(|row| &self.residual.values[row * width..(row + 1) * width]);
+            let last = width - 1;
+            let beside = [
+                (0, own[last] + own[after(0, width)]),
+                (last, own[before(last, width)] + own[0]),
+            ];
+            // A grid with levels has more than two points each way.
+            let inner = line[1..last].iter_mut();
+            let across = above[1..last].iter().zip(&below[1..last]);
+            let along = own[..last - 1].iter().zip(&own[2..]);
+            for ((line, (above, below)), (left, right)) in inner.zip(across).zip(along) {
+                *line += compliance * ((*above + *below) + (*left + *right));
+            }
+            for (x, beside) in beside {
+                line[x] += compliance * ((above[x] + below[x]) + beside);
+            }
+        }
+    }
 }
 
 /// The variants of the end of the preconditioner for each constraint.
@@ -336,14 +379,17 @@ macro_rules! level_descents {
 
 level_descents!(
     /// Step 2, the end of `plain::precondition` with levels: as `descent`, with z of the first coarser level
-    /// interpolated and the finest level's own compliance. Retains the rows of z.
+    /// interpolated and the finest level's own compliance of the projected residual, smoothed by its neighbours.
+    /// Retains the rows of z.
     LEVEL_DESCENT [MEAN_GAP = false],
-    reads [gap, pressure, previous_residual], writes [], whole true, unbound [direction],
+    reads [gap, pressure, previous_residual], writes [], around projected_residual, whole true,
+    unbound [direction],
     sums [DescentSums]
 );
 level_descents!(
     /// The same under a prescribed mean gap.
     MEAN_GAP_LEVEL_DESCENT [MEAN_GAP = true],
-    reads [gap, pressure, previous_residual, direction], writes [], whole true,
+    reads [gap, pressure, previous_residual, direction], writes [], around projected_residual,
+    whole true,
     sums [DescentSums, MeanGapDescentSums]
 );

@@ -28,6 +28,10 @@ device_struct! {
         smooth_stiffness: f64,
         /// Compliance by which the preconditioner answers the finest waves of a level.
         level_compliance: f64,
+        /// That by which the finest level answers the residual at a point itself.
+        own_compliance: f64,
+        /// And that at each of its four neighbours.
+        neighbour_compliance: f64,
         /// Largest net pressure that the solid bears, its hardness; infinite for an elastic one.
         hardness: f64,
         /// Relative rounding error of the fields.

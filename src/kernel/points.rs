@@ -30,7 +30,7 @@ type Lanes<T> = [T; LANES];
 pub struct Numbers<T, C> {
     pub constraint: C,
     pub stiffness_max: T,
-    pub level_compliance: T,
+    pub own_compliance: T,
     pub offset: T,
     pub mean_pressure: T,
     pub descent_factor: T,
@@ -49,7 +49,7 @@ impl<T: Real, C: GapConstraint<T>> Numbers<T, C> {
         Numbers {
             constraint: C::new(params),
             stiffness_max: T::from_double(params.stiffness_max),
-            level_compliance: T::from_double(params.level_compliance),
+            own_compliance: T::from_double(params.own_compliance),
             offset: T::from_double(scalars.offset),
             mean_pressure: T::from_double(scalars.mean_pressure),
             descent_factor: T::from_double(scalars.descent_factor),
@@ -88,6 +88,9 @@ pub struct Point<T, const READS: usize, const WRITES: usize, const TERMS: usize>
 /// What it does at a point is always inlined, and it chooses between values rather than between ways, so
 /// that a processor may do it at several points at once.
 pub trait PointKernel<T: Real, C, const READS: usize, const WRITES: usize, const TERMS: usize> {
+    /// Whether it leaves a pad as it is and adds nothing there.
+    const SURFACE_ALONE: bool = false;
+
     /// Whether it needs the gap at a value of the iteration's variable, which takes repetitions: a group makes
     /// them together, before the kernel looks at each of its points.
     const SEEKS: bool = false;
@@ -203,6 +206,9 @@ where
             terms: [[T::zero(); LANES]; TERMS],
         };
         for (points, in_domain) in rows.layout().runs() {
+            if K::SURFACE_ALONE && !in_domain {
+                continue;
+            }
             for start in points.clone().step_by(LANES) {
                 let here = start..points.end.min(start + LANES);
                 group.gather(rows, &here);
@@ -475,6 +481,10 @@ mod tests {
                 reads: [&read, &[], &[], &[]],
                 writes: [&mut written, &mut [], &mut [], &mut []],
                 whole: Whole {
+                    values: &[],
+                    points: [0, 0],
+                },
+                around: Whole {
                     values: &[],
                     points: [0, 0],
                 },

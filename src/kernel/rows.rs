@@ -32,6 +32,8 @@ pub struct Rows<'a, T> {
     pub writes: [&'a mut [T]; 4],
     /// A field read anywhere.
     pub whole: Whole<'a, T>,
+    /// The field that is read at the neighbours of each point.
+    pub around: Whole<'a, T>,
     /// Factors on the law's tension, cut to these rows; empty where the law is the same everywhere.
     pub factor: &'a [T],
     /// Gap and residual of the outer state that is corrected, cut to these rows; empty where the unknown is

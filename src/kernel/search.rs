@@ -57,19 +57,19 @@ where
     T: Real,
     C: GapConstraint<T>,
 {
+    /// A pad has no law: most points of a free boundary are spared.
+    const SURFACE_ALONE: bool = true;
+
     #[inline(always)]
     fn at(numbers: &Numbers<T, C>, law: &impl Cohesion<T>, point: &mut Point<T, READS, 0, TERMS>) {
-        let (gap, moved, in_domain) = (point.reads[0], point.reads[1], point.in_domain);
+        let (gap, moved) = (point.reads[0], point.reads[1]);
         if C::STORES_STEP {
-            // A pad has no law: most points of a free boundary are spared its powers.
-            if in_domain {
-                let energies = numbers.energies(law, gap, moved);
-                energies.put(&mut point.terms);
-            }
+            let energies = numbers.energies(law, gap, moved);
+            energies.put(&mut point.terms);
         } else {
             // To which side a closed point may move is told by its pressure, where there are two.
             let pressure = if READS > 2 { point.reads[2] } else { T::zero() };
-            let here = numbers.here_at(law, [gap, pressure], in_domain);
+            let here = numbers.here_at(law, [gap, pressure], true);
             let (constraint, correction) = (&numbers.constraint, numbers.mean_gap_correction);
             let way = Move {
                 moved: numbers.trial_length * moved,
@@ -78,7 +78,7 @@ where
             };
             let step = constraint.trial_step(law, &here, way).step;
             // Below zero the pressure does not change.
-            let counts = in_domain & !constraint.goes_down(gap, here.y);
+            let counts = !constraint.goes_down(gap, here.y);
             let changes = numbers.changes(law, gap, step, counts);
             changes.put(&mut point.terms);
         }

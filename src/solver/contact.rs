@@ -173,7 +173,7 @@ impl<'a> ContactSolver<'a> {
         backend.write(heights, &reduced);
         drop(reduced);
         let params = params_of_problem(problem, backend.epsilon());
-        ContactSolver {
+        let mut solver = ContactSolver {
             backend,
             problem,
             level,
@@ -199,7 +199,19 @@ impl<'a> ContactSolver<'a> {
             offset: Vec::new(),
             mean_offset: 0.0,
             plastic_depths: Vec::new(),
+        };
+        solver.rest();
+        solver
+    }
+
+    /// Lets go of the fields and of the work space that only iterations need, until the next one.
+    pub fn rest(&mut self) {
+        let residual = self.levels.as_ref().map(Multilevel::residual);
+        let own = [self.direction, self.previous_residual];
+        for field in own.into_iter().chain(self.step).chain(residual) {
+            self.backend.release(field);
         }
+        self.backend.release_work(self.level);
     }
 
     /// The problem being solved.

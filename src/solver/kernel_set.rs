@@ -1,7 +1,7 @@
 //! The kernel variants for the constraint of a problem, and the numbers that stay fixed during a solve.
 
 use super::contact::{Hold, Load};
-use super::multilevel::level_compliance;
+use super::multilevel::{finest_compliances, level_compliance};
 use super::problem::Problem;
 use crate::kernel::{Constraint, Kernel, Params};
 use crate::kernel::{descent, measure, multilevel, refinement, search, trial, update};
@@ -138,6 +138,7 @@ pub(super) fn params_under(problem: &Problem, load: &Load, epsilon: f64) -> Para
 /// The numbers of a problem that stay fixed whatever the load.
 pub(super) fn params_of_problem(problem: &Problem, epsilon: f64) -> Params {
     let points = problem.shape.surface_len() as f64;
+    let [own_compliance, neighbour_compliance] = finest_compliances(problem);
     let stiffness_max = problem.stiffness_max();
     Params {
         law: problem.law,
@@ -152,6 +153,8 @@ pub(super) fn params_of_problem(problem: &Problem, epsilon: f64) -> Params {
         points,
         smooth_stiffness: 0.2 * stiffness_max,
         level_compliance: level_compliance(problem),
+        own_compliance,
+        neighbour_compliance,
         hardness: problem.hardness.unwrap_or(f64::INFINITY),
         epsilon,
     }

@@ -20,9 +20,12 @@ const MOST_LEVELS: usize = 3;
 /// Fewest points each way of the coarsest level.
 const FEWEST_COARSE: usize = 8;
 /// Compliance of a level over that of the shortest wave along an axis there.
-const OVER_SHORTEST: f64 = 0.8;
-/// Share of the compliance of long waves that the coarsest level answers; the finer ones answer them too.
-pub(super) const COARSEST_SHARE: f64 = 0.5;
+const OVER_SHORTEST: f64 = 1.4;
+/// Share of its four neighbours in the residual that the finest level answers. The next level sees waves of four pixels
+/// only in part and the shortest not at all: these would else be answered by as much.
+const SMOOTHED_SHARE: f64 = 0.3;
+/// Share of the compliance of long waves that the coarsest level answers over a wall; the finer ones answer them too.
+const COARSEST_SHARE: f64 = 0.5;
 /// Growth of the compliance from a level's shortest wave to the next one's, twofold on a half-space, from
 /// which another level pays: a thin layer answers all long waves alike.
 const LEAST_GROWTH: f64 = 1.5;
@@ -32,7 +35,7 @@ const LONGEST_PIXEL: f64 = 2.0;
 /// itself leads more straightly to the nearest of several solutions: points that a detour closes would stick.
 pub(super) const EXACT_UNTIL: f64 = 1e-2;
 /// Fine pixels over which the share of free points is smoothed.
-const SMOOTHED: f64 = 3.0;
+const SMOOTHED: f64 = 1.0;
 
 /// Most fields of a step's update: direction, step, gap, pressure, and the residuals before and after.
 const MOST_UPDATED: usize = 6;
@@ -62,6 +65,25 @@ pub(super) fn level_compliance(problem: &Problem) -> f64 {
         OVER_SHORTEST / stiffness
     } else {
         0.0
+    }
+}
+
+/// The same of the finest level for the residual at a point itself, and at each of its neighbours.
+pub(super) fn finest_compliances(problem: &Problem) -> [f64; 2] {
+    let compliance = level_compliance(problem);
+    [
+        (1.0 - SMOOTHED_SHARE) * compliance,
+        SMOOTHED_SHARE / 4.0 * compliance,
+    ]
+}
+
+/// Share of the compliance of long waves that the coarsest level answers: all of it where a law repels by itself, since
+/// all points are free there.
+pub(super) fn coarsest_share(problem: &Problem) -> f64 {
+    if problem.law.has_wall() {
+        COARSEST_SHARE
+    } else {
+        1.0
     }
 }
 
@@ -108,7 +130,7 @@ pub(super) fn smoothing(problem: &Problem, waves: [usize; 2]) -> f64 {
 fn coarsest_compliance(problem: &Problem, [kx, ky]: [usize; 2], halvings: usize) -> f64 {
     let stiffness = stiffness_at(problem, kx, ky);
     if kx + ky > 0 && stiffness > 0.0 {
-        COARSEST_SHARE / (stiffness * (1_usize << halvings) as f64)
+        coarsest_share(problem) / (stiffness * (1_usize << halvings) as f64)
     } else {
         0.0
     }
@@ -173,6 +195,11 @@ impl Multilevel {
         })
     }
 
+    /// The field of the projected residual on the fine level.
+    pub fn residual(&self) -> Field {
+        self.residual
+    }
+
     /// Sets the compliance of the zero mode.
     pub fn set_zero_mode(&self, backend: &mut dyn Backend, value: f64) {
         let cell = (1_usize << self.halvings) as f64;
@@ -222,11 +249,11 @@ impl Multilevel {
         let [gap, pressure, previous] = state;
         match direction {
             Some(direction) => {
-                let fields = [gap, pressure, previous, direction, coarser];
+                let fields = [gap, pressure, previous, direction, residual, coarser];
                 backend.run(self.kernels.mean_gap_descent, self.fine, &fields);
             }
             None => {
-                let fields = [gap, pressure, previous, coarser];
+                let fields = [gap, pressure, previous, residual, coarser];
                 backend.run(self.kernels.descent, self.fine, &fields);
             }
         }

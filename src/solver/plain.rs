@@ -244,8 +244,9 @@ impl Contact<'_> {
     /// M r: 1/K where the grid cannot be halved, and with adhesion over a wall until the residual is small, since fronts
     /// that move by another way may end in another solution. Else each grid answers the waves that the next one, of half the
     /// points, cannot hold by one number, in proportion to its pixel: z_k = 2^k c r_k + P z_(k+1), with
-    /// r_(k+1) = R r_k, P the interpolation and R the restriction. The coarsest one answers by W (1/2K) W, W being
-    /// the share of free points there, smoothed, to the third power: long waves do not reach across contacts.
+    /// r_(k+1) = R r_k, P the interpolation and R the restriction; the finest takes r smoothed by its neighbours. The
+    /// coarsest one answers by W (1/2K) W (without a wall W (1/K) W), W being the share of free points there, smoothed,
+    /// to the third power: long waves do not reach across contacts.
     fn compliance_times(&self, r: &[f64], exact: bool) -> Vec<f64> {
         let Some(coarsest) = self.coarser.last().filter(|_| !exact) else {
             return self.fourier.filter(r, |q| self.compliance(q));
@@ -263,11 +264,19 @@ impl Contact<'_> {
         let long = (coarsest.fourier).filter(&weighed, |q| self.long_compliance(q));
         let mut z = each(w.len(), |i| w[i] * long[i]);
         for (k, grid) in self.coarser.iter().enumerate().rev() {
-            let own = self.params.level_compliance * f64::from(1 << k);
+            let own = |i: usize| match k {
+                0 => self.finest_answer(r, i),
+                _ => self.params.level_compliance * f64::from(1 << k) * residuals[k][i],
+            };
             let coarser = grid.interpolate(&z);
-            z = each(coarser.len(), |i| own * residuals[k][i] + coarser[i]);
+            z = each(coarser.len(), |i| own(i) + coarser[i]);
         }
         z
+    }
+
+    /// What the finest grid answers a point with: c times the residual, to which its four neighbours add a share.
+    fn finest_answer(&self, r: &[f64], i: usize) -> f64 {
+        self.params.own_compliance * r[i] + self.params.neighbour_compliance * self.neighbours(r, i)
     }
 
     /// Values on F; under a prescribed mean gap less their mean, weighted by S.

@@ -130,15 +130,23 @@ impl<'a> Contact<'a> {
         }
     }
 
-    /// 1/2K at a wave of the coarsest grid; at q = 0 the compliance of the control.
+    /// A share of 1/K at a wave of the coarsest grid: half over a wall; at q = 0 the compliance of the control.
     pub(super) fn long_compliance(&self, q: [usize; 2]) -> f64 {
-        let share = choose(q == [0, 0], 1.0, multilevel::COARSEST_SHARE);
+        let share = choose(q == [0, 0], 1.0, multilevel::coarsest_share(self.problem));
         share * self.compliance(q)
     }
 
     /// The factor of a wave that smooths the share of free points.
     pub(super) fn smoothing(&self, q: [usize; 2]) -> f64 {
         multilevel::smoothing(self.problem, q)
+    }
+
+    /// Sum of the values at the four neighbours of a point; the grid wraps round.
+    pub(super) fn neighbours(&self, values: &[f64], i: usize) -> f64 {
+        let [nx, ny] = self.problem.shape.points;
+        let (x, y) = (i % nx, i / nx);
+        let at = |x: usize, y: usize| values[y % ny * nx + x % nx];
+        at(x, y + ny - 1) + at(x, y + 1) + at(x + nx - 1, y) + at(x + 1, y)
     }
 
     /// sigma(g) at a point.

@@ -12,7 +12,7 @@ use crate::elastic::Stiffness;
 use crate::grid::Boundary;
 use crate::grid::Grid;
 use crate::law::Law;
-use crate::scene::{BackendName, Precision, Scene};
+use crate::scene::{BackendName, Control, Precision, Scene};
 use crate::solver::{ContactSolver, Problem, Start, plan_outer_state};
 
 /// Fields, tables and passes of a scene's solver, and what is kept between its steps.
@@ -39,8 +39,12 @@ pub struct Cost {
     pub points: [usize; 2],
     /// Bytes of the host's memory that effects take besides the history.
     pub host: HostBytes,
+    /// Bytes of the fields and of the work space that the solver lets go of between its iterations and the next solve.
+    pub(super) resting: usize,
     /// Whether the stiffness of the waves is a table, and no formula.
     pub(super) is_tabulated: bool,
+    /// Whether solves start from a gap that the host holds.
+    pub(super) starts_from_gap: bool,
     /// Whether the first step may be helped by coarser grids.
     pub(super) starts_coarse: bool,
 }
@@ -120,7 +124,9 @@ fn plan(
         // The counts do not depend on the tolerance.
         solver.begin(&load, &Start::Present, 0.0, false)?;
         solver.precondition_by_levels();
-        (0..iterations).try_for_each(|_| solver.iterate().map(drop))
+        (0..iterations).try_for_each(|_| solver.iterate().map(drop))?;
+        solver.rest();
+        Ok(())
     };
     let mut started = DryRun::on(place);
     begin(&mut started, 0)?;
@@ -154,6 +160,7 @@ fn plan(
         },
     };
     let transforms = iterated.transforms() - started.transforms();
+    let resting = iterated.released_bytes();
     Ok(Cost {
         place,
         fields: iterated.fields,
@@ -165,7 +172,11 @@ fn plan(
         passes: iterated.passes.split_off(started.passes.len()),
         points: problem.shape.points,
         host: effects.host_bytes(&sizes),
+        resting,
         is_tabulated,
+        starts_from_gap: spring.is_some()
+            || problem.boundary == Boundary::Free
+            || matches!(scene.loading.control, Control::MeanGap | Control::Approach),
         starts_coarse: problem.law == Law::HardWall
             && problem.boundary == Boundary::Periodic
             && spring.is_none(),

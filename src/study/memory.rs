@@ -46,6 +46,8 @@ impl Memory {
         let solver = cost.bytes() as u64;
         let on_processor = !cost.place.on_gpu();
         let solver_here = if on_processor { solver } else { 0 };
+        // Between the iterations of one solve and those of the next.
+        let at_rest = solver_here - cost.resting as u64;
 
         let building = building(scene, grid);
         // The heights, which surface and problem share, and the table of the stiffness.
@@ -64,25 +66,27 @@ impl Memory {
         } else {
             0
         };
-        let results = kept_steps(scene) + cost.host.results;
-        let evaluating = evaluating + EVALUATION * points * results;
-        // Fields that effects keep from step to step, and whole states of the path.
+        // Fields that effects keep from step to step, and whole states of the path. A search between two steps holds
+        // the result of the second beside them while it solves.
         let history = cost.history_bytes() as u64;
-        let evaluating = evaluating + cost.host.states * (DOUBLE * solved + history);
+        let states = cost.host.states * (DOUBLE * solved + history);
+        let searched = u64::from(states > 0);
+        let results = kept_steps(scene) + cost.host.results + searched;
+        let held = states + EVALUATION * points * results;
+        let evaluating = evaluating + held;
+        let searching = searched * held;
         // A result with values of a field on their way to a file or a picture.
         let writes = !(scene.output.images.is_empty() && scene.output.fields.is_empty());
         let writing = u64::from(writes) * (EVALUATION + 2 * DOUBLE) * points;
-        let solving = kept
-            + history
-            + cost.host.kept
-            + solver_here
-            + reference
+        // A gap from which a solve starts is the host's until it ends; under a pressure on a periodic grid the solver has it.
+        let start = u64::from(cost.starts_from_gap) * DOUBLE * solved;
+        let iterating = solver_here + start + searching.max(correcting).max(cost.host.passing);
+        let resting = at_rest
             + planning
                 .max(coarse_start(cost, points, solver_here, table))
                 .max(evaluating)
-                .max(correcting)
-                .max(cost.host.passing)
                 .max(writing);
+        let solving = kept + history + cost.host.kept + reference + iterating.max(resting);
         Memory {
             solver,
             machine: PROGRAM + building.max(solving),

@@ -106,6 +106,7 @@ pub(super) fn finish(
             ..separated()
         });
     }
+    solver.rest();
     let gap = solver.gap()?;
     // A balanced state at another position than the prescribed one has not converged.
     let is_there = keeps_gap(solver, load, &gap);

@@ -45,6 +45,8 @@ fn params() -> Params {
         points: 1.0,
         smooth_stiffness: 1.0,
         level_compliance: 0.8,
+        own_compliance: 0.6,
+        neighbour_compliance: 0.05,
         hardness: f64::INFINITY,
         epsilon: f64::EPSILON,
     }

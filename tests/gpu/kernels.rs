@@ -77,6 +77,8 @@ fn params(law: Law, prescribed_mean_gap: bool, number: Number) -> Params {
         points: 1.0,
         smooth_stiffness: 0.4,
         level_compliance: 0.8,
+        own_compliance: 0.6,
+        neighbour_compliance: 0.05,
         hardness: 0.3,
         epsilon: number.epsilon(),
     }
@@ -204,6 +206,9 @@ fn run(
             false => values,
         };
         fields.push(make(backend, level, &values));
+    }
+    if kernel.around.is_some() {
+        fields.push(make(backend, level, &draw(own.len())));
     }
     if kernel.whole {
         let values = gap_like(draw(other.len()), &Law::HardWall, false);
@@ -741,6 +746,8 @@ fn every_member_is_where_a_shader_reads_it() {
                 points: 6.125,
                 smooth_stiffness: 7.125,
                 level_compliance: 7.625,
+                own_compliance: 5.25,
+                neighbour_compliance: 0.375,
                 hardness: 8.125,
                 epsilon: 9.125,
                 prescribed_mean_gap: true,

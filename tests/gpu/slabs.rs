@@ -55,6 +55,8 @@ fn params(law: Law) -> Params {
         points: 1.0,
         smooth_stiffness: 0.4,
         level_compliance: 0.8,
+        own_compliance: 0.6,
+        neighbour_compliance: 0.05,
         hardness: 0.3,
         epsilon: f64::from(f32::EPSILON),
     }
@@ -193,6 +195,9 @@ fn run(
             false => numbers.singles(own.len()),
         };
         fields.push(make(backend, level, &values));
+    }
+    if kernel.around.is_some() {
+        fields.push(make(backend, level, &numbers.singles(own.len())));
     }
     if kernel.whole {
         let values = numbers.singles(other.len());

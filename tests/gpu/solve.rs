@@ -475,7 +475,8 @@ fn fields_moved(passes: &[String]) -> f64 {
             _ => {}
         }
         let written = 2 * kernel.writes.len() - kernel.fresh;
-        moved += level * (kernel.reads.len() + written) as f64;
+        let read = kernel.reads.len() + usize::from(kernel.around.is_some());
+        moved += level * (read + written) as f64;
         if kernel.whole {
             moved += if kernel.name == "free_share" {
                 fine

@@ -35,6 +35,8 @@ fn params() -> Params {
         points: POINTS as f64,
         smooth_stiffness: 1.0,
         level_compliance: 1.0,
+        own_compliance: 0.75,
+        neighbour_compliance: 0.062,
         hardness: f64::INFINITY,
         epsilon: f64::EPSILON,
     }
@@ -189,6 +191,10 @@ impl State {
                 false => [&mut self.gap, &mut self.pressure, before, nothing()],
             },
             whole: Whole {
+                values: &[],
+                points: [0, 0],
+            },
+            around: Whole {
                 values: &[],
                 points: [0, 0],
             },

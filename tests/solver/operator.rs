@@ -28,6 +28,8 @@ fn params() -> Params {
         points: 1.0,
         smooth_stiffness: 1.0,
         level_compliance: 1.0,
+        own_compliance: 0.75,
+        neighbour_compliance: 0.062,
         hardness: f64::INFINITY,
         epsilon: f64::EPSILON,
     }

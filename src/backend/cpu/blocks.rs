@@ -32,6 +32,8 @@ pub(super) struct Job<'a, T: Real> {
     pub writes: [&'a mut [T]; 4],
     /// The field read anywhere.
     pub whole: Whole<'a, T>,
+    /// The field read around each point.
+    pub around: Whole<'a, T>,
     /// Factors on the law's tension, whole; empty without them.
     pub factor: &'a [T],
     /// Gap and residual of the outer state that is corrected, whole; empty without one.
@@ -78,6 +80,7 @@ impl<'a, T: Real> Job<'a, T> {
             reads: self.reads,
             writes,
             whole: self.whole,
+            around: self.around,
             factor: self.factor,
             outer: self.outer,
             partials,
@@ -123,6 +126,7 @@ impl<'a, T: Real> Job<'a, T> {
             reads,
             writes: [a, b, c, d],
             whole: self.whole,
+            around: self.around,
             factor,
             outer,
             reduces: self.reduces,

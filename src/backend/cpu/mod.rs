@@ -119,6 +119,14 @@ impl<T: CpuReal> CpuBackend<T> {
         self.levels[level.0].shape.len() as f64 / self.levels[0].shape.len() as f64
     }
 
+    /// Takes memory for a field that was released.
+    fn take(&mut self, field: Field) {
+        let stored = &mut self.fields[field.index];
+        if stored.is_empty() {
+            *stored = vec![T::zero(); self.levels[field.level.0].shape.len()];
+        }
+    }
+
     fn add_level(&mut self, shape: Shape, transform: Option<Transform<T>>) -> Level {
         self.levels.push(LevelSpace {
             shape,
@@ -141,6 +149,7 @@ impl<T: CpuReal> CpuBackend<T> {
         let Some(params) = self.params else {
             return;
         };
+        fields.iter().for_each(|&field| self.take(field));
         let twin = T::twin(kernel);
         // Written fields are lifted out, so that the others can be borrowed meanwhile.
         let mut lifted: [Vec<T>; 4] = Default::default();
@@ -151,9 +160,9 @@ impl<T: CpuReal> CpuBackend<T> {
         for (slot, field) in fields[..kernel.reads.len()].iter().enumerate() {
             reads[slot] = &self.fields[field.index];
         }
-        let whole = match (kernel.whole, fields.last()) {
+        let anywhere = |present: bool, place: usize| match (present, fields.get(place)) {
             (true, Some(&field)) => Whole {
-                values: &self.fields[field.index],
+                values: &self.fields[field.index][..],
                 points: self.levels[field.level.0].shape.points,
             },
             _ => Whole {
@@ -161,6 +170,9 @@ impl<T: CpuReal> CpuBackend<T> {
                 points: [0, 0],
             },
         };
+        let (own, has_around) = (kernel.written().end, kernel.around.is_some());
+        let around = anywhere(has_around, own);
+        let whole = anywhere(kernel.whole, own + usize::from(has_around));
         let factor: &[T] = match self.law_factor {
             Some(field) if field.level == level => &self.fields[field.index],
             _ => &[],
@@ -187,6 +199,7 @@ impl<T: CpuReal> CpuBackend<T> {
             reads,
             writes: [a, b, c, d],
             whole,
+            around,
             factor,
             outer,
             partials,
@@ -253,6 +266,7 @@ impl<T: CpuReal> Backend for CpuBackend<T> {
     }
 
     fn write(&mut self, field: Field, values: &[f64]) {
+        self.take(field);
         let stored = &mut self.fields[field.index];
         debug_assert_eq!(values.len(), stored.len());
         stored
@@ -262,6 +276,7 @@ impl<T: CpuReal> Backend for CpuBackend<T> {
     }
 
     fn read(&mut self, field: Field) -> Result<Vec<f64>, BackendError> {
+        self.take(field);
         let stored = self.fields[field.index].par_iter();
         Ok(stored.map(|value| value.double()).collect())
     }
@@ -276,6 +291,16 @@ impl<T: CpuReal> Backend for CpuBackend<T> {
 
     fn clear(&mut self, field: Field) {
         self.fields[field.index].fill(T::zero());
+    }
+
+    fn release(&mut self, field: Field) {
+        self.fields[field.index] = Vec::new();
+    }
+
+    fn release_work(&mut self, level: Level) {
+        if let Some(transform) = &mut self.levels[level.0].transform {
+            transform.release();
+        }
     }
 
     fn in_double(&self, _shape: Shape) -> Option<Box<dyn Backend + Send>> {

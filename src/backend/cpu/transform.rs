@@ -48,7 +48,6 @@ impl<T: CpuReal> Transform<T> {
         let [nx, ny] = shape.points;
         let columns = nx / 2 + 1;
         let groups = columns.div_ceil(BLOCK);
-        let blocks = ny.div_ceil(BLOCK);
         let plans = T::plans(shape.points);
         let transform_len = (plans.row_forward.get_scratch_len())
             .max(plans.row_backward.get_scratch_len())
@@ -71,17 +70,30 @@ impl<T: CpuReal> Transform<T> {
             columns,
             groups,
             plans,
-            tiles: std::iter::repeat_with(|| Mutex::new([zero; TILE]))
-                .take(blocks * groups)
-                .collect(),
+            tiles: Vec::new(),
             energies: vec![0.0; groups],
             scratch,
+        }
+    }
+
+    /// Lets go of the spectra.
+    pub fn release(&mut self) {
+        self.tiles = Vec::new();
+    }
+
+    /// Takes memory for the spectra, at first and after they were let go.
+    fn take(&mut self) {
+        if self.tiles.is_empty() {
+            let blocks = self.shape.points[1].div_ceil(BLOCK);
+            self.tiles
+                .resize_with(blocks * self.groups, || Mutex::new([Complex::zero(); TILE]));
         }
     }
 
     /// Hands lines to the job's twin block by block: those of the inverse transform, or those that were
     /// kept in the place of the row spectra; keeps what it makes of them there, or transforms it.
     pub fn rows(&mut self, job: Job<T>, form: Form) {
+        self.take();
         let Transform {
             ref mut tiles,
             ref scratch,
@@ -165,6 +177,7 @@ impl<T: CpuReal> Transform<T> {
     /// Transforms the columns, multiplies by `factors` (`[columns, ny/2 + 1]`), and transforms
     /// back. Returns `sum K |s_q|^2 / points` over all wavevectors.
     pub fn multiply(&mut self, factors: &[T], energy: bool) -> f64 {
+        self.take();
         let [nx, ny] = self.shape.points;
         let scale = T::from_double(1.0 / self.shape.len() as f64);
         let (columns, groups) = (self.columns, self.groups);

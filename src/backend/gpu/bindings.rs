@@ -36,8 +36,8 @@ pub fn columns(slabs: usize, long: bool) -> Vec<Access> {
     accesses
 }
 
-/// Group 1 of a kernel of the catalogue: its fields in declared order, the last one, where it is read
-/// as a whole, in so many slabs.
+/// Group 1 of a kernel of the catalogue: its fields in declared order, the last ones, where they are read
+/// as a whole, in so many slabs together.
 pub fn fields(reads: usize, writes: usize, whole: usize) -> Vec<Access> {
     let mut accesses = vec![Access::Read; reads];
     accesses.extend(vec![Access::Write; writes]);

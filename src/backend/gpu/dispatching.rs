@@ -143,7 +143,9 @@ impl GpuBackend {
             (true, Some(field)) => source::Whole::new(&self.level_space(field.level)?.plan),
             _ => source::Whole::default(),
         };
-        let mut accesses = bindings::fields(kernel.reads.len(), kernel.writes.len(), whole.slabs);
+        let around = kernel.around.map_or(0, |_| space.plan.slabs);
+        let slabs = around + whole.slabs;
+        let mut accesses = bindings::fields(kernel.reads.len(), kernel.writes.len(), slabs);
         let mut behind = Vec::new();
         let mut follow = |fields: &[Field]| -> Result<usize, GpuError> {
             let first = accesses.len();
@@ -172,7 +174,7 @@ impl GpuBackend {
         let in_slab = |slab: usize| {
             let shared = self.shared(space, slab);
             let mut buffers: Vec<_> = bound[..own].iter().map(|slabs| &slabs[slab]).collect();
-            // A field read as a whole is bound in all its slabs.
+            // Fields read as a whole are bound in all their slabs.
             buffers.extend(bound[own..].iter().copied().flatten());
             buffers.extend(behind.iter().map(|slabs| &slabs[slab]));
             let transform = [&space.row_roots, &space.work[slab]];

@@ -208,7 +208,8 @@ fn arrive(source: &mut String, kernel: &Kernel, law: LawSource) {
     );
 }
 
-/// The shader of a kernel on a level, for all its slabs. `whole` is the field that it reads at any point.
+/// The shader of a kernel on a level, for all its slabs. `whole` is the field that it reads at any point; one that it
+/// reads around each is of the same level.
 pub fn kernel(
     kernel: &Kernel,
     plan: &LevelPlan,
@@ -240,8 +241,14 @@ pub fn kernel(
         source,
         "const WIDTH: u32 = {width}u;\nconst HEIGHT: u32 = {height}u;"
     );
+    let mut binding = kernel.written().end;
+    if kernel.around.is_some() {
+        let around = Whole::new(plan);
+        around.declare(&mut source, "around", binding);
+        binding += around.slabs;
+    }
     if kernel.whole {
-        whole.into().declare(&mut source, kernel.written().end);
+        whole.into().declare(&mut source, "whole", binding);
     }
     join(&mut source, kernel, shader, law, plan.number);
     match kernel.form {

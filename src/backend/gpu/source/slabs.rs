@@ -5,7 +5,7 @@ use std::fmt::Write;
 
 use super::super::level::LevelPlan;
 
-/// A field that a kernel reads at any point.
+/// A field that a kernel reads at any point, or at the neighbours of each.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct Whole {
     /// Its points along x and y.
@@ -29,23 +29,25 @@ impl Whole {
         }
     }
 
-    /// Declares the field's bindings in group 1, from one on, and the function that reads it.
-    pub(super) fn declare(self, source: &mut String, binding: usize) {
+    /// Declares the field's bindings in group 1, from one on, its size and the function that reads it, all named
+    /// after `word`.
+    pub(super) fn declare(self, source: &mut String, word: &str, binding: usize) {
         let [width, height] = self.shape;
         for slab in 0..self.slabs {
             let _ = writeln!(
                 source,
-                "@group(1) @binding({}) var<storage, read> whole_{slab}: array<real>;",
+                "@group(1) @binding({}) var<storage, read> {word}_{slab}: array<real>;",
                 binding + slab
             );
         }
+        let size = word.to_uppercase();
         let _ = writeln!(
             source,
-            "const WHOLE_WIDTH: u32 = {width}u;\nconst WHOLE_HEIGHT: u32 = {height}u;\n\
-             fn whole_at(column: u32, row: u32) -> real {{"
+            "const {size}_WIDTH: u32 = {width}u;\nconst {size}_HEIGHT: u32 = {height}u;\n\
+             fn {word}_at(column: u32, row: u32) -> real {{"
         );
         if self.slabs == 1 {
-            source.push_str("return whole_0[row * WHOLE_WIDTH + column];\n}\n");
+            let _ = writeln!(source, "return {word}_0[row * {width}u + column];\n}}");
             return;
         }
         let pairs = height / 2;
@@ -54,13 +56,13 @@ impl Whole {
             source,
             "let partner = row >= {pairs}u;\n\
              let pair = select(row, row - {pairs}u, partner);\n\
-             let place = (pair % {slab_pairs}u + select(0u, {slab_pairs}u, partner)) * WHOLE_WIDTH + column;\n\
+             let place = (pair % {slab_pairs}u + select(0u, {slab_pairs}u, partner)) * {width}u + column;\n\
              switch pair / {slab_pairs}u {{"
         );
         for slab in 1..self.slabs {
-            let _ = writeln!(source, "case {slab}u: {{ return whole_{slab}[place]; }}");
+            let _ = writeln!(source, "case {slab}u: {{ return {word}_{slab}[place]; }}");
         }
-        source.push_str("default: { return whole_0[place]; }\n}\n}\n");
+        let _ = writeln!(source, "default: {{ return {word}_0[place]; }}\n}}\n}}");
     }
 }
 
