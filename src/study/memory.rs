@@ -88,7 +88,7 @@ impl Memory {
                 .max(coarse_start(cost, points, solver_here, table))
                 .max(evaluating)
                 .max(writing);
-        let solving = kept + history + cost.host.kept + reference + iterating.max(resting);
+        let solving = kept + history + cost.host.kept + iterating.max(resting);
         Memory {
             solver,
             machine: PROGRAM + building.max(solving),
