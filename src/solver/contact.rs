@@ -212,6 +212,9 @@ impl<'a> ContactSolver<'a> {
             self.backend.release(field);
         }
         self.backend.release_work(self.level);
+        if let Some(outer) = &mut self.outer {
+            outer.rest();
+        }
     }
 
     /// The problem being solved.

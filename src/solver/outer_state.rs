@@ -44,6 +44,7 @@ pub fn plan_outer_state(
     if matches!(load.hold, Hold::Gap(_)) && KernelSet::new(problem).is_linear() {
         HeightsPressure::plan(double, places.level);
     }
+    places.rest(double);
 }
 
 impl Places {
@@ -74,9 +75,19 @@ impl Places {
             ],
         }
     }
+
+    fn rest(&self, backend: &mut dyn Backend) {
+        backend.release(self.between);
+        backend.release_work(self.level);
+    }
 }
 
 impl OuterState {
+    /// Lets go of the field and the work space that only corrections need, until the next one.
+    pub fn rest(&mut self) {
+        self.places.rest(&mut *self.backend);
+    }
+
     /// Plans the outer state of a problem on a backend of double precision, and copies of its gap and
     /// residual where the iterations run.
     pub fn new(

@@ -41,6 +41,8 @@ pub struct Cost {
     pub host: HostBytes,
     /// Bytes of the fields and of the work space that the solver lets go of between its iterations and the next solve.
     pub(super) resting: usize,
+    /// The same of the state in double precision.
+    pub(super) reference_resting: usize,
     /// Whether the stiffness of the waves is a table, and no formula.
     pub(super) is_tabulated: bool,
     /// Whether solves start from a gap that the host holds.
@@ -136,9 +138,11 @@ fn plan(
         return Err(mistake);
     }
     let mut reference = Vec::new();
+    let mut reference_resting = 0;
     if scene.arithmetic_on(place.on_gpu()) == Precision::Mixed {
         let mut double = DryRun::on(Place::Double);
         plan_outer_state(&mut double, &mut iterated, problem, &load);
+        reference_resting = double.released_bytes();
         for held in [double.fields, double.spectra, double.work] {
             reference.extend(held);
         }
@@ -173,6 +177,7 @@ fn plan(
         points: problem.shape.points,
         host: effects.host_bytes(&sizes),
         resting,
+        reference_resting,
         is_tabulated,
         starts_from_gap: spring.is_some()
             || problem.boundary == Boundary::Free

@@ -80,13 +80,15 @@ impl Memory {
         let writing = u64::from(writes) * (EVALUATION + 2 * DOUBLE) * points;
         // A gap from which a solve starts is the host's until it ends; under a pressure on a periodic grid the solver has it.
         let start = u64::from(cost.starts_from_gap) * DOUBLE * solved;
-        let iterating = solver_here + start + searching.max(correcting).max(cost.host.passing);
+        let iterating =
+            solver_here + reference + start + searching.max(correcting).max(cost.host.passing);
         let resting = at_rest
+            + (reference - cost.reference_resting as u64)
             + planning
                 .max(coarse_start(cost, points, solver_here, table))
                 .max(evaluating)
                 .max(writing);
-        let solving = kept + history + cost.host.kept + reference + iterating.max(resting);
+        let solving = kept + history + cost.host.kept + iterating.max(resting);
         Memory {
             solver,
             machine: PROGRAM + building.max(solving),
