@@ -308,16 +308,21 @@ fn level_descent<T, C, const MEAN_GAP: bool, const READS: usize, const TERMS: us
         [rows.width, rows.first],
         T::zero(),
     );
+    add_neighbours(rows, params);
+    each_point::<T, C, Descent<MEAN_GAP, true>, READS, 0, TERMS>(rows, params, scalars, sums);
+}
+
+/// Adds to the lines what the finest level answers each point with of the residual at its four neighbours.
+fn add_neighbours<T: Real>(rows: &mut Rows<T>, params: &Params) {
     Arch::new().dispatch(Neighbours {
         lines: &mut rows.lines[..rows.width * rows.count],
         residual: rows.around,
         first: rows.first,
         compliance: T::from_double(params.neighbour_compliance),
     });
-    each_point::<T, C, Descent<MEAN_GAP, true>, READS, 0, TERMS>(rows, params, scalars, sums);
 }
 
-/// Adds to lines what the finest level answers each point with of the residual at its four neighbours.
+/// The same as a task of several points side by side.
 struct Neighbours<'a, T> {
     lines: &'a mut [T],
     residual: Whole<'a, T>,

@@ -55,8 +55,9 @@ constants! {
     /// Ranges beyond which surfaces under tension have left each other.
     DETACHED_RANGES: wide = 60.0,
     /// The rounding floor of the numerator over `epsilon K_max norm(h or g)`: a gap rounded once leaves
-    /// 0.15 of it, one rounded in each of some twenty steps up to 0.7.
-    FLOOR_FACTOR: wide = 1.0,
+    /// 0.15 of it, one rounded in each of some twenty steps up to 0.7, and the transforms of fresh pressures on
+    /// 48 x 48 points up to 1.75.
+    FLOOR_FACTOR: wide = 2.0,
     /// Gaps below this share of the largest step are closed by a step to first touch.
     LEAST_SNAP: wide = 1e-12,
     /// The same in relative rounding errors of the fields, where these are larger.

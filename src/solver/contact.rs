@@ -142,6 +142,9 @@ const EVALUATION_TRANSFORMS: f64 = 2.0;
 const DRIFTED: f64 = 0.5;
 /// Restarts from fresh pressures after such a stall.
 const REFRESHES: usize = 4;
+/// Restarts in a row from fresh pressures that have not converged as those carried along have: further ones find the same
+/// rounding.
+const RESTARTS: usize = 20;
 
 impl<'a> ContactSolver<'a> {
     /// Plans a problem on a backend: fields, spectra and kernels for its law, and no others.
@@ -470,6 +473,7 @@ impl<'a> ContactSolver<'a> {
             return self.solve_in_rounds(load, tolerance, max_iterations, watch);
         }
         let (mut rounds, mut iterations, mut refreshed) = (0, 0, 0);
+        let (mut best, mut restarts) = (f64::INFINITY, 0);
         loop {
             let (recorded, scalars) = self.advance(max_iterations.saturating_sub(iterations))?;
             rounds += recorded;
@@ -487,7 +491,10 @@ impl<'a> ContactSolver<'a> {
                 // The residual that is carried along has converged, the fresh one has not: continue, unless
                 // only rounding of the gap is left, which the fresh one alone contains.
                 Status::Converged if end.status != Status::Converged && !at_floor => {
-                    if !out_of_iterations && !stopped && end.status == Status::Running {
+                    restarts = if end.residual < best { 0 } else { restarts + 1 };
+                    best = best.min(end.residual);
+                    let goes_on = restarts < RESTARTS && !out_of_iterations && !stopped;
+                    if goes_on && end.status == Status::Running {
                         self.ready();
                         continue;
                     }

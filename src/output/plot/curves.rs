@@ -285,7 +285,7 @@ mod tests {
 
     #[test]
     fn what_falls_by_decades_has_a_logarithmic_axis() {
-        let flows = [3e-15, 2e-16, 1e-17, 2e-19, 0.0];
+        let flows = [3.1e-15, 2.4e-16, 5e-17, 1.4e-17, 2.5e-19, 0.0];
         assert!(spans_decades(flows.iter()));
         assert!(!spans_decades([-1e-9, 3e-15, 1e-17].iter()));
         // Few small values, or none at all.

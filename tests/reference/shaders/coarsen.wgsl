@@ -20,7 +20,7 @@ const HEIGHT: u32 = 8u;
 const WHOLE_WIDTH: u32 = 16u;
 const WHOLE_HEIGHT: u32 = 16u;
 fn whole_at(column: u32, row: u32) -> real {
-return whole_0[row * WHOLE_WIDTH + column];
+return whole_0[row * 16u + column];
 }
 // Interpolation between a level and the next coarser one. Twins: kernel/multilevel.rs.
 

@@ -14,6 +14,8 @@ struct Params {
     points: wide,
     smooth_stiffness: wide,
     level_compliance: wide,
+    own_compliance: wide,
+    neighbour_compliance: wide,
     hardness: wide,
     epsilon: wide,
     prescribed_mean_gap: u32,

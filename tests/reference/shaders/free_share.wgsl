@@ -20,7 +20,7 @@ const HEIGHT: u32 = 8u;
 const WHOLE_WIDTH: u32 = 4u;
 const WHOLE_HEIGHT: u32 = 4u;
 fn whole_at(column: u32, row: u32) -> real {
-return whole_0[row * WHOLE_WIDTH + column];
+return whole_0[row * 4u + column];
 }
 // The share of free points in a cell: those where the projected residual, which `whole_at` reads, is not zero.
 fn at(index: u32, in_domain: bool, line: real) -> real {

@@ -44,11 +44,17 @@ fn read_direction(index: u32) -> real { return 0.0; }
 fn write_direction(index: u32, value: real) {}
 const WIDTH: u32 = 8u;
 const HEIGHT: u32 = 8u;
-@group(1) @binding(3) var<storage, read> whole_0: array<real>;
+@group(1) @binding(3) var<storage, read> around_0: array<real>;
+const AROUND_WIDTH: u32 = 8u;
+const AROUND_HEIGHT: u32 = 8u;
+fn around_at(column: u32, row: u32) -> real {
+return around_0[row * 8u + column];
+}
+@group(1) @binding(4) var<storage, read> whole_0: array<real>;
 const WHOLE_WIDTH: u32 = 4u;
 const WHOLE_HEIGHT: u32 = 4u;
 fn whole_at(column: u32, row: u32) -> real {
-return whole_0[row * WHOLE_WIDTH + column];
+return whole_0[row * 4u + column];
 }
 const MEAN_GAP: bool = false;
 const Z_RESIDUAL: u32 = 0u;
@@ -305,12 +311,22 @@ fn mean_gap_descent_terms(z: real, residual: real, previous: real, direction: re
         add_sum(WEIGHTED_DIRECTION, w * d);
     }
 }
-// Retains the rows of z: that of the first coarser level interpolated, and the finest level's own compliance.
+// Adds what the finest level answers a point with of the residual at its four neighbours.
+fn add_neighbours(index: u32, answer: real) -> real {
+    let x = index % WIDTH;
+    let y = row_of(index);
+    let before = vec2<u32>(select(x - 1u, WIDTH - 1u, x == 0u), select(y - 1u, HEIGHT - 1u, y == 0u));
+    let after = vec2<u32>(select(x + 1u, 0u, x + 1u == WIDTH), select(y + 1u, 0u, y + 1u == HEIGHT));
+    let beside = around_at(x, before.y) + around_at(x, after.y) + (around_at(before.x, y) + around_at(after.x, y));
+    return answer + real(params.neighbour_compliance) * beside;
+}
+
+// Retains the rows of z: that of the first coarser level interpolated, and what the finest level answers.
 fn at(index: u32, in_domain: bool, line: real) -> real {
     let here = here_at(read_gap(index), read_pressure(index) + real(scalars.mean_pressure), in_domain);
     let residual = projected_residual(here);
     let previous = read_previous_residual(index);
-    let carried = add_interpolated(index, real(params.level_compliance) * residual);
+    let carried = add_interpolated(index, add_neighbours(index, real(params.own_compliance) * residual));
     let z = preconditioned(here, carried);
     descent_terms(z, residual, previous);
     if (MEAN_GAP) {
