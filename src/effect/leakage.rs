@@ -1,4 +1,4 @@
-//! `[leakage]`: whether a fluid gets through the gap, its narrowest passage, and how much flows.
+//! `[leakage]`: whether the gap percolates, its critical constriction, and how much fluid flows through it.
 //!
 //! The fluid fills what is open and presses on nothing: the contact is that of dry surfaces.
 
@@ -11,7 +11,7 @@ use crate::units::format_si;
 
 /// Flow for each pascal between the two ends of the grid; empty where nothing holds the surfaces together.
 const FLOW: Column = Column::new("flow_conductance", "m^3/(s Pa)", 6);
-/// Narrowest passage on the widest way through; 0 where there is none.
+/// Critical constriction; 0 where the gap does not percolate.
 const CONSTRICTION: Column = Column::new("critical_constriction", "m", 7);
 /// Bytes a point of the clusters, of the equations and their coarse grids (2.2 times the links of the points), and of
 /// the vectors of the iteration, as measured.
@@ -26,7 +26,7 @@ impl Hooks for Leakage {
     }
 
     fn purpose(&self) -> &'static str {
-        "whether a fluid gets through the gap, and how much, in columns of their own, by multigrid after each step"
+        "whether the gap percolates, and how much fluid flows through it, in columns of their own, by multigrid after each step"
     }
 
     fn is_on(&self, scene: &Scene) -> bool {
@@ -49,7 +49,7 @@ impl Hooks for Leakage {
             .leakage
             .map_or(1.0, |fluid| fluid.viscosity);
         format!(
-            "matters until the contact area closes every way through, at some 0.4 of the nominal one where it is rough alike in all directions; here a square gap as wide as the rms height, {}, passes {:.2e} {}",
+            "matters while the gap percolates, up to a contact area of some 0.4 of the nominal one for isotropic roughness; here a square gap as wide as the rms height, {}, passes {:.2e} {}",
             format_si(height, "m"),
             height.powi(3) / (12.0 * viscosity),
             FLOW.unit

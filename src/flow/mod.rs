@@ -1,4 +1,4 @@
-//! A thin film of fluid between the surfaces: whether the gap percolates, its narrowest passage, and the flow.
+//! A thin film of fluid between the surfaces: whether the gap percolates, its critical constriction, and the flow.
 //!
 //! The flow through a gap u under a gradient of pressure p is u^3 grad p/(12 eta) (Reynolds 1886), and none
 //! passes where the gap is closed. Fluid passes between points that share a side.
@@ -33,7 +33,8 @@ pub struct Film<'a> {
 /// What flows through a gap.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Flow {
-    /// Gap of the narrowest passage on the widest way through, m; 0 where there is no way.
+    /// Critical constriction, m: the largest gap such that the points of at least this gap percolate; 0 where the open
+    /// points do not.
     pub critical_gap: f64,
     /// Flow through the width of the grid over the fall of pressure along its length, times 12 viscosities, m^3.
     pub permeance: f64,
@@ -44,11 +45,11 @@ pub struct Flow {
 }
 
 impl Film<'_> {
-    /// Finds the way through, and the flow to a relative `tolerance` in at most `max_iterations`.
+    /// Finds the critical constriction, and the flow to a relative `tolerance` in at most `max_iterations`.
     pub fn flow(&self, tolerance: f64, max_iterations: usize) -> Flow {
         let lattice = Lattice::new(self);
-        let way = percolation::find(&lattice);
-        if way.critical_gap <= 0.0 {
+        let percolation = percolation::find(&lattice);
+        if percolation.critical_gap <= 0.0 {
             return Flow {
                 critical_gap: 0.0,
                 permeance: 0.0,
@@ -56,10 +57,11 @@ impl Film<'_> {
                 iterations: 0,
             };
         }
-        let solution = reynolds::solve(&lattice, &way.conducting, tolerance, max_iterations);
+        let solution =
+            reynolds::solve(&lattice, &percolation.conducting, tolerance, max_iterations);
         let unit = lattice.largest_gap;
         Flow {
-            critical_gap: way.critical_gap * unit,
+            critical_gap: percolation.critical_gap * unit,
             permeance: solution.permeance * unit.powi(3),
             converged: solution.converged,
             iterations: solution.iterations,

@@ -1,9 +1,9 @@
-//! Which points a fluid flows through, and the narrowest of them on the widest way.
+//! The points that a fluid flows through, and the critical constriction.
 //!
 //! Points are opened from the widest gap down, and joined with the open ones beside them. The gap at which they first
 //! reach from one cell into the next, or from inlet to outlet, is the critical one: the percolation of
 //! Dapp, Luecke, Persson & Mueser 2012 (doi:10.1103/PhysRevLett.108.244301). In a repeating cell a cluster reaches
-//! into the next one where two ways between the same points cross different numbers of cells (Machta et al. 1996,
+//! into the next one where two paths between the same points cross different numbers of cells (Machta et al. 1996,
 //! doi:10.1103/PhysRevE.54.1332).
 
 use rayon::slice::ParallelSliceMut;
@@ -13,16 +13,16 @@ use super::lattice::Lattice;
 /// No point.
 const NONE: u32 = u32::MAX;
 
-/// The way through a gap.
-pub(super) struct Way {
-    /// Smallest gap on the widest way through, over the largest gap; 0 where there is none.
+/// How a gap percolates.
+pub(super) struct Percolation {
+    /// Critical constriction over the largest gap; 0 where the open points do not percolate.
     pub critical_gap: f64,
-    /// Points that are joined with such a way, in the order of the field.
+    /// Points of the clusters that percolate, in the order of the field.
     pub conducting: Vec<u32>,
 }
 
-/// Finds the way.
-pub(super) fn find(lattice: &Lattice) -> Way {
+/// Finds the clusters that percolate.
+pub(super) fn find(lattice: &Lattice) -> Percolation {
     let points = 0..lattice.len() as u32;
     let mut order: Vec<u32> = points
         .clone()
@@ -35,20 +35,20 @@ pub(super) fn find(lattice: &Lattice) -> Way {
     });
     let mut clusters = Clusters::new(lattice);
     let mut critical_gap = 0.0;
-    let mut passes = false;
+    let mut percolates = false;
     for point in order {
         clusters.open(lattice, point);
-        if !passes && clusters.passes(point) {
-            passes = true;
+        if !percolates && clusters.percolates(point) {
+            percolates = true;
             critical_gap = lattice.gap(point as usize);
         }
     }
-    let conducting = if passes {
+    let conducting = if percolates {
         points.filter(|point| clusters.conducts(*point)).collect()
     } else {
         Vec::new()
     };
-    Way {
+    Percolation {
         critical_gap,
         conducting,
     }
@@ -58,7 +58,7 @@ pub(super) fn find(lattice: &Lattice) -> Way {
 struct Clusters {
     /// The next point towards the root; the root itself at the root, no point where it is closed.
     parent: Vec<u32>,
-    /// Cells that the way to the parent crosses along the flow.
+    /// Cells that the link to the parent crosses along the flow.
     cells: Vec<i32>,
     /// Roots of clusters that reach into the next cell.
     reaching: Vec<bool>,
@@ -100,13 +100,13 @@ impl Clusters {
         }
     }
 
-    /// The root of an open point, and the cells that the way to it crosses.
+    /// The root of an open point, and the cells that the path to it crosses.
     fn root(&mut self, point: u32) -> (u32, i32) {
         let mut at = point as usize;
         let mut cells = 0;
         while self.parent[at] as usize != at {
             let next = self.parent[at] as usize;
-            // Halves the way for whoever comes after.
+            // Halves the path for later calls.
             let [this, that] = [self.cells[at], self.cells[next]];
             if self.parent[next] as usize != next {
                 self.parent[at] = self.parent[next];
@@ -138,8 +138,8 @@ impl Clusters {
         self.reaching[second as usize] |= reaches;
     }
 
-    /// Whether the cluster of a point that has just been opened is a way through.
-    fn passes(&mut self, point: u32) -> bool {
+    /// Whether the cluster of a point that has just been opened percolates.
+    fn percolates(&mut self, point: u32) -> bool {
         match self.ends {
             None => {
                 let (root, _) = self.root(point);
@@ -149,7 +149,7 @@ impl Clusters {
         }
     }
 
-    /// Whether a point is joined with a way through, where there is one.
+    /// Whether a point belongs to a cluster that percolates, where there is one.
     fn conducts(&mut self, point: u32) -> bool {
         if self.parent[point as usize] == NONE {
             return false;

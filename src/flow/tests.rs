@@ -73,10 +73,10 @@ fn waves() {
     close(along.critical_gap, d - a, 1e-12);
 }
 
-/// Squares like those of a board of chess conduct as the geometric mean of both colours (Dykhne 1971). The pressure is
+/// The squares of a chessboard conduct as the geometric mean of both colours (Dykhne 1971). The pressure is
 /// singular at the corners, so the error falls slowly with the points: 3 % at 32 a square, 8 times the conductance.
 #[test]
-fn a_board_of_chess() {
+fn a_chessboard() {
     let errors = [16, 32, 64].map(|square: usize| {
         let grid = Grid::new([2 * square; 2], [1.0; 2]);
         let gap = field(grid, |ix, iy| {
@@ -95,7 +95,7 @@ fn a_board_of_chess() {
     assert!(errors[2] < errors[1] && errors[1] < errors[0]);
 }
 
-/// What closes the way along one axis leaves that along the other open.
+/// A wall across one axis does not stop the flow along the other.
 #[test]
 fn walls() {
     let grid = Grid::new([12, 10], [1.0, 1.0]);
@@ -106,7 +106,7 @@ fn walls() {
         let open = flow(&wall, grid, *boundary, Axis::Y);
         close(open.permeance, 11.0 / 12.0, 1e-9);
     }
-    // A hole in the wall is the narrowest passage.
+    // A hole in the wall is the critical constriction.
     let hole = field(grid, |ix, iy| match (ix, iy) {
         (5, 3) => 0.125,
         (5, _) => 0.0,
@@ -141,7 +141,7 @@ fn a_winding_channel() {
     let length = gap.iter().filter(|gap| **gap > 0.0).count() as f64;
     let found = flow(&gap, grid, Boundary::Periodic, Axis::X);
     close(found.permeance, 0.125 / length, 1e-9);
-    // The outlet is at the whole of column 8: the way ends where the channel first gets there.
+    // The outlet is at the whole of column 8: the flow ends where the channel first gets there.
     let found = flow(&gap, grid, Boundary::Free, Axis::X);
     close(found.permeance, 0.125 / 14.0, 0.02);
     // It never gets from one cell to the next along y.
@@ -287,7 +287,7 @@ fn the_threshold_of_random_points() {
     }
 }
 
-/// Gaps over six decades, conductances over eighteen: the flow goes by the narrowest passage, and the iterations do not
+/// Gaps over six decades, conductances over eighteen: the critical constriction sets the flow, and the iterations do not
 /// grow without bounds.
 #[test]
 fn decades_of_gaps() {
@@ -296,7 +296,7 @@ fn decades_of_gaps() {
     let gap = field_of(grid, || 10f64.powf(-6.0 * random()));
     let found = flow(&gap, grid, Boundary::Periodic, Axis::X);
     println!("{found:?}");
-    // The conductance of the passage that decides, times a factor of order 1 (Ambegaokar, Halperin & Langer 1971).
+    // The conductance of the critical constriction, times a factor of order 1 (Ambegaokar, Halperin & Langer 1971).
     let ratio = found.permeance / found.critical_gap.powi(3);
     assert!((0.03..30.0).contains(&ratio), "{ratio}");
     assert!(found.iterations < 60, "{}", found.iterations);

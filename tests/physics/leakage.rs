@@ -49,12 +49,12 @@ fn a_channel_beside_a_ridge() {
     println!("{found:.5e} {expected:.5e}");
     // The edge of the contact, where the gap begins with the power 3/2, lies within one of the 170 points of a channel.
     assert!((found / expected - 1.0).abs() < 1e-3, "{found} {expected}");
-    // The narrowest passage on the widest way is the middle of the channel, where s = 1.
+    // The critical constriction is the middle of the channel, where s = 1.
     let root = (1.0 - edge * edge).sqrt();
     let middle = 2.0 * amplitude * (root - edge * edge * ((1.0 + root) / edge).ln());
     let found = column(&solved, 0, "critical_constriction");
     assert!((found / middle - 1.0).abs() < 0.003, "{found} {middle}");
-    // The ridges close the way across them.
+    // The gap does not percolate across the ridges.
     let solved = solve_table(&scene("x"));
     assert_eq!(column(&solved, 0, "flow_conductance"), 0.0);
     assert_eq!(column(&solved, 0, "critical_constriction"), 0.0);
@@ -114,7 +114,7 @@ fn beside_the_effective_medium() {
     assert!((ratios[0] - 1.0).abs() < 0.1, "{ratios:?}");
 }
 
-/// A contact that is rough alike in all directions lets through until 0.42 of the area touch (Dapp et al. 2012,
+/// The gap of a contact of isotropic roughness percolates until 0.42 of the area touch (Dapp et al. 2012,
 /// doi:10.1103/PhysRevLett.108.244301, of elastic contacts with Hurst exponents 0.3 and 0.8). A cell of a few waves
 /// closes somewhere around that.
 fn the_threshold_of_a_contact() {
@@ -126,7 +126,7 @@ fn the_threshold_of_a_contact() {
         let gaps: Vec<f64> = (0..rows.len())
             .map(|step| column(&solved, step, "critical_constriction"))
             .collect();
-        // What is closed stays closed under a larger load, and the narrowest passage narrows.
+        // What is closed stays closed under a larger load, and the critical constriction shrinks.
         assert!(gaps.windows(2).all(|pair| pair[1] <= pair[0]), "{gaps:?}");
         for (step, gap) in gaps.iter().enumerate() {
             assert_eq!(column(&solved, step, "flow_conductance") > 0.0, *gap > 0.0);

@@ -274,10 +274,9 @@ fn full_disk(folder: &Path) -> Reached {
     }
 }
 
-/// Ctrl-C amid a run: exit status 130, and what was finished is kept.
-fn interrupted(folder: &Path) -> Reached {
-    // More than a minute of iterations, of which none is the last.
-    let run = binary::command(folder, &["run", "good.toml", "--out", "long"])
+/// Ctrl-C amid a command that would take hours, once it has written `begun`: how it ends.
+fn end_of_interrupted(folder: &Path, call: &[&str], begun: &str) -> Output {
+    let run = binary::command(folder, call)
         .args(["--set", "grid.points=512"])
         .args([
             "--set",
@@ -285,20 +284,23 @@ fn interrupted(folder: &Path) -> Reached {
             "--set",
             "solver.max_iterations=1000000",
         ])
-        .args([
-            "--set",
-            "adhesion={ law='exponential', work_of_adhesion=0.05, range='1 nm' }",
-        ])
         .stdout(Stdio::piped())
         .stderr(Stdio::piped())
         .spawn()
         .expect("the binary runs");
-    // The folder is there once the run has begun and watches for the signal.
-    while !folder.join("long/curve.csv").exists() {
+    // The file is there once the command watches for the signal.
+    while !folder.join(begun).exists() {
         std::thread::sleep(std::time::Duration::from_millis(20));
     }
     assert!(binary::signal(&run, "-INT"));
-    let output = run.wait_with_output().expect("the run ends");
+    run.wait_with_output().expect("the command ends")
+}
+
+/// Ctrl-C amid a run: exit status 130, and what was finished is kept.
+fn interrupted(folder: &Path) -> Reached {
+    let law = "adhesion={ law='exponential', work_of_adhesion=0.05, range='1 nm' }";
+    let call = ["run", "good.toml", "--out", "long", "--set", law];
+    let output = end_of_interrupted(folder, &call, "long/curve.csv");
     Reached {
         variant: "Failure::Interrupted".to_owned(),
         message: one_line(&output, 130, "interrupted after 0 of 2 steps"),
@@ -307,50 +309,18 @@ fn interrupted(folder: &Path) -> Reached {
 
 /// Ctrl-C amid the reference of a study: exit status 130, and its table is there, without rows.
 fn interrupted_study(folder: &Path) -> Reached {
-    let study = binary::command(folder, &["accuracy", "good.toml", "--out", "study"])
-        .args(["--set", "grid.points=512"])
-        .args([
-            "--set",
-            "solver.tolerance=1e-30",
-            "--set",
-            "solver.max_iterations=1000000",
-        ])
-        .stdout(Stdio::piped())
-        .stderr(Stdio::piped())
-        .spawn()
-        .expect("the binary runs");
-    // The table is there once the study watches for the signal.
-    while !folder.join("study/accuracy.csv").exists() {
-        std::thread::sleep(std::time::Duration::from_millis(20));
-    }
-    assert!(binary::signal(&study, "-INT"));
-    let output = study.wait_with_output().expect("the study ends");
+    let call = ["accuracy", "good.toml", "--out", "study"];
+    let output = end_of_interrupted(folder, &call, "study/accuracy.csv");
     Reached {
         variant: "Failure::InterruptedStudy".to_owned(),
         message: one_line(&output, 130, " settings, which are kept in study"),
     }
 }
 
-/// Ctrl-C amid the cases of a study: exit status 130, and its table is there, without rows.
+/// Ctrl-C amid the cases of a study: exit status 130, and its file of cases is there.
 fn interrupted_sweep(folder: &Path) -> Reached {
-    let sweep = binary::command(folder, &["sweep", "study.toml", "--out", "swept"])
-        .args(["--set", "grid.points=512"])
-        .args([
-            "--set",
-            "solver.tolerance=1e-30",
-            "--set",
-            "solver.max_iterations=1000000",
-        ])
-        .stdout(Stdio::piped())
-        .stderr(Stdio::piped())
-        .spawn()
-        .expect("the binary runs");
-    // The file of cases is there once the study watches for the signal.
-    while !folder.join("swept/cases.jsonl").exists() {
-        std::thread::sleep(std::time::Duration::from_millis(20));
-    }
-    assert!(binary::signal(&sweep, "-INT"));
-    let output = sweep.wait_with_output().expect("the study ends");
+    let call = ["sweep", "study.toml", "--out", "swept"];
+    let output = end_of_interrupted(folder, &call, "swept/cases.jsonl");
     Reached {
         variant: "Failure::InterruptedSweep".to_owned(),
         message: one_line(
