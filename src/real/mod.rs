@@ -13,7 +13,7 @@ pub trait Real: FftNum + Float + NumAssign + Default + Send + Sync + 'static {
     fn double(self) -> f64;
     /// Relative rounding error of this type.
     const EPSILON: f64;
-    /// `[exp(x), exp(x) - 1]` to two units of the last place, several at a time where a loop over points asks.
+    /// `[exp(x), exp(x) - 1]` to three units of the last place, several at a time where a loop over points asks.
     fn exponentials(self) -> [Self; 2];
     /// The lesser of two numbers, as a single processor instruction; `self` if either is NaN.
     #[inline(always)]
