@@ -54,12 +54,17 @@ impl LoadedScene {
         self.scene.resolved_json().to_string()
     }
 
-    /// What the loads prescribe, in a scene's word, and how many there are.
-    fn loading(&self) -> (&'static str, usize) {
-        (self.scene.loading.control.name(), self.scene.loading.path.len())
+    /// The loads of the scene: its control, in its word, each value, SI, and the seconds that it takes.
+    fn loads(&self) -> Vec<(&'static str, f64, Option<f64>)> {
+        let loading = &self.scene.loading;
+        let seconds = |index: usize| Some(loading.durations.as_ref()?[index]);
+        let values = loading.path.iter().enumerate();
+        values
+            .map(|(index, &value)| (loading.control.name(), value, seconds(index)))
+            .collect()
     }
 
-    /// A path to be solved load by load. `control` is a scene's word; `None` takes the loads of the scene.
+    /// A path, to be solved load by load.
     #[pyo3(signature = (threads=None))]
     fn path(&self, threads: Option<usize>) -> SolvedPath {
         SolvedPath::new(&self.scene, threads)
