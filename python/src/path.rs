@@ -18,7 +18,10 @@ struct Loads(Arc<Mutex<VecDeque<Load>>>);
 
 impl Loads {
     fn push(&self, load: Load) {
-        self.0.lock().unwrap_or_else(PoisonError::into_inner).push_back(load);
+        self.0
+            .lock()
+            .unwrap_or_else(PoisonError::into_inner)
+            .push_back(load);
     }
 }
 
@@ -26,7 +29,10 @@ impl Iterator for Loads {
     type Item = Load;
 
     fn next(&mut self) -> Option<Load> {
-        self.0.lock().unwrap_or_else(PoisonError::into_inner).pop_front()
+        self.0
+            .lock()
+            .unwrap_or_else(PoisonError::into_inner)
+            .pop_front()
     }
 }
 
@@ -71,7 +77,10 @@ impl SolvedPath {
         progress: Option<&Bound<'py, PyAny>>,
     ) -> PyResult<(Bound<'py, PyDict>, Vec<String>)> {
         let Some(mut path) = self.path.take() else {
-            return Err(errors::failed(py, "this path was interrupted; begin another"));
+            return Err(errors::failed(
+                py,
+                "this path was interrupted; begin another",
+            ));
         };
         let control = control(py, word, value)?;
         self.loads.push(match seconds {
@@ -88,7 +97,10 @@ impl SolvedPath {
         match solved {
             Some(Ok(solution)) => Ok((step(py, solution)?, warnings)),
             Some(Err(error)) => Err(errors::of_contact(py, &error)),
-            None => Err(errors::failed(py, "this path has ended: a load did not converge")),
+            None => Err(errors::failed(
+                py,
+                "this path has ended: a load did not converge",
+            )),
         }
     }
 }
@@ -106,7 +118,10 @@ fn step<'py>(py: Python<'py>, solution: Solution) -> PyResult<Bound<'py, PyDict>
     step.set_item("number", row.step)?;
     step.set_item("time", row.time)?;
     step.set_item("contact_area_fraction", row.contact_area_fraction)?;
-    step.set_item("contact_area_fraction_corrected", row.contact_area_fraction_corrected)?;
+    step.set_item(
+        "contact_area_fraction_corrected",
+        row.contact_area_fraction_corrected,
+    )?;
     step.set_item("attractive_area_fraction", row.attractive_area_fraction)?;
     step.set_item("force", row.force)?;
     step.set_item("mean_pressure", row.mean_pressure)?;
@@ -121,7 +136,7 @@ fn step<'py>(py: Python<'py>, solution: Solution) -> PyResult<Bound<'py, PyDict>
     step.set_item("state", row.state.name())?;
     let jump = solution.jump.map(|jump| match jump {
         Jump::In => "in",
-        Jump::Off => "off",
+        _ => "off",
     });
     step.set_item("jump", jump)?;
     let columns = PyDict::new(py);

@@ -21,7 +21,10 @@ const DIMENSIONS: &[(&str, Dimension)] = &[
 pub fn quantity(py: Python<'_>, text: &str, dimension: &str, argument: &str) -> PyResult<f64> {
     let known = DIMENSIONS.iter().find(|(name, _)| *name == dimension);
     let Some((_, dimension)) = known else {
-        return Err(errors::failed(py, &format!("no dimension is called {dimension}")));
+        return Err(errors::failed(
+            py,
+            &format!("no dimension is called {dimension}"),
+        ));
     };
     parse_quantity(text, *dimension)
         .map_err(|error| errors::raise(py, "QuantityError", &format!("{argument}: {error}")))

@@ -57,7 +57,10 @@ pub fn run(
     threads: Option<usize>,
     progress: Option<&Bound<'_, PyAny>>,
 ) -> PyResult<(Option<String>, Vec<(bool, String)>)> {
-    let mut options = RunOptions::new().resume(resume).overwrite(overwrite).images(images);
+    let mut options = RunOptions::new()
+        .resume(resume)
+        .overwrite(overwrite)
+        .images(images);
     if let Some(threads) = threads {
         options = options.threads(threads);
     }

@@ -6,7 +6,7 @@ use std::sync::Arc;
 use numpy::{PyArray2, PyArrayMethods, PyReadonlyArray2, PyUntypedArrayMethods};
 use pyo3::prelude::*;
 use tabor::scene::{AdhesionMap, GridValues, Scene, SurfacePart};
-use tabor::{Contact, Control, ContactError};
+use tabor::{Contact, ContactError, Control};
 
 use crate::errors;
 use crate::path::SolvedPath;
@@ -45,7 +45,9 @@ impl LoadedScene {
         if let (Some(factors), Some(adhesion)) = (factors, &mut scene.adhesion) {
             adhesion.map = Some(AdhesionMap::Factors(grid_values(factors)?));
         }
-        scene.check().map_err(|mistakes| errors::of_scene(py, &mistakes))?;
+        scene
+            .check()
+            .map_err(|mistakes| errors::of_scene(py, &mistakes))?;
         Ok(LoadedScene { scene })
     }
 
@@ -114,14 +116,21 @@ pub fn contact(scene: &Scene, threads: Option<usize>) -> Contact {
 /// An array of values on the grid, of shape (ny, nx); float32 and other layouts are converted as they are copied.
 fn grid_values(array: &Bound<'_, PyAny>) -> PyResult<GridValues> {
     if let Ok(array) = array.extract::<PyReadonlyArray2<'_, f32>>() {
-        let values: Vec<f64> = array.as_array().iter().map(|value| f64::from(*value)).collect();
+        let values: Vec<f64> = array
+            .as_array()
+            .iter()
+            .map(|value| f64::from(*value))
+            .collect();
         return Ok(GridValues::new(values, points(array.shape())));
     }
     let array: PyReadonlyArray2<'_, f64> = array.extract()?;
     let points = points(array.shape());
     Ok(match array.as_slice() {
         Ok(values) => GridValues::new(values, points),
-        Err(_) => GridValues::new(array.as_array().iter().copied().collect::<Vec<f64>>(), points),
+        Err(_) => GridValues::new(
+            array.as_array().iter().copied().collect::<Vec<f64>>(),
+            points,
+        ),
     })
 }
 

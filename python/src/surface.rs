@@ -24,7 +24,11 @@ pub fn statistics<'py>(
         return Err(errors::raise(py, "SurfaceError", words));
     }
     let grid = Grid::new([columns, rows], size);
-    let boundary = if periodic { Boundary::Periodic } else { Boundary::Free };
+    let boundary = if periodic {
+        Boundary::Periodic
+    } else {
+        Boundary::Free
+    };
     let found = py.detach(|| Statistics::from_heights(&grid, &values, boundary));
     let moments = found.moments;
     let table = PyDict::new(py);

@@ -45,7 +45,8 @@ impl Talk {
     /// Finished steps, the last iteration that was told of, 0 for none, and its residual.
     pub fn last(&self) -> (usize, usize, f64) {
         let residual = f64::from_bits(self.residual.load(Ordering::Relaxed));
-        let [finished, iteration] = [&self.finished, &self.iteration].map(|count| count.load(Ordering::Relaxed));
+        let [finished, iteration] =
+            [&self.finished, &self.iteration].map(|count| count.load(Ordering::Relaxed));
         (finished, iteration, residual)
     }
 }
@@ -59,10 +60,12 @@ pub fn wait<R: Send + 'static>(
     work: impl FnOnce() -> R + Send + 'static,
 ) -> PyResult<R> {
     let (sender, mut receiver) = channel();
-    let spawned = thread::Builder::new().name("tabor".to_owned()).spawn(move || {
-        // Nobody may be waiting any more.
-        let _ = sender.send(catch_unwind(AssertUnwindSafe(work)));
-    });
+    let spawned = thread::Builder::new()
+        .name("tabor".to_owned())
+        .spawn(move || {
+            // Nobody may be waiting any more.
+            let _ = sender.send(catch_unwind(AssertUnwindSafe(work)));
+        });
     spawned.map_err(|error| errors::failed(py, &format!("no thread for the solver: {error}")))?;
     let mut told = (0, 0);
     loop {
@@ -71,7 +74,10 @@ pub fn wait<R: Send + 'static>(
         match received {
             Ok(Ok(result)) => return Ok(result),
             Ok(Err(_)) | Err(RecvTimeoutError::Disconnected) => {
-                return Err(errors::failed(py, "tabor failed within itself; please report it"));
+                return Err(errors::failed(
+                    py,
+                    "tabor failed within itself; please report it",
+                ));
             }
             Err(RecvTimeoutError::Timeout) => {}
         }

@@ -123,11 +123,7 @@ impl Walk {
         }
     }
 
-    fn solve(
-        &mut self,
-        earlier: Earlier,
-        contact: &Contact,
-    ) -> Result<Solution, ContactError> {
+    fn solve(&mut self, earlier: Earlier, contact: &Contact) -> Result<Solution, ContactError> {
         let (setup, device) = (&self.setup, &self.device);
         let mut last = LastStep {
             watcher: contact.watcher.as_ref(),

@@ -50,7 +50,7 @@ use crate::scene::{Boundary, GridScene, Scene, SelfAffineScene, SurfacePart};
 use crate::units::{LARGEST, in_range};
 use file::HeightMap;
 use shapes::ApexPosition;
-use statistics::Statistics;
+pub use statistics::Statistics;
 
 /// Most points of a grid: 8 GiB of heights.
 #[doc(hidden)]
