@@ -9,6 +9,7 @@ mod quantity;
 mod run;
 mod scene;
 mod surface;
+mod theory;
 mod waiting;
 
 use pyo3::prelude::*;
@@ -21,11 +22,13 @@ mod _tabor {
     #[pymodule_export]
     use super::quantity::quantity;
     #[pymodule_export]
-    use super::run::run;
+    use super::run::{command_line, run};
     #[pymodule_export]
     use super::scene::{LoadedScene, json_from_toml, toml_from_json};
     #[pymodule_export]
     use super::surface::statistics;
+    #[pymodule_export]
+    use super::theory::{theory, theory_table};
 
     use pyo3::prelude::*;
 

@@ -7,13 +7,20 @@ use crate::errors;
 
 /// Dimensions by the names that the package gives them.
 const DIMENSIONS: &[(&str, Dimension)] = &[
-    ("length", Dimension::Length),
-    ("pressure", Dimension::Pressure),
-    ("force", Dimension::Force),
-    ("time", Dimension::Time),
     ("angle", Dimension::Angle),
+    ("conductivity", Dimension::Conductivity),
     ("energy per area", Dimension::EnergyPerArea),
+    ("force", Dimension::Force),
     ("force per length", Dimension::ForcePerLength),
+    ("length", Dimension::Length),
+    ("molar volume", Dimension::MolarVolume),
+    ("number", Dimension::Dimensionless),
+    ("per area", Dimension::PerArea),
+    ("per length", Dimension::PerLength),
+    ("pressure", Dimension::Pressure),
+    ("speed", Dimension::Speed),
+    ("temperature", Dimension::Temperature),
+    ("time", Dimension::Time),
 ];
 
 /// The SI value of a text such as "25 um".

@@ -1,5 +1,6 @@
 //! A scene solved into its folder, and the program `tabor` itself.
 
+use std::ffi::OsString;
 use std::path::PathBuf;
 use std::sync::Arc;
 use std::sync::mpsc::{Sender, channel};
@@ -42,8 +43,17 @@ impl RunObserver for Hearer {
     }
 }
 
-/// Solves every step of a scene into a folder. Returns "finished", or a sentence that says why it is not, and what
-/// was said on the way, warnings marked.
+/// Runs the program `tabor` on `words`, its own name first, and returns its exit code. A wrong call and a request for
+/// help end the process.
+#[pyfunction]
+pub fn command_line(py: Python<'_>, words: Vec<OsString>) -> u8 {
+    py.detach(|| tabor::command_line_with(words))
+}
+
+/// Why a run is not finished, if so, and what was said on the way, each with whether it is a warning.
+type End = (Option<String>, Vec<(bool, String)>);
+
+/// Solves every step of a scene into a folder. Returns what [`End`] holds.
 #[pyfunction]
 #[pyo3(signature = (scene, folder, resume=false, overwrite=true, images=true, threads=None, progress=None))]
 #[expect(clippy::too_many_arguments, reason = "Python names each of them")]
@@ -56,7 +66,7 @@ pub fn run(
     images: bool,
     threads: Option<usize>,
     progress: Option<&Bound<'_, PyAny>>,
-) -> PyResult<(Option<String>, Vec<(bool, String)>)> {
+) -> PyResult<End> {
     let mut options = RunOptions::new()
         .resume(resume)
         .overwrite(overwrite)

@@ -72,13 +72,13 @@ impl LoadedScene {
         SolvedPath::new(&self.scene, threads)
     }
 
-    /// The heights of all parts, m, as an array of shape (ny, nx), and (lx, ly), m.
+    /// The heights of all parts, m, as an array of shape (ny, nx), and warnings.
     #[pyo3(signature = (threads=None))]
     fn heights<'py>(
         &self,
         py: Python<'py>,
         threads: Option<usize>,
-    ) -> PyResult<(Bound<'py, PyArray2<f64>>, [f64; 2], Vec<String>)> {
+    ) -> PyResult<(Bound<'py, PyArray2<f64>>, Vec<String>)> {
         let scene = self.scene.clone();
         let talk = Arc::new(Talk::default());
         let built = wait(py, &talk, None, move || {
@@ -89,7 +89,7 @@ impl LoadedScene {
         let surface = built.map_err(|error| errors::of_contact(py, &error))?;
         let (grid, warnings) = (surface.grid, surface.warnings);
         let heights = Arc::unwrap_or_clone(surface.heights);
-        Ok((array(py, heights, grid.points())?, grid.size(), warnings))
+        Ok((array(py, heights, grid.points())?, warnings))
     }
 }
 
@@ -116,22 +116,15 @@ pub fn contact(scene: &Scene, threads: Option<usize>) -> Contact {
 /// An array of values on the grid, of shape (ny, nx); float32 and other layouts are converted as they are copied.
 fn grid_values(array: &Bound<'_, PyAny>) -> PyResult<GridValues> {
     if let Ok(array) = array.extract::<PyReadonlyArray2<'_, f32>>() {
-        let values: Vec<f64> = array
-            .as_array()
-            .iter()
-            .map(|value| f64::from(*value))
-            .collect();
-        return Ok(GridValues::new(values, points(array.shape())));
+        let values = array.as_array().iter().copied().map(f64::from).collect();
+        return Ok(GridValues::from_vec(values, points(array.shape())));
     }
     let array: PyReadonlyArray2<'_, f64> = array.extract()?;
-    let points = points(array.shape());
-    Ok(match array.as_slice() {
-        Ok(values) => GridValues::new(values, points),
-        Err(_) => GridValues::new(
-            array.as_array().iter().copied().collect::<Vec<f64>>(),
-            points,
-        ),
-    })
+    let values = match array.as_slice() {
+        Ok(values) => values.to_vec(),
+        Err(_) => array.as_array().iter().copied().collect(),
+    };
+    Ok(GridValues::from_vec(values, points(array.shape())))
 }
 
 /// Points along x and y of a shape (ny, nx).

@@ -17,6 +17,10 @@ class SurfaceError(TaborError, ValueError):
     """Heights, or a map of adhesion, that cannot be used."""
 
 
+class TheoryError(TaborError, ValueError):
+    """Arguments outside of the range of a theory."""
+
+
 class NotEnoughMemoryError(TaborError, MemoryError):
     """The memory of this machine does not hold what is asked for."""
 

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import csv
 import json
 import os
 from pathlib import Path
@@ -10,6 +9,7 @@ from typing import Any
 
 import numpy as np
 
+from . import tables
 from .errors import OutputError
 
 
@@ -33,21 +33,7 @@ class Run:
     @property
     def curve(self) -> np.ndarray:
         """The rows of ``curve.csv`` as a structured array; an empty cell is NaN."""
-        with (self.folder / "curve.csv").open(newline="", encoding="utf-8") as file:
-            head, *rows = list(csv.reader(file))
-        columns = []
-        for name, cells in zip(head, zip(*rows)):
-            if set(cells) <= {"true", "false"}:
-                columns.append((name, np.array([cell == "true" for cell in cells])))
-                continue
-            try:
-                columns.append((name, np.array([float(cell) if cell else np.nan for cell in cells])))
-            except ValueError:
-                columns.append((name, np.array(cells)))
-        table = np.empty(len(rows), dtype=[(name, values.dtype) for name, values in columns])
-        for name, values in columns:
-            table[name] = values
-        return table
+        return tables.read(self.folder / "curve.csv")
 
     def to_frame(self) -> Any:
         """The curve as a `pandas.DataFrame`."""

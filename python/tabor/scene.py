@@ -14,6 +14,7 @@ import numpy as np
 from . import _tabor
 from .errors import NotConvergedWarning, SceneError, TaborWarning
 from .progress import reporter
+from .quantities import si
 from .runs import Run
 from .step import Step
 
@@ -24,16 +25,6 @@ CONTROLS = {
     "approach": ("approach", "length"),
     "mean_gap": ("mean-gap", "length"),
 }
-
-
-def si(value: Any, dimension: str, argument: str) -> float:
-    """The SI value of a number or of a text with a unit."""
-    if isinstance(value, str):
-        return _tabor.quantity(value, dimension, argument)
-    number = float(value)
-    if not np.isfinite(number):
-        raise SceneError(f"{argument}: {number} is no finite number")
-    return number
 
 
 def field(array: Any, argument: str) -> np.ndarray:
@@ -142,7 +133,7 @@ class Scene:
 
     def heights(self) -> np.ndarray:
         """The heights of all parts, m, of shape (ny, nx)."""
-        heights, _, said = self._loaded.heights(self.threads)
+        heights, said = self._loaded.heights(self.threads)
         _warn(said)
         return heights
 

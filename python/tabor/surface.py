@@ -7,7 +7,8 @@ from typing import Any
 import numpy as np
 
 from . import _tabor
-from .scene import Scene, field, si
+from .quantities import si
+from .scene import Scene, field
 
 
 def self_affine(
