@@ -89,4 +89,4 @@ def regime(tabor_parameter: Quantities) -> Any:
         Tabor's number.
     """
     codes = np.asarray(one("regime", locals()))
-    return REGIMES[codes.astype(int)][()]
+    return np.take(REGIMES, codes.astype(int))
