@@ -69,15 +69,26 @@ class Contact(Scene):
         The attraction; without one a hard wall is all there is.
     boundary : {"periodic", "free"}, optional
         What lies beyond the edge: the surface again, or nothing. Periodic unless told.
-    solid, solver, **tables : mappings, optional
-        Further keys of ``[solid]``, ``[solver]`` and of any other table of a scene, such as
-        ``friction={"shear_strength": "10 MPa"}``.
-    treatment, rate, adhesion_map : optional
-        Effects of the adhesion.
+    hardness : number or text, optional
+        Largest pressure that the solid carries, Pa.
+    treatment : {"full", "dmt"}, optional
+        Whether attraction deforms the contact, or is summed over the gap of the contact without it.
+    rate : mapping, optional
+        How the work of adhesion grows with the speed of a receding edge: the keys of ``[adhesion.rate]``.
+    adhesion_map : array of shape (ny, nx), optional
+        A factor on the tension of the law at each point.
     spring : number or text, optional
-        Stiffness of a spring between the prescribed approach and the body.
-    tolerance, max_iterations, precision, backend : optional
-        Keys of ``[solver]``.
+        Stiffness of a spring between the prescribed approach and the body, N/m.
+    tolerance, max_iterations : number, optional
+        When a solve ends.
+    precision : {"auto", "double", "mixed", "single"}, optional
+    backend : {"auto", "cpu", "gpu"}, optional
+    solid : mapping, optional
+        Further keys of ``[solid]``, such as those of a layer.
+    loading : mapping, optional
+        The keys of ``[loading]``, for `run` and for `path` without loads.
+    **tables
+        Further tables of a scene, such as ``friction={"shear_strength": "10 MPa"}``.
     threads : int, optional
         Threads of the processor.
     """
