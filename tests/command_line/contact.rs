@@ -8,6 +8,7 @@ use std::process::Command;
 use crate::shared::trials::tests;
 use tabor::scene::{
     AdhesionScene, Axis, CapillaryScene, PatternKind, RelaxationScene, Scene, SolidScene,
+    StepChoice,
 };
 use tabor::{
     AdhesionMap, Base, Boundary, Contact, ContactError, Control, Device, Exponential, Grid,
@@ -419,6 +420,35 @@ fn paths_are_solved_as_they_are_asked_for() {
     assert!(contact().path([Control::Force(0.0); 0]).next().is_none());
 }
 
+fn a_path_has_the_loads_it_is_given_and_their_pull_off() {
+    let adhesive = contact().law(MaugisDugdale::new(0.05, 20e-9));
+    // A scene that pulls on behind its path, and names a step of it: both are for a run.
+    let mut scene = adhesive
+        .scene([1e6, 0.0].map(Control::MeanPressure))
+        .expect("a scene");
+    scene.loading.until_apart = true;
+    scene.output.steps = StepChoice::List(vec![2]);
+    let loads = [1e6, 0.0, -1e9].map(Control::MeanPressure);
+    let solved: Vec<Solution> = Contact::from_scene(scene)
+        .path(loads)
+        .map(Result::unwrap)
+        .collect();
+    assert_eq!(solved.len(), 3);
+    assert_eq!(solved[0].mean_pressure, 1e6);
+    assert_eq!(solved[2].state, State::Separated);
+    assert_eq!(solved[1].pull_off, None);
+    let [held, parted] = solved[2].pull_off.expect("it let go");
+    assert!(held > 0.0 && parted > held && parted - held <= 0.01 * parted);
+    // A tension between 0 and the bracket holds, one beyond does not.
+    let area = SIZE[0] * SIZE[1];
+    let holds = |tension: f64| {
+        let path = [1e6, 0.0, -tension / area].map(Control::MeanPressure);
+        let last = adhesive.path(path).last().expect("a load");
+        last.expect("a solution").state != State::Separated
+    };
+    assert!(holds(0.97 * held) && !holds(1.03 * parted));
+}
+
 fn parted_surfaces_leave_whole_arrays() {
     let parted = contact()
         .law(MaugisDugdale::new(0.01, 10e-9))
@@ -637,6 +667,7 @@ tests![
     scenes_from_files_are_contacts_too,
     arrays_have_the_shape_and_order_that_are_promised,
     paths_are_solved_as_they_are_asked_for,
+    a_path_has_the_loads_it_is_given_and_their_pull_off,
     parted_surfaces_leave_whole_arrays,
     threads_change_no_bit,
     runs_of_the_library_are_resumed_refused_and_quiet_about_pictures,
