@@ -9,6 +9,7 @@ use super::fit_folder::fit_folder;
 use super::patience::Patience;
 use super::quantity::{positive, quantity, share};
 use super::{Failure, folder_or_default, print, say, warn};
+use crate::fit::advice::{Advice, advise_curve};
 use crate::fit::{
     Calibration, ColumnChoice, CurveColumns, FitError, FitResult, ForceCurve, Freedom, Indenter,
     ModelFit, figure, fit_curve, fit_relaxation, fit_with_slope, headline, report,
@@ -65,6 +66,9 @@ pub(super) struct FitArguments {
     /// Fit one relaxation time of the solid to the loading beside; the curve needs a column time
     #[arg(long, requires = "curve")]
     relaxation: bool,
+    /// Say which model suits, with probabilities learned from full fields (docs/advise.md)
+    #[arg(long, requires = "curve", conflicts_with_all = ["cone", "pyramid", "range"])]
+    advise: bool,
     /// Range of the attraction (work of adhesion over its tension), where it is known
     #[arg(long, value_name = "LENGTH", value_parser = |text: &str| positive(text, Dimension::Length))]
     range: Option<f64>,
@@ -138,6 +142,14 @@ impl FitArguments {
         if self.relaxation {
             result.relaxation = Some(fit_relaxation(&curve, path, &result)?);
         }
+        if self.advise {
+            result.advice = advise_curve(&result);
+            if result.advice.is_none() {
+                let missing =
+                    "no advice: it needs a fit of each of the four models, and one of them failed";
+                result.warnings.push(missing.to_owned());
+            }
+        }
         Ok(result)
     }
 }
@@ -191,6 +203,9 @@ fn table(result: &FitResult) -> String {
     text += &format!("{}\n", headline(result));
     if let Some(solid) = &result.relaxation {
         text += &format!("{solid}\n");
+    }
+    for sentence in result.advice.iter().flat_map(Advice::sentences) {
+        text += &format!("advice: {sentence}\n");
     }
     text
 }
