@@ -64,10 +64,10 @@ pub(super) struct FitArguments {
     #[arg(long, value_name = "SHARE", value_parser = share, default_value = "0", hide_default_value = true, requires = "curve", conflicts_with_all = ["cone", "pyramid"])]
     radius_error: f64,
     /// Fit one relaxation time of the solid to the loading beside; the curve needs a column time
-    #[arg(long, requires = "curve")]
+    #[arg(long, requires = "curve", conflicts_with = "pull_off")]
     relaxation: bool,
     /// Say which model suits, with probabilities learned from full fields (docs/advise.md)
-    #[arg(long, requires = "curve", conflicts_with_all = ["cone", "pyramid", "range"])]
+    #[arg(long, requires = "curve", conflicts_with_all = ["cone", "pyramid", "range", "pull_off"])]
     advise: bool,
     /// Range of the attraction (work of adhesion over its tension), where it is known
     #[arg(long, value_name = "LENGTH", value_parser = |text: &str| positive(text, Dimension::Length))]
