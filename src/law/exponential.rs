@@ -26,28 +26,54 @@ impl Exponential<f64> {
     }
 }
 
+impl<T: Real> Exponential<T> {
+    /// Ranges that a length takes, by their inverse, which is the same at all points.
+    #[inline(always)]
+    fn ranges(&self, length: T) -> T {
+        length * (T::one() / self.range)
+    }
+
+    /// The tension at zero gap.
+    #[inline(always)]
+    fn peak(&self) -> T {
+        self.work_of_adhesion / self.range
+    }
+}
+
 impl<T: Real> Cohesion<T> for Exponential<T> {
     #[inline(always)]
     fn traction(&self, gap: T) -> T {
-        self.work_of_adhesion / self.range * (-gap / self.range).exp()
+        let [decay, _] = self.ranges(-gap).exponentials();
+        self.peak() * decay
     }
 
     #[inline(always)]
     fn difference(&self, gap: T, step: T) -> T {
-        let ranges = -step / self.range;
-        if ranges > T::from_double(MOST_RANGES) {
-            return self.traction(gap + step) - self.traction(gap);
+        let ranges = self.ranges(-step);
+        let far = ranges > T::from_double(MOST_RANGES);
+        // One exponential for either way, so that several points go side by side.
+        let argument = if far {
+            self.ranges(-(gap + step))
+        } else {
+            ranges
+        };
+        let [growth, gain] = argument.exponentials();
+        let here = self.traction(gap);
+        if far {
+            self.peak() * growth - here
+        } else {
+            here * gain
         }
-        self.traction(gap) * ranges.exp_m1()
     }
 
     #[inline(always)]
     fn energy(&self, gap: T) -> T {
-        -self.work_of_adhesion * (-gap / self.range).exp()
+        let [decay, _] = self.ranges(-gap).exponentials();
+        -self.work_of_adhesion * decay
     }
 
     #[inline(always)]
     fn slope(&self, gap: T) -> T {
-        -self.traction(gap) / self.range
+        self.ranges(-self.traction(gap))
     }
 }
