@@ -30,47 +30,47 @@ pub(super) struct FitArguments {
     #[arg(long, value_name = "R", value_parser = |text: &str| positive(text, Dimension::Length), required_unless_present_any = ["cone", "pyramid"])]
     radius: Option<f64>,
     /// In place of a sphere: a cone, by the angle between axis and flank, as in "20 deg"
-    #[arg(long, value_name = "ANGLE", value_parser = half_angle, conflicts_with_all = ["radius", "pyramid", "range"])]
+    #[arg(long, value_name = "ANGLE", value_parser = half_angle, conflicts_with_all = ["radius", "pyramid", "range", "pull_off"])]
     cone: Option<f64>,
     /// A pyramid of four sides, by the angle between axis and face
-    #[arg(long, value_name = "ANGLE", value_parser = half_angle, conflicts_with_all = ["radius", "range"])]
+    #[arg(long, value_name = "ANGLE", value_parser = half_angle, conflicts_with_all = ["radius", "range", "pull_off"])]
     pyramid: Option<f64>,
     /// Folder for fit.json, fit.csv and fit.png [default: the curve's name, in the current folder; for a folder with _fits]
-    #[arg(long, value_name = "DIR")]
+    #[arg(long, value_name = "DIR", conflicts_with = "pull_off")]
     out: Option<PathBuf>,
     /// Approach 0 is where the undeformed surfaces first touch; else that place is fitted
-    #[arg(long)]
+    #[arg(long, conflicts_with = "pull_off")]
     contact_at_zero: bool,
     /// Fit the force where nothing acts; else it is 0
-    #[arg(long)]
+    #[arg(long, conflicts_with = "pull_off")]
     baseline: bool,
     /// Fit the slope of that force too
-    #[arg(long)]
+    #[arg(long, conflicts_with = "pull_off")]
     baseline_slope: bool,
     /// Columns of an instrument, as in "position=Z [um],deflection=Defl [V]": approach or position (of the cantilever's
     /// base), force or deflection, time, each by its name or number; - before it turns its sign
-    #[arg(long, value_name = "QUANTITY=COLUMN", value_delimiter = ',', value_parser = ColumnChoice::parse)]
+    #[arg(long, value_name = "QUANTITY=COLUMN", value_delimiter = ',', value_parser = ColumnChoice::parse, conflicts_with = "pull_off")]
     columns: Vec<ColumnChoice>,
     /// Deflection per volt, as in "50 nm/V"
-    #[arg(long, value_name = "M/V", value_parser = |text: &str| positive(text, Dimension::LengthPerVoltage), requires = "curve")]
+    #[arg(long, value_name = "M/V", value_parser = |text: &str| positive(text, Dimension::LengthPerVoltage), conflicts_with = "pull_off")]
     sensitivity: Option<f64>,
     /// Spring constant of the cantilever, as in "0.2 N/m"
-    #[arg(long, value_name = "N/M", value_parser = |text: &str| positive(text, Dimension::ForcePerLength), requires = "curve")]
+    #[arg(long, value_name = "N/M", value_parser = |text: &str| positive(text, Dimension::ForcePerLength), conflicts_with = "pull_off")]
     spring: Option<f64>,
     /// Relative standard deviation of the spring constant, as in 10%
-    #[arg(long, value_name = "SHARE", value_parser = share, default_value = "0", hide_default_value = true, requires = "curve")]
+    #[arg(long, value_name = "SHARE", value_parser = share, default_value = "0", hide_default_value = true, conflicts_with = "pull_off")]
     spring_error: f64,
     /// Relative standard deviation of the radius
-    #[arg(long, value_name = "SHARE", value_parser = share, default_value = "0", hide_default_value = true, requires = "curve", conflicts_with_all = ["cone", "pyramid"])]
+    #[arg(long, value_name = "SHARE", value_parser = share, default_value = "0", hide_default_value = true, conflicts_with_all = ["cone", "pyramid", "pull_off"])]
     radius_error: f64,
     /// Fit one relaxation time of the solid to the loading beside; the curve needs a column time
-    #[arg(long, requires = "curve", conflicts_with = "pull_off")]
+    #[arg(long, conflicts_with = "pull_off")]
     relaxation: bool,
     /// Say which model suits, with probabilities learned from full fields (docs/advise.md)
-    #[arg(long, requires = "curve", conflicts_with_all = ["cone", "pyramid", "range", "pull_off"])]
+    #[arg(long, conflicts_with_all = ["cone", "pyramid", "range", "pull_off"])]
     advise: bool,
     /// Range of the attraction (work of adhesion over its tension), where it is known
-    #[arg(long, value_name = "LENGTH", value_parser = |text: &str| positive(text, Dimension::Length))]
+    #[arg(long, value_name = "LENGTH", value_parser = |text: &str| positive(text, Dimension::Length), conflicts_with = "pull_off")]
     range: Option<f64>,
     /// In place of a curve, with --stiffness: the pull-off force, for JKR
     #[arg(long, value_name = "FORCE", value_parser = |text: &str| positive(text, Dimension::Force), requires = "stiffness", requires = "radius", conflicts_with = "curve")]
