@@ -2,10 +2,12 @@
 //!
 //! `cargo run --release --example regime solve` solves the fields of 300 spheres (smooth and rough, of three laws, Tabor
 //! numbers 0.05 to 4) and `regime solve 1000 1036 1 FILE` those of other contacts, into `target/regime_fields.csv`: a quarter of an
-//! hour on one core. `regime tabulate [FROM TO]` measures each with noise and through springs, fits the curves and writes
-//! `examples/regime/curves.csv`, a row a curve; three minutes. `regime train` trains both classifiers on that table, writes
+//! hour on one core. `regime tabulate [FROM TO]` adds 100 contacts in closed form, measures each with noise and through springs,
+//! fits the curves and writes `examples/regime/curves.csv`, a row a curve; as long again. `regime compare` tells how far the closed
+//! form of stiff spheres lies from full fields. `regime train` trains both classifiers on that table, writes
 //! `src/fit/advice/for_*.json` and `docs/pictures/advise.png`, and prints the tables of `docs/advise.md`.
 
+mod closed;
 mod measured;
 mod problems;
 mod random;
@@ -15,6 +17,7 @@ mod training;
 
 use std::collections::BTreeMap;
 use std::error::Error;
+use std::f64::consts::TAU;
 use std::fs;
 use std::io::Write;
 use std::path::Path;
@@ -25,7 +28,7 @@ use tabor::fit::advice::features::{CURVE_FEATURES, features};
 use tabor::fit::{ForceCurve, Freedom, Model, fit_curve};
 
 use measured::measure;
-use problems::{EVEN, Outside, PROBLEMS, Point, Problem};
+use problems::{Closed, EVEN, FIELDS, Outside, PROBLEMS, Point, Problem};
 use table::Row;
 use training::{Design, Trained, rounded};
 
@@ -33,7 +36,7 @@ use training::{Design, Trained, rounded};
 const OUTSIDE_FROM: usize = 1000;
 const OUTSIDE: usize = 36;
 /// The fields, kept for the next table; not committed.
-const FIELDS: &str = "target/regime_fields.csv";
+const CACHE: &str = "target/regime_fields.csv";
 const TABLE: &str = "examples/regime/curves.csv";
 
 fn problem(number: usize) -> Problem {
@@ -115,7 +118,11 @@ fn row(number: usize, field: &[Point], copy: usize) -> Option<Row> {
     let [_, hertz] = error(Model::Hertz);
     let [dmt, jkr, general] = [Model::Dmt, Model::Jkr, Model::MaugisDugdale].map(error);
     let kind = match problem.outside {
-        None => "sphere",
+        None => match problem.closed {
+            None => "sphere",
+            Some(Closed::Stiff) => "stiff",
+            Some(Closed::Dmt | Closed::Jkr) => "limit",
+        },
         Some(Outside::Cone(_)) => "cone",
         Some(Outside::Layer(_)) => "layer",
         Some(Outside::Plastic(_)) => "plastic",
@@ -129,7 +136,11 @@ fn row(number: usize, field: &[Point], copy: usize) -> Option<Row> {
         problem: number,
         kind: kind.to_owned(),
         law: problem.law.to_owned(),
-        tabor: problem.tabor,
+        tabor: match problem.closed {
+            Some(Closed::Dmt) => 0.0,
+            Some(Closed::Jkr) => f64::INFINITY,
+            _ => problem.tabor,
+        },
         rms_height: problem.rms_height,
         load: problem.load,
         noise: measurement.noise,
@@ -144,7 +155,13 @@ fn row(number: usize, field: &[Point], copy: usize) -> Option<Row> {
 
 /// Measures and fits the fields of the problems from one number to another; other rows of the table stay.
 fn tabulate(from: usize, to: usize) -> Result<(), Box<dyn Error>> {
-    let mut fields = fields(&fs::read_to_string(FIELDS)?)?;
+    let mut fields = fields(&fs::read_to_string(CACHE)?)?;
+    for number in FIELDS..PROBLEMS {
+        let problem = problem(number);
+        if let Some(closed) = problem.closed {
+            fields.insert(number, closed::curve(&problem, closed)?);
+        }
+    }
     fields.retain(|number, _| (from..to).contains(number));
     let kept = fs::read_to_string(TABLE).unwrap_or_default();
     let mut table = if kept.is_empty() {
@@ -191,7 +208,7 @@ fn train() -> Result<(), Box<dyn Error>> {
     ] {
         let rows = table
             .iter()
-            .filter(|row| row.kind == "sphere" && !row.is_held_out());
+            .filter(|row| row.is_of_sphere() && !row.is_held_out());
         let Trained { classifier, loss } = design.train(&design.cases(rows));
         let classifier = rounded(&classifier)?;
         println!(
@@ -205,17 +222,42 @@ fn train() -> Result<(), Box<dyn Error>> {
     study::draw(&table, &trained[0], &trained[1])
 }
 
+/// How far the closed form of stiff spheres lies from full fields of that law.
+fn compare() -> Result<(), Box<dyn Error>> {
+    println!("number,tabor,load,greatest_difference_over_load,greatest_difference_over_2_pi_w_R");
+    for (number, field) in fields(&fs::read_to_string(CACHE)?)? {
+        let problem = problem(number);
+        let smooth = problem.rms_height == 0.0 && problem.outside.is_none();
+        if problem.law != "maugis-dugdale" || problem.tabor > 0.12 || !smooth {
+            continue;
+        }
+        let approaches: Vec<f64> = field.iter().map(|(approach, _)| *approach).collect();
+        let closed = closed::maugis(&problem, &approaches)?;
+        let differences = field.iter().zip(&closed);
+        let differences = differences.map(|((_, force), closed)| (force - closed).abs() / TAU);
+        let greatest = differences.fold(0.0, f64::max);
+        println!(
+            "{number},{:.3},{:.1},{:.4},{greatest:.4}",
+            problem.tabor,
+            problem.load,
+            greatest / problem.load
+        );
+    }
+    Ok(())
+}
+
 fn main() -> Result<(), Box<dyn Error>> {
     let arguments: Vec<String> = std::env::args().skip(1).collect();
     let parse = |i: usize| arguments.get(i).and_then(|text| text.parse::<usize>().ok());
     match arguments.first().map(String::as_str) {
         Some("solve") => solve(
             parse(1).unwrap_or(0),
-            parse(2).unwrap_or(PROBLEMS),
+            parse(2).unwrap_or(FIELDS),
             parse(3).unwrap_or(1),
-            arguments.get(4).map_or(FIELDS, String::as_str),
+            arguments.get(4).map_or(CACHE, String::as_str),
         ),
         Some("train") => train(),
+        Some("compare") => compare(),
         _ => tabulate(parse(1).unwrap_or(0), parse(2).unwrap_or(usize::MAX)),
     }
 }

@@ -33,6 +33,19 @@ pub struct Problem {
     pub load: f64,
     /// Changes to the scene, for contacts outside the set that the advice is trained on.
     pub outside: Option<Outside>,
+    /// Its curve in closed form, in place of a full field.
+    pub closed: Option<Closed>,
+}
+
+/// Contacts in closed form.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Closed {
+    /// A stiff sphere with the law of Maugis and Dugdale.
+    Stiff,
+    /// DMT itself: no attraction before contact.
+    Dmt,
+    /// JKR itself.
+    Jkr,
 }
 
 /// Contacts that no model of the advice is made for.
@@ -51,13 +64,45 @@ pub type Point = (f64, f64);
 
 /// Problems spread evenly over all Tabor numbers; those after them are stiff tips on soft cantilevers.
 pub const EVEN: usize = 240;
+/// Full fields in all; stiff spheres in closed form follow.
+pub const FIELDS: usize = 300;
+/// Before this number stiff spheres; then by turns DMT and JKR themselves.
+pub const STIFF: usize = 360;
 /// Problems in all.
-pub const PROBLEMS: usize = 300;
+pub const PROBLEMS: usize = 400;
 
 impl Problem {
     /// The problem of a number below [`PROBLEMS`].
     pub fn drawn(number: usize) -> Self {
         let mut random = Random(1000 + number as u64);
+        if number >= STIFF {
+            let (law, closed) = if number % 2 == 0 {
+                ("dmt", Closed::Dmt)
+            } else {
+                ("jkr", Closed::Jkr)
+            };
+            return Problem {
+                number,
+                law,
+                // Without a range there is no Tabor number; any modulus will do.
+                tabor: 1.0,
+                rms_height: 0.0,
+                load: random.between(1.0, 25.0),
+                outside: None,
+                closed: Some(closed),
+            };
+        }
+        if number >= FIELDS {
+            return Problem {
+                number,
+                law: "maugis-dugdale",
+                tabor: random.between(0.01, 0.06),
+                rms_height: 0.0,
+                load: random.between(3.0, 100.0),
+                outside: None,
+                closed: Some(Closed::Stiff),
+            };
+        }
         if number >= EVEN {
             return Problem {
                 number,
@@ -70,6 +115,7 @@ impl Problem {
                 },
                 load: random.between(3.0, 25.0),
                 outside: None,
+                closed: None,
             };
         }
         let count = EVEN;
@@ -97,16 +143,18 @@ impl Problem {
             rms_height,
             load: random.between(1.0, most),
             outside: None,
+            closed: None,
         }
     }
 
     /// Least and greatest spring constants of cantilevers that it is measured with, over that of the tip at pull-off.
     pub fn springs(&self) -> (f64, f64) {
-        if (EVEN..PROBLEMS).contains(&self.number) {
-            (0.01, 0.1)
-        } else {
-            (0.02, 10.0)
-        }
+        let soft = match self.closed {
+            None => (EVEN..FIELDS).contains(&self.number),
+            // Half of them.
+            Some(closed) => closed == Closed::Stiff && self.number % 4 < 2,
+        };
+        if soft { (0.01, 0.1) } else { (0.02, 10.0) }
     }
 
     /// Contact modulus: the work and range are 1.

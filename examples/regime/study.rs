@@ -99,20 +99,36 @@ fn compared(name: &str, score: &Score, probable: bool) -> String {
 
 /// The tables, on the curves held out.
 pub fn report(table: &[Row], curves: &Classifier, numbers: &Classifier) -> String {
-    let spheres = || table.iter().filter(|row| row.kind == "sphere");
-    let train: Vec<&Row> = spheres().filter(|row| !row.is_held_out()).collect();
-    let held: Vec<&Row> = spheres().filter(|row| row.is_held_out()).collect();
+    let rows_of = |kinds: &[&str], held_out: bool| -> Vec<&Row> {
+        let wanted =
+            |row: &&Row| kinds.contains(&row.kind.as_str()) && row.is_held_out() == held_out;
+        table.iter().filter(wanted).collect()
+    };
+    let train = rows_of(&["sphere", "stiff", "limit"], false);
+    let held = rows_of(&["sphere"], true);
+    let closed = [
+        ("stiff spheres", rows_of(&["stiff"], true)),
+        ("DMT and JKR themselves", rows_of(&["limit"], true)),
+    ];
     let mut text = format!(
-        "{} curves in training, {} held out\n\n",
+        "{} curves in training, {} of full fields and {} in closed form held out\n\n",
         train.len(),
-        held.len()
+        held.len(),
+        closed.iter().map(|(_, rows)| rows.len()).sum::<usize>(),
     );
-    text += "| class | in training | held out |\n|---|---|---|\n";
+    text += "| class | in training | held out | stiff spheres held out | DMT and JKR themselves, held out |\n|---|---|---|---|---|\n";
     for (class, name) in CLASSES.iter().enumerate() {
         let count = |rows: &[&Row]| rows.iter().filter(|row| row.suits() == class).count();
-        let _ = writeln!(text, "| {name} | {} | {} |", count(&train), count(&held));
+        let _ = writeln!(
+            text,
+            "| {name} | {} | {} | {} | {} |",
+            count(&train),
+            count(&held),
+            count(&closed[0].1),
+            count(&closed[1].1),
+        );
     }
-    text += "\n| on curves held out | right | log loss | calibration error |\n|---|---|---|---|\n";
+    text += "\n| on curves of full fields held out | right | log loss | calibration error |\n|---|---|---|---|\n";
     let attracted: Vec<&Row> = held
         .iter()
         .copied()
@@ -122,6 +138,10 @@ pub fn report(table: &[Row], curves: &Classifier, numbers: &Classifier) -> Strin
     let cases = design.cases(held.iter().copied());
     let curve_score = score(&answers(curves, &cases));
     text += &compared("`tabor fit --advise`", &curve_score, true);
+    for (name, rows) in &closed {
+        let own = score(&answers(curves, &design.cases(rows.iter().copied())));
+        text += &compared(&format!("the same, {name}"), &own, true);
+    }
     let known = Design::for_numbers().cases(held.iter().copied());
     let number_score = score(&answers(numbers, &known));
     for (name, rule) in baselines(&train) {
@@ -192,6 +212,12 @@ fn outside(table: &[Row], curves: &Classifier, held: &[Case]) -> String {
         );
     };
     line("spheres held out", held);
+    for kind in ["stiff", "limit"] {
+        let rows = table
+            .iter()
+            .filter(|row| row.kind == kind && row.is_held_out());
+        line(kind, &Design::for_curves().cases(rows));
+    }
     for kind in ["cone", "layer", "plastic"] {
         let rows = table.iter().filter(|row| row.kind == kind);
         line(kind, &Design::for_curves().cases(rows));

@@ -41,7 +41,7 @@ const ERRORS: [&str; 7] = [
 pub struct Row {
     /// Number of its field.
     pub problem: usize,
-    /// `sphere`, or what else was measured.
+    /// `sphere` of a full field, `stiff` or `limit` in closed form, or what else was measured.
     pub kind: String,
     /// Law of the attraction, or `none`.
     pub law: String,
@@ -69,6 +69,11 @@ impl Row {
         scattered(self.problem) % HELD_OUT == 0
     }
 
+    /// Whether models of a sphere can suit it.
+    pub fn is_of_sphere(&self) -> bool {
+        ["sphere", "stiff", "limit"].contains(&self.kind.as_str())
+    }
+
     /// Index into [`CLASSES`]: the simplest model whose w and E* are right within [`TOLERANCE`]; of DMT and JKR, which
     /// have as many numbers, that which is nearer.
     pub fn suits(&self) -> usize {
@@ -90,7 +95,7 @@ impl Row {
             }
         };
         let (dmt, jkr) = (worse(dmt_work, dmt_modulus), worse(jkr_work, jkr_modulus));
-        if self.kind != "sphere" {
+        if !self.is_of_sphere() {
             4
         } else if self.hides_adhesion() {
             // The work of adhesion is nothing that the curve could tell.

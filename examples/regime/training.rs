@@ -51,7 +51,7 @@ impl Design {
         }
     }
 
-    /// Numbers of problems with attraction, with their products, and the cube of the Tabor number's.
+    /// Numbers of problems with attraction and a range, with their products, and the cube of the Tabor number's.
     pub fn for_numbers() -> Self {
         let features = NUMBER_FEATURES.map(str::to_owned).to_vec();
         let mut terms = vec![Vec::new()];
@@ -70,7 +70,8 @@ impl Design {
                     noise: row.noise,
                     load: row.load,
                 };
-                (row.law != "none").then(|| numbers.features().map(Some).to_vec())
+                let has_numbers = row.law != "none" && row.kind != "limit";
+                has_numbers.then(|| numbers.features().map(Some).to_vec())
             },
         }
     }

@@ -2,14 +2,14 @@
 
 use std::f64::consts::PI;
 
-use super::super::choice::FitResult;
+use super::super::choice::{DECISIVE_AIC, FitResult};
 use super::super::curve_file::Sample;
 use super::super::estimate::ModelFit;
 use super::super::measured::Measured;
 use super::super::model::Model;
 
 /// Names of the features, in the order of [`features`].
-pub const CURVE_FEATURES: [&str; 20] = [
+pub const CURVE_FEATURES: [&str; 21] = [
     "tension over load",
     "noise over tension",
     "misfit of Hertz over that of Maugis-Dugdale",
@@ -30,15 +30,20 @@ pub const CURVE_FEATURES: [&str; 20] = [
     "residual at light load",
     "residual at heavy load",
     "loading less unloading in compression",
+    "AIC of JKR less that of DMT",
 ];
 
 /// Those of them that are no logarithms.
 const NO_LOGARITHMS: [usize; 6] = [7, 9, 15, 17, 18, 19];
+/// The evidence for one limit against the other, which has either sign.
+const EVIDENCE: usize = 20;
 
 /// A feature as its name says it: of a logarithm the ratio itself.
 pub(super) fn plain(at: usize, value: f64) -> f64 {
     if NO_LOGARITHMS.contains(&at) {
         value
+    } else if at == EVIDENCE {
+        DECISIVE_AIC * value.sinh()
     } else {
         value.exp()
     }
@@ -56,7 +61,7 @@ const MEDIAN: usize = 5;
 /// The features of a curve of a sphere; `None` for one that the curve has nothing of, such as loading and unloading
 /// compared where only one was measured. The outer `None` is a curve without fits of all models of a sphere.
 ///
-/// Ratios are taken as natural logarithms. None depends on the units, nor on the ratio of radius and range, of which a
+/// Ratios are taken as natural logarithms, evidence as an inverse hyperbolic sine. None depends on the units, nor on the ratio of radius and range, of which a
 /// force curve knows nothing.
 pub fn features(result: &FitResult) -> Option<[Option<f64>; CURVE_FEATURES.len()]> {
     let measured = &result.measured;
@@ -111,6 +116,7 @@ pub fn features(result: &FitResult) -> Option<[Option<f64>; CURVE_FEATURES.len()
         residuals
             .difference
             .and_then(|difference| cut(difference / tension)),
+        cut(((jkr.aic - dmt.aic) / DECISIVE_AIC).asinh()),
     ])
 }
 
