@@ -345,6 +345,14 @@ fn a_folder_of_curves_gives_a_table_a_histogram_and_the_failures() {
         for end in ["json", "png"] {
             assert!(out.join(format!("{}.{end}", row[0])).is_file());
         }
+        // The data of the picture are those of the curve: a fit of them gives the same.
+        let own = out.join(format!("{}.fit.csv", row[0]));
+        let own = fs::read_to_string(own).expect("the data of the picture");
+        let head = "approach,position,force,model_force,segment,interacting";
+        assert_eq!(own.lines().next(), Some(head));
+        let again = fit(folder.path(), &own, &[]);
+        let [found, _] = quantity(&again, "work_of_adhesion");
+        assert!((found - work).abs() < 1e-6 * work, "{found} {work}");
     }
     assert!(fs::metadata(out.join("fits.png")).expect("a picture").len() > 1000);
     // The same table again, byte by byte, and a folder of others is left alone.
