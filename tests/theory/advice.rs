@@ -25,6 +25,8 @@ mod training;
 use table::Row;
 use training::{Design, answers, rounded, score};
 
+/// Place of the feature that weighs JKR against DMT.
+const EVIDENCE: usize = 20;
 const TABLE: &str = include_str!("../../examples/regime/curves.csv");
 
 fn rows(wanted: impl Fn(&Row) -> bool) -> Vec<Row> {
@@ -91,15 +93,21 @@ fn advice_on_curves_held_out_is_right_as_often_as_stated() {
     assert!(fitted.accuracy > 0.68 && known.accuracy > 0.58);
     assert!(fitted.accuracy > baseline + 0.2);
     assert!(fitted.calibration_error < 0.1 && known.calibration_error < 0.12);
-    // A curve of DMT and one of JKR differ by a third in w: whatever is uncertain, neither is told the other for sure.
-    for (class, shares) in answers(&by_curve, &curves.cases(limits.iter())) {
-        println!("{class}: {shares:.2?}");
+    // A curve of DMT taken for one of JKR gives a w a third too high, and the reverse. Where the curve is 20 times as
+    // likely under one of them (AIC differ by 6) it must not be told the other.
+    let decided = |row: &&Row| {
+        row.features[EVIDENCE].is_some_and(|evidence| evidence.abs() > 1.0_f64.asinh())
+    };
+    let decided: Vec<&Row> = limits.iter().filter(decided).collect();
+    let told = answers(&by_curve, &curves.cases(decided.iter().copied()));
+    assert!(told.len() > 10, "{}", told.len());
+    for (class, shares) in told {
         assert!(
-            class != 1 || shares[2] < 0.8,
+            class != 1 || shares[2] < 0.5,
             "DMT is told JKR: {shares:.2?}"
         );
         assert!(
-            class != 2 || shares[1] < 0.8,
+            class != 2 || shares[1] < 0.5,
             "JKR is told DMT: {shares:.2?}"
         );
     }
