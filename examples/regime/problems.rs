@@ -76,7 +76,7 @@ impl Problem {
     pub fn drawn(number: usize) -> Self {
         let mut random = Random(1000 + number as u64);
         if number >= STIFF {
-            let (law, closed) = if number % 2 == 0 {
+            let (law, closed) = if number.is_multiple_of(2) {
                 ("dmt", Closed::Dmt)
             } else {
                 ("jkr", Closed::Jkr)

@@ -16,7 +16,10 @@ use super::training::{Case, Design, Score, answers, likeliest, score};
 const TRIED: usize = 40;
 const TABORS: (f64, f64) = (0.05, 4.0);
 
-/// A rule that names one class.
+/// The class that a rule names for a row.
+type Rule = Box<dyn Fn(&Row) -> usize>;
+
+/// Probabilities of a rule that names one class.
 fn certain(class: usize) -> Vec<f64> {
     (0..CLASSES.len())
         .map(|at| if at == class { 1.0 } else { 0.0 })
@@ -37,7 +40,7 @@ fn by_thresholds(row: &Row, [low, high]: [f64; 2]) -> usize {
 }
 
 /// The baselines: a name, and the answer to each row.
-fn baselines<'a>(train: &[&Row]) -> Vec<(String, Box<dyn Fn(&Row) -> usize + 'a>)> {
+fn baselines(train: &[&Row]) -> Vec<(String, Rule)> {
     let at = |step: usize| TABORS.0 * (TABORS.1 / TABORS.0).powf(step as f64 / (TRIED - 1) as f64);
     let right = |thresholds: [f64; 2]| {
         train

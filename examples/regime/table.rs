@@ -66,7 +66,7 @@ pub struct Row {
 impl Row {
     /// Whether it is kept out of training.
     pub fn is_held_out(&self) -> bool {
-        scattered(self.problem) % HELD_OUT == 0
+        scattered(self.problem).is_multiple_of(HELD_OUT)
     }
 
     /// Whether models of a sphere can suit it.

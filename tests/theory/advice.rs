@@ -111,7 +111,7 @@ fn advice_on_curves_held_out_is_right_as_often_as_stated() {
             "JKR is told DMT: {shares:.2?}"
         );
     }
-    // Roughness of a range is beyond all models. Stated are 18 of 23; two standard errors of such a share are 17 %.
+    // Roughness of a range is beyond all models. They are 19 of 23; two standard errors of such a share are 17 %.
     let rough: Vec<&Row> = rows
         .iter()
         .filter(|row| row.rms_height > 1.0 && row.noise < 0.3)
