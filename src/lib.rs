@@ -115,6 +115,8 @@
 //! it: by linearity, so that no pass comes between, but with Lennard-Jones and with a hardness, where
 //! the share that is added to a point is not linear in its step.
 //!
+//! `python/` is the Python package, a crate of its own over this one's public front.
+//!
 //! Modules that are named here and not listed below are the solver's own. They are public for the tests and
 //! benches of this crate, which would otherwise build it twice (a feature for them makes another build of
 //! the crate than that of the program), and may change in every version.
@@ -164,7 +166,7 @@ pub mod units;
 
 #[cfg(feature = "cli")]
 #[doc(hidden)]
-pub use cli::{main as command_line, theory_table};
+pub use cli::{main as command_line, main_with as command_line_with, theory_table};
 pub use contact::{
     Contact, ContactError, ContactMistake, ContactMistakes, Control, Load, Path, Solution,
 };

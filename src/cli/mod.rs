@@ -23,6 +23,7 @@ mod sweep;
 mod table;
 mod theory;
 
+use std::ffi::OsString;
 use std::io::Write;
 use std::path::{Path, PathBuf};
 use std::process::ExitCode;
@@ -366,12 +367,18 @@ pub fn theory_table(words: &[String]) -> Result<String, String> {
     theory::text(words).map_err(|failure| failure.to_string())
 }
 
-/// Runs the command line and says how it ended.
+/// Runs the command line of this process and says how it ended.
 pub fn main() -> ExitCode {
+    ExitCode::from(main_with(std::env::args_os().collect()))
+}
+
+/// Runs the command line `words`, the program's name first, and returns its exit code. A wrong call and a request for
+/// help end the process.
+pub fn main_with(words: Vec<OsString>) -> u8 {
     file_limit::survive();
-    let arguments = match Arguments::try_parse() {
+    let arguments = match Arguments::try_parse_from(&words) {
         Ok(arguments) => arguments,
-        Err(error) => refuse_call(error),
+        Err(error) => refuse_call(error, &words),
     };
     let done = match arguments.command {
         Command::New(arguments) => new::new(&arguments),
@@ -389,7 +396,7 @@ pub fn main() -> ExitCode {
         Command::Man { folder } => shell::man(folder.as_deref()),
     };
     match done {
-        Ok(()) => ExitCode::SUCCESS,
+        Ok(()) => 0,
         Err(failure) => {
             match &failure {
                 // One line a mistake; what a scene holds begins none.
@@ -400,14 +407,14 @@ pub fn main() -> ExitCode {
                 Failure::Usage(mistakes) => mistakes.lines().for_each(fail),
                 other => fail(&other.to_string()),
             }
-            ExitCode::from(failure.status())
+            failure.status()
         }
     }
 }
 
 /// Prints clap's words on a wrong call, or its help, and ends with clap's status.
-fn refuse_call(error: clap::Error) -> ! {
-    let words = || std::env::args_os().map(|word| word.to_string_lossy().into_owned());
+fn refuse_call(error: clap::Error, words: &[OsString]) -> ! {
+    let words = || words.iter().map(|word| word.to_string_lossy().into_owned());
     // clap repeats what it was given. Where that would act on a terminal, it is told in words that do not.
     if words().any(|word| visible_line(&word) != word) {
         match Arguments::try_parse_from(words().map(|word| visible_line(&word))) {

@@ -1,5 +1,8 @@
 //! A contact assembled in SI units: heights, solid, law, boundary.
 
+use std::fmt;
+use std::sync::Arc;
+
 use super::control::{Control, Load};
 use super::error::{ContactError, ContactMistake};
 use super::path::Path;
@@ -45,6 +48,24 @@ pub struct Contact {
     rate: Option<RateScene>,
     pub(super) threads: Option<usize>,
     pub(super) device: Device,
+    pub(super) watcher: Option<Watcher>,
+}
+
+/// What hears of iterations and may end a load.
+#[derive(Clone)]
+pub(super) struct Watcher(Arc<dyn Fn(usize, f64) -> bool + Send + Sync>);
+
+impl Watcher {
+    /// Tells an iteration of a load and its residual; whether to go on.
+    pub(super) fn hears(&self, iteration: usize, residual: f64) -> bool {
+        (self.0)(iteration, residual)
+    }
+}
+
+impl fmt::Debug for Watcher {
+    fn fmt(&self, formatter: &mut fmt::Formatter<'_>) -> fmt::Result {
+        formatter.write_str("Watcher")
+    }
 }
 
 impl Contact {
@@ -84,6 +105,7 @@ impl Contact {
             rate: None,
             threads: None,
             device: Device::from(scene.solver.backend),
+            watcher: None,
             scene,
         }
     }
@@ -251,6 +273,24 @@ impl Contact {
     /// Sets the threads of the processor; one a core by default. Results do not depend on it.
     pub fn threads(mut self, threads: usize) -> Self {
         self.threads = Some(threads);
+        self
+    }
+
+    /// Tells every iteration of a load, from 1, with its residual. A load ends where the answer is `false`: then the
+    /// path ends too, with [`ContactError::Interrupted`].
+    ///
+    /// ```
+    /// use tabor::{Contact, ContactError, Control, SurfacePart};
+    ///
+    /// let wave = SurfacePart::Wavy { amplitude: 10e-9, wavelength: [1e-6, 1e-6] };
+    /// let contact = Contact::from_parts([wave], [32, 32], [1e-6, 1e-6])
+    ///     .contact_modulus(1e9)
+    ///     .watch(|iteration, _residual| iteration < 2);
+    /// let ended = contact.solve(Control::MeanPressure(1e6));
+    /// assert!(matches!(ended, Err(ContactError::Interrupted)));
+    /// ```
+    pub fn watch(mut self, watcher: impl Fn(usize, f64) -> bool + Send + Sync + 'static) -> Self {
+        self.watcher = Some(Watcher(Arc::new(watcher)));
         self
     }
 

@@ -28,6 +28,9 @@ pub enum ContactError {
     /// The device failed.
     #[error(transparent)]
     Backend(#[from] BackendError),
+    /// What [`Contact::watch`](super::Contact::watch) was given ended the load.
+    #[error("the load was ended before its solution; the loads before it are solved")]
+    Interrupted,
 }
 
 impl From<SceneErrors> for ContactError {

@@ -1,6 +1,6 @@
 //! Loads solved one after another.
 
-use super::builder::{Contact, append};
+use super::builder::{Contact, Watcher, append};
 use super::control::Load;
 use super::error::ContactError;
 use super::solution::Solution;
@@ -71,15 +71,20 @@ where
 
 impl<I> Path<I> {
     fn solve(&mut self, load: Load) -> Result<Solution, ContactError> {
+        let contact = &self.contact;
         let walk = match &mut self.walk {
             Some(walk) => {
                 append(&mut walk.setup.scene, load)?;
                 check(&walk.setup.scene)?;
                 walk
             }
-            None => self.walk.insert(Walk::begin(&self.contact, load)?),
+            // The surface is built by the same threads as the loads are solved.
+            None => {
+                let begun = with_threads(contact.threads, || Walk::begin(contact, load))??;
+                self.walk.insert(begun)
+            }
         };
-        walk.step(self.contact.threads)
+        walk.step(contact)
     }
 }
 
@@ -102,31 +107,30 @@ impl Walk {
     }
 
     /// Solves the last load of the path. Where the device fails and another can continue, that one does.
-    fn step(&mut self, threads: Option<usize>) -> Result<Solution, ContactError> {
+    fn step(&mut self, contact: &Contact) -> Result<Solution, ContactError> {
         let earlier = std::mem::take(&mut self.earlier);
         let fallback = self.device.fallback(&self.setup);
         let again = fallback.map(|device| (device, earlier.clone()));
-        match (self.solve(earlier, threads), again) {
+        match (self.solve(earlier, contact), again) {
             (Err(ContactError::Backend(error)), Some((device, earlier))) => {
                 let remark =
                     format!("{error}; the processor continues after the last finished load");
                 self.remarks.push(remark);
                 self.device = device;
-                self.solve(earlier, threads)
+                self.solve(earlier, contact)
             }
             (solved, _) => solved,
         }
     }
 
-    fn solve(
-        &mut self,
-        earlier: Earlier,
-        threads: Option<usize>,
-    ) -> Result<Solution, ContactError> {
+    fn solve(&mut self, earlier: Earlier, contact: &Contact) -> Result<Solution, ContactError> {
         let (setup, device) = (&self.setup, &self.device);
-        let mut last = LastStep::default();
+        let mut last = LastStep {
+            watcher: contact.watcher.as_ref(),
+            ..LastStep::default()
+        };
         let make_backend = || device.backend();
-        let walked = with_threads(threads, || {
+        let walked = with_threads(contact.threads, || {
             walk_on(setup, &make_backend, &mut last, earlier)
         })?;
         let mut end = match walked {
@@ -134,11 +138,14 @@ impl Walk {
             Err(WalkError::Backend(error)) => return Err(error.into()),
             Err(WalkError::Observer(never)) => match never {},
         };
+        if end.interrupted {
+            return Err(ContactError::Interrupted);
+        }
         let row = end
             .rows
             .last()
             .cloned()
-            .expect("nothing ends a step before its row");
+            .expect("a step that is not interrupted has a row");
         self.earlier = Earlier {
             rows: std::mem::take(&mut end.rows),
             checkpoint: last.checkpoint,
@@ -161,13 +168,14 @@ fn check(scene: &Scene) -> Result<(), ContactError> {
 
 /// Keeps what the last step leaves.
 #[derive(Default)]
-struct LastStep {
+struct LastStep<'c> {
+    watcher: Option<&'c Watcher>,
     evaluation: Option<Evaluation>,
     jump: Option<Jump>,
     checkpoint: Checkpoint,
 }
 
-impl Observer for LastStep {
+impl Observer for LastStep<'_> {
     type Error = std::convert::Infallible;
 
     fn step(&mut self, step: FinishedStep) -> Result<(), Self::Error> {
@@ -176,8 +184,10 @@ impl Observer for LastStep {
         Ok(())
     }
 
-    fn iteration(&mut self, _: usize, _: &Scalars) -> bool {
-        true
+    fn iteration(&mut self, _: usize, scalars: &Scalars) -> bool {
+        let (iteration, residual) = (scalars.iterations as usize, scalars.residual);
+        self.watcher
+            .is_none_or(|watcher| watcher.hears(iteration, residual))
     }
 
     fn wants_checkpoint(&self) -> bool {

@@ -11,16 +11,21 @@ use serde::ser::{Serialize, SerializeStruct, Serializer};
 #[derive(Clone, PartialEq)]
 pub struct GridValues {
     points: [usize; 2],
-    values: Arc<[f64]>,
+    values: Arc<Vec<f64>>,
 }
 
 impl GridValues {
     /// The values of `points` = (nx, ny) points. That there are as many, and that they are finite, is checked
     /// where they are used.
     pub fn new(values: impl AsRef<[f64]>, points: [usize; 2]) -> Self {
+        GridValues::from_vec(values.as_ref().to_vec(), points)
+    }
+
+    /// The same without a copy of the values.
+    pub fn from_vec(values: Vec<f64>, points: [usize; 2]) -> Self {
         GridValues {
             points,
-            values: Arc::from(values.as_ref()),
+            values: Arc::new(values),
         }
     }
 
@@ -32,6 +37,11 @@ impl GridValues {
     /// The numbers.
     pub fn values(&self) -> &[f64] {
         &self.values
+    }
+
+    /// The numbers, shared with whoever holds them too.
+    pub(crate) fn shared(&self) -> Arc<Vec<f64>> {
+        Arc::clone(&self.values)
     }
 
     /// CRC-32 of the numbers, by which they are told from others.

@@ -50,7 +50,7 @@ use crate::scene::{Boundary, GridScene, Scene, SelfAffineScene, SurfacePart};
 use crate::units::{LARGEST, in_range};
 use file::HeightMap;
 use shapes::ApexPosition;
-use statistics::Statistics;
+pub use statistics::Statistics;
 
 /// Most points of a grid: 8 GiB of heights.
 #[doc(hidden)]
@@ -103,21 +103,21 @@ impl Surface {
         check_grid(scene.points, scene.size)?;
         let mut maps = read_maps(scene, parts)?;
         let grid = resolve_grid(scene, &maps)?;
-        let mut heights = zeros(&grid)?;
         let mut warnings = Vec::new();
-        for (index, part) in parts.iter().enumerate() {
-            let mut found = Vec::new();
-            match maps[index].take() {
-                Some(map) => {
-                    add(&mut heights, &map.heights);
-                    found = map.warnings;
-                }
-                None => add_part(&mut heights, part, &grid, scene.boundary, &mut found)
-                    .map_err(|problem| part_error(index, problem))?,
+        let heights = match parts {
+            // An array alone is the sum of the parts as it stands.
+            [SurfacePart::Heights(array)] => {
+                array::heights(array, &grid).map_err(|problem| part_error(0, problem))?;
+                array.shared()
             }
-            let named = |warning| format!("[[surface]] {}: {warning}", index + 1);
-            warnings.extend(found.into_iter().map(named));
-        }
+            _ => Arc::new(sum_of(
+                parts,
+                &mut maps,
+                &grid,
+                scene.boundary,
+                &mut warnings,
+            )?),
+        };
         // Beyond this range squares of curvatures overflow.
         let fits = |height: &f64| height.abs() <= LARGEST;
         if let Some(index) = heights.iter().position(|height| !fits(height)) {
@@ -130,7 +130,7 @@ impl Surface {
         let single = single_part(parts);
         Ok(Surface {
             grid,
-            heights: Arc::new(heights),
+            heights,
             highest: match single {
                 Some(SurfacePart::Sphere { .. } | SurfacePart::Cone { .. }) => 0.0,
                 _ => sampled,
@@ -232,6 +232,31 @@ fn resolve_grid(scene: &GridScene, maps: &[Option<HeightMap>]) -> Result<Grid, S
     let size = size.ok_or(SurfaceError::SizeMissing)?;
     check_grid(Some(points), Some(size))?;
     Ok(Grid::new(points, size))
+}
+
+/// The sum of the heights of `parts`, of which files were read into `maps`.
+fn sum_of(
+    parts: &[SurfacePart],
+    maps: &mut [Option<HeightMap>],
+    grid: &Grid,
+    boundary: Boundary,
+    warnings: &mut Vec<String>,
+) -> Result<Vec<f64>, SurfaceError> {
+    let mut heights = zeros(grid)?;
+    for (index, part) in parts.iter().enumerate() {
+        let mut found = Vec::new();
+        match maps[index].take() {
+            Some(map) => {
+                add(&mut heights, &map.heights);
+                found = map.warnings;
+            }
+            None => add_part(&mut heights, part, grid, boundary, &mut found)
+                .map_err(|problem| part_error(index, problem))?,
+        }
+        let named = |warning| format!("[[surface]] {}: {warning}", index + 1);
+        warnings.extend(found.into_iter().map(named));
+    }
+    Ok(heights)
 }
 
 /// Zero heights, if this machine's memory holds them.

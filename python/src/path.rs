@@ -1,0 +1,148 @@
+//! Loads solved one after another, each from the state of the one before.
+
+use std::collections::VecDeque;
+use std::sync::{Arc, Mutex, PoisonError};
+
+use pyo3::prelude::*;
+use pyo3::types::PyDict;
+use tabor::scene::Scene;
+use tabor::{Jump, Load, Path, Solution};
+
+use crate::errors;
+use crate::scene::{array, contact, control};
+use crate::waiting::{Talk, wait};
+
+/// Loads that Python has asked for and the solver has not yet taken.
+#[derive(Clone, Default)]
+struct Loads(Arc<Mutex<VecDeque<Load>>>);
+
+impl Loads {
+    fn push(&self, load: Load) {
+        self.0
+            .lock()
+            .unwrap_or_else(PoisonError::into_inner)
+            .push_back(load);
+    }
+}
+
+impl Iterator for Loads {
+    type Item = Load;
+
+    fn next(&mut self) -> Option<Load> {
+        self.0
+            .lock()
+            .unwrap_or_else(PoisonError::into_inner)
+            .pop_front()
+    }
+}
+
+/// A path of loads.
+#[pyclass(module = "tabor._tabor")]
+pub struct SolvedPath {
+    loads: Loads,
+    talk: Arc<Talk>,
+    /// Lent to the solver's thread while a load is solved; gone after one was interrupted.
+    path: Option<Path<Loads>>,
+    warned: usize,
+}
+
+impl SolvedPath {
+    /// The path of a scene, before its first load.
+    pub fn new(scene: &Scene, threads: Option<usize>) -> Self {
+        let (loads, talk) = (Loads::default(), Arc::new(Talk::default()));
+        let heard = Arc::clone(&talk);
+        let contact = contact(scene, threads)
+            .watch(move |iteration, residual| heard.iteration(iteration, residual));
+        SolvedPath {
+            path: Some(contact.path(loads.clone())),
+            loads,
+            talk,
+            warned: 0,
+        }
+    }
+}
+
+#[pymethods]
+impl SolvedPath {
+    /// Solves the next load: its control in a scene's word, its value, SI, and the seconds that it takes.
+    ///
+    /// Returns the step as a dictionary, and the warnings that are new.
+    #[pyo3(signature = (word, value, seconds=None, progress=None))]
+    fn solve<'py>(
+        &mut self,
+        py: Python<'py>,
+        word: &str,
+        value: f64,
+        seconds: Option<f64>,
+        progress: Option<&Bound<'py, PyAny>>,
+    ) -> PyResult<(Bound<'py, PyDict>, Vec<String>)> {
+        let Some(mut path) = self.path.take() else {
+            return Err(errors::failed(
+                py,
+                "this path was interrupted; begin another",
+            ));
+        };
+        let control = control(py, word, value)?;
+        self.loads.push(match seconds {
+            Some(seconds) => control.after(seconds),
+            None => control.into(),
+        });
+        let (path, solved) = wait(py, &self.talk, progress, move || {
+            let solved = path.next();
+            (path, solved)
+        })?;
+        let warnings = path.warnings().split_off(self.warned);
+        self.warned += warnings.len();
+        self.path = Some(path);
+        match solved {
+            Some(Ok(solution)) => Ok((step(py, solution)?, warnings)),
+            Some(Err(error)) => Err(errors::of_contact(py, &error)),
+            None => Err(errors::failed(
+                py,
+                "this path has ended: a load did not converge",
+            )),
+        }
+    }
+}
+
+/// A solved load; its fields are handed over, not copied.
+fn step<'py>(py: Python<'py>, solution: Solution) -> PyResult<Bound<'py, PyDict>> {
+    let step = PyDict::new(py);
+    let points = solution.points;
+    step.set_item("size", solution.size)?;
+    step.set_item("gap", array(py, solution.gap, points)?)?;
+    step.set_item("pressure", array(py, solution.pressure, points)?)?;
+    step.set_item("displacement", array(py, solution.displacement, points)?)?;
+    step.set_item("heights", array(py, solution.heights, points)?)?;
+    let row = &solution.row;
+    step.set_item("number", row.step)?;
+    step.set_item("time", row.time)?;
+    step.set_item("contact_area_fraction", row.contact_area_fraction)?;
+    step.set_item(
+        "contact_area_fraction_corrected",
+        row.contact_area_fraction_corrected,
+    )?;
+    step.set_item("attractive_area_fraction", row.attractive_area_fraction)?;
+    step.set_item("force", row.force)?;
+    step.set_item("mean_pressure", row.mean_pressure)?;
+    step.set_item("approach", row.approach)?;
+    step.set_item("mean_gap", row.mean_gap)?;
+    step.set_item("elastic_energy", row.elastic_energy)?;
+    step.set_item("adhesive_energy", row.adhesive_energy)?;
+    step.set_item("residual", row.residual)?;
+    step.set_item("iterations", row.iterations)?;
+    step.set_item("converged", row.converged)?;
+    step.set_item("seconds", row.seconds)?;
+    step.set_item("state", row.state.name())?;
+    let jump = solution.jump.map(|jump| match jump {
+        Jump::In => "in",
+        _ => "off",
+    });
+    step.set_item("jump", jump)?;
+    let columns = PyDict::new(py);
+    for (column, value) in &row.columns {
+        columns.set_item(column.name(), *value)?;
+    }
+    step.set_item("columns", columns)?;
+    Ok(step)
+}

@@ -1,0 +1,105 @@
+//! A scene solved into its folder, and the program `tabor` itself.
+
+use std::ffi::OsString;
+use std::path::PathBuf;
+use std::sync::Arc;
+use std::sync::mpsc::{Sender, channel};
+
+use pyo3::prelude::*;
+use tabor::{RunObserver, RunOptions, RunStatus, StepRow};
+
+use crate::errors;
+use crate::scene::LoadedScene;
+use crate::waiting::{Talk, wait};
+
+/// Hears a run on the solver's thread.
+struct Hearer {
+    talk: Arc<Talk>,
+    said: Sender<(bool, String)>,
+}
+
+impl Hearer {
+    fn say(&self, is_warning: bool, words: &str) {
+        // Nobody may be waiting any more.
+        let _ = self.said.send((is_warning, words.to_owned()));
+    }
+}
+
+impl RunObserver for Hearer {
+    fn note(&mut self, text: &str) {
+        self.say(false, text);
+    }
+
+    fn warning(&mut self, text: &str) {
+        self.say(true, text);
+    }
+
+    fn iteration(&mut self, _step: usize, iteration: usize, residual: f64) -> bool {
+        self.talk.iteration(iteration, residual)
+    }
+
+    fn step(&mut self, row: &StepRow) {
+        self.talk.finished(row.step);
+    }
+}
+
+/// Runs the program `tabor` on `words`, its own name first, and returns its exit code. A wrong call and a request for
+/// help end the process.
+#[pyfunction]
+pub fn command_line(py: Python<'_>, words: Vec<OsString>) -> u8 {
+    py.detach(|| tabor::command_line_with(words))
+}
+
+/// Why a run is not finished, if so, and what was said on the way, each with whether it is a warning.
+type End = (Option<String>, Vec<(bool, String)>);
+
+/// Solves every step of a scene into a folder. Returns what [`End`] holds.
+#[pyfunction]
+#[pyo3(signature = (scene, folder, resume=false, overwrite=true, images=true, threads=None, progress=None))]
+#[expect(clippy::too_many_arguments, reason = "Python names each of them")]
+pub fn run(
+    py: Python<'_>,
+    scene: &LoadedScene,
+    folder: PathBuf,
+    resume: bool,
+    overwrite: bool,
+    images: bool,
+    threads: Option<usize>,
+    progress: Option<&Bound<'_, PyAny>>,
+) -> PyResult<End> {
+    let mut options = RunOptions::new()
+        .resume(resume)
+        .overwrite(overwrite)
+        .images(images);
+    if let Some(threads) = threads {
+        options = options.threads(threads);
+    }
+    let talk = Arc::new(Talk::default());
+    let (said, heard) = channel();
+    let mut hearer = Hearer {
+        talk: Arc::clone(&talk),
+        said,
+    };
+    let scene = scene.scene.clone();
+    let end = wait(py, &talk, progress, move || {
+        tabor::run_with(scene, &folder, &options, &mut hearer)
+    })?;
+    let end = end.map_err(|error| errors::of_run(py, &error))?;
+    let trouble = match end.status {
+        RunStatus::Finished => None,
+        RunStatus::NotConverged {
+            step,
+            residual,
+            iterations,
+            tolerance,
+            ..
+        } => Some(format!(
+            "step {step} did not converge: residual {residual:.1e} after {iterations} iterations, {tolerance:.1e} asked"
+        )),
+        RunStatus::Interrupted { finished, steps } => {
+            Some(format!("interrupted after {finished} of {steps} steps"))
+        }
+        _ => Some("the run did not finish".to_owned()),
+    };
+    Ok((trouble, heard.try_iter().collect()))
+}

@@ -1,0 +1,160 @@
+//! Scenes: text and arrays in, solvable contacts out.
+
+use std::path::Path as FilePath;
+use std::sync::Arc;
+
+use numpy::{PyArray2, PyArrayMethods, PyReadonlyArray2, PyUntypedArrayMethods};
+use pyo3::prelude::*;
+use tabor::scene::{AdhesionMap, GridValues, Scene, SurfacePart};
+use tabor::{Contact, ContactError, Control};
+
+use crate::errors;
+use crate::path::SolvedPath;
+use crate::waiting::{Talk, wait};
+
+/// A scene that has been read and checked, with arrays in place of files where they were given.
+#[pyclass(frozen, module = "tabor._tabor")]
+pub struct LoadedScene {
+    pub scene: Scene,
+}
+
+#[pymethods]
+impl LoadedScene {
+    /// Reads the text of a scene, which messages call `name`; paths in it are relative to `folder`.
+    #[new]
+    #[pyo3(signature = (text, name, folder, overrides, heights=None, factors=None))]
+    fn new(
+        py: Python<'_>,
+        text: &str,
+        name: &str,
+        folder: &str,
+        overrides: Vec<(String, String)>,
+        heights: Option<&Bound<'_, PyAny>>,
+        factors: Option<&Bound<'_, PyAny>>,
+    ) -> PyResult<Self> {
+        let mut scene = Scene::parse(text, name, FilePath::new(folder), &overrides)
+            .map_err(|mistakes| errors::of_scene(py, &mistakes))?;
+        if let Some(heights) = heights {
+            // A scene has a part: where heights are all there is, the text names a flat one.
+            let part = SurfacePart::Heights(grid_values(heights)?);
+            match scene.surfaces.as_mut_slice() {
+                [only @ SurfacePart::Flat] => *only = part,
+                _ => scene.surfaces.insert(0, part),
+            }
+        }
+        if let (Some(factors), Some(adhesion)) = (factors, &mut scene.adhesion) {
+            adhesion.map = Some(AdhesionMap::Factors(grid_values(factors)?));
+        }
+        scene
+            .check()
+            .map_err(|mistakes| errors::of_scene(py, &mistakes))?;
+        Ok(LoadedScene { scene })
+    }
+
+    /// The scene with every default filled in, SI, as JSON.
+    fn resolved_json(&self) -> String {
+        self.scene.resolved_json().to_string()
+    }
+
+    /// The loads of the scene: its control, in its word, each value, SI, and the seconds that it takes.
+    fn loads(&self) -> Vec<(&'static str, f64, Option<f64>)> {
+        let loading = &self.scene.loading;
+        let seconds = |index: usize| Some(loading.durations.as_ref()?[index]);
+        let values = loading.path.iter().enumerate();
+        values
+            .map(|(index, &value)| (loading.control.name(), value, seconds(index)))
+            .collect()
+    }
+
+    /// A path, to be solved load by load.
+    #[pyo3(signature = (threads=None))]
+    fn path(&self, threads: Option<usize>) -> SolvedPath {
+        SolvedPath::new(&self.scene, threads)
+    }
+
+    /// The heights of all parts, m, as an array of shape (ny, nx), and warnings.
+    #[pyo3(signature = (threads=None))]
+    fn heights<'py>(
+        &self,
+        py: Python<'py>,
+        threads: Option<usize>,
+    ) -> PyResult<(Bound<'py, PyArray2<f64>>, Vec<String>)> {
+        let scene = self.scene.clone();
+        let talk = Arc::new(Talk::default());
+        let built = wait(py, &talk, None, move || {
+            tabor::backend::cpu::with_threads(threads, || tabor::surface::Surface::build(&scene))
+                .map_err(ContactError::from)
+                .and_then(|built| built.map_err(ContactError::from))
+        })?;
+        let surface = built.map_err(|error| errors::of_contact(py, &error))?;
+        let (grid, warnings) = (surface.grid, surface.warnings);
+        let heights = Arc::unwrap_or_clone(surface.heights);
+        Ok((array(py, heights, grid.points())?, warnings))
+    }
+}
+
+/// A control of a scene's word.
+pub fn control(py: Python<'_>, word: &str, value: f64) -> PyResult<Control> {
+    match word {
+        "pressure" => Ok(Control::MeanPressure(value)),
+        "force" => Ok(Control::Force(value)),
+        "approach" => Ok(Control::Approach(value)),
+        "mean-gap" => Ok(Control::MeanGap(value)),
+        other => Err(errors::failed(py, &format!("no control is called {other}"))),
+    }
+}
+
+/// Contact of a scene.
+pub fn contact(scene: &Scene, threads: Option<usize>) -> Contact {
+    let contact = Contact::from_scene(scene.clone());
+    match threads {
+        Some(threads) => contact.threads(threads),
+        None => contact,
+    }
+}
+
+/// An array of values on the grid, of shape (ny, nx); float32 and other layouts are converted as they are copied.
+fn grid_values(array: &Bound<'_, PyAny>) -> PyResult<GridValues> {
+    if let Ok(array) = array.extract::<PyReadonlyArray2<'_, f32>>() {
+        let values = array.as_array().iter().copied().map(f64::from).collect();
+        return Ok(GridValues::from_vec(values, points(array.shape())));
+    }
+    let array: PyReadonlyArray2<'_, f64> = array.extract()?;
+    let values = match array.as_slice() {
+        Ok(values) => values.to_vec(),
+        Err(_) => array.as_array().iter().copied().collect(),
+    };
+    Ok(GridValues::from_vec(values, points(array.shape())))
+}
+
+/// Points along x and y of a shape (ny, nx).
+fn points(shape: &[usize]) -> [usize; 2] {
+    [shape[1], shape[0]]
+}
+
+/// A field as an array of shape (ny, nx), without a copy.
+pub fn array<'py>(
+    py: Python<'py>,
+    values: Vec<f64>,
+    points: [usize; 2],
+) -> PyResult<Bound<'py, PyArray2<f64>>> {
+    numpy::PyArray1::from_vec(py, values).reshape([points[1], points[0]])
+}
+
+/// TOML of the tables of a scene, given as JSON.
+#[pyfunction]
+pub fn toml_from_json(py: Python<'_>, json: &str) -> PyResult<String> {
+    let tables: toml::Table = serde_json::from_str(json)
+        .map_err(|error| errors::raise(py, "SceneError", &error.to_string()))?;
+    toml::to_string(&tables).map_err(|error| errors::raise(py, "SceneError", &error.to_string()))
+}
+
+/// The tables of a scene as JSON; of a syntax error its words.
+#[pyfunction]
+pub fn json_from_toml(py: Python<'_>, text: &str) -> PyResult<String> {
+    let tables: toml::Table = text
+        .parse()
+        .map_err(|error: toml::de::Error| errors::raise(py, "SceneError", &error.to_string()))?;
+    serde_json::to_string(&tables)
+        .map_err(|error| errors::raise(py, "SceneError", &error.to_string()))
+}

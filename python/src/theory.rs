@@ -1,0 +1,551 @@
+//! Theories over arrays: each function of `tabor::theory` once an element, in one loop here.
+
+use std::cell::RefCell;
+use std::f64::consts::{FRAC_PI_2, PI};
+
+use numpy::{PyArray1, PyReadonlyArray1};
+use pyo3::prelude::*;
+use tabor::theory::bam::BearingArea;
+use tabor::theory::capillary::Meniscus;
+use tabor::theory::cone_punch::{Cone, punch_force};
+use tabor::theory::dmt::Method;
+use tabor::theory::fuller_tabor::Path;
+use tabor::theory::gw::Summits;
+use tabor::theory::maugis_dugdale::{MaugisDugdale, State};
+use tabor::theory::pastewka_robbins::{Edge, stickiness_ratio};
+use tabor::theory::persson::Persson;
+use tabor::theory::persson_gap::{Adhesion, RoughContact};
+use tabor::theory::tabor_map::{self, Regime};
+use tabor::theory::viscoelastic::Solid;
+use tabor::theory::{
+    Law, Spectrum, Sphere, TheoryError, bradley, conductance, derjaguin, dmt, friction,
+    fuller_tabor, gw_m, hertz, jkr, rate, westergaard,
+};
+
+use crate::errors;
+
+/// Values of one element after those of its words.
+type Evaluate = fn(&Words, &[f64]) -> Result<Vec<f64>, TheoryError>;
+
+/// Words that an evaluation takes, read once.
+struct Words {
+    law: Law,
+    method: Method,
+    path: Path,
+}
+
+impl Words {
+    /// The words of a call; what is not given is the first of its kind.
+    fn read(words: &[(String, String)]) -> Result<Self, String> {
+        let mut read = Words {
+            law: Law::LennardJones,
+            method: Method::Thermodynamic,
+            path: Path::Unloading,
+        };
+        for (name, word) in words {
+            match (name.as_str(), word.as_str()) {
+                ("law", "lennard-jones") => read.law = Law::LennardJones,
+                ("law", "cubic") => read.law = Law::Cubic,
+                ("law", "exponential") => read.law = Law::Exponential,
+                ("law", "maugis-dugdale") => read.law = Law::Dugdale,
+                ("method", "thermodynamic") => read.method = Method::Thermodynamic,
+                ("method", "force") => read.method = Method::Force,
+                ("method", "constant") => read.method = Method::Constant,
+                ("direction", "apart") => read.path = Path::Unloading,
+                ("direction", "together") => read.path = Path::Loading,
+                _ => {
+                    let known = match name.as_str() {
+                        "law" => "lennard-jones, cubic, exponential, maugis-dugdale",
+                        "method" => "thermodynamic, force, constant",
+                        _ => "apart, together",
+                    };
+                    return Err(format!("{name}: \"{word}\" is not one of {known}"));
+                }
+            }
+        }
+        Ok(read)
+    }
+}
+
+/// The functions by name, with the number of their results.
+const FUNCTIONS: &[(&str, usize, Evaluate)] = &[
+    // Spheres without adhesion.
+    ("hertz.contact_radius", 1, |_, x| {
+        Ok(vec![hertz::contact_radius(&hard(x)?, x[2])?])
+    }),
+    ("hertz.contact_radius_at_approach", 1, |_, x| {
+        Ok(vec![hertz::contact_radius_at_approach(&hard(x)?, x[2])?])
+    }),
+    ("hertz.approach", 1, |_, x| {
+        Ok(vec![hertz::approach(&hard(x)?, x[2])])
+    }),
+    ("hertz.force", 1, |_, x| {
+        Ok(vec![hertz::force(&hard(x)?, x[2])])
+    }),
+    ("hertz.stiffness", 1, |_, x| {
+        Ok(vec![hertz::stiffness(&hard(x)?, x[2])])
+    }),
+    ("hertz.pressure", 1, |_, x| {
+        Ok(vec![hertz::pressure(&hard(x)?, x[2], x[3])])
+    }),
+    ("hertz.displacement", 1, |_, x| {
+        Ok(vec![hertz::displacement(&hard(x)?, x[2], x[3])])
+    }),
+    ("hertz.gap", 1, |_, x| {
+        Ok(vec![hertz::gap(&hard(x)?, x[2], x[3])])
+    }),
+    ("cone.force", 1, |_, x| Ok(vec![cone(x)?.force(x[2])])),
+    ("cone.approach", 1, |_, x| Ok(vec![cone(x)?.approach(x[2])])),
+    ("cone.contact_radius", 1, |_, x| {
+        Ok(vec![cone(x)?.contact_radius(x[2])?])
+    }),
+    ("cone.pressure", 1, |_, x| {
+        Ok(vec![cone(x)?.pressure(x[2], x[3])])
+    }),
+    ("flat_punch.force", 1, |_, x| {
+        Ok(vec![punch_force(x[0], x[1], x[2])?])
+    }),
+    // Rigid adhesive spheres.
+    ("bradley.force", 1, |words, x| {
+        Ok(vec![bradley::force(
+            &Sphere::new(x[0], 1.0, x[1])?,
+            words.law,
+            x[2],
+            x[3],
+        )?])
+    }),
+    ("derjaguin.force", 1, |_, x| {
+        Ok(vec![derjaguin::force(&sphere(x)?, x[3])])
+    }),
+    ("dmt.force", 1, |words, x| {
+        let sphere = sphere(x)?;
+        let reduced = tabor_map::tabor_parameter(&sphere, x[3])?;
+        let force = dmt::force(words.method, words.law, x[4] / x[3], reduced)?;
+        Ok(vec![
+            force * 2.0 * PI * sphere.work_of_adhesion() * sphere.radius(),
+        ])
+    }),
+    ("dmt.pull_off", 2, |words, x| {
+        let sphere = sphere(x)?;
+        let reduced = tabor_map::tabor_parameter(&sphere, x[3])?;
+        let (radius, force) = dmt::pull_off(words.method, words.law, reduced)?;
+        let force = force * 2.0 * PI * sphere.work_of_adhesion() * sphere.radius();
+        Ok(vec![force, radius * (sphere.radius() * x[3]).sqrt()])
+    }),
+    // Soft adhesive spheres.
+    ("jkr.contact_radius", 1, |_, x| {
+        Ok(vec![jkr::contact_radius(&sphere(x)?, x[3])?])
+    }),
+    ("jkr.contact_radius_at_approach", 1, |_, x| {
+        Ok(vec![jkr::contact_radius_at_approach(&sphere(x)?, x[3])?])
+    }),
+    ("jkr.approach", 1, |_, x| {
+        Ok(vec![jkr::approach(&sphere(x)?, x[3])])
+    }),
+    ("jkr.force", 1, |_, x| {
+        Ok(vec![jkr::force(&sphere(x)?, x[3])])
+    }),
+    ("jkr.stiffness", 1, |_, x| {
+        Ok(vec![jkr::stiffness(&sphere(x)?, x[3])])
+    }),
+    ("jkr.pressure", 1, |_, x| {
+        Ok(vec![jkr::pressure(&sphere(x)?, x[3], x[4])])
+    }),
+    ("jkr.gap", 1, |_, x| {
+        Ok(vec![jkr::gap(&sphere(x)?, x[3], x[4])])
+    }),
+    ("jkr.pull_off_force", 1, |_, x| {
+        Ok(vec![jkr::pull_off_force(&Sphere::new(x[0], 1.0, x[1])?)])
+    }),
+    ("jkr.from_measurement", 2, |_, x| {
+        let sphere = jkr::from_measurement(x[0], x[1], x[2], x[3])?;
+        Ok(vec![sphere.work_of_adhesion(), sphere.contact_modulus()])
+    }),
+    ("maugis_dugdale.at_force", 4, |_, x| {
+        let (theory, scales) = maugis(x)?;
+        let states = theory.states_at_force(x[4] / scales.force)?;
+        stable(&states, &scales)
+    }),
+    ("maugis_dugdale.at_approach", 4, |_, x| {
+        let (theory, scales) = maugis(x)?;
+        let states = theory.states_at_approach(x[4] / scales.approach)?;
+        stable(&states, &scales)
+    }),
+    ("maugis_dugdale.pull_off", 4, |_, x| {
+        let (theory, scales) = maugis(x)?;
+        stable(&[theory.pull_off()?], &scales)
+    }),
+    ("maugis_dugdale.pressure", 1, |_, x| {
+        let (theory, scales) = maugis(x)?;
+        let state = theory.state(x[4] / scales.radius)?;
+        let unit = scales.force / (scales.radius * scales.radius);
+        Ok(vec![unit * theory.pressure(&state, x[5] / scales.radius)])
+    }),
+    // Numbers that tell which theory holds.
+    ("tabor_parameter", 1, |_, x| {
+        Ok(vec![tabor_map::tabor_parameter(&sphere(x)?, x[3])?])
+    }),
+    ("maugis_parameter", 1, |_, x| {
+        Ok(vec![tabor_map::maugis_parameter(&sphere(x)?, x[3])?])
+    }),
+    ("regime", 1, |_, x| {
+        Ok(vec![match tabor_map::regime(x[0])? {
+            Regime::ForceDmt => 0.0,
+            Regime::Jkr => 2.0,
+            _ => 1.0,
+        }])
+    }),
+    ("contact_modulus", 1, |_, x| {
+        Ok(vec![tabor_map::contact_modulus(
+            (x[0], x[1]),
+            (x[2], x[3]),
+        )?])
+    }),
+    ("work_of_adhesion", 1, |_, x| {
+        Ok(vec![tabor_map::work_of_adhesion([x[0], x[1]], x[2])?])
+    }),
+    // Waves.
+    ("westergaard.full_contact_pressure", 1, |_, x| {
+        Ok(vec![westergaard::full_contact_pressure(x[0], x[1], x[2])?])
+    }),
+    ("westergaard.adhesion_parameter", 1, |_, x| {
+        Ok(vec![westergaard::adhesion_parameter(
+            x[0], x[1], x[2], x[3],
+        )?])
+    }),
+    ("westergaard.half_width", 1, |_, x| {
+        let whole = westergaard::full_contact_pressure(x[0], x[1], x[2])?;
+        Ok(vec![x[2] * westergaard::half_width(x[3] / whole)?])
+    }),
+    ("westergaard.mean_pressure", 1, |_, x| {
+        let whole = westergaard::full_contact_pressure(x[0], x[1], x[2])?;
+        Ok(vec![whole * westergaard::mean_pressure(x[3] / x[2])?])
+    }),
+    ("westergaard.adhesive_mean_pressure", 1, |_, x| {
+        let whole = westergaard::full_contact_pressure(x[0], x[1], x[2])?;
+        let adhesion = westergaard::adhesion_parameter(x[0], x[1], x[2], x[3])?;
+        Ok(vec![
+            whole * westergaard::adhesive_mean_pressure(x[4] / x[2], adhesion)?,
+        ])
+    }),
+    ("westergaard.pull_off", 2, |_, x| {
+        let whole = westergaard::full_contact_pressure(x[0], x[1], x[2])?;
+        let adhesion = westergaard::adhesion_parameter(x[0], x[1], x[2], x[3])?;
+        let extrema = westergaard::adhesive_extrema(adhesion)?;
+        Ok(vec![
+            whole * extrema.pull_off,
+            whole * extrema.closing_pressure,
+        ])
+    }),
+    ("westergaard.pressure", 1, |_, x| {
+        let whole = westergaard::full_contact_pressure(x[0], x[1], x[2])?;
+        Ok(vec![
+            whole * westergaard::pressure(x[3] / x[2], x[4] / x[2])?,
+        ])
+    }),
+    ("westergaard.gap", 1, |_, x| {
+        westergaard::full_contact_pressure(x[0], x[1], x[2])?;
+        Ok(vec![x[1] * westergaard::gap(x[3] / x[2], x[4] / x[2])?])
+    }),
+    ("westergaard.mean_gap", 1, |_, x| {
+        let whole = westergaard::full_contact_pressure(x[0], x[1], x[2])?;
+        Ok(vec![x[1] * westergaard::mean_gap(x[3] / whole)?])
+    }),
+    // Rough surfaces by their summits.
+    ("gw.adhesion_parameter", 1, |_, x| {
+        Ok(vec![sticky_summits(x)?.adhesion_parameter()?])
+    }),
+    ("gw.pressure", 1, |_, x| {
+        Ok(vec![hard_summits(x)?.pressure(x[4])?])
+    }),
+    ("gw.contact_area_fraction", 1, |_, x| {
+        Ok(vec![hard_summits(x)?.contact_area_fraction(x[4])])
+    }),
+    ("gw.contact_density", 1, |_, x| {
+        Ok(vec![hard_summits(x)?.contact_density(x[4])])
+    }),
+    ("gw_m.pressure", 1, |_, x| {
+        Ok(vec![gw_m::pressure(&sticky_summits(x)?, x[5])?])
+    }),
+    ("gw_m.pull_off", 1, |_, x| {
+        Ok(vec![gw_m::pull_off(&sticky_summits(x)?)?])
+    }),
+    ("gw_m.separation", 1, |_, x| {
+        Ok(vec![gw_m::separation(&sticky_summits(x)?, x[5])?])
+    }),
+    ("fuller_tabor.pressure", 1, |words, x| {
+        let summits = sticky_summits(x)?;
+        let theta = summits.adhesion_parameter()?;
+        Ok(vec![
+            tension(&summits) * fuller_tabor::reduced_pressure(theta, x[5], words.path)?,
+        ])
+    }),
+    ("fuller_tabor.pull_off", 1, |_, x| {
+        let summits = sticky_summits(x)?;
+        let (_, least) = fuller_tabor::reduced_pull_off(summits.adhesion_parameter()?)?;
+        Ok(vec![1.5 * tension(&summits) * least])
+    }),
+    // Rough surfaces by their spectrum.
+    ("spectrum.statistics", 5, |_, x| {
+        let spectrum = self_affine(x)?;
+        Ok(vec![
+            spectrum.rms_slope(),
+            spectrum.rms_curvature(),
+            spectrum.nayak_parameter(),
+            spectrum.summit_density(),
+            spectrum.typical_radius(),
+        ])
+    }),
+    ("persson.contact_area_fraction", 1, |_, x| {
+        with_persson(x[3], |theory| {
+            tabor_map::contact_modulus((x[1], 0.0), (f64::INFINITY, 0.0))?;
+            Ok(vec![theory.area_fraction(x[0] / (x[1] * x[2]))?])
+        })
+    }),
+    ("persson.mean_gap", 1, |_, x| {
+        let spectrum = self_affine(x)?;
+        with_persson(x[7], |theory| {
+            let rough = RoughContact::new(theory.clone(), spectrum, x[5])?;
+            Ok(vec![rough.mean_gap(x[6])?])
+        })
+    }),
+    ("persson.pull_off", 2, |words, x| {
+        let spectrum = self_affine(x)?;
+        let adhesion = Adhesion {
+            law: words.law,
+            work_of_adhesion: x[6],
+            range: x[7],
+        };
+        with_persson(x[8], |theory| {
+            let found = RoughContact::new(theory.clone(), spectrum, x[5])?.pull_off(&adhesion)?;
+            Ok(vec![found.tension, found.pressure])
+        })
+    }),
+    ("bam.mean_pressure", 1, |_, x| {
+        let (model, tension) = bearing_area(x)?;
+        Ok(vec![tension * model.pressure(x[5] / x[0])])
+    }),
+    ("bam.pull_off", 2, |_, x| {
+        let (model, tension) = bearing_area(x)?;
+        let (gap, least) = model.pull_off()?;
+        Ok(vec![tension * least, x[0] * gap])
+    }),
+    ("pastewka_robbins.stickiness_ratio", 1, |_, x| {
+        let edge = Edge {
+            rms_slope: x[0],
+            rms_curvature: x[1],
+            work_of_adhesion: x[2],
+            contact_modulus: x[3],
+            range: x[4],
+            area_coefficient: x[5],
+        };
+        Ok(vec![stickiness_ratio(&edge)?])
+    }),
+    // Other effects.
+    ("rate.power_law", 1, |_, x| {
+        Ok(vec![rate::power_law(x[0], x[1], x[2], x[3])?])
+    }),
+    ("rate.logarithmic_law", 1, |_, x| {
+        Ok(vec![rate::logarithmic_law(x[0], x[1], x[2], x[3])?])
+    }),
+    ("viscoelastic.relaxation", 1, |_, x| {
+        Ok(vec![Solid::new(x[0], x[1], x[2])?.relaxation(x[3])])
+    }),
+    ("viscoelastic.creep", 1, |_, x| {
+        Ok(vec![Solid::new(x[0], x[1], x[2])?.creep(x[3])])
+    }),
+    ("viscoelastic.contact_radius", 1, |_, x| {
+        let solid = Solid::new(x[0], x[1], x[2])?;
+        Ok(vec![solid.sphere_contact_radius(x[3], x[4], x[5])?])
+    }),
+    ("friction.jkr_force", 1, |_, x| {
+        Ok(vec![friction::jkr_force(&sphere(x)?, x[3], x[4])?])
+    }),
+    ("conductance.from_stiffness", 1, |_, x| {
+        Ok(vec![conductance::from_stiffness(x[0], x[1], x[2])?])
+    }),
+    ("conductance.circle", 1, |_, x| {
+        Ok(vec![conductance::circle(x[0], x[1])?])
+    }),
+    ("capillary.meniscus", 4, |_, x| {
+        let meniscus = Meniscus::new(x[0], x[1], x[2], x[3], x[4])?;
+        Ok(vec![
+            meniscus.work_of_adhesion(),
+            meniscus.range(),
+            meniscus.peak_tension(),
+            meniscus.kelvin_radius(),
+        ])
+    }),
+];
+
+/// A sphere of (radius, contact modulus).
+fn hard(x: &[f64]) -> Result<Sphere, TheoryError> {
+    Sphere::new(x[0], x[1], 0.0)
+}
+
+/// A sphere of (radius, contact modulus, work of adhesion).
+fn sphere(x: &[f64]) -> Result<Sphere, TheoryError> {
+    Sphere::new(x[0], x[1], x[2])
+}
+
+/// A cone of (half angle, contact modulus).
+fn cone(x: &[f64]) -> Result<Cone, TheoryError> {
+    Cone::new(FRAC_PI_2 - x[0], x[1])
+}
+
+/// Maugis' theory of (radius, contact modulus, work of adhesion, peak tension), and its units.
+fn maugis(x: &[f64]) -> Result<(MaugisDugdale, tabor_map::MaugisScales), TheoryError> {
+    let sphere = sphere(x)?;
+    let theory = MaugisDugdale::new(tabor_map::maugis_parameter(&sphere, x[3])?)?;
+    Ok((theory, sphere.maugis_scales()?))
+}
+
+/// Force, approach, contact radius and cohesive radius of the last state, which is the stable one.
+fn stable(states: &[State], scales: &tabor_map::MaugisScales) -> Result<Vec<f64>, TheoryError> {
+    let state = states
+        .last()
+        .ok_or(TheoryError::NoSolution { what: "a contact" })?;
+    Ok(vec![
+        state.force * scales.force,
+        state.approach * scales.approach,
+        state.contact_radius * scales.radius,
+        state.cohesive_radius * scales.radius,
+    ])
+}
+
+/// Summits of (radius, contact modulus, density, rms height).
+fn hard_summits(x: &[f64]) -> Result<Summits, TheoryError> {
+    Summits::new(hard(x)?, x[2], x[3])
+}
+
+/// Summits of (radius, contact modulus, work of adhesion, density, rms height).
+fn sticky_summits(x: &[f64]) -> Result<Summits, TheoryError> {
+    Summits::new(sphere(x)?, x[3], x[4])
+}
+
+/// `n pi w R` of summits, Pa.
+fn tension(summits: &Summits) -> f64 {
+    let summit = summits.summit();
+    summits.density() * PI * summit.work_of_adhesion() * summit.radius()
+}
+
+/// The spectrum of (Hurst exponent, longest, roll-off and shortest wavelength, rms height).
+fn self_affine(x: &[f64]) -> Result<Spectrum, TheoryError> {
+    let wavenumbers = [x[1], x[2], x[3]].map(|wavelength| 2.0 * PI / wavelength);
+    Spectrum::new(wavenumbers, x[0], x[4])
+}
+
+/// The bearing-area model of (rms height, roll-off wavelength, contact modulus, work of adhesion, range), and its
+/// tension, Pa.
+fn bearing_area(x: &[f64]) -> Result<(BearingArea, f64), TheoryError> {
+    let tension = x[3] / x[4];
+    let model = BearingArea::new(x[0] / x[4], 2.0 * PI / x[1] * x[0] * x[2] / tension)?;
+    Ok((model, tension))
+}
+
+/// Persson's theory with a `gamma`; its tables are made once for equal ones in turn.
+fn with_persson<R>(
+    gamma: f64,
+    use_it: impl FnOnce(&Persson) -> Result<R, TheoryError>,
+) -> Result<R, TheoryError> {
+    thread_local! {
+        static LAST: RefCell<Option<Persson>> = const { RefCell::new(None) };
+    }
+    LAST.with_borrow_mut(|last| {
+        let kept = last
+            .take()
+            .filter(|theory| theory.gamma().to_bits() == gamma.to_bits());
+        let theory = match kept {
+            Some(theory) => theory,
+            None => Persson::new(gamma)?,
+        };
+        use_it(last.insert(theory))
+    })
+}
+
+/// Arrays of results, and how many elements did not converge.
+type Results<'py> = (Vec<Bound<'py, PyArray1<f64>>>, usize);
+
+/// How a loop over elements ended.
+enum Loop {
+    /// The results, and how many elements a method did not converge for.
+    Done(Vec<Vec<f64>>, usize),
+    /// An element that the theory refuses.
+    Refused(usize, TheoryError),
+}
+
+/// Results of the function `name` for each element of `columns`, which are of one length. An element for which the
+/// theory has no state is NaN. Also returns how many did not converge.
+#[pyfunction]
+pub fn theory<'py>(
+    py: Python<'py>,
+    name: &str,
+    words: Vec<(String, String)>,
+    columns: Vec<PyReadonlyArray1<'py, f64>>,
+) -> PyResult<Results<'py>> {
+    let known = FUNCTIONS.iter().find(|(known, ..)| *known == name);
+    let Some(&(_, results, evaluate)) = known else {
+        return Err(errors::failed(py, &format!("no theory is called {name}")));
+    };
+    let words = Words::read(&words).map_err(|words| errors::raise(py, "TheoryError", &words))?;
+    let columns: Vec<Vec<f64>> = columns
+        .iter()
+        .map(|column| column.as_array().to_vec())
+        .collect();
+    let end = py.detach(|| evaluate_all(evaluate, results, &words, &columns));
+    match end {
+        Loop::Done(found, not_converged) => {
+            let arrays = found
+                .into_iter()
+                .map(|values| PyArray1::from_vec(py, values));
+            Ok((arrays.collect(), not_converged))
+        }
+        Loop::Refused(element, error) => {
+            let place = if columns.first().is_some_and(|column| column.len() > 1) {
+                format!(" (element {element})")
+            } else {
+                String::new()
+            };
+            Err(errors::raise(
+                py,
+                "TheoryError",
+                &format!("{name}: {error}{place}"),
+            ))
+        }
+    }
+}
+
+fn evaluate_all(evaluate: Evaluate, results: usize, words: &Words, columns: &[Vec<f64>]) -> Loop {
+    let length = columns.first().map_or(0, Vec::len);
+    let mut found = vec![Vec::with_capacity(length); results];
+    let mut not_converged = 0;
+    let mut inputs = vec![0.0; columns.len()];
+    for element in 0..length {
+        for (input, column) in inputs.iter_mut().zip(columns) {
+            *input = column[element];
+        }
+        match evaluate(words, &inputs) {
+            Ok(values) => {
+                for (list, value) in found.iter_mut().zip(values) {
+                    list.push(value);
+                }
+            }
+            Err(error) => {
+                match error {
+                    TheoryError::NoSolution { .. } => {}
+                    TheoryError::NotConverged { .. } => not_converged += 1,
+                    refused => return Loop::Refused(element, refused),
+                }
+                found.iter_mut().for_each(|list| list.push(f64::NAN));
+            }
+        }
+    }
+    Loop::Done(found, not_converged)
+}
+
+/// What `tabor theory` prints for the words of a call.
+#[pyfunction]
+pub fn theory_table(py: Python<'_>, words: Vec<String>) -> PyResult<String> {
+    py.detach(|| tabor::theory_table(&words))
+        .map_err(|words| errors::raise(py, "TheoryError", &words))
+}

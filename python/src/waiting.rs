@@ -1,0 +1,97 @@
+//! Work on a thread of its own, while Python's waits and hears signals.
+//!
+//! Python tells signals to its main thread only, and only while that runs Python's own code. So the solver gets
+//! another thread, and the one that called waits without the interpreter's lock and looks for signals now and then.
+
+use std::panic::{AssertUnwindSafe, catch_unwind};
+use std::sync::Arc;
+use std::sync::atomic::{AtomicBool, AtomicU64, AtomicUsize, Ordering};
+use std::sync::mpsc::{RecvTimeoutError, channel};
+use std::thread;
+use std::time::Duration;
+
+use pyo3::prelude::*;
+
+use crate::errors;
+
+/// How often signals are looked for: a tenth of the second that Ctrl-C may take.
+const POLL: Duration = Duration::from_millis(100);
+
+/// What a solver and those who wait for it tell each other.
+#[derive(Default)]
+pub struct Talk {
+    /// Whether the solver shall end.
+    pub stop: AtomicBool,
+    iteration: AtomicUsize,
+    /// The bits of the residual.
+    residual: AtomicU64,
+    /// Steps that are finished.
+    finished: AtomicUsize,
+}
+
+impl Talk {
+    /// Tells of an iteration; whether to go on.
+    pub fn iteration(&self, iteration: usize, residual: f64) -> bool {
+        self.iteration.store(iteration, Ordering::Relaxed);
+        self.residual.store(residual.to_bits(), Ordering::Relaxed);
+        !self.stop.load(Ordering::Relaxed)
+    }
+
+    /// Tells how many steps are finished.
+    pub fn finished(&self, steps: usize) {
+        self.finished.store(steps, Ordering::Relaxed);
+    }
+
+    /// Finished steps, the last iteration that was told of, 0 for none, and its residual.
+    pub fn last(&self) -> (usize, usize, f64) {
+        let residual = f64::from_bits(self.residual.load(Ordering::Relaxed));
+        let [finished, iteration] =
+            [&self.finished, &self.iteration].map(|count| count.load(Ordering::Relaxed));
+        (finished, iteration, residual)
+    }
+}
+
+/// Does `work` on another thread, and tells `progress` of its iterations. Where a signal or `progress` raises, the
+/// work is told to stop and left behind: it ends at its next iteration, and its result is dropped.
+pub fn wait<R: Send + 'static>(
+    py: Python<'_>,
+    talk: &Arc<Talk>,
+    progress: Option<&Bound<'_, PyAny>>,
+    work: impl FnOnce() -> R + Send + 'static,
+) -> PyResult<R> {
+    let (sender, mut receiver) = channel();
+    let spawned = thread::Builder::new()
+        .name("tabor".to_owned())
+        .spawn(move || {
+            // Nobody may be waiting any more.
+            let _ = sender.send(catch_unwind(AssertUnwindSafe(work)));
+        });
+    spawned.map_err(|error| errors::failed(py, &format!("no thread for the solver: {error}")))?;
+    let mut told = (0, 0);
+    loop {
+        let (received, back) = py.detach(move || (receiver.recv_timeout(POLL), receiver));
+        receiver = back;
+        match received {
+            Ok(Ok(result)) => return Ok(result),
+            Ok(Err(_)) | Err(RecvTimeoutError::Disconnected) => {
+                return Err(errors::failed(
+                    py,
+                    "tabor failed within itself; please report it",
+                ));
+            }
+            Err(RecvTimeoutError::Timeout) => {}
+        }
+        let mut heard = py.check_signals();
+        let (finished, iteration, residual) = talk.last();
+        if let (Ok(()), Some(progress)) = (&heard, progress)
+            && (finished, iteration) != told
+        {
+            told = (finished, iteration);
+            heard = progress.call1((finished, iteration, residual)).map(drop);
+        }
+        if let Err(raised) = heard {
+            talk.stop.store(true, Ordering::Relaxed);
+            return Err(raised);
+        }
+    }
+}

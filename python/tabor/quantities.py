@@ -1,0 +1,59 @@
+"""Numbers in SI units, or texts with units."""
+
+from __future__ import annotations
+
+from typing import Any, TypeAlias, Union
+
+import numpy as np
+import numpy.typing as npt
+
+from . import _tabor
+from .errors import SceneError, TaborError
+
+#: A number in SI units, or a text with a unit such as "50 mJ/m^2".
+Quantity: TypeAlias = Union[float, str]
+#: The same, or an array of them.
+Quantities: TypeAlias = Union[Quantity, npt.ArrayLike]
+#: A float for scalars, else an array.
+Floats: TypeAlias = Any
+
+
+def si(value: Any, dimension: str, argument: str, error: type[TaborError] = SceneError) -> float:
+    """The SI value of a number or of a text with a unit.
+
+    Parameters
+    ----------
+    value : number or text
+    dimension : str
+        What it is, such as "length".
+    argument : str
+        Its name, for messages.
+    error : type
+        What is raised of a number that is not finite.
+    """
+    if isinstance(value, str):
+        return _tabor.quantity(value, dimension, argument)
+    try:
+        number = float(value)
+    except (TypeError, ValueError):
+        raise error(f"{argument}: {value!r} is no number and no text with a unit") from None
+    if not np.isfinite(number):
+        raise error(f"{argument}: {number} is no finite number")
+    return number
+
+
+def si_array(values: Any, dimension: str, argument: str, error: type[TaborError] = SceneError) -> npt.NDArray[np.float64]:
+    """SI values of a number, a text, or an array or sequence of them."""
+    if isinstance(values, str):
+        return np.float64(_tabor.quantity(values, dimension, argument)) * np.ones(())
+    array = np.asarray(values)
+    if array.dtype.kind in "OUS":
+        flat = [si(each, dimension, argument, error) for each in array.ravel().tolist()]
+        return np.array(flat, dtype=np.float64).reshape(array.shape)
+    if array.dtype.kind not in "fiub":
+        raise error(f"{argument}: real numbers are expected, not {array.dtype}")
+    numbers = array.astype(np.float64, copy=False)
+    # What may be infinite, such as the modulus of a rigid body, each theory knows.
+    if np.isnan(numbers).any():
+        raise error(f"{argument}: {np.count_nonzero(np.isnan(numbers))} of {numbers.size} values are NaN")
+    return numbers

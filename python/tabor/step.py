@@ -1,0 +1,80 @@
+"""A solved load."""
+
+from __future__ import annotations
+
+from typing import Any
+
+import numpy as np
+
+#: Fields with their units.
+FIELDS = {"pressure": "Pa", "gap": "m", "displacement": "m", "heights": "m"}
+
+
+class Step:
+    """A solved load, in SI units. Fields are arrays of shape (ny, nx).
+
+    Attributes
+    ----------
+    pressure, gap, displacement, heights : ndarray
+        Net normal traction, Pa, positive in compression; distance of the surfaces, m; normal displacement of the
+        solid, m, positive into it; heights, m, with the plastic depth subtracted.
+    contact_area_fraction, force, mean_pressure, approach, mean_gap : float
+        Of the whole cell; `approach` and `mean_gap` are None where the surfaces are separated.
+    residual, iterations, converged
+        How well it is solved.
+    state, jump : str
+        "contact", "attracted" or "separated"; "in", "off" or None.
+    columns : dict
+        What effects add, by the names of ``curve.csv``.
+    """
+
+    def __init__(self, found: dict[str, Any]) -> None:
+        self._found = found
+
+    def __getattr__(self, name: str) -> Any:
+        if name.startswith("_"):
+            raise AttributeError(name)
+        found = self._found
+        if name in found:
+            return found[name]
+        if name in found["columns"]:
+            return found["columns"][name]
+        raise AttributeError(f"a step has no {name}; it has {', '.join(sorted([*found, *found['columns']]))}")
+
+    def __dir__(self) -> list[str]:
+        return sorted({*super().__dir__(), *self._found, *self._found["columns"]})
+
+    @property
+    def contact(self) -> np.ndarray:
+        """Where the surfaces touch: a gap of 0, or below."""
+        touching: np.ndarray = self._found["gap"] <= 0.0
+        return touching
+
+    def to_dataset(self) -> Any:
+        """The fields with coordinates and units, as an `xarray.Dataset`."""
+        import xarray
+
+        ny, nx = self._found["gap"].shape
+        lx, ly = self._found["size"]
+        metres = {"units": "m"}
+        coordinates = {
+            "y": ("y", np.arange(ny) * ly / ny, metres),
+            "x": ("x", np.arange(nx) * lx / nx, metres),
+        }
+        fields = {name: (("y", "x"), self._found[name], {"units": unit}) for name, unit in FIELDS.items()}
+        numbers = {key: value for key, value in self._found.items() if isinstance(value, (int, float, str, bool))}
+        return xarray.Dataset(fields, coordinates, numbers)
+
+    def plot(self, field: str = "pressure", axes: Any = None) -> Any:
+        """Draws a field on a matplotlib axis and returns the axis."""
+        from .plots import plot_field
+
+        return plot_field(self, field, axes)
+
+    def __repr__(self) -> str:
+        found = self._found
+        ending = "" if found["converged"] else f", not converged (residual {found['residual']:.1e})"
+        return (
+            f"<Step {found['number']}: {found['state']}, mean pressure {found['mean_pressure']:.4g} Pa, "
+            f"{100 * found['contact_area_fraction']:.2f} % in contact{ending}>"
+        )

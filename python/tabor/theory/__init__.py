@@ -1,0 +1,61 @@
+"""Closed forms and asperity models, over NumPy arrays.
+
+Every argument is a number in SI units, a text with a unit, or an array; arrays are broadcast against each other, and
+the loop over their elements runs in Rust. An element for which a theory has no state, such as a force beyond pull-off,
+is NaN; arguments out of range raise a `TheoryError`.
+
+>>> from tabor import theory
+>>> theory.jkr.pull_off_force("1 um", ["10 mJ/m^2", "50 mJ/m^2"])
+array([-4.71238898e-08, -2.35619449e-07])
+
+`table` gives whole curves, as ``tabor theory`` prints them.
+"""
+
+from . import (
+    bam,
+    bradley,
+    cone,
+    derjaguin,
+    dmt,
+    effects,
+    flat_punch,
+    fuller_tabor,
+    gw,
+    gw_m,
+    hertz,
+    jkr,
+    maugis_dugdale,
+    pastewka_robbins,
+    persson,
+    spectrum,
+    westergaard,
+)
+from .pair import contact_modulus, maugis_parameter, regime, tabor_parameter, work_of_adhesion
+from .tables import Table, table
+
+__all__ = [
+    "Table",
+    "bam",
+    "bradley",
+    "cone",
+    "contact_modulus",
+    "derjaguin",
+    "dmt",
+    "effects",
+    "flat_punch",
+    "fuller_tabor",
+    "gw",
+    "gw_m",
+    "hertz",
+    "jkr",
+    "maugis_dugdale",
+    "maugis_parameter",
+    "pastewka_robbins",
+    "persson",
+    "regime",
+    "spectrum",
+    "table",
+    "tabor_parameter",
+    "westergaard",
+    "work_of_adhesion",
+]
