@@ -168,11 +168,9 @@ fn building(scene: &Scene, grid: Grid) -> u64 {
 /// picture.
 fn writing(scene: &Scene, points: u64) -> u64 {
     let output = &scene.output;
-    let is_made = |field: &&FieldName| match field {
-        FieldName::Displacement => true,
-        FieldName::Heights => scene.solid.hardness.is_some(),
-        FieldName::Pressure | FieldName::Gap => false,
-    };
+    // Heights are, where the solid has yielded.
+    let is_made =
+        |field: &&FieldName| matches!(field, FieldName::Displacement | FieldName::Heights);
     let made = output.fields.iter().filter(is_made).count()
         + output.images.iter().filter(is_made).count().min(1);
     let drawn = if output.images.is_empty() {
