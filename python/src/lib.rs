@@ -4,7 +4,9 @@
 //! Solvers run on threads of their own ([`waiting`]), so that Python hears Ctrl-C meanwhile.
 
 mod errors;
+mod fit;
 mod path;
+mod pictures;
 mod quantity;
 mod run;
 mod scene;
@@ -18,7 +20,11 @@ use pyo3::prelude::*;
 #[pymodule]
 mod _tabor {
     #[pymodule_export]
+    use super::fit::fit;
+    #[pymodule_export]
     use super::path::SolvedPath;
+    #[pymodule_export]
+    use super::pictures::colours;
     #[pymodule_export]
     use super::quantity::quantity;
     #[pymodule_export]
@@ -26,7 +32,7 @@ mod _tabor {
     #[pymodule_export]
     use super::scene::{LoadedScene, json_from_toml, toml_from_json};
     #[pymodule_export]
-    use super::surface::statistics;
+    use super::surface::{scales, spectrum, statistics};
     #[pymodule_export]
     use super::theory::{theory, theory_table};
 

@@ -13,6 +13,7 @@ const DIMENSIONS: &[(&str, Dimension)] = &[
     ("force", Dimension::Force),
     ("force per length", Dimension::ForcePerLength),
     ("length", Dimension::Length),
+    ("length per voltage", Dimension::LengthPerVoltage),
     ("molar volume", Dimension::MolarVolume),
     ("number", Dimension::Dimensionless),
     ("per area", Dimension::PerArea),

@@ -18,6 +18,9 @@ pub struct LoadedScene {
     pub scene: Scene,
 }
 
+/// A surface that was built: heights, size of its cell, warnings.
+type Built<'py> = (Bound<'py, PyArray2<f64>>, [f64; 2], Vec<String>);
+
 #[pymethods]
 impl LoadedScene {
     /// Reads the text of a scene, which messages call `name`; paths in it are relative to `folder`.
@@ -72,13 +75,9 @@ impl LoadedScene {
         SolvedPath::new(&self.scene, threads)
     }
 
-    /// The heights of all parts, m, as an array of shape (ny, nx), and warnings.
+    /// The heights of all parts, m, as an array of shape (ny, nx), (lx, ly), m, and warnings.
     #[pyo3(signature = (threads=None))]
-    fn heights<'py>(
-        &self,
-        py: Python<'py>,
-        threads: Option<usize>,
-    ) -> PyResult<(Bound<'py, PyArray2<f64>>, Vec<String>)> {
+    fn heights<'py>(&self, py: Python<'py>, threads: Option<usize>) -> PyResult<Built<'py>> {
         let scene = self.scene.clone();
         let talk = Arc::new(Talk::default());
         let built = wait(py, &talk, None, move || {
@@ -89,7 +88,7 @@ impl LoadedScene {
         let surface = built.map_err(|error| errors::of_contact(py, &error))?;
         let (grid, warnings) = (surface.grid, surface.warnings);
         let heights = Arc::unwrap_or_clone(surface.heights);
-        Ok((array(py, heights, grid.points())?, warnings))
+        Ok((array(py, heights, grid.points())?, grid.size(), warnings))
     }
 }
 
@@ -120,9 +119,11 @@ fn grid_values(array: &Bound<'_, PyAny>) -> PyResult<GridValues> {
         return Ok(GridValues::from_vec(values, points(array.shape())));
     }
     let array: PyReadonlyArray2<'_, f64> = array.extract()?;
-    let values = match array.as_slice() {
-        Ok(values) => values.to_vec(),
-        Err(_) => array.as_array().iter().copied().collect(),
+    // In the order of rows, whatever the layout; as_slice would hand out that of columns too.
+    let values = if array.is_c_contiguous() {
+        array.as_slice()?.to_vec()
+    } else {
+        array.as_array().iter().copied().collect()
     };
     Ok(GridValues::from_vec(values, points(array.shape())))
 }

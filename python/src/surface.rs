@@ -1,44 +1,130 @@
 //! Statistics of height maps.
 
-use numpy::{PyReadonlyArray2, PyUntypedArrayMethods};
+use numpy::{PyArray1, PyReadonlyArray2, PyUntypedArrayMethods};
 use pyo3::prelude::*;
 use pyo3::types::PyDict;
 use tabor::Grid;
 use tabor::scene::Boundary;
 use tabor::surface::Statistics;
+use tabor::surface::correlation::correlation_length;
+use tabor::surface::roughness::{HeightParameters, scale_dependence};
+use tabor::surface::statistics::radial_spectrum;
 
 use crate::errors;
 
-/// Statistics of heights, m, on a cell of (lx, ly), m.
+/// Heights, m, and where they lie.
+struct Map {
+    grid: Grid,
+    heights: Vec<f64>,
+    boundary: Boundary,
+}
+
+impl Map {
+    fn new(
+        py: Python<'_>,
+        heights: &PyReadonlyArray2<'_, f64>,
+        size: [f64; 2],
+        is_periodic: bool,
+    ) -> PyResult<Self> {
+        let [rows, columns] = [heights.shape()[0], heights.shape()[1]];
+        let values: Vec<f64> = heights.as_array().iter().copied().collect();
+        if values.is_empty() || values.iter().any(|value| !value.is_finite()) {
+            let words = "heights: must have at least one point, all of them finite";
+            return Err(errors::raise(py, "SurfaceError", words));
+        }
+        if size.iter().any(|side| !(side.is_finite() && *side > 0.0)) {
+            return Err(errors::raise(
+                py,
+                "SurfaceError",
+                "size: must be more than zero",
+            ));
+        }
+        Ok(Map {
+            grid: Grid::new([columns, rows], size),
+            heights: values,
+            boundary: if is_periodic {
+                Boundary::Periodic
+            } else {
+                Boundary::Free
+            },
+        })
+    }
+}
+
+/// Statistics of heights, m, on a cell of (lx, ly), m; None for what a flat map does not have.
 #[pyfunction]
 pub fn statistics<'py>(
     py: Python<'py>,
     heights: PyReadonlyArray2<'py, f64>,
     size: [f64; 2],
-    periodic: bool,
+    is_periodic: bool,
 ) -> PyResult<Bound<'py, PyDict>> {
-    let [rows, columns] = [heights.shape()[0], heights.shape()[1]];
-    let values: Vec<f64> = heights.as_array().iter().copied().collect();
-    if values.is_empty() || values.iter().any(|value| !value.is_finite()) {
-        let words = "heights: must have at least one point, all of them finite";
-        return Err(errors::raise(py, "SurfaceError", words));
-    }
-    let grid = Grid::new([columns, rows], size);
-    let boundary = if periodic {
-        Boundary::Periodic
-    } else {
-        Boundary::Free
-    };
-    let found = py.detach(|| Statistics::from_heights(&grid, &values, boundary));
+    let map = Map::new(py, &heights, size, is_periodic)?;
+    let (found, shape, length) = py.detach(|| {
+        (
+            Statistics::from_heights(&map.grid, &map.heights, map.boundary),
+            HeightParameters::new(&map.heights),
+            correlation_length(&map.grid, &map.heights, map.boundary),
+        )
+    });
     let moments = found.moments;
     let table = PyDict::new(py);
     table.set_item("mean", found.mean)?;
     table.set_item("lowest", found.lowest)?;
     table.set_item("highest", found.highest)?;
     table.set_item("rms_height", moments.rms_height())?;
+    table.set_item("mean_deviation", shape.mean_deviation)?;
+    table.set_item("skewness", shape.skewness)?;
+    table.set_item("kurtosis", shape.kurtosis)?;
     table.set_item("rms_slope", moments.rms_slope())?;
     table.set_item("rms_curvature", moments.rms_curvature())?;
+    table.set_item("correlation_length", length)?;
     table.set_item("nayak_parameter", moments.nayak())?;
     table.set_item("summit_density", moments.summit_density())?;
+    table.set_item("mean_summit_height", moments.mean_summit_height())?;
+    table.set_item("mean_summit_radius", moments.mean_radius())?;
     Ok(table)
+}
+
+/// Columns of a table.
+type Columns<'py, const N: usize> = [Bound<'py, PyArray1<f64>>; N];
+
+/// Wave number, 1/m, and power spectral density, m^4, of each ring of the spectrum, and its number of modes.
+#[pyfunction]
+pub fn spectrum<'py>(
+    py: Python<'py>,
+    heights: PyReadonlyArray2<'py, f64>,
+    size: [f64; 2],
+    is_periodic: bool,
+) -> PyResult<Columns<'py, 3>> {
+    let map = Map::new(py, &heights, size, is_periodic)?;
+    let rings = py.detach(|| radial_spectrum(&map.grid, &map.heights, map.boundary));
+    let column = |of: fn(&tabor::surface::statistics::SpectrumRing) -> f64| {
+        PyArray1::from_vec(py, rings.iter().map(of).collect())
+    };
+    Ok([
+        column(|ring| ring.wavenumber),
+        column(|ring| ring.density),
+        column(|ring| ring.modes as f64),
+    ])
+}
+
+/// Distance, m, slope and curvature, 1/m, over distances of 1, 2, 4 ... points along x.
+#[pyfunction]
+pub fn scales<'py>(
+    py: Python<'py>,
+    heights: PyReadonlyArray2<'py, f64>,
+    size: [f64; 2],
+    is_periodic: bool,
+) -> PyResult<Columns<'py, 3>> {
+    let map = Map::new(py, &heights, size, is_periodic)?;
+    let found = py.detach(|| scale_dependence(&map.grid, &map.heights, map.boundary));
+    let column = |of: fn(&tabor::surface::roughness::ScaleDependence) -> f64| {
+        PyArray1::from_vec(py, found.iter().map(of).collect())
+    };
+    Ok([
+        column(|each| each.distance),
+        column(|each| each.slope),
+        column(|each| each.curvature.unwrap_or(f64::NAN)),
+    ])
 }

@@ -8,6 +8,9 @@ import pytest
 
 import tabor
 
+# What a fit says of its doubts is no error here.
+pytestmark = pytest.mark.filterwarnings("ignore::tabor.TaborWarning")
+
 MODULES = ["tabor", *(module.name for module in pkgutil.walk_packages(tabor.__path__, "tabor.") if not module.name.endswith("__main__"))]
 
 

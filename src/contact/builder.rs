@@ -12,8 +12,8 @@ use crate::elastic::Layer;
 use crate::scene::{
     AdhesionMap, AdhesionScene, Axis, Boundary, CapillaryScene, ConductanceScene, Conduction,
     EffectTables, FrictionScene, GridScene, LeakageScene, LoadingScene, OutputScene, Precision,
-    Ramp, RateScene, RelaxationScene, Scene, SceneError, SolidScene, SurfacePart, Treatment,
-    WearScene,
+    Ramp, RateScene, RelaxationScene, Scene, SceneError, SolidScene, StepChoice, SurfacePart,
+    Treatment, WearScene,
 };
 
 /// A rough, rigid counter-face over an elastic solid, in SI units.
@@ -337,7 +337,10 @@ impl Contact {
         I: IntoIterator,
         I::Item: Into<Load>,
     {
-        Path::new(self.clone(), loads.into_iter())
+        let mut contact = self.clone();
+        // A path writes nothing, and its loads are not known yet among which a step might be named.
+        contact.scene.output.steps = StepChoice::Last;
+        Path::new(contact, loads.into_iter())
     }
 
     /// The loads of the scene that this contact was made from; empty for a contact built with methods.

@@ -147,9 +147,14 @@ const BESIDES: [(&str, &str); 21] = [
 fn text_files(folder: &Path, found: &mut Vec<(PathBuf, String)>) {
     for entry in fs::read_dir(folder).expect("a folder").flatten() {
         let path = entry.path();
-        let is_corpus = path.file_name().is_some_and(|name| name == "corpus");
-        if path.is_dir() && !is_corpus {
-            text_files(&path, found);
+        // Inputs of the fuzzer, and pages that the site copies from elsewhere.
+        let is_left_out = path
+            .file_name()
+            .is_some_and(|name| name == "corpus" || name == "generated");
+        if path.is_dir() {
+            if !is_left_out {
+                text_files(&path, found);
+            }
         } else if let Ok(text) = fs::read_to_string(&path) {
             found.push((path, text));
         }

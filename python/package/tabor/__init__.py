@@ -13,10 +13,12 @@ Heights go in as an array, pressure and gap come out as arrays:
 Every quantity is a number in SI units or a text with its unit.
 """
 
+from . import theory
 from ._tabor import __version__
 from .contact import Contact, Exponential, LennardJones, MaugisDugdale
 from .errors import (
     DeviceError,
+    FitError,
     NotConvergedWarning,
     NotEnoughMemoryError,
     OutputError,
@@ -25,16 +27,39 @@ from .errors import (
     SurfaceError,
     TaborError,
     TaborWarning,
+    TheoryError,
 )
+from .fits import Estimate, Fit, fit
 from .runs import Run
 from .scene import Scene
 from .step import Step
-from .surface import self_affine, statistics
+from .studies import Study, accuracy, compare, sweep
+from .surfaces import (
+    Cone,
+    Flat,
+    HeightFile,
+    SelfAffine,
+    Sphere,
+    Surface,
+    Wavy,
+    heights,
+    read_heights,
+    scale_dependence,
+    self_affine,
+    spectrum,
+    statistics,
+)
 
 __all__ = [
+    "Cone",
     "Contact",
     "DeviceError",
+    "Estimate",
     "Exponential",
+    "Fit",
+    "FitError",
+    "Flat",
+    "HeightFile",
     "LennardJones",
     "MaugisDugdale",
     "NotConvergedWarning",
@@ -44,11 +69,26 @@ __all__ = [
     "Run",
     "Scene",
     "SceneError",
+    "SelfAffine",
+    "Sphere",
     "Step",
+    "Study",
+    "Surface",
     "SurfaceError",
     "TaborError",
     "TaborWarning",
+    "TheoryError",
+    "Wavy",
     "__version__",
+    "accuracy",
+    "compare",
+    "fit",
+    "heights",
+    "read_heights",
+    "scale_dependence",
     "self_affine",
+    "spectrum",
     "statistics",
+    "sweep",
+    "theory",
 ]

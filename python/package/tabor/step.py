@@ -5,6 +5,7 @@ from __future__ import annotations
 from typing import Any
 
 import numpy as np
+import numpy.typing as npt
 
 #: Fields with their units.
 FIELDS = {"pressure": "Pa", "gap": "m", "displacement": "m", "heights": "m"}
@@ -28,10 +29,12 @@ class Step:
         What effects add, by the names of ``curve.csv``.
     """
 
-    def __init__(self, found: dict[str, Any]) -> None:
+    def __init__(self, found: dict[str, Any], periodic: bool = True) -> None:
         self._found = found
+        self._periodic = periodic
 
     def __getattr__(self, name: str) -> Any:
+        # Asked for before there is anything, when a step is unpickled.
         if name.startswith("_"):
             raise AttributeError(name)
         found = self._found
@@ -45,9 +48,9 @@ class Step:
         return sorted({*super().__dir__(), *self._found, *self._found["columns"]})
 
     @property
-    def contact(self) -> np.ndarray:
+    def contact(self) -> npt.NDArray[np.bool_]:
         """Where the surfaces touch: a gap of 0, or below."""
-        touching: np.ndarray = self._found["gap"] <= 0.0
+        touching: npt.NDArray[np.bool_] = self._found["gap"] <= 0.0
         return touching
 
     def to_dataset(self) -> Any:
@@ -65,11 +68,40 @@ class Step:
         numbers = {key: value for key, value in self._found.items() if isinstance(value, (int, float, str, bool))}
         return xarray.Dataset(fields, coordinates, numbers)
 
+    def to_topography(self, field: str = "gap") -> Any:
+        """A field with the unit of a length as a `SurfaceTopography.Topography`."""
+        from .topography import to_topography
+
+        if FIELDS.get(field) != "m":
+            raise ValueError(f"{field} is no length; {', '.join(name for name, unit in FIELDS.items() if unit == 'm')} are")
+        return to_topography(self._found[field], self._found["size"], self._periodic)
+
     def plot(self, field: str = "pressure", axes: Any = None) -> Any:
         """Draws a field on a matplotlib axis and returns the axis."""
         from .plots import plot_field
 
         return plot_field(self, field, axes)
+
+    def _described(self) -> dict[str, str]:
+        """The main numbers, in words."""
+        found = self._found
+        words = {
+            "state": found["state"],
+            "force": f"{found['force']:.6g} N",
+            "mean pressure": f"{found['mean_pressure']:.6g} Pa",
+            "contact area": f"{100 * found['contact_area_fraction']:.4g} %",
+        }
+        for name in ("approach", "mean_gap"):
+            if found[name] is not None:
+                words[name.replace("_", " ")] = f"{found[name]:.6g} m"
+        words["residual"] = f"{found['residual']:.1e} after {found['iterations']} iterations"
+        if not found["converged"]:
+            words["residual"] += ", not converged"
+        return words
+
+    def _repr_html_(self) -> str:
+        rows = "".join(f"<tr><th style='text-align:left'>{name}</th><td>{words}</td></tr>" for name, words in self._described().items())
+        return f"<table><caption>Step {self._found['number']}</caption>{rows}</table>"
 
     def __repr__(self) -> str:
         found = self._found

@@ -4,10 +4,12 @@ from __future__ import annotations
 
 import json
 import os
+import re
 from pathlib import Path
 from typing import Any
 
 import numpy as np
+import numpy.typing as npt
 
 from . import tables
 from .errors import OutputError
@@ -26,12 +28,12 @@ class Run:
 
     @property
     def summary(self) -> dict[str, Any]:
-        """The content of ``summary.json``."""
+        """The content of ``summary.json``: pull-off, jumps, energies, seconds."""
         found: dict[str, Any] = json.loads((self.folder / "summary.json").read_text(encoding="utf-8"))
         return found
 
     @property
-    def curve(self) -> np.ndarray:
+    def curve(self) -> npt.NDArray[np.void]:
         """The rows of ``curve.csv`` as a structured array; an empty cell is NaN."""
         return tables.read(self.folder / "curve.csv")
 
@@ -41,17 +43,28 @@ class Run:
 
         return pandas.DataFrame(self.curve)
 
-    def fields(self) -> list[Path]:
-        """Files of fields, in their order."""
-        return sorted(self.folder.rglob("*.npy"))
+    @property
+    def fields(self) -> list[tuple[int, str]]:
+        """Step and name of each field in the folder."""
+        found = (re.fullmatch(r"step_(\d+)_(\w+)", path.stem) for path in (self.folder / "fields").glob("step_*.npy"))
+        return sorted((int(each[1]), each[2]) for each in found if each)
 
-    def field(self, name: str, step: int | None = None) -> np.ndarray:
-        """A field of a step, of the last one that has it unless told, mapped from its file."""
-        for path in reversed(self.fields()):
-            if name in path.stem and (step is None or f"{step:04}" in path.stem):
-                mapped: np.ndarray = np.load(path, mmap_mode="r")
-                return mapped
-        raise OutputError(f"{self.folder}: holds no {name}; ask for it by [output] fields = [\"{name}\"]")
+    def field(self, name: str, step: int | None = None) -> npt.NDArray[Any]:
+        """A field of shape (ny, nx), SI, mapped from its file, not read.
+
+        Parameters
+        ----------
+        name : str
+            Such as "pressure"; the scene's ``[output] fields`` names those that are written.
+        step : int, optional
+            The step; the last one that has the field unless told.
+        """
+        steps = [number for number, field in self.fields if field == name and step in (None, number)]
+        if not steps:
+            held = ", ".join(sorted({field for _, field in self.fields})) or "no field"
+            raise OutputError(f'{self.folder}: {name} is not there; it holds {held}; [output] fields = ["{name}"] writes it')
+        mapped: npt.NDArray[Any] = np.load(self.folder / "fields" / f"step_{steps[-1]:04}_{name}.npy", mmap_mode="r")
+        return mapped
 
     def plot(self, x: str = "approach", y: str = "force", axes: Any = None) -> Any:
         """Draws one column of the curve over another and returns the axis."""

@@ -5,7 +5,9 @@ from __future__ import annotations
 from dataclasses import dataclass
 from typing import Any
 
+from .errors import SceneError
 from .scene import Scene, field
+from .topography import from_topography, is_topography
 
 
 @dataclass(frozen=True)
@@ -56,25 +58,37 @@ class Contact(Scene):
 
     Parameters
     ----------
-    heights : array of shape (ny, nx)
-        Heights in metres, positive towards the solid. The numbers are copied once.
+    heights : array of shape (ny, nx), or a Topography of SurfaceTopography
+        Heights in metres, positive towards the solid; float64 or float32 in any layout. The numbers are copied once,
+        into the solver's own field.
     size : number or text, or two of them
-        Lengths of the cell along x and y.
+        Lengths of the cell along x and y, m; a Topography brings its own, and its boundary.
     contact_modulus : number or text, optional
         E*, with the counter-face's share; or give `solid`.
     law : MaugisDugdale, LennardJones or Exponential, optional
         The attraction; without one a hard wall is all there is.
-    boundary : {"periodic", "free"}
-        What lies beyond the edge.
-    solid, solver, **tables : mappings, optional
-        Further keys of ``[solid]``, ``[solver]`` and of any other table of a scene, such as
-        ``friction={"shear_strength": "10 MPa"}``.
-    treatment, rate, adhesion_map : optional
-        Effects of the adhesion.
+    boundary : {"periodic", "free"}, optional
+        What lies beyond the edge: the surface again, or nothing. Periodic unless told.
+    hardness : number or text, optional
+        Largest pressure that the solid carries, Pa.
+    treatment : {"full", "dmt"}, optional
+        Whether attraction deforms the contact, or is summed over the gap of the contact without it.
+    rate : mapping, optional
+        How the work of adhesion grows with the speed of a receding edge: the keys of ``[adhesion.rate]``.
+    adhesion_map : array of shape (ny, nx), optional
+        A factor on the tension of the law at each point.
     spring : number or text, optional
-        Stiffness of a spring between the prescribed approach and the body.
-    tolerance, max_iterations, precision, backend : optional
-        Keys of ``[solver]``.
+        Stiffness of a spring between the prescribed approach and the body, N/m.
+    tolerance, max_iterations : number, optional
+        When a solve ends.
+    precision : {"auto", "double", "mixed", "single"}, optional
+    backend : {"auto", "cpu", "gpu"}, optional
+    solid : mapping, optional
+        Further keys of ``[solid]``, such as those of a layer.
+    loading : mapping, optional
+        The keys of ``[loading]``, for `run` and for `path` without loads.
+    **tables
+        Further tables of a scene, such as ``friction={"shear_strength": "10 MPa"}``.
     threads : int, optional
         Threads of the processor.
     """
@@ -82,11 +96,11 @@ class Contact(Scene):
     def __init__(
         self,
         heights: Any,
-        size: Any,
+        size: Any = None,
         *,
         contact_modulus: float | str | None = None,
         law: MaugisDugdale | LennardJones | Exponential | None = None,
-        boundary: str = "periodic",
+        boundary: str | None = None,
         hardness: float | str | None = None,
         treatment: str | None = None,
         rate: dict[str, Any] | None = None,
@@ -101,6 +115,13 @@ class Contact(Scene):
         loading: dict[str, Any] | None = None,
         **tables: Any,
     ) -> None:
+        if is_topography(heights):
+            heights, own_size, own_boundary = from_topography(heights)
+            size = own_size if size is None else size
+            boundary = own_boundary if boundary is None else boundary
+        boundary = "periodic" if boundary is None else boundary
+        if size is None:
+            raise SceneError("size: the lengths of the cell are expected")
         values = field(heights, "heights")
         rows, columns = values.shape
         adhesion = None if law is None else law.table() | {"treatment": treatment, "rate": rate}

@@ -21,6 +21,10 @@ class TheoryError(TaborError, ValueError):
     """Arguments outside of the range of a theory."""
 
 
+class FitError(TaborError, ValueError):
+    """A force curve that cannot be read or fitted."""
+
+
 class NotEnoughMemoryError(TaborError, MemoryError):
     """The memory of this machine does not hold what is asked for."""
 

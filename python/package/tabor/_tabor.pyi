@@ -1,0 +1,71 @@
+from collections.abc import Callable, Mapping, Sequence
+from typing import Any, final
+
+import numpy as np
+import numpy.typing as npt
+
+_Array = npt.NDArray[np.float64]
+_Report = Callable[[int, int, float], object] | None
+
+__all__ = [
+    "__version__",
+    "LoadedScene",
+    "SolvedPath",
+    "colours",
+    "command_line",
+    "fit",
+    "json_from_toml",
+    "quantity",
+    "run",
+    "scales",
+    "spectrum",
+    "statistics",
+    "theory",
+    "theory_table",
+    "toml_from_json",
+]
+
+__version__: str
+
+@final
+class LoadedScene:
+    def __new__(
+        cls,
+        text: str,
+        name: str,
+        folder: str,
+        overrides: Sequence[tuple[str, str]],
+        heights: npt.NDArray[Any] | None = None,
+        factors: npt.NDArray[Any] | None = None,
+    ) -> LoadedScene: ...
+    def resolved_json(self) -> str: ...
+    def loads(self) -> list[tuple[str, float, float | None]]: ...
+    def path(self, threads: int | None = None) -> SolvedPath: ...
+    def heights(self, threads: int | None = None) -> tuple[_Array, tuple[float, float], list[str]]: ...
+
+@final
+class SolvedPath:
+    def solve(
+        self, word: str, value: float, seconds: float | None = None, progress: _Report = None
+    ) -> tuple[dict[str, Any], list[str]]: ...
+
+def colours(name: str) -> list[tuple[int, int, int]]: ...
+def command_line(words: Sequence[str]) -> int: ...
+def fit(path: str, text: str | None, how: Mapping[str, Any]) -> tuple[str, str, str, list[str]]: ...
+def json_from_toml(text: str) -> str: ...
+def quantity(text: str, dimension: str, argument: str) -> float: ...
+def run(
+    scene: LoadedScene,
+    folder: str,
+    resume: bool = False,
+    overwrite: bool = True,
+    images: bool = True,
+    threads: int | None = None,
+    progress: _Report = None,
+) -> tuple[str | None, list[tuple[bool, str]]]: ...
+def scales(heights: _Array, size: Sequence[float], is_periodic: bool) -> list[_Array]: ...
+def spectrum(heights: _Array, size: Sequence[float], is_periodic: bool) -> list[_Array]: ...
+def statistics(heights: _Array, size: Sequence[float], is_periodic: bool) -> dict[str, Any]: ...
+def theory(name: str, words: Sequence[tuple[str, str]], columns: Sequence[_Array]) -> tuple[list[_Array], int]: ...
+def theory_table(words: Sequence[str]) -> str: ...
+def toml_from_json(json: str) -> str: ...

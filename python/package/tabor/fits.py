@@ -1,0 +1,183 @@
+"""Work of adhesion and modulus from force curves."""
+
+from __future__ import annotations
+
+import csv
+import io
+import json
+import os
+import warnings
+from collections.abc import Mapping, Sequence
+from typing import Any, NamedTuple
+
+import numpy as np
+import numpy.typing as npt
+
+from . import _tabor
+from .errors import FitError, TaborWarning
+from .quantities import Quantity, si
+from .tables import structured
+
+
+class Estimate(NamedTuple):
+    """A fitted number."""
+
+    #: SI.
+    value: float
+    #: Standard deviation; None where the curve does not determine it.
+    uncertainty: float | None
+
+
+class Fit:
+    """A fitted force curve.
+
+    Attributes
+    ----------
+    model : str
+        The model that was chosen: "hertz", "dmt", "jkr" or "maugis-dugdale".
+    work_of_adhesion, contact_modulus, range, peak_tension : Estimate
+        J/m^2, Pa, m, Pa.
+    tabor_parameter : float
+        Tabor's number that follows.
+    report : dict
+        Everything, as in the command line's ``fit.json``, whose keys are attributes too.
+    curve : structured ndarray
+        The measured points beside the model: approach, force, model_force, segment, interacting.
+    """
+
+    def __init__(self, report: dict[str, Any], curve: npt.NDArray[np.void], headline: str) -> None:
+        self.report = report
+        self.curve = curve
+        self.headline = headline
+
+    def __getattr__(self, name: str) -> Any:
+        if name.startswith("_") or "report" not in self.__dict__:
+            raise AttributeError(name)
+        if name not in self.report:
+            raise AttributeError(f"a fit has no {name}; it has {', '.join(sorted(self.report))}")
+        value = self.report[name]
+        if isinstance(value, dict) and set(value) == {"value", "uncertainty"}:
+            return Estimate(**value)
+        return value
+
+    def __dir__(self) -> list[str]:
+        return sorted({*super().__dir__(), *self.report})
+
+    def plot(self, axes: Any = None) -> Any:
+        """Draws the curve and the model on a matplotlib axis and returns the axis."""
+        from .plots import plot_fit
+
+        return plot_fit(self, axes)
+
+    def __repr__(self) -> str:
+        return f"<Fit: {self.headline}>"
+
+
+def fit(
+    curve: Any,
+    *,
+    radius: Quantity | None = None,
+    cone: Quantity | None = None,
+    pyramid: Quantity | None = None,
+    contact_at_zero: bool = False,
+    baseline: bool = False,
+    baseline_slope: bool = False,
+    columns: Sequence[str] = (),
+    sensitivity: Quantity | None = None,
+    spring: Quantity | None = None,
+    spring_error: float = 0.0,
+    radius_error: float = 0.0,
+    relaxation: bool = False,
+    range: Quantity | None = None,
+) -> Fit:
+    """Fits Hertz, DMT, JKR and Maugis-Dugdale to a force curve and chooses one.
+
+    Parameters
+    ----------
+    curve : path, mapping, DataFrame or structured array, or two or three arrays
+        A file (CSV, or one of an instrument); columns ``approach`` (m, positive closer), ``force`` (N, positive in
+        compression) and perhaps ``time`` (s), or what `columns` chooses; or (approach, force) or (approach, force, time).
+    radius : number or text, optional
+        Radius of the sphere, m.
+    cone, pyramid : number or text, optional
+        In place of a sphere the angle between axis and flank or face, rad, or with a unit.
+    contact_at_zero : bool
+        The undeformed surfaces touch at approach 0; else that place is fitted.
+    baseline, baseline_slope : bool
+        Fit the force where nothing acts, and its slope.
+    columns : sequence of texts
+        Columns of an instrument, such as ``"position=Z [um]"``.
+    sensitivity : number or text, optional
+        Deflection per volt, m/V.
+    spring : number or text, optional
+        Spring constant of the cantilever, N/m.
+    spring_error, radius_error : float
+        Relative standard deviations.
+    relaxation : bool
+        Fit one relaxation time beside; the curve needs a time.
+    range : number or text, optional
+        Range of the attraction, m, where it is known.
+
+    Returns
+    -------
+    Fit
+
+    Examples
+    --------
+    >>> import numpy as np, tabor
+    >>> sphere = tabor.theory.maugis_dugdale.at_force("10 um", "1 GPa", "50 mJ/m^2", "5 MPa", np.linspace(-2.6e-6, 1e-5, 200))
+    >>> found = tabor.fit((sphere.approach, sphere.force), radius="10 um", contact_at_zero=True)
+    >>> found.model, round(found.work_of_adhesion.value, 4)
+    ('maugis-dugdale', 0.05)
+    """
+    given = [(name, size) for name, size in (("sphere", radius), ("cone", cone), ("pyramid", pyramid)) if size is not None]
+    if len(given) != 1:
+        raise FitError("give one of radius, cone and pyramid")
+    [(tip, size)] = given
+    path, text = _curve(curve)
+    how = {
+        "tip": tip,
+        "tip_size": si(size, "length" if tip == "sphere" else "angle", "radius" if tip == "sphere" else tip, FitError),
+        "contact_at_zero": bool(contact_at_zero),
+        "baseline": bool(baseline),
+        "baseline_slope": bool(baseline_slope),
+        "columns": list(columns),
+        "sensitivity": None if sensitivity is None else si(sensitivity, "length per voltage", "sensitivity", FitError),
+        "spring": None if spring is None else si(spring, "force per length", "spring", FitError),
+        "spring_error": si(spring_error, "number", "spring_error", FitError),
+        "radius_error": si(radius_error, "number", "radius_error", FitError),
+        "relaxation": bool(relaxation),
+        "range": None if range is None else si(range, "length", "range", FitError),
+    }
+    report, table, headline, said = _tabor.fit(path, text, how)
+    for words in said:
+        warnings.warn(words, TaborWarning, stacklevel=2)
+    return Fit(json.loads(report), structured(list(csv.reader(io.StringIO(table)))), headline)
+
+
+def _curve(curve: Any) -> tuple[str, str | None]:
+    """The path of a curve, or the text of one in memory."""
+    if isinstance(curve, (str, os.PathLike)):
+        return os.fspath(curve), None
+    if isinstance(curve, tuple):
+        if len(curve) not in (2, 3):
+            raise FitError(f"curve: (approach, force) or (approach, force, time) is expected, not {len(curve)} arrays")
+        table: Mapping[str, Any] = dict(zip(("approach", "force", "time"), curve))
+    elif isinstance(curve, np.ndarray) and curve.dtype.names:
+        table = {name: curve[name] for name in curve.dtype.names}
+    elif isinstance(curve, Mapping):
+        table = curve
+    elif hasattr(curve, "columns") and hasattr(curve, "__getitem__"):
+        table = {str(name): curve[name] for name in curve.columns}
+    else:
+        raise FitError(f"curve: a file, columns or arrays are expected, not {type(curve).__name__}")
+    arrays = {name: np.asarray(values) for name, values in table.items()}
+    if len({array.shape for array in arrays.values()}) > 1 or any(array.ndim != 1 for array in arrays.values()):
+        shapes = ", ".join(f"{name} {array.shape}" for name, array in arrays.items())
+        raise FitError(f"curve: columns of one length are expected, not {shapes}")
+    text = io.StringIO()
+    writer = csv.writer(text, lineterminator="\n")
+    writer.writerow(arrays)
+    # Python's shortest text of a float reads back as the same number.
+    writer.writerows(zip(*(array.tolist() for array in arrays.values())))
+    return "curve", text.getvalue().replace("True", "true").replace("False", "false")

@@ -1,0 +1,349 @@
+"""Surfaces as arrays: made, read, added up, and their statistics."""
+
+from __future__ import annotations
+
+import os
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
+from typing import Any, NamedTuple, Union
+
+import numpy as np
+import numpy.typing as npt
+
+from . import _tabor
+from .errors import SurfaceError
+from .quantities import Quantity, si
+from .scene import Scene, field
+
+#: One side of a square, or two sides (x, y).
+Size = Union[Quantity, Sequence[Quantity]]
+Array = npt.NDArray[np.float64]
+
+
+@dataclass(frozen=True)
+class SelfAffine:
+    """Random roughness with a self-affine spectrum.
+
+    Parameters
+    ----------
+    hurst : float
+        Hurst exponent.
+    rms_slope : float, optional
+    rms_height : number or text, optional
+        One of the two fixes the amplitude.
+    longest, rolloff, shortest : numbers or texts
+        Wavelengths: the longest, that below which the spectrum falls, and the shortest, m.
+    seed : int
+        Seed of the phases: the same surface on every grid and machine.
+    """
+
+    hurst: float = 0.8
+    rms_slope: float | None = None
+    rms_height: Quantity | None = None
+    longest: Quantity | None = None
+    rolloff: Quantity | None = None
+    shortest: Quantity | None = None
+    seed: int = 1
+
+    def table(self, side: float) -> dict[str, Any]:
+        """The keys of ``[[surface]]`` on a cell whose shorter side is `side`, m."""
+        longest = side if self.longest is None else self.longest
+        rolloff = longest if self.rolloff is None else self.rolloff
+        return {"kind": "self-affine", **vars(self), "longest": longest, "rolloff": rolloff}
+
+
+@dataclass(frozen=True)
+class Sphere:
+    """The paraboloid -r^2/(2 radius).
+
+    Parameters
+    ----------
+    radius : number or text
+        Radius of curvature, m.
+    centre : (x, y), optional
+        Its apex, m; the middle of the cell unless told.
+    """
+
+    radius: Quantity
+    centre: Sequence[Quantity] | None = None
+
+    def table(self, side: float) -> dict[str, Any]:
+        """The keys of ``[[surface]]``."""
+        return {"kind": "sphere", **vars(self)}
+
+
+@dataclass(frozen=True)
+class Cone:
+    """A cone.
+
+    Parameters
+    ----------
+    half_angle : number or text
+        Angle between axis and flank, in degrees as in a scene, or with a unit.
+    centre : (x, y), optional
+        Its apex, m; the middle of the cell unless told.
+    """
+
+    half_angle: Quantity
+    centre: Sequence[Quantity] | None = None
+
+    def table(self, side: float) -> dict[str, Any]:
+        """The keys of ``[[surface]]``."""
+        return {"kind": "cone", **vars(self)}
+
+
+@dataclass(frozen=True)
+class Wavy:
+    """The wave amplitude cos(2 pi x/wavelength_x) cos(2 pi y/wavelength_y).
+
+    Parameters
+    ----------
+    amplitude : number or text
+        m.
+    wavelength : number or text, or two of them
+        Along x and y, m; ``"inf"`` along an axis for none. One alone is that along x.
+    """
+
+    amplitude: Quantity
+    wavelength: Quantity | Sequence[Quantity]
+
+    def table(self, side: float) -> dict[str, Any]:
+        """The keys of ``[[surface]]``."""
+        return {"kind": "wavy", **vars(self)}
+
+
+@dataclass(frozen=True)
+class Flat:
+    """A flat surface."""
+
+    def table(self, side: float) -> dict[str, Any]:
+        """The keys of ``[[surface]]``."""
+        return {"kind": "flat"}
+
+
+class HeightFile:
+    """A height map from a file.
+
+    Parameters
+    ----------
+    path : path
+        The file: NumPy, text, grey images, and the formats of instruments that ``docs/surfaces.md`` lists.
+    **keys
+        Further keys of a ``[[surface]]`` of kind ``"file"``: unit, scale, detrend, fill, crop, outliers, edges, resample,
+        profile, black, white.
+    """
+
+    def __init__(self, path: str | os.PathLike[str], **keys: Any) -> None:
+        self.path = os.fspath(path)
+        self.keys = keys
+
+    def table(self, side: float) -> dict[str, Any]:
+        """The keys of ``[[surface]]``."""
+        return {"kind": "file", "path": os.path.abspath(self.path), **self.keys}
+
+    def __repr__(self) -> str:
+        return f"HeightFile({self.path!r})"
+
+
+Part = Union[SelfAffine, Sphere, Cone, Wavy, Flat, HeightFile, Mapping[str, Any]]
+
+
+class Surface(NamedTuple):
+    """Heights and the cell that they lie on."""
+
+    #: m, of shape (ny, nx).
+    heights: Array
+    #: (lx, ly), m.
+    size: tuple[float, float]
+
+
+def sides(size: Any, argument: str = "size") -> list[float]:
+    """The sides (lx, ly), m, of a size."""
+    each = list(size) if isinstance(size, (list, tuple, np.ndarray)) else [size, size]
+    if len(each) != 2:
+        raise SurfaceError(f"{argument}: one length or two are expected, not {len(each)}")
+    lengths = [si(side, "length", argument, SurfaceError) for side in each]
+    if min(lengths) <= 0:
+        raise SurfaceError(f"{argument}: must be more than zero")
+    return lengths
+
+
+def _scene(parts: Any, grid: dict[str, Any], side: float, threads: int | None) -> Scene:
+    each = parts if isinstance(parts, (list, tuple)) else [parts]
+    # What is no surface is not read: the modulus and the load stand for any.
+    return Scene(
+        {
+            "grid": grid,
+            "solid": {"contact_modulus": 1.0},
+            "surface": [part if isinstance(part, Mapping) else part.table(side) for part in each],
+            "loading": {"control": "force" if grid.get("boundary") == "free" else "pressure", "path": [0.0]},
+        },
+        threads=threads,
+    )
+
+
+def heights(
+    parts: Part | Sequence[Part],
+    points: tuple[int, int],
+    size: Size,
+    *,
+    boundary: str = "periodic",
+    threads: int | None = None,
+) -> Array:
+    """The sum of the heights of parts, m, of shape (ny, nx).
+
+    Parameters
+    ----------
+    parts : SelfAffine, Sphere, Cone, Wavy, Flat, HeightFile or mapping, or a list of them
+        A mapping has the keys of ``[[surface]]``.
+    points : (nx, ny)
+        Points along x and y.
+    size : number or text, or two of them
+        Lengths of the cell, m.
+    boundary : {"periodic", "free"}
+        Whether what leaves the cell on one side enters it on the other.
+
+    Examples
+    --------
+    >>> import tabor
+    >>> bumpy = tabor.heights([tabor.Sphere("50 um"), tabor.Wavy("1 nm", "1 um")], (64, 32), ("10 um", "5 um"))
+    >>> bumpy.shape
+    (32, 64)
+    """
+    lengths = sides(size)
+    return _scene(parts, {"points": list(points), "size": lengths, "boundary": boundary}, min(lengths), threads).heights()
+
+
+def read_heights(path: str | os.PathLike[str], size: Size | None = None, **keys: Any) -> Surface:
+    """Heights of a file and the size of its cell.
+
+    Parameters
+    ----------
+    path : path
+        The file.
+    size : number or text, or two of them, optional
+        Lengths of the cell, where the file does not say them.
+    **keys
+        As in `HeightFile`.
+    """
+    grid = {} if size is None else {"size": sides(size)}
+    found, lengths = _scene(HeightFile(path, **keys), grid, 0.0, None).surface()
+    return Surface(found, (lengths[0], lengths[1]))
+
+
+def self_affine(
+    points: tuple[int, int],
+    size: Size,
+    *,
+    hurst: float = 0.8,
+    rms_slope: float | None = None,
+    rms_height: Quantity | None = None,
+    longest: Quantity | None = None,
+    rolloff: Quantity | None = None,
+    shortest: Quantity,
+    seed: int = 1,
+) -> Array:
+    """Heights of self-affine roughness, m, of shape (ny, nx).
+
+    Parameters
+    ----------
+    points : (nx, ny)
+        Points along x and y.
+    size : number or text, or two of them
+        Lengths of the cell, m.
+    hurst : float
+        Hurst exponent.
+    rms_slope, rms_height : optional
+        One of them fixes the amplitude.
+    longest, rolloff, shortest : numbers or texts
+        Wavelengths, m: the longest (by default the shorter side), that below which the spectrum falls (by default the
+        longest), and the shortest.
+    seed : int
+        Seed of the phases.
+    """
+    part = SelfAffine(hurst, rms_slope, rms_height, longest, rolloff, shortest, seed)
+    return heights(part, points, size)
+
+
+def _map(array: Any, size: Size) -> tuple[Array, list[float]]:
+    values = field(array, "heights").astype(np.float64, copy=False)
+    return np.ascontiguousarray(values), sides(size)
+
+
+def statistics(heights: Any, size: Size, *, boundary: str = "periodic") -> dict[str, float]:
+    """Statistics of a height map.
+
+    Parameters
+    ----------
+    heights : array of shape (ny, nx)
+        m.
+    size : number or text, or two of them
+        Lengths of the cell, m.
+    boundary : {"periodic", "free"}
+        Whether the map repeats.
+
+    Returns
+    -------
+    dict
+        mean, lowest, highest, rms_height, mean_deviation, correlation_length, mean_summit_height, mean_summit_radius (m),
+        skewness, kurtosis, rms_slope, rms_curvature (1/m), nayak_parameter, summit_density (1/m^2); None for what a flat
+        map does not have.
+    """
+    values, lengths = _map(heights, size)
+    found: dict[str, float] = _tabor.statistics(values, lengths, _periodic(boundary))
+    return found
+
+
+def spectrum(heights: Any, size: Size, *, boundary: str = "periodic") -> npt.NDArray[np.void]:
+    """The power spectral density averaged over rings, long waves first.
+
+    Parameters
+    ----------
+    heights : array of shape (ny, nx)
+        m.
+    size : number or text, or two of them
+        Lengths of the cell, m.
+    boundary : {"periodic", "free"}
+        Whether the map repeats; if not, its edges are windowed.
+
+    Returns
+    -------
+    structured array
+        wavenumber, 1/m; density, m^4, whose integral over wavevectors is the mean square height; modes, their number.
+    """
+    values, lengths = _map(heights, size)
+    return _table(("wavenumber", "density", "modes"), _tabor.spectrum(values, lengths, _periodic(boundary)))
+
+
+def scale_dependence(heights: Any, size: Size, *, boundary: str = "periodic") -> npt.NDArray[np.void]:
+    """Slope and curvature of profiles along x over a distance: Sanner et al. 2022.
+
+    Parameters
+    ----------
+    heights : array of shape (ny, nx)
+        m.
+    size : number or text, or two of them
+        Lengths of the cell, m.
+    boundary : {"periodic", "free"}
+        Whether the map repeats.
+
+    Returns
+    -------
+    structured array
+        distance, m; slope; curvature, 1/m.
+    """
+    values, lengths = _map(heights, size)
+    return _table(("distance", "slope", "curvature"), _tabor.scales(values, lengths, _periodic(boundary)))
+
+
+def _periodic(boundary: str) -> bool:
+    if boundary not in ("periodic", "free"):
+        raise SurfaceError(f'boundary: "{boundary}" is not one of periodic, free')
+    return boundary == "periodic"
+
+
+def _table(names: tuple[str, ...], columns: Sequence[Array]) -> npt.NDArray[np.void]:
+    table = np.empty(len(columns[0]), dtype=[(name, np.float64) for name in names])
+    for name, column in zip(names, columns):
+        table[name] = column
+    return table

@@ -1,0 +1,89 @@
+//! Force curves fitted.
+
+use std::path::PathBuf;
+
+use pyo3::prelude::*;
+use tabor::fit::{
+    Calibration, ColumnChoice, CurveColumns, FitError, FitResult, ForceCurve, Freedom, Indenter,
+    fit_curve, fit_relaxation, fit_with_slope, headline, report, table,
+};
+
+use crate::errors;
+
+/// What to fit, and how; lengths in m, angles in rad.
+#[derive(FromPyObject)]
+#[pyo3(from_item_all)]
+pub struct How {
+    /// "sphere", "cone" or "pyramid".
+    tip: String,
+    /// Radius of the sphere, or half angle.
+    tip_size: f64,
+    contact_at_zero: bool,
+    baseline: bool,
+    baseline_slope: bool,
+    columns: Vec<String>,
+    sensitivity: Option<f64>,
+    spring: Option<f64>,
+    spring_error: f64,
+    radius_error: f64,
+    relaxation: bool,
+    range: Option<f64>,
+}
+
+/// The report of a fit as JSON, the curve with the model as CSV, the result in a line, and warnings.
+type Fitted = (String, String, String, Vec<String>);
+
+/// Fits a file, or the CSV `text` of a curve that messages call `path`.
+#[pyfunction]
+pub fn fit(py: Python<'_>, path: PathBuf, text: Option<&str>, how: How) -> PyResult<Fitted> {
+    let refused = |words: &str| errors::raise(py, "FitError", words);
+    let mut columns = CurveColumns::default();
+    (columns.sensitivity, columns.spring) = (how.sensitivity, how.spring);
+    columns.choices = how
+        .columns
+        .iter()
+        .map(|choice| ColumnChoice::parse(choice))
+        .collect::<Result<_, _>>()
+        .map_err(|words| refused(&format!("columns: {words}")))?;
+    let tip = match how.tip.as_str() {
+        "cone" => Indenter::Cone {
+            half_angle: how.tip_size,
+        },
+        "pyramid" => Indenter::Pyramid {
+            half_angle: how.tip_size,
+        },
+        _ => Indenter::from(how.tip_size),
+    };
+    let solve = || -> Result<FitResult, FitError> {
+        let curve = match text {
+            Some(text) => ForceCurve::parse(text.as_bytes(), &path, &columns)?,
+            None => ForceCurve::read_columns(&path, &columns)?,
+        };
+        let freedom = Freedom {
+            approach_offset: !how.contact_at_zero,
+            force_offset: how.baseline,
+            range: how.range,
+        };
+        let fit = if how.baseline_slope {
+            fit_with_slope
+        } else {
+            fit_curve
+        };
+        let mut result = fit(&curve, &path, tip, freedom)?;
+        Calibration::new(how.radius_error, how.spring_error).widen(&mut result);
+        if how.relaxation {
+            result.relaxation = Some(fit_relaxation(&curve, &path, &result)?);
+        }
+        Ok(result)
+    };
+    let mut result = py
+        .detach(solve)
+        .map_err(|error| refused(&error.to_string()))?;
+    let warnings = std::mem::take(&mut result.warnings);
+    Ok((
+        report(&result, &path).to_string(),
+        table(&result),
+        headline(&result),
+        warnings,
+    ))
+}

@@ -1,0 +1,72 @@
+"""Force curves fitted."""
+
+import numpy as np
+import pytest
+
+import tabor
+from tabor import theory
+
+# What a fit says of its doubts is no error here.
+pytestmark = pytest.mark.filterwarnings("ignore::tabor.TaborWarning")
+SPHERE = ("10 um", "1 GPa", "50 mJ/m^2")
+
+
+def curve(noise=0.0):
+    state = theory.maugis_dugdale.at_force(*SPHERE, "5 MPa", np.linspace(-2.6e-6, 1e-5, 200))
+    generator = np.random.default_rng(1)
+    return state.approach, state.force + noise * generator.normal(size=200)
+
+
+def test_a_curve_gives_back_its_sphere():
+    found = tabor.fit(curve(5e-9), radius="10 um")
+    for name, true in (("work_of_adhesion", 0.05), ("contact_modulus", 1e9)):
+        estimate = getattr(found, name)
+        # Three standard deviations, and the 1 % of the curve's few points.
+        assert abs(estimate.value - true) < 3 * estimate.uncertainty + 0.01 * true
+    assert found.curve.dtype.names[:2] == ("approach", "position")
+    assert "Fit" in repr(found)
+
+
+def test_all_kinds_of_curves_are_the_same(tmp_path):
+    approach, force = curve()
+    pandas = pytest.importorskip("pandas")
+    np.savetxt(tmp_path / "curve.csv", np.c_[approach, force], delimiter=",", header="approach,force", comments="")
+    table = np.rec.fromarrays([approach, force], names="approach,force")
+    kinds = [
+        (approach, force),
+        {"approach": approach, "force": force},
+        table,
+        pandas.DataFrame({"approach": approach, "force": force}),
+        tmp_path / "curve.csv",
+    ]
+    fits = [tabor.fit(kind, radius="10 um", contact_at_zero=True) for kind in kinds]
+    assert len({fit.work_of_adhesion for fit in fits}) == 1
+
+
+def test_pictures():
+    matplotlib = pytest.importorskip("matplotlib")
+    matplotlib.use("Agg")
+    axes = tabor.fit(curve(5e-9), radius="10 um").plot()
+    assert axes.get_xlabel().startswith("approach")
+
+
+@pytest.mark.parametrize(
+    ("call", "words"),
+    [
+        (lambda: tabor.fit(curve()), "radius"),
+        (lambda: tabor.fit(curve(), radius=1e-5, cone=0.3), "radius"),
+        (lambda: tabor.fit(curve(), radius=-1.0), "radius"),
+        (lambda: tabor.fit(curve(), radius="1 Pa"), "radius"),
+        (lambda: tabor.fit(([0.0], [0.0]), radius=1e-5), "row"),
+        (lambda: tabor.fit((np.zeros(3), np.zeros(4)), radius=1e-5), "one length"),
+        (lambda: tabor.fit((np.zeros(3),), radius=1e-5), "approach"),
+        (lambda: tabor.fit({"force": np.zeros(20)}, radius=1e-5), "approach"),
+        (lambda: tabor.fit(3.0, radius=1e-5), "curve"),
+        (lambda: tabor.fit("none.csv", radius=1e-5), "none.csv"),
+        (lambda: tabor.fit(curve(), radius=1e-5, columns=["depth=1"]), "columns"),
+    ],
+)
+def test_mistakes_name_what_is_wrong(call, words):
+    with pytest.raises(ValueError, match=words) as raised:
+        call()
+    assert isinstance(raised.value, tabor.TaborError)

@@ -1,0 +1,104 @@
+"""Scenes, folders of runs, studies, and the program."""
+
+import subprocess
+import sys
+
+import numpy as np
+import pytest
+
+import tabor
+
+SCENE = {
+    "grid": {"points": 32, "size": "4 um"},
+    "solid": {"contact_modulus": "100 MPa"},
+    "surface": [{"kind": "self-affine", "hurst": 0.8, "rms_slope": 0.1, "longest": "4 um", "rolloff": "2 um", "shortest": "1 um", "seed": 1}],
+    "adhesion": {"law": "maugis-dugdale", "work_of_adhesion": "20 mJ/m^2", "range": "10 nm"},
+    "loading": {"control": "pressure", "path": ["1 MPa", "2 MPa"]},
+    "output": {"fields": ["pressure", "gap"], "steps": [1, 2]},
+}
+
+
+@pytest.fixture(scope="module")
+def run(tmp_path_factory):
+    return tabor.Scene(SCENE).run(tmp_path_factory.mktemp("runs") / "run", images=False)
+
+
+def test_a_run_is_read_back(run):
+    assert len(run.curve) == 2
+    assert run.curve["converged"].all()
+    assert run.summary["pull_off_force"] is None
+    assert run.fields == [(1, "gap"), (1, "pressure"), (2, "gap"), (2, "pressure")]
+    field = run.field("pressure")
+    assert isinstance(field, np.memmap) and field.shape == (32, 32)
+    assert field.mean() == pytest.approx(2e6, rel=1e-5)
+    assert run.field("pressure", 1).mean() == pytest.approx(1e6, rel=1e-5)
+    assert len(run.to_frame()) == 2
+    with pytest.raises(tabor.OutputError, match="displacement"):
+        run.field("displacement")
+
+
+def test_a_path_is_the_run(run):
+    steps = list(tabor.Scene(SCENE).path())
+    assert [step.contact_area_fraction for step in steps] == pytest.approx(run.curve["contact_area_fraction"], rel=1e-12)
+    np.testing.assert_array_equal(steps[1].pressure, run.field("pressure", 2))
+
+
+def test_a_scene_is_written_and_read(tmp_path):
+    tabor.Scene(SCENE).write(tmp_path / "scene.toml")
+    read = tabor.Scene.read(tmp_path / "scene.toml", {"grid.points": 16})
+    assert read.resolved["grid"]["points"] == [16, 16]
+    assert tabor.Scene.read(tmp_path / "scene.toml").resolved == tabor.Scene(SCENE).resolved
+    with pytest.raises(tabor.SceneError, match="array"):
+        tabor.Scene(SCENE, heights=np.zeros((32, 32))).write(tmp_path / "other.toml")
+
+
+def test_a_missing_file_is_named(tmp_path):
+    with pytest.raises(tabor.SceneError, match="none.toml"):
+        tabor.Scene.read(tmp_path / "none.toml")
+    with pytest.raises(tabor.OutputError, match="curve.csv"):
+        tabor.Run(tmp_path)
+
+
+def test_a_folder_of_something_else_is_refused(tmp_path):
+    (tmp_path / "thesis.tex").write_text("years of work")
+    with pytest.raises(tabor.OutputError):
+        tabor.Scene(SCENE).run(tmp_path, images=False)
+    assert (tmp_path / "thesis.tex").exists()
+
+
+def test_the_program(tmp_path):
+    def tabor_of(word):
+        # Elsewhere, so that the installed package is found and not its source.
+        return subprocess.run([sys.executable, "-m", "tabor", word], capture_output=True, text=True, cwd=tmp_path)
+
+    done = tabor_of("--version")
+    assert (done.returncode, done.stdout.split()) == (0, ["tabor", tabor.__version__])
+    wrong = tabor_of("rnu")
+    assert wrong.returncode == 2 and "rnu" in wrong.stderr
+
+
+def test_a_sweep(tmp_path):
+    (tmp_path / "base.toml").write_text(tabor.Scene({**SCENE, "output": {}}).to_toml())
+    study = {"scene": str(tmp_path / "base.toml"), "axis": [{"key": "surface.0.seed", "values": [1, 2]}, {"key": "surface.0.rms_slope", "values": [0.05, 0.1]}]}
+    found = tabor.sweep(study, tmp_path / "swept", jobs=1)
+    assert len(found["sweep"]) == 8
+    assert set(found.tables) >= {"means", "runs", "sweep"}
+    assert found.pictures
+
+
+def test_models_are_compared(tmp_path):
+    found = tabor.compare(SCENE, tmp_path / "compared")
+    assert "compare" in found.tables and len(found["compare"]) > 0
+
+
+def test_a_study_of_a_wrong_scene_says_what_is_wrong(tmp_path):
+    with pytest.raises(tabor.SceneError, match="did you mean"):
+        tabor.compare({**SCENE, "gird": {}}, tmp_path / "compared")
+    with pytest.raises(tabor.SceneError, match="file"):
+        tabor.compare(tabor.Contact(np.zeros((8, 8)), 1.0, contact_modulus=1.0), tmp_path / "compared")
+
+
+def test_a_scene_that_pulls_until_apart_says_where_a_path_ends():
+    scene = tabor.Scene({**SCENE, "loading": {"control": "pressure", "path": ["1 MPa", "0 Pa"], "until": "apart"}})
+    with pytest.warns(tabor.TaborWarning, match="until"):
+        assert len(list(scene.path())) == 2

@@ -1,0 +1,119 @@
+"""What a step gives: pictures, datasets, pickles, words."""
+
+import concurrent.futures
+import multiprocessing
+import pickle
+
+import numpy as np
+import pytest
+
+import tabor
+
+
+def contact():
+    heights = tabor.self_affine((32, 24), ("4 um", "3 um"), rms_slope=0.1, shortest="1 um")
+    return tabor.Contact(heights, ("4 um", "3 um"), contact_modulus="100 MPa", law=tabor.Exponential("20 mJ/m^2", range="10 nm"))
+
+
+@pytest.fixture(scope="module")
+def step():
+    return contact().solve(pressure="1 MPa")
+
+
+def test_fields_and_numbers(step):
+    for name in ("pressure", "gap", "displacement", "heights", "contact"):
+        assert getattr(step, name).shape == (24, 32)
+    assert step.contact.mean() == pytest.approx(step.contact_area_fraction, abs=0.02)
+    np.testing.assert_allclose(step.pressure.mean(), step.mean_pressure, rtol=1e-6)
+    assert step.force == pytest.approx(1e6 * 4e-6 * 3e-6, rel=1e-6)
+    with pytest.raises(AttributeError, match="preasure"):
+        step.preasure  # noqa: B018
+
+
+def test_datasets(step):
+    dataset = step.to_dataset()
+    assert dataset["pressure"].attrs["units"] == "Pa"
+    assert dataset.sizes == {"y": 24, "x": 32}
+    assert float(dataset["x"][-1]) == pytest.approx(4e-6 * 31 / 32)
+
+
+def test_steps_pickle(step):
+    again = pickle.loads(pickle.dumps(step))
+    np.testing.assert_array_equal(again.gap, step.gap)
+    assert again.residual == step.residual
+
+
+def test_words(step):
+    assert "in contact" in repr(step) and "converged" not in repr(step)
+    assert "<table>" in step._repr_html_()
+    assert "exponential" in repr(contact()) and "exponential" in contact()._repr_html_()
+
+
+def solve(pressure):
+    return contact().solve(pressure=pressure).contact_area_fraction
+
+
+def test_processes_share_contacts():
+    pressures = [1e5, 1e6, 2e6]
+    with concurrent.futures.ProcessPoolExecutor(2, multiprocessing.get_context("spawn")) as pool:
+        assert list(pool.map(solve, pressures)) == [solve(pressure) for pressure in pressures]
+
+
+def test_threads_share_a_contact():
+    one = contact()
+    with concurrent.futures.ThreadPoolExecutor(3) as pool:
+        steps = list(pool.map(lambda pressure: one.solve(pressure=pressure), [1e6] * 3))
+    for each in steps[1:]:
+        np.testing.assert_array_equal(each.gap, steps[0].gap)
+
+
+def test_a_step_that_does_not_converge_says_so():
+    heights = tabor.self_affine((32, 32), 4e-6, rms_slope=0.1, shortest=1e-6)
+    rough = tabor.Contact(heights, 4e-6, contact_modulus=1e8, max_iterations=2)
+    with pytest.warns(tabor.NotConvergedWarning, match="residual"):
+        assert not rough.solve(pressure=1e6).converged
+
+
+def test_progress_hears_iterations():
+    heard = []
+    heights = tabor.self_affine((512, 512), 4e-6, rms_slope=0.1, shortest=4e-8)
+    rough = tabor.Contact(heights, 4e-6, contact_modulus=1e8, tolerance=1e-8)
+    rough.solve(pressure=1e6, progress=lambda finished, iteration, residual: heard.append((iteration, residual)))
+    assert heard and all(iteration >= 0 and residual >= 0 for iteration, residual in heard)
+
+
+def test_what_progress_raises_ends_the_solve():
+    def raising(finished, iteration, residual):
+        raise RuntimeError("enough")
+
+    heights = tabor.self_affine((512, 512), 4e-6, rms_slope=0.1, shortest=1.6e-8)
+    rough = tabor.Contact(heights, 4e-6, contact_modulus=1e8, tolerance=1e-13, max_iterations=100_000)
+    with pytest.raises(RuntimeError, match="enough"):
+        rough.solve(pressure=1e6, progress=raising)
+
+
+def test_pictures(step, tmp_path):
+    matplotlib = pytest.importorskip("matplotlib")
+    matplotlib.use("Agg")
+    import matplotlib.pyplot as pyplot
+
+    figure, axes = pyplot.subplots()
+    assert step.plot("pressure", axes) is axes
+    assert axes.get_images()[0].get_cmap().name == "tabor_signed"
+    assert step.plot("gap").get_images()[0].get_cmap().name == "tabor_rising"
+    with pytest.raises(ValueError, match="no field"):
+        step.plot("force")
+    pyplot.close("all")
+
+
+def test_topographies():
+    topography = pytest.importorskip("SurfaceTopography")
+    values = np.random.default_rng(1).normal(size=(6, 4))
+    mapped = topography.Topography(values, (3.0, 2.0), unit="nm", periodic=True)
+    rough = tabor.Contact(mapped, contact_modulus="1 GPa")
+    assert rough.resolved["grid"]["points"] == [6, 4]
+    assert rough.resolved["grid"]["size"] == pytest.approx([3e-9, 2e-9])
+    np.testing.assert_allclose(rough.heights(), values.T * 1e-9, rtol=1e-15)
+    back = rough.solve(pressure="1 MPa").to_topography("heights")
+    np.testing.assert_allclose(back.heights(), values * 1e-9, rtol=1e-12)
+    assert back.physical_sizes == pytest.approx((3e-9, 2e-9)) and back.is_periodic and back.unit == "m"
