@@ -187,10 +187,22 @@ fn resources(plan: &Plan, cost: &Cost, verbose: bool) -> Vec<String> {
     } else {
         String::new()
     };
-    let mut lines = vec![format!(
-        "memory        {} at most on this machine{adapter}",
-        mebibytes(memory.machine)
-    )];
+    let machine = if memory.machine > memory.without_search {
+        format!(
+            "{} on this machine, {} if it looks for a jump within a step",
+            mebibytes(memory.without_search),
+            mebibytes(memory.machine)
+        )
+    } else {
+        format!("{} on this machine", mebibytes(memory.machine))
+    };
+    let mut lines = vec![format!("memory        {machine}{adapter}")];
+    if memory.drivers > 0 {
+        lines.push(format!(
+            "              with {} for graphics drivers, which a run on the processor (--backend cpu) does not load",
+            mebibytes(memory.drivers)
+        ));
+    }
     if !cost.reference.is_empty() {
         let device = if cost.place.on_gpu() {
             "GPU if it supports that, else on the processor"

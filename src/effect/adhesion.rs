@@ -2,7 +2,7 @@
 
 use crate::law::Law;
 use crate::scene::{Range, Scene, Treatment};
-use crate::study::{Column, Evaluation, Hooks, HostBytes, Plan, Regime, Setup, Sizes};
+use crate::study::{Column, Evaluation, Hooks, Plan, Regime, Setup};
 use crate::units::format_si;
 
 /// Values of chi (grid spacing over the length of the cohesive zone) above which the pixels influence the
@@ -72,10 +72,6 @@ impl Hooks for Adhesion {
         warnings_of_pixels(plan)
     }
 
-    fn host_bytes(&self, _: &Sizes) -> HostBytes {
-        states_of_a_search()
-    }
-
     fn columns(&self) -> &'static [Column] {
         &[ATTRACTION]
     }
@@ -90,14 +86,6 @@ pub(super) fn attraction(setup: &Setup, evaluation: Option<&Evaluation>) -> (Col
     let pressures = evaluation.map_or(&[][..], |evaluation| &evaluation.pressure);
     let tension = pressures.iter().fold(0.0, |sum, p| sum + (-p).max(0.0));
     (ATTRACTION, tension * setup.surface.grid.pixel_area())
-}
-
-/// A step keeps the state before it, and a search between the two three at most.
-pub(super) fn states_of_a_search() -> HostBytes {
-    HostBytes {
-        states: 3,
-        ..HostBytes::default()
-    }
 }
 
 /// Warnings by chi, with the errors that were measured on spheres and on straight edges.

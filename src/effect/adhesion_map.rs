@@ -2,7 +2,7 @@
 
 use crate::scene::Scene;
 use crate::solver::Problem;
-use crate::study::{Hooks, Plan};
+use crate::study::{DOUBLE, Hooks, HostBytes, Plan, Sizes};
 
 /// A tension that differs from point to point.
 pub(super) struct AdhesionMap;
@@ -43,6 +43,14 @@ impl Hooks for AdhesionMap {
         format!(
             "matters where it varies over lengths of the contacts: here the factor is {mean:.3} on average, give or take {deviation:.3}"
         )
+    }
+
+    fn host_bytes(&self, sizes: &Sizes) -> HostBytes {
+        HostBytes {
+            // The factors of the surface, of the problem and of the watch for jumps.
+            kept: 3 * DOUBLE * sizes.points,
+            ..HostBytes::default()
+        }
     }
 
     fn pose(&self, problem: Problem, _: &Scene, map: Option<&[f64]>) -> Problem {

@@ -1,10 +1,10 @@
 //! `[capillary]`: a liquid that condenses between the surfaces pulls them together. The scene turns it
 //! into the cohesive law of its meniscus.
 
-use super::adhesion::{ATTRACTION, attraction, states_of_a_search, warnings_of_pixels};
+use super::adhesion::{ATTRACTION, attraction, warnings_of_pixels};
 use crate::law::LEAST_KELVIN_RADIUS;
 use crate::scene::Scene;
-use crate::study::{Column, Evaluation, Hooks, HostBytes, Plan, Setup, Sizes};
+use crate::study::{Column, Evaluation, Hooks, Plan, Setup};
 use crate::units::format_si;
 
 /// A liquid bridge in each narrow gap.
@@ -61,10 +61,6 @@ impl Hooks for Capillary {
             )
         });
         dry.into_iter().chain(warnings_of_pixels(plan)).collect()
-    }
-
-    fn host_bytes(&self, _: &Sizes) -> HostBytes {
-        states_of_a_search()
     }
 
     // The column is declared by `adhesion`, in whose place this effect is.

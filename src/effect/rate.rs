@@ -11,7 +11,7 @@ use super::edge::Edge;
 use crate::backend::BackendError;
 use crate::scene::{RateScene, Scene};
 use crate::solver::{Load, Problem, Start};
-use crate::study::{Attempt, Hooks, Plan, PointState, SolvedStep};
+use crate::study::{Attempt, DOUBLE, Hooks, HostBytes, Plan, PointState, Sizes, SolvedStep};
 use crate::units::format_si;
 
 /// Relative error up to which factor and speed agree.
@@ -79,6 +79,17 @@ impl Hooks for Rate {
         // A receding edge has a factor.
         let ones = vec![1.0; problem.heights.len()];
         problem.with_adhesion_map(ones)
+    }
+
+    fn host_bytes(&self, sizes: &Sizes) -> HostBytes {
+        HostBytes {
+            // Factors of one, and those of the present speed.
+            kept: 2 * DOUBLE * sizes.points,
+            // The gap before, on the surface and as the start of each trial.
+            passing: DOUBLE * (sizes.points + sizes.solved),
+            // The first trial.
+            results: 1,
+        }
     }
 
     // The dissipation of a moving edge cannot be told from that of a jump.

@@ -180,7 +180,9 @@ impl<'a> RunRecorder<'a> {
                 self.write_fields(number, &evaluation)?;
             }
             (StepChoice::Last, evaluation) => {
-                self.last = evaluation.map(|evaluation| (number, evaluation));
+                // In case the path ends early.
+                let kept = evaluation.filter(|_| asked);
+                self.last = kept.map(|evaluation| (number, evaluation));
             }
             (StepChoice::All, Some(evaluation)) => self.write_fields(number, &evaluation)?,
             (StepChoice::List(list), Some(evaluation)) if list.contains(&number) => {

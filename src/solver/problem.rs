@@ -367,18 +367,17 @@ impl Problem {
     }
 
     /// The heights over all solved points, 0 on a pad; none of a sketch.
-    pub fn padded_heights(&self) -> impl Iterator<Item = f64> + '_ {
+    pub fn padded_heights(&self) -> impl ExactSizeIterator<Item = f64> + '_ {
         let [width, rows] = self.shape.points;
         let rows = if self.is_sketch() { 0 } else { rows };
         let [nx, ny] = self.shape.surface;
-        (0..rows).flat_map(move |y| {
-            (0..width).map(move |x| {
-                if x < nx && y < ny {
-                    self.heights.at(y * nx + x)
-                } else {
-                    0.0
-                }
-            })
+        (0..rows * width).map(move |point| {
+            let (x, y) = (point % width, point / width);
+            if x < nx && y < ny {
+                self.heights.at(y * nx + x)
+            } else {
+                0.0
+            }
         })
     }
 
@@ -392,7 +391,10 @@ impl Problem {
 
     /// The same as a field of its own.
     pub fn surface_part(&self, values: &[f64]) -> Vec<f64> {
-        self.on_surface(values).collect()
+        // Its length is known here, so that it does not grow into the memory of two.
+        let mut part = Vec::with_capacity(self.shape.surface_len());
+        part.extend(self.on_surface(values));
+        part
     }
 
     /// The same in the place of the values.

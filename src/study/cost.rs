@@ -2,6 +2,7 @@
 
 use super::control::Controller;
 use super::hooks::{Effects, HostBytes, Sizes};
+use super::pull_off::is_tensile;
 use super::regime::law_of;
 use super::setup::Setup;
 use crate::backend::{
@@ -13,7 +14,7 @@ use crate::grid::Boundary;
 use crate::grid::Grid;
 use crate::law::Law;
 use crate::scene::{BackendName, Control, Precision, Scene};
-use crate::solver::{ContactSolver, Problem, Start, plan_outer_state};
+use crate::solver::{ContactSolver, Hold, Problem, Start, plan_outer_state};
 
 /// Fields, tables and passes of a scene's solver, and what is kept between its steps.
 #[derive(Clone, Debug, PartialEq)]
@@ -45,10 +46,42 @@ pub struct Cost {
     pub(super) reference_resting: usize,
     /// Whether the stiffness of the waves is a table, and no formula.
     pub(super) is_tabulated: bool,
-    /// Whether solves start from a gap that the host holds.
+    /// Whether the first solve starts from a gap that the host holds.
     pub(super) starts_from_gap: bool,
+    /// Whether the later ones do too.
+    pub(super) moves_the_gap: bool,
     /// Whether the first step may be helped by coarser grids.
     pub(super) starts_coarse: bool,
+    /// What is looked for between two steps of the path.
+    pub(super) searches: Searches,
+}
+
+/// What is looked for between two steps of a path.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) struct Searches {
+    /// Jumps.
+    pub jumps: bool,
+    /// The load of pull-off.
+    pub pull_off: bool,
+    /// Whether a solver of its own does it, for a problem that depends on how long a step takes.
+    pub with_own_solver: bool,
+}
+
+impl Searches {
+    fn new(effects: &Effects, scene: &Scene, law: Law) -> Searches {
+        let loading = &scene.loading;
+        let follows = law.is_adhesive() && (loading.path.len() > 1 || loading.until_apart);
+        Searches {
+            jumps: follows && !effects.hide_jumps(),
+            pull_off: follows && is_tensile(loading),
+            with_own_solver: effects.depend_on_duration(),
+        }
+    }
+
+    /// Whether a step keeps the state before it.
+    pub fn keep_state(self) -> bool {
+        self.jumps || self.pull_off
+    }
 }
 
 impl Cost {
@@ -165,6 +198,8 @@ fn plan(
     };
     let transforms = iterated.transforms() - started.transforms();
     let resting = iterated.released_bytes();
+    // The scene's own law: the one that is solved for may leave the attraction out.
+    let law = law_of(scene, problem.grid.dx().max(problem.grid.dy()), 1.0);
     Ok(Cost {
         place,
         fields: iterated.fields,
@@ -182,8 +217,10 @@ fn plan(
         starts_from_gap: spring.is_some()
             || problem.boundary == Boundary::Free
             || matches!(scene.loading.control, Control::MeanGap | Control::Approach),
+        moves_the_gap: matches!(load.hold, Hold::Gap(_)),
         starts_coarse: problem.law == Law::HardWall
             && problem.boundary == Boundary::Periodic
             && spring.is_none(),
+        searches: Searches::new(effects, scene, law),
     })
 }

@@ -181,10 +181,8 @@ pub struct HostBytes {
     pub kept: u64,
     /// During one part of a step only; the largest counts.
     pub passing: u64,
-    /// Results of solves that are held beside the one that is evaluated.
+    /// Results of solves that are held beside the one that is solved.
     pub results: u64,
-    /// States of the path that a step holds beside its own.
-    pub states: u64,
 }
 
 impl HostBytes {
@@ -194,7 +192,6 @@ impl HostBytes {
             kept: self.kept + other.kept,
             passing: self.passing.max(other.passing),
             results: self.results + other.results,
-            states: self.states.max(other.states),
         }
     }
 }
@@ -253,6 +250,11 @@ impl Effects {
         self.iter()
             .find_map(|effect| effect.problem_over(setup, duration))
             .map_or(Cow::Borrowed(&setup.problem), Cow::Owned)
+    }
+
+    /// Whether one of them hides jumps.
+    pub fn hide_jumps(&self) -> bool {
+        self.iter().any(|effect| effect.hides_jumps())
     }
 
     /// Memory of the host beyond their kept fields.

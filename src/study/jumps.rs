@@ -81,8 +81,7 @@ struct Before {
 impl Jumps {
     /// A watch for the steps of a setup. Without adhesion nothing jumps, and some effects hide jumps.
     pub fn new(setup: &Setup) -> Self {
-        let hidden = setup.effects.iter().any(|effect| effect.hides_jumps());
-        let adhesive = setup.law.is_adhesive() && !hidden;
+        let adhesive = setup.law.is_adhesive() && !setup.effects.hide_jumps();
         Jumps {
             work: adhesive.then(|| setup.law.work_of_adhesion()),
             pixel_area: setup.surface.grid.pixel_area(),

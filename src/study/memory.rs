@@ -7,15 +7,24 @@
 use super::cost::Cost;
 use crate::backend::Shape;
 use crate::grid::{Boundary, Grid};
-use crate::scene::{OutputScene, Scene, StepChoice, SurfacePart};
+use crate::scene::{BackendName, FieldName, Scene, StepChoice, SurfacePart};
 
 /// A double on the host.
 pub(crate) const DOUBLE: u64 = 8;
-/// The program, its threads and the graphics drivers that it looks for, as measured on scenes of a
-/// few points.
-const PROGRAM: u64 = 72 << 20;
+/// The program and its threads, as measured on scenes of a few points.
+const PROGRAM: u64 = 16 << 20;
+/// Graphics drivers that a run looks for, as measured with a software driver on 512 x 512 points.
+const DRIVERS: u64 = 56 << 20;
 /// Bytes a point of the results of a step: gap and pressure, and a byte for the state.
 pub(crate) const EVALUATION: u64 = 2 * DOUBLE + 1;
+/// Fields below this length stay with the allocator when they are let go (glibc on 64 bits; longer ones go back
+/// to the system), and do not always fit where another is wanted: at the largest moment about one of the solver's
+/// fields was unused. Those of a coarse start stay where the solver's own do not.
+const SHORTEST_RETURNED: u64 = 32 << 20;
+/// Bytes a drawn point of a picture: its value and its colour.
+const DRAWN: u64 = DOUBLE + 3;
+/// Points of the largest picture.
+const MOST_DRAWN: u64 = 1780 * 1780;
 
 /// Bytes of a run, by where they are.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -25,6 +34,10 @@ pub struct Memory {
     /// The most that this machine's own memory holds at once; with the solver where it runs on the
     /// processor.
     pub machine: u64,
+    /// The same of a path on which no step has to be searched for a jump.
+    pub without_search: u64,
+    /// Graphics drivers in these, where the run looks for some.
+    pub drivers: u64,
     /// Bytes on the adapter; 0 on the processor.
     pub adapter: u64,
 }
@@ -38,6 +51,7 @@ impl Memory {
             surface: [grid.nx, grid.ny],
         };
         let solved = shape.len() as u64;
+        let field = DOUBLE * solved;
         let table = if cost.is_tabulated {
             DOUBLE * shape.spectrum_len() as u64
         } else {
@@ -46,52 +60,80 @@ impl Memory {
         let solver = cost.bytes() as u64;
         let on_processor = !cost.place.on_gpu();
         let solver_here = if on_processor { solver } else { 0 };
-        // Between the iterations of one solve and those of the next.
-        let at_rest = solver_here - cost.resting as u64;
+        // In mixed precision the state in double. On an adapter without double precision it is here, on others there:
+        // both are counted.
+        let reference = cost.reference_bytes() as u64;
+        // While it iterates, and between the iterations of one solve and those of the next.
+        let active = solver_here + reference;
+        let idle = active - cost.resting as u64 - cost.reference_resting as u64;
 
-        let building = building(scene, grid);
         // The heights, which surface and problem share, and the table of the stiffness.
-        let kept = DOUBLE * points + table;
-        // Compliance and padded heights on their way to the backend.
-        let planning = table + DOUBLE * solved;
+        let history = cost.history_bytes() as u64;
+        let kept = DOUBLE * points + table + history + cost.host.kept;
+        // The last result of a path of which only the last step is drawn, and those of earlier solves of a step.
+        let result = EVALUATION * points;
+        let results = result * (kept_steps(scene) + cost.host.results);
+        // What the path goes back to where it looks between two steps, with the points in contact there.
+        let state = field + history;
+        let points_before = if cost.searches.jumps { points } else { 0 };
+        let before = points_before + u64::from(cost.searches.keep_state()) * state;
+
+        // A gap from which a solve starts is the host's until it ends, unless the solver has it.
+        let first_start = u64::from(cost.starts_from_gap) * field;
+        let start = u64::from(cost.moves_the_gap) * field;
+        // A field on its way between the iterations and the state in double precision.
+        let between = if reference > 0 { field } else { 0 };
+        let alone = active + between.max(cost.host.passing);
+        let iterating = alone + start;
         // Gap and elastic pressure as read, which become the results, and the states. What is cut off a
         // larger grid is a field of its own for a moment.
         let cut = if solved > points { DOUBLE * points } else { 0 };
-        let evaluating = 2 * DOUBLE * solved + cut + points;
-        // In mixed precision the state in double, and a field on its way between it and the iterations. On
-        // an adapter without double precision it is here, on others there: both are counted.
-        let reference = cost.reference_bytes() as u64;
-        let correcting = if reference > 0 {
-            2 * DOUBLE * solved
+        let evaluating = 2 * field + cut + points;
+        // Heights of a pad and the first gap on their way to the backend.
+        let planning = table + field;
+        let starting = planning.max(coarse_start(cost, points, solver_here, table));
+
+        // A step is solved and evaluated, then its result is written, before which the last one goes, and its state
+        // read.
+        let first = alone + first_start + result * cost.host.results;
+        let step = iterating.max(idle + evaluating) + before + results;
+        let ended = idle + points_before + writing(scene, points).max(results.max(result) + state);
+        let walking = first.max(step).max(ended).max(idle + starting);
+        // A load between two steps is solved beside the states of both and the result of the second; its own state
+        // is read beside its own result.
+        let other_solver = if cost.searches.with_own_solver {
+            idle + DOUBLE * points + table
         } else {
             0
         };
-        // Fields that effects keep from step to step, and whole states of the path. A search between two steps holds
-        // the result of the second beside them while it solves.
-        let history = cost.history_bytes() as u64;
-        let states = cost.host.states * (DOUBLE * solved + history);
-        let searched = u64::from(states > 0);
-        let results = kept_steps(scene) + cost.host.results + searched;
-        let held = states + EVALUATION * points * results;
-        let evaluating = evaluating + held;
-        let searching = searched * held;
-        // A result with values of a field on their way to a file or a picture.
-        let writes = !(scene.output.images.is_empty() && scene.output.fields.is_empty());
-        let writing = u64::from(writes) * (EVALUATION + 2 * DOUBLE) * points;
-        // A gap from which a solve starts is the host's until it ends; under a pressure on a periodic grid the solver has it.
-        let start = u64::from(cost.starts_from_gap) * DOUBLE * solved;
-        let iterating =
-            solver_here + reference + start + searching.max(correcting).max(cost.host.passing);
-        let resting = at_rest
-            + (reference - cost.reference_resting as u64)
-            + planning
-                .max(coarse_start(cost, points, solver_here, table))
-                .max(evaluating)
-                .max(writing);
-        let solving = kept + history + cost.host.kept + iterating.max(resting);
+        let load = iterating.max(idle + evaluating).max(idle + result + state);
+        let pull_off = u64::from(cost.searches.pull_off) * (load + before + results + other_solver);
+        let jump = u64::from(cost.searches.jumps)
+            * (load + before + state + results + result + other_solver);
+
+        let drivers = if scene.solver.backend == BackendName::Cpu || cfg!(not(feature = "gpu")) {
+            0
+        } else {
+            DRIVERS
+        };
+        let solver_field = cost.place.number() as u64 * solved;
+        let unused = if !on_processor {
+            0
+        } else if solver_field < SHORTEST_RETURNED {
+            solver_field
+        } else if cost.starts_coarse && solver_field / 4 < SHORTEST_RETURNED {
+            SHORTEST_RETURNED
+        } else {
+            0
+        };
+        let program = PROGRAM + drivers + unused;
+        let building = building(scene, grid);
+        let without_search = building.max(kept + walking.max(pull_off));
         Memory {
             solver,
-            machine: PROGRAM + building.max(solving),
+            machine: program + without_search.max(kept + jump),
+            without_search: program + without_search,
+            drivers,
             adapter: if on_processor { 0 } else { solver + reference },
         }
     }
@@ -122,15 +164,28 @@ fn building(scene: &Scene, grid: Grid) -> u64 {
     parts.max(statistics)
 }
 
-/// Results of earlier steps that are held while one is evaluated.
+/// Bytes of a result and of what is written of it: values that are worked out for a file or a picture, and the
+/// picture.
+fn writing(scene: &Scene, points: u64) -> u64 {
+    let output = &scene.output;
+    // Heights are, where the solid has yielded.
+    let is_made =
+        |field: &&FieldName| matches!(field, FieldName::Displacement | FieldName::Heights);
+    let made = output.fields.iter().filter(is_made).count()
+        + output.images.iter().filter(is_made).count().min(1);
+    let drawn = if output.images.is_empty() {
+        0
+    } else {
+        DRAWN * points.min(MOST_DRAWN)
+    };
+    (EVALUATION + DOUBLE * made as u64) * points + drawn
+}
+
+/// Results of earlier steps that are held while one is solved.
 fn kept_steps(scene: &Scene) -> u64 {
-    let OutputScene {
-        images,
-        fields,
-        steps,
-    } = &scene.output;
-    let keeps_last = *steps == StepChoice::Last && !(images.is_empty() && fields.is_empty());
-    u64::from(keeps_last)
+    let several = scene.loading.path.len() > 1 || scene.loading.until_apart;
+    let writes = !(scene.output.images.is_empty() && scene.output.fields.is_empty());
+    u64::from(several && writes && scene.output.steps == StepChoice::Last)
 }
 
 /// Bytes of a first step that is helped by coarser grids, the solver itself aside.

@@ -115,6 +115,11 @@ pub(super) fn may_let_go(setup: &Setup, value: f64) -> bool {
     is_load(&setup.scene.loading) && setup.law.is_adhesive() && value < 0.0
 }
 
+/// Whether any step of a path may end with the surfaces separated by its tension, under an adhesive law.
+pub(super) fn is_tensile(loading: &LoadingScene) -> bool {
+    is_load(loading) && (loading.until_apart || loading.path.iter().any(|value| *value < 0.0))
+}
+
 /// Narrows down the pull-off of a step that let go, from the state that the step `step` left; `None`
 /// where the watch ended it.
 pub(super) fn find(

@@ -113,6 +113,77 @@ fn a_run_takes_what_was_counted() {
     }
 }
 
+/// Boundary, points, precision, law, loading, and whether the path has a step that is searched for a jump.
+#[cfg(target_os = "linux")]
+const WHOLE_PATHS: [(&str, usize, &str, &str, &str, bool); 8] = [
+    ("periodic", 1024, "double", "", LOADS, false),
+    ("periodic", 1024, "single", "", LOADS, false),
+    ("periodic", 1024, "mixed", "", LOADS, false),
+    ("periodic", 1024, "double", MAUGIS, GAPS, true),
+    ("periodic", 1024, "mixed", EXPONENTIAL, GAPS, false),
+    ("periodic", 1024, "single", LENNARD_JONES, GAPS, false),
+    ("free", 512, "double", MAUGIS, LOADS, false),
+    ("free", 512, "mixed", LENNARD_JONES, LOADS, false),
+];
+#[cfg(target_os = "linux")]
+const MAUGIS: &str = "law = \"maugis-dugdale\"\nrange = \"20 nm\"";
+#[cfg(target_os = "linux")]
+const EXPONENTIAL: &str = "law = \"exponential\"\nrange = \"15 nm\"";
+#[cfg(target_os = "linux")]
+const LENNARD_JONES: &str = "law = \"lennard-jones\"\nrange = \"20 nm\"";
+#[cfg(target_os = "linux")]
+const LOADS: &str = "control = \"force\"\npath = [\"50 uN\", \"100 uN\"]";
+#[cfg(target_os = "linux")]
+const GAPS: &str =
+    "control = \"mean-gap\"\npath = [\"150 nm\", \"60 nm\", \"40 nm\", \"60 nm\", \"150 nm\"]";
+
+/// Paths that converge, through evaluations, pictures, checkpoints and the search for a jump: their peak is what
+/// `tabor check` says, to a tenth.
+#[cfg(target_os = "linux")]
+fn a_whole_path_takes_what_is_stated_to_a_tenth() {
+    let folder = tempfile::tempdir().expect("a folder");
+    for (boundary, points, precision, law, loading, searches) in WHOLE_PATHS {
+        // Corrections of mixed precision begin below what single precision reaches.
+        let tolerance = if precision == "mixed" { 1e-5 } else { 1e-3 };
+        let name = format!("{boundary}, {points} points, {precision} precision, {law}");
+        let adhesion = if law.is_empty() {
+            String::new()
+        } else {
+            format!("[adhesion]\n{law}\nwork_of_adhesion = \"30 mJ/m^2\"\n")
+        };
+        let text = format!(
+            "[grid]\npoints = {points}\nsize = \"10 um\"\nboundary = \"{boundary}\"\n\
+             [solid]\ncontact_modulus = \"100 MPa\"\n\
+             [[surface]]\nkind = \"self-affine\"\nhurst = 0.8\nrms_slope = 0.1\nlongest = \"10 um\"\nrolloff = \"5 um\"\nshortest = \"{} nm\"\n\
+             {adhesion}[loading]\n{loading}\n\
+             [solver]\nbackend = \"cpu\"\nprecision = \"{precision}\"\ntolerance = {tolerance}\n",
+            80_000.0 / points as f64
+        );
+        fs::write(folder.path().join("scene.toml"), &text).expect("a scene");
+        let _ = fs::remove_dir_all(folder.path().join("scene"));
+        let output = tabor(folder.path(), &["run", "scene.toml", "--quiet"], None);
+        assert!(output.status.success(), "{name}: {}", errors(&output));
+        let summary = summary(&folder.path().join("scene"));
+        let peak = summary["peak_memory_bytes"].as_f64().expect("a peak");
+        let plan = plan(&text);
+        let memory = plan.memory(Place::for_scene(&plan.scene)).expect("a count");
+        let stated = if searches {
+            memory.machine
+        } else {
+            memory.without_search
+        };
+        let share = peak / stated as f64;
+        println!(
+            "{share:.3} of {:.0} MiB: {name}",
+            stated as f64 / f64::from(1 << 20)
+        );
+        assert!(
+            (share - 1.0).abs() <= 0.1,
+            "{share} of what is stated: {name}"
+        );
+    }
+}
+
 fn what_does_not_fit_is_refused_with_the_largest_grid_that_does() {
     let folder = tempfile::tempdir().expect("a folder");
     let text = ROUGH.replace("BOUNDARY", "periodic");
@@ -324,6 +395,8 @@ fn long_pixels_take_no_more_memory_than_square_ones() {
 tests![
     #[cfg(target_os = "linux")]
     a_run_takes_what_was_counted,
+    #[cfg(target_os = "linux")]
+    a_whole_path_takes_what_is_stated_to_a_tenth,
     what_does_not_fit_is_refused_with_the_largest_grid_that_does,
     #[cfg(target_os = "linux")]
     a_limited_address_space_is_no_abort,

@@ -9,6 +9,7 @@
 mod calls;
 mod curves;
 mod files;
+pub mod pull_off;
 pub mod scenes;
 pub mod variants;
 
