@@ -44,9 +44,9 @@ def snakemake(folder, *words):
 def test_snakemake_goes_on_after_a_kill(study):
     pytest.importorskip("snakemake")
     # More cases than end before the kill, one of which cannot converge.
-    text = (study / "study.toml").read_text().replace("to = 4\ncount = 4", "to = 24\ncount = 24")
+    text = (study / "study.toml").read_text().replace("to = 4\ncount = 4", "to = 12\ncount = 12")
     limits = '[[axis]]\nkey = "solver.max_iterations"\nvalues = [5000, 3]\n'
-    (study / "study.toml").write_text(text.replace("values = [0.05, 0.1, 0.2]", "values = [0.1]") + "\n" + limits)
+    (study / "study.toml").write_text(text.replace("values = [0.05, 0.1, 0.2]", "values = [0.05, 0.1]") + "\n" + limits)
     job = subprocess.Popen(snakemake(study), cwd=study, env=environment(), start_new_session=True)
     for _ in range(600):
         time.sleep(0.05)

@@ -4,6 +4,8 @@
 use std::fs;
 use std::path::Path;
 use std::process::Command;
+use std::sync::Arc;
+use std::sync::atomic::{AtomicUsize, Ordering};
 
 use crate::shared::trials::tests;
 use tabor::scene::{
@@ -449,6 +451,22 @@ fn a_path_has_the_loads_it_is_given_and_their_pull_off() {
     assert!(holds(0.97 * held) && !holds(1.03 * parted));
 }
 
+fn a_watcher_ends_a_solve() {
+    let heard = Arc::new(AtomicUsize::new(0));
+    let count = Arc::clone(&heard);
+    let watched = contact().watch(move |_, residual| {
+        assert!(residual >= 0.0);
+        count.fetch_add(1, Ordering::Relaxed) < 2
+    });
+    let ended = watched.tolerance(1e-12).solve(Control::MeanPressure(1e6));
+    assert!(
+        matches!(ended, Err(ContactError::Interrupted)),
+        "{:?}",
+        ended.map(|solution| solution.iterations)
+    );
+    assert_eq!(heard.load(Ordering::Relaxed), 3);
+}
+
 fn parted_surfaces_leave_whole_arrays() {
     let parted = contact()
         .law(MaugisDugdale::new(0.01, 10e-9))
@@ -668,6 +686,7 @@ tests![
     arrays_have_the_shape_and_order_that_are_promised,
     paths_are_solved_as_they_are_asked_for,
     a_path_has_the_loads_it_is_given_and_their_pull_off,
+    a_watcher_ends_a_solve,
     parted_surfaces_leave_whole_arrays,
     threads_change_no_bit,
     runs_of_the_library_are_resumed_refused_and_quiet_about_pictures,
