@@ -73,7 +73,7 @@
 //! | `contact` | [`Contact`]: arrays in, arrays out |
 //! | [`theory`] | closed forms and models to compare with: Hertz, JKR, Maugis, Persson and others |
 //! | [`compare`] | one rough surface through the full field and the models of it, with seconds and ranges |
-//! | [`fit`] | work of adhesion and modulus from a measured force curve |
+//! | [`fit`] | work of adhesion and modulus from a measured force curve, and which model suits it |
 //! | `accuracy` | error against seconds: a scene over grids, precisions, steps and models |
 //! | `sweep` | a study: a scene over values of its keys, into one table |
 //! | `cli` | the command line |

@@ -139,6 +139,10 @@ fn step<'py>(py: Python<'py>, solution: Solution) -> PyResult<Bound<'py, PyDict>
         _ => "off",
     });
     step.set_item("jump", jump)?;
+    step.set_item(
+        "pull_off",
+        solution.pull_off.map(|[held, parted]| (held, parted)),
+    )?;
     let columns = PyDict::new(py);
     for (column, value) in &row.columns {
         columns.set_item(column.name(), *value)?;

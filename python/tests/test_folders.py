@@ -1,7 +1,9 @@
 """Scenes, folders of runs, studies, and the program."""
 
+import signal
 import subprocess
 import sys
+import time
 
 import numpy as np
 import pytest
@@ -102,3 +104,36 @@ def test_a_scene_that_pulls_until_apart_says_where_a_path_ends():
     scene = tabor.Scene({**SCENE, "loading": {"control": "pressure", "path": ["1 MPa", "0 Pa"], "until": "apart"}})
     with pytest.warns(tabor.TaborWarning, match="until"):
         assert len(list(scene.path())) == 2
+
+
+def test_control_c_keeps_the_finished_steps(tmp_path):
+    loads = [f"{0.5 + 0.01 * number} MPa" for number in range(400)]
+    scene = tabor.Scene({**SCENE, "grid": {"points": 128, "size": "4 um"}, "loading": {"control": "pressure", "path": loads}, "output": {}})
+
+    def interrupt(finished, iteration, residual):
+        if finished >= 2:
+            signal.raise_signal(signal.SIGINT)
+
+    with pytest.raises(KeyboardInterrupt):
+        scene.run(tmp_path / "run", images=False, progress=interrupt)
+    # The solver ends at its next iteration, and writes what it has.
+    for _ in range(100):
+        time.sleep(0.05)
+        if (tmp_path / "run" / "summary.json").exists():
+            break
+    finished = len(tabor.Run(tmp_path / "run").curve)
+    assert 2 <= finished < 400
+    shorter = scene.run(tmp_path / "run", resume=True, images=False)
+    assert len(shorter.curve) == 400
+    assert shorter.curve["converged"].all()
+
+
+def test_a_check_tells_of_resolution_and_memory():
+    words = tabor.Scene(SCENE).check()
+    assert "memory" in words and "cohesive zone" in words
+    with pytest.raises(tabor.SceneError, match="file"):
+        tabor.Scene(SCENE, heights=np.zeros((32, 32))).check()
+
+
+def test_devices():
+    assert "processor" in tabor.devices()

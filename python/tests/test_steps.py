@@ -3,6 +3,8 @@
 import concurrent.futures
 import multiprocessing
 import pickle
+import warnings
+from pathlib import Path
 
 import numpy as np
 import pytest
@@ -117,3 +119,34 @@ def test_topographies():
     back = rough.solve(pressure="1 MPa").to_topography("heights")
     np.testing.assert_allclose(back.heights(), values * 1e-9, rtol=1e-12)
     assert back.physical_sizes == pytest.approx((3e-9, 2e-9)) and back.is_periodic and back.unit == "m"
+
+
+FILES = Path(__file__).parents[2] / "tests" / "files"
+
+
+# Files of instruments, and of other programs; those of them whose rows the other reader turns are compared by their values.
+@pytest.mark.parametrize(
+    ("name", "turned"),
+    [
+        ("asylum.ibw", True),
+        ("bruker_5.spm", True),
+        ("nanosurf.nid", True),
+        ("mountains.x3p", False),
+        ("description.vk4", False),
+        ("gwyddion.gwy", False),
+        ("surfacetopography.txt", False),
+    ],
+)
+def test_topographies_of_files(name, turned):
+    topography = pytest.importorskip("SurfaceTopography")
+    with warnings.catch_warnings():
+        warnings.simplefilter("ignore")
+        theirs = topography.read_topography(FILES / name)
+        loaded = tabor.Contact(theirs, contact_modulus="1 GPa")
+        ours = tabor.read_heights(FILES / name)
+    assert loaded.surface()[1] == pytest.approx(ours.size, rel=1e-6)
+    assert loaded.resolved["grid"]["boundary"] == "free"
+    both = loaded.heights(), ours.heights
+    if turned:
+        both = tuple(np.sort(heights, axis=None) for heights in both)
+    np.testing.assert_allclose(*both, atol=1e-9 * np.ptp(ours.heights))

@@ -9,6 +9,7 @@ use super::fit_folder::fit_folder;
 use super::patience::Patience;
 use super::quantity::{positive, quantity, share};
 use super::{Failure, folder_or_default, print, say, warn};
+use crate::fit::advice::{Advice, advise_curve};
 use crate::fit::{
     Calibration, ColumnChoice, CurveColumns, FitError, FitResult, ForceCurve, Freedom, Indenter,
     ModelFit, figure, fit_curve, fit_relaxation, fit_with_slope, headline, report,
@@ -29,44 +30,47 @@ pub(super) struct FitArguments {
     #[arg(long, value_name = "R", value_parser = |text: &str| positive(text, Dimension::Length), required_unless_present_any = ["cone", "pyramid"])]
     radius: Option<f64>,
     /// In place of a sphere: a cone, by the angle between axis and flank, as in "20 deg"
-    #[arg(long, value_name = "ANGLE", value_parser = half_angle, conflicts_with_all = ["radius", "pyramid", "range"])]
+    #[arg(long, value_name = "ANGLE", value_parser = half_angle, conflicts_with_all = ["radius", "pyramid", "range", "pull_off"])]
     cone: Option<f64>,
     /// A pyramid of four sides, by the angle between axis and face
-    #[arg(long, value_name = "ANGLE", value_parser = half_angle, conflicts_with_all = ["radius", "range"])]
+    #[arg(long, value_name = "ANGLE", value_parser = half_angle, conflicts_with_all = ["radius", "range", "pull_off"])]
     pyramid: Option<f64>,
     /// Folder for fit.json, fit.csv and fit.png [default: the curve's name, in the current folder; for a folder with _fits]
-    #[arg(long, value_name = "DIR")]
+    #[arg(long, value_name = "DIR", conflicts_with = "pull_off")]
     out: Option<PathBuf>,
     /// Approach 0 is where the undeformed surfaces first touch; else that place is fitted
-    #[arg(long)]
+    #[arg(long, conflicts_with = "pull_off")]
     contact_at_zero: bool,
     /// Fit the force where nothing acts; else it is 0
-    #[arg(long)]
+    #[arg(long, conflicts_with = "pull_off")]
     baseline: bool,
     /// Fit the slope of that force too
-    #[arg(long)]
+    #[arg(long, conflicts_with = "pull_off")]
     baseline_slope: bool,
     /// Columns of an instrument, as in "position=Z [um],deflection=Defl [V]": approach or position (of the cantilever's
     /// base), force or deflection, time, each by its name or number; - before it turns its sign
-    #[arg(long, value_name = "QUANTITY=COLUMN", value_delimiter = ',', value_parser = ColumnChoice::parse)]
+    #[arg(long, value_name = "QUANTITY=COLUMN", value_delimiter = ',', value_parser = ColumnChoice::parse, conflicts_with = "pull_off")]
     columns: Vec<ColumnChoice>,
     /// Deflection per volt, as in "50 nm/V"
-    #[arg(long, value_name = "M/V", value_parser = |text: &str| positive(text, Dimension::LengthPerVoltage), requires = "curve")]
+    #[arg(long, value_name = "M/V", value_parser = |text: &str| positive(text, Dimension::LengthPerVoltage), conflicts_with = "pull_off")]
     sensitivity: Option<f64>,
     /// Spring constant of the cantilever, as in "0.2 N/m"
-    #[arg(long, value_name = "N/M", value_parser = |text: &str| positive(text, Dimension::ForcePerLength), requires = "curve")]
+    #[arg(long, value_name = "N/M", value_parser = |text: &str| positive(text, Dimension::ForcePerLength), conflicts_with = "pull_off")]
     spring: Option<f64>,
     /// Relative standard deviation of the spring constant, as in 10%
-    #[arg(long, value_name = "SHARE", value_parser = share, default_value = "0", hide_default_value = true, requires = "curve")]
+    #[arg(long, value_name = "SHARE", value_parser = share, default_value = "0", hide_default_value = true, conflicts_with = "pull_off")]
     spring_error: f64,
     /// Relative standard deviation of the radius
-    #[arg(long, value_name = "SHARE", value_parser = share, default_value = "0", hide_default_value = true, requires = "curve", conflicts_with_all = ["cone", "pyramid"])]
+    #[arg(long, value_name = "SHARE", value_parser = share, default_value = "0", hide_default_value = true, conflicts_with_all = ["cone", "pyramid", "pull_off"])]
     radius_error: f64,
     /// Fit one relaxation time of the solid to the loading beside; the curve needs a column time
-    #[arg(long, requires = "curve")]
+    #[arg(long, conflicts_with = "pull_off")]
     relaxation: bool,
+    /// Say which model suits, with probabilities learned from full fields (docs/advise.md)
+    #[arg(long, conflicts_with_all = ["cone", "pyramid", "range", "pull_off"])]
+    advise: bool,
     /// Range of the attraction (work of adhesion over its tension), where it is known
-    #[arg(long, value_name = "LENGTH", value_parser = |text: &str| positive(text, Dimension::Length))]
+    #[arg(long, value_name = "LENGTH", value_parser = |text: &str| positive(text, Dimension::Length), conflicts_with = "pull_off")]
     range: Option<f64>,
     /// In place of a curve, with --stiffness: the pull-off force, for JKR
     #[arg(long, value_name = "FORCE", value_parser = |text: &str| positive(text, Dimension::Force), requires = "stiffness", requires = "radius", conflicts_with = "curve")]
@@ -138,6 +142,14 @@ impl FitArguments {
         if self.relaxation {
             result.relaxation = Some(fit_relaxation(&curve, path, &result)?);
         }
+        if self.advise {
+            result.advice = advise_curve(&result);
+            if result.advice.is_none() {
+                let missing =
+                    "no advice: it needs a fit of each of the four models, and one of them failed";
+                result.warnings.push(missing.to_owned());
+            }
+        }
         Ok(result)
     }
 }
@@ -191,6 +203,9 @@ fn table(result: &FitResult) -> String {
     text += &format!("{}\n", headline(result));
     if let Some(solid) = &result.relaxation {
         text += &format!("{solid}\n");
+    }
+    for sentence in result.advice.iter().flat_map(Advice::sentences) {
+        text += &format!("advice: {sentence}\n");
     }
     text
 }

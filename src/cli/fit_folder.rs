@@ -8,7 +8,7 @@ use rayon::prelude::*;
 
 use super::fit::FitArguments;
 use super::{Failure, say, warn};
-use crate::fit::{FitError, FitResult, figure, report};
+use crate::fit::{FitError, FitResult, figure, report, table as curve_table};
 use crate::output::csv_line::{csv_line, csv_number};
 use crate::output::plot::{Axis, Figure, Panel, PlotPoint, Series};
 use crate::output::{GrowingTable, OutputError, expect_table, write_atomically};
@@ -16,6 +16,8 @@ use crate::units::format_si;
 
 /// The table.
 const TABLE: &str = "fits.csv";
+/// End of the name of a curve's own table, the data of its picture.
+const OWN_TABLE: &str = ".fit.csv";
 /// First line of the table.
 const HEADER: &str = "curve,model,work_of_adhesion,work_uncertainty,contact_modulus,modulus_uncertainty,tabor_parameter,points,warnings,error\n";
 /// Extensions of files that are taken for curves.
@@ -93,7 +95,7 @@ pub(super) fn fit_folder(arguments: &FitArguments, path: &Path, out: &Path) -> R
     Ok(())
 }
 
-/// The curves in a folder, by name, without a table that tabor wrote there.
+/// The curves in a folder, by name, without tables that tabor wrote there.
 fn curves(folder: &Path) -> Result<Vec<PathBuf>, OutputError> {
     let unreadable = || OutputError::write("read the folder", folder);
     let mut found = Vec::new();
@@ -103,7 +105,9 @@ fn curves(folder: &Path) -> Result<Vec<PathBuf>, OutputError> {
         let is_text = EXTENSIONS
             .iter()
             .any(|known| known.eq_ignore_ascii_case(extension));
-        if is_text && path.is_file() && path.file_name() != Some(OsStr::new(TABLE)) {
+        let name = path.file_name().unwrap_or_default().to_string_lossy();
+        let is_own = name == TABLE || name.ends_with(OWN_TABLE);
+        if is_text && path.is_file() && !is_own {
             found.push(path);
         }
     }
@@ -111,11 +115,13 @@ fn curves(folder: &Path) -> Result<Vec<PathBuf>, OutputError> {
     Ok(found)
 }
 
-/// `NAME.json` and `NAME.png` of a curve.
+/// `NAME.json`, `NAME.fit.csv` and `NAME.png` of a curve.
 fn write_result(curve: &Path, result: &FitResult, out: &Path) -> Result<(), OutputError> {
     let name = curve.file_name().unwrap_or_default().to_string_lossy();
     let text = format!("{:#}\n", report(result, curve));
     write_atomically(&out.join(format!("{name}.json")), text.as_bytes())?;
+    let table = curve_table(result);
+    write_atomically(&out.join(format!("{name}{OWN_TABLE}")), table.as_bytes())?;
     figure(result, &name).write(&out.join(format!("{name}.png")))
 }
 

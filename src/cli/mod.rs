@@ -88,7 +88,7 @@ enum Command {
     Accuracy(accuracy::AccuracyArguments),
     /// Work of adhesion and modulus from a force curve of a sphere
     #[command(
-        after_help = "The curve has columns approach (positive closer) and force (positive in compression), in SI or\nwith the unit in the head: `approach [nm], force [nN]`. More in docs/fit.md.\n\nExamples:\n  tabor fit examples/force_curve.csv --radius \"10 um\" --out fit\n  tabor fit --radius \"10 um\" --pull-off \"2 uN\" --stiffness \"30 N/m\""
+        after_help = "The curve has columns approach (positive closer) and force (positive in compression), in SI or\nwith the unit in the head: `approach [nm], force [nN]`. More in docs/fit.md.\n\nExamples:\n  tabor fit examples/force_curve.csv --radius \"10 um\" --out fit\n  tabor fit examples/force_curve.csv --radius \"10 um\" --advise\n  tabor fit --radius \"10 um\" --pull-off \"2 uN\" --stiffness \"30 N/m\""
     )]
     Fit(fit::FitArguments),
     /// Many runs: a scene over values of its keys, into one table

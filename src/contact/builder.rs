@@ -340,6 +340,8 @@ impl Contact {
         let mut contact = self.clone();
         // A path writes nothing, and its loads are not known yet among which a step might be named.
         contact.scene.output.steps = StepChoice::Last;
+        // The loads are those that the caller gives, and no others behind each.
+        contact.scene.loading.until_apart = false;
         Path::new(contact, loads.into_iter())
     }
 

@@ -150,7 +150,13 @@ impl Walk {
             rows: std::mem::take(&mut end.rows),
             checkpoint: last.checkpoint,
         };
-        Ok(Solution::new(setup, row, last.evaluation, last.jump))
+        Ok(Solution::new(
+            setup,
+            row,
+            last.evaluation,
+            last.jump,
+            end.pull_off,
+        ))
     }
 }
 

@@ -1,7 +1,7 @@
 //! A solved load as arrays.
 
 use crate::scene::FieldName;
-use crate::study::{Evaluation, Jump, Setup, State, StepRow};
+use crate::study::{Evaluation, Jump, PullOff, Setup, State, StepRow};
 
 /// A solved load, SI. Arrays have shape `[ny, nx]`, row-major: point (ix, iy) is element `iy * nx + ix`.
 ///
@@ -44,6 +44,9 @@ pub struct Solution {
     pub state: State,
     /// The jump between this load and the one before, if there was one.
     pub jump: Option<Jump>,
+    /// The tensions, N, between which the contact let go under a prescribed load, where it did on the path up to
+    /// here: the greatest that held and the least that did not. `Contact::pull_off_tolerance` says how close they are.
+    pub pull_off: Option<[f64; 2]>,
     /// The row of `curve.csv`: energies, areas, and what effects add.
     pub row: StepRow,
 }
@@ -55,6 +58,7 @@ impl Solution {
         row: StepRow,
         evaluation: Option<Evaluation>,
         jump: Option<Jump>,
+        pull_off: Option<PullOff>,
     ) -> Self {
         let grid = setup.surface.grid;
         let heights = &setup.surface.heights;
@@ -91,6 +95,7 @@ impl Solution {
             converged: row.converged,
             state: row.state,
             jump,
+            pull_off: pull_off.map(|found| [found.lower, found.upper]),
             row,
         }
     }

@@ -2,6 +2,7 @@
 
 use std::path::Path;
 
+use super::advice::Advice;
 use super::curve_file::{ForceCurve, name};
 use super::error::FitError;
 use super::estimate::{ModelFit, ProfilePoint, Uncertainties, fit_model};
@@ -78,6 +79,8 @@ pub struct FitResult {
     pub relaxation: Option<Relaxation>,
     /// Slope of the baseline, if it was fitted.
     pub baseline_slope: Option<BaselineSlope>,
+    /// Which model suits, if it was asked for.
+    pub advice: Option<Advice>,
     /// Warnings for the user.
     pub warnings: Vec<String>,
 }
@@ -180,6 +183,7 @@ pub fn fit_curve(
         tabor_parameter,
         relaxation: None,
         baseline_slope: None,
+        advice: None,
         warnings,
     })
 }

@@ -8,6 +8,8 @@
 //! Signs are those of the results: force is positive in compression, approach is positive closer.
 //! Everything is in SI. `docs/fit.md` describes the method and its limits.
 
+#[doc(hidden)]
+pub mod advice;
 mod calibration;
 mod choice;
 mod columns;

@@ -4,6 +4,7 @@ use std::path::Path;
 
 use serde_json::{Map, Value, json};
 
+use super::advice::Advice;
 use super::choice::FitResult;
 use super::estimate::ModelFit;
 use crate::output::csv_line::{csv_line, csv_number};
@@ -72,6 +73,10 @@ pub fn report(result: &FitResult, path: &Path) -> Value {
                 "contact_modulus": error.contact_modulus,
             })
         }),
+    );
+    put(
+        "advice",
+        result.advice.as_ref().map_or(Value::Null, Advice::report),
     );
     put("correlations", correlations(best));
     put("noise", json!(best.noise));

@@ -4,10 +4,13 @@
 use std::fs;
 use std::path::Path;
 use std::process::Command;
+use std::sync::Arc;
+use std::sync::atomic::{AtomicUsize, Ordering};
 
 use crate::shared::trials::tests;
 use tabor::scene::{
     AdhesionScene, Axis, CapillaryScene, PatternKind, RelaxationScene, Scene, SolidScene,
+    StepChoice,
 };
 use tabor::{
     AdhesionMap, Base, Boundary, Contact, ContactError, Control, Device, Exponential, Grid,
@@ -419,6 +422,51 @@ fn paths_are_solved_as_they_are_asked_for() {
     assert!(contact().path([Control::Force(0.0); 0]).next().is_none());
 }
 
+fn a_path_has_the_loads_it_is_given_and_their_pull_off() {
+    let adhesive = contact().law(MaugisDugdale::new(0.05, 20e-9));
+    // A scene that pulls on behind its path, and names a step of it: both are for a run.
+    let mut scene = adhesive
+        .scene([1e6, 0.0].map(Control::MeanPressure))
+        .expect("a scene");
+    scene.loading.until_apart = true;
+    scene.output.steps = StepChoice::List(vec![2]);
+    let loads = [1e6, 0.0, -1e9].map(Control::MeanPressure);
+    let solved: Vec<Solution> = Contact::from_scene(scene)
+        .path(loads)
+        .map(Result::unwrap)
+        .collect();
+    assert_eq!(solved.len(), 3);
+    assert_eq!(solved[0].mean_pressure, 1e6);
+    assert_eq!(solved[2].state, State::Separated);
+    assert_eq!(solved[1].pull_off, None);
+    let [held, parted] = solved[2].pull_off.expect("it let go");
+    assert!(held > 0.0 && parted > held && parted - held <= 0.01 * parted);
+    // A tension between 0 and the bracket holds, one beyond does not.
+    let area = SIZE[0] * SIZE[1];
+    let holds = |tension: f64| {
+        let path = [1e6, 0.0, -tension / area].map(Control::MeanPressure);
+        let last = adhesive.path(path).last().expect("a load");
+        last.expect("a solution").state != State::Separated
+    };
+    assert!(holds(0.97 * held) && !holds(1.03 * parted));
+}
+
+fn a_watcher_ends_a_solve() {
+    let heard = Arc::new(AtomicUsize::new(0));
+    let count = Arc::clone(&heard);
+    let watched = contact().watch(move |_, residual| {
+        assert!(residual >= 0.0);
+        count.fetch_add(1, Ordering::Relaxed) < 2
+    });
+    let ended = watched.tolerance(1e-12).solve(Control::MeanPressure(1e6));
+    assert!(
+        matches!(ended, Err(ContactError::Interrupted)),
+        "{:?}",
+        ended.map(|solution| solution.iterations)
+    );
+    assert_eq!(heard.load(Ordering::Relaxed), 3);
+}
+
 fn parted_surfaces_leave_whole_arrays() {
     let parted = contact()
         .law(MaugisDugdale::new(0.01, 10e-9))
@@ -637,6 +685,8 @@ tests![
     scenes_from_files_are_contacts_too,
     arrays_have_the_shape_and_order_that_are_promised,
     paths_are_solved_as_they_are_asked_for,
+    a_path_has_the_loads_it_is_given_and_their_pull_off,
+    a_watcher_ends_a_solve,
     parted_surfaces_leave_whole_arrays,
     threads_change_no_bit,
     runs_of_the_library_are_resumed_refused_and_quiet_about_pictures,

@@ -345,6 +345,14 @@ fn a_folder_of_curves_gives_a_table_a_histogram_and_the_failures() {
         for end in ["json", "png"] {
             assert!(out.join(format!("{}.{end}", row[0])).is_file());
         }
+        // The data of the picture are those of the curve: a fit of them gives the same.
+        let own = out.join(format!("{}.fit.csv", row[0]));
+        let own = fs::read_to_string(own).expect("the data of the picture");
+        let head = "approach,position,force,model_force,segment,interacting";
+        assert_eq!(own.lines().next(), Some(head));
+        let again = fit(folder.path(), &own, &[]);
+        let [found, _] = quantity(&again, "work_of_adhesion");
+        assert!((found - work).abs() < 1e-6 * work, "{found} {work}");
     }
     assert!(fs::metadata(out.join("fits.png")).expect("a picture").len() > 1000);
     // The same table again, byte by byte, and a folder of others is left alone.
@@ -367,7 +375,126 @@ fn a_folder_of_curves_gives_a_table_a_histogram_and_the_failures() {
     );
 }
 
+/// The advice on a curve, as `fit.json` has it and as it is said.
+fn advised(rows: &[[f64; 2]], options: &[&str]) -> (Value, String) {
+    let folder = tempfile::tempdir().expect("a folder");
+    let text = table("approach,force\n", rows, |[x, f]| format!("{x:e},{f:e}"));
+    fs::write(folder.path().join("curve.csv"), text).expect("written");
+    let call = ["fit", "curve.csv", "--radius", "5 um", "--advise"];
+    let output = tabor(folder.path(), &[&call[..], options].concat());
+    let said = errors(&output);
+    assert_eq!(status(&output), 0, "{said}");
+    let text = fs::read_to_string(folder.path().join("curve/fit.json")).expect("a result");
+    let found: Value = serde_json::from_str(&text).expect("JSON");
+    (found["advice"].clone(), said)
+}
+
+/// Hertz less a pull-off force while in contact, in and out to a load of `load` pull-off forces, with noise.
+fn hertz_less(pull_off: f64, load: f64, noise: f64) -> Vec<[f64; 2]> {
+    let stiffness = 4.0 / 3.0 * MODULUS * RADIUS.sqrt();
+    let greatest = 2.0 * std::f64::consts::PI * WORK * RADIUS * load;
+    let deepest = (greatest / stiffness).powf(2.0 / 3.0);
+    let mut random = Random(9);
+    let places = (-60_i32..=140).chain((-60..140).rev());
+    places
+        .map(|i| deepest * f64::from(i) / 140.0)
+        .map(|approach| {
+            let contact = if approach > 0.0 {
+                stiffness * approach.powf(1.5) - pull_off
+            } else {
+                0.0
+            };
+            [approach, contact + noise * random.normal()]
+        })
+        .collect()
+}
+
+/// JKR's own curve, DMT's, one without adhesion: each gets its model, and the probabilities add up.
+fn advice_names_the_model_of_its_own_curves() {
+    let pull_off = 2.0 * std::f64::consts::PI * WORK * RADIUS;
+    for (rows, expected, says) in [
+        (curve(1), "jkr", "advice: JKR, with "),
+        (
+            hertz_less(pull_off, 5.0, 0.02 * pull_off),
+            "dmt",
+            "advice: DMT, with ",
+        ),
+        (
+            hertz_less(0.0, 5.0, 0.05 * pull_off),
+            "hertz",
+            "advice: Hertz, with ",
+        ),
+    ] {
+        let (advice, said) = advised(&rows, &[]);
+        assert_eq!(advice["model"], expected, "{advice:#} {said}");
+        assert!(
+            said.contains(says) && said.contains("advice: what weighs most: "),
+            "{said}"
+        );
+        let shares = advice["probabilities"].as_object().expect("a table");
+        let sum: f64 = shares
+            .values()
+            .map(|share| share.as_f64().expect("a number"))
+            .sum();
+        assert!((sum - 1.0).abs() < 1e-12 && shares.len() == 5, "{advice:#}");
+        assert_eq!(advice["outside"], false, "{advice:#}");
+    }
+}
+
+/// A spring and a wave are no contact of spheres.
+fn advice_says_none_of_these() {
+    let wave: Vec<[f64; 2]> = curve(4)
+        .into_iter()
+        .map(|[x, f]| [x, f + 3e-7 * (x * 5e7).sin()])
+        .collect();
+    let spring: Vec<[f64; 2]> = hertz_less(0.0, 5.0, 0.0)
+        .into_iter()
+        .map(|[x, _]| [x, 10.0 * x.max(0.0) + 1e-9 * (x * 1e12).sin()])
+        .collect();
+    for rows in [wave, spring] {
+        let (advice, said) = advised(&rows, &[]);
+        assert_eq!(advice["model"], "none", "{advice:#}");
+        assert!(said.contains("advice: none of these"), "{said}");
+    }
+}
+
+/// What the advice cannot be asked of is refused; without the option there is none.
+fn advice_is_for_curves_of_spheres() {
+    for options in [
+        &["--cone", "20 deg", "--advise", "curve.csv"][..],
+        &[
+            "--radius",
+            "5 um",
+            "--range",
+            "1 nm",
+            "--advise",
+            "curve.csv",
+        ],
+        &[
+            "--radius",
+            "5 um",
+            "--pull-off",
+            "1 uN",
+            "--stiffness",
+            "1 N/m",
+            "--advise",
+        ],
+    ] {
+        let output = tabor(Path::new("."), &[&["fit"], options].concat());
+        assert_eq!(status(&output), 2, "{options:?}");
+        assert!(errors(&output).contains("--advise"), "{}", errors(&output));
+    }
+    let folder = tempfile::tempdir().expect("a folder");
+    let text = table("approach,force\n", &curve(1), |[x, f]| {
+        format!("{x:e},{f:e}")
+    });
+    assert!(fit(folder.path(), &text, &[])["advice"].is_null());
+}
+
 tests![
+    advice_names_the_model_of_its_own_curves,
+    advice_says_none_of_these,
+    advice_is_for_curves_of_spheres,
     one_headline_states_one_uncertainty,
     a_curve_that_no_model_describes_is_said_so,
     both_approaches_are_columns,

@@ -36,6 +36,7 @@ fn main() -> ExitCode {
         instrument_curves::tests(),
         kept::tests(),
         mistakes::tests(),
+        mistakes::pull_off::tests(),
         mistakes::scenes::tests(),
         mistakes::variants::tests(),
         new_scene::tests(),

@@ -15,7 +15,7 @@ use crate::shared::trials::tests;
 const SILENCE: f64 = 5.0;
 
 /// Every model with its columns.
-const MODELS: [(&str, &str); 21] = [
+const MODELS: [(&str, &str); 22] = [
     (
         "hertz",
         "approach,force,contact_radius,peak_pressure,stiffness",
@@ -41,6 +41,7 @@ const MODELS: [(&str, &str); 21] = [
         "tabor-map",
         "law,tabor_parameter,maugis_parameter,peak_tension,pull_off_force,advice",
     ),
+    ("advise", "model,probability"),
     (
         "westergaard",
         "mean_pressure,contact_area_fraction,mean_gap,peak_pressure",
@@ -481,6 +482,48 @@ fn the_map_of_theories_has_the_reference_values() {
     );
 }
 
+/// Probabilities where the numbers lie within what was trained on: JKR for a soft sphere, none of them for a rough one.
+/// Beyond, none of these and no probabilities.
+fn advice_follows_tabor_number_and_roughness() {
+    let at = |modulus: &str, rms: &str| {
+        let call = format!(
+            "--radius \"1 um\" --work_of_adhesion \"50 mJ/m^2\" --range \"1 nm\" --contact_modulus \"{modulus}\" --rms_height \"{rms}\""
+        );
+        let table = Table::from_example("advise", &call);
+        let advice = table.comments.iter().find(|line| line.contains("advice: "));
+        (advice.expect("advice").clone(), table)
+    };
+    let (soft, table) = at("0.4 GPa", "0");
+    assert!(soft.starts_with("# advice: JKR, with "), "{soft}");
+    assert_eq!(
+        table.words("model"),
+        ["hertz", "dmt", "jkr", "maugis-dugdale", "none"]
+    );
+    close(table.column("probability").iter().sum(), 1.0, 1e-12);
+    // (R w^2/(E*^2 range^3))^(1/3).
+    close(
+        table.note("tabor_parameter"),
+        (1e-6 * 0.05_f64.powi(2) / (0.16e18 * 1e-27)).cbrt(),
+        1e-12,
+    );
+    let (rough, _) = at("0.4 GPa", "1.5 nm");
+    assert!(
+        rough.starts_with("# advice: none of these, with "),
+        "{rough}"
+    );
+    let (beyond, table) = at("1 kPa", "0");
+    assert!(
+        beyond.starts_with("# advice: none of these: ") && beyond.contains("Tabor number is "),
+        "{beyond}"
+    );
+    assert!(
+        table
+            .words("probability")
+            .iter()
+            .all(|cell| cell.is_empty())
+    );
+}
+
 fn waves_have_the_reference_values() {
     // p* is pi E* amplitude/wavelength, here 1.
     let modulus = 1.0 / PI;
@@ -748,6 +791,7 @@ tests![
     maugis_dugdale_has_the_reference_pull_off,
     lennard_jones_spheres_have_the_reference_values,
     the_map_of_theories_has_the_reference_values,
+    advice_follows_tabor_number_and_roughness,
     waves_have_the_reference_values,
     summits_have_the_reference_values,
     spectra_have_the_reference_values,

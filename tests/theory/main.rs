@@ -1,5 +1,6 @@
 //! Closed forms and models of contact against tables, studies and force curves.
 
+mod advice;
 mod checks;
 mod dmt_study;
 mod fit;

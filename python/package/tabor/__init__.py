@@ -30,6 +30,7 @@ from .errors import (
     TheoryError,
 )
 from .fits import Estimate, Fit, fit
+from .program import devices
 from .runs import Run
 from .scene import Scene
 from .step import Step
@@ -82,6 +83,7 @@ __all__ = [
     "__version__",
     "accuracy",
     "compare",
+    "devices",
     "fit",
     "heights",
     "read_heights",

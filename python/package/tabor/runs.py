@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import html
 import json
 import os
 import re
@@ -66,11 +67,27 @@ class Run:
         mapped: npt.NDArray[Any] = np.load(self.folder / "fields" / f"step_{steps[-1]:04}_{name}.npy", mmap_mode="r")
         return mapped
 
+    @property
+    def images(self) -> list[Path]:
+        """Its pictures."""
+        return sorted((self.folder / "images").glob("*.png"))
+
+    @property
+    def report(self) -> Path:
+        """The page with everything, to be opened in a browser."""
+        return self.folder / "report.html"
+
     def plot(self, x: str = "approach", y: str = "force", axes: Any = None) -> Any:
         """Draws one column of the curve over another and returns the axis."""
         from .plots import plot_curve
 
         return plot_curve(self, x, y, axes)
+
+    def _repr_html_(self) -> str:
+        summary = self.summary
+        kept = {name: value for name, value in summary.items() if isinstance(value, (int, float, str)) and not isinstance(value, bool)}
+        rows = "".join(f"<tr><th style='text-align:left'>{name.replace('_', ' ')}</th><td>{value}</td></tr>" for name, value in kept.items())
+        return f"<table><caption>{html.escape(str(self.folder))}: {len(self.curve)} steps</caption>{rows}</table>"
 
     def __repr__(self) -> str:
         return f"<Run {self.folder}: {len(self.curve)} steps>"

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import json
 import os
+import tempfile
 import warnings
 from collections.abc import Iterable, Iterator, Mapping
 from pathlib import Path
@@ -14,6 +15,7 @@ import numpy.typing as npt
 
 from . import _tabor
 from .errors import NotConvergedWarning, SceneError, TaborWarning
+from .program import call
 from .progress import reporter
 from .quantities import si
 from .runs import Run
@@ -176,6 +178,17 @@ class Scene:
         if self.is_overridden:
             raise SceneError("the values given in place of the file's are not in its text")
         Path(path).write_text(self.to_toml(), encoding="utf-8")
+
+    def check(self) -> str:
+        """What ``tabor check`` says: the physics, how well the grid resolves it, memory and cost."""
+        if self.has_arrays or self.is_overridden:
+            raise SceneError("a check reads its scene from a file, which holds no arrays and no overrides")
+        if self.path_of_file is not None:
+            return call(["check", os.fspath(self.path_of_file)], quiet=True)
+        with tempfile.TemporaryDirectory() as folder:
+            path = Path(folder) / "scene.toml"
+            self.write(path)
+            return call(["check", os.fspath(path)], quiet=True)
 
     def surface(self) -> tuple[Array, tuple[float, float]]:
         """The heights of all parts, m, of shape (ny, nx), and the cell's (lx, ly), m."""

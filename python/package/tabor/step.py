@@ -25,6 +25,8 @@ class Step:
         How well it is solved.
     state, jump : str
         "contact", "attracted" or "separated"; "in", "off" or None.
+    pull_off : (float, float) or None
+        Tensions, N, between which the contact let go under a prescribed load, if it did up to here on its path.
     columns : dict
         What effects add, by the names of ``curve.csv``.
     """

@@ -3,11 +3,8 @@
 from __future__ import annotations
 
 import os
-import signal
-import subprocess
-import sys
 import tempfile
-from collections.abc import Mapping, Sequence
+from collections.abc import Mapping
 from pathlib import Path
 from typing import Any
 
@@ -15,17 +12,9 @@ import numpy as np
 import numpy.typing as npt
 
 from . import tables
-from .errors import OutputError, SceneError, TaborError
+from .errors import OutputError, SceneError
+from .program import call
 from .scene import Scene, plain, toml_text
-
-#: Exit codes of the command line: 3 is a case that did not converge, which its table shows.
-CLASSES: dict[int, type[TaborError]] = {1: OutputError, 2: SceneError}
-NOT_CONVERGED = 3
-
-#: The program of this very package, wherever it lies and wherever the process starts.
-PROGRAM = "import sys; sys.path[0] = sys.argv.pop(1); from tabor.__main__ import main; sys.exit(main())"
-PACKAGE = os.fspath(Path(__file__).parents[1])
-
 
 class Study:
     """The folder of a study.
@@ -65,25 +54,6 @@ class Study:
 
     def __repr__(self) -> str:
         return f"<Study {self.folder}: {', '.join(self.tables)}>"
-
-
-def _call(words: Sequence[str], quiet: bool) -> str:
-    """Runs the command line in a process of its own and returns what it printed."""
-    output = subprocess.PIPE if quiet else None
-    # Its own signals: Ctrl-C reaches it through this process alone, whether a terminal or a notebook sent it.
-    process = subprocess.Popen(
-        [sys.executable, "-c", PROGRAM, PACKAGE, *words], stdout=subprocess.PIPE, stderr=output, text=True, start_new_session=True
-    )
-    try:
-        printed, errors = process.communicate()
-    except KeyboardInterrupt:
-        process.send_signal(signal.SIGINT)
-        process.communicate()
-        raise
-    if process.returncode not in (0, NOT_CONVERGED):
-        message = (errors or "").strip() or f"tabor {words[0]} ended with {process.returncode}"
-        raise CLASSES.get(process.returncode, TaborError)(message)
-    return printed
 
 
 def _scene_file(scene: Any, folder: str) -> str:
@@ -127,7 +97,7 @@ def compare(scene: Any, folder: str | os.PathLike[str], *, overrides: Mapping[st
         Whether what the command line says is held back.
     """
     with tempfile.TemporaryDirectory() as written:
-        _call(["compare", _scene_file(scene, written), "--out", os.fspath(folder), *_overrides(overrides)], quiet)
+        call(["compare", _scene_file(scene, written), "--out", os.fspath(folder), *_overrides(overrides)], quiet)
     return Study(folder)
 
 
@@ -156,7 +126,7 @@ def accuracy(
     """
     with tempfile.TemporaryDirectory() as written:
         words = ["accuracy", _scene_file(scene, written), "--out", os.fspath(folder), "--budget", budget]
-        _call([*words, *_overrides(overrides)], quiet)
+        call([*words, *_overrides(overrides)], quiet)
     return Study(folder)
 
 
@@ -192,5 +162,5 @@ def sweep(
         words = ["sweep", os.fspath(path), "--out", os.fspath(folder)]
         if jobs is not None:
             words += ["--jobs", str(jobs)]
-        _call([*words, *_overrides(overrides)], quiet)
+        call([*words, *_overrides(overrides)], quiet)
     return Study(folder)

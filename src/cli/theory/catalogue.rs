@@ -2,7 +2,7 @@
 
 use super::parameters::Parameter;
 use super::values::Values;
-use super::{dmt, lennard_jones, map, rough, soft, spheres, summits, waves};
+use super::{advise, dmt, lennard_jones, map, rough, soft, spheres, summits, waves};
 use crate::cli::Failure;
 
 /// An analytic model that can be tabulated.
@@ -103,6 +103,7 @@ pub(super) static MODELS: &[Model] = &[
     soft::MAUGIS_DUGDALE,
     lennard_jones::LENNARD_JONES_SPHERE,
     map::TABOR_MAP,
+    advise::ADVISE,
     waves::WESTERGAARD,
     waves::WAVY_ADHESIVE,
     summits::GW,

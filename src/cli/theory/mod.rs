@@ -3,6 +3,7 @@
 //! A model is one entry of the [`catalogue`]: its parameters, its columns and the function that
 //! fills them. What a parameter may be is checked here before the model sees it.
 
+mod advise;
 mod catalogue;
 mod dmt;
 mod lennard_jones;

@@ -9,6 +9,7 @@
 mod calls;
 mod curves;
 mod files;
+pub mod pull_off;
 pub mod scenes;
 pub mod variants;
 
@@ -26,6 +27,10 @@ pub struct Reached {
 
 /// Variants that no scene, file or call can reach, with the reason.
 const OUT_OF_REACH: &[(&str, &str)] = &[
+    (
+        "ContactError::Interrupted",
+        "a watcher of the library ends a solve: tests/command_line/contact.rs",
+    ),
     (
         "BackendError::Fields",
         "a kernel of this crate with a wrong list of fields: tests/house/cost.rs plans every kernel",

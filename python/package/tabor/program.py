@@ -1,0 +1,44 @@
+"""The program tabor in a process of its own."""
+
+from __future__ import annotations
+
+import os
+import signal
+import subprocess
+import sys
+from collections.abc import Sequence
+from pathlib import Path
+
+from .errors import OutputError, SceneError, TaborError
+
+#: Exit codes of the command line: 3 is a case that did not converge, which its table shows.
+CLASSES: dict[int, type[TaborError]] = {1: OutputError, 2: SceneError}
+NOT_CONVERGED = 3
+
+#: The program of this very package, wherever it lies and wherever the process starts.
+PROGRAM = "import sys; sys.path[0] = sys.argv.pop(1); from tabor.__main__ import main; sys.exit(main())"
+PACKAGE = os.fspath(Path(__file__).parents[1])
+
+
+def call(words: Sequence[str], quiet: bool) -> str:
+    """Runs the command line in a process of its own and returns what it printed."""
+    output = subprocess.PIPE if quiet else None
+    # Its own signals: Ctrl-C reaches it through this process alone, whether a terminal or a notebook sent it.
+    process = subprocess.Popen(
+        [sys.executable, "-c", PROGRAM, PACKAGE, *words], stdout=subprocess.PIPE, stderr=output, text=True, start_new_session=True
+    )
+    try:
+        printed, errors = process.communicate()
+    except KeyboardInterrupt:
+        process.send_signal(signal.SIGINT)
+        process.communicate()
+        raise
+    if process.returncode not in (0, NOT_CONVERGED):
+        message = (errors or "").strip() or f"tabor {words[0]} ended with {process.returncode}"
+        raise CLASSES.get(process.returncode, TaborError)(message)
+    return printed
+
+
+def devices() -> str:
+    """What this machine can compute on, and which of it ``backend="auto"`` takes."""
+    return call(["devices"], quiet=True).rstrip()
