@@ -1,7 +1,7 @@
 //! Trains the advice of `tabor fit --advise` and `tabor theory advise` on full fields.
 //!
 //! `cargo run --release --example regime solve` solves the fields of 300 spheres (smooth and rough, of three laws, Tabor
-//! numbers 0.05 to 4) and `regime solve 1000 1036 1 FILE` those of other contacts, into `target/regime_fields.csv`: a quarter of an
+//! numbers 0.05 to 4) and `regime solve 1000 1036 1 FILE` those of other contacts, (500 560: those that are only judged), into `target/regime_fields.csv`: a quarter of an
 //! hour on one core. `regime tabulate [FROM TO]` adds 100 contacts in closed form, measures each with noise and through springs,
 //! fits the curves and writes `examples/regime/curves.csv`, a row a curve; as long again. `regime compare` tells how far the closed
 //! form of stiff spheres lies from full fields. `regime train` trains both classifiers on that table, writes
@@ -28,7 +28,7 @@ use tabor::fit::advice::features::{CURVE_FEATURES, features};
 use tabor::fit::{ForceCurve, Freedom, Model, fit_curve};
 
 use measured::measure;
-use problems::{Closed, EVEN, FIELDS, Outside, PROBLEMS, Point, Problem};
+use problems::{ANEW, Closed, EVEN, FIELDS, Outside, PROBLEMS, Point, Problem};
 use table::Row;
 use training::{Design, Trained, rounded};
 
@@ -119,6 +119,7 @@ fn row(number: usize, field: &[Point], copy: usize) -> Option<Row> {
     let [dmt, jkr, general] = [Model::Dmt, Model::Jkr, Model::MaugisDugdale].map(error);
     let kind = match problem.outside {
         None => match problem.closed {
+            None if number >= ANEW => "anew",
             None => "sphere",
             Some(Closed::Stiff) => "stiff",
             Some(Closed::Dmt | Closed::Jkr) => "limit",

@@ -68,14 +68,16 @@ pub const EVEN: usize = 240;
 pub const FIELDS: usize = 300;
 /// Before this number stiff spheres; then by turns DMT and JKR themselves.
 pub const STIFF: usize = 360;
-/// Problems in all.
+/// Problems in all of which some are trained on.
 pub const PROBLEMS: usize = 400;
+/// The first of those that are only judged, drawn as the first [`EVEN`] and solved after all else was chosen.
+pub const ANEW: usize = 500;
 
 impl Problem {
-    /// The problem of a number below [`PROBLEMS`].
+    /// The problem of a number below [`PROBLEMS`], or from [`ANEW`] on.
     pub fn drawn(number: usize) -> Self {
         let mut random = Random(1000 + number as u64);
-        if number >= STIFF {
+        if (STIFF..ANEW).contains(&number) {
             let (law, closed) = if number.is_multiple_of(2) {
                 ("dmt", Closed::Dmt)
             } else {
@@ -92,7 +94,7 @@ impl Problem {
                 closed: Some(closed),
             };
         }
-        if number >= FIELDS {
+        if (FIELDS..STIFF).contains(&number) {
             return Problem {
                 number,
                 law: "maugis-dugdale",
@@ -103,7 +105,7 @@ impl Problem {
                 closed: Some(Closed::Stiff),
             };
         }
-        if number >= EVEN {
+        if (EVEN..FIELDS).contains(&number) {
             return Problem {
                 number,
                 law: ["lennard-jones", "exponential", "maugis-dugdale"][number % 3],

@@ -41,7 +41,7 @@ const ERRORS: [&str; 7] = [
 pub struct Row {
     /// Number of its field.
     pub problem: usize,
-    /// `sphere` of a full field, `stiff` or `limit` in closed form, or what else was measured.
+    /// `sphere` of a full field, `anew` of one that is only judged, `stiff` or `limit` in closed form, or what else was measured.
     pub kind: String,
     /// Law of the attraction, or `none`.
     pub law: String,
@@ -66,12 +66,12 @@ pub struct Row {
 impl Row {
     /// Whether it is kept out of training.
     pub fn is_held_out(&self) -> bool {
-        scattered(self.problem).is_multiple_of(HELD_OUT)
+        self.kind == "anew" || scattered(self.problem).is_multiple_of(HELD_OUT)
     }
 
     /// Whether models of a sphere can suit it.
     pub fn is_of_sphere(&self) -> bool {
-        ["sphere", "stiff", "limit"].contains(&self.kind.as_str())
+        ["sphere", "anew", "stiff", "limit"].contains(&self.kind.as_str())
     }
 
     /// Index into [`CLASSES`]: the simplest model whose w and E* are right within [`TOLERANCE`]; of DMT and JKR, which
