@@ -15,7 +15,7 @@ pub(super) const FIRST_TOLERANCE: f64 = 1e-4;
 /// Share of its first residual at which a round ends: what single precision can gain.
 const GAIN: f64 = 3e-4;
 /// Share of the tolerance that a round aims at, which leaves room for rounding.
-const AIM: f64 = 0.5;
+const AIM: f64 = 0.8;
 /// Iterations of a round.
 const ROUND_ITERATIONS: usize = 100;
 /// A round that leaves more than this share of the residual has gained nothing. Rounds gain only a third

@@ -138,20 +138,13 @@ impl<T: CpuReal> Transform<T> {
             }
             if form.takes_retained() {
                 for (lines, tile) in lines.chunks_mut(2 * TILE).zip(&mut *job.work) {
-                    for (pair, kept) in lines.chunks_mut(2).zip(alone(tile)) {
-                        pair[0] = kept.re;
-                        if let Some(second) = pair.get_mut(1) {
-                            *second = kept.im;
-                        }
-                    }
+                    take_retained(alone(tile), lines);
                 }
             }
             job.call(lines);
             if form.retains() {
                 for (lines, tile) in lines.chunks(2 * TILE).zip(&mut *job.work) {
-                    for (pair, kept) in lines.chunks(2).zip(alone(tile)) {
-                        *kept = Complex::new(pair[0], pair.get(1).copied().unwrap_or(T::zero()));
-                    }
+                    retain(lines, alone(tile));
                 }
             }
             if form.before_forward() {
@@ -234,6 +227,40 @@ fn rows_to_tile<'a, T: Real>(
                 tile[place * BLOCK + row] = *value;
             }
         }
+    }
+}
+
+/// Keeps lines in the place of a tile's spectra, two numbers in each.
+fn retain<T: Real>(lines: &[T], tile: &mut [Complex<T>; TILE]) {
+    let (pairs, rest) = lines.as_chunks::<2>();
+    match pairs.first_chunk::<TILE>() {
+        // A fixed length, which is moved without a loop.
+        Some(pairs) => *tile = pairs.map(|[first, second]| Complex::new(first, second)),
+        None => {
+            for (kept, &[first, second]) in tile.iter_mut().zip(pairs) {
+                *kept = Complex::new(first, second);
+            }
+        }
+    }
+    if let (&[last], Some(kept)) = (rest, tile.get_mut(pairs.len())) {
+        *kept = Complex::new(last, T::zero());
+    }
+}
+
+/// Takes lines from the place of a tile's spectra.
+fn take_retained<T: Real>(tile: &[Complex<T>; TILE], lines: &mut [T]) {
+    let (pairs, rest) = lines.as_chunks_mut::<2>();
+    let whole = pairs.len();
+    match pairs.first_chunk_mut::<TILE>() {
+        Some(pairs) => *pairs = tile.map(|kept| [kept.re, kept.im]),
+        None => {
+            for (pair, kept) in pairs.iter_mut().zip(tile) {
+                *pair = [kept.re, kept.im];
+            }
+        }
+    }
+    if let ([last], Some(kept)) = (rest, tile.get(whole)) {
+        *last = kept.re;
     }
 }
 
