@@ -28,6 +28,7 @@ def run(tmp_path_factory):
 def test_a_run_is_read_back(run):
     assert len(run.curve) == 2
     assert run.curve["converged"].all()
+    assert run.curve["step"].dtype.kind == "i" and run.curve["force"].dtype.kind == "f"
     assert run.summary["pull_off_force"] is None
     assert run.fields == [(1, "gap"), (1, "pressure"), (2, "gap"), (2, "pressure")]
     field = run.field("pressure")

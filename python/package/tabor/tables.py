@@ -12,13 +12,16 @@ import numpy.typing as npt
 
 
 def structured(rows: Sequence[Sequence[str]]) -> npt.NDArray[np.void]:
-    """Rows of texts, the head first, as a structured array: numbers, truth values or texts; an empty number is NaN."""
+    """Rows of texts, the head first, as a structured array: counts, numbers, truth values or texts; an empty number is NaN."""
     head, *body = rows
     columns: list[tuple[str, npt.NDArray[np.generic]]] = []
     for index, name in enumerate(head):
         cells = [row[index] for row in body]
         if cells and set(cells) <= {"true", "false"}:
             columns.append((name, np.array([cell == "true" for cell in cells])))
+            continue
+        if cells and all(cell.isdecimal() for cell in cells):
+            columns.append((name, np.array([int(cell) for cell in cells])))
             continue
         try:
             columns.append((name, np.array([float(cell) if cell else np.nan for cell in cells])))
