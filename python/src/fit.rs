@@ -3,6 +3,7 @@
 use std::path::PathBuf;
 
 use pyo3::prelude::*;
+use tabor::fit::advice::advise_curve;
 use tabor::fit::{
     Calibration, ColumnChoice, CurveColumns, FitError, FitResult, ForceCurve, Freedom, Indenter,
     fit_curve, fit_relaxation, fit_with_slope, headline, report, table,
@@ -27,6 +28,7 @@ pub struct How {
     spring_error: f64,
     radius_error: f64,
     relaxation: bool,
+    advise: bool,
     range: Option<f64>,
 }
 
@@ -73,6 +75,15 @@ pub fn fit(py: Python<'_>, path: PathBuf, text: Option<&str>, how: How) -> PyRes
         Calibration::new(how.radius_error, how.spring_error).widen(&mut result);
         if how.relaxation {
             result.relaxation = Some(fit_relaxation(&curve, &path, &result)?);
+        }
+        if how.advise {
+            result.advice = advise_curve(&result);
+            if result.advice.is_none() {
+                result.warnings.push(
+                    "no advice: it needs a fit of each of the four models, and one of them failed"
+                        .to_owned(),
+                );
+            }
         }
         Ok(result)
     };

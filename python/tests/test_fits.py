@@ -43,6 +43,14 @@ def test_all_kinds_of_curves_are_the_same(tmp_path):
     assert len({fit.work_of_adhesion for fit in fits}) == 1
 
 
+def test_advice():
+    found = tabor.fit(curve(5e-9), radius="10 um", advise=True)
+    assert found.advice["model"] in ("maugis-dugdale", "dmt", "jkr", "hertz", None)
+    assert tabor.fit(curve(5e-9), radius="10 um").report.get("advice") is None
+    with pytest.raises(tabor.FitError, match="sphere"):
+        tabor.fit(curve(), cone=0.3, advise=True)
+
+
 def test_pictures():
     matplotlib = pytest.importorskip("matplotlib")
     matplotlib.use("Agg")

@@ -88,6 +88,7 @@ def fit(
     spring_error: float = 0.0,
     radius_error: float = 0.0,
     relaxation: bool = False,
+    advise: bool = False,
     range: Quantity | None = None,
 ) -> Fit:
     """Fits Hertz, DMT, JKR and Maugis-Dugdale to a force curve and chooses one.
@@ -115,6 +116,8 @@ def fit(
         Relative standard deviations.
     relaxation : bool
         Fit one relaxation time beside; the curve needs a time.
+    advise : bool
+        Say in `advice` which model suits, with probabilities learned from full fields; of spheres only.
     range : number or text, optional
         Range of the attraction, m, where it is known.
 
@@ -134,6 +137,8 @@ def fit(
     if len(given) != 1:
         raise FitError("give one of radius, cone and pyramid")
     [(tip, size)] = given
+    if advise and tip != "sphere":
+        raise FitError("advise: only curves of spheres were learned from")
     path, text = _curve(curve)
     how = {
         "tip": tip,
@@ -147,6 +152,7 @@ def fit(
         "spring_error": si(spring_error, "number", "spring_error", FitError),
         "radius_error": si(radius_error, "number", "radius_error", FitError),
         "relaxation": bool(relaxation),
+        "advise": bool(advise),
         "range": None if range is None else si(range, "length", "range", FitError),
     }
     report, table, headline, said = _tabor.fit(path, text, how)
