@@ -139,7 +139,7 @@ def main():
     parser.add_argument("--points", type=int, default=512)
     parser.add_argument("--tabor", default="target/release/tabor")
     parser.add_argument("--tolerance", type=float, default=1e-6, help="tabor's residual")
-    parser.add_argument("--peer-tolerance", type=float, default=1e-5, help="Tamaas' error")
+    parser.add_argument("--peer-tolerance", type=float, default=1e-4, help="Tamaas' error")
     options = parser.parse_args()
     print(f"{options.points} x {options.points} points, {platform.machine()}, one thread each\n")
     print("| law | w/(E* L) | | CPU seconds | ratio | imbalance | energy | contact area |")

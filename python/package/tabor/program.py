@@ -3,8 +3,6 @@
 from __future__ import annotations
 
 import os
-import signal
-import subprocess
 import sys
 from collections.abc import Sequence
 from pathlib import Path
@@ -22,6 +20,10 @@ PACKAGE = os.fspath(Path(__file__).parents[1])
 
 def call(words: Sequence[str], quiet: bool) -> str:
     """Runs the command line in a process of its own and returns what it printed."""
+    # Where it is first called for: these take longer to import than all of this package.
+    import signal
+    import subprocess
+
     output = subprocess.PIPE if quiet else None
     # Its own signals: Ctrl-C reaches it through this process alone, whether a terminal or a notebook sent it.
     process = subprocess.Popen(

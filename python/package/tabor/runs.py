@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import html
 import json
 import os
 import re
@@ -84,6 +83,8 @@ class Run:
         return plot_curve(self, x, y, axes)
 
     def _repr_html_(self) -> str:
+        import html
+
         summary = self.summary
         kept = {name: value for name, value in summary.items() if isinstance(value, (int, float, str)) and not isinstance(value, bool)}
         rows = "".join(f"<tr><th style='text-align:left'>{name.replace('_', ' ')}</th><td>{value}</td></tr>" for name, value in kept.items())

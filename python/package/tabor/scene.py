@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import json
 import os
-import tempfile
 import warnings
 from collections.abc import Iterable, Iterator, Mapping
 from pathlib import Path
@@ -185,6 +184,8 @@ class Scene:
             raise SceneError("a check reads its scene from a file, which holds no arrays and no overrides")
         if self.path_of_file is not None:
             return call(["check", os.fspath(self.path_of_file)], quiet=True)
+        import tempfile
+
         with tempfile.TemporaryDirectory() as folder:
             path = Path(folder) / "scene.toml"
             self.write(path)

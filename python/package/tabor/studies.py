@@ -3,8 +3,8 @@
 from __future__ import annotations
 
 import os
-import tempfile
 from collections.abc import Mapping
+from contextlib import AbstractContextManager
 from pathlib import Path
 from typing import Any
 
@@ -75,6 +75,13 @@ def _scene_file(scene: Any, folder: str) -> str:
     return str(os.fspath(scene))
 
 
+def _folder() -> AbstractContextManager[str]:
+    """A folder for the time of a call."""
+    import tempfile
+
+    return tempfile.TemporaryDirectory()
+
+
 def _overrides(overrides: Mapping[str, Any] | None) -> list[str]:
     words = []
     for key, value in (overrides or {}).items():
@@ -96,7 +103,7 @@ def compare(scene: Any, folder: str | os.PathLike[str], *, overrides: Mapping[st
     quiet : bool
         Whether what the command line says is held back.
     """
-    with tempfile.TemporaryDirectory() as written:
+    with _folder() as written:
         call(["compare", _scene_file(scene, written), "--out", os.fspath(folder), *_overrides(overrides)], quiet)
     return Study(folder)
 
@@ -124,7 +131,7 @@ def accuracy(
     quiet : bool
         Whether what the command line says is held back.
     """
-    with tempfile.TemporaryDirectory() as written:
+    with _folder() as written:
         words = ["accuracy", _scene_file(scene, written), "--out", os.fspath(folder), "--budget", budget]
         call([*words, *_overrides(overrides)], quiet)
     return Study(folder)
@@ -153,7 +160,7 @@ def sweep(
     quiet : bool
         Whether what the command line says is held back.
     """
-    with tempfile.TemporaryDirectory() as written:
+    with _folder() as written:
         if isinstance(study, Mapping):
             path = Path(written) / "study.toml"
             path.write_text(toml_text(study), encoding="utf-8")
