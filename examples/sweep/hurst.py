@@ -14,7 +14,7 @@ from tabor import tables, theory
 matplotlib.use("Agg")
 import matplotlib.pyplot as plt  # noqa: E402
 
-# As in sticky.toml.
+# As in adhesive.toml.
 MODULUS, WORK, SIDE = 1e6, 0.05, 10e-6
 LONGEST, ROLLOFF, SHORTEST = 10e-6, 5e-6, 0.625e-6
 AREA = SIDE**2

@@ -253,7 +253,7 @@ const FUNCTIONS: &[(&str, usize, Evaluate)] = &[
     }),
     // Rough surfaces by their summits.
     ("gw.adhesion_parameter", 1, |_, x| {
-        Ok(vec![sticky_summits(x)?.adhesion_parameter()?])
+        Ok(vec![adhesive_summits(x)?.adhesion_parameter()?])
     }),
     ("gw.pressure", 1, |_, x| {
         Ok(vec![hard_summits(x)?.pressure(x[4])?])
@@ -265,23 +265,23 @@ const FUNCTIONS: &[(&str, usize, Evaluate)] = &[
         Ok(vec![hard_summits(x)?.contact_density(x[4])])
     }),
     ("gw_m.pressure", 1, |_, x| {
-        Ok(vec![gw_m::pressure(&sticky_summits(x)?, x[5])?])
+        Ok(vec![gw_m::pressure(&adhesive_summits(x)?, x[5])?])
     }),
     ("gw_m.pull_off", 1, |_, x| {
-        Ok(vec![gw_m::pull_off(&sticky_summits(x)?)?])
+        Ok(vec![gw_m::pull_off(&adhesive_summits(x)?)?])
     }),
     ("gw_m.separation", 1, |_, x| {
-        Ok(vec![gw_m::separation(&sticky_summits(x)?, x[5])?])
+        Ok(vec![gw_m::separation(&adhesive_summits(x)?, x[5])?])
     }),
     ("fuller_tabor.pressure", 1, |words, x| {
-        let summits = sticky_summits(x)?;
+        let summits = adhesive_summits(x)?;
         let theta = summits.adhesion_parameter()?;
         Ok(vec![
             tension(&summits) * fuller_tabor::reduced_pressure(theta, x[5], words.path)?,
         ])
     }),
     ("fuller_tabor.pull_off", 1, |_, x| {
-        let summits = sticky_summits(x)?;
+        let summits = adhesive_summits(x)?;
         let (_, least) = fuller_tabor::reduced_pull_off(summits.adhesion_parameter()?)?;
         Ok(vec![1.5 * tension(&summits) * least])
     }),
@@ -419,7 +419,7 @@ fn hard_summits(x: &[f64]) -> Result<Summits, TheoryError> {
 }
 
 /// Summits of (radius, contact modulus, work of adhesion, density, rms height).
-fn sticky_summits(x: &[f64]) -> Result<Summits, TheoryError> {
+fn adhesive_summits(x: &[f64]) -> Result<Summits, TheoryError> {
     Summits::new(sphere(x)?, x[3], x[4])
 }
 
