@@ -3,10 +3,9 @@
 use std::path::PathBuf;
 
 use pyo3::prelude::*;
-use tabor::fit::advice::advise_curve;
 use tabor::fit::{
-    Calibration, ColumnChoice, CurveColumns, FitError, FitResult, ForceCurve, Freedom, Indenter,
-    fit_curve, fit_relaxation, fit_with_slope, headline, report, table,
+    ColumnChoice, CurveColumns, FitError, FitRequest, FitResult, ForceCurve, Indenter, headline,
+    report, table,
 };
 
 use crate::errors;
@@ -61,31 +60,14 @@ pub fn fit(py: Python<'_>, path: PathBuf, text: Option<&str>, how: How) -> PyRes
             Some(text) => ForceCurve::parse(text.as_bytes(), &path, &columns)?,
             None => ForceCurve::read_columns(&path, &columns)?,
         };
-        let freedom = Freedom {
-            approach_offset: !how.contact_at_zero,
-            force_offset: how.baseline,
-            range: how.range,
-        };
-        let fit = if how.baseline_slope {
-            fit_with_slope
-        } else {
-            fit_curve
-        };
-        let mut result = fit(&curve, &path, tip, freedom)?;
-        Calibration::new(how.radius_error, how.spring_error).widen(&mut result);
-        if how.relaxation {
-            result.relaxation = Some(fit_relaxation(&curve, &path, &result)?);
-        }
-        if how.advise {
-            result.advice = advise_curve(&result);
-            if result.advice.is_none() {
-                result.warnings.push(
-                    "no advice: it needs a fit of each of the four models, and one of them failed"
-                        .to_owned(),
-                );
-            }
-        }
-        Ok(result)
+        let mut request = FitRequest::default();
+        request.contact_at_zero = how.contact_at_zero;
+        request.baseline = how.baseline;
+        request.baseline_slope = how.baseline_slope;
+        request.range = how.range;
+        (request.radius_error, request.spring_error) = (how.radius_error, how.spring_error);
+        (request.relaxation, request.advise) = (how.relaxation, how.advise);
+        request.fit(&curve, &path, tip)
     };
     let mut result = py
         .detach(solve)

@@ -9,11 +9,10 @@ use super::fit_folder::fit_folder;
 use super::patience::Patience;
 use super::quantity::{positive, quantity, share};
 use super::{Failure, folder_or_default, print, say, warn};
-use crate::fit::advice::{Advice, advise_curve};
+use crate::fit::advice::Advice;
 use crate::fit::{
-    Calibration, ColumnChoice, CurveColumns, FitError, FitResult, ForceCurve, Freedom, Indenter,
-    ModelFit, figure, fit_curve, fit_relaxation, fit_with_slope, headline, report,
-    table as curve_table,
+    ColumnChoice, CurveColumns, FitError, FitRequest, FitResult, ForceCurve, Indenter, ModelFit,
+    figure, headline, report, table as curve_table,
 };
 use crate::output::write_atomically;
 use crate::theory::jkr;
@@ -127,30 +126,17 @@ impl FitArguments {
         columns.choices.clone_from(&self.columns);
         (columns.sensitivity, columns.spring) = (self.sensitivity, self.spring);
         let curve = ForceCurve::read_columns(path, &columns)?;
-        let freedom = Freedom {
-            approach_offset: !self.contact_at_zero,
-            force_offset: self.baseline,
+        let request = FitRequest {
+            contact_at_zero: self.contact_at_zero,
+            baseline: self.baseline,
+            baseline_slope: self.baseline_slope,
             range: self.range,
+            radius_error: self.radius_error,
+            spring_error: self.spring_error,
+            relaxation: self.relaxation,
+            advise: self.advise,
         };
-        let fit = if self.baseline_slope {
-            fit_with_slope
-        } else {
-            fit_curve
-        };
-        let mut result = fit(&curve, path, self.indenter(), freedom)?;
-        Calibration::new(self.radius_error, self.spring_error).widen(&mut result);
-        if self.relaxation {
-            result.relaxation = Some(fit_relaxation(&curve, path, &result)?);
-        }
-        if self.advise {
-            result.advice = advise_curve(&result);
-            if result.advice.is_none() {
-                let missing =
-                    "no advice: it needs a fit of each of the four models, and one of them failed";
-                result.warnings.push(missing.to_owned());
-            }
-        }
-        Ok(result)
+        request.fit(&curve, path, self.indenter())
     }
 }
 

@@ -33,6 +33,7 @@ mod nanoscope;
 mod picture;
 mod relaxation;
 mod report;
+mod request;
 mod segments;
 mod slope;
 mod start;
@@ -56,6 +57,7 @@ pub use model::Model;
 pub use picture::figure;
 pub use relaxation::{Relaxation, fit_relaxation};
 pub use report::{report, table};
+pub use request::FitRequest;
 #[doc(hidden)]
 pub use segments::{Segment, segments};
 pub use slope::{BaselineSlope, fit_with_slope};
