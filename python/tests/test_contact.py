@@ -75,8 +75,14 @@ def test_a_scene_pickles():
 def test_control_c_ends_a_solve_within_a_second():
     heights = tabor.self_affine((1024, 1024), 1e-6, rms_slope=0.1, shortest=4e-9)
     contact = tabor.Contact(heights, 1e-6, contact_modulus=1e9, tolerance=1e-12, max_iterations=100000)
-    threading.Timer(0.5, signal.raise_signal, [signal.SIGINT]).start()
+    sent = []
+
+    def interrupt():
+        sent.append(time.monotonic())
+        signal.raise_signal(signal.SIGINT)
+
+    threading.Timer(0.5, interrupt).start()
     with pytest.raises(KeyboardInterrupt):
         contact.solve(pressure=1e7)
-    # The clock runs from the signal: half a second after the call at the earliest.
-    assert time.monotonic() > 0.0
+    # The second of the promise, from the signal on; signals are looked for ten times in it.
+    assert time.monotonic() - sent[0] < 1.0

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
-from typing import Any
+from typing import Any, ClassVar
 
 from .errors import SceneError
 from .scene import Scene, field
@@ -11,46 +11,45 @@ from .topography import from_topography, is_topography
 
 
 @dataclass(frozen=True)
-class MaugisDugdale:
+class _Law:
+    """What every law has."""
+
+    work_of_adhesion: float | str | None = None
+    range: float | str | None = None
+    peak_tension: float | str | None = None
+
+    #: Its word in a scene.
+    word: ClassVar[str]
+
+    def table(self) -> dict[str, Any]:
+        """The keys of ``[adhesion]``."""
+        return {"law": self.word, **vars(self)}
+
+
+@dataclass(frozen=True)
+class MaugisDugdale(_Law):
     """A constant tension over a range; give two of work of adhesion, range and peak tension.
 
     ``taper`` is the interval of the gap over which the tension falls to 0.
     """
 
-    work_of_adhesion: float | str | None = None
-    range: float | str | None = None
-    peak_tension: float | str | None = None
     taper: float | str | None = None
 
-    def table(self) -> dict[str, Any]:
-        """The keys of ``[adhesion]``."""
-        return {"law": "maugis-dugdale", **vars(self)}
+    word: ClassVar[str] = "maugis-dugdale"
 
 
 @dataclass(frozen=True)
-class LennardJones:
+class LennardJones(_Law):
     """Attraction and repulsion from the 9-3 potential of surfaces; give two of the three."""
 
-    work_of_adhesion: float | str | None = None
-    range: float | str | None = None
-    peak_tension: float | str | None = None
-
-    def table(self) -> dict[str, Any]:
-        """The keys of ``[adhesion]``."""
-        return {"law": "lennard-jones", **vars(self)}
+    word: ClassVar[str] = "lennard-jones"
 
 
 @dataclass(frozen=True)
-class Exponential:
+class Exponential(_Law):
     """A tension that decays exponentially with the gap; give two of the three."""
 
-    work_of_adhesion: float | str | None = None
-    range: float | str | None = None
-    peak_tension: float | str | None = None
-
-    def table(self) -> dict[str, Any]:
-        """The keys of ``[adhesion]``."""
-        return {"law": "exponential", **vars(self)}
+    word: ClassVar[str] = "exponential"
 
 
 class Contact(Scene):

@@ -5,7 +5,7 @@ from __future__ import annotations
 import os
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
-from typing import Any, NamedTuple, Union
+from typing import Any, ClassVar, NamedTuple, Union
 
 import numpy as np
 import numpy.typing as npt
@@ -20,8 +20,19 @@ Size = Union[Quantity, Sequence[Quantity]]
 Array = npt.NDArray[np.float64]
 
 
+class _Part:
+    """What every part of a surface that is no file has."""
+
+    #: Its word in a scene.
+    kind: ClassVar[str]
+
+    def table(self, side: float) -> dict[str, Any]:
+        """The keys of ``[[surface]]`` on a cell whose shorter side is `side`, m."""
+        return {"kind": self.kind, **vars(self)}
+
+
 @dataclass(frozen=True)
-class SelfAffine:
+class SelfAffine(_Part):
     """Random roughness with a self-affine spectrum.
 
     Parameters
@@ -45,15 +56,17 @@ class SelfAffine:
     shortest: Quantity | None = None
     seed: int = 1
 
+    kind: ClassVar[str] = "self-affine"
+
     def table(self, side: float) -> dict[str, Any]:
         """The keys of ``[[surface]]`` on a cell whose shorter side is `side`, m."""
         longest = side if self.longest is None else self.longest
         rolloff = longest if self.rolloff is None else self.rolloff
-        return {"kind": "self-affine", **vars(self), "longest": longest, "rolloff": rolloff}
+        return {**super().table(side), "longest": longest, "rolloff": rolloff}
 
 
 @dataclass(frozen=True)
-class Sphere:
+class Sphere(_Part):
     """The paraboloid -r^2/(2 radius).
 
     Parameters
@@ -67,13 +80,11 @@ class Sphere:
     radius: Quantity
     centre: Sequence[Quantity] | None = None
 
-    def table(self, side: float) -> dict[str, Any]:
-        """The keys of ``[[surface]]``."""
-        return {"kind": "sphere", **vars(self)}
+    kind: ClassVar[str] = "sphere"
 
 
 @dataclass(frozen=True)
-class Cone:
+class Cone(_Part):
     """A cone.
 
     Parameters
@@ -87,13 +98,11 @@ class Cone:
     half_angle: Quantity
     centre: Sequence[Quantity] | None = None
 
-    def table(self, side: float) -> dict[str, Any]:
-        """The keys of ``[[surface]]``."""
-        return {"kind": "cone", **vars(self)}
+    kind: ClassVar[str] = "cone"
 
 
 @dataclass(frozen=True)
-class Wavy:
+class Wavy(_Part):
     """The wave amplitude cos(2 pi x/wavelength_x) cos(2 pi y/wavelength_y).
 
     Parameters
@@ -107,18 +116,14 @@ class Wavy:
     amplitude: Quantity
     wavelength: Quantity | Sequence[Quantity]
 
-    def table(self, side: float) -> dict[str, Any]:
-        """The keys of ``[[surface]]``."""
-        return {"kind": "wavy", **vars(self)}
+    kind: ClassVar[str] = "wavy"
 
 
 @dataclass(frozen=True)
-class Flat:
+class Flat(_Part):
     """A flat surface."""
 
-    def table(self, side: float) -> dict[str, Any]:
-        """The keys of ``[[surface]]``."""
-        return {"kind": "flat"}
+    kind: ClassVar[str] = "flat"
 
 
 class HeightFile:
