@@ -43,9 +43,10 @@
 //! # Features
 //!
 //! `cli` (default) is the program `tabor`, `gpu` (default) the graphics processor, `images`, which `cli` brings
-//! with it, pictures, reports and height maps from PNG and TIFF. Without any of them remains the solver on the
-//! processor with everything above, which depends on no graphics, no fonts and no command line, and compiles
-//! for `wasm32-unknown-unknown` (there seconds are 0 and threads one).
+//! with it, pictures, reports and height maps from PNG and TIFF. `netcdf` is the command `tabor netcdf`, a run as
+//! one file, with the system's library. Without any of them remains the solver on the processor with everything
+//! above, which depends on no graphics, no fonts and no command line, and compiles for
+//! `wasm32-unknown-unknown` (there seconds are 0 and threads one).
 //!
 //! # The map
 //!

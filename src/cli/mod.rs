@@ -11,6 +11,8 @@ mod fit;
 mod fit_folder;
 mod flags;
 mod interrupts;
+#[cfg(feature = "netcdf")]
+mod netcdf;
 mod new;
 mod patience;
 mod plot;
@@ -101,6 +103,12 @@ enum Command {
         after_help = "Example:\n  tabor plot rough smooth --out rough_and_smooth.png\n  tabor plot rough/curve.csv smooth/curve.csv --x mean_pressure --y contact_area_fraction"
     )]
     Plot(plot::PlotArguments),
+    /// A run as one netCDF file: curve, fields, units and scene
+    #[cfg(feature = "netcdf")]
+    #[command(
+        after_help = "xarray and ParaView open it. More in docs/results.md.\n\nExample:\n  tabor netcdf rough --out rough.nc"
+    )]
+    Netcdf(netcdf::NetcdfArguments),
     /// Adapters found, what each can do, and which one `auto` takes
     #[command(after_help = "Example:\n  tabor devices")]
     Devices {
@@ -391,6 +399,8 @@ pub fn main_with(words: Vec<OsString>) -> u8 {
         Command::Fit(arguments) => fit::fit(&arguments),
         Command::Sweep(arguments) => sweep::sweep(&arguments),
         Command::Plot(arguments) => plot::plot(&arguments),
+        #[cfg(feature = "netcdf")]
+        Command::Netcdf(arguments) => netcdf::netcdf(&arguments),
         Command::Devices { verbose } => devices::devices(verbose),
         Command::Completions { shell } => shell::completions(shell),
         Command::Man { folder } => shell::man(folder.as_deref()),

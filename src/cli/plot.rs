@@ -6,28 +6,13 @@ use clap::Args;
 use csv::StringRecord;
 
 use super::{Failure, say};
-use crate::effect::Effect;
 use crate::output::csv_line::csv_line;
+use crate::output::curve::unit_of;
 use crate::output::plot::{Axis, DISTINCT, Figure, Panel, PlotPoint, Series};
 use crate::output::write_atomically;
 
 /// Points of a curve up to which each is marked.
 const MARKED: usize = 60;
-/// Columns that every `curve.csv` has with their SI units; a share is shown in per cent.
-const UNITS: [(&str, &str); 11] = [
-    ("time", "s"),
-    ("approach", "m"),
-    ("mean_gap", "m"),
-    ("force", "N"),
-    ("mean_pressure", "Pa"),
-    ("contact_area_fraction", "%"),
-    ("contact_area_fraction_corrected", "%"),
-    ("attractive_area_fraction", "%"),
-    ("elastic_energy", "J"),
-    ("adhesive_energy", "J"),
-    ("seconds", "s"),
-];
-
 #[derive(Debug, Args)]
 pub(super) struct PlotArguments {
     /// Folders of runs, or tables like their curve.csv
@@ -181,12 +166,9 @@ fn names(runs: &[PathBuf]) -> Vec<String> {
 }
 
 fn panel(pair: &[String; 2], runs: &[Table]) -> Panel {
-    let [x, y] = pair.each_ref().map(|name| {
-        let common = UNITS.iter().find(|(known, _)| known == name);
-        let unit = common.map(|(_, unit)| *unit);
-        let unit = unit.or_else(|| Effect::unit_of_column(name));
-        Axis::linear(&name.replace('_', " "), unit.unwrap_or_default())
-    });
+    let [x, y] = pair
+        .each_ref()
+        .map(|name| Axis::linear(&name.replace('_', " "), unit_of(name)));
     let series = (runs.iter().enumerate()).flat_map(|(name, run)| {
         let points = run.points(pair);
         let count = points.iter().flatten().count();

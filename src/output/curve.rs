@@ -9,10 +9,37 @@ use csv::StringRecord;
 use super::csv_line::csv_line;
 use super::error::{FRESH, OutputError};
 use super::growing::GrowingTable;
+#[cfg(feature = "cli")]
+use crate::effect::Effect;
 use crate::study::{Column, StepRow};
 
 /// First line of `curve.csv` where no effect adds a column.
 pub const HEADER: &str = "step,time,approach,mean_gap,force,mean_pressure,contact_area_fraction,attractive_area_fraction,elastic_energy,adhesive_energy,iterations,residual,converged,seconds,contact_area_fraction_corrected,state";
+
+/// Columns that every curve has with their SI units; a share is shown in per cent.
+#[cfg(feature = "cli")]
+const UNITS: [(&str, &str); 11] = [
+    ("time", "s"),
+    ("approach", "m"),
+    ("mean_gap", "m"),
+    ("force", "N"),
+    ("mean_pressure", "Pa"),
+    ("contact_area_fraction", "%"),
+    ("contact_area_fraction_corrected", "%"),
+    ("attractive_area_fraction", "%"),
+    ("elastic_energy", "J"),
+    ("adhesive_energy", "J"),
+    ("seconds", "s"),
+];
+
+/// The SI unit of a column, `%` for a share; empty where it has none.
+#[cfg(feature = "cli")]
+pub(crate) fn unit_of(column: &str) -> &'static str {
+    let common = UNITS.iter().find(|(known, _)| *known == column);
+    let unit = common.map(|(_, unit)| *unit);
+    unit.or_else(|| Effect::unit_of_column(column))
+        .unwrap_or_default()
+}
 
 /// Checksum (CRC-32) of a curve without rows.
 pub(crate) const EMPTY_CHECKSUM: u32 = 0;

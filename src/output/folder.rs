@@ -134,19 +134,9 @@ impl RunFolder {
 
     /// The pictures that there are: step, name of the field and file, in the order of steps.
     pub fn pictures(&self) -> Vec<(usize, &'static str, PathBuf)> {
-        let entries = fs::read_dir(self.path.join("images")).into_iter().flatten();
-        let mut found: Vec<(usize, usize, PathBuf)> = entries
-            .flatten()
-            .filter_map(|entry| {
-                let name = entry.file_name();
-                let (step, field) = step_and_field(name.to_str()?.strip_suffix(".png")?)?;
-                Some((step, field?, entry.path()))
-            })
-            .collect();
-        found.sort();
+        let found = files_of_fields(&self.path.join("images"), ".png").into_iter();
         found
-            .into_iter()
-            .map(|(step, field, path)| (step, FieldName::ALL[field].name(), path))
+            .map(|(step, field, path)| (step, field.name(), path))
             .collect()
     }
 
@@ -317,6 +307,33 @@ fn step_of(name: &str) -> Option<usize> {
     fits.then_some(step)
 }
 
+/// The files of a folder that hold a field of a step, such as `step_0003_pressure.npy`: step, field and file, in the
+/// order of steps.
+pub(crate) fn files_of_fields(folder: &Path, extension: &str) -> Vec<(usize, FieldName, PathBuf)> {
+    let entries = fs::read_dir(folder).into_iter().flatten();
+    let mut found: Vec<(usize, usize, PathBuf)> = entries
+        .flatten()
+        .filter_map(|entry| {
+            let name = entry.file_name();
+            let (step, field) = step_and_field(name.to_str()?.strip_suffix(extension)?)?;
+            Some((step, field?, entry.path()))
+        })
+        .collect();
+    found.sort();
+    found
+        .into_iter()
+        .map(|(step, field, path)| (step, FieldName::ALL[field], path))
+        .collect()
+}
+
+/// The hidden file that becomes `path` once it is whole.
+pub(crate) fn hidden_file(path: &Path) -> PathBuf {
+    let mut name = std::ffi::OsString::from(".");
+    name.push(path.file_name().unwrap_or_default());
+    name.push(UNFINISHED);
+    path.with_file_name(name)
+}
+
 /// The step and the index of the field in `step_DIGITS_FIELD` or `step_DIGITS`.
 fn step_and_field(stem: &str) -> Option<(usize, Option<usize>)> {
     let rest = stem.strip_prefix("step_")?;
@@ -419,7 +436,7 @@ pub fn write_atomically(path: &Path, bytes: &[u8]) -> Result<(), OutputError> {
     if !folder.as_os_str().is_empty() {
         fs::create_dir_all(folder).map_err(OutputError::write("create the folder", folder))?;
     }
-    replace(path, folder, |file| file.write_all(bytes))
+    replace(path, |file| file.write_all(bytes))
 }
 
 /// As [`write_atomically`] into the folder of a run, which is there or was taken away: only a folder
@@ -443,19 +460,15 @@ pub fn stream_within(
             _ => {}
         }
     }
-    replace(path, folder, content)
+    replace(path, content)
 }
 
 /// Puts `content` into a hidden file of the folder, which then takes the name.
 fn replace(
     path: &Path,
-    folder: &Path,
     content: impl FnOnce(&mut BufWriter<File>) -> io::Result<()>,
 ) -> Result<(), OutputError> {
-    let mut hidden_name = std::ffi::OsString::from(".");
-    hidden_name.push(path.file_name().unwrap_or_default());
-    hidden_name.push(UNFINISHED);
-    let hidden = folder.join(hidden_name);
+    let hidden = hidden_file(path);
     let written = File::create(&hidden)
         .and_then(|file| {
             let mut file = BufWriter::new(file);

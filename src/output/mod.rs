@@ -25,6 +25,8 @@ pub mod growing;
 pub mod layout;
 #[doc(hidden)]
 pub mod lock;
+#[cfg(feature = "netcdf")]
+mod netcdf;
 #[cfg(feature = "images")]
 #[doc(hidden)]
 pub mod palette;
@@ -69,6 +71,8 @@ pub use folder::{RunFolder, expect_table, set_aside, write_atomically, write_wit
 pub use growing::GrowingTable;
 #[doc(hidden)]
 pub use lock::FolderLock;
+#[cfg(feature = "netcdf")]
+pub use netcdf::write_netcdf;
 #[cfg(feature = "images")]
 #[doc(hidden)]
 pub use picture::Snapshot;
