@@ -57,6 +57,7 @@
 //! | `clock` | time that passes; the one place that asks the system for it |
 //! | [`grid`] | points, sizes, wavevectors, the order of a field, what the transforms are scaled by |
 //! | [`real`] | the two kinds of number that kernels run in |
+//! | `plans` | plans of one-dimensional Fourier transforms, made once a process |
 //! | [`law`] | how strongly surfaces attract across a gap, one file a law |
 //! | [`elastic`] | stiffness of the half-space or of a layer at each wavevector, periodic or free |
 //! | [`kernel`] | the catalogue of passes over points, and the numbers of the algorithm |
@@ -149,6 +150,7 @@ pub mod kernel;
 #[doc(hidden)]
 pub mod law;
 pub mod output;
+mod plans;
 #[doc(hidden)]
 pub mod real;
 pub mod run;

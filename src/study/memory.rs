@@ -7,7 +7,7 @@
 use super::cost::Cost;
 use crate::backend::Shape;
 use crate::grid::{Boundary, Grid};
-use crate::scene::{BackendName, FieldName, Scene, StepChoice, SurfacePart};
+use crate::scene::{FieldName, Scene, StepChoice, SurfacePart};
 
 /// A double on the host.
 pub(crate) const DOUBLE: u64 = 8;
@@ -111,10 +111,10 @@ impl Memory {
         let jump = u64::from(cost.searches.jumps)
             * (load + before + state + results + result + other_solver);
 
-        let drivers = if scene.solver.backend == BackendName::Cpu || cfg!(not(feature = "gpu")) {
-            0
-        } else {
+        let drivers = if cfg!(feature = "gpu") && scene.looks_for_adapters(shape.len()) {
             DRIVERS
+        } else {
+            0
         };
         let solver_field = cost.place.number() as u64 * solved;
         let unused = if !on_processor {

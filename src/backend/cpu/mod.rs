@@ -13,9 +13,9 @@ use rayon::prelude::*;
 
 use super::{Backend, BackendError, Factors, Field, Level, Shape, Spectrum, check_fields};
 use crate::kernel::{Form, Gate, Kernel, Params, SUMS, ScalarKernel, Scalars, Twin, Whole};
+use crate::plans::Planned;
 use crate::real::Real;
 use blocks::{BLOCK, Job, run_blocks};
-use plans::Plans;
 use transform::Transform;
 
 /// The CPU backend in one kind of number; `CpuBackend<f64>` is the reference.
@@ -41,33 +41,21 @@ struct LevelSpace<T: Real> {
     partials: Vec<[f64; SUMS]>,
 }
 
-/// Numbers that pick their own twins and transforms.
-pub trait CpuReal: Real {
+/// Numbers that pick their own twins.
+pub trait CpuReal: Real + Planned {
     /// The twin of a kernel for this number.
     fn twin(kernel: &'static Kernel) -> Twin<Self>;
-    /// Transforms of a grid of `[nx, ny]` points.
-    fn plans(points: [usize; 2]) -> Plans<Self>;
 }
 
 impl CpuReal for f64 {
     fn twin(kernel: &'static Kernel) -> Twin<f64> {
         kernel.twin
     }
-
-    #[inline(never)]
-    fn plans(points: [usize; 2]) -> Plans<f64> {
-        Plans::new(points)
-    }
 }
 
 impl CpuReal for f32 {
     fn twin(kernel: &'static Kernel) -> Twin<f32> {
         kernel.twin_single
-    }
-
-    #[inline(never)]
-    fn plans(points: [usize; 2]) -> Plans<f32> {
-        Plans::new(points)
     }
 }
 

@@ -48,7 +48,7 @@ impl<T: CpuReal> Transform<T> {
         let [nx, ny] = shape.points;
         let columns = nx / 2 + 1;
         let groups = columns.div_ceil(BLOCK);
-        let plans = T::plans(shape.points);
+        let plans = Plans::<T>::new(shape.points);
         let transform_len = (plans.row_forward.get_scratch_len())
             .max(plans.row_backward.get_scratch_len())
             .max(plans.column_forward.get_inplace_scratch_len())
