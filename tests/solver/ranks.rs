@@ -220,9 +220,10 @@ fn a_coarse_start() {
     same_bits(&scene, Number::Double, &[4], "coarse start");
 }
 
-/// What an iteration sends: the half spectrum there and back in its convolution, eight columns at a time, and
-/// beside it less than a tenth of that: the same on the coarsest grid, the rows beside each slab, and the sums of the
-/// blocks.
+/// What an iteration sends: the half spectrum there and back in its convolution, eight columns at a time. Beside it go
+/// two convolutions of the coarsest grid, a 64th of the points, the two rows beside each slab for some eight passes, and
+/// the sums of the blocks: on this small grid less than a fifth of the first, and on a larger one less, since only the
+/// first two grow like the points.
 fn bytes_of_an_iteration() {
     const COUNT: usize = 4;
     const ITERATIONS: usize = 5;
@@ -263,7 +264,7 @@ fn bytes_of_an_iteration() {
     // All but the share that a rank has already.
     let spectrum = 2 * size_of::<f64>() * columns * points * (COUNT - 1) / COUNT;
     let least = 2 * spectrum * ITERATIONS;
-    assert!(sent >= least && sent < least + least / 10, "{sent} {least}");
+    assert!(sent >= least && sent < least + least / 5, "{sent} {least}");
 }
 
 /// More ranks than blocks of rows: some hold none, and take part all the same.

@@ -2,8 +2,12 @@
 //!
 //! Sums and scalars are the same on every rank, so all take the same decisions and meet at the same exchanges.
 
+#[cfg(feature = "mpi")]
+mod mpi;
 mod threads;
 
+#[cfg(feature = "mpi")]
+pub use self::mpi::{MpiError, MpiRanks, MpiSession};
 pub use threads::ThreadRanks;
 
 use std::fmt::Debug;
@@ -16,7 +20,7 @@ pub trait Ranks: Debug + Send + Sync {
     /// How many processes there are.
     fn count(&self) -> usize;
     /// Sends each rank its part of `send`, and takes into `receive` what each rank sends here; the parts lie one after
-    /// another in the order of the ranks, of as many bytes as the lengths say.
+    /// another in the order of the ranks, of as many bytes as the lengths say, and below 2^31 of them.
     ///
     /// # Errors
     /// Another rank has ended.
