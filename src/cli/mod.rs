@@ -184,6 +184,9 @@ struct RunArguments {
 struct CheckArguments {
     #[command(flatten)]
     scene: SceneArguments,
+    /// Also say what each of so many MPI ranks takes (docs/cluster.md)
+    #[arg(long, value_name = "P", value_parser = clap::value_parser!(u16).range(1..))]
+    ranks: Option<u16>,
     /// Also list the solver's fields and kernels, the effects that are off, and messages of graphics drivers
     #[arg(long)]
     verbose: bool,

@@ -156,10 +156,14 @@ fn prepared(
         scene.solver.backend = device.backend();
     }
     let clock = Clock::start();
-    memory_check::check_scene(&scene)?;
+    let check = |grid| match ranks {
+        Some(ranks) => memory_check::check_on_ranks(&scene, grid, &**ranks),
+        None => memory_check::check_grid(&scene, grid),
+    };
+    memory_check::check_scene_by(&scene, check)?;
     let surface = Surface::build(&scene)?;
     // Of a grid that a height file carries.
-    memory_check::check_grid(&scene, surface.grid)?;
+    check(surface.grid)?;
     let setup = Setup::new(scene, surface);
     seconds.add("surface", clock.seconds());
     let clock = Clock::start();

@@ -1,6 +1,7 @@
 //! A contact over several ranks, each with a slab of its rows: the results are those of one process in every bit. Ranks
 //! are threads here; over MPI they exchange the same bytes.
 
+use std::fs;
 use std::path::Path;
 use std::sync::Arc;
 use std::thread;
@@ -9,10 +10,12 @@ use tabor::backend::cpu::{CpuBackend, with_threads};
 use tabor::backend::ranks::{Ranks, ThreadRanks};
 use tabor::backend::{Backend, BackendError};
 use tabor::kernel::Scalars;
+use tabor::run::{run_on_ranks, run_with};
 use tabor::scene::Scene;
 use tabor::solver::{ContactSolver, Hold, Load, Start};
 use tabor::study::{FinishedStep, Observer, Setup, WalkEnd, WalkError, walk};
 use tabor::surface::Surface;
+use tabor::{Device, RunEnd, RunError, RunObserver, RunOptions, RunStatus};
 
 use crate::shared::trials::{is_long, tests};
 
@@ -296,7 +299,164 @@ fn a_rank_that_ends() {
     });
 }
 
+/// A run in a folder over so many ranks; the ends of all.
+fn run_over(
+    scene: &Scene,
+    folder: &Path,
+    options: &RunOptions,
+    count: usize,
+    last: usize,
+) -> Vec<Result<RunEnd, RunError>> {
+    thread::scope(|scope| {
+        let runs = ThreadRanks::new(count).into_iter().map(|rank| {
+            scope.spawn(move || {
+                let mut observer = EndsAfter(last);
+                run_on_ranks(
+                    scene.clone(),
+                    folder,
+                    options,
+                    Arc::new(rank),
+                    &mut observer,
+                )
+            })
+        });
+        let runs: Vec<_> = runs.collect();
+        runs.into_iter()
+            .map(|run| run.join().expect("it does not panic"))
+            .collect()
+    })
+}
+
+/// Ends a run after an iteration of so many.
+struct EndsAfter(usize);
+
+impl RunObserver for EndsAfter {
+    fn iteration(&mut self, _: usize, _: usize, _: f64) -> bool {
+        self.0 = self.0.saturating_sub(1);
+        self.0 > 0
+    }
+}
+
+/// Files of a run by name, the curve without its seconds; those that tell seconds or are drawn aside.
+fn files(folder: &Path) -> Vec<(String, Vec<u8>)> {
+    let curve = fs::read_to_string(folder.join("curve.csv")).expect("a curve");
+    let mut lines = curve.lines();
+    let head: Vec<&str> = lines.next().expect("a head").split(',').collect();
+    let seconds = head
+        .iter()
+        .position(|name| *name == "seconds")
+        .expect("a column of seconds");
+    let mut found = Vec::new();
+    for line in lines {
+        let mut cells: Vec<&str> = line.split(',').collect();
+        cells[seconds] = "";
+        found.push(("curve.csv".to_owned(), cells.join(",").into_bytes()));
+    }
+    for below in ["fields", "state"] {
+        let mut entries: Vec<_> = fs::read_dir(folder.join(below))
+            .expect("a folder")
+            .map(|entry| entry.expect("an entry").path())
+            .filter(|path| path.is_file() && path.extension().is_some_and(|kind| kind != "lock"))
+            .collect();
+        entries.sort();
+        for path in entries {
+            let bytes = fs::read(&path).expect("a file");
+            found.push((
+                path.display()
+                    .to_string()
+                    .replace(&folder.display().to_string(), ""),
+                bytes,
+            ));
+        }
+    }
+    found
+}
+
+/// The folder of a run over three ranks is that of a run without any: curve, fields and state. A run that the first
+/// rank's observer ends, or that ends in its second step, is resumed on another number of ranks to the same files.
+fn the_folder_of_a_run() {
+    let loading = "[loading]\ncontrol = \"pressure\"\npath = [2e5, 1e6, 5e5, 2e5]\n[output]\nfields = [\"gap\", \"pressure\"]\nimages = []\nsteps = \"all\"\n";
+    let below = format!("{}{loading}", adhesion("maugis-dugdale"));
+    let scene = scene([40, 24], "periodic", &below, ROUGH);
+    let place = tempfile::tempdir().expect("a temporary folder");
+    let at = |name: &str| place.path().join(name);
+    let options = RunOptions::new()
+        .threads(1)
+        .images(false)
+        .device(Device::cpu());
+    run_with(scene.clone(), &at("one"), &options, &mut ()).expect("it is solved");
+    let one = files(&at("one"));
+    assert!(one.len() > 4 + 8, "{} files", one.len());
+
+    let ends = run_over(&scene, &at("three"), &options, 3, usize::MAX);
+    let rows = |end: &RunEnd| end.rows.len();
+    for end in &ends {
+        let end = end.as_ref().expect("all ranks");
+        assert_eq!((rows(end), end.status), (4, RunStatus::Finished));
+    }
+    assert_eq!(files(&at("three")), one);
+
+    // Somewhere in the second step.
+    let first = ends[0].as_ref().map_or(0, |end| end.rows[0].iterations);
+    let ended = run_over(&scene, &at("cut"), &options, 4, first + 3);
+    for end in &ended {
+        let end = end.as_ref().expect("all ranks");
+        assert_eq!(rows(end), 1);
+        assert!(matches!(
+            end.status,
+            RunStatus::Interrupted { finished: 1, .. }
+        ));
+    }
+    let resumed = options.clone().resume(true);
+    for end in run_over(&scene, &at("cut"), &resumed, 2, usize::MAX) {
+        assert_eq!(rows(&end.expect("all ranks")), 4);
+    }
+    assert_eq!(files(&at("cut")), one);
+}
+
+/// What one rank cannot do is told once, and ends the others: a folder that is no folder, a graphics processor, which
+/// no rank takes, and a grid that no memory holds.
+fn what_a_rank_refuses() {
+    let scene = scene([40, 24], "periodic", PRESSURE, ROUGH);
+    let place = tempfile::tempdir().expect("a temporary folder");
+    let file = place.path().join("file");
+    fs::write(&file, "no folder").expect("a file");
+    let options = RunOptions::new().threads(1).device(Device::cpu());
+    let ends = run_over(&scene, &file, &options, 3, usize::MAX);
+    assert!(matches!(ends[0], Err(RunError::Output(_))));
+    for end in &ends[1..] {
+        assert!(matches!(end, Err(RunError::Rank(error)) if error.rank == 0));
+    }
+    let ends = run_over(
+        &scene,
+        &place.path().join("run"),
+        &options.clone().device(Device::gpu()),
+        2,
+        usize::MAX,
+    );
+    let Err(error @ RunError::Device(_)) = &ends[0] else {
+        panic!("a graphics processor is refused");
+    };
+    assert!(error.to_string().contains("over 2 ranks"), "{error}");
+    assert!(matches!(&ends[1], Err(RunError::Rank(error)) if error.rank == 0));
+    // Some terabytes for all.
+    let mut huge = scene;
+    huge.grid.points = Some([1 << 15, 1 << 15]);
+    let ends = run_over(&huge, &place.path().join("run"), &options, 64, usize::MAX);
+    let Err(error @ RunError::Memory(_)) = &ends[0] else {
+        panic!("no memory holds it");
+    };
+    assert!(
+        error
+            .to_string()
+            .contains("on each of 64 ranks, 64 of them on this machine"),
+        "{error}"
+    );
+}
+
 tests![
+    the_folder_of_a_run,
+    what_a_rank_refuses,
     periodic_laws_and_controls,
     free_spheres,
     effects,

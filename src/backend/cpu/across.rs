@@ -26,6 +26,17 @@ fn groups_in_round<T>(rows: usize) -> usize {
     (ROUND / (PAIR * size_of::<T>() * BLOCK * rows)).max(1)
 }
 
+/// Bytes of the buffers in which a rank exchanges the columns of a level, of numbers of so many bytes: its own rows
+/// of the columns of all, all rows of its own columns, and these as they are transformed.
+pub fn exchange_bytes([nx, ny]: [usize; 2], number: usize, ranks: usize) -> usize {
+    if ranks < 2 {
+        return 0;
+    }
+    let group = PAIR * number * BLOCK * ny;
+    let share = (nx / 2 + 1).div_ceil(BLOCK).div_ceil(ranks);
+    3 * group * share.min((ROUND / group).max(1))
+}
+
 /// Lays complex numbers down as pairs.
 fn lay<T: Copy>(values: &[Complex<T>], pairs: &mut [T]) {
     let (pairs, _) = pairs.as_chunks_mut::<PAIR>();

@@ -23,9 +23,11 @@ use super::ranks::{RankError, Ranks};
 use super::{Backend, BackendError, Factors, Field, Level, Shape, Spectrum, check_fields};
 use crate::kernel::{Form, Gate, Kernel, Params, SUMS, ScalarKernel, Scalars, Twin, Whole};
 use crate::real::Real;
+pub use across::exchange_bytes;
 use blocks::{BLOCK, Held, Job, run_blocks};
 use plans::Plans;
 use slabs::Slabs;
+pub use slabs::largest_slab;
 use transform::Transform;
 
 /// The CPU backend in one kind of number; `CpuBackend<f64>` is the reference.

@@ -11,6 +11,11 @@ use super::blocks::{BLOCK, Held};
 use crate::backend::ranks::{Parts, RankError, Ranks};
 use crate::kernel::SUMS;
 
+/// Rows of the largest slab of a level of so many rows.
+pub fn largest_slab(rows: usize, ranks: usize) -> usize {
+    (rows.div_ceil(BLOCK).div_ceil(ranks.max(1)) * BLOCK).min(rows)
+}
+
 /// Rows of a level by rank.
 #[derive(Clone, Debug)]
 pub(super) struct Slabs {
@@ -203,6 +208,8 @@ mod tests {
                 assert!(pair[0].end.is_multiple_of(BLOCK) || pair[0].end == rows);
             }
             if rows.is_multiple_of(BLOCK) {
+                let most = each.iter().map(ExactSizeIterator::len).max();
+                assert_eq!(most, Some(largest_slab(rows, ranks)));
                 let below = all[0].halved(rows / BLOCK);
                 for (fine, coarse) in each.iter().zip(below.each()) {
                     assert_eq!(fine.len(), coarse.len() * BLOCK);

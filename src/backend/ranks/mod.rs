@@ -19,6 +19,8 @@ pub trait Ranks: Debug + Send + Sync {
     fn rank(&self) -> usize;
     /// How many processes there are.
     fn count(&self) -> usize;
+    /// How many of them run on this machine.
+    fn here(&self) -> usize;
     /// Sends each rank its part of `send`, and takes into `receive` what each rank sends here; the parts lie one after
     /// another in the order of the ranks, of as many bytes as the lengths say, and below 2^31 of them.
     ///

@@ -53,6 +53,7 @@ impl MpiSession {
         MpiRanks {
             rank: world.rank() as usize,
             count: world.size() as usize,
+            here: world.split_shared(world.rank()).size() as usize,
         }
     }
 }
@@ -71,6 +72,7 @@ impl Drop for MpiSession {
 pub struct MpiRanks {
     rank: usize,
     count: usize,
+    here: usize,
 }
 
 /// Lengths as MPI counts them, and where the parts begin.
@@ -85,6 +87,26 @@ fn counted(lengths: &[usize]) -> (Vec<Count>, Vec<Count>) {
     (counts, starts.collect())
 }
 
+/// Bytes for a call of MPI. The address of an empty slice of bytes is 1, which Open MPI takes for the sign that the
+/// bytes are in the other buffer.
+fn sent(bytes: &[u8]) -> &[u8] {
+    static NOTHING: [u8; 1] = [0];
+    if bytes.is_empty() {
+        &NOTHING[..0]
+    } else {
+        bytes
+    }
+}
+
+/// The same of bytes that a call fills.
+fn filled<'a>(bytes: &'a mut [u8], nothing: &'a mut [u8; 1]) -> &'a mut [u8] {
+    if bytes.is_empty() {
+        &mut nothing[..0]
+    } else {
+        bytes
+    }
+}
+
 impl Ranks for MpiRanks {
     fn rank(&self) -> usize {
         self.rank
@@ -94,12 +116,18 @@ impl Ranks for MpiRanks {
         self.count
     }
 
+    fn here(&self) -> usize {
+        self.here
+    }
+
     fn exchange(&self, send: Parts<&[u8]>, receive: Parts<&mut [u8]>) -> Result<(), RankError> {
         debug_assert!(send.bytes.len() <= LARGEST && receive.bytes.len() <= LARGEST);
+        let mut nothing = [0];
         let (counts, starts) = counted(send.lengths);
-        let send = Partition::new(send.bytes, counts, starts);
+        let send = Partition::new(sent(send.bytes), counts, starts);
         let (counts, starts) = counted(receive.lengths);
-        let mut receive = PartitionMut::new(receive.bytes, counts, starts);
+        let bytes = filled(receive.bytes, &mut nothing);
+        let mut receive = PartitionMut::new(bytes, counts, starts);
         SimpleCommunicator::world().all_to_all_varcount_into(&send, &mut receive);
         Ok(())
     }
@@ -107,9 +135,11 @@ impl Ranks for MpiRanks {
     fn gather(&self, own: &[u8], all: Parts<&mut [u8]>) -> Result<(), RankError> {
         let world = SimpleCommunicator::world();
         if all.bytes.len() <= LARGEST {
+            let mut nothing = [0];
             let (counts, starts) = counted(all.lengths);
-            let mut all = PartitionMut::new(all.bytes, counts, starts);
-            world.all_gather_varcount_into(own, &mut all);
+            let bytes = filled(all.bytes, &mut nothing);
+            let mut all = PartitionMut::new(bytes, counts, starts);
+            world.all_gather_varcount_into(sent(own), &mut all);
             return Ok(());
         }
         let mut left = all.bytes;

@@ -71,6 +71,10 @@ impl Ranks for ThreadRanks {
         self.to.len()
     }
 
+    fn here(&self) -> usize {
+        self.count()
+    }
+
     fn exchange(&self, send: Parts<&[u8]>, receive: Parts<&mut [u8]>) -> Result<(), RankError> {
         let mut left = send.bytes;
         for (rank, &length) in send.lengths.iter().enumerate() {
