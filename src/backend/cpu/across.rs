@@ -94,6 +94,9 @@ impl<T: CpuReal> Transform<T> {
                 &mut energies[done],
             )?;
         }
+        if !energy {
+            return Ok(0.0);
+        }
         let lengths = shares.iter().map(ExactSizeIterator::len);
         let energies = slabs.gather_numbers(&energies, lengths)?;
         Ok(energies.iter().sum())
