@@ -57,6 +57,7 @@
 //! | [`units`] | text with units to SI and back; the one place that knows unit names |
 //! | `clock` | time that passes; the one place that asks the system for it |
 //! | [`grid`] | points, sizes, wavevectors, the order of a field, what the transforms are scaled by |
+//! | `shared_values` | numbers that several hold and nobody copies: heights |
 //! | [`real`] | the two kinds of number that kernels run in |
 //! | [`law`] | how strongly surfaces attract across a gap, one file a law |
 //! | [`elastic`] | stiffness of the half-space or of a layer at each wavevector, periodic or free |
@@ -154,6 +155,7 @@ pub mod output;
 pub mod real;
 pub mod run;
 pub mod scene;
+mod shared_values;
 #[doc(hidden)]
 pub mod solver;
 #[doc(hidden)]
@@ -179,7 +181,7 @@ pub use scene::{
     AdhesionMap, Boundary, Exponential, GridValues, LennardJones, MaugisDugdale, Precision, Ramp,
     Range, Roughness, Scene, SelfAffineScene as SelfAffine, SurfacePart, Treatment,
 };
-
+pub use shared_values::SharedValues;
 pub use study::{Jump, State, StepRow, Unreachable};
 pub use units::UnitError;
 
