@@ -45,7 +45,8 @@
 //! `cli` (default) is the program `tabor`, `gpu` (default) the graphics processor, `images`, which `cli` brings
 //! with it, pictures, reports and height maps from PNG and TIFF. Without any of them remains the solver on the
 //! processor with everything above, which depends on no graphics, no fonts and no command line, and compiles
-//! for `wasm32-unknown-unknown` (there seconds are 0 and threads one).
+//! for `wasm32-unknown-unknown` (there seconds are 0 and threads one). `mpi`, which no other feature brings with it and
+//! which asks for an MPI library, lets `tabor run` share one contact between the processes of `mpirun` (`docs/cluster.md`).
 //!
 //! # The map
 //!
@@ -56,12 +57,13 @@
 //! | [`units`] | text with units to SI and back; the one place that knows unit names |
 //! | `clock` | time that passes; the one place that asks the system for it |
 //! | [`grid`] | points, sizes, wavevectors, the order of a field, what the transforms are scaled by |
+//! | `shared_values` | numbers that several hold and nobody copies: heights |
 //! | [`real`] | the two kinds of number that kernels run in |
 //! | `plans` | plans of one-dimensional Fourier transforms, made once a process |
 //! | [`law`] | how strongly surfaces attract across a gap, one file a law |
 //! | [`elastic`] | stiffness of the half-space or of a layer at each wavevector, periodic or free |
 //! | [`kernel`] | the catalogue of passes over points, and the numbers of the algorithm |
-//! | [`backend`] | where the arithmetic runs: the trait, the processor, shaders through wgpu, the dry run that only counts |
+//! | [`backend`] | where the arithmetic runs: the trait, the processor, alone or with a slab of the rows on each of several ranks, shaders through wgpu, the dry run that only counts |
 //! | [`solver`] | the one algorithm, for every law and both boundaries |
 //! | [`scene`] | TOML to a checked scene, or every mistake of it with line, key and remedy |
 //! | [`surface`] | heights: self-affine, shapes, files; their statistics and the spectrum that fits |
@@ -155,6 +157,7 @@ mod plans;
 pub mod real;
 pub mod run;
 pub mod scene;
+mod shared_values;
 #[doc(hidden)]
 pub mod solver;
 #[doc(hidden)]
@@ -180,7 +183,7 @@ pub use scene::{
     AdhesionMap, Boundary, Exponential, GridValues, LennardJones, MaugisDugdale, Precision, Ramp,
     Range, Roughness, Scene, SelfAffineScene as SelfAffine, SurfacePart, Treatment,
 };
-
+pub use shared_values::SharedValues;
 pub use study::{Jump, State, StepRow, Unreachable};
 pub use units::UnitError;
 

@@ -3,7 +3,6 @@
 use std::convert::Infallible;
 use std::error::Error;
 use std::path::Path;
-use std::sync::Arc;
 
 use tabor::backend::Backend;
 use tabor::backend::cpu::{CpuBackend, with_threads};
@@ -45,7 +44,7 @@ pub fn solve(
     let mut surface = Surface::build(&scene)?;
     if let Some(heights) = heights {
         surface.highest = heights.iter().copied().fold(f64::MIN, f64::max);
-        surface.heights = Arc::new(heights.to_vec());
+        surface.heights = heights.to_vec().into();
     }
     let setup = Setup::new(scene, surface);
     let cpu = || -> Box<dyn Backend + Send> { Box::new(CpuBackend::<f64>::new()) };

@@ -3,6 +3,7 @@
 //! This module holds what needs Rust; the package `tabor` in Python gives it names, defaults and documentation.
 //! Solvers run on threads of their own ([`waiting`]), so that Python hears Ctrl-C meanwhile.
 
+mod arrays;
 mod errors;
 mod fit;
 mod path;

@@ -5,11 +5,11 @@ use std::sync::{Arc, Mutex, PoisonError};
 
 use pyo3::prelude::*;
 use pyo3::types::PyDict;
-use tabor::scene::Scene;
 use tabor::{Jump, Load, Path, Solution};
 
+use crate::arrays::{Lent, array};
 use crate::errors;
-use crate::scene::{array, contact, control};
+use crate::scene::{LoadedScene, contact, control};
 use crate::waiting::{Talk, wait};
 
 /// Loads that Python has asked for and the solver has not yet taken.
@@ -43,18 +43,20 @@ pub struct SolvedPath {
     talk: Arc<Talk>,
     /// Lent to the solver's thread while a load is solved; gone after one was interrupted.
     path: Option<Path<Loads>>,
+    lent: Vec<Lent>,
     warned: usize,
 }
 
 impl SolvedPath {
     /// The path of a scene, before its first load.
-    pub fn new(scene: &Scene, threads: Option<usize>) -> Self {
+    pub fn new(py: Python<'_>, loaded: &LoadedScene, threads: Option<usize>) -> Self {
         let (loads, talk) = (Loads::default(), Arc::new(Talk::default()));
         let heard = Arc::clone(&talk);
-        let contact = contact(scene, threads)
+        let contact = contact(&loaded.scene, threads)
             .watch(move |iteration, residual| heard.iteration(iteration, residual));
         SolvedPath {
             path: Some(contact.path(loads.clone())),
+            lent: loaded.lent.iter().map(|each| each.share(py)).collect(),
             loads,
             talk,
             warned: 0,
@@ -76,6 +78,7 @@ impl SolvedPath {
         seconds: Option<f64>,
         progress: Option<&Bound<'py, PyAny>>,
     ) -> PyResult<(Bound<'py, PyDict>, Vec<String>)> {
+        Lent::check(py, &self.lent)?;
         let Some(mut path) = self.path.take() else {
             return Err(errors::failed(
                 py,

@@ -8,6 +8,7 @@ use std::sync::mpsc::{Sender, channel};
 use pyo3::prelude::*;
 use tabor::{RunObserver, RunOptions, RunStatus, StepRow};
 
+use crate::arrays::Lent;
 use crate::errors;
 use crate::scene::LoadedScene;
 use crate::waiting::{Talk, wait};
@@ -80,6 +81,7 @@ pub fn run(
         talk: Arc::clone(&talk),
         said,
     };
+    Lent::check(py, &scene.lent)?;
     let scene = scene.scene.clone();
     let end = wait(py, &talk, progress, move || {
         tabor::run_with(scene, &folder, &options, &mut hearer)

@@ -3,11 +3,12 @@
 use std::path::Path as FilePath;
 use std::sync::Arc;
 
-use numpy::{PyArray2, PyArrayMethods, PyReadonlyArray2, PyUntypedArrayMethods};
+use numpy::PyArray2;
 use pyo3::prelude::*;
-use tabor::scene::{AdhesionMap, GridValues, Scene, SurfacePart};
+use tabor::scene::{AdhesionMap, Scene, SurfacePart};
 use tabor::{Contact, ContactError, Control};
 
+use crate::arrays::{Lent, array};
 use crate::errors;
 use crate::path::SolvedPath;
 use crate::waiting::{Talk, wait};
@@ -16,6 +17,8 @@ use crate::waiting::{Talk, wait};
 #[pyclass(frozen, module = "tabor._tabor")]
 pub struct LoadedScene {
     pub scene: Scene,
+    /// The arrays that it shares with whoever gave them.
+    pub lent: Vec<Lent>,
 }
 
 /// A surface that was built: heights, size of its cell, warnings.
@@ -32,26 +35,31 @@ impl LoadedScene {
         name: &str,
         folder: &str,
         overrides: Vec<(String, String)>,
-        heights: Option<&Bound<'_, PyAny>>,
-        factors: Option<&Bound<'_, PyAny>>,
+        heights: Option<&Bound<'_, PyArray2<f64>>>,
+        factors: Option<&Bound<'_, PyArray2<f64>>>,
     ) -> PyResult<Self> {
         let mut scene = Scene::parse(text, name, FilePath::new(folder), &overrides)
             .map_err(|mistakes| errors::of_scene(py, &mistakes))?;
+        let mut lent = Vec::new();
         if let Some(heights) = heights {
+            let heights = Lent::new(heights, "heights")?;
             // A scene has a part: where heights are all there is, the text names a flat one.
-            let part = SurfacePart::Heights(grid_values(heights)?);
+            let part = SurfacePart::Heights(heights.values());
+            lent.push(heights);
             match scene.surfaces.as_mut_slice() {
                 [only @ SurfacePart::Flat] => *only = part,
                 _ => scene.surfaces.insert(0, part),
             }
         }
         if let (Some(factors), Some(adhesion)) = (factors, &mut scene.adhesion) {
-            adhesion.map = Some(AdhesionMap::Factors(grid_values(factors)?));
+            let factors = Lent::new(factors, "adhesion_map")?;
+            adhesion.map = Some(AdhesionMap::Factors(factors.values()));
+            lent.push(factors);
         }
         scene
             .check()
             .map_err(|mistakes| errors::of_scene(py, &mistakes))?;
-        Ok(LoadedScene { scene })
+        Ok(LoadedScene { scene, lent })
     }
 
     /// The scene with every default filled in, SI, as JSON.
@@ -71,13 +79,14 @@ impl LoadedScene {
 
     /// A path, to be solved load by load.
     #[pyo3(signature = (threads=None))]
-    fn path(&self, threads: Option<usize>) -> SolvedPath {
-        SolvedPath::new(&self.scene, threads)
+    fn path(&self, py: Python<'_>, threads: Option<usize>) -> SolvedPath {
+        SolvedPath::new(py, self, threads)
     }
 
     /// The heights of all parts, m, as an array of shape (ny, nx), (lx, ly), m, and warnings.
     #[pyo3(signature = (threads=None))]
     fn heights<'py>(&self, py: Python<'py>, threads: Option<usize>) -> PyResult<Built<'py>> {
+        Lent::check(py, &self.lent)?;
         let scene = self.scene.clone();
         let talk = Arc::new(Talk::default());
         let built = wait(py, &talk, None, move || {
@@ -87,7 +96,7 @@ impl LoadedScene {
         })?;
         let surface = built.map_err(|error| errors::of_contact(py, &error))?;
         let (grid, warnings) = (surface.grid, surface.warnings);
-        let heights = Arc::unwrap_or_clone(surface.heights);
+        let heights = surface.heights.into_vec();
         Ok((array(py, heights, grid.points())?, grid.size(), warnings))
     }
 }
@@ -110,36 +119,6 @@ pub fn contact(scene: &Scene, threads: Option<usize>) -> Contact {
         Some(threads) => contact.threads(threads),
         None => contact,
     }
-}
-
-/// An array of values on the grid, of shape (ny, nx); float32 and other layouts are converted as they are copied.
-fn grid_values(array: &Bound<'_, PyAny>) -> PyResult<GridValues> {
-    if let Ok(array) = array.extract::<PyReadonlyArray2<'_, f32>>() {
-        let values = array.as_array().iter().copied().map(f64::from).collect();
-        return Ok(GridValues::from_vec(values, points(array.shape())));
-    }
-    let array: PyReadonlyArray2<'_, f64> = array.extract()?;
-    // In the order of rows, whatever the layout; as_slice would hand out that of columns too.
-    let values = if array.is_c_contiguous() {
-        array.as_slice()?.to_vec()
-    } else {
-        array.as_array().iter().copied().collect()
-    };
-    Ok(GridValues::from_vec(values, points(array.shape())))
-}
-
-/// Points along x and y of a shape (ny, nx).
-fn points(shape: &[usize]) -> [usize; 2] {
-    [shape[1], shape[0]]
-}
-
-/// A field as an array of shape (ny, nx), without a copy.
-pub fn array<'py>(
-    py: Python<'py>,
-    values: Vec<f64>,
-    points: [usize; 2],
-) -> PyResult<Bound<'py, PyArray2<f64>>> {
-    numpy::PyArray1::from_vec(py, values).reshape([points[1], points[0]])
 }
 
 /// TOML of the tables of a scene, given as JSON.

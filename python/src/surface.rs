@@ -1,33 +1,34 @@
 //! Statistics of height maps.
 
-use numpy::{PyArray1, PyReadonlyArray2, PyUntypedArrayMethods};
+use numpy::{PyArray1, PyArray2, PyUntypedArrayMethods};
 use pyo3::prelude::*;
 use pyo3::types::PyDict;
-use tabor::Grid;
 use tabor::scene::Boundary;
 use tabor::surface::Statistics;
 use tabor::surface::correlation::correlation_length;
 use tabor::surface::roughness::{HeightParameters, scale_dependence};
 use tabor::surface::statistics::radial_spectrum;
+use tabor::{Grid, SharedValues};
 
+use crate::arrays::shared;
 use crate::errors;
 
 /// Heights, m, and where they lie.
 struct Map {
     grid: Grid,
-    heights: Vec<f64>,
+    heights: SharedValues,
     boundary: Boundary,
 }
 
 impl Map {
     fn new(
         py: Python<'_>,
-        heights: &PyReadonlyArray2<'_, f64>,
+        heights: &Bound<'_, PyArray2<f64>>,
         size: [f64; 2],
         is_periodic: bool,
     ) -> PyResult<Self> {
         let [rows, columns] = [heights.shape()[0], heights.shape()[1]];
-        let values: Vec<f64> = heights.as_array().iter().copied().collect();
+        let values = shared(heights)?;
         if values.is_empty() || values.iter().any(|value| !value.is_finite()) {
             let words = "heights: must have at least one point, all of them finite";
             return Err(errors::raise(py, "SurfaceError", words));
@@ -55,11 +56,11 @@ impl Map {
 #[pyfunction]
 pub fn statistics<'py>(
     py: Python<'py>,
-    heights: PyReadonlyArray2<'py, f64>,
+    heights: &Bound<'py, PyArray2<f64>>,
     size: [f64; 2],
     is_periodic: bool,
 ) -> PyResult<Bound<'py, PyDict>> {
-    let map = Map::new(py, &heights, size, is_periodic)?;
+    let map = Map::new(py, heights, size, is_periodic)?;
     let (found, shape, length) = py.detach(|| {
         (
             Statistics::from_heights(&map.grid, &map.heights, map.boundary),
@@ -93,11 +94,11 @@ type Columns<'py, const N: usize> = [Bound<'py, PyArray1<f64>>; N];
 #[pyfunction]
 pub fn spectrum<'py>(
     py: Python<'py>,
-    heights: PyReadonlyArray2<'py, f64>,
+    heights: &Bound<'py, PyArray2<f64>>,
     size: [f64; 2],
     is_periodic: bool,
 ) -> PyResult<Columns<'py, 3>> {
-    let map = Map::new(py, &heights, size, is_periodic)?;
+    let map = Map::new(py, heights, size, is_periodic)?;
     let rings = py.detach(|| radial_spectrum(&map.grid, &map.heights, map.boundary));
     let column = |of: fn(&tabor::surface::statistics::SpectrumRing) -> f64| {
         PyArray1::from_vec(py, rings.iter().map(of).collect())
@@ -113,11 +114,11 @@ pub fn spectrum<'py>(
 #[pyfunction]
 pub fn scales<'py>(
     py: Python<'py>,
-    heights: PyReadonlyArray2<'py, f64>,
+    heights: &Bound<'py, PyArray2<f64>>,
     size: [f64; 2],
     is_periodic: bool,
 ) -> PyResult<Columns<'py, 3>> {
-    let map = Map::new(py, &heights, size, is_periodic)?;
+    let map = Map::new(py, heights, size, is_periodic)?;
     let found = py.detach(|| scale_dependence(&map.grid, &map.heights, map.boundary));
     let column = |of: fn(&tabor::surface::roughness::ScaleDependence) -> f64| {
         PyArray1::from_vec(py, found.iter().map(of).collect())

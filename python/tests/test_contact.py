@@ -1,9 +1,11 @@
 """Contacts of arrays."""
 
+import os
 import pickle
 import signal
 import threading
 import time
+from pathlib import Path
 
 import numpy as np
 import pytest
@@ -38,6 +40,59 @@ def test_single_precision_heights_and_other_layouts_are_the_same_numbers():
         np.testing.assert_array_equal(step.pressure, steps[0].pressure)
 
 
+def resident():
+    """Bytes of this process in memory."""
+    pages = Path("/proc/self/statm").read_text().split()[1]
+    return int(pages) * os.sysconf("SC_PAGE_SIZE")
+
+
+@pytest.mark.skipif(not Path("/proc/self/statm").exists(), reason="only Linux tells of a process's memory")
+def test_heights_are_not_copied():
+    # Linear in x, so that no two numbers of a row are equal and every page is in memory: 32 MiB.
+    heights = np.tile(np.linspace(0, 1e-9, 2048), (2048, 1))
+    contact = tabor.Contact(heights[:8], 1e-6, contact_modulus=1e9)
+    before = resident()
+    contact = tabor.Contact(heights, 1e-6, contact_modulus=1e9)
+    # Room for what the check of the numbers leaves behind, a byte each.
+    assert resident() - before < heights.nbytes / 4
+    assert np.shares_memory(contact._heights, heights)
+    before = resident()
+    single = heights.astype(np.float32)
+    copied = tabor.Contact(single, 1e-6, contact_modulus=1e9)
+    assert resident() - before > single.nbytes + 0.9 * heights.nbytes
+    assert copied.resolved["grid"]["points"] == [2048, 2048]
+
+
+@pytest.mark.parametrize("argument", ["heights", "adhesion_map"])
+def test_an_array_that_was_written_to_is_refused(argument):
+    heights, factors = sphere(32, 1e-6, 5e-6), np.ones((32, 32))
+    law = tabor.Exponential("10 mJ/m^2", range="5 nm")
+    contact = tabor.Contact(heights, 1e-6, contact_modulus=1e9, law=law, adhesion_map=factors)
+    path = contact.path(pressure=[1e6, 2e6])
+    next(path)
+    {"heights": heights, "adhesion_map": factors}[argument][3, 4] *= 1 + 1e-15
+    # That the contact sees it shows that the numbers are those of the array.
+    for call in (lambda: next(path), lambda: contact.solve(pressure=1e6), contact.heights, lambda: contact.run("never")):
+        with pytest.raises(tabor.SceneError, match=f"{argument}: this array has been written to"):
+            call()
+    again = tabor.Contact(heights, 1e-6, contact_modulus=1e9, law=law, adhesion_map=factors)
+    assert again.solve(pressure=1e6).converged
+    heights.resize((64, 64), refcheck=False)
+    with pytest.raises(tabor.SceneError, match="written to"):
+        again.solve(pressure=1e6)
+
+
+def test_heights_outlive_their_names():
+    def made():
+        return tabor.Contact(sphere(64, 1e-6, 5e-6), 1e-6, contact_modulus=1e9)
+
+    contact = made()
+    # What takes the memory of an array that nobody holds.
+    others = [np.full((64, 64), np.nan) for _ in range(8)]
+    np.testing.assert_array_equal(contact.solve(pressure=1e6).pressure, made().solve(pressure=1e6).pressure)
+    assert len(others) == 8
+
+
 def test_threads_do_not_change_bits():
     heights = tabor.self_affine((64, 64), 1e-6, rms_slope=0.1, shortest=1e-7)
     one, two = (tabor.Contact(heights, 1e-6, contact_modulus=1e9, threads=n).solve(pressure=1e7) for n in (1, 2))
@@ -61,7 +116,8 @@ def test_mistakes_name_the_key(change, words):
 def test_what_is_no_height_is_refused():
     heights = sphere(8, 1e-6, 1e-6)
     heights[2, 3] = np.nan
-    for wrong in (heights, heights[0], "heights", np.zeros((0, 4))):
+    masked = np.ma.masked_less(sphere(8, 1e-6, 1e-6), -1e-7)
+    for wrong in (heights, heights[0], "heights", np.zeros((0, 4)), masked):
         with pytest.raises(ValueError, match="heights"):
             tabor.Contact(wrong, 1e-6, contact_modulus=1e9)
 

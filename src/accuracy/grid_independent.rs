@@ -5,7 +5,7 @@
 //! stays where the scene's own grid has it. A periodic height file is interpolated by its Fourier
 //! series. Surfaces that belong to one grid are refused.
 
-use std::sync::Arc;
+use std::mem;
 
 use num_complex::Complex;
 
@@ -65,7 +65,7 @@ impl GridIndependentSurface {
                 .collect();
             let read = Surface::from_parts(&scene.grid, &parts)?;
             files = Some(fourier::analyse(&read.grid, &read.heights));
-            sampled = Arc::unwrap_or_clone(read.heights);
+            sampled = read.heights.into_vec();
             warnings = read.warnings;
             read.grid
         } else {
@@ -115,9 +115,11 @@ impl GridIndependentSurface {
         } else {
             fourier::synthesise(&surface.grid, resized(&self.grid, series, &surface.grid))
         };
-        for (height, more) in Arc::make_mut(&mut surface.heights).iter_mut().zip(more) {
+        let mut heights = mem::replace(&mut surface.heights, Vec::new().into()).into_vec();
+        for (height, more) in heights.iter_mut().zip(more) {
             *height += more;
         }
+        surface.heights = heights.into();
         surface.highest = surface
             .heights
             .iter()

@@ -1,9 +1,13 @@
 //! Values on the grid that are given as an array.
 
 use std::fmt;
-use std::sync::Arc;
 
 use serde::ser::{Serialize, SerializeStruct, Serializer};
+
+use crate::shared_values::SharedValues;
+
+/// Numbers that a checksum takes at a time: a few kilobytes, since it is slow on eight bytes.
+const SUMMED: usize = 512;
 
 /// One number a point of the grid, shape `[ny, nx]`, row-major: point (ix, iy) is element `iy * nx + ix`.
 ///
@@ -11,21 +15,21 @@ use serde::ser::{Serialize, SerializeStruct, Serializer};
 #[derive(Clone, PartialEq)]
 pub struct GridValues {
     points: [usize; 2],
-    values: Arc<Vec<f64>>,
+    values: SharedValues,
 }
 
 impl GridValues {
     /// The values of `points` = (nx, ny) points. That there are as many, and that they are finite, is checked
     /// where they are used.
     pub fn new(values: impl AsRef<[f64]>, points: [usize; 2]) -> Self {
-        GridValues::from_vec(values.as_ref().to_vec(), points)
+        GridValues::from_shared(values.as_ref().to_vec(), points)
     }
 
-    /// The same without a copy of the values.
-    pub fn from_vec(values: Vec<f64>, points: [usize; 2]) -> Self {
+    /// The same without a copy of the values: a vector, or what somebody else holds too.
+    pub fn from_shared(values: impl Into<SharedValues>, points: [usize; 2]) -> Self {
         GridValues {
             points,
-            values: Arc::new(values),
+            values: values.into(),
         }
     }
 
@@ -40,15 +44,20 @@ impl GridValues {
     }
 
     /// The numbers, shared with whoever holds them too.
-    pub(crate) fn shared(&self) -> Arc<Vec<f64>> {
-        Arc::clone(&self.values)
+    pub(crate) fn shared(&self) -> SharedValues {
+        self.values.clone()
     }
 
     /// CRC-32 of the numbers, by which they are told from others.
-    fn checksum(&self) -> u32 {
+    pub fn checksum(&self) -> u32 {
         let mut checksum = crc32fast::Hasher::new();
-        for value in self.values.iter() {
-            checksum.update(&value.to_le_bytes());
+        let mut bytes = [0; SUMMED * size_of::<f64>()];
+        for values in self.values.chunks(SUMMED) {
+            let (places, _) = bytes.as_chunks_mut();
+            for (place, value) in places.iter_mut().zip(values) {
+                *place = value.to_le_bytes();
+            }
+            checksum.update(&bytes[..size_of_val(values)]);
         }
         checksum.finalize()
     }

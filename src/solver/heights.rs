@@ -1,12 +1,12 @@
 //! Heights of a problem, which it shares with the surface that they come from.
 
-use std::sync::Arc;
+use crate::shared_values::SharedValues;
 
 /// Heights on the grid in reduced units, worked out from those in metres as they are read: a second field would
 /// hold the same.
 #[derive(Clone, Debug)]
 pub struct Heights {
-    metres: Arc<Vec<f64>>,
+    metres: SharedValues,
     /// What is taken off, m.
     origin: f64,
     /// A reduced unit, m.
@@ -15,7 +15,7 @@ pub struct Heights {
 
 impl Heights {
     /// Heights in metres less `origin`, in units of `unit`.
-    pub fn new(metres: Arc<Vec<f64>>, origin: f64, unit: f64) -> Heights {
+    pub fn new(metres: SharedValues, origin: f64, unit: f64) -> Heights {
         Heights {
             metres,
             origin,
@@ -25,13 +25,13 @@ impl Heights {
 
     /// Heights that are reduced already.
     pub fn from_reduced(values: Vec<f64>) -> Heights {
-        Heights::new(Arc::new(values), 0.0, 1.0)
+        Heights::new(values.into(), 0.0, 1.0)
     }
 
-    /// The height at a grid point, reduced.
-    #[inline]
-    pub fn at(&self, point: usize) -> f64 {
-        (self.metres[point] - self.origin) / self.unit
+    /// The height at each grid point, reduced.
+    pub fn by_point(&self) -> impl Fn(usize) -> f64 + '_ {
+        let metres = self.metres.as_slice();
+        move |point| (metres[point] - self.origin) / self.unit
     }
 
     /// All of them, row by row, reduced.

@@ -1,12 +1,11 @@
 //! A contact problem in reduced units, ready to be solved.
 
-use std::sync::Arc;
-
 use super::heights::Heights;
 use crate::backend::{Backend, Factors, Level, Response, Shape, Spectrum};
 use crate::elastic::{HalfSpace, Layer, Stiffness, free_stiffness, periodic_stiffness};
 use crate::grid::{Boundary, Grid};
 use crate::law::Law;
+use crate::shared_values::SharedValues;
 
 /// What one reduced unit is worth in SI units.
 ///
@@ -102,7 +101,7 @@ impl Problem {
         rms_slope: f64,
         law: Law,
     ) -> Self {
-        let heights = Arc::new(heights.to_vec());
+        let heights = heights.to_vec().into();
         Problem::sharing(grid, boundary, contact_modulus, heights, rms_slope, law)
     }
 
@@ -111,7 +110,7 @@ impl Problem {
         grid: Grid,
         boundary: Boundary,
         contact_modulus: f64,
-        heights: Arc<Vec<f64>>,
+        heights: SharedValues,
         rms_slope: f64,
         law: Law,
     ) -> Self {
@@ -263,15 +262,16 @@ impl Problem {
             return None;
         }
         let grid = Grid::new([nx / 2, ny / 2], [self.grid.lx, self.grid.ly]);
+        let height_at = self.heights.by_point();
         let mut heights = vec![0.0; grid.len()];
         for (row, line) in heights.chunks_exact_mut(grid.nx).enumerate() {
             for (column, height) in line.iter_mut().enumerate() {
                 let at = 2 * row * nx + 2 * column;
                 *height = 0.25
-                    * (self.heights.at(at)
-                        + self.heights.at(at + 1)
-                        + self.heights.at(at + nx)
-                        + self.heights.at(at + nx + 1));
+                    * (height_at(at)
+                        + height_at(at + 1)
+                        + height_at(at + nx)
+                        + height_at(at + nx + 1));
             }
         }
         Some(Problem {
@@ -371,10 +371,11 @@ impl Problem {
         let [width, rows] = self.shape.points;
         let rows = if self.is_sketch() { 0 } else { rows };
         let [nx, ny] = self.shape.surface;
+        let height_at = self.heights.by_point();
         (0..rows * width).map(move |point| {
             let (x, y) = (point % width, point / width);
             if x < nx && y < ny {
-                self.heights.at(y * nx + x)
+                height_at(y * nx + x)
             } else {
                 0.0
             }

@@ -1,7 +1,5 @@
 //! From a scene and its surface to the problem that is solved.
 
-use std::sync::Arc;
-
 use super::hooks::{Effects, Hooks};
 use super::plan::Plan;
 use super::regime::Regime;
@@ -67,7 +65,7 @@ impl Setup {
             grid,
             scene.grid.boundary,
             scene.solid.contact_modulus,
-            Arc::clone(&surface.heights),
+            surface.heights.clone(),
             statistics.moments.rms_slope(),
             effects.solved_law(law),
         );

@@ -43,10 +43,9 @@ pub(crate) use outline::has_flats;
 #[doc(hidden)]
 pub use outline::{MapOutline, Outline, Source};
 
-use std::sync::Arc;
-
 use crate::grid::Grid;
 use crate::scene::{Boundary, GridScene, Scene, SelfAffineScene, SurfacePart};
+use crate::shared_values::SharedValues;
 use crate::units::{LARGEST, in_range};
 use file::HeightMap;
 use shapes::ApexPosition;
@@ -64,7 +63,7 @@ pub struct Surface {
     pub grid: Grid,
     /// Heights, m, shape `[ny, nx]`, row-major, positive towards the solid.
     /// Whoever needs them shares them.
-    pub heights: Arc<Vec<f64>>,
+    pub heights: SharedValues,
     /// Height from which the approach counts, m: the true apex if the surface is exactly one sphere
     /// or one cone, else the highest sampled point.
     #[doc(hidden)]
@@ -110,13 +109,7 @@ impl Surface {
                 array::heights(array, &grid).map_err(|problem| part_error(0, problem))?;
                 array.shared()
             }
-            _ => Arc::new(sum_of(
-                parts,
-                &mut maps,
-                &grid,
-                scene.boundary,
-                &mut warnings,
-            )?),
+            _ => sum_of(parts, &mut maps, &grid, scene.boundary, &mut warnings)?.into(),
         };
         // Beyond this range squares of curvatures overflow.
         let fits = |height: &f64| height.abs() <= LARGEST;
@@ -343,7 +336,7 @@ impl SurfacePart {
     pub fn heights(&self, grid: Grid, boundary: Boundary) -> Result<Vec<f64>, SurfaceError> {
         let scene = GridScene::new([grid.nx, grid.ny], [grid.lx, grid.ly]).boundary(boundary);
         let surface = Surface::from_parts(&scene, std::slice::from_ref(self))?;
-        Ok(Arc::unwrap_or_clone(surface.heights))
+        Ok(surface.heights.into_vec())
     }
 }
 

@@ -4,10 +4,34 @@ use std::fs;
 use std::path::{Path, PathBuf};
 
 /// From the ground up, as the crate page lists them.
-const ORDER: [&str; 25] = [
-    "units", "clock", "grid", "real", "law", "elastic", "kernel", "backend", "solver", "scene",
-    "surface", "study", "flow", "effect", "output", "device", "run", "contact", "theory",
-    "compare", "fit", "accuracy", "sweep", "cli", "lib",
+const ORDER: [&str; 26] = [
+    "units",
+    "clock",
+    "grid",
+    "shared_values",
+    "real",
+    "plans",
+    "law",
+    "elastic",
+    "kernel",
+    "backend",
+    "solver",
+    "scene",
+    "surface",
+    "study",
+    "flow",
+    "effect",
+    "output",
+    "device",
+    "run",
+    "contact",
+    "theory",
+    "compare",
+    "fit",
+    "accuracy",
+    "sweep",
+    "cli",
+    "lib",
 ];
 
 pub fn rust_files(folder: &Path, found: &mut Vec<PathBuf>) {

@@ -35,8 +35,8 @@ class LoadedScene:
         name: str,
         folder: str,
         overrides: Sequence[tuple[str, str]],
-        heights: npt.NDArray[Any] | None = None,
-        factors: npt.NDArray[Any] | None = None,
+        heights: _Array | None = None,
+        factors: _Array | None = None,
     ) -> LoadedScene: ...
     def resolved_json(self) -> str: ...
     def loads(self) -> list[tuple[str, float, float | None]]: ...

@@ -58,8 +58,10 @@ class Contact(Scene):
     Parameters
     ----------
     heights : array of shape (ny, nx), or a Topography of SurfaceTopography
-        Heights in metres, positive towards the solid; float64 or float32 in any layout. The numbers are copied once,
-        into the solver's own field.
+        Heights in metres, positive towards the solid; any array of numbers. One of float64 in C order is shared, not
+        copied; of another type, such as float32, or in another order one copy is made, of float64, in which the solver reads
+        heights whatever its precision. A shared array must stay as it is: once it has been written to, the contact
+        refuses to solve. Give ``heights.copy()`` where you will go on writing.
     size : number or text, or two of them
         Lengths of the cell along x and y, m; a Topography brings its own, and its boundary.
     contact_modulus : number or text, optional
@@ -75,7 +77,7 @@ class Contact(Scene):
     rate : mapping, optional
         How the work of adhesion grows with the speed of a receding edge: the keys of ``[adhesion.rate]``.
     adhesion_map : array of shape (ny, nx), optional
-        A factor on the tension of the law at each point.
+        A factor on the tension of the law at each point; shared as the heights are.
     spring : number or text, optional
         Stiffness of a spring between the prescribed approach and the body, N/m.
     tolerance, max_iterations : number, optional

@@ -33,16 +33,18 @@ Array = npt.NDArray[np.float64]
 Load = tuple[str, float, "float | None"]
 
 
-def field(array: Any, argument: str) -> npt.NDArray[Any]:
-    """A two-dimensional array of float64 or float32, every number finite."""
+def field(array: Any, argument: str) -> Array:
+    """A two-dimensional array of float64 in C order, every number finite; the array itself where it is one."""
+    if isinstance(array, np.ma.MaskedArray) and np.any(array.mask):
+        masked = np.count_nonzero(array.mask)
+        raise SceneError(f"{argument}: {masked} of {array.size} values are masked; fill them, such as by their mean")
     values = np.asarray(array)
-    if values.dtype != np.float32:
-        if values.dtype.kind == "c":
-            raise SceneError(f"{argument}: real numbers are expected, not {values.dtype}")
-        try:
-            values = values.astype(np.float64, copy=False)
-        except (TypeError, ValueError) as error:
-            raise SceneError(f"{argument}: an array of numbers is expected ({error})") from None
+    if values.dtype.kind == "c":
+        raise SceneError(f"{argument}: real numbers are expected, not {values.dtype}")
+    try:
+        values = np.require(values, np.float64, ["C_CONTIGUOUS", "ALIGNED"])
+    except (TypeError, ValueError) as error:
+        raise SceneError(f"{argument}: an array of numbers is expected ({error})") from None
     if values.ndim != 2 or values.size == 0:
         raise SceneError(f"{argument}: an array of shape (ny, nx) is expected, not {values.shape}")
     if not np.isfinite(values).all():
@@ -84,9 +86,10 @@ class Scene:
     tables : mapping
         The tables of a scene file, such as ``{"grid": {"points": 256, "size": "20 um"}, ...}``.
     heights : array of shape (ny, nx), optional
-        Heights in metres, positive towards the solid; the parts of ``[[surface]]`` are added to them.
+        Heights in metres, positive towards the solid; the parts of ``[[surface]]`` are added to them. Shared, as in
+        `Contact`.
     adhesion_map : array of shape (ny, nx), optional
-        A factor on the tension of the law at each point.
+        A factor on the tension of the law at each point; shared too.
     threads : int, optional
         Threads of the processor; one a core by default. Results do not depend on it.
 

@@ -271,8 +271,7 @@ def self_affine(
 
 
 def _map(array: Any, size: Size) -> tuple[Array, list[float]]:
-    values = field(array, "heights").astype(np.float64, copy=False)
-    return np.ascontiguousarray(values), sides(size)
+    return field(array, "heights"), sides(size)
 
 
 def statistics(heights: Any, size: Size, *, boundary: str = "periodic") -> dict[str, float]:
