@@ -4,7 +4,7 @@ use std::fs;
 use std::path::{Path, PathBuf};
 
 /// From the ground up, as the crate page lists them.
-const ORDER: [&str; 26] = [
+const ORDER: [&str; 27] = [
     "units",
     "clock",
     "grid",
