@@ -43,10 +43,11 @@
 //! # Features
 //!
 //! `cli` (default) is the program `tabor`, `gpu` (default) the graphics processor, `images`, which `cli` brings
-//! with it, pictures, reports and height maps from PNG and TIFF. `netcdf` is the command `tabor netcdf`, a run as
-//! one file, with the system's library. Without any of them remains the solver on the processor with everything
-//! above, which depends on no graphics, no fonts and no command line, and compiles for
-//! `wasm32-unknown-unknown` (there seconds are 0 and threads one).
+//! with it, pictures, reports and height maps from PNG and TIFF. Without any of them remains the solver on the
+//! processor with everything above, which depends on no graphics, no fonts and no command line, and compiles
+//! for `wasm32-unknown-unknown` (there seconds are 0 and threads one). Two features ask for a library of the system,
+//! and no other brings them with it: `mpi` lets `tabor run` share one contact between the processes of `mpirun`
+//! (`docs/cluster.md`), `netcdf` is the command `tabor netcdf`, which makes one file of a run (`docs/results.md`).
 //!
 //! # The map
 //!
@@ -59,10 +60,11 @@
 //! | [`grid`] | points, sizes, wavevectors, the order of a field, what the transforms are scaled by |
 //! | `shared_values` | numbers that several hold and nobody copies: heights |
 //! | [`real`] | the two kinds of number that kernels run in |
+//! | `plans` | plans of one-dimensional Fourier transforms, made once a process |
 //! | [`law`] | how strongly surfaces attract across a gap, one file a law |
 //! | [`elastic`] | stiffness of the half-space or of a layer at each wavevector, periodic or free |
 //! | [`kernel`] | the catalogue of passes over points, and the numbers of the algorithm |
-//! | [`backend`] | where the arithmetic runs: the trait, the processor, shaders through wgpu, the dry run that only counts |
+//! | [`backend`] | where the arithmetic runs: the trait, the processor, alone or with a slab of the rows on each of several ranks, shaders through wgpu, the dry run that only counts |
 //! | [`solver`] | the one algorithm, for every law and both boundaries |
 //! | [`scene`] | TOML to a checked scene, or every mistake of it with line, key and remedy |
 //! | [`surface`] | heights: self-affine, shapes, files; their statistics and the spectrum that fits |
@@ -151,6 +153,7 @@ pub mod kernel;
 #[doc(hidden)]
 pub mod law;
 pub mod output;
+mod plans;
 #[doc(hidden)]
 pub mod real;
 pub mod run;

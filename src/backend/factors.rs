@@ -1,5 +1,7 @@
 //! What the waves of a convolution are multiplied by.
 
+use std::ops::Range;
+
 use super::Shape;
 use crate::elastic::HalfSpace;
 
@@ -35,15 +37,27 @@ impl Response {
 impl Factors<'_> {
     /// The factors of a shape, one after another.
     pub fn tabulated<T>(&self, shape: Shape, number: impl Fn(f64) -> T) -> Vec<T> {
+        self.tabulated_columns(shape, 0..shape.points[0] / 2 + 1, number)
+    }
+
+    /// Those of some columns of a shape.
+    pub fn tabulated_columns<T>(
+        &self,
+        shape: Shape,
+        columns: Range<usize>,
+        number: impl Fn(f64) -> T,
+    ) -> Vec<T> {
+        let ny = shape.points[1];
+        let column = ny / 2 + 1;
         match *self {
             Factors::Table(values) => {
                 debug_assert_eq!(values.len(), shape.spectrum_len());
-                values.iter().map(|&value| number(value)).collect()
+                let held = &values[columns.start * column..columns.end * column];
+                held.iter().map(|&value| number(value)).collect()
             }
             Factors::HalfSpace(half_space, response) => {
-                let [nx, ny] = shape.points;
-                let mut values = Vec::with_capacity(shape.spectrum_len());
-                for kx in 0..=nx / 2 {
+                let mut values = Vec::with_capacity(columns.len() * column);
+                for kx in columns {
                     for ky in 0..=ny / 2 {
                         values.push(number(response.factor(half_space.stiffness(kx, ky))));
                     }

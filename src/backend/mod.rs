@@ -14,6 +14,7 @@ pub mod dry_run;
 mod factors;
 #[cfg(feature = "gpu")]
 pub mod gpu;
+pub mod ranks;
 /// What remains of graphics processors without the feature `gpu`: a buffer that nobody can have.
 #[cfg(not(feature = "gpu"))]
 mod gpu {

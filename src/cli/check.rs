@@ -20,7 +20,11 @@ pub(super) fn check(arguments: &CheckArguments) -> Result<(), Failure> {
     if place.on_gpu() {
         crate::device::check_points(cost.points)?;
     }
-    print(&describe(&plan, &cost, arguments.verbose)?)?;
+    let mut report = describe(&plan, &cost, arguments.verbose)?;
+    if let Some(ranks) = arguments.ranks {
+        report += &on_ranks(&plan, &cost, ranks.into());
+    }
+    print(&report)?;
     for warning in &plan.warnings {
         warn(warning);
     }
@@ -29,6 +33,22 @@ pub(super) fn check(arguments: &CheckArguments) -> Result<(), Failure> {
         warn(&Failure::from(error).to_string());
     }
     Ok(())
+}
+
+/// What each of so many ranks takes, and what they send.
+fn on_ranks(plan: &Plan, cost: &Cost, ranks: usize) -> String {
+    let memory = Memory::on_ranks(&plan.scene, plan.outline.grid, cost, ranks);
+    let [nx, ny] = cost.points;
+    let number = cost.place.number();
+    // Half a spectrum of complex numbers there and back, all but the share that a rank has already.
+    let spectrum = 2 * number * (nx / 2 + 1) * ny;
+    let sent = 2 * spectrum as u64 * (ranks as u64 - 1) / ranks as u64;
+    format!(
+        "ranks         {ranks}: {} on each, {} of it the solver's; a convolution sends {}\n",
+        mebibytes(memory.machine),
+        mebibytes(memory.solver),
+        mebibytes(sent)
+    )
 }
 
 fn mebibytes(bytes: u64) -> String {

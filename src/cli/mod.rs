@@ -11,6 +11,7 @@ mod fit;
 mod fit_folder;
 mod flags;
 mod interrupts;
+mod launcher;
 #[cfg(feature = "netcdf")]
 mod netcdf;
 mod new;
@@ -35,6 +36,9 @@ use clap::{Args, Parser, Subcommand};
 
 use crate::accuracy::AccuracyError;
 use crate::backend::BackendError;
+#[cfg(feature = "mpi")]
+use crate::backend::ranks::MpiError;
+use crate::backend::ranks::RankError;
 use crate::device::DeviceError;
 use crate::fit::FitError;
 use crate::output::{OutputError, visible, visible_line};
@@ -188,6 +192,9 @@ struct RunArguments {
 struct CheckArguments {
     #[command(flatten)]
     scene: SceneArguments,
+    /// Also say what each of so many MPI ranks takes (docs/cluster.md)
+    #[arg(long, value_name = "P", value_parser = clap::value_parser!(u16).range(1..))]
+    ranks: Option<u16>,
     /// Also list the solver's fields and kernels, the effects that are off, and messages of graphics drivers
     #[arg(long)]
     verbose: bool,
@@ -312,6 +319,16 @@ enum Failure {
     Fit(#[from] FitError),
     #[error(transparent)]
     Theory(#[from] TheoryError),
+    #[error(transparent)]
+    Rank(#[from] RankError),
+    #[cfg(feature = "mpi")]
+    #[error(transparent)]
+    Mpi(#[from] MpiError),
+    #[cfg(not(feature = "mpi"))]
+    #[error(
+        "a launcher has started {ranks} processes, and this build of tabor is without the feature `mpi`: each would solve the whole scene; build it with --features mpi, or start one process"
+    )]
+    Launched { ranks: usize },
     #[error("cannot print: {0}")]
     Print(std::io::Error),
 }
@@ -336,6 +353,7 @@ impl From<RunError> for Failure {
             RunError::Device(error) => error.into(),
             RunError::Backend(error) => error.into(),
             RunError::Output(error) => error.into(),
+            RunError::Rank(error) => Failure::Rank(error),
         }
     }
 }
@@ -344,7 +362,11 @@ impl Failure {
     fn status(&self) -> u8 {
         match self {
             Failure::Output(OutputError::Refused { .. }) => 2,
-            Failure::Output(_) | Failure::Print(_) => 1,
+            Failure::Output(_) | Failure::Print(_) | Failure::Rank(_) => 1,
+            #[cfg(feature = "mpi")]
+            Failure::Mpi(_) => 1,
+            #[cfg(not(feature = "mpi"))]
+            Failure::Launched { .. } => 2,
             Failure::Scene(_) | Failure::Surface { .. } | Failure::Usage(_) => 2,
             Failure::Memory(_)
             | Failure::Device(DeviceError::Points { .. } | DeviceError::Limits { .. }) => 2,

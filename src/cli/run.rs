@@ -1,18 +1,39 @@
 //! `tabor run`: the main job.
 
+use std::sync::Arc;
+
 use super::interrupts::Interrupts;
+use super::launcher::Launched;
 use super::progress::{Progress, time};
 use super::{Failure, RunArguments, folder_or_default, note, say, table, warn};
 use crate::clock::Clock;
 use crate::device::Device;
 use crate::output::sentence;
-use crate::run::{RunEnd, RunError, RunObserver, RunOptions, RunStatus, run_with};
+use crate::run::{
+    RunEnd, RunError, RunObserver, RunOptions, RunStatus, agree, run_on_ranks, run_with,
+};
 use crate::study::{StepRow, Unreachable};
 
-/// Solves a scene and writes its folder.
+/// Solves a scene and writes its folder, with the other processes of a launcher if there are some.
 pub(super) fn run(arguments: &RunArguments) -> Result<(), Failure> {
+    let launched = Launched::start()?;
+    let done = run_launched(arguments, &launched);
+    if launched.speaks() {
+        return done;
+    }
+    match done {
+        // The rank that failed says why, and ends with its own status.
+        Ok(()) | Err(Failure::Rank(_)) => Ok(()),
+        Err(own) => Err(own),
+    }
+}
+
+fn run_launched(arguments: &RunArguments, launched: &Launched) -> Result<(), Failure> {
     let clock = Clock::start();
-    let scene = arguments.read()?;
+    let scene = match launched.ranks() {
+        Some(ranks) => agree(&**ranks, arguments.read())?,
+        None => arguments.read()?,
+    };
     let device = Device::from(scene.solver.backend);
     let mut options = RunOptions::new()
         .resume(arguments.resume)
@@ -27,16 +48,25 @@ pub(super) fn run(arguments: &RunArguments) -> Result<(), Failure> {
     }
     let folder = folder_or_default(arguments.out.as_deref(), &arguments.scene.path, "");
     let mut terminal = Terminal {
-        quiet: arguments.quiet,
+        quiet: arguments.quiet || !launched.speaks(),
         progress: None,
         interrupts: None,
     };
-    let ended = run_with(scene, &folder, &options, &mut terminal);
+    let ended = match launched.ranks() {
+        Some(ranks) => {
+            let ranks = Arc::clone(ranks);
+            run_on_ranks(scene, &folder, &options, ranks, &mut terminal)
+        }
+        None => run_with(scene, &folder, &options, &mut terminal),
+    };
     drop(terminal);
     let end = ended.map_err(|error| match error {
         RunError::Surface(error) => arguments.scene.surface_failure(error),
         other => other.into(),
     })?;
+    if !launched.speaks() {
+        return Ok(());
+    }
     if !arguments.quiet {
         table::print(&end.rows);
         say(&format!(

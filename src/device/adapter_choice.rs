@@ -96,12 +96,6 @@ pub(super) fn plain_sums(device: &GpuDevice) -> Option<String> {
     })
 }
 
-/// Solved points from which `auto` looks for an adapter: fewer fill none, and are done before one is
-/// ready.
-const FEWEST_POINTS: usize = 256 * 256;
-/// The same where the scene asks for double precision, which many adapters compute slowly.
-const FEWEST_POINTS_IN_DOUBLE: usize = 512 * 512;
-
 /// A graphics processor that is one, where the grid is worth it; else the processor. Says why only
 /// where there is a choice.
 pub(super) fn best_for(setup: &Setup, verbose: bool) -> (Place, Option<String>) {
@@ -109,12 +103,7 @@ pub(super) fn best_for(setup: &Setup, verbose: bool) -> (Place, Option<String>) 
     let choice = choice();
     let precision = setup.scene.arithmetic_on(true);
     let in_double = precision == Precision::Double;
-    let fewest = if in_double {
-        FEWEST_POINTS_IN_DOUBLE
-    } else {
-        FEWEST_POINTS
-    };
-    if !choice.software && setup.problem.shape.len() < fewest {
+    if !choice.software && !setup.scene.looks_for_adapters(setup.problem.shape.len()) {
         return (Place::Processor, None);
     }
     // No adapter transforms these points, so none is asked for.

@@ -21,6 +21,12 @@ pub enum DeviceError {
         "this build of tabor knows no GPU (it is without the feature `gpu`); {PROCESSOR} does without"
     )]
     NotBuilt,
+    /// A graphics processor is asked for, and several ranks share the contact.
+    #[error("a contact over {ranks} ranks is solved on their processors; take {PROCESSOR}")]
+    Ranks {
+        /// How many ranks there are.
+        ranks: usize,
+    },
     /// Points that have no transform on it.
     #[error(
         "grid.points: {} x {} points have no transform on the GPU, which takes even numbers without a prime factor above 7: take {instead}, or {PROCESSOR}",

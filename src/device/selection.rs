@@ -1,5 +1,7 @@
 //! Where a run computes, and in which arithmetic: what the scene names, or what suits it best.
 
+use std::sync::Arc;
+
 #[cfg(feature = "gpu")]
 use super::adapter_choice;
 use super::error::DeviceError;
@@ -7,6 +9,7 @@ use crate::backend::Backend;
 use crate::backend::cpu::CpuBackend;
 #[cfg(feature = "gpu")]
 use crate::backend::gpu::{GpuBackend, GpuDevice};
+use crate::backend::ranks::Ranks;
 use crate::scene::{BackendName, Precision};
 use crate::study::Setup;
 
@@ -14,6 +17,8 @@ use crate::study::Setup;
 pub struct SelectedDevice {
     place: Place,
     precision: Precision,
+    /// The processes that hold the rows of the contact together.
+    ranks: Option<Arc<dyn Ranks>>,
     /// A remark on the choice, for the user.
     pub remark: Option<String>,
 }
@@ -60,6 +65,7 @@ impl SelectedDevice {
         Ok(SelectedDevice {
             place,
             precision,
+            ranks: None,
             remark: (!remarks.is_empty()).then(|| remarks.join("; ")),
         })
     }
@@ -70,12 +76,32 @@ impl SelectedDevice {
         may.then(|| SelectedDevice {
             place: Place::Processor,
             precision: setup.scene.arithmetic_on(false),
+            ranks: None,
+            remark: None,
+        })
+    }
+
+    /// The processors of several ranks, which hold the rows of the contact together.
+    ///
+    /// # Errors
+    /// A scene that asks for a graphics processor.
+    pub fn on_ranks(setup: &Setup, ranks: Arc<dyn Ranks>) -> Result<SelectedDevice, DeviceError> {
+        if setup.scene.solver.backend == BackendName::Gpu {
+            return Err(DeviceError::Ranks {
+                ranks: ranks.count(),
+            });
+        }
+        Ok(SelectedDevice {
+            place: Place::Processor,
+            precision: setup.scene.arithmetic_on(false),
+            ranks: Some(ranks),
             remark: None,
         })
     }
 
     /// A backend on it.
     pub fn backend(&self) -> Box<dyn Backend + Send> {
+        let ranks = self.ranks.clone();
         match (&self.place, self.precision) {
             #[cfg(feature = "gpu")]
             (Place::Gpu(device), Precision::Mixed) => {
@@ -87,9 +113,11 @@ impl SelectedDevice {
                     .expecting_finite()
                     .keeping(adapter_choice::number(precision)),
             ),
-            (Place::Processor, Precision::Single) => Box::new(CpuBackend::<f32>::new()),
-            (Place::Processor, Precision::Mixed) => Box::new(CpuBackend::<f32>::new().corrected()),
-            (Place::Processor, _) => Box::new(CpuBackend::<f64>::new()),
+            (Place::Processor, Precision::Single) => Box::new(CpuBackend::<f32>::on_ranks(ranks)),
+            (Place::Processor, Precision::Mixed) => {
+                Box::new(CpuBackend::<f32>::on_ranks(ranks).corrected())
+            }
+            (Place::Processor, _) => Box::new(CpuBackend::<f64>::on_ranks(ranks)),
         }
     }
 

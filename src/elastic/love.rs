@@ -3,9 +3,9 @@
 use std::f64::consts::PI;
 
 use rayon::prelude::*;
-use realfft::RealFftPlanner;
-use rustfft::FftPlanner;
 use rustfft::num_complex::Complex;
+
+use crate::plans::Planned;
 
 /// `(y + b)` times the difference of two inverse hyperbolic sines, with 0 times infinity = 0.
 fn edge_term(across: f64, near: f64, far: f64) -> f64 {
@@ -38,7 +38,7 @@ pub fn free_stiffness(points: [usize; 2], pixel: [f64; 2]) -> Vec<f64> {
     let [nx, ny] = points;
     let columns = nx / 2 + 1;
     let half = ny / 2 + 1;
-    let plan = RealFftPlanner::<f64>::new().plan_fft_forward(nx);
+    let plan = f64::real_forward(nx);
     // The kernel is even in both directions, so half of its rows suffice and spectra are real.
     let rows: Vec<Vec<f64>> = (0..half)
         .into_par_iter()
@@ -56,7 +56,7 @@ pub fn free_stiffness(points: [usize; 2], pixel: [f64; 2]) -> Vec<f64> {
             spectrum.iter().map(|value| value.re).collect()
         })
         .collect();
-    let plan = FftPlanner::<f64>::new().plan_fft_forward(ny);
+    let plan = f64::complex_forward(ny);
     (0..columns)
         .into_par_iter()
         .flat_map_iter(|column| {

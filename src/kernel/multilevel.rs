@@ -65,7 +65,7 @@ impl<T: Real, const ADDS: bool> WithSimd for Interpolation<'_, T, ADDS> {
 
     #[inline(always)]
     fn with_simd<S: Simd>(self, _: S) {
-        let [cells, cell_rows] = self.whole.points;
+        let [cells, cell_rows] = self.whole.points();
         debug_assert_eq!(self.width, RATIO * cells);
         let far = T::from_double(NEIGHBOUR);
         let near = T::one() - far;
@@ -73,8 +73,8 @@ impl<T: Real, const ADDS: bool> WithSimd for Interpolation<'_, T, ADDS> {
             let fine = self.first + row;
             let cell = fine / RATIO;
             let other = neighbour(cell, fine % RATIO, RATIO, cell_rows);
-            let here = &self.whole.values[cell * cells..(cell + 1) * cells];
-            let there = &self.whole.values[other * cells..(other + 1) * cells];
+            let here = self.whole.row(cell);
+            let there = self.whole.row(other);
             let blend = |x: usize| near * here[x] + far * there[x];
             for (tile, out) in line.chunks_mut(RATIO * TILE).enumerate() {
                 let start = tile * TILE;
@@ -117,7 +117,7 @@ impl<T: Real> WithSimd for Restriction<'_, T> {
 
     #[inline(always)]
     fn with_simd<S: Simd>(self, _: S) {
-        let [fine_x, fine_y] = self.whole.points;
+        let [fine_x, fine_y] = self.whole.points();
         debug_assert_eq!(fine_x, RATIO * self.width);
         let far = T::from_double(NEIGHBOUR);
         let near = T::one() - far;
@@ -126,7 +126,7 @@ impl<T: Real> WithSimd for Restriction<'_, T> {
             // This cell's own rows, and the nearer ones of the cells before and after.
             let own = (self.first + row) * RATIO;
             let fine = [before(own, fine_y), own, own + 1, after(own + 1, fine_y)];
-            let [a, b, c, d] = fine.map(|y| &self.whole.values[y * fine_x..(y + 1) * fine_x]);
+            let [a, b, c, d] = fine.map(|y| self.whole.row(y));
             let across = |x: usize| scale * (far * (a[x] + d[x]) + near * (b[x] + c[x]));
             for (tile, out) in line.chunks_mut(TILE).enumerate() {
                 let start = RATIO * tile * TILE;
@@ -186,13 +186,13 @@ impl<T: Real> WithSimd for FreeShare<'_, T> {
 
     #[inline(always)]
     fn with_simd<S: Simd>(self, _: S) {
-        let [fine_x, fine_y] = self.whole.points;
+        let [fine_x, fine_y] = self.whole.points();
         let ratio = fine_x / self.width;
         debug_assert!(fine_y.is_multiple_of(ratio) && COUNTED.is_multiple_of(ratio));
         let scale = T::one() / T::from_double((ratio * ratio) as f64);
         for (row, line) in self.share.chunks_exact_mut(self.width).enumerate() {
-            let start = (self.first + row) * ratio * fine_x;
-            let fine = &self.whole.values[start..start + ratio * fine_x];
+            let start = (self.first + row) * ratio;
+            let fine = self.whole.rows(start..start + ratio);
             for (tile, out) in line.chunks_mut(COUNTED / ratio).enumerate() {
                 let columns = tile * COUNTED..tile * COUNTED + out.len() * ratio;
                 let mut counts = [T::zero(); COUNTED];
@@ -335,11 +335,11 @@ impl<T: Real> WithSimd for Neighbours<'_, T> {
 
     #[inline(always)]
     fn with_simd<S: Simd>(self, _: S) {
-        let ([width, rows], compliance) = (self.residual.points, self.compliance);
+        let ([width, rows], compliance) = (self.residual.points(), self.compliance);
         for (row, line) in self.lines.chunks_exact_mut(width).enumerate() {
             let here = self.first + row;
-            let [above, own, below] = [before(here, rows), here, after(here, rows)]
-                .map(|row| &self.residual.values[row * width..(row + 1) * width]);
+            let [above, own, below] =
+                [before(here, rows), here, after(here, rows)].map(|row| self.residual.row(row));
             let last = width - 1;
             let beside = [
                 (0, own[last] + own[after(0, width)]),

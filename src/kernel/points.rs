@@ -480,14 +480,8 @@ mod tests {
                 lines: &mut lines,
                 reads: [&read, &[], &[], &[]],
                 writes: [&mut written, &mut [], &mut [], &mut []],
-                whole: Whole {
-                    values: &[],
-                    points: [0, 0],
-                },
-                around: Whole {
-                    values: &[],
-                    points: [0, 0],
-                },
+                whole: Whole::none(),
+                around: Whole::none(),
                 factor: &factor,
                 outer: [&[]; 2],
                 reduces: &[Reduce::Add, Reduce::Min, Reduce::Max],

@@ -5,13 +5,79 @@ use std::ops::Range;
 use super::Reduce;
 use crate::real::Real;
 
-/// A field read at points of the kernel's own choice, with its level's shape.
+/// A field read at rows of the kernel's own choice, with its level's shape: all of it, or the rows that a process
+/// holds with the one before and the one after.
 #[derive(Clone, Copy)]
 pub struct Whole<'a, T> {
-    /// All its values, row-major.
-    pub values: &'a [T],
-    /// Points along x and y.
-    pub points: [usize; 2],
+    /// The values of the held rows, row-major.
+    values: &'a [T],
+    /// Points along x and y of the level.
+    points: [usize; 2],
+    /// The held rows: the first one, and how many.
+    first: usize,
+    count: usize,
+    /// The row before them and the one after, on the ring of all rows; empty where all are held.
+    edges: [&'a [T]; 2],
+}
+
+impl<'a, T> Whole<'a, T> {
+    /// A field that is held as a whole.
+    pub fn new(values: &'a [T], points: [usize; 2]) -> Self {
+        Whole::of_rows(values, points, 0..points[1], [&[]; 2])
+    }
+
+    /// No field.
+    pub fn none() -> Self {
+        Whole::new(&[], [0, 0])
+    }
+
+    /// Some rows of a field of so many points, with the row before them and the one after.
+    pub fn of_rows(
+        values: &'a [T],
+        points: [usize; 2],
+        rows: Range<usize>,
+        edges: [&'a [T]; 2],
+    ) -> Self {
+        debug_assert_eq!(values.len(), points[0] * rows.len());
+        Whole {
+            values,
+            points,
+            first: rows.start,
+            count: rows.len(),
+            edges,
+        }
+    }
+
+    /// Points along x and y of its level.
+    #[inline(always)]
+    pub fn points(&self) -> [usize; 2] {
+        self.points
+    }
+
+    /// A row: a held one, or one beside them.
+    #[inline(always)]
+    pub fn row(&self, row: usize) -> &'a [T] {
+        let (width, held) = (self.points[0], row.wrapping_sub(self.first));
+        if held < self.count {
+            &self.values[held * width..(held + 1) * width]
+        } else {
+            self.edge(row)
+        }
+    }
+
+    /// The row before the held ones, or the one after.
+    #[cold]
+    fn edge(&self, row: usize) -> &'a [T] {
+        let after = row + 1 != self.first && !(self.first == 0 && row + 1 == self.points[1]);
+        self.edges[usize::from(after)]
+    }
+
+    /// Some of the held rows.
+    #[inline(always)]
+    pub fn rows(&self, rows: Range<usize>) -> &'a [T] {
+        let width = self.points[0];
+        &self.values[(rows.start - self.first) * width..(rows.end - self.first) * width]
+    }
 }
 
 /// Some full rows of a level, with the fields that a kernel reads and writes there.
@@ -30,7 +96,7 @@ pub struct Rows<'a, T> {
     pub reads: [&'a [T]; 4],
     /// Fields written or updated, cut to these rows.
     pub writes: [&'a mut [T]; 4],
-    /// A field read anywhere.
+    /// A field read at rows of the kernel's own choice.
     pub whole: Whole<'a, T>,
     /// The field that is read at the neighbours of each point.
     pub around: Whole<'a, T>,

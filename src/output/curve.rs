@@ -229,6 +229,19 @@ pub fn format_row(row: &StepRow, columns: &[Column]) -> String {
     csv_line(cells)
 }
 
+/// Rows of a curve as its lines, for another process of the same run.
+pub(crate) fn rows_to_text(rows: &[StepRow], columns: &[Column]) -> String {
+    rows.iter().map(|row| format_row(row, columns)).collect()
+}
+
+/// The rows of such lines; `None` if one is no row.
+pub(crate) fn rows_from_text(text: &str, columns: &[Column]) -> Option<Vec<StepRow>> {
+    let head = header(columns);
+    let head: StringRecord = head.split(',').collect();
+    let lines = text.split_inclusive('\n');
+    lines.map(|line| parse_row(line, &head, columns)).collect()
+}
+
 /// Adds a row to a checksum. Its seconds are left out, so that the same run has the same one.
 fn add_row(checksum: &mut crc32fast::Hasher, row: &StepRow, columns: &[Column]) {
     let row = StepRow {

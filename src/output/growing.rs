@@ -27,13 +27,26 @@ impl GrowingTable {
 
     /// Appends a line, with its end, and waits until it is on the disk.
     pub fn append(&mut self, line: &str) -> Result<(), OutputError> {
+        self.hand_over(line)?;
+        self.sync()
+    }
+
+    /// Appends a line, with its end, and leaves it to the system, which keeps it if this process dies; if the machine
+    /// fails, what was appended since the last [`sync`](Self::sync) may be lost.
+    pub fn hand_over(&mut self, line: &str) -> Result<(), OutputError> {
         // One write a line, so that a reader or a crash meets whole ones.
         self.file
             .write_all(line.as_bytes())
-            .and_then(|()| self.file.sync_data())
             .map_err(OutputError::write("write", &self.path))?;
         self.text.push_str(line);
         Ok(())
+    }
+
+    /// Waits until every line is on the disk.
+    pub fn sync(&self) -> Result<(), OutputError> {
+        self.file
+            .sync_data()
+            .map_err(OutputError::write("write", &self.path))
     }
 
     /// Writes the file again from memory if it was removed, replaced, or has another length; with `whole` its

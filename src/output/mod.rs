@@ -59,7 +59,7 @@ pub use canvas::{Font, TextLine};
 pub use curve::Curve;
 #[doc(hidden)]
 pub use curve::CurveWriter;
-pub(crate) use curve::EMPTY_CHECKSUM;
+pub(crate) use curve::{EMPTY_CHECKSUM, rows_from_text, rows_to_text};
 #[cfg(feature = "cli")]
 pub(crate) use difference::difference;
 pub(crate) use error::FRESH;

@@ -80,6 +80,18 @@ impl SavedState<'_> {
         stream_within(path, |file| self.encode(file))
     }
 
+    /// The form of the file in memory, for another process of the same run.
+    pub fn to_bytes(&self) -> io::Result<Vec<u8>> {
+        let mut bytes = Vec::new();
+        self.encode(&mut bytes)?;
+        Ok(bytes)
+    }
+
+    /// The state of such bytes; `None` if they are none.
+    pub fn from_bytes(bytes: &[u8]) -> Option<SavedState<'static>> {
+        decode(bytes).ok()
+    }
+
     /// Writes the form to `out`, numbers one after another: a field is large, and a second one of bytes would be
     /// held for no more than this.
     fn encode(&self, out: &mut impl Write) -> io::Result<()> {

@@ -2,6 +2,7 @@
 
 use super::memory_check::MemoryError;
 use crate::backend::BackendError;
+use crate::backend::ranks::RankError;
 use crate::device::{DeviceError, SelectedDevice};
 use crate::effect::Effect;
 use crate::output::{Effects, OutputError, Seconds, Summary, peak_memory_bytes};
@@ -27,6 +28,9 @@ pub enum RunError {
     /// The folder is not this run's, or cannot be written.
     #[error(transparent)]
     Output(#[from] OutputError),
+    /// Another process of the same contact has ended.
+    #[error(transparent)]
+    Rank(#[from] RankError),
 }
 
 /// How far a run came.

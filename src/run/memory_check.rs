@@ -2,7 +2,7 @@
 
 use std::path::{Path, PathBuf};
 
-use crate::backend::{BackendError, dry_run::Place};
+use crate::backend::{BackendError, dry_run::Place, ranks::Ranks};
 use crate::grid::Grid;
 use crate::scene::{Precision, Scene, SurfacePart};
 use crate::study::{Cost, Memory};
@@ -12,6 +12,10 @@ use crate::surface::{MOST_POINTS, claimed_points};
 const LIMIT: &str = "TABOR_MEMORY";
 /// Address space that the allocator reserves for each thread, used or not (glibc on 64 bits).
 const RESERVED: u64 = 64 << 20;
+
+/// Bytes that every machine on which this program starts has: a run that needs no more does not ask the system, which
+/// takes as long as a tenth of a solve on 128 x 128 points.
+const ALWAYS_THERE: u64 = 32 << 20;
 
 /// Bytes a point that reading a map takes: shades or numbers of the file, and the heights.
 const READING: u64 = 24;
@@ -39,6 +43,23 @@ pub enum MemoryError {
         largest: Option<[usize; 2]>,
         /// Bytes in single precision, where the scene leaves the choice.
         single: Option<u64>,
+    },
+    /// A run over several ranks on a grid that is too large.
+    #[error(
+        "grid.points: {} x {} points need {} of memory on each of {ranks} ranks, {here} of them on this machine, and there are {}; take fewer points, or fewer ranks a machine",
+        points[0], points[1], gibibytes(*needed), gibibytes(*available)
+    )]
+    Ranks {
+        /// Points along x and y.
+        points: [usize; 2],
+        /// How many ranks there are.
+        ranks: usize,
+        /// How many of them are on this machine.
+        here: usize,
+        /// Bytes that each needs.
+        needed: u64,
+        /// Bytes that there are for all of this machine.
+        available: u64,
     },
     /// A height file that is longer than the memory.
     #[error(
@@ -142,15 +163,18 @@ fn address_space_left() -> Option<u64> {
 
 /// Refuses a run on `grid` that needs more memory than there is, with the largest grid that fits.
 pub(crate) fn check_grid(scene: &Scene, grid: Grid) -> Result<(), MemoryError> {
-    let Some(available) = available()? else {
-        return Ok(());
-    };
     let place = Place::for_scene(scene);
     let need = |place: Place| -> Result<u64, MemoryError> {
         let cost = Cost::for_scene(scene, grid, place)?;
         Ok(Memory::new(scene, grid, &cost).machine)
     };
     let needed = need(place)?;
+    if needed <= ALWAYS_THERE && std::env::var_os(LIMIT).is_none() {
+        return Ok(());
+    }
+    let Some(available) = available()? else {
+        return Ok(());
+    };
     if needed <= available {
         return Ok(());
     }
@@ -168,14 +192,45 @@ pub(crate) fn check_grid(scene: &Scene, grid: Grid) -> Result<(), MemoryError> {
     })
 }
 
+/// Refuses a run on `grid` over several ranks, if those of this machine need more memory than there is.
+pub(crate) fn check_on_ranks(
+    scene: &Scene,
+    grid: Grid,
+    ranks: &dyn Ranks,
+) -> Result<(), MemoryError> {
+    let Some(available) = available()? else {
+        return Ok(());
+    };
+    let cost = Cost::for_scene(scene, grid, Place::for_scene(scene))?;
+    let needed = Memory::on_ranks(scene, grid, &cost, ranks.count()).machine;
+    if needed.saturating_mul(ranks.here() as u64) <= available {
+        return Ok(());
+    }
+    Err(MemoryError::Ranks {
+        points: [grid.nx, grid.ny],
+        ranks: ranks.count(),
+        here: ranks.here(),
+        needed,
+        available,
+    })
+}
+
 /// As [`check_grid`], for a grid that the scene gives itself; one that a height file carries is checked
 /// once the file is read.
 pub(crate) fn check_scene(scene: &Scene) -> Result<(), MemoryError> {
+    check_scene_by(scene, |grid| check_grid(scene, grid))
+}
+
+/// The same by one of these two checks.
+pub(super) fn check_scene_by(
+    scene: &Scene,
+    check: impl Fn(Grid) -> Result<(), MemoryError>,
+) -> Result<(), MemoryError> {
     check_files(scene)?;
     match (scene.grid.points, scene.grid.size) {
         // Counts past all grids are the surface's to refuse.
         (Some(points), Some(size)) if points[0].saturating_mul(points[1]) <= MOST_POINTS => {
-            check_grid(scene, Grid::new(points, size))
+            check(Grid::new(points, size))
         }
         _ => Ok(()),
     }

@@ -23,6 +23,7 @@ mod end;
 mod in_memory;
 pub(crate) mod memory_check;
 mod observer;
+mod on_ranks;
 mod options;
 mod run_directory;
 mod run_recorder;
@@ -33,18 +34,25 @@ pub use end::{RunEnd, RunError, RunStatus};
 pub use in_memory::solve_with;
 pub use memory_check::MemoryError;
 pub use observer::RunObserver;
+#[cfg(feature = "cli")]
+pub(crate) use on_ranks::agree;
 pub use options::RunOptions;
 
 use std::path::Path;
+use std::sync::Arc;
 
 use crate::backend::BackendError;
 use crate::backend::cpu::with_threads;
+use crate::backend::ranks::Ranks;
 use crate::clock::Clock;
 use crate::device::SelectedDevice;
 use crate::output::Seconds;
 use crate::scene::Scene;
-use crate::study::{Setup, WalkError, walk_on};
+use crate::study::{Earlier, Setup, WalkEnd, WalkError, walk_on};
 use crate::surface::Surface;
+#[cfg(not(feature = "cli"))]
+use on_ranks::agree;
+use on_ranks::{Following, LEADER, Leading, earlier_of_leader};
 use run_directory::{ExistingRun, RunDirectory};
 use run_recorder::RunRecorder;
 
@@ -70,27 +78,46 @@ pub fn run(
 /// # Errors
 /// As [`run`].
 pub fn run_with(
-    mut scene: Scene,
+    scene: Scene,
     folder: &Path,
     options: &RunOptions,
     observer: &mut dyn RunObserver,
 ) -> Result<RunEnd, RunError> {
-    if let Some(device) = options.device {
-        scene.solver.backend = device.backend();
-    }
+    run_on(scene, folder, options, None, observer)
+}
+
+/// As [`run_with`], over several processes: every one calls this with the same scene and folder, and holds a slab of
+/// the rows. The first one writes the folder; the observers of the others hear only that the run starts. The results
+/// have the same bits on any number of ranks, and as without any.
+///
+/// # Errors
+/// As [`run`]; on all ranks but that on which it happened [`RunError::Rank`].
+#[doc(hidden)]
+pub fn run_on_ranks(
+    scene: Scene,
+    folder: &Path,
+    options: &RunOptions,
+    ranks: Arc<dyn Ranks>,
+    observer: &mut dyn RunObserver,
+) -> Result<RunEnd, RunError> {
+    let several = Some(ranks).filter(|ranks| ranks.count() > 1);
+    run_on(scene, folder, options, several, observer)
+}
+
+fn run_on(
+    scene: Scene,
+    folder: &Path,
+    options: &RunOptions,
+    ranks: Option<Arc<dyn Ranks>>,
+    observer: &mut dyn RunObserver,
+) -> Result<RunEnd, RunError> {
     let mut seconds = Seconds::default();
     seconds.add("scene", options.reading_seconds);
-    let clock = Clock::start();
-    memory_check::check_scene(&scene)?;
-    let surface = Surface::build(&scene)?;
-    // Of a grid that a height file carries.
-    memory_check::check_grid(&scene, surface.grid)?;
-    let setup = Setup::new(scene, surface);
-    seconds.add("surface", clock.seconds());
-    let clock = Clock::start();
-    let hears_drivers = options.device.is_some_and(|device| device.hears_drivers());
-    let device = SelectedDevice::new(&setup, hears_drivers)?;
-    seconds.add("device", clock.seconds());
+    let ready = prepared(scene, options, ranks.as_ref(), &mut seconds);
+    let (setup, device) = match &ranks {
+        Some(ranks) => agree(&**ranks, ready)?,
+        None => ready?,
+    };
     let existing = match (options.resume, options.overwrite) {
         (true, _) => ExistingRun::Resume,
         (false, true) => ExistingRun::Overwrite,
@@ -101,6 +128,7 @@ pub fn run_with(
         folder,
         threads: options.threads,
         draws: options.draws(),
+        ranks: ranks.as_deref(),
     };
     match work.walk(&device, existing, seconds.clone(), observer)? {
         Walked::Ended(end) => Ok(*end),
@@ -117,12 +145,47 @@ pub fn run_with(
     }
 }
 
+/// The problem of a scene, and the device for it.
+fn prepared(
+    mut scene: Scene,
+    options: &RunOptions,
+    ranks: Option<&Arc<dyn Ranks>>,
+    seconds: &mut Seconds,
+) -> Result<(Setup, SelectedDevice), RunError> {
+    if let Some(device) = options.device {
+        scene.solver.backend = device.backend();
+    }
+    let clock = Clock::start();
+    let check = |grid| match ranks {
+        Some(ranks) => memory_check::check_on_ranks(&scene, grid, &**ranks),
+        None => memory_check::check_grid(&scene, grid),
+    };
+    memory_check::check_scene_by(&scene, check)?;
+    let surface = Surface::build(&scene)?;
+    // Of a grid that a height file carries.
+    check(surface.grid)?;
+    let setup = Setup::new(scene, surface);
+    seconds.add("surface", clock.seconds());
+    let clock = Clock::start();
+    let device = match ranks {
+        Some(ranks) => SelectedDevice::on_ranks(&setup, Arc::clone(ranks))?,
+        None => {
+            let hears_drivers = options.device.is_some_and(|device| device.hears_drivers());
+            SelectedDevice::new(&setup, hears_drivers)?
+        }
+    };
+    seconds.add("device", clock.seconds());
+    Ok((setup, device))
+}
+
 /// Everything a path is solved with but its device.
 struct Work<'a> {
     setup: &'a Setup,
     folder: &'a Path,
     threads: Option<usize>,
     draws: bool,
+    /// The processes that share the contact, if there are several.
+    ranks: Option<&'a dyn Ranks>,
 }
 
 /// How a path ended on a device.
@@ -143,14 +206,28 @@ impl Work<'_> {
     ) -> Result<Walked, RunError> {
         let setup = self.setup;
         observer.starts(&device.words());
-        let directory = RunDirectory::open(self.folder, setup, device, existing, self.draws)?;
+        if let Some(ranks) = self.ranks.filter(|ranks| ranks.rank() != LEADER) {
+            let end = self.follow(device, ranks)?;
+            let summary = end::summary(setup, device, &end, seconds, Vec::new());
+            return Ok(Walked::Ended(Box::new(RunEnd::new(setup, end, summary))));
+        }
+        // Whether there are threads: from here on an end of this rank alone would keep the others waiting.
+        let threaded = |directory| Ok(with_threads(self.threads, || directory)?);
+        let opened = RunDirectory::open(self.folder, setup, device, existing, self.draws);
+        let directory = match self.ranks {
+            Some(ranks) => agree(ranks, opened.map_err(RunError::from).and_then(threaded))?,
+            None => opened?,
+        };
         for remark in device.remark.iter().chain(&directory.remarks) {
             observer.note(remark);
         }
         for warning in setup.warnings.iter().chain(&directory.lost) {
             observer.warning(warning);
         }
-        let earlier = directory.earlier.clone();
+        let mut earlier = directory.earlier.clone();
+        if let Some(ranks) = self.ranks {
+            earlier = earlier_of_leader(ranks, &setup.scene, &earlier)?;
+        }
         seconds.add("solve", earlier.rows.iter().map(|row| row.seconds).sum());
         let finished = earlier.rows.len();
         let steps = setup.scene.loading.path.len().max(finished);
@@ -158,8 +235,15 @@ impl Work<'_> {
         let mut recorder =
             RunRecorder::new(setup, device, directory, seconds, self.draws, observer);
         let make_backend = || device.backend();
-        let walked = with_threads(self.threads, || {
-            walk_on(setup, &make_backend, &mut recorder, earlier)
+        let walked = with_threads(self.threads, || match self.ranks {
+            Some(ranks) => {
+                let mut leading = Leading {
+                    ranks,
+                    observer: &mut recorder,
+                };
+                walk_on(setup, &make_backend, &mut leading, earlier)
+            }
+            None => walk_on(setup, &make_backend, &mut recorder, earlier),
         })?;
         let (end, failure) = match walked {
             Ok(end) => (end, None),
@@ -183,5 +267,22 @@ impl Work<'_> {
             (Some(error), _) => Err(error.into()),
             (None, written) => Ok(Walked::Ended(Box::new(RunEnd::new(setup, end, written?)))),
         }
+    }
+    /// Walks the path with the rank that leads, and writes nothing.
+    fn follow(&self, device: &SelectedDevice, ranks: &dyn Ranks) -> Result<WalkEnd, RunError> {
+        agree(
+            ranks,
+            with_threads(self.threads, || ()).map_err(RunError::from),
+        )?;
+        let earlier = earlier_of_leader(ranks, &self.setup.scene, &Earlier::default())?;
+        let make_backend = || device.backend();
+        let mut following = Following { ranks };
+        let walked = with_threads(self.threads, || {
+            walk_on(self.setup, &make_backend, &mut following, earlier)
+        })?;
+        walked.map_err(|error| match error {
+            WalkError::Backend(error) => error.into(),
+            WalkError::Observer(error) => error.into(),
+        })
     }
 }

@@ -21,6 +21,12 @@ impl Default for SolverScene {
     }
 }
 
+/// Solved points from which `auto` looks for a graphics processor: fewer fill none, and are done before one is
+/// ready.
+const FEWEST_POINTS: usize = 256 * 256;
+/// The same where the scene asks for double precision, which many adapters compute slowly.
+const FEWEST_POINTS_IN_DOUBLE: usize = 512 * 512;
+
 impl SolverScene {
     /// The precision for which `auto` stands: on a graphics processor it depends on the tolerance;
     /// `has_hardness` is true for a solid with a hardness.
@@ -49,6 +55,19 @@ impl Scene {
     #[doc(hidden)]
     pub fn arithmetic(&self) -> Precision {
         self.arithmetic_on(self.solver.backend == BackendName::Gpu)
+    }
+
+    /// Whether a run with so many solved points looks for a graphics processor: the scene asks for one, or leaves the
+    /// choice and the points are enough for one.
+    pub(crate) fn looks_for_adapters(&self, points: usize) -> bool {
+        match self.solver.backend {
+            BackendName::Cpu => false,
+            BackendName::Gpu => true,
+            BackendName::Auto if self.arithmetic_on(true) == Precision::Double => {
+                points >= FEWEST_POINTS_IN_DOUBLE
+            }
+            BackendName::Auto => points >= FEWEST_POINTS,
+        }
     }
 }
 

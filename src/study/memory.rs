@@ -6,8 +6,9 @@
 
 use super::cost::Cost;
 use crate::backend::Shape;
+use crate::backend::cpu::{exchange_bytes, largest_slab};
 use crate::grid::{Boundary, Grid};
-use crate::scene::{BackendName, FieldName, Scene, StepChoice, SurfacePart};
+use crate::scene::{FieldName, Scene, StepChoice, SurfacePart};
 
 /// A double on the host.
 pub(crate) const DOUBLE: u64 = 8;
@@ -45,6 +46,15 @@ pub struct Memory {
 impl Memory {
     /// Bytes that a scene of this cost takes on `grid`.
     pub fn new(scene: &Scene, grid: Grid, cost: &Cost) -> Memory {
+        Memory::on_ranks(scene, grid, cost, 1)
+    }
+
+    /// Those of each of so many ranks that share the contact: a slab of what the solver holds, and all of what is
+    /// held between solves.
+    pub fn on_ranks(scene: &Scene, grid: Grid, cost: &Cost, ranks: usize) -> Memory {
+        let rows = cost.points[1] as u128;
+        let slab = largest_slab(cost.points[1], ranks) as u128;
+        let own = |bytes: usize| (bytes as u128 * slab / rows.max(1)) as u64;
         let points = grid.len() as u64;
         let shape = Shape {
             points: cost.points,
@@ -57,15 +67,16 @@ impl Memory {
         } else {
             0
         };
-        let solver = cost.bytes() as u64;
+        let solver = own(cost.bytes());
         let on_processor = !cost.place.on_gpu();
         let solver_here = if on_processor { solver } else { 0 };
         // In mixed precision the state in double. On an adapter without double precision it is here, on others there:
         // both are counted.
-        let reference = cost.reference_bytes() as u64;
+        let reference = own(cost.reference_bytes());
         // While it iterates, and between the iterations of one solve and those of the next.
-        let active = solver_here + reference;
-        let idle = active - cost.resting as u64 - cost.reference_resting as u64;
+        let idle = solver_here + reference - own(cost.resting) - own(cost.reference_resting);
+        let exchanged = exchange_bytes(cost.points, DOUBLE as usize, ranks) as u64;
+        let active = solver_here + reference + exchanged;
 
         // The heights, which surface and problem share, and the table of the stiffness.
         let history = cost.history_bytes() as u64;
@@ -88,7 +99,9 @@ impl Memory {
         // Gap and elastic pressure as read, which become the results, and the states. What is cut off a
         // larger grid is a field of its own for a moment.
         let cut = if solved > points { DOUBLE * points } else { 0 };
-        let evaluating = 2 * field + cut + points;
+        // This rank's rows of a field on their way to the others.
+        let gathered = if ranks > 1 { own(field as usize) } else { 0 };
+        let evaluating = 2 * field + gathered + cut + points;
         // Heights of a pad and the first gap on their way to the backend.
         let planning = table + field;
         let starting = planning.max(coarse_start(cost, points, solver_here, table));
@@ -111,12 +124,12 @@ impl Memory {
         let jump = u64::from(cost.searches.jumps)
             * (load + before + state + results + result + other_solver);
 
-        let drivers = if scene.solver.backend == BackendName::Cpu || cfg!(not(feature = "gpu")) {
-            0
-        } else {
+        let drivers = if cfg!(feature = "gpu") && scene.looks_for_adapters(shape.len()) {
             DRIVERS
+        } else {
+            0
         };
-        let solver_field = cost.place.number() as u64 * solved;
+        let solver_field = own(cost.place.number() * solved as usize);
         let unused = if !on_processor {
             0
         } else if solver_field < SHORTEST_RETURNED {

@@ -5,10 +5,9 @@
 
 use num_complex::Complex;
 use rayon::prelude::*;
-use realfft::RealFftPlanner;
-use rustfft::FftPlanner;
 
 use crate::grid::Grid;
+use crate::plans::Planned;
 
 /// Rows processed together, so that a cache line of a column serves several of them.
 const ROWS_TOGETHER: usize = 8;
@@ -21,13 +20,13 @@ const ROWS_TOGETHER: usize = 8;
 pub fn synthesise(grid: &Grid, mut columns: Vec<Complex<f64>>) -> Vec<f64> {
     let (nx, ny) = (grid.nx, grid.ny);
     debug_assert!(columns.len().is_multiple_of(ny) && columns.len() / ny <= nx / 2 + 1);
-    let along_y = FftPlanner::new().plan_fft_inverse(ny);
+    let along_y = f64::complex_backward(ny);
     columns.par_chunks_mut(ny).for_each_init(
         || vec![Complex::default(); along_y.get_inplace_scratch_len()],
         |scratch, column| along_y.process_with_scratch(column, scratch),
     );
 
-    let along_x = RealFftPlanner::new().plan_fft_inverse(nx);
+    let along_x = f64::real_backward(nx);
     let mut heights = vec![0.0; nx * ny];
     heights
         .par_chunks_mut(nx * ROWS_TOGETHER)
@@ -64,7 +63,7 @@ pub fn synthesise(grid: &Grid, mut columns: Vec<Complex<f64>>) -> Vec<f64> {
 pub fn analyse(grid: &Grid, heights: &[f64]) -> Vec<Complex<f64>> {
     let (nx, ny) = (grid.nx, grid.ny);
     let stored = nx / 2 + 1;
-    let along_x = RealFftPlanner::new().plan_fft_forward(nx);
+    let along_x = f64::real_forward(nx);
     let mut rows = vec![Complex::default(); stored * ny];
     rows.par_chunks_mut(stored)
         .zip(heights.par_chunks(nx))
@@ -78,7 +77,7 @@ pub fn analyse(grid: &Grid, heights: &[f64]) -> Vec<Complex<f64>> {
             },
         );
 
-    let along_y = FftPlanner::new().plan_fft_forward(ny);
+    let along_y = f64::complex_forward(ny);
     let factor = 1.0 / grid.len() as f64;
     let mut columns = vec![Complex::default(); stored * ny];
     columns.par_chunks_mut(ny).enumerate().for_each_init(

@@ -99,14 +99,23 @@ impl SweepFolder {
         self.outcomes.get(&number).is_some_and(Outcome::is_finished)
     }
 
-    /// Keeps a case that ended; it is on the disk when this returns.
+    /// Keeps a case that ended: the system has it when this returns, so that it outlives this process, and the disk
+    /// with the next [`sync`](Self::sync).
     ///
     /// # Errors
     /// What the system says.
     pub fn keep(&mut self, outcome: Outcome) -> Result<(), SweepError> {
-        self.table.append(&json_line(&outcome))?;
+        self.table.hand_over(&json_line(&outcome))?;
         add(&mut self.outcomes, outcome);
         Ok(())
+    }
+
+    /// Waits until all cases that are kept are on the disk.
+    ///
+    /// # Errors
+    /// What the system says.
+    pub fn sync(&self) -> Result<(), SweepError> {
+        Ok(self.table.sync()?)
     }
 
     /// Adds the cases of another folder of the same study.

@@ -14,7 +14,7 @@ use crate::backend::cpu::with_threads;
 use crate::clock::Clock;
 use crate::run::{RunError, RunObserver, RunOptions, RunStatus, run_with, solve_with};
 
-/// How often the listener is asked whether to continue.
+/// How often the listener is asked whether to continue, and the longest that an ended case is not on the disk.
 const LOOK: Duration = Duration::from_millis(100);
 
 /// How cases run side by side.
@@ -115,20 +115,29 @@ pub fn solve(
             });
         }
         drop(sender);
+        let mut synced = Clock::start();
         loop {
-            match receiver.recv_timeout(LOOK) {
-                Ok(outcome) => {
-                    listener.ended(&outcome);
-                    ended += 1;
-                    if failure.is_none()
-                        && let Err(error) = folder.keep(outcome)
-                    {
-                        stop.store(true, Ordering::Relaxed);
-                        failure = Some(error);
-                    }
+            let received = receiver.recv_timeout(LOOK);
+            let is_over = matches!(received, Err(RecvTimeoutError::Disconnected));
+            let mut kept = Ok(());
+            if let Ok(outcome) = received {
+                listener.ended(&outcome);
+                ended += 1;
+                if failure.is_none() {
+                    kept = folder.keep(outcome);
                 }
-                Err(RecvTimeoutError::Timeout) => {}
-                Err(RecvTimeoutError::Disconnected) => break,
+            }
+            // Waiting for the disk after each case would cost more than a short case itself.
+            if kept.is_ok() && (is_over || synced.seconds() >= LOOK.as_secs_f64()) {
+                kept = folder.sync();
+                synced = Clock::start();
+            }
+            if let Err(error) = kept {
+                stop.store(true, Ordering::Relaxed);
+                failure.get_or_insert(error);
+            }
+            if is_over {
+                break;
             }
             if !listener.continues() {
                 stop.store(true, Ordering::Relaxed);

@@ -4,12 +4,13 @@ use std::fs;
 use std::path::{Path, PathBuf};
 
 /// From the ground up, as the crate page lists them.
-const ORDER: [&str; 26] = [
+const ORDER: [&str; 27] = [
     "units",
     "clock",
     "grid",
     "shared_values",
     "real",
+    "plans",
     "law",
     "elastic",
     "kernel",

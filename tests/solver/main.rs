@@ -1,5 +1,5 @@
 //! The solver's parts and its iterates: the elastic operator, each backend against the plain text of the
-//! method, and what one step of a path hands to the next.
+//! method, what one step of a path hands to the next, and a contact over several ranks.
 
 use std::process::ExitCode;
 
@@ -7,6 +7,7 @@ mod checkpoint;
 mod iterates;
 mod mean_gap;
 mod operator;
+mod ranks;
 #[path = "../shared/mod.rs"]
 mod shared;
 
@@ -15,6 +16,7 @@ fn main() -> ExitCode {
     shared::trials::run([
         iterates::tests(),
         checkpoint::tests(),
+        ranks::tests(),
         mean_gap::tests(),
         operator::tests(),
     ])

@@ -190,14 +190,8 @@ impl State {
                 true => [&mut self.direction, nothing(), nothing(), nothing()],
                 false => [&mut self.gap, &mut self.pressure, before, nothing()],
             },
-            whole: Whole {
-                values: &[],
-                points: [0, 0],
-            },
-            around: Whole {
-                values: &[],
-                points: [0, 0],
-            },
+            whole: Whole::none(),
+            around: Whole::none(),
             factor: &[],
             outer: [&self.outer[0], &self.outer[1]],
             reduces: kernel.reduces,

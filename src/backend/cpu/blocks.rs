@@ -20,23 +20,34 @@ pub(super) const TILE: usize = BLOCK * BLOCK;
 /// percent of the column's transform, and a second set of tiles would cost a field.
 pub(super) type Tile<T> = Mutex<[Complex<T>; TILE]>;
 
+/// The rows of a level that this process holds.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) struct Held {
+    /// The first one.
+    pub first: usize,
+    /// How many.
+    pub count: usize,
+}
+
 /// A kernel over a range of blocks, with what it reads and the parts that it alone may write.
 pub(super) struct Job<'a, T: Real> {
-    /// Blocks of rows.
+    /// Blocks of rows, counted from the first held one.
     pub blocks: Range<usize>,
     /// The level's shape.
     pub shape: Shape,
-    /// Fields read, whole.
+    /// Its rows that this process holds.
+    pub held: Held,
+    /// Fields read, all held rows.
     pub reads: [&'a [T]; 4],
     /// Fields written, cut to these blocks.
     pub writes: [&'a mut [T]; 4],
-    /// The field read anywhere.
+    /// The field read at rows of the kernel's own choice.
     pub whole: Whole<'a, T>,
     /// The field read around each point.
     pub around: Whole<'a, T>,
-    /// Factors on the law's tension, whole; empty without them.
+    /// Factors on the law's tension, all held rows; empty without them.
     pub factor: &'a [T],
-    /// Gap and residual of the outer state that is corrected, whole; empty without one.
+    /// Gap and residual of the outer state that is corrected, all held rows; empty without one.
     pub outer: [&'a [T]; 2],
     /// One set of sums a block.
     pub partials: &'a mut [[f64; SUMS]],
@@ -55,15 +66,15 @@ pub(super) struct Job<'a, T: Real> {
 }
 
 impl<'a, T: Real> Job<'a, T> {
-    /// First row and number of rows of a block.
+    /// First row, counted from the first held one, and number of rows of a block.
     pub fn rows_of(&self, block: usize) -> (usize, usize) {
         let first = block * BLOCK;
-        (first, BLOCK.min(self.shape.points[1] - first))
+        (first, BLOCK.min(self.held.count - first))
     }
 
     fn split(self, at: usize) -> (Job<'a, T>, Job<'a, T>) {
         let left_blocks = at - self.blocks.start;
-        let rows = (at * BLOCK).min(self.shape.points[1]) - self.blocks.start * BLOCK;
+        let rows = (at * BLOCK).min(self.held.count) - self.blocks.start * BLOCK;
         let values = rows * self.shape.points[0];
         let [a, b, c, d] = self.writes;
         let cut = |field: &'a mut [T]| {
@@ -77,6 +88,7 @@ impl<'a, T: Real> Job<'a, T> {
         let part = |blocks, writes, partials, work| Job {
             blocks,
             shape: self.shape,
+            held: self.held,
             reads: self.reads,
             writes,
             whole: self.whole,
@@ -118,7 +130,7 @@ impl<'a, T: Real> Job<'a, T> {
         let (factor, outer) = (cut(self.factor), self.outer.map(cut));
         let [a, b, c, d] = &mut self.writes;
         let mut rows = Rows {
-            first,
+            first: self.held.first + first,
             width,
             count,
             surface: self.shape.surface,

@@ -3,19 +3,31 @@
 //! Work is cut into blocks of eight rows whatever the number of threads, and sums add the blocks'
 //! partial results in order, so results do not depend on how threads happen to be scheduled. This
 //! is the only place that names rayon.
+//!
+//! Over several ranks each process holds a slab of the rows of every field and all of the scalars; what a caller
+//! writes and reads are whole fields.
 
+mod across;
 mod blocks;
 mod plans;
+mod slabs;
 mod transform;
+
+use std::ops::Range;
+use std::sync::Arc;
 
 use rayon::ThreadPoolBuilder;
 use rayon::prelude::*;
 
+use super::ranks::{RankError, Ranks};
 use super::{Backend, BackendError, Factors, Field, Level, Shape, Spectrum, check_fields};
 use crate::kernel::{Form, Gate, Kernel, Params, SUMS, ScalarKernel, Scalars, Twin, Whole};
+use crate::plans::Planned;
 use crate::real::Real;
-use blocks::{BLOCK, Job, run_blocks};
-use plans::Plans;
+pub use across::exchange_bytes;
+use blocks::{BLOCK, Held, Job, run_blocks};
+use slabs::Slabs;
+pub use slabs::largest_slab;
 use transform::Transform;
 
 /// The CPU backend in one kind of number; `CpuBackend<f64>` is the reference.
@@ -32,42 +44,74 @@ pub struct CpuBackend<T: Real> {
     params: Option<Params>,
     scalars: Scalars,
     transforms: f64,
+    /// The processes that hold the other rows; `None` where this one holds all.
+    ranks: Option<Arc<dyn Ranks>>,
+    /// Another rank has ended.
+    failure: Option<RankError>,
 }
 
 struct LevelSpace<T: Real> {
     shape: Shape,
+    /// Its rows over the ranks.
+    slabs: Option<Slabs>,
+    /// Those of this process.
+    held: Held,
     /// None where nothing is transformed.
     transform: Option<Transform<T>>,
     partials: Vec<[f64; SUMS]>,
 }
 
-/// Numbers that pick their own twins and transforms.
-pub trait CpuReal: Real {
+impl<T: Real> LevelSpace<T> {
+    /// Points that this process holds.
+    fn len(&self) -> usize {
+        self.held.count * self.shape.points[0]
+    }
+
+    /// Columns of the half spectrum whose factors it holds.
+    fn columns(&self) -> Range<usize> {
+        let all = self.shape.points[0] / 2 + 1;
+        match &self.slabs {
+            None => 0..all,
+            Some(slabs) => {
+                let groups = slabs.groups_of(slabs.ranks().rank(), all.div_ceil(BLOCK));
+                (groups.start * BLOCK).min(all)..(groups.end * BLOCK).min(all)
+            }
+        }
+    }
+}
+
+/// A field that a kernel reads at rows of its own choice, with the rows beside the held ones.
+fn whole_field<'a, T: Real>(
+    fields: &'a [Vec<T>],
+    levels: &[LevelSpace<T>],
+    field: Option<Field>,
+    edges: &'a [Vec<T>; 2],
+) -> Whole<'a, T> {
+    let Some(field) = field else {
+        return Whole::none();
+    };
+    let space = &levels[field.level.0];
+    let held = space.held.first..space.held.first + space.held.count;
+    let values = &fields[field.index];
+    let edges = edges.each_ref().map(|row| &row[..]);
+    Whole::of_rows(values, space.shape.points, held, edges)
+}
+
+/// Numbers that pick their own twins.
+pub trait CpuReal: Real + Planned + bytemuck::Pod {
     /// The twin of a kernel for this number.
     fn twin(kernel: &'static Kernel) -> Twin<Self>;
-    /// Transforms of a grid of `[nx, ny]` points.
-    fn plans(points: [usize; 2]) -> Plans<Self>;
 }
 
 impl CpuReal for f64 {
     fn twin(kernel: &'static Kernel) -> Twin<f64> {
         kernel.twin
     }
-
-    #[inline(never)]
-    fn plans(points: [usize; 2]) -> Plans<f64> {
-        Plans::new(points)
-    }
 }
 
 impl CpuReal for f32 {
     fn twin(kernel: &'static Kernel) -> Twin<f32> {
         kernel.twin_single
-    }
-
-    #[inline(never)]
-    fn plans(points: [usize; 2]) -> Plans<f32> {
-        Plans::new(points)
     }
 }
 
@@ -103,6 +147,16 @@ impl<T: CpuReal> CpuBackend<T> {
             params: None,
             scalars: Scalars::start(0.0, false),
             transforms: 0.0,
+            ranks: None,
+            failure: None,
+        }
+    }
+
+    /// One with nothing in it that holds this rank's rows, where there are several ranks.
+    pub fn on_ranks(ranks: Option<Arc<dyn Ranks>>) -> Self {
+        CpuBackend {
+            ranks: ranks.filter(|ranks| ranks.count() > 1),
+            ..CpuBackend::new()
         }
     }
 
@@ -123,22 +177,64 @@ impl<T: CpuReal> CpuBackend<T> {
     fn take(&mut self, field: Field) {
         let stored = &mut self.fields[field.index];
         if stored.is_empty() {
-            *stored = vec![T::zero(); self.levels[field.level.0].shape.len()];
+            *stored = vec![T::zero(); self.levels[field.level.0].len()];
         }
     }
 
-    fn add_level(&mut self, shape: Shape, transform: Option<Transform<T>>) -> Level {
+    fn add_level(&mut self, shape: Shape, transforms: bool) -> Level {
+        let rows = shape.points[1];
+        let slabs = self.ranks.as_ref().map(|ranks| {
+            let first = self.levels.first().and_then(|first| first.slabs.as_ref());
+            match first {
+                Some(first) => first.halved(rows),
+                None => Slabs::of_blocks(Arc::clone(ranks), rows),
+            }
+        });
+        let all = Held {
+            first: 0,
+            count: rows,
+        };
+        let held = slabs.as_ref().map_or(all, Slabs::held);
         self.levels.push(LevelSpace {
             shape,
-            transform,
-            partials: vec![[0.0; SUMS]; shape.points[1].div_ceil(BLOCK)],
+            transform: transforms.then(|| Transform::new(shape, held.count)),
+            partials: vec![[0.0; SUMS]; held.count.div_ceil(BLOCK)],
+            slabs,
+            held,
         });
         Level(self.levels.len() - 1)
     }
 
+    /// The rows beside those of a field that a kernel reads at rows of its own choice.
+    fn edges(&mut self, field: Option<Field>) -> [Vec<T>; 2] {
+        let Some(field) = field else {
+            return Default::default();
+        };
+        let space = &self.levels[field.level.0];
+        let Some(slabs) = &space.slabs else {
+            return Default::default();
+        };
+        match slabs.edges(&self.fields[field.index], space.shape.points[0]) {
+            Ok(edges) => edges,
+            Err(error) => {
+                self.failure = Some(error);
+                let row = || vec![T::zero(); space.shape.points[0]];
+                [row(), row()]
+            }
+        }
+    }
+
+    /// Says that another rank has ended, if one has: what is computed without it is worth nothing.
+    fn failed(&self) -> Result<(), BackendError> {
+        match self.failure {
+            Some(error) => Err(BackendError::Device(error.to_string())),
+            None => Ok(()),
+        }
+    }
+
     /// Runs a kernel over the blocks of a level, with the transform's work space where it has one.
     fn run_blocks(&mut self, kernel: &'static Kernel, level: Level, fields: &[Field]) {
-        if !self.scalars.is_open(kernel.gate) {
+        if !self.scalars.is_open(kernel.gate) || self.failure.is_some() {
             return;
         }
         if let Err(error) = check_fields(kernel, fields) {
@@ -151,6 +247,12 @@ impl<T: CpuReal> CpuBackend<T> {
         };
         fields.iter().for_each(|&field| self.take(field));
         let twin = T::twin(kernel);
+        let (own, has_around) = (kernel.written().end, kernel.around.is_some());
+        let at = |present: bool, place: usize| fields.get(place).copied().filter(|_| present);
+        let around = at(has_around, own);
+        let whole = at(kernel.whole, own + usize::from(has_around));
+        let around_edges = self.edges(around);
+        let whole_edges = self.edges(whole);
         // Written fields are lifted out, so that the others can be borrowed meanwhile.
         let mut lifted: [Vec<T>; 4] = Default::default();
         for (slot, field) in fields[kernel.written()].iter().enumerate() {
@@ -160,19 +262,8 @@ impl<T: CpuReal> CpuBackend<T> {
         for (slot, field) in fields[..kernel.reads.len()].iter().enumerate() {
             reads[slot] = &self.fields[field.index];
         }
-        let anywhere = |present: bool, place: usize| match (present, fields.get(place)) {
-            (true, Some(&field)) => Whole {
-                values: &self.fields[field.index][..],
-                points: self.levels[field.level.0].shape.points,
-            },
-            _ => Whole {
-                values: &[],
-                points: [0, 0],
-            },
-        };
-        let (own, has_around) = (kernel.written().end, kernel.around.is_some());
-        let around = anywhere(has_around, own);
-        let whole = anywhere(kernel.whole, own + usize::from(has_around));
+        let around = whole_field(&self.fields, &self.levels, around, &around_edges);
+        let whole = whole_field(&self.fields, &self.levels, whole, &whole_edges);
         let factor: &[T] = match self.law_factor {
             Some(field) if field.level == level => &self.fields[field.index],
             _ => &[],
@@ -185,7 +276,7 @@ impl<T: CpuReal> CpuBackend<T> {
         };
         let share = self.share_of_first(level);
         let space = &mut self.levels[level.0];
-        let blocks = space.shape.points[1].div_ceil(BLOCK);
+        let blocks = space.held.count.div_ceil(BLOCK);
         let mut neutral = [0.0; SUMS];
         for (slot, reduce) in kernel.reduces.iter().enumerate() {
             neutral[slot] = reduce.neutral();
@@ -196,6 +287,7 @@ impl<T: CpuReal> CpuBackend<T> {
         let job = Job {
             blocks: 0..blocks,
             shape: space.shape,
+            held: space.held,
             reads,
             writes: [a, b, c, d],
             whole,
@@ -219,7 +311,22 @@ impl<T: CpuReal> CpuBackend<T> {
                 self.transforms += share * form.transforms();
             }
         }
-        let partials = &self.levels[level.0].partials[..blocks];
+        let space = &self.levels[level.0];
+        let gathered = match &space.slabs {
+            Some(slabs) if !kernel.sums.is_empty() => {
+                debug_assert!(space.held.first.is_multiple_of(BLOCK), "{}", kernel.name);
+                slabs.gather_sums(&space.partials[..blocks], kernel.sums.len())
+            }
+            _ => Ok(Vec::new()),
+        };
+        let partials = match &gathered {
+            Ok(all) if space.slabs.is_some() => all,
+            Ok(_) => &space.partials[..blocks],
+            Err(error) => {
+                self.failure = Some(*error);
+                &[]
+            }
+        };
         for (slot, &sum) in kernel.sums.iter().enumerate() {
             let reduce = sum.reduce();
             let total = partials.iter().fold(reduce.neutral(), |total, block| {
@@ -235,15 +342,15 @@ impl<T: CpuReal> CpuBackend<T> {
 
 impl<T: CpuReal> Backend for CpuBackend<T> {
     fn level(&mut self, _name: &'static str, shape: Shape) -> Level {
-        self.add_level(shape, Some(Transform::new(shape)))
+        self.add_level(shape, true)
     }
 
     fn sweep_level(&mut self, _name: &'static str, shape: Shape) -> Level {
-        self.add_level(shape, None)
+        self.add_level(shape, false)
     }
 
     fn field(&mut self, level: Level, _name: &'static str) -> Field {
-        let points = self.levels[level.0].shape.len();
+        let points = self.levels[level.0].len();
         self.fields.push(vec![T::zero(); points]);
         Field {
             level,
@@ -253,8 +360,10 @@ impl<T: CpuReal> Backend for CpuBackend<T> {
 
     fn spectrum(&mut self, level: Level, _name: &'static str, factors: Factors) -> Spectrum {
         // A table is read faster than roots are taken.
-        let shape = self.levels[level.0].shape;
-        self.spectra.push(factors.tabulated(shape, T::from_double));
+        let space = &self.levels[level.0];
+        let columns = space.columns();
+        self.spectra
+            .push(factors.tabulated_columns(space.shape, columns, T::from_double));
         Spectrum {
             level,
             index: self.spectra.len() - 1,
@@ -262,23 +371,36 @@ impl<T: CpuReal> Backend for CpuBackend<T> {
     }
 
     fn set_zero_mode(&mut self, spectrum: Spectrum, value: f64) {
-        self.spectra[spectrum.index][0] = T::from_double(value);
+        if self.levels[spectrum.level.0].columns().contains(&0) {
+            self.spectra[spectrum.index][0] = T::from_double(value);
+        }
     }
 
     fn write(&mut self, field: Field, values: &[f64]) {
         self.take(field);
+        let space = &self.levels[field.level.0];
+        debug_assert_eq!(values.len(), space.shape.len());
+        let first = space.held.first * space.shape.points[0];
         let stored = &mut self.fields[field.index];
-        debug_assert_eq!(values.len(), stored.len());
+        let own = &values[first..first + stored.len()];
         stored
             .par_iter_mut()
-            .zip(values)
+            .zip(own)
             .for_each(|(stored, &value)| *stored = T::from_double(value));
     }
 
     fn read(&mut self, field: Field) -> Result<Vec<f64>, BackendError> {
         self.take(field);
+        self.failed()?;
         let stored = self.fields[field.index].par_iter();
-        Ok(stored.map(|value| value.double()).collect())
+        let own = stored.map(|value| value.double()).collect();
+        let space = &self.levels[field.level.0];
+        match &space.slabs {
+            None => Ok(own),
+            Some(slabs) => slabs
+                .gather(&own, space.shape.points[0])
+                .map_err(|error| BackendError::Device(error.to_string())),
+        }
     }
 
     fn set_law_factor(&mut self, factor: Field) {
@@ -305,7 +427,7 @@ impl<T: CpuReal> Backend for CpuBackend<T> {
 
     fn in_double(&self, _shape: Shape) -> Option<Box<dyn Backend + Send>> {
         self.corrected
-            .then(|| Box::new(CpuBackend::<f64>::new()) as Box<dyn Backend + Send>)
+            .then(|| Box::new(CpuBackend::<f64>::on_ranks(self.ranks.clone())) as _)
     }
 
     fn set_params(&mut self, params: &Params) {
@@ -317,6 +439,7 @@ impl<T: CpuReal> Backend for CpuBackend<T> {
     }
 
     fn scalars(&mut self) -> Result<Scalars, BackendError> {
+        self.failed()?;
         Ok(self.scalars)
     }
 
@@ -331,7 +454,7 @@ impl<T: CpuReal> Backend for CpuBackend<T> {
     }
 
     fn multiply(&mut self, by: Spectrum, energy: bool, gate: Gate) {
-        if !self.scalars.is_open(gate) {
+        if !self.scalars.is_open(gate) || self.failure.is_some() {
             return;
         }
         self.transforms += self.share_of_first(by.level);
@@ -340,9 +463,15 @@ impl<T: CpuReal> Backend for CpuBackend<T> {
             debug_assert!(false, "a spectrum on a level without transforms");
             return;
         };
-        let curvature = transform.multiply(&self.spectra[by.index], energy);
-        if energy {
-            self.scalars.curvature = curvature;
+        let factors = &self.spectra[by.index];
+        let curvature = match &space.slabs {
+            None => Ok(transform.multiply(factors, energy)),
+            Some(slabs) => transform.multiply_across(factors, energy, slabs),
+        };
+        match curvature {
+            Ok(curvature) if energy => self.scalars.curvature = curvature,
+            Ok(_) => {}
+            Err(error) => self.failure = Some(error),
         }
     }
 

@@ -2,8 +2,10 @@
 
 use std::sync::Arc;
 
-use realfft::{ComplexToReal, RealFftPlanner, RealToComplex};
-use rustfft::{Fft, FftNum, FftPlanner};
+use realfft::{ComplexToReal, RealToComplex};
+use rustfft::Fft;
+
+use crate::plans::Planned;
 
 /// Transforms along the rows and the columns of a grid.
 pub struct Plans<T> {
@@ -13,20 +15,14 @@ pub struct Plans<T> {
     pub(super) column_backward: Arc<dyn Fft<T>>,
 }
 
-impl<T: FftNum> Plans<T> {
+impl<T: Planned> Plans<T> {
     /// Plans for `[nx, ny]` points.
-    ///
-    /// Planners are generic and long to compile: who calls this with a number of its own compiles every
-    /// algorithm of theirs for it. Hence one function for each number, in this crate
-    /// ([`CpuReal::plans`](super::CpuReal::plans)), and programs and tests compile none.
     pub(super) fn new([nx, ny]: [usize; 2]) -> Self {
-        let mut real_planner = RealFftPlanner::new();
-        let mut planner = FftPlanner::new();
         Plans {
-            row_forward: real_planner.plan_fft_forward(nx),
-            row_backward: real_planner.plan_fft_inverse(nx),
-            column_forward: planner.plan_fft_forward(ny),
-            column_backward: planner.plan_fft_inverse(ny),
+            row_forward: T::real_forward(nx),
+            row_backward: T::real_backward(nx),
+            column_forward: T::complex_forward(ny),
+            column_backward: T::complex_backward(ny),
         }
     }
 }

@@ -20,14 +20,16 @@ use crate::real::Real;
 
 /// Transform plans and work space of one level.
 pub(super) struct Transform<T: Real> {
-    shape: Shape,
+    pub(super) shape: Shape,
+    /// Rows that this process holds.
+    rows: usize,
     /// Columns of the half spectrum, nx/2 + 1.
     columns: usize,
     /// Groups of `BLOCK` columns.
-    groups: usize,
+    pub(super) groups: usize,
     plans: Plans<T>,
-    /// Spectra of the rows, then of the columns too: block, group, column in the group, row in the block.
-    tiles: Vec<Tile<T>>,
+    /// Spectra of the held rows, then of the columns too: block, group, column in the group, row in the block.
+    pub(super) tiles: Vec<Tile<T>>,
     /// Energy of each group.
     energies: Vec<f64>,
     scratch: Vec<Mutex<Scratch<T>>>,
@@ -44,11 +46,14 @@ struct Scratch<T> {
 }
 
 impl<T: CpuReal> Transform<T> {
-    pub fn new(shape: Shape) -> Self {
+    /// Transforms of a level of which this process holds so many rows.
+    pub fn new(shape: Shape, rows: usize) -> Self {
         let [nx, ny] = shape.points;
+        // Over several processes columns have buffers of their own.
+        let column_len = if rows == ny { BLOCK * ny } else { 0 };
         let columns = nx / 2 + 1;
         let groups = columns.div_ceil(BLOCK);
-        let plans = T::plans(shape.points);
+        let plans = Plans::<T>::new(shape.points);
         let transform_len = (plans.row_forward.get_scratch_len())
             .max(plans.row_backward.get_scratch_len())
             .max(plans.column_forward.get_inplace_scratch_len())
@@ -59,7 +64,7 @@ impl<T: CpuReal> Transform<T> {
                 Mutex::new(Scratch {
                     lines: vec![T::zero(); BLOCK * nx],
                     spectra: vec![zero; BLOCK * columns],
-                    column: vec![zero; BLOCK * ny],
+                    column: vec![zero; column_len],
                     factors: vec![T::zero(); ny],
                     transform: vec![zero; transform_len],
                 })
@@ -67,6 +72,7 @@ impl<T: CpuReal> Transform<T> {
             .collect();
         Transform {
             shape,
+            rows,
             columns,
             groups,
             plans,
@@ -82,9 +88,9 @@ impl<T: CpuReal> Transform<T> {
     }
 
     /// Takes memory for the spectra, at first and after they were let go.
-    fn take(&mut self) {
+    pub(super) fn take(&mut self) {
         if self.tiles.is_empty() {
-            let blocks = self.shape.points[1].div_ceil(BLOCK);
+            let blocks = self.rows.div_ceil(BLOCK);
             self.tiles
                 .resize_with(blocks * self.groups, || Mutex::new([Complex::zero(); TILE]));
         }
@@ -171,24 +177,35 @@ impl<T: CpuReal> Transform<T> {
     /// back. Returns `sum K |s_q|^2 / points` over all wavevectors.
     pub fn multiply(&mut self, factors: &[T], energy: bool) -> f64 {
         self.take();
+        let mut energies = std::mem::take(&mut self.energies);
+        self.columns(factors, 0, energy)
+            .run(0..self.groups, &mut energies);
+        self.energies = energies;
+        self.energies.iter().sum()
+    }
+
+    /// The columns, with their factors from that of column `first` on.
+    pub(super) fn columns<'a>(
+        &'a self,
+        factors: &'a [T],
+        first: usize,
+        energy: bool,
+    ) -> Columns<'a, T> {
         let [nx, ny] = self.shape.points;
-        let scale = T::from_double(1.0 / self.shape.len() as f64);
-        let (columns, groups) = (self.columns, self.groups);
-        let context = Columns {
+        Columns {
             tiles: &self.tiles,
             scratch: &self.scratch,
             forward: &*self.plans.column_forward,
             backward: &*self.plans.column_backward,
             factors,
-            scale,
-            columns,
-            groups,
+            first,
+            scale: T::from_double(1.0 / self.shape.len() as f64),
+            columns: self.columns,
+            groups: self.groups,
             nx,
             ny,
             energy,
-        };
-        context.run(0..groups, &mut self.energies);
-        self.energies.iter().sum()
+        }
     }
 }
 
@@ -289,12 +306,14 @@ fn lock<T>(scratch: &[Mutex<Scratch<T>>]) -> MutexGuard<'_, Scratch<T>> {
 }
 
 /// The column part, shared by all its threads.
-struct Columns<'a, T: Real> {
+pub(super) struct Columns<'a, T: Real> {
     tiles: &'a [Tile<T>],
     scratch: &'a [Mutex<Scratch<T>>],
     forward: &'a dyn Fft<T>,
     backward: &'a dyn Fft<T>,
     factors: &'a [T],
+    /// The column of the first of these factors.
+    first: usize,
     scale: T,
     columns: usize,
     groups: usize,
@@ -326,9 +345,7 @@ impl<T: Real> Columns<'_, T> {
     fn group(&self, group: usize) -> f64 {
         let guard = &mut *lock(self.scratch);
         let ny = self.ny;
-        let half = ny / 2 + 1;
-        let first = group * BLOCK;
-        let count = BLOCK.min(self.columns - first);
+        let count = BLOCK.min(self.columns - group * BLOCK);
         let tiles = || self.tiles[group..].iter().step_by(self.groups).enumerate();
         for (block, tile) in tiles() {
             let rows = BLOCK.min(ny - block * BLOCK);
@@ -338,15 +355,41 @@ impl<T: Real> Columns<'_, T> {
                 copy_rows(line, &mut guard.column[at..at + rows]);
             }
         }
+        let mut column = std::mem::take(&mut guard.column);
+        let energy = self.convolve(group, &mut column, guard);
+        guard.column = column;
+        for (block, tile) in tiles() {
+            let rows = BLOCK.min(ny - block * BLOCK);
+            let mut tile = tile.lock().unwrap_or_else(PoisonError::into_inner);
+            for (place, line) in tile.chunks_exact_mut(BLOCK).take(count).enumerate() {
+                let at = place * ny + block * BLOCK;
+                copy_rows(&guard.column[at..at + rows], line);
+            }
+        }
+        energy
+    }
+
+    /// The same where `lines` hold the columns of a group, one after another.
+    pub(super) fn lines(&self, group: usize, lines: &mut [Complex<T>]) -> f64 {
+        self.convolve(group, lines, &mut lock(self.scratch))
+    }
+
+    /// Transforms the columns of a group, multiplies them and transforms them back; returns their energy.
+    fn convolve(&self, group: usize, lines: &mut [Complex<T>], scratch: &mut Scratch<T>) -> f64 {
+        let ny = self.ny;
+        let half = ny / 2 + 1;
+        let first = group * BLOCK;
+        let count = BLOCK.min(self.columns - first);
         let mut energy = 0.0;
         for place in 0..count {
             let kx = first + place;
-            let column = &mut guard.column[place * ny..(place + 1) * ny];
+            let column = &mut lines[place * ny..(place + 1) * ny];
             self.forward
-                .process_with_scratch(column, &mut guard.transform);
+                .process_with_scratch(column, &mut scratch.transform);
             // Factors of both signs of ky.
-            let factors = &self.factors[kx * half..(kx + 1) * half];
-            let (low, high) = guard.factors.split_at_mut(half);
+            let at = (kx - self.first) * half;
+            let factors = &self.factors[at..at + half];
+            let (low, high) = scratch.factors.split_at_mut(half);
             for (to, &factor) in low.iter_mut().zip(factors) {
                 *to = factor * self.scale;
             }
@@ -355,22 +398,14 @@ impl<T: Real> Columns<'_, T> {
             }
             let sum = Arch::new().dispatch(Scaling {
                 column: &mut *column,
-                factors: &guard.factors,
+                factors: &scratch.factors,
                 energy: self.energy,
             });
             // A half spectrum stands for both signs of kx, but for the two that are their own.
             let own = kx == 0 || (self.nx.is_multiple_of(2) && kx == self.nx / 2);
             energy += if own { sum } else { 2.0 * sum };
             self.backward
-                .process_with_scratch(column, &mut guard.transform);
-        }
-        for (block, tile) in tiles() {
-            let rows = BLOCK.min(ny - block * BLOCK);
-            let mut tile = tile.lock().unwrap_or_else(PoisonError::into_inner);
-            for (place, line) in tile.chunks_exact_mut(BLOCK).take(count).enumerate() {
-                let at = place * ny + block * BLOCK;
-                copy_rows(&guard.column[at..at + rows], line);
-            }
+                .process_with_scratch(column, &mut scratch.transform);
         }
         energy
     }

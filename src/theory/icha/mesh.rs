@@ -10,9 +10,10 @@ use std::fmt;
 use std::sync::Arc;
 
 use num_complex::Complex;
-use realfft::{ComplexToReal, RealFftPlanner, RealToComplex};
-use rustfft::{Fft, FftPlanner};
+use realfft::{ComplexToReal, RealToComplex};
+use rustfft::Fft;
 
+use crate::plans::Planned;
 use crate::theory::special::{erf, erfc};
 
 /// Points of a spline's support along each axis.
@@ -102,18 +103,16 @@ impl Mesh {
                 if t > 0.0 { erf(t) / t } else { 2.0 / PI.sqrt() }
             })
             .collect();
-        let mut real = RealFftPlanner::new();
-        let mut complex = FftPlanner::new();
         Mesh {
             points,
             spacing,
             alpha,
             influence,
             table,
-            forward: real.plan_fft_forward(nx),
-            backward: real.plan_fft_inverse(nx),
-            down: complex.plan_fft_forward(ny),
-            up: complex.plan_fft_inverse(ny),
+            forward: f64::real_forward(nx),
+            backward: f64::real_backward(nx),
+            down: f64::complex_forward(ny),
+            up: f64::complex_backward(ny),
         }
     }
 

@@ -132,6 +132,7 @@ const CALLS: &[BadCall] = &[
     BadCall { status: 2, ..call(&["check", "good.toml", "--set", "grid.points=0"], "Failure::Scene", "good.toml, from --set: grid.points: 0 is out of range") },
     BadCall { status: 2, ..call(&["check", "sizeless.toml"], "Failure::Surface", "sizeless.toml: [grid] size is missing") },
     BadCall { status: 2, ..call(&["run", "good.toml", "--out", "foreign"], "Failure::Output", "foreign") },
+    BadCall { environment: &[("OMPI_COMM_WORLD_SIZE", "4")], ..call(&["run", "good.toml"], "Failure::Launched", "a launcher has started 4 processes, and this build of tabor is without the feature `mpi`") },
 ];
 
 const fn call(

@@ -115,6 +115,23 @@ const OUT_OF_REACH: &[(&str, &str)] = &[
         "passes an output's failure on; the command line shows what is inside",
     ),
     (
+        "RunError::Rank",
+        "needs several ranks: tests/solver/ranks.rs ends one",
+    ),
+    (
+        "Failure::Rank",
+        "needs several ranks: tests/solver/ranks.rs ends one",
+    ),
+    (
+        "DeviceError::Ranks",
+        "needs several ranks: tests/solver/ranks.rs asks for it there",
+    ),
+    (
+        "MemoryError::Ranks",
+        "needs several ranks: tests/solver/ranks.rs asks for too much there",
+    ),
+    ("Failure::Mpi", "needs a build with the feature `mpi`"),
+    (
         "FileError::Memory",
         "the system promises memory and then refuses it: the count before it refuses first",
     ),

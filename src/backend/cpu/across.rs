@@ -1,0 +1,214 @@
+//! The columns of a transform whose rows lie on several ranks: each rank takes some groups of columns from all, transforms
+//! them, and sends them back to the places from which they came.
+
+use std::ops::Range;
+use std::sync::PoisonError;
+
+use rayon::prelude::*;
+use rustfft::num_complex::Complex;
+use rustfft::num_traits::Zero;
+
+use super::CpuReal;
+use super::blocks::BLOCK;
+use super::slabs::Slabs;
+use super::transform::Transform;
+use crate::backend::ranks::{Parts, RankError};
+
+/// Bytes of the columns that a rank takes at once: the exchange goes in rounds, so that its buffers stay small beside the
+/// fields of a large grid, and below the 2^31 bytes of one message.
+const ROUND: usize = 64 << 20;
+
+/// Numbers of a complex one.
+const PAIR: usize = 2;
+
+/// Groups of columns of so many rows that a rank takes in a round; the same on every rank.
+fn groups_in_round<T>(rows: usize) -> usize {
+    (ROUND / (PAIR * size_of::<T>() * BLOCK * rows)).max(1)
+}
+
+/// Bytes of the buffers in which a rank exchanges the columns of a level, of numbers of so many bytes: its own rows
+/// of the columns of all, all rows of its own columns, and these as they are transformed.
+pub fn exchange_bytes([nx, ny]: [usize; 2], number: usize, ranks: usize) -> usize {
+    if ranks < 2 {
+        return 0;
+    }
+    let group = PAIR * number * BLOCK * ny;
+    let share = (nx / 2 + 1).div_ceil(BLOCK).div_ceil(ranks);
+    3 * group * share.min((ROUND / group).max(1))
+}
+
+/// Lays complex numbers down as pairs.
+fn lay<T: Copy>(values: &[Complex<T>], pairs: &mut [T]) {
+    let (pairs, _) = pairs.as_chunks_mut::<PAIR>();
+    for (pair, value) in pairs.iter_mut().zip(values) {
+        *pair = [value.re, value.im];
+    }
+}
+
+/// Takes them up again.
+fn take_up<T: Copy>(pairs: &[T], values: &mut [Complex<T>]) {
+    let (pairs, _) = pairs.as_chunks::<PAIR>();
+    for (value, &[re, im]) in values.iter_mut().zip(pairs) {
+        *value = Complex::new(re, im);
+    }
+}
+
+/// Bytes of so many numbers for each rank.
+fn bytes<T>(numbers: impl Iterator<Item = usize>) -> Vec<usize> {
+    numbers.map(|count| count * size_of::<T>()).collect()
+}
+
+impl<T: CpuReal> Transform<T> {
+    /// As [`multiply`](Transform::multiply), by the factors of the columns that this rank transforms.
+    pub fn multiply_across(
+        &mut self,
+        factors: &[T],
+        energy: bool,
+        slabs: &Slabs,
+    ) -> Result<f64, RankError> {
+        self.take();
+        let ranks = slabs.ranks();
+        let rows = self.shape.points[1];
+        let shares: Vec<Range<usize>> = (0..ranks.count())
+            .map(|rank| slabs.groups_of(rank, self.groups))
+            .collect();
+        let own = shares[ranks.rank()].clone();
+        let mut energies = vec![0.0; own.len()];
+        let at_once = groups_in_round::<T>(rows);
+        let most = shares.iter().map(ExactSizeIterator::len).max().unwrap_or(0);
+        for first in (0..most).step_by(at_once) {
+            let cut = |share: &Range<usize>| {
+                let start = (share.start + first).min(share.end);
+                start..(start + at_once).min(share.end)
+            };
+            let parts: Vec<Range<usize>> = shares.iter().map(cut).collect();
+            let done = first.min(energies.len())..(first + at_once).min(energies.len());
+            let here = parts[ranks.rank()].clone();
+            self.round(
+                factors,
+                own.start,
+                energy,
+                slabs,
+                &parts,
+                here,
+                &mut energies[done],
+            )?;
+        }
+        if !energy {
+            return Ok(0.0);
+        }
+        let lengths = shares.iter().map(ExactSizeIterator::len);
+        let energies = slabs.gather_numbers(&energies, lengths)?;
+        Ok(energies.iter().sum())
+    }
+
+    /// One round: `parts` are the groups that each rank takes, `here` those of this one.
+    #[allow(clippy::too_many_arguments)]
+    fn round(
+        &self,
+        factors: &[T],
+        first_group: usize,
+        energy: bool,
+        slabs: &Slabs,
+        parts: &[Range<usize>],
+        here: Range<usize>,
+        energies: &mut [f64],
+    ) -> Result<(), RankError> {
+        let (ranks, rows) = (slabs.ranks(), self.shape.points[1]);
+        let (held, count) = (slabs.own().len(), here.len());
+        let per_group = PAIR * BLOCK * held;
+        let per_part = bytes::<T>(parts.iter().map(|part| part.len() * per_group));
+        let per_slab = bytes::<T>(slabs.each().map(|rows| PAIR * BLOCK * rows.len() * count));
+
+        // This rank's rows of the columns of every rank: group, column, row.
+        let groups: Vec<usize> = parts.iter().flat_map(Clone::clone).collect();
+        let mut own_rows = vec![T::zero(); groups.len() * per_group];
+        if held > 0 {
+            let pieces = own_rows.par_chunks_exact_mut(per_group).zip(&groups);
+            pieces.for_each(|(piece, &group)| self.lay_rows(group, held, piece));
+        }
+        let mut all_rows = vec![T::zero(); PAIR * BLOCK * rows * count];
+        ranks.exchange(
+            Parts {
+                bytes: bytemuck::cast_slice(&own_rows),
+                lengths: &per_part,
+            },
+            Parts {
+                bytes: bytemuck::cast_slice_mut(&mut all_rows),
+                lengths: &per_slab,
+            },
+        )?;
+
+        // What came from a rank begins after the rows before its own.
+        let piece = |slab: &Range<usize>, group: usize| {
+            let start = PAIR * BLOCK * (slab.start * count + slab.len() * group);
+            start..start + PAIR * BLOCK * slab.len()
+        };
+        let each: Vec<Range<usize>> = slabs.each().filter(|slab| !slab.is_empty()).collect();
+        let mut columns = vec![Complex::zero(); BLOCK * rows * count];
+        let context = self.columns(factors, first_group * BLOCK, energy);
+        let lines = columns.par_chunks_exact_mut(BLOCK * rows).zip(energies);
+        lines.enumerate().for_each(|(group, (lines, energy))| {
+            for slab in &each {
+                let received = all_rows[piece(slab, group)].chunks_exact(PAIR * slab.len());
+                for (values, line) in received.zip(lines.chunks_exact_mut(rows)) {
+                    take_up(values, &mut line[slab.clone()]);
+                }
+            }
+            *energy = context.lines(here.start + group, lines);
+        });
+        for slab in &each {
+            let back = &mut all_rows[piece(slab, 0).start..piece(slab, count).start];
+            let pieces = back.par_chunks_exact_mut(PAIR * BLOCK * slab.len());
+            let groups = columns.par_chunks_exact(BLOCK * rows);
+            pieces.zip(groups).for_each(|(piece, lines)| {
+                let pairs = piece.chunks_exact_mut(PAIR * slab.len());
+                for (values, line) in pairs.zip(lines.chunks_exact(rows)) {
+                    lay(&line[slab.clone()], values);
+                }
+            });
+        }
+        ranks.exchange(
+            Parts {
+                bytes: bytemuck::cast_slice(&all_rows),
+                lengths: &per_slab,
+            },
+            Parts {
+                bytes: bytemuck::cast_slice_mut(&mut own_rows),
+                lengths: &per_part,
+            },
+        )?;
+        if held > 0 {
+            let pieces = own_rows.par_chunks_exact(per_group).zip(&groups);
+            pieces.for_each(|(piece, &group)| self.take_rows(group, held, piece));
+        }
+        Ok(())
+    }
+
+    /// Lays down the held rows of a group's columns, column by column.
+    fn lay_rows(&self, group: usize, held: usize, piece: &mut [T]) {
+        for (block, tile) in self.tiles[group..].iter().step_by(self.groups).enumerate() {
+            let rows = block * BLOCK..held.min((block + 1) * BLOCK);
+            let tile = tile.lock().unwrap_or_else(PoisonError::into_inner);
+            let columns = piece.chunks_exact_mut(PAIR * held);
+            for (line, column) in tile.chunks_exact(BLOCK).zip(columns) {
+                lay(
+                    &line[..rows.len()],
+                    &mut column[PAIR * rows.start..PAIR * rows.end],
+                );
+            }
+        }
+    }
+
+    /// Puts them back.
+    fn take_rows(&self, group: usize, held: usize, piece: &[T]) {
+        for (block, tile) in self.tiles[group..].iter().step_by(self.groups).enumerate() {
+            let rows = block * BLOCK..held.min((block + 1) * BLOCK);
+            let mut tile = tile.lock().unwrap_or_else(PoisonError::into_inner);
+            let columns = piece.chunks_exact(PAIR * held);
+            for (line, column) in tile.chunks_exact_mut(BLOCK).zip(columns) {
+                take_up(&column[PAIR * rows.start..PAIR * rows.end], line);
+            }
+        }
+    }
+}
