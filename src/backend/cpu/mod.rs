@@ -23,6 +23,7 @@ use super::ranks::{RankError, Ranks};
 use super::{Backend, BackendError, Factors, Field, Level, Shape, Spectrum, check_fields};
 use crate::kernel::{Form, Gate, Kernel, Params, SUMS, ScalarKernel, Scalars, Twin, Whole};
 use crate::real::Real;
+use across::ROUND;
 pub use across::exchange_bytes;
 use blocks::{BLOCK, Held, Job, run_blocks};
 use plans::Plans;
@@ -478,7 +479,7 @@ impl<T: CpuReal> Backend for CpuBackend<T> {
         let factors = &self.spectra[by.index];
         let curvature = match &space.slabs {
             None => Ok(transform.multiply(factors, energy)),
-            Some(slabs) => transform.multiply_across(factors, energy, slabs),
+            Some(slabs) => transform.multiply_across(factors, energy, slabs, ROUND),
         };
         match curvature {
             Ok(curvature) if energy => self.scalars.curvature = curvature,
