@@ -35,6 +35,8 @@ mod _tabor {
     #[pymodule_export]
     use super::surface::{scales, spectrum, statistics};
     #[pymodule_export]
+    use super::theory::asperities::icha;
+    #[pymodule_export]
     use super::theory::{theory, theory_table};
 
     use pyo3::prelude::*;

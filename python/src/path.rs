@@ -48,14 +48,25 @@ pub struct SolvedPath {
 }
 
 impl SolvedPath {
-    /// The path of a scene, before its first load.
-    pub fn new(py: Python<'_>, loaded: &LoadedScene, threads: Option<usize>) -> Self {
+    /// The path of a scene, before its first load, which goes on behind its loads where it shall end with the surfaces
+    /// apart.
+    pub fn new(
+        py: Python<'_>,
+        loaded: &LoadedScene,
+        threads: Option<usize>,
+        until_apart: bool,
+    ) -> Self {
         let (loads, talk) = (Loads::default(), Arc::new(Talk::default()));
         let heard = Arc::clone(&talk);
         let contact = contact(&loaded.scene, threads)
             .watch(move |iteration, residual| heard.iteration(iteration, residual));
+        let path = contact.path(loads.clone());
         SolvedPath {
-            path: Some(contact.path(loads.clone())),
+            path: Some(if until_apart {
+                path.until_apart()
+            } else {
+                path
+            }),
             lent: loaded.lent.iter().map(|each| each.share(py)).collect(),
             loads,
             talk,
@@ -64,11 +75,12 @@ impl SolvedPath {
     }
 }
 
+/// A step as a dictionary, and the warnings that are new.
+type Solved<'py> = (Bound<'py, PyDict>, Vec<String>);
+
 #[pymethods]
 impl SolvedPath {
     /// Solves the next load: its control in a scene's word, its value, SI, and the seconds that it takes.
-    ///
-    /// Returns the step as a dictionary, and the warnings that are new.
     #[pyo3(signature = (word, value, seconds=None, progress=None))]
     fn solve<'py>(
         &mut self,
@@ -77,19 +89,43 @@ impl SolvedPath {
         value: f64,
         seconds: Option<f64>,
         progress: Option<&Bound<'py, PyAny>>,
-    ) -> PyResult<(Bound<'py, PyDict>, Vec<String>)> {
+    ) -> PyResult<Solved<'py>> {
+        let control = control(py, word, value)?;
+        // Before the load is taken: one that is not solved would be the next one's.
         Lent::check(py, &self.lent)?;
+        self.loads.push(match seconds {
+            Some(seconds) => control.after(seconds),
+            None => control.into(),
+        });
+        self.next(py, progress)?
+            .ok_or_else(|| errors::failed(py, "this path has ended: a load did not converge"))
+    }
+
+    /// Solves the load behind those that were given; None where the surfaces are apart.
+    #[pyo3(signature = (progress=None))]
+    fn pull<'py>(
+        &mut self,
+        py: Python<'py>,
+        progress: Option<&Bound<'py, PyAny>>,
+    ) -> PyResult<Option<Solved<'py>>> {
+        Lent::check(py, &self.lent)?;
+        self.next(py, progress)
+    }
+}
+
+impl SolvedPath {
+    /// Solves the next load of the path, if there is one.
+    fn next<'py>(
+        &mut self,
+        py: Python<'py>,
+        progress: Option<&Bound<'py, PyAny>>,
+    ) -> PyResult<Option<Solved<'py>>> {
         let Some(mut path) = self.path.take() else {
             return Err(errors::failed(
                 py,
                 "this path was interrupted; begin another",
             ));
         };
-        let control = control(py, word, value)?;
-        self.loads.push(match seconds {
-            Some(seconds) => control.after(seconds),
-            None => control.into(),
-        });
         let (path, solved) = wait(py, &self.talk, progress, move || {
             let solved = path.next();
             (path, solved)
@@ -98,12 +134,9 @@ impl SolvedPath {
         self.warned += warnings.len();
         self.path = Some(path);
         match solved {
-            Some(Ok(solution)) => Ok((step(py, solution)?, warnings)),
+            Some(Ok(solution)) => Ok(Some((step(py, solution)?, warnings))),
             Some(Err(error)) => Err(errors::of_contact(py, &error)),
-            None => Err(errors::failed(
-                py,
-                "this path has ended: a load did not converge",
-            )),
+            None => Ok(None),
         }
     }
 }

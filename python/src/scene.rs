@@ -78,9 +78,9 @@ impl LoadedScene {
     }
 
     /// A path, to be solved load by load.
-    #[pyo3(signature = (threads=None))]
-    fn path(&self, py: Python<'_>, threads: Option<usize>) -> SolvedPath {
-        SolvedPath::new(py, self, threads)
+    #[pyo3(signature = (threads=None, until_apart=false))]
+    fn path(&self, py: Python<'_>, threads: Option<usize>, until_apart: bool) -> SolvedPath {
+        SolvedPath::new(py, self, threads, until_apart)
     }
 
     /// The heights of all parts, m, as an array of shape (ny, nx), (lx, ly), m, and warnings.

@@ -14,14 +14,14 @@ use crate::arrays::shared;
 use crate::errors;
 
 /// Heights, m, and where they lie.
-struct Map {
-    grid: Grid,
-    heights: SharedValues,
+pub struct Map {
+    pub grid: Grid,
+    pub heights: SharedValues,
     boundary: Boundary,
 }
 
 impl Map {
-    fn new(
+    pub fn new(
         py: Python<'_>,
         heights: &Bound<'_, PyArray2<f64>>,
         size: [f64; 2],

@@ -34,6 +34,11 @@ impl Talk {
     pub fn iteration(&self, iteration: usize, residual: f64) -> bool {
         self.iteration.store(iteration, Ordering::Relaxed);
         self.residual.store(residual.to_bits(), Ordering::Relaxed);
+        self.goes_on()
+    }
+
+    /// Whether somebody still waits.
+    pub fn goes_on(&self) -> bool {
         !self.stop.load(Ordering::Relaxed)
     }
 

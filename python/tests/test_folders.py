@@ -101,10 +101,18 @@ def test_a_study_of_a_wrong_scene_says_what_is_wrong(tmp_path):
         tabor.compare(tabor.Contact(np.zeros((8, 8)), 1.0, contact_modulus=1.0), tmp_path / "compared")
 
 
-def test_a_scene_that_pulls_until_apart_says_where_a_path_ends():
-    scene = tabor.Scene({**SCENE, "loading": {"control": "pressure", "path": ["1 MPa", "0 Pa"], "until": "apart"}})
-    with pytest.warns(tabor.TaborWarning, match="until"):
-        assert len(list(scene.path())) == 2
+# Of the last step, which a run writes no fields of.
+@pytest.mark.filterwarnings("ignore:.*has no equilibrium")
+@pytest.mark.parametrize("loading", [{"control": "pressure", "path": ["1 MPa", "0 Pa"]}, {"control": "mean-gap", "path": ["60 nm", "65 nm"]}])
+def test_a_path_until_apart_has_the_steps_of_a_run(tmp_path, loading):
+    scene = tabor.Scene({**SCENE, "loading": {**loading, "until": "apart"}, "output": {}})
+    steps = list(scene.path())
+    curve = scene.run(tmp_path / "run", images=False).curve
+    assert len(steps) > 2 and steps[-1].state == "separated"
+    assert [step.state for step in steps] == list(curve["state"])
+    np.testing.assert_array_equal([step.force for step in steps], curve["force"])
+    # Loads that are asked for are all there is.
+    assert len(list(scene.path(pressure=["1 MPa"]))) == 1
 
 
 def test_control_c_keeps_the_finished_steps(tmp_path):

@@ -1,7 +1,11 @@
 """Examples and tests of other codes with their numbers, solved here."""
 
+import json
+from pathlib import Path
+
 import numpy as np
 import pytest
+import tamaas_numbers
 
 import tabor
 from tabor import theory
@@ -86,3 +90,37 @@ def test_tamaas_rough_contact():
     theirs = np.asarray(model.traction)
     np.testing.assert_array_equal(step.pressure > 0, theirs > 0)
     np.testing.assert_allclose(step.pressure, theirs, atol=1e-5 * theirs.max())
+
+
+@pytest.mark.parametrize("example", tamaas_numbers.EXAMPLES)
+def test_tamaas_examples(example):
+    # Its examples of rough contact and of adhesion, with the numbers that it printed.
+    expected = json.loads(Path(tamaas_numbers.__file__).with_suffix(".json").read_text())[example]
+    step = tamaas_numbers.solved_by_tabor(example)
+    found = tamaas_numbers.numbers(step.pressure, step.contact)
+    assert found.pop("points in contact") == expected.pop("points in contact")
+    # Both are solved to about 1e-9 of the largest pressure.
+    assert found == pytest.approx(expected, rel=1e-7, abs=1e-8 * expected["greatest"])
+
+
+def test_tamaas_prints_these_numbers():
+    pytest.importorskip("tamaas", reason="Tamaas is not installed; its numbers are compared as it printed them")
+    pressure, gap = tamaas_numbers.solved_by_tamaas("rough contact")
+    step = tamaas_numbers.solved_by_tabor("rough contact")
+    np.testing.assert_allclose(step.pressure, pressure, atol=1e-8 * pressure.max())
+    np.testing.assert_allclose(step.gap, gap, atol=1e-8 * gap.max())
+
+
+def test_jkr_in_maugis_units():
+    # Adhesion's reference solutions take Maugis' units: R = 1, E* = 3/4, w = 1/pi. There a^3 = P + 3 + sqrt(6 P + 9) and
+    # the depth is a^2 - sqrt(8 a/3); a sphere lets go at -3/2 under a load, and at -5/6 where a^3 = 1/6 under a depth.
+    sphere = (1.0, 0.75, 1 / np.pi)
+    assert theory.jkr.pull_off_force(1.0, 1 / np.pi) == pytest.approx(-1.5, rel=1e-12)
+    force = np.array([-1.5, 0.0, 4.5])
+    a = theory.jkr.contact_radius(*sphere, force)
+    np.testing.assert_allclose(a**3, [1.5, 6.0, 13.5], rtol=1e-9)
+    np.testing.assert_allclose(theory.jkr.approach(*sphere, a), a**2 - np.sqrt(8 * a / 3), rtol=1e-12)
+    edge = (1 / 6) ** (1 / 3)
+    assert theory.jkr.force(*sphere, edge) == pytest.approx(-5 / 6, rel=1e-12)
+    # There the curve of force over depth is vertical: between both points it falls.
+    assert theory.jkr.stiffness(*sphere, 1.0001 * edge) < -1e3

@@ -32,6 +32,14 @@ def test_fields_and_numbers(step):
         step.preasure  # noqa: B018
 
 
+def test_numbers_make_a_table():
+    pandas = pytest.importorskip("pandas")
+    table = pandas.DataFrame(each.numbers for each in contact().path(pressure=["1 MPa", "2 MPa"]))
+    np.testing.assert_allclose(table["mean_pressure"], [1e6, 2e6], rtol=1e-6)
+    assert table["contact_area_fraction"].is_monotonic_increasing and table["converged"].all()
+    assert "gap" not in table
+
+
 def test_datasets(step):
     dataset = step.to_dataset()
     assert dataset["pressure"].attrs["units"] == "Pa"

@@ -77,3 +77,15 @@ def test_mistakes_name_what_is_wrong(call, words):
     with pytest.raises(ValueError, match=words) as raised:
         call()
     assert isinstance(raised.value, tabor.TaborError)
+
+
+def test_a_surface_brings_its_size(tmp_path):
+    np.save(tmp_path / "map.npy", tabor.self_affine((32, 24), (4e-6, 3e-6), rms_slope=0.1, shortest=1e-6))
+    read = tabor.read_heights(tmp_path / "map.npy", (4e-6, 3e-6))
+    assert tabor.statistics(read) == tabor.statistics(read.heights, read.size)
+    rough = tabor.Contact(read, contact_modulus="1 GPa")
+    assert rough.resolved["grid"]["size"] == pytest.approx([4e-6, 3e-6])
+    with pytest.raises(tabor.SurfaceError, match="size"):
+        tabor.statistics(read.heights)
+    with pytest.raises(tabor.SceneError, match="law: a law such as"):
+        tabor.Contact(read, contact_modulus="1 GPa", law="jkr")

@@ -108,7 +108,8 @@ def test_every_function_gives_finite_numbers_for_likely_arguments():
         "slope": 0.01, "relaxed_modulus": E, "branch_modulus": E, "relaxation_time": 1.0, "time": 2.0, "shear_strength": 1e7,
         "conductivity": 100.0, "surface_tension": 0.072, "molar_volume": 18e-6, "temperature": 298.15, "relative_humidity": 0.5,
         "contact_angle": 0.3, "surface_energy": 0.03, "surface_energy_2": 0.03, "interface_energy": 0.01, "young_modulus": E,
-        "poisson_ratio": 0.3, "tabor_parameter": 1.0,
+        "poisson_ratio": 0.3, "tabor_parameter": 1.0, "wavenumber_times_thickness": 2.0, "y": 1e-7, "half_side_x": 1e-7, "half_side_y": 2e-7,
+        "heights": tabor.self_affine((32, 32), 1e-6, rms_slope=0.1, shortest=2e-7), "size": 1e-6,
     }  # fmt: skip
     import inspect
     import types

@@ -1,16 +1,17 @@
 //! Loads solved one after another.
 
 use super::builder::{Contact, Watcher, append};
-use super::control::Load;
+use super::control::{Control, Load};
 use super::error::ContactError;
 use super::solution::Solution;
 use crate::backend::cpu::with_threads;
 use crate::device::SelectedDevice;
 use crate::kernel::Scalars;
 use crate::run::memory_check;
-use crate::scene::Scene;
+use crate::scene::{LoadingScene, Scene};
 use crate::study::{
-    Checkpoint, Earlier, Evaluation, FinishedStep, Jump, Observer, Setup, WalkError, walk_on,
+    Checkpoint, Earlier, Evaluation, FinishedStep, Jump, Observer, Planned, Setup, WalkError,
+    walk_on,
 };
 use crate::surface::Surface;
 
@@ -20,6 +21,8 @@ pub struct Path<I> {
     loads: I,
     /// From the first load on.
     walk: Option<Walk>,
+    /// Whether it goes on behind its loads.
+    until_apart: bool,
     ended: bool,
 }
 
@@ -28,6 +31,8 @@ struct Walk {
     setup: Setup,
     device: SelectedDevice,
     earlier: Earlier,
+    /// The loads that were given, once there are further ones.
+    given: Option<LoadingScene>,
     remarks: Vec<String>,
 }
 
@@ -37,8 +42,16 @@ impl<I> Path<I> {
             contact,
             loads,
             walk: None,
+            until_apart: false,
             ended: false,
         }
+    }
+
+    /// Goes on behind the loads, outwards, in steps that become finer, until the surfaces are apart: the steps of a
+    /// scene with `until = "apart"`.
+    pub fn until_apart(mut self) -> Self {
+        self.until_apart = true;
+        self
     }
 
     /// Warnings of the contact, one sentence each, from the first load on: waves that the grid
@@ -62,7 +75,11 @@ where
         if self.ended {
             return None;
         }
-        let load = self.loads.next()?.into();
+        let load = match self.loads.next() {
+            Some(load) => load.into(),
+            None if self.until_apart => self.walk.as_mut()?.load_behind()?,
+            None => return None,
+        };
         let solved = self.solve(load);
         self.ended = !solved.as_ref().is_ok_and(|solution| solution.converged);
         Some(solved)
@@ -103,6 +120,22 @@ impl Walk {
             setup,
             device,
             earlier: Earlier::default(),
+            given: None,
+        })
+    }
+
+    /// The load behind the path and behind those that were solved so far; `None` where the surfaces are apart.
+    fn load_behind(&mut self) -> Option<Load> {
+        let setup = &self.setup;
+        let given = self
+            .given
+            .get_or_insert_with(|| setup.scene.loading.clone());
+        let Planned { value, duration } = Planned::behind(setup, given, &self.earlier.rows)?;
+        let control = Control::from_kind(given.control, value);
+        Some(if given.durations.is_some() {
+            control.after(duration)
+        } else {
+            control.into()
         })
     }
 

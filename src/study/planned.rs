@@ -45,12 +45,20 @@ impl Planned {
                 duration: duration.copied().unwrap_or(0.0),
             });
         }
+        loading
+            .until_apart
+            .then(|| Planned::behind(setup, loading, rows))?
+    }
+
+    /// The step behind a path, of which and of the steps behind it these are the rows, whatever the path of the setup
+    /// is; `None` where the surfaces are apart.
+    pub fn behind(setup: &Setup, loading: &LoadingScene, rows: &[StepRow]) -> Option<Planned> {
         let together = |row: &StepRow| row.converged && row.state != State::Separated;
         let most = loading.path.len() + MOST;
-        if !loading.until_apart || rows.len() >= most || !rows.last().is_some_and(together) {
+        if rows.len() >= most || !rows.last().is_some_and(together) {
             return None;
         }
-        pulled(setup, rows)
+        pulled(setup, loading, rows)
     }
 
     /// What a step (from 1) among these rows prescribed.
@@ -61,13 +69,12 @@ impl Planned {
 }
 
 /// The step after rows beyond the path.
-fn pulled(setup: &Setup, rows: &[StepRow]) -> Option<Planned> {
-    let loading = &setup.scene.loading;
+fn pulled(setup: &Setup, loading: &LoadingScene, rows: &[StepRow]) -> Option<Planned> {
     let outwards = match loading.control {
         Control::MeanGap => 1.0,
         _ => -1.0,
     };
-    let (first, seconds) = last_move(loading).unwrap_or((first_length(setup), 0.0));
+    let (first, seconds) = last_move(loading).unwrap_or((first_length(setup, loading), 0.0));
     let mut before = loading.path.iter().rev().nth(1).copied();
     let mut value = *loading.path.last()?;
     let mut length = first;
@@ -104,8 +111,8 @@ fn last_move(loading: &LoadingScene) -> Option<(f64, f64)> {
 }
 
 /// The first length of a path that does not move.
-fn first_length(setup: &Setup) -> f64 {
-    let (law, loading) = (&setup.law, &setup.scene.loading);
+fn first_length(setup: &Setup, loading: &LoadingScene) -> f64 {
+    let law = &setup.law;
     let load = loading.path.last().map_or(0.0, |load| FIRST * load.abs());
     let pressure = FIRST * law.peak_tension();
     match loading.control {

@@ -168,6 +168,44 @@ impl LennardJonesSphere {
         Ok(())
     }
 
+    /// The curve as far as the approach `deepest` and beyond all folds, so that both directions find their branch on it
+    /// ([`LennardJonesSphere::on_curve`]).
+    ///
+    /// # Errors
+    /// A state that is not found.
+    pub fn curve_to(&self, deepest: f64) -> Result<Vec<State>, TheoryError> {
+        self.curve(|states| {
+            states
+                .last()
+                .is_some_and(|state| state.force > 0.0 && state.approach >= deepest)
+        })
+    }
+
+    /// The state at an approach on the first crossing of a curve, for a sphere that moves `together` with its
+    /// counter-face, or on the last.
+    ///
+    /// # Errors
+    /// A state that is not found.
+    pub fn on_curve(
+        &self,
+        curve: &[State],
+        approach: f64,
+        together: bool,
+    ) -> Result<State, TheoryError> {
+        let crosses = |pair: &&[State]| pair[0].approach < approach && approach <= pair[1].approach;
+        let mut pairs = curve.windows(2);
+        let found = if together {
+            pairs.find(crosses)
+        } else {
+            pairs.rfind(crosses)
+        };
+        match found {
+            Some(neighbours) => self.between(neighbours, approach),
+            // Farther away than the curve begins.
+            None => self.at_approach(approach),
+        }
+    }
+
     /// The state of greatest tension: pull-off under load control.
     pub fn pull_off(&self) -> Result<State, TheoryError> {
         // Pull-off is beyond -0.75 for every sphere; a soft sphere has a lesser minimum before it

@@ -430,6 +430,14 @@ fn a_path_has_the_loads_it_is_given_and_their_pull_off() {
         .expect("a scene");
     scene.loading.until_apart = true;
     scene.output.steps = StepChoice::List(vec![2]);
+    let pulled: Vec<Solution> = Contact::from_scene(scene.clone())
+        .path([1e6, 0.0].map(Control::MeanPressure))
+        .until_apart()
+        .map(Result::unwrap)
+        .collect();
+    let (last, held) = pulled.split_last().expect("steps");
+    assert!(held.len() > 2 && held.iter().all(|step| step.state != State::Separated));
+    assert_eq!(last.state, State::Separated);
     let loads = [1e6, 0.0, -1e9].map(Control::MeanPressure);
     let solved: Vec<Solution> = Contact::from_scene(scene)
         .path(loads)

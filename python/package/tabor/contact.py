@@ -7,6 +7,7 @@ from typing import Any, ClassVar
 
 from .errors import SceneError
 from .scene import Scene, field
+from .surfaces import Surface
 from .topography import from_topography, is_topography
 
 
@@ -57,13 +58,13 @@ class Contact(Scene):
 
     Parameters
     ----------
-    heights : array of shape (ny, nx), or a Topography of SurfaceTopography
+    heights : array of shape (ny, nx), a Surface, or a Topography of SurfaceTopography
         Heights in metres, positive towards the solid; any array of numbers. One of float64 in C order is shared, not
         copied; of another type, such as float32, or in another order one copy is made, of float64, in which the solver reads
         heights whatever its precision. A shared array must stay as it is: once it has been written to, the contact
         refuses to solve. Give ``heights.copy()`` where you will go on writing.
     size : number or text, or two of them
-        Lengths of the cell along x and y, m; a Topography brings its own, and its boundary.
+        Lengths of the cell along x and y, m; a Surface and a Topography bring their own, this one its boundary too.
     contact_modulus : number or text, optional
         E*, with the counter-face's share; or give `solid`.
     law : MaugisDugdale, LennardJones or Exponential, optional
@@ -120,7 +121,12 @@ class Contact(Scene):
             heights, own_size, own_boundary = from_topography(heights)
             size = own_size if size is None else size
             boundary = own_boundary if boundary is None else boundary
+        if isinstance(heights, Surface):
+            size = heights.size if size is None else size
+            heights = heights.heights
         boundary = "periodic" if boundary is None else boundary
+        if law is not None and not isinstance(law, _Law):
+            raise SceneError(f'law: a law such as MaugisDugdale("50 mJ/m^2", range="5 nm") is expected, not {law!r}')
         if size is None:
             raise SceneError("size: the lengths of the cell are expected")
         values = field(heights, "heights")

@@ -37,7 +37,7 @@ def field(array: Any, argument: str) -> Array:
     """A two-dimensional array of float64 in C order, every number finite; the array itself where it is one."""
     if isinstance(array, np.ma.MaskedArray) and np.any(array.mask):
         masked = np.count_nonzero(array.mask)
-        raise SceneError(f"{argument}: {masked} of {array.size} values are masked; fill them, such as by their mean")
+        raise SceneError(f"{argument}: {masked} of {array.size} values are masked; fill them first")
     values = np.asarray(array)
     if values.dtype.kind == "c":
         raise SceneError(f"{argument}: real numbers are expected, not {values.dtype}")
@@ -49,7 +49,7 @@ def field(array: Any, argument: str) -> Array:
         raise SceneError(f"{argument}: an array of shape (ny, nx) is expected, not {values.shape}")
     if not np.isfinite(values).all():
         rows, columns = np.nonzero(~np.isfinite(values))
-        raise SceneError(f"{argument}: {rows.size} of {values.size} values are not finite, the first at [{rows[0]}, {columns[0]}]")
+        raise SceneError(f"{argument}: {rows.size} of {values.size} values are not finite, the first at [{rows[0]}, {columns[0]}]; fill them first")
     return values
 
 
@@ -212,7 +212,8 @@ class Scene:
         Parameters
         ----------
         pressure, force, approach, mean_gap : iterable of numbers or texts
-            One of them: the loads, SI or with units. Without one, those of the scene.
+            One of them: the loads, SI or with units. Without one, those of the scene, and with ``until = "apart"``
+            further ones behind them, in steps that become finer, until the surfaces are apart.
         seconds : iterable, optional
             The time that each load but the first takes, for effects that depend on time.
         progress : bool or callable, optional
@@ -225,13 +226,20 @@ class Scene:
         """
         loads = self._loads(control, seconds)
         periodic = self.resolved["grid"]["boundary"] == "periodic"
-        return self._solved(loads, periodic, progress)
+        pulls = not control and self.resolved["loading"].get("until") is not None
+        return self._solved(loads, pulls, periodic, progress)
 
-    def _solved(self, loads: Iterator[Load], periodic: bool, progress: Any) -> Iterator[Step]:
-        solver = self._loaded.path(self.threads)
-        for word, value, duration in loads:
+    def _solved(self, loads: Iterator[Load], pulls: bool, periodic: bool, progress: Any) -> Iterator[Step]:
+        solver = self._loaded.path(self.threads, pulls)
+        while True:
+            load = next(loads, None)
+            if load is None and not pulls:
+                return
             with reporter(progress) as report:
-                found, said = solver.solve(word, value, duration, report)
+                solved = solver.pull(report) if load is None else solver.solve(*load, report)
+            if solved is None:
+                return
+            found, said = solved
             _warn(said)
             step = Step(found, periodic)
             if not step.converged:
@@ -246,9 +254,6 @@ class Scene:
         if unknown or len(control) > 1:
             raise TypeError(f"give one of {', '.join(CONTROLS)}, not {', '.join(control)}")
         if not control:
-            if self.resolved["loading"].get("until") is not None:
-                words = "loading.until: this path ends at its last value; only run pulls on until the surfaces are apart"
-                warnings.warn(words, TaborWarning, stacklevel=4)
             return iter(self._loaded.loads())
         [(name, values)] = control.items()
         word, dimension = CONTROLS[name]

@@ -55,6 +55,12 @@ class Step:
         touching: npt.NDArray[np.bool_] = self._found["gap"] <= 0.0
         return touching
 
+    @property
+    def numbers(self) -> dict[str, Any]:
+        """All but the fields: a row of ``pandas.DataFrame(step.numbers for step in path)``."""
+        plain = {key: value for key, value in self._found.items() if value is None or isinstance(value, (int, float, str, bool))}
+        return {**plain, **self._found["columns"]}
+
     def to_dataset(self) -> Any:
         """The fields with coordinates and units, as an `xarray.Dataset`."""
         import xarray

@@ -270,19 +270,24 @@ def self_affine(
     return heights(part, points, size)
 
 
-def _map(array: Any, size: Size) -> tuple[Array, list[float]]:
+def _map(array: Any, size: Size | None) -> tuple[Array, list[float]]:
+    if isinstance(array, Surface):
+        size = array.size if size is None else size
+        array = array.heights
+    if size is None:
+        raise SurfaceError("size: the lengths of the cell are expected")
     return field(array, "heights"), sides(size)
 
 
-def statistics(heights: Any, size: Size, *, boundary: str = "periodic") -> dict[str, float]:
+def statistics(heights: Any, size: Size | None = None, *, boundary: str = "periodic") -> dict[str, float]:
     """Statistics of a height map.
 
     Parameters
     ----------
-    heights : array of shape (ny, nx)
+    heights : array of shape (ny, nx), or a Surface
         m.
-    size : number or text, or two of them
-        Lengths of the cell, m.
+    size : number or text, or two of them, optional
+        Lengths of the cell, m; a Surface brings its own.
     boundary : {"periodic", "free"}
         Whether the map repeats.
 
@@ -298,15 +303,15 @@ def statistics(heights: Any, size: Size, *, boundary: str = "periodic") -> dict[
     return found
 
 
-def spectrum(heights: Any, size: Size, *, boundary: str = "periodic") -> npt.NDArray[np.void]:
+def spectrum(heights: Any, size: Size | None = None, *, boundary: str = "periodic") -> npt.NDArray[np.void]:
     """The power spectral density averaged over rings, long waves first.
 
     Parameters
     ----------
-    heights : array of shape (ny, nx)
+    heights : array of shape (ny, nx), or a Surface
         m.
-    size : number or text, or two of them
-        Lengths of the cell, m.
+    size : number or text, or two of them, optional
+        Lengths of the cell, m; a Surface brings its own.
     boundary : {"periodic", "free"}
         Whether the map repeats; if not, its edges are windowed.
 
@@ -319,15 +324,15 @@ def spectrum(heights: Any, size: Size, *, boundary: str = "periodic") -> npt.NDA
     return _table(("wavenumber", "density", "modes"), _tabor.spectrum(values, lengths, _periodic(boundary)))
 
 
-def scale_dependence(heights: Any, size: Size, *, boundary: str = "periodic") -> npt.NDArray[np.void]:
+def scale_dependence(heights: Any, size: Size | None = None, *, boundary: str = "periodic") -> npt.NDArray[np.void]:
     """Slope and curvature of profiles along x over a distance: Sanner et al. 2022.
 
     Parameters
     ----------
-    heights : array of shape (ny, nx)
+    heights : array of shape (ny, nx), or a Surface
         m.
-    size : number or text, or two of them
-        Lengths of the cell, m.
+    size : number or text, or two of them, optional
+        Lengths of the cell, m; a Surface brings its own.
     boundary : {"periodic", "free"}
         Whether the map repeats.
 

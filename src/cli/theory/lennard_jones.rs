@@ -8,8 +8,7 @@ use super::parameters::{ADHESIVE_SPHERE, Allowed, DIRECTION, POINTS, Parameter, 
 use super::soft::{ATTRACTED, CONTACT, row, sphere};
 use super::values::Values;
 use crate::cli::Failure;
-use crate::theory::TheoryError;
-use crate::theory::lennard_jones_sphere::{LennardJonesSphere, State};
+use crate::theory::lennard_jones_sphere::LennardJonesSphere;
 use crate::theory::tabor_map::{LJ_PER_MAUGIS_APPROACH, tabor_parameter};
 
 pub(super) const LENNARD_JONES_SPHERE: Model = Model {
@@ -50,16 +49,11 @@ fn lennard_jones_table(values: &Values) -> Result<Table, Failure> {
         .iter()
         .fold(0.0_f64, |most, place| most.max(place / range));
     let model = LennardJonesSphere::new(mu, deepest)?;
-    // Beyond all folds, so that both directions find their branch.
-    let curve = model.curve(|states| {
-        states
-            .last()
-            .is_some_and(|state| state.force > 0.0 && state.approach >= deepest)
-    })?;
+    let curve = model.curve_to(deepest)?;
     let unit = 2.0 * PI * sphere.work_of_adhesion() * sphere.radius();
     let radius_unit = (sphere.radius() * range).sqrt();
     let mut table = Table::over(&places, |place| {
-        let state = lennard_jones_state(&model, &curve, place / range, values.together())?;
+        let state = model.on_curve(&curve, place / range, values.together())?;
         let centre = model.gap(&state, 0.0);
         let (radius, word) = if centre < 0.0 {
             (model.radius_of_gap(&state, 0.0)?, CONTACT)
@@ -74,25 +68,4 @@ fn lennard_jones_table(values: &Values) -> Result<Table, Failure> {
     table.note("pull_off_force", unit * pull_off.force, "N");
     table.note("pull_off_approach", range * pull_off.approach, "m");
     Ok(table)
-}
-
-/// The state at a reduced approach on the first crossing of the curve, or on the last.
-fn lennard_jones_state(
-    model: &LennardJonesSphere,
-    curve: &[State],
-    approach: f64,
-    together: bool,
-) -> Result<State, TheoryError> {
-    let crosses = |pair: &&[State]| pair[0].approach < approach && approach <= pair[1].approach;
-    let mut pairs = curve.windows(2);
-    let found = if together {
-        pairs.find(crosses)
-    } else {
-        pairs.rfind(crosses)
-    };
-    match found {
-        Some(neighbours) => model.between(neighbours, approach),
-        // Farther away than the curve begins.
-        None => model.at_approach(approach),
-    }
 }

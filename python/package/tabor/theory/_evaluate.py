@@ -28,6 +28,8 @@ DIMENSIONS = {
     "gamma": "number",
     "gap": "length",
     "half_angle": "angle",
+    "half_side_x": "length",
+    "half_side_y": "length",
     "half_width": "length",
     "hurst": "number",
     "interface_energy": "energy per area",
@@ -65,7 +67,9 @@ DIMENSIONS = {
     "time": "time",
     "wavelength": "length",
     "work_of_adhesion": "energy per area",
+    "wavenumber_times_thickness": "number",
     "x": "length",
+    "y": "length",
     "young_modulus": "pressure",
     "young_modulus_2": "pressure",
 }

@@ -1,15 +1,12 @@
-//! Theories over arrays: each function of `tabor::theory` once an element, in one loop here.
+//! The functions by the names that Python calls them by.
 
 use std::cell::RefCell;
 use std::f64::consts::{FRAC_PI_2, PI};
 
-use numpy::{PyArray1, PyReadonlyArray1};
-use pyo3::prelude::*;
 use tabor::theory::bam::BearingArea;
 use tabor::theory::capillary::Meniscus;
+use tabor::theory::cohesive_wave::{CohesiveWave, WaveState};
 use tabor::theory::cone_punch::{Cone, punch_force};
-use tabor::theory::dmt::Method;
-use tabor::theory::fuller_tabor::Path;
 use tabor::theory::gw::Summits;
 use tabor::theory::maugis_dugdale::{MaugisDugdale, State};
 use tabor::theory::pastewka_robbins::{Edge, stickiness_ratio};
@@ -18,57 +15,15 @@ use tabor::theory::persson_gap::{Adhesion, RoughContact};
 use tabor::theory::tabor_map::{self, Regime};
 use tabor::theory::viscoelastic::Solid;
 use tabor::theory::{
-    Law, Spectrum, Sphere, TheoryError, bradley, conductance, derjaguin, dmt, friction,
-    fuller_tabor, gw_m, hertz, jkr, rate, westergaard,
+    Spectrum, Sphere, TheoryError, bradley, conductance, derjaguin, dmt, friction, fuller_tabor,
+    gw_m, hertz, jkr, layer, love, rate, westergaard,
 };
 
-use crate::errors;
-
-/// Values of one element after those of its words.
-type Evaluate = fn(&Words, &[f64]) -> Result<Vec<f64>, TheoryError>;
-
-/// Words that an evaluation takes, read once.
-struct Words {
-    law: Law,
-    method: Method,
-    path: Path,
-}
-
-impl Words {
-    /// The words of a call; what is not given is the first of its kind.
-    fn read(words: &[(String, String)]) -> Result<Self, String> {
-        let mut read = Words {
-            law: Law::LennardJones,
-            method: Method::Thermodynamic,
-            path: Path::Unloading,
-        };
-        for (name, word) in words {
-            match (name.as_str(), word.as_str()) {
-                ("law", "lennard-jones") => read.law = Law::LennardJones,
-                ("law", "cubic") => read.law = Law::Cubic,
-                ("law", "exponential") => read.law = Law::Exponential,
-                ("law", "maugis-dugdale") => read.law = Law::Dugdale,
-                ("method", "thermodynamic") => read.method = Method::Thermodynamic,
-                ("method", "force") => read.method = Method::Force,
-                ("method", "constant") => read.method = Method::Constant,
-                ("direction", "apart") => read.path = Path::Unloading,
-                ("direction", "together") => read.path = Path::Loading,
-                _ => {
-                    let known = match name.as_str() {
-                        "law" => "lennard-jones, cubic, exponential, maugis-dugdale",
-                        "method" => "thermodynamic, force, constant",
-                        _ => "apart, together",
-                    };
-                    return Err(format!("{name}: \"{word}\" is not one of {known}"));
-                }
-            }
-        }
-        Ok(read)
-    }
-}
+use super::Evaluate;
+use super::lennard_jones;
 
 /// The functions by name, with the number of their results.
-const FUNCTIONS: &[(&str, usize, Evaluate)] = &[
+pub const FUNCTIONS: &[(&str, usize, Evaluate)] = &[
     // Spheres without adhesion.
     ("hertz.contact_radius", 1, |_, x| {
         Ok(vec![hertz::contact_radius(&hard(x)?, x[2])?])
@@ -204,6 +159,12 @@ const FUNCTIONS: &[(&str, usize, Evaluate)] = &[
     ("work_of_adhesion", 1, |_, x| {
         Ok(vec![tabor_map::work_of_adhesion([x[0], x[1]], x[2])?])
     }),
+    ("lennard_jones_sphere.at_approach", 4, |words, x| {
+        lennard_jones::at_approach(&sphere(x)?, x[3], x[4], words.path)
+    }),
+    ("lennard_jones_sphere.pull_off", 4, |_, x| {
+        lennard_jones::pull_off(&sphere(x)?, x[3])
+    }),
     // Waves.
     ("westergaard.full_contact_pressure", 1, |_, x| {
         Ok(vec![westergaard::full_contact_pressure(x[0], x[1], x[2])?])
@@ -250,6 +211,37 @@ const FUNCTIONS: &[(&str, usize, Evaluate)] = &[
     ("westergaard.mean_gap", 1, |_, x| {
         let whole = westergaard::full_contact_pressure(x[0], x[1], x[2])?;
         Ok(vec![x[1] * westergaard::mean_gap(x[3] / whole)?])
+    }),
+    ("cohesive_wave.at_half_width", 3, |_, x| {
+        let wave = Wave::new(x)?;
+        if !(x[5] > 0.0 && x[5] < 0.5 * x[2]) {
+            return Err(TheoryError::OutOfRange {
+                name: "half_width",
+                value: x[5],
+                allowed: "between 0 and half the wavelength",
+            });
+        }
+        Ok(wave.si(&wave.theory.state((PI * x[5] / x[2]).sin())?))
+    }),
+    ("cohesive_wave.pull_off", 3, |_, x| {
+        let wave = Wave::new(x)?;
+        Ok(wave.si(&wave.theory.pull_off()?))
+    }),
+    ("cohesive_wave.closing", 3, |_, x| {
+        let wave = Wave::new(x)?;
+        Ok(wave.si(&wave.theory.closing()?))
+    }),
+    // The elastic body.
+    ("layer.bonded", 1, |_, x| {
+        Ok(vec![layer::bonded(x[0], x[1])?])
+    }),
+    ("layer.sliding", 1, |_, x| Ok(vec![layer::sliding(x[0])?])),
+    ("love.rectangle", 1, |_, x| {
+        let sides = (x[4], x[5]);
+        Ok(vec![strain(x)? * love::rectangle(x[2], x[3], sides)?])
+    }),
+    ("love.disc", 1, |_, x| {
+        Ok(vec![strain(x)? * love::disc(x[2], x[3])?])
     }),
     // Rough surfaces by their summits.
     ("gw.adhesion_parameter", 1, |_, x| {
@@ -378,6 +370,46 @@ const FUNCTIONS: &[(&str, usize, Evaluate)] = &[
     }),
 ];
 
+/// A cohesive wave of (contact modulus, amplitude, wavelength, work of adhesion, range), and its units.
+struct Wave {
+    theory: CohesiveWave,
+    pressure: f64,
+    wavelength: f64,
+}
+
+impl Wave {
+    fn new(x: &[f64]) -> Result<Self, TheoryError> {
+        let adhesion = westergaard::adhesion_parameter(x[0], x[1], x[2], x[3])?;
+        Ok(Wave {
+            theory: CohesiveWave::new(adhesion, x[4] / x[1])?,
+            pressure: westergaard::full_contact_pressure(x[0], x[1], x[2])?,
+            wavelength: x[2],
+        })
+    }
+
+    /// Mean pressure, half width of the contact, and that of the zone around it.
+    fn si(&self, state: &WaveState) -> Vec<f64> {
+        let width = |sine: f64| self.wavelength / PI * sine.asin();
+        vec![
+            self.pressure * state.mean_pressure,
+            width(state.contact),
+            width(state.zone),
+        ]
+    }
+}
+
+/// Pressure over modulus of (contact modulus, pressure).
+fn strain(x: &[f64]) -> Result<f64, TheoryError> {
+    if x[0] > 0.0 {
+        return Ok(x[1] / x[0]);
+    }
+    Err(TheoryError::OutOfRange {
+        name: "contact_modulus",
+        value: x[0],
+        allowed: "positive",
+    })
+}
+
 /// A sphere of (radius, contact modulus).
 fn hard(x: &[f64]) -> Result<Sphere, TheoryError> {
     Sphere::new(x[0], x[1], 0.0)
@@ -461,91 +493,4 @@ fn with_persson<R>(
         };
         use_it(last.insert(theory))
     })
-}
-
-/// Arrays of results, and how many elements did not converge.
-type Results<'py> = (Vec<Bound<'py, PyArray1<f64>>>, usize);
-
-/// How a loop over elements ended.
-enum Loop {
-    /// The results, and how many elements a method did not converge for.
-    Done(Vec<Vec<f64>>, usize),
-    /// An element that the theory refuses.
-    Refused(usize, TheoryError),
-}
-
-/// Results of the function `name` for each element of `columns`, which are of one length. An element for which the
-/// theory has no state is NaN. Also returns how many did not converge.
-#[pyfunction]
-pub fn theory<'py>(
-    py: Python<'py>,
-    name: &str,
-    words: Vec<(String, String)>,
-    columns: Vec<PyReadonlyArray1<'py, f64>>,
-) -> PyResult<Results<'py>> {
-    let known = FUNCTIONS.iter().find(|(known, ..)| *known == name);
-    let Some(&(_, results, evaluate)) = known else {
-        return Err(errors::failed(py, &format!("no theory is called {name}")));
-    };
-    let words = Words::read(&words).map_err(|words| errors::raise(py, "TheoryError", &words))?;
-    let columns: Vec<Vec<f64>> = columns
-        .iter()
-        .map(|column| column.as_array().to_vec())
-        .collect();
-    let end = py.detach(|| evaluate_all(evaluate, results, &words, &columns));
-    match end {
-        Loop::Done(found, not_converged) => {
-            let arrays = found
-                .into_iter()
-                .map(|values| PyArray1::from_vec(py, values));
-            Ok((arrays.collect(), not_converged))
-        }
-        Loop::Refused(element, error) => {
-            let place = if columns.first().is_some_and(|column| column.len() > 1) {
-                format!(" (element {element})")
-            } else {
-                String::new()
-            };
-            Err(errors::raise(
-                py,
-                "TheoryError",
-                &format!("{name}: {error}{place}"),
-            ))
-        }
-    }
-}
-
-fn evaluate_all(evaluate: Evaluate, results: usize, words: &Words, columns: &[Vec<f64>]) -> Loop {
-    let length = columns.first().map_or(0, Vec::len);
-    let mut found = vec![Vec::with_capacity(length); results];
-    let mut not_converged = 0;
-    let mut inputs = vec![0.0; columns.len()];
-    for element in 0..length {
-        for (input, column) in inputs.iter_mut().zip(columns) {
-            *input = column[element];
-        }
-        match evaluate(words, &inputs) {
-            Ok(values) => {
-                for (list, value) in found.iter_mut().zip(values) {
-                    list.push(value);
-                }
-            }
-            Err(error) => {
-                match error {
-                    TheoryError::NoSolution { .. } => {}
-                    TheoryError::NotConverged { .. } => not_converged += 1,
-                    refused => return Loop::Refused(element, refused),
-                }
-                found.iter_mut().for_each(|list| list.push(f64::NAN));
-            }
-        }
-    }
-    Loop::Done(found, not_converged)
-}
-
-/// What `tabor theory` prints for the words of a call.
-#[pyfunction]
-pub fn theory_table(py: Python<'_>, words: Vec<String>) -> PyResult<String> {
-    py.detach(|| tabor::theory_table(&words))
-        .map_err(|words| errors::raise(py, "TheoryError", &words))
 }
