@@ -10,23 +10,35 @@ use crate::backend::ranks::Ranks;
 /// What a launcher tells the processes that it starts of their number: Open MPI, and those that speak PMI.
 #[cfg(not(feature = "mpi"))]
 const COUNTS: [&str; 2] = ["OMPI_COMM_WORLD_SIZE", "PMI_SIZE"];
+/// By one of these a process knows that a launcher has started it: Open MPI, and those that speak PMI or PMIx. Without
+/// one MPI is not started: it would start a service of its own.
+#[cfg(feature = "mpi")]
+const LAUNCHED: [&str; 4] = ["OMPI_COMM_WORLD_SIZE", "PMI_SIZE", "PMI_RANK", "PMIX_RANK"];
 
 /// The processes that run a scene together, until it is dropped.
 pub(super) struct Launched {
     ranks: Option<Arc<dyn Ranks>>,
     // After the ranks, which it ends.
     #[cfg(feature = "mpi")]
-    _session: MpiSession,
+    _session: Option<MpiSession>,
 }
 
 #[cfg(feature = "mpi")]
 impl Launched {
-    /// Meets the others.
+    /// Meets the others, if a launcher has started this process.
     pub fn start() -> Result<Launched, Failure> {
-        let session = MpiSession::start()?;
-        let ranks: Arc<dyn Ranks> = Arc::new(session.ranks());
+        let is_launched = LAUNCHED.iter().any(|name| std::env::var_os(name).is_some());
+        let session = if is_launched {
+            Some(MpiSession::start()?)
+        } else {
+            None
+        };
+        let ranks = session.as_ref().map(|session| {
+            let ranks: Arc<dyn Ranks> = Arc::new(session.ranks());
+            ranks
+        });
         Ok(Launched {
-            ranks: Some(ranks).filter(|ranks| ranks.count() > 1),
+            ranks: ranks.filter(|ranks| ranks.count() > 1),
             _session: session,
         })
     }

@@ -19,8 +19,8 @@ class Step:
     pressure, gap, displacement, heights : ndarray
         Net normal traction, Pa, positive in compression; distance of the surfaces, m; normal displacement of the
         solid, m, positive into it; heights, m, with the plastic depth subtracted.
-    contact_area_fraction, force, mean_pressure, approach, mean_gap : float
-        Of the whole cell; `approach` and `mean_gap` are None where the surfaces are separated.
+    contact_area_fraction, force, mean_pressure : float
+        Of the whole cell; so are ``approach`` and ``mean_gap``, m, which are None where the surfaces are separated.
     residual, iterations, converged
         How well it is solved.
     state, jump : str

@@ -16,14 +16,15 @@ use crate::backend::ranks::{Parts, RankError};
 
 /// Bytes of the columns that a rank takes at once: the exchange goes in rounds, so that its buffers stay small beside the
 /// fields of a large grid, and below the 2^31 bytes of one message.
-const ROUND: usize = 64 << 20;
+pub(super) const ROUND: usize = 64 << 20;
 
 /// Numbers of a complex one.
 const PAIR: usize = 2;
 
-/// Groups of columns of so many rows that a rank takes in a round; the same on every rank.
-fn groups_in_round<T>(rows: usize) -> usize {
-    (ROUND / (PAIR * size_of::<T>() * BLOCK * rows)).max(1)
+/// Groups of columns of so many rows, of numbers of so many bytes, that a rank takes in a round; the same on every
+/// rank.
+fn groups_in_round(round: usize, number: usize, rows: usize) -> usize {
+    (round / (PAIR * number * BLOCK * rows)).max(1)
 }
 
 /// Bytes of the buffers in which a rank exchanges the columns of a level, of numbers of so many bytes: its own rows
@@ -34,7 +35,7 @@ pub fn exchange_bytes([nx, ny]: [usize; 2], number: usize, ranks: usize) -> usiz
     }
     let group = PAIR * number * BLOCK * ny;
     let share = (nx / 2 + 1).div_ceil(BLOCK).div_ceil(ranks);
-    3 * group * share.min((ROUND / group).max(1))
+    3 * group * share.min(groups_in_round(ROUND, number, ny))
 }
 
 /// Lays complex numbers down as pairs.
@@ -59,12 +60,14 @@ fn bytes<T>(numbers: impl Iterator<Item = usize>) -> Vec<usize> {
 }
 
 impl<T: CpuReal> Transform<T> {
-    /// As [`multiply`](Transform::multiply), by the factors of the columns that this rank transforms.
+    /// As [`multiply`](Transform::multiply), by the factors of the columns that this rank transforms, in rounds of so
+    /// many bytes.
     pub fn multiply_across(
         &mut self,
         factors: &[T],
         energy: bool,
         slabs: &Slabs,
+        round: usize,
     ) -> Result<f64, RankError> {
         self.take();
         let ranks = slabs.ranks();
@@ -74,7 +77,7 @@ impl<T: CpuReal> Transform<T> {
             .collect();
         let own = shares[ranks.rank()].clone();
         let mut energies = vec![0.0; own.len()];
-        let at_once = groups_in_round::<T>(rows);
+        let at_once = groups_in_round(round, size_of::<T>(), rows);
         let most = shares.iter().map(ExactSizeIterator::len).max().unwrap_or(0);
         for first in (0..most).step_by(at_once) {
             let cut = |share: &Range<usize>| {
@@ -208,6 +211,86 @@ impl<T: CpuReal> Transform<T> {
             let columns = piece.chunks_exact(PAIR * held);
             for (line, column) in tile.chunks_exact_mut(BLOCK).zip(columns) {
                 take_up(&column[PAIR * rows.start..PAIR * rows.end], line);
+            }
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use std::sync::Arc;
+    use std::thread;
+
+    use super::*;
+    use crate::backend::Shape;
+    use crate::backend::cpu::blocks::Tile;
+    use crate::backend::ranks::{Ranks, ThreadRanks};
+
+    /// Spectra of some rows of a shape, each number told by its row and column.
+    fn fill(tiles: &mut [Tile<f64>], groups: usize, rows: Range<usize>) {
+        for (place, tile) in tiles.iter_mut().enumerate() {
+            let tile = tile.get_mut().expect("nobody else");
+            for (at, value) in tile.iter_mut().enumerate() {
+                let row = rows.start + place / groups * BLOCK + at % BLOCK;
+                let column = place % groups * BLOCK + at / BLOCK;
+                let number = (row * 31 + column * 7) as f64;
+                *value = Complex::new(number.sin(), (number * 0.3).cos());
+            }
+        }
+    }
+
+    /// The held rows of all columns, bit by bit.
+    fn taken(tiles: &[Tile<f64>], groups: usize, held: usize, columns: usize) -> Vec<Vec<u64>> {
+        let at = |row: usize, column: usize| {
+            let tile = &tiles[row / BLOCK * groups + column / BLOCK];
+            let tile = tile.lock().expect("nobody else");
+            tile[column % BLOCK * BLOCK + row % BLOCK]
+        };
+        let line = |row: usize| (0..columns).map(move |column| at(row, column));
+        let bits = |value: Complex<f64>| [value.re.to_bits(), value.im.to_bits()];
+        (0..held)
+            .map(|row| line(row).flat_map(bits).collect())
+            .collect()
+    }
+
+    /// One group of columns in a round, several, or all: each rank has the rows that one process has, and its energy.
+    #[test]
+    fn any_number_of_rounds() {
+        for (points, count) in [([64, 64], 3), ([61, 47], 2), ([130, 24], 4)] {
+            let shape = Shape::whole(points[0], points[1]);
+            let [columns, half] = [points[0] / 2 + 1, points[1] / 2 + 1];
+            let factors: Vec<f64> = (0..columns * half)
+                .map(|at| 1.0 + (at % 5) as f64)
+                .collect();
+            let mut one = Transform::<f64>::new(shape, points[1]);
+            one.take();
+            let groups = one.groups;
+            fill(&mut one.tiles, groups, 0..points[1]);
+            let energy = one.multiply(&factors, true);
+            let all = taken(&one.tiles, groups, points[1], columns);
+            for round in [1, 3 * PAIR * size_of::<f64>() * BLOCK * points[1], ROUND] {
+                thread::scope(|scope| {
+                    for rank in ThreadRanks::new(count) {
+                        let (factors, all) = (&factors, &all);
+                        scope.spawn(move || {
+                            let number = rank.rank();
+                            let slabs = Slabs::of_blocks(Arc::new(rank), points[1]);
+                            let rows = slabs.own();
+                            let own = slabs.groups_of(number, groups);
+                            let at = |group: usize| (group * BLOCK).min(columns) * half;
+                            let mut here = Transform::<f64>::new(shape, rows.len());
+                            here.take();
+                            fill(&mut here.tiles, groups, rows.clone());
+                            let factors = &factors[at(own.start)..at(own.end)];
+                            let found = here
+                                .multiply_across(factors, true, &slabs, round)
+                                .expect("all ranks are here");
+                            assert_eq!(found.to_bits(), energy.to_bits());
+                            let held = taken(&here.tiles, groups, rows.len(), columns);
+                            assert!(held == all[rows], "{points:?}, rank {number}, {round}");
+                        });
+                    }
+                });
             }
         }
     }

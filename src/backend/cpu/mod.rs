@@ -24,6 +24,7 @@ use super::{Backend, BackendError, Factors, Field, Level, Shape, Spectrum, check
 use crate::kernel::{Form, Gate, Kernel, Params, SUMS, ScalarKernel, Scalars, Twin, Whole};
 use crate::plans::Planned;
 use crate::real::Real;
+use across::ROUND;
 pub use across::exchange_bytes;
 use blocks::{BLOCK, Held, Job, run_blocks};
 use slabs::Slabs;
@@ -466,7 +467,7 @@ impl<T: CpuReal> Backend for CpuBackend<T> {
         let factors = &self.spectra[by.index];
         let curvature = match &space.slabs {
             None => Ok(transform.multiply(factors, energy)),
-            Some(slabs) => transform.multiply_across(factors, energy, slabs),
+            Some(slabs) => transform.multiply_across(factors, energy, slabs, ROUND),
         };
         match curvature {
             Ok(curvature) if energy => self.scalars.curvature = curvature,
