@@ -87,7 +87,7 @@ impl SavedState<'_> {
         Ok(bytes)
     }
 
-    /// The state of such bytes; `None` if they are none.
+    /// The state that [`to_bytes`](Self::to_bytes) gave; `None` for other bytes.
     pub fn from_bytes(bytes: &[u8]) -> Option<SavedState<'static>> {
         decode(bytes).ok()
     }
