@@ -33,7 +33,7 @@ mod _tabor {
     #[pymodule_export]
     use super::scene::{LoadedScene, json_from_toml, toml_from_json};
     #[pymodule_export]
-    use super::surface::{scales, spectrum, statistics};
+    use super::surface::{scales, self_affine_like, spectrum, statistics};
     #[pymodule_export]
     use super::theory::asperities::icha;
     #[pymodule_export]

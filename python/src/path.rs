@@ -3,6 +3,7 @@
 use std::collections::VecDeque;
 use std::sync::{Arc, Mutex, PoisonError};
 
+use numpy::PyArray2;
 use pyo3::prelude::*;
 use pyo3::types::PyDict;
 use tabor::{Jump, Load, Path, Solution};
@@ -44,6 +45,9 @@ pub struct SolvedPath {
     /// Lent to the solver's thread while a load is solved; gone after one was interrupted.
     path: Option<Path<Loads>>,
     lent: Vec<Lent>,
+    /// The heights of all steps, once there is one, of a solid that keeps its shape.
+    heights: Option<Py<PyArray2<f64>>>,
+    keeps_shape: bool,
     warned: usize,
 }
 
@@ -70,6 +74,8 @@ impl SolvedPath {
             lent: loaded.lent.iter().map(|each| each.share(py)).collect(),
             loads,
             talk,
+            heights: None,
+            keeps_shape: loaded.scene.solid.hardness.is_none(),
             warned: 0,
         }
     }
@@ -126,6 +132,7 @@ impl SolvedPath {
                 "this path was interrupted; begin another",
             ));
         };
+        self.talk.begin();
         let (path, solved) = wait(py, &self.talk, progress, move || {
             let solved = path.next();
             (path, solved)
@@ -133,23 +140,47 @@ impl SolvedPath {
         let warnings = path.warnings().split_off(self.warned);
         self.warned += warnings.len();
         self.path = Some(path);
+        if let Some(Ok(solution)) = &solved {
+            self.talk.finished(solution.row.step);
+        }
         match solved {
-            Some(Ok(solution)) => Ok(Some((step(py, solution)?, warnings))),
+            Some(Ok(solution)) => Ok(Some((self.step(py, solution)?, warnings))),
             Some(Err(error)) => Err(errors::of_contact(py, &error)),
             None => Ok(None),
         }
     }
+
+    /// A solved load; its fields are handed over, not copied, and its heights are one array for all steps that share them.
+    fn step<'py>(
+        &mut self,
+        py: Python<'py>,
+        mut solution: Solution,
+    ) -> PyResult<Bound<'py, PyDict>> {
+        let heights = match &self.heights {
+            Some(kept) => kept.bind(py).clone(),
+            None => {
+                let heights = array(py, std::mem::take(&mut solution.heights), solution.points)?;
+                if self.keeps_shape {
+                    heights.getattr("flags")?.setattr("writeable", false)?;
+                    self.heights = Some(heights.clone().unbind());
+                }
+                heights
+            }
+        };
+        let step = table(py, solution)?;
+        step.set_item("heights", heights)?;
+        Ok(step)
+    }
 }
 
-/// A solved load; its fields are handed over, not copied.
-fn step<'py>(py: Python<'py>, solution: Solution) -> PyResult<Bound<'py, PyDict>> {
+/// A solved load but for its heights.
+fn table<'py>(py: Python<'py>, solution: Solution) -> PyResult<Bound<'py, PyDict>> {
     let step = PyDict::new(py);
     let points = solution.points;
     step.set_item("size", solution.size)?;
     step.set_item("gap", array(py, solution.gap, points)?)?;
     step.set_item("pressure", array(py, solution.pressure, points)?)?;
     step.set_item("displacement", array(py, solution.displacement, points)?)?;
-    step.set_item("heights", array(py, solution.heights, points)?)?;
     let row = &solution.row;
     step.set_item("number", row.step)?;
     step.set_item("time", row.time)?;

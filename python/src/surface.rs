@@ -1,17 +1,22 @@
 //! Statistics of height maps.
 
+use std::sync::Arc;
+
 use numpy::{PyArray1, PyArray2, PyUntypedArrayMethods};
 use pyo3::prelude::*;
 use pyo3::types::PyDict;
+use tabor::backend::cpu::with_threads;
 use tabor::scene::Boundary;
 use tabor::surface::Statistics;
 use tabor::surface::correlation::correlation_length;
+use tabor::surface::fit::fit as fit_band;
 use tabor::surface::roughness::{HeightParameters, scale_dependence};
 use tabor::surface::statistics::radial_spectrum;
 use tabor::{Grid, SharedValues};
 
 use crate::arrays::shared;
 use crate::errors;
+use crate::waiting::{Talk, wait};
 
 /// Heights, m, and where they lie.
 pub struct Map {
@@ -52,6 +57,24 @@ impl Map {
     }
 }
 
+/// Does `work` on another thread, with a pool of its own: the pool that all share is without threads in a fork of this process.
+pub fn apart<R: Send + 'static>(
+    py: Python<'_>,
+    talk: &Arc<Talk>,
+    work: impl FnOnce() -> R + Send + 'static,
+) -> PyResult<R> {
+    wait(py, talk, None, move || with_threads(None, work))?
+        .map_err(|error| errors::raise(py, "DeviceError", &error.to_string()))
+}
+
+/// The same for what takes no word while it works.
+fn detached<R: Send + 'static>(
+    py: Python<'_>,
+    work: impl FnOnce() -> R + Send + 'static,
+) -> PyResult<R> {
+    apart(py, &Arc::default(), work)
+}
+
 /// Statistics of heights, m, on a cell of (lx, ly), m; None for what a flat map does not have.
 #[pyfunction]
 pub fn statistics<'py>(
@@ -61,13 +84,13 @@ pub fn statistics<'py>(
     is_periodic: bool,
 ) -> PyResult<Bound<'py, PyDict>> {
     let map = Map::new(py, heights, size, is_periodic)?;
-    let (found, shape, length) = py.detach(|| {
+    let (found, shape, length) = detached(py, move || {
         (
             Statistics::from_heights(&map.grid, &map.heights, map.boundary),
             HeightParameters::new(&map.heights),
             correlation_length(&map.grid, &map.heights, map.boundary),
         )
-    });
+    })?;
     let moments = found.moments;
     let table = PyDict::new(py);
     table.set_item("mean", found.mean)?;
@@ -99,7 +122,9 @@ pub fn spectrum<'py>(
     is_periodic: bool,
 ) -> PyResult<Columns<'py, 3>> {
     let map = Map::new(py, heights, size, is_periodic)?;
-    let rings = py.detach(|| radial_spectrum(&map.grid, &map.heights, map.boundary));
+    let rings = detached(py, move || {
+        radial_spectrum(&map.grid, &map.heights, map.boundary)
+    })?;
     let column = |of: fn(&tabor::surface::statistics::SpectrumRing) -> f64| {
         PyArray1::from_vec(py, rings.iter().map(of).collect())
     };
@@ -119,7 +144,9 @@ pub fn scales<'py>(
     is_periodic: bool,
 ) -> PyResult<Columns<'py, 3>> {
     let map = Map::new(py, heights, size, is_periodic)?;
-    let found = py.detach(|| scale_dependence(&map.grid, &map.heights, map.boundary));
+    let found = detached(py, move || {
+        scale_dependence(&map.grid, &map.heights, map.boundary)
+    })?;
     let column = |of: fn(&tabor::surface::roughness::ScaleDependence) -> f64| {
         PyArray1::from_vec(py, found.iter().map(of).collect())
     };
@@ -128,4 +155,36 @@ pub fn scales<'py>(
         column(|each| each.slope),
         column(|each| each.curvature.unwrap_or(f64::NAN)),
     ])
+}
+
+/// The self-affine spectrum like that of heights: Hurst exponent, rms height, m, wavelengths, m, and whether a roll-off and
+/// a cut-off were seen.
+#[pyfunction]
+pub fn self_affine_like<'py>(
+    py: Python<'py>,
+    heights: &Bound<'py, PyArray2<f64>>,
+    size: [f64; 2],
+    is_periodic: bool,
+) -> PyResult<Bound<'py, PyDict>> {
+    let map = Map::new(py, heights, size, is_periodic)?;
+    let (fitted, statistics) = detached(py, move || {
+        (
+            fit_band(&map.grid, &map.heights, map.boundary),
+            Statistics::from_heights(&map.grid, &map.heights, map.boundary),
+        )
+    })?;
+    let fitted =
+        fitted.map_err(|error| errors::raise(py, "SurfaceError", &format!("heights: {error}")))?;
+    let spectrum = &fitted.spectrum;
+    let wavelength = |wavenumber: f64| 2.0 * std::f64::consts::PI / wavenumber;
+    let found = PyDict::new(py);
+    found.set_item("hurst", spectrum.hurst)?;
+    // The heights' own: that of the fit follows the rings only on average.
+    found.set_item("rms_height", statistics.moments.rms_height())?;
+    found.set_item("longest", wavelength(spectrum.long))?;
+    found.set_item("rolloff", wavelength(spectrum.rolloff))?;
+    found.set_item("shortest", wavelength(spectrum.short))?;
+    found.set_item("rolloff_seen", fitted.rolloff_seen)?;
+    found.set_item("cutoff_seen", fitted.cutoff_seen)?;
+    Ok(found)
 }

@@ -37,6 +37,11 @@ impl Talk {
         self.goes_on()
     }
 
+    /// Forgets the iterations of the load before.
+    pub fn begin(&self) {
+        self.iteration.store(0, Ordering::Relaxed);
+    }
+
     /// Whether somebody still waits.
     pub fn goes_on(&self) -> bool {
         !self.stop.load(Ordering::Relaxed)
@@ -56,8 +61,8 @@ impl Talk {
     }
 }
 
-/// Does `work` on another thread, and tells `progress` of its iterations. Where a signal or `progress` raises, the
-/// work is told to stop and left behind: it ends at its next iteration, and its result is dropped.
+/// Does `work` on another thread, and tells `progress` of its iterations, of the last one in any case. Where a signal or
+/// `progress` raises, the work is told to stop and left behind: it ends at its next iteration, and its result is dropped.
 pub fn wait<R: Send + 'static>(
     py: Python<'_>,
     talk: &Arc<Talk>,
@@ -72,12 +77,22 @@ pub fn wait<R: Send + 'static>(
             let _ = sender.send(catch_unwind(AssertUnwindSafe(work)));
         });
     spawned.map_err(|error| errors::failed(py, &format!("no thread for the solver: {error}")))?;
-    let mut told = (0, 0);
+    let mut told = (talk.last().0, 0);
+    let mut tell = || -> PyResult<()> {
+        let (finished, iteration, residual) = talk.last();
+        if let Some(progress) = progress
+            && (finished, iteration) != told
+        {
+            told = (finished, iteration);
+            progress.call1((finished, iteration, residual))?;
+        }
+        Ok(())
+    };
     loop {
         let (received, back) = py.detach(move || (receiver.recv_timeout(POLL), receiver));
         receiver = back;
         match received {
-            Ok(Ok(result)) => return Ok(result),
+            Ok(Ok(result)) => return tell().map(|()| result),
             Ok(Err(_)) | Err(RecvTimeoutError::Disconnected) => {
                 return Err(errors::failed(
                     py,
@@ -86,14 +101,7 @@ pub fn wait<R: Send + 'static>(
             }
             Err(RecvTimeoutError::Timeout) => {}
         }
-        let mut heard = py.check_signals();
-        let (finished, iteration, residual) = talk.last();
-        if let (Ok(()), Some(progress)) = (&heard, progress)
-            && (finished, iteration) != told
-        {
-            told = (finished, iteration);
-            heard = progress.call1((finished, iteration, residual)).map(drop);
-        }
+        let heard = py.check_signals().and_then(|()| tell());
         if let Err(raised) = heard {
             talk.stop.store(true, Ordering::Relaxed);
             return Err(raised);

@@ -117,7 +117,7 @@ def test_what_is_no_height_is_refused():
     heights = sphere(8, 1e-6, 1e-6)
     heights[2, 3] = np.nan
     masked = np.ma.masked_less(sphere(8, 1e-6, 1e-6), -1e-7)
-    for wrong in (heights, heights[0], "heights", np.zeros((0, 4)), masked):
+    for wrong in (heights, heights[0], "no such heights", [["a"]], np.zeros((0, 4)), masked):
         with pytest.raises(ValueError, match="heights"):
             tabor.Contact(wrong, 1e-6, contact_modulus=1e9)
 

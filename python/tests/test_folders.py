@@ -1,9 +1,11 @@
 """Scenes, folders of runs, studies, and the program."""
 
+import re
 import signal
 import subprocess
 import sys
 import time
+from pathlib import Path
 
 import numpy as np
 import pytest
@@ -97,8 +99,8 @@ def test_models_are_compared(tmp_path):
 def test_a_study_of_a_wrong_scene_says_what_is_wrong(tmp_path):
     with pytest.raises(tabor.SceneError, match="did you mean"):
         tabor.compare({**SCENE, "gird": {}}, tmp_path / "compared")
-    with pytest.raises(tabor.SceneError, match="file"):
-        tabor.compare(tabor.Contact(np.zeros((8, 8)), 1.0, contact_modulus=1.0), tmp_path / "compared")
+    with pytest.raises(TypeError, match="scene: a file, a Scene, a Contact or tables"):
+        tabor.compare(np.zeros((8, 8)), tmp_path / "compared")
 
 
 # Of the last step, which a run writes no fields of.
@@ -140,8 +142,82 @@ def test_control_c_keeps_the_finished_steps(tmp_path):
 def test_a_check_tells_of_resolution_and_memory():
     words = tabor.Scene(SCENE).check()
     assert "memory" in words and "cohesive zone" in words
-    with pytest.raises(tabor.SceneError, match="file"):
-        tabor.Scene(SCENE, heights=np.zeros((32, 32))).check()
+    assert "kernels" in tabor.Scene(SCENE).check(verbose=True)
+
+
+def test_scenes_of_arrays_and_tables_are_checked_and_studied(tmp_path, monkeypatch):
+    monkeypatch.chdir(tmp_path)
+    heights = tabor.Scene(SCENE).heights()
+    np.save("map.npy", heights)
+    law = tabor.MaugisDugdale("20 mJ/m^2", range="10 nm")
+    factors = np.ones((32, 32))
+    loading = SCENE["loading"]
+    contact = tabor.Contact(heights, "4 um", contact_modulus="100 MPa", law=law, adhesion_map=factors, loading=loading)
+    assert "32 x 32" in contact.check() and "map" in contact.check()
+    # Paths of a scene of tables begin where Python does.
+    of_a_file = {**SCENE, "surface": [{"kind": "file", "path": "map.npy"}]}
+    assert tabor.Scene(of_a_file).check() == tabor.Contact("map.npy", "4 um", contact_modulus="100 MPa", law=law, loading=loading).check()
+    tabor.Scene(SCENE).write("scene.toml")
+    assert "16 x 16" in tabor.Scene.read("scene.toml", {"grid.points": 16}).check()
+    tables = [tabor.compare(scene, tmp_path / f"compared{index}")["compare"] for index, scene in enumerate([of_a_file, tabor.Scene(of_a_file)])]
+    np.testing.assert_array_equal(tables[0]["contact_area_fraction"], tables[1]["contact_area_fraction"])
+    hard = tabor.Contact(heights, "4 um", contact_modulus="100 MPa", loading={"control": "pressure", "path": ["1 MPa"]})
+    found = tabor.accuracy(hard, tmp_path / "accuracy", budget=2)
+    assert "accuracy" in found.tables
+    of_the_file = tabor.Contact("map.npy", "4 um", contact_modulus="100 MPa", loading={"control": "pressure", "path": ["1 MPa"]})
+    study = {"scene": of_the_file, "axis": [{"key": "solid.contact_modulus", "values": [1e8, 2e8]}]}
+    shares = [tabor.sweep(study, tmp_path / f"share{i}", jobs=1, threads=1, share=(i, 2)) for i in (1, 2)]
+    whole = tabor.sweep(study, tmp_path / "whole", merge=[share.folder for share in shares])
+    assert len(whole["runs"]) == 2
+    with pytest.raises(tabor.SceneError, match="study: its scene holds an array"):
+        tabor.sweep({**study, "scene": hard}, tmp_path / "another")
+
+
+@pytest.mark.parametrize("kind", ["sphere", "rough", "afm", "pillars", "seal", "mems"])
+def test_scenes_to_begin_with(kind, tmp_path):
+    scene = tabor.Scene.new(kind, tmp_path / kind)
+    assert scene.path_of_file == tmp_path / kind / "scene.toml" and scene.heights().ndim == 2
+    with pytest.raises(tabor.TaborError, match="is there already"):
+        tabor.Scene.new(kind, tmp_path / kind)
+
+
+def test_a_run_as_a_dataset(run):
+    xarray = pytest.importorskip("xarray")
+    data = run.to_dataset()
+    assert isinstance(data, xarray.Dataset)
+    assert data["force"].attrs["units"] == "N" and data["contact_area_fraction"].attrs["units"] == "1"
+    assert data["pressure"].dims == ("field_step", "y", "x") and data["gap"].attrs["units"] == "m"
+    np.testing.assert_array_equal(data["pressure"].sel(field_step=2), run.field("pressure", 2))
+    np.testing.assert_allclose(data["x"], np.arange(32) * 4e-6 / 32)
+
+
+def test_units_of_all_columns(tmp_path):
+    # The names and units are those of the library.
+    source = (Path(__file__).parents[2] / "src").rglob("*.rs")
+    columns = {found for path in source for found in re.findall(r'Column::new\("([a-z_]+)", "([^"]*)"', path.read_text(encoding="utf-8"))}
+    from tabor.runs import UNITS
+
+    assert len(columns) > 7 and {(name, UNITS.get(name)) for name, _ in columns} == columns
+
+
+def test_runs_on_one_axis(run):
+    matplotlib = pytest.importorskip("matplotlib")
+    matplotlib.use("Agg")
+    axes = run.plot("mean_gap", "mean_pressure", label="one")
+    label = axes.get_xlabel()
+    assert run.plot("mean_gap", "mean_pressure", axes, label="two", linestyle="--") is axes
+    assert len(axes.get_lines()) == 2 and axes.get_xlabel() == label
+    np.testing.assert_array_equal(*(line.get_xdata() for line in axes.get_lines()))
+    with pytest.raises(ValueError, match="state is no column of numbers"):
+        run.plot("state", "force")
+
+
+def test_a_run_that_was_killed_is_read(run, tmp_path):
+    (tmp_path / "curve.csv").write_bytes((run.folder / "curve.csv").read_bytes())
+    killed = tabor.Run(tmp_path)
+    assert len(killed.curve) == 2 and "2 steps" in killed._repr_html_()
+    with pytest.raises(tabor.OutputError, match="has not ended"):
+        killed.summary  # noqa: B018
 
 
 def test_devices():

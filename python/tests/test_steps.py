@@ -53,6 +53,16 @@ def test_steps_pickle(step):
     assert again.residual == step.residual
 
 
+def test_heights_of_a_solid_that_keeps_its_shape_are_one_array():
+    first, second = contact().path(pressure=["1 MPa", "2 MPa"])
+    assert first.heights is second.heights and not first.heights.flags.writeable
+    assert first.gap.flags.writeable and first.gap.flags.owndata is False
+    heights = tabor.self_affine(32, "4 um", rms_slope=0.1, shortest="1 um")
+    soft = tabor.Contact(heights, "4 um", contact_modulus="100 MPa", hardness="5 MPa")
+    first, second = soft.path(pressure=["1 MPa", "3 MPa"])
+    assert (second.heights < first.heights).any()
+
+
 def test_words(step):
     assert "in contact" in repr(step) and "converged" not in repr(step)
     assert "<table>" in step._repr_html_()
@@ -89,7 +99,15 @@ def test_progress_hears_iterations():
     heights = tabor.self_affine((512, 512), 4e-6, rms_slope=0.1, shortest=4e-8)
     rough = tabor.Contact(heights, 4e-6, contact_modulus=1e8, tolerance=1e-8)
     rough.solve(pressure=1e6, progress=lambda finished, iteration, residual: heard.append((iteration, residual)))
-    assert heard and all(iteration >= 0 and residual >= 0 for iteration, residual in heard)
+    assert heard and all(iteration > 0 and residual >= 0 for iteration, residual in heard)
+
+
+def test_progress_hears_of_every_load_and_its_end():
+    # Each of these takes less time than passes between two looks.
+    heard = []
+    steps = list(contact().path(pressure=["1 MPa", "2 MPa"], progress=lambda *numbers: heard.append(numbers)))
+    assert [finished for finished, _, _ in heard] == [0, 1]
+    assert [iteration for _, iteration, _ in heard] == [step.iterations for step in steps]
 
 
 def test_what_progress_raises_ends_the_solve():

@@ -87,6 +87,51 @@ def test_mistakes_name_the_argument(call, words):
     assert isinstance(raised.value, tabor.TaborError)
 
 
+def test_laws_of_attraction():
+    # The traction is the slope of the energy, and integrates to the work of adhesion.
+    gap = np.linspace(0, 60e-9, 600_001)
+    for law in ("lennard-jones", "cubic", "exponential", "maugis-dugdale"):
+        traction = theory.laws.traction(W, "1 nm", gap, law=law)
+        assert np.trapezoid(traction, gap) == pytest.approx(W, rel=2e-3 if law != "cubic" else 5e-4)
+        inner = gap[1:400]
+        slope = (theory.laws.energy(W, 1e-9, inner + 1e-13, law=law) - theory.laws.energy(W, 1e-9, inner - 1e-13, law=law)) / 2e-13
+        np.testing.assert_allclose(slope, theory.laws.traction(W, 1e-9, inner, law=law), rtol=1e-4, atol=1e3)
+        assert traction.max() == pytest.approx(theory.laws.peak_tension(W, 1e-9, law=law), rel=1e-6)
+        steepness = (theory.laws.traction(W, 1e-9, inner + 1e-13, law=law) - theory.laws.traction(W, 1e-9, inner - 1e-13, law=law)) / 2e-13
+        np.testing.assert_allclose(theory.laws.slope(W, 1e-9, inner, law=law), steepness, rtol=1e-3, atol=1e-3 * W / 1e-18)
+
+
+def test_inverses_of_rough_theories():
+    bam = (1e-8, "5 um", E, 0.05, 1e-9)
+    gap = theory.bam.mean_gap(*bam, [1e5, 1e6])
+    np.testing.assert_allclose(theory.bam.mean_pressure(*bam, gap), [1e5, 1e6], rtol=1e-6)
+    assert (theory.bam.attraction(*bam, gap) > 0).all()
+    rough = (0.8, 1e-5, 5e-6, 1e-7, 1e-8, E, W, 1e-9)
+    repulsion = theory.persson.repulsive_pressure(*rough, "2 MPa")
+    assert repulsion - theory.persson.attraction(*rough, repulsion) == pytest.approx(2e6, rel=1e-4)
+    band = rough[:5]
+    wavenumbers = np.linspace(2 * np.pi / 1e-5, 2 * np.pi / 1e-7, 400_001)
+    density = theory.spectrum.density(*band, wavenumbers)
+    assert np.sqrt(np.trapezoid(2 * np.pi * wavenumbers * density, wavenumbers)) == pytest.approx(1e-8, rel=1e-3)
+    assert theory.spectrum.density(*band, 1e9) == 0.0
+
+
+def test_single_contacts_of_effects():
+    # E* cot(half angle)/2 under a cone; 2 k1 k2/(k1 + k2); 2 pi R times the work of a liquid at touch.
+    assert theory.cone.mean_pressure("70 deg", E) == pytest.approx(E / 2 / np.tan(np.radians(70)), rel=1e-12)
+    assert theory.effects.combined_conductivity(400.0, 1.4) == pytest.approx(2 * 400 * 1.4 / 401.4, rel=1e-12)
+    water = ("72 mN/m", 18e-6, 298.15, 0.5, 0.0)
+    work = theory.effects.meniscus(*water)[0]
+    assert theory.effects.meniscus_force(*water, R, 0.0) == pytest.approx(-2 * np.pi * R * work, rel=1e-12)
+    # Slowly pulled it is JKR's, and stronger the faster.
+    at_speed = theory.effects.pull_off_at_speed(R, E, W, [1e-10, 1e-6], 1e-6, 1.0)
+    assert at_speed[0] == pytest.approx(theory.jkr.pull_off_force(R, W), rel=0.05) and at_speed[1] < 1.2 * at_speed[0]
+    late = theory.effects.creeping_pressure(E, E, 1.0, R, 1e-8, 1e3, 0.0)
+    assert late == pytest.approx(theory.hertz.pressure(R, E, theory.hertz.contact_radius(R, E, 1e-8), 0.0), rel=1e-9)
+    touching = theory.maugis_dugdale.jump_in(R, E, W, 5e7)
+    assert touching.approach == pytest.approx(-W / 5e7, rel=1e-9) and touching.force < 0
+
+
 def test_which_theory_holds():
     assert theory.regime([0.1, 1.0, 10.0]).tolist() == ["dmt", "intermediate", "jkr"]
 
@@ -102,7 +147,7 @@ def test_every_function_gives_finite_numbers_for_likely_arguments():
     likely = {
         "radius": R, "contact_modulus": E, "work_of_adhesion": W, "force": 1e-8, "approach": 1e-9, "contact_radius": 5e-8, "r": 2e-8,
         "range": 1e-9, "gap": 1e-10, "half_angle": "85 deg", "peak_tension": 5e7, "pull_off": 2e-7, "stiffness": 200.0,
-        "amplitude": 1e-8, "wavelength": 1e-6, "half_width": 2e-7, "x": 3e-7, "mean_pressure": 1e7, "density": 1e12,
+        "amplitude": 1e-8, "wavelength": 1e-6, "half_width": 2e-7, "x": 3e-7, "mean_pressure": 1e6, "wavenumber": 1e7, "counter_conductivity": 1.0, "density": 1e12,
         "rms_height": 1e-8, "separation": 1.0, "pressure": 1e5, "hurst": 0.8, "longest": 1e-5, "rolloff": 5e-6, "shortest": 1e-7,
         "rms_slope": 0.1, "rms_curvature": 1e6, "mean_gap": 2e-8, "speed": 1e-6, "reference_speed": 1e-7, "exponent": 0.5,
         "slope": 0.01, "relaxed_modulus": E, "branch_modulus": E, "relaxation_time": 1.0, "time": 2.0, "shear_strength": 1e7,
@@ -125,4 +170,4 @@ def test_every_function_gives_finite_numbers_for_likely_arguments():
             called += 1
             if name != "regime":
                 assert np.isfinite(np.asarray(found, dtype=float)).all(), f"{module.__name__}.{name}"
-    assert called >= 60
+    assert called >= 88

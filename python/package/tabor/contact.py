@@ -2,12 +2,15 @@
 
 from __future__ import annotations
 
+import os
+from collections.abc import Mapping
 from dataclasses import dataclass
 from typing import Any, ClassVar
 
-from .errors import SceneError
+from .errors import SceneError, SurfaceError
+from .quantities import Quantity
 from .scene import Scene, field
-from .surfaces import Surface
+from .surfaces import HeightFile, Surface, counts, is_part, sides, tables_of
 from .topography import from_topography, is_topography
 
 
@@ -15,9 +18,9 @@ from .topography import from_topography, is_topography
 class _Law:
     """What every law has."""
 
-    work_of_adhesion: float | str | None = None
-    range: float | str | None = None
-    peak_tension: float | str | None = None
+    work_of_adhesion: Quantity | None = None
+    range: Quantity | None = None
+    peak_tension: Quantity | None = None
 
     #: Its word in a scene.
     word: ClassVar[str]
@@ -34,7 +37,7 @@ class MaugisDugdale(_Law):
     ``taper`` is the interval of the gap over which the tension falls to 0.
     """
 
-    taper: float | str | None = None
+    taper: Quantity | None = None
 
     word: ClassVar[str] = "maugis-dugdale"
 
@@ -58,41 +61,55 @@ class Contact(Scene):
 
     Parameters
     ----------
-    heights : array of shape (ny, nx), a Surface, or a Topography of SurfaceTopography
+    heights : array of shape (ny, nx), a Surface, a file, a part or list of parts, or a Topography of SurfaceTopography
         Heights in metres, positive towards the solid; any array of numbers. One of float64 in C order is shared, not
         copied; of another type, such as float32, or in another order one copy is made, of float64, in which the solver reads
         heights whatever its precision. A shared array must stay as it is: once it has been written to, the contact
-        refuses to solve. Give ``heights.copy()`` where you will go on writing.
+        refuses to solve. Give ``heights.copy()`` where you will go on writing. A file (its path, or a `HeightFile`) and
+        parts such as ``Sphere("1 um")`` are what they are in a scene.
     size : number or text, or two of them
-        Lengths of the cell along x and y, m; a Surface and a Topography bring their own, this one its boundary too.
+        Lengths of the cell along x and y, m; a Surface, a Topography and most files of instruments bring their own, a
+        Topography its boundary too.
+    points : int or (nx, ny), optional
+        Points along x and y, where `heights` are parts; arrays and files have theirs.
     contact_modulus : number or text, optional
-        E*, with the counter-face's share; or give `solid`.
+        E*, Pa, with the counter-face's share; or give `young_modulus` and `poisson_ratio`, or `solid`.
+    young_modulus, poisson_ratio, counter_young_modulus, counter_poisson_ratio : number or text, optional
+        Of the solid and of the counter-face, Pa.
     law : MaugisDugdale, LennardJones or Exponential, optional
         The attraction; without one a hard wall is all there is.
     boundary : {"periodic", "free"}, optional
         What lies beyond the edge: the surface again, or nothing. Periodic unless told.
+    thickness : number or text, optional
+        Of a layer on a rigid base, m; needs `poisson_ratio`.
+    base : {"bonded", "frictionless"}, optional
+        How the layer lies on its base.
     hardness : number or text, optional
         Largest pressure that the solid carries, Pa.
+    relaxation : list of mappings, optional
+        Branches of a viscoelastic solid: ``[{"modulus": "1 MPa", "time": "10 ms"}]``.
     treatment : {"full", "dmt"}, optional
         Whether attraction deforms the contact, or is summed over the gap of the contact without it.
     rate : mapping, optional
         How the work of adhesion grows with the speed of a receding edge: the keys of ``[adhesion.rate]``.
-    adhesion_map : array of shape (ny, nx), optional
-        A factor on the tension of the law at each point; shared as the heights are.
+    adhesion_map : array of shape (ny, nx), file or mapping, optional
+        A factor on the tension of the law at each point; an array is shared as the heights are, and a mapping is a pattern:
+        ``{"pattern": "checker", "period": "1 um", "low": 0, "high": 1}``.
     spring : number or text, optional
         Stiffness of a spring between the prescribed approach and the body, N/m.
     tolerance, max_iterations : number, optional
         When a solve ends.
     precision : {"auto", "double", "mixed", "single"}, optional
     backend : {"auto", "cpu", "gpu"}, optional
+    threads : int, optional
+        Threads of the processor.
     solid : mapping, optional
-        Further keys of ``[solid]``, such as those of a layer.
+        Further keys of ``[solid]``.
     loading : mapping, optional
         The keys of ``[loading]``, for `run` and for `path` without loads.
     **tables
-        Further tables of a scene, such as ``friction={"shear_strength": "10 MPa"}``.
-    threads : int, optional
-        Threads of the processor.
+        Further tables of a scene: ``friction={"shear_strength": "10 MPa"}``, ``capillary={"humidity": 0.5}``, ``wear``,
+        ``conductance``, ``leakage``, ``output``, ``title``.
     """
 
     def __init__(
@@ -100,21 +117,29 @@ class Contact(Scene):
         heights: Any,
         size: Any = None,
         *,
-        contact_modulus: float | str | None = None,
+        points: Any = None,
+        contact_modulus: Quantity | None = None,
+        young_modulus: Quantity | None = None,
+        poisson_ratio: float | None = None,
+        counter_young_modulus: Quantity | None = None,
+        counter_poisson_ratio: float | None = None,
         law: MaugisDugdale | LennardJones | Exponential | None = None,
         boundary: str | None = None,
-        hardness: float | str | None = None,
+        thickness: Quantity | None = None,
+        base: str | None = None,
+        hardness: Quantity | None = None,
+        relaxation: Any = None,
         treatment: str | None = None,
-        rate: dict[str, Any] | None = None,
+        rate: Mapping[str, Any] | None = None,
         adhesion_map: Any = None,
-        spring: float | str | None = None,
+        spring: Quantity | None = None,
         tolerance: float | None = None,
         max_iterations: int | None = None,
         precision: str | None = None,
         backend: str | None = None,
         threads: int | None = None,
-        solid: dict[str, Any] | None = None,
-        loading: dict[str, Any] | None = None,
+        solid: Mapping[str, Any] | None = None,
+        loading: Mapping[str, Any] | None = None,
         **tables: Any,
     ) -> None:
         if is_topography(heights):
@@ -124,23 +149,59 @@ class Contact(Scene):
         if isinstance(heights, Surface):
             size = heights.size if size is None else size
             heights = heights.heights
+        if isinstance(heights, (str, os.PathLike)):
+            if not os.path.isfile(heights):
+                raise SurfaceError(f"heights: {os.fspath(heights)}: there is no such file")
+            heights = HeightFile(heights)
         boundary = "periodic" if boundary is None else boundary
         if law is not None and not isinstance(law, _Law):
             raise SceneError(f'law: a law such as MaugisDugdale("50 mJ/m^2", range="5 nm") is expected, not {law!r}')
-        if size is None:
-            raise SceneError("size: the lengths of the cell are expected")
-        values = field(heights, "heights")
-        rows, columns = values.shape
+        if law is None:
+            for name, value in (("treatment", treatment), ("rate", rate), ("adhesion_map", adhesion_map)):
+                if value is not None:
+                    raise SceneError(f"{name}: it needs a law, such as law=MaugisDugdale(...)")
         adhesion = None if law is None else law.table() | {"treatment": treatment, "rate": rate}
+        if adhesion is not None and isinstance(adhesion_map, Mapping):
+            adhesion["map"], adhesion_map = adhesion_map, None
+        elif adhesion is not None and isinstance(adhesion_map, (str, os.PathLike)):
+            adhesion["map"], adhesion_map = os.path.abspath(adhesion_map), None
+        grid: dict[str, Any] = {"size": size, "boundary": boundary}
+        if is_part(heights):
+            grid["points"] = None if points is None else counts(points)
+            surface = tables_of(heights, None if size is None else min(sides(size, error=SceneError)))
+            values = None
+        else:
+            if points is not None:
+                raise SceneError("points: an array has its own; they are for parts such as Sphere")
+            if size is None:
+                raise SceneError("size: the lengths of the cell are expected")
+            values = field(heights, "heights")
+            rows, columns = values.shape
+            grid["points"] = [columns, rows]
+            surface = [{"kind": "flat"}]
         # A load that nobody asks for: paths bring their own.
-        loading = loading or {"control": "force" if boundary == "free" else "pressure", "path": [0.0]}
+        control = "force" if boundary == "free" else "pressure"
+        times = rate is not None or relaxation or (solid or {}).get("relaxation")
+        instant = {"start": 0.0, "ramp": [{"hold": 1.0, "steps": 1}]} if times else {"path": [0.0]}
+        loading = loading or {"control": control, **instant}
         if spring is not None:
             loading = {**loading, "control": "approach", "spring": spring}
         super().__init__(
             {
-                "grid": {"points": [columns, rows], "size": size, "boundary": boundary},
-                "solid": {"contact_modulus": contact_modulus, "hardness": hardness, **(solid or {})},
-                "surface": [{"kind": "flat"}],
+                "grid": grid,
+                "solid": {
+                    "contact_modulus": contact_modulus,
+                    "young_modulus": young_modulus,
+                    "poisson_ratio": poisson_ratio,
+                    "counter_young_modulus": counter_young_modulus,
+                    "counter_poisson_ratio": counter_poisson_ratio,
+                    "thickness": thickness,
+                    "base": base,
+                    "hardness": hardness,
+                    "relaxation": relaxation,
+                    **(solid or {}),
+                },
+                "surface": surface,
                 "adhesion": adhesion,
                 "loading": loading,
                 "solver": {"tolerance": tolerance, "max_iterations": max_iterations, "precision": precision, "backend": backend},

@@ -21,6 +21,9 @@ COLOURS = {"tabor_signed": "signed", "tabor_compression": "compression", "tabor_
 #: Tension below this share of the largest pressure is rounding.
 NEGLIGIBLE = 1e-9
 
+#: Units that take a prefix.
+PREFIXED = ("m", "N", "Pa", "s", "J")
+
 #: Share of the picture's width that a scale bar takes at most.
 BAR = 0.3
 
@@ -97,39 +100,37 @@ def plot_field(step: Any, name: str, axes: Any) -> Any:
     return axes
 
 
-#: Units of the columns of a curve.
-UNITS = {
-    "approach": "m",
-    "position": "m",
-    "mean_gap": "m",
-    "force": "N",
-    "mean_pressure": "Pa",
-    "time": "s",
-    "elastic_energy": "J",
-    "adhesive_energy": "J",
-}
-
-
 def _scaled(values: npt.NDArray[Any], name: str, unit: str) -> tuple[npt.NDArray[Any], str]:
     words = name.replace("_", " ")
-    if not unit:
-        return values, words
+    # Powers of compound units have no prefixes.
+    if unit not in PREFIXED:
+        return values, f"{words} [{unit}]" if unit not in ("", "1") else words
     factor, letter = prefix(values)
     return values / factor, f"{words} [{letter}{unit}]"
 
 
-def plot_curve(run: Any, x: str, y: str, axes: Any) -> Any:
+def plot_curve(run: Any, x: str, y: str, axes: Any, style: dict[str, Any]) -> Any:
     """Draws one column of a curve over another."""
-    curve = run.curve
+    curve, units = run.curve, run.units
     for name in (x, y):
-        if name not in curve.dtype.names:
-            raise ValueError(f"{name} is no column; the curve has {', '.join(curve.dtype.names)}")
+        if name not in units:
+            raise ValueError(f"{name} is no column of numbers; the curve has {', '.join(units)}")
     axes = _axes(axes)
-    across, label_x = _scaled(curve[x], x, UNITS.get(x, ""))
-    up, label_y = _scaled(curve[y], y, UNITS.get(y, ""))
-    axes.plot(across, up, ".-")
-    axes.set_xlabel(label_x)
-    axes.set_ylabel(label_y)
+    before = getattr(axes, "_tabor_curve", None)
+    drawn = []
+    for place, name in enumerate((x, y)):
+        values, label = _scaled(curve[name], name, units[name])
+        if before is not None and before[place][0] == name:
+            # Beside other curves in their unit.
+            _, factor, label = before[place]
+            values = curve[name] / factor
+        else:
+            factor = prefix(curve[name])[0] if units[name] in PREFIXED else 1.0
+        drawn.append((name, factor, label, values))
+    axes.plot(drawn[0][3], drawn[1][3], **{"marker": ".", **style})
+    axes.set_xlabel(drawn[0][2])
+    axes.set_ylabel(drawn[1][2])
+    axes._tabor_curve = [each[:3] for each in drawn]
     return axes
 
 

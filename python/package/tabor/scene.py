@@ -2,23 +2,27 @@
 
 from __future__ import annotations
 
+import itertools
 import json
 import os
 import warnings
 from collections.abc import Iterable, Iterator, Mapping
 from pathlib import Path
-from typing import Any
+from typing import TYPE_CHECKING, Any, TypeAlias, Union
 
 import numpy as np
 import numpy.typing as npt
 
 from . import _tabor
 from .errors import NotConvergedWarning, SceneError, TaborWarning
-from .program import call
-from .progress import reporter
-from .quantities import si
-from .runs import Run
+from .path import Load, Path as LoadPath
+from .quantities import Quantity, si
 from .step import Step
+
+if TYPE_CHECKING:
+    from typing import NoReturn
+
+    from .runs import Run
 
 #: What a path may prescribe: the argument, the word of a scene, the dimension.
 CONTROLS = {
@@ -29,8 +33,8 @@ CONTROLS = {
 }
 
 Array = npt.NDArray[np.float64]
-#: A load: the word of its control, its value, SI, and the seconds that it takes.
-Load = tuple[str, float, "float | None"]
+#: Loads of a path, or seconds: one, or many.
+Loads: TypeAlias = Union[Quantity, Iterable[Quantity], npt.NDArray[Any]]
 
 
 def field(array: Any, argument: str) -> Array:
@@ -125,6 +129,8 @@ class Scene:
         self.path_of_file = path_of_file
         self.threads = None if threads is None else int(threads)
         self._loaded = _tabor.LoadedScene(*source, self._heights, self._adhesion_map)
+        if self._adhesion_map is not None and self.resolved.get("adhesion") is None:
+            raise SceneError("adhesion_map: it changes the tension of a law, and there is none; give a law")
 
     @classmethod
     def read(
@@ -169,6 +175,21 @@ class Scene:
         """Whether values were given in place of its file's."""
         return bool(self._source[3])
 
+    @property
+    def overrides(self) -> list[tuple[str, str]]:
+        """Values in place of its file's, by dotted keys, in the words of the command line."""
+        return list(self._source[3])
+
+    @property
+    def folder(self) -> str:
+        """Where its relative paths begin."""
+        return self._source[2]
+
+    @property
+    def arrays(self) -> tuple[Array | None, Array | None]:
+        """Its heights and its map of adhesion, where they are arrays."""
+        return self._heights, self._adhesion_map
+
     def to_toml(self) -> str:
         """The text of the scene. Arrays and overrides are not in it."""
         return self._source[0]
@@ -181,18 +202,35 @@ class Scene:
             raise SceneError("the values given in place of the file's are not in its text")
         Path(path).write_text(self.to_toml(), encoding="utf-8")
 
-    def check(self) -> str:
-        """What ``tabor check`` says: the physics, how well the grid resolves it, memory and cost."""
-        if self.has_arrays or self.is_overridden:
-            raise SceneError("a check reads its scene from a file, which holds no arrays and no overrides")
-        if self.path_of_file is not None:
-            return call(["check", os.fspath(self.path_of_file)], quiet=True)
-        import tempfile
+    def check(self, *, verbose: bool = False) -> str:
+        """What ``tabor check`` says: the physics, how well the grid resolves it, memory and cost.
 
-        with tempfile.TemporaryDirectory() as folder:
-            path = Path(folder) / "scene.toml"
-            self.write(path)
-            return call(["check", os.fspath(path)], quiet=True)
+        Parameters
+        ----------
+        verbose : bool
+            Whether to name the fields and kernels of the solver too, and the effects that are off.
+        """
+        from .disk import scene_on_disk
+        from .program import call
+
+        with scene_on_disk(self) as (path, words):
+            return call(["check", path, *words, *(["--verbose"] if verbose else [])], quiet=True)
+
+    @classmethod
+    def new(cls, kind: str, folder: str | os.PathLike[str]) -> Scene:
+        """Writes a commented scene to begin with into a folder, as ``tabor new``, and reads it.
+
+        Parameters
+        ----------
+        kind : {"sphere", "rough", "afm", "pillars", "seal", "mems"}
+            What touches.
+        folder : path
+            Where ``scene.toml`` is written; one that is there already is kept, and refused.
+        """
+        from .program import call
+
+        call(["new", str(kind), os.fspath(folder)], quiet=True)
+        return cls.read(Path(folder) / "scene.toml")
 
     def surface(self) -> tuple[Array, tuple[float, float]]:
         """The heights of all parts, m, of shape (ny, nx), and the cell's (lx, ly), m."""
@@ -205,63 +243,51 @@ class Scene:
         return self.surface()[0]
 
     def path(
-        self, *, seconds: Iterable[float | str] | None = None, progress: Any = False, **control: Any
-    ) -> Iterator[Step]:
+        self,
+        *unnamed: NoReturn,
+        pressure: Loads | None = None,
+        force: Loads | None = None,
+        approach: Loads | None = None,
+        mean_gap: Loads | None = None,
+        seconds: Loads | None = None,
+        progress: Any = False,
+    ) -> LoadPath:
         """Solves loads one after another, each from the state of the one before, as the iterator is asked for them.
 
         Parameters
         ----------
         pressure, force, approach, mean_gap : iterable of numbers or texts
-            One of them: the loads, SI or with units. Without one, those of the scene, and with ``until = "apart"``
-            further ones behind them, in steps that become finer, until the surfaces are apart.
-        seconds : iterable, optional
-            The time that each load but the first takes, for effects that depend on time.
+            One of them: the loads, Pa, N, m and m, or with units. Without one, those of the scene, and with
+            ``until = "apart"`` further ones behind them, in steps that become finer, until the surfaces are apart.
+        seconds : number or text, or iterable of them, optional
+            The time that each load but the first takes, s, for effects that depend on time: one for all, or one a load.
         progress : bool or callable, optional
             A bar (by tqdm, if installed), or what is called with finished loads, iteration and residual.
 
-        Yields
-        ------
-        Step
-            A solved load. A path ends after one that did not converge, of which a `NotConvergedWarning` tells.
+        Returns
+        -------
+        iterator of Step
+            A path ends after a load that did not converge, of which a `NotConvergedWarning` tells.
         """
-        loads = self._loads(control, seconds)
-        periodic = self.resolved["grid"]["boundary"] == "periodic"
-        pulls = not control and self.resolved["loading"].get("until") is not None
-        return self._solved(loads, pulls, periodic, progress)
+        control = _control("path", unnamed, pressure=pressure, force=force, approach=approach, mean_gap=mean_gap)
+        pulls = control is None and self.resolved["loading"].get("until") is not None
+        return LoadPath(self, self._loads(control, seconds), pulls, progress)
 
-    def _solved(self, loads: Iterator[Load], pulls: bool, periodic: bool, progress: Any) -> Iterator[Step]:
-        solver = self._loaded.path(self.threads, pulls)
-        while True:
-            load = next(loads, None)
-            if load is None and not pulls:
-                return
-            with reporter(progress) as report:
-                solved = solver.pull(report) if load is None else solver.solve(*load, report)
-            if solved is None:
-                return
-            found, said = solved
-            _warn(said)
-            step = Step(found, periodic)
-            if not step.converged:
-                words = f"a load did not converge: residual {step.residual:.1e} after {step.iterations} iterations"
-                warnings.warn(words, NotConvergedWarning, stacklevel=3)
-            yield step
-            if not step.converged:
-                return
-
-    def _loads(self, control: dict[str, Any], seconds: Iterable[float | str] | None) -> Iterator[Load]:
-        unknown = [name for name in control if name not in CONTROLS]
-        if unknown or len(control) > 1:
-            raise TypeError(f"give one of {', '.join(CONTROLS)}, not {', '.join(control)}")
-        if not control:
+    def _loads(self, control: tuple[str, Any] | None, seconds: Any) -> Iterator[Load]:
+        if control is None:
+            if seconds is not None:
+                raise SceneError("seconds: the loads of a scene have their own durations; give pressure, force, approach or mean_gap too")
             return iter(self._loaded.loads())
-        [(name, values)] = control.items()
+        name, values = control
         word, dimension = CONTROLS[name]
-        if isinstance(values, str) or np.ndim(values) == 0:
-            values = [values]
+        values = [values] if _is_one(values) else values
         if seconds is None:
             return ((word, si(value, dimension, name), None) for value in values)
-        times: Iterator[float | str] = iter(seconds)
+        if _is_one(seconds):
+            seconds = itertools.repeat(si(seconds, "time", "seconds"))
+        elif hasattr(seconds, "__len__") and hasattr(values, "__len__") and len(seconds) != len(values) - 1:
+            raise SceneError(f"seconds: one for each load but the first is expected, {len(values) - 1} of them, not {len(seconds)}")
+        times = iter(seconds)
 
         def timed() -> Iterator[Load]:
             for index, value in enumerate(values):
@@ -273,22 +299,31 @@ class Scene:
 
         return timed()
 
-    def solve(self, *, progress: Any = False, **control: Any) -> Step:
+    def solve(
+        self,
+        *unnamed: NoReturn,
+        pressure: Quantity | None = None,
+        force: Quantity | None = None,
+        approach: Quantity | None = None,
+        mean_gap: Quantity | None = None,
+        progress: Any = False,
+    ) -> Step:
         """Solves one load from the undeformed surfaces: ``contact.solve(force="10 nN")``.
 
         Parameters
         ----------
         pressure, force, approach, mean_gap : number or text
-            One of them: the load, SI or with a unit.
+            One of them: the load, Pa, N, m and m, or with a unit.
         progress : bool or callable, optional
             As in `path`.
         """
-        if not control:
-            raise TypeError(f"give one of {', '.join(CONTROLS)}")
-        for value in control.values():
-            if not isinstance(value, str) and np.ndim(value) != 0:
-                raise TypeError("solve takes one load; path takes many")
-        return next(iter(self.path(progress=progress, **control)))
+        control = _control("solve", unnamed, pressure=pressure, force=force, approach=approach, mean_gap=mean_gap)
+        if control is None:
+            raise TypeError('solve takes one load by the name of its control: pressure, force, approach or mean_gap, as in solve(force="10 nN")')
+        name, value = control
+        if not _is_one(value):
+            raise TypeError(f"{name}: solve takes one load, not {type(value).__name__}; path takes many")
+        return LoadPath(self, self._loads(control, None), False, progress)._next(3)
 
     def run(
         self,
@@ -316,6 +351,9 @@ class Scene:
         progress : bool or callable, optional
             As in `path`.
         """
+        from .progress import reporter
+        from .runs import Run
+
         with reporter(progress) as report:
             trouble, said = _tabor.run(self._loaded, os.fspath(folder), resume, overwrite, images, self.threads, report)
         _warn([words for is_warning, words in said if is_warning])
@@ -354,6 +392,22 @@ def _restore(cls: type[Scene], source: Any, heights: Any, adhesion_map: Any, thr
     scene = cls.__new__(cls)
     scene._begin(source, heights, adhesion_map, threads, path)
     return scene
+
+
+def _is_one(values: Any) -> bool:
+    """Whether this is one load, not many."""
+    return isinstance(values, str) or not (hasattr(values, "__iter__") and np.ndim(values) != 0)
+
+
+def _control(call: str, unnamed: tuple[Any, ...], **loads: Any) -> tuple[str, Any] | None:
+    """The one of the loads that is given, with its name."""
+    if unnamed:
+        example = f'{call}(force="10 nN")' if call == "solve" else f'{call}(force=["10 nN", "20 nN"])'
+        raise TypeError(f"{call} takes loads by the name of their control: pressure, force, approach or mean_gap, as in {example}, not {unnamed[0]!r} alone")
+    given = [(name, values) for name, values in loads.items() if values is not None]
+    if len(given) > 1:
+        raise TypeError(f"give one of {', '.join(loads)}, not {' and '.join(name for name, _ in given)}")
+    return given[0] if given else None
 
 
 def _warn(said: Iterable[str]) -> None:

@@ -3,8 +3,7 @@
 from __future__ import annotations
 
 import os
-from collections.abc import Mapping
-from contextlib import AbstractContextManager
+from collections.abc import Mapping, Sequence
 from pathlib import Path
 from typing import Any
 
@@ -12,9 +11,12 @@ import numpy as np
 import numpy.typing as npt
 
 from . import tables
+from .disk import scene_on_disk, set_words
 from .errors import OutputError, SceneError
 from .program import call
-from .scene import Scene, plain, toml_text
+from .quantities import Quantity, si
+from .scene import Scene, toml_text
+
 
 class Study:
     """The folder of a study.
@@ -27,7 +29,8 @@ class Study:
 
     def __init__(self, folder: str | os.PathLike[str]) -> None:
         self.folder = Path(folder)
-        if not any(self.folder.glob("*.csv")):
+        # A share of a sweep has none before it is merged.
+        if not any(self.folder.glob("*.csv")) and not any(self.folder.glob("*.jsonl")):
             raise OutputError(f"{self.folder}: no folder of a study; it has no table")
 
     @property
@@ -56,45 +59,12 @@ class Study:
         return f"<Study {self.folder}: {', '.join(self.tables)}>"
 
 
-def _scene_file(scene: Any, folder: str) -> str:
-    """The path of a scene: its own, or a file written for the time of a call."""
-    if isinstance(scene, Scene):
-        if scene.has_arrays:
-            raise SceneError("a study reads its scene from a file: save the heights by numpy.save and name them as a surface of kind file")
-        if scene.is_overridden:
-            raise SceneError("give the file of the scene and the overrides to the study")
-        if scene.path_of_file is not None:
-            return os.fspath(scene.path_of_file)
-        path = Path(folder) / "scene.toml"
-        path.write_text(scene.to_toml(), encoding="utf-8")
-        return os.fspath(path)
-    if isinstance(scene, Mapping):
-        path = Path(folder) / "scene.toml"
-        path.write_text(toml_text(scene), encoding="utf-8")
-        return os.fspath(path)
-    return str(os.fspath(scene))
-
-
-def _folder() -> AbstractContextManager[str]:
-    """A folder for the time of a call."""
-    import tempfile
-
-    return tempfile.TemporaryDirectory()
-
-
-def _overrides(overrides: Mapping[str, Any] | None) -> list[str]:
-    words = []
-    for key, value in (overrides or {}).items():
-        words += ["--set", f"{key}={value if isinstance(value, str) else plain(value)}"]
-    return words
-
-
 def compare(scene: Any, folder: str | os.PathLike[str], *, overrides: Mapping[str, Any] | None = None, quiet: bool = True) -> Study:
     """The same surface through the full field, DMT, ICHA, Persson, GW-M and BAM, as ``tabor compare``.
 
     Parameters
     ----------
-    scene : path, Scene or mapping
+    scene : path, Scene, Contact or mapping
         The scene.
     folder : path
         Where ``compare.csv`` and ``compare.png`` are written.
@@ -103,8 +73,8 @@ def compare(scene: Any, folder: str | os.PathLike[str], *, overrides: Mapping[st
     quiet : bool
         Whether what the command line says is held back.
     """
-    with _folder() as written:
-        call(["compare", _scene_file(scene, written), "--out", os.fspath(folder), *_overrides(overrides)], quiet)
+    with scene_on_disk(scene) as (path, words):
+        call(["compare", path, "--out", os.fspath(folder), *words, *set_words(overrides)], quiet)
     return Study(folder)
 
 
@@ -112,7 +82,7 @@ def accuracy(
     scene: Any,
     folder: str | os.PathLike[str],
     *,
-    budget: str = "5 min",
+    budget: Quantity = "5 min",
     overrides: Mapping[str, Any] | None = None,
     quiet: bool = True,
 ) -> Study:
@@ -120,20 +90,20 @@ def accuracy(
 
     Parameters
     ----------
-    scene : path, Scene or mapping
+    scene : path, Scene, Contact or mapping
         The scene.
     folder : path
         Where ``accuracy.csv`` and ``accuracy.png`` are written.
-    budget : text
-        How long it may take, such as "90 s".
+    budget : number or text
+        How long it may take, s, or such as "5 min".
     overrides : mapping, optional
         Values in place of the scene's, by dotted keys.
     quiet : bool
         Whether what the command line says is held back.
     """
-    with _folder() as written:
-        words = ["accuracy", _scene_file(scene, written), "--out", os.fspath(folder), "--budget", budget]
-        call([*words, *_overrides(overrides)], quiet)
+    seconds = f"{si(budget, 'time', 'budget')!r} s"
+    with scene_on_disk(scene) as (path, words):
+        call(["accuracy", path, "--out", os.fspath(folder), "--budget", seconds, *words, *set_words(overrides)], quiet)
     return Study(folder)
 
 
@@ -142,6 +112,9 @@ def sweep(
     folder: str | os.PathLike[str],
     *,
     jobs: int | None = None,
+    threads: int | None = None,
+    share: tuple[int, int] | None = None,
+    merge: Sequence[str | os.PathLike[str]] | None = None,
     overrides: Mapping[str, Any] | None = None,
     quiet: bool = True,
 ) -> Study:
@@ -150,24 +123,45 @@ def sweep(
     Parameters
     ----------
     study : path or mapping
-        The study, a TOML file or its tables.
+        The study, a TOML file or its tables, whose ``scene`` is a file, a Scene, a Contact without arrays, or tables.
     folder : path
         Where ``sweep.csv``, ``runs.csv`` and ``means.csv`` are written.
     jobs : int, optional
-        Cases at a time.
+        Cases at a time; one a core unless told.
+    threads : int, optional
+        Threads of each case.
+    share : (i, n), optional
+        Solves share i of n alone, 1 to n, as one of n processes.
+    merge : list of folders, optional
+        Solves nothing, and joins what is finished in the folder and in these.
     overrides : mapping, optional
         Values in place of the scene's, by dotted keys.
     quiet : bool
         Whether what the command line says is held back.
     """
-    with _folder() as written:
+    import contextlib
+    import tempfile
+
+    with contextlib.ExitStack() as until_done:
+        words: list[str] = []
         if isinstance(study, Mapping):
-            path = Path(written) / "study.toml"
-            path.write_text(toml_text(study), encoding="utf-8")
+            tables = dict(study)
+            if "scene" in tables:
+                if isinstance(tables["scene"], Scene) and tables["scene"].has_arrays:
+                    words_of_files = "save the array by numpy.save and give the contact its path, by which the study is known again"
+                    raise SceneError(f"study: its scene holds an array; {words_of_files}")
+                scene, words = until_done.enter_context(scene_on_disk(tables["scene"]))
+                tables["scene"] = os.path.abspath(scene)
+            path = Path(until_done.enter_context(tempfile.TemporaryDirectory())) / "study.toml"
+            path.write_text(toml_text(tables), encoding="utf-8")
         else:
             path = Path(study)
-        words = ["sweep", os.fspath(path), "--out", os.fspath(folder)]
-        if jobs is not None:
-            words += ["--jobs", str(jobs)]
-        call([*words, *_overrides(overrides)], quiet)
+        for name, count in (("--jobs", jobs), ("--threads", threads)):
+            if count is not None:
+                words += [name, str(count)]
+        if share is not None:
+            words += ["--only", "/".join(str(number) for number in share)]
+        if merge is not None:
+            words += ["--merge", *(os.fspath(each) for each in merge)]
+        call(["sweep", os.fspath(path), "--out", os.fspath(folder), *words, *set_words(overrides)], quiet)
     return Study(folder)

@@ -11,7 +11,7 @@ import numpy as np
 import numpy.typing as npt
 
 from . import _tabor
-from .errors import SurfaceError
+from .errors import SurfaceError, TaborError
 from .quantities import Quantity, si
 from .scene import Scene, field
 
@@ -26,8 +26,8 @@ class _Part:
     #: Its word in a scene.
     kind: ClassVar[str]
 
-    def table(self, side: float) -> dict[str, Any]:
-        """The keys of ``[[surface]]`` on a cell whose shorter side is `side`, m."""
+    def table(self, side: float | None) -> dict[str, Any]:
+        """The keys of ``[[surface]]`` on a cell whose shorter side is `side`, m, if that is known."""
         return {"kind": self.kind, **vars(self)}
 
 
@@ -58,8 +58,8 @@ class SelfAffine(_Part):
 
     kind: ClassVar[str] = "self-affine"
 
-    def table(self, side: float) -> dict[str, Any]:
-        """The keys of ``[[surface]]`` on a cell whose shorter side is `side`, m."""
+    def table(self, side: float | None) -> dict[str, Any]:
+        """The keys of ``[[surface]]`` on a cell whose shorter side is `side`, m, if that is known."""
         longest = side if self.longest is None else self.longest
         rolloff = longest if self.rolloff is None else self.rolloff
         return {**super().table(side), "longest": longest, "rolloff": rolloff}
@@ -90,7 +90,7 @@ class Cone(_Part):
     Parameters
     ----------
     half_angle : number or text
-        Angle between axis and flank, in degrees as in a scene, or with a unit.
+        Angle between axis and flank, rad, or with a unit such as "70 deg".
     centre : (x, y), optional
         Its apex, m; the middle of the cell unless told.
     """
@@ -99,6 +99,13 @@ class Cone(_Part):
     centre: Sequence[Quantity] | None = None
 
     kind: ClassVar[str] = "cone"
+
+    def table(self, side: float | None) -> dict[str, Any]:
+        """The keys of ``[[surface]]``, in which numbers of an angle are degrees."""
+        angle = si(self.half_angle, "angle", "half_angle", SurfaceError)
+        if not 0 < angle < np.pi / 2:
+            raise SurfaceError(f'half_angle: {self.half_angle!r} is not between 0 and pi/2 rad; a text has its unit, such as "70 deg"')
+        return {**super().table(side), "half_angle": f"{angle!r} rad"}
 
 
 @dataclass(frozen=True)
@@ -142,7 +149,7 @@ class HeightFile:
         self.path = os.fspath(path)
         self.keys = keys
 
-    def table(self, side: float) -> dict[str, Any]:
+    def table(self, side: float | None) -> dict[str, Any]:
         """The keys of ``[[surface]]``."""
         return {"kind": "file", "path": os.path.abspath(self.path), **self.keys}
 
@@ -162,25 +169,48 @@ class Surface(NamedTuple):
     size: tuple[float, float]
 
 
-def sides(size: Any, argument: str = "size") -> list[float]:
+def sides(size: Any, argument: str = "size", error: type[TaborError] = SurfaceError) -> list[float]:
     """The sides (lx, ly), m, of a size."""
-    each = list(size) if isinstance(size, (list, tuple, np.ndarray)) else [size, size]
+    each = list(size) if isinstance(size, (list, tuple, np.ndarray)) and np.ndim(size) else [size, size]
     if len(each) != 2:
-        raise SurfaceError(f"{argument}: one length or two are expected, not {len(each)}")
-    lengths = [si(side, "length", argument, SurfaceError) for side in each]
+        raise error(f"{argument}: one length or two are expected, not {len(each)}")
+    lengths = [si(side, "length", argument, error) for side in each]
     if min(lengths) <= 0:
-        raise SurfaceError(f"{argument}: must be more than zero")
+        raise error(f"{argument}: must be more than zero")
     return lengths
 
 
-def _scene(parts: Any, grid: dict[str, Any], side: float, threads: int | None) -> Scene:
+def counts(points: Any) -> list[int]:
+    """The points (nx, ny) of a grid, of one number those of both sides."""
+    each = list(points) if isinstance(points, (list, tuple, np.ndarray)) and np.ndim(points) else [points, points]
+    if len(each) != 2 or not all(isinstance(side, (int, np.integer)) and not isinstance(side, bool) and side > 0 for side in each):
+        raise SurfaceError(f"points: one count or two (nx, ny) are expected, not {points!r}")
+    return [int(side) for side in each]
+
+
+def is_part(parts: Any) -> bool:
+    """Whether this is a part of a surface, or a list of parts."""
+    if isinstance(parts, (list, tuple)) and parts:
+        return all(is_part(part) and not isinstance(part, (list, tuple)) for part in parts)
+    return isinstance(parts, (_Part, HeightFile, Mapping))
+
+
+def tables_of(parts: Any, side: float | None) -> list[dict[str, Any]]:
+    """The tables ``[[surface]]`` of a part or a list of parts."""
     each = parts if isinstance(parts, (list, tuple)) else [parts]
+    for part in each:
+        if not isinstance(part, (_Part, HeightFile, Mapping)):
+            raise SurfaceError(f"parts: parts of a surface are expected, such as Sphere(\"1 um\"), not {part!r}")
+    return [dict(part) if isinstance(part, Mapping) else part.table(side) for part in each]
+
+
+def _scene(parts: Any, grid: dict[str, Any], side: float | None, threads: int | None) -> Scene:
     # What is no surface is not read: the modulus and the load stand for any.
     return Scene(
         {
             "grid": grid,
             "solid": {"contact_modulus": 1.0},
-            "surface": [part if isinstance(part, Mapping) else part.table(side) for part in each],
+            "surface": tables_of(parts, side),
             "loading": {"control": "force" if grid.get("boundary") == "free" else "pressure", "path": [0.0]},
         },
         threads=threads,
@@ -189,7 +219,7 @@ def _scene(parts: Any, grid: dict[str, Any], side: float, threads: int | None) -
 
 def heights(
     parts: Part | Sequence[Part],
-    points: tuple[int, int],
+    points: int | tuple[int, int],
     size: Size,
     *,
     boundary: str = "periodic",
@@ -201,8 +231,8 @@ def heights(
     ----------
     parts : SelfAffine, Sphere, Cone, Wavy, Flat, HeightFile or mapping, or a list of them
         A mapping has the keys of ``[[surface]]``.
-    points : (nx, ny)
-        Points along x and y.
+    points : int or (nx, ny)
+        Points along x and y, or of each side.
     size : number or text, or two of them
         Lengths of the cell, m.
     boundary : {"periodic", "free"}
@@ -216,7 +246,7 @@ def heights(
     (32, 64)
     """
     lengths = sides(size)
-    return _scene(parts, {"points": list(points), "size": lengths, "boundary": boundary}, min(lengths), threads).heights()
+    return _scene(parts, {"points": counts(points), "size": lengths, "boundary": boundary}, min(lengths), threads).heights()
 
 
 def read_heights(path: str | os.PathLike[str], size: Size | None = None, **keys: Any) -> Surface:
@@ -232,12 +262,12 @@ def read_heights(path: str | os.PathLike[str], size: Size | None = None, **keys:
         As in `HeightFile`.
     """
     grid = {} if size is None else {"size": sides(size)}
-    found, lengths = _scene(HeightFile(path, **keys), grid, 0.0, None).surface()
+    found, lengths = _scene(HeightFile(path, **keys), grid, None, None).surface()
     return Surface(found, (lengths[0], lengths[1]))
 
 
 def self_affine(
-    points: tuple[int, int],
+    points: int | tuple[int, int],
     size: Size,
     *,
     hurst: float = 0.8,
@@ -252,8 +282,8 @@ def self_affine(
 
     Parameters
     ----------
-    points : (nx, ny)
-        Points along x and y.
+    points : int or (nx, ny)
+        Points along x and y, or of each side.
     size : number or text, or two of them
         Lengths of the cell, m.
     hurst : float
@@ -343,6 +373,38 @@ def scale_dependence(heights: Any, size: Size | None = None, *, boundary: str = 
     """
     values, lengths = _map(heights, size)
     return _table(("distance", "slope", "curvature"), _tabor.scales(values, lengths, _periodic(boundary)))
+
+
+def self_affine_like(heights: Any, size: Size | None = None, *, boundary: str = "periodic", seed: int = 1) -> SelfAffine:
+    """The self-affine roughness whose spectrum is like that of a height map, as ``tabor surface`` fits it.
+
+    Parameters
+    ----------
+    heights : array of shape (ny, nx), or a Surface
+        m.
+    size : number or text, or two of them, optional
+        Lengths of the cell, m; a Surface brings its own.
+    boundary : {"periodic", "free"}
+        Whether the map repeats; if not, its edges are windowed.
+    seed : int
+        Seed of the phases.
+
+    Returns
+    -------
+    SelfAffine
+        With the rms height of the map; ``dataclasses.replace`` changes a value.
+
+    Examples
+    --------
+    >>> import tabor
+    >>> rough = tabor.self_affine(128, "4 um", hurst=0.7, rms_height="5 nm", rolloff="1 um", shortest="0.2 um")
+    >>> like = tabor.self_affine_like(rough, "4 um")
+    >>> round(like.hurst, 1), round(like.rms_height * 1e9, 3)
+    (0.7, 5.0)
+    """
+    values, lengths = _map(heights, size)
+    found = _tabor.self_affine_like(values, lengths, _periodic(boundary))
+    return SelfAffine(found["hurst"], None, found["rms_height"], found["longest"], found["rolloff"], found["shortest"], seed)
 
 
 def _periodic(boundary: str) -> bool:

@@ -9,8 +9,8 @@ use tabor::theory::icha::{Icha, MergeRule};
 
 use super::{Results, Words};
 use crate::errors;
-use crate::surface::Map;
-use crate::waiting::{Talk, wait};
+use crate::surface::{Map, apart};
+use crate::waiting::Talk;
 
 /// A load on the asperities.
 struct Load {
@@ -47,7 +47,7 @@ pub fn icha<'py>(
     let loads: Vec<Load> = loads.collect();
     let talk = Arc::new(Talk::default());
     let heard = Arc::clone(&talk);
-    let found = wait(py, &talk, None, move || -> Result<_, TheoryError> {
+    let found = apart(py, &talk, move || -> Result<_, TheoryError> {
         let surface = Icha::new(map.grid, &map.heights)?;
         let mut loading = surface.loading(MergeRule::Volume);
         // Contacts that have merged do not part, so the loads rise.

@@ -4,7 +4,6 @@ use std::cell::RefCell;
 use std::f64::consts::{FRAC_PI_2, PI};
 
 use tabor::theory::bam::BearingArea;
-use tabor::theory::capillary::Meniscus;
 use tabor::theory::cohesive_wave::{CohesiveWave, WaveState};
 use tabor::theory::cone_punch::{Cone, punch_force};
 use tabor::theory::gw::Summits;
@@ -13,16 +12,15 @@ use tabor::theory::pastewka_robbins::{Edge, stickiness_ratio};
 use tabor::theory::persson::Persson;
 use tabor::theory::persson_gap::{Adhesion, RoughContact};
 use tabor::theory::tabor_map::{self, Regime};
-use tabor::theory::viscoelastic::Solid;
 use tabor::theory::{
-    Spectrum, Sphere, TheoryError, bradley, conductance, derjaguin, dmt, friction, fuller_tabor,
-    gw_m, hertz, jkr, layer, love, rate, westergaard,
+    Spectrum, Sphere, TheoryError, bradley, derjaguin, dmt, fuller_tabor, gw_m, hertz, jkr, layer,
+    love, westergaard,
 };
 
-use super::Evaluate;
 use super::lennard_jones;
+use super::{Evaluate, Words};
 
-/// The functions by name, with the number of their results.
+/// The functions of bodies and surfaces by name, with the number of their results.
 pub const FUNCTIONS: &[(&str, usize, Evaluate)] = &[
     // Spheres without adhesion.
     ("hertz.contact_radius", 1, |_, x| {
@@ -53,6 +51,9 @@ pub const FUNCTIONS: &[(&str, usize, Evaluate)] = &[
     ("cone.approach", 1, |_, x| Ok(vec![cone(x)?.approach(x[2])])),
     ("cone.contact_radius", 1, |_, x| {
         Ok(vec![cone(x)?.contact_radius(x[2])?])
+    }),
+    ("cone.mean_pressure", 1, |_, x| {
+        Ok(vec![cone(x)?.mean_pressure()])
     }),
     ("cone.pressure", 1, |_, x| {
         Ok(vec![cone(x)?.pressure(x[2], x[3])])
@@ -125,6 +126,10 @@ pub const FUNCTIONS: &[(&str, usize, Evaluate)] = &[
         let (theory, scales) = maugis(x)?;
         let states = theory.states_at_approach(x[4] / scales.approach)?;
         stable(&states, &scales)
+    }),
+    ("maugis_dugdale.jump_in", 4, |_, x| {
+        let (theory, scales) = maugis(x)?;
+        stable(&[theory.jump_in()?], &scales)
     }),
     ("maugis_dugdale.pull_off", 4, |_, x| {
         let (theory, scales) = maugis(x)?;
@@ -278,6 +283,9 @@ pub const FUNCTIONS: &[(&str, usize, Evaluate)] = &[
         Ok(vec![1.5 * tension(&summits) * least])
     }),
     // Rough surfaces by their spectrum.
+    ("spectrum.density", 1, |_, x| {
+        Ok(vec![self_affine(x)?.density(x[5])])
+    }),
     ("spectrum.statistics", 5, |_, x| {
         let spectrum = self_affine(x)?;
         Ok(vec![
@@ -301,13 +309,23 @@ pub const FUNCTIONS: &[(&str, usize, Evaluate)] = &[
             Ok(vec![rough.mean_gap(x[6])?])
         })
     }),
+    ("persson.attraction", 1, |words, x| {
+        let (spectrum, adhesion) = (self_affine(x)?, attraction(words, x));
+        with_persson(x[9], |theory| {
+            let rough = RoughContact::new(theory.clone(), spectrum, x[5])?;
+            Ok(vec![rough.attraction(&adhesion, x[8])?])
+        })
+    }),
+    ("persson.repulsive_pressure", 1, |words, x| {
+        let (spectrum, adhesion) = (self_affine(x)?, attraction(words, x));
+        with_persson(x[9], |theory| {
+            let rough = RoughContact::new(theory.clone(), spectrum, x[5])?;
+            let turn = rough.pull_off(&adhesion)?;
+            Ok(vec![rough.repulsive_pressure(&adhesion, &turn, x[8])?])
+        })
+    }),
     ("persson.pull_off", 2, |words, x| {
-        let spectrum = self_affine(x)?;
-        let adhesion = Adhesion {
-            law: words.law,
-            work_of_adhesion: x[6],
-            range: x[7],
-        };
+        let (spectrum, adhesion) = (self_affine(x)?, attraction(words, x));
         with_persson(x[8], |theory| {
             let found = RoughContact::new(theory.clone(), spectrum, x[5])?.pull_off(&adhesion)?;
             Ok(vec![found.tension, found.pressure])
@@ -316,6 +334,14 @@ pub const FUNCTIONS: &[(&str, usize, Evaluate)] = &[
     ("bam.mean_pressure", 1, |_, x| {
         let (model, tension) = bearing_area(x)?;
         Ok(vec![tension * model.pressure(x[5] / x[0])])
+    }),
+    ("bam.mean_gap", 1, |_, x| {
+        let (model, tension) = bearing_area(x)?;
+        Ok(vec![x[0] * model.mean_gap(x[5] / tension)?])
+    }),
+    ("bam.attraction", 1, |_, x| {
+        let (model, tension) = bearing_area(x)?;
+        Ok(vec![tension * model.attraction(x[5] / x[0])])
     }),
     ("bam.pull_off", 2, |_, x| {
         let (model, tension) = bearing_area(x)?;
@@ -332,41 +358,6 @@ pub const FUNCTIONS: &[(&str, usize, Evaluate)] = &[
             area_coefficient: x[5],
         };
         Ok(vec![stickiness_ratio(&edge)?])
-    }),
-    // Other effects.
-    ("rate.power_law", 1, |_, x| {
-        Ok(vec![rate::power_law(x[0], x[1], x[2], x[3])?])
-    }),
-    ("rate.logarithmic_law", 1, |_, x| {
-        Ok(vec![rate::logarithmic_law(x[0], x[1], x[2], x[3])?])
-    }),
-    ("viscoelastic.relaxation", 1, |_, x| {
-        Ok(vec![Solid::new(x[0], x[1], x[2])?.relaxation(x[3])])
-    }),
-    ("viscoelastic.creep", 1, |_, x| {
-        Ok(vec![Solid::new(x[0], x[1], x[2])?.creep(x[3])])
-    }),
-    ("viscoelastic.contact_radius", 1, |_, x| {
-        let solid = Solid::new(x[0], x[1], x[2])?;
-        Ok(vec![solid.sphere_contact_radius(x[3], x[4], x[5])?])
-    }),
-    ("friction.jkr_force", 1, |_, x| {
-        Ok(vec![friction::jkr_force(&sphere(x)?, x[3], x[4])?])
-    }),
-    ("conductance.from_stiffness", 1, |_, x| {
-        Ok(vec![conductance::from_stiffness(x[0], x[1], x[2])?])
-    }),
-    ("conductance.circle", 1, |_, x| {
-        Ok(vec![conductance::circle(x[0], x[1])?])
-    }),
-    ("capillary.meniscus", 4, |_, x| {
-        let meniscus = Meniscus::new(x[0], x[1], x[2], x[3], x[4])?;
-        Ok(vec![
-            meniscus.work_of_adhesion(),
-            meniscus.range(),
-            meniscus.peak_tension(),
-            meniscus.kelvin_radius(),
-        ])
     }),
 ];
 
@@ -416,7 +407,7 @@ fn hard(x: &[f64]) -> Result<Sphere, TheoryError> {
 }
 
 /// A sphere of (radius, contact modulus, work of adhesion).
-fn sphere(x: &[f64]) -> Result<Sphere, TheoryError> {
+pub(super) fn sphere(x: &[f64]) -> Result<Sphere, TheoryError> {
     Sphere::new(x[0], x[1], x[2])
 }
 
@@ -426,7 +417,7 @@ fn cone(x: &[f64]) -> Result<Cone, TheoryError> {
 }
 
 /// Maugis' theory of (radius, contact modulus, work of adhesion, peak tension), and its units.
-fn maugis(x: &[f64]) -> Result<(MaugisDugdale, tabor_map::MaugisScales), TheoryError> {
+pub(super) fn maugis(x: &[f64]) -> Result<(MaugisDugdale, tabor_map::MaugisScales), TheoryError> {
     let sphere = sphere(x)?;
     let theory = MaugisDugdale::new(tabor_map::maugis_parameter(&sphere, x[3])?)?;
     Ok((theory, sphere.maugis_scales()?))
@@ -465,6 +456,15 @@ fn tension(summits: &Summits) -> f64 {
 fn self_affine(x: &[f64]) -> Result<Spectrum, TheoryError> {
     let wavenumbers = [x[1], x[2], x[3]].map(|wavelength| 2.0 * PI / wavelength);
     Spectrum::new(wavenumbers, x[0], x[4])
+}
+
+/// The attraction of (..., work of adhesion, range) behind spectrum and modulus.
+fn attraction(words: &Words, x: &[f64]) -> Adhesion {
+    Adhesion {
+        law: words.law,
+        work_of_adhesion: x[6],
+        range: x[7],
+    }
 }
 
 /// The bearing-area model of (rms height, roll-off wavelength, contact modulus, work of adhesion, range), and its

@@ -1,6 +1,7 @@
 //! Theories over arrays: each function of `tabor::theory` once an element, in one loop here.
 
 pub mod asperities;
+mod effects;
 mod functions;
 mod lennard_jones;
 
@@ -14,7 +15,6 @@ use tabor::theory::{Law, TheoryError};
 
 use crate::errors;
 use crate::waiting::{Talk, wait};
-use functions::FUNCTIONS;
 
 /// Values of one element after those of its words.
 type Evaluate = fn(&Words, &[f64]) -> Result<Vec<f64>, TheoryError>;
@@ -79,7 +79,8 @@ pub fn theory<'py>(
     words: Vec<(String, String)>,
     columns: Vec<PyReadonlyArray1<'py, f64>>,
 ) -> PyResult<Results<'py>> {
-    let known = FUNCTIONS.iter().find(|(known, ..)| *known == name);
+    let mut functions = functions::FUNCTIONS.iter().chain(effects::FUNCTIONS);
+    let known = functions.find(|(known, ..)| *known == name);
     let Some(&(_, results, evaluate)) = known else {
         return Err(errors::failed(py, &format!("no theory is called {name}")));
     };

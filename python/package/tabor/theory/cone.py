@@ -66,3 +66,19 @@ def pressure(half_angle: Quantities, contact_modulus: Quantities, contact_radius
         Distance from the axis, m.
     """
     return one("cone.pressure", locals())
+
+
+def mean_pressure(
+    half_angle: Quantities,
+    contact_modulus: Quantities,
+) -> Floats:
+    """Mean pressure of the contact, Pa, at every load.
+
+    Parameters
+    ----------
+    half_angle : number, text or array
+        Angle between axis and flank, rad.
+    contact_modulus : number, text or array
+        E* of the pair, Pa.
+    """
+    return one("cone.mean_pressure", locals())

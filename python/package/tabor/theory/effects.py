@@ -210,3 +210,109 @@ def meniscus(
     """
     work_of_adhesion, range, peak_tension, kelvin_radius = several("capillary.meniscus", locals())
     return work_of_adhesion, range, peak_tension, kelvin_radius
+
+
+def pull_off_at_speed(
+    radius: Quantities,
+    contact_modulus: Quantities,
+    work_of_adhesion: Quantities,
+    speed: Quantities,
+    reference_speed: Quantities,
+    exponent: Quantities,
+) -> Floats:
+    """Force at pull-off of a JKR sphere that is pulled from zero load at a speed, N, negative: `power_law` at its edge.
+
+    Parameters
+    ----------
+    radius : number, text or array
+        Radius of the sphere, m.
+    contact_modulus : number, text or array
+        E* of the pair, Pa.
+    work_of_adhesion : number, text or array
+        Work of adhesion, J/m^2.
+    speed : number, text or array
+        Speed at which the sphere is pulled, m/s.
+    reference_speed : number, text or array
+        Speed that the law refers to, m/s.
+    exponent : number, text or array
+        Power of the speed, 0.1 to 2.
+    """
+    return one("rate.pull_off", locals())
+
+
+def creeping_pressure(
+    relaxed_modulus: Quantities,
+    branch_modulus: Quantities,
+    relaxation_time: Quantities,
+    radius: Quantities,
+    force: Quantities,
+    time: Quantities,
+    r: Quantities,
+) -> Floats:
+    """Pressure at a distance from the axis of a sphere at a time after a step to a force, Pa. Lee & Radok 1960.
+
+    Parameters
+    ----------
+    relaxed_modulus : number, text or array
+        Modulus after a long time, Pa.
+    branch_modulus : number, text or array
+        Modulus that relaxes, Pa.
+    relaxation_time : number, text or array
+        Relaxation time, s.
+    radius : number, text or array
+        Radius of the sphere, m.
+    force : number, text or array
+        Force, N, positive in compression.
+    time : number, text or array
+        Time since the step, s.
+    r : number, text or array
+        Distance from the axis, m.
+    """
+    return one("viscoelastic.pressure", locals())
+
+
+def combined_conductivity(
+    conductivity: Quantities,
+    counter_conductivity: Quantities,
+) -> Floats:
+    """Conductivity of a pair, 2 k1 k2/(k1 + k2), W/(m K), or S/m.
+
+    Parameters
+    ----------
+    conductivity : number, text or array
+        Conductivity of the solid, W/(m K), or S/m.
+    counter_conductivity : number, text or array
+        Conductivity of the counter-face, in the same unit.
+    """
+    return one("conductance.combined", locals())
+
+
+def meniscus_force(
+    surface_tension: Quantities,
+    molar_volume: Quantities,
+    temperature: Quantities,
+    relative_humidity: Quantities,
+    contact_angle: Quantities,
+    radius: Quantities,
+    gap: Quantities,
+) -> Floats:
+    """Force of a liquid bridge on a rigid sphere, N, negative.
+
+    Parameters
+    ----------
+    surface_tension : number, text or array
+        Surface tension of the liquid, N/m.
+    molar_volume : number, text or array
+        Molar volume of the liquid, m^3/mol.
+    temperature : number, text or array
+        Temperature, K.
+    relative_humidity : number, text or array
+        Relative humidity, 0 to 1.
+    contact_angle : number, text or array
+        Contact angle, rad.
+    radius : number, text or array
+        Radius of the sphere, m.
+    gap : number, text or array
+        Least gap, m.
+    """
+    return one("capillary.rigid_force", locals())

@@ -119,3 +119,25 @@ def pressure(
         Distance from the axis, m.
     """
     return one("maugis_dugdale.pressure", locals())
+
+
+def jump_in(
+    radius: Quantities,
+    contact_modulus: Quantities,
+    work_of_adhesion: Quantities,
+    peak_tension: Quantities,
+) -> State:
+    """The state that an approaching sphere jumps to as it first feels the attraction, at an approach of minus the range.
+
+    Parameters
+    ----------
+    radius : number, text or array
+        Radius of the sphere, m.
+    contact_modulus : number, text or array
+        E* of the pair, Pa.
+    work_of_adhesion : number, text or array
+        Work of adhesion, J/m^2.
+    peak_tension : number, text or array
+        Largest tension, Pa.
+    """
+    return State(*several("maugis_dugdale.jump_in", locals()))

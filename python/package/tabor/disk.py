@@ -1,0 +1,73 @@
+"""Scenes as files for the time of a call: the command line reads no arrays."""
+
+from __future__ import annotations
+
+import json
+import os
+from collections.abc import Iterator, Mapping
+from contextlib import contextmanager
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+
+from . import _tabor
+from .scene import Scene, toml_text
+
+
+def set_words(overrides: Mapping[str, Any] | None) -> list[str]:
+    """Values in place of a scene's as words of the command line."""
+    words = []
+    for key, value in (overrides or {}).items():
+        words += ["--set", f"{key}={value if isinstance(value, str) else toml_value(value)}"]
+    return words
+
+
+def toml_value(value: Any) -> str:
+    """A value as TOML writes it."""
+    return toml_text({"value": value}).partition("=")[2].strip()
+
+
+@contextmanager
+def scene_on_disk(scene: Any) -> Iterator[tuple[str, list[str]]]:
+    """The path of the file of a scene, and words for the values in place of the file's.
+
+    A scene of arrays or of tables is written into a folder that goes with the call.
+    """
+    if isinstance(scene, (str, os.PathLike)):
+        yield str(os.fspath(scene)), []
+        return
+    scene = Scene(scene) if isinstance(scene, Mapping) else scene
+    if not isinstance(scene, Scene):
+        raise TypeError(f"scene: a file, a Scene, a Contact or tables are expected, not {type(scene).__name__}")
+    words = set_words(dict(scene.overrides))
+    if scene.path_of_file is not None and not scene.has_arrays:
+        yield os.fspath(scene.path_of_file), words
+        return
+    import tempfile
+
+    with tempfile.TemporaryDirectory() as folder:
+        path = Path(folder) / "scene.toml"
+        path.write_text(toml_text(_with_files(scene, folder)), encoding="utf-8")
+        yield os.fspath(path), words
+
+
+def _with_files(scene: Scene, folder: str) -> dict[str, Any]:
+    """The tables of a scene, its arrays saved in `folder`, its paths from the root."""
+    tables: dict[str, Any] = json.loads(_tabor.json_from_toml(scene.to_toml()))
+    parts = tables["surface"]
+    for part in parts:
+        if "path" in part:
+            part["path"] = os.path.abspath(os.path.join(scene.folder, part["path"]))
+    adhesion = tables.get("adhesion") or {}
+    if isinstance(adhesion.get("map"), str):
+        adhesion["map"] = os.path.abspath(os.path.join(scene.folder, adhesion["map"]))
+    heights, factors = scene.arrays
+    if heights is not None:
+        np.save(Path(folder) / "heights.npy", heights)
+        part = {"kind": "file", "path": os.path.join(folder, "heights.npy"), "unit": "m"}
+        tables["surface"] = [part] if parts == [{"kind": "flat"}] else [part, *parts]
+    if factors is not None:
+        np.save(Path(folder) / "factors.npy", factors)
+        adhesion["map"] = os.path.join(folder, "factors.npy")
+    return tables

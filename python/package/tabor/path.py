@@ -1,0 +1,77 @@
+"""Loads that are solved one after another."""
+
+from __future__ import annotations
+
+import threading
+import warnings
+from collections.abc import Iterator
+from typing import TYPE_CHECKING, Any
+
+from .errors import NotConvergedWarning, TaborWarning
+from .progress import reporter
+from .step import Step
+
+if TYPE_CHECKING:
+    from .scene import Scene
+
+#: A load: the word of its control, its value, SI, and the seconds that it takes.
+Load = tuple[str, float, "float | None"]
+
+
+class Path:
+    """Solves a load each time it is asked for the next `Step`: the iterator that `Contact.path` gives.
+
+    It ends after the last load, or after one that did not converge. It does not pickle; its contact and its steps do.
+    """
+
+    def __init__(self, scene: Scene, loads: Iterator[Load], until_apart: bool, progress: Any) -> None:
+        self._of = type(scene).__name__
+        self._solver = scene._loaded.path(scene.threads, until_apart)
+        self._loads = loads
+        self._pulls = until_apart
+        self._progress = progress
+        self._periodic = scene.resolved["grid"]["boundary"] == "periodic"
+        self._busy = threading.Lock()
+        self._ended = False
+        self._solved = 0
+
+    def __iter__(self) -> Path:
+        return self
+
+    def __next__(self) -> Step:
+        return self._next(3)
+
+    def _next(self, level: int) -> Step:
+        """The next step; warnings are told of the frame `level` above."""
+        if not self._busy.acquire(blocking=False):
+            raise RuntimeError("this path solves a load already, for another thread or for this progress; begin another path")
+        try:
+            if self._ended:
+                raise StopIteration
+            load = next(self._loads, None)
+            if load is None and not self._pulls:
+                self._ended = True
+                raise StopIteration
+            with reporter(self._progress) as report:
+                solved = self._solver.pull(report) if load is None else self._solver.solve(*load, report)
+            if solved is None:
+                self._ended = True
+                raise StopIteration
+            found, said = solved
+            step = Step(found, self._periodic)
+            self._solved += 1
+            self._ended = not step.converged
+        finally:
+            self._busy.release()
+        for words in said:
+            warnings.warn(words, TaborWarning, stacklevel=level)
+        if not step.converged:
+            words = f"a load did not converge: residual {step.residual:.1e} after {step.iterations} iterations"
+            warnings.warn(words, NotConvergedWarning, stacklevel=level)
+        return step
+
+    def __reduce__(self) -> Any:
+        raise TypeError("a path that solves does not pickle; pickle its contact or scene, or the steps that it gave: list(path)")
+
+    def __repr__(self) -> str:
+        return f"<Path of a {self._of}: {self._solved} loads solved{', ended' if self._ended else ''}>"

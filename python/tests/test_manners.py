@@ -1,0 +1,240 @@
+"""What a user of NumPy expects: names of arguments in errors, pickles, forks, Ctrl-C, a light import."""
+
+import copy
+import multiprocessing
+import pickle
+import signal
+import subprocess
+import sys
+import threading
+import time
+
+import numpy as np
+import pytest
+
+import tabor
+
+ROUGH = tabor.self_affine(32, "4 um", rms_slope=0.1, shortest="1 um")
+
+
+def contact(**more):
+    return tabor.Contact(ROUGH, "4 um", contact_modulus="100 MPa", **more)
+
+
+@pytest.mark.parametrize(
+    ("call", "kind", "words"),
+    [
+        (lambda: contact().solve("10 nN"), TypeError, r'solve takes loads by the name .*solve\(force="10 nN"\), not \'10 nN\''),
+        (lambda: contact().path([1e6]), TypeError, r"path takes loads by the name .* as in path\(force="),
+        (lambda: contact().solve(), TypeError, "pressure, force, approach or mean_gap"),
+        (lambda: contact().solve(pressure=1e6, force=1.0), TypeError, "give one of .* not pressure and force"),
+        (lambda: contact().solve(pressure=[1e6]), TypeError, "pressure: solve takes one load"),
+        (lambda: contact().solve(preasure=1e6), TypeError, "preasure"),
+        (lambda: contact().solve(pressure="10 nN"), ValueError, "pressure: "),
+        (lambda: contact().solve(pressure=1j), ValueError, "pressure: "),
+        (lambda: contact().solve(pressure=np.nan), ValueError, "pressure: nan"),
+        (lambda: list(contact().path(pressure=[1e6, "much"])), ValueError, "pressure: "),
+        (lambda: contact().path(pressure=[1e6, 2e6], seconds=[1, 1]), ValueError, "seconds: one for each load but the first is expected, 1 of them, not 2"),
+        (lambda: contact().path(seconds=1), ValueError, "seconds: the loads of a scene"),
+        (lambda: list(contact().path(pressure=[1e6, 2e6], seconds="soon")), ValueError, "seconds: "),
+        (lambda: contact(threads=0), ValueError, "threads: "),
+        (lambda: contact(adhesion_map=np.ones((32, 32))), ValueError, "adhesion_map: it needs a law"),
+        (lambda: contact(treatment="dmt"), ValueError, "treatment: it needs a law"),
+        (lambda: contact(rate={"exponent": 1}), ValueError, "rate: it needs a law"),
+        (lambda: contact(hardnes="1 GPa"), ValueError, "hardnes"),
+        (lambda: contact(points=32), ValueError, "points: an array has its own"),
+        (lambda: tabor.Contact(tabor.Sphere("1 um"), "4 um", contact_modulus=1e8), ValueError, "points"),
+        (lambda: tabor.Contact(tabor.Sphere("1 um"), "4 um", points=(4, 4, 4), contact_modulus=1e8), ValueError, "points: "),
+        (lambda: tabor.Contact(tabor.Sphere("1 um"), points=8, contact_modulus=1e8), ValueError, "size"),
+        (lambda: tabor.Contact("none.spm", contact_modulus=1e8).solve(pressure=1e6), ValueError, "none.spm"),
+        (lambda: tabor.Contact(ROUGH, contact_modulus=1e8), ValueError, "size: "),
+        (lambda: tabor.Contact(ROUGH, "4 um", contact_modulus=1e8, law=tabor.Exponential("20 mJ/m^2", range="1 Pa")), ValueError, "range"),
+        (lambda: tabor.heights(tabor.Cone(70), 8, "1 um"), ValueError, 'half_angle: 70 is not between 0 and pi/2 rad; .*"70 deg"'),
+        (lambda: tabor.heights("sphere", 8, "1 um"), ValueError, "parts: "),
+        (lambda: tabor.heights(tabor.Flat(), "8", "1 um"), ValueError, "points: "),
+        (lambda: tabor.accuracy(contact(), "folder", budget="1 m"), ValueError, "budget: "),
+    ],
+)
+def test_errors_name_the_argument(call, kind, words):
+    with pytest.raises(kind, match=words):
+        call()
+
+
+def test_one_time_for_all_loads():
+    relaxing = contact(relaxation=[{"modulus": "50 MPa", "time": "1 s"}])
+    once = [step.time for step in relaxing.path(pressure=[1e6, 2e6, 3e6], seconds="2 s")]
+    assert once == [step.time for step in relaxing.path(pressure=np.array([1e6, 2e6, 3e6]), seconds=[2, 2.0])] == [0.0, 2.0, 4.0]
+
+
+# Which of its images is read, and that the map is tilted.
+@pytest.mark.filterwarnings("ignore::tabor.TaborWarning")
+def test_files_bring_their_size(tmp_path):
+    from pathlib import Path
+
+    path = Path(__file__).parents[2] / "tests" / "files" / "bruker_5.spm"
+    surface = tabor.read_heights(path)
+    for rough in (tabor.Contact(str(path), contact_modulus="1 GPa"), tabor.Contact(path, contact_modulus="1 GPa")):
+        heights, size = rough.surface()
+        np.testing.assert_array_equal(heights, surface.heights)
+        assert tuple(size) == surface.size
+        # A contact of a file is a scene without arrays, which the command line reads.
+        rough.write(tmp_path / "scene.toml")
+        assert f"{heights.shape[1]} x {heights.shape[0]} points" in rough.check()
+    np.save(tmp_path / "map.npy", ROUGH)
+    with pytest.raises(ValueError, match="size"):
+        tabor.Contact(tmp_path / "map.npy", contact_modulus="1 GPa").heights()
+    step = tabor.Contact(tmp_path / "map.npy", "4 um", contact_modulus="100 MPa").solve(pressure="1 MPa")
+    np.testing.assert_array_equal(step.pressure, contact().solve(pressure="1 MPa").pressure)
+
+
+def test_a_sphere_has_its_true_apex():
+    # Of an array the highest sample would count: dx^2/(4 R) below the apex between four points.
+    radius, side, points = 1e-5, 1e-6, 64
+    sphere = tabor.Contact(tabor.Sphere(radius), side, points=points, contact_modulus=1e9, boundary="free", tolerance=1e-9)
+    approach = (side / 5) ** 2 / radius
+    assert sphere.solve(approach=approach).force == pytest.approx(tabor.theory.hertz.force(radius, 1e9, side / 5), rel=5.7e-4)
+
+
+def test_a_path_does_not_pickle_and_says_what_does():
+    path = contact().path(pressure=[1e6, 2e6, 3e6])
+    next(path)
+    assert "1 loads solved" in repr(path)
+    for call in (pickle.dumps, copy.copy, copy.deepcopy):
+        with pytest.raises(TypeError, match="pickle its contact or scene, or the steps"):
+            call(path)
+    rest = list(path)
+    assert len(rest) == 2 and next(path, None) is None
+    np.testing.assert_array_equal(pickle.loads(pickle.dumps(rest))[1].gap, rest[1].gap)
+
+
+@pytest.mark.filterwarnings("ignore::tabor.TaborWarning")
+def test_everything_else_pickles(tmp_path):
+    law = tabor.MaugisDugdale("20 mJ/m^2", range="10 nm")
+    curve = tabor.theory.maugis_dugdale.at_force("10 um", "1 GPa", "50 mJ/m^2", "5 MPa", np.linspace(-2.6e-6, 1e-5, 200))
+    found = tabor.fit((curve.approach, curve.force), radius="10 um", contact_at_zero=True)
+    run = contact(loading={"control": "pressure", "path": ["1 MPa"]}).run(tmp_path / "run", images=False)
+    table = tabor.theory.table("jkr", radius="1 um", contact_modulus="1 GPa", work_of_adhesion="50 mJ/m^2")
+    for each in (law, tabor.Sphere("1 um"), tabor.HeightFile("map.npy", unit="nm"), tabor.Surface(ROUGH, (4e-6, 4e-6)), found, found.work_of_adhesion, run, table, contact(law=law)):
+        again = pickle.loads(pickle.dumps(each))
+        assert type(again) is type(each) and repr(again) == repr(each)
+    # Errors too: they cross processes.
+    assert str(pickle.loads(pickle.dumps(tabor.SceneError("size: wrong")))) == "size: wrong"
+
+
+def area(pressure):
+    heights = tabor.self_affine(32, "4 um", rms_slope=0.1, shortest="1 um")
+    assert tabor.statistics(heights, "4 um")["rms_slope"] > 0
+    assert len(tabor.spectrum(heights, "4 um")) > 3
+    return contact().solve(pressure=pressure).contact_area_fraction
+
+
+@pytest.mark.skipif("fork" not in multiprocessing.get_all_start_methods(), reason="this system does not fork")
+@pytest.mark.filterwarnings("ignore:This process .* is multi-threaded")
+def test_a_fork_after_a_solve_solves():
+    # Threads do not live on in a fork: what waits for one waits for ever.
+    expected = [area(1e6), area(2e6)]
+    with multiprocessing.get_context("fork").Pool(2) as pool:
+        assert pool.map_async(area, [1e6, 2e6]).get(timeout=60) == expected
+
+
+def test_threads_take_turns_on_a_path_or_are_told():
+    path = contact().path(pressure=np.linspace(1e6, 2e6, 20))
+    steps, told = [], []
+
+    def work():
+        try:
+            steps.extend(path)
+        except RuntimeError as error:
+            told.append(str(error))
+
+    threads = [threading.Thread(target=work) for _ in range(3)]
+    for thread in threads:
+        thread.start()
+    for thread in threads:
+        thread.join()
+    assert len(steps) + len(list(path)) == 20
+    assert all("solves a load already" in words for words in told)
+
+    def again(*_):
+        next(path)
+
+    path = contact().path(pressure=[1e6, 2e6], progress=again)
+    with pytest.raises(RuntimeError, match="for this progress"):
+        next(path)
+
+
+def test_other_threads_run_while_one_solves():
+    heights = tabor.self_affine(1024, 1e-6, rms_slope=0.1, shortest=4e-9)
+    rough = tabor.Contact(heights, 1e-6, contact_modulus=1e9, tolerance=1e-10, threads=1)
+    turns, done = 0, threading.Event()
+
+    def solve():
+        rough.solve(pressure=1e7)
+        done.set()
+
+    thread = threading.Thread(target=solve)
+    thread.start()
+    while not done.wait(0.001):
+        turns += 1
+    thread.join()
+    assert turns > 50
+
+
+@pytest.mark.parametrize("build", ["tabor.self_affine(8192, 1.0, rms_slope=0.1, shortest=1e-3)", "tabor.statistics(heights, 1.0)"])
+def test_control_c_ends_the_building_of_a_surface(build):
+    code = f"""
+import signal, threading, time, numpy, tabor, sys
+heights = numpy.random.default_rng(1).normal(size=(4096, 4096)) if "heights, 1.0" in {build!r} else None
+sent = []
+def interrupt():
+    sent.append(time.monotonic())
+    signal.raise_signal(signal.SIGINT)
+threading.Timer(0.15, interrupt).start()
+try:
+    {build}
+    time.sleep(1)
+except KeyboardInterrupt:
+    print(time.monotonic() - sent[0])
+    sys.stdout.flush()
+    import os
+    os._exit(0)
+"""
+    done = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True)
+    assert done.returncode == 0, done.stderr
+    assert float(done.stdout) < 1.0
+
+
+def test_warnings_point_to_the_line_of_the_user():
+    rough = contact(max_iterations=2)
+    with pytest.warns(tabor.NotConvergedWarning) as told:
+        rough.solve(pressure=1e6)
+        for _ in rough.path(pressure=[1e6]):
+            pass
+    assert {warning.filename for warning in told if issubclass(warning.category, tabor.NotConvergedWarning)} == {__file__}
+
+
+def test_an_import_brings_nothing_that_is_not_asked_for():
+    heavy = ("numpy", "tabor.theory", "tabor.fits", "tabor.studies", "matplotlib", "pandas", "xarray", "tqdm", "subprocess", "dataclasses", "importlib.metadata")
+    code = f"import sys, tabor; print([name for name in {heavy!r} if name in sys.modules]); import tabor.theory; tabor.Contact; print('matplotlib' in sys.modules)"
+    done = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, check=True)
+    assert done.stdout.split("\n")[:2] == ["[]", "False"]
+
+
+def test_all_names_are_there():
+    for name in tabor.__all__:
+        assert getattr(tabor, name) is not None and name in dir(tabor)
+    assert tabor.errors.SceneError is tabor.SceneError and tabor.plots.prefix(1e-6)[1] == "\N{MICRO SIGN}"
+    with pytest.raises(AttributeError, match="module 'tabor' has no attribute 'Contat'"):
+        tabor.Contat  # noqa: B018
+
+
+def test_signals_are_left_as_they_were():
+    before = signal.getsignal(signal.SIGINT)
+    contact().solve(pressure=1e6)
+    assert signal.getsignal(signal.SIGINT) is before
+
+
+def test_seconds_of_a_step_are_real():
+    begin = time.monotonic()
+    step = contact().solve(pressure=1e6)
+    assert 0 < step.seconds <= time.monotonic() - begin
