@@ -25,6 +25,22 @@ def contact(**more):
     ("call", "kind", "words"),
     [
         (lambda: contact().solve("10 nN"), TypeError, r'solve takes loads by the name .*solve\(force="10 nN"\), not \'10 nN\''),
+        (lambda: contact().solve(pressure=True), ValueError, "pressure: True"),
+        (lambda: contact().solve(pressure=10**400), ValueError, "pressure: 1000"),
+        (lambda: list(contact().path(pressure=np.ones((2, 2)))), ValueError, "pressure: "),
+        (lambda: contact(threads=10**9), ValueError, "threads: a count from 1 to 1024"),
+        (lambda: contact(solid="steel"), ValueError, "solid: a mapping"),
+        (lambda: contact(loading=[]), ValueError, "loading: a mapping"),
+        (lambda: contact(hardness=np.inf), ValueError, "solid.hardness: inf is no finite number"),
+        (lambda: contact(title="\ud800"), ValueError, "title: this is no text"),
+        (lambda: contact(output={"fields": {1, 2}}), ValueError, "output.fields: .* not set"),
+        (lambda: tabor.Contact([[1, 2], [3]], 1.0, contact_modulus=1.0), ValueError, "heights: an array of shape"),
+        (lambda: tabor.Contact(None, 1.0, contact_modulus=1.0), ValueError, "heights: .* not NoneType"),
+        (lambda: tabor.Contact(np.zeros((2, 2), "M8[s]"), 1.0, contact_modulus=1.0), ValueError, "heights: real numbers"),
+        (lambda: tabor.Contact(np.zeros((2, 2), "S4"), 1.0, contact_modulus=1.0), ValueError, "heights: real numbers"),
+        (lambda: tabor.Contact(".", 1.0, contact_modulus=1.0), ValueError, "heights: .: is a folder"),
+        (lambda: tabor.Scene("scene.toml"), ValueError, "Scene.read reads a file"),
+        (lambda: tabor.theory.table("jkr", radius=np.ones(3)), ValueError, "radius: "),
         (lambda: contact().path([1e6]), TypeError, r"path takes loads by the name .* as in path\(force="),
         (lambda: contact().solve(), TypeError, "pressure, force, approach or mean_gap"),
         (lambda: contact().solve(pressure=1e6, force=1.0), TypeError, "give one of .* not pressure and force"),
@@ -58,6 +74,23 @@ def contact(**more):
 def test_errors_name_the_argument(call, kind, words):
     with pytest.raises(kind, match=words):
         call()
+
+
+def test_loads_come_from_anything_that_counts():
+    expected = [step.force for step in contact().path(pressure=[1e6, 2e6])]
+    for loads in ((load for load in (1e6, 2e6)), (1e6, "2 MPa"), np.array([1e6, 2e6], "f4"), np.array([1000000, 2000000]), {1e6: 1, 2e6: 2}):
+        assert [step.force for step in contact().path(pressure=loads)] == expected
+    assert contact().solve(pressure=np.array(1e6)).force == expected[0] == next(contact().path(pressure=np.float32(1e6))).force
+
+
+def test_files_that_cannot_be_read_or_written(tmp_path):
+    (tmp_path / "curve.csv").touch()
+    with pytest.raises(tabor.OutputError, match="curve.csv: is empty"):
+        tabor.Run(tmp_path).curve  # noqa: B018
+    with pytest.raises(tabor.OutputError, match="cannot be written"):
+        tabor.Contact(tabor.Flat(), 1.0, points=4, contact_modulus=1.0).write(tmp_path)
+    with pytest.raises(tabor.SceneError, match="cannot be read"):
+        tabor.Scene.read("a\0b")
 
 
 def test_one_time_for_all_loads():

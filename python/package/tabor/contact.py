@@ -151,9 +151,13 @@ class Contact(Scene):
             heights = heights.heights
         if isinstance(heights, (str, os.PathLike)):
             if not os.path.isfile(heights):
-                raise SurfaceError(f"heights: {os.fspath(heights)}: there is no such file")
+                words = "is a folder" if os.path.isdir(heights) else "there is no such file"
+                raise SurfaceError(f"heights: {os.fspath(heights)}: {words}")
             heights = HeightFile(heights)
         boundary = "periodic" if boundary is None else boundary
+        for name, table in (("solid", solid), ("loading", loading)):
+            if table is not None and not isinstance(table, Mapping):
+                raise SceneError(f"{name}: a mapping of the keys of [{name}] is expected, not {table!r}")
         if law is not None and not isinstance(law, _Law):
             raise SceneError(f'law: a law such as MaugisDugdale("50 mJ/m^2", range="5 nm") is expected, not {law!r}')
         if law is None:

@@ -40,7 +40,7 @@ def scene_on_disk(scene: Any) -> Iterator[tuple[str, list[str]]]:
     scene = Scene(scene) if isinstance(scene, Mapping) else scene
     if not isinstance(scene, Scene):
         raise TypeError(f"scene: a file, a Scene, a Contact or tables are expected, not {type(scene).__name__}")
-    words = set_words(dict(scene.overrides))
+    words = set_words(dict(scene._overrides))
     if scene.path_of_file is not None and not scene.has_arrays:
         yield os.fspath(scene.path_of_file), words
         return
@@ -58,11 +58,11 @@ def _with_files(scene: Scene, folder: str) -> dict[str, Any]:
     parts = tables["surface"]
     for part in parts:
         if "path" in part:
-            part["path"] = os.path.abspath(os.path.join(scene.folder, part["path"]))
+            part["path"] = os.path.abspath(os.path.join(scene._folder, part["path"]))
     adhesion = tables.get("adhesion") or {}
     if isinstance(adhesion.get("map"), str):
-        adhesion["map"] = os.path.abspath(os.path.join(scene.folder, adhesion["map"]))
-    heights, factors = scene.arrays
+        adhesion["map"] = os.path.abspath(os.path.join(scene._folder, adhesion["map"]))
+    heights, factors = scene._arrays
     if heights is not None:
         np.save(Path(folder) / "heights.npy", heights)
         part = {"kind": "file", "path": os.path.join(folder, "heights.npy"), "unit": "m"}

@@ -34,8 +34,10 @@ def si(value: Any, dimension: str, argument: str, error: type[TaborError] = Scen
     if isinstance(value, str):
         return _tabor.quantity(value, dimension, argument)
     try:
+        if isinstance(value, (bool, np.bool_)):
+            raise TypeError
         number = float(value)
-    except (TypeError, ValueError):
+    except (TypeError, ValueError, OverflowError):
         raise error(f"{argument}: {value!r} is no number and no text with a unit") from None
     if not np.isfinite(number):
         raise error(f"{argument}: {number} is no finite number")

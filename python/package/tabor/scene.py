@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import itertools
 import json
+import math
 import os
 import warnings
 from collections.abc import Iterable, Iterator, Mapping
@@ -14,7 +15,7 @@ import numpy as np
 import numpy.typing as npt
 
 from . import _tabor
-from .errors import NotConvergedWarning, SceneError, TaborWarning
+from .errors import NotConvergedWarning, OutputError, SceneError, TaborWarning
 from .path import Load, Path as LoadPath
 from .quantities import Quantity, si
 from .step import Step
@@ -23,6 +24,9 @@ if TYPE_CHECKING:
     from typing import NoReturn
 
     from .runs import Run
+
+#: As many as the command line takes.
+MOST_THREADS = 1024
 
 #: What a path may prescribe: the argument, the word of a scene, the dimension.
 CONTROLS = {
@@ -42,12 +46,17 @@ def field(array: Any, argument: str) -> Array:
     if isinstance(array, np.ma.MaskedArray) and np.any(array.mask):
         masked = np.count_nonzero(array.mask)
         raise SceneError(f"{argument}: {masked} of {array.size} values are masked; fill them first")
-    values = np.asarray(array)
-    if values.dtype.kind == "c":
+    try:
+        values = np.asarray(array)
+    except ValueError as error:
+        raise SceneError(f"{argument}: an array of shape (ny, nx) is expected ({error})") from None
+    if values.dtype.kind not in "fiubO":
         raise SceneError(f"{argument}: real numbers are expected, not {values.dtype}")
+    if values.ndim == 0 and values.dtype.kind == "O":
+        raise SceneError(f"{argument}: an array of shape (ny, nx) is expected, not {type(array).__name__}")
     try:
         values = np.require(values, np.float64, ["C_CONTIGUOUS", "ALIGNED"])
-    except (TypeError, ValueError) as error:
+    except (TypeError, ValueError, OverflowError) as error:
         raise SceneError(f"{argument}: an array of numbers is expected ({error})") from None
     if values.ndim != 2 or values.size == 0:
         raise SceneError(f"{argument}: an array of shape (ny, nx) is expected, not {values.shape}")
@@ -57,29 +66,39 @@ def field(array: Any, argument: str) -> Array:
     return values
 
 
-def plain(value: Any) -> Any:
-    """A value as TOML can hold it; tables lose what is None."""
+def plain(value: Any, place: str = "") -> Any:
+    """A value at a place of a scene as TOML can hold it; tables lose what is None."""
     if isinstance(value, Mapping):
-        return {str(key): plain(each) for key, each in value.items() if each is not None}
-    if isinstance(value, (list, tuple)):
-        return [plain(each) for each in value]
+        each = {str(key): below for key, below in value.items() if below is not None}
+        return {key: plain(below, f"{place}.{key}" if place else key) for key, below in each.items()}
     if isinstance(value, np.ndarray):
-        return value.tolist()
+        value = value.tolist()
+    if isinstance(value, (list, tuple)):
+        return [plain(each, f"{place}.{index}") for index, each in enumerate(value)]
     if isinstance(value, np.generic):
-        return value.item()
+        value = value.item()
     if isinstance(value, os.PathLike):
-        return os.fspath(value)
+        value = os.fspath(value)
+    if isinstance(value, float) and not math.isfinite(value):
+        raise SceneError(f"{place}: {value} is no finite number")
+    if isinstance(value, str) and not value.isascii():
+        try:
+            value.encode()
+        except UnicodeEncodeError as error:
+            raise SceneError(f"{place}: this is no text ({error})") from None
+    if not isinstance(value, (bool, int, float, str)):
+        raise SceneError(f"{place}: a number, a text, a list or a table is expected, not {type(value).__name__}")
     return value
 
 
 def toml_text(tables: Mapping[str, Any]) -> str:
     """Tables as the text of a TOML file."""
+    if not isinstance(tables, Mapping):
+        raise SceneError(f"a scene is a mapping of tables, not {type(tables).__name__}; Scene.read reads a file")
     try:
-        # TOML knows inf and nan, JSON does not.
-        text = json.dumps(plain(tables), allow_nan=False)
-    except (TypeError, ValueError) as error:
+        return _tabor.toml_from_json(json.dumps(plain(tables)))
+    except RecursionError as error:
         raise SceneError(f"a scene holds numbers, texts, lists and tables: {error}") from None
-    return _tabor.toml_from_json(text)
 
 
 class Scene:
@@ -121,8 +140,8 @@ class Scene:
         threads: int | None,
         path_of_file: Path | None = None,
     ) -> None:
-        if threads is not None and (not isinstance(threads, (int, np.integer)) or threads < 1):
-            raise SceneError(f"threads: a count of 1 or more is expected, not {threads!r}")
+        if threads is not None and (isinstance(threads, bool) or not isinstance(threads, (int, np.integer)) or not 1 <= threads <= MOST_THREADS):
+            raise SceneError(f"threads: a count from 1 to {MOST_THREADS} is expected, not {threads!r}")
         self._heights = None if heights is None else field(heights, "heights")
         self._adhesion_map = None if adhesion_map is None else field(adhesion_map, "adhesion_map")
         self._source = source
@@ -150,7 +169,7 @@ class Scene:
         path = Path(path)
         try:
             text = path.read_text(encoding="utf-8")
-        except (OSError, UnicodeDecodeError) as error:
+        except (OSError, ValueError) as error:
             raise SceneError(f"{path}: cannot be read: {error}") from error
         scene = cls.__new__(cls)
         chosen = [
@@ -176,17 +195,17 @@ class Scene:
         return bool(self._source[3])
 
     @property
-    def overrides(self) -> list[tuple[str, str]]:
+    def _overrides(self) -> list[tuple[str, str]]:
         """Values in place of its file's, by dotted keys, in the words of the command line."""
         return list(self._source[3])
 
     @property
-    def folder(self) -> str:
+    def _folder(self) -> str:
         """Where its relative paths begin."""
         return self._source[2]
 
     @property
-    def arrays(self) -> tuple[Array | None, Array | None]:
+    def _arrays(self) -> tuple[Array | None, Array | None]:
         """Its heights and its map of adhesion, where they are arrays."""
         return self._heights, self._adhesion_map
 
@@ -200,7 +219,10 @@ class Scene:
             raise SceneError("a file holds no arrays: save the heights by numpy.save and name them as a surface of kind file")
         if self.is_overridden:
             raise SceneError("the values given in place of the file's are not in its text")
-        Path(path).write_text(self.to_toml(), encoding="utf-8")
+        try:
+            Path(path).write_text(self.to_toml(), encoding="utf-8")
+        except (OSError, ValueError) as error:
+            raise OutputError(f"{path}: cannot be written: {error}") from error
 
     def check(self, *, verbose: bool = False) -> str:
         """What ``tabor check`` says: the physics, how well the grid resolves it, memory and cost.
@@ -396,7 +418,7 @@ def _restore(cls: type[Scene], source: Any, heights: Any, adhesion_map: Any, thr
 
 def _is_one(values: Any) -> bool:
     """Whether this is one load, not many."""
-    return isinstance(values, str) or not (hasattr(values, "__iter__") and np.ndim(values) != 0)
+    return isinstance(values, str) or not hasattr(values, "__iter__") or (isinstance(values, np.ndarray) and values.ndim == 0)
 
 
 def _control(call: str, unnamed: tuple[Any, ...], **loads: Any) -> tuple[str, Any] | None:

@@ -10,6 +10,8 @@ from pathlib import Path
 import numpy as np
 import numpy.typing as npt
 
+from .errors import OutputError
+
 
 def structured(rows: Sequence[Sequence[str]]) -> npt.NDArray[np.void]:
     """Rows of texts, the head first, as a structured array: counts, numbers, truth values or texts; an empty number is NaN."""
@@ -36,4 +38,7 @@ def structured(rows: Sequence[Sequence[str]]) -> npt.NDArray[np.void]:
 def read(path: str | os.PathLike[str]) -> npt.NDArray[np.void]:
     """A CSV file with one head."""
     with Path(path).open(newline="", encoding="utf-8") as file:
-        return structured([row for row in csv.reader(file) if row and not row[0].startswith("#")])
+        rows = [row for row in csv.reader(file) if row and not row[0].startswith("#")]
+    if not rows:
+        raise OutputError(f"{path}: is empty")
+    return structured(rows)

@@ -10,6 +10,7 @@ import numpy as np
 import numpy.typing as npt
 
 from .. import _tabor
+from ..errors import TheoryError
 from ..tables import structured
 
 
@@ -70,7 +71,10 @@ def table(model: str, parameters: Mapping[str, Any] | None = None, /, **more: An
     """
     words = [model]
     for name, value in {**(parameters or {}), **more}.items():
-        words.append(f"--{name}={value if isinstance(value, str) else repr(float(value) if not isinstance(value, int) else value)}")
+        try:
+            words.append(f"--{name}={value if isinstance(value, (str, int, np.integer)) else repr(float(value))}")
+        except (TypeError, ValueError):
+            raise TheoryError(f"{name}: {value!r} is no number and no text with a unit") from None
     return Table(_tabor.theory_table(words))
 
 
