@@ -1,5 +1,7 @@
 """Force curves fitted."""
 
+from pathlib import Path
+
 import numpy as np
 import pytest
 
@@ -50,6 +52,15 @@ def test_advice():
     assert tabor.fit(curve(5e-9), radius="10 um").report.get("advice") is None
     with pytest.raises(tabor.FitError, match="sphere"):
         tabor.fit(curve(), cone=0.3, advise=True)
+
+
+def test_words():
+    with pytest.warns(tabor.TaborWarning) as told:
+        found = tabor.fit(Path(__file__).parents[2] / "examples" / "force_curve.csv", radius="10 um", radius_error=0.02)
+    assert found.warnings == [str(each.message) for each in told]
+    page = found._repr_html_()
+    assert found.model in page and "mJ/m^2 ± " in page and "Tabor parameter" in page
+    assert all(f"warning{'' if not number else f' {number + 1}'}<" in page for number, _ in enumerate(found.warnings))
 
 
 def test_pictures():

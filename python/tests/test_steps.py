@@ -65,7 +65,7 @@ def test_heights_of_a_solid_that_keeps_its_shape_are_one_array():
 
 def test_words(step):
     assert "in contact" in repr(step) and "converged" not in repr(step)
-    assert "<table>" in step._repr_html_()
+    assert "<table>" in step._repr_html_() and "12 µN" in step._repr_html_() and "mean pressure 1 MPa" in repr(step)
     assert "exponential" in repr(contact()) and "exponential" in contact()._repr_html_()
 
 

@@ -15,8 +15,12 @@ import numpy.typing as npt
 
 from . import _tabor
 from .errors import FitError, TaborWarning
-from .quantities import Quantity, si
+from .quantities import Quantity, si, words
 from .tables import structured
+
+
+#: Fitted numbers with their units.
+UNITS = {"work_of_adhesion": "J/m^2", "contact_modulus": "Pa", "range": "m", "peak_tension": "Pa"}
 
 
 class Estimate(NamedTuple):
@@ -71,6 +75,25 @@ class Fit:
 
     def __repr__(self) -> str:
         return f"<Fit: {self.headline}>"
+
+    def _repr_html_(self) -> str:
+        import html
+
+        described = {"model": str(self.report["model"])}
+        for name, unit in UNITS.items():
+            found = self.report.get(name)
+            if found is not None:
+                doubt = found["uncertainty"]
+                share = "" if doubt is None else f" ± {abs(doubt / found['value']):.1%}" if found["value"] else ""
+                described[name.replace("_", " ")] = words(found["value"], unit) + share
+        if self.report.get("tabor_parameter") is not None:
+            described["Tabor parameter"] = f"{self.report['tabor_parameter']:.3g}"
+        for number, warning in enumerate(self.report.get("warnings", [])):
+            described["warning" if number == 0 else f"warning {number + 1}"] = warning
+        rows = "".join(
+            f"<tr><th style='text-align:left'>{name}</th><td style='text-align:left'>{html.escape(each)}</td></tr>" for name, each in described.items()
+        )
+        return f"<table><caption>Fit</caption>{rows}</table>"
 
 
 def fit(
@@ -156,9 +179,10 @@ def fit(
         "range": None if range is None else si(range, "length", "range", FitError),
     }
     report, table, headline, said = _tabor.fit(path, text, how)
-    for words in said:
-        warnings.warn(words, TaborWarning, stacklevel=2)
-    return Fit(json.loads(report), structured(list(csv.reader(io.StringIO(table)))), headline)
+    for warning in said:
+        warnings.warn(warning, TaborWarning, stacklevel=2)
+    found = {**json.loads(report), "warnings": said}
+    return Fit(found, structured(list(csv.reader(io.StringIO(table)))), headline)
 
 
 def _curve(curve: Any) -> tuple[str, str | None]:

@@ -10,10 +10,8 @@ import numpy.typing as npt
 
 from . import _tabor
 from .errors import TaborError
+from .quantities import prefix
 from .step import FIELDS
-
-#: Prefixes for axes, largest first.
-PREFIXES = ((1e9, "G"), (1e6, "M"), (1e3, "k"), (1.0, ""), (1e-3, "m"), (1e-6, "\N{MICRO SIGN}"), (1e-9, "n"), (1e-12, "p"), (1e-15, "f"))
 
 #: Our colour maps in matplotlib: its name and ours.
 COLOURS = {"tabor_signed": "signed", "tabor_compression": "compression", "tabor_tension": "tension", "tabor_rising": "rising"}
@@ -26,14 +24,6 @@ PREFIXED = ("m", "N", "Pa", "s", "J")
 
 #: Share of the picture's width that a scale bar takes at most.
 BAR = 0.3
-
-
-def prefix(values: npt.ArrayLike) -> tuple[float, str]:
-    """The prefix that makes the largest of the values a short number."""
-    numbers = np.asarray(values, dtype=float)
-    finite = np.abs(numbers[np.isfinite(numbers)])
-    largest = finite.max() if finite.size else 0.0
-    return next(((factor, name) for factor, name in PREFIXES if largest >= factor), (1.0, ""))
 
 
 def register_colours() -> None:

@@ -59,3 +59,21 @@ def si_array(values: Any, dimension: str, argument: str, error: type[TaborError]
     if np.isnan(numbers).any():
         raise error(f"{argument}: {np.count_nonzero(np.isnan(numbers))} of {numbers.size} values are NaN")
     return numbers
+
+
+#: Prefixes of units, largest first.
+PREFIXES = ((1e9, "G"), (1e6, "M"), (1e3, "k"), (1.0, ""), (1e-3, "m"), (1e-6, "\N{MICRO SIGN}"), (1e-9, "n"), (1e-12, "p"), (1e-15, "f"))
+
+
+def prefix(values: npt.ArrayLike) -> tuple[float, str]:
+    """The prefix that makes the largest of the values a short number."""
+    numbers = np.asarray(values, dtype=float)
+    finite = np.abs(numbers[np.isfinite(numbers)])
+    largest = finite.max() if finite.size else 0.0
+    return next(((factor, name) for factor, name in PREFIXES if largest >= factor), (1.0, ""))
+
+
+def words(value: float, unit: str, digits: int = 4) -> str:
+    """A number with its unit and prefix, such as "70.67 nm"."""
+    factor, letter = prefix(value)
+    return f"{value / factor:.{digits}g} {letter}{unit}"

@@ -7,6 +7,8 @@ from typing import Any
 import numpy as np
 import numpy.typing as npt
 
+from .quantities import words
+
 #: Fields with their units.
 FIELDS = {"pressure": "Pa", "gap": "m", "displacement": "m", "heights": "m"}
 
@@ -93,28 +95,28 @@ class Step:
     def _described(self) -> dict[str, str]:
         """The main numbers, in words."""
         found = self._found
-        words = {
+        described = {
             "state": found["state"],
-            "force": f"{found['force']:.6g} N",
-            "mean pressure": f"{found['mean_pressure']:.6g} Pa",
+            "force": words(found["force"], "N", 6),
+            "mean pressure": words(found["mean_pressure"], "Pa", 6),
             "contact area": f"{100 * found['contact_area_fraction']:.4g} %",
         }
         for name in ("approach", "mean_gap"):
             if found[name] is not None:
-                words[name.replace("_", " ")] = f"{found[name]:.6g} m"
-        words["residual"] = f"{found['residual']:.1e} after {found['iterations']} iterations"
+                described[name.replace("_", " ")] = words(found[name], "m", 6)
+        described["residual"] = f"{found['residual']:.1e} after {found['iterations']} iterations"
         if not found["converged"]:
-            words["residual"] += ", not converged"
-        return words
+            described["residual"] += ", not converged"
+        return described
 
     def _repr_html_(self) -> str:
-        rows = "".join(f"<tr><th style='text-align:left'>{name}</th><td>{words}</td></tr>" for name, words in self._described().items())
+        rows = "".join(f"<tr><th style='text-align:left'>{name}</th><td>{each}</td></tr>" for name, each in self._described().items())
         return f"<table><caption>Step {self._found['number']}</caption>{rows}</table>"
 
     def __repr__(self) -> str:
         found = self._found
         ending = "" if found["converged"] else f", not converged (residual {found['residual']:.1e})"
         return (
-            f"<Step {found['number']}: {found['state']}, mean pressure {found['mean_pressure']:.4g} Pa, "
+            f"<Step {found['number']}: {found['state']}, mean pressure {words(found['mean_pressure'], 'Pa')}, "
             f"{100 * found['contact_area_fraction']:.2f} % in contact{ending}>"
         )
