@@ -16,7 +16,8 @@ SMOOTH = tabor.self_affine((16, 12), (4.0, 3.0), rms_slope=0.1, shortest=1.0)
 REFERENCE = tabor.Contact(SMOOTH, (4.0, 3.0), contact_modulus=1.0, threads=1).solve(pressure=0.02)
 
 anything = st.one_of(
-    st.none(), st.booleans(), st.integers(), st.floats(), st.text(max_size=8), st.lists(st.floats(), max_size=3), st.complex_numbers()
+    st.none(), st.booleans(), st.integers(), st.floats(), st.text(max_size=8), st.lists(st.floats(), max_size=3), st.complex_numbers(),
+    st.binary(max_size=3), st.dictionaries(st.text(max_size=3), st.floats(), max_size=2), st.sets(st.integers(), max_size=2),
 )
 
 
@@ -55,8 +56,14 @@ def test_any_heights(values):
     )
 
 
-@settings(max_examples=100, deadline=None)
-@given(st.sampled_from(["size", "contact_modulus", "hardness", "tolerance", "threads", "boundary", "precision", "max_iterations"]), anything)
+ARGUMENTS = [
+    "size", "contact_modulus", "hardness", "tolerance", "threads", "boundary", "precision", "max_iterations", "points", "young_modulus",
+    "poisson_ratio", "thickness", "base", "relaxation", "spring", "adhesion_map", "solid", "loading", "friction", "output", "title",
+]  # fmt: skip
+
+
+@settings(max_examples=200, deadline=None)
+@given(st.sampled_from(ARGUMENTS), anything)
 def test_any_argument(name, value):
     arguments = {"size": 1.0, "contact_modulus": 1.0, "max_iterations": 20, "backend": "cpu", name: value}
     only_errors_of_its_own(lambda: tabor.Contact(SMOOTH, **arguments))
@@ -74,6 +81,21 @@ def test_any_law(name, value):
 def test_any_load(control, value):
     contact = tabor.Contact(SMOOTH, (4.0, 3.0), contact_modulus=1.0, max_iterations=20, threads=1)
     only_errors_of_its_own(lambda: contact.solve(**{control: value}))
+
+
+@settings(max_examples=60, deadline=None)
+@given(st.sampled_from(["sphere", "cone", "wavy", "rough", "file", "points", "parts"]), anything)
+def test_any_surface(kind, value):
+    calls = {
+        "sphere": lambda: tabor.heights(tabor.Sphere(value), 8, 1.0),
+        "cone": lambda: tabor.heights(tabor.Cone(value), 8, 1.0),
+        "wavy": lambda: tabor.heights(tabor.Wavy(0.1, value), 8, 1.0),
+        "rough": lambda: tabor.self_affine(8, 1.0, rms_slope=value, shortest=0.5),
+        "file": lambda: tabor.read_heights(value, 1.0),
+        "points": lambda: tabor.Contact(tabor.Flat(), 1.0, points=value, contact_modulus=1.0),
+        "parts": lambda: tabor.Contact(value, 1.0, points=8, contact_modulus=1.0),
+    }
+    only_errors_of_its_own(calls[kind])
 
 
 @settings(max_examples=100, deadline=None)

@@ -20,7 +20,8 @@ class Step:
     ----------
     pressure, gap, displacement, heights : ndarray
         Net normal traction, Pa, positive in compression; distance of the surfaces, m; normal displacement of the
-        solid, m, positive into it; heights, m, with the plastic depth subtracted.
+        solid, m, positive into it; heights, m, with the plastic depth subtracted. Without hardness the heights of all steps
+        of a path are one array, which cannot be written to.
     contact_area_fraction, force, mean_pressure : float
         Of the whole cell; so are ``approach`` and ``mean_gap``, m, which are None where the surfaces are separated.
     residual, iterations, converged
