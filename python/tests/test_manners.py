@@ -246,6 +246,23 @@ def test_warnings_point_to_the_line_of_the_user():
     assert {warning.filename for warning in told if issubclass(warning.category, tabor.NotConvergedWarning)} == {__file__}
 
 
+@pytest.mark.parametrize(
+    ("missing", "call"),
+    [
+        ("xarray", lambda step: step.to_dataset()),
+        ("matplotlib.pyplot", lambda step: step.plot()),
+        ("SurfaceTopography", lambda step: step.to_topography()),
+    ],
+)
+def test_what_is_not_installed_is_named(missing, call, monkeypatch):
+    step = contact().solve(pressure=1e6)
+    monkeypatch.setitem(sys.modules, missing, None)
+    name = missing.partition(".")[0]
+    with pytest.raises(ImportError, match=f"needs {name}: pip install {name}") as raised:
+        call(step)
+    assert isinstance(raised.value, tabor.TaborError)
+
+
 def test_an_import_brings_nothing_that_is_not_asked_for():
     heavy = ("numpy", "tabor.theory", "tabor.fits", "tabor.studies", "matplotlib", "pandas", "xarray", "tqdm", "subprocess", "dataclasses", "importlib.metadata")
     code = f"import sys, tabor; print([name for name in {heavy!r} if name in sys.modules]); import tabor.theory; tabor.Contact; print('matplotlib' in sys.modules)"

@@ -23,6 +23,7 @@ if TYPE_CHECKING:
     from .errors import (
         DeviceError,
         FitError,
+        MissingPackageError,
         NotConvergedWarning,
         NotEnoughMemoryError,
         OutputError,
@@ -62,6 +63,7 @@ _HOMES = {
     "errors": (
         "DeviceError",
         "FitError",
+        "MissingPackageError",
         "NotConvergedWarning",
         "NotEnoughMemoryError",
         "OutputError",
@@ -111,6 +113,7 @@ __all__ = [
     "HeightFile",
     "LennardJones",
     "MaugisDugdale",
+    "MissingPackageError",
     "NotConvergedWarning",
     "NotEnoughMemoryError",
     "OutputError",

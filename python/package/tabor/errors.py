@@ -37,6 +37,10 @@ class OutputError(TaborError, OSError):
     """A folder that is not this run's, or files that cannot be written."""
 
 
+class MissingPackageError(TaborError, ImportError):
+    """A package that is installed beside tabor for this, and is not there."""
+
+
 class TaborWarning(UserWarning):
     """Something of a scene or a solution that its user should know."""
 

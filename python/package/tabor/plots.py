@@ -9,7 +9,7 @@ import numpy as np
 import numpy.typing as npt
 
 from . import _tabor
-from .errors import TaborError
+from .optional import package
 from .quantities import prefix
 from .step import FIELDS
 
@@ -38,10 +38,7 @@ def register_colours() -> None:
 
 
 def _axes(axes: Any) -> Any:
-    try:
-        import matplotlib.pyplot as pyplot
-    except ImportError:
-        raise TaborError("pictures need matplotlib: pip install 'tabor[plots]'") from None
+    pyplot = package("matplotlib.pyplot", "a picture")
     register_colours()
     return pyplot.subplots(constrained_layout=True)[1] if axes is None else axes
 

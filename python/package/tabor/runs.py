@@ -13,6 +13,7 @@ import numpy.typing as npt
 
 from . import tables
 from .errors import OutputError
+from .optional import package
 from .step import FIELDS
 
 #: Units of the columns of a curve that have one.
@@ -75,7 +76,7 @@ class Run:
 
     def to_frame(self) -> Any:
         """The curve as a `pandas.DataFrame`."""
-        import pandas
+        pandas = package("pandas", "a data frame")
 
         return pandas.DataFrame(self.curve)
 
@@ -107,7 +108,7 @@ class Run:
 
         Fields are over ``field_step``, the steps that have some; they are read, and a step without one of them is NaN.
         """
-        import xarray
+        xarray = package("xarray", "a dataset")
 
         curve, units = self.curve, self.units
         data: dict[str, Any] = {

@@ -7,6 +7,7 @@ from typing import Any
 import numpy as np
 import numpy.typing as npt
 
+from .optional import package
 from .quantities import words
 
 #: Fields with their units.
@@ -66,7 +67,7 @@ class Step:
 
     def to_dataset(self) -> Any:
         """The fields with coordinates and units, as an `xarray.Dataset`."""
-        import xarray
+        xarray = package("xarray", "a dataset")
 
         ny, nx = self._found["gap"].shape
         lx, ly = self._found["size"]

@@ -13,6 +13,7 @@ import numpy.typing as npt
 from . import tables
 from .disk import scene_on_disk, set_words
 from .errors import OutputError, SceneError
+from .optional import package
 from .program import call
 from .quantities import Quantity, si
 from .scene import Scene, toml_text
@@ -46,7 +47,7 @@ class Study:
 
     def to_frame(self, name: str) -> Any:
         """A table as a `pandas.DataFrame`."""
-        import pandas
+        pandas = package("pandas", "a data frame")
 
         return pandas.DataFrame(self[name])
 

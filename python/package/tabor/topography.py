@@ -10,7 +10,8 @@ from typing import Any
 import numpy as np
 import numpy.typing as npt
 
-from .errors import SurfaceError, TaborError
+from .errors import SurfaceError
+from .optional import package
 
 #: Metres per unit.
 UNITS = {"Gm": 1e9, "Mm": 1e6, "km": 1e3, "m": 1.0, "mm": 1e-3, "µm": 1e-6, "μm": 1e-6, "um": 1e-6, "nm": 1e-9, "Å": 1e-10, "pm": 1e-12, "fm": 1e-15}
@@ -42,8 +43,4 @@ def from_topography(topography: Any) -> tuple[npt.NDArray[np.float64], tuple[flo
 
 def to_topography(field: npt.NDArray[np.float64], size: tuple[float, float], periodic: bool) -> Any:
     """A `SurfaceTopography.Topography` of a field, m, of shape (ny, nx)."""
-    try:
-        from SurfaceTopography import Topography
-    except ImportError:
-        raise TaborError("topographies need SurfaceTopography: pip install SurfaceTopography") from None
-    return Topography(np.ascontiguousarray(field.T), tuple(size), unit="m", periodic=periodic)
+    return package("SurfaceTopography", "a topography").Topography(np.ascontiguousarray(field.T), tuple(size), unit="m", periodic=periodic)
