@@ -152,16 +152,16 @@ fn a_convolution_of_long_lines_agrees_with_the_processor() {
 }
 
 /// Fine and coarse points, each of several slabs.
-const FINE: [usize; 2] = [48, 80];
-const COARSE: [usize; 2] = [12, 20];
-/// Four slabs of the fine level: 40 pairs of rows, 15 KiB.
-const SLAB: u64 = 4 << 10;
-/// Lines that are long here: 8 * 6 and 10 * 8 points.
-const LINE: usize = 12;
+const FINE: [usize; 2] = [24, 32];
+const COARSE: [usize; 2] = [12, 16];
+/// Three slabs or more of the fine level: 16 pairs of rows, 3 KiB.
+const SLAB: u64 = 1 << 10;
+/// Lines that are long here: 6 * 4 and 8 * 4 points.
+const LINE: usize = 8;
 /// Difference at a point where lines take two passes, against one.
 const LINE_BOUND: f64 = 2e-5;
-/// Two slabs of the coarse level, 960 bytes, and twenty of the fine one.
-const COARSE_SLAB: u64 = 768;
+/// Two slabs of the coarse level, 768 bytes, and six of the fine one.
+const COARSE_SLAB: u64 = 512;
 
 /// What a kernel makes of seeded fields: all it writes, and its sums.
 fn run(
@@ -289,8 +289,11 @@ fn every_kind_of_kernel_in_slabs_writes_the_same() {
     let long = with_lines(LINE, SLAB);
     let padded = Shape {
         points: FINE,
-        surface: [30, 40],
+        surface: [14, 20],
     };
+    let whole = Shape::whole(COARSE[0], COARSE[1]);
+    assert!(fine.slabs(padded).expect("slabs") >= 3);
+    assert!(coarse.slabs(whole).expect("slabs") >= 2);
     for kernel in KINDS {
         let law = match kernel.constraint == Some(Constraint::Smooth) {
             true => Law::LennardJones(LennardJones {
