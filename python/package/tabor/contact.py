@@ -74,8 +74,10 @@ class Contact(Scene):
         Points along x and y, where `heights` are parts; arrays and files have theirs.
     contact_modulus : number or text, optional
         E*, Pa, with the counter-face's share; or give `young_modulus` and `poisson_ratio`, or `solid`.
-    young_modulus, poisson_ratio, counter_young_modulus, counter_poisson_ratio : number or text, optional
+    young_modulus, counter_young_modulus : number or text, optional
         Of the solid and of the counter-face, Pa.
+    poisson_ratio, counter_poisson_ratio : number, optional
+        Of the solid and of the counter-face.
     law : MaugisDugdale, LennardJones or Exponential, optional
         The attraction; without one a hard wall is all there is.
     boundary : {"periodic", "free"}, optional

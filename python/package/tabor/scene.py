@@ -2,14 +2,15 @@
 
 from __future__ import annotations
 
+import functools
 import itertools
 import json
 import math
 import os
 import warnings
-from collections.abc import Iterable, Iterator, Mapping
+from collections.abc import Callable, Iterable, Iterator, Mapping
 from pathlib import Path
-from typing import TYPE_CHECKING, Any, TypeAlias, Union
+from typing import TYPE_CHECKING, Any, ParamSpec, TypeAlias, TypeVar, Union
 
 import numpy as np
 import numpy.typing as npt
@@ -21,9 +22,10 @@ from .quantities import Quantity, si
 from .step import Step
 
 if TYPE_CHECKING:
-    from typing import NoReturn
-
     from .runs import Run
+
+Arguments = ParamSpec("Arguments")
+Result = TypeVar("Result")
 
 #: As many as the command line takes.
 MOST_THREADS = 1024
@@ -99,6 +101,21 @@ def toml_text(tables: Mapping[str, Any]) -> str:
         return _tabor.toml_from_json(json.dumps(plain(tables)))
     except RecursionError as error:
         raise SceneError(f"a scene holds numbers, texts, lists and tables: {error}") from None
+
+
+def by_name(call: Callable[Arguments, Result]) -> Callable[Arguments, Result]:
+    """A method that takes loads by the names of their controls, and says so where one comes without."""
+
+    @functools.wraps(call)
+    def called(*unnamed: Arguments.args, **named: Arguments.kwargs) -> Result:
+        if len(unnamed) > 1:
+            name = call.__name__
+            example = f'{name}(force="10 nN")' if name == "solve" else f'{name}(force=["10 nN", "20 nN"])'
+            words = f"{name} takes loads by the name of their control: pressure, force, approach or mean_gap"
+            raise TypeError(f"{words}, as in {example}, not {unnamed[1]!r} alone")
+        return call(*unnamed, **named)
+
+    return called
 
 
 class Scene:
@@ -264,9 +281,10 @@ class Scene:
         """The heights of all parts, m, of shape (ny, nx)."""
         return self.surface()[0]
 
+    @by_name
     def path(
         self,
-        *unnamed: NoReturn,
+        *,
         pressure: Loads | None = None,
         force: Loads | None = None,
         approach: Loads | None = None,
@@ -291,7 +309,7 @@ class Scene:
         iterator of Step
             A path ends after a load that did not converge, of which a `NotConvergedWarning` tells.
         """
-        control = _control("path", unnamed, pressure=pressure, force=force, approach=approach, mean_gap=mean_gap)
+        control = _control(pressure=pressure, force=force, approach=approach, mean_gap=mean_gap)
         pulls = control is None and self.resolved["loading"].get("until") is not None
         return LoadPath(self, self._loads(control, seconds), pulls, progress)
 
@@ -321,9 +339,10 @@ class Scene:
 
         return timed()
 
+    @by_name
     def solve(
         self,
-        *unnamed: NoReturn,
+        *,
         pressure: Quantity | None = None,
         force: Quantity | None = None,
         approach: Quantity | None = None,
@@ -339,13 +358,13 @@ class Scene:
         progress : bool or callable, optional
             As in `path`.
         """
-        control = _control("solve", unnamed, pressure=pressure, force=force, approach=approach, mean_gap=mean_gap)
+        control = _control(pressure=pressure, force=force, approach=approach, mean_gap=mean_gap)
         if control is None:
             raise TypeError('solve takes one load by the name of its control: pressure, force, approach or mean_gap, as in solve(force="10 nN")')
         name, value = control
         if not _is_one(value):
             raise TypeError(f"{name}: solve takes one load, not {type(value).__name__}; path takes many")
-        return LoadPath(self, self._loads(control, None), False, progress)._next(3)
+        return LoadPath(self, self._loads(control, None), False, progress)._next(4)
 
     def run(
         self,
@@ -421,11 +440,8 @@ def _is_one(values: Any) -> bool:
     return isinstance(values, str) or not hasattr(values, "__iter__") or (isinstance(values, np.ndarray) and values.ndim == 0)
 
 
-def _control(call: str, unnamed: tuple[Any, ...], **loads: Any) -> tuple[str, Any] | None:
+def _control(**loads: Any) -> tuple[str, Any] | None:
     """The one of the loads that is given, with its name."""
-    if unnamed:
-        example = f'{call}(force="10 nN")' if call == "solve" else f'{call}(force=["10 nN", "20 nN"])'
-        raise TypeError(f"{call} takes loads by the name of their control: pressure, force, approach or mean_gap, as in {example}, not {unnamed[0]!r} alone")
     given = [(name, values) for name, values in loads.items() if values is not None]
     if len(given) > 1:
         raise TypeError(f"give one of {', '.join(loads)}, not {' and '.join(name for name, _ in given)}")
