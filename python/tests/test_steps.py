@@ -110,6 +110,16 @@ def test_progress_hears_of_every_load_and_its_end():
     assert [iteration for _, iteration, _ in heard] == [step.iterations for step in steps]
 
 
+def test_a_bar_counts_loads(capsys):
+    pytest.importorskip("tqdm")
+    path = contact().path(pressure=["1 MPa", "2 MPa", "3 MPa"], progress=True)
+    assert [step.converged for step in path] == [True] * 3
+    shown = capsys.readouterr().err
+    assert "2/3" in shown and "residual" in shown and shown.count("0/3") >= 1
+    contact().solve(pressure="1 MPa", progress=True)
+    assert "0/1" in capsys.readouterr().err
+
+
 def test_what_progress_raises_ends_the_solve():
     def raising(finished, iteration, residual):
         raise RuntimeError("enough")

@@ -2,13 +2,14 @@
 
 from __future__ import annotations
 
+import contextlib
 import threading
 import warnings
 from collections.abc import Iterator
 from typing import TYPE_CHECKING, Any
 
 from .errors import NotConvergedWarning, TaborWarning
-from .progress import reporter
+from .progress import Report, reporter
 from .step import Step
 
 if TYPE_CHECKING:
@@ -24,15 +25,18 @@ class Path:
     It ends after the last load, or after one that did not converge. It does not pickle; its contact and its steps do.
     """
 
-    def __init__(self, scene: Scene, loads: Iterator[Load], until_apart: bool, progress: Any) -> None:
+    def __init__(self, scene: Scene, loads: Iterator[Load], until_apart: bool, progress: Any, total: int | None = None) -> None:
         self._of = type(scene).__name__
         self._solver = scene._loaded.path(scene.threads, until_apart)
         self._loads = loads
         self._pulls = until_apart
-        self._progress = progress
+        # One bar for all loads, from the first on.
+        self._open = contextlib.ExitStack()
+        self._bar = reporter(progress, total)
+        self._report: Report | None = None
         self._periodic = scene.resolved["grid"]["boundary"] == "periodic"
         self._busy = threading.Lock()
-        self._ended = False
+        self._begun = self._ended = False
         self._solved = 0
 
     def __iter__(self) -> Path:
@@ -52,8 +56,10 @@ class Path:
             if load is None and not self._pulls:
                 self._ended = True
                 raise StopIteration
-            with reporter(self._progress) as report:
-                solved = self._solver.pull(report) if load is None else self._solver.solve(*load, report)
+            if not self._begun:
+                self._begun = True
+                self._report = self._open.enter_context(self._bar)
+            solved = self._solver.pull(self._report) if load is None else self._solver.solve(*load, self._report)
             if solved is None:
                 self._ended = True
                 raise StopIteration
@@ -61,8 +67,13 @@ class Path:
             step = Step(found, self._periodic)
             self._solved += 1
             self._ended = not step.converged
+        except BaseException:
+            self._open.close()
+            raise
         finally:
             self._busy.release()
+        if self._ended:
+            self._open.close()
         for words in said:
             warnings.warn(words, TaborWarning, stacklevel=level)
         if not step.converged:

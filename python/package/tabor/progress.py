@@ -11,8 +11,8 @@ Report = Callable[[int, int, float], None]
 
 
 @contextmanager
-def reporter(progress: Any) -> Iterator[Report | None]:
-    """What is called with finished steps, iteration and residual; None for nobody."""
+def reporter(progress: Any, total: int | None = None) -> Iterator[Report | None]:
+    """What is called with finished steps, of this total if it is known, iteration and residual; None for nobody."""
     if callable(progress):
         yield progress
         return
@@ -27,12 +27,10 @@ def reporter(progress: Any) -> Iterator[Report | None]:
     except ImportError:
         yield None
         return
-    with tqdm(unit=" iterations", leave=False) as bar:
+    with tqdm(unit=" loads", total=total, leave=False) as bar:
 
         def tell(finished: int, iteration: int, residual: float) -> None:
-            bar.set_description(f"{finished} steps")
-            bar.set_postfix_str(f"residual {residual:.1e}")
-            bar.n = iteration
-            bar.refresh()
+            bar.n = finished
+            bar.set_postfix_str(f"iteration {iteration}, residual {residual:.1e}")
 
         yield tell

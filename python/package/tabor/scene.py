@@ -311,7 +311,10 @@ class Scene:
         """
         control = _control(pressure=pressure, force=force, approach=approach, mean_gap=mean_gap)
         pulls = control is None and self.resolved["loading"].get("until") is not None
-        return LoadPath(self, self._loads(control, seconds), pulls, progress)
+        loads = self._loads(control, seconds)
+        given = self._loaded.loads() if control is None else control[1]
+        total = 1 if _is_one(given) else len(given) if hasattr(given, "__len__") and not pulls else None
+        return LoadPath(self, loads, pulls, progress, total)
 
     def _loads(self, control: tuple[str, Any] | None, seconds: Any) -> Iterator[Load]:
         if control is None:
@@ -364,7 +367,7 @@ class Scene:
         name, value = control
         if not _is_one(value):
             raise TypeError(f"{name}: solve takes one load, not {type(value).__name__}; path takes many")
-        return LoadPath(self, self._loads(control, None), False, progress)._next(4)
+        return LoadPath(self, self._loads(control, None), False, progress, 1)._next(4)
 
     def run(
         self,
@@ -395,7 +398,8 @@ class Scene:
         from .progress import reporter
         from .runs import Run
 
-        with reporter(progress) as report:
+        total = None if self.resolved["loading"].get("until") else len(self._loaded.loads())
+        with reporter(progress, total) as report:
             trouble, said = _tabor.run(self._loaded, os.fspath(folder), resume, overwrite, images, self.threads, report)
         _warn([words for is_warning, words in said if is_warning])
         if trouble is not None:
