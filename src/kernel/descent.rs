@@ -48,12 +48,11 @@ pub(super) fn mean_gap_descent_terms<T: Real>(
     }
 }
 
-/// The preconditioned residual z on free points; `MEAN_GAP` where that is prescribed, `LEVELS` where the lines
-/// are z of the coarser levels alone.
-pub(super) struct Descent<const MEAN_GAP: bool, const LEVELS: bool>;
+/// The preconditioned residual z on free points; `MEAN_GAP` where that is prescribed.
+pub(super) struct Descent<const MEAN_GAP: bool>;
 
-impl<T, C, const MEAN_GAP: bool, const LEVELS: bool, const READS: usize, const TERMS: usize>
-    PointKernel<T, C, READS, 0, TERMS> for Descent<MEAN_GAP, LEVELS>
+impl<T, C, const MEAN_GAP: bool, const READS: usize, const TERMS: usize>
+    PointKernel<T, C, READS, 0, TERMS> for Descent<MEAN_GAP>
 where
     T: Real,
     C: GapConstraint<T>,
@@ -63,12 +62,7 @@ where
         let [gap, pressure, previous] = [point.reads[0], point.reads[1], point.reads[2]];
         let here = numbers.here_at(law, [gap, pressure], point.in_domain);
         let residual = projected_residual(&here);
-        let compliant = if LEVELS {
-            point.line + numbers.own_compliance * residual
-        } else {
-            point.line
-        };
-        let z = numbers.constraint.preconditioned(&here, compliant);
+        let z = numbers.constraint.preconditioned(&here, point.line);
         descent_terms(z, residual, previous).put(&mut point.terms);
         if MEAN_GAP {
             let direction = point.reads[3];
@@ -79,16 +73,13 @@ where
     }
 }
 
-/// All waves at once, where a grid cannot be coarsened.
-type WholeDescent<const MEAN_GAP: bool> = Descent<MEAN_GAP, false>;
-
 point_kernels!(
     /// Step 2, the end of `plain::precondition` without levels: retains the rows of z. Its sums are those of step 3.
-    DESCENT, descent, RetainRows, gate Ahead, WholeDescent [MEAN_GAP = false],
+    DESCENT, descent, RetainRows, gate Ahead, Descent [MEAN_GAP = false],
     reads [gap, pressure, previous_residual], writes [], unbound [direction], sums [DescentSums]
 );
 point_kernels!(
     /// The same under a prescribed mean gap, `plain::project`.
-    MEAN_GAP_DESCENT, descent, RetainRows, gate Ahead, WholeDescent [MEAN_GAP = true],
+    MEAN_GAP_DESCENT, descent, RetainRows, gate Ahead, Descent [MEAN_GAP = true],
     reads [gap, pressure, previous_residual, direction], writes [], sums [DescentSums, MeanGapDescentSums]
 );

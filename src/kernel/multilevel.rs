@@ -8,11 +8,12 @@ use pulp::{Arch, Simd, WithSimd};
 
 use super::constraint::{GapConstraint, HardnessLimit, Unilateral};
 use super::descent::{Descent, DescentSums, MeanGapDescentSums};
-use super::points::{PointKernel, each_point};
+use super::points::{Numbers, Point, PointKernel, each_point};
 use super::smooth::Smooth;
 use crate::kernel::{
     Constraint, Kernel, Params, Rows, SUMS, Scalars, Whole, catalogue_entry, rows_kernel,
 };
+use crate::law::Cohesion;
 use crate::real::Real;
 
 /// Finer points along a cell of the next level.
@@ -245,6 +246,20 @@ pub static WEIGH: Kernel = rows_kernel!(
     reads [restricted], writes [weight], fresh 1
 );
 
+fn load_weighted<T: Real>(rows: &mut Rows<T>, _: &Params, _: &Scalars, _: &mut [f64; SUMS]) {
+    let [restricted, weight, ..] = rows.reads;
+    for (i, line) in rows.lines.iter_mut().enumerate() {
+        *line = restricted[i] * weight[i];
+    }
+}
+
+/// Fills the rows of a transform with the restricted residual times the weight that is there already: the second
+/// sweep has the free points of the first.
+pub static LOAD_WEIGHTED: Kernel = rows_kernel!(
+    load_weighted, Load, gate Ahead, law false,
+    reads [restricted, weight], writes []
+);
+
 fn store_weighted<T: Real>(rows: &mut Rows<T>, _: &Params, _: &Scalars, _: &mut [f64; SUMS]) {
     let weight = rows.reads[0];
     let lines = &*rows.lines;
@@ -300,42 +315,42 @@ fn level_descent<T, C, const MEAN_GAP: bool, const READS: usize, const TERMS: us
 ) where
     T: Real,
     C: GapConstraint<T>,
-    Descent<MEAN_GAP, true>: PointKernel<T, C, READS, 0, TERMS>,
+    Descent<MEAN_GAP>: PointKernel<T, C, READS, 0, TERMS>,
 {
-    add_interpolated::<T, false>(
-        &mut rows.lines[..rows.width * rows.count],
-        rows.whole,
-        [rows.width, rows.first],
-        T::zero(),
-    );
-    add_neighbours(rows, params);
-    each_point::<T, C, Descent<MEAN_GAP, true>, READS, 0, TERMS>(rows, params, scalars, sums);
+    finest_answer(rows, params);
+    each_point::<T, C, Descent<MEAN_GAP>, READS, 0, TERMS>(rows, params, scalars, sums);
 }
 
-/// Adds to the lines what the finest level answers each point with of the residual at its four neighbours.
-fn add_neighbours<T: Real>(rows: &mut Rows<T>, params: &Params) {
-    Arch::new().dispatch(Neighbours {
-        lines: &mut rows.lines[..rows.width * rows.count],
+/// Fills the lines with what the levels answer each point with, before it is known whether the point is free.
+fn finest_answer<T: Real>(rows: &mut Rows<T>, params: &Params) {
+    let lines = &mut rows.lines[..rows.width * rows.count];
+    let place = [rows.width, rows.first];
+    add_interpolated::<T, false>(lines, rows.whole, place, T::zero());
+    Arch::new().dispatch(Finest {
+        lines,
         residual: rows.around,
         first: rows.first,
-        compliance: T::from_double(params.neighbour_compliance),
+        own: T::from_double(params.own_compliance),
+        beside: T::from_double(params.neighbour_compliance),
     });
 }
 
-/// The same as a task of several points side by side.
-struct Neighbours<'a, T> {
+/// Adds to lines what the finest level answers each point with, of the residual there and at its four neighbours.
+struct Finest<'a, T> {
     lines: &'a mut [T],
     residual: Whole<'a, T>,
     first: usize,
-    compliance: T,
+    own: T,
+    beside: T,
 }
 
-impl<T: Real> WithSimd for Neighbours<'_, T> {
+impl<T: Real> WithSimd for Finest<'_, T> {
     type Output = ();
 
     #[inline(always)]
     fn with_simd<S: Simd>(self, _: S) {
-        let ([width, rows], compliance) = (self.residual.points(), self.compliance);
+        let [width, rows] = self.residual.points();
+        let (own_share, beside_share) = (self.own, self.beside);
         for (row, line) in self.lines.chunks_exact_mut(width).enumerate() {
             let here = self.first + row;
             let [above, own, below] =
@@ -346,14 +361,16 @@ impl<T: Real> WithSimd for Neighbours<'_, T> {
                 (last, own[before(last, width)] + own[0]),
             ];
             // A grid with levels has more than two points each way.
-            let inner = line[1..last].iter_mut();
+            let inner = line[1..last].iter_mut().zip(&own[1..last]);
             let across = above[1..last].iter().zip(&below[1..last]);
             let along = own[..last - 1].iter().zip(&own[2..]);
-            for ((line, (above, below)), (left, right)) in inner.zip(across).zip(along) {
-                *line += compliance * ((*above + *below) + (*left + *right));
+            for (((line, own), (above, below)), (left, right)) in inner.zip(across).zip(along) {
+                *line += beside_share * ((*above + *below) + (*left + *right));
+                *line += own_share * *own;
             }
-            for (x, beside) in beside {
-                line[x] += compliance * ((above[x] + below[x]) + beside);
+            for (x, along) in beside {
+                line[x] += beside_share * ((above[x] + below[x]) + along);
+                line[x] += own_share * own[x];
             }
         }
     }
@@ -397,4 +414,53 @@ level_descents!(
     reads [gap, pressure, previous_residual, direction], writes [], around projected_residual,
     whole true,
     sums [DescentSums, MeanGapDescentSums]
+);
+
+/// r + a D M r, of a line of M r: what an attraction that falls with the gap takes off the stiffness.
+struct Soften;
+
+impl<T: Real, C: GapConstraint<T>> PointKernel<T, C, 2, 0, 0> for Soften {
+    #[inline(always)]
+    fn at(numbers: &Numbers<T, C>, law: &impl Cohesion<T>, point: &mut Point<T, 2, 0, 0>) {
+        let [gap, residual] = point.reads;
+        // Where the solid yields, it does not feel the law's slope.
+        let falls = point.in_domain & (residual != T::zero()) & (law.open(gap) >= T::zero());
+        let softened = residual - numbers.softening * law.slope(gap) * point.line;
+        point.line = if falls { softened } else { residual };
+    }
+}
+
+fn soften<T: Real, C: GapConstraint<T>>(
+    rows: &mut Rows<T>,
+    params: &Params,
+    scalars: &Scalars,
+    sums: &mut [f64; SUMS],
+) {
+    finest_answer(rows, params);
+    each_point::<T, C, Soften, 2, 0, 0>(rows, params, scalars, sums);
+}
+
+/// The variants of what begins a second sweep.
+macro_rules! softens {
+    ($constraint:ident) => {
+        catalogue_entry!(
+            soften, Retain, gate Ahead, law true, constraint Some(Constraint::$constraint), flag [],
+            twins [soften::<f64, $constraint<f64>>, soften::<f32, $constraint<f32>>],
+            reads [gap, projected_residual], writes [], around projected_residual, whole true
+        )
+    };
+}
+
+/// Step 2, the middle of `plain::precondition` where an attraction falls with the gap: of z of the first coarser level
+/// it makes M r, and retains the rows of r + a D M r.
+pub static SOFTEN: [Kernel; 2] = [softens!(Unilateral), softens!(HardnessLimit)];
+
+fn store_retained<T: Real>(rows: &mut Rows<T>, _: &Params, _: &Scalars, _: &mut [f64; SUMS]) {
+    rows.writes[0].copy_from_slice(rows.lines);
+}
+
+/// Stores rows that were kept: the residual of the second sweep, once no point asks for its neighbours' any more.
+pub static STORE_RETAINED: Kernel = rows_kernel!(
+    store_retained, ReadRetained, gate Ahead, law false,
+    reads [], writes [field], fresh 1
 );

@@ -32,6 +32,8 @@ device_struct! {
         own_compliance: f64,
         /// And that at each of its four neighbours.
         neighbour_compliance: f64,
+        /// Factor a on the slope of an attraction that falls with the gap, in the second sweep of the levels; 0 without one.
+        softening: f64,
         /// Largest net pressure that the solid bears, its hardness; infinite for an elastic one.
         hardness: f64,
         /// Relative rounding error of the fields.

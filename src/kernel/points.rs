@@ -30,7 +30,7 @@ type Lanes<T> = [T; LANES];
 pub struct Numbers<T, C> {
     pub constraint: C,
     pub stiffness_max: T,
-    pub own_compliance: T,
+    pub softening: T,
     pub offset: T,
     pub mean_pressure: T,
     pub descent_factor: T,
@@ -49,7 +49,7 @@ impl<T: Real, C: GapConstraint<T>> Numbers<T, C> {
         Numbers {
             constraint: C::new(params),
             stiffness_max: T::from_double(params.stiffness_max),
-            own_compliance: T::from_double(params.own_compliance),
+            softening: T::from_double(params.softening),
             offset: T::from_double(scalars.offset),
             mean_pressure: T::from_double(scalars.mean_pressure),
             descent_factor: T::from_double(scalars.descent_factor),

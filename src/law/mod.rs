@@ -263,6 +263,15 @@ impl Law {
         }
     }
 
+    /// The steepest slope with which the tension falls beyond a wall, positive; infinite of a sharp end, 0 without a wall.
+    pub fn steepest_fall(&self) -> f64 {
+        match self {
+            Law::HardWall | Law::LennardJones(_) => 0.0,
+            Law::MaugisDugdale(law) => law.peak_tension / law.taper,
+            Law::Exponential(law) => law.work_of_adhesion / (law.range * law.range),
+        }
+    }
+
     /// Whether the surfaces attract at all.
     pub fn is_adhesive(&self) -> bool {
         !matches!(self, Law::HardWall)

@@ -103,7 +103,10 @@ impl ContactSolver<'_> {
         let mean_gap = self.params.prescribed_mean_gap;
         let backend = &mut *self.backend;
         match in_use(&self.levels, self.exact) {
-            Some(levels) => levels.descend(backend, [g, p, previous], mean_gap.then_some(d)),
+            Some(levels) => {
+                let direction = mean_gap.then_some(d);
+                levels.descend(backend, &self.params, [g, p, previous], direction);
+            }
             None => {
                 if let Some(preconditioner) = self.preconditioner {
                     backend.multiply(preconditioner, false, Gate::Ahead);

@@ -1,7 +1,7 @@
 //! The kernel variants for the constraint of a problem, and the numbers that stay fixed during a solve.
 
 use super::contact::{Hold, Load};
-use super::multilevel::{finest_compliances, level_compliance};
+use super::multilevel::{finest_compliances, level_compliance, softening};
 use super::problem::Problem;
 use crate::kernel::{Constraint, Kernel, Params};
 use crate::kernel::{descent, measure, multilevel, refinement, search, trial, update};
@@ -41,14 +41,16 @@ pub(super) enum MeanGapTrial {
     },
 }
 
-/// The kernels that store the projected residual, of the present state and after a step, and those that end
-/// with z.
+/// The kernels that store the projected residual, of the present state and after a step, those that end
+/// with z, and the one that begins a second sweep.
 #[derive(Clone, Copy)]
 pub(super) struct LevelSet {
     pub store_residual: &'static Kernel,
     pub update_state: &'static Kernel,
     pub descent: &'static Kernel,
     pub mean_gap_descent: &'static Kernel,
+    /// Of a constraint whose laws may fall with the gap from a wall on.
+    pub soften: Option<&'static Kernel>,
 }
 
 /// The kernels that add a correction to the outer state and restore its mean gap.
@@ -104,6 +106,7 @@ impl KernelSet {
                 update_state: &update::UPDATE_AND_STORE[at],
                 descent: &multilevel::LEVEL_DESCENT[at],
                 mean_gap_descent: &multilevel::MEAN_GAP_LEVEL_DESCENT[at],
+                soften: multilevel::SOFTEN.get(at),
             },
             outer: outer.map(|at| OuterSet {
                 add_correction: &refinement::ADD_CORRECTION[at],
@@ -121,6 +124,7 @@ impl KernelSet {
 /// The numbers of a problem under a load, for fields of a relative rounding error.
 pub(super) fn params_under(problem: &Problem, load: &Load, epsilon: f64) -> Params {
     let mut params = params_of_problem(problem, epsilon);
+    params.softening = softening(problem, load);
     match load.hold {
         Hold::Gap(_) => params.prescribed_mean_gap = true,
         Hold::Pressure(pressure) if load.zero_stiffness > 0.0 => {
@@ -155,6 +159,7 @@ pub(super) fn params_of_problem(problem: &Problem, epsilon: f64) -> Params {
         level_compliance: level_compliance(problem),
         own_compliance,
         neighbour_compliance,
+        softening: 0.0,
         hardness: problem.hardness.unwrap_or(f64::INFINITY),
         epsilon,
     }

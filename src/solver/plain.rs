@@ -234,10 +234,17 @@ impl Contact<'_> {
         }
     }
 
-    /// Step 2: z = M r; the smooth law answers its part by its own slope, + D/k y/(D + k).
+    /// Step 2: z = M r. Where an attraction falls with the gap at a wall the levels sweep twice, z = M (r + a D M r): two terms
+    /// of the inverse of 1/M - D, D = -sigma'(g). The smooth law answers its part by its own slope, + D/k y/(D + k).
     fn precondition(&self, r: &[f64], now: &State, exact: bool) -> Vec<f64> {
         let (k, d) = (self.k(), each(r.len(), |i| self.hardening(i, now.gap[i])));
-        let z = self.compliance_times(r, exact);
+        let mut z = self.compliance_times(r, exact);
+        let a = self.params.softening;
+        if a > 0.0 && !exact {
+            let free = |i: usize| choose(r[i] != 0.0, a, 0.0);
+            let falls = |i: usize| free(i) * self.softening(i, now.gap[i]);
+            z = self.compliance_times(&each(r.len(), |i| r[i] + falls(i) * z[i]), exact);
+        }
         each(r.len(), |i| z[i] + d[i] / k * now.y[i] / (d[i] + k))
     }
 

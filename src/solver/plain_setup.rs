@@ -179,6 +179,12 @@ impl<'a> Contact<'a> {
         choose(self.has_wall(), 0.0, slope.max(0.0))
     }
 
+    /// D = max(0, -sigma'(g)) at a wall; 0 of the smooth law.
+    pub(super) fn softening(&self, i: usize, gap: f64) -> f64 {
+        let slope = self.factor[i] * self.problem.law.slope(gap);
+        choose(self.wall[i], (-slope).max(0.0), 0.0)
+    }
+
     /// S = k/(k + D): dg = S dv; 1 at a wall, where v is g.
     pub(super) fn share(&self, i: usize, gap: f64) -> f64 {
         self.k() / (self.k() + self.hardening(i, gap))

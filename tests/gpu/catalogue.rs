@@ -14,7 +14,7 @@ pub fn variants() -> impl Iterator<Item = &'static Kernel> {
 /// Every kernel over points by name. Each is compared with its twin by `kernels.rs`, which goes through the
 /// catalogue: a kernel that is not named here makes a test fail until somebody has looked that its variants are
 /// met there.
-const NAMES: [&str; 23] = [
+const NAMES: [&str; 26] = [
     "add_correction",
     "advance",
     "balance",
@@ -27,13 +27,16 @@ const NAMES: [&str; 23] = [
     "load_field",
     "load_residual",
     "load_trial",
+    "load_weighted",
     "outer_pressure",
     "outer_residual",
     "refine",
     "residual",
     "restore_outer_gap",
     "search",
+    "soften",
     "store_field",
+    "store_retained",
     "store_weighted",
     "trial",
     "update_state",

@@ -47,6 +47,7 @@ fn params() -> Params {
         level_compliance: 0.8,
         own_compliance: 0.6,
         neighbour_compliance: 0.05,
+        softening: 0.7,
         hardness: f64::INFINITY,
         epsilon: f64::EPSILON,
     }

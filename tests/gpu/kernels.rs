@@ -79,6 +79,7 @@ fn params(law: Law, prescribed_mean_gap: bool, number: Number) -> Params {
         level_compliance: 0.8,
         own_compliance: 0.6,
         neighbour_compliance: 0.05,
+        softening: 0.875,
         hardness: 0.3,
         epsilon: number.epsilon(),
     }
@@ -167,7 +168,14 @@ fn run(
         number,
     } = case;
     // The whole field lies on the other level: coarse for a fine kernel, fine for a coarse one.
-    let coarse_kernel = ["coarsen", "free_share", "weigh", "store_weighted"].contains(&kernel.name);
+    let coarse_kernel = [
+        "coarsen",
+        "free_share",
+        "weigh",
+        "load_weighted",
+        "store_weighted",
+    ]
+    .contains(&kernel.name);
     let [nx, ny] = match number {
         Number::Single => COARSE,
         Number::Double => COARSE_IN_DOUBLE,
@@ -748,6 +756,7 @@ fn every_member_is_where_a_shader_reads_it() {
                 level_compliance: 7.625,
                 own_compliance: 5.25,
                 neighbour_compliance: 0.375,
+                softening: 0.875,
                 hardness: 8.125,
                 epsilon: 9.125,
                 prescribed_mean_gap: true,

@@ -57,6 +57,7 @@ fn params(law: Law) -> Params {
         level_compliance: 0.8,
         own_compliance: 0.6,
         neighbour_compliance: 0.05,
+        softening: 0.7,
         hardness: 0.3,
         epsilon: f64::from(f32::EPSILON),
     }
@@ -272,9 +273,10 @@ fn run(
 
 /// One of each form, with a field of another level and without. Software compiles a shader slowly, and
 /// whole solves run the others.
-static KINDS: [&Kernel; 8] = [
+static KINDS: [&Kernel; 9] = [
     &LOAD_DISPLACEMENT,
     &multilevel::LEVEL_DESCENT[0],
+    &multilevel::SOFTEN[0],
     &trial::SMOOTH_DIRECTION,
     &trial::TRIAL[0],
     &update::UPDATE_AND_STORE[0],

@@ -471,7 +471,7 @@ fn fields_moved(passes: &[String]) -> f64 {
         let before = level;
         match kernel.name {
             "coarsen" => level /= 4.0,
-            "refine" | "level_descent" => level *= 4.0,
+            "refine" | "soften" | "level_descent" => level *= 4.0,
             _ => {}
         }
         let written = 2 * kernel.writes.len() - kernel.fresh;

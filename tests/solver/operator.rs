@@ -30,6 +30,7 @@ fn params() -> Params {
         level_compliance: 1.0,
         own_compliance: 0.75,
         neighbour_compliance: 0.062,
+        softening: 0.7,
         hardness: f64::INFINITY,
         epsilon: f64::EPSILON,
     }

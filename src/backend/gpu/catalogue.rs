@@ -78,7 +78,10 @@ const SHADERS: &[Shader] = shaders! {
     "weigh" [];
     "store_weighted" [];
     "refine" ["interpolation", "add_interpolated"];
-    "level_descent" ["interpolation", "add_interpolated", "descent_terms"];
+    "load_weighted" [];
+    "soften" ["interpolation", "add_interpolated", "finest_answer"];
+    "store_retained" [];
+    "level_descent" ["interpolation", "add_interpolated", "finest_answer", "descent_terms"];
     "outer_residual" [];
     "outer_pressure" [];
     "add_correction" [];

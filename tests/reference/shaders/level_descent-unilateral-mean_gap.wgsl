@@ -296,6 +296,17 @@ fn add_interpolated(index: u32, value: real) -> real {
     let there = (1.0 - far_x) * whole_at(column, other) + far_x * whole_at(beside, other);
     return value + ((1.0 - far_y) * here + far_y * there);
 }
+// What the levels answer a point with: z of the first coarser one interpolated, and the finest level's answer to the
+// residual there and at its four neighbours. Twins: kernel/multilevel.rs.
+fn finest_answer(index: u32) -> real {
+    let x = index % WIDTH;
+    let y = row_of(index);
+    let before = vec2<u32>(select(x - 1u, WIDTH - 1u, x == 0u), select(y - 1u, HEIGHT - 1u, y == 0u));
+    let after = vec2<u32>(select(x + 1u, 0u, x + 1u == WIDTH), select(y + 1u, 0u, y + 1u == HEIGHT));
+    let own = real(params.own_compliance) * around_at(x, y);
+    let beside = around_at(x, before.y) + around_at(x, after.y) + (around_at(before.x, y) + around_at(after.x, y));
+    return add_interpolated(index, own + real(params.neighbour_compliance) * beside);
+}
 // What beta is made of. Twins: kernel/descent.rs.
 fn descent_terms(z: real, residual: real, previous: real) {
     add_sum(Z_RESIDUAL, wide(z) * wide(residual));
@@ -318,23 +329,12 @@ fn mean_gap_descent_terms(z: real, residual: real, previous: real, direction: re
         add_sum(WEIGHTED_DIRECTION, w * d);
     }
 }
-// Adds what the finest level answers a point with of the residual at its four neighbours.
-fn add_neighbours(index: u32, answer: real) -> real {
-    let x = index % WIDTH;
-    let y = row_of(index);
-    let before = vec2<u32>(select(x - 1u, WIDTH - 1u, x == 0u), select(y - 1u, HEIGHT - 1u, y == 0u));
-    let after = vec2<u32>(select(x + 1u, 0u, x + 1u == WIDTH), select(y + 1u, 0u, y + 1u == HEIGHT));
-    let beside = around_at(x, before.y) + around_at(x, after.y) + (around_at(before.x, y) + around_at(after.x, y));
-    return answer + real(params.neighbour_compliance) * beside;
-}
-
-// Retains the rows of z: that of the first coarser level interpolated, and what the finest level answers.
+// Retains the rows of z: what the levels answer, on free points.
 fn at(index: u32, in_domain: bool, line: real) -> real {
     let here = here_at(read_gap(index), read_pressure(index) + real(scalars.mean_pressure), in_domain);
     let residual = projected_residual(here);
     let previous = read_previous_residual(index);
-    let carried = add_interpolated(index, add_neighbours(index, real(params.own_compliance) * residual));
-    let z = preconditioned(here, carried);
+    let z = preconditioned(here, finest_answer(index));
     descent_terms(z, residual, previous);
     if (MEAN_GAP) {
         mean_gap_descent_terms(z, residual, previous, read_direction(index), here.weight, here.free);

@@ -17,6 +17,7 @@ struct Params {
     level_compliance: wide,
     own_compliance: wide,
     neighbour_compliance: wide,
+    softening: wide,
     hardness: wide,
     epsilon: wide,
     prescribed_mean_gap: u32,
