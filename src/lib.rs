@@ -64,7 +64,7 @@
 //! | [`law`] | how strongly surfaces attract across a gap, one file a law |
 //! | [`elastic`] | stiffness of the half-space or of a layer at each wavevector, periodic or free |
 //! | [`kernel`] | the catalogue of passes over points, and the numbers of the algorithm |
-//! | [`backend`] | where the arithmetic runs: the trait, the processor, alone or with a slab of the rows on each of several ranks, shaders through wgpu, the dry run that only counts |
+//! | [`backend`] | where the arithmetic runs: the trait, the processor, alone or with a slab of the rows on each of several ranks, what the host holds of these, shaders through wgpu, the dry run that only counts |
 //! | [`solver`] | the one algorithm, for every law and both boundaries |
 //! | [`scene`] | TOML to a checked scene, or every mistake of it with line, key and remedy |
 //! | [`surface`] | heights: self-affine, shapes, files; their statistics and the spectrum that fits |

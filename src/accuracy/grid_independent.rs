@@ -85,6 +85,7 @@ impl GridIndependentSurface {
                 let place = ApexPosition {
                     centre: *centre,
                     boundary,
+                    first_row: 0,
                 };
                 *centre = Some(place.centre_on(&grid));
             }

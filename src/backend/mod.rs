@@ -15,6 +15,7 @@ mod factors;
 #[cfg(feature = "gpu")]
 pub mod gpu;
 pub mod ranks;
+mod share;
 /// What remains of graphics processors without the feature `gpu`: a buffer that nobody can have.
 #[cfg(not(feature = "gpu"))]
 mod gpu {
@@ -25,6 +26,7 @@ mod gpu {
 
 use crate::kernel::{Gate, Kernel, Params, ScalarKernel, Scalars};
 pub use factors::{Factors, Response};
+pub use share::Share;
 
 /// A grid on which fields live: the fine one, or a coarse one of the preconditioner.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
@@ -137,9 +139,9 @@ pub trait Backend {
     fn spectrum(&mut self, level: Level, name: &'static str, factors: Factors) -> Spectrum;
     /// Overwrites a spectrum's value at the zero wavevector.
     fn set_zero_mode(&mut self, spectrum: Spectrum, value: f64);
-    /// Overwrites a field.
+    /// Overwrites a field: the rows of it that this process holds.
     fn write(&mut self, field: Field, values: &[f64]);
-    /// Waits, and reads a field.
+    /// Waits, and reads a field: the rows of it that this process holds.
     fn read(&mut self, field: Field) -> Result<Vec<f64>, BackendError>;
     /// Multiplies the law's tension by this field, in every kernel of its level from now on. Without
     /// a call the law is the same everywhere and nothing is read for it.

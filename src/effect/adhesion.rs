@@ -83,8 +83,10 @@ impl Hooks for Adhesion {
 
 /// The attractive force of a solved state.
 pub(super) fn attraction(setup: &Setup, evaluation: Option<&Evaluation>) -> (Column, f64) {
-    let pressures = evaluation.map_or(&[][..], |evaluation| &evaluation.pressure);
-    let tension = pressures.iter().fold(0.0, |sum, p| sum + (-p).max(0.0));
+    let share = &setup.problem.share;
+    let tension = evaluation.map_or(0.0, |evaluation| {
+        share.surface_sum_by(&evaluation.pressure, |p| (-p).max(0.0))
+    });
     (ATTRACTION, tension * setup.surface.grid.pixel_area())
 }
 

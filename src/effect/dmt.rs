@@ -132,7 +132,7 @@ fn search(attempt: &mut Attempt) -> Result<SolvedStep, BackendError> {
         let start = match (loaded, setup.problem.boundary) {
             (true, _) => Start::Present,
             (false, Boundary::Periodic) => Start::Cold,
-            (false, Boundary::Free) => Start::Gap(controller.undeformed_gap(0.0, &[])),
+            (false, Boundary::Free) => Start::Gap(controller.undeformed_gap(0.0, None)),
         };
         let outcome = attempt.solve(&load, &start)?;
         loaded = true;
@@ -251,13 +251,13 @@ fn search(attempt: &mut Attempt) -> Result<SolvedStep, BackendError> {
 /// that it can as its gap widens, and points in contact by the peak.
 fn most_attraction(setup: &Setup, evaluation: &Evaluation) -> f64 {
     let law = setup.law;
-    let sum = evaluation
-        .gap
-        .iter()
-        .enumerate()
-        .fold(0.0, |sum, (i, gap)| {
-            sum + setup.law_factor(i) * law.traction_beyond(gap.max(0.0))
-        });
+    let (gap, width) = (&evaluation.gap, setup.surface.grid.nx);
+    let [sum] = setup.problem.share.sums(gap.len() / width, |row, [sum]| {
+        let line = gap.iter().enumerate().skip(row * width).take(width);
+        for (i, gap) in line {
+            *sum += setup.law_factor(i) * law.traction_beyond(gap.max(0.0));
+        }
+    });
     sum * setup.surface.grid.pixel_area()
 }
 

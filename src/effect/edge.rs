@@ -2,6 +2,7 @@
 
 use std::f64::consts::FRAC_PI_4;
 
+use crate::backend::{BackendError, Share};
 use crate::grid::{Boundary, Grid};
 
 /// Area in contact and the length of its edge.
@@ -17,26 +18,41 @@ impl Edge {
     /// The edge of the points of a grid that touch.
     ///
     /// The staircase of pixels is 4/pi times as long as an isotropic edge.
-    pub fn new(touches: &[bool], grid: &Grid, boundary: Boundary) -> Edge {
+    ///
+    /// # Errors
+    /// Another rank has ended.
+    pub fn new(
+        touches: &[bool],
+        share: &Share,
+        grid: &Grid,
+        boundary: Boundary,
+    ) -> Result<Edge, BackendError> {
         let (nx, ny) = (grid.nx, grid.ny);
         let wraps = boundary == Boundary::Periodic;
-        let at = |x: usize, y: usize| touches[y * nx + x];
-        let mut staircase = 0.0;
-        for y in 0..ny {
+        let touches: Vec<u8> = touches.iter().copied().map(u8::from).collect();
+        let after = share.surface_row_after(&touches[..nx.min(touches.len())])?;
+        let rows = share.surface_rows();
+        let line = |row: usize| match row == rows.len() {
+            true => &after[..],
+            false => &touches[row * nx..(row + 1) * nx],
+        };
+        let [staircase] = share.sums(rows.len(), |row, [staircase]| {
+            let (here, next) = (line(row), line(row + 1));
+            let is_followed = rows.start + row + 1 < ny || wraps;
             for x in 0..nx {
-                if (x + 1 < nx || wraps) && at(x, y) != at((x + 1) % nx, y) {
-                    staircase += grid.dy();
+                if (x + 1 < nx || wraps) && here[x] != here[(x + 1) % nx] {
+                    *staircase += grid.dy();
                 }
-                if (y + 1 < ny || wraps) && at(x, y) != at(x, (y + 1) % ny) {
-                    staircase += grid.dx();
+                if is_followed && here[x] != next[x] {
+                    *staircase += grid.dx();
                 }
             }
-        }
-        let count = touches.iter().filter(|&&touches| touches).count();
-        Edge {
+        });
+        let [count] = share.counts([touches.iter().filter(|&&touches| touches > 0).count()]);
+        Ok(Edge {
             area: count as f64 * grid.pixel_area(),
             length: FRAC_PI_4 * staircase,
-        }
+        })
     }
 
     /// Mean speed at which it recedes to become `later` within `duration` (s), m/s; 0 where the area
@@ -53,6 +69,7 @@ impl Edge {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::backend::Shape;
 
     /// A disc of 40 pixels that shrinks by 4 within 2 s; its pixels know the radius to a fraction of one.
     #[test]
@@ -66,8 +83,10 @@ mod tests {
                 })
                 .collect()
         };
-        let [large, small] =
-            [40.0, 36.0].map(|radius| Edge::new(&disc(radius), &grid, Boundary::Free));
+        let share = Share::whole(Shape::whole(100, 90));
+        let [large, small] = [40.0, 36.0].map(|radius| {
+            Edge::new(&disc(radius), &share, &grid, Boundary::Free).expect("one process")
+        });
         assert!((large.length / (0.8 * std::f64::consts::PI) - 1.0).abs() < 0.02);
         let speed = large.recession(&small, 2.0);
         assert!((speed / 0.02 - 1.0).abs() < 0.03, "{speed}");

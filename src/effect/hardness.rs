@@ -8,7 +8,7 @@
 
 use std::sync::Arc;
 
-use crate::backend::BackendError;
+use crate::backend::{BackendError, Share};
 use crate::scene::{Control, Scene};
 use crate::solver::{ContactSolver, Hold, Load, Problem};
 use crate::study::{
@@ -95,7 +95,8 @@ impl Hooks for Hardness {
     fn carry(&self, setup: &Setup, checkpoint: &Checkpoint) -> Option<Box<dyn Carry>> {
         let hardness = setup.scene.solid.hardness?;
         Some(Box::new(Indentation {
-            depths: checkpoint.field(DEPTHS).unwrap_or_default().to_vec(),
+            depths: checkpoint.field(DEPTHS).map(<[f64]>::to_vec),
+            share: setup.problem.share.clone(),
             unit: hardness * setup.problem.scales.length * setup.problem.grid.pixel_area(),
         }))
     }
@@ -104,8 +105,10 @@ impl Hooks for Hardness {
 /// Depths by which plastic indentation has lowered the heights, reduced, one a solved point.
 #[derive(Clone)]
 struct Indentation {
-    /// Empty until the solid yields anywhere.
-    depths: Vec<f64>,
+    /// `None` until the solid yields anywhere.
+    depths: Option<Vec<f64>>,
+    /// The points that this process holds.
+    share: Share,
     /// Hardness times the volume of a unit of depth over a pixel, J.
     unit: f64,
 }
@@ -116,57 +119,60 @@ impl Carry for Indentation {
     }
 
     fn checkpoint_fields(&self) -> Vec<CheckpointField> {
-        let depths = (!self.depths.is_empty()).then(|| CheckpointField {
+        let depths = self.depths.as_ref().map(|depths| CheckpointField {
             name: DEPTHS.to_owned(),
-            values: Arc::new(self.depths.clone()),
+            values: Arc::new(depths.clone()),
         });
         depths.into_iter().collect()
     }
 
     fn restore(&self, solver: &mut ContactSolver) {
-        if !(self.depths.is_empty() && solver.plastic_depths().is_empty()) {
-            solver.set_plastic_depths(&self.depths);
+        if self.depths.is_some() || solver.plastic_depths().is_some() {
+            solver.set_plastic_depths(self.depths.as_deref());
         }
     }
 
     /// The plastic depths widen a mean gap.
     fn load(&self, solver: &ContactSolver, load: Load) -> Load {
-        let depths = solver.plastic_depths();
-        match load.hold {
-            Hold::Gap(target) if !depths.is_empty() => Load {
-                hold: Hold::Gap(target + depths.iter().sum::<f64>() / depths.len() as f64),
-                ..load
-            },
+        match (load.hold, solver.plastic_depths()) {
+            (Hold::Gap(target), Some(depths)) => {
+                let mean = self.share.sum(depths) / solver.problem().shape.len() as f64;
+                Load {
+                    hold: Hold::Gap(target + mean),
+                    ..load
+                }
+            }
             _ => load,
         }
     }
 
     /// Takes the part of the gap below zero off the heights.
     fn settle(&mut self, solver: &mut ContactSolver) -> Result<(), BackendError> {
-        let shape = solver.problem().shape;
+        let problem = solver.problem();
+        let (shape, share) = (problem.shape, &problem.share);
         let mut gap = solver.gap()?;
-        let mut is_indented = false;
-        let lines = gap.chunks_exact_mut(shape.points[0]).take(shape.surface[1]);
-        for (row, line) in lines.enumerate() {
-            for (column, gap) in line[..shape.surface[0]].iter_mut().enumerate() {
-                if *gap < 0.0 {
-                    if self.depths.is_empty() {
-                        self.depths = vec![0.0; shape.len()];
+        let yields = problem.on_surface(&gap).any(|gap| gap < 0.0);
+        if share.any(yields) {
+            let depths = self.depths.get_or_insert_with(|| vec![0.0; share.len()]);
+            let lines = gap.chunks_exact_mut(shape.points[0]);
+            let lines = lines.take(share.surface_rows().len());
+            for (row, line) in lines.enumerate() {
+                for (column, gap) in line[..shape.surface[0]].iter_mut().enumerate() {
+                    if *gap < 0.0 {
+                        depths[row * shape.points[0] + column] -= *gap;
+                        *gap = 0.0;
                     }
-                    self.depths[row * shape.points[0] + column] -= *gap;
-                    *gap = 0.0;
-                    is_indented = true;
                 }
             }
-        }
-        if is_indented {
-            solver.set_plastic_depths(&self.depths);
+            solver.set_plastic_depths(self.depths.as_deref());
             solver.set_gap(&gap);
         }
         Ok(())
     }
 
     fn values(&self) -> Vec<(Column, f64)> {
-        vec![(ENERGY, self.unit * self.depths.iter().sum::<f64>())]
+        let depths = self.depths.as_ref();
+        let sum = depths.map_or(0.0, |depths| self.share.sum(depths));
+        vec![(ENERGY, self.unit * sum)]
     }
 }

@@ -58,7 +58,7 @@ impl Hooks for Leakage {
 
     fn host_bytes(&self, sizes: &Sizes) -> HostBytes {
         HostBytes {
-            passing: BYTES * sizes.points,
+            gathered: BYTES * sizes.points,
             ..HostBytes::default()
         }
     }
@@ -92,19 +92,26 @@ impl Hooks for Leakage {
             .zip(&evaluation.points)
             .map(open)
             .collect();
-        let film = Film {
-            gap: &gap,
-            grid: setup.surface.grid,
-            boundary: setup.scene.grid.boundary,
-            axis,
-        };
+        // Clusters span all rows: the first of several ranks finds them for all.
+        let share = &setup.problem.share;
+        let gap = share.whole_on_first(gap)?;
         let settings = &setup.scene.solver;
-        let flow = film.flow(settings.tolerance, settings.max_iterations);
-        solved.converged &= flow.converged;
-        solved
-            .measured
-            .push((FLOW, flow.permeance / (12.0 * viscosity)));
-        solved.measured.push((CONSTRICTION, flow.critical_gap));
+        let found = share.is_first().then(|| {
+            let film = Film {
+                gap: &gap,
+                grid: setup.surface.grid,
+                boundary: setup.scene.grid.boundary,
+                axis,
+            };
+            let flow = film.flow(settings.tolerance, settings.max_iterations);
+            let converged = f64::from(u8::from(flow.converged));
+            [converged, flow.permeance, flow.critical_gap]
+        });
+        let [converged, permeance, critical_gap] = share.told(found);
+        share.failed()?;
+        solved.converged &= converged == 1.0;
+        solved.measured.push((FLOW, permeance / (12.0 * viscosity)));
+        solved.measured.push((CONSTRICTION, critical_gap));
         Ok(())
     }
 }

@@ -1,6 +1,9 @@
 //! Plans, setups and costs with the effects of this version: the functions of `study`, called with their list.
 
+use std::sync::Arc;
+
 use super::LIST;
+use crate::backend::ranks::Ranks;
 use crate::backend::{BackendError, dry_run::Place};
 use crate::grid::Grid;
 use crate::scene::Scene;
@@ -30,7 +33,12 @@ impl Plan {
 impl Setup {
     /// Puts a scene and its surface together.
     pub fn new(scene: Scene, surface: Surface) -> Setup {
-        Setup::with_effects(&LIST, scene, surface)
+        Setup::with_effects(&LIST, scene, surface, None)
+    }
+
+    /// The same on one of several ranks, with its rows of the surface.
+    pub fn on_ranks(scene: Scene, surface: Surface, ranks: Option<Arc<dyn Ranks>>) -> Setup {
+        Setup::with_effects(&LIST, scene, surface, ranks)
     }
 }
 

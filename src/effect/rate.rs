@@ -89,6 +89,7 @@ impl Hooks for Rate {
             passing: DOUBLE * (sizes.points + sizes.solved),
             // The first trial.
             results: 1,
+            ..HostBytes::default()
         }
     }
 
@@ -155,7 +156,9 @@ fn solve(
         return Ok(plain);
     };
     let touched: Vec<bool> = gap.iter().map(|&g| g <= 0.0).collect();
-    let edge = Edge::new(&touched, &problem.grid, problem.boundary);
+    let edge_of =
+        |touches: &[bool]| Edge::new(touches, &problem.share, &problem.grid, problem.boundary);
+    let edge = edge_of(&touched)?;
     let later = |solved: &SolvedStep| {
         let touches: Vec<bool> = match &solved.evaluation {
             Some(found) => found
@@ -165,11 +168,11 @@ fn solve(
                 .collect(),
             None => vec![false; touched.len()],
         };
-        Edge::new(&touches, &problem.grid, problem.boundary)
+        edge_of(&touches)
     };
     // The factor of the speed found in a trial, less the factor of the trial.
     let excess = |later: &Edge, factor: f64| rate.factor(edge.recession(later, duration)) - factor;
-    let left = later(&plain);
+    let left = later(&plain)?;
     let first = excess(&left, 1.0);
     if !plain.converged || first <= AGREE {
         return Ok(plain);
@@ -179,7 +182,7 @@ fn solve(
     let mut factor = high;
     for solves in 1.. {
         let solved = trial(factor)?;
-        let left = later(&solved);
+        let left = later(&solved)?;
         let found = excess(&left, factor);
         let narrow = high - low <= AGREE * high && found <= 0.0;
         if narrow && low_area < LET_GO * left.area {

@@ -100,7 +100,7 @@ impl Hooks for Relaxation {
 
     fn carry(&self, setup: &Setup, checkpoint: &Checkpoint) -> Option<Box<dyn Carry>> {
         let solid = &setup.scene.solid;
-        let mut history = History::at_rest(solid, setup.problem.shape.len());
+        let mut history = History::at_rest(solid, setup.problem.share.len());
         if let Some(values) = checkpoint.field(DISPLACEMENT) {
             history.displacement.copy_from_slice(values);
         }
@@ -242,7 +242,8 @@ impl Carry for History {
         for (u, h) in displacement.iter_mut().zip(problem.padded_heights()) {
             *u += h + rigid;
         }
-        for (u, depth) in displacement.iter_mut().zip(solver.plastic_depths()) {
+        let depths = solver.plastic_depths().into_iter().flatten();
+        for (u, depth) in displacement.iter_mut().zip(depths) {
             *u -= depth;
         }
         self.advance(solid, duration, displacement);

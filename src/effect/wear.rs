@@ -1,6 +1,7 @@
 //! `[wear]`: a volume that grows with the length of sliding and with the load on the spots in contact,
 //! whatever their area (Archard 1953, doi:10.1063/1.1721448).
 
+use crate::backend::Share;
 use crate::scene::{Scene, WearScene};
 use crate::study::{Column, Evaluation, Hooks, Plan, Setup};
 use crate::units::format_si;
@@ -54,7 +55,8 @@ impl Hooks for Wear {
     fn values(&self, setup: &Setup, evaluation: Option<&Evaluation>) -> Vec<(Column, f64)> {
         let pixel_area = setup.surface.grid.pixel_area();
         let wear = setup.scene.tables.wear;
-        let rate = wear.map(|wear| (RATE, rate(wear, evaluation, pixel_area)));
+        let share = &setup.problem.share;
+        let rate = wear.map(|wear| (RATE, rate(wear, evaluation, share, pixel_area)));
         rate.into_iter().collect()
     }
 }
@@ -63,10 +65,9 @@ impl Hooks for Wear {
 ///
 /// The load is the repulsive one, not the net one: attraction presses the spots together beyond the external
 /// load. Net pressures above 0 are those of points in contact; all others are tensions.
-fn rate(wear: WearScene, evaluation: Option<&Evaluation>, pixel_area: f64) -> f64 {
+fn rate(wear: WearScene, evaluation: Option<&Evaluation>, share: &Share, pixel_area: f64) -> f64 {
     let pressing = evaluation.map_or(0.0, |evaluation| {
-        let pressures = evaluation.pressure.iter().filter(|p| **p > 0.0);
-        pressures.fold(0.0, |sum, p| sum + p)
+        share.surface_sum_by(&evaluation.pressure, |p| p.max(0.0))
     });
     wear.specific_wear_rate * (pressing * pixel_area)
 }

@@ -29,10 +29,15 @@ impl ColourScale {
     pub fn new(field: FieldName, values: &[f64]) -> ColourScale {
         let least = values.iter().copied().fold(f64::INFINITY, f64::min);
         let greatest = values.iter().copied().fold(f64::NEG_INFINITY, f64::max);
-        let (least, greatest) = if values.is_empty() {
-            (0.0, 0.0)
-        } else {
-            (least, greatest)
+        ColourScale::between(field, [least, greatest])
+    }
+
+    /// The same of a field's least and greatest value.
+    pub(super) fn between(field: FieldName, [least, greatest]: [f64; 2]) -> ColourScale {
+        // Of no values.
+        let (least, greatest) = match least <= greatest {
+            true => (least, greatest),
+            false => (0.0, 0.0),
         };
         if field != FieldName::Pressure {
             return ColourScale {

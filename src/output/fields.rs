@@ -12,19 +12,38 @@ use crate::grid::Grid;
 ///
 /// `values` has one value a point of `grid`.
 pub fn write_field(path: &Path, grid: &Grid, values: &[f64]) -> Result<(), OutputError> {
-    write_array(path, grid, values.iter().copied())
+    write_array(path, grid, &mut |take| take(values), |value| value)
 }
 
 /// The same in float32, the precision of a run in single precision.
 pub fn write_field_single(path: &Path, grid: &Grid, values: &[f64]) -> Result<(), OutputError> {
-    write_array(path, grid, values.iter().map(|value| *value as f32))
+    write_array(path, grid, &mut |take| take(values), |value| value as f32)
+}
+
+/// The rows of a field: hands them to what takes them one after another, some at once, and to its end whatever becomes
+/// of those before.
+pub type FieldRows<'a> = dyn FnMut(&mut dyn FnMut(&[f64])) + 'a;
+
+/// The same of rows that are handed out one after another, in float32 with `single`.
+pub fn write_field_rows(
+    path: &Path,
+    grid: &Grid,
+    rows: &mut FieldRows,
+    single: bool,
+) -> Result<(), OutputError> {
+    if single {
+        write_array(path, grid, rows, |value| value as f32)
+    } else {
+        write_array(path, grid, rows, |value| value)
+    }
 }
 
 /// Fails where the number of values is not that of the points.
 fn write_array<T>(
     path: &Path,
     grid: &Grid,
-    values: impl Iterator<Item = T>,
+    rows: &mut FieldRows,
+    number: impl Fn(f64) -> T,
 ) -> Result<(), OutputError>
 where
     T: npyz::AutoSerialize,
@@ -35,7 +54,13 @@ where
             .shape(&[grid.ny as u64, grid.nx as u64])
             .writer(file)
             .begin_nd()?;
-        writer.extend(values)?;
+        let mut written = Ok(());
+        rows(&mut |values| {
+            if written.is_ok() {
+                written = writer.extend(values.iter().map(|value| number(*value)));
+            }
+        });
+        written?;
         writer.finish()
     })
 }

@@ -64,6 +64,9 @@ pub(crate) use curve::{EMPTY_CHECKSUM, rows_from_text, rows_to_text};
 pub(crate) use difference::difference;
 pub(crate) use error::FRESH;
 pub use error::OutputError;
+#[doc(hidden)]
+pub use fields::FieldRows;
+pub(crate) use fields::write_field_rows;
 pub use fields::{write_field, write_field_single};
 #[doc(hidden)]
 pub use folder::{RunFolder, expect_table, set_aside, write_atomically, write_within};
@@ -77,14 +80,20 @@ pub use netcdf::write_netcdf;
 #[doc(hidden)]
 pub use picture::Snapshot;
 #[cfg(feature = "images")]
+pub(crate) use picture::write_picture_rows;
+#[cfg(feature = "images")]
 pub use picture::{Load, Picture, write_picture};
 #[cfg(feature = "cli")]
 pub(crate) use sentence::sentence;
 #[doc(hidden)]
 pub use state::SavedState;
+pub(crate) use state::hand_over;
 pub use summary::{Effects, Seconds, Summary, peak_memory_bytes};
 #[doc(hidden)]
 pub use visible::{visible, visible_line};
+#[doc(hidden)]
+pub use volume::RowsOf;
+#[doc(hidden)]
 pub use volume::write_volume;
 
 pub use crate::study::Column;

@@ -8,6 +8,7 @@ use image::RgbImage;
 use super::canvas::{self, FRAME, INK, QUIET_INK, WHITE, printable};
 use super::colour_scale::ColourScale;
 use super::error::OutputError;
+use super::fields::FieldRows;
 use super::folder::write_within;
 use super::layout::{Contents, LONGEST_FIELD, Layout, Rect, tick_mark};
 use super::resample::{drawn_size, resample};
@@ -78,16 +79,26 @@ impl Picture<'_> {
     /// Draws the picture; refuses non-finite values.
     pub fn draw(&self) -> Result<Snapshot, OutputError> {
         debug_assert_eq!(self.values.len(), self.grid.len(), "one value a point");
-        let unfit = self.values.iter().filter(|value| !value.is_finite());
-        let count = unfit.count();
-        if count > 0 {
+        self.draw_rows(&mut |take| take(self.values))
+    }
+
+    /// The same of rows that are handed out in place of the values, twice.
+    fn draw_rows(&self, rows: &mut FieldRows) -> Result<Snapshot, OutputError> {
+        let (mut unfit, mut ends) = (0, [f64::INFINITY, f64::NEG_INFINITY]);
+        rows(&mut |values| {
+            unfit += values.iter().filter(|value| !value.is_finite()).count();
+            ends = values.iter().fold(ends, |[least, greatest], v| {
+                [least.min(*v), greatest.max(*v)]
+            });
+        });
+        if unfit > 0 {
             return Err(OutputError::NotFinite {
                 field: self.field.name(),
-                count,
-                points: self.values.len(),
+                count: unfit,
+                points: self.grid.len(),
             });
         }
-        let scale = ColourScale::new(self.field, self.values);
+        let scale = ColourScale::between(self.field, ends);
         let field = drawn_size(&self.grid, LONGEST_FIELD);
         let layout = Layout::new(&Contents {
             title: self.title,
@@ -104,7 +115,7 @@ impl Picture<'_> {
         draw_field(
             &mut image,
             layout.image,
-            &resample(&self.grid, self.values, field),
+            &resample(&self.grid, rows, field),
             &scale,
         );
         let texts = self.texts(&layout, &scale);
@@ -181,6 +192,19 @@ impl Snapshot {
 pub fn write_picture(path: &Path, picture: &Picture) -> Result<(), OutputError> {
     let bytes = picture
         .draw()?
+        .encode()
+        .map_err(OutputError::write("write", path))?;
+    write_within(path, &bytes)
+}
+
+/// The same of rows that are handed out in place of the picture's values.
+pub(crate) fn write_picture_rows(
+    path: &Path,
+    picture: &Picture,
+    rows: &mut FieldRows,
+) -> Result<(), OutputError> {
+    let bytes = picture
+        .draw_rows(rows)?
         .encode()
         .map_err(OutputError::write("write", path))?;
     write_within(path, &bytes)

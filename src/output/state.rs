@@ -17,6 +17,7 @@ use serde_json::Value;
 
 use super::error::{FRESH, OutputError};
 use super::folder::stream_within;
+use crate::backend::{BackendError, Share};
 use crate::study::{Checkpoint, CheckpointField, PointState, PullOff};
 
 /// First line of the file. A change of the form changes the number.
@@ -77,13 +78,24 @@ struct Head {
 impl SavedState<'_> {
     /// Writes the state to `path`, whole or not at all.
     pub fn write(&self, path: &Path) -> Result<(), OutputError> {
-        stream_within(path, |file| self.encode(file))
+        stream_within(path, |file| self.encode(file, None))
+    }
+
+    /// The same of several ranks, of which each has its rows of the fields: the first one writes. `ask` is called
+    /// once, before the others are to [hand theirs over](hand_over).
+    pub fn write_shared(
+        &self,
+        path: &Path,
+        share: &Share,
+        ask: &dyn Fn(),
+    ) -> Result<(), OutputError> {
+        stream_within(path, |file| self.encode(file, Some((share, ask))))
     }
 
     /// The form of the file in memory, for another process of the same run.
     pub fn to_bytes(&self) -> io::Result<Vec<u8>> {
         let mut bytes = Vec::new();
-        self.encode(&mut bytes)?;
+        self.encode(&mut bytes, None)?;
         Ok(bytes)
     }
 
@@ -94,7 +106,8 @@ impl SavedState<'_> {
 
     /// Writes the form to `out`, numbers one after another: a field is large, and a second one of bytes would be
     /// held for no more than this.
-    fn encode(&self, out: &mut impl Write) -> io::Result<()> {
+    fn encode(&self, out: &mut impl Write, shared: Option<(&Share, &dyn Fn())>) -> io::Result<()> {
+        let all = shared.map(|(share, _)| share.shape());
         let state = &self.checkpoint;
         let head = serde_json::to_vec(&Head {
             tabor: env!("CARGO_PKG_VERSION").to_owned(),
@@ -118,9 +131,15 @@ impl SavedState<'_> {
             fields: state
                 .fields
                 .iter()
-                .map(|field| (field.name.clone(), field.values.len()))
+                .map(|field| {
+                    let length = all.map_or(field.values.len(), |shape| shape.len());
+                    (field.name.clone(), length)
+                })
                 .collect(),
-            points: state.points.as_ref().map(Vec::len),
+            points: state
+                .points
+                .as_ref()
+                .map(|points| all.map_or(points.len(), |shape| shape.surface_len())),
         })?;
         let mut checked = Hasher::new();
         let mut write = |bytes: &[u8]| {
@@ -131,26 +150,32 @@ impl SavedState<'_> {
         write(&(head.len() as u64).to_le_bytes())?;
         write(&head)?;
         let mut piece = Vec::with_capacity(PIECE * size_of::<f64>());
-        for values in state
-            .fields
-            .iter()
-            .flat_map(|field| field.values.chunks(PIECE))
-        {
-            piece.clear();
-            for value in values {
-                if self.single {
-                    piece.extend((*value as f32).to_le_bytes());
-                } else {
-                    piece.extend(value.to_le_bytes());
-                }
+        let mut written = Ok(());
+        if let Some((_, ask)) = shared {
+            ask();
+        }
+        // To the end, whatever becomes of what is written: the other ranks hand over all.
+        let gone = hand_over(state, shared.map(|(share, _)| share), &mut |rows| {
+            if written.is_err() {
+                return;
             }
-            write(&piece)?;
-        }
-        for points in state.points.iter().flat_map(|points| points.chunks(PIECE)) {
-            piece.clear();
-            piece.extend(points.iter().map(|point| *point as u8));
-            write(&piece)?;
-        }
+            written = match rows {
+                StateRows::Numbers(values) => values.chunks(PIECE).try_for_each(|values| {
+                    piece.clear();
+                    for value in values {
+                        if self.single {
+                            piece.extend((*value as f32).to_le_bytes());
+                        } else {
+                            piece.extend(value.to_le_bytes());
+                        }
+                    }
+                    write(&piece)
+                }),
+                StateRows::Points(points) => write(points),
+            };
+        });
+        written?;
+        gone.map_err(io::Error::other)?;
         out.write_all(&checked.finalize().to_le_bytes())
     }
 
@@ -167,6 +192,52 @@ impl SavedState<'_> {
             Err(error) => Err(OutputError::write("read", path)(error)),
         }
     }
+}
+
+/// Rows of a state's fields.
+pub enum StateRows<'a> {
+    /// Of numbers.
+    Numbers(&'a [f64]),
+    /// Of the states of points.
+    Points(&'a [u8]),
+}
+
+/// Hands the fields of a state to `take`, which is called on the first rank alone, row after row.
+///
+/// # Errors
+/// Another rank has ended.
+pub fn hand_over(
+    state: &Checkpoint,
+    share: Option<&Share>,
+    take: &mut dyn FnMut(StateRows),
+) -> Result<(), BackendError> {
+    for field in &state.fields {
+        match share {
+            None => take(StateRows::Numbers(&field.values)),
+            Some(share) => {
+                let width = share.shape().points[0];
+                share.to_first(&field.values, width, &mut |rows| {
+                    take(StateRows::Numbers(rows));
+                })?;
+            }
+        }
+    }
+    let Some(points) = &state.points else {
+        return Ok(());
+    };
+    match share {
+        None => points.chunks(PIECE).for_each(|points| {
+            let bytes: Vec<u8> = points.iter().map(|point| *point as u8).collect();
+            take(StateRows::Points(&bytes));
+        }),
+        Some(share) => {
+            let bytes: Vec<u8> = points.iter().map(|point| *point as u8).collect();
+            share.to_first(&bytes, share.surface()[0], &mut |rows| {
+                take(StateRows::Points(rows));
+            })?;
+        }
+    }
+    Ok(())
 }
 
 /// The state in `bytes`, or why there is none in it and the way out.
@@ -304,7 +375,7 @@ mod tests {
 
     fn bytes_of(state: &SavedState) -> Vec<u8> {
         let mut bytes = Vec::new();
-        state.encode(&mut bytes).unwrap();
+        state.encode(&mut bytes, None).unwrap();
         bytes
     }
 

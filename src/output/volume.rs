@@ -1,6 +1,5 @@
 //! The fields of a step as VTK image data (`.vti`) for ParaView.
 
-use std::borrow::Cow;
 use std::io::{self, Write};
 use std::path::Path;
 
@@ -12,7 +11,7 @@ use crate::scene::FieldName;
 /// Bytes of the length before each array.
 const LENGTH_BYTES: usize = 8;
 
-/// Writes fields of one step, each with one value a point of `grid`, in SI units.
+/// Writes fields of one step, each with one value a point of `grid`, in SI units; `rows_of` hands out their rows.
 ///
 /// Values belong to points: point (ix, iy) is at x = ix dx, y = iy dy, z = 0. Numbers are float64,
 /// or float32 with `single`, as in the `.npy` files beside it.
@@ -23,12 +22,15 @@ const LENGTH_BYTES: usize = 8;
 pub fn write_volume(
     path: &Path,
     grid: &Grid,
-    fields: &[(FieldName, Cow<[f64]>)],
+    fields: &[FieldName],
+    rows_of: &mut RowsOf,
     single: bool,
 ) -> Result<(), OutputError> {
-    debug_assert!(fields.iter().all(|(_, values)| values.len() == grid.len()));
-    stream_within(path, |file| encode(file, grid, fields, single))
+    stream_within(path, |file| encode(file, grid, fields, rows_of, single))
 }
+
+/// The rows of each field by name, as [`FieldRows`](super::fields::FieldRows) are handed out.
+pub type RowsOf<'a> = dyn FnMut(FieldName, &mut dyn FnMut(&[f64])) + 'a;
 
 /// The last bytes of every volume.
 pub const VOLUME_END: &[u8] = b"\n</VTKFile>\n";
@@ -36,7 +38,8 @@ pub const VOLUME_END: &[u8] = b"\n</VTKFile>\n";
 fn encode(
     out: &mut impl Write,
     grid: &Grid,
-    fields: &[(FieldName, Cow<[f64]>)],
+    fields: &[FieldName],
+    rows_of: &mut RowsOf,
     single: bool,
 ) -> io::Result<()> {
     let (kind, width) = if single {
@@ -53,9 +56,9 @@ fn encode(
          \x20 <ImageData WholeExtent=\"{extent}\" Origin=\"0 0 0\" Spacing=\"{dx:?} {dy:?} {dx:?}\">\n\
          \x20   <Piece Extent=\"{extent}\">\n"
     );
-    let first = fields.first().map_or("", |(field, _)| field.name());
+    let first = fields.first().map_or("", |field| field.name());
     head.push_str(&format!("      <PointData Scalars=\"{first}\">\n"));
-    for (index, (field, _)) in fields.iter().enumerate() {
+    for (index, field) in fields.iter().enumerate() {
         let offset = index * (LENGTH_BYTES + array);
         head.push_str(&format!(
             "        <DataArray type=\"{kind}\" Name=\"{}\" NumberOfComponents=\"1\" format=\"appended\" offset=\"{offset}\"/>\n",
@@ -66,14 +69,22 @@ fn encode(
         "      </PointData>\n      <CellData/>\n    </Piece>\n  </ImageData>\n  <AppendedData encoding=\"raw\">\n_",
     );
     out.write_all(head.as_bytes())?;
-    for (_, values) in fields {
+    for field in fields {
         out.write_all(&(array as u64).to_le_bytes())?;
-        for value in values.iter() {
-            if single {
-                out.write_all(&(*value as f32).to_le_bytes())?;
-            } else {
-                out.write_all(&value.to_le_bytes())?;
+        let (mut written, mut count) = (Ok(()), 0);
+        rows_of(*field, &mut |values| {
+            count += values.len();
+            let mut write = |value: &f64| match single {
+                true => out.write_all(&(*value as f32).to_le_bytes()),
+                false => out.write_all(&value.to_le_bytes()),
+            };
+            if written.is_ok() {
+                written = values.iter().try_for_each(&mut write);
             }
+        });
+        written?;
+        if count != grid.len() {
+            return Err(io::Error::other("rows of the field are missing"));
         }
     }
     out.write_all(b"\n  </AppendedData>")?;
@@ -141,11 +152,15 @@ mod tests {
         let tricky = f64::from_le_bytes(*b"</Append");
         let gap = vec![0.0, -1.5, 2e-9, f64::MIN_POSITIVE, tricky, 5.1];
         let pressure = vec![1.0, 2.0, 3.0, 4.0, 5.0, 6.1];
-        let fields = [
-            (FieldName::Gap, Cow::Borrowed(&gap[..])),
-            (FieldName::Pressure, Cow::Borrowed(&pressure[..])),
-        ];
-        write_volume(&path, &grid, &fields, false).unwrap();
+        let fields = [FieldName::Gap, FieldName::Pressure];
+        let mut rows_of = |field: FieldName, take: &mut dyn FnMut(&[f64])| {
+            let values = match field {
+                FieldName::Gap => &gap,
+                _ => &pressure,
+            };
+            values.chunks(3).for_each(take);
+        };
+        write_volume(&path, &grid, &fields, &mut rows_of, false).unwrap();
         let bytes = std::fs::read(&path).unwrap();
         assert_eq!(
             parse(&bytes),
@@ -158,7 +173,7 @@ mod tests {
         assert!(head.contains("WholeExtent=\"0 2 0 1 0 0\""));
         assert!(head.contains("Spacing=\"1e-6 5e-7 1e-6\""));
 
-        write_volume(&path, &grid, &fields, true).unwrap();
+        write_volume(&path, &grid, &fields, &mut rows_of, true).unwrap();
         let arrays = parse(&std::fs::read(&path).unwrap());
         assert_eq!(arrays[1].1[5], f64::from(6.1f32));
     }

@@ -48,12 +48,12 @@ use crate::clock::Clock;
 use crate::device::SelectedDevice;
 use crate::output::Seconds;
 use crate::scene::Scene;
-use crate::study::{Earlier, Setup, WalkEnd, WalkError, walk_on};
+use crate::study::{Checkpoint, Earlier, Setup, WalkEnd, WalkError, walk_on};
 use crate::surface::Surface;
 #[cfg(not(feature = "cli"))]
 use on_ranks::agree;
-use on_ranks::{Following, LEADER, Leading, earlier_of_leader};
-use run_directory::{ExistingRun, RunDirectory};
+use on_ranks::{Ask, Following, LEADER, Leading, earlier_of_leader};
+use run_directory::{ExistingRun, RunDirectory, fingerprint};
 use run_recorder::RunRecorder;
 
 /// Solves every step of a scene and writes `folder`, which is made where it is missing; one with files in it
@@ -161,10 +161,10 @@ fn prepared(
         None => memory_check::check_grid(&scene, grid),
     };
     memory_check::check_scene_by(&scene, check)?;
-    let surface = Surface::build(&scene)?;
+    let surface = Surface::on_ranks(&scene, ranks.cloned())?;
     // Of a grid that a height file carries.
     check(surface.grid)?;
-    let setup = Setup::new(scene, surface);
+    let setup = Setup::on_ranks(scene, surface, ranks.cloned());
     seconds.add("surface", clock.seconds());
     let clock = Clock::start();
     let device = match ranks {
@@ -206,6 +206,7 @@ impl Work<'_> {
     ) -> Result<Walked, RunError> {
         let setup = self.setup;
         observer.starts(&device.words());
+        let scene = fingerprint(setup);
         if let Some(ranks) = self.ranks.filter(|ranks| ranks.rank() != LEADER) {
             let end = self.follow(device, ranks)?;
             let summary = end::summary(setup, device, &end, seconds, Vec::new());
@@ -213,7 +214,14 @@ impl Work<'_> {
         }
         // Whether there are threads: from here on an end of this rank alone would keep the others waiting.
         let threaded = |directory| Ok(with_threads(self.threads, || directory)?);
-        let opened = RunDirectory::open(self.folder, setup, device, existing, self.draws);
+        let opened = RunDirectory::open(
+            self.folder,
+            setup,
+            device,
+            existing,
+            self.draws,
+            scene.clone(),
+        );
         let directory = match self.ranks {
             Some(ranks) => agree(ranks, opened.map_err(RunError::from).and_then(threaded))?,
             None => opened?,
@@ -226,14 +234,15 @@ impl Work<'_> {
         }
         let mut earlier = directory.earlier.clone();
         if let Some(ranks) = self.ranks {
-            earlier = earlier_of_leader(ranks, &setup.scene, &earlier)?;
+            earlier = earlier_of_leader(ranks, setup, &earlier)?;
         }
         seconds.add("solve", earlier.rows.iter().map(|row| row.seconds).sum());
         let finished = earlier.rows.len();
         let steps = setup.scene.loading.path.len().max(finished);
         observer.begins(steps, finished, setup.scene.solver.tolerance);
-        let mut recorder =
-            RunRecorder::new(setup, device, directory, seconds, self.draws, observer);
+        let mut recorder = RunRecorder::new(
+            setup, device, directory, seconds, self.draws, scene, observer,
+        );
         let make_backend = || device.backend();
         let walked = with_threads(self.threads, || match self.ranks {
             Some(ranks) => {
@@ -260,6 +269,9 @@ impl Work<'_> {
         let written = recorder.finish(&end, |seconds, warnings| {
             end::summary(setup, device, &end, seconds, warnings)
         });
+        if let (Some(ranks), None) = (self.ranks, &failure) {
+            Ask::GoOn(written.is_ok()).send(ranks);
+        }
         if failure.is_some() || end.interrupted || written.is_err() {
             recorder.report_kept();
         }
@@ -274,15 +286,18 @@ impl Work<'_> {
             ranks,
             with_threads(self.threads, || ()).map_err(RunError::from),
         )?;
-        let earlier = earlier_of_leader(ranks, &self.setup.scene, &Earlier::default())?;
+        let earlier = earlier_of_leader(ranks, self.setup, &Earlier::default())?;
         let make_backend = || device.backend();
-        let mut following = Following { ranks };
+        let mut following = Following::new(ranks, self.setup);
         let walked = with_threads(self.threads, || {
             walk_on(self.setup, &make_backend, &mut following, earlier)
         })?;
-        walked.map_err(|error| match error {
-            WalkError::Backend(error) => error.into(),
+        let end = walked.map_err(|error| match error {
+            WalkError::Backend(error) => RunError::from(error),
             WalkError::Observer(error) => error.into(),
-        })
+        })?;
+        // The leader writes what is left.
+        following.kept(&Checkpoint::default())?;
+        Ok(end)
     }
 }

@@ -4,6 +4,8 @@ use std::borrow::Cow;
 use std::fs;
 use std::path::Path;
 
+use crc32fast::Hasher;
+
 use super::earlier_files::lost;
 use crate::device::SelectedDevice;
 use crate::output::{
@@ -27,13 +29,27 @@ pub(super) struct RunDirectory {
 }
 
 /// Identifies a scene: everything but how it is solved, heights read from files included.
+///
+/// Every rank takes part.
 pub(super) fn fingerprint(setup: &Setup) -> String {
     let mut resolved = setup.scene.resolved_json();
     if let Some(table) = resolved.as_object_mut() {
         table.remove("solver");
-        let mut checksum = crc32fast::Hasher::new();
+        let mut checksum = Hasher::new();
         for height in setup.surface.heights.iter() {
             checksum.update(&height.to_le_bytes());
+        }
+        let own = checksum.clone().finalize();
+        let bytes = size_of_val(setup.surface.heights.as_slice());
+        if let Some(all) = setup.problem.share.all([f64::from(own), bytes as f64]) {
+            let parts = all.chunks_exact(2);
+            checksum = parts.fold(Hasher::new(), |mut checksum, part| {
+                checksum.combine(&Hasher::new_with_initial_len(
+                    part[0] as u32,
+                    part[1] as u64,
+                ));
+                checksum
+            });
         }
         table.insert(
             "checksum of the heights".to_owned(),
@@ -60,16 +76,16 @@ pub(super) enum ExistingRun {
 }
 
 impl RunDirectory {
-    /// Opens the folder at `path`. Pictures of an earlier run are looked for if this one `draws`.
+    /// Opens the folder at `path` for a scene of this fingerprint. Pictures of an earlier run are looked for if this one `draws`.
     pub fn open(
         path: &Path,
         setup: &Setup,
         device: &SelectedDevice,
         existing: ExistingRun,
         draws: bool,
+        scene: String,
     ) -> Result<RunDirectory, OutputError> {
         let resume = existing == ExistingRun::Resume;
-        let scene = fingerprint(setup);
         let (folder, there) = if resume {
             RunFolder::resume(path, &scene)?
         } else {

@@ -4,17 +4,18 @@ use std::borrow::Cow;
 
 use super::RunObserver;
 use super::earlier_files::separated_words;
-use super::run_directory::{RunDirectory, STATE, fingerprint, solver};
+use super::on_ranks::Ask;
+use super::run_directory::{RunDirectory, STATE, solver};
 use super::warnings::warnings_at_end;
 use crate::clock::Clock;
 use crate::device::SelectedDevice;
 use crate::kernel::Scalars;
 use crate::output::{
-    CurveWriter, OutputError, RunFolder, SavedState, Seconds, Summary, write_field,
-    write_field_single, write_volume,
+    CurveWriter, OutputError, RunFolder, SavedState, Seconds, Summary, write_field_rows,
+    write_volume,
 };
 #[cfg(feature = "images")]
-use crate::output::{Load, Picture, plot, report::Report, write_picture, write_within};
+use crate::output::{Load, Picture, plot, report::Report, write_picture_rows, write_within};
 use crate::scene::{Control, FieldName, Precision, StepChoice};
 #[cfg(feature = "images")]
 use crate::study::Planned;
@@ -67,6 +68,7 @@ impl<'a> RunRecorder<'a> {
         directory: RunDirectory,
         seconds: Seconds,
         draws: bool,
+        scene: String,
         observer: &'a mut dyn RunObserver,
     ) -> Self {
         let earlier = directory.earlier;
@@ -86,7 +88,7 @@ impl<'a> RunRecorder<'a> {
             seconds,
             clock: Clock::start(),
             output_seconds: 0.0,
-            scene: fingerprint(setup),
+            scene,
             solver: solver(&setup.scene),
             refreshed: None,
             observer,
@@ -208,7 +210,7 @@ impl<'a> RunRecorder<'a> {
 
     fn commit(&mut self, step: usize, state: &Checkpoint) -> Result<(), OutputError> {
         self.folder.expect_present()?;
-        SavedState {
+        let saved = SavedState {
             scene: self.scene.clone(),
             solver: self.solver.clone(),
             machine: self.device.words(),
@@ -217,8 +219,15 @@ impl<'a> RunRecorder<'a> {
             warnings: self.warnings.clone(),
             single: self.single() && !self.setup.scene.solid.remembers(),
             checkpoint: Cow::Borrowed(state),
+        };
+        let path = self.folder.state_path(STATE);
+        let share = &self.setup.problem.share;
+        match share.ranks() {
+            None => saved.write(&path)?,
+            Some(ranks) => saved.write_shared(&path, share, &|| {
+                Ask::State.send(ranks);
+            })?,
         }
-        .write(&self.folder.state_path(STATE))?;
         self.committed = step;
         let kept = self.kept();
         self.observer.kept(&kept);
@@ -306,21 +315,18 @@ impl<'a> RunRecorder<'a> {
     fn write_fields(&mut self, step: usize, evaluation: &Evaluation) -> Result<(), OutputError> {
         let setup = self.setup;
         let grid = setup.surface.grid;
-        let output = &setup.scene.output;
-        let values = |name: FieldName| evaluation.field(name, &setup.surface.heights);
-        let mut named = Vec::new();
-        for &field in &output.fields {
+        let fields = &setup.scene.output.fields;
+        let mut rows_of = |field, take: &mut dyn FnMut(&[f64])| {
+            rows_of(setup, evaluation, field, take);
+        };
+        for &field in fields {
             let path = self.folder.field_path(step, field);
-            let values = values(field);
-            if self.single() {
-                write_field_single(&path, &grid, &values)?;
-            } else {
-                write_field(&path, &grid, &values)?;
-            }
-            named.push((field, values));
+            let mut rows = |take: &mut dyn FnMut(&[f64])| rows_of(field, take);
+            write_field_rows(&path, &grid, &mut rows, self.single())?;
         }
-        if !named.is_empty() {
-            write_volume(&self.folder.volume_path(step), &grid, &named, self.single())?;
+        if !fields.is_empty() {
+            let path = self.folder.volume_path(step);
+            write_volume(&path, &grid, fields, &mut rows_of, self.single())?;
         }
         self.write_pictures(step, evaluation)
     }
@@ -334,16 +340,17 @@ impl<'a> RunRecorder<'a> {
         let loading = &setup.scene.loading;
         let value = Planned::of_step(setup, &self.rows, step);
         for &field in &setup.scene.output.images {
-            let values = evaluation.field(field, &setup.surface.heights);
+            let mut rows = |take: &mut dyn FnMut(&[f64])| rows_of(setup, evaluation, field, take);
             let picture = Picture {
                 title: setup.scene.title.as_deref(),
                 field,
                 step: Some(step),
                 load: value.map(|value| Load::new(loading.control, value)),
                 grid: setup.surface.grid,
-                values: &values,
+                values: &[],
             };
-            match write_picture(&self.folder.image_path(step, field), &picture) {
+            let path = self.folder.image_path(step, field);
+            match write_picture_rows(&path, &picture, &mut rows) {
                 // A field that cannot be drawn is no reason to lose the rest.
                 Err(error @ OutputError::NotFinite { .. }) => self.warn(error.to_string()),
                 other => other?,
@@ -358,6 +365,17 @@ impl<'a> RunRecorder<'a> {
         debug_assert!(!self.draws);
         Ok(())
     }
+}
+
+/// Hands out all rows of a field: those of the other ranks as they send them.
+fn rows_of(setup: &Setup, evaluation: &Evaluation, field: FieldName, take: &mut dyn FnMut(&[f64])) {
+    let share = &setup.problem.share;
+    if let Some(ranks) = share.ranks() {
+        Ask::Field(field).send(ranks);
+    }
+    let values = evaluation.field(field, &setup.surface.heights);
+    // Rows that a rank which has ended does not send are missed by who takes them.
+    let _ = share.to_first(&values, share.surface()[0], take);
 }
 
 /// A checkpoint without its fields.

@@ -1,6 +1,8 @@
 //! A start from coarser grids: each level is solved loosely and its displacement refined.
 
 use super::contact::{ContactSolver, Hold, Load, Start};
+use std::ops::Range;
+
 use super::{MakeBackend, problem::Problem};
 use crate::backend::BackendError;
 use crate::kernel::{Scalars, Status};
@@ -44,7 +46,7 @@ fn refine(
     if levels == 0 || nx.min(ny) < 2 * FEWEST_COARSEST {
         return Ok(None);
     }
-    let Some(coarse) = problem.coarsened() else {
+    let Some(coarse) = problem.coarsened()? else {
         return Ok(None);
     };
     let mut backend = make_backend();
@@ -73,12 +75,13 @@ fn refine(
     for (u, h) in displacement.iter_mut().zip(coarse.heights.iter()) {
         *u += h;
     }
-    let mut gap = interpolate(&displacement, [nx / 2, ny / 2]);
+    let mut gap = refined(&displacement, &coarse, problem)?;
+    drop(displacement);
     for (g, h) in gap.iter_mut().zip(problem.heights.iter()) {
         *g = (*g - h).max(0.0);
     }
     if let Hold::Gap(target) = load.hold {
-        let mean = gap.iter().sum::<f64>() / gap.len() as f64;
+        let mean = problem.share.sum(&gap) / problem.shape.len() as f64;
         if mean > 0.0 {
             gap.iter_mut().for_each(|g| *g *= target / mean);
         }
@@ -86,19 +89,50 @@ fn refine(
     Ok(Some((gap, transforms / 4.0)))
 }
 
-/// Bilinear, between cell centres, on twice the points; the grid wraps round.
-fn interpolate(coarse: &[f64], points: [usize; 2]) -> Vec<f64> {
+/// Values of the coarse problem's rows between those of the fine one's.
+fn refined(values: &[f64], coarse: &Problem, fine: &Problem) -> Result<Vec<f64>, BackendError> {
+    let points = coarse.shape.points;
     let [nx, ny] = points;
-    let mut fine = Vec::with_capacity(4 * nx * ny);
-    for y in 0..2 * ny {
+    let rows = fine.share.rows();
+    if coarse.share.is_whole() {
+        let line = |row: usize| &values[row * nx..(row + 1) * nx];
+        return Ok(interpolate(line, points, rows));
+    }
+    // The coarse rows around those of the fine grid, on the ring of all.
+    let around = |rows: Range<usize>| -> Vec<usize> {
+        if rows.is_empty() {
+            return Vec::new();
+        }
+        let first = rows.start / 2 + ny - 1;
+        let last = (rows.end - 1) / 2 + ny + 1;
+        (first..=last).map(|row| row % ny).collect()
+    };
+    let wanted = |rank| around(fine.share.rows_of(rank));
+    let held = |rank| coarse.share.rows_of(rank);
+    let found = coarse.share.fetch(values, nx, held, wanted)?;
+    let first = around(rows.clone()).first().copied().unwrap_or(0);
+    let line = |row: usize| {
+        let place = (row + ny - first) % ny;
+        &found[place * nx..(place + 1) * nx]
+    };
+    Ok(interpolate(line, points, rows))
+}
+
+/// Bilinear, between cell centres, these rows of twice the points; the grid wraps round.
+fn interpolate<'a>(
+    coarse: impl Fn(usize) -> &'a [f64],
+    [nx, ny]: [usize; 2],
+    rows: Range<usize>,
+) -> Vec<f64> {
+    let mut fine = Vec::with_capacity(2 * nx * rows.len());
+    for y in rows {
         let row = y / 2;
         let other = if y % 2 == 0 {
             (row + ny - 1) % ny
         } else {
             (row + 1) % ny
         };
-        let near = &coarse[row * nx..(row + 1) * nx];
-        let far = &coarse[other * nx..(other + 1) * nx];
+        let (near, far) = (coarse(row), coarse(other));
         let at = |x: usize| 0.75 * near[x] + 0.25 * far[x];
         for x in 0..2 * nx {
             let column = x / 2;

@@ -127,9 +127,9 @@ pub struct ContactSolver<'a> {
     offset: Vec<f64>,
     /// Mean of it.
     mean_offset: f64,
-    /// Depths by which plastic indentation has lowered the heights, over all solved points; empty if it has
-    /// not.
-    plastic_depths: Vec<f64>,
+    /// Depths by which plastic indentation has lowered the heights, over all held solved points; `None` if it
+    /// has not.
+    plastic_depths: Option<Vec<f64>>,
 }
 
 /// Rounds, lost trials and long searches included, that a solve may take for each iteration allowed.
@@ -201,7 +201,7 @@ impl<'a> ContactSolver<'a> {
             helped_by: 0.0,
             offset: Vec::new(),
             mean_offset: 0.0,
-            plastic_depths: Vec::new(),
+            plastic_depths: None,
         };
         solver.rest();
         solver
@@ -236,7 +236,7 @@ impl<'a> ContactSolver<'a> {
         self.backend.transforms() + self.helped_by + outer
     }
 
-    /// The gap over all solved points, reduced.
+    /// The gap over all held solved points, reduced.
     pub fn gap(&mut self) -> Result<Vec<f64>, BackendError> {
         match &mut self.outer {
             Some(outer) => outer.gap(),
@@ -278,26 +278,26 @@ impl<'a> ContactSolver<'a> {
     /// Moves the rigid heights by what the history of a viscoelastic solid adds to its displacement (reduced,
     /// all solved points).
     pub fn set_offset(&mut self, offset: &[f64]) {
-        self.mean_offset = offset.iter().sum::<f64>() / offset.len() as f64;
+        self.mean_offset = self.problem.share.sum(offset) / self.problem.shape.len() as f64;
         self.offset = offset.to_vec();
         self.write_heights();
     }
 
     /// Lowers the rigid heights by the plastic depths (reduced, all solved points).
-    pub fn set_plastic_depths(&mut self, depths: &[f64]) {
-        self.plastic_depths = depths.to_vec();
+    pub fn set_plastic_depths(&mut self, depths: Option<&[f64]>) {
+        self.plastic_depths = depths.map(<[f64]>::to_vec);
         self.write_heights();
     }
 
-    /// Depths by which plastic indentation has lowered the heights, over all solved points; empty if it has
-    /// not.
-    pub fn plastic_depths(&self) -> &[f64] {
-        &self.plastic_depths
+    /// Depths by which plastic indentation has lowered the heights, over all held solved points; `None` if it
+    /// has not.
+    pub fn plastic_depths(&self) -> Option<&[f64]> {
+        self.plastic_depths.as_deref()
     }
 
     fn write_heights(&mut self) {
         let mut moved: Vec<f64> = self.problem.padded_heights().collect();
-        for (height, depth) in moved.iter_mut().zip(&self.plastic_depths) {
+        for (height, depth) in moved.iter_mut().zip(self.plastic_depths.iter().flatten()) {
             *height -= depth;
         }
         for (height, offset) in moved.iter_mut().zip(&self.offset) {
@@ -310,7 +310,7 @@ impl<'a> ContactSolver<'a> {
         }
     }
 
-    /// Sets the factors on the law's tension, one a grid point; the problem must have some. `None` sets
+    /// Sets the factors on the law's tension, one a held grid point; the problem must have some. `None` sets
     /// the problem's own.
     pub fn set_law_factor(&mut self, factor: Option<Vec<f64>>) {
         if let (Some(field), Some(own)) = (self.law_factor, &self.problem.law_factor) {
@@ -339,18 +339,19 @@ impl<'a> ContactSolver<'a> {
     /// The gap at which the undeformed surfaces first touch, scaled or shifted to a prescribed mean gap.
     fn undeformed(&self, load: &Load) -> Vec<f64> {
         let mut heights: Vec<f64> = self.problem.heights.iter().collect();
-        if !self.plastic_depths.is_empty() {
-            let depths = self.problem.surface_part(&self.plastic_depths);
+        if let Some(depths) = &self.plastic_depths {
+            let depths = self.problem.surface_part(depths);
             heights
                 .iter_mut()
                 .zip(depths)
                 .for_each(|(h, depth)| *h -= depth);
         }
-        let highest = heights.iter().copied().fold(f64::NEG_INFINITY, f64::max);
+        let highest = self.problem.share.greatest_of(&heights);
         let mut gap = heights;
         gap.iter_mut().for_each(|h| *h = highest - *h);
         if let Hold::Gap(target) = load.hold {
-            let mean = gap.iter().sum::<f64>() / gap.len() as f64;
+            let sum = self.problem.share.surface_sum_by(&gap, |g| g);
+            let mean = sum / self.problem.shape.surface_len() as f64;
             if target >= mean {
                 gap.iter_mut().for_each(|g| *g += target - mean);
             } else if target <= 0.0
@@ -457,7 +458,7 @@ impl<'a> ContactSolver<'a> {
         };
         let helped = match start {
             // The coarse grids do not have the plastic depths.
-            Start::Cold if self.plastic_depths.is_empty() => {
+            Start::Cold if self.plastic_depths.is_none() => {
                 coarse_start::gap(self.problem, load, make_backend, watch)?
             }
             _ => None,

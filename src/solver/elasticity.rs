@@ -11,15 +11,10 @@ impl ContactSolver<'_> {
     pub fn energy_of(&mut self, values: &[f64]) -> Result<f64, BackendError> {
         let own = self.own_zero_mode();
         if let Some(outer) = &mut self.outer {
-            return outer.energy_of(values, own);
+            return outer.energy_of(&self.problem.share, values, own);
         }
         let pressure = self.stiffness_times(values)?;
-        Ok(0.5
-            * values
-                .iter()
-                .zip(&pressure)
-                .map(|(u, p)| u * p)
-                .sum::<f64>())
+        Ok(0.5 * self.problem.share.product(values, &pressure))
     }
 
     /// A free half-space's own zero mode; a load's is not elastic.

@@ -9,11 +9,6 @@
 use super::contact::ContactSolver;
 use crate::backend::BackendError;
 
-/// Sum of the products of two fields.
-fn product(a: &[f64], b: &[f64]) -> f64 {
-    a.iter().zip(b).map(|(a, b)| a * b).sum()
-}
-
 impl ContactSolver<'_> {
     /// Load that a unit displacement of the contact takes, reduced, summed over its points: 0
     /// without contact, infinite where a periodic cell is closed everywhere. `None` where the
@@ -29,11 +24,14 @@ impl ContactSolver<'_> {
         tolerance: f64,
         most: usize,
     ) -> Result<Option<f64>, BackendError> {
+        let problem = self.problem();
+        let share = &problem.share;
         let touching = contact.iter().filter(|&&mask| mask > 0.0).count();
+        let [touching] = share.counts([touching]);
         if touching == 0 {
             return Ok(Some(0.0));
         }
-        let problem = self.problem();
+        let product = |a: &[f64], b: &[f64]| share.product(a, b);
         if touching == problem.shape.len() {
             return Ok(Some(f64::INFINITY));
         }
@@ -70,7 +68,7 @@ impl ContactSolver<'_> {
                 return Ok(None);
             }
             if left <= tolerance {
-                return Ok(Some(pressure.iter().sum()));
+                return Ok(Some(share.sum(&pressure)));
             }
         }
         Ok(None)

@@ -172,7 +172,7 @@ const CORE_ROUNDINGS: f64 = 2.0;
 /// Lennard-Jones law evaluates g + range, and where its traction vanishes that is a difference of two
 /// parts, rounded like the range times the slope there, 16 w/range^2.
 fn rounded_beside(problem: &Problem) -> f64 {
-    let heights = problem.heights.iter().map(|h| h * h).sum::<f64>().sqrt();
+    let heights = problem.heights.norm();
     if problem.law.has_wall() {
         return heights;
     }

@@ -4,7 +4,7 @@ use super::contact::{Hold, Load};
 use super::kernel_set::{KernelSet, params_of_problem};
 use super::mean_gap::HeightsPressure;
 use super::problem::Problem;
-use crate::backend::{Backend, BackendError, Field, Level, Response, Spectrum};
+use crate::backend::{Backend, BackendError, Field, Level, Response, Share, Spectrum};
 use crate::kernel::{Gate, Params, Scalars, Status, displacement, mean_gap, refinement, scalar};
 
 /// Gap and pressure in double precision, and the evaluation of their residual.
@@ -286,7 +286,12 @@ impl OuterState {
 
     /// `<values, K*values>/2` with this value of K at the zero wavevector. The next solve sets that of its
     /// load again.
-    pub fn energy_of(&mut self, values: &[f64], zero_mode: f64) -> Result<f64, BackendError> {
+    pub fn energy_of(
+        &mut self,
+        share: &Share,
+        values: &[f64],
+        zero_mode: f64,
+    ) -> Result<f64, BackendError> {
         let (gap, pressure) = (self.gap()?, self.pressure()?);
         let backend = &mut *self.backend;
         backend.set_zero_mode(self.places.stiffness, zero_mode);
@@ -305,6 +310,6 @@ impl OuterState {
         let answer = backend.read(self.places.pressure)?;
         backend.write(self.places.gap, &gap);
         backend.write(self.places.pressure, &pressure);
-        Ok(0.5 * values.iter().zip(&answer).map(|(u, p)| u * p).sum::<f64>())
+        Ok(0.5 * share.product(values, &answer))
     }
 }

@@ -1,7 +1,10 @@
 //! A contact problem in reduced units, ready to be solved.
 
+use std::sync::Arc;
+
 use super::heights::Heights;
-use crate::backend::{Backend, Factors, Level, Response, Shape, Spectrum};
+use crate::backend::ranks::Ranks;
+use crate::backend::{Backend, BackendError, Factors, Level, Response, Shape, Share, Spectrum};
 use crate::elastic::{HalfSpace, Layer, Stiffness, free_stiffness, periodic_stiffness};
 use crate::grid::{Boundary, Grid};
 use crate::law::Law;
@@ -31,9 +34,11 @@ pub struct Problem {
     pub boundary: Boundary,
     /// Points that are solved for; more than the grid's on a free boundary.
     pub shape: Shape,
+    /// Those of them that this process holds: all, or a rank's slab. Fields here and in a solver are of these.
+    pub share: Share,
     /// Units.
     pub scales: Scales,
-    /// Heights on the grid less `height_origin`, reduced.
+    /// Heights of the held grid points less `height_origin`, reduced.
     pub heights: Heights,
     /// Their mean (periodic) or highest value (free), m: subtracted in double precision, so that the
     /// solution does not depend on the origin of the heights.
@@ -42,7 +47,7 @@ pub struct Problem {
     pub rms_slope: f64,
     /// The law, reduced.
     pub law: Law,
-    /// Factors on the law's tension, one a grid point; `None` where the law is the same everywhere.
+    /// Factors on the law's tension, one a held grid point; `None` where the law is the same everywhere.
     pub law_factor: Option<Vec<f64>>,
     /// Largest net pressure, at which the solid yields, reduced; `None` for an elastic one.
     pub hardness: Option<f64>,
@@ -102,11 +107,26 @@ impl Problem {
         law: Law,
     ) -> Self {
         let heights = heights.to_vec().into();
-        Problem::sharing(grid, boundary, contact_modulus, heights, rms_slope, law)
+        let share = Problem::share(&grid, boundary, None);
+        Problem::sharing(
+            share,
+            grid,
+            boundary,
+            contact_modulus,
+            heights,
+            rms_slope,
+            law,
+        )
     }
 
-    /// The same of heights that somebody else holds too.
+    /// The part of a problem on this grid that each of these processes holds.
+    pub fn share(grid: &Grid, boundary: Boundary, ranks: Option<Arc<dyn Ranks>>) -> Share {
+        Share::on_ranks(solved_shape(grid, boundary), ranks)
+    }
+
+    /// The same of heights that somebody else holds too, those of the held rows.
     pub fn sharing(
+        share: Share,
         grid: Grid,
         boundary: Boundary,
         contact_modulus: f64,
@@ -114,10 +134,11 @@ impl Problem {
         rms_slope: f64,
         law: Law,
     ) -> Self {
-        let count = heights.len() as f64;
-        let mean = heights.iter().sum::<f64>() / count;
-        let rms = (heights.iter().map(|h| (h - mean) * (h - mean)).sum::<f64>() / count).sqrt();
-        let highest = heights.iter().copied().fold(f64::NEG_INFINITY, f64::max);
+        let count = grid.len() as f64;
+        let mean = share.surface_sum_by(&heights, |h| h) / count;
+        let square = share.surface_sum_by(&heights, |h| (h - mean) * (h - mean));
+        let rms = (square / count).sqrt();
+        let highest = share.greatest_of(&heights);
         let lateral = (grid.dx() * grid.dy()).sqrt();
         let length = if rms > 0.0 {
             rms
@@ -148,7 +169,8 @@ impl Problem {
             boundary,
             shape,
             scales,
-            heights: Heights::new(heights, height_origin, length),
+            heights: Heights::new(heights, height_origin, length, &share, &grid),
+            share,
             height_origin,
             rms_slope,
             law: law.reduced(length, scales.pressure),
@@ -221,12 +243,13 @@ impl Problem {
             grid,
             boundary,
             shape: solved_shape(&grid, boundary),
+            share: Problem::share(&grid, boundary, None),
             scales: Scales {
                 length: 1.0,
                 lateral: 1.0,
                 pressure: 1.0,
             },
-            heights: Heights::from_reduced(Vec::new()),
+            heights: Heights::none(),
             height_origin: 0.0,
             rms_slope: 0.0,
             law,
@@ -243,7 +266,7 @@ impl Problem {
 
     /// Whether it was made by [`Problem::sketch`].
     pub fn is_sketch(&self) -> bool {
-        self.heights.is_empty()
+        self.heights.are_none()
     }
 
     /// The same problem without attraction.
@@ -256,14 +279,34 @@ impl Problem {
     }
 
     /// The same problem on half the points each way, or `None` where they cannot be halved.
-    pub fn coarsened(&self) -> Option<Problem> {
+    ///
+    /// # Errors
+    /// Another rank has ended.
+    pub fn coarsened(&self) -> Result<Option<Problem>, BackendError> {
         let [nx, ny] = self.shape.points;
         if self.boundary == Boundary::Free || nx % 2 != 0 || ny % 2 != 0 {
-            return None;
+            return Ok(None);
         }
         let grid = Grid::new([nx / 2, ny / 2], [self.grid.lx, self.grid.ly]);
-        let height_at = self.heights.by_point();
-        let mut heights = vec![0.0; grid.len()];
+        let share = self.share.of(Shape::whole(grid.nx, grid.ny));
+        // The rows of the coarse grid are shared anew, so that some of those above may lie elsewhere.
+        let above = if share.is_whole() {
+            None
+        } else {
+            let own: Vec<f64> = self.heights.iter().collect();
+            let held = |rank| self.share.rows_of(rank);
+            let wanted = |rank| {
+                let rows = share.rows_of(rank);
+                (2 * rows.start..2 * rows.end).collect()
+            };
+            Some(self.share.fetch(&own, nx, held, wanted)?)
+        };
+        let own_height = self.heights.by_point();
+        let height_at = |point: usize| match &above {
+            None => own_height(point),
+            Some(heights) => heights[point],
+        };
+        let mut heights = vec![0.0; share.len()];
         for (row, line) in heights.chunks_exact_mut(grid.nx).enumerate() {
             for (column, height) in line.iter_mut().enumerate() {
                 let at = 2 * row * nx + 2 * column;
@@ -274,10 +317,11 @@ impl Problem {
                         + height_at(at + nx + 1));
             }
         }
-        Some(Problem {
+        Ok(Some(Problem {
             grid,
             shape: Shape::whole(grid.nx, grid.ny),
-            heights: Heights::from_reduced(heights),
+            heights: Heights::new(heights.into(), 0.0, 1.0, &share, &grid),
+            share,
             stiffness: layered_stiffness(grid, self.scales.lateral, self.layer.as_ref()),
             law: self.law,
             // Coarse starts are for the hard wall only.
@@ -286,7 +330,7 @@ impl Problem {
             hardness: None,
             conducts: false,
             ..*self
-        })
+        }))
     }
 
     /// Highest reduced height, as sampled.
@@ -296,15 +340,7 @@ impl Problem {
 
     /// Root mean square of the reduced heights about their mean.
     pub fn rms_height(&self) -> f64 {
-        let count = self.heights.len() as f64;
-        let mean = self.heights.iter().sum::<f64>() / count;
-        (self
-            .heights
-            .iter()
-            .map(|h| (h - mean) * (h - mean))
-            .sum::<f64>()
-            / count)
-            .sqrt()
+        self.heights.rms()
     }
 
     /// Largest stiffness over all wavevectors.
@@ -348,29 +384,30 @@ impl Problem {
         })
     }
 
-    /// Spreads values on the grid over the solved points, `outside` on a pad.
+    /// Spreads values on the grid over the solved points, `outside` on a pad; those of the held rows.
     pub fn padded(&self, values: &[f64], outside: f64) -> Vec<f64> {
-        let [width, rows] = self.shape.points;
-        let [nx, ny] = self.shape.surface;
-        if width == nx && rows == ny || values.is_empty() {
+        let width = self.shape.points[0];
+        let nx = self.shape.surface[0];
+        if self.shape.points == self.shape.surface || self.is_sketch() {
             return values.to_vec();
         }
-        let mut padded = vec![outside; width * rows];
-        for (line, values) in padded
-            .chunks_exact_mut(width)
-            .zip(values.chunks_exact(nx))
-            .take(ny)
-        {
+        let mut padded = vec![outside; self.share.len()];
+        let lines = padded.chunks_exact_mut(width);
+        for (line, values) in lines.zip(values.chunks_exact(nx)) {
             line[..nx].copy_from_slice(values);
         }
         padded
     }
 
-    /// The heights over all solved points, 0 on a pad; none of a sketch.
+    /// The heights over all held solved points, 0 on a pad; none of a sketch.
     pub fn padded_heights(&self) -> impl ExactSizeIterator<Item = f64> + '_ {
-        let [width, rows] = self.shape.points;
-        let rows = if self.is_sketch() { 0 } else { rows };
-        let [nx, ny] = self.shape.surface;
+        let width = self.shape.points[0];
+        let rows = if self.is_sketch() {
+            0
+        } else {
+            self.share.rows().len()
+        };
+        let (nx, ny) = (self.shape.surface[0], self.share.surface_rows().len());
         let height_at = self.heights.by_point();
         (0..rows * width).map(move |point| {
             let (x, y) = (point % width, point / width);
@@ -382,10 +419,10 @@ impl Problem {
         })
     }
 
-    /// The grid's values out of those over all solved points.
+    /// The grid's values out of those over all solved points, each of the held rows.
     pub fn on_surface<'a>(&self, values: &'a [f64]) -> impl Iterator<Item = f64> + 'a {
-        let [width, _] = self.shape.points;
-        let [nx, ny] = self.shape.surface;
+        let width = self.shape.points[0];
+        let (nx, ny) = (self.shape.surface[0], self.share.surface_rows().len());
         let lines = values.chunks_exact(width).take(ny);
         lines.flat_map(move |line| line[..nx].iter().copied())
     }
@@ -393,7 +430,7 @@ impl Problem {
     /// The same as a field of its own.
     pub fn surface_part(&self, values: &[f64]) -> Vec<f64> {
         // Its length is known here, so that it does not grow into the memory of two.
-        let mut part = Vec::with_capacity(self.shape.surface_len());
+        let mut part = Vec::with_capacity(self.share.surface_len());
         part.extend(self.on_surface(values));
         part
     }

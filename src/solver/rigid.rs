@@ -16,7 +16,8 @@ impl Problem {
     /// This gap over all solved points of a periodic grid, reduced, moved rigidly to this mean; for a law
     /// without a wall, points stop at the least gap that any pressure reaches.
     pub fn moved_to(&self, mut gap: Vec<f64>, target: f64) -> Vec<f64> {
-        let mean = gap.iter().sum::<f64>() / gap.len() as f64;
+        let count = self.shape.len();
+        let mean = self.share.sum(&gap) / count as f64;
         let mut moved = target - mean;
         let Some(floors) = self.nearest_gaps(target) else {
             gap.iter_mut().for_each(|g| *g += moved);
@@ -26,21 +27,25 @@ impl Problem {
         // The mean of max(g + moved, floor) is convex in the move, and too large at the first one: Newton's
         // method comes down to the root from above.
         for _ in 0..NEWTON_STEPS {
-            let (mut excess, mut free) = (0.0, 0usize);
-            for (i, g) in gap.iter().enumerate() {
-                let (lifted, rigid) = (floor(i), g + moved);
-                free += usize::from(rigid > lifted);
-                excess += rigid.max(lifted) - target;
-            }
-            if free == gap.len() {
+            let width = self.shape.points[0];
+            let rows = self.share.rows().len();
+            let [excess, free] = self.share.sums(rows, |row, [excess, free]| {
+                let line = gap.iter().enumerate().skip(row * width).take(width);
+                for (i, g) in line {
+                    let (lifted, rigid) = (floor(i), g + moved);
+                    *free += f64::from(u8::from(rigid > lifted));
+                    *excess += rigid.max(lifted) - target;
+                }
+            });
+            if free == count as f64 {
                 break;
             }
-            if free == 0 {
+            if free == 0.0 {
                 // Nothing is left to move: the surfaces stand parallel.
                 gap.fill(target);
                 return gap;
             }
-            let next = moved - excess / free as f64;
+            let next = moved - excess / free;
             if next >= moved {
                 break;
             }
@@ -58,12 +63,7 @@ impl Problem {
         let Law::LennardJones(law) = self.law else {
             return None;
         };
-        let (lowest, highest) = self
-            .heights
-            .iter()
-            .fold((f64::INFINITY, f64::NEG_INFINITY), |(low, high), h| {
-                (low.min(h), high.max(h))
-            });
+        let (lowest, highest) = (self.heights.lowest(), self.heights.highest());
         // The pressure of the stiffest wave with all the roughness, plus that of flats at this mean gap.
         let pressure = self.stiffness_max() * (highest - lowest);
         let at = |factor: f64| {

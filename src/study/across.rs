@@ -13,12 +13,18 @@ const CLEARANCE_HALVINGS: usize = 60;
 /// Mean attraction across a gap without contact, Pa: the undeformed surfaces at `clearance` (m) from
 /// first touch.
 pub fn attraction_across(setup: &Setup, clearance: f64) -> f64 {
-    let heights = &setup.surface.heights;
-    let highest = heights.iter().copied().fold(f64::NEG_INFINITY, f64::max);
-    let sum = heights.iter().enumerate().fold(0.0, |sum, (i, height)| {
-        sum + setup.law_factor(i) * setup.law.traction(highest - height + clearance)
+    let heights = setup.surface.heights.as_slice();
+    let share = &setup.problem.share;
+    let highest = share.greatest_of(heights);
+    let width = setup.surface.grid.nx;
+    let [sum] = share.sums(heights.len() / width, |row, [sum]| {
+        let line = heights.iter().enumerate().skip(row * width).take(width);
+        for (i, height) in line {
+            let gap = highest - height + clearance;
+            *sum += setup.law_factor(i) * setup.law.traction(gap);
+        }
     });
-    sum / heights.len() as f64
+    sum / setup.surface.grid.len() as f64
 }
 
 /// The clearance (m) at which surfaces without contact attract most, and that mean attraction, Pa.

@@ -204,21 +204,19 @@ impl<'s> Controller<'s> {
 
     /// The undeformed gap over all solved points at a prescribed value, reduced: at first touch
     /// where a load is prescribed, cut at zero where the bodies would overlap. The heights are lowered
-    /// by the plastic depths over all solved points, an empty slice where there are none.
-    pub fn undeformed_gap(&self, value: f64, plastic_depth: &[f64]) -> Vec<f64> {
+    /// by the plastic depths over all held solved points, where there are some.
+    pub fn undeformed_gap(&self, value: f64, plastic_depth: Option<&[f64]>) -> Vec<f64> {
         let problem = self.problem;
         let mut heights: Vec<f64> = problem.heights.iter().collect();
-        if !plastic_depth.is_empty() {
-            let depths = problem.surface_part(plastic_depth);
+        if let Some(depths) = plastic_depth {
+            let depths = problem.surface_part(depths);
             heights
                 .iter_mut()
                 .zip(depths)
                 .for_each(|(h, depth)| *h -= depth);
         }
         let level = match self.control {
-            Control::Pressure | Control::Force => {
-                heights.iter().copied().fold(f64::NEG_INFINITY, f64::max)
-            }
+            Control::Pressure | Control::Force => problem.share.greatest_of(&heights),
             Control::MeanGap => value / problem.scales.length,
             Control::Approach => (self.highest - value) / problem.scales.length,
         };

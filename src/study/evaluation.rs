@@ -6,6 +6,7 @@ use std::f64::consts::{LN_2, PI};
 use super::control::{Controller, Position};
 use super::row::State;
 use super::setup::Setup;
+use crate::backend::{BackendError, Share};
 use crate::grid::Boundary;
 use crate::law::{Law, Support, net_pressure};
 use crate::scene::FieldName;
@@ -66,9 +67,9 @@ pub struct Solved<'a> {
     pub elastic: Vec<f64>,
     /// Mean over all solved points of the offset by the history of a viscoelastic solid.
     pub mean_offset: f64,
-    /// Depth by which plastic indentation had lowered the heights before, over all solved points; empty
+    /// Depth by which plastic indentation had lowered the heights before, over all solved points; `None`
     /// where there was none.
-    pub plastic_depth: &'a [f64],
+    pub plastic_depth: Option<&'a [f64]>,
     /// Mean pressure.
     pub held: f64,
     /// The load it was solved for.
@@ -81,7 +82,17 @@ pub struct Solved<'a> {
 impl Evaluation {
     /// Evaluates a solved state of `problem`. The law is the setup's own, also where the problem was
     /// solved without it: then attraction is summed outside the contact of the hard wall.
-    pub fn new(setup: &Setup, problem: &Problem, controller: &Controller, solved: Solved) -> Self {
+    ///
+    /// # Errors
+    /// Another rank has ended.
+    pub fn new(
+        setup: &Setup,
+        problem: &Problem,
+        controller: &Controller,
+        solved: Solved,
+    ) -> Result<Self, BackendError> {
+        let share = &problem.share;
+        let (width, rows) = (problem.shape.points[0], share.rows().len());
         let scales = problem.scales;
         let law = setup.law.reduced(scales.length, scales.pressure);
         let closed_support = if setup.sums_attraction() {
@@ -91,19 +102,23 @@ impl Evaluation {
         };
         // The heights as earlier indentation has left them.
         let lowered = || {
-            let depths = solved.plastic_depth;
+            let depths = solved.plastic_depth.unwrap_or(&[]);
             let heights = problem.padded_heights().enumerate();
             heights.map(move |(i, h)| h - depths.get(i).copied().unwrap_or(0.0))
         };
-        let displacement = solved.gap.iter().zip(lowered()).map(|(g, h)| g + h);
-        let mean_displacement =
-            displacement.sum::<f64>() / problem.shape.len() as f64 + solved.mean_offset;
+        let mut displacement = solved.gap.iter().zip(lowered()).map(|(g, h)| g + h);
+        let [sum] = share.sums(rows, |_, [sum]| {
+            for u in displacement.by_ref().take(width) {
+                *sum += u;
+            }
+        });
+        let mean_displacement = sum / problem.shape.len() as f64 + solved.mean_offset;
         let count = problem.grid.len() as f64;
         let yields = problem.hardness.is_some();
         let mut plastic_depth = match (yields, solved.plastic_depth) {
             (false, _) => Vec::new(),
-            (true, []) => vec![0.0; problem.grid.len()],
-            (true, before) => problem.surface_part(before),
+            (true, None) => vec![0.0; share.surface_len()],
+            (true, Some(before)) => problem.surface_part(before),
         };
         // Plastic indentation moves the bodies together and leaves no gap.
         for (depth, g) in plastic_depth
@@ -113,8 +128,18 @@ impl Evaluation {
             *depth -= g.min(0.0);
         }
         let open = |g: f64| if yields { g.max(0.0) } else { g };
-        let mean_gap = problem.on_surface(&solved.gap).map(open).sum::<f64>() / count;
-        let mean_depth = plastic_depth.iter().fold(0.0, |sum, depth| sum + depth) / count;
+        let (nx, surface_rows) = (problem.shape.surface[0], share.surface_rows().len());
+        let [sum] = share.sums(surface_rows, |row, [sum]| {
+            for g in &solved.gap[row * width..row * width + nx] {
+                *sum += open(*g);
+            }
+        });
+        let mean_gap = sum / count;
+        let mean_depth = if yields {
+            share.surface_sum_by(&plastic_depth, |depth| depth) / count
+        } else {
+            0.0
+        };
         let position = controller.position(
             &solved.load,
             solved.held,
@@ -134,23 +159,22 @@ impl Evaluation {
             Boundary::Periodic => (position.mean_pressure / scales.pressure, offset),
             Boundary::Free => (solved.held, offset),
         };
-        let elastic_energy = 0.5
-            * solved
-                .gap
-                .iter()
-                .zip(lowered())
-                .zip(&solved.elastic)
-                .map(|((g, h), p)| (p - spring + elastic_part) * (g + h + shift))
-                .sum::<f64>();
+        let mut work = solved.gap.iter().zip(lowered()).zip(&solved.elastic);
+        let [work] = share.sums(rows, |_, [sum]| {
+            for ((g, h), p) in work.by_ref().take(width) {
+                *sum += (p - spring + elastic_part) * (g + h + shift);
+            }
+        });
+        let elastic_energy = 0.5 * work;
 
         // From here on these are the results, in their own places.
         let mut gap = problem.cut_to_surface(solved.gap);
         let mut pressure = problem.cut_to_surface(solved.elastic);
         let mut points = vec![PointState::Separated; gap.len()];
-        let mut adhesive = 0.0;
         let mut strongest: f64 = 0.0;
         let negative_is_contact = matches!(problem.law, Law::LennardJones(_));
-        for (i, (gap, pressure)) in gap.iter_mut().zip(&mut pressure).enumerate() {
+        let mut evaluate = |i: usize, adhesive: &mut f64| {
+            let (gap, pressure) = (&mut gap[i], &mut pressure[i]);
             let g = open(*gap);
             let closed = if negative_is_contact {
                 g < 0.0
@@ -177,18 +201,20 @@ impl Evaluation {
                     points[i] = PointState::Attracted;
                 }
             }
-            adhesive += factor * law.energy(g);
+            *adhesive += factor * law.energy(g);
             *gap = g * scales.length;
-        }
+        };
+        let [adhesive] = share.sums(surface_rows, |row, [adhesive]| {
+            (row * nx..(row + 1) * nx).for_each(|i| evaluate(i, adhesive));
+        });
         plastic_depth
             .iter_mut()
             .for_each(|depth| *depth *= scales.length);
-        let contact = points.iter().filter(|&&p| p == PointState::Contact).count() as f64 / count;
-        let attracted = points
-            .iter()
-            .filter(|&&p| p == PointState::Attracted)
-            .count() as f64
-            / count;
+        let of = |state: PointState| points.iter().filter(|&&point| point == state).count();
+        let [contact, attracted] =
+            share.counts([of(PointState::Contact), of(PointState::Attracted)]);
+        let (contact, attracted) = (contact as f64 / count, attracted as f64 / count);
+        let strongest = share.greatest(strongest);
         let state = if contact > 0.0 {
             State::Contact
         } else if attracted > 0.0 || strongest > NEGLIGIBLE * law.peak_tension() {
@@ -196,12 +222,15 @@ impl Evaluation {
         } else {
             State::Separated
         };
-        let contact_corrected = problem.law.has_wall().then(|| {
-            let edges = perimeter_edges(&points, problem.shape.surface, problem.boundary);
-            contact - (PI - 1.0 + LN_2) / 24.0 * edges as f64 / count
-        });
-        let force = pressure.iter().fold(0.0, |sum, p| sum + p) * problem.grid.pixel_area();
-        Evaluation {
+        let contact_corrected = if problem.law.has_wall() {
+            let edges = perimeter_edges(&points, share, problem.boundary)?;
+            Some(contact - (PI - 1.0 + LN_2) / 24.0 * edges as f64 / count)
+        } else {
+            None
+        };
+        let force = share.surface_sum_by(&pressure, |p| p) * problem.grid.pixel_area();
+        share.failed()?;
+        Ok(Evaluation {
             gap,
             pressure,
             displacement_offset: offset * scales.length - problem.height_origin,
@@ -215,7 +244,7 @@ impl Evaluation {
             adhesive_energy: adhesive * energy_unit,
             state,
             plastic_depth,
-        }
+        })
     }
 
     /// Values of a field in SI units, shape `[ny, nx]`, of a surface that began with these heights.
@@ -248,34 +277,58 @@ impl Evaluation {
 ///
 /// The staircase of a contact overestimates its area by (pi - 1 + ln 2)/24 of a pixel an edge
 /// (Yastrebov, Anciaux & Molinari 2017, doi:10.1016/j.triboint.2017.04.023).
-fn perimeter_edges(points: &[PointState], shape: [usize; 2], boundary: Boundary) -> usize {
-    let [nx, ny] = shape;
+///
+/// # Errors
+/// Another rank has ended.
+fn perimeter_edges(
+    points: &[PointState],
+    share: &Share,
+    boundary: Boundary,
+) -> Result<usize, BackendError> {
+    let [nx, ny] = share.surface();
+    let rows = share.surface_rows();
+    let wraps = boundary == Boundary::Periodic;
+    // All that others want of these rows is the first one.
+    let first: Vec<u8> = points[..nx.min(points.len())]
+        .iter()
+        .map(|point| *point as u8)
+        .collect();
+    let after = share.surface_row_after(&first)?;
     let touches = |x: usize, y: usize| points[y * nx + x] == PointState::Contact;
+    let touches_after = |x: usize| after[x] == PointState::Contact as u8;
     let mut edges = 0;
-    for y in 0..ny {
+    for y in 0..rows.len() {
+        let is_followed = rows.start + y + 1 < ny || (wraps && ny > 1);
         for x in 0..nx {
             let here = touches(x, y);
-            let wraps = boundary == Boundary::Periodic;
             if (x + 1 < nx || (wraps && nx > 1)) && here != touches((x + 1) % nx, y) {
                 edges += 1;
             }
-            if (y + 1 < ny || (wraps && ny > 1)) && here != touches(x, (y + 1) % ny) {
+            let below = || match y + 1 < rows.len() {
+                true => touches(x, y + 1),
+                false => touches_after(x),
+            };
+            if is_followed && here != below() {
                 edges += 1;
             }
         }
     }
-    edges
+    let [edges] = share.counts([edges]);
+    Ok(edges)
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::backend::Shape;
 
     #[test]
     fn edges_wrap_on_a_periodic_grid_only() {
         let mut points = vec![PointState::Separated; 12];
         points[0] = PointState::Contact;
-        assert_eq!(perimeter_edges(&points, [4, 3], Boundary::Periodic), 4);
-        assert_eq!(perimeter_edges(&points, [4, 3], Boundary::Free), 2);
+        let share = Share::whole(Shape::whole(4, 3));
+        let edges = |boundary| perimeter_edges(&points, &share, boundary).expect("one process");
+        assert_eq!(edges(Boundary::Periodic), 4);
+        assert_eq!(edges(Boundary::Free), 2);
     }
 }

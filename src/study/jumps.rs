@@ -11,7 +11,7 @@ use super::evaluation::{Evaluation, PointState};
 use super::row::{State, StepRow};
 use super::setup::Setup;
 use super::walker::Carried;
-use crate::backend::BackendError;
+use crate::backend::{BackendError, Share};
 use crate::scene::Control;
 
 /// Losses below this share of w times the area that changed state are ignored: contact edges move from pixel
@@ -68,6 +68,8 @@ pub struct Jumps {
     tolerance: f64,
     /// Factors on the law's tension.
     law_factor: Option<Vec<f64>>,
+    /// The points that this process holds.
+    share: Share,
     before: Option<Before>,
 }
 
@@ -88,6 +90,7 @@ impl Jumps {
             prescribed: Prescribed::for_setup(setup),
             tolerance: setup.scene.solver.tolerance,
             law_factor: setup.surface.adhesion_map.clone(),
+            share: setup.problem.share.clone(),
             before: None,
         }
     }
@@ -139,13 +142,15 @@ impl Jumps {
                 // Points that changed, each by how strongly it adheres.
                 let strength =
                     |point: usize| self.law_factor.as_ref().map_or(1.0, |map| map[point]);
-                let changed = old
-                    .iter()
-                    .zip(new)
-                    .enumerate()
-                    .filter(|(_, (a, b))| a != b)
-                    .map(|(point, _)| strength(point))
-                    .sum::<f64>();
+                let width = self.share.surface()[0];
+                let rows = old.len() / width;
+                let [changed] = self.share.sums(rows, |row, [changed]| {
+                    for point in row * width..(row + 1) * width {
+                        if old[point] != new[point] {
+                            *changed += strength(point);
+                        }
+                    }
+                });
                 let energies =
                     [&before.row, row].map(|row| row.elastic_energy - row.adhesive_energy);
                 let least = (LEAST_SHARE * work * changed * self.pixel_area)

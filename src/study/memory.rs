@@ -24,6 +24,8 @@ pub(crate) const EVALUATION: u64 = 2 * DOUBLE + 1;
 const SHORTEST_RETURNED: u64 = 32 << 20;
 /// Bytes a drawn point of a picture: its value and its colour.
 const DRAWN: u64 = DOUBLE + 3;
+/// Bytes of the rows and columns that a rank sends at once.
+const ROUND: u64 = 16 << 20;
 /// Points of the largest picture.
 const MOST_DRAWN: u64 = 1780 * 1780;
 
@@ -49,18 +51,18 @@ impl Memory {
         Memory::on_ranks(scene, grid, cost, 1)
     }
 
-    /// Those of each of so many ranks that share the contact: a slab of what the solver holds, and all of what is
-    /// held between solves.
+    /// Those of the first of so many ranks that share the contact, and of each other one at most: a slab of every field.
     pub fn on_ranks(scene: &Scene, grid: Grid, cost: &Cost, ranks: usize) -> Memory {
         let rows = cost.points[1] as u128;
         let slab = largest_slab(cost.points[1], ranks) as u128;
         let own = |bytes: usize| (bytes as u128 * slab / rows.max(1)) as u64;
-        let points = grid.len() as u64;
         let shape = Shape {
             points: cost.points,
             surface: [grid.nx, grid.ny],
         };
-        let solved = shape.len() as u64;
+        let own_rows = (slab as usize).min(grid.ny);
+        let points = (own_rows * grid.nx) as u64;
+        let solved = own(shape.len());
         let field = DOUBLE * solved;
         let table = if cost.is_tabulated {
             DOUBLE * shape.spectrum_len() as u64
@@ -79,8 +81,8 @@ impl Memory {
         let active = solver_here + reference + exchanged;
 
         // The heights, which surface and problem share, and the table of the stiffness.
-        let history = cost.history_bytes() as u64;
-        let kept = DOUBLE * points + table + history + cost.host.kept;
+        let history = own(cost.history_bytes());
+        let kept = DOUBLE * points + table + history + own(cost.host.kept as usize);
         // The last result of a path of which only the last step is drawn, and those of earlier solves of a step.
         let result = EVALUATION * points;
         let results = result * (kept_steps(scene) + cost.host.results);
@@ -94,23 +96,25 @@ impl Memory {
         let start = u64::from(cost.moves_the_gap) * field;
         // A field on its way between the iterations and the state in double precision.
         let between = if reference > 0 { field } else { 0 };
-        let alone = active + between.max(cost.host.passing);
+        let passing = own(cost.host.passing as usize).max(cost.host.gathered);
+        let alone = active + between.max(passing);
         let iterating = alone + start;
         // Gap and elastic pressure as read, which become the results, and the states. What is cut off a
         // larger grid is a field of its own for a moment.
         let cut = if solved > points { DOUBLE * points } else { 0 };
-        // This rank's rows of a field on their way to the others.
-        let gathered = if ranks > 1 { own(field as usize) } else { 0 };
-        let evaluating = 2 * field + gathered + cut + points;
+        let evaluating = 2 * field + cut + points;
         // Heights of a pad and the first gap on their way to the backend.
         let planning = table + field;
-        let starting = planning.max(coarse_start(cost, points, solver_here, table));
+        let starting = planning.max(coarse_start(cost, points, solver_here, table, ranks));
 
         // A step is solved and evaluated, then its result is written, before which the last one goes, and its state
         // read.
         let first = alone + first_start + result * cost.host.results;
         let step = iterating.max(idle + evaluating) + before + results;
-        let ended = idle + points_before + writing(scene, points).max(results.max(result) + state);
+        // Rows of others on their way through the first rank.
+        let coming = if ranks > 1 { 2 * ROUND } else { 0 };
+        let writing = writing(scene, points, grid.len() as u64) + coming;
+        let ended = idle + points_before + writing.max(results.max(result) + state + coming);
         let walking = first.max(step).max(ended).max(idle + starting);
         // A load between two steps is solved beside the states of both and the result of the second; its own state
         // is read beside its own result.
@@ -129,7 +133,7 @@ impl Memory {
         } else {
             0
         };
-        let solver_field = own(cost.place.number() * solved as usize);
+        let solver_field = cost.place.number() as u64 * solved;
         let unused = if !on_processor {
             0
         } else if solver_field < SHORTEST_RETURNED {
@@ -140,7 +144,8 @@ impl Memory {
             0
         };
         let program = PROGRAM + drivers + unused;
-        let building = building(scene, grid);
+        let building =
+            building(scene, grid, own_rows, ranks) + if ranks > 1 { cost.host.read } else { 0 };
         let without_search = building.max(kept + walking.max(pull_off));
         Memory {
             solver,
@@ -152,13 +157,20 @@ impl Memory {
     }
 }
 
-/// Bytes while the heights are made and their statistics taken.
-fn building(scene: &Scene, grid: Grid) -> u64 {
-    let points = grid.len() as u64;
-    let spectrum = 2 * DOUBLE * ((grid.nx / 2 + 1) * grid.ny) as u64;
+/// Bytes while the heights of so many rows are made and their statistics taken. Several ranks hold files and maps
+/// whole, and exchange columns some at a time.
+fn building(scene: &Scene, grid: Grid, rows: usize, ranks: usize) -> u64 {
+    let points = (rows * grid.nx) as u64;
+    let spectrum = 2 * DOUBLE * ((grid.nx / 2 + 1) * rows) as u64;
     let held_columns = |shortest: f64| -> u64 {
         let last = (grid.lx / shortest).min(grid.nx as f64 / 2.0) as u64 + 1;
-        2 * DOUBLE * last * grid.ny as u64
+        2 * DOUBLE * last * rows as u64
+    };
+    let whole = DOUBLE * grid.len() as u64;
+    // Columns, what is sent and what comes of them.
+    let exchanged = match ranks {
+        ..2 => 0,
+        _ => 3 * ROUND.min(2 * DOUBLE * ((grid.nx / 2 + 1).div_ceil(ranks) * grid.ny) as u64),
     };
     let files = scene
         .surfaces
@@ -166,32 +178,39 @@ fn building(scene: &Scene, grid: Grid) -> u64 {
         .filter(|part| matches!(part, SurfacePart::File(_) | SurfacePart::Heights(_)))
         .count() as u64;
     let part = scene.surfaces.iter().map(|part| match part {
-        SurfacePart::SelfAffine(rough) => DOUBLE * points + held_columns(rough.shortest),
+        SurfacePart::SelfAffine(rough) => {
+            DOUBLE * points + held_columns(rough.shortest) + exchanged
+        }
         _ => 0,
     });
-    let parts = DOUBLE * points * (1 + files) + part.max().unwrap_or(0);
+    let parts = DOUBLE * points + files * whole + part.max().unwrap_or(0);
     let statistics = match scene.grid.boundary {
+        // The spectrum by rows, and by columns: of several ranks, of some columns.
+        Boundary::Periodic if ranks > 1 => DOUBLE * points + spectrum + exchanged,
         Boundary::Periodic => DOUBLE * points + 2 * spectrum,
         Boundary::Free => DOUBLE * points,
     };
     parts.max(statistics)
 }
 
-/// Bytes of a result and of what is written of it: values that are worked out for a file or a picture, and the
-/// picture.
-fn writing(scene: &Scene, points: u64) -> u64 {
+/// Bytes of a result of so many points, of `all` of the grid, and of what is written of it: values that are worked out
+/// for a file or a picture, and the picture.
+fn writing(scene: &Scene, points: u64, all: u64) -> u64 {
     let output = &scene.output;
     // Heights are, where the solid has yielded.
     let is_made =
         |field: &&FieldName| matches!(field, FieldName::Displacement | FieldName::Heights);
-    let made = output.fields.iter().filter(is_made).count()
-        + output.images.iter().filter(is_made).count().min(1);
+    let made = output
+        .fields
+        .iter()
+        .chain(&output.images)
+        .any(|field| is_made(&field));
     let drawn = if output.images.is_empty() {
         0
     } else {
-        DRAWN * points.min(MOST_DRAWN)
+        DRAWN * all.min(MOST_DRAWN)
     };
-    (EVALUATION + DOUBLE * made as u64) * points + drawn
+    (EVALUATION + DOUBLE * u64::from(made)) * points + drawn
 }
 
 /// Results of earlier steps that are held while one is solved.
@@ -202,13 +221,15 @@ fn kept_steps(scene: &Scene) -> u64 {
 }
 
 /// Bytes of a first step that is helped by coarser grids, the solver itself aside.
-fn coarse_start(cost: &Cost, points: u64, solver: u64, table: u64) -> u64 {
+fn coarse_start(cost: &Cost, points: u64, solver: u64, table: u64, ranks: usize) -> u64 {
     if !cost.starts_coarse {
         return 0;
     }
     // One after another, the largest of a quarter of the points: its heights, also on their way to its
     // backend, a gap, two tables and a solver; and the heights of the grids below while these are solved.
     let level = (3 * DOUBLE * points + 2 * table + solver) / 4 + DOUBLE * points / 12;
-    // Heights and displacement of that grid, and the gap that comes back.
-    level.max(DOUBLE * points * 3 / 2)
+    // Heights and displacement of that grid, and the gap that comes back; of several ranks also the reduced heights and
+    // those of the rows that the coarse grid has here.
+    let between = if ranks > 1 { 2 * DOUBLE * points } else { 0 };
+    level.max(DOUBLE * points * 3 / 2 + between)
 }

@@ -1,9 +1,12 @@
 //! From a scene and its surface to the problem that is solved.
 
+use std::sync::Arc;
+
 use super::hooks::{Effects, Hooks};
 use super::plan::Plan;
 use super::regime::Regime;
 use super::row::Column;
+use crate::backend::ranks::Ranks;
 use crate::law::Law;
 use crate::scene::{Boundary, Scene};
 use crate::solver::Problem;
@@ -14,7 +17,7 @@ use crate::surface::{MapOutline, Outline, Source, Surface, has_flats, statistics
 pub struct Setup {
     /// The scene.
     pub scene: Scene,
-    /// Its surface.
+    /// Its surface, of several ranks this one's rows.
     pub surface: Surface,
     /// Statistics of the surface.
     pub statistics: Statistics,
@@ -34,19 +37,28 @@ pub struct Setup {
 
 impl Setup {
     /// Puts a scene and its surface together, with those of a list of effects that the scene asks for.
-    pub(crate) fn with_effects(all: &[&'static dyn Hooks], scene: Scene, surface: Surface) -> Self {
+    ///
+    /// Of several ranks each is given its rows of the surface.
+    pub(crate) fn with_effects(
+        all: &[&'static dyn Hooks],
+        scene: Scene,
+        surface: Surface,
+        ranks: Option<Arc<dyn Ranks>>,
+    ) -> Self {
         let grid = surface.grid;
-        let statistics = Statistics::from_heights(&grid, &surface.heights, scene.grid.boundary);
+        let share = Problem::share(&grid, scene.grid.boundary, ranks);
+        let heights = surface.heights.as_slice();
+        let statistics = Statistics::of_share(&grid, &share, heights, scene.grid.boundary);
         let outline = Outline {
             grid,
             moments: statistics.moments,
             source: Source::Heights,
             sphere_radius: surface.sphere_radius,
-            has_flats: has_flats(&surface.heights),
+            has_flats: has_flats(heights, &share),
             map: surface
                 .adhesion_map
                 .as_deref()
-                .map(MapOutline::from_factors),
+                .map(|map| MapOutline::from_factors(map, &share)),
             warnings: surface.warnings.clone(),
         };
         let Plan {
@@ -62,6 +74,7 @@ impl Setup {
             Boundary::Free => 0.0,
         };
         let problem = Problem::sharing(
+            share,
             grid,
             scene.grid.boundary,
             scene.solid.contact_modulus,
@@ -103,7 +116,7 @@ impl Setup {
         self.effects.spring(&self.scene)
     }
 
-    /// Factor on the law's tension at a grid point.
+    /// Factor on the law's tension at a held grid point.
     #[inline]
     pub fn law_factor(&self, point: usize) -> f64 {
         match &self.surface.adhesion_map {
@@ -115,6 +128,6 @@ impl Setup {
     /// The largest factor on the law's tension.
     pub fn largest_law_factor(&self) -> f64 {
         let map = self.surface.adhesion_map.as_deref();
-        map.map_or(1.0, |map| map.iter().copied().fold(0.0, f64::max))
+        map.map_or(1.0, |map| self.problem.share.greatest_of(map).max(0.0))
     }
 }

@@ -3,16 +3,17 @@
 use super::attempt::Attempt;
 use crate::backend::BackendError;
 use crate::grid::Boundary;
-use crate::solver::{Hold, Load, Start};
+use crate::solver::{Hold, Load, Problem, Start};
 
 /// Share of the mean gap below which a point moved by it is closed: the rounding of that mean in
 /// double precision.
 const CLOSED: f64 = 1e-13;
 
-/// The mean, taken about the first of the values: that of equal ones is exact on any grid.
-fn mean_of(values: &[f64]) -> f64 {
-    let first = values[0];
-    first + values.iter().map(|value| value - first).sum::<f64>() / values.len() as f64
+/// The mean over all solved points, taken about the first of the values: that of equal ones is exact on any grid.
+fn mean_of(problem: &Problem, values: &[f64]) -> f64 {
+    let first = problem.share.first_of(values);
+    let sum = problem.share.sum_by(values, |value| value - first);
+    first + sum / problem.shape.len() as f64
 }
 
 /// The last gap, moved to a new mean gap where that is prescribed; the undeformed gap at the beginning.
@@ -33,8 +34,8 @@ pub(super) fn start(attempt: &mut Attempt, load: &Load) -> Result<Start, Backend
         return Ok(Start::Present);
     };
     let mut gap = attempt.solver.gap()?;
-    let mean = mean_of(&gap);
-    let least = gap.iter().copied().fold(f64::INFINITY, f64::min);
+    let mean = mean_of(problem, &gap);
+    let least = problem.share.least_of(&gap);
     // Open surfaces move rigidly; a wall in contact stays where it is and the rest scales.
     if !problem.law.has_wall() {
         gap = attempt.solver.problem().moved_to(gap, target);

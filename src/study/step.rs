@@ -62,8 +62,8 @@ fn keeps_gap(solver: &ContactSolver, load: &Load, gap: &[f64]) -> bool {
     let Hold::Gap(target) = load.hold else {
         return true;
     };
-    let mean = gap.iter().sum::<f64>() / gap.len() as f64;
     let problem = solver.problem();
+    let mean = problem.share.sum(gap) / problem.shape.len() as f64;
     let scale = target.abs() + problem.rms_height() + problem.law.range();
     (mean - target).abs() <= MISSED.max(MISSED_ROUNDINGS * solver.epsilon()) * scale
 }
@@ -121,12 +121,13 @@ pub(super) fn finish(
         law_factor: solver.law_factor(),
     };
     let problem = solver.problem();
-    let evaluation = Evaluation::new(setup, problem, controller, solved);
+    let evaluation = Evaluation::new(setup, problem, controller, solved)?;
     // Non-finite fields have not converged, whatever the residual is.
     let is_finite = evaluation.force.is_finite() && evaluation.position.mean_gap.is_finite();
     // Nor has a state below the least gap, where the law is replaced by a constant.
     let nearest = problem.law.least_gap() * problem.scales.length;
-    let is_beyond = !problem.law.has_wall() && evaluation.gap.iter().any(|gap| *gap <= nearest);
+    let is_beyond = !problem.law.has_wall() && problem.share.least_of(&evaluation.gap) <= nearest;
+    problem.share.failed()?;
     Ok(SolvedStep {
         evaluation: Some(evaluation),
         converged: is_finite && is_there && !is_beyond && outcome.status == Status::Converged,

@@ -1,5 +1,6 @@
 //! Errors of a scene's surface.
 
+use crate::backend::ranks::RankError;
 use std::path::PathBuf;
 
 use thiserror::Error;
@@ -11,6 +12,9 @@ use crate::units::{cut, quoted};
 #[derive(Debug, Error)]
 #[non_exhaustive]
 pub enum SurfaceError {
+    /// Another process of the same contact has ended.
+    #[error(transparent)]
+    Rank(#[from] RankError),
     /// The scene has no `[[surface]]`.
     #[error("the scene has no [[surface]]; for a flat one write kind = \"flat\"")]
     Empty,

@@ -3,8 +3,11 @@
 //! A half spectrum is stored by columns: element `kx * ny + ky` for `kx = 0 .. columns`, all `ky`.
 //! Columns beyond those stored are zero, so a band-limited surface needs no full spectrum.
 
+use std::sync::Arc;
+
 use num_complex::Complex;
 use rayon::prelude::*;
+use rustfft::Fft;
 
 use crate::grid::Grid;
 use crate::plans::Planned;
@@ -20,11 +23,7 @@ const ROWS_TOGETHER: usize = 8;
 pub fn synthesise(grid: &Grid, mut columns: Vec<Complex<f64>>) -> Vec<f64> {
     let (nx, ny) = (grid.nx, grid.ny);
     debug_assert!(columns.len().is_multiple_of(ny) && columns.len() / ny <= nx / 2 + 1);
-    let along_y = f64::complex_backward(ny);
-    columns.par_chunks_mut(ny).for_each_init(
-        || vec![Complex::default(); along_y.get_inplace_scratch_len()],
-        |scratch, column| along_y.process_with_scratch(column, scratch),
-    );
+    transform_columns(&mut columns, ny, &f64::complex_backward(ny));
 
     let along_x = f64::real_backward(nx);
     let mut heights = vec![0.0; nx * ny];
@@ -36,18 +35,11 @@ pub fn synthesise(grid: &Grid, mut columns: Vec<Complex<f64>>) -> Vec<f64> {
             |(row_spectrum, scratch), (chunk, rows)| {
                 for (offset, row) in rows.chunks_mut(nx).enumerate() {
                     let iy = chunk * ROWS_TOGETHER + offset;
-                    // The transform uses its input as scratch, so every column is copied again,
-                    // also the zero ones.
-                    row_spectrum.fill(Complex::default());
-                    for (value, column) in row_spectrum.iter_mut().zip(columns.chunks(ny)) {
-                        *value = column[iy];
-                    }
-                    // Real by symmetry; the transform would refuse a rounding error in the
-                    // imaginary part.
-                    row_spectrum[0].im = 0.0;
-                    if nx.is_multiple_of(2) {
-                        row_spectrum[nx / 2].im = 0.0;
-                    }
+                    fill_row(
+                        nx,
+                        row_spectrum,
+                        columns.chunks(ny).map(|column| column[iy]),
+                    );
                     along_x
                         .process_with_scratch(row_spectrum, row, scratch)
                         .expect("all lengths come from the plan and the ends are real");
@@ -57,14 +49,41 @@ pub fn synthesise(grid: &Grid, mut columns: Vec<Complex<f64>>) -> Vec<f64> {
     heights
 }
 
-/// Coefficients `H = sum h exp(-i q x) / (nx ny)` of all columns `kx = 0 ..= nx/2`.
-///
-/// The inverse of [`synthesise`]; needs as much memory as the heights.
-pub fn analyse(grid: &Grid, heights: &[f64]) -> Vec<Complex<f64>> {
-    let (nx, ny) = (grid.nx, grid.ny);
-    let stored = nx / 2 + 1;
+/// Transforms columns of `ny` numbers each in their places.
+pub(super) fn transform_columns(
+    columns: &mut [Complex<f64>],
+    ny: usize,
+    along_y: &Arc<dyn Fft<f64>>,
+) {
+    columns.par_chunks_mut(ny).for_each_init(
+        || vec![Complex::default(); along_y.get_inplace_scratch_len()],
+        |scratch, column| along_y.process_with_scratch(column, scratch),
+    );
+}
+
+/// Fills the half spectrum of a row of `nx` points, which the transform uses as scratch, with its coefficients; those
+/// that are missing are zero.
+pub(super) fn fill_row(
+    nx: usize,
+    spectrum: &mut [Complex<f64>],
+    coefficients: impl Iterator<Item = Complex<f64>>,
+) {
+    spectrum.fill(Complex::default());
+    for (value, coefficient) in spectrum.iter_mut().zip(coefficients) {
+        *value = coefficient;
+    }
+    // Real by symmetry; the transform would refuse a rounding error in the imaginary part.
+    spectrum[0].im = 0.0;
+    if nx.is_multiple_of(2) {
+        spectrum[nx / 2].im = 0.0;
+    }
+}
+
+/// Half spectra of rows of heights, unscaled, row by row.
+pub(super) fn spectrum_of_rows(grid: &Grid, heights: &[f64]) -> Vec<Complex<f64>> {
+    let (nx, stored) = (grid.nx, grid.nx / 2 + 1);
     let along_x = f64::real_forward(nx);
-    let mut rows = vec![Complex::default(); stored * ny];
+    let mut rows = vec![Complex::default(); stored * (heights.len() / nx)];
     rows.par_chunks_mut(stored)
         .zip(heights.par_chunks(nx))
         .for_each_init(
@@ -76,7 +95,16 @@ pub fn analyse(grid: &Grid, heights: &[f64]) -> Vec<Complex<f64>> {
                     .expect("all lengths come from the plan");
             },
         );
+    rows
+}
 
+/// Coefficients `H = sum h exp(-i q x) / (nx ny)` of all columns `kx = 0 ..= nx/2`.
+///
+/// The inverse of [`synthesise`]; needs as much memory as the heights.
+pub fn analyse(grid: &Grid, heights: &[f64]) -> Vec<Complex<f64>> {
+    let ny = grid.ny;
+    let stored = grid.nx / 2 + 1;
+    let rows = spectrum_of_rows(grid, heights);
     let along_y = f64::complex_forward(ny);
     let factor = 1.0 / grid.len() as f64;
     let mut columns = vec![Complex::default(); stored * ny];

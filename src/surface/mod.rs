@@ -10,6 +10,7 @@
 //! assert_eq!(heights.len(), 64 * 64);
 //! ```
 
+mod across;
 mod adhesion_map;
 mod array;
 mod band_estimate;
@@ -43,13 +44,19 @@ pub(crate) use outline::has_flats;
 #[doc(hidden)]
 pub use outline::{MapOutline, Outline, Source};
 
+use std::sync::Arc;
+
+use crate::backend::Share;
+use crate::backend::ranks::Ranks;
 use crate::grid::Grid;
 use crate::scene::{Boundary, GridScene, Scene, SelfAffineScene, SurfacePart};
 use crate::shared_values::SharedValues;
+use crate::solver::Problem;
 use crate::units::{LARGEST, in_range};
 use file::HeightMap;
 use shapes::ApexPosition;
 pub use statistics::Statistics;
+use statistics::whole;
 
 /// Most points of a grid: 8 GiB of heights.
 #[doc(hidden)]
@@ -83,9 +90,25 @@ impl Surface {
     /// # Errors
     /// See [`SurfaceError`]; an error of a part names it by its number, from 1.
     pub fn build(scene: &Scene) -> Result<Surface, SurfaceError> {
-        let surface = Surface::from_parts(&scene.grid, &scene.surfaces)?;
+        Surface::on_ranks(scene, None)
+    }
+
+    /// The same of the rows that one of these processes holds. A height file and a map are read whole, by each.
+    ///
+    /// # Errors
+    /// As [`Surface::build`], on all of them.
+    #[doc(hidden)]
+    pub fn on_ranks(scene: &Scene, ranks: Option<Arc<dyn Ranks>>) -> Result<Surface, SurfaceError> {
+        let share = |grid: &Grid| Problem::share(grid, scene.grid.boundary, ranks.clone());
+        let surface = Surface::from_parts_on(&scene.grid, &scene.surfaces, &share)?;
+        let rows = share(&surface.grid).surface_rows();
+        let part = rows.start * surface.grid.nx..rows.end * surface.grid.nx;
+        let map = adhesion_map::build(scene, &surface.grid)?;
         Ok(Surface {
-            adhesion_map: adhesion_map::build(scene, &surface.grid)?,
+            adhesion_map: match ranks {
+                None => map,
+                Some(_) => map.map(|map| map[part].to_vec()),
+            },
             ..surface
         })
     }
@@ -95,6 +118,15 @@ impl Surface {
     /// # Errors
     /// As [`Surface::build`].
     pub fn from_parts(scene: &GridScene, parts: &[SurfacePart]) -> Result<Surface, SurfaceError> {
+        Surface::from_parts_on(scene, parts, &whole)
+    }
+
+    /// The same of the rows of a share.
+    fn from_parts_on(
+        scene: &GridScene,
+        parts: &[SurfacePart],
+        share: &dyn Fn(&Grid) -> Share,
+    ) -> Result<Surface, SurfaceError> {
         if parts.is_empty() {
             return Err(SurfaceError::Empty);
         }
@@ -102,24 +134,40 @@ impl Surface {
         check_grid(scene.points, scene.size)?;
         let mut maps = read_maps(scene, parts)?;
         let grid = resolve_grid(scene, &maps)?;
+        let share = share(&grid);
         let mut warnings = Vec::new();
         let heights = match parts {
             // An array alone is the sum of the parts as it stands.
-            [SurfacePart::Heights(array)] => {
+            [SurfacePart::Heights(array)] if share.is_whole() => {
                 array::heights(array, &grid).map_err(|problem| part_error(0, problem))?;
                 array.shared()
             }
-            _ => sum_of(parts, &mut maps, &grid, scene.boundary, &mut warnings)?.into(),
+            _ => sum_of(
+                parts,
+                &mut maps,
+                &grid,
+                &share,
+                scene.boundary,
+                &mut warnings,
+            )?
+            .into(),
         };
         // Beyond this range squares of curvatures overflow.
         let fits = |height: &f64| height.abs() <= LARGEST;
-        if let Some(index) = heights.iter().position(|height| !fits(height)) {
+        if let Some(error) = share.failure() {
+            return Err(error.into());
+        }
+        let first = share.surface_rows().start * grid.nx;
+        let unfit = heights.iter().position(|height| !fits(height));
+        let unfit = share.least(unfit.map_or(f64::INFINITY, |index| (first + index) as f64));
+        if unfit.is_finite() {
+            let index = unfit as usize;
             return Err(SurfaceError::NotFinite {
                 row: index / grid.nx + 1,
                 column: index % grid.nx + 1,
             });
         }
-        let sampled = heights.iter().copied().fold(f64::NEG_INFINITY, f64::max);
+        let sampled = share.greatest_of(&heights);
         let single = single_part(parts);
         Ok(Surface {
             grid,
@@ -227,23 +275,25 @@ fn resolve_grid(scene: &GridScene, maps: &[Option<HeightMap>]) -> Result<Grid, S
     Ok(Grid::new(points, size))
 }
 
-/// The sum of the heights of `parts`, of which files were read into `maps`.
+/// The sum of the held heights of `parts`, of which files were read into `maps`.
 fn sum_of(
     parts: &[SurfacePart],
     maps: &mut [Option<HeightMap>],
     grid: &Grid,
+    share: &Share,
     boundary: Boundary,
     warnings: &mut Vec<String>,
 ) -> Result<Vec<f64>, SurfaceError> {
-    let mut heights = zeros(grid)?;
+    let mut heights = zeros(grid, share)?;
+    let first = share.surface_rows().start * grid.nx;
     for (index, part) in parts.iter().enumerate() {
         let mut found = Vec::new();
         match maps[index].take() {
             Some(map) => {
-                add(&mut heights, &map.heights);
+                add(&mut heights, &map.heights[first..]);
                 found = map.warnings;
             }
-            None => add_part(&mut heights, part, grid, boundary, &mut found)
+            None => add_part(&mut heights, part, grid, share, boundary, &mut found)
                 .map_err(|problem| part_error(index, problem))?,
         }
         let named = |warning| format!("[[surface]] {}: {warning}", index + 1);
@@ -252,15 +302,16 @@ fn sum_of(
     Ok(heights)
 }
 
-/// Zero heights, if this machine's memory holds them.
-fn zeros(grid: &Grid) -> Result<Vec<f64>, SurfaceError> {
+/// Zero heights of the held rows, if this machine's memory holds them.
+fn zeros(grid: &Grid, share: &Share) -> Result<Vec<f64>, SurfaceError> {
     let mut heights = Vec::new();
-    heights
-        .try_reserve_exact(grid.len())
-        .map_err(|_| SurfaceError::Memory {
+    let reserved = heights.try_reserve_exact(share.surface_len());
+    if share.any(reserved.is_err()) {
+        return Err(SurfaceError::Memory {
             points: [grid.nx, grid.ny],
-        })?;
-    heights.resize(grid.len(), 0.0);
+        });
+    }
+    heights.resize(share.surface_len(), 0.0);
     Ok(heights)
 }
 
@@ -269,10 +320,16 @@ fn add_part(
     heights: &mut [f64],
     part: &SurfacePart,
     grid: &Grid,
+    share: &Share,
     boundary: Boundary,
     warnings: &mut Vec<String>,
 ) -> Result<(), PartError> {
-    let place = |centre: Option<[f64; 2]>| ApexPosition { centre, boundary };
+    let first_row = share.surface_rows().start;
+    let place = |centre: Option<[f64; 2]>| ApexPosition {
+        centre,
+        boundary,
+        first_row,
+    };
     match part {
         SurfacePart::Flat => Ok(()),
         SurfacePart::Sphere { radius, centre } => {
@@ -286,14 +343,17 @@ fn add_part(
         SurfacePart::Wavy {
             amplitude,
             wavelength,
-        } => shapes::add_waves(heights, grid, *amplitude, *wavelength, boundary),
+        } => shapes::add_waves(heights, grid, *amplitude, *wavelength, boundary, first_row),
         SurfacePart::SelfAffine(scene) => {
-            let rough = self_affine::build(scene, grid, warnings)?;
+            let rough = self_affine::build(scene, grid, share, warnings)?;
             add(heights, &rough);
             Ok(())
         }
         SurfacePart::Heights(array) => {
-            add(heights, array::heights(array, grid)?);
+            add(
+                heights,
+                &array::heights(array, grid)?[first_row * grid.nx..],
+            );
             Ok(())
         }
         // A file's heights were read and added before.

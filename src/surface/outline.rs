@@ -7,7 +7,9 @@ use std::f64::consts::PI;
 use super::error::{PartError, SurfaceError};
 use super::shapes::{self, ApexPosition};
 use super::spectrum::SpectralMoments;
+use super::statistics::whole;
 use super::{Surface, adhesion_map, check_grid, part_error, self_affine, single_part};
+use crate::backend::Share;
 use crate::grid::Grid;
 use crate::scene::{AdhesionMap, Boundary, Scene, SurfacePart};
 
@@ -65,13 +67,13 @@ pub struct MapOutline {
 }
 
 impl MapOutline {
-    /// Summary of a non-empty map.
-    pub fn from_factors(map: &[f64]) -> MapOutline {
-        let count = map.len() as f64;
-        let mean = map.iter().sum::<f64>() / count;
-        let square = map.iter().map(|f| (f - mean) * (f - mean)).sum::<f64>() / count;
+    /// Summary of a non-empty map, of which this process holds some rows.
+    pub fn from_factors(map: &[f64], share: &Share) -> MapOutline {
+        let count = (share.surface()[0] * share.surface()[1]) as f64;
+        let mean = share.surface_sum_by(map, |f| f) / count;
+        let square = share.surface_sum_by(map, |f| (f - mean) * (f - mean)) / count;
         MapOutline {
-            largest: map.iter().copied().fold(0.0, f64::max),
+            largest: share.greatest_of(map).max(0.0),
             mean,
             deviation: square.sqrt(),
         }
@@ -89,20 +91,16 @@ impl MapOutline {
 
 /// Whether many points are level with the highest, as of flat pillars and punches, or with the lowest, as between
 /// pillars.
-pub(crate) fn has_flats(heights: &[f64]) -> bool {
-    let ends = |ends: [f64; 2], height: &f64| [ends[0].min(*height), ends[1].max(*height)];
-    let [lowest, highest] = heights
-        .iter()
-        .fold([f64::INFINITY, f64::NEG_INFINITY], ends);
+pub(crate) fn has_flats(heights: &[f64], share: &Share) -> bool {
+    let (lowest, highest) = (share.least_of(heights), share.greatest_of(heights));
     let level = LEVEL * (highest - lowest);
-    let share = |end: f64| {
-        let count = heights
-            .iter()
-            .filter(|height| (**height - end).abs() <= level)
-            .count();
-        count as f64 / heights.len() as f64
+    let near = |end: f64| {
+        let near = heights.iter().filter(|h| (**h - end).abs() <= level);
+        near.count()
     };
-    highest > lowest && (share(highest) > TOP || share(lowest) > GROUND)
+    let [all, top, ground] = share.counts([heights.len(), near(highest), near(lowest)]);
+    let part = |count: usize| count as f64 / all as f64;
+    highest > lowest && (part(top) > TOP || part(ground) > GROUND)
 }
 
 /// Contribution of one part.
@@ -176,7 +174,7 @@ impl Outline {
                 }
                 _ => adhesion_map::build(scene, &grid)?
                     .as_deref()
-                    .map(MapOutline::from_factors),
+                    .map(|map| MapOutline::from_factors(map, &whole(&grid))),
             },
             warnings,
         })
@@ -189,11 +187,11 @@ impl Outline {
             moments: surface.statistics(boundary).moments,
             source: Source::Heights,
             sphere_radius: surface.sphere_radius,
-            has_flats: has_flats(&surface.heights),
+            has_flats: has_flats(&surface.heights, &whole(&surface.grid)),
             map: surface
                 .adhesion_map
                 .as_deref()
-                .map(MapOutline::from_factors),
+                .map(|map| MapOutline::from_factors(map, &whole(&surface.grid))),
             warnings: surface.warnings.clone(),
         }
     }
@@ -204,7 +202,11 @@ fn part_outline(
     grid: &Grid,
     boundary: Boundary,
 ) -> Result<PartOutline, PartError> {
-    let place = |centre: Option<[f64; 2]>| ApexPosition { centre, boundary };
+    let place = |centre: Option<[f64; 2]>| ApexPosition {
+        centre,
+        boundary,
+        first_row: 0,
+    };
     match part {
         SurfacePart::Flat | SurfacePart::File(_) | SurfacePart::Heights(_) => Ok(PartOutline {
             mean_squares: [0.0; 3],
@@ -294,14 +296,15 @@ mod tests {
 
     #[test]
     fn pillars_have_flats_and_rough_surfaces_have_none() {
+        let of = |points: usize| whole(&Grid::new([points, 1], [1.0, 1.0]));
         let pillars: Vec<f64> = (0..400).map(|i| f64::from(u8::from(i % 20 < 4))).collect();
-        assert!(has_flats(&pillars));
+        assert!(has_flats(&pillars, &of(pillars.len())));
         let round: Vec<f64> = (0..400)
             .map(|i| (1.0 - 0.1 * f64::from(i % 20 - 3).powi(2)).max(0.0))
             .collect();
-        assert!(has_flats(&round));
+        assert!(has_flats(&round, &of(round.len())));
         let rough: Vec<f64> = (0..400).map(|i| f64::from((i * 37) % 211)).collect();
-        assert!(!has_flats(&rough));
-        assert!(!has_flats(&[1.0; 9]));
+        assert!(!has_flats(&rough, &of(rough.len())));
+        assert!(!has_flats(&[1.0; 9], &of(9)));
     }
 }

@@ -10,8 +10,9 @@ use rayon::prelude::*;
 
 use super::band_estimate;
 use super::error::PartError;
-use super::fourier;
 use super::spectrum::SelfAffineSpectrum;
+use super::{across, fourier};
+use crate::backend::Share;
 use crate::grid::Grid;
 use crate::scene::{Roughness, SelfAffineScene};
 
@@ -165,33 +166,42 @@ impl Band {
 /// The amplitude of a mode is exactly `2 pi sqrt(C(q) / (lx ly))`. Modes with `|k| >= nx/2` or
 /// `|l| >= ny/2` are left out; the others do not change with the grid.
 pub fn heights(spectrum: &SelfAffineSpectrum, grid: &Grid, seed: u64) -> Vec<f64> {
+    let (stored, fill) = coefficients(spectrum, grid, seed);
+    let mut columns = vec![Complex::default(); stored * grid.ny];
+    let lines = columns.par_chunks_mut(grid.ny).enumerate();
+    lines.for_each(|(k, column)| fill(k, column));
+    fourier::synthesise(grid, columns)
+}
+
+/// How many columns of the spectrum the band has, and what sets the coefficients of one, which are zeros.
+fn coefficients(
+    spectrum: &SelfAffineSpectrum,
+    grid: &Grid,
+    seed: u64,
+) -> (usize, impl Fn(usize, &mut [Complex<f64>]) + Sync) {
     let band = Band::new(spectrum, [grid.lx, grid.ly]);
     let most = most_held(grid);
     let last_k = band.last_k().min(most[0]);
     let last_l = band.last_l().min(most[1]);
-    let ny = grid.ny;
-    let mut columns = vec![Complex::default(); (last_k as usize + 1) * ny];
-    columns
-        .par_chunks_mut(ny)
-        .enumerate()
-        .for_each(|(k, column)| {
-            let k = k as i64;
-            // In the column k = 0 one half is free; the other mirrors it.
-            let first_l = if k == 0 { 1 } else { -last_l };
-            for l in first_l..=last_l {
-                let Some(wavenumber) = band.wavenumber(k, l) else {
-                    continue;
-                };
-                let amplitude = band.power(spectrum, wavenumber).sqrt();
-                let phase = 2.0 * PI * phase_fraction(seed, k, l);
-                let coefficient = Complex::from_polar(amplitude, phase);
-                column[l.rem_euclid(ny as i64) as usize] = coefficient;
-                if k == 0 {
-                    column[(-l).rem_euclid(ny as i64) as usize] = coefficient.conj();
-                }
+    let ny = grid.ny as i64;
+    let fill = move |k: usize, column: &mut [Complex<f64>]| {
+        let k = k as i64;
+        // In the column k = 0 one half is free; the other mirrors it.
+        let first_l = if k == 0 { 1 } else { -last_l };
+        for l in first_l..=last_l {
+            let Some(wavenumber) = band.wavenumber(k, l) else {
+                continue;
+            };
+            let amplitude = band.power(spectrum, wavenumber).sqrt();
+            let phase = 2.0 * PI * phase_fraction(seed, k, l);
+            let coefficient = Complex::from_polar(amplitude, phase);
+            column[l.rem_euclid(ny) as usize] = coefficient;
+            if k == 0 {
+                column[(-l).rem_euclid(ny) as usize] = coefficient.conj();
             }
-        });
-    fourier::synthesise(grid, columns)
+        }
+    };
+    (last_k as usize + 1, fill)
 }
 
 /// Largest |k| and |l| that the grid resolves: below half its points.
@@ -209,7 +219,7 @@ pub(super) struct Survey {
     pub(super) exact: bool,
 }
 
-/// Heights of a scene's self-affine part on the grid, with warnings.
+/// Heights of the held rows of a scene's self-affine part on the grid, with warnings.
 ///
 /// # Errors
 /// Values out of range, a band without modes in this cell, one with too many modes to sum, and one
@@ -217,10 +227,17 @@ pub(super) struct Survey {
 pub(super) fn build(
     scene: &SelfAffineScene,
     grid: &Grid,
+    share: &Share,
     warnings: &mut Vec<String>,
 ) -> Result<Vec<f64>, PartError> {
     let found = look(scene, grid, warnings, &sums_within)?;
-    Ok(heights(&found.spectrum, grid, scene.seed))
+    if share.is_whole() {
+        return Ok(heights(&found.spectrum, grid, scene.seed));
+    }
+    let (stored, fill) = coefficients(&found.spectrum, grid, scene.seed);
+    // Without a rank that has ended nothing is solved, which the next exchange tells.
+    let heights = across::synthesise(grid, share, stored, fill);
+    Ok(heights.unwrap_or_else(|_| vec![f64::NAN; share.surface_len()]))
 }
 
 /// The same without the heights; in a band with very many waves the short ones are integrated,

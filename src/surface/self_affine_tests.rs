@@ -1,5 +1,6 @@
 //! Checks of the self-affine surface against tabulated values and against itself on other grids.
 
+use super::super::statistics::whole;
 use super::*;
 use approx::assert_relative_eq;
 use proptest::prelude::*;
@@ -105,15 +106,19 @@ fn rms_slope_sets_the_slope() {
 fn a_coarse_grid_reports_missing_waves() {
     let scene = scene(0.8, 16.0, Roughness::RmsHeight(0.52e-9));
     let size = [2.0 * PI / 2.5e5; 2];
+    let build_on = |points: [usize; 2], warnings: &mut Vec<String>| {
+        let grid = Grid::new(points, size);
+        build(&scene, &grid, &whole(&grid), warnings)
+    };
     let mut warnings = Vec::new();
-    build(&scene, &Grid::new([130, 130], size), &mut warnings).unwrap();
+    build_on([130, 130], &mut warnings).unwrap();
     assert_eq!(warnings, Vec::<String>::new());
-    build(&scene, &Grid::new([128, 128], size), &mut warnings).unwrap();
+    build_on([128, 128], &mut warnings).unwrap();
     assert!(
         warnings[0].contains("too coarse for 4 of the 12852 waves"),
         "{warnings:?}"
     );
-    build(&scene, &Grid::new([32, 32], size), &mut warnings).unwrap();
+    build_on([32, 32], &mut warnings).unwrap();
     assert!(
         warnings[1].contains("% missing); take more than 128 x 128 points"),
         "{warnings:?}"

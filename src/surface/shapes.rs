@@ -22,6 +22,8 @@ pub struct ApexPosition {
     pub centre: Option<[f64; 2]>,
     /// A periodic grid repeats the shape: each point uses the nearest image.
     pub boundary: Boundary,
+    /// The row of the grid at which the heights begin.
+    pub first_row: usize,
 }
 
 impl ApexPosition {
@@ -81,7 +83,7 @@ pub fn add_cone(
 }
 
 /// Adds `amplitude cos(2 pi x / wavelength_x) cos(2 pi y / wavelength_y)`; an infinite wavelength
-/// gives a factor of 1.
+/// gives a factor of 1. The heights begin at a row of the grid.
 ///
 /// # Errors
 /// Values that are not lengths; waves shorter than two pixels; waves that are not periodic on a
@@ -92,11 +94,12 @@ pub fn add_waves(
     amplitude: f64,
     wavelength: [f64; 2],
     boundary: Boundary,
+    first_row: usize,
 ) -> Result<(), PartError> {
     finite("amplitude", amplitude)?;
     let along_x = wave("x", grid.nx, grid.lx, wavelength[0], boundary)?;
     let along_y = wave("y", grid.ny, grid.ly, wavelength[1], boundary)?;
-    for (row, factor) in heights.chunks_mut(grid.nx).zip(along_y) {
+    for (row, factor) in heights.chunks_mut(grid.nx).zip(&along_y[first_row..]) {
         for (height, wave) in row.iter_mut().zip(&along_x) {
             *height += amplitude * factor * wave;
         }
@@ -145,7 +148,7 @@ fn add_round(
     let along_y = distances(grid.ny, grid.dy(), grid.ly, centre[1]);
     heights
         .par_chunks_mut(grid.nx)
-        .zip(along_y)
+        .zip(&along_y[place.first_row..])
         .for_each(|(row, y)| {
             for (height, x) in row.iter_mut().zip(&along_x) {
                 *height += profile(x * x + y * y);
@@ -223,12 +226,14 @@ mod tests {
     const PERIODIC: ApexPosition = ApexPosition {
         centre: None,
         boundary: Boundary::Periodic,
+        first_row: 0,
     };
 
     fn at(centre: [f64; 2], boundary: Boundary) -> ApexPosition {
         ApexPosition {
             centre: Some(centre),
             boundary,
+            first_row: 0,
         }
     }
 
@@ -304,7 +309,7 @@ mod tests {
     fn waves_have_their_crest_at_the_first_point() {
         let grid = Grid::new([8, 4], [1.0, 2.0]);
         let mut egg_box = vec![0.0; 32];
-        add_waves(&mut egg_box, &grid, 3.0, [0.5, 2.0], Boundary::Periodic).unwrap();
+        add_waves(&mut egg_box, &grid, 3.0, [0.5, 2.0], Boundary::Periodic, 0).unwrap();
         assert_eq!(egg_box[0], 3.0);
         assert_eq!(egg_box[2], -3.0);
         assert_eq!(egg_box[2 * 8], -3.0);
@@ -316,6 +321,7 @@ mod tests {
             3.0,
             [1.0, f64::INFINITY],
             Boundary::Periodic,
+            0,
         )
         .unwrap();
         assert_eq!(ridges[..8], ridges[24..]);
@@ -326,7 +332,8 @@ mod tests {
     fn waves_must_close_and_be_resolved() {
         let grid = Grid::new([8, 8], [1.0, 1.0]);
         let add = |wavelength: [f64; 2], boundary| {
-            add_waves(&mut [0.0; 64], &grid, 1.0, wavelength, boundary).map_err(|e| e.to_string())
+            add_waves(&mut [0.0; 64], &grid, 1.0, wavelength, boundary, 0)
+                .map_err(|e| e.to_string())
         };
         let message = add([0.3, 1.0], Boundary::Periodic).unwrap_err();
         assert!(message.contains("along x does not divide"), "{message}");

@@ -3,10 +3,12 @@
 use std::collections::BTreeMap;
 use std::f64::consts::PI;
 
+use num_complex::Complex;
 use rayon::prelude::*;
 
-use super::fourier;
 use super::spectrum::SpectralMoments;
+use super::{across, fourier};
+use crate::backend::{BackendError, Shape, Share};
 use crate::grid::Grid;
 use crate::scene::Boundary;
 
@@ -40,22 +42,39 @@ impl Statistics {
     /// empty.
     pub fn from_heights(grid: &Grid, heights: &[f64], boundary: Boundary) -> Self {
         debug_assert!(!grid.is_empty() && heights.len() == grid.len());
+        Statistics::of_share(grid, &whole(grid), heights, boundary)
+    }
+
+    /// The same of the rows that this process holds, with the others. Where one of these has ended all is NaN.
+    pub(crate) fn of_share(
+        grid: &Grid,
+        share: &Share,
+        heights: &[f64],
+        boundary: Boundary,
+    ) -> Self {
         let count = grid.len() as f64;
-        let mean = sum_over_rows(grid, heights, |_, row| row.iter().sum()) / count;
-        let height = sum_over_rows(grid, heights, |_, row| {
-            row.iter().map(|h| (h - mean) * (h - mean)).sum()
-        }) / count;
-        let [slope, curvature] = match boundary {
-            Boundary::Periodic => spectral_mean_squares(grid, heights),
-            Boundary::Free => difference_mean_squares(grid, heights),
+        let sum = |of_row: &(dyn Fn(&[f64]) -> f64 + Sync)| {
+            sum_over_rows(grid, share, heights, |_, row| of_row(row))
         };
+        let mean = sum(&|row| row.iter().sum()) / count;
+        let height = sum(&|row| row.iter().map(|h| (h - mean) * (h - mean)).sum()) / count;
+        let squares = match boundary {
+            Boundary::Periodic => spectral_mean_squares(grid, share, heights),
+            Boundary::Free => difference_mean_squares(grid, share, heights),
+        };
+        let [slope, curvature] = squares.unwrap_or([f64::NAN; 2]);
         Statistics {
             mean,
-            lowest: heights.iter().copied().fold(f64::INFINITY, f64::min),
-            highest: heights.iter().copied().fold(f64::NEG_INFINITY, f64::max),
+            lowest: share.least_of(heights),
+            highest: share.greatest_of(heights),
             moments: SpectralMoments::from_isotropic([height, slope, curvature]),
         }
     }
+}
+
+/// All rows of a grid, on this process.
+pub(super) fn whole(grid: &Grid) -> Share {
+    Share::whole(Shape::whole(grid.nx, grid.ny))
 }
 
 /// One ring of a radial power spectrum.
@@ -142,50 +161,70 @@ fn images(grid: &Grid, kx: usize) -> usize {
 }
 
 /// Mean square slope and Laplacian of the sum of waves.
-fn spectral_mean_squares(grid: &Grid, heights: &[f64]) -> [f64; 2] {
-    let spectrum = fourier::analyse(grid, heights);
-    let columns: Vec<[f64; 2]> = spectrum
-        .par_chunks(grid.ny)
-        .enumerate()
-        .map(|(kx, column)| {
-            let images = images(grid, kx) as f64;
-            let mut sums = [0.0; 2];
-            for (ky, coefficient) in column.iter().enumerate() {
-                let square = grid.wavenumber(kx, ky).powi(2);
-                let power = images * coefficient.norm_sqr();
-                sums[0] += square * power;
-                sums[1] += square * square * power;
-            }
-            sums
-        })
-        .collect();
-    columns
+fn spectral_mean_squares(
+    grid: &Grid,
+    share: &Share,
+    heights: &[f64],
+) -> Result<[f64; 2], BackendError> {
+    let of_column = |kx: usize, column: &[Complex<f64>]| {
+        let images = images(grid, kx) as f64;
+        let mut sums = [0.0; 2];
+        for (ky, coefficient) in column.iter().enumerate() {
+            let square = grid.wavenumber(kx, ky).powi(2);
+            let power = images * coefficient.norm_sqr();
+            sums[0] += square * power;
+            sums[1] += square * square * power;
+        }
+        sums
+    };
+    let columns: Vec<[f64; 2]> = if share.is_whole() {
+        let spectrum = fourier::analyse(grid, heights);
+        let columns = spectrum.par_chunks(grid.ny).enumerate();
+        columns.map(|(kx, column)| of_column(kx, column)).collect()
+    } else {
+        across::analyse(grid, share, heights, of_column)?
+    };
+    Ok(columns
         .iter()
-        .fold([0.0; 2], |sum, one| [sum[0] + one[0], sum[1] + one[1]])
+        .fold([0.0; 2], |sum, one| [sum[0] + one[0], sum[1] + one[1]]))
 }
 
 /// Mean square forward difference and five-point Laplacian of the points that have these
 /// neighbours.
-fn difference_mean_squares(grid: &Grid, heights: &[f64]) -> [f64; 2] {
+fn difference_mean_squares(
+    grid: &Grid,
+    share: &Share,
+    heights: &[f64],
+) -> Result<[f64; 2], BackendError> {
     let (nx, ny, dx, dy) = (grid.nx, grid.ny, grid.dx(), grid.dy());
-    let along_x = sum_over_rows(grid, heights, |_, row| {
+    let [before, after] = share.surface_rows_beside(heights)?;
+    let held = share.surface_rows();
+    // A row of the grid, here or beside the held ones; empty beyond the edge.
+    let line = |iy: usize| -> &[f64] {
+        if iy < held.start {
+            &before
+        } else if iy >= held.end {
+            &after
+        } else {
+            &heights[(iy - held.start) * nx..(iy - held.start + 1) * nx]
+        }
+    };
+    let along_x = sum_over_rows(grid, share, heights, |_, row| {
         row.windows(2)
             .map(|pair| ((pair[1] - pair[0]) / dx).powi(2))
             .sum()
     });
-    let along_y = sum_over_rows(grid, heights, |iy, row| {
-        let next = heights.get((iy + 1) * nx..(iy + 2) * nx).unwrap_or(&[]);
+    let along_y = sum_over_rows(grid, share, heights, |iy, row| {
         row.iter()
-            .zip(next)
+            .zip(line(iy + 1))
             .map(|(here, next)| ((next - here) / dy).powi(2))
             .sum()
     });
-    let laplacian = sum_over_rows(grid, heights, |iy, row| {
+    let laplacian = sum_over_rows(grid, share, heights, |iy, row| {
         if iy == 0 || iy + 1 == ny {
             return 0.0;
         }
-        let below = &heights[(iy - 1) * nx..iy * nx];
-        let above = &heights[(iy + 1) * nx..(iy + 2) * nx];
+        let (below, above) = (line(iy - 1), line(iy + 1));
         (1..nx.saturating_sub(1))
             .map(|ix| {
                 let along_x = (row[ix - 1] - 2.0 * row[ix] + row[ix + 1]) / (dx * dx);
@@ -196,10 +235,10 @@ fn difference_mean_squares(grid: &Grid, heights: &[f64]) -> [f64; 2] {
     });
     // A grid one point wide has zero slope along that axis, not an undefined one.
     let mean = |sum: f64, count: usize| if count == 0 { 0.0 } else { sum / count as f64 };
-    [
+    Ok([
         mean(along_x, (nx - 1) * ny) + mean(along_y, nx * (ny - 1)),
         mean(laplacian, nx.saturating_sub(2) * ny.saturating_sub(2)),
-    ]
+    ])
 }
 
 /// Heights about their mean, times a Hann window of mean square 1.
@@ -223,18 +262,20 @@ fn windowed(grid: &Grid, heights: &[f64]) -> Vec<f64> {
     .collect()
 }
 
-/// Sum over rows, added in order, so that it does not depend on threads.
+/// Sum over rows, added in order, so that it does not depend on threads, nor on ranks.
 fn sum_over_rows(
     grid: &Grid,
+    share: &Share,
     heights: &[f64],
     of_row: impl Fn(usize, &[f64]) -> f64 + Sync,
 ) -> f64 {
+    let first = share.surface_rows().start;
     let rows: Vec<f64> = heights
         .par_chunks(grid.nx)
         .enumerate()
-        .map(|(iy, row)| of_row(iy, row))
+        .map(|(iy, row)| of_row(first + iy, row))
         .collect();
-    rows.iter().sum()
+    share.sum_of_rows(&rows)
 }
 
 /// Root mean square jump between opposite edges, and between neighbours, along x and along y.
@@ -243,15 +284,17 @@ fn sum_over_rows(
 pub(crate) fn edge_jumps(grid: &Grid, heights: &[f64]) -> [(f64, f64); 2] {
     let (nx, ny) = (grid.nx, grid.ny);
     let root = |sum: f64, count: usize| (sum / count.max(1) as f64).sqrt();
-    let across_x = sum_over_rows(grid, heights, |_, row| (row[0] - row[nx - 1]).powi(2));
-    let steps_x = sum_over_rows(grid, heights, |_, row| {
-        row.windows(2).map(|pair| (pair[1] - pair[0]).powi(2)).sum()
-    });
+    let share = whole(grid);
+    let sum = |of_row: &(dyn Fn(usize, &[f64]) -> f64 + Sync)| {
+        sum_over_rows(grid, &share, heights, of_row)
+    };
+    let across_x = sum(&|_, row| (row[0] - row[nx - 1]).powi(2));
+    let steps_x = sum(&|_, row| row.windows(2).map(|pair| (pair[1] - pair[0]).powi(2)).sum());
     let difference = |one: &[f64], other: &[f64]| -> f64 {
         one.iter().zip(other).map(|(a, b)| (a - b) * (a - b)).sum()
     };
     let across_y = difference(&heights[..nx], &heights[(ny - 1) * nx..]);
-    let steps_y = sum_over_rows(grid, heights, |iy, row| {
+    let steps_y = sum(&|iy, row| {
         difference(
             row,
             heights.get((iy + 1) * nx..(iy + 2) * nx).unwrap_or(&[]),

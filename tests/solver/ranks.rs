@@ -2,6 +2,7 @@
 //! are threads here; over MPI they exchange the same bytes.
 
 use std::fs;
+use std::ops::Range;
 use std::path::Path;
 use std::sync::Arc;
 use std::thread;
@@ -9,6 +10,7 @@ use std::thread;
 use tabor::backend::cpu::{CpuBackend, with_threads};
 use tabor::backend::ranks::{Ranks, ThreadRanks};
 use tabor::backend::{Backend, BackendError};
+use tabor::effect::Effect;
 use tabor::kernel::Scalars;
 use tabor::run::{run_on_ranks, run_with};
 use tabor::scene::Scene;
@@ -39,9 +41,15 @@ fn adhesion(law: &str) -> String {
     format!("[adhesion]\nlaw = \"{law}\"\nwork_of_adhesion = \"10 mJ/m^2\"\nrange = \"10 nm\"\n")
 }
 
-/// Everything that a path finds, bit by bit: the rows without their seconds, and the fields of every step.
+/// Everything that a path finds, bit by bit: the rows without their seconds, and the fields of every step, of the rows that
+/// this process holds.
 #[derive(Default)]
-struct Found(Vec<String>, Vec<Vec<u64>>);
+struct Found {
+    rows: Vec<String>,
+    fields: Vec<Vec<u64>>,
+    /// The points of these.
+    held: Range<usize>,
+}
 
 impl Observer for Found {
     type Error = std::convert::Infallible;
@@ -50,11 +58,11 @@ impl Observer for Found {
         let mut row = step.row.clone();
         row.seconds = 0.0;
         // Debug prints numbers so that they read back to the same bits.
-        self.0.push(format!("{row:?}"));
+        self.rows.push(format!("{row:?}"));
         if let Some(evaluation) = step.evaluation {
             let bits = |values: Vec<f64>| values.into_iter().map(f64::to_bits).collect();
-            self.1.push(bits(evaluation.gap));
-            self.1.push(bits(evaluation.pressure));
+            self.fields.push(bits(evaluation.gap));
+            self.fields.push(bits(evaluation.pressure));
         }
         Ok(())
     }
@@ -87,9 +95,13 @@ fn walked(
     number: Number,
     ranks: Option<Arc<dyn Ranks>>,
 ) -> Result<(WalkEnd, Found), WalkError<std::convert::Infallible>> {
-    let surface = Surface::build(scene).expect("a surface");
-    let setup = Setup::new(scene.clone(), surface);
-    let mut found = Found::default();
+    let surface = Surface::on_ranks(scene, ranks.clone()).expect("a surface");
+    let setup = Setup::on_ranks(scene.clone(), surface, ranks.clone());
+    let rows = setup.problem.share.surface_rows();
+    let mut found = Found {
+        held: rows.start * setup.surface.grid.nx..rows.end * setup.surface.grid.nx,
+        ..Found::default()
+    };
     let end = walk(&setup, &|| number.backend(ranks.clone()), &mut found)?;
     Ok((end, found))
 }
@@ -99,21 +111,22 @@ fn walked(
 fn same_bits(scene: &Scene, number: Number, counts: &[usize], what: &str) -> Vec<usize> {
     let (end, found) = walked(scene, number, None).expect("one process");
     assert!(end.rows.iter().all(|row| row.converged), "{what}");
-    assert!(!found.1.is_empty(), "{what}: no fields");
+    assert!(!found.fields.is_empty(), "{what}: no fields");
     let sent = counts.iter().map(|&count| {
         let ranks: Vec<_> = ThreadRanks::new(count).into_iter().map(Arc::new).collect();
         thread::scope(|scope| {
             for rank in &ranks {
                 let (end, found) = (&end, &found);
                 scope.spawn(move || {
-                    let own: Arc<dyn Ranks> = rank.clone();
-                    let walk = || walked(scene, number, Some(own));
-                    let (here, fields) = with_threads(Some(1), walk)
+                    let ranks: Arc<dyn Ranks> = rank.clone();
+                    let walk = || walked(scene, number, Some(ranks));
+                    let (here, own) = with_threads(Some(1), walk)
                         .expect("a thread")
                         .expect("all ranks");
                     let place = format!("{what}, {number:?}, rank {} of {count}", rank.rank());
-                    assert_eq!(found.0, fields.0, "{place}");
-                    assert!(found.1 == fields.1, "{place}: fields");
+                    assert_eq!(found.rows, own.rows, "{place}");
+                    let fields = found.fields.iter().map(|field| &field[own.held.clone()]);
+                    assert!(fields.eq(own.fields.iter()), "{place}: fields");
                     assert_eq!(end.transforms, here.transforms, "{place}");
                 });
             }
@@ -203,6 +216,22 @@ fn effects() {
     }
 }
 
+/// Every effect of this version, as its own example asks for it: what it carries, measures and sums is that of one
+/// process.
+fn every_effect() {
+    let text = "[grid]\npoints = [40, 24]\nsize = [1.0, 1.0]\n[solid]\ncontact_modulus = 1.0\n[[surface]]\nkind = \"self-affine\"\nhurst = 0.8\nrms_height = 0.005\nlongest = 0.6\nrolloff = 0.4\nshortest = 0.1\n[loading]\ncontrol = \"approach\"\nstart = 0.0\n[[loading.ramp]]\nto = 0.006\nsteps = 2\nduration = 1\n[[loading.ramp]]\nto = 0.003\nsteps = 1\nduration = 1\n";
+    for effect in Effect::ALL {
+        let settings = effect.example().iter();
+        let settings: Vec<(String, String)> = settings
+            .map(|(key, value)| ((*key).to_owned(), (*value).to_owned()))
+            .collect();
+        let scene = Scene::parse(text, "effect.toml", Path::new("."), &settings)
+            .unwrap_or_else(|errors| panic!("{errors}"));
+        assert!(effect.is_on(&scene), "{effect:?}");
+        same_bits(&scene, Number::Double, counts(), effect.name());
+    }
+}
+
 /// Fields of 32 bits alone, and beside a state of 64.
 fn single_and_mixed_precision() {
     for number in [Number::Single, Number::Mixed] {
@@ -232,22 +261,24 @@ fn bytes_of_an_iteration() {
     const ITERATIONS: usize = 5;
     let points = 256;
     let scene = scene([points, points], "periodic", PRESSURE, ROUGH);
-    let surface = Surface::build(&scene).expect("a surface");
-    let setup = Setup::new(scene, surface);
-    let load = Load {
-        hold: Hold::Pressure(0.05),
-        zero_stiffness: 0.0,
-        zero_compliance: ContactSolver::pressure_compliance(&setup.problem, 0.05),
-    };
     let ranks: Vec<_> = ThreadRanks::new(COUNT).into_iter().map(Arc::new).collect();
     let sent: usize = thread::scope(|scope| {
         let solves = ranks.iter().map(|rank| {
-            let (problem, load) = (&setup.problem, &load);
+            let scene = scene.clone();
             scope.spawn(move || {
+                let ranks: Arc<dyn Ranks> = rank.clone();
+                let surface = Surface::on_ranks(&scene, Some(ranks.clone()));
+                let setup = Setup::on_ranks(scene, surface.expect("a surface"), Some(ranks));
+                let problem = &setup.problem;
+                let load = Load {
+                    hold: Hold::Pressure(0.05),
+                    zero_stiffness: 0.0,
+                    zero_compliance: ContactSolver::pressure_compliance(problem, 0.05),
+                };
                 let mut backend = CpuBackend::<f64>::on_ranks(Some(rank.clone()));
                 let mut solver = ContactSolver::new(&mut backend, problem);
                 solver
-                    .begin(load, &Start::Cold, 1e-12, false)
+                    .begin(&load, &Start::Cold, 1e-12, false)
                     .expect("all ranks");
                 let before = rank.sent();
                 for _ in 0..ITERATIONS {
@@ -279,21 +310,43 @@ fn more_ranks_than_blocks() {
 /// A rank that ends before the others is missed by them, in words that name it, and nobody waits for ever.
 fn a_rank_that_ends() {
     let scene = scene([40, 24], "periodic", PRESSURE, ROUGH);
+    let is_missed = |error: String| assert!(error.contains("has ended before it"), "{error}");
+    // One that never begins.
     let mut ranks = ThreadRanks::new(3);
     drop(ranks.pop());
     thread::scope(|scope| {
         for rank in ranks {
             let scene = &scene;
-            scope.spawn(move || {
-                let walk = || walked(scene, Number::Double, Some(Arc::new(rank)));
-                let error = match with_threads(Some(1), walk).expect("a thread") {
+            scope.spawn(
+                move || match Surface::on_ranks(scene, Some(Arc::new(rank))) {
                     Ok(_) => panic!("a rank is missing"),
-                    Err(WalkError::Backend(error)) => error,
+                    Err(error) => is_missed(error.to_string()),
+                },
+            );
+        }
+    });
+    // One that ends before the path.
+    thread::scope(|scope| {
+        for rank in ThreadRanks::new(3) {
+            let scene = &scene;
+            scope.spawn(move || {
+                let ends = rank.rank() == 2;
+                let ranks: Option<Arc<dyn Ranks>> = Some(Arc::new(rank));
+                let surface = Surface::on_ranks(scene, ranks.clone()).expect("all ranks");
+                let setup = Setup::on_ranks(scene.clone(), surface, ranks.clone());
+                if ends {
+                    return;
+                }
+                let backend = || Number::Double.backend(ranks.clone());
+                match walk(&setup, &backend, &mut Found::default()) {
+                    Ok(_) => panic!("a rank is missing"),
+                    // The others may have ended for the same reason before.
+                    Err(WalkError::Backend(error)) => {
+                        assert!(matches!(error, BackendError::Device(_)));
+                        is_missed(error.to_string());
+                    }
                     Err(WalkError::Observer(never)) => match never {},
-                };
-                // The others may have ended for the same reason before.
-                assert!(matches!(error, BackendError::Device(_)));
-                assert!(error.to_string().contains("has ended before it"), "{error}");
+                }
             });
         }
     });
@@ -460,6 +513,7 @@ tests![
     periodic_laws_and_controls,
     free_spheres,
     effects,
+    every_effect,
     single_and_mixed_precision,
     a_coarse_start,
     bytes_of_an_iteration,

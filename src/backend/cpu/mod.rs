@@ -4,8 +4,8 @@
 //! partial results in order, so results do not depend on how threads happen to be scheduled. This
 //! is the only place that names rayon.
 //!
-//! Over several ranks each process holds a slab of the rows of every field and all of the scalars; what a caller
-//! writes and reads are whole fields.
+//! Over several ranks each process holds a slab of the rows of every field and all of the scalars, and a caller
+//! writes and reads this slab.
 
 mod across;
 mod blocks;
@@ -27,7 +27,7 @@ use crate::real::Real;
 use across::ROUND;
 pub use across::exchange_bytes;
 use blocks::{BLOCK, Held, Job, run_blocks};
-use slabs::Slabs;
+pub(super) use slabs::Slabs;
 pub use slabs::largest_slab;
 use transform::Transform;
 
@@ -379,14 +379,11 @@ impl<T: CpuReal> Backend for CpuBackend<T> {
 
     fn write(&mut self, field: Field, values: &[f64]) {
         self.take(field);
-        let space = &self.levels[field.level.0];
-        debug_assert_eq!(values.len(), space.shape.len());
-        let first = space.held.first * space.shape.points[0];
+        debug_assert_eq!(values.len(), self.levels[field.level.0].len());
         let stored = &mut self.fields[field.index];
-        let own = &values[first..first + stored.len()];
         stored
             .par_iter_mut()
-            .zip(own)
+            .zip(values)
             .for_each(|(stored, &value)| *stored = T::from_double(value));
     }
 
@@ -394,14 +391,7 @@ impl<T: CpuReal> Backend for CpuBackend<T> {
         self.take(field);
         self.failed()?;
         let stored = self.fields[field.index].par_iter();
-        let own = stored.map(|value| value.double()).collect();
-        let space = &self.levels[field.level.0];
-        match &space.slabs {
-            None => Ok(own),
-            Some(slabs) => slabs
-                .gather(&own, space.shape.points[0])
-                .map_err(|error| BackendError::Device(error.to_string())),
-        }
+        Ok(stored.map(|value| value.double()).collect())
     }
 
     fn set_law_factor(&mut self, factor: Field) {

@@ -18,7 +18,7 @@ pub fn largest_slab(rows: usize, ranks: usize) -> usize {
 
 /// Rows of a level by rank.
 #[derive(Clone, Debug)]
-pub(super) struct Slabs {
+pub(in crate::backend) struct Slabs {
     ranks: Arc<dyn Ranks>,
     /// The first row of each rank, and the number of rows.
     starts: Vec<usize>,
@@ -35,13 +35,18 @@ impl Slabs {
         }
     }
 
+    /// Those of a level of so many rows that this one does not halve.
+    pub fn of_level(&self, rows: usize) -> Slabs {
+        Slabs::of_blocks(Arc::clone(&self.ranks), rows)
+    }
+
     /// Those of a level of so many rows that this one halves: the rows below its slabs, where its slabs
     /// can be halved as often.
     pub fn halved(&self, rows: usize) -> Slabs {
         let all = self.starts.last().copied().unwrap_or(0);
         let ratio = all / rows.max(1);
         if ratio == 0 || !all.is_multiple_of(rows) || !BLOCK.is_multiple_of(ratio) {
-            return Slabs::of_blocks(Arc::clone(&self.ranks), rows);
+            return self.of_level(rows);
         }
         Slabs {
             ranks: Arc::clone(&self.ranks),
@@ -60,7 +65,7 @@ impl Slabs {
     }
 
     /// Those of a rank.
-    fn rows_of(&self, rank: usize) -> Range<usize> {
+    pub fn rows_of(&self, rank: usize) -> Range<usize> {
         self.starts[rank]..self.starts[rank + 1]
     }
 
@@ -70,7 +75,7 @@ impl Slabs {
     }
 
     /// The same as blocks have it.
-    pub fn held(&self) -> Held {
+    pub(super) fn held(&self) -> Held {
         let own = self.own();
         Held {
             first: own.start,
@@ -82,12 +87,6 @@ impl Slabs {
     pub fn groups_of(&self, rank: usize, groups: usize) -> Range<usize> {
         let count = self.ranks.count();
         groups * rank / count..groups * (rank + 1) / count
-    }
-
-    /// The whole of a field, from the values of the held rows.
-    pub fn gather(&self, own: &[f64], width: usize) -> Result<Vec<f64>, RankError> {
-        let lengths = self.each().map(|rows| rows.len() * width);
-        self.gather_numbers(own, lengths)
     }
 
     /// What each rank has so many of, one after another.
@@ -238,8 +237,6 @@ mod tests {
                             assert!(before.into_iter().eq(line((own.start + rows - 1) % rows)));
                             assert!(after.into_iter().eq(line(own.end % rows)));
                         }
-                        let all = slabs.gather(&field, width).expect("all ranks are here");
-                        assert!(all.into_iter().eq((0..rows).flat_map(line)));
                     });
                 }
             });
