@@ -111,15 +111,18 @@ pub(super) fn softening(problem: &Problem, load: &Load) -> f64 {
     if !falls || !levels || is_soft(problem, load) {
         return 0.0;
     }
-    let factors = problem.law_factor.iter().flatten();
-    let strongest = factors.copied().reduce(f64::max).unwrap_or(1.0);
     // E* in reduced units is the unit of lengths along the surface.
     let pixel = problem.grid.dx().max(problem.grid.dy()) / problem.scales.lateral;
-    let factor = SOFTENED / (pixel * law.steepest_fall() * strongest);
+    let factor = SOFTENED / (pixel * law.steepest_fall());
     if factor < LEAST_SOFTENING {
         return 0.0;
     }
-    factor.min(MOST_SOFTENING)
+    let strongest = match &problem.law_factor {
+        // Of all ranks.
+        Some(factors) if !problem.is_sketch() => problem.share.greatest_of(factors),
+        _ => 1.0,
+    };
+    (factor / strongest).min(MOST_SOFTENING)
 }
 
 /// Whether a load gives way far more than any wave.

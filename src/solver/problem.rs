@@ -1,5 +1,6 @@
 //! A contact problem in reduced units, ready to be solved.
 
+use std::f64::consts::PI;
 use std::sync::Arc;
 
 use super::heights::Heights;
@@ -93,6 +94,12 @@ fn layered_stiffness(grid: Grid, lateral: f64, layer: Option<&Layer>) -> Stiffne
         None => Stiffness::HalfSpace(HalfSpace::new(grid, lateral)),
         Some(_) => Stiffness::Table(periodic_stiffness(&grid, lateral, layer)),
     }
+}
+
+/// Displacement at the centre of a rectangle of these sides under a unit pressure on a contact modulus of 1 (Love 1929): the
+/// mean of a free boundary's solved points, whose table repeats.
+fn uniform_displacement([a, b]: [f64; 2]) -> f64 {
+    2.0 / PI * (a * (b / a).asinh() + b * (a / b).asinh())
 }
 
 impl Problem {
@@ -193,7 +200,17 @@ impl Problem {
     /// The same problem on a layer in place of the half-space (periodic grids).
     pub fn on_layer(self, layer: Layer) -> Problem {
         let stiffness = if self.is_sketch() {
-            Stiffness::Table(vec![1.0])
+            // Of a thin layer this need not be the longest wave.
+            let [nx, ny] = [self.grid.nx, self.grid.ny];
+            let along = [Grid { ny: 1, ..self.grid }, Grid { nx: 1, ..self.grid }];
+            let lines =
+                along.map(|line| layered_stiffness(line, self.scales.lateral, Some(&layer)));
+            let waves = [nx, ny].into_iter().zip(&lines);
+            let softest = waves
+                .filter(|(points, _)| *points > 1)
+                .map(|(_, line)| line.least())
+                .fold(f64::INFINITY, f64::min);
+            Stiffness::Table(vec![1.0, softest])
         } else {
             layered_stiffness(self.grid, self.scales.lateral, Some(&layer))
         };
@@ -236,26 +253,36 @@ impl Problem {
         }
     }
 
-    /// A problem with a shape and the kind of its law but no values: no heights, and a table of stiffness
-    /// that holds 1 only. A solver planned on it counts the cost of the problem and cannot solve it.
-    pub fn sketch(grid: Grid, boundary: Boundary, law: Law) -> Self {
+    /// A problem with a shape and a law (SI) but no values: no heights, and of a table of stiffness the zero wavevector and the
+    /// softest wave, nearly. A solver planned on it counts the cost of the problem and cannot solve it.
+    pub fn sketch(grid: Grid, boundary: Boundary, contact_modulus: f64, law: Law) -> Self {
+        let scales = Scales {
+            length: 1.0,
+            lateral: 1.0,
+            pressure: contact_modulus,
+        };
+        let shape = solved_shape(&grid, boundary);
         Problem {
             grid,
             boundary,
-            shape: solved_shape(&grid, boundary),
+            shape,
             share: Problem::share(&grid, boundary, None),
-            scales: Scales {
-                length: 1.0,
-                lateral: 1.0,
-                pressure: 1.0,
-            },
+            scales,
             heights: Heights::none(),
             height_origin: 0.0,
             rms_slope: 0.0,
-            law,
+            law: law.reduced(scales.length, scales.pressure),
             stiffness: match boundary {
-                Boundary::Periodic => layered_stiffness(grid, 1.0, None),
-                Boundary::Free => Stiffness::Table(vec![1.0]),
+                Boundary::Periodic => layered_stiffness(grid, scales.lateral, None),
+                Boundary::Free => {
+                    let size = [grid.dx(), grid.dy()];
+                    let sides: [f64; 2] = std::array::from_fn(|axis| {
+                        shape.points[axis] as f64 * size[axis] / scales.lateral
+                    });
+                    let solved = Grid::new(shape.points, sides);
+                    let softest = HalfSpace::new(solved, scales.lateral).least();
+                    Stiffness::Table(vec![1.0 / uniform_displacement(sides), softest])
+                }
             },
             law_factor: None,
             hardness: None,
@@ -448,6 +475,51 @@ impl Problem {
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    /// A sketch has the softness of the problem itself: on a half-space exactly; on a layer it looks along the axes alone, and a free
+    /// boundary's waves are those of a periodic cell.
+    #[test]
+    fn sketches_have_the_softest_wave() {
+        let (modulus, law) = (2e6, Law::HardWall);
+        let layer = Layer {
+            thickness: 2e-6,
+            poisson_ratio: 0.5,
+            base: crate::elastic::Base::Bonded,
+        };
+        for points in [[24, 24], [32, 20], [2, 16]] {
+            let grid = Grid::new(points, [1e-6 * points[0] as f64, 1e-6 * points[1] as f64]);
+            let heights: Vec<f64> = (0..grid.len()).map(|i| 1e-9 * (i % 3) as f64).collect();
+            for (boundary, on_layer, bound) in [
+                (Boundary::Periodic, false, 1e-12),
+                (Boundary::Periodic, true, 0.05),
+                (Boundary::Free, false, 0.5),
+            ] {
+                let problem = Problem::new(grid, boundary, modulus, &heights, 0.1, law);
+                let sketch = Problem::sketch(grid, boundary, modulus, law);
+                let [problem, sketch] = [problem, sketch].map(|problem| match on_layer {
+                    true => problem.on_layer(layer),
+                    false => problem,
+                });
+                // Both in Pa/m.
+                let softest = |problem: &Problem| {
+                    problem.stiffness_min() * problem.scales.pressure / problem.scales.length
+                };
+                let found = softest(&sketch) / softest(&problem);
+                assert!(
+                    (found - 1.0).abs() <= bound,
+                    "{points:?} {boundary:?}: {found}"
+                );
+                if boundary == Boundary::Free {
+                    let zero = |problem: &Problem| {
+                        problem.stiffness.zero_mode() * problem.scales.pressure
+                            / problem.scales.length
+                    };
+                    let found = zero(&sketch) / zero(&problem);
+                    assert!((found - 1.0).abs() < 0.05, "{points:?}: {found}");
+                }
+            }
+        }
+    }
 
     #[test]
     fn good_sizes_are_even_and_smooth() {

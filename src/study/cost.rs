@@ -104,9 +104,9 @@ impl Cost {
         place: Place,
     ) -> Result<Cost, BackendError> {
         let pixel = grid.dx().max(grid.dy());
-        // The passes do not depend on the strength of the law.
         let law = effects.solved_law(law_of(scene, pixel, 1.0));
-        let problem = Problem::sketch(grid, scene.grid.boundary, law);
+        let modulus = scene.solid.contact_modulus;
+        let problem = Problem::sketch(grid, scene.grid.boundary, modulus, law);
         let problem = effects.pose(problem, scene, None);
         plan(effects, &problem, scene, 0.0, place)
     }
