@@ -167,7 +167,7 @@ fn building(scene: &Scene, grid: Grid, rows: usize, ranks: usize) -> u64 {
         2 * DOUBLE * last * rows as u64
     };
     let whole = DOUBLE * grid.len() as u64;
-    // Columns, what is sent and what comes of them.
+    // Three buffers of an exchange: the columns, those sent and those received.
     let exchanged = match ranks {
         ..2 => 0,
         _ => 3 * ROUND.min(2 * DOUBLE * ((grid.nx / 2 + 1).div_ceil(ranks) * grid.ny) as u64),

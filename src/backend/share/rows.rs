@@ -122,8 +122,8 @@ impl Share {
         Ok(found)
     }
 
-    /// The surface rows before and after those of this rank, each empty where there is none, or where this one has
-    /// none.
+    /// The surface row before those of this rank and the one after them. A row is empty where the surface ends, and both are
+    /// where this rank holds no rows.
     ///
     /// # Errors
     /// A rank has ended.
