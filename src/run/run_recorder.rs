@@ -153,8 +153,15 @@ impl<'a> RunRecorder<'a> {
         self.warnings.push(text);
     }
 
-    fn warn_no_fields(&mut self, step: usize) {
-        self.warn(separated_words(step));
+    fn warn_no_fields(&mut self, row: &StepRow) {
+        // An unreachable value ends the run, which says why.
+        self.warn(match row.converged {
+            true => separated_words(row.step),
+            false => format!(
+                "step {} has no solution, so there are no fields to write",
+                row.step
+            ),
+        });
     }
 
     /// Warnings of the scene and of the run.
@@ -176,7 +183,7 @@ impl<'a> RunRecorder<'a> {
         self.is_over = is_end;
         let asked = !(output.images.is_empty() && output.fields.is_empty());
         match (&output.steps, step.evaluation) {
-            (StepChoice::Last, None) if is_end && asked => self.warn_no_fields(number),
+            (StepChoice::Last, None) if is_end && asked => self.warn_no_fields(step.row),
             (StepChoice::Last, Some(evaluation)) if is_end => {
                 self.last = None;
                 self.write_fields(number, &evaluation)?;
@@ -190,7 +197,9 @@ impl<'a> RunRecorder<'a> {
             (StepChoice::List(list), Some(evaluation)) if list.contains(&number) => {
                 self.write_fields(number, &evaluation)?;
             }
-            (StepChoice::List(list), None) if list.contains(&number) => self.warn_no_fields(number),
+            (StepChoice::List(list), None) if list.contains(&number) => {
+                self.warn_no_fields(step.row)
+            }
             _ => {}
         }
         self.restore_curve(false)?;

@@ -8,7 +8,7 @@ use super::row::State;
 use super::setup::Setup;
 use crate::backend::{BackendError, Share};
 use crate::grid::Boundary;
-use crate::law::{Law, Support, net_pressure};
+use crate::law::{Law, Support, imbalance, net_pressure};
 use crate::scene::FieldName;
 use crate::solver::{Load, Problem};
 
@@ -89,7 +89,7 @@ impl Evaluation {
         setup: &Setup,
         problem: &Problem,
         controller: &Controller,
-        solved: Solved,
+        mut solved: Solved,
     ) -> Result<Self, BackendError> {
         let share = &problem.share;
         let (width, rows) = (problem.shape.points[0], share.rows().len());
@@ -100,6 +100,7 @@ impl Evaluation {
         } else {
             Support::Wall
         };
+        close_pressed(setup, problem, &mut solved, &law);
         // The heights as earlier indentation has left them.
         let lowered = || {
             let depths = solved.plastic_depth.unwrap_or(&[]);
@@ -270,6 +271,37 @@ impl Evaluation {
         }
         let lowered = heights.iter().zip(&self.plastic_depth);
         lowered.map(|(height, depth)| height - depth).collect()
+    }
+}
+
+/// Closes the points whose gap is worth less than their reaction: such a point may be all that the residual leaves.
+/// It is in contact. Open, it would carry the law's tension alone, and its reaction would be missing from the force.
+fn close_pressed(setup: &Setup, problem: &Problem, solved: &mut Solved, law: &Law) {
+    if !problem.law.has_wall() {
+        return;
+    }
+    let stiffest = problem.stiffness_max();
+    let (width, nx) = (problem.shape.points[0], problem.shape.surface[0]);
+    let rows = problem.share.surface_rows().len();
+    for (i, place) in (0..rows)
+        .flat_map(|row| row * width..row * width + nx)
+        .enumerate()
+    {
+        let g = solved.gap[place];
+        if g <= 0.0 {
+            continue;
+        }
+        let elastic = solved.elastic[place] + solved.held;
+        let factor = solved
+            .law_factor
+            .map_or(setup.law_factor(i), |factors| factors[i]);
+        let traction = match setup.sums_attraction() {
+            true => 0.0,
+            false => factor * law.traction(g),
+        };
+        if imbalance(elastic, traction) > g * stiffest {
+            solved.gap[place] = 0.0;
+        }
     }
 }
 
