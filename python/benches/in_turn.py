@@ -1,5 +1,7 @@
 """CPU seconds of the program and of Python on the same scenes, in turn: ``python benches/in_turn.py [TURNS]``.
 
+``python benches/in_turn.py instructions`` counts 1e9 instructions in their place, by valgrind, which a busy machine does not disturb: a minute or more each.
+
 Both solve a scene with the same tolerance on one thread, with its surface. Of both the start is taken off: of the program that of ``--version``, of
 Python that of the imports and of reading the scene. The program writes its files too; so that the solves can be compared, Python also runs the scene into
 a folder without pictures and report (``run``), which does what the program does but for these.
@@ -7,6 +9,7 @@ a folder without pictures and report (``run``), which does what the program does
 
 import copy
 import os
+import re
 import resource
 import statistics
 import subprocess
@@ -44,8 +47,17 @@ def seconds(*words):
     return after.ru_utime + after.ru_stime - before.ru_utime - before.ru_stime
 
 
+def instructions(*words):
+    """1e9 instructions of such a process."""
+    count = ["valgrind", "--tool=callgrind", "--callgrind-out-file=/dev/null", sys.executable, *words]
+    said = subprocess.run(count, check=True, capture_output=True, env=ALONE, text=True).stderr
+    return int(re.search(r"Collected *: *(\d+)", said)[1]) * 1e-9
+
+
 def main():
-    turns = int(sys.argv[1]) if len(sys.argv) > 1 else 5
+    counts = sys.argv[1:] == ["instructions"]
+    turns = 1 if counts else int(sys.argv[1]) if len(sys.argv) > 1 else 5
+    cost = instructions if counts else seconds
     print("least and median            program        run           Python        Python/program  Python/run")
     with tempfile.TemporaryDirectory() as folder:
         for name, tables in SCENES.items():
@@ -61,7 +73,7 @@ def main():
                     ("-c", SOLVE, scene),
                 )
                 for each, words in zip(spent, processes, strict=True):
-                    each.append(seconds(*words))
+                    each.append(cost(*words))
             # The least of a difference would be that of the slowest start: the least of each is taken.
             columns = []
             for of in (min, statistics.median):
