@@ -72,7 +72,8 @@ def run_tabor(binary, points, tolerance, folder):
     out = folder / "peers"
     before = resource.getrusage(resource.RUSAGE_CHILDREN)
     subprocess.run(
-        [binary, "run", scene, "--out", out, "--threads", "1", "--quiet"], check=True
+        [binary, "run", scene, "--out", out, "--threads", "1", "--backend", "cpu", "--quiet"],
+        check=True,
     )
     after = resource.getrusage(resource.RUSAGE_CHILDREN)
     summary = json.loads((out / "summary.json").read_text())

@@ -162,6 +162,11 @@ pub trait Backend {
     fn in_double(&self, _shape: Shape) -> Option<Box<dyn Backend + Send>> {
         None
     }
+    /// An empty backend in single precision at the same place, for a solve whose result need not be exact. `None`
+    /// where it would not be faster than this one.
+    fn in_single(&self) -> Option<Box<dyn Backend + Send>> {
+        None
+    }
     /// Overwrites a field with one of another backend, of as many points, rounded to this one's number.
     /// It passes through the host, unless both are on one device.
     ///

@@ -4,7 +4,7 @@ use super::contact::{ContactSolver, Hold, Load, Start};
 use std::ops::Range;
 
 use super::{MakeBackend, problem::Problem};
-use crate::backend::BackendError;
+use crate::backend::{Backend, BackendError};
 use crate::kernel::{Scalars, Status};
 use crate::law::Law;
 
@@ -54,24 +54,26 @@ fn refine(
         return Ok(None);
     }
     let below = refine(&coarse, load, make_backend, watch, levels - 1)?;
-    let mut solver = ContactSolver::new(&mut *backend, &coarse);
     let (start, mut transforms) = match below {
         Some((gap, transforms)) => (Start::Gap(gap), transforms),
         None => (Start::Cold, 0.0),
     };
-    solver.begin(load, &start, TOLERANCE, false)?;
-    let mut left = MAX_ITERATIONS;
-    while left > 0 {
-        let (rounds, scalars) = solver.advance(left)?;
-        if !watch(&scalars) || scalars.status != Status::Running {
-            break;
-        }
-        left -= rounds.min(left);
+    // Single precision has digits enough, but where it stalls: under a load that its rounding hides.
+    let mut displacement = None;
+    if let Some(mut single) = backend.in_single() {
+        let end = solve(&mut *single, &coarse, load, &start, watch)?;
+        transforms += end.transforms;
+        displacement = (!end.failed).then_some(end.gap);
     }
-    transforms += solver.transforms();
-    let mut displacement = solver.gap()?;
-    drop(solver);
-    drop(backend);
+    let mut displacement = match displacement {
+        Some(gap) => gap,
+        None => {
+            let end = solve(&mut *backend, &coarse, load, &start, watch)?;
+            transforms += end.transforms;
+            end.gap
+        }
+    };
+    drop((start, backend));
     for (u, h) in displacement.iter_mut().zip(coarse.heights.iter()) {
         *u += h;
     }
@@ -87,6 +89,40 @@ fn refine(
         }
     }
     Ok(Some((gap, transforms / 4.0)))
+}
+
+/// A loose solution of a coarse problem.
+struct End {
+    gap: Vec<f64>,
+    transforms: f64,
+    /// Whether it came to nothing.
+    failed: bool,
+}
+
+/// Solves a coarse problem loosely.
+fn solve(
+    backend: &mut dyn Backend,
+    coarse: &Problem,
+    load: &Load,
+    start: &Start,
+    watch: &mut dyn FnMut(&Scalars) -> bool,
+) -> Result<End, BackendError> {
+    let mut solver = ContactSolver::new(backend, coarse);
+    solver.begin(load, start, TOLERANCE, false)?;
+    let (mut left, mut failed) = (MAX_ITERATIONS, false);
+    while left > 0 {
+        let (rounds, scalars) = solver.advance(left)?;
+        failed = matches!(scalars.status, Status::Stalled | Status::NotFinite);
+        if !watch(&scalars) || scalars.status != Status::Running {
+            break;
+        }
+        left -= rounds.min(left);
+    }
+    Ok(End {
+        transforms: solver.transforms(),
+        gap: solver.gap()?,
+        failed,
+    })
 }
 
 /// Values of the coarse problem's rows between those of the fine one's.

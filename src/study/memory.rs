@@ -185,9 +185,8 @@ fn building(scene: &Scene, grid: Grid, rows: usize, ranks: usize) -> u64 {
     });
     let parts = DOUBLE * points + files * whole + part.max().unwrap_or(0);
     let statistics = match scene.grid.boundary {
-        // The spectrum by rows, and by columns: of several ranks, of some columns.
-        Boundary::Periodic if ranks > 1 => DOUBLE * points + spectrum + exchanged,
-        Boundary::Periodic => DOUBLE * points + 2 * spectrum,
+        // The spectrum by rows; its columns some at a time.
+        Boundary::Periodic => DOUBLE * points + spectrum + exchanged,
         Boundary::Free => DOUBLE * points,
     };
     parts.max(statistics)
@@ -226,7 +225,9 @@ fn coarse_start(cost: &Cost, points: u64, solver: u64, table: u64, ranks: usize)
         return 0;
     }
     // One after another, the largest of a quarter of the points: its heights, also on their way to its
-    // backend, a gap, two tables and a solver; and the heights of the grids below while these are solved.
+    // backend, a gap, two tables and a solver in single precision; and the heights of the grids below while these are
+    // solved.
+    let solver = solver * size_of::<f32>() as u64 / cost.place.number() as u64;
     let level = (3 * DOUBLE * points + 2 * table + solver) / 4 + DOUBLE * points / 12;
     // Heights and displacement of that grid, and the gap that comes back; of several ranks also the reduced heights and
     // those of the rows that the coarse grid has here.

@@ -14,6 +14,8 @@ use crate::plans::Planned;
 
 /// Rows processed together, so that a cache line of a column serves several of them.
 const ROWS_TOGETHER: usize = 8;
+/// Columns processed together, so that a cache line of a row serves several of them.
+const COLUMNS_TOGETHER: usize = 8;
 
 /// Heights `h(x) = sum H exp(i q x)` from the coefficients H of the stored columns `kx = 0 ..`.
 ///
@@ -96,6 +98,45 @@ pub(super) fn spectrum_of_rows(grid: &Grid, heights: &[f64]) -> Vec<Complex<f64>
             },
         );
     rows
+}
+
+/// `of_column` of each column of the spectrum that [`analyse`] finds, in their order, without the memory of all.
+pub fn analyse_each<R: Send>(
+    grid: &Grid,
+    heights: &[f64],
+    of_column: impl Fn(usize, &[Complex<f64>]) -> R + Sync,
+) -> Vec<R> {
+    let ny = grid.ny;
+    let stored = grid.nx / 2 + 1;
+    let rows = spectrum_of_rows(grid, heights);
+    let along_y = f64::complex_forward(ny);
+    let factor = 1.0 / grid.len() as f64;
+    let groups = (0..stored.div_ceil(COLUMNS_TOGETHER)).into_par_iter();
+    let found: Vec<Vec<R>> = groups
+        .map_init(
+            || {
+                let scratch = vec![Complex::default(); along_y.get_inplace_scratch_len()];
+                (vec![Complex::default(); COLUMNS_TOGETHER * ny], scratch)
+            },
+            |(columns, scratch), group| {
+                let first = group * COLUMNS_TOGETHER;
+                let last = stored.min(first + COLUMNS_TOGETHER);
+                for (iy, row) in rows.chunks_exact(stored).enumerate() {
+                    for (column, value) in columns.chunks_exact_mut(ny).zip(&row[first..last]) {
+                        column[iy] = value * factor;
+                    }
+                }
+                let columns = (first..last).zip(columns.chunks_exact_mut(ny));
+                columns
+                    .map(|(kx, column)| {
+                        along_y.process_with_scratch(column, scratch);
+                        of_column(kx, column)
+                    })
+                    .collect()
+            },
+        )
+        .collect();
+    found.into_iter().flatten().collect()
 }
 
 /// Coefficients `H = sum h exp(-i q x) / (nx ny)` of all columns `kx = 0 ..= nx/2`.

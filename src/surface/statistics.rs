@@ -178,9 +178,7 @@ fn spectral_mean_squares(
         sums
     };
     let columns: Vec<[f64; 2]> = if share.is_whole() {
-        let spectrum = fourier::analyse(grid, heights);
-        let columns = spectrum.par_chunks(grid.ny).enumerate();
-        columns.map(|(kx, column)| of_column(kx, column)).collect()
+        fourier::analyse_each(grid, heights, of_column)
     } else {
         across::analyse(grid, share, heights, of_column)?
     };

@@ -450,6 +450,11 @@ impl<T: CpuReal> Backend for CpuBackend<T> {
             .then(|| Box::new(CpuBackend::<f64>::on_ranks(self.ranks.clone())) as _)
     }
 
+    fn in_single(&self) -> Option<Box<dyn Backend + Send>> {
+        (T::EPSILON < f32::EPSILON.into())
+            .then(|| Box::new(CpuBackend::<f32>::on_ranks(self.ranks.clone())) as _)
+    }
+
     fn set_params(&mut self, params: &Params) {
         self.params = Some(*params);
     }
