@@ -65,7 +65,7 @@ fn setup(points: usize, adhesion: &str) -> Result<Setup, Failure> {
 }
 
 /// CPU seconds of an iteration, with 1/K and with the levels.
-fn iteration(setup: &Setup, mut backend: impl Backend) -> Result<[f64; 2], Failure> {
+fn iteration(setup: &Setup, mut backend: impl Backend + Send) -> Result<[f64; 2], Failure> {
     let problem = &setup.problem;
     let pressure = PRESSURE / problem.scales.pressure;
     let load = Load {

@@ -1,9 +1,15 @@
 """CPU seconds of the program and of Python on the same scenes, in turn: ``python benches/in_turn.py [TURNS]``.
 
-Of both the start is taken off: of the program that of ``--version``, of Python that of the imports and of reading the scene.
+``python benches/in_turn.py instructions`` counts 1e9 instructions in their place, by valgrind, which a busy machine does not disturb: a minute or more each.
+
+Both solve a scene with the same tolerance on one thread, with its surface. Of both the start is taken off: of the program that of ``--version``, of
+Python that of the imports and of reading the scene. The program writes its files too; so that the solves can be compared, Python also runs the scene into
+a folder without pictures and report (``run``), which does what the program does but for these.
 """
 
 import copy
+import os
+import re
 import resource
 import statistics
 import subprocess
@@ -25,33 +31,58 @@ ADHESIVE = {**copy.deepcopy(HARD), "adhesion": {"law": "exponential", "work_of_a
 PATH = {**copy.deepcopy(HARD), "loading": {"control": "pressure", "start": 0.002, "ramp": [{"to": 0.02, "steps": 29}]}}
 SCENES = {"hard wall": HARD, "exponential": ADHESIVE, "hard wall, 30 loads": PATH}
 
-READ = "import sys, numpy, tabor, tabor.contact; scene = tabor.Scene.read(sys.argv[1], threads=1)"
+READ = "import sys, numpy, tabor, tabor.contact, tabor.runs; scene = tabor.Scene.read(sys.argv[1], threads=1)"
 SOLVE = f"{READ}\nfor step in scene.path(): pass"
+RUN = f"{READ}\nscene.run(sys.argv[2], images=False)"
+
+# The threads of NumPy's linear algebra, which nobody here asks for, wait busily when it is imported.
+ALONE = {**os.environ, "OPENBLAS_NUM_THREADS": "1", "PYTHONHASHSEED": "0"}
 
 
-def seconds(words):
-    """CPU seconds of a process, user and system."""
+def seconds(*words):
+    """CPU seconds of a process of this interpreter, user and system."""
     before = resource.getrusage(resource.RUSAGE_CHILDREN)
-    subprocess.run(words, check=True, capture_output=True)
+    subprocess.run([sys.executable, *words], check=True, capture_output=True, env=ALONE)
     after = resource.getrusage(resource.RUSAGE_CHILDREN)
     return after.ru_utime + after.ru_stime - before.ru_utime - before.ru_stime
 
 
+def instructions(*words):
+    """1e9 instructions of such a process."""
+    count = ["valgrind", "--tool=callgrind", "--callgrind-out-file=/dev/null", sys.executable, *words]
+    said = subprocess.run(count, check=True, capture_output=True, env=ALONE, text=True).stderr
+    return int(re.search(r"Collected *: *(\d+)", said)[1]) * 1e-9
+
+
 def main():
-    turns = int(sys.argv[1]) if len(sys.argv) > 1 else 5
-    print("scene                 program: least median  Python: least median  ratio: least median")
+    counts = sys.argv[1:] == ["instructions"]
+    turns = 1 if counts else int(sys.argv[1]) if len(sys.argv) > 1 else 5
+    cost = instructions if counts else seconds
+    print("least and median            program        run           Python        Python/program  Python/run")
     with tempfile.TemporaryDirectory() as folder:
         for name, tables in SCENES.items():
-            path = Path(folder) / "scene.toml"
-            tabor.Scene(tables).write(path)
-            program, python = [], []
+            scene = str(Path(folder) / "scene.toml")
+            tabor.Scene(tables).write(scene)
+            spent = [[] for _ in range(5)]
             for _ in range(turns):
-                run = ["-m", "tabor", "run", str(path), "--out", f"{folder}/{name}", "--threads", "1", "--quiet"]
-                program.append(seconds([sys.executable, *run]) - seconds([sys.executable, "-m", "tabor", "--version"]))
-                python.append(seconds([sys.executable, "-c", SOLVE, str(path)]) - seconds([sys.executable, "-c", READ, str(path)]))
-            numbers = [of(each) for each in (program, python) for of in (min, statistics.median)]
-            ratios = numbers[2] / numbers[0], numbers[3] / numbers[1]
-            print(f"{name:22}", "  ".join(f"{number:.3f}" for number in (*numbers, *ratios)))
+                processes = (
+                    ("-m", "tabor", "--version"),
+                    ("-m", "tabor", "run", scene, "--out", f"{folder}/{name}", "--threads", "1", "--quiet"),
+                    ("-c", READ, scene),
+                    ("-c", RUN, scene, f"{folder}/{name}, run"),
+                    ("-c", SOLVE, scene),
+                )
+                for each, words in zip(spent, processes, strict=True):
+                    each.append(cost(*words))
+            # The least of a difference would be that of the slowest start: the least of each is taken.
+            columns = []
+            for of in (min, statistics.median):
+                version, program, read, run, python = map(of, spent)
+                columns.append((program - version, run - read, python - read))
+            (program, run, python), medians = columns
+            cells = [f"{least:.3f}, {median:.3f}" for least, median in zip(*columns, strict=True)]
+            cells += [f"{python / program:.2f}, {medians[2] / medians[0]:.2f}", f"{python / run:.2f}, {medians[2] / medians[1]:.2f}"]
+            print(f"{name:24}", "  ".join(f"{cell:>13}" for cell in cells), flush=True)
 
 
 if __name__ == "__main__":

@@ -1,6 +1,7 @@
 //! Loads solved one after another, each from the state of the one before.
 
 use std::collections::VecDeque;
+use std::process;
 use std::sync::{Arc, Mutex, PoisonError};
 
 use numpy::PyArray2;
@@ -44,6 +45,8 @@ pub struct SolvedPath {
     talk: Arc<Talk>,
     /// Lent to the solver's thread while a load is solved; gone after one was interrupted.
     path: Option<Path<Loads>>,
+    /// The process that its threads are in, from the first load on: a fork has none of them.
+    process: Option<u32>,
     lent: Vec<Lent>,
     /// The heights of all steps, once there is one, of a solid that keeps its shape.
     heights: Option<Py<PyArray2<f64>>>,
@@ -73,6 +76,7 @@ impl SolvedPath {
             }),
             lent: loaded.lent.iter().map(|each| each.share(py)).collect(),
             loads,
+            process: None,
             talk,
             heights: None,
             keeps_shape: loaded.scene.solid.hardness.is_none(),
@@ -126,6 +130,12 @@ impl SolvedPath {
         py: Python<'py>,
         progress: Option<&Bound<'py, PyAny>>,
     ) -> PyResult<Option<Solved<'py>>> {
+        if *self.process.get_or_insert_with(process::id) != process::id() {
+            return Err(errors::failed(
+                py,
+                "this path was begun in another process, which has its threads; begin another",
+            ));
+        }
         let Some(mut path) = self.path.take() else {
             return Err(errors::failed(
                 py,
@@ -151,15 +161,13 @@ impl SolvedPath {
     }
 
     /// A solved load; its fields are handed over, not copied, and its heights are one array for all steps that share them.
-    fn step<'py>(
-        &mut self,
-        py: Python<'py>,
-        mut solution: Solution,
-    ) -> PyResult<Bound<'py, PyDict>> {
+    fn step<'py>(&mut self, py: Python<'py>, solution: Solution) -> PyResult<Bound<'py, PyDict>> {
+        let (heights, points) = (solution.heights.clone(), solution.points);
+        let step = table(py, solution)?;
         let heights = match &self.heights {
             Some(kept) => kept.bind(py).clone(),
             None => {
-                let heights = array(py, std::mem::take(&mut solution.heights), solution.points)?;
+                let heights = array(py, heights.into_vec(), points)?;
                 if self.keeps_shape {
                     heights.getattr("flags")?.setattr("writeable", false)?;
                     self.heights = Some(heights.clone().unbind());
@@ -167,7 +175,6 @@ impl SolvedPath {
                 heights
             }
         };
-        let step = table(py, solution)?;
         step.set_item("heights", heights)?;
         Ok(step)
     }

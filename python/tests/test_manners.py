@@ -170,6 +170,26 @@ def test_a_fork_after_a_solve_solves():
         assert pool.map_async(area, [1e6, 2e6]).get(timeout=60) == expected
 
 
+BEGUN = []
+
+
+def go_on(_):
+    try:
+        return next(BEGUN[0]).number
+    except RuntimeError as error:
+        return str(error)
+
+
+@pytest.mark.skipif("fork" not in multiprocessing.get_all_start_methods(), reason="this system does not fork")
+@pytest.mark.filterwarnings("ignore:This process .* is multi-threaded")
+def test_a_path_goes_on_where_it_was_begun():
+    BEGUN[:] = [contact().path(pressure=[1e6, 2e6, 3e6])]
+    assert next(BEGUN[0]).number == 1
+    with multiprocessing.get_context("fork").Pool(1) as pool:
+        assert "begun in another process" in pool.map_async(go_on, [0]).get(timeout=60)[0]
+    assert next(BEGUN[0]).number == 2
+
+
 def test_threads_take_turns_on_a_path_or_are_told():
     path = contact().path(pressure=np.linspace(1e6, 2e6, 20))
     steps, told = [], []

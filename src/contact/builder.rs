@@ -318,7 +318,8 @@ impl Contact {
 
     /// Solves loads of one kind one after another, as the iterator is asked for them, each from the state of
     /// the one before; so a path may come and go, and be made up on the way. It ends after the first load
-    /// that does not converge, and after the first error.
+    /// that does not converge, and after the first error. Between loads it keeps its threads and the fields of
+    /// its solver.
     ///
     /// ```
     /// use tabor::{Contact, Control, SurfacePart};

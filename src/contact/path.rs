@@ -1,17 +1,18 @@
 //! Loads solved one after another.
 
+use std::sync::{Mutex, PoisonError};
+
 use super::builder::{Contact, Watcher, append};
 use super::control::{Control, Load};
 use super::error::ContactError;
 use super::solution::Solution;
-use crate::backend::cpu::with_threads;
+use crate::backend::cpu::{Threads, keep_memory};
 use crate::device::SelectedDevice;
 use crate::kernel::Scalars;
 use crate::run::memory_check;
 use crate::scene::{LoadingScene, Scene};
 use crate::study::{
-    Checkpoint, Earlier, Evaluation, FinishedStep, Jump, Observer, Planned, Setup, WalkError,
-    walk_on,
+    Checkpoint, Earlier, Evaluation, FinishedStep, Jump, Observer, Planned, Setup, Walk, WalkError,
 };
 use crate::surface::Surface;
 
@@ -20,17 +21,22 @@ pub struct Path<I> {
     contact: Contact,
     loads: I,
     /// From the first load on.
-    walk: Option<Walk>,
+    course: Option<Course>,
     /// Whether it goes on behind its loads.
     until_apart: bool,
     ended: bool,
 }
 
 /// A path on its way.
-struct Walk {
+struct Course {
     setup: Setup,
     device: SelectedDevice,
-    earlier: Earlier,
+    threads: Threads,
+    /// Its solver and the steps so far. Nobody waits at the lock: with it threads may share a path, though a
+    /// backend no more than moves from one to another.
+    walk: Mutex<Walk>,
+    /// The last finished load, where another device may have to go on from it.
+    finished: Option<Earlier>,
     /// The loads that were given, once there are further ones.
     given: Option<LoadingScene>,
     remarks: Vec<String>,
@@ -41,7 +47,7 @@ impl<I> Path<I> {
         Path {
             contact,
             loads,
-            walk: None,
+            course: None,
             until_apart: false,
             ended: false,
         }
@@ -57,9 +63,9 @@ impl<I> Path<I> {
     /// Warnings of the contact, one sentence each, from the first load on: waves that the grid
     /// does not resolve, a cohesive zone of too few pixels, and on which device it is solved.
     pub fn warnings(&self) -> Vec<String> {
-        match &self.walk {
+        match &self.course {
             None => Vec::new(),
-            Some(walk) => [walk.setup.warnings.as_slice(), &walk.remarks].concat(),
+            Some(course) => [course.setup.warnings.as_slice(), &course.remarks].concat(),
         }
     }
 }
@@ -77,7 +83,7 @@ where
         }
         let load = match self.loads.next() {
             Some(load) => load.into(),
-            None if self.until_apart => self.walk.as_mut()?.load_behind()?,
+            None if self.until_apart => self.course.as_mut()?.load_behind()?,
             None => return None,
         };
         let solved = self.solve(load);
@@ -89,48 +95,59 @@ where
 impl<I> Path<I> {
     fn solve(&mut self, load: Load) -> Result<Solution, ContactError> {
         let contact = &self.contact;
-        let walk = match &mut self.walk {
-            Some(walk) => {
-                append(&mut walk.setup.scene, load)?;
-                check(&walk.setup.scene)?;
-                walk
+        let course = match &mut self.course {
+            Some(course) => {
+                append(&mut course.setup.scene, load)?;
+                check(&course.setup.scene)?;
+                course
             }
             // The surface is built by the same threads as the loads are solved.
             None => {
-                let begun = with_threads(contact.threads, || Walk::begin(contact, load))??;
-                self.walk.insert(begun)
+                // Each solution is handed over in fields of its own.
+                keep_memory();
+                let threads = Threads::new(contact.threads)?;
+                let (setup, device) = threads.run(|| begin(contact, load))?;
+                self.course.insert(Course::new(setup, device, threads))
             }
         };
-        walk.step(contact)
+        course.step(contact)
     }
 }
 
-impl Walk {
-    /// Makes everything ready for the first load.
-    fn begin(contact: &Contact, load: Load) -> Result<Walk, ContactError> {
-        let scene = contact.scene([load])?;
-        memory_check::check_scene(&scene)?;
-        let surface = Surface::build(&scene)?;
-        // Of a grid that a height file carries.
-        memory_check::check_grid(&scene, surface.grid)?;
-        let setup = Setup::new(scene, surface);
-        let device = SelectedDevice::new(&setup, contact.device.hears_drivers())?;
-        Ok(Walk {
+/// Makes everything ready for the first load.
+fn begin(contact: &Contact, load: Load) -> Result<(Setup, SelectedDevice), ContactError> {
+    let scene = contact.scene([load])?;
+    memory_check::check_scene(&scene)?;
+    let surface = Surface::build(&scene)?;
+    // Of a grid that a height file carries.
+    memory_check::check_grid(&scene, surface.grid)?;
+    let setup = Setup::new(scene, surface);
+    let device = SelectedDevice::new(&setup, contact.device.hears_drivers())?;
+    Ok((setup, device))
+}
+
+impl Course {
+    /// A path before its first load.
+    fn new(setup: Setup, device: SelectedDevice, threads: Threads) -> Course {
+        Course {
+            walk: Mutex::new(Walk::begin(&setup, Earlier::default())),
+            finished: device.fallback(&setup).map(|_| Earlier::default()),
             remarks: device.remark.iter().cloned().collect(),
             setup,
             device,
-            earlier: Earlier::default(),
+            threads,
             given: None,
-        })
+        }
     }
 
     /// The load behind the path and behind those that were solved so far; `None` where the surfaces are apart.
     fn load_behind(&mut self) -> Option<Load> {
+        let rows = &lock(&mut self.walk).so_far().rows;
         let setup = &self.setup;
         let given = self
             .given
             .get_or_insert_with(|| setup.scene.loading.clone());
-        let Planned { value, duration } = Planned::behind(setup, given, &self.earlier.rows)?;
+        let Planned { value, duration } = Planned::behind(setup, given, rows)?;
         let control = Control::from_kind(given.control, value);
         Some(if given.durations.is_some() {
             control.after(duration)
@@ -141,56 +158,61 @@ impl Walk {
 
     /// Solves the last load of the path. Where the device fails and another can continue, that one does.
     fn step(&mut self, contact: &Contact) -> Result<Solution, ContactError> {
-        let earlier = std::mem::take(&mut self.earlier);
-        let fallback = self.device.fallback(&self.setup);
-        let again = fallback.map(|device| (device, earlier.clone()));
-        match (self.solve(earlier, contact), again) {
-            (Err(ContactError::Backend(error)), Some((device, earlier))) => {
+        match (self.solve(contact), self.device.fallback(&self.setup)) {
+            (Err(ContactError::Backend(error)), Some(device)) => {
                 let remark =
                     format!("{error}; the processor continues after the last finished load");
                 self.remarks.push(remark);
                 self.device = device;
-                self.solve(earlier, contact)
+                let finished = self.finished.take().unwrap_or_default();
+                self.walk = Mutex::new(Walk::begin(&self.setup, finished));
+                self.solve(contact)
             }
             (solved, _) => solved,
         }
     }
 
-    fn solve(&mut self, earlier: Earlier, contact: &Contact) -> Result<Solution, ContactError> {
-        let (setup, device) = (&self.setup, &self.device);
+    fn solve(&mut self, contact: &Contact) -> Result<Solution, ContactError> {
+        let (setup, device, walk) = (&self.setup, &self.device, lock(&mut self.walk));
         let mut last = LastStep {
             watcher: contact.watcher.as_ref(),
+            keeps_state: self.finished.is_some(),
             ..LastStep::default()
         };
         let make_backend = || device.backend();
-        let walked = with_threads(contact.threads, || {
-            walk_on(setup, &make_backend, &mut last, earlier)
-        })?;
-        let mut end = match walked {
-            Ok(end) => end,
-            Err(WalkError::Backend(error)) => return Err(error.into()),
-            Err(WalkError::Observer(never)) => match never {},
-        };
-        if end.interrupted {
-            return Err(ContactError::Interrupted);
-        }
-        let row = end
-            .rows
-            .last()
-            .cloned()
-            .expect("a step that is not interrupted has a row");
-        self.earlier = Earlier {
-            rows: std::mem::take(&mut end.rows),
-            checkpoint: last.checkpoint,
-        };
-        Ok(Solution::new(
-            setup,
-            row,
-            last.evaluation,
-            last.jump,
-            end.pull_off,
-        ))
+        self.threads.run(|| {
+            match walk.step(setup, &make_backend, &mut last) {
+                Ok(_) => {}
+                Err(WalkError::Backend(error)) => return Err(error.into()),
+                Err(WalkError::Observer(never)) => match never {},
+            }
+            let so_far = walk.so_far();
+            if so_far.interrupted {
+                return Err(ContactError::Interrupted);
+            }
+            if let Some(finished) = &mut self.finished {
+                *finished = Earlier {
+                    rows: so_far.rows.clone(),
+                    checkpoint: last.checkpoint,
+                };
+            }
+            let row = so_far.rows.last().cloned();
+            let row = row.expect("a step that is not interrupted has a row");
+            let pull_off = so_far.pull_off;
+            Ok(Solution::new(
+                setup,
+                row,
+                last.evaluation,
+                last.jump,
+                pull_off,
+            ))
+        })
     }
+}
+
+/// What is behind a lock that nobody else can hold.
+fn lock(walk: &mut Mutex<Walk>) -> &mut Walk {
+    walk.get_mut().unwrap_or_else(PoisonError::into_inner)
 }
 
 /// Checks the newest load of a path with the one before it: those before them have been checked.
@@ -209,6 +231,8 @@ fn check(scene: &Scene) -> Result<(), ContactError> {
 #[derive(Default)]
 struct LastStep<'c> {
     watcher: Option<&'c Watcher>,
+    /// Whether another path may have to go on from the state after it.
+    keeps_state: bool,
     evaluation: Option<Evaluation>,
     jump: Option<Jump>,
     checkpoint: Checkpoint,
@@ -230,7 +254,7 @@ impl Observer for LastStep<'_> {
     }
 
     fn wants_checkpoint(&self) -> bool {
-        true
+        self.keeps_state
     }
 
     fn checkpoint(&mut self, _: usize, state: &Checkpoint) -> Result<(), Self::Error> {

@@ -1,6 +1,9 @@
 //! A solved load as arrays.
 
+use std::borrow::Cow;
+
 use crate::scene::FieldName;
+use crate::shared_values::SharedValues;
 use crate::study::{Evaluation, Jump, PullOff, Setup, State, StepRow};
 
 /// A solved load, SI. Arrays have shape `[ny, nx]`, row-major: point (ix, iy) is element `iy * nx + ix`.
@@ -21,8 +24,9 @@ pub struct Solution {
     pub pressure: Vec<f64>,
     /// Normal displacement of the solid's surface, m, positive into it.
     pub displacement: Vec<f64>,
-    /// Heights, m, with the plastic depth subtracted; those given where the surfaces are separated.
-    pub heights: Vec<f64>,
+    /// Heights, m, with the plastic depth subtracted; those given where the surfaces are separated. Without hardness all
+    /// solutions of a path share them.
+    pub heights: SharedValues,
     /// Share of the points that are in contact.
     pub contact_area_fraction: f64,
     /// Force, N, positive in compression.
@@ -62,11 +66,14 @@ impl Solution {
     ) -> Self {
         let grid = setup.surface.grid;
         let heights = &setup.surface.heights;
-        let [gap, pressure, displacement, heights] = match evaluation {
+        let (gap, pressure, displacement, heights) = match evaluation {
             Some(found) => {
                 let displacement = found.field(FieldName::Displacement, heights).into_owned();
-                let heights = found.field(FieldName::Heights, heights).into_owned();
-                [found.gap, found.pressure, displacement, heights]
+                let heights = match found.field(FieldName::Heights, heights) {
+                    Cow::Borrowed(_) => heights.clone(),
+                    Cow::Owned(lowered) => lowered.into(),
+                };
+                (found.gap, found.pressure, displacement, heights)
             }
             None => {
                 let moved = if setup.scene.solid.relaxation.is_empty() {
@@ -75,7 +82,7 @@ impl Solution {
                     f64::NAN
                 };
                 let all = |value: f64| vec![value; grid.len()];
-                [all(f64::INFINITY), all(0.0), all(moved), heights.to_vec()]
+                (all(f64::INFINITY), all(0.0), all(moved), heights.clone())
             }
         };
         Solution {

@@ -148,9 +148,10 @@ impl Carry for Indentation {
 
     /// Takes the part of the gap below zero off the heights.
     fn settle(&mut self, solver: &mut ContactSolver) -> Result<(), BackendError> {
-        let problem = solver.problem();
-        let (shape, share) = (problem.shape, &problem.share);
+        let share = &self.share;
         let mut gap = solver.gap()?;
+        let problem = solver.problem();
+        let shape = problem.shape;
         let yields = problem.on_surface(&gap).any(|gap| gap < 0.0);
         if share.any(yields) {
             let depths = self.depths.get_or_insert_with(|| vec![0.0; share.len()]);

@@ -118,7 +118,7 @@ fn solve(
 ) -> Result<SolvedStep, BackendError> {
     let setup = attempt.setup;
     let duration = attempt.duration;
-    let problem = attempt.solver.problem();
+    let problem = attempt.problem;
     let before = if attempt.loaded {
         Some(problem.surface_part(&attempt.solver.gap()?))
     } else {

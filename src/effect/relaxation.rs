@@ -235,10 +235,11 @@ impl Carry for History {
             return Ok(());
         };
         drop(offset);
-        let problem = solver.problem();
-        let rigid =
-            (evaluation.displacement_offset + problem.height_origin) / problem.scales.length;
         let mut displacement = solver.gap()?;
+        let problem = solver.problem();
+        let scales = problem.scales;
+        let unit = scales.length * scales.pressure * problem.grid.pixel_area();
+        let rigid = (evaluation.displacement_offset + problem.height_origin) / scales.length;
         for (u, h) in displacement.iter_mut().zip(problem.padded_heights()) {
             *u += h + rigid;
         }
@@ -253,7 +254,6 @@ impl Carry for History {
         for (branch, spring) in self.branches(solid) {
             energy += branch.modulus / modulus * solver.energy_of(spring)?;
         }
-        let unit = problem.scales.length * problem.scales.pressure * problem.grid.pixel_area();
         evaluation.elastic_energy = energy * unit;
         Ok(())
     }

@@ -101,7 +101,7 @@ struct End {
 
 /// Solves a coarse problem loosely.
 fn solve(
-    backend: &mut dyn Backend,
+    backend: &mut (dyn Backend + Send),
     coarse: &Problem,
     load: &Load,
     start: &Start,

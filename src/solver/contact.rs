@@ -1,6 +1,9 @@
 //! A solver of one problem: what it plans, how a solve of a load begins, and when it ends.
 
+use std::sync::Arc;
+
 use super::MakeBackend;
+use super::borrowed::{BackendRef, ProblemRef};
 use super::coarse_start;
 use super::kernel_set::{KernelSet, params_of_problem, params_under};
 use super::mean_gap::HeightsPressure;
@@ -90,8 +93,8 @@ struct Evaluated {
 
 /// Solves one problem, load after load.
 pub struct ContactSolver<'a> {
-    pub(super) backend: &'a mut dyn Backend,
-    pub(super) problem: &'a Problem,
+    pub(super) backend: BackendRef<'a>,
+    pub(super) problem: ProblemRef<'a>,
     pub(super) level: Level,
     pub(super) heights: Field,
     pub(super) gap: Field,
@@ -148,7 +151,20 @@ const RESTARTS: usize = 20;
 
 impl<'a> ContactSolver<'a> {
     /// Plans a problem on a backend: fields, spectra and kernels for its law, and no others.
-    pub fn new(backend: &'a mut dyn Backend, problem: &'a Problem) -> Self {
+    pub fn new(backend: &'a mut (dyn Backend + Send), problem: &'a Problem) -> Self {
+        ContactSolver::plan(BackendRef::Borrowed(backend), ProblemRef::Borrowed(problem))
+    }
+
+    /// The same of a solver that holds both, and so may be kept for as long as one likes.
+    pub fn holding(
+        backend: Box<dyn Backend + Send>,
+        problem: Arc<Problem>,
+    ) -> ContactSolver<'static> {
+        ContactSolver::plan(BackendRef::Own(backend), ProblemRef::Shared(problem))
+    }
+
+    fn plan(mut held: BackendRef<'a>, held_problem: ProblemRef<'a>) -> Self {
+        let (backend, problem): (&mut dyn Backend, &Problem) = (&mut *held, &held_problem);
         let level = backend.level("fine", problem.shape);
         let heights = backend.field(level, "heights");
         let gap = backend.field(level, "gap");
@@ -176,9 +192,10 @@ impl<'a> ContactSolver<'a> {
         backend.write(heights, &reduced);
         drop(reduced);
         let params = params_of_problem(problem, backend.epsilon());
+        let kernels = KernelSet::new(problem);
         let mut solver = ContactSolver {
-            backend,
-            problem,
+            backend: held,
+            problem: held_problem,
             level,
             heights,
             gap,
@@ -194,7 +211,7 @@ impl<'a> ContactSolver<'a> {
             compliance,
             levels,
             exact,
-            kernels: KernelSet::new(problem),
+            kernels,
             params,
             outer: None,
             evaluated: None,
@@ -221,8 +238,8 @@ impl<'a> ContactSolver<'a> {
     }
 
     /// The problem being solved.
-    pub fn problem(&self) -> &'a Problem {
-        self.problem
+    pub fn problem(&self) -> &Problem {
+        &self.problem
     }
 
     /// Relative rounding error of the fields' numbers.
@@ -313,14 +330,14 @@ impl<'a> ContactSolver<'a> {
     /// Sets the factors on the law's tension, one a held grid point; the problem must have some. `None` sets
     /// the problem's own.
     pub fn set_law_factor(&mut self, factor: Option<Vec<f64>>) {
-        if let (Some(field), Some(own)) = (self.law_factor, &self.problem.law_factor) {
+        let problem = self.problem.clone();
+        if let (Some(field), Some(own)) = (self.law_factor, &problem.law_factor) {
             let values = factor.as_ref().unwrap_or(own);
-            self.backend.write(field, &self.problem.padded(values, 0.0));
-            let problem = self.problem;
+            self.backend.write(field, &problem.padded(values, 0.0));
             if self.outer().is_some()
                 && let Some(outer) = &mut self.outer
             {
-                outer.set_law_factor(problem, values);
+                outer.set_law_factor(&problem, values);
             }
             self.present_factor = factor;
         }
@@ -384,13 +401,13 @@ impl<'a> ContactSolver<'a> {
         // A prescribed mean gap needs K h without the mean of the heights, hence K = 0 at q = 0.
         debug_assert!(!prescribed_mean_gap || load.zero_stiffness == 0.0);
         self.backend.set_outer_state(None);
-        self.params = params_under(self.problem, load, self.params.epsilon);
+        self.params = params_under(&self.problem, load, self.params.epsilon);
         self.params.tolerance = tolerance;
         self.backend.set_params(&self.params);
         self.backend
             .set_zero_mode(self.stiffness, load.zero_stiffness);
         if let Some(levels) = &self.levels {
-            levels.set_zero_mode(self.backend, load.zero_compliance);
+            levels.set_zero_mode(&mut *self.backend, load.zero_compliance);
         }
         if let Some(spectrum) = self.preconditioner {
             self.backend.set_zero_mode(spectrum, load.zero_compliance);
@@ -449,7 +466,7 @@ impl<'a> ContactSolver<'a> {
         watch: &mut dyn FnMut(&Scalars) -> bool,
     ) -> Result<Outcome, BackendError> {
         if let (Start::Present, Some(outer)) = (start, &mut self.outer) {
-            outer.hand_gap(self.backend, self.gap)?;
+            outer.hand_gap(&mut *self.backend, self.gap)?;
         }
         let corrected = self.outer().is_some();
         let first = match corrected {
@@ -459,7 +476,7 @@ impl<'a> ContactSolver<'a> {
         let helped = match start {
             // The coarse grids do not have the plastic depths.
             Start::Cold if self.plastic_depths.is_none() => {
-                coarse_start::gap(self.problem, load, make_backend, watch)?
+                coarse_start::gap(&self.problem, load, make_backend, watch)?
             }
             _ => None,
         };

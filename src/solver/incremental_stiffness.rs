@@ -24,7 +24,7 @@ impl ContactSolver<'_> {
         tolerance: f64,
         most: usize,
     ) -> Result<Option<f64>, BackendError> {
-        let problem = self.problem();
+        let problem = self.problem.clone();
         let share = &problem.share;
         let touching = contact.iter().filter(|&&mask| mask > 0.0).count();
         let [touching] = share.counts([touching]);

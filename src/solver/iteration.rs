@@ -19,7 +19,7 @@ impl ContactSolver<'_> {
     pub(super) fn ready(&mut self) {
         let state = [self.gap, self.pressure];
         match in_use(&self.levels, self.exact) {
-            Some(levels) => levels.load_residual(self.backend, state),
+            Some(levels) => levels.load_residual(&mut *self.backend, state),
             None => self
                 .backend
                 .run(self.kernels.load_residual, self.level, &state),
@@ -65,7 +65,7 @@ impl ContactSolver<'_> {
     pub fn precondition_by_levels(&mut self) {
         if let Some(levels) = &self.levels {
             self.exact = false;
-            levels.load_residual(self.backend, [self.gap, self.pressure]);
+            levels.load_residual(&mut *self.backend, [self.gap, self.pressure]);
         }
     }
 

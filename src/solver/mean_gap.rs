@@ -52,7 +52,7 @@ impl ContactSolver<'_> {
     /// K h, made at its first use.
     fn heights_pressure(&mut self) -> Field {
         self.heights_pressure
-            .get_or_insert_with(|| HeightsPressure::plan(self.backend, self.level))
+            .get_or_insert_with(|| HeightsPressure::plan(&mut *self.backend, self.level))
             .field()
     }
 
@@ -61,8 +61,8 @@ impl ContactSolver<'_> {
         if self.kernels.is_linear() {
             let fields = [self.heights, self.pressure];
             self.heights_pressure
-                .get_or_insert_with(|| HeightsPressure::plan(self.backend, self.level))
-                .find(self.backend, fields, self.stiffness);
+                .get_or_insert_with(|| HeightsPressure::plan(&mut *self.backend, self.level))
+                .find(&mut *self.backend, fields, self.stiffness);
         }
     }
 

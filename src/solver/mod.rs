@@ -7,6 +7,7 @@
 //!
 //! [`plain`] tells the method in plain arrays; [`ContactSolver`] carries it out on a backend.
 
+mod borrowed;
 mod coarse_start;
 mod contact;
 mod elasticity;

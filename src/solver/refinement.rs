@@ -38,9 +38,9 @@ impl ContactSolver<'_> {
             let double = self.backend.in_double(self.problem.shape)?;
             self.outer = Some(OuterState::new(
                 double,
-                self.backend,
+                &mut *self.backend,
                 self.level,
-                self.problem,
+                &self.problem,
             ));
         }
         self.outer.as_mut()
@@ -151,7 +151,7 @@ impl ContactSolver<'_> {
         work: impl FnOnce(&mut OuterState, &mut dyn Backend, Field) -> Result<R, BackendError>,
     ) -> Result<R, BackendError> {
         match &mut self.outer {
-            Some(outer) => work(outer, self.backend, self.gap),
+            Some(outer) => work(outer, &mut *self.backend, self.gap),
             // Only solvers with an outer state come here.
             None => Err(BackendError::Device("no state in double precision".into())),
         }

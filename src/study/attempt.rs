@@ -5,16 +5,18 @@ use super::setup::Setup;
 use super::step::{SolvedStep, finish, solve};
 use crate::backend::BackendError;
 use crate::kernel::Scalars;
-use crate::solver::{ContactSolver, Load, MakeBackend, Outcome, Start};
+use crate::solver::{ContactSolver, Load, MakeBackend, Outcome, Problem, Start};
 
 /// A step to be solved, with its solver.
-pub(crate) struct Attempt<'a, 's, 'b> {
+pub(crate) struct Attempt<'a> {
     /// The scene.
-    pub setup: &'s Setup,
+    pub setup: &'a Setup,
+    /// The problem of the step.
+    pub problem: &'a Problem,
     /// Translates values of the path to loads.
-    pub controller: &'a Controller<'s>,
+    pub controller: &'a Controller<'a>,
     /// The solver.
-    pub solver: &'a mut ContactSolver<'b>,
+    pub solver: &'a mut ContactSolver<'static>,
     /// The prescribed value.
     pub value: f64,
     /// How long the step takes, s.
@@ -22,12 +24,12 @@ pub(crate) struct Attempt<'a, 's, 'b> {
     /// Whether the solver's gap belongs to a solved step.
     pub loaded: bool,
     /// Where solvers on coarser grids get their backends from.
-    pub make_backend: MakeBackend<'s>,
+    pub make_backend: MakeBackend<'a>,
     /// Sees each iteration and says whether to continue.
     pub watch: &'a mut dyn FnMut(&Scalars) -> bool,
 }
 
-impl Attempt<'_, '_, '_> {
+impl Attempt<'_> {
     /// Solves a load from a start with the scene's own settings.
     pub fn solve(&mut self, load: &Load, start: &Start) -> Result<Outcome, BackendError> {
         solve(

@@ -2,7 +2,7 @@
 //! the state of the first step or of another such load.
 
 use super::row::{State, StepRow};
-use super::walker::{Carried, Walker};
+use super::walker::{Carried, Means, Walker};
 use crate::backend::BackendError;
 use crate::kernel::Scalars;
 
@@ -49,8 +49,9 @@ impl Tried {
 }
 
 /// The interval from one step to the next.
-pub(super) struct Between<'b, 's> {
-    pub walker: &'b mut Walker<'s>,
+pub(super) struct Between<'b> {
+    pub means: Means<'b>,
+    pub walker: &'b mut Walker,
     /// Values of the path.
     pub from: f64,
     pub to: f64,
@@ -64,7 +65,7 @@ pub(super) struct Between<'b, 's> {
     pub interrupted: bool,
 }
 
-impl Between<'_, '_> {
+impl Between<'_> {
     /// The value of the path at a place.
     pub fn value(&self, share: f64) -> f64 {
         self.from + (self.to - self.from) * share
@@ -80,25 +81,16 @@ impl Between<'_, '_> {
     pub fn solve(&mut self, from: &Place, share: f64) -> Result<Tried, BackendError> {
         let value = self.value(share);
         let duration = (share - from.share) * self.duration;
-        let setup = self.walker.setup();
+        let means = self.means;
         let mut watch = |scalars: &Scalars| (self.watch)(Watched::Iteration(scalars));
-        if !setup.effects.depend_on_duration() {
+        if !means.setup.effects.depend_on_duration() {
             self.walker.go_back(&from.carried);
-            let tried = try_load(self.walker, value, duration, &mut watch)?;
+            let tried = try_load(&means, self.walker, value, duration, &mut watch)?;
             self.interrupted |= self.walker.is_interrupted();
             return Ok(tried);
         }
-        let problem = setup.effects.problem_over(setup, duration);
-        let make_backend = self.walker.make_backend();
-        let mut backend = make_backend();
-        let mut walker = Walker::new(
-            setup,
-            make_backend,
-            &mut *backend,
-            &problem,
-            from.carried.clone(),
-        );
-        let tried = try_load(&mut walker, value, duration, &mut watch)?;
+        let mut walker = Walker::new(&means, duration, from.carried.clone());
+        let tried = try_load(&means, &mut walker, value, duration, &mut watch)?;
         self.interrupted |= walker.is_interrupted();
         self.transforms += walker.solver.transforms();
         Ok(tried)
@@ -106,17 +98,18 @@ impl Between<'_, '_> {
 }
 
 fn try_load(
+    means: &Means,
     walker: &mut Walker,
     value: f64,
     duration: f64,
     watch: &mut dyn FnMut(&Scalars) -> bool,
 ) -> Result<Tried, BackendError> {
-    let solved = walker.advance(value, duration, watch)?;
+    let solved = walker.advance(means, value, duration, watch)?;
     if solved.converged {
         walker.settle()?;
     }
     Ok(Tried {
-        row: walker.row(0, value, &solved),
+        row: walker.row(means.setup, 0, value, &solved),
         carried: walker.carried()?,
     })
 }

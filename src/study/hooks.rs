@@ -3,8 +3,8 @@
 //! An effect is a value of [`Hooks`]. What it carries from step to step, if anything, is a [`Carry`].
 //! Nothing here knows which effects there are: `effect` lists them and passes the list in.
 
-use std::borrow::Cow;
 use std::fmt;
+use std::sync::Arc;
 
 use super::attempt::Attempt;
 use super::checkpoint::{Checkpoint, CheckpointField};
@@ -130,7 +130,7 @@ pub(crate) trait Hooks: Sync {
 }
 
 /// State of an effect from step to step of a path.
-pub(crate) trait Carry {
+pub(crate) trait Carry: Send {
     /// A copy, to which a path can go back.
     fn copy(&self) -> Box<dyn Carry>;
     /// Its fields of a checkpoint.
@@ -252,10 +252,10 @@ impl Effects {
     }
 
     /// The problem of steps of `duration` (s).
-    pub fn problem_over<'s>(&self, setup: &'s Setup, duration: f64) -> Cow<'s, Problem> {
+    pub fn problem_over(&self, setup: &Setup, duration: f64) -> Arc<Problem> {
         self.iter()
             .find_map(|effect| effect.problem_over(setup, duration))
-            .map_or(Cow::Borrowed(&setup.problem), Cow::Owned)
+            .map_or_else(|| Arc::clone(&setup.problem), Arc::new)
     }
 
     /// Whether one of them hides jumps.

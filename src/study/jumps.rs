@@ -309,7 +309,7 @@ pub(super) fn confirm(
     row: &StepRow,
     least: f64,
 ) -> Result<Option<bool>, BackendError> {
-    let prescribed = Prescribed::for_setup(between.walker.setup());
+    let prescribed = Prescribed::for_setup(between.means.setup);
     let Some(mut whole) = Piece::between(prescribed, before, row) else {
         return Ok(Some(true));
     };

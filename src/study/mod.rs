@@ -35,6 +35,7 @@ pub use hooks::HostBytes;
 pub use jumps::{Jump, dissipation};
 pub use memory::Memory;
 pub use observer::{FinishedStep, Observer, Unreachable, WalkEnd, WalkError};
+pub(crate) use path::Walk;
 pub use path::{walk, walk_on};
 #[cfg(feature = "cli")]
 pub(crate) use plan::PIXELS_A_WAVE;

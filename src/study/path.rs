@@ -1,7 +1,5 @@
 //! A loading path, step after step, each from the state of the one before.
 
-use std::ops::Range;
-
 use super::between::{Between, Watched};
 use super::checkpoint::{Checkpoint, Earlier};
 use super::jumps::{Jump, Jumps, Verdict, confirm};
@@ -11,7 +9,7 @@ use super::pull_off;
 use super::row::{State, StepRow};
 use super::setup::Setup;
 use super::step::SolvedStep;
-use super::walker::{Carried, Walker};
+use super::walker::{Carried, Means, Walker};
 use crate::backend::BackendError;
 use crate::clock::Clock;
 use crate::solver::MakeBackend;
@@ -34,196 +32,249 @@ pub fn walk_on<O: Observer>(
     observer: &mut O,
     earlier: Earlier,
 ) -> Result<WalkEnd, WalkError<O::Error>> {
-    let Earlier { rows, checkpoint } = earlier;
-    let mut carried = Carried::from_checkpoint(setup, &checkpoint);
-    let mut end = WalkEnd {
-        jump_in_steps: checkpoint.jump_in_steps,
-        jump_off_steps: checkpoint.jump_off_steps,
-        pull_off: checkpoint.pull_off,
-        transforms: checkpoint.transforms,
-        ..WalkEnd::default()
-    };
-    let done = rows.len();
-    let last_jump = end.jump_in_steps.last().max(end.jump_off_steps.last());
-    let mut jumps = Jumps::new(setup);
-    jumps.resume(&rows, checkpoint.points, last_jump == Some(&done));
-    end.rows = rows;
-    for steps in stretches(setup, done) {
-        let stretch = Stretch {
+    let mut walk = Walk::begin(setup, earlier);
+    while walk.step(setup, make_backend, observer)? {}
+    Ok(walk.end())
+}
+
+/// A path on its way: its solver as the last step has left it, and what is known of the steps so far.
+pub(crate) struct Walk {
+    /// Of the steps so far.
+    end: WalkEnd,
+    jumps: Jumps,
+    stage: Stage,
+}
+
+/// Where a path stands.
+enum Stage {
+    /// Before a step with another problem than those before it, or before the first.
+    Before(Carried),
+    Within(Box<Stretch>),
+    /// After a step that ended it.
+    Ended,
+}
+
+/// Steps with the same problem, which one solver takes.
+struct Stretch {
+    walker: Walker,
+    /// How long each takes, s, where the problem depends on it.
+    duration: f64,
+    /// Transforms of other solvers: those of earlier stretches, and further ones of this one.
+    others: f64,
+    /// The state that the last step left, where it is at hand.
+    standing: Option<Carried>,
+}
+
+impl Walk {
+    /// A path before the step after those done earlier.
+    pub fn begin(setup: &Setup, earlier: Earlier) -> Walk {
+        let Earlier { rows, checkpoint } = earlier;
+        let carried = Carried::from_checkpoint(setup, &checkpoint);
+        let mut end = WalkEnd {
+            jump_in_steps: checkpoint.jump_in_steps,
+            jump_off_steps: checkpoint.jump_off_steps,
+            pull_off: checkpoint.pull_off,
+            transforms: checkpoint.transforms,
+            ..WalkEnd::default()
+        };
+        let last_jump = end.jump_in_steps.last().max(end.jump_off_steps.last());
+        let mut jumps = Jumps::new(setup);
+        jumps.resume(&rows, checkpoint.points, last_jump == Some(&rows.len()));
+        end.rows = rows;
+        Walk {
+            end,
+            jumps,
+            stage: Stage::Before(carried),
+        }
+    }
+
+    /// The steps so far.
+    pub fn so_far(&self) -> &WalkEnd {
+        &self.end
+    }
+
+    /// How it ended, or stands.
+    fn end(self) -> WalkEnd {
+        WalkEnd {
+            hysteresis_energy: self.jumps.hysteresis(&self.end.rows),
+            ..self.end
+        }
+    }
+
+    /// Solves the next step; whether there may be one after it. Of the setup only the loads behind this step may change
+    /// from step to step.
+    pub fn step<O: Observer>(
+        &mut self,
+        setup: &Setup,
+        make_backend: MakeBackend,
+        observer: &mut O,
+    ) -> Result<bool, WalkError<O::Error>> {
+        let Some(planned) = Planned::after(setup, &self.end.rows) else {
+            return Ok(false);
+        };
+        let means = Means {
             setup,
             make_backend,
-            steps,
         };
-        if Planned::after(setup, &end.rows).is_none() {
-            break;
+        let mut stretch = match self.stretch(&means, planned.duration)? {
+            Some(stretch) => stretch,
+            None => return Ok(false),
+        };
+        let goes_on = stretch.step(&means, planned, observer, &mut self.end, &mut self.jumps)?;
+        if goes_on {
+            self.stage = Stage::Within(stretch);
         }
-        match stretch.walk(observer, &mut end, &mut jumps, carried)? {
-            Some(left) => carried = left,
-            None => break,
-        }
+        Ok(goes_on)
     }
-    end.hysteresis_energy = jumps.hysteresis(&end.rows);
-    Ok(end)
-}
 
-/// The steps after the first `done`, in stretches with the same problem: one, or one for each duration where
-/// the problem depends on it. The last ones may hold steps that the path does not come to.
-fn stretches(setup: &Setup, done: usize) -> Box<dyn Iterator<Item = Range<usize>>> {
-    let loading = &setup.scene.loading;
-    let planned = loading.path.len().max(done);
-    match &loading.durations {
-        Some(durations) if setup.effects.depend_on_duration() => {
-            let mut stretches: Vec<Range<usize>> = Vec::new();
-            for step in done..loading.path.len() {
-                match stretches.last_mut() {
-                    Some(last) if durations[last.start] == durations[step] => last.end = step + 1,
-                    _ => stretches.push(step..step + 1),
-                }
+    /// The stretch that the next step belongs to, of its duration; `None` where the path has ended. If the step fails, it
+    /// has.
+    fn stretch(
+        &mut self,
+        means: &Means,
+        duration: f64,
+    ) -> Result<Option<Box<Stretch>>, BackendError> {
+        let depends = means.setup.effects.depend_on_duration();
+        let carried = match std::mem::replace(&mut self.stage, Stage::Ended) {
+            Stage::Ended => return Ok(None),
+            Stage::Before(carried) => carried,
+            Stage::Within(stretch) if !depends || stretch.duration == duration => {
+                return Ok(Some(stretch));
             }
-            // Further steps have durations of their own.
-            let further = (planned..usize::MAX).map(|step| step..step + 1);
-            Box::new(stretches.into_iter().chain(further))
-        }
-        _ => Box::new(std::iter::once(done..usize::MAX)),
+            // Its solver goes before the next one comes.
+            Stage::Within(stretch) => stretch.left()?,
+        };
+        Ok(Some(Box::new(Stretch {
+            walker: Walker::new(means, duration, carried),
+            duration,
+            others: self.end.transforms,
+            standing: None,
+        })))
     }
 }
 
-/// Steps of a path with the same problem, which one solver takes.
-struct Stretch<'s> {
-    setup: &'s Setup,
-    make_backend: MakeBackend<'s>,
-    steps: Range<usize>,
-}
+impl Stretch {
+    /// The state that its last step left.
+    fn left(mut self) -> Result<Carried, BackendError> {
+        match self.standing {
+            Some(left) => Ok(left),
+            None => self.walker.carried(),
+        }
+    }
 
-impl Stretch<'_> {
-    /// Walks the steps from the state that the path carries. Returns that after them, or `None` if the path
-    /// ends.
-    fn walk<O: Observer>(
-        &self,
+    /// Solves a step; whether the path goes on.
+    fn step<O: Observer>(
+        &mut self,
+        means: &Means,
+        Planned { value, duration }: Planned,
         observer: &mut O,
         end: &mut WalkEnd,
         jumps: &mut Jumps,
-        carried: Carried,
-    ) -> Result<Option<Carried>, WalkError<O::Error>> {
-        let setup = self.setup;
-        let planned = Planned::after(setup, &end.rows);
-        let duration = planned.map_or(0.0, |planned| planned.duration);
-        let problem = setup.effects.problem_over(setup, duration);
-        let mut backend = (self.make_backend)();
-        let mut walker = Walker::new(setup, self.make_backend, &mut *backend, &problem, carried);
-        // Transforms of earlier stretches, and of further solvers of this one.
-        let mut others = end.transforms;
-        let mut standing: Option<Carried> = None;
-        for index in self.steps.clone() {
-            let clock = Clock::start();
-            let step = index + 1;
-            let Some(Planned { value, duration }) = Planned::after(setup, &end.rows) else {
-                break;
-            };
-            let state = match standing.take() {
-                Some(state) => Some(state),
-                None if self.looks_back(index, &end.rows, jumps) && walker.is_loaded() => {
-                    Some(walker.carried()?)
-                }
-                None => None,
-            };
-            let mut watch = |watched: Watched| match watched {
-                Watched::Iteration(scalars) => observer.iteration(step, scalars),
-                Watched::Search(search) => {
-                    observer.search(step, search);
-                    true
-                }
-            };
-            let mut solved = walker.advance(value, duration, &mut |scalars| {
-                watch(Watched::Iteration(scalars))
-            })?;
-            if walker.is_interrupted() {
-                end.transforms = others + walker.solver.transforms();
-                end.interrupted = true;
-                return Ok(None);
+    ) -> Result<bool, WalkError<O::Error>> {
+        let clock = Clock::start();
+        let setup = means.setup;
+        let walker = &mut self.walker;
+        let index = end.rows.len();
+        let step = index + 1;
+        let state = match self.standing.take() {
+            Some(state) => Some(state),
+            None if looks_back(setup, &end.rows, jumps) && walker.is_loaded() => {
+                Some(walker.carried()?)
             }
-            walker.measure(&mut solved)?;
-            if solved.converged {
-                walker.settle()?;
+            None => None,
+        };
+        let mut watch = |watched: Watched| match watched {
+            Watched::Iteration(scalars) => observer.iteration(step, scalars),
+            Watched::Search(search) => {
+                observer.search(step, search);
+                true
             }
-            let mut row = walker.row(step, value, &solved);
-            row.time = self.time(duration, end.rows.last());
-            let between = Between {
-                from: Planned::of_step(setup, &end.rows, index).unwrap_or(value),
-                to: value,
-                duration,
-                walker: &mut walker,
-                watch: &mut watch,
-                transforms: 0.0,
-                interrupted: false,
-            };
-            let found = look_between(between, jumps, end.rows.last(), state, &row, &solved)?;
-            others += found.transforms;
-            end.transforms = others + walker.solver.transforms();
-            if found.interrupted {
-                end.interrupted = true;
-                return Ok(None);
-            }
-            if let Some(let_go) = found.pull_off {
-                end.pull_off = Some(let_go.greater(end.pull_off));
-            }
-            match found.jump {
-                Some(Jump::In) => end.jump_in_steps.push(step),
-                Some(Jump::Off) => end.jump_off_steps.push(step),
-                None => {}
-            }
-            jumps.take(&row, solved.evaluation.as_ref(), found.jump.is_some());
-            row.seconds = clock.seconds();
-            end.rows.push(row);
-            let row = &end.rows[index];
-            let finished = FinishedStep {
-                row,
-                evaluation: solved.evaluation,
-                jump: found.jump,
-                is_last: !row.converged || Planned::after(setup, &end.rows).is_none(),
-            };
-            observer.step(finished).map_err(WalkError::Observer)?;
-            if !row.converged {
-                end.unreachable = solved.unreachable;
-                return Ok(None);
-            }
-            if observer.wants_checkpoint() {
-                let left = walker.carried()?;
-                let checkpoint = Checkpoint {
-                    fields: left.checkpoint_fields(),
-                    evaluated_under: walker.solver.evaluated_under(),
-                    points: jumps.points().map(<[_]>::to_vec),
-                    jump_in_steps: end.jump_in_steps.clone(),
-                    jump_off_steps: end.jump_off_steps.clone(),
-                    pull_off: end.pull_off,
-                    transforms: end.transforms,
-                };
-                let kept = observer.checkpoint(step, &checkpoint);
-                kept.map_err(WalkError::Observer)?;
-                let needed = walker.is_loaded() && self.looks_back(index + 1, &end.rows, jumps);
-                standing = needed.then_some(left);
-            }
+        };
+        let mut solved = walker.advance(means, value, duration, &mut |scalars| {
+            watch(Watched::Iteration(scalars))
+        })?;
+        if walker.is_interrupted() {
+            end.transforms = self.others + walker.solver.transforms();
+            end.interrupted = true;
+            return Ok(false);
         }
-        Ok(Some(match standing {
-            Some(left) => left,
-            None => walker.carried()?,
-        }))
+        walker.measure(setup, &mut solved)?;
+        if solved.converged {
+            walker.settle()?;
+        }
+        let mut row = walker.row(setup, step, value, &solved);
+        row.time = time(setup, duration, end.rows.last());
+        let between = Between {
+            means: *means,
+            from: Planned::of_step(setup, &end.rows, index).unwrap_or(value),
+            to: value,
+            duration,
+            walker,
+            watch: &mut watch,
+            transforms: 0.0,
+            interrupted: false,
+        };
+        let found = look_between(between, jumps, end.rows.last(), state, &row, &solved)?;
+        self.others += found.transforms;
+        end.transforms = self.others + walker.solver.transforms();
+        if found.interrupted {
+            end.interrupted = true;
+            return Ok(false);
+        }
+        if let Some(let_go) = found.pull_off {
+            end.pull_off = Some(let_go.greater(end.pull_off));
+        }
+        match found.jump {
+            Some(Jump::In) => end.jump_in_steps.push(step),
+            Some(Jump::Off) => end.jump_off_steps.push(step),
+            None => {}
+        }
+        jumps.take(&row, solved.evaluation.as_ref(), found.jump.is_some());
+        row.seconds = clock.seconds();
+        end.rows.push(row);
+        let row = &end.rows[index];
+        let finished = FinishedStep {
+            row,
+            evaluation: solved.evaluation,
+            jump: found.jump,
+            is_last: !row.converged || Planned::after(setup, &end.rows).is_none(),
+        };
+        observer.step(finished).map_err(WalkError::Observer)?;
+        if !row.converged {
+            end.unreachable = solved.unreachable;
+            return Ok(false);
+        }
+        if observer.wants_checkpoint() {
+            let left = walker.carried()?;
+            let checkpoint = Checkpoint {
+                fields: left.checkpoint_fields(),
+                evaluated_under: walker.solver.evaluated_under(),
+                points: jumps.points().map(<[_]>::to_vec),
+                jump_in_steps: end.jump_in_steps.clone(),
+                jump_off_steps: end.jump_off_steps.clone(),
+                pull_off: end.pull_off,
+                transforms: end.transforms,
+            };
+            let kept = observer.checkpoint(step, &checkpoint);
+            kept.map_err(WalkError::Observer)?;
+            let needed = walker.is_loaded() && looks_back(setup, &end.rows, jumps);
+            self.standing = needed.then_some(left);
+        }
+        Ok(true)
     }
+}
 
-    /// Whether the state before the step after these rows may be needed, to look between the two.
-    fn looks_back(&self, index: usize, rows: &[StepRow], jumps: &Jumps) -> bool {
-        let lets_go = |planned: Planned| pull_off::may_let_go(self.setup, planned.value);
-        self.steps.contains(&index)
-            && Planned::after(self.setup, rows)
-                .is_some_and(|planned| jumps.watches() || lets_go(planned))
-    }
+/// Whether the state before the step after these rows may be needed, to look between the two.
+fn looks_back(setup: &Setup, rows: &[StepRow], jumps: &Jumps) -> bool {
+    let lets_go = |planned: Planned| pull_off::may_let_go(setup, planned.value);
+    Planned::after(setup, rows).is_some_and(|planned| jumps.watches() || lets_go(planned))
+}
 
-    /// Time at the end of a step of a duration, s, where the path has durations.
-    fn time(&self, duration: f64, before: Option<&StepRow>) -> Option<f64> {
-        self.setup.scene.loading.durations.as_ref()?;
-        let before = before.and_then(|row| row.time).unwrap_or(0.0);
-        Some(before + duration)
-    }
+/// Time at the end of a step of a duration, s, where the path has durations.
+fn time(setup: &Setup, duration: f64, before: Option<&StepRow>) -> Option<f64> {
+    setup.scene.loading.durations.as_ref()?;
+    let before = before.and_then(|row| row.time).unwrap_or(0.0);
+    Some(before + duration)
 }
 
 /// Result of a search between two steps.
@@ -260,7 +311,7 @@ fn look_between(
     let held = before.state != State::Separated;
     let lets_go = held
         && solved.evaluation.is_none()
-        && pull_off::may_let_go(between.walker.setup(), between.to);
+        && pull_off::may_let_go(between.means.setup, between.to);
     if let Verdict::Perhaps { way, least } = verdict {
         let left = between.walker.carried()?;
         let jumped = confirm(&mut between, before, state, row, least)?;

@@ -127,7 +127,7 @@ pub(super) fn find(
     step: usize,
     held: Carried,
 ) -> Result<Option<PullOff>, BackendError> {
-    let setup = between.walker.setup();
+    let setup = between.means.setup;
     let loading = &setup.scene.loading;
     let unit = match loading.control {
         Control::Pressure => setup.surface.grid.area(),

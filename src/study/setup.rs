@@ -24,7 +24,7 @@ pub struct Setup {
     /// The law in SI units; the hard wall without adhesion.
     pub law: Law,
     /// The reduced problem; without the law where the attraction is summed afterwards.
-    pub problem: Problem,
+    pub problem: Arc<Problem>,
     /// Regime and resolution of the adhesion, where there is any.
     pub regime: Option<Regime>,
     /// Warnings.
@@ -89,7 +89,7 @@ impl Setup {
             surface,
             statistics,
             law,
-            problem,
+            problem: Arc::new(problem),
             regime,
             transforms,
             effects,

@@ -11,7 +11,7 @@ use super::row::{State, StepRow};
 use super::setup::Setup;
 use super::start::start;
 use super::step::{SolvedStep, separated, unreachable};
-use crate::backend::{Backend, BackendError};
+use crate::backend::BackendError;
 use crate::kernel::Scalars;
 use crate::law::Law;
 use crate::scene::Control;
@@ -70,48 +70,39 @@ impl Carried {
     }
 }
 
-/// A solver with the state of its last load.
-pub(super) struct Walker<'s> {
-    pub solver: ContactSolver<'s>,
-    setup: &'s Setup,
-    controller: Controller<'s>,
-    make_backend: MakeBackend<'s>,
+/// What a path is solved with, step after step.
+#[derive(Clone, Copy)]
+pub(super) struct Means<'s> {
+    /// The scene.
+    pub setup: &'s Setup,
+    /// Where solvers get their backends from.
+    pub make_backend: MakeBackend<'s>,
+}
+
+/// A solver with the state of its last load, which may be kept between loads.
+pub(super) struct Walker {
+    pub solver: ContactSolver<'static>,
+    problem: Arc<Problem>,
     /// Whether the solver's gap belongs to a solved step.
     loaded: bool,
     interrupted: bool,
     effects: Vec<Box<dyn Carry>>,
 }
 
-impl<'s> Walker<'s> {
-    /// A solver of the problem, resumed from `carried`.
-    pub fn new(
-        setup: &'s Setup,
-        make_backend: MakeBackend<'s>,
-        backend: &'s mut dyn Backend,
-        problem: &'s Problem,
-        carried: Carried,
-    ) -> Walker<'s> {
+impl Walker {
+    /// A solver of steps of `duration` (s), resumed from `carried`.
+    pub fn new(means: &Means, duration: f64, carried: Carried) -> Walker {
+        let problem = means.setup.effects.problem_over(means.setup, duration);
+        let backend = (means.make_backend)();
         let mut walker = Walker {
-            solver: ContactSolver::new(backend, problem),
-            setup,
-            controller: Controller::new(setup, problem),
-            make_backend,
+            solver: ContactSolver::holding(backend, Arc::clone(&problem)),
+            problem,
             loaded: false,
             interrupted: false,
             effects: Vec::new(),
         };
         walker.restore(carried);
         walker
-    }
-
-    /// The scene.
-    pub fn setup(&self) -> &'s Setup {
-        self.setup
-    }
-
-    /// Where further solvers get their backends from.
-    pub fn make_backend(&self) -> MakeBackend<'s> {
-        self.make_backend
     }
 
     /// Whether the surfaces are together, or a position holds them.
@@ -158,17 +149,18 @@ impl<'s> Walker<'s> {
     /// Solves a value of the path, `duration` (s) after the last one.
     pub fn advance(
         &mut self,
+        means: &Means,
         value: f64,
         duration: f64,
         watch: &mut dyn FnMut(&Scalars) -> bool,
     ) -> Result<SolvedStep, BackendError> {
         for carry in &mut self.effects {
-            carry.before_step(self.setup, &mut self.solver, duration);
+            carry.before_step(means.setup, &mut self.solver, duration);
         }
-        let mut solved = self.solve(value, duration, watch)?;
+        let mut solved = self.solve(means, value, duration, watch)?;
         if !self.interrupted {
             for carry in &mut self.effects {
-                carry.after_step(self.setup, &mut self.solver, &mut solved, duration)?;
+                carry.after_step(means.setup, &mut self.solver, &mut solved, duration)?;
             }
         }
         Ok(solved)
@@ -176,11 +168,17 @@ impl<'s> Walker<'s> {
 
     fn solve(
         &mut self,
+        means: &Means,
         value: f64,
         duration: f64,
         watch: &mut dyn FnMut(&Scalars) -> bool,
     ) -> Result<SolvedStep, BackendError> {
-        let (setup, controller) = (self.setup, &self.controller);
+        let Means {
+            setup,
+            make_backend,
+        } = *means;
+        let problem = Arc::clone(&self.problem);
+        let controller = &Controller::new(setup, &problem);
         let mut going = true;
         let mut watch = |scalars: &Scalars| {
             going = watch(scalars);
@@ -188,12 +186,13 @@ impl<'s> Walker<'s> {
         };
         let mut attempt = Attempt {
             setup,
+            problem: &problem,
             controller,
             solver: &mut self.solver,
             value,
             duration,
             loaded: self.loaded,
-            make_backend: self.make_backend,
+            make_backend,
             watch: &mut watch,
         };
         let mut own_ways = setup.effects.iter();
@@ -231,10 +230,10 @@ impl<'s> Walker<'s> {
     }
 
     /// Has effects measure a step of the path that converged.
-    pub fn measure(&mut self, solved: &mut SolvedStep) -> Result<(), BackendError> {
-        for effect in self.setup.effects.iter() {
+    pub fn measure(&mut self, setup: &Setup, solved: &mut SolvedStep) -> Result<(), BackendError> {
+        for effect in setup.effects.iter() {
             if solved.converged {
-                effect.measure(self.setup, &mut self.solver, solved)?;
+                effect.measure(setup, &mut self.solver, solved)?;
             }
         }
         Ok(())
@@ -251,11 +250,11 @@ impl<'s> Walker<'s> {
     }
 
     /// The row of a finished load.
-    pub fn row(&self, step: usize, value: f64, solved: &SolvedStep) -> StepRow {
-        let area = self.setup.surface.grid.area();
+    pub fn row(&self, setup: &Setup, step: usize, value: f64, solved: &SolvedStep) -> StepRow {
+        let area = setup.surface.grid.area();
         let evaluation = solved.evaluation.as_ref();
         // A prescribed load is met to the residual, so the row has the prescribed one.
-        let (force, mean_pressure) = match (self.setup.scene.loading.control, evaluation) {
+        let (force, mean_pressure) = match (setup.scene.loading.control, evaluation) {
             (_, None) => (0.0, 0.0),
             (Control::Force, Some(_)) if solved.load_is_met => (value, value / area),
             (Control::Pressure, Some(_)) if solved.load_is_met => (value * area, value),
@@ -278,17 +277,17 @@ impl<'s> Walker<'s> {
             seconds: 0.0,
             contact_area_fraction_corrected: match evaluation {
                 Some(evaluation) => evaluation.contact_corrected,
-                None => self.setup.problem.law.has_wall().then_some(0.0),
+                None => setup.problem.law.has_wall().then_some(0.0),
             },
             state: evaluation.map_or(State::Separated, |e| e.state),
             columns: Vec::new(),
         };
-        let columns = self.setup.columns();
+        let columns = setup.columns();
         row.columns
             .extend(columns.into_iter().map(|column| (column, None)));
-        let sums = self.setup.effects.iter();
+        let sums = setup.effects.iter();
         let values = sums
-            .flat_map(|effect| effect.values(self.setup, evaluation))
+            .flat_map(|effect| effect.values(setup, evaluation))
             .chain(self.effects.iter().flat_map(|carry| carry.values()))
             .chain(solved.measured.iter().copied());
         for (column, value) in values {

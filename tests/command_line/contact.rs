@@ -299,7 +299,7 @@ fn contacts_in_rust_and_scenes_on_the_command_line_give_the_same_bits() {
         for (index, solution) in solutions.iter().enumerate() {
             assert!(solution.converged, "{name}");
             for (field_name, values) in [
-                ("gap", &solution.gap),
+                ("gap", &solution.gap[..]),
                 ("pressure", &solution.pressure),
                 ("displacement", &solution.displacement),
                 ("heights", &solution.heights),
@@ -375,7 +375,7 @@ fn arrays_have_the_shape_and_order_that_are_promised() {
         .expect("a solution");
     assert_eq!(solution.points, points);
     assert_eq!(solution.size, size);
-    assert_eq!(solution.heights, heights);
+    assert_eq!(*solution.heights, heights);
     for values in [&solution.gap, &solution.pressure, &solution.displacement] {
         assert_eq!(values.len(), 16 * 12);
     }

@@ -22,7 +22,8 @@ Load = tuple[str, float, "float | None"]
 class Path:
     """Solves a load each time it is asked for the next `Step`: the iterator that `Contact.path` gives.
 
-    It ends after the last load, or after one that did not converge. It does not pickle; its contact and its steps do.
+    It ends after the last load, or after one that did not converge. It does not pickle, and once begun it does not go on
+    in a fork; its contact and its steps do both.
     """
 
     def __init__(self, scene: Scene, loads: Iterator[Load], until_apart: bool, progress: Any, total: int | None = None) -> None:
