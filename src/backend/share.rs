@@ -373,6 +373,14 @@ mod tests {
                         );
                         let expected = twice(share.rank()).flat_map(|row| field(row..row + 1, 6));
                         assert!(rows.expect("all ranks").into_iter().eq(expected));
+                        let mut given = 0;
+                        let mut give = |rows: &mut [f64]| {
+                            rows.copy_from_slice(&surface[given..given + rows.len()]);
+                            given += rows.len();
+                        };
+                        let handed = share.from_first(true, &mut give).expect("all ranks");
+                        assert_eq!(handed, top);
+                        assert_eq!(given, usize::from(share.is_first()) * surface.len());
                         let gathered = share.whole_on_first(top).expect("all ranks");
                         assert_eq!(gathered.is_empty(), !share.is_first());
                         assert!(gathered.is_empty() || gathered == *surface);

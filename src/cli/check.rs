@@ -12,7 +12,8 @@ use crate::units::format_si;
 /// Reads and validates a scene and prints a report.
 pub(super) fn check(arguments: &CheckArguments) -> Result<(), Failure> {
     let scene = arguments.scene.read()?;
-    memory_check::check_files(&scene)?;
+    let ranks = arguments.ranks.map_or(1, usize::from);
+    memory_check::check_files(&scene, ranks)?;
     let plan = Plan::for_scene(scene).map_err(|error| arguments.scene.surface_failure(error))?;
     let place = Place::for_scene(&plan.scene);
     let cost = plan.cost(place)?;
@@ -21,8 +22,8 @@ pub(super) fn check(arguments: &CheckArguments) -> Result<(), Failure> {
         crate::device::check_points(cost.points)?;
     }
     let mut report = describe(&plan, &cost, arguments.verbose)?;
-    if let Some(ranks) = arguments.ranks {
-        report += &on_ranks(&plan, &cost, ranks.into());
+    if arguments.ranks.is_some() {
+        report += &on_ranks(&plan, &cost, ranks);
     }
     print(&report)?;
     for warning in &plan.warnings {

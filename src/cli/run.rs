@@ -6,12 +6,11 @@ use super::interrupts::Interrupts;
 use super::launcher::Launched;
 use super::progress::{Progress, time};
 use super::{Failure, RunArguments, folder_or_default, note, say, table, warn};
+use crate::backend::ranks::agree;
 use crate::clock::Clock;
 use crate::device::Device;
 use crate::output::sentence;
-use crate::run::{
-    RunEnd, RunError, RunObserver, RunOptions, RunStatus, agree, run_on_ranks, run_with,
-};
+use crate::run::{RunEnd, RunError, RunObserver, RunOptions, RunStatus, run_on_ranks, run_with};
 use crate::study::{StepRow, Unreachable};
 
 /// Solves a scene and writes its folder, with the other processes of a launcher if there are some.

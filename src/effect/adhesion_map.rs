@@ -49,7 +49,6 @@ impl Hooks for AdhesionMap {
         HostBytes {
             // The factors of the surface, of the problem and of the watch for jumps.
             kept: 3 * DOUBLE * sizes.points,
-            read: DOUBLE * sizes.points,
             ..HostBytes::default()
         }
     }

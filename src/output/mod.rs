@@ -87,7 +87,7 @@ pub use picture::{Load, Picture, write_picture};
 pub(crate) use sentence::sentence;
 #[doc(hidden)]
 pub use state::SavedState;
-pub(crate) use state::hand_over;
+pub(crate) use state::{StateFile, hand_over};
 pub use summary::{Effects, Seconds, Summary, peak_memory_bytes};
 #[doc(hidden)]
 pub use visible::{visible, visible_line};

@@ -6,9 +6,9 @@
 //! computes in 32.
 
 use std::borrow::Cow;
-use std::fs;
-use std::io::{self, Write};
-use std::path::Path;
+use std::fs::File;
+use std::io::{self, BufReader, Cursor, Read, Seek, SeekFrom, Write};
+use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
 use crc32fast::Hasher;
@@ -101,7 +101,8 @@ impl SavedState<'_> {
 
     /// The state that [`to_bytes`](Self::to_bytes) gave; `None` for other bytes.
     pub fn from_bytes(bytes: &[u8]) -> Option<SavedState<'static>> {
-        decode(bytes).ok()
+        let file = StateFile::check(Cursor::new(bytes), Path::new("")).ok()?;
+        file.read_all().ok()
     }
 
     /// Writes the form to `out`, numbers one after another: a field is large, and a second one of bytes would be
@@ -184,13 +185,7 @@ impl SavedState<'_> {
     /// # Errors
     /// Refused where the file is damaged, or of another version of tabor.
     pub fn read(path: &Path) -> Result<Option<SavedState<'static>>, OutputError> {
-        match fs::read(path) {
-            Ok(bytes) => decode(&bytes)
-                .map(Some)
-                .map_err(|reason| OutputError::refused(path, reason)),
-            Err(error) if error.kind() == io::ErrorKind::NotFound => Ok(None),
-            Err(error) => Err(OutputError::write("read", path)(error)),
-        }
+        StateFile::open(path)?.map(StateFile::read_all).transpose()
     }
 }
 
@@ -240,95 +235,204 @@ pub fn hand_over(
     Ok(())
 }
 
-/// The state in `bytes`, or why there is none in it and the way out.
-fn decode(bytes: &[u8]) -> Result<SavedState<'static>, String> {
-    let damaged = || format!("is damaged; {FRESH}");
-    let content = bytes.strip_prefix(FORM).ok_or_else(|| {
-        format!("is not a state of this version of tabor, or was cut short; {FRESH}")
-    })?;
-    let (checked, checksum) = bytes
-        .split_last_chunk::<CHECKSUM_BYTES>()
-        .ok_or_else(damaged)?;
-    if crc32fast::hash(checked) != u32::from_le_bytes(*checksum) {
-        return Err(damaged());
-    }
-    let content = &content[..content.len().saturating_sub(CHECKSUM_BYTES)];
-    let (length, content) = content
-        .split_first_chunk::<LENGTH_BYTES>()
-        .ok_or_else(damaged)?;
-    let length = usize::try_from(u64::from_le_bytes(*length)).map_err(|_| damaged())?;
-    let (head, mut content) = content.split_at_checked(length).ok_or_else(damaged)?;
-    let head: Head = serde_json::from_slice(head).map_err(|_| damaged())?;
-    if head.tabor != env!("CARGO_PKG_VERSION") {
-        return Err(format!(
-            "was written by tabor {}, and this is {}, which may round differently; {FRESH}",
-            head.tabor,
-            env!("CARGO_PKG_VERSION")
-        ));
-    }
-    let mut take = |bytes: usize| -> Result<&[u8], String> {
-        let (part, rest) = content.split_at_checked(bytes).ok_or_else(damaged)?;
-        content = rest;
-        Ok(part)
-    };
-    let width = if head.single { 4 } else { 8 };
-    let mut fields = Vec::new();
-    for (name, count) in head.fields {
-        let part = take(count.checked_mul(width).ok_or_else(damaged)?)?;
-        let values = if head.single {
-            numbers(part, |bytes| f64::from(f32::from_le_bytes(bytes)))
-        } else {
-            numbers(part, f64::from_le_bytes)
-        };
-        fields.push(CheckpointField {
-            name,
-            values: Arc::new(values),
-        });
-    }
-    let points = match head.points {
-        None => None,
-        Some(count) => {
-            let states = take(count)?.iter().map(|&byte| PointState::from_byte(byte));
-            Some(states.collect::<Option<Vec<_>>>().ok_or_else(damaged)?)
-        }
-    };
-    if !content.is_empty() {
-        return Err(damaged());
-    }
-    Ok(SavedState {
-        scene: head.scene,
-        solver: head.solver,
-        machine: head.machine,
-        finished: head.finished,
-        curve: head.curve,
-        warnings: head.warnings,
-        single: head.single,
-        checkpoint: Cow::Owned(Checkpoint {
-            fields,
-            evaluated_under: match head.evaluated_under {
-                None => None,
-                Some(stiffness) => Some(stiffness.parse().map_err(|_| damaged())?),
-            },
-            points,
-            jump_in_steps: head.jump_in_steps,
-            jump_off_steps: head.jump_off_steps,
-            pull_off: match head.pull_off {
-                None => None,
-                Some((step, lower, upper)) => Some(PullOff {
-                    step,
-                    lower: lower.parse().map_err(|_| damaged())?,
-                    upper: upper.parse().map_err(|_| damaged())?,
-                }),
-            },
-            transforms: head.transforms.parse().map_err(|_| damaged())?,
-        }),
-    })
+/// A state that was found whole, on the disk or in memory. Its numbers are read when they are asked for, so that a process
+/// which keeps some of them need not hold all.
+#[derive(Debug)]
+pub struct StateFile<R = BufReader<File>> {
+    /// The state without its numbers: fields and points are empty.
+    pub state: SavedState<'static>,
+    /// How many numbers each of its fields has.
+    pub lengths: Vec<usize>,
+    /// How many points it has.
+    pub points: usize,
+    /// From the first number that has not been read.
+    file: R,
+    path: PathBuf,
 }
 
-/// The numbers of `N` bytes each in `bytes`.
-fn numbers<const N: usize>(bytes: &[u8], number: impl Fn([u8; N]) -> f64) -> Vec<f64> {
+impl StateFile {
+    /// Opens the state at `path`; `None` where there is none.
+    ///
+    /// # Errors
+    /// As [`SavedState::read`].
+    pub fn open(path: &Path) -> Result<Option<StateFile>, OutputError> {
+        match File::open(path) {
+            Ok(file) => StateFile::check(BufReader::new(file), path).map(Some),
+            Err(error) if error.kind() == io::ErrorKind::NotFound => Ok(None),
+            Err(error) => Err(OutputError::write("read", path)(error)),
+        }
+    }
+}
+
+impl<R: Read + Seek> StateFile<R> {
+    /// Reads the file once through for its checksum, and then its head.
+    fn check(mut file: R, path: &Path) -> Result<Self, OutputError> {
+        let refused = |reason: String| OutputError::refused(path, reason);
+        let damaged = || refused(format!("is damaged; {FRESH}"));
+        let unread = |cause| OutputError::write("read", path)(cause);
+        let length = file.seek(SeekFrom::End(0)).map_err(unread)?;
+        file.rewind().map_err(unread)?;
+        let mut form = [0; FORM.len()];
+        if file.read_exact(&mut form).is_err() || form != FORM {
+            return Err(refused(format!(
+                "is not a state of this version of tabor, or was cut short; {FRESH}"
+            )));
+        }
+        let mut left = (length - FORM.len() as u64)
+            .checked_sub(CHECKSUM_BYTES as u64)
+            .ok_or_else(damaged)?;
+        let mut checked = Hasher::new();
+        checked.update(&form);
+        let mut piece = vec![0; PIECE * size_of::<f64>()];
+        let mut unchecked = left;
+        while unchecked > 0 {
+            let count = unchecked.min(piece.len() as u64) as usize;
+            file.read_exact(&mut piece[..count]).map_err(unread)?;
+            checked.update(&piece[..count]);
+            unchecked -= count as u64;
+        }
+        let mut checksum = [0; CHECKSUM_BYTES];
+        file.read_exact(&mut checksum).map_err(unread)?;
+        if checked.finalize() != u32::from_le_bytes(checksum) {
+            return Err(damaged());
+        }
+
+        let mut take = |count: u64| {
+            left = left.checked_sub(count).ok_or_else(damaged)?;
+            Ok(count as usize)
+        };
+        file.seek(SeekFrom::Start(FORM.len() as u64))
+            .map_err(unread)?;
+        let mut head_length = [0; LENGTH_BYTES];
+        take(LENGTH_BYTES as u64)?;
+        file.read_exact(&mut head_length).map_err(unread)?;
+        let mut head = vec![0; take(u64::from_le_bytes(head_length))?];
+        file.read_exact(&mut head).map_err(unread)?;
+        let head: Head = serde_json::from_slice(&head).map_err(|_| damaged())?;
+        if head.tabor != env!("CARGO_PKG_VERSION") {
+            return Err(refused(format!(
+                "was written by tabor {}, and this is {}, which may round differently; {FRESH}",
+                head.tabor,
+                env!("CARGO_PKG_VERSION")
+            )));
+        }
+        let width = if head.single { 4 } else { 8 };
+        for (_, count) in &head.fields {
+            take((*count as u64).checked_mul(width).ok_or_else(damaged)?)?;
+        }
+        take(head.points.unwrap_or(0) as u64)?;
+        if left > 0 {
+            return Err(damaged());
+        }
+        let number = |text: String| text.parse().map_err(|_| damaged());
+        let state = SavedState {
+            scene: head.scene,
+            solver: head.solver,
+            machine: head.machine,
+            finished: head.finished,
+            curve: head.curve,
+            warnings: head.warnings,
+            single: head.single,
+            checkpoint: Cow::Owned(Checkpoint {
+                fields: (head.fields.iter())
+                    .map(|(name, _)| CheckpointField {
+                        name: name.clone(),
+                        values: Arc::default(),
+                    })
+                    .collect(),
+                evaluated_under: head.evaluated_under.map(number).transpose()?,
+                points: head.points.map(|_| Vec::new()),
+                jump_in_steps: head.jump_in_steps,
+                jump_off_steps: head.jump_off_steps,
+                pull_off: match head.pull_off {
+                    None => None,
+                    Some((step, lower, upper)) => Some(PullOff {
+                        step,
+                        lower: number(lower)?,
+                        upper: number(upper)?,
+                    }),
+                },
+                transforms: number(head.transforms)?,
+            }),
+        };
+        Ok(StateFile {
+            state,
+            lengths: head.fields.iter().map(|(_, count)| *count).collect(),
+            points: head.points.unwrap_or(0),
+            file,
+            path: path.to_path_buf(),
+        })
+    }
+
+    /// The next numbers of the fields, which come one field after another.
+    ///
+    /// # Errors
+    /// The file cannot be read.
+    pub fn numbers(&mut self, values: &mut [f64]) -> Result<(), OutputError> {
+        let mut piece = vec![0; PIECE * size_of::<f64>()];
+        for values in values.chunks_mut(PIECE) {
+            let width = if self.state.single { 4 } else { 8 };
+            let bytes = &mut piece[..values.len() * width];
+            let read = self.file.read_exact(bytes);
+            read.map_err(OutputError::write("read", &self.path))?;
+            if self.state.single {
+                take_numbers(bytes, values, |bytes| f64::from(f32::from_le_bytes(bytes)));
+            } else {
+                take_numbers(bytes, values, f64::from_le_bytes);
+            }
+        }
+        Ok(())
+    }
+
+    /// The next states of points, after all fields.
+    ///
+    /// # Errors
+    /// The file cannot be read, or has other bytes.
+    pub fn states(&mut self, states: &mut [u8]) -> Result<(), OutputError> {
+        let read = self.file.read_exact(states);
+        read.map_err(OutputError::write("read", &self.path))?;
+        if states
+            .iter()
+            .all(|&byte| PointState::from_byte(byte).is_some())
+        {
+            Ok(())
+        } else {
+            Err(OutputError::refused(
+                &self.path,
+                format!("is damaged; {FRESH}"),
+            ))
+        }
+    }
+
+    /// The whole state.
+    ///
+    /// # Errors
+    /// As [`numbers`](Self::numbers) and [`states`](Self::states).
+    pub fn read_all(mut self) -> Result<SavedState<'static>, OutputError> {
+        let mut checkpoint = self.state.checkpoint.clone().into_owned();
+        for (place, field) in checkpoint.fields.iter_mut().enumerate() {
+            let mut values = vec![0.0; self.lengths[place]];
+            self.numbers(&mut values)?;
+            field.values = Arc::new(values);
+        }
+        if let Some(points) = &mut checkpoint.points {
+            let mut states = vec![0; self.points];
+            self.states(&mut states)?;
+            points.extend(states.into_iter().filter_map(PointState::from_byte));
+        }
+        Ok(SavedState {
+            checkpoint: Cow::Owned(checkpoint),
+            ..self.state
+        })
+    }
+}
+
+/// Numbers of `N` bytes each.
+fn take_numbers<const N: usize>(bytes: &[u8], values: &mut [f64], number: impl Fn([u8; N]) -> f64) {
     let (chunks, _) = bytes.as_chunks::<N>();
-    chunks.iter().map(|chunk| number(*chunk)).collect()
+    for (value, chunk) in values.iter_mut().zip(chunks) {
+        *value = number(*chunk);
+    }
 }
 
 #[cfg(test)]
@@ -371,6 +475,12 @@ mod tests {
                 transforms: 1234.5625,
             }),
         }
+    }
+
+    fn decode(bytes: &[u8]) -> Result<SavedState<'static>, String> {
+        let read = StateFile::check(Cursor::new(bytes), Path::new("state"));
+        let read = read.and_then(StateFile::read_all);
+        read.map_err(|error| error.to_string())
     }
 
     fn bytes_of(state: &SavedState) -> Vec<u8> {

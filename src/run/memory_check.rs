@@ -6,7 +6,7 @@ use crate::backend::{BackendError, dry_run::Place, ranks::Ranks};
 use crate::grid::Grid;
 use crate::scene::{Precision, Scene, SurfacePart};
 use crate::study::{Cost, Memory};
-use crate::surface::{MOST_POINTS, claimed_points};
+use crate::surface::{MOST_POINTS, claimed_points, is_by_rows};
 
 /// Environment variable that sets the memory a run may take, in bytes.
 const LIMIT: &str = "TABOR_MEMORY";
@@ -218,15 +218,16 @@ pub(crate) fn check_on_ranks(
 /// As [`check_grid`], for a grid that the scene gives itself; one that a height file carries is checked
 /// once the file is read.
 pub(crate) fn check_scene(scene: &Scene) -> Result<(), MemoryError> {
-    check_scene_by(scene, |grid| check_grid(scene, grid))
+    check_scene_by(scene, 1, |grid| check_grid(scene, grid))
 }
 
-/// The same by one of these two checks.
+/// The same by one of these two checks, of so many ranks.
 pub(super) fn check_scene_by(
     scene: &Scene,
+    ranks: usize,
     check: impl Fn(Grid) -> Result<(), MemoryError>,
 ) -> Result<(), MemoryError> {
-    check_files(scene)?;
+    check_files(scene, ranks)?;
     match (scene.grid.points, scene.grid.size) {
         // Counts past all grids are the surface's to refuse.
         (Some(points), Some(size)) if points[0].saturating_mul(points[1]) <= MOST_POINTS => {
@@ -237,10 +238,10 @@ pub(super) fn check_scene_by(
 }
 
 /// Refuses height files that are longer than the memory, and those whose header claims more points than
-/// it holds: a small file may be a large image.
-pub(crate) fn check_files(scene: &Scene) -> Result<(), MemoryError> {
+/// it holds: a small file may be a large image. Those that several ranks read by rows count with their fields.
+pub(crate) fn check_files(scene: &Scene, ranks: usize) -> Result<(), MemoryError> {
     let files = scene.surfaces.iter().filter_map(|part| match part {
-        SurfacePart::File(file) => Some(&file.path),
+        SurfacePart::File(file) if ranks < 2 || !is_by_rows(file) => Some(&file.path),
         _ => None,
     });
     for path in files {

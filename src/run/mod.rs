@@ -34,8 +34,6 @@ pub use end::{RunEnd, RunError, RunStatus};
 pub use in_memory::solve_with;
 pub use memory_check::MemoryError;
 pub use observer::RunObserver;
-#[cfg(feature = "cli")]
-pub(crate) use on_ranks::agree;
 pub use options::RunOptions;
 
 use std::path::Path;
@@ -43,15 +41,13 @@ use std::sync::Arc;
 
 use crate::backend::BackendError;
 use crate::backend::cpu::with_threads;
-use crate::backend::ranks::Ranks;
+use crate::backend::ranks::{Ranks, agree};
 use crate::clock::Clock;
 use crate::device::SelectedDevice;
 use crate::output::Seconds;
 use crate::scene::Scene;
 use crate::study::{Checkpoint, Earlier, Setup, WalkEnd, WalkError, walk_on};
 use crate::surface::Surface;
-#[cfg(not(feature = "cli"))]
-use on_ranks::agree;
 use on_ranks::{Ask, Following, LEADER, Leading, earlier_of_leader};
 use run_directory::{ExistingRun, RunDirectory, fingerprint};
 use run_recorder::RunRecorder;
@@ -160,7 +156,8 @@ fn prepared(
         Some(ranks) => memory_check::check_on_ranks(&scene, grid, &**ranks),
         None => memory_check::check_grid(&scene, grid),
     };
-    memory_check::check_scene_by(&scene, check)?;
+    let count = ranks.map_or(1, |ranks| ranks.count());
+    memory_check::check_scene_by(&scene, count, check)?;
     let surface = Surface::on_ranks(&scene, ranks.cloned())?;
     // Of a grid that a height file carries.
     check(surface.grid)?;
@@ -222,7 +219,7 @@ impl Work<'_> {
             self.draws,
             scene.clone(),
         );
-        let directory = match self.ranks {
+        let mut directory = match self.ranks {
             Some(ranks) => agree(ranks, opened.map_err(RunError::from).and_then(threaded))?,
             None => opened?,
         };
@@ -234,7 +231,7 @@ impl Work<'_> {
         }
         let mut earlier = directory.earlier.clone();
         if let Some(ranks) = self.ranks {
-            earlier = earlier_of_leader(ranks, setup, &earlier)?;
+            earlier = earlier_of_leader(ranks, setup, &earlier, directory.state.take())?;
         }
         seconds.add("solve", earlier.rows.iter().map(|row| row.seconds).sum());
         let finished = earlier.rows.len();
@@ -286,7 +283,7 @@ impl Work<'_> {
             ranks,
             with_threads(self.threads, || ()).map_err(RunError::from),
         )?;
-        let earlier = earlier_of_leader(ranks, self.setup, &Earlier::default())?;
+        let earlier = earlier_of_leader(ranks, self.setup, &Earlier::default(), None)?;
         let make_backend = || device.backend();
         let mut following = Following::new(ranks, self.setup);
         let walked = with_threads(self.threads, || {

@@ -6,9 +6,9 @@ use std::sync::Arc;
 
 use super::RunError;
 use crate::backend::BackendError;
-use crate::backend::ranks::{Parts, RankError, Ranks};
+use crate::backend::ranks::{Parts, RankError, Ranks, agree};
 use crate::kernel::Scalars;
-use crate::output::{SavedState, hand_over, rows_from_text, rows_to_text};
+use crate::output::{SavedState, StateFile, hand_over, rows_from_text, rows_to_text};
 use crate::scene::{FieldName, StepChoice};
 use crate::study::{
     Checkpoint, CheckpointField, Column, Earlier, Evaluation, FinishedStep, Observer, PointState,
@@ -17,22 +17,6 @@ use crate::study::{
 
 /// The rank that leads.
 pub(super) const LEADER: usize = 0;
-
-/// Takes from every rank whether what it did went well; where it did not, the first rank for which it failed keeps its
-/// error, and the others have that rank's end for theirs, so that it is told once.
-pub(crate) fn agree<T, E: From<RankError>>(ranks: &dyn Ranks, own: Result<T, E>) -> Result<T, E> {
-    let mut went_well = vec![0; ranks.count()];
-    let all = Parts {
-        bytes: &mut went_well[..],
-        lengths: &vec![1; ranks.count()],
-    };
-    ranks.gather(&[u8::from(own.is_ok())], all)?;
-    match went_well.iter().position(|&well| well == 0) {
-        None => own,
-        Some(rank) if rank == ranks.rank() => own,
-        Some(rank) => Err(RankError { rank }.into()),
-    }
-}
 
 /// So many bytes of the leader, on every rank.
 fn from_leader(ranks: &dyn Ranks, own: &[u8], length: usize) -> Result<Vec<u8>, RankError> {
@@ -102,14 +86,15 @@ impl Ask {
 }
 
 /// The steps that the leader's folder has already, on every rank, with its rows of the fields; `own` are those that the
-/// leader found there.
+/// leader found there, and `file` has the fields, which it reads and hands on some rows at a time.
 ///
 /// # Errors
-/// Another rank has ended.
+/// Another rank has ended; on the leader, a file that cannot be read.
 pub(super) fn earlier_of_leader(
     ranks: &dyn Ranks,
     setup: &Setup,
     own: &Earlier,
+    mut file: Option<StateFile>,
 ) -> Result<Earlier, RunError> {
     let (columns, share) = (Column::for_scene(&setup.scene), &setup.problem.share);
     let rows = all_from_leader(ranks, rows_to_text(&own.rows, &columns).as_bytes())?;
@@ -129,16 +114,25 @@ pub(super) fn earlier_of_leader(
     let rows = rows_from_text(&String::from_utf8_lossy(&rows), &columns).ok_or(gone)?;
     let state = SavedState::from_bytes(&state).ok_or(gone)?;
     let mut checkpoint = state.checkpoint.into_owned();
+    // To the end, whatever becomes of what is read: the other ranks take all.
+    let mut read = Ok(());
     for field in &mut checkpoint.fields {
-        let all = own.checkpoint.field(&field.name).unwrap_or(&[]);
-        field.values = Arc::new(share.from_first(all, false)?);
+        let rows = share.from_first(false, &mut |values| {
+            if let (Ok(()), Some(file)) = (&read, &mut file) {
+                read = file.numbers(values);
+            }
+        });
+        field.values = Arc::new(rows?);
     }
     if let Some(points) = &mut checkpoint.points {
-        let all = own.checkpoint.points.iter().flatten();
-        let all: Vec<u8> = all.map(|point| *point as u8).collect();
-        let rows = share.from_first(&all, true)?;
+        let rows = share.from_first(true, &mut |states| {
+            if let (Ok(()), Some(file)) = (&read, &mut file) {
+                read = file.states(states);
+            }
+        })?;
         points.extend(rows.into_iter().filter_map(PointState::from_byte));
     }
+    agree(ranks, read.map_err(RunError::from))?;
     Ok(Earlier { rows, checkpoint })
 }
 

@@ -9,7 +9,8 @@ use crc32fast::Hasher;
 use super::earlier_files::lost;
 use crate::device::SelectedDevice;
 use crate::output::{
-    Curve, CurveWriter, EMPTY_CHECKSUM, FRESH, OutputError, RunFolder, SavedState, set_aside,
+    Curve, CurveWriter, EMPTY_CHECKSUM, FRESH, OutputError, RunFolder, SavedState, StateFile,
+    set_aside,
 };
 use crate::scene::{Precision, Scene};
 use crate::study::{Checkpoint, Column, Earlier, Planned, Setup};
@@ -20,6 +21,8 @@ pub(super) struct RunDirectory {
     pub curve: CurveWriter,
     /// Steps done already.
     pub earlier: Earlier,
+    /// The state after them, where its numbers are left for several ranks to read.
+    pub state: Option<StateFile>,
     /// Warnings of the run so far.
     pub warnings: Vec<String>,
     /// Remarks for the user.
@@ -145,6 +148,7 @@ fn start(
         folder,
         curve,
         earlier: Earlier::default(),
+        state: None,
         warnings: Vec::new(),
         remarks,
         lost: Vec::new(),
@@ -186,36 +190,33 @@ fn sound(
     folder: &RunFolder,
     scene: &str,
     setup: &Setup,
-) -> Result<Option<(SavedState<'static>, Curve)>, OutputError> {
+) -> Result<Option<(StateFile, Curve)>, OutputError> {
     let path = folder.state_path(STATE);
     let curve = Curve::read(&folder.curve_path(), Column::for_scene(&setup.scene))?;
     let refuse = |reason: String| {
         let reason = format!("{reason}; {FRESH}");
         Err(OutputError::refused(&path, reason))
     };
-    let Some(state) = SavedState::read(&path)? else {
+    let Some(file) = StateFile::open(&path)? else {
         return match curve.rows().len() {
             0 => Ok(None),
             rows => refuse(format!("is missing, where curve.csv has {rows} steps")),
         };
     };
+    let state = &file.state;
     if state.scene != scene {
         return refuse("is of another scene".to_owned());
     }
     let points = setup.problem.shape.len();
-    let handed = &state.checkpoint;
     let loading = &setup.scene.loading;
     if (state.finished > loading.path.len() && !loading.until_apart)
-        || handed
-            .fields
-            .iter()
-            .any(|field| field.values.len() != points)
-        || (handed.points.as_ref()).is_some_and(|points| points.len() != setup.surface.grid.len())
+        || file.lengths.iter().any(|length| *length != points)
+        || (state.checkpoint.points.is_some() && file.points != setup.surface.grid.len())
     {
         return refuse("does not fit the scene".to_owned());
     }
     curve.expect(state.finished, state.curve)?;
-    Ok(Some((state, curve)))
+    Ok(Some((file, curve)))
 }
 
 /// What is in a folder of this scene, if it is `there` to be resumed; `None` where the run ended before it
@@ -231,8 +232,13 @@ fn resume_from(
     if !there {
         return Ok(None);
     }
-    let Some((state, curve)) = sound(folder, scene, setup)? else {
+    let Some((file, curve)) = sound(folder, scene, setup)? else {
         return Ok(None);
+    };
+    let (state, file) = if setup.problem.share.is_whole() {
+        (file.read_all()?, None)
+    } else {
+        (file.state.clone(), Some(file))
     };
     if state.finished == 0 {
         // Of an earlier run, where the one that was to replace it ended before it had removed them.
@@ -301,6 +307,7 @@ fn resume_from(
             rows,
             checkpoint: state.checkpoint.into_owned(),
         },
+        state: file,
         warnings,
         remarks,
         lost: lost.into_iter().collect(),

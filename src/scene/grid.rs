@@ -8,7 +8,7 @@ use super::{Boundary, GridScene};
 use crate::units::Dimension;
 
 /// Most points along one axis.
-const MOST_POINTS: i64 = 65536;
+const MOST_POINTS: i64 = 1 << 18;
 
 /// Reads `[grid]`. Points and size may be left out if a height file can provide them.
 pub(super) fn read(scene: &Reader, surface_from_file: bool) -> Option<GridScene> {

@@ -181,8 +181,6 @@ pub struct HostBytes {
     pub kept: u64,
     /// During one part of a step only; the largest counts.
     pub passing: u64,
-    /// Of whole fields while they are read, on each of several processes that share the contact.
-    pub read: u64,
     /// Passing ones of whole fields, on one process however many share the contact.
     pub gathered: u64,
     /// Results of solves that are held beside the one that is solved.
@@ -195,7 +193,6 @@ impl HostBytes {
         HostBytes {
             kept: self.kept + other.kept,
             passing: self.passing.max(other.passing),
-            read: self.read.max(other.read),
             gathered: self.gathered.max(other.gathered),
             results: self.results + other.results,
         }

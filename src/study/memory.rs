@@ -8,12 +8,15 @@ use super::cost::Cost;
 use crate::backend::Shape;
 use crate::backend::cpu::{exchange_bytes, largest_slab};
 use crate::grid::{Boundary, Grid};
-use crate::scene::{FieldName, Scene, StepChoice, SurfacePart};
+use crate::scene::{AdhesionMap, FieldName, HeightFileScene, Scene, StepChoice, SurfacePart};
+use crate::surface::is_by_rows;
 
 /// A double on the host.
 pub(crate) const DOUBLE: u64 = 8;
 /// The program and its threads, as measured on scenes of a few points.
 const PROGRAM: u64 = 16 << 20;
+/// MPI and its connections in a rank, as measured on the same scenes.
+const MPI: u64 = 8 << 20;
 /// Graphics drivers that a run looks for, as measured with a software driver on 512 x 512 points.
 const DRIVERS: u64 = 56 << 20;
 /// Bytes a point of the results of a step: gap and pressure, and a byte for the state.
@@ -112,7 +115,7 @@ impl Memory {
         let first = alone + first_start + result * cost.host.results;
         let step = iterating.max(idle + evaluating) + before + results;
         // Rows of others on their way through the first rank.
-        let coming = if ranks > 1 { 2 * ROUND } else { 0 };
+        let coming = if ranks > 1 { 2 * ROUND.min(field) } else { 0 };
         let writing = writing(scene, points, grid.len() as u64) + coming;
         let ended = idle + points_before + writing.max(results.max(result) + state + coming);
         let walking = first.max(step).max(ended).max(idle + starting);
@@ -128,7 +131,9 @@ impl Memory {
         let jump = u64::from(cost.searches.jumps)
             * (load + before + state + results + result + other_solver);
 
-        let drivers = if cfg!(feature = "gpu") && scene.looks_for_adapters(shape.len()) {
+        // Several ranks look for no adapter.
+        let looks = ranks == 1 && scene.looks_for_adapters(shape.len());
+        let drivers = if cfg!(feature = "gpu") && looks {
             DRIVERS
         } else {
             0
@@ -143,9 +148,9 @@ impl Memory {
         } else {
             0
         };
-        let program = PROGRAM + drivers + unused;
-        let building =
-            building(scene, grid, own_rows, ranks) + if ranks > 1 { cost.host.read } else { 0 };
+        let mpi = if ranks > 1 { MPI } else { 0 };
+        let program = PROGRAM + drivers + mpi + unused;
+        let building = building(scene, grid, own_rows, ranks);
         let without_search = building.max(kept + walking.max(pull_off));
         Memory {
             solver,
@@ -157,8 +162,8 @@ impl Memory {
     }
 }
 
-/// Bytes while the heights of so many rows are made and their statistics taken. Several ranks hold files and maps
-/// whole, and exchange columns some at a time.
+/// Bytes while the heights of so many rows are made and their statistics taken. The first of several ranks holds files and maps
+/// whole that are not read by rows, one at a time; they exchange columns some at a time.
 fn building(scene: &Scene, grid: Grid, rows: usize, ranks: usize) -> u64 {
     let points = (rows * grid.nx) as u64;
     let spectrum = 2 * DOUBLE * ((grid.nx / 2 + 1) * rows) as u64;
@@ -172,24 +177,46 @@ fn building(scene: &Scene, grid: Grid, rows: usize, ranks: usize) -> u64 {
         ..2 => 0,
         _ => 3 * ROUND.min(2 * DOUBLE * ((grid.nx / 2 + 1).div_ceil(ranks) * grid.ny) as u64),
     };
-    let files = scene
-        .surfaces
-        .iter()
-        .filter(|part| matches!(part, SurfacePart::File(_) | SurfacePart::Heights(_)))
-        .count() as u64;
+    let files = scene.surfaces.iter().filter_map(|part| match part {
+        SurfacePart::File(file) => Some(DOUBLE * points + whole_file(file, whole, ranks)),
+        SurfacePart::Heights(_) => Some(whole),
+        _ => None,
+    });
+    // Of several ranks a file that one holds whole goes before the next one.
+    let map = scene
+        .adhesion
+        .as_ref()
+        .and_then(|adhesion| adhesion.map.as_ref());
+    let map = match map {
+        Some(AdhesionMap::File(path)) if ranks > 1 => {
+            let file = HeightFileScene::new(path);
+            DOUBLE * points + whole_file(&file, whole, ranks)
+        }
+        Some(_) if ranks > 1 => DOUBLE * points,
+        _ => 0,
+    };
     let part = scene.surfaces.iter().map(|part| match part {
         SurfacePart::SelfAffine(rough) => {
             DOUBLE * points + held_columns(rough.shortest) + exchanged
         }
         _ => 0,
     });
-    let parts = DOUBLE * points + files * whole + part.max().unwrap_or(0);
+    let parts = DOUBLE * points + files.sum::<u64>() + part.max().unwrap_or(0);
     let statistics = match scene.grid.boundary {
         // The spectrum by rows; its columns some at a time.
         Boundary::Periodic => DOUBLE * points + spectrum + exchanged,
         Boundary::Free => DOUBLE * points,
     };
-    parts.max(statistics)
+    parts.max(statistics).max(DOUBLE * points + map)
+}
+
+/// Bytes of a file beside the held rows: several ranks read some by rows, and of another one the first rank holds all.
+fn whole_file(file: &HeightFileScene, whole: u64, ranks: usize) -> u64 {
+    if ranks > 1 && !is_by_rows(file) {
+        whole
+    } else {
+        0
+    }
 }
 
 /// Bytes of a result of so many points, of `all` of the grid, and of what is written of it: values that are worked out

@@ -2,14 +2,20 @@
 
 use nalgebra::{DMatrix, DVector};
 
+use crate::backend::Share;
 use crate::scene::Detrend;
 
-/// Subtracts the least-squares surface of the given kind from `heights`, shape `[rows, columns]`,
+/// Most terms of a surface, and the sums of their least squares: the products of each two, and those with the heights.
+const TERMS: usize = 6;
+const SUMS: usize = TERMS * TERMS + TERMS;
+
+/// Subtracts the least-squares surface of the given kind from `heights`, the rows of a map that this process holds,
 /// row-major.
 ///
 /// On a map too narrow for a term (two columns and a quadratic) the solution of least norm is
 /// taken.
-pub(super) fn detrend(heights: &mut [f64], rows: usize, columns: usize, kind: Detrend) {
+pub(super) fn detrend(heights: &mut [f64], share: &Share, kind: Detrend) {
+    let [columns, rows] = share.surface();
     let terms = match kind {
         Detrend::None => return,
         Detrend::Lines => {
@@ -21,25 +27,29 @@ pub(super) fn detrend(heights: &mut [f64], rows: usize, columns: usize, kind: De
         }
         Detrend::Mean => 1,
         Detrend::Plane => 3,
-        Detrend::Quadratic => 6,
+        Detrend::Quadratic => TERMS,
     };
+    let count = (columns * rows) as f64;
+    let first = share.surface_rows().start * columns;
     // Subtract the mean first: a large offset would cost digits in the sums.
-    let mean = heights.iter().sum::<f64>() / heights.len() as f64;
-    let mut normal = DMatrix::zeros(terms, terms);
-    let mut load = DVector::zeros(terms);
-    for (index, height) in heights.iter_mut().enumerate() {
-        *height -= mean;
-        let basis = basis(index, rows, columns);
-        for (i, first) in basis.iter().take(terms).enumerate() {
-            load[i] += first * *height;
-            for (j, second) in basis.iter().take(terms).enumerate() {
-                normal[(i, j)] += first * second;
+    let mean = share.surface_sum_by(heights, |height| height) / count;
+    heights.iter_mut().for_each(|height| *height -= mean);
+    let sums: [f64; SUMS] = share.sums(heights.len() / columns, |row, sums| {
+        let (products, load) = sums.split_at_mut(TERMS * TERMS);
+        for (index, height) in line(heights, row, columns) {
+            let basis = basis(first + index, rows, columns);
+            for (i, one) in basis.iter().take(terms).enumerate() {
+                load[i] += one * height;
+                for (j, other) in basis.iter().take(terms).enumerate() {
+                    products[i * TERMS + j] += one * other;
+                }
             }
         }
-    }
+    });
+    let normal = DMatrix::from_fn(terms, terms, |i, j| sums[i * TERMS + j]);
+    let load = DVector::from_fn(terms, |i, _| sums[TERMS * TERMS + i]);
     // Scaled so that a term that a narrow map cannot determine has a singular value of 0 up to
     // rounding.
-    let count = heights.len() as f64;
     let Ok(coefficients) = (normal / count)
         .svd(true, true)
         .solve(&(load / count), 1e-12)
@@ -47,7 +57,7 @@ pub(super) fn detrend(heights: &mut [f64], rows: usize, columns: usize, kind: De
         return;
     };
     for (index, height) in heights.iter_mut().enumerate() {
-        let basis = basis(index, rows, columns);
+        let basis = basis(first + index, rows, columns);
         let trend: f64 = basis
             .iter()
             .zip(coefficients.iter())
@@ -58,19 +68,25 @@ pub(super) fn detrend(heights: &mut [f64], rows: usize, columns: usize, kind: De
 }
 
 /// Rms height of the least-squares plane over that of the map, about the mean; 0 of a flat map.
-pub(super) fn tilt(heights: &[f64], rows: usize, columns: usize) -> f64 {
-    let mean = heights.iter().sum::<f64>() / heights.len() as f64;
+pub(super) fn tilt(heights: &[f64], share: &Share) -> f64 {
+    let [columns, rows] = share.surface();
+    let first = share.surface_rows().start * columns;
+    let mean = share.surface_sum_by(heights, |height| height) / (columns * rows) as f64;
     // x and y are orthogonal, and each has the mean 0.
-    let (mut square, mut products, mut lengths) = (0.0, [0.0; 2], [0.0; 2]);
-    for (index, height) in heights.iter().enumerate() {
-        let [_, x, y, ..] = basis(index, rows, columns);
-        let height = height - mean;
-        square += height * height;
-        for (axis, place) in [x, y].into_iter().enumerate() {
-            products[axis] += place * height;
-            lengths[axis] += place * place;
+    let sums: [f64; 5] = share.sums(heights.len() / columns, |row, sums| {
+        let [square, along_x, along_y, length_x, length_y] = sums;
+        for (index, height) in line(heights, row, columns) {
+            let [_, x, y, ..] = basis(first + index, rows, columns);
+            let height = height - mean;
+            *square += height * height;
+            *along_x += x * height;
+            *along_y += y * height;
+            *length_x += x * x;
+            *length_y += y * y;
         }
-    }
+    });
+    let [square, products @ .., length_x, length_y] = sums;
+    let lengths = [length_x, length_y];
     let plane: f64 = (0..2)
         .filter(|axis| lengths[*axis] > 0.0)
         .map(|axis| products[axis].powi(2) / lengths[axis])
@@ -80,6 +96,12 @@ pub(super) fn tilt(heights: &[f64], rows: usize, columns: usize) -> f64 {
     } else {
         0.0
     }
+}
+
+/// A row of heights, with the places of its points.
+fn line(heights: &[f64], row: usize, columns: usize) -> impl Iterator<Item = (usize, f64)> {
+    let start = row * columns;
+    (start..).zip(heights[start..start + columns].iter().copied())
 }
 
 /// The terms 1, x, y, x^2, x y, y^2 at a pixel, with x and y from -1 to 1 across the map.
@@ -101,7 +123,12 @@ fn basis(index: usize, rows: usize, columns: usize) -> [f64; 6] {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::backend::Shape;
     use approx::assert_abs_diff_eq;
+
+    fn all(rows: usize, columns: usize) -> Share {
+        Share::whole(Shape::whole(columns, rows))
+    }
 
     /// 9 rows, 7 columns: a quadratic on an offset a million times as large.
     fn quadratic(terms: usize) -> Vec<f64> {
@@ -127,20 +154,20 @@ mod tests {
             (Detrend::Quadratic, 6),
         ] {
             let mut heights = quadratic(terms);
-            detrend(&mut heights, 9, 7, kind);
+            detrend(&mut heights, &all(9, 7), kind);
             for height in heights {
                 assert_abs_diff_eq!(height, 0.0, epsilon = 1e-8);
             }
         }
         let mut heights = quadratic(6);
-        detrend(&mut heights, 9, 7, Detrend::None);
+        detrend(&mut heights, &all(9, 7), Detrend::None);
         assert_eq!(heights, quadratic(6));
     }
 
     #[test]
     fn a_detrended_map_has_no_mean_and_no_slope() {
         let mut heights: Vec<f64> = (0..63).map(|i| ((i * 37) % 11) as f64).collect();
-        detrend(&mut heights, 9, 7, Detrend::Plane);
+        detrend(&mut heights, &all(9, 7), Detrend::Plane);
         for term in 0..3 {
             let product: f64 = (0..63).map(|i| basis(i, 9, 7)[term] * heights[i]).sum();
             assert_abs_diff_eq!(product, 0.0, epsilon = 1e-10);
@@ -150,23 +177,23 @@ mod tests {
     #[test]
     fn lines_lose_their_means_and_a_tilt_is_measured() {
         let mut heights = quadratic(3);
-        assert_abs_diff_eq!(tilt(&heights, 9, 7), 1.0, epsilon = 1e-9);
-        detrend(&mut heights, 9, 7, Detrend::Lines);
+        assert_abs_diff_eq!(tilt(&heights, &all(9, 7)), 1.0, epsilon = 1e-9);
+        detrend(&mut heights, &all(9, 7), Detrend::Lines);
         for (index, height) in heights.iter().enumerate() {
             assert_abs_diff_eq!(*height, 2.0 * basis(index, 9, 7)[1], epsilon = 1e-8);
         }
         // A plane of rms height 1 under noise of rms height 1 is orthogonal to what remains without it.
         let mut noise: Vec<f64> = (0..63).map(|i| ((i * 37) % 11) as f64).collect();
-        detrend(&mut noise, 9, 7, Detrend::Plane);
-        assert_abs_diff_eq!(tilt(&noise, 9, 7), 0.0, epsilon = 1e-12);
-        assert_eq!(tilt(&[2.0; 6], 2, 3), 0.0);
+        detrend(&mut noise, &all(9, 7), Detrend::Plane);
+        assert_abs_diff_eq!(tilt(&noise, &all(9, 7)), 0.0, epsilon = 1e-12);
+        assert_eq!(tilt(&[2.0; 6], &all(2, 3)), 0.0);
     }
 
     #[test]
     fn narrow_maps_are_detrended() {
         for (rows, columns) in [(1, 1), (1, 2), (2, 1), (2, 2), (1, 9), (3, 1)] {
             let mut heights: Vec<f64> = (0..rows * columns).map(|i| i as f64).collect();
-            detrend(&mut heights, rows, columns, Detrend::Quadratic);
+            detrend(&mut heights, &all(rows, columns), Detrend::Quadratic);
             for height in heights {
                 assert_abs_diff_eq!(height, 0.0, epsilon = 1e-9);
             }

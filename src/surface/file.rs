@@ -4,6 +4,7 @@ use super::error::FileError;
 use super::matrix::{Matrix, Size};
 use super::statistics::edge_jumps;
 use super::{detrend, fill, formats, prepare, resample};
+use crate::backend::{Shape, Share};
 use crate::grid::Grid;
 use crate::scene::{Boundary, Detrend, Edges, Fill, HeightFileScene};
 use crate::units::in_range;
@@ -23,7 +24,7 @@ const TILTED: f64 = 0.1;
 /// Heights read from a file, ready to be added.
 #[derive(Clone, Debug, PartialEq)]
 pub(super) struct HeightMap {
-    /// Heights, m, shape `[ny, nx]`, row-major.
+    /// Heights, m, shape `[ny, nx]`, row-major; of several processes the rows of this one.
     pub(super) heights: Vec<f64>,
     /// Points along x and y.
     pub(super) points: [usize; 2],
@@ -102,7 +103,7 @@ pub(super) fn read(
     } else if points != Some([matrix.columns, matrix.rows]) {
         prepare::expect_map(&matrix)?;
     }
-    heights_of(scene, boundary, matrix)
+    whole_heights_of(scene, boundary, matrix)
 }
 
 /// The same of numbers that need not be heights, where a single row is a map too.
@@ -110,31 +111,36 @@ pub(super) fn read_numbers(
     scene: &HeightFileScene,
     boundary: Boundary,
 ) -> Result<HeightMap, FileError> {
-    heights_of(scene, boundary, formats::read(&scene.path)?)
+    whole_heights_of(scene, boundary, formats::read(&scene.path)?)
 }
 
-fn heights_of(
+fn whole_heights_of(
     scene: &HeightFileScene,
     boundary: Boundary,
     mut matrix: Matrix,
 ) -> Result<HeightMap, FileError> {
-    let asked = &scene.preparation;
-    if let Some(crop) = asked.crop {
+    if let Some(crop) = scene.preparation.crop {
         prepare::crop(&mut matrix, crop)?;
     }
+    let share = Share::whole(Shape::whole(matrix.columns, matrix.rows));
+    heights_of(scene, boundary, matrix, &share)
+}
+
+/// Heights of the rows that a process holds, of a matrix with these rows of its values. Of several processes no missing pixel is
+/// filled, and no preparation but a trend taken off.
+pub(super) fn heights_of(
+    scene: &HeightFileScene,
+    boundary: Boundary,
+    matrix: Matrix,
+    share: &Share,
+) -> Result<HeightMap, FileError> {
+    let asked = &scene.preparation;
     let (mut rows, mut columns) = (matrix.rows, matrix.columns);
     let unit = matrix.unit.unwrap_or(scene.unit);
     let [factor, zero] = factor_and_zero(&matrix, scene, unit)?;
     let mut heights = matrix.values;
     let mut warnings = matrix.warnings;
-    fill_missing(
-        &mut heights,
-        rows,
-        columns,
-        scene.fill,
-        boundary,
-        &mut warnings,
-    )?;
+    fill_missing(&mut heights, share, scene.fill, boundary, &mut warnings)?;
 
     let is_periodic = boundary == Boundary::Periodic;
     if let Some(times) = asked.outliers {
@@ -157,18 +163,19 @@ fn heights_of(
         *height = *height * factor + zero;
     }
     let magnitude = |most: f64, height: &f64| most.max(height.abs());
-    let largest = heights.iter().fold(0.0, magnitude);
+    let largest = share.greatest(heights.iter().fold(0.0, magnitude));
     if !in_range(largest) {
         return Err(FileError::Extreme { largest });
     }
-    detrend::detrend(&mut heights, rows, columns, scene.detrend);
+    detrend::detrend(&mut heights, share, scene.detrend);
     let mut size = matrix.size.map(|size| match size {
         Size::Metres(size) => size,
         Size::LikeHeights(size) => size.map(|side| side * unit.abs()),
     });
-    let mut closes = edges(&heights, [columns, rows]).is_empty();
+    let open_edges = edges(&heights, share);
+    let mut closes = open_edges.is_empty();
     if !closes && matches!(scene.detrend, Detrend::None | Detrend::Mean) {
-        let tilt = detrend::tilt(&heights, rows, columns);
+        let tilt = detrend::tilt(&heights, share);
         if tilt > TILTED {
             warnings.push(format!(
                 "the map is tilted: a plane is {:.0} % of its rms height; detrend = \"plane\" takes it off",
@@ -200,7 +207,10 @@ fn heights_of(
         [columns, rows] = points;
     }
     if is_periodic && asked.edges == Edges::None {
-        warnings.extend(edges(&heights, [columns, rows]));
+        warnings.extend(match asked.resample {
+            None => open_edges,
+            Some(_) => edges(&heights, &Share::whole(Shape::whole(columns, rows))),
+        });
     }
     Ok(HeightMap {
         heights,
@@ -230,26 +240,39 @@ fn factor_and_zero(
 /// Fills missing pixels, or refuses them.
 fn fill_missing(
     values: &mut [f64],
-    rows: usize,
-    columns: usize,
+    share: &Share,
     fill: Fill,
     boundary: Boundary,
     warnings: &mut Vec<String>,
 ) -> Result<(), FileError> {
-    let points = values.len();
+    let [columns, rows] = share.surface();
+    let points = columns * rows;
     let missing = |value: &f64| !value.is_finite();
-    let Some(first) = values.iter().position(missing) else {
+    let here = [
+        values.iter().filter(|value| missing(value)).count(),
+        values.iter().filter(|value| value.is_infinite()).count(),
+    ];
+    let [count, infinite] = share.counts(here);
+    if count == 0 {
         return Ok(());
-    };
-    let count = values.iter().filter(|value| missing(value)).count();
+    }
     match fill {
-        Fill::None => Err(FileError::Missing {
-            count,
-            points,
-            infinite: values.iter().filter(|value| value.is_infinite()).count(),
-            row: first / columns + 1,
-            column: first % columns + 1,
-        }),
+        Fill::None => {
+            let first = values
+                .iter()
+                .position(missing)
+                .map_or(f64::INFINITY, |place| {
+                    (share.surface_rows().start * columns + place) as f64
+                });
+            let first = share.least(first) as usize;
+            Err(FileError::Missing {
+                count,
+                points,
+                infinite,
+                row: first / columns + 1,
+                column: first % columns + 1,
+            })
+        }
         Fill::Interpolate if count == points => Err(FileError::AllMissing { points }),
         Fill::Interpolate => {
             fill::interpolate(values, rows, columns, boundary == Boundary::Periodic);
@@ -263,13 +286,15 @@ fn fill_missing(
 }
 
 /// What is warned of a map whose opposite edges do not match.
-fn edges(heights: &[f64], points: [usize; 2]) -> Vec<String> {
+fn edges(heights: &[f64], share: &Share) -> Vec<String> {
     let mut warnings = Vec::new();
     // Jumps are compared with steps of the same map, so lengths do not matter.
-    let grid = Grid::new(points, [1.0, 1.0]);
-    for (axis, (jump, step)) in ["x", "y"].into_iter().zip(edge_jumps(&grid, heights)) {
-        // Rounding of a detrended plane is not a jump.
-        let noise = 1e-12 * heights.iter().fold(0.0_f64, |most, h| most.max(h.abs()));
+    let grid = Grid::new(share.surface(), [1.0, 1.0]);
+    let jumps = edge_jumps(&grid, share, heights);
+    let largest = heights.iter().fold(0.0_f64, |most, h| most.max(h.abs()));
+    // Rounding of a detrended plane is not a jump.
+    let noise = 1e-12 * share.greatest(largest);
+    for (axis, (jump, step)) in ["x", "y"].into_iter().zip(jumps) {
         if jump > EDGE_JUMP * step && jump > noise {
             warnings.push(format!(
                 "the edges across {axis} do not match: rms jump {jump:.3e} m against {step:.3e} m between \

@@ -14,6 +14,7 @@ mod across;
 mod adhesion_map;
 mod array;
 mod band_estimate;
+mod by_rows;
 pub mod correlation;
 mod detrend;
 mod error;
@@ -36,6 +37,7 @@ pub mod spectrum;
 pub mod statistics;
 
 pub use adhesion_map::MapError;
+pub(crate) use by_rows::is_by_rows;
 pub use error::{FileError, PartError, SurfaceError};
 #[doc(hidden)]
 pub use formats::claimed_points;
@@ -53,14 +55,21 @@ use crate::scene::{Boundary, GridScene, Scene, SelfAffineScene, SurfacePart};
 use crate::shared_values::SharedValues;
 use crate::solver::Problem;
 use crate::units::{LARGEST, in_range};
+use by_rows::Reading;
 use file::HeightMap;
 use shapes::ApexPosition;
 pub use statistics::Statistics;
 use statistics::whole;
 
-/// Most points of a grid: 8 GiB of heights.
+/// Most points of a grid, 131072 x 131072; where a length has 32 bits, 2^30.
 #[doc(hidden)]
-pub const MOST_POINTS: usize = 1 << 30;
+pub const MOST_POINTS: usize = match 1_usize.checked_shl(34) {
+    Some(points) => points,
+    None => 1 << 30,
+};
+
+/// Most points of a grid with `[leakage]`, whose flow counts them in 32 bits.
+const MOST_WITH_LEAKAGE: usize = u32::MAX as usize - 1;
 
 /// Heights on a grid, with their reference height and adhesion map.
 #[derive(Clone, Debug, PartialEq)]
@@ -93,22 +102,18 @@ impl Surface {
         Surface::on_ranks(scene, None)
     }
 
-    /// The same of the rows that one of these processes holds. A height file and a map are read whole, by each.
+    /// The same of the rows that one of these processes holds.
     ///
     /// # Errors
     /// As [`Surface::build`], on all of them.
     #[doc(hidden)]
     pub fn on_ranks(scene: &Scene, ranks: Option<Arc<dyn Ranks>>) -> Result<Surface, SurfaceError> {
+        check_leakage(scene, scene.grid.points)?;
         let share = |grid: &Grid| Problem::share(grid, scene.grid.boundary, ranks.clone());
         let surface = Surface::from_parts_on(&scene.grid, &scene.surfaces, &share)?;
-        let rows = share(&surface.grid).surface_rows();
-        let part = rows.start * surface.grid.nx..rows.end * surface.grid.nx;
-        let map = adhesion_map::build(scene, &surface.grid)?;
+        check_leakage(scene, Some([surface.grid.nx, surface.grid.ny]))?;
         Ok(Surface {
-            adhesion_map: match ranks {
-                None => map,
-                Some(_) => map.map(|map| map[part].to_vec()),
-            },
+            adhesion_map: adhesion_map::build(scene, &surface.grid, &share)?,
             ..surface
         })
     }
@@ -132,7 +137,7 @@ impl Surface {
         }
         // Check the scene's own numbers before a file is read or memory is allocated.
         check_grid(scene.points, scene.size)?;
-        let mut maps = read_maps(scene, parts)?;
+        let mut maps = read_maps(scene, parts, share)?;
         let grid = resolve_grid(scene, &maps)?;
         let share = share(&grid);
         let mut warnings = Vec::new();
@@ -224,12 +229,26 @@ fn check_grid(points: Option<[usize; 2]>, size: Option<[f64; 2]>) -> Result<(), 
     Ok(())
 }
 
-/// The height maps of the parts that are files; `None` for the others.
+/// Refuses more points than the flow of `[leakage]` takes.
+fn check_leakage(scene: &Scene, points: Option<[usize; 2]>) -> Result<(), SurfaceError> {
+    match points {
+        Some(points)
+            if scene.tables.leakage.is_some()
+                && points[0].saturating_mul(points[1]) > MOST_WITH_LEAKAGE =>
+        {
+            Err(SurfaceError::Leakage { points })
+        }
+        _ => Ok(()),
+    }
+}
+
+/// The height maps of the parts that are files, of several processes their rows; `None` for the others.
 ///
 /// Each is compared with the scene's grid as soon as it is read; the first mismatch is the error.
 fn read_maps(
     scene: &GridScene,
     parts: &[SurfacePart],
+    share: &dyn Fn(&Grid) -> Share,
 ) -> Result<Vec<Option<HeightMap>>, SurfaceError> {
     let mut maps = Vec::with_capacity(parts.len());
     let mut points = scene.points.map(|points| (points, "[grid] points"));
@@ -243,12 +262,18 @@ fn read_maps(
             let path = file.path.clone();
             part_error(index, PartError::File { path, problem })
         };
-        let mut map = file::read(file, scene.boundary, scene.points).map_err(of_file)?;
-        if file.preparation.profile
-            && let Some([_, rows]) = scene.points
-        {
-            map.repeat(rows);
-        }
+        let map = Reading {
+            scene: file,
+            boundary: scene.boundary,
+            share: &|points| share(&Grid::new(points, [1.0; 2])),
+            repeats: scene
+                .points
+                .filter(|_| file.preparation.profile)
+                .map(|[_, rows]| rows),
+            whole: &|| file::read(file, scene.boundary, scene.points),
+            wrong: &of_file,
+        };
+        let map = map.read()?;
         if let Some((points, against)) = points {
             map.compare_points(points, against).map_err(of_file)?;
         }
@@ -285,12 +310,11 @@ fn sum_of(
     warnings: &mut Vec<String>,
 ) -> Result<Vec<f64>, SurfaceError> {
     let mut heights = zeros(grid, share)?;
-    let first = share.surface_rows().start * grid.nx;
     for (index, part) in parts.iter().enumerate() {
         let mut found = Vec::new();
         match maps[index].take() {
             Some(map) => {
-                add(&mut heights, &map.heights[first..]);
+                add(&mut heights, &map.heights);
                 found = map.warnings;
             }
             None => add_part(&mut heights, part, grid, share, boundary, &mut found)

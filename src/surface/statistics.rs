@@ -279,24 +279,41 @@ fn sum_over_rows(
 /// Root mean square jump between opposite edges, and between neighbours, along x and along y.
 ///
 /// On a periodic map the two are similar. Along an axis of one point both are 0.
-pub(crate) fn edge_jumps(grid: &Grid, heights: &[f64]) -> [(f64, f64); 2] {
+/// Where another process has ended they are NaN.
+pub(super) fn edge_jumps(grid: &Grid, share: &Share, heights: &[f64]) -> [(f64, f64); 2] {
     let (nx, ny) = (grid.nx, grid.ny);
     let root = |sum: f64, count: usize| (sum / count.max(1) as f64).sqrt();
-    let share = whole(grid);
     let sum = |of_row: &(dyn Fn(usize, &[f64]) -> f64 + Sync)| {
-        sum_over_rows(grid, &share, heights, of_row)
+        sum_over_rows(grid, share, heights, of_row)
     };
     let across_x = sum(&|_, row| (row[0] - row[nx - 1]).powi(2));
     let steps_x = sum(&|_, row| row.windows(2).map(|pair| (pair[1] - pair[0]).powi(2)).sum());
     let difference = |one: &[f64], other: &[f64]| -> f64 {
         one.iter().zip(other).map(|(a, b)| (a - b) * (a - b)).sum()
     };
-    let across_y = difference(&heights[..nx], &heights[(ny - 1) * nx..]);
+    let own = share.surface_rows();
+    let first = &heights[..nx.min(heights.len())];
+    let Ok(after) = share.surface_row_after(first) else {
+        return [(f64::NAN, f64::NAN); 2];
+    };
+    // After the last row of all comes the first one.
+    let next = |iy: usize| -> &[f64] {
+        let start = (iy + 1 - own.start) * nx;
+        heights.get(start..start + nx).unwrap_or(&after)
+    };
+    let across_y = sum(&|iy, row| {
+        if iy + 1 == ny {
+            difference(row, next(iy))
+        } else {
+            0.0
+        }
+    });
     let steps_y = sum(&|iy, row| {
-        difference(
-            row,
-            heights.get((iy + 1) * nx..(iy + 2) * nx).unwrap_or(&[]),
-        )
+        if iy + 1 == ny {
+            0.0
+        } else {
+            difference(row, next(iy))
+        }
     });
     [
         (root(across_x, ny), root(steps_x, (nx - 1) * ny)),
@@ -454,10 +471,10 @@ mod tests {
         let waves: Vec<f64> = (0..512)
             .map(|i| (2.0 * PI * (i % 32) as f64 / 32.0).sin())
             .collect();
-        let [along_x, along_y] = edge_jumps(&grid, &waves);
+        let [along_x, along_y] = edge_jumps(&grid, &whole(&grid), &waves);
         assert!(along_x.0 < 2.0 * along_x.1, "{along_x:?}");
         assert_eq!(along_y, (0.0, 0.0));
         let tilted: Vec<f64> = (0..512).map(|i| (i / 32) as f64).collect();
-        assert_eq!(edge_jumps(&grid, &tilted)[1], (15.0, 1.0));
+        assert_eq!(edge_jumps(&grid, &whole(&grid), &tilted)[1], (15.0, 1.0));
     }
 }

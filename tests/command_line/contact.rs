@@ -559,7 +559,7 @@ fn mistakes_name_the_method_and_no_line_of_a_scene() {
         (refused(contact().contact_modulus(f64::NAN), pressure()), "Contact::contact_modulus, contact_modulus: nan is out of range"),
         (refused(bare(&[0.0; 4], [2, 3]).contact_modulus(1e6), pressure()), "part 1: an array of 4 numbers for 2 x 3 points"),
         (refused(bare(&[f64::INFINITY; 4], [2, 2]).contact_modulus(1e6), pressure()), "part 1: the height at row 1, column 1 (counted from 1) is inf"),
-        (refused(bare(&[], [0, 2]).contact_modulus(1e6), pressure()), "Contact::new, 0: 0 is out of range; it must be a whole number from 1 to 65536"),
+        (refused(bare(&[], [0, 2]).contact_modulus(1e6), pressure()), "Contact::new, 0: 0 is out of range; it must be a whole number from 1 to 262144"),
         (refused(Contact::new([0.0; 4], [2, 2], [1e-6, 0.0]).contact_modulus(1e6), pressure()), "Contact::new, 1: 0.0 is out of range"),
         (refused(contact().boundary(Boundary::Free), pressure()), "Contact::path, control: a free boundary has no nominal area to average over; take Control::Force or Control::Approach, or Boundary::Periodic"),
         (refused(contact().layer(layer(0.4)).boundary(Boundary::Free), force()), "Contact::layer, thickness: a layer needs Boundary::Periodic; take a cell several times as wide as the contact, or leave Contact::layer out"),

@@ -8,6 +8,7 @@ mod iterates;
 mod mean_gap;
 mod operator;
 mod ranks;
+mod ranks_files;
 #[path = "../shared/mod.rs"]
 mod shared;
 
@@ -17,6 +18,7 @@ fn main() -> ExitCode {
         iterates::tests(),
         checkpoint::tests(),
         ranks::tests(),
+        ranks_files::tests(),
         mean_gap::tests(),
         operator::tests(),
     ])

@@ -6,7 +6,6 @@ use std::sync::PoisonError;
 
 use rayon::prelude::*;
 use rustfft::num_complex::Complex;
-use rustfft::num_traits::Zero;
 
 use super::CpuReal;
 use super::blocks::BLOCK;
@@ -14,12 +13,15 @@ use super::slabs::Slabs;
 use super::transform::Transform;
 use crate::backend::ranks::{Parts, RankError};
 
-/// Bytes of the columns that a rank takes at once: the exchange goes in rounds, so that its buffers stay small beside the
-/// fields of a large grid, and below the 2^31 bytes of one message.
-pub(super) const ROUND: usize = 64 << 20;
+/// Bytes of the columns that a rank takes at once, at least and at most: the exchange goes in rounds, so that its buffers
+/// stay small beside the fields of a large grid, and below the 2^31 bytes of one message.
+const LEAST_ROUND: usize = 4 << 20;
+const MOST_ROUND: usize = 64 << 20;
+/// Rounds in which the columns of a grid between these go.
+const ROUNDS: usize = 4;
 
 /// Numbers of a complex one.
-const PAIR: usize = 2;
+pub(super) const PAIR: usize = 2;
 
 /// Groups of columns of so many rows, of numbers of so many bytes, that a rank takes in a round; the same on every
 /// rank.
@@ -27,19 +29,26 @@ fn groups_in_round(round: usize, number: usize, rows: usize) -> usize {
     (round / (PAIR * number * BLOCK * rows)).max(1)
 }
 
+/// Bytes of a round of a level's columns, of numbers of so many bytes.
+pub(super) fn round_bytes([nx, ny]: [usize; 2], number: usize, ranks: usize) -> usize {
+    let own = PAIR * number * (nx / 2 + 1) * ny / ranks.max(1);
+    (own / ROUNDS).clamp(LEAST_ROUND, MOST_ROUND)
+}
+
 /// Bytes of the buffers in which a rank exchanges the columns of a level, of numbers of so many bytes: its own rows
-/// of the columns of all, all rows of its own columns, and these as they are transformed.
+/// of the columns of all, and all rows of its own columns.
 pub fn exchange_bytes([nx, ny]: [usize; 2], number: usize, ranks: usize) -> usize {
     if ranks < 2 {
         return 0;
     }
     let group = PAIR * number * BLOCK * ny;
     let share = (nx / 2 + 1).div_ceil(BLOCK).div_ceil(ranks);
-    3 * group * share.min(groups_in_round(ROUND, number, ny))
+    let round = round_bytes([nx, ny], number, ranks);
+    2 * group * share.min(groups_in_round(round, number, ny))
 }
 
 /// Lays complex numbers down as pairs.
-fn lay<T: Copy>(values: &[Complex<T>], pairs: &mut [T]) {
+pub(super) fn lay<T: Copy>(values: &[Complex<T>], pairs: &mut [T]) {
     let (pairs, _) = pairs.as_chunks_mut::<PAIR>();
     for (pair, value) in pairs.iter_mut().zip(values) {
         *pair = [value.re, value.im];
@@ -47,12 +56,15 @@ fn lay<T: Copy>(values: &[Complex<T>], pairs: &mut [T]) {
 }
 
 /// Takes them up again.
-fn take_up<T: Copy>(pairs: &[T], values: &mut [Complex<T>]) {
+pub(super) fn take_up<T: Copy>(pairs: &[T], values: &mut [Complex<T>]) {
     let (pairs, _) = pairs.as_chunks::<PAIR>();
     for (value, &[re, im]) in values.iter_mut().zip(pairs) {
         *value = Complex::new(re, im);
     }
 }
+
+/// The rows of a group's columns from each slab, column by column.
+pub(super) type Pieces<'a, T> = Vec<(Range<usize>, &'a mut [T])>;
 
 /// Bytes of so many numbers for each rank.
 fn bytes<T>(numbers: impl Iterator<Item = usize>) -> Vec<usize> {
@@ -142,35 +154,21 @@ impl<T: CpuReal> Transform<T> {
             },
         )?;
 
-        // What came from a rank begins after the rows before its own.
-        let piece = |slab: &Range<usize>, group: usize| {
-            let start = PAIR * BLOCK * (slab.start * count + slab.len() * group);
-            start..start + PAIR * BLOCK * slab.len()
-        };
-        let each: Vec<Range<usize>> = slabs.each().filter(|slab| !slab.is_empty()).collect();
-        let mut columns = vec![Complex::zero(); BLOCK * rows * count];
-        let context = self.columns(factors, first_group * BLOCK, energy);
-        let lines = columns.par_chunks_exact_mut(BLOCK * rows).zip(energies);
-        lines.enumerate().for_each(|(group, (lines, energy))| {
-            for slab in &each {
-                let received = all_rows[piece(slab, group)].chunks_exact(PAIR * slab.len());
-                for (values, line) in received.zip(lines.chunks_exact_mut(rows)) {
-                    take_up(values, &mut line[slab.clone()]);
-                }
+        // What came from each rank, group by group.
+        let mut pieces: Vec<Pieces<T>> = (0..count).map(|_| Vec::new()).collect();
+        let mut left = &mut all_rows[..];
+        for slab in slabs.each().filter(|slab| !slab.is_empty()) {
+            for pieces in &mut pieces {
+                let piece = left.split_off_mut(..PAIR * BLOCK * slab.len());
+                pieces.extend(piece.map(|piece| (slab.clone(), piece)));
             }
-            *energy = context.lines(here.start + group, lines);
-        });
-        for slab in &each {
-            let back = &mut all_rows[piece(slab, 0).start..piece(slab, count).start];
-            let pieces = back.par_chunks_exact_mut(PAIR * BLOCK * slab.len());
-            let groups = columns.par_chunks_exact(BLOCK * rows);
-            pieces.zip(groups).for_each(|(piece, lines)| {
-                let pairs = piece.chunks_exact_mut(PAIR * slab.len());
-                for (values, line) in pairs.zip(lines.chunks_exact(rows)) {
-                    lay(&line[slab.clone()], values);
-                }
-            });
         }
+        let context = self.columns(factors, first_group * BLOCK, energy);
+        let lines = pieces.par_iter_mut().zip(energies).enumerate();
+        lines.for_each(|(group, (pieces, energy))| {
+            *energy = context.pieces(here.start + group, pieces);
+        });
+        drop(pieces);
         ranks.exchange(
             Parts {
                 bytes: bytemuck::cast_slice(&all_rows),
@@ -268,7 +266,11 @@ mod tests {
             fill(&mut one.tiles, groups, 0..points[1]);
             let energy = one.multiply(&factors, true);
             let all = taken(&one.tiles, groups, points[1], columns);
-            for round in [1, 3 * PAIR * size_of::<f64>() * BLOCK * points[1], ROUND] {
+            for round in [
+                1,
+                3 * PAIR * size_of::<f64>() * BLOCK * points[1],
+                MOST_ROUND,
+            ] {
                 thread::scope(|scope| {
                     for rank in ThreadRanks::new(count) {
                         let (factors, all) = (&factors, &all);

@@ -24,8 +24,8 @@ use super::{Backend, BackendError, Factors, Field, Level, Shape, Spectrum, check
 use crate::kernel::{Form, Gate, Kernel, Params, SUMS, ScalarKernel, Scalars, Twin, Whole};
 use crate::plans::Planned;
 use crate::real::Real;
-use across::ROUND;
 pub use across::exchange_bytes;
+use across::round_bytes;
 use blocks::{BLOCK, Held, Job, run_blocks};
 pub(super) use slabs::Slabs;
 pub use slabs::largest_slab;
@@ -491,7 +491,11 @@ impl<T: CpuReal> Backend for CpuBackend<T> {
         let factors = &self.spectra[by.index];
         let curvature = match &space.slabs {
             None => Ok(transform.multiply(factors, energy)),
-            Some(slabs) => transform.multiply_across(factors, energy, slabs, ROUND),
+            Some(slabs) => {
+                let points = space.shape.points;
+                let round = round_bytes(points, size_of::<T>(), slabs.ranks().count());
+                transform.multiply_across(factors, energy, slabs, round)
+            }
         };
         match curvature {
             Ok(curvature) if energy => self.scalars.curvature = curvature,

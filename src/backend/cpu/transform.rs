@@ -12,6 +12,7 @@ use rustfft::num_complex::Complex;
 use rustfft::num_traits::Zero;
 
 use super::CpuReal;
+use super::across::{PAIR, Pieces, lay, take_up};
 use super::blocks::{BLOCK, Job, TILE, Tile, run_blocks};
 use super::plans::Plans;
 use crate::backend::Shape;
@@ -49,8 +50,6 @@ impl<T: CpuReal> Transform<T> {
     /// Transforms of a level of which this process holds so many rows.
     pub fn new(shape: Shape, rows: usize) -> Self {
         let [nx, ny] = shape.points;
-        // Over several processes columns have buffers of their own.
-        let column_len = if rows == ny { BLOCK * ny } else { 0 };
         let columns = nx / 2 + 1;
         let groups = columns.div_ceil(BLOCK);
         let plans = Plans::<T>::new(shape.points);
@@ -64,7 +63,7 @@ impl<T: CpuReal> Transform<T> {
                 Mutex::new(Scratch {
                     lines: vec![T::zero(); BLOCK * nx],
                     spectra: vec![zero; BLOCK * columns],
-                    column: vec![zero; column_len],
+                    column: vec![zero; BLOCK * ny],
                     factors: vec![T::zero(); ny],
                     transform: vec![zero; transform_len],
                 })
@@ -369,9 +368,25 @@ impl<T: Real> Columns<'_, T> {
         energy
     }
 
-    /// The same where `lines` hold the columns of a group, one after another.
-    pub(super) fn lines(&self, group: usize, lines: &mut [Complex<T>]) -> f64 {
-        self.convolve(group, lines, &mut lock(self.scratch))
+    /// The same of one whose rows come in pieces.
+    pub(super) fn pieces(&self, group: usize, pieces: &mut Pieces<T>) -> f64 {
+        let guard = &mut *lock(self.scratch);
+        let mut column = std::mem::take(&mut guard.column);
+        for (rows, piece) in &*pieces {
+            let values = piece.chunks_exact(PAIR * rows.len());
+            for (values, line) in values.zip(column.chunks_exact_mut(self.ny)) {
+                take_up(values, &mut line[rows.clone()]);
+            }
+        }
+        let energy = self.convolve(group, &mut column, guard);
+        for (rows, piece) in pieces {
+            let values = piece.chunks_exact_mut(PAIR * rows.len());
+            for (values, line) in values.zip(column.chunks_exact(self.ny)) {
+                lay(&line[rows.clone()], values);
+            }
+        }
+        guard.column = column;
+        energy
     }
 
     /// Transforms the columns of a group, multiplies them and transforms them back; returns their energy.

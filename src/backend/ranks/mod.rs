@@ -50,3 +50,22 @@ pub struct RankError {
     /// Its number.
     pub rank: usize,
 }
+
+/// Takes from every rank whether what it did went well; where it did not, the first rank for which it failed keeps its
+/// error, and the others have that rank's end for theirs, so that it is told once.
+///
+/// # Errors
+/// It did not go well on one of them.
+pub(crate) fn agree<T, E: From<RankError>>(ranks: &dyn Ranks, own: Result<T, E>) -> Result<T, E> {
+    let mut went_well = vec![0; ranks.count()];
+    let all = Parts {
+        bytes: &mut went_well[..],
+        lengths: &vec![1; ranks.count()],
+    };
+    ranks.gather(&[u8::from(own.is_ok())], all)?;
+    match went_well.iter().position(|&well| well == 0) {
+        None => own,
+        Some(rank) if rank == ranks.rank() => own,
+        Some(rank) => Err(RankError { rank }.into()),
+    }
+}

@@ -107,6 +107,20 @@ fn filled<'a>(bytes: &'a mut [u8], nothing: &'a mut [u8; 1]) -> &'a mut [u8] {
     }
 }
 
+/// Where a mistake of the program would end a rank: panics if the environment asks for it. `TABOR_TEST_PANIC`, for tests, is
+/// the rank and the number of exchanges before, as `2@600`.
+#[cfg(feature = "fault-injection")]
+fn panic_point(rank: usize) {
+    use std::sync::atomic::{AtomicU64, Ordering};
+    static MADE: AtomicU64 = AtomicU64::new(0);
+    let made = MADE.fetch_add(1, Ordering::Relaxed);
+    let asked = std::env::var("TABOR_TEST_PANIC").unwrap_or_default();
+    assert!(asked != format!("{rank}@{made}"), "a test asks for this");
+}
+
+#[cfg(not(feature = "fault-injection"))]
+fn panic_point(_: usize) {}
+
 impl Ranks for MpiRanks {
     fn rank(&self) -> usize {
         self.rank
@@ -121,6 +135,7 @@ impl Ranks for MpiRanks {
     }
 
     fn exchange(&self, send: Parts<&[u8]>, receive: Parts<&mut [u8]>) -> Result<(), RankError> {
+        panic_point(self.rank);
         debug_assert!(send.bytes.len() <= LARGEST && receive.bytes.len() <= LARGEST);
         let mut nothing = [0];
         let (counts, starts) = counted(send.lengths);

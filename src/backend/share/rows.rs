@@ -225,21 +225,62 @@ impl Share {
         Ok(())
     }
 
-    /// This process's rows of a field that the first rank has whole, or of its surface.
+    /// This process's rows of a field, or of a surface field. The first rank alone has the values: `give` fills some
+    /// rows at once there, in the order of all rows, and is called nowhere else.
     ///
     /// # Errors
     /// A rank has ended.
-    pub fn from_first<T: Pod>(&self, all: &[T], is_surface: bool) -> Result<Vec<T>, BackendError> {
-        let [points, rows] = match is_surface {
+    pub fn from_first<T: Pod>(
+        &self,
+        is_surface: bool,
+        give: &mut dyn FnMut(&mut [T]),
+    ) -> Result<Vec<T>, BackendError> {
+        let [width, _] = match is_surface {
             true => self.shape.surface,
             false => self.shape.points,
         };
-        let held = |rank| if rank == FIRST { 0..rows } else { 0..0 };
-        let wanted = |rank| match is_surface {
-            true => self.surface_rows_of(rank).collect(),
-            false => self.rows_of(rank).collect(),
+        let length_of = |rank| match is_surface {
+            true => self.surface_rows_of(rank).len() * width,
+            false => self.rows_of(rank).len() * width,
         };
-        self.fetch(all, points, held, wanted)
+        let mut own = vec![T::zeroed(); length_of(self.rank())];
+        let at_once = (ROUND / (width * size_of::<T>()).max(1)).max(1) * width;
+        if self.is_first() {
+            own.chunks_mut(at_once).for_each(&mut *give);
+        }
+        let Some(ranks) = self.ranks() else {
+            return Ok(own);
+        };
+        for rank in 1..ranks.count() {
+            let length = length_of(rank);
+            for start in (0..length).step_by(at_once) {
+                let count = at_once.min(length - start);
+                let [mut send_lengths, mut lengths] = [(); 2].map(|()| vec![0; ranks.count()]);
+                let mut sent = Vec::new();
+                let mut received = &mut own[..0];
+                if self.is_first() {
+                    sent.resize(count, T::zeroed());
+                    give(&mut sent);
+                    send_lengths[rank] = count * size_of::<T>();
+                } else if rank == ranks.rank() {
+                    received = &mut own[start..start + count];
+                    lengths[FIRST] = count * size_of::<T>();
+                }
+                let exchanged = ranks.exchange(
+                    Parts {
+                        bytes: bytemuck::cast_slice(&sent),
+                        lengths: &send_lengths,
+                    },
+                    Parts {
+                        bytes: bytemuck::cast_slice_mut(received),
+                        lengths: &lengths,
+                    },
+                );
+                self.noted(exchanged);
+                self.failed()?;
+            }
+        }
+        Ok(own)
     }
 
     /// The whole of a surface field on the first rank; nothing on the others.

@@ -243,7 +243,7 @@ fn surface_of_scene(arguments: &SurfaceArguments) -> Result<(Surface, Boundary),
     let path = arguments.source.clone();
     let described = SceneArguments { path, set };
     let scene = described.read()?;
-    memory_check::check_files(&scene)?;
+    memory_check::check_files(&scene, 1)?;
     let boundary = scene.grid.boundary;
     let refuse = |points| memory::check_statistics(&arguments.source, points, boundary);
     if let Some(points) = scene.grid.points {

@@ -31,7 +31,8 @@ mod x3p;
 mod xyz;
 
 use std::fs::{self, File};
-use std::io::{BufRead, BufReader, ErrorKind, Read};
+use std::io::{self, BufRead, BufReader, ErrorKind, Read};
+use std::ops::Range;
 use std::path::Path;
 
 use super::error::FileError;
@@ -191,6 +192,36 @@ pub fn claimed_points(path: &Path) -> Option<[usize; 2]> {
     claim(file)
 }
 
+/// Points along x and y of a file of which some rows can be read alone: they lie one after another.
+///
+/// `None` for every other file, and for one that cannot be read: reading it reports the reason.
+pub(super) fn row_major_points(path: &Path) -> Option<[usize; 2]> {
+    let (file, format, length) = open(path).ok()?;
+    match format.read {
+        Reader::Stream(_) if length > 0 => npy::row_major_points(file),
+        _ => None,
+    }
+}
+
+/// The numbers of some rows of such a file, of which the points are known; the matrix has all rows.
+///
+/// # Errors
+/// See [`FileError`].
+pub(super) fn read_rows(
+    path: &Path,
+    [columns, rows]: [usize; 2],
+    part: Range<usize>,
+) -> Result<Matrix, FileError> {
+    let (file, _, length) = open(path)?;
+    let matrix = npy::read_rows(file, length, part)?;
+    if [matrix.columns, matrix.rows] == [columns, rows] {
+        Ok(matrix)
+    } else {
+        let changed = io::Error::other("it has changed while it was read");
+        Err(FileError::Read(changed))
+    }
+}
+
 /// First bytes of unsupported files that may carry a supported extension, with their names.
 const UNSUPPORTED: [(&[u8], &str); 3] = [
     (b"\x89HDF", "HDF5 file"),
@@ -198,11 +229,8 @@ const UNSUPPORTED: [(&[u8], &str); 3] = [
     (b"\x1F\x8B", "gzip-compressed file"),
 ];
 
-/// The numbers of a file, unscaled.
-///
-/// # Errors
-/// See [`FileError`].
-pub(super) fn read(path: &Path) -> Result<Matrix, FileError> {
+/// A file, its format and its length.
+fn open(path: &Path) -> Result<(BufReader<File>, &'static Format, u64), FileError> {
     // Check the kind of path before its extension: a folder is not an unknown kind of file.
     let metadata = fs::metadata(path).map_err(|error| match error.kind() {
         ErrorKind::NotFound => FileError::NotFound,
@@ -222,6 +250,15 @@ pub(super) fn read(path: &Path) -> Result<Matrix, FileError> {
         .extension()
         .map(|extension| extension.to_string_lossy().to_ascii_lowercase());
     let format = find(start, extension.as_deref())?;
+    Ok((file, format, length))
+}
+
+/// The numbers of a file, unscaled.
+///
+/// # Errors
+/// See [`FileError`].
+pub(super) fn read(path: &Path) -> Result<Matrix, FileError> {
+    let (file, format, length) = open(path)?;
     if length == 0 {
         return Err(FileError::Empty);
     }

@@ -4,7 +4,8 @@
 //! allocated.
 
 use std::fs::File;
-use std::io::{BufRead, BufReader, Cursor, Read};
+use std::io::{BufReader, Cursor, Read, Seek, SeekFrom};
+use std::ops::Range;
 
 use npyz::{DType, Deserialize, NpyFile, Order, TypeChar};
 
@@ -31,15 +32,46 @@ pub(super) fn claimed_points(mut file: BufReader<File>) -> Option<[usize; 2]> {
     Some([columns as usize, rows as usize])
 }
 
+/// The same of an array whose rows lie one after another.
+pub(super) fn row_major_points(mut file: BufReader<File>) -> Option<[usize; 2]> {
+    let header = read_header(&mut file).ok()?;
+    let npy = NpyFile::new(Cursor::new(header)).ok()?;
+    match (npy.shape(), npy.order()) {
+        (&[rows, columns], Order::C) if rows > 0 && columns > 0 => {
+            Some([columns as usize, rows as usize])
+        }
+        _ => None,
+    }
+}
+
 /// Reads a two-dimensional array of real numbers from `file`, which has `length` bytes.
 ///
 /// # Errors
 /// A malformed header, other dimensions or types, and a length that does not fit the shape.
-pub(super) fn read(mut file: impl BufRead, length: u64) -> Result<Matrix, FileError> {
+pub(super) fn read(file: impl Read + Seek, length: u64) -> Result<Matrix, FileError> {
+    read_part(file, length, None)
+}
+
+/// The same of some rows of an array whose rows lie one after another. The matrix has all rows, and the values of these.
+///
+/// # Errors
+/// As [`read`].
+pub(super) fn read_rows(
+    file: impl Read + Seek,
+    length: u64,
+    part: Range<usize>,
+) -> Result<Matrix, FileError> {
+    read_part(file, length, Some(part))
+}
+
+fn read_part(
+    mut file: impl Read + Seek,
+    length: u64,
+    part: Option<Range<usize>>,
+) -> Result<Matrix, FileError> {
     let header = read_header(&mut file)?;
     let data_length = length.saturating_sub(header.len() as u64);
-    let npy =
-        NpyFile::new(Cursor::new(header).chain(file)).map_err(|error| broken(error.to_string()))?;
+    let npy = NpyFile::new(Cursor::new(&header)).map_err(|error| broken(error.to_string()))?;
 
     let &[rows, columns] = npy.shape() else {
         return Err(FileError::Dimensions {
@@ -82,18 +114,27 @@ pub(super) fn read(mut file: impl BufRead, length: u64) -> Result<Matrix, FileEr
     }
 
     let order = npy.order();
+    let count = match &part {
+        None => rows * columns,
+        Some(part) => {
+            let before = bytes * (part.start * columns) as u64;
+            file.seek(SeekFrom::Start(header.len() as u64 + before))
+                .map_err(FileError::Read)?;
+            part.len() * columns
+        }
+    };
     let values = match (element.type_char(), element.size_field()) {
-        (TypeChar::Float, 2) => numbers::<half::f16>(npy, f64::from),
-        (TypeChar::Float, 4) => numbers::<f32>(npy, f64::from),
-        (TypeChar::Float, 8) => numbers::<f64>(npy, |value| value),
-        (TypeChar::Int, 1) => numbers::<i8>(npy, f64::from),
-        (TypeChar::Int, 2) => numbers::<i16>(npy, f64::from),
-        (TypeChar::Int, 4) => numbers::<i32>(npy, f64::from),
-        (TypeChar::Int, 8) => numbers::<i64>(npy, |value| value as f64),
-        (TypeChar::Uint, 1) => numbers::<u8>(npy, f64::from),
-        (TypeChar::Uint, 2) => numbers::<u16>(npy, f64::from),
-        (TypeChar::Uint, 4) => numbers::<u32>(npy, f64::from),
-        (TypeChar::Uint, 8) => numbers::<u64>(npy, |value| value as f64),
+        (TypeChar::Float, 2) => numbers::<half::f16>(&header, file, count, f64::from),
+        (TypeChar::Float, 4) => numbers::<f32>(&header, file, count, f64::from),
+        (TypeChar::Float, 8) => numbers::<f64>(&header, file, count, |value| value),
+        (TypeChar::Int, 1) => numbers::<i8>(&header, file, count, f64::from),
+        (TypeChar::Int, 2) => numbers::<i16>(&header, file, count, f64::from),
+        (TypeChar::Int, 4) => numbers::<i32>(&header, file, count, f64::from),
+        (TypeChar::Int, 8) => numbers::<i64>(&header, file, count, |value| value as f64),
+        (TypeChar::Uint, 1) => numbers::<u8>(&header, file, count, f64::from),
+        (TypeChar::Uint, 2) => numbers::<u16>(&header, file, count, f64::from),
+        (TypeChar::Uint, 4) => numbers::<u32>(&header, file, count, f64::from),
+        (TypeChar::Uint, 8) => numbers::<u64>(&header, file, count, |value| value as f64),
         _ => {
             return Err(FileError::ElementType {
                 found: element.to_string(),
@@ -102,6 +143,7 @@ pub(super) fn read(mut file: impl BufRead, length: u64) -> Result<Matrix, FileEr
     }?;
     let values = match order {
         Order::C => values,
+        // Such an array is read whole.
         Order::Fortran => transposed(&values, rows, columns),
     };
     Ok(Matrix {
@@ -176,12 +218,15 @@ fn read_header(file: &mut impl Read) -> Result<Vec<u8>, FileError> {
     Ok(header)
 }
 
-/// All elements in the order of the file.
+/// So many elements in the order of the file, from where it stands.
 fn numbers<T: Deserialize>(
-    npy: NpyFile<impl Read>,
+    header: &[u8],
+    file: impl Read,
+    count: usize,
     convert: impl Fn(T) -> f64,
 ) -> Result<Vec<f64>, FileError> {
-    let count = npy.len() as usize;
+    let npy =
+        NpyFile::new(Cursor::new(header).chain(file)).map_err(|error| broken(error.to_string()))?;
     let elements = npy.data::<T>().map_err(|error| broken(error.to_string()))?;
     let mut values = Vec::new();
     values
@@ -189,7 +234,7 @@ fn numbers<T: Deserialize>(
         .map_err(|_| FileError::TooManyPoints {
             points: count as u64,
         })?;
-    for element in elements {
+    for element in elements.take(count) {
         values.push(convert(element.map_err(FileError::Read)?));
     }
     Ok(values)
@@ -234,9 +279,23 @@ mod tests {
         bytes.extend((header.len() as u32).to_le_bytes());
         bytes.extend(header);
         bytes.extend([1, 0, 2, 0, 3, 0, 0xFF, 0xFF]);
-        let matrix = read(&bytes[..], bytes.len() as u64).unwrap();
+        let matrix = read(Cursor::new(&bytes), bytes.len() as u64).unwrap();
         assert_eq!((matrix.rows, matrix.columns), (2, 2));
         assert_eq!(matrix.values, [1.0, 3.0, 2.0, -1.0]);
+    }
+
+    /// The rows of a part are those of the whole.
+    #[test]
+    fn rows_are_read_alone() {
+        let header = b"{'descr': '<i2', 'fortran_order': False, 'shape': (3, 2)}\n";
+        let bytes = file(header, &[1, 0, 2, 0, 3, 0, 4, 0, 5, 0, 0xFF, 0xFF]);
+        let length = bytes.len() as u64;
+        let all = read(Cursor::new(&bytes), length).unwrap();
+        for (part, values) in [(0..3, 0..6), (1..3, 2..6), (2..2, 4..4)] {
+            let rows = read_rows(Cursor::new(&bytes), length, part).unwrap();
+            assert_eq!((rows.rows, rows.columns), (3, 2));
+            assert_eq!(rows.values, all.values[values]);
+        }
     }
 
     proptest! {
@@ -258,7 +317,7 @@ mod tests {
                 }
             }
             let bytes = file(&header, &vec![0; elements]);
-            if let Ok(matrix) = read(&bytes[..], bytes.len() as u64) {
+            if let Ok(matrix) = read(Cursor::new(&bytes), bytes.len() as u64) {
                 prop_assert_eq!(matrix.values.len(), matrix.rows * matrix.columns);
             }
         }

@@ -63,7 +63,7 @@ fn table() -> Vec<BadFile> {
         bad("words.npy", &npy("<U4", "(1, 3)", &six), "FileError::ElementType", "elements of type <U4 are not heights"),
         bad("cut.npy", &npy("<f8", "(2, 3)", &six[..40]), "FileError::Truncated", "the file is cut short: 2 rows of 3 columns need 48 bytes, there are 40"),
         bad("huge.npy", &npy("<f8", "(20000, 20000)", &six), "FileError::Truncated", "20000 rows of 20000 columns need 3200000000 bytes, there are 48"),
-        bad("vast.npy", &npy("<f8", "(4294967296, 4294967)", &six), "FileError::TooManyPoints", "18446742802399232 points are too many; at most 1073741824 can be taken"),
+        bad("vast.npy", &npy("<f8", "(4294967296, 4294967)", &six), "FileError::TooManyPoints", "18446742802399232 points are too many; at most 17179869184 can be taken"),
         bad("nothing.npy", &npy("<f8", "(0, 3)", &[]), "FileError::NoNumbers", "the file holds no numbers"),
         bad("comments.txt", b"# 1 2\n% 3 4\n", "FileError::NoNumbers", "the file holds no numbers"),
         bad("ragged.txt", b"1 2 3\n4 5 6\n7 8\n", "FileError::Ragged", "line 3 (row 3) has 2 values where the rows above have 3; every row must have as many"),

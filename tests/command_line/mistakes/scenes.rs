@@ -199,13 +199,13 @@ fn mistakes_in_grid(tables: &mut Vec<Edits>) {
     tables.push(Edits { base: GOOD.to_string(), cases: &[
         ("points = 64\n", "", "s.toml:2: grid.points: missing", "add for example `points = 1024`"),
         ("size = \"1 um\"\n", "", "s.toml:2: grid.size: missing", r#"`size = "25 um"`"#),
-        ("points = 64", "points = 0", "s.toml:3: grid.points: 0 is out of range", "a whole number from 1 to 65536"),
-        ("points = 64", "points = 65537", "s.toml:3: grid.points: 65537 is out of range", "from 1 to 65536"),
-        ("points = 64", "points = -4", "s.toml:3: grid.points: -4 is out of range", "from 1 to 65536"),
+        ("points = 64", "points = 0", "s.toml:3: grid.points: 0 is out of range", "a whole number from 1 to 262144"),
+        ("points = 64", "points = 262145", "s.toml:3: grid.points: 262145 is out of range", "from 1 to 262144"),
+        ("points = 64", "points = -4", "s.toml:3: grid.points: -4 is out of range", "from 1 to 262144"),
         ("points = 64", "points = 64.0", "s.toml:3: grid.points: the number 64.0 where a whole number is expected", "write for example `points = 1024`"),
         ("points = 64", r#"points = "many""#, r#"s.toml:3: grid.points: the text "many" where a whole number is expected"#, "`points = 1024`"),
         ("points = 64", "points = [64, 64, 64]", "s.toml:3: grid.points: a list of 3 where a list of two values, x and y is expected", "`points = 1024`"),
-        ("points = 64", "points = [64,\n 0]", "s.toml:4: grid.points.1: 0 is out of range", "from 1 to 65536"),
+        ("points = 64", "points = [64,\n 0]", "s.toml:4: grid.points.1: 0 is out of range", "from 1 to 262144"),
         (r#"size = "1 um""#, "size = 0", "s.toml:4: grid.size: 0 is out of range", "must be finite and above 0"),
         (r#"size = "1 um""#, r#"size = "-1 um""#, r#"s.toml:4: grid.size: "-1 um" is out of range"#, "must be finite and above 0"),
         (r#"size = "1 um""#, "size = nan", "s.toml:4: grid.size: nan is out of range", "must be finite and above 0"),
@@ -564,7 +564,7 @@ fn mistakes_are_typed() {
             from_set: false,
             error: SceneError::OutOfRange {
                 found: "0".into(),
-                allowed: "a whole number from 1 to 65536".into(),
+                allowed: "a whole number from 1 to 262144".into(),
             },
         }]
     );
@@ -650,7 +650,7 @@ fn overrides_that_are_wrong_say_where_they_came_from() {
             GOOD,
             "grid.points",
             "0",
-            "s.toml, from an override: grid.points: 0 is out of range; it must be a whole number from 1 to 65536",
+            "s.toml, from an override: grid.points: 0 is out of range; it must be a whole number from 1 to 262144",
         ),
         (
             GOOD,

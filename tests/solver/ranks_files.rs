@@ -1,0 +1,171 @@
+//! Height files and adhesion maps over several ranks: the rows of each are those of one process.
+
+use std::fs;
+use std::path::Path;
+use std::sync::Arc;
+use std::thread;
+
+use tabor::backend::ranks::{Ranks, ThreadRanks};
+use tabor::scene::Scene;
+use tabor::surface::Surface;
+
+use crate::shared::trials::tests;
+
+const ADHESION: &str =
+    "[adhesion]\nlaw = \"maugis-dugdale\"\nwork_of_adhesion = \"10 mJ/m^2\"\nrange = \"10 nm\"\n";
+const PRESSURE: &str = "[loading]\ncontrol = \"pressure\"\npath = [2e5]";
+const FORCE: &str = "[loading]\ncontrol = \"force\"\npath = [1e-6]";
+
+/// A .npy file of doubles, `order` C or Fortran.
+fn npy(
+    path: &Path,
+    [columns, rows]: [usize; 2],
+    is_fortran: bool,
+    value: impl Fn(usize, usize) -> f64,
+) {
+    let fortran = if is_fortran { "True" } else { "False" };
+    let header =
+        format!("{{'descr': '<f8', 'fortran_order': {fortran}, 'shape': ({rows}, {columns}), }}\n");
+    let mut bytes = b"\x93NUMPY\x01\x00".to_vec();
+    bytes.extend((header.len() as u16).to_le_bytes());
+    bytes.extend(header.as_bytes());
+    for at in 0..rows * columns {
+        let [row, column] = if is_fortran {
+            [at % rows, at / rows]
+        } else {
+            [at / columns, at % columns]
+        };
+        bytes.extend(value(row, column).to_le_bytes());
+    }
+    fs::write(path, bytes).expect("a file");
+}
+
+/// The surface on so many ranks: heights and map of all of them, or what each one says.
+fn surface_over(scene: &Scene, count: usize) -> Result<[Vec<u64>; 2], Vec<String>> {
+    let built: Vec<_> = thread::scope(|scope| {
+        let built = |rank| {
+            let ranks: Arc<dyn Ranks> = Arc::new(rank);
+            scope.spawn(move || Surface::on_ranks(scene, Some(ranks)))
+        };
+        let threads: Vec<_> = ThreadRanks::new(count).into_iter().map(built).collect();
+        let ends = threads.into_iter().map(|thread| thread.join());
+        ends.map(|end| end.expect("no panic")).collect()
+    });
+    if built.iter().any(|surface| surface.is_err()) {
+        let said = built.into_iter().map(|surface| match surface {
+            Ok(_) => String::new(),
+            Err(error) => error.to_string(),
+        });
+        return Err(said.collect());
+    }
+    let mut all = [Vec::new(), Vec::new()];
+    for surface in built.into_iter().flatten() {
+        all[0].extend(surface.heights.iter().map(|height| height.to_bits()));
+        let map = surface.adhesion_map.unwrap_or_default();
+        all[1].extend(map.into_iter().map(f64::to_bits));
+    }
+    Ok(all)
+}
+
+/// Heights and maps from files have the bits of one process: read by rows, and read whole by one rank; what is wrong with a
+/// file is said once, in the same words.
+fn height_files() {
+    let place = tempfile::tempdir().expect("a temporary folder");
+    let points = [24, 38];
+    let height = |row: usize, column: usize| {
+        1e-9 * ((row * 7 + column * 3) as f64).sin() + 3e-10 * row as f64 - 2e-10 * column as f64
+    };
+    let at = |name: &str| place.path().join(name);
+    npy(&at("rows.npy"), points, false, height);
+    npy(&at("columns.npy"), points, true, height);
+    npy(&at("holes.npy"), points, false, |row, column| {
+        match [row, column] {
+            [9, 4] | [30, 5] => f64::NAN,
+            [31, 7] => f64::INFINITY,
+            _ => height(row, column),
+        }
+    });
+    npy(&at("map.npy"), points, false, |row, column| {
+        0.5 + ((row + column) % 3) as f64
+    });
+    npy(&at("wrong.npy"), points, false, |row, _| {
+        if row == 20 { -2.5 } else { 1.0 }
+    });
+    npy(&at("nothing.npy"), points, false, |_, _| 0.0);
+    let line = |row: usize| -> String {
+        let numbers = (0..points[0]).map(|column| format!("{:e} ", height(row, column)));
+        numbers.collect::<String>() + "\n"
+    };
+    fs::write(at("map.txt"), (0..points[1]).map(line).collect::<String>()).expect("a file");
+    fs::write(at("line.txt"), line(0)).expect("a file");
+    let file = |name: &str, asked: &str| {
+        format!("[[surface]]\nkind = \"file\"\npath = \"{name}\"\nscale = 2.0\n{asked}")
+    };
+    let scene = |surface: &str, map: &str, boundary: &str| {
+        let map = if map.is_empty() {
+            String::new()
+        } else {
+            format!("{ADHESION}map = {map}\n")
+        };
+        let text = format!(
+            "[grid]\npoints = {points:?}\nsize = [\"2 um\", \"3 um\"]\nboundary = \"{boundary}\"\n[solid]\ncontact_modulus = \"50 MPa\"\n{surface}{map}{}\n",
+            if boundary == "free" { FORCE } else { PRESSURE }
+        );
+        Scene::parse(&text, "scene.toml", place.path(), &[])
+            .unwrap_or_else(|e| panic!("{e}\n{text}"))
+    };
+    let whole = |scene: &Scene| {
+        Surface::build(scene).map(|surface| {
+            let map = surface.adhesion_map.unwrap_or_default();
+            let bits = |values: &[f64]| {
+                values
+                    .iter()
+                    .map(|value| value.to_bits())
+                    .collect::<Vec<_>>()
+            };
+            [bits(&surface.heights), bits(&map)]
+        })
+    };
+    let both = file("rows.npy", "detrend = \"quadratic\"\n") + &file("map.txt", "");
+    for (surface, map) in [
+        (file("rows.npy", ""), ""),
+        (file("rows.npy", "detrend = \"plane\"\n"), "\"map.npy\""),
+        (file("rows.npy", "detrend = \"lines\"\n"), "\"map.npy\""),
+        (
+            both,
+            "{ pattern = \"checker\", period = 0.5e-6, low = 0.2, high = 1.5 }",
+        ),
+        (
+            file("columns.npy", "detrend = \"mean\"\n"),
+            "\"columns.npy\"",
+        ),
+        (file("rows.npy", "edges = \"window\"\n"), ""),
+        (file("holes.npy", "fill = \"interpolate\"\n"), ""),
+        (file("line.txt", "profile = true\n"), ""),
+        (file("holes.npy", ""), ""),
+        (file("none.npy", ""), ""),
+        (file("rows.npy", ""), "\"wrong.npy\""),
+        (file("rows.npy", ""), "\"nothing.npy\""),
+    ] {
+        for boundary in ["periodic", "free"] {
+            let scene = scene(&surface, map, boundary);
+            let one = whole(&scene);
+            for count in [2, 5, 7] {
+                match (&one, surface_over(&scene, count)) {
+                    (Ok(one), Ok(found)) => assert!(*one == found, "{surface}{map} on {count}"),
+                    (Err(error), Err(said)) => {
+                        let error = error.to_string();
+                        assert_eq!(said[0], error);
+                        let is_known = |words: &String| {
+                            *words == error || words.contains("rank 0 of this run has ended")
+                        };
+                        assert!(said.iter().all(is_known), "{said:?}");
+                    }
+                    (one, found) => panic!("{surface}{map} on {count}: {one:?}, {found:?}"),
+                }
+            }
+        }
+    }
+}
+
+tests![height_files];
