@@ -34,7 +34,7 @@ def from_topography(topography: Any) -> tuple[npt.NDArray[np.float64], tuple[flo
     # Without a unit the numbers are taken as they are.
     metres = 1.0 if unit is None else UNITS[unit]
     values = topography.heights()
-    if np.ma.is_masked(values):
+    if np.any(getattr(values, "mask", False)):
         raise SurfaceError("heights: this topography has undefined points; interpolate_undefined_data() fills them")
     lx, ly = (float(side) * metres for side in topography.physical_sizes)
     heights = np.ascontiguousarray(np.asarray(values, dtype=np.float64).T) * metres
