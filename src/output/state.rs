@@ -180,7 +180,7 @@ impl SavedState<'_> {
         out.write_all(&checked.finalize().to_le_bytes())
     }
 
-    /// Reads the state at `path`; `None` where there is none.
+    /// Reads the state at `path`, if there is a file.
     ///
     /// # Errors
     /// Refused where the file is damaged, or of another version of tabor.
@@ -251,7 +251,7 @@ pub struct StateFile<R = BufReader<File>> {
 }
 
 impl StateFile {
-    /// Opens the state at `path`; `None` where there is none.
+    /// Opens the state at `path`, if there is a file.
     ///
     /// # Errors
     /// As [`SavedState::read`].
