@@ -55,7 +55,11 @@ impl Response {
 
 impl Factors<'_> {
     /// The factors of a shape, one after another.
-    pub fn tabulated<T: Send>(&self, shape: Shape, number: impl Fn(f64) -> T + Send + Sync) -> Vec<T> {
+    pub fn tabulated<T: Send>(
+        &self,
+        shape: Shape,
+        number: impl Fn(f64) -> T + Send + Sync,
+    ) -> Vec<T> {
         self.tabulated_columns(shape, 0..shape.points[0] / 2 + 1, number)
     }
 
@@ -103,7 +107,9 @@ mod tests {
     fn columns_of_a_table() {
         let shape = Shape::whole(6, 5);
         let factor = |[kx, ky]: [usize; 2]| (10 * kx + ky) as f64;
-        let table: Vec<f64> = (0..12).map(|index| factor([index / 3, index % 3])).collect();
+        let table: Vec<f64> = (0..12)
+            .map(|index| factor([index / 3, index % 3]))
+            .collect();
         for factors in [Factors::Table(&table), Factors::Each(&factor)] {
             assert_eq!(factors.tabulated(shape, |x| x), table, "{factors:?}");
             assert_eq!(factors.tabulated_columns(shape, 1..3, |x| x), table[3..9]);

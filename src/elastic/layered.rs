@@ -83,7 +83,11 @@ mod tests {
     /// thin ones whose softest wave is the longest, and of one where it lies between.
     #[test]
     fn formula_and_table_agree() {
-        for (points, size) in [([16, 12], [1.0, 1.3]), ([7, 1], [1.0, 3.0]), ([1, 1], [1.0, 1.0])] {
+        for (points, size) in [
+            ([16, 12], [1.0, 1.3]),
+            ([7, 1], [1.0, 3.0]),
+            ([1, 1], [1.0, 1.0]),
+        ] {
             let grid = Grid::new(points, size);
             for (thickness, poisson_ratio, base) in [
                 (10.0, 0.3, Base::Bonded),
@@ -109,8 +113,7 @@ mod tests {
                 let largest = table.iter().copied().fold(0.0, f64::max);
                 assert_eq!([formula.least(), formula.largest()], [least, largest]);
                 let parts = [0..columns / 3, columns / 3..columns];
-                let [one, other] =
-                    parts.map(|part| LayeredSpace::ends(&grid, 0.3, &layer, part));
+                let [one, other] = parts.map(|part| LayeredSpace::ends(&grid, 0.3, &layer, part));
                 assert_eq!(joined(one, other), ends);
             }
         }

@@ -58,10 +58,7 @@ const MOST_UPDATED: usize = 6;
 /// Stiffness of the shortest wave along an axis after so many halvings, the larger one.
 fn shortest(problem: &Problem, halvings: usize) -> f64 {
     let [nx, ny] = problem.shape.points.map(|points| (points >> halvings) / 2);
-    problem
-        .stiffness
-        .at(nx, 0)
-        .max(problem.stiffness.at(0, ny))
+    problem.stiffness.at(nx, 0).max(problem.stiffness.at(0, ny))
 }
 
 /// Whether it is known: a sketch has no table, whose waves are those of a half-space, nearly.

@@ -257,9 +257,7 @@ impl Problem {
             rms_slope: 0.0,
             law: law.reduced(scales.length, scales.pressure),
             stiffness: match boundary {
-                Boundary::Periodic => {
-                    Stiffness::HalfSpace(HalfSpace::new(grid, scales.lateral))
-                }
+                Boundary::Periodic => Stiffness::HalfSpace(HalfSpace::new(grid, scales.lateral)),
                 Boundary::Free => {
                     let size = [grid.dx(), grid.dy()];
                     let sides: [f64; 2] = std::array::from_fn(|axis| {
@@ -335,12 +333,7 @@ impl Problem {
             grid,
             shape: Shape::whole(grid.nx, grid.ny),
             heights: Heights::new(heights.into(), 0.0, 1.0, &share, &grid),
-            stiffness: stiffness::periodic(
-                grid,
-                self.scales.lateral,
-                self.layer.as_ref(),
-                &share,
-            ),
+            stiffness: stiffness::periodic(grid, self.scales.lateral, self.layer.as_ref(), &share),
             share,
             law: self.law,
             // Coarse starts are for the hard wall only.

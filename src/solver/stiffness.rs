@@ -1,12 +1,17 @@
 //! The stiffness of a problem's solid, of the wavevectors that this process transforms.
 
 use crate::backend::{BackendError, Share};
-use crate::elastic::{FreeKernel, HalfSpace, LayeredSpace, Layer, Stiffness, StiffnessTable};
+use crate::elastic::{FreeKernel, HalfSpace, Layer, LayeredSpace, Stiffness, StiffnessTable};
 use crate::grid::Grid;
 
 /// Of a periodic half-space or layer, with this many metres to a lateral unit; the ranks find the ends of a layer's
 /// together.
-pub(super) fn periodic(grid: Grid, lateral: f64, layer: Option<&Layer>, share: &Share) -> Stiffness {
+pub(super) fn periodic(
+    grid: Grid,
+    lateral: f64,
+    layer: Option<&Layer>,
+    share: &Share,
+) -> Stiffness {
     let Some(layer) = layer else {
         return Stiffness::HalfSpace(HalfSpace::new(grid, lateral));
     };
@@ -83,5 +88,9 @@ pub(super) fn on_level(
     let low = table.low(held(fine.rank()), rows);
     let wanted = |rank: usize| coarse.columns_of(rank).collect();
     let values = fine.fetch(&low, rows, held, wanted)?;
-    Ok(Stiffness::Table(table.below(coarse.columns(), values, [columns, rows])))
+    Ok(Stiffness::Table(table.below(
+        coarse.columns(),
+        values,
+        [columns, rows],
+    )))
 }

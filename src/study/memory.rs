@@ -16,14 +16,14 @@ pub(crate) const DOUBLE: u64 = 8;
 /// The program and its threads, as measured on scenes of a few points.
 const PROGRAM: u64 = 16 << 20;
 /// MPI and its connections in a rank, as measured on the same scenes.
-const MPI: u64 = 8 << 20;
+const MPI: u64 = 14 << 20;
 /// Graphics drivers that a run looks for, as measured with a software driver on 512 x 512 points.
 const DRIVERS: u64 = 56 << 20;
 /// Bytes a point of the results of a step: gap and pressure, and a byte for the state.
 pub(crate) const EVALUATION: u64 = 2 * DOUBLE + 1;
 /// Fields below this length stay with the allocator when they are let go (glibc on 64 bits; longer ones go back
-/// to the system), and do not always fit where another is wanted: at the largest moment about one of the solver's
-/// fields was unused. Those of a coarse start stay where the solver's own do not.
+/// to the system), and do not always fit where another is wanted: at the largest moment about half of one of the
+/// solver's fields was unused. Those of a coarse start stay where the solver's own do not.
 const SHORTEST_RETURNED: u64 = 32 << 20;
 /// Bytes a drawn point of a picture: its value and its colour.
 const DRAWN: u64 = DOUBLE + 3;
@@ -141,7 +141,7 @@ impl Memory {
         let unused = if !on_processor {
             0
         } else if solver_field < SHORTEST_RETURNED {
-            solver_field
+            solver_field / 2
         } else if cost.starts_coarse && solver_field / 4 < SHORTEST_RETURNED {
             SHORTEST_RETURNED
         } else {

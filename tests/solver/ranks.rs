@@ -187,9 +187,18 @@ fn free_spheres() {
 fn stiffness_by_columns() {
     let adhesion = adhesion("maugis-dugdale");
     for (layer, grid) in [
-        ("thickness = \"5 um\"\nbase = \"bonded\"\npoisson_ratio = 0.3\n", [64, 64]),
-        ("thickness = \"0.2 um\"\nbase = \"bonded\"\npoisson_ratio = 0.5\n", [36, 100]),
-        ("thickness = \"0.1 um\"\nbase = \"frictionless\"\npoisson_ratio = 0.3\n", [61, 47]),
+        (
+            "thickness = \"5 um\"\nbase = \"bonded\"\npoisson_ratio = 0.3\n",
+            [64, 64],
+        ),
+        (
+            "thickness = \"0.2 um\"\nbase = \"bonded\"\npoisson_ratio = 0.5\n",
+            [36, 100],
+        ),
+        (
+            "thickness = \"0.1 um\"\nbase = \"frictionless\"\npoisson_ratio = 0.3\n",
+            [61, 47],
+        ),
     ] {
         let (below, surface) = (format!("{adhesion}{MEAN_GAP}"), format!("{layer}{ROUGH}"));
         let scene = scene(grid, "periodic", &below, &surface);
