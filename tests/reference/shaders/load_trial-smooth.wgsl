@@ -191,9 +191,13 @@ fn here_at(gap: real, elastic: real, in_domain: bool) -> Here {
     return Here(gap, open(gap), elastic, pull, elastic + pull, true, real(1.0), real(0.0));
 }
 
-// y on free points in the measure of the iteration's variable, 0 elsewhere.
+// What r is on a free point in exact balance: less than any rounding, and not 0.
+const BALANCED: real = 1.2e-38;
+
+// y on free points in the measure of the iteration's variable, 0 elsewhere and nowhere else.
 fn projected_residual(here: Here) -> real {
-    return select(real(0.0), here.weight * here.y, here.free);
+    let residual = here.weight * here.y;
+    return select(real(0.0), select(residual, BALANCED, residual == 0.0), here.free);
 }
 
 // What a point adds to the stopping measure.
@@ -249,7 +253,8 @@ fn gap_at(goal: real, gap: real) -> real {
     // needs a bound, which the repulsive power alone gives.
     let load = real(params.smooth_stiffness) * (peak_gap - goal) - law_factor * real(params.law_peak);
     let bound = law_repelling_gap(load);
-    let nearness = real(wide(2.0) * params.epsilon) * real(params.law_range);
+    // The last step leaves the square of itself, times 5 over the distance.
+    let nearness = real(wide(0.1) * sqrt(params.epsilon)) * real(params.law_range);
     var x = min(max(gap + (goal - variable(gap)) * share(gap), bound), peak_gap);
     for (var count = 0u; count < NEWTON_STEPS; count = count + 1u) {
         let error = variable(x) - goal;
@@ -279,6 +284,13 @@ fn violation(here: Here) -> Violation {
 fn preconditioned(here: Here, line: real) -> real {
     let stiffness = real(params.smooth_stiffness);
     return line + here.hardening / stiffness * here.y / (here.hardening + stiffness);
+}
+
+// The same, of r = S2 y.
+fn answered(gap: real, residual: real, line: real, in_domain: bool) -> real {
+    let stiffness = real(params.smooth_stiffness);
+    let local = hardening(gap) / stiffness * (residual / stiffness);
+    return select(line, line + local, in_domain);
 }
 
 fn goes_down(open: real, y: real) -> bool {
