@@ -264,13 +264,6 @@ fn preconditioned(here: Here, line: real) -> real {
     return line + here.hardening / stiffness * here.y / (here.hardening + stiffness);
 }
 
-// The same, of r = S2 y.
-fn answered(gap: real, residual: real, line: real, in_domain: bool) -> real {
-    let stiffness = real(params.smooth_stiffness);
-    let local = hardening(gap) / stiffness * (residual / stiffness);
-    return select(line, line + local, in_domain);
-}
-
 fn goes_down(open: real, y: real) -> bool {
     return false;
 }

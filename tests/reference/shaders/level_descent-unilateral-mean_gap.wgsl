@@ -233,11 +233,6 @@ fn preconditioned(here: Here, line: real) -> real {
     return select(real(0.0), line, here.free);
 }
 
-// The same where the projected residual is known: a point is free where that is not zero.
-fn answered(gap: real, residual: real, line: real, in_domain: bool) -> real {
-    return select(real(0.0), line, residual != 0.0);
-}
-
 fn goes_down(open: real, y: real) -> bool {
     return false;
 }
@@ -344,10 +339,10 @@ fn mean_gap_descent_terms(z: real, residual: real, previous: real, direction: re
 fn at(index: u32, in_domain: bool, line: real) -> real {
     let answer = finest_answer(index);
     let previous = read_previous_residual(index);
-    if (!MEAN_GAP) {
-        // The projected residual is known, and with it which points are free.
+    if (!MEAN_GAP && !STORES_STEP) {
+        // At a wall the projected residual says all: a point is free where that is not zero.
         let known = read_projected_residual(index);
-        let z_known = answered(read_gap(index), known, answer, in_domain);
+        let z_known = select(real(0.0), answer, known != 0.0);
         descent_terms(z_known, known, previous);
         return z_known;
     }
@@ -355,7 +350,9 @@ fn at(index: u32, in_domain: bool, line: real) -> real {
     let residual = projected_residual(here);
     let z = preconditioned(here, answer);
     descent_terms(z, residual, previous);
-    mean_gap_descent_terms(z, residual, previous, read_direction(index), here.weight, here.free);
+    if (MEAN_GAP) {
+        mean_gap_descent_terms(z, residual, previous, read_direction(index), here.weight, here.free);
+    }
     return z;
 }
 var<workgroup> exchange: array<vec2<real>, 32>;

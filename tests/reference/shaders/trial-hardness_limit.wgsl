@@ -248,11 +248,6 @@ fn preconditioned(here: Here, line: real) -> real {
     return select(real(0.0), line, here.free);
 }
 
-// The same where the projected residual is known: a point is free where that is not zero.
-fn answered(gap: real, residual: real, line: real, in_domain: bool) -> real {
-    return select(real(0.0), line, residual != 0.0);
-}
-
 // Whether a point is below zero or may only go there.
 fn goes_down(open: real, y: real) -> bool {
     return open < 0.0 || (open == 0.0 && y > 0.0);
