@@ -69,7 +69,7 @@
 //! | [`scene`] | TOML to a checked scene, or every mistake of it with line, key and remedy |
 //! | [`surface`] | heights: self-affine, shapes, files; their statistics and the spectrum that fits |
 //! | [`study`] | loading paths: what is prescribed, jumps, energies, the rows of `curve.csv`, the hooks of effects |
-//! | [`flow`] | the flow of a thin film through a gap, and its critical constriction |
+//! | [`flow`] | the flow of a thin film through a gap, and its critical constriction, in strips of rows on all threads and ranks |
 //! | [`effect`] | what a scene may ask for besides, one file each, and what each costs |
 //! | [`output`] | the files of a run: curve, summary, fields, pictures, report, and the state to resume from |
 //! | [`device`] | where a run computes: the processor or a graphics processor, and in which arithmetic |

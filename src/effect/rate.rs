@@ -89,7 +89,6 @@ impl Hooks for Rate {
             passing: DOUBLE * (sizes.points + sizes.solved),
             // The first trial.
             results: 1,
-            ..HostBytes::default()
         }
     }
 

@@ -3,25 +3,27 @@
 //! The flow through a gap u under a gradient of pressure p is u^3 grad p/(12 eta) (Reynolds 1886), and none
 //! passes where the gap is closed. Fluid passes between points that share a side.
 
-mod lattice;
+mod clusters;
+mod faces;
+mod graph;
+mod layout;
+mod levels;
 mod multigrid;
 mod percolation;
 mod reynolds;
 
+use rayon::prelude::*;
+
+use crate::backend::{BackendError, Shape, Share};
 use crate::grid::{Boundary, Grid};
 use crate::scene::Axis;
 
-use lattice::Lattice;
+use faces::Frame;
 
-/// Most points of a grid: points are counted in four bytes, and the last number is no point.
-pub const MOST_POINTS: usize = u32::MAX as usize - 1;
-
-/// A gap that a fluid may fill.
+/// Where a fluid may flow.
 #[derive(Clone, Copy, Debug)]
-pub struct Film<'a> {
-    /// Gap, m, shape `[ny, nx]`; a point that is not above 0 is closed.
-    pub gap: &'a [f64],
-    /// Where the points lie; at most [`MOST_POINTS`].
+pub struct Film {
+    /// Where the points lie.
     pub grid: Grid,
     /// A periodic gap repeats in every cell, and the pressure falls by the same from one cell to the next. A free one
     /// has an inlet and an outlet at the two edges across the flow, and walls at the other two.
@@ -44,28 +46,57 @@ pub struct Flow {
     pub iterations: usize,
 }
 
-impl Film<'_> {
-    /// Finds the critical constriction, and the flow to a relative `tolerance` in at most `max_iterations`.
-    pub fn flow(&self, tolerance: f64, max_iterations: usize) -> Flow {
-        let lattice = Lattice::new(self);
-        let percolation = percolation::find(&lattice);
-        if percolation.critical_gap <= 0.0 {
-            return Flow {
+impl Film {
+    /// Finds the critical constriction, and the flow to a relative `tolerance` in at most `max_iterations`, through a gap, m,
+    /// shape `[ny, nx]`; a point that is not above 0 is closed.
+    pub fn flow(&self, gap: Vec<f64>, tolerance: f64, max_iterations: usize) -> Flow {
+        let share = Share::whole(Shape::whole(self.grid.nx, self.grid.ny));
+        let found = self.flow_on(&share, gap, tolerance, max_iterations);
+        // One process waits for no other.
+        found.unwrap_or(Flow {
+            critical_gap: f64::NAN,
+            permeance: f64::NAN,
+            converged: false,
+            iterations: 0,
+        })
+    }
+
+    /// The same through a gap of which this process holds the rows of a share of the grid. The result has the same bits on
+    /// every rank and on any number of them.
+    ///
+    /// # Errors
+    /// A rank has ended.
+    #[doc(hidden)]
+    pub fn flow_on(
+        &self,
+        share: &Share,
+        mut gap: Vec<f64>,
+        tolerance: f64,
+        max_iterations: usize,
+    ) -> Result<Flow, BackendError> {
+        debug_assert_eq!(share.shape().points, self.grid.points());
+        let frame = Frame::new(&self.grid, self.boundary, self.axis);
+        let unit = share.greatest(gap.iter().copied().fold(0.0, f64::max));
+        share.failed()?;
+        gap.par_iter_mut()
+            .for_each(|gap| *gap = if *gap > 0.0 { *gap / unit } else { 0.0 });
+        let critical_gap = percolation::close(share, &frame, &mut gap)?;
+        if critical_gap <= 0.0 {
+            return Ok(Flow {
                 critical_gap: 0.0,
                 permeance: 0.0,
                 converged: true,
                 iterations: 0,
-            };
+            });
         }
-        let solution =
-            reynolds::solve(&lattice, &percolation.conducting, tolerance, max_iterations);
-        let unit = lattice.largest_gap;
-        Flow {
-            critical_gap: percolation.critical_gap * unit,
-            permeance: solution.permeance * unit.powi(3),
-            converged: solution.converged,
-            iterations: solution.iterations,
-        }
+        gap.par_iter_mut().for_each(|gap| *gap = gap.powi(3));
+        let pressure = reynolds::solve(share, &frame, gap, tolerance, max_iterations)?;
+        Ok(Flow {
+            critical_gap: critical_gap * unit,
+            permeance: pressure.power * unit.powi(3),
+            converged: pressure.converged,
+            iterations: pressure.iterations,
+        })
     }
 }
 

@@ -1,36 +1,32 @@
-//! Conjugate gradients on a graph of conductances, preconditioned by multigrid over pairs of nodes.
+//! Conjugate gradients on a graph of conductances, preconditioned by multigrid over nodes joined by fours.
 //!
 //! Conductances go with the cube of a gap and differ by many orders. So coarse nodes are not squares of the grid: each
-//! node is joined with the neighbour that it is most strongly linked to (Notay 2010, ETNA 37, 123), and two steps of
-//! conjugate gradients on every other coarse graph make up for what its piecewise constant pressure lacks (the
-//! K-cycle, Notay & Vassilevski 2008, doi:10.1002/nla.542; on all of them it would take several times as long).
-//! Everything goes through the nodes in one order, so that the result does not depend on threads.
+//! node is joined with the neighbour that it is most strongly linked to, and the pairs again (Notay 2010, ETNA 37, 123),
+//! and two steps of conjugate gradients on every coarse graph make up for what its piecewise constant pressure lacks (the
+//! K-cycle, Notay & Vassilevski 2008, doi:10.1002/nla.542).
+//!
+//! A node is joined within its strip of rows only. Strips of one colour are relaxed at once and their nodes in order,
+//! so that the result depends neither on threads nor on ranks.
 
 use nalgebra::{Cholesky, DMatrix, DVector, Dyn};
+use rayon::prelude::*;
 
-/// No node.
-const NONE: u32 = u32::MAX;
+use super::graph::Graph;
+use super::levels::{Joint, Level, Strip};
+use crate::backend::{BackendError, Share};
+
 /// Most nodes of a graph that is solved directly.
 const DIRECT: usize = 200;
-/// A link is strong if it conducts this share of the strongest one of its node (Notay 2010).
-const STRONG: f64 = 0.25;
+/// Two steps are made on a graph of fewer nodes than this share of the last graph of two steps: all graphs together cost
+/// some times the finest.
+const SMALLER: f64 = 0.4;
+/// Numbers of a vector that a thread takes at once.
+const AT_ONCE: usize = 1 << 13;
 /// Iterations whose decrease of the power stands for the error of the first of them (Hestenes & Stiefel 1952).
 const DELAY: usize = 4;
 
-/// Nodes linked by conductances. A node may be linked to the ground too, where the pressure is 0.
-#[derive(Default)]
-pub(super) struct Graph {
-    /// Where the links of each node begin, and where those of the last end.
-    start: Vec<usize>,
-    to: Vec<u32>,
-    conductance: Vec<f64>,
-    /// Conductance to the ground of each node.
-    ground: Vec<f64>,
-    /// Sum of the conductances of each node.
-    diagonal: Vec<f64>,
-}
-
 /// The pressure that was found.
+#[derive(Clone, Copy, Debug)]
 pub(super) struct Pressure {
     /// Power that is lost.
     pub power: f64,
@@ -40,352 +36,244 @@ pub(super) struct Pressure {
     pub iterations: usize,
 }
 
-impl Graph {
-    /// No nodes yet, room for so many.
-    pub fn with_capacity(nodes: usize) -> Graph {
-        let mut start = Vec::with_capacity(nodes + 1);
-        start.push(0);
-        Graph {
-            start,
-            ground: Vec::with_capacity(nodes),
-            diagonal: Vec::with_capacity(nodes),
-            ..Graph::default()
+/// Solves for the pressure under which `source` leaves a graph. `power` is what is lost under a pressure.
+///
+/// # Errors
+/// A rank has ended.
+pub(super) fn solve(
+    share: &Share,
+    graph: Level,
+    source: Vec<f64>,
+    power: impl Fn(&Level, &[f64]) -> Result<f64, BackendError>,
+    tolerance: f64,
+    max_iterations: usize,
+) -> Result<Pressure, BackendError> {
+    let levels = Levels::new(share, graph)?;
+    let graph = &levels.graphs[0];
+    let layout = &graph.layout;
+    let nodes = layout.own_nodes().len();
+    let mut residual = source;
+    let mut pressure = vec![0.0; nodes];
+    let mut direction = vec![0.0; nodes];
+    let mut outflow = vec![0.0; nodes];
+    // Of the last direction.
+    let mut curvature = 0.0;
+    // Twice the decrease of each iteration, the last ones.
+    let mut decreases = [f64::INFINITY; DELAY];
+    let mut lost = power(graph, &pressure)?;
+    for iteration in 0..max_iterations {
+        let correction = levels.correct(0, &residual)?;
+        // Conjugate to the last direction, whatever the preconditioner did.
+        let beta = if curvature > 0.0 {
+            layout.dot(share, &correction, &outflow)? / curvature
+        } else {
+            0.0
+        };
+        each(&mut direction, &correction, |d, c| c - beta * d);
+        drop(correction);
+        graph.outflow(share, &direction, &mut outflow)?;
+        let slope = layout.dot(share, &direction, &residual)?;
+        curvature = layout.dot(share, &direction, &outflow)?;
+        let is_done = slope <= 0.0 || curvature <= 0.0;
+        if !is_done {
+            let step = slope / curvature;
+            each(&mut pressure, &direction, |p, d| p + step * d);
+            each(&mut residual, &outflow, |r, o| r - step * o);
+            decreases[iteration % DELAY] = step * slope;
+        }
+        let error: f64 = decreases.iter().sum();
+        // The power only falls: the last one known is an upper bound.
+        if is_done || error <= tolerance * lost {
+            lost = power(graph, &pressure)?;
+        }
+        if is_done || error <= tolerance * lost {
+            return Ok(Pressure {
+                power: lost,
+                converged: lost.is_finite(),
+                iterations: iteration + 1,
+            });
         }
     }
+    Ok(Pressure {
+        power: power(graph, &pressure)?,
+        converged: false,
+        iterations: max_iterations,
+    })
+}
 
-    /// Links the node that is being added to another one.
-    pub fn link(&mut self, to: u32, conductance: f64) {
-        self.to.push(to);
-        self.conductance.push(conductance);
-    }
-
-    /// Ends the node that is being added.
-    pub fn end_node(&mut self, ground: f64) {
-        let begun = *self.start.last().unwrap_or(&0);
-        let links: f64 = self.conductance[begun..].iter().sum();
-        self.diagonal.push(links + ground);
-        self.ground.push(ground);
-        self.start.push(self.to.len());
-    }
-
-    fn len(&self) -> usize {
-        self.ground.len()
-    }
-
-    /// The links of a node: the other node and the conductance.
-    fn links(&self, node: usize) -> impl Iterator<Item = (usize, f64)> {
-        let range = self.start[node]..self.start[node + 1];
-        let to = self.to[range.clone()].iter().map(|to| *to as usize);
-        to.zip(self.conductance[range].iter().copied())
-    }
-
-    /// What leaves each node under a pressure. By differences: so nothing is lost where the pressure is nearly constant.
-    fn outflow(&self, pressure: &[f64], outflow: &mut [f64]) {
-        for (node, out) in outflow.iter_mut().enumerate() {
-            let here = pressure[node];
-            let through = self.links(node).map(|(to, g)| g * (here - pressure[to]));
-            *out = self.ground[node] * here + through.sum::<f64>();
+/// Changes each number of a vector by that of another one.
+fn each(vector: &mut [f64], by: &[f64], changed: impl Fn(f64, f64) -> f64 + Sync) {
+    let work = |(vector, by): (&mut [f64], &[f64])| {
+        for (value, by) in vector.iter_mut().zip(by) {
+            *value = changed(*value, *by);
         }
-    }
-
-    /// Gives a node the pressure at which nothing is left over.
-    fn relax(&self, node: usize, source: &[f64], pressure: &mut [f64]) {
-        if self.diagonal[node] > 0.0 {
-            let entering = self.links(node).map(|(to, g)| g * pressure[to]);
-            pressure[node] = (source[node] + entering.sum::<f64>()) / self.diagonal[node];
-        }
-    }
-
-    /// Joins each node with the one that it is most strongly linked to: the coarse node of each.
-    fn pairs(&self) -> (Vec<u32>, usize) {
-        let mut coarse = vec![NONE; self.len()];
-        let mut count = 0;
-        for node in 0..self.len() {
-            if coarse[node] != NONE {
-                continue;
-            }
-            let strongest = |free: bool| {
-                let of_kind = self
-                    .links(node)
-                    .filter(|(to, g)| *to != node && *g > 0.0 && (coarse[*to] == NONE) == free);
-                of_kind.fold(
-                    (NONE, 0.0),
-                    |best, (to, g)| {
-                        if g > best.1 { (to as u32, g) } else { best }
-                    },
-                )
-            };
-            let (free, taken) = (strongest(true), strongest(false));
-            // A weak link to a free node is worse than a third node in a strong pair.
-            if free.0 != NONE && free.1 >= STRONG * taken.1 {
-                coarse[node] = count;
-                coarse[free.0 as usize] = count;
-                count += 1;
-            } else if taken.0 != NONE {
-                coarse[node] = coarse[taken.0 as usize];
-            } else if self.diagonal[node] > 0.0 {
-                // Only the ground, or only nodes of no conductance.
-                coarse[node] = count;
-                count += 1;
-            }
-        }
-        (coarse, count as usize)
-    }
-
-    /// The graph of the coarse nodes.
-    fn joined(&self, coarse: &[u32], count: usize) -> Graph {
-        // Nodes by their coarse one.
-        let mut first = vec![NONE; count];
-        let mut next = vec![NONE; self.len()];
-        for node in (0..self.len()).rev() {
-            if coarse[node] != NONE {
-                next[node] = first[coarse[node] as usize];
-                first[coarse[node] as usize] = node as u32;
-            }
-        }
-        let mut joined = Graph::with_capacity(count);
-        // Where the link to a coarse node stands, while the links of another one are put together.
-        let mut place = vec![usize::MAX; count];
-        for (node, mut member) in first.into_iter().enumerate() {
-            let begun = joined.to.len();
-            let mut ground = 0.0;
-            while member != NONE {
-                ground += self.ground[member as usize];
-                for (to, g) in self.links(member as usize) {
-                    let to = coarse[to];
-                    if to == NONE || to as usize == node {
-                        continue;
-                    }
-                    let at = place[to as usize];
-                    if at != usize::MAX && at >= begun {
-                        joined.conductance[at] += g;
-                    } else {
-                        place[to as usize] = joined.to.len();
-                        joined.link(to, g);
-                    }
-                }
-                member = next[member as usize];
-            }
-            joined.end_node(ground);
-        }
-        joined
-    }
-
-    /// Finds the pressure that balances a `source` in every node. `power` is what a pressure loses, which ends the
-    /// iteration: its relative error is at most about `tolerance`.
-    pub fn solve(
-        self,
-        source: &[f64],
-        power: impl Fn(&[f64]) -> f64,
-        tolerance: f64,
-        max_iterations: usize,
-    ) -> Pressure {
-        let nodes = self.len();
-        let levels = Levels::new(self);
-        let graph = &levels.graphs[0];
-        let mut pressure = vec![0.0; nodes];
-        let mut residual = source.to_vec();
-        let mut direction = vec![0.0; nodes];
-        let mut outflow = vec![0.0; nodes];
-        let mut correction = vec![0.0; nodes];
-        // Twice the decrease of each iteration, the last ones.
-        let mut decreases = [f64::INFINITY; DELAY];
-        let mut lost = power(&pressure);
-        for iteration in 0..max_iterations {
-            levels.correct(0, &residual, &mut correction);
-            // Conjugate to the last direction, whatever the preconditioner did.
-            let curvature = dot(&direction, &outflow);
-            let beta = if curvature > 0.0 {
-                dot(&correction, &outflow) / curvature
-            } else {
-                0.0
-            };
-            for (d, c) in direction.iter_mut().zip(&correction) {
-                *d = c - beta * *d;
-            }
-            graph.outflow(&direction, &mut outflow);
-            let slope = dot(&direction, &residual);
-            let curvature = dot(&direction, &outflow);
-            let is_done = slope <= 0.0 || curvature <= 0.0;
-            if !is_done {
-                let step = slope / curvature;
-                for (p, d) in pressure.iter_mut().zip(&direction) {
-                    *p += step * d;
-                }
-                for (r, o) in residual.iter_mut().zip(&outflow) {
-                    *r -= step * o;
-                }
-                decreases[iteration % DELAY] = step * slope;
-            }
-            let error: f64 = decreases.iter().sum();
-            // The power only falls: the last one known is an upper bound.
-            if is_done || error <= tolerance * lost {
-                lost = power(&pressure);
-            }
-            if is_done || error <= tolerance * lost {
-                return Pressure {
-                    power: lost,
-                    converged: lost.is_finite(),
-                    iterations: iteration + 1,
-                };
-            }
-        }
-        Pressure {
-            power: power(&pressure),
-            converged: false,
-            iterations: max_iterations,
-        }
+    };
+    if vector.len() <= AT_ONCE {
+        work((vector, by));
+    } else {
+        let parts = vector.par_chunks_mut(AT_ONCE);
+        parts.zip(by.par_chunks(AT_ONCE)).for_each(work);
     }
 }
 
 /// A graph and the coarser ones made from it.
-struct Levels {
-    graphs: Vec<Graph>,
-    /// For each graph but the last, the node of the next one that each node belongs to.
-    coarse: Vec<Vec<u32>>,
+struct Levels<'a> {
+    share: &'a Share,
+    graphs: Vec<Level>,
+    /// Whether two steps are made on each graph.
+    twice: Vec<bool>,
+    joints: Vec<Joint>,
     /// The last graph, ready to be solved.
     direct: Option<Cholesky<f64, Dyn>>,
 }
 
-impl Levels {
-    fn new(graph: Graph) -> Levels {
+impl<'a> Levels<'a> {
+    fn new(share: &'a Share, graph: Level) -> Result<Levels<'a>, BackendError> {
         let mut graphs = vec![graph];
-        let mut coarse = Vec::new();
+        let mut joints = Vec::new();
+        // The finest graph lies on all ranks even if it is small.
         while let Some(fine) = graphs.last()
-            && fine.len() > DIRECT
+            && (joints.is_empty() || fine.layout.nodes() > DIRECT)
         {
-            let (pairs, count) = fine.pairs();
-            let next = fine.joined(&pairs, count);
-            coarse.push(pairs);
-            let is_stuck = 10 * next.len() > 9 * fine.len();
+            let (joint, next) = fine.joined(share)?;
+            let is_stuck =
+                fine.layout.strips() == 1 && 10 * next.layout.nodes() > 9 * fine.layout.nodes();
+            joints.push(joint);
             graphs.push(next);
             if is_stuck {
                 break;
             }
         }
         let direct = graphs.last().and_then(factorise);
-        Levels {
+        let mut last = graphs[0].layout.nodes();
+        let twice = graphs.iter().map(|graph| {
+            let nodes = graph.layout.nodes();
+            let is_twice = (nodes as f64) < SMALLER * last as f64;
+            if is_twice {
+                last = nodes;
+            }
+            is_twice
+        });
+        let twice = twice.collect();
+        Ok(Levels {
+            share,
+            twice,
             graphs,
-            coarse,
+            joints,
             direct,
-        }
+        })
     }
 
     /// The correction of the pressure that a residual asks for, from level `at` on.
-    fn correct(&self, at: usize, residual: &[f64], correction: &mut [f64]) {
-        let graph = &self.graphs[at];
-        correction.fill(0.0);
+    fn correct(&self, at: usize, residual: &[f64]) -> Result<Vec<f64>, BackendError> {
+        let (share, graph) = (self.share, &self.graphs[at]);
         if at + 1 == self.graphs.len()
             && let Some(direct) = &self.direct
         {
             let solved = direct.solve(&DVector::from_column_slice(residual));
-            correction.copy_from_slice(solved.as_slice());
-            return;
+            return Ok(solved.data.into());
         }
-        for node in 0..graph.len() {
-            graph.relax(node, residual, correction);
+        let mut correction = vec![0.0; residual.len()];
+        graph.relax(share, residual, &mut correction, true)?;
+        if let Some(joint) = self.joints.get(at) {
+            let left = graph.restrict(share, joint, residual, &correction)?;
+            let left = joint.passage.down(share, left)?;
+            let found = self.steps(at + 1, left)?;
+            let found = joint.passage.up(share, found)?;
+            graph.prolong(joint, &found, &mut correction);
         }
-        if let Some(coarse) = self.coarse.get(at) {
-            let mut left = vec![0.0; graph.len()];
-            graph.outflow(correction, &mut left);
-            for (l, r) in left.iter_mut().zip(residual) {
-                *l = r - *l;
-            }
-            let mut joined = vec![0.0; self.graphs[at + 1].len()];
-            for (to, l) in coarse.iter().zip(&left) {
-                if *to != NONE {
-                    joined[*to as usize] += l;
-                }
-            }
-            drop(left);
-            let found = self.steps(at + 1, joined);
-            for (c, from) in correction.iter_mut().zip(coarse) {
-                if *from != NONE {
-                    *c += found[*from as usize];
-                }
-            }
-        }
-        for node in (0..graph.len()).rev() {
-            graph.relax(node, residual, correction);
-        }
+        graph.relax(share, residual, &mut correction, false)?;
+        Ok(correction)
     }
 
-    /// Two steps of conjugate gradients on every other coarse graph, one correction on the others.
-    fn steps(&self, at: usize, mut residual: Vec<f64>) -> Vec<f64> {
-        let graph = &self.graphs[at];
-        let mut first = vec![0.0; graph.len()];
-        self.correct(at, &residual, &mut first);
-        if at % 2 == 1 || at + 1 == self.graphs.len() {
-            return first;
+    /// Two steps of conjugate gradients.
+    fn steps(&self, at: usize, mut residual: Vec<f64>) -> Result<Vec<f64>, BackendError> {
+        let (share, graph) = (self.share, &self.graphs[at]);
+        let layout = &graph.layout;
+        let mut first = self.correct(at, &residual)?;
+        if at + 1 == self.graphs.len() || !self.twice[at] {
+            return Ok(first);
         }
-        let mut first_out = vec![0.0; graph.len()];
-        graph.outflow(&first, &mut first_out);
-        let curvature = dot(&first, &first_out);
+        let mut first_out = vec![0.0; first.len()];
+        graph.outflow(share, &first, &mut first_out)?;
+        let curvature = layout.dot(share, &first, &first_out)?;
         if curvature <= 0.0 {
-            return first;
+            return Ok(first);
         }
-        let step = dot(&first, &residual) / curvature;
-        for (r, o) in residual.iter_mut().zip(&first_out) {
-            *r -= step * o;
-        }
-        let scaled = |first: Vec<f64>, by: f64| first.into_iter().map(|c| by * c).collect();
-        let mut second = vec![0.0; graph.len()];
-        self.correct(at, &residual, &mut second);
+        let step = layout.dot(share, &first, &residual)? / curvature;
+        each(&mut residual, &first_out, |r, o| r - step * o);
+        let mut second = self.correct(at, &residual)?;
         // Conjugate to the first.
-        let beta = dot(&second, &first_out) / curvature;
-        for (s, f) in second.iter_mut().zip(&first) {
-            *s -= beta * f;
-        }
+        let beta = layout.dot(share, &second, &first_out)? / curvature;
+        each(&mut second, &first, |s, f| s - beta * f);
         let mut second_out = first_out;
-        graph.outflow(&second, &mut second_out);
-        let curvature = dot(&second, &second_out);
+        graph.outflow(share, &second, &mut second_out)?;
+        let curvature = layout.dot(share, &second, &second_out)?;
         if curvature <= 0.0 {
-            return scaled(first, step);
+            first.iter_mut().for_each(|f| *f *= step);
+            return Ok(first);
         }
-        let further = dot(&second, &residual) / curvature;
-        let both = first.iter().zip(&second);
-        both.map(|(f, s)| step * f + further * s).collect()
+        let further = layout.dot(share, &second, &residual)? / curvature;
+        each(&mut first, &second, |f, s| step * f + further * s);
+        Ok(first)
     }
 }
 
-/// The Cholesky factor of a small graph. In each part of it that has no ground one node is given some: a source that
-/// sums to 0 over the part sends nothing through it.
-fn factorise(graph: &Graph) -> Option<Cholesky<f64, Dyn>> {
-    if graph.len() > DIRECT {
+/// The Cholesky factor of a small graph that this process holds whole. In each part of it that has no ground one node is
+/// given some: a source that sums to 0 over the part sends nothing through it.
+fn factorise(level: &Level) -> Option<Cholesky<f64, Dyn>> {
+    let nodes = level.layout.nodes();
+    if nodes > DIRECT || !level.layout.is_whole() {
         return None;
     }
-    let mut matrix = DMatrix::zeros(graph.len(), graph.len());
-    for node in 0..graph.len() {
-        matrix[(node, node)] += graph.diagonal[node];
-        for (to, g) in graph.links(node) {
-            matrix[(node, to)] -= g;
+    let graphs: Vec<&Graph> = level
+        .strips
+        .iter()
+        .filter_map(|strip| match strip {
+            Strip::Graph(graph) => Some(graph),
+            Strip::Faces(_) => None,
+        })
+        .collect();
+    let mut matrix = DMatrix::zeros(nodes, nodes);
+    let mut links: Vec<Vec<usize>> = vec![Vec::new(); nodes];
+    let mut ground = vec![0.0; nodes];
+    for (strip, graph) in graphs.iter().enumerate() {
+        let place = level.layout.place(strip);
+        for node in 0..graph.len() {
+            let here = place.start + node;
+            matrix[(here, here)] += graph.diagonal(node);
+            ground[here] = graph.ground(node);
+            for (to, g) in graph.links(node) {
+                let to = match to.checked_sub(graph.len()) {
+                    None => place.start + to,
+                    Some(outside) => level.halo.place(strip, outside),
+                };
+                matrix[(here, to)] -= g;
+                links[here].push(to);
+            }
         }
     }
-    let mut is_seen = vec![false; graph.len()];
-    for node in 0..graph.len() {
-        let mut has_ground = false;
-        let mut waiting = vec![node];
+    let mut is_seen = vec![false; nodes];
+    for node in 0..nodes {
         if is_seen[node] {
             continue;
         }
+        let mut has_ground = false;
+        let mut waiting = vec![node];
         is_seen[node] = true;
         while let Some(at) = waiting.pop() {
-            has_ground |= graph.ground[at] > 0.0;
-            for (to, _) in graph.links(at).filter(|(_, g)| *g > 0.0) {
-                if !is_seen[to] {
-                    is_seen[to] = true;
-                    waiting.push(to);
+            has_ground |= ground[at] > 0.0;
+            for to in &links[at] {
+                if !is_seen[*to] {
+                    is_seen[*to] = true;
+                    waiting.push(*to);
                 }
             }
         }
         if !has_ground {
-            let diagonal = graph.diagonal[node];
+            let diagonal = matrix[(node, node)];
             matrix[(node, node)] += if diagonal > 0.0 { diagonal } else { 1.0 };
         }
     }
     Cholesky::new(matrix)
-}
-
-fn dot(left: &[f64], right: &[f64]) -> f64 {
-    left.iter().zip(right).map(|(l, r)| l * r).sum()
 }

@@ -3,161 +3,416 @@
 //! Points are opened from the widest gap down, and joined with the open ones beside them. The gap at which they first
 //! reach from one cell into the next, or from inlet to outlet, is the critical one: the percolation of
 //! Dapp, Luecke, Persson & Mueser 2012 (doi:10.1103/PhysRevLett.108.244301). In a repeating cell a cluster reaches
-//! into the next one where two paths between the same points cross different numbers of cells (Machta et al. 1996,
-//! doi:10.1103/PhysRevE.54.1332).
+//! into the next one where two ways between the same points cross different numbers of cells (Machta et al. 1996,
+//! doi:10.1103/PhysRevE.54.1332). Inlet and outlet are one point, and the way over the outlet crosses into the next cell.
+//!
+//! Each strip of rows is opened by itself. What others need to know of it is at which gaps the points of its first and its
+//! last row become joined: the maximum spanning forest between these (Kruskal), of fewer edges than such points. The forests of
+//! strips, with the links between them, give that of a rank, and those of all ranks the critical gap, exactly.
 
-use rayon::slice::ParallelSliceMut;
+use rayon::prelude::*;
 
-use super::lattice::Lattice;
+use super::clusters::{Clusters, Edge};
+use super::faces::Frame;
+use crate::backend::{BackendError, Share};
+use crate::scene::Axis;
 
-/// No point.
-const NONE: u32 = u32::MAX;
+/// Rows of a strip.
+const STRIP: usize = 32;
 
-/// How a gap percolates.
-pub(super) struct Percolation {
-    /// Critical constriction over the largest gap; 0 where the open points do not percolate.
-    pub critical_gap: f64,
-    /// Points of the clusters that percolate, in the order of the field.
-    pub conducting: Vec<u32>,
+/// Rows that are opened by themselves.
+struct Strip<'a> {
+    frame: &'a Frame,
+    /// The first row.
+    first: usize,
+    gap: &'a [f64],
 }
 
-/// Finds the clusters that percolate.
-pub(super) fn find(lattice: &Lattice) -> Percolation {
-    let points = 0..lattice.len() as u32;
-    let mut order: Vec<u32> = points
-        .clone()
-        .filter(|point| lattice.gap(*point as usize) > 0.0)
-        .collect();
-    // From the widest gap down, and among equals in the order of the field.
-    order.par_sort_unstable_by(|a, b| {
-        let [first, second] = [*a, *b].map(|point| lattice.gap(point as usize));
-        second.total_cmp(&first).then(a.cmp(b))
-    });
-    let mut clusters = Clusters::new(lattice);
-    let mut critical_gap = 0.0;
-    let mut percolates = false;
-    for point in order {
-        clusters.open(lattice, point);
-        if !percolates && clusters.percolates(point) {
-            percolates = true;
-            critical_gap = lattice.gap(point as usize);
-        }
+impl Strip<'_> {
+    fn rows(&self) -> usize {
+        self.gap.len() / self.frame.points[0]
     }
-    let conducting = if percolates {
-        points.filter(|point| clusters.conducts(*point)).collect()
-    } else {
-        Vec::new()
-    };
-    Percolation {
-        critical_gap,
-        conducting,
+
+    fn first_row(&self) -> &[f64] {
+        &self.gap[..self.frame.points[0]]
     }
-}
 
-/// Clusters of open points, as trees whose roots stand for them.
-struct Clusters {
-    /// The next point towards the root; the root itself at the root, no point where it is closed.
-    parent: Vec<u32>,
-    /// Cells that the link to the parent crosses along the flow.
-    cells: Vec<i32>,
-    /// Roots of clusters that reach into the next cell.
-    reaching: Vec<bool>,
-    /// The inlet and the outlet, where there are any.
-    ends: Option<[u32; 2]>,
-}
+    fn last_row(&self) -> &[f64] {
+        &self.gap[self.gap.len() - self.frame.points[0]..]
+    }
 
-impl Clusters {
-    fn new(lattice: &Lattice) -> Clusters {
-        let points = lattice.len() as u32;
-        let ends = (!lattice.repeats).then_some([points, points + 1]);
-        let all = lattice.len() + if ends.is_some() { 2 } else { 0 };
-        let mut parent = vec![NONE; all];
-        for end in ends.iter().flatten() {
-            parent[*end as usize] = *end;
-        }
-        Clusters {
-            parent,
-            cells: vec![0; all],
-            reaching: vec![false; all],
-            ends,
-        }
+    /// The number of inlet and outlet, after those of the points.
+    fn ends(&self) -> u32 {
+        self.gap.len() as u32
+    }
+
+    fn is_border(&self, point: usize) -> bool {
+        let width = self.frame.points[0];
+        point < width || point >= self.gap.len() - width
+    }
+
+    /// Inlet and outlet are there, and kept.
+    fn clusters(&self) -> Clusters {
+        let mut clusters = Clusters::new(self.gap.len() + 1);
+        clusters.open(self.ends(), true);
+        clusters
     }
 
     /// Opens a point and joins it with its open neighbours.
-    fn open(&mut self, lattice: &Lattice, point: u32) {
-        self.parent[point as usize] = point;
-        for link in lattice.links(point as usize) {
-            if self.parent[link.to] != NONE {
-                self.join(point, link.to as u32, link.cells);
+    fn open(&self, clusters: &mut Clusters, point: usize) {
+        let [width, all] = self.frame.points;
+        let is_x = self.frame.axis == Axis::X;
+        let gap = self.gap[point];
+        let (row, place) = (point / width, point % width);
+        let join = |clusters: &mut Clusters, to: usize, cells: i32| {
+            if clusters.is_open(to as u32) {
+                clusters.join(Edge {
+                    ends: [point as u32, to as u32],
+                    cells,
+                    gap,
+                });
             }
+        };
+        let cell = i32::from(is_x);
+        clusters.open(point as u32, self.is_border(point));
+        if place + 1 < width {
+            join(clusters, point + 1, 0);
+        } else if self.frame.repeats {
+            join(clusters, point - place, cell);
         }
-        if let Some(ends) = self.ends {
-            for (end, conducts) in ends.into_iter().zip(lattice.ends(point as usize)) {
-                if conducts > 0.0 {
-                    self.join(point, end, 0);
-                }
-            }
+        if place > 0 {
+            join(clusters, point - 1, 0);
+        } else if self.frame.repeats {
+            join(clusters, point + width - 1, -cell);
         }
-    }
-
-    /// The root of an open point, and the cells that the path to it crosses.
-    fn root(&mut self, point: u32) -> (u32, i32) {
-        let mut at = point as usize;
-        let mut cells = 0;
-        while self.parent[at] as usize != at {
-            let next = self.parent[at] as usize;
-            // Halves the path for later calls.
-            let [this, that] = [self.cells[at], self.cells[next]];
-            if self.parent[next] as usize != next {
-                self.parent[at] = self.parent[next];
-                self.cells[at] = this + that;
-                cells += this + that;
+        if row + 1 < self.rows() {
+            join(clusters, point + width, 0);
+        }
+        if row > 0 {
+            join(clusters, point - width, 0);
+        }
+        if !self.frame.repeats {
+            let (place, count) = if is_x {
+                (place, width)
             } else {
-                cells += this;
+                (self.first + row, all)
+            };
+            if place == 0 {
+                join(clusters, self.gap.len(), 0);
             }
-            at = self.parent[at] as usize;
-        }
-        (at as u32, cells)
-    }
-
-    /// Joins the clusters of two open neighbours, of which the second lies so many `cells` ahead.
-    fn join(&mut self, one: u32, other: u32, cells: i32) {
-        let (first, to_first) = self.root(one);
-        let (second, to_second) = self.root(other);
-        // From the first root to the second: back to one, over to the other, and on.
-        let between = cells + to_second - to_first;
-        if first == second {
-            if between != 0 {
-                self.reaching[first as usize] = true;
+            if place + 1 == count {
+                join(clusters, self.gap.len(), 1);
             }
-            return;
-        }
-        self.parent[first as usize] = second;
-        self.cells[first as usize] = between;
-        let reaches = self.reaching[first as usize];
-        self.reaching[second as usize] |= reaches;
-    }
-
-    /// Whether the cluster of a point that has just been opened percolates.
-    fn percolates(&mut self, point: u32) -> bool {
-        match self.ends {
-            None => {
-                let (root, _) = self.root(point);
-                self.reaching[root as usize]
-            }
-            Some([inlet, outlet]) => self.root(inlet).0 == self.root(outlet).0,
         }
     }
 
-    /// Whether a point belongs to a cluster that percolates, where there is one.
-    fn conducts(&mut self, point: u32) -> bool {
-        if self.parent[point as usize] == NONE {
-            return false;
+    /// The forest between the points of its first and last row, in the numbers of a border, and the critical gap here.
+    fn forest(&self) -> (Vec<Edge>, f64) {
+        let mut order: Vec<(u64, u32)> = (self.gap.iter().zip(0..))
+            .filter(|(gap, _)| **gap > 0.0)
+            .map(|(gap, point)| (gap.to_bits(), point))
+            .collect();
+        // Positive numbers are in the order of their bits.
+        order.sort_unstable_by(|a, b| b.cmp(a));
+        let mut clusters = self.clusters();
+        for (_, point) in order {
+            self.open(&mut clusters, point as usize);
         }
-        let (root, _) = self.root(point);
-        match self.ends {
-            None => self.reaching[root as usize],
-            Some([inlet, _]) => self.root(inlet).0 == root,
+        let border = Border::of(self.rows(), self.frame.points[0]);
+        let mut edges = clusters.take_edges();
+        for edge in &mut edges {
+            edge.ends = edge.ends.map(|point| border.number(self, point));
+        }
+        (edges, clusters.critical())
+    }
+
+    /// Whether a cluster that reaches through has each point, where `winds` says of the border's points whether they are
+    /// in one.
+    fn conducts(&self, winds: &[bool]) -> Vec<bool> {
+        let mut clusters = self.clusters();
+        for (point, gap) in self.gap.iter().enumerate() {
+            if *gap > 0.0 {
+                self.open(&mut clusters, point);
+            }
+        }
+        let border = Border::of(self.rows(), self.frame.points[0]);
+        for point in (0..=self.gap.len()).filter(|point| self.is_border(*point)) {
+            let point = point as u32;
+            if clusters.is_open(point) && winds[border.number(self, point) as usize] {
+                clusters.wind(point);
+            }
+        }
+        let points = 0..self.ends();
+        let conducts = points.map(|point| clusters.is_open(point) && clusters.winds(point));
+        conducts.collect()
+    }
+}
+
+/// The first and the last row of some rows, and after them inlet and outlet. Of a single row the first is the last.
+#[derive(Clone, Copy)]
+struct Border {
+    width: usize,
+    is_single: bool,
+}
+
+impl Border {
+    fn of(rows: usize, width: usize) -> Border {
+        Border {
+            width,
+            is_single: rows == 1,
         }
     }
+
+    /// Points of a border, inlet and outlet among them.
+    fn len(width: usize) -> usize {
+        2 * width + 1
+    }
+
+    /// The number of a point of the first row, or of the last.
+    fn place(&self, is_last: bool, column: usize) -> usize {
+        if is_last && !self.is_single {
+            self.width + column
+        } else {
+            column
+        }
+    }
+
+    /// The number of a strip's point.
+    fn number(&self, strip: &Strip, point: u32) -> u32 {
+        let (point, width) = (point as usize, self.width);
+        let number = if point == strip.gap.len() {
+            2 * width
+        } else if point < width {
+            point
+        } else {
+            self.place(true, point % width)
+        };
+        number as u32
+    }
+}
+
+/// Borders of rows one after another, whose inlets and outlets are the same.
+struct Borders {
+    borders: Vec<Border>,
+    width: usize,
+}
+
+impl Borders {
+    fn new(borders: Vec<Border>, width: usize) -> Borders {
+        Borders { borders, width }
+    }
+
+    fn len(&self) -> usize {
+        2 * self.width * self.borders.len() + 1
+    }
+
+    /// The number of a border's point.
+    fn number(&self, border: usize, point: usize) -> u32 {
+        let number = if point == 2 * self.width {
+            self.len() - 1
+        } else {
+            2 * self.width * border + point
+        };
+        number as u32
+    }
+
+    /// An edge of a border in the numbers of all.
+    fn edge(&self, border: usize, edge: &Edge) -> Edge {
+        Edge {
+            ends: edge.ends.map(|end| self.number(border, end as usize)),
+            ..*edge
+        }
+    }
+
+    /// The links between the last row of a border and the first of another one, with these gaps.
+    fn links(&self, borders: [usize; 2], rows: [&[f64]; 2], cells: i32) -> Vec<Edge> {
+        let [from, to] = borders;
+        let pairs = rows[0].iter().zip(rows[1]).enumerate();
+        let open = pairs.filter(|(_, (one, other))| **one > 0.0 && **other > 0.0);
+        let links = open.map(|(column, (one, other))| Edge {
+            ends: [
+                self.number(from, self.borders[from].place(true, column)),
+                self.number(to, self.borders[to].place(false, column)),
+            ],
+            cells,
+            gap: one.min(*other),
+        });
+        links.collect()
+    }
+
+    /// Whether a point lies in the first row of all or in the last, or is inlet and outlet.
+    fn is_outer(&self, point: usize) -> bool {
+        let (border, place) = (point / (2 * self.width), point % (2 * self.width));
+        let is_last = |border: &Border| border.is_single || place >= self.width;
+        border == 0 && place < self.width
+            || border + 1 == self.borders.len() && is_last(&self.borders[border])
+            || point + 1 == self.len()
+    }
+
+    /// The number of such a point in the border of all these rows.
+    fn outer(&self, all: Border, point: u32) -> u32 {
+        let (point, width) = (point as usize, self.width);
+        let number = if point + 1 == self.len() {
+            2 * width
+        } else if point < width {
+            point
+        } else {
+            all.place(true, point % width)
+        };
+        number as u32
+    }
+
+    /// The clusters of these edges, of which outer points are kept.
+    fn clusters(&self, mut edges: Vec<Edge>) -> Clusters {
+        edges.par_sort_unstable_by(|a, b| b.gap.total_cmp(&a.gap));
+        let mut clusters = Clusters::new(self.len());
+        for point in 0..self.len() {
+            clusters.open(point as u32, self.is_outer(point));
+        }
+        edges.into_iter().for_each(|edge| clusters.join(edge));
+        clusters
+    }
+}
+
+/// Closes the points through which nothing flows in the held rows of a gap; returns the critical gap, 0 where the open points
+/// do not percolate.
+///
+/// # Errors
+/// A rank has ended.
+pub(super) fn close(share: &Share, frame: &Frame, gap: &mut [f64]) -> Result<f64, BackendError> {
+    let width = frame.points[0];
+    let first = share.rows().start;
+    let numbered = gap.chunks(STRIP * width).enumerate();
+    let strips: Vec<Strip> = numbered
+        .map(|(number, gap)| Strip {
+            frame,
+            first: first + number * STRIP,
+            gap,
+        })
+        .collect();
+    let forests: Vec<(Vec<Edge>, f64)> = strips.par_iter().map(Strip::forest).collect();
+
+    // The strips of this rank.
+    let borders = strips.iter().map(|strip| Border::of(strip.rows(), width));
+    let borders = Borders::new(borders.collect(), width);
+    let mut critical = forests
+        .iter()
+        .fold(0.0, |most: f64, (_, gap)| most.max(*gap));
+    let mut edges = Vec::new();
+    for (strip, (forest, _)) in forests.into_iter().enumerate() {
+        edges.extend(forest.iter().map(|edge| borders.edge(strip, edge)));
+    }
+    for (strip, pair) in strips.windows(2).enumerate() {
+        let rows = [pair[0].last_row(), pair[1].first_row()];
+        edges.extend(borders.links([strip, strip + 1], rows, 0));
+    }
+    let mut clusters = borders.clusters(edges);
+    critical = critical.max(clusters.critical());
+
+    // All ranks.
+    let slab = Border::of(share.rows().len(), width);
+    let mut edges = clusters.take_edges();
+    for edge in &mut edges {
+        edge.ends = edge.ends.map(|point| borders.outer(slab, point));
+    }
+    let rows = match (strips.first(), strips.last()) {
+        (Some(first), Some(last)) => [first.first_row(), last.last_row()].concat(),
+        _ => Vec::new(),
+    };
+    let (slabs, edges) = of_all_ranks(share, frame, &edges, &rows)?;
+    let mut all = slabs.clusters(edges);
+    critical = share.greatest(critical.max(all.critical()));
+    share.failed()?;
+    if critical <= 0.0 {
+        return Ok(0.0);
+    }
+
+    // And back.
+    let before = (0..share.rank()).filter(|rank| !share.rows_of(*rank).is_empty());
+    let here = before.count();
+    if !strips.is_empty() {
+        for point in (0..borders.len()).filter(|point| borders.is_outer(*point)) {
+            let outer = borders.outer(slab, point as u32) as usize;
+            if all.winds(slabs.number(here, outer)) {
+                clusters.wind(point as u32);
+            }
+        }
+    }
+    let winds: Vec<bool> = (0..borders.len() as u32)
+        .map(|point| clusters.winds(point))
+        .collect();
+    let conducts: Vec<Vec<bool>> = strips
+        .par_iter()
+        .enumerate()
+        .map(|(number, strip)| {
+            let points = 0..Border::len(width);
+            let winds = points.map(|point| winds[borders.number(number, point) as usize]);
+            strip.conducts(&winds.collect::<Vec<bool>>())
+        })
+        .collect();
+    let parts = gap.par_chunks_mut(STRIP * width);
+    parts.zip(conducts).for_each(|(gap, conducts)| {
+        for (gap, conducts) in gap.iter_mut().zip(conducts) {
+            if !conducts {
+                *gap = 0.0;
+            }
+        }
+    });
+    Ok(critical)
+}
+
+/// The borders of all ranks that hold rows, and their edges with the links between them, from those of this rank and from its
+/// first and last row.
+fn of_all_ranks(
+    share: &Share,
+    frame: &Frame,
+    edges: &[Edge],
+    rows: &[f64],
+) -> Result<(Borders, Vec<Edge>), BackendError> {
+    const NUMBERS: usize = 4;
+    let width = frame.points[0];
+    let numbers = edges.iter().flat_map(|edge| {
+        let [from, to] = edge.ends.map(f64::from);
+        [from, to, f64::from(edge.cells), edge.gap]
+    });
+    let numbers: Vec<f64> = numbers.collect();
+    let ranks = || 0..share.count();
+    let lengths = share.numbers(&[numbers.len() as f64], ranks().map(|_| 1))?;
+    let lengths: Vec<usize> = lengths.iter().map(|length| *length as usize).collect();
+    let numbers = share.numbers(&numbers, lengths.iter().copied())?;
+    let holding: Vec<usize> = ranks()
+        .filter(|rank| !share.rows_of(*rank).is_empty())
+        .collect();
+    let held = |rank: usize| 2 * width * usize::from(!share.rows_of(rank).is_empty());
+    let rows = share.numbers(rows, ranks().map(held))?;
+    let rows: Vec<[&[f64]; 2]> = rows
+        .chunks_exact(2 * width)
+        .map(|rows| [&rows[..width], &rows[width..]])
+        .collect();
+    let borders = holding
+        .iter()
+        .map(|rank| Border::of(share.rows_of(*rank).len(), width));
+    let slabs = Borders::new(borders.collect(), width);
+    let mut all = Vec::new();
+    let mut left = &numbers[..];
+    for (slab, rank) in holding.iter().enumerate() {
+        let (own, rest) = left.split_at(lengths[*rank]);
+        left = rest;
+        all.extend(own.chunks_exact(NUMBERS).map(|numbers| {
+            let edge = Edge {
+                ends: [numbers[0] as u32, numbers[1] as u32],
+                cells: numbers[2] as i32,
+                gap: numbers[3],
+            };
+            slabs.edge(slab, &edge)
+        }));
+    }
+    for slab in 1..rows.len() {
+        all.extend(slabs.links([slab - 1, slab], [rows[slab - 1][1], rows[slab][0]], 0));
+    }
+    if let (true, Some(first), Some(last)) = (frame.repeats, rows.first(), rows.last()) {
+        let cells = i32::from(frame.axis == Axis::Y);
+        all.extend(slabs.links([rows.len() - 1, 0], [last[1], first[0]], cells));
+    }
+    Ok((slabs, all))
 }

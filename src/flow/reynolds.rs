@@ -4,72 +4,64 @@
 //! difference of pressure is 0. The permeance is the power that is lost, the sum over all faces of conductance times the
 //! square of the difference; an error of the pressure enters it by its square.
 
-use super::lattice::Lattice;
-use super::multigrid::{Graph, Pressure};
+use super::faces::{Faces, Frame, rows_beside};
+use super::layout::{Halo, Layout};
+use super::levels::{Level, Strip};
+use super::multigrid::{self, Pressure};
+use crate::backend::{BackendError, Share};
 
-/// No unknown.
-const NONE: u32 = u32::MAX;
+/// Rows of a strip: ranks hold whole blocks of as many.
+const STRIP: usize = 8;
 
-/// The flow through a gap.
-pub(super) struct Solution {
-    /// Over the cube of the largest gap.
-    pub permeance: f64,
-    /// Whether it is known to the tolerance.
-    pub converged: bool,
-    /// Iterations.
-    pub iterations: usize,
-}
-
-/// Solves for the pressure on the points that conduct.
+/// Solves for the pressure on the held rows of points that conduct, from the cubes of their gaps. The power is the permeance.
+///
+/// # Errors
+/// A rank has ended.
 pub(super) fn solve(
-    lattice: &Lattice,
-    conducting: &[u32],
+    share: &Share,
+    frame: &Frame,
+    cubes: Vec<f64>,
     tolerance: f64,
     max_iterations: usize,
-) -> Solution {
-    let mut unknown = vec![NONE; lattice.len()];
-    for (number, point) in conducting.iter().enumerate() {
-        unknown[*point as usize] = number as u32;
-    }
-    let conducts = |point: usize| unknown[point] != NONE;
-    // In a repeating cell the pressure that is solved for is that of the first cell: the next one has 1 less.
-    let mut source = Vec::with_capacity(conducting.len());
-    let mut graph = Graph::with_capacity(conducting.len());
-    for point in conducting.iter().map(|point| *point as usize) {
-        let mut entering = 0.0;
-        for link in lattice.links(point).filter(|link| conducts(link.to)) {
-            let face = lattice.face(point, link);
-            entering -= f64::from(link.cells) * face;
-            // A cell of one point is its own neighbour.
-            if link.to != point {
-                graph.link(unknown[link.to], face);
-            }
-        }
-        let [inlet, outlet] = lattice.ends(point);
-        source.push(entering + inlet);
-        graph.end_node(inlet + outlet);
-    }
-    let power = |pressure: &[f64]| {
-        let faces = conducting.iter().zip(pressure).map(|(point, here)| {
-            let point = *point as usize;
-            let links = lattice.forward(point).filter(|link| conducts(link.to));
-            let lost = links.map(|link| {
-                let drop = here - pressure[unknown[link.to] as usize] + f64::from(link.cells);
-                lattice.face(point, link) * drop * drop
-            });
-            let [inlet, outlet] = lattice.ends(point);
-            lost.sum::<f64>() + inlet * (1.0 - here) * (1.0 - here) + outlet * here * here
-        });
-        faces.sum::<f64>()
+) -> Result<Pressure, BackendError> {
+    let width = frame.points[0];
+    let layout = Layout::of_rows(share, STRIP, frame.repeats);
+    let rows = |strip: usize| {
+        let nodes = layout.nodes_of(strip);
+        [nodes.start / width, nodes.end / width]
     };
-    let Pressure {
-        power: permeance,
-        converged,
-        iterations,
-    } = graph.solve(&source, power, tolerance, max_iterations);
-    Solution {
-        permeance,
-        converged,
-        iterations,
-    }
+    let beside = layout.find(|strip| rows_beside(frame, rows(strip)));
+    let halo = Halo::new(share, &layout, beside)?;
+    let outside = halo.outside(share, &layout, &cubes, |_| true)?;
+    let first = layout.own().start;
+    let strips = layout.find(|strip| {
+        let cubes = &cubes[layout.place(strip)];
+        let [first_row, _] = rows(strip);
+        Strip::Faces(Faces::new(frame, first_row, cubes, &outside[strip - first]))
+    });
+    drop(outside);
+    let mut source = cubes;
+    let parts = layout.parts(&mut source).into_iter();
+    layout.for_each(parts.zip(&strips).collect(), |(source, strip)| {
+        if let Strip::Faces(faces) = strip {
+            faces.source(source);
+        }
+    });
+    let graph = Level {
+        layout,
+        strips,
+        halo,
+    };
+    let power = |graph: &Level, pressure: &[f64]| {
+        let layout = &graph.layout;
+        let outside = graph.outside(share, pressure)?;
+        let lost = layout.find(|strip| match &graph.strips[strip - first] {
+            Strip::Faces(faces) => {
+                faces.power(&pressure[layout.place(strip)], &outside[strip - first])
+            }
+            Strip::Graph(_) => 0.0,
+        });
+        layout.sum(share, lost)
+    };
+    multigrid::solve(share, graph, source, power, tolerance, max_iterations)
 }

@@ -2,19 +2,21 @@
 
 use nalgebra::{DMatrix, DVector};
 
+use std::sync::Arc;
+
 use super::*;
+use crate::backend::ranks::ThreadRanks;
 
 const TOLERANCE: f64 = 1e-10;
 const MOST: usize = 500;
 
 fn flow(gap: &[f64], grid: Grid, boundary: Boundary, axis: Axis) -> Flow {
     let film = Film {
-        gap,
         grid,
         boundary,
         axis,
     };
-    let flow = film.flow(TOLERANCE, MOST);
+    let flow = film.flow(gap.to_vec(), TOLERANCE, MOST);
     assert!(flow.converged, "{flow:?}");
     flow
 }
@@ -300,4 +302,216 @@ fn decades_of_gaps() {
     let ratio = found.permeance / found.critical_gap.powi(3);
     assert!((0.03..30.0).contains(&ratio), "{ratio}");
     assert!(found.iterations < 60, "{}", found.iterations);
+}
+
+/// Gaps with closed places and hardly any that are alike, for grids of every shape.
+fn any_gap(grid: Grid, seed: u64, closed: f64, decades: f64) -> Vec<f64> {
+    let mut random = random(seed);
+    field_of(grid, || {
+        let is_closed = random() < closed;
+        let gap = 10f64.powf(-decades * random());
+        if is_closed { 0.0 } else { gap }
+    })
+}
+
+/// The flow on so many ranks, on each of them.
+fn on_ranks(gap: &[f64], film: Film, ranks: usize) -> Vec<Flow> {
+    let shape = Shape::whole(film.grid.nx, film.grid.ny);
+    std::thread::scope(|scope| {
+        let ranks: Vec<_> = ThreadRanks::new(ranks)
+            .into_iter()
+            .map(|rank| {
+                scope.spawn(move || {
+                    let share = Share::on_ranks(shape, Some(Arc::new(rank)));
+                    let rows = share.rows();
+                    let own = gap[rows.start * film.grid.nx..rows.end * film.grid.nx].to_vec();
+                    film.flow_on(&share, own, TOLERANCE, MOST)
+                        .expect("all ranks")
+                })
+            })
+            .collect();
+        let ended = ranks.into_iter().map(|rank| rank.join().expect("no panic"));
+        ended.collect()
+    })
+}
+
+/// Slabs of different heights, more ranks than blocks of rows, a single row or column, both axes and boundaries, flows
+/// and none: every rank finds the same bits as one process.
+#[test]
+fn ranks_find_the_same_bits() {
+    let mut flowing = 0;
+    for (points, counts) in [
+        ([24, 70], &[2, 3, 5][..]),
+        ([33, 41], &[2, 4, 7]),
+        ([16, 16], &[2, 5]),
+        ([20, 8], &[3]),
+        ([40, 1], &[2]),
+        ([1, 40], &[3]),
+        ([2, 9], &[2]),
+    ] {
+        let grid = Grid::new(points, [1.0, 1.5]);
+        for (seed, closed, decades) in [(1, 0.0, 3.0), (2, 0.3, 1.0), (3, 0.38, 4.0)] {
+            let gap = any_gap(grid, seed, closed, decades);
+            for boundary in Boundary::ALL {
+                for axis in [Axis::X, Axis::Y] {
+                    let film = Film {
+                        grid,
+                        boundary: *boundary,
+                        axis,
+                    };
+                    let alone = flow(&gap, grid, *boundary, axis);
+                    flowing += usize::from(alone.permeance > 0.0);
+                    for count in counts {
+                        for found in on_ranks(&gap, film, *count) {
+                            assert_eq!(found, alone, "{points:?} {film:?} {count}");
+                        }
+                    }
+                }
+            }
+        }
+    }
+    assert!(flowing > 30, "{flowing}");
+}
+
+/// Large enough that graphs are worked on by several threads and that coarse ones still lie on several ranks.
+#[test]
+fn threads_find_the_same_bits() {
+    let grid = Grid::new([320, 600], [1.0, 1.0]);
+    let gap = any_gap(grid, 5, 0.1, 2.0);
+    let film = Film {
+        grid,
+        boundary: Boundary::Periodic,
+        axis: Axis::Y,
+    };
+    let found = [1, 2, 5].map(|threads| {
+        let pool = rayon::ThreadPoolBuilder::new().num_threads(threads);
+        let pool = pool.build().expect("threads");
+        pool.install(|| flow(&gap, grid, film.boundary, film.axis))
+    });
+    println!("{:?}", found[0]);
+    assert!(found[0].permeance > 0.0);
+    assert_eq!(found[1], found[0]);
+    assert_eq!(found[2], found[0]);
+    assert_eq!(on_ranks(&gap, film, 3), [found[0]; 3]);
+}
+
+/// The definition: the widest of all gaps such that points of at least this gap reach from one cell into the next,
+/// or from inlet to outlet, found by trying one after another.
+fn critical_gap(gap: &[f64], film: Film) -> f64 {
+    let (nx, ny) = (film.grid.nx as i64, film.grid.ny as i64);
+    let repeats = film.boundary == Boundary::Periodic;
+    let mut gaps: Vec<f64> = gap.iter().copied().filter(|gap| *gap > 0.0).collect();
+    gaps.sort_by(f64::total_cmp);
+    let percolates = |least: f64| {
+        // Of each point the cell in which it was first reached, from one point at a time.
+        (0..gap.len()).any(|begin| {
+            let along = |point: usize| match film.axis {
+                Axis::X => (point as i64 % nx, nx),
+                Axis::Y => (point as i64 / nx, ny),
+            };
+            if gap[begin] < least || !repeats && along(begin).0 != 0 {
+                return false;
+            }
+            let mut reached = vec![None; gap.len()];
+            reached[begin] = Some(0);
+            let mut waiting = vec![begin];
+            while let Some(point) = waiting.pop() {
+                let (place, count) = along(point);
+                if !repeats && place + 1 == count {
+                    return true;
+                }
+                let cell = reached[point].expect("it was reached");
+                let (x, y) = (point as i64 % nx, point as i64 / nx);
+                for (dx, dy) in [(1, 0), (-1, 0), (0, 1), (0, -1)] {
+                    let (tx, ty) = (x + dx, y + dy);
+                    let crossed = match film.axis {
+                        Axis::X => tx.div_euclid(nx),
+                        Axis::Y => ty.div_euclid(ny),
+                    };
+                    let leaves = tx.div_euclid(nx) != 0 || ty.div_euclid(ny) != 0;
+                    let to = (ty.rem_euclid(ny) * nx + tx.rem_euclid(nx)) as usize;
+                    if gap[to] < least || leaves && !repeats {
+                        continue;
+                    }
+                    match reached[to] {
+                        None => {
+                            reached[to] = Some(cell + crossed);
+                            waiting.push(to);
+                        }
+                        Some(known) if known != cell + crossed => return true,
+                        Some(_) => {}
+                    }
+                }
+            }
+            false
+        })
+    };
+    let closed = gaps.partition_point(|gap| percolates(*gap));
+    closed.checked_sub(1).map_or(0.0, |at| gaps[at])
+}
+
+/// On grids of more rows than are opened together, of one process and of several.
+#[test]
+fn the_critical_gap_is_the_widest_that_percolates() {
+    let mut open = 0;
+    for (points, seeds) in [
+        ([6, 67], 4),
+        ([12, 9], 6),
+        ([9, 1], 3),
+        ([1, 9], 3),
+        ([3, 33], 6),
+    ] {
+        let grid = Grid::new(points, [1.0, 1.0]);
+        for seed in 0..seeds {
+            let closed = [0.05, 0.3][seed as usize % 2];
+            let gap = any_gap(grid, seed, closed, 2.0);
+            for boundary in Boundary::ALL {
+                for axis in [Axis::X, Axis::Y] {
+                    let film = Film {
+                        grid,
+                        boundary: *boundary,
+                        axis,
+                    };
+                    let unit = gap.iter().copied().fold(0.0, f64::max);
+                    // Over the largest gap and back.
+                    let expected = critical_gap(&gap, film) / unit * unit;
+                    let found = flow(&gap, grid, *boundary, axis).critical_gap;
+                    assert_eq!(found, expected, "{film:?}");
+                    assert!(
+                        on_ranks(&gap, film, 2)
+                            .iter()
+                            .all(|f| f.critical_gap == found)
+                    );
+                    open += usize::from(found > 0.0);
+                }
+            }
+        }
+    }
+    assert!(open > 30, "{open}");
+}
+
+/// Light points between heavy ones, at each of many decades: channels through walls, which are joined neither by strips
+/// nor through what hardly conducts. The iterations stay few.
+#[test]
+fn walls_and_channels() {
+    let grid = Grid::new([96, 96], [1.0, 1.0]);
+    for decades in [1.0, 3.0, 6.0] {
+        let mut random = random(3);
+        let channel = |i: usize| i % 12 == 5;
+        let gap: Vec<f64> = (0..grid.len())
+            .map(|i| {
+                let (ix, iy) = (i % 96, i / 96);
+                let is_channel = channel(ix) || channel(iy);
+                let wall = 10f64.powf(-decades * random());
+                if is_channel { 1.0 } else { 0.1 * wall }
+            })
+            .collect();
+        for boundary in Boundary::ALL {
+            for axis in [Axis::X, Axis::Y] {
+                let found = flow(&gap, grid, *boundary, axis);
+                println!("{decades} {boundary:?} {axis:?}: {found:?}");
+                assert!(found.iterations < 40, "{found:?}");
+            }
+        }
+    }
 }

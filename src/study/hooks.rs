@@ -181,8 +181,6 @@ pub struct HostBytes {
     pub kept: u64,
     /// During one part of a step only; the largest counts.
     pub passing: u64,
-    /// Passing ones of whole fields, on one process however many share the contact.
-    pub gathered: u64,
     /// Results of solves that are held beside the one that is solved.
     pub results: u64,
 }
@@ -193,7 +191,6 @@ impl HostBytes {
         HostBytes {
             kept: self.kept + other.kept,
             passing: self.passing.max(other.passing),
-            gathered: self.gathered.max(other.gathered),
             results: self.results + other.results,
         }
     }

@@ -99,7 +99,7 @@ impl Memory {
         let start = u64::from(cost.moves_the_gap) * field;
         // A field on its way between the iterations and the state in double precision.
         let between = if reference > 0 { field } else { 0 };
-        let passing = own(cost.host.passing as usize).max(cost.host.gathered);
+        let passing = own(cost.host.passing as usize);
         let alone = active + between.max(passing);
         let iterating = alone + start;
         // Gap and elastic pressure as read, which become the results, and the states. What is cut off a

@@ -5,7 +5,7 @@ use std::path::PathBuf;
 
 use thiserror::Error;
 
-use super::{MOST_POINTS, MOST_WITH_LEAKAGE, MapError};
+use super::{MOST_POINTS, MapError};
 use crate::units::{cut, quoted};
 
 /// Why the heights of a scene cannot be built.
@@ -34,15 +34,6 @@ pub enum SurfaceError {
         points[0], points[1], MOST_POINTS
     )]
     Points {
-        /// Points along x and y.
-        points: [usize; 2],
-    },
-    /// More points than the flow of `[leakage]` counts.
-    #[error(
-        "[leakage]: {} x {} points are more than the {} that the flow is computed on; take fewer, or leave [leakage] out",
-        points[0], points[1], MOST_WITH_LEAKAGE
-    )]
-    Leakage {
         /// Points along x and y.
         points: [usize; 2],
     },

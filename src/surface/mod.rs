@@ -68,9 +68,6 @@ pub const MOST_POINTS: usize = match 1_usize.checked_shl(34) {
     None => 1 << 30,
 };
 
-/// Most points of a grid with `[leakage]`, whose flow counts them in 32 bits.
-const MOST_WITH_LEAKAGE: usize = u32::MAX as usize - 1;
-
 /// Heights on a grid, with their reference height and adhesion map.
 #[derive(Clone, Debug, PartialEq)]
 #[non_exhaustive]
@@ -108,10 +105,8 @@ impl Surface {
     /// As [`Surface::build`], on all of them.
     #[doc(hidden)]
     pub fn on_ranks(scene: &Scene, ranks: Option<Arc<dyn Ranks>>) -> Result<Surface, SurfaceError> {
-        check_leakage(scene, scene.grid.points)?;
         let share = |grid: &Grid| Problem::share(grid, scene.grid.boundary, ranks.clone());
         let surface = Surface::from_parts_on(&scene.grid, &scene.surfaces, &share)?;
-        check_leakage(scene, Some([surface.grid.nx, surface.grid.ny]))?;
         Ok(Surface {
             adhesion_map: adhesion_map::build(scene, &surface.grid, &share)?,
             ..surface
@@ -227,19 +222,6 @@ fn check_grid(points: Option<[usize; 2]>, size: Option<[f64; 2]>) -> Result<(), 
         return Err(SurfaceError::Size { size });
     }
     Ok(())
-}
-
-/// Refuses more points than the flow of `[leakage]` takes.
-fn check_leakage(scene: &Scene, points: Option<[usize; 2]>) -> Result<(), SurfaceError> {
-    match points {
-        Some(points)
-            if scene.tables.leakage.is_some()
-                && points[0].saturating_mul(points[1]) > MOST_WITH_LEAKAGE =>
-        {
-            Err(SurfaceError::Leakage { points })
-        }
-        _ => Ok(()),
-    }
 }
 
 /// The height maps of the parts that are files, of several processes their rows; `None` for the others.

@@ -8,9 +8,7 @@ use super::error::{PartError, SurfaceError};
 use super::shapes::{self, ApexPosition};
 use super::spectrum::SpectralMoments;
 use super::statistics::whole;
-use super::{
-    Surface, adhesion_map, check_grid, check_leakage, part_error, self_affine, single_part,
-};
+use super::{Surface, adhesion_map, check_grid, part_error, self_affine, single_part};
 use crate::backend::Share;
 use crate::grid::Grid;
 use crate::scene::{AdhesionMap, Boundary, Scene, SurfacePart};
@@ -134,7 +132,6 @@ impl Outline {
             return Err(SurfaceError::Empty);
         }
         check_grid(scene.grid.points, scene.grid.size)?;
-        check_leakage(scene, scene.grid.points)?;
         let points = scene.grid.points.ok_or(SurfaceError::PointsMissing)?;
         let size = scene.grid.size.ok_or(SurfaceError::SizeMissing)?;
         let grid = Grid::new(points, size);

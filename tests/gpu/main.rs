@@ -6,6 +6,7 @@ use std::process::ExitCode;
 mod catalogue;
 mod convolution;
 mod kernels;
+mod path;
 mod run;
 mod shaders;
 #[path = "../shared/mod.rs"]
@@ -21,6 +22,7 @@ fn main() -> ExitCode {
         catalogue::tests(),
         convolution::tests(),
         kernels::tests(),
+        path::tests(),
         run::tests(),
         shaders::tests(),
         slabs::tests(),

@@ -15,7 +15,7 @@ use tabor::kernel::Scalars;
 use tabor::run::{run_on_ranks, run_with};
 use tabor::scene::Scene;
 use tabor::solver::{ContactSolver, Hold, Load, Start};
-use tabor::study::{FinishedStep, Observer, Setup, WalkEnd, WalkError, walk};
+use tabor::study::{FinishedStep, Observer, Setup, StepRow, WalkEnd, WalkError, walk};
 use tabor::surface::Surface;
 use tabor::{Device, RunEnd, RunError, RunObserver, RunOptions, RunStatus};
 
@@ -229,6 +229,22 @@ fn every_effect() {
             .unwrap_or_else(|errors| panic!("{errors}"));
         assert!(effect.is_on(&scene), "{effect:?}");
         same_bits(&scene, Number::Double, counts(), effect.name());
+    }
+}
+
+/// The flow around a free sphere, of which some ranks hold rows of the pad alone, and through a rough gap of prime sides.
+fn leakage() {
+    let pressed = "[loading]\ncontrol = \"force\"\npath = [\"2 uN\"]\n";
+    for axis in ["x", "y"] {
+        let fluid = format!("[leakage]\nviscosity = 1.0\naxis = \"{axis}\"\n");
+        let around = scene([40, 24], "free", &format!("{fluid}{pressed}"), SPHERE);
+        let through = scene([61, 47], "periodic", &format!("{fluid}{PRESSURE}"), ROUGH);
+        for scene in [around, through] {
+            let (end, _) = walked(&scene, Number::Double, None).expect("one process");
+            let flows = |row: &StepRow| row.column("flow_conductance") > Some(0.0);
+            assert!(end.rows.iter().all(flows), "{axis}");
+            same_bits(&scene, Number::Double, counts(), "leakage");
+        }
     }
 }
 
@@ -514,6 +530,7 @@ tests![
     free_spheres,
     effects,
     every_effect,
+    leakage,
     single_and_mixed_precision,
     a_coarse_start,
     bytes_of_an_iteration,

@@ -282,22 +282,4 @@ impl Share {
         }
         Ok(own)
     }
-
-    /// The whole of a surface field on the first rank; nothing on the others.
-    ///
-    /// # Errors
-    /// A rank has ended.
-    pub fn whole_on_first<T: Pod>(&self, own: Vec<T>) -> Result<Vec<T>, BackendError> {
-        if self.is_whole() {
-            return Ok(own);
-        }
-        let mut all = Vec::new();
-        if self.is_first() {
-            all.reserve_exact(self.shape.surface_len());
-        }
-        self.to_first(&own, self.shape.surface[0], &mut |rows| {
-            all.extend_from_slice(rows);
-        })?;
-        Ok(all)
-    }
 }

@@ -92,7 +92,6 @@ const CALLS: &[BadCall] = &[
     call(&["check", "good.toml", "--set", "plastic={}"], "SceneError::NotInThisVersion", "plastic: plasticity is not in this version"),
     call(&["check", "good.toml", "--set", "grid.points=262144"], "SurfaceError::Points", "[grid] points = [262144, 262144] is not possible: both must be at least 1 and their product at most 17179869184"),
     call(&["run", "good.toml", "--set", "grid.points=262144"], "SurfaceError::Points", "[grid] points = [262144, 262144] is not possible"),
-    call(&["check", "good.toml", "--set", "grid.points=65536", "--set", "leakage={viscosity=1.0}"], "SurfaceError::Leakage", "[leakage]: 65536 x 65536 points are more than the 4294967294 that the flow is computed on"),
     call(&["check", "short_waves.toml"], "PartError::WavesTooShort", "wavelength = 1e-7 m along x is shorter than two pixels of 6.25e-8 m; take more points"),
     call(&["check", "empty_band.toml"], "PartError::BandEmpty", "no wave of the grid lies between longest = 1.3e-7 m and shortest = 1.285e-7 m; widen the band"),
     call(&["check", "long_band.toml"], "PartError::BandTooLong", "waves across the grid, more than can be summed; take at least 3.052e-11 m"),
