@@ -185,27 +185,21 @@ fn bracket() {
         }
         scalars.low[0] = t;
         scalars.low[1] = slope;
-        scalars.low[2] = ZERO;
+        scalars.low[2] = energy;
         scalars.step = t + min(wide(3.0) * t, secant);
         return;
     }
-    var least_share = wide(0.1);
     if (still_falling) {
-        // Twice in a row: an upper end deep in the repulsion holds the secant at the lower one.
-        if (scalars.low[2] > ZERO) {
-            least_share = wide(0.5);
-        }
         scalars.low[0] = t;
         scalars.low[1] = slope;
-        scalars.low[2] = ONE;
+        scalars.low[2] = energy;
     } else {
-        scalars.low[2] = ZERO;
         scalars.high[0] = t;
         scalars.high[1] = slope;
     }
     var share = scalars.low[1] / (scalars.low[1] - scalars.high[1]);
     if (is_finite(share)) {
-        share = clamp(share, least_share, wide(0.9));
+        share = clamp(share, wide(0.1), wide(0.9));
     } else {
         share = wide(0.2);
     }

@@ -190,7 +190,7 @@ device_struct! {
         first_touch: f64,
         /// Points below this gap are set to zero after a step to first touch; 0 otherwise.
         snap: f64,
-        /// Lower end of the search: step length and slope there, and 1 where it was the last to move.
+        /// Lower end of the search: step length, slope and energy there.
         low: [f64; 3],
         /// Upper end of the search: step length and slope; infinite until one is found.
         high: [f64; 2],

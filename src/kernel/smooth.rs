@@ -14,10 +14,6 @@ use crate::real::Real;
 /// Ranges of the law within which Newton's method needs some steps more and no bound.
 const NEARBY: f64 = 0.1;
 
-/// The last step of Newton's method at most, in ranges, over the root of the relative rounding error: it leaves the square
-/// of itself, times 5 over the distance, of which less than the rounding of a gap remains.
-const LAST_STEP: f64 = 0.1;
-
 /// The variable v and its constants in the kernel's number.
 #[derive(Clone, Copy)]
 pub struct Smooth<T> {
@@ -148,7 +144,7 @@ impl<T: Real> GapConstraint<T> for Smooth<T> {
             peak: T::from_double(params.law.peak_tension()),
             peak_gap: T::from_double(params.law.peak_gap()),
             nearby: T::from_double(NEARBY * params.law.range()),
-            precision: T::from_double(LAST_STEP * params.epsilon.sqrt() * params.law.range()),
+            precision: T::from_double(2.0 * params.epsilon * params.law.range()),
         }
     }
 

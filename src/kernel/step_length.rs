@@ -208,26 +208,20 @@ fn bracket(params: &Params, scalars: &mut Scalars) {
         } else {
             f64::INFINITY
         };
-        scalars.low = [t, slope, 0.0];
+        scalars.low = [t, slope, energy];
         scalars.step = t + (3.0 * t).min(secant);
         return;
     }
-    let mut least_share = 0.1;
     if still_falling {
-        // Twice in a row: an upper end deep in the repulsion holds the secant at the lower one.
-        if scalars.low[2] > 0.0 {
-            least_share = 0.5;
-        }
-        scalars.low = [t, slope, 1.0];
+        scalars.low = [t, slope, energy];
     } else {
-        scalars.low[2] = 0.0;
         scalars.high = [t, slope];
     }
     let [low, low_slope, _] = scalars.low;
     let [high, high_slope] = scalars.high;
     let share = low_slope / (low_slope - high_slope);
     let share = if share.is_finite() {
-        share.clamp(least_share, 0.9)
+        share.clamp(0.1, 0.9)
     } else {
         0.2
     };

@@ -404,7 +404,6 @@ impl Contact<'_> {
     fn bracket(&self, now: &State, trial: &Trial) -> StepLength {
         let first = dot(&trial.s, &now.y);
         let (mut t, mut low, mut high) = (1.0, (0.0, first), None);
-        let mut low_last = false;
         for evaluation in 1..EVALUATIONS {
             let slope = self.slope_at(t, now, trial);
             let fallen = self.has_fallen(t, now, trial);
@@ -420,14 +419,10 @@ impl Contact<'_> {
                 t += choose(secant > 0.0, secant.min(3.0 * t), 3.0 * t);
                 continue;
             }
-            // Twice in a row: an upper end deep in the repulsion holds the secant at the lower one.
-            let least_share = choose(steep && low_last, 0.5, 0.1);
-            low_last = steep;
             (low, high) = choose(steep, ((t, slope), high), (low, Some((t, slope))));
             let (end, slope_at_end) = high.unwrap_or(low);
             let share = low.1 / (low.1 - slope_at_end);
-            t = low.0
-                + choose(share.is_finite(), share.clamp(least_share, 0.9), 0.2) * (end - low.0);
+            t = low.0 + choose(share.is_finite(), share.clamp(0.1, 0.9), 0.2) * (end - low.0);
         }
         choose(low.0 > 0.0, take(low.0, low.0), StepLength::Lost)
     }

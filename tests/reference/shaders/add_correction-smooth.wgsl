@@ -231,8 +231,7 @@ fn gap_at(goal: real, gap: real) -> real {
     // needs a bound, which the repulsive power alone gives.
     let load = real(params.smooth_stiffness) * (peak_gap - goal) - law_factor * real(params.law_peak);
     let bound = law_repelling_gap(load);
-    // The last step leaves the square of itself, times 5 over the distance.
-    let nearness = real(wide(0.1) * sqrt(params.epsilon)) * real(params.law_range);
+    let nearness = real(wide(2.0) * params.epsilon) * real(params.law_range);
     var x = min(max(gap + (goal - variable(gap)) * share(gap), bound), peak_gap);
     for (var count = 0u; count < NEWTON_STEPS; count = count + 1u) {
         let error = variable(x) - goal;
