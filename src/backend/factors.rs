@@ -1,17 +1,36 @@
 //! What the waves of a convolution are multiplied by.
 
+use std::fmt;
 use std::ops::Range;
+
+use rayon::prelude::*;
 
 use super::Shape;
 use crate::elastic::HalfSpace;
 
 /// One real, even factor a wavevector.
-#[derive(Clone, Copy, Debug)]
+#[derive(Clone, Copy)]
 pub enum Factors<'a> {
     /// A table of them, as [`Shape::spectrum_len`] says.
     Table(&'a [f64]),
+    /// That of each wavevector (kx, ky), indexed as in a spectrum: a backend makes a table of the columns that it holds, and
+    /// asks for no other ones.
+    Each(&'a (dyn Fn([usize; 2]) -> f64 + Sync)),
     /// Those of a half-space: a backend may compute them where it needs them, and hold nothing.
     HalfSpace(HalfSpace, Response),
+}
+
+impl fmt::Debug for Factors<'_> {
+    fn fmt(&self, formatter: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            // Not millions of numbers.
+            Factors::Table(values) => write!(formatter, "Table({} numbers)", values.len()),
+            Factors::Each(_) => formatter.write_str("Each(..)"),
+            Factors::HalfSpace(half_space, response) => {
+                write!(formatter, "HalfSpace({half_space:?}, {response:?})")
+            }
+        }
+    }
 }
 
 /// What is asked of an elastic solid of stiffness K at a wavevector.
@@ -36,42 +55,67 @@ impl Response {
 
 impl Factors<'_> {
     /// The factors of a shape, one after another.
-    pub fn tabulated<T>(&self, shape: Shape, number: impl Fn(f64) -> T) -> Vec<T> {
+    pub fn tabulated<T: Send>(
+        &self,
+        shape: Shape,
+        number: impl Fn(f64) -> T + Send + Sync,
+    ) -> Vec<T> {
         self.tabulated_columns(shape, 0..shape.points[0] / 2 + 1, number)
     }
 
     /// Those of some columns of a shape.
-    pub fn tabulated_columns<T>(
+    pub fn tabulated_columns<T: Send>(
         &self,
         shape: Shape,
         columns: Range<usize>,
-        number: impl Fn(f64) -> T,
+        number: impl Fn(f64) -> T + Send + Sync,
     ) -> Vec<T> {
-        let ny = shape.points[1];
-        let column = ny / 2 + 1;
+        let column = shape.points[1] / 2 + 1;
         match *self {
             Factors::Table(values) => {
                 debug_assert_eq!(values.len(), shape.spectrum_len());
                 let held = &values[columns.start * column..columns.end * column];
                 held.iter().map(|&value| number(value)).collect()
             }
-            Factors::HalfSpace(half_space, response) => {
-                let mut values = Vec::with_capacity(columns.len() * column);
-                for kx in columns {
-                    for ky in 0..=ny / 2 {
-                        values.push(number(response.factor(half_space.stiffness(kx, ky))));
-                    }
-                }
-                values
-            }
+            Factors::Each(factor) => each(columns, column, |wave| number(factor(wave))),
+            Factors::HalfSpace(half_space, response) => each(columns, column, |[kx, ky]| {
+                number(response.factor(half_space.stiffness(kx, ky)))
+            }),
         }
     }
+}
+
+/// A value for each wavevector of some columns, each of so many.
+fn each<T: Send>(
+    columns: Range<usize>,
+    column: usize,
+    value: impl Fn([usize; 2]) -> T + Send + Sync,
+) -> Vec<T> {
+    let (first, count) = (columns.start, columns.len() * column);
+    let indices = (0..count).into_par_iter().with_min_len(column);
+    let waves = indices.map(|index| [first + index / column, index % column]);
+    waves.map(value).collect()
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
     use crate::grid::Grid;
+
+    /// All factors, and those of some columns, are the same ones of a table and of each wavevector.
+    #[test]
+    fn columns_of_a_table() {
+        let shape = Shape::whole(6, 5);
+        let factor = |[kx, ky]: [usize; 2]| (10 * kx + ky) as f64;
+        let table: Vec<f64> = (0..12)
+            .map(|index| factor([index / 3, index % 3]))
+            .collect();
+        for factors in [Factors::Table(&table), Factors::Each(&factor)] {
+            assert_eq!(factors.tabulated(shape, |x| x), table, "{factors:?}");
+            assert_eq!(factors.tabulated_columns(shape, 1..3, |x| x), table[3..9]);
+            assert!(factors.tabulated_columns(shape, 4..4, |x| x).is_empty());
+        }
+    }
 
     /// The unit cell's first wave along x: K = pi, and what is made of it.
     #[test]

@@ -4,6 +4,7 @@
 //! Every rank makes the same calls in the same order. A rank that is gone makes sums NaN, so that nothing converges,
 //! and [`Share::failed`] says so.
 
+mod columns;
 mod rows;
 
 use std::ops::Range;

@@ -6,7 +6,7 @@ use crate::effect::Effect;
 use crate::law::Law;
 use crate::run::memory_check;
 use crate::study::{Cost, Memory, Plan};
-use crate::surface::Source;
+use crate::surface::{Source, refused_on_ranks};
 use crate::units::format_si;
 
 /// Reads and validates a scene and prints a report.
@@ -14,6 +14,9 @@ pub(super) fn check(arguments: &CheckArguments) -> Result<(), Failure> {
     let scene = arguments.scene.read()?;
     let ranks = arguments.ranks.map_or(1, usize::from);
     memory_check::check_files(&scene, ranks)?;
+    if let (2.., Some(error)) = (ranks, refused_on_ranks(&scene)) {
+        return Err(arguments.scene.surface_failure(error));
+    }
     let plan = Plan::for_scene(scene).map_err(|error| arguments.scene.surface_failure(error))?;
     let place = Place::for_scene(&plan.scene);
     let cost = plan.cost(place)?;

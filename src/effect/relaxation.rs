@@ -73,7 +73,7 @@ impl Hooks for Relaxation {
     fn host_bytes(&self, sizes: &Sizes) -> HostBytes {
         HostBytes {
             // The offset of the surface by its history, and the problem of a duration.
-            kept: DOUBLE * (sizes.solved + sizes.points) + sizes.table,
+            kept: DOUBLE * (sizes.solved + sizes.points),
             // The displacement, padded heights, and a pressure of a spring as it is read.
             passing: 3 * DOUBLE * sizes.solved + EVALUATION * sizes.points,
             ..HostBytes::default()

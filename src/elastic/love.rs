@@ -1,6 +1,7 @@
 //! The unbounded half-space under pixels of constant pressure (Love 1929).
 
 use std::f64::consts::PI;
+use std::ops::Range;
 
 use rayon::prelude::*;
 use rustfft::num_complex::Complex;
@@ -28,48 +29,93 @@ pub fn love_displacement(x: f64, y: f64, half_x: f64, half_y: f64) -> f64 {
         / PI
 }
 
-/// Stiffness of an unbounded half-space between the points of a doubled grid, in Fourier space.
+/// The displacement of an unbounded half-space between the points of a doubled grid, on its way to the stiffness at each
+/// wavevector: rows are transformed along x, and columns of all rows along y.
 ///
-/// `points` are those of the doubled grid, `pixel` the pixel sides in reduced units. Shape `[nx/2 +
-/// 1, ny/2 + 1]`, the column (x) index running slowest: the inverse of the transform of the
-/// circulant kernel whose offsets are the nearest images. Exact between points at most half the
-/// doubled grid apart. All values are positive.
-pub fn free_stiffness(points: [usize; 2], pixel: [f64; 2]) -> Vec<f64> {
-    let [nx, ny] = points;
-    let columns = nx / 2 + 1;
-    let half = ny / 2 + 1;
-    let plan = f64::real_forward(nx);
-    // The kernel is even in both directions, so half of its rows suffice and spectra are real.
-    let rows: Vec<Vec<f64>> = (0..half)
-        .into_par_iter()
-        .map(|row| {
-            let y = row as f64 * pixel[1];
-            let mut line: Vec<f64> = (0..nx)
+/// The kernel is circulant, its offsets the nearest images: exact between points at most half the doubled grid apart. It
+/// is even in both directions, so that half of its rows suffice and its spectra are real.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct FreeKernel {
+    /// Points of the doubled grid along x and y.
+    points: [usize; 2],
+    /// Sides of a pixel in reduced units.
+    pixel: [f64; 2],
+}
+
+impl FreeKernel {
+    /// The kernel of so many `points` of a doubled grid, with these sides of a pixel in reduced units.
+    pub fn new(points: [usize; 2], pixel: [f64; 2]) -> Self {
+        FreeKernel { points, pixel }
+    }
+
+    /// Columns of the half spectrum, nx/2 + 1.
+    pub fn columns(&self) -> usize {
+        self.points[0] / 2 + 1
+    }
+
+    /// Rows that suffice, ny/2 + 1.
+    pub fn rows(&self) -> usize {
+        self.points[1] / 2 + 1
+    }
+
+    /// The transforms along x of some of these rows, one after another, each of a value for each column.
+    pub fn transformed_rows(&self, rows: Range<usize>) -> Vec<f64> {
+        let ([nx, _], [dx, dy]) = (self.points, self.pixel);
+        let plan = f64::real_forward(nx);
+        let mut transformed = vec![0.0; rows.len() * self.columns()];
+        let lines = transformed.par_chunks_exact_mut(self.columns());
+        lines.zip(rows).for_each(|(line, row)| {
+            let y = row as f64 * dy;
+            let mut values: Vec<f64> = (0..nx)
                 .map(|column| {
-                    let x = column.min(nx - column) as f64 * pixel[0];
-                    love_displacement(x, y, 0.5 * pixel[0], 0.5 * pixel[1])
+                    let x = column.min(nx - column) as f64 * dx;
+                    love_displacement(x, y, 0.5 * dx, 0.5 * dy)
                 })
                 .collect();
             let mut spectrum = plan.make_output_vec();
             // Lengths are those of the plan, so this cannot fail.
-            let _ = plan.process(&mut line, &mut spectrum);
-            spectrum.iter().map(|value| value.re).collect()
-        })
+            let _ = plan.process(&mut values, &mut spectrum);
+            for (to, value) in line.iter_mut().zip(&spectrum) {
+                *to = value.re;
+            }
+        });
+        transformed
+    }
+
+    /// Makes columns of these rows, each of a value for each row and one column after another, the stiffness of their
+    /// wavevectors.
+    pub fn transform_columns(&self, columns: &mut [f64]) {
+        let [_, ny] = self.points;
+        let plan = f64::complex_forward(ny);
+        columns
+            .par_chunks_exact_mut(self.rows())
+            .for_each(|column| {
+                let mut line: Vec<Complex<f64>> = (0..ny)
+                    .map(|row| Complex::new(column[row.min(ny - row)], 0.0))
+                    .collect();
+                plan.process(&mut line);
+                for (to, value) in column.iter_mut().zip(line) {
+                    *to = 1.0 / value.re;
+                }
+            });
+    }
+}
+
+/// Stiffness of an unbounded half-space between the points of a doubled grid, in Fourier space.
+///
+/// `points` are those of the doubled grid, `pixel` the pixel sides in reduced units. Shape `[nx/2 +
+/// 1, ny/2 + 1]`, the column (x) index running slowest: the inverse of the transform of the
+/// [kernel](FreeKernel). All values are positive.
+pub fn free_stiffness(points: [usize; 2], pixel: [f64; 2]) -> Vec<f64> {
+    let kernel = FreeKernel::new(points, pixel);
+    let rows = kernel.transformed_rows(0..kernel.rows());
+    let mut columns: Vec<f64> = (0..kernel.columns())
+        .flat_map(|column| rows.iter().skip(column).step_by(kernel.columns()))
+        .copied()
         .collect();
-    let plan = f64::complex_forward(ny);
-    (0..columns)
-        .into_par_iter()
-        .flat_map_iter(|column| {
-            let mut line: Vec<Complex<f64>> = (0..ny)
-                .map(|row| Complex::new(rows[row.min(ny - row)][column], 0.0))
-                .collect();
-            plan.process(&mut line);
-            line.into_iter()
-                .take(half)
-                .map(|value| 1.0 / value.re)
-                .collect::<Vec<_>>()
-        })
-        .collect()
+    drop(rows);
+    kernel.transform_columns(&mut columns);
+    columns
 }
 
 #[cfg(test)]

@@ -5,10 +5,12 @@
 
 mod half_space;
 mod layer;
+mod layered;
 mod love;
 mod stiffness;
 
 pub use half_space::{HalfSpace, periodic_stiffness, wave_stiffness};
 pub use layer::{Base, Layer, bonded_compliance, frictionless_compliance};
-pub use love::{free_stiffness, love_displacement};
-pub use stiffness::Stiffness;
+pub use layered::LayeredSpace;
+pub use love::{FreeKernel, free_stiffness, love_displacement};
+pub use stiffness::{Stiffness, StiffnessTable};

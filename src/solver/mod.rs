@@ -23,6 +23,7 @@ mod plain_setup;
 mod problem;
 mod refinement;
 mod rigid;
+mod stiffness;
 
 pub use contact::{ContactSolver, Hold, Load, Outcome, ROUNDS_PER_ITERATION, Start};
 pub use heights::Heights;

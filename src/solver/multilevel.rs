@@ -12,6 +12,7 @@ use std::f64::consts::TAU;
 use super::contact::Load;
 use super::kernel_set::{KernelSet, LevelSet};
 use super::problem::Problem;
+use super::stiffness::on_level;
 use crate::backend::{Backend, Factors, Field, Level, Shape, Spectrum};
 use crate::elastic::Stiffness;
 use crate::kernel::{Gate, Params, displacement, multilevel};
@@ -54,26 +55,23 @@ const SOFT_CONTROL: f64 = 10.0;
 /// Most fields of a step's update: direction, step, gap, pressure, and the residuals after and before it.
 const MOST_UPDATED: usize = 6;
 
-/// The stiffness at a wavevector of the solved points.
-fn stiffness_at(problem: &Problem, kx: usize, ky: usize) -> f64 {
-    match &problem.stiffness {
-        Stiffness::HalfSpace(half_space) => half_space.stiffness(kx, ky),
-        Stiffness::Table(values) => values[kx * (problem.shape.points[1] / 2 + 1) + ky],
-    }
-}
-
 /// Stiffness of the shortest wave along an axis after so many halvings, the larger one.
 fn shortest(problem: &Problem, halvings: usize) -> f64 {
     let [nx, ny] = problem.shape.points.map(|points| (points >> halvings) / 2);
-    stiffness_at(problem, nx, 0).max(stiffness_at(problem, 0, ny))
+    problem.stiffness.at(nx, 0).max(problem.stiffness.at(0, ny))
+}
+
+/// Whether it is known: a sketch has no table, whose waves are those of a half-space, nearly.
+fn has_shortest(problem: &Problem) -> bool {
+    !(problem.is_sketch() && matches!(problem.stiffness, Stiffness::Table(_)))
 }
 
 /// Compliance by which each level of a problem answers its own waves, in the measure of its scaled residual.
 pub(super) fn level_compliance(problem: &Problem) -> f64 {
-    let stiffness = if problem.is_sketch() {
-        0.0
-    } else {
+    let stiffness = if has_shortest(problem) {
         shortest(problem, 0)
+    } else {
+        0.0
     };
     if stiffness > 0.0 {
         OVER_SHORTEST / stiffness
@@ -152,10 +150,9 @@ pub(super) fn halvings(problem: &Problem) -> usize {
             .iter()
             .all(|points| points.is_multiple_of(2 << level) && points >> level >= FEWEST_COARSE)
     };
-    // A sketch has no values by which to tell a thin layer.
     let grows = |level: &usize| {
         *level == 1
-            || problem.is_sketch()
+            || !has_shortest(problem)
             || shortest(problem, level - 2) >= LEAST_GROWTH * shortest(problem, level - 1)
     };
     (1..=MOST_LEVELS)
@@ -177,11 +174,10 @@ pub(super) fn smoothing(problem: &Problem, waves: [usize; 2]) -> f64 {
     (-SMOOTHED * SMOOTHED * (phase(0).powi(2) + phase(1).powi(2))).exp()
 }
 
-/// What the coarsest level answers a wave with: a share of the compliance, in the measure of its scaled residual;
-/// 0 at the zero wavevector. To take off what the finer levels answer saves nothing.
-fn coarsest_compliance(problem: &Problem, [kx, ky]: [usize; 2], halvings: usize) -> f64 {
-    let stiffness = stiffness_at(problem, kx, ky);
-    if kx + ky > 0 && stiffness > 0.0 {
+/// What the coarsest level answers a wave of this stiffness with: a share of the compliance, in the measure of its scaled
+/// residual; 0 at the zero wavevector. To take off what the finer levels answer saves nothing.
+fn coarsest_compliance(problem: &Problem, stiffness: f64, halvings: usize) -> f64 {
+    if stiffness > 0.0 {
         coarsest_share(problem) / (stiffness * (1_usize << halvings) as f64)
     } else {
         0.0
@@ -227,16 +223,18 @@ impl Multilevel {
         }
         let level = backend.level("coarsest", halved(halvings));
         restricted.push(backend.field(level, "restricted"));
-        let [nx, ny] = halved(halvings).points;
-        let tabulate = |factor: &dyn Fn([usize; 2]) -> f64| -> Vec<f64> {
-            if problem.is_sketch() {
-                return Vec::new();
+        let share = problem.share.of(halved(halvings));
+        // Where a rank has ended nothing is answered, and the next exchange says so.
+        let known = (!problem.is_sketch())
+            .then(|| on_level(&problem.stiffness, &problem.share, &share).ok())
+            .flatten();
+        let smoothing = |waves| smoothing(problem, waves);
+        let compliance = |[kx, ky]: [usize; 2]| match &known {
+            Some(stiffness) if kx + ky > 0 => {
+                coarsest_compliance(problem, stiffness.at(kx, ky), halvings)
             }
-            let waves = (0..=nx / 2).flat_map(|kx| (0..=ny / 2).map(move |ky| [kx, ky]));
-            waves.map(factor).collect()
+            _ => 0.0,
         };
-        let smoothing = tabulate(&|waves| smoothing(problem, waves));
-        let compliance = tabulate(&|waves| coarsest_compliance(problem, waves, halvings));
         Some(Multilevel {
             fine,
             halvings,
@@ -246,8 +244,8 @@ impl Multilevel {
             share: backend.field(level, "share"),
             weight: backend.field(level, "weight"),
             coarsest_z: backend.field(level, "coarsest_z"),
-            smoothing: backend.spectrum(level, "smoothing", Factors::Table(&smoothing)),
-            compliance: backend.spectrum(level, "coarsest_compliance", Factors::Table(&compliance)),
+            smoothing: backend.spectrum(level, "smoothing", Factors::Each(&smoothing)),
+            compliance: backend.spectrum(level, "coarsest_compliance", Factors::Each(&compliance)),
             kernels: KernelSet::new(problem).levels,
         })
     }

@@ -10,7 +10,6 @@ use super::contact::{Hold, Load};
 use super::kernel_set::params_under;
 use super::multilevel;
 use super::problem::Problem;
-use crate::elastic::Stiffness;
 use crate::kernel::Params;
 
 /// `yes` if a condition holds, else `no`.
@@ -106,13 +105,10 @@ impl<'a> Contact<'a> {
 
     /// K at a wave; at q = 0 the stiffness of a spring, 0 without one.
     fn stiffness(&self, q: [usize; 2]) -> f64 {
-        match &self.problem.stiffness {
-            _ if q == [0, 0] => self.load.zero_stiffness,
-            Stiffness::HalfSpace(half_space) => half_space.stiffness(q[0], q[1]),
-            Stiffness::Table(values) => {
-                let column = self.problem.shape.points[1] / 2 + 1;
-                values[q[0] * column + q[1]]
-            }
+        if q == [0, 0] {
+            self.load.zero_stiffness
+        } else {
+            self.problem.stiffness.at(q[0], q[1])
         }
     }
 

@@ -4,9 +4,10 @@ use std::f64::consts::PI;
 use std::sync::Arc;
 
 use super::heights::Heights;
+use super::stiffness;
 use crate::backend::ranks::Ranks;
 use crate::backend::{Backend, BackendError, Factors, Level, Response, Shape, Share, Spectrum};
-use crate::elastic::{HalfSpace, Layer, Stiffness, free_stiffness, periodic_stiffness};
+use crate::elastic::{HalfSpace, Layer, Stiffness, StiffnessTable};
 use crate::grid::{Boundary, Grid};
 use crate::law::Law;
 use crate::shared_values::SharedValues;
@@ -88,14 +89,6 @@ fn solved_shape(grid: &Grid, boundary: Boundary) -> Shape {
     }
 }
 
-/// Stiffness of a periodic half-space or layer, with this many metres to a lateral unit.
-fn layered_stiffness(grid: Grid, lateral: f64, layer: Option<&Layer>) -> Stiffness {
-    match layer {
-        None => Stiffness::HalfSpace(HalfSpace::new(grid, lateral)),
-        Some(_) => Stiffness::Table(periodic_stiffness(&grid, lateral, layer)),
-    }
-}
-
 /// Displacement at the centre of a rectangle of these sides under a unit pressure on a contact modulus of 1 (Love 1929): the
 /// mean of a free boundary's solved points, whose table repeats.
 fn uniform_displacement([a, b]: [f64; 2]) -> f64 {
@@ -165,10 +158,10 @@ impl Problem {
         };
         let shape = solved_shape(&grid, boundary);
         let stiffness = match boundary {
-            Boundary::Periodic => layered_stiffness(grid, lateral, None),
+            Boundary::Periodic => stiffness::periodic(grid, lateral, None, &share),
             Boundary::Free => {
                 let pixel = [grid.dx() / lateral, grid.dy() / lateral];
-                Stiffness::Table(free_stiffness(shape.points, pixel))
+                stiffness::free(&share, pixel)
             }
         };
         Problem {
@@ -199,20 +192,11 @@ impl Problem {
 
     /// The same problem on a layer in place of the half-space (periodic grids).
     pub fn on_layer(self, layer: Layer) -> Problem {
+        let lateral = self.scales.lateral;
         let stiffness = if self.is_sketch() {
-            // Of a thin layer this need not be the longest wave.
-            let [nx, ny] = [self.grid.nx, self.grid.ny];
-            let along = [Grid { ny: 1, ..self.grid }, Grid { nx: 1, ..self.grid }];
-            let lines =
-                along.map(|line| layered_stiffness(line, self.scales.lateral, Some(&layer)));
-            let waves = [nx, ny].into_iter().zip(&lines);
-            let softest = waves
-                .filter(|(points, _)| *points > 1)
-                .map(|(_, line)| line.least())
-                .fold(f64::INFINITY, f64::min);
-            Stiffness::Table(vec![1.0, softest])
+            stiffness::along_axes(self.grid, lateral, &layer)
         } else {
-            layered_stiffness(self.grid, self.scales.lateral, Some(&layer))
+            stiffness::periodic(self.grid, lateral, Some(&layer), &self.share)
         };
         Problem {
             stiffness,
@@ -254,7 +238,7 @@ impl Problem {
     }
 
     /// A problem with a shape and a law (SI) but no values: no heights, and of a table of stiffness the zero wavevector and the
-    /// softest wave, nearly. A solver planned on it counts the cost of the problem and cannot solve it.
+    /// softest wave, nearly; of a layer the waves along the axes. A solver planned on it counts the cost of the problem and cannot solve it.
     pub fn sketch(grid: Grid, boundary: Boundary, contact_modulus: f64, law: Law) -> Self {
         let scales = Scales {
             length: 1.0,
@@ -273,7 +257,7 @@ impl Problem {
             rms_slope: 0.0,
             law: law.reduced(scales.length, scales.pressure),
             stiffness: match boundary {
-                Boundary::Periodic => layered_stiffness(grid, scales.lateral, None),
+                Boundary::Periodic => Stiffness::HalfSpace(HalfSpace::new(grid, scales.lateral)),
                 Boundary::Free => {
                     let size = [grid.dx(), grid.dy()];
                     let sides: [f64; 2] = std::array::from_fn(|axis| {
@@ -281,7 +265,8 @@ impl Problem {
                     });
                     let solved = Grid::new(shape.points, sides);
                     let softest = HalfSpace::new(solved, scales.lateral).least();
-                    Stiffness::Table(vec![1.0 / uniform_displacement(sides), softest])
+                    let zero_mode = 1.0 / uniform_displacement(sides);
+                    Stiffness::Table(StiffnessTable::sketch(zero_mode, softest))
                 }
             },
             law_factor: None,
@@ -348,8 +333,8 @@ impl Problem {
             grid,
             shape: Shape::whole(grid.nx, grid.ny),
             heights: Heights::new(heights.into(), 0.0, 1.0, &share, &grid),
+            stiffness: stiffness::periodic(grid, self.scales.lateral, self.layer.as_ref(), &share),
             share,
-            stiffness: layered_stiffness(grid, self.scales.lateral, self.layer.as_ref()),
             law: self.law,
             // Coarse starts are for the hard wall only.
             law_factor: None,
@@ -389,18 +374,12 @@ impl Problem {
         name: &'static str,
         response: Response,
     ) -> Spectrum {
-        match (&self.stiffness, response) {
-            (&Stiffness::HalfSpace(half_space), _) => {
-                backend.spectrum(level, name, Factors::HalfSpace(half_space, response))
-            }
-            (Stiffness::Table(values), Response::Stiffness) => {
-                backend.spectrum(level, name, Factors::Table(values))
-            }
-            (Stiffness::Table(values), _) => {
-                let values: Vec<f64> = values.iter().map(|&k| response.factor(k)).collect();
-                backend.spectrum(level, name, Factors::Table(&values))
-            }
-        }
+        let factor = |[kx, ky]: [usize; 2]| response.factor(self.stiffness.at(kx, ky));
+        let factors = match self.stiffness {
+            Stiffness::HalfSpace(half_space) => Factors::HalfSpace(half_space, response),
+            Stiffness::Layer(_) | Stiffness::Table(_) => Factors::Each(&factor),
+        };
+        backend.spectrum(level, name, factors)
     }
 
     /// Displacement of a uniform unit pressure on a layer, reduced; 0 on the half-space, whose

@@ -190,11 +190,6 @@ fn plan(
     let sizes = Sizes {
         points: problem.shape.surface_len() as u64,
         solved: problem.shape.len() as u64,
-        table: if is_tabulated {
-            (size_of::<f64>() * problem.shape.spectrum_len()) as u64
-        } else {
-            0
-        },
     };
     let transforms = iterated.transforms() - started.transforms();
     let resting = iterated.released_bytes();

@@ -170,8 +170,6 @@ pub(crate) struct Sizes {
     pub points: u64,
     /// Solved points, those of a pad included.
     pub solved: u64,
-    /// Bytes of a table over the wavevectors; 0 where a formula stands in its place.
-    pub table: u64,
 }
 
 /// Bytes of the host's memory that effects take, their kept fields aside.

@@ -16,14 +16,14 @@ pub(crate) const DOUBLE: u64 = 8;
 /// The program and its threads, as measured on scenes of a few points.
 const PROGRAM: u64 = 16 << 20;
 /// MPI and its connections in a rank, as measured on the same scenes.
-const MPI: u64 = 8 << 20;
+const MPI: u64 = 14 << 20;
 /// Graphics drivers that a run looks for, as measured with a software driver on 512 x 512 points.
 const DRIVERS: u64 = 56 << 20;
 /// Bytes a point of the results of a step: gap and pressure, and a byte for the state.
 pub(crate) const EVALUATION: u64 = 2 * DOUBLE + 1;
 /// Fields below this length stay with the allocator when they are let go (glibc on 64 bits; longer ones go back
-/// to the system), and do not always fit where another is wanted: at the largest moment about one of the solver's
-/// fields was unused. Those of a coarse start stay where the solver's own do not.
+/// to the system), and do not always fit where another is wanted: at the largest moment about half of one of the
+/// solver's fields was unused. Those of a coarse start stay where the solver's own do not.
 const SHORTEST_RETURNED: u64 = 32 << 20;
 /// Bytes a drawn point of a picture: its value and its colour.
 const DRAWN: u64 = DOUBLE + 3;
@@ -68,7 +68,7 @@ impl Memory {
         let solved = own(shape.len());
         let field = DOUBLE * solved;
         let table = if cost.is_tabulated {
-            DOUBLE * shape.spectrum_len() as u64
+            own(DOUBLE as usize * shape.spectrum_len())
         } else {
             0
         };
@@ -107,8 +107,7 @@ impl Memory {
         let cut = if solved > points { DOUBLE * points } else { 0 };
         let evaluating = 2 * field + cut + points;
         // Heights of a pad and the first gap on their way to the backend.
-        let planning = table + field;
-        let starting = planning.max(coarse_start(cost, points, solver_here, table, ranks));
+        let starting = field.max(coarse_start(cost, points, solver_here, ranks));
 
         // A step is solved and evaluated, then its result is written, before which the last one goes, and its state
         // read.
@@ -122,7 +121,7 @@ impl Memory {
         // A load between two steps is solved beside the states of both and the result of the second; its own state
         // is read beside its own result.
         let other_solver = if cost.searches.with_own_solver {
-            idle + DOUBLE * points + table
+            idle + DOUBLE * points
         } else {
             0
         };
@@ -142,7 +141,7 @@ impl Memory {
         let unused = if !on_processor {
             0
         } else if solver_field < SHORTEST_RETURNED {
-            solver_field
+            solver_field / 2
         } else if cost.starts_coarse && solver_field / 4 < SHORTEST_RETURNED {
             SHORTEST_RETURNED
         } else {
@@ -247,15 +246,15 @@ fn kept_steps(scene: &Scene) -> u64 {
 }
 
 /// Bytes of a first step that is helped by coarser grids, the solver itself aside.
-fn coarse_start(cost: &Cost, points: u64, solver: u64, table: u64, ranks: usize) -> u64 {
+fn coarse_start(cost: &Cost, points: u64, solver: u64, ranks: usize) -> u64 {
     if !cost.starts_coarse {
         return 0;
     }
     // One after another, the largest of a quarter of the points: its heights, also on their way to its
-    // backend, a gap, two tables and a solver in single precision; and the heights of the grids below while these are
+    // backend, a gap and a solver in single precision; and the heights of the grids below while these are
     // solved.
     let solver = solver * size_of::<f32>() as u64 / cost.place.number() as u64;
-    let level = (3 * DOUBLE * points + 2 * table + solver) / 4 + DOUBLE * points / 12;
+    let level = (3 * DOUBLE * points + solver) / 4 + DOUBLE * points / 12;
     // Heights and displacement of that grid, and the gap that comes back; of several ranks also the reduced heights and
     // those of the rows that the coarse grid has here.
     let between = if ranks > 1 { 2 * DOUBLE * points } else { 0 };

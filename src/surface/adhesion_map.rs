@@ -101,7 +101,7 @@ fn read(
     let plain = HeightFileScene::new(path);
     // A map need not be periodic, so mismatched edges are not reported.
     let boundary = Boundary::Free;
-    let whole = || match file::read_numbers(&plain, boundary) {
+    let whole = |most| match file::read_numbers(&plain, boundary, most) {
         // Grey images: black means no attraction, white the full law.
         Err(FileError::GreyEndsMissing) => file::read_numbers(
             &HeightFileScene {
@@ -110,6 +110,7 @@ fn read(
                 ..plain.clone()
             },
             boundary,
+            most,
         ),
         map => map,
     };
@@ -119,6 +120,7 @@ fn read(
         share: &|points| share(&Grid::new(points, [1.0; 2])),
         repeats: None,
         whole: &whole,
+        fits: &|_| Ok(()),
         wrong,
     };
     let map = reading.read()?;

@@ -5,6 +5,7 @@ use std::path::PathBuf;
 
 use thiserror::Error;
 
+use super::by_rows::MOST_WHOLE;
 use super::{MOST_POINTS, MapError};
 use crate::units::{cut, quoted};
 
@@ -414,6 +415,19 @@ pub enum FileError {
         /// Points in the file, or those counted so far.
         points: u64,
     },
+    /// A file that one of several processes would hold whole.
+    #[error(
+        "{} are more than the {MOST_WHOLE} points that the first of several processes reads whole; prepare the file once on one \
+         process (tabor surface writes heights.npy, of which each process reads its own rows), or leave fill, profile, \
+         outliers, edges and resample out where it is such a file",
+        amount(*points, *length)
+    )]
+    Whole {
+        /// Points along x and y, where they are known without reading the file.
+        points: Option<[usize; 2]>,
+        /// Its length, bytes.
+        length: u64,
+    },
     /// No numbers: nothing but comments, or an empty array.
     #[error("the file holds no numbers")]
     NoNumbers,
@@ -539,4 +553,12 @@ pub enum FileError {
         /// Size of that, m.
         size: [f64; 2],
     },
+}
+
+/// What a file holds, as far as it is known.
+fn amount(points: Option<[usize; 2]>, length: u64) -> String {
+    match points {
+        Some([columns, rows]) => format!("{columns} x {rows} points"),
+        None => format!("{length} bytes of numbers"),
+    }
 }

@@ -83,7 +83,7 @@ impl HeightMap {
     }
 }
 
-/// Reads the height map of a scene and applies all that the scene asks of it.
+/// Reads the height map of a scene, of a file of at most so many points, and applies all that the scene asks of it.
 ///
 /// # Errors
 /// See [`FileError`]; a line scan is one unless the scene takes it as a profile, or its grid has the same `points`.
@@ -91,27 +91,56 @@ pub(super) fn read(
     scene: &HeightFileScene,
     boundary: Boundary,
     points: Option<[usize; 2]>,
+    most: usize,
 ) -> Result<HeightMap, FileError> {
+    check_factors(scene)?;
+    let mut matrix = read_at_most(scene, most)?;
+    if scene.preparation.profile {
+        prepare::to_profile(&mut matrix)?;
+    } else {
+        expect_map(points, [matrix.columns, matrix.rows])?;
+    }
+    whole_heights_of(scene, boundary, matrix)
+}
+
+/// Refuses factors that leave nothing of the heights.
+pub(super) fn check_factors(scene: &HeightFileScene) -> Result<(), FileError> {
     for (name, value) in [("unit", scene.unit), ("scale", scene.scale)] {
         if value == 0.0 || !in_range(value) {
             return Err(FileError::Factor { name, value });
         }
     }
-    let mut matrix = formats::read(&scene.path)?;
-    if scene.preparation.profile {
-        prepare::to_profile(&mut matrix)?;
-    } else if points != Some([matrix.columns, matrix.rows]) {
-        prepare::expect_map(&matrix)?;
+    Ok(())
+}
+
+/// Refuses a line scan of so many points along x and y, unless the grid has the same.
+pub(super) fn expect_map(grid: Option<[usize; 2]>, points: [usize; 2]) -> Result<(), FileError> {
+    if grid == Some(points) {
+        Ok(())
+    } else {
+        prepare::expect_map(points)
     }
-    whole_heights_of(scene, boundary, matrix)
+}
+
+/// Reads a file of at most so many points.
+fn read_at_most(scene: &HeightFileScene, most: usize) -> Result<Matrix, FileError> {
+    let matrix = formats::read(&scene.path)?;
+    if matrix.rows * matrix.columns > most {
+        return Err(FileError::Whole {
+            points: Some([matrix.columns, matrix.rows]),
+            length: 0,
+        });
+    }
+    Ok(matrix)
 }
 
 /// The same of numbers that need not be heights, where a single row is a map too.
 pub(super) fn read_numbers(
     scene: &HeightFileScene,
     boundary: Boundary,
+    most: usize,
 ) -> Result<HeightMap, FileError> {
-    whole_heights_of(scene, boundary, formats::read(&scene.path)?)
+    whole_heights_of(scene, boundary, read_at_most(scene, most)?)
 }
 
 fn whole_heights_of(

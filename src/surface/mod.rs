@@ -38,6 +38,8 @@ pub mod statistics;
 
 pub use adhesion_map::MapError;
 pub(crate) use by_rows::is_by_rows;
+#[cfg(feature = "cli")]
+pub(crate) use by_rows::refused_on_ranks;
 pub use error::{FileError, PartError, SurfaceError};
 #[doc(hidden)]
 pub use formats::claimed_points;
@@ -252,7 +254,11 @@ fn read_maps(
                 .points
                 .filter(|_| file.preparation.profile)
                 .map(|[_, rows]| rows),
-            whole: &|| file::read(file, scene.boundary, scene.points),
+            whole: &|most| file::read(file, scene.boundary, scene.points, most),
+            fits: &|points| {
+                file::check_factors(file)?;
+                file::expect_map(scene.points, points)
+            },
             wrong: &of_file,
         };
         let map = map.read()?;

@@ -1,6 +1,7 @@
 //! Preparation of a measured map: crop, profile, outliers, edges.
 
 use std::f64::consts::FRAC_PI_2;
+use std::ops::Range;
 
 use super::error::FileError;
 use super::fill;
@@ -18,8 +19,7 @@ const WINDOW: usize = 8;
 const NORMAL: f64 = 1.4826;
 
 /// Refuses a line scan, which is no map.
-pub(super) fn expect_map(matrix: &Matrix) -> Result<(), FileError> {
-    let (rows, columns) = (matrix.rows, matrix.columns);
+pub(super) fn expect_map([columns, rows]: [usize; 2]) -> Result<(), FileError> {
     let (short, long) = (rows.min(columns), rows.max(columns));
     if long >= LINE * short || (short <= 2 && long >= LEAST_LINE) {
         return Err(FileError::LineScan { columns, rows });
@@ -71,19 +71,38 @@ fn length(places: &[f64]) -> Option<f64> {
     equal.then(|| step.abs() * places.len() as f64)
 }
 
-/// Keeps the points from `[x, y]` on, so many along x and y.
-pub(super) fn crop(matrix: &mut Matrix, [x, y, nx, ny]: [usize; 4]) -> Result<(), FileError> {
-    let (rows, columns) = (matrix.rows, matrix.columns);
+/// Refuses the part of so many points along x and y from `[x, y]` on that is not within a map of so many columns and rows.
+pub(super) fn check_crop(crop: [usize; 4], [columns, rows]: [usize; 2]) -> Result<(), FileError> {
+    let [x, y, nx, ny] = crop;
     let ends = [x.checked_add(nx), y.checked_add(ny)];
-    if !(ends[0].is_some_and(|end| end <= columns) && ends[1].is_some_and(|end| end <= rows)) {
-        return Err(FileError::Crop {
-            crop: [x, y, nx, ny],
-            columns,
-            rows,
-        });
+    if ends[0].is_some_and(|end| end <= columns) && ends[1].is_some_and(|end| end <= rows) {
+        return Ok(());
     }
-    let kept = matrix.values.chunks_exact(columns).skip(y).take(ny);
-    matrix.values = kept.flat_map(|row| &row[x..x + nx]).copied().collect();
+    Err(FileError::Crop {
+        crop,
+        columns,
+        rows,
+    })
+}
+
+/// Keeps some columns of a matrix, of as many rows as it has values of.
+pub(super) fn keep_columns(matrix: &mut Matrix, kept: Range<usize>) {
+    if kept != (0..matrix.columns) {
+        let rows = matrix.values.chunks_exact(matrix.columns);
+        matrix.values = rows.flat_map(|row| &row[kept.clone()]).copied().collect();
+        matrix.columns = kept.len();
+    }
+}
+
+/// Keeps the points from `[x, y]` on, so many along x and y.
+pub(super) fn crop(matrix: &mut Matrix, crop: [usize; 4]) -> Result<(), FileError> {
+    let (rows, columns) = (matrix.rows, matrix.columns);
+    check_crop(crop, [columns, rows])?;
+    let [x, y, nx, ny] = crop;
+    matrix.values.truncate((y + ny) * columns);
+    matrix.values.drain(..y * columns);
+    matrix.values.shrink_to_fit();
+    keep_columns(matrix, x..x + nx);
     let part = |[width, height]: [f64; 2]| {
         [
             width * nx as f64 / columns as f64,

@@ -83,7 +83,8 @@ macro_rules! passed_on {
             self.inner.field(level, name)
         }
         fn spectrum(&mut self, level: Level, name: &'static str, factors: Factors) -> Spectrum {
-            self.tables.push(matches!(factors, Factors::Table(_)));
+            let computed = matches!(factors, Factors::HalfSpace(..));
+            self.tables.push(!computed);
             self.inner.spectrum(level, name, factors)
         }
         fn set_zero_mode(&mut self, spectrum: Spectrum, value: f64) {

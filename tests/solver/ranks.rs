@@ -182,6 +182,37 @@ fn free_spheres() {
     }
 }
 
+/// Layers whose softest wave is the longest, and one of which it is not, and free boundaries with coarser levels and without:
+/// on ranks that transform unlike numbers of columns, and on more than there are groups of eight columns.
+fn stiffness_by_columns() {
+    let adhesion = adhesion("maugis-dugdale");
+    for (layer, grid) in [
+        (
+            "thickness = \"5 um\"\nbase = \"bonded\"\npoisson_ratio = 0.3\n",
+            [64, 64],
+        ),
+        (
+            "thickness = \"0.2 um\"\nbase = \"bonded\"\npoisson_ratio = 0.5\n",
+            [36, 100],
+        ),
+        (
+            "thickness = \"0.1 um\"\nbase = \"frictionless\"\npoisson_ratio = 0.3\n",
+            [61, 47],
+        ),
+    ] {
+        let (below, surface) = (format!("{adhesion}{MEAN_GAP}"), format!("{layer}{ROUGH}"));
+        let scene = scene(grid, "periodic", &below, &surface);
+        same_bits(&scene, Number::Double, &[3, 7], layer);
+    }
+    let loading = "[loading]\ncontrol = \"approach\"\npath = [\"20 nm\", \"5 nm\"]\n";
+    for grid in [[24, 20], [13, 9], [20, 33]] {
+        for number in [Number::Double, Number::Mixed] {
+            let scene = scene(grid, "free", &format!("{adhesion}{loading}"), SPHERE);
+            same_bits(&scene, number, &[3, 9], &format!("free, {grid:?}"));
+        }
+    }
+}
+
 /// What sums over the host's own arrays, and what changes the solid: each as on one process.
 fn effects() {
     let maugis = adhesion("maugis-dugdale");
@@ -528,6 +559,7 @@ tests![
     what_a_rank_refuses,
     periodic_laws_and_controls,
     free_spheres,
+    stiffness_by_columns,
     effects,
     every_effect,
     leakage,

@@ -98,6 +98,8 @@ fn height_files() {
     };
     fs::write(at("map.txt"), (0..points[1]).map(line).collect::<String>()).expect("a file");
     fs::write(at("line.txt"), line(0)).expect("a file");
+    npy(&at("larger.npy"), [31, 50], false, height);
+    npy(&at("line.npy"), [24, 1], false, height);
     let file = |name: &str, asked: &str| {
         format!("[[surface]]\nkind = \"file\"\npath = \"{name}\"\nscale = 2.0\n{asked}")
     };
@@ -144,6 +146,13 @@ fn height_files() {
         (file("line.txt", "profile = true\n"), ""),
         (file("holes.npy", ""), ""),
         (file("none.npy", ""), ""),
+        (
+            file("larger.npy", "crop = [5, 9, 24, 38]\ndetrend = \"plane\"\n"),
+            "\"map.npy\"",
+        ),
+        (file("larger.npy", "crop = [0, 12, 24, 38]\n"), ""),
+        (file("larger.npy", "crop = [5, 20, 24, 38]\n"), ""),
+        (file("line.npy", ""), ""),
         (file("rows.npy", ""), "\"wrong.npy\""),
         (file("rows.npy", ""), "\"nothing.npy\""),
     ] {
@@ -168,4 +177,51 @@ fn height_files() {
     }
 }
 
-tests![height_files];
+/// A file that one rank would hold whole has few points, or is refused by all ranks in the same words, by what its header
+/// says, by its length, or once its numbers are counted; a process alone reads it.
+fn large_files_are_refused() {
+    let place = tempfile::tempdir().expect("a temporary folder");
+    let at = |name: &str| place.path().join(name);
+    let refused = |surface: &str, map: &str| -> String {
+        let text = format!(
+            "[grid]\npoints = [24, 38]\nsize = [\"2 um\", \"3 um\"]\n[solid]\ncontact_modulus = \"50 MPa\"\n{surface}{map}{PRESSURE}\n"
+        );
+        let scene = Scene::parse(&text, "scene.toml", place.path(), &[])
+            .unwrap_or_else(|e| panic!("{e}\n{text}"));
+        let said = surface_over(&scene, 3).expect_err("it is refused");
+        assert!(said.iter().all(|words| *words == said[0]), "{said:?}");
+        said[0].clone()
+    };
+    // The header alone: nothing is read.
+    let header = "{'descr': '<f8', 'fortran_order': True, 'shape': (4097, 4096), }\n";
+    let mut bytes = b"\x93NUMPY\x01\x00".to_vec();
+    bytes.extend((header.len() as u16).to_le_bytes());
+    bytes.extend(header.as_bytes());
+    fs::write(at("columns.npy"), &bytes).expect("a file");
+    let header = "4096 x 4097 points are more than the 16777216 points that the first of several processes reads whole; prepare the file once on one process";
+    let file = |name: &str| format!("[[surface]]\nkind = \"file\"\npath = \"{name}\"\n");
+    let said = refused(&file("columns.npy"), "");
+    assert!(
+        said.contains(header) && said.contains("columns.npy"),
+        "{said}"
+    );
+    let map = format!("{ADHESION}map = \"columns.npy\"\n");
+    let said = refused("[[surface]]\nkind = \"flat\"\n", &map);
+    assert!(
+        said.contains(header) && said.contains("columns.npy"),
+        "{said}"
+    );
+    // A file of holes, which takes no room.
+    let long = fs::File::create(at("long.txt")).expect("a file");
+    long.set_len((1 << 29) + 1).expect("a length");
+    let said = refused(&file("long.txt"), "");
+    assert!(
+        said.contains("536870913 bytes of numbers are more than"),
+        "{said}"
+    );
+    fs::write(at("map.txt"), ("0 ".repeat(4097) + "\n").repeat(4096)).expect("a file");
+    let said = refused(&file("map.txt"), "");
+    assert!(said.contains("4097 x 4096 points are more than"), "{said}");
+}
+
+tests![height_files, large_files_are_refused];

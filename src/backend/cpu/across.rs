@@ -15,10 +15,10 @@ use crate::backend::ranks::{Parts, RankError};
 
 /// Bytes of the columns that a rank takes at once, at least and at most: the exchange goes in rounds, so that its buffers
 /// stay small beside the fields of a large grid, and below the 2^31 bytes of one message.
-const LEAST_ROUND: usize = 4 << 20;
+const LEAST_ROUND: usize = 1 << 20;
 const MOST_ROUND: usize = 64 << 20;
 /// Rounds in which the columns of a grid between these go.
-const ROUNDS: usize = 4;
+const ROUNDS: usize = 8;
 
 /// Numbers of a complex one.
 pub(super) const PAIR: usize = 2;
@@ -91,6 +91,7 @@ impl<T: CpuReal> Transform<T> {
         let mut energies = vec![0.0; own.len()];
         let at_once = groups_in_round(round, size_of::<T>(), rows);
         let most = shares.iter().map(ExactSizeIterator::len).max().unwrap_or(0);
+        let mut exchanged = std::mem::take(&mut self.exchanged);
         for first in (0..most).step_by(at_once) {
             let cut = |share: &Range<usize>| {
                 let start = (share.start + first).min(share.end);
@@ -107,8 +108,10 @@ impl<T: CpuReal> Transform<T> {
                 &parts,
                 here,
                 &mut energies[done],
+                &mut exchanged,
             )?;
         }
+        self.exchanged = exchanged;
         if !energy {
             return Ok(0.0);
         }
@@ -128,6 +131,7 @@ impl<T: CpuReal> Transform<T> {
         parts: &[Range<usize>],
         here: Range<usize>,
         energies: &mut [f64],
+        [own_rows, all_rows]: &mut [Vec<T>; 2],
     ) -> Result<(), RankError> {
         let (ranks, rows) = (slabs.ranks(), self.shape.points[1]);
         let (held, count) = (slabs.own().len(), here.len());
@@ -137,19 +141,19 @@ impl<T: CpuReal> Transform<T> {
 
         // This rank's rows of the columns of every rank: group, column, row.
         let groups: Vec<usize> = parts.iter().flat_map(Clone::clone).collect();
-        let mut own_rows = vec![T::zero(); groups.len() * per_group];
+        own_rows.resize(groups.len() * per_group, T::zero());
         if held > 0 {
             let pieces = own_rows.par_chunks_exact_mut(per_group).zip(&groups);
             pieces.for_each(|(piece, &group)| self.lay_rows(group, held, piece));
         }
-        let mut all_rows = vec![T::zero(); PAIR * BLOCK * rows * count];
+        all_rows.resize(PAIR * BLOCK * rows * count, T::zero());
         ranks.exchange(
             Parts {
-                bytes: bytemuck::cast_slice(&own_rows),
+                bytes: bytemuck::cast_slice(own_rows),
                 lengths: &per_part,
             },
             Parts {
-                bytes: bytemuck::cast_slice_mut(&mut all_rows),
+                bytes: bytemuck::cast_slice_mut(all_rows),
                 lengths: &per_slab,
             },
         )?;
@@ -171,11 +175,11 @@ impl<T: CpuReal> Transform<T> {
         drop(pieces);
         ranks.exchange(
             Parts {
-                bytes: bytemuck::cast_slice(&all_rows),
+                bytes: bytemuck::cast_slice(all_rows),
                 lengths: &per_slab,
             },
             Parts {
-                bytes: bytemuck::cast_slice_mut(&mut own_rows),
+                bytes: bytemuck::cast_slice_mut(own_rows),
                 lengths: &per_part,
             },
         )?;

@@ -73,10 +73,7 @@ impl<T: Real> LevelSpace<T> {
         let all = self.shape.points[0] / 2 + 1;
         match &self.slabs {
             None => 0..all,
-            Some(slabs) => {
-                let groups = slabs.groups_of(slabs.ranks().rank(), all.div_ceil(BLOCK));
-                (groups.start * BLOCK).min(all)..(groups.end * BLOCK).min(all)
-            }
+            Some(slabs) => slabs.columns_of(slabs.ranks().rank(), all),
         }
     }
 }

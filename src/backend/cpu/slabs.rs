@@ -89,6 +89,12 @@ impl Slabs {
         groups * rank / count..groups * (rank + 1) / count
     }
 
+    /// The same of so many columns, as columns.
+    pub fn columns_of(&self, rank: usize, columns: usize) -> Range<usize> {
+        let groups = self.groups_of(rank, columns.div_ceil(BLOCK));
+        (groups.start * BLOCK).min(columns)..(groups.end * BLOCK).min(columns)
+    }
+
     /// What each rank has so many of, one after another.
     pub fn gather_numbers(
         &self,

@@ -31,6 +31,8 @@ pub(super) struct Transform<T: Real> {
     plans: Plans<T>,
     /// Spectra of the held rows, then of the columns too: block, group, column in the group, row in the block.
     pub(super) tiles: Vec<Tile<T>>,
+    /// Rows and columns on their way between ranks.
+    pub(super) exchanged: [Vec<T>; 2],
     /// Energy of each group.
     energies: Vec<f64>,
     scratch: Vec<Mutex<Scratch<T>>>,
@@ -76,14 +78,16 @@ impl<T: CpuReal> Transform<T> {
             groups,
             plans,
             tiles: Vec::new(),
+            exchanged: Default::default(),
             energies: vec![0.0; groups],
             scratch,
         }
     }
 
-    /// Lets go of the spectra.
+    /// Lets go of the spectra and of what was exchanged.
     pub fn release(&mut self) {
         self.tiles = Vec::new();
+        self.exchanged = Default::default();
     }
 
     /// Takes memory for the spectra, at first and after they were let go.

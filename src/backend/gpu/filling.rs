@@ -101,6 +101,23 @@ impl GpuBackend {
                     (1..plan.parts).map(part).collect::<Result<_, _>>()?,
                 )
             }
+            Factors::Each(_) => {
+                // One part at a time is a table here.
+                let shape = Shape::whole(plan.shape[0], plan.shape[1]);
+                let column = plan.shape[1] / 2 + 1;
+                let mut part = |part| {
+                    let range = plan.part_range(part);
+                    let columns = range.start / column..range.end / column;
+                    buffer(
+                        range.len(),
+                        &factors.tabulated_columns(shape, columns, |factor| factor),
+                    )
+                };
+                (
+                    part(0)?,
+                    (1..plan.parts).map(part).collect::<Result<_, _>>()?,
+                )
+            }
             Factors::HalfSpace(half_space, _) => {
                 let [x, y] = half_space.steps();
                 let own: [f64; OWN_FACTORS] = [0.0, x, y];

@@ -40,6 +40,10 @@ const OUT_OF_REACH: &[(&str, &str)] = &[
         "the device fails amid a run; without a thread pool the whole machine is out of threads",
     ),
     (
+        "FileError::Whole",
+        "takes several processes: tests/solver/ranks_files.rs has them",
+    ),
+    (
         "GpuError::NoDevice",
         "an adapter that is listed and then gives no device",
     ),

@@ -32,7 +32,7 @@ impl FactorSource {
     /// The source of a spectrum's factors.
     pub fn new(factors: &Factors) -> Self {
         match factors {
-            Factors::Table(_) => FactorSource::Table,
+            Factors::Table(_) | Factors::Each(_) => FactorSource::Table,
             Factors::HalfSpace(_, Response::Stiffness) => FactorSource::Stiffness,
             Factors::HalfSpace(_, Response::Compliance) => FactorSource::Compliance,
         }
