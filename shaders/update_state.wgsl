@@ -5,11 +5,13 @@ fn at(index: u32, in_domain: bool, line: real) -> real {
     let moved = step_from(read_gap(index), read_pressure(index), way, line, in_domain);
     write_gap(index, moved.gap);
     write_pressure(index, moved.pressure);
-    write_previous_residual(index, moved.previous);
+    // What is stored is of the state before the step.
+    let previous = select(moved.previous, read_projected_residual(index), STORED);
+    write_previous_residual(index, previous);
     let here = here_at(moved.gap, moved.pressure + real(scalars.mean_pressure), in_domain);
     residual_terms(here, in_domain);
     let residual = projected_residual(here);
-    add_sum(DIRECTION_CHANGE, wide(direction) * (wide(residual) - wide(moved.previous)));
+    add_sum(DIRECTION_CHANGE, wide(direction) * (wide(residual) - wide(previous)));
     add_sum(DIRECTION_RESIDUAL, wide(direction) * wide(residual));
     write_projected_residual(index, residual);
     return residual;

@@ -105,7 +105,7 @@
 //! | sharp Maugis-Dugdale, a mean gap | 19 | 29.8 |
 //! | the same with a hardness, a mean gap | 21 | 30.8 |
 //! | exponential, a pressure | 29 | 35.5 |
-//! | Lennard-Jones, a pressure | 19 | 28.8 |
+//! | Lennard-Jones, a pressure | 19 | 29.8 |
 //! | Lennard-Jones, a mean gap | 23 | 33.8 |
 //!
 //! Of these fields a convolution takes six: the half-space's stiffness is computed in registers. A solid

@@ -92,14 +92,19 @@ impl<T: Real, C: GapConstraint<T>> Numbers<T, C> {
     }
 }
 
-/// r: y on free points in the measure of the iteration's variable, 0 elsewhere.
+/// What r is on a free point in exact balance: less than any rounding, and not 0.
+const BALANCED: f64 = 1.2e-38;
+
+/// r: y on free points in the measure of the iteration's variable, 0 elsewhere and nowhere else.
 #[inline(always)]
 pub fn projected_residual<T: Real>(here: &Here<T>) -> T {
-    if here.free {
-        here.weight * here.y
+    let residual = here.weight * here.y;
+    let on_free = if residual == T::zero() {
+        T::from_double(BALANCED)
     } else {
-        T::zero()
-    }
+        residual
+    };
+    if here.free { on_free } else { T::zero() }
 }
 
 /// What a point adds to the stopping measure.

@@ -195,7 +195,7 @@ impl Kernel {
             name += "-";
             name += &flag.to_lowercase();
         }
-        if self.writes.last() == Some(&"projected_residual") {
+        if self.writes.last() == Some(&"projected_residual") && self.flag.is_none() {
             name += "-stored";
         }
         if self.gate == Gate::Ahead && self.name == "load_field" {

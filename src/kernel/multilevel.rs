@@ -7,8 +7,8 @@
 use pulp::{Arch, Simd, WithSimd};
 
 use super::constraint::{GapConstraint, HardnessLimit, Unilateral};
-use super::descent::{Descent, DescentSums, MeanGapDescentSums};
-use super::points::{Numbers, Point, PointKernel, each_point};
+use super::descent::{Descent, DescentSums, MeanGapDescentSums, descent_terms};
+use super::points::{Numbers, Point, PointKernel, each_point, each_point_without_law};
 use super::smooth::Smooth;
 use crate::kernel::{
     Constraint, Kernel, Params, Rows, SUMS, Scalars, Whole, catalogue_entry, rows_kernel,
@@ -307,6 +307,35 @@ pub static REFINE: Kernel = rows_kernel!(
     reads [], writes [restricted], whole true
 );
 
+/// z at a wall, of the projected residual that the levels keep: a point is free where that is not zero.
+struct WallLevelDescent;
+
+impl<T: Real, C: GapConstraint<T>> PointKernel<T, C, 2, 0, 2> for WallLevelDescent {
+    #[inline(always)]
+    fn at(_: &Numbers<T, C>, _: &impl Cohesion<T>, point: &mut Point<T, 2, 0, 2>) {
+        let [residual, previous] = point.reads;
+        let z = if residual == T::zero() {
+            T::zero()
+        } else {
+            point.line
+        };
+        descent_terms(z, residual, previous).put(&mut point.terms);
+        point.line = z;
+    }
+}
+
+fn wall_level_descent<T: Real>(
+    rows: &mut Rows<T>,
+    params: &Params,
+    scalars: &Scalars,
+    sums: &mut [f64; SUMS],
+) {
+    finest_answer(rows, params);
+    each_point_without_law::<T, Unilateral<T>, WallLevelDescent, 2, 0, 2>(
+        rows, params, scalars, sums,
+    );
+}
+
 fn level_descent<T, C, const MEAN_GAP: bool, const READS: usize, const TERMS: usize>(
     rows: &mut Rows<T>,
     params: &Params,
@@ -376,17 +405,9 @@ impl<T: Real> WithSimd for Finest<'_, T> {
     }
 }
 
-/// The variants of the end of the preconditioner for each constraint.
-macro_rules! level_descents {
-    ($(#[$doc:meta])* $constant:ident [MEAN_GAP = $set:literal], $($rest:tt)*) => {
-        $(#[$doc])*
-        pub static $constant: [Kernel; 3] = [
-            level_descents!(@over Unilateral, $set, $($rest)*),
-            level_descents!(@over HardnessLimit, $set, $($rest)*),
-            level_descents!(@over Smooth, $set, $($rest)*),
-        ];
-    };
-    (@over $constraint:ident, $set:literal, $($rest:tt)*) => {
+/// The end of the preconditioner over a constraint, as a catalogue entry.
+macro_rules! level_descent {
+    ($constraint:ident, MEAN_GAP = $set:literal, $($rest:tt)*) => {
         catalogue_entry!(
             level_descent, Retain, gate Ahead, law true,
             constraint Some(Constraint::$constraint), flag [MEAN_GAP = $set],
@@ -397,24 +418,52 @@ macro_rules! level_descents {
             $($rest)*
         )
     };
+    ($constraint:ident without law, $($rest:tt)*) => {
+        catalogue_entry!(
+            level_descent, Retain, gate Ahead, law false,
+            constraint Some(Constraint::$constraint), flag [MEAN_GAP = false],
+            twins [wall_level_descent::<f64>, wall_level_descent::<f32>],
+            reads [projected_residual, previous_residual], writes [], $($rest)*
+        )
+    };
 }
 
-level_descents!(
-    /// Step 2, the end of `plain::precondition` with levels: as `descent`, with z of the first coarser level
-    /// interpolated and the finest level's own compliance of the projected residual, smoothed by its neighbours.
-    /// Retains the rows of z.
-    LEVEL_DESCENT [MEAN_GAP = false],
-    reads [gap, pressure, previous_residual], writes [], around projected_residual, whole true,
-    unbound [direction],
-    sums [DescentSums]
-);
-level_descents!(
-    /// The same under a prescribed mean gap.
-    MEAN_GAP_LEVEL_DESCENT [MEAN_GAP = true],
-    reads [gap, pressure, previous_residual, direction], writes [], around projected_residual,
-    whole true,
-    sums [DescentSums, MeanGapDescentSums]
-);
+/// Step 2, the end of `plain::precondition` with levels: as `descent`, with z of the first coarser level
+/// interpolated and the finest level's own compliance of the residual that the levels answer, smoothed by its neighbours.
+/// At a wall the projected residual says all, and asks for neither gap nor law. Retains the rows of z.
+pub static LEVEL_DESCENT: [Kernel; 3] = [
+    level_descent!(
+        Unilateral without law, around answered_residual, whole true,
+        unbound [gap, pressure, direction], sums [DescentSums]
+    ),
+    level_descent!(
+        HardnessLimit without law, around answered_residual, whole true,
+        unbound [gap, pressure, direction], sums [DescentSums]
+    ),
+    level_descent!(
+        Smooth, MEAN_GAP = false,
+        reads [gap, pressure, previous_residual], writes [], around answered_residual, whole true,
+        unbound [projected_residual, direction], sums [DescentSums]
+    ),
+];
+
+/// The same under a prescribed mean gap, over a constraint.
+macro_rules! mean_gap_level_descent {
+    ($constraint:ident) => {
+        level_descent!(
+            $constraint, MEAN_GAP = true,
+            reads [gap, pressure, previous_residual, direction], writes [], around answered_residual,
+            whole true, unbound [projected_residual], sums [DescentSums, MeanGapDescentSums]
+        )
+    };
+}
+
+/// The same under a prescribed mean gap.
+pub static MEAN_GAP_LEVEL_DESCENT: [Kernel; 3] = [
+    mean_gap_level_descent!(Unilateral),
+    mean_gap_level_descent!(HardnessLimit),
+    mean_gap_level_descent!(Smooth),
+];
 
 /// r + a D M r, of a line of M r: what an attraction that falls with the gap takes off the stiffness.
 struct Soften;
@@ -459,7 +508,7 @@ fn store_retained<T: Real>(rows: &mut Rows<T>, _: &Params, _: &Scalars, _: &mut 
     rows.writes[0].copy_from_slice(rows.lines);
 }
 
-/// Stores rows that were kept: the residual of the second sweep, once no point asks for its neighbours' any more.
+/// Stores rows that were kept: the residual of the second sweep.
 pub static STORE_RETAINED: Kernel = rows_kernel!(
     store_retained, ReadRetained, gate Ahead, law false,
     reads [], writes [field], fresh 1

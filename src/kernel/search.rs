@@ -17,21 +17,25 @@ sum_group! {
     EnergySums { change_at_first, energy_change, energy_size }
 }
 
+/// Change of the traction after t of a step, times it, at a point that counts. A function of its own, and not a closure, which
+/// the compiler would call point by point where the law is long.
+#[inline(always)]
+fn change_along<T: Real>(law: &impl Cohesion<T>, [gap, step]: [T; 2], t: T, counts: bool) -> T {
+    let change = law.change(gap, t * step) * step;
+    if counts { change } else { T::zero() }
+}
+
 impl<T: Real, C: GapConstraint<T>> Numbers<T, C> {
     /// Change of the traction along a step at each length tried, at a point that counts. Written out, since
     /// the compiler makes no vectors of a loop in here.
     #[inline(always)]
     fn changes(&self, law: &impl Cohesion<T>, gap: T, step: T, counts: bool) -> ChangeSums<T> {
-        let change = |t: T| {
-            let change = law.change(gap, t * step) * step;
-            if counts { change } else { T::zero() }
-        };
         let [first, second, third, fourth] = self.tried;
         ChangeSums {
-            change_at_first: change(first),
-            change_at_second: change(second),
-            change_at_third: change(third),
-            change_at_fourth: change(fourth),
+            change_at_first: change_along(law, [gap, step], first, counts),
+            change_at_second: change_along(law, [gap, step], second, counts),
+            change_at_third: change_along(law, [gap, step], third, counts),
+            change_at_fourth: change_along(law, [gap, step], fourth, counts),
         }
     }
 

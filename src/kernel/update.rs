@@ -60,11 +60,11 @@ impl<T: Real, C: GapConstraint<T>> Numbers<T, C> {
     }
 }
 
-/// The step, and the projected residual after it.
-struct UpdateState;
+/// The step, and the projected residual after it; `STORED` where that is a field.
+struct UpdateState<const STORED: bool>;
 
-impl<T, C, const READS: usize, const WRITES: usize> PointKernel<T, C, READS, WRITES, 6>
-    for UpdateState
+impl<T, C, const STORED: bool, const READS: usize, const WRITES: usize>
+    PointKernel<T, C, READS, WRITES, 6> for UpdateState<STORED>
 where
     T: Real,
     C: GapConstraint<T>,
@@ -76,20 +76,26 @@ where
         let way = [point.reads[READS - 1], point.line];
         let state = [point.writes[0], point.writes[1]];
         let moved = numbers.step_from(law, state, way, in_domain);
+        // What is stored is of the state before the step.
+        let previous = if STORED {
+            point.writes[2]
+        } else {
+            moved.previous
+        };
         let here = numbers.here_at(law, [moved.gap, moved.pressure], in_domain);
         let residual = projected_residual(&here);
         residual_terms(numbers, law, &here, in_domain).put(&mut point.terms);
         AlongSums {
-            direction_change: direction * (residual - moved.previous),
+            direction_change: direction * (residual - previous),
             direction_residual: direction * residual,
         }
         .put(&mut point.terms);
         point.writes[0] = moved.gap;
         point.writes[1] = moved.pressure;
-        point.writes[2] = moved.previous;
-        if WRITES > 3 {
-            point.writes[3] = residual;
+        if STORED {
+            point.writes[2] = residual;
         }
+        point.writes[WRITES - 1] = previous;
         point.line = residual;
     }
 }
@@ -98,37 +104,37 @@ where
 /// fills the rows of a transform with the new projected residual, with the sums of the step's direction.
 pub static UPDATE_STATE: [Kernel; 3] = [
     point_kernel!(
-        update_state, InverseThenForward, gate Running, UpdateState over Unilateral [],
+        update_state, InverseThenForward, gate Running, UpdateState over Unilateral [STORED = false],
         reads [direction], writes [gap, pressure, previous_residual], fresh 1,
         unbound [step, projected_residual], sums [ResidualSums, AlongSums]
     ),
     point_kernel!(
-        update_state, InverseThenForward, gate Running, UpdateState over HardnessLimit [],
+        update_state, InverseThenForward, gate Running, UpdateState over HardnessLimit [STORED = false],
         reads [direction], writes [gap, pressure, previous_residual], fresh 1,
         unbound [step, projected_residual], sums [ResidualSums, AlongSums]
     ),
     point_kernel!(
-        update_state, InverseThenForward, gate Running, UpdateState over Smooth [],
+        update_state, InverseThenForward, gate Running, UpdateState over Smooth [STORED = false],
         reads [direction, step], writes [gap, pressure, previous_residual], fresh 1,
         unbound [projected_residual], sums [ResidualSums, AlongSums]
     ),
 ];
 
-/// The same, which stores the new projected residual for the levels of the preconditioner.
+/// The same where the projected residual is stored for the levels of the preconditioner: that before the step is known.
 pub static UPDATE_AND_STORE: [Kernel; 3] = [
     point_kernel!(
-        update_state, Store, gate Running, UpdateState over Unilateral [],
-        reads [direction], writes [gap, pressure, previous_residual, projected_residual], fresh 2,
+        update_state, Store, gate Running, UpdateState over Unilateral [STORED = true],
+        reads [direction], writes [gap, pressure, projected_residual, previous_residual], fresh 1,
         unbound [step], sums [ResidualSums, AlongSums]
     ),
     point_kernel!(
-        update_state, Store, gate Running, UpdateState over HardnessLimit [],
-        reads [direction], writes [gap, pressure, previous_residual, projected_residual], fresh 2,
+        update_state, Store, gate Running, UpdateState over HardnessLimit [STORED = true],
+        reads [direction], writes [gap, pressure, projected_residual, previous_residual], fresh 1,
         unbound [step], sums [ResidualSums, AlongSums]
     ),
     point_kernel!(
-        update_state, Store, gate Running, UpdateState over Smooth [],
-        reads [direction, step], writes [gap, pressure, previous_residual, projected_residual], fresh 2,
+        update_state, Store, gate Running, UpdateState over Smooth [STORED = true],
+        reads [direction, step], writes [gap, pressure, projected_residual, previous_residual], fresh 1,
         unbound [], sums [ResidualSums, AlongSums]
     ),
 ];

@@ -226,9 +226,9 @@ impl<'a> ContactSolver<'a> {
 
     /// Lets go of the fields and of the work space that only iterations need, until the next one.
     pub fn rest(&mut self) {
-        let residual = self.levels.as_ref().map(Multilevel::residual);
+        let residuals = self.levels.iter().flat_map(Multilevel::residuals);
         let own = [self.direction, self.previous_residual];
-        for field in own.into_iter().chain(self.step).chain(residual) {
+        for field in own.into_iter().chain(self.step).chain(residuals) {
             self.backend.release(field);
         }
         self.backend.release_work(self.level);

@@ -52,7 +52,7 @@ const SOFTENED: f64 = 1.0 / 3.0;
 /// move as one there, by far more than the attraction's slope lets them.
 const SOFT_CONTROL: f64 = 10.0;
 
-/// Most fields of a step's update: direction, step, gap, pressure, and the residuals before and after.
+/// Most fields of a step's update: direction, step, gap, pressure, and the residuals after and before it.
 const MOST_UPDATED: usize = 6;
 
 /// Stiffness of the shortest wave along an axis after so many halvings, the larger one.
@@ -103,16 +103,8 @@ pub(super) fn coarsest_share(problem: &Problem) -> f64 {
 /// terms of the inverse of 1/M - D. 0, for one sweep, where no attraction falls, or too steeply for the pixels, without
 /// levels, on large grids, and under the load of a soft spring.
 pub(super) fn softening(problem: &Problem, load: &Load) -> f64 {
-    let law = problem.law;
-    let falls = law.has_wall() && law.has_tail();
-    let levels = halvings(problem) > 0 && problem.shape.len() <= MOST_SOFTENED;
-    if !falls || !levels || is_soft(problem, load) {
-        return 0.0;
-    }
-    // E* in reduced units is the unit of lengths along the surface.
-    let pixel = problem.grid.dx().max(problem.grid.dy()) / problem.scales.lateral;
-    let factor = SOFTENED / (pixel * law.steepest_fall());
-    if factor < LEAST_SOFTENING {
+    let factor = own_softening(problem);
+    if factor == 0.0 || is_soft(problem, load) {
         return 0.0;
     }
     let strongest = match &problem.law_factor {
@@ -121,6 +113,23 @@ pub(super) fn softening(problem: &Problem, load: &Load) -> f64 {
         _ => 1.0,
     };
     (factor / strongest).min(MOST_SOFTENING)
+}
+
+/// That factor by law and grid, whatever the load; 0 where there is one sweep alone.
+fn own_softening(problem: &Problem) -> f64 {
+    let law = problem.law;
+    let falls = law.has_wall() && law.has_tail();
+    let levels = halvings(problem) > 0 && problem.shape.len() <= MOST_SOFTENED;
+    if !falls || !levels {
+        return 0.0;
+    }
+    // E* in reduced units is the unit of lengths along the surface.
+    let pixel = problem.grid.dx().max(problem.grid.dy()) / problem.scales.lateral;
+    let factor = SOFTENED / (pixel * law.steepest_fall());
+    if factor < LEAST_SOFTENING {
+        return 0.0;
+    }
+    factor
 }
 
 /// Whether a load gives way far more than any wave.
@@ -181,6 +190,8 @@ pub(super) struct Multilevel {
     halvings: usize,
     /// The projected residual on the fine level.
     residual: Field,
+    /// The residual of the second sweep, where an attraction falls with the gap.
+    softened: Option<Field>,
     /// Restricted residuals on the levels, the coarsest one last; on those before it z comes in their place.
     restricted: Vec<Field>,
     share: Field,
@@ -203,6 +214,8 @@ impl Multilevel {
             return None;
         }
         let residual = backend.field(fine, "projected_residual");
+        let softened =
+            (own_softening(problem) > 0.0).then(|| backend.field(fine, "softened_residual"));
         let mut restricted = Vec::new();
         for times in 1..halvings {
             let level = backend.sweep_level("between", halved(times));
@@ -226,6 +239,7 @@ impl Multilevel {
             fine,
             halvings,
             residual,
+            softened,
             restricted,
             share: backend.field(level, "share"),
             weight: backend.field(level, "weight"),
@@ -236,9 +250,9 @@ impl Multilevel {
         })
     }
 
-    /// The field of the projected residual on the fine level.
-    pub fn residual(&self) -> Field {
-        self.residual
+    /// The fields of the residuals on the fine level.
+    pub fn residuals(&self) -> impl Iterator<Item = Field> + use<> {
+        [self.residual].into_iter().chain(self.softened)
     }
 
     /// Sets the compliance of the zero mode.
@@ -253,16 +267,16 @@ impl Multilevel {
         backend.run(self.kernels.store_residual, self.fine, &fields);
     }
 
-    /// Records the step and the projected residual after it; `state` is what the kernel takes before it.
+    /// Records the step and the projected residual after it; `state` is what the kernel takes beside it, of which the
+    /// residual before the step comes last.
     pub fn update_state(&self, backend: &mut dyn Backend, state: &[Field]) {
-        // The residual comes last; an array, since an iteration allocates nothing.
+        // An array, since an iteration allocates nothing.
         let mut fields = [self.residual; MOST_UPDATED];
-        fields[..state.len()].copy_from_slice(state);
-        backend.run(
-            self.kernels.update_state,
-            self.fine,
-            &fields[..=state.len()],
-        );
+        let count = state.len();
+        fields[..count - 1].copy_from_slice(&state[..count - 1]);
+        fields[count] = state[count - 1];
+        let update_state = self.kernels.update_state;
+        backend.run(update_state, self.fine, &fields[..=count]);
     }
 
     /// Records the preconditioned residual z of the projected one; `state` is gap, pressure and the residual
@@ -276,7 +290,7 @@ impl Multilevel {
     ) {
         let [gap, pressure, previous] = state;
         let residual = self.residual;
-        let coarsest = self.restrict(backend);
+        let coarsest = self.restrict(backend, residual);
         let level = coarsest.level;
         backend.run(&multilevel::FREE_SHARE, level, &[self.share, residual]);
         backend.run(&displacement::LOAD_FIELD_AHEAD, level, &[self.share]);
@@ -284,29 +298,36 @@ impl Multilevel {
         let fields = [coarsest, self.weight];
         backend.run(&multilevel::WEIGH, level, &fields);
         let mut coarser = self.refine(backend);
-        if let Some(soften) = self.kernels.soften.filter(|_| params.softening > 0.0) {
+        let mut answered = residual;
+        let softened = self.softened.filter(|_| params.softening > 0.0);
+        if let (Some(soften), Some(softened)) = (self.kernels.soften, softened) {
             let fields = [gap, residual, residual, coarser];
             backend.run(soften, self.fine, &fields);
-            backend.run(&multilevel::STORE_RETAINED, self.fine, &[residual]);
-            let fields = [self.restrict(backend), self.weight];
+            backend.run(&multilevel::STORE_RETAINED, self.fine, &[softened]);
+            let fields = [self.restrict(backend, softened), self.weight];
             backend.run(&multilevel::LOAD_WEIGHTED, level, &fields);
             coarser = self.refine(backend);
+            answered = softened;
         }
         match direction {
             Some(direction) => {
-                let fields = [gap, pressure, previous, direction, residual, coarser];
+                let fields = [gap, pressure, previous, direction, answered, coarser];
                 backend.run(self.kernels.mean_gap_descent, self.fine, &fields);
             }
             None => {
-                let fields = [gap, pressure, previous, residual, coarser];
-                backend.run(self.kernels.descent, self.fine, &fields);
+                let of_state = [gap, pressure, previous, answered, coarser];
+                // At a wall the projected residual says all.
+                let at_wall = [residual, previous, answered, coarser];
+                let descent = self.kernels.descent;
+                let fields = if descent.law { &of_state[..] } else { &at_wall };
+                backend.run(descent, self.fine, fields);
             }
         }
     }
 
-    /// Records the residual on all coarser levels; gives that of the coarsest one.
-    fn restrict(&self, backend: &mut dyn Backend) -> Field {
-        let mut finer = self.residual;
+    /// Records a residual on all coarser levels; gives that of the coarsest one.
+    fn restrict(&self, backend: &mut dyn Backend, residual: Field) -> Field {
+        let mut finer = residual;
         for &restricted in &self.restricted {
             backend.run(&multilevel::COARSEN, restricted.level, &[restricted, finer]);
             finer = restricted;

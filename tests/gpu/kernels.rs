@@ -365,7 +365,7 @@ fn kernels_agree_with_their_twins() {
             let hardness = kernel.constraint == Some(Constraint::HardnessLimit);
             let outer = OUTER.contains(&kernel.name);
             let constrained = !outer && kernel.constraint.is_some() && !smooth;
-            let stores_residual = kernel.writes.last() == Some(&"projected_residual");
+            let stores_residual = kernel.writes.contains(&"projected_residual");
             let fits = match law {
                 // A constraint asks any law for its traction and its change: one of them in all kernels, and
                 // another where both are asked.

@@ -107,6 +107,13 @@ fn expected(scene: &Scene, grid: Grid, law: &Law) -> Expected {
     if solved_law.is_some() && scene.adhesion.as_ref().is_some_and(factored) {
         fields.push("law_factor");
     }
+    // A second sweep where an attraction falls with the gap from a wall on, no more steeply than the pixels resolve, has a
+    // residual of its own.
+    let resolved = scene.solid.contact_modulus / (3.0 * pixel) >= 0.5 * law.steepest_fall();
+    let softens = depth > 0 && tail && !core && resolved;
+    if softens {
+        fields.push("softened_residual");
+    }
     if depth > 0 {
         fields.extend(["projected_residual", "share", "weight", "coarsest_z"]);
         fields.extend(vec!["restricted"; depth]);
@@ -127,10 +134,8 @@ fn expected(scene: &Scene, grid: Grid, law: &Law) -> Expected {
             "store_weighted",
         ]);
         passes.extend(vec!["refine"; depth - 1]);
-        // A second sweep where an attraction falls with the gap from a wall on, no more steeply than the pixels resolve;
-        // the springs of these scenes are soft.
-        let resolved = scene.solid.contact_modulus / (3.0 * pixel) >= 0.5 * law.steepest_fall();
-        if tail && !core && resolved && scene.loading.spring.is_none() {
+        // The springs of these scenes are too soft for it.
+        if softens && scene.loading.spring.is_none() {
             passes.extend(["soften", "store_retained"]);
             passes.extend(vec!["coarsen"; depth]);
             passes.extend(["load_weighted", "multiply", "store_weighted"]);

@@ -34,23 +34,25 @@ return index / 8u;
 fn in_domain(index: u32) -> bool { return true; }
 const law_factor: real = 1.0;
 fn arrive(index: u32) -> bool { return in_domain(index); }
-@group(1) @binding(0) var<storage, read> field_gap: array<real>;
-fn read_gap(index: u32) -> real { return field_gap[index]; }
-@group(1) @binding(1) var<storage, read> field_pressure: array<real>;
-fn read_pressure(index: u32) -> real { return field_pressure[index]; }
-@group(1) @binding(2) var<storage, read> field_previous_residual: array<real>;
+@group(1) @binding(0) var<storage, read> field_projected_residual: array<real>;
+fn read_projected_residual(index: u32) -> real { return field_projected_residual[index]; }
+@group(1) @binding(1) var<storage, read> field_previous_residual: array<real>;
 fn read_previous_residual(index: u32) -> real { return field_previous_residual[index]; }
+fn read_gap(index: u32) -> real { return 0.0; }
+fn write_gap(index: u32, value: real) {}
+fn read_pressure(index: u32) -> real { return 0.0; }
+fn write_pressure(index: u32, value: real) {}
 fn read_direction(index: u32) -> real { return 0.0; }
 fn write_direction(index: u32, value: real) {}
 const WIDTH: u32 = 8u;
 const HEIGHT: u32 = 8u;
-@group(1) @binding(3) var<storage, read> around_0: array<real>;
+@group(1) @binding(2) var<storage, read> around_0: array<real>;
 const AROUND_WIDTH: u32 = 8u;
 const AROUND_HEIGHT: u32 = 8u;
 fn around_at(column: u32, row: u32) -> real {
 return around_0[row * 8u + column];
 }
-@group(1) @binding(4) var<storage, read> whole_0: array<real>;
+@group(1) @binding(3) var<storage, read> whole_0: array<real>;
 const WHOLE_WIDTH: u32 = 4u;
 const WHOLE_HEIGHT: u32 = 4u;
 fn whole_at(column: u32, row: u32) -> real {
@@ -66,44 +68,22 @@ const FREE_WEIGHT: u32 = 2u;
 const FREE_RESIDUAL: u32 = 2u;
 const FREE_CHANGE: u32 = 2u;
 const WEIGHTED_DIRECTION: u32 = 2u;
-// exp in single precision, where the device has it.
-fn exponential(x: f32) -> f32 {
-    return exp(x);
-}
-
-// exp(x) - 1 without cancellation: the series where it is short.
-fn exp_less_one(x: f32) -> f32 {
-    if (abs(x) > 0.5) {
-        return exp(x) - 1.0;
-    }
-    let tail = 1.0 + x / 5.0 * (1.0 + x / 6.0 * (1.0 + x / 7.0 * (1.0 + x / 8.0)));
-    return x * (1.0 + x / 2.0 * (1.0 + x / 3.0 * (1.0 + x / 4.0 * tail)));
-}
-// Tension that falls by e over each range.
+// No attraction at all.
 fn law_traction(gap_here: real) -> real {
-    let range = real(params.law_range);
-    return law_factor * real(params.law_work) / range * exponential(-gap_here / range);
+    return 0.0;
 }
 
 fn law_energy(gap_here: real) -> real {
-    return -law_factor * real(params.law_work) * exponential(-gap_here / real(params.law_range));
+    return 0.0;
 }
 
 fn law_slope(gap_here: real) -> real {
-    return -law_traction(gap_here) / real(params.law_range);
+    return 0.0;
 }
-
-// Ranges of a closing step beyond which its exponential may be past single precision. The gap it starts
-// from then has next to no tension that could cancel.
-const MOST_RANGES: real = 80.0;
 
 // The gain of the traction over a step, to the rounding of the gain itself.
 fn law_difference(gap_here: real, step: real) -> real {
-    let ranges = -step / real(params.law_range);
-    if (ranges > MOST_RANGES) {
-        return law_traction(gap_here + step) - law_traction(gap_here);
-    }
-    return law_traction(gap_here) * exp_less_one(ranges);
+    return 0.0;
 }
 
 // A law with a wall has no repulsion of its own.
@@ -179,9 +159,13 @@ fn here_at(gap: real, elastic: real, in_domain: bool) -> Here {
     return Here(gap, open(gap), elastic, pull, elastic + pull, true, real(1.0), real(0.0));
 }
 
-// y on free points in the measure of the iteration's variable, 0 elsewhere.
+// What r is on a free point in exact balance: less than any rounding, and not 0.
+const BALANCED: real = 1.2e-38;
+
+// y on free points in the measure of the iteration's variable, 0 elsewhere and nowhere else.
 fn projected_residual(here: Here) -> real {
-    return select(real(0.0), here.weight * here.y, here.free);
+    let residual = here.weight * here.y;
+    return select(real(0.0), select(residual, BALANCED, residual == 0.0), here.free);
 }
 
 // What a point adds to the stopping measure.
@@ -324,10 +308,18 @@ fn mean_gap_descent_terms(z: real, residual: real, previous: real, direction: re
 }
 // Retains the rows of z: what the levels answer, on free points.
 fn at(index: u32, in_domain: bool, line: real) -> real {
+    let answer = finest_answer(index);
+    let previous = read_previous_residual(index);
+    if (!MEAN_GAP && !STORES_STEP) {
+        // At a wall the projected residual says all: a point is free where that is not zero.
+        let known = read_projected_residual(index);
+        let z_known = select(real(0.0), answer, known != 0.0);
+        descent_terms(z_known, known, previous);
+        return z_known;
+    }
     let here = here_at(read_gap(index), read_pressure(index) + real(scalars.mean_pressure), in_domain);
     let residual = projected_residual(here);
-    let previous = read_previous_residual(index);
-    let z = preconditioned(here, finest_answer(index));
+    let z = preconditioned(here, answer);
     descent_terms(z, residual, previous);
     if (MEAN_GAP) {
         mean_gap_descent_terms(z, residual, previous, read_direction(index), here.weight, here.free);

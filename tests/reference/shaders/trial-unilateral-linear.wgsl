@@ -188,9 +188,13 @@ fn here_at(gap: real, elastic: real, in_domain: bool) -> Here {
     return Here(gap, open(gap), elastic, pull, elastic + pull, true, real(1.0), real(0.0));
 }
 
-// y on free points in the measure of the iteration's variable, 0 elsewhere.
+// What r is on a free point in exact balance: less than any rounding, and not 0.
+const BALANCED: real = 1.2e-38;
+
+// y on free points in the measure of the iteration's variable, 0 elsewhere and nowhere else.
 fn projected_residual(here: Here) -> real {
-    return select(real(0.0), here.weight * here.y, here.free);
+    let residual = here.weight * here.y;
+    return select(real(0.0), select(residual, BALANCED, residual == 0.0), here.free);
 }
 
 // What a point adds to the stopping measure.

@@ -56,6 +56,7 @@ fn read_projected_residual(index: u32) -> real { return 0.0; }
 fn write_projected_residual(index: u32, value: real) {}
 const WIDTH: u32 = 8u;
 const HEIGHT: u32 = 8u;
+const STORED: bool = false;
 const VIOLATION: u32 = 0u;
 const PRESSURES: u32 = 1u;
 const LEAST_GAP: u32 = 2u;
@@ -175,9 +176,13 @@ fn here_at(gap: real, elastic: real, in_domain: bool) -> Here {
     return Here(gap, open(gap), elastic, pull, elastic + pull, true, real(1.0), real(0.0));
 }
 
-// y on free points in the measure of the iteration's variable, 0 elsewhere.
+// What r is on a free point in exact balance: less than any rounding, and not 0.
+const BALANCED: real = 1.2e-38;
+
+// y on free points in the measure of the iteration's variable, 0 elsewhere and nowhere else.
 fn projected_residual(here: Here) -> real {
-    return select(real(0.0), here.weight * here.y, here.free);
+    let residual = here.weight * here.y;
+    return select(real(0.0), select(residual, BALANCED, residual == 0.0), here.free);
 }
 
 // What a point adds to the stopping measure.
@@ -320,11 +325,13 @@ fn at(index: u32, in_domain: bool, line: real) -> real {
     let moved = step_from(read_gap(index), read_pressure(index), way, line, in_domain);
     write_gap(index, moved.gap);
     write_pressure(index, moved.pressure);
-    write_previous_residual(index, moved.previous);
+    // What is stored is of the state before the step.
+    let previous = select(moved.previous, read_projected_residual(index), STORED);
+    write_previous_residual(index, previous);
     let here = here_at(moved.gap, moved.pressure + real(scalars.mean_pressure), in_domain);
     residual_terms(here, in_domain);
     let residual = projected_residual(here);
-    add_sum(DIRECTION_CHANGE, wide(direction) * (wide(residual) - wide(moved.previous)));
+    add_sum(DIRECTION_CHANGE, wide(direction) * (wide(residual) - wide(previous)));
     add_sum(DIRECTION_RESIDUAL, wide(direction) * wide(residual));
     write_projected_residual(index, residual);
     return residual;
