@@ -195,8 +195,8 @@ impl Level {
         let from = self.layout.bounds_by(&firsts);
         let passage = Passage::new(from, layout.bounds());
 
-        // The coarse node of each node in the numbers of all ranks from 1 on, which are far below 2^53; -1 is none, and
-        // 0 the ground outside.
+        // The coarse node of each node in the numbers of all ranks from 1 on, which are far below 2^53. A node without a
+        // coarse one has -1, the ground outside 0.
         let numbers = self.layout.find(|strip| {
             let number = |to: &u32| match *to {
                 NONE => -1.0,

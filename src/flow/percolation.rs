@@ -118,7 +118,7 @@ impl Strip<'_> {
         for (_, point) in order {
             self.open(&mut clusters, point as usize);
         }
-        let border = Border::of(self.rows(), self.frame.points[0]);
+        let border = Border::new(self.rows(), self.frame.points[0]);
         let mut edges = clusters.take_edges();
         for edge in &mut edges {
             edge.ends = edge.ends.map(|point| border.number(self, point));
@@ -135,7 +135,7 @@ impl Strip<'_> {
                 self.open(&mut clusters, point);
             }
         }
-        let border = Border::of(self.rows(), self.frame.points[0]);
+        let border = Border::new(self.rows(), self.frame.points[0]);
         for point in (0..=self.gap.len()).filter(|point| self.is_border(*point)) {
             let point = point as u32;
             if clusters.is_open(point) && winds[border.number(self, point) as usize] {
@@ -156,7 +156,7 @@ struct Border {
 }
 
 impl Border {
-    fn of(rows: usize, width: usize) -> Border {
+    fn new(rows: usize, width: usize) -> Border {
         Border {
             width,
             is_single: rows == 1,
@@ -293,7 +293,7 @@ pub(super) fn close(share: &Share, frame: &Frame, gap: &mut [f64]) -> Result<f64
     let forests: Vec<(Vec<Edge>, f64)> = strips.par_iter().map(Strip::forest).collect();
 
     // The strips of this rank.
-    let borders = strips.iter().map(|strip| Border::of(strip.rows(), width));
+    let borders = strips.iter().map(|strip| Border::new(strip.rows(), width));
     let borders = Borders::new(borders.collect(), width);
     let mut critical = forests
         .iter()
@@ -310,7 +310,7 @@ pub(super) fn close(share: &Share, frame: &Frame, gap: &mut [f64]) -> Result<f64
     critical = critical.max(clusters.critical());
 
     // All ranks.
-    let slab = Border::of(share.rows().len(), width);
+    let slab = Border::new(share.rows().len(), width);
     let mut edges = clusters.take_edges();
     for edge in &mut edges {
         edge.ends = edge.ends.map(|point| borders.outer(slab, point));
@@ -391,7 +391,7 @@ fn of_all_ranks(
         .collect();
     let borders = holding
         .iter()
-        .map(|rank| Border::of(share.rows_of(*rank).len(), width));
+        .map(|rank| Border::new(share.rows_of(*rank).len(), width));
     let slabs = Borders::new(borders.collect(), width);
     let mut all = Vec::new();
     let mut left = &numbers[..];
