@@ -106,7 +106,7 @@ impl StiffnessTable {
     /// That of the wavevector (kx, ky) of a held column, or along an axis.
     ///
     /// # Panics
-    /// The column is none of these.
+    /// On a column that another process holds.
     pub fn at(&self, kx: usize, ky: usize) -> f64 {
         if ky == 0 {
             return self.axes[0][kx];

@@ -121,7 +121,7 @@ impl Strip<'_> {
         let border = Border::new(self.rows(), self.frame.points[0]);
         let mut edges = clusters.take_edges();
         for edge in &mut edges {
-            edge.ends = edge.ends.map(|point| border.number(self, point));
+            edge.ends = edge.ends.map(|point| border.number(point, self.gap.len()));
         }
         (edges, clusters.critical())
     }
@@ -138,7 +138,7 @@ impl Strip<'_> {
         let border = Border::new(self.rows(), self.frame.points[0]);
         for point in (0..=self.gap.len()).filter(|point| self.is_border(*point)) {
             let point = point as u32;
-            if clusters.is_open(point) && winds[border.number(self, point) as usize] {
+            if clusters.is_open(point) && winds[border.number(point, self.gap.len()) as usize] {
                 clusters.wind(point);
             }
         }
@@ -177,10 +177,11 @@ impl Border {
         }
     }
 
-    /// The number of a strip's point.
-    fn number(&self, strip: &Strip, point: u32) -> u32 {
+    /// The number of a point of these rows, whose inlet and outlet has the number `end` there: a point of the first row has its
+    /// column, any other one lies in the last.
+    fn number(&self, point: u32, end: usize) -> u32 {
         let (point, width) = (point as usize, self.width);
-        let number = if point == strip.gap.len() {
+        let number = if point == end {
             2 * width
         } else if point < width {
             point
@@ -249,19 +250,6 @@ impl Borders {
             || point + 1 == self.len()
     }
 
-    /// The number of such a point in the border of all these rows.
-    fn outer(&self, all: Border, point: u32) -> u32 {
-        let (point, width) = (point as usize, self.width);
-        let number = if point + 1 == self.len() {
-            2 * width
-        } else if point < width {
-            point
-        } else {
-            all.place(true, point % width)
-        };
-        number as u32
-    }
-
     /// The clusters of these edges, of which outer points are kept.
     fn clusters(&self, mut edges: Vec<Edge>) -> Clusters {
         edges.par_sort_unstable_by(|a, b| b.gap.total_cmp(&a.gap));
@@ -313,7 +301,7 @@ pub(super) fn close(share: &Share, frame: &Frame, gap: &mut [f64]) -> Result<f64
     let slab = Border::new(share.rows().len(), width);
     let mut edges = clusters.take_edges();
     for edge in &mut edges {
-        edge.ends = edge.ends.map(|point| borders.outer(slab, point));
+        edge.ends = edge.ends.map(|point| slab.number(point, borders.len() - 1));
     }
     let rows = match (strips.first(), strips.last()) {
         (Some(first), Some(last)) => [first.first_row(), last.last_row()].concat(),
@@ -332,7 +320,7 @@ pub(super) fn close(share: &Share, frame: &Frame, gap: &mut [f64]) -> Result<f64
     let here = before.count();
     if !strips.is_empty() {
         for point in (0..borders.len()).filter(|point| borders.is_outer(*point)) {
-            let outer = borders.outer(slab, point as u32) as usize;
+            let outer = slab.number(point as u32, borders.len() - 1) as usize;
             if all.winds(slabs.number(here, outer)) {
                 clusters.wind(point as u32);
             }

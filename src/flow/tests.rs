@@ -335,6 +335,17 @@ fn any_gap(grid: Grid, seed: u64, closed: f64, decades: f64) -> Vec<f64> {
     })
 }
 
+/// Both boundaries, both axes.
+fn films(grid: Grid) -> impl Iterator<Item = Film> {
+    Boundary::ALL.iter().flat_map(move |&boundary| {
+        [Axis::X, Axis::Y].map(|axis| Film {
+            grid,
+            boundary,
+            axis,
+        })
+    })
+}
+
 /// The flow on so many ranks, on each of them.
 fn on_ranks(gap: &[f64], film: Film, ranks: usize) -> Vec<Flow> {
     let shape = Shape::whole(film.grid.nx, film.grid.ny);
@@ -373,19 +384,12 @@ fn ranks_find_the_same_bits() {
         let grid = Grid::new(points, [1.0, 1.5]);
         for (seed, closed, decades) in [(1, 0.0, 3.0), (2, 0.3, 1.0), (3, 0.38, 4.0)] {
             let gap = any_gap(grid, seed, closed, decades);
-            for boundary in Boundary::ALL {
-                for axis in [Axis::X, Axis::Y] {
-                    let film = Film {
-                        grid,
-                        boundary: *boundary,
-                        axis,
-                    };
-                    let alone = flow(&gap, grid, *boundary, axis);
-                    flowing += usize::from(alone.permeance > 0.0);
-                    for count in counts {
-                        for found in on_ranks(&gap, film, *count) {
-                            assert_eq!(found, alone, "{points:?} {film:?} {count}");
-                        }
+            for film in films(grid) {
+                let alone = flow(&gap, grid, film.boundary, film.axis);
+                flowing += usize::from(alone.permeance > 0.0);
+                for count in counts {
+                    for found in on_ranks(&gap, film, *count) {
+                        assert_eq!(found, alone, "{points:?} {film:?} {count}");
                     }
                 }
             }
@@ -486,25 +490,18 @@ fn the_critical_gap_is_the_widest_that_percolates() {
         for seed in 0..seeds {
             let closed = [0.05, 0.3][seed as usize % 2];
             let gap = any_gap(grid, seed, closed, 2.0);
-            for boundary in Boundary::ALL {
-                for axis in [Axis::X, Axis::Y] {
-                    let film = Film {
-                        grid,
-                        boundary: *boundary,
-                        axis,
-                    };
-                    let unit = gap.iter().copied().fold(0.0, f64::max);
-                    // Over the largest gap and back.
-                    let expected = critical_gap(&gap, film) / unit * unit;
-                    let found = flow(&gap, grid, *boundary, axis).critical_gap;
-                    assert_eq!(found, expected, "{film:?}");
-                    assert!(
-                        on_ranks(&gap, film, 2)
-                            .iter()
-                            .all(|f| f.critical_gap == found)
-                    );
-                    open += usize::from(found > 0.0);
-                }
+            for film in films(grid) {
+                let unit = gap.iter().copied().fold(0.0, f64::max);
+                // Over the largest gap and back.
+                let expected = critical_gap(&gap, film) / unit * unit;
+                let found = flow(&gap, grid, film.boundary, film.axis).critical_gap;
+                assert_eq!(found, expected, "{film:?}");
+                assert!(
+                    on_ranks(&gap, film, 2)
+                        .iter()
+                        .all(|f| f.critical_gap == found)
+                );
+                open += usize::from(found > 0.0);
             }
         }
     }
