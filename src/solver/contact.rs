@@ -10,7 +10,6 @@ use super::mean_gap::HeightsPressure;
 use super::multilevel::{Multilevel, sticks};
 use super::outer_state::OuterState;
 use super::problem::Problem;
-use super::refinement::FIRST_TOLERANCE;
 use crate::backend::{Backend, BackendError, Field, Level, Response, Spectrum};
 use crate::grid::Boundary;
 use crate::kernel::{Params, Scalars, Status, scalar};
@@ -386,7 +385,7 @@ impl<'a> ContactSolver<'a> {
 
     /// Prepares a solve: the load, the start, and the pressures that belong to it.
     ///
-    /// With an outer state the present gap is that state's, which [`ContactSolver::solve`] hands in.
+    /// With an outer state the present gap is that state's, which is handed in before.
     pub fn begin(
         &mut self,
         load: &Load,
@@ -394,25 +393,11 @@ impl<'a> ContactSolver<'a> {
         tolerance: f64,
         careful: bool,
     ) -> Result<(), BackendError> {
+        self.set_load(load, tolerance);
         let (prescribed_mean_gap, mean_pressure) = match load.hold {
             Hold::Pressure(pressure) => (false, pressure),
             Hold::Gap(_) => (true, 0.0),
         };
-        // A prescribed mean gap needs K h without the mean of the heights, hence K = 0 at q = 0.
-        debug_assert!(!prescribed_mean_gap || load.zero_stiffness == 0.0);
-        self.backend.set_outer_state(None);
-        self.params = params_under(&self.problem, load, self.params.epsilon);
-        self.params.tolerance = tolerance;
-        self.backend.set_params(&self.params);
-        self.backend
-            .set_zero_mode(self.stiffness, load.zero_stiffness);
-        if let Some(levels) = &self.levels {
-            levels.set_zero_mode(&mut *self.backend, load.zero_compliance);
-        }
-        if let Some(spectrum) = self.preconditioner {
-            self.backend.set_zero_mode(spectrum, load.zero_compliance);
-        }
-        self.exact = self.levels.is_none();
         if prescribed_mean_gap {
             self.begin_mean_gap();
         }
@@ -438,18 +423,60 @@ impl<'a> ContactSolver<'a> {
         self.choose_preconditioner()
     }
 
-    /// The pressure of the gap from which a solve starts. The last solve has evaluated that of its own gap.
+    /// Sets the numbers of a load.
+    pub(super) fn set_load(&mut self, load: &Load, tolerance: f64) {
+        // A prescribed mean gap needs K h without the mean of the heights, hence K = 0 at q = 0.
+        debug_assert!(!matches!(load.hold, Hold::Gap(_)) || load.zero_stiffness == 0.0);
+        self.backend.set_outer_state(None);
+        self.params = params_under(&self.problem, load, self.params.epsilon);
+        self.params.tolerance = tolerance;
+        self.backend.set_params(&self.params);
+        self.backend
+            .set_zero_mode(self.stiffness, load.zero_stiffness);
+        if let Some(levels) = &self.levels {
+            levels.set_zero_mode(&mut *self.backend, load.zero_compliance);
+        }
+        if let Some(spectrum) = self.preconditioner {
+            self.backend.set_zero_mode(spectrum, load.zero_compliance);
+        }
+        self.exact = self.levels.is_none();
+    }
+
+    /// The pressure of the gap from which a solve starts.
     fn evaluate_start(&mut self, load: &Load, start: &Start) -> Result<(), BackendError> {
+        if self.is_evaluated(load, start) {
+            return Ok(());
+        }
+        self.refresh()
+    }
+
+    /// Whether the pressure of the gap from which a solve starts is held: the last solve has evaluated that of its own gap.
+    /// Where another process has, its transforms count and those of evaluating it anew do not.
+    pub(super) fn is_evaluated(&mut self, load: &Load, start: &Start) -> bool {
         let stays = matches!((start, load.hold), (Start::Present, Hold::Pressure(_)));
         let evaluated = self.evaluated.take();
         match evaluated.filter(|last| stays && last.zero_stiffness == load.zero_stiffness) {
-            None => self.refresh(),
-            Some(last) if last.held => Ok(()),
-            Some(_) => {
-                self.helped_by -= EVALUATION_TRANSFORMS;
-                self.refresh()
+            None => false,
+            Some(last) => {
+                if !last.held {
+                    self.helped_by -= EVALUATION_TRANSFORMS;
+                }
+                last.held
             }
         }
+    }
+
+    /// Says that no pressure has been evaluated.
+    pub(super) fn forget_evaluated(&mut self) {
+        self.evaluated = None;
+    }
+
+    /// Says that the pressure of the present gap has been evaluated under a load.
+    pub(super) fn set_evaluated(&mut self, load: &Load) {
+        self.evaluated = Some(Evaluated {
+            zero_stiffness: load.zero_stiffness,
+            held: true,
+        });
     }
 
     /// Solves a load. `watch` sees the scalars whenever the host looks and may end the solve by
@@ -465,14 +492,6 @@ impl<'a> ContactSolver<'a> {
         make_backend: MakeBackend,
         watch: &mut dyn FnMut(&Scalars) -> bool,
     ) -> Result<Outcome, BackendError> {
-        if let (Start::Present, Some(outer)) = (start, &mut self.outer) {
-            outer.hand_gap(&mut *self.backend, self.gap)?;
-        }
-        let corrected = self.outer().is_some();
-        let first = match corrected {
-            true => tolerance.max(FIRST_TOLERANCE),
-            false => tolerance,
-        };
         let helped = match start {
             // The coarse grids do not have the plastic depths.
             Start::Cold if self.plastic_depths.is_none() => {
@@ -480,16 +499,15 @@ impl<'a> ContactSolver<'a> {
             }
             _ => None,
         };
-        match helped {
-            Some((gap, transforms)) => {
-                self.helped_by += transforms;
-                self.begin(load, &Start::Gap(gap), first, careful)?;
-            }
-            None => self.begin(load, start, first, careful)?,
+        let helped = helped.map(|(gap, transforms)| {
+            self.helped_by += transforms;
+            Start::Gap(gap)
+        });
+        let start = helped.as_ref().unwrap_or(start);
+        if self.outer().is_some() {
+            return self.solve_in_rounds(load, start, tolerance, max_iterations, careful, watch);
         }
-        if corrected {
-            return self.solve_in_rounds(load, tolerance, max_iterations, watch);
-        }
+        self.begin(load, start, tolerance, careful)?;
         let (mut rounds, mut iterations, mut refreshed) = (0, 0, 0);
         let (mut best, mut restarts) = (f64::INFINITY, 0);
         loop {
@@ -539,10 +557,7 @@ impl<'a> ContactSolver<'a> {
                 }
                 _ => {}
             }
-            self.evaluated = Some(Evaluated {
-                zero_stiffness: load.zero_stiffness,
-                held: true,
-            });
+            self.set_evaluated(load);
             return Ok(Outcome::new(
                 status,
                 end.iterations as usize,

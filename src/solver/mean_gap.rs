@@ -50,7 +50,7 @@ impl HeightsPressure {
 
 impl ContactSolver<'_> {
     /// K h, made at its first use.
-    fn heights_pressure(&mut self) -> Field {
+    pub(super) fn heights_pressure(&mut self) -> Field {
         self.heights_pressure
             .get_or_insert_with(|| HeightsPressure::plan(&mut *self.backend, self.level))
             .field()

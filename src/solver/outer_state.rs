@@ -166,9 +166,6 @@ impl OuterState {
     /// Pressures and stopping measure of the present gap.
     pub fn evaluate(&mut self) -> Result<Scalars, BackendError> {
         let backend = &mut *self.backend;
-        let mut scalars = backend.scalars()?;
-        scalars.status = Status::Running;
-        backend.set_scalars(&scalars);
         let fields = [self.places.gap, self.places.heights];
         backend.run(&displacement::LOAD_DISPLACEMENT, self.places.level, &fields);
         backend.multiply(self.places.stiffness, false, Gate::Always);
@@ -177,6 +174,15 @@ impl OuterState {
             self.places.level,
             &[self.places.pressure],
         );
+        self.measure()
+    }
+
+    /// Stopping measure of the present gap, whose pressures are evaluated.
+    pub fn measure(&mut self) -> Result<Scalars, BackendError> {
+        let backend = &mut *self.backend;
+        let mut scalars = backend.scalars()?;
+        scalars.status = Status::Running;
+        backend.set_scalars(&scalars);
         let fields = [self.places.gap, self.places.pressure];
         if self.params.prescribed_mean_gap {
             backend.run(self.kernels.mean_gap.balance, self.places.level, &fields);

@@ -1,11 +1,11 @@
 //! Mixed precision: iterations in single, the state and its residual in double.
 //!
-//! A first solve in single precision brings the residual near what its rounding allows. Then come
-//! rounds: the residual y of the gap g is taken in double precision, and the same iteration, in
+//! In rounds the residual y of the gap g is taken in double precision, and the same iteration, in
 //! single, finds the correction c that removes it, with c >= -g at a wall. Its rounding is relative to c,
-//! so each round gains some digits, whatever the law.
+//! so each round gains some digits, whatever the law: the closer a start is, the more. A path that moves on by a
+//! small step is mostly solved in one or two rounds. Only a start that is far is first solved in single precision.
 
-use super::contact::{ContactSolver, Load, Outcome};
+use super::contact::{ContactSolver, Load, Outcome, Start};
 use super::outer_state::OuterState;
 use crate::backend::{Backend, BackendError, Field};
 use crate::kernel::{Scalars, Status};
@@ -13,7 +13,10 @@ use crate::kernel::{Scalars, Status};
 /// Tolerance of the first solve: what single precision reaches on every scene.
 pub(super) const FIRST_TOLERANCE: f64 = 1e-4;
 /// Share of its first residual at which a round ends: what single precision can gain.
-const GAIN: f64 = 3e-4;
+const GAIN: f64 = 1e-4;
+/// Ranges by which the core of a law that repels by itself gives way to the residual of a near start. Trials of corrections follow
+/// the core's slope, which is good for short ones.
+const NEAR: f64 = 0.02;
 /// Share of the tolerance that a round aims at, which leaves room for rounding.
 const AIM: f64 = 0.8;
 /// Iterations of a round.
@@ -68,23 +71,39 @@ impl ContactSolver<'_> {
         }
     }
 
-    /// Solves a load that has begun: in single precision first, then in rounds of corrections.
+    /// Solves a load in rounds of corrections; one whose start is far, in single precision first.
     pub(super) fn solve_in_rounds(
         &mut self,
         load: &Load,
+        start: &Start,
         tolerance: f64,
         max_iterations: usize,
+        careful: bool,
         watch: &mut dyn FnMut(&Scalars) -> bool,
     ) -> Result<Outcome, BackendError> {
-        let params = self.params;
-        let (first, mut stopped) = self.run_out(0, max_iterations, watch)?;
-        let mut iterations = first.iterations as usize;
-        let mut status = first.status;
-        let mut end = self.with_outer(|outer, iterating, gap| {
-            outer.begin(load, tolerance, &params);
-            outer.copy_gap(iterating, gap)?;
-            outer.evaluate()
-        })?;
+        let (mut iterations, mut status, mut stopped) = (0, Status::Running, false);
+        let near = match start {
+            // The careful descent moves the gap itself. Corrections of undeformed surfaces would be as large as their gap.
+            _ if careful => None,
+            Start::Cold => None,
+            _ => self.near_start(load, start, tolerance)?,
+        };
+        let mut end = match near {
+            Some(end) => end,
+            None => {
+                self.hand_start(start)?;
+                self.begin(load, start, tolerance.max(FIRST_TOLERANCE), careful)?;
+                let first = self.run_out(0, max_iterations, watch)?;
+                (iterations, status) = (first.0.iterations as usize, first.0.status);
+                stopped = first.1;
+                let params = self.params;
+                self.with_outer(|outer, iterating, gap| {
+                    outer.begin(load, tolerance, &params);
+                    outer.copy_gap(iterating, gap)?;
+                    outer.evaluate()
+                })?
+            }
+        };
         let mut lost = 0;
         let mut rounds = 0;
         loop {
@@ -127,12 +146,50 @@ impl ContactSolver<'_> {
                 false => lost + 1,
             };
         }
+        self.set_evaluated(load);
         Ok(Outcome::new(
             status,
             iterations,
             end.residual,
             end.mean_pressure,
         ))
+    }
+
+    /// Residual of the start of a solve in double precision; `None` where its corrections would be too large.
+    fn near_start(
+        &mut self,
+        load: &Load,
+        start: &Start,
+        tolerance: f64,
+    ) -> Result<Option<Scalars>, BackendError> {
+        self.set_load(load, tolerance);
+        let params = self.params;
+        let is_evaluated = self.is_evaluated(load, start);
+        let end = self.with_outer(|outer, _, _| {
+            outer.begin(load, tolerance, &params);
+            if let Start::Gap(gap) = start {
+                outer.set_gap(gap);
+            }
+            if is_evaluated {
+                outer.measure()
+            } else {
+                outer.evaluate()
+            }
+        })?;
+        // By how much the core of a law that repels by itself would give way to this residual.
+        let local = end.numerator / (params.points.sqrt() * params.smooth_stiffness);
+        let is_near = params.law.has_wall() || local <= NEAR * params.law.range();
+        Ok(is_near.then_some(end))
+    }
+
+    /// Hands the present gap, which is the outer state's, to where the iterations run.
+    fn hand_start(&mut self, start: &Start) -> Result<(), BackendError> {
+        // What has been evaluated is the pressure in double precision.
+        self.forget_evaluated();
+        if matches!(start, Start::Present) {
+            self.with_outer(|outer, iterating, gap| outer.hand_gap(iterating, gap))?;
+        }
+        Ok(())
     }
 
     /// The numerator that rounding in double precision leaves, which the points of the pad add to.
@@ -167,10 +224,8 @@ impl ContactSolver<'_> {
         watch: &mut dyn FnMut(&Scalars) -> bool,
     ) -> Result<(Scalars, bool), BackendError> {
         let outer = self.with_outer(|outer, iterating, _| outer.hand_outer_state(iterating))?;
-        if let (true, Some(heights_pressure)) =
-            (self.params.prescribed_mean_gap, &self.heights_pressure)
-        {
-            let rigid = heights_pressure.field();
+        if self.params.prescribed_mean_gap && self.kernels.is_linear() {
+            let rigid = self.heights_pressure();
             self.with_outer(|outer, iterating, _| outer.hand_rigid(iterating, rigid))?;
         }
         for field in [
@@ -195,7 +250,9 @@ impl ContactSolver<'_> {
         let mut scalars = Scalars::start(0.0, false);
         scalars.iterations = iterations as u32;
         self.backend.set_scalars(&scalars);
+        self.exact = self.levels.is_none();
         self.ready();
+        self.choose_preconditioner()?;
         let round = self.run_out(iterations, most, watch);
         self.backend.set_outer_state(None);
         round
