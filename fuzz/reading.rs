@@ -5,7 +5,6 @@
 use std::fs;
 use std::path::Path;
 
-use tabor::backend::dry_run::Place;
 use tabor::scene::{Boundary, Detrend, Fill, GridScene, HeightFileScene, Scene, SurfacePart};
 use tabor::study::{Plan, Setup};
 use tabor::surface::Surface;
@@ -39,7 +38,7 @@ pub fn scene(bytes: &[u8], folder: &Path) {
     let Ok(plan) = Plan::for_scene(scene.clone()) else {
         return;
     };
-    plan.memory(Place::for_scene(&plan.scene)).expect("a count");
+    plan.memory(plan.place()).expect("a count");
     let grid = plan.outline.grid;
     let few_waves = plan.scene.surfaces.iter().all(|part| match part {
         SurfacePart::SelfAffine(rough) => grid.lx.max(grid.ly) / rough.shortest < FEW_WAVES,

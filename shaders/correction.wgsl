@@ -1,6 +1,6 @@
-// How kernels see the law where the unknown is the correction of an outer gap, whose residual y is
-// known: differences are taken without cancellation, so that all is relative to the correction. Twins:
-// law/correction.rs.
+// How kernels see the law where the unknown is the correction of an outer gap, and the pressure starts at the
+// residual of the outer state: differences are taken without cancellation, so that all is relative to the
+// correction. Twins: law/correction.rs.
 fn open(correction: real) -> real {
     return known_gap + correction;
 }
@@ -10,13 +10,8 @@ fn closed_gap() -> real {
     return -known_gap;
 }
 
-// All of y that does not come from the correction's own pressure.
 fn traction(correction: real) -> real {
-    return known_residual + law_difference(known_gap, correction);
-}
-
-fn pad_traction() -> real {
-    return known_residual;
+    return law_difference(known_gap, correction);
 }
 
 fn slope(correction: real) -> real {

@@ -13,13 +13,11 @@ fn trial_terms(tried: Tried, here: Here, in_domain: bool) {
 // What a smooth law's trial asks besides: step length 1, as a search would evaluate it.
 fn smooth_trial_terms(here: Here, step: real, in_domain: bool) {
     let s = wide(step);
+    add_sum(ELASTIC_SLOPE, s * wide(here.elastic));
     if (!in_domain) {
-        // On a pad the residual of an outer state is no law's: the search will not count it.
-        add_sum(ELASTIC_SLOPE, s * wide(here.y));
         return;
     }
     let energy = energy_change(here.gap, step);
-    add_sum(ELASTIC_SLOPE, s * wide(here.elastic));
     add_sum(CHANGE_AT_FIRST, wide(change(here.gap, step)) * s);
     add_sum(ENERGY_CHANGE, wide(energy.x));
     add_sum(ENERGY_SIZE, wide(energy.y));

@@ -13,11 +13,6 @@ fn traction(gap: real) -> real {
     return law_traction(gap);
 }
 
-// What stands in the traction's place on a pad, which has no law.
-fn pad_traction() -> real {
-    return 0.0;
-}
-
 fn slope(gap: real) -> real {
     return law_slope(gap);
 }

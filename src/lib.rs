@@ -116,7 +116,7 @@
 //! of a law with a tail two each are a pass of the search for the step length, which behind a wall looks at four
 //! steps; of Lennard-Jones the first step rides in the trial. A pass that is not needed moves nothing; a
 //! search that needs more continues in the next round, which does nothing else. In the rounds of mixed
-//! precision every kernel of a law reads two fields more. Under a mean gap the trial step is scaled back to
+//! precision every kernel of a law reads a field more. Under a mean gap the trial step is scaled back to
 //! it: by linearity, so that no pass comes between, but with Lennard-Jones and with a hardness, where
 //! the share that is added to a point is not linear in its step.
 //!

@@ -16,7 +16,7 @@ use crate::clock::Clock;
 use crate::grid::Grid;
 use crate::kernel::Scalars;
 use crate::law::Law;
-use crate::scene::{AdhesionMap, BackendName, Control, Precision, Scene, Treatment};
+use crate::scene::{AdhesionMap, BackendName, Control, Scene, Treatment};
 use crate::study::{Setup, resolve_law};
 
 /// Share of the budget for the reference.
@@ -86,7 +86,7 @@ impl<'a> Study<'a> {
         if let Some(adhesion) = &mut same.scene.adhesion {
             adhesion.treatment = Treatment::Full;
         }
-        if same.scene.arithmetic() == Precision::Single {
+        if same.scene.is_single() {
             same.scene.solver.tolerance = same
                 .scene
                 .solver

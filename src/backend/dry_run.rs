@@ -180,7 +180,7 @@ impl Backend for DryRun {
 
     fn set_law_factor(&mut self, _factor: Field) {}
 
-    fn set_outer_state(&mut self, _outer: Option<[Field; 2]>) {}
+    fn set_outer_gap(&mut self, _outer_gap: Option<Field>) {}
 
     fn clear(&mut self, _field: Field) {}
 

@@ -146,9 +146,9 @@ pub trait Backend {
     /// Multiplies the law's tension by this field, in every kernel of its level from now on. Without
     /// a call the law is the same everywhere and nothing is read for it.
     fn set_law_factor(&mut self, factor: Field);
-    /// From now on the unknown of every kernel of the laws is the correction of an outer gap, whose
-    /// residual is known: gap and residual of the outer state. Without one it is the gap itself.
-    fn set_outer_state(&mut self, outer: Option<[Field; 2]>);
+    /// From now on the unknown of every kernel of the laws is the correction of this outer gap, and the pressure
+    /// that of the correction and the outer residual. Without one it is the gap itself.
+    fn set_outer_gap(&mut self, outer_gap: Option<Field>);
     /// Sets a field to zero where it is.
     fn clear(&mut self, field: Field);
     /// Lets go of the memory of a field whose values nobody needs any more, where it is the host's. The field

@@ -18,7 +18,7 @@ pub(super) fn check(arguments: &CheckArguments) -> Result<(), Failure> {
         return Err(arguments.scene.surface_failure(error));
     }
     let plan = Plan::for_scene(scene).map_err(|error| arguments.scene.surface_failure(error))?;
-    let place = Place::for_scene(&plan.scene);
+    let place = plan.place();
     let cost = plan.cost(place)?;
     #[cfg(feature = "gpu")]
     if place.on_gpu() {

@@ -24,7 +24,7 @@ pub(super) fn asked(setup: &Setup, verbose: bool) -> Result<(Place, Option<Strin
     };
     let device = adapters::open(&choice, verbose)?;
     let found = device.description();
-    let precision = setup.scene.arithmetic_on(true);
+    let precision = setup.scene.arithmetic_on_gpu();
     if precision == Precision::Double && !found.double {
         return Err(GpuError::Precision(found.name.clone()).into());
     }
@@ -101,7 +101,7 @@ pub(super) fn plain_sums(device: &GpuDevice) -> Option<String> {
 pub(super) fn best_for(setup: &Setup, verbose: bool) -> (Place, Option<String>) {
     let settings = &setup.scene.solver;
     let choice = choice();
-    let precision = setup.scene.arithmetic_on(true);
+    let precision = setup.scene.arithmetic_on_gpu();
     let in_double = precision == Precision::Double;
     if !choice.software && !setup.scene.looks_for_adapters(setup.problem.shape.len()) {
         return (Place::Processor, None);

@@ -36,6 +36,13 @@ impl Place {
     }
 }
 
+/// The arithmetic of a setup on the processor.
+fn on_processor(setup: &Setup) -> Precision {
+    setup
+        .scene
+        .arithmetic_on_processor(setup.problem.shape.len())
+}
+
 impl SelectedDevice {
     /// Takes what a scene asks for. Drivers that print while they start are heard if `verbose`.
     ///
@@ -55,7 +62,11 @@ impl SelectedDevice {
         };
         #[cfg(not(feature = "gpu"))]
         let _ = verbose;
-        let precision = setup.scene.arithmetic_on(place.is_gpu());
+        let precision = if place.is_gpu() {
+            setup.scene.arithmetic_on_gpu()
+        } else {
+            on_processor(setup)
+        };
         let sums = match &place {
             #[cfg(feature = "gpu")]
             Place::Gpu(device) => adapter_choice::plain_sums(device),
@@ -75,7 +86,7 @@ impl SelectedDevice {
         let may = setup.scene.solver.backend == BackendName::Auto && self.place.is_gpu();
         may.then(|| SelectedDevice {
             place: Place::Processor,
-            precision: setup.scene.arithmetic_on(false),
+            precision: on_processor(setup),
             ranks: None,
             remark: None,
         })
@@ -93,7 +104,7 @@ impl SelectedDevice {
         }
         Ok(SelectedDevice {
             place: Place::Processor,
-            precision: setup.scene.arithmetic_on(false),
+            precision: on_processor(setup),
             ranks: Some(ranks),
             remark: None,
         })

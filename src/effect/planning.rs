@@ -69,7 +69,6 @@ impl Memory {
     pub fn largest_grid(
         scene: &Scene,
         grid: Grid,
-        place: Place,
         available: u64,
     ) -> Result<Option<[usize; 2]>, BackendError> {
         let scaled = |nx: usize| -> [usize; 2] {
@@ -79,7 +78,7 @@ impl Memory {
         };
         let fits = |points: [usize; 2]| -> Result<bool, BackendError> {
             let grid = Grid::new(points, [grid.lx, grid.ly]);
-            let cost = Cost::for_scene(scene, grid, place)?;
+            let cost = Cost::for_scene(scene, grid, Place::for_scene(scene, &grid))?;
             Ok(Memory::new(scene, grid, &cost).machine <= available)
         };
         let sizes: Vec<usize> = (STRIDE..=grid.nx)

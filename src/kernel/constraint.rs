@@ -40,7 +40,7 @@ pub struct Here<T> {
     pub open: T,
     /// p + mean_pressure.
     pub elastic: T,
-    /// Attraction at the gap, or at zero for a gap below it; on a pad what takes its place there.
+    /// Attraction at the gap, or at zero for a gap below it; none on a pad.
     pub pull: T,
     /// y: the slope of the energy to the side to which the point may move; 0 of a point that rests at its
     /// hardness.
@@ -65,13 +65,12 @@ pub fn here_at<T: Real>(
     if in_domain {
         return constraint.state(law, gap, elastic);
     }
-    let pull = law.pad_traction();
     Here {
         gap,
         open: law.open(gap),
         elastic,
-        pull,
-        y: imbalance(elastic, pull),
+        pull: T::zero(),
+        y: elastic,
         free: true,
         weight: T::one(),
         hardening: T::zero(),
@@ -297,7 +296,7 @@ impl<T: Real> GapConstraint<T> for Unilateral<T> {
     ) where
         K: PointKernel<T, Self, READS, WRITES, TERMS>,
     {
-        if rows.outer[0].is_empty() {
+        if rows.outer_gap.is_empty() {
             with_wall_law!(params.law, T, law => side_by_side::<_, _, K, READS, WRITES, TERMS>(numbers, AdhesionMap(law), rows, sums));
         } else {
             with_wall_law!(params.law, T, law => side_by_side::<_, _, K, READS, WRITES, TERMS>(numbers, CorrectedField(law), rows, sums));

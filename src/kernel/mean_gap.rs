@@ -5,8 +5,8 @@
 //! reduction over s follows from those over s0 and g, since s = (1 + c) s0 + c g and K g = p - K h with K h the
 //! pressure of the heights, which a solve has once. So one pass turns the direction, loads s0 and takes these
 //! sums, and the step adds c K (g + s0) to K s0. Where an outer state is corrected, g is its open gap, and in
-//! place of K h stands what the pressure of the correction differs by from K g: minus the pressure that the
-//! outer gap makes.
+//! place of K h stands what the pressure of the correction, which starts at the outer residual, differs by from K g: that
+//! residual less the pressure that the outer gap makes.
 //!
 //! A mean gap is prescribed on periodic grids alone, which have no pad.
 

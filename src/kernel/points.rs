@@ -201,7 +201,7 @@ where
             writes: [[T::zero(); LANES]; WRITES],
             line: [T::zero(); LANES],
             factor: [T::one(); LANES],
-            outer: [[T::zero(); LANES]; 2],
+            outer_gap: [T::zero(); LANES],
             found: [T::zero(); LANES],
             terms: [[T::zero(); LANES]; TERMS],
         };
@@ -281,7 +281,7 @@ struct Group<T, const READS: usize, const WRITES: usize, const TERMS: usize> {
     writes: [Lanes<T>; WRITES],
     line: Lanes<T>,
     factor: Lanes<T>,
-    outer: [Lanes<T>; 2],
+    outer_gap: Lanes<T>,
     found: Lanes<T>,
     terms: [Lanes<T>; TERMS],
 }
@@ -299,16 +299,13 @@ impl<T: Real, const READS: usize, const WRITES: usize, const TERMS: usize>
         }
         load(&mut self.line, rows.lines, here);
         load(&mut self.factor, rows.factor, here);
-        for (to, from) in self.outer.iter_mut().zip(&rows.outer) {
-            load(to, from, here);
-        }
+        load(&mut self.outer_gap, rows.outer_gap, here);
     }
 
     /// The law at a point.
     #[inline(always)]
     fn law<L: LawField<T>>(&self, law: &L, lane: usize) -> L::Here {
-        let outer = [self.outer[0][lane], self.outer[1][lane]];
-        law.here(self.factor[lane], outer)
+        law.here(self.factor[lane], self.outer_gap[lane])
     }
 
     /// A point as its numbers are.
@@ -355,8 +352,7 @@ impl<T: Real, const READS: usize, const WRITES: usize, const TERMS: usize>
         for (part, (gaps, found)) in gaps.iter().zip(found).enumerate() {
             let laws = |place: usize| {
                 let lane = part * SOUGHT + place;
-                let outer = [self.outer[0][lane], self.outer[1][lane]];
-                law.here(self.factor[lane], outer)
+                law.here(self.factor[lane], self.outer_gap[lane])
             };
             gap_at(&numbers.constraint, laws, gaps, found);
         }
@@ -483,7 +479,7 @@ mod tests {
                 whole: Whole::none(),
                 around: Whole::none(),
                 factor: &factor,
-                outer: [&[]; 2],
+                outer_gap: &[],
                 reduces: &[Reduce::Add, Reduce::Min, Reduce::Max],
             };
             let mut sums = [0.0; SUMS];

@@ -49,15 +49,16 @@ pub static OUTER_RESIDUAL: Kernel = rows_kernel!(
 fn outer_pressure<T: Real>(rows: &mut Rows<T>, _: &Params, _: &Scalars, _: &mut [f64; SUMS]) {
     let count = rows.len();
     let (heights_pressure, pressure) = (&rows.reads[0][..count], &rows.reads[1][..count]);
-    for (i, left) in rows.writes[0][..count].iter_mut().enumerate() {
-        *left = heights_pressure[i] - pressure[i];
+    for (i, residual) in rows.writes[0][..count].iter_mut().enumerate() {
+        *residual += heights_pressure[i] - pressure[i];
     }
 }
 
-/// Minus the pressure that the outer gap makes, K h - p: what takes the place of K h in corrections.
+/// The outer residual less the pressure that the outer gap makes, y + K h - p: what takes the place of K h in
+/// corrections, whose pressure starts at y.
 pub static OUTER_PRESSURE: Kernel = rows_kernel!(
     outer_pressure, Sweep, gate Always, law false,
-    reads [heights_pressure, pressure], writes [difference], fresh 1
+    reads [heights_pressure, pressure], writes [residual]
 );
 
 /// The outer gap with a correction that was found in single precision.

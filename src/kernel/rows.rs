@@ -102,9 +102,8 @@ pub struct Rows<'a, T> {
     pub around: Whole<'a, T>,
     /// Factors on the law's tension, cut to these rows; empty where the law is the same everywhere.
     pub factor: &'a [T],
-    /// Gap and residual of the outer state that is corrected, cut to these rows; empty where the unknown is
-    /// the gap itself.
-    pub outer: [&'a [T]; 2],
+    /// Gap of the outer state that is corrected, cut to these rows; empty where the unknown is the gap itself.
+    pub outer_gap: &'a [T],
     /// How the kernel's sums are put together.
     pub reduces: &'static [Reduce],
 }

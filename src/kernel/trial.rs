@@ -120,9 +120,8 @@ fn smooth_trial_terms<T: Real>(
             energy_size: size,
         }
     } else {
-        // On a pad the residual of an outer state is no law's: the search will not count it.
         SmoothTrialSums {
-            elastic_slope: step * here.y,
+            elastic_slope: step * here.elastic,
             change_at_first: T::zero(),
             energy_change: T::zero(),
             energy_size: T::zero(),

@@ -7,8 +7,8 @@ use crate::real::Real;
 pub trait LawField<T: Real>: Copy {
     /// The law at one point.
     type Here: Cohesion<T>;
-    /// The law at a point with this factor on its tension, and this gap and residual of an outer state.
-    fn here(&self, factor: T, outer: [T; 2]) -> Self::Here;
+    /// The law at a point with this factor on its tension, and this gap of an outer state.
+    fn here(&self, factor: T, outer_gap: T) -> Self::Here;
 }
 
 /// A law whose tension is multiplied by a factor of its own at each point; a factor of 1 changes no bit.
@@ -18,7 +18,7 @@ pub struct AdhesionMap<L>(pub L);
 impl<T: Real, L: Cohesion<T>> LawField<T> for AdhesionMap<L> {
     type Here = Scaled<L, T>;
     #[inline(always)]
-    fn here(&self, factor: T, _: [T; 2]) -> Scaled<L, T> {
+    fn here(&self, factor: T, _: T) -> Scaled<L, T> {
         Scaled {
             law: self.0,
             factor,

@@ -1,8 +1,8 @@
 //! A law as the correction of a known state feels it.
 //!
 //! Where a solution is kept in double precision and iterations run in single, the unknown is the
-//! correction c of an outer gap g, whose residual y(g) is known. What depends on c is then
-//! `y(g) + sigma(g + c) - sigma(g)`, and the difference is taken without cancellation, so that
+//! correction c of an outer gap g, and the pressure starts at the residual y(g) of the outer state. What the law
+//! adds to it is `sigma(g + c) - sigma(g)`, a difference that is taken without cancellation, so that
 //! single precision is relative to c and not to g.
 
 use super::{Cohesion, LawField};
@@ -17,8 +17,6 @@ pub struct Correction<L, T> {
     pub factor: T,
     /// Gap of the outer state.
     pub gap: T,
-    /// Residual y of the outer state, its traction included.
-    pub residual: T,
 }
 
 /// A law around an outer state that differs from point to point.
@@ -28,12 +26,11 @@ pub struct CorrectedField<L>(pub L);
 impl<T: Real, L: Cohesion<T>> LawField<T> for CorrectedField<L> {
     type Here = Correction<L, T>;
     #[inline(always)]
-    fn here(&self, factor: T, [gap, residual]: [T; 2]) -> Correction<L, T> {
+    fn here(&self, factor: T, gap: T) -> Correction<L, T> {
         Correction {
             law: self.0,
             factor,
             gap,
-            residual,
         }
     }
 }
@@ -41,13 +38,13 @@ impl<T: Real, L: Cohesion<T>> LawField<T> for CorrectedField<L> {
 impl<T: Real, L: Cohesion<T>> Cohesion<T> for Correction<L, T> {
     #[inline(always)]
     fn traction(&self, correction: T) -> T {
-        self.residual + self.factor * self.law.difference(self.gap, correction)
+        self.factor * self.law.difference(self.gap, correction)
     }
 
-    /// Of the outer state with all its pressures, to first order in the correction.
+    /// None to first order in the correction: the outer state's traction is part of the pressure.
     #[inline(always)]
-    fn energy(&self, correction: T) -> T {
-        self.residual * correction
+    fn energy(&self, _correction: T) -> T {
+        T::zero()
     }
 
     #[inline(always)]
@@ -84,11 +81,6 @@ impl<T: Real, L: Cohesion<T>> Cohesion<T> for Correction<L, T> {
     #[inline(always)]
     fn closed_gap(&self) -> T {
         -self.gap
-    }
-
-    #[inline(always)]
-    fn pad_traction(&self) -> T {
-        self.residual
     }
 
     #[inline(always)]

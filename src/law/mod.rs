@@ -74,11 +74,6 @@ pub trait Cohesion<T: Real>: Copy {
     fn closed_gap(&self) -> T {
         T::zero()
     }
-    /// What stands in the traction's place on a pad, which has no law.
-    #[inline(always)]
-    fn pad_traction(&self) -> T {
-        T::zero()
-    }
     /// What of a pressure enters the scale of the stopping measure.
     #[inline(always)]
     fn weighed(&self, pressure: T) -> T {

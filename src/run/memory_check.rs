@@ -4,7 +4,7 @@ use std::path::{Path, PathBuf};
 
 use crate::backend::{BackendError, dry_run::Place, ranks::Ranks};
 use crate::grid::Grid;
-use crate::scene::{Precision, Scene, SurfacePart};
+use crate::scene::{BackendName, Precision, Scene, SolverScene, SurfacePart};
 use crate::study::{Cost, Memory};
 use crate::surface::{MOST_POINTS, claimed_points, is_by_rows};
 
@@ -163,12 +163,11 @@ fn address_space_left() -> Option<u64> {
 
 /// Refuses a run on `grid` that needs more memory than there is, with the largest grid that fits.
 pub(crate) fn check_grid(scene: &Scene, grid: Grid) -> Result<(), MemoryError> {
-    let place = Place::for_scene(scene);
-    let need = |place: Place| -> Result<u64, MemoryError> {
-        let cost = Cost::for_scene(scene, grid, place)?;
+    let need = |scene: &Scene| -> Result<u64, MemoryError> {
+        let cost = Cost::for_scene(scene, grid, Place::for_scene(scene, &grid))?;
         Ok(Memory::new(scene, grid, &cost).machine)
     };
-    let needed = need(place)?;
+    let needed = need(scene)?;
     if needed <= ALWAYS_THERE && std::env::var_os(LIMIT).is_none() {
         return Ok(());
     }
@@ -182,10 +181,16 @@ pub(crate) fn check_grid(scene: &Scene, grid: Grid) -> Result<(), MemoryError> {
         points: [grid.nx, grid.ny],
         needed,
         available,
-        largest: Memory::largest_grid(scene, grid, place, available)?,
-        single: match place {
-            Place::Double if scene.solver.precision == Precision::Auto => {
-                Some(need(Place::Single)?)
+        largest: Memory::largest_grid(scene, grid, available)?,
+        single: match scene.solver {
+            SolverScene {
+                precision: Precision::Auto,
+                backend: BackendName::Auto | BackendName::Cpu,
+                ..
+            } => {
+                let mut single = scene.clone();
+                single.solver.precision = Precision::Single;
+                Some(need(&single)?)
             }
             _ => None,
         },
@@ -201,7 +206,7 @@ pub(crate) fn check_on_ranks(
     let Some(available) = available()? else {
         return Ok(());
     };
-    let cost = Cost::for_scene(scene, grid, Place::for_scene(scene))?;
+    let cost = Cost::for_scene(scene, grid, Place::for_scene(scene, &grid))?;
     let needed = Memory::on_ranks(scene, grid, &cost, ranks.count()).machine;
     if needed.saturating_mul(ranks.here() as u64) <= available {
         return Ok(());

@@ -27,34 +27,56 @@ const FEWEST_POINTS: usize = 256 * 256;
 /// The same where the scene asks for double precision, which many adapters compute slowly.
 const FEWEST_POINTS_IN_DOUBLE: usize = 512 * 512;
 
-impl SolverScene {
-    /// The precision for which `auto` stands: on a graphics processor it depends on the tolerance;
-    /// `has_hardness` is true for a solid with a hardness.
-    fn arithmetic_on(&self, gpu: bool, has_hardness: bool) -> Precision {
-        match (self.precision, gpu) {
-            (Precision::Auto, true) if self.tolerance >= Precision::SINGLE_FLOOR => {
+/// Solved points from which `auto` takes mixed precision on the processor: fields of fewer fit its caches in double precision.
+const FEWEST_POINTS_IN_MIXED: usize = 512 * 512;
+/// Least tolerance for which it does: rounds reach it on every scene.
+const LEAST_TOLERANCE_OF_MIXED: f64 = 1e-10;
+
+impl Scene {
+    /// The precision of a solve on a graphics processor; `auto` goes by the tolerance.
+    #[doc(hidden)]
+    pub fn arithmetic_on_gpu(&self) -> Precision {
+        match self.solver.precision {
+            Precision::Auto if self.solver.tolerance >= Precision::SINGLE_FLOOR => {
                 Precision::Single
             }
             // The corrections of mixed precision have no hardness limit.
-            (Precision::Auto, true) if has_hardness => Precision::Double,
-            (Precision::Auto, true) => Precision::Mixed,
-            (Precision::Auto, false) => Precision::Double,
-            (other, _) => other,
+            Precision::Auto if self.solid.hardness.is_some() => Precision::Double,
+            Precision::Auto => Precision::Mixed,
+            asked => asked,
         }
     }
-}
 
-impl Scene {
-    /// The precision of a solve on a graphics processor or on the processor.
-    pub(crate) fn arithmetic_on(&self, gpu: bool) -> Precision {
-        let has_hardness = self.solid.hardness.is_some();
-        self.solver.arithmetic_on(gpu, has_hardness)
+    /// The precision of a solve of so many points on the processor.
+    #[doc(hidden)]
+    pub fn arithmetic_on_processor(&self, solved: usize) -> Precision {
+        let gains = solved >= FEWEST_POINTS_IN_MIXED
+            && self.solver.tolerance >= LEAST_TOLERANCE_OF_MIXED
+            && self.solid.hardness.is_none()
+            && !self.has_sharp_law();
+        match self.solver.precision {
+            Precision::Auto if gains => Precision::Mixed,
+            Precision::Auto => Precision::Double,
+            asked => asked,
+        }
     }
 
-    /// The same on the scene's backend; `auto` counts as the processor here.
+    /// Whether it asks for single precision, or leaves the choice to a graphics processor that would take it.
     #[doc(hidden)]
-    pub fn arithmetic(&self) -> Precision {
-        self.arithmetic_on(self.solver.backend == BackendName::Gpu)
+    pub fn is_single(&self) -> bool {
+        let on_gpu = self.solver.backend == BackendName::Gpu;
+        let precision = if on_gpu {
+            self.arithmetic_on_gpu()
+        } else {
+            self.solver.precision
+        };
+        precision == Precision::Single
+    }
+
+    /// Whether the attraction ends at once. Which of many solutions is found then hangs on the last digit.
+    fn has_sharp_law(&self) -> bool {
+        let adhesion = self.adhesion.as_ref();
+        adhesion.is_some_and(|adhesion| adhesion.taper == Some(0.0))
     }
 
     /// Whether a run with so many solved points looks for a graphics processor: the scene asks for one, or leaves the
@@ -63,7 +85,7 @@ impl Scene {
         match self.solver.backend {
             BackendName::Cpu => false,
             BackendName::Gpu => true,
-            BackendName::Auto if self.arithmetic_on(true) == Precision::Double => {
+            BackendName::Auto if self.arithmetic_on_gpu() == Precision::Double => {
                 points >= FEWEST_POINTS_IN_DOUBLE
             }
             BackendName::Auto => points >= FEWEST_POINTS,

@@ -427,7 +427,7 @@ impl<'a> ContactSolver<'a> {
     pub(super) fn set_load(&mut self, load: &Load, tolerance: f64) {
         // A prescribed mean gap needs K h without the mean of the heights, hence K = 0 at q = 0.
         debug_assert!(!matches!(load.hold, Hold::Gap(_)) || load.zero_stiffness == 0.0);
-        self.backend.set_outer_state(None);
+        self.backend.set_outer_gap(None);
         self.params = params_under(&self.problem, load, self.params.epsilon);
         self.params.tolerance = tolerance;
         self.backend.set_params(&self.params);

@@ -28,7 +28,7 @@ mod stiffness;
 pub use contact::{ContactSolver, Hold, Load, Outcome, ROUNDS_PER_ITERATION, Start};
 pub use heights::Heights;
 pub use outer_state::plan_outer_state;
-pub use problem::{Problem, Scales, good_size};
+pub use problem::{Problem, Scales, good_size, solved_shape};
 pub use refinement::{MOST_ROUNDS, TRIALS_PER_ITERATION};
 
 /// Where solvers get their backends from; one a level of a coarse start.

@@ -28,12 +28,12 @@ struct Places {
     /// A residual on its way to the iterations, or a correction from there.
     between: Field,
     stiffness: Spectrum,
-    /// Gap and residual of the outer state, where the iterations run.
-    base: [Field; 2],
+    /// Gap of the outer state, where the iterations run.
+    base: Field,
 }
 
-/// Plans the further fields of mixed precision, to count them: the outer state on `double`, and gap and
-/// residual of it beside the fields of a solver planned on `iterating`.
+/// Plans the further fields of mixed precision, to count them: the outer state on `double`, and its gap beside the
+/// fields of a solver planned on `iterating`.
 pub fn plan_outer_state(
     double: &mut dyn Backend,
     iterating: &mut dyn Backend,
@@ -45,6 +45,7 @@ pub fn plan_outer_state(
         HeightsPressure::plan(double, places.level);
     }
     places.rest(double);
+    iterating.release(places.base);
 }
 
 impl Places {
@@ -69,10 +70,7 @@ impl Places {
             pressure: backend.field(level, "pressure"),
             between: backend.field(level, "between"),
             stiffness: problem.spectrum(backend, level, "stiffness", Response::Stiffness),
-            base: [
-                iterating.field(fine, "outer_gap"),
-                iterating.field(fine, "outer_residual"),
-            ],
+            base: iterating.field(fine, "outer_gap"),
         }
     }
 
@@ -83,13 +81,13 @@ impl Places {
 }
 
 impl OuterState {
-    /// Lets go of the field and the work space that only corrections need, until the next one.
+    /// Lets go of the field and the work space that only its evaluation needs, until the next one.
     pub fn rest(&mut self) {
         self.places.rest(&mut *self.backend);
     }
 
-    /// Plans the outer state of a problem on a backend of double precision, and copies of its gap and
-    /// residual where the iterations run.
+    /// Plans the outer state of a problem on a backend of double precision, and a copy of its gap where the
+    /// iterations run.
     pub fn new(
         mut backend: Box<dyn Backend + Send>,
         iterating: &mut dyn Backend,
@@ -174,6 +172,7 @@ impl OuterState {
             self.places.level,
             &[self.places.pressure],
         );
+        backend.release_work(self.places.level);
         self.measure()
     }
 
@@ -234,17 +233,19 @@ impl OuterState {
         Ok(())
     }
 
-    /// Hands the present gap and its residual, as last evaluated, to where the iterations run.
+    /// Hands the present gap to where the iterations run, and its residual, as last evaluated, to `there`, the pressure from
+    /// which its correction starts. Returns the field of the gap.
     pub fn hand_outer_state(
         &mut self,
         iterating: &mut dyn Backend,
-    ) -> Result<[Field; 2], BackendError> {
+        there: Field,
+    ) -> Result<Field, BackendError> {
         let Places {
             level,
             gap,
             pressure,
             between,
-            base: there,
+            base,
             ..
         } = self.places;
         let backend = &mut *self.backend;
@@ -253,14 +254,14 @@ impl OuterState {
             level,
             &[gap, pressure, between],
         );
-        iterating.copy_from(there[0], backend, gap)?;
-        iterating.copy_from(there[1], backend, between)?;
-        Ok(there)
+        iterating.copy_from(base, backend, gap)?;
+        iterating.copy_from(there, backend, between)?;
+        Ok(base)
     }
 
-    /// Hands K h - p, minus the pressure of the present gap, to where the iterations run. There it takes the
-    /// place of K h: the pressure of a correction c and K (g + c) differ by it. The difference taken in
-    /// double precision keeps the digits that single precision would lose.
+    /// Hands y + K h - p, the residual as it was handed over less the pressure of the present gap, to where the iterations
+    /// run. There it takes the place of K h: the pressure of a correction c, which starts at y, and K (g + c) differ by it. The
+    /// difference taken in double precision keeps the digits that single precision would lose.
     pub fn hand_rigid(
         &mut self,
         iterating: &mut dyn Backend,

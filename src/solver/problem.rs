@@ -79,7 +79,7 @@ pub fn good_size(points: usize) -> usize {
 }
 
 /// The points that are solved for: on a free boundary with a pad that keeps the images apart.
-fn solved_shape(grid: &Grid, boundary: Boundary) -> Shape {
+pub fn solved_shape(grid: &Grid, boundary: Boundary) -> Shape {
     match boundary {
         Boundary::Periodic => Shape::whole(grid.nx, grid.ny),
         Boundary::Free => Shape {

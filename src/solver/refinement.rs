@@ -94,6 +94,7 @@ impl ContactSolver<'_> {
                 self.hand_start(start)?;
                 self.begin(load, start, tolerance.max(FIRST_TOLERANCE), careful)?;
                 let first = self.run_out(0, max_iterations, watch)?;
+                self.rest();
                 (iterations, status) = (first.0.iterations as usize, first.0.status);
                 stopped = first.1;
                 let params = self.params;
@@ -223,20 +224,21 @@ impl ContactSolver<'_> {
         iterations: usize,
         watch: &mut dyn FnMut(&Scalars) -> bool,
     ) -> Result<(Scalars, bool), BackendError> {
-        let outer = self.with_outer(|outer, iterating, _| outer.hand_outer_state(iterating))?;
+        let pressure = self.pressure;
+        let outer_gap =
+            self.with_outer(|outer, iterating, _| outer.hand_outer_state(iterating, pressure))?;
         if self.params.prescribed_mean_gap && self.kernels.is_linear() {
             let rigid = self.heights_pressure();
             self.with_outer(|outer, iterating, _| outer.hand_rigid(iterating, rigid))?;
         }
-        for field in [
-            self.gap,
-            self.pressure,
-            self.direction,
-            self.previous_residual,
-        ] {
+        self.with_outer(|outer, _, _| {
+            outer.rest();
+            Ok(())
+        })?;
+        for field in [self.gap, self.direction, self.previous_residual] {
             self.backend.clear(field);
         }
-        self.backend.set_outer_state(Some(outer));
+        self.backend.set_outer_gap(Some(outer_gap));
         let mut params = self.params;
         // The scale of the outer residual; without a pressure there, its numerator.
         let residual = match end.residual.is_finite() {
@@ -254,7 +256,11 @@ impl ContactSolver<'_> {
         self.ready();
         self.choose_preconditioner()?;
         let round = self.run_out(iterations, most, watch);
-        self.backend.set_outer_state(None);
+        self.backend.set_outer_gap(None);
+        // All but the correction is found anew in the next round.
+        self.rest();
+        self.backend.release(self.pressure);
+        self.backend.release(outer_gap);
         round
     }
 }

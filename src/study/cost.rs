@@ -14,7 +14,7 @@ use crate::grid::Boundary;
 use crate::grid::Grid;
 use crate::law::Law;
 use crate::scene::{BackendName, Control, Precision, Scene};
-use crate::solver::{ContactSolver, Hold, Problem, Start, plan_outer_state};
+use crate::solver::{ContactSolver, Hold, Problem, Start, plan_outer_state, solved_shape};
 
 /// Fields, tables and passes of a scene's solver, and what is kept between its steps.
 #[derive(Clone, Debug, PartialEq)]
@@ -91,7 +91,7 @@ impl Cost {
     /// A kernel that is given fields which it does not take: a mistake in this crate.
     pub fn for_setup(setup: &Setup) -> Result<Cost, BackendError> {
         let highest = setup.surface.highest - setup.problem.height_origin;
-        let place = Place::for_scene(&setup.scene);
+        let place = Place::for_scene(&setup.scene, &setup.problem.grid);
         plan(&setup.effects, &setup.problem, &setup.scene, highest, place)
     }
 
@@ -132,14 +132,29 @@ impl Cost {
 }
 
 impl Place {
-    /// Where a scene runs; `auto` is the processor, since only a look at the machine says more.
-    pub fn for_scene(scene: &Scene) -> Place {
-        match (scene.solver.backend, scene.arithmetic()) {
-            (BackendName::Gpu, Precision::Double) => Place::GpuDouble,
-            (BackendName::Gpu, _) => Place::Gpu,
-            (_, Precision::Single | Precision::Mixed) => Place::Single,
+    /// Where a scene runs on a grid; `auto` is the processor, since only a look at the machine says more.
+    pub fn for_scene(scene: &Scene, grid: &Grid) -> Place {
+        if scene.solver.backend == BackendName::Gpu {
+            return match scene.arithmetic_on_gpu() {
+                Precision::Double => Place::GpuDouble,
+                _ => Place::Gpu,
+            };
+        }
+        let solved = solved_shape(grid, scene.grid.boundary).len();
+        match scene.arithmetic_on_processor(solved) {
+            Precision::Single | Precision::Mixed => Place::Single,
             _ => Place::Double,
         }
+    }
+
+    /// Whether a state in double precision stands beside the iterations of so many points there.
+    fn has_outer_state(self, scene: &Scene, solved: usize) -> bool {
+        let precision = match self {
+            Place::Double | Place::GpuDouble => Precision::Double,
+            Place::Single => scene.arithmetic_on_processor(solved),
+            Place::Gpu => scene.arithmetic_on_gpu(),
+        };
+        precision == Precision::Mixed
     }
 }
 
@@ -172,7 +187,7 @@ fn plan(
     }
     let mut reference = Vec::new();
     let mut reference_resting = 0;
-    if scene.arithmetic_on(place.on_gpu()) == Precision::Mixed {
+    if place.has_outer_state(scene, problem.shape.len()) {
         let mut double = DryRun::on(Place::Double);
         plan_outer_state(&mut double, &mut iterated, problem, &load);
         reference_resting = double.released_bytes();

@@ -79,9 +79,12 @@ impl Memory {
         // both are counted.
         let reference = own(cost.reference_bytes());
         // While it iterates, and between the iterations of one solve and those of the next.
-        let idle = solver_here + reference - own(cost.resting) - own(cost.reference_resting);
+        let idle = (solver_here + reference)
+            .saturating_sub(own(cost.resting) + own(cost.reference_resting));
         let exchanged = exchange_bytes(cost.points, DOUBLE as usize, ranks) as u64;
-        let active = solver_here + reference + exchanged;
+        // The iterations and the state in double precision work in turn, and the one rests while the other does.
+        let corrects = solver_here + reference - own(cost.reference_resting);
+        let active = corrects.max(idle + own(cost.reference_resting)) + exchanged;
 
         // The heights, which surface and problem share, and the table of the stiffness.
         let history = own(cost.history_bytes());
@@ -97,8 +100,13 @@ impl Memory {
         // A gap from which a solve starts is the host's until it ends, unless the solver has it.
         let first_start = u64::from(cost.starts_from_gap) * field;
         let start = u64::from(cost.moves_the_gap) * field;
-        // A field on its way between the iterations and the state in double precision.
-        let between = if reference > 0 { field } else { 0 };
+        // A field on its way from an adapter to the state in double precision; that from the processor fits where the iterations
+        // rest.
+        let between = if reference > 0 && !on_processor {
+            field
+        } else {
+            0
+        };
         let passing = own(cost.host.passing as usize);
         let alone = active + between.max(passing);
         let iterating = alone + start;

@@ -67,6 +67,11 @@ impl Plan {
         plan
     }
 
+    /// Where it runs, as far as is known without a look at the machine.
+    pub fn place(&self) -> Place {
+        Place::for_scene(&self.scene, &self.outline.grid)
+    }
+
     /// Fields, tables and passes of its solver in a place.
     ///
     /// # Errors

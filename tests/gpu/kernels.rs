@@ -235,9 +235,8 @@ fn run(
     }
     if based {
         let gaps = gap_like(draw(own.len()), &params.law, flows);
-        let residuals = draw(own.len());
-        let base = [&gaps, &residuals].map(|values| make(backend, level, values));
-        backend.set_outer_state(Some(base));
+        let outer_gap = make(backend, level, &gaps);
+        backend.set_outer_gap(Some(outer_gap));
     }
     backend.set_params(params);
     backend.set_scalars(&passing());
@@ -484,14 +483,13 @@ fn device_exponentials(device: &GpuDevice, values: &[f64], less_one: bool) -> Ve
         field
     };
     let zeros = vec![0.0; values.len()];
-    let [gap, pressure, outer_gap, outer_residual] =
-        [values, &zeros, &zeros, &zeros].map(&mut make);
+    let [gap, pressure, outer_gap] = [values, &zeros, &zeros].map(&mut make);
     let result = make(&vec![f64::NAN; values.len()]);
     let law = Law::Exponential(Exponential {
         work_of_adhesion: 1.0,
         range: 1.0,
     });
-    backend.set_outer_state(less_one.then_some([outer_gap, outer_residual]));
+    backend.set_outer_gap(less_one.then_some(outer_gap));
     backend.set_params(&params(law, false, Number::Double));
     backend.set_scalars(&Scalars::start(0.0, false));
     backend.run(&OUTER_RESIDUAL, level, &[gap, pressure, result]);

@@ -123,7 +123,7 @@ fn kernels_are_valid_and_bind_what_the_catalogue_declares() {
                     assert_eq!(module.entry_points[0].name, kernel.name);
                     // The same on corrections of an outer state.
                     let corrected = LawSource {
-                        outer: Some(kernel.fields()),
+                        outer_gap: Some(kernel.fields()),
                         ..uniform(law)
                     };
                     let text = source::kernel(kernel, plan, whole, corrected, wide)

@@ -99,8 +99,8 @@ macro_rules! passed_on {
         fn set_law_factor(&mut self, factor: Field) {
             self.inner.set_law_factor(factor);
         }
-        fn set_outer_state(&mut self, outer: Option<[Field; 2]>) {
-            self.inner.set_outer_state(outer);
+        fn set_outer_gap(&mut self, outer_gap: Option<Field>) {
+            self.inner.set_outer_gap(outer_gap);
         }
         fn clear(&mut self, field: Field) {
             self.inner.clear(field);

@@ -100,10 +100,7 @@ fn a_run_takes_what_was_counted() {
         let summary = summary(&folder.path().join("scene"));
         let peak = summary["peak_memory_bytes"].as_f64().expect("a peak");
         let plan = plan(&text);
-        let counted = plan
-            .memory(Place::for_scene(&plan.scene))
-            .expect("a count")
-            .machine as f64;
+        let counted = plan.memory(plan.place()).expect("a count").machine as f64;
         let share = peak / counted;
         println!(
             "{share:.3} of {:.0} MiB: {name}",
@@ -166,7 +163,7 @@ fn a_whole_path_takes_what_is_stated_to_a_tenth() {
         let summary = summary(&folder.path().join("scene"));
         let peak = summary["peak_memory_bytes"].as_f64().expect("a peak");
         let plan = plan(&text);
-        let memory = plan.memory(Place::for_scene(&plan.scene)).expect("a count");
+        let memory = plan.memory(plan.place()).expect("a count");
         let stated = if searches {
             memory.machine
         } else {

@@ -6,7 +6,6 @@ use std::path::{Path, PathBuf};
 
 use approx::assert_relative_eq;
 use stats_alloc::Region;
-use tabor::backend::dry_run::Place;
 use tabor::effect::Effect;
 use tabor::scene::{Boundary, Scene, SurfacePart};
 use tabor::study::{Cost, Memory, Plan, Setup};
@@ -50,7 +49,7 @@ fn has_file(scene: &Scene) -> bool {
 fn check(path: &Path, points: usize) -> (Plan, usize) {
     let region = Region::new(ALLOCATOR);
     let plan = Plan::for_scene(read(path, Some(points))).unwrap_or_else(|error| panic!("{error}"));
-    let place = Place::for_scene(&plan.scene);
+    let place = plan.place();
     let cost = plan.cost(place).expect("a plan");
     for effect in Effect::ALL {
         if effect.is_on(&plan.scene) {
@@ -60,7 +59,7 @@ fn check(path: &Path, points: usize) -> (Plan, usize) {
         }
     }
     let available = 1 << 30;
-    Memory::largest_grid(&plan.scene, plan.outline.grid, place, available).expect("a plan");
+    Memory::largest_grid(&plan.scene, plan.outline.grid, available).expect("a plan");
     let change = region.change();
     let bytes = change.bytes_allocated as isize + change.bytes_reallocated;
     (plan, usize::try_from(bytes).unwrap_or(0))
@@ -98,7 +97,7 @@ fn a_check_takes_no_field_and_says_what_the_heights_say() {
         let surface = Surface::build(&scene).unwrap_or_else(|error| panic!("{name}: {error}"));
         let setup = Setup::new(scene, surface);
         // The same cost, warnings and law with heights and without.
-        let cost = plan.cost(Place::for_scene(&plan.scene)).expect("a plan");
+        let cost = plan.cost(plan.place()).expect("a plan");
         assert_eq!(cost, Cost::for_setup(&setup).expect("a plan"), "{name}");
         assert_eq!(plan.warnings, setup.warnings, "{name}");
         assert_eq!(plan.law, setup.law, "{name}");

@@ -15,7 +15,6 @@ use std::time::{Duration, Instant};
 use proptest::prelude::*;
 use proptest::test_runner::{Config, TestRunner};
 use stats_alloc::Region;
-use tabor::backend::dry_run::Place;
 use tabor::scene::{Scene, SurfacePart};
 use tabor::study::{Plan, Setup};
 use tabor::surface::Surface;
@@ -247,7 +246,7 @@ fn is_small(plan: &Plan) -> bool {
         SurfacePart::SelfAffine(rough) => grid.lx.max(grid.ly) / rough.shortest < FEW_WAVES,
         _ => true,
     });
-    let memory = plan.memory(Place::for_scene(&plan.scene)).expect("a count");
+    let memory = plan.memory(plan.place()).expect("a count");
     few_waves && memory.machine < SMALL
 }
 

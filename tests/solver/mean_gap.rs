@@ -72,8 +72,8 @@ fn size(a: &[f64], b: &[f64]) -> f64 {
 
 /// A state in the middle of a solve: closed, barely open and wide open points.
 struct State {
-    /// Gap of the base, 0 without one, and its y less the correction's own part.
-    outer: [Vec<f64>; 2],
+    /// Gap of the base, empty without one.
+    outer_gap: Vec<f64>,
     /// The unknown, the pressure that belongs to it, and what stands in the place of K h.
     gap: Vec<f64>,
     pressure: Vec<f64>,
@@ -111,7 +111,7 @@ impl State {
             ..Scalars::start(mean_pressure, false)
         };
         let state = State {
-            outer: [Vec::new(), Vec::new()],
+            outer_gap: Vec::new(),
             gap: open,
             pressure: whole,
             rigid: of_heights,
@@ -135,18 +135,17 @@ impl State {
             .map(|(g, x)| part(*x) * g)
             .collect();
         let base: Vec<f64> = self.gap.iter().zip(&gap).map(|(g, c)| g - c).collect();
-        let pressure = pressed(&gap);
+        // The pressure starts at that of the base with the mean pressure, and K (base + c) is what it differs by from
+        // what stands in the place of K h.
         let mean = self.scalars.mean_pressure;
-        let total = self
-            .pressure
-            .iter()
-            .zip(&pressure)
-            .map(|(p, c)| p - c + mean);
+        let pressure: Vec<f64> = self.pressure.iter().map(|p| p + mean).collect();
+        let of_open = pressed(&self.gap);
+        let rigid = pressure.iter().zip(&of_open).map(|(p, own)| p - own);
         State {
-            outer: [base.clone(), total.collect()],
+            outer_gap: base,
             gap,
+            rigid: rigid.collect(),
             pressure,
-            rigid: pressed(&base).iter().map(|p| -p).collect(),
             scalars: Scalars {
                 mean_pressure: 0.0,
                 ..self.scalars
@@ -156,12 +155,12 @@ impl State {
     }
 
     fn open(&self) -> Vec<f64> {
-        match self.outer[0].is_empty() {
+        match self.outer_gap.is_empty() {
             true => self.gap.clone(),
             false => self
                 .gap
                 .iter()
-                .zip(&self.outer[0])
+                .zip(&self.outer_gap)
                 .map(|(c, g)| g + c)
                 .collect(),
         }
@@ -194,7 +193,7 @@ impl State {
             whole: Whole::none(),
             around: Whole::none(),
             factor: &[],
-            outer: [&self.outer[0], &self.outer[1]],
+            outer_gap: &self.outer_gap,
             reduces: kernel.reduces,
         };
         (kernel.twin)(&mut rows, &params(), &self.scalars, &mut sums);
@@ -229,9 +228,7 @@ fn restored_step_follows_by_linearity_from_the_step_before_it() {
             .zip(&first)
             .map(|(g, s)| s + restore * (g + s))
             .collect();
-        let y: Vec<f64> = (0..POINTS)
-            .map(|i| state.pressure[i] + mean + state.outer[1].get(i).unwrap_or(&0.0))
-            .collect();
+        let y: Vec<f64> = (0..POINTS).map(|i| state.pressure[i] + mean).collect();
         let cut = open.iter().zip(&uncut).any(|(g, moved)| g + moved < 0.0);
         let bent = pressed(&s);
 

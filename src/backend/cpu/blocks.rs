@@ -47,8 +47,8 @@ pub(super) struct Job<'a, T: Real> {
     pub around: Whole<'a, T>,
     /// Factors on the law's tension, all held rows; empty without them.
     pub factor: &'a [T],
-    /// Gap and residual of the outer state that is corrected, all held rows; empty without one.
-    pub outer: [&'a [T]; 2],
+    /// Gap of the outer state that is corrected, all held rows; empty without one.
+    pub outer_gap: &'a [T],
     /// One set of sums a block.
     pub partials: &'a mut [[f64; SUMS]],
     /// Spectra of these blocks, `work_per_block` tiles each.
@@ -94,7 +94,7 @@ impl<'a, T: Real> Job<'a, T> {
             whole: self.whole,
             around: self.around,
             factor: self.factor,
-            outer: self.outer,
+            outer_gap: self.outer_gap,
             partials,
             work,
             work_per_block: self.work_per_block,
@@ -127,7 +127,7 @@ impl<'a, T: Real> Job<'a, T> {
                 &field[range.clone()]
             }
         };
-        let (factor, outer) = (cut(self.factor), self.outer.map(cut));
+        let (factor, outer_gap) = (cut(self.factor), cut(self.outer_gap));
         let [a, b, c, d] = &mut self.writes;
         let mut rows = Rows {
             first: self.held.first + first,
@@ -140,7 +140,7 @@ impl<'a, T: Real> Job<'a, T> {
             whole: self.whole,
             around: self.around,
             factor,
-            outer,
+            outer_gap,
             reduces: self.reduces,
         };
         (self.twin)(&mut rows, self.params, self.scalars, &mut self.partials[0]);

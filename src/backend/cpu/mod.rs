@@ -39,7 +39,7 @@ pub struct CpuBackend<T: Real> {
     /// The field of factors on the law's tension.
     law_factor: Option<Field>,
     /// Gap and residual of the outer state that is corrected.
-    outer: Option<[Field; 2]>,
+    outer_gap: Option<Field>,
     /// Whether a state in double precision stands beside the fields.
     corrected: bool,
     params: Option<Params>,
@@ -169,7 +169,7 @@ impl<T: CpuReal> CpuBackend<T> {
             fields: Vec::new(),
             spectra: Vec::new(),
             law_factor: None,
-            outer: None,
+            outer_gap: None,
             corrected: false,
             params: None,
             scalars: Scalars::start(0.0, false),
@@ -295,11 +295,9 @@ impl<T: CpuReal> CpuBackend<T> {
             Some(field) if field.level == level => &self.fields[field.index],
             _ => &[],
         };
-        let outer: [&[T]; 2] = match self.outer {
-            Some(outer) if outer[0].level == level => {
-                outer.map(|field| &self.fields[field.index][..])
-            }
-            _ => [&[]; 2],
+        let outer_gap: &[T] = match self.outer_gap {
+            Some(field) if field.level == level => &self.fields[field.index],
+            _ => &[],
         };
         let share = self.share_of_first(level);
         let space = &mut self.levels[level.0];
@@ -320,7 +318,7 @@ impl<T: CpuReal> CpuBackend<T> {
             whole,
             around,
             factor,
-            outer,
+            outer_gap,
             partials,
             work: &mut [],
             work_per_block: 0,
@@ -424,8 +422,8 @@ impl<T: CpuReal> Backend for CpuBackend<T> {
         self.law_factor = Some(factor);
     }
 
-    fn set_outer_state(&mut self, outer: Option<[Field; 2]>) {
-        self.outer = outer;
+    fn set_outer_gap(&mut self, outer_gap: Option<Field>) {
+        self.outer_gap = outer_gap;
     }
 
     fn clear(&mut self, field: Field) {

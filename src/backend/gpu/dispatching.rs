@@ -93,7 +93,7 @@ impl GpuBackend {
         }
         let indices = fields.iter().map(|field| field.index).collect();
         let variant = std::ptr::from_ref(kernel).addr();
-        let key = Key::Kernel(variant, level.0, self.outer.is_some(), indices);
+        let key = Key::Kernel(variant, level.0, self.outer_gap.is_some(), indices);
         let place = Place::for_form(kernel.form);
         if kernel.gate != Gate::Ahead {
             self.settle()?;
@@ -160,14 +160,14 @@ impl GpuBackend {
             Some(field) if field.level == level && kernel.law => Some(follow(&[field])?),
             _ => None,
         };
-        let outer = match self.outer {
-            Some(outer) if outer[0].level == level && kernel.law => Some(follow(&outer)?),
+        let outer_gap = match self.outer_gap {
+            Some(field) if field.level == level && kernel.law => Some(follow(&[field])?),
             _ => None,
         };
         let law = source::LawSource {
             shader: self.law,
             factor,
-            outer,
+            outer_gap,
         };
         let text = source::kernel(kernel, &space.plan, whole, law, self.wide)?;
         let groups = space.plan.slab_groups(kernel.form);

@@ -81,7 +81,7 @@ pub struct GpuBackend {
     /// The field of factors on the law's tension.
     law_factor: Option<Field>,
     /// Gap and residual of the outer state that is corrected.
-    outer: Option<[Field; 2]>,
+    outer_gap: Option<Field>,
     /// Whether a state in double precision stands beside the fields.
     corrected: bool,
     /// Whether scalars that are not finite are a failure.
@@ -134,7 +134,7 @@ impl GpuBackend {
             traffic: Traffic::default(),
             law: Law::HardWall.shader(),
             law_factor: None,
-            outer: None,
+            outer_gap: None,
             corrected: false,
             expects_finite: false,
             failure,
@@ -359,8 +359,8 @@ impl Backend for GpuBackend {
         self.law_factor = Some(factor);
     }
 
-    fn set_outer_state(&mut self, outer: Option<[Field; 2]>) {
-        self.outer = outer;
+    fn set_outer_gap(&mut self, outer_gap: Option<Field>) {
+        self.outer_gap = outer_gap;
     }
 
     fn clear(&mut self, field: Field) {

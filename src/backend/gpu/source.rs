@@ -46,9 +46,8 @@ pub struct LawSource {
     pub shader: LawShader,
     /// Binding of the factors in group 1; `None` where the law is the same everywhere.
     pub factor: Option<usize>,
-    /// Binding of the outer gap in group 1, its residual in the next; `None` where the unknown is the
-    /// gap itself.
-    pub outer: Option<usize>,
+    /// Binding of the outer gap in group 1; `None` where the unknown is the gap itself.
+    pub outer_gap: Option<usize>,
 }
 
 impl LawSource {
@@ -57,7 +56,7 @@ impl LawSource {
         LawSource {
             shader,
             factor: None,
-            outer: None,
+            outer_gap: None,
         }
     }
 }
@@ -189,16 +188,13 @@ fn arrive(source: &mut String, kernel: &Kernel, law: LawSource) {
         ),
         None => ("const law_factor: real = 1.0;\n".to_string(), ""),
     };
-    let (outer, outer_here) = match law.outer {
-        Some(gap) => (
+    let (outer, outer_here) = match law.outer_gap {
+        Some(binding) => (
             format!(
-                "@group(1) @binding({gap}) var<storage, read> outer_gaps: array<real>;\n\
-                 @group(1) @binding({residual}) var<storage, read> outer_residuals: array<real>;\n\
-                 var<private> known_gap: real;\n\
-                 var<private> known_residual: real;\n",
-                residual = gap + 1
+                "@group(1) @binding({binding}) var<storage, read> outer_gaps: array<real>;\n\
+                 var<private> known_gap: real;\n"
             ),
-            "known_gap = outer_gaps[index]; known_residual = outer_residuals[index]; ",
+            "known_gap = outer_gaps[index]; ",
         ),
         None => (String::new(), ""),
     };
@@ -298,7 +294,7 @@ fn join(source: &mut String, kernel: &Kernel, shader: &Shader, law: LawSource, n
             Law::HardWall.shader()
         };
         parts.extend(catalogue::law(asked, number));
-        parts.push(match law.outer {
+        parts.push(match law.outer_gap {
             Some(_) => catalogue::CORRECTION,
             None => catalogue::WHOLE_GAP,
         });

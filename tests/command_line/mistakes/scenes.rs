@@ -602,22 +602,30 @@ fn overrides_change_what_they_name() {
     let single = ("solver.precision", "single");
     let scene = parse_set(&bare, &[single]).expect("a solver");
     assert_eq!(scene.solver.tolerance, Precision::SINGLE_FLOOR);
-    assert_eq!(scene.arithmetic(), Precision::Single);
+    assert!(scene.is_single());
     let at_the_floor = ("solver.tolerance", "1e-4");
     let set = [single, at_the_floor];
     assert_eq!(parse_set(&bare, &set).expect("at the floor"), scene);
     let gpu = ("solver.backend", "gpu");
     let scene = parse_set(&bare, &[gpu]).expect("a solver");
     assert_eq!(scene.solver.tolerance, 1e-6);
-    assert_eq!(scene.arithmetic(), Precision::Mixed);
+    assert_eq!(scene.arithmetic_on_gpu(), Precision::Mixed);
+    // On the processor it goes by the points, the tolerance, and what the corrections of mixed precision can do.
+    let few = 512 * 512 - 1;
+    assert_eq!(scene.arithmetic_on_processor(few), Precision::Double);
+    assert_eq!(scene.arithmetic_on_processor(few + 1), Precision::Mixed);
+    let set = [("solver.tolerance", "1e-11")];
+    let tight = parse_set(&bare, &set).expect("a solver");
+    assert_eq!(tight.arithmetic_on_processor(few + 1), Precision::Double);
     let hardness = ("solid.hardness", "1e12");
     let scene = parse_set(&bare, &[gpu, hardness]).expect("a solver");
-    assert_eq!(scene.arithmetic(), Precision::Double);
+    assert_eq!(scene.arithmetic_on_gpu(), Precision::Double);
+    assert_eq!(scene.arithmetic_on_processor(few + 1), Precision::Double);
     let scene = parse_set(&bare, &[gpu, at_the_floor]).expect("a solver");
-    assert_eq!(scene.arithmetic(), Precision::Single);
+    assert!(scene.is_single());
     let scene = parse_set(&bare, &[("solver.precision", "mixed")]).expect("a solver");
     assert_eq!(
-        (scene.solver.tolerance, scene.arithmetic()),
+        (scene.solver.tolerance, scene.arithmetic_on_processor(1)),
         (1e-6, Precision::Mixed)
     );
     // An effect may be set as a whole.

@@ -206,10 +206,8 @@ fn in_domain(index: u32) -> bool { return index % 8u < 5u && row_of(index) < 4u;
 @group(1) @binding(2) var<storage, read> law_factors: array<real>;
 var<private> law_factor: real;
 @group(1) @binding(3) var<storage, read> outer_gaps: array<real>;
-@group(1) @binding(4) var<storage, read> outer_residuals: array<real>;
 var<private> known_gap: real;
-var<private> known_residual: real;
-fn arrive(index: u32) -> bool { law_factor = law_factors[index]; known_gap = outer_gaps[index]; known_residual = outer_residuals[index]; return in_domain(index); }
+fn arrive(index: u32) -> bool { law_factor = law_factors[index]; known_gap = outer_gaps[index]; return in_domain(index); }
 @group(1) @binding(0) var<storage, read> field_gap: array<real>;
 fn read_gap(index: u32) -> real { return field_gap[index]; }
 @group(1) @binding(1) var<storage, read> field_pressure: array<real>;
@@ -266,9 +264,9 @@ fn law_difference(gap_here: real, step: real) -> real {
 fn law_repelling_gap(pressure: real) -> real {
     return 0.0;
 }
-// How kernels see the law where the unknown is the correction of an outer gap, whose residual y is
-// known: differences are taken without cancellation, so that all is relative to the correction. Twins:
-// law/correction.rs.
+// How kernels see the law where the unknown is the correction of an outer gap, and the pressure starts at the
+// residual of the outer state: differences are taken without cancellation, so that all is relative to the
+// correction. Twins: law/correction.rs.
 fn open(correction: real) -> real {
     return known_gap + correction;
 }
@@ -278,13 +276,8 @@ fn closed_gap() -> real {
     return -known_gap;
 }
 
-// All of y that does not come from the correction's own pressure.
 fn traction(correction: real) -> real {
-    return known_residual + law_difference(known_gap, correction);
-}
-
-fn pad_traction() -> real {
-    return known_residual;
+    return law_difference(known_gap, correction);
 }
 
 fn slope(correction: real) -> real {
@@ -335,8 +328,7 @@ fn here_at(gap: real, elastic: real, in_domain: bool) -> Here {
     if (in_domain) {
         return state(gap, elastic);
     }
-    let pull = pad_traction();
-    return Here(gap, open(gap), elastic, pull, elastic + pull, true, real(1.0), real(0.0));
+    return Here(gap, open(gap), elastic, real(0.0), elastic, true, real(1.0), real(0.0));
 }
 
 // What r is on a free point in exact balance: less than any rounding, and not 0.

@@ -15,14 +15,14 @@ fn arrive(index: u32) -> bool { return in_domain(index); }
 fn read_heights_pressure(index: u32) -> real { return field_heights_pressure[index]; }
 @group(1) @binding(1) var<storage, read> field_pressure: array<real>;
 fn read_pressure(index: u32) -> real { return field_pressure[index]; }
-@group(1) @binding(2) var<storage, read_write> field_difference: array<real>;
-fn read_difference(index: u32) -> real { return field_difference[index]; }
-fn write_difference(index: u32, value: real) { field_difference[index] = value; }
+@group(1) @binding(2) var<storage, read_write> field_residual: array<real>;
+fn read_residual(index: u32) -> real { return field_residual[index]; }
+fn write_residual(index: u32, value: real) { field_residual[index] = value; }
 const WIDTH: u32 = 8u;
 const HEIGHT: u32 = 8u;
-// Minus the pressure that the outer gap makes.
+// The outer residual less the pressure that the outer gap makes.
 fn at(index: u32, in_domain: bool, line: real) -> real {
-    write_difference(index, read_heights_pressure(index) - read_pressure(index));
+    write_residual(index, read_residual(index) + (read_heights_pressure(index) - read_pressure(index)));
     return line;
 }
 @compute @workgroup_size(256)

@@ -80,11 +80,6 @@ fn traction(gap: real) -> real {
     return law_traction(gap);
 }
 
-// What stands in the traction's place on a pad, which has no law.
-fn pad_traction() -> real {
-    return 0.0;
-}
-
 fn slope(gap: real) -> real {
     return law_slope(gap);
 }
@@ -110,7 +105,7 @@ fn energy_change(gap: real, moved: real) -> vec2<real> {
 // y of the outer state; without a law on the pad.
 fn at(index: u32, in_domain: bool, line: real) -> real {
     let elastic = read_pressure(index) + real(scalars.mean_pressure);
-    var pull = pad_traction();
+    var pull = real(0.0);
     if (in_domain) {
         pull = traction(read_gap(index));
     }

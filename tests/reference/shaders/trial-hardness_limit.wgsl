@@ -143,11 +143,6 @@ fn traction(gap: real) -> real {
     return law_traction(gap);
 }
 
-// What stands in the traction's place on a pad, which has no law.
-fn pad_traction() -> real {
-    return 0.0;
-}
-
 fn slope(gap: real) -> real {
     return law_slope(gap);
 }
@@ -193,8 +188,7 @@ fn here_at(gap: real, elastic: real, in_domain: bool) -> Here {
     if (in_domain) {
         return state(gap, elastic);
     }
-    let pull = pad_traction();
-    return Here(gap, open(gap), elastic, pull, elastic + pull, true, real(1.0), real(0.0));
+    return Here(gap, open(gap), elastic, real(0.0), elastic, true, real(1.0), real(0.0));
 }
 
 // What r is on a free point in exact balance: less than any rounding, and not 0.
@@ -323,13 +317,11 @@ fn trial_terms(tried: Tried, here: Here, in_domain: bool) {
 // What a smooth law's trial asks besides: step length 1, as a search would evaluate it.
 fn smooth_trial_terms(here: Here, step: real, in_domain: bool) {
     let s = wide(step);
+    add_sum(ELASTIC_SLOPE, s * wide(here.elastic));
     if (!in_domain) {
-        // On a pad the residual of an outer state is no law's: the search will not count it.
-        add_sum(ELASTIC_SLOPE, s * wide(here.y));
         return;
     }
     let energy = energy_change(here.gap, step);
-    add_sum(ELASTIC_SLOPE, s * wide(here.elastic));
     add_sum(CHANGE_AT_FIRST, wide(change(here.gap, step)) * s);
     add_sum(ENERGY_CHANGE, wide(energy.x));
     add_sum(ENERGY_SIZE, wide(energy.y));

@@ -123,11 +123,6 @@ fn traction(gap: real) -> real {
     return law_traction(gap);
 }
 
-// What stands in the traction's place on a pad, which has no law.
-fn pad_traction() -> real {
-    return 0.0;
-}
-
 fn slope(gap: real) -> real {
     return law_slope(gap);
 }
@@ -173,8 +168,7 @@ fn here_at(gap: real, elastic: real, in_domain: bool) -> Here {
     if (in_domain) {
         return state(gap, elastic);
     }
-    let pull = pad_traction();
-    return Here(gap, open(gap), elastic, pull, elastic + pull, true, real(1.0), real(0.0));
+    return Here(gap, open(gap), elastic, real(0.0), elastic, true, real(1.0), real(0.0));
 }
 
 // What r is on a free point in exact balance: less than any rounding, and not 0.

@@ -69,7 +69,7 @@ pub fn representative() -> Result<Vec<(String, String)>, GpuError> {
         if kernel.name == "load_residual" && kernel.writes.is_empty() {
             let corrected = LawSource {
                 factor: Some(kernel.fields()),
-                outer: Some(kernel.fields() + 1),
+                outer_gap: Some(kernel.fields() + 1),
                 ..law
             };
             let text = show(kernel, padded, single, Wide::Compensated, corrected)?;
