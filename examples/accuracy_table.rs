@@ -8,8 +8,7 @@ use std::error::Error;
 use std::path::Path;
 use std::time::Instant;
 
-use tabor::backend::Backend;
-use tabor::backend::cpu::CpuBackend;
+use tabor::device::SelectedDevice;
 use tabor::scene::Scene;
 use tabor::study::{Setup, walk};
 use tabor::surface::Surface;
@@ -27,6 +26,7 @@ fn solve(points: usize, tolerance: f64) -> Result<Answer, Box<dyn Error>> {
     let overrides = [
         ("grid.points", points.to_string()),
         ("solver.tolerance", format!("{tolerance:e}")),
+        ("solver.backend", "\"cpu\"".to_owned()),
         ("loading.path", "[\"0.5 MPa\", \"1 MPa\"]".to_owned()),
         ("output.steps", "\"last\"".to_owned()),
     ]
@@ -34,7 +34,8 @@ fn solve(points: usize, tolerance: f64) -> Result<Answer, Box<dyn Error>> {
     let scene = Scene::read(&path, &overrides)?;
     let surface = Surface::build(&scene)?;
     let setup = Setup::new(scene, surface);
-    let make_backend = || -> Box<dyn Backend + Send> { Box::new(CpuBackend::<f64>::new()) };
+    let device = SelectedDevice::new(&setup, false)?;
+    let make_backend = || device.backend();
     let clock = Instant::now();
     let end = walk(&setup, &make_backend, &mut ())?;
     let row = end.rows.last().ok_or("the path has two steps")?;

@@ -9,8 +9,7 @@ use std::error::Error;
 use std::path::Path;
 use std::time::Instant;
 
-use tabor::backend::Backend;
-use tabor::backend::cpu::CpuBackend;
+use tabor::device::SelectedDevice;
 use tabor::kernel::Scalars;
 use tabor::output::peak_memory_bytes;
 use tabor::scene::Scene;
@@ -60,13 +59,16 @@ fn main() -> Result<(), Box<dyn Error>> {
         [loading]
         control = "pressure"
         path = [0.05]
+        [solver]
+        backend = "cpu"
         "#,
         8.0 / points as f64
     );
     let scene = Scene::parse(&scene, "large_rough", Path::new("."), &[])?;
     let surface = Surface::build(&scene)?;
     let setup = Setup::new(scene, surface);
-    let make_backend = || -> Box<dyn Backend + Send> { Box::new(CpuBackend::<f64>::new()) };
+    let device = SelectedDevice::new(&setup, false)?;
+    let make_backend = || device.backend();
     let clock = Instant::now();
     let end = walk(&setup, &make_backend, &mut Report)?;
     let seconds = clock.elapsed().as_secs_f64();

@@ -29,7 +29,7 @@ pub use contact::{ContactSolver, Hold, Load, Outcome, ROUNDS_PER_ITERATION, Star
 pub use heights::Heights;
 pub use outer_state::plan_outer_state;
 pub use problem::{Problem, Scales, good_size, solved_shape};
-pub use refinement::{MOST_ROUNDS, TRIALS_PER_ITERATION};
+pub use refinement::{MOST_ROUNDS, TRIALS_PER_ITERATION, works_in_turn};
 
 /// Where solvers get their backends from; one a level of a coarse start.
 pub type MakeBackend<'a> = &'a dyn Fn() -> Box<dyn crate::backend::Backend + Send>;

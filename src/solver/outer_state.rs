@@ -45,7 +45,6 @@ pub fn plan_outer_state(
         HeightsPressure::plan(double, places.level);
     }
     places.rest(double);
-    iterating.release(places.base);
 }
 
 impl Places {
@@ -81,6 +80,11 @@ impl Places {
 }
 
 impl OuterState {
+    /// Lets go of the work space of its evaluation, until the next one.
+    pub fn rest_work(&mut self) {
+        self.backend.release_work(self.places.level);
+    }
+
     /// Lets go of the field and the work space that only its evaluation needs, until the next one.
     pub fn rest(&mut self) {
         self.places.rest(&mut *self.backend);
@@ -172,7 +176,6 @@ impl OuterState {
             self.places.level,
             &[self.places.pressure],
         );
-        backend.release_work(self.places.level);
         self.measure()
     }
 

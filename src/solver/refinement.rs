@@ -32,6 +32,16 @@ const LOST_ROUNDS: usize = 4;
 /// Trials, lost ones included, that may be made for each iteration allowed.
 pub const TRIALS_PER_ITERATION: usize = 4;
 
+/// Held points from which iterations and state work in turn: memory of shorter fields stays with the allocator (glibc on 64
+/// bits, below 32 MiB), in pieces that do not fit the other's.
+const FEWEST_IN_TURN: usize = 1 << 23;
+
+/// Whether, with so many held points, the iterations of mixed precision rest while its state is evaluated, and the other way
+/// round.
+pub fn works_in_turn(held: usize) -> bool {
+    held >= FEWEST_IN_TURN
+}
+
 impl ContactSolver<'_> {
     /// The state in double precision, made at its first use; `None` where the backend's own numbers
     /// suffice.
@@ -94,7 +104,7 @@ impl ContactSolver<'_> {
                 self.hand_start(start)?;
                 self.begin(load, start, tolerance.max(FIRST_TOLERANCE), careful)?;
                 let first = self.run_out(0, max_iterations, watch)?;
-                self.rest();
+                self.rest_in_turn();
                 (iterations, status) = (first.0.iterations as usize, first.0.status);
                 stopped = first.1;
                 let params = self.params;
@@ -193,6 +203,19 @@ impl ContactSolver<'_> {
         Ok(())
     }
 
+    /// Whether the iterations rest while the state in double precision is evaluated, and the other way round.
+    fn works_in_turn(&self) -> bool {
+        works_in_turn(self.problem.share.len())
+    }
+
+    /// Lets go of all that the next round makes anew, where memory is worth it.
+    fn rest_in_turn(&mut self) {
+        if self.works_in_turn() {
+            self.rest();
+            self.backend.release(self.pressure);
+        }
+    }
+
     /// The numerator that rounding in double precision leaves, which the points of the pad add to.
     fn rounding_floor(&self, end: &Scalars) -> f64 {
         let shape = self.problem.shape;
@@ -224,6 +247,9 @@ impl ContactSolver<'_> {
         iterations: usize,
         watch: &mut dyn FnMut(&Scalars) -> bool,
     ) -> Result<(Scalars, bool), BackendError> {
+        if let (true, Some(outer)) = (self.works_in_turn(), &mut self.outer) {
+            outer.rest_work();
+        }
         let pressure = self.pressure;
         let outer_gap =
             self.with_outer(|outer, iterating, _| outer.hand_outer_state(iterating, pressure))?;
@@ -231,10 +257,9 @@ impl ContactSolver<'_> {
             let rigid = self.heights_pressure();
             self.with_outer(|outer, iterating, _| outer.hand_rigid(iterating, rigid))?;
         }
-        self.with_outer(|outer, _, _| {
+        if let (true, Some(outer)) = (self.works_in_turn(), &mut self.outer) {
             outer.rest();
-            Ok(())
-        })?;
+        }
         for field in [self.gap, self.direction, self.previous_residual] {
             self.backend.clear(field);
         }
@@ -257,10 +282,10 @@ impl ContactSolver<'_> {
         self.choose_preconditioner()?;
         let round = self.run_out(iterations, most, watch);
         self.backend.set_outer_gap(None);
-        // All but the correction is found anew in the next round.
-        self.rest();
-        self.backend.release(self.pressure);
-        self.backend.release(outer_gap);
+        self.rest_in_turn();
+        if self.works_in_turn() {
+            self.backend.release(outer_gap);
+        }
         round
     }
 }

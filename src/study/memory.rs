@@ -9,6 +9,7 @@ use crate::backend::Shape;
 use crate::backend::cpu::{exchange_bytes, largest_slab};
 use crate::grid::{Boundary, Grid};
 use crate::scene::{AdhesionMap, FieldName, HeightFileScene, Scene, StepChoice, SurfacePart};
+use crate::solver::works_in_turn;
 use crate::surface::is_by_rows;
 
 /// A double on the host.
@@ -82,9 +83,15 @@ impl Memory {
         let idle = (solver_here + reference)
             .saturating_sub(own(cost.resting) + own(cost.reference_resting));
         let exchanged = exchange_bytes(cost.points, DOUBLE as usize, ranks) as u64;
-        // The iterations and the state in double precision work in turn, and the one rests while the other does.
+        // Iterations and state that work in turn: the one rests while the other does.
+        let in_turn = on_processor && works_in_turn(solved as usize);
         let corrects = solver_here + reference - own(cost.reference_resting);
-        let active = corrects.max(idle + own(cost.reference_resting)) + exchanged;
+        let both = if in_turn {
+            corrects.max(idle + own(cost.reference_resting))
+        } else {
+            solver_here + reference
+        };
+        let active = both + exchanged;
 
         // The heights, which surface and problem share, and the table of the stiffness.
         let history = own(cost.history_bytes());
@@ -100,13 +107,8 @@ impl Memory {
         // A gap from which a solve starts is the host's until it ends, unless the solver has it.
         let first_start = u64::from(cost.starts_from_gap) * field;
         let start = u64::from(cost.moves_the_gap) * field;
-        // A field on its way from an adapter to the state in double precision; that from the processor fits where the iterations
-        // rest.
-        let between = if reference > 0 && !on_processor {
-            field
-        } else {
-            0
-        };
+        // A field on its way between the iterations and the state in double precision; it fits where one of the two rests.
+        let between = if reference > 0 && !in_turn { field } else { 0 };
         let passing = own(cost.host.passing as usize);
         let alone = active + between.max(passing);
         let iterating = alone + start;

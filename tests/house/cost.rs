@@ -182,7 +182,11 @@ fn levels(points: [usize; 2], scene: &Scene) -> Vec<[usize; 2]> {
         .collect()
 }
 
+/// In double precision, whatever `auto` takes on the scene's grid.
 fn check(name: &str, scene: &Scene) {
+    let mut scene = scene.clone();
+    scene.solver.precision = Precision::Double;
+    let scene = &scene;
     let setup = setup(scene.clone());
     let cost = Cost::for_setup(&setup).unwrap_or_else(|error| panic!("{name}: {error}"));
     let grid = setup.surface.grid;

@@ -216,7 +216,8 @@ fn what_does_not_fit_is_refused_with_the_largest_grid_that_does() {
         let ny = nx.div_ceil(8) * 4;
         let set = text.replace("points = 768", &format!("points = [{nx}, {ny}]"));
         let set = set.replace("size = \"10 um\"", "size = [\"20 um\", \"10 um\"]");
-        let memory = plan(&set).memory(Place::Double).expect("a count");
+        let plan = plan(&set);
+        let memory = plan.memory(plan.place()).expect("a count");
         memory.machine <= available
     };
     let next = (points[0] + 4..)
