@@ -147,7 +147,13 @@ impl Memory {
         } else {
             0
         };
-        let solver_field = cost.place.number() as u64 * solved;
+        // Between the iterations and the state in double precision it is one of the longer ones.
+        let number = if reference > 0 {
+            DOUBLE
+        } else {
+            cost.place.number() as u64
+        };
+        let solver_field = number * solved;
         let unused = if !on_processor {
             0
         } else if solver_field < SHORTEST_RETURNED {

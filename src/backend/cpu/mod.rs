@@ -10,6 +10,7 @@
 mod across;
 mod blocks;
 mod plans;
+mod row_transform;
 mod slabs;
 mod transform;
 

@@ -13,7 +13,7 @@ use rustfft::num_traits::Zero;
 
 use super::CpuReal;
 use super::across::{PAIR, Pieces, lay, take_up};
-use super::blocks::{BLOCK, Job, TILE, Tile, run_blocks};
+use super::blocks::{BLOCK, Job, TILE, Tile, alone, run_blocks};
 use super::plans::Plans;
 use crate::backend::Shape;
 use crate::kernel::Form;
@@ -55,8 +55,7 @@ impl<T: CpuReal> Transform<T> {
         let columns = nx / 2 + 1;
         let groups = columns.div_ceil(BLOCK);
         let plans = Plans::<T>::new(shape.points);
-        let transform_len = (plans.row_forward.get_scratch_len())
-            .max(plans.row_backward.get_scratch_len())
+        let transform_len = (plans.rows.scratch_len())
             .max(plans.column_forward.get_inplace_scratch_len())
             .max(plans.column_backward.get_inplace_scratch_len());
         let zero = Complex::<T>::zero();
@@ -122,6 +121,7 @@ impl<T: CpuReal> Transform<T> {
             let (_, count) = job.rows_of(job.blocks.start);
             let lines = &mut guard.lines[..count * nx];
             if form.after_inverse() {
+                plans.rows.part(job.work);
                 for (group, tile) in job.work.iter_mut().enumerate() {
                     let first = group * BLOCK;
                     let spectra = guard.spectra.chunks_exact_mut(columns).take(count);
@@ -131,18 +131,7 @@ impl<T: CpuReal> Transform<T> {
                     .chunks_exact_mut(nx)
                     .zip(guard.spectra.chunks_exact_mut(columns))
                 {
-                    // The imaginary parts of the first and the Nyquist bin are rounding; the real
-                    // transform wants them zero.
-                    spectrum[0].im = T::zero();
-                    if nx.is_multiple_of(2) {
-                        spectrum[columns - 1].im = T::zero();
-                    }
-                    // Lengths are those of the plan, so this cannot fail.
-                    let _ = plans.row_backward.process_with_scratch(
-                        spectrum,
-                        line,
-                        &mut guard.transform,
-                    );
+                    plans.rows.backward(spectrum, line, &mut guard.transform);
                 }
             }
             if form.takes_retained() {
@@ -161,17 +150,14 @@ impl<T: CpuReal> Transform<T> {
                     .chunks_exact_mut(nx)
                     .zip(guard.spectra.chunks_exact_mut(columns))
                 {
-                    let _ = plans.row_forward.process_with_scratch(
-                        line,
-                        spectrum,
-                        &mut guard.transform,
-                    );
+                    plans.rows.forward(line, spectrum, &mut guard.transform);
                 }
                 for (group, tile) in job.work.iter_mut().enumerate() {
                     let first = group * BLOCK;
                     let spectra = guard.spectra.chunks_exact(columns).take(count);
                     rows_to_tile(spectra.map(|spectrum| &spectrum[first..]), alone(tile));
                 }
+                plans.rows.pair(job.work);
             }
         });
     }
@@ -293,11 +279,6 @@ fn copy_rows<T: Real>(from: &[Complex<T>], to: &mut [Complex<T>]) {
             to[..rows].copy_from_slice(&from[..rows]);
         }
     }
-}
-
-/// A tile that nobody else can reach.
-fn alone<T>(tile: &mut Tile<T>) -> &mut [Complex<T>; TILE] {
-    tile.get_mut().unwrap_or_else(PoisonError::into_inner)
 }
 
 /// This thread's buffers. Two threads of different pools may meet here; then one waits.
