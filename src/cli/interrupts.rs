@@ -118,11 +118,11 @@ fn keeps_waiting() -> bool {
 /// Leaves without the cleaning up of libraries, which would wait for the driver or pull its memory from
 /// under it.
 #[cfg(unix)]
-fn leave(status: u8) -> ! {
+pub(super) fn leave(status: u8) -> ! {
     signal_hook::low_level::exit(status.into())
 }
 
 #[cfg(not(unix))]
-fn leave(status: u8) -> ! {
+pub(super) fn leave(status: u8) -> ! {
     std::process::exit(status.into())
 }

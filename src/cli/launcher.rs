@@ -8,12 +8,40 @@ use crate::backend::ranks::MpiSession;
 use crate::backend::ranks::Ranks;
 
 /// What a launcher tells the processes that it starts of their number: Open MPI, and those that speak PMI.
-#[cfg(not(feature = "mpi"))]
+#[cfg(any(not(feature = "mpi"), unix))]
 const COUNTS: [&str; 2] = ["OMPI_COMM_WORLD_SIZE", "PMI_SIZE"];
 /// By one of these a process knows that a launcher has started it: Open MPI, and those that speak PMI or PMIx. Without
 /// one MPI is not started: it would start a service of its own.
 #[cfg(feature = "mpi")]
 const LAUNCHED: [&str; 4] = ["OMPI_COMM_WORLD_SIZE", "PMI_SIZE", "PMI_RANK", "PMIX_RANK"];
+/// What tells a process which of them it is.
+#[cfg(all(feature = "mpi", unix))]
+const RANKS: [&str; 3] = ["OMPI_COMM_WORLD_RANK", "PMI_RANK", "PMIX_RANK"];
+
+/// The first of these variables that holds a number.
+#[cfg(any(not(feature = "mpi"), unix))]
+fn number_in(names: &[&str]) -> Option<usize> {
+    let number = |name| std::env::var(name).ok()?.parse().ok();
+    names.iter().find_map(number)
+}
+
+/// How many processes a launcher has started, if it says so.
+#[cfg(any(not(feature = "mpi"), unix))]
+pub(super) fn count_of_ranks() -> Option<usize> {
+    number_in(&COUNTS)
+}
+
+/// Whether a launcher has started this process.
+#[cfg(feature = "mpi")]
+pub(super) fn is_launched() -> bool {
+    LAUNCHED.iter().any(|name| std::env::var_os(name).is_some())
+}
+
+/// The number of this process before MPI is started.
+#[cfg(all(feature = "mpi", unix))]
+pub(super) fn rank_in_launch() -> usize {
+    number_in(&RANKS).unwrap_or(0)
+}
 
 /// The processes that run a scene together, until it is dropped.
 pub(super) struct Launched {
@@ -27,8 +55,7 @@ pub(super) struct Launched {
 impl Launched {
     /// Meets the others, if a launcher has started this process.
     pub fn start() -> Result<Launched, Failure> {
-        let is_launched = LAUNCHED.iter().any(|name| std::env::var_os(name).is_some());
-        let session = if is_launched {
+        let session = if is_launched() {
             Some(MpiSession::start()?)
         } else {
             None
@@ -48,9 +75,8 @@ impl Launched {
 impl Launched {
     /// Refuses a launch of several: each would solve the whole scene.
     pub fn start() -> Result<Launched, Failure> {
-        let count = |name| std::env::var(name).ok()?.parse().ok();
-        match COUNTS.into_iter().find_map(count) {
-            Some(ranks @ 2_usize..) => Err(Failure::Launched { ranks }),
+        match count_of_ranks() {
+            Some(ranks @ 2..) => Err(Failure::Launched { ranks }),
             _ => Ok(Launched { ranks: None }),
         }
     }

@@ -25,6 +25,8 @@ mod surface;
 mod sweep;
 mod table;
 mod theory;
+#[cfg(all(feature = "mpi", unix))]
+mod watched_rank;
 
 use std::ffi::OsString;
 use std::io::Write;
@@ -324,6 +326,9 @@ enum Failure {
     #[cfg(feature = "mpi")]
     #[error(transparent)]
     Mpi(#[from] MpiError),
+    #[cfg(all(feature = "mpi", unix))]
+    #[error("rank {rank} {cause}; finished steps are kept, and --resume continues after them")]
+    KilledRank { rank: usize, cause: String },
     #[cfg(not(feature = "mpi"))]
     #[error(
         "a launcher has started {ranks} processes, and this build of tabor is without the feature `mpi`: each would solve the whole scene; build it with --features mpi, or start one process"
@@ -365,6 +370,8 @@ impl Failure {
             Failure::Output(_) | Failure::Print(_) | Failure::Rank(_) => 1,
             #[cfg(feature = "mpi")]
             Failure::Mpi(_) => 1,
+            #[cfg(all(feature = "mpi", unix))]
+            Failure::KilledRank { .. } => 1,
             #[cfg(not(feature = "mpi"))]
             Failure::Launched { .. } => 2,
             Failure::Scene(_) | Failure::Surface { .. } | Failure::Usage(_) => 2,
@@ -410,6 +417,17 @@ pub fn main_with(words: Vec<OsString>) -> u8 {
         Ok(arguments) => arguments,
         Err(error) => refuse_call(error, &words),
     };
+    #[cfg(all(feature = "mpi", unix))]
+    if let Command::Run(arguments) = &arguments.command {
+        match watched_rank::wait(&arguments.scene.path) {
+            Ok(None) => {}
+            Ok(Some(status)) => return status,
+            Err(failure) => {
+                fail(&failure.to_string());
+                return failure.status();
+            }
+        }
+    }
     let done = match arguments.command {
         Command::New(arguments) => new::new(&arguments),
         Command::Run(arguments) => run::run(&arguments),

@@ -4,7 +4,7 @@ use std::ops::Range;
 use std::path::{Path, PathBuf};
 
 use super::array;
-use super::by_rows::Reading;
+use super::by_rows::{Reading, with_ends};
 use super::error::{FileError, PartError, SurfaceError};
 use super::file;
 use crate::backend::Share;
@@ -91,6 +91,9 @@ pub(super) fn build(
     Ok(Some(factors))
 }
 
+/// Of grey images black means no attraction, white the full law.
+const SHADES: [f64; 2] = [0.0, 1.0];
+
 /// The factors of a file.
 fn read(
     path: &Path,
@@ -102,16 +105,9 @@ fn read(
     // A map need not be periodic, so mismatched edges are not reported.
     let boundary = Boundary::Free;
     let whole = |most| match file::read_numbers(&plain, boundary, most) {
-        // Grey images: black means no attraction, white the full law.
-        Err(FileError::GreyEndsMissing) => file::read_numbers(
-            &HeightFileScene {
-                black: Some(0.0),
-                white: Some(1.0),
-                ..plain.clone()
-            },
-            boundary,
-            most,
-        ),
+        Err(FileError::GreyEndsMissing) => {
+            file::read_numbers(&with_ends(&plain, SHADES), boundary, most)
+        }
         map => map,
     };
     let reading = Reading {
@@ -120,6 +116,7 @@ fn read(
         share: &|points| share(&Grid::new(points, [1.0; 2])),
         repeats: None,
         whole: &whole,
+        shades: Some(SHADES),
         fits: &|_| Ok(()),
         wrong,
     };

@@ -1,41 +1,33 @@
-//! Maps from files over several processes, each of which keeps its rows. A file whose rows lie one after another, and of
-//! which nothing is asked that takes more than some rows at once, is read by all, each its own rows. Any other one is read
-//! whole by the first process alone, which hands the rows on, up to a number of points that is small beside the slab of a
-//! contact for which several processes are worth their while.
-
-use std::fs;
-use std::path::Path;
+//! Maps from files over several processes, each of which keeps its rows. The first process reads a file some rows at a time and
+//! hands each on, so that none holds the map. What is asked of a map that takes more than some rows at once is done by the
+//! first process alone on the whole, up to a number of points that is small beside the slab of a contact for which several
+//! processes are worth their while; the same holds for formats that give their numbers only together.
 
 use super::error::{FileError, SurfaceError};
 use super::file::{self, HeightMap};
-use super::{formats, prepare};
+use super::formats::{self, Numbers};
+use super::matrix::{Map, Matrix, Size};
+use super::prepare;
 use crate::backend::Share;
-use crate::backend::ranks::{Ranks, agree};
-use crate::scene::{Boundary, Edges, Fill, HeightFileScene};
+use crate::backend::ranks::{RankError, Ranks, agree};
+use crate::scene::{Boundary, Edges, HeightFileScene};
 
 /// Points of the largest file that the first of several processes reads whole, 4096 x 4096: 128 MiB of heights, a few times as
 /// much while it is read, where a slab of a contact that needs several machines has gigabytes.
 pub(super) const MOST_WHOLE: usize = 1 << 24;
-/// Bytes that a number of a text takes at most, nearly: a longer file has more of them, or says in its header how many.
-const LONGEST_NUMBER: u64 = 32;
+/// Numbers of rows that are passed over at once.
+const PASSED: usize = 1 << 20;
 
-/// Refuses a file that is too large to be read whole by one of several processes, as far as its header and its length tell.
-fn check_whole(path: &Path) -> Result<(), FileError> {
-    // What cannot be asked for its length is the reader's to refuse.
-    let length = fs::metadata(path).map_or(0, |metadata| metadata.len());
-    let points = formats::claimed_points(path);
-    let is_large = |[columns, rows]: [usize; 2]| columns.saturating_mul(rows) > MOST_WHOLE;
-    match points {
-        Some(points) if is_large(points) => Err(FileError::Whole {
-            points: Some(points),
-            length,
-        }),
-        None if length > LONGEST_NUMBER * MOST_WHOLE as u64 => Err(FileError::Whole {
-            points: None,
-            length,
-        }),
-        _ => Ok(()),
+/// Opens a file for several processes.
+///
+/// # Errors
+/// See [`FileError`]; one is that the first process would hold too many points.
+fn open(scene: &HeightFileScene) -> Result<Map, FileError> {
+    let map = formats::open_map(&scene.path, MOST_WHOLE)?;
+    if takes_whole(scene) {
+        file::expect_at_most(MOST_WHOLE, [map.columns, map.rows])?;
     }
+    Ok(map)
 }
 
 /// The error of the first file of a scene that several processes refuse, as far as headers and lengths tell.
@@ -44,9 +36,9 @@ pub(crate) fn refused_on_ranks(scene: &crate::scene::Scene) -> Option<SurfaceErr
     use super::{PartError, part_error};
     use crate::scene::{AdhesionMap, SurfacePart};
 
-    let refused = |file: &HeightFileScene| match is_by_rows(file) {
-        true => None,
-        false => check_whole(&file.path).err(),
+    let refused = |file: &HeightFileScene| match open(file) {
+        Err(error @ FileError::Whole { .. }) => Some(error),
+        _ => None,
     };
     let of_part = |(index, part): (usize, &SurfacePart)| {
         let SurfacePart::File(file) = part else {
@@ -72,24 +64,26 @@ pub(crate) fn refused_on_ranks(scene: &crate::scene::Scene) -> Option<SurfaceErr
         .or_else(map)
 }
 
-/// Whether each process reads its own rows of a file.
+/// Whether no process holds the whole of a file.
 pub(crate) fn is_by_rows(scene: &HeightFileScene) -> bool {
-    points_by_rows(scene).is_some()
+    let is_given_by_rows = |map: Map| matches!(map.values, Numbers::Rows(_));
+    // A format that would hold a single point refuses.
+    !takes_whole(scene) && formats::open_map(&scene.path, 0).is_ok_and(is_given_by_rows)
 }
 
-/// Points along x and y of such a file.
-fn points_by_rows(scene: &HeightFileScene) -> Option<[usize; 2]> {
+/// Whether something is asked that makes other points of those of a map.
+fn takes_whole(scene: &HeightFileScene) -> bool {
     let asked = &scene.preparation;
-    // These look at points beside each other, or make other points.
-    let takes_all = asked.profile
-        || asked.outliers.is_some()
-        || asked.edges != Edges::None
-        || asked.resample.is_some()
-        || scene.fill != Fill::None;
-    if takes_all {
-        return None;
+    asked.profile || asked.edges == Edges::Mirror || asked.resample.is_some()
+}
+
+/// The same file with heights of black and white.
+pub(super) fn with_ends(scene: &HeightFileScene, [black, white]: [f64; 2]) -> HeightFileScene {
+    HeightFileScene {
+        black: Some(black),
+        white: Some(white),
+        ..scene.clone()
     }
-    formats::row_major_points(&scene.path)
 }
 
 /// How the map of a file is read, and where its rows go.
@@ -104,6 +98,8 @@ pub(super) struct Reading<'a> {
     pub repeats: Option<usize>,
     /// Reads the whole of a file of at most so many points.
     pub whole: &'a dyn Fn(usize) -> Result<HeightMap, FileError>,
+    /// Black and white of a grey image of which the scene says nothing, if that is no mistake.
+    pub shades: Option<[f64; 2]>,
     /// Refuses a file of so many points along x and y that is no such map.
     pub fits: &'a dyn Fn([usize; 2]) -> Result<(), FileError>,
     /// The error of the surface that one of the file is.
@@ -124,51 +120,27 @@ impl Reading<'_> {
             }
             return Ok(map);
         };
-        // The first one looks at the file, so that all do the same.
-        let look =
-            || points_by_rows(self.scene).map_or([0.0; 2], |points| points.map(|n| n as f64));
-        let points = anyone.told(anyone.is_first().then(look));
-        if let Some(error) = anyone.failure() {
-            return Err(error.into());
+        if takes_whole(self.scene) {
+            return self.handed_on(ranks);
         }
-        if points == [0.0; 2] {
-            self.handed_on(ranks)
-        } else {
-            self.own_rows(ranks, points.map(|n| n as usize))
-        }
+        let opened = self.of_first(ranks, || open(self.scene))?;
+        self.by_rows(ranks, opened)
     }
 
-    /// Each process reads its own rows.
-    fn own_rows(&self, ranks: &dyn Ranks, points: [usize; 2]) -> Result<HeightMap, SurfaceError> {
-        let [columns, rows] = points;
-        let kept = self.scene.preparation.crop.unwrap_or([0, 0, columns, rows]);
-        let fits = (self.fits)(points).and_then(|()| prepare::check_crop(kept, points));
-        fits.map_err(self.wrong)?;
-        let [x, y, nx, ny] = kept;
-        let share = (self.share)([nx, ny]);
-        let own = share.surface_rows();
-        let read = formats::read_rows(&self.scene.path, points, y + own.start..y + own.end);
-        let mut matrix = agree(ranks, read.map_err(self.wrong))?;
-        prepare::keep_columns(&mut matrix, x..x + nx);
-        matrix.rows = ny;
-        let map = file::heights_of(self.scene, self.boundary, matrix, &share);
-        if let Some(error) = share.failure() {
-            return Err(error.into());
-        }
-        map.map_err(self.wrong)
-    }
-
-    /// The first process reads the whole and hands the rows on.
-    fn handed_on(&self, ranks: &dyn Ranks) -> Result<HeightMap, SurfaceError> {
+    /// What the first process finds in the file; it and the others have the same errors.
+    fn of_first<T>(
+        &self,
+        ranks: &dyn Ranks,
+        find: impl FnOnce() -> Result<T, FileError>,
+    ) -> Result<Option<T>, SurfaceError> {
         let anyone = (self.share)([1, 1]);
-        let read = if anyone.is_first() {
-            let read = check_whole(&self.scene.path).and_then(|()| (self.whole)(MOST_WHOLE));
-            read.map(Some)
+        let found = if anyone.is_first() {
+            find().map(Some)
         } else {
             Ok(None)
         };
         // All refuse a large one, in the same words.
-        let refused = match &read {
+        let refused = match &found {
             Err(FileError::Whole { points, length }) => {
                 let [columns, rows] = points.unwrap_or_default();
                 [columns as f64, rows as f64, *length as f64]
@@ -187,7 +159,72 @@ impl Reading<'_> {
                 length: length as u64,
             }));
         }
-        let read = agree(ranks, read.map_err(self.wrong))?;
+        agree(ranks, found.map_err(self.wrong))
+    }
+
+    /// The first process, which has opened the file, hands on some rows at a time.
+    fn by_rows(&self, ranks: &dyn Ranks, opened: Option<Map>) -> Result<HeightMap, SurfaceError> {
+        let (numbers, header) = opened.map(Map::split).unzip();
+        let anyone = (self.share)([1, 1]);
+        let mut header = told_header(&anyone, header)?;
+        let points = [header.columns, header.rows];
+        let [columns, rows] = points;
+        let kept = self.scene.preparation.crop.unwrap_or([0, 0, columns, rows]);
+        let fits = (self.fits)(points).and_then(|()| prepare::check_crop(kept, points));
+        fits.map_err(self.wrong)?;
+        let [x, y, nx, ny] = kept;
+        header.size = header
+            .size
+            .map(|size| prepare::cropped_size(kept, points, size));
+        [header.columns, header.rows] = [nx, ny];
+        let share = (self.share)([nx, ny]);
+
+        let mut numbers = numbers.map(Numbers::into_rows);
+        let mut read = Ok(());
+        let mut lines = Vec::new();
+        let mut next = |count: usize, lines: &mut Vec<f64>| {
+            lines.resize(count * columns, 0.0);
+            if let (Ok(()), Some(numbers)) = (&read, &mut numbers) {
+                read = numbers.next(lines);
+            }
+        };
+        let at_once = (PASSED / columns).max(1);
+        if anyone.is_first() {
+            for start in (0..y).step_by(at_once) {
+                next(at_once.min(y - start), &mut lines);
+            }
+        }
+        // To the end, whatever becomes of what is read: the other processes take all.
+        let heights = share.from_first(true, &mut |values: &mut [f64]| {
+            next(values.len() / nx, &mut lines);
+            let kept = lines.chunks_exact(columns).map(|line| &line[x..x + nx]);
+            for (row, line) in values.chunks_exact_mut(nx).zip(kept) {
+                row.copy_from_slice(line);
+            }
+        });
+        if let Some(error) = share.failure() {
+            return Err(error.into());
+        }
+        agree(ranks, read.map_err(self.wrong))?;
+        let scene = match self.shades {
+            Some(shades) if header.grey => &with_ends(self.scene, shades),
+            _ => self.scene,
+        };
+        let matrix = header.with(heights.unwrap_or_default());
+        let map = file::heights_of(scene, self.boundary, matrix, &share);
+        if let Some(error) = share.failure() {
+            return Err(error.into());
+        }
+        map.map_err(self.wrong)
+    }
+
+    /// The first process reads the whole and hands the rows on.
+    fn handed_on(&self, ranks: &dyn Ranks) -> Result<HeightMap, SurfaceError> {
+        let anyone = (self.share)([1, 1]);
+        let read = self.of_first(ranks, || {
+            open(self.scene)?;
+            (self.whole)(MOST_WHOLE)
+        })?;
         let outline = read.as_ref().map(|map| {
             let [nx, ny] = map.points.map(|n| n as f64);
             let [lx, ly] = map.size.unwrap_or([0.0; 2]);
@@ -215,4 +252,35 @@ impl Reading<'_> {
             warnings: read.map(|map| map.warnings).unwrap_or_default(),
         })
     }
+}
+
+/// What the first process knows of a map, on all; its warnings stay there.
+fn told_header(anyone: &Share, own: Option<Matrix<()>>) -> Result<Matrix<()>, RankError> {
+    let numbers = own.as_ref().map(|own| {
+        let (kind, [lx, ly]) = match own.size {
+            None => (0.0, [0.0; 2]),
+            Some(Size::Metres(size)) => (1.0, size),
+            Some(Size::LikeHeights(size)) => (2.0, size),
+        };
+        let [columns, rows] = [own.columns, own.rows].map(|count| count as f64);
+        let has_unit = f64::from(u8::from(own.unit.is_some()));
+        let unit = own.unit.unwrap_or_default();
+        let grey = f64::from(u8::from(own.grey));
+        [columns, rows, kind, lx, ly, has_unit, unit, grey]
+    });
+    let [columns, rows, kind, lx, ly, has_unit, unit, grey] = anyone.told(numbers);
+    if let Some(error) = anyone.failure() {
+        return Err(error);
+    }
+    Ok(Matrix {
+        size: match kind {
+            1.0 => Some(Size::Metres([lx, ly])),
+            2.0 => Some(Size::LikeHeights([lx, ly])),
+            _ => None,
+        },
+        unit: (has_unit == 1.0).then_some(unit),
+        grey: grey == 1.0,
+        warnings: own.map(|own| own.warnings).unwrap_or_default(),
+        ..Matrix::new((), [rows as usize, columns as usize])
+    })
 }

@@ -418,8 +418,8 @@ pub enum FileError {
     /// A file that one of several processes would hold whole.
     #[error(
         "{} are more than the {MOST_WHOLE} points that the first of several processes reads whole; prepare the file once on one \
-         process (tabor surface writes heights.npy, of which each process reads its own rows), or leave fill, profile, \
-         outliers, edges and resample out where it is such a file",
+         process (tabor surface writes heights.npy, which is read by rows), or leave profile, edges = \"mirror\" and resample out if \
+         one of them is asked for",
         amount(*points, *length)
     )]
     Whole {
@@ -427,6 +427,17 @@ pub enum FileError {
         points: Option<[usize; 2]>,
         /// Its length, bytes.
         length: u64,
+    },
+    /// More missing pixels or outliers than several processes fill.
+    #[error(
+        "{count} pixels are missing or stand out, and several processes fill at most {most}; prepare the file once on one process \
+         (tabor surface writes heights.npy)"
+    )]
+    MissingOnRanks {
+        /// Pixels to fill.
+        count: usize,
+        /// The most that are filled.
+        most: usize,
     },
     /// No numbers: nothing but comments, or an empty array.
     #[error("the file holds no numbers")]

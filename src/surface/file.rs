@@ -122,16 +122,22 @@ pub(super) fn expect_map(grid: Option<[usize; 2]>, points: [usize; 2]) -> Result
     }
 }
 
-/// Reads a file of at most so many points.
-fn read_at_most(scene: &HeightFileScene, most: usize) -> Result<Matrix, FileError> {
-    let matrix = formats::read(&scene.path)?;
-    if matrix.rows * matrix.columns > most {
+/// Refuses more points along x and y than one of several processes holds.
+pub(super) fn expect_at_most(most: usize, points: [usize; 2]) -> Result<(), FileError> {
+    if points[0].saturating_mul(points[1]) > most {
         return Err(FileError::Whole {
-            points: Some([matrix.columns, matrix.rows]),
+            points: Some(points),
             length: 0,
         });
     }
-    Ok(matrix)
+    Ok(())
+}
+
+/// Reads a file of at most so many points.
+fn read_at_most(scene: &HeightFileScene, most: usize) -> Result<Matrix, FileError> {
+    let map = formats::open_map(&scene.path, most)?;
+    expect_at_most(most, [map.columns, map.rows])?;
+    map.read()
 }
 
 /// The same of numbers that need not be heights, where a single row is a map too.
@@ -155,8 +161,8 @@ fn whole_heights_of(
     heights_of(scene, boundary, matrix, &share)
 }
 
-/// Heights of the rows that a process holds, of a matrix with these rows of its values. Of several processes no missing pixel is
-/// filled, and no preparation but a trend taken off.
+/// Heights of the rows that a process holds, of a matrix with these rows of its values. Of several processes the map is neither
+/// mirrored nor resampled.
 pub(super) fn heights_of(
     scene: &HeightFileScene,
     boundary: Boundary,
@@ -173,11 +179,11 @@ pub(super) fn heights_of(
 
     let is_periodic = boundary == Boundary::Periodic;
     if let Some(times) = asked.outliers {
-        let found = prepare::remove_outliers(&mut heights, rows, columns, times, is_periodic);
+        let found = prepare::remove_outliers(&mut heights, share, times, is_periodic)?;
         if found > 0 {
             warnings.push(format!(
                 "{found} of {} points stand out of their neighbours by more than {times} standard deviations and are interpolated",
-                heights.len()
+                rows * columns
             ));
         }
     }
@@ -215,7 +221,7 @@ pub(super) fn heights_of(
     match asked.edges {
         Edges::None => {}
         Edges::Window => {
-            prepare::window(&mut heights, rows, columns);
+            prepare::window(&mut heights, share);
             closes = true;
         }
         Edges::Mirror => {
@@ -304,7 +310,7 @@ fn fill_missing(
         }
         Fill::Interpolate if count == points => Err(FileError::AllMissing { points }),
         Fill::Interpolate => {
-            fill::interpolate(values, rows, columns, boundary == Boundary::Periodic);
+            fill::interpolate(values, share, boundary == Boundary::Periodic)?;
             warnings.push(format!(
                 "{count} of {points} pixels ({:.2} %) were missing and are interpolated",
                 100.0 * count as f64 / points as f64

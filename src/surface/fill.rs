@@ -1,65 +1,134 @@
 //! Interpolates missing pixels from their neighbours.
 
+use std::ops::Range;
+
+use super::error::FileError;
+use crate::backend::{BackendError, Share};
+
 /// Iteration limit of the membrane solve; a hole a few thousand pixels wide needs as many.
 const MOST_ITERATIONS: usize = 20_000;
 
 /// Residual, relative to that of a start from the mean, at which the solve ends.
 const TOLERANCE: f64 = 1e-10;
 
+/// Missing pixels that several processes fill at most: each solves for all of them, in 80 bytes a pixel.
+const MOST_MISSING: usize = 1 << 22;
+
 /// Replaces non-finite heights by a membrane stretched over the finite ones; returns the number
 /// replaced.
 ///
-/// Shape `[rows, columns]`, row-major. Each replaced pixel is the mean of its neighbours (up to 4;
-/// always 4 on a periodic map, across the edges). This is the discrete Laplace equation with pixels
+/// `values` are the rows of a map that this process holds, row-major. Each replaced pixel is the mean of its neighbours
+/// (up to 4; always 4 on a periodic map, across the edges). This is the discrete Laplace equation with pixels
 /// taken as square, solved by conjugate gradients; the number of iterations grows with the diameter
-/// of the largest hole. Without any finite pixel nothing is replaced.
+/// of the largest hole. Without any finite pixel nothing is replaced, nor where a process has ended.
+///
+/// # Errors
+/// More missing pixels than several processes fill.
 pub(super) fn interpolate(
     values: &mut [f64],
-    rows: usize,
-    columns: usize,
+    share: &Share,
     periodic: bool,
-) -> usize {
-    let missing: Vec<usize> = (0..values.len())
-        .filter(|index| !values[*index].is_finite())
-        .collect();
-    if missing.is_empty() || missing.len() == values.len() {
-        return 0;
+) -> Result<usize, FileError> {
+    let here = values.iter().filter(|value| !value.is_finite()).count();
+    let [columns, rows] = share.surface();
+    let [count] = share.counts([here]);
+    if count == 0 || count == rows * columns {
+        return Ok(0);
     }
-    let known = (values.len() - missing.len()) as f64;
-    let finite = values.iter().filter(|value| value.is_finite());
-    let mean = finite.map(|value| value / known).sum::<f64>();
+    if !share.is_whole() && count > MOST_MISSING {
+        return Err(FileError::MissingOnRanks {
+            count,
+            most: MOST_MISSING,
+        });
+    }
+    // One that has ended is the caller's to see.
+    Ok(fill(values, share, periodic).unwrap_or(0))
+}
 
-    // Index of a missing pixel in the list of unknowns; `missing.len()` for a known pixel.
+fn fill(values: &mut [f64], share: &Share, periodic: bool) -> Result<usize, BackendError> {
+    let [columns, rows] = share.surface();
+    let first = share.surface_rows().start * columns;
+    let here: Vec<usize> = (0..values.len())
+        .filter(|place| !values[*place].is_finite())
+        .map(|place| first + place)
+        .collect();
+    let of_ranks = share.numbers(&[here.len() as f64], (0..share.count()).map(|_| 1))?;
+    let lengths = || of_ranks.iter().map(|length| *length as usize);
+    let numbers: Vec<f64> = here.iter().map(|pixel| *pixel as f64).collect();
+    let missing = share.numbers(&numbers, lengths())?;
+    let missing: Vec<usize> = missing.into_iter().map(|pixel| pixel as usize).collect();
     let none = missing.len();
-    let mut slot = vec![none; values.len()];
-    for (index, pixel) in missing.iter().enumerate() {
-        slot[*pixel] = index;
-    }
+    let known = (rows * columns - none) as f64;
+    let [mean] = share.sums(values.len() / columns, |row, [sum]| {
+        let line = &values[row * columns..(row + 1) * columns];
+        for value in line.iter().filter(|value| value.is_finite()) {
+            *sum += value / known;
+        }
+    });
+
+    // Index of a missing pixel in the list of unknowns; `none` for a known pixel.
+    let slot = |pixel: usize| missing.binary_search(&pixel).unwrap_or(none);
     // The equations: degree * unknown - sum of unknown neighbours = sum of known neighbours.
     let mut neighbours = Vec::with_capacity(none);
     let mut degrees = Vec::with_capacity(none);
-    let mut residual = Vec::with_capacity(none);
     for pixel in &missing {
-        let mut slots = [none; 4];
-        let (mut degree, mut load) = (0.0, 0.0);
         let around = neighbours_of(*pixel, rows, columns, periodic);
+        let mut slots = [none; 4];
         for (place, neighbour) in slots.iter_mut().zip(around.into_iter().flatten()) {
-            *place = slot[neighbour];
-            degree += 1.0;
-            if slot[neighbour] == none {
-                load += values[neighbour] - mean;
+            *place = slot(neighbour);
+        }
+        degrees.push(around.iter().flatten().count() as f64);
+        neighbours.push(slots);
+    }
+    let beside = rows_beside(values, share)?;
+    let value = |pixel: usize| match pixel.checked_sub(first).and_then(|at| values.get(at)) {
+        Some(value) => *value,
+        None => beside.value(pixel, columns),
+    };
+    let load = |pixel: &usize| {
+        let mut load = 0.0;
+        let around = neighbours_of(*pixel, rows, columns, periodic);
+        for neighbour in around.into_iter().flatten() {
+            if slot(neighbour) == none {
+                load += value(neighbour) - mean;
             }
         }
-        neighbours.push(slots);
-        degrees.push(degree);
-        residual.push(load);
+        load
+    };
+    let loads: Vec<f64> = here.iter().map(load).collect();
+    // Every process solves for all.
+    let unknown = solve_membrane(&neighbours, &degrees, share.numbers(&loads, lengths())?);
+    for pixel in here {
+        values[pixel - first] = mean + unknown[slot(pixel)];
     }
-    drop(slot);
-    let unknown = solve_membrane(&neighbours, &degrees, residual);
-    for (pixel, height) in missing.iter().zip(&unknown) {
-        values[*pixel] = mean + height;
+    Ok(none)
+}
+
+/// The rows before and after those of a process, on the ring of all rows.
+struct RowsBeside {
+    rows: [usize; 2],
+    values: Vec<f64>,
+}
+
+impl RowsBeside {
+    fn value(&self, pixel: usize, columns: usize) -> f64 {
+        let row = self.rows.iter().position(|row| *row == pixel / columns);
+        row.map_or(f64::NAN, |row| self.values[row * columns + pixel % columns])
     }
-    none
+}
+
+fn rows_beside(values: &[f64], share: &Share) -> Result<RowsBeside, BackendError> {
+    let [columns, all] = share.surface();
+    let beside = |rows: Range<usize>| [(rows.start + all - 1) % all, rows.end % all];
+    let wanted = |rank: usize| match share.surface_rows_of(rank) {
+        rows if rows.is_empty() => Vec::new(),
+        rows => beside(rows).to_vec(),
+    };
+    let held = |rank: usize| share.surface_rows_of(rank);
+    Ok(RowsBeside {
+        rows: beside(share.surface_rows()),
+        values: share.fetch(values, columns, held, wanted)?,
+    })
 }
 
 /// Conjugate gradients for the membrane from a start of 0; `residual` is the right-hand side.
@@ -118,7 +187,13 @@ fn neighbours_of(pixel: usize, rows: usize, columns: usize, periodic: bool) -> [
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::backend::Shape;
     use approx::assert_relative_eq;
+
+    fn filled(values: &mut [f64], rows: usize, columns: usize, periodic: bool) -> usize {
+        let share = Share::whole(Shape::whole(columns, rows));
+        interpolate(values, &share, periodic).unwrap()
+    }
 
     #[test]
     fn a_plane_is_filled_exactly() {
@@ -131,7 +206,7 @@ mod tests {
             }
         }
         values[8 * 12 + 1] = f64::INFINITY;
-        assert_eq!(interpolate(&mut values, 10, 12, false), 31);
+        assert_eq!(filled(&mut values, 10, 12, false), 31);
         for (index, value) in values.iter().enumerate() {
             assert_relative_eq!(*value, plane(index), max_relative = 1e-8, epsilon = 1e-8);
         }
@@ -141,17 +216,17 @@ mod tests {
     fn a_hole_at_a_periodic_edge_has_neighbours_opposite() {
         let row = [f64::NAN, 1.0, 2.0, 7.0];
         let mut free = row;
-        interpolate(&mut free, 1, 4, false);
+        filled(&mut free, 1, 4, false);
         assert_relative_eq!(free[0], 1.0, max_relative = 1e-12);
         let mut periodic = row;
-        interpolate(&mut periodic, 1, 4, true);
+        filled(&mut periodic, 1, 4, true);
         assert_relative_eq!(periodic[0], 4.0, max_relative = 1e-12);
     }
 
     #[test]
     fn a_map_without_finite_pixels_is_unchanged() {
         let mut values = [f64::NAN; 4];
-        assert_eq!(interpolate(&mut values, 2, 2, true), 0);
-        assert_eq!(interpolate(&mut [1.0; 4], 2, 2, true), 0);
+        assert_eq!(filled(&mut values, 2, 2, true), 0);
+        assert_eq!(filled(&mut [1.0; 4], 2, 2, true), 0);
     }
 }

@@ -1,10 +1,13 @@
 //! A matrix of numbers as a file holds it.
 
+use super::error::FileError;
+use super::formats::Numbers;
+
 /// Numbers of a height file before unit, scale and detrending.
 #[derive(Clone, Debug, Default, PartialEq)]
-pub(super) struct Matrix {
+pub(super) struct Matrix<V = Vec<f64>> {
     /// Numbers in the file's unit, shape `[rows, columns]`, row-major; a missing one is NaN.
-    pub(super) values: Vec<f64>,
+    pub(super) values: V,
     /// Rows, along y.
     pub(super) rows: usize,
     /// Columns, along x.
@@ -19,15 +22,69 @@ pub(super) struct Matrix {
     pub(super) warnings: Vec<String>,
 }
 
-impl Matrix {
+/// What a file says of its numbers, which are still to be read.
+pub(super) type Map = Matrix<Numbers>;
+
+impl<V> Matrix<V> {
     /// Numbers of shape `[rows, columns]` of which nothing else is known.
-    pub(super) fn new(values: Vec<f64>, [rows, columns]: [usize; 2]) -> Self {
+    pub(super) fn new(values: V, [rows, columns]: [usize; 2]) -> Self {
         Matrix {
             values,
             rows,
             columns,
-            ..Matrix::default()
+            size: None,
+            unit: None,
+            grey: false,
+            warnings: Vec::new(),
         }
+    }
+
+    /// The numbers, and the same without them.
+    pub(super) fn split(self) -> (V, Matrix<()>) {
+        let header = Matrix {
+            values: (),
+            rows: self.rows,
+            columns: self.columns,
+            size: self.size,
+            unit: self.unit,
+            grey: self.grey,
+            warnings: self.warnings,
+        };
+        (self.values, header)
+    }
+}
+
+impl Matrix<()> {
+    /// The same with numbers.
+    pub(super) fn with<V>(self, values: V) -> Matrix<V> {
+        Matrix {
+            values,
+            rows: self.rows,
+            columns: self.columns,
+            size: self.size,
+            unit: self.unit,
+            grey: self.grey,
+            warnings: self.warnings,
+        }
+    }
+}
+
+impl Map {
+    /// Reads all of its numbers.
+    ///
+    /// # Errors
+    /// The file cannot be read, and too little memory.
+    pub(super) fn read(self) -> Result<Matrix, FileError> {
+        let (numbers, header) = self.split();
+        let values = numbers.all([header.rows, header.columns])?;
+        Ok(header.with(values))
+    }
+}
+
+impl From<Matrix> for Map {
+    fn from(matrix: Matrix) -> Map {
+        let (values, header) = matrix.split();
+        header.with(Numbers::Held(values))
     }
 }
 

@@ -255,6 +255,7 @@ fn read_maps(
                 .filter(|_| file.preparation.profile)
                 .map(|[_, rows]| rows),
             whole: &|most| file::read(file, scene.boundary, scene.points, most),
+            shades: None,
             fits: &|points| {
                 file::check_factors(file)?;
                 file::expect_map(scene.points, points)

@@ -1,11 +1,11 @@
 //! Preparation of a measured map: crop, profile, outliers, edges.
 
 use std::f64::consts::FRAC_PI_2;
-use std::ops::Range;
 
 use super::error::FileError;
 use super::fill;
 use super::matrix::{Matrix, Size};
+use crate::backend::Share;
 
 /// A map is a line scan if its sides are this many times apart,
 const LINE: usize = 1000;
@@ -85,12 +85,18 @@ pub(super) fn check_crop(crop: [usize; 4], [columns, rows]: [usize; 2]) -> Resul
     })
 }
 
-/// Keeps some columns of a matrix, of as many rows as it has values of.
-pub(super) fn keep_columns(matrix: &mut Matrix, kept: Range<usize>) {
-    if kept != (0..matrix.columns) {
-        let rows = matrix.values.chunks_exact(matrix.columns);
-        matrix.values = rows.flat_map(|row| &row[kept.clone()]).copied().collect();
-        matrix.columns = kept.len();
+/// Size of that part of a map of such a size.
+pub(super) fn cropped_size(crop: [usize; 4], [columns, rows]: [usize; 2], size: Size) -> Size {
+    let [_, _, nx, ny] = crop;
+    let part = |[width, height]: [f64; 2]| {
+        [
+            width * nx as f64 / columns as f64,
+            height * ny as f64 / rows as f64,
+        ]
+    };
+    match size {
+        Size::Metres(size) => Size::Metres(part(size)),
+        Size::LikeHeights(size) => Size::LikeHeights(part(size)),
     }
 }
 
@@ -102,48 +108,54 @@ pub(super) fn crop(matrix: &mut Matrix, crop: [usize; 4]) -> Result<(), FileErro
     matrix.values.truncate((y + ny) * columns);
     matrix.values.drain(..y * columns);
     matrix.values.shrink_to_fit();
-    keep_columns(matrix, x..x + nx);
-    let part = |[width, height]: [f64; 2]| {
-        [
-            width * nx as f64 / columns as f64,
-            height * ny as f64 / rows as f64,
-        ]
-    };
-    matrix.size = matrix.size.map(|size| match size {
-        Size::Metres(size) => Size::Metres(part(size)),
-        Size::LikeHeights(size) => Size::LikeHeights(part(size)),
-    });
+    if nx != columns {
+        let rows = matrix.values.chunks_exact(columns);
+        matrix.values = rows.flat_map(|row| &row[x..x + nx]).copied().collect();
+    }
+    let size = matrix.size;
+    matrix.size = size.map(|size| cropped_size(crop, [columns, rows], size));
     (matrix.rows, matrix.columns) = (ny, nx);
     Ok(())
 }
 
 /// Interpolates points that stand out of their eight neighbours' median by more than `times` the standard deviation
-/// of such differences, estimated from their median. Returns how many.
+/// of such differences, estimated from their median. Returns how many; none where a process has ended.
+///
+/// # Errors
+/// More of them than several processes fill.
 pub(super) fn remove_outliers(
     values: &mut [f64],
-    rows: usize,
-    columns: usize,
+    share: &Share,
     times: f64,
     periodic: bool,
-) -> usize {
-    let differences: Vec<f64> = (0..values.len())
-        .map(|index| values[index] - median(&mut around(values, rows, columns, index)))
+) -> Result<usize, FileError> {
+    let columns = share.surface()[0];
+    let Ok([before, after]) = share.surface_rows_beside(values) else {
+        return Ok(0);
+    };
+    // The held rows between those beside them, which an edge of the map lacks.
+    let around_here = [&before[..], values, &after[..]].concat();
+    let differences: Vec<f64> = (before.len()..before.len() + values.len())
+        .map(|index| around_here[index] - median(&mut around(&around_here, columns, index)))
         .collect();
+    drop(around_here);
     let mut sizes: Vec<f64> = differences.iter().map(|one| one.abs()).collect();
-    let deviation = NORMAL * median(&mut sizes);
+    let deviation = NORMAL * median_of_all(&mut sizes, share);
+    drop(sizes);
     if deviation == 0.0 {
-        return 0;
+        return Ok(0);
     }
     for (value, difference) in values.iter_mut().zip(&differences) {
         if difference.abs() > times * deviation {
             *value = f64::NAN;
         }
     }
-    fill::interpolate(values, rows, columns, periodic)
+    fill::interpolate(values, share, periodic)
 }
 
 /// The up to eight neighbours of a point.
-fn around(values: &[f64], rows: usize, columns: usize, index: usize) -> Vec<f64> {
+fn around(values: &[f64], columns: usize, index: usize) -> Vec<f64> {
+    let rows = values.len() / columns;
     let (row, column) = (index / columns, index % columns);
     let mut found = Vec::with_capacity(8);
     for r in row.saturating_sub(1)..=(row + 1).min(rows - 1) {
@@ -156,6 +168,28 @@ fn around(values: &[f64], rows: usize, columns: usize, index: usize) -> Vec<f64>
     found
 }
 
+/// Median of sizes, of which each process has some.
+fn median_of_all(sizes: &mut [f64], share: &Share) -> f64 {
+    if share.is_whole() {
+        return median(sizes);
+    }
+    let [columns, rows] = share.surface();
+    let below = rows * columns / 2;
+    // The bits of numbers without a sign are in their order: the last number that has no more than that many below it.
+    let (mut least, mut greatest) = (0, f64::INFINITY.to_bits());
+    while least < greatest {
+        let middle = greatest - (greatest - least) / 2;
+        let bits = sizes.iter().map(|size| size.to_bits());
+        let [count] = share.counts([bits.filter(|bits| *bits < middle).count()]);
+        if count <= below {
+            least = middle;
+        } else {
+            greatest = middle - 1;
+        }
+    }
+    f64::from_bits(least)
+}
+
 /// Median; 0 of nothing. Reorders the values.
 fn median(values: &mut [f64]) -> f64 {
     if values.is_empty() {
@@ -165,9 +199,11 @@ fn median(values: &mut [f64]) -> f64 {
     *values.select_nth_unstable_by(middle, f64::total_cmp).1
 }
 
-/// Brings the heights to their mean at the edges, over an eighth of each side.
-pub(super) fn window(heights: &mut [f64], rows: usize, columns: usize) {
-    let mean = heights.iter().sum::<f64>() / heights.len() as f64;
+/// Brings the heights of the held rows to the mean of all at the edges, over an eighth of each side.
+pub(super) fn window(heights: &mut [f64], share: &Share) {
+    let [columns, rows] = share.surface();
+    let first = share.surface_rows().start;
+    let mean = share.surface_sum_by(heights, |height| height) / (rows * columns) as f64;
     let weight = |at: usize, count: usize| {
         let wide = (count / WINDOW) as f64;
         let inside = at.min(count - 1 - at) as f64 + 0.5;
@@ -178,7 +214,7 @@ pub(super) fn window(heights: &mut [f64], rows: usize, columns: usize) {
         }
     };
     for (index, height) in heights.iter_mut().enumerate() {
-        let weight = weight(index % columns, columns) * weight(index / columns, rows);
+        let weight = weight(index % columns, columns) * weight(first + index / columns, rows);
         *height = mean + (*height - mean) * weight;
     }
 }
@@ -198,6 +234,11 @@ pub(super) fn mirror(heights: &[f64], rows: usize, columns: usize) -> (Vec<f64>,
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::backend::Shape;
+
+    fn all(rows: usize, columns: usize) -> Share {
+        Share::whole(Shape::whole(columns, rows))
+    }
 
     #[test]
     fn a_spike_goes_and_roughness_stays() {
@@ -205,7 +246,10 @@ mod tests {
         let mut values = rough.clone();
         values[210] = 500.0;
         values[399] = -300.0;
-        assert_eq!(remove_outliers(&mut values, 20, 20, 8.0, false), 2);
+        assert_eq!(
+            remove_outliers(&mut values, &all(20, 20), 8.0, false).unwrap(),
+            2
+        );
         for (index, (value, before)) in values.iter().zip(&rough).enumerate() {
             if index == 210 || index == 399 {
                 assert!((0.0..=10.0).contains(value), "{index}: {value}");
@@ -215,7 +259,10 @@ mod tests {
         }
         let mut flat = vec![1.0; 9];
         flat[4] = 2.0;
-        assert_eq!(remove_outliers(&mut flat, 3, 3, 5.0, false), 0);
+        assert_eq!(
+            remove_outliers(&mut flat, &all(3, 3), 5.0, false).unwrap(),
+            0
+        );
     }
 
     #[test]
@@ -229,7 +276,7 @@ mod tests {
             (0.0, 31.0, 31.0)
         );
         assert_eq!(mirrored[31 * 64..], mirrored[..64]);
-        window(&mut heights, 16, 32);
+        window(&mut heights, &all(16, 32));
         let mean = 15.5;
         // Half a point from the edge, of a taper of four points.
         let least = (FRAC_PI_2 * 0.5 / 4.0).sin().powi(2);

@@ -16,6 +16,42 @@ const ADHESION: &str =
 const PRESSURE: &str = "[loading]\ncontrol = \"pressure\"\npath = [2e5]";
 const FORCE: &str = "[loading]\ncontrol = \"force\"\npath = [1e-6]";
 
+/// Maps of other programs in tests/files.
+const FILES: [&str; 32] = [
+    "asylum.ibw",
+    "bruker_10.spm",
+    "bruker_5.spm",
+    "description.vk4",
+    "description.vk6",
+    "gdal.xyz",
+    "gdal_6.grd",
+    "gdal_7.grd",
+    "gdal_text.grd",
+    "gwyddion.gsf",
+    "gwyddion.gwy",
+    "gwyddion.sdf",
+    "gwyddion.sur",
+    "gwyddion.txt",
+    "gwyfile_mask.gwy",
+    "mountains.x3p",
+    "nanosurf.nid",
+    "numpy_fortran.npy",
+    "numpy_half.npy",
+    "pillow_16.png",
+    "pillow_lzw.tif",
+    "sensofar.plu",
+    "surfalize.al3d",
+    "surfalize.sur",
+    "surfalize_binary.sdf",
+    "surfalize_holes.sur",
+    "surfalize_text.sdf",
+    "tifffile_16.tif",
+    "tifffile_deflate.tif",
+    "tifffile_float.tif",
+    "wyko.opd",
+    "zygo.dat",
+];
+
 /// A .npy file of doubles, `order` C or Fortran.
 fn npy(
     path: &Path,
@@ -80,10 +116,19 @@ fn height_files() {
     npy(&at("columns.npy"), points, true, height);
     npy(&at("holes.npy"), points, false, |row, column| {
         match [row, column] {
-            [9, 4] | [30, 5] => f64::NAN,
+            // Holes over the edges of the map and of the rows of a rank.
+            [9, 4] | [30, 5] | [0, 3] | [37, 3] | [7, 20] | [8, 20] => f64::NAN,
             [31, 7] => f64::INFINITY,
             _ => height(row, column),
         }
+    });
+    npy(&at("spikes.npy"), points, false, |row, column| {
+        height(row, column)
+            * if [row, column] == [16, 8] || [row, column] == [0, 23] {
+                300.0
+            } else {
+                1.0
+            }
     });
     npy(&at("map.npy"), points, false, |row, column| {
         0.5 + ((row + column) % 3) as f64
@@ -143,6 +188,18 @@ fn height_files() {
         ),
         (file("rows.npy", "edges = \"window\"\n"), ""),
         (file("holes.npy", "fill = \"interpolate\"\n"), ""),
+        (file("spikes.npy", "outliers = 5.0\n"), ""),
+        (
+            file(
+                "holes.npy",
+                "fill = \"interpolate\"\noutliers = 6.0\nedges = \"window\"\ncrop = [1, 0, 23, 37]\n",
+            ),
+            "",
+        ),
+        (
+            file("rows.npy", "edges = \"mirror\"\nresample = [24, 38]\n"),
+            "",
+        ),
         (file("line.txt", "profile = true\n"), ""),
         (file("holes.npy", ""), ""),
         (file("none.npy", ""), ""),
@@ -192,26 +249,26 @@ fn large_files_are_refused() {
         assert!(said.iter().all(|words| *words == said[0]), "{said:?}");
         said[0].clone()
     };
-    // The header alone: nothing is read.
-    let header = "{'descr': '<f8', 'fortran_order': True, 'shape': (4097, 4096), }\n";
+    // The header and a hole, which takes no room: no number is read.
+    let header = "{'descr': '<f8', 'fortran_order': False, 'shape': (4097, 4096), }\n";
     let mut bytes = b"\x93NUMPY\x01\x00".to_vec();
     bytes.extend((header.len() as u16).to_le_bytes());
     bytes.extend(header.as_bytes());
-    fs::write(at("columns.npy"), &bytes).expect("a file");
+    fs::write(at("filled.npy"), &bytes).expect("a file");
+    let filled = fs::File::options().write(true).open(at("filled.npy"));
+    let length = bytes.len() + 8 * 4097 * 4096;
+    filled
+        .and_then(|file| file.set_len(length as u64))
+        .expect("a length");
     let header = "4096 x 4097 points are more than the 16777216 points that the first of several processes reads whole; prepare the file once on one process";
     let file = |name: &str| format!("[[surface]]\nkind = \"file\"\npath = \"{name}\"\n");
-    let said = refused(&file("columns.npy"), "");
-    assert!(
-        said.contains(header) && said.contains("columns.npy"),
-        "{said}"
-    );
-    let map = format!("{ADHESION}map = \"columns.npy\"\n");
-    let said = refused("[[surface]]\nkind = \"flat\"\n", &map);
-    assert!(
-        said.contains(header) && said.contains("columns.npy"),
-        "{said}"
-    );
-    // A file of holes, which takes no room.
+    for asked in ["edges = \"mirror\"\n", "resample = [24, 38]\n"] {
+        let said = refused(&(file("filled.npy") + asked), "");
+        assert!(
+            said.contains(header) && said.contains("filled.npy"),
+            "{said}"
+        );
+    }
     let long = fs::File::create(at("long.txt")).expect("a file");
     long.set_len((1 << 29) + 1).expect("a length");
     let said = refused(&file("long.txt"), "");
@@ -219,9 +276,54 @@ fn large_files_are_refused() {
         said.contains("536870913 bytes of numbers are more than"),
         "{said}"
     );
+    let map = format!("{ADHESION}map = \"long.txt\"\n");
+    let said = refused("[[surface]]\nkind = \"flat\"\n", &map);
+    assert!(
+        said.contains("536870913 bytes of numbers are more than") && said.contains("long.txt"),
+        "{said}"
+    );
     fs::write(at("map.txt"), ("0 ".repeat(4097) + "\n").repeat(4096)).expect("a file");
     let said = refused(&file("map.txt"), "");
     assert!(said.contains("4097 x 4096 points are more than"), "{said}");
 }
 
-tests![height_files, large_files_are_refused];
+/// Files of other programs, in every format, have the bits of one process.
+fn files_of_other_programs() {
+    let place = Path::new(env!("CARGO_MANIFEST_DIR")).join("tests/files");
+    let is_built = |name: &str, size: &str, asked: &str| {
+        let text = format!(
+            "[grid]\nboundary = \"free\"\n{size}[solid]\ncontact_modulus = \"50 MPa\"\n[[surface]]\nkind = \"file\"\npath = \"{name}\"\nfill = \"interpolate\"\n{asked}{FORCE}\n"
+        );
+        let scene = Scene::parse(&text, "scene.toml", &place, &[]).expect("a scene");
+        let one = Surface::build(&scene);
+        for count in [2, 3] {
+            match (&one, surface_over(&scene, count)) {
+                (Ok(one), Ok([found, _])) => {
+                    let bits = one.heights.iter().map(|height| height.to_bits());
+                    assert!(bits.eq(found), "{name} on {count}");
+                }
+                (Err(error), Err(said)) => assert_eq!(said[0], error.to_string(), "{name}"),
+                (one, found) => panic!("{name} on {count}: {one:?}, {found:?}"),
+            }
+        }
+        one.is_ok()
+    };
+    for name in FILES {
+        let is_grey = name.ends_with(".png") || (name.ends_with(".tif") && !name.contains("float"));
+        let asked = if is_grey {
+            "black = 0.0\nwhite = 1e-9\n"
+        } else {
+            ""
+        };
+        // Not every file says how large its map is.
+        let sizes = ["", "size = \"1 um\"\n"];
+        let is_any = sizes.iter().any(|size| is_built(name, size, asked));
+        assert!(is_any, "{name}");
+    }
+}
+
+tests![
+    height_files,
+    large_files_are_refused,
+    files_of_other_programs
+];

@@ -5,7 +5,7 @@
 
 use super::bytes::{Bytes, checked_shape};
 use crate::surface::error::FileError;
-use crate::surface::matrix::{Matrix, Size};
+use crate::surface::matrix::{Map, Matrix, Size};
 
 /// First bytes of a file.
 pub(super) const MAGIC: &[u8] = b"AliconaImaging\0\r\n";
@@ -24,8 +24,8 @@ const MISSING: f64 = 3e15;
 const SINGLE: f64 = 1.5e-7;
 
 /// Reads the depth image.
-pub(super) fn read(bytes: &[u8]) -> Result<Matrix, FileError> {
-    let mut file = Bytes::new(".al3d", bytes);
+pub(super) fn read(file: Bytes) -> Result<Map, FileError> {
+    let mut file = file.named(".al3d");
     file.take(MAGIC.len(), "the magic word")?;
     let mut tags = Tags(Vec::new());
     for expected in ["Version", "TagCount"] {
@@ -62,7 +62,7 @@ pub(super) fn read(bytes: &[u8]) -> Result<Matrix, FileError> {
     }
     file.seek(start, "the depth image")?;
     let stride = (4 * columns).next_multiple_of(ALIGNMENT);
-    let values = file.matrix(shape, stride, |element| {
+    let values = file.matrix(shape, stride, move |element| {
         let height = f64::from(f32::from_le_bytes(element));
         let is_marked = (height - missing).abs() <= SINGLE * missing.abs();
         if is_marked || height >= MISSING * (1.0 - SINGLE) {
@@ -74,7 +74,7 @@ pub(super) fn read(bytes: &[u8]) -> Result<Matrix, FileError> {
     Ok(Matrix {
         size: Some(Size::Metres(sides)),
         unit: Some(1.0),
-        ..Matrix::new(values, [rows, columns])
+        ..Matrix::new(values.into(), shape)
     })
 }
 

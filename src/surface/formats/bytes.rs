@@ -1,14 +1,35 @@
-//! Reads the bytes of a binary file number by number; every error has its offset.
+//! Reads a binary file number by number, without holding it; every error has its offset.
 
+use std::cell::RefCell;
+use std::io::{BufReader, Cursor, Read, Seek, SeekFrom};
+use std::rc::Rc;
+
+use super::numbers::{Numbers, RawRows};
 use crate::surface::MOST_POINTS;
 use crate::surface::error::FileError;
 
-/// The bytes of one file of a named format and the read position.
-pub(super) struct Bytes<'a> {
+/// What a file is read from.
+pub(super) trait Source: Read + Seek {}
+
+impl<S: Read + Seek> Source for S {}
+
+/// Bytes that a text may take for each point of the most that are held: a longer one has more points, or says in its
+/// header how many.
+const LONGEST_NUMBER: u64 = 32;
+
+/// Bytes in which the end of a text is looked for.
+const PIECE: usize = 256;
+
+/// The bytes of one file of a named format and the read position. A clone reads the same file from a position of its own.
+#[derive(Clone)]
+pub(super) struct Bytes {
     /// Name of the format in messages, such as `.sur`.
     format: &'static str,
-    bytes: &'a [u8],
+    source: Rc<RefCell<dyn Source>>,
+    length: usize,
     at: usize,
+    /// Points of the largest map that may be held whole.
+    most: usize,
 }
 
 /// Reads a number of fixed width.
@@ -23,13 +44,27 @@ macro_rules! numbers {
     };
 }
 
-impl<'a> Bytes<'a> {
-    pub(super) fn new(format: &'static str, bytes: &'a [u8]) -> Self {
+impl Bytes {
+    /// The first `length` bytes of a file of which no more than `most` points may be held at once.
+    pub(super) fn new(source: impl Source + 'static, length: usize, most: usize) -> Self {
         Bytes {
-            format,
-            bytes,
+            format: "",
+            source: Rc::new(RefCell::new(source)),
+            length,
             at: 0,
+            most,
         }
+    }
+
+    /// Bytes in memory, of which all may be held.
+    pub(super) fn held(bytes: Vec<u8>) -> Self {
+        let length = bytes.len();
+        Bytes::new(Cursor::new(bytes), length, usize::MAX)
+    }
+
+    /// The same bytes as those of a format, by its name in messages.
+    pub(super) fn named(self, format: &'static str) -> Self {
+        Bytes { format, ..self }
     }
 
     numbers!("little", from_le_bytes: u8: u8, u16: u16, i16: i16, u32: u32, i32: i32, f32: f32, f64: f64);
@@ -52,9 +87,23 @@ impl<'a> Bytes<'a> {
         self.at
     }
 
+    /// The file as a stream.
+    pub(super) fn stream(&self) -> BufReader<Stream> {
+        BufReader::new(Stream(Bytes {
+            at: 0,
+            ..self.clone()
+        }))
+    }
+
+    /// Length of the file.
+    #[cfg(feature = "images")]
+    pub(super) fn length(&self) -> usize {
+        self.length
+    }
+
     /// Number of unread bytes.
     pub(super) fn left(&self) -> usize {
-        self.bytes.len() - self.at
+        self.length - self.at
     }
 
     /// A mistake at `offset`.
@@ -66,48 +115,121 @@ impl<'a> Bytes<'a> {
         }
     }
 
-    /// The next `count` bytes.
-    pub(super) fn take(&mut self, count: usize, what: &str) -> Result<&'a [u8], FileError> {
-        match self.bytes[self.at..].split_at_checked(count) {
-            Some((taken, _)) => {
-                self.at += count;
-                Ok(taken)
-            }
-            None => Err(self.broken(
-                self.bytes.len(),
-                format!(
-                    "the file ends within {what}, which begins at byte {}",
-                    self.at
-                ),
-            )),
+    /// Reads the next bytes, as many as the list has; they must be there.
+    pub(super) fn fill(&mut self, bytes: &mut [u8]) -> Result<(), FileError> {
+        let mut source = self.source.borrow_mut();
+        let start = SeekFrom::Start(self.at as u64);
+        // A seek empties the buffer of a file.
+        if source.stream_position().map_err(FileError::Read)? != self.at as u64 {
+            source.seek(start).map_err(FileError::Read)?;
         }
+        source.read_exact(bytes).map_err(FileError::Read)?;
+        self.at += bytes.len();
+        Ok(())
+    }
+
+    /// Passes over the next `count` bytes.
+    pub(super) fn skip(&mut self, count: usize, what: &str) -> Result<(), FileError> {
+        if count > self.left() {
+            return Err(self.ends_within(what));
+        }
+        self.at += count;
+        Ok(())
+    }
+
+    fn ends_within(&self, what: &str) -> FileError {
+        self.broken(
+            self.length,
+            format!(
+                "the file ends within {what}, which begins at byte {}",
+                self.at
+            ),
+        )
+    }
+
+    /// The next `count` bytes.
+    pub(super) fn take(&mut self, count: usize, what: &str) -> Result<Vec<u8>, FileError> {
+        if count > self.left() {
+            return Err(self.ends_within(what));
+        }
+        let mut bytes = Vec::new();
+        bytes
+            .try_reserve_exact(count)
+            .map_err(|_| FileError::Memory {
+                bytes: count as u64,
+            })?;
+        bytes.resize(count, 0);
+        self.fill(&mut bytes)?;
+        Ok(bytes)
+    }
+
+    /// The first bytes of the file, at most `count`.
+    pub(super) fn beginning(&self, count: usize) -> Result<Vec<u8>, FileError> {
+        let mut file = Bytes {
+            at: 0,
+            ..self.clone()
+        };
+        file.take(count.min(self.length), "the file")
+    }
+
+    /// All bytes of a format whose points are known only once it is read.
+    ///
+    /// # Errors
+    /// They are more than may be held at once.
+    pub(super) fn all(&self) -> Result<Vec<u8>, FileError> {
+        self.expect_held_bytes(self.length as u64)?;
+        self.beginning(self.length)
+    }
+
+    /// Refuses so many bytes of numbers that are held whole, if that is more than the largest map takes.
+    pub(super) fn expect_held_bytes(&self, length: u64) -> Result<(), FileError> {
+        if length > LONGEST_NUMBER.saturating_mul(self.most as u64) {
+            return Err(FileError::Whole {
+                points: None,
+                length,
+            });
+        }
+        Ok(())
+    }
+
+    /// Refuses a map that is held whole and has more points than that.
+    pub(super) fn expect_held(&self, [rows, columns]: [usize; 2]) -> Result<(), FileError> {
+        if rows.saturating_mul(columns) > self.most {
+            return Err(FileError::Whole {
+                points: Some([columns, rows]),
+                length: 0,
+            });
+        }
+        Ok(())
     }
 
     /// The next bytes as an array.
     fn array<const COUNT: usize>(&mut self, what: &str) -> Result<[u8; COUNT], FileError> {
         let mut array = [0; COUNT];
-        array.copy_from_slice(self.take(COUNT, what)?);
+        if COUNT > self.left() {
+            return Err(self.ends_within(what));
+        }
+        self.fill(&mut array)?;
         Ok(array)
     }
 
-    /// Bytes up to the next zero byte, without it.
+    /// Number of bytes up to the next zero byte, without it.
     pub(super) fn until_zero(&self, what: &str) -> Result<usize, FileError> {
-        let rest = &self.bytes[self.at..];
-        rest.iter().position(|byte| *byte == 0).ok_or_else(|| {
-            self.broken(
-                self.bytes.len(),
-                format!(
-                    "the file ends within {what}, which begins at byte {}",
-                    self.at
-                ),
-            )
-        })
+        let mut ahead = self.clone();
+        while ahead.left() > 0 {
+            let start = ahead.at;
+            let piece = ahead.take(PIECE.min(ahead.left()), what)?;
+            if let Some(place) = piece.iter().position(|byte| *byte == 0) {
+                return Ok(start - self.at + place);
+            }
+        }
+        Err(self.ends_within(what))
     }
 
     /// A text in a field of `count` bytes, up to its first zero byte: UTF-8, else Latin-1.
     pub(super) fn text(&mut self, count: usize, what: &str) -> Result<String, FileError> {
         let field = self.take(count, what)?;
-        let text = field.split(|byte| *byte == 0).next().unwrap_or(field);
+        let text = field.split(|byte| *byte == 0).next().unwrap_or(&field);
         let text = match std::str::from_utf8(text) {
             Ok(text) => text.to_owned(),
             Err(_) => latin_1(text),
@@ -117,12 +239,12 @@ impl<'a> Bytes<'a> {
 
     /// Moves to `offset`, which must lie within the file.
     pub(super) fn seek(&mut self, offset: usize, what: &str) -> Result<(), FileError> {
-        if offset > self.bytes.len() {
+        if offset > self.length {
             return Err(self.broken(
                 self.at,
                 format!(
                     "{what} is said to begin at byte {offset}, but the file has {}",
-                    self.bytes.len()
+                    self.length
                 ),
             ));
         }
@@ -133,45 +255,47 @@ impl<'a> Bytes<'a> {
     /// The numbers of a matrix; a row takes `stride` bytes and begins with its elements.
     ///
     /// # Errors
-    /// Too few bytes for the shape, and too little memory.
+    /// Too few bytes for the shape.
     pub(super) fn matrix<const SIZE: usize>(
         &mut self,
         [rows, columns]: [usize; 2],
         stride: usize,
-        number: impl Fn([u8; SIZE]) -> f64,
-    ) -> Result<Vec<f64>, FileError> {
+        number: impl Fn([u8; SIZE]) -> f64 + 'static,
+    ) -> Result<RawRows, FileError> {
         let row_bytes = columns * SIZE;
         let expected = (rows as u64).saturating_mul(stride as u64);
         // The padding after the last row is not needed.
         let needed = expected - (stride - row_bytes) as u64;
-        let elements = &self.bytes[self.at..];
-        if (elements.len() as u64) < needed {
+        if (self.left() as u64) < needed {
             return Err(FileError::Truncated {
                 rows,
                 columns,
                 expected: needed,
-                found: elements.len() as u64,
+                found: self.left() as u64,
             });
         }
-        let mut values = with_capacity([rows, columns])?;
-        for row in elements.chunks(stride).take(rows) {
-            values.extend(row[..row_bytes].chunks_exact(SIZE).map(|element| {
-                let mut bytes = [0; SIZE];
-                bytes.copy_from_slice(element);
-                number(bytes)
-            }));
-        }
-        self.at += elements.len().min(expected as usize);
-        Ok(values)
+        let numbers = RawRows::new(self.clone(), [rows, columns], [SIZE, stride], number);
+        self.at += self.left().min(expected as usize);
+        Ok(numbers)
     }
 
     /// The numbers of a matrix without padding.
     pub(super) fn packed<const SIZE: usize>(
         &mut self,
         shape: [usize; 2],
-        number: impl Fn([u8; SIZE]) -> f64,
-    ) -> Result<Vec<f64>, FileError> {
-        self.matrix(shape, SIZE * shape[1], number)
+        number: impl Fn([u8; SIZE]) -> f64 + 'static,
+    ) -> Result<Numbers, FileError> {
+        Ok(self.matrix(shape, SIZE * shape[1], number)?.into())
+    }
+
+    /// The numbers of a matrix of which columns lie one after another.
+    pub(super) fn by_columns<const SIZE: usize>(
+        &mut self,
+        [rows, columns]: [usize; 2],
+        number: impl Fn([u8; SIZE]) -> f64 + 'static,
+    ) -> Result<Numbers, FileError> {
+        let lines = self.matrix([columns, rows], SIZE * rows, number)?;
+        Ok(lines.transposed().into())
     }
 
     /// Warns of trailing bytes that are not read.
@@ -182,6 +306,37 @@ impl<'a> Bytes<'a> {
                 self.left()
             ));
         }
+    }
+}
+
+/// The bytes of a file from its beginning, for programs that read one by themselves.
+pub(super) struct Stream(Bytes);
+
+impl Read for Stream {
+    fn read(&mut self, bytes: &mut [u8]) -> std::io::Result<usize> {
+        let count = bytes.len().min(self.0.left());
+        let done = self.0.fill(&mut bytes[..count]);
+        done.map(|()| count).map_err(|error| match error {
+            FileError::Read(error) => error,
+            other => std::io::Error::other(other),
+        })
+    }
+}
+
+impl Seek for Stream {
+    fn seek(&mut self, to: SeekFrom) -> std::io::Result<u64> {
+        let place = match to {
+            SeekFrom::Start(place) => i128::from(place),
+            SeekFrom::Current(by) => self.0.at as i128 + i128::from(by),
+            SeekFrom::End(by) => self.0.length as i128 + i128::from(by),
+        };
+        if place < 0 {
+            return Err(std::io::ErrorKind::InvalidInput.into());
+        }
+        // Beyond the end there is nothing to read.
+        let length = self.0.length;
+        self.0.at = usize::try_from(place).map_or(length, |place| place.min(length));
+        Ok(self.0.at as u64)
     }
 }
 

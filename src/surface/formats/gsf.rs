@@ -6,7 +6,7 @@
 use super::bytes::{Bytes, checked_shape};
 use super::length::stated_unit;
 use crate::surface::error::FileError;
-use crate::surface::matrix::{Matrix, Size};
+use crate::surface::matrix::{Map, Matrix, Size};
 
 /// First bytes of a file.
 pub(super) const MAGIC: &[u8] = b"Gwyddion Simple Field 1.";
@@ -15,9 +15,9 @@ pub(super) const MAGIC: &[u8] = b"Gwyddion Simple Field 1.";
 const LONGEST_HEADER: usize = 1 << 20;
 
 /// Reads a field.
-pub(super) fn read(bytes: &[u8]) -> Result<Matrix, FileError> {
-    let mut file = Bytes::new(".gsf", bytes);
-    let start = &bytes[..bytes.len().min(LONGEST_HEADER)];
+pub(super) fn read(file: Bytes) -> Result<Map, FileError> {
+    let mut file = file.named(".gsf");
+    let start = file.beginning(LONGEST_HEADER)?;
     let Some(end) = start.iter().position(|byte| *byte == 0) else {
         return Err(file.broken(start.len(), "no zero byte ends the header"));
     };

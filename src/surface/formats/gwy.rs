@@ -10,7 +10,7 @@
 use super::bytes::{Bytes, checked_shape};
 use super::length::length_unit;
 use crate::surface::error::FileError;
-use crate::surface::matrix::{Matrix, Size};
+use crate::surface::matrix::{Map, Matrix, Size};
 use crate::units::quoted;
 
 /// First bytes of a file.
@@ -23,8 +23,8 @@ const FORMAT: &str = ".gwy";
 const DEEPEST: usize = 32;
 
 /// Reads the first image of heights.
-pub(super) fn read(bytes: &[u8]) -> Result<Matrix, FileError> {
-    let mut file = Bytes::new(FORMAT, bytes);
+pub(super) fn read(file: Bytes) -> Result<Map, FileError> {
+    let mut file = file.named(FORMAT);
     file.take(MAGIC.len(), "the magic word")?;
     let tree = object(&mut file, 0)?;
     let mut images: Vec<(u32, &Object)> = tree
@@ -48,12 +48,12 @@ pub(super) fn read(bytes: &[u8]) -> Result<Matrix, FileError> {
             unit: first.unit("si_unit_z").unwrap_or_default().to_owned(),
         });
     };
-    let mut matrix = image.matrix(&file, bytes)?;
+    let mut matrix = image.matrix(&file)?;
     let mask = tree
         .find(&format!("/{number}/mask"))
         .and_then(Piece::object);
     if let Some(mask) = mask {
-        cover(&mut matrix, &mask.matrix(&file, bytes)?, &file)?;
+        matrix = covered(matrix, mask.matrix(&file)?, &file)?;
     }
     if heights.len() > 1 {
         let title = |number: u32| match tree.find(&format!("/{number}/data/title")) {
@@ -75,16 +75,12 @@ fn image_number(name: &str) -> Option<u32> {
 }
 
 /// Marks masked pixels as missing.
-fn cover(matrix: &mut Matrix, mask: &Matrix, file: &Bytes) -> Result<(), FileError> {
+fn covered(matrix: Map, mask: Map, file: &Bytes) -> Result<Map, FileError> {
     if (mask.rows, mask.columns) != (matrix.rows, matrix.columns) {
         return Err(file.broken(MAGIC.len(), "a mask has another shape than its image"));
     }
-    for (value, covered) in matrix.values.iter_mut().zip(&mask.values) {
-        if *covered > 0.5 {
-            *value = f64::NAN;
-        }
-    }
-    Ok(())
+    let (numbers, header) = matrix.split();
+    Ok(header.with(numbers.covered(mask.values, mask.columns)))
 }
 
 /// An object of the tree.
@@ -131,7 +127,7 @@ impl Object {
     }
 
     /// The numbers of a `GwyDataField`.
-    fn matrix(&self, file: &Bytes, bytes: &[u8]) -> Result<Matrix, FileError> {
+    fn matrix(&self, file: &Bytes) -> Result<Map, FileError> {
         let broken = |what: &str| file.broken(self.place, format!("the image here has {what}"));
         let count = |name: &str| match self.find(name) {
             Some(Piece::Whole(count)) => Ok(i64::from(*count)),
@@ -147,7 +143,7 @@ impl Object {
                 shape[1], shape[0]
             )));
         }
-        let mut heights = Bytes::new(FORMAT, bytes);
+        let mut heights = file.clone();
         heights.seek(*start, "an image")?;
         let values = heights.packed(shape, f64::from_le_bytes)?;
         // As in Gwyddion a side may be negative, and 0 means unknown.
@@ -209,12 +205,12 @@ fn piece(file: &mut Bytes, depth: usize) -> Result<Piece, FileError> {
     let kind = file.u8("the type of a piece")?;
     Ok(match kind {
         b'b' | b'c' => {
-            file.take(1, "a piece")?;
+            file.skip(1, "a piece")?;
             Piece::Other
         }
         b'i' => Piece::Whole(file.i32("a number")?),
         b'q' => {
-            file.take(8, "a number")?;
+            file.skip(8, "a number")?;
             Piece::Other
         }
         b'd' => Piece::Real(file.f64("a number")?),
@@ -228,7 +224,7 @@ fn piece(file: &mut Bytes, depth: usize) -> Result<Piece, FileError> {
                 _ => 8,
             };
             let start = file.offset();
-            file.take(count.saturating_mul(size), "a list of numbers")?;
+            file.skip(count.saturating_mul(size), "a list of numbers")?;
             match kind {
                 b'D' => Piece::Reals(start, count),
                 _ => Piece::Other,
@@ -255,7 +251,7 @@ fn piece(file: &mut Bytes, depth: usize) -> Result<Piece, FileError> {
 /// A text that ends in a zero byte.
 fn text(file: &mut Bytes, what: &str) -> Result<String, FileError> {
     let length = file.until_zero(what)?;
-    let text = String::from_utf8_lossy(file.take(length, what)?).into_owned();
+    let text = String::from_utf8_lossy(&file.take(length, what)?).into_owned();
     file.take(1, what)?;
     Ok(text)
 }

@@ -9,7 +9,7 @@
 use super::bytes::{Bytes, checked_shape};
 use super::length::{length_unit, stated_unit};
 use crate::surface::error::FileError;
-use crate::surface::matrix::{Matrix, Size};
+use crate::surface::matrix::{Map, Matrix, Size};
 
 /// First bytes of a file: the version, as a PC stores it.
 pub(super) const MAGIC: &[u8] = b"\x05\0";
@@ -36,8 +36,8 @@ const INT_32: i16 = 0x20;
 const UNSIGNED: i16 = 0x40;
 
 /// Reads the first channel of heights, else the first one.
-pub(super) fn read(bytes: &[u8]) -> Result<Matrix, FileError> {
-    let mut file = Bytes::new(FORMAT, bytes);
+pub(super) fn read(file: Bytes) -> Result<Map, FileError> {
+    let mut file = file.named(FORMAT);
     // Version, checksum and length of the wave; then the lengths of what follows the numbers.
     file.take(8, "the header")?;
     let mut tail = [0; 11];
@@ -78,7 +78,7 @@ pub(super) fn read(bytes: &[u8]) -> Result<Matrix, FileError> {
         }
     };
     let labels = labels(
-        bytes,
+        &file,
         NUMBERS + points * layers * size_of_number,
         &tail,
         layers,
@@ -124,16 +124,21 @@ pub(super) fn read(bytes: &[u8]) -> Result<Matrix, FileError> {
 }
 
 /// The names of the layers, which follow the formula, the note, the long units and the names of x and y.
-fn labels(bytes: &[u8], end: usize, tail: &[usize; 11], layers: usize) -> Vec<String> {
+fn labels(file: &Bytes, end: usize, tail: &[usize; 11], layers: usize) -> Vec<String> {
     let [formula, note, units @ ..] = *tail;
     let [unit, ux, uy, uz, ut, x, y, length, ..] = units;
     let before = [formula, note, unit, ux, uy, uz, ut, x, y];
     let start = before
         .iter()
         .try_fold(end, |sum: usize, length| sum.checked_add(*length));
-    let names = start.and_then(|start| bytes.get(start..start.checked_add(length)?));
+    let names = start.and_then(|start| {
+        let mut file = file.clone();
+        file.seek(start, "the names").ok()?;
+        file.take(length, "the names").ok()
+    });
     // The first name is that of the axis itself.
-    let names = names.unwrap_or_default().chunks_exact(LABEL).skip(1);
+    let names = names.unwrap_or_default();
+    let names = names.chunks_exact(LABEL).skip(1);
     names
         .take(layers)
         .map(|name| {

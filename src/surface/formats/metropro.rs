@@ -5,7 +5,7 @@
 
 use super::bytes::{Bytes, checked_shape};
 use crate::surface::error::FileError;
-use crate::surface::matrix::{Matrix, Size};
+use crate::surface::matrix::{Map, Matrix, Size};
 
 /// First bytes of a file, of the three forms of its header.
 pub(super) const MAGIC: [&[u8]; 3] = [
@@ -32,8 +32,8 @@ const STEPS: [f64; 3] = [4096.0, 32768.0, 131_072.0];
 const MISSING: i32 = 2_147_483_640;
 
 /// Reads the heights.
-pub(super) fn read(bytes: &[u8]) -> Result<Matrix, FileError> {
-    let mut file = Bytes::new("MetroPro", bytes);
+pub(super) fn read(file: Bytes) -> Result<Map, FileError> {
+    let mut file = file.named("MetroPro");
     let mut real = |place: usize| -> Result<f64, FileError> {
         file.seek(place, "the header")?;
         Ok(file.big_f32("the header")?.into())
@@ -65,7 +65,7 @@ pub(super) fn read(bytes: &[u8]) -> Result<Matrix, FileError> {
     file.seek(INTENSITY_BYTES, "the header")?;
     let intensities = file.big_u32("the length of the intensities")?;
     file.seek(header as usize + intensities as usize, "the heights")?;
-    let values = file.packed(shape, |number| match i32::from_be_bytes(number) {
+    let values = file.packed(shape, move |number| match i32::from_be_bytes(number) {
         MISSING.. => f64::NAN,
         number => step * f64::from(number),
     })?;

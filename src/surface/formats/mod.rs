@@ -1,6 +1,7 @@
 //! Formats of height files: one table, selected by the first bytes and then by the extension.
 //!
-//! The shape that a file claims is compared with the file's length before memory is allocated.
+//! A format reads what a file says of its map, and gives the numbers row after row; the whole map is all of its rows. The shape
+//! that a file claims is compared with the file's length before memory is allocated.
 
 mod al3d;
 mod bytes;
@@ -13,6 +14,7 @@ mod metropro;
 mod nanoscope;
 mod nid;
 mod npy;
+mod numbers;
 mod opd;
 mod plu;
 #[cfg(feature = "images")]
@@ -31,16 +33,17 @@ mod x3p;
 mod xyz;
 
 use std::fs::{self, File};
-use std::io::{self, BufRead, BufReader, ErrorKind, Read};
-use std::ops::Range;
+use std::io::{BufRead, BufReader, ErrorKind};
 use std::path::Path;
 
 use super::error::FileError;
-use super::matrix::Matrix;
+use super::matrix::Map;
+use bytes::Bytes;
+pub(super) use numbers::Numbers;
 #[cfg(not(feature = "images"))]
 use without_images::{png, tiff, x3p};
 
-/// Longest file that is read whole, 16 GiB: the largest grid in doubles, twice.
+/// Longest file of most formats, 16 GiB: the largest grid in doubles, twice.
 const LONGEST: u64 = 1 << 34;
 
 /// Longest text file read, 4 GiB: its numbers need twice that memory in addition.
@@ -56,23 +59,20 @@ struct Format {
     magic: &'static [&'static [u8]],
     /// Longest file read.
     longest: u64,
-    /// Reads the numbers.
+    /// Opens the map.
     read: Reader,
 }
 
-/// How a format is read: as a stream, or from all its bytes.
-enum Reader {
-    Stream(fn(BufReader<File>, u64) -> Result<Matrix, FileError>),
-    Whole(fn(&[u8]) -> Result<Matrix, FileError>),
-}
+/// Reads what a file says of its map, and where its numbers are.
+type Reader = fn(Bytes) -> Result<Map, FileError>;
 
 impl Format {
-    /// A format that is read whole; text, which may begin with anything, has no first bytes.
+    /// A format of files of common length; text, which may begin with anything, has no first bytes.
     const fn new(
         name: &'static str,
         extensions: &'static [&'static str],
         magic: &'static [&'static [u8]],
-        read: fn(&[u8]) -> Result<Matrix, FileError>,
+        read: Reader,
     ) -> Self {
         Format {
             name,
@@ -83,7 +83,7 @@ impl Format {
             } else {
                 LONGEST
             },
-            read: Reader::Whole(read),
+            read,
         }
     }
 }
@@ -95,7 +95,7 @@ static FORMATS: &[Format] = &[
         extensions: &["npy"],
         magic: &[npy::MAGIC],
         longest: u64::MAX,
-        read: Reader::Stream(npy::read),
+        read: npy::read,
     },
     Format::new("PNG image", &["png"], &[png::MAGIC], png::read),
     Format::new("TIFF image", &["tif", "tiff"], &tiff::MAGIC, tiff::read),
@@ -192,36 +192,6 @@ pub fn claimed_points(path: &Path) -> Option<[usize; 2]> {
     claim(file)
 }
 
-/// Points along x and y of a file of which some rows can be read alone: they lie one after another.
-///
-/// `None` for every other file, and for one that cannot be read: reading it reports the reason.
-pub(super) fn row_major_points(path: &Path) -> Option<[usize; 2]> {
-    let (file, format, length) = open(path).ok()?;
-    match format.read {
-        Reader::Stream(_) if length > 0 => npy::row_major_points(file),
-        _ => None,
-    }
-}
-
-/// The numbers of some rows of such a file, of which the points are known; the matrix has all rows.
-///
-/// # Errors
-/// See [`FileError`].
-pub(super) fn read_rows(
-    path: &Path,
-    [columns, rows]: [usize; 2],
-    part: Range<usize>,
-) -> Result<Matrix, FileError> {
-    let (file, _, length) = open(path)?;
-    let matrix = npy::read_rows(file, length, part)?;
-    if [matrix.columns, matrix.rows] == [columns, rows] {
-        Ok(matrix)
-    } else {
-        let changed = io::Error::other("it has changed while it was read");
-        Err(FileError::Read(changed))
-    }
-}
-
 /// First bytes of unsupported files that may carry a supported extension, with their names.
 const UNSUPPORTED: [(&[u8], &str); 3] = [
     (b"\x89HDF", "HDF5 file"),
@@ -253,11 +223,12 @@ fn open(path: &Path) -> Result<(BufReader<File>, &'static Format, u64), FileErro
     Ok((file, format, length))
 }
 
-/// The numbers of a file, unscaled.
+/// What a file says of its map, whose numbers are still to be read; of formats that give them only together at most `most`
+/// points are held.
 ///
 /// # Errors
 /// See [`FileError`].
-pub(super) fn read(path: &Path) -> Result<Matrix, FileError> {
+pub(super) fn open_map(path: &Path, most: usize) -> Result<Map, FileError> {
     let (file, format, length) = open(path)?;
     if length == 0 {
         return Err(FileError::Empty);
@@ -265,20 +236,9 @@ pub(super) fn read(path: &Path) -> Result<Matrix, FileError> {
     if length > format.longest {
         return Err(FileError::TooLong { bytes: length });
     }
-    match format.read {
-        Reader::Stream(read) => read(file, length),
-        Reader::Whole(read) => {
-            let mut bytes = Vec::new();
-            bytes
-                .try_reserve_exact(length as usize)
-                .map_err(|_| FileError::Memory { bytes: length })?;
-            // If the file grows while it is read, the extra bytes are ignored.
-            file.take(length)
-                .read_to_end(&mut bytes)
-                .map_err(FileError::Read)?;
-            read(&bytes)
-        }
-    }
+    // If the file grows while it is read, the extra bytes are ignored.
+    let length = usize::try_from(length).map_err(|_| FileError::TooLong { bytes: length })?;
+    (format.read)(Bytes::new(file, length, most))
 }
 
 /// The format of a file that begins with `start`; its extension must agree.
@@ -325,7 +285,7 @@ mod tests {
     use super::*;
     use proptest::prelude::*;
 
-    /// A file of another program for each format that is read whole.
+    /// A file of another program for each format, but for arrays.
     const GOOD: [&[u8]; 22] = [
         include_bytes!("../../../tests/files/pillow_16.png"),
         include_bytes!("../../../tests/files/tifffile_16.tif"),
@@ -374,10 +334,45 @@ mod tests {
                 bytes[(place * reach as f64) as usize] = byte;
             }
             bytes.truncate((kept * bytes.len() as f64) as usize);
-            let Reader::Whole(read) = format.read else { unreachable!("all of these are read in whole") };
-            match read(&bytes) {
+            match (format.read)(Bytes::held(bytes)).and_then(Map::read) {
                 Ok(matrix) => prop_assert_eq!(matrix.values.len(), matrix.rows * matrix.columns),
                 Err(error) => prop_assert!(!error.to_string().contains('\n')),
+            }
+        }
+    }
+
+    /// Of every file rows that are read some at a time are those of the whole, and of all but texts no number is held before.
+    #[test]
+    fn rows_are_those_of_the_whole() {
+        for (which, bytes) in GOOD.iter().enumerate() {
+            let told = GOOD.len() - NAMED.len();
+            let extension = which.checked_sub(told).map(|index| NAMED[index]);
+            let format = find(bytes, extension).unwrap();
+            let all = (format.read)(Bytes::held(bytes.to_vec())).and_then(Map::read);
+            let all = all.unwrap();
+            let map = (format.read)(Bytes::held(bytes.to_vec())).unwrap();
+            let is_text = extension == Some("xyz")
+                || bytes.starts_with(surfer::TEXT)
+                || bytes.starts_with(b"aBCR-")
+                || bytes.starts_with(b"aISO-");
+            assert_eq!(
+                matches!(map.values, Numbers::Held(_)),
+                is_text,
+                "{}",
+                format.name
+            );
+            let mut rows = map.values.into_rows();
+            for part in all.values.chunks(3 * all.columns) {
+                let mut found = vec![0.0; part.len()];
+                rows.next(&mut found).unwrap();
+                let same = |(a, b): (&f64, &f64)| a.to_bits() == b.to_bits();
+                assert!(found.iter().zip(part).all(same), "{}", format.name);
+            }
+            // Of packed images a strip may be all.
+            if format.name != "TIFF image" {
+                let source = std::io::Cursor::new(bytes.to_vec());
+                let opened = (format.read)(Bytes::new(source, bytes.len(), 0));
+                assert_eq!(opened.is_err(), is_text, "{}", format.name);
             }
         }
     }

@@ -9,18 +9,21 @@ use super::bytes::{Bytes, checked_shape};
 use super::instrument_header::{NANOSCOPE_IMAGES, Section, nanoscope_sections, sensitivity, volts};
 use super::length::length_unit;
 use crate::surface::error::FileError;
-use crate::surface::matrix::{Matrix, Size};
+use crate::surface::matrix::{Map, Matrix, Size};
 
 /// First bytes of a file of images.
 pub(super) const MAGIC: &[u8] = NANOSCOPE_IMAGES;
+
+/// Longest header read; a header has some hundred lines of text.
+const LONGEST_HEADER: usize = 1 << 24;
 
 /// Name of the format in messages.
 const FORMAT: &str = "Nanoscope";
 
 /// Reads the first image of heights.
-pub(super) fn read(bytes: &[u8]) -> Result<Matrix, FileError> {
-    let mut file = Bytes::new(FORMAT, bytes);
-    let sections = nanoscope_sections(bytes);
+pub(super) fn read(file: Bytes) -> Result<Map, FileError> {
+    let mut file = file.named(FORMAT);
+    let sections = nanoscope_sections(&file.beginning(LONGEST_HEADER)?);
     let images: Vec<&Section> = sections
         .iter()
         .filter(|section| section.name == "ciao image list")
@@ -55,8 +58,12 @@ pub(super) fn read(bytes: &[u8]) -> Result<Matrix, FileError> {
     file.seek(start, "the image")?;
     let step = height_step(image, &sections).unwrap_or(f64::NAN) / 256_f64.powi(resolution as i32);
     let values = match stored {
-        4.. => file.packed(shape, |number| step * f64::from(i32::from_le_bytes(number)))?,
-        _ => file.packed(shape, |number| step * f64::from(i16::from_le_bytes(number)))?,
+        4.. => file.packed(shape, move |number| {
+            step * f64::from(i32::from_le_bytes(number))
+        })?,
+        _ => file.packed(shape, move |number| {
+            step * f64::from(i16::from_le_bytes(number))
+        })?,
     };
     let mut matrix = Matrix {
         size: image

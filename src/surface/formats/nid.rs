@@ -9,13 +9,16 @@ use super::bytes::{Bytes, checked_shape};
 use super::instrument_header::{Section, bracketed_sections};
 use super::length::length_unit;
 use crate::surface::error::FileError;
-use crate::surface::matrix::{Matrix, Size};
+use crate::surface::matrix::{Map, Matrix, Size};
 
 /// First bytes of a file.
 pub(super) const MAGIC: &[u8] = b"[DataSet]";
 
 /// Name of the format in messages.
 const FORMAT: &str = ".nid";
+
+/// Longest header read; a header has some hundred lines of text.
+const LONGEST_HEADER: usize = 1 << 24;
 
 /// What stands between the header and the numbers.
 const END: &[u8] = b"#!";
@@ -48,8 +51,9 @@ fn layout(section: &Section, file: &Bytes) -> Result<(u32, [usize; 2]), FileErro
 }
 
 /// Reads the first channel of heights.
-pub(super) fn read(bytes: &[u8]) -> Result<Matrix, FileError> {
-    let mut file = Bytes::new(FORMAT, bytes);
+pub(super) fn read(file: Bytes) -> Result<Map, FileError> {
+    let mut file = file.named(FORMAT);
+    let bytes = file.beginning(LONGEST_HEADER)?;
     let end = bytes.windows(END.len()).position(|word| word == END);
     let Some(end) = end else {
         return Err(file.broken(bytes.len(), "its header has no end (\"#!\")"));
@@ -92,7 +96,7 @@ pub(super) fn read(bytes: &[u8]) -> Result<Matrix, FileError> {
     } else {
         0.0
     };
-    let height = |number: i64| {
+    let height = move |number: i64| {
         let number = match (signed, bits) {
             (true, _) => number,
             (false, bits) => number & ((1 << bits) - 1),
@@ -100,9 +104,15 @@ pub(super) fn read(bytes: &[u8]) -> Result<Matrix, FileError> {
         least + range * ((number as f64 + zero) / 2_f64.powi(bits as i32))
     };
     let values = match bits {
-        8 => file.packed(shape, |number| height(i8::from_le_bytes(number).into()))?,
-        16 => file.packed(shape, |number| height(i16::from_le_bytes(number).into()))?,
-        _ => file.packed(shape, |number| height(i32::from_le_bytes(number).into()))?,
+        8 => file.packed(shape, move |number| {
+            height(i8::from_le_bytes(number).into())
+        })?,
+        16 => file.packed(shape, move |number| {
+            height(i16::from_le_bytes(number).into())
+        })?,
+        _ => file.packed(shape, move |number| {
+            height(i32::from_le_bytes(number).into())
+        })?,
     };
     let side = |axis: usize| {
         let unit = channel

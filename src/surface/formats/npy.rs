@@ -3,15 +3,17 @@
 //! Everything that the header claims is compared with the length of the file before memory is
 //! allocated.
 
+use std::convert::identity;
 use std::fs::File;
-use std::io::{BufReader, Cursor, Read, Seek, SeekFrom};
-use std::ops::Range;
+use std::io::{BufReader, Cursor, Read};
 
-use npyz::{DType, Deserialize, NpyFile, Order, TypeChar};
+use half::f16;
+use npyz::{DType, NpyFile, Order, TypeChar};
 
+use super::bytes::Bytes;
 use crate::surface::MOST_POINTS;
 use crate::surface::error::FileError;
-use crate::surface::matrix::Matrix;
+use crate::surface::matrix::{Map, Matrix};
 
 /// First bytes of a .npy file.
 pub(super) const MAGIC: &[u8] = b"\x93NUMPY";
@@ -32,45 +34,13 @@ pub(super) fn claimed_points(mut file: BufReader<File>) -> Option<[usize; 2]> {
     Some([columns as usize, rows as usize])
 }
 
-/// The same of an array whose rows lie one after another.
-pub(super) fn row_major_points(mut file: BufReader<File>) -> Option<[usize; 2]> {
-    let header = read_header(&mut file).ok()?;
-    let npy = NpyFile::new(Cursor::new(header)).ok()?;
-    match (npy.shape(), npy.order()) {
-        (&[rows, columns], Order::C) if rows > 0 && columns > 0 => {
-            Some([columns as usize, rows as usize])
-        }
-        _ => None,
-    }
-}
-
-/// Reads a two-dimensional array of real numbers from `file`, which has `length` bytes.
+/// Reads a two-dimensional array of real numbers.
 ///
 /// # Errors
 /// A malformed header, other dimensions or types, and a length that does not fit the shape.
-pub(super) fn read(file: impl Read + Seek, length: u64) -> Result<Matrix, FileError> {
-    read_part(file, length, None)
-}
-
-/// The same of some rows of an array whose rows lie one after another. The matrix has all rows, and the values of these.
-///
-/// # Errors
-/// As [`read`].
-pub(super) fn read_rows(
-    file: impl Read + Seek,
-    length: u64,
-    part: Range<usize>,
-) -> Result<Matrix, FileError> {
-    read_part(file, length, Some(part))
-}
-
-fn read_part(
-    mut file: impl Read + Seek,
-    length: u64,
-    part: Option<Range<usize>>,
-) -> Result<Matrix, FileError> {
-    let header = read_header(&mut file)?;
-    let data_length = length.saturating_sub(header.len() as u64);
+pub(super) fn read(mut file: Bytes) -> Result<Map, FileError> {
+    let header = read_header(&mut file.stream())?;
+    file.skip(header.len(), "the header")?;
     let npy = NpyFile::new(Cursor::new(&header)).map_err(|error| broken(error.to_string()))?;
 
     let &[rows, columns] = npy.shape() else {
@@ -86,7 +56,7 @@ fn read_part(
     if count > MOST_POINTS as u64 {
         return Err(FileError::TooManyPoints { points: count });
     }
-    let (rows, columns) = (rows as usize, columns as usize);
+    let shape = [rows as usize, columns as usize];
     let element = match npy.dtype() {
         DType::Plain(element) => element,
         other => {
@@ -95,61 +65,59 @@ fn read_part(
             });
         }
     };
-    let bytes = element.num_bytes().unwrap_or(0) as u64;
-    let expected = count.saturating_mul(bytes);
-    if data_length < expected {
-        return Err(FileError::Truncated {
-            rows,
-            columns,
-            expected,
-            found: data_length,
-        });
+    let (order, is_big) = (npy.order(), element.to_string().starts_with('>'));
+    macro_rules! numbers {
+        ($Number:ident, $convert:path) => {
+            match (order, is_big) {
+                (Order::C, false) => {
+                    file.packed(shape, |bytes| $convert($Number::from_le_bytes(bytes)))
+                }
+                (Order::C, true) => {
+                    file.packed(shape, |bytes| $convert($Number::from_be_bytes(bytes)))
+                }
+                (Order::Fortran, false) => {
+                    file.by_columns(shape, |bytes| $convert($Number::from_le_bytes(bytes)))
+                }
+                (Order::Fortran, true) => {
+                    file.by_columns(shape, |bytes| $convert($Number::from_be_bytes(bytes)))
+                }
+            }
+        };
     }
-    let mut warnings = Vec::new();
-    if data_length > expected {
-        warnings.push(format!(
-            "the file holds {} bytes after its array, which are not read",
-            data_length - expected
-        ));
-    }
-
-    let order = npy.order();
-    let count = match &part {
-        None => rows * columns,
-        Some(part) => {
-            let before = bytes * (part.start * columns) as u64;
-            file.seek(SeekFrom::Start(header.len() as u64 + before))
-                .map_err(FileError::Read)?;
-            part.len() * columns
-        }
-    };
     let values = match (element.type_char(), element.size_field()) {
-        (TypeChar::Float, 2) => numbers::<half::f16>(&header, file, count, f64::from),
-        (TypeChar::Float, 4) => numbers::<f32>(&header, file, count, f64::from),
-        (TypeChar::Float, 8) => numbers::<f64>(&header, file, count, |value| value),
-        (TypeChar::Int, 1) => numbers::<i8>(&header, file, count, f64::from),
-        (TypeChar::Int, 2) => numbers::<i16>(&header, file, count, f64::from),
-        (TypeChar::Int, 4) => numbers::<i32>(&header, file, count, f64::from),
-        (TypeChar::Int, 8) => numbers::<i64>(&header, file, count, |value| value as f64),
-        (TypeChar::Uint, 1) => numbers::<u8>(&header, file, count, f64::from),
-        (TypeChar::Uint, 2) => numbers::<u16>(&header, file, count, f64::from),
-        (TypeChar::Uint, 4) => numbers::<u32>(&header, file, count, f64::from),
-        (TypeChar::Uint, 8) => numbers::<u64>(&header, file, count, |value| value as f64),
+        (TypeChar::Float, 2) => numbers!(f16, f64::from),
+        (TypeChar::Float, 4) => numbers!(f32, f64::from),
+        (TypeChar::Float, 8) => numbers!(f64, identity),
+        (TypeChar::Int, 1) => numbers!(i8, f64::from),
+        (TypeChar::Int, 2) => numbers!(i16, f64::from),
+        (TypeChar::Int, 4) => numbers!(i32, f64::from),
+        (TypeChar::Int, 8) => numbers!(i64, nearest),
+        (TypeChar::Uint, 1) => numbers!(u8, f64::from),
+        (TypeChar::Uint, 2) => numbers!(u16, f64::from),
+        (TypeChar::Uint, 4) => numbers!(u32, f64::from),
+        (TypeChar::Uint, 8) => numbers!(u64, nearest),
         _ => {
             return Err(FileError::ElementType {
                 found: element.to_string(),
             });
         }
     }?;
-    let values = match order {
-        Order::C => values,
-        // Such an array is read whole.
-        Order::Fortran => transposed(&values, rows, columns),
-    };
+    let mut warnings = Vec::new();
+    if file.left() > 0 {
+        warnings.push(format!(
+            "the file holds {} bytes after its array, which are not read",
+            file.left()
+        ));
+    }
     Ok(Matrix {
         warnings,
-        ..Matrix::new(values, [rows, columns])
+        ..Matrix::new(values, shape)
     })
+}
+
+/// The double that is nearest to a whole number, which may have more digits.
+fn nearest(number: impl Into<i128>) -> f64 {
+    number.into() as f64
 }
 
 /// The bytes from the magic string to the end of the header, checked so that the parser can neither
@@ -218,37 +186,6 @@ fn read_header(file: &mut impl Read) -> Result<Vec<u8>, FileError> {
     Ok(header)
 }
 
-/// So many elements in the order of the file, from where it stands.
-fn numbers<T: Deserialize>(
-    header: &[u8],
-    file: impl Read,
-    count: usize,
-    convert: impl Fn(T) -> f64,
-) -> Result<Vec<f64>, FileError> {
-    let npy =
-        NpyFile::new(Cursor::new(header).chain(file)).map_err(|error| broken(error.to_string()))?;
-    let elements = npy.data::<T>().map_err(|error| broken(error.to_string()))?;
-    let mut values = Vec::new();
-    values
-        .try_reserve_exact(count)
-        .map_err(|_| FileError::TooManyPoints {
-            points: count as u64,
-        })?;
-    for element in elements.take(count) {
-        values.push(convert(element.map_err(FileError::Read)?));
-    }
-    Ok(values)
-}
-
-/// Row-major from column-major.
-fn transposed(values: &[f64], rows: usize, columns: usize) -> Vec<f64> {
-    let mut result = Vec::with_capacity(values.len());
-    for row in 0..rows {
-        result.extend((0..columns).map(|column| values[column * rows + row]));
-    }
-    result
-}
-
 /// A malformed .npy file.
 fn broken(what: String) -> FileError {
     // A parser may add a drawing below its message.
@@ -279,22 +216,40 @@ mod tests {
         bytes.extend((header.len() as u32).to_le_bytes());
         bytes.extend(header);
         bytes.extend([1, 0, 2, 0, 3, 0, 0xFF, 0xFF]);
-        let matrix = read(Cursor::new(&bytes), bytes.len() as u64).unwrap();
+        let matrix = read(Bytes::held(bytes)).and_then(Map::read).unwrap();
         assert_eq!((matrix.rows, matrix.columns), (2, 2));
         assert_eq!(matrix.values, [1.0, 3.0, 2.0, -1.0]);
     }
 
-    /// The rows of a part are those of the whole.
+    /// Rows that are read alone are those of the whole, in every order of rows and bytes.
     #[test]
     fn rows_are_read_alone() {
-        let header = b"{'descr': '<i2', 'fortran_order': False, 'shape': (3, 2)}\n";
-        let bytes = file(header, &[1, 0, 2, 0, 3, 0, 4, 0, 5, 0, 0xFF, 0xFF]);
-        let length = bytes.len() as u64;
-        let all = read(Cursor::new(&bytes), length).unwrap();
-        for (part, values) in [(0..3, 0..6), (1..3, 2..6), (2..2, 4..4)] {
-            let rows = read_rows(Cursor::new(&bytes), length, part).unwrap();
-            assert_eq!((rows.rows, rows.columns), (3, 2));
-            assert_eq!(rows.values, all.values[values]);
+        let numbers = [1.0_f64, 2.5, -3.0, 4.0, 5.0, 6.0];
+        for (order, is_big) in [
+            ("False", false),
+            ("False", true),
+            ("True", false),
+            ("True", true),
+        ] {
+            let kind = if is_big { ">f8" } else { "<f8" };
+            let header =
+                format!("{{'descr': '{kind}', 'fortran_order': {order}, 'shape': (3, 2)}}\n");
+            let elements = numbers.map(|number| match is_big {
+                true => number.to_be_bytes(),
+                false => number.to_le_bytes(),
+            });
+            let open = || read(Bytes::held(file(header.as_bytes(), &elements.concat()))).unwrap();
+            let expected = match order {
+                "True" => [1.0, 4.0, 2.5, 5.0, -3.0, 6.0],
+                _ => numbers,
+            };
+            assert_eq!(open().read().unwrap().values, expected, "{header}");
+            let mut rows = open().values.into_rows();
+            for expected in [&expected[..4], &expected[4..]] {
+                let mut found = vec![0.0; expected.len()];
+                rows.next(&mut found).unwrap();
+                assert_eq!(found, expected, "{header}");
+            }
         }
     }
 
@@ -317,7 +272,7 @@ mod tests {
                 }
             }
             let bytes = file(&header, &vec![0; elements]);
-            if let Ok(matrix) = read(Cursor::new(&bytes), bytes.len() as u64) {
+            if let Ok(matrix) = read(Bytes::held(bytes)).and_then(Map::read) {
                 prop_assert_eq!(matrix.values.len(), matrix.rows * matrix.columns);
             }
         }

@@ -5,7 +5,7 @@
 
 use super::bytes::{Bytes, checked_shape};
 use crate::surface::error::FileError;
-use crate::surface::matrix::{Matrix, Size};
+use crate::surface::matrix::{Map, Matrix, Size};
 
 /// First bytes of a file.
 pub(super) const MAGIC: &[u8] = b"\x01\0Directory";
@@ -22,8 +22,8 @@ const MISSING_INTEGER: i16 = 32766;
 const MISSING: f32 = 1e38;
 
 /// Reads the first block of heights.
-pub(super) fn read(bytes: &[u8]) -> Result<Matrix, FileError> {
-    let mut file = Bytes::new(".opd", bytes);
+pub(super) fn read(file: Bytes) -> Result<Map, FileError> {
+    let mut file = file.named(".opd");
     file.take(2, "the header")?;
     let (_, length) = entry(&mut file)?;
     let mut blocks = Vec::new();
@@ -53,15 +53,16 @@ pub(super) fn read(bytes: &[u8]) -> Result<Matrix, FileError> {
     let rows = file.u16("the number of rows")?;
     let place = file.offset();
     let bytes_of_a_number = file.u16("the bytes of a number")?;
-    let [rows, columns] = checked_shape(rows.into(), columns.into())?;
+    let shape = checked_shape(rows.into(), columns.into())?;
+    let [rows, columns] = shape;
     // Heights in nm; a column is stored at a time.
     let step = 1e-9 * wavelength / multiplier;
-    let by_column = match bytes_of_a_number {
-        2 => file.packed([columns, rows], |number| match i16::from_le_bytes(number) {
+    let values = match bytes_of_a_number {
+        2 => file.by_columns(shape, move |number| match i16::from_le_bytes(number) {
             MISSING_INTEGER.. => f64::NAN,
             number => step * f64::from(number),
         })?,
-        4 => file.packed([columns, rows], |number| {
+        4 => file.by_columns(shape, move |number| {
             let number = f32::from_le_bytes(number);
             if number < MISSING {
                 step * f64::from(number)
@@ -74,10 +75,6 @@ pub(super) fn read(bytes: &[u8]) -> Result<Matrix, FileError> {
             return Err(file.broken(place, what));
         }
     };
-    let mut values = by_column.clone();
-    for (index, value) in values.iter_mut().enumerate() {
-        *value = by_column[index % columns * rows + index / columns];
-    }
     let is_length = |length: &f64| length.is_finite() && *length > 0.0;
     let pixel = pixel.map(|pixel| [1e-3 * pixel, 1e-3 * pixel * aspect]);
     let size = pixel
@@ -86,7 +83,7 @@ pub(super) fn read(bytes: &[u8]) -> Result<Matrix, FileError> {
     Ok(Matrix {
         size,
         unit: Some(1.0),
-        ..Matrix::new(values, [rows, columns])
+        ..Matrix::new(values, shape)
     })
 }
 

@@ -5,7 +5,7 @@
 
 use super::bytes::{Bytes, checked_shape};
 use crate::surface::error::FileError;
-use crate::surface::matrix::{Matrix, Size};
+use crate::surface::matrix::{Map, Matrix, Size};
 
 /// Offsets in the header.
 const PIXELS: usize = 404;
@@ -23,8 +23,8 @@ const MISSING: f32 = 1_000_001.0;
 const MICROMETRE: f64 = 1e-6;
 
 /// Reads the first layer.
-pub(super) fn read(bytes: &[u8]) -> Result<Matrix, FileError> {
-    let mut file = Bytes::new(".plu", bytes);
+pub(super) fn read(file: Bytes) -> Result<Map, FileError> {
+    let mut file = file.named(".plu");
     file.seek(PIXELS, "the calibration")?;
     let mut pixel = [0.0; 2];
     for side in &mut pixel {

@@ -1,14 +1,14 @@
 //! Grey PNG images of up to 16 bits. They state no unit, and their dots per inch are a printer's.
 
 use std::fs::File;
-use std::io::{BufReader, Cursor};
+use std::io::BufReader;
 
-use image::codecs::png::PngDecoder;
-use image::{ColorType, ImageDecoder};
+use png::{BitDepth, ColorType, Decoder, DecodingError, Reader, Transformations};
 
-use super::bytes::{checked_shape, with_capacity};
+use super::bytes::{Bytes, Stream, checked_shape, with_capacity};
+use super::numbers::{Decode, NumberRows, Numbers, decoded};
 use crate::surface::error::FileError;
-use crate::surface::matrix::Matrix;
+use crate::surface::matrix::{Map, Matrix};
 
 /// First bytes of a file.
 pub(super) const MAGIC: &[u8] = b"\x89PNG\r\n\x1a\n";
@@ -19,48 +19,74 @@ pub(super) const LARGEST_RATIO: usize = 4096;
 
 /// Columns and rows of an image, from its header.
 pub(super) fn claimed_points(file: BufReader<File>) -> Option<[usize; 2]> {
-    let (columns, rows) = PngDecoder::new(file).ok()?.dimensions();
+    let (columns, rows) = Decoder::new(file).read_header_info().ok()?.size();
     Some([columns as usize, rows as usize])
 }
 
 /// Reads an image; 0 is black and 1 white.
-pub(super) fn read(bytes: &[u8]) -> Result<Matrix, FileError> {
-    let image = PngDecoder::new(Cursor::new(bytes)).map_err(broken)?;
-    let (columns, rows) = image.dimensions();
+pub(super) fn read(file: Bytes) -> Result<Map, FileError> {
+    let mut image = Decoder::new(file.stream());
+    // Shades of fewer bits as bytes.
+    image.set_transformations(Transformations::EXPAND);
+    let mut image = image.read_info().map_err(broken)?;
+    let (columns, rows) = image.info().size();
     let shape = checked_shape(rows.into(), columns.into())?;
-    let colours = image.color_type();
-    let size = match colours {
-        ColorType::L8 => 1,
-        ColorType::L16 => 2,
+    let size = match image.output_color_type() {
+        (ColorType::Grayscale, BitDepth::Eight) => 1,
+        (ColorType::Grayscale, BitDepth::Sixteen) => 2,
         _ => return Err(not_grey()),
     };
-    refuse_ratio(shape, size, bytes.len())?;
-    // The decoder needs a byte buffer; it stores 16-bit numbers in the machine's byte order.
-    let mut pixels = Vec::new();
-    let length = shape[0] * shape[1] * size;
-    pixels
-        .try_reserve_exact(length)
-        .map_err(|_| FileError::Memory {
-            bytes: length as u64,
-        })?;
-    pixels.resize(length, 0);
-    image.read_image(&mut pixels).map_err(broken)?;
-    let mut values = with_capacity(shape)?;
-    if size == 1 {
-        values.extend(
-            pixels
-                .iter()
-                .map(|shade| f64::from(*shade) / f64::from(u8::MAX)),
-        );
+    refuse_ratio(shape, size, file.length())?;
+    let decode = if size == 1 {
+        decoded(|[shade]| f64::from(shade) / f64::from(u8::MAX))
     } else {
-        values.extend(pixels.chunks_exact(2).map(|shade| {
-            f64::from(u16::from_ne_bytes([shade[0], shade[1]])) / f64::from(u16::MAX)
-        }));
-    }
+        decoded(|shade| f64::from(u16::from_be_bytes(shade)) / f64::from(u16::MAX))
+    };
+    let numbers = if image.info().interlaced {
+        file.expect_held(shape)?;
+        // Rows of an interlaced image come in seven passes.
+        let mut pixels = Vec::new();
+        let length = shape[0] * shape[1] * size;
+        pixels
+            .try_reserve_exact(length)
+            .map_err(|_| FileError::Memory {
+                bytes: length as u64,
+            })?;
+        pixels.resize(length, 0);
+        image.next_frame(&mut pixels).map_err(broken)?;
+        let mut values = with_capacity(shape)?;
+        values.resize(shape[0] * shape[1], 0.0);
+        decode(&pixels, &mut values);
+        Numbers::Held(values)
+    } else {
+        Numbers::Rows(Box::new(ImageRows {
+            image,
+            line: vec![0; shape[1] * size],
+            decode,
+        }))
+    };
     Ok(Matrix {
         grey: true,
-        ..Matrix::new(values, shape)
+        ..Matrix::new(numbers, shape)
     })
+}
+
+/// Rows of an image that is not interlaced.
+struct ImageRows {
+    image: Reader<BufReader<Stream>>,
+    line: Vec<u8>,
+    decode: Decode,
+}
+
+impl NumberRows for ImageRows {
+    fn next(&mut self, values: &mut [f64]) -> Result<(), FileError> {
+        let columns = self.image.info().width as usize;
+        for row in values.chunks_exact_mut(columns) {
+            self.image.read_row(&mut self.line).map_err(broken)?;
+            (self.decode)(&self.line, row);
+        }
+        Ok(())
+    }
 }
 
 /// Refuses an image of more pixels than a file of `length` bytes can encode.
@@ -89,7 +115,7 @@ pub(super) fn not_grey() -> FileError {
     }
 }
 
-fn broken(error: image::ImageError) -> FileError {
+fn broken(error: DecodingError) -> FileError {
     FileError::BrokenImage {
         format: "PNG",
         what: first_line(&error.to_string()),

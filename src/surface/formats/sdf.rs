@@ -7,8 +7,9 @@
 //! ISO 25178-71:2017, clause 5; its forerunner in Stout et al. 1993, report EUR 15178 EN.
 
 use super::bytes::{Bytes, checked_shape, latin_1, refuse_short_text, with_capacity};
+use super::numbers::Numbers;
 use crate::surface::error::FileError;
-use crate::surface::matrix::{Matrix, Size};
+use crate::surface::matrix::{Map, Matrix, Size};
 
 /// First bytes of a file: `a` for text or `b` for binary, then the organisation that defined the
 /// version.
@@ -21,11 +22,11 @@ const FORMAT: &str = ".sdf";
 const MISSING: &str = "BAD";
 
 /// Reads a surface of either form.
-pub(super) fn read(bytes: &[u8]) -> Result<Matrix, FileError> {
-    if bytes.starts_with(b"b") {
-        read_binary(bytes)
+pub(super) fn read(file: Bytes) -> Result<Map, FileError> {
+    if file.beginning(1)? == b"b" {
+        read_binary(file)
     } else {
-        read_text(bytes)
+        read_text(&file)
     }
 }
 
@@ -59,7 +60,7 @@ impl Header {
         (!stands).then(|| format!("Xscale = {x}, Yscale = {y}, Zscale = {z} are not lengths"))
     }
 
-    fn matrix(&self, values: Vec<f64>, [rows, columns]: [usize; 2]) -> Matrix {
+    fn matrix(&self, values: Numbers, [rows, columns]: [usize; 2]) -> Map {
         let [x, y, z] = self.scales;
         let y = if rows == 1 { x } else { y };
         Matrix {
@@ -70,8 +71,8 @@ impl Header {
     }
 }
 
-fn read_binary(bytes: &[u8]) -> Result<Matrix, FileError> {
-    let mut file = Bytes::new(FORMAT, bytes);
+fn read_binary(file: Bytes) -> Result<Map, FileError> {
+    let mut file = file.named(FORMAT);
     let magic = file.take(8, "the magic word")?;
     file.take(10 + 12 + 12, "the maker and the dates")?;
     let (columns, rows) = if magic.ends_with(b"2.0") {
@@ -124,8 +125,9 @@ fn read_binary(bytes: &[u8]) -> Result<Matrix, FileError> {
     Ok(header.matrix(values, shape))
 }
 
-fn read_text(bytes: &[u8]) -> Result<Matrix, FileError> {
-    let text = latin_1(bytes);
+fn read_text(file: &Bytes) -> Result<Map, FileError> {
+    let bytes = file.all()?;
+    let text = latin_1(&bytes);
     let wrong = |line: usize, what: String| FileError::BrokenText {
         format: FORMAT,
         line,
@@ -178,6 +180,7 @@ fn read_text(bytes: &[u8]) -> Result<Matrix, FileError> {
         return Err(wrong(end, scale_error));
     }
     let shape = header.shape()?;
+    file.expect_held(shape)?;
     let points = shape[0] * shape[1];
     refuse_short_text(shape, bytes.len())?;
     let mut values = with_capacity(shape)?;
@@ -211,7 +214,7 @@ fn read_text(bytes: &[u8]) -> Result<Matrix, FileError> {
             ),
         ));
     }
-    Ok(header.matrix(values, shape))
+    Ok(header.matrix(Numbers::Held(values), shape))
 }
 
 /// Entries of a text header that are numbers.

@@ -8,7 +8,7 @@
 use super::bytes::{Bytes, checked_shape};
 use super::length::stated_unit;
 use crate::surface::error::FileError;
-use crate::surface::matrix::{Matrix, Size};
+use crate::surface::matrix::{Map, Matrix, Size};
 
 /// First bytes of a file, and of one whose heights are compressed.
 pub(super) const MAGIC: &[u8] = b"DIGITAL SURF";
@@ -29,34 +29,39 @@ const FLOPPED: u16 = 3;
 const MISSING_BELOW: i64 = 2;
 
 /// Reads a surface.
-pub(super) fn read(bytes: &[u8]) -> Result<Matrix, FileError> {
-    if bytes.starts_with(COMPRESSED) {
+pub(super) fn read(file: Bytes) -> Result<Map, FileError> {
+    let mut file = file.named(FORMAT);
+    if file.beginning(COMPRESSED.len())? == COMPRESSED {
         return Err(FileError::NotSupported {
             what: "compressed .sur files",
             instead: "save it without compression, or as .sdf",
         });
     }
-    let mut file = Bytes::new(FORMAT, bytes);
     file.take(HEADER, "the header")?;
     file.seek(0, "the header")?;
     let header = Header::parse(&mut file)?;
     let start = HEADER + header.comment + header.private;
     file.seek(start, "the heights")?;
-    let mut values = match header.bits {
-        16 => file.packed(header.shape, |element| {
-            header.height(i16::from_le_bytes(element).into())
+    let (shape, codes) = (header.shape, header.codes);
+    let [rows, columns] = shape;
+    let values = match header.bits {
+        16 => file.matrix(shape, 2 * columns, move |element| {
+            codes.height(i16::from_le_bytes(element).into())
         })?,
-        _ => file.packed(header.shape, |element| {
-            header.height(i32::from_le_bytes(element).into())
+        _ => file.matrix(shape, 4 * columns, move |element| {
+            codes.height(i32::from_le_bytes(element).into())
         })?,
     };
-    reorder(&mut values, header.shape, header.inversion);
-    let [rows, columns] = header.shape;
+    let values = match codes.inversion {
+        FLIPPED => values.reversed_rows(),
+        FLOPPED => values.last_row_first(),
+        _ => values,
+    };
     let [dx, dy] = header.pixel;
     Ok(Matrix {
         size: Some(Size::Metres([dx * columns as f64, dy * rows as f64])),
         unit: header.unit,
-        ..Matrix::new(values, [rows, columns])
+        ..Matrix::new(values.into(), shape)
     })
 }
 
@@ -64,18 +69,24 @@ pub(super) fn read(bytes: &[u8]) -> Result<Matrix, FileError> {
 struct Header {
     shape: [usize; 2],
     bits: u16,
-    /// Code of a missing point, if there are any.
-    missing: Option<i64>,
+    codes: Codes,
     /// Pixel lengths along x and y, m.
     pixel: [f64; 2],
+    /// Metres per unit of the heights.
+    unit: Option<f64>,
+    comment: usize,
+    private: usize,
+}
+
+/// What the integers say of heights.
+#[derive(Clone, Copy)]
+struct Codes {
+    /// Code of a missing point, if there are any.
+    missing: Option<i64>,
     /// Height of one step of the integers, and of their zero, in units of the heights.
     step: f64,
     offset: f64,
-    /// Metres per unit of the heights.
-    unit: Option<f64>,
     inversion: u16,
-    comment: usize,
-    private: usize,
 }
 
 impl Header {
@@ -136,17 +147,21 @@ impl Header {
         Ok(Header {
             shape,
             bits,
-            missing: has_missing.then_some(i64::from(least) - MISSING_BELOW),
+            codes: Codes {
+                missing: has_missing.then_some(i64::from(least) - MISSING_BELOW),
+                step,
+                offset: if offset.is_finite() { offset } else { 0.0 },
+                inversion,
+            },
             pixel,
-            step,
-            offset: if offset.is_finite() { offset } else { 0.0 },
             unit: stated_unit(&units[2], "heights")?,
-            inversion,
             comment,
             private,
         })
     }
+}
 
+impl Codes {
     /// The height of an integer code; NaN if the point is missing.
     fn height(&self, value: i64) -> f64 {
         if self.missing == Some(value) {
@@ -157,19 +172,5 @@ impl Header {
             INVERTED_Z | FLIPPED | FLOPPED => -height,
             _ => height,
         }
-    }
-}
-
-/// Puts rows and columns into their order on the sample.
-fn reorder(values: &mut [f64], [rows, columns]: [usize; 2], inversion: u16) {
-    match inversion {
-        FLIPPED => values.chunks_mut(columns).for_each(<[f64]>::reverse),
-        FLOPPED => {
-            for row in 0..rows / 2 {
-                let (above, below) = values.split_at_mut((rows - 1 - row) * columns);
-                above[row * columns..(row + 1) * columns].swap_with_slice(&mut below[..columns]);
-            }
-        }
-        _ => {}
     }
 }

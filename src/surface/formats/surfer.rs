@@ -8,8 +8,9 @@
 //! "Surfer 7 grid file format".
 
 use super::bytes::{Bytes, checked_shape, latin_1, refuse_short_text, with_capacity};
+use super::numbers::Numbers;
 use crate::surface::error::FileError;
-use crate::surface::matrix::{Matrix, Size};
+use crate::surface::matrix::{Map, Matrix, Size};
 
 /// First bytes of the three forms.
 pub(super) const TEXT: &[u8] = b"DSAA";
@@ -23,17 +24,18 @@ const BLANK: f64 = 1.7014e38;
 const FORMAT: &str = ".grd";
 
 /// Reads a grid of any of the three forms.
-pub(super) fn read(bytes: &[u8]) -> Result<Matrix, FileError> {
-    match bytes.get(..4) {
-        Some(TEXT) => read_text(bytes),
-        Some(BINARY) => read_binary(bytes),
-        _ => read_binary_7(bytes),
+pub(super) fn read(file: Bytes) -> Result<Map, FileError> {
+    match file.beginning(TEXT.len())?.as_slice() {
+        TEXT => read_text(&file),
+        BINARY => read_binary(file),
+        _ => read_binary_7(file),
     }
 }
 
 /// Least and greatest x and y, then those of the heights, which are not needed.
-fn read_text(bytes: &[u8]) -> Result<Matrix, FileError> {
-    let text = latin_1(bytes);
+fn read_text(file: &Bytes) -> Result<Map, FileError> {
+    let bytes = file.all()?;
+    let text = latin_1(&bytes);
     let mut words = text.lines().enumerate().flat_map(|(index, line)| {
         line.split_ascii_whitespace()
             .map(move |word| (index + 1, word))
@@ -60,6 +62,7 @@ fn read_text(bytes: &[u8]) -> Result<Matrix, FileError> {
     let rows = number("the number of rows")?;
     let shape = checked_shape(whole(rows), whole(columns))?;
     refuse_short_text(shape, bytes.len())?;
+    file.expect_held(shape)?;
     let mut ends = [0.0; 6];
     for (end, what) in ends.iter_mut().zip([
         "the least x",
@@ -74,16 +77,20 @@ fn read_text(bytes: &[u8]) -> Result<Matrix, FileError> {
     let mut values = with_capacity(shape)?;
     for index in 0..shape[0] * shape[1] {
         let (row, column) = (index / shape[1] + 1, index % shape[1] + 1);
-        values.push(number(&format!(
-            "the height of row {row}, column {column}"
-        ))?);
+        let what = format!("the height of row {row}, column {column}");
+        values.push(unless(BLANK, number(&what)?));
     }
     let steps = steps(ends, shape).ok_or_else(|| FileError::BrokenText {
         format: FORMAT,
         line: line_now,
         what: REVERSED.to_owned(),
     })?;
-    Ok(finished(values, shape, steps, |height| height >= BLANK))
+    Ok(map(Numbers::Held(values), shape, steps))
+}
+
+/// A height, which is missing from a value on.
+fn unless(blank: f64, height: f64) -> f64 {
+    if height >= blank { f64::NAN } else { height }
 }
 
 /// The error message for limits in the wrong order.
@@ -105,18 +112,8 @@ fn steps(ends: [f64; 6], [rows, columns]: [usize; 2]) -> Option<[f64; 2]> {
     ])
 }
 
-/// The matrix with missing nodes marked, and the size from its spacing.
-fn finished(
-    mut values: Vec<f64>,
-    [rows, columns]: [usize; 2],
-    [dx, dy]: [f64; 2],
-    is_missing: impl Fn(f64) -> bool,
-) -> Matrix {
-    for value in &mut values {
-        if is_missing(*value) {
-            *value = f64::NAN;
-        }
-    }
+/// The map with the size from its spacing.
+fn map(values: Numbers, [rows, columns]: [usize; 2], [dx, dy]: [f64; 2]) -> Map {
     // Pixels of a single line are taken as square.
     let sides = [
         if columns == 1 { dy } else { dx } * columns as f64,
@@ -131,8 +128,8 @@ fn finished(
     }
 }
 
-fn read_binary(bytes: &[u8]) -> Result<Matrix, FileError> {
-    let mut file = Bytes::new(FORMAT, bytes);
+fn read_binary(file: Bytes) -> Result<Map, FileError> {
+    let mut file = file.named(FORMAT);
     file.take(4, "the magic word")?;
     let columns = file.i16("the number of columns")?;
     let rows = file.i16("the number of rows")?;
@@ -140,8 +137,10 @@ fn read_binary(bytes: &[u8]) -> Result<Matrix, FileError> {
     let start = file.offset();
     let ends = file.doubles("the limits of x, y and z")?;
     let steps = steps(ends, shape).ok_or_else(|| file.broken(start, REVERSED))?;
-    let values = file.packed(shape, |element| f64::from(f32::from_le_bytes(element)))?;
-    let mut matrix = finished(values, shape, steps, |height| height >= BLANK);
+    let values = file.packed(shape, |element| {
+        unless(BLANK, f32::from_le_bytes(element).into())
+    })?;
+    let mut matrix = map(values, shape, steps);
     file.warn_of_rest(&mut matrix.warnings);
     Ok(matrix)
 }
@@ -154,8 +153,8 @@ struct Description {
 }
 
 /// Sections with a name and a length: the version, the grid's description, its heights.
-fn read_binary_7(bytes: &[u8]) -> Result<Matrix, FileError> {
-    let mut file = Bytes::new(FORMAT, bytes);
+fn read_binary_7(file: Bytes) -> Result<Map, FileError> {
+    let mut file = file.named(FORMAT);
     let mut version = 1;
     let mut grid: Option<Description> = None;
     while file.left() > 0 {
@@ -163,7 +162,7 @@ fn read_binary_7(bytes: &[u8]) -> Result<Matrix, FileError> {
         let name = file.take(4, "the name of a section")?;
         let length = file.u32("the length of a section")? as usize;
         let end = file.offset().saturating_add(length);
-        match name {
+        match name.as_slice() {
             b"DATA" => {
                 let Some(Description {
                     shape,
@@ -175,12 +174,16 @@ fn read_binary_7(bytes: &[u8]) -> Result<Matrix, FileError> {
                         file.broken(start, "its DATA section stands before its GRID section")
                     );
                 };
-                let values = file.packed(shape, f64::from_le_bytes)?;
-                return Ok(finished(values, shape, steps, |height| match version {
+                let values = file.packed(shape, move |element| {
+                    let height = f64::from_le_bytes(element);
                     // The first version also marked every larger value as missing.
-                    1 => height >= blank,
-                    _ => height == blank,
-                }));
+                    if version == 1 || height == blank {
+                        unless(blank, height)
+                    } else {
+                        height
+                    }
+                })?;
+                return Ok(map(values, shape, steps));
             }
             BINARY_7 => version = file.i32("the version")?,
             b"GRID" => grid = Some(describe(&mut file)?),

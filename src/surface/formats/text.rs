@@ -5,11 +5,12 @@
 //! first line of words is a header, blank lines are skipped. Empty fields and `nan`, `na`, `n/a`
 //! are missing pixels.
 
+use super::bytes::Bytes;
 use super::length::length_unit;
 use super::xyz;
 use crate::surface::MOST_POINTS;
 use crate::surface::error::FileError;
-use crate::surface::matrix::{Matrix, Size};
+use crate::surface::matrix::{Map, Matrix, Size};
 use crate::units::{Dimension, parse_quantity};
 
 /// Separator of the numbers in a line.
@@ -37,7 +38,13 @@ struct Line<'a> {
 /// # Errors
 /// Binary content, a field that is not a number, or rows of different length, with line, row and
 /// column from 1.
-pub(super) fn read(bytes: &[u8]) -> Result<Matrix, FileError> {
+pub(super) fn read(file: Bytes) -> Result<Map, FileError> {
+    let map = read_map(&file.all()?)?;
+    file.expect_held([map.rows, map.columns])?;
+    Ok(map.into())
+}
+
+fn read_map(bytes: &[u8]) -> Result<Matrix, FileError> {
     let (matrix, remarks) = read_columns(bytes)?;
     // A size in the comments means that this is a matrix of heights.
     if matrix.size.is_none()

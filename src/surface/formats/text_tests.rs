@@ -3,7 +3,7 @@
 use super::*;
 
 fn numbers(text: &str) -> (usize, usize, Vec<f64>) {
-    let matrix = read(text.as_bytes()).unwrap_or_else(|error| panic!("{text:?}: {error}"));
+    let matrix = read_map(text.as_bytes()).unwrap_or_else(|error| panic!("{text:?}: {error}"));
     (matrix.rows, matrix.columns, matrix.values)
 }
 
@@ -70,7 +70,7 @@ fn one_row_one_column_one_number() {
 #[test]
 fn separators_alone_are_missing_pixels() {
     for text in [";", ";\n;;\n", "\t\n;", ",,,", ",\n,", ";;\n;;"] {
-        match read(text.as_bytes()) {
+        match read_map(text.as_bytes()) {
             Ok(matrix) => assert!(matrix.values.iter().all(|value| value.is_nan())),
             Err(error) => assert!(!error.to_string().is_empty()),
         }
@@ -83,14 +83,14 @@ fn comments_may_state_the_size() {
         let text = format!(
             "# Channel: Z\n# Width: 5.00 {micro}\n# Height: 2.5 {micro}\n# Value units: nm\n1 2\n"
         );
-        let matrix = read(text.as_bytes()).unwrap();
+        let matrix = read_map(text.as_bytes()).unwrap();
         assert_eq!(matrix.size, Some(Size::Metres([5e-6, 2.5e-6])));
         assert_eq!(matrix.unit, Some(1e-9));
     }
     // In Latin-1 the micro sign is a byte that UTF-8 does not have.
-    let matrix = read(b"# Width: 1e1 \xB5m\n# Height: 1e1 \xB5m\n1 2\n").unwrap();
+    let matrix = read_map(b"# Width: 1e1 \xB5m\n# Height: 1e1 \xB5m\n1 2\n").unwrap();
     assert_eq!(matrix.size, Some(Size::Metres([1e1 * 1e-6; 2])));
-    let matrix = read(b"# Width: 5 px\n# Height: -5 um\n1 2\n").unwrap();
+    let matrix = read_map(b"# Width: 5 px\n# Height: -5 um\n1 2\n").unwrap();
     assert_eq!((matrix.size, matrix.unit), (None, None));
 }
 
@@ -126,10 +126,10 @@ fn errors_name_line_row_and_column() {
         ("1 2\0\n", "byte 3 is 0"),
         ("1 \u{fffd}2\n", "is not a number"),
     ] {
-        let message = read(text.as_bytes()).unwrap_err().to_string();
+        let message = read_map(text.as_bytes()).unwrap_err().to_string();
         assert!(message.contains(fragment), "{text:?}: {message}");
     }
-    let utf16 = read(b"\xFF\xFE1\0").unwrap_err().to_string();
+    let utf16 = read_map(b"\xFF\xFE1\0").unwrap_err().to_string();
     assert!(utf16.contains("UTF-16"), "{utf16}");
 }
 
@@ -137,13 +137,13 @@ proptest::proptest! {
     /// Any bytes give a matrix or an error.
     #[test]
     fn any_bytes_give_an_error_or_a_matrix(bytes in proptest::collection::vec(proptest::prelude::any::<u8>(), 0..200)) {
-        let _ = read(&bytes);
+        let _ = read_map(&bytes);
     }
 
     /// The same with the significant characters.
     #[test]
     fn any_text_gives_an_error_or_a_matrix(text in "[0-9a-e,;.\t\r\n #%/nax+-]{0,60}") {
-        if let Ok(matrix) = read(text.as_bytes()) {
+        if let Ok(matrix) = read_map(text.as_bytes()) {
             assert_eq!(matrix.values.len(), matrix.rows * matrix.columns);
         }
     }
@@ -158,11 +158,11 @@ fn sizes_are_read_in_any_language() {
         "# \u{41a}\u{430}\u{43d}\u{430}\u{43b}: a: b\n# x: 5 \u{b5}m\n# y: 8.0 nm\n# z: nm\n",
         "# Canal: 3 um\n# Largeur: 5 \u{b5}m\n# Hauteur: 8 nm\n# Unit\u{e9}s: nm\n",
     ] {
-        let matrix = read(format!("{head}1 2\n3 4\n").as_bytes()).unwrap();
+        let matrix = read_map(format!("{head}1 2\n3 4\n").as_bytes()).unwrap();
         assert_eq!(matrix.size, Some(Size::Metres([5e-6, 8e-9])), "{head}");
         assert_eq!(matrix.unit, Some(1e-9), "{head}");
     }
     let other = "# Kanal: Topo\n# Breite: 5 um\n# H\u{f6}he: 8 nm\n# Value units: V\n1 2\n3 4\n";
-    let matrix = read(other.as_bytes()).unwrap();
+    let matrix = read_map(other.as_bytes()).unwrap();
     assert_eq!((matrix.size, matrix.unit), (None, None));
 }

@@ -3,21 +3,26 @@
 //! They state no unit, and their resolution is a printer's.
 
 use std::fs::File;
-use std::io::{BufReader, Cursor};
+use std::io::BufReader;
 
-use tiff::ColorType;
-use tiff::decoder::{Decoder, DecodingResult, Limits};
+use tiff::decoder::{ChunkType, Decoder, DecodingResult, Limits};
+use tiff::tags::{ByteOrder, CompressionMethod, PhotometricInterpretation, SampleFormat, Tag};
+use tiff::{ColorType, TiffError};
 
-use super::bytes::{checked_shape, with_capacity};
+use super::bytes::{Bytes, Stream, checked_shape};
+use super::numbers::{NumberRows, Numbers};
 use super::png::{first_line, not_grey, refuse_ratio};
 use crate::surface::error::FileError;
-use crate::surface::matrix::Matrix;
+use crate::surface::matrix::{Map, Matrix};
 
 /// First bytes of a file: both byte orders, and files beyond 4 GiB.
 pub(super) const MAGIC: [&[u8]; 4] = [b"II*\0", b"MM\0*", b"II+\0", b"MM\0+"];
 
 /// Room for the decoder's own tables, bytes.
 const TABLES: usize = 1 << 20;
+
+/// Numbers of strips or tiles beside each other that do not count as held.
+const LARGEST_BAND: usize = 1 << 20;
 
 /// Columns and rows of the first image, from its directory.
 pub(super) fn claimed_points(file: BufReader<File>) -> Option<[usize; 2]> {
@@ -26,8 +31,8 @@ pub(super) fn claimed_points(file: BufReader<File>) -> Option<[usize; 2]> {
 }
 
 /// Reads the first image of a file.
-pub(super) fn read(bytes: &[u8]) -> Result<Matrix, FileError> {
-    let mut image = Decoder::new(Cursor::new(bytes)).map_err(broken)?;
+pub(super) fn read(file: Bytes) -> Result<Map, FileError> {
+    let mut image = Decoder::new(file.stream()).map_err(broken)?;
     let (columns, rows) = image.dimensions().map_err(broken)?;
     let shape = checked_shape(rows.into(), columns.into())?;
     let bits = match image.colortype().map_err(broken)? {
@@ -35,55 +40,193 @@ pub(super) fn read(bytes: &[u8]) -> Result<Matrix, FileError> {
         _ => return Err(not_grey()),
     };
     let size = usize::from(bits / 8);
-    refuse_ratio(shape, size, bytes.len())?;
-    let mut limits = Limits::default();
-    limits.decoding_buffer_size = shape[0] * shape[1] * size;
-    limits.intermediate_buffer_size = shape[0] * shape[1] * size + TABLES;
-    let mut image = image.with_limits(limits);
-    let pixels = image.read_image().map_err(broken)?;
-    let mut values = with_capacity(shape)?;
-    let grey = match pixels {
-        DecodingResult::U8(shades) => {
-            values.extend(
-                shades
-                    .iter()
-                    .map(|shade| f64::from(*shade) / f64::from(u8::MAX)),
-            );
-            true
-        }
-        DecodingResult::U16(shades) => {
-            values.extend(
-                shades
-                    .iter()
-                    .map(|shade| f64::from(*shade) / f64::from(u16::MAX)),
-            );
-            true
-        }
-        DecodingResult::F32(heights) => {
-            values.extend(heights.iter().map(|height| f64::from(*height)));
-            false
-        }
-        DecodingResult::F64(heights) => {
-            values.extend(heights);
-            false
-        }
-        _ => return Err(not_grey()),
+    refuse_ratio(shape, size, file.length())?;
+    let is_float = match image.find_tag_unsigned(Tag::SampleFormat).map_err(broken)? {
+        None => false,
+        Some(format) => match SampleFormat::from_u16_exhaustive(format) {
+            SampleFormat::Uint => false,
+            SampleFormat::IEEEFP => true,
+            _ => return Err(not_grey()),
+        },
     };
-    if values.len() != shape[0] * shape[1] {
+    if is_float != (bits > 16) {
         return Err(not_grey());
     }
     let mut warnings = Vec::new();
     if image.more_images() {
         warnings.push("the file holds several images; the first is read".to_owned());
     }
+    let numbers = match first_number(&mut image, shape, size).map_err(broken)? {
+        Some(start) => plain(file, start, shape, bits, image.byte_order())?,
+        None => {
+            let chunk = chunk(&mut image, shape).map_err(broken)?;
+            // Of wide strips one may be the whole map.
+            if chunk[0] * shape[1] > LARGEST_BAND || chunk[0] >= shape[0] {
+                file.expect_held([chunk[0].min(shape[0]), shape[1]])?;
+            }
+            let mut limits = Limits::default();
+            limits.decoding_buffer_size = chunk[0] * chunk[1] * size;
+            limits.intermediate_buffer_size = chunk[0] * chunk[1] * size + TABLES;
+            Numbers::Rows(Box::new(ChunkedRows {
+                image: image.with_limits(limits),
+                shape,
+                chunk,
+                band: Vec::new(),
+                given: 0,
+            }))
+        }
+    };
     Ok(Matrix {
-        grey,
+        grey: !is_float,
         warnings,
-        ..Matrix::new(values, shape)
+        ..Matrix::new(numbers, shape)
     })
 }
 
-fn broken(error: tiff::TiffError) -> FileError {
+type Image = Decoder<BufReader<Stream>>;
+
+/// Where the numbers begin, if they lie in the file as they are, row after row; many programs write one strip.
+fn first_number(
+    image: &mut Image,
+    [rows, columns]: [usize; 2],
+    size: usize,
+) -> Result<Option<usize>, TiffError> {
+    let is = |found: Option<u16>, expected: u16| found.is_none_or(|found| found == expected);
+    let compression = image.find_tag_unsigned(Tag::Compression)?;
+    let shades = image.find_tag_unsigned(Tag::PhotometricInterpretation)?;
+    if image.get_chunk_type() != ChunkType::Strip
+        || !is(compression, CompressionMethod::None.to_u16())
+        || !is(shades, PhotometricInterpretation::BlackIsZero.to_u16())
+    {
+        return Ok(None);
+    }
+    let strip = image.find_tag_unsigned::<u64>(Tag::RowsPerStrip)?;
+    let strip = strip.unwrap_or(u64::MAX).clamp(1, rows as u64);
+    let starts = image.get_tag_u64_vec(Tag::StripOffsets)?;
+    let step = strip * (columns * size) as u64;
+    let follows = |pair: &[u64]| pair[0].checked_add(step) == Some(pair[1]);
+    let is_whole = starts.len() as u64 == (rows as u64).div_ceil(strip);
+    let first = starts
+        .first()
+        .filter(|_| is_whole && starts.windows(2).all(follows));
+    Ok(first.and_then(|start| usize::try_from(*start).ok()))
+}
+
+/// Numbers that lie in the file as they are.
+fn plain(
+    mut file: Bytes,
+    start: usize,
+    shape: [usize; 2],
+    bits: u8,
+    order: ByteOrder,
+) -> Result<Numbers, FileError> {
+    let ends = |error: FileError| FileError::BrokenImage {
+        format: "TIFF",
+        what: first_line(&error.to_string()),
+    };
+    file.seek(start, "the image").map_err(ends)?;
+    let is_little = order == ByteOrder::LittleEndian;
+    let shade = |shade: u16| f64::from(shade) / f64::from(u16::MAX);
+    let numbers = match (bits, is_little) {
+        (8, _) => file.packed(shape, |[shade]| f64::from(shade) / f64::from(u8::MAX)),
+        (16, true) => file.packed(shape, move |number| shade(u16::from_le_bytes(number))),
+        (16, false) => file.packed(shape, move |number| shade(u16::from_be_bytes(number))),
+        (32, true) => file.packed(shape, |number| f32::from_le_bytes(number).into()),
+        (32, false) => file.packed(shape, |number| f32::from_be_bytes(number).into()),
+        (_, true) => file.packed(shape, f64::from_le_bytes),
+        (_, false) => file.packed(shape, f64::from_be_bytes),
+    };
+    numbers.map_err(ends)
+}
+
+/// Rows and columns of a strip or a tile.
+fn chunk(image: &mut Image, [rows, columns]: [usize; 2]) -> Result<[usize; 2], TiffError> {
+    if image.get_chunk_type() == ChunkType::Strip {
+        let strip = image.find_tag_unsigned::<u64>(Tag::RowsPerStrip)?;
+        return Ok([
+            strip.map_or(rows, |strip| strip.clamp(1, rows as u64) as usize),
+            columns,
+        ]);
+    }
+    let side = |side: u32| side.max(1) as usize;
+    let width = side(image.get_tag_u32(Tag::TileWidth)?);
+    Ok([side(image.get_tag_u32(Tag::TileLength)?), width])
+}
+
+/// Rows of strips or tiles, a band of them at a time.
+struct ChunkedRows {
+    image: Image,
+    shape: [usize; 2],
+    /// Rows and columns of a strip or tile.
+    chunk: [usize; 2],
+    /// The band in which the next row lies.
+    band: Vec<f64>,
+    /// Rows given so far.
+    given: usize,
+}
+
+impl ChunkedRows {
+    /// Reads the band from the next row on.
+    fn read_band(&mut self) -> Result<(), FileError> {
+        let ([rows, columns], [height, width]) = (self.shape, self.chunk);
+        let height_here = height.min(rows - self.given);
+        self.band.resize(height_here * columns, 0.0);
+        let across = columns.div_ceil(width);
+        let first = self.given / height * across;
+        for index in 0..across {
+            let start = index * width;
+            let width = width.min(columns - start);
+            let chunk = u32::try_from(first + index).unwrap_or(u32::MAX);
+            let values = numbers(self.image.read_chunk(chunk).map_err(broken)?)?;
+            if values.len() != height_here * width {
+                return Err(not_grey());
+            }
+            let lines = self.band.chunks_exact_mut(columns);
+            for (line, values) in lines.zip(values.chunks_exact(width)) {
+                line[start..start + width].copy_from_slice(values);
+            }
+        }
+        Ok(())
+    }
+}
+
+impl NumberRows for ChunkedRows {
+    fn next(&mut self, values: &mut [f64]) -> Result<(), FileError> {
+        let columns = self.shape[1];
+        for row in values.chunks_exact_mut(columns) {
+            let within = self.given % self.chunk[0];
+            if within == 0 {
+                self.read_band()?;
+            }
+            row.copy_from_slice(&self.band[within * columns..(within + 1) * columns]);
+            self.given += 1;
+        }
+        Ok(())
+    }
+}
+
+/// Shades from 0, black, to 1, white, or heights.
+fn numbers(pixels: DecodingResult) -> Result<Vec<f64>, FileError> {
+    Ok(match pixels {
+        DecodingResult::U8(shades) => {
+            let shades = shades.into_iter();
+            shades
+                .map(|shade| f64::from(shade) / f64::from(u8::MAX))
+                .collect()
+        }
+        DecodingResult::U16(shades) => {
+            let shades = shades.into_iter();
+            shades
+                .map(|shade| f64::from(shade) / f64::from(u16::MAX))
+                .collect()
+        }
+        DecodingResult::F32(heights) => heights.into_iter().map(f64::from).collect(),
+        DecodingResult::F64(heights) => heights,
+        _ => return Err(not_grey()),
+    })
+}
+
+fn broken(error: TiffError) -> FileError {
     FileError::BrokenImage {
         format: "TIFF",
         what: first_line(&error.to_string()),

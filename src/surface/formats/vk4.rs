@@ -6,7 +6,7 @@
 
 use super::bytes::{Bytes, checked_shape};
 use crate::surface::error::FileError;
-use crate::surface::matrix::{Matrix, Size};
+use crate::surface::matrix::{Map, Matrix, Size};
 
 /// First bytes of a file.
 pub(super) const MAGIC: [&[u8]; 4] = [b"VK3_", b"VK4_", b"VK6", b"VK7"];
@@ -31,25 +31,28 @@ const PICOMETRE: f64 = 1e-12;
 const PALETTE: usize = 768;
 
 /// Reads the first map of heights.
-pub(super) fn read(bytes: &[u8]) -> Result<Matrix, FileError> {
-    if bytes.starts_with(MAGIC[2]) || bytes.starts_with(MAGIC[3]) {
-        return read_map(&member(bytes)?);
+pub(super) fn read(file: Bytes) -> Result<Map, FileError> {
+    let start = file.beginning(MAGIC[2].len())?;
+    if start == MAGIC[2] || start == MAGIC[3] {
+        return read_map(Bytes::held(member(file)?));
     }
-    read_map(bytes)
+    read_map(file)
 }
 
 /// The map within an archive.
 #[cfg(feature = "images")]
-fn member(bytes: &[u8]) -> Result<Vec<u8>, FileError> {
-    use std::io::{Cursor, Read};
+fn member(file: Bytes) -> Result<Vec<u8>, FileError> {
+    use std::io::Read;
 
-    let broken = |what: String| Bytes::new(".vk6", bytes).broken(0, what);
-    let archive = zip::ZipArchive::new(Cursor::new(bytes));
+    let file = file.named(".vk6");
+    let broken = |what: String| file.broken(0, what);
+    let archive = zip::ZipArchive::new(file.stream());
     let mut archive =
         archive.map_err(|error| broken(format!("its archive is not whole ({error})")))?;
     let entry = archive.by_name(MEMBER);
     let entry =
         entry.map_err(|error| broken(format!("{MEMBER} is not in its archive ({error})")))?;
+    file.expect_held_bytes(entry.size())?;
     let mut map = Vec::new();
     let read = entry.take(LONGEST).read_to_end(&mut map);
     read.map_err(|error| broken(format!("{MEMBER} cannot be read ({error})")))?;
@@ -57,7 +60,7 @@ fn member(bytes: &[u8]) -> Result<Vec<u8>, FileError> {
 }
 
 #[cfg(not(feature = "images"))]
-fn member(_: &[u8]) -> Result<Vec<u8>, FileError> {
+fn member(_: Bytes) -> Result<Vec<u8>, FileError> {
     Err(FileError::NotSupported {
         what: "Keyence archives (.vk6, .vk7) in a build without images",
         instead: "save the map as .vk4",
@@ -65,8 +68,8 @@ fn member(_: &[u8]) -> Result<Vec<u8>, FileError> {
 }
 
 /// Reads the first map of heights of a file that is no archive.
-fn read_map(bytes: &[u8]) -> Result<Matrix, FileError> {
-    let mut file = Bytes::new(".vk4", bytes);
+fn read_map(file: Bytes) -> Result<Map, FileError> {
+    let mut file = file.named(".vk4");
     file.seek(TABLE, "the table of offsets")?;
     let settings = file.u32("the offset of the settings")? as usize;
     file.seek(HEIGHTS, "the table of offsets")?;

@@ -1,7 +1,8 @@
 //! Grey images and archives in a build without the feature `images`: they are known, and not read.
 
 use super::FileError;
-use super::Matrix;
+use super::Map;
+use super::bytes::Bytes;
 
 /// PNG images.
 pub(super) mod png {
@@ -16,7 +17,7 @@ pub(super) mod png {
     }
 
     /// Refuses the image.
-    pub fn read(_: &[u8]) -> Result<Matrix, FileError> {
+    pub fn read(_: Bytes) -> Result<Map, FileError> {
         Err(not_built("PNG images"))
     }
 }
@@ -34,7 +35,7 @@ pub(super) mod tiff {
     }
 
     /// Refuses the image.
-    pub fn read(_: &[u8]) -> Result<Matrix, FileError> {
+    pub fn read(_: Bytes) -> Result<Map, FileError> {
         Err(not_built("TIFF images"))
     }
 }
@@ -52,7 +53,7 @@ pub(super) mod x3p {
     }
 
     /// Refuses the archive.
-    pub fn read(_: &[u8]) -> Result<Matrix, FileError> {
+    pub fn read(_: Bytes) -> Result<Map, FileError> {
         Err(not_built("X3P surfaces"))
     }
 }

@@ -4,14 +4,16 @@
 //! ISO 25178-72:2017; OpenGPS, "X3P", <https://sourceforge.net/p/open-gps/mwiki/X3p/>.
 
 use std::fs::File;
-use std::io::{BufReader, Cursor, Read, Seek};
+use std::io::{BufReader, Read, Seek, SeekFrom};
 
+use flate2::bufread::DeflateDecoder;
 use roxmltree::{Document, Node};
-use zip::ZipArchive;
+use zip::{CompressionMethod, ZipArchive};
 
 use super::bytes::{Bytes, checked_shape};
+use super::numbers::{Decode, NumberRows, Numbers, decoded};
 use crate::surface::error::FileError;
-use crate::surface::matrix::{Matrix, Size};
+use crate::surface::matrix::{Map, Matrix, Size};
 
 /// First bytes of a file.
 pub(super) const MAGIC: &[u8] = b"PK\x03\x04";
@@ -45,41 +47,77 @@ enum Number {
 }
 
 /// Reads the heights.
-pub(super) fn read(bytes: &[u8]) -> Result<Matrix, FileError> {
-    let mut archive = open(Cursor::new(bytes))?;
+pub(super) fn read(file: Bytes) -> Result<Map, FileError> {
+    let mut archive = open(file.stream())?;
     let description = describe(&mut archive)?;
-    let [rows, columns] = description.shape;
-    let size_of_number = match description.number {
-        Number::Int16 => 2,
-        Number::Int32 | Number::Single => 4,
-        Number::Double => 8,
-    };
-    let length = rows * columns * size_of_number;
-    let mut numbers = Vec::new();
-    numbers
-        .try_reserve_exact(length)
-        .map_err(|_| FileError::Memory {
-            bytes: length as u64,
-        })?;
-    let entry = archive.by_name(&description.numbers).map_err(broken)?;
-    entry
-        .take(length as u64)
-        .read_to_end(&mut numbers)
-        .map_err(broken)?;
-    let mut numbers = Bytes::new(FORMAT, &numbers);
     let shape = description.shape;
-    let values = match description.number {
-        Number::Int16 => numbers.packed(shape, |number| i16::from_le_bytes(number).into())?,
-        Number::Int32 => numbers.packed(shape, |number| i32::from_le_bytes(number).into())?,
-        Number::Single => numbers.packed(shape, |number| f32::from_le_bytes(number).into())?,
-        Number::Double => numbers.packed(shape, f64::from_le_bytes)?,
-    };
+    let [rows, columns] = shape;
     let [dx, dy] = description.pixel;
+    let entry = archive.by_name(&description.numbers).map_err(broken)?;
+    let mut packed = file.stream();
+    let start = entry.data_start().unwrap_or(u64::MAX);
+    packed.seek(SeekFrom::Start(start)).map_err(broken)?;
+    let packed = packed.take(entry.compressed_size());
+    let numbers: Box<dyn Read> = match entry.compression() {
+        CompressionMethod::Stored => Box::new(packed),
+        CompressionMethod::Deflated => Box::new(DeflateDecoder::new(packed)),
+        other => return Err(broken(format!("it is compressed by {other}"))),
+    };
+    let stream = |size, decode| StreamedRows {
+        numbers,
+        shape,
+        size,
+        decode,
+        bytes: Vec::new(),
+        given: 0,
+    };
+    let rows_of_numbers = match description.number {
+        Number::Int16 => stream(2, decoded(|number| i16::from_le_bytes(number).into())),
+        Number::Int32 => stream(4, decoded(|number| i32::from_le_bytes(number).into())),
+        Number::Single => stream(4, decoded(|number| f32::from_le_bytes(number).into())),
+        Number::Double => stream(8, decoded(f64::from_le_bytes)),
+    };
     Ok(Matrix {
         size: Some(Size::Metres([dx * columns as f64, dy * rows as f64])),
         unit: Some(description.unit),
-        ..Matrix::new(values, shape)
+        ..Matrix::new(Numbers::Rows(Box::new(rows_of_numbers)), shape)
     })
+}
+
+/// Rows as they are unpacked.
+struct StreamedRows {
+    numbers: Box<dyn Read>,
+    shape: [usize; 2],
+    /// Bytes of a number.
+    size: usize,
+    decode: Decode,
+    /// Those of a row.
+    bytes: Vec<u8>,
+    /// Rows given so far.
+    given: usize,
+}
+
+impl NumberRows for StreamedRows {
+    fn next(&mut self, values: &mut [f64]) -> Result<(), FileError> {
+        let [rows, columns] = self.shape;
+        let length = columns * self.size;
+        for row in values.chunks_exact_mut(columns) {
+            self.bytes.clear();
+            let mut next = self.numbers.by_ref().take(length as u64);
+            next.read_to_end(&mut self.bytes).map_err(broken)?;
+            if self.bytes.len() < length {
+                return Err(FileError::Truncated {
+                    rows,
+                    columns,
+                    expected: (rows * length) as u64,
+                    found: (self.given * length + self.bytes.len()) as u64,
+                });
+            }
+            (self.decode)(&self.bytes, row);
+            self.given += 1;
+        }
+        Ok(())
+    }
 }
 
 /// Points along x and y, from the description alone.

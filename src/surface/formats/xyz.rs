@@ -2,10 +2,11 @@
 //!
 //! Grid points that the file lacks are missing pixels. Rows of the map follow rising y.
 
+use super::bytes::Bytes;
 use super::text;
 use crate::surface::MOST_POINTS;
 use crate::surface::error::FileError;
-use crate::surface::matrix::{Matrix, Size};
+use crate::surface::matrix::{Map, Matrix, Size};
 
 /// Coordinates closer than this share of their range are equal: less than the spacing of any grid,
 /// more than the rounding of a printed number.
@@ -18,8 +19,8 @@ const UNEVEN: f64 = 0.05;
 const SPARSEST: usize = 2;
 
 /// Reads a file of points.
-pub(super) fn read(bytes: &[u8]) -> Result<Matrix, FileError> {
-    let (columns, remarks) = text::read_columns(bytes)?;
+pub(super) fn read(file: Bytes) -> Result<Map, FileError> {
+    let (columns, remarks) = text::read_columns(&file.all()?)?;
     if columns.columns != 3 {
         return Err(FileError::NotAGrid {
             what: format!(
@@ -28,7 +29,10 @@ pub(super) fn read(bytes: &[u8]) -> Result<Matrix, FileError> {
             ),
         });
     }
-    gridded(&columns, remarks.lateral_unit).map_err(|what| FileError::NotAGrid { what })
+    let map = gridded(&columns, remarks.lateral_unit);
+    let map = map.map_err(|what| FileError::NotAGrid { what })?;
+    file.expect_held([map.rows, map.columns])?;
+    Ok(map.into())
 }
 
 /// The map that the points form if it has at least two points a side; `None` for three ordinary

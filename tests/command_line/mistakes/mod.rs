@@ -44,6 +44,14 @@ const OUT_OF_REACH: &[(&str, &str)] = &[
         "takes several processes: tests/solver/ranks_files.rs has them",
     ),
     (
+        "Failure::KilledRank",
+        "takes the feature `mpi` and a launcher: .ci/ranks kills a rank",
+    ),
+    (
+        "FileError::MissingOnRanks",
+        "takes several processes, and a map with more holes than a test fills",
+    ),
+    (
         "GpuError::NoDevice",
         "an adapter that is listed and then gives no device",
     ),
