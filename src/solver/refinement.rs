@@ -36,10 +36,10 @@ pub const TRIALS_PER_ITERATION: usize = 4;
 /// bits, below 32 MiB), in pieces that do not fit the other's.
 const FEWEST_IN_TURN: usize = 1 << 23;
 
-/// Whether, with so many held points, the iterations of mixed precision rest while its state is evaluated, and the other way
-/// round.
-pub fn works_in_turn(held: usize) -> bool {
-    held >= FEWEST_IN_TURN
+/// Whether, with so many held points, alone or on one of several ranks, the iterations of mixed precision rest while its state is
+/// evaluated, and the other way round. The allocator of a rank gives all back at once.
+pub fn works_in_turn(held: usize, is_alone: bool) -> bool {
+    held >= FEWEST_IN_TURN || !is_alone
 }
 
 impl ContactSolver<'_> {
@@ -205,7 +205,8 @@ impl ContactSolver<'_> {
 
     /// Whether the iterations rest while the state in double precision is evaluated, and the other way round.
     fn works_in_turn(&self) -> bool {
-        works_in_turn(self.problem.share.len())
+        let share = &self.problem.share;
+        works_in_turn(share.len(), share.is_whole())
     }
 
     /// Lets go of all that the next round makes anew, where memory is worth it.

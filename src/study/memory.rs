@@ -84,7 +84,7 @@ impl Memory {
             .saturating_sub(own(cost.resting) + own(cost.reference_resting));
         let exchanged = exchange_bytes(cost.points, DOUBLE as usize, ranks) as u64;
         // Iterations and state that work in turn: the one rests while the other does.
-        let in_turn = on_processor && works_in_turn(solved as usize);
+        let in_turn = on_processor && works_in_turn(solved as usize, ranks == 1);
         let corrects = solver_here + reference - own(cost.reference_resting);
         let both = if in_turn {
             corrects.max(idle + own(cost.reference_resting))

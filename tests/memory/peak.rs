@@ -6,7 +6,7 @@ use std::path::Path;
 use std::process::Output;
 
 use tabor::backend::dry_run::Place;
-use tabor::scene::Scene;
+use tabor::scene::{Precision, Scene};
 use tabor::solver::good_size;
 use tabor::study::{Memory, Plan};
 
@@ -233,12 +233,19 @@ fn what_does_not_fit_is_refused_with_the_largest_grid_that_does() {
         warning.contains("warning: grid.points: 3000 x 1500 points need "),
         "{warning}"
     );
-    let needs = |place: Place| {
-        let plan = plan(&text);
+    let needs = |(precision, place): (Precision, Place)| {
+        let mut scene = plan(&text).scene;
+        scene.solver.precision = precision;
+        let plan = Plan::for_scene(scene).unwrap_or_else(|error| panic!("{error}"));
         let memory: Memory = plan.memory(place).expect("a count");
         (memory.machine, memory.adapter)
     };
-    let [double, single, gpu] = [Place::Double, Place::Single, Place::Gpu].map(needs);
+    let [double, single, gpu] = [
+        (Precision::Double, Place::Double),
+        (Precision::Single, Place::Single),
+        (Precision::Auto, Place::Gpu),
+    ]
+    .map(needs);
     // By default a GPU has the processor keep the state in double precision.
     assert!(
         single.0 < double.0 && gpu.0 < double.0,
