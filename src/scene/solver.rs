@@ -52,8 +52,7 @@ impl Scene {
     pub fn arithmetic_on_processor(&self, solved: usize) -> Precision {
         let gains = solved >= FEWEST_POINTS_IN_MIXED
             && self.solver.tolerance >= LEAST_TOLERANCE_OF_MIXED
-            && self.solid.hardness.is_none()
-            && !self.has_sharp_law();
+            && self.solid.hardness.is_none();
         match self.solver.precision {
             Precision::Auto if gains => Precision::Mixed,
             Precision::Auto => Precision::Double,
@@ -71,12 +70,6 @@ impl Scene {
             self.solver.precision
         };
         precision == Precision::Single
-    }
-
-    /// Whether the attraction ends at once. Which of many solutions is found then hangs on the last digit.
-    fn has_sharp_law(&self) -> bool {
-        let adhesion = self.adhesion.as_ref();
-        adhesion.is_some_and(|adhesion| adhesion.taper == Some(0.0))
     }
 
     /// Whether a run with so many solved points looks for a graphics processor: the scene asks for one, or leaves the
