@@ -349,6 +349,10 @@ mod tests {
             let extension = which.checked_sub(told).map(|index| NAMED[index]);
             let format = find(bytes, extension).unwrap();
             let all = (format.read)(Bytes::held(bytes.to_vec())).and_then(Map::read);
+            // A build without images reads none.
+            if cfg!(not(feature = "images")) && matches!(all, Err(FileError::NotSupported { .. })) {
+                continue;
+            }
             let all = all.unwrap();
             let map = (format.read)(Bytes::held(bytes.to_vec())).unwrap();
             let is_text = extension == Some("xyz")
