@@ -39,25 +39,9 @@ impl<V> Matrix<V> {
         }
     }
 
-    /// The numbers, and the same without them.
-    pub(super) fn split(self) -> (V, Matrix<()>) {
-        let header = Matrix {
-            values: (),
-            rows: self.rows,
-            columns: self.columns,
-            size: self.size,
-            unit: self.unit,
-            grey: self.grey,
-            warnings: self.warnings,
-        };
-        (self.values, header)
-    }
-}
-
-impl Matrix<()> {
-    /// The same with numbers.
-    pub(super) fn with<V>(self, values: V) -> Matrix<V> {
-        Matrix {
+    /// The numbers, and the same with others in their place.
+    fn replace<W>(self, values: W) -> (V, Matrix<W>) {
+        let replaced = Matrix {
             values,
             rows: self.rows,
             columns: self.columns,
@@ -65,7 +49,20 @@ impl Matrix<()> {
             unit: self.unit,
             grey: self.grey,
             warnings: self.warnings,
-        }
+        };
+        (self.values, replaced)
+    }
+
+    /// The numbers, and the same without them.
+    pub(super) fn split(self) -> (V, Matrix<()>) {
+        self.replace(())
+    }
+}
+
+impl Matrix<()> {
+    /// The same with numbers.
+    pub(super) fn with<V>(self, values: V) -> Matrix<V> {
+        self.replace(values).1
     }
 }
 

@@ -106,25 +106,20 @@ impl<T: CpuReal> RowTransform<T> {
 
     /// Makes the spectra of the rows in the tiles of a block.
     pub fn pair(&self, tiles: &mut [Tile<T>]) {
-        if let &RowTransform::Paired {
-            last, ref twiddles, ..
-        } = self
-        {
-            Arch::new().dispatch(Pairing::<T, true> {
-                tiles,
-                last,
-                twiddles,
-            });
-        }
+        self.work_on::<true>(tiles);
     }
 
     /// The inverse of that, but for the factor 2 of a transform there and back.
     pub fn part(&self, tiles: &mut [Tile<T>]) {
+        self.work_on::<false>(tiles);
+    }
+
+    fn work_on<const FORWARD: bool>(&self, tiles: &mut [Tile<T>]) {
         if let &RowTransform::Paired {
             last, ref twiddles, ..
         } = self
         {
-            Arch::new().dispatch(Pairing::<T, false> {
+            Arch::new().dispatch(Pairing::<T, FORWARD> {
                 tiles,
                 last,
                 twiddles,

@@ -152,13 +152,7 @@ impl Bytes {
         if count > self.left() {
             return Err(self.ends_within(what));
         }
-        let mut bytes = Vec::new();
-        bytes
-            .try_reserve_exact(count)
-            .map_err(|_| FileError::Memory {
-                bytes: count as u64,
-            })?;
-        bytes.resize(count, 0);
+        let mut bytes = zeros(count)?;
         self.fill(&mut bytes)?;
         Ok(bytes)
     }
@@ -181,7 +175,7 @@ impl Bytes {
         self.beginning(self.length)
     }
 
-    /// Refuses so many bytes of numbers that are held whole, if that is more than the largest map takes.
+    /// Refuses to hold so many bytes of numbers at once, if that is more than the largest map takes.
     pub(super) fn expect_held_bytes(&self, length: u64) -> Result<(), FileError> {
         if length > LONGEST_NUMBER.saturating_mul(self.most as u64) {
             return Err(FileError::Whole {
@@ -377,6 +371,18 @@ pub(super) fn refuse_short_text(
 /// Decodes Latin-1.
 pub(super) fn latin_1(bytes: &[u8]) -> String {
     bytes.iter().map(|byte| char::from(*byte)).collect()
+}
+
+/// So many bytes, all 0; an error where there is no memory for them.
+pub(super) fn zeros(count: usize) -> Result<Vec<u8>, FileError> {
+    let mut bytes = Vec::new();
+    bytes
+        .try_reserve_exact(count)
+        .map_err(|_| FileError::Memory {
+            bytes: count as u64,
+        })?;
+    bytes.resize(count, 0);
+    Ok(bytes)
 }
 
 /// An empty list with capacity for all points of a shape, if memory allows.

@@ -3,7 +3,7 @@
 use super::bytes::{Bytes, with_capacity};
 use crate::surface::error::FileError;
 
-/// Numbers that are read at once, of which some formats hold as many twice.
+/// Most numbers read at once; some formats hold twice as many.
 const AT_ONCE: usize = 1 << 17;
 
 /// Turns the bytes of some numbers into these.

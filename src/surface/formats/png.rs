@@ -5,7 +5,7 @@ use std::io::BufReader;
 
 use png::{BitDepth, ColorType, Decoder, DecodingError, Reader, Transformations};
 
-use super::bytes::{Bytes, Stream, checked_shape, with_capacity};
+use super::bytes::{Bytes, Stream, checked_shape, with_capacity, zeros};
 use super::numbers::{Decode, NumberRows, Numbers, decoded};
 use crate::surface::error::FileError;
 use crate::surface::matrix::{Map, Matrix};
@@ -45,14 +45,7 @@ pub(super) fn read(file: Bytes) -> Result<Map, FileError> {
     let numbers = if image.info().interlaced {
         file.expect_held(shape)?;
         // Rows of an interlaced image come in seven passes.
-        let mut pixels = Vec::new();
-        let length = shape[0] * shape[1] * size;
-        pixels
-            .try_reserve_exact(length)
-            .map_err(|_| FileError::Memory {
-                bytes: length as u64,
-            })?;
-        pixels.resize(length, 0);
+        let mut pixels = zeros(shape[0] * shape[1] * size)?;
         image.next_frame(&mut pixels).map_err(broken)?;
         let mut values = with_capacity(shape)?;
         values.resize(shape[0] * shape[1], 0.0);
