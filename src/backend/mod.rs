@@ -112,6 +112,15 @@ pub enum BackendError {
     Device(String),
 }
 
+/// The values of a field in the host's own memory.
+#[derive(Clone, Copy, Debug)]
+pub enum Values<'a> {
+    /// In double precision.
+    Double(&'a [f64]),
+    /// In single precision.
+    Single(&'a [f32]),
+}
+
 /// Fields, spectra, kernels and the scalars of the algorithm, wherever they are.
 ///
 /// Recording work does not fail: what goes wrong surfaces where the host waits, in
@@ -167,6 +176,13 @@ pub trait Backend {
     fn in_single(&self) -> Option<Box<dyn Backend + Send>> {
         None
     }
+    /// Looks at the values of a field where the host holds them; `None` where a device does.
+    ///
+    /// # Errors
+    /// Those of [`read`](Backend::read).
+    fn values(&mut self, _field: Field) -> Result<Option<Values<'_>>, BackendError> {
+        Ok(None)
+    }
     /// Overwrites a field with one of another backend, of as many points, rounded to this one's number.
     /// It passes through the host, unless both are on one device.
     ///
@@ -178,7 +194,11 @@ pub trait Backend {
         from: &mut dyn Backend,
         source: Field,
     ) -> Result<(), BackendError> {
-        self.write(field, &from.read(source)?);
+        if let Some(Values::Double(values)) = from.values(source)? {
+            self.write(field, values);
+        } else {
+            self.write(field, &from.read(source)?);
+        }
         Ok(())
     }
     /// A field for another backend on the same device to take; `None` where there is no device.

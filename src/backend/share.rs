@@ -10,6 +10,8 @@ mod rows;
 use std::ops::Range;
 use std::sync::{Arc, OnceLock};
 
+use rayon::prelude::*;
+
 use super::cpu::Slabs;
 use super::ranks::{Parts, RankError, Ranks};
 use super::{BackendError, Shape};
@@ -200,12 +202,26 @@ impl Share {
     pub fn sums<const N: usize>(
         &self,
         rows: usize,
-        mut add: impl FnMut(usize, &mut [f64; N]),
+        add: impl Fn(usize, &mut [f64; N]) + Sync,
     ) -> [f64; N] {
+        let of_row = |row| {
+            let mut sums = [0.0; N];
+            add(row, &mut sums);
+            sums
+        };
+        let of_rows: Vec<[f64; N]> = (0..rows).into_par_iter().map(of_row).collect();
+        self.sums_of_rows(&of_rows)
+    }
+
+    /// The same of sums that are known of each row here, in the order of the rows: the same bits on any number of ranks and
+    /// threads.
+    pub fn sums_of_rows<const N: usize>(&self, own: &[[f64; N]]) -> [f64; N] {
         let mut sums = [0.0; N];
         for rank in 0..self.count() {
             if rank == self.rank() {
-                (0..rows).for_each(|row| add(row, &mut sums));
+                for row in own {
+                    sums.iter_mut().zip(row).for_each(|(sum, row)| *sum += row);
+                }
             }
             if self.noted(self.told_by(rank, &mut sums)).is_none() {
                 return [f64::NAN; N];
@@ -220,16 +236,16 @@ impl Share {
     }
 
     /// The sum of a function of it.
-    pub fn sum_by(&self, own: &[f64], of: impl Fn(f64) -> f64) -> f64 {
+    pub fn sum_by(&self, own: &[f64], of: impl Fn(f64) -> f64 + Sync) -> f64 {
         self.sum_in_lines(own, self.shape.points[0], of)
     }
 
     /// The same of a field over the surface.
-    pub fn surface_sum_by(&self, own: &[f64], of: impl Fn(f64) -> f64) -> f64 {
+    pub fn surface_sum_by(&self, own: &[f64], of: impl Fn(f64) -> f64 + Sync) -> f64 {
         self.sum_in_lines(own, self.shape.surface[0], of)
     }
 
-    fn sum_in_lines(&self, own: &[f64], width: usize, of: impl Fn(f64) -> f64) -> f64 {
+    fn sum_in_lines(&self, own: &[f64], width: usize, of: impl Fn(f64) -> f64 + Sync) -> f64 {
         let [sum] = self.sums(own.len() / width, |row, [sum]| {
             for value in &own[row * width..(row + 1) * width] {
                 *sum += of(*value);

@@ -3,8 +3,8 @@
 //! A processor does the same to several numbers with one instruction, if it finds them next to each
 //! other and nothing between them depends on the order. So the points of a block go through a kernel
 //! in groups: their numbers are gathered, the kernel says what becomes of each, and what they add to
-//! the sums is kept apart for each place in a group until the block ends. The order of all additions
-//! follows from the number of places alone, so that results are the same bits whatever a processor can do
+//! the sums is kept apart for each eighth place in a group until the block ends. The order of all additions
+//! follows from the numbers of points and places alone, so that results are the same bits whatever a processor can do
 //! at once.
 
 use std::marker::PhantomData;
@@ -20,9 +20,13 @@ use crate::real::Real;
 
 /// Points in a group: a few of the widest vectors, so that what is done once a group costs little.
 const LANES: usize = 32;
+/// Places in which what the groups add to a sum is kept apart, so that vectors are added.
+const PLACES: usize = 8;
 
 /// One number a point of a group.
 type Lanes<T> = [T; LANES];
+/// What is kept of a sum or an extreme while a block goes.
+type Places<T> = [T; PLACES];
 
 /// The constraint of the gap and the numbers of a solve as it stands, in the kernel's number: what `params`
 /// and `scalars` are to a shader.
@@ -190,11 +194,11 @@ where
     fn with_simd<S: Simd>(self, _: S) {
         let (numbers, law, rows, sums) = (self.numbers, self.law, self.rows, self.sums);
         let reduces = &rows.reduces[..TERMS];
-        let mut totals = [[0.0; LANES]; TERMS];
+        let mut totals = [[0.0; PLACES]; TERMS];
         // The least and the largest are exact in the kernel's own number.
-        let mut extremes = [[T::zero(); LANES]; TERMS];
+        let mut extremes = [[T::zero(); PLACES]; TERMS];
         for slot in 0..TERMS {
-            extremes[slot] = [T::from_double(reduces[slot].neutral()); LANES];
+            extremes[slot] = [T::from_double(reduces[slot].neutral()); PLACES];
         }
         let mut group = Group {
             reads: [[T::zero(); LANES]; READS],
@@ -222,18 +226,24 @@ where
                     let terms = &group.terms[slot];
                     match reduces[slot] {
                         Reduce::Add if here.len() == LANES => {
-                            for lane in 0..LANES {
-                                total[lane] += terms[lane].double();
+                            let at = |lane: usize| terms[lane].double();
+                            for place in 0..PLACES {
+                                let [second, third, fourth] =
+                                    [1, 2, 3].map(|part| place + part * PLACES);
+                                total[place] +=
+                                    (at(place) + at(second)) + (at(third) + at(fourth));
                             }
                         }
                         Reduce::Min if here.len() == LANES => {
                             for lane in 0..LANES {
-                                extreme[lane] = extreme[lane].least(terms[lane]);
+                                let least = &mut extreme[lane % PLACES];
+                                *least = least.least(terms[lane]);
                             }
                         }
                         Reduce::Max if here.len() == LANES => {
                             for lane in 0..LANES {
-                                extreme[lane] = extreme[lane].most(terms[lane]);
+                                let most = &mut extreme[lane % PLACES];
+                                *most = most.most(terms[lane]);
                             }
                         }
                         reduce => join(total, extreme, &terms[..here.len()], reduce),
@@ -252,26 +262,25 @@ where
 
 /// Puts what a group adds to a sum to what its places hold already.
 #[inline(never)]
-fn join<T: Real>(total: &mut Lanes<f64>, extreme: &mut Lanes<T>, terms: &[T], reduce: Reduce) {
-    let extremes = extreme.iter_mut().zip(terms);
-    match reduce {
-        Reduce::Add => {
-            let totals = total.iter_mut().zip(terms);
-            totals.for_each(|(total, &term)| *total += term.double());
+fn join<T: Real>(total: &mut Places<f64>, extreme: &mut Places<T>, terms: &[T], reduce: Reduce) {
+    for (lane, &term) in terms.iter().enumerate() {
+        let (total, extreme) = (&mut total[lane % PLACES], &mut extreme[lane % PLACES]);
+        match reduce {
+            Reduce::Add => *total += term.double(),
+            Reduce::Min => *extreme = extreme.least(term),
+            Reduce::Max => *extreme = extreme.most(term),
         }
-        Reduce::Min => extremes.for_each(|(least, &term)| *least = least.least(term)),
-        Reduce::Max => extremes.for_each(|(most, &term)| *most = most.most(term)),
     }
 }
 
 /// A sum with what its places hold.
 #[inline(never)]
-fn joined<T: Real>(sum: f64, total: &Lanes<f64>, extreme: &Lanes<T>, reduce: Reduce) -> f64 {
+fn joined<T: Real>(sum: f64, total: &Places<f64>, extreme: &Places<T>, reduce: Reduce) -> f64 {
     if reduce == Reduce::Add {
-        total.iter().fold(sum, |sum, &lane| sum + lane)
+        total.iter().fold(sum, |sum, &place| sum + place)
     } else {
-        let lanes = extreme.iter().map(|lane| lane.double());
-        lanes.fold(sum, |sum, lane| reduce.join(sum, lane))
+        let places = extreme.iter().map(|place| place.double());
+        places.fold(sum, |sum, place| reduce.join(sum, place))
     }
 }
 

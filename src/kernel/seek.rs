@@ -21,7 +21,7 @@ pub struct Sought<T> {
     pub gap: T,
     /// It is not less.
     pub bound: T,
-    /// The last step towards it.
+    /// By how much the last step towards it was longer than one after which no other is needed.
     pub left: T,
 }
 

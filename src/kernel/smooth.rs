@@ -11,8 +11,11 @@ use super::{Params, Rows, SUMS};
 use crate::law::{AdhesionMap, Cohesion, CorrectedField, Law, LennardJones, imbalance};
 use crate::real::Real;
 
-/// Ranges of the law within which Newton's method needs some steps more and no bound.
+/// Ranges of the law within which the search needs some steps more and no bound.
 const NEARBY: f64 = 0.1;
+/// A step of Halley's method leaves an error of a constant times its third power. In shares of the distance the constant is 7
+/// where the core is steep, so that the step after one of this many cube roots of the rounding error would be below rounding.
+const LAST_STEP: f64 = 0.4;
 
 /// The variable v and its constants in the kernel's number.
 #[derive(Clone, Copy)]
@@ -27,8 +30,10 @@ pub struct Smooth<T> {
     peak_gap: T,
     /// How far from the gap a start needs no bound.
     nearby: T,
-    /// Where the inversion stops.
-    precision: T,
+    /// Step, as a share of the distance, after which no other is needed.
+    last_step: T,
+    /// Range of the law.
+    range: T,
 }
 
 impl<T: Real> Smooth<T> {
@@ -51,11 +56,20 @@ impl<T: Real> Smooth<T> {
         if gap < self.peak_gap { gap - core } else { gap }
     }
 
-    /// One step of Newton's method from a gap to that at a value of v, within the core.
+    /// The gap at a value of v by the tangent at another gap.
     #[inline(always)]
-    fn newton(&self, law: &impl Cohesion<T>, goal: T, gap: T, bound: T) -> T {
+    fn by_tangent(&self, law: &impl Cohesion<T>, goal: T, gap: T) -> T {
         let error = self.variable(law, gap) - goal;
-        let next = gap - error * self.share(law, gap);
+        (gap - error * self.share(law, gap)).least(self.peak_gap)
+    }
+
+    /// One step of Halley's method from a gap to that at a value of v, within the core: with v' and v'' there.
+    #[inline(always)]
+    fn by_halley(&self, law: &impl Cohesion<T>, goal: T, gap: T, bound: T) -> T {
+        let error = self.variable(law, gap) - goal;
+        let slope = T::one() + self.compliance * self.hardening(law, gap);
+        let half_bend = T::from_double(0.5) * self.compliance * law.bend(gap);
+        let next = gap - error * slope / (slope * slope - error * half_bend);
         next.most(bound).least(self.peak_gap)
     }
 }
@@ -76,13 +90,12 @@ impl<T: Real> Variable<T> for Smooth<T> {
         goal < self.peak_gap
     }
 
-    /// From the tangent at the gap. v is concave in the core: from the left every step of Newton's method stays on
-    /// the left of the root, so that the start bounds the others, and only one that is far needs a bound itself, which
-    /// the repulsive power alone gives.
+    /// From the tangent at the gap. v is concave in the core, so that this start is on the left of what is sought and bounds the
+    /// other steps. Only one that is far needs a bound itself, which the repulsive power alone gives.
     #[inline(always)]
     fn sought(&self, law: &impl Cohesion<T>, goal: T, gap: T) -> Sought<T> {
         let bent = self.is_bent(goal);
-        let start = self.newton(law, goal, gap, T::neg_infinity());
+        let start = self.by_tangent(law, goal, gap);
         let start = if bent { start } else { goal };
         Sought {
             goal,
@@ -112,7 +125,7 @@ impl<T: Real> Variable<T> for Smooth<T> {
 
     #[inline(always)]
     fn is_open(&self, left: T) -> bool {
-        left > self.precision
+        left > T::zero()
     }
 
     #[inline(always)]
@@ -123,11 +136,12 @@ impl<T: Real> Variable<T> for Smooth<T> {
             bound,
             left,
         } = sought;
-        let next = self.newton(law, goal, gap, bound);
+        let next = self.by_halley(law, goal, gap, bound);
+        let beyond = (next - gap).abs() - self.last_step * (next + self.range);
         let open = self.is_open(left);
         Sought {
             gap: if open { next } else { gap },
-            left: if open { (next - gap).abs() } else { left },
+            left: if open { beyond } else { left },
             ..sought
         }
     }
@@ -144,7 +158,8 @@ impl<T: Real> GapConstraint<T> for Smooth<T> {
             peak: T::from_double(params.law.peak_tension()),
             peak_gap: T::from_double(params.law.peak_gap()),
             nearby: T::from_double(NEARBY * params.law.range()),
-            precision: T::from_double(2.0 * params.epsilon * params.law.range()),
+            last_step: T::from_double(LAST_STEP * params.epsilon.cbrt()),
+            range: T::from_double(params.law.range()),
         }
     }
 

@@ -47,6 +47,10 @@ impl<T: Real, L: Cohesion<T>> Cohesion<T> for Scaled<L, T> {
         self.factor * self.law.slope(gap)
     }
     #[inline(always)]
+    fn bend(&self, gap: T) -> T {
+        self.factor * self.law.bend(gap)
+    }
+    #[inline(always)]
     fn difference(&self, gap: T, step: T) -> T {
         self.factor * self.law.difference(gap, step)
     }

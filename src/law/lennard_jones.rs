@@ -150,6 +150,16 @@ impl<T: Real> Cohesion<T> for LennardJones<T> {
         T::from_double(8.0 / 3.0) * self.work_of_adhesion / (self.range * self.range)
             * (T::from_double(9.0) * tenth - T::from_double(3.0) * fourth)
     }
+
+    #[inline(always)]
+    fn bend(&self, gap: T) -> T {
+        let r = self.ratio(gap);
+        let square = r * r;
+        let fifth = square * square * r;
+        self.scale() / (self.range * self.range)
+            * fifth
+            * (T::from_double(12.0) - T::from_double(90.0) * (square * square * square))
+    }
 }
 
 #[cfg(test)]
@@ -163,14 +173,15 @@ mod tests {
             work_of_adhesion: 1.0,
             range: 1.0,
         };
-        for (gap, energy, traction, slope) in [
-            (0.0_f64, -1.0_f64, 0.0_f64, 16.0_f64),
-            (0.5, -0.579586445, 0.720757337, -1.1640502),
-            (2.0, -0.148097343, 0.0986299514, -0.09835899),
+        for (gap, energy, traction, slope, bend) in [
+            (0.0_f64, -1.0_f64, 0.0_f64, 16.0_f64, -208.0_f64),
+            (0.5, -0.579586445, 0.720757337, -1.1640502, 1.4393470),
+            (2.0, -0.148097343, 0.0986299514, -0.09835899, 0.1303324),
         ] {
             assert!((law.energy(gap) - energy).abs() < 1e-9);
             assert!((law.traction(gap) - traction).abs() < 1e-9);
             assert!((law.slope(gap) - slope).abs() < 1e-7);
+            assert!((law.bend(gap) - bend).abs() < 1e-6);
         }
         assert!((law.peak_tension() - 1.02640048).abs() < 1e-8);
         assert!((law.peak_gap() - 0.200936955).abs() < 1e-9);

@@ -30,6 +30,15 @@ fn law_slope(gap_here: real) -> real {
     return 8.0 / 3.0 * law_factor * real(params.law_work) / (range * range) * (9.0 * tenth - 3.0 * fourth);
 }
 
+fn law_bend(gap_here: real) -> real {
+    let range = real(params.law_range);
+    let r = law_ratio(gap_here);
+    let square = r * r;
+    let fifth = square * square * r;
+    let scale = 8.0 / 3.0 * law_factor * real(params.law_work) / (range * range * range);
+    return scale * fifth * (12.0 - 90.0 * (square * square * square));
+}
+
 // The gain of the traction over a step, to the rounding of the gain itself: by how much r^3 and r^9
 // grow, as shares of themselves.
 fn law_difference(gap_here: real, step: real) -> real {

@@ -36,12 +36,25 @@ impl MaugisDugdale<f64> {
     }
 }
 
+impl<T: Real> MaugisDugdale<T> {
+    /// Share of the taper that a length takes, by its inverse, which is the same at all points.
+    #[inline(always)]
+    fn of_taper(&self, length: T) -> T {
+        length * (T::one() / self.taper)
+    }
+
+    /// Share of the taper that is left beyond a gap: above 1 before it, negative behind it.
+    #[inline(always)]
+    fn left(&self, gap: T) -> T {
+        self.of_taper(self.range - gap) + T::from_double(0.5)
+    }
+}
+
 impl<T: Real> Cohesion<T> for MaugisDugdale<T> {
     #[inline(always)]
     fn traction(&self, gap: T) -> T {
         if self.taper > T::zero() {
-            let left = (self.range - gap) / self.taper + T::from_double(0.5);
-            self.peak_tension * left.most(T::zero()).least(T::one())
+            self.peak_tension * self.left(gap).most(T::zero()).least(T::one())
         } else if gap < self.range {
             self.peak_tension
         } else {
@@ -55,15 +68,14 @@ impl<T: Real> Cohesion<T> for MaugisDugdale<T> {
             return self.traction(gap + step) - self.traction(gap);
         }
         let (zero, one) = (T::zero(), T::one());
-        let left = (self.range - gap) / self.taper + T::from_double(0.5);
-        let moved = step / self.taper;
+        let (left, moved) = (self.left(gap), self.of_taper(step));
         // Only the part of the way that lies on the taper counts.
         let lost = if left > one {
-            (moved - (left - one)).max(zero).min(one)
+            (moved - (left - one)).most(zero).least(one)
         } else if left < zero {
-            -(-moved + left).max(zero).min(one)
+            -(left - moved).most(zero).least(one)
         } else {
-            moved.max(left - one).min(left)
+            moved.most(left - one).least(left)
         };
         -self.peak_tension * lost
     }

@@ -27,7 +27,7 @@ use crate::real::Real;
 pub struct LawShader {
     /// Its name.
     pub name: &'static str,
-    /// `law_traction`, `law_energy`, `law_slope`, `law_difference` and `law_repelling_gap` of a gap.
+    /// `law_traction`, `law_energy`, `law_slope`, `law_bend`, `law_difference` and `law_repelling_gap` of a gap.
     pub source: &'static str,
 }
 
@@ -49,6 +49,11 @@ pub trait Cohesion<T: Real>: Copy {
     fn energy(&self, gap: T) -> T;
     /// Slope of the traction.
     fn slope(&self, gap: T) -> T;
+    /// Slope of the slope of a law without a wall; 0 of the others.
+    #[inline(always)]
+    fn bend(&self, _gap: T) -> T {
+        T::zero()
+    }
     /// What the traction gains where the gap grows by `step`, to the rounding of the gain itself,
     /// however small that is beside the traction.
     fn difference(&self, gap: T, step: T) -> T;

@@ -68,7 +68,7 @@ impl Heights {
     }
 
     /// The height at each held grid point, reduced.
-    pub fn by_point(&self) -> impl Fn(usize) -> f64 + '_ {
+    pub fn by_point(&self) -> impl Fn(usize) -> f64 + Sync + '_ {
         let metres = self.held();
         move |point| (metres[point] - self.origin) / self.unit
     }

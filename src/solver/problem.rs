@@ -405,24 +405,29 @@ impl Problem {
         padded
     }
 
-    /// The heights over all held solved points, 0 on a pad; none of a sketch.
-    pub fn padded_heights(&self) -> impl ExactSizeIterator<Item = f64> + '_ {
+    /// The height at each held solved point, 0 on a pad.
+    pub fn padded_height(&self) -> impl Fn(usize) -> f64 + Sync + '_ {
         let width = self.shape.points[0];
-        let rows = if self.is_sketch() {
-            0
-        } else {
-            self.share.rows().len()
-        };
         let (nx, ny) = (self.shape.surface[0], self.share.surface_rows().len());
         let height_at = self.heights.by_point();
-        (0..rows * width).map(move |point| {
+        move |point| {
             let (x, y) = (point % width, point / width);
             if x < nx && y < ny {
                 height_at(y * nx + x)
             } else {
                 0.0
             }
-        })
+        }
+    }
+
+    /// The heights over all held solved points, 0 on a pad; none of a sketch.
+    pub fn padded_heights(&self) -> impl ExactSizeIterator<Item = f64> + '_ {
+        let rows = if self.is_sketch() {
+            0
+        } else {
+            self.share.rows().len()
+        };
+        (0..rows * self.shape.points[0]).map(self.padded_height())
     }
 
     /// The grid's values out of those over all solved points, each of the held rows.

@@ -3,6 +3,8 @@
 use std::borrow::Cow;
 use std::f64::consts::{LN_2, PI};
 
+use rayon::prelude::*;
+
 use super::control::{Controller, Position};
 use super::row::State;
 use super::setup::Setup;
@@ -14,6 +16,9 @@ use crate::solver::{Load, Problem};
 
 /// Attraction below this share of the law's peak does not count as attraction.
 const NEGLIGIBLE: f64 = 1e-9;
+
+/// Gap, pressure and state of a row of the grid.
+type Row<'a> = ((&'a mut [f64], &'a mut [f64]), &'a mut [PointState]);
 
 /// State of a point of the grid.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -102,15 +107,11 @@ impl Evaluation {
         };
         close_pressed(setup, problem, &mut solved, &law);
         // The heights as earlier indentation has left them.
-        let lowered = || {
-            let depths = solved.plastic_depth.unwrap_or(&[]);
-            let heights = problem.padded_heights().enumerate();
-            heights.map(move |(i, h)| h - depths.get(i).copied().unwrap_or(0.0))
-        };
-        let mut displacement = solved.gap.iter().zip(lowered()).map(|(g, h)| g + h);
-        let [sum] = share.sums(rows, |_, [sum]| {
-            for u in displacement.by_ref().take(width) {
-                *sum += u;
+        let (height_at, depths) = (problem.padded_height(), solved.plastic_depth.unwrap_or(&[]));
+        let lowered = |i: usize| height_at(i) - depths.get(i).copied().unwrap_or(0.0);
+        let [sum] = share.sums(rows, |row, [sum]| {
+            for i in row * width..(row + 1) * width {
+                *sum += solved.gap[i] + lowered(i);
             }
         });
         let mean_displacement = sum / problem.shape.len() as f64 + solved.mean_offset;
@@ -160,10 +161,10 @@ impl Evaluation {
             Boundary::Periodic => (position.mean_pressure / scales.pressure, offset),
             Boundary::Free => (solved.held, offset),
         };
-        let mut work = solved.gap.iter().zip(lowered()).zip(&solved.elastic);
-        let [work] = share.sums(rows, |_, [sum]| {
-            for ((g, h), p) in work.by_ref().take(width) {
-                *sum += (p - spring + elastic_part) * (g + h + shift);
+        let [work] = share.sums(rows, |row, [sum]| {
+            for i in row * width..(row + 1) * width {
+                let p = solved.elastic[i];
+                *sum += (p - spring + elastic_part) * (solved.gap[i] + lowered(i) + shift);
             }
         });
         let elastic_energy = 0.5 * work;
@@ -172,42 +173,49 @@ impl Evaluation {
         let mut gap = problem.cut_to_surface(solved.gap);
         let mut pressure = problem.cut_to_surface(solved.elastic);
         let mut points = vec![PointState::Separated; gap.len()];
-        let mut strongest: f64 = 0.0;
         let negative_is_contact = matches!(problem.law, Law::LennardJones(_));
-        let mut evaluate = |i: usize, adhesive: &mut f64| {
-            let (gap, pressure) = (&mut gap[i], &mut pressure[i]);
-            let g = open(*gap);
-            let closed = if negative_is_contact {
-                g < 0.0
-            } else {
-                g <= 0.0
-            };
-            let factor = setup.law_factor(i);
-            let pulling = solved.law_factor.map_or(factor, |factors| factors[i]);
-            let traction = pulling * law.traction(g);
-            let support = if yields && *gap < 0.0 {
-                Support::Indented
-            } else if closed && !negative_is_contact {
-                closed_support
-            } else {
-                Support::Law
-            };
-            *pressure = scales.pressure
-                * net_pressure(support, *pressure + solved.held, traction, problem.hardness);
-            if closed {
-                points[i] = PointState::Contact;
-            } else {
-                strongest = strongest.max(traction);
-                if g < law.range() {
-                    points[i] = PointState::Attracted;
+        // The energy of adhesion and the strongest traction out of contact of a row.
+        let evaluate = |(row, ((gap, pressure), points)): (usize, Row)| {
+            let (mut adhesive, mut strongest): (f64, f64) = (0.0, 0.0);
+            let values = gap.iter_mut().zip(pressure).zip(points);
+            for (x, ((gap, pressure), point)) in values.enumerate() {
+                let i = row * nx + x;
+                let g = open(*gap);
+                let closed = if negative_is_contact {
+                    g < 0.0
+                } else {
+                    g <= 0.0
+                };
+                let factor = setup.law_factor(i);
+                let pulling = solved.law_factor.map_or(factor, |factors| factors[i]);
+                let traction = pulling * law.traction(g);
+                let support = if yields && *gap < 0.0 {
+                    Support::Indented
+                } else if closed && !negative_is_contact {
+                    closed_support
+                } else {
+                    Support::Law
+                };
+                *pressure = scales.pressure
+                    * net_pressure(support, *pressure + solved.held, traction, problem.hardness);
+                if closed {
+                    *point = PointState::Contact;
+                } else {
+                    strongest = strongest.max(traction);
+                    if g < law.range() {
+                        *point = PointState::Attracted;
+                    }
                 }
+                adhesive += factor * law.energy(g);
+                *gap = g * scales.length;
             }
-            *adhesive += factor * law.energy(g);
-            *gap = g * scales.length;
+            ([adhesive], strongest)
         };
-        let [adhesive] = share.sums(surface_rows, |row, [adhesive]| {
-            (row * nx..(row + 1) * nx).for_each(|i| evaluate(i, adhesive));
-        });
+        let lines = gap.par_chunks_mut(nx).zip(pressure.par_chunks_mut(nx));
+        let lines = lines.zip(points.par_chunks_mut(nx)).enumerate();
+        let (adhesive, strongest): (Vec<_>, Vec<f64>) = lines.map(evaluate).unzip();
+        let [adhesive] = share.sums_of_rows(&adhesive);
+        let strongest = strongest.into_iter().fold(0.0, f64::max);
         plastic_depth
             .iter_mut()
             .for_each(|depth| *depth *= scales.length);

@@ -3,7 +3,7 @@
 use std::sync::{Arc, Mutex};
 
 use tabor::backend::gpu::SharedBuffer;
-use tabor::backend::{Backend, BackendError, Factors, Field, Level, Shape, Spectrum};
+use tabor::backend::{Backend, BackendError, Factors, Field, Level, Shape, Spectrum, Values};
 use tabor::kernel::{Gate, Kernel, Params, ScalarKernel, Scalars};
 
 /// Variants of kernels in the order in which they were asked for; `multiply` where factors are computed,
@@ -107,6 +107,9 @@ macro_rules! passed_on {
         }
         fn in_double(&self, shape: Shape) -> Option<Box<dyn Backend + Send>> {
             self.beside(shape)
+        }
+        fn values(&mut self, field: Field) -> Result<Option<Values<'_>>, BackendError> {
+            self.inner.values(field)
         }
         fn copy_from(
             &mut self,

@@ -21,7 +21,7 @@ use rayon::prelude::*;
 use rayon::{ThreadPool, ThreadPoolBuilder};
 
 use super::ranks::{RankError, Ranks};
-use super::{Backend, BackendError, Factors, Field, Level, Shape, Spectrum, check_fields};
+use super::{Backend, BackendError, Factors, Field, Level, Shape, Spectrum, Values, check_fields};
 use crate::kernel::{Form, Gate, Kernel, Params, SUMS, ScalarKernel, Scalars, Twin, Whole};
 use crate::plans::Planned;
 use crate::real::Real;
@@ -100,17 +100,27 @@ fn whole_field<'a, T: Real>(
 pub trait CpuReal: Real + Planned + bytemuck::Pod {
     /// The twin of a kernel for this number.
     fn twin(kernel: &'static Kernel) -> Twin<Self>;
+    /// Values in this number, as another backend sees them.
+    fn values(values: &[Self]) -> Values<'_>;
 }
 
 impl CpuReal for f64 {
     fn twin(kernel: &'static Kernel) -> Twin<f64> {
         kernel.twin
     }
+
+    fn values(values: &[f64]) -> Values<'_> {
+        Values::Double(values)
+    }
 }
 
 impl CpuReal for f32 {
     fn twin(kernel: &'static Kernel) -> Twin<f32> {
         kernel.twin_single
+    }
+
+    fn values(values: &[f32]) -> Values<'_> {
+        Values::Single(values)
     }
 }
 
@@ -207,6 +217,16 @@ impl<T: CpuReal> CpuBackend<T> {
         if stored.is_empty() {
             *stored = vec![T::zero(); self.levels[field.level.0].len()];
         }
+    }
+
+    /// Overwrites a field with values in another number.
+    fn store<V: Copy + Sync>(&mut self, field: Field, values: &[V], round: impl Fn(V) -> T + Sync) {
+        self.take(field);
+        debug_assert_eq!(values.len(), self.levels[field.level.0].len());
+        self.fields[field.index]
+            .par_iter_mut()
+            .zip(values)
+            .for_each(|(stored, &value)| *stored = round(value));
     }
 
     fn add_level(&mut self, shape: Shape, transforms: bool) -> Level {
@@ -403,13 +423,7 @@ impl<T: CpuReal> Backend for CpuBackend<T> {
     }
 
     fn write(&mut self, field: Field, values: &[f64]) {
-        self.take(field);
-        debug_assert_eq!(values.len(), self.levels[field.level.0].len());
-        let stored = &mut self.fields[field.index];
-        stored
-            .par_iter_mut()
-            .zip(values)
-            .for_each(|(stored, &value)| *stored = T::from_double(value));
+        self.store(field, values, T::from_double);
     }
 
     fn read(&mut self, field: Field) -> Result<Vec<f64>, BackendError> {
@@ -417,6 +431,28 @@ impl<T: CpuReal> Backend for CpuBackend<T> {
         self.failed()?;
         let stored = self.fields[field.index].par_iter();
         Ok(stored.map(|value| value.double()).collect())
+    }
+
+    fn values(&mut self, field: Field) -> Result<Option<Values<'_>>, BackendError> {
+        self.take(field);
+        self.failed()?;
+        Ok(Some(T::values(&self.fields[field.index])))
+    }
+
+    fn copy_from(
+        &mut self,
+        field: Field,
+        from: &mut dyn Backend,
+        source: Field,
+    ) -> Result<(), BackendError> {
+        match from.values(source)? {
+            Some(Values::Double(values)) => self.store(field, values, T::from_double),
+            Some(Values::Single(values)) => {
+                self.store(field, values, |value| T::from_double(value.into()));
+            }
+            None => self.write(field, &from.read(source)?),
+        }
+        Ok(())
     }
 
     fn set_law_factor(&mut self, factor: Field) {

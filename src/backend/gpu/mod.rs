@@ -38,7 +38,7 @@ use std::collections::HashMap;
 use std::f64::consts::TAU;
 
 use super::cpu::CpuBackend;
-use super::{Backend, BackendError, Factors, Field, Level, Shape, Spectrum};
+use super::{Backend, BackendError, Factors, Field, Level, Shape, Spectrum, Values};
 use crate::kernel::{Gate, Kernel, Params, ScalarKernel, Scalars};
 use crate::law::{Law, LawShader};
 use deciding::Deciding;
@@ -396,7 +396,10 @@ impl Backend for GpuBackend {
             Some(shared) if self.takes_over(field, &shared) => {
                 self.attempt(|backend| backend.convert(field, &shared));
             }
-            _ => self.write(field, &from.read(source)?),
+            _ => match from.values(source)? {
+                Some(Values::Double(values)) => self.write(field, values),
+                _ => self.write(field, &from.read(source)?),
+            },
         }
         Ok(())
     }
