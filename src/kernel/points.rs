@@ -230,8 +230,7 @@ where
                             for place in 0..PLACES {
                                 let [second, third, fourth] =
                                     [1, 2, 3].map(|part| place + part * PLACES);
-                                total[place] +=
-                                    (at(place) + at(second)) + (at(third) + at(fourth));
+                                total[place] += (at(place) + at(second)) + (at(third) + at(fourth));
                             }
                         }
                         Reduce::Min if here.len() == LANES => {

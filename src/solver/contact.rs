@@ -96,6 +96,8 @@ pub struct ContactSolver<'a> {
     pub(super) problem: ProblemRef<'a>,
     pub(super) level: Level,
     pub(super) heights: Field,
+    /// Whether the field of the heights holds them: corrections of a state in double precision ask for none.
+    pub(super) has_heights: bool,
     pub(super) gap: Field,
     pub(super) pressure: Field,
     pub(super) direction: Field,
@@ -126,12 +128,12 @@ pub struct ContactSolver<'a> {
     helped_by: f64,
     /// What the history of a viscoelastic solid adds to its displacement, over all solved points; empty for
     /// an elastic solid.
-    offset: Vec<f64>,
+    pub(super) offset: Vec<f64>,
     /// Mean of it.
-    mean_offset: f64,
+    pub(super) mean_offset: f64,
     /// Depths by which plastic indentation has lowered the heights, over all held solved points; `None` if it
     /// has not.
-    plastic_depths: Option<Vec<f64>>,
+    pub(super) plastic_depths: Option<Vec<f64>>,
 }
 
 /// Rounds, lost trials and long searches included, that a solve may take for each iteration allowed.
@@ -187,9 +189,6 @@ impl<'a> ContactSolver<'a> {
         let compliance = problem
             .conducts
             .then(|| problem.spectrum(backend, level, "compliance", Response::Compliance));
-        let reduced: Vec<f64> = problem.padded_heights().collect();
-        backend.write(heights, &reduced);
-        drop(reduced);
         let params = params_of_problem(problem, backend.epsilon());
         let kernels = KernelSet::new(problem);
         let mut solver = ContactSolver {
@@ -202,6 +201,7 @@ impl<'a> ContactSolver<'a> {
             direction,
             previous_residual,
             heights_pressure: None,
+            has_heights: false,
             law_factor,
             present_factor: None,
             step,
@@ -291,41 +291,6 @@ impl<'a> ContactSolver<'a> {
         }
     }
 
-    /// Moves the rigid heights by what the history of a viscoelastic solid adds to its displacement (reduced,
-    /// all solved points).
-    pub fn set_offset(&mut self, offset: &[f64]) {
-        self.mean_offset = self.problem.share.sum(offset) / self.problem.shape.len() as f64;
-        self.offset = offset.to_vec();
-        self.write_heights();
-    }
-
-    /// Lowers the rigid heights by the plastic depths (reduced, all solved points).
-    pub fn set_plastic_depths(&mut self, depths: Option<&[f64]>) {
-        self.plastic_depths = depths.map(<[f64]>::to_vec);
-        self.write_heights();
-    }
-
-    /// Depths by which plastic indentation has lowered the heights, over all held solved points; `None` if it
-    /// has not.
-    pub fn plastic_depths(&self) -> Option<&[f64]> {
-        self.plastic_depths.as_deref()
-    }
-
-    fn write_heights(&mut self) {
-        let mut moved: Vec<f64> = self.problem.padded_heights().collect();
-        for (height, depth) in moved.iter_mut().zip(self.plastic_depths.iter().flatten()) {
-            *height -= depth;
-        }
-        for (height, offset) in moved.iter_mut().zip(&self.offset) {
-            *height += offset;
-        }
-        self.evaluated = None;
-        self.backend.write(self.heights, &moved);
-        if let Some(outer) = self.outer() {
-            outer.set_heights(&moved);
-        }
-    }
-
     /// Sets the factors on the law's tension, one a held grid point; the problem must have some. `None` sets
     /// the problem's own.
     pub fn set_law_factor(&mut self, factor: Option<Vec<f64>>) {
@@ -345,11 +310,6 @@ impl<'a> ContactSolver<'a> {
     /// The factors that were set; `None` if they are the problem's own.
     pub fn law_factor(&self) -> Option<&[f64]> {
         self.present_factor.as_deref()
-    }
-
-    /// Mean over all solved points of that offset; 0 without one.
-    pub fn mean_offset(&self) -> f64 {
-        self.mean_offset
     }
 
     /// The gap at which the undeformed surfaces first touch, scaled or shifted to a prescribed mean gap.
@@ -393,6 +353,7 @@ impl<'a> ContactSolver<'a> {
         tolerance: f64,
         careful: bool,
     ) -> Result<(), BackendError> {
+        self.hold_heights();
         self.set_load(load, tolerance);
         let (prescribed_mean_gap, mean_pressure) = match load.hold {
             Hold::Pressure(pressure) => (false, pressure),

@@ -16,6 +16,7 @@ mod incremental_stiffness;
 mod iteration;
 mod kernel_set;
 mod mean_gap;
+mod moved_heights;
 mod multilevel;
 mod outer_state;
 pub mod plain;

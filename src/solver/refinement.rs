@@ -9,11 +9,14 @@ use super::contact::{ContactSolver, Load, Outcome, Start};
 use super::outer_state::OuterState;
 use crate::backend::{Backend, BackendError, Field};
 use crate::kernel::{Scalars, Status};
+use crate::law::Law;
 
 /// Tolerance of the first solve: what single precision reaches on every scene.
 pub(super) const FIRST_TOLERANCE: f64 = 1e-4;
 /// Share of its first residual at which a round ends: what single precision can gain.
 const GAIN: f64 = 1e-4;
+/// The same without attraction, where nothing but the rounding of the gap stands in the way.
+const GAIN_AT_WALL: f64 = 3e-6;
 /// Ranges by which the core of a law that repels by itself gives way to the residual of a near start. Trials of corrections follow
 /// the core's slope, which is good for short ones.
 const NEAR: f64 = 0.02;
@@ -104,6 +107,8 @@ impl ContactSolver<'_> {
                 self.hand_start(start)?;
                 self.begin(load, start, tolerance.max(FIRST_TOLERANCE), careful)?;
                 let first = self.run_out(0, max_iterations, watch)?;
+                // Corrections ask for no heights.
+                self.release_heights();
                 self.rest_in_turn();
                 (iterations, status) = (first.0.iterations as usize, first.0.status);
                 stopped = first.1;
@@ -271,7 +276,11 @@ impl ContactSolver<'_> {
             true => end.residual,
             false => 1.0,
         };
-        params.tolerance = (AIM * tolerance).max(GAIN * residual);
+        let gain = match params.law {
+            Law::HardWall => GAIN_AT_WALL,
+            _ => GAIN,
+        };
+        params.tolerance = (AIM * tolerance).max(gain * residual);
         params.heights_norm = 0.0;
         params.pressure_floor = end.numerator / residual;
         self.backend.set_params(&params);
