@@ -134,14 +134,17 @@ fn start_bracket() {
     scalars.step = ONE;
     scalars.searching = 1u;
     scalars.evaluations = 0u;
-    scalars.low[0] = ZERO;
-    scalars.low[1] = scalars.slope;
-    scalars.low[2] = ZERO;
-    scalars.high[0] = params.infinity;
-    scalars.high[1] = params.infinity;
-    // Not known yet: larger than any slope that would lengthen the next trial.
-    scalars.slope_at_one = params.infinity;
+    scalars.low = array<wide, 3>(ZERO, scalars.slope, ONE);
+    scalars.high = array<wide, 3>(params.infinity, params.infinity, params.infinity);
+    scalars.last_end = ZERO;
     bracket();
+}
+
+// A slope of the energy beside the first one, between -1 and 1. Near the root it is in proportion to the slope; deep in the
+// repulsion, where the slope grows without end and a secant would hardly leave the other end, it is 1.
+fn relative_slope(slope: wide, first: wide) -> wide {
+    let relative = slope / (abs(first) + abs(slope));
+    return select(ONE, relative, is_finite(relative));
 }
 
 // Brackets the step length at which the slope is small and the energy has fallen.
@@ -153,9 +156,6 @@ fn bracket() {
     // Differences of energies below this are rounding.
     let noise = wide(4.0) * params.epsilon * scalars.sums_energy_size;
     let fallen = energy <= noise;
-    if (scalars.evaluations == 0u) {
-        scalars.slope_at_one = slope;
-    }
     scalars.evaluations = scalars.evaluations + 1u;
     if (scalars.evaluations >= EVALUATIONS) {
         // The lower end has fallen; without one the direction is lost.
@@ -183,25 +183,28 @@ fn bracket() {
         if (rise > ZERO) {
             secant = -slope / rise;
         }
-        scalars.low[0] = t;
-        scalars.low[1] = slope;
-        scalars.low[2] = energy;
+        scalars.low = array<wide, 3>(t, slope, ONE);
         scalars.step = t + min(wide(3.0) * t, secant);
         return;
     }
+    // The secant of the relative slopes. An end that stays where it is while the other one moves twice counts half as
+    // much (the Illinois method: Dowell & Jarratt 1971).
+    let this_end = select(UPPER_END, LOWER_END, still_falling);
+    let again = select(ONE, wide(0.5), scalars.last_end == this_end);
+    scalars.last_end = this_end;
     if (still_falling) {
-        scalars.low[0] = t;
-        scalars.low[1] = slope;
-        scalars.low[2] = energy;
+        scalars.low = array<wide, 3>(t, slope, ONE);
+        scalars.high[2] = scalars.high[2] * again;
     } else {
-        scalars.high[0] = t;
-        scalars.high[1] = slope;
+        scalars.high = array<wide, 3>(t, slope, ONE);
+        scalars.low[2] = scalars.low[2] * again;
     }
-    var share = scalars.low[1] / (scalars.low[1] - scalars.high[1]);
-    if (is_finite(share)) {
-        share = clamp(share, wide(0.1), wide(0.9));
-    } else {
-        share = wide(0.2);
+    let below = scalars.low[2] * relative_slope(scalars.low[1], first);
+    let above = scalars.high[2] * relative_slope(scalars.high[1], first);
+    // Where the energy has not fallen the slope may be negative at both ends.
+    var share = wide(0.5);
+    if (above > ZERO) {
+        share = clamp(below / (below - above), wide(0.1), wide(0.9));
     }
     scalars.step = scalars.low[0] + share * (scalars.high[0] - scalars.low[0]);
 }
@@ -228,10 +231,5 @@ fn adapt_trial_length() {
         }
         return;
     }
-    let t = scalars.step;
-    if (t < ONE) {
-        scalars.trial_length = scalars.trial_length * clamp(t, wide(0.3), ONE);
-    } else if (scalars.slope_at_one < SEARCH_SHARE * scalars.slope) {
-        scalars.trial_length = scalars.trial_length * max(min(t, wide(2.0)), wide(1.5));
-    }
+    scalars.trial_length = scalars.trial_length * clamp(scalars.step, wide(0.3), wide(2.0));
 }

@@ -213,9 +213,30 @@ impl Share {
         self.sums_of_rows(&of_rows)
     }
 
+    /// The same where `change` makes other values of a row's part of three fields, which have so many points in a row.
+    pub fn sums_changing<P: Send, const N: usize>(
+        &self,
+        width: usize,
+        [first, second]: [&mut [f64]; 2],
+        third: &mut [P],
+        change: impl Fn(usize, [&mut [f64]; 2], &mut [P], &mut [f64; N]) + Sync,
+    ) -> [f64; N] {
+        let rows = first
+            .par_chunks_mut(width)
+            .zip(second.par_chunks_mut(width));
+        let rows = rows.zip(third.par_chunks_mut(width)).enumerate();
+        let of_row = |(row, ((first, second), third))| {
+            let mut sums = [0.0; N];
+            change(row, [first, second], third, &mut sums);
+            sums
+        };
+        let of_rows: Vec<[f64; N]> = rows.map(of_row).collect();
+        self.sums_of_rows(&of_rows)
+    }
+
     /// The same of sums that are known of each row here, in the order of the rows: the same bits on any number of ranks and
     /// threads.
-    pub fn sums_of_rows<const N: usize>(&self, own: &[[f64; N]]) -> [f64; N] {
+    fn sums_of_rows<const N: usize>(&self, own: &[[f64; N]]) -> [f64; N] {
         let mut sums = [0.0; N];
         for rank in 0..self.count() {
             if rank == self.rank() {

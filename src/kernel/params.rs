@@ -190,14 +190,14 @@ device_struct! {
         first_touch: f64,
         /// Points below this gap are set to zero after a step to first touch; 0 otherwise.
         snap: f64,
-        /// Lower end of the search: step length, slope and energy there.
+        /// Lower end of the search: step length, slope there, and by how much it counts.
         low: [f64; 3],
-        /// Upper end of the search: step length and slope; infinite until one is found.
-        high: [f64; 2],
+        /// Upper end of the search, the same; infinite until one is found.
+        high: [f64; 3],
         /// Step lengths that the next pass of a search tries where the gap is constrained, rising.
         tried: [f64; TRIED],
-        /// Slope at step length 1.
-        slope_at_one: f64,
+        /// End of the search that moved last.
+        last_end: f64,
         /// The stopping measure.
         residual: f64,
         /// Its numerator.
@@ -242,7 +242,7 @@ impl Scalars {
             mean_pressure,
             descent_factor: -1.0,
             trial_length: 1.0,
-            high: [f64::INFINITY; 2],
+            high: [f64::INFINITY; 3],
             residual: f64::INFINITY,
             numerator: f64::INFINITY,
             residual_at_stall: f64::INFINITY,

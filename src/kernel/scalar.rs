@@ -85,6 +85,10 @@ constants! {
     EXTRAPOLATIONS: u32 = 6,
     /// Evaluations that one bracket may take.
     EVALUATIONS: u32 = 40,
+    /// The lower end of a bracket.
+    LOWER_END: wide = -1.0,
+    /// The upper one.
+    UPPER_END: wide = 1.0,
     /// Roundings of what they are taken from within which the parts of s cancel each other.
     VANISHES: wide = 8.0,
 }

@@ -1,8 +1,9 @@
 //! Scalar kernels of steps 5 and 6: how far a trial step is taken.
 
 use super::scalar::{
-    EVALUATIONS, EXTRAPOLATIONS, FOURTH_REACH, LEAST_SNAP, RIGID, SAME_WAY, SEARCH_SHARE,
-    SECOND_REACH, SNAP_ROUNDINGS, THIRD_REACH, WHOLE_STEP, scalar_kernel, stall,
+    EVALUATIONS, EXTRAPOLATIONS, FOURTH_REACH, LEAST_SNAP, LOWER_END, RIGID, SAME_WAY,
+    SEARCH_SHARE, SECOND_REACH, SNAP_ROUNDINGS, THIRD_REACH, UPPER_END, WHOLE_STEP, scalar_kernel,
+    stall,
 };
 use crate::kernel::{Params, Scalars, Status};
 
@@ -160,10 +161,17 @@ fn start_bracket(params: &Params, scalars: &mut Scalars) {
     scalars.step = 1.0;
     scalars.searching = true;
     scalars.evaluations = 0;
-    scalars.low = [0.0, scalars.slope, 0.0];
-    scalars.high = [f64::INFINITY; 2];
-    scalars.slope_at_one = f64::INFINITY;
+    scalars.low = [0.0, scalars.slope, 1.0];
+    scalars.high = [f64::INFINITY; 3];
+    scalars.last_end = 0.0;
     bracket(params, scalars);
+}
+
+/// A slope of the energy beside the first one, between -1 and 1. Near the root it is in proportion to the slope; deep in the
+/// repulsion, where the slope grows without end and a secant would hardly leave the other end, it is 1.
+fn relative_slope(slope: f64, first: f64) -> f64 {
+    let relative = slope / (first.abs() + slope.abs());
+    if relative.is_finite() { relative } else { 1.0 }
 }
 
 /// `plain::bracket`: brackets the step length at which the slope is small and the energy has fallen.
@@ -176,9 +184,6 @@ fn bracket(params: &Params, scalars: &mut Scalars) {
     // Differences of energies below this are rounding.
     let noise = 4.0 * params.epsilon * sums.energy_size;
     let fallen = energy <= noise;
-    if scalars.evaluations == 0 {
-        scalars.slope_at_one = slope;
-    }
     scalars.evaluations += 1;
     let [low, low_slope, _] = scalars.low;
     if scalars.evaluations >= EVALUATIONS {
@@ -208,22 +213,37 @@ fn bracket(params: &Params, scalars: &mut Scalars) {
         } else {
             f64::INFINITY
         };
-        scalars.low = [t, slope, energy];
+        scalars.low = [t, slope, 1.0];
         scalars.step = t + (3.0 * t).min(secant);
         return;
     }
+    // The secant of the relative slopes. An end that stays where it is while the other one moves twice counts half as
+    // much (the Illinois method: Dowell & Jarratt 1971).
+    let this_end = if still_falling { LOWER_END } else { UPPER_END };
+    let again = if scalars.last_end == this_end {
+        0.5
+    } else {
+        1.0
+    };
+    scalars.last_end = this_end;
     if still_falling {
-        scalars.low = [t, slope, energy];
+        scalars.low = [t, slope, 1.0];
+        scalars.high[2] *= again;
     } else {
-        scalars.high = [t, slope];
+        scalars.high = [t, slope, 1.0];
+        scalars.low[2] *= again;
     }
-    let [low, low_slope, _] = scalars.low;
-    let [high, high_slope] = scalars.high;
-    let share = low_slope / (low_slope - high_slope);
-    let share = if share.is_finite() {
-        share.clamp(0.1, 0.9)
+    let [
+        [low, low_slope, low_weight],
+        [high, high_slope, high_weight],
+    ] = [scalars.low, scalars.high];
+    let below = low_weight * relative_slope(low_slope, first);
+    let above = high_weight * relative_slope(high_slope, first);
+    // Where the energy has not fallen the slope may be negative at both ends.
+    let share = if above > 0.0 {
+        (below / (below - above)).clamp(0.1, 0.9)
     } else {
-        0.2
+        0.5
     };
     scalars.step = low + share * (high - low);
 }
@@ -253,12 +273,7 @@ fn adapt_trial_length(params: &Params, scalars: &mut Scalars) {
         }
         return;
     }
-    let t = scalars.step;
-    if t < 1.0 {
-        scalars.trial_length *= t.clamp(0.3, 1.0);
-    } else if scalars.slope_at_one < SEARCH_SHARE * scalars.slope {
-        scalars.trial_length *= t.clamp(1.5, 2.0);
-    }
+    scalars.trial_length *= scalars.step.clamp(0.3, 2.0);
 }
 scalar_kernel!(
     /// The next trial length, after the step was taken.

@@ -56,3 +56,8 @@ fn law_difference(gap_here: real, step: real) -> real {
 fn law_repelling_gap(pressure: real) -> real {
     return 0.0;
 }
+
+// Asked of a law without a wall alone.
+fn law_bend(gap_here: real) -> real {
+    return 0.0;
+}

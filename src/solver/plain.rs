@@ -403,26 +403,41 @@ impl Contact<'_> {
     /// Step 6 of the smooth law: brackets a t at which the slope is small and the energy has fallen.
     fn bracket(&self, now: &State, trial: &Trial) -> StepLength {
         let first = dot(&trial.s, &now.y);
-        let (mut t, mut low, mut high) = (1.0, (0.0, first), None);
+        // The ends: t, the slope there, its weight; and how often the same one has moved.
+        let (mut t, mut low, mut high) = (1.0, (0.0, first, 1.0), None);
+        let mut last_is_low = None;
         for evaluation in 1..EVALUATIONS {
             let slope = self.slope_at(t, now, trial);
             let fallen = self.has_fallen(t, now, trial);
             let steep = fallen && slope < SEARCH_SHARE * first;
             let enough = evaluation > EXTRAPOLATIONS && steep && high.is_none();
             if enough || (fallen && slope.abs() <= SEARCH_SHARE * first.abs()) {
-                return take(t, choose(t > 1.0, t.max(1.5), t));
+                return take(t, t);
             }
-            if steep && high.is_none() {
+            let Some(before) = high.or((!steep).then_some((t, slope, 1.0))) else {
                 // Extrapolates to where the secant of the slope vanishes, to four times t at most.
                 let secant = -slope * (t - low.0) / (slope - low.1);
-                low = (t, slope);
+                low = (t, slope, 1.0);
                 t += choose(secant > 0.0, secant.min(3.0 * t), 3.0 * t);
                 continue;
-            }
-            (low, high) = choose(steep, ((t, slope), high), (low, Some((t, slope))));
-            let (end, slope_at_end) = high.unwrap_or(low);
-            let share = low.1 / (low.1 - slope_at_end);
-            t = low.0 + choose(share.is_finite(), share.clamp(0.1, 0.9), 0.2) * (end - low.0);
+            };
+            // Where the secant of slope/(|first| + |slope|) vanishes; the end that stays when the other moves twice counts
+            // half (the Illinois method).
+            let again = choose(last_is_low == Some(steep), 0.5, 1.0);
+            last_is_low = Some(steep);
+            let end = (t, slope, 1.0);
+            let (b, a) = choose(
+                steep,
+                (end, halved(before, again)),
+                (halved(low, again), end),
+            );
+            (low, high) = (b, Some(a));
+            let relative = |end: (f64, f64, f64)| match end.1 / (first.abs() + end.1.abs()) {
+                share if share.is_finite() => end.2 * share,
+                _ => end.2,
+            };
+            let share = relative(b) / (relative(b) - relative(a));
+            t = b.0 + choose(relative(a) > 0.0, share.clamp(0.1, 0.9), 0.5) * (a.0 - b.0);
         }
         choose(low.0 > 0.0, take(low.0, low.0), StepLength::Lost)
     }
@@ -437,6 +452,11 @@ impl Contact<'_> {
             choose(self.wall[i] && closes, 0.0, moved)
         })
     }
+}
+
+/// An end of a search that counts less.
+fn halved((t, slope, weight): (f64, f64, f64), by: f64) -> (f64, f64, f64) {
+    (t, slope, by * weight)
 }
 
 /// A step of length t; the next trial is longer by a factor within bounds.

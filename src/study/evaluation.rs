@@ -3,8 +3,6 @@
 use std::borrow::Cow;
 use std::f64::consts::{LN_2, PI};
 
-use rayon::prelude::*;
-
 use super::control::{Controller, Position};
 use super::row::State;
 use super::setup::Setup;
@@ -16,9 +14,6 @@ use crate::solver::{Load, Problem};
 
 /// Attraction below this share of the law's peak does not count as attraction.
 const NEGLIGIBLE: f64 = 1e-9;
-
-/// Gap, pressure and state of a row of the grid.
-type Row<'a> = ((&'a mut [f64], &'a mut [f64]), &'a mut [PointState]);
 
 /// State of a point of the grid.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -174,9 +169,12 @@ impl Evaluation {
         let mut pressure = problem.cut_to_surface(solved.elastic);
         let mut points = vec![PointState::Separated; gap.len()];
         let negative_is_contact = matches!(problem.law, Law::LennardJones(_));
-        // The energy of adhesion and the strongest traction out of contact of a row.
-        let evaluate = |(row, ((gap, pressure), points)): (usize, Row)| {
-            let (mut adhesive, mut strongest): (f64, f64) = (0.0, 0.0);
+        let pulling = |i: usize| match solved.law_factor {
+            Some(factors) => factors[i],
+            None => setup.law_factor(i),
+        };
+        let evaluate = |row: usize, [gap, pressure]: [&mut [f64]; 2], points: &mut [PointState]| {
+            let mut adhesive = 0.0;
             let values = gap.iter_mut().zip(pressure).zip(points);
             for (x, ((gap, pressure), point)) in values.enumerate() {
                 let i = row * nx + x;
@@ -186,9 +184,7 @@ impl Evaluation {
                 } else {
                     g <= 0.0
                 };
-                let factor = setup.law_factor(i);
-                let pulling = solved.law_factor.map_or(factor, |factors| factors[i]);
-                let traction = pulling * law.traction(g);
+                let traction = pulling(i) * law.traction(g);
                 let support = if yields && *gap < 0.0 {
                     Support::Indented
                 } else if closed && !negative_is_contact {
@@ -200,22 +196,19 @@ impl Evaluation {
                     * net_pressure(support, *pressure + solved.held, traction, problem.hardness);
                 if closed {
                     *point = PointState::Contact;
-                } else {
-                    strongest = strongest.max(traction);
-                    if g < law.range() {
-                        *point = PointState::Attracted;
-                    }
+                } else if g < law.range() {
+                    *point = PointState::Attracted;
                 }
-                adhesive += factor * law.energy(g);
+                adhesive += setup.law_factor(i) * law.energy(g);
                 *gap = g * scales.length;
             }
-            ([adhesive], strongest)
+            adhesive
         };
-        let lines = gap.par_chunks_mut(nx).zip(pressure.par_chunks_mut(nx));
-        let lines = lines.zip(points.par_chunks_mut(nx)).enumerate();
-        let (adhesive, strongest): (Vec<_>, Vec<f64>) = lines.map(evaluate).unzip();
-        let [adhesive] = share.sums_of_rows(&adhesive);
-        let strongest = strongest.into_iter().fold(0.0, f64::max);
+        let fields = [&mut gap[..], &mut pressure[..]];
+        let [adhesive] =
+            share.sums_changing(nx, fields, &mut points, |row, fields, points, sum| {
+                sum[0] = evaluate(row, fields, points);
+            });
         plastic_depth
             .iter_mut()
             .for_each(|depth| *depth *= scales.length);
@@ -223,10 +216,15 @@ impl Evaluation {
         let [contact, attracted] =
             share.counts([of(PointState::Contact), of(PointState::Attracted)]);
         let (contact, attracted) = (contact as f64 / count, attracted as f64 / count);
-        let strongest = share.greatest(strongest);
+        // Out of contact.
+        let strongest = || {
+            let tractions = gap.iter().enumerate();
+            let tractions = tractions.map(|(i, g)| pulling(i) * law.traction(g / scales.length));
+            share.greatest(tractions.fold(0.0, f64::max))
+        };
         let state = if contact > 0.0 {
             State::Contact
-        } else if attracted > 0.0 || strongest > NEGLIGIBLE * law.peak_tension() {
+        } else if attracted > 0.0 || strongest() > NEGLIGIBLE * law.peak_tension() {
             State::Attracted
         } else {
             State::Separated

@@ -107,8 +107,12 @@ impl Memory {
         // A gap from which a solve starts is the host's until it ends, unless the solver has it.
         let first_start = u64::from(cost.starts_from_gap) * field;
         let start = u64::from(cost.moves_the_gap) * field;
-        // A field on its way between the iterations and the state in double precision; it fits where one of the two rests.
-        let between = if reference > 0 && !in_turn { field } else { 0 };
+        // A field on its way between an adapter and the state in double precision; the processor has both at hand.
+        let between = if reference > 0 && !on_processor {
+            field
+        } else {
+            0
+        };
         let passing = own(cost.host.passing as usize);
         let alone = active + between.max(passing);
         let iterating = alone + start;

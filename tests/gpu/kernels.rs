@@ -663,7 +663,6 @@ fn drawn(random: &mut Random, searches: bool) -> Scalars {
         &mut scalars.elastic_slope,
         &mut scalars.largest_step,
         &mut scalars.least_step,
-        &mut scalars.slope_at_one,
         &mut scalars.residual_at_stall,
     ] {
         *value = number(&[0.0, 1e-6]);
@@ -673,11 +672,20 @@ fn drawn(random: &mut Random, searches: bool) -> Scalars {
     scalars.length = number(&[1.0]).abs();
     scalars.first_touch = number(&[infinite, 1.0]).abs().max(scalars.step);
     scalars.largest_move = number(&[0.0]).abs();
-    scalars.low = [number(&[0.0]).abs(), -number(&[]).abs(), number(&[])];
+    scalars.low = [
+        number(&[0.0]).abs(),
+        -number(&[]).abs(),
+        number(&[1.0]).abs(),
+    ];
+    scalars.last_end = number(&[-1.0, 1.0]).signum();
     for reach in &mut scalars.tried {
         *reach = number(&[1.0]).abs().min(scalars.first_touch);
     }
-    scalars.high = [number(&[infinite, infinite]).abs() + 1.0, number(&[]).abs()];
+    scalars.high = [
+        number(&[infinite, infinite]).abs() + 1.0,
+        number(&[]),
+        number(&[1.0]).abs(),
+    ];
     let mut flag = |share: f64| random.centred() + 0.5 < share;
     scalars.repeat = flag(0.2);
     scalars.restart = flag(0.2);

@@ -150,6 +150,12 @@ pub fn declarations(wide: Wide) -> String {
         declaration("Params", &params_members()),
         declaration("Scalars", &members(Scalars::KIND))
     );
+    // Brings every finite number among those of single precision.
+    let in_single = match wide {
+        Wide::Double => "1e-270",
+        Wide::Single | Wide::Compensated => "1.0",
+    };
+    text.push_str(&format!("const IN_SINGLE: wide = {in_single};\n"));
     for (number, (_, name)) in Status::ALL.iter().enumerate() {
         text.push_str(&format!("const {name}: u32 = {number}u;\n"));
     }

@@ -11,7 +11,7 @@ struct Partials {
 
 // By the exponent's bits: a comparison of a number with itself may be optimised away.
 fn is_finite(value: wide) -> bool {
-    return (bitcast<u32>(f32(value)) & 0x7f800000u) != 0x7f800000u;
+    return (bitcast<u32>(f32(IN_SINGLE * value)) & 0x7f800000u) != 0x7f800000u;
 }
 
 fn is_nan(value: wide) -> bool {

@@ -81,9 +81,9 @@ struct Scalars {
     first_touch: wide,
     snap: wide,
     low: array<wide, 3>,
-    high: array<wide, 2>,
+    high: array<wide, 3>,
     tried: array<wide, 4>,
-    slope_at_one: wide,
+    last_end: wide,
     residual: wide,
     numerator: wide,
     residual_at_stall: wide,
@@ -102,6 +102,7 @@ struct Scalars {
     at_floor: u32,
     iterations: u32,
 }
+const IN_SINGLE: wide = 1e-270;
 const RUNNING: u32 = 0u;
 const CONVERGED: u32 = 1u;
 const STALLED: u32 = 2u;

@@ -82,9 +82,9 @@ struct Scalars {
     first_touch: wide,
     snap: wide,
     low: array<wide, 3>,
-    high: array<wide, 2>,
+    high: array<wide, 3>,
     tried: array<wide, 4>,
-    slope_at_one: wide,
+    last_end: wide,
     residual: wide,
     numerator: wide,
     residual_at_stall: wide,
@@ -103,6 +103,7 @@ struct Scalars {
     at_floor: u32,
     iterations: u32,
 }
+const IN_SINGLE: wide = 1.0;
 const RUNNING: u32 = 0u;
 const CONVERGED: u32 = 1u;
 const STALLED: u32 = 2u;
@@ -262,6 +263,11 @@ fn law_difference(gap_here: real, step: real) -> real {
 
 // A law with a wall has no repulsion of its own.
 fn law_repelling_gap(pressure: real) -> real {
+    return 0.0;
+}
+
+// Asked of a law without a wall alone.
+fn law_bend(gap_here: real) -> real {
     return 0.0;
 }
 // How kernels see the law where the unknown is the correction of an outer gap, and the pressure starts at the

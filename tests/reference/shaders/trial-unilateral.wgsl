@@ -114,6 +114,11 @@ fn law_difference(gap_here: real, step: real) -> real {
 fn law_repelling_gap(pressure: real) -> real {
     return 0.0;
 }
+
+// Asked of a law without a wall alone.
+fn law_bend(gap_here: real) -> real {
+    return 0.0;
+}
 // How kernels see the law where the unknown is the gap itself. Twins: law/mod.rs,
 // law/adhesion_map.rs.
 fn open(gap: real) -> real {
