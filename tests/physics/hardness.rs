@@ -204,19 +204,24 @@ fn load_unload_load_again_against_a_dense_solution() {
     assert!(plastic_energy(rows[4]) > 1.2 * plastic_energy(rows[3]));
 }
 
+/// A hardness as it comes back from the solver's units: a product and a quotient, rounded once each.
+const ROUNDED: f64 = 2.0 * f64::EPSILON;
+
 /// p is within its bounds, presses only where the gap is closed, and flows only at the hardness.
 fn balanced(fields: &Evaluation, before: &[f64], hardness: f64, force: f64, pixel: f64) {
     let found = sum(&fields.pressure) * pixel;
     assert!((found / force - 1.0).abs() < 1e-8, "{found} for {force}");
     for (i, p) in fields.pressure.iter().enumerate() {
-        assert!((0.0..=hardness).contains(p), "{p} at {i}");
+        let most = hardness * (1.0 + ROUNDED);
+        assert!((0.0..=most).contains(p), "{p} at {i}");
         assert!(
             *p == 0.0 || fields.gap[i] == 0.0,
             "{p} at gap {}",
             fields.gap[i]
         );
         let flows = fields.plastic_depth[i] > before[i];
-        assert!(!flows || *p == hardness, "{p} flows at {i}");
+        let at_hardness = (p / hardness - 1.0).abs() <= ROUNDED;
+        assert!(!flows || at_hardness, "{p} flows at {i}");
         assert!(
             fields.plastic_depth[i] >= before[i],
             "flow comes back at {i}"
@@ -252,7 +257,7 @@ fn a_sphere_begins_to_flow_where_its_peak_says() {
                     > plastic_energy(&solved.steps[step - 1].row)
             );
             let peak = fields.pressure.iter().copied().fold(0.0, f64::max);
-            assert_eq!(peak, hardness);
+            assert!((peak / hardness - 1.0).abs() <= ROUNDED, "{peak}");
             let [soft, stiff] = [&solved, &elastic].map(|run| run.steps[step].row.clone());
             assert!(soft.contact_area_fraction >= stiff.contact_area_fraction);
             assert!(soft.approach > stiff.approach);
@@ -375,7 +380,8 @@ fn a_hardness_that_nothing_reaches() {
     let sharp =
         "[adhesion]\nlaw = \"maugis-dugdale\"\nwork_of_adhesion = 1e-4\nrange = 4e-3\ntaper = 0\n";
     let pressure = "control = \"pressure\"\npath = [1e-2, 2e-3]";
-    let gap = "control = \"approach\"\npath = [0.0, 0.01, 0.0]";
+    // Not 0: at first touch rounding alone says whether the highest point touches.
+    let gap = "control = \"approach\"\npath = [1e-3, 0.01, 1e-3]";
     let sphere = "[[surface]]\nkind = \"sphere\"\nradius = 1.0\n";
     let free = "points = 24\nsize = 0.4\nboundary = \"free\"";
     let small = "points = 32\nsize = 1.0";
@@ -451,7 +457,8 @@ fn a_flattened_sphere_sticks_more() {
         assert!((force - row.force).abs() < 1e-12);
         assert!(row.residual <= 1e-10);
         for p in &fields.pressure {
-            assert!(*p <= 0.04 && *p >= -tension * (1.0 + 1e-12), "{p}");
+            let most = 0.04 * (1.0 + ROUNDED);
+            assert!(*p <= most && *p >= -tension * (1.0 + 1e-12), "{p}");
         }
     }
     // Unloading flows no further.
