@@ -74,12 +74,8 @@ fn encode(
         let (mut written, mut count) = (Ok(()), 0);
         rows_of(*field, &mut |values| {
             count += values.len();
-            let mut write = |value: &f64| match single {
-                true => out.write_all(&(*value as f32).to_le_bytes()),
-                false => out.write_all(&value.to_le_bytes()),
-            };
             if written.is_ok() {
-                written = values.iter().try_for_each(&mut write);
+                written = write_values(out, values, single);
             }
         });
         written?;
@@ -89,6 +85,28 @@ fn encode(
     }
     out.write_all(b"\n  </AppendedData>")?;
     out.write_all(VOLUME_END)
+}
+
+/// Values whose bytes are written at once: written one by one, they take longer than the disk.
+const AT_ONCE: usize = 1 << 13;
+
+/// Writes values, the lowest byte of each first.
+fn write_values(out: &mut impl Write, values: &[f64], single: bool) -> io::Result<()> {
+    let mut bytes = Vec::with_capacity(size_of::<f64>() * AT_ONCE);
+    for values in values.chunks(AT_ONCE) {
+        bytes.clear();
+        if single {
+            bytes.extend(
+                values
+                    .iter()
+                    .flat_map(|value| (*value as f32).to_le_bytes()),
+            );
+        } else {
+            bytes.extend(values.iter().flat_map(|value| value.to_le_bytes()));
+        }
+        out.write_all(&bytes)?;
+    }
+    Ok(())
 }
 
 #[cfg(test)]
