@@ -190,6 +190,10 @@ where
     type Output = ();
 
     /// The same source for each kind of processor; the compiler finds the vectors.
+    #[allow(
+        clippy::needless_range_loop,
+        reason = "iterators and closures would be compiled with each kernel, law and number"
+    )]
     #[inline(always)]
     fn with_simd<S: Simd>(self, _: S) {
         let (numbers, law, rows, sums) = (self.numbers, self.law, self.rows, self.sums);
