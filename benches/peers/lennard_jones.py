@@ -1,11 +1,11 @@
 """tabor beside Adhesion on rough contact by a Lennard-Jones law: CPU seconds and one measure of error.
 
     cargo build --release
-    pip install numpy scipy Adhesion==0.93 ContactMechanics==1.8.3 muGrid==1.4.1
+    pip install numpy scipy Adhesion==0.93 ContactMechanics==1.8.3 SurfaceTopography==1.27.1 NuMPI==0.18.1 muFFT==0.95 muGrid==1.4.1
     python benches/peers/lennard_jones.py [--points 256] [--tabor target/release/tabor]
 
 The surface is made by tabor (as in adhesive.py) and handed to both. Unit cell, E* = 1, range 4e-4, one thread each. Adhesion holds a
-rigid offset, under which half of the roughness overlaps; tabor is given the mean gap to which that leads. Both gaps are judged
+rigid offset of one rms height between the mean planes; tabor is given the mean gap to which that leads. Both gaps are judged
 by the same function.
 """
 

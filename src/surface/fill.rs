@@ -29,17 +29,24 @@ pub(super) fn interpolate(
     share: &Share,
     periodic: bool,
 ) -> Result<usize, FileError> {
+    interpolate_at_most(values, share, periodic, MOST_MISSING)
+}
+
+/// The same of at most so many pixels on several processes.
+fn interpolate_at_most(
+    values: &mut [f64],
+    share: &Share,
+    periodic: bool,
+    most: usize,
+) -> Result<usize, FileError> {
     let here = values.iter().filter(|value| !value.is_finite()).count();
     let [columns, rows] = share.surface();
     let [count] = share.counts([here]);
     if count == 0 || count == rows * columns {
         return Ok(0);
     }
-    if !share.is_whole() && count > MOST_MISSING {
-        return Err(FileError::MissingOnRanks {
-            count,
-            most: MOST_MISSING,
-        });
+    if !share.is_whole() && count > most {
+        return Err(FileError::MissingOnRanks { count, most });
     }
     // One that has ended is the caller's to see.
     Ok(fill(values, share, periodic).unwrap_or(0))
@@ -186,8 +193,11 @@ fn neighbours_of(pixel: usize, rows: usize, columns: usize, periodic: bool) -> [
 
 #[cfg(test)]
 mod tests {
+    use std::sync::Arc;
+
     use super::*;
     use crate::backend::Shape;
+    use crate::backend::ranks::ThreadRanks;
     use approx::assert_relative_eq;
 
     fn filled(values: &mut [f64], rows: usize, columns: usize, periodic: bool) -> usize {
@@ -210,6 +220,46 @@ mod tests {
         for (index, value) in values.iter().enumerate() {
             assert_relative_eq!(*value, plane(index), max_relative = 1e-8, epsilon = 1e-8);
         }
+    }
+
+    /// Every process refuses what is too much for one of several, and fills what is not, to the bits of one alone.
+    #[test]
+    fn several_processes_refuse_too_many_holes() {
+        let shape = Shape::whole(4, 24);
+        let heights = |row: usize| (0..4).map(move |x| ((row * 4 + x) as f64).sin());
+        let holed = |rows: Range<usize>| -> Vec<f64> {
+            let heights = rows.flat_map(|row| heights(row).map(move |h| (row, h)));
+            let holes = heights.enumerate();
+            holes
+                .map(|(i, (row, h))| {
+                    if row % 6 == 0 && i % 4 == 1 {
+                        f64::NAN
+                    } else {
+                        h
+                    }
+                })
+                .collect()
+        };
+        let mut alone = holed(0..24);
+        assert_eq!(filled(&mut alone, 24, 4, true), 4);
+        std::thread::scope(|scope| {
+            for rank in ThreadRanks::new(2) {
+                let (alone, holed) = (&alone, &holed);
+                scope.spawn(move || {
+                    let share = Share::on_ranks(shape, Some(Arc::new(rank)));
+                    let rows = share.surface_rows();
+                    let mut values = holed(rows.clone());
+                    let refused = interpolate_at_most(&mut values, &share, true, 3);
+                    let named = FileError::MissingOnRanks { count: 4, most: 3 };
+                    assert_eq!(refused.unwrap_err().to_string(), named.to_string());
+                    assert_eq!(
+                        interpolate_at_most(&mut values, &share, true, 4).unwrap(),
+                        4
+                    );
+                    assert_eq!(values, alone[4 * rows.start..4 * rows.end]);
+                });
+            }
+        });
     }
 
     #[test]

@@ -49,7 +49,7 @@ const OUT_OF_REACH: &[(&str, &str)] = &[
     ),
     (
         "FileError::MissingOnRanks",
-        "takes several processes, and a map with more holes than a test fills",
+        "takes several processes: a test in src/surface/fill.rs has it, with a lesser limit",
     ),
     (
         "GpuError::NoDevice",
