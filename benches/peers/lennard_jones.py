@@ -11,9 +11,9 @@ by the same function.
 
 import os
 
-# One thread for the vectors of the peer's minimiser, before NumPy looks.
+# One thread for the vectors of the peer's minimiser unless the caller says otherwise, before NumPy looks.
 for threads in ("OPENBLAS_NUM_THREADS", "OMP_NUM_THREADS"):
-    os.environ[threads] = "1"
+    os.environ.setdefault(threads, "1")
 
 import argparse
 import pathlib
@@ -50,7 +50,7 @@ def judge(gap, heights, work):
     return float(imbalance), float(energy / work)
 
 
-def run_adhesion(heights, work, tolerance):
+def run_adhesion(heights, work, tolerance, pairs):
     """Adhesion's objective with its default minimiser at one thread; CPU seconds of the minimisation, and the gap."""
     n = len(heights)
     substrate = PeriodicFFTElasticHalfSpace((n, n), 1.0, (1.0, 1.0))
@@ -63,7 +63,7 @@ def run_adhesion(heights, work, tolerance):
     start = np.maximum(0.0, rigid + 1.05 * RANGE)
     # No state lies deeper; it keeps the line search out of the core.
     bounds = scipy.optimize.Bounds((rigid + 0.5 * RANGE).ravel(), np.inf)
-    options = {"maxiter": 20000, "maxfun": 40000, "ftol": 0.0, "gtol": tolerance / n**2}
+    options = {"maxiter": 20000, "maxfun": 40000, "ftol": 0.0, "gtol": tolerance / n**2, "maxcor": pairs}
     cpu = time.process_time()
     found = scipy.optimize.minimize(objective, start.ravel(), jac=True, method="L-BFGS-B", bounds=bounds, options=options)
     cpu = time.process_time() - cpu
@@ -77,6 +77,7 @@ def main():
     parser.add_argument("--tabor", default="target/release/tabor")
     parser.add_argument("--tolerance", type=float, default=1e-6, help="tabor's residual")
     parser.add_argument("--peer-tolerance", type=float, default=6e-7, help="largest imbalance of a point in Adhesion, E*")
+    parser.add_argument("--pairs", type=int, default=10, help="pairs of vectors that Adhesion's minimiser keeps")
     options = parser.parse_args()
     print(f"{options.points} x {options.points} points, {platform.machine()}, one thread each\n")
     print("| w/(E* L) | | CPU seconds | ratio | imbalance | energy | repelling area |")
@@ -86,7 +87,7 @@ def main():
         case = ("exponential", "exponential", WORKS[0])
         heights = np.ascontiguousarray(run_tabor(options.tabor, case, options.points, 1.0, 1e-1, folder)["heights"])
         for work in WORKS:
-            theirs = run_adhesion(heights, work, options.peer_tolerance)
+            theirs = run_adhesion(heights, work, options.peer_tolerance, options.pairs)
             case = ("Lennard-Jones", "lennard-jones", work)
             mean_gap = float(theirs["gap"].mean())
             ours = run_tabor(options.tabor, case, options.points, mean_gap, options.tolerance, folder, heights)
