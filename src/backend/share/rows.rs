@@ -11,6 +11,66 @@ use crate::backend::ranks::Parts;
 /// Bytes of the rows that a rank sends at once.
 const ROUND: usize = 16 << 20;
 
+/// Rows on their way from rank to rank in rounds, in which no rank sends or takes more than so many. Every rank finds the same.
+struct Rounds {
+    /// Each rank's rows that are still to come and the ranks that hold them, the next one last.
+    left: Vec<Vec<(usize, usize)>>,
+    at_once: usize,
+}
+
+impl Rounds {
+    fn new(
+        count: usize,
+        at_once: usize,
+        held: impl Fn(usize) -> Range<usize>,
+        wanted: impl Fn(usize) -> Vec<usize>,
+    ) -> Rounds {
+        let mut holders: Vec<(Range<usize>, usize)> =
+            (0..count).map(|rank| (held(rank), rank)).collect();
+        holders.retain(|(rows, _)| !rows.is_empty());
+        holders.sort_by_key(|(rows, _)| rows.start);
+        let with_holder = |row: usize| {
+            let after = holders.partition_point(|(rows, _)| rows.start <= row);
+            let (rows, rank) = &holders[after.checked_sub(1)?];
+            rows.contains(&row).then_some((row, *rank))
+        };
+        let of_rank = |rank| -> Vec<(usize, usize)> {
+            let asked = wanted(rank).into_iter().rev();
+            asked.filter_map(with_holder).collect()
+        };
+        Rounds {
+            left: (0..count).map(of_rank).collect(),
+            at_once,
+        }
+    }
+}
+
+impl Iterator for Rounds {
+    /// The rows that each rank takes in a round, and the ranks that hold them.
+    type Item = Vec<Vec<(usize, usize)>>;
+
+    fn next(&mut self) -> Option<Self::Item> {
+        let mut sent = vec![0; self.left.len()];
+        let round: Vec<Vec<_>> = self
+            .left
+            .iter_mut()
+            .map(|left| {
+                let mut taken = Vec::new();
+                while let Some(&(row, holder)) = left.last()
+                    && taken.len() < self.at_once
+                    && sent[holder] < self.at_once
+                {
+                    left.pop();
+                    sent[holder] += 1;
+                    taken.push((row, holder));
+                }
+                taken
+            })
+            .collect();
+        round.iter().any(|taken| !taken.is_empty()).then_some(round)
+    }
+}
+
 impl Share {
     /// Sends each rank its numbers, one rank after another, of as many as the lengths say, and returns those that come
     /// from each.
@@ -47,7 +107,7 @@ impl Share {
     }
 
     /// Rows of a field that lie on other ranks: `held` and `wanted` say what each rank has and asks for, by the
-    /// numbers of the rows.
+    /// numbers of the rows. Every row asked for lies on a rank.
     ///
     /// # Errors
     /// A rank has ended.
@@ -58,48 +118,63 @@ impl Share {
         held: impl Fn(usize) -> Range<usize>,
         wanted: impl Fn(usize) -> Vec<usize>,
     ) -> Result<Vec<T>, BackendError> {
-        let bytes = width * size_of::<T>();
-        let at_once = (ROUND / bytes.max(1)).max(1);
+        let mut found = Vec::with_capacity(wanted(self.rank()).len() * width);
+        let take = |_, row: &[T]| found.extend_from_slice(row);
+        self.fetch_each(own, width, held, wanted, take)?;
+        Ok(found)
+    }
+
+    /// The same some rows at a time, of which no rank sends or receives more than a round holds, or one: `take` has the number
+    /// and the values of each row, in the order in which this rank asks for them.
+    ///
+    /// # Errors
+    /// A rank has ended.
+    pub fn fetch_each<T: Pod>(
+        &self,
+        own: &[T],
+        width: usize,
+        held: impl Fn(usize) -> Range<usize>,
+        wanted: impl Fn(usize) -> Vec<usize>,
+        take: impl FnMut(usize, &[T]),
+    ) -> Result<(), BackendError> {
+        let at_once = (ROUND / (width * size_of::<T>()).max(1)).max(1);
+        self.fetch_at_most(at_once, own, width, held, wanted, take)
+    }
+
+    /// The same in rounds of so many rows.
+    pub(super) fn fetch_at_most<T: Pod>(
+        &self,
+        at_once: usize,
+        own: &[T],
+        width: usize,
+        held: impl Fn(usize) -> Range<usize>,
+        wanted: impl Fn(usize) -> Vec<usize>,
+        mut take: impl FnMut(usize, &[T]),
+    ) -> Result<(), BackendError> {
         let here = self.rank();
-        let line = |row: usize| {
-            let start = (row - held(here).start) * width;
-            start..start + width
-        };
-        let asked = wanted(here);
-        let mut found = vec![T::zeroed(); asked.len() * width];
+        let first = held(here).start;
+        let line = |row: usize| &own[(row - first) * width..(row + 1 - first) * width];
         let Some(ranks) = self.ranks() else {
-            for (place, row) in found.chunks_exact_mut(width).zip(asked) {
-                place.copy_from_slice(&own[line(row)]);
-            }
-            return Ok(found);
+            wanted(here)
+                .into_iter()
+                .for_each(|row| take(row, line(row)));
+            return Ok(());
         };
-        let others: Vec<Vec<usize>> = (0..ranks.count()).map(&wanted).collect();
-        let most = (0..ranks.count()).map(|rank| held(rank).len()).max();
-        for first in (0..most.unwrap_or(0)).step_by(at_once) {
-            let offered = |rank: usize| {
-                let rows = held(rank);
-                (rows.start + first).min(rows.end)..(rows.start + first + at_once).min(rows.end)
-            };
-            let mine = offered(here);
+        let bytes = width * size_of::<T>();
+        for round in Rounds::new(ranks.count(), at_once, held, wanted) {
             let mut sent = Vec::new();
             let mut send_lengths = vec![0; ranks.count()];
-            for (length, rows) in send_lengths.iter_mut().zip(&others) {
-                for &row in rows.iter().filter(|row| mine.contains(row)) {
-                    sent.extend_from_slice(&own[line(row)]);
+            for (length, rows) in send_lengths.iter_mut().zip(&round) {
+                for (row, _) in rows.iter().filter(|(_, holder)| *holder == here) {
+                    sent.extend_from_slice(line(*row));
                     *length += bytes;
                 }
             }
-            // Places of the rows in the order in which they come.
-            let places: Vec<Vec<usize>> = (0..ranks.count())
-                .map(|rank| {
-                    let rows = offered(rank);
-                    let of_rank = asked.iter().enumerate();
-                    let of_rank = of_rank.filter(|(_, row)| rows.contains(row));
-                    of_rank.map(|(place, _)| place).collect()
-                })
-                .collect();
-            let lengths: Vec<usize> = places.iter().map(|places| places.len() * bytes).collect();
-            let mut received = vec![T::zeroed(); lengths.iter().sum::<usize>() / size_of::<T>()];
+            let mut lengths = vec![0; ranks.count()];
+            for (_, holder) in &round[here] {
+                lengths[*holder] += bytes;
+            }
+            let mut received = vec![T::zeroed(); round[here].len() * width];
             let exchanged = ranks.exchange(
                 Parts {
                     bytes: bytemuck::cast_slice(&sent),
@@ -110,16 +185,21 @@ impl Share {
                     lengths: &lengths,
                 },
             );
-            if self.noted(exchanged).is_none() {
-                break;
+            self.noted(exchanged);
+            self.failed()?;
+            // They come by the ranks that hold them, of each in the order asked for.
+            let mut next = 0;
+            let mut places = lengths;
+            for place in &mut places {
+                next += std::mem::replace(place, next / bytes.max(1));
             }
-            let lines = received.chunks_exact(width);
-            for (line, &place) in lines.zip(places.iter().flatten()) {
-                found[place * width..(place + 1) * width].copy_from_slice(line);
+            for (row, holder) in &round[here] {
+                let start = places[*holder] * width;
+                places[*holder] += 1;
+                take(*row, &received[start..start + width]);
             }
         }
-        self.failed()?;
-        Ok(found)
+        Ok(())
     }
 
     /// The surface row before those of this rank and the one after them. A row is empty where the surface ends, and both are
@@ -281,5 +361,89 @@ impl Share {
             }
         }
         Ok(own)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use std::sync::Arc;
+    use std::thread;
+
+    use super::*;
+    use crate::backend::Shape;
+    use crate::backend::ranks::ThreadRanks;
+
+    /// Rows of one share's map come in the order in which a rank of another asks for them, in rounds of any size, from ranks that hold
+    /// none or all, and to ranks that ask for none or all.
+    #[test]
+    fn rows_come_in_the_order_asked_for() {
+        let width = 3;
+        let line = |row: usize| (0..width).map(move |x| (10 * row + x) as f64);
+        for (count, at_once) in [1, 2, 3, 7]
+            .into_iter()
+            .flat_map(|n| [1, 2, 100].map(|w| (n, w)))
+        {
+            thread::scope(|scope| {
+                for rank in ThreadRanks::new(count) {
+                    scope.spawn(move || {
+                        let share = Share::on_ranks(Shape::whole(3, 37), Some(Arc::new(rank)));
+                        let more = share.of(Shape::whole(3, 74));
+                        let held = |rank: usize| share.rows_of(rank);
+                        let own: Vec<f64> = held(share.rank()).flat_map(line).collect();
+                        let mirrored = |rank: usize| -> Vec<usize> {
+                            let rows = more.rows_of(rank);
+                            rows.map(|row| row.min(73 - row)).collect()
+                        };
+                        let all_of_first = |rank: usize| match rank {
+                            0 => vec![36, 0, 36],
+                            _ => held(0).rev().collect(),
+                        };
+                        for wanted in [&mirrored as &dyn Fn(usize) -> Vec<usize>, &all_of_first] {
+                            let mut found = Vec::new();
+                            let take = |row: usize, values: &[f64]| {
+                                assert!(line(row).eq(values.iter().copied()));
+                                found.push(row);
+                            };
+                            let fetched =
+                                share.fetch_at_most(at_once, &own, width, held, wanted, take);
+                            fetched.expect("all ranks");
+                            assert_eq!(found, wanted(share.rank()));
+                        }
+                    });
+                }
+            });
+        }
+    }
+
+    /// No rank sends or takes more rows in a round than it may, whoever asks; where nobody waits for another, the rounds are as few
+    /// as these allow.
+    #[test]
+    fn rounds_are_bounded() {
+        let held = |rank: usize| 8 * rank..8 * rank + 8;
+        let all = |_: usize| (0..32_usize).collect();
+        let reversed = |rank: usize| held(3 - rank).collect();
+        for at_once in [1, 3, 8] {
+            for (wanted, most) in [
+                (&all as &dyn Fn(usize) -> Vec<usize>, 128),
+                (&reversed, 8_usize.div_ceil(at_once)),
+            ] {
+                let mut found = vec![Vec::new(); 4];
+                let mut count = 0;
+                for round in Rounds::new(4, at_once, held, wanted) {
+                    let mut sent = [0; 4];
+                    for (found, rows) in found.iter_mut().zip(round) {
+                        assert!(rows.len() <= at_once);
+                        rows.iter().for_each(|(_, holder)| sent[*holder] += 1);
+                        found.extend(rows.into_iter().map(|(row, _)| row));
+                    }
+                    assert!(sent.iter().all(|sent| *sent <= at_once));
+                    count += 1;
+                }
+                assert!(count <= most);
+                for (rank, found) in found.into_iter().enumerate() {
+                    assert_eq!(found, wanted(rank));
+                }
+            }
+        }
     }
 }
