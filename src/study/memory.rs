@@ -8,9 +8,11 @@ use super::cost::Cost;
 use crate::backend::Shape;
 use crate::backend::cpu::{exchange_bytes, largest_slab};
 use crate::grid::{Boundary, Grid};
-use crate::scene::{AdhesionMap, FieldName, HeightFileScene, Scene, StepChoice, SurfacePart};
-use crate::solver::works_in_turn;
-use crate::surface::is_by_rows;
+use crate::scene::{
+    AdhesionMap, Edges, FieldName, HeightFileScene, Scene, StepChoice, SurfacePart,
+};
+use crate::solver::{solved_shape, works_in_turn};
+use crate::surface::{is_by_rows, points_before_resampling};
 
 /// A double on the host.
 pub(crate) const DOUBLE: u64 = 8;
@@ -226,7 +228,33 @@ fn building(scene: &Scene, grid: Grid, rows: usize, ranks: usize) -> u64 {
         Boundary::Periodic => DOUBLE * points + spectrum + exchanged,
         Boundary::Free => DOUBLE * points,
     };
-    parts.max(statistics).max(DOUBLE * points + map)
+    let files = scene.surfaces.iter().filter_map(|part| match part {
+        SurfacePart::File(file) if ranks > 1 => Some(file),
+        _ => None,
+    });
+    let before = DOUBLE * points * (files.clone().count() as u64).saturating_sub(1);
+    let resampled = files.filter_map(|file| {
+        let from = points_before_resampling(file)?;
+        let solved = solved_shape(&Grid::new(from, [1.0; 2]), scene.grid.boundary);
+        let rows = largest_slab(solved.points[1], ranks).min(from[1]);
+        let old = DOUBLE * (from[0] * rows) as u64;
+        let moving = 2 * ROUND.min(old);
+        // What is mirrored is a quarter of it.
+        let mirrored = match file.preparation.edges {
+            Edges::Mirror => old + old / 4 + moving,
+            _ => 0,
+        };
+        // Through cubics; through waves the spectrum of the old rows takes their place.
+        let cubics = old + DOUBLE * points + moving;
+        let waves = match scene.grid.boundary {
+            Boundary::Periodic => (2 * old).max(old + spectrum + exchanged),
+            Boundary::Free => 0,
+        };
+        Some(mirrored.max(cubics).max(waves))
+    });
+    let resampling = before + resampled.max().unwrap_or(0);
+    let built = parts.max(resampling).max(statistics);
+    built.max(DOUBLE * points + map)
 }
 
 /// Bytes of a file beside the held rows: several ranks read some by rows, and of another one the first rank holds all.

@@ -104,10 +104,8 @@ fn read(
     let plain = HeightFileScene::new(path);
     // A map need not be periodic, so mismatched edges are not reported.
     let boundary = Boundary::Free;
-    let whole = |most| match file::read_numbers(&plain, boundary, most) {
-        Err(FileError::GreyEndsMissing) => {
-            file::read_numbers(&with_ends(&plain, SHADES), boundary, most)
-        }
+    let whole = || match file::read_numbers(&plain, boundary) {
+        Err(FileError::GreyEndsMissing) => file::read_numbers(&with_ends(&plain, SHADES), boundary),
         map => map,
     };
     let reading = Reading {

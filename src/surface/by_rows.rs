@@ -1,12 +1,12 @@
 //! Maps from files over several processes, each of which keeps its rows. The first process reads a file some rows at a time and
-//! hands each on, so that none holds the map. What is asked of a map that takes more than some rows at once is done by the
-//! first process alone on the whole, up to a number of points that is small beside the slab of a contact for which several
-//! processes are worth their while; the same holds for formats that give their numbers only together.
+//! hands each on, so that none holds the map; what is asked of it all do together, each of its rows. Formats that give their numbers
+//! only together are read by the first process up to a number of points that is small beside the slab of a contact for which
+//! several processes are worth their while.
 
 use super::error::{FileError, SurfaceError};
 use super::file::{self, HeightMap};
 use super::formats::{self, Numbers};
-use super::matrix::{Map, Matrix, Size};
+use super::matrix::{Map, Matrix, PASSED, Size};
 use super::prepare;
 use crate::backend::Share;
 use crate::backend::ranks::{RankError, Ranks, agree};
@@ -15,20 +15,6 @@ use crate::scene::{Boundary, Edges, HeightFileScene};
 /// Points of the largest file that the first of several processes reads whole, 4096 x 4096: 128 MiB of heights, a few times as
 /// much while it is read, where a slab of a contact that needs several machines has gigabytes.
 pub(super) const MOST_WHOLE: usize = 1 << 24;
-/// Numbers of rows that are passed over at once.
-const PASSED: usize = 1 << 20;
-
-/// Opens a file for several processes.
-///
-/// # Errors
-/// See [`FileError`]; one is that the first process would hold too many points.
-fn open(scene: &HeightFileScene) -> Result<Map, FileError> {
-    let map = formats::open_map(&scene.path, MOST_WHOLE)?;
-    if takes_whole(scene) {
-        file::expect_at_most(MOST_WHOLE, [map.columns, map.rows])?;
-    }
-    Ok(map)
-}
 
 /// The error of the first file of a scene that several processes refuse, as far as headers and lengths tell.
 #[cfg(feature = "cli")]
@@ -36,7 +22,7 @@ pub(crate) fn refused_on_ranks(scene: &crate::scene::Scene) -> Option<SurfaceErr
     use super::{PartError, part_error};
     use crate::scene::{AdhesionMap, SurfacePart};
 
-    let refused = |file: &HeightFileScene| match open(file) {
+    let refused = |file: &HeightFileScene| match formats::open_map(&file.path, MOST_WHOLE) {
         Err(error @ FileError::Whole { .. }) => Some(error),
         _ => None,
     };
@@ -66,15 +52,27 @@ pub(crate) fn refused_on_ranks(scene: &crate::scene::Scene) -> Option<SurfaceErr
 
 /// Whether no process holds the whole of a file.
 pub(crate) fn is_by_rows(scene: &HeightFileScene) -> bool {
-    let is_given_by_rows = |map: Map| matches!(map.values, Numbers::Rows(_));
     // A format that would hold a single point refuses.
-    !takes_whole(scene) && formats::open_map(&scene.path, 0).is_ok_and(is_given_by_rows)
+    formats::open_map(&scene.path, 0).is_ok_and(|map| matches!(map.values, Numbers::Rows(_)))
 }
 
-/// Whether something is asked that makes other points of those of a map.
-fn takes_whole(scene: &HeightFileScene) -> bool {
+/// Points of the map of a file that several processes resample, as it is before.
+pub(crate) fn points_before_resampling(scene: &HeightFileScene) -> Option<[usize; 2]> {
     let asked = &scene.preparation;
-    asked.profile || asked.edges == Edges::Mirror || asked.resample.is_some()
+    asked.resample?;
+    let map = formats::open_map(&scene.path, 0).ok()?;
+    let mut points = match asked.profile {
+        true => [map.columns.max(map.rows), 1],
+        false => [map.columns, map.rows],
+    };
+    if let Some(crop) = asked.crop {
+        prepare::check_crop(crop, points).ok()?;
+        points = [crop[2], crop[3]];
+    }
+    Some(match asked.edges {
+        Edges::Mirror => prepare::mirrored(points),
+        _ => points,
+    })
 }
 
 /// The same file with heights of black and white.
@@ -94,10 +92,10 @@ pub(super) struct Reading<'a> {
     pub boundary: Boundary,
     /// The rows of so many points that this process holds.
     pub share: &'a dyn Fn([usize; 2]) -> Share,
-    /// Rows over which one row is repeated.
-    pub repeats: Option<usize>,
-    /// Reads the whole of a file of at most so many points.
-    pub whole: &'a dyn Fn(usize) -> Result<HeightMap, FileError>,
+    /// Points of the grid over whose rows the one of a profile is repeated.
+    pub repeats: Option<[usize; 2]>,
+    /// Reads the whole of a file.
+    pub whole: &'a dyn Fn() -> Result<HeightMap, FileError>,
     /// Black and white of a grey image of which the scene says nothing, if that is no mistake.
     pub shades: Option<[f64; 2]>,
     /// Refuses a file of so many points along x and y that is no such map.
@@ -112,19 +110,35 @@ impl Reading<'_> {
     /// # Errors
     /// As of the whole, on every process; where another one cannot read the file, that it has ended.
     pub fn read(&self) -> Result<HeightMap, SurfaceError> {
+        file::check_factors(self.scene).map_err(self.wrong)?;
         let anyone = (self.share)([1, 1]);
-        let Some(ranks) = anyone.ranks() else {
-            let mut map = (self.whole)(usize::MAX).map_err(self.wrong)?;
-            if let Some(rows) = self.repeats {
-                map.repeat(rows);
+        // They note together which process has ended.
+        let share_of = |points| anyone.of((self.share)(points).shape());
+        let mut map = match anyone.ranks() {
+            None => (self.whole)().map_err(self.wrong)?,
+            Some(ranks) => {
+                let opened = self.of_first(ranks, || {
+                    let map = formats::open_map(&self.scene.path, MOST_WHOLE)?;
+                    if self.scene.preparation.profile {
+                        return Ok(prepare::to_profile(map)?.into());
+                    }
+                    Ok(map)
+                })?;
+                self.by_rows(ranks, opened, &share_of)?
             }
-            return Ok(map);
         };
-        if takes_whole(self.scene) {
-            return self.handed_on(ranks);
+        if let Some(points) = self.repeats {
+            let from = share_of(map.points);
+            map.points[1] = points[1];
+            let fits = map.compare_points(points, "[grid] points");
+            fits.map_err(self.wrong)?;
+            // One that has ended is seen below.
+            let _ = map.repeat(&from, &share_of(points));
+            if let Some(error) = anyone.failure() {
+                return Err(error.into());
+            }
         }
-        let opened = self.of_first(ranks, || open(self.scene))?;
-        self.by_rows(ranks, opened)
+        Ok(map)
     }
 
     /// What the first process finds in the file; it and the others have the same errors.
@@ -163,10 +177,14 @@ impl Reading<'_> {
     }
 
     /// The first process, which has opened the file, hands on some rows at a time.
-    fn by_rows(&self, ranks: &dyn Ranks, opened: Option<Map>) -> Result<HeightMap, SurfaceError> {
+    fn by_rows(
+        &self,
+        ranks: &dyn Ranks,
+        opened: Option<Map>,
+        share_of: &dyn Fn([usize; 2]) -> Share,
+    ) -> Result<HeightMap, SurfaceError> {
         let (numbers, header) = opened.map(Map::split).unzip();
-        let anyone = (self.share)([1, 1]);
-        let mut header = told_header(&anyone, header)?;
+        let mut header = told_header(&share_of([1, 1]), header)?;
         let points = [header.columns, header.rows];
         let [columns, rows] = points;
         let kept = self.scene.preparation.crop.unwrap_or([0, 0, columns, rows]);
@@ -177,7 +195,7 @@ impl Reading<'_> {
             .size
             .map(|size| prepare::cropped_size(kept, points, size));
         [header.columns, header.rows] = [nx, ny];
-        let share = (self.share)([nx, ny]);
+        let share = share_of([nx, ny]);
 
         let mut numbers = numbers.map(Numbers::into_rows);
         let mut read = Ok(());
@@ -189,7 +207,7 @@ impl Reading<'_> {
             }
         };
         let at_once = (PASSED / columns).max(1);
-        if anyone.is_first() {
+        if share.is_first() {
             for start in (0..y).step_by(at_once) {
                 next(at_once.min(y - start), &mut lines);
             }
@@ -211,46 +229,11 @@ impl Reading<'_> {
             _ => self.scene,
         };
         let matrix = header.with(heights.unwrap_or_default());
-        let map = file::heights_of(scene, self.boundary, matrix, &share);
+        let map = file::heights_of(scene, self.boundary, matrix, share_of);
         if let Some(error) = share.failure() {
             return Err(error.into());
         }
         map.map_err(self.wrong)
-    }
-
-    /// The first process reads the whole and hands the rows on.
-    fn handed_on(&self, ranks: &dyn Ranks) -> Result<HeightMap, SurfaceError> {
-        let anyone = (self.share)([1, 1]);
-        let read = self.of_first(ranks, || {
-            open(self.scene)?;
-            (self.whole)(MOST_WHOLE)
-        })?;
-        let outline = read.as_ref().map(|map| {
-            let [nx, ny] = map.points.map(|n| n as f64);
-            let [lx, ly] = map.size.unwrap_or([0.0; 2]);
-            [nx, self.repeats.map_or(ny, |rows| rows as f64), lx, ly]
-        });
-        let [nx, ny, lx, ly] = anyone.told(outline);
-        if let Some(error) = anyone.failure() {
-            return Err(error.into());
-        }
-        let points = [nx as usize, ny as usize];
-        let share = (self.share)(points);
-        let mut given = read.iter().flat_map(|map| map.heights.iter().cycle());
-        let heights = share.from_first(true, &mut |rows| {
-            for (height, given) in rows.iter_mut().zip(&mut given) {
-                *height = *given;
-            }
-        });
-        if let Some(error) = share.failure() {
-            return Err(error.into());
-        }
-        Ok(HeightMap {
-            heights: heights.unwrap_or_default(),
-            points,
-            size: (lx > 0.0).then_some([lx, ly]),
-            warnings: read.map(|map| map.warnings).unwrap_or_default(),
-        })
     }
 }
 

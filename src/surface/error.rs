@@ -418,8 +418,7 @@ pub enum FileError {
     /// A file that one of several processes would hold whole.
     #[error(
         "{} are more than the {MOST_WHOLE} points that the first of several processes reads whole; prepare the file once on one \
-         process (tabor surface writes heights.npy, which is read by rows), or leave profile, edges = \"mirror\" and resample out if \
-         one of them is asked for",
+         process (tabor surface writes heights.npy, which is read by rows)",
         amount(*points, *length)
     )]
     Whole {

@@ -3,8 +3,8 @@
 use super::error::FileError;
 use super::matrix::{Matrix, Size};
 use super::statistics::edge_jumps;
-use super::{detrend, fill, formats, prepare, resample};
-use crate::backend::{Shape, Share};
+use super::{MOST_POINTS, detrend, fill, formats, prepare, resample};
+use crate::backend::{BackendError, Shape, Share};
 use crate::grid::Grid;
 use crate::scene::{Boundary, Detrend, Edges, Fill, HeightFileScene};
 use crate::units::in_range;
@@ -35,10 +35,19 @@ pub(super) struct HeightMap {
 }
 
 impl HeightMap {
-    /// Repeats the one row of a profile.
-    pub(super) fn repeat(&mut self, rows: usize) {
-        self.heights = self.heights.repeat(rows);
-        self.points[1] = rows;
+    /// Repeats the one row of a profile, of which a process may hold none, over the rows that it holds of a map.
+    ///
+    /// # Errors
+    /// A rank has ended.
+    pub(super) fn repeat(&mut self, from: &Share, over: &Share) -> Result<(), BackendError> {
+        let wanted = |rank: usize| {
+            let is_any = !over.surface_rows_of(rank).is_empty();
+            is_any.then_some(0).into_iter().collect()
+        };
+        let held = |rank: usize| from.surface_rows_of(rank);
+        let row = from.fetch(&self.heights, self.points[0], held, wanted)?;
+        self.heights = row.repeat(over.surface_rows().len());
+        Ok(())
     }
 
     /// Refuses a map whose number of points differs from `points` (x, y).
@@ -83,7 +92,7 @@ impl HeightMap {
     }
 }
 
-/// Reads the height map of a scene, of a file of at most so many points, and applies all that the scene asks of it.
+/// Reads the whole height map of a scene, and applies all that the scene asks of it.
 ///
 /// # Errors
 /// See [`FileError`]; a line scan is one unless the scene takes it as a profile, or its grid has the same `points`.
@@ -91,15 +100,15 @@ pub(super) fn read(
     scene: &HeightFileScene,
     boundary: Boundary,
     points: Option<[usize; 2]>,
-    most: usize,
 ) -> Result<HeightMap, FileError> {
-    check_factors(scene)?;
-    let mut matrix = read_at_most(scene, most)?;
-    if scene.preparation.profile {
-        prepare::to_profile(&mut matrix)?;
+    let map = formats::open_map(&scene.path, usize::MAX)?;
+    let matrix = if scene.preparation.profile {
+        prepare::to_profile(map)?
     } else {
+        let matrix = map.read()?;
         expect_map(points, [matrix.columns, matrix.rows])?;
-    }
+        matrix
+    };
     whole_heights_of(scene, boundary, matrix)
 }
 
@@ -122,31 +131,13 @@ pub(super) fn expect_map(grid: Option<[usize; 2]>, points: [usize; 2]) -> Result
     }
 }
 
-/// Refuses more points along x and y than one of several processes holds.
-pub(super) fn expect_at_most(most: usize, points: [usize; 2]) -> Result<(), FileError> {
-    if points[0].saturating_mul(points[1]) > most {
-        return Err(FileError::Whole {
-            points: Some(points),
-            length: 0,
-        });
-    }
-    Ok(())
-}
-
-/// Reads a file of at most so many points.
-fn read_at_most(scene: &HeightFileScene, most: usize) -> Result<Matrix, FileError> {
-    let map = formats::open_map(&scene.path, most)?;
-    expect_at_most(most, [map.columns, map.rows])?;
-    map.read()
-}
-
 /// The same of numbers that need not be heights, where a single row is a map too.
 pub(super) fn read_numbers(
     scene: &HeightFileScene,
     boundary: Boundary,
-    most: usize,
 ) -> Result<HeightMap, FileError> {
-    whole_heights_of(scene, boundary, read_at_most(scene, most)?)
+    let matrix = formats::open_map(&scene.path, usize::MAX)?.read()?;
+    whole_heights_of(scene, boundary, matrix)
 }
 
 fn whole_heights_of(
@@ -157,20 +148,22 @@ fn whole_heights_of(
     if let Some(crop) = scene.preparation.crop {
         prepare::crop(&mut matrix, crop)?;
     }
-    let share = Share::whole(Shape::whole(matrix.columns, matrix.rows));
-    heights_of(scene, boundary, matrix, &share)
+    heights_of(scene, boundary, matrix, &|[nx, ny]| {
+        Share::whole(Shape::whole(nx, ny))
+    })
 }
 
-/// Heights of the rows that a process holds, of a matrix with these rows of its values. Of several processes the map is neither
-/// mirrored nor resampled.
+/// Heights of the rows that a process holds, of a matrix with these rows of its values; `share_of` says what it holds of so many
+/// points. One that has ended is the caller's to see.
 pub(super) fn heights_of(
     scene: &HeightFileScene,
     boundary: Boundary,
     matrix: Matrix,
-    share: &Share,
+    share_of: &dyn Fn([usize; 2]) -> Share,
 ) -> Result<HeightMap, FileError> {
     let asked = &scene.preparation;
-    let (mut rows, mut columns) = (matrix.rows, matrix.columns);
+    let mut points = [matrix.columns, matrix.rows];
+    let share = &share_of(points);
     let unit = matrix.unit.unwrap_or(scene.unit);
     let [factor, zero] = factor_and_zero(&matrix, scene, unit)?;
     let mut heights = matrix.values;
@@ -183,7 +176,7 @@ pub(super) fn heights_of(
         if found > 0 {
             warnings.push(format!(
                 "{found} of {} points stand out of their neighbours by more than {times} standard deviations and are interpolated",
-                rows * columns
+                points[0] * points[1]
             ));
         }
     }
@@ -225,34 +218,61 @@ pub(super) fn heights_of(
             closes = true;
         }
         Edges::Mirror => {
-            let before = [columns, rows];
-            (heights, [columns, rows]) = prepare::mirror(&heights, rows, columns);
-            let longer = |side: f64, i: usize| side * ([columns, rows][i] / before[i]) as f64;
+            let before = points;
+            points = prepare::mirrored(before);
+            let to = room_for(points, share_of)?;
+            heights = or_missing(prepare::mirror(&heights, share, &to), &to);
+            let longer = |side: f64, i: usize| side * (points[i] / before[i]) as f64;
             size = size.map(|[x, y]| [longer(x, 0), longer(y, 1)]);
             closes = true;
         }
     }
     if let Some([nx, ny]) = asked.resample {
-        let (from, points) = ([columns, rows], [nx, if asked.profile { 1 } else { ny }]);
-        heights = if is_periodic && closes {
-            resample::by_waves(&heights, from, points)
+        let from = share_of(points);
+        points = [nx, if asked.profile { 1 } else { ny }];
+        let to = room_for(points, share_of)?;
+        let found = if is_periodic && closes {
+            resample::by_waves(heights, &from, &to)
         } else {
-            resample::by_cubics(&heights, from, points)
+            resample::by_cubics(&heights, &from, &to)
         };
-        [columns, rows] = points;
+        heights = or_missing(found, &to);
     }
     if is_periodic && asked.edges == Edges::None {
         warnings.extend(match asked.resample {
             None => open_edges,
-            Some(_) => edges(&heights, &Share::whole(Shape::whole(columns, rows))),
+            Some(_) => edges(&heights, &share_of(points)),
         });
     }
     Ok(HeightMap {
         heights,
-        points: [columns, rows],
+        points,
         size,
         warnings,
     })
+}
+
+/// What a process holds of so many points, if there may be so many and memory holds their heights.
+fn room_for(
+    points: [usize; 2],
+    share_of: &dyn Fn([usize; 2]) -> Share,
+) -> Result<Share, FileError> {
+    let all = points[0].saturating_mul(points[1]);
+    if all > MOST_POINTS {
+        return Err(FileError::TooManyPoints { points: all as u64 });
+    }
+    let share = share_of(points);
+    let reserved = Vec::<f64>::new().try_reserve_exact(share.surface_len());
+    if share.any(reserved.is_err()) {
+        let bytes = (all * size_of::<f64>()) as u64;
+        return Err(FileError::Memory { bytes });
+    }
+    Ok(share)
+}
+
+/// Heights that were found, or missing ones where a process has ended.
+fn or_missing(found: Result<Vec<f64>, BackendError>, share: &Share) -> Vec<f64> {
+    found.unwrap_or_else(|_| vec![f64::NAN; share.surface_len()])
 }
 
 /// The factor that turns the file's numbers into heights, and the height of 0.

@@ -3,6 +3,9 @@
 use super::error::FileError;
 use super::formats::Numbers;
 
+/// Most numbers of the rows that are read and passed over at once, or those of one row.
+pub(super) const PASSED: usize = 1 << 20;
+
 /// Numbers of a height file before unit, scale and detrending.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub(super) struct Matrix<V = Vec<f64>> {

@@ -37,9 +37,9 @@ pub mod spectrum;
 pub mod statistics;
 
 pub use adhesion_map::MapError;
-pub(crate) use by_rows::is_by_rows;
 #[cfg(feature = "cli")]
 pub(crate) use by_rows::refused_on_ranks;
+pub(crate) use by_rows::{is_by_rows, points_before_resampling};
 pub use error::{FileError, PartError, SurfaceError};
 #[doc(hidden)]
 pub use formats::claimed_points;
@@ -250,15 +250,12 @@ fn read_maps(
             scene: file,
             boundary: scene.boundary,
             share: &|points| share(&Grid::new(points, [1.0; 2])),
-            repeats: scene
-                .points
-                .filter(|_| file.preparation.profile)
-                .map(|[_, rows]| rows),
-            whole: &|most| file::read(file, scene.boundary, scene.points, most),
+            repeats: scene.points.filter(|_| file.preparation.profile),
+            whole: &|| file::read(file, scene.boundary, scene.points),
             shades: None,
-            fits: &|points| {
-                file::check_factors(file)?;
-                file::expect_map(scene.points, points)
+            fits: &|points| match file.preparation.profile {
+                true => Ok(()),
+                false => file::expect_map(scene.points, points),
             },
             wrong: &of_file,
         };

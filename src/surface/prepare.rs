@@ -4,8 +4,8 @@ use std::f64::consts::FRAC_PI_2;
 
 use super::error::FileError;
 use super::fill;
-use super::matrix::{Matrix, Size};
-use crate::backend::Share;
+use super::matrix::{Map, Matrix, PASSED, Size};
+use crate::backend::{BackendError, Share};
 
 /// A map is a line scan if its sides are this many times apart,
 const LINE: usize = 1000;
@@ -27,39 +27,53 @@ pub(super) fn expect_map([columns, rows]: [usize; 2]) -> Result<(), FileError> {
     Ok(())
 }
 
-/// A line of heights, or two of places and heights, as one row along x; of more lines the first.
-pub(super) fn to_profile(matrix: &mut Matrix) -> Result<(), FileError> {
-    let (rows, columns) = (matrix.rows, matrix.columns);
-    let count = rows.max(columns);
-    let line = |index: usize| -> Vec<f64> {
-        let along = |at: usize| {
-            if rows <= columns {
-                index * columns + at
-            } else {
-                at * columns + index
+/// A line of heights, or two of places and heights, as one row along x; of more lines the first. The map is read some rows at a
+/// time and to its end, so that a broken file is refused, and no more than two lines are held.
+pub(super) fn to_profile(map: Map) -> Result<Matrix, FileError> {
+    let (numbers, mut header) = map.split();
+    let (rows, columns) = (header.rows, header.columns);
+    let [lines, count] = [rows.min(columns), rows.max(columns)];
+    let mut numbers = numbers.into_rows();
+    let mut found = Vec::new();
+    found.resize_with(lines.min(2), Vec::new);
+    for line in &mut found {
+        line.try_reserve_exact(count)
+            .map_err(|_| FileError::Memory {
+                bytes: (count * size_of::<f64>()) as u64,
+            })?;
+    }
+    let at_once = (PASSED / columns).max(1);
+    let mut values = Vec::new();
+    for start in (0..rows).step_by(at_once) {
+        values.resize(at_once.min(rows - start) * columns, 0.0);
+        numbers.next(&mut values)?;
+        for (row, numbers) in (start..).zip(values.chunks_exact(columns)) {
+            if rows > columns {
+                for (line, number) in found.iter_mut().zip(numbers) {
+                    line.push(*number);
+                }
+            } else if let Some(line) = found.get_mut(row) {
+                line.extend_from_slice(numbers);
             }
-        };
-        (0..count).map(|at| matrix.values[along(at)]).collect()
-    };
-    let lines = rows.min(columns);
-    let length = match lines {
-        2 => length(&line(0)),
+        }
+    }
+    let length = match &found[..] {
+        [places, _] if lines == 2 => length(places),
         _ => None,
     };
-    let heights = line(usize::from(length.is_some()));
+    let heights = found.swap_remove(usize::from(length.is_some()));
     if length.is_none() && lines > 1 {
-        matrix.warnings.push(format!(
+        header.warnings.push(format!(
             "of {lines} lines the first is the profile; a profile has one line of heights, or two of places at equal distances and heights"
         ));
     }
-    matrix.size = match (length, matrix.size) {
+    header.size = match (length, header.size) {
         (Some(length), _) => Some(Size::LikeHeights([length; 2])),
         (None, Some(Size::Metres(size))) => Some(Size::Metres([size[0].max(size[1]); 2])),
         (None, size) => size,
     };
-    matrix.values = heights;
-    (matrix.rows, matrix.columns) = (1, count);
-    Ok(())
+    (header.rows, header.columns) = (1, count);
+    Ok(header.with(heights))
 }
 
 /// Length of a profile at these places, if their distances are equal.
@@ -219,16 +233,30 @@ pub(super) fn window(heights: &mut [f64], share: &Share) {
     }
 }
 
-/// The map and its mirror images along both sides, twice as many points along each that has more than one.
-pub(super) fn mirror(heights: &[f64], rows: usize, columns: usize) -> (Vec<f64>, [usize; 2]) {
-    let twice = |count: usize| if count > 1 { 2 * count } else { 1 };
-    let back = |at: usize, count: usize| if at < count { at } else { 2 * count - 1 - at };
-    let points = [twice(columns), twice(rows)];
-    let row = |y: usize| {
-        let line = &heights[back(y, rows) * columns..][..columns];
-        (0..points[0]).map(move |x| line[back(x, columns)])
-    };
-    ((0..points[1]).flat_map(row).collect(), points)
+/// Twice as many points along each side that has more than one.
+pub(super) fn mirrored(points: [usize; 2]) -> [usize; 2] {
+    points.map(|count| if count > 1 { 2 * count } else { 1 })
+}
+
+/// The map and its mirror images along both sides on [`mirrored`] points: the rows of these that this process holds, from its rows
+/// of the map.
+///
+/// # Errors
+/// A rank has ended.
+pub(super) fn mirror(heights: &[f64], from: &Share, to: &Share) -> Result<Vec<f64>, BackendError> {
+    let [columns, rows] = from.surface();
+    let is_doubled = to.surface()[0] > columns;
+    let back = |row: usize| row.min(2 * rows - 1 - row);
+    let held = |rank: usize| from.surface_rows_of(rank);
+    let wanted = |rank: usize| to.surface_rows_of(rank).map(back).collect();
+    let mut found = Vec::with_capacity(to.surface_len());
+    from.fetch_each(heights, columns, held, wanted, |_, line: &[f64]| {
+        found.extend_from_slice(line);
+        if is_doubled {
+            found.extend(line.iter().rev());
+        }
+    })?;
+    Ok(found)
 }
 
 #[cfg(test)]
@@ -268,7 +296,12 @@ mod tests {
     #[test]
     fn windowed_and_mirrored_maps_close() {
         let mut heights: Vec<f64> = (0..32 * 16).map(|i| (i % 32) as f64).collect();
-        let (mirrored, points) = mirror(&heights, 16, 32);
+        let mirror = |heights: &[f64], [columns, rows]: [usize; 2]| {
+            let to = mirrored([columns, rows]);
+            let found = mirror(heights, &all(rows, columns), &all(to[1], to[0]));
+            (found.unwrap(), to)
+        };
+        let (mirrored, points) = mirror(&heights, [32, 16]);
         assert_eq!(points, [64, 32]);
         assert_eq!(&mirrored[..32], &heights[..32]);
         assert_eq!(
@@ -284,26 +317,35 @@ mod tests {
         assert!((row[0] - (mean - 15.5 * least)).abs() < 1e-12, "{}", row[0]);
         assert_eq!(row[10], 10.0);
         assert_eq!(
-            mirror(&[1.0, 2.0], 1, 2),
+            mirror(&[1.0, 2.0], [2, 1]),
             (vec![1.0, 2.0, 2.0, 1.0], [4, 1])
         );
     }
 
     #[test]
     fn profiles_have_one_line_or_places_too() {
-        let mut lines = Matrix::new(vec![0.0, 3.0, 0.5, 4.0, 1.0, 6.0], [3, 2]);
-        to_profile(&mut lines).unwrap();
+        let profile = |values: Vec<f64>, shape| to_profile(Matrix::new(values, shape).into());
+        let lines = profile(vec![0.0, 3.0, 0.5, 4.0, 1.0, 6.0], [3, 2]).unwrap();
         assert_eq!(
-            (lines.values.as_slice(), lines.rows),
-            ([3.0, 4.0, 6.0].as_slice(), 1)
+            (lines.values.as_slice(), lines.rows, lines.columns),
+            ([3.0, 4.0, 6.0].as_slice(), 1, 3)
         );
         assert_eq!(lines.size, Some(Size::LikeHeights([1.5; 2])));
         assert!(lines.warnings.is_empty());
-        let mut uneven = Matrix::new(vec![0.0, 3.0, 0.5, 4.0, 9.0, 6.0], [3, 2]);
-        to_profile(&mut uneven).unwrap();
+        let rows = profile(vec![0.0, 0.5, 1.0, 3.0, 4.0, 6.0], [2, 3]).unwrap();
+        assert_eq!(rows, lines);
+        let uneven = profile(vec![0.0, 3.0, 0.5, 4.0, 9.0, 6.0], [3, 2]).unwrap();
         assert_eq!(
             (uneven.values[2], uneven.size, uneven.warnings.len()),
             (9.0, None, 1)
+        );
+        // More lines, and more rows than are read at once.
+        let many = (0..3 * PASSED).map(|at| at as f64).collect();
+        let first = profile(many, [PASSED, 3]).unwrap();
+        assert!((0..PASSED).map(|row| 3.0 * row as f64).eq(first.values));
+        assert_eq!(
+            profile(vec![7.0], [1, 1]).unwrap(),
+            Matrix::new(vec![7.0], [1, 1])
         );
     }
 }

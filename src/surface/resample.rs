@@ -1,40 +1,45 @@
 //! A height map on another number of points: by its waves if it is periodic, else by cubics.
 
-use num_complex::Complex;
+use std::ops::RangeInclusive;
 
-use super::fourier::{analyse, synthesise};
-use crate::grid::Grid;
+use super::across;
+use crate::backend::{BackendError, Share};
+use crate::grid::signed_index;
 
-/// Heights of shape `[points[1], points[0]]` of a periodic map that has `from` points (x, y): the same waves, without
-/// those that fewer points do not hold.
-pub(super) fn by_waves(heights: &[f64], from: [usize; 2], points: [usize; 2]) -> Vec<f64> {
-    let [old, new] = [from, points].map(|points| Grid::new(points, [1.0; 2]));
-    let waves = analyse(&old, heights);
-    let mut found = vec![Complex::default(); (new.nx / 2 + 1) * new.ny];
-    let held = old.nx.min(new.nx);
-    for kx in 0..=held / 2 {
-        let Some(x) = share(kx, old.nx, new.nx) else {
-            continue;
+/// Heights of the rows that a process holds of a periodic map on other points, `to`: the same waves, without those that fewer
+/// points do not hold. `heights` are the rows that it holds of the map.
+///
+/// # Errors
+/// A rank has ended.
+pub(super) fn by_waves(
+    heights: Vec<f64>,
+    from: &Share,
+    to: &Share,
+) -> Result<Vec<f64>, BackendError> {
+    let ([old_nx, old_ny], [nx, ny]) = (from.surface(), to.surface());
+    let columns = old_nx.min(nx) / 2 + 1;
+    across::bring([from, to], heights, columns, |kx, waves, found| {
+        let Some(x) = part(kx, old_nx, nx) else {
+            return;
         };
-        for ky in 0..old.ny {
-            let signed = crate::grid::signed_index(ky, old.ny);
-            let Some(y) = share(signed.unsigned_abs() as usize, old.ny, new.ny) else {
+        for (ky, wave) in waves.iter().enumerate() {
+            let signed = signed_index(ky, old_ny);
+            let Some(y) = part(signed.unsigned_abs() as usize, old_ny, ny) else {
                 continue;
             };
-            let wave = waves[kx * old.ny + ky] * (x * y);
-            let place = |k: i64| kx * new.ny + k.rem_euclid(new.ny as i64) as usize;
+            let wave = wave * (x * y);
+            let place = |k: i64| k.rem_euclid(ny as i64) as usize;
             found[place(signed)] += wave;
             if y != 1.0 {
                 found[place(-signed)] += wave;
             }
         }
-    }
-    synthesise(&new, found)
+    })
 }
 
-/// Share of a wave that each of its signs takes: the shortest wave of an even number of points is both; `None` where
+/// The part of a wave that each of its signs takes: the shortest wave of an even number of points is both; `None` where
 /// the new points do not hold it.
-fn share(wave: usize, old: usize, new: usize) -> Option<f64> {
+fn part(wave: usize, old: usize, new: usize) -> Option<f64> {
     if old == new || 2 * wave < old.min(new) {
         Some(1.0)
     } else if 2 * wave == old && old < new {
@@ -46,67 +51,115 @@ fn share(wave: usize, old: usize, new: usize) -> Option<f64> {
 
 /// The same of a patch: cubic convolution (Keys 1981, doi:10.1109/TASSP.1981.1163711) through the points of pixels
 /// that cover it, over as many points as a coarser pixel covers; edges are continued straight.
-pub(super) fn by_cubics(heights: &[f64], from: [usize; 2], points: [usize; 2]) -> Vec<f64> {
-    let along_x = Weights::new(from[0], points[0]);
-    let along_y = Weights::new(from[1], points[1]);
-    let rows: Vec<f64> = heights
-        .chunks_exact(from[0])
-        .flat_map(|row| along_x.apply(|index| row[index]).collect::<Vec<_>>())
+///
+/// # Errors
+/// A rank has ended.
+pub(super) fn by_cubics(
+    heights: &[f64],
+    from: &Share,
+    to: &Share,
+) -> Result<Vec<f64>, BackendError> {
+    let [along_x, along_y] = [0, 1].map(|axis| Cubics {
+        old: from.surface()[axis],
+        new: to.surface()[axis],
+    });
+    let of_columns: Vec<_> = (0..along_x.new)
+        .map(|point| along_x.weights(point))
         .collect();
-    let mut found = vec![0.0; points[0] * points[1]];
-    for column in 0..points[0] {
-        let values = along_y.apply(|index| rows[index * points[0] + column]);
-        for (row, value) in values.enumerate() {
-            found[row * points[0] + column] = value;
+    // The rows of the map near those of a rank.
+    let near = |rank: usize| -> Vec<usize> {
+        let rows = to.surface_rows_of(rank);
+        let first = rows.clone().map(|row| *along_y.near(row).start()).min();
+        let last = rows.map(|row| *along_y.near(row).end()).max();
+        first
+            .zip(last)
+            .map_or(Vec::new(), |(first, last)| (first..=last).collect())
+    };
+    let own = to.surface_rows();
+    let asked = near(to.rank());
+    let first = asked.first().copied().unwrap_or(0);
+    // The weights of each of them in the rows here.
+    let mut of_rows = vec![Vec::new(); asked.len()];
+    for (here, row) in own.clone().enumerate() {
+        let (start, weights) = along_y.weights(row);
+        for (old, weight) in of_rows[start - first..].iter_mut().zip(weights) {
+            old.push((here, weight));
         }
     }
-    found
-}
-
-/// Weights of the old points of a line in each new one.
-struct Weights {
-    count: usize,
-    /// First old point, which may lie outside, and the weights from there on.
-    points: Vec<(i64, Vec<f64>)>,
-}
-
-impl Weights {
-    fn new(count: usize, points: usize) -> Self {
-        let ratio = count as f64 / points as f64;
-        let width = ratio.max(1.0);
-        let of_point = |point: usize| {
-            let place = (point as f64 + 0.5) * ratio - 0.5;
-            let first = (place - 2.0 * width).ceil() as i64;
-            let last = (place + 2.0 * width).floor() as i64;
-            let weights = (first..=last).map(|old| cubic((old as f64 - place) / width));
-            let weights: Vec<f64> = weights.collect();
-            let sum: f64 = weights.iter().sum();
-            (first, weights.iter().map(|weight| weight / sum).collect())
-        };
-        Weights {
-            count,
-            points: (0..points).map(of_point).collect(),
+    let mut found = vec![0.0; to.surface_len()];
+    let mut line = vec![0.0; along_x.new];
+    let take = |row: usize, values: &[f64]| {
+        for (value, (start, weights)) in line.iter_mut().zip(&of_columns) {
+            let pairs = values[*start..].iter().zip(weights);
+            *value = pairs.map(|(value, weight)| weight * value).sum();
         }
-    }
-
-    fn apply<'a>(&'a self, value: impl Fn(usize) -> f64 + 'a) -> impl Iterator<Item = f64> + 'a {
-        let last = self.count as i64 - 1;
-        let continued = move |index: i64| {
-            let nearest = index.clamp(0, last);
-            let mirrored = (2 * nearest - index).clamp(0, last);
-            if index == nearest {
-                value(index as usize)
-            } else {
-                2.0 * value(nearest as usize) - value(mirrored as usize)
+        for (here, weight) in &of_rows[row - first] {
+            let new = &mut found[here * line.len()..(here + 1) * line.len()];
+            for (height, value) in new.iter_mut().zip(&line) {
+                *height += weight * value;
             }
-        };
-        self.points.iter().map(move |(first, weights)| {
-            let places = *first..;
-            places
-                .zip(weights)
-                .map(|(index, weight)| weight * continued(index))
-                .sum()
-        })
+        }
+    };
+    let held = |rank: usize| from.surface_rows_of(rank);
+    from.fetch_each(heights, along_x.old, held, near, take)?;
+    Ok(found)
+}
+
+/// The points of a line through cubics of its old ones.
+struct Cubics {
+    old: usize,
+    new: usize,
+}
+
+impl Cubics {
+    /// The place of a new point among the old, and over how many the cubic goes.
+    fn place(&self, point: usize) -> [f64; 2] {
+        let ratio = self.old as f64 / self.new as f64;
+        [(point as f64 + 0.5) * ratio - 0.5, ratio.max(1.0)]
+    }
+
+    /// The old points under the cubic of a new one, which may lie outside.
+    fn under(&self, point: usize) -> RangeInclusive<i64> {
+        let [place, width] = self.place(point);
+        let first = (place - 2.0 * width).ceil() as i64;
+        first..=(place + 2.0 * width).floor() as i64
+    }
+
+    /// An old point; of one outside the nearest, and the mirror image in it.
+    fn continued(&self, index: i64) -> [usize; 2] {
+        let last = self.old as i64 - 1;
+        let nearest = index.clamp(0, last);
+        [nearest, (2 * nearest - index).clamp(0, last)].map(|index| index as usize)
+    }
+
+    /// The old points on which a new one depends.
+    fn near(&self, point: usize) -> RangeInclusive<usize> {
+        let under = self.under(point);
+        // An edge is continued from as far inside as the cubic reaches outside.
+        let ends = [*under.start(), *under.end()].map(|end| self.continued(end));
+        let ends = ends.as_flattened();
+        ends.iter().copied().min().unwrap_or(0)..=ends.iter().copied().max().unwrap_or(0)
+    }
+
+    /// The first of these, and their weights.
+    fn weights(&self, point: usize) -> (usize, Vec<f64>) {
+        let [place, width] = self.place(point);
+        let of_old = |old: i64| cubic((old as f64 - place) / width);
+        let sum: f64 = self.under(point).map(of_old).sum();
+        let near = self.near(point);
+        let first = *near.start();
+        let mut weights = vec![0.0; near.count()];
+        for index in self.under(point) {
+            let weight = of_old(index) / sum;
+            let [nearest, mirrored] = self.continued(index);
+            if index == nearest as i64 {
+                weights[nearest - first] += weight;
+            } else {
+                weights[nearest - first] += 2.0 * weight;
+                weights[mirrored - first] -= weight;
+            }
+        }
+        (first, weights)
     }
 }
 
@@ -125,8 +178,24 @@ fn cubic(x: f64) -> f64 {
 #[cfg(test)]
 mod tests {
     use std::f64::consts::TAU;
+    use std::sync::Arc;
+    use std::thread;
 
     use super::*;
+    use crate::backend::Shape;
+    use crate::backend::ranks::ThreadRanks;
+
+    fn whole([nx, ny]: [usize; 2]) -> Share {
+        Share::whole(Shape::whole(nx, ny))
+    }
+
+    fn by_waves(heights: &[f64], from: [usize; 2], to: [usize; 2]) -> Vec<f64> {
+        super::by_waves(heights.to_vec(), &whole(from), &whole(to)).expect("one process")
+    }
+
+    fn by_cubics(heights: &[f64], from: [usize; 2], to: [usize; 2]) -> Vec<f64> {
+        super::by_cubics(heights, &whole(from), &whole(to)).expect("one process")
+    }
 
     fn waves([nx, ny]: [usize; 2]) -> Vec<f64> {
         (0..nx * ny)
@@ -193,5 +262,54 @@ mod tests {
             found[4..12].iter().all(|height| height.abs() < 0.05),
             "{found:?}"
         );
+    }
+
+    /// On any number of ranks, and with sides of any number of points, the rows have the bits of one process.
+    #[test]
+    fn ranks_find_the_rows_of_one_process() {
+        for (from, to) in [
+            ([12, 37], [31, 53]),
+            ([31, 53], [12, 37]),
+            ([7, 90], [9, 3]),
+            ([9, 3], [7, 90]),
+            ([16, 40], [16, 40]),
+            ([1, 48], [5, 24]),
+            ([24, 1], [48, 33]),
+            ([24, 33], [12, 1]),
+        ] {
+            let mut heights = waves(from);
+            for (index, height) in heights.iter_mut().enumerate() {
+                *height += ((index * 37) % 11) as f64;
+            }
+            let alone = [by_waves(&heights, from, to), by_cubics(&heights, from, to)];
+            for count in [2, 3, 8] {
+                thread::scope(|scope| {
+                    for rank in ThreadRanks::new(count) {
+                        let (alone, heights) = (&alone, &heights);
+                        scope.spawn(move || {
+                            let old = Shape::whole(from[0], from[1]);
+                            let old = Share::on_ranks(old, Some(Arc::new(rank)));
+                            let new = old.of(Shape::whole(to[0], to[1]));
+                            let rows = old.surface_rows();
+                            let own = &heights[rows.start * from[0]..rows.end * from[0]];
+                            let found = [
+                                super::by_waves(own.to_vec(), &old, &new),
+                                super::by_cubics(own, &old, &new),
+                            ];
+                            let rows = new.surface_rows();
+                            for (found, alone) in found.into_iter().zip(alone) {
+                                let bits = |height: &f64| height.to_bits();
+                                let alone = &alone[rows.start * to[0]..rows.end * to[0]];
+                                let found = found.expect("all ranks");
+                                assert!(
+                                    found.iter().map(bits).eq(alone.iter().map(bits)),
+                                    "{from:?} {to:?} on {count}"
+                                );
+                            }
+                        });
+                    }
+                });
+            }
+        }
     }
 }

@@ -6,7 +6,7 @@ use std::sync::Arc;
 use std::thread;
 
 use tabor::backend::ranks::{Ranks, ThreadRanks};
-use tabor::scene::Scene;
+use tabor::scene::{Scene, SurfacePart};
 use tabor::surface::Surface;
 
 use crate::shared::trials::tests;
@@ -76,8 +76,15 @@ fn npy(
     fs::write(path, bytes).expect("a file");
 }
 
-/// The surface on so many ranks: heights and map of all of them, or what each one says.
-fn surface_over(scene: &Scene, count: usize) -> Result<[Vec<u64>; 2], Vec<String>> {
+/// The bits of heights and adhesion map, and what a run is warned of.
+type Found = ([Vec<u64>; 2], Vec<String>);
+
+fn bits(values: &[f64]) -> Vec<u64> {
+    values.iter().map(|value| value.to_bits()).collect()
+}
+
+/// The surface on so many ranks: heights and map of all of them and the warnings of the first, or what each one says.
+fn surface_over(scene: &Scene, count: usize) -> Result<Found, Vec<String>> {
     let built: Vec<_> = thread::scope(|scope| {
         let built = |rank| {
             let ranks: Arc<dyn Ranks> = Arc::new(rank);
@@ -95,22 +102,71 @@ fn surface_over(scene: &Scene, count: usize) -> Result<[Vec<u64>; 2], Vec<String
         return Err(said.collect());
     }
     let mut all = [Vec::new(), Vec::new()];
-    for surface in built.into_iter().flatten() {
-        all[0].extend(surface.heights.iter().map(|height| height.to_bits()));
-        let map = surface.adhesion_map.unwrap_or_default();
-        all[1].extend(map.into_iter().map(f64::to_bits));
+    let mut warnings = Vec::new();
+    for (rank, surface) in built.into_iter().flatten().enumerate() {
+        all[0].extend(bits(&surface.heights));
+        all[1].extend(bits(&surface.adhesion_map.unwrap_or_default()));
+        if rank == 0 {
+            warnings = surface.warnings;
+        }
     }
-    Ok(all)
+    Ok((all, warnings))
 }
 
-/// Heights and maps from files have the bits of one process: read by rows, and read whole by one rank; what is wrong with a
-/// file is said once, in the same words.
+/// The surface of a scene is on each of so many ranks that of one process, or wrong in the same words. Whether it is one.
+fn same_over(scene: &Scene, counts: &[usize], what: &str) -> bool {
+    let one = Surface::build(scene).map(|surface| {
+        let map = surface.adhesion_map.unwrap_or_default();
+        ([bits(&surface.heights), bits(&map)], surface.warnings)
+    });
+    for &count in counts {
+        match (&one, surface_over(scene, count)) {
+            (Ok(one), Ok(found)) => {
+                assert_eq!(one.1, found.1, "{what} on {count}");
+                assert!(one.0 == found.0, "{what} on {count}");
+            }
+            (Err(error), Err(said)) => {
+                let error = error.to_string();
+                assert_eq!(said[0], error);
+                let is_known = |words: &String| {
+                    *words == error || words.contains("rank 0 of this run has ended")
+                };
+                assert!(said.iter().all(is_known), "{said:?}");
+            }
+            (one, found) => panic!("{what} on {count}: {one:?}, {found:?}"),
+        }
+    }
+    one.is_ok()
+}
+
+fn file(name: &str, asked: &str) -> String {
+    format!("[[surface]]\nkind = \"file\"\npath = \"{name}\"\nscale = 2.0\n{asked}")
+}
+
+/// A scene of these surfaces and of this adhesion map, which may be none.
+fn scene(place: &Path, grid: &str, boundary: &str, surface: &str, map: &str) -> Scene {
+    let map = if map.is_empty() {
+        String::new()
+    } else {
+        format!("{ADHESION}map = {map}\n")
+    };
+    let text = format!(
+        "[grid]\n{grid}\nboundary = \"{boundary}\"\n[solid]\ncontact_modulus = \"50 MPa\"\n{surface}{map}{}\n",
+        if boundary == "free" { FORCE } else { PRESSURE }
+    );
+    Scene::parse(&text, "scene.toml", place, &[]).unwrap_or_else(|e| panic!("{e}\n{text}"))
+}
+
+/// Rough heights on a tilted plane.
+fn height(row: usize, column: usize) -> f64 {
+    1e-9 * ((row * 7 + column * 3) as f64).sin() + 3e-10 * row as f64 - 2e-10 * column as f64
+}
+
+/// Heights and maps from files, whose formats give rows or all, have the bits of one process; what is wrong with a file is
+/// said once, in the same words.
 fn height_files() {
     let place = tempfile::tempdir().expect("a temporary folder");
     let points = [24, 38];
-    let height = |row: usize, column: usize| {
-        1e-9 * ((row * 7 + column * 3) as f64).sin() + 3e-10 * row as f64 - 2e-10 * column as f64
-    };
     let at = |name: &str| place.path().join(name);
     npy(&at("rows.npy"), points, false, height);
     npy(&at("columns.npy"), points, true, height);
@@ -145,34 +201,6 @@ fn height_files() {
     fs::write(at("line.txt"), line(0)).expect("a file");
     npy(&at("larger.npy"), [31, 50], false, height);
     npy(&at("line.npy"), [24, 1], false, height);
-    let file = |name: &str, asked: &str| {
-        format!("[[surface]]\nkind = \"file\"\npath = \"{name}\"\nscale = 2.0\n{asked}")
-    };
-    let scene = |surface: &str, map: &str, boundary: &str| {
-        let map = if map.is_empty() {
-            String::new()
-        } else {
-            format!("{ADHESION}map = {map}\n")
-        };
-        let text = format!(
-            "[grid]\npoints = {points:?}\nsize = [\"2 um\", \"3 um\"]\nboundary = \"{boundary}\"\n[solid]\ncontact_modulus = \"50 MPa\"\n{surface}{map}{}\n",
-            if boundary == "free" { FORCE } else { PRESSURE }
-        );
-        Scene::parse(&text, "scene.toml", place.path(), &[])
-            .unwrap_or_else(|e| panic!("{e}\n{text}"))
-    };
-    let whole = |scene: &Scene| {
-        Surface::build(scene).map(|surface| {
-            let map = surface.adhesion_map.unwrap_or_default();
-            let bits = |values: &[f64]| {
-                values
-                    .iter()
-                    .map(|value| value.to_bits())
-                    .collect::<Vec<_>>()
-            };
-            [bits(&surface.heights), bits(&map)]
-        })
-    };
     let both = file("rows.npy", "detrend = \"quadratic\"\n") + &file("map.txt", "");
     for (surface, map) in [
         (file("rows.npy", ""), ""),
@@ -196,11 +224,6 @@ fn height_files() {
             ),
             "",
         ),
-        (
-            file("rows.npy", "edges = \"mirror\"\nresample = [24, 38]\n"),
-            "",
-        ),
-        (file("line.txt", "profile = true\n"), ""),
         (file("holes.npy", ""), ""),
         (file("none.npy", ""), ""),
         (
@@ -214,24 +237,164 @@ fn height_files() {
         (file("rows.npy", ""), "\"nothing.npy\""),
     ] {
         for boundary in ["periodic", "free"] {
-            let scene = scene(&surface, map, boundary);
-            let one = whole(&scene);
-            for count in [2, 5, 7] {
-                match (&one, surface_over(&scene, count)) {
-                    (Ok(one), Ok(found)) => assert!(*one == found, "{surface}{map} on {count}"),
-                    (Err(error), Err(said)) => {
-                        let error = error.to_string();
-                        assert_eq!(said[0], error);
-                        let is_known = |words: &String| {
-                            *words == error || words.contains("rank 0 of this run has ended")
-                        };
-                        assert!(said.iter().all(is_known), "{said:?}");
-                    }
-                    (one, found) => panic!("{surface}{map} on {count}: {one:?}, {found:?}"),
-                }
-            }
+            let grid = format!("points = {points:?}\nsize = [\"2 um\", \"3 um\"]");
+            let scene = scene(place.path(), &grid, boundary, &surface, map);
+            same_over(&scene, &[2, 5, 7], &format!("{surface}{map}"));
         }
     }
+}
+
+/// What makes other points of those of a file is done by all ranks, each of its rows, with the bits of one process: also where
+/// there are more ranks than rows, and of columns of prime length.
+fn prepared_files() {
+    let place = tempfile::tempdir().expect("a temporary folder");
+    let at = |name: &str| place.path().join(name);
+    let wave = |row: usize, column: usize, [columns, rows]: [usize; 2]| {
+        let turn = |at: usize, count: usize| std::f64::consts::TAU * at as f64 / count as f64;
+        1e-9 * (turn(column, columns) + 2.0 * turn(row, rows)).sin() + 2e-9 * turn(row, rows).cos()
+    };
+    npy(&at("small.npy"), [13, 17], false, height);
+    npy(&at("half.npy"), [12, 19], false, height);
+    npy(&at("large.npy"), [31, 53], true, height);
+    npy(&at("wide.npy"), [90, 7], false, height);
+    npy(&at("waves.npy"), [18, 46], false, |row, column| {
+        wave(row, column, [18, 46])
+    });
+    npy(&at("holes.npy"), [31, 53], false, |row, column| {
+        match [row, column] {
+            [0, 0] | [7, 20] | [8, 20] | [52, 30] => f64::NAN,
+            [30, 30] => 1e-6,
+            _ => height(row, column),
+        }
+    });
+    npy(&at("line.npy"), [30, 1], false, height);
+    npy(&at("down.npy"), [1, 24], false, height);
+    npy(&at("gap.npy"), [24, 1], false, |row, column| match column {
+        5 => f64::NAN,
+        _ => height(row, column),
+    });
+    let numbers: String = (0..24).map(|at| format!("{:e} ", height(at, 2))).collect();
+    fs::write(at("line.txt"), numbers).expect("a file");
+    let pairs = (0..24).map(|at| format!("{:e} {:e}\n", 1e-7 * at as f64, height(at, 2)));
+    fs::write(at("places.txt"), pairs.collect::<String>()).expect("a file");
+    let given = "points = [24, 38]\nsize = [\"2 um\", \"3 um\"]";
+    let by_file = "size = \"2 um\"";
+    let of_places = "points = [24, 5]";
+    let profile = |asked: &str| format!("profile = true\n{asked}");
+    let [fewer, more] = ["resample = [24, 38]\n", "resample = [62, 97]\n"];
+    let mirror = "edges = \"mirror\"\n";
+    let window = "edges = \"window\"\n";
+    let crop = "crop = [2, 3, 12, 19]\n";
+    let all = format!(
+        "fill = \"interpolate\"\noutliers = 8.0\ndetrend = \"plane\"\n{crop}{mirror}resample = [24, 38]\n"
+    );
+    for (grid, name, asked, is_one) in [
+        (given, "line.txt", profile(""), true),
+        (given, "down.npy", profile(""), true),
+        (by_file, "line.npy", profile(""), true),
+        (of_places, "places.txt", profile(""), true),
+        (
+            of_places,
+            "places.txt",
+            profile("resample = [24, 1]\n"),
+            true,
+        ),
+        // Of many lines the first, which is a column here and a row there.
+        (by_file, "small.npy", profile(""), true),
+        (by_file, "wide.npy", profile(mirror), true),
+        (given, "line.npy", profile("crop = [3, 0, 24, 1]\n"), true),
+        (given, "line.npy", profile(fewer), true),
+        (given, "small.npy", profile(fewer), true),
+        (
+            given,
+            "half.npy",
+            profile("crop = [3, 0, 12, 1]\nedges = \"mirror\"\n"),
+            true,
+        ),
+        (
+            given,
+            "wide.npy",
+            profile(&(mirror.to_owned() + fewer)),
+            true,
+        ),
+        (given, "gap.npy", profile("fill = \"interpolate\"\n"), true),
+        (by_file, "small.npy", fewer.to_owned(), true),
+        (by_file, "small.npy", more.to_owned(), true),
+        (by_file, "large.npy", fewer.to_owned(), true),
+        (by_file, "large.npy", more.to_owned(), true),
+        (by_file, "large.npy", window.to_owned() + fewer, true),
+        (by_file, "large.npy", window.to_owned() + more, true),
+        (by_file, "waves.npy", fewer.to_owned(), true),
+        (by_file, "waves.npy", more.to_owned(), true),
+        (
+            by_file,
+            "waves.npy",
+            "resample = [11, 3]\n".to_owned(),
+            true,
+        ),
+        (by_file, "wide.npy", "resample = [9, 41]\n".to_owned(), true),
+        (
+            by_file,
+            "wide.npy",
+            format!("{window}resample = [9, 41]\n"),
+            true,
+        ),
+        (given, "half.npy", mirror.to_owned(), true),
+        (given, "half.npy", mirror.to_owned() + fewer, true),
+        (given, "large.npy", mirror.to_owned() + fewer, true),
+        (by_file, "large.npy", mirror.to_owned() + more, true),
+        (given, "large.npy", crop.to_owned() + mirror, true),
+        (given, "large.npy", crop.to_owned() + fewer, true),
+        (given, "large.npy", crop.to_owned() + window + fewer, true),
+        (given, "holes.npy", all, true),
+        // What one process refuses.
+        (given, "line.npy", profile(""), false),
+        (given, "line.npy", profile("crop = [8, 0, 24, 1]\n"), false),
+        (given, "gap.npy", profile(""), false),
+        (given, "none.npy", profile(""), false),
+        (given, "large.npy", mirror.to_owned(), false),
+        (given, "holes.npy", fewer.to_owned(), false),
+        (given, "large.npy", more.to_owned(), false),
+    ] {
+        for boundary in ["periodic", "free"] {
+            let what = format!("{boundary} {name} {asked}");
+            let scene = scene(place.path(), grid, boundary, &file(name, &asked), "");
+            let found = same_over(&scene, &[1, 2, 3, 4, 7, 40], &what);
+            assert_eq!(found, is_one, "{what}");
+        }
+    }
+    // More than a scene file can ask for.
+    let mut scene = scene(place.path(), by_file, "free", &file("small.npy", fewer), "");
+    if let [SurfacePart::File(file)] = &mut scene.surfaces[..] {
+        file.preparation.resample = Some([usize::MAX, 2]);
+    }
+    assert!(!same_over(&scene, &[2], "too many points"));
+    let said = Surface::build(&scene).expect_err("too many points");
+    assert!(said.to_string().contains("points are too many"), "{said}");
+}
+
+/// The beginning of an interlaced PNG of so many points.
+#[cfg(feature = "images")]
+fn interlaced([width, height]: [u32; 2]) -> Vec<u8> {
+    let mut header = b"IHDR".to_vec();
+    header.extend(width.to_be_bytes());
+    header.extend(height.to_be_bytes());
+    // Grey of 16 bits; the last byte says that it is interlaced.
+    header.extend([16, 0, 0, 0, 1]);
+    let mut bytes = b"\x89PNG\r\n\x1a\n".to_vec();
+    for chunk in [&header[..], b"IDAT"] {
+        let sum = chunk.iter().fold(u32::MAX, |sum, byte| {
+            (0..8).fold(sum ^ u32::from(*byte), |sum, _| {
+                (sum >> 1) ^ (0xEDB8_8320 * (sum & 1))
+            })
+        });
+        bytes.extend((chunk.len() as u32 - 4).to_be_bytes());
+        bytes.extend(chunk);
+        bytes.extend((!sum).to_be_bytes());
+    }
+    // As long as the fewest bytes that such rows take.
+    bytes.resize(2 * height as usize + bytes.len(), 0);
+    bytes
 }
 
 /// A file that one rank would hold whole has few points, or is refused by all ranks in the same words, by what its header
@@ -249,26 +412,19 @@ fn large_files_are_refused() {
         assert!(said.iter().all(|words| *words == said[0]), "{said:?}");
         said[0].clone()
     };
-    // The header and a hole, which takes no room: no number is read.
-    let header = "{'descr': '<f8', 'fortran_order': False, 'shape': (4097, 4096), }\n";
-    let mut bytes = b"\x93NUMPY\x01\x00".to_vec();
-    bytes.extend((header.len() as u16).to_le_bytes());
-    bytes.extend(header.as_bytes());
-    fs::write(at("filled.npy"), &bytes).expect("a file");
-    let filled = fs::File::options().write(true).open(at("filled.npy"));
-    let length = bytes.len() + 8 * 4097 * 4096;
-    filled
-        .and_then(|file| file.set_len(length as u64))
-        .expect("a length");
-    let header = "4096 x 4097 points are more than the 16777216 points that the first of several processes reads whole; prepare the file once on one process";
-    let file = |name: &str| format!("[[surface]]\nkind = \"file\"\npath = \"{name}\"\n");
-    for asked in ["edges = \"mirror\"\n", "resample = [24, 38]\n"] {
-        let said = refused(&(file("filled.npy") + asked), "");
+    #[cfg(feature = "images")]
+    {
+        fs::write(at("filled.png"), interlaced([4096, 4097])).expect("a file");
+        let file =
+            "[[surface]]\nkind = \"file\"\npath = \"filled.png\"\nblack = 0.0\nwhite = 1e-9\n";
+        let said = refused(file, "");
+        let header = "4096 x 4097 points are more than the 16777216 points that the first of several processes reads whole; prepare the file once on one process";
         assert!(
-            said.contains(header) && said.contains("filled.npy"),
+            said.contains(header) && said.contains("filled.png"),
             "{said}"
         );
     }
+    let file = |name: &str| format!("[[surface]]\nkind = \"file\"\npath = \"{name}\"\n");
     let long = fs::File::create(at("long.txt")).expect("a file");
     long.set_len((1 << 29) + 1).expect("a length");
     let said = refused(&file("long.txt"), "");
@@ -295,18 +451,7 @@ fn files_of_other_programs() {
             "[grid]\nboundary = \"free\"\n{size}[solid]\ncontact_modulus = \"50 MPa\"\n[[surface]]\nkind = \"file\"\npath = \"{name}\"\nfill = \"interpolate\"\n{asked}{FORCE}\n"
         );
         let scene = Scene::parse(&text, "scene.toml", &place, &[]).expect("a scene");
-        let one = Surface::build(&scene);
-        for count in [2, 3] {
-            match (&one, surface_over(&scene, count)) {
-                (Ok(one), Ok([found, _])) => {
-                    let bits = one.heights.iter().map(|height| height.to_bits());
-                    assert!(bits.eq(found), "{name} on {count}");
-                }
-                (Err(error), Err(said)) => assert_eq!(said[0], error.to_string(), "{name}"),
-                (one, found) => panic!("{name} on {count}: {one:?}, {found:?}"),
-            }
-        }
-        one.is_ok()
+        same_over(&scene, &[2, 3], name)
     };
     for name in FILES {
         let is_grey = name.ends_with(".png") || (name.ends_with(".tif") && !name.contains("float"));
@@ -324,6 +469,7 @@ fn files_of_other_programs() {
 
 tests![
     height_files,
+    prepared_files,
     large_files_are_refused,
     files_of_other_programs
 ];
