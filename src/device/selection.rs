@@ -40,7 +40,7 @@ impl Place {
 fn on_processor(setup: &Setup) -> Precision {
     setup
         .scene
-        .arithmetic_on_processor(setup.problem.shape.len())
+        .arithmetic_on_processor(setup.problem.grid.len())
 }
 
 impl SelectedDevice {

@@ -27,8 +27,9 @@ const FEWEST_POINTS: usize = 256 * 256;
 /// The same where the scene asks for double precision, which many adapters compute slowly.
 const FEWEST_POINTS_IN_DOUBLE: usize = 512 * 512;
 
-/// Solved points from which `auto` takes mixed precision on the processor: fields of fewer fit its caches in double precision.
-const FEWEST_POINTS_IN_MIXED: usize = 512 * 512;
+/// Points of the surface from which `auto` takes mixed precision on the processor: it is faster with every law there, while fewer
+/// points gain less than the steps of a path lose in further rounds.
+const FEWEST_POINTS_IN_MIXED: usize = 256 * 256;
 /// Least tolerance for which it does: rounds reach it on every scene.
 const LEAST_TOLERANCE_OF_MIXED: f64 = 1e-10;
 
@@ -47,10 +48,10 @@ impl Scene {
         }
     }
 
-    /// The precision of a solve of so many points on the processor.
+    /// The precision of a solve on the processor, on a surface of so many points.
     #[doc(hidden)]
-    pub fn arithmetic_on_processor(&self, solved: usize) -> Precision {
-        let gains = solved >= FEWEST_POINTS_IN_MIXED
+    pub fn arithmetic_on_processor(&self, points: usize) -> Precision {
+        let gains = points >= FEWEST_POINTS_IN_MIXED
             && self.solver.tolerance >= LEAST_TOLERANCE_OF_MIXED
             && self.solid.hardness.is_none();
         match self.solver.precision {

@@ -14,7 +14,7 @@ use crate::grid::Boundary;
 use crate::grid::Grid;
 use crate::law::Law;
 use crate::scene::{BackendName, Control, Precision, Scene};
-use crate::solver::{ContactSolver, Hold, Problem, Start, plan_outer_state, solved_shape};
+use crate::solver::{ContactSolver, Hold, Problem, Start, plan_outer_state};
 
 /// Fields, tables and passes of a scene's solver, and what is kept between its steps.
 #[derive(Clone, Debug, PartialEq)]
@@ -140,18 +140,17 @@ impl Place {
                 _ => Place::Gpu,
             };
         }
-        let solved = solved_shape(grid, scene.grid.boundary).len();
-        match scene.arithmetic_on_processor(solved) {
+        match scene.arithmetic_on_processor(grid.len()) {
             Precision::Single | Precision::Mixed => Place::Single,
             _ => Place::Double,
         }
     }
 
-    /// Whether a state in double precision stands beside the iterations of so many points there.
-    fn has_outer_state(self, scene: &Scene, solved: usize) -> bool {
+    /// Whether a state in double precision stands beside the iterations on so many points of a surface there.
+    fn has_outer_state(self, scene: &Scene, points: usize) -> bool {
         let precision = match self {
             Place::Double | Place::GpuDouble => Precision::Double,
-            Place::Single => scene.arithmetic_on_processor(solved),
+            Place::Single => scene.arithmetic_on_processor(points),
             Place::Gpu => scene.arithmetic_on_gpu(),
         };
         precision == Precision::Mixed
@@ -187,7 +186,7 @@ fn plan(
     }
     let mut reference = Vec::new();
     let mut reference_resting = 0;
-    if place.has_outer_state(scene, problem.shape.len()) {
+    if place.has_outer_state(scene, problem.grid.len()) {
         let mut double = DryRun::on(Place::Double);
         plan_outer_state(&mut double, &mut iterated, problem, &load);
         reference_resting = double.released_bytes();

@@ -611,7 +611,7 @@ fn overrides_change_what_they_name() {
     assert_eq!(scene.solver.tolerance, 1e-6);
     assert_eq!(scene.arithmetic_on_gpu(), Precision::Mixed);
     // On the processor it goes by the points, the tolerance, and what the corrections of mixed precision can do.
-    let few = 512 * 512 - 1;
+    let few = 256 * 256 - 1;
     assert_eq!(scene.arithmetic_on_processor(few), Precision::Double);
     assert_eq!(scene.arithmetic_on_processor(few + 1), Precision::Mixed);
     let set = [("solver.tolerance", "1e-11")];
