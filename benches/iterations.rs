@@ -14,7 +14,7 @@ use std::path::Path;
 
 use cpu_time::ProcessTime;
 use tabor::backend::Backend;
-use tabor::backend::cpu::{CpuBackend, with_threads};
+use tabor::backend::cpu::{self, with_threads};
 use tabor::kernel::Status;
 use tabor::scene::Scene;
 use tabor::solver::{ContactSolver, Hold, Load, Start};
@@ -65,7 +65,7 @@ fn setup(points: usize, adhesion: &str) -> Result<Setup, Failure> {
 }
 
 /// CPU seconds of an iteration, with 1/K and with the levels.
-fn iteration(setup: &Setup, mut backend: impl Backend + Send) -> Result<[f64; 2], Failure> {
+fn iteration(setup: &Setup, mut backend: Box<dyn Backend + Send>) -> Result<[f64; 2], Failure> {
     let problem = &setup.problem;
     let pressure = PRESSURE / problem.scales.pressure;
     let load = Load {
@@ -73,7 +73,7 @@ fn iteration(setup: &Setup, mut backend: impl Backend + Send) -> Result<[f64; 2]
         zero_stiffness: 0.0,
         zero_compliance: ContactSolver::pressure_compliance(problem, pressure),
     };
-    let mut solver = ContactSolver::new(&mut backend, problem);
+    let mut solver = ContactSolver::new(&mut *backend, problem);
     // No residual is small enough, so that every iteration does its work.
     solver.begin(&load, &Start::Cold, 0.0, false)?;
     let mut seconds = [0.0; 2];
@@ -104,9 +104,9 @@ fn iteration(setup: &Setup, mut backend: impl Backend + Send) -> Result<[f64; 2]
 fn solve(setup: &Setup, mixed: bool) -> Result<(f64, usize, f64), Failure> {
     let make = || -> Box<dyn Backend + Send> {
         if mixed {
-            Box::new(CpuBackend::<f32>::new().corrected())
+            cpu::mixed(None)
         } else {
-            Box::new(CpuBackend::<f64>::new())
+            cpu::double(None)
         }
     };
     let clock = ProcessTime::now();
@@ -131,8 +131,8 @@ fn measure(points: usize, turns: usize) -> Result<(), Failure> {
     let mut iterations = [[[f64::INFINITY; 2]; 2]; LAWS.len()];
     for _ in 0..turns {
         for (setup, [double, single]) in setups.iter().zip(&mut iterations) {
-            keep_least(double, iteration(setup, CpuBackend::<f64>::new())?);
-            keep_least(single, iteration(setup, CpuBackend::<f32>::new())?);
+            keep_least(double, iteration(setup, cpu::double(None))?);
+            keep_least(single, iteration(setup, cpu::single(None))?);
         }
     }
     println!("{points} x {points} points, CPU milliseconds of an iteration on one thread\n");

@@ -8,7 +8,7 @@ use std::hint::black_box;
 
 use criterion::{BenchmarkId, Criterion, Throughput, criterion_group, criterion_main};
 use tabor::backend::gpu::{AdapterChoice, GpuBackend, GpuDevice, Number};
-use tabor::backend::{Backend, Factors, Response, Shape, cpu::CpuBackend};
+use tabor::backend::{Backend, Factors, Response, Shape, cpu};
 use tabor::elastic::HalfSpace;
 use tabor::grid::Grid;
 use tabor::kernel::{Gate, displacement};
@@ -31,7 +31,7 @@ fn operator(criterion: &mut Criterion) {
     for points in sizes() {
         let grid = Grid::new([points; 2], [1.0; 2]);
         group.throughput(Throughput::Elements(grid.len() as u64));
-        let cpu: Box<dyn Backend> = Box::new(CpuBackend::<f64>::new());
+        let cpu: Box<dyn Backend> = cpu::double(None);
         let gpu = device
             .as_ref()
             .filter(|device| device.description().takes([points; 2], Number::Single))

@@ -15,7 +15,7 @@ use std::time::Duration;
 
 use criterion::{BenchmarkId, Criterion, Throughput, criterion_group, criterion_main};
 use tabor::backend::gpu::{AdapterChoice, GpuBackend, GpuDevice, Number};
-use tabor::backend::{Backend, cpu::CpuBackend};
+use tabor::backend::{Backend, cpu};
 use tabor::scene::Scene;
 use tabor::study::{Setup, walk};
 use tabor::surface::Surface;
@@ -55,7 +55,7 @@ fn solve(
     adhesion: &str,
 ) {
     let device = GpuDevice::new(&AdapterChoice::default()).ok();
-    let cpu = || -> Box<dyn Backend + Send> { Box::new(CpuBackend::<f64>::new()) };
+    let cpu = || cpu::double(None);
     let gpu = |device: &GpuDevice| -> Box<dyn Backend + Send> {
         Box::new(GpuBackend::on(device).corrected())
     };

@@ -14,8 +14,7 @@ use std::path::{Path, PathBuf};
 use std::time::Instant;
 
 use cpu_time::ProcessTime;
-use tabor::backend::Backend;
-use tabor::backend::cpu::{CpuBackend, with_threads};
+use tabor::backend::cpu::{self, with_threads};
 use tabor::scene::{Scene, SurfacePart};
 use tabor::study::{Setup, walk};
 use tabor::surface::Surface;
@@ -55,7 +54,7 @@ fn run(scene: &Scene) -> Result<Taken, Failure> {
         let walked = with_threads(Some(threads), || -> Result<_, Failure> {
             let surface = Surface::build(scene)?;
             let setup = Setup::new(scene.clone(), surface);
-            let make = || -> Box<dyn Backend + Send> { Box::new(CpuBackend::<f64>::new()) };
+            let make = || cpu::double(None);
             let (clock, cpu) = (Instant::now(), ProcessTime::now());
             let end = walk(&setup, &make, &mut ())?;
             Ok((

@@ -8,8 +8,7 @@ use std::error::Error;
 use std::path::Path;
 
 use cpu_time::ProcessTime;
-use tabor::backend::Backend;
-use tabor::backend::cpu::CpuBackend;
+use tabor::backend::cpu;
 use tabor::scene::Scene;
 use tabor::study::{Setup, walk};
 use tabor::surface::Surface;
@@ -57,7 +56,7 @@ fn main() -> Result<(), Box<dyn Error>> {
     println!(
         "load   field: seconds area    mean gap   ICHA: contact gap    area    mean gap   ratio"
     );
-    let cpu = || -> Box<dyn Backend + Send> { Box::new(CpuBackend::<f64>::new()) };
+    let cpu = || cpu::double(None);
     for load in LOADS {
         scene.loading.path = vec![load];
         let setup = Setup::new(scene.clone(), surface.clone());

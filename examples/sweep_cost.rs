@@ -10,8 +10,7 @@ use std::path::Path;
 use std::process::Command;
 
 use cpu_time::ProcessTime;
-use tabor::backend::Backend;
-use tabor::backend::cpu::{CpuBackend, with_threads};
+use tabor::backend::cpu::{self, with_threads};
 use tabor::scene::Scene;
 use tabor::study::{Setup, walk};
 use tabor::surface::Surface;
@@ -101,7 +100,7 @@ fn alone(path: &str, seeds: RangeInclusive<usize>) -> Result<[f64; 2], Box<dyn E
         let surface = Surface::build(&scene)?;
         let setup = Setup::new(scene, surface);
         surfaces += clock.elapsed().as_secs_f64();
-        let backend = || -> Box<dyn Backend + Send> { Box::new(CpuBackend::<f64>::new()) };
+        let backend = || cpu::double(None);
         let clock = ProcessTime::now();
         with_threads(Some(1), || walk(&setup, &backend, &mut ()))??;
         solves += clock.elapsed().as_secs_f64();

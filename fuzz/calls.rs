@@ -5,7 +5,7 @@
 use std::fs;
 use std::path::Path;
 
-use tabor::backend::{Backend, cpu::CpuBackend};
+use tabor::backend::cpu;
 use tabor::compare::{check_scene, compare as compare_models};
 use tabor::fit::{ForceCurve, Freedom, fit_curve, report};
 use tabor::scene::{Scene, SurfacePart};
@@ -134,7 +134,7 @@ pub fn compare(bytes: &[u8], folder: &Path) -> bool {
     let Ok(surface) = Surface::build(&scene) else {
         return false;
     };
-    let cpu = || -> Box<dyn Backend + Send> { Box::new(CpuBackend::<f64>::new()) };
+    let cpu = || cpu::double(None);
     let out = folder.join(format!("compared-{}", std::process::id()));
     let compared = compare_models(Setup::new(scene, surface), &cpu, &out);
     let table = fs::read_to_string(out.join("compare.csv")).unwrap_or_default();

@@ -3,7 +3,7 @@
 use std::error::Error;
 use std::fmt::Write as _;
 
-use tabor::backend::{Backend, cpu::CpuBackend};
+use tabor::backend::cpu;
 use tabor::theory::gw_m;
 use tabor::theory::pastewka_robbins::{Edge, stickiness_ratio};
 use tabor::theory::persson::Persson;
@@ -368,7 +368,7 @@ fn loop_difference() -> Result<f64, Box<dyn Error>> {
     let scene = tabor::scene::Scene::parse(&text, "loop", ".".as_ref(), &[])?;
     let surface = tabor::surface::Surface::build(&scene)?;
     let setup = tabor::study::Setup::new(scene, surface);
-    let cpu = || -> Box<dyn Backend + Send> { Box::new(CpuBackend::<f64>::new()) };
+    let cpu = || cpu::double(None);
     let end = tabor::study::walk(&setup, &cpu, &mut ())?;
     let mut most = 0.0_f64;
     for (up, down) in [(0, 4), (1, 3)] {

@@ -7,7 +7,7 @@ use std::f64::consts::PI;
 use std::fmt::Write as _;
 use std::path::Path;
 
-use tabor::backend::{Backend, cpu::CpuBackend};
+use tabor::backend::cpu;
 use tabor::kernel::Scalars;
 use tabor::law::{Law, LennardJones};
 use tabor::scene::{Roughness, Scene, SelfAffineScene};
@@ -153,7 +153,7 @@ impl Observer for Attraction {
 
 /// The full field without adhesion, its attraction summed over its gaps.
 pub fn field_rows(case: Case, sample: &Sample) -> Result<Vec<Row>, Box<dyn Error>> {
-    let cpu = || -> Box<dyn Backend + Send> { Box::new(CpuBackend::<f64>::new()) };
+    let cpu = || cpu::double(None);
     let mut sums = Attraction(Vec::new());
     let end = walk(&sample.setup, &cpu, &mut sums)?;
     let rows = end.rows.iter().zip(sums.0).map(|(row, attraction)| Row {

@@ -5,7 +5,7 @@ use std::f64::consts::{PI, TAU};
 use std::fmt::Write as _;
 use std::path::Path;
 
-use tabor::backend::{Backend, cpu::CpuBackend};
+use tabor::backend::cpu;
 use tabor::scene::Scene;
 use tabor::study::{Setup, walk};
 use tabor::surface::Surface;
@@ -251,7 +251,7 @@ impl Problem {
             .map_err(|errors| errors.to_string())?;
         let surface = Surface::build(&scene)?;
         let setup = Setup::new(scene, surface);
-        let cpu = || -> Box<dyn Backend + Send> { Box::new(CpuBackend::<f64>::new()) };
+        let cpu = || cpu::double(None);
         let end = walk(&setup, &cpu, &mut ())?;
         let converged = end.rows.iter().all(|row| row.converged);
         let curve = path.iter().zip(&end.rows);

@@ -4,8 +4,7 @@ use std::convert::Infallible;
 use std::error::Error;
 use std::path::Path;
 
-use tabor::backend::Backend;
-use tabor::backend::cpu::{CpuBackend, with_threads};
+use tabor::backend::cpu::{self, with_threads};
 use tabor::kernel::Scalars;
 use tabor::scene::Scene;
 use tabor::study::{FinishedStep, Observer, Setup, StepRow, WalkEnd, walk};
@@ -47,7 +46,7 @@ pub fn solve(
         surface.heights = heights.to_vec().into();
     }
     let setup = Setup::new(scene, surface);
-    let cpu = || -> Box<dyn Backend + Send> { Box::new(CpuBackend::<f64>::new()) };
+    let cpu = || cpu::double(None);
     let mut until = Until {
         is_last,
         ended: false,

@@ -6,7 +6,7 @@ use std::sync::Arc;
 use super::adapter_choice;
 use super::error::DeviceError;
 use crate::backend::Backend;
-use crate::backend::cpu::CpuBackend;
+use crate::backend::cpu;
 #[cfg(feature = "gpu")]
 use crate::backend::gpu::{GpuBackend, GpuDevice};
 use crate::backend::ranks::Ranks;
@@ -124,11 +124,9 @@ impl SelectedDevice {
                     .expecting_finite()
                     .keeping(adapter_choice::number(precision)),
             ),
-            (Place::Processor, Precision::Single) => Box::new(CpuBackend::<f32>::on_ranks(ranks)),
-            (Place::Processor, Precision::Mixed) => {
-                Box::new(CpuBackend::<f32>::on_ranks(ranks).corrected())
-            }
-            (Place::Processor, _) => Box::new(CpuBackend::<f64>::on_ranks(ranks)),
+            (Place::Processor, Precision::Single) => cpu::single(ranks),
+            (Place::Processor, Precision::Mixed) => cpu::mixed(ranks),
+            (Place::Processor, _) => cpu::double(ranks),
         }
     }
 

@@ -1,6 +1,6 @@
 //! One convolution through the backend's trait, against the CPU in double precision.
 
-use tabor::backend::cpu::CpuBackend;
+use tabor::backend::cpu;
 use tabor::backend::gpu::{GpuError, Number, OWN_FACTORS};
 use tabor::backend::{Backend, BackendError, Factors, Response, Shape};
 use tabor::elastic::HalfSpace;
@@ -135,9 +135,9 @@ fn agrees_with_the_processor(sizes: &[[usize; 2]], number: Number) {
             Number::Single => numbers.singles(count),
             Number::Double => numbers.doubles(count),
         });
-        let mut cpu = CpuBackend::<f64>::new();
+        let mut cpu = cpu::double(None);
         let (result, sum, scalars) =
-            convolve(&mut cpu, size, response, &fields).expect("the CPU computes");
+            convolve(&mut *cpu, size, response, &fields).expect("the CPU computes");
         let mut gpu = backend(device).keeping(number);
         let mut again = backend(device).keeping(number);
         let ours =

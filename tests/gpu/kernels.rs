@@ -1,7 +1,7 @@
 //! Each kernel of the catalogue against its twin, in single and in double precision, and each scalar
 //! kernel against its own, on seeded data.
 
-use tabor::backend::cpu::CpuBackend;
+use tabor::backend::cpu;
 use tabor::backend::gpu::{AdapterChoice, Faults, GpuDevice, Number, Wide};
 use tabor::backend::{Backend, Factors, Field, Level, Shape};
 use tabor::kernel::declare::{DeviceValue, FromDevice, Kind, Word, members};
@@ -410,7 +410,7 @@ fn kernels_agree_with_their_twins() {
                     &params(law, prescribed_mean_gap, Number::Single),
                     shape,
                     case,
-                    &|| Box::new(CpuBackend::<f32>::new()),
+                    &|| cpu::single(None),
                     &|| Box::new(backend(device)),
                     &mut worst,
                 );
@@ -460,7 +460,7 @@ fn kernels_in_double_precision_agree_with_their_twins() {
                 &params(law, true, number),
                 shape,
                 case,
-                &|| Box::new(CpuBackend::<f64>::new()),
+                &|| cpu::double(None),
                 &|| Box::new(double_backend(device)),
                 &mut worst,
             );

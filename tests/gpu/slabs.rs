@@ -4,7 +4,7 @@
 //! what rows and columns compute agrees bit by bit. Sums over points are put together in another
 //! order, so that they agree to the rounding of a double.
 
-use tabor::backend::cpu::CpuBackend;
+use tabor::backend::cpu;
 use tabor::backend::gpu::{AdapterChoice, Faults, GpuDevice};
 use tabor::backend::{Backend, Factors, Field, Level, Response, Shape};
 use tabor::elastic::HalfSpace;
@@ -135,7 +135,7 @@ fn a_convolution_of_long_lines_agrees_with_the_processor() {
         ([2, 96], 16, 256, false),
     ] {
         let long = with_lines(points, bytes);
-        let reference = convolve(&mut CpuBackend::<f64>::new(), size, tabulated);
+        let reference = convolve(&mut *cpu::double(None), size, tabulated);
         let ours = convolve(&mut backend(&long), size, tabulated);
         let error = relative_difference(&ours.0, &reference.0);
         println!(

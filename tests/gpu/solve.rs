@@ -2,7 +2,7 @@
 //! processor, against the CPU in double.
 
 use tabor::backend::Backend;
-use tabor::backend::cpu::CpuBackend;
+use tabor::backend::cpu;
 use tabor::backend::gpu::{GpuBackend, GpuDevice, Traffic, Wide};
 use tabor::grid::Grid;
 use tabor::kernel::{Form, Status};
@@ -49,7 +49,7 @@ fn solve(
 
 /// Solves on both; `bound` is for gaps and elastic pressures, relative L2.
 fn compare(device: &GpuDevice, name: &str, problem: &Problem, load: &Load, bound: f64) {
-    let cpu = || -> Box<dyn Backend + Send> { Box::new(CpuBackend::<f64>::new()) };
+    let cpu = || cpu::double(None);
     let gpu = || -> Box<dyn Backend + Send> { Box::new(backend(device)) };
     let clock = std::time::Instant::now();
     let reference = solve(problem, load, &Start::Cold, 1e-8, &cpu);
@@ -356,8 +356,8 @@ fn contacts(points: usize) -> Vec<(String, Problem, Load)> {
 
 /// The stopping measure of a gap, by the processor in double precision alone.
 fn true_residual(problem: &Problem, load: &Load, gap: &[f64]) -> f64 {
-    let mut backend = CpuBackend::<f64>::new();
-    let mut solver = ContactSolver::new(&mut backend, problem);
+    let mut backend = cpu::double(None);
+    let mut solver = ContactSolver::new(&mut *backend, problem);
     solver
         .begin(load, &Start::Gap(gap.to_vec()), TIGHT, false)
         .and_then(|()| solver.evaluate())
@@ -372,7 +372,7 @@ fn tight(
     load: &Load,
     make: &dyn Fn() -> Box<dyn Backend + Send>,
 ) -> f64 {
-    let double = || -> Box<dyn Backend + Send> { Box::new(CpuBackend::<f64>::new()) };
+    let double = || cpu::double(None);
     let reference = solve(problem, load, &Start::Cold, TIGHT, &double);
     let clock = std::time::Instant::now();
     let mixed = solve(problem, load, &Start::Cold, TIGHT, make);
@@ -395,7 +395,7 @@ fn tight(
 }
 
 fn mixed_precision_on_the_processor_reaches_the_tolerance_of_double() {
-    let mixed = || -> Box<dyn Backend + Send> { Box::new(CpuBackend::<f32>::new().corrected()) };
+    let mixed = || cpu::mixed(None);
     let mut worst = 0.0f64;
     for (name, problem, load) in contacts(64) {
         worst = worst.max(tight(&name, &problem, &load, &mixed));
@@ -423,7 +423,7 @@ fn mixed_precision_on_the_device_reaches_the_tolerance_of_double() {
 /// take a few where rounding decides whether one more is made, and the same gap to the tolerance.
 fn double_precision_on_the_device_solves_as_the_processor_does() {
     let device = device_with_double();
-    let cpu = || -> Box<dyn Backend + Send> { Box::new(CpuBackend::<f64>::new()) };
+    let cpu = || cpu::double(None);
     let gpu = || -> Box<dyn Backend + Send> { Box::new(double_backend(device)) };
     let surface = rough(32);
     let (grid, heights) = (surface.grid, &surface.heights);

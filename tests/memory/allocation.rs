@@ -3,7 +3,7 @@
 use std::path::Path;
 
 use stats_alloc::Region;
-use tabor::backend::cpu::{CpuBackend, with_threads};
+use tabor::backend::cpu::{self, with_threads};
 use tabor::kernel::Status;
 use tabor::scene::Scene;
 use tabor::solver::{ContactSolver, Start};
@@ -78,8 +78,8 @@ fn twenty_iterations_allocate_nothing() {
 /// thread of the pool or of the test's own runner may still be starting during the first.
 fn iterate(setup: &Setup, value: f64) -> [usize; 3] {
     let controller = Controller::new(setup, &setup.problem);
-    let mut backend = CpuBackend::<f64>::new();
-    let mut solver = ContactSolver::new(&mut backend, &setup.problem);
+    let mut backend = cpu::double(None);
+    let mut solver = ContactSolver::new(&mut *backend, &setup.problem);
     let load = controller.load(value);
     let start = Start::Gap(controller.undeformed_gap(value, None));
     // The counter counts: reading a field makes a vector.

@@ -3,7 +3,7 @@
 use std::path::Path;
 
 use tabor::backend::Backend;
-use tabor::backend::cpu::CpuBackend;
+use tabor::backend::cpu;
 use tabor::kernel::Scalars;
 use tabor::scene::Scene;
 use tabor::study::{Evaluation, FinishedStep, Jump, Observer, Setup, StepRow, WalkEnd, walk};
@@ -69,7 +69,7 @@ pub fn setup(text: &str) -> Setup {
 }
 
 pub fn cpu() -> Box<dyn Backend + Send> {
-    Box::new(CpuBackend::<f64>::new())
+    cpu::double(None)
 }
 
 /// Makes the backends of a solve.

@@ -4,7 +4,7 @@
 use std::fs;
 use std::path::Path;
 
-use tabor::backend::{Backend, cpu::CpuBackend};
+use tabor::backend::cpu;
 use tabor::kernel::Scalars;
 use tabor::scene::Scene;
 use tabor::study::{FinishedStep, Observer, PointState, Setup, State, StepRow, walk};
@@ -71,7 +71,7 @@ fn walked(folder: &Path, text: &str) -> (Setup, Vec<(StepRow, f64, Vec<f64>)>) {
     let scene = Scene::parse(text, "dmt.toml", folder, &[]).unwrap_or_else(|e| panic!("{e}"));
     let surface = Surface::build(&scene).expect("a surface");
     let setup = Setup::new(scene, surface);
-    let cpu = || -> Box<dyn Backend + Send> { Box::new(CpuBackend::<f64>::new()) };
+    let cpu = || cpu::double(None);
     let mut watch = Watch::default();
     walk(&setup, &cpu, &mut watch).expect("a run");
     (setup, watch.0)

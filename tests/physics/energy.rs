@@ -1,6 +1,6 @@
 //! Energy: solves only lower it, and paths lose it only in jumps.
 
-use tabor::backend::cpu::CpuBackend;
+use tabor::backend::cpu;
 use tabor::kernel::Status;
 use tabor::solver::{ContactSolver, Hold, Load, Problem, Start};
 use tabor::study::{PointState, dissipation};
@@ -78,8 +78,8 @@ fn a_solve_only_lowers_the_energy() {
 
 /// Solves a held mean gap and sees that the energy falls in each iteration.
 pub fn falls(name: &str, problem: &Problem, load: &Load, tolerance: f64) {
-    let mut backend = CpuBackend::<f64>::new();
-    let mut solver = ContactSolver::new(&mut backend, problem);
+    let mut backend = cpu::double(None);
+    let mut solver = ContactSolver::new(&mut *backend, problem);
     solver
         .begin(load, &Start::Cold, tolerance, false)
         .expect("cpu");

@@ -14,7 +14,7 @@ use std::f64::consts::PI;
 use std::fmt::Write;
 
 use tabor::backend::Backend;
-use tabor::backend::cpu::CpuBackend;
+use tabor::backend::cpu;
 use tabor::kernel::Scalars;
 use tabor::scene::FieldName;
 use tabor::solver::{MOST_ROUNDS, ROUNDS_PER_ITERATION, TRIALS_PER_ITERATION};
@@ -419,11 +419,11 @@ fn a_solve_ends_within_its_rounds() {
 }
 
 fn single() -> Box<dyn Backend + Send> {
-    Box::new(CpuBackend::<f32>::new())
+    cpu::single(None)
 }
 
 fn mixed() -> Box<dyn Backend + Send> {
-    Box::new(CpuBackend::<f32>::new().corrected())
+    cpu::mixed(None)
 }
 
 /// Single precision keeps a gap to its rounding; mixed precision has that of double.

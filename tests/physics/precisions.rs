@@ -2,7 +2,7 @@
 //! double, or end at what their rounding leaves, and none may end in a state that the law does not have.
 
 use tabor::backend::Backend;
-use tabor::backend::cpu::CpuBackend;
+use tabor::backend::cpu;
 use tabor::study::{State, StepRow, walk};
 
 use crate::bench::{cpu, setup};
@@ -13,11 +13,11 @@ const MIXED: &str = "mixed";
 const SINGLE: &str = "single";
 
 fn single() -> Box<dyn Backend + Send> {
-    Box::new(CpuBackend::<f32>::new())
+    cpu::single(None)
 }
 
 fn mixed() -> Box<dyn Backend + Send> {
-    Box::new(CpuBackend::<f32>::new().corrected())
+    cpu::mixed(None)
 }
 
 /// The rows of a scene in each arithmetic, double's first.

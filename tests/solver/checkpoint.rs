@@ -5,7 +5,7 @@
 use std::borrow::Cow;
 use std::path::Path;
 
-use tabor::backend::{Backend, Shape, cpu::CpuBackend, gpu::GpuBackend};
+use tabor::backend::{Backend, Shape, cpu, gpu::GpuBackend};
 use tabor::kernel::Scalars;
 use tabor::output::SavedState;
 use tabor::scene::Scene;
@@ -254,12 +254,12 @@ fn all(make: Make, single: bool, few: bool, stride: usize) -> usize {
 }
 
 fn resume_in_double_precision() {
-    let make = || -> Box<dyn Backend + Send> { Box::new(CpuBackend::<f64>::new()) };
+    let make = || cpu::double(None);
     assert_eq!(all(&make, false, false, 2), 45);
 }
 
 fn resume_in_single_precision() {
-    let make = || -> Box<dyn Backend + Send> { Box::new(CpuBackend::<f32>::new()) };
+    let make = || cpu::single(None);
     assert_eq!(all(&make, true, false, 3), 45);
 }
 
@@ -270,7 +270,7 @@ fn resume_in_mixed_precision() {
 }
 
 fn mixed() -> impl Fn() -> Box<dyn Backend + Send> {
-    || -> Box<dyn Backend + Send> { Box::new(CpuBackend::<f32>::new().corrected()) }
+    || cpu::mixed(None)
 }
 
 fn resume_on_the_graphics_processor() {
@@ -284,7 +284,7 @@ fn resume_with_a_coarse_start() {
     let loading = "control = \"pressure\"\npath = [2e5, 1e6, 0, 2e5]";
     let mut scene = scene("periodic", ROUGH, "", loading, false);
     scene.grid.points = Some([128, 128]);
-    let make = || -> Box<dyn Backend + Send> { Box::new(CpuBackend::<f64>::new()) };
+    let make = || cpu::double(None);
     cut(scene, &make, false, Cuts::ALL, "coarse start");
 }
 
@@ -323,7 +323,7 @@ fn half_as_many_steps(text: &str) -> Vec<(String, String)> {
 /// Long ramps are walked in half their steps, with `TABOR_LONG=1` in all.
 fn mixed_precision_walks_the_path_of_double() {
     let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("examples/scenes");
-    let double = || -> Box<dyn Backend + Send> { Box::new(CpuBackend::<f64>::new()) };
+    let double = || cpu::double(None);
     let mixed = mixed();
     let (mut compared, mut failures) = (0, Vec::new());
     let mut paths: Vec<_> = std::fs::read_dir(folder)
@@ -412,7 +412,7 @@ fn resume_with_rate_dependent_adhesion() {
         adhesion("maugis-dugdale", "full")
     );
     let loading = "control = \"approach\"\nstart = \"20 nm\"\n[[loading.ramp]]\nto = \"-20 nm\"\nsteps = 5\nduration = 0.1\n[[loading.ramp]]\nto = \"10 nm\"\nsteps = 2\nduration = 1";
-    let make = || -> Box<dyn Backend + Send> { Box::new(CpuBackend::<f64>::new()) };
+    let make = || cpu::double(None);
     let scene = scene("free", SPHERE, &law, loading, false);
     cut(scene, &make, false, Cuts::ALL, "rate");
 }
@@ -421,7 +421,7 @@ fn resume_with_rate_dependent_adhesion() {
 fn resume_with_automatic_time_steps() {
     let relaxes = "[[solid.relaxation]]\nmodulus = \"200 MPa\"\ntime = 1\n[[solid.relaxation]]\nmodulus = \"50 MPa\"\ntime = 0.05\n";
     let loading = "control = \"force\"\nstart = 1e-7\ntime_tolerance = 0.03\n[[loading.ramp]]\nto = 1e-6\nsteps = \"auto\"\nduration = 0.5\n[[loading.ramp]]\nhold = 5\nsteps = \"auto\"";
-    let make = || -> Box<dyn Backend + Send> { Box::new(CpuBackend::<f64>::new()) };
+    let make = || cpu::double(None);
     let scene = scene("free", &format!("{relaxes}{SPHERE}"), "", loading, false);
     let durations = scene.loading.durations.clone().expect("it is timed");
     let longest = durations.iter().copied().fold(0.0, f64::max);
@@ -467,7 +467,7 @@ impl Observer for Stopper {
 /// A path ended amid what is looked for between two of its steps, pull-off or a jump, goes on from the step
 /// before and ends the same, whatever the solid remembers.
 fn resume_after_an_end_between_two_steps() {
-    let make = || -> Box<dyn Backend + Send> { Box::new(CpuBackend::<f64>::new()) };
+    let make = || cpu::double(None);
     let law = adhesion("maugis-dugdale", "full");
     let rated = format!("{law}rate = {{ reference_speed = \"1 um/s\", exponent = 0.5 }}\n");
     let relaxing = "[[solid.relaxation]]\nmodulus = \"50 MPa\"\ntime = 1.0\n";

@@ -2,7 +2,7 @@
 //! (`src/solver/plain.rs`), iterate by iterate.
 
 use tabor::backend::Backend;
-use tabor::backend::cpu::CpuBackend;
+use tabor::backend::cpu;
 use tabor::elastic::{Base, Layer};
 use tabor::grid::Grid;
 use tabor::kernel::Status;
@@ -341,7 +341,7 @@ fn compare_all(make: &dyn Fn() -> Box<dyn Backend + Send>, bounds: [f64; 2]) {
 /// linearity: some hundred roundings, which ten iterations amplify by at most 1e4. A residual near the
 /// tolerance of 1e-8 is a difference of numbers near 1, so that its own rounding is absolute.
 fn the_processor_follows_the_plain_text() {
-    let make = || -> Box<dyn Backend + Send> { Box::new(CpuBackend::<f64>::new()) };
+    let make = || cpu::double(None);
     compare_all(&make, [1e-8, 1e-14]);
 }
 
@@ -377,7 +377,7 @@ fn surfaces_that_leave_each_other(make: &dyn Fn() -> Box<dyn Backend + Send>) {
 }
 
 fn surfaces_leave_each_other_on_the_processor() {
-    surfaces_that_leave_each_other(&|| Box::new(CpuBackend::<f64>::new()));
+    surfaces_that_leave_each_other(&|| cpu::double(None));
 }
 
 fn surfaces_leave_each_other_on_the_graphics_processor() {

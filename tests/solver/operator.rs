@@ -4,7 +4,7 @@
 use std::f64::consts::PI;
 
 use proptest::prelude::*;
-use tabor::backend::cpu::{CpuBackend, CpuReal, with_threads};
+use tabor::backend::cpu::{self, with_threads};
 use tabor::backend::{Backend, Factors, Shape};
 use tabor::elastic::{free_stiffness, love_displacement, periodic_stiffness};
 use tabor::grid::Grid;
@@ -37,8 +37,12 @@ fn params() -> Params {
 }
 
 /// K applied to a field, and the energy `<s, K s>` that comes with it.
-fn apply<T: CpuReal>(points: [usize; 2], spectrum: &[f64], field: &[f64]) -> (Vec<f64>, f64) {
-    let mut backend = CpuBackend::<T>::new();
+fn apply(
+    mut backend: Box<dyn Backend + Send>,
+    points: [usize; 2],
+    spectrum: &[f64],
+    field: &[f64],
+) -> (Vec<f64>, f64) {
     let level = backend.level("fine", Shape::whole(points[0], points[1]));
     let (source, result) = (
         backend.field(level, "source"),
@@ -156,7 +160,7 @@ fn equals_a_plain_transform() {
             .collect();
         for spectrum in [stiffness(points), any] {
             let field = values(count, 3);
-            let (found, energy) = apply::<f64>(points, &spectrum, &field);
+            let (found, energy) = apply(cpu::double(None), points, &spectrum, &field);
             let expected = plain(points, &spectrum, &field);
             let scale = largest(&spectrum) * norm(&field);
             let error = difference(&found, &expected);
@@ -185,7 +189,12 @@ fn waves_are_eigenvectors() {
             })
             .collect();
         let eigenvalue = 0.5 * 2.0 * PI * (kx as f64).hypot(ky as f64 / 1.3);
-        let (found, _) = apply::<f64>([nx, ny], &periodic_stiffness(&grid, 1.0, None), &field);
+        let (found, _) = apply(
+            cpu::double(None),
+            [nx, ny],
+            &periodic_stiffness(&grid, 1.0, None),
+            &field,
+        );
         let expected: Vec<f64> = field.iter().map(|value| eigenvalue * value).collect();
         assert!(
             difference(&found, &expected) <= ROUNDING * 200.0 * norm(&field),
@@ -209,8 +218,8 @@ proptest! {
         let spectrum = stiffness(points);
         let (a, b) = (values(nx * ny, seed), values(nx * ny, seed + 1000));
         let scale = largest(&spectrum).max(1e-300) * norm(&a) * norm(&b).max(norm(&a));
-        let (ka, energy) = apply::<f64>(points, &spectrum, &a);
-        let (kb, _) = apply::<f64>(points, &spectrum, &b);
+        let (ka, energy) = apply(cpu::double(None), points, &spectrum, &a);
+        let (kb, _) = apply(cpu::double(None), points, &spectrum, &b);
         prop_assert!((dot(&a, &kb) - dot(&b, &ka)).abs() <= ROUNDING * scale);
         prop_assert!(energy >= 0.0);
         prop_assert!((energy - dot(&a, &ka)).abs() <= ROUNDING * scale);
@@ -219,10 +228,10 @@ proptest! {
                 .map(|i| field[(i / nx + shift_y) % ny * nx + (i % nx + shift_x) % nx])
                 .collect()
         };
-        let (shifted, _) = apply::<f64>(points, &spectrum, &moved(&a));
+        let (shifted, _) = apply(cpu::double(None), points, &spectrum, &moved(&a));
         prop_assert!(difference(&shifted, &moved(&ka)) <= ROUNDING * largest(&spectrum) * norm(&a));
         // A constant costs nothing.
-        let (rigid, energy) = apply::<f64>(points, &spectrum, &vec![1.0; nx * ny]);
+        let (rigid, energy) = apply(cpu::double(None), points, &spectrum, &vec![1.0; nx * ny]);
         prop_assert!(norm(&rigid) <= ROUNDING * largest(&spectrum) * ((nx * ny) as f64).sqrt());
         prop_assert!(energy.abs() <= ROUNDING * largest(&spectrum) * (nx * ny) as f64);
     }
@@ -232,8 +241,8 @@ proptest! {
         let points = [nx, ny];
         let spectrum = stiffness(points);
         let field = values(nx * ny, seed);
-        let (double, energy) = apply::<f64>(points, &spectrum, &field);
-        let (single, energy_single) = apply::<f32>(points, &spectrum, &field);
+        let (double, energy) = apply(cpu::double(None), points, &spectrum, &field);
+        let (single, energy_single) = apply(cpu::single(None), points, &spectrum, &field);
         let scale = largest(&spectrum) * norm(&field);
         // Eight or so roundings of 6e-8 along a value's way.
         prop_assert!(difference(&double, &single) <= 1e-6 * scale);
@@ -258,7 +267,7 @@ fn the_free_boundary_is_loves_sum() {
         for (i, load) in loads.iter().enumerate() {
             padded[i / nx * 2 * nx + i % nx] = *load;
         }
-        let (displacement, _) = apply::<f64>(doubled, &compliance, &padded);
+        let (displacement, _) = apply(cpu::double(None), doubled, &compliance, &padded);
         let scale = largest(&compliance) * norm(&loads);
         for i in 0..nx * ny {
             let mut expected = 0.0;
@@ -274,7 +283,7 @@ fn the_free_boundary_is_loves_sum() {
             );
         }
         // The stiffness undoes it.
-        let (back, energy) = apply::<f64>(doubled, &stiffness, &displacement);
+        let (back, energy) = apply(cpu::double(None), doubled, &stiffness, &displacement);
         let condition = largest(&stiffness) * scale;
         assert!(
             difference(&back, &padded) <= ROUNDING * condition,
@@ -290,8 +299,10 @@ fn bitwise_the_same_on_any_number_of_threads() {
         let spectrum = stiffness(points);
         let field = values(points[0] * points[1], 5);
         let on = |threads| {
-            with_threads(Some(threads), || apply::<f64>(points, &spectrum, &field))
-                .expect("threads")
+            with_threads(Some(threads), || {
+                apply(cpu::double(None), points, &spectrum, &field)
+            })
+            .expect("threads")
         };
         let (one, two, five) = (on(1), on(2), on(5));
         for other in [two, five] {
@@ -337,8 +348,8 @@ fn a_solve_is_bitwise_the_same_on_any_number_of_threads() {
         };
         let on = |threads| {
             with_threads(Some(threads), || {
-                let mut backend = CpuBackend::<f64>::new();
-                let mut solver = ContactSolver::new(&mut backend, &problem);
+                let mut backend = cpu::double(None);
+                let mut solver = ContactSolver::new(&mut *backend, &problem);
                 solver
                     .begin(&load, &Start::Cold, 1e-12, false)
                     .expect("cpu");

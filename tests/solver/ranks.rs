@@ -7,7 +7,7 @@ use std::path::Path;
 use std::sync::Arc;
 use std::thread;
 
-use tabor::backend::cpu::{CpuBackend, with_threads};
+use tabor::backend::cpu::{self, with_threads};
 use tabor::backend::ranks::{Ranks, ThreadRanks};
 use tabor::backend::{Backend, BackendError};
 use tabor::effect::Effect;
@@ -83,9 +83,9 @@ enum Number {
 impl Number {
     fn backend(self, ranks: Option<Arc<dyn Ranks>>) -> Box<dyn Backend + Send> {
         match self {
-            Number::Double => Box::new(CpuBackend::<f64>::on_ranks(ranks)),
-            Number::Single => Box::new(CpuBackend::<f32>::on_ranks(ranks)),
-            Number::Mixed => Box::new(CpuBackend::<f32>::on_ranks(ranks).corrected()),
+            Number::Double => cpu::double(ranks),
+            Number::Single => cpu::single(ranks),
+            Number::Mixed => cpu::mixed(ranks),
         }
     }
 }
@@ -322,8 +322,8 @@ fn bytes_of_an_iteration() {
                     zero_stiffness: 0.0,
                     zero_compliance: ContactSolver::pressure_compliance(problem, 0.05),
                 };
-                let mut backend = CpuBackend::<f64>::on_ranks(Some(rank.clone()));
-                let mut solver = ContactSolver::new(&mut backend, problem);
+                let mut backend = cpu::double(Some(rank.clone()));
+                let mut solver = ContactSolver::new(&mut *backend, problem);
                 solver
                     .begin(&load, &Start::Cold, 1e-12, false)
                     .expect("all ranks");

@@ -5,7 +5,7 @@ use std::fs;
 use std::path::Path;
 
 use serde_json::Value;
-use tabor::backend::{Backend, cpu::CpuBackend};
+use tabor::backend::cpu;
 use tabor::fit::model::{IndenterModel, Parameters};
 use tabor::fit::{FitResult, ForceCurve, Freedom, Model, Sample, fit_curve};
 use tabor::scene::Scene;
@@ -184,7 +184,7 @@ fn full_field(law: &str, modulus: f64, deepest: f64, seed: u64) -> Vec<Sample> {
         .unwrap_or_else(|errors| panic!("{errors}"));
     let surface = Surface::build(&scene).expect("a surface");
     let setup = Setup::new(scene, surface);
-    let cpu = || -> Box<dyn Backend + Send> { Box::new(CpuBackend::<f64>::new()) };
+    let cpu = || cpu::double(None);
     let end = walk(&setup, &cpu, &mut ()).expect("a run");
     let mut random = Random(seed);
     path.iter()

@@ -4,8 +4,7 @@
 use std::f64::consts::{PI, TAU};
 use std::path::Path;
 
-use tabor::backend::Backend;
-use tabor::backend::cpu::CpuBackend;
+use tabor::backend::cpu;
 use tabor::fit::model::{IndenterModel, Parameters};
 use tabor::fit::{FitError, FitResult, ForceCurve, Freedom, Model, Sample, fit_curve};
 use tabor::scene::Scene;
@@ -270,7 +269,7 @@ fn what_another_law_leaves_is_stated() {
 #[test]
 fn what_an_exponential_law_leaves_is_stated() {
     let mut random = Random(5);
-    let cpu = || -> Box<dyn Backend + Send> { Box::new(CpuBackend::<f64>::new()) };
+    let cpu = || cpu::double(None);
     let folder = tempfile::tempdir().expect("a folder");
     let path = folder.path().join("scene.toml");
     for tabor in [0.1, 0.3, 1.0, 2.0] {

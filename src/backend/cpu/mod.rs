@@ -32,8 +32,23 @@ pub(super) use slabs::Slabs;
 pub use slabs::largest_slab;
 use transform::Transform;
 
-/// The CPU backend in one kind of number; `CpuBackend<f64>` is the reference.
-pub struct CpuBackend<T: Real> {
+/// A backend in double precision, the reference, with nothing in it; of several ranks each holds its rows.
+pub fn double(ranks: Option<Arc<dyn Ranks>>) -> Box<dyn Backend + Send> {
+    Box::new(CpuBackend::<f64>::new(ranks, false))
+}
+
+/// The same in single precision.
+pub fn single(ranks: Option<Arc<dyn Ranks>>) -> Box<dyn Backend + Send> {
+    Box::new(CpuBackend::<f32>::new(ranks, false))
+}
+
+/// One in single precision for iterations that correct a state kept in double precision.
+pub fn mixed(ranks: Option<Arc<dyn Ranks>>) -> Box<dyn Backend + Send> {
+    Box::new(CpuBackend::<f32>::new(ranks, true))
+}
+
+/// The backend in one kind of number. Nobody else names it: whoever does compiles it again.
+struct CpuBackend<T: Real> {
     levels: Vec<LevelSpace<T>>,
     fields: Vec<Vec<T>>,
     spectra: Vec<Vec<T>>,
@@ -97,7 +112,7 @@ fn whole_field<'a, T: Real>(
 }
 
 /// Numbers that pick their own twins.
-pub trait CpuReal: Real + Planned + bytemuck::Pod {
+pub(super) trait CpuReal: Real + Planned + bytemuck::Pod {
     /// The twin of a kernel for this number.
     fn twin(kernel: &'static Kernel) -> Twin<Self>;
     /// Values in this number, as another backend sees them.
@@ -166,43 +181,20 @@ impl Threads {
     }
 }
 
-impl<T: CpuReal> Default for CpuBackend<T> {
-    fn default() -> Self {
-        Self::new()
-    }
-}
-
 impl<T: CpuReal> CpuBackend<T> {
-    /// A backend with nothing in it.
-    pub fn new() -> Self {
+    fn new(ranks: Option<Arc<dyn Ranks>>, corrected: bool) -> Self {
         CpuBackend {
             levels: Vec::new(),
             fields: Vec::new(),
             spectra: Vec::new(),
             law_factor: None,
             outer_gap: None,
-            corrected: false,
+            corrected,
             params: None,
             scalars: Scalars::start(0.0, false),
             transforms: 0.0,
-            ranks: None,
-            failure: None,
-        }
-    }
-
-    /// One with nothing in it that holds this rank's rows, where there are several ranks.
-    pub fn on_ranks(ranks: Option<Arc<dyn Ranks>>) -> Self {
-        CpuBackend {
             ranks: ranks.filter(|ranks| ranks.count() > 1),
-            ..CpuBackend::new()
-        }
-    }
-
-    /// The same for iterations that correct a state kept in double precision.
-    pub fn corrected(self) -> Self {
-        CpuBackend {
-            corrected: true,
-            ..self
+            failure: None,
         }
     }
 
@@ -478,13 +470,11 @@ impl<T: CpuReal> Backend for CpuBackend<T> {
     }
 
     fn in_double(&self, _shape: Shape) -> Option<Box<dyn Backend + Send>> {
-        self.corrected
-            .then(|| Box::new(CpuBackend::<f64>::on_ranks(self.ranks.clone())) as _)
+        self.corrected.then(|| double(self.ranks.clone()))
     }
 
     fn in_single(&self) -> Option<Box<dyn Backend + Send>> {
-        (T::EPSILON < f32::EPSILON.into())
-            .then(|| Box::new(CpuBackend::<f32>::on_ranks(self.ranks.clone())) as _)
+        (T::EPSILON < f32::EPSILON.into()).then(|| single(self.ranks.clone()))
     }
 
     fn set_params(&mut self, params: &Params) {

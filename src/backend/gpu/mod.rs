@@ -37,7 +37,7 @@ mod traffic;
 use std::collections::HashMap;
 use std::f64::consts::TAU;
 
-use super::cpu::CpuBackend;
+use super::cpu;
 use super::{Backend, BackendError, Factors, Field, Level, Shape, Spectrum, Values};
 use crate::kernel::{Gate, Kernel, Params, ScalarKernel, Scalars};
 use crate::law::{Law, LawShader};
@@ -381,7 +381,7 @@ impl Backend for GpuBackend {
                     expects_finite: self.expects_finite,
                     ..GpuBackend::on(&self.device).keeping(Number::Double)
                 }),
-                false => Box::new(CpuBackend::<f64>::new()),
+                false => cpu::double(None),
             }
         })
     }

@@ -3,7 +3,7 @@
 use super::inputs::{Answer, Inputs};
 use serde_json::json;
 use std::f64::consts::PI;
-use tabor::backend::{Backend, cpu::CpuBackend};
+use tabor::backend::cpu;
 use tabor::grid::Grid;
 use tabor::law::{Law, LennardJones};
 use tabor::scene::{Boundary, Roughness, Scene, SelfAffineScene};
@@ -132,7 +132,7 @@ impl Observer for Sums {
 fn full_field(inputs: &Inputs) -> Answer {
     let setup = study(inputs, &[inputs.number("x")])?;
     let unit = MODULUS * setup.statistics.moments.rms_slope();
-    let cpu = || -> Box<dyn Backend + Send> { Box::new(CpuBackend::<f64>::new()) };
+    let cpu = || cpu::double(None);
     let mut sums = Sums::default();
     let end = walk(&setup, &cpu, &mut sums)?;
     let row = &end.rows[0];
