@@ -77,19 +77,19 @@ impl Factors<'_> {
                 let held = &values[columns.start * column..columns.end * column];
                 held.iter().map(|&value| number(value)).collect()
             }
-            Factors::Each(factor) => each(columns, column, |wave| number(factor(wave))),
-            Factors::HalfSpace(half_space, response) => each(columns, column, |[kx, ky]| {
+            Factors::Each(factor) => each(columns, column, &|wave| number(factor(wave))),
+            Factors::HalfSpace(half_space, response) => each(columns, column, &|[kx, ky]| {
                 number(response.factor(half_space.stiffness(kx, ky)))
             }),
         }
     }
 }
 
-/// A value for each wavevector of some columns, each of so many.
+/// A value for each wavevector of some columns, each of so many; compiled once for a type.
 fn each<T: Send>(
     columns: Range<usize>,
     column: usize,
-    value: impl Fn([usize; 2]) -> T + Send + Sync,
+    value: &(dyn Fn([usize; 2]) -> T + Sync),
 ) -> Vec<T> {
     let (first, count) = (columns.start, columns.len() * column);
     let indices = (0..count).into_par_iter().with_min_len(column);

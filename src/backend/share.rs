@@ -204,13 +204,7 @@ impl Share {
         rows: usize,
         add: impl Fn(usize, &mut [f64; N]) + Sync,
     ) -> [f64; N] {
-        let of_row = |row| {
-            let mut sums = [0.0; N];
-            add(row, &mut sums);
-            sums
-        };
-        let of_rows: Vec<[f64; N]> = (0..rows).into_par_iter().map(of_row).collect();
-        self.sums_of_rows(&of_rows)
+        self.sums_of_rows(&of_each_row(rows, &add))
     }
 
     /// The same where `change` makes other values of a row's part of three fields, which have so many points in a row.
@@ -221,17 +215,7 @@ impl Share {
         third: &mut [P],
         change: impl Fn(usize, [&mut [f64]; 2], &mut [P], &mut [f64; N]) + Sync,
     ) -> [f64; N] {
-        let rows = first
-            .par_chunks_mut(width)
-            .zip(second.par_chunks_mut(width));
-        let rows = rows.zip(third.par_chunks_mut(width)).enumerate();
-        let of_row = |(row, ((first, second), third))| {
-            let mut sums = [0.0; N];
-            change(row, [first, second], third, &mut sums);
-            sums
-        };
-        let of_rows: Vec<[f64; N]> = rows.map(of_row).collect();
-        self.sums_of_rows(&of_rows)
+        self.sums_of_rows(&changing_each_row(width, [first, second], third, &change))
     }
 
     /// The same of sums that are known of each row here, in the order of the rows: the same bits on any number of ranks and
@@ -352,6 +336,43 @@ impl Share {
             None => [f64::NAN; N],
         }
     }
+}
+
+/// What `add` adds for each of so many rows. It is called by its address: what the threads share their work with is much
+/// code, and is compiled once.
+fn of_each_row<const N: usize>(
+    rows: usize,
+    add: &(dyn Fn(usize, &mut [f64; N]) + Sync),
+) -> Vec<[f64; N]> {
+    let of_row = |row| {
+        let mut sums = [0.0; N];
+        add(row, &mut sums);
+        sums
+    };
+    (0..rows).into_par_iter().map(of_row).collect()
+}
+
+/// What changes a row's part of three fields and adds to sums.
+type Change<'a, P, const N: usize> =
+    dyn Fn(usize, [&mut [f64]; 2], &mut [P], &mut [f64; N]) + Sync + 'a;
+
+/// What `change` adds for each row.
+fn changing_each_row<P: Send, const N: usize>(
+    width: usize,
+    [first, second]: [&mut [f64]; 2],
+    third: &mut [P],
+    change: &Change<P, N>,
+) -> Vec<[f64; N]> {
+    let rows = first
+        .par_chunks_mut(width)
+        .zip(second.par_chunks_mut(width));
+    let rows = rows.zip(third.par_chunks_mut(width)).enumerate();
+    let of_row = |(row, ((first, second), third))| {
+        let mut sums = [0.0; N];
+        change(row, [first, second], third, &mut sums);
+        sums
+    };
+    rows.map(of_row).collect()
 }
 
 #[cfg(test)]

@@ -7,6 +7,7 @@
 //! follows from the numbers of points and places alone, so that results are the same bits whatever a processor can do
 //! at once.
 
+use std::hint::black_box;
 use std::marker::PhantomData;
 use std::ops::Range;
 
@@ -219,37 +220,25 @@ where
             }
             for start in points.clone().step_by(LANES) {
                 let here = start..points.end.min(start + LANES);
-                group.gather(rows, &here);
-                if K::SEEKS && in_domain {
-                    group.seek::<C, K, L>(&numbers, &law);
+                if S::IS_SCALAR {
+                    group.in_turn::<C, K, L>(rows, &here, &numbers, &law, in_domain);
+                } else {
+                    group.gather(rows, &here);
+                    if K::SEEKS && in_domain {
+                        group.seek::<C, K, L>(&numbers, &law);
+                    }
+                    group.work::<C, K, L>(&numbers, &law, in_domain);
+                    group.scatter(rows, &here);
                 }
-                group.work::<C, K, L>(&numbers, &law, in_domain);
-                group.scatter(rows, &here);
                 for slot in 0..TERMS {
                     let (total, extreme) = (&mut totals[slot], &mut extremes[slot]);
                     let terms = &group.terms[slot];
-                    match reduces[slot] {
-                        Reduce::Add if here.len() == LANES => {
-                            let at = |lane: usize| terms[lane].double();
-                            for place in 0..PLACES {
-                                let [second, third, fourth] =
-                                    [1, 2, 3].map(|part| place + part * PLACES);
-                                total[place] += (at(place) + at(second)) + (at(third) + at(fourth));
-                            }
-                        }
-                        Reduce::Min if here.len() == LANES => {
-                            for lane in 0..LANES {
-                                let least = &mut extreme[lane % PLACES];
-                                *least = least.least(terms[lane]);
-                            }
-                        }
-                        Reduce::Max if here.len() == LANES => {
-                            for lane in 0..LANES {
-                                let most = &mut extreme[lane % PLACES];
-                                *most = most.most(terms[lane]);
-                            }
-                        }
-                        reduce => join(total, extreme, &terms[..here.len()], reduce),
+                    if here.len() < LANES {
+                        join(total, extreme, &terms[..here.len()], reduces[slot]);
+                    } else if S::IS_SCALAR {
+                        join_all_in_turn(total, extreme, terms, reduces[slot]);
+                    } else {
+                        join_all(total, extreme, terms, reduces[slot]);
                     }
                 }
             }
@@ -260,10 +249,52 @@ where
     }
 }
 
-// What follows is compiled once, and not with each kernel, law and number: it runs once a block, or where a
-// group is not full.
+/// Puts what a full group adds to a sum to what its places hold already.
+#[inline(always)]
+fn join_all<T: Real>(
+    total: &mut Places<f64>,
+    extreme: &mut Places<T>,
+    terms: &Lanes<T>,
+    reduce: Reduce,
+) {
+    match reduce {
+        Reduce::Add => {
+            let at = |lane: usize| terms[lane].double();
+            for place in 0..PLACES {
+                let [second, third, fourth] = [1, 2, 3].map(|part| place + part * PLACES);
+                total[place] += (at(place) + at(second)) + (at(third) + at(fourth));
+            }
+        }
+        Reduce::Min => {
+            for lane in 0..LANES {
+                let least = &mut extreme[lane % PLACES];
+                *least = least.least(terms[lane]);
+            }
+        }
+        Reduce::Max => {
+            for lane in 0..LANES {
+                let most = &mut extreme[lane % PLACES];
+                *most = most.most(terms[lane]);
+            }
+        }
+    }
+}
 
-/// Puts what a group adds to a sum to what its places hold already.
+// What follows is compiled once, and not with each kernel, law and number: it runs once a block, where a
+// group is not full, or where a processor has no wide vectors.
+
+/// The same for processors without wide vectors.
+#[inline(never)]
+fn join_all_in_turn<T: Real>(
+    total: &mut Places<f64>,
+    extreme: &mut Places<T>,
+    terms: &Lanes<T>,
+    reduce: Reduce,
+) {
+    join_all(total, extreme, terms, reduce);
+}
+
+/// The same of a group that is not full.
 #[inline(never)]
 fn join<T: Real>(total: &mut Places<f64>, extreme: &mut Places<T>, terms: &[T], reduce: Reduce) {
     for (lane, &term) in terms.iter().enumerate() {
@@ -371,10 +402,6 @@ impl<T: Real, const READS: usize, const WRITES: usize, const TERMS: usize>
     }
 
     /// Places without a point work on what they held before; nothing of them is kept.
-    #[allow(
-        clippy::needless_range_loop,
-        reason = "iterators and closures would be compiled with each kernel, law and number"
-    )]
     #[inline(always)]
     fn work<C, K, L>(&mut self, numbers: &Numbers<T, C>, law: &L, in_domain: bool)
     where
@@ -382,16 +409,64 @@ impl<T: Real, const READS: usize, const WRITES: usize, const TERMS: usize>
         L: LawField<T>,
     {
         for lane in 0..LANES {
-            let law = self.law(law, lane);
-            let mut point = self.point(lane, in_domain);
-            K::at(numbers, &law, &mut point);
-            for place in 0..WRITES {
-                self.writes[place][lane] = point.writes[place];
-            }
-            self.line[lane] = point.line;
-            for slot in 0..TERMS {
-                self.terms[slot][lane] = point.terms[slot];
-            }
+            self.work_at::<C, K, L>(numbers, law, in_domain, lane);
+        }
+    }
+
+    /// Gathers a group, works on one point after another and scatters them, for processors without wide vectors: as
+    /// a loop over points it is a fraction of the code, of which there is a version for each kernel, law and number.
+    fn in_turn<C, K, L>(
+        &mut self,
+        rows: &mut Rows<T>,
+        here: &Range<usize>,
+        numbers: &Numbers<T, C>,
+        law: &L,
+        in_domain: bool,
+    ) where
+        C: GapConstraint<T>,
+        K: PointKernel<T, C, READS, WRITES, TERMS>,
+        L: LawField<T>,
+    {
+        self.gather_in_turn(rows, here);
+        if K::SEEKS && in_domain {
+            self.seek::<C, K, L>(numbers, law);
+        }
+        for lane in 0..LANES {
+            // Hides that the places follow each other, so that they are not put together again.
+            self.work_at::<C, K, L>(numbers, law, in_domain, black_box(lane));
+        }
+        self.scatter_in_turn(rows, here);
+    }
+
+    #[inline(never)]
+    fn gather_in_turn(&mut self, rows: &Rows<T>, here: &Range<usize>) {
+        self.gather(rows, here);
+    }
+
+    #[inline(never)]
+    fn scatter_in_turn(&self, rows: &mut Rows<T>, here: &Range<usize>) {
+        self.scatter(rows, here);
+    }
+
+    #[allow(
+        clippy::needless_range_loop,
+        reason = "iterators and closures would be compiled with each kernel, law and number"
+    )]
+    #[inline(always)]
+    fn work_at<C, K, L>(&mut self, numbers: &Numbers<T, C>, law: &L, in_domain: bool, lane: usize)
+    where
+        K: PointKernel<T, C, READS, WRITES, TERMS>,
+        L: LawField<T>,
+    {
+        let law = self.law(law, lane);
+        let mut point = self.point(lane, in_domain);
+        K::at(numbers, &law, &mut point);
+        for place in 0..WRITES {
+            self.writes[place][lane] = point.writes[place];
+        }
+        self.line[lane] = point.line;
+        for slot in 0..TERMS {
+            self.terms[slot][lane] = point.terms[slot];
         }
     }
 

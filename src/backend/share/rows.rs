@@ -22,8 +22,8 @@ impl Rounds {
     fn new(
         count: usize,
         at_once: usize,
-        held: impl Fn(usize) -> Range<usize>,
-        wanted: impl Fn(usize) -> Vec<usize>,
+        held: &dyn Fn(usize) -> Range<usize>,
+        wanted: &dyn Fn(usize) -> Vec<usize>,
     ) -> Rounds {
         let mut holders: Vec<(Range<usize>, usize)> =
             (0..count).map(|rank| (held(rank), rank)).collect();
@@ -135,21 +135,21 @@ impl Share {
         width: usize,
         held: impl Fn(usize) -> Range<usize>,
         wanted: impl Fn(usize) -> Vec<usize>,
-        take: impl FnMut(usize, &[T]),
+        mut take: impl FnMut(usize, &[T]),
     ) -> Result<(), BackendError> {
         let at_once = (ROUND / (width * size_of::<T>()).max(1)).max(1);
-        self.fetch_at_most(at_once, own, width, held, wanted, take)
+        self.fetch_at_most(at_once, own, width, &held, &wanted, &mut take)
     }
 
-    /// The same in rounds of so many rows.
+    /// The same in rounds of so many rows, compiled once for a type.
     pub(super) fn fetch_at_most<T: Pod>(
         &self,
         at_once: usize,
         own: &[T],
         width: usize,
-        held: impl Fn(usize) -> Range<usize>,
-        wanted: impl Fn(usize) -> Vec<usize>,
-        mut take: impl FnMut(usize, &[T]),
+        held: &dyn Fn(usize) -> Range<usize>,
+        wanted: &dyn Fn(usize) -> Vec<usize>,
+        take: &mut dyn FnMut(usize, &[T]),
     ) -> Result<(), BackendError> {
         let here = self.rank();
         let first = held(here).start;
@@ -400,12 +400,12 @@ mod tests {
                         };
                         for wanted in [&mirrored as &dyn Fn(usize) -> Vec<usize>, &all_of_first] {
                             let mut found = Vec::new();
-                            let take = |row: usize, values: &[f64]| {
+                            let mut take = |row: usize, values: &[f64]| {
                                 assert!(line(row).eq(values.iter().copied()));
                                 found.push(row);
                             };
-                            let fetched =
-                                share.fetch_at_most(at_once, &own, width, held, wanted, take);
+                            let fetched = share
+                                .fetch_at_most(at_once, &own, width, &held, &wanted, &mut take);
                             fetched.expect("all ranks");
                             assert_eq!(found, wanted(share.rank()));
                         }
@@ -429,7 +429,7 @@ mod tests {
             ] {
                 let mut found = vec![Vec::new(); 4];
                 let mut count = 0;
-                for round in Rounds::new(4, at_once, held, wanted) {
+                for round in Rounds::new(4, at_once, &held, &wanted) {
                     let mut sent = [0; 4];
                     for (found, rows) in found.iter_mut().zip(round) {
                         assert!(rows.len() <= at_once);
