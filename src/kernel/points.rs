@@ -51,6 +51,10 @@ pub struct Numbers<T, C> {
 
 impl<T: Real, C: GapConstraint<T>> Numbers<T, C> {
     fn new(params: &Params, scalars: &Scalars) -> Self {
+        let mut tried = [T::zero(); TRIED];
+        for (to, from) in tried.iter_mut().zip(scalars.tried) {
+            *to = T::from_double(from);
+        }
         Numbers {
             constraint: C::new(params),
             stiffness_max: T::from_double(params.stiffness_max),
@@ -64,7 +68,7 @@ impl<T: Real, C: GapConstraint<T>> Numbers<T, C> {
             mean_gap_correction: T::from_double(scalars.mean_gap_correction),
             step: T::from_double(scalars.step),
             snap: T::from_double(scalars.snap),
-            tried: scalars.tried.map(T::from_double),
+            tried,
             accepted: scalars.accepted,
         }
     }
@@ -260,9 +264,9 @@ fn join_all<T: Real>(
     match reduce {
         Reduce::Add => {
             let at = |lane: usize| terms[lane].double();
-            for place in 0..PLACES {
-                let [second, third, fourth] = [1, 2, 3].map(|part| place + part * PLACES);
-                total[place] += (at(place) + at(second)) + (at(third) + at(fourth));
+            for (place, total) in total.iter_mut().enumerate() {
+                let first = at(place) + at(place + PLACES);
+                *total += first + (at(place + 2 * PLACES) + at(place + 3 * PLACES));
             }
         }
         Reduce::Min => {
@@ -334,11 +338,11 @@ impl<T: Real, const READS: usize, const WRITES: usize, const TERMS: usize>
 {
     #[inline(always)]
     fn gather(&mut self, rows: &Rows<T>, here: &Range<usize>) {
-        for (to, from) in self.reads.iter_mut().zip(&rows.reads) {
-            load(to, from, here);
+        for place in 0..READS {
+            load(&mut self.reads[place], rows.reads[place], here);
         }
-        for (to, from) in self.writes.iter_mut().zip(&rows.writes) {
-            load(to, from, here);
+        for place in 0..WRITES {
+            load(&mut self.writes[place], rows.writes[place], here);
         }
         load(&mut self.line, rows.lines, here);
         load(&mut self.factor, rows.factor, here);
@@ -472,8 +476,8 @@ impl<T: Real, const READS: usize, const WRITES: usize, const TERMS: usize>
 
     #[inline(always)]
     fn scatter(&self, rows: &mut Rows<T>, here: &Range<usize>) {
-        for (from, to) in self.writes.iter().zip(&mut rows.writes) {
-            store(to, from, here);
+        for place in 0..WRITES {
+            store(rows.writes[place], &self.writes[place], here);
         }
         store(rows.lines, &self.line, here);
     }

@@ -237,37 +237,15 @@ fn rows_to_tile<'a, T: Real>(
 }
 
 /// Keeps lines in the place of a tile's spectra, two numbers in each.
-fn retain<T: Real>(lines: &[T], tile: &mut [Complex<T>; TILE]) {
-    let (pairs, rest) = lines.as_chunks::<2>();
-    match pairs.first_chunk::<TILE>() {
-        // A fixed length, which is moved without a loop.
-        Some(pairs) => *tile = pairs.map(|[first, second]| Complex::new(first, second)),
-        None => {
-            for (kept, &[first, second]) in tile.iter_mut().zip(pairs) {
-                *kept = Complex::new(first, second);
-            }
-        }
-    }
-    if let (&[last], Some(kept)) = (rest, tile.get_mut(pairs.len())) {
-        *kept = Complex::new(last, T::zero());
-    }
+fn retain<T: CpuReal>(lines: &[T], tile: &mut [Complex<T>; TILE]) {
+    let kept: &mut [T] = bytemuck::cast_slice_mut(tile);
+    kept[..lines.len()].copy_from_slice(lines);
 }
 
 /// Takes lines from the place of a tile's spectra.
-fn take_retained<T: Real>(tile: &[Complex<T>; TILE], lines: &mut [T]) {
-    let (pairs, rest) = lines.as_chunks_mut::<2>();
-    let whole = pairs.len();
-    match pairs.first_chunk_mut::<TILE>() {
-        Some(pairs) => *pairs = tile.map(|kept| [kept.re, kept.im]),
-        None => {
-            for (pair, kept) in pairs.iter_mut().zip(tile) {
-                *pair = [kept.re, kept.im];
-            }
-        }
-    }
-    if let ([last], Some(kept)) = (rest, tile.get(whole)) {
-        *last = kept.re;
-    }
+fn take_retained<T: CpuReal>(tile: &[Complex<T>; TILE], lines: &mut [T]) {
+    let kept: &[T] = bytemuck::cast_slice(tile);
+    lines.copy_from_slice(&kept[..lines.len()]);
 }
 
 /// Copies some rows of a column, a whole block of them by a fixed length.
