@@ -296,10 +296,10 @@ impl<T: Real> GapConstraint<T> for Unilateral<T> {
     ) where
         K: PointKernel<T, Self, READS, WRITES, TERMS>,
     {
-        if T::CORRECTS && !rows.outer_gap.is_empty() {
-            with_wall_law!(params.law, T, law => side_by_side::<_, _, K, READS, WRITES, TERMS>(numbers, CorrectedField(law), rows, sums));
-        } else {
+        if rows.outer_gap.is_empty() {
             with_wall_law!(params.law, T, law => side_by_side::<_, _, K, READS, WRITES, TERMS>(numbers, AdhesionMap(law), rows, sums));
+        } else {
+            with_wall_law!(params.law, T, law => side_by_side::<_, _, K, READS, WRITES, TERMS>(numbers, CorrectedField(law), rows, sums));
         }
     }
 }

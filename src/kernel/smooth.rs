@@ -256,10 +256,10 @@ impl<T: Real> GapConstraint<T> for Smooth<T> {
             },
         };
         let law = law.cast::<T>();
-        if T::CORRECTS && !rows.outer_gap.is_empty() {
-            side_by_side::<_, _, K, READS, WRITES, TERMS>(numbers, CorrectedField(law), rows, sums);
-        } else {
+        if rows.outer_gap.is_empty() {
             side_by_side::<_, _, K, READS, WRITES, TERMS>(numbers, AdhesionMap(law), rows, sums);
+        } else {
+            side_by_side::<_, _, K, READS, WRITES, TERMS>(numbers, CorrectedField(law), rows, sums);
         }
     }
 }

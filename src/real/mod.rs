@@ -13,9 +13,6 @@ pub trait Real: FftNum + Float + NumAssign + Default + Send + Sync + 'static {
     fn double(self) -> f64;
     /// Relative rounding error of this type.
     const EPSILON: f64;
-    /// Whether fields in it correct a state that is kept in double precision. What a kernel does to such fields is
-    /// compiled for this type alone.
-    const CORRECTS: bool;
     /// `[exp(x), exp(x) - 1]` to three units of the last place, several at a time where a loop over points asks.
     fn exponentials(self) -> [Self; 2];
     /// The lesser of two numbers, as a single processor instruction; `self` if either is NaN.
@@ -44,7 +41,6 @@ impl Real for f64 {
         exponential::double(self)
     }
     const EPSILON: f64 = f64::EPSILON;
-    const CORRECTS: bool = false;
 }
 
 impl Real for f32 {
@@ -61,5 +57,4 @@ impl Real for f32 {
         exponential::single(self)
     }
     const EPSILON: f64 = f32::EPSILON as f64;
-    const CORRECTS: bool = true;
 }

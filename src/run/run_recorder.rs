@@ -2,6 +2,8 @@
 
 use std::borrow::Cow;
 
+use rayon::prelude::*;
+
 use super::RunObserver;
 use super::earlier_files::separated_words;
 use super::on_ranks::Ask;
@@ -322,20 +324,33 @@ impl<'a> RunRecorder<'a> {
     }
 
     fn write_fields(&mut self, step: usize, evaluation: &Evaluation) -> Result<(), OutputError> {
-        let setup = self.setup;
-        let grid = setup.surface.grid;
+        let (setup, folder, single) = (self.setup, &self.folder, self.single());
         let fields = &setup.scene.output.fields;
-        let mut rows_of = |field, take: &mut dyn FnMut(&[f64])| {
-            rows_of(setup, evaluation, field, take);
+        let grid = &setup.surface.grid;
+        let array = |field: FieldName| {
+            let mut rows = |take: &mut dyn FnMut(&[f64])| rows_of(setup, evaluation, field, take);
+            write_field_rows(&folder.field_path(step, field), grid, &mut rows, single)
         };
-        for &field in fields {
-            let path = self.folder.field_path(step, field);
-            let mut rows = |take: &mut dyn FnMut(&[f64])| rows_of(field, take);
-            write_field_rows(&path, &grid, &mut rows, self.single())?;
-        }
-        if !fields.is_empty() {
-            let path = self.folder.volume_path(step);
-            write_volume(&path, &grid, fields, &mut rows_of, self.single())?;
+        let volume = || {
+            let mut rows = |field, take: &mut dyn FnMut(&[f64])| {
+                rows_of(setup, evaluation, field, take);
+            };
+            write_volume(&folder.volume_path(step), grid, fields, &mut rows, single)
+        };
+        if fields.is_empty() {
+            // Nor is there a volume.
+        } else if setup.problem.share.is_whole() {
+            // Files are written side by side; but of the fields that are made for them, one is held at a time.
+            let (ready, made): (Vec<FieldName>, Vec<FieldName>) =
+                fields.iter().partition(|field| evaluation.holds(**field));
+            let arrays = || ready.par_iter().try_for_each(|field| array(*field));
+            let (arrays, volume) = rayon::join(arrays, volume);
+            arrays.and(volume)?;
+            made.into_iter().try_for_each(array)?;
+        } else {
+            // Ranks send one field after another.
+            fields.iter().copied().try_for_each(array)?;
+            volume()?;
         }
         self.write_pictures(step, evaluation)
     }

@@ -270,6 +270,15 @@ impl Evaluation {
         }
     }
 
+    /// Whether the values of a field lie ready, so that [`Evaluation::field`] makes none.
+    pub fn holds(&self, name: FieldName) -> bool {
+        match name {
+            FieldName::Pressure | FieldName::Gap => true,
+            FieldName::Heights => self.plastic_depth.is_empty(),
+            FieldName::Displacement => false,
+        }
+    }
+
     /// The heights as plastic indentation has left them, m, of a surface that began with these.
     fn heights<'a>(&self, heights: &'a [f64]) -> Cow<'a, [f64]> {
         if self.plastic_depth.is_empty() {

@@ -452,7 +452,6 @@ impl<T: CpuReal> Backend for CpuBackend<T> {
     }
 
     fn set_outer_gap(&mut self, outer_gap: Option<Field>) {
-        debug_assert!(T::CORRECTS || outer_gap.is_none());
         self.outer_gap = outer_gap;
     }
 
