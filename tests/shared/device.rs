@@ -1,7 +1,8 @@
-//! The one device that all tests of a binary share.
+//! The devices that the tests of a binary share: as many as there are tests at a time that ask for one. A software driver
+//! compiles the shaders of a device one after another.
 
 use std::panic::resume_unwind;
-use std::sync::OnceLock;
+use std::sync::{Mutex, MutexGuard, PoisonError};
 
 use tabor::backend::gpu::{
     AdapterChoice, Faults, GpuBackend, GpuDevice, GpuError, Number, quietly,
@@ -9,10 +10,38 @@ use tabor::backend::gpu::{
 
 use super::trials::ignore;
 
-/// The device of this binary, software drivers included, or why there is none.
-fn shared() -> &'static Result<GpuDevice, GpuError> {
-    static DEVICE: OnceLock<Result<GpuDevice, GpuError>> = OnceLock::new();
-    DEVICE.get_or_init(|| made(&AdapterChoice::default()))
+/// A device, software drivers included, or why there is none.
+type Made = &'static Result<GpuDevice, GpuError>;
+
+/// Those that no running test has.
+static FREE: Mutex<Vec<Made>> = Mutex::new(Vec::new());
+
+fn free() -> MutexGuard<'static, Vec<Made>> {
+    FREE.lock().unwrap_or_else(PoisonError::into_inner)
+}
+
+/// The one that a test has, on whose thread this is, until the thread ends.
+struct Taken(Made);
+
+impl Taken {
+    fn new() -> Taken {
+        let another = || &*Box::leak(Box::new(made(&AdapterChoice::default())));
+        let last = free().pop();
+        Taken(last.unwrap_or_else(another))
+    }
+}
+
+impl Drop for Taken {
+    fn drop(&mut self) {
+        free().push(self.0);
+    }
+}
+
+fn shared() -> Made {
+    thread_local! {
+        static TAKEN: Taken = Taken::new();
+    }
+    TAKEN.with(|taken| taken.0)
 }
 
 /// A device; without one the test that asks is ignored, or fails where `TABOR_REQUIRE_GPU=1` says that there
