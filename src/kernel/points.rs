@@ -7,7 +7,6 @@
 //! follows from the numbers of points and places alone, so that results are the same bits whatever a processor can do
 //! at once.
 
-use std::hint::black_box;
 use std::marker::PhantomData;
 use std::ops::Range;
 
@@ -224,23 +223,17 @@ where
             }
             for start in points.clone().step_by(LANES) {
                 let here = start..points.end.min(start + LANES);
-                if S::IS_SCALAR {
-                    group.in_turn::<C, K, L>(rows, &here, &numbers, &law, in_domain);
-                } else {
-                    group.gather(rows, &here);
-                    if K::SEEKS && in_domain {
-                        group.seek::<C, K, L>(&numbers, &law);
-                    }
-                    group.work::<C, K, L>(&numbers, &law, in_domain);
-                    group.scatter(rows, &here);
+                group.gather(rows, &here);
+                if K::SEEKS && in_domain {
+                    group.seek::<C, K, L>(&numbers, &law);
                 }
+                group.work::<C, K, L>(&numbers, &law, in_domain);
+                group.scatter(rows, &here);
                 for slot in 0..TERMS {
                     let (total, extreme) = (&mut totals[slot], &mut extremes[slot]);
                     let terms = &group.terms[slot];
                     if here.len() < LANES {
                         join(total, extreme, &terms[..here.len()], reduces[slot]);
-                    } else if S::IS_SCALAR {
-                        join_all_in_turn(total, extreme, terms, reduces[slot]);
                     } else {
                         join_all(total, extreme, terms, reduces[slot]);
                     }
@@ -284,19 +277,8 @@ fn join_all<T: Real>(
     }
 }
 
-// What follows is compiled once, and not with each kernel, law and number: it runs once a block, where a
-// group is not full, or where a processor has no wide vectors.
-
-/// The same for processors without wide vectors.
-#[inline(never)]
-fn join_all_in_turn<T: Real>(
-    total: &mut Places<f64>,
-    extreme: &mut Places<T>,
-    terms: &Lanes<T>,
-    reduce: Reduce,
-) {
-    join_all(total, extreme, terms, reduce);
-}
+// What follows is compiled once, and not with each kernel, law and number: it runs once a block, or where a
+// group is not full.
 
 /// The same of a group that is not full.
 #[inline(never)]
@@ -406,6 +388,10 @@ impl<T: Real, const READS: usize, const WRITES: usize, const TERMS: usize>
     }
 
     /// Places without a point work on what they held before; nothing of them is kept.
+    #[allow(
+        clippy::needless_range_loop,
+        reason = "iterators and closures would be compiled with each kernel, law and number"
+    )]
     #[inline(always)]
     fn work<C, K, L>(&mut self, numbers: &Numbers<T, C>, law: &L, in_domain: bool)
     where
@@ -413,64 +399,16 @@ impl<T: Real, const READS: usize, const WRITES: usize, const TERMS: usize>
         L: LawField<T>,
     {
         for lane in 0..LANES {
-            self.work_at::<C, K, L>(numbers, law, in_domain, lane);
-        }
-    }
-
-    /// Gathers a group, works on one point after another and scatters them, for processors without wide vectors: as
-    /// a loop over points it is a fraction of the code, of which there is a version for each kernel, law and number.
-    fn in_turn<C, K, L>(
-        &mut self,
-        rows: &mut Rows<T>,
-        here: &Range<usize>,
-        numbers: &Numbers<T, C>,
-        law: &L,
-        in_domain: bool,
-    ) where
-        C: GapConstraint<T>,
-        K: PointKernel<T, C, READS, WRITES, TERMS>,
-        L: LawField<T>,
-    {
-        self.gather_in_turn(rows, here);
-        if K::SEEKS && in_domain {
-            self.seek::<C, K, L>(numbers, law);
-        }
-        for lane in 0..LANES {
-            // Hides that the places follow each other, so that they are not put together again.
-            self.work_at::<C, K, L>(numbers, law, in_domain, black_box(lane));
-        }
-        self.scatter_in_turn(rows, here);
-    }
-
-    #[inline(never)]
-    fn gather_in_turn(&mut self, rows: &Rows<T>, here: &Range<usize>) {
-        self.gather(rows, here);
-    }
-
-    #[inline(never)]
-    fn scatter_in_turn(&self, rows: &mut Rows<T>, here: &Range<usize>) {
-        self.scatter(rows, here);
-    }
-
-    #[allow(
-        clippy::needless_range_loop,
-        reason = "iterators and closures would be compiled with each kernel, law and number"
-    )]
-    #[inline(always)]
-    fn work_at<C, K, L>(&mut self, numbers: &Numbers<T, C>, law: &L, in_domain: bool, lane: usize)
-    where
-        K: PointKernel<T, C, READS, WRITES, TERMS>,
-        L: LawField<T>,
-    {
-        let law = self.law(law, lane);
-        let mut point = self.point(lane, in_domain);
-        K::at(numbers, &law, &mut point);
-        for place in 0..WRITES {
-            self.writes[place][lane] = point.writes[place];
-        }
-        self.line[lane] = point.line;
-        for slot in 0..TERMS {
-            self.terms[slot][lane] = point.terms[slot];
+            let law = self.law(law, lane);
+            let mut point = self.point(lane, in_domain);
+            K::at(numbers, &law, &mut point);
+            for place in 0..WRITES {
+                self.writes[place][lane] = point.writes[place];
+            }
+            self.line[lane] = point.line;
+            for slot in 0..TERMS {
+                self.terms[slot][lane] = point.terms[slot];
+            }
         }
     }
 
@@ -543,7 +481,7 @@ mod tests {
     }
 
     /// Rows that are no multiple of a group long, with and without a pad: each point is visited once, in
-    /// its own place, and a place without a point adds nothing. Point after point comes out in every bit as side by side.
+    /// its own place, and a place without a point adds nothing. Without wide vectors all comes out in the same bits.
     #[test]
     fn every_point_once() {
         let law = crate::law::MaugisDugdale {
