@@ -124,7 +124,7 @@ impl KernelSet {
 /// The numbers of a problem under a load, for fields of a relative rounding error.
 pub(super) fn params_under(problem: &Problem, load: &Load, epsilon: f64) -> Params {
     let mut params = params_of_problem(problem, epsilon);
-    params.softening = softening(problem, load);
+    params.softening = softening(problem);
     match load.hold {
         Hold::Gap(_) => params.prescribed_mean_gap = true,
         Hold::Pressure(pressure) if load.zero_stiffness > 0.0 => {

@@ -9,7 +9,6 @@
 
 use std::f64::consts::TAU;
 
-use super::contact::Load;
 use super::kernel_set::{KernelSet, LevelSet};
 use super::problem::Problem;
 use super::stiffness::on_level;
@@ -48,9 +47,6 @@ const LEAST_SOFTENING: f64 = 0.5;
 const MOST_SOFTENED: usize = 1 << 19;
 /// The steepest slope times that factor over E*/dx, at most.
 const SOFTENED: f64 = 1.0 / 3.0;
-/// Compliance of the control over that of the softest wave from which a second sweep takes more iterations: all points
-/// move as one there, by far more than the attraction's slope lets them.
-const SOFT_CONTROL: f64 = 10.0;
 
 /// Most fields of a step's update: direction, step, gap, pressure, and the residuals after and before it.
 const MOST_UPDATED: usize = 6;
@@ -101,10 +97,10 @@ pub(super) fn coarsest_share(problem: &Problem) -> f64 {
 
 /// Factor a on D, the slope with which an attraction falls as the gap grows, in the second sweep: M (r + a D M r) has two
 /// terms of the inverse of 1/M - D. 0, for one sweep, where no attraction falls, or too steeply for the pixels, without
-/// levels, on large grids, and under the load of a soft spring.
-pub(super) fn softening(problem: &Problem, load: &Load) -> f64 {
+/// levels, and on large grids.
+pub(super) fn softening(problem: &Problem) -> f64 {
     let factor = own_softening(problem);
-    if factor == 0.0 || is_soft(problem, load) {
+    if factor == 0.0 {
         return 0.0;
     }
     let strongest = match &problem.law_factor {
@@ -130,11 +126,6 @@ fn own_softening(problem: &Problem) -> f64 {
         return 0.0;
     }
     factor
-}
-
-/// Whether a load gives way far more than any wave.
-fn is_soft(problem: &Problem, load: &Load) -> bool {
-    load.zero_compliance * problem.stiffness_min() > SOFT_CONTROL
 }
 
 /// Halvings of the grid that pay for a problem; none where it cannot be halved.

@@ -3,6 +3,7 @@
 
 use super::setup::Setup;
 use crate::grid::Boundary;
+use crate::law::Law;
 use crate::scene::Control;
 use crate::solver::{ContactSolver, Hold, Load, Problem};
 
@@ -184,8 +185,19 @@ impl<'s> Controller<'s> {
         Load {
             hold: Hold::Pressure(zero_stiffness * offset),
             zero_stiffness,
-            zero_compliance: 1.0 / zero_stiffness,
+            zero_compliance: self.sprung_compliance(zero_stiffness),
         }
+    }
+
+    /// How far the mean displacement gives way under a unit mean pressure in the preconditioner, where a spring of this
+    /// stiffness holds it, reduced. By as much as the spring gives way, all points would first move by its whole step, and where
+    /// that is longer than the range of a law, they would leave a contact that holds: no further than under a load.
+    fn sprung_compliance(&self, zero_stiffness: f64) -> f64 {
+        let compliance = 1.0 / zero_stiffness;
+        if self.problem.law == Law::HardWall {
+            return compliance;
+        }
+        compliance.min(self.pressure_load(0.0).zero_compliance)
     }
 
     /// Whether a prescribed approach or gap lies beyond what a periodic cell can be closed by: to a wall, or

@@ -20,13 +20,13 @@ use crate::shared::device::{
 use crate::shared::random::Random;
 use crate::shared::trials::tests;
 
-/// Fine and coarse points of the tests; neither is a power of two both ways. As few as keep more than one workgroup:
-/// software compiles long lines slowly, and `convolution.rs` transforms these.
-const FINE: [usize; 2] = [24, 32];
-const COARSE: [usize; 2] = [12, 16];
-/// The same in double precision.
-const FINE_IN_DOUBLE: [usize; 2] = [24, 16];
-const COARSE_IN_DOUBLE: [usize; 2] = [12, 8];
+/// Fine and coarse points of the tests. Rows of 16 points are the cheapest to compile in software, four values a thread for
+/// which a kernel is written out; their 40 pairs are two workgroups, the second half idle. `convolution.rs` transforms
+/// other lengths.
+const FINE: [usize; 2] = [16, 80];
+const COARSE: [usize; 2] = [8, 40];
+/// Points of the surface where there is a pad; no powers of two.
+const SURFACE: [usize; 2] = [14, 70];
 /// Halvings more of the level on which the share of free points is counted.
 const SHARE_HALVINGS: usize = 1;
 /// Difference at a point over the rounding error of the number, of values up to some units: the
@@ -176,14 +176,10 @@ fn run(
         "store_weighted",
     ]
     .contains(&kernel.name);
-    let [nx, ny] = match number {
-        Number::Single => COARSE,
-        Number::Double => COARSE_IN_DOUBLE,
-    };
     let [nx, ny] = if kernel.name == "free_share" {
-        [nx, ny].map(|points| points >> SHARE_HALVINGS)
+        COARSE.map(|points| points >> SHARE_HALVINGS)
     } else {
-        [nx, ny]
+        COARSE
     };
     let [own, other] = if coarse_kernel {
         [Shape::whole(nx, ny), shape]
@@ -355,7 +351,7 @@ fn kernels_agree_with_their_twins() {
     let device = device();
     let padded = Shape {
         points: FINE,
-        surface: [14, 20],
+        surface: SURFACE,
     };
     let mut worst = [0.0f64; 2];
     for kernel in variants() {
@@ -429,8 +425,8 @@ fn kernels_in_double_precision_agree_with_their_twins() {
     let device = device_with_double();
     let number = Number::Double;
     let padded = Shape {
-        points: FINE_IN_DOUBLE,
-        surface: [14, 10],
+        points: FINE,
+        surface: SURFACE,
     };
     let [hard, _, tapered, exponential, lennard_jones] = laws().map(|(_, law)| law);
     let mut worst = [0.0f64; 2];
@@ -452,7 +448,7 @@ fn kernels_in_double_precision_agree_with_their_twins() {
                 number,
             };
             let shape = match kernel.whole {
-                true => Shape::whole(FINE_IN_DOUBLE[0], FINE_IN_DOUBLE[1]),
+                true => Shape::whole(FINE[0], FINE[1]),
                 false => padded,
             };
             compare(

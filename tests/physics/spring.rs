@@ -7,7 +7,7 @@ use std::f64::consts::PI;
 
 use tabor::study::Jump;
 
-use crate::bench::solve_table;
+use crate::bench::{solve, solve_table};
 use crate::shared::trials::tests;
 use crate::tables::table;
 
@@ -85,4 +85,54 @@ fn snaps_where_the_line_touches_the_curve() {
     }
 }
 
-tests![snaps_where_the_line_touches_the_curve,];
+/// A spring far softer than the contact lets go only where the load is the greatest that the contact carries: there the curve
+/// has the slope of no spring. It was left steps before by points that moved by the spring's whole step, many ranges of the law.
+fn a_soft_spring_holds_as_much_as_a_prescribed_force() {
+    // 2 pi w R with lengths over the radius and stresses over E*.
+    let (work, range, side) = (1e-4, 5e-3, 0.8);
+    let scale = 2.0 * PI * work;
+    let stiffness = 1e-4 * side;
+    // The spring's far end moves by this force a step, and so far past the greatest.
+    let (steps, span) = (60, 1.6 * scale);
+    for law in [
+        "lennard-jones\"",
+        "exponential\"",
+        "maugis-dugdale\"",
+        "maugis-dugdale\"\ntaper = 0.0",
+    ] {
+        let contact = format!(
+            "[grid]\npoints = 48\nsize = {side}\nboundary = \"free\"\n[solid]\ncontact_modulus = 1.0\n[[surface]]\nkind = \"sphere\"\nradius = 1.0\n[adhesion]\nlaw = \"{law}\nwork_of_adhesion = {work:e}\nrange = {range:e}\n"
+        );
+        let force = |path: String| {
+            let steps = solve(&format!("{contact}[loading]\n{path}")).steps;
+            let forces = steps.into_iter().filter(|step| step.row.converged);
+            forces.fold(0.0, |most: f64, step| most.max(-step.row.force))
+        };
+        // Both in steps of as much force.
+        let step = span / f64::from(steps);
+        let values = |scale: f64| -> Vec<f64> {
+            (0..=steps)
+                .map(|i| (0.3 * span - step * f64::from(i)) / scale)
+                .collect()
+        };
+        let held = force(format!("control = \"force\"\npath = {:?}\n", values(1.0)));
+        let sprung = force(format!(
+            "control = \"approach\"\nspring = {stiffness:e}\npath = {:?}\n",
+            values(stiffness)
+        ));
+        println!(
+            "{law}: {} by force, {} by the spring",
+            held / scale,
+            sprung / scale
+        );
+        assert!(held > 0.5 * scale, "{law}: {held:e}");
+        // Each ends less than a step before the greatest force. The spring's far end lies off by what the sphere moves, some ranges.
+        let apart = step + 10.0 * range * stiffness;
+        assert!((sprung - held).abs() < apart, "{law}: {held:e} {sprung:e}");
+    }
+}
+
+tests![
+    snaps_where_the_line_touches_the_curve,
+    a_soft_spring_holds_as_much_as_a_prescribed_force,
+];

@@ -13,6 +13,10 @@ pub struct GroupLimits {
     pub memory: usize,
 }
 
+/// Points of the lines that are split into fours. A kernel is written out for each value of a thread, and half as many take a
+/// driver half the time to compile; eights pay where a grid keeps the device busy, which coarse levels do not.
+const SHORT: usize = 64;
+
 /// Values that one thread may hold at a time; more of them would spill out of its registers.
 const MOST_VALUES: usize = 16;
 /// Threads from which a workgroup takes only one line.
@@ -90,6 +94,7 @@ fn smooth_radices(length: usize) -> Option<Vec<usize>> {
         // Eights while what is left is not better shared out as two fours.
         let step = match twos {
             1 | 2 => twos,
+            _ if length <= SHORT => 2,
             4 => 2,
             _ => 3,
         };
@@ -235,6 +240,8 @@ mod tests {
         }
         assert_eq!(radices(9), None);
         assert_eq!(radices(22), None);
+        assert_eq!(radices(32), Some(vec![4, 4, 2]));
+        assert_eq!(radices(128), Some(vec![8, 4, 4]));
     }
 
     #[test]

@@ -6,10 +6,10 @@ const SUM_COUNT: u32 = 3u;
 var<private> sums: array<wide, SUM_COUNT>;
 // gate.wgsl
 // sums.wgsl
-const GROUP_THREADS: u32 = 4u;
-const GROUP_HALF: u32 = 2u;
+const GROUP_THREADS: u32 = 8u;
+const GROUP_HALF: u32 = 4u;
 const SUMS_AT_ONCE: u32 = 2u;
-const GROUP_VALUES: u32 = 8u;
+const GROUP_VALUES: u32 = 16u;
 // reduce.wgsl
 fn join_slot(slot: u32, a: part, b: part) -> part {
 switch slot {
@@ -375,7 +375,7 @@ fn turn_back(value: vec2<real>, root: vec2<real>) -> vec2<real> {
 }
 @group(2) @binding(0) var<storage, read> roots: array<vec2<real>>;
 @group(2) @binding(1) var<storage, read_write> work: array<vec2<real>>;
-@compute @workgroup_size(4, 1)
+@compute @workgroup_size(4, 2)
 fn direction(@builtin(workgroup_id) group: vec3<u32>, @builtin(local_invocation_id) place: vec3<u32>, @builtin(local_invocation_index) index_in_group: u32) {
 if (!gate_running()) { return; }
 start_sums();
@@ -388,20 +388,12 @@ var v0 = vec2<real>(0.0, 0.0);
 var v1 = vec2<real>(0.0, 0.0);
 var v2 = vec2<real>(0.0, 0.0);
 var v3 = vec2<real>(0.0, 0.0);
-var v4 = vec2<real>(0.0, 0.0);
-var v5 = vec2<real>(0.0, 0.0);
-var v6 = vec2<real>(0.0, 0.0);
-var v7 = vec2<real>(0.0, 0.0);
 if (inside) {
 { let j = thread + 0u;
 v0 = work[(j + 0u) * 4u + pair];
-v1 = work[(j + 1u) * 4u + pair];
-v2 = work[(j + 2u) * 4u + pair];
-v3 = work[(j + 3u) * 4u + pair];
-v4 = work[(j + 4u) * 4u + pair];
-v5 = work[(j + 5u) * 4u + pair];
-v6 = work[(j + 6u) * 4u + pair];
-v7 = work[(j + 7u) * 4u + pair];
+v1 = work[(j + 2u) * 4u + pair];
+v2 = work[(j + 4u) * 4u + pair];
+v3 = work[(j + 6u) * 4u + pair];
 }
 }
 if (inside) {
@@ -409,27 +401,15 @@ if (inside) {
 { let index = pair * 8u + (j + 0u);
 at(index + 0u, arrive(index + 0u), v0.x);
 at(index + 32u, arrive(index + 32u), v0.y); }
-{ let index = pair * 8u + (j + 1u);
+{ let index = pair * 8u + (j + 2u);
 at(index + 0u, arrive(index + 0u), v1.x);
 at(index + 32u, arrive(index + 32u), v1.y); }
-{ let index = pair * 8u + (j + 2u);
+{ let index = pair * 8u + (j + 4u);
 at(index + 0u, arrive(index + 0u), v2.x);
 at(index + 32u, arrive(index + 32u), v2.y); }
-{ let index = pair * 8u + (j + 3u);
+{ let index = pair * 8u + (j + 6u);
 at(index + 0u, arrive(index + 0u), v3.x);
 at(index + 32u, arrive(index + 32u), v3.y); }
-{ let index = pair * 8u + (j + 4u);
-at(index + 0u, arrive(index + 0u), v4.x);
-at(index + 32u, arrive(index + 32u), v4.y); }
-{ let index = pair * 8u + (j + 5u);
-at(index + 0u, arrive(index + 0u), v5.x);
-at(index + 32u, arrive(index + 32u), v5.y); }
-{ let index = pair * 8u + (j + 6u);
-at(index + 0u, arrive(index + 0u), v6.x);
-at(index + 32u, arrive(index + 32u), v6.y); }
-{ let index = pair * 8u + (j + 7u);
-at(index + 0u, arrive(index + 0u), v7.x);
-at(index + 32u, arrive(index + 32u), v7.y); }
 }
 }
 hand_in(group.x, index_in_group);

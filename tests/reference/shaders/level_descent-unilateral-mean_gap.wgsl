@@ -6,10 +6,10 @@ const SUM_COUNT: u32 = 10u;
 var<private> sums: array<wide, SUM_COUNT>;
 // gate.wgsl
 // sums.wgsl
-const GROUP_THREADS: u32 = 4u;
-const GROUP_HALF: u32 = 2u;
+const GROUP_THREADS: u32 = 8u;
+const GROUP_HALF: u32 = 4u;
 const SUMS_AT_ONCE: u32 = 9u;
-const GROUP_VALUES: u32 = 36u;
+const GROUP_VALUES: u32 = 72u;
 // reduce.wgsl
 fn join_slot(slot: u32, a: part, b: part) -> part {
 switch slot {
@@ -366,7 +366,7 @@ fn turn_back(value: vec2<real>, root: vec2<real>) -> vec2<real> {
 }
 @group(2) @binding(0) var<storage, read> roots: array<vec2<real>>;
 @group(2) @binding(1) var<storage, read_write> work: array<vec2<real>>;
-@compute @workgroup_size(4, 1)
+@compute @workgroup_size(4, 2)
 fn level_descent(@builtin(workgroup_id) group: vec3<u32>, @builtin(local_invocation_id) place: vec3<u32>, @builtin(local_invocation_index) index_in_group: u32) {
 if (!gate_fresh()) { return; }
 start_sums();
@@ -379,48 +379,28 @@ var v0 = vec2<real>(0.0, 0.0);
 var v1 = vec2<real>(0.0, 0.0);
 var v2 = vec2<real>(0.0, 0.0);
 var v3 = vec2<real>(0.0, 0.0);
-var v4 = vec2<real>(0.0, 0.0);
-var v5 = vec2<real>(0.0, 0.0);
-var v6 = vec2<real>(0.0, 0.0);
-var v7 = vec2<real>(0.0, 0.0);
 if (inside) {
 { let j = thread + 0u;
 { let index = pair * 8u + (j + 0u);
 let upper = at(index + 0u, arrive(index + 0u), 0.0);
 v0 = vec2<real>(upper, at(index + 32u, arrive(index + 32u), 0.0)); }
-{ let index = pair * 8u + (j + 1u);
-let upper = at(index + 0u, arrive(index + 0u), 0.0);
-v1 = vec2<real>(upper, at(index + 32u, arrive(index + 32u), 0.0)); }
 { let index = pair * 8u + (j + 2u);
 let upper = at(index + 0u, arrive(index + 0u), 0.0);
-v2 = vec2<real>(upper, at(index + 32u, arrive(index + 32u), 0.0)); }
-{ let index = pair * 8u + (j + 3u);
-let upper = at(index + 0u, arrive(index + 0u), 0.0);
-v3 = vec2<real>(upper, at(index + 32u, arrive(index + 32u), 0.0)); }
+v1 = vec2<real>(upper, at(index + 32u, arrive(index + 32u), 0.0)); }
 { let index = pair * 8u + (j + 4u);
 let upper = at(index + 0u, arrive(index + 0u), 0.0);
-v4 = vec2<real>(upper, at(index + 32u, arrive(index + 32u), 0.0)); }
-{ let index = pair * 8u + (j + 5u);
-let upper = at(index + 0u, arrive(index + 0u), 0.0);
-v5 = vec2<real>(upper, at(index + 32u, arrive(index + 32u), 0.0)); }
+v2 = vec2<real>(upper, at(index + 32u, arrive(index + 32u), 0.0)); }
 { let index = pair * 8u + (j + 6u);
 let upper = at(index + 0u, arrive(index + 0u), 0.0);
-v6 = vec2<real>(upper, at(index + 32u, arrive(index + 32u), 0.0)); }
-{ let index = pair * 8u + (j + 7u);
-let upper = at(index + 0u, arrive(index + 0u), 0.0);
-v7 = vec2<real>(upper, at(index + 32u, arrive(index + 32u), 0.0)); }
+v3 = vec2<real>(upper, at(index + 32u, arrive(index + 32u), 0.0)); }
 }
 }
 if (inside) {
 { let j = thread + 0u;
 work[(j + 0u) * 4u + pair] = v0;
-work[(j + 1u) * 4u + pair] = v1;
-work[(j + 2u) * 4u + pair] = v2;
-work[(j + 3u) * 4u + pair] = v3;
-work[(j + 4u) * 4u + pair] = v4;
-work[(j + 5u) * 4u + pair] = v5;
-work[(j + 6u) * 4u + pair] = v6;
-work[(j + 7u) * 4u + pair] = v7;
+work[(j + 2u) * 4u + pair] = v1;
+work[(j + 4u) * 4u + pair] = v2;
+work[(j + 6u) * 4u + pair] = v3;
 }
 }
 hand_in(group.x, index_in_group);

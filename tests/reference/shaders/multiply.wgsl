@@ -6,10 +6,10 @@ const SUM_COUNT: u32 = 10u;
 var<private> sums: array<wide, SUM_COUNT>;
 // gate.wgsl
 // sums.wgsl
-const GROUP_THREADS: u32 = 8u;
-const GROUP_HALF: u32 = 4u;
+const GROUP_THREADS: u32 = 16u;
+const GROUP_HALF: u32 = 8u;
 const SUMS_AT_ONCE: u32 = 1u;
-const GROUP_VALUES: u32 = 8u;
+const GROUP_VALUES: u32 = 16u;
 // reduce.wgsl
 fn join_slot(slot: u32, a: part, b: part) -> part {
 switch slot {
@@ -54,7 +54,7 @@ fn factor_of(column: u32, row: u32) -> real {
 @group(1) @binding(1) var<storage, read_write> work: array<vec2<real>>;
 @group(1) @binding(0) var<storage, read> roots: array<vec2<real>>;
 @group(1) @binding(2) var<storage, read> factors: array<real>;
-@compute @workgroup_size(1, 8)
+@compute @workgroup_size(2, 8)
 fn multiply(@builtin(workgroup_id) group: vec3<u32>, @builtin(local_invocation_id) place: vec3<u32>, @builtin(local_invocation_index) index_in_group: u32) {
 if (!gate_running()) { return; }
 start_sums();
@@ -71,73 +71,63 @@ var v0 = vec2<real>(0.0, 0.0);
 var v1 = vec2<real>(0.0, 0.0);
 var v2 = vec2<real>(0.0, 0.0);
 var v3 = vec2<real>(0.0, 0.0);
-var v4 = vec2<real>(0.0, 0.0);
-var v5 = vec2<real>(0.0, 0.0);
-var v6 = vec2<real>(0.0, 0.0);
-var v7 = vec2<real>(0.0, 0.0);
 if (inside) {
 { let j = thread + 0u;
 { let z = work[here + (j + 0u)];
 let mirror = work[there + (j + 0u)];
 v0 = 0.5 * vec2<real>(z.x + mirror.x, z.y - mirror.y);
-v4 = 0.5 * vec2<real>(z.y + mirror.y, mirror.x - z.x); }
-{ let z = work[here + (j + 1u)];
-let mirror = work[there + (j + 1u)];
-v1 = 0.5 * vec2<real>(z.x + mirror.x, z.y - mirror.y);
-v5 = 0.5 * vec2<real>(z.y + mirror.y, mirror.x - z.x); }
+v2 = 0.5 * vec2<real>(z.y + mirror.y, mirror.x - z.x); }
 { let z = work[here + (j + 2u)];
 let mirror = work[there + (j + 2u)];
-v2 = 0.5 * vec2<real>(z.x + mirror.x, z.y - mirror.y);
-v6 = 0.5 * vec2<real>(z.y + mirror.y, mirror.x - z.x); }
-{ let z = work[here + (j + 3u)];
-let mirror = work[there + (j + 3u)];
-v3 = 0.5 * vec2<real>(z.x + mirror.x, z.y - mirror.y);
-v7 = 0.5 * vec2<real>(z.y + mirror.y, mirror.x - z.x); }
+v1 = 0.5 * vec2<real>(z.x + mirror.x, z.y - mirror.y);
+v3 = 0.5 * vec2<real>(z.y + mirror.y, mirror.x - z.x); }
 }
 }
 { let j = thread + 0u;
 {
-{
-let even_sum = v0 + v4;
-let even_difference = v0 - v4;
-let odd_sum = v2 + v6;
-let odd_difference = v2 - v6;
+let even_sum = v0 + v2;
+let even_difference = v0 - v2;
+let odd_sum = v1 + v3;
+let odd_difference = v1 - v3;
 let turned = vec2<real>(odd_difference.y, -odd_difference.x);
 v0 = even_sum + odd_sum;
-v2 = even_difference + turned;
-v4 = even_sum - odd_sum;
-v6 = even_difference - turned;
+v1 = even_difference + turned;
+v2 = even_sum - odd_sum;
+v3 = even_difference - turned;
 }
+}
+{ let j = thread + 0u;
+let start = (j / 1u) * 4u + j % 1u;
+exchange[line * 8u + start + 0u] = v0;
+exchange[line * 8u + start + 1u] = v1;
+exchange[line * 8u + start + 2u] = v2;
+exchange[line * 8u + start + 3u] = v3;
+}
+workgroupBarrier();
+{ let j = thread + 0u;
+v0 = exchange[line * 8u + (j + 0u)];
+v1 = exchange[line * 8u + (j + 4u)];
+}
+{ let j = thread + 2u;
+v2 = exchange[line * 8u + (j + 0u)];
+v3 = exchange[line * 8u + (j + 4u)];
+}
+{ let j = thread + 0u;
+let root = (j % 4u) * 1u;
+v1 = turn(v1, roots[root * 1u]);
 {
-let even_sum = v1 + v5;
-let even_difference = v1 - v5;
-let odd_sum = v3 + v7;
-let odd_difference = v3 - v7;
-let turned = vec2<real>(odd_difference.y, -odd_difference.x);
-v1 = even_sum + odd_sum;
-v3 = even_difference + turned;
-v5 = even_sum - odd_sum;
-v7 = even_difference - turned;
+let sum = v0 + v1;
+v1 = v0 - v1;
+v0 = sum;
 }
-let first = 7.071067811865476e-1 * vec2<real>(v3.x + v3.y, v3.y - v3.x);
-let second = vec2<real>(v5.y, -v5.x);
-let third = 7.071067811865476e-1 * vec2<real>(-v7.x + v7.y, -v7.y - v7.x);
-let low_0 = v0 + v1;
-let high_0 = v0 - v1;
-let low_1 = v2 + first;
-let high_1 = v2 - first;
-let low_2 = v4 + second;
-let high_2 = v4 - second;
-let low_3 = v6 + third;
-let high_3 = v6 - third;
-v0 = low_0;
-v4 = high_0;
-v1 = low_1;
-v5 = high_1;
-v2 = low_2;
-v6 = high_2;
-v3 = low_3;
-v7 = high_3;
+}
+{ let j = thread + 2u;
+let root = (j % 4u) * 1u;
+v3 = turn(v3, roots[root * 1u]);
+{
+let sum = v2 + v3;
+v3 = v2 - v3;
+v2 = sum;
 }
 }
 if (inside) {
@@ -147,91 +137,77 @@ let weight = select(real(2.0), real(1.0), own);
 let factor = factor_of(column, min(row, 8u - row));
 add_sum(0u, wide(weight * factor * dot(v0, v0)));
 v0 = (1.5625e-2 * factor) * v0; }
-{ let row = (j + 1u);
+{ let row = (j + 4u);
 let factor = factor_of(column, min(row, 8u - row));
 add_sum(0u, wide(weight * factor * dot(v1, v1)));
 v1 = (1.5625e-2 * factor) * v1; }
-{ let row = (j + 2u);
+}
+{ let j = thread + 2u;
+{ let row = (j + 0u);
 let factor = factor_of(column, min(row, 8u - row));
 add_sum(0u, wide(weight * factor * dot(v2, v2)));
 v2 = (1.5625e-2 * factor) * v2; }
-{ let row = (j + 3u);
+{ let row = (j + 4u);
 let factor = factor_of(column, min(row, 8u - row));
 add_sum(0u, wide(weight * factor * dot(v3, v3)));
 v3 = (1.5625e-2 * factor) * v3; }
-{ let row = (j + 4u);
-let factor = factor_of(column, min(row, 8u - row));
-add_sum(0u, wide(weight * factor * dot(v4, v4)));
-v4 = (1.5625e-2 * factor) * v4; }
-{ let row = (j + 5u);
-let factor = factor_of(column, min(row, 8u - row));
-add_sum(0u, wide(weight * factor * dot(v5, v5)));
-v5 = (1.5625e-2 * factor) * v5; }
-{ let row = (j + 6u);
-let factor = factor_of(column, min(row, 8u - row));
-add_sum(0u, wide(weight * factor * dot(v6, v6)));
-v6 = (1.5625e-2 * factor) * v6; }
-{ let row = (j + 7u);
-let factor = factor_of(column, min(row, 8u - row));
-add_sum(0u, wide(weight * factor * dot(v7, v7)));
-v7 = (1.5625e-2 * factor) * v7; }
 }
 }
 { let j = thread + 0u;
 {
+let sum = v0 + v1;
+v1 = v0 - v1;
+v0 = sum;
+}
+}
+{ let j = thread + 2u;
 {
-let even_sum = v0 + v4;
-let even_difference = v0 - v4;
-let odd_sum = v2 + v6;
-let odd_difference = v2 - v6;
+let sum = v2 + v3;
+v3 = v2 - v3;
+v2 = sum;
+}
+}
+workgroupBarrier();
+{ let j = thread + 0u;
+let start = (j / 1u) * 2u + j % 1u;
+exchange[line * 8u + start + 0u] = v0;
+exchange[line * 8u + start + 1u] = v1;
+}
+{ let j = thread + 2u;
+let start = (j / 1u) * 2u + j % 1u;
+exchange[line * 8u + start + 0u] = v2;
+exchange[line * 8u + start + 1u] = v3;
+}
+workgroupBarrier();
+{ let j = thread + 0u;
+v0 = exchange[line * 8u + (j + 0u)];
+v1 = exchange[line * 8u + (j + 2u)];
+v2 = exchange[line * 8u + (j + 4u)];
+v3 = exchange[line * 8u + (j + 6u)];
+}
+{ let j = thread + 0u;
+let root = (j % 2u) * 1u;
+v1 = turn_back(v1, roots[root * 1u]);
+v2 = turn_back(v2, roots[root * 2u]);
+v3 = turn_back(v3, roots[root * 3u]);
+{
+let even_sum = v0 + v2;
+let even_difference = v0 - v2;
+let odd_sum = v1 + v3;
+let odd_difference = v1 - v3;
 let turned = vec2<real>(-odd_difference.y, odd_difference.x);
 v0 = even_sum + odd_sum;
-v2 = even_difference + turned;
-v4 = even_sum - odd_sum;
-v6 = even_difference - turned;
-}
-{
-let even_sum = v1 + v5;
-let even_difference = v1 - v5;
-let odd_sum = v3 + v7;
-let odd_difference = v3 - v7;
-let turned = vec2<real>(-odd_difference.y, odd_difference.x);
-v1 = even_sum + odd_sum;
-v3 = even_difference + turned;
-v5 = even_sum - odd_sum;
-v7 = even_difference - turned;
-}
-let first = 7.071067811865476e-1 * vec2<real>(v3.x - v3.y, v3.y + v3.x);
-let second = vec2<real>(-v5.y, v5.x);
-let third = 7.071067811865476e-1 * vec2<real>(-v7.x - v7.y, -v7.y + v7.x);
-let low_0 = v0 + v1;
-let high_0 = v0 - v1;
-let low_1 = v2 + first;
-let high_1 = v2 - first;
-let low_2 = v4 + second;
-let high_2 = v4 - second;
-let low_3 = v6 + third;
-let high_3 = v6 - third;
-v0 = low_0;
-v4 = high_0;
-v1 = low_1;
-v5 = high_1;
-v2 = low_2;
-v6 = high_2;
-v3 = low_3;
-v7 = high_3;
+v1 = even_difference + turned;
+v2 = even_sum - odd_sum;
+v3 = even_difference - turned;
 }
 }
 if (inside) {
 { let j = thread + 0u;
-work[here + (j + 0u)] = vec2<real>(v0.x - v4.y, v0.y + v4.x);
-if (!own) { work[there + (j + 0u)] = vec2<real>(v0.x + v4.y, v4.x - v0.y); }
-work[here + (j + 1u)] = vec2<real>(v1.x - v5.y, v1.y + v5.x);
-if (!own) { work[there + (j + 1u)] = vec2<real>(v1.x + v5.y, v5.x - v1.y); }
-work[here + (j + 2u)] = vec2<real>(v2.x - v6.y, v2.y + v6.x);
-if (!own) { work[there + (j + 2u)] = vec2<real>(v2.x + v6.y, v6.x - v2.y); }
-work[here + (j + 3u)] = vec2<real>(v3.x - v7.y, v3.y + v7.x);
-if (!own) { work[there + (j + 3u)] = vec2<real>(v3.x + v7.y, v7.x - v3.y); }
+work[here + (j + 0u)] = vec2<real>(v0.x - v2.y, v0.y + v2.x);
+if (!own) { work[there + (j + 0u)] = vec2<real>(v0.x + v2.y, v2.x - v0.y); }
+work[here + (j + 2u)] = vec2<real>(v1.x - v3.y, v1.y + v3.x);
+if (!own) { work[there + (j + 2u)] = vec2<real>(v1.x + v3.y, v3.x - v1.y); }
 }
 }
 hand_in(group.x, index_in_group);

@@ -38,7 +38,7 @@ fn turn_back(value: vec2<real>, root: vec2<real>) -> vec2<real> {
 }
 @group(2) @binding(0) var<storage, read> roots: array<vec2<real>>;
 @group(2) @binding(1) var<storage, read_write> work: array<vec2<real>>;
-@compute @workgroup_size(4, 1)
+@compute @workgroup_size(4, 2)
 fn weigh(@builtin(workgroup_id) group: vec3<u32>, @builtin(local_invocation_id) place: vec3<u32>, @builtin(local_invocation_index) index_in_group: u32) {
 if (!gate_fresh()) { return; }
 let line = place.x;
@@ -50,65 +50,62 @@ var v0 = vec2<real>(0.0, 0.0);
 var v1 = vec2<real>(0.0, 0.0);
 var v2 = vec2<real>(0.0, 0.0);
 var v3 = vec2<real>(0.0, 0.0);
-var v4 = vec2<real>(0.0, 0.0);
-var v5 = vec2<real>(0.0, 0.0);
-var v6 = vec2<real>(0.0, 0.0);
-var v7 = vec2<real>(0.0, 0.0);
 if (inside) {
 { let j = thread + 0u;
 v0 = work[(j + 0u) * 4u + pair];
-v1 = work[(j + 1u) * 4u + pair];
-v2 = work[(j + 2u) * 4u + pair];
-v3 = work[(j + 3u) * 4u + pair];
-v4 = work[(j + 4u) * 4u + pair];
-v5 = work[(j + 5u) * 4u + pair];
-v6 = work[(j + 6u) * 4u + pair];
-v7 = work[(j + 7u) * 4u + pair];
+v1 = work[(j + 4u) * 4u + pair];
+}
+{ let j = thread + 2u;
+v2 = work[(j + 0u) * 4u + pair];
+v3 = work[(j + 4u) * 4u + pair];
 }
 }
 { let j = thread + 0u;
 {
+let sum = v0 + v1;
+v1 = v0 - v1;
+v0 = sum;
+}
+}
+{ let j = thread + 2u;
 {
-let even_sum = v0 + v4;
-let even_difference = v0 - v4;
-let odd_sum = v2 + v6;
-let odd_difference = v2 - v6;
+let sum = v2 + v3;
+v3 = v2 - v3;
+v2 = sum;
+}
+}
+{ let j = thread + 0u;
+let start = (j / 1u) * 2u + j % 1u;
+exchange[(start + 0u) * 4u + line] = v0;
+exchange[(start + 1u) * 4u + line] = v1;
+}
+{ let j = thread + 2u;
+let start = (j / 1u) * 2u + j % 1u;
+exchange[(start + 0u) * 4u + line] = v2;
+exchange[(start + 1u) * 4u + line] = v3;
+}
+workgroupBarrier();
+{ let j = thread + 0u;
+v0 = exchange[((j + 0u)) * 4u + line];
+v1 = exchange[((j + 2u)) * 4u + line];
+v2 = exchange[((j + 4u)) * 4u + line];
+v3 = exchange[((j + 6u)) * 4u + line];
+}
+{ let j = thread + 0u;
+let root = (j % 2u) * 1u;
+v1 = turn_back(v1, roots[root * 1u]);
+v2 = turn_back(v2, roots[root * 2u]);
+v3 = turn_back(v3, roots[root * 3u]);
+{
+let even_sum = v0 + v2;
+let even_difference = v0 - v2;
+let odd_sum = v1 + v3;
+let odd_difference = v1 - v3;
 let turned = vec2<real>(-odd_difference.y, odd_difference.x);
 v0 = even_sum + odd_sum;
-v2 = even_difference + turned;
-v4 = even_sum - odd_sum;
-v6 = even_difference - turned;
-}
-{
-let even_sum = v1 + v5;
-let even_difference = v1 - v5;
-let odd_sum = v3 + v7;
-let odd_difference = v3 - v7;
-let turned = vec2<real>(-odd_difference.y, odd_difference.x);
-v1 = even_sum + odd_sum;
-v3 = even_difference + turned;
-v5 = even_sum - odd_sum;
-v7 = even_difference - turned;
-}
-let first = 7.071067811865476e-1 * vec2<real>(v3.x - v3.y, v3.y + v3.x);
-let second = vec2<real>(-v5.y, v5.x);
-let third = 7.071067811865476e-1 * vec2<real>(-v7.x - v7.y, -v7.y + v7.x);
-let low_0 = v0 + v1;
-let high_0 = v0 - v1;
-let low_1 = v2 + first;
-let high_1 = v2 - first;
-let low_2 = v4 + second;
-let high_2 = v4 - second;
-let low_3 = v6 + third;
-let high_3 = v6 - third;
-v0 = low_0;
-v4 = high_0;
-v1 = low_1;
-v5 = high_1;
-v2 = low_2;
-v6 = high_2;
-v3 = low_3;
-v7 = high_3;
+v1 = even_difference + turned;
+v2 = even_sum - odd_sum;
+v3 = even_difference - turned;
 }
 }
 if (inside) {
@@ -116,84 +113,73 @@ if (inside) {
 { let index = pair * 8u + (j + 0u);
 let upper = at(index + 0u, arrive(index + 0u), v0.x);
 v0 = vec2<real>(upper, at(index + 32u, arrive(index + 32u), v0.y)); }
-{ let index = pair * 8u + (j + 1u);
+{ let index = pair * 8u + (j + 2u);
 let upper = at(index + 0u, arrive(index + 0u), v1.x);
 v1 = vec2<real>(upper, at(index + 32u, arrive(index + 32u), v1.y)); }
-{ let index = pair * 8u + (j + 2u);
+{ let index = pair * 8u + (j + 4u);
 let upper = at(index + 0u, arrive(index + 0u), v2.x);
 v2 = vec2<real>(upper, at(index + 32u, arrive(index + 32u), v2.y)); }
-{ let index = pair * 8u + (j + 3u);
+{ let index = pair * 8u + (j + 6u);
 let upper = at(index + 0u, arrive(index + 0u), v3.x);
 v3 = vec2<real>(upper, at(index + 32u, arrive(index + 32u), v3.y)); }
-{ let index = pair * 8u + (j + 4u);
-let upper = at(index + 0u, arrive(index + 0u), v4.x);
-v4 = vec2<real>(upper, at(index + 32u, arrive(index + 32u), v4.y)); }
-{ let index = pair * 8u + (j + 5u);
-let upper = at(index + 0u, arrive(index + 0u), v5.x);
-v5 = vec2<real>(upper, at(index + 32u, arrive(index + 32u), v5.y)); }
-{ let index = pair * 8u + (j + 6u);
-let upper = at(index + 0u, arrive(index + 0u), v6.x);
-v6 = vec2<real>(upper, at(index + 32u, arrive(index + 32u), v6.y)); }
-{ let index = pair * 8u + (j + 7u);
-let upper = at(index + 0u, arrive(index + 0u), v7.x);
-v7 = vec2<real>(upper, at(index + 32u, arrive(index + 32u), v7.y)); }
 }
 }
 { let j = thread + 0u;
 {
-{
-let even_sum = v0 + v4;
-let even_difference = v0 - v4;
-let odd_sum = v2 + v6;
-let odd_difference = v2 - v6;
+let even_sum = v0 + v2;
+let even_difference = v0 - v2;
+let odd_sum = v1 + v3;
+let odd_difference = v1 - v3;
 let turned = vec2<real>(odd_difference.y, -odd_difference.x);
 v0 = even_sum + odd_sum;
-v2 = even_difference + turned;
-v4 = even_sum - odd_sum;
-v6 = even_difference - turned;
+v1 = even_difference + turned;
+v2 = even_sum - odd_sum;
+v3 = even_difference - turned;
 }
+}
+workgroupBarrier();
+{ let j = thread + 0u;
+let start = (j / 1u) * 4u + j % 1u;
+exchange[(start + 0u) * 4u + line] = v0;
+exchange[(start + 1u) * 4u + line] = v1;
+exchange[(start + 2u) * 4u + line] = v2;
+exchange[(start + 3u) * 4u + line] = v3;
+}
+workgroupBarrier();
+{ let j = thread + 0u;
+v0 = exchange[((j + 0u)) * 4u + line];
+v1 = exchange[((j + 4u)) * 4u + line];
+}
+{ let j = thread + 2u;
+v2 = exchange[((j + 0u)) * 4u + line];
+v3 = exchange[((j + 4u)) * 4u + line];
+}
+{ let j = thread + 0u;
+let root = (j % 4u) * 1u;
+v1 = turn(v1, roots[root * 1u]);
 {
-let even_sum = v1 + v5;
-let even_difference = v1 - v5;
-let odd_sum = v3 + v7;
-let odd_difference = v3 - v7;
-let turned = vec2<real>(odd_difference.y, -odd_difference.x);
-v1 = even_sum + odd_sum;
-v3 = even_difference + turned;
-v5 = even_sum - odd_sum;
-v7 = even_difference - turned;
+let sum = v0 + v1;
+v1 = v0 - v1;
+v0 = sum;
 }
-let first = 7.071067811865476e-1 * vec2<real>(v3.x + v3.y, v3.y - v3.x);
-let second = vec2<real>(v5.y, -v5.x);
-let third = 7.071067811865476e-1 * vec2<real>(-v7.x + v7.y, -v7.y - v7.x);
-let low_0 = v0 + v1;
-let high_0 = v0 - v1;
-let low_1 = v2 + first;
-let high_1 = v2 - first;
-let low_2 = v4 + second;
-let high_2 = v4 - second;
-let low_3 = v6 + third;
-let high_3 = v6 - third;
-v0 = low_0;
-v4 = high_0;
-v1 = low_1;
-v5 = high_1;
-v2 = low_2;
-v6 = high_2;
-v3 = low_3;
-v7 = high_3;
+}
+{ let j = thread + 2u;
+let root = (j % 4u) * 1u;
+v3 = turn(v3, roots[root * 1u]);
+{
+let sum = v2 + v3;
+v3 = v2 - v3;
+v2 = sum;
 }
 }
 if (inside) {
 { let j = thread + 0u;
 work[(j + 0u) * 4u + pair] = v0;
-work[(j + 1u) * 4u + pair] = v1;
-work[(j + 2u) * 4u + pair] = v2;
-work[(j + 3u) * 4u + pair] = v3;
-work[(j + 4u) * 4u + pair] = v4;
-work[(j + 5u) * 4u + pair] = v5;
-work[(j + 6u) * 4u + pair] = v6;
-work[(j + 7u) * 4u + pair] = v7;
+work[(j + 4u) * 4u + pair] = v1;
+}
+{ let j = thread + 2u;
+work[(j + 0u) * 4u + pair] = v2;
+work[(j + 4u) * 4u + pair] = v3;
 }
 }
 }
